@@ -1,0 +1,83 @@
+// The run's data, and the plots against scans.
+
+const DATA = JSON.parse(document.getElementById("run-data").textContent);
+const METRICS = DATA.metrics;
+const SCANS = METRICS.scans ?? [];
+const at = (id) => document.getElementById(id);
+const column = (key) => SCANS.map((s) => s[key]);
+const words = (key) => String(key ?? "").replaceAll("_", " ");
+const seriesColour = (i) => `var(--s${i % 9})`;
+
+// Numbers of the x axis: scans count from 1.
+const perScan = (values) => values.map((v, i) => [i + 1, isNumber(v) ? v : null]);
+
+function gainNames() {
+  return [...new Set(SCANS.flatMap((s) => Object.keys(s.predicted ?? {})))];
+}
+
+// A first scan that nobody chose has no prediction, whatever number stands there.
+const chosenOnly = (values) => values.map((v, i) => (SCANS[i].chosen_view < 0 ? null : v));
+const predictions = (name) => chosenOnly(SCANS.map((s) => s.predicted?.[name]));
+
+function predictionPlots(parent) {
+  const names = gainNames();
+  if (!names.length) return;
+  const actual = chosenOnly(column("actual_new_cells"));
+  const own = (name) => name === METRICS.method;
+  const styled = (name, i, points, note) => ({ name: words(name), colour: seriesColour(i), strong: own(name), points, note });
+  lineChart(parent, {
+    title: "Predicted and actual new cells", subtitle: "every gain's prediction for the view taken; the run's own method drawn bold",
+    x: "scan", y: "new cells", unit: "cells", integerX: true,
+    series: [
+      ...names.map((name, i) => styled(name, i, perScan(predictions(name)))),
+      { name: "actual", colour: "var(--text)", strong: true, points: perScan(actual) },
+    ],
+  });
+  const errors = names.map((name) => predictions(name).map((p, i) => (isNumber(p) && isNumber(actual[i]) ? Math.abs(p - actual[i]) : null)));
+  const mean = (list) => { const seen = list.filter(isNumber); return seen.length ? seen.reduce((a, b) => a + b) / seen.length : NaN; };
+  lineChart(parent, {
+    title: "Error of the prediction", subtitle: "|predicted − actual|, with each gain's mean",
+    x: "scan", y: "absolute error in cells", unit: "cells", integerX: true,
+    series: names.map((name, i) => styled(name, i, perScan(errors[i]), `mean ${formatNumber(Math.round(mean(errors[i])))}`)),
+  });
+}
+
+// The legs may be recorded singly or summed up: take the reading that ends at the run's own length.
+function cumulativePath() {
+  const legs = column("path_length_m");
+  let sum = 0;
+  const summed = legs.map((v) => (isNumber(v) ? (sum += v) : null));
+  const last = legs.filter(isNumber).pop() ?? 0;
+  const total = METRICS.path_length_m;
+  const rising = legs.every((v, i) => !i || !isNumber(v) || !isNumber(legs[i - 1]) || v >= legs[i - 1]);
+  const already = rising && isNumber(total) && Math.abs(last - total) <= Math.abs(sum - total);
+  return already ? legs : summed;
+}
+
+function fillPlots() {
+  const parent = at("plots");
+  if (!SCANS.length) { at("section-plots").hidden = true; return; }
+  const chart = (title, subtitle, y, unit, series) => {
+    if (series.some((s) => s.points.some((p) => isNumber(p[1])))) lineChart(parent, { title, subtitle, x: "scan", y, unit, integerX: true, series });
+  };
+  chart("Cells not yet observed", "after each scan", "cells", "cells", [
+    { name: "unobserved", colour: seriesColour(8), points: perScan(column("unobserved_cells")), dashed: true },
+    { name: "of these, observable from some view", colour: seriesColour(0), strong: true, points: perScan(column("observable_unobserved_cells")) },
+  ]);
+  predictionPlots(parent);
+  const millimetres = (key) => perScan(column(key).map((v) => (isNumber(v) ? 1000 * v : null)));
+  chart("Pose error", "against the simulator's truth", "position error in mm", "mm", [
+    { name: "before registration (odometry)", colour: seriesColour(1), dashed: true, points: millimetres("pose_error_before_registration_m") },
+    { name: "after registration", colour: seriesColour(0), strong: true, points: millimetres("pose_error_m") },
+  ]);
+  chart("Planning time", "wall time of the decision that led to each scan", "time in s", "s", [
+    { name: "planning", colour: seriesColour(4), strong: true, points: perScan(chosenOnly(column("plan_time_s"))) },
+  ]);
+  chart("Distance travelled", "cumulative", "path length in m", "m", [
+    { name: "path length", colour: seriesColour(2), strong: true, points: perScan(cumulativePath()) },
+  ]);
+  chart("Occupied cells against the true scene", "after each scan", "share", "", [
+    { name: "precision", colour: seriesColour(0), strong: true, points: perScan(column("precision")) },
+    { name: "recall", colour: seriesColour(3), strong: true, points: perScan(column("recall")) },
+  ]);
+}

@@ -1,0 +1,40 @@
+# vantage_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): one static library per folder, target
+# vantage_NAME, alias vantage::NAME, include paths rooted at the repository.
+function(vantage_library name)
+  cmake_parse_arguments(ARG "NOT_INSTALLED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(vantage_${name} STATIC ${ARG_SOURCES})
+  add_library(vantage::${name} ALIAS vantage_${name})
+  set_target_properties(vantage_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(vantage_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vantage>)
+  target_link_libraries(vantage_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  vantage_compile_options(vantage_${name})
+  if(NOT ARG_NOT_INSTALLED)
+    set_property(GLOBAL APPEND PROPERTY VANTAGE_INSTALLED_TARGETS vantage_${name})
+  endif()
+endfunction()
+
+# Warnings are errors in our own code. Contraction into FMA is off so that the same seed gives the
+# same bits on every x86-64 and ARM machine.
+function(vantage_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -ffp-contract=off)
+  # GCC 12 warns of overlaps inside std::string's own operator+ (GCC bug 105651).
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  target_compile_definitions(${target} PRIVATE
+    $<$<CONFIG:Debug>:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
+endfunction()
+
+# vantage_test(FOLDER SOURCES ... LINK ...): one GoogleTest program per folder, test_FOLDER.
+function(vantage_test folder)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 300)
+  endif()
+  add_executable(test_${folder} ${ARG_SOURCES})
+  target_link_libraries(test_${folder} PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
+  target_compile_definitions(test_${folder} PRIVATE VANTAGE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  vantage_compile_options(test_${folder})
+  gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "planners/attenuated_ray.hpp"
+#include "src/core/fields.hpp"
+
+namespace vantage {
+
+/// Sum of a^n H(p(o)) over the unobserved cells in view, n the unobserved cells in front of each;
+/// nothing behind a known occupied cell. `a` is the transmission of an unobserved cell, so the
+/// right value depends on the clutter and on the cell size.
+struct BeerLambertGain {
+  static constexpr std::string_view name = "beer_lambert";
+  static constexpr bool unobserved_only = true;
+  double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
+  void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
+
+  using Ray = AttenuatedRay;
+
+  [[nodiscard]] CellTables prepare(const GainContext& context) const {
+    const auto slices = static_cast<std::size_t>(context.grid.frame.cells.z());
+    CellTables tables;
+    tables.state = cell_states(context.grid);
+    tables.entropy_bits = cell_entropies_bits(context.grid);
+    tables.transmission = cell_transmissions(context.grid, std::vector<double>(slices, a));
+    return tables;
+  }
+  [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
+};
+
+}  // namespace vantage

@@ -1,0 +1,23 @@
+/// A view the robot could take next.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "src/geometry/field_of_view.hpp"
+#include "src/geometry/pose.hpp"
+
+namespace vantage {
+
+/// Geometry of a view, plus what the episode knows about getting there.
+struct Candidate {
+  int id = 0;  ///< index in the list it was proposed in
+  Pose T_world_sensor = Pose::Identity();
+  double path_length_m = 0.0;  ///< along the planned path; infinity where unreachable
+  bool reachable = true;
+  bool exhausted = false;                ///< tried before without learning anything from it
+  double gain_bits = 0.0;                ///< as the gain in use predicts it
+  std::optional<double> true_new_cells;  ///< what the view would really show; for `oracle` alone
+};
+
+}  // namespace vantage

@@ -1,0 +1,54 @@
+#include "planners/cell_tables.hpp"
+
+#include "src/core/error.hpp"
+#include "src/information/discrete.hpp"
+
+namespace vantage {
+namespace {
+
+/// `of(cell)` for every cell; most have never been measured, for them `unmeasured` is taken.
+template <class Of>
+std::vector<float> measured_cells(const OccupancyGrid& grid, float unmeasured, Of&& of) {
+  std::vector<float> table(grid.size(), unmeasured);
+  for (std::size_t cell = 0; cell < table.size(); ++cell) {
+    if (grid.log_odds[cell] != 0.0F) table[cell] = static_cast<float>(of(cell));
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<CellState> cell_states(const OccupancyGrid& grid) {
+  std::vector<CellState> states(grid.size());
+  for (std::size_t cell = 0; cell < states.size(); ++cell) states[cell] = grid.state(cell);
+  return states;
+}
+
+std::vector<float> cell_probabilities(const OccupancyGrid& grid) {
+  return measured_cells(grid, 0.5F, [&](std::size_t cell) { return grid.p_occupied(cell); });
+}
+
+std::vector<float> cell_entropies_bits(const OccupancyGrid& grid) {
+  return measured_cells(
+      grid, 1.0F, [&](std::size_t cell) { return binary_entropy_bits(grid.p_occupied(cell)); });
+}
+
+std::vector<float> cell_transmissions(const OccupancyGrid& grid,
+                                      std::span<const double> per_slice) {
+  const auto slices = static_cast<std::size_t>(grid.frame.cells.z());
+  expects(per_slice.size() == slices, "one transmission per z slice of the grid");
+  const std::size_t cells_per_slice = grid.size() / slices;
+  std::vector<float> table(grid.size());
+  for (std::size_t cell = 0; cell < table.size(); ++cell) {
+    switch (grid.state(cell)) {
+      case CellState::free: table[cell] = 1.0F; break;
+      case CellState::occupied: table[cell] = 0.0F; break;
+      case CellState::unobserved:
+        table[cell] = static_cast<float>(per_slice[cell / cells_per_slice]);
+        break;
+    }
+  }
+  return table;
+}
+
+}  // namespace vantage

@@ -1,0 +1,43 @@
+/// The gain of views by one ray to every cell in sight: the reference for faster ways.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "planners/candidate.hpp"
+#include "planners/cell_walk.hpp"
+#include "planners/gain.hpp"
+#include "planners/view_cone.hpp"
+
+namespace vantage {
+
+/// Sum over the cells of `grid` inside the field of view of what each is worth, in bits; a ray is
+/// walked from the sensor to the centre of each.  [AmanatidesWoo1987]
+template <RayGain G>
+double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& grid,
+                     const Pose& T_world_sensor, const FieldOfView& field_of_view) {
+  const ViewCone cone(T_world_sensor, field_of_view);
+  typename G::Ray ray = gain.ray(tables);
+  double sum_bits = 0.0;
+  const auto wanted = [&](std::size_t cell) {
+    return !G::unobserved_only || tables.state[cell] == CellState::unobserved;
+  };
+  for_each_cell_in_view(grid, cone, wanted, [&](const Eigen::Array3i& target, std::size_t index) {
+    ray.start();
+    const auto pass = [&](std::size_t cell) { return ray.pass(cell); };
+    if (walk_to_cell(grid, cone.apex_m(), target, pass)) sum_bits += ray.worth(index);
+  });
+  return sum_bits;
+}
+
+/// Gain in bits of one view; T_world_sensor has x forward, z up.
+double exact_gain_bits(const Gain& gain, const GainContext& context, const Pose& T_world_sensor,
+                       const FieldOfView& field_of_view);
+
+/// The same for each candidate. Every sum is one thread's, in index order: the result does not
+/// depend on `threads` (at least 1).
+std::vector<double> exact_gains_bits(const Gain& gain, const GainContext& context,
+                                     std::span<const Candidate> candidates,
+                                     const FieldOfView& field_of_view, int threads);
+
+}  // namespace vantage

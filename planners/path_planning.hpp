@@ -1,0 +1,29 @@
+/// Paths for the base to the goals of a PathField.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+#include "planners/path_field.hpp"
+
+namespace vantage {
+
+struct PlannedPath {
+  std::vector<Pose2> waypoints;  ///< world; the robot's pose first; headings along the way
+  double length_m = 0.0;
+  bool reaches_goal = false;  ///< false: a fallback, the way to the nearest reachable place
+  Pose2 end;                  ///< the last waypoint
+};
+
+/// The path to `goal`, ending with its heading. If the goal cannot be reached, the path leads to
+/// the centre of the reachable cell nearest to it and ends facing `look_at_m` (world), or with the
+/// goal's heading without one. If nothing can be reached, it is the robot's pose alone.
+PlannedPath plan_path(const PathField& field, const Pose2& goal,
+                      const std::optional<Eigen::Vector2d>& look_at_m = std::nullopt);
+
+/// Length of that path; infinity if the goal cannot be reached.
+double path_length_m(const PathField& field, const Pose2& goal);
+
+}  // namespace vantage

@@ -1,0 +1,49 @@
+/// Which of the proposed views to take.
+///
+/// A choice knows nothing of the map: gains, path lengths and reachability are values of the
+/// candidates, and the episode decides which candidates it passes. Unreachable ones may be chosen
+/// (navigation then goes as near as it can), so an episode that wants none of them leaves them out.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "planners/candidate.hpp"
+#include "src/core/rng.hpp"
+#include "src/core/strategy.hpp"
+
+namespace vantage {
+
+/// Any view, each as likely as the other.
+struct RandomView {
+  static constexpr std::string_view name = "random";
+  void fields(auto&&) {}
+  std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
+};
+
+/// The largest gain; of equal ones the shorter path, then the lower id.
+struct GreedyGain {
+  static constexpr std::string_view name = "greedy";
+  void fields(auto&&) {}
+  std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
+};
+
+/// The view that will really show most: an upper bound for one-step choices, as it knows the scene.
+/// Every candidate must carry `true_new_cells`. Ties as in GreedyGain.
+struct OracleView {
+  static constexpr std::string_view name = "oracle";
+  void fields(auto&&) {}
+  std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
+};
+
+using ViewChoice = std::variant<RandomView, GreedyGain, OracleView>;
+template <>
+inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
+
+/// Index of the view to take; exhausted candidates are left out unless all are. `candidates` must
+/// not be empty.
+std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng);
+
+}  // namespace vantage

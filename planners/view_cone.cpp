@@ -1,0 +1,70 @@
+#include "planners/view_cone.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vantage {
+
+ViewCone::ViewCone(const Pose& T_world_sensor, const FieldOfView& fov)
+    : apex_m_(T_world_sensor.translation()),
+      R_sensor_world_(T_world_sensor.linear().transpose()),
+      tan_tilt_min_(std::tan(fov.tilt_min_rad)),
+      tan_tilt_max_(std::tan(fov.tilt_max_rad)),
+      behind_(fov.half_width_rad > 0.5 * std::numbers::pi),
+      sin2_half_width_(std::pow(std::sin(fov.half_width_rad), 2)),
+      range2_min_m2_(fov.range_min_m * fov.range_min_m),
+      range2_max_m2_(fov.range_max_m * fov.range_max_m) {
+  normals_ = {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(-tan_tilt_min_, 0.0, -1.0),
+              Eigen::Vector3d(tan_tilt_max_, 0.0, 1.0), Eigen::Vector3d(1.0, 0.0, 0.0),
+              Eigen::Vector3d(1.0, 0.0, 0.0)};
+  if (fov.half_width_rad < 0.5 * std::numbers::pi) {
+    // |y| <= tan(w) sqrt(x^2 + z^2) and |z| <= T x bound |y| by a multiple of x.
+    const double steepest = std::max(std::abs(tan_tilt_min_), std::abs(tan_tilt_max_));
+    const double slope = std::tan(fov.half_width_rad) * std::hypot(1.0, steepest);
+    normals_[3] = {slope, 1.0, 0.0};
+    normals_[4] = {slope, -1.0, 0.0};
+  }
+  for (auto& normal : normals_) normal = T_world_sensor.linear() * normal.normalized();
+}
+
+bool ViewCone::contains(const Eigen::Vector3d& p_world) const {
+  const Eigen::Vector3d p = R_sensor_world_ * (p_world - apex_m_);
+  const double range2 = p.squaredNorm();
+  if (range2 < range2_min_m2_ || range2 > range2_max_m2_) return false;
+  const bool in_front = p.x() >= 0.0;
+  if (!in_front && !behind_) return false;
+  // Behind the sensor the scan plane is the same, and the beams have turned past its y axis.
+  const double depth = in_front ? p.x() : -p.x();
+  const double drop = in_front ? -p.z() : p.z();
+  if (drop < tan_tilt_min_ * depth || drop > tan_tilt_max_ * depth) return false;
+  const double y2 = p.y() * p.y();
+  if (in_front) return behind_ || y2 <= sin2_half_width_ * range2;
+  return y2 >= sin2_half_width_ * range2;
+}
+
+ViewCone::Interval ViewCone::bound_row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step,
+                                       int count) const {
+  if (behind_) return {0, count};
+  constexpr double kSlack = 1e-6;  // cells: rounding must not lose a cell that contains() accepts
+  double low = 0.0;
+  double high = count - 1.0;
+  for (const auto& normal : normals_) {
+    const double inside = normal.dot(p_world - apex_m_);
+    const double change = normal.dot(step);
+    if (std::abs(change) < 1e-12) {
+      if (inside < -1e-9) return {};
+      continue;
+    }
+    const double crossing = -inside / change;
+    if (change > 0.0) {
+      low = std::max(low, crossing - kSlack);
+    } else {
+      high = std::min(high, crossing + kSlack);
+    }
+  }
+  if (low > high) return {};
+  return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high)) + 1};
+}
+
+}  // namespace vantage

@@ -1,0 +1,62 @@
+/// The cells a field of view holds, found without an angle per cell.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+
+#include "src/geometry/field_of_view.hpp"
+#include "src/geometry/grid_frame.hpp"
+#include "src/geometry/pose.hpp"
+
+namespace vantage {
+
+/// FieldOfView::contains for points of the world, by products instead of angles.
+class ViewCone {
+ public:
+  ViewCone(const Pose& T_world_sensor, const FieldOfView& field_of_view);
+
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p_world) const;
+
+  struct Interval {
+    int begin = 0;
+    int end = 0;
+  };
+  /// Bounds on the indices i in [0, count) for which p + i step may be contained.
+  [[nodiscard]] Interval bound_row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step,
+                                   int count) const;
+
+  [[nodiscard]] const Eigen::Vector3d& apex_m() const { return apex_m_; }
+
+ private:
+  Eigen::Vector3d apex_m_;
+  Eigen::Matrix3d R_sensor_world_;
+  double tan_tilt_min_;
+  double tan_tilt_max_;
+  bool behind_;  // sees behind itself, as sectors wider than pi do
+  double sin2_half_width_;
+  double range2_min_m2_;
+  double range2_max_m2_;
+  std::array<Eigen::Vector3d, 5> normals_;  // world, inwards, of planes that bound the front
+};
+
+/// Calls `visit(cell, cell index)` in index order for each cell with `wanted(cell index)` whose
+/// centre the cone contains.
+template <class Wanted, class Visit>
+void for_each_cell_in_view(const GridFrame& grid, const ViewCone& cone, Wanted&& wanted,
+                           Visit&& visit) {
+  const Eigen::Vector3d step(grid.cell_size_m.x(), 0.0, 0.0);
+  for (int z = 0; z < grid.cells.z(); ++z) {
+    for (int y = 0; y < grid.cells.y(); ++y) {
+      const auto row = cone.bound_row(grid.centre({0, y, z}), step, grid.cells.x());
+      for (int x = row.begin; x < row.end; ++x) {
+        const Eigen::Array3i cell(x, y, z);
+        const std::size_t index = grid.index(cell);
+        if (wanted(index) && cone.contains(grid.centre(cell))) visit(cell, index);
+      }
+    }
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,63 @@
+#include "sim/camera.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <cmath>
+#include <utility>
+
+namespace vantage {
+
+void RgbdOptions::check() const {
+  if (range_min_m >= range_max_m) throw ConfigError("range_min_m must be below range_max_m");
+}
+
+double depth_sigma_m(const RgbdOptions& options, double z_m) {
+  const double beyond_m = z_m - options.noise_nearest_m;
+  return options.noise_floor_m + options.noise_growth_per_m * beyond_m * beyond_m;
+}
+
+float measured_depth_m(const RgbdOptions& options, float z_m, Rng& rng) {
+  double z = z_m;
+  if (z < options.range_min_m || z > options.range_max_m) return 0.0F;
+  if (!options.noise) return z_m;
+  z = rng.normal(z, depth_sigma_m(options, z));
+  if (options.quantisation_per_m > 0.0 && z > 0.0) {
+    // Such cameras measure disparity, proportional to 1/z, in whole steps.
+    z = 1.0 / (options.quantisation_per_m * std::round(1.0 / (options.quantisation_per_m * z)));
+  }
+  return z < options.range_min_m || z > options.range_max_m ? 0.0F : static_cast<float>(z);
+}
+
+double focal_length_px(const RgbdOptions& options) {
+  return 0.5 * options.height_px / std::tan(0.5 * options.fovy_rad);
+}
+
+Pose T_world_camera(const mjModel& model, const mjData& data, int camera_id) {
+  expects(camera_id >= 0 && camera_id < model.ncam, "camera id of the model");
+  Pose T = Pose::Identity();
+  T.translation() = Eigen::Map<const Eigen::Vector3d>(data.cam_xpos + 3 * camera_id);
+  T.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.cam_xmat +
+                                                                              9 * camera_id) *
+               Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  return T;
+}
+
+CameraImages rgbd(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
+                  const RgbdOptions& options, Rng& rng) {
+  expects(renderer.width_px() == options.width_px && renderer.height_px() == options.height_px,
+          "renderer of the camera's image size");
+  expects(camera_id >= 0 && camera_id < model.ncam, "camera id of the model");
+  RenderedImages drawn;
+  renderer.render(model, data, FixedCamera{camera_id, options.fovy_rad}, RenderRequest{}, drawn);
+  CameraImages images{.width_px = drawn.width_px,
+                      .height_px = drawn.height_px,
+                      .focal_px = focal_length_px(options),
+                      .rgb = std::move(drawn.rgb),
+                      .depth_m = std::move(drawn.depth_m),
+                      .segmentation = std::move(drawn.segmentation)};
+  for (float& depth : images.depth_m) depth = measured_depth_m(options, depth, rng);
+  for (int& id : images.segmentation) id = id < 0 ? -1 : model.geom_bodyid[id];
+  return images;
+}
+
+}  // namespace vantage

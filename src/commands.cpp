@@ -1,0 +1,187 @@
+#include "src/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "src/core/data_root.hpp"
+#include "src/core/hash.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/doctor.hpp"
+#include "src/episode/interrupt.hpp"
+#include "src/episode/listing.hpp"
+#include "src/episode/replay.hpp"
+#include "src/episode/report.hpp"
+#include "src/episode/run.hpp"
+#include "src/episode/validate.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+std::vector<std::string> g_command_line;
+
+struct RunArguments {
+  std::string episode = "assets/episodes/tabletop.yaml";
+  std::vector<std::string> overrides;
+  std::optional<std::uint64_t> seed;
+  RunOptions options;
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool print_config = false;
+  bool dry_run = false;
+};
+
+void print_outcome(const RunOutcome& outcome) {
+  const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
+  const auto& scans = metrics["scans"];
+  const auto total = metrics["observable_cells"].get<double>();
+  const double left =
+      scans.empty() ? total : scans.back()["observable_unobserved_cells"].get<double>();
+  fmt::print("{}: {} after {} scans, {:.1f} % of the observable cells observed\n",
+             metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
+             scans.size(), total > 0.0 ? 100.0 * (1.0 - left / total) : 0.0);
+  fmt::print(
+      "path {:.2f} m, {} collisions, map precision {:.3f}, recall {:.3f}, {:.1f} x real time\n",
+      metrics["path_length_m"].get<double>(), metrics["collisions"].get<int>(),
+      metrics["map"]["precision"].get<double>(), metrics["map"]["recall"].get<double>(),
+      metrics["real_time_factor"].get<double>());
+  fmt::print("state hash {}\n", metrics["state_hash"].get<std::string>());
+  fmt::print("report {}\n", (outcome.directory / "report.html").string());
+  if (fs::exists(outcome.directory / "video.mp4")) {
+    fmt::print("video  {}\n", (outcome.directory / "video.mp4").string());
+  }
+}
+
+ExitCode run_episode_command(const RunArguments& arguments) {
+  if (arguments.quiet) set_verbosity(Verbosity::quiet);
+  if (arguments.verbose) set_verbosity(Verbosity::verbose);
+  const auto path = find_input(arguments.episode, {}, "episode");
+  const ResolvedEpisode resolved = load_episode(path, arguments.overrides, arguments.seed);
+  if (arguments.print_config) {
+    fmt::print("{}", episode_yaml(resolved.episode));
+    return ExitCode::done;
+  }
+  if (arguments.dry_run) {
+    const auto problems = validate_file(resolved.scene);
+    for (const auto& problem : problems) log_error(problem);
+    fmt::print("{}: {} scans in {} by {}, seed {}\n", resolved.name, resolved.episode.scans,
+               resolved.scene.string(), method_name(resolved.episode), resolved.episode.seed);
+    return problems.empty() ? ExitCode::done : ExitCode::bad_input;
+  }
+  catch_interrupts();
+  RunOptions options = arguments.options;
+  options.command = g_command_line;
+  const RunOutcome outcome = run(resolved, options);
+  if (arguments.json) {
+    std::fputs(outcome.metrics.c_str(), stdout);
+  } else {
+    print_outcome(outcome);
+  }
+  if (outcome.status == EpisodeStatus::interrupted) {
+    return static_cast<ExitCode>(128 + interrupt_signal());
+  }
+  return outcome.status == EpisodeStatus::completed ? ExitCode::done : ExitCode::goal_failed;
+}
+
+std::function<ExitCode()> declare_run(CLI::App& app) {
+  auto arguments = std::make_shared<RunArguments>();
+  app.add_option("episode", arguments->episode, "episode file")->capture_default_str();
+  app.add_option("--set", arguments->overrides, "key=value, same keys as the file")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  app.add_option("--seed", arguments->seed, "seed of every random stream");
+  app.add_option("--out", arguments->options.directory, "run folder; default out/<episode>-<seed>");
+  app.add_flag("--overwrite", arguments->options.overwrite, "replace a run in that folder");
+  app.add_flag("--video", arguments->options.video, "record video.mp4 and frames/");
+  app.add_flag("--json", arguments->json, "print metrics.json to stdout");
+  auto* quiet = app.add_flag("-q,--quiet", arguments->quiet, "warnings and errors only");
+  app.add_flag("-v,--verbose", arguments->verbose, "debug messages too")->excludes(quiet);
+  app.add_flag("--print-config", arguments->print_config, "print the resolved episode and stop");
+  app.add_flag("--dry-run", arguments->dry_run, "check everything, run nothing");
+  return [arguments] { return run_episode_command(*arguments); };
+}
+
+std::function<ExitCode()> declare_report(CLI::App& app) {
+  auto directory = std::make_shared<fs::path>();
+  app.add_option("dir", *directory, "run folder")->required();
+  return [directory] {
+    write_report(*directory);
+    fmt::print("{}\n", (*directory / "report.html").string());
+    return ExitCode::done;
+  };
+}
+
+std::function<ExitCode()> declare_replay(CLI::App& app) {
+  auto directory = std::make_shared<fs::path>();
+  app.add_option("dir", *directory, "run folder")->required();
+  return [directory] {
+    const ReplayResult result = replay(*directory);
+    if (result.first_difference) {
+      fmt::print("{}: differs first at step {} ({:.3f} s): {}\n", directory->string(),
+                 *result.first_difference, result.time_s, result.what);
+      return ExitCode::goal_failed;
+    }
+    fmt::print("{}: {} steps, every state the same, state hash {}\n", directory->string(),
+               result.ticks, hash_text(result.state_hash));
+    return ExitCode::done;
+  };
+}
+
+std::function<ExitCode()> declare_validate(CLI::App& app) {
+  auto files = std::make_shared<std::vector<fs::path>>();
+  app.add_option("files", *files, "episodes (.yaml), scenes (.xml), maps (.bt, .ot)")->required();
+  return [files] {
+    ExitCode worst = ExitCode::done;
+    for (const auto& file : *files) {
+      const auto problems = validate_file(file);
+      for (const auto& problem : problems) fmt::print("{}\n", problem);
+      if (problems.empty()) {
+        fmt::print("{}: good\n", file.string());
+      } else if (worst != ExitCode::bad_input) {
+        worst = is_configuration(file) ? ExitCode::usage : ExitCode::bad_input;
+      }
+    }
+    return worst;
+  };
+}
+
+std::function<ExitCode()> declare_list(CLI::App& app) {
+  auto what = std::make_shared<std::string>();
+  app.add_option("what", *what, "one of: " + fmt::format("{}", listing_topics_text()));
+  return [what] {
+    fmt::print("{}", listing(*what));
+    return ExitCode::done;
+  };
+}
+
+std::function<ExitCode()> declare_doctor(CLI::App&) {
+  return [] {
+    const DoctorReport report = examine();
+    fmt::print("{}", report.text);
+    return report.renderer_works ? ExitCode::done : ExitCode::no_renderer;
+  };
+}
+
+}  // namespace
+
+void remember_command_line(int argc, char** argv) { g_command_line.assign(argv, argv + argc); }
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> table = {
+      {"run", "run an episode and write its run folder", declare_run},
+      {"report", "write the report page of a run folder again", declare_report},
+      {"replay", "run the recorded commands again and compare every state", declare_replay},
+      {"validate", "everything wrong with a file; nothing is run", declare_validate},
+      {"list", "what there is to choose from", declare_list},
+      {"doctor", "versions, renderer, codecs; what would not work and why", declare_doctor},
+  };
+  return table;
+}
+
+}  // namespace vantage

@@ -1,0 +1,36 @@
+#include "src/core/data_root.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "src/core/error.hpp"
+
+namespace vantage {
+namespace fs = std::filesystem;
+
+fs::path data_root() {
+  if (const char* set = std::getenv("VANTAGE_DATA"); set != nullptr && *set != '\0') return set;
+  std::error_code error;
+  const fs::path binary = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = binary.parent_path().parent_path() / "share" / "vantage";
+  if (!error && fs::is_directory(installed / "models")) return installed;
+  return VANTAGE_SOURCE_TREE;
+}
+
+fs::path find_input(const std::string& name, const fs::path& base, const std::string& key) {
+  if (name.empty()) throw InputError(fmt::format("{}: no file named", key));
+  if (fs::path(name).is_absolute()) {
+    if (fs::exists(name)) return name;
+    throw InputError(fmt::format("{}: {}: no such file", key, name));
+  }
+  for (const fs::path& place : {base, fs::path("."), data_root()}) {
+    const fs::path candidate = (place / name).lexically_normal();
+    if (fs::exists(candidate)) return candidate;
+  }
+  throw InputError(fmt::format("{}: {}: no such file (looked in {}, the working directory and {})",
+                               key, name, base.empty() ? "." : base.string(),
+                               data_root().string()));
+}
+
+}  // namespace vantage

@@ -1,0 +1,19 @@
+/// Where the models and episodes that come with Vantage are.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace vantage {
+
+/// $VANTAGE_DATA if set, else <prefix>/share/vantage beside an installed binary, else the source
+/// tree.
+std::filesystem::path data_root();
+
+/// `name` as it stands if absolute; else the first that exists of `base`/name, name in the working
+/// directory, and data_root()/name.
+/// @throws InputError naming `key` and the places looked at.
+std::filesystem::path find_input(const std::string& name, const std::filesystem::path& base,
+                                 const std::string& key);
+
+}  // namespace vantage

@@ -1,0 +1,42 @@
+/// The video of an episode: the robot in its room beside the growing map.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "sim/renderer.hpp"
+#include "sim/world.hpp"
+#include "src/episode/map_panel.hpp"
+#include "src/episode/scenario.hpp"
+#include "src/episode/video.hpp"
+
+namespace vantage {
+
+class Film {
+ public:
+  /// Makes `directory`/video.mp4 and `directory`/frames. @throws RendererError, OutputError
+  Film(const World& world, const RecordingOptions& options, std::filesystem::path directory);
+
+  void set_panel(std::function<MapPanelInput()> panel) { panel_ = std::move(panel); }
+  /// Adds a frame if one is due at the world's time.
+  void tick(const World& world);
+  /// Keeps the present view as frames/scan_<index>.png.
+  void keep_still(const World& world, std::size_t index);
+  void finish() { video_.finish(); }
+
+ private:
+  cv::Mat draw(const World& world);
+
+  std::filesystem::path directory_;
+  RecordingOptions options_;
+  cv::Size half_;
+  std::unique_ptr<Renderer> renderer_;
+  VideoWriter video_;
+  CameraView camera_;
+  RenderedImages overview_;
+  std::function<MapPanelInput()> panel_;
+  double next_frame_s_ = 0.0;
+};
+
+}  // namespace vantage

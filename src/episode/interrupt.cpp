@@ -1,0 +1,38 @@
+#include "src/episode/interrupt.hpp"
+
+#include <csignal>
+#include <ctime>
+
+namespace vantage {
+namespace {
+
+volatile std::sig_atomic_t g_signal = 0;
+timespec g_first{};
+
+/// One Ctrl-C can arrive twice: at the process and at its group.
+bool is_echo() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec - g_first.tv_sec < 1;
+}
+
+extern "C" void remember_signal(int signal) {
+  if (g_signal == 0) {
+    clock_gettime(CLOCK_MONOTONIC, &g_first);
+    g_signal = signal;
+  } else if (!is_echo()) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, remember_signal);
+  std::signal(SIGTERM, remember_signal);
+}
+
+int interrupt_signal() { return g_signal; }
+
+}  // namespace vantage

@@ -1,0 +1,87 @@
+#include "src/episode/manifest.hpp"
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core/version.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "sim/renderer.hpp"
+#include "sim/world.hpp"
+#include "src/core/atomic_file.hpp"
+#include "src/core/hash.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+std::string attribute(const std::string& xml, const std::string& name) {
+  std::smatch match;
+  return std::regex_search(xml, match, std::regex(name + "\\s*=\\s*\"([^\"]*)\"")) ? match[1].str()
+                                                                                   : "";
+}
+
+void collect_files(const fs::path& file, std::set<fs::path>& found) {
+  if (!fs::is_regular_file(file) || !found.insert(file).second || file.extension() != ".xml")
+    return;
+  const std::string xml = read_file(file);
+  const fs::path base = file.parent_path();
+  static const std::regex reference("file\\s*=\\s*\"([^\"]*)\"");
+  for (std::sregex_iterator it(xml.begin(), xml.end(), reference), end; it != end; ++it) {
+    for (const char* folder : {"", "meshdir", "texturedir"}) {
+      const std::string sub = *folder == '\0' ? "" : attribute(xml, folder);
+      collect_files((base / sub / (*it)[1].str()).lexically_normal(), found);
+    }
+  }
+}
+
+}  // namespace
+
+std::string version_text() { return VANTAGE_VERSION " (" VANTAGE_GIT_COMMIT ")"; }
+
+std::vector<fs::path> scene_files(const fs::path& scene) {
+  std::set<fs::path> found;
+  collect_files(scene.lexically_normal(), found);
+  return {found.begin(), found.end()};
+}
+
+std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
+                          const RunSummary& summary) {
+  Json assets = Json::object();
+  for (const fs::path& root : {resolved.scene, resolved.robot}) {
+    for (const fs::path& file : scene_files(root)) {
+      assets[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
+    }
+  }
+  const Json json = {
+      {"command", command},
+      {"versions",
+       {{"vantage", version_text()},
+        {"mujoco", mujoco_version()},
+        {"renderer", renderer_name()},
+        {"opencv", CV_VERSION},
+        {"compiler", "g++ " __VERSION__}}},
+      {"cpu", cpu_name()},
+      {"seed", resolved.episode.seed},
+      {"status", status_name(summary.status)},
+      {"config_hash", hash_text(hash_bytes(episode_yaml(resolved.episode)))},
+      {"scene_hash", hash_text(hash_file(resolved.scene))},
+      {"assets", assets},
+      {"wall_time_s", summary.wall_time_s},
+      {"simulated_time_s", summary.simulated_time_s},
+  };
+  return json.dump(2) + "\n";
+}
+
+}  // namespace vantage

@@ -1,0 +1,21 @@
+/// manifest.json: what ran, on what, with which inputs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/episode/metrics.hpp"
+
+namespace vantage {
+
+/// The version control state of the build, "0.1.0 (abc1234)".
+std::string version_text();
+
+/// Every file the MJCF at `scene` refers to, itself and its includes among them, in a fixed order.
+std::vector<std::filesystem::path> scene_files(const std::filesystem::path& scene);
+
+std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
+                          const RunSummary& summary);
+
+}  // namespace vantage

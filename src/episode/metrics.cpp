@@ -1,0 +1,105 @@
+#include "src/episode/metrics.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "src/core/hash.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json view_json(const Pose& T_world_sensor) {
+  const Eigen::Vector3d p = T_world_sensor.translation();
+  return {
+      {"x_m", p.x()}, {"y_m", p.y()}, {"z_m", p.z()}, {"yaw_rad", flatten(T_world_sensor).yaw_rad}};
+}
+
+Json scan_json(const ScanRecord& scan) {
+  Json predicted = Json::object();
+  for (const auto& [gain, cells] : scan.predicted_cells) predicted[gain] = cells;
+  return {{"time_s", scan.time_s},
+          {"unobserved_cells", scan.unobserved_cells},
+          {"observable_unobserved_cells", scan.observable_unobserved_cells},
+          {"predicted", predicted},
+          {"actual_new_cells", scan.actual_new_cells},
+          {"chosen_view", scan.chosen_view},
+          {"candidates", scan.candidates},
+          {"plan_time_s", scan.plan_time_s},
+          {"map_time_s", scan.map_time_s},
+          {"scan_time_s", scan.scan_time_s},
+          {"path_length_m", scan.path_length_m},
+          {"pose_error_m", scan.pose_error_m},
+          {"pose_error_before_registration_m", scan.pose_error_before_registration_m},
+          {"yaw_error_rad", scan.yaw_error_rad},
+          {"registered", scan.registered},
+          {"fallback", scan.fallback},
+          {"collisions", scan.collisions},
+          {"precision", scan.precision},
+          {"recall", scan.recall},
+          {"view", view_json(scan.T_world_sensor)}};
+}
+
+/// The transmission that the gain in use assumes for an unobserved cell; null if it assumes none.
+Json observability(const Episode& episode, const ClutterHazard& hazard) {
+  if (std::holds_alternative<AdaptiveGain>(episode.gain)) return hazard.global_transmission();
+  return std::visit(
+      [](const auto& gain) -> Json {
+        if constexpr (requires { gain.a; }) return gain.a;
+        return nullptr;
+      },
+      episode.gain);
+}
+
+Json box_json(const Eigen::AlignedBox3d& box) {
+  return {{"min_m", {box.min().x(), box.min().y(), box.min().z()}},
+          {"max_m", {box.max().x(), box.max().y(), box.max().z()}}};
+}
+
+}  // namespace
+
+std::string_view status_name(EpisodeStatus status) {
+  switch (status) {
+    case EpisodeStatus::completed: return "completed";
+    case EpisodeStatus::failed: return "failed";
+    case EpisodeStatus::diverged: return "diverged";
+    case EpisodeStatus::interrupted: return "interrupted";
+  }
+  return "?";
+}
+
+Json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
+                  const NextBestView& run) {
+  const Episode& episode = resolved.episode;
+  const MapScore map = run.truth().score(run.belief().grid(), episode.metrics.tolerance_cells);
+  Json json = {{"task", episode.task},
+               {"status", status_name(summary.status)},
+               {"seed", episode.seed},
+               {"scene", episode.scene},
+               {"method", method_name(episode)},
+               {"simulated_time_s", summary.simulated_time_s},
+               {"wall_time_s", summary.wall_time_s},
+               {"real_time_factor",
+                summary.wall_time_s > 0.0 ? summary.simulated_time_s / summary.wall_time_s : 0.0},
+               {"path_length_m", summary.path_length_m},
+               {"collisions", summary.collisions},
+               {"state_hash", hash_text(summary.state_hash)}};
+  json["observable_cells"] = run.truth().observable_cells();
+  json["scans"] = Json::array();
+  for (const ScanRecord& scan : run.scans()) json["scans"].push_back(scan_json(scan));
+  json["map"] = {{"precision", map.precision},
+                 {"recall", map.recall},
+                 {"tolerance_cells", episode.metrics.tolerance_cells}};
+  json["observability"] = observability(episode, run.belief().hazard());
+  json["observability_per_slice"] = run.belief().hazard().transmission_per_slice();
+  json["region"] = box_json(run.belief().grid().frame.box());
+  json["candidates"] = Json::array();
+  for (const Candidate& view : run.views()) {
+    Json entry = {{"id", view.id}};
+    entry.update(view_json(view.T_world_sensor));
+    json["candidates"].push_back(entry);
+  }
+  return json;
+}
+
+}  // namespace vantage

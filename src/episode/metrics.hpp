@@ -1,0 +1,28 @@
+/// metrics.json of the contract.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+
+#include "src/episode/episode_loop.hpp"
+#include "src/episode/next_best_view.hpp"
+#include "src/episode/scenario.hpp"
+
+namespace vantage {
+
+struct RunSummary {
+  EpisodeStatus status = EpisodeStatus::completed;
+  double simulated_time_s = 0.0;
+  double wall_time_s = 0.0;
+  double path_length_m = 0.0;
+  int collisions = 0;
+  std::uint64_t state_hash = 0;
+};
+
+std::string_view status_name(EpisodeStatus status);
+
+nlohmann::ordered_json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
+                                    const NextBestView& run);
+
+}  // namespace vantage

@@ -1,0 +1,58 @@
+/// The parts of the loop for probabilistic next best view on a table top.  [Potthast2016, chapter
+/// 3]
+#pragma once
+
+#include <vector>
+
+#include "planners/candidate.hpp"
+#include "planners/path_planning.hpp"
+#include "src/episode/recorder.hpp"
+#include "src/episode/scan_record.hpp"
+#include "src/episode/tabletop_belief.hpp"
+#include "src/episode/tabletop_rig.hpp"
+#include "src/episode/tabletop_truth.hpp"
+
+namespace vantage {
+
+class NextBestView {
+ public:
+  NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Recorder& recorder);
+
+  TabletopObservation observe();
+  void update(const TabletopObservation& observation);
+  void record();
+  [[nodiscard]] bool finished() const;
+  std::vector<Candidate> propose();
+  void score(std::vector<Candidate>& candidates);
+  std::size_t choose(const std::vector<Candidate>& candidates);
+  void act(const Candidate& candidate);
+
+  [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
+  [[nodiscard]] const TabletopBelief& belief() const { return belief_; }
+  [[nodiscard]] const TabletopTruth& truth() const { return truth_; }
+  [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
+
+ private:
+  void predict(const Candidate& view);
+  void look_round();
+  void localise();
+  DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
+  PathField plan_from_here();
+  void add_to_floor_map();
+  bool drive_closer(const Candidate& candidate);
+  [[nodiscard]] MapPanelInput panel() const;
+
+  Episode episode_;
+  TabletopRig& rig_;
+  Recorder& recorder_;
+  std::vector<Candidate> views_;  ///< the ring, in id order
+  TabletopBelief belief_;
+  TabletopTruth truth_;
+  FloorMap floor_;
+  Rng choice_rng_;
+  ScanRecord current_;  ///< filled in from the decision to the end of its scan
+  std::vector<ScanRecord> scans_;
+  std::vector<Eigen::Vector2d> path_m_;  ///< driven, as the robot believes
+};
+
+}  // namespace vantage

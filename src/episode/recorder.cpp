@@ -1,0 +1,116 @@
+#include "src/episode/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/belief/octomap_io.hpp"
+#include "src/perception/ply.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPoseRowEvery_s = 0.1;
+
+constexpr std::string_view kStepsHeader =
+    "time_s,scan,chosen_view,fallback,unobserved_cells,observable_unobserved_cells,actual_new_"
+    "cells,"
+    "{gains}path_length_m,plan_time_s,map_time_s,scan_time_s,pose_error_m,"
+    "pose_error_before_registration_m,yaw_error_rad,registered,collisions,precision,recall\n";
+
+std::string steps_header() {
+  std::string gains;
+  for (const auto name : strategy_names<Gain>()) gains += fmt::format("predicted_{}_cells,", name);
+  return fmt::format(fmt::runtime(kStepsHeader), fmt::arg("gains", gains));
+}
+
+std::string steps_row(const ScanRecord& scan, std::size_t index) {
+  std::string gains;
+  for (const auto& [name, cells] : scan.predicted_cells) gains += fmt::format("{},", cells);
+  return fmt::format("{},{},{},{},{},{},{},{}{},{},{},{},{},{},{},{},{},{},{}\n", scan.time_s,
+                     index, scan.chosen_view, scan.fallback, scan.unobserved_cells,
+                     scan.observable_unobserved_cells, scan.actual_new_cells, gains,
+                     scan.path_length_m, scan.plan_time_s, scan.map_time_s, scan.scan_time_s,
+                     scan.pose_error_m, scan.pose_error_before_registration_m, scan.yaw_error_rad,
+                     scan.registered, scan.collisions, scan.precision, scan.recall);
+}
+
+/// A row of a TUM trajectory: time x y z qx qy qz qw.
+std::string tum_row(double time_s, const Pose2& base) {
+  return fmt::format("{:.3f} {:.6f} {:.6f} 0 0 0 {:.6f} {:.6f}\n", time_s, base.x_m, base.y_m,
+                     std::sin(0.5 * base.yaw_rad), std::cos(0.5 * base.yaw_rad));
+}
+
+}  // namespace
+
+Recorder::Recorder(const ResolvedEpisode& resolved, TabletopRig& rig,
+                   std::filesystem::path directory, bool with_video)
+    : directory_(std::move(directory)),
+      rig_(rig),
+      planned_scans_(resolved.episode.scans),
+      states_(directory_, actuator_names(rig.world()), rig.world().state()),
+      steps_(directory_ / "steps.csv"),
+      trajectory_(directory_ / "trajectory.tum"),
+      estimated_(directory_ / "trajectory_estimated.tum"),
+      progress_(resolved.name, resolved.episode.scans) {
+  steps_.write(steps_header());
+  if (with_video) film_.emplace(rig.world(), resolved.episode.recording, directory_);
+  rig_.world().on_tick = [this](World&) { tick(); };
+}
+
+Recorder::~Recorder() { rig_.world().on_tick = nullptr; }
+
+void Recorder::set_panel(std::function<MapPanelInput()> panel) {
+  if (film_) film_->set_panel(std::move(panel));
+}
+
+void Recorder::tick() {
+  const World& world = rig_.world();
+  states_.add(world.controls(), world.state());
+  const Pose2 base = rig_.truth().T_world_base;
+  if (last_base_)
+    path_length_m_ += std::hypot(base.x_m - last_base_->x_m, base.y_m - last_base_->y_m);
+  last_base_ = base;
+  if (world.time_s() >= next_pose_s_) pose_rows();
+  if (film_) film_->tick(world);
+}
+
+void Recorder::pose_rows() {
+  const double time_s = rig_.world().time_s();
+  trajectory_.write(tum_row(time_s, rig_.truth().T_world_base));
+  estimated_.write(tum_row(time_s, rig_.estimated_base()));
+  next_pose_s_ = time_s + kPoseRowEvery_s;
+}
+
+void Recorder::scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid) {
+  steps_.write(steps_row(record, index));
+  was_occupied_.resize(grid.size(), 0);
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    if (was_occupied_[cell] != 0 || grid.state(cell) != CellState::occupied) continue;
+    was_occupied_[cell] = 1;
+    const Eigen::Vector3f p = grid.frame.centre(grid.frame.cell(cell)).cast<float>();
+    voxels_.push_back({p.x(), p.y(), p.z(), static_cast<std::uint16_t>(index), kVoxelOccupied});
+  }
+  ++scans_done_;
+  progress_.update(
+      static_cast<double>(scans_done_),
+      fmt::format("scan {} of {}: {} observable cells left, {:.1f} s simulated", scans_done_,
+                  planned_scans_, record.observable_unobserved_cells, record.time_s));
+  if (film_) film_->keep_still(rig_.world(), index);
+}
+
+void Recorder::commit(const OccupancyGrid& grid, const PointCloud& cloud) {
+  states_.commit();
+  steps_.commit();
+  trajectory_.commit();
+  estimated_.commit();
+  if (grid.count(CellState::unobserved) < grid.size()) {
+    write_octomap(grid, directory_ / "map.bt");
+    write_octomap(grid, directory_ / "map.ot");
+  }
+  write_ply(directory_ / "cloud.ply", cloud);
+  write_voxels(directory_ / "voxels.bin", {grid.frame.cell_size_m, grid.frame.box(), voxels_});
+  if (film_) film_->finish();
+}
+
+}  // namespace vantage

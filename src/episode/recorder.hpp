@@ -1,0 +1,61 @@
+/// Writes the run folder while the episode runs.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "sim/world.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/film.hpp"
+#include "src/episode/report_data.hpp"
+#include "src/episode/scan_record.hpp"
+#include "src/episode/scenario.hpp"
+#include "src/episode/state_log.hpp"
+#include "src/episode/tabletop_rig.hpp"
+
+namespace vantage {
+
+class Recorder {
+ public:
+  /// Hooks itself to the world's ticks. @throws OutputError, RendererError
+  Recorder(const ResolvedEpisode& resolved, TabletopRig& rig, std::filesystem::path directory,
+           bool with_video);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void set_panel(std::function<MapPanelInput()> panel);
+  /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
+  void scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid);
+  /// Puts the growing files under their final names.
+  void commit(const OccupancyGrid& grid, const PointCloud& cloud);
+
+  [[nodiscard]] std::uint64_t state_hash() const { return states_.hash(); }
+  [[nodiscard]] double path_length_m() const { return path_length_m_; }
+  [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
+
+ private:
+  void tick();
+  void pose_rows();
+
+  std::filesystem::path directory_;
+  TabletopRig& rig_;
+  int planned_scans_;
+  StateLog states_;
+  GrowingFile steps_;
+  GrowingFile trajectory_;
+  GrowingFile estimated_;
+  std::optional<Film> film_;
+  std::vector<VoxelRecord> voxels_;
+  std::vector<std::uint8_t> was_occupied_;
+  Progress progress_;
+  std::size_t scans_done_ = 0;
+  double next_pose_s_ = 0.0;
+  double path_length_m_ = 0.0;
+  std::optional<Pose2> last_base_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,68 @@
+#include "src/episode/replay.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/world.hpp"
+#include "src/core/hash.hpp"
+#include "src/episode/scenario.hpp"
+#include "src/episode/state_log.hpp"
+
+namespace vantage {
+namespace {
+
+std::optional<std::string> state_difference(std::span<const double> expected,
+                                            std::span<const double> actual) {
+  const auto [e, a] = std::ranges::mismatch(expected, actual);
+  if (e == expected.end()) return std::nullopt;
+  return fmt::format("state[{}] is {}, recorded {}", e - expected.begin(), *a, *e);
+}
+
+}  // namespace
+
+ReplayResult replay(const std::filesystem::path& run_dir) {
+  const ResolvedEpisode resolved = load_episode(run_dir / "config.yaml", {});
+  World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
+  const RecordedStates recorded = read_states(run_dir / "states.bin");
+  const auto names = actuator_names(world);
+  const auto actions = read_actions(run_dir / "actions.csv", names);
+  if (recorded.state_size != world.state().size() || recorded.actuators != names.size()) {
+    throw InputError(fmt::format("{}: recorded with another scene or robot than {}",
+                                 (run_dir / "states.bin").string(), resolved.scene.string()));
+  }
+
+  world.set_state(recorded.state(0));
+  ReplayResult result;
+  result.state_hash = hash_doubles(recorded.state(0));
+  auto next = actions.begin();
+  for (std::uint64_t tick = 0; tick + 1 < recorded.count(); ++tick) {
+    const auto diverged = [&](std::string what) {
+      result.first_difference = tick;
+      result.time_s = recorded.state(tick)[0];
+      result.what = std::move(what);
+      return result;
+    };
+    if (next != actions.end() && next->tick <= tick) {
+      if (!next->canonical) return diverged("actions.csv was changed in this row");
+      world.set_controls(next->controls);
+      ++next;
+    }
+    if (const auto expected = recorded.controls(tick + 1);
+        !std::ranges::equal(world.controls(), expected)) {
+      return diverged("the commands in actions.csv are not the ones recorded");
+    }
+    world.advance_tick();
+    const auto state = world.state();
+    if (auto what = state_difference(recorded.state(tick + 1), state)) return diverged(*what);
+    result.state_hash = hash_doubles(state, hash_doubles(world.controls(), result.state_hash));
+    result.ticks = tick + 1;
+  }
+  if (next != actions.end()) {
+    result.first_difference = std::max(next->tick, result.ticks);
+    result.what = "actions.csv goes on after the last recorded state";
+  }
+  return result;
+}
+
+}  // namespace vantage

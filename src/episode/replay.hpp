@@ -1,0 +1,22 @@
+/// Runs the recorded commands again and compares every state.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace vantage {
+
+struct ReplayResult {
+  std::uint64_t ticks = 0;                        ///< compared
+  std::uint64_t state_hash = 0;                   ///< of the replayed states
+  std::optional<std::uint64_t> first_difference;  ///< step (control tick) that differs
+  double time_s = 0.0;                            ///< simulated, of that step
+  std::string what;                               ///< how it differs
+};
+
+/// @throws InputError if the folder lacks a file or one is damaged.
+ReplayResult replay(const std::filesystem::path& run_dir);
+
+}  // namespace vantage

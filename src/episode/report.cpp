@@ -1,0 +1,236 @@
+#include "src/episode/report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <span>
+
+#include "generated/report_assets.hpp"
+#include "src/core/atomic_file.hpp"
+#include "src/core/error.hpp"
+#include "src/episode/report_data.hpp"
+#include "src/perception/ply.hpp"
+
+namespace vantage {
+namespace fs = std::filesystem;
+using nlohmann::json;
+namespace {
+
+constexpr std::size_t kMaxTrajectorySamples = 4000;
+
+json read_json_object(const fs::path& path) {
+  const std::string text = read_file(path);
+  json value;
+  try {
+    value = json::parse(text);
+  } catch (const json::exception& error) {
+    throw InputError(fmt::format("{}: not valid JSON: {}", path.string(), error.what()));
+  }
+  if (!value.is_object()) throw InputError(path.string() + ": expected a JSON object");
+  return value;
+}
+
+void require_lists_of_objects(const fs::path& path, const json& metrics) {
+  for (const char* key : {"scans", "candidates"}) {
+    const auto list = metrics.find(key);
+    if (list == metrics.end()) continue;
+    const bool valid = list->is_array() && std::all_of(list->begin(), list->end(),
+                                                       [](const json& i) { return i.is_object(); });
+    if (!valid)
+      throw InputError(fmt::format("{}: {}: expected a list of objects", path.string(), key));
+  }
+}
+
+json read_metrics(const fs::path& path) {
+  json metrics = read_json_object(path);
+  for (const char* key : {"task", "status"}) {
+    if (!metrics.contains(key) || !metrics[key].is_string()) {
+      throw InputError(fmt::format("{}: {}: expected a text", path.string(), key));
+    }
+  }
+  require_lists_of_objects(path, metrics);
+  return metrics;
+}
+
+double rounded(double value, double step) { return std::round(value / step) * step; }
+
+/// [[t, x, y, z, yaw], ...], thinned evenly, the last sample always kept.
+json trajectory_json(const fs::path& path) {
+  const auto samples = read_tum(path);
+  const std::size_t every = std::max<std::size_t>(
+      1, (samples.size() + kMaxTrajectorySamples - 1) / kMaxTrajectorySamples);
+  json list = json::array();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i % every != 0 && i + 1 != samples.size()) continue;
+    const TrajectorySample& s = samples[i];
+    list.push_back({rounded(s.time_s, 1e-3), rounded(s.p_world_m.x(), 1e-4),
+                    rounded(s.p_world_m.y(), 1e-4), rounded(s.p_world_m.z(), 1e-4),
+                    rounded(s.yaw_rad, 1e-4)});
+  }
+  return list;
+}
+
+json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// Cell indices and steps as base64 of little-endian u16 quadruples.
+json voxels_json(const fs::path& path) {
+  const VoxelMap map = read_voxels(path);
+  const PackedVoxels packed = pack_voxels(map, kMaxReportVoxels);
+  static_assert(sizeof(PackedVoxel) == 8);
+  const std::string_view bytes(reinterpret_cast<const char*>(packed.voxels.data()),
+                               packed.voxels.size() * sizeof(PackedVoxel));
+  return {{"cell_size_m", vector_json(map.cell_size_m)},
+          {"min_m", vector_json(map.box_m.min())},
+          {"max_m", vector_json(map.box_m.max())},
+          {"cells", {packed.cells.x(), packed.cells.y(), packed.cells.z()}},
+          {"total", packed.total},
+          {"surface", packed.surface},
+          {"kept", packed.kept},
+          {"data", base64(bytes)}};
+}
+
+/// Every n-th point, n such that there are not too many, quantised to 16 bits inside their box.
+json cloud_json(const fs::path& path) {
+  const std::vector<Eigen::Vector3f> all = read_ply(path).cloud.points;
+  if (all.empty()) return nullptr;
+  const std::size_t every = (all.size() - 1) / (kMaxReportVoxels / 2) + 1;
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < all.size(); i += every) points.push_back(all[i]);
+  Eigen::AlignedBox3f box;
+  for (const auto& p : points) box.extend(p);
+  const Eigen::Array3f scale = box.sizes().array().max(1e-6F) / 65535.0F;
+  std::vector<std::uint16_t> values;
+  values.reserve(3 * points.size());
+  for (const auto& p : points) {
+    const Eigen::Array3f q = ((p - box.min()).array() / scale).round();
+    for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<std::uint16_t>(q[axis]));
+  }
+  const std::string_view bytes(reinterpret_cast<const char*>(values.data()), 2 * values.size());
+  return {{"min_m", vector_json(box.min().cast<double>())},
+          {"scale_m", vector_json(scale.matrix().cast<double>())},
+          {"total", all.size()},
+          {"kept", points.size()},
+          {"data", base64(bytes)}};
+}
+
+/// The last picture of `frames/` by name, as a data URI; null if there is none.
+json last_frame(const fs::path& folder) {
+  fs::path last;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto extension = entry.path().extension();
+    const bool picture = extension == ".png" || extension == ".jpg";
+    const bool part = entry.path().stem().extension() == ".part";
+    if (picture && !part && (last.empty() || entry.path() > last)) last = entry.path();
+  }
+  if (last.empty()) return nullptr;
+  const std::string type = last.extension() == ".png" ? "png" : "jpeg";
+  return "data:image/" + type + ";base64," + base64(read_file(last));
+}
+
+json media_json(const fs::path& run_dir) {
+  if (fs::exists(run_dir / "video.mp4")) return {{"video", "video.mp4"}};
+  return {{"frame", last_frame(run_dir / "frames")}};
+}
+
+json run_json(const fs::path& run_dir) {
+  json run;
+  run["metrics"] = read_metrics(run_dir / "metrics.json");
+  run["manifest"] = read_json_object(run_dir / "manifest.json");
+  run["config"] = read_file(run_dir / "config.yaml");
+  const CsvTable steps = read_csv(run_dir / "steps.csv");
+  run["steps"] = {{"columns", steps.columns}, {"rows", steps.rows}};
+  run["trajectory"] = {{"truth", trajectory_json(run_dir / "trajectory.tum")},
+                       {"estimated", trajectory_json(run_dir / "trajectory_estimated.tum")}};
+  const fs::path voxels = run_dir / "voxels.bin";
+  const bool has_map = run["metrics"]["task"] == "next_best_view" || fs::exists(voxels);
+  run["voxels"] = has_map ? voxels_json(voxels) : json(nullptr);
+  const fs::path cloud = run_dir / "cloud.ply";
+  run["cloud"] = fs::exists(cloud) ? cloud_json(cloud) : json(nullptr);
+  run["media"] = media_json(run_dir);
+  return run;
+}
+
+/// JSON that may stand inside a <script> element: no '<' or '&' survives, so neither an end tag
+/// nor a comment can begin.
+std::string script_safe(const json& value) {
+  const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<' || c == '>' || c == '&') {
+      safe += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string html_escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&': safe += "&amp;"; break;
+      case '<': safe += "&lt;"; break;
+      case '>': safe += "&gt;"; break;
+      case '"': safe += "&quot;"; break;
+      case '\'': safe += "&#39;"; break;
+      default: safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string page_title(const json& metrics) {
+  const auto text = [&](const char* key) {
+    const auto found = metrics.find(key);
+    return found != metrics.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  return text("scene") + " · " + text("method") + " · Vantage";
+}
+
+struct Replacement {
+  std::string_view name;
+  std::string text;
+};
+
+/// Replaces each {{name}} of `page` in one pass: inserted text is never looked at again.
+std::string fill_template(std::string_view page, std::span<const Replacement> replacements) {
+  std::string filled;
+  for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
+    const std::size_t close = page.find("}}", open);
+    const std::string_view name = page.substr(open + 2, close - open - 2);
+    const auto match = std::find_if(replacements.begin(), replacements.end(),
+                                    [&](const Replacement& r) { return r.name == name; });
+    expects(match != replacements.end(), "every slot of the page template is known");
+    filled.append(page.substr(0, open)).append(match->text);
+    page.remove_prefix(close + 2);
+  }
+  return filled.append(page);
+}
+
+std::string scripts(std::initializer_list<std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text.append(embedded_asset(name)).append("\n");
+  return text;
+}
+
+}  // namespace
+
+void write_report(const fs::path& run_dir) {
+  const json run = run_json(run_dir);
+  const Replacement replacements[] = {
+      {"title", html_escaped(page_title(run["metrics"]))},
+      {"style", std::string(embedded_asset("style.css"))},
+      {"data", script_safe(run)},
+      {"script", scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "viewer.js",
+                          "figures.js", "page.js"})}};
+  write_file(run_dir / "report.html", fill_template(embedded_asset("page.html"), replacements));
+}
+
+}  // namespace vantage

@@ -1,0 +1,29 @@
+/// `vantage run`: an episode from its file to its run folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "src/episode/metrics.hpp"
+#include "src/episode/scenario.hpp"
+
+namespace vantage {
+
+struct RunOptions {
+  std::filesystem::path directory;  ///< empty: out/<episode>-<seed>
+  bool overwrite = false;
+  bool video = false;
+  std::vector<std::string> command;  ///< as typed, for the manifest
+};
+
+struct RunOutcome {
+  std::filesystem::path directory;
+  EpisodeStatus status = EpisodeStatus::completed;
+  std::string metrics;  ///< the JSON text
+};
+
+/// @throws OutputError, InputError, RendererError; DivergedError after the metrics were written.
+RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options);
+
+}  // namespace vantage

@@ -1,0 +1,55 @@
+#include "src/episode/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include "src/core/data_root.hpp"
+#include "src/core/yaml.hpp"
+
+namespace vantage {
+
+void MapOptions::check() const {
+  const double count = static_cast<double>(cells[0]) * cells[1] * cells[2];
+  if (count > 268435456.0) {
+    throw ConfigError(
+        fmt::format("cells: {} x {} x {} is more than 2^28 cells", cells[0], cells[1], cells[2]));
+  }
+}
+
+void Episode::check() const {
+  if (task != "next_best_view") {
+    throw ConfigError(fmt::format("task: unknown task '{}'; known: next_best_view", task));
+  }
+  if (robot.start_view >= candidates.positions) {
+    throw ConfigError(fmt::format("robot.start_view: {} is not below candidates.positions = {}",
+                                  robot.start_view, candidates.positions));
+  }
+}
+
+ResolvedEpisode load_episode(const std::filesystem::path& path,
+                             const std::vector<std::string>& overrides,
+                             std::optional<std::uint64_t> seed) {
+  ConfigNode root = read_yaml(path);
+  for (const auto& assignment : overrides) apply_override(root, assignment);
+  if (seed) apply_override(root, fmt::format("seed={}", *seed));
+  ResolvedEpisode resolved;
+  resolved.name = path.stem().string();
+  read_into(root, resolved.episode);
+  const auto key = [&](const char* name, const ConfigNode* node) {
+    return node == nullptr ? fmt::format("{}: {}", path.string(), name) : node->where();
+  };
+  const ConfigNode* robot = root.find("robot");
+  const ConfigNode* model = robot == nullptr ? nullptr : robot->find("model");
+  const auto base = path.parent_path();
+  resolved.scene = find_input(resolved.episode.scene, base, key("scene", root.find("scene")));
+  resolved.robot = find_input(resolved.episode.robot.model, base, key("robot.model", model));
+  return resolved;
+}
+
+std::string_view method_name(const Episode& episode) {
+  return std::holds_alternative<GreedyGain>(episode.choice) ? strategy_name_of(episode.gain)
+                                                            : strategy_name_of(episode.choice);
+}
+
+std::string episode_yaml(const Episode& episode) { return to_yaml(write_node(episode)); }
+
+}  // namespace vantage

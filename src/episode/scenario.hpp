@@ -1,0 +1,154 @@
+/// An episode: this struct is the YAML file, key by key.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planners/gain.hpp"
+#include "planners/path_planning.hpp"
+#include "planners/view_candidates.hpp"
+#include "planners/view_choice.hpp"
+#include "sim/base_controller.hpp"
+#include "sim/drive.hpp"
+#include "sim/laser.hpp"
+#include "sim/odometry.hpp"
+#include "sim/world.hpp"
+#include "src/belief/clutter_hazard.hpp"
+#include "src/belief/floor_map.hpp"
+#include "src/belief/free_space.hpp"
+#include "src/belief/hole_filling.hpp"
+#include "src/belief/sensor_model.hpp"
+#include "src/core/fields.hpp"
+#include "src/perception/registration.hpp"
+#include "src/perception/table_extraction.hpp"
+
+namespace vantage {
+
+struct RobotOptions {
+  std::string model = "models/robots/pr2/pr2.xml";  ///< MJCF of the robot
+  int start_view = 0;    ///< position on the ring of views where the robot stands at the start
+  double torso_m = 0.0;  ///< torso lift, 0-0.33 m; higher looks over more objects
+  void fields(auto&& f) {
+    f("model", model);
+    f("start_view", start_view, at_least(0));
+    f("torso_m", torso_m, between(0.0, 0.33));
+  }
+};
+
+/// The region of interest and its grid.
+struct MapOptions {
+  std::array<double, 3> centre_m{0.0, 0.0, 0.982};  ///< world
+  std::array<double, 3> size_m{1.0, 1.0, 0.504};    ///< m, > 0
+  std::array<int, 3> cells{129, 129, 65};           ///< finer maps cost time in proportion
+  void fields(auto&& f) {
+    f("centre_m", centre_m);
+    f("size_m", size_m, above(0.0));
+    f("cells", cells, between(1, 4096));
+  }
+  void check() const;  ///< at most 2^28 cells
+};
+
+struct MetricsOptions {
+  int tolerance_cells =
+      1;  ///< cells an occupied cell may be off the true surface and still be right
+  void fields(auto&& f) { f("tolerance_cells", tolerance_cells, between(0, 10)); }
+};
+
+struct RecordingOptions {
+  double video_speed = 10.0;  ///< simulated seconds per second of video
+  int video_fps = 25;
+  int height_px = 720;  ///< of the video; its width is 16:9
+  void fields(auto&& f) {
+    f("video_speed", video_speed, above(0.0));
+    f("video_fps", video_fps, between(1, 120));
+    f("height_px", height_px, between(120, 2160));
+  }
+};
+
+struct Episode {
+  std::string task = "next_best_view";
+  std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF; any scene with a table
+  std::uint64_t seed = 1;                                    ///< of every random stream
+  int scans = 10;                                            ///< the first one included
+  int threads = 2;                                           ///< results do not depend on it
+  RobotOptions robot;
+  WorldOptions simulation;
+  LaserOptions laser;
+  PlanarScannerOptions base_scanner;
+  OdometryOptions odometry;
+  RegistrationOptions registration;
+  TableOptions table;
+  ObjectCropOptions objects;
+  MapOptions map;
+  InverseSensorModel sensor_model;
+  FreeSpaceUpdate free_space;
+  HoleFilling hole_filling;
+  ClutterHazardOptions clutter_hazard;
+  RingOfViews candidates;
+  Gain gain = AdaptiveGain{};
+  ViewChoice choice = GreedyGain{};
+  FloorMapOptions floor_map;
+  NavigationOptions navigation;
+  DriveOptions drive;
+  MetricsOptions metrics;
+  RecordingOptions recording;
+
+  void fields(auto&& f) {
+    f("task", task);
+    f("scene", scene);
+    f("seed", seed);
+    f("scans", scans, between(1, 10000));
+    f("threads", threads, between(1, 256));
+    f("robot", robot);
+    f("simulation", simulation);
+    f("laser", laser);
+    f("base_scanner", base_scanner);
+    f("odometry", odometry);
+    f("registration", registration);
+    f("table", table);
+    f("objects", objects);
+    f("map", map);
+    f("sensor_model", sensor_model);
+    f("free_space", free_space);
+    f("hole_filling", hole_filling);
+    f("clutter_hazard", clutter_hazard);
+    f("candidates", candidates);
+    f("gain", gain);
+    f("choice", choice);
+    f("floor_map", floor_map);
+    f("navigation", navigation);
+    f("drive", drive);
+    f("metrics", metrics);
+    f("recording", recording);
+  }
+  void check() const;  ///< what concerns more than one part
+
+  [[nodiscard]] GridFrame grid_frame() const {
+    return make_grid_frame(map.centre_m, map.size_m, map.cells);
+  }
+};
+
+/// An episode as it will run: defaults filled in, overrides applied, files found.
+struct ResolvedEpisode {
+  Episode episode;
+  std::string name;             ///< of the file, without extension
+  std::filesystem::path scene;  ///< found
+  std::filesystem::path robot;  ///< found
+};
+
+/// @throws ConfigError or InputError naming file, line, key and value.
+ResolvedEpisode load_episode(const std::filesystem::path& path,
+                             const std::vector<std::string>& overrides,
+                             std::optional<std::uint64_t> seed = std::nullopt);
+
+/// "adaptive" for a greedy choice by that gain, "random" or "oracle" for a choice that looks at
+/// none.
+std::string_view method_name(const Episode& episode);
+
+std::string episode_yaml(const Episode& episode);
+
+}  // namespace vantage

@@ -1,0 +1,96 @@
+#include "src/episode/tabletop_belief.hpp"
+
+#include <fmt/format.h>
+
+#include "src/perception/registration.hpp"
+
+namespace vantage {
+namespace {
+
+/// Both scanners' returns in the base frame: the planar one sees the walls, which fix the pose
+/// well.
+PointCloud cloud_of(const TabletopObservation& observation) {
+  PointCloud cloud = transform(to_cloud(observation.scan), observation.T_base_laser);
+  append(cloud, to_cloud(observation.base_scan, observation.base_scan_height_m));
+  return cloud;
+}
+
+}  // namespace
+
+TabletopBelief::TabletopBelief(const Episode& episode)
+    : episode_(episode),
+      grid_(episode.grid_frame()),
+      filled_(grid_),
+      hazard_(episode.clutter_hazard, grid_.frame.cells.z()),
+      sampling_(Rng::stream(episode.seed, "table sampling")) {}
+
+BeliefUpdate TabletopBelief::update(const TabletopObservation& observation) {
+  BeliefUpdate report;
+  report.T_world_base = register_pose(cloud_of(observation), observation.T_base_laser.translation(),
+                                      observation.T_world_base_odometry, report);
+  const Pose T_world_base = lift(report.T_world_base);
+  const Pose T_world_sensor = T_world_base * observation.T_base_laser;
+
+  const PointCloud laser_world = transform(to_cloud(observation.scan), T_world_sensor);
+  extract_table(laser_world);
+  const PointCloud objects = take_objects(laser_world);
+  append(object_cloud_, objects);
+
+  hazard_.observe(grid_, observation.scan, T_world_sensor);
+  add_measurements(grid_, objects.points, episode_.sensor_model);
+  report.freed_cells =
+      carve_free_space(grid_, observation.scan, T_world_sensor, episode_.free_space);
+  auto filling = fill_holes(grid_, episode_.hole_filling);
+  report.filled_cells = filling.filled_cells;
+  filled_ = std::move(filling.grid);
+  return report;
+}
+
+Pose2 TabletopBelief::localise(const PlanarScan& scan, double scanner_height_m,
+                               const Pose2& guess) {
+  BeliefUpdate ignored;
+  return register_pose(to_cloud(scan, scanner_height_m),
+                       lift(scan.T_base_sensor, scanner_height_m).translation(), guess, ignored);
+}
+
+Pose2 TabletopBelief::register_pose(const PointCloud& scan_base,
+                                    const Eigen::Vector3d& p_viewpoint_base, const Pose2& guess,
+                                    BeliefUpdate& report) {
+  const PointCloud prepared = prepare_scan(scan_base, p_viewpoint_base, episode_.registration);
+  Pose2 pose = guess;
+  if (!map_cloud_.empty()) {
+    const auto result = register_scan(prepared, map_cloud_, guess, episode_.registration);
+    report.registered = result.converged;
+    report.registration_note = result.reason;
+    pose = result.T_world_base;
+  }
+  append(map_cloud_, transform(prepared, lift(pose)));
+  return pose;
+}
+
+void TabletopBelief::extract_table(const PointCloud& cloud_world) {
+  auto found = find_table(cloud_world, episode_.table, sampling_);
+  if (!table_ && !found.table) {
+    throw InputError(fmt::format("scene: {}: no table in the region of interest: {}",
+                                 episode_.scene, found.reason));
+  }
+  if (!table_) {
+    table_ = std::move(found.table);
+  } else if (found.table) {
+    merge_table(*table_, *found.table, episode_.table.max_step_m);
+  }
+}
+
+/// Points above the table's hull as far as it has been seen. The hull grows with every scan, so
+/// points of the region that are not above it yet are kept for the next.
+PointCloud TabletopBelief::take_objects(const PointCloud& cloud_world) {
+  append(unplaced_, crop(cloud_world, grid_.frame.box()));
+  const PointCloud objects = objects_on_table(unplaced_, *table_, episode_.objects);
+  const auto placed = [&](const Eigen::Vector3f& p) {
+    return inside_hull(table_->hull, p.head<2>().cast<double>(), episode_.objects.hull_margin_m);
+  };
+  std::erase_if(unplaced_.points, placed);
+  return objects;
+}
+
+}  // namespace vantage

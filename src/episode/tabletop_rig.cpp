@@ -1,0 +1,109 @@
+#include "src/episode/tabletop_rig.hpp"
+
+#include <cmath>
+
+#include "src/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+/// Time for the torso and the tilt joint to come to rest before and between scans.
+constexpr int kSettleTicks = 20;
+constexpr int kMostTicksToReach = 400;
+constexpr double kTiltReached_rad = 0.01;
+
+/// The robot, standing where the episode starts: at a position on the ring of views.
+Pr2 placed_robot(World& world, const Episode& episode) {
+  Pr2 robot(world.model());
+  RingOfViews ring = episode.candidates;
+  ring.yaw_offsets_rad = {0.0};
+  const auto& centre = episode.map.centre_m;
+  const auto views = ring_of_views(ring, {centre[0], centre[1], centre[2]});
+  const auto& start = views[static_cast<std::size_t>(episode.robot.start_view)];
+  robot.place(world, robot.base_for_laser(start.T_world_sensor), episode.robot.torso_m);
+  return robot;
+}
+
+const GeomFilter kWithoutRobot{.exclude_body_prefix = "robot/", .max_group = 5};
+
+}  // namespace
+
+TabletopRig::TabletopRig(const ResolvedEpisode& resolved)
+    : episode_(resolved.episode),
+      world_({resolved.scene, resolved.robot}, resolved.episode.simulation),
+      robot_(placed_robot(world_, episode_)),
+      geometry_(world_.model(), world_.snapshot()),
+      geometry_without_robot_(world_.model(), world_.snapshot(), kWithoutRobot),
+      odometry_(episode_.odometry, Rng::stream(episode_.seed, "odometry"),
+                robot_.T_world_base(world_)),
+      laser_noise_(Rng::stream(episode_.seed, "laser")),
+      scanner_noise_(Rng::stream(episode_.seed, "base scanner")) {
+  robot_.command_torso(world_, episode_.robot.torso_m);
+}
+
+void TabletopRig::tick() {
+  world_.advance_tick();
+  odometry_.update(robot_.T_world_base(world_));
+  collisions_.update(robot_, world_);
+}
+
+void TabletopRig::move_laser_to(double tilt_rad) {
+  robot_.command_laser_tilt(world_, tilt_rad);
+  for (int i = 0; i < kMostTicksToReach; ++i) {
+    if (i >= kSettleTicks &&
+        std::abs(robot_.laser_tilt_rad(world_) - tilt_rad) < kTiltReached_rad) {
+      return;
+    }
+    tick();
+  }
+}
+
+TabletopObservation TabletopRig::observe() {
+  const LaserOptions& laser = episode_.laser;
+  robot_.command_twist(world_, {});
+  move_laser_to(laser.tilt_min_rad);
+  ScanBuilder builder(laser);
+  const double rate = (laser.tilt_max_rad - laser.tilt_min_rad) / laser.scan_duration_s;
+  const int ticks =
+      static_cast<int>(std::ceil(laser.scan_duration_s / world_.options().control_period_s));
+  for (int i = 0; i <= ticks; ++i) {
+    const double target =
+        laser.tilt_min_rad + rate * world_.options().control_period_s * static_cast<double>(i);
+    robot_.command_laser_tilt(world_, std::min(target, laser.tilt_max_rad));
+    tick();
+    geometry_.update(world_.snapshot());
+    builder.add_line(geometry_, robot_.T_world_laser(world_), robot_.laser_tilt_rad(world_),
+                     robot_.laser_body_id(), laser_noise_);
+  }
+  return {builder.finish(), robot_.T_base_laser_mount(world_), look_around(),
+          robot_.base_scan_height_m(), odometry_.estimate()};
+}
+
+PlanarScan TabletopRig::look_around() {
+  geometry_.update(world_.snapshot());
+  return planar_scan(geometry_, robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
+                     robot_.base_body_id(), episode_.base_scanner, scanner_noise_);
+}
+
+DriveResult TabletopRig::drive_along(std::span<const Pose2> path,
+                                     const std::function<void()>& on_tick) {
+  const DriveResult result =
+      drive(world_, robot_, odometry_, path, episode_.drive, [&](World&, const Pose2&) {
+        on_tick();
+        return true;
+      });
+  drive_collisions_ += result.collisions;
+  return result;
+}
+
+Pose2 TabletopRig::base_for_view(const Pose& T_world_laser) const {
+  return robot_.base_for_laser(T_world_laser);
+}
+
+RigTruth TabletopRig::truth() const {
+  const Pose2 base = robot_.T_world_base(world_);
+  return {base, lift(base) * robot_.T_base_laser_mount(world_),
+          collisions_.count() + drive_collisions_};
+}
+
+}  // namespace vantage

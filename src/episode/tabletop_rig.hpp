@@ -1,0 +1,71 @@
+/// The robot in its world: what it can command and what its sensors return. Truth stays behind
+/// `truth()`, which metrics alone may call.
+#pragma once
+
+#include <functional>
+
+#include "planners/path_planning.hpp"
+#include "sim/drive.hpp"
+#include "sim/laser.hpp"
+#include "sim/odometry.hpp"
+#include "sim/pr2.hpp"
+#include "sim/ray_scene.hpp"
+#include "sim/world.hpp"
+#include "src/core/rng.hpp"
+#include "src/episode/scenario.hpp"
+
+namespace vantage {
+
+/// What the robot knows after standing still for a scan.
+struct TabletopObservation {
+  RangeScan scan;                   ///< tilting laser
+  Pose T_base_laser;                ///< laser frame at tilt 0
+  PlanarScan base_scan;             ///< planar scanner near the floor
+  double base_scan_height_m = 0.0;  ///< of that scanner above the floor
+  Pose2 T_world_base_odometry;      ///< dead reckoning since the last correction
+};
+
+struct RigTruth {
+  Pose2 T_world_base;
+  Pose T_world_laser;  ///< at tilt 0
+  int collisions = 0;
+};
+
+class TabletopRig {
+ public:
+  explicit TabletopRig(const ResolvedEpisode& resolved);
+
+  /// Sweeps the tilting laser through its range while the base stands.
+  TabletopObservation observe();
+  /// A single reading of the planar scanner, at the present place.
+  PlanarScan look_around();
+  /// `on_tick` is called while driving; truth is not passed on.
+  DriveResult drive_along(std::span<const Pose2> path, const std::function<void()>& on_tick);
+  void correct_pose(const Pose2& T_world_base) { odometry_.correct(T_world_base); }
+  [[nodiscard]] Pose2 estimated_base() const { return odometry_.estimate(); }
+  [[nodiscard]] Pose2 base_for_view(const Pose& T_world_laser) const;
+  [[nodiscard]] FieldOfView view_field() const { return field_of_view(episode_.laser); }
+
+  [[nodiscard]] RigTruth truth() const;
+  [[nodiscard]] const RayScene& true_geometry() const { return geometry_without_robot_; }
+  World& world() { return world_; }
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const Pr2& robot() const { return robot_; }
+
+ private:
+  void tick();
+  void move_laser_to(double tilt_rad);
+
+  Episode episode_;
+  World world_;
+  Pr2 robot_;
+  RayScene geometry_;
+  RayScene geometry_without_robot_;
+  Odometry odometry_;
+  CollisionCounter collisions_;  ///< while standing; drives count their own
+  int drive_collisions_ = 0;
+  Rng laser_noise_;
+  Rng scanner_noise_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,42 @@
+/// What a range sensor sweeps while it stands still, in its own frame (x forward, y left, z up).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "src/core/fields.hpp"
+
+namespace vantage {
+
+/// A direction as a tilting line scanner makes it: the scan plane is tilted by `tilt_rad` about y
+/// (positive looks down), the beam turned by `azimuth_rad` inside that plane.
+struct BeamAngles {
+  double azimuth_rad = 0.0;
+  double tilt_rad = 0.0;
+};
+/// Unit vector (cos t cos a, sin a, -sin t cos a).
+Eigen::Vector3d beam_direction(const BeamAngles& angles);
+/// The pair of angles with |azimuth| <= pi / 2.
+BeamAngles beam_angles(const Eigen::Vector3d& p_sensor);
+/// The other pair with the same direction: a scanner wider than pi sees behind itself through it.
+BeamAngles turned_over(const BeamAngles& angles);
+
+/// Sector of a tilting laser. A camera on a turning head is the same with other limits.
+struct FieldOfView {
+  double half_width_rad = 0.1309;  ///< azimuth limit, (0, pi]; higher sees more per scan
+  double tilt_min_rad = -0.30;     ///< highest line of sight (negative looks up)
+  double tilt_max_rad = 0.75;      ///< lowest line of sight
+  double range_min_m = 0.08;       ///< nearer returns are dropped
+  double range_max_m = 10.0;       ///< farther surfaces give no return
+  void fields(auto&& f) {
+    f("half_width_rad", half_width_rad, Range{0.0, 3.1416, true});
+    f("tilt_min_rad", tilt_min_rad, between(-1.5, 1.5));
+    f("tilt_max_rad", tilt_max_rad, between(-1.5, 1.5));
+    f("range_min_m", range_min_m, at_least(0.0));
+    f("range_max_m", range_max_m, above(0.0));
+  }
+  void check() const;  ///< minima below maxima
+
+  [[nodiscard]] bool contains(const Eigen::Vector3d& p_sensor) const;
+};
+
+}  // namespace vantage

@@ -1,0 +1,114 @@
+/// Where the cells of a regular 3-D grid lie in the world, and the walk of a ray through them.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "src/core/error.hpp"
+
+namespace vantage {
+
+/// A box of cells, axis-aligned in the world. Cells need not be cubes. Linear index: x fastest.
+struct GridFrame {
+  Eigen::Vector3d min_corner_m = Eigen::Vector3d::Zero();  ///< world
+  Eigen::Vector3d cell_size_m = Eigen::Vector3d::Ones();
+  Eigen::Array3i cells = Eigen::Array3i::Ones();
+
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(cells.x()) * static_cast<std::size_t>(cells.y()) *
+           static_cast<std::size_t>(cells.z());
+  }
+  [[nodiscard]] bool contains(const Eigen::Array3i& cell) const {
+    return (cell >= 0).all() && (cell < cells).all();
+  }
+  [[nodiscard]] std::size_t index(const Eigen::Array3i& cell) const {
+    return (static_cast<std::size_t>(cell.z()) * static_cast<std::size_t>(cells.y()) +
+            static_cast<std::size_t>(cell.y())) *
+               static_cast<std::size_t>(cells.x()) +
+           static_cast<std::size_t>(cell.x());
+  }
+  [[nodiscard]] Eigen::Array3i cell(std::size_t index) const {
+    const auto nx = static_cast<std::size_t>(cells.x());
+    const auto ny = static_cast<std::size_t>(cells.y());
+    return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny),
+            static_cast<int>(index / (nx * ny))};
+  }
+  /// The cell a world point lies in; may be outside the grid.
+  [[nodiscard]] Eigen::Array3i cell_at(const Eigen::Vector3d& p_world) const {
+    return ((p_world - min_corner_m).array() / cell_size_m.array()).floor().cast<int>();
+  }
+  [[nodiscard]] Eigen::Vector3d centre(const Eigen::Array3i& cell) const {
+    return min_corner_m + ((cell.cast<double>() + 0.5) * cell_size_m.array()).matrix();
+  }
+  [[nodiscard]] Eigen::AlignedBox3d box() const {
+    return {min_corner_m, min_corner_m + (cells.cast<double>() * cell_size_m.array()).matrix()};
+  }
+};
+
+/// The grid of `cells` that fills the box round `centre_m` with edge lengths `size_m`.
+GridFrame make_grid_frame(const std::array<double, 3>& centre_m,
+                          const std::array<double, 3>& size_m, const std::array<int, 3>& cells);
+
+/// The part [enter, leave] of the segment p0 + t (p1 - p0), t in [0, 1], inside `box`; empty if
+/// enter > leave.
+struct SegmentClip {
+  double enter = 0.0;
+  double leave = 1.0;
+  [[nodiscard]] bool empty() const { return enter > leave; }
+};
+SegmentClip clip_segment(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p0,
+                         const Eigen::Vector3d& p1);
+
+/// Calls `visit(cell index)` for each grid cell the segment from `p_from` to `p_to` passes, in
+/// order, the cell of `p_to` included; stops early when `visit` returns false. Parts of the segment
+/// outside the grid are skipped. [AmanatidesWoo1987]
+/// @return false if `visit` stopped the walk.
+template <class Visit>
+bool walk_ray(const GridFrame& grid, const Eigen::Vector3d& p_from, const Eigen::Vector3d& p_to,
+              Visit&& visit) {
+  const SegmentClip clip = clip_segment(grid.box(), p_from, p_to);
+  if (clip.empty()) return true;
+  const Eigen::Vector3d d = p_to - p_from;
+  const Eigen::Vector3d p_start = p_from + clip.enter * d;
+  // Not p_from + d: rounding could end the walk in a neighbour of the cell of p_to.
+  const Eigen::Vector3d p_end = clip.leave < 1.0 ? Eigen::Vector3d(p_from + clip.leave * d) : p_to;
+  const Eigen::Array3i last_cell = grid.cells - 1;
+  Eigen::Array3i cell = grid.cell_at(p_start).max(0).min(last_cell);
+  const Eigen::Array3i goal = grid.cell_at(p_end).max(0).min(last_cell);
+
+  std::array<int, 3> step{};
+  std::array<double, 3> t_next{};
+  std::array<double, 3> t_delta{};
+  int remaining = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    step[axis] = goal[axis] > cell[axis] ? 1 : (goal[axis] < cell[axis] ? -1 : 0);
+    remaining += std::abs(goal[axis] - cell[axis]);
+    if (step[axis] == 0) {
+      t_next[axis] = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    const double boundary =
+        grid.min_corner_m[axis] + (cell[axis] + (step[axis] > 0 ? 1 : 0)) * grid.cell_size_m[axis];
+    t_next[axis] = (boundary - p_from[axis]) / d[axis];
+    t_delta[axis] = grid.cell_size_m[axis] / std::abs(d[axis]);
+  }
+  const auto nx = static_cast<std::ptrdiff_t>(grid.cells.x());
+  const std::array<std::ptrdiff_t, 3> stride{1, nx, nx * grid.cells.y()};
+  auto index = static_cast<std::ptrdiff_t>(grid.index(cell));
+  for (; remaining > 0; --remaining) {
+    if (!visit(static_cast<std::size_t>(index))) return false;
+    int axis = t_next[0] < t_next[1] ? 0 : 1;
+    if (t_next[2] < t_next[axis]) axis = 2;
+    cell[axis] += step[axis];
+    index += step[axis] * stride[static_cast<std::size_t>(axis)];
+    t_next[axis] = cell[axis] == goal[axis] ? std::numeric_limits<double>::infinity()
+                                            : t_next[axis] + t_delta[axis];
+  }
+  return visit(static_cast<std::size_t>(index));
+}
+
+}  // namespace vantage

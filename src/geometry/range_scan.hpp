@@ -1,0 +1,47 @@
+/// What the sensors hand to perception: measurements only, no truth.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/geometry/field_of_view.hpp"
+#include "src/geometry/pose.hpp"
+
+namespace vantage {
+
+/// A 3-D scan of a tilting laser that stood still, organised in lines of equal tilt.
+struct RangeScan {
+  std::vector<double> tilt_rad;     ///< per line, ascending
+  std::vector<double> azimuth_rad;  ///< per beam in a line, ascending
+  std::vector<float> range_m;       ///< line-major; +inf: no return within range; NaN: invalid
+  FieldOfView field_of_view;        ///< of the sensor that made it
+
+  [[nodiscard]] std::size_t lines() const { return tilt_rad.size(); }
+  [[nodiscard]] std::size_t beams() const { return azimuth_rad.size(); }
+  [[nodiscard]] float range(std::size_t line, std::size_t beam) const {
+    return range_m[line * beams() + beam];
+  }
+  /// The shortest of the up to four beams round a direction, i.e. how far the scan certainly saw
+  /// there; NaN outside the swept sector or next to an invalid beam.
+  [[nodiscard]] float swept_range(const BeamAngles& angles) const;
+};
+
+/// One line of a planar scanner near the floor, for driving.
+struct PlanarScan {
+  Pose2 T_base_sensor;
+  std::vector<double> azimuth_rad;
+  std::vector<float> range_m;  ///< +inf: no return within range
+  double range_max_m = 0.0;
+};
+
+/// Images of a pinhole camera, row-major, top row first.
+struct CameraImages {
+  int width_px = 0;
+  int height_px = 0;
+  double focal_px = 0.0;          ///< square pixels; centre at (width - 1) / 2, (height - 1) / 2
+  std::vector<std::uint8_t> rgb;  ///< 3 bytes a pixel
+  std::vector<float> depth_m;     ///< along the optical axis; 0: no measurement
+  std::vector<int> segmentation;  ///< body id, -1 nothing; truth: metrics and training only
+};
+
+}  // namespace vantage

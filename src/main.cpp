@@ -1,0 +1,53 @@
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <functional>
+
+#include "src/commands.hpp"
+#include "src/core/error.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/manifest.hpp"
+
+namespace {
+
+int exit_code(vantage::ExitCode code) { return static_cast<int>(code); }
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"Vantage: robots that choose their next action by how much they will learn from it"};
+  app.name("vantage");
+  app.require_subcommand(0, 1);
+  app.set_version_flag("--version", vantage::version_text());
+  std::function<vantage::ExitCode()> chosen;
+  for (const vantage::Command& command : vantage::commands()) {
+    CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.help));
+    auto action = command.declare(*sub);
+    sub->callback([&chosen, action] { chosen = action; });
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "error: %s\nvantage --help shows how it is used\n", error.what());
+    return exit_code(vantage::ExitCode::usage);
+  }
+  if (!chosen) {
+    std::fputs(app.help().c_str(), stderr);
+    return exit_code(vantage::ExitCode::usage);
+  }
+  return exit_code(chosen());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  vantage::remember_command_line(argc, argv);
+  try {
+    return run_command_line(argc, argv);
+  } catch (const vantage::Error& error) {
+    vantage::log_error(error.what());
+    return exit_code(error.code());
+  } catch (const std::exception& error) {
+    vantage::log_error(std::string("internal error: ") + error.what());
+    return exit_code(vantage::ExitCode::internal);
+  }
+}

@@ -1,0 +1,97 @@
+/// The table top, and what stands on it.  [Potthast2016, 3.3.1]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/core/fields.hpp"
+#include "src/core/rng.hpp"
+#include "src/perception/point_cloud.hpp"
+
+namespace vantage {
+
+struct TableOptions {
+  std::array<double, 2> region_centre_m{0.0, 0.0};  ///< world x, y of the region of interest
+  std::array<double, 2> region_size_m{2.0, 2.0};    ///< its edge lengths
+  double min_height_m = 0.4;                        ///< lowest table top; must be above the floor
+  double max_height_m = 1.2;                        ///< highest table top
+  double max_tilt_rad = 0.05;         ///< from horizontal; higher accepts sloping surfaces
+  double inlier_distance_m = 0.015;   ///< of a point from the plane; higher bears more noise
+  double max_normal_angle_rad = 0.4;  ///< of a point's normal from vertical, where it has one
+  double cell_m = 0.02;               ///< points are thinned to this, so that counts are areas
+  double min_area_m2 = 0.04;          ///< of the plane's points; smaller planes are no table
+  int hypotheses = 200;               ///< random planes tried; higher is surer and slower
+  double max_step_m = 0.03;           ///< height difference of two views of one table
+  void fields(auto&& f) {
+    f("region_centre_m", region_centre_m);
+    f("region_size_m", region_size_m, above(0.0));
+    f("min_height_m", min_height_m);
+    f("max_height_m", max_height_m);
+    f("max_tilt_rad", max_tilt_rad, between(0.0, 0.8));
+    f("inlier_distance_m", inlier_distance_m, above(0.0));
+    f("max_normal_angle_rad", max_normal_angle_rad, between(0.0, 1.6));
+    f("cell_m", cell_m, above(0.0));
+    f("min_area_m2", min_area_m2, above(0.0));
+    f("hypotheses", hypotheses, at_least(1));
+    f("max_step_m", max_step_m, above(0.0));
+  }
+  void check() const;  ///< min_height_m below max_height_m
+};
+
+/// A nearly horizontal plane with the moments of its points, so that it can be refitted exactly
+/// when more of the table is seen.
+struct TablePlane {
+  double height_m = 0.0;                                 ///< world z at the centroid
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< unit, upwards
+  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero();  ///< world, on the plane
+  Eigen::Matrix3d scatter_m2 = Eigen::Matrix3d::Zero();  ///< sum of (p - centroid)(p - centroid)^T
+  std::vector<Eigen::Vector2d> hull;                     ///< convex, counter-clockwise, world x, y
+  std::size_t inliers = 0;                               ///< thinned points
+
+  /// Height of `p_world` above the plane, along the normal.
+  [[nodiscard]] double height_above(const Eigen::Vector3d& p_world) const {
+    return normal.dot(p_world - centroid_m);
+  }
+};
+
+struct TableSearch {
+  std::optional<TablePlane> table;
+  std::string reason;  ///< why there is none; empty when found
+};
+
+/// The largest horizontal plane inside the region and the height band, by sample consensus
+/// [FischlerBolles1981] and a least-squares fit of its inliers. `world`: points in the world frame.
+TableSearch find_table(const PointCloud& world, const TableOptions& options, Rng& rng);
+
+/// Joins what two scans saw of one table: exact least-squares plane of both, hull of both hulls.
+/// @return false, and `table` unchanged, if `seen` differs in height by more than `max_step_m`.
+bool merge_table(TablePlane& table, const TablePlane& seen, double max_step_m);
+
+struct ObjectCropOptions {
+  double min_height_m = 0.010;  ///< above the plane; higher drops low objects and more noise
+  double max_height_m = 0.60;   ///< above the plane
+  double hull_margin_m = 0.0;   ///< grows the hull (negative shrinks it)
+  void fields(auto&& f) {
+    f("min_height_m", min_height_m, at_least(0.0));
+    f("max_height_m", max_height_m, above(0.0));
+    f("hull_margin_m", hull_margin_m, between(-0.5, 0.5));
+  }
+  void check() const;  ///< min_height_m below max_height_m
+};
+
+/// The points above the table and inside its hull, in their order.
+PointCloud objects_on_table(const PointCloud& world, const TablePlane& table,
+                            const ObjectCropOptions& options = {});
+
+/// Counter-clockwise, without collinear points [Andrew1979]; fewer than 3 points if degenerate.
+std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points);
+/// Whether `p` lies in the convex `hull` moved outwards by `margin_m`; never for a degenerate hull.
+bool inside_hull(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& p,
+                 double margin_m = 0.0);
+
+}  // namespace vantage

@@ -1,0 +1,125 @@
+#include "src/belief/clutter_hazard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/belief/voxel_scene.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::parse;
+
+constexpr float kNoReturn = std::numeric_limits<float>::infinity();
+
+/// One beam along a row of 1 m cells, from its left edge.
+struct Counted {
+  double crossings;
+  double hits;
+  bool operator==(const Counted&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const Counted& c) {
+  return out << c.crossings << " crossings, " << c.hits << " hits";
+}
+Counted beam(const std::string& row, float range_m, double range_max_m = 100.0) {
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  scan.range_m = {range_m};
+  scan.field_of_view.range_max_m = range_max_m;
+  ClutterHazard hazard({.layers = 1}, 1);
+  hazard.observe(parse({row}), scan, make_pose({0.0, 0.5, 0.0}, 0.0));
+  return {hazard.crossings(0), hazard.hits(0)};
+}
+
+TEST(ClutterHazard, CountsABeam) {
+  EXPECT_EQ(beam("..????", 3.5F), (Counted{2, 1})) << "stopped in the second unobserved cell";
+  EXPECT_EQ(beam("..????", 2.5F), (Counted{1, 1})) << "stopped in the first";
+  EXPECT_EQ(beam("..????", 1.5F), (Counted{0, 0})) << "ended in a free cell";
+  EXPECT_EQ(beam("..??##", 4.5F), (Counted{2, 0})) << "ended in a cell already occupied";
+  EXPECT_EQ(beam("..?#??", 5.5F), (Counted{1, 0})) << "met a known surface on the way";
+  EXPECT_EQ(beam("??..??", 4.5F), (Counted{3, 1})) << "free cells between do not count";
+}
+
+TEST(ClutterHazard, BeamWithoutReturnCrossesAll) {
+  EXPECT_EQ(beam("..????", kNoReturn), (Counted{4, 0})) << "to the grid's end";
+  EXPECT_EQ(beam("..????", kNoReturn, 4.5), (Counted{3, 0})) << "to the range";
+  EXPECT_EQ(beam("..????", 50.0F), (Counted{4, 0})) << "stopped outside the grid";
+}
+
+TEST(ClutterHazard, InvalidBeamsAreIgnored) {
+  EXPECT_EQ(beam("??????", std::numeric_limits<float>::quiet_NaN()), (Counted{0, 0}));
+}
+
+TEST(ClutterHazard, StartsAtThePrior) {
+  const ClutterHazard hazard({.prior_hazard = 0.02}, 65);
+  EXPECT_DOUBLE_EQ(hazard.global_transmission(), 0.98);
+  ASSERT_EQ(hazard.transmission_per_slice().size(), 65U);
+  for (const double t : hazard.transmission_per_slice()) EXPECT_DOUBLE_EQ(t, 0.98);
+}
+
+TEST(ClutterHazard, LayersDivideTheSlicesEvenly) {
+  const ClutterHazard hazard({.layers = 13}, 65);
+  for (int slice = 0; slice < 65; ++slice) EXPECT_EQ(hazard.layer_of(slice), slice / 5);
+  const ClutterHazard more_layers_than_slices({.layers = 13}, 4);
+  EXPECT_EQ(more_layers_than_slices.transmission_per_slice().size(), 4U);
+}
+
+TEST(ClutterHazard, ShrinksALayerTowardsTheGlobalRate) {
+  GridFrame frame;
+  frame.cells = {10, 1, 2};
+  const OccupancyGrid before(frame);
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  const ClutterHazardOptions options{
+      .layers = 2, .prior_crossings = 30.0, .prior_hazard = 0.1, .prior_weight = 10.0};
+  ClutterHazard hazard(options, 2);
+  scan.range_m = {4.5F};  // upper layer: 5 crossings, 1 hit
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 1.5}, 0.0));
+  scan.range_m = {kNoReturn};  // lower layer: 10 crossings, no hit
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 0.5}, 0.0));
+  const double global = (1.0 + 10.0 * 0.1) / (15.0 + 10.0);
+  EXPECT_DOUBLE_EQ(hazard.global_hazard(), global);
+  EXPECT_DOUBLE_EQ(hazard.hazard(0), (0.0 + 30.0 * global) / (10.0 + 30.0));
+  EXPECT_DOUBLE_EQ(hazard.hazard(1), (1.0 + 30.0 * global) / (5.0 + 30.0));
+  const auto transmission = hazard.transmission_per_slice();
+  EXPECT_DOUBLE_EQ(transmission[0], 1.0 - hazard.hazard(0));
+  EXPECT_DOUBLE_EQ(transmission[1], 1.0 - hazard.hazard(1));
+}
+
+TEST(ClutterHazard, RejectsOptionsOutOfRange) {
+  EXPECT_THROW(ClutterHazard({.layers = 0}, 4), ConfigError);
+  EXPECT_THROW(ClutterHazard({.prior_hazard = 0.0}, 4), ConfigError);
+}
+
+// Voxels occupied at random, more of them low than high: the hazards come back.
+TEST(ClutterHazard, RecoversAKnownHazardPerLayer) {
+  constexpr int slices = 12;
+  constexpr double low = 0.05;
+  constexpr double high = 0.01;
+  const GridFrame frame = make_grid_frame({0, 0, 0}, {60, 60, slices}, {60, 60, slices});
+  const FieldOfView view{.half_width_rad = 0.6,
+                         .tilt_min_rad = -0.12,
+                         .tilt_max_rad = 0.12,
+                         .range_min_m = 0.1,
+                         .range_max_m = 200.0};
+  ClutterHazard hazard({.layers = 2}, slices);
+  Rng rng(11);
+  for (int scene = 0; scene < 30; ++scene) {
+    OccupancyGrid truth(frame);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      truth.log_odds[i] = rng.uniform() < (frame.cell(i).z() < slices / 2 ? low : high) ? 2 : -1;
+    }
+    const Pose T_world_sensor = make_pose({-40.0, 0.1, 0.0}, 0.0);
+    const RangeScan scan = testing::scan_of(truth, T_world_sensor, view, 30, 60);
+    hazard.observe(OccupancyGrid(frame), scan, T_world_sensor);
+  }
+  EXPECT_GT(hazard.crossings(0), 10'000.0);
+  EXPECT_NEAR(hazard.hazard(0), low, 0.15 * low);
+  EXPECT_NEAR(hazard.hazard(1), high, 0.15 * high);
+}
+
+}  // namespace
+}  // namespace vantage

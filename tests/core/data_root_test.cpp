@@ -1,0 +1,57 @@
+#include "src/core/data_root.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "src/core/error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+class DataRoot : public testing::Test {
+ protected:
+  DataRoot() { ::setenv("VANTAGE_DATA", (directory / "data").c_str(), 1); }
+  ~DataRoot() override { ::unsetenv("VANTAGE_DATA"); }
+
+  std::filesystem::path make(const std::string& name) {
+    const auto path = directory / name;
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << "x";
+    return path;
+  }
+  support::TemporaryDirectory directory;
+};
+
+TEST_F(DataRoot, TheVariableWins) { EXPECT_EQ(data_root(), directory / "data"); }
+
+TEST_F(DataRoot, WithoutVariableTheModelsAreThere) {
+  ::unsetenv("VANTAGE_DATA");
+  EXPECT_TRUE(std::filesystem::is_directory(data_root() / "models"));
+}
+
+TEST_F(DataRoot, BesideTheEpisodeBeforeTheOneThatCameWithVantage) {
+  make("data/scenes/a.xml");
+  const auto own = make("mine/scenes/a.xml");
+  EXPECT_TRUE(
+      std::filesystem::equivalent(find_input("scenes/a.xml", directory / "mine", "scene"), own));
+  EXPECT_TRUE(
+      std::filesystem::equivalent(find_input("scenes/a.xml", directory / "elsewhere", "scene"),
+                                  directory / "data" / "scenes" / "a.xml"));
+  EXPECT_EQ(find_input(own.string(), "/", "scene"), own);
+}
+
+TEST_F(DataRoot, MissingFilesNameTheKeyAndTheFile) {
+  try {
+    (void)find_input("scenes/none.xml", directory.path(), "scene");
+    FAIL() << "found a file that is not there";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("scene"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("none.xml"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,76 @@
+#include "src/core/log.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "src/core/atomic_file.hpp"
+#include "src/core/error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+class Log : public testing::Test {
+ protected:
+  ~Log() override {
+    log_to_file({});
+    set_verbosity(Verbosity::normal);
+  }
+  support::TemporaryDirectory directory;
+};
+
+TEST_F(Log, VerbosityDecidesWhatTheConsoleShows) {
+  const auto shown = [](Verbosity verbosity) {
+    set_verbosity(verbosity);
+    testing::internal::CaptureStderr();
+    log_debug("d");
+    log_info("i");
+    log_warning("w");
+    log_error("e");
+    const std::string text = testing::internal::GetCapturedStderr();
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(shown(Verbosity::quiet), 2);
+  EXPECT_EQ(shown(Verbosity::normal), 3);
+  EXPECT_EQ(shown(Verbosity::verbose), 4);
+}
+
+TEST_F(Log, TheFileGetsEveryLineUntilStopped) {
+  const auto path = directory / "log.txt";
+  set_verbosity(Verbosity::quiet);
+  log_to_file(path);
+  log_debug("detail {not a format}");
+  log_to_file({});
+  log_info("not in the file");
+  const std::string text = read_file(path);
+  EXPECT_NE(text.find("debug: detail {not a format}"), std::string::npos);
+  EXPECT_EQ(text.find("not in the file"), std::string::npos);
+}
+
+TEST_F(Log, AFileThatCannotBeMadeIsAnOutputError) {
+  std::ofstream(directory / "file") << "x";
+  EXPECT_THROW(log_to_file(directory / "file" / "log.txt"), OutputError);
+}
+
+TEST_F(Log, ProgressIsLinesWithoutATerminal) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress("scan", 4.0);
+    progress.update(1.0);
+    progress.update(2.0);  // too soon after the first
+    progress.update(4.0, "done");
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "scan: 25 % \nscan: 100 % done\n");
+}
+
+TEST_F(Log, ProgressIsSilentWhenQuiet) {
+  set_verbosity(Verbosity::quiet);
+  testing::internal::CaptureStderr();
+  Progress("scan", 4.0).update(1.0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,74 @@
+// apply_override: --set key=value on top of a file.
+#include <gtest/gtest.h>
+
+#include "src/core/error.hpp"
+#include "src/core/yaml.hpp"
+
+namespace vantage {
+namespace {
+
+ConfigNode overridden(const std::string& yaml, const std::string& assignment) {
+  ConfigNode root = parse_yaml(yaml, "e.yaml");
+  apply_override(root, assignment);
+  return root;
+}
+
+std::string result(const std::string& yaml, const std::string& assignment) {
+  return to_yaml(overridden(yaml, assignment));
+}
+
+TEST(Override, ReplacesAndAdds) {
+  EXPECT_EQ(result("a: 1\nb: 2\n", "a=3"), "a: 3\nb: 2\n");
+  EXPECT_EQ(result("a: 1\n", "b=3"), "a: 1\nb: 3\n");
+  EXPECT_EQ(result("", "a=3"), "a: 3\n");
+}
+
+TEST(Override, MakesMapsOnTheWay) {
+  EXPECT_EQ(result("", "a.b.c=1"), "a:\n  b:\n    c: 1\n");
+  EXPECT_EQ(result("a:\n  x: 1\n", "a.b=2"), "a:\n  x: 1\n  b: 2\n");
+  EXPECT_EQ(result("a:\n", "a.b=2"), "a:\n  b: 2\n");
+}
+
+TEST(Override, RefinesAStrategyWrittenAsItsName) {
+  EXPECT_EQ(result("gain: adaptive\n", "gain.prior=0.5"),
+            "gain:\n  name: adaptive\n  prior: 0.5\n");
+  EXPECT_EQ(result("gain:\n  name: adaptive\n  prior: 0.1\n", "gain=simple"), "gain: simple\n");
+}
+
+TEST(Override, TheValueIsYaml) {
+  EXPECT_EQ(result("", "a=[1, 2]"), "a: [1, 2]\n");
+  EXPECT_EQ(result("", "a={b: 1}"), "a:\n  b: 1\n");
+  EXPECT_EQ(result("", "a=\"1\""), "a: \"1\"\n");
+  EXPECT_EQ(result("", "a=x=y"), "a: x=y\n");
+  EXPECT_EQ(overridden("", "a=").find("a")->kind, ConfigNode::Kind::null);
+}
+
+TEST(Override, IsNamedInErrors) {
+  const ConfigNode root = overridden("a:\n  b: 1\n", "a.b=[1, {c: 2}]");
+  const ConfigNode& value = *root.find("a")->find("b");
+  EXPECT_EQ(value.where(), "--set: a.b");
+  EXPECT_EQ(value.items[1].find("c")->where(), "--set: a.b[1].c");
+}
+
+TEST(Override, LaterOnesWin) {
+  ConfigNode root;
+  apply_override(root, "a=1");
+  apply_override(root, "a=2");
+  EXPECT_EQ(to_yaml(root), "a: 2\n");
+}
+
+TEST(Override, RefusesWhatIsNoAssignment) {
+  EXPECT_THROW(overridden("", "a"), ConfigError);
+  EXPECT_THROW(overridden("", "=1"), ConfigError);
+  EXPECT_THROW(overridden("", ""), ConfigError);
+  EXPECT_THROW(overridden("", "a=[1"), ConfigError);
+  EXPECT_THROW(overridden("", "a=&x 1"), ConfigError);
+}
+
+TEST(Override, DoesNotHideAFileThatIsNoMap) {
+  EXPECT_THROW(overridden("- 1\n", "a=1"), ConfigError);
+  EXPECT_THROW(overridden("just text\n", "a=1"), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,120 @@
+// Strategies in a configuration: by name, or a map with a name and options.
+#include <gtest/gtest.h>
+
+#include "src/core/fields.hpp"
+#include "src/core/yaml.hpp"
+
+namespace vantage {
+namespace {
+
+struct Simple {
+  static constexpr std::string_view name = "simple";
+  void fields(auto&&) {}
+  bool operator==(const Simple&) const = default;
+};
+struct Adaptive {
+  static constexpr std::string_view name = "adaptive";
+  double prior = 0.1;
+  double least = 0.0;
+  void fields(auto&& f) {
+    f("prior", prior, between(0.0, 1.0));
+    f("least", least);
+  }
+  void check() const {
+    if (least > prior) throw ConfigError("least must not be above prior");
+  }
+  bool operator==(const Adaptive&) const = default;
+};
+using Gain = std::variant<Simple, Adaptive>;
+
+}  // namespace
+
+template <>
+inline constexpr std::string_view strategy_family<Gain> = "gain";
+
+namespace {
+
+struct Planner {
+  Gain gain = Adaptive{.prior = 0.7};
+  std::vector<Gain> also;
+  void fields(auto&& f) {
+    f("gain", gain);
+    f("also", also);
+  }
+  bool operator==(const Planner&) const = default;
+};
+
+Planner read(const std::string& yaml) {
+  Planner planner;
+  read_into(parse_yaml(yaml, "e.yaml"), planner);
+  return planner;
+}
+
+std::string error_of(const std::string& yaml) {
+  try {
+    (void)read(yaml);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StrategyFields, ByNameWithItsOwnDefaults) {
+  EXPECT_EQ(read("").gain, Gain(Adaptive{.prior = 0.7}));
+  EXPECT_EQ(read("gain: simple\n").gain, Gain(Simple{}));
+  EXPECT_EQ(read("gain: adaptive\n").gain, Gain(Adaptive{}));
+}
+
+TEST(StrategyFields, AsAMap) {
+  EXPECT_EQ(read("gain: {name: adaptive, prior: 0.3}\n").gain, Gain(Adaptive{.prior = 0.3}));
+  EXPECT_EQ(read("gain:\n  prior: 0.3\n  name: adaptive\n").gain, Gain(Adaptive{.prior = 0.3}));
+  EXPECT_EQ(read("gain: {name: simple}\n").gain, Gain(Simple{}));
+  const auto also = read("also: [simple, {name: adaptive, prior: 1}]\n").also;
+  EXPECT_EQ(also, (std::vector<Gain>{Simple{}, Adaptive{.prior = 1.0}}));
+}
+
+TEST(StrategyFields, UnknownNamesListTheKnownOnes) {
+  EXPECT_EQ(error_of("gain: adaptiv\n"),
+            "e.yaml:1: gain: unknown gain 'adaptiv'; known: simple, adaptive");
+  EXPECT_EQ(error_of("gain:\n  name: adaptiv\n").find("e.yaml:1: gain: unknown gain 'adaptiv'"), 0U)
+      << error_of("gain:\n  name: adaptiv\n");
+}
+
+TEST(StrategyFields, OtherErrors) {
+  EXPECT_NE(error_of("gain: {prior: 0.3}\n").find("missing key 'name'"), std::string::npos);
+  EXPECT_NE(error_of("gain: [simple]\n").find("expected a name or a map with 'name'"),
+            std::string::npos);
+  EXPECT_NE(error_of("gain:\n").find("got nothing"), std::string::npos);
+  EXPECT_EQ(error_of("gain:\n  name: simple\n  prior: 0.3\n").find("e.yaml:3: gain.prior: unknown"),
+            0U);
+  EXPECT_NE(error_of("gain: {name: adaptive, prior: 3}\n").find("gain.prior: 3 is out of range"),
+            std::string::npos);
+  EXPECT_NE(error_of("gain: {name: [adaptive]}\n"), "");
+  EXPECT_NE(error_of("gain: {name: adaptive, name: simple}\n").find("duplicate"),
+            std::string::npos);
+}
+
+TEST(StrategyFields, TheStrategysOwnCheckRuns) {
+  EXPECT_EQ(error_of("gain: {name: adaptive, least: 0.5}\n"),
+            "e.yaml:1: gain: least must not be above prior");
+  EXPECT_THROW(check_options(Planner{.gain = Adaptive{.prior = 0.1, .least = 0.5}, .also = {}}),
+               ConfigError);
+}
+
+TEST(StrategyFields, OverrideOnTopOfAName) {
+  ConfigNode root = parse_yaml("gain: adaptive\n", "e.yaml");
+  apply_override(root, "gain.prior=0.4");
+  Planner planner;
+  read_into(root, planner);
+  EXPECT_EQ(planner.gain, Gain(Adaptive{.prior = 0.4}));
+}
+
+TEST(StrategyFields, WrittenAndReadBackIsEqual) {
+  const Planner planner{.gain = Adaptive{.prior = 0.25}, .also = {Simple{}, Adaptive{}}};
+  const std::string yaml = to_yaml(write_node(planner));
+  EXPECT_NE(yaml.find("name: adaptive"), std::string::npos);
+  EXPECT_EQ(read(yaml), planner);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,118 @@
+// Whole short episodes: the same seed gives the same bytes, and replay proves it.
+#include "src/episode/run.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "src/core/atomic_file.hpp"
+#include "src/core/error.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/replay.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+void drop_wall_times(nlohmann::json& json) {
+  for (const char* key : {"wall_time_s", "real_time_factor"}) json.erase(key);
+  for (auto& scan : json["scans"]) {
+    scan.erase("plan_time_s");
+    scan.erase("map_time_s");
+  }
+}
+
+class Run : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    set_verbosity(Verbosity::quiet);
+    folder_ = fs::temp_directory_path() / fmt::format("vantage-run-{}", ::getpid());
+    first_ = short_run("first", {});
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static nlohmann::json short_run(const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> overrides = {"scans=2", "map.cells=[49,49,25]",
+                                          "laser.scan_duration_s=3"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const auto episode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+    const auto outcome = run(load_episode(episode, overrides), {folder_ / name, false, false, {}});
+    return nlohmann::json::parse(outcome.metrics);
+  }
+  static fs::path copy_of_first(const std::string& name) {
+    fs::copy(folder_ / "first", folder_ / name, fs::copy_options::recursive);
+    return folder_ / name;
+  }
+
+  static inline fs::path folder_;
+  static inline nlohmann::json first_;
+};
+
+TEST_F(Run, SameSeedSameBytes) {
+  auto second = short_run("second", {"threads=1"});
+  auto first = first_;
+  drop_wall_times(first);
+  drop_wall_times(second);
+  EXPECT_EQ(first.dump(2), second.dump(2));
+  for (const char* name : {"states.bin", "actions.csv", "trajectory.tum", "map.bt", "cloud.ply"}) {
+    EXPECT_EQ(read_file(folder_ / "first" / name), read_file(folder_ / "second" / name)) << name;
+  }
+}
+
+TEST_F(Run, AnotherSeedAnotherEpisode) {
+  const auto other = short_run("other", {"seed=2"});
+  EXPECT_NE(first_["state_hash"], other["state_hash"]);
+}
+
+TEST_F(Run, WritesTheWholeFolder) {
+  for (const char* name :
+       {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
+        "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
+        "report.html", "log.txt"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
+  }
+  for (const auto& entry : fs::directory_iterator(folder_ / "first")) {
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(Run, ReplayReachesTheSameStates) {
+  const ReplayResult result = replay(folder_ / "first");
+  EXPECT_FALSE(result.first_difference) << result.what;
+  EXPECT_GT(result.ticks, 100U);
+  EXPECT_EQ(fmt::format("{:016x}", result.state_hash), first_["state_hash"]);
+}
+
+TEST_F(Run, ReplayNamesTheStepOfAnyChangedByte) {
+  const fs::path changed = copy_of_first("changed");
+  const std::string original = read_file(changed / "actions.csv");
+  const std::size_t header = original.find('\n') + 1;
+  for (const std::size_t at : {std::size_t{2}, header, header + 4, original.size() / 2,
+                               original.size() / 3, original.size() - 2, original.size() - 1}) {
+    std::string bytes = original;
+    bytes[at] = bytes[at] == '7' ? '3' : '7';
+    write_file(changed / "actions.csv", bytes);
+    const ReplayResult result = replay(changed);
+    ASSERT_TRUE(result.first_difference) << "byte " << at;
+    const auto line_start = original.rfind('\n', at == 0 ? 0 : at - 1);
+    if (at >= header && original[at] != '\n') {
+      const auto tick = std::stoull(original.substr(line_start + 1));
+      EXPECT_LE(*result.first_difference, tick) << "byte " << at << ": " << result.what;
+    }
+  }
+}
+
+TEST_F(Run, ReplayRefusesATruncatedLog) {
+  const fs::path cut = copy_of_first("cut");
+  fs::resize_file(cut / "states.bin", fs::file_size(cut / "states.bin") - 3);
+  EXPECT_THROW(replay(cut), InputError);
+  fs::remove(cut / "states.bin");
+  EXPECT_THROW(replay(cut), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,82 @@
+#include "src/geometry/field_of_view.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "src/core/rng.hpp"
+#include "src/geometry/pose.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(BeamDirection, AxesAndSigns) {
+  EXPECT_TRUE(beam_direction({0, 0}).isApprox(Eigen::Vector3d::UnitX()));
+  EXPECT_TRUE(beam_direction({kPi / 2, 0.3}).isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_GT(beam_direction({0.2, 0}).y(), 0.0);   // left
+  EXPECT_LT(beam_direction({0, 0.2}).z(), 0.0);   // down
+  EXPECT_GT(beam_direction({0, -0.2}).z(), 0.0);  // up
+}
+
+RC_GTEST_PROP(BeamDirection, IsAUnitVectorAndInvertible, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const BeamAngles angles{rng.uniform(-kPi / 2, kPi / 2), rng.uniform(-kPi, kPi)};
+  const Eigen::Vector3d direction = beam_direction(angles);
+  RC_ASSERT(std::abs(direction.norm() - 1.0) < 1e-12);
+  const BeamAngles back = beam_angles(rng.uniform(0.1, 10.0) * direction);
+  RC_ASSERT(std::abs(back.azimuth_rad - angles.azimuth_rad) < 1e-7);
+  RC_ASSERT(std::cos(angles.azimuth_rad) < 1e-6 ||
+            std::abs(wrap_angle(back.tilt_rad - angles.tilt_rad)) < 1e-7);
+}
+
+RC_GTEST_PROP(TurnedOver, IsTheSameDirection, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const BeamAngles angles{rng.uniform(-kPi, kPi), rng.uniform(-1, 1)};
+  const BeamAngles other = turned_over(angles);
+  RC_ASSERT((beam_direction(other) - beam_direction(angles)).norm() < 1e-12);
+  RC_ASSERT(std::abs(wrap_angle(other.tilt_rad - angles.tilt_rad)) > 3.0);
+}
+
+RC_GTEST_PROP(FieldOfView, ContainsExactlyItsBeams, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const FieldOfView view{.half_width_rad = 0.4,
+                         .tilt_min_rad = -0.3,
+                         .tilt_max_rad = 0.6,
+                         .range_min_m = 0.5,
+                         .range_max_m = 2.0};
+  const BeamAngles angles{rng.uniform(-1, 1), rng.uniform(-1, 1)};
+  const double range = rng.uniform(0.0, 3.0);
+  const bool expected = std::abs(angles.azimuth_rad) <= 0.4 && angles.tilt_rad >= -0.3 &&
+                        angles.tilt_rad <= 0.6 && range >= 0.5 && range <= 2.0;
+  RC_ASSERT(view.contains(range * beam_direction(angles)) == expected);
+}
+
+TEST(FieldOfView, NarrowSectorDoesNotSeeBehind) {
+  const FieldOfView view;
+  EXPECT_TRUE(view.contains({1, 0, 0}));
+  EXPECT_FALSE(view.contains({-1, 0, 0}));
+  EXPECT_FALSE(view.contains({0, 0, 0}));
+  EXPECT_FALSE(view.contains({std::nan(""), 0, 0}));
+}
+
+TEST(FieldOfView, FullTurnSeesAllRound) {
+  const FieldOfView view{.half_width_rad = kPi, .tilt_min_rad = -0.3, .tilt_max_rad = 0.3};
+  for (double azimuth = -kPi; azimuth <= kPi; azimuth += 0.1) {
+    EXPECT_TRUE(view.contains(2.0 * beam_direction({azimuth, 0.1}))) << azimuth;
+  }
+  EXPECT_FALSE(view.contains({0.1, 0, 2}));
+}
+
+TEST(FieldOfView, OptionsAreChecked) {
+  EXPECT_NO_THROW(check_options(FieldOfView{}));
+  EXPECT_THROW(check_options(FieldOfView{.half_width_rad = 0.0}), ConfigError);
+  EXPECT_THROW(check_options(FieldOfView{.tilt_min_rad = 0.8}), ConfigError);
+  EXPECT_THROW(check_options(FieldOfView{.range_min_m = 11.0}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

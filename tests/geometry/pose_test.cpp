@@ -1,0 +1,84 @@
+#include "src/geometry/pose.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "src/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Pose2 random_pose2(Rng& rng) {
+  return {rng.uniform(-10, 10), rng.uniform(-10, 10), rng.uniform(-kPi, kPi)};
+}
+
+bool near(const Pose2& a, const Pose2& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) < 1e-9 &&
+         std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)) < 1e-9;
+}
+
+RC_GTEST_PROP(WrapAngle, IsTheSameDirectionInRange, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const double angle = rng.uniform(-100, 100);
+  const double wrapped = wrap_angle(angle);
+  RC_ASSERT(wrapped > -kPi);
+  RC_ASSERT(wrapped <= kPi);
+  RC_ASSERT(std::abs(std::sin(wrapped) - std::sin(angle)) < 1e-12);
+  RC_ASSERT(std::abs(std::cos(wrapped) - std::cos(angle)) < 1e-12);
+  RC_ASSERT(wrap_angle(wrapped) == wrapped);
+}
+
+TEST(WrapAngle, HalfTurnsArePositive) {
+  EXPECT_EQ(wrap_angle(kPi), kPi);
+  EXPECT_EQ(wrap_angle(-kPi), kPi);
+  EXPECT_EQ(wrap_angle(0.0), 0.0);
+  EXPECT_NEAR(wrap_angle(2.0 * kPi + 0.25), 0.25, 1e-15);
+}
+
+RC_GTEST_PROP(Pose2, GroupLaws, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const Pose2 a = random_pose2(rng);
+  const Pose2 b = random_pose2(rng);
+  const Pose2 c = random_pose2(rng);
+  RC_ASSERT(near(compose(compose(a, b), c), compose(a, compose(b, c))));
+  RC_ASSERT(near(compose(a, inverse(a)), Pose2{}));
+  RC_ASSERT(near(compose(inverse(a), a), Pose2{}));
+  RC_ASSERT(near(compose(a, Pose2{}), a));
+  RC_ASSERT(near(inverse(compose(a, b)), compose(inverse(b), inverse(a))));
+}
+
+RC_GTEST_PROP(Pose2, AgreesWithThePoseInSpace, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const Pose2 a = random_pose2(rng);
+  const Pose2 b = random_pose2(rng);
+  RC_ASSERT(near(flatten(lift(a, 3.0)), a));
+  RC_ASSERT(near(flatten(lift(a) * lift(b)), compose(a, b)));
+  RC_ASSERT(near(flatten(lift(a).inverse()), inverse(a)));
+}
+
+TEST(Pose2, InverseOfAHalfTurnStaysInRange) { EXPECT_EQ(inverse({0.0, 0.0, kPi}).yaw_rad, kPi); }
+
+//        y
+//        ^  b's origin at (1, 2), facing +y: its x axis is the world's y axis
+TEST(Pose2, KnownTransform) {
+  const Pose p = lift({1.0, 2.0, kPi / 2.0}, 0.5);
+  EXPECT_TRUE((p * Eigen::Vector3d(3, 0, 0)).isApprox(Eigen::Vector3d(1, 5, 0.5)));
+  EXPECT_TRUE((p * Eigen::Vector3d(0, 3, 0)).isApprox(Eigen::Vector3d(-2, 2, 0.5)));
+}
+
+TEST(MakePose, PositivePitchLooksDown) {
+  const Pose pose = make_pose({0, 0, 1}, kPi / 2.0, 0.3);
+  const Eigen::Vector3d forward = pose.linear().col(0);
+  EXPECT_NEAR(forward.x(), 0.0, 1e-12);
+  EXPECT_NEAR(forward.y(), std::cos(0.3), 1e-12);
+  EXPECT_NEAR(forward.z(), -std::sin(0.3), 1e-12);
+  EXPECT_NEAR(flatten(pose).yaw_rad, kPi / 2.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,41 @@
+#include "planners/cell_tables.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "src/information/discrete.hpp"
+#include "tests/planners/ascii_ray.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::ElementsAre;
+using testing::FloatNear;
+
+TEST(CellTables, HoldOneEntryPerCell) {
+  const OccupancyGrid grid = row_of_cells(".?#");
+  EXPECT_THAT(cell_states(grid),
+              ElementsAre(CellState::free, CellState::unobserved, CellState::occupied));
+  EXPECT_THAT(cell_probabilities(grid),
+              ElementsAre(FloatNear(0.02F, 1e-6F), 0.5F, FloatNear(1.0F, 2e-6F)));
+  const auto h_free = static_cast<float>(binary_entropy_bits(kFreeCell));
+  EXPECT_THAT(cell_entropies_bits(grid),
+              ElementsAre(FloatNear(h_free, 1e-5F), 1.0F, FloatNear(0.0F, 1e-4F)));
+}
+
+TEST(CellTables, TransmissionOfUnobservedCellsGoesByTheirSlice) {
+  GridFrame frame;
+  frame.cells = {2, 1, 2};
+  OccupancyGrid grid(frame);
+  grid.log_odds[1] = -3.0F;
+  grid.log_odds[2] = 3.0F;
+  EXPECT_THAT(cell_transmissions(grid, std::vector{0.75, 0.5}),
+              ElementsAre(0.75F, 1.0F, 0.0F, 0.5F));
+}
+
+TEST(CellTablesDeathTest, WantsATransmissionForEachSlice) {
+  EXPECT_DEATH(cell_transmissions(row_of_cells("??"), {}), "one transmission per z slice");
+}
+
+}  // namespace
+}  // namespace vantage

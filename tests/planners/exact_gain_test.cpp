@@ -1,0 +1,74 @@
+#include "planners/exact_gain.hpp"
+
+#include <gtest/gtest.h>
+
+#include "planners/view_candidates.hpp"
+#include "src/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+OccupancyGrid cluttered_grid() {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.2}, {1.0, 1.0, 0.5}, {15, 16, 7}));
+  Rng rng(5);
+  for (float& cell : grid.log_odds) {
+    const double draw = rng.uniform();
+    cell = draw < 0.5 ? 0.0F : (draw < 0.95 ? -2.5F : 4.0F);
+  }
+  return grid;
+}
+
+RingOfViews low_ring() { return {.positions = 5, .radius_m = 1.0, .height_m = 0.4}; }
+
+FieldOfView wide_sector() {
+  FieldOfView fov;
+  fov.half_width_rad = 0.4;
+  return fov;
+}
+
+TEST(ExactGains, AreTheSameBitsForEveryNumberOfThreads) {
+  const OccupancyGrid grid = cluttered_grid();
+  const std::vector<double> slices(7, 0.9);
+  const auto views = ring_of_views(low_ring(), Eigen::Vector3d::Zero());
+  for (const auto name : strategy_names<Gain>()) {
+    const Gain gain = make_strategy<Gain>(name);
+    const auto one = exact_gains_bits(gain, {grid, slices}, views, wide_sector(), 1);
+    EXPECT_EQ(exact_gains_bits(gain, {grid, slices}, views, wide_sector(), 3), one) << name;
+    EXPECT_EQ(exact_gains_bits(gain, {grid, slices}, views, wide_sector(), 64), one) << name;
+    EXPECT_EQ(exact_gain_bits(gain, {grid, slices}, views[4].T_world_sensor, wide_sector()),
+              one[4]);
+  }
+}
+
+// The definition, cell by cell, without culling and with the walk of src/geometry.
+TEST(ExactGain, OfTheSimpleKindCountsCellsInLineOfSight) {
+  const OccupancyGrid grid = cluttered_grid();
+  for (const Candidate& view : ring_of_views(low_ring(), Eigen::Vector3d(0.013, 0.007, 0.0))) {
+    const Eigen::Vector3d p_sensor = view.T_world_sensor.translation();
+    double expected = 0.0;
+    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+      const Eigen::Vector3d centre = grid.frame.centre(grid.frame.cell(cell));
+      if (grid.state(cell) != CellState::unobserved) continue;
+      if (!wide_sector().contains(view.T_world_sensor.inverse() * centre)) continue;
+      const auto not_occupied = [&](std::size_t c) { return grid.state(c) != CellState::occupied; };
+      expected += walk_ray(grid.frame, p_sensor, centre, not_occupied) ? 1.0 : 0.0;
+    }
+    EXPECT_GT(expected, 0.0);
+    EXPECT_DOUBLE_EQ(exact_gain_bits(SimpleGain{}, {grid}, view.T_world_sensor, wide_sector()),
+                     expected);
+  }
+}
+
+TEST(ExactGain, OfAViewAwayFromTheMapIsZero) {
+  const OccupancyGrid grid = cluttered_grid();
+  const Pose away = make_pose({2.0, 0.0, 0.4}, 0.0);
+  EXPECT_EQ(exact_gain_bits(SimpleGain{}, {grid}, away, wide_sector()), 0.0);
+}
+
+TEST(ExactGains, OfNoCandidatesAreNone) {
+  const OccupancyGrid grid = cluttered_grid();
+  EXPECT_TRUE(exact_gains_bits(SimpleGain{}, {grid}, {}, wide_sector(), 2).empty());
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,141 @@
+#include "planners/gain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planners/exact_gain.hpp"
+#include "src/core/fields.hpp"
+#include "tests/planners/ascii_ray.hpp"
+
+namespace vantage {
+namespace {
+
+/// Gain of looking along a row of unit cells from just in front of it.
+double along(const Gain& gain, std::string_view cells, double slice_transmission = 0.5) {
+  const OccupancyGrid grid = row_of_cells(cells);
+  FieldOfView fov;
+  fov.range_max_m = 1000.0;
+  const std::vector<double> slices{slice_transmission};
+  return exact_gain_bits(gain, {grid, slices}, make_pose({-0.5, 0.0, 0.0}, 0.0), fov);
+}
+
+constexpr double kTolerance = 1e-5;  // tables are single precision
+
+TEST(SimpleGain, CountsUnobservedCellsInFrontOfTheFirstOccupiedOne) {
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "..??.?#??"), 3.0);
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "????????"), 8.0);
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "#???"), 0.0);
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "...#"), 0.0);
+}
+
+TEST(BeerLambertGain, IsAGeometricSeriesInUnobservedSpace) {
+  const double a = 0.75;
+  EXPECT_NEAR(along(BeerLambertGain{.a = a}, "????????"), (1.0 - std::pow(a, 8)) / (1.0 - a),
+              kTolerance);
+  EXPECT_NEAR(along(BeerLambertGain{.a = a}, "..?..?.?"), 1.0 + a + a * a, kTolerance);
+  EXPECT_NEAR(along(BeerLambertGain{.a = a}, "??#????"), 1.0 + a, kTolerance);
+  EXPECT_NEAR(along(BeerLambertGain{.a = 0.0}, "????"), 1.0, kTolerance);
+}
+
+TEST(BeerLambertGain, OfTransparentSpaceIsTheSimpleGain) {
+  EXPECT_NEAR(along(BeerLambertGain{.a = 1.0}, "?.??#??"), along(SimpleGain{}, "?.??#??"),
+              kTolerance);
+}
+
+TEST(AdaptiveGain, TakesTheTransmissionOfTheContext) {
+  EXPECT_NEAR(along(AdaptiveGain{}, "???.?", 0.25), along(BeerLambertGain{.a = 0.25}, "???.?"),
+              kTolerance);
+}
+
+TEST(AdaptiveGain, TakesTheTransmissionOfEachHeight) {
+  // Two layers of three cells; the sensor sees both level from afar, one ray never leaves a layer.
+  GridFrame frame;
+  frame.min_corner_m = {0.0, -0.5, -1.0};
+  frame.cells = {3, 1, 2};
+  const OccupancyGrid grid(frame);
+  FieldOfView fov;
+  fov.range_max_m = 1e4;
+  const std::vector<double> slices{0.5, 0.25};
+  const double gain =
+      exact_gain_bits(AdaptiveGain{}, {grid, slices}, make_pose({-1000.0, 0.0, 0.0}, 0.0), fov);
+  EXPECT_NEAR(gain, (1.0 + 0.5 + 0.25) + (1.0 + 0.25 + 0.0625), kTolerance);
+}
+
+TEST(VisibilityWeightedGain, SumsVisibilityOverUnobservedCells) {
+  const std::string_view ray = ".??#?..?";
+  const auto p_visible = visibility_along_ray(p_occupied_of(ray));
+  double expected = 0.0;
+  for (std::size_t m = 0; m < ray.size(); ++m) expected += ray[m] == '?' ? p_visible[m] : 0.0;
+  EXPECT_NEAR(along(VisibilityWeightedGain{}, ray), expected, 0.02);  // 1 - 1e-6 as a float
+}
+
+TEST(VisibilityWeightedGain, WithoutLossIsTheNumberOfUnobservedCells) {
+  VisibilityWeightedGain gain;
+  gain.model = {.a = 1.0, .p_reappear = 0.0};
+  EXPECT_NEAR(along(gain, "?.???.?"), 5.0, kTolerance);
+}
+
+TEST(PosteriorChainGain, SumsTheEntropyLostOverAllCells) {
+  const std::string_view ray = "..?..??";
+  const auto p_occupied = p_occupied_of(ray);
+  const auto posterior = posterior_along_ray(p_occupied);
+  double expected = 0.0;
+  for (std::size_t m = 0; m < ray.size(); ++m) {
+    expected += binary_entropy_bits(p_occupied[m]) - binary_entropy_bits(posterior[m]);
+  }
+  EXPECT_NEAR(along(PosteriorChainGain{}, ray), expected, 1e-4);
+}
+
+TEST(PosteriorChainGain, ReachesOnlyTheRimOfTheUnknown) {
+  const double rim = along(PosteriorChainGain{}, std::string(40, '?'));
+  EXPECT_GT(rim, 1.0);
+  EXPECT_NEAR(along(PosteriorChainGain{}, std::string(80, '?')), rim, 1e-3);
+}
+
+template <class G>
+class EveryGain : public testing::Test {};
+template <class Variant>
+struct TypesOf;
+template <class... G>
+struct TypesOf<std::variant<G...>> {
+  using type = testing::Types<G...>;
+};
+TYPED_TEST_SUITE(EveryGain, TypesOf<Gain>::type);
+
+TYPED_TEST(EveryGain, IsARayGainWithANameThatReadsBack) {
+  static_assert(RayGain<TypeParam>);
+  const Gain made = make_strategy<Gain>(TypeParam::name);
+  EXPECT_EQ(strategy_name_of(made), TypeParam::name);
+  Gain read;
+  read_into(write_node(made), read);
+  EXPECT_EQ(strategy_name_of(read), TypeParam::name);
+}
+
+TYPED_TEST(EveryGain, PromisesNothingOfAFullyKnownMapBehindAWall) {
+  EXPECT_NEAR(along(TypeParam{}, "....####"), 0.0, TypeParam::unobserved_only ? 1e-12 : 0.6);
+}
+
+TYPED_TEST(EveryGain, PromisesAtMostOneBitPerCell) {
+  const double gain = along(TypeParam{}, "????????????????");
+  EXPECT_GT(gain, 0.0);
+  EXPECT_LE(gain, 16.0);
+}
+
+TYPED_TEST(EveryGain, PrefersMoreUnobservedCellsInSight) {
+  EXPECT_GT(along(TypeParam{}, "..???"), along(TypeParam{}, "..?.."));
+}
+
+TEST(Gain, NamesItsKindInErrors) {
+  try {
+    make_strategy<Gain>("adaptiv");
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "unknown gain 'adaptiv'; known: simple, posterior_chain, visibility_weighted, "
+                 "beer_lambert, adaptive");
+  }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,122 @@
+#include "planners/view_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <vector>
+
+#include "src/core/fields.hpp"
+
+namespace vantage {
+namespace {
+
+Candidate view(int id, double gain_bits, double path_length_m, double true_new_cells) {
+  Candidate candidate;
+  candidate.id = id;
+  candidate.gain_bits = gain_bits;
+  candidate.path_length_m = path_length_m;
+  candidate.true_new_cells = true_new_cells;
+  return candidate;
+}
+
+std::vector<Candidate> five_views() {
+  return {view(0, 5.0, 1.0, 3.0), view(1, 9.0, 2.0, 7.0), view(2, 9.0, 1.0, 2.0),
+          view(3, 9.0, 1.0, 8.0), view(4, 1.0, 0.0, 8.0)};
+}
+
+std::vector<ViewChoice> every_choice() {
+  std::vector<ViewChoice> choices;
+  for (const auto name : strategy_names<ViewChoice>()) {
+    choices.push_back(make_strategy<ViewChoice>(name));
+  }
+  return choices;
+}
+
+TEST(EveryViewChoice, NamesAViewTheSameForTheSameSeed) {
+  const auto views = five_views();
+  for (const ViewChoice& choice : every_choice()) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+      Rng first(seed);
+      Rng second(seed);
+      const std::size_t chosen = choose_view(choice, views, first);
+      EXPECT_LT(chosen, views.size());
+      EXPECT_EQ(choose_view(choice, views, second), chosen) << strategy_name_of(choice);
+    }
+  }
+}
+
+TEST(EveryViewChoice, TakesTheOnlyView) {
+  const std::vector<Candidate> views{view(17, 0.0, 3.0, 0.0)};
+  Rng rng(1);
+  for (const ViewChoice& choice : every_choice()) EXPECT_EQ(choose_view(choice, views, rng), 0U);
+}
+
+TEST(EveryViewChoice, LeavesExhaustedViewsOutUnlessAllAre) {
+  Rng rng(1);
+  for (const ViewChoice& choice : every_choice()) {
+    auto views = five_views();
+    for (Candidate& candidate : views) candidate.exhausted = candidate.id != 3 && candidate.id != 0;
+    std::set<std::size_t> chosen;
+    for (int i = 0; i < 50; ++i) chosen.insert(choose_view(choice, views, rng));
+    for (const std::size_t index : chosen) EXPECT_FALSE(views[index].exhausted);
+    for (Candidate& candidate : views) candidate.exhausted = true;
+    EXPECT_LT(choose_view(choice, views, rng), views.size());
+  }
+}
+
+TEST(EveryViewChoice, MayTakeAnUnreachableView) {
+  std::vector<Candidate> views{view(0, 1.0, 1.0, 1.0)};
+  views[0].reachable = false;
+  Rng rng(1);
+  for (const ViewChoice& choice : every_choice()) EXPECT_EQ(choose_view(choice, views, rng), 0U);
+}
+
+TEST(EveryViewChoice, ReadsBackFromItsName) {
+  for (const ViewChoice& choice : every_choice()) {
+    ViewChoice read;
+    read_into(write_node(choice), read);
+    EXPECT_EQ(read.index(), choice.index());
+  }
+}
+
+TEST(ViewChoice, OfAnUnknownNameListsTheKnown) {
+  try {
+    make_strategy<ViewChoice>("gredy");
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "unknown view choice 'gredy'; known: random, greedy, oracle");
+  }
+}
+
+TEST(RandomView, TakesEveryViewAboutEquallyOften) {
+  const auto views = five_views();
+  std::vector<int> taken(views.size());
+  Rng rng(2);
+  for (int i = 0; i < 5000; ++i) ++taken[choose_view(RandomView{}, views, rng)];
+  for (const int count : taken) EXPECT_NEAR(count, 1000, 150);
+}
+
+TEST(GreedyGain, BreaksTiesByPathThenById) {
+  Rng rng(1);
+  EXPECT_EQ(choose_view(GreedyGain{}, five_views(), rng), 2U);
+}
+
+TEST(OracleView, KnowsWhatAViewShows) {
+  Rng rng(1);
+  EXPECT_EQ(choose_view(OracleView{}, five_views(), rng), 4U);
+}
+
+TEST(OracleViewDeathTest, NeedsTheTruth) {
+  auto views = five_views();
+  views[2].true_new_cells.reset();
+  Rng rng(1);
+  EXPECT_DEATH(choose_view(OracleView{}, views, rng), "true_new_cells");
+}
+
+TEST(ViewChoiceDeathTest, NeedsACandidate) {
+  Rng rng(1);
+  EXPECT_DEATH(choose_view(GreedyGain{}, {}, rng), "needs a candidate");
+}
+
+}  // namespace
+}  // namespace vantage

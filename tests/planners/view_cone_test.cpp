@@ -1,0 +1,79 @@
+#include "planners/view_cone.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "src/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+Pose random_pose(Rng& rng) {
+  return make_pose({rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)},
+                   rng.uniform(-4.0, 4.0), rng.uniform(-1.0, 1.0));
+}
+
+FieldOfView random_sector(Rng& rng) {
+  FieldOfView fov;
+  fov.half_width_rad = rng.uniform(0.05, 3.1);
+  fov.tilt_min_rad = rng.uniform(-1.2, 0.5);
+  fov.tilt_max_rad = fov.tilt_min_rad + rng.uniform(0.1, 0.9);
+  fov.range_min_m = rng.uniform(0.0, 0.5);
+  fov.range_max_m = rng.uniform(0.8, 2.0);
+  return fov;
+}
+
+TEST(ViewCone, ContainsWhatTheFieldOfViewContains) {
+  Rng rng(7);
+  int inside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const FieldOfView fov = random_sector(rng);
+    const Pose T_world_sensor = random_pose(rng);
+    const Eigen::Vector3d p(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0));
+    const bool expected = fov.contains(T_world_sensor.inverse() * p);
+    EXPECT_EQ(ViewCone(T_world_sensor, fov).contains(p), expected) << "draw " << i;
+    inside += expected ? 1 : 0;
+  }
+  EXPECT_GT(inside, 200);
+}
+
+TEST(ForEachCellInView, MissesNoCellAndVisitsInOrder) {
+  Rng rng(11);
+  const GridFrame grid = make_grid_frame({0.1, 0.0, -0.1}, {2.0, 1.5, 1.0}, {20, 13, 9});
+  std::size_t found = 0;
+  for (int i = 0; i < 200; ++i) {
+    const FieldOfView fov = random_sector(rng);
+    const ViewCone cone(random_pose(rng), fov);
+    std::vector<std::size_t> expected;
+    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+      if (cell % 3 != 0 && cone.contains(grid.centre(grid.cell(cell)))) expected.push_back(cell);
+    }
+    std::vector<std::size_t> visited;
+    for_each_cell_in_view(
+        grid, cone, [](std::size_t cell) { return cell % 3 != 0; },
+        [&](const Eigen::Array3i& cell, std::size_t index) {
+          EXPECT_EQ(grid.index(cell), index);
+          visited.push_back(index);
+        });
+    EXPECT_EQ(visited, expected) << "draw " << i;
+    found += visited.size();
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+TEST(ViewCone, BoundsARowToTheSector) {
+  // A level sensor at the origin that looks along x; a row of cells across its view at x = 1.
+  FieldOfView fov;
+  fov.half_width_rad = 0.2;
+  fov.tilt_min_rad = -0.01;
+  fov.tilt_max_rad = 0.01;
+  const ViewCone cone(Pose::Identity(), fov);
+  const auto row = cone.bound_row({1.0, -5.0, 0.0}, {0.0, 0.1, 0.0}, 101);
+  EXPECT_GE(row.begin, 47);
+  EXPECT_LE(row.end, 54);
+  EXPECT_GE(row.end - row.begin, 5);
+}
+
+}  // namespace
+}  // namespace vantage
