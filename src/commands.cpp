@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -68,7 +69,7 @@ ExitCode run_episode_command(const RunArguments& arguments) {
     return ExitCode::done;
   }
   if (arguments.dry_run) {
-    const auto problems = validate_file(resolved.scene);
+    const auto problems = validate_file(path).problems;
     for (const auto& problem : problems) log_error(problem);
     fmt::print("{}: {} scans in {} by {}, seed {}\n", resolved.name, resolved.episode.scans,
                resolved.scene.string(), method_name(resolved.episode), resolved.episode.seed);
@@ -139,13 +140,10 @@ std::function<ExitCode()> declare_validate(CLI::App& app) {
   return [files] {
     ExitCode worst = ExitCode::done;
     for (const auto& file : *files) {
-      const auto problems = validate_file(file);
-      for (const auto& problem : problems) fmt::print("{}\n", problem);
-      if (problems.empty()) {
-        fmt::print("{}: good\n", file.string());
-      } else if (worst != ExitCode::bad_input) {
-        worst = is_configuration(file) ? ExitCode::usage : ExitCode::bad_input;
-      }
+      const Validation found = validate_file(file);
+      for (const auto& problem : found.problems) fmt::print("{}\n", problem);
+      if (found.problems.empty()) fmt::print("{}: good\n", file.string());
+      worst = std::max(worst, found.code);
     }
     return worst;
   };

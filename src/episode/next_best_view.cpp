@@ -73,7 +73,7 @@ void NextBestView::update(const TabletopObservation& observation) {
   const std::size_t before = belief_.grid().count(CellState::unobserved);
   const BeliefUpdate report = belief_.update(observation);
   rig_.correct_pose(report.T_world_base);
-  add_to_floor_map();
+  add_planar_scan(floor_, observation.base_scan, report.T_world_base, episode_.floor_map);
   current_.map_time_s = wall_s() - start_s;
 
   const OccupancyGrid& grid = belief_.grid();
@@ -167,14 +167,16 @@ void NextBestView::look_round() {
   const NavigationOptions& navigation = episode_.navigation;
   const Pose2 start = rig_.estimated_base();
   clear_footprint(floor_, start, navigation.inflation_m() + floor_.cell_m);
-  localise();
+  belief_.remember_walls(rig_.look_around(), rig_.robot().base_scan_height_m(), start);
   for (int third = 1; third <= 3; ++third) {
     const double yaw_rad = start.yaw_rad + 2.0 / 3.0 * std::numbers::pi * third;
     drive_and_map({{start.x_m, start.y_m, wrap_angle(yaw_rad)}});
-    localise();
+    belief_.remember_walls(rig_.look_around(), rig_.robot().base_scan_height_m(),
+                           rig_.estimated_base());
   }
 }
 
+/// Corrects dead reckoning by the planar scanner and adds the scan to the floor map.
 void NextBestView::localise() {
   const PlanarScan scan = rig_.look_around();
   rig_.correct_pose(
@@ -187,15 +189,11 @@ PathField NextBestView::plan_from_here() {
   return make_path_field(floor_, rig_.estimated_base(), episode_.navigation);
 }
 
-void NextBestView::add_to_floor_map() {
-  add_planar_scan(floor_, rig_.look_around(), rig_.estimated_base(), episode_.floor_map);
-}
-
 DriveResult NextBestView::drive_and_map(const std::vector<Pose2>& waypoints) {
   int tick = 0;
   return rig_.drive_along(waypoints, [&] {
     if (++tick % kTicksPerFloorScan != 0) return;
-    add_to_floor_map();
+    localise();
     path_m_.emplace_back(rig_.estimated_base().x_m, rig_.estimated_base().y_m);
   });
 }

@@ -38,7 +38,6 @@ class NextBestView {
   void localise();
   DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
   PathField plan_from_here();
-  void add_to_floor_map();
   bool drive_closer(const Candidate& candidate);
   [[nodiscard]] MapPanelInput panel() const;
 

@@ -88,8 +88,7 @@ void Recorder::scan(const ScanRecord& record, std::size_t index, const Occupancy
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
     if (was_occupied_[cell] != 0 || grid.state(cell) != CellState::occupied) continue;
     was_occupied_[cell] = 1;
-    const Eigen::Vector3f p = grid.frame.centre(grid.frame.cell(cell)).cast<float>();
-    voxels_.push_back({p.x(), p.y(), p.z(), static_cast<std::uint16_t>(index), kVoxelOccupied});
+    add_voxel(grid, cell, index, kVoxelOccupied);
   }
   ++scans_done_;
   progress_.update(
@@ -97,6 +96,12 @@ void Recorder::scan(const ScanRecord& record, std::size_t index, const Occupancy
       fmt::format("scan {} of {}: {} observable cells left, {:.1f} s simulated", scans_done_,
                   planned_scans_, record.observable_unobserved_cells, record.time_s));
   if (film_) film_->keep_still(rig_.world(), index);
+}
+
+void Recorder::add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step,
+                         std::uint8_t kind) {
+  const Eigen::Vector3f p = grid.frame.centre(grid.frame.cell(cell)).cast<float>();
+  voxels_.push_back({p.x(), p.y(), p.z(), static_cast<std::uint16_t>(step), kind});
 }
 
 void Recorder::commit(const OccupancyGrid& grid, const PointCloud& cloud) {
@@ -109,6 +114,9 @@ void Recorder::commit(const OccupancyGrid& grid, const PointCloud& cloud) {
     write_octomap(grid, directory_ / "map.ot");
   }
   write_ply(directory_ / "cloud.ply", cloud);
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    if (grid.state(cell) == CellState::unobserved) add_voxel(grid, cell, 0, kVoxelUnobserved);
+  }
   write_voxels(directory_ / "voxels.bin", {grid.frame.cell_size_m, grid.frame.box(), voxels_});
   if (film_) film_->finish();
 }

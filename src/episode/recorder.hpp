@@ -40,6 +40,7 @@ class Recorder {
  private:
   void tick();
   void pose_rows();
+  void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);
 
   std::filesystem::path directory_;
   TabletopRig& rig_;

@@ -26,8 +26,8 @@ TabletopBelief::TabletopBelief(const Episode& episode)
 
 BeliefUpdate TabletopBelief::update(const TabletopObservation& observation) {
   BeliefUpdate report;
-  report.T_world_base = register_pose(cloud_of(observation), observation.T_base_laser.translation(),
-                                      observation.T_world_base_odometry, report);
+  report.T_world_base = register_pose(observation, report);
+  remember_walls(observation.base_scan, observation.base_scan_height_m, report.T_world_base);
   const Pose T_world_base = lift(report.T_world_base);
   const Pose T_world_sensor = T_world_base * observation.T_base_laser;
 
@@ -47,24 +47,35 @@ BeliefUpdate TabletopBelief::update(const TabletopObservation& observation) {
 }
 
 Pose2 TabletopBelief::localise(const PlanarScan& scan, double scanner_height_m,
-                               const Pose2& guess) {
-  BeliefUpdate ignored;
-  return register_pose(to_cloud(scan, scanner_height_m),
-                       lift(scan.T_base_sensor, scanner_height_m).translation(), guess, ignored);
+                               const Pose2& guess) const {
+  if (wall_cloud_.empty()) return guess;
+  const PointCloud scan_base = prepare(scan, scanner_height_m);
+  return register_scan(scan_base, wall_cloud_, guess, episode_.registration).T_world_base;
 }
 
-Pose2 TabletopBelief::register_pose(const PointCloud& scan_base,
-                                    const Eigen::Vector3d& p_viewpoint_base, const Pose2& guess,
-                                    BeliefUpdate& report) {
-  const PointCloud prepared = prepare_scan(scan_base, p_viewpoint_base, episode_.registration);
-  Pose2 pose = guess;
-  if (!map_cloud_.empty()) {
-    const auto result = register_scan(prepared, map_cloud_, guess, episode_.registration);
+void TabletopBelief::remember_walls(const PlanarScan& scan, double scanner_height_m,
+                                    const Pose2& T_world_base) {
+  append(wall_cloud_, transform(prepare(scan, scanner_height_m), lift(T_world_base)));
+}
+
+PointCloud TabletopBelief::prepare(const PlanarScan& scan, double scanner_height_m) const {
+  return prepare_scan(to_cloud(scan, scanner_height_m),
+                      lift(scan.T_base_sensor, scanner_height_m).translation(),
+                      episode_.registration);
+}
+
+Pose2 TabletopBelief::register_pose(const TabletopObservation& observation, BeliefUpdate& report) {
+  const PointCloud scan_base = prepare_scan(
+      cloud_of(observation), observation.T_base_laser.translation(), episode_.registration);
+  Pose2 pose = observation.T_world_base_odometry;
+  const PointCloud& reference = map_cloud_.empty() ? wall_cloud_ : map_cloud_;
+  if (!reference.empty()) {
+    const auto result = register_scan(scan_base, reference, pose, episode_.registration);
     report.registered = result.converged;
     report.registration_note = result.reason;
     pose = result.T_world_base;
   }
-  append(map_cloud_, transform(prepared, lift(pose)));
+  append(map_cloud_, transform(scan_base, lift(pose)));
   return pose;
 }
 

@@ -26,8 +26,11 @@ class TabletopBelief {
  public:
   explicit TabletopBelief(const Episode& episode);
 
-  /// Where the planar scanner says the base is; `guess` while the map is empty or nothing fits.
-  Pose2 localise(const PlanarScan& scan, double scanner_height_m, const Pose2& guess);
+  /// Where the planar scanner says the base is, given the walls and legs it saw at
+  /// `remember_walls`; `guess` if nothing fits.
+  [[nodiscard]] Pose2 localise(const PlanarScan& scan, double scanner_height_m,
+                               const Pose2& guess) const;
+  void remember_walls(const PlanarScan& scan, double scanner_height_m, const Pose2& T_world_base);
   /// Registration, table extraction, measurements, free space, holes.  [Potthast2016, 3.2]
   /// @throws InputError if the first scan shows no table in the region of interest.
   BeliefUpdate update(const TabletopObservation& observation);
@@ -39,8 +42,8 @@ class TabletopBelief {
   [[nodiscard]] const PointCloud& object_cloud() const { return object_cloud_; }
 
  private:
-  Pose2 register_pose(const PointCloud& scan_base, const Eigen::Vector3d& p_viewpoint_base,
-                      const Pose2& guess, BeliefUpdate& report);
+  Pose2 register_pose(const TabletopObservation& observation, BeliefUpdate& report);
+  [[nodiscard]] PointCloud prepare(const PlanarScan& scan, double scanner_height_m) const;
   void extract_table(const PointCloud& cloud_world);
   PointCloud take_objects(const PointCloud& cloud_world);
 
@@ -49,6 +52,7 @@ class TabletopBelief {
   OccupancyGrid filled_;
   ClutterHazard hazard_;
   PointCloud map_cloud_;     ///< all surfaces, for registration
+  PointCloud wall_cloud_;    ///< what the planar scanner saw from known places, to drive by
   PointCloud object_cloud_;  ///< on the table
   PointCloud unplaced_;      ///< in the region, but not yet over table that was seen
   std::optional<TablePlane> table_;

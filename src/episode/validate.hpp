@@ -5,12 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "src/core/error.hpp"
+
 namespace vantage {
 
-/// Whether problems of this file are configuration (exit code 2) rather than bad input (3).
-bool is_configuration(const std::filesystem::path& file);
+struct Validation {
+  std::vector<std::string> problems;  ///< one line each, naming the file; empty: the file is good
+  ExitCode code = ExitCode::done;     ///< usage for a configuration, bad_input for anything else
+};
 
-/// One line per problem, each naming the file; empty: the file is good.
-std::vector<std::string> validate_file(const std::filesystem::path& file);
+Validation validate_file(const std::filesystem::path& file);
 
 }  // namespace vantage

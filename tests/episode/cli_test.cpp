@@ -115,6 +115,8 @@ TEST_F(CommandLine, SceneWithoutTable) {
   expect_error(vantage(std::string("run ") + kShort + "--set scene=" + scene), 3,
                {"bare.xml", "no table"});
   EXPECT_THAT(written(), testing::Not(testing::Contains("metrics.json")));
+  const auto episode = file("e.yaml", "scene: bare.xml\n");
+  expect_error(vantage("validate " + episode), 3, {"e.yaml", "bare.xml", "no table"});
 }
 
 TEST_F(CommandLine, EmptyMap) {
