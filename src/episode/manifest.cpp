@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <regex>
 #include <set>
 
 #include "sim/renderer.hpp"
@@ -26,22 +25,28 @@ std::string cpu_name() {
   return "unknown";
 }
 
-std::string attribute(const std::string& xml, const std::string& name) {
-  std::smatch match;
-  return std::regex_search(xml, match, std::regex(name + "\\s*=\\s*\"([^\"]*)\"")) ? match[1].str()
-                                                                                   : "";
+/// The texts of every attribute of that name, name="text", in an XML file.
+std::vector<std::string> attributes(const std::string& xml, const std::string& name) {
+  std::vector<std::string> found;
+  const std::string opening = name + "=\"";
+  for (auto at = xml.find(opening); at != std::string::npos; at = xml.find(opening, at + 1)) {
+    const auto begin = at + opening.size();
+    found.push_back(xml.substr(begin, xml.find('"', begin) - begin));
+  }
+  return found;
 }
 
 void collect_files(const fs::path& file, std::set<fs::path>& found) {
-  if (!fs::is_regular_file(file) || !found.insert(file).second || file.extension() != ".xml")
-    return;
+  if (!fs::is_regular_file(file) || !found.insert(file).second) return;
+  if (file.extension() != ".xml") return;
   const std::string xml = read_file(file);
-  const fs::path base = file.parent_path();
-  static const std::regex reference("file\\s*=\\s*\"([^\"]*)\"");
-  for (std::sregex_iterator it(xml.begin(), xml.end(), reference), end; it != end; ++it) {
-    for (const char* folder : {"", "meshdir", "texturedir"}) {
-      const std::string sub = *folder == '\0' ? "" : attribute(xml, folder);
-      collect_files((base / sub / (*it)[1].str()).lexically_normal(), found);
+  std::vector<std::string> folders = {""};
+  for (const char* kind : {"meshdir", "texturedir", "assetdir"}) {
+    for (auto& folder : attributes(xml, kind)) folders.push_back(std::move(folder));
+  }
+  for (const std::string& name : attributes(xml, "file")) {
+    for (const std::string& folder : folders) {
+      collect_files((file.parent_path() / folder / name).lexically_normal(), found);
     }
   }
 }

@@ -171,6 +171,7 @@ void NextBestView::look_round() {
   for (int third = 1; third <= 3; ++third) {
     const double yaw_rad = start.yaw_rad + 2.0 / 3.0 * std::numbers::pi * third;
     drive_and_map({{start.x_m, start.y_m, wrap_angle(yaw_rad)}});
+    localise();
     belief_.remember_walls(rig_.look_around(), rig_.robot().base_scan_height_m(),
                            rig_.estimated_base());
   }
