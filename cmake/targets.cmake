@@ -14,8 +14,8 @@ function(vantage_library name)
   endif()
 endfunction()
 
-# Warnings are errors in our own code. Contraction into FMA is off so that the same seed gives the
-# same bits on every x86-64 and ARM machine.
+# Warnings are errors in our own code. Contraction into FMA is off, so that optimisation does not
+# change results.
 function(vantage_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror -ffp-contract=off)

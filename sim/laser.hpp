@@ -28,7 +28,7 @@ struct LaserOptions {
     f("line_rate_hz", line_rate_hz, above(0.0));
     f("tilt_min_rad", tilt_min_rad, between(-1.5, 1.5));
     f("tilt_max_rad", tilt_max_rad, between(-1.5, 1.5));
-    f("scan_duration_s", scan_duration_s, above(0.0));
+    f("scan_duration_s", scan_duration_s, between(0.1, 3600.0));
     f("range_min_m", range_min_m, at_least(0.0));
     f("range_max_m", range_max_m, above(0.0));
     f("noise_sigma_m", noise_sigma_m, at_least(0.0));

@@ -69,11 +69,11 @@ ExitCode run_episode_command(const RunArguments& arguments) {
     return ExitCode::done;
   }
   if (arguments.dry_run) {
-    const auto problems = validate_file(path).problems;
-    for (const auto& problem : problems) log_error(problem);
+    const Validation found = validate_episode(path, arguments.overrides, arguments.seed);
+    for (const auto& problem : found.problems) log_error(problem);
     fmt::print("{}: {} scans in {} by {}, seed {}\n", resolved.name, resolved.episode.scans,
                resolved.scene.string(), method_name(resolved.episode), resolved.episode.seed);
-    return problems.empty() ? ExitCode::done : ExitCode::bad_input;
+    return found.code;
   }
   catch_interrupts();
   RunOptions options = arguments.options;
@@ -87,7 +87,7 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   if (outcome.status == EpisodeStatus::interrupted) {
     return static_cast<ExitCode>(128 + interrupt_signal());
   }
-  return outcome.status == EpisodeStatus::completed ? ExitCode::done : ExitCode::goal_failed;
+  return outcome.status == EpisodeStatus::diverged ? ExitCode::diverged : ExitCode::done;
 }
 
 std::function<ExitCode()> declare_run(CLI::App& app) {

@@ -34,7 +34,11 @@ int run_command_line(int argc, char** argv) {
     std::fputs(app.help().c_str(), stderr);
     return exit_code(vantage::ExitCode::usage);
   }
-  return exit_code(chosen());
+  const vantage::ExitCode code = chosen();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw vantage::OutputError("stdout: cannot write");
+  }
+  return exit_code(code);
 }
 
 }  // namespace

@@ -39,8 +39,9 @@ void publish(const fs::path& written, const fs::path& path) {
   std::error_code error;
   fs::rename(written, path, error);
   if (error) {
+    const std::string why = error.message();
     fs::remove(written, error);
-    fail(path, error.message());
+    fail(path, why);
   }
 }
 

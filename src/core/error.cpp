@@ -20,7 +20,7 @@ ConfigError::ConfigError(std::vector<std::string> problems)
 void assertion_failed(std::string_view what, const std::source_location& where) {
   std::fprintf(stderr, "vantage: internal error: %.*s (%s:%u)\n", static_cast<int>(what.size()),
                what.data(), where.file_name(), where.line());
-  std::abort();
+  std::_Exit(static_cast<int>(ExitCode::internal));
 }
 
 }  // namespace vantage

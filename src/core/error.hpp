@@ -56,7 +56,7 @@ struct RendererError : Error {
   explicit RendererError(const std::string& message) : Error(ExitCode::no_renderer, message) {}
 };
 
-/// Programmer errors: prints `what` and the place, then aborts. Always on.
+/// Programmer errors: prints `what` and the place, then ends the process. Always on.
 [[noreturn]] void assertion_failed(std::string_view what, const std::source_location& where);
 
 inline void expects(bool condition, std::string_view what,

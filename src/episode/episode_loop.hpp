@@ -5,7 +5,7 @@
 
 namespace vantage {
 
-enum class EpisodeStatus { completed, failed, diverged, interrupted };
+enum class EpisodeStatus { completed, diverged, interrupted };
 
 /// Runs `parts` until it says it is finished or the user interrupts; an interrupted step is
 /// finished first. A task (next best view, recognition, trajectory) is a type with these eight

@@ -13,7 +13,9 @@ timespec g_first{};
 bool is_echo() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec - g_first.tv_sec < 1;
+  const double later_s = static_cast<double>(now.tv_sec - g_first.tv_sec) +
+                         1e-9 * static_cast<double>(now.tv_nsec - g_first.tv_nsec);
+  return later_s < 1.0;
 }
 
 extern "C" void remember_signal(int signal) {

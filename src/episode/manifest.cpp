@@ -10,6 +10,7 @@
 #include "sim/renderer.hpp"
 #include "sim/world.hpp"
 #include "src/core/atomic_file.hpp"
+#include "src/core/error.hpp"
 #include "src/core/hash.hpp"
 
 namespace vantage {
@@ -25,13 +26,23 @@ std::string cpu_name() {
   return "unknown";
 }
 
+std::string renderer_text() {
+  try {
+    return renderer_name();
+  } catch (const RendererError& error) {
+    return std::string("none: ") + error.what();
+  }
+}
+
 /// The texts of every attribute of that name, name="text", in an XML file.
 std::vector<std::string> attributes(const std::string& xml, const std::string& name) {
   std::vector<std::string> found;
-  const std::string opening = name + "=\"";
-  for (auto at = xml.find(opening); at != std::string::npos; at = xml.find(opening, at + 1)) {
-    const auto begin = at + opening.size();
-    found.push_back(xml.substr(begin, xml.find('"', begin) - begin));
+  for (const char quote : {'"', '\''}) {
+    const std::string opening = name + "=" + quote;
+    for (auto at = xml.find(opening); at != std::string::npos; at = xml.find(opening, at + 1)) {
+      const auto begin = at + opening.size();
+      found.push_back(xml.substr(begin, xml.find(quote, begin) - begin));
+    }
   }
   return found;
 }
@@ -74,7 +85,7 @@ std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std
       {"versions",
        {{"vantage", version_text()},
         {"mujoco", mujoco_version()},
-        {"renderer", renderer_name()},
+        {"renderer", renderer_text()},
         {"opencv", CV_VERSION},
         {"compiler", "g++ " __VERSION__}}},
       {"cpu", cpu_name()},
@@ -86,7 +97,7 @@ std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std
       {"wall_time_s", summary.wall_time_s},
       {"simulated_time_s", summary.simulated_time_s},
   };
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace vantage

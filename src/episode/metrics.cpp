@@ -46,6 +46,8 @@ Json observability(const Episode& episode, const ClutterHazard& hazard) {
   return std::visit(
       [](const auto& gain) -> Json {
         if constexpr (requires { gain.a; }) return gain.a;
+        if constexpr (requires { gain.model.a; }) return gain.model.a;
+        if constexpr (requires { gain.model.visibility.a; }) return gain.model.visibility.a;
         return nullptr;
       },
       episode.gain);
@@ -58,10 +60,13 @@ Json box_json(const Eigen::AlignedBox3d& box) {
 
 }  // namespace
 
+std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string_view status_name(EpisodeStatus status) {
   switch (status) {
     case EpisodeStatus::completed: return "completed";
-    case EpisodeStatus::failed: return "failed";
     case EpisodeStatus::diverged: return "diverged";
     case EpisodeStatus::interrupted: return "interrupted";
   }
@@ -74,6 +79,7 @@ Json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
   const MapScore map = run.truth().score(run.belief().grid(), episode.metrics.tolerance_cells);
   Json json = {{"task", episode.task},
                {"status", status_name(summary.status)},
+               {"reason", summary.reason},
                {"seed", episode.seed},
                {"scene", episode.scene},
                {"method", method_name(episode)},

@@ -13,12 +13,16 @@ namespace vantage {
 
 struct RunSummary {
   EpisodeStatus status = EpisodeStatus::completed;
+  std::string reason;  ///< why it ended early; empty when completed
   double simulated_time_s = 0.0;
   double wall_time_s = 0.0;
   double path_length_m = 0.0;
   int collisions = 0;
   std::uint64_t state_hash = 0;
 };
+
+/// Indented, with a line end; bytes that are not UTF-8 are replaced.
+std::string json_text(const nlohmann::ordered_json& json);
 
 std::string_view status_name(EpisodeStatus status);
 

@@ -33,6 +33,17 @@ Eigen::Vector3d region_centre(const Episode& episode) {
   return {episode.map.centre_m[0], episode.map.centre_m[1], episode.map.centre_m[2]};
 }
 
+double newly_observed(const OccupancyGrid& before, const OccupancyGrid& after) {
+  std::size_t count = 0;
+  for (std::size_t cell = 0; cell < before.size(); ++cell) {
+    count +=
+        before.state(cell) == CellState::unobserved && after.state(cell) != CellState::unobserved
+            ? 1
+            : 0;
+  }
+  return static_cast<double>(count);
+}
+
 double predicted_by(const ScanRecord& scan, std::string_view gain) {
   const auto found =
       std::ranges::find(scan.predicted_cells, gain, &std::pair<std::string, double>::first);
@@ -55,13 +66,13 @@ NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Re
   const Eigen::AlignedBox3d region = belief_.grid().frame.box();
   block_box(floor_, {region.min().head<2>(), region.max().head<2>()});
   recorder_.set_panel([this] { return panel(); });
-  look_round();
-  Candidate start;
-  start.T_world_sensor = rig_.truth().T_world_laser;
-  predict(start);
 }
 
 TabletopObservation NextBestView::observe() {
+  if (scans_.empty()) {
+    look_round();
+    predict(rig_.estimated_laser());
+  }
   const double start_s = rig_.world().time_s();
   auto observation = rig_.observe();
   current_.scan_time_s = rig_.world().time_s() - start_s;
@@ -70,12 +81,24 @@ TabletopObservation NextBestView::observe() {
 
 void NextBestView::update(const TabletopObservation& observation) {
   const double start_s = wall_s();
-  const std::size_t before = belief_.grid().count(CellState::unobserved);
+  const OccupancyGrid before = belief_.grid();
+  const Pose2 dead_reckoned = rig_.dead_reckoned_base();
   const BeliefUpdate report = belief_.update(observation);
   rig_.correct_pose(report.T_world_base);
+  rig_.restart_dead_reckoning();
+  block_table();
   add_planar_scan(floor_, observation.base_scan, report.T_world_base, episode_.floor_map);
   current_.map_time_s = wall_s() - start_s;
+  current_.actual_new_cells = newly_observed(before, belief_.grid());
+  measure(dead_reckoned, report);
+  current_.T_world_sensor = lift(report.T_world_base) * observation.T_base_laser;
+  if (!report.registered) {
+    log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), report.registration_note));
+  }
+}
 
+/// Holds the belief against the truth, for the record alone.
+void NextBestView::measure(const Pose2& dead_reckoned, const BeliefUpdate& report) {
   const OccupancyGrid& grid = belief_.grid();
   const RigTruth truth = rig_.truth();
   const auto error_m = [&](const Pose2& pose) {
@@ -85,19 +108,13 @@ void NextBestView::update(const TabletopObservation& observation) {
   current_.time_s = rig_.world().time_s();
   current_.unobserved_cells = grid.count(CellState::unobserved);
   current_.observable_unobserved_cells = truth_.observable_unobserved(grid);
-  current_.actual_new_cells =
-      static_cast<double>(before) - static_cast<double>(current_.unobserved_cells);
-  current_.pose_error_before_registration_m = error_m(observation.T_world_base_odometry);
+  current_.pose_error_before_registration_m = error_m(dead_reckoned);
   current_.pose_error_m = error_m(report.T_world_base);
   current_.yaw_error_rad = wrap_angle(report.T_world_base.yaw_rad - truth.T_world_base.yaw_rad);
   current_.registered = report.registered;
   current_.collisions = truth.collisions;
   current_.precision = score.precision;
   current_.recall = score.recall;
-  current_.T_world_sensor = lift(report.T_world_base) * observation.T_base_laser;
-  if (!report.registered) {
-    log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), report.registration_note));
-  }
 }
 
 void NextBestView::record() {
@@ -113,6 +130,7 @@ void NextBestView::record() {
 bool NextBestView::finished() const { return static_cast<int>(scans_.size()) >= episode_.scans; }
 
 std::vector<Candidate> NextBestView::propose() {
+  decision_start_s_ = wall_s();
   std::vector<Candidate> candidates = views_;
   const PathField paths = plan_from_here();
   for (Candidate& candidate : candidates) {
@@ -123,12 +141,10 @@ std::vector<Candidate> NextBestView::propose() {
 }
 
 void NextBestView::score(std::vector<Candidate>& candidates) {
-  const double start_s = wall_s();
   const auto transmission = belief_.hazard().transmission_per_slice();
   const auto gains = exact_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
                                       candidates, rig_.view_field(), episode_.threads);
   for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
-  current_.plan_time_s = wall_s() - start_s;
   if (std::holds_alternative<OracleView>(episode_.choice)) {
     for (Candidate& candidate : candidates) {
       candidate.true_new_cells =
@@ -138,25 +154,30 @@ void NextBestView::score(std::vector<Candidate>& candidates) {
 }
 
 std::size_t NextBestView::choose(const std::vector<Candidate>& candidates) {
+  const std::size_t chosen = choose_view(episode_.choice, candidates, choice_rng_);
   current_.candidates = candidates.size();
-  return choose_view(episode_.choice, candidates, choice_rng_);
+  current_.plan_time_s = wall_s() - decision_start_s_;
+  return chosen;
 }
 
 void NextBestView::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
-  predict(candidate);
+  predict(candidate.T_world_sensor);
   current_.fallback = !drive_closer(candidate);
-  if (current_.fallback) views_[static_cast<std::size_t>(candidate.id)].exhausted = true;
+  if (!current_.fallback) return;
+  views_[static_cast<std::size_t>(candidate.id)].exhausted = true;
+  predict(rig_.estimated_laser());  // of the place the scan will be taken from
 }
 
 /// What every gain expects of the view, for the record.
-void NextBestView::predict(const Candidate& view) {
+void NextBestView::predict(const Pose& T_world_sensor) {
+  current_.predicted_cells.clear();
   const auto transmission = belief_.hazard().transmission_per_slice();
   for (const std::string_view name : strategy_names<Gain>()) {
     const auto gain =
         name == strategy_name_of(episode_.gain) ? episode_.gain : make_strategy<Gain>(name);
     current_.predicted_cells.emplace_back(
-        name, exact_gain_bits(gain, {belief_.filled_grid(), transmission}, view.T_world_sensor,
+        name, exact_gain_bits(gain, {belief_.filled_grid(), transmission}, T_world_sensor,
                               rig_.view_field()));
   }
 }
@@ -167,22 +188,27 @@ void NextBestView::look_round() {
   const NavigationOptions& navigation = episode_.navigation;
   const Pose2 start = rig_.estimated_base();
   clear_footprint(floor_, start, navigation.inflation_m() + floor_.cell_m);
-  belief_.remember_walls(rig_.look_around(), rig_.robot().base_scan_height_m(), start);
+  belief_.remember_walls(rig_.look_around(), rig_.base_scan_height_m(), start);
   for (int third = 1; third <= 3; ++third) {
     const double yaw_rad = start.yaw_rad + 2.0 / 3.0 * std::numbers::pi * third;
     drive_and_map({{start.x_m, start.y_m, wrap_angle(yaw_rad)}});
     localise();
-    belief_.remember_walls(rig_.look_around(), rig_.robot().base_scan_height_m(),
-                           rig_.estimated_base());
+    belief_.remember_walls(rig_.look_around(), rig_.base_scan_height_m(), rig_.estimated_base());
   }
 }
 
 /// Corrects dead reckoning by the planar scanner and adds the scan to the floor map.
 void NextBestView::localise() {
   const PlanarScan scan = rig_.look_around();
-  rig_.correct_pose(
-      belief_.localise(scan, rig_.robot().base_scan_height_m(), rig_.estimated_base()));
+  rig_.correct_pose(belief_.localise(scan, rig_.base_scan_height_m(), rig_.estimated_base()));
   add_planar_scan(floor_, scan, rig_.estimated_base(), episode_.floor_map);
+}
+
+/// The table's edge, as far as it was seen, is above the planar scanner's sight.
+void NextBestView::block_table() {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& corner : belief_.table().hull) box.extend(corner);
+  block_box(floor_, box);
 }
 
 PathField NextBestView::plan_from_here() {

@@ -33,7 +33,9 @@ class NextBestView {
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
  private:
-  void predict(const Candidate& view);
+  void predict(const Pose& T_world_sensor);
+  void measure(const Pose2& dead_reckoned, const BeliefUpdate& report);
+  void block_table();
   void look_round();
   void localise();
   DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
@@ -49,7 +51,8 @@ class NextBestView {
   TabletopTruth truth_;
   FloorMap floor_;
   Rng choice_rng_;
-  ScanRecord current_;  ///< filled in from the decision to the end of its scan
+  double decision_start_s_ = 0.0;  ///< wall
+  ScanRecord current_;             ///< filled in from the decision to the end of its scan
   std::vector<ScanRecord> scans_;
   std::vector<Eigen::Vector2d> path_m_;  ///< driven, as the robot believes
 };

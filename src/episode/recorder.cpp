@@ -67,19 +67,21 @@ void Recorder::set_panel(std::function<MapPanelInput()> panel) {
 void Recorder::tick() {
   const World& world = rig_.world();
   states_.add(world.controls(), world.state());
+  if (last_base_ && world.time_s() >= next_pose_s_) pose_rows();
   const Pose2 base = rig_.truth().T_world_base;
   if (last_base_)
     path_length_m_ += std::hypot(base.x_m - last_base_->x_m, base.y_m - last_base_->y_m);
   last_base_ = base;
-  if (world.time_s() >= next_pose_s_) pose_rows();
   if (film_) film_->tick(world);
 }
 
+/// The world ticks before the odometry does: the estimate at hand belongs to the tick before.
 void Recorder::pose_rows() {
-  const double time_s = rig_.world().time_s();
-  trajectory_.write(tum_row(time_s, rig_.truth().T_world_base));
+  const World& world = rig_.world();
+  const double time_s = world.time_s() - world.options().control_period_s;
+  trajectory_.write(tum_row(time_s, *last_base_));
   estimated_.write(tum_row(time_s, rig_.estimated_base()));
-  next_pose_s_ = time_s + kPoseRowEvery_s;
+  next_pose_s_ = world.time_s() + kPoseRowEvery_s;
 }
 
 void Recorder::scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid) {
@@ -104,20 +106,26 @@ void Recorder::add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_
   voxels_.push_back({p.x(), p.y(), p.z(), static_cast<std::uint16_t>(step), kind});
 }
 
-void Recorder::commit(const OccupancyGrid& grid, const PointCloud& cloud) {
+void Recorder::commit() {
   states_.commit();
   steps_.commit();
   trajectory_.commit();
   estimated_.commit();
-  if (grid.count(CellState::unobserved) < grid.size()) {
-    write_octomap(grid, directory_ / "map.bt");
-    write_octomap(grid, directory_ / "map.ot");
-  }
-  write_ply(directory_ / "cloud.ply", cloud);
+}
+
+void Recorder::write_map(const OccupancyGrid& grid, const PointCloud& cloud) {
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
     if (grid.state(cell) == CellState::unobserved) add_voxel(grid, cell, 0, kVoxelUnobserved);
   }
   write_voxels(directory_ / "voxels.bin", {grid.frame.cell_size_m, grid.frame.box(), voxels_});
+  write_ply(directory_ / "cloud.ply", cloud);
+  if (grid.count(CellState::unobserved) < grid.size()) {
+    write_octomap(grid, directory_ / "map.bt");
+    write_octomap(grid, directory_ / "map.ot");
+  }
+}
+
+void Recorder::finish_video() {
   if (film_) film_->finish();
 }
 

@@ -30,8 +30,9 @@ class Recorder {
   void set_panel(std::function<MapPanelInput()> panel);
   /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
   void scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid);
-  /// Puts the growing files under their final names.
-  void commit(const OccupancyGrid& grid, const PointCloud& cloud);
+  void commit();  ///< puts the growing files under their final names
+  void write_map(const OccupancyGrid& grid, const PointCloud& cloud);
+  void finish_video();
 
   [[nodiscard]] std::uint64_t state_hash() const { return states_.hash(); }
   [[nodiscard]] double path_length_m() const { return path_length_m_; }

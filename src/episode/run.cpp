@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <chrono>
 
 #include "src/core/atomic_file.hpp"
@@ -18,23 +19,26 @@ double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// An old run is removed file by file, and only what a run writes: the folder may hold notes.
+constexpr auto kRunFiles = std::to_array<std::string_view>(
+    {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
+     "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
+     "voxels.bin", "video.mp4", "report.html", "log.txt", "frames"});
+
+/// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {
-  const bool used =
-      fs::exists(directory / "metrics.json") || fs::exists(directory / "manifest.json");
-  if (used && !overwrite) {
-    throw ConfigError(
-        fmt::format("--out {}: holds a run already; --overwrite replaces it", directory.string()));
+  for (const std::string_view name : kRunFiles) {
+    if (fs::exists(directory / name) && !overwrite) {
+      throw ConfigError(fmt::format("--out {}: holds a {} already; --overwrite replaces it",
+                                    directory.string(), name));
+    }
   }
   make_writable_directory(directory);
-  for (const char* name :
-       {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
-        "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
-        "voxels.bin", "video.mp4", "report.html", "log.txt", "frames"}) {
+  for (const std::string_view name : kRunFiles) {
     std::error_code error;
     fs::remove_all(directory / name, error);
-    if (error)
+    if (error) {
       throw OutputError(fmt::format("{}: {}", (directory / name).string(), error.message()));
+    }
   }
 }
 
@@ -56,32 +60,34 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
       options.directory.empty()
           ? fs::path("out") / fmt::format("{}-{}", resolved.name, resolved.episode.seed)
           : options.directory;
+  TabletopRig rig(resolved);  // before an old run is removed: it may fail
   prepare_directory(outcome.directory, options.overwrite);
   log_to_file(outcome.directory / "log.txt");
   write_file(outcome.directory / "config.yaml", episode_yaml(resolved.episode));
 
   const double start_s = wall_s();
-  TabletopRig rig(resolved);
   Recorder recorder(resolved, rig, outcome.directory, options.video);
   NextBestView parts(resolved, rig, recorder);
-  std::string divergence;
-  outcome.status = run_to_end(parts, divergence);
-
   RunSummary summary;
-  summary.status = outcome.status;
+  summary.status = run_to_end(parts, summary.reason);
   summary.simulated_time_s = rig.world().time_s();
   summary.wall_time_s = wall_s() - start_s;
   summary.path_length_m = recorder.path_length_m();
   summary.collisions = rig.truth().collisions;
   summary.state_hash = recorder.state_hash();
-  outcome.metrics = metrics_json(resolved, summary, parts).dump(2) + "\n";
-  recorder.commit(parts.belief().grid(), parts.belief().object_cloud());
+
+  // What cannot be made again comes first.
+  recorder.commit();
+  outcome.status = summary.status;
+  outcome.metrics = json_text(metrics_json(resolved, summary, parts));
   write_file(outcome.directory / "manifest.json",
              manifest_json(resolved, options.command, summary));
   write_file(outcome.directory / "metrics.json", outcome.metrics);
+  recorder.write_map(parts.belief().grid(), parts.belief().object_cloud());
+  recorder.finish_video();
   write_report(outcome.directory);
+  if (summary.status == EpisodeStatus::diverged) log_error("diverged: " + summary.reason);
   log_to_file({});
-  if (!divergence.empty()) throw DivergedError(divergence);
   return outcome;
 }
 

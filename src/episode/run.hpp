@@ -23,7 +23,8 @@ struct RunOutcome {
   std::string metrics;  ///< the JSON text
 };
 
-/// @throws OutputError, InputError, RendererError; DivergedError after the metrics were written.
+/// A divergence is an outcome, not an exception.
+/// @throws OutputError, InputError, RendererError
 RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options);
 
 }  // namespace vantage

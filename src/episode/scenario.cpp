@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "src/core/data_root.hpp"
 #include "src/core/yaml.hpp"
 
@@ -18,6 +20,12 @@ void MapOptions::check() const {
 void Episode::check() const {
   if (task != "next_best_view") {
     throw ConfigError(fmt::format("task: unknown task '{}'; known: next_best_view", task));
+  }
+  const double lines_per_tick = laser.line_rate_hz * simulation.control_period_s;
+  if (std::abs(lines_per_tick - 1.0) > 1e-9) {
+    throw ConfigError(fmt::format(
+        "laser.line_rate_hz: {} must be 1 / simulation.control_period_s = {}: a line per tick",
+        laser.line_rate_hz, 1.0 / simulation.control_period_s));
   }
   if (robot.start_view >= candidates.positions) {
     throw ConfigError(fmt::format("robot.start_view: {} is not below candidates.positions = {}",
@@ -40,8 +48,16 @@ ResolvedEpisode load_episode(const std::filesystem::path& path,
   const ConfigNode* robot = root.find("robot");
   const ConfigNode* model = robot == nullptr ? nullptr : robot->find("model");
   const auto base = path.parent_path();
+  const auto stored = [](const std::filesystem::path& found) {
+    const auto absolute = std::filesystem::absolute(found).lexically_normal();
+    const auto inside = absolute.lexically_relative(data_root());
+    return inside.empty() || *inside.begin() == ".." ? absolute.string() : inside.string();
+  };
   resolved.scene = find_input(resolved.episode.scene, base, key("scene", root.find("scene")));
   resolved.robot = find_input(resolved.episode.robot.model, base, key("robot.model", model));
+  // As another working directory, or replay, will find them.
+  resolved.episode.scene = stored(resolved.scene);
+  resolved.episode.robot.model = stored(resolved.robot);
   return resolved;
 }
 

@@ -30,12 +30,10 @@ namespace vantage {
 
 struct RobotOptions {
   std::string model = "models/robots/pr2/pr2.xml";  ///< MJCF of the robot
-  int start_view = 0;    ///< position on the ring of views where the robot stands at the start
-  double torso_m = 0.0;  ///< torso lift, 0-0.33 m; higher looks over more objects
+  int start_view = 0;  ///< position on the ring of views where the robot stands at the start
   void fields(auto&& f) {
     f("model", model);
     f("start_view", start_view, at_least(0));
-    f("torso_m", torso_m, between(0.0, 0.33));
   }
 };
 
@@ -45,8 +43,8 @@ struct MapOptions {
   std::array<double, 3> size_m{1.0, 1.0, 0.504};    ///< m, > 0
   std::array<int, 3> cells{129, 129, 65};           ///< finer maps cost time in proportion
   void fields(auto&& f) {
-    f("centre_m", centre_m);
-    f("size_m", size_m, above(0.0));
+    f("centre_m", centre_m, between(-1000.0, 1000.0));
+    f("size_m", size_m, Range{0.0, 1000.0, true});
     f("cells", cells, between(1, 4096));
   }
   void check() const;  ///< at most 2^28 cells
@@ -63,7 +61,7 @@ struct RecordingOptions {
   int video_fps = 25;
   int height_px = 720;  ///< of the video; its width is 16:9
   void fields(auto&& f) {
-    f("video_speed", video_speed, above(0.0));
+    f("video_speed", video_speed, between(1.0, 1000.0));
     f("video_fps", video_fps, between(1, 120));
     f("height_px", height_px, between(120, 2160));
   }

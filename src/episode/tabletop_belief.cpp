@@ -22,7 +22,11 @@ TabletopBelief::TabletopBelief(const Episode& episode)
       grid_(episode.grid_frame()),
       filled_(grid_),
       hazard_(episode.clutter_hazard, grid_.frame.cells.z()),
-      sampling_(Rng::stream(episode.seed, "table sampling")) {}
+      sampling_(Rng::stream(episode.seed, "table sampling")) {
+  const MapOptions& map = episode_.map;
+  episode_.table.region_centre_m = {map.centre_m[0], map.centre_m[1]};
+  episode_.table.region_size_m = {2.0 * map.size_m[0], 2.0 * map.size_m[1]};
+}
 
 BeliefUpdate TabletopBelief::update(const TabletopObservation& observation) {
   BeliefUpdate report;

@@ -36,6 +36,8 @@ class TabletopBelief {
   BeliefUpdate update(const TabletopObservation& observation);
 
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
+  /// As far as it was seen; only after the first update.
+  [[nodiscard]] const TablePlane& table() const { return *table_; }
   /// The grid with holes filled: what planning looks at.
   [[nodiscard]] const OccupancyGrid& filled_grid() const { return filled_; }
   [[nodiscard]] const ClutterHazard& hazard() const { return hazard_; }

@@ -1,5 +1,8 @@
 #include "src/episode/tabletop_rig.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "src/core/error.hpp"
@@ -11,6 +14,18 @@ namespace {
 constexpr int kSettleTicks = 20;
 constexpr int kMostTicksToReach = 400;
 constexpr double kTiltReached_rad = 0.01;
+constexpr double kTorsoRange_m = 0.33;
+
+/// The torso's lift that brings the laser to the height of the views.
+double torso_m(const World& world, const Pr2& robot, const Episode& episode) {
+  const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.torso_m(world);
+  const double lift_m = episode.candidates.height_m - lowest_m;
+  if (lift_m < -1e-3 || lift_m > kTorsoRange_m) {
+    throw ConfigError(fmt::format("candidates.height_m: {} is out of the laser's reach, {} to {}",
+                                  episode.candidates.height_m, lowest_m, lowest_m + kTorsoRange_m));
+  }
+  return std::max(lift_m, 0.0);
+}
 
 /// The robot, standing where the episode starts: at a position on the ring of views.
 Pr2 placed_robot(World& world, const Episode& episode) {
@@ -20,7 +35,7 @@ Pr2 placed_robot(World& world, const Episode& episode) {
   const auto& centre = episode.map.centre_m;
   const auto views = ring_of_views(ring, {centre[0], centre[1], centre[2]});
   const auto& start = views[static_cast<std::size_t>(episode.robot.start_view)];
-  robot.place(world, robot.base_for_laser(start.T_world_sensor), episode.robot.torso_m);
+  robot.place(world, robot.base_for_laser(start.T_world_sensor), torso_m(world, robot, episode));
   return robot;
 }
 
@@ -38,7 +53,14 @@ TabletopRig::TabletopRig(const ResolvedEpisode& resolved)
                 robot_.T_world_base(world_)),
       laser_noise_(Rng::stream(episode_.seed, "laser")),
       scanner_noise_(Rng::stream(episode_.seed, "base scanner")) {
-  robot_.command_torso(world_, episode_.robot.torso_m);
+  robot_.command_torso(world_, torso_m(world_, robot_, episode_));
+  restart_dead_reckoning();
+  const AngleRange reach = robot_.laser_tilt_range();
+  if (episode_.laser.tilt_min_rad < reach.min_rad || episode_.laser.tilt_max_rad > reach.max_rad) {
+    throw ConfigError(fmt::format(
+        "laser: tilt_min_rad {} to tilt_max_rad {} is beyond the joint's {} to {}",
+        episode_.laser.tilt_min_rad, episode_.laser.tilt_max_rad, reach.min_rad, reach.max_rad));
+  }
 }
 
 void TabletopRig::tick() {
@@ -100,10 +122,27 @@ Pose2 TabletopRig::base_for_view(const Pose& T_world_laser) const {
   return robot_.base_for_laser(T_world_laser);
 }
 
+Pose TabletopRig::estimated_laser() const {
+  return lift(odometry_.estimate()) * robot_.T_base_laser_mount(world_);
+}
+
 RigTruth TabletopRig::truth() const {
-  const Pose2 base = robot_.T_world_base(world_);
-  return {base, lift(base) * robot_.T_base_laser_mount(world_),
-          collisions_.count() + drive_collisions_};
+  return {robot_.T_world_base(world_), collisions_.count() + drive_collisions_};
+}
+
+void TabletopRig::correct_pose(const Pose2& T_world_base) {
+  T_world_dead_reckoned_ = dead_reckoned_base();
+  T_world_corrected_ = T_world_base;
+  odometry_.correct(T_world_base);
+}
+
+void TabletopRig::restart_dead_reckoning() {
+  T_world_dead_reckoned_ = T_world_corrected_ = odometry_.estimate();
+}
+
+Pose2 TabletopRig::dead_reckoned_base() const {
+  return compose(T_world_dead_reckoned_,
+                 compose(inverse(T_world_corrected_), odometry_.estimate()));
 }
 
 }  // namespace vantage

@@ -27,7 +27,6 @@ struct TabletopObservation {
 
 struct RigTruth {
   Pose2 T_world_base;
-  Pose T_world_laser;  ///< at tilt 0
   int collisions = 0;
 };
 
@@ -41,8 +40,14 @@ class TabletopRig {
   PlanarScan look_around();
   /// `on_tick` is called while driving; truth is not passed on.
   DriveResult drive_along(std::span<const Pose2> path, const std::function<void()>& on_tick);
-  void correct_pose(const Pose2& T_world_base) { odometry_.correct(T_world_base); }
+  void correct_pose(const Pose2& T_world_base);
+  /// What the wheels alone say, without the corrections since restart_dead_reckoning().
+  [[nodiscard]] Pose2 dead_reckoned_base() const;
+  void restart_dead_reckoning();
+  [[nodiscard]] double base_scan_height_m() const { return robot_.base_scan_height_m(); }
   [[nodiscard]] Pose2 estimated_base() const { return odometry_.estimate(); }
+  /// Where the laser (at tilt 0) is, as the robot believes.
+  [[nodiscard]] Pose estimated_laser() const;
   [[nodiscard]] Pose2 base_for_view(const Pose& T_world_laser) const;
   [[nodiscard]] FieldOfView view_field() const { return field_of_view(episode_.laser); }
 
@@ -50,7 +55,6 @@ class TabletopRig {
   [[nodiscard]] const RayScene& true_geometry() const { return geometry_without_robot_; }
   World& world() { return world_; }
   [[nodiscard]] const World& world() const { return world_; }
-  [[nodiscard]] const Pr2& robot() const { return robot_; }
 
  private:
   void tick();
@@ -62,6 +66,8 @@ class TabletopRig {
   RayScene geometry_;
   RayScene geometry_without_robot_;
   Odometry odometry_;
+  Pose2 T_world_dead_reckoned_;  ///< at the last correction
+  Pose2 T_world_corrected_;      ///< the pose that correction set
   CollisionCounter collisions_;  ///< while standing; drives count their own
   int drive_collisions_ = 0;
   Rng laser_noise_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "sim/ray_scene.hpp"
 #include "sim/world.hpp"
 #include "src/belief/octomap_io.hpp"
@@ -29,16 +31,13 @@ bool has_table(const World& world, const Episode& episode) {
   return false;
 }
 
-Problems validate_episode(const fs::path& file) {
-  const ResolvedEpisode resolved = load_episode(file, {});
-  Problems problems = validate_file(resolved.scene).problems;
-  if (!problems.empty()) return problems;
+Problems episode_problems(const fs::path& file, const std::vector<std::string>& overrides,
+                          std::optional<std::uint64_t> seed) {
+  const ResolvedEpisode resolved = load_episode(file, overrides, seed);
   const World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
-  if (!has_table(world, resolved.episode)) {
-    problems.push_back(fmt::format("{}: scene: {}: no table in the region round map.centre_m",
-                                   file.string(), resolved.scene.string()));
-  }
-  return problems;
+  if (has_table(world, resolved.episode)) return {};
+  return {fmt::format("{}: scene: {}: no table in the region round map.centre_m", file.string(),
+                      resolved.scene.string())};
 }
 
 Problems validate_scene(const fs::path& file) {
@@ -52,26 +51,36 @@ Problems validate_map(const fs::path& file) {
   return {};
 }
 
-}  // namespace
-
-Validation validate_file(const fs::path& file) {
-  const std::string type = file.extension().string();
-  const auto checked = [](Problems problems) {
-    const ExitCode code = problems.empty() ? ExitCode::done : ExitCode::bad_input;
-    return Validation{std::move(problems), code};
-  };
+Validation collect(const std::function<Problems()>& check) {
   try {
-    if (!fs::exists(file)) return checked({file.string() + ": no such file"});
-    if (type == ".yaml" || type == ".yml") return checked(validate_episode(file));
-    if (type == ".xml" || type == ".mjcf") return checked(validate_scene(file));
-    if (type == ".bt" || type == ".ot") return checked(validate_map(file));
+    Problems problems = check();
+    const ExitCode code = problems.empty() ? ExitCode::done : ExitCode::bad_input;
+    return {std::move(problems), code};
   } catch (const ConfigError& error) {
     return {error.problems(), error.code()};
   } catch (const Error& error) {
     return {{error.what()}, error.code()};
   }
-  return checked({fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",
-                              file.string(), type)});
+}
+
+}  // namespace
+
+Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides,
+                            std::optional<std::uint64_t> seed) {
+  return collect([&] { return episode_problems(file, overrides, seed); });
+}
+
+Validation validate_file(const fs::path& file) {
+  return collect([&]() -> Problems {
+    const std::string type = file.extension().string();
+    std::error_code error;
+    if (!fs::exists(file, error)) return {file.string() + ": no such file"};
+    if (type == ".yaml" || type == ".yml") return episode_problems(file, {}, std::nullopt);
+    if (type == ".xml" || type == ".mjcf") return validate_scene(file);
+    if (type == ".bt" || type == ".ot") return validate_map(file);
+    return {fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",
+                        file.string(), type)};
+  });
 }
 
 }  // namespace vantage

@@ -1,7 +1,9 @@
 /// `vantage validate`: everything wrong with a file, nothing run.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,11 @@ struct Validation {
   std::vector<std::string> problems;  ///< one line each, naming the file; empty: the file is good
   ExitCode code = ExitCode::done;     ///< usage for a configuration, bad_input for anything else
 };
+
+/// Of the episode as it would run.
+Validation validate_episode(const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides = {},
+                            std::optional<std::uint64_t> seed = std::nullopt);
 
 Validation validate_file(const std::filesystem::path& file);
 

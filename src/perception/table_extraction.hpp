@@ -16,8 +16,8 @@
 namespace vantage {
 
 struct TableOptions {
-  std::array<double, 2> region_centre_m{0.0, 0.0};  ///< world x, y of the region of interest
-  std::array<double, 2> region_size_m{2.0, 2.0};    ///< its edge lengths
+  std::array<double, 2> region_centre_m{0.0, 0.0};  ///< world x, y where to look; set by the caller
+  std::array<double, 2> region_size_m{2.0, 2.0};    ///< its edge lengths; set by the caller
   double min_height_m = 0.4;                        ///< lowest table top; must be above the floor
   double max_height_m = 1.2;                        ///< highest table top
   double max_tilt_rad = 0.05;         ///< from horizontal; higher accepts sloping surfaces
@@ -28,8 +28,6 @@ struct TableOptions {
   int hypotheses = 200;               ///< random planes tried; higher is surer and slower
   double max_step_m = 0.03;           ///< height difference of two views of one table
   void fields(auto&& f) {
-    f("region_centre_m", region_centre_m);
-    f("region_size_m", region_size_m, above(0.0));
     f("min_height_m", min_height_m);
     f("max_height_m", max_height_m);
     f("max_tilt_rad", max_tilt_rad, between(0.0, 0.8));

@@ -50,7 +50,7 @@ class CommandLine : public testing::Test {
   Result vantage(const std::string& arguments) {
     return shell("cd '" + folder_.string() + "' && " VANTAGE_BINARY " " + arguments);
   }
-  /// Exit code, every one of `parts` in the message, one line, and no run folder left behind.
+  /// Exit code, every one of `parts` in the message, one line.
   void expect_error(const Result& result, int exit_code, const std::vector<std::string>& parts) {
     EXPECT_EQ(result.exit_code, exit_code) << result.output;
     for (const auto& part : parts) EXPECT_THAT(result.output, HasSubstr(part));
@@ -119,6 +119,22 @@ TEST_F(CommandLine, SceneWithoutTable) {
   expect_error(vantage("validate " + episode), 3, {"e.yaml", "bare.xml", "no table"});
 }
 
+TEST_F(CommandLine, DivergedEpisodeIsARecordedResult) {
+  // A spring that pushes away from rest: the ball runs off exponentially.
+  const auto scene = file("unstable.xml", R"(<mujoco><worldbody>
+    <geom type="plane" size="5 5 .1"/>
+    <geom type="box" size=".5 .5 .02" pos="0 0 .7"/>
+    <body pos="3 3 1"><joint type="slide" axis="1 0 0" stiffness="-30" springref="-0.01"/>
+      <geom size=".05" mass="1" contype="0" conaffinity="0"/></body>
+  </worldbody></mujoco>)");
+  const Result result = vantage(std::string("run ") + kShort + "--set scene=" + scene);
+  EXPECT_EQ(result.exit_code, 4) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("the simulation diverged at"));
+  const Result metrics = shell("cat '" + folder_.string() + "'/out/*/metrics.json");
+  EXPECT_THAT(metrics.output, HasSubstr("\"status\": \"diverged\""));
+  EXPECT_THAT(written(), testing::IsSupersetOf({"states.bin", "actions.csv", "report.html"}));
+}
+
 TEST_F(CommandLine, EmptyMap) {
   const auto map = file("empty.bt", "");
   expect_error(vantage("validate " + map), 3, {"empty.bt"});
@@ -150,11 +166,44 @@ TEST_F(CommandLine, SecondRunNeedsOverwrite) {
 
 TEST_F(CommandLine, InterruptedRunWritesWhatThereIs) {
   const Result result =
-      shell("cd '" + folder_.string() + "' && timeout -s INT 4 " VANTAGE_BINARY " run -q --json");
-  EXPECT_EQ(result.exit_code, 124) << result.output;  // timeout's own, the child ended by itself
+      shell("cd '" + folder_.string() +
+            "' && timeout --preserve-status -s INT 4 " VANTAGE_BINARY " run -q --json");
+  EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_THAT(result.output, HasSubstr("\"status\": \"interrupted\""));
   EXPECT_THAT(written(),
               testing::IsSupersetOf({"metrics.json", "report.html", "map.bt", "states.bin"}));
+}
+
+TEST_F(CommandLine, TerminatedRunEndsIn143) {
+  const Result result = shell("cd '" + folder_.string() +
+                              "' && timeout --preserve-status -s TERM 4 " VANTAGE_BINARY " run -q");
+  EXPECT_EQ(result.exit_code, 143) << result.output;
+  EXPECT_THAT(written(), testing::Contains("metrics.json"));
+}
+
+TEST_F(CommandLine, FullStdoutIsAnOutputError) {
+  EXPECT_EQ(vantage("list gains >/dev/full").exit_code, 5);
+}
+
+TEST_F(CommandLine, FailedOverwriteKeepsTheOldRun) {
+  const std::string run = std::string("run ") + kShort;
+  ASSERT_EQ(vantage(run).exit_code, 0);
+  EXPECT_EQ(vantage(run + "--overwrite --set scene=no.xml").exit_code, 3);
+  EXPECT_THAT(written(), testing::Contains("metrics.json"));
+}
+
+TEST_F(CommandLine, SceneBesideTheEpisodeIsReplayed) {
+  fs::copy(fs::path(VANTAGE_SOURCE_DIR) / "models/scenes/tabletop_4", folder_ / "mine",
+           fs::copy_options::recursive);
+  file("mine/e.yaml", "scene: scene.xml\n");
+  ASSERT_EQ(vantage(std::string("run mine/e.yaml ") + kShort + "--out run").exit_code, 0);
+  EXPECT_EQ(vantage("replay run").exit_code, 0);
+}
+
+TEST_F(CommandLine, DryRunSeesOverrides) {
+  expect_error(vantage("run -q --dry-run --set scans=0 "), 2, {"scans"});
+  const auto scene = file("broken.xml", "<mujoco><nonsense/></mujoco>");
+  EXPECT_EQ(vantage("run --dry-run --set scene=" + scene).exit_code, 3);
 }
 
 TEST_F(CommandLine, PrintConfigIsReadBack) {
@@ -191,7 +240,7 @@ TEST_F(CommandLine, ListsWhatThereIs) {
 TEST_F(CommandLine, DoctorFindsTheRenderer) {
   const Result result = vantage("doctor");
   EXPECT_EQ(result.exit_code, 0) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("H.264"));
+  EXPECT_THAT(result.output, HasSubstr("H.264 in MP4 works"));
 }
 
 }  // namespace

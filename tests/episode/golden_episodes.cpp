@@ -97,8 +97,7 @@ GoldenResult run_episode_file(const std::string& name) {
       fs::temp_directory_path() / fmt::format("vantage-golden-{}-{}", name, ::getpid());
   set_verbosity(Verbosity::quiet);
   const ResolvedEpisode resolved = load_episode(golden / "episode.yaml", {});
-  const auto metrics =
-      nlohmann::json::parse(run(resolved, {out, true, false, {}}).metrics);
+  const auto metrics = nlohmann::json::parse(run(resolved, {out, true, false, {}}).metrics);
   GoldenResult result;
   int step = 0;
   for (const auto& scan : metrics["scans"]) {

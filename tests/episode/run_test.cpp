@@ -58,7 +58,9 @@ TEST_F(Run, SameSeedSameBytes) {
   drop_wall_times(first);
   drop_wall_times(second);
   EXPECT_EQ(first.dump(2), second.dump(2));
-  for (const char* name : {"states.bin", "actions.csv", "trajectory.tum", "map.bt", "cloud.ply"}) {
+  for (const char* name :
+       {"states.bin", "actions.csv", "trajectory.tum", "trajectory_estimated.tum", "map.bt",
+        "map.ot", "cloud.ply", "voxels.bin"}) {
     EXPECT_EQ(read_file(folder_ / "first" / name), read_file(folder_ / "second" / name)) << name;
   }
 }
@@ -102,6 +104,10 @@ TEST_F(Run, ReplayNamesTheStepOfAnyChangedByte) {
     if (at >= header && original[at] != '\n') {
       const auto tick = std::stoull(original.substr(line_start + 1));
       EXPECT_LE(*result.first_difference, tick) << "byte " << at << ": " << result.what;
+      const auto previous = original.rfind('\n', line_start - 1);
+      if (previous != std::string::npos) {
+        EXPECT_GE(*result.first_difference, std::stoull(original.substr(previous + 1))) << at;
+      }
     }
   }
 }
