@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <optional>
 
 #include "src/core/data_root.hpp"
 #include "src/core/hash.hpp"
@@ -29,7 +28,7 @@ std::vector<std::string> g_command_line;
 struct RunArguments {
   std::string episode = "assets/episodes/tabletop.yaml";
   std::vector<std::string> overrides;
-  std::optional<std::uint64_t> seed;
+  std::string seed;
   RunOptions options;
   bool json = false;
   bool quiet = false;
@@ -63,14 +62,17 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   if (arguments.quiet) set_verbosity(Verbosity::quiet);
   if (arguments.verbose) set_verbosity(Verbosity::verbose);
   const auto path = find_input(arguments.episode, {}, "episode");
-  const ResolvedEpisode resolved = load_episode(path, arguments.overrides, arguments.seed);
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
+  const ResolvedEpisode resolved = load_episode(path, overrides);
   if (arguments.print_config) {
     fmt::print("{}", episode_yaml(resolved.episode));
     return ExitCode::done;
   }
   if (arguments.dry_run) {
-    const Validation found = validate_episode(path, arguments.overrides, arguments.seed);
+    const Validation found = validate_episode(path, overrides);
     for (const auto& problem : found.problems) log_error(problem);
+    if (!found.problems.empty()) return found.code;
     fmt::print("{}: {} scans in {} by {}, seed {}\n", resolved.name, resolved.episode.scans,
                resolved.scene.string(), method_name(resolved.episode), resolved.episode.seed);
     return found.code;

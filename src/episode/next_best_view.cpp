@@ -66,6 +66,7 @@ NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Re
   const Eigen::AlignedBox3d region = belief_.grid().frame.box();
   block_box(floor_, {region.min().head<2>(), region.max().head<2>()});
   recorder_.set_panel([this] { return panel(); });
+  if (truth_.observable_cells() == 0) log_warning("map: none of the views sees any of its cells");
 }
 
 TabletopObservation NextBestView::observe() {
@@ -165,6 +166,8 @@ void NextBestView::act(const Candidate& candidate) {
   predict(candidate.T_world_sensor);
   current_.fallback = !drive_closer(candidate);
   if (!current_.fallback) return;
+  log_warning(
+      fmt::format("view {} is out of reach: scanning from as near as possible", candidate.id));
   views_[static_cast<std::size_t>(candidate.id)].exhausted = true;
   predict(rig_.estimated_laser());  // of the place the scan will be taken from
 }

@@ -1,10 +1,12 @@
 #include "src/episode/replay.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 #include "sim/world.hpp"
+#include "src/core/atomic_file.hpp"
 #include "src/core/hash.hpp"
 #include "src/episode/scenario.hpp"
 #include "src/episode/state_log.hpp"
@@ -62,6 +64,11 @@ ReplayResult replay(const std::filesystem::path& run_dir) {
     if (auto what = state_difference(recorded.state(tick + 1), state)) return diverged(*what);
     result.state_hash = hash_doubles(state, hash_doubles(world.controls(), result.state_hash));
     result.ticks = tick + 1;
+  }
+  const auto metrics = nlohmann::json::parse(read_file(run_dir / "metrics.json"), nullptr, false);
+  if (!metrics.is_object() || metrics.value("state_hash", "") != hash_text(result.state_hash)) {
+    result.first_difference = result.ticks;
+    result.what = "metrics.json has another state_hash";
   }
   if (next != actions.end()) {
     result.first_difference = std::max(next->tick, result.ticks);

@@ -10,6 +10,7 @@
 #include "src/core/log.hpp"
 #include "src/episode/manifest.hpp"
 #include "src/episode/report.hpp"
+#include "src/episode/validate.hpp"
 
 namespace vantage {
 namespace {
@@ -27,7 +28,7 @@ constexpr auto kRunFiles = std::to_array<std::string_view>(
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {
   for (const std::string_view name : kRunFiles) {
-    if (fs::exists(directory / name) && !overwrite) {
+    if (name != "log.txt" && fs::exists(directory / name) && !overwrite) {
       throw ConfigError(fmt::format("--out {}: holds a {} already; --overwrite replaces it",
                                     directory.string(), name));
     }
@@ -61,9 +62,12 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
           ? fs::path("out") / fmt::format("{}-{}", resolved.name, resolved.episode.seed)
           : options.directory;
   TabletopRig rig(resolved);  // before an old run is removed: it may fail
+  if (!has_table(rig.world(), resolved.episode)) {
+    throw InputError(fmt::format("scene: {}: no table in the region round map.centre_m",
+                                 resolved.scene.string()));
+  }
   prepare_directory(outcome.directory, options.overwrite);
   log_to_file(outcome.directory / "log.txt");
-  write_file(outcome.directory / "config.yaml", episode_yaml(resolved.episode));
 
   const double start_s = wall_s();
   Recorder recorder(resolved, rig, outcome.directory, options.video);
@@ -80,6 +84,7 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   recorder.commit();
   outcome.status = summary.status;
   outcome.metrics = json_text(metrics_json(resolved, summary, parts));
+  write_file(outcome.directory / "config.yaml", episode_yaml(resolved.episode));
   write_file(outcome.directory / "manifest.json",
              manifest_json(resolved, options.command, summary));
   write_file(outcome.directory / "metrics.json", outcome.metrics);

@@ -34,11 +34,9 @@ void Episode::check() const {
 }
 
 ResolvedEpisode load_episode(const std::filesystem::path& path,
-                             const std::vector<std::string>& overrides,
-                             std::optional<std::uint64_t> seed) {
+                             const std::vector<std::string>& overrides) {
   ConfigNode root = read_yaml(path);
   for (const auto& assignment : overrides) apply_override(root, assignment);
-  if (seed) apply_override(root, fmt::format("seed={}", *seed));
   ResolvedEpisode resolved;
   resolved.name = path.stem().string();
   read_into(root, resolved.episode);

@@ -140,8 +140,7 @@ struct ResolvedEpisode {
 
 /// @throws ConfigError or InputError naming file, line, key and value.
 ResolvedEpisode load_episode(const std::filesystem::path& path,
-                             const std::vector<std::string>& overrides,
-                             std::optional<std::uint64_t> seed = std::nullopt);
+                             const std::vector<std::string>& overrides);
 
 /// "adaptive" for a greedy choice by that gain, "random" or "oracle" for a choice that looks at
 /// none.

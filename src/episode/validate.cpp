@@ -18,22 +18,8 @@ using Problems = std::vector<std::string>;
 
 const GeomFilter kWithoutRobot{.exclude_body_prefix = "robot/", .max_group = 5};
 
-/// Whether anything in the region of interest is as high as a table: rays from above, 5 x 5.
-bool has_table(const World& world, const Episode& episode) {
-  const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
-  const Eigen::AlignedBox3d region = episode.grid_frame().box();
-  for (int i = 0; i < 25; ++i) {
-    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 1.0);
-    const Eigen::Vector3d p_above = region.min().array() + share * region.sizes().array();
-    const RayHit hit = geometry.cast(p_above, -Eigen::Vector3d::UnitZ(), p_above.z());
-    if (p_above.z() - hit.distance_m >= episode.table.min_height_m) return true;
-  }
-  return false;
-}
-
-Problems episode_problems(const fs::path& file, const std::vector<std::string>& overrides,
-                          std::optional<std::uint64_t> seed) {
-  const ResolvedEpisode resolved = load_episode(file, overrides, seed);
+Problems episode_problems(const fs::path& file, const std::vector<std::string>& overrides) {
+  const ResolvedEpisode resolved = load_episode(file, overrides);
   const World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
   if (has_table(world, resolved.episode)) return {};
   return {fmt::format("{}: scene: {}: no table in the region round map.centre_m", file.string(),
@@ -65,9 +51,20 @@ Validation collect(const std::function<Problems()>& check) {
 
 }  // namespace
 
-Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides,
-                            std::optional<std::uint64_t> seed) {
-  return collect([&] { return episode_problems(file, overrides, seed); });
+bool has_table(const World& world, const Episode& episode) {
+  const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
+  const Eigen::AlignedBox3d region = episode.grid_frame().box();
+  for (int i = 0; i < 25; ++i) {
+    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 1.0);
+    const Eigen::Vector3d p_above = region.min().array() + share * region.sizes().array();
+    const RayHit hit = geometry.cast(p_above, -Eigen::Vector3d::UnitZ(), p_above.z());
+    if (p_above.z() - hit.distance_m >= episode.table.min_height_m) return true;
+  }
+  return false;
+}
+
+Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides) {
+  return collect([&] { return episode_problems(file, overrides); });
 }
 
 Validation validate_file(const fs::path& file) {
@@ -75,7 +72,7 @@ Validation validate_file(const fs::path& file) {
     const std::string type = file.extension().string();
     std::error_code error;
     if (!fs::exists(file, error)) return {file.string() + ": no such file"};
-    if (type == ".yaml" || type == ".yml") return episode_problems(file, {}, std::nullopt);
+    if (type == ".yaml" || type == ".yml") return episode_problems(file, {});
     if (type == ".xml" || type == ".mjcf") return validate_scene(file);
     if (type == ".bt" || type == ".ot") return validate_map(file);
     return {fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/world.hpp"
 #include "src/core/error.hpp"
+#include "src/episode/scenario.hpp"
 
 namespace vantage {
 
@@ -16,10 +18,12 @@ struct Validation {
   ExitCode code = ExitCode::done;     ///< usage for a configuration, bad_input for anything else
 };
 
+/// Whether anything in the region of interest is as high as a table: rays from above, 5 x 5.
+bool has_table(const World& world, const Episode& episode);
+
 /// Of the episode as it would run.
 Validation validate_episode(const std::filesystem::path& file,
-                            const std::vector<std::string>& overrides = {},
-                            std::optional<std::uint64_t> seed = std::nullopt);
+                            const std::vector<std::string>& overrides = {});
 
 Validation validate_file(const std::filesystem::path& file);
 
