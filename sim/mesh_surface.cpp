@@ -177,7 +177,7 @@ Eigen::Vector3d primitive_half_extent(const mjModel& model, int geom_id) {
     case mjGEOM_CYLINDER: return {size[0], size[0], size[1]};
     case mjGEOM_ELLIPSOID:
     case mjGEOM_BOX: return {size[0], size[1], size[2]};
-    default: assertion_failed("primitive geom", std::source_location::current());
+    default: assertion_failed("primitive geom");
   }
 }
 
@@ -205,7 +205,7 @@ TriangleMesh geom_triangles(const mjModel& model, int geom_id, double max_edge_m
       for (Eigen::Vector3d& v : mesh.vertices_m) v = v.cwiseProduct(size);
       return mesh;
     }
-    default: assertion_failed("geom with a bounded surface", std::source_location::current());
+    default: assertion_failed("geom with a bounded surface");
   }
 }
 

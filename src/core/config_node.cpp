@@ -2,6 +2,13 @@
 
 namespace vantage {
 
+ConfigNode::ConfigNode() = default;
+ConfigNode::~ConfigNode() = default;
+ConfigNode::ConfigNode(const ConfigNode&) = default;
+ConfigNode::ConfigNode(ConfigNode&&) noexcept = default;
+ConfigNode& ConfigNode::operator=(const ConfigNode&) = default;
+ConfigNode& ConfigNode::operator=(ConfigNode&&) noexcept = default;
+
 ConfigNode ConfigNode::make_scalar(std::string text, bool quoted) {
   ConfigNode node;
   node.kind = Kind::scalar;

@@ -20,6 +20,13 @@ struct ConfigNode {
   std::vector<ConfigNode> items;
   std::vector<std::pair<std::string, ConfigNode>> entries;
 
+  ConfigNode();
+  ~ConfigNode();
+  ConfigNode(const ConfigNode&);
+  ConfigNode(ConfigNode&&) noexcept;
+  ConfigNode& operator=(const ConfigNode&);
+  ConfigNode& operator=(ConfigNode&&) noexcept;
+
   static ConfigNode make_scalar(std::string text, bool quoted = false);
   static ConfigNode make_list();
   static ConfigNode make_map();

@@ -17,9 +17,9 @@ std::string summary(const std::vector<std::string>& problems) {
 ConfigError::ConfigError(std::vector<std::string> problems)
     : Error(ExitCode::usage, summary(problems)), problems_(std::move(problems)) {}
 
-void assertion_failed(std::string_view what, const std::source_location& where) {
-  std::fprintf(stderr, "vantage: internal error: %.*s (%s:%u)\n", static_cast<int>(what.size()),
-               what.data(), where.file_name(), where.line());
+void assertion_failed(std::string_view what, const char* file, int line) {
+  std::fprintf(stderr, "vantage: internal error: %.*s (%s:%d)\n", static_cast<int>(what.size()),
+               what.data(), file, line);
   std::_Exit(static_cast<int>(ExitCode::internal));
 }
 

@@ -2,7 +2,6 @@
 /// They are thrown with context where they happen and caught once, in main.
 #pragma once
 
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -57,11 +56,13 @@ struct RendererError : Error {
 };
 
 /// Programmer errors: prints `what` and the place, then ends the process. Always on.
-[[noreturn]] void assertion_failed(std::string_view what, const std::source_location& where);
+/// The builtins are std::source_location in a form that clang 14 reads too.
+[[noreturn]] void assertion_failed(std::string_view what, const char* file = __builtin_FILE(),
+                                   int line = __builtin_LINE());
 
-inline void expects(bool condition, std::string_view what,
-                    const std::source_location& where = std::source_location::current()) {
-  if (!condition) assertion_failed(what, where);
+inline void expects(bool condition, std::string_view what, const char* file = __builtin_FILE(),
+                    int line = __builtin_LINE()) {
+  if (!condition) assertion_failed(what, file, line);
 }
 
 }  // namespace vantage
