@@ -86,10 +86,7 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   } else {
     print_outcome(outcome);
   }
-  if (outcome.status == EpisodeStatus::interrupted) {
-    return static_cast<ExitCode>(128 + interrupt_signal());
-  }
-  return outcome.status == EpisodeStatus::diverged ? ExitCode::diverged : ExitCode::done;
+  return outcome.code;
 }
 
 std::function<ExitCode()> declare_run(CLI::App& app) {

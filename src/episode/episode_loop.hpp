@@ -7,19 +7,20 @@ namespace vantage {
 
 enum class EpisodeStatus { completed, diverged, interrupted };
 
-/// Runs `parts` until it says it is finished or the user interrupts; an interrupted step is
-/// finished first. A task (next best view, recognition, trajectory) is a type with these eight
-/// members.
+/// Runs `parts` until it says it is finished. A task (next best view, recognition, trajectory) is a
+/// type with these eight members.
+/// @throws Interrupted, DivergedError
 template <class Parts>
-EpisodeStatus run_episode(Parts& parts) {
+void run_episode(Parts& parts) {
   while (true) {
     const auto observation = parts.observe();
     parts.update(observation);
     parts.record();
-    if (parts.finished()) return EpisodeStatus::completed;
-    if (interrupt_signal() != 0) return EpisodeStatus::interrupted;
+    if (parts.finished()) return;
+    throw_if_interrupted();
     auto candidates = parts.propose();
     parts.score(candidates);
+    throw_if_interrupted();
     parts.act(candidates[parts.choose(candidates)]);
   }
 }

@@ -1,7 +1,11 @@
 #include "src/episode/interrupt.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
 #include <ctime>
+#include <string_view>
 
 namespace vantage {
 namespace {
@@ -18,10 +22,18 @@ bool is_echo() {
   return later_s < 1.0;
 }
 
+/// As a signal handler may.
+void say(std::string_view text) {
+  const int before = errno;
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+  errno = before;
+}
+
 extern "C" void remember_signal(int signal) {
   if (g_signal == 0) {
     clock_gettime(CLOCK_MONOTONIC, &g_first);
     g_signal = signal;
+    say("\nstopping, and writing what there is; once more ends it at once\n");
   } else if (!is_echo()) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -35,6 +47,12 @@ void catch_interrupts() {
   std::signal(SIGTERM, remember_signal);
 }
 
-int interrupt_signal() { return g_signal; }
+Interrupted::Interrupted(int signal)
+    : Error(static_cast<ExitCode>(128 + signal), signal == SIGTERM ? "terminated" : "interrupted") {
+}
+
+void throw_if_interrupted() {
+  if (g_signal != 0) throw Interrupted(g_signal);
+}
 
 }  // namespace vantage

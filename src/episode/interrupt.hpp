@@ -1,12 +1,19 @@
-/// Ctrl-C and termination: the step under way is finished, what there is is written.
+/// Ctrl-C and termination: the episode ends at the next control tick, what there is is written.
 #pragma once
+
+#include "src/core/error.hpp"
 
 namespace vantage {
 
-/// Catches SIGINT and SIGTERM from now on; a second signal, a second or
-/// more after the first, ends the process at once.
+/// Ends an episode from within; its code is that of the signal.
+struct Interrupted : Error {
+  explicit Interrupted(int signal);
+};
+
+/// Catches SIGINT and SIGTERM from now on and says so on stderr; a second signal, a second or more
+/// after the first, ends the process at once.
 void catch_interrupts();
-/// The signal caught, 0 if none.
-int interrupt_signal();
+/// @throws Interrupted if a signal was caught. Called once per control tick and part of the loop.
+void throw_if_interrupted();
 
 }  // namespace vantage

@@ -43,13 +43,23 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
   }
 }
 
-/// @return how the episode ended; a divergence is a recorded result, its reason in `divergence`.
-EpisodeStatus run_to_end(NextBestView& parts, std::string& divergence) {
+/// How the episode ended. A divergence and an interruption are recorded results.
+struct Ending {
+  EpisodeStatus status = EpisodeStatus::completed;
+  ExitCode code = ExitCode::done;
+  std::string reason;
+};
+
+Ending run_to_end(NextBestView& parts) {
   try {
-    return run_episode(parts);
+    run_episode(parts);
+    return {};
   } catch (const DivergedError& error) {
-    divergence = error.what();
-    return EpisodeStatus::diverged;
+    log_error(std::string("diverged: ") + error.what());
+    return {EpisodeStatus::diverged, error.code(), error.what()};
+  } catch (const Interrupted& error) {
+    log_debug(error.what());
+    return {EpisodeStatus::interrupted, error.code(), error.what()};
   }
 }
 
@@ -73,7 +83,9 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   Recorder recorder(resolved, rig, outcome.directory, options.video);
   NextBestView parts(resolved, rig, recorder);
   RunSummary summary;
-  summary.status = run_to_end(parts, summary.reason);
+  const Ending ending = run_to_end(parts);
+  summary.status = ending.status;
+  summary.reason = ending.reason;
   summary.simulated_time_s = rig.world().time_s();
   summary.wall_time_s = wall_s() - start_s;
   summary.path_length_m = recorder.path_length_m();
@@ -82,7 +94,7 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
 
   // What cannot be made again comes first.
   recorder.commit();
-  outcome.status = summary.status;
+  outcome.code = ending.code;
   outcome.metrics = json_text(metrics_json(resolved, summary, parts));
   write_file(outcome.directory / "config.yaml", episode_yaml(resolved.episode));
   write_file(outcome.directory / "manifest.json",
@@ -91,7 +103,6 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   recorder.write_map(parts.belief().grid(), parts.belief().object_cloud());
   recorder.finish_video();
   write_report(outcome.directory);
-  if (summary.status == EpisodeStatus::diverged) log_error("diverged: " + summary.reason);
   log_to_file({});
   return outcome;
 }

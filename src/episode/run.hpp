@@ -19,11 +19,11 @@ struct RunOptions {
 
 struct RunOutcome {
   std::filesystem::path directory;
-  EpisodeStatus status = EpisodeStatus::completed;
-  std::string metrics;  ///< the JSON text
+  ExitCode code = ExitCode::done;  ///< diverged and interrupted runs have results too
+  std::string metrics;             ///< the JSON text
 };
 
-/// A divergence is an outcome, not an exception.
+/// A divergence and an interruption are outcomes, not exceptions.
 /// @throws OutputError, InputError, RendererError
 RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/core/error.hpp"
+#include "src/episode/interrupt.hpp"
 
 namespace vantage {
 namespace {
@@ -64,6 +65,7 @@ TabletopRig::TabletopRig(const ResolvedEpisode& resolved)
 }
 
 void TabletopRig::tick() {
+  throw_if_interrupted();
   world_.advance_tick();
   odometry_.update(robot_.T_world_base(world_));
   collisions_.update(robot_, world_);
@@ -111,6 +113,7 @@ DriveResult TabletopRig::drive_along(std::span<const Pose2> path,
                                      const std::function<void()>& on_tick) {
   const DriveResult result =
       drive(world_, robot_, odometry_, path, episode_.drive, [&](World&, const Pose2&) {
+        throw_if_interrupted();
         on_tick();
         return true;
       });

@@ -34,11 +34,11 @@ class TabletopRig {
  public:
   explicit TabletopRig(const ResolvedEpisode& resolved);
 
-  /// Sweeps the tilting laser through its range while the base stands.
+  /// Sweeps the tilting laser through its range while the base stands. @throws Interrupted
   TabletopObservation observe();
   /// A single reading of the planar scanner, at the present place.
   PlanarScan look_around();
-  /// `on_tick` is called while driving; truth is not passed on.
+  /// `on_tick` is called while driving; truth is not passed on. @throws Interrupted
   DriveResult drive_along(std::span<const Pose2> path, const std::function<void()>& on_tick);
   void correct_pose(const Pose2& T_world_base);
   /// What the wheels alone say, without the corrections since restart_dead_reckoning().

@@ -170,8 +170,18 @@ TEST_F(CommandLine, InterruptedRunWritesWhatThereIs) {
             "' && timeout --preserve-status -s INT 4 " VANTAGE_BINARY " run -q --json");
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_THAT(result.output, HasSubstr("\"status\": \"interrupted\""));
-  EXPECT_THAT(written(),
-              testing::IsSupersetOf({"metrics.json", "report.html", "map.bt", "states.bin"}));
+  EXPECT_THAT(written(), testing::IsSupersetOf({"metrics.json", "report.html", "states.bin"}));
+}
+
+TEST_F(CommandLine, InterruptedScanIsNotFinished) {
+  // An hour of scanning: no machine is through with it after four seconds.
+  const Result result = shell("cd '" + folder_.string() +
+                              "' && timeout --preserve-status -s INT 4 " VANTAGE_BINARY
+                              " run -q --json --set laser.scan_duration_s=3600 --out run");
+  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("\"scans\": []"));
+  EXPECT_EQ(vantage("replay run").exit_code, 0);
+  EXPECT_EQ(vantage("report run").exit_code, 0);
 }
 
 TEST_F(CommandLine, TerminatedRunEndsIn143) {
