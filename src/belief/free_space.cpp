@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <future>
-#include <thread>
 #include <vector>
 
 namespace vantage {
@@ -44,12 +43,13 @@ void find_free_in_slice(const SweptView& view, int z, std::vector<std::size_t>& 
 }  // namespace
 
 std::size_t carve_free_space(OccupancyGrid& grid, const RangeScan& scan, const Pose& T_world_sensor,
-                             const FreeSpaceUpdate& update) {
+                             const FreeSpaceUpdate& update, int threads) {
+  expects(threads >= 1, "carve_free_space needs a thread");
   check_options(update, "free space");
   const SweptView view{grid, scan, T_world_sensor.translation(), T_world_sensor.inverse()};
   // Every cell is judged against the unchanged grid: which worker does it makes no difference.
   const int slices = grid.frame.cells.z();
-  const int workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, slices);
+  const int workers = std::min(threads, slices);
   std::vector<std::future<std::vector<std::size_t>>> parts;
   for (int worker = 0; worker < workers; ++worker) {
     parts.push_back(std::async(std::launch::async, [&view, worker, workers, slices] {

@@ -23,9 +23,10 @@ struct FreeSpaceUpdate {
 /// [AmanatidesWoo1987], [Potthast2016, 3.2.3]. Any other cell keeps its value, so a cell outside
 /// the sector or behind the measured depth is never freed. All cells are judged against the grid
 /// as it was before the call. Call after add_measurements with the same scan.
+/// The result does not depend on `threads` (>= 1).
 /// @return the number of cells freed
 /// @throws ConfigError if `update` is out of range.
 std::size_t carve_free_space(OccupancyGrid& grid, const RangeScan& scan, const Pose& T_world_sensor,
-                             const FreeSpaceUpdate& update);
+                             const FreeSpaceUpdate& update, int threads = 1);
 
 }  // namespace vantage

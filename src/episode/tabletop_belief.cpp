@@ -42,8 +42,8 @@ BeliefUpdate TabletopBelief::update(const TabletopObservation& observation) {
 
   hazard_.observe(grid_, observation.scan, T_world_sensor);
   add_measurements(grid_, objects.points, episode_.sensor_model);
-  report.freed_cells =
-      carve_free_space(grid_, observation.scan, T_world_sensor, episode_.free_space);
+  report.freed_cells = carve_free_space(grid_, observation.scan, T_world_sensor,
+                                        episode_.free_space, episode_.threads);
   auto filling = fill_holes(grid_, episode_.hole_filling);
   report.filled_cells = filling.filled_cells;
   filled_ = std::move(filling.grid);

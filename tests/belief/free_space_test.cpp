@@ -177,6 +177,18 @@ RC_GTEST_PROP(FreeSpaceProperty, FreesExactlyTheCellsOfTheDefinition, (std::uint
   RC_ASSERT(changed == freed);
 }
 
+RC_GTEST_PROP(FreeSpaceProperty, ThreadsChangeNothing, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const RandomCase c = random_case(rng);
+  OccupancyGrid alone = c.map;
+  const std::size_t freed = carve_free_space(alone, c.scan, c.T_world_sensor, {}, 1);
+  for (const int threads : {2, 5, 1000}) {
+    OccupancyGrid shared = c.map;
+    RC_ASSERT(carve_free_space(shared, c.scan, c.T_world_sensor, {}, threads) == freed);
+    RC_ASSERT(shared.log_odds == alone.log_odds);
+  }
+}
+
 RC_GTEST_PROP(FreeSpaceProperty, NeverFreesOutsideTheSectorOrBehindTheDepth, (std::uint64_t seed)) {
   Rng rng(seed);
   const RandomCase c = random_case(rng);
