@@ -27,7 +27,6 @@ class Driver {
     result_.status = follow(path, start_s + allowed_s(path), keep_driving);
     brake();
     result_.duration_s = world_.time_s() - start_s;
-    result_.collisions = collisions_.count();
     return result_;
   }
 
@@ -91,7 +90,6 @@ class Driver {
     world_.advance_tick();
     const Pose2 after = robot_.T_world_base(world_);
     odometry_.update(after);
-    collisions_.update(robot_, world_);
     result_.path_length_m += std::hypot(after.x_m - before.x_m, after.y_m - before.y_m);
   }
 
@@ -99,7 +97,6 @@ class Driver {
   const Pr2& robot_;
   Odometry& odometry_;
   const DriveOptions& options_;
-  CollisionCounter collisions_;
   DriveResult result_;
 };
 

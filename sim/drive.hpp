@@ -35,7 +35,6 @@ struct DriveResult {
   DriveStatus status = DriveStatus::arrived;
   double path_length_m = 0.0;  ///< truly driven
   double duration_s = 0.0;     ///< simulated
-  int collisions = 0;          ///< that began on the way
 };
 
 /// Asked every tick, with the estimated pose; false stops the drive (the path is blocked, ...).

@@ -98,7 +98,7 @@ class Pr2 {
 class CollisionCounter {
  public:
   explicit CollisionCounter(double release_s = 0.5) : release_s_(release_s) {}
-  /// Once per tick. @return how many began since the last call.
+  /// Once per physics step (World::on_step), or short touches are missed. @return how many began.
   int update(const Pr2& robot, const World& world);
   [[nodiscard]] int count() const { return count_; }
 

@@ -122,7 +122,10 @@ double World::time_s() const { return data_->time; }
 
 void World::advance_tick() {
   expects(!diverged_, "a diverged world is not stepped before set_state()");
-  for (int i = 0; i < options_.steps_per_tick(); ++i) step();
+  for (int i = 0; i < options_.steps_per_tick(); ++i) {
+    step();
+    if (on_step) on_step(*this);
+  }
   ++ticks_;
   if (on_tick) on_tick(*this);
 }

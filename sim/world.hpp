@@ -67,7 +67,8 @@ class World {
   /// then until set_state().
   void advance_tick();
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
-  std::function<void(World&)> on_tick;  ///< recording, video; may be empty
+  std::function<void(World&)> on_tick;        ///< recording, video; may be empty
+  std::function<void(const World&)> on_step;  ///< after each physics step; may be empty
 
   /// Everything the future depends on besides commands, applied forces and mocap poses: time, qpos,
   /// qvel, act, qacc_warmstart.

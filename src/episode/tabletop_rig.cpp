@@ -56,6 +56,7 @@ TabletopRig::TabletopRig(const ResolvedEpisode& resolved)
       scanner_noise_(Rng::stream(episode_.seed, "base scanner")) {
   robot_.command_torso(world_, torso_m(world_, robot_, episode_));
   restart_dead_reckoning();
+  world_.on_step = [this](const World& world) { collisions_.update(robot_, world); };
   const AngleRange reach = robot_.laser_tilt_range();
   if (episode_.laser.tilt_min_rad < reach.min_rad || episode_.laser.tilt_max_rad > reach.max_rad) {
     throw ConfigError(fmt::format(
@@ -68,7 +69,6 @@ void TabletopRig::tick() {
   throw_if_interrupted();
   world_.advance_tick();
   odometry_.update(robot_.T_world_base(world_));
-  collisions_.update(robot_, world_);
 }
 
 void TabletopRig::move_laser_to(double tilt_rad) {
@@ -111,14 +111,11 @@ PlanarScan TabletopRig::look_around() {
 
 DriveResult TabletopRig::drive_along(std::span<const Pose2> path,
                                      const std::function<void()>& on_tick) {
-  const DriveResult result =
-      drive(world_, robot_, odometry_, path, episode_.drive, [&](World&, const Pose2&) {
-        throw_if_interrupted();
-        on_tick();
-        return true;
-      });
-  drive_collisions_ += result.collisions;
-  return result;
+  return drive(world_, robot_, odometry_, path, episode_.drive, [&](World&, const Pose2&) {
+    throw_if_interrupted();
+    on_tick();
+    return true;
+  });
 }
 
 Pose2 TabletopRig::base_for_view(const Pose& T_world_laser) const {
@@ -129,9 +126,7 @@ Pose TabletopRig::estimated_laser() const {
   return lift(odometry_.estimate()) * robot_.T_base_laser_mount(world_);
 }
 
-RigTruth TabletopRig::truth() const {
-  return {robot_.T_world_base(world_), collisions_.count() + drive_collisions_};
-}
+RigTruth TabletopRig::truth() const { return {robot_.T_world_base(world_), collisions_.count()}; }
 
 void TabletopRig::correct_pose(const Pose2& T_world_base) {
   T_world_dead_reckoned_ = dead_reckoned_base();

@@ -68,8 +68,7 @@ class TabletopRig {
   Odometry odometry_;
   Pose2 T_world_dead_reckoned_;  ///< at the last correction
   Pose2 T_world_corrected_;      ///< the pose that correction set
-  CollisionCounter collisions_;  ///< while standing; drives count their own
-  int drive_collisions_ = 0;
+  CollisionCounter collisions_;
   Rng laser_noise_;
   Rng scanner_noise_;
 };

@@ -35,6 +35,10 @@ void command(test::RobotWorld& scene, int tick) {
 
 std::vector<double> run_to_the_end(bool look_at_snapshots = false) {
   test::RobotWorld scene(kShove);
+  CollisionCounter counter;
+  if (look_at_snapshots) {
+    scene.world.on_step = [&](const World& world) { counter.update(scene.robot, world); };
+  }
   for (int tick = 0; tick < kTicks; ++tick) {
     command(scene, tick);
     scene.world.advance_tick();
@@ -44,6 +48,7 @@ std::vector<double> run_to_the_end(bool look_at_snapshots = false) {
       mj_forward(&scene.world.model(), plan.get());
     }
   }
+  EXPECT_EQ(counter.count() > 0, look_at_snapshots);
   return scene.world.state();
 }
 

@@ -279,25 +279,5 @@ TEST(Pr2, BaseForLaserPutsTheLaserThere) {
   EXPECT_TRUE(scene.robot.T_world_laser(scene.world).isApprox(T_world_sensor, 1e-9));
 }
 
-TEST(CollisionCounter, CountsOnsets) {
-  RobotWorld scene(kWall, {1.5, 0.0, 0.0});
-  CollisionCounter counter;
-  const auto drive = [&](double vx_m_s, int ticks) {
-    for (int tick = 0; tick < ticks; ++tick) {
-      scene.robot.command_twist(scene.world, {vx_m_s, 0.0, 0.0});
-      scene.world.advance_tick();
-      counter.update(scene.robot, scene.world);
-    }
-  };
-  drive(0.3, 20);
-  EXPECT_EQ(counter.count(), 0);
-  drive(0.3, 80);
-  EXPECT_EQ(counter.count(), 1) << "one long push";
-  drive(-0.3, 40);
-  EXPECT_EQ(counter.count(), 1);
-  drive(0.3, 80);
-  EXPECT_EQ(counter.count(), 2);
-}
-
 }  // namespace
 }  // namespace vantage
