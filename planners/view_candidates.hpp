@@ -20,7 +20,7 @@ struct RingOfViews {
   /// Turns of the view away from the centre, left positive; one view per position and offset.
   std::vector<double> yaw_offsets_rad = {-std::numbers::pi / 12.0, 0.0, std::numbers::pi / 12.0};
   void fields(auto&& f) {
-    f("positions", positions, at_least(1));
+    f("positions", positions, between(1, 100000));
     f("radius_m", radius_m, above(0.0));
     f("height_m", height_m, above(0.0));
     f("start_angle_rad", start_angle_rad);

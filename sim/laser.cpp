@@ -1,8 +1,11 @@
 #include "sim/laser.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace vantage {
@@ -45,9 +48,17 @@ std::vector<float> measure_line(const RayScene& scene, const Pose& T_world_senso
   return range_m;
 }
 
+constexpr double kMostBeams = 1e7;
+
 void check_ranges(double range_min_m, double range_max_m, double step_rad, double sector_rad) {
   if (range_min_m >= range_max_m) throw ConfigError("range_min_m must be below range_max_m");
   if (step_rad > sector_rad) throw ConfigError("step_rad must not exceed sector_rad");
+}
+
+/// Memory ends somewhere: says so before it does.
+void check_beams(double beams, std::string_view keys) {
+  if (beams <= kMostBeams) return;
+  throw ConfigError(fmt::format("{} make {:.3g} beams a scan, more than 10^7", keys, beams));
 }
 
 }  // namespace
@@ -55,10 +66,13 @@ void check_ranges(double range_min_m, double range_max_m, double step_rad, doubl
 void LaserOptions::check() const {
   if (tilt_min_rad >= tilt_max_rad) throw ConfigError("tilt_min_rad must be below tilt_max_rad");
   check_ranges(range_min_m, range_max_m, step_rad, sector_rad);
+  check_beams(sector_rad / step_rad * scan_duration_s * line_rate_hz,
+              "sector_rad, step_rad, scan_duration_s and line_rate_hz");
 }
 
 void PlanarScannerOptions::check() const {
   check_ranges(range_min_m, range_max_m, step_rad, sector_rad);
+  check_beams(sector_rad / step_rad, "sector_rad and step_rad");
 }
 
 FieldOfView field_of_view(const LaserOptions& options) {

@@ -33,7 +33,7 @@ struct LaserOptions {
     f("range_max_m", range_max_m, above(0.0));
     f("noise_sigma_m", noise_sigma_m, at_least(0.0));
   }
-  void check() const;  ///< minima below maxima, step within the sector
+  void check() const;  ///< minima below maxima, step within the sector, at most 10^7 beams
 };
 
 /// What a scan with these options sweeps; its width is that of the outermost beams.
@@ -79,7 +79,7 @@ struct PlanarScannerOptions {
     f("range_max_m", range_max_m, above(0.0));
     f("noise_sigma_m", noise_sigma_m, at_least(0.0));
   }
-  void check() const;  ///< minimum below maximum, step within the sector
+  void check() const;  ///< minimum below maximum, step within the sector, at most 10^7 beams
 };
 
 /// One line from `T_world_scanner` (x along the middle beam, z normal to the scan plane).

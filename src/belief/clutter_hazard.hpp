@@ -16,7 +16,7 @@ struct ClutterHazardOptions {
   double prior_hazard = 0.005;     ///< mean of the Beta prior on the global rate, per cell
   double prior_weight = 300.0;     ///< crossings the prior is worth; higher: slower to learn
   void fields(auto&& f) {
-    f("layers", layers, at_least(1));
+    f("layers", layers, between(1, 4096));
     f("prior_crossings", prior_crossings, at_least(0.0));
     f("prior_hazard", prior_hazard, between(1e-6, 0.999));
     f("prior_weight", prior_weight, above(0.0));

@@ -1,11 +1,14 @@
 #include "src/belief/floor_map.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace vantage {
 namespace {
 
+constexpr double kMostFloorCells = 67108864.0;
 constexpr float kStandingLogOdds = -2.0F;
 
 enum class Touched : std::uint8_t { no, passed, hit };
@@ -28,6 +31,11 @@ void trace_beam(const FloorMap& map, const GridFrame& frame, const Pose2& T_worl
 }  // namespace
 
 void FloorMapOptions::check() const {
+  const double edge_cells = std::ceil(2.0 * half_size_m / cell_m);
+  if (edge_cells * edge_cells > kMostFloorCells) {
+    throw ConfigError(fmt::format("half_size_m {} and cell_m {} make {:.3g} cells, more than 2^26",
+                                  half_size_m, cell_m, edge_cells * edge_cells));
+  }
   const double decisive = log_odds_of(kOccupiedAbove);
   if (std::min({log_odds_hit, log_odds_miss, log_odds_limit}) <= decisive) {
     throw ConfigError(

@@ -27,7 +27,8 @@ struct FloorMapOptions {
     f("log_odds_miss", log_odds_miss, above(0.0));
     f("log_odds_limit", log_odds_limit, above(0.0));
   }
-  void check() const;  ///< one hit or miss must be able to decide a cell's state
+  /// One hit or miss must be able to decide a cell's state; at most 2^26 cells.
+  void check() const;
 };
 
 /// Square cells in the world's plane z = 0, row-major, x fastest. What lies outside is unknown.

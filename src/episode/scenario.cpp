@@ -8,12 +8,20 @@
 #include "src/core/yaml.hpp"
 
 namespace vantage {
+namespace {
+
+constexpr double kMostCells = 67108864.0;
+/// What each view truly sees is known per cell.
+constexpr double kMostCellsOfAllViews = 2147483648.0;
+
+}  // namespace
+
+double MapOptions::count() const { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 
 void MapOptions::check() const {
-  const double count = static_cast<double>(cells[0]) * cells[1] * cells[2];
-  if (count > 268435456.0) {
+  if (count() > kMostCells) {
     throw ConfigError(
-        fmt::format("cells: {} x {} x {} is more than 2^28 cells", cells[0], cells[1], cells[2]));
+        fmt::format("cells: {} x {} x {} is more than 2^26 cells", cells[0], cells[1], cells[2]));
   }
 }
 
@@ -26,6 +34,14 @@ void Episode::check() const {
     throw ConfigError(fmt::format(
         "laser.line_rate_hz: {} must be 1 / simulation.control_period_s = {}: a line per tick",
         laser.line_rate_hz, 1.0 / simulation.control_period_s));
+  }
+  const double views = static_cast<double>(candidates.positions) *
+                       static_cast<double>(candidates.yaw_offsets_rad.size());
+  if (map.count() * views > kMostCellsOfAllViews) {
+    throw ConfigError(
+        fmt::format("map.cells: {:.3g} cells times {} views of candidates.positions and "
+                    "candidates.yaw_offsets_rad is more than 2^31",
+                    map.count(), views));
   }
   if (robot.start_view >= candidates.positions) {
     throw ConfigError(fmt::format("robot.start_view: {} is not below candidates.positions = {}",

@@ -47,7 +47,8 @@ struct MapOptions {
     f("size_m", size_m, Range{0.0, 1000.0, true});
     f("cells", cells, between(1, 4096));
   }
-  void check() const;  ///< at most 2^28 cells
+  void check() const;  ///< at most 2^26 cells
+  [[nodiscard]] double count() const;
 };
 
 struct MetricsOptions {

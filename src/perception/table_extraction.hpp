@@ -35,7 +35,7 @@ struct TableOptions {
     f("max_normal_angle_rad", max_normal_angle_rad, between(0.0, 1.6));
     f("cell_m", cell_m, above(0.0));
     f("min_area_m2", min_area_m2, above(0.0));
-    f("hypotheses", hypotheses, at_least(1));
+    f("hypotheses", hypotheses, between(1, 1000000));
     f("max_step_m", max_step_m, above(0.0));
   }
   void check() const;  ///< min_height_m below max_height_m
