@@ -24,6 +24,9 @@ struct GeomFilter {
   int max_group = 5;  ///< leaves out higher groups; 2 keeps what MuJoCo draws by default
 };
 
+/// The scene without the robot that stands in it.
+inline const GeomFilter kWithoutRobot{.exclude_body_prefix = "robot/", .max_group = 5};
+
 /// Ids of the geoms that pass `filter`, ascending.
 std::vector<int> solid_geoms(const mjModel& model, const GeomFilter& filter = {});
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "src/core/error.hpp"
 
@@ -14,6 +15,12 @@ constexpr double kSpeedCap_m_s = 1.0;
 
 Eigen::Vector3d site_in_model(const mjModel& model, int site) {
   return Eigen::Map<const Eigen::Vector3d>(model.site_pos + 3 * site);
+}
+
+std::vector<int> sorted_once(std::vector<int> ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
 }
 
 }  // namespace
@@ -120,9 +127,7 @@ Pose2 Pr2::base_for_laser(const Pose& T_world_sensor) const {
 }
 
 template <class Visit>
-void Pr2::visit_contacts(const World& world, Visit&& visit) const {
-  const mjModel& model = world.model();
-  const mjData& data = world.data();
+void Pr2::visit_contacts(const mjModel& model, const mjData& data, Visit&& visit) const {
   const auto is_robot = [&](int geom) {
     return model.body_rootid[model.geom_bodyid[geom]] == base_body_;
   };
@@ -136,15 +141,25 @@ void Pr2::visit_contacts(const World& world, Visit&& visit) const {
 
 std::vector<int> Pr2::touched_geoms(const World& world) const {
   std::vector<int> geoms;
-  visit_contacts(world, [&](int geom) { geoms.push_back(geom); });
-  std::sort(geoms.begin(), geoms.end());
-  geoms.erase(std::unique(geoms.begin(), geoms.end()), geoms.end());
-  return geoms;
+  visit_contacts(world.model(), world.data(), [&](int geom) { geoms.push_back(geom); });
+  return sorted_once(std::move(geoms));
+}
+
+std::vector<int> Pr2::touched_by_turning(const World& world) const {
+  constexpr int kHeadings = 24;
+  const DataPtr copy = world.copy_data();
+  std::vector<int> geoms;
+  for (int i = 0; i < kHeadings; ++i) {
+    copy->qpos[yaw_.qpos] += 2.0 * std::numbers::pi / kHeadings;
+    mj_fwdPosition(&world.model(), copy.get());
+    visit_contacts(world.model(), *copy, [&](int geom) { geoms.push_back(geom); });
+  }
+  return sorted_once(std::move(geoms));
 }
 
 int Pr2::contacts(const World& world) const {
   int count = 0;
-  visit_contacts(world, [&](int) { ++count; });
+  visit_contacts(world.model(), world.data(), [&](int) { ++count; });
   return count;
 }
 

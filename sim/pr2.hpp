@@ -42,6 +42,7 @@ class Pr2 {
   [[nodiscard]] double head_tilt_rad(const World& world) const;
   [[nodiscard]] double laser_tilt_rad(const World& world) const;
   [[nodiscard]] AngleRange laser_tilt_range() const;
+  [[nodiscard]] double torso_max_m() const { return torso_.max; }  ///< from 0 up to there
 
   /// Truth: for metrics and as the input of odometry.
   [[nodiscard]] Pose2 T_world_base(const World& world) const;
@@ -65,6 +66,8 @@ class Pr2 {
 
   /// Geoms of other things that the robot touches, ascending. Not its own.
   [[nodiscard]] std::vector<int> touched_geoms(const World& world) const;
+  /// Those it would touch while it turns once where it stands, in steps of 15 degrees.
+  [[nodiscard]] std::vector<int> touched_by_turning(const World& world) const;
   /// Contact points between the robot and anything else, as of the last step.
   [[nodiscard]] int contacts(const World& world) const;
 
@@ -81,7 +84,7 @@ class Pr2 {
   static void command(World& world, const Axis& axis, double target);
   /// Calls `visit(geom)` with the other side of each contact of the robot.
   template <class Visit>
-  void visit_contacts(const World& world, Visit&& visit) const;
+  void visit_contacts(const mjModel& model, const mjData& data, Visit&& visit) const;
 
   Axis x_, y_, yaw_, torso_, head_pan_, head_tilt_, laser_tilt_;
   int base_body_ = 0;

@@ -10,7 +10,6 @@
 #include "src/core/log.hpp"
 #include "src/episode/manifest.hpp"
 #include "src/episode/report.hpp"
-#include "src/episode/validate.hpp"
 
 namespace vantage {
 namespace {
@@ -72,10 +71,6 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
           ? fs::path("out") / fmt::format("{}-{}", resolved.name, resolved.episode.seed)
           : options.directory;
   TabletopRig rig(resolved);  // before an old run is removed: it may fail
-  if (!has_table(rig.world(), resolved.episode)) {
-    throw InputError(fmt::format("scene: {}: no table in the region round map.centre_m",
-                                 resolved.scene.string()));
-  }
   prepare_directory(outcome.directory, options.overwrite);
   log_to_file(outcome.directory / "log.txt");
 

@@ -1,12 +1,10 @@
 #include "src/episode/tabletop_rig.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/error.hpp"
 #include "src/episode/interrupt.hpp"
+#include "src/episode/start_check.hpp"
 
 namespace vantage {
 namespace {
@@ -15,22 +13,17 @@ namespace {
 constexpr int kSettleTicks = 20;
 constexpr int kMostTicksToReach = 400;
 constexpr double kTiltReached_rad = 0.01;
-constexpr double kTorsoRange_m = 0.33;
 
 /// The torso's lift that brings the laser to the height of the views.
 double torso_m(const World& world, const Pr2& robot, const Episode& episode) {
   const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.torso_m(world);
-  const double lift_m = episode.candidates.height_m - lowest_m;
-  if (lift_m < -1e-3 || lift_m > kTorsoRange_m) {
-    throw ConfigError(fmt::format("candidates.height_m: {} is out of the laser's reach, {} to {}",
-                                  episode.candidates.height_m, lowest_m, lowest_m + kTorsoRange_m));
-  }
-  return std::max(lift_m, 0.0);
+  return std::max(episode.candidates.height_m - lowest_m, 0.0);
 }
 
 /// The robot, standing where the episode starts: at a position on the ring of views.
 Pr2 placed_robot(World& world, const Episode& episode) {
   Pr2 robot(world.model());
+  check_reach(world, robot, episode);
   RingOfViews ring = episode.candidates;
   ring.yaw_offsets_rad = {0.0};
   const auto& centre = episode.map.centre_m;
@@ -39,8 +32,6 @@ Pr2 placed_robot(World& world, const Episode& episode) {
   robot.place(world, robot.base_for_laser(start.T_world_sensor), torso_m(world, robot, episode));
   return robot;
 }
-
-const GeomFilter kWithoutRobot{.exclude_body_prefix = "robot/", .max_group = 5};
 
 }  // namespace
 
@@ -57,12 +48,7 @@ TabletopRig::TabletopRig(const ResolvedEpisode& resolved)
   robot_.command_torso(world_, torso_m(world_, robot_, episode_));
   restart_dead_reckoning();
   world_.on_step = [this](const World& world) { collisions_.update(robot_, world); };
-  const AngleRange reach = robot_.laser_tilt_range();
-  if (episode_.laser.tilt_min_rad < reach.min_rad || episode_.laser.tilt_max_rad > reach.max_rad) {
-    throw ConfigError(fmt::format(
-        "laser: tilt_min_rad {} to tilt_max_rad {} is beyond the joint's {} to {}",
-        episode_.laser.tilt_min_rad, episode_.laser.tilt_max_rad, reach.min_rad, reach.max_rad));
-  }
+  check_start(world_, robot_, geometry_without_robot_, resolved);
 }
 
 void TabletopRig::tick() {

@@ -32,6 +32,7 @@ struct RigTruth {
 
 class TabletopRig {
  public:
+  /// @throws ConfigError, InputError if the episode cannot begin, see start_check.hpp
   explicit TabletopRig(const ResolvedEpisode& resolved);
 
   /// Sweeps the tilting laser through its range while the base stands. @throws Interrupted

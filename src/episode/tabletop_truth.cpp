@@ -19,8 +19,7 @@ TabletopTruth::TabletopTruth(const World& world, const RayScene& geometry, const
                              std::span<const Candidate> views, const FieldOfView& field_of_view,
                              int threads)
     : observable_(frame.size(), 0),
-      surface_(surface_cells(world.model(), world.snapshot(), frame,
-                             {.exclude_body_prefix = "robot/", .max_group = 5})) {
+      surface_(surface_cells(world.model(), world.snapshot(), frame, kWithoutRobot)) {
   for (const Candidate& view : views) {
     visible_from_.push_back(
         visible_cells(geometry, frame, view.T_world_sensor, field_of_view, -1, threads));

@@ -4,26 +4,27 @@
 
 #include <functional>
 
-#include "sim/ray_scene.hpp"
 #include "sim/world.hpp"
 #include "src/belief/octomap_io.hpp"
 #include "src/core/atomic_file.hpp"
 #include "src/core/error.hpp"
-#include "src/episode/scenario.hpp"
+#include "src/episode/tabletop_rig.hpp"
 
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 using Problems = std::vector<std::string>;
 
-const GeomFilter kWithoutRobot{.exclude_body_prefix = "robot/", .max_group = 5};
-
 Problems episode_problems(const fs::path& file, const std::vector<std::string>& overrides) {
   const ResolvedEpisode resolved = load_episode(file, overrides);
-  const World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
-  if (has_table(world, resolved.episode)) return {};
-  return {fmt::format("{}: scene: {}: no table in the region round map.centre_m", file.string(),
-                      resolved.scene.string())};
+  try {
+    const TabletopRig rig(resolved);
+    return {};
+  } catch (const ConfigError& error) {
+    throw ConfigError(file.string() + ": " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
 }
 
 Problems validate_scene(const fs::path& file) {
@@ -50,18 +51,6 @@ Validation collect(const std::function<Problems()>& check) {
 }
 
 }  // namespace
-
-bool has_table(const World& world, const Episode& episode) {
-  const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
-  const Eigen::AlignedBox3d region = episode.grid_frame().box();
-  for (int i = 0; i < 25; ++i) {
-    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 1.0);
-    const Eigen::Vector3d p_above = region.min().array() + share * region.sizes().array();
-    const RayHit hit = geometry.cast(p_above, -Eigen::Vector3d::UnitZ(), p_above.z());
-    if (p_above.z() - hit.distance_m >= episode.table.min_height_m) return true;
-  }
-  return false;
-}
 
 Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides) {
   return collect([&] { return episode_problems(file, overrides); });

@@ -216,6 +216,37 @@ TEST_F(CommandLine, DryRunSeesOverrides) {
   EXPECT_EQ(vantage("run --dry-run --set scene=" + scene).exit_code, 3);
 }
 
+TEST_F(CommandLine, RefusesAStartWithoutRoom) {
+  for (const char* when : {"--dry-run ", ""}) {
+    const std::string run = std::string("run -q ") + when;
+    expect_error(vantage(run + "--set candidates.radius_m=0.6"), 2,
+                 {"candidates.radius_m 0.6", "region of the map"});
+    const auto scene = file("post.xml", R"(<mujoco><worldbody>
+      <geom type="plane" size="5 5 .1"/>
+      <geom type="box" size=".5 .5 .02" pos="0 0 .7"/>
+      <geom name="post" type="box" size=".05 .05 .5" pos="1.3 .5 .5"/>
+    </worldbody></mujoco>)");
+    expect_error(vantage(run + "--set scene=" + scene), 2, {"robot.start_view 0", "'post'"});
+    expect_error(vantage(run + "--set candidates.height_m=3"), 2, {"candidates.height_m", "reach"});
+    expect_error(vantage(run + "--set laser.tilt_min_rad=-1.4"), 2, {"tilt_min_rad", "joint"});
+  }
+  EXPECT_THAT(written(), IsEmpty());
+}
+
+TEST_F(CommandLine, RefusesWhatNoMemoryHolds) {
+  const std::pair<const char*, std::vector<std::string>> cases[] = {
+      {"floor_map.cell_m=1e-6", {"floor_map", "cell_m", "half_size_m", "2^26"}},
+      {"floor_map.half_size_m=1e300", {"floor_map", "cell_m", "half_size_m", "2^26"}},
+      {"laser.step_rad=1e-9", {"laser", "step_rad", "10^7"}},
+      {"base_scanner.step_rad=1e-9", {"base_scanner", "step_rad", "10^7"}},
+      {"map.cells=[4096,4096,4096]", {"map", "cells", "2^26"}},
+      {"candidates.positions=90000", {"map.cells", "candidates.positions", "2^31"}},
+  };
+  for (const auto& [assignment, parts] : cases) {
+    expect_error(vantage("run --dry-run --set " + std::string(assignment)), 2, parts);
+  }
+}
+
 TEST_F(CommandLine, PrintConfigIsReadBack) {
   const Result first = vantage("run --set scans=4 --set gain.weight_rate=1 --print-config");
   EXPECT_EQ(first.exit_code, 2);  // no such key in any gain

@@ -1,0 +1,75 @@
+#include "src/episode/start_check.hpp"
+
+#include <fmt/format.h>
+
+#include "src/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+/// Rays from above, 5 x 5.
+bool has_table(const RayScene& geometry, const Episode& episode) {
+  const Eigen::AlignedBox3d region = episode.grid_frame().box();
+  for (int i = 0; i < 25; ++i) {
+    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 1.0);
+    const Eigen::Vector3d p_above = region.min().array() + share * region.sizes().array();
+    const RayHit hit = geometry.cast(p_above, -Eigen::Vector3d::UnitZ(), p_above.z());
+    if (p_above.z() - hit.distance_m >= episode.table.min_height_m) return true;
+  }
+  return false;
+}
+
+std::string geom_text(const mjModel& model, int geom) {
+  const std::string name = model_name(model, ModelObject::geom, geom);
+  return name.empty() ? fmt::format("geom number {}", geom) : fmt::format("'{}'", name);
+}
+
+std::string place_text(const Episode& episode) {
+  return fmt::format("robot.start_view {} on the ring of candidates.radius_m {}",
+                     episode.robot.start_view, episode.candidates.radius_m);
+}
+
+}  // namespace
+
+void check_reach(const World& world, const Pr2& robot, const Episode& episode) {
+  const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.torso_m(world);
+  const double highest_m = lowest_m + robot.torso_max_m();
+  const double height_m = episode.candidates.height_m;
+  if (height_m < lowest_m - 1e-3 || height_m > highest_m) {
+    throw ConfigError(
+        fmt::format("candidates.height_m: {} is out of the laser's reach, {:.3f} to {:.3f}",
+                    height_m, lowest_m, highest_m));
+  }
+  const LaserOptions& laser = episode.laser;
+  const AngleRange reach = robot.laser_tilt_range();
+  if (laser.tilt_min_rad < reach.min_rad || laser.tilt_max_rad > reach.max_rad) {
+    throw ConfigError(
+        fmt::format("laser: tilt_min_rad {} to tilt_max_rad {} is beyond the joint's {} to {}",
+                    laser.tilt_min_rad, laser.tilt_max_rad, reach.min_rad, reach.max_rad));
+  }
+}
+
+void check_start(const World& world, const Pr2& robot, const RayScene& geometry,
+                 const ResolvedEpisode& resolved) {
+  const Episode& episode = resolved.episode;
+  if (!has_table(geometry, episode)) {
+    throw InputError(fmt::format("scene: {}: no table in the region round map.centre_m",
+                                 resolved.scene.string()));
+  }
+  const Pose2 base = robot.T_world_base(world);
+  const Eigen::AlignedBox3d region = episode.grid_frame().box();
+  const Eigen::AlignedBox2d floor(region.min().head<2>(), region.max().head<2>());
+  const double room_m = floor.exteriorDistance(Eigen::Vector2d(base.x_m, base.y_m));
+  if (room_m < episode.navigation.footprint_radius_m) {
+    throw ConfigError(
+        fmt::format("{}: the robot would stand {:.2f} m from the region of the map, nearer than "
+                    "navigation.footprint_radius_m {}",
+                    place_text(episode), room_m, episode.navigation.footprint_radius_m));
+  }
+  if (const auto touched = robot.touched_by_turning(world); !touched.empty()) {
+    throw ConfigError(fmt::format("{}: the robot would touch {} when it turns there",
+                                  place_text(episode), geom_text(world.model(), touched.front())));
+  }
+}
+
+}  // namespace vantage
