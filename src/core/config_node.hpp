@@ -38,6 +38,9 @@ struct ConfigNode {
   [[nodiscard]] std::string where() const;
 };
 
+/// The origin of what the command line set.
+inline constexpr std::string_view kOverrideOrigin = "--set";
+
 std::string_view kind_name(ConfigNode::Kind kind);
 
 }  // namespace vantage

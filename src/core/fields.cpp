@@ -47,6 +47,18 @@ T parse_number(const ConfigNode& node, std::string_view expected) {
   return value;
 }
 
+/// The keys below `node` that were set by overrides and that `message` names.
+void add_overrides(const ConfigNode& node, std::string_view message,
+                   std::vector<std::string>& keys) {
+  for (const auto& [name, child] : node.entries) {
+    if (child.kind == ConfigNode::Kind::map) {
+      add_overrides(child, message, keys);
+    } else if (child.origin == kOverrideOrigin && message.find(name) != message.npos) {
+      keys.push_back(child.key);
+    }
+  }
+}
+
 /// Text that every YAML reader gives back as the same text, without quotes.
 bool is_plain_text(const std::string& text) {
   const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; };
@@ -114,12 +126,29 @@ void require_size(const ConfigNode& node, std::size_t size) {
   }
 }
 
-void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>& known) {
+void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>& known,
+                    KeyOwners owners) {
   for (const auto& [name, child] : node.entries) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    throw ConfigError(fmt::format("{}: unknown key '{}'; known here: {}", child.where(), name,
-                                  fmt::join(known, ", ")));
+    std::string message = fmt::format("{}: unknown key '{}'; known here: {}", child.where(), name,
+                                      fmt::join(known, ", "));
+    if (const auto names = owners == nullptr ? std::vector<std::string_view>{} : owners(name);
+        !names.empty()) {
+      message += fmt::format("; it belongs to {}", fmt::join(names, ", "));
+    }
+    throw ConfigError(message);
   }
+}
+
+std::string place_of(const ConfigNode& node, std::string_view message) {
+  std::vector<std::string> keys;
+  add_overrides(node, message, keys);
+  std::string place = node.where();
+  if (!keys.empty()) {
+    place = fmt::format("{} {}", kOverrideOrigin, fmt::join(keys, ", "));
+    if (!node.key.empty()) place += ": " + node.key;
+  }
+  return place.empty() ? place : place + ": ";
 }
 
 std::string strategy_name(const ConfigNode& node) {

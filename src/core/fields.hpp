@@ -68,9 +68,26 @@ ConfigNode write_value(const std::string& value);
 void require_range(const std::string& where, double value, const Range& range);
 void require_kind(const ConfigNode& node, ConfigNode::Kind kind);
 void require_size(const ConfigNode& node, std::size_t size);
-void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>& known);
+/// `owners(key)`: the strategies of the same family that do have the key.
+using KeyOwners = std::vector<std::string_view> (*)(std::string_view key);
+void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>& known,
+                    KeyOwners owners);
 /// The strategy's name in `gain: adaptive` or `gain: {name: adaptive, ...}`.
 std::string strategy_name(const ConfigNode& node);
+
+/// Where to look for what a check() of several keys found: the overrides that it names, or `node`.
+std::string place_of(const ConfigNode& node, std::string_view message);
+
+template <class T>
+void run_check(const ConfigNode& node, T& options) {
+  if constexpr (requires { options.check(); }) {
+    try {
+      options.check();
+    } catch (const ConfigError& error) {
+      throw ConfigError(place_of(node, error.what()) + error.what());
+    }
+  }
+}
 
 /// The struct's own check(), if it has one, with `where` in front of what it says.
 template <class T>
@@ -108,9 +125,10 @@ class FieldReader {
     attempt([&] { read_into(*child, target, range); });
   }
   void allow(std::string_view key) { known_.push_back(key); }
+  void set_owners(detail::KeyOwners owners) { owners_ = owners; }
   /// @throws ConfigError with all problems found, unknown keys included.
   void finish() {
-    attempt([&] { detail::reject_unknown(node_, known_); });
+    attempt([&] { detail::reject_unknown(node_, known_, owners_); });
     if (!problems_.empty()) throw ConfigError(problems_);
   }
 
@@ -124,8 +142,32 @@ class FieldReader {
   }
   const ConfigNode& node_;
   std::vector<std::string_view> known_;
+  detail::KeyOwners owners_ = nullptr;
   std::vector<std::string> problems_;
 };
+
+namespace detail {
+struct KeyFinder {
+  std::string_view wanted;
+  bool& found;
+  template <class T>
+  void operator()(std::string_view key, T&, Range = {}) {
+    found = found || key == wanted;
+  }
+};
+
+template <class Variant>
+std::vector<std::string_view> owners_of(std::string_view key) {
+  std::vector<std::string_view> names;
+  for (const std::string_view name : strategy_names<Variant>()) {
+    bool found = false;
+    Variant made = make_strategy<Variant>(name);
+    std::visit([&](auto& strategy) { strategy.fields(KeyFinder{key, found}); }, made);
+    if (found) names.push_back(name);
+  }
+  return names;
+}
+}  // namespace detail
 
 /// Visitor that writes a struct, defaults included.
 class FieldWriter {
@@ -185,10 +227,11 @@ void read_into(const ConfigNode& node, T& target, const Range& range) {
     FieldReader reader(node);
     target.fields(reader);
     reader.finish();
-    detail::run_check(node.where(), target);
+    detail::run_check(node, target);
   } else if constexpr (detail::IsVariant<T>::value) {
+    const std::string name = detail::strategy_name(node);
     try {
-      target = make_strategy<T>(detail::strategy_name(node));
+      target = make_strategy<T>(name);
     } catch (const ConfigError& error) {
       throw ConfigError(node.where() + ": " + error.what());
     }
@@ -197,9 +240,10 @@ void read_into(const ConfigNode& node, T& target, const Range& range) {
         [&](auto& strategy) {
           FieldReader reader(node);
           reader.allow("name");
+          reader.set_owners(detail::owners_of<T>);
           strategy.fields(reader);
           reader.finish();
-          detail::run_check(node.where(), strategy);
+          detail::run_check(node, strategy);
         },
         target);
   } else if constexpr (detail::IsVector<T>::value) {

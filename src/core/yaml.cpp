@@ -178,7 +178,7 @@ void apply_override(ConfigNode& root, const std::string& assignment) {
         fmt::format("{}: expected a map, got {}", root.where(), kind_name(root.kind)));
   }
   ConfigNode value = parse_yaml(assignment.substr(equals + 1), "--set " + key);
-  relabel(value, "--set", key);
+  relabel(value, std::string(kOverrideOrigin), key);
   ConfigNode* node = &root;
   std::size_t begin = 0;
   for (auto dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin)) {
@@ -188,7 +188,7 @@ void apply_override(ConfigNode& root, const std::string& assignment) {
       ConfigNode made = ConfigNode::make_map();
       // `gain: adaptive` is short for `gain: {name: adaptive}`; --set gain.x=1 refines it.
       if (child != nullptr && child->kind == ConfigNode::Kind::scalar) made.set("name", *child);
-      made.origin = "--set";
+      made.origin = kOverrideOrigin;
       made.key = key.substr(0, dot);
       node->set(name, std::move(made));
     }

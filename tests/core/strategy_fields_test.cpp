@@ -87,6 +87,9 @@ TEST(StrategyFields, OtherErrors) {
   EXPECT_NE(error_of("gain:\n").find("got nothing"), std::string::npos);
   EXPECT_EQ(error_of("gain:\n  name: simple\n  prior: 0.3\n").find("e.yaml:3: gain.prior: unknown"),
             0U);
+  EXPECT_NE(error_of("gain: {name: simple, prior: 1}\n").find("; it belongs to adaptive"),
+            std::string::npos);
+  EXPECT_EQ(error_of("gain: [simple]\n").find("gain"), error_of("gain: [simple]\n").rfind("gain"));
   EXPECT_NE(error_of("gain: {name: adaptive, prior: 3}\n").find("gain.prior: 3 is out of range"),
             std::string::npos);
   EXPECT_NE(error_of("gain: {name: [adaptive]}\n"), "");
@@ -99,6 +102,18 @@ TEST(StrategyFields, TheStrategysOwnCheckRuns) {
             "e.yaml:1: gain: least must not be above prior");
   EXPECT_THROW(check_options(Planner{.gain = Adaptive{.prior = 0.1, .least = 0.5}, .also = {}}),
                ConfigError);
+}
+
+TEST(StrategyFields, ACheckNamesTheOverrideItIsAbout) {
+  ConfigNode root = parse_yaml("gain: {name: adaptive, prior: 0.3}\n", "e.yaml");
+  apply_override(root, "gain.least=0.5");
+  Planner planner;
+  try {
+    read_into(root, planner);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "--set gain.least: gain: least must not be above prior");
+  }
 }
 
 TEST(StrategyFields, OverrideOnTopOfAName) {
