@@ -58,6 +58,36 @@ void print_outcome(const RunOutcome& outcome) {
   }
 }
 
+/// Numbers and truth values as such; what was quoted is text.
+nlohmann::ordered_json to_json(const ConfigNode& node) {
+  nlohmann::ordered_json json;
+  for (const auto& item : node.items) json.push_back(to_json(item));
+  for (const auto& [name, child] : node.entries) json[name] = to_json(child);
+  if (node.kind != ConfigNode::Kind::scalar) return json;
+  json = node.scalar;
+  if (node.quoted) return json;
+  auto number = nlohmann::ordered_json::parse(node.scalar, nullptr, false);
+  return number.is_discarded() ? json : number;
+}
+
+void print_config(const Episode& episode, bool json) {
+  fmt::print("{}", json ? json_text(to_json(write_node(episode))) : episode_yaml(episode));
+}
+
+void print_plan(const ResolvedEpisode& resolved, bool json) {
+  const Episode& episode = resolved.episode;
+  if (json) {
+    fmt::print("{}", json_text({{"episode", resolved.name},
+                                {"scans", episode.scans},
+                                {"scene", resolved.scene.string()},
+                                {"method", method_name(episode)},
+                                {"seed", episode.seed}}));
+    return;
+  }
+  fmt::print("{}: {} scans in {} by {}, seed {}\n", resolved.name, episode.scans,
+             resolved.scene.string(), method_name(episode), episode.seed);
+}
+
 ExitCode run_episode_command(const RunArguments& arguments) {
   if (arguments.quiet) set_verbosity(Verbosity::quiet);
   if (arguments.verbose) set_verbosity(Verbosity::verbose);
@@ -66,15 +96,14 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
   const ResolvedEpisode resolved = load_episode(path, overrides);
   if (arguments.print_config) {
-    fmt::print("{}", episode_yaml(resolved.episode));
+    print_config(resolved.episode, arguments.json);
     return ExitCode::done;
   }
   if (arguments.dry_run) {
     const Validation found = validate_episode(path, overrides);
     for (const auto& problem : found.problems) log_error(problem);
     if (!found.problems.empty()) return found.code;
-    fmt::print("{}: {} scans in {} by {}, seed {}\n", resolved.name, resolved.episode.scans,
-               resolved.scene.string(), method_name(resolved.episode), resolved.episode.seed);
+    print_plan(resolved, arguments.json);
     return found.code;
   }
   catch_interrupts();
@@ -96,7 +125,8 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
       ->type_size(1)
       ->allow_extra_args(false);
   app.add_option("--seed", arguments->seed, "seed of every random stream");
-  app.add_option("--out", arguments->options.directory, "run folder; default out/<episode>-<seed>");
+  app.add_option("--out", arguments->options.directory, "run folder; default out/<episode>-<seed>")
+      ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   app.add_flag("--overwrite", arguments->options.overwrite, "replace a run in that folder");
   app.add_flag("--video", arguments->options.video, "record video.mp4 and frames/");
   app.add_flag("--json", arguments->json, "print metrics.json to stdout");
@@ -104,6 +134,9 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
   app.add_flag("-v,--verbose", arguments->verbose, "debug messages too")->excludes(quiet);
   app.add_flag("--print-config", arguments->print_config, "print the resolved episode and stop");
   app.add_flag("--dry-run", arguments->dry_run, "check everything, run nothing");
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_items_expected_max() == 0) option->disable_flag_override();
+  }
   return [arguments] { return run_episode_command(*arguments); };
 }
 
@@ -141,6 +174,7 @@ std::function<ExitCode()> declare_validate(CLI::App& app) {
     for (const auto& file : *files) {
       const Validation found = validate_file(file);
       for (const auto& problem : found.problems) fmt::print("{}\n", problem);
+      for (const auto& note : found.notes) fmt::print("{}\n", note);
       if (found.problems.empty()) fmt::print("{}: good\n", file.string());
       worst = std::max(worst, found.code);
     }

@@ -52,6 +52,9 @@ void Episode::check() const {
 ResolvedEpisode load_episode(const std::filesystem::path& path,
                              const std::vector<std::string>& overrides) {
   ConfigNode root = read_yaml(path);
+  if (root.kind == ConfigNode::Kind::null) {
+    throw ConfigError(path.string() + ": empty; an episode sets at least one key, as scans: 10");
+  }
   for (const auto& assignment : overrides) apply_override(root, assignment);
   ResolvedEpisode resolved;
   resolved.name = path.stem().string();

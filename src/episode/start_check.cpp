@@ -7,18 +7,6 @@
 namespace vantage {
 namespace {
 
-/// Rays from above, 5 x 5.
-bool has_table(const RayScene& geometry, const Episode& episode) {
-  const Eigen::AlignedBox3d region = episode.grid_frame().box();
-  for (int i = 0; i < 25; ++i) {
-    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 1.0);
-    const Eigen::Vector3d p_above = region.min().array() + share * region.sizes().array();
-    const RayHit hit = geometry.cast(p_above, -Eigen::Vector3d::UnitZ(), p_above.z());
-    if (p_above.z() - hit.distance_m >= episode.table.min_height_m) return true;
-  }
-  return false;
-}
-
 std::string geom_text(const mjModel& model, int geom) {
   const std::string name = model_name(model, ModelObject::geom, geom);
   return name.empty() ? fmt::format("geom number {}", geom) : fmt::format("'{}'", name);
@@ -30,6 +18,17 @@ std::string place_text(const Episode& episode) {
 }
 
 }  // namespace
+
+bool has_table(const RayScene& geometry, const Episode& episode) {
+  const Eigen::AlignedBox3d region = episode.grid_frame().box();
+  for (int i = 0; i < 25; ++i) {
+    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 1.0);
+    const Eigen::Vector3d p_above = region.min().array() + share * region.sizes().array();
+    const RayHit hit = geometry.cast(p_above, -Eigen::Vector3d::UnitZ(), p_above.z());
+    if (p_above.z() - hit.distance_m >= episode.table.min_height_m) return true;
+  }
+  return false;
+}
 
 void check_reach(const World& world, const Pr2& robot, const Episode& episode) {
   const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.torso_m(world);

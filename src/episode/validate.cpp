@@ -7,15 +7,16 @@
 #include "sim/world.hpp"
 #include "src/belief/octomap_io.hpp"
 #include "src/core/atomic_file.hpp"
+#include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
+#include "src/episode/start_check.hpp"
 #include "src/episode/tabletop_rig.hpp"
 
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
-using Problems = std::vector<std::string>;
 
-Problems episode_problems(const fs::path& file, const std::vector<std::string>& overrides) {
+Validation check_episode(const fs::path& file, const std::vector<std::string>& overrides) {
   const ResolvedEpisode resolved = load_episode(file, overrides);
   try {
     const TabletopRig rig(resolved);
@@ -27,45 +28,53 @@ Problems episode_problems(const fs::path& file, const std::vector<std::string>& 
   }
 }
 
-Problems validate_scene(const fs::path& file) {
-  const World world({file, {}}, {});
-  return {};
+/// As it will be loaded, beside the robot.
+Validation validate_scene(const fs::path& file) {
+  const Episode defaults;
+  const World world({file, find_input(defaults.robot.model, {}, "robot.model")}, {});
+  const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
+  if (has_table(geometry, defaults)) return {};
+  return {{},
+          {file.string() + ": note: no table where map.centre_m and map.size_m are by default"}};
 }
 
-Problems validate_map(const fs::path& file) {
+Validation validate_map(const fs::path& file) {
   const OctomapContent content = read_octomap(file);
-  if (content.occupied + content.free == 0) return {file.string() + ": the map holds no cells"};
+  if (content.occupied + content.free == 0) {
+    throw InputError(file.string() + ": the map holds no cells");
+  }
   return {};
 }
 
-Validation collect(const std::function<Problems()>& check) {
+Validation collect(const std::function<Validation()>& check) {
   try {
-    Problems problems = check();
-    const ExitCode code = problems.empty() ? ExitCode::done : ExitCode::bad_input;
-    return {std::move(problems), code};
+    return check();
   } catch (const ConfigError& error) {
-    return {error.problems(), error.code()};
+    return {error.problems(), {}, error.code()};
   } catch (const Error& error) {
-    return {{error.what()}, error.code()};
+    return {{error.what()}, {}, error.code()};
   }
 }
 
 }  // namespace
 
 Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides) {
-  return collect([&] { return episode_problems(file, overrides); });
+  return collect([&] { return check_episode(file, overrides); });
 }
 
 Validation validate_file(const fs::path& file) {
-  return collect([&]() -> Problems {
+  return collect([&]() -> Validation {
     const std::string type = file.extension().string();
     std::error_code error;
-    if (!fs::exists(file, error)) return {file.string() + ": no such file"};
-    if (type == ".yaml" || type == ".yml") return episode_problems(file, {});
+    if (!fs::exists(file, error)) throw InputError(file.string() + ": no such file");
+    if (fs::is_directory(file, error)) {
+      throw InputError(file.string() + ": is a directory, expected a file");
+    }
+    if (type == ".yaml" || type == ".yml") return check_episode(file, {});
     if (type == ".xml" || type == ".mjcf") return validate_scene(file);
     if (type == ".bt" || type == ".ot") return validate_map(file);
-    return {fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",
-                        file.string(), type)};
+    throw InputError(fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",
+                                 file.string(), type));
   });
 }
 

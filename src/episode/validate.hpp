@@ -11,6 +11,7 @@ namespace vantage {
 
 struct Validation {
   std::vector<std::string> problems;  ///< one line each, naming the file; empty: the file is good
+  std::vector<std::string> notes;     ///< what is worth knowing about a good file, the same way
   ExitCode code = ExitCode::done;     ///< usage for a configuration, bad_input for anything else
 };
 

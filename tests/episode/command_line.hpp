@@ -1,0 +1,76 @@
+/// The command line as a user meets it, in a folder of its own.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace vantage {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Result {
+  int exit_code = -1;
+  std::string output;  ///< stdout and stderr
+};
+
+inline Result shell(const std::string& command) {
+  Result result;
+  FILE* pipe = ::popen(("{ " + command + "; } 2>&1").c_str(), "r");
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+    result.output.append(buffer.data(), n);
+  }
+  const int status = ::pclose(pipe);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              ("vantage-cli-" + std::string(test->name()) + "-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string file(const std::string& name, const std::string& content) {
+    std::ofstream(folder_ / name) << content;
+    return (folder_ / name).string();
+  }
+  Result vantage(const std::string& arguments) {
+    return shell("cd '" + folder_.string() + "' && " VANTAGE_BINARY " " + arguments);
+  }
+  /// Exit code, every one of `parts` in the message, one line.
+  void expect_error(const Result& result, int exit_code, const std::vector<std::string>& parts) {
+    EXPECT_EQ(result.exit_code, exit_code) << result.output;
+    for (const auto& part : parts) EXPECT_THAT(result.output, HasSubstr(part));
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+  }
+  /// Files under final names in the default run folder.
+  std::vector<std::string> written() {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out", error)) {
+      if (entry.is_regular_file()) names.push_back(entry.path().filename().string());
+    }
+    return names;
+  }
+
+  fs::path folder_;
+  static constexpr const char* kShort =
+      "--set scans=1 --set laser.scan_duration_s=2 --set 'map.cells=[33,33,17]' -q ";
+};
+
+}  // namespace vantage
