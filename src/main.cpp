@@ -42,6 +42,12 @@ int run_command_line(int argc, char** argv) {
   return exit_code(code);
 }
 
+int fail(vantage::ExitCode code, const std::string& message) {
+  vantage::log_error(message);
+  vantage::log_to_file({});
+  return exit_code(code);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -50,10 +56,8 @@ int main(int argc, char** argv) {
   try {
     return run_command_line(argc, argv);
   } catch (const vantage::Error& error) {
-    vantage::log_error(error.what());
-    return exit_code(error.code());
+    return fail(error.code(), error.what());
   } catch (const std::exception& error) {
-    vantage::log_error(std::string("internal error: ") + error.what());
-    return exit_code(vantage::ExitCode::internal);
+    return fail(vantage::ExitCode::internal, std::string("internal error: ") + error.what());
   }
 }

@@ -20,10 +20,6 @@ std::string reason() { return errno != 0 ? std::strerror(errno) : "write failed"
   throw OutputError(fmt::format("{}: cannot write: {}", path.string(), why));
 }
 
-fs::path part_name(const fs::path& path) {
-  return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
-}
-
 /// Libraries that swallow write errors are caught here: on a full disk the flush to the device
 /// fails.
 void flush_to_disk(const fs::path& written, const fs::path& path) {
@@ -46,6 +42,10 @@ void publish(const fs::path& written, const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path part_name(const fs::path& path) {
+  return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
+}
 
 std::string read_file(const fs::path& path) {
   errno = 0;

@@ -15,6 +15,9 @@ std::string read_file(const std::filesystem::path& path);
 /// @throws OutputError if the directory or the disk refuses; nothing is left under `path` then.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+/// Where a file is written until it is whole: beside `path`, same extension.
+std::filesystem::path part_name(const std::filesystem::path& path);
+
 /// Calls `write` with a temporary name beside `path` (same extension, so that writers which pick a
 /// format by it work), checks that a non-empty file came out, and renames it to `path`. For
 /// libraries that write files themselves; `write` returns false on failure.

@@ -11,12 +11,14 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "src/core/atomic_file.hpp"
 #include "src/core/error.hpp"
 
 namespace vantage {
 namespace {
 
 Verbosity g_verbosity = Verbosity::normal;
+std::filesystem::path g_file;
 
 spdlog::level::level_enum console_level() {
   switch (g_verbosity) {
@@ -41,11 +43,11 @@ spdlog::logger& logger() {
   return instance;
 }
 
-double monotonic_s() {
+}  // namespace
+
+double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-}  // namespace
 
 void set_verbosity(Verbosity verbosity) {
   g_verbosity = verbosity;
@@ -55,9 +57,14 @@ void set_verbosity(Verbosity verbosity) {
 void log_to_file(const std::filesystem::path& path) {
   auto& sinks = logger().sinks();
   sinks.resize(1);
+  if (!g_file.empty()) {
+    std::error_code ignored;  // a log is no result
+    std::filesystem::rename(part_name(g_file), g_file, ignored);
+  }
+  g_file = path;
   if (path.empty()) return;
   try {
-    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path.string(), true);
+    auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(part_name(path).string(), true);
     file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l: %v");
     sinks.push_back(std::move(file));
   } catch (const spdlog::spdlog_ex& error) {
@@ -79,7 +86,7 @@ Progress::~Progress() {
 void Progress::update(double done, std::string_view note) {
   if (g_verbosity == Verbosity::quiet) return;
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
-  const double now_s = monotonic_s();
+  const double now_s = wall_s();
   const bool finished = done >= total_;
   if (last_shown_s_ >= 0.0 && !finished && now_s - last_shown_s_ < (terminal ? 0.1 : 5.0)) return;
   last_shown_s_ = now_s;

@@ -10,13 +10,17 @@ namespace vantage {
 enum class Verbosity { quiet, normal, verbose };
 
 void set_verbosity(Verbosity verbosity);
-/// Also writes every line, debug included, to `path` until the next call; empty stops it.
+/// Also writes every line, debug included, beside `path` until the next call, which puts the file
+/// under its name; empty stops it.
 /// @throws OutputError if the file cannot be made.
 void log_to_file(const std::filesystem::path& path);
 void log_debug(std::string_view message);
 void log_info(std::string_view message);
 void log_warning(std::string_view message);
 void log_error(std::string_view message);
+
+/// Wall time from some fixed moment on.
+double wall_s();
 
 /// Progress of long work: a bar on a terminal, else a line every few seconds. Honours NO_COLOR and
 /// -q.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -24,10 +23,6 @@ constexpr int kMostPlans = 12;
 constexpr double kProgress_m = 0.05;
 /// Of the base, 0.668 m square: what it stands on is free.
 constexpr double kInscribedRadius_m = 0.33;
-
-double wall_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 Eigen::Vector3d region_centre(const Episode& episode) {
   return {episode.map.centre_m[0], episode.map.centre_m[1], episode.map.centre_m[2]};

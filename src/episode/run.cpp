@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <chrono>
 
 #include "src/core/atomic_file.hpp"
 #include "src/core/log.hpp"
@@ -14,10 +13,6 @@
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
-
-double wall_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 constexpr auto kRunFiles = std::to_array<std::string_view>(
     {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",

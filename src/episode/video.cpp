@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "src/core/atomic_file.hpp"
 #include "src/core/error.hpp"
 
 namespace vantage {
@@ -32,11 +33,6 @@ void silence_codec_chatter() {
   static_cast<void>(once);
 }
 
-/// Beside the name, with the extension last: the container is picked by it.
-fs::path part_of(const fs::path& path) {
-  return path.parent_path() / (path.stem().string() + ".part" + path.extension().string());
-}
-
 bool open_encoder(cv::VideoWriter& encoder, const fs::path& path, cv::Size size, double rate) {
   try {
     return encoder.open(path.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
@@ -59,7 +55,7 @@ void remove_quietly(const fs::path& path) {
 
 VideoWriter::VideoWriter(fs::path path, cv::Size size, double frames_per_s)
     : path_(std::move(path)),
-      part_(part_of(path_)),
+      part_(part_name(path_)),
       size_(size),
       even_size_(size.width + size.width % 2, size.height + size.height % 2) {
   expects(size.width > 0 && size.height > 0 && frames_per_s > 0.0, "a video has size and rate");

@@ -58,12 +58,14 @@ TEST_F(CommandLine, FullDisk) {
   // A file size limit fails the write as a full disk does.
   const Result result =
       shell("cd '" + folder_.string() +
-            "' && trap '' XFSZ && ulimit -f 8 && " VANTAGE_BINARY " run " + kShort);
+            "' && trap '' XFSZ && ulimit -f 16 && " VANTAGE_BINARY " run " + kShort);
   EXPECT_EQ(result.exit_code, 5) << result.output;
   EXPECT_THAT(result.output, HasSubstr("cannot write"));
   const auto left = written();
   for (const auto& name : left) EXPECT_THAT(name, testing::Not(HasSubstr(".part")));
   EXPECT_THAT(left, testing::Not(testing::Contains("metrics.json")));
+  EXPECT_THAT(shell("cat '" + folder_.string() + "'/out/*/log.txt").output,
+              HasSubstr("cannot write"));
 }
 
 TEST_F(CommandLine, SecondRunNeedsOverwrite) {
