@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPoseRowEvery_s = 0.1;
 
+constexpr std::string_view kTumHeader = "# time_s x y z qx qy qz qw\n";
 constexpr std::string_view kStepsHeader =
     "time_s,scan,chosen_view,fallback,unobserved_cells,observable_unobserved_cells,actual_new_"
     "cells,"
@@ -54,6 +55,8 @@ Recorder::Recorder(const ResolvedEpisode& resolved, TabletopRig& rig,
       estimated_(directory_ / "trajectory_estimated.tum"),
       progress_(resolved.name, resolved.episode.scans) {
   steps_.write(steps_header());
+  trajectory_.write(kTumHeader);
+  estimated_.write(kTumHeader);
   if (with_video) film_.emplace(rig.world(), resolved.episode.recording, directory_);
   rig_.world().on_tick = [this](World&) { tick(); };
 }

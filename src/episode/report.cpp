@@ -12,6 +12,8 @@
 #include "generated/report_assets.hpp"
 #include "src/core/atomic_file.hpp"
 #include "src/core/error.hpp"
+#include "src/core/fields.hpp"
+#include "src/core/yaml.hpp"
 #include "src/episode/report_data.hpp"
 #include "src/perception/ply.hpp"
 
@@ -34,14 +36,52 @@ json read_json_object(const fs::path& path) {
   return value;
 }
 
-void require_lists_of_objects(const fs::path& path, const json& metrics) {
-  for (const char* key : {"scans", "candidates"}) {
-    const auto list = metrics.find(key);
-    if (list == metrics.end()) continue;
-    const bool valid = list->is_array() && std::all_of(list->begin(), list->end(),
-                                                       [](const json& i) { return i.is_object(); });
-    if (!valid)
-      throw InputError(fmt::format("{}: {}: expected a list of objects", path.string(), key));
+bool is_number(const json& value) { return value.is_number() || value.is_null(); }  // null: NaN
+bool is_text(const json& value) { return value.is_string(); }
+bool is_object(const json& value) { return value.is_object(); }
+bool is_objects(const json& value) {
+  return value.is_array() && std::all_of(value.begin(), value.end(), is_object);
+}
+
+struct KeyType {
+  const char* key;
+  bool (*is_type)(const json&);
+  std::string_view expected;
+};
+constexpr KeyType kMetricsTypes[] = {
+    {"scene", is_text, "a text"},
+    {"method", is_text, "a text"},
+    {"state_hash", is_text, "a text"},
+    {"simulated_time_s", is_number, "a number"},
+    {"wall_time_s", is_number, "a number"},
+    {"real_time_factor", is_number, "a number"},
+    {"path_length_m", is_number, "a number"},
+    {"collisions", is_number, "a number"},
+    {"observable_cells", is_number, "a number"},
+    {"map", is_object, "an object"},
+    {"region", is_object, "an object"},
+    {"scans", is_objects, "a list of objects"},
+    {"candidates", is_objects, "a list of objects"},
+};
+constexpr KeyType kScanTypes[] = {
+    {"unobserved_cells", is_number, "a number"},
+    {"observable_unobserved_cells", is_number, "a number"},
+    {"predicted", is_object, "an object"},
+    {"actual_new_cells", is_number, "a number"},
+    {"chosen_view", is_number, "a number"},
+    {"plan_time_s", is_number, "a number"},
+    {"path_length_m", is_number, "a number"},
+    {"pose_error_m", is_number, "a number"},
+    {"pose_error_before_registration_m", is_number, "a number"},
+    {"view", is_object, "an object"},
+};
+
+/// Keys that are there have their types; `place` is the file, or the file and the object in it.
+void require_types(const std::string& place, const json& object, std::span<const KeyType> types) {
+  for (const KeyType& type : types) {
+    const auto found = object.find(type.key);
+    if (found == object.end() || type.is_type(*found)) continue;
+    throw InputError(fmt::format("{}: {}: expected {}", place, type.key, type.expected));
   }
 }
 
@@ -52,8 +92,32 @@ json read_metrics(const fs::path& path) {
       throw InputError(fmt::format("{}: {}: expected a text", path.string(), key));
     }
   }
-  require_lists_of_objects(path, metrics);
+  require_types(path.string(), metrics, kMetricsTypes);
+  if (metrics.contains("scans")) {
+    for (std::size_t i = 0; i < metrics["scans"].size(); ++i) {
+      require_types(fmt::format("{}: scans[{}]", path.string(), i), metrics["scans"][i],
+                    kScanTypes);
+    }
+  }
   return metrics;
+}
+
+std::string read_config(const fs::path& path) {
+  try {
+    const ConfigNode config = read_yaml(path);
+    if (config.kind != ConfigNode::Kind::null) detail::require_kind(config, ConfigNode::Kind::map);
+  } catch (const ConfigError& error) {
+    throw InputError(error.what());
+  }
+  return read_file(path);
+}
+
+CsvTable read_steps(const fs::path& path) {
+  CsvTable steps = read_csv(path);
+  if (steps.columns.front() != "time_s") {
+    throw InputError(path.string() + ":1: expected a header that starts with time_s");
+  }
+  return steps;
 }
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
@@ -141,8 +205,8 @@ json run_json(const fs::path& run_dir) {
   json run;
   run["metrics"] = read_metrics(run_dir / "metrics.json");
   run["manifest"] = read_json_object(run_dir / "manifest.json");
-  run["config"] = read_file(run_dir / "config.yaml");
-  const CsvTable steps = read_csv(run_dir / "steps.csv");
+  run["config"] = read_config(run_dir / "config.yaml");
+  const CsvTable steps = read_steps(run_dir / "steps.csv");
   run["steps"] = {{"columns", steps.columns}, {"rows", steps.rows}};
   run["trajectory"] = {{"truth", trajectory_json(run_dir / "trajectory.tum")},
                        {"estimated", trajectory_json(run_dir / "trajectory_estimated.tum")}};

@@ -46,7 +46,9 @@ std::optional<std::vector<std::string>> split_csv(const std::string& line) {
 }  // namespace
 
 std::vector<TrajectorySample> read_tum(const std::filesystem::path& path) {
-  std::istringstream stream(read_file(path));
+  const std::string text = read_file(path);
+  if (text.empty()) malformed(path, 1, "the file is empty");
+  std::istringstream stream(text);
   std::vector<TrajectorySample> samples;
   std::string line;
   for (std::size_t number = 1; next_line(stream, line); ++number) {
