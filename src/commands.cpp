@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -155,6 +156,10 @@ std::function<ExitCode()> declare_replay(CLI::App& app) {
   app.add_option("dir", *directory, "run folder")->required();
   return [directory] {
     const ReplayResult result = replay(*directory);
+    if (!result.changed_files.empty()) {
+      log_warning(
+          fmt::format("changed since the recording: {}", fmt::join(result.changed_files, ", ")));
+    }
     if (result.first_difference) {
       fmt::print("{}: differs first at step {} ({:.3f} s): {}\n", directory->string(),
                  *result.first_difference, result.time_s, result.what);

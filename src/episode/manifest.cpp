@@ -72,14 +72,18 @@ std::vector<fs::path> scene_files(const fs::path& scene) {
   return {found.begin(), found.end()};
 }
 
-std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
-                          const RunSummary& summary) {
-  Json assets = Json::object();
+std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved) {
+  std::map<std::string, std::string> hashes;
   for (const fs::path& root : {resolved.scene, resolved.robot}) {
     for (const fs::path& file : scene_files(root)) {
-      assets[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
+      hashes[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
     }
   }
+  return hashes;
+}
+
+std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
+                          const RunSummary& summary) {
   const Json json = {
       {"command", command},
       {"versions",
@@ -93,7 +97,7 @@ std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std
       {"status", status_name(summary.status)},
       {"config_hash", hash_text(hash_bytes(episode_yaml(resolved.episode)))},
       {"scene_hash", hash_text(hash_file(resolved.scene))},
-      {"assets", assets},
+      {"assets", asset_hashes(resolved)},
       {"wall_time_s", summary.wall_time_s},
       {"simulated_time_s", summary.simulated_time_s},
   };

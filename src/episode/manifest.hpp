@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ std::string version_text();
 
 /// Every file the MJCF at `scene` refers to, itself and its includes among them, in a fixed order.
 std::vector<std::filesystem::path> scene_files(const std::filesystem::path& scene);
+
+/// Hash of each file that the scene and the robot are made of, by its name beside them.
+std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved);
 
 std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
                           const RunSummary& summary);

@@ -8,6 +8,7 @@
 #include "sim/world.hpp"
 #include "src/core/atomic_file.hpp"
 #include "src/core/hash.hpp"
+#include "src/episode/manifest.hpp"
 #include "src/episode/scenario.hpp"
 #include "src/episode/state_log.hpp"
 
@@ -21,10 +22,41 @@ std::optional<std::string> state_difference(std::span<const double> expected,
   return fmt::format("state[{}] is {}, recorded {}", e - expected.begin(), *a, *e);
 }
 
+nlohmann::json read_manifest(const std::filesystem::path& run_dir) {
+  auto manifest = nlohmann::json::parse(read_file(run_dir / "manifest.json"), nullptr, false);
+  if (manifest.is_object()) return manifest;
+  throw InputError((run_dir / "manifest.json").string() + ": not a JSON object");
+}
+
+ResolvedEpisode load_recorded(const std::filesystem::path& run_dir) {
+  try {
+    return load_episode(run_dir / "config.yaml", {});
+  } catch (const ConfigError& error) {
+    throw InputError(
+        fmt::format("{}: not a configuration of this version, {}; manifest.json names "
+                    "the one that recorded it",
+                    error.what(), version_text()));
+  }
+}
+
+std::vector<std::string> changed_files(const nlohmann::json& manifest,
+                                       const ResolvedEpisode& resolved) {
+  std::vector<std::string> changed;
+  const auto recorded = manifest.value("assets", nlohmann::json::object());
+  const auto present = asset_hashes(resolved);
+  for (const auto& [name, hash] : present) {
+    if (!recorded.contains(name) || recorded[name] != hash) changed.push_back(name);
+  }
+  for (const auto& [name, hash] : recorded.items()) {
+    if (!present.contains(name)) changed.push_back(name);
+  }
+  return changed;
+}
+
 }  // namespace
 
 ReplayResult replay(const std::filesystem::path& run_dir) {
-  const ResolvedEpisode resolved = load_episode(run_dir / "config.yaml", {});
+  const ResolvedEpisode resolved = load_recorded(run_dir);
   World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
   const RecordedStates recorded = read_states(run_dir / "states.bin");
   const auto names = actuator_names(world);
@@ -36,6 +68,7 @@ ReplayResult replay(const std::filesystem::path& run_dir) {
 
   world.set_state(recorded.state(0));
   ReplayResult result;
+  result.changed_files = changed_files(read_manifest(run_dir), resolved);
   result.state_hash = hash_doubles(recorded.state(0));
   auto next = actions.begin();
   for (std::uint64_t tick = 0; tick + 1 < recorded.count(); ++tick) {

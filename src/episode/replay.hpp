@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vantage {
 
@@ -14,8 +15,10 @@ struct ReplayResult {
   std::optional<std::uint64_t> first_difference;  ///< step (control tick) that differs
   double time_s = 0.0;                            ///< simulated, of that step
   std::string what;                               ///< how it differs
+  std::vector<std::string> changed_files;         ///< of scene and robot, since the recording
 };
 
+/// Files that changed are named, but only the states decide whether the replay differs.
 /// @throws InputError if the folder lacks a file or one is damaged.
 ReplayResult replay(const std::filesystem::path& run_dir);
 

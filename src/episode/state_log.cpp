@@ -123,7 +123,13 @@ std::vector<RecordedAction> read_actions(const std::filesystem::path& path,
     rest.remove_prefix(std::min(end + 1, rest.size()));
     return line;
   };
-  if (next_line() != action_header(actuator_names)) actions.push_back({0, {}, false});
+  const std::string_view header = next_line();
+  const auto columns = static_cast<std::size_t>(std::ranges::count(header, ',')) + 1;
+  if (columns != actuator_names.size() + 1 || header.ends_with('\r')) {
+    throw InputError(fmt::format("{}:1: expected the header '{}' and lines that end in \\n",
+                                 path.string(), action_header(actuator_names)));
+  }
+  if (header != action_header(actuator_names)) actions.push_back({0, {}, false});
   while (!rest.empty()) {
     const std::uint64_t after_tick = actions.empty() ? 0 : actions.back().tick + 1;
     actions.push_back(parse_action(next_line(), actuator_names.size(), after_tick));

@@ -58,8 +58,9 @@ struct RecordedAction {
   std::vector<double> controls;
   bool canonical = true;  ///< the text is exactly what a recorder writes for these numbers
 };
-/// Rows that cannot be read, and a header other than `actuator_names`, are kept as rows that are
-/// not canonical, so that replay can name their step.
+/// Rows that cannot be read, and a header with other names than `actuator_names`, are kept as rows
+/// that are not canonical, so that replay can name their step.
+/// @throws InputError if the file is missing, or its header has other columns or line ends.
 std::vector<RecordedAction> read_actions(const std::filesystem::path& path,
                                          std::span<const std::string> actuator_names);
 

@@ -112,6 +112,30 @@ TEST_F(Run, ReplayNamesTheStepOfAnyChangedByte) {
   }
 }
 
+TEST_F(Run, ReplayNamesFilesThatChanged) {
+  EXPECT_TRUE(replay(folder_ / "first").changed_files.empty());
+  const fs::path other = copy_of_first("other_scene");
+  auto manifest = nlohmann::json::parse(read_file(other / "manifest.json"));
+  manifest["assets"]["scene.xml"] = "0";
+  write_file(other / "manifest.json", manifest.dump());
+  const ReplayResult result = replay(other);
+  EXPECT_EQ(result.changed_files, std::vector<std::string>{"scene.xml"});
+  EXPECT_FALSE(result.first_difference) << "the states agree all the same";
+}
+
+TEST_F(Run, ReplayRefusesActionsAndKeysOfAnotherKind) {
+  const fs::path other = copy_of_first("other_kind");
+  const std::string actions = read_file(other / "actions.csv");
+  for (const std::string& content :
+       {std::string(), std::string("tick,a\n"), actions.substr(0, actions.find('\n')) + "\r\n"}) {
+    write_file(other / "actions.csv", content);
+    EXPECT_THROW(replay(other), InputError);
+  }
+  write_file(other / "actions.csv", actions);
+  write_file(other / "config.yaml", read_file(other / "config.yaml") + "old_key: 1\n");
+  EXPECT_THROW(replay(other), InputError);
+}
+
 TEST_F(Run, ReplayRefusesATruncatedLog) {
   const fs::path cut = copy_of_first("cut");
   fs::resize_file(cut / "states.bin", fs::file_size(cut / "states.bin") - 3);
