@@ -18,7 +18,7 @@ void raise_twice(int second_signal, std::chrono::milliseconds pause) {
   try {
     throw_if_interrupted();
   } catch (const Interrupted& error) {
-    std::exit(static_cast<int>(error.code()));
+    std::_Exit(static_cast<int>(error.code()));
   }
 }
 
