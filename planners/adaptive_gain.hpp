@@ -11,6 +11,7 @@ namespace vantage {
 struct AdaptiveGain {
   static constexpr std::string_view name = "adaptive";
   static constexpr bool unobserved_only = true;
+  static constexpr bool predicts_cells = true;
   void fields(auto&&) {}
 
   using Ray = AttenuatedRay;

@@ -14,6 +14,7 @@ namespace vantage {
 struct BeerLambertGain {
   static constexpr std::string_view name = "beer_lambert";
   static constexpr bool unobserved_only = true;
+  static constexpr bool predicts_cells = true;
   double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
   void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
 

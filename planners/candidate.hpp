@@ -16,7 +16,7 @@ struct Candidate {
   double path_length_m = 0.0;  ///< along the planned path; infinity where unreachable
   bool reachable = true;
   bool exhausted = false;  ///< tried before and not worth trying again, e.g. out of reach
-  double gain_bits = 0.0;  ///< as the gain in use predicts it
+  double gain_bits = 0.0;  ///< as the gain in use predicts it, in its unit where that is not bits
   std::optional<double> true_new_cells;  ///< what the view would really show; for `oracle` alone
 };
 

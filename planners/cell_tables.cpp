@@ -51,4 +51,21 @@ std::vector<float> cell_transmissions(const OccupancyGrid& grid,
   return table;
 }
 
+std::vector<float> cell_opacities(const OccupancyGrid& grid, double opacity_unobserved) {
+  const double prior_log_odds = log_odds_of(opacity_unobserved);
+  return measured_cells(grid, static_cast<float>(opacity_unobserved), [&](std::size_t cell) {
+    const auto evidence = static_cast<double>(grid.log_odds[cell]);
+    const bool occupied = grid.state(cell) == CellState::occupied;
+    return probability_of(occupied ? evidence : evidence + prior_log_odds);
+  });
+}
+
+std::vector<float> beam_transmissions(const OccupancyGrid& grid, double opacity_unobserved) {
+  std::vector<float> table = cell_opacities(grid, opacity_unobserved);
+  for (std::size_t cell = 0; cell < table.size(); ++cell) {
+    table[cell] = grid.state(cell) == CellState::occupied ? 0.0F : 1.0F - table[cell];
+  }
+  return table;
+}
+
 }  // namespace vantage

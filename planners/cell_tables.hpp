@@ -24,6 +24,7 @@ struct CellTables {
   std::vector<float> p_occupied;
   std::vector<float> entropy_bits;
   std::vector<float> transmission;  ///< share of a beam that a cell lets pass, [0, 1]
+  double cell_volume_m3 = 0.0;      ///< of every cell
 };
 
 std::vector<CellState> cell_states(const OccupancyGrid& grid);
@@ -31,10 +32,15 @@ std::vector<float> cell_probabilities(const OccupancyGrid& grid);
 std::vector<float> cell_entropies_bits(const OccupancyGrid& grid);
 /// 1 in free cells, 0 in occupied ones, `per_slice[z]` in unobserved ones.
 std::vector<float> cell_transmissions(const OccupancyGrid& grid, std::span<const double> per_slice);
+/// p(a beam ends in the cell it met): p(o) of occupied cells; of the others what p(o) would be had
+/// it started from the prior `opacity_unobserved` instead of 0.5. At 0.5 it is p(o) throughout.
+std::vector<float> cell_opacities(const OccupancyGrid& grid, double opacity_unobserved);
+/// 1 - opacity, and 0 in occupied cells: there beams end.
+std::vector<float> beam_transmissions(const OccupancyGrid& grid, double opacity_unobserved);
 
 /// A gain that is a sum over cells, each worth something to the ray that looks at it. `Ray` is the
 /// state of one ray: start() at the sensor, pass(cell) for each cell crossed (false: nothing behind
-/// it counts, the walk may stop), worth(cell) in bits for the cell the ray ends in.
+/// it counts, the walk may stop), worth(cell) in the gain's unit for the cell the ray ends in.
 template <class G>
 concept RayGain = requires(const G& gain, const GainContext& context, const CellTables& tables,
                            typename G::Ray ray, std::size_t cell) {

@@ -36,7 +36,7 @@ std::vector<double> exact_gains_bits(const Gain& gain, const GainContext& contex
   std::vector<double> gains_bits(candidates.size());
   std::visit(
       [&](const auto& g) {
-        const CellTables tables = g.prepare(context);
+        const auto tables = g.prepare(context);
         parallel_for(candidates.size(), threads, [&](std::size_t i) {
           gains_bits[i] = sum_over_view(g, tables, context.grid.frame, candidates[i].T_world_sensor,
                                         field_of_view);

@@ -1,9 +1,11 @@
-/// The gain of views by one ray to every cell in sight: the reference for faster ways.
+/// The gain of views by one ray to every cell in sight, or by one along every beam of a fan: the
+/// reference for faster ways.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "planners/beam_gain.hpp"
 #include "planners/candidate.hpp"
 #include "planners/cell_walk.hpp"
 #include "planners/gain.hpp"
@@ -11,8 +13,8 @@
 
 namespace vantage {
 
-/// Sum over the cells of `grid` inside the field of view of what each is worth, in bits; a ray is
-/// walked from the sensor to the centre of each.  [AmanatidesWoo1987]
+/// Sum over the cells of `grid` inside the field of view of what each is worth, in the gain's unit;
+/// a ray is walked from the sensor to the centre of each.  [AmanatidesWoo1987]
 template <RayGain G>
 double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& grid,
                      const Pose& T_world_sensor, const FieldOfView& field_of_view) {
@@ -30,7 +32,7 @@ double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& g
   return sum_bits;
 }
 
-/// Gain in bits of one view; T_world_sensor has x forward, z up.
+/// Gain of one view, in bits or the unit the gain names; T_world_sensor has x forward, z up.
 double exact_gain_bits(const Gain& gain, const GainContext& context, const Pose& T_world_sensor,
                        const FieldOfView& field_of_view);
 

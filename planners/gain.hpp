@@ -1,22 +1,40 @@
-/// What a view is worth, in bits. With one bit per cell never measured, a gain also predicts how
-/// many cells the view will newly show.
+/// What a view is worth. In bits, unless a gain says otherwise. With one bit per cell never
+/// measured, a gain that sums over cells also predicts how many of them the view will newly show.
 #pragma once
 
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "planners/adaptive_gain.hpp"
 #include "planners/beer_lambert_gain.hpp"
+#include "planners/fsmi_gain.hpp"
+#include "planners/occlusion_aware_gain.hpp"
 #include "planners/posterior_chain_gain.hpp"
+#include "planners/rear_side_entropy_gain.hpp"
+#include "planners/rear_side_voxel_gain.hpp"
 #include "planners/simple_gain.hpp"
+#include "planners/unmapped_volume_gain.hpp"
+#include "planners/unobserved_voxel_gain.hpp"
 #include "planners/visibility_weighted_gain.hpp"
 #include "src/core/strategy.hpp"
 
 namespace vantage {
 
 using Gain = std::variant<SimpleGain, PosteriorChainGain, VisibilityWeightedGain, BeerLambertGain,
-                          AdaptiveGain>;
+                          AdaptiveGain, OcclusionAwareGain, UnobservedVoxelGain, RearSideVoxelGain,
+                          RearSideEntropyGain, UnmappedVolumeGain, FsmiGain>;
 template <>
 inline constexpr std::string_view strategy_family<Gain> = "gain";
+
+/// Names of the gains whose value is a number of cells, to be held against what a view showed.
+inline std::vector<std::string_view> cell_predictors() {
+  std::vector<std::string_view> names;
+  for (const std::string_view name : strategy_names<Gain>()) {
+    const Gain gain = make_strategy<Gain>(name);
+    if (std::visit([](const auto& g) { return g.predicts_cells; }, gain)) names.push_back(name);
+  }
+  return names;
+}
 
 }  // namespace vantage

@@ -18,6 +18,7 @@ namespace vantage {
 struct PosteriorChainGain {
   static constexpr std::string_view name = "posterior_chain";
   static constexpr bool unobserved_only = false;
+  static constexpr bool predicts_cells = true;
   PosteriorModel model;
   void fields(auto&& f) { model.fields(f); }
 

@@ -12,6 +12,7 @@ namespace vantage {
 struct SimpleGain {
   static constexpr std::string_view name = "simple";
   static constexpr bool unobserved_only = true;
+  static constexpr bool predicts_cells = true;
   void fields(auto&&) {}
 
   class Ray {

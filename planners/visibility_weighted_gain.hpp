@@ -12,6 +12,7 @@ namespace vantage {
 struct VisibilityWeightedGain {
   static constexpr std::string_view name = "visibility_weighted";
   static constexpr bool unobserved_only = true;
+  static constexpr bool predicts_cells = true;
   VisibilityModel model;
   void fields(auto&& f) { model.fields(f); }
 

@@ -48,6 +48,7 @@ Json observability(const Episode& episode, const ClutterHazard& hazard) {
         if constexpr (requires { gain.a; }) return gain.a;
         if constexpr (requires { gain.model.a; }) return gain.model.a;
         if constexpr (requires { gain.model.visibility.a; }) return gain.model.visibility.a;
+        if constexpr (requires { gain.opacity_unobserved; }) return 1.0 - gain.opacity_unobserved;
         return nullptr;
       },
       episode.gain);

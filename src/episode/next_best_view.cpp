@@ -167,11 +167,11 @@ void NextBestView::act(const Candidate& candidate) {
   predict(rig_.estimated_laser());  // of the place the scan will be taken from
 }
 
-/// What every gain expects of the view, for the record.
+/// How many new cells every gain that counts them expects of the view, for the record.
 void NextBestView::predict(const Pose& T_world_sensor) {
   current_.predicted_cells.clear();
   const auto transmission = belief_.hazard().transmission_per_slice();
-  for (const std::string_view name : strategy_names<Gain>()) {
+  for (const std::string_view name : cell_predictors()) {
     const auto gain =
         name == strategy_name_of(episode_.gain) ? episode_.gain : make_strategy<Gain>(name);
     current_.predicted_cells.emplace_back(

@@ -21,7 +21,7 @@ constexpr std::string_view kStepsHeader =
 
 std::string steps_header() {
   std::string gains;
-  for (const auto name : strategy_names<Gain>()) gains += fmt::format("predicted_{}_cells,", name);
+  for (const auto name : cell_predictors()) gains += fmt::format("predicted_{}_cells,", name);
   return fmt::format(fmt::runtime(kStepsHeader), fmt::arg("gains", gains));
 }
 

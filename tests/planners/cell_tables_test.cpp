@@ -33,6 +33,20 @@ TEST(CellTables, TransmissionOfUnobservedCellsGoesByTheirSlice) {
               ElementsAre(0.75F, 1.0F, 0.0F, 0.5F));
 }
 
+// A free cell of odds 0.02 / 0.98 from even ones is one of odds 0.02 / 0.98 / 3 from 1 / 3.
+TEST(CellOpacities, TakeTheEvidenceOfFreeCellsFromAnotherPrior) {
+  const auto p_free_cell = static_cast<float>(0.02 / (0.02 + 3.0 * 0.98));
+  EXPECT_THAT(cell_opacities(row_of_cells(".?#"), 0.25),
+              ElementsAre(FloatNear(p_free_cell, 1e-6F), 0.25F, FloatNear(1.0F, 2e-6F)));
+  EXPECT_THAT(cell_opacities(row_of_cells(".?#"), 0.5),
+              ElementsAre(FloatNear(0.02F, 1e-6F), 0.5F, FloatNear(1.0F, 2e-6F)));
+  EXPECT_THAT(cell_opacities(row_of_cells(".?"), 0.0), ElementsAre(0.0F, 0.0F));
+}
+
+TEST(BeamTransmissions, EndABeamInOccupiedCells) {
+  EXPECT_THAT(beam_transmissions(row_of_cells("?#"), 0.25), ElementsAre(0.75F, 0.0F));
+}
+
 TEST(CellTablesDeathTest, WantsATransmissionForEachSlice) {
   EXPECT_DEATH(cell_transmissions(row_of_cells("??"), {}), "one transmission per z slice");
 }
