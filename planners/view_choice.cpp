@@ -1,11 +1,15 @@
 #include "planners/view_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <tuple>
 #include <vector>
 
 namespace vantage {
 namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 /// Index of the best candidate: highest score, then shortest path, then lowest id.
 template <class Score>
@@ -31,6 +35,19 @@ std::size_t OracleView::operator()(std::span<const Candidate> candidates, Rng& /
   return best_by(candidates, [](const Candidate& view) {
     expects(view.true_new_cells.has_value(), "the oracle needs true_new_cells of every candidate");
     return *view.true_new_cells;
+  });
+}
+
+std::size_t NearestFrontier::operator()(std::span<const Candidate> candidates, Rng& /*rng*/) const {
+  return best_by(candidates, [](const Candidate& view) {
+    return view.reachable ? -view.path_length_m : kNever;
+  });
+}
+
+std::size_t GainOverDistance::operator()(std::span<const Candidate> candidates,
+                                         Rng& /*rng*/) const {
+  return best_by(candidates, [&](const Candidate& view) {
+    return view.reachable ? view.gain_bits * std::exp(-lambda_per_m * view.path_length_m) : kNever;
   });
 }
 

@@ -2,7 +2,8 @@
 ///
 /// A choice knows nothing of the map: gains, path lengths and reachability are values of the
 /// candidates, and the episode decides which candidates it passes. Unreachable ones may be chosen
-/// (navigation then goes as near as it can), so an episode that wants none of them leaves them out.
+/// (navigation then goes as near as it can), by those that weigh paths only where no other is left;
+/// so an episode that wants none of them leaves them out.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,7 @@
 #include <variant>
 
 #include "planners/candidate.hpp"
+#include "src/core/fields.hpp"
 #include "src/core/rng.hpp"
 #include "src/core/strategy.hpp"
 
@@ -38,7 +40,25 @@ struct OracleView {
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
-using ViewChoice = std::variant<RandomView, GreedyGain, OracleView>;
+/// The shortest path, whatever is to be seen there; of equal ones the lower id. Unreachable views
+/// come last.  [Yamauchi1997]
+struct NearestFrontier {
+  static constexpr std::string_view name = "nearest_frontier";
+  void fields(auto&&) {}
+  std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
+};
+
+/// The largest gain discounted by the way there, A(q) exp(-lambda L(q)). Ties as in GreedyGain;
+/// unreachable views come last.  [GonzalezBanosLatombe2002]
+struct GainOverDistance {
+  static constexpr std::string_view name = "gain_over_distance";
+  double lambda_per_m = 0.2;  ///< 1/m, >= 0; higher prefers near views, 0 is greedy
+  void fields(auto&& f) { f("lambda_per_m", lambda_per_m, at_least(0.0)); }
+  std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
+};
+
+using ViewChoice =
+    std::variant<RandomView, GreedyGain, OracleView, NearestFrontier, GainOverDistance>;
 template <>
 inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -84,7 +86,9 @@ TEST(ViewChoice, OfAnUnknownNameListsTheKnown) {
     make_strategy<ViewChoice>("gredy");
     FAIL() << "no error";
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "unknown view choice 'gredy'; known: random, greedy, oracle");
+    EXPECT_STREQ(error.what(),
+                 "unknown view choice 'gredy'; known: random, greedy, oracle, nearest_frontier, "
+                 "gain_over_distance");
   }
 }
 
@@ -111,6 +115,55 @@ TEST(OracleViewDeathTest, NeedsTheTruth) {
   views[2].true_new_cells.reset();
   Rng rng(1);
   EXPECT_DEATH(choose_view(OracleView{}, views, rng), "true_new_cells");
+}
+
+TEST(NearestFrontier, TakesTheShortestPathThenTheLowestId) {
+  Rng rng(1);
+  auto views = five_views();
+  EXPECT_EQ(choose_view(NearestFrontier{}, views, rng), 4U);
+  views[4].path_length_m = 5.0;
+  EXPECT_EQ(choose_view(NearestFrontier{}, views, rng), 0U);
+}
+
+TEST(GainOverDistance, WeighsGainAgainstTheWay) {
+  // 10 exp(-5 l) = 6 exp(-l) at l = ln(10 / 6) / 4, about 0.128.
+  const std::vector<Candidate> views{view(0, 10.0, 5.0, 0.0), view(1, 6.0, 1.0, 0.0)};
+  Rng rng(1);
+  EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 0.12}, views, rng), 0U);
+  EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 0.14}, views, rng), 1U);
+}
+
+TEST(GainOverDistance, WithoutDiscountIsGreedy) {
+  Rng rng(1);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Candidate> views;
+    for (int id = 0; id < 6; ++id) {
+      views.push_back(view(id, std::floor(rng.uniform(0.0, 3.0)), rng.uniform(0.0, 9.0), 0.0));
+    }
+    EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 0.0}, views, rng),
+              choose_view(GreedyGain{}, views, rng));
+  }
+}
+
+TEST(GainOverDistance, OfASteepDiscountIsTheNearestView) {
+  Rng rng(1);
+  EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 50.0}, five_views(), rng), 4U);
+}
+
+TEST(ChoicesThatWeighPaths, TakeAnUnreachableViewOnlyWhereNoOtherIsLeft) {
+  auto views = five_views();
+  for (Candidate& candidate : views) {
+    candidate.reachable = candidate.id == 1;
+    if (!candidate.reachable) candidate.path_length_m = std::numeric_limits<double>::infinity();
+  }
+  Rng rng(1);
+  for (const ViewChoice& choice : {ViewChoice(NearestFrontier{}), ViewChoice(GainOverDistance{}),
+                                   ViewChoice(GainOverDistance{.lambda_per_m = 0.0})}) {
+    EXPECT_EQ(choose_view(choice, views, rng), 1U) << strategy_name_of(choice);
+    auto none = views;
+    none[1].reachable = false;
+    EXPECT_LT(choose_view(choice, none, rng), none.size());
+  }
 }
 
 TEST(ViewChoiceDeathTest, NeedsACandidate) {
