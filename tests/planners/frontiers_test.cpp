@@ -31,8 +31,9 @@ OccupancyGrid layer_of(const Drawing& rows) {
 FrontierOptions whole() { return {.min_cells = 1, .max_extent_m = 1e6, .height_m = 0.5}; }
 
 std::vector<std::size_t> sizes(const std::vector<Frontier>& frontiers) {
-  std::vector<std::size_t> counts;
-  for (const Frontier& frontier : frontiers) counts.push_back(frontier.cells.size());
+  std::vector<std::size_t> counts(frontiers.size());
+  std::ranges::transform(frontiers, counts.begin(),
+                         [](const Frontier& frontier) { return frontier.cells.size(); });
   return counts;
 }
 

@@ -136,9 +136,10 @@ TEST(GainOverDistance, WeighsGainAgainstTheWay) {
 TEST(GainOverDistance, WithoutDiscountIsGreedy) {
   Rng rng(1);
   for (int i = 0; i < 200; ++i) {
-    std::vector<Candidate> views;
-    for (int id = 0; id < 6; ++id) {
-      views.push_back(view(id, std::floor(rng.uniform(0.0, 3.0)), rng.uniform(0.0, 9.0), 0.0));
+    auto views = five_views();
+    for (Candidate& candidate : views) {
+      candidate.gain_bits = std::floor(rng.uniform(0.0, 3.0));
+      candidate.path_length_m = rng.uniform(0.0, 9.0);
     }
     EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 0.0}, views, rng),
               choose_view(GreedyGain{}, views, rng));
