@@ -33,6 +33,13 @@ std::vector<float> cell_entropies_bits(const OccupancyGrid& grid) {
       grid, 1.0F, [&](std::size_t cell) { return binary_entropy_bits(grid.p_occupied(cell)); });
 }
 
+std::vector<float> unobserved_entropies_bits(const OccupancyGrid& grid) {
+  return measured_cells(grid, 1.0F, [&](std::size_t cell) {
+    return grid.state(cell) == CellState::unobserved ? binary_entropy_bits(grid.p_occupied(cell))
+                                                     : 0.0;
+  });
+}
+
 std::vector<float> cell_transmissions(const OccupancyGrid& grid,
                                       std::span<const double> per_slice) {
   const auto slices = static_cast<std::size_t>(grid.frame.cells.z());

@@ -30,6 +30,8 @@ struct CellTables {
 std::vector<CellState> cell_states(const OccupancyGrid& grid);
 std::vector<float> cell_probabilities(const OccupancyGrid& grid);
 std::vector<float> cell_entropies_bits(const OccupancyGrid& grid);
+/// The same with 0 in known cells.
+std::vector<float> unobserved_entropies_bits(const OccupancyGrid& grid);
 /// 1 in free cells, 0 in occupied ones, `per_slice[z]` in unobserved ones.
 std::vector<float> cell_transmissions(const OccupancyGrid& grid, std::span<const double> per_slice);
 /// p(a beam ends in the cell it met): p(o) of occupied cells; of the others what p(o) would be had

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <cstddef>
+#include <algorithm>
 #include <string_view>
+#include <vector>
 
-#include "planners/cell_tables.hpp"
+#include "planners/attenuated_ray.hpp"
 
 namespace vantage {
 
@@ -15,20 +16,17 @@ struct SimpleGain {
   static constexpr bool predicts_cells = true;
   void fields(auto&&) {}
 
-  class Ray {
-   public:
-    explicit Ray(const CellTables& tables) : state_(tables.state.data()) {}
-    void start() {}
-    [[nodiscard]] bool pass(std::size_t cell) const { return state_[cell] != CellState::occupied; }
-    [[nodiscard]] double worth(std::size_t /*cell*/) const { return 1.0; }
-
-   private:
-    const CellState* state_;
-  };
+  using Ray = AttenuatedRay;
 
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
+    const auto slices = static_cast<std::size_t>(context.grid.frame.cells.z());
     CellTables tables;
     tables.state = cell_states(context.grid);
+    tables.entropy_bits.resize(tables.state.size());
+    std::ranges::transform(tables.state, tables.entropy_bits.begin(), [](CellState state) {
+      return state == CellState::unobserved ? 1.0F : 0.0F;
+    });
+    tables.transmission = cell_transmissions(context.grid, std::vector<double>(slices, 1.0));
     return tables;
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }

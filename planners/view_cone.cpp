@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
 
 namespace vantage {
 
@@ -15,6 +17,8 @@ ViewCone::ViewCone(const Pose& T_world_sensor, const FieldOfView& fov)
       sin2_half_width_(std::pow(std::sin(fov.half_width_rad), 2)),
       range2_min_m2_(fov.range_min_m * fov.range_min_m),
       range2_max_m2_(fov.range_max_m * fov.range_max_m) {
+  // sin(pi) is not 0 in floating point, and would lose what lies right behind.
+  if (fov.half_width_rad > std::numbers::pi - 1e-9) sin2_half_width_ = 0.0;
   normals_ = {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(-tan_tilt_min_, 0.0, -1.0),
               Eigen::Vector3d(tan_tilt_max_, 0.0, 1.0), Eigen::Vector3d(1.0, 0.0, 0.0),
               Eigen::Vector3d(1.0, 0.0, 0.0)};
@@ -45,11 +49,17 @@ bool ViewCone::contains(const Eigen::Vector3d& p_world) const {
 
 ViewCone::Interval ViewCone::bound_row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step,
                                        int count) const {
-  if (behind_) return {0, count};
   constexpr double kSlack = 1e-6;  // cells: rounding must not lose a cell that contains() accepts
   double low = 0.0;
   double high = count - 1.0;
-  for (const auto& normal : normals_) {
+  const double step2 = step.squaredNorm();
+  const double nearest = step.dot(apex_m_ - p_world) / step2;
+  const double off2 = (p_world + nearest * step - apex_m_).squaredNorm();
+  if (off2 > range2_max_m2_ * (1.0 + kSlack)) return {};
+  const double reach = std::sqrt(std::max(0.0, range2_max_m2_ - off2) / step2) + kSlack;
+  low = std::max(low, nearest - reach);
+  high = std::min(high, nearest + reach);
+  for (const auto& normal : std::span(normals_).first(behind_ ? 0 : normals_.size())) {
     const double inside = normal.dot(p_world - apex_m_);
     const double change = normal.dot(step);
     if (std::abs(change) < 1e-12) {
@@ -65,6 +75,21 @@ ViewCone::Interval ViewCone::bound_row(const Eigen::Vector3d& p_world, const Eig
   }
   if (low > high) return {};
   return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high)) + 1};
+}
+
+ConeRow ViewCone::row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step) const {
+  constexpr float kAny = std::numeric_limits<float>::max();
+  const Eigen::Vector3f origin = (R_sensor_world_ * (p_world - apex_m_)).cast<float>();
+  const Eigen::Vector3f along = (R_sensor_world_ * step).cast<float>();
+  return {.origin_m = {origin.x(), origin.y(), origin.z()},
+          .step_m = {along.x(), along.y(), along.z()},
+          .tan_tilt_min = static_cast<float>(tan_tilt_min_),
+          .tan_tilt_max = static_cast<float>(tan_tilt_max_),
+          .sin2_half_width = static_cast<float>(sin2_half_width_),
+          .most_excess_ahead_m2 = behind_ ? kAny : 0.0F,
+          .least_excess_behind_m2 = behind_ ? 0.0F : kAny,
+          .range2_min_m2 = static_cast<float>(range2_min_m2_),
+          .range2_max_m2 = static_cast<float>(range2_max_m2_)};
 }
 
 }  // namespace vantage

@@ -12,6 +12,34 @@
 
 namespace vantage {
 
+/// `contains` for the points p + i step of one row of cells, in single precision and without a
+/// branch, for loops that the compiler turns into SIMD.
+struct ConeRow {
+  std::array<float, 3> origin_m{};  ///< p in the sensor's frame
+  std::array<float, 3> step_m{};
+  float tan_tilt_min = 0.0F;
+  float tan_tilt_max = 0.0F;
+  float sin2_half_width = 0.0F;
+  float most_excess_ahead_m2 = 0.0F;
+  float least_excess_behind_m2 = 0.0F;
+  float range2_min_m2 = 0.0F;
+  float range2_max_m2 = 0.0F;
+
+  [[nodiscard]] bool contains(float i) const {
+    const float x = origin_m[0] + i * step_m[0];
+    const float y = origin_m[1] + i * step_m[1];
+    const float z = origin_m[2] + i * step_m[2];
+    const float range2 = x * x + y * y + z * z;
+    const float depth = x >= 0.0F ? x : -x;
+    const float drop = x >= 0.0F ? -z : z;
+    const float excess = y * y - sin2_half_width * range2;
+    const bool in_sector = ((x >= 0.0F) & (excess <= most_excess_ahead_m2)) |
+                           ((x < 0.0F) & (excess >= least_excess_behind_m2));
+    return in_sector & (range2 >= range2_min_m2) & (range2 <= range2_max_m2) &
+           (drop >= tan_tilt_min * depth) & (drop <= tan_tilt_max * depth);
+  }
+};
+
 /// FieldOfView::contains for points of the world, by products instead of angles.
 class ViewCone {
  public:
@@ -26,6 +54,8 @@ class ViewCone {
   /// Bounds on the indices i in [0, count) for which p + i step may be contained.
   [[nodiscard]] Interval bound_row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step,
                                    int count) const;
+
+  [[nodiscard]] ConeRow row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step) const;
 
   [[nodiscard]] const Eigen::Vector3d& apex_m() const { return apex_m_; }
 

@@ -43,7 +43,7 @@ struct VisibilityWeightedGain {
     CellTables tables;
     tables.state = cell_states(context.grid);
     tables.p_occupied = cell_probabilities(context.grid);
-    tables.entropy_bits = cell_entropies_bits(context.grid);
+    tables.entropy_bits = unobserved_entropies_bits(context.grid);
     return tables;
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return {model, tables}; }

@@ -38,6 +38,25 @@ TEST(ViewCone, ContainsWhatTheFieldOfViewContains) {
   EXPECT_GT(inside, 200);
 }
 
+TEST(ConeRow, ContainsWhatTheConeContainsButForRoundingAtTheRim) {
+  Rng rng(13);
+  int inside = 0;
+  int different = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const ViewCone cone(random_pose(rng), random_sector(rng));
+    const Eigen::Vector3d p(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0));
+    const Eigen::Vector3d step(rng.uniform(0.01, 0.1), 0.0, 0.0);
+    const ConeRow row = cone.row(p, step);
+    for (const int k : {0, 5, 40}) {
+      const bool expected = cone.contains(p + k * step);
+      inside += expected ? 1 : 0;
+      different += row.contains(static_cast<float>(k)) == expected ? 0 : 1;
+    }
+  }
+  EXPECT_GT(inside, 600);
+  EXPECT_LE(different, 2);
+}
+
 TEST(ForEachCellInView, MissesNoCellAndVisitsInOrder) {
   Rng rng(11);
   const GridFrame grid = make_grid_frame({0.1, 0.0, -0.1}, {2.0, 1.5, 1.0}, {20, 13, 9});

@@ -1,0 +1,65 @@
+#include "bench/measures.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace vantage::bench {
+namespace {
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+std::vector<double> ranks(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+  std::vector<double> result(values.size());
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin;
+    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      result[order[i]] = 0.5 * static_cast<double>(begin + end - 1);
+    }
+    begin = end;
+  }
+  return result;
+}
+
+double spearman(std::span<const double> a, std::span<const double> b) {
+  const auto ra = ranks(a);
+  const auto rb = ranks(b);
+  const double mean = 0.5 * static_cast<double>(a.size() - 1);
+  double ab = 0.0;
+  double aa = 0.0;
+  double bb = 0.0;
+  for (std::size_t i = 0; i < ra.size(); ++i) {
+    ab += (ra[i] - mean) * (rb[i] - mean);
+    aa += (ra[i] - mean) * (ra[i] - mean);
+    bb += (rb[i] - mean) * (rb[i] - mean);
+  }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 1.0;
+}
+
+void print_figures(const std::string& name, int threads,
+                   const std::vector<std::pair<std::string, double>>& figures) {
+  nlohmann::ordered_json object;
+  object["name"] = name;
+  object["commit"] = VANTAGE_GIT_COMMIT;
+  object["cpu"] = cpu_name();
+  object["threads"] = threads;
+  object["figures"] = nlohmann::ordered_json::object();
+  for (const auto& [key, figure] : figures) object["figures"][key] = figure;
+  fmt::print("{}\n", object.dump());
+}
+
+}  // namespace vantage::bench

@@ -1,0 +1,39 @@
+/// What benchmarks share: medians of timings, rank correlation, the JSON object they print.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vantage::bench {
+
+/// Median wall time of `work` over `repeats` calls, ms.
+template <class Work>
+double median_ms(int repeats, Work&& work) {
+  std::vector<double> times_ms;
+  for (int i = 0; i < repeats; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double, std::milli> taken =
+        std::chrono::steady_clock::now() - start;
+    times_ms.push_back(taken.count());
+  }
+  const auto middle = times_ms.begin() + repeats / 2;
+  std::ranges::nth_element(times_ms, middle);
+  return *middle;
+}
+
+/// Ranks from 0, equal values share the mean of theirs.
+std::vector<double> ranks(std::span<const double> values);
+/// Rank correlation [Spearman1904]; 1 where one side is constant.
+double spearman(std::span<const double> a, std::span<const double> b);
+
+/// One line of JSON: {name, commit, cpu, threads, figures}.
+void print_figures(const std::string& name, int threads,
+                   const std::vector<std::pair<std::string, double>>& figures);
+
+}  // namespace vantage::bench

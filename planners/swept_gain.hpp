@@ -1,0 +1,26 @@
+/// The gain of views by one outward sweep a position instead of one ray a cell.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "planners/candidate.hpp"
+#include "planners/gain.hpp"
+#include "planners/visibility_sweep.hpp"
+
+namespace vantage {
+
+/// Whether a gain is a sum over cells of (light that arrives) x (worth), the light weakened cell by
+/// cell along the ray: what the sweep can work out.
+bool can_sweep(const Gain& gain);
+
+/// Gain in bits of each candidate; what exact_gains_bits gives up to interpolation, several ten
+/// times faster. Candidates at one position share a sweep. The result does not depend on `threads`
+/// (at least 1).
+/// The gain must satisfy can_sweep().
+std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& context,
+                                     std::span<const Candidate> candidates,
+                                     const FieldOfView& field_of_view, int threads,
+                                     const SweepOptions& options = {});
+
+}  // namespace vantage

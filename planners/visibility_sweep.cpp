@@ -1,0 +1,281 @@
+#include "planners/visibility_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planners/cell_walk.hpp"
+#include "planners/light_layer.hpp"
+#include "planners/partly_seen.hpp"
+#include "planners/sweep_kernels.hpp"
+
+namespace vantage {
+namespace {
+
+/// Cells whose light is worked out beyond those in view, so that interpolation finds neighbours.
+constexpr int kMargin = 2;
+/// Shares of visible light below and above which the sweep is taken at its word.
+constexpr float kHidden = 0.002F;
+constexpr float kPlain = 0.998F;
+
+/// The pyramid's axes: w from layer to layer, u along the contiguous rows, v across them.
+struct Axes {
+  int u = 0;
+  int v = 1;
+  int w = 2;
+};
+Axes axes_of(int axis) {
+  switch (axis) {
+    case 0: return {.u = 1, .v = 2, .w = 0};
+    case 1: return {.u = 0, .v = 2, .w = 1};
+    default: return {.u = 0, .v = 1, .w = 2};
+  }
+}
+
+int clamped(double x, int low, int high) {
+  return static_cast<int>(std::clamp(x, static_cast<double>(low), static_cast<double>(high)));
+}
+
+class PyramidSweep {
+ public:
+  PyramidSweep(const SweepTables& tables, std::span<const ViewCone> views, const Pyramid& pyramid,
+               const SweepOptions& options)
+      : frame_(tables.frame),
+        optical_depth_(tables.x_fastest.optical_depth),
+        layout_(pyramid.axis == 0 ? tables.y_fastest : tables.x_fastest),
+        views_(views),
+        pyramid_(pyramid),
+        axes_(axes_of(pyramid.axis)),
+        nu_(frame_.cells[axes_.u]),
+        nv_(frame_.cells[axes_.v]),
+        nw_(frame_.cells[axes_.w]),
+        source_(
+            ((views.front().apex_m() - frame_.min_corner_m).array() / frame_.cell_size_m.array() -
+             0.5)),
+        step_u_(Eigen::Vector3d::Unit(axes_.u) * frame_.cell_size_m[axes_.u]),
+        before_(nu_, nv_),
+        current_(nu_, nv_),
+        arriving_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding),
+        depths_before_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding, 0.0F),
+        worth_(static_cast<std::size_t>(nu_)),
+        in_view_(views.size() * static_cast<std::size_t>(nv_)),
+        sums_bits_(views.size(), 0.0),
+        partly_seen_(views.size(), PartlySeen(options.rays_per_view)) {}
+
+  std::vector<double> run() {
+    const double from = source_[axes_.w];
+    const int first = pyramid_.ascending ? clamped(std::ceil(from), 0, nw_)
+                                         : clamped(std::ceil(from) - 1.0, -1, nw_ - 1);
+    const int step = pyramid_.ascending ? 1 : -1;
+    for (int w = first; w >= 0 && w < nw_; w += step) {
+      layer_ = w;
+      depth_ = std::abs(w - from);
+      sweep_layer();
+      std::swap(before_, current_);
+    }
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      sums_bits_[i] += correction_bits(partly_seen_[i]);
+    }
+    return sums_bits_;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Array3i cell(int u, int v) const {
+    Eigen::Array3i at;
+    at[axes_.u] = u;
+    at[axes_.v] = v;
+    at[axes_.w] = layer_;
+    return at;
+  }
+
+  /// Cells whose distance from the sensor along `axis` is at most the layer's depth plus `more`.
+  [[nodiscard]] CellSpan within(int axis, int count, double more) const {
+    const double from = source_[axis] - depth_ - more;
+    const double to = source_[axis] + depth_ + more;
+    return {clamped(std::ceil(from), 0, count), clamped(std::floor(to) + 1.0, 0, count)};
+  }
+
+  /// The same for the cells that are this pyramid's own: ties belong to the lower axis.
+  [[nodiscard]] CellSpan own(int axis, int count) const {
+    constexpr double kRounding = 1e-9;
+    return within(axis, count, axis > axes_.w ? kRounding : -kRounding);
+  }
+
+  void sweep_layer() {
+    const auto [u, v] = bounds_in_view();
+    current_.set_known(u, v);
+    if (u.empty() || v.empty()) return;
+    if (depth_ >= 1.0) before_.extend(reach(axes_.u, u), reach(axes_.v, v));
+    const CellSpan own_v = own(axes_.v, nv_);
+    for (int row = v.begin; row < v.end; ++row) {
+      sweep_row(row, u);
+      if (row >= own_v.begin && row < own_v.end) add_worth(row);
+    }
+  }
+
+  /// The cells of the layer to work out: a box round those in view. Fills `in_view_`.
+  std::pair<CellSpan, CellSpan> bounds_in_view() {
+    CellSpan u;
+    CellSpan v;
+    const CellSpan own_v = own(axes_.v, nv_);
+    const CellSpan own_u = own(axes_.u, nu_);
+    for (int row = own_v.begin; row < own_v.end; ++row) {
+      const Eigen::Vector3d start_m = frame_.centre(cell(0, row));
+      for (std::size_t i = 0; i < views_.size(); ++i) {
+        const auto bound = views_[i].bound_row(start_m, step_u_, nu_);
+        const CellSpan seen = CellSpan{bound.begin, bound.end}.cut(own_u);
+        in_view_[i * static_cast<std::size_t>(nv_) + static_cast<std::size_t>(row)] = seen;
+        if (seen.empty()) continue;
+        u.include(seen);
+        v.include({row, row + 1});
+      }
+    }
+    if (u.empty() || v.empty()) return {};
+    const auto widen = [&](CellSpan span, int axis, int count) {
+      return CellSpan{span.begin - kMargin, span.end + kMargin}.cut(within(axis, count, kMargin));
+    };
+    return {widen(u, axes_.u, nu_), widen(v, axes_.v, nv_)};
+  }
+
+  /// The cells of the layer before that rays to `span` cross.
+  [[nodiscard]] CellSpan reach(int axis, CellSpan span) const {
+    const auto crossed = [&](int i) { return i + (source_[axis] - i) / depth_; };
+    return {static_cast<int>(std::floor(crossed(span.begin))) - 1,
+            static_cast<int>(std::floor(crossed(span.end - 1))) + 3};
+  }
+
+  void sweep_row(int v, CellSpan u) {
+    if (depth_ < 1.0 || layer_before() < 0 || layer_before() >= nw_) return see_all(v, u);
+    const double lateral = (source_[axes_.v] - v) / depth_;
+    const int shift = static_cast<int>(std::floor(lateral));
+    const CellSpan needed = reach(axes_.u, u);
+    blend_rows(before_.row(v + shift), before_.row(v + shift + 1),
+               static_cast<float>(lateral - shift), needed.begin, needed.end,
+               arriving_.data() + LightLayer::kPadding);
+    copy_depths_before(v + static_cast<int>(std::lround(lateral)), needed);
+    SweepRow row;
+    row.arriving = arriving_.data() + LightLayer::kPadding;
+    row.straight = layout_.optical_depth.data() + row_start(v, layer_before());
+    row.slanted = depths_before_.data() + LightLayer::kPadding;
+    row.weight = layout_.weight.data() + row_start(v, layer_);
+    row.source = static_cast<float>(source_[axes_.u]);
+    row.depth = static_cast<float>(depth_);
+    row.across = static_cast<float>(std::abs(lateral));
+    advance_in_runs(row, u, v);
+  }
+
+  /// Nothing stands between the sensor and the cells round it.
+  void see_all(int v, CellSpan u) {
+    const float* weight = layout_.weight.data() + row_start(v, layer_);
+    std::fill(current_.row(v) + u.begin, current_.row(v) + u.end, 1.0F);
+    std::copy(weight + u.begin, weight + u.end, worth_.begin() + u.begin);
+  }
+
+  /// Beyond the grid there is nothing: the padding stays 0.
+  void copy_depths_before(int v, CellSpan needed) {
+    const CellSpan inside = needed.cut({0, nu_});
+    float* depths = depths_before_.data() + LightLayer::kPadding;
+    if (v < 0 || v >= nv_) {
+      std::fill(depths + inside.begin, depths + inside.end, 0.0F);
+    } else {
+      const float* row = layout_.optical_depth.data() + row_start(v, layer_before());
+      std::copy(row + inside.begin, row + inside.end, depths + inside.begin);
+    }
+  }
+
+  /// Along a row, the crossed cell moves against the cell itself at most a few times.
+  void advance_in_runs(const SweepRow& row, CellSpan u, int v) {
+    for (int begin = u.begin; begin < u.end;) {
+      const int shift = static_cast<int>(std::floor((source_[axes_.u] - begin) / depth_));
+      // (source - i) / depth >= shift
+      const int last = static_cast<int>(std::floor(source_[axes_.u] - shift * depth_));
+      const int end = std::clamp(last + 1, begin + 1, u.end);
+      advance_row(row, shift, begin, end, current_.row(v), worth_.data());
+      begin = end;
+    }
+  }
+
+  void add_worth(int v) {
+    const Eigen::Vector3d start_m = frame_.centre(cell(0, v));
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const CellSpan seen =
+          in_view_[i * static_cast<std::size_t>(nv_) + static_cast<std::size_t>(v)];
+      if (seen.empty()) continue;
+      const ConeRow view = views_[i].row(start_m, step_u_);
+      sums_bits_[i] += sum_in_view(view, worth_.data(), seen.begin, seen.end);
+      const float* weight = layout_.weight.data() + row_start(v, layer_);
+      partly_seen_[i].offer(seen.end - seen.begin, [&](int k) {
+        const int u = seen.begin + k;
+        const bool doubtful = in_doubt(u, v) && view.contains(static_cast<float>(u));
+        return PartlySeen::Cell{.cell = cell(u, v),
+                                .visible = current_.row(v)[u],
+                                .weight = doubtful ? weight[u] : 0.0F};
+      });
+    }
+  }
+
+  /// Neither plainly seen, nor hidden like its neighbours.
+  [[nodiscard]] bool in_doubt(int u, int v) {
+    const float* row = current_.row(v);
+    if (row[u] >= kPlain) return false;
+    return row[u] > kHidden || row[u - 1] > kHidden || row[u + 1] > kHidden ||
+           current_.row(v - 1)[u] > kHidden;
+  }
+
+  /// What exact rays to the sample add to the sweep's sum.
+  [[nodiscard]] double correction_bits(const PartlySeen& sample) const {
+    double sum_bits = 0.0;
+    for (const PartlySeen::Cell& target : sample.cells()) {
+      float depth = 0.0F;
+      const bool arrives =
+          walk_to_cell(frame_, views_.front().apex_m(), target.cell, [&](std::size_t cell) {
+            depth += optical_depth_[cell];
+            return depth < kOpaque;
+          });
+      const float visible = arrives ? std::exp(-depth) : 0.0F;
+      sum_bits += static_cast<double>(target.weight * (visible - target.visible));
+    }
+    return sample.stride() * sum_bits;
+  }
+
+  [[nodiscard]] int layer_before() const { return layer_ + (pyramid_.ascending ? -1 : 1); }
+
+  [[nodiscard]] std::size_t row_start(int v, int w) const {
+    const auto at_v = static_cast<std::size_t>(v);
+    const auto at_w = static_cast<std::size_t>(w);
+    const auto length = static_cast<std::size_t>(nu_);
+    // Of v and w, the axis that comes first is the next slower one in memory.
+    return axes_.v < axes_.w ? (at_w * static_cast<std::size_t>(nv_) + at_v) * length
+                             : (at_v * static_cast<std::size_t>(nw_) + at_w) * length;
+  }
+
+  const GridFrame& frame_;
+  const std::vector<float>& optical_depth_;  ///< order of `frame_.index`
+  const SweepTables::Layout& layout_;
+  std::span<const ViewCone> views_;
+  Pyramid pyramid_;
+  Axes axes_;
+  int nu_;
+  int nv_;
+  int nw_;
+  Eigen::Array3d source_;  ///< of the rays, in cells; whole numbers are centres
+  Eigen::Vector3d step_u_;
+  LightLayer before_;
+  LightLayer current_;
+  std::vector<float> arriving_;
+  std::vector<float> depths_before_;
+  std::vector<float> worth_;
+  std::vector<CellSpan> in_view_;  ///< per view and row
+  std::vector<double> sums_bits_;
+  std::vector<PartlySeen> partly_seen_;  ///< per view
+  int layer_ = 0;
+  double depth_ = 0.0;  ///< layers from the sensor
+};
+
+}  // namespace
+
+std::vector<double> sweep_pyramid(const SweepTables& tables, std::span<const ViewCone> views,
+                                  const Pyramid& pyramid, const SweepOptions& options) {
+  return PyramidSweep(tables, views, pyramid, options).run();
+}
+
+}  // namespace vantage
