@@ -19,7 +19,7 @@ struct AdaptiveGain {
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
     CellTables tables;
     tables.state = cell_states(context.grid);
-    tables.entropy_bits = unobserved_entropies_bits(context.grid);
+    tables.worth = unobserved_entropies_bits(context.grid);
     tables.transmission = cell_transmissions(context.grid, context.transmission_per_slice);
     return tables;
   }

@@ -11,7 +11,7 @@ namespace vantage {
 class AttenuatedRay {
  public:
   explicit AttenuatedRay(const CellTables& tables)
-      : transmission_(tables.transmission.data()), entropy_bits_(tables.entropy_bits.data()) {}
+      : transmission_(tables.transmission.data()), worth_(tables.worth.data()) {}
 
   void start() { p_visible_ = 1.0; }
   bool pass(std::size_t cell) {
@@ -19,12 +19,12 @@ class AttenuatedRay {
     return p_visible_ > 0.0;
   }
   [[nodiscard]] double worth(std::size_t cell) const {
-    return p_visible_ * static_cast<double>(entropy_bits_[cell]);
+    return p_visible_ * static_cast<double>(worth_[cell]);
   }
 
  private:
   const float* transmission_;
-  const float* entropy_bits_;
+  const float* worth_;
   double p_visible_ = 1.0;
 };
 

@@ -24,7 +24,7 @@ struct BeerLambertGain {
     const auto slices = static_cast<std::size_t>(context.grid.frame.cells.z());
     CellTables tables;
     tables.state = cell_states(context.grid);
-    tables.entropy_bits = unobserved_entropies_bits(context.grid);
+    tables.worth = unobserved_entropies_bits(context.grid);
     tables.transmission = cell_transmissions(context.grid, std::vector<double>(slices, a));
     return tables;
   }

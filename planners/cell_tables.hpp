@@ -23,8 +23,8 @@ struct CellTables {
   std::vector<CellState> state;
   std::vector<float> p_occupied;
   std::vector<float> entropy_bits;
+  std::vector<float> worth;         ///< of seeing the cell, in the gain's unit
   std::vector<float> transmission;  ///< share of a beam that a cell lets pass, [0, 1]
-  double cell_volume_m3 = 0.0;      ///< of every cell
 };
 
 std::vector<CellState> cell_states(const OccupancyGrid& grid);

@@ -22,8 +22,8 @@ struct SimpleGain {
     const auto slices = static_cast<std::size_t>(context.grid.frame.cells.z());
     CellTables tables;
     tables.state = cell_states(context.grid);
-    tables.entropy_bits.resize(tables.state.size());
-    std::ranges::transform(tables.state, tables.entropy_bits.begin(), [](CellState state) {
+    tables.worth.resize(tables.state.size());
+    std::ranges::transform(tables.state, tables.worth.begin(), [](CellState state) {
       return state == CellState::unobserved ? 1.0F : 0.0F;
     });
     tables.transmission = cell_transmissions(context.grid, std::vector<double>(slices, 1.0));

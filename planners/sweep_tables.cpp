@@ -22,7 +22,7 @@ std::vector<float> with_y_fastest(const GridFrame& frame, std::span<const float>
 }  // namespace
 
 SweepTables::SweepTables(const GridFrame& f, const CellTables& tables) : frame(f) {
-  x_fastest.weight = tables.entropy_bits;
+  x_fastest.weight = tables.worth;
   x_fastest.optical_depth.resize(f.size());
   float transmission = 1.0F;
   float depth = 0.0F;

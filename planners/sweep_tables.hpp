@@ -20,7 +20,7 @@ struct SweepTables {
   Layout x_fastest;  ///< order of `frame.index`
   Layout y_fastest;  ///< x and y change places
 
-  /// @param tables transmission and entropy_bits, which is what seeing a cell is worth
+  /// @param tables transmission and worth of every cell
   SweepTables(const GridFrame& frame, const CellTables& tables);
 };
 

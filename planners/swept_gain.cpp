@@ -5,13 +5,16 @@
 #include <concepts>
 
 #include "planners/attenuated_ray.hpp"
+#include "planners/exact_gain.hpp"
 #include "planners/parallel_for.hpp"
 
 namespace vantage {
 namespace {
 
 template <class G>
-concept AttenuatedGain = std::same_as<typename G::Ray, AttenuatedRay>;
+concept AttenuatedGain = requires {
+  requires std::same_as<typename G::Ray, AttenuatedRay>;
+};
 
 /// Views from one position.
 struct Station {
@@ -38,6 +41,13 @@ bool can_sweep(const Gain& gain) {
   return std::visit([]<class G>(const G&) { return AttenuatedGain<G>; }, gain);
 }
 
+std::vector<double> view_gains_bits(const Gain& gain, const GainContext& context,
+                                    std::span<const Candidate> candidates,
+                                    const FieldOfView& field_of_view, int threads) {
+  return can_sweep(gain) ? swept_gains_bits(gain, context, candidates, field_of_view, threads)
+                         : exact_gains_bits(gain, context, candidates, field_of_view, threads);
+}
+
 std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& context,
                                      std::span<const Candidate> candidates,
                                      const FieldOfView& field_of_view, int threads,
@@ -45,7 +55,14 @@ std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& contex
   expects(can_sweep(gain), "a gain that can be swept");
   expects(threads >= 1, "swept_gains_bits needs a thread");
   const SweepTables tables = std::visit(
-      [&](const auto& g) { return SweepTables(context.grid.frame, g.prepare(context)); }, gain);
+      [&]<class G>(const G& g) {
+        if constexpr (AttenuatedGain<G>) {
+          return SweepTables(context.grid.frame, g.prepare(context));
+        } else {
+          return SweepTables(GridFrame{}, CellTables{});
+        }
+      },
+      gain);
   const auto stations = stations_of(candidates, field_of_view);
   std::vector<std::vector<double>> parts(stations.size() * kPyramids.size());
   parallel_for(parts.size(), threads, [&](std::size_t i) {

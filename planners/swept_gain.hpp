@@ -23,4 +23,9 @@ std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& contex
                                      const FieldOfView& field_of_view, int threads,
                                      const SweepOptions& options = {});
 
+/// Gain of each candidate, in bits or the unit the gain names: swept if it can be, else exact.
+std::vector<double> view_gains_bits(const Gain& gain, const GainContext& context,
+                                    std::span<const Candidate> candidates,
+                                    const FieldOfView& field_of_view, int threads);
+
 }  // namespace vantage

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 
 #include "planners/simple_gain.hpp"
@@ -15,20 +14,12 @@ struct UnmappedVolumeGain {
   static constexpr bool predicts_cells = false;
   void fields(auto&&) {}
 
-  class Ray : public SimpleGain::Ray {
-   public:
-    explicit Ray(const CellTables& tables)
-        : SimpleGain::Ray(tables), cell_volume_m3_(tables.cell_volume_m3) {}
-    [[nodiscard]] double worth(std::size_t /*cell*/) const { return cell_volume_m3_; }
-
-   private:
-    double cell_volume_m3_;
-  };
+  using Ray = AttenuatedRay;
 
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
-    CellTables tables;
-    tables.state = cell_states(context.grid);
-    tables.cell_volume_m3 = context.grid.frame.cell_size_m.prod();
+    CellTables tables = SimpleGain{}.prepare(context);
+    const auto volume_m3 = static_cast<float>(context.grid.frame.cell_size_m.prod());
+    for (float& worth : tables.worth) worth *= volume_m3;
     return tables;
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }

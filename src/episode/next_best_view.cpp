@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planners/exact_gain.hpp"
+#include "planners/swept_gain.hpp"
 #include "planners/view_candidates.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/log.hpp"
@@ -138,8 +139,8 @@ std::vector<Candidate> NextBestView::propose() {
 
 void NextBestView::score(std::vector<Candidate>& candidates) {
   const auto transmission = belief_.hazard().transmission_per_slice();
-  const auto gains = exact_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
-                                      candidates, rig_.view_field(), episode_.threads);
+  const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
+                                     candidates, rig_.view_field(), episode_.threads);
   for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   if (std::holds_alternative<OracleView>(episode_.choice)) {
     for (Candidate& candidate : candidates) {

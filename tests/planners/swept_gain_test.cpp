@@ -170,7 +170,9 @@ TEST(CanSweep, TheGainsWhoseLightOnlyFades) {
   EXPECT_TRUE(can_sweep(SimpleGain{}));
   EXPECT_TRUE(can_sweep(BeerLambertGain{}));
   EXPECT_TRUE(can_sweep(AdaptiveGain{}));
+  EXPECT_TRUE(can_sweep(UnmappedVolumeGain{}));
   EXPECT_FALSE(can_sweep(PosteriorChainGain{}));
+  EXPECT_FALSE(can_sweep(FsmiGain{}));
 }
 
 }  // namespace
