@@ -2,6 +2,9 @@
 // episodes in the four scenes build.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "bench/castray.hpp"
 #include "bench/measures.hpp"
 #include "planners/exact_gain.hpp"
@@ -15,88 +18,137 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kThreads = 2;
+constexpr int kRepeats = 9;
+
+/// What a decision looks at.
+struct Situation {
+  OccupancyGrid grid;
+  std::vector<double> transmission;
+  std::vector<Candidate> views;
+  FieldOfView field;
+  LaserOptions laser;
+
+  [[nodiscard]] GainContext context() const { return {grid, transmission}; }
+};
+
+struct Timings {
+  double sweep_ms = 0.0;
+  double exact_ms = 0.0;
+};
+
+Timings time_both(const Situation& s) {
+  const Gain gain = AdaptiveGain{};
+  std::vector<double> gains;
+  Timings timings;
+  timings.sweep_ms = bench::median_ms(
+      kRepeats, [&] { gains = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
+  timings.exact_ms = bench::median_ms(
+      1, [&] { gains = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
+  return timings;
+}
 
 struct Agreement {
   double spearman_min = 1.0;
   double regret_max = 0.0;
+  double sweep_ms_max = 0.0;
 
-  void add(std::span<const double> swept, std::span<const double> exact) {
-    spearman_min = std::min(spearman_min, bench::spearman(swept, exact));
-    const auto chosen = std::ranges::max_element(swept) - swept.begin();
+  void compare(const Gain& gain, const Situation& s) {
+    const auto exact = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads);
+    std::vector<double> swept;
+    const double ms = bench::median_ms(
+        1, [&] { swept = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
     const double best = *std::ranges::max_element(exact);
-    if (best > 0.0) {
-      regret_max = std::max(regret_max, 1.0 - exact[static_cast<std::size_t>(chosen)] / best);
-    }
+    const auto chosen = static_cast<std::size_t>(std::ranges::max_element(swept) - swept.begin());
+    const double rank_correlation = bench::spearman(swept, exact);
+    const double regret = best > 0.0 ? 1.0 - exact[chosen] / best : 0.0;
+    spearman_min = std::min(spearman_min, rank_correlation);
+    regret_max = std::max(regret_max, regret);
+    sweep_ms_max = std::max(sweep_ms_max, ms);
+    log_debug(fmt::format("best {:.0f} cells, Spearman {:.4f}, regret {:.4f}, {:.1f} ms", best,
+                          rank_correlation, regret, ms));
   }
 };
 
-/// An episode whose every decision is worked out both ways.
-class ComparedEpisode : public NextBestView {
+/// An episode that keeps the map of every decision.
+class WatchedEpisode : public NextBestView {
  public:
-  ComparedEpisode(const ResolvedEpisode& resolved, TabletopRig& rig, Recorder& recorder,
-                  Agreement& agreement)
+  WatchedEpisode(const ResolvedEpisode& resolved, TabletopRig& rig, Recorder& recorder)
       : NextBestView(resolved, rig, recorder),
         field_(rig.view_field()),
-        agreement_(agreement) {}
+        laser_(resolved.episode.laser) {}
 
   void score(std::vector<Candidate>& candidates) {
-    const auto transmission = belief().hazard().transmission_per_slice();
-    const GainContext context{belief().filled_grid(), transmission};
-    for (const std::string_view name : strategy_names<Gain>()) {
-      const Gain gain = make_strategy<Gain>(name);
-      if (!can_sweep(gain)) continue;
-      const auto exact = exact_gains_bits(gain, context, candidates, field_, kThreads);
-      const auto swept = swept_gains_bits(gain, context, candidates, field_, kThreads);
-      Agreement a;
-      a.add(swept, exact);
-      fmt::print(stderr, "{} {}: spearman {:.4f} regret {:.4f} best {:.0f} ratio {:.3f}\n", scans().size(), name,
-                 a.spearman_min, a.regret_max, *std::ranges::max_element(exact),
-                 std::accumulate(swept.begin(), swept.end(), 0.0) /
-                     std::accumulate(exact.begin(), exact.end(), 0.0));
-      agreement_.add(swept, exact);
-    }
-    if (FILE* f = fopen(fmt::format("/tmp/grids/{}_{}.bin", tag, scans().size()).c_str(), "wb")) {
-      fwrite(context.grid.log_odds.data(), 4, context.grid.size(), f);
-      fwrite(transmission.data(), 8, transmission.size(), f);
-      fclose(f);
-    }
-    last_grid = belief().filled_grid();
-    last_transmission = transmission;
+    situations.push_back({belief().filled_grid(), belief().hazard().transmission_per_slice(),
+                          views(), field_, laser_});
     NextBestView::score(candidates);
   }
 
-  int tag = 0;
-  OccupancyGrid last_grid;
-  std::vector<double> last_transmission;
+  std::vector<Situation> situations;
 
  private:
   FieldOfView field_;
-  Agreement& agreement_;
+  LaserOptions laser_;
 };
+
+std::vector<Situation> situations_of_scene(int objects, const fs::path& directory) {
+  const auto resolved =
+      load_episode("assets/episodes/tabletop.yaml",
+                   {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
+  TabletopRig rig(resolved);
+  Recorder recorder(resolved, rig, directory, false);
+  WatchedEpisode episode(resolved, rig, recorder);
+  run_episode(episode);
+  return std::move(episode.situations);
+}
+
+double castray_ms(const Situation& s) {
+  const bench::CastrayGain castray(s.grid);
+  double sum = 0.0;
+  const double taken_ms = bench::median_ms(1, [&] {
+    for (const Candidate& view : s.views) {
+      sum += castray.of_view(view.T_world_sensor, s.field, s.laser.step_rad, s.laser.step_rad);
+    }
+  });
+  expects(sum > 0.0, "the views see unobserved cells");
+  return taken_ms;
+}
+
+void run_benchmark() {
+  const fs::path directory = fs::temp_directory_path() / "vantage_bench_decision";
+  fs::create_directories(directory);
+  Agreement agreement;
+  Timings first;
+  double castray = 0.0;
+  for (const int objects : {4, 8, 15, 25}) {
+    const auto situations = situations_of_scene(objects, directory);
+    for (const Situation& situation : situations) {
+      agreement.compare(SimpleGain{}, situation);
+      agreement.compare(AdaptiveGain{}, situation);
+    }
+    if (objects != 8) continue;
+    first = time_both(situations.front());
+    castray = castray_ms(situations.front());
+  }
+  fs::remove_all(directory);
+  bench::print_figures("decision", kThreads,
+                       {{"sweep_ms", first.sweep_ms},
+                        {"exact_ms", first.exact_ms},
+                        {"castray_ms", castray},
+                        {"exact_over_sweep", first.exact_ms / first.sweep_ms},
+                        {"castray_over_sweep", castray / first.sweep_ms},
+                        {"spearman_min", agreement.spearman_min},
+                        {"regret_max", agreement.regret_max},
+                        {"sweep_ms_max", agreement.sweep_ms_max}});
+}
 
 }  // namespace
 }  // namespace vantage
 
 int main() {
-  using namespace vantage;
-  Agreement agreement;
-  for (const int objects : {4, 8, 15, 25}) {
-    const fs::path out = fs::temp_directory_path() / "vantage_bench_decision";
-    fs::create_directories(out);
-    const auto resolved = load_episode("assets/episodes/tabletop.yaml",
-        {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
-    TabletopRig rig(resolved);
-    Recorder recorder(resolved, rig, out, false);
-    ComparedEpisode episode(resolved, rig, recorder, agreement);
-    episode.tag = objects;
-    run_episode(episode);
-    const auto views = episode.views();
-    const auto field = rig.view_field();
-    const GainContext context{episode.last_grid, episode.last_transmission};
-    const Gain gain = AdaptiveGain{};
-    const double sweep = bench::median_ms(9, [&] { (void)swept_gains_bits(gain, context, views, field, kThreads); });
-    const double exact = bench::median_ms(1, [&] { (void)exact_gains_bits(gain, context, views, field, kThreads); });
-    bench::print_figures("decision", kThreads, {{"sweep_ms", sweep}, {"exact_ms", exact},
-                       {"spearman_min", agreement.spearman_min}, {"regret_max", agreement.regret_max}});
+  try {
+    vantage::run_benchmark();
+  } catch (const vantage::Error& error) {
+    vantage::log_error(error.what());
+    return static_cast<int>(error.code());
   }
 }
