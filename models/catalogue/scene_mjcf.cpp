@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <system_error>
 
+#include "models/catalogue/mjcf_kit.hpp"
 #include "models/catalogue/obj.hpp"
 #include "models/catalogue/patterns.hpp"
 #include "src/core/atomic_file.hpp"
@@ -128,19 +128,6 @@ std::string object_body(const PlacedObject& placed) {
                      placed.object.mass_kg);
 }
 
-/// A camera at `eye` that looks at `target` with `up` upwards in the image.
-std::string camera(std::string_view name, const Vector3d& eye, const Vector3d& target,
-                   const Vector3d& up, double fovy_deg) {
-  const Vector3d back = (eye - target).normalized();
-  const Vector3d x = up.cross(back).normalized();
-  const Vector3d y = back.cross(x);
-  return fmt::format(
-      "    <camera name=\"{}\" pos=\"{} {} {}\" xyaxes=\"{:.6f} {:.6f} {:.6f} {:.6f} {:.6f} "
-      "{:.6f}\" "
-      "fovy=\"{}\"/>\n",
-      name, eye.x(), eye.y(), eye.z(), x.x(), x.y(), x.z(), y.x(), y.y(), y.z(), fovy_deg);
-}
-
 void write_room_textures(const std::filesystem::path& directory) {
   Rng rng = Rng::stream(0, "room");
   Image table(256, 256, Colour::Zero());
@@ -164,8 +151,8 @@ std::string to_mjcf(const TableScene& scene) {
   for (const PlacedObject& placed : scene.objects) text += object_assets(placed);
   text += "  </asset>\n  <worldbody>\n";
   text += kRoom;
-  text += camera("overview", {2.95, -2.95, 3.4}, {0.0, 0.0, 0.45}, Vector3d::UnitZ(), 44.0);
-  text += camera("top", {0.0, 0.0, 4.8}, Vector3d::Zero(), Vector3d::UnitY(), 45.0);
+  text += mjcf_camera("overview", {2.95, -2.95, 3.4}, {0.0, 0.0, 0.45}, Vector3d::UnitZ(), 44.0);
+  text += mjcf_camera("top", {0.0, 0.0, 4.8}, Vector3d::Zero(), Vector3d::UnitY(), 45.0);
   for (std::size_t i = 0; i < scene.furniture.size(); ++i) {
     text += furniture_body(scene.furniture[i], i);
   }
@@ -174,13 +161,7 @@ std::string to_mjcf(const TableScene& scene) {
 }
 
 void write_scene(const TableScene& scene, const std::filesystem::path& directory) {
-  const std::filesystem::path meshes = directory / "meshes";
-  const std::filesystem::path textures = directory / "textures";
-  for (const auto& folder : {meshes, textures}) {
-    std::error_code missing;
-    std::filesystem::remove_all(folder, missing);
-    make_writable_directory(folder);
-  }
+  const auto [meshes, textures] = empty_asset_folders(directory);
   for (const PlacedObject& placed : scene.objects) {
     write_obj(placed.object.mesh, meshes / (placed.spec.name + ".obj"));
     write_png(placed.object.texture, textures / (placed.spec.name + ".png"));

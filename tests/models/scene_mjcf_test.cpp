@@ -3,65 +3,36 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
-#include <array>
+#include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 
-#include "src/core/atomic_file.hpp"
-#include "tests/support/temporary_directory.hpp"
+#include "tests/models/scene_files.hpp"
 
 namespace vantage {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kCheckedIn = fs::path(VANTAGE_SOURCE_DIR) / "models" / "scenes";
-
-using Model = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
-
-Model load(const fs::path& path) {
-  std::array<char, 1000> message{};
-  Model model(mj_loadXML(path.c_str(), nullptr, message.data(), message.size()), &mj_deleteModel);
-  EXPECT_NE(model, nullptr) << message.data();
-  EXPECT_STREQ(message.data(), "");
-  return model;
-}
-
-std::map<std::string, fs::path> files_below(const fs::path& directory) {
-  std::map<std::string, fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
-    if (entry.is_regular_file())
-      files[fs::relative(entry.path(), directory).string()] = entry.path();
-  }
-  return files;
-}
+using support::files_below;
+using support::kCheckedInScenes;
+using support::Model;
 
 class SceneFolder : public testing::TestWithParam<TableSceneOptions> {
  protected:
-  static fs::path folder() { return kCheckedIn / GetParam().name; }
+  static fs::path folder() { return kCheckedInScenes / GetParam().name; }
 };
 
 TEST_P(SceneFolder, IsWhatTheToolWrites) {
   const support::TemporaryDirectory directory;
   write_scene(make_table_scene(GetParam()), directory.path());
-  const auto made = files_below(directory.path());
-  const auto kept = files_below(folder());
-  ASSERT_EQ(made.size(), kept.size());
-  for (const auto& [name, path] : made) {
-    ASSERT_TRUE(kept.contains(name)) << name;
-    if (path.extension() == ".png") {
-      EXPECT_TRUE(read_png(path) == read_png(kept.at(name))) << name;
-    } else {
-      EXPECT_TRUE(read_file(path) == read_file(kept.at(name))) << name;
-    }
-  }
+  support::expect_same_files(directory.path(), folder());
 }
 
 TEST_P(SceneFolder, LoadsWithObjectsWhereTheyWerePut) {
   const TableScene scene = make_table_scene(GetParam());
-  const Model model = load(folder() / "scene.xml");
+  const Model model = support::load_mjcf(folder() / "scene.xml");
   ASSERT_NE(model, nullptr);
   EXPECT_EQ(model->nv, 0);
   EXPECT_DOUBLE_EQ(model->stat.extent, 1.0);
@@ -82,7 +53,7 @@ TEST_P(SceneFolder, LoadsWithObjectsWhereTheyWerePut) {
 /// MuJoCo moves a mesh to its centre of mass; what is seen must still stand on its support.
 TEST_P(SceneFolder, MeshesRestOnWhatCarriesThem) {
   const TableScene scene = make_table_scene(GetParam());
-  const Model model = load(folder() / "scene.xml");
+  const Model model = support::load_mjcf(folder() / "scene.xml");
   ASSERT_NE(model, nullptr);
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model.get()),
                                                                &mj_deleteData);
@@ -106,7 +77,7 @@ TEST_P(SceneFolder, MeshesRestOnWhatCarriesThem) {
 }
 
 TEST_P(SceneFolder, HasTheTableRoomAndCameras) {
-  const Model model = load(folder() / "scene.xml");
+  const Model model = support::load_mjcf(folder() / "scene.xml");
   ASSERT_NE(model, nullptr);
   const int top = mj_name2id(model.get(), mjOBJ_GEOM, "table/top");
   ASSERT_GE(top, 0);
@@ -126,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneFolder, testing::ValuesIn(standard_scenes(
 
 TEST(SceneFolders, AreSmall) {
   std::uintmax_t bytes = 0;
-  for (const auto& [name, path] : files_below(kCheckedIn)) bytes += fs::file_size(path);
-  EXPECT_LT(bytes, 6U << 20U);
+  for (const auto& [name, path] : files_below(kCheckedInScenes)) bytes += fs::file_size(path);
+  EXPECT_LT(bytes, 16U << 20U);
 }
 
 TEST(SceneMjcf, EveryObjectOfTheCatalogueCompiles) {
@@ -138,7 +109,7 @@ TEST(SceneMjcf, EveryObjectOfTheCatalogueCompiles) {
         {.spec = spec, .object = generate(spec), .T_world_object = {}, .support = {}});
   }
   write_scene(scene, directory.path());
-  const Model model = load(directory / "scene.xml");
+  const Model model = support::load_mjcf(directory / "scene.xml");
   ASSERT_NE(model, nullptr);
   EXPECT_EQ(model->nmesh, static_cast<int>(scene.objects.size()));
 }
