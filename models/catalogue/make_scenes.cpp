@@ -1,10 +1,11 @@
-/// vantage_make_scenes DIR: writes the standard table scenes into DIR/<name>/.
+/// vantage_make_scenes DIR: writes the table scenes and offices into DIR/<name>/.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
+#include "models/catalogue/office_mjcf.hpp"
 #include "models/catalogue/scene_mjcf.hpp"
 #include "src/core/error.hpp"
 
@@ -15,10 +16,14 @@ int main(int argc, char** argv) {
     return static_cast<int>(ExitCode::usage);
   }
   try {
+    const std::filesystem::path scenes = argv[1];
     for (const auto& options : vantage::standard_scenes()) {
-      const std::filesystem::path directory = std::filesystem::path(argv[1]) / options.name;
-      vantage::write_scene(vantage::make_table_scene(options), directory);
-      fmt::print("{}\n", (directory / "scene.xml").string());
+      vantage::write_scene(vantage::make_table_scene(options), scenes / options.name);
+      fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
+    }
+    for (const auto& options : vantage::office_scenes()) {
+      vantage::write_scene(vantage::make_office_scene(options), scenes / options.name);
+      fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
     }
   } catch (const vantage::Error& error) {
     fmt::print(stderr, "error: {}\n", error.what());
