@@ -1,0 +1,112 @@
+#include "src/information/resampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "src/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::size_t kMostEnumerated = 16;
+
+/// Linear between order statistics (type 7).  [HyndmanFan1996]
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const double rest = at - static_cast<double>(below);
+  if (rest == 0.0) return sorted[below];
+  return (1.0 - rest) * sorted[below] + rest * sorted[below + 1];
+}
+
+/// `statistic()` is that of one resample.
+template <class Statistic>
+Interval percentile_interval(const BootstrapOptions& options, Statistic&& statistic) {
+  expects(options.resamples > 0, "a bootstrap needs resamples");
+  std::vector<double> found(static_cast<std::size_t>(options.resamples));
+  for (double& value : found) value = statistic();
+  std::ranges::sort(found);
+  const double tail = 0.5 * (1.0 - options.confidence);
+  return {quantile(found, tail), quantile(found, 1.0 - tail)};
+}
+
+/// The sum with the sign of each value turned where its bit in `pattern` is set.
+double flipped_sum(std::span<const double> values, std::uint64_t pattern) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += (pattern >> i & 1U) != 0 ? -values[i] : values[i];
+  }
+  return sum;
+}
+
+double randomly_flipped_sum(std::span<const double> values, Rng& rng) {
+  double sum = 0.0;
+  for (std::size_t begin = 0; begin < values.size(); begin += 64) {
+    const auto count = std::min<std::size_t>(64, values.size() - begin);
+    sum += flipped_sum(values.subspan(begin, count), rng.next());
+  }
+  return sum;
+}
+
+}  // namespace
+
+double mean(std::span<const double> values) {
+  expects(!values.empty(), "the mean of no values");
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+Interval bootstrap_mean(std::span<const double> values, Rng& rng, const BootstrapOptions& options) {
+  expects(!values.empty(), "a bootstrap of no values");
+  return percentile_interval(options, [&] {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) sum += values[rng.uniform_index(values.size())];
+    return sum / static_cast<double>(values.size());
+  });
+}
+
+Interval bootstrap_ratio(std::span<const double> numerators, std::span<const double> denominators,
+                         Rng& rng, const BootstrapOptions& options) {
+  expects(!numerators.empty() && numerators.size() == denominators.size(),
+          "a ratio needs as many numerators as denominators");
+  return percentile_interval(options, [&] {
+    double above = 0.0;
+    double below = 0.0;
+    for (std::size_t i = 0; i < numerators.size(); ++i) {
+      const auto drawn = rng.uniform_index(numerators.size());
+      above += numerators[drawn];
+      below += denominators[drawn];
+    }
+    return below == 0.0 ? std::numeric_limits<double>::infinity() : above / below;
+  });
+}
+
+double sign_flip_p_value(std::span<const double> differences, Rng& rng, int draws) {
+  expects(!differences.empty(), "a test of no differences");
+  double size = 0.0;
+  double total = 0.0;
+  for (const double difference : differences) {
+    size += std::abs(difference);
+    total += difference;
+  }
+  const double threshold = std::abs(total) - 1e-12 * size;  // equal but for rounding is equal
+  if (differences.size() <= kMostEnumerated) {
+    const std::uint64_t patterns = std::uint64_t{1} << differences.size();
+    std::uint64_t extreme = 0;
+    for (std::uint64_t pattern = 0; pattern < patterns; ++pattern) {
+      extreme += std::abs(flipped_sum(differences, pattern)) >= threshold ? 1 : 0;
+    }
+    return static_cast<double>(extreme) / static_cast<double>(patterns);
+  }
+  int extreme = 1;
+  for (int draw = 0; draw < draws; ++draw) {
+    extreme += std::abs(randomly_flipped_sum(differences, rng)) >= threshold ? 1 : 0;
+  }
+  return static_cast<double>(extreme) / static_cast<double>(draws + 1);
+}
+
+}  // namespace vantage

@@ -1,0 +1,121 @@
+// Intervals and tests against closed forms.
+#include "src/information/resampling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+TEST(Bootstrap, OfAConstantIsThatConstant) {
+  Rng rng(1);
+  const std::vector<double> values(7, 2.5);
+  const Interval interval = bootstrap_mean(values, rng);
+  EXPECT_DOUBLE_EQ(interval.low, 2.5);
+  EXPECT_DOUBLE_EQ(interval.high, 2.5);
+}
+
+TEST(Bootstrap, SameStreamSameBits) {
+  const std::vector<double> values{3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0};
+  Rng first = Rng::stream(1, "a");
+  Rng second = Rng::stream(1, "a");
+  const Interval a = bootstrap_mean(values, first);
+  const Interval b = bootstrap_mean(values, second);
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+}
+
+TEST(Bootstrap, OfTwoValuesHasTheBinomialQuantiles) {
+  // The mean of two draws from {0, 1} is 0, 1/2, 1 with probabilities 1/4, 1/2, 1/4.
+  Rng rng(2);
+  const std::array values{0.0, 1.0};
+  const Interval wide = bootstrap_mean(values, rng, {.confidence = 0.95});
+  EXPECT_DOUBLE_EQ(wide.low, 0.0);
+  EXPECT_DOUBLE_EQ(wide.high, 1.0);
+  const Interval narrow = bootstrap_mean(values, rng, {.confidence = 0.4});
+  EXPECT_DOUBLE_EQ(narrow.low, 0.5);
+  EXPECT_DOUBLE_EQ(narrow.high, 0.5);
+}
+
+TEST(Bootstrap, WidthIsThatOfTheNormalTheory) {
+  Rng data(3);
+  std::vector<double> values(400);
+  for (double& value : values) value = data.normal(10.0, 2.0);
+  Rng rng(4);
+  const Interval interval = bootstrap_mean(values, rng);
+  const double expected = 2.0 * 1.959964 * 2.0 / std::sqrt(400.0);
+  EXPECT_NEAR(interval.high - interval.low, expected, 0.1 * expected);
+}
+
+TEST(Bootstrap, CoversTheMeanOfNormalData) {
+  // n = 40: the percentile interval covers a little less than 95 %, about 93.6 %.
+  constexpr int kTrials = 1000;
+  int covered = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Rng rng = Rng::stream(static_cast<std::uint64_t>(trial), "coverage");
+    std::vector<double> values(40);
+    for (double& value : values) value = rng.normal();
+    const Interval interval = bootstrap_mean(values, rng, {.resamples = 500});
+    covered += interval.low <= 0.0 && 0.0 <= interval.high ? 1 : 0;
+  }
+  EXPECT_GT(covered, 0.91 * kTrials);
+  EXPECT_LT(covered, 0.965 * kTrials);
+}
+
+TEST(BootstrapRatio, OfProportionalPairsIsExact) {
+  Rng rng(5);
+  const std::vector<double> below{1.0, 5.0, 2.0, 8.0};
+  std::vector<double> above = below;
+  for (double& value : above) value *= 0.25;
+  const Interval interval = bootstrap_ratio(above, below, rng);
+  EXPECT_DOUBLE_EQ(interval.low, 0.25);
+  EXPECT_DOUBLE_EQ(interval.high, 0.25);
+}
+
+TEST(BootstrapRatio, OfNothingIsInfinite) {
+  Rng rng(6);
+  const std::array above{1.0, 2.0};
+  const std::array below{0.0, 0.0};
+  EXPECT_TRUE(std::isinf(bootstrap_ratio(above, below, rng).low));
+}
+
+TEST(SignFlip, KnownAnswers) {
+  Rng rng(7);
+  // All of one sign: only the pattern itself and its mirror are as extreme.
+  const std::array all_positive{1.0, 2.0, 3.0, 4.0, 5.0};
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(all_positive, rng), 2.0 / 32.0);
+  // 3, -1, 2: sums 4, -2, 6, 0 and their mirrors; |4| or more: 4 of 8.
+  const std::array mixed{3.0, -1.0, 2.0};
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(mixed, rng), 0.5);
+  const std::array none{0.0, 0.0, 0.0};
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(none, rng), 1.0);
+  const std::array one{4.0};
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(one, rng), 1.0);
+}
+
+TEST(SignFlip, RoundingMakesNoDifference) {
+  Rng rng(8);
+  const std::array tenths{0.1, 0.2, 0.3, -0.6};  // sums to 0 but for rounding
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(tenths, rng), 1.0);
+}
+
+TEST(SignFlip, RandomDrawsAgreeWithTheNormalLimit) {
+  // 40 differences of size 1, 28 of them positive: z = 16 / sqrt(40); P(|sum| >= 16) = 0.0166.
+  std::vector<double> differences(40, 1.0);
+  std::fill_n(differences.begin(), 12, -1.0);
+  Rng rng(9);
+  EXPECT_NEAR(sign_flip_p_value(differences, rng), 0.0166, 0.004);
+}
+
+TEST(SignFlip, MoreThanOneWordOfSigns) {
+  const std::vector<double> differences(130, 1.0);
+  Rng rng(10);
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(differences, rng, 999), 0.001);
+}
+
+}  // namespace
+}  // namespace vantage
