@@ -33,4 +33,10 @@ fs::path find_input(const std::string& name, const fs::path& base, const std::st
                                data_root().string()));
 }
 
+std::string lasting_name(const fs::path& found) {
+  const fs::path absolute = fs::absolute(found).lexically_normal();
+  const fs::path inside = absolute.lexically_relative(data_root());
+  return inside.empty() || *inside.begin() == ".." ? absolute.string() : inside.string();
+}
+
 }  // namespace vantage

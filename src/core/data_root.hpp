@@ -16,4 +16,8 @@ std::filesystem::path data_root();
 std::filesystem::path find_input(const std::string& name, const std::filesystem::path& base,
                                  const std::string& key);
 
+/// A found file's name as it is found again from any working directory: relative to data_root() if
+/// it is inside, else absolute.
+std::string lasting_name(const std::filesystem::path& found);
+
 }  // namespace vantage

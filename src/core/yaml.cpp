@@ -108,8 +108,9 @@ ConfigNode convert(const YAML::Node& yaml, const std::string& name, const std::s
   return node;
 }
 
+/// Without an origin, the nodes keep theirs.
 void relabel(ConfigNode& node, const std::string& origin, const std::string& key) {
-  node.origin = origin;
+  if (!origin.empty()) node.origin = origin;
   node.key = key;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     relabel(node.items[i], origin, fmt::format("{}[{}]", key, i));
@@ -173,12 +174,17 @@ void apply_override(ConfigNode& root, const std::string& assignment) {
     throw ConfigError(fmt::format("--set {}: expected key=value", assignment));
   }
   const std::string key = assignment.substr(0, equals);
+  ConfigNode value = parse_yaml(assignment.substr(equals + 1), "--set " + key);
+  relabel(value, std::string(kOverrideOrigin), key);
+  set_value(root, key, std::move(value));
+}
+
+void set_value(ConfigNode& root, const std::string& key, ConfigNode value) {
   if (root.kind == ConfigNode::Kind::scalar || root.kind == ConfigNode::Kind::list) {
     throw ConfigError(
         fmt::format("{}: expected a map, got {}", root.where(), kind_name(root.kind)));
   }
-  ConfigNode value = parse_yaml(assignment.substr(equals + 1), "--set " + key);
-  relabel(value, std::string(kOverrideOrigin), key);
+  relabel(value, {}, key);
   ConfigNode* node = &root;
   std::size_t begin = 0;
   for (auto dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin)) {
@@ -188,7 +194,7 @@ void apply_override(ConfigNode& root, const std::string& assignment) {
       ConfigNode made = ConfigNode::make_map();
       // `gain: adaptive` is short for `gain: {name: adaptive}`; --set gain.x=1 refines it.
       if (child != nullptr && child->kind == ConfigNode::Kind::scalar) made.set("name", *child);
-      made.origin = kOverrideOrigin;
+      made.origin = value.origin;
       made.key = key.substr(0, dot);
       node->set(name, std::move(made));
     }

@@ -21,6 +21,11 @@ ConfigNode parse_yaml(std::string_view text, const std::string& name);
 /// @throws ConfigError if the assignment has no '=' or no key, or `root` is not a map.
 void apply_override(ConfigNode& root, const std::string& assignment);
 
+/// Puts `value` under the dotted `key`, replacing what is there; maps on the way are made as
+/// needed. The value keeps its origin, and so do errors about it.
+/// @throws ConfigError if `root` is not a map.
+void set_value(ConfigNode& root, const std::string& key, ConfigNode value);
+
 std::string to_yaml(const ConfigNode& root);
 
 }  // namespace vantage

@@ -56,6 +56,10 @@ ResolvedEpisode load_episode(const std::filesystem::path& path,
     throw ConfigError(path.string() + ": empty; an episode sets at least one key, as scans: 10");
   }
   for (const auto& assignment : overrides) apply_override(root, assignment);
+  return resolve_episode(root, path);
+}
+
+ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::path& path) {
   ResolvedEpisode resolved;
   resolved.name = path.stem().string();
   read_into(root, resolved.episode);
@@ -65,16 +69,10 @@ ResolvedEpisode load_episode(const std::filesystem::path& path,
   const ConfigNode* robot = root.find("robot");
   const ConfigNode* model = robot == nullptr ? nullptr : robot->find("model");
   const auto base = path.parent_path();
-  const auto stored = [](const std::filesystem::path& found) {
-    const auto absolute = std::filesystem::absolute(found).lexically_normal();
-    const auto inside = absolute.lexically_relative(data_root());
-    return inside.empty() || *inside.begin() == ".." ? absolute.string() : inside.string();
-  };
   resolved.scene = find_input(resolved.episode.scene, base, key("scene", root.find("scene")));
   resolved.robot = find_input(resolved.episode.robot.model, base, key("robot.model", model));
-  // As another working directory, or replay, will find them.
-  resolved.episode.scene = stored(resolved.scene);
-  resolved.episode.robot.model = stored(resolved.robot);
+  resolved.episode.scene = lasting_name(resolved.scene);
+  resolved.episode.robot.model = lasting_name(resolved.robot);
   return resolved;
 }
 

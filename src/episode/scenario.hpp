@@ -143,6 +143,9 @@ struct ResolvedEpisode {
 ResolvedEpisode load_episode(const std::filesystem::path& path,
                              const std::vector<std::string>& overrides);
 
+/// The same of a configuration that was read already from `path`.
+ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::path& path);
+
 /// "adaptive" for a greedy choice by that gain, "random" or "oracle" for a choice that looks at
 /// none.
 std::string_view method_name(const Episode& episode);

@@ -70,5 +70,14 @@ TEST(Override, DoesNotHideAFileThatIsNoMap) {
   EXPECT_THROW(overridden("just text\n", "a=1"), ConfigError);
 }
 
+TEST(Override, AValueFromAnotherFileKeepsItsPlaceThere) {
+  ConfigNode root = parse_yaml("a: 1\n", "e.yaml");
+  const ConfigNode study = parse_yaml("x:\n  b.c:\n    d: [1]\n", "s.yaml");
+  set_value(root, "b.c", *study.find("x")->find("b.c"));
+  const ConfigNode& value = *root.find("b")->find("c");
+  EXPECT_EQ(value.where(), "s.yaml:2: b.c");
+  EXPECT_EQ(value.find("d")->where(), "s.yaml:3: b.c.d");
+}
+
 }  // namespace
 }  // namespace vantage
