@@ -45,11 +45,13 @@ std::string tum_row(double time_s, const Pose2& base) {
 }  // namespace
 
 Recorder::Recorder(const ResolvedEpisode& resolved, TabletopRig& rig,
-                   std::filesystem::path directory, bool with_video)
+                   std::filesystem::path directory, bool with_video, bool lean)
     : directory_(std::move(directory)),
       rig_(rig),
       planned_scans_(resolved.episode.scans),
-      states_(directory_, actuator_names(rig.world()), rig.world().state()),
+      lean_(lean),
+      states_(lean ? std::filesystem::path() : directory_, actuator_names(rig.world()),
+              rig.world().state()),
       steps_(directory_ / "steps.csv"),
       trajectory_(directory_ / "trajectory.tum"),
       estimated_(directory_ / "trajectory_estimated.tum"),
@@ -89,18 +91,22 @@ void Recorder::pose_rows() {
 
 void Recorder::scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid) {
   steps_.write(steps_row(record, index));
-  was_occupied_.resize(grid.size(), 0);
-  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-    if (was_occupied_[cell] != 0 || grid.state(cell) != CellState::occupied) continue;
-    was_occupied_[cell] = 1;
-    add_voxel(grid, cell, index, kVoxelOccupied);
-  }
+  if (!lean_) add_occupied_voxels(grid, index);
   ++scans_done_;
   progress_.update(
       static_cast<double>(scans_done_),
       fmt::format("scan {} of {}: {} observable cells left, {:.1f} s simulated", scans_done_,
                   planned_scans_, record.observable_unobserved_cells, record.time_s));
   if (film_) film_->keep_still(rig_.world(), index);
+}
+
+void Recorder::add_occupied_voxels(const OccupancyGrid& grid, std::size_t step) {
+  was_occupied_.resize(grid.size(), 0);
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    if (was_occupied_[cell] != 0 || grid.state(cell) != CellState::occupied) continue;
+    was_occupied_[cell] = 1;
+    add_voxel(grid, cell, step, kVoxelOccupied);
+  }
 }
 
 void Recorder::add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step,

@@ -20,9 +20,10 @@ namespace vantage {
 
 class Recorder {
  public:
-  /// Hooks itself to the world's ticks. @throws OutputError, RendererError
+  /// Hooks itself to the world's ticks. Lean: neither states nor voxels are kept.
+  /// @throws OutputError, RendererError
   Recorder(const ResolvedEpisode& resolved, TabletopRig& rig, std::filesystem::path directory,
-           bool with_video);
+           bool with_video, bool lean);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -41,11 +42,13 @@ class Recorder {
  private:
   void tick();
   void pose_rows();
+  void add_occupied_voxels(const OccupancyGrid& grid, std::size_t step);
   void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);
 
   std::filesystem::path directory_;
   TabletopRig& rig_;
   int planned_scans_;
+  bool lean_;
   StateLog states_;
   GrowingFile steps_;
   GrowingFile trajectory_;

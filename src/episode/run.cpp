@@ -70,7 +70,7 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   log_to_file(outcome.directory / "log.txt");
 
   const double start_s = wall_s();
-  Recorder recorder(resolved, rig, outcome.directory, options.video);
+  Recorder recorder(resolved, rig, outcome.directory, options.video, options.lean);
   NextBestView parts(resolved, rig, recorder);
   RunSummary summary;
   const Ending ending = run_to_end(parts);
@@ -90,9 +90,11 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   write_file(outcome.directory / "manifest.json",
              manifest_json(resolved, options.command, summary));
   write_file(outcome.directory / "metrics.json", outcome.metrics);
-  recorder.write_map(parts.belief().grid(), parts.belief().object_cloud());
   recorder.finish_video();
-  write_report(outcome.directory);
+  if (!options.lean) {
+    recorder.write_map(parts.belief().grid(), parts.belief().object_cloud());
+    write_report(outcome.directory);
+  }
   log_to_file({});
   return outcome;
 }

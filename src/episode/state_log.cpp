@@ -66,31 +66,34 @@ std::vector<std::string> actuator_names(const World& world) {
 StateLog::StateLog(const std::filesystem::path& run_dir,
                    std::span<const std::string> actuator_names,
                    std::span<const double> initial_state)
-    : states_(run_dir / "states.bin"),
-      actions_(run_dir / "actions.csv"),
-      hash_(hash_doubles(initial_state)) {
+    : hash_(hash_doubles(initial_state)) {
+  if (run_dir.empty()) return;
+  states_.emplace(run_dir / "states.bin");
+  actions_.emplace(run_dir / "actions.csv");
   const std::array<std::uint64_t, 2> sizes{initial_state.size(), actuator_names.size()};
-  states_.write(kMagic);
-  states_.write({reinterpret_cast<const char*>(sizes.data()), sizeof sizes});
-  states_.write(bytes_of(initial_state));
-  states_.write(bytes_of(std::vector<double>(actuator_names.size(), 0.0)));
-  actions_.write(action_header(actuator_names) + "\n");
+  states_->write(kMagic);
+  states_->write({reinterpret_cast<const char*>(sizes.data()), sizeof sizes});
+  states_->write(bytes_of(initial_state));
+  states_->write(bytes_of(std::vector<double>(actuator_names.size(), 0.0)));
+  actions_->write(action_header(actuator_names) + "\n");
 }
 
 void StateLog::add(std::span<const double> controls, std::span<const double> state) {
-  if (!std::ranges::equal(controls, last_controls_)) {
-    actions_.write(action_row(ticks_, controls));
+  if (actions_ && !std::ranges::equal(controls, last_controls_)) {
+    actions_->write(action_row(ticks_, controls));
     last_controls_.assign(controls.begin(), controls.end());
   }
   ++ticks_;
-  states_.write(bytes_of(state));
-  states_.write(bytes_of(controls));
+  if (states_) {
+    states_->write(bytes_of(state));
+    states_->write(bytes_of(controls));
+  }
   hash_ = hash_doubles(state, hash_doubles(controls, hash_));
 }
 
 void StateLog::commit() {
-  states_.commit();
-  actions_.commit();
+  if (states_) states_->commit();
+  if (actions_) actions_->commit();
 }
 
 RecordedStates read_states(const std::filesystem::path& path) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ std::vector<std::string> actuator_names(const World& world);
 /// Writes states.bin and actions.csv as the episode goes and keeps the running hash of both.
 class StateLog {
  public:
+  /// Without a run folder it only hashes.
   StateLog(const std::filesystem::path& run_dir, std::span<const std::string> actuator_names,
            std::span<const double> initial_state);
 
@@ -27,8 +29,8 @@ class StateLog {
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
 
  private:
-  GrowingFile states_;
-  GrowingFile actions_;
+  std::optional<GrowingFile> states_;
+  std::optional<GrowingFile> actions_;
   std::vector<double> last_controls_;
   std::uint64_t hash_;
   std::uint64_t ticks_ = 0;
