@@ -19,6 +19,8 @@
 #include "src/episode/report.hpp"
 #include "src/episode/run.hpp"
 #include "src/episode/validate.hpp"
+#include "src/study/study.hpp"
+#include "src/sweep_commands.hpp"
 
 namespace vantage {
 namespace {
@@ -53,7 +55,9 @@ void print_outcome(const RunOutcome& outcome) {
       metrics["map"]["precision"].get<double>(), metrics["map"]["recall"].get<double>(),
       metrics["real_time_factor"].get<double>());
   fmt::print("state hash {}\n", metrics["state_hash"].get<std::string>());
-  fmt::print("report {}\n", (outcome.directory / "report.html").string());
+  if (fs::exists(outcome.directory / "report.html")) {
+    fmt::print("report {}\n", (outcome.directory / "report.html").string());
+  }
   if (fs::exists(outcome.directory / "video.mp4")) {
     fmt::print("video  {}\n", (outcome.directory / "video.mp4").string());
   }
@@ -130,6 +134,8 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   app.add_flag("--overwrite", arguments->options.overwrite, "replace a run in that folder");
   app.add_flag("--video", arguments->options.video, "record video.mp4 and frames/");
+  app.add_flag("--lean", arguments->options.lean,
+               "neither map, states nor report: metrics, steps, trajectories only");
   app.add_flag("--json", arguments->json, "print metrics.json to stdout");
   auto* quiet = app.add_flag("-q,--quiet", arguments->quiet, "warnings and errors only");
   app.add_flag("-v,--verbose", arguments->verbose, "debug messages too")->excludes(quiet);
@@ -211,6 +217,7 @@ void remember_command_line(int argc, char** argv) { g_command_line.assign(argv, 
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       {"run", "run an episode and write its run folder", declare_run},
+      {"sweep", "run a study: an episode varied by factors", declare_sweep},
       {"report", "write the report page of a run folder again", declare_report},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},

@@ -48,9 +48,10 @@ const std::map<std::string, std::vector<std::string>> kAllowed{
     {"models", {"core", "geometry"}},
     {"episode",
      {"core", "geometry", "information", "perception", "belief", "planners", "sim", "models"}},
+    {"study", {"core", "information", "episode"}},
     {"main",
      {"core", "geometry", "information", "perception", "belief", "planners", "sim", "models",
-      "episode"}},
+      "episode", "study"}},
 };
 
 /// Where the headers of a library may appear.
@@ -70,8 +71,8 @@ const std::vector<LibraryRule> kLibraries{
     {"nanoflann", {"perception"}},
     {"yaml-cpp/", {"core"}, true},
     {"spdlog/", {"core"}, true},
-    {"nlohmann/json_fwd.hpp", {"core", "episode", "main"}},  // declarations only
-    {"nlohmann/", {"core", "episode", "main"}, true},
+    {"nlohmann/json_fwd.hpp", {"core", "episode", "study", "main"}},  // declarations only
+    {"nlohmann/", {"core", "episode", "study", "main"}, true},
     {"png", {"models"}},
     {"CLI/", {"main"}, true},
 };

@@ -29,10 +29,9 @@ std::vector<std::string> sorted_entries(const fs::path& folder, auto&& wanted) {
   return found;
 }
 
-std::vector<std::string> episodes() {
-  return sorted_entries("assets/episodes", [](const fs::directory_entry& e) {
-    return e.path().extension() == ".yaml";
-  });
+std::vector<std::string> yaml_files(const fs::path& folder) {
+  return sorted_entries(
+      folder, [](const fs::directory_entry& e) { return e.path().extension() == ".yaml"; });
 }
 
 std::vector<std::string> scenes() {
@@ -51,7 +50,8 @@ struct Topic {
 constexpr auto kTopics = std::to_array<Topic>({
     {"gains", [] { return owned(strategy_names<Gain>()); }},
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
-    {"episodes", episodes},
+    {"episodes", [] { return yaml_files("assets/episodes"); }},
+    {"studies", [] { return yaml_files("assets/studies"); }},
     {"scenes", scenes},
 });
 

@@ -1,0 +1,192 @@
+#include "src/study/measures.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/information/resampling.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Scalar = std::optional<double>;
+
+Curve scan_values(const Json& metrics, const char* key) {
+  Curve values;
+  for (const Json& scan : metrics.at("scans")) values.push_back(scan.at(key).get<double>());
+  return values;
+}
+
+Curve share_left(const Json& metrics) {
+  Curve shares = scan_values(metrics, "observable_unobserved_cells");
+  const double all = metrics.at("observable_cells").get<double>();
+  for (double& share : shares) share = all > 0.0 ? share / all : 0.0;
+  return shares;
+}
+
+Curve distance_m(const Json& metrics) {
+  Curve legs = scan_values(metrics, "path_length_m");
+  double sum = 0.0;
+  for (double& leg : legs) leg = sum += leg;
+  return legs;
+}
+
+std::vector<std::pair<std::string, Curve>> prediction_errors(const Json& metrics) {
+  std::vector<std::pair<std::string, Curve>> errors;
+  const Json& scans = metrics.at("scans");
+  for (std::size_t k = 1; k < scans.size(); ++k) {
+    const double actual = scans[k].at("actual_new_cells").get<double>();
+    const Json& predicted = scans[k].at("predicted");
+    if (errors.empty()) {
+      for (const auto& [gain, cells] : predicted.items()) errors.emplace_back(gain, Curve{});
+    }
+    for (auto& [gain, curve] : errors) {
+      curve.push_back(std::abs(predicted.at(gain).get<double>() - actual));
+    }
+  }
+  return errors;
+}
+
+/// Sum over the planned scans of the share of observable cells left; an episode that ends early has
+/// learnt all it could, so its last share counts for the rest.
+Scalar area(const Json& metrics, const Episode& episode) {
+  const Curve shares = share_left(metrics);
+  if (shares.empty()) return {};
+  double sum = 0.0;
+  for (int k = 0; k < episode.scans; ++k) {
+    sum += shares[std::min(static_cast<std::size_t>(k), shares.size() - 1)];
+  }
+  return sum;
+}
+
+Scalar observed_share(const Json& metrics, const Episode&) {
+  const Curve shares = share_left(metrics);
+  return shares.empty() ? Scalar{} : 1.0 - shares.back();
+}
+
+/// Of the gain the method itself goes by, if it goes by one.
+Scalar own_prediction_error(const Json& metrics, const Episode&) {
+  const auto method = metrics.at("method").get<std::string>();
+  for (const auto& [gain, curve] : prediction_errors(metrics)) {
+    if (gain == method && !curve.empty()) return mean(curve);
+  }
+  return {};
+}
+
+Scalar mean_of(const Json& metrics, const char* key) {
+  const Curve values = scan_values(metrics, key);
+  return values.empty() ? Scalar{} : mean(values);
+}
+
+struct ScalarMeasure {
+  MeasureName name;
+  Scalar (*of)(const Json& metrics, const Episode& episode);
+};
+
+constexpr auto kScalars = std::to_array<ScalarMeasure>({
+    {{"area", "area under the curve of observable cells left, scans"}, area},
+    {{"observed_share", "share of the observable cells observed at the end"}, observed_share},
+    {{"prediction_error_cells", "mean error of the method's own prediction, cells"},
+     own_prediction_error},
+    {{"scans", "scans taken"},
+     [](const Json& m, const Episode&) -> Scalar {
+       return static_cast<double>(m.at("scans").size());
+     }},
+    {{"fallbacks", "views out of reach"},
+     [](const Json& m, const Episode&) -> Scalar {
+       double count = 0.0;
+       for (const Json& scan : m.at("scans")) count += scan.at("fallback").get<bool>() ? 1.0 : 0.0;
+       return count;
+     }},
+    {{"path_length_m", "path length, m"},
+     [](const Json& m, const Episode&) -> Scalar { return m.at("path_length_m").get<double>(); }},
+    {{"collisions", "collisions"},
+     [](const Json& m, const Episode&) -> Scalar { return m.at("collisions").get<double>(); }},
+    {{"precision", "precision of occupied cells"},
+     [](const Json& m, const Episode&) -> Scalar {
+       return m.at("map").at("precision").get<double>();
+     }},
+    {{"recall", "recall of occupied cells"},
+     [](const Json& m, const Episode&) -> Scalar {
+       return m.at("map").at("recall").get<double>();
+     }},
+    {{"pose_error_m", "mean position error after registration, m"},
+     [](const Json& m, const Episode&) { return mean_of(m, "pose_error_m"); }},
+    {{"pose_error_before_registration_m", "mean position error before registration, m"},
+     [](const Json& m, const Episode&) { return mean_of(m, "pose_error_before_registration_m"); }},
+    {{"simulated_time_s", "simulated time, s"},
+     [](const Json& m, const Episode&) -> Scalar {
+       return m.at("simulated_time_s").get<double>();
+     }},
+});
+
+struct CurveMeasure {
+  MeasureName name;
+  Curve (*of)(const Json& metrics);
+};
+
+constexpr auto kCurves = std::to_array<CurveMeasure>({
+    {{"unobserved_cells", "unobserved cells"},
+     [](const Json& m) { return scan_values(m, "unobserved_cells"); }},
+    {{"observable_unobserved_cells", "observable cells left"},
+     [](const Json& m) { return scan_values(m, "observable_unobserved_cells"); }},
+    {{"share_left", "share of the observable cells left"}, share_left},
+    {{"distance_m", "distance travelled, m"}, distance_m},
+    {{"pose_error_m", "position error, m"},
+     [](const Json& m) { return scan_values(m, "pose_error_m"); }},
+    {{"precision", "precision of occupied cells"},
+     [](const Json& m) { return scan_values(m, "precision"); }},
+    {{"recall", "recall of occupied cells"},
+     [](const Json& m) { return scan_values(m, "recall"); }},
+});
+
+std::vector<MeasureName> names_of(const auto& measures) {
+  std::vector<MeasureName> names;
+  for (const auto& measure : measures) names.push_back(measure.name);
+  return names;
+}
+
+std::vector<std::string> texts_of(const std::vector<MeasureName>& names) {
+  std::vector<std::string> texts;
+  for (const MeasureName& name : names) texts.emplace_back(name.name);
+  return texts;
+}
+
+std::optional<std::size_t> find(const std::vector<MeasureName>& names, std::string_view name) {
+  const auto found = std::ranges::find(names, name, &MeasureName::name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+}  // namespace
+
+const std::vector<MeasureName>& scalar_measures() {
+  static const auto names = names_of(kScalars);
+  return names;
+}
+const std::vector<MeasureName>& curve_measures() {
+  static const auto names = names_of(kCurves);
+  return names;
+}
+
+std::vector<std::string> scalar_names() { return texts_of(scalar_measures()); }
+std::vector<std::string> curve_names() { return texts_of(curve_measures()); }
+std::optional<std::size_t> find_scalar(std::string_view name) {
+  return find(scalar_measures(), name);
+}
+std::optional<std::size_t> find_curve(std::string_view name) {
+  return find(curve_measures(), name);
+}
+
+EpisodeMeasures measure(const Json& metrics, const Episode& episode) {
+  EpisodeMeasures measures;
+  for (const auto& scalar : kScalars) measures.scalars.push_back(scalar.of(metrics, episode));
+  for (const auto& curve : kCurves) measures.curves.push_back(curve.of(metrics));
+  measures.prediction_errors = prediction_errors(metrics);
+  return measures;
+}
+
+}  // namespace vantage

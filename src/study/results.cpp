@@ -1,0 +1,122 @@
+#include "src/study/results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include "src/core/atomic_file.hpp"
+#include "src/core/hash.hpp"
+#include "src/core/yaml.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr auto kStateNames = std::to_array<std::string_view>(
+    {"missing", "stale", "interrupted", "crashed", "failed", "diverged", "completed"});
+
+/// One text for all configurations that give the same results.
+std::string canonical(std::string_view yaml, const std::string& name) {
+  ConfigNode root = parse_yaml(yaml, name);
+  root.set("threads", ConfigNode::make_scalar("1"));
+  return to_yaml(root);
+}
+
+/// What a text field says; empty if there is none.
+std::string text(const Json& json, const char* key) {
+  if (!json.is_object() || !json.contains(key) || !json[key].is_string()) return {};
+  return json[key].get<std::string>();
+}
+
+bool same_configuration(const fs::path& folder, const Episode& episode) {
+  const fs::path file = folder / "config.yaml";
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;
+  try {
+    return canonical(read_file(file), file.string()) == canonical(episode_yaml(episode), "plan");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string reason(const fs::path& folder, EpisodeState state) {
+  if (state == EpisodeState::crashed)
+    return text(read_json_or_null(folder / "failure.json"), "reason");
+  if (is_result(state)) return text(read_json_or_null(folder / "metrics.json"), "reason");
+  if (state == EpisodeState::stale) return "the configuration or the scene has changed since";
+  return {};
+}
+
+}  // namespace
+
+std::string_view state_name(EpisodeState state) {
+  return kStateNames.at(static_cast<std::size_t>(state));
+}
+
+fs::path episode_folder(const fs::path& study_dir, const PlannedEpisode& episode) {
+  return study_dir / "episodes" / episode.name;
+}
+
+Json read_json_or_null(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return nullptr;
+  Json json = Json::parse(read_file(file), nullptr, false);
+  return json.is_object() ? json : Json(nullptr);
+}
+
+std::string ResultCheck::scene_hash(const fs::path& scene) {
+  auto [entry, is_new] = scene_hashes_.try_emplace(scene);
+  if (is_new) entry->second = hash_text(hash_file(scene));
+  return entry->second;
+}
+
+EpisodeState ResultCheck::operator()(const fs::path& study_dir, const PlannedEpisode& episode) {
+  const fs::path folder = episode_folder(study_dir, episode);
+  const std::string status = text(read_json_or_null(folder / "metrics.json"), "status");
+  if (status.empty()) {
+    std::error_code error;
+    return fs::exists(folder / "failure.json", error) ? EpisodeState::crashed
+                                                      : EpisodeState::missing;
+  }
+  const Json manifest = read_json_or_null(folder / "manifest.json");
+  if (!same_configuration(folder, episode.resolved.episode) ||
+      text(manifest, "scene_hash") != scene_hash(episode.resolved.scene)) {
+    return EpisodeState::stale;
+  }
+  for (const EpisodeState state : {EpisodeState::interrupted, EpisodeState::failed,
+                                   EpisodeState::diverged, EpisodeState::completed}) {
+    if (status == state_name(state)) return state;
+  }
+  return EpisodeState::stale;
+}
+
+std::vector<EpisodeState> episode_states(const fs::path& study_dir,
+                                         const std::vector<PlannedEpisode>& plan) {
+  ResultCheck check;
+  std::vector<EpisodeState> states;
+  for (const auto& episode : plan) states.push_back(check(study_dir, episode));
+  return states;
+}
+
+std::string status_text(const fs::path& study_dir, const std::vector<PlannedEpisode>& plan,
+                        const std::vector<EpisodeState>& states) {
+  std::vector<std::string> counts;
+  for (std::size_t s = kStateNames.size(); s-- > 0;) {
+    const auto count = std::ranges::count(states, static_cast<EpisodeState>(s));
+    if (count > 0) counts.push_back(fmt::format("{} {}", count, kStateNames[s]));
+  }
+  std::string lines = fmt::format("{} of {} episodes\n", fmt::join(counts, ", "), plan.size());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (states[i] == EpisodeState::completed) continue;
+    const std::string why = reason(episode_folder(study_dir, plan[i]), states[i]);
+    lines += fmt::format("{:<11} {}{}{}\n", state_name(states[i]), plan[i].name,
+                         why.empty() ? "" : ": ", why);
+  }
+  return lines;
+}
+
+}  // namespace vantage

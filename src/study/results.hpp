@@ -1,0 +1,58 @@
+/// The folder of a study: what there is of its episodes.
+///
+///   DIR/study.yaml                  the study, self-contained
+///   DIR/episodes/<scene>/<...>/     a run folder for each episode, named by its levels
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "src/study/study.hpp"
+
+namespace vantage {
+
+enum class EpisodeState {
+  missing,      ///< not run yet
+  stale,        ///< run with another configuration or scene
+  interrupted,  ///< ended by the user
+  crashed,      ///< run, and no result came of it
+  failed,       ///< a result: the task was not done
+  diverged,     ///< a result: the simulation diverged
+  completed,    ///< a result
+};
+std::string_view state_name(EpisodeState state);
+
+/// Results are kept; anything else is run (again).
+constexpr bool is_result(EpisodeState state) { return state >= EpisodeState::failed; }
+
+std::filesystem::path episode_folder(const std::filesystem::path& study_dir,
+                                     const PlannedEpisode& episode);
+
+/// Whether a result fits what would run now: a whole metrics.json, the same configuration (but for
+/// `threads`, which changes no result) and the same scene file.
+class ResultCheck {
+ public:
+  EpisodeState operator()(const std::filesystem::path& study_dir, const PlannedEpisode& episode);
+
+ private:
+  std::string scene_hash(const std::filesystem::path& scene);
+  std::map<std::filesystem::path, std::string> scene_hashes_;
+};
+
+/// metrics.json, manifest.json or failure.json; null if it is missing or not whole.
+nlohmann::ordered_json read_json_or_null(const std::filesystem::path& file);
+
+/// The state of every episode of `plan`, in its order.
+std::vector<EpisodeState> episode_states(const std::filesystem::path& study_dir,
+                                         const std::vector<PlannedEpisode>& plan);
+
+/// "completed 310, missing 10", then a line for each that is not completed, and why.
+std::string status_text(const std::filesystem::path& study_dir,
+                        const std::vector<PlannedEpisode>& plan,
+                        const std::vector<EpisodeState>& states);
+
+}  // namespace vantage

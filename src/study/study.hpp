@@ -1,0 +1,87 @@
+/// A study: one episode, varied by factors. Its YAML file, key by key:
+///
+///   title: ...                   of its report
+///   episode: tabletop.yaml       base of every episode
+///   set: {scans: 10}             overrides of it, keys as those of --set
+///   factors:                     the episodes are the product of all levels, the last factor
+///   fastest
+///     method:
+///       random: {choice: random}           level: overrides
+///       sparse: {gain: beer_lambert, gain.a: 0.999}
+///   report: {compare: method, reference: random, ...}     StudyReport
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "src/core/config_node.hpp"
+#include "src/core/fields.hpp"
+#include "src/episode/scenario.hpp"
+
+namespace vantage {
+
+/// What `sweep collect` makes of the results.
+struct StudyReport {
+  std::string compare = "method";   ///< factor whose levels are compared, paired over all others
+  std::string reference;            ///< level the others are held against; empty: the first
+  std::string panels;               ///< factor with a panel for each level; empty: one panel
+  std::vector<std::string> curves;  ///< against scans, names of kCurves
+  std::vector<std::string> tables;  ///< names of kScalars
+  std::string predictors_along;     ///< level along which all predictors are compared; empty: none
+  void fields(auto&& f) {
+    f("compare", compare);
+    f("reference", reference);
+    f("panels", panels);
+    f("curves", curves);
+    f("tables", tables);
+    f("predictors_along", predictors_along);
+  }
+};
+
+using Overrides = std::vector<std::pair<std::string, ConfigNode>>;
+
+struct Level {
+  std::string name;
+  Overrides overrides;
+};
+
+struct Factor {
+  std::string name;
+  std::vector<Level> levels;  ///< at least one
+};
+
+struct Study {
+  std::string name;  ///< of the file, without extension
+  std::string title;
+  std::filesystem::path episode;  ///< found
+  Overrides set;
+  std::vector<Factor> factors;  ///< at least one
+  StudyReport report;
+  std::string yaml;  ///< the whole study; files named as found again from any directory
+};
+
+/// Whether the YAML file is a study, not an episode.
+/// @throws InputError, ConfigError
+bool is_study(const std::filesystem::path& file);
+
+/// @param overrides as of --set, of every episode
+/// @throws ConfigError or InputError naming file, line, key and value.
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+struct PlannedEpisode {
+  std::string name;                 ///< its levels joined by '/': also its folder
+  std::vector<std::size_t> levels;  ///< index of the level of each factor
+  ResolvedEpisode resolved;
+};
+
+/// Every episode, in the fixed order of the product.
+/// @throws ConfigError with every problem of every level.
+std::vector<PlannedEpisode> plan_study(const Study& study);
+
+/// Index of the factor or level called so; it must be there.
+std::size_t factor_index(const Study& study, const std::string& name);
+std::size_t level_index(const Factor& factor, const std::string& name);
+
+}  // namespace vantage

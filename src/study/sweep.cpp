@@ -1,0 +1,210 @@
+#include "src/study/sweep.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <list>
+#include <sstream>
+#include <thread>
+
+#include "src/core/atomic_file.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/interrupt.hpp"
+#include "src/study/child_process.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+double wall_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = std::lround(seconds);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
+}
+
+std::string last_line(const fs::path& file) {
+  std::istringstream stream(read_file(file));
+  std::string last;
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw OutputError(fmt::format("{}: {}", file.string(), error.message()));
+}
+
+struct Running {
+  pid_t pid = 0;
+  std::size_t episode = 0;  ///< index into the plan
+  DirectoryLock lock;
+};
+
+class Sweep {
+ public:
+  Sweep(const std::vector<PlannedEpisode>& plan, const SweepOptions& options)
+      : plan_(plan),
+        options_(options),
+        states_(episode_states(options.directory, plan)),
+        progress_("sweep", static_cast<double>(plan.size())) {
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+      if (!is_result(states_[i])) open_.push_back(i);
+    }
+    done_ = plan.size() - open_.size();
+    if (done_ > 0) log_info(fmt::format("{} of {} episodes have a result", done_, plan.size()));
+  }
+
+  std::vector<EpisodeState> run() {
+    while (!open_.empty() || !running_.empty()) {
+      if (interrupt_signal() != 0) pass_on();
+      while (!open_.empty() && static_cast<int>(running_.size()) < options_.jobs) start_next();
+      bool ended = false;
+      while (const auto child = poll_child()) {
+        finish(*child);
+        ended = true;
+      }
+      if (!ended) std::this_thread::sleep_for(20ms);
+    }
+    return std::move(states_);
+  }
+
+ private:
+  /// Nothing new is started; what runs writes what it has.
+  void pass_on() {
+    open_.clear();
+    if (passed_on_) return;
+    passed_on_ = true;
+    for (const Running& child : running_) ::kill(child.pid, interrupt_signal());
+  }
+
+  void start_next() {
+    const std::size_t index = open_.front();
+    open_.pop_front();
+    const PlannedEpisode& episode = plan_[index];
+    const fs::path folder = episode_folder(options_.directory, episode);
+    make_writable_directory(folder);
+    DirectoryLock lock(folder);
+    if (!lock.held()) {
+      log_warning(episode.name + ": another sweep is running it");
+      return;
+    }
+    for (const char* old : {"metrics.json", "failure.json"}) remove_file(folder / old);
+    Episode configuration = episode.resolved.episode;
+    if (options_.jobs > 1) configuration.threads = 1;
+    write_file(folder / "episode.yaml", episode_yaml(configuration));
+    const std::vector<std::string> command{
+        "vantage", "run",        (folder / "episode.yaml").string(), "--out", folder.string(),
+        "--lean",  "--overwrite"};
+    const pid_t pid = start_self(command, folder / "output.txt");
+    running_.push_back({pid, index, std::move(lock)});
+  }
+
+  void finish(const ChildEnd& child) {
+    const auto found = std::ranges::find(running_, child.pid, &Running::pid);
+    if (found == running_.end()) return;
+    const PlannedEpisode& episode = plan_[found->episode];
+    const fs::path folder = episode_folder(options_.directory, episode);
+    EpisodeState& state = states_[found->episode];
+    state = check_(options_.directory, episode);
+    if (is_result(state) || state == EpisodeState::interrupted) {
+      remove_file(folder / "output.txt");
+    } else if (interrupt_signal() == 0) {
+      record_failure(folder, child.exit_code);
+      state = EpisodeState::crashed;
+      log_warning(fmt::format("{}: exit code {}; see {}", episode.name, child.exit_code,
+                              (folder / "output.txt").string()));
+    }
+    running_.erase(found);
+    if (interrupt_signal() == 0) report(episode);
+  }
+
+  void record_failure(const fs::path& folder, int exit_code) {
+    const nlohmann::ordered_json failure = {{"exit_code", exit_code},
+                                            {"reason", last_line(folder / "output.txt")}};
+    write_file(folder / "failure.json", failure.dump(2) + "\n");
+  }
+
+  void report(const PlannedEpisode& episode) {
+    ++done_;
+    ++done_here_;
+    const std::size_t left = open_.size() + running_.size();
+    const double each_s = (wall_s() - start_s_) / static_cast<double>(done_here_);
+    const auto failed = std::ranges::count(states_, EpisodeState::crashed);
+    progress_.update(static_cast<double>(done_),
+                     fmt::format("{} of {} episodes{}, about {} left; {}", done_, plan_.size(),
+                                 failed == 0 ? "" : fmt::format(", {} failed", failed),
+                                 duration_text(each_s * static_cast<double>(left)), episode.name));
+  }
+
+  const std::vector<PlannedEpisode>& plan_;
+  const SweepOptions& options_;
+  ResultCheck check_;
+  std::vector<EpisodeState> states_;
+  std::list<std::size_t> open_;
+  std::list<Running> running_;
+  Progress progress_;
+  double start_s_ = wall_s();
+  std::size_t done_ = 0;
+  std::size_t done_here_ = 0;
+  bool passed_on_ = false;
+};
+
+}  // namespace
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const auto* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+  const auto second = std::from_chars(slash ? first.ptr + 1 : end, end, shard.count);
+  if (!slash || second.ec != std::errc{} || second.ptr != end || shard.index < 1 ||
+      shard.index > shard.count) {
+    throw ConfigError(fmt::format("--shard {}: expected i/N with 1 <= i <= N", text));
+  }
+  return shard;
+}
+
+std::vector<PlannedEpisode> shard_of(std::vector<PlannedEpisode> plan, const Shard& shard) {
+  std::vector<PlannedEpisode> part;
+  for (std::size_t i = shard.index - 1; i < plan.size(); i += shard.count) {
+    part.push_back(std::move(plan[i]));
+  }
+  return part;
+}
+
+void prepare_study_folder(const Study& study, const SweepOptions& options) {
+  const fs::path file = options.directory / "study.yaml";
+  std::error_code error;
+  if (fs::exists(file, error)) {
+    if (read_file(file) == study.yaml) return;
+    if (!options.overwrite) {
+      throw ConfigError(fmt::format(
+          "--out {}: holds another study, or an older state of this one; --overwrite goes on there "
+          "and runs again what no longer fits",
+          options.directory.string()));
+    }
+  }
+  make_writable_directory(options.directory);
+  write_file(file, study.yaml);
+}
+
+std::vector<EpisodeState> run_sweep(const std::vector<PlannedEpisode>& plan,
+                                    const SweepOptions& options) {
+  return Sweep(plan, options).run();
+}
+
+}  // namespace vantage

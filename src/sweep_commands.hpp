@@ -1,0 +1,16 @@
+/// `vantage sweep ...` and `vantage compare`.
+#pragma once
+
+#include <functional>
+
+#include "src/core/error.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace vantage {
+
+std::function<ExitCode()> declare_sweep(CLI::App& app);
+
+}  // namespace vantage
