@@ -20,6 +20,7 @@
 #include "src/episode/run.hpp"
 #include "src/episode/validate.hpp"
 #include "src/study/study.hpp"
+#include "src/study/study_page.hpp"
 #include "src/sweep_commands.hpp"
 
 namespace vantage {
@@ -149,9 +150,14 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
 
 std::function<ExitCode()> declare_report(CLI::App& app) {
   auto directory = std::make_shared<fs::path>();
-  app.add_option("dir", *directory, "run folder")->required();
+  app.add_option("dir", *directory, "folder of a run or of a study")->required();
   return [directory] {
-    write_report(*directory);
+    if (is_study_folder(*directory)) {
+      const StudyResults results = read_study_results(*directory);
+      write_study_page(results, evaluate(results));
+    } else {
+      write_report(*directory);
+    }
     fmt::print("{}\n", (*directory / "report.html").string());
     return ExitCode::done;
   };
@@ -177,13 +183,18 @@ std::function<ExitCode()> declare_replay(CLI::App& app) {
   };
 }
 
+Validation validate(const fs::path& file) {
+  return is_study(file) ? validate_study(file) : validate_file(file);
+}
+
 std::function<ExitCode()> declare_validate(CLI::App& app) {
   auto files = std::make_shared<std::vector<fs::path>>();
-  app.add_option("files", *files, "episodes (.yaml), scenes (.xml), maps (.bt, .ot)")->required();
+  app.add_option("files", *files, "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot)")
+      ->required();
   return [files] {
     ExitCode worst = ExitCode::done;
     for (const auto& file : *files) {
-      const Validation found = validate_file(file);
+      const Validation found = validate(file);
       for (const auto& problem : found.problems) fmt::print("{}\n", problem);
       for (const auto& note : found.notes) fmt::print("{}\n", note);
       if (found.problems.empty()) fmt::print("{}: good\n", file.string());
@@ -218,7 +229,8 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       {"run", "run an episode and write its run folder", declare_run},
       {"sweep", "run a study: an episode varied by factors", declare_sweep},
-      {"report", "write the report page of a run folder again", declare_report},
+      {"report", "write the report page of a run or a study", declare_report},
+      {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
       {"list", "what there is to choose from", declare_list},

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +14,8 @@
 #include "src/core/data_root.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/interrupt.hpp"
+#include "src/study/collect.hpp"
+#include "src/study/compare.hpp"
 #include "src/study/results.hpp"
 #include "src/study/study.hpp"
 #include "src/study/sweep.hpp"
@@ -92,6 +95,18 @@ ExitCode status_command(const SweepArguments& arguments) {
   return code_of(states);
 }
 
+/// What there is, even if something is missing; says then what, and ends in 1.
+ExitCode collect_command(const SweepArguments& arguments) {
+  const OpenedStudy opened = open_study(arguments);
+  const StudyResults results = read_study_results(opened.directory);
+  const Evaluation evaluation = evaluate(results);
+  write_collection(results, evaluation);
+  fmt::print("{}", markdown(results.study.title, {study_overview(evaluation)}));
+  fmt::print("\n{}: {}", opened.directory.string(),
+             status_text(opened.directory, results.plan, results.states));
+  return code_of(results.states);
+}
+
 void add_overrides(CLI::App& app, SweepArguments& arguments) {
   app.add_option("--set", arguments.overrides, "key=value for every episode")
       ->type_size(1)
@@ -128,6 +143,8 @@ constexpr SweepVerb kVerbs[] = {
      }},
     {"status", "what is missing, failed, diverged; exit 1 unless all is there", status_command,
      [](CLI::App&, SweepArguments&) {}},
+    {"collect", "merge the results to tables and figures; exit 1 unless all is there",
+     collect_command, [](CLI::App&, SweepArguments&) {}},
 };
 
 }  // namespace
@@ -144,6 +161,30 @@ std::function<ExitCode()> declare_sweep(CLI::App& app) {
     sub->callback([chosen, command = verb.command] { *chosen = command; });
   }
   return [arguments, chosen] { return (*chosen)(*arguments); };
+}
+
+std::function<ExitCode()> declare_compare(CLI::App& app) {
+  struct Arguments {
+    fs::path first;
+    fs::path second;
+    double tolerance = 0.0;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  app.add_option("first", arguments->first, "folder of a run or of a collected study")->required();
+  app.add_option("second", arguments->second, "another of the same kind")->required();
+  app.add_option("--tolerance", arguments->tolerance, "relative; 0: everything but wall times same")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_flag("--json", arguments->json, "print one JSON object");
+  return [arguments] {
+    const FolderComparison comparison =
+        compare_folders(arguments->first, arguments->second, arguments->tolerance);
+    fmt::print("{}", arguments->json
+                         ? comparison_json(comparison, arguments->tolerance).dump(2) + "\n"
+                         : comparison_text(comparison));
+    return comparison.beyond == 0 ? ExitCode::done : ExitCode::goal_failed;
+  };
 }
 
 }  // namespace vantage

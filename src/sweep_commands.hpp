@@ -12,5 +12,6 @@ class App;
 namespace vantage {
 
 std::function<ExitCode()> declare_sweep(CLI::App& app);
+std::function<ExitCode()> declare_compare(CLI::App& app);
 
 }  // namespace vantage

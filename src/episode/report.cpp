@@ -7,13 +7,13 @@
 #include <cmath>
 #include <cstring>
 #include <initializer_list>
-#include <span>
 
 #include "generated/report_assets.hpp"
 #include "src/core/atomic_file.hpp"
 #include "src/core/error.hpp"
 #include "src/core/fields.hpp"
 #include "src/core/yaml.hpp"
+#include "src/episode/page.hpp"
 #include "src/episode/report_data.hpp"
 #include "src/perception/ply.hpp"
 
@@ -235,47 +235,12 @@ std::string script_safe(const json& value) {
   return safe;
 }
 
-std::string html_escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&': safe += "&amp;"; break;
-      case '<': safe += "&lt;"; break;
-      case '>': safe += "&gt;"; break;
-      case '"': safe += "&quot;"; break;
-      case '\'': safe += "&#39;"; break;
-      default: safe += c;
-    }
-  }
-  return safe;
-}
-
 std::string page_title(const json& metrics) {
   const auto text = [&](const char* key) {
     const auto found = metrics.find(key);
     return found != metrics.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   return text("scene") + " · " + text("method") + " · Vantage";
-}
-
-struct Replacement {
-  std::string_view name;
-  std::string text;
-};
-
-/// Replaces each {{name}} of `page` in one pass: inserted text is never looked at again.
-std::string fill_template(std::string_view page, std::span<const Replacement> replacements) {
-  std::string filled;
-  for (std::size_t open = page.find("{{"); open != std::string_view::npos; open = page.find("{{")) {
-    const std::size_t close = page.find("}}", open);
-    const std::string_view name = page.substr(open + 2, close - open - 2);
-    const auto match = std::find_if(replacements.begin(), replacements.end(),
-                                    [&](const Replacement& r) { return r.name == name; });
-    expects(match != replacements.end(), "every slot of the page template is known");
-    filled.append(page.substr(0, open)).append(match->text);
-    page.remove_prefix(close + 2);
-  }
-  return filled.append(page);
 }
 
 std::string scripts(std::initializer_list<std::string_view> names) {
@@ -290,11 +255,10 @@ void write_report(const fs::path& run_dir) {
   const json run = run_json(run_dir);
   const Replacement replacements[] = {
       {"title", html_escaped(page_title(run["metrics"]))},
-      {"style", std::string(embedded_asset("style.css"))},
       {"data", script_safe(run)},
       {"script", scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "viewer.js",
                           "figures.js", "page.js"})}};
-  write_file(run_dir / "report.html", fill_template(embedded_asset("page.html"), replacements));
+  write_file(run_dir / "report.html", filled_page("page.html", replacements));
 }
 
 }  // namespace vantage

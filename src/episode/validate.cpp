@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
-
 #include "sim/world.hpp"
 #include "src/belief/octomap_io.hpp"
 #include "src/core/atomic_file.hpp"
@@ -15,18 +13,6 @@
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
-
-Validation check_episode(const fs::path& file, const std::vector<std::string>& overrides) {
-  const ResolvedEpisode resolved = load_episode(file, overrides);
-  try {
-    const TabletopRig rig(resolved);
-    return {};
-  } catch (const ConfigError& error) {
-    throw ConfigError(file.string() + ": " + error.what());
-  } catch (const InputError& error) {
-    throw InputError(file.string() + ": " + error.what());
-  }
-}
 
 /// As it will be loaded, beside the robot.
 Validation validate_scene(const fs::path& file) {
@@ -46,7 +32,9 @@ Validation validate_map(const fs::path& file) {
   return {};
 }
 
-Validation collect(const std::function<Validation()>& check) {
+}  // namespace
+
+Validation validation_of(const std::function<Validation()>& check) {
   try {
     return check();
   } catch (const ConfigError& error) {
@@ -56,21 +44,32 @@ Validation collect(const std::function<Validation()>& check) {
   }
 }
 
-}  // namespace
+void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
+  try {
+    const TabletopRig rig(resolved);
+  } catch (const ConfigError& error) {
+    throw ConfigError(file.string() + ": " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
 
 Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides) {
-  return collect([&] { return check_episode(file, overrides); });
+  return validation_of([&] {
+    require_start(file, load_episode(file, overrides));
+    return Validation{};
+  });
 }
 
 Validation validate_file(const fs::path& file) {
-  return collect([&]() -> Validation {
+  return validation_of([&]() -> Validation {
     const std::string type = file.extension().string();
     std::error_code error;
     if (!fs::exists(file, error)) throw InputError(file.string() + ": no such file");
     if (fs::is_directory(file, error)) {
       throw InputError(file.string() + ": is a directory, expected a file");
     }
-    if (type == ".yaml" || type == ".yml") return check_episode(file, {});
+    if (type == ".yaml" || type == ".yml") return validate_episode(file);
     if (type == ".xml" || type == ".mjcf") return validate_scene(file);
     if (type == ".bt" || type == ".ot") return validate_map(file);
     throw InputError(fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "src/core/error.hpp"
+#include "src/episode/scenario.hpp"
 
 namespace vantage {
 
@@ -14,6 +16,12 @@ struct Validation {
   std::vector<std::string> notes;     ///< what is worth knowing about a good file, the same way
   ExitCode code = ExitCode::done;     ///< usage for a configuration, bad_input for anything else
 };
+
+/// What `check` finds, or the error that it throws.
+Validation validation_of(const std::function<Validation()>& check);
+
+/// @throws ConfigError or InputError, `file` in front, if the episode cannot start.
+void require_start(const std::filesystem::path& file, const ResolvedEpisode& resolved);
 
 /// Of the episode as it would run.
 Validation validate_episode(const std::filesystem::path& file,

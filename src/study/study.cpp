@@ -191,8 +191,30 @@ PlannedEpisode planned(const Study& study, ConfigNode root,
 }  // namespace
 
 bool is_study(const fs::path& file) {
-  const ConfigNode root = read_yaml(file);
-  return root.find("factors") != nullptr || root.find("episode") != nullptr;
+  if (file.extension() != ".yaml" && file.extension() != ".yml") return false;
+  try {
+    const ConfigNode root = read_yaml(file);
+    return root.find("factors") != nullptr || root.find("episode") != nullptr;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+Validation validate_study(const fs::path& file) {
+  return validation_of([&] {
+    Validation found;
+    std::set<fs::path> seen;
+    for (const PlannedEpisode& episode : plan_study(read_study(file))) {
+      if (!seen.insert(episode.resolved.scene).second) continue;
+      const Validation scene = validation_of([&] {
+        require_start(file, episode.resolved);
+        return Validation{};
+      });
+      found.problems.insert(found.problems.end(), scene.problems.begin(), scene.problems.end());
+      found.code = std::max(found.code, scene.code);
+    }
+    return found;
+  });
 }
 
 Study read_study(const fs::path& file, const std::vector<std::string>& overrides) {

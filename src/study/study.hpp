@@ -19,6 +19,7 @@
 #include "src/core/config_node.hpp"
 #include "src/core/fields.hpp"
 #include "src/episode/scenario.hpp"
+#include "src/episode/validate.hpp"
 
 namespace vantage {
 
@@ -62,8 +63,7 @@ struct Study {
   std::string yaml;  ///< the whole study; files named as found again from any directory
 };
 
-/// Whether the YAML file is a study, not an episode.
-/// @throws InputError, ConfigError
+/// Whether a file is YAML and a study, not an episode.
 bool is_study(const std::filesystem::path& file);
 
 /// @param overrides as of --set, of every episode
@@ -79,6 +79,9 @@ struct PlannedEpisode {
 /// Every episode, in the fixed order of the product.
 /// @throws ConfigError with every problem of every level.
 std::vector<PlannedEpisode> plan_study(const Study& study);
+
+/// Everything wrong with a study's file and with the scenes of its episodes.
+Validation validate_study(const std::filesystem::path& file);
 
 /// Index of the factor or level called so; it must be there.
 std::size_t factor_index(const Study& study, const std::string& name);

@@ -1,0 +1,71 @@
+#include "src/study/collect.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "src/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json summary_json(const StudyResults& results, const Evaluation& evaluation) {
+  Json json = {{"study", results.study.name},
+               {"title", results.study.title},
+               {"episodes", results.plan.size()},
+               {"completed", 0},
+               {"not_completed", Json::object()},
+               {"compare", results.study.report.compare},
+               {"reference", results.study.report.reference},
+               {"tables", Json::object()}};
+  std::size_t completed = 0;
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    if (results.states[i] == EpisodeState::completed) {
+      ++completed;
+    } else {
+      json["not_completed"][results.plan[i].name] = state_name(results.states[i]);
+    }
+  }
+  json["completed"] = completed;
+  for (const Comparison& comparison : evaluation.comparisons) {
+    json["tables"][comparison.name] = comparison_json(comparison);
+  }
+  return json;
+}
+
+/// The predictors are no levels of the factor compared.
+std::vector<Comparison> of_levels(const Evaluation& evaluation) {
+  std::vector<Comparison> comparisons;
+  for (const Comparison& comparison : evaluation.comparisons) {
+    if (find_scalar(comparison.name)) comparisons.push_back(comparison);
+  }
+  return comparisons;
+}
+
+}  // namespace
+
+TextTable study_overview(const Evaluation& evaluation) { return overview(of_levels(evaluation)); }
+
+void write_collection(const StudyResults& results, const Evaluation& evaluation) {
+  const fs::path& directory = results.directory;
+  make_writable_directory(directory / "tables");
+  make_writable_directory(directory / "figures");
+  write_file(directory / "results.csv", results_csv(results));
+  write_file(directory / "timings.csv", timings_csv(results));
+  for (const Comparison& comparison : evaluation.comparisons) {
+    const fs::path stem = directory / "tables" / comparison.name;
+    write_file(stem.string() + ".csv", comparison_csv(comparison));
+    write_file(stem.string() + ".md", markdown(comparison.title, text_tables(comparison)));
+  }
+  for (const Figure& figure : evaluation.figures) {
+    const fs::path stem = directory / "figures" / figure.name;
+    write_file(stem.string() + ".svg", figure_svg(figure));
+    write_file(stem.string() + ".csv", figure_csv(figure));
+    write_file(stem.string() + ".md", markdown(figure.title, text_tables(figure)));
+  }
+  write_file(directory / "summary.md", markdown(results.study.title, {study_overview(evaluation)}));
+  write_file(directory / "summary.json", summary_json(results, evaluation).dump(2) + "\n");
+}
+
+}  // namespace vantage

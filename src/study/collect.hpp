@@ -1,0 +1,24 @@
+/// `vantage sweep collect`: the episodes of a study merged to tables and figures.
+#pragma once
+
+#include <filesystem>
+
+#include "src/study/evaluation.hpp"
+#include "src/study/text_table.hpp"
+
+namespace vantage {
+
+/// Writes into the study's folder:
+///   results.csv, timings.csv        a row an episode
+///   summary.json, summary.md        states, means, intervals, paired differences
+///   tables/NAME.csv, .md            StudyReport::tables, with intervals and tests
+///   figures/NAME.svg, .csv, .md     StudyReport::curves
+/// Episodes that are not completed are left out of everything but results.csv and summary.json,
+/// which name them. The text of a file depends on the results alone.
+/// @throws OutputError
+void write_collection(const StudyResults& results, const Evaluation& evaluation);
+
+/// The means of every table over all panels.
+TextTable study_overview(const Evaluation& evaluation);
+
+}  // namespace vantage

@@ -1,0 +1,137 @@
+#include "src/study/comparison.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace vantage {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+
+struct Group {
+  std::string panel;
+  std::optional<std::size_t> only;  ///< none: every panel
+};
+
+std::map<std::size_t, double> values_by_pair(const std::vector<Sample>& samples, const Group& group,
+                                             std::size_t level) {
+  std::map<std::size_t, double> values;
+  for (const Sample& sample : samples) {
+    if (sample.level == level && (!group.only || sample.panel == *group.only)) {
+      values[sample.pair] = sample.value;
+    }
+  }
+  return values;
+}
+
+Difference difference(const std::map<std::size_t, double>& values,
+                      const std::map<std::size_t, double>& reference, const std::string& stream) {
+  std::vector<double> ours;
+  std::vector<double> theirs;
+  std::vector<double> differences;
+  for (const auto& [pair, value] : values) {
+    const auto other = reference.find(pair);
+    if (other == reference.end()) continue;
+    ours.push_back(value);
+    theirs.push_back(other->second);
+    differences.push_back(value - other->second);
+  }
+  Difference result;
+  result.pairs = differences.size();
+  if (differences.empty()) return result;
+  Rng bootstrap = Rng::stream(kSeed, stream + "/difference");
+  Rng ratio = Rng::stream(kSeed, stream + "/ratio");
+  Rng test = Rng::stream(kSeed, stream + "/test");
+  result.mean = mean(differences);
+  result.interval = bootstrap_mean(differences, bootstrap);
+  if (mean(theirs) != 0.0) {
+    result.ratio = mean(ours) / mean(theirs);
+    result.ratio_interval = bootstrap_ratio(ours, theirs, ratio);
+  }
+  result.p_value = sign_flip_p_value(differences, test);
+  return result;
+}
+
+std::vector<Group> groups_of(const std::vector<std::string>& panels) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < panels.size(); ++i) groups.push_back({panels[i], i});
+  if (panels.size() > 1) groups.push_back({"all", std::nullopt});
+  return groups;
+}
+
+}  // namespace
+
+Comparison compare_levels(std::string name, std::string title,
+                          const std::vector<std::string>& panels,
+                          const std::vector<std::string>& levels, std::size_t reference,
+                          const std::vector<Sample>& samples) {
+  Comparison comparison{std::move(name), std::move(title), levels.at(reference), {}};
+  for (const Group& group : groups_of(panels)) {
+    const auto reference_values = values_by_pair(samples, group, reference);
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      const auto by_pair = values_by_pair(samples, group, level);
+      if (by_pair.empty()) continue;
+      std::vector<double> values;
+      for (const auto& [pair, value] : by_pair) values.push_back(value);
+      const std::string stream =
+          fmt::format("{}/{}/{}", comparison.name, group.panel, levels[level]);
+      Rng rng = Rng::stream(kSeed, stream);
+      ComparisonRow row{
+          group.panel, levels[level], values.size(), mean(values), bootstrap_mean(values, rng),
+          std::nullopt};
+      if (level != reference) row.difference = difference(by_pair, reference_values, stream);
+      if (row.difference && row.difference->pairs == 0) row.difference.reset();
+      comparison.rows.push_back(std::move(row));
+    }
+  }
+  return comparison;
+}
+
+std::string comparison_csv(const Comparison& comparison) {
+  std::string text =
+      "panel,level,episodes,mean,low,high,pairs,difference,difference_low,difference_high,ratio,"
+      "ratio_low,ratio_high,p_value\n";
+  for (const ComparisonRow& row : comparison.rows) {
+    text += fmt::format("{},{},{},{},{},{},", row.panel, row.level, row.count, row.mean,
+                        row.interval.low, row.interval.high);
+    if (!row.difference) {
+      text += ",,,,,,,\n";
+      continue;
+    }
+    const Difference& d = *row.difference;
+    text += fmt::format("{},{},{},{},", d.pairs, d.mean, d.interval.low, d.interval.high);
+    text += d.ratio
+                ? fmt::format("{},{},{},", *d.ratio, d.ratio_interval->low, d.ratio_interval->high)
+                : ",,,";
+    text += fmt::format("{}\n", d.p_value);
+  }
+  return text;
+}
+
+nlohmann::ordered_json comparison_json(const Comparison& comparison) {
+  using Json = nlohmann::ordered_json;
+  const auto interval = [](const Interval& i) { return Json{i.low, i.high}; };
+  Json json = Json::object();
+  for (const ComparisonRow& row : comparison.rows) {
+    Json entry = {
+        {"episodes", row.count}, {"mean", row.mean}, {"interval", interval(row.interval)}};
+    if (row.difference) {
+      const Difference& d = *row.difference;
+      entry["difference"] = {{"to", comparison.reference},
+                             {"pairs", d.pairs},
+                             {"mean", d.mean},
+                             {"interval", interval(d.interval)},
+                             {"p_value", d.p_value}};
+      if (d.ratio) {
+        entry["difference"]["ratio"] = *d.ratio;
+        entry["difference"]["ratio_interval"] = interval(*d.ratio_interval);
+      }
+    }
+    json[row.panel][row.level] = std::move(entry);
+  }
+  return json;
+}
+
+}  // namespace vantage

@@ -1,0 +1,250 @@
+#include "src/study/evaluation.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+#include "src/core/error.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json metrics_of(const StudyResults& results, std::size_t i) {
+  return read_json_or_null(episode_folder(results.directory, results.plan[i]) / "metrics.json");
+}
+
+/// Where each episode stands in the comparison.
+class Layout {
+ public:
+  explicit Layout(const StudyResults& results)
+      : results_(results), compared_(factor_index(results.study, results.study.report.compare)) {
+    const std::string& panels = results.study.report.panels;
+    if (!panels.empty()) panel_factor_ = factor_index(results.study, panels);
+  }
+
+  [[nodiscard]] std::size_t level(std::size_t episode) const {
+    return results_.plan[episode].levels[compared_];
+  }
+  [[nodiscard]] std::size_t panel(std::size_t episode) const {
+    return panel_factor_ ? results_.plan[episode].levels[*panel_factor_] : 0;
+  }
+  /// The same for episodes that differ in the compared factor only.
+  [[nodiscard]] std::size_t pair(std::size_t episode) const {
+    std::size_t number = 0;
+    for (std::size_t f = 0; f < results_.study.factors.size(); ++f) {
+      const std::size_t digit = f == compared_ ? 0 : results_.plan[episode].levels[f];
+      number = number * results_.study.factors[f].levels.size() + digit;
+    }
+    return number;
+  }
+  [[nodiscard]] std::vector<std::string> panels() const {
+    return panel_factor_ ? names(*panel_factor_) : std::vector<std::string>{"all"};
+  }
+  [[nodiscard]] std::vector<std::string> levels() const { return names(compared_); }
+  [[nodiscard]] std::size_t level_called(const std::string& name) const {
+    return level_index(results_.study.factors[compared_], name);
+  }
+
+ private:
+  [[nodiscard]] std::vector<std::string> names(std::size_t factor) const {
+    std::vector<std::string> found;
+    for (const Level& level : results_.study.factors[factor].levels) found.push_back(level.name);
+    return found;
+  }
+  const StudyResults& results_;
+  std::size_t compared_;
+  std::optional<std::size_t> panel_factor_;
+};
+
+Comparison scalar_comparison(const StudyResults& results, const Layout& layout,
+                             const std::string& name) {
+  const std::size_t scalar = *find_scalar(name);
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    if (!results.measures[i] || !results.measures[i]->scalars[scalar]) continue;
+    samples.push_back(
+        {layout.panel(i), layout.level(i), layout.pair(i), *results.measures[i]->scalars[scalar]});
+  }
+  return compare_levels(name, std::string(scalar_measures()[scalar].title), layout.panels(),
+                        layout.levels(), layout.level_called(results.study.report.reference),
+                        samples);
+}
+
+/// A panel for each level of the panel factor, a series for each of `names`.
+/// @param curve_of (episode, index of the name) -> pointer to its curve, or null
+template <class CurveOf>
+void add_panels(Figure& figure, const StudyResults& results, const Layout& layout,
+                const std::vector<std::string>& names, int first_x, bool carry_last,
+                CurveOf&& curve_of) {
+  const auto panels = layout.panels();
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    FigurePanel panel{panels[p], {}};
+    for (std::size_t s = 0; s < names.size(); ++s) {
+      std::vector<Curve> curves;
+      for (std::size_t i = 0; i < results.plan.size(); ++i) {
+        if (!results.measures[i] || layout.panel(i) != p) continue;
+        if (const Curve* curve = curve_of(i, s)) curves.push_back(*curve);
+      }
+      if (curves.empty()) continue;
+      panel.series.push_back(
+          mean_series(figure, panels[p], names[s], s, curves, first_x, carry_last));
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+}
+
+Figure curve_figure(const StudyResults& results, const Layout& layout, const std::string& name) {
+  const std::size_t curve = *find_curve(name);
+  const std::string title(curve_measures()[curve].title);
+  Figure figure{name, results.study.title + ": " + title, "scans", title, {}};
+  add_panels(figure, results, layout, layout.levels(), 1, true,
+             [&](std::size_t episode, std::size_t level) -> const Curve* {
+               if (layout.level(episode) != level) return nullptr;
+               return &results.measures[episode]->curves[curve];
+             });
+  return figure;
+}
+
+using PredictionErrors = std::vector<std::pair<std::string, Curve>>;
+
+const Curve* curve_named(const PredictionErrors& errors, const std::string& name) {
+  const auto found = std::ranges::find(errors, name, &std::pair<std::string, Curve>::first);
+  return found == errors.end() ? nullptr : &found->second;
+}
+
+/// All predictors along the episodes of one level.
+void add_predictors(Evaluation& evaluation, const StudyResults& results, const Layout& layout) {
+  const StudyReport& report = results.study.report;
+  const std::size_t along = layout.level_called(report.predictors_along);
+  std::vector<std::string> predictors;
+  std::string reference;
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    if (layout.level(i) == layout.level_called(report.reference)) {
+      reference = method_name(results.plan[i].resolved.episode);
+    }
+    if (!results.measures[i] || layout.level(i) != along || !predictors.empty()) continue;
+    for (const auto& [name, curve] : results.measures[i]->prediction_errors) {
+      predictors.push_back(name);
+    }
+  }
+  if (predictors.empty()) return;
+  const auto error_of = [&](std::size_t episode, std::size_t predictor) -> const Curve* {
+    if (layout.level(episode) != along) return nullptr;
+    return curve_named(results.measures[episode]->prediction_errors, predictors[predictor]);
+  };
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    for (std::size_t p = 0; results.measures[i] && p < predictors.size(); ++p) {
+      const Curve* curve = error_of(i, p);
+      if (curve == nullptr || curve->empty()) continue;
+      samples.push_back({layout.panel(i), p, layout.pair(i), mean(*curve)});
+    }
+  }
+  const std::string title = "absolute prediction error, cells";
+  const auto found = std::ranges::find(predictors, reference);
+  const auto reference_index =
+      found == predictors.end() ? 0 : static_cast<std::size_t>(found - predictors.begin());
+  evaluation.comparisons.push_back(
+      compare_levels("predictors", fmt::format("{}, along {}", title, report.predictors_along),
+                     layout.panels(), predictors, reference_index, samples));
+  Figure figure{"predictors",
+                fmt::format("{}: predictors along the episodes of {}", results.study.title,
+                            report.predictors_along),
+                "scans",
+                title,
+                {}};
+  add_panels(figure, results, layout, predictors, 2, false, error_of);
+  evaluation.figures.push_back(std::move(figure));
+}
+
+std::string csv_start(const StudyResults& results, std::size_t episode) {
+  std::string row = results.plan[episode].name;
+  for (std::size_t f = 0; f < results.study.factors.size(); ++f) {
+    row += "," + results.study.factors[f].levels[results.plan[episode].levels[f]].name;
+  }
+  return row;
+}
+
+std::string csv_header(const StudyResults& results) {
+  std::string header = "episode";
+  for (const Factor& factor : results.study.factors) header += "," + factor.name;
+  return header;
+}
+
+}  // namespace
+
+bool StudyResults::complete() const {
+  return std::ranges::all_of(states,
+                             [](EpisodeState state) { return state == EpisodeState::completed; });
+}
+
+StudyResults read_study_results(const fs::path& study_dir) {
+  StudyResults results;
+  results.study = read_study(study_dir / "study.yaml");
+  results.directory = study_dir;
+  results.plan = plan_study(results.study);
+  results.states = episode_states(study_dir, results.plan);
+  results.measures.resize(results.plan.size());
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    if (results.states[i] != EpisodeState::completed) continue;
+    try {
+      results.measures[i] = measure(metrics_of(results, i), results.plan[i].resolved.episode);
+    } catch (const nlohmann::json::exception& error) {
+      const fs::path file = episode_folder(study_dir, results.plan[i]) / "metrics.json";
+      throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+  }
+  return results;
+}
+
+std::string results_csv(const StudyResults& results) {
+  std::string text = csv_header(results) + ",status";
+  for (const MeasureName& scalar : scalar_measures()) text += fmt::format(",{}", scalar.name);
+  text += ",state_hash\n";
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    text += fmt::format("{},{}", csv_start(results, i), state_name(results.states[i]));
+    for (std::size_t s = 0; s < scalar_measures().size(); ++s) {
+      const auto value = results.measures[i] ? results.measures[i]->scalars[s] : std::nullopt;
+      text += value ? fmt::format(",{}", *value) : ",";
+    }
+    text +=
+        "," + (results.measures[i] ? metrics_of(results, i).value("state_hash", "") : "") + "\n";
+  }
+  return text;
+}
+
+std::string timings_csv(const StudyResults& results) {
+  std::string text = csv_header(results) + ",wall_time_s,real_time_factor,plan_time_s,map_time_s\n";
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    if (!results.measures[i]) continue;
+    const Json metrics = metrics_of(results, i);
+    double plan_s = 0.0;
+    double map_s = 0.0;
+    for (const Json& scan : metrics["scans"]) {
+      plan_s += scan.value("plan_time_s", 0.0);
+      map_s += scan.value("map_time_s", 0.0);
+    }
+    text +=
+        fmt::format("{},{},{},{},{}\n", csv_start(results, i), metrics.value("wall_time_s", 0.0),
+                    metrics.value("real_time_factor", 0.0), plan_s, map_s);
+  }
+  return text;
+}
+
+Evaluation evaluate(const StudyResults& results) {
+  const Layout layout(results);
+  Evaluation evaluation;
+  for (const auto& table : results.study.report.tables) {
+    evaluation.comparisons.push_back(scalar_comparison(results, layout, table));
+  }
+  for (const auto& curve : results.study.report.curves) {
+    evaluation.figures.push_back(curve_figure(results, layout, curve));
+  }
+  if (!results.study.report.predictors_along.empty()) add_predictors(evaluation, results, layout);
+  return evaluation;
+}
+
+}  // namespace vantage

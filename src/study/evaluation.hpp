@@ -1,0 +1,46 @@
+/// From the run folders of a study to its comparisons and figures.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/study/comparison.hpp"
+#include "src/study/figure.hpp"
+#include "src/study/measures.hpp"
+#include "src/study/results.hpp"
+#include "src/study/study.hpp"
+
+namespace vantage {
+
+struct StudyResults {
+  Study study;
+  std::filesystem::path directory;
+  std::vector<PlannedEpisode> plan;
+  std::vector<EpisodeState> states;                      ///< of each episode
+  std::vector<std::optional<EpisodeMeasures>> measures;  ///< of each episode that is completed
+
+  [[nodiscard]] bool complete() const;  ///< every episode is completed
+};
+
+/// @param study_dir holds study.yaml
+/// @throws InputError naming the file that is missing or malformed, ConfigError
+StudyResults read_study_results(const std::filesystem::path& study_dir);
+
+/// results.csv: a row an episode, in the order of the plan. Holds nothing that another run of the
+/// same episodes, in whatever order and however often killed, would not give again.
+std::string results_csv(const StudyResults& results);
+/// timings.csv: wall times.
+std::string timings_csv(const StudyResults& results);
+
+struct Evaluation {
+  std::vector<Comparison> comparisons;  ///< StudyReport::tables, then the predictors
+  std::vector<Figure> figures;          ///< StudyReport::curves, then the predictors
+};
+/// Of the completed episodes.
+Evaluation evaluate(const StudyResults& results);
+
+}  // namespace vantage

@@ -1,0 +1,28 @@
+/// Tables to read, as Markdown and as HTML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/study/comparison.hpp"
+#include "src/study/figure.hpp"
+
+namespace vantage {
+
+struct TextTable {
+  std::string title;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;  ///< each as long as `header`; the first cell a name
+};
+
+std::string markdown(const std::string& title, const std::vector<TextTable>& tables);
+std::string html(const std::vector<TextTable>& tables);
+
+/// A table a panel, a row a level.
+std::vector<TextTable> text_tables(const Comparison& comparison);
+/// A table a panel, a row a scan, a column a series.
+std::vector<TextTable> text_tables(const Figure& figure);
+/// A row a level, a column a comparison: the means over all panels.
+TextTable overview(const std::vector<Comparison>& comparisons);
+
+}  // namespace vantage
