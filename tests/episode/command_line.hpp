@@ -3,37 +3,22 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/shell.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-struct Result {
-  int exit_code = -1;
-  std::string output;  ///< stdout and stderr
-};
-
-inline Result shell(const std::string& command) {
-  Result result;
-  FILE* pipe = ::popen(("{ " + command + "; } 2>&1").c_str(), "r");
-  std::array<char, 4096> buffer{};
-  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-    result.output.append(buffer.data(), n);
-  }
-  const int status = ::pclose(pipe);
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return result;
-}
+using support::shell;
+using Result = support::ShellResult;
 
 class CommandLine : public testing::Test {
  protected:

@@ -1,0 +1,80 @@
+// Two folders side by side.
+#include "src/study/compare.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+#include "src/core/error.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+class Compare : public testing::Test {
+ protected:
+  fs::path run(const std::string& name, const Json& changes) {
+    Json metrics = {{"task", "next_best_view"}, {"status", "completed"}, {"method", "adaptive"},
+                    {"wall_time_s", 10.0},      {"path_length_m", 8.0},  {"state_hash", "00ff"}};
+    metrics["scans"] = Json::array({{{"unobserved_cells", 100}, {"plan_time_s", 1.0}}});
+    if (!changes.is_null()) metrics.merge_patch(changes);
+    fs::create_directories(folder_ / name);
+    std::ofstream(folder_ / name / "metrics.json") << metrics;
+    return folder_ / name;
+  }
+  support::TemporaryDirectory folder_;
+};
+
+TEST_F(Compare, WallTimesDoNotCount) {
+  const auto first = run("a", {});
+  const Json scans = Json::array({{{"unobserved_cells", 100}, {"plan_time_s", 7.0}}});
+  const auto second = run("b", {{"wall_time_s", 99.0}, {"scans", scans}});
+  EXPECT_EQ(compare_folders(first, second, 0.0).beyond, 0U);
+}
+
+TEST_F(Compare, ToleranceIsRelative) {
+  const auto first = run("a", {});
+  const auto second = run("b", {{"path_length_m", 10.0}});
+  const FolderComparison exact = compare_folders(first, second, 0.0);
+  EXPECT_EQ(exact.beyond, 1U);
+  EXPECT_THAT(comparison_text(exact), HasSubstr("! path_length_m"));
+  EXPECT_EQ(compare_folders(first, second, 0.19).beyond, 1U);
+  EXPECT_EQ(compare_folders(first, second, 0.21).beyond, 0U);
+}
+
+TEST_F(Compare, TextsCountExactlyOrWhereTheyBind) {
+  const auto first = run("a", {});
+  const auto other_method = run("b", {{"method", "simple"}, {"state_hash", "aa"}});
+  EXPECT_EQ(compare_folders(first, other_method, 0.0).beyond, 2U);
+  EXPECT_EQ(compare_folders(first, other_method, 0.01).beyond, 0U);
+  const auto diverged = run("c", {{"status", "diverged"}});
+  EXPECT_EQ(compare_folders(first, diverged, 0.5).beyond, 1U);
+}
+
+TEST_F(Compare, MissingValuesCount) {
+  const auto first = run("a", {});
+  const auto second = run("b", {{"scans", Json::array()}, {"extra", 1}});
+  const FolderComparison comparison = compare_folders(first, second, 1.0);
+  EXPECT_EQ(comparison.beyond, 2U);
+  const Json json = comparison_json(comparison, 1.0);
+  EXPECT_TRUE(json["values"]["extra"]["first"].is_null());
+  EXPECT_EQ(json["values"]["scans[0].unobserved_cells"]["first"], 100);
+}
+
+TEST_F(Compare, FoldersMustBeOfOneKind) {
+  const auto first = run("a", {});
+  EXPECT_THROW(compare_folders(first, folder_.path() / "nowhere", 0.0), InputError);
+  std::ofstream(folder_ / "study.yaml") << "x";
+  EXPECT_THROW(compare_folders(first, folder_.path(), 0.0), InputError);
+  EXPECT_THROW(compare_folders(folder_.path(), folder_.path(), 0.0), InputError);  // not collected
+  std::ofstream(first / "metrics.json") << "{";
+  EXPECT_THROW(compare_folders(first, first, 0.0), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

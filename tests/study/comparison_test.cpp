@@ -1,0 +1,93 @@
+// Means and paired differences with answers known beforehand.
+#include "src/study/comparison.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace vantage {
+namespace {
+
+const ComparisonRow& row(const Comparison& comparison, const std::string& panel,
+                         const std::string& level) {
+  const auto found = std::ranges::find_if(comparison.rows, [&](const ComparisonRow& r) {
+    return r.panel == panel && r.level == level;
+  });
+  EXPECT_NE(found, comparison.rows.end()) << panel << " " << level;
+  return *found;
+}
+
+/// Two panels of five pairs: "ours" is the reference less 2 in the first, half of it in the second.
+Comparison two_panels() {
+  std::vector<Sample> samples;
+  for (std::size_t pair = 0; pair < 10; ++pair) {
+    const std::size_t panel = pair / 5;
+    const double theirs = 10.0 + 3.0 * static_cast<double>(pair % 5);
+    samples.push_back({panel, 0, pair, theirs});
+    samples.push_back({panel, 1, pair, panel == 0 ? theirs - 2.0 : 0.5 * theirs});
+  }
+  return compare_levels("cost", "cost, m", {"left", "right"}, {"theirs", "ours"}, 0, samples);
+}
+
+TEST(Comparison, PairsCancelWhatTheyShare) {
+  const Comparison comparison = two_panels();
+  const ComparisonRow& left = row(comparison, "left", "ours");
+  EXPECT_EQ(left.count, 5U);
+  EXPECT_DOUBLE_EQ(left.mean, 14.0);
+  EXPECT_LT(left.interval.low, 14.0);
+  ASSERT_TRUE(left.difference);
+  EXPECT_DOUBLE_EQ(left.difference->mean, -2.0);
+  EXPECT_DOUBLE_EQ(left.difference->interval.low, -2.0);
+  EXPECT_DOUBLE_EQ(left.difference->interval.high, -2.0);
+  EXPECT_DOUBLE_EQ(left.difference->p_value, 2.0 / 32.0);
+  const ComparisonRow& right = row(comparison, "right", "ours");
+  EXPECT_DOUBLE_EQ(*right.difference->ratio, 0.5);
+  EXPECT_DOUBLE_EQ(right.difference->ratio_interval->low, 0.5);
+  EXPECT_DOUBLE_EQ(right.difference->ratio_interval->high, 0.5);
+}
+
+TEST(Comparison, AllPanelsComeLast) {
+  const Comparison comparison = two_panels();
+  EXPECT_EQ(comparison.rows.back().panel, "all");
+  EXPECT_EQ(row(comparison, "all", "ours").difference->pairs, 10U);
+  EXPECT_FALSE(row(comparison, "all", "theirs").difference);
+}
+
+TEST(Comparison, UnpairedSamplesCountInTheMeanOnly) {
+  const std::vector<Sample> samples{{0, 0, 0, 1.0}, {0, 1, 0, 2.0}, {0, 1, 1, 8.0}};
+  const Comparison comparison = compare_levels("n", "n", {"p"}, {"a", "b"}, 0, samples);
+  const ComparisonRow& b = row(comparison, "p", "b");
+  EXPECT_EQ(b.count, 2U);
+  EXPECT_DOUBLE_EQ(b.mean, 5.0);
+  EXPECT_EQ(b.difference->pairs, 1U);
+  EXPECT_DOUBLE_EQ(b.difference->mean, 1.0);
+}
+
+TEST(Comparison, WithoutReferenceThereIsNoDifference) {
+  const Comparison comparison = compare_levels("n", "n", {"p"}, {"a", "b"}, 0, {{0, 1, 0, 2.0}});
+  ASSERT_EQ(comparison.rows.size(), 1U);
+  EXPECT_FALSE(comparison.rows[0].difference);
+  EXPECT_EQ(comparison_csv(comparison),
+            "panel,level,episodes,mean,low,high,pairs,difference,difference_low,difference_high,"
+            "ratio,ratio_low,ratio_high,p_value\np,b,1,2,2,2,,,,,,,,\n");
+}
+
+TEST(Comparison, NoRatioToZero) {
+  const std::vector<Sample> samples{{0, 0, 0, 0.0}, {0, 1, 0, 2.0}};
+  const Comparison comparison = compare_levels("n", "n", {"p"}, {"a", "b"}, 0, samples);
+  EXPECT_FALSE(row(comparison, "p", "b").difference->ratio);
+  EXPECT_EQ(comparison_json(comparison)["p"]["b"]["difference"].contains("ratio"), false);
+}
+
+TEST(Comparison, OtherLevelsChangeNothing) {
+  std::vector<Sample> samples{{0, 0, 0, 1.0}, {0, 0, 1, 4.0}, {0, 1, 0, 2.0}, {0, 1, 1, 9.0}};
+  const auto few = compare_levels("n", "n", {"p"}, {"a", "b", "c"}, 0, samples);
+  samples.push_back({0, 2, 0, 5.0});
+  const auto more = compare_levels("n", "n", {"p"}, {"a", "b", "c"}, 0, samples);
+  EXPECT_EQ(row(few, "p", "b").interval.low, row(more, "p", "b").interval.low);
+  EXPECT_EQ(row(few, "p", "b").interval.high, row(more, "p", "b").interval.high);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,83 @@
+// When a run folder counts as a result.
+#include "src/study/results.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "src/core/hash.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+class Results : public testing::Test {
+ protected:
+  Results() {
+    const auto base = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+    episode_ = {"near/simple", {0, 0}, load_episode(base, {"gain=simple"})};
+    folder_ = episode_folder(study_.path(), episode_);
+    fs::create_directories(folder_);
+    write("config.yaml", episode_yaml(episode_.resolved.episode));
+    write("manifest.json",
+          fmt::format(R"({{"scene_hash": "{}"}})", hash_text(hash_file(episode_.resolved.scene))));
+    write("metrics.json", R"({"status": "completed"})");
+  }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  EpisodeState state() { return ResultCheck()(study_.path(), episode_); }
+
+  support::TemporaryDirectory study_;
+  PlannedEpisode episode_;
+  fs::path folder_;
+};
+
+TEST_F(Results, WholeAndOfThisConfiguration) { EXPECT_EQ(state(), EpisodeState::completed); }
+
+TEST_F(Results, ThreadsDoNotMatter) {
+  episode_.resolved.episode.threads = 7;
+  EXPECT_EQ(state(), EpisodeState::completed);
+}
+
+TEST_F(Results, AnotherConfigurationIsStale) {
+  episode_.resolved.episode.scans = 9;
+  EXPECT_EQ(state(), EpisodeState::stale);
+}
+
+TEST_F(Results, AnotherSceneIsStale) {
+  write("manifest.json", R"({"scene_hash": "0"})");
+  EXPECT_EQ(state(), EpisodeState::stale);
+}
+
+TEST_F(Results, HalfWrittenFoldersAreNoResult) {
+  fs::remove(folder_ / "config.yaml");
+  EXPECT_FALSE(is_result(state()));
+  write("config.yaml", "scans: [");
+  EXPECT_FALSE(is_result(state()));
+  write("metrics.json", R"({"status": "comp)");
+  EXPECT_EQ(state(), EpisodeState::missing);
+  fs::remove(folder_ / "metrics.json");
+  EXPECT_EQ(state(), EpisodeState::missing);
+}
+
+TEST_F(Results, EveryEndOfAnEpisode) {
+  write("metrics.json", R"({"status": "diverged", "reason": "at 3 s"})");
+  EXPECT_EQ(state(), EpisodeState::diverged);
+  EXPECT_TRUE(is_result(state()));
+  EXPECT_THAT(status_text(study_.path(), {episode_}, {state()}),
+              testing::HasSubstr("near/simple: at 3 s"));
+  write("metrics.json", R"({"status": "interrupted"})");
+  EXPECT_EQ(state(), EpisodeState::interrupted);
+  EXPECT_FALSE(is_result(state()));
+  fs::remove(folder_ / "metrics.json");
+  write("failure.json", R"({"exit_code": 3, "reason": "error: no table"})");
+  EXPECT_EQ(state(), EpisodeState::crashed);
+  EXPECT_FALSE(is_result(state()));
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,168 @@
+// The study file: what it means, and what is said of a wrong one.
+#include "src/study/study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "src/core/error.hpp"
+#include "src/study/sweep.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kStudy = R"(episode: assets/episodes/tabletop.yaml
+set: {scans: 3}
+factors:
+  start:
+    near: {robot.start_view: 0}
+    far: {robot.start_view: 5}
+  method:
+    random: {choice: random}
+    sparse: {gain: beer_lambert, gain.a: 0.999}
+)";
+
+class StudyFile : public testing::Test {
+ protected:
+  Study read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    std::ofstream(folder_ / "s.yaml") << text;
+    return read_study(folder_ / "s.yaml", overrides);
+  }
+  std::vector<PlannedEpisode> plan(const std::string& text) { return plan_study(read(text)); }
+  /// Every one of `parts` is in what is said of the study.
+  void expect_problem(const std::string& text, const std::vector<std::string>& parts) {
+    try {
+      plan_study(read(text));
+      ADD_FAILURE() << "accepted";
+    } catch (const ConfigError& error) {
+      for (const auto& part : parts) EXPECT_THAT(error.what(), HasSubstr(part));
+    }
+  }
+  support::TemporaryDirectory folder_;
+};
+
+std::vector<std::string> names(const std::vector<PlannedEpisode>& plan) {
+  std::vector<std::string> found;
+  for (const auto& episode : plan) found.push_back(episode.name);
+  return found;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  text.replace(text.find(what), what.size(), by);
+  return text;
+}
+
+TEST_F(StudyFile, TheLastFactorIsFastest) {
+  EXPECT_THAT(names(plan(kStudy)),
+              ElementsAre("near/random", "near/sparse", "far/random", "far/sparse"));
+}
+
+TEST_F(StudyFile, OverridesReachTheEpisode) {
+  const auto episodes = plan(kStudy);
+  const Episode& last = episodes[3].resolved.episode;
+  EXPECT_EQ(last.scans, 3);
+  EXPECT_EQ(last.robot.start_view, 5);
+  EXPECT_EQ(std::get<BeerLambertGain>(last.gain).a, 0.999);
+  EXPECT_EQ(method_name(episodes[0].resolved.episode), "random");
+}
+
+TEST_F(StudyFile, SetFromTheCommandLineReachesEveryEpisode) {
+  for (const auto& episode : plan_study(read(kStudy, {"scans=7", "map.cells=[9,9,9]"}))) {
+    EXPECT_EQ(episode.resolved.episode.scans, 7);
+    EXPECT_EQ(episode.resolved.episode.map.cells[2], 9);
+  }
+}
+
+TEST_F(StudyFile, ItsOwnTextIsTheSameStudy) {
+  const Study first = read(kStudy, {"seed=5"});
+  const Study second = read(first.yaml);
+  EXPECT_EQ(first.yaml, second.yaml);
+  const auto a = plan_study(first);
+  const auto b = plan_study(second);
+  ASSERT_EQ(names(a), names(b));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(episode_yaml(a[i].resolved.episode), episode_yaml(b[i].resolved.episode));
+  }
+}
+
+TEST_F(StudyFile, FilesAreFoundBesideIt) {
+  fs::create_directory(folder_ / "mine");
+  std::ofstream(folder_ / "mine/scene.xml") << "<mujoco/>";
+  const auto text = replaced(kStudy, "{choice: random}", "{scene: mine/scene.xml}");
+  EXPECT_EQ(plan(text)[0].resolved.scene, folder_ / "mine/scene.xml");
+  EXPECT_THROW(read(replaced(text, "mine/scene.xml", "no.xml")), InputError);
+}
+
+TEST_F(StudyFile, UnknownKeysAreNamedWithTheirPlace) {
+  expect_problem(std::string(kStudy) + "factor: {}\n", {"s.yaml:10", "factor", "factors"});
+  expect_problem(replaced(kStudy, "choice: random", "chioce: random"), {"s.yaml:8", "chioce"});
+  expect_problem(replaced(kStudy, "gain.a: 0.999", "gain.b: 1"), {"s.yaml:9", "gain.b", "a"});
+  expect_problem(replaced(kStudy, "scans: 3", "scnas: 3"), {"s.yaml:2", "scnas"});
+}
+
+TEST_F(StudyFile, DuplicatesAndWrongTypes) {
+  expect_problem(replaced(kStudy, "    far:", "    near:"), {"s.yaml:6", "near", "duplicate"});
+  expect_problem(replaced(kStudy, "start_view: 5", "start_view: five"),
+                 {"s.yaml:6", "robot.start_view", "five"});
+  expect_problem(replaced(kStudy, "{choice: random}", "random"), {"s.yaml:8", "random"});
+  expect_problem("episode: assets/episodes/tabletop.yaml\n", {"factors"});
+  expect_problem("factors: {a: {b: {}}}\n", {"episode"});
+}
+
+TEST_F(StudyFile, AKeyHasOneMaster) {
+  expect_problem(replaced(kStudy, "set: {scans: 3}", "set: {choice: random}"),
+                 {"s.yaml:8", "choice"});
+  EXPECT_THROW(read(kStudy, {"choice=oracle"}), ConfigError);
+}
+
+TEST_F(StudyFile, NamesThatMakeNoFolderOrColumn) {
+  expect_problem(replaced(kStudy, "    near:", "    ../near:"), {"s.yaml:5", "../near"});
+  expect_problem(replaced(kStudy, "    near:", "    .near:"), {"s.yaml:5", ".near"});
+  expect_problem(replaced(kStudy, "  start:", "  area:"), {"s.yaml:4", "area"});
+}
+
+TEST_F(StudyFile, TheReportNamesWhatThereIs) {
+  const std::string text = std::string(kStudy) + "report: ";
+  expect_problem(text + "{compare: metod}\n", {"s.yaml:10", "metod", "start, method"});
+  expect_problem(text + "{reference: simple}\n", {"s.yaml:10", "simple", "random, sparse"});
+  expect_problem(text + "{panels: method}\n", {"s.yaml:10", "panels"});
+  expect_problem(text + "{curves: [aera]}\n", {"s.yaml:10", "aera", "unobserved_cells"});
+  expect_problem(text + "{tables: [aera]}\n", {"s.yaml:10", "aera", "area"});
+  expect_problem(text + "{predictors_along: start}\n", {"s.yaml:10", "start"});
+}
+
+TEST_F(StudyFile, IsToldFromAnEpisode) {
+  read(kStudy);
+  EXPECT_TRUE(is_study(folder_ / "s.yaml"));
+  EXPECT_FALSE(is_study(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml"));
+  EXPECT_FALSE(is_study(folder_ / "missing.yaml"));
+}
+
+TEST_F(StudyFile, ShippedStudiesAreGood) {
+  const fs::path studies = fs::path(VANTAGE_SOURCE_DIR) / "assets/studies";
+  for (const auto& entry : fs::directory_iterator(studies)) {
+    EXPECT_FALSE(plan_study(read_study(entry.path())).empty()) << entry.path();
+  }
+}
+
+TEST_F(StudyFile, ShardsAreAPartition) {
+  const auto all = names(plan(kStudy));
+  std::vector<std::string> merged;
+  for (const char* part : {"1/3", "2/3", "3/3"}) {
+    for (const auto& name : names(shard_of(plan(kStudy), parse_shard(part)))) {
+      merged.push_back(name);
+    }
+  }
+  EXPECT_THAT(merged, testing::UnorderedElementsAreArray(all));
+  for (const char* wrong : {"", "1", "0/3", "4/3", "1/0", "1/3x", "-1/3", "a/b"}) {
+    EXPECT_THROW(parse_shard(wrong), ConfigError) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace vantage

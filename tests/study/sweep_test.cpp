@@ -1,0 +1,186 @@
+// Sweeps as a user meets them: killed, resumed, sharded, with episodes that fail.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "src/core/atomic_file.hpp"
+#include "tests/support/shell.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using support::shell;
+using support::ShellResult;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kStudy = VANTAGE_SOURCE_DIR "/assets/studies/smoke.yaml";
+
+class Sweep : public testing::Test {
+ protected:
+  ShellResult vantage(const std::string& arguments) {
+    return shell("cd '" + folder_.path().string() + "' && " VANTAGE_BINARY " " + arguments);
+  }
+  ShellResult sweep(const std::string& out, const std::string& options = {}) {
+    return vantage(std::string("sweep run -q ") + kStudy + " --out " + out + " " + options);
+  }
+  std::string collected(const std::string& out) {
+    vantage("sweep collect " + out);
+    return read_file(folder_ / (out + "/results.csv"));
+  }
+  /// Of one sweep that nothing disturbed.
+  static const std::string& reference() {
+    static const std::string csv = [] {
+      const support::TemporaryDirectory folder;
+      const std::string out = (folder / "whole").string();
+      shell(std::string(VANTAGE_BINARY " sweep run -q ") + kStudy + " --out " + out);
+      shell(std::string(VANTAGE_BINARY " sweep collect ") + out);
+      return read_file(fs::path(out) / "results.csv");
+    }();
+    return csv;
+  }
+  /// Processes whose command line names this test's folder.
+  [[nodiscard]] std::size_t processes() const {
+    std::size_t count = 0;
+    for (const auto& entry : fs::directory_iterator("/proc")) {
+      std::ifstream stream(entry.path() / "cmdline");
+      const std::string line((std::istreambuf_iterator<char>(stream)), {});
+      if (line.find("episodes/start") != std::string::npos &&
+          line.find(out_name_) != std::string::npos) {
+        ++count;
+      }
+    }
+    return count;
+  }
+  std::string file(const std::string& name, const std::string& content) {
+    std::ofstream(folder_ / name) << content;
+    return name;
+  }
+
+  support::TemporaryDirectory folder_;
+  std::string out_name_ = "killed-" + folder_.path().filename().string();
+};
+
+TEST_F(Sweep, KilledAndResumedGivesTheSameResults) {
+  const std::string out = out_name_;
+  const ShellResult killed = shell(
+      "cd '" + folder_.path().string() + "' && " VANTAGE_BINARY " sweep run -q " + kStudy +
+      " --jobs 1 --out " + out + " & sweep=$!; until [ -n \"$(find '" + folder_.path().string() +
+      "' -name metrics.json)\" ]; do sleep 0.02; done; sleep 0.3; kill -9 $sweep; wait $sweep");
+  EXPECT_EQ(killed.exit_code, 137) << killed.output;
+  for (int i = 0; i < 100 && processes() > 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(processes(), 0U) << "an orphan goes on";
+  EXPECT_EQ(vantage("sweep status " + out).exit_code, 1);
+  EXPECT_THAT(vantage("sweep plan " + out).output, Not(HasSubstr("start_0/random")));
+  const ShellResult partly = vantage("sweep collect " + out);
+  EXPECT_EQ(partly.exit_code, 1);
+  EXPECT_THAT(partly.output, HasSubstr("missing     start_5/adaptive"));
+
+  const ShellResult resumed = sweep(out);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.output;
+  EXPECT_EQ(collected(out), reference());
+  EXPECT_EQ(vantage("sweep status " + out).exit_code, 0);
+  EXPECT_EQ(vantage("sweep plan " + out).output, "");
+}
+
+TEST_F(Sweep, ShardsMergeToTheSameResults) {
+  EXPECT_EQ(sweep("parts", "--shard 2/2 --jobs 1").exit_code, 0);
+  EXPECT_THAT(vantage("sweep status parts").output, HasSubstr("2 completed, 2 missing of 4"));
+  EXPECT_EQ(sweep("parts", "--shard 1/2 --jobs 2").exit_code, 0);
+  EXPECT_EQ(collected("parts"), reference());
+}
+
+TEST_F(Sweep, InterruptedSweepEndsIn130AndResumes) {
+  const ShellResult interrupted =
+      shell("cd '" + folder_.path().string() +
+            "' && timeout --preserve-status -s INT 1 " VANTAGE_BINARY " sweep run -q " + kStudy +
+            " --out stopped --jobs 2");
+  EXPECT_EQ(interrupted.exit_code, 130) << interrupted.output;
+  EXPECT_EQ(sweep("stopped").exit_code, 0);
+  EXPECT_EQ(collected("stopped"), reference());
+}
+
+TEST_F(Sweep, AFailingEpisodeDoesNotStopTheOthers) {
+  file("bare.xml", "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
+  const auto study = file("s.yaml", R"(episode: assets/episodes/tabletop.yaml
+set: {scans: 1, laser.scan_duration_s: 2, map.cells: [17, 17, 9]}
+factors:
+  scene:
+    bare: {scene: bare.xml}
+    table: {}
+report: {compare: scene, reference: table, tables: [area], curves: [share_left]}
+)");
+  const ShellResult result = vantage("sweep run -q " + study + " --out f");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.output, HasSubstr("1 completed, 1 crashed of 2"));
+  EXPECT_THAT(result.output, HasSubstr("no table"));
+  EXPECT_TRUE(fs::exists(folder_ / "f/episodes/bare/failure.json"));
+  EXPECT_THAT(read_file(folder_ / "f/episodes/bare/output.txt"), HasSubstr("no table"));
+  EXPECT_EQ(vantage("sweep collect f").exit_code, 1);
+  EXPECT_THAT(read_file(folder_ / "f/results.csv"), HasSubstr("bare,bare,crashed,,"));
+  EXPECT_THAT(read_file(folder_ / "f/summary.json"), HasSubstr("\"bare\": \"crashed\""));
+  EXPECT_EQ(vantage("sweep plan f").output, "bare\n");  // it would be tried again
+}
+
+TEST_F(Sweep, AnotherStudyInTheFolderNeedsOverwrite) {
+  file("out/study.yaml", "");
+  fs::create_directory(folder_ / "out");
+  file("out/study.yaml", "title: another\n");
+  const ShellResult refused = sweep("out");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("--overwrite"));
+}
+
+TEST_F(Sweep, FoldersOfEpisodesAreLean) {
+  ASSERT_EQ(sweep("lean", "--shard 1/4").exit_code, 0);
+  const fs::path folder = folder_ / "lean/episodes/start_0/random";
+  for (const char* name : {"metrics.json", "steps.csv", "config.yaml", "manifest.json",
+                           "trajectory.tum", "trajectory_estimated.tum"}) {
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  }
+  for (const char* name : {"states.bin", "map.bt", "map.ot", "cloud.ply", "report.html"}) {
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+  }
+  // In full, the same episode is the same.
+  ASSERT_EQ(vantage("run -q lean/episodes/start_0/random/config.yaml --out full").exit_code, 0);
+  const ShellResult same = vantage("compare lean/episodes/start_0/random full");
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+  EXPECT_EQ(vantage("compare lean/episodes/start_0/random full --json").exit_code, 0);
+}
+
+TEST_F(Sweep, ThePageOfAStudyHoldsItsFigures) {
+  ASSERT_EQ(sweep("page", "--shard 1/2").exit_code, 0);
+  const ShellResult result = vantage("report page");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  const std::string page = read_file(folder_ / "page/report.html");
+  for (const char* part : {"<svg", "Two methods from two starts", "missing", "path length, m"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+  EXPECT_THAT(page, Not(HasSubstr("{{")));
+}
+
+TEST_F(Sweep, ErrorsOfUse) {
+  EXPECT_EQ(vantage("sweep").exit_code, 2);
+  EXPECT_EQ(vantage("sweep status nowhere").exit_code, 3);
+  EXPECT_EQ(sweep("x", "--shard 3/2").exit_code, 2);
+  EXPECT_EQ(sweep("x", "--set nonsense=1").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "x"));
+  file("s.yaml",
+       "episode: assets/episodes/tabletop.yaml\nfactors: {m: {a: {gian: simple}}}\n"
+       "report: {compare: m}\n");
+  const ShellResult wrong = vantage("validate s.yaml");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.output, HasSubstr("s.yaml:2: gian"));
+  EXPECT_THAT(vantage("list studies").output, HasSubstr("assets/studies/smoke.yaml"));
+}
+
+}  // namespace
+}  // namespace vantage
