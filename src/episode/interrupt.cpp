@@ -55,4 +55,6 @@ void throw_if_interrupted() {
   if (g_signal != 0) throw Interrupted(g_signal);
 }
 
+int interrupt_signal() { return g_signal; }
+
 }  // namespace vantage

@@ -15,5 +15,7 @@ struct Interrupted : Error {
 void catch_interrupts();
 /// @throws Interrupted if a signal was caught. Called once per control tick and part of the loop.
 void throw_if_interrupted();
+/// The signal caught; 0 if none was.
+int interrupt_signal();
 
 }  // namespace vantage
