@@ -14,8 +14,8 @@ struct RunOptions {
   std::filesystem::path directory;  ///< empty: out/<episode>-<seed>
   bool overwrite = false;
   bool video = false;
-  bool lean = false;  ///< metrics, steps, trajectories, configuration, manifest and nothing else
   std::vector<std::string> command;  ///< as typed, for the manifest
+  bool lean = false;  ///< metrics, steps, trajectories, configuration, manifest and nothing else
 };
 
 struct RunOutcome {

@@ -32,7 +32,7 @@ void flatten(const Json& json, const std::string& key, std::vector<Leaf>& leaves
   if (json.is_object()) {
     for (const auto& [name, child] : json.items()) {
       if (std::ranges::find(kWallTimes, name) != kWallTimes.end()) continue;
-      flatten(child, key.empty() ? name : key + "." + name, leaves);
+      flatten(child, key.empty() ? name : fmt::format("{}.{}", key, name), leaves);
     }
   } else if (json.is_array()) {
     for (std::size_t i = 0; i < json.size(); ++i) {

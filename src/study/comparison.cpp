@@ -74,6 +74,7 @@ Comparison compare_levels(std::string name, std::string title,
       const auto by_pair = values_by_pair(samples, group, level);
       if (by_pair.empty()) continue;
       std::vector<double> values;
+      values.reserve(by_pair.size());
       for (const auto& [pair, value] : by_pair) values.push_back(value);
       const std::string stream =
           fmt::format("{}/{}/{}", comparison.name, group.panel, levels[level]);

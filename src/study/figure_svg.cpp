@@ -32,6 +32,11 @@ std::string_view dash(std::size_t style) {
   return kDashes[style / kColours.size() % kDashes.size()];
 }
 
+double row_of(std::size_t index, std::size_t columns) {
+  const std::size_t row = index / columns;
+  return static_cast<double>(row);
+}
+
 struct Axis {
   double low = 0.0;
   double high = 1.0;
@@ -49,6 +54,15 @@ Axis axis_over(double low, double high, double wanted, double smallest_step) {
   }
   step = std::max(step, smallest_step);
   return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step};
+}
+
+/// The multiples of the step.
+std::vector<double> ticks(const Axis& axis) {
+  const auto first = static_cast<int>(std::ceil(axis.low / axis.step - 1e-9));
+  const auto last = static_cast<int>(std::floor(axis.high / axis.step + 1e-9));
+  std::vector<double> values;
+  for (int i = first; i <= last; ++i) values.push_back(i * axis.step);
+  return values;
 }
 
 std::string tick_label(double value, const Axis& axis) {
@@ -111,16 +125,11 @@ std::string grid_svg(const Frame& frame) {
                        "\n",
                        ax, ay, bx, by, stroke);
   };
-  const auto ticks = [](const Axis& axis) {
-    return static_cast<int>(std::floor((axis.high - axis.low) / axis.step + 1e-9));
-  };
-  for (int i = 0; i <= ticks(frame.y); ++i) {
-    const double value = frame.y.low + i * frame.y.step;
+  for (const double value : ticks(frame.y)) {
     line(x0, frame.at_y(value), x1, frame.at_y(value), "#e3e8ef");
     svg += text_at(x0 - 8.0, frame.at_y(value) + 4.0, "end", "", tick_label(value, frame.y));
   }
-  const double first = std::ceil(frame.x.low / frame.x.step - 1e-9) * frame.x.step;
-  for (double value = first; value <= frame.x.high + 1e-9; value += frame.x.step) {
+  for (const double value : ticks(frame.x)) {
     line(frame.at_x(value), y0, frame.at_x(value), y0 + 4.0, "#566375");
     svg += text_at(frame.at_x(value), y0 + 18.0, "middle", "", tick_label(value, frame.x));
   }
@@ -134,8 +143,9 @@ std::string band_svg(const FigureSeries& series, const Frame& frame) {
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", frame.at_x(point.x),
                         frame.at_y(point.interval.high));
   }
-  for (auto point = series.points.rbegin(); point != series.points.rend(); ++point) {
-    path += fmt::format("L{:.1f} {:.1f}", frame.at_x(point->x), frame.at_y(point->interval.low));
+  for (std::size_t i = series.points.size(); i-- > 0;) {
+    const FigurePoint& point = series.points[i];
+    path += fmt::format("L{:.1f} {:.1f}", frame.at_x(point.x), frame.at_y(point.interval.low));
   }
   return fmt::format(R"(<path d="{}Z" fill="{}" fill-opacity=".13"/>)"
                      "\n",
@@ -197,7 +207,7 @@ std::string legend_svg(const Figure& figure, double width, double top, double& h
   std::string svg;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const double x = kLeft + column * static_cast<double>(i % columns);
-    const double y = top + kLegendRow * static_cast<double>(i / columns) + 0.5 * kLegendRow;
+    const double y = top + kLegendRow * row_of(i, columns) + 0.5 * kLegendRow;
     const std::size_t style = entries[i]->style;
     svg += fmt::format(R"(<path d="M{:.1f} {:.1f}h22" stroke="{}" stroke-width="2.4" )"
                        R"(stroke-dasharray="{}"/>)"
@@ -220,7 +230,7 @@ std::string figure_svg(const Figure& figure) {
                              R"(font-size="16" font-weight="650" fill="#16202e")", figure.title);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     body += panel_svg(figure, figure.panels[i], kPanelWidth * static_cast<double>(i % columns),
-                      kHead + kPanelHeight * static_cast<double>(i / columns));
+                      kHead + kPanelHeight * row_of(i, columns));
   }
   const double legend_top = kHead + kPanelHeight * static_cast<double>(rows) + 4.0;
   double legend_height = 0.0;

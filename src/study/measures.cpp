@@ -145,12 +145,14 @@ constexpr auto kCurves = std::to_array<CurveMeasure>({
 
 std::vector<MeasureName> names_of(const auto& measures) {
   std::vector<MeasureName> names;
+  names.reserve(measures.size());
   for (const auto& measure : measures) names.push_back(measure.name);
   return names;
 }
 
 std::vector<std::string> texts_of(const std::vector<MeasureName>& names) {
   std::vector<std::string> texts;
+  texts.reserve(names.size());
   for (const MeasureName& name : names) texts.emplace_back(name.name);
   return texts;
 }

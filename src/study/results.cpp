@@ -44,8 +44,9 @@ bool same_configuration(const fs::path& folder, const Episode& episode) {
 }
 
 std::string reason(const fs::path& folder, EpisodeState state) {
-  if (state == EpisodeState::crashed)
+  if (state == EpisodeState::crashed) {
     return text(read_json_or_null(folder / "failure.json"), "reason");
+  }
   if (is_result(state)) return text(read_json_or_null(folder / "metrics.json"), "reason");
   if (state == EpisodeState::stale) return "the configuration or the scene has changed since";
   return {};
@@ -98,6 +99,7 @@ std::vector<EpisodeState> episode_states(const fs::path& study_dir,
                                          const std::vector<PlannedEpisode>& plan) {
   ResultCheck check;
   std::vector<EpisodeState> states;
+  states.reserve(plan.size());
   for (const auto& episode : plan) states.push_back(check(study_dir, episode));
   return states;
 }

@@ -46,8 +46,7 @@ TextTable table_of(const FigurePanel& panel, const std::string& x_label) {
     for (const FigurePoint& point : series.points) xs.push_back(point.x);
   }
   std::ranges::sort(xs);
-  const auto repeated = std::ranges::unique(xs);
-  xs.erase(repeated.begin(), repeated.end());
+  xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
   for (const double x : xs) {
     std::vector<std::string> row{number(x)};
     for (const FigureSeries& series : panel.series) {
