@@ -10,18 +10,18 @@ namespace vantage {
 /// each height: GainContext::transmission_per_slice.
 struct AdaptiveGain {
   static constexpr std::string_view name = "adaptive";
-  static constexpr bool unobserved_only = true;
   static constexpr bool predicts_cells = true;
   void fields(auto&&) {}
 
+  static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;
 
+  [[nodiscard]] Fading fading(const GainContext& context) const {
+    const auto& learnt = context.transmission_per_slice;
+    return {.transmission_per_slice = {learnt.begin(), learnt.end()}};
+  }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
-    CellTables tables;
-    tables.state = cell_states(context.grid);
-    tables.worth = unobserved_entropies_bits(context.grid);
-    tables.transmission = cell_transmissions(context.grid, context.transmission_per_slice);
-    return tables;
+    return fading_tables(context.grid, fading(context));
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
 };

@@ -1,12 +1,24 @@
-/// A beam that every cell weakens by its transmission (Beer-Lambert); what is left of it in the
-/// last cell is the probability that this cell is seen.
+/// Light that fades cell by cell (Beer-Lambert): what is left of it in the last cell of a ray is
+/// the probability that this cell is seen.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
+#include <vector>
 
 #include "planners/cell_tables.hpp"
 
 namespace vantage {
+
+/// How light fades and what it is worth where it arrives. Free cells let it pass, occupied ones
+/// stop it; seeing either is worth nothing.
+struct Fading {
+  std::vector<double> transmission_per_slice;  ///< of the unobserved cells of each z slice
+  double worth = 1.0;                          ///< of an unobserved cell, in the gain's unit
+  bool by_entropy = true;                      ///< times its entropy in bits
+
+  [[nodiscard]] float worth_of_cell(float log_odds) const;
+};
 
 class AttenuatedRay {
  public:
@@ -26,6 +38,15 @@ class AttenuatedRay {
   const float* transmission_;
   const float* worth_;
   double p_visible_ = 1.0;
+};
+
+/// state, worth and transmission of every cell.
+CellTables fading_tables(const OccupancyGrid& grid, const Fading& fading);
+
+/// A gain that is a sum over the unobserved cells of (light that arrives) x (worth).
+template <class G>
+concept FadingGain = requires(const G& gain, const GainContext& context) {
+  { gain.fading(context) } -> std::same_as<Fading>;
 };
 
 }  // namespace vantage

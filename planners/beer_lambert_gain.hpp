@@ -13,20 +13,18 @@ namespace vantage {
 /// right value depends on the clutter and on the cell size.
 struct BeerLambertGain {
   static constexpr std::string_view name = "beer_lambert";
-  static constexpr bool unobserved_only = true;
   static constexpr bool predicts_cells = true;
   double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
   void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
 
+  static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;
 
+  [[nodiscard]] Fading fading(const GainContext& context) const {
+    return {.transmission_per_slice = std::vector<double>(context.slices(), a)};
+  }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
-    const auto slices = static_cast<std::size_t>(context.grid.frame.cells.z());
-    CellTables tables;
-    tables.state = cell_states(context.grid);
-    tables.worth = unobserved_entropies_bits(context.grid);
-    tables.transmission = cell_transmissions(context.grid, std::vector<double>(slices, a));
-    return tables;
+    return fading_tables(context.grid, fading(context));
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
 };

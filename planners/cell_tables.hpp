@@ -16,6 +16,10 @@ struct GainContext {
   /// p(a beam passes an unobserved cell), one per z slice of the grid, as learnt on the run;
   /// `adaptive` needs it, the others do not look.
   std::span<const double> transmission_per_slice = {};
+
+  [[nodiscard]] std::size_t slices() const {
+    return static_cast<std::size_t>(grid.frame.cells.z());
+  }
 };
 
 /// One entry per cell, `frame.index` order. A gain fills what it reads and leaves the rest empty.

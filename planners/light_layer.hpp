@@ -24,8 +24,9 @@ struct CellSpan {
 /// The light that arrives in one layer of cells; nothing stands outside the grid.
 class LightLayer {
  public:
-  /// Cells outside the grid that a layer holds: a ray comes in at most that far from outside.
-  static constexpr int kPadding = 6;
+  /// Cells outside the grid that a layer holds: rays come in from at most 6 outside, and row loops
+  /// go on for up to 7.
+  static constexpr int kPadding = 16;
 
   LightLayer(int columns, int rows)
       : columns_(columns),

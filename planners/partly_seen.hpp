@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -35,9 +36,27 @@ class PartlySeen {
       if (cells_.size() > most_) thin();
     }
   }
-  [[nodiscard]] const std::vector<Cell>& cells() const { return cells_; }
-  /// Cells that each of the sample stands for.
-  [[nodiscard]] double stride() const { return static_cast<double>(stride_); }
+  /// Sum of `error(cell)` over the cells offered, from as much of the sample as it takes for a
+  /// standard error of at most `tolerance`.
+  template <class Error>
+  [[nodiscard]] double sum_errors(double tolerance, Error&& error) const {
+    constexpr std::size_t kCoarsest = 16;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (std::size_t share = kCoarsest; share >= 1; share /= 2) {
+      const std::size_t stride = share * stride_;
+      for (const Cell& cell : cells_) {
+        const bool done_before = share < kCoarsest && cell.order % (2 * stride) == 0;
+        if (cell.order % stride != 0 || done_before) continue;
+        const double e = error(cell);
+        sum += e;
+        squares += e * e;
+      }
+      const auto weight = static_cast<double>(stride);
+      if (share == 1 || weight * std::sqrt(squares) <= tolerance) return weight * sum;
+    }
+    return 0.0;
+  }
 
  private:
   void thin() {

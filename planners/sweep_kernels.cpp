@@ -20,14 +20,15 @@ void blend_rows(const float* a, const float* b, float fraction, int begin, int e
 
 VANTAGE_SIMD_CLONES
 void advance_row(const SweepRow& row, int shift, int begin, int end, float* __restrict visible,
-                 float* __restrict worth) {
+                 float* __restrict seen_worth) {
   const float* __restrict arriving = row.arriving + shift;
   const float* __restrict straight = row.straight;
   const float* __restrict slanted = row.slanted + shift;
-  const float* __restrict weight = row.weight;
+  const float* __restrict worth = row.worth;
   const float per_layer = 1.0F / row.depth;
   const auto offset = static_cast<float>(shift);
-  for (int i = begin; i < end; ++i) {
+  const int whole = begin + (end - begin + kLanes - 1) / kLanes * kLanes;
+  for (int i = begin; i < whole; ++i) {
     const float along = (row.source - static_cast<float>(i)) * per_layer;
     const float fraction = along - offset;
     const float light = arriving[i] + fraction * (arriving[i + 1] - arriving[i]);
@@ -45,23 +46,20 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
     passes *= passes;
     const float seen = std::max(first, second) < kOpaque ? light * passes : 0.0F;
     visible[i] = seen;
-    worth[i] = seen * weight[i];
+    const float value = seen * worth[i];
+    seen_worth[i] = seen > kDark ? value : 0.0F;
   }
 }
 
 VANTAGE_SIMD_CLONES
 double sum_in_view(const ConeRow& view, const float* worth, int begin, int end) {
-  constexpr int kLanes = 8;
   std::array<float, kLanes> lanes{};
-  int i = begin;
-  for (; i + kLanes <= end; i += kLanes) {
+  for (int i = begin; i < end; i += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const float cell = worth[i + lane];
-      lanes[lane] += view.contains(static_cast<float>(i + lane)) ? cell : 0.0F;
+      const bool counts = view.contains(static_cast<float>(i + lane)) & (i + lane < end);
+      lanes[static_cast<std::size_t>(lane)] += counts ? cell : 0.0F;
     }
-  }
-  for (; i < end; ++i) {
-    if (view.contains(static_cast<float>(i))) lanes[0] += worth[i];
   }
   double sum = 0.0;
   for (const float lane : lanes) sum += static_cast<double>(lane);

@@ -2,39 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+
+#include "planners/parallel_for.hpp"
+#include "src/core/error.hpp"
 
 namespace vantage {
 namespace {
 
-std::vector<float> with_y_fastest(const GridFrame& frame, std::span<const float> table) {
+/// Copies a z slice, x fastest, to its places in the layers of equal x and of equal y.
+void distribute(const GridFrame& frame, std::size_t z, const float* slice, float* x_layers,
+                float* y_layers) {
   const auto nx = static_cast<std::size_t>(frame.cells.x());
   const auto ny = static_cast<std::size_t>(frame.cells.y());
-  std::vector<float> turned(table.size());
-  for (std::size_t slice = 0; slice < table.size(); slice += nx * ny) {
-    for (std::size_t y = 0; y < ny; ++y) {
-      for (std::size_t x = 0; x < nx; ++x) turned[slice + x * ny + y] = table[slice + y * nx + x];
-    }
+  const auto nz = static_cast<std::size_t>(frame.cells.z());
+  for (std::size_t y = 0; y < ny; ++y) {
+    std::copy_n(slice + y * nx, nx, y_layers + (y * nz + z) * nx);
   }
-  return turned;
+  for (std::size_t x = 0; x < nx; ++x) {
+    float* row = x_layers + (x * nz + z) * ny;
+    for (std::size_t y = 0; y < ny; ++y) row[y] = slice[y * nx + x];
+  }
 }
 
 }  // namespace
 
-SweepTables::SweepTables(const GridFrame& f, const CellTables& tables) : frame(f) {
-  x_fastest.weight = tables.worth;
-  x_fastest.optical_depth.resize(f.size());
-  float transmission = 1.0F;
-  float depth = 0.0F;
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    if (tables.transmission[i] != transmission) {
-      transmission = tables.transmission[i];
-      depth = std::min(-std::log(transmission), kOpaque);
-    }
-    x_fastest.optical_depth[i] = depth;
+SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads)
+    : frame(grid.frame) {
+  const auto slices = static_cast<std::size_t>(frame.cells.z());
+  expects(fading.transmission_per_slice.size() == slices, "one transmission per z slice");
+  for (Layers& axis : layers) {
+    axis.optical_depth.resize(grid.size() + kLanes);
+    axis.worth.resize(grid.size() + kLanes);
   }
-  y_fastest.optical_depth = with_y_fastest(f, x_fastest.optical_depth);
-  y_fastest.weight = with_y_fastest(f, x_fastest.weight);
+  auto& [x_layers, y_layers, z_layers] = layers;
+  parallel_for(slices, threads, [&](std::size_t z) {
+    const double transmission = fading.transmission_per_slice[z];
+    const float unobserved = std::min(static_cast<float>(-std::log(transmission)), kOpaque);
+    const std::size_t begin = grid.size() / slices * z;
+    for (std::size_t cell = begin; cell < begin + grid.size() / slices; ++cell) {
+      const CellState state = grid.state(cell);
+      z_layers.optical_depth[cell] =
+          state == CellState::unobserved ? unobserved : (state == CellState::free ? 0.0F : kOpaque);
+      z_layers.worth[cell] = fading.worth_of_cell(grid.log_odds[cell]);
+    }
+    distribute(frame, z, &z_layers.optical_depth[begin], x_layers.optical_depth.data(),
+               y_layers.optical_depth.data());
+    distribute(frame, z, &z_layers.worth[begin], x_layers.worth.data(), y_layers.worth.data());
+  });
 }
 
 }  // namespace vantage

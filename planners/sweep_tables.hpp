@@ -1,27 +1,30 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "planners/cell_tables.hpp"
+#include "planners/attenuated_ray.hpp"
 #include "src/geometry/grid_frame.hpp"
 
 namespace vantage {
 
 inline constexpr float kOpaque = 64.0F;  ///< optical depth from which on a cell stops all light
+/// Row loops work on so many cells at a time, and so may read and write beyond a row's end.
+inline constexpr int kLanes = 8;
 
-/// The tables of an attenuated ray as the sweep reads them: each row of cells contiguous, along x
-/// and, a second time, along y.
+/// What the sweep reads of the map, three times: once for each axis along which it goes from layer
+/// to layer, with each layer contiguous.
 struct SweepTables {
-  struct Layout {
+  struct Layers {
     std::vector<float> optical_depth;  ///< -ln(transmission), per cell entered
-    std::vector<float> weight;         ///< worth of seeing the cell, bits
+    std::vector<float> worth;          ///< of seeing the cell, in the gain's unit
   };
   GridFrame frame;
-  Layout x_fastest;  ///< order of `frame.index`
-  Layout y_fastest;  ///< x and y change places
+  /// Layers of equal x, y, z. In a layer, the rows run along y, x, x; those of the third axis come
+  /// one after the other. So layers[2] has the order of `frame.index`.
+  std::array<Layers, 3> layers;
 
-  /// @param tables transmission and worth of every cell
-  SweepTables(const GridFrame& frame, const CellTables& tables);
+  SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads);
 };
 
 }  // namespace vantage

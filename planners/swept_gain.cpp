@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 
-#include "planners/attenuated_ray.hpp"
 #include "planners/exact_gain.hpp"
 #include "planners/parallel_for.hpp"
 
 namespace vantage {
 namespace {
-
-template <class G>
-concept AttenuatedGain = requires {
-  requires std::same_as<typename G::Ray, AttenuatedRay>;
-};
 
 /// Views from one position.
 struct Station {
@@ -38,7 +31,7 @@ std::vector<Station> stations_of(std::span<const Candidate> candidates, const Fi
 }  // namespace
 
 bool can_sweep(const Gain& gain) {
-  return std::visit([]<class G>(const G&) { return AttenuatedGain<G>; }, gain);
+  return std::visit([]<class G>(const G&) { return FadingGain<G>; }, gain);
 }
 
 std::vector<double> view_gains_bits(const Gain& gain, const GainContext& context,
@@ -54,15 +47,13 @@ std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& contex
                                      const SweepOptions& options) {
   expects(can_sweep(gain), "a gain that can be swept");
   expects(threads >= 1, "swept_gains_bits needs a thread");
-  const SweepTables tables = std::visit(
-      [&]<class G>(const G& g) {
-        if constexpr (AttenuatedGain<G>) {
-          return SweepTables(context.grid.frame, g.prepare(context));
-        } else {
-          return SweepTables(GridFrame{}, CellTables{});
-        }
+  const Fading fading = std::visit(
+      [&]<class G>(const G& g) -> Fading {
+        if constexpr (FadingGain<G>) return g.fading(context);
+        return {};
       },
       gain);
+  const SweepTables tables(context.grid, fading, threads);
   const auto stations = stations_of(candidates, field_of_view);
   std::vector<std::vector<double>> parts(stations.size() * kPyramids.size());
   parallel_for(parts.size(), threads, [&](std::size_t i) {

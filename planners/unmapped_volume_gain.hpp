@@ -1,8 +1,9 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
-#include "planners/simple_gain.hpp"
+#include "planners/attenuated_ray.hpp"
 
 namespace vantage {
 
@@ -10,17 +11,19 @@ namespace vantage {
 /// cubic metres instead of cells.  [Bircher2016]
 struct UnmappedVolumeGain {
   static constexpr std::string_view name = "unmapped_volume";
-  static constexpr bool unobserved_only = true;
   static constexpr bool predicts_cells = false;
   void fields(auto&&) {}
 
+  static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;
 
+  [[nodiscard]] Fading fading(const GainContext& context) const {
+    return {.transmission_per_slice = std::vector<double>(context.slices(), 1.0),
+            .worth = context.grid.frame.cell_size_m.prod(),
+            .by_entropy = false};
+  }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
-    CellTables tables = SimpleGain{}.prepare(context);
-    const auto volume_m3 = static_cast<float>(context.grid.frame.cell_size_m.prod());
-    for (float& worth : tables.worth) worth *= volume_m3;
-    return tables;
+    return fading_tables(context.grid, fading(context));
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
 };

@@ -47,30 +47,35 @@ bool ViewCone::contains(const Eigen::Vector3d& p_world) const {
   return y2 >= sin2_half_width_ * range2;
 }
 
-ViewCone::Interval ViewCone::bound_row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step,
-                                       int count) const {
+RowBounds::RowBounds(const ViewCone& cone, const Eigen::Vector3d& step)
+    : apex_m_(cone.apex_m()),
+      along_(step / step.squaredNorm()),
+      step2_m2_(step.squaredNorm()),
+      range2_max_m2_(cone.range2_max_m2()),
+      count_(cone.normals().size()) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const double change = cone.normals()[i].dot(step);
+    planes_[i] = {cone.normals()[i], std::abs(change) < 1e-12 ? 0.0 : 1.0 / change};
+  }
+}
+
+RowBounds::Interval RowBounds::of_row(const Eigen::Vector3d& p_world, int count) const {
   constexpr double kSlack = 1e-6;  // cells: rounding must not lose a cell that contains() accepts
-  double low = 0.0;
-  double high = count - 1.0;
-  const double step2 = step.squaredNorm();
-  const double nearest = step.dot(apex_m_ - p_world) / step2;
-  const double off2 = (p_world + nearest * step - apex_m_).squaredNorm();
+  const Eigen::Vector3d p = p_world - apex_m_;
+  const double nearest = -along_.dot(p);
+  const double off2 = p.squaredNorm() - nearest * nearest * step2_m2_;
   if (off2 > range2_max_m2_ * (1.0 + kSlack)) return {};
-  const double reach = std::sqrt(std::max(0.0, range2_max_m2_ - off2) / step2) + kSlack;
-  low = std::max(low, nearest - reach);
-  high = std::min(high, nearest + reach);
-  for (const auto& normal : std::span(normals_).first(behind_ ? 0 : normals_.size())) {
-    const double inside = normal.dot(p_world - apex_m_);
-    const double change = normal.dot(step);
-    if (std::abs(change) < 1e-12) {
-      if (inside < -1e-9) return {};
-      continue;
-    }
-    const double crossing = -inside / change;
-    if (change > 0.0) {
-      low = std::max(low, crossing - kSlack);
-    } else {
-      high = std::min(high, crossing + kSlack);
+  const double reach = std::sqrt(std::max(0.0, range2_max_m2_ - off2) / step2_m2_) + kSlack;
+  double low = std::max(0.0, nearest - reach);
+  double high = std::min(count - 1.0, nearest + reach);
+  for (const Plane& plane : std::span(planes_).first(count_)) {
+    const double inside = plane.normal.dot(p);
+    if (plane.per_index > 0.0) {
+      low = std::max(low, -inside * plane.per_index - kSlack);
+    } else if (plane.per_index < 0.0) {
+      high = std::min(high, -inside * plane.per_index + kSlack);
+    } else if (inside < -1e-9) {
+      return {};
     }
   }
   if (low > high) return {};

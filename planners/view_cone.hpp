@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "src/geometry/field_of_view.hpp"
 #include "src/geometry/grid_frame.hpp"
@@ -47,17 +48,14 @@ class ViewCone {
 
   [[nodiscard]] bool contains(const Eigen::Vector3d& p_world) const;
 
-  struct Interval {
-    int begin = 0;
-    int end = 0;
-  };
-  /// Bounds on the indices i in [0, count) for which p + i step may be contained.
-  [[nodiscard]] Interval bound_row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step,
-                                   int count) const;
-
   [[nodiscard]] ConeRow row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step) const;
 
   [[nodiscard]] const Eigen::Vector3d& apex_m() const { return apex_m_; }
+  /// Inward normals, world, of planes through the apex that hold the cone; none if it looks behind.
+  [[nodiscard]] std::span<const Eigen::Vector3d> normals() const {
+    return std::span(normals_).first(behind_ ? 0 : normals_.size());
+  }
+  [[nodiscard]] double range2_max_m2() const { return range2_max_m2_; }
 
  private:
   Eigen::Vector3d apex_m_;
@@ -71,15 +69,40 @@ class ViewCone {
   std::array<Eigen::Vector3d, 5> normals_;  // world, inwards, of planes that bound the front
 };
 
+/// Where rows of points p + i step, i = 0, 1, ..., may be inside a cone.
+class RowBounds {
+ public:
+  RowBounds(const ViewCone& cone, const Eigen::Vector3d& step);
+
+  struct Interval {
+    int begin = 0;
+    int end = 0;
+  };
+  /// Bounds on the indices i in [0, count) that the cone contains.
+  [[nodiscard]] Interval of_row(const Eigen::Vector3d& p_world, int count) const;
+
+ private:
+  struct Plane {
+    Eigen::Vector3d normal;  ///< world, inwards
+    double per_index = 0.0;  ///< 1 / (what a step moves inwards); 0: along the plane
+  };
+  Eigen::Vector3d apex_m_;
+  Eigen::Vector3d along_;  ///< step / |step|^2
+  double step2_m2_;
+  double range2_max_m2_;
+  std::array<Plane, 5> planes_;
+  std::size_t count_;  ///< of the planes that bound the cone
+};
+
 /// Calls `visit(cell, cell index)` in index order for each cell with `wanted(cell index)` whose
 /// centre the cone contains.
 template <class Wanted, class Visit>
 void for_each_cell_in_view(const GridFrame& grid, const ViewCone& cone, Wanted&& wanted,
                            Visit&& visit) {
-  const Eigen::Vector3d step(grid.cell_size_m.x(), 0.0, 0.0);
+  const RowBounds bounds(cone, {grid.cell_size_m.x(), 0.0, 0.0});
   for (int z = 0; z < grid.cells.z(); ++z) {
     for (int y = 0; y < grid.cells.y(); ++y) {
-      const auto row = cone.bound_row(grid.centre({0, y, z}), step, grid.cells.x());
+      const auto row = bounds.of_row(grid.centre({0, y, z}), grid.cells.x());
       for (int x = row.begin; x < row.end; ++x) {
         const Eigen::Array3i cell(x, y, z);
         const std::size_t index = grid.index(cell);

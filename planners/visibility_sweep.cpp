@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "planners/cell_walk.hpp"
 #include "planners/light_layer.hpp"
@@ -13,8 +14,7 @@ namespace {
 
 /// Cells whose light is worked out beyond those in view, so that interpolation finds neighbours.
 constexpr int kMargin = 2;
-/// Shares of visible light below and above which the sweep is taken at its word.
-constexpr float kHidden = 0.002F;
+/// A cell that so much light reaches is plainly seen.
 constexpr float kPlain = 0.998F;
 
 /// The pyramid's axes: w from layer to layer, u along the contiguous rows, v across them.
@@ -40,10 +40,11 @@ class PyramidSweep {
   PyramidSweep(const SweepTables& tables, std::span<const ViewCone> views, const Pyramid& pyramid,
                const SweepOptions& options)
       : frame_(tables.frame),
-        optical_depth_(tables.x_fastest.optical_depth),
-        layout_(pyramid.axis == 0 ? tables.y_fastest : tables.x_fastest),
+        optical_depth_(tables.layers[2].optical_depth),
+        layers_(tables.layers[static_cast<std::size_t>(pyramid.axis)]),
         views_(views),
         pyramid_(pyramid),
+        tolerance_(options.tolerance),
         axes_(axes_of(pyramid.axis)),
         nu_(frame_.cells[axes_.u]),
         nv_(frame_.cells[axes_.v]),
@@ -56,12 +57,18 @@ class PyramidSweep {
         current_(nu_, nv_),
         arriving_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding),
         depths_before_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding, 0.0F),
-        worth_(static_cast<std::size_t>(nu_)),
+        worth_(static_cast<std::size_t>(nu_) + kLanes),
         in_view_(views.size() * static_cast<std::size_t>(nv_)),
         sums_bits_(views.size(), 0.0),
-        partly_seen_(views.size(), PartlySeen(options.rays_per_view)) {}
+        partly_seen_(views.size(), PartlySeen(options.rays_per_view)) {
+    for (const ViewCone& view : views) {
+      bounds_.emplace_back(view, step_u_);
+      meets_.push_back(meets(view));
+    }
+  }
 
   std::vector<double> run() {
+    if (std::ranges::none_of(meets_, [](auto meets) { return meets != 0; })) return sums_bits_;
     const double from = source_[axes_.w];
     const int first = pyramid_.ascending ? clamped(std::ceil(from), 0, nw_)
                                          : clamped(std::ceil(from) - 1.0, -1, nw_ - 1);
@@ -73,7 +80,8 @@ class PyramidSweep {
       std::swap(before_, current_);
     }
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      sums_bits_[i] += correction_bits(partly_seen_[i]);
+      sums_bits_[i] += partly_seen_[i].sum_errors(
+          tolerance_ * sums_bits_[i], [&](const auto& target) { return error_bits(target); });
     }
     return sums_bits_;
   }
@@ -85,6 +93,16 @@ class PyramidSweep {
     at[axes_.v] = v;
     at[axes_.w] = layer_;
     return at;
+  }
+
+  /// Whether some direction of the pyramid may be inside the view's cone.
+  [[nodiscard]] bool meets(const ViewCone& view) const {
+    const Eigen::Vector3d& size = frame_.cell_size_m;
+    return std::ranges::all_of(view.normals(), [&](const Eigen::Vector3d& normal) {
+      const Eigen::Vector3d inwards = normal.cwiseProduct(size);
+      const double ahead = pyramid_.ascending ? inwards[axes_.w] : -inwards[axes_.w];
+      return ahead + std::abs(inwards[axes_.u]) + std::abs(inwards[axes_.v]) >= 0.0;
+    });
   }
 
   /// Cells whose distance from the sensor along `axis` is at most the layer's depth plus `more`.
@@ -121,7 +139,8 @@ class PyramidSweep {
     for (int row = own_v.begin; row < own_v.end; ++row) {
       const Eigen::Vector3d start_m = frame_.centre(cell(0, row));
       for (std::size_t i = 0; i < views_.size(); ++i) {
-        const auto bound = views_[i].bound_row(start_m, step_u_, nu_);
+        if (meets_[i] == 0) continue;
+        const auto bound = bounds_[i].of_row(start_m, nu_);
         const CellSpan seen = CellSpan{bound.begin, bound.end}.cut(own_u);
         in_view_[i * static_cast<std::size_t>(nv_) + static_cast<std::size_t>(row)] = seen;
         if (seen.empty()) continue;
@@ -154,9 +173,9 @@ class PyramidSweep {
     copy_depths_before(v + static_cast<int>(std::lround(lateral)), needed);
     SweepRow row;
     row.arriving = arriving_.data() + LightLayer::kPadding;
-    row.straight = layout_.optical_depth.data() + row_start(v, layer_before());
+    row.straight = layers_.optical_depth.data() + row_start(v, layer_before());
     row.slanted = depths_before_.data() + LightLayer::kPadding;
-    row.weight = layout_.weight.data() + row_start(v, layer_);
+    row.worth = layers_.worth.data() + row_start(v, layer_);
     row.source = static_cast<float>(source_[axes_.u]);
     row.depth = static_cast<float>(depth_);
     row.across = static_cast<float>(std::abs(lateral));
@@ -165,9 +184,9 @@ class PyramidSweep {
 
   /// Nothing stands between the sensor and the cells round it.
   void see_all(int v, CellSpan u) {
-    const float* weight = layout_.weight.data() + row_start(v, layer_);
+    const float* worth = layers_.worth.data() + row_start(v, layer_);
     std::fill(current_.row(v) + u.begin, current_.row(v) + u.end, 1.0F);
-    std::copy(weight + u.begin, weight + u.end, worth_.begin() + u.begin);
+    std::copy(worth + u.begin, worth + u.end, worth_.begin() + u.begin);
   }
 
   /// Beyond the grid there is nothing: the padding stays 0.
@@ -177,7 +196,7 @@ class PyramidSweep {
     if (v < 0 || v >= nv_) {
       std::fill(depths + inside.begin, depths + inside.end, 0.0F);
     } else {
-      const float* row = layout_.optical_depth.data() + row_start(v, layer_before());
+      const float* row = layers_.optical_depth.data() + row_start(v, layer_before());
       std::copy(row + inside.begin, row + inside.end, depths + inside.begin);
     }
   }
@@ -202,13 +221,13 @@ class PyramidSweep {
       if (seen.empty()) continue;
       const ConeRow view = views_[i].row(start_m, step_u_);
       sums_bits_[i] += sum_in_view(view, worth_.data(), seen.begin, seen.end);
-      const float* weight = layout_.weight.data() + row_start(v, layer_);
+      const float* worth = layers_.worth.data() + row_start(v, layer_);
       partly_seen_[i].offer(seen.end - seen.begin, [&](int k) {
         const int u = seen.begin + k;
         const bool doubtful = in_doubt(u, v) && view.contains(static_cast<float>(u));
         return PartlySeen::Cell{.cell = cell(u, v),
                                 .visible = current_.row(v)[u],
-                                .weight = doubtful ? weight[u] : 0.0F};
+                                .weight = doubtful ? worth[u] : 0.0F};
       });
     }
   }
@@ -217,48 +236,45 @@ class PyramidSweep {
   [[nodiscard]] bool in_doubt(int u, int v) {
     const float* row = current_.row(v);
     if (row[u] >= kPlain) return false;
-    return row[u] > kHidden || row[u - 1] > kHidden || row[u + 1] > kHidden ||
-           current_.row(v - 1)[u] > kHidden;
+    return row[u] > kDark || row[u - 1] > kDark || row[u + 1] > kDark ||
+           current_.row(v - 1)[u] > kDark;
   }
 
-  /// What exact rays to the sample add to the sweep's sum.
-  [[nodiscard]] double correction_bits(const PartlySeen& sample) const {
-    double sum_bits = 0.0;
-    for (const PartlySeen::Cell& target : sample.cells()) {
-      float depth = 0.0F;
-      const bool arrives =
-          walk_to_cell(frame_, views_.front().apex_m(), target.cell, [&](std::size_t cell) {
-            depth += optical_depth_[cell];
-            return depth < kOpaque;
-          });
-      const float visible = arrives ? std::exp(-depth) : 0.0F;
-      sum_bits += static_cast<double>(target.weight * (visible - target.visible));
-    }
-    return sample.stride() * sum_bits;
+  /// What an exact ray to the cell says it is worth, less what the sweep says.
+  [[nodiscard]] double error_bits(const PartlySeen::Cell& target) const {
+    float depth = 0.0F;
+    const auto pass = [&](std::size_t cell) {
+      depth += optical_depth_[cell];
+      return depth < kOpaque;
+    };
+    const bool arrives = walk_to_cell(frame_, views_.front().apex_m(), target.cell, pass);
+    const float visible = arrives ? std::exp(-depth) : 0.0F;
+    return static_cast<double>(target.weight *
+                               (visible - (target.visible > kDark ? target.visible : 0.0F)));
   }
 
   [[nodiscard]] int layer_before() const { return layer_ + (pyramid_.ascending ? -1 : 1); }
 
   [[nodiscard]] std::size_t row_start(int v, int w) const {
-    const auto at_v = static_cast<std::size_t>(v);
-    const auto at_w = static_cast<std::size_t>(w);
-    const auto length = static_cast<std::size_t>(nu_);
-    // Of v and w, the axis that comes first is the next slower one in memory.
-    return axes_.v < axes_.w ? (at_w * static_cast<std::size_t>(nv_) + at_v) * length
-                             : (at_v * static_cast<std::size_t>(nw_) + at_w) * length;
+    return (static_cast<std::size_t>(w) * static_cast<std::size_t>(nv_) +
+            static_cast<std::size_t>(v)) *
+           static_cast<std::size_t>(nu_);
   }
 
   const GridFrame& frame_;
   const std::vector<float>& optical_depth_;  ///< order of `frame_.index`
-  const SweepTables::Layout& layout_;
+  const SweepTables::Layers& layers_;
   std::span<const ViewCone> views_;
   Pyramid pyramid_;
+  double tolerance_;
   Axes axes_;
   int nu_;
   int nv_;
   int nw_;
   Eigen::Array3d source_;  ///< of the rays, in cells; whole numbers are centres
   Eigen::Vector3d step_u_;
+  std::vector<RowBounds> bounds_;    ///< per view
+  std::vector<std::uint8_t> meets_;  ///< per view: has it a part in the pyramid?
   LightLayer before_;
   LightLayer current_;
   std::vector<float> arriving_;

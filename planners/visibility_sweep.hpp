@@ -20,10 +20,12 @@ inline constexpr std::array<Pyramid, 6> kPyramids{
     {{0, true}, {0, false}, {1, true}, {1, false}, {2, true}, {2, false}}};
 
 struct SweepOptions {
-  /// Rays walked for each view and pyramid, to cells that the sweep saw partly: they tell how far
-  /// interpolation is off round the edges of what hides them. Higher is slower and closer to exact;
-  /// 0 is the sweep alone.
+  /// Most rays walked for each view and pyramid, to cells that the sweep saw partly: they tell how
+  /// far interpolation is off round the edges of what hides them. Higher is slower and closer to
+  /// exact; 0 is the sweep alone.
   int rays_per_view = 1024;
+  /// Standard error of that correction, of the sum, at which fewer rays are enough.
+  double tolerance = 0.002;
 };
 
 /// Expected worth of each of `views` as far as it lies in the pyramid, bits. All have one apex.

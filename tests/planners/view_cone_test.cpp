@@ -81,14 +81,14 @@ TEST(ForEachCellInView, MissesNoCellAndVisitsInOrder) {
   EXPECT_GT(found, 1000U);
 }
 
-TEST(ViewCone, BoundsARowToTheSector) {
+TEST(RowBounds, HoldTheSector) {
   // A level sensor at the origin that looks along x; a row of cells across its view at x = 1.
   FieldOfView fov;
   fov.half_width_rad = 0.2;
   fov.tilt_min_rad = -0.01;
   fov.tilt_max_rad = 0.01;
   const ViewCone cone(Pose::Identity(), fov);
-  const auto row = cone.bound_row({1.0, -5.0, 0.0}, {0.0, 0.1, 0.0}, 101);
+  const auto row = RowBounds(cone, {0.0, 0.1, 0.0}).of_row({1.0, -5.0, 0.0}, 101);
   EXPECT_GE(row.begin, 47);
   EXPECT_LE(row.end, 54);
   EXPECT_GE(row.end - row.begin, 5);

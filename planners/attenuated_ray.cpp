@@ -1,0 +1,24 @@
+#include "planners/attenuated_ray.hpp"
+
+#include "src/core/error.hpp"
+#include "src/information/discrete.hpp"
+
+namespace vantage {
+
+float Fading::worth_of_cell(float log_odds) const {
+  if (classify(log_odds) != CellState::unobserved) return 0.0F;
+  if (!by_entropy || log_odds == 0.0F) return static_cast<float>(worth);
+  return static_cast<float>(worth *
+                            binary_entropy_bits(probability_of(static_cast<double>(log_odds))));
+}
+
+CellTables fading_tables(const OccupancyGrid& grid, const Fading& fading) {
+  CellTables tables;
+  tables.state = cell_states(grid);
+  tables.transmission = cell_transmissions(grid, fading.transmission_per_slice);
+  tables.worth.reserve(grid.size());
+  for (const float log_odds : grid.log_odds) tables.worth.push_back(fading.worth_of_cell(log_odds));
+  return tables;
+}
+
+}  // namespace vantage
