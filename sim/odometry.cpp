@@ -54,7 +54,7 @@ Pose2 measure_increment(const Pose2& T_previous_now, OdometryBias& bias,
 
 Odometry::Odometry(const OdometryOptions& options, Rng rng, const Pose2& T_world_base_true)
     : options_(options),
-      rng_(std::move(rng)),
+      rng_(rng),
       T_world_base_true_(T_world_base_true),
       T_world_base_(T_world_base_true) {
   check_options(options_, "odometry");

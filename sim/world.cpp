@@ -166,7 +166,8 @@ std::vector<double> World::state() const {
 }
 
 void World::set_state(std::span<const double> state) {
-  const auto size = static_cast<std::size_t>(1 + model_->nq + 2 * model_->nv + model_->na);
+  const auto size = 1 + static_cast<std::size_t>(model_->nq) +
+                    2 * static_cast<std::size_t>(model_->nv) + static_cast<std::size_t>(model_->na);
   if (state.size() != size) {
     throw InputError(fmt::format("a state of {} has {} numbers, not {}", source_.scene.string(),
                                  size, state.size()));

@@ -145,7 +145,9 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
     std::string why = library_violation(folder, is_header, include.target);
     if (why.empty() && include.quoted) why = layer_violation(folder, include.target);
     if (why.empty()) continue;
-    found.push_back(path + ":" + std::to_string(include.line) + ": " + include.target + ": " + why);
+    std::string place = path;
+    place.append(":").append(std::to_string(include.line)).append(": ").append(include.target);
+    found.push_back(place.append(": ").append(why));
   }
   return found;
 }

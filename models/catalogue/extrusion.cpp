@@ -58,7 +58,7 @@ std::vector<Vector2d> inset(std::span<const Vector2d> outline, double distance) 
     const Vector2d before = outward(outline[i] - outline[(i + n - 1) % n]);
     const Vector2d after = outward(outline[(i + 1) % n] - outline[i]);
     const Vector2d bisector = before + after;  // (before + after) . before = 1 + before . after
-    moved.push_back(outline[i] - distance / (1.0 + before.dot(after)) * bisector);
+    moved.emplace_back(outline[i] - distance / (1.0 + before.dot(after)) * bisector);
   }
   return moved;
 }

@@ -56,7 +56,7 @@ double radius_at(std::span<const Vector2d> profile_m, double z_m) {
 
 void add_vessel(TriangleMesh& mesh, std::span<const Vector2d> outer_m, double wall_m,
                 double floor_m) {
-  const Vector2d rim = outer_m.back();
+  const Vector2d& rim = outer_m.back();
   add_lathe(mesh, Profile{{0.0, outer_m.front().y()}, outer_m.front()}, kAround, kInnerUv);
   add_lathe(mesh, outer_m, kAround, kWallUv);
   add_lathe(
@@ -75,8 +75,8 @@ void add_vessel(TriangleMesh& mesh, std::span<const Vector2d> outer_m, double wa
 
 void add_solid(TriangleMesh& mesh, std::span<const Vector2d> outer_m, const UvRect& side,
                const UvRect& ends) {
-  const Vector2d low = outer_m.front();
-  const Vector2d high = outer_m.back();
+  const Vector2d& low = outer_m.front();
+  const Vector2d& high = outer_m.back();
   if (low.x() > 0.0) add_lathe(mesh, Profile{{0.0, low.y()}, low}, kAround, ends);
   add_lathe(mesh, outer_m, kAround, side);
   if (high.x() > 0.0) add_lathe(mesh, Profile{high, {0.0, high.y()}}, kAround, ends);

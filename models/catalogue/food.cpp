@@ -41,7 +41,7 @@ GeneratedObject make_banana(Rng& rng) {
   for (std::size_t i = 0; i < girth.size(); ++i) {
     const double angle = length_m / bend_m * (static_cast<double>(i) / (girth.size() - 1.0) - 0.5);
     path.emplace_back(bend_m * std::cos(angle), bend_m * std::sin(angle), thick_m);
-    radii.push_back(thick_m * girth[i] * Vector2d(1.0, 0.95));
+    radii.emplace_back(thick_m * girth[i] * Vector2d(1.0, 0.95));
   }
   GeneratedObject banana;
   append(banana.mesh, make_tube(path, radii, Vector3d::UnitZ(), 16, kWallUv));

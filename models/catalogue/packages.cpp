@@ -180,7 +180,7 @@ GeneratedObject make_toy_blocks(Rng& rng) {
   std::vector<Vector2d> outline;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / corners;
-    outline.push_back(0.5 * edge * Vector2d(std::cos(angle), std::sin(angle)));
+    outline.emplace_back(0.5 * edge * Vector2d(std::cos(angle), std::sin(angle)));
   }
   const double z_middle = edge;
   const double z_upper = z_middle + 0.8 * edge;
@@ -192,7 +192,8 @@ GeneratedObject make_toy_blocks(Rng& rng) {
   if (star) {
     for (int i = 0; i < 10; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / 10;
-      tip.push_back((i % 2 == 0 ? 0.46 : 0.22) * edge * Vector2d(std::cos(angle), std::sin(angle)));
+      tip.emplace_back((i % 2 == 0 ? 0.46 : 0.22) * edge *
+                       Vector2d(std::cos(angle), std::sin(angle)));
     }
     append(blocks.mesh, make_extrusion(tip, 0.4 * edge, 0.002, {upper, upper, upper}),
            lift_to(z_upper, rng.uniform(0.0, 1.5)));

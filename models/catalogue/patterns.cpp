@@ -12,7 +12,7 @@ double fraction(double x) { return x - std::floor(x); }
 class Noise {
  public:
   Noise(int period_s, int rows, Rng& rng) : period_(period_s), rows_(rows) {
-    lattice_.resize(static_cast<std::size_t>(period_ * (rows_ + 1)));
+    lattice_.resize(static_cast<std::size_t>(period_) * static_cast<std::size_t>(rows_ + 1));
     for (double& node : lattice_) node = rng.uniform();
   }
   double operator()(double s, double t) const {
@@ -31,7 +31,8 @@ class Noise {
   static double ease(double x) { return x * x * (3.0 - 2.0 * x); }
   [[nodiscard]] double node(int column, int row) const {
     const int wrapped = ((column % period_) + period_) % period_;
-    return lattice_[static_cast<std::size_t>(row * period_ + wrapped)];
+    return lattice_[static_cast<std::size_t>(row) * static_cast<std::size_t>(period_) +
+                    static_cast<std::size_t>(wrapped)];
   }
   int period_;
   int rows_;

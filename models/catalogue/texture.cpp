@@ -50,17 +50,24 @@ Colour mix(const Colour& a, const Colour& b, double share_of_b) { return a + sha
 
 Image::Image(int width, int height, const Colour& fill) : width_px(width), height_px(height) {
   expects(width > 0 && height > 0, "an image has pixels");
-  rgb.resize(static_cast<std::size_t>(3 * width * height));
+  rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   paint(*this, UvRect{}, fill);
 }
 
+namespace {
+std::size_t first_byte(int width_px, int x_px, int y_px) {
+  return 3 * (static_cast<std::size_t>(y_px) * static_cast<std::size_t>(width_px) +
+              static_cast<std::size_t>(x_px));
+}
+}  // namespace
+
 Colour Image::at(int x_px, int y_px) const {
-  const auto i = static_cast<std::size_t>(3 * (y_px * width_px + x_px));
+  const std::size_t i = first_byte(width_px, x_px, y_px);
   return Colour(rgb[i], rgb[i + 1], rgb[i + 2]) / 255.0;
 }
 
 void Image::set(int x_px, int y_px, const Colour& colour) {
-  const auto i = static_cast<std::size_t>(3 * (y_px * width_px + x_px));
+  const std::size_t i = first_byte(width_px, x_px, y_px);
   for (int c = 0; c < 3; ++c) {
     rgb[i + static_cast<std::size_t>(c)] =
         static_cast<std::uint8_t>(std::floor(std::clamp(colour[c], 0.0, 1.0) * 255.0 + 0.5));

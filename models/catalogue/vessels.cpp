@@ -199,7 +199,7 @@ GeneratedObject make_teapot(Rng& rng) {
       3);
   std::vector<Vector2d> radii;
   for (std::size_t i = 0; i < spout.size(); ++i) {
-    radii.push_back(
+    radii.emplace_back(
         Vector2d::Constant(0.017 - 0.009 * static_cast<double>(i) / (spout.size() - 1.0)));
   }
   append(pot.mesh, make_tube(spout, radii, Vector3d::UnitY(), 10, kPartUv));

@@ -135,8 +135,8 @@ void draw_map(cv::Mat& image, const Layout& layout, const MapPanelInput& input,
   const double frustum_m = 0.13 * std::min(box.sizes().x(), box.sizes().y());
   const auto corners = corners_of(box);
   std::vector<Eigen::Vector3d> shown(corners.begin(), corners.end());
-  for (const Pose& T : input.T_world_candidates) shown.push_back(T.translation());
-  for (const Pose& T : input.T_world_chosen) shown.push_back(T.translation());
+  for (const Pose& T : input.T_world_candidates) shown.emplace_back(T.translation());
+  for (const Pose& T : input.T_world_chosen) shown.emplace_back(T.translation());
   const MapCamera camera = fit_camera(shown, input.azimuth_rad, input.elevation_rad, viewport);
 
   MapCanvas canvas{image, cv::Mat(image.size(), CV_32F, cv::Scalar())};

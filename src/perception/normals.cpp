@@ -31,7 +31,7 @@ Eigen::Vector3d across_horizontal_line(const Eigen::Vector3d& along) {
 
 Eigen::Vector3d unoriented_normal(const Eigen::Matrix3d& spread, double line_ratio) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  const Eigen::Vector3d variance = solver.eigenvalues();  // ascending
+  const Eigen::Vector3d& variance = solver.eigenvalues();  // ascending
   if (!(variance[2] > 0.0)) return Eigen::Vector3d::Zero();
   if (variance[1] < line_ratio * variance[2]) {
     return across_horizontal_line(solver.eigenvectors().col(2));

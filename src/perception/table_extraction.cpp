@@ -173,7 +173,7 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
   };
   std::ranges::sort(points, before);
-  points.erase(std::ranges::unique(points).begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<Eigen::Vector2d> hull;
   // Lower chain left to right, then upper chain right to left; each keeps left turns only.

@@ -179,6 +179,7 @@ TEST(CheckOptions, FindsWhatWasFilledInFromCpp) {
   EXPECT_NE(message(options), "");
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): RapidCheck makes values
 RC_GTEST_PROP(Fields, WrittenAndReadBackIsEqual,
               (double radius, std::uint64_t seed, bool video, std::vector<int> ids, bool limited)) {
   Options options;
