@@ -22,7 +22,8 @@ std::string place_text(const Episode& episode) {
 bool has_table(const RayScene& geometry, const Episode& episode) {
   const Eigen::AlignedBox3d region = episode.grid_frame().box();
   for (int i = 0; i < 25; ++i) {
-    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * (i / 5), 1.0);
+    const int row = i / 5;
+    const Eigen::Array3d share(0.1 + 0.2 * (i % 5), 0.1 + 0.2 * row, 1.0);
     const Eigen::Vector3d p_above = region.min().array() + share * region.sizes().array();
     const RayHit hit = geometry.cast(p_above, -Eigen::Vector3d::UnitZ(), p_above.z());
     if (p_above.z() - hit.distance_m >= episode.table.min_height_m) return true;
