@@ -9,7 +9,7 @@
 #include "planners/candidate.hpp"
 #include "planners/cell_walk.hpp"
 #include "planners/gain.hpp"
-#include "planners/view_cone.hpp"
+#include "src/geometry/view_cone.hpp"
 
 namespace vantage {
 

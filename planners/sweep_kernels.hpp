@@ -3,7 +3,7 @@
 #pragma once
 
 #include "planners/sweep_tables.hpp"
-#include "planners/view_cone.hpp"
+#include "src/geometry/view_cone.hpp"
 
 namespace vantage {
 

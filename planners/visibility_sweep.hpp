@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "planners/sweep_tables.hpp"
-#include "planners/view_cone.hpp"
+#include "src/geometry/view_cone.hpp"
 
 namespace vantage {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <thread>
 
+#include "src/geometry/view_cone.hpp"
+
 namespace vantage {
 namespace {
 
@@ -136,23 +138,20 @@ std::vector<std::uint8_t> visible_cells(const RayScene& scene, const GridFrame& 
                                         const FieldOfView& field_of_view, int exclude_body,
                                         int threads) {
   expects(threads >= 1, "at least one thread");
-  const Pose T_sensor_world = T_world_sensor.inverse();
-  const Eigen::Vector3d origin = T_world_sensor.translation();
+  const ViewCone cone(T_world_sensor, field_of_view);
   std::vector<std::uint8_t> visible(grid.size(), 0);
-  const auto slice = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Eigen::Array3i cell = grid.cell(i);
-      if (field_of_view.contains(T_sensor_world * grid.centre(cell))) {
-        visible[i] = sees_cell(scene, grid, cell, origin, exclude_body) ? 1 : 0;
-      }
-    }
+  const auto slices = [&](int begin, int end) {
+    const auto any = [](std::size_t) { return true; };
+    for_each_cell_in_view(grid, cone, begin, end, any, [&](const auto& cell, std::size_t index) {
+      visible[index] = sees_cell(scene, grid, cell, cone.apex_m(), exclude_body) ? 1 : 0;
+    });
   };
-  const auto parts = static_cast<std::size_t>(threads);
   std::vector<std::jthread> workers;
-  for (std::size_t part = 1; part < parts; ++part) {
-    workers.emplace_back(slice, visible.size() * part / parts, visible.size() * (part + 1) / parts);
+  const int nz = grid.cells.z();
+  for (int part = 1; part < threads; ++part) {
+    workers.emplace_back(slices, nz * part / threads, nz * (part + 1) / threads);
   }
-  slice(0, visible.size() / parts);
+  slices(0, nz / threads);
   workers.clear();
   return visible;
 }

@@ -4,6 +4,8 @@
 #include <future>
 #include <vector>
 
+#include "src/geometry/view_cone.hpp"
+
 namespace vantage {
 namespace {
 
@@ -11,33 +13,33 @@ namespace {
 struct SweptView {
   const OccupancyGrid& grid;
   const RangeScan& scan;
-  Eigen::Vector3d p_world_sensor;
+  ViewCone cone;  ///< condition (i)
   Pose T_sensor_world;
 
-  /// Conditions (i) and (ii).
+  /// Condition (ii).
   [[nodiscard]] bool swept(const Eigen::Vector3d& p_world) const {
     const Eigen::Vector3d p_sensor = T_sensor_world * p_world;
-    if (!scan.field_of_view.contains(p_sensor)) return false;
     // A NaN range, not swept, compares false.
     return p_sensor.norm() < scan.swept_range(beam_angles(p_sensor));
   }
   /// Condition (iii).
   [[nodiscard]] bool unobstructed(const Eigen::Vector3d& p_world) const {
-    return walk_ray(grid.frame, p_world_sensor, p_world,
+    return walk_ray(grid.frame, cone.apex_m(), p_world,
                     [&](std::size_t cell) { return grid.log_odds[cell] < kOccupiedLogOdds; });
   }
 };
 
 void find_free_in_slice(const SweptView& view, int z, std::vector<std::size_t>& found) {
   const GridFrame& frame = view.grid.frame;
-  std::size_t index = frame.index({0, 0, z});
-  for (int y = 0; y < frame.cells.y(); ++y) {
-    for (int x = 0; x < frame.cells.x(); ++x, ++index) {
-      if (view.grid.state(index) != CellState::unobserved) continue;
-      const Eigen::Vector3d p_world = frame.centre({x, y, z});
-      if (view.swept(p_world) && view.unobstructed(p_world)) found.push_back(index);
-    }
-  }
+  const auto unobserved = [&](std::size_t cell) {
+    return view.grid.state(cell) == CellState::unobserved;
+  };
+  for_each_cell_in_view(frame, view.cone, z, z + 1, unobserved,
+                        [&](const Eigen::Array3i& cell, std::size_t index) {
+                          const Eigen::Vector3d p_world = frame.centre(cell);
+                          if (view.swept(p_world) && view.unobstructed(p_world))
+                            found.push_back(index);
+                        });
 }
 
 }  // namespace
@@ -46,7 +48,8 @@ std::size_t carve_free_space(OccupancyGrid& grid, const RangeScan& scan, const P
                              const FreeSpaceUpdate& update, int threads) {
   expects(threads >= 1, "carve_free_space needs a thread");
   check_options(update, "free space");
-  const SweptView view{grid, scan, T_world_sensor.translation(), T_world_sensor.inverse()};
+  const SweptView view{grid, scan, ViewCone(T_world_sensor, scan.field_of_view),
+                       T_world_sensor.inverse()};
   // Every cell is judged against the unchanged grid: which worker does it makes no difference.
   const int slices = grid.frame.cells.z();
   const int workers = std::min(threads, slices);

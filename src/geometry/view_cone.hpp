@@ -95,12 +95,12 @@ class RowBounds {
 };
 
 /// Calls `visit(cell, cell index)` in index order for each cell with `wanted(cell index)` whose
-/// centre the cone contains.
+/// centre the cone contains, in the z slices [z_begin, z_end).
 template <class Wanted, class Visit>
-void for_each_cell_in_view(const GridFrame& grid, const ViewCone& cone, Wanted&& wanted,
-                           Visit&& visit) {
+void for_each_cell_in_view(const GridFrame& grid, const ViewCone& cone, int z_begin, int z_end,
+                           Wanted&& wanted, Visit&& visit) {
   const RowBounds bounds(cone, {grid.cell_size_m.x(), 0.0, 0.0});
-  for (int z = 0; z < grid.cells.z(); ++z) {
+  for (int z = z_begin; z < z_end; ++z) {
     for (int y = 0; y < grid.cells.y(); ++y) {
       const auto row = bounds.of_row(grid.centre({0, y, z}), grid.cells.x());
       for (int x = row.begin; x < row.end; ++x) {
@@ -110,6 +110,12 @@ void for_each_cell_in_view(const GridFrame& grid, const ViewCone& cone, Wanted&&
       }
     }
   }
+}
+
+template <class Wanted, class Visit>
+void for_each_cell_in_view(const GridFrame& grid, const ViewCone& cone, Wanted&& wanted,
+                           Visit&& visit) {
+  for_each_cell_in_view(grid, cone, 0, grid.cells.z(), wanted, visit);
 }
 
 }  // namespace vantage

@@ -1,4 +1,4 @@
-#include "planners/view_cone.hpp"
+#include "src/geometry/view_cone.hpp"
 
 #include <gtest/gtest.h>
 
