@@ -24,29 +24,35 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
   const float* __restrict arriving = row.arriving + shift;
   const float* __restrict straight = row.straight;
   const float* __restrict slanted = row.slanted + shift;
-  const float* __restrict worth = row.worth;
+  const float* __restrict cells = row.cells;
+  const float straight_depth = row.straight_depth;
+  const float slanted_depth = row.slanted_depth;
+  const float across = row.across;
+  const float source = row.source;
   const float per_layer = 1.0F / row.depth;
   const auto offset = static_cast<float>(shift);
   const int whole = begin + (end - begin + kLanes - 1) / kLanes * kLanes;
   for (int i = begin; i < whole; ++i) {
-    const float along = (row.source - static_cast<float>(i)) * per_layer;
+    const float along = (source - static_cast<float>(i)) * per_layer;
     const float fraction = along - offset;
     const float light = arriving[i] + fraction * (arriving[i + 1] - arriving[i]);
     // The ray ends in the column of cell i and comes from that of the nearest cell.
-    const float first = straight[i];
+    const float own = straight[i];
     const float near = slanted[i];
     const float far = slanted[i + 1];
-    const float second = fraction < 0.5F ? near : far;
-    const float x = first + (row.across + std::fabs(along)) * second;
+    const float other = fraction < 0.5F ? near : far;
+    const float first = own > 0.0F ? straight_depth : 0.0F;
+    const float second = other > 0.0F ? slanted_depth : 0.0F;
+    const float x = first + (across + std::fabs(along)) * second;
     // exp(-x) = (exp(-x / 8))^8 with a second-order series: 3e-6 off at x = 0.1.
     const float eighth = std::min(0.125F * x, 1.0F);
     float passes = 1.0F - eighth + 0.5F * eighth * eighth;
     passes *= passes;
     passes *= passes;
     passes *= passes;
-    const float seen = std::max(first, second) < kOpaque ? light * passes : 0.0F;
+    const float seen = std::min(own, other) < 0.0F ? 0.0F : light * passes;
     visible[i] = seen;
-    const float value = seen * worth[i];
+    const float value = seen * std::max(cells[i], 0.0F);
     seen_worth[i] = seen > kDark ? value : 0.0F;
   }
 }

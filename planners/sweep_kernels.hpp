@@ -16,13 +16,15 @@ inline constexpr float kDark = 0.002F;
 /// A row of cells and what stands between it and the layer before; arrays are indexed by the place
 /// i along the row.
 struct SweepRow {
-  const float* arriving;  ///< light that arrives in the layer before, blended to this row
-  const float* straight;  ///< optical depth, -ln p(a beam passes), of the cell right before cell i
-  const float* slanted;   ///< optical depths of the layer before in the row the rays come through
-  const float* worth;     ///< of seeing the cell
-  float source = 0.0F;    ///< place of the sensor along the row, cells
-  float depth = 1.0F;     ///< layers from the sensor to this one, >= 1
-  float across = 0.0F;    ///< cells that the rays move across the rows, per layer
+  const float* arriving;        ///< light that arrives in the layer before, blended to this row
+  const float* cells;           ///< of this row, as SweepTables::layers has them
+  const float* straight;        ///< of the layer before, right before this row
+  const float* slanted;         ///< of the layer before, in the row the rays come through
+  float straight_depth = 0.0F;  ///< optical depth of unobserved cells there
+  float slanted_depth = 0.0F;   ///< likewise
+  float source = 0.0F;          ///< place of the sensor along the row, cells
+  float depth = 1.0F;           ///< layers from the sensor to this one, >= 1
+  float across = 0.0F;          ///< cells that the rays move across the rows, per layer
 };
 
 /// For i in [begin, end), all with floor((source - i) / depth) == shift: the light that arrives,

@@ -29,25 +29,21 @@ void distribute(const GridFrame& frame, std::size_t z, const float* slice, float
 SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads)
     : frame(grid.frame) {
   const auto slices = static_cast<std::size_t>(frame.cells.z());
+  cells_per_slice_ = grid.size() / slices;
   expects(fading.transmission_per_slice.size() == slices, "one transmission per z slice");
-  for (Layers& axis : layers) {
-    axis.optical_depth.resize(grid.size() + kLanes);
-    axis.worth.resize(grid.size() + kLanes);
+  for (const double transmission : fading.transmission_per_slice) {
+    depth_per_slice.push_back(std::min(static_cast<float>(-std::log(transmission)), kOpaque));
   }
+  for (auto& axis : layers) axis.resize(grid.size() + kLanes);
   auto& [x_layers, y_layers, z_layers] = layers;
   parallel_for(slices, threads, [&](std::size_t z) {
-    const double transmission = fading.transmission_per_slice[z];
-    const float unobserved = std::min(static_cast<float>(-std::log(transmission)), kOpaque);
-    const std::size_t begin = grid.size() / slices * z;
-    for (std::size_t cell = begin; cell < begin + grid.size() / slices; ++cell) {
-      const CellState state = grid.state(cell);
-      z_layers.optical_depth[cell] =
-          state == CellState::unobserved ? unobserved : (state == CellState::free ? 0.0F : kOpaque);
-      z_layers.worth[cell] = fading.worth_of_cell(grid.log_odds[cell]);
+    const std::size_t begin = z * cells_per_slice_;
+    for (std::size_t cell = begin; cell < begin + cells_per_slice_; ++cell) {
+      z_layers[cell] = grid.state(cell) == CellState::occupied
+                           ? -1.0F
+                           : fading.worth_of_cell(grid.log_odds[cell]);
     }
-    distribute(frame, z, &z_layers.optical_depth[begin], x_layers.optical_depth.data(),
-               y_layers.optical_depth.data());
-    distribute(frame, z, &z_layers.worth[begin], x_layers.worth.data(), y_layers.worth.data());
+    distribute(frame, z, &z_layers[begin], x_layers.data(), y_layers.data());
   });
 }
 

@@ -15,16 +15,24 @@ inline constexpr int kLanes = 8;
 /// What the sweep reads of the map, three times: once for each axis along which it goes from layer
 /// to layer, with each layer contiguous.
 struct SweepTables {
-  struct Layers {
-    std::vector<float> optical_depth;  ///< -ln(transmission), per cell entered
-    std::vector<float> worth;          ///< of seeing the cell, in the gain's unit
-  };
   GridFrame frame;
-  /// Layers of equal x, y, z. In a layer, the rows run along y, x, x; those of the third axis come
-  /// one after the other. So layers[2] has the order of `frame.index`.
-  std::array<Layers, 3> layers;
+  /// Cells in layers of equal x, y, z. In a layer, the rows run along y, x, x; those of the third
+  /// axis come one after the other. So layers[2] has the order of `frame.index`.
+  /// > 0: unobserved, and worth that much to see; 0: free; < 0: occupied.
+  std::array<std::vector<float>, 3> layers;
+  std::vector<float> depth_per_slice;  ///< -ln(transmission) of the unobserved cells of a z slice
 
   SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads);
+
+  /// -ln p(a beam passes the cell), of index `cell` in the order of `frame.index`.
+  [[nodiscard]] float optical_depth(std::size_t cell) const {
+    const float content = layers[2][cell];
+    if (content <= 0.0F) return content < 0.0F ? kOpaque : 0.0F;
+    return depth_per_slice[cell / cells_per_slice_];
+  }
+
+ private:
+  std::size_t cells_per_slice_;
 };
 
 }  // namespace vantage

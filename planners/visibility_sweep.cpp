@@ -39,9 +39,9 @@ class PyramidSweep {
  public:
   PyramidSweep(const SweepTables& tables, std::span<const ViewCone> views, const Pyramid& pyramid,
                const SweepOptions& options)
-      : frame_(tables.frame),
-        optical_depth_(tables.layers[2].optical_depth),
-        layers_(tables.layers[static_cast<std::size_t>(pyramid.axis)]),
+      : tables_(tables),
+        frame_(tables.frame),
+        cells_(tables.layers[static_cast<std::size_t>(pyramid.axis)]),
         views_(views),
         pyramid_(pyramid),
         tolerance_(options.tolerance),
@@ -56,7 +56,7 @@ class PyramidSweep {
         before_(nu_, nv_),
         current_(nu_, nv_),
         arriving_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding),
-        depths_before_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding, 0.0F),
+        slanted_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding, 0.0F),
         worth_(static_cast<std::size_t>(nu_) + kLanes),
         in_view_(views.size() * static_cast<std::size_t>(nv_)),
         sums_bits_(views.size(), 0.0),
@@ -170,12 +170,15 @@ class PyramidSweep {
     blend_rows(before_.row(v + shift), before_.row(v + shift + 1),
                static_cast<float>(lateral - shift), needed.begin, needed.end,
                arriving_.data() + LightLayer::kPadding);
-    copy_depths_before(v + static_cast<int>(std::lround(lateral)), needed);
+    const int v_slanted = v + static_cast<int>(std::lround(lateral));
+    copy_slanted(v_slanted, needed);
     SweepRow row;
     row.arriving = arriving_.data() + LightLayer::kPadding;
-    row.straight = layers_.optical_depth.data() + row_start(v, layer_before());
-    row.slanted = depths_before_.data() + LightLayer::kPadding;
-    row.worth = layers_.worth.data() + row_start(v, layer_);
+    row.cells = cells_.data() + row_start(v, layer_);
+    row.straight = cells_.data() + row_start(v, layer_before());
+    row.slanted = slanted_.data() + LightLayer::kPadding;
+    row.straight_depth = depth_of(v);
+    row.slanted_depth = depth_of(v_slanted);
     row.source = static_cast<float>(source_[axes_.u]);
     row.depth = static_cast<float>(depth_);
     row.across = static_cast<float>(std::abs(lateral));
@@ -184,21 +187,28 @@ class PyramidSweep {
 
   /// Nothing stands between the sensor and the cells round it.
   void see_all(int v, CellSpan u) {
-    const float* worth = layers_.worth.data() + row_start(v, layer_);
+    const float* cells = cells_.data() + row_start(v, layer_);
     std::fill(current_.row(v) + u.begin, current_.row(v) + u.end, 1.0F);
-    std::copy(worth + u.begin, worth + u.end, worth_.begin() + u.begin);
+    for (int i = u.begin; i < u.end; ++i)
+      worth_[static_cast<std::size_t>(i)] = std::max(cells[i], 0.0F);
   }
 
   /// Beyond the grid there is nothing: the padding stays 0.
-  void copy_depths_before(int v, CellSpan needed) {
+  void copy_slanted(int v, CellSpan needed) {
     const CellSpan inside = needed.cut({0, nu_});
-    float* depths = depths_before_.data() + LightLayer::kPadding;
+    float* cells = slanted_.data() + LightLayer::kPadding;
     if (v < 0 || v >= nv_) {
-      std::fill(depths + inside.begin, depths + inside.end, 0.0F);
+      std::fill(cells + inside.begin, cells + inside.end, 0.0F);
     } else {
-      const float* row = layers_.optical_depth.data() + row_start(v, layer_before());
-      std::copy(row + inside.begin, row + inside.end, depths + inside.begin);
+      const float* row = cells_.data() + row_start(v, layer_before());
+      std::copy(row + inside.begin, row + inside.end, cells + inside.begin);
     }
+  }
+
+  /// Optical depth of the unobserved cells of row `v` in the layer before.
+  [[nodiscard]] float depth_of(int v) const {
+    const int z = axes_.w == 2 ? layer_before() : std::clamp(v, 0, nv_ - 1);
+    return tables_.depth_per_slice[static_cast<std::size_t>(z)];
   }
 
   /// Along a row, the crossed cell moves against the cell itself at most a few times.
@@ -221,13 +231,14 @@ class PyramidSweep {
       if (seen.empty()) continue;
       const ConeRow view = views_[i].row(start_m, step_u_);
       sums_bits_[i] += sum_in_view(view, worth_.data(), seen.begin, seen.end);
-      const float* worth = layers_.worth.data() + row_start(v, layer_);
+      const float* cells = cells_.data() + row_start(v, layer_);
       partly_seen_[i].offer(seen.end - seen.begin, [&](int k) {
         const int u = seen.begin + k;
-        const bool doubtful = in_doubt(u, v) && view.contains(static_cast<float>(u));
+        const bool doubtful =
+            cells[u] > 0.0F && in_doubt(u, v) && view.contains(static_cast<float>(u));
         return PartlySeen::Cell{.cell = cell(u, v),
                                 .visible = current_.row(v)[u],
-                                .weight = doubtful ? worth[u] : 0.0F};
+                                .weight = doubtful ? cells[u] : 0.0F};
       });
     }
   }
@@ -244,7 +255,7 @@ class PyramidSweep {
   [[nodiscard]] double error_bits(const PartlySeen::Cell& target) const {
     float depth = 0.0F;
     const auto pass = [&](std::size_t cell) {
-      depth += optical_depth_[cell];
+      depth += tables_.optical_depth(cell);
       return depth < kOpaque;
     };
     const bool arrives = walk_to_cell(frame_, views_.front().apex_m(), target.cell, pass);
@@ -261,9 +272,9 @@ class PyramidSweep {
            static_cast<std::size_t>(nu_);
   }
 
+  const SweepTables& tables_;
   const GridFrame& frame_;
-  const std::vector<float>& optical_depth_;  ///< order of `frame_.index`
-  const SweepTables::Layers& layers_;
+  const std::vector<float>& cells_;
   std::span<const ViewCone> views_;
   Pyramid pyramid_;
   double tolerance_;
@@ -278,7 +289,7 @@ class PyramidSweep {
   LightLayer before_;
   LightLayer current_;
   std::vector<float> arriving_;
-  std::vector<float> depths_before_;
+  std::vector<float> slanted_;
   std::vector<float> worth_;
   std::vector<CellSpan> in_view_;  ///< per view and row
   std::vector<double> sums_bits_;

@@ -62,12 +62,8 @@ RowBounds::RowBounds(const ViewCone& cone, const Eigen::Vector3d& step)
 RowBounds::Interval RowBounds::of_row(const Eigen::Vector3d& p_world, int count) const {
   constexpr double kSlack = 1e-6;  // cells: rounding must not lose a cell that contains() accepts
   const Eigen::Vector3d p = p_world - apex_m_;
-  const double nearest = -along_.dot(p);
-  const double off2 = p.squaredNorm() - nearest * nearest * step2_m2_;
-  if (off2 > range2_max_m2_ * (1.0 + kSlack)) return {};
-  const double reach = std::sqrt(std::max(0.0, range2_max_m2_ - off2) / step2_m2_) + kSlack;
-  double low = std::max(0.0, nearest - reach);
-  double high = std::min(count - 1.0, nearest + reach);
+  double low = 0.0;
+  double high = count - 1.0;
   for (const Plane& plane : std::span(planes_).first(count_)) {
     const double inside = plane.normal.dot(p);
     if (plane.per_index > 0.0) {
@@ -77,7 +73,14 @@ RowBounds::Interval RowBounds::of_row(const Eigen::Vector3d& p_world, int count)
     } else if (inside < -1e-9) {
       return {};
     }
+    if (low > high) return {};
   }
+  const double nearest = -along_.dot(p);
+  const double off2 = p.squaredNorm() - nearest * nearest * step2_m2_;
+  if (off2 > range2_max_m2_ * (1.0 + kSlack)) return {};
+  const double reach = std::sqrt(std::max(0.0, range2_max_m2_ - off2) / step2_m2_) + kSlack;
+  low = std::max(low, nearest - reach);
+  high = std::min(high, nearest + reach);
   if (low > high) return {};
   return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high)) + 1};
 }
