@@ -26,6 +26,14 @@ void distribute(const GridFrame& frame, std::size_t z, const float* slice, float
 
 }  // namespace
 
+SweepAxes sweep_axes(int w) {
+  switch (w) {
+    case 0: return {.u = 1, .v = 2, .w = 0};
+    case 1: return {.u = 0, .v = 2, .w = 1};
+    default: return {.u = 0, .v = 1, .w = 2};
+  }
+}
+
 SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads)
     : frame(grid.frame) {
   const auto slices = static_cast<std::size_t>(frame.cells.z());

@@ -17,20 +17,6 @@ constexpr int kMargin = 2;
 /// A cell that so much light reaches is plainly seen.
 constexpr float kPlain = 0.998F;
 
-/// The pyramid's axes: w from layer to layer, u along the contiguous rows, v across them.
-struct Axes {
-  int u = 0;
-  int v = 1;
-  int w = 2;
-};
-Axes axes_of(int axis) {
-  switch (axis) {
-    case 0: return {.u = 1, .v = 2, .w = 0};
-    case 1: return {.u = 0, .v = 2, .w = 1};
-    default: return {.u = 0, .v = 1, .w = 2};
-  }
-}
-
 int clamped(double x, int low, int high) {
   return static_cast<int>(std::clamp(x, static_cast<double>(low), static_cast<double>(high)));
 }
@@ -45,7 +31,7 @@ class PyramidSweep {
         views_(views),
         pyramid_(pyramid),
         tolerance_(options.tolerance),
-        axes_(axes_of(pyramid.axis)),
+        axes_(sweep_axes(pyramid.axis)),
         nu_(frame_.cells[axes_.u]),
         nv_(frame_.cells[axes_.v]),
         nw_(frame_.cells[axes_.w]),
@@ -278,7 +264,7 @@ class PyramidSweep {
   std::span<const ViewCone> views_;
   Pyramid pyramid_;
   double tolerance_;
-  Axes axes_;
+  SweepAxes axes_;
   int nu_;
   int nv_;
   int nw_;
