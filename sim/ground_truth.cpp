@@ -135,26 +135,37 @@ std::vector<std::uint8_t> visible_cells(const RayScene& scene, const GridFrame& 
                                         const Pose& T_world_sensor,
                                         const FieldOfView& field_of_view, int exclude_body,
                                         int threads) {
-  expects(threads >= 1, "at least one thread");
+  std::vector<std::uint8_t> visible(grid.size(), 0);
+  add_visible_cells(scene, grid, T_world_sensor, field_of_view, visible, exclude_body, threads);
+  return visible;
+}
+
+void add_visible_cells(const RayScene& scene, const GridFrame& grid, const Pose& T_world_sensor,
+                       const FieldOfView& field_of_view, std::vector<std::uint8_t>& visible,
+                       int exclude_body, int threads) {
+  expects(threads >= 1 && visible.size() == grid.size(), "at least one thread, one flag per cell");
   const Pose T_sensor_world = T_world_sensor.inverse();
   const Eigen::Vector3d origin = T_world_sensor.translation();
-  std::vector<std::uint8_t> visible(grid.size(), 0);
-  const auto slice = [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Eigen::Array3i cell = grid.cell(i);
-      if (field_of_view.contains(T_sensor_world * grid.centre(cell))) {
-        visible[i] = sees_cell(scene, grid, cell, origin, exclude_body) ? 1 : 0;
-      }
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(field_of_view.range_max_m);
+  const Eigen::Array3i low = grid.cell_at(origin - reach).max(0);
+  const Eigen::Array3i high = grid.cell_at(origin + reach).min(grid.cells - 1);
+  const auto row = [&](int y, int z) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      const Eigen::Array3i cell(x, y, z);
+      std::uint8_t& flag = visible[grid.index(cell)];
+      if (flag != 0 || !field_of_view.contains(T_sensor_world * grid.centre(cell))) continue;
+      flag = sees_cell(scene, grid, cell, origin, exclude_body) ? 1 : 0;
     }
   };
-  const auto parts = static_cast<std::size_t>(threads);
+  const auto rows = [&](int part) {
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y() + part; y <= high.y(); y += threads) row(y, z);
+    }
+  };
   std::vector<std::jthread> workers;
-  for (std::size_t part = 1; part < parts; ++part) {
-    workers.emplace_back(slice, visible.size() * part / parts, visible.size() * (part + 1) / parts);
-  }
-  slice(0, visible.size() / parts);
+  for (int part = 1; part < threads; ++part) workers.emplace_back(rows, part);
+  rows(0);
   workers.clear();
-  return visible;
 }
 
 std::vector<std::uint8_t> surface_cells(const mjModel& model, const mjData& data,

@@ -5,8 +5,9 @@
 
 #include <filesystem>
 
+#include "src/belief/clutter_hazard.hpp"
+#include "src/episode/cell_truth.hpp"
 #include "src/episode/episode_loop.hpp"
-#include "src/episode/next_best_view.hpp"
 #include "src/episode/scenario.hpp"
 
 namespace vantage {
@@ -26,7 +27,16 @@ std::string json_text(const nlohmann::ordered_json& json);
 
 std::string_view status_name(EpisodeStatus status);
 
+/// What an episode that maps has come to.
+struct MappingResult {
+  const OccupancyGrid& grid;
+  const ClutterHazard& hazard;
+  const CellTruth& truth;
+  std::span<const ScanRecord> scans;
+  std::span<const Candidate> views;
+};
+
 nlohmann::ordered_json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
-                                    const NextBestView& run);
+                                    const MappingResult& run);
 
 }  // namespace vantage

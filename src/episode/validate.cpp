@@ -9,6 +9,7 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
+#include "src/episode/office_rig.hpp"
 #include "src/episode/start_check.hpp"
 #include "src/episode/tabletop_rig.hpp"
 
@@ -19,7 +20,11 @@ namespace fs = std::filesystem;
 Validation check_episode(const fs::path& file, const std::vector<std::string>& overrides) {
   const ResolvedEpisode resolved = load_episode(file, overrides);
   try {
-    const TabletopRig rig(resolved);
+    if (resolved.episode.in_office()) {
+      const OfficeRig rig(resolved);
+    } else {
+      const TabletopRig rig(resolved);
+    }
     return {};
   } catch (const ConfigError& error) {
     throw ConfigError(file.string() + ": " + error.what());
