@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace vantage {
 namespace {
@@ -20,11 +21,14 @@ std::vector<double> middles(double low, double high, double step) {
 }  // namespace
 
 std::vector<Eigen::Vector3d> beam_directions(const FieldOfView& fov, const BeamFan& fan) {
-  const auto azimuths = middles(-fov.half_width_rad, fov.half_width_rad, fan.step_rad);
+  const double half_width_rad = fov.panorama ? std::numbers::pi : fov.half_width_rad;
+  const auto azimuths = middles(-half_width_rad, half_width_rad, fan.step_rad);
   std::vector<Eigen::Vector3d> directions;
   for (const double tilt_rad : middles(fov.tilt_min_rad, fov.tilt_max_rad, fan.step_rad)) {
     for (const double azimuth_rad : azimuths) {
-      directions.push_back(beam_direction({azimuth_rad, tilt_rad}));
+      directions.push_back(fov.panorama ? make_pose(Eigen::Vector3d::Zero(), azimuth_rad) *
+                                              beam_direction({0.0, tilt_rad})
+                                        : beam_direction({azimuth_rad, tilt_rad}));
     }
   }
   return directions;

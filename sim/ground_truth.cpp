@@ -137,14 +137,22 @@ std::vector<std::uint8_t> visible_cells(const RayScene& scene, const GridFrame& 
                                         const Pose& T_world_sensor,
                                         const FieldOfView& field_of_view, int exclude_body,
                                         int threads) {
-  expects(threads >= 1, "at least one thread");
-  const ViewCone cone(T_world_sensor, field_of_view);
   std::vector<std::uint8_t> visible(grid.size(), 0);
+  add_visible_cells(scene, grid, T_world_sensor, field_of_view, visible, exclude_body, threads);
+  return visible;
+}
+
+void add_visible_cells(const RayScene& scene, const GridFrame& grid, const Pose& T_world_sensor,
+                       const FieldOfView& field_of_view, std::vector<std::uint8_t>& visible,
+                       int exclude_body, int threads) {
+  expects(threads >= 1 && visible.size() == grid.size(), "at least one thread, one flag per cell");
+  const ViewCone cone(T_world_sensor, field_of_view);
+  const auto unknown = [&](std::size_t index) { return visible[index] == 0; };
   const auto slices = [&](int begin, int end) {
-    const auto any = [](std::size_t) { return true; };
-    for_each_cell_in_view(grid, cone, begin, end, any, [&](const auto& cell, std::size_t index) {
-      visible[index] = sees_cell(scene, grid, cell, cone.apex_m(), exclude_body) ? 1 : 0;
-    });
+    for_each_cell_in_view(
+        grid, cone, begin, end, unknown, [&](const auto& cell, std::size_t index) {
+          visible[index] = sees_cell(scene, grid, cell, cone.apex_m(), exclude_body) ? 1 : 0;
+        });
   };
   std::vector<std::jthread> workers;
   const int nz = grid.cells.z();
@@ -153,7 +161,6 @@ std::vector<std::uint8_t> visible_cells(const RayScene& scene, const GridFrame& 
   }
   slices(0, nz / threads);
   workers.clear();
-  return visible;
 }
 
 std::vector<std::uint8_t> surface_cells(const mjModel& model, const mjData& data,

@@ -26,6 +26,11 @@ std::vector<std::uint8_t> visible_cells(const RayScene& scene, const GridFrame& 
                                         const FieldOfView& field_of_view, int exclude_body = -1,
                                         int threads = 1);
 
+/// The same, added to `visible` (one flag a cell): cells flagged already are not looked at again.
+void add_visible_cells(const RayScene& scene, const GridFrame& grid, const Pose& T_world_sensor,
+                       const FieldOfView& field_of_view, std::vector<std::uint8_t>& visible,
+                       int exclude_body = -1, int threads = 1);
+
 /// 1 for each cell that a surface of a solid geom passes through, seen or not, sampled more densely
 /// than half a cell. A surface exactly between two cells belongs to one of them.
 std::vector<std::uint8_t> surface_cells(const mjModel& model, const mjData& data,

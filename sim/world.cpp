@@ -244,6 +244,25 @@ std::string model_name(const mjModel& model, ModelObject kind, int id) {
   return name == nullptr ? "" : name;
 }
 
+std::vector<std::string> model_names(const mjModel& model, ModelObject kind) {
+  const auto count = [&] {
+    switch (kind) {
+      case ModelObject::body: return model.nbody;
+      case ModelObject::joint: return model.njnt;
+      case ModelObject::geom: return model.ngeom;
+      case ModelObject::site: return model.nsite;
+      case ModelObject::camera: return model.ncam;
+      case ModelObject::actuator: return model.nu;
+    }
+    return 0;
+  };
+  std::vector<std::string> names;
+  for (int id = 0; id < count(); ++id) {
+    if (auto name = model_name(model, kind, id); !name.empty()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
 Pose body_pose(const World& world, int body_id) {
   const mjData& now = world.snapshot();
   return make_world_pose(now.xpos + 3 * body_id, now.xmat + 9 * body_id);

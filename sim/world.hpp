@@ -105,6 +105,9 @@ std::optional<int> find_model_id(const mjModel& model, ModelObject kind, const s
 /// Empty for objects without a name.
 std::string model_name(const mjModel& model, ModelObject kind, int id);
 
+/// Of all objects of that kind that have a name, in the model's order.
+std::vector<std::string> model_names(const mjModel& model, ModelObject kind);
+
 std::string mujoco_version();
 
 Pose body_pose(const World& world, int body_id);  ///< T_world_body, now

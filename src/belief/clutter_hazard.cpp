@@ -50,6 +50,22 @@ void ClutterHazard::observe(const OccupancyGrid& before, const RangeScan& scan,
   }
 }
 
+void ClutterHazard::observe(const OccupancyGrid& before, const CameraImages& image,
+                            const Pose& T_world_camera, int stride) {
+  expects(before.frame.cells.z() == slices_, "the hazard was made for a grid of other height");
+  expects(stride >= 1, "a stride of at least one pixel");
+  for (int row = 0; row < image.height_px; row += stride) {
+    for (int column = 0; column < image.width_px; column += stride) {
+      const double depth_m = image.depth_at(row, column);
+      if (depth_m == 0.0) continue;
+      const bool returned = std::isfinite(depth_m);
+      const Eigen::Vector3d ray = image.ray(row, column);
+      const double scale = returned ? depth_m : image.range_max_m / ray.norm();
+      count_beam(before, T_world_camera.translation(), T_world_camera * (scale * ray), returned);
+    }
+  }
+}
+
 double ClutterHazard::global_hazard() const {
   double crossings = options_.prior_weight;
   double hits = options_.prior_weight * options_.prior_hazard;

@@ -37,6 +37,11 @@ class ClutterHazard {
   /// crosses all to the range or the grid's end. NaN beams are ignored.
   void observe(const OccupancyGrid& before, const RangeScan& scan, const Pose& T_world_sensor);
 
+  /// The same for a depth image, of which every `stride`-th pixel of every `stride`-th row is a
+  /// beam; pixels without measurement are ignored, those beyond range cross all to the range.
+  void observe(const OccupancyGrid& before, const CameraImages& image, const Pose& T_world_camera,
+               int stride);
+
   [[nodiscard]] int layer_of(int slice) const { return slice * options_.layers / slices_; }
   [[nodiscard]] double crossings(int layer) const { return counts_of(layer).crossings; }
   [[nodiscard]] double hits(int layer) const { return counts_of(layer).hits; }

@@ -29,4 +29,13 @@ struct FreeSpaceUpdate {
 std::size_t carve_free_space(OccupancyGrid& grid, const RangeScan& scan, const Pose& T_world_sensor,
                              const FreeSpaceUpdate& update, int threads = 1);
 
+/// The same for a depth image, by projecting cell centres into it. Conditions (i) and (ii) become:
+///   (i)   c's centre lies in the image and no farther from the camera than image.range_max_m,
+///   (ii)  each of the four pixels round its projection went farther than the centre;
+/// a pixel without measurement frees nothing, one beyond range frees up to range_max_m.
+/// @param T_world_camera camera in OpenCV's axes
+std::size_t carve_free_space(OccupancyGrid& grid, const CameraImages& image,
+                             const Pose& T_world_camera, const FreeSpaceUpdate& update,
+                             int threads = 1);
+
 }  // namespace vantage

@@ -86,9 +86,9 @@ std::string_view status_name(EpisodeStatus status) {
 }
 
 Json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
-                  const NextBestView& run) {
+                  const MappingResult& run) {
   const Episode& episode = resolved.episode;
-  const MapScore map = run.truth().score(run.belief().grid(), episode.metrics.tolerance_cells);
+  const MapScore map = run.truth.score(run.grid, episode.metrics.tolerance_cells);
   Json json = {{"task", episode.task},
                {"status", status_name(summary.status)},
                {"reason", summary.reason},
@@ -102,17 +102,17 @@ Json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
                {"path_length_m", summary.path_length_m},
                {"collisions", summary.collisions},
                {"state_hash", hash_text(summary.state_hash)}};
-  json["observable_cells"] = run.truth().observable_cells();
+  json["observable_cells"] = run.truth.observable_cells();
   json["scans"] = Json::array();
-  for (const ScanRecord& scan : run.scans()) json["scans"].push_back(scan_json(scan));
+  for (const ScanRecord& scan : run.scans) json["scans"].push_back(scan_json(scan));
   json["map"] = {{"precision", map.precision},
                  {"recall", map.recall},
                  {"tolerance_cells", episode.metrics.tolerance_cells}};
-  json["observability"] = observability(episode, run.belief().hazard());
-  json["observability_per_slice"] = run.belief().hazard().transmission_per_slice();
-  json["region"] = box_json(run.belief().grid().frame.box());
+  json["observability"] = observability(episode, run.hazard);
+  json["observability_per_slice"] = run.hazard.transmission_per_slice();
+  json["region"] = box_json(run.grid.frame.box());
   json["candidates"] = Json::array();
-  for (const Candidate& view : run.views()) {
+  for (const Candidate& view : run.views) {
     Json entry = {{"id", view.id}};
     entry.update(view_json(view.T_world_sensor));
     json["candidates"].push_back(entry);

@@ -5,8 +5,9 @@
 
 #include <filesystem>
 
+#include "src/belief/clutter_hazard.hpp"
+#include "src/episode/cell_truth.hpp"
 #include "src/episode/episode_loop.hpp"
-#include "src/episode/next_best_view.hpp"
 #include "src/episode/scenario.hpp"
 
 namespace vantage {
@@ -29,7 +30,16 @@ nlohmann::ordered_json box_json(const Eigen::AlignedBox3d& box_m);  ///< min_m, 
 
 std::string_view status_name(EpisodeStatus status);
 
+/// What an episode that maps has come to.
+struct MappingResult {
+  const OccupancyGrid& grid;
+  const ClutterHazard& hazard;
+  const CellTruth& truth;
+  std::span<const ScanRecord> scans;
+  std::span<const Candidate> views;
+};
+
 nlohmann::ordered_json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
-                                    const NextBestView& run);
+                                    const MappingResult& run);
 
 }  // namespace vantage

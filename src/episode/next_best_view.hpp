@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planners/candidate.hpp"
-#include "planners/path_planning.hpp"
+#include "src/episode/navigator.hpp"
 #include "src/episode/recorder.hpp"
 #include "src/episode/scan_record.hpp"
 #include "src/episode/tabletop_belief.hpp"
@@ -34,13 +34,7 @@ class NextBestView {
 
  private:
   void predict(const Pose& T_world_sensor);
-  void measure(const Pose2& dead_reckoned, const BeliefUpdate& report);
   void block_table();
-  void look_round();
-  void localise();
-  DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
-  PathField plan_from_here();
-  bool drive_closer(const Candidate& candidate);
   [[nodiscard]] MapPanelInput panel() const;
 
   Episode episode_;
@@ -49,12 +43,11 @@ class NextBestView {
   std::vector<Candidate> views_;  ///< the ring, in id order
   TabletopBelief belief_;
   TabletopTruth truth_;
-  FloorMap floor_;
+  Navigator navigator_;
   Rng choice_rng_;
   double decision_start_s_ = 0.0;  ///< wall
   ScanRecord current_;             ///< filled in from the decision to the end of its scan
   std::vector<ScanRecord> scans_;
-  std::vector<Eigen::Vector2d> path_m_;  ///< driven, as the robot believes
 };
 
 }  // namespace vantage

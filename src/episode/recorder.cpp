@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/belief/octomap_io.hpp"
+#include "src/episode/scan_summary.hpp"
 #include "src/perception/ply.hpp"
 
 namespace vantage {
@@ -19,9 +20,10 @@ constexpr std::string_view kStepsHeader =
     "{gains}path_length_m,plan_time_s,map_time_s,scan_time_s,pose_error_m,"
     "pose_error_before_registration_m,yaw_error_rad,registered,collisions,precision,recall\n";
 
-std::string steps_header() {
+std::string steps_header(const Episode& episode) {
   std::string gains;
-  for (const auto name : cell_predictors()) gains += fmt::format("predicted_{}_cells,", name);
+  for (const auto name : recorded_predictors(episode))
+    gains += fmt::format("predicted_{}_cells,", name);
   return fmt::format(fmt::runtime(kStepsHeader), fmt::arg("gains", gains));
 }
 
@@ -44,8 +46,8 @@ std::string tum_row(double time_s, const Pose2& base) {
 
 }  // namespace
 
-Recorder::Recorder(const ResolvedEpisode& resolved, TabletopRig& rig,
-                   std::filesystem::path directory, bool with_video, bool lean)
+Recorder::Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
+                   bool with_video, bool lean)
     : directory_(std::move(directory)),
       rig_(rig),
       planned_scans_(resolved.episode.scans),
@@ -56,7 +58,7 @@ Recorder::Recorder(const ResolvedEpisode& resolved, TabletopRig& rig,
       trajectory_(directory_ / "trajectory.tum"),
       estimated_(directory_ / "trajectory_estimated.tum"),
       progress_(resolved.name, resolved.episode.scans) {
-  steps_.write(steps_header());
+  steps_.write(steps_header(resolved.episode));
   trajectory_.write(kTumHeader);
   estimated_.write(kTumHeader);
   if (with_video) film_.emplace(rig.world(), resolved.episode.recording, directory_);

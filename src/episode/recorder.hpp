@@ -10,11 +10,11 @@
 #include "sim/world.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/film.hpp"
+#include "src/episode/mobile_rig.hpp"
 #include "src/episode/report_data.hpp"
 #include "src/episode/scan_record.hpp"
 #include "src/episode/scenario.hpp"
 #include "src/episode/state_log.hpp"
-#include "src/episode/tabletop_rig.hpp"
 
 namespace vantage {
 
@@ -22,7 +22,7 @@ class Recorder {
  public:
   /// Hooks itself to the world's ticks. Lean: neither states nor voxels are kept.
   /// @throws OutputError, RendererError
-  Recorder(const ResolvedEpisode& resolved, TabletopRig& rig, std::filesystem::path directory,
+  Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
            bool with_video, bool lean);
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -46,7 +46,7 @@ class Recorder {
   void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);
 
   std::filesystem::path directory_;
-  TabletopRig& rig_;
+  MobileRig& rig_;
   int planned_scans_;
   bool lean_;
   StateLog states_;

@@ -8,6 +8,8 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/manifest.hpp"
+#include "src/episode/next_best_view.hpp"
+#include "src/episode/office_exploration.hpp"
 #include "src/episode/report.hpp"
 
 namespace vantage {
@@ -44,7 +46,8 @@ struct Ending {
   std::string reason;
 };
 
-Ending run_to_end(NextBestView& parts) {
+template <class Parts>
+Ending run_to_end(Parts& parts) {
   try {
     run_episode(parts);
     return {};
@@ -57,21 +60,13 @@ Ending run_to_end(NextBestView& parts) {
   }
 }
 
-}  // namespace
-
-RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
-  RunOutcome outcome;
-  outcome.directory =
-      options.directory.empty()
-          ? fs::path("out") / fmt::format("{}-{}", resolved.name, resolved.episode.seed)
-          : options.directory;
-  TabletopRig rig(resolved);  // before an old run is removed: it may fail
-  prepare_directory(outcome.directory, options.overwrite);
-  log_to_file(outcome.directory / "log.txt");
-
+/// Runs the parts made for `rig` and writes everything they come to.
+template <class Parts>
+void run_parts(auto& rig, const ResolvedEpisode& resolved, const RunOptions& options,
+               RunOutcome& outcome) {
   const double start_s = wall_s();
   Recorder recorder(resolved, rig, outcome.directory, options.video, options.lean);
-  NextBestView parts(resolved, rig, recorder);
+  Parts parts(resolved, rig, recorder);
   RunSummary summary;
   const Ending ending = run_to_end(parts);
   summary.status = ending.status;
@@ -85,16 +80,40 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   // What cannot be made again comes first.
   recorder.commit();
   outcome.code = ending.code;
-  outcome.metrics = json_text(metrics_json(resolved, summary, parts));
+  const auto& belief = parts.belief();
+  outcome.metrics = json_text(
+      metrics_json(resolved, summary,
+                   {belief.grid(), belief.hazard(), parts.truth(), parts.scans(), parts.views()}));
   write_file(outcome.directory / "config.yaml", episode_yaml(resolved.episode));
   write_file(outcome.directory / "manifest.json",
              manifest_json(resolved, options.command, summary));
   write_file(outcome.directory / "metrics.json", outcome.metrics);
   recorder.finish_video();
-  if (!options.lean) {
-    recorder.write_map(parts.belief().grid(), parts.belief().object_cloud());
-    write_report(outcome.directory);
+  if (!options.lean) recorder.write_map(belief.grid(), belief.cloud());
+}
+
+template <class Rig, class Parts>
+void run_in(const ResolvedEpisode& resolved, const RunOptions& options, RunOutcome& outcome) {
+  Rig rig(resolved);  // before an old run is removed: it may fail
+  prepare_directory(outcome.directory, options.overwrite);
+  log_to_file(outcome.directory / "log.txt");
+  run_parts<Parts>(rig, resolved, options, outcome);
+}
+
+}  // namespace
+
+RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
+  RunOutcome outcome;
+  outcome.directory =
+      options.directory.empty()
+          ? fs::path("out") / fmt::format("{}-{}", resolved.name, resolved.episode.seed)
+          : options.directory;
+  if (resolved.episode.in_office()) {
+    run_in<OfficeRig, OfficeExploration>(resolved, options, outcome);
+  } else {
+    run_in<TabletopRig, NextBestView>(resolved, options, outcome);
   }
+  if (!options.lean) write_report(outcome.directory);
   log_to_file({});
   return outcome;
 }

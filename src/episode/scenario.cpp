@@ -29,6 +29,14 @@ void Episode::check() const {
   if (task != "next_best_view") {
     throw ConfigError(fmt::format("task: unknown task '{}'; known: next_best_view", task));
   }
+  if (setting != "table_top" && setting != "office") {
+    throw ConfigError(
+        fmt::format("setting: unknown setting '{}'; known: table_top, office", setting));
+  }
+  if (in_office()) {
+    swept_field(exploration.sweep, exploration.camera);
+    return;
+  }
   const double lines_per_tick = laser.line_rate_hz * simulation.control_period_s;
   if (std::abs(lines_per_tick - 1.0) > 1e-9) {
     throw ConfigError(fmt::format(

@@ -23,6 +23,7 @@
 #include "src/belief/hole_filling.hpp"
 #include "src/belief/sensor_model.hpp"
 #include "src/core/fields.hpp"
+#include "src/episode/exploration_options.hpp"
 #include "src/perception/registration.hpp"
 #include "src/perception/table_extraction.hpp"
 
@@ -30,10 +31,14 @@ namespace vantage {
 
 struct RobotOptions {
   std::string model = "models/robots/pr2/pr2.xml";  ///< MJCF of the robot
-  int start_view = 0;  ///< position on the ring of views where the robot stands at the start
+  int start_view = 0;           ///< table top: position on the ring of views where the robot starts
+  std::string start_site = "";  ///< office: site of the scene where it starts; empty: start_pose
+  std::array<double, 3> start_pose{0.0, 0.0, 0.0};  ///< office: x m, y m, yaw rad, world
   void fields(auto&& f) {
     f("model", model);
     f("start_view", start_view, at_least(0));
+    f("start_site", start_site);
+    f("start_pose", start_pose);
   }
 };
 
@@ -54,7 +59,13 @@ struct MapOptions {
 struct MetricsOptions {
   int tolerance_cells =
       1;  ///< cells an occupied cell may be off the true surface and still be right
-  void fields(auto&& f) { f("tolerance_cells", tolerance_cells, between(0, 10)); }
+  /// Office: between the poses, reachable from the start, that say which cells are observable;
+  /// lower misses fewer, takes longer.
+  double pose_spacing_m = 1.0;
+  void fields(auto&& f) {
+    f("tolerance_cells", tolerance_cells, between(0, 10));
+    f("pose_spacing_m", pose_spacing_m, between(0.05, 100.0));
+  }
 };
 
 struct RecordingOptions {
@@ -70,7 +81,8 @@ struct RecordingOptions {
 
 struct Episode {
   std::string task = "next_best_view";
-  std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF; any scene with a table
+  std::string setting = "table_top";                         ///< or office
+  std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF
   std::uint64_t seed = 1;                                    ///< of every random stream
   int scans = 10;                                            ///< the first one included
   int threads = 2;                                           ///< results do not depend on it
@@ -87,7 +99,8 @@ struct Episode {
   FreeSpaceUpdate free_space;
   HoleFilling hole_filling;
   ClutterHazardOptions clutter_hazard;
-  RingOfViews candidates;
+  RingOfViews candidates;          ///< table top
+  ExplorationOptions exploration;  ///< office
   Gain gain = AdaptiveGain{};
   ViewChoice choice = GreedyGain{};
   FloorMapOptions floor_map;
@@ -98,6 +111,7 @@ struct Episode {
 
   void fields(auto&& f) {
     f("task", task);
+    f("setting", setting);
     f("scene", scene);
     f("seed", seed);
     f("scans", scans, between(1, 10000));
@@ -116,6 +130,7 @@ struct Episode {
     f("hole_filling", hole_filling);
     f("clutter_hazard", clutter_hazard);
     f("candidates", candidates);
+    f("exploration", exploration);
     f("gain", gain);
     f("choice", choice);
     f("floor_map", floor_map);
@@ -126,6 +141,7 @@ struct Episode {
   }
   void check() const;  ///< what concerns more than one part
 
+  [[nodiscard]] bool in_office() const { return setting == "office"; }
   [[nodiscard]] GridFrame grid_frame() const {
     return make_grid_frame(map.centre_m, map.size_m, map.cells);
   }

@@ -1,6 +1,9 @@
 #include "src/episode/start_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "src/core/error.hpp"
 
@@ -66,10 +69,47 @@ void check_start(const World& world, const Pr2& robot, const RayScene& geometry,
                     "navigation.footprint_radius_m {}",
                     place_text(episode), room_m, episode.navigation.footprint_radius_m));
   }
+  check_turning_room(world, robot, place_text(episode));
+}
+
+void check_turning_room(const World& world, const Pr2& robot, const std::string& place) {
   if (const auto touched = robot.touched_by_turning(world); !touched.empty()) {
-    throw ConfigError(fmt::format("{}: the robot would touch {} when it turns there",
-                                  place_text(episode), geom_text(world.model(), touched.front())));
+    throw ConfigError(fmt::format("{}: the robot would touch {} when it turns there", place,
+                                  geom_text(world.model(), touched.front())));
   }
+}
+
+Pose2 office_start(const World& world, const ResolvedEpisode& resolved) {
+  const RobotOptions& robot = resolved.episode.robot;
+  if (robot.start_site.empty()) {
+    return {robot.start_pose[0], robot.start_pose[1], wrap_angle(robot.start_pose[2])};
+  }
+  if (const auto site = find_model_id(world.model(), ModelObject::site, robot.start_site)) {
+    return flatten(site_pose(world, *site));
+  }
+  std::vector<std::string> known = model_names(world.model(), ModelObject::site);
+  std::erase_if(known, [](const std::string& name) { return name.starts_with("robot/"); });
+  throw ConfigError(fmt::format("robot.start_site: no site '{}' in {}; {}", robot.start_site,
+                                resolved.scene.string(),
+                                known.empty() ? "it has none: set robot.start_pose"
+                                              : fmt::format("known: {}", fmt::join(known, ", "))));
+}
+
+std::string office_start_text(const Episode& episode) {
+  const RobotOptions& robot = episode.robot;
+  if (!robot.start_site.empty()) return fmt::format("robot.start_site '{}'", robot.start_site);
+  return fmt::format("robot.start_pose {}", fmt::join(robot.start_pose, ", "));
+}
+
+double camera_lift_m(const Pr2& robot, double lowest_m, const Episode& episode) {
+  const double height_m = episode.exploration.frontiers.height_m;
+  const double lift_m = height_m - lowest_m;
+  if (lift_m < -1e-2 || lift_m > robot.torso_max_m()) {
+    throw ConfigError(fmt::format(
+        "exploration.frontiers.height_m: {} is out of the camera's reach, {:.3f} to {:.3f}",
+        height_m, lowest_m, lowest_m + robot.torso_max_m()));
+  }
+  return std::max(lift_m, 0.0);
 }
 
 }  // namespace vantage

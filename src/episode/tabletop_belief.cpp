@@ -28,10 +28,9 @@ TabletopBelief::TabletopBelief(const Episode& episode)
   episode_.table.region_size_m = {2.0 * map.size_m[0], 2.0 * map.size_m[1]};
 }
 
-BeliefUpdate TabletopBelief::update(const TabletopObservation& observation) {
+BeliefUpdate TabletopBelief::update(const TabletopObservation& observation, const WallMap& walls) {
   BeliefUpdate report;
-  report.T_world_base = register_pose(observation, report);
-  remember_walls(observation.base_scan, observation.base_scan_height_m, report.T_world_base);
+  report.T_world_base = register_pose(observation, walls, report);
   const Pose T_world_base = lift(report.T_world_base);
   const Pose T_world_sensor = T_world_base * observation.T_base_laser;
 
@@ -50,29 +49,12 @@ BeliefUpdate TabletopBelief::update(const TabletopObservation& observation) {
   return report;
 }
 
-Pose2 TabletopBelief::localise(const PlanarScan& scan, double scanner_height_m,
-                               const Pose2& guess) const {
-  if (wall_cloud_.empty()) return guess;
-  const PointCloud scan_base = prepare(scan, scanner_height_m);
-  return register_scan(scan_base, wall_cloud_, guess, episode_.registration).T_world_base;
-}
-
-void TabletopBelief::remember_walls(const PlanarScan& scan, double scanner_height_m,
-                                    const Pose2& T_world_base) {
-  append(wall_cloud_, transform(prepare(scan, scanner_height_m), lift(T_world_base)));
-}
-
-PointCloud TabletopBelief::prepare(const PlanarScan& scan, double scanner_height_m) const {
-  return prepare_scan(to_cloud(scan, scanner_height_m),
-                      lift(scan.T_base_sensor, scanner_height_m).translation(),
-                      episode_.registration);
-}
-
-Pose2 TabletopBelief::register_pose(const TabletopObservation& observation, BeliefUpdate& report) {
+Pose2 TabletopBelief::register_pose(const TabletopObservation& observation, const WallMap& walls,
+                                    BeliefUpdate& report) {
   const PointCloud scan_base = prepare_scan(
       cloud_of(observation), observation.T_base_laser.translation(), episode_.registration);
   Pose2 pose = observation.T_world_base_odometry;
-  const PointCloud& reference = map_cloud_.empty() ? wall_cloud_ : map_cloud_;
+  const PointCloud& reference = map_cloud_.empty() ? walls.cloud() : map_cloud_;
   if (!reference.empty()) {
     const auto result = register_scan(scan_base, reference, pose, episode_.registration);
     report.registered = result.converged;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/episode/interrupt.hpp"
+#include "planners/view_candidates.hpp"
 #include "src/episode/start_check.hpp"
 
 namespace vantage {
@@ -36,25 +36,10 @@ Pr2 placed_robot(World& world, const Episode& episode) {
 }  // namespace
 
 TabletopRig::TabletopRig(const ResolvedEpisode& resolved)
-    : episode_(resolved.episode),
-      world_({resolved.scene, resolved.robot}, resolved.episode.simulation),
-      robot_(placed_robot(world_, episode_)),
-      geometry_(world_.model(), world_.snapshot()),
-      geometry_without_robot_(world_.model(), world_.snapshot(), kWithoutRobot),
-      odometry_(episode_.odometry, Rng::stream(episode_.seed, "odometry"),
-                robot_.T_world_base(world_)),
-      laser_noise_(Rng::stream(episode_.seed, "laser")),
-      scanner_noise_(Rng::stream(episode_.seed, "base scanner")) {
+    : MobileRig(resolved, [&](World& world) { return placed_robot(world, resolved.episode); }),
+      laser_noise_(Rng::stream(episode_.seed, "laser")) {
   robot_.command_torso(world_, torso_m(world_, robot_, episode_));
-  restart_dead_reckoning();
-  world_.on_step = [this](const World& world) { collisions_.update(robot_, world); };
   check_start(world_, robot_, geometry_without_robot_, resolved);
-}
-
-void TabletopRig::tick() {
-  throw_if_interrupted();
-  world_.advance_tick();
-  odometry_.update(robot_.T_world_base(world_));
 }
 
 void TabletopRig::move_laser_to(double tilt_rad) {
@@ -89,44 +74,12 @@ TabletopObservation TabletopRig::observe() {
           robot_.base_scan_height_m(), odometry_.estimate()};
 }
 
-PlanarScan TabletopRig::look_around() {
-  geometry_.update(world_.snapshot());
-  return planar_scan(geometry_, robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
-                     robot_.base_body_id(), episode_.base_scanner, scanner_noise_);
-}
-
-DriveResult TabletopRig::drive_along(std::span<const Pose2> path,
-                                     const std::function<void()>& on_tick) {
-  return drive(world_, robot_, odometry_, path, episode_.drive, [&](World&, const Pose2&) {
-    throw_if_interrupted();
-    on_tick();
-    return true;
-  });
-}
-
 Pose2 TabletopRig::base_for_view(const Pose& T_world_laser) const {
   return robot_.base_for_laser(T_world_laser);
 }
 
 Pose TabletopRig::estimated_laser() const {
   return lift(odometry_.estimate()) * robot_.T_base_laser_mount(world_);
-}
-
-RigTruth TabletopRig::truth() const { return {robot_.T_world_base(world_), collisions_.count()}; }
-
-void TabletopRig::correct_pose(const Pose2& T_world_base) {
-  T_world_dead_reckoned_ = dead_reckoned_base();
-  T_world_corrected_ = T_world_base;
-  odometry_.correct(T_world_base);
-}
-
-void TabletopRig::restart_dead_reckoning() {
-  T_world_dead_reckoned_ = T_world_corrected_ = odometry_.estimate();
-}
-
-Pose2 TabletopRig::dead_reckoned_base() const {
-  return compose(T_world_dead_reckoned_,
-                 compose(inverse(T_world_corrected_), odometry_.estimate()));
 }
 
 }  // namespace vantage

@@ -7,6 +7,7 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
+#include "src/episode/office_rig.hpp"
 #include "src/episode/start_check.hpp"
 #include "src/episode/tabletop_rig.hpp"
 
@@ -46,7 +47,11 @@ Validation validation_of(const std::function<Validation()>& check) {
 
 void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
   try {
-    const TabletopRig rig(resolved);
+    if (resolved.episode.in_office()) {
+      const OfficeRig rig(resolved);
+    } else {
+      const TabletopRig rig(resolved);
+    }
   } catch (const ConfigError& error) {
     throw ConfigError(file.string() + ": " + error.what());
   } catch (const InputError& error) {

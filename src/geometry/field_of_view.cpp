@@ -18,6 +18,10 @@ BeamAngles beam_angles(const Eigen::Vector3d& p_sensor) {
           std::atan2(-p_sensor.z(), p_sensor.x())};
 }
 
+double depression_rad(const Eigen::Vector3d& p_sensor) {
+  return std::atan2(-p_sensor.z(), std::hypot(p_sensor.x(), p_sensor.y()));
+}
+
 BeamAngles turned_over(const BeamAngles& angles) {
   return {wrap_angle(std::numbers::pi - angles.azimuth_rad),
           wrap_angle(angles.tilt_rad + std::numbers::pi)};
@@ -31,6 +35,10 @@ void FieldOfView::check() const {
 bool FieldOfView::contains(const Eigen::Vector3d& p_sensor) const {
   const double range = p_sensor.norm();
   if (range < range_min_m || range > range_max_m) return false;
+  if (panorama) {
+    const double tilt_rad = depression_rad(p_sensor);
+    return tilt_rad >= tilt_min_rad && tilt_rad <= tilt_max_rad;
+  }
   const auto in_sector = [this](const BeamAngles& angles) {
     return std::abs(angles.azimuth_rad) <= half_width_rad && angles.tilt_rad >= tilt_min_rad &&
            angles.tilt_rad <= tilt_max_rad;

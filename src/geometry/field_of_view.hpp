@@ -17,22 +17,28 @@ struct BeamAngles {
 Eigen::Vector3d beam_direction(const BeamAngles& angles);
 /// The pair of angles with |azimuth| <= pi / 2.
 BeamAngles beam_angles(const Eigen::Vector3d& p_sensor);
+/// Angle below the horizon, [-pi / 2, pi / 2].
+double depression_rad(const Eigen::Vector3d& p_sensor);
 /// The other pair with the same direction: a scanner wider than pi sees behind itself through it.
 BeamAngles turned_over(const BeamAngles& angles);
 
-/// Sector of a tilting laser. A camera on a turning head is the same with other limits.
+/// Sector of a tilting laser, or what a camera sees that a head pans all round.
 struct FieldOfView {
   double half_width_rad = 0.1309;  ///< azimuth limit, (0, pi]; higher sees more per scan
   double tilt_min_rad = -0.30;     ///< highest line of sight (negative looks up)
   double tilt_max_rad = 0.75;      ///< lowest line of sight
   double range_min_m = 0.08;       ///< nearer returns are dropped
   double range_max_m = 10.0;       ///< farther surfaces give no return
+  /// Pan comes before tilt, all round: tilt is the angle below the horizon in any direction, and
+  /// half_width_rad means nothing.
+  bool panorama = false;
   void fields(auto&& f) {
     f("half_width_rad", half_width_rad, Range{0.0, 3.1416, true});
     f("tilt_min_rad", tilt_min_rad, between(-1.5, 1.5));
     f("tilt_max_rad", tilt_max_rad, between(-1.5, 1.5));
     f("range_min_m", range_min_m, at_least(0.0));
     f("range_max_m", range_max_m, above(0.0));
+    f("panorama", panorama);
   }
   void check() const;  ///< minima below maxima
 

@@ -56,4 +56,23 @@ float RangeScan::swept_range(const BeamAngles& angles) const {
   return shortest;
 }
 
+double CameraImages::swept_depth_m(const Eigen::Vector3d& p_camera) const {
+  const double column = focal_px * p_camera.x() / p_camera.z() + 0.5 * (width_px - 1);
+  const double row = focal_px * p_camera.y() / p_camera.z() + 0.5 * (height_px - 1);
+  // NaN, of a point in the camera's own plane, compares false.
+  if (!(p_camera.z() > 0.0 && column >= 0.0 && row >= 0.0 && column <= width_px - 1 &&
+        row <= height_px - 1)) {
+    return 0.0;
+  }
+  const auto width = static_cast<std::size_t>(width_px);
+  const auto left = static_cast<std::size_t>(column);
+  const auto top = static_cast<std::size_t>(row);
+  const std::size_t right = std::min(left + 1, width - 1);
+  const std::size_t below = std::min(top + 1, static_cast<std::size_t>(height_px) - 1);
+  const float least =
+      std::min(std::min(depth_m[top * width + left], depth_m[top * width + right]),
+               std::min(depth_m[below * width + left], depth_m[below * width + right]));
+  return std::min(static_cast<double>(least), range_max_m);
+}
+
 }  // namespace vantage

@@ -39,9 +39,24 @@ struct CameraImages {
   int width_px = 0;
   int height_px = 0;
   double focal_px = 0.0;          ///< square pixels; centre at (width - 1) / 2, (height - 1) / 2
+  double range_max_m = 0.0;       ///< along the optical axis
   std::vector<std::uint8_t> rgb;  ///< 3 bytes a pixel
-  std::vector<float> depth_m;     ///< along the optical axis; 0: no measurement
+  std::vector<float> depth_m;     ///< along the optical axis; 0: no measurement, +inf: beyond range
   std::vector<int> segmentation;  ///< body id, -1 nothing; truth: metrics and training only
+
+  [[nodiscard]] float depth_at(int row, int column) const {
+    return depth_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px) +
+                   static_cast<std::size_t>(column)];
+  }
+  /// The point at depth 1 that the middle of a pixel shows (camera frame).
+  [[nodiscard]] Eigen::Vector3d ray(int row, int column) const {
+    return {(column - 0.5 * (width_px - 1)) / focal_px, (row - 0.5 * (height_px - 1)) / focal_px,
+            1.0};
+  }
+  /// How far the image certainly saw empty space along the ray to a point in front (camera frame),
+  /// as depth: the least of the four pixels round it, range_max_m where they are beyond range; 0
+  /// outside the image or beside a pixel without measurement.
+  [[nodiscard]] double swept_depth_m(const Eigen::Vector3d& p_camera) const;
 };
 
 }  // namespace vantage

@@ -13,12 +13,13 @@ ViewCone::ViewCone(const Pose& T_world_sensor, const FieldOfView& fov)
       R_sensor_world_(T_world_sensor.linear().transpose()),
       tan_tilt_min_(std::tan(fov.tilt_min_rad)),
       tan_tilt_max_(std::tan(fov.tilt_max_rad)),
-      behind_(fov.half_width_rad > 0.5 * std::numbers::pi),
+      panorama_(fov.panorama),
+      behind_(fov.panorama || fov.half_width_rad > 0.5 * std::numbers::pi),
       sin2_half_width_(std::pow(std::sin(fov.half_width_rad), 2)),
       range2_min_m2_(fov.range_min_m * fov.range_min_m),
       range2_max_m2_(fov.range_max_m * fov.range_max_m) {
   // sin(pi) is not 0 in floating point, and would lose what lies right behind.
-  if (fov.half_width_rad > std::numbers::pi - 1e-9) sin2_half_width_ = 0.0;
+  if (fov.panorama || fov.half_width_rad > std::numbers::pi - 1e-9) sin2_half_width_ = 0.0;
   normals_ = {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(-tan_tilt_min_, 0.0, -1.0),
               Eigen::Vector3d(tan_tilt_max_, 0.0, 1.0), Eigen::Vector3d(1.0, 0.0, 0.0),
               Eigen::Vector3d(1.0, 0.0, 0.0)};
@@ -36,6 +37,10 @@ bool ViewCone::contains(const Eigen::Vector3d& p_world) const {
   const Eigen::Vector3d p = R_sensor_world_ * (p_world - apex_m_);
   const double range2 = p.squaredNorm();
   if (range2 < range2_min_m2_ || range2 > range2_max_m2_) return false;
+  if (panorama_) {
+    const double depth = std::hypot(p.x(), p.y());
+    return -p.z() >= tan_tilt_min_ * depth && -p.z() <= tan_tilt_max_ * depth;
+  }
   const bool in_front = p.x() >= 0.0;
   if (!in_front && !behind_) return false;
   // Behind the sensor the scan plane is the same, and the beams have turned past its y axis.
@@ -97,7 +102,8 @@ ConeRow ViewCone::row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& ste
           .most_excess_ahead_m2 = behind_ ? kAny : 0.0F,
           .least_excess_behind_m2 = behind_ ? 0.0F : kAny,
           .range2_min_m2 = static_cast<float>(range2_min_m2_),
-          .range2_max_m2 = static_cast<float>(range2_max_m2_)};
+          .range2_max_m2 = static_cast<float>(range2_max_m2_),
+          .all_round = panorama_ ? 1.0F : 0.0F};
 }
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -25,14 +26,15 @@ struct ConeRow {
   float least_excess_behind_m2 = 0.0F;
   float range2_min_m2 = 0.0F;
   float range2_max_m2 = 0.0F;
+  float all_round = 0.0F;  ///< 1 for a panorama, else 0
 
   [[nodiscard]] bool contains(float i) const {
     const float x = origin_m[0] + i * step_m[0];
     const float y = origin_m[1] + i * step_m[1];
     const float z = origin_m[2] + i * step_m[2];
     const float range2 = x * x + y * y + z * z;
-    const float depth = x >= 0.0F ? x : -x;
-    const float drop = x >= 0.0F ? -z : z;
+    const float depth = std::sqrt(x * x + all_round * (y * y));
+    const float drop = (x >= 0.0F) | (all_round > 0.0F) ? -z : z;
     const float excess = y * y - sin2_half_width * range2;
     const bool in_sector = ((x >= 0.0F) & (excess <= most_excess_ahead_m2)) |
                            ((x < 0.0F) & (excess >= least_excess_behind_m2));
@@ -62,7 +64,8 @@ class ViewCone {
   Eigen::Matrix3d R_sensor_world_;
   double tan_tilt_min_;
   double tan_tilt_max_;
-  bool behind_;  // sees behind itself, as sectors wider than pi do
+  bool panorama_;
+  bool behind_;  // sees behind itself, as panoramas and sectors wider than pi do
   double sin2_half_width_;
   double range2_min_m2_;
   double range2_max_m2_;

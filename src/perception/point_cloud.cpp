@@ -85,6 +85,19 @@ PointCloud transform(const PointCloud& cloud_b, const Pose& T_a_b) {
   return cloud_a;
 }
 
+PointCloud to_cloud(const CameraImages& image, int stride) {
+  expects(stride >= 1, "a stride of at least one pixel");
+  PointCloud cloud;
+  for (int row = 0; row < image.height_px; row += stride) {
+    for (int column = 0; column < image.width_px; column += stride) {
+      const double depth_m = image.depth_at(row, column);
+      if (depth_m == 0.0 || !std::isfinite(depth_m)) continue;
+      cloud.points.emplace_back((depth_m * image.ray(row, column)).cast<float>());
+    }
+  }
+  return cloud;
+}
+
 void append(PointCloud& cloud, const PointCloud& more) {
   if (more.empty()) return;
   const bool keep_normals = (cloud.empty() || cloud.has_normals()) && more.has_normals();

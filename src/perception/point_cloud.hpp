@@ -26,6 +26,8 @@ PointCloud to_cloud(const RangeScan& scan);
 PointCloud to_cloud(const PlanarScan& scan, double sensor_height_m);
 
 PointCloud transform(const PointCloud& cloud_b, const Pose& T_a_b);
+/// Returns of every `stride`-th pixel of every `stride`-th row, in the camera frame.
+PointCloud to_cloud(const CameraImages& image, int stride);
 
 /// Adds `more` behind `cloud`. Normals survive only if both have them.
 void append(PointCloud& cloud, const PointCloud& more);

@@ -1,0 +1,35 @@
+/// Where a tall robot can drive: what the planar scanner cannot see, from the 3-D map.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "src/belief/floor_map.hpp"
+#include "src/belief/occupancy_grid.hpp"
+#include "src/core/fields.hpp"
+
+namespace vantage {
+
+struct HeadroomOptions {
+  double low_m = 0.05;       ///< world z; occupied cells lower than this are floor
+  double high_m = 1.65;      ///< world z; occupied cells higher than this are above the robot
+  double seen_low_m = 0.3;   ///< world z; from here up to high_m a column must have been seen
+  double most_unseen = 0.1;  ///< share of those cells that may be unobserved; higher dares more
+  void fields(auto&& f) {
+    f("low_m", low_m);
+    f("high_m", high_m);
+    f("seen_low_m", seen_low_m);
+    f("most_unseen", most_unseen, between(0.0, 1.0));
+  }
+  void check() const;  ///< low_m and seen_low_m below high_m
+};
+
+/// Blocks the floor below every column of `grid` that has an occupied cell, or too many unobserved
+/// ones, at the robot's height, and unblocks all other floor. The latter do not block where
+/// `vouched` (one flag per cell of the floor map) says that the robot knows it otherwise: it has
+/// been there. A floor cell counts as below a column if they overlap at all.
+/// @throws ConfigError if the options are out of range.
+void block_columns(FloorMap& floor, const OccupancyGrid& grid,
+                   std::span<const std::uint8_t> vouched, const HeadroomOptions& options);
+
+}  // namespace vantage

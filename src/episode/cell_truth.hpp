@@ -1,0 +1,45 @@
+/// Which cells there really are to see, and what is in them: for metrics.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/ground_truth.hpp"
+#include "sim/world.hpp"
+#include "src/belief/occupancy_grid.hpp"
+#include "src/episode/mobile_rig.hpp"
+#include "src/episode/scan_record.hpp"
+
+namespace vantage {
+
+class CellTruth {
+ public:
+  [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
+  [[nodiscard]] std::size_t observable_unobserved(const OccupancyGrid& grid) const;
+  [[nodiscard]] MapScore score(const OccupancyGrid& grid, int tolerance_cells) const;
+  /// Fills in what the record says of the map, held against the truth.
+  void measure(const OccupancyGrid& grid, int tolerance_cells, ScanRecord& record) const;
+
+ protected:
+  CellTruth(const World& world, const GridFrame& frame);
+  ~CellTruth() = default;
+  void set_observable(std::vector<std::uint8_t> observable);
+  [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
+
+ private:
+  std::vector<std::uint8_t> observable_;
+  std::vector<std::uint8_t> surface_;
+  std::size_t observable_count_ = 0;
+};
+
+/// Flagged cells that the map does not know yet.
+std::size_t count_unobserved(const OccupancyGrid& grid, std::span<const std::uint8_t> among);
+/// Cells that `after` knows and `before` did not.
+std::size_t newly_observed(const OccupancyGrid& before, const OccupancyGrid& after);
+
+/// Fills in what the record says of the pose, held against the truth.
+void measure_pose(const RigTruth& truth, const Pose2& dead_reckoned, const Pose2& T_world_base,
+                  ScanRecord& record);
+
+}  // namespace vantage

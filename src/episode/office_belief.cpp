@@ -1,0 +1,44 @@
+#include "src/episode/office_belief.hpp"
+
+#include <utility>
+
+#include "src/belief/free_space.hpp"
+#include "src/belief/hole_filling.hpp"
+#include "src/belief/sensor_model.hpp"
+
+namespace vantage {
+
+OfficeBelief::OfficeBelief(const Episode& episode)
+    : episode_(episode),
+      grid_(episode.grid_frame()),
+      filled_(grid_),
+      hazard_(episode.clutter_hazard, grid_.frame.cells.z()) {}
+
+BeliefUpdate OfficeBelief::update(const OfficeObservation& observation, const WallMap& walls) {
+  const auto located = walls.locate(observation.base_scan, observation.base_scan_height_m,
+                                    observation.T_world_base_odometry);
+  BeliefUpdate report{.T_world_base = located.T_world_base,
+                      .registered = located.converged,
+                      .registration_note = located.reason};
+  const Pose T_world_base = lift(report.T_world_base);
+  const ExplorationOptions& options = episode_.exploration;
+
+  PointCloud points;
+  for (const DepthView& view : observation.views) {
+    const Pose T_world_camera = T_world_base * view.T_base_camera;
+    hazard_.observe(grid_, view.image, T_world_camera, options.hazard_stride_px);
+    append(points, transform(to_cloud(view.image, options.stride_px), T_world_camera));
+  }
+  add_measurements(grid_, points.points, episode_.sensor_model);
+  for (const DepthView& view : observation.views) {
+    report.freed_cells += carve_free_space(grid_, view.image, T_world_base * view.T_base_camera,
+                                           episode_.free_space, episode_.threads);
+  }
+  append(cloud_, voxel_downsample(points, grid_.frame.cell_size_m.maxCoeff()));
+  auto filling = fill_holes(grid_, episode_.hole_filling);
+  report.filled_cells = filling.filled_cells;
+  filled_ = std::move(filling.grid);
+  return report;
+}
+
+}  // namespace vantage

@@ -1,0 +1,59 @@
+/// The parts of the loop for the exploration of an office by its frontiers.  [Potthast2016,
+/// chapter 3], [Yamauchi1997]
+#pragma once
+
+#include <vector>
+
+#include "planners/candidate.hpp"
+#include "src/episode/navigator.hpp"
+#include "src/episode/office_belief.hpp"
+#include "src/episode/office_rig.hpp"
+#include "src/episode/office_truth.hpp"
+#include "src/episode/recorder.hpp"
+#include "src/episode/scan_record.hpp"
+#include "src/episode/visited_places.hpp"
+
+namespace vantage {
+
+class OfficeExploration {
+ public:
+  OfficeExploration(const ResolvedEpisode& resolved, OfficeRig& rig, Recorder& recorder);
+
+  OfficeObservation observe();
+  void update(const OfficeObservation& observation);
+  void record();
+  [[nodiscard]] bool finished() const;
+  std::vector<Candidate> propose();
+  void score(std::vector<Candidate>& candidates);
+  std::size_t choose(const std::vector<Candidate>& candidates);
+  void act(const Candidate& candidate);
+
+  [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
+  [[nodiscard]] const OfficeBelief& belief() const { return belief_; }
+  [[nodiscard]] const OfficeTruth& truth() const { return truth_; }
+  /// Those of the next decision, and after it those it was made among.
+  [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
+
+ private:
+  void predict(const Pose& T_world_sweep);
+  void block_floor();
+  std::vector<Candidate> find_views();
+  [[nodiscard]] MapPanelInput panel() const;
+
+  Episode episode_;
+  OfficeRig& rig_;
+  Recorder& recorder_;
+  OfficeBelief belief_;
+  OfficeTruth truth_;
+  Navigator navigator_;
+  std::vector<std::uint8_t> vouched_;  ///< per floor cell: the robot has been there
+  std::size_t path_vouched_ = 0;       ///< points of the path so far
+  VisitedPlaces visited_;
+  Rng choice_rng_;
+  std::vector<Candidate> views_;
+  double decision_start_s_ = 0.0;  ///< wall
+  ScanRecord current_;             ///< filled in from the decision to the end of its scan
+  std::vector<ScanRecord> scans_;
+};
+
+}  // namespace vantage

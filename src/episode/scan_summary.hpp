@@ -1,0 +1,32 @@
+/// What an episode says of its scans: how many new cells the gains expected of a view beside what
+/// it showed.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "src/episode/map_panel.hpp"
+#include "src/episode/scan_record.hpp"
+#include "src/episode/scenario.hpp"
+
+namespace vantage {
+
+/// The gains whose prediction an episode records: all that predict cells; in an office, where rays
+/// to every cell take seconds, those that can be swept, and the one in use.
+std::vector<std::string_view> recorded_predictors(const Episode& episode);
+
+/// Per recorded predictor, what it expects of the view: exact at a table, swept in an office.
+std::vector<std::pair<std::string, double>> predicted_cells(const Episode& episode,
+                                                            const GainContext& context,
+                                                            const Pose& T_world_sensor,
+                                                            const FieldOfView& field_of_view);
+
+/// What a panel shows of the scans so far.
+MapPanelInput panel_of_scans(const Episode& episode, std::span<const ScanRecord> scans);
+
+void log_scan(const ScanRecord& scan, std::size_t index);
+
+}  // namespace vantage
