@@ -32,8 +32,10 @@ ClearanceMap::ClearanceMap(const Eigen::AlignedBox2d& area_m, double cell_m, dou
 
 Vector2d ClearanceMap::centre_m(std::size_t cell) const {
   const auto columns = static_cast<std::size_t>(columns_);
-  return area_m_.min() + cell_m_ * Vector2d(static_cast<double>(cell % columns) + 0.5,
-                                            static_cast<double>(cell / columns) + 0.5);
+  const std::size_t column = cell % columns;
+  const std::size_t row = cell / columns;
+  return area_m_.min() +
+         cell_m_ * Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
 }
 
 std::size_t ClearanceMap::cell_at(const Vector2d& point_m) const {

@@ -237,8 +237,8 @@ void add_leaf(TriangleMesh& mesh, const Vector3d& root_m, double heading_rad, do
   std::vector<Vector2d> radii;
   for (int i = 0; i < kNodes; ++i) {
     const double s = static_cast<double>(i) / (kNodes - 1);
-    path.push_back(root_m +
-                   length_m * (0.62 * s * out + (1.0 * s - 0.85 * s * s) * Vector3d::UnitZ()));
+    path.emplace_back(root_m +
+                      length_m * (0.62 * s * out + (1.0 * s - 0.85 * s * s) * Vector3d::UnitZ()));
     const double breadth = 0.12 + 0.88 * std::sin(3.0 * std::min(s + 0.02, 1.0));
     radii.emplace_back(0.5 * width_m * std::max(0.08, breadth), 0.004);
   }

@@ -106,7 +106,7 @@ TEST(FreeSpace, OnePassFreesEvenACellNearlyOccupied) {
 
 TEST(FreeSpace, RejectsOptionsOutOfRange) {
   OccupancyGrid map = parse({"????"});
-  EXPECT_THROW(carve_free_space(map, {}, Pose::Identity(), {.p_free_given_pass = 0.6}),
+  EXPECT_THROW(carve_free_space(map, RangeScan{}, Pose::Identity(), {.p_free_given_pass = 0.6}),
                ConfigError);
 }
 
