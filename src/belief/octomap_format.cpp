@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -14,6 +13,9 @@ namespace {
 
 constexpr std::string_view kBinaryMagic = "# Octomap OcTree binary file";
 constexpr std::string_view kFullMagic = "# Octomap OcTree file";
+// Coordinates up to 32768 cells of the coarsest still have the precision of a single float.
+constexpr double kMinResolution_m = 1e-6;
+constexpr double kMaxResolution_m = 1e6;
 
 template <class Number>
 Number parse_number(std::string_view key, std::string_view text, const std::string& name) {
@@ -61,56 +63,74 @@ OctomapHeader parse_header(std::string_view bytes, const std::string& name) {
     read_header_line(key, strip(line.substr(key.size())), name, header);
   }
   if (header.data_offset == 0) throw InputError(name + ": cut short within the OctoMap header");
-  if (!(header.resolution_m > 0.0) || !std::isfinite(header.resolution_m)) {
-    throw InputError(
-        fmt::format("{}: header key 'res' is {}, must be above 0", name, header.resolution_m));
+  if (!(header.resolution_m >= kMinResolution_m && header.resolution_m <= kMaxResolution_m)) {
+    throw InputError(fmt::format("{}: header key 'res' is {}, must be in [{}, {}] m", name,
+                                 header.resolution_m, kMinResolution_m, kMaxResolution_m));
   }
   return header;
 }
 
-/// Walks the records of a tree without building it.
+/// Walks the records of a tree, from the root down.
 class RecordWalk {
  public:
-  RecordWalk(std::string_view data, bool binary, const std::string& name)
-      : data_(data), binary_(binary), name_(name) {}
+  RecordWalk(std::string_view data, const std::string& name, const OctomapLeafVisitor& visit)
+      : data_(data), name_(name), visit_(visit) {}
 
-  /// @return nodes of the subtree whose record begins here, its root included
-  std::size_t count(int depth) { return binary_ ? count_binary(depth) : count_full(depth); }
+  /// @return nodes of the tree, its root included
+  std::size_t run(bool binary) {
+    const OctomapLeaf root{.first = Eigen::Array3i::Constant(-kOctomapHalfWidth),
+                           .edge_cells = 2 * kOctomapHalfWidth};
+    binary ? walk_binary(root) : walk_full(root);
+    return nodes_;
+  }
 
  private:
-  /// Two bits a child: 00 none, 01 or 10 a leaf, 11 an inner node with a record of its own.
-  std::size_t count_binary(int depth) {
+  /// Two bits a child: 00 none, 01 free, 10 occupied, 11 an inner node with a record of its own.
+  void walk_binary(const OctomapLeaf& node) {
+    // What OctoMap makes of free and occupied: its default clamping thresholds.
+    constexpr float kFree = -2.0F;
+    constexpr float kOccupied = 3.5F;
     const std::string_view record = take(2);
-    std::size_t nodes = 1;
-    int inner = 0;
-    for (const char byte : record) {
-      for (int shift = 0; shift < 8; shift += 2) {
-        const int kind = (static_cast<unsigned char>(byte) >> shift) & 3;
-        if (kind == 3) ++inner;
-        if (kind == 1 || kind == 2) ++nodes;
+    const int kinds = static_cast<unsigned char>(record[0]) | static_cast<unsigned char>(record[1])
+                                                                  << 8;
+    if (kinds == 0) damaged("an inner node without children");
+    ++nodes_;
+    for (int i = 0; i < 8; ++i) {
+      const int kind = kinds >> (2 * i) & 3;
+      if (kind == 0) continue;
+      OctomapLeaf child = child_of(node, i);
+      if (kind == 3) {
+        walk_binary(child);
+        continue;
       }
+      child.log_odds = kind == 1 ? kFree : kOccupied;
+      take_leaf(child);
     }
-    if (nodes == 1 && inner == 0) damaged("an inner node without children");
-    require_depth(depth, inner > 0 ? 2 : 1);
-    for (; inner > 0; --inner) nodes += count(depth + 1);
-    return nodes;
   }
 
   /// Log odds as a float, then one bit a child; every child has a record.
-  std::size_t count_full(int depth) {
+  void walk_full(OctomapLeaf node) {
     const std::string_view record = take(sizeof(float) + 1);
-    float log_odds = 0.0F;
-    std::memcpy(&log_odds, record.data(), sizeof(float));
-    if (!std::isfinite(log_odds)) damaged("log odds that are not a number");
-    std::size_t nodes = 1;
-    int children = std::popcount(static_cast<unsigned char>(record.back()));
-    require_depth(depth, children > 0 ? 1 : 0);
-    for (; children > 0; --children) nodes += count(depth + 1);
-    return nodes;
+    std::memcpy(&node.log_odds, record.data(), sizeof(float));
+    if (!std::isfinite(node.log_odds)) damaged("log odds that are not a number");
+    const int children = static_cast<unsigned char>(record.back());
+    if (children == 0) return take_leaf(node);
+    ++nodes_;
+    for (int i = 0; i < 8; ++i) {
+      if ((children >> i & 1) != 0) walk_full(child_of(node, i));
+    }
   }
 
-  void require_depth(int depth, int levels_below) const {
-    if (depth + levels_below > kOctomapDepth) damaged("more than 16 levels");
+  void take_leaf(const OctomapLeaf& leaf) {
+    ++nodes_;
+    visit_(leaf);
+  }
+
+  [[nodiscard]] OctomapLeaf child_of(const OctomapLeaf& node, int i) const {
+    const int edge = node.edge_cells / 2;
+    if (edge == 0) damaged("more than 16 levels");
+    return {.first = node.first + edge * Eigen::Array3i(i & 1, i >> 1 & 1, i >> 2 & 1),
+            .edge_cells = edge};
   }
 
   std::string_view take(std::size_t size) {
@@ -127,9 +147,10 @@ class RecordWalk {
   }
 
   std::string_view data_;
-  bool binary_;
   const std::string& name_;
+  const OctomapLeafVisitor& visit_;
   std::size_t at_ = 0;
+  std::size_t nodes_ = 0;
 };
 
 }  // namespace
@@ -139,11 +160,12 @@ std::string octomap_header(const OctomapHeader& header) {
                      header.binary ? kBinaryMagic : kFullMagic, header.nodes, header.resolution_m);
 }
 
-OctomapHeader check_octomap(std::string_view bytes, const std::string& name) {
+OctomapHeader parse_octomap(std::string_view bytes, const std::string& name,
+                            const OctomapLeafVisitor& visit) {
   const OctomapHeader header = parse_header(bytes, name);
   if (header.nodes == 0) return header;
   const std::size_t found =
-      RecordWalk(bytes.substr(header.data_offset), header.binary, name).count(0);
+      RecordWalk(bytes.substr(header.data_offset), name, visit).run(header.binary);
   if (found != header.nodes) {
     throw InputError(fmt::format("{}: damaged: header key 'size' is {}, the data hold {} nodes",
                                  name, header.nodes, found));

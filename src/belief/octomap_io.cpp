@@ -8,19 +8,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <sstream>
 
-#include "src/belief/octomap_format.hpp"
+#include "src/belief/octomap_file.hpp"
 #include "src/core/atomic_file.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kKeyOrigin = 32768;  ///< key of the cell at the world's origin
+constexpr int kKeyOrigin = kOctomapHalfWidth;  ///< key of the cell at the world's origin
 constexpr std::size_t kMaxOccupiedCells = 50'000'000;
-constexpr std::size_t kMaxGridCells = 200'000'000;
+constexpr double kMaxGridCells = 200e6;
 
 /// Keys of the cell centres along an axis, strictly ascending: rounding next to a key's border must
 /// not put two cells into one leaf.
@@ -58,62 +57,6 @@ void insert_cells(const OccupancyGrid& grid, const fs::path& path, octomap::OcTr
   }
 }
 
-std::unique_ptr<octomap::OcTree> load_tree(const fs::path& path) {
-  const std::string bytes = read_file(path);
-  const OctomapHeader header = check_octomap(bytes, path.string());
-  auto tree = std::make_unique<octomap::OcTree>(header.resolution_m);
-  if (header.nodes == 0) return tree;
-  std::istringstream data(bytes.substr(header.data_offset));
-  if (header.binary) {
-    tree->readBinaryData(data);
-  } else {
-    tree->readData(data);
-  }
-  return tree;
-}
-
-/// A cube of `edge_cells`^3 cells of the finest level that share one value.
-struct Leaf {
-  Eigen::Vector3d min_corner_m;
-  int edge_cells = 1;
-  float log_odds = 0.0F;
-  bool occupied = false;
-  [[nodiscard]] std::size_t cells() const {
-    const auto edge = static_cast<std::size_t>(edge_cells);
-    return edge * edge * edge;
-  }
-};
-
-template <class Visit>
-void for_each_leaf(const octomap::OcTree& tree, Visit&& visit) {
-  for (auto it = tree.begin_leafs(), end = tree.end_leafs(); it != end; ++it) {
-    const int edge = 1 << (kOctomapDepth - static_cast<int>(it.getDepth()));
-    const Eigen::Vector3d centre(it.getX(), it.getY(), it.getZ());
-    const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5 * edge * tree.getResolution());
-    visit(Leaf{centre - half, edge, it->getLogOdds(), tree.isNodeOccupied(*it)});
-  }
-}
-
-Eigen::AlignedBox3d box_of(const octomap::OcTree& tree) {
-  Eigen::AlignedBox3d box;
-  for_each_leaf(tree, [&](const Leaf& leaf) {
-    const double edge_m = leaf.edge_cells * tree.getResolution();
-    box.extend(leaf.min_corner_m);
-    box.extend(leaf.min_corner_m + Eigen::Vector3d::Constant(edge_m));
-  });
-  return box;
-}
-
-/// Calls `visit` with the offset of each finest cell in a leaf.
-template <class Visit>
-void for_each_cell_in(const Leaf& leaf, Visit&& visit) {
-  for (int z = 0; z < leaf.edge_cells; ++z) {
-    for (int y = 0; y < leaf.edge_cells; ++y) {
-      for (int x = 0; x < leaf.edge_cells; ++x) visit(Eigen::Array3i(x, y, z));
-    }
-  }
-}
-
 }  // namespace
 
 void write_octomap(const OccupancyGrid& grid, const fs::path& path) {
@@ -141,20 +84,21 @@ void write_octomap(const OccupancyGrid& grid, const fs::path& path) {
 }
 
 OctomapContent read_octomap(const fs::path& path) {
-  const auto tree = load_tree(path);
-  OctomapContent content;
-  content.resolution_m = tree->getResolution();
-  content.box = box_of(*tree);
-  for_each_leaf(*tree, [&](const Leaf& leaf) {
-    (leaf.occupied ? content.occupied : content.free) += leaf.cells();
-    if (!leaf.occupied) return;
-    if (content.occupied > kMaxOccupiedCells) {
-      throw InputError(
-          fmt::format("{}: more than {} occupied cells", path.string(), kMaxOccupiedCells));
-    }
-    for_each_cell_in(leaf, [&](const Eigen::Array3i& offset) {
-      const Eigen::Vector3d centre =
-          leaf.min_corner_m + ((offset.cast<double>() + 0.5) * content.resolution_m).matrix();
+  const OctomapFile file(path);
+  if (file.occupied() > kMaxOccupiedCells) {
+    throw InputError(
+        fmt::format("{}: more than {} occupied cells", path.string(), kMaxOccupiedCells));
+  }
+  OctomapContent content{.resolution_m = file.resolution_m(),
+                         .occupied = file.occupied(),
+                         .free = file.free(),
+                         .box = file.box_of(file.known()),
+                         .occupied_centres = {}};
+  content.occupied_centres.reserve(file.occupied());
+  file.for_each_leaf([&](const OctomapLeaf& leaf) {
+    if (!leaf.occupied()) return;
+    leaf.block().for_each_cell([&](const Eigen::Array3i& cell) {
+      const Eigen::Vector3d centre = (cell.cast<double>() + 0.5).matrix() * file.resolution_m();
       content.occupied_centres.emplace_back(centre.cast<float>());
     });
   });
@@ -162,26 +106,14 @@ OctomapContent read_octomap(const fs::path& path) {
 }
 
 OccupancyGrid read_octomap_grid(const fs::path& path) {
-  const auto tree = load_tree(path);
-  const double resolution_m = tree->getResolution();
-  const Eigen::AlignedBox3d box = box_of(*tree);
-  if (box.isEmpty()) throw InputError(path.string() + ": the map has no known cell");
-  const Eigen::Array3d cells = (box.sizes().array() / resolution_m).round();
-  if (cells.prod() > static_cast<double>(kMaxGridCells)) {
+  const OctomapFile file(path);
+  if (file.known().empty()) throw InputError(path.string() + ": the map has no known cell");
+  if (file.known().count() > kMaxGridCells) {
+    const Eigen::Array3i cells = file.known().end - file.known().begin;
     throw InputError(fmt::format("{}: the known cells span {} x {} x {} cells, at most {} fit",
                                  path.string(), cells.x(), cells.y(), cells.z(), kMaxGridCells));
   }
-  OccupancyGrid grid(GridFrame{.min_corner_m = box.min(),
-                               .cell_size_m = Eigen::Vector3d::Constant(resolution_m),
-                               .cells = cells.cast<int>()});
-  for_each_leaf(*tree, [&](const Leaf& leaf) {
-    const Eigen::Array3i first =
-        ((leaf.min_corner_m - box.min()).array() / resolution_m).round().cast<int>();
-    for_each_cell_in(leaf, [&](const Eigen::Array3i& offset) {
-      grid.log_odds[grid.frame.index(first + offset)] = leaf.log_odds;
-    });
-  });
-  return grid;
+  return file.grid_of(file.known());
 }
 
 }  // namespace vantage

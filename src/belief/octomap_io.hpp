@@ -26,12 +26,11 @@ struct OctomapContent {
   std::vector<Eigen::Vector3f> occupied_centres;  ///< world, in the tree's order
 };
 
-/// @throws InputError if the file is missing, empty, cut short, no OctoMap OcTree, or has more than
-/// 50 million occupied cells.
+/// @throws InputError as OctomapFile, and if the map has more than 50 million occupied cells.
 OctomapContent read_octomap(const std::filesystem::path& path);
 
 /// The map as a grid over the box of its known cells; the others stay at p(o) = 0.5.
-/// @throws InputError as read_octomap, and if the map has no known cell or its box more than 200
+/// @throws InputError as OctomapFile, and if the map has no known cell or its box more than 200
 /// million cells.
 OccupancyGrid read_octomap_grid(const std::filesystem::path& path);
 

@@ -31,6 +31,10 @@ std::string binary_chain(int levels) {
   return data + std::string("\x02\x00", 2);
 }
 
+OctomapHeader check_octomap(const std::string& bytes, const std::string& name) {
+  return parse_octomap(bytes, name, [](const OctomapLeaf&) {});
+}
+
 std::string error_of(const std::string& bytes) {
   try {
     check_octomap(bytes, "map.bt");
