@@ -1,5 +1,8 @@
 #include "src/belief/octomap_file.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "src/core/atomic_file.hpp"
 
 namespace vantage {
@@ -53,16 +56,29 @@ CellBlock OctomapFile::cells_in(const Eigen::AlignedBox3d& box_m) const {
           index((box_m.max().array() / resolution_m() - kRounding).ceil())};
 }
 
-OccupancyGrid OctomapFile::grid_of(const CellBlock& block) const {
-  expects(!block.empty(), "a block with cells");
-  OccupancyGrid grid(GridFrame{.min_corner_m = box_of(block).min(),
-                               .cell_size_m = Eigen::Vector3d::Constant(resolution_m()),
-                               .cells = block.end - block.begin});
+OccupancyGrid OctomapFile::grid_of(const CellBlock& block, int coarsen) const {
+  expects(!block.empty() && coarsen >= 1, "a block with cells");
+  const CellBlock coarse = block.coarsened(coarsen);
+  const double cell_m = resolution_m() * coarsen;
+  OccupancyGrid grid(GridFrame{.min_corner_m = coarse.begin.cast<double>().matrix() * cell_m,
+                               .cell_size_m = Eigen::Vector3d::Constant(cell_m),
+                               .cells = coarse.end - coarse.begin});
+  std::vector<float> known(grid.size(), 0.0F);  // share of each cell
+  const double most_known = static_cast<double>(coarsen) * coarsen * coarsen;
   for_each_leaf([&](const OctomapLeaf& leaf) {
-    leaf.block().cut(block).for_each_cell([&](const Eigen::Array3i& cell) {
-      grid.log_odds[grid.frame.index(cell - block.begin)] = leaf.log_odds;
+    const CellBlock part = leaf.block().cut({coarse.begin * coarsen, coarse.end * coarsen});
+    if (part.empty()) return;
+    part.coarsened(coarsen).for_each_cell([&](const Eigen::Array3i& cell) {
+      const std::size_t i = grid.frame.index(cell - coarse.begin);
+      float& log_odds = grid.log_odds[i];
+      log_odds = known[i] > 0.0F ? std::max(log_odds, leaf.log_odds) : leaf.log_odds;
+      const CellBlock whole{cell * coarsen, (cell + 1) * coarsen};
+      known[i] += static_cast<float>(part.cut(whole).count() / most_known);
     });
   });
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (known[i] < 0.5F && grid.state(i) != CellState::occupied) grid.log_odds[i] = 0.0F;
+  }
   return grid;
 }
 

@@ -32,8 +32,10 @@ class OctomapFile {
   [[nodiscard]] Eigen::AlignedBox3d box_of(const CellBlock& block) const;  ///< world, m
   /// The cells that `box_m` (world) reaches into; of an infinite box all.
   [[nodiscard]] CellBlock cells_in(const Eigen::AlignedBox3d& box_m) const;
-  /// Those cells as a grid; where the map has none, p(o) is 0.5. The caller bounds the block.
-  [[nodiscard]] OccupancyGrid grid_of(const CellBlock& block) const;
+  /// Those cells as a grid; where the map has none, p(o) is 0.5. Of `coarsen`^3 cells, counted
+  /// from the world's origin, one is made: as the most occupied of them if that is occupied or if
+  /// at least half of them are known, else unobserved. The caller bounds the block.
+  [[nodiscard]] OccupancyGrid grid_of(const CellBlock& block, int coarsen = 1) const;
 
  private:
   std::string name_;

@@ -33,6 +33,13 @@ struct CellBlock {
   [[nodiscard]] CellBlock cut(const CellBlock& other) const {
     return {begin.max(other.begin), end.min(other.end)};
   }
+  /// In blocks of `cells`^3, counted from the world's origin: all that this one touches.
+  [[nodiscard]] CellBlock coarsened(int cells) const {
+    const auto floor_of = [&](const Eigen::Array3i& i) {
+      return Eigen::Array3i((i.cast<double>() / cells).floor().cast<int>());
+    };
+    return {floor_of(begin), floor_of(end + (cells - 1))};
+  }
   /// The least block that holds both.
   [[nodiscard]] CellBlock joined(const CellBlock& other) const {
     if (empty()) return other;
