@@ -20,13 +20,14 @@ fs::path data_root() {
 
 fs::path find_input(const std::string& name, const fs::path& base, const std::string& key) {
   if (name.empty()) throw InputError(fmt::format("{}: no file named", key));
+  std::error_code error;  // a name too long, or a folder closed to us: no such file either
   if (fs::path(name).is_absolute()) {
-    if (fs::exists(name)) return name;
+    if (fs::exists(name, error)) return name;
     throw InputError(fmt::format("{}: {}: no such file", key, name));
   }
   for (const fs::path& place : {base, fs::path("."), data_root()}) {
     const fs::path candidate = (place / name).lexically_normal();
-    if (fs::exists(candidate)) return candidate;
+    if (fs::exists(candidate, error)) return candidate;
   }
   throw InputError(fmt::format("{}: {}: no such file (looked in {}, the working directory and {})",
                                key, name, base.empty() ? "." : base.string(),
