@@ -27,6 +27,19 @@ using Gain = std::variant<SimpleGain, PosteriorChainGain, VisibilityWeightedGain
 template <>
 inline constexpr std::string_view strategy_family<Gain> = "gain";
 
+/// What the gain counts: a gain that says nothing counts bits.
+inline std::string_view unit_of(const Gain& gain) {
+  return std::visit(
+      []<class G>(const G&) -> std::string_view {
+        if constexpr (requires { G::unit; }) {
+          return G::unit;
+        } else {
+          return "bits";
+        }
+      },
+      gain);
+}
+
 /// Names of the gains whose value is a number of cells, to be held against what a view showed.
 inline std::vector<std::string_view> cell_predictors() {
   std::vector<std::string_view> names;

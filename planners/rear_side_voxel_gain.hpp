@@ -11,6 +11,7 @@ namespace vantage {
 /// it for the unseen side of a known surface; unit: beams.  [Isler2016]
 struct RearSideVoxelGain {
   static constexpr std::string_view name = "rear_side_voxel";
+  static constexpr std::string_view unit = "beams";
   static constexpr bool predicts_cells = false;
   BeamFan fan = {};
   void fields(auto&& f) { fan.fields(f); }

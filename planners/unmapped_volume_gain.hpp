@@ -11,6 +11,7 @@ namespace vantage {
 /// cubic metres instead of cells.  [Bircher2016]
 struct UnmappedVolumeGain {
   static constexpr std::string_view name = "unmapped_volume";
+  static constexpr std::string_view unit = "m3";
   static constexpr bool predicts_cells = false;
   void fields(auto&&) {}
 
