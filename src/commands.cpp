@@ -19,6 +19,7 @@
 #include "src/episode/report.hpp"
 #include "src/episode/run.hpp"
 #include "src/episode/validate.hpp"
+#include "src/score_views_command.hpp"
 #include "src/study/study.hpp"
 #include "src/study/study_page.hpp"
 #include "src/sweep_commands.hpp"
@@ -64,20 +65,8 @@ void print_outcome(const RunOutcome& outcome) {
   }
 }
 
-/// Numbers and truth values as such; what was quoted is text.
-nlohmann::ordered_json to_json(const ConfigNode& node) {
-  nlohmann::ordered_json json;
-  for (const auto& item : node.items) json.push_back(to_json(item));
-  for (const auto& [name, child] : node.entries) json[name] = to_json(child);
-  if (node.kind != ConfigNode::Kind::scalar) return json;
-  json = node.scalar;
-  if (node.quoted) return json;
-  auto number = nlohmann::ordered_json::parse(node.scalar, nullptr, false);
-  return number.is_discarded() ? json : number;
-}
-
 void print_config(const Episode& episode, bool json) {
-  fmt::print("{}", json ? json_text(to_json(write_node(episode))) : episode_yaml(episode));
+  fmt::print("{}", json ? json_text(config_json(write_node(episode))) : episode_yaml(episode));
 }
 
 void print_plan(const ResolvedEpisode& resolved, bool json) {
@@ -233,6 +222,7 @@ const std::vector<Command>& commands() {
       {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
+      {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
       {"list", "what there is to choose from", declare_list},
       {"doctor", "versions, renderer, codecs; what would not work and why", declare_doctor},
   };

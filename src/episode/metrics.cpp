@@ -54,15 +54,26 @@ Json observability(const Episode& episode, const ClutterHazard& hazard) {
       episode.gain);
 }
 
-Json box_json(const Eigen::AlignedBox3d& box) {
-  return {{"min_m", {box.min().x(), box.min().y(), box.min().z()}},
-          {"max_m", {box.max().x(), box.max().y(), box.max().z()}}};
-}
-
 }  // namespace
 
 std::string json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json config_json(const ConfigNode& node) {
+  Json json;
+  for (const auto& item : node.items) json.push_back(config_json(item));
+  for (const auto& [name, child] : node.entries) json[name] = config_json(child);
+  if (node.kind != ConfigNode::Kind::scalar) return json;
+  json = node.scalar;
+  if (node.quoted) return json;
+  auto number = Json::parse(node.scalar, nullptr, false);
+  return number.is_discarded() ? json : number;
+}
+
+Json box_json(const Eigen::AlignedBox3d& box) {
+  return {{"min_m", {box.min().x(), box.min().y(), box.min().z()}},
+          {"max_m", {box.max().x(), box.max().y(), box.max().z()}}};
 }
 
 std::string_view status_name(EpisodeStatus status) {

@@ -23,6 +23,9 @@ struct RunSummary {
 
 /// Indented, with a line end; bytes that are not UTF-8 are replaced.
 std::string json_text(const nlohmann::ordered_json& json);
+/// Numbers and truth values as such; what was quoted is text.
+nlohmann::ordered_json config_json(const ConfigNode& node);
+nlohmann::ordered_json box_json(const Eigen::AlignedBox3d& box_m);  ///< min_m, max_m
 
 std::string_view status_name(EpisodeStatus status);
 

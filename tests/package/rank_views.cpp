@@ -1,11 +1,14 @@
 // Ranks views of a half-known region: three quarters are free, what is left is behind a wall.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <vector>
 
 #include "planners/exact_gain.hpp"
+#include "planners/score_views.hpp"
 #include "planners/view_candidates.hpp"
 #include "planners/view_choice.hpp"
+#include "src/belief/octomap_io.hpp"
 
 int main() {
   using namespace vantage;
@@ -27,8 +30,15 @@ int main() {
                 view.T_world_sensor.translation().x(), view.T_world_sensor.translation().y(),
                 view.gain_bits);
   }
+  // The same from an OctoMap file; its cells are those of the grid, its region is the grid's box.
+  write_octomap(grid, "rank_views.bt");
+  const ScoredRegion region{.min_m = {{-0.5, -0.5, 0.75}}, .max_m = {{0.5, 0.5, 1.25}}};
+  const auto scores = score_views(OctomapFile("rank_views.bt"), region, SimpleGain{}, views, {}, 2);
+  const bool agree = std::ranges::max_element(scores) == scores.begin() &&
+                     std::abs(scores.front() - views.front().gain_bits) < 0.05 * scores.front();
   // The unknown lies at negative x: the best view must stand on that side, the worst sees the wall.
   const bool right = views.front().T_world_sensor.translation().x() < 0.0 &&
-                     views.back().gain_bits < 0.1 * views.front().gain_bits && gains[best] > 0.0;
+                     views.back().gain_bits < 0.1 * views.front().gain_bits && gains[best] > 0.0 &&
+                     agree;
   return right ? 0 : 1;
 }
