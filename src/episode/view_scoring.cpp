@@ -68,7 +68,7 @@ void settle_transmission(ViewScoring& scoring, bool a_given, double cell_m) {
 }
 
 CellBlock require_region(const ScoredRegion& region, const OctomapFile& map) {
-  const CellBlock cells = region.cells(map);
+  CellBlock cells = region.cells(map);
   if (!cells.empty()) return cells;
   if (map.known().empty()) {
     throw InputError(map.name() +

@@ -65,6 +65,7 @@ TEST_F(ScoreViews, SameAsOnTheWholeGrid) {
   write_octomap(grid, directory_ / "map.ot");
   const OctomapFile file(directory_ / "map.ot");
   std::vector<Candidate> views;
+  views.reserve(12);
   for (int i = 0; i < 12; ++i) {
     views.push_back(
         view_at(i, {rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(0.2, 1.4)}, i));
