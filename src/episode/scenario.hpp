@@ -31,8 +31,8 @@ namespace vantage {
 
 struct RobotOptions {
   std::string model = "models/robots/pr2/pr2.xml";  ///< MJCF of the robot
-  int start_view = 0;           ///< table top: position on the ring of views where the robot starts
-  std::string start_site = "";  ///< office: site of the scene where it starts; empty: start_pose
+  int start_view = 0;      ///< table top: position on the ring of views where the robot starts
+  std::string start_site;  ///< office: site of the scene where it starts; empty: start_pose
   std::array<double, 3> start_pose{0.0, 0.0, 0.0};  ///< office: x m, y m, yaw rad, world
   void fields(auto&& f) {
     f("model", model);

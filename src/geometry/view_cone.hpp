@@ -34,7 +34,7 @@ struct ConeRow {
     const float z = origin_m[2] + i * step_m[2];
     const float range2 = x * x + y * y + z * z;
     const float depth = std::sqrt(x * x + all_round * (y * y));
-    const float drop = (x >= 0.0F) | (all_round > 0.0F) ? -z : z;
+    const float drop = ((x >= 0.0F) | (all_round > 0.0F)) ? -z : z;
     const float excess = y * y - sin2_half_width * range2;
     const bool in_sector = ((x >= 0.0F) & (excess <= most_excess_ahead_m2)) |
                            ((x < 0.0F) & (excess >= least_excess_behind_m2));
