@@ -17,6 +17,12 @@ double depth_sigma_m(const RgbdOptions& options, double z_m) {
   return options.noise_floor_m + options.noise_growth_per_m * beyond_m * beyond_m;
 }
 
+double depth_error_m(const RgbdOptions& options, double z_m) {
+  if (!options.noise) return 0.0;
+  const double step_m = options.quantisation_per_m * z_m * z_m;
+  return std::hypot(depth_sigma_m(options, z_m), step_m / std::sqrt(12.0));
+}
+
 float measured_depth_m(const RgbdOptions& options, float z_m, Rng& rng) {
   const float far = options.tells_far ? std::numeric_limits<float>::infinity() : 0.0F;
   double z = z_m;

@@ -44,6 +44,9 @@ struct RgbdOptions {
 /// [NguyenIzadiLovell2012]
 double depth_sigma_m(const RgbdOptions& options, double z_m);
 
+/// Standard deviation of a reading from the surface, m: noise and quantisation together.
+double depth_error_m(const RgbdOptions& options, double z_m);
+
 /// A reading of a surface at `z_m` along the optical axis (+inf: there is none): noise,
 /// quantisation, range limits. 0 or +inf where there is no reading, see RgbdOptions::tells_far.
 float measured_depth_m(const RgbdOptions& options, float z_m, Rng& rng);

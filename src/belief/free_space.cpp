@@ -51,7 +51,7 @@ bool swept(const SweptScan& view, const Eigen::Vector3d& p_sensor) {
 
 /// Conditions (i) and (ii) for an image.
 bool swept(const CameraImages& image, const Eigen::Vector3d& p_camera) {
-  return p_camera.squaredNorm() <= image.range_max_m * image.range_max_m &&
+  return p_camera.z() > 0.0 && p_camera.squaredNorm() <= image.range_max_m * image.range_max_m &&
          p_camera.z() < image.swept_depth_m(p_camera);
 }
 

@@ -13,8 +13,8 @@ namespace vantage {
 
 /// Where the head turns the camera at a stop: rows of images at one tilt, all round.
 struct HeadSweep {
-  int pans = 9;                               ///< images a row; more overlap, take longer
-  std::vector<double> tilts_rad{-0.05, 0.7};  ///< of the rows, ascending; positive looks down
+  int pans = 9;                             ///< images a row; more overlap, take longer
+  std::vector<double> tilts_rad{0.0, 0.7};  ///< of the rows, ascending; positive looks down
   void fields(auto&& f) {
     f("pans", pans, between(1, 360));
     f("tilts_rad", tilts_rad, between(-1.5, 1.5));
@@ -39,9 +39,11 @@ struct ExplorationOptions {
   double reach_m = 1.0;        ///< nearest place farther from its frontier: out of reach
   double taken_m = 0.3;        ///< places nearer to one that was scanned from are not proposed
   double poor_m = 1.0;         ///< the same round a place whose scan showed too little
-  int poor_cells = 300;        ///< fewer new cells are too little; higher gives up sooner
-  int stride_px = 3;           ///< pixels between those that mark surfaces; higher is faster
-  int hazard_stride_px = 8;    ///< pixels between those that count clutter; higher is faster
+  int poor_cells = 2000;       ///< fewer new cells are too little; higher gives up sooner
+  double keyframe_m = 0.5;     ///< between places on the way where walls are remembered to drive by
+  double wall_novelty_m = 0.05;  ///< walls nearer than this to remembered ones are not remembered
+  int stride_px = 3;             ///< pixels between those that mark surfaces; higher is faster
+  int hazard_stride_px = 8;      ///< pixels between those that count clutter; higher is faster
   void fields(auto&& f) {
     f("sweep", sweep);
     f("camera", camera);
@@ -53,6 +55,8 @@ struct ExplorationOptions {
     f("taken_m", taken_m, above(0.0));
     f("poor_m", poor_m, at_least(0.0));
     f("poor_cells", poor_cells, at_least(0));
+    f("keyframe_m", keyframe_m, above(0.0));
+    f("wall_novelty_m", wall_novelty_m, at_least(0.0));
     f("stride_px", stride_px, between(1, 100));
     f("hazard_stride_px", hazard_stride_px, between(1, 100));
   }

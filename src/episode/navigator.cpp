@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace vantage {
 namespace {
@@ -17,12 +18,13 @@ constexpr double kInscribedRadius_m = 0.33;
 
 }  // namespace
 
-Navigator::Navigator(const Episode& episode, MobileRig& rig)
+Navigator::Navigator(const Episode& episode, MobileRig& rig, WallMap walls, double keyframe_m)
     : floor_options_(episode.floor_map),
       options_(episode.navigation),
       rig_(rig),
       floor_(make_floor_map(episode.floor_map)),
-      walls_(episode.registration) {}
+      walls_(std::move(walls)),
+      keyframe_m_(keyframe_m) {}
 
 void Navigator::look_round() {
   const Pose2 start = rig_.estimated_base();
@@ -43,14 +45,18 @@ void Navigator::remember(const PlanarScan& scan, const Pose2& T_world_base) {
 
 void Navigator::remember_walls(const PlanarScan& scan, const Pose2& T_world_base) {
   walls_.remember(scan, rig_.base_scan_height_m(), T_world_base);
+  last_keyframe_m_ = {T_world_base.x_m, T_world_base.y_m};
 }
 
 /// Corrects dead reckoning by the planar scanner and adds the scan to the floor map.
 void Navigator::localise() {
   const PlanarScan scan = rig_.look_around();
-  rig_.correct_pose(
-      walls_.locate(scan, rig_.base_scan_height_m(), rig_.estimated_base()).T_world_base);
-  add_planar_scan(floor_, scan, rig_.estimated_base(), floor_options_);
+  const auto located = walls_.locate(scan, rig_.base_scan_height_m(), rig_.estimated_base());
+  const Pose2& pose = located.T_world_base;
+  rig_.correct_pose(pose);
+  add_planar_scan(floor_, scan, pose, floor_options_);
+  const double gone_m = (Eigen::Vector2d(pose.x_m, pose.y_m) - last_keyframe_m_).norm();
+  if (located.converged && gone_m >= keyframe_m_) remember_walls(scan, pose);
 }
 
 PathField Navigator::plan() {

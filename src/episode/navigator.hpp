@@ -1,6 +1,7 @@
 /// Drives the robot over the floor it knows, and gets to know more of it on the way.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,7 +20,10 @@ struct Approach {
 
 class Navigator {
  public:
-  Navigator(const Episode& episode, MobileRig& rig);
+  /// @param walls to drive by
+  /// @param keyframe_m remembers the walls that often while driving; infinity: only when told to
+  Navigator(const Episode& episode, MobileRig& rig, WallMap walls,
+            double keyframe_m = std::numeric_limits<double>::infinity());
 
   /// Turns once in place, to know the floor on all sides: the scanner does not see behind the
   /// robot. Whoever starts the robot gives it room for that.
@@ -47,6 +51,8 @@ class Navigator {
   MobileRig& rig_;
   FloorMap floor_;
   WallMap walls_;
+  double keyframe_m_;
+  Eigen::Vector2d last_keyframe_m_ = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> path_m_;
 };
 

@@ -28,7 +28,7 @@ NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Re
       belief_(episode_),
       truth_(rig.world(), rig.true_geometry(), belief_.grid().frame, views_, rig.view_field(),
              episode_.threads),
-      navigator_(episode_, rig),
+      navigator_(episode_, rig, WallMap(episode_.registration)),
       choice_rng_(Rng::stream(episode_.seed, "view choice")) {
   const Eigen::AlignedBox3d region = belief_.grid().frame.box();
   block_box(navigator_.floor(), {region.min().head<2>(), region.max().head<2>()});

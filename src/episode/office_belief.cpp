@@ -1,5 +1,6 @@
 #include "src/episode/office_belief.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "src/belief/free_space.hpp"
@@ -7,6 +8,25 @@
 #include "src/belief/sensor_model.hpp"
 
 namespace vantage {
+namespace {
+
+/// Returns of an image in the world. One that is no higher above the floor than its error is of the
+/// floor: elsewhere a few centimetres are an obstacle.
+PointCloud surfaces_of(const DepthView& view, const Pose& T_world_camera,
+                       const ExplorationOptions& options) {
+  constexpr double kSigmas = 5.0;  // of some hundred thousand returns hardly one is farther off
+  PointCloud points = transform(to_cloud(view.image, options.stride_px), T_world_camera);
+  const double camera_m = T_world_camera.translation().z();
+  for (Eigen::Vector3f& p : points.points) {
+    const double depth_m = (T_world_camera.inverse() * p.cast<double>()).z();
+    const double slope = std::abs(p.z() - camera_m) / depth_m;
+    const double error_m = kSigmas * slope * depth_error_m(options.camera, depth_m);
+    if (p.z() <= error_m) p.z() = 0.0F;
+  }
+  return points;
+}
+
+}  // namespace
 
 OfficeBelief::OfficeBelief(const Episode& episode)
     : episode_(episode),
@@ -27,7 +47,7 @@ BeliefUpdate OfficeBelief::update(const OfficeObservation& observation, const Wa
   for (const DepthView& view : observation.views) {
     const Pose T_world_camera = T_world_base * view.T_base_camera;
     hazard_.observe(grid_, view.image, T_world_camera, options.hazard_stride_px);
-    append(points, transform(to_cloud(view.image, options.stride_px), T_world_camera));
+    append(points, surfaces_of(view, T_world_camera, options));
   }
   add_measurements(grid_, points.points, episode_.sensor_model);
   for (const DepthView& view : observation.views) {

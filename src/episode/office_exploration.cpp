@@ -44,7 +44,8 @@ OfficeExploration::OfficeExploration(const ResolvedEpisode& resolved, OfficeRig&
       recorder_(recorder),
       belief_(episode_),
       truth_(episode_, rig, belief_.grid().frame),
-      navigator_(episode_, rig),
+      navigator_(episode_, rig, WallMap(episode_.registration, episode_.exploration.wall_novelty_m),
+                 episode_.exploration.keyframe_m),
       vouched_(navigator_.floor().size(), 0),
       choice_rng_(Rng::stream(episode_.seed, "view choice")) {
   recorder_.set_panel([this] { return panel(); });

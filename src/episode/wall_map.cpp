@@ -1,9 +1,20 @@
 #include "src/episode/wall_map.hpp"
 
+#include "src/perception/kd_tree.hpp"
+
 namespace vantage {
 
 void WallMap::remember(const PlanarScan& scan, double scanner_height_m, const Pose2& T_world_base) {
-  append(cloud_, transform(prepare(scan, scanner_height_m), lift(T_world_base)));
+  PointCloud seen = transform(prepare(scan, scanner_height_m), lift(T_world_base));
+  if (novelty_m_ > 0.0 && !cloud_.empty()) {
+    const KdTree known(cloud_.points);
+    std::vector<std::size_t> novel;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (!known.nearest(seen.points[i], novelty_m_)) novel.push_back(i);
+    }
+    seen = select(seen, novel);
+  }
+  append(cloud_, seen);
 }
 
 RegistrationResult WallMap::locate(const PlanarScan& scan, double scanner_height_m,

@@ -7,7 +7,10 @@ namespace vantage {
 
 class WallMap {
  public:
-  explicit WallMap(const RegistrationOptions& options) : options_(options) {}
+  /// A point nearer than `novelty_m` to one remembered earlier is not remembered: the older a
+  /// point, the less drift is in it. 0 remembers all.
+  explicit WallMap(const RegistrationOptions& options, double novelty_m = 0.0)
+      : options_(options), novelty_m_(novelty_m) {}
 
   void remember(const PlanarScan& scan, double scanner_height_m, const Pose2& T_world_base);
   /// Where the scan says the base is; `guess` while nothing is remembered.
@@ -19,6 +22,7 @@ class WallMap {
   [[nodiscard]] PointCloud prepare(const PlanarScan& scan, double scanner_height_m) const;
 
   RegistrationOptions options_;
+  double novelty_m_;
   PointCloud cloud_;  ///< world, with normals
 };
 

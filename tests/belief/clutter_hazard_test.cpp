@@ -121,5 +121,26 @@ TEST(ClutterHazard, RecoversAKnownHazardPerLayer) {
   EXPECT_NEAR(hazard.hazard(1), high, 0.15 * high);
 }
 
+TEST(ClutterHazard, CountsTheBeamsOfAnImage) {
+  // Along x: a return in the fourth cell, one beyond range, none, and one in the second cell.
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {10.0, 4.0, 1.0}, {10, 1, 1}));
+  CameraImages image;
+  image.width_px = 4;
+  image.height_px = 1;
+  image.focal_px = 1000.0;
+  image.range_max_m = 7.5;
+  image.depth_m = {3.5F, std::numeric_limits<float>::infinity(), 0.0F, 1.5F};
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(-5.0, 0.0, 0.0);
+  T_world_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  ClutterHazard every({.layers = 1}, 1);
+  every.observe(grid, image, T_world_camera, 1);
+  EXPECT_EQ(every.crossings(0), 4.0 + 8.0 + 2.0);
+  EXPECT_EQ(every.hits(0), 2.0);
+  ClutterHazard some({.layers = 1}, 1);
+  some.observe(grid, image, T_world_camera, 3);
+  EXPECT_EQ(some.crossings(0), 4.0 + 2.0);
+}
+
 }  // namespace
 }  // namespace vantage

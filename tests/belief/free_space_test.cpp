@@ -207,5 +207,116 @@ RC_GTEST_PROP(FreeSpaceProperty, NeverFreesOutsideTheSectorOrBehindTheDepth, (st
   }
 }
 
+/// What a camera (OpenCV's axes) measures in a scene of voxels.
+CameraImages image_of(const OccupancyGrid& truth, const Pose& T_world_camera, double focal_px,
+                      double range_max_m) {
+  CameraImages image;
+  image.width_px = 32;
+  image.height_px = 24;
+  image.focal_px = focal_px;
+  image.range_max_m = range_max_m;
+  for (int row = 0; row < image.height_px; ++row) {
+    for (int column = 0; column < image.width_px; ++column) {
+      const Eigen::Vector3d ray = image.ray(row, column);
+      const Eigen::Vector3d p_end = T_world_camera * (range_max_m * ray);
+      float depth_m = kInfinity;
+      walk_ray(truth.frame, T_world_camera.translation(), p_end, [&](std::size_t cell) {
+        if (truth.state(cell) != CellState::occupied) return true;
+        const SegmentClip clip = clip_segment(testing::box_of_cell(truth.frame, cell),
+                                              T_world_camera.translation(), p_end);
+        depth_m = static_cast<float>(0.5 * (clip.enter + clip.leave) * range_max_m);
+        return false;
+      });
+      image.depth_m.push_back(depth_m);
+    }
+  }
+  return image;
+}
+
+struct RandomImage {
+  OccupancyGrid map;
+  CameraImages image;
+  Pose T_world_camera;
+};
+
+RandomImage random_image(Rng& rng) {
+  const GridFrame frame = make_grid_frame({0.2, -0.1, 0.3}, {1.0, 1.2, 0.5}, {9, 8, 6});
+  RandomImage c;
+  const OccupancyGrid truth = random_grid(frame, 0.03, 0.97, rng);
+  c.map = random_grid(frame, rng.uniform(0.0, 0.05), 0.3, rng);
+  Pose forward_is_x = Pose::Identity();
+  forward_is_x.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  c.T_world_camera =
+      make_pose({rng.uniform(-1.2, 0.5), rng.uniform(-1.0, 1.0), rng.uniform(0.1, 0.8)},
+                rng.uniform(-3.0, 3.0), rng.uniform(-0.3, 0.3)) *
+      forward_is_x;
+  c.image = image_of(truth, c.T_world_camera, rng.uniform(10.0, 40.0), rng.uniform(0.4, 3.0));
+  for (float& depth_m : c.image.depth_m) {
+    if (rng.uniform() < 0.02) depth_m = 0.0F;
+  }
+  return c;
+}
+
+/// The rules of the header without the grid walk, and the four pixels by name.
+Verdict judge(const OccupancyGrid& grid, const CameraImages& image, const Pose& T_world_camera,
+              std::size_t cell) {
+  if (grid.state(cell) != CellState::unobserved) return Verdict::keep;
+  const Eigen::Vector3d p_world = grid.frame.centre(grid.frame.cell(cell));
+  const Eigen::Vector3d p = T_world_camera.inverse() * p_world;
+  if (p.z() <= 0.0 || p.norm() > image.range_max_m) return Verdict::keep;
+  const double u = image.focal_px * p.x() / p.z() + 0.5 * (image.width_px - 1);
+  const double v = image.focal_px * p.y() / p.z() + 0.5 * (image.height_px - 1);
+  if (u < 0.0 || v < 0.0 || u > image.width_px - 1 || v > image.height_px - 1) return Verdict::keep;
+  for (const double row : {std::floor(v), std::ceil(v)}) {
+    for (const double column : {std::floor(u), std::ceil(u)}) {
+      const float depth = image.depth_at(static_cast<int>(row), static_cast<int>(column));
+      if (depth == 0.0F || depth <= p.z()) return Verdict::keep;
+    }
+  }
+  Verdict verdict = Verdict::free;
+  for (std::size_t other = 0; other < grid.size(); ++other) {
+    if (grid.state(other) != CellState::occupied) continue;
+    const SegmentClip clip = clip_segment(testing::box_of_cell(grid.frame, other),
+                                          T_world_camera.translation(), p_world);
+    const double length = clip.leave - clip.enter;
+    if (length > 1e-9) return Verdict::keep;
+    if (length > -1e-9) verdict = Verdict::touching;
+  }
+  return verdict;
+}
+
+RC_GTEST_PROP(FreeSpaceOfImages, FreesExactlyTheCellsOfTheDefinition, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const RandomImage c = random_image(rng);
+  OccupancyGrid after = c.map;
+  const std::size_t freed = carve_free_space(after, c.image, c.T_world_camera, {}, 2);
+  std::size_t changed = 0;
+  for (std::size_t cell = 0; cell < after.size(); ++cell) {
+    const bool lowered = after.log_odds[cell] < c.map.log_odds[cell];
+    changed += lowered ? 1 : 0;
+    RC_ASSERT(lowered || after.log_odds[cell] == c.map.log_odds[cell]);
+    const Verdict verdict = judge(c.map, c.image, c.T_world_camera, cell);
+    if (verdict != Verdict::touching) RC_ASSERT(lowered == (verdict == Verdict::free));
+  }
+  RC_ASSERT(changed == freed);
+}
+
+TEST(FreeSpaceOfImages, FreesSomething) {
+  Rng rng(3);
+  std::size_t freed = 0;
+  for (int i = 0; i < 50; ++i) {
+    RandomImage c = random_image(rng);
+    freed += carve_free_space(c.map, c.image, c.T_world_camera, {});
+  }
+  EXPECT_GT(freed, 500U);
+}
+
+TEST(FreeSpaceOfImages, NoReadingFreesNothing) {
+  Rng rng(4);
+  RandomImage c = random_image(rng);
+  std::ranges::fill(c.image.depth_m, 0.0F);
+  EXPECT_EQ(carve_free_space(c.map, c.image, c.T_world_camera, {}), 0U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -78,5 +78,16 @@ TEST(FieldOfView, OptionsAreChecked) {
   EXPECT_THROW(check_options(FieldOfView{.range_min_m = 11.0}), ConfigError);
 }
 
+RC_GTEST_PROP(FieldOfView, PanoramaIsBoundedByTheAngleBelowTheHorizon, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const FieldOfView view{.tilt_min_rad = -0.4, .tilt_max_rad = 1.1, .panorama = true};
+  const double azimuth = rng.uniform(-kPi, kPi);
+  const double tilt = rng.uniform(-1.5, 1.5);
+  const Eigen::Vector3d p = make_pose(Eigen::Vector3d::Zero(), azimuth) *
+                            Eigen::Vector3d(2.0 * std::cos(tilt), 0.0, -2.0 * std::sin(tilt));
+  RC_ASSERT(std::abs(depression_rad(p) - tilt) < 1e-9);
+  RC_ASSERT(view.contains(p) == (tilt >= -0.4 && tilt <= 1.1));
+}
+
 }  // namespace
 }  // namespace vantage

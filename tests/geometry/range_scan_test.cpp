@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -66,6 +67,52 @@ TEST(SweptRange, AScanAllRoundAnswersForWhatIsBehind) {
   for (double azimuth = -3.1; azimuth <= 3.1; azimuth += 0.1) {
     EXPECT_EQ(scan.swept_range(beam_angles(beam_direction({azimuth, 0.05}))), 3.0F) << azimuth;
   }
+}
+
+/// Four by three pixels, 90 degrees wide: pixel (row, column) looks along ((c - 1.5) / 2,
+/// (r - 1) / 2, 1).
+CameraImages small_image() {
+  CameraImages image;
+  image.width_px = 4;
+  image.height_px = 3;
+  image.focal_px = 2.0;
+  image.range_max_m = 5.0;
+  image.depth_m = {1, 2, 3, 4, 2, 2, 3, 4, 3, 3, 3, 4};
+  return image;
+}
+
+TEST(CameraImages, RayOfAPixel) {
+  EXPECT_TRUE(small_image().ray(1, 3).isApprox(Eigen::Vector3d(0.75, 0.0, 1.0)));
+  EXPECT_EQ(small_image().depth_at(2, 3), 4.0F);
+}
+
+TEST(CameraImages, SweptDepthIsTheLeastOfThePixelsRound) {
+  const CameraImages image = small_image();
+  EXPECT_EQ(image.swept_depth_m({-0.5, -0.25, 1.0}), 1.0);
+  EXPECT_EQ(image.swept_depth_m({-1.0, -0.5, 2.0}), 1.0);
+  EXPECT_EQ(image.swept_depth_m({0.5, 0.25, 1.0}), 3.0);
+  EXPECT_EQ(image.swept_depth_m(image.ray(2, 3)), 4.0);
+}
+
+TEST(CameraImages, NothingWasSweptOutsideTheImageOrBehindTheCamera) {
+  const CameraImages image = small_image();
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.8, 0.0, 1.0),
+                                   {-0.8, 0.0, 1.0},
+                                   {0.0, 0.6, 1.0},
+                                   {0.0, -0.6, 1.0},
+                                   {0.0, 0.0, -1.0},
+                                   {0.0, 0.0, 0.0},
+                                   {1.0, 0.0, 0.0}}) {
+    EXPECT_EQ(image.swept_depth_m(p), 0.0) << p.transpose();
+  }
+}
+
+TEST(CameraImages, BeyondRangeIsSweptToTheRangeAndNoReadingIsNot) {
+  CameraImages image = small_image();
+  std::ranges::fill(image.depth_m, std::numeric_limits<float>::infinity());
+  EXPECT_EQ(image.swept_depth_m({0.0, 0.0, 1.0}), 5.0);
+  image.depth_m[5] = 0.0F;
+  EXPECT_EQ(image.swept_depth_m({0.0, 0.0, 1.0}), 0.0);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ FieldOfView random_sector(Rng& rng) {
   fov.tilt_max_rad = fov.tilt_min_rad + rng.uniform(0.1, 0.9);
   fov.range_min_m = rng.uniform(0.0, 0.5);
   fov.range_max_m = rng.uniform(0.8, 2.0);
+  fov.panorama = rng.uniform() < 0.3;
   return fov;
 }
 

@@ -137,5 +137,17 @@ TEST(Crop, KeepsOrderNormalsAndFaces) {
   EXPECT_EQ(inside.points[1], Eigen::Vector3f(0, 0, 0));
 }
 
+TEST(ToCloud, KeepsEveryNthPixelOfAnImageThatReturned) {
+  CameraImages image;
+  image.width_px = 3;
+  image.height_px = 3;
+  image.focal_px = 2.0;
+  image.depth_m = {2.0F, 9.0F, kInf, 9.0F, 9.0F, 9.0F, 0.0F, 9.0F, 4.0F};
+  const PointCloud cloud = to_cloud(image, 2);
+  ASSERT_EQ(cloud.size(), 2U);
+  expect_near(cloud.points[0], {-1.0, -1.0, 2.0}, 1e-6);
+  expect_near(cloud.points[1], {2.0, 2.0, 4.0}, 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -83,6 +83,20 @@ TEST(SweptGain, CountsEveryCellInViewOnceWhereNothingIsInTheWay) {
   }
 }
 
+TEST(SweptGain, OfAPanoramaInClutterIsCloseToExact) {
+  FieldOfView field = all_round();
+  field.tilt_min_rad = -0.4;
+  field.tilt_max_rad = 1.0;
+  field.panorama = true;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const OccupancyGrid grid = cluttered_grid(seed);
+    const Candidate view = view_at({-0.21, 0.13, 0.05}, 0.7);
+    const double expected = exact(SimpleGain{}, {grid}, view, field);
+    EXPECT_GT(expected, 1000.0);
+    EXPECT_NEAR(swept(SimpleGain{}, {grid}, view, field, 1024), expected, 0.04 * expected) << seed;
+  }
+}
+
 TEST(SweptGain, OfViewsFromOutsideIsExactInEmptySpace) {
   const OccupancyGrid grid = unobserved_grid();
   for (const Candidate& view : ring()) {

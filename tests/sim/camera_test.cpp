@@ -190,5 +190,33 @@ TEST(Camera, ContradictoryOptionsAreErrors) {
   EXPECT_THROW(check_options(RgbdOptions{.width_px = 0}), ConfigError);
 }
 
+TEST(MeasuredDepth, TellsFarFromNearOnlyIfItCan) {
+  Rng rng(1);
+  RgbdOptions options{.noise = false};
+  const float nothing = std::numeric_limits<float>::infinity();
+  for (const float z : {0.5F, 3.6F, nothing}) EXPECT_EQ(measured_depth_m(options, z, rng), 0.0F);
+  options.tells_far = true;
+  EXPECT_EQ(measured_depth_m(options, 0.5F, rng), 0.0F);
+  EXPECT_EQ(measured_depth_m(options, 3.6F, rng), nothing);
+  EXPECT_EQ(measured_depth_m(options, nothing, rng), nothing);
+  EXPECT_EQ(measured_depth_m(options, 2.0F, rng), 2.0F);
+}
+
+TEST(Camera, ADepthImageIsTheDepthOfTheWhole) {
+  const auto scene = test::sensor_scene();
+  RgbdOptions options = exact_options();
+  options.tells_far = true;
+  options.noise = true;
+  const CameraImages whole = take(scene, "oblique", options, 5);
+  const auto renderer = make_offscreen_renderer(*scene.model, options.width_px, options.height_px);
+  Rng rng(5);
+  const CameraImages depth =
+      depth_image(*renderer, *scene.model, *scene.data, scene.camera("oblique"), options, rng);
+  EXPECT_EQ(depth.depth_m, whole.depth_m);
+  EXPECT_EQ(depth.range_max_m, options.range_max_m);
+  EXPECT_TRUE(depth.rgb.empty());
+  EXPECT_TRUE(depth.segmentation.empty()) << "truth";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -127,6 +127,22 @@ TEST(VisibleCells, RangeAndThreadsAndSensorPose) {
   EXPECT_LT(seen, one.size());
 }
 
+TEST(VisibleCells, OfTwoPlacesAreTheUnion) {
+  const auto scene = test::sensor_scene();
+  const RayScene rays(*scene.model, *scene.data, {.exclude_body_prefix = "robot/"});
+  const GridFrame grid = make_grid_frame({0.0, 0.0, 0.5}, {3.0, 3.0, 1.0}, {40, 40, 15});
+  const Pose T_a = make_pose({-2.5, 0.3, 1.1}, -0.1, 0.1);
+  const Pose T_b = make_pose({0.2, -2.0, 1.4}, 1.4, 0.2);
+  FieldOfView sensor = kWide;
+  sensor.range_max_m = 2.6;
+  const auto a = visible_cells(rays, grid, T_a, sensor);
+  const auto b = visible_cells(rays, grid, T_b, sensor);
+  auto both = a;
+  add_visible_cells(rays, grid, T_b, sensor, both, -1, 2);
+  for (std::size_t i = 0; i < both.size(); ++i) ASSERT_EQ(both[i], a[i] | b[i]) << i;
+  EXPECT_NE(both, a);
+}
+
 TEST(SurfaceCells, OutlineOfABox) {
   const auto scene = test::compile_mjcf(R"(
     <mujoco><worldbody><geom type="box" size="0.2 0.15 1" pos="0.45 0.4 0"/></worldbody></mujoco>)");
