@@ -14,12 +14,12 @@ struct Slices {
   int end = 0;
 };
 
-/// The z slices with their centres between two heights.
+/// The z slices with their lower faces between two heights.
 Slices slices_between(const GridFrame& frame, double low_m, double high_m) {
   Slices slices{0, frame.cells.z()};
-  const auto height_m = [&](int z) { return frame.centre({0, 0, z}).z(); };
-  while (slices.begin < slices.end && height_m(slices.begin) < low_m) ++slices.begin;
-  while (slices.end > slices.begin && height_m(slices.end - 1) > high_m) --slices.end;
+  const auto foot_m = [&](int z) { return frame.min_corner_m.z() + z * frame.cell_size_m.z(); };
+  while (slices.begin < slices.end && foot_m(slices.begin) < low_m) ++slices.begin;
+  while (slices.end > slices.begin && foot_m(slices.end - 1) > high_m) --slices.end;
   return slices;
 }
 

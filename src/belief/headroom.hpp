@@ -11,8 +11,8 @@
 namespace vantage {
 
 struct HeadroomOptions {
-  double low_m = 0.03;        ///< world z; occupied cells lower than this are floor
-  double high_m = 1.65;       ///< world z; occupied cells higher than this are above the robot
+  double low_m = 0.03;        ///< world z; occupied cells that begin lower are floor
+  double high_m = 1.65;       ///< world z; cells that begin higher are above the robot
   double seen_low_m = 0.3;    ///< world z; from here up to high_m a column must have been seen
   double most_unseen = 0.25;  ///< share of those cells that may be unobserved; higher dares more
   void fields(auto&& f) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace vantage {
 namespace {
@@ -41,7 +43,7 @@ std::vector<std::uint8_t> nowhere(const FloorMap& floor) {
 }
 
 constexpr HeadroomOptions kOptions{
-    .low_m = 0.25, .high_m = 1.6, .seen_low_m = 0.25, .most_unseen = 0.3};
+    .low_m = 0.15, .high_m = 1.5, .seen_low_m = 0.15, .most_unseen = 0.3};
 
 TEST(Headroom, ATableTopBlocksTheFloorBelowIt) {
   OccupancyGrid grid = free_row();
