@@ -1,90 +1,20 @@
 // The table-top decision: 30 views by the sweep, by exact rays and by castRay, on the maps that
-// episodes in the four scenes build.
+// episodes in the four scenes build; and the sweep's time against the number of cells.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
-#include "bench/castray.hpp"
 #include "bench/measures.hpp"
-#include "planners/exact_gain.hpp"
+#include "bench/situation.hpp"
 #include "planners/swept_gain.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/episode_loop.hpp"
 #include "src/episode/next_best_view.hpp"
 
-namespace vantage {
+namespace vantage::bench {
 namespace {
 namespace fs = std::filesystem;
-
-constexpr int kThreads = 2;
-constexpr int kRepeats = 9;
-
-/// What a decision looks at.
-struct Situation {
-  OccupancyGrid grid;
-  std::vector<double> transmission;
-  std::vector<Candidate> views;
-  FieldOfView field;
-
-  [[nodiscard]] GainContext context() const { return {grid, transmission}; }
-};
-
-struct Timings {
-  double sweep_ms = 0.0;
-  double exact_ms = 0.0;
-};
-
-Timings time_both(const Situation& s) {
-  const Gain gain = AdaptiveGain{};
-  std::vector<double> gains;
-  Timings timings;
-  timings.sweep_ms = bench::median_ms(
-      kRepeats, [&] { gains = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
-  timings.exact_ms = bench::median_ms(
-      1, [&] { gains = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
-  return timings;
-}
-
-struct Agreement {
-  double spearman_min = 1.0;
-  double regret_max = 0.0;
-  double sweep_ms_max = 0.0;
-
-  void compare(const Gain& gain, const Situation& s) {
-    const auto exact = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads);
-    std::vector<double> swept;
-    const double ms = bench::median_ms(
-        1, [&] { swept = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
-    const double best = *std::ranges::max_element(exact);
-    const auto chosen = static_cast<std::size_t>(std::ranges::max_element(swept) - swept.begin());
-    const double rank_correlation = bench::spearman(swept, exact);
-    const double regret = best > 0.0 ? 1.0 - exact[chosen] / best : 0.0;
-    spearman_min = std::min(spearman_min, rank_correlation);
-    regret_max = std::max(regret_max, regret);
-    sweep_ms_max = std::max(sweep_ms_max, ms);
-    log_debug(fmt::format("best {:.0f} cells, Spearman {:.4f}, regret {:.4f}, {:.1f} ms", best,
-                          rank_correlation, regret, ms));
-  }
-};
-
-/// An episode that keeps the map of every decision.
-class WatchedEpisode : public NextBestView {
- public:
-  WatchedEpisode(const ResolvedEpisode& resolved, TabletopRig& rig, Recorder& recorder)
-      : NextBestView(resolved, rig, recorder), field_(rig.view_field()) {}
-
-  void score(std::vector<Candidate>& candidates) {
-    situations.push_back(
-        {belief().filled_grid(), belief().hazard().transmission_per_slice(), views(), field_});
-    NextBestView::score(candidates);
-  }
-
-  std::vector<Situation> situations;
-
- private:
-  FieldOfView field_;
-};
 
 std::vector<Situation> situations_of_scene(int objects, const fs::path& directory) {
   const auto resolved =
@@ -92,64 +22,77 @@ std::vector<Situation> situations_of_scene(int objects, const fs::path& director
                    {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
   TabletopRig rig(resolved);
   Recorder recorder(resolved, rig, directory, false, true);
-  WatchedEpisode episode(resolved, rig, recorder);
+  Watched<NextBestView> episode(resolved, rig, recorder);
   run_episode(episode);
   return std::move(episode.situations);
 }
 
-/// castRay as peers use it: a ray for each pixel of a 640 x 480 image of the view. Every sixth view
-/// is timed, for all of them.
-double castray_ms(const Situation& s) {
-  constexpr std::size_t kEvery = 6;
-  const bench::CastrayGain castray(s.grid);
-  const double azimuth_step_rad = 2.0 * s.field.half_width_rad / 640.0;
-  const double tilt_step_rad = (s.field.tilt_max_rad - s.field.tilt_min_rad) / 480.0;
-  double sum = 0.0;
-  const double taken_ms = bench::median_ms(1, [&] {
-    for (std::size_t i = 0; i < s.views.size(); i += kEvery) {
-      sum += castray.of_view(s.views[i].T_world_sensor, s.field, azimuth_step_rad, tilt_step_rad);
-    }
-  });
-  expects(sum > 0.0, "the views see unobserved cells");
-  return kEvery * taken_ms;
+/// The same map in cells of another size.
+Situation resampled(const Situation& s, double cells_per_cell) {
+  const GridFrame& from = s.grid.frame;
+  const Eigen::Array3i cells = (from.cells.cast<double>() * cells_per_cell).round().cast<int>();
+  const Eigen::Vector3d size_m = from.box().sizes();
+  const Eigen::Vector3d centre_m = from.box().center();
+  Situation result = s;
+  result.grid = OccupancyGrid(make_grid_frame({centre_m.x(), centre_m.y(), centre_m.z()},
+                                              {size_m.x(), size_m.y(), size_m.z()},
+                                              {cells.x(), cells.y(), cells.z()}));
+  const GridFrame& to = result.grid.frame;
+  for (std::size_t cell = 0; cell < to.size(); ++cell) {
+    result.grid.log_odds[cell] =
+        s.grid.log_odds[from.index(from.cell_at(to.centre(to.cell(cell))))];
+  }
+  result.transmission.clear();
+  for (int z = 0; z < cells.z(); ++z) {
+    const int slice = from.cell_at(to.centre({0, 0, z})).z();
+    result.transmission.push_back(
+        std::pow(s.transmission[static_cast<std::size_t>(slice)], 1.0 / cells_per_cell));
+  }
+  return result;
+}
+
+/// From an eighth to eight times the cells of the table top's map.
+void print_scaling(const Situation& situation) {
+  std::vector<std::pair<std::string, double>> figures;
+  std::vector<double> log_cells;
+  std::vector<double> log_ms;
+  for (const double power : {-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0}) {
+    const Situation s = resampled(situation, std::exp2(power / 3.0));
+    std::vector<double> gains;
+    const double ms = median_ms(9, [&] {
+      gains = swept_gains_bits(AdaptiveGain{}, s.context(), s.views, s.field, kThreads);
+    });
+    figures.emplace_back(fmt::format("ms_of_{}_cells", s.grid.size()), ms);
+    log_cells.push_back(std::log(static_cast<double>(s.grid.size())));
+    log_ms.push_back(std::log(ms));
+  }
+  figures.emplace_back("exponent", slope(log_cells, log_ms));
+  print_figures("scaling", kThreads, figures);
 }
 
 void run_benchmark() {
   const fs::path directory = fs::temp_directory_path() / "vantage_bench_decision";
   fs::create_directories(directory);
   Agreement agreement;
-  Timings first;
-  double castray = 0.0;
+  std::vector<Situation> timed;
   for (const int objects : {4, 8, 15, 25}) {
     const auto situations = situations_of_scene(objects, directory);
     for (const Situation& situation : situations) {
       agreement.compare(SimpleGain{}, situation);
       agreement.compare(AdaptiveGain{}, situation);
     }
-    if (objects != 8) continue;
-    first = time_both(situations.front());
-    castray = castray_ms(situations.front());
+    if (objects == 8) timed.push_back(situations.front());
   }
   fs::remove_all(directory);
-  bench::print_figures("decision", kThreads,
-                       {{"sweep_ms", first.sweep_ms},
-                        {"exact_ms", first.exact_ms},
-                        {"castray_ms", castray},
-                        {"exact_over_sweep", first.exact_ms / first.sweep_ms},
-                        {"castray_over_sweep", castray / first.sweep_ms},
-                        {"spearman_min", agreement.spearman_min},
-                        {"regret_max", agreement.regret_max},
-                        {"sweep_ms_max", agreement.sweep_ms_max}});
+  const Situation& first = timed.front();
+  const double castray =
+      castray_ms(first, 2.0 * first.field.half_width_rad / 640.0,
+                 (first.field.tilt_max_rad - first.field.tilt_min_rad) / 480.0, 6);
+  print_decision("decision", time_both(AdaptiveGain{}, first), castray, agreement);
+  print_scaling(first);
 }
 
 }  // namespace
-}  // namespace vantage
+}  // namespace vantage::bench
 
-int main() {
-  try {
-    vantage::run_benchmark();
-  } catch (const vantage::Error& error) {
-    vantage::log_error(error.what());
-    return static_cast<int>(error.code());
-  }
-}
+int main() { return vantage::bench::run_main(vantage::bench::run_benchmark); }

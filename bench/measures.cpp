@@ -17,6 +17,26 @@ std::string cpu_name() {
   return "unknown";
 }
 
+/// Central second moments, up to the number of points.
+struct Moments {
+  double aa = 0.0;
+  double ab = 0.0;
+  double bb = 0.0;
+};
+
+Moments moments(std::span<const double> a, std::span<const double> b) {
+  const auto count = static_cast<double>(a.size());
+  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / count;
+  const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / count;
+  Moments m;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    m.aa += (a[i] - mean_a) * (a[i] - mean_a);
+    m.ab += (a[i] - mean_a) * (b[i] - mean_b);
+    m.bb += (b[i] - mean_b) * (b[i] - mean_b);
+  }
+  return m;
+}
+
 }  // namespace
 
 std::vector<double> ranks(std::span<const double> values) {
@@ -36,18 +56,13 @@ std::vector<double> ranks(std::span<const double> values) {
 }
 
 double spearman(std::span<const double> a, std::span<const double> b) {
-  const auto ra = ranks(a);
-  const auto rb = ranks(b);
-  const double mean = 0.5 * static_cast<double>(a.size() - 1);
-  double ab = 0.0;
-  double aa = 0.0;
-  double bb = 0.0;
-  for (std::size_t i = 0; i < ra.size(); ++i) {
-    ab += (ra[i] - mean) * (rb[i] - mean);
-    aa += (ra[i] - mean) * (ra[i] - mean);
-    bb += (rb[i] - mean) * (rb[i] - mean);
-  }
-  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 1.0;
+  const Moments m = moments(ranks(a), ranks(b));
+  return m.aa > 0.0 && m.bb > 0.0 ? m.ab / std::sqrt(m.aa * m.bb) : 1.0;
+}
+
+double slope(std::span<const double> x, std::span<const double> y) {
+  const Moments m = moments(x, y);
+  return m.ab / m.aa;
 }
 
 void print_figures(const std::string& name, int threads,

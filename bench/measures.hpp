@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "src/core/error.hpp"
+#include "src/core/log.hpp"
+
 namespace vantage::bench {
 
 /// Median wall time of `work` over `repeats` calls, ms.
@@ -32,8 +35,23 @@ std::vector<double> ranks(std::span<const double> values);
 /// Rank correlation [Spearman1904]; 1 where one side is constant.
 double spearman(std::span<const double> a, std::span<const double> b);
 
+/// Of the least-squares line through points (x, y).
+double slope(std::span<const double> x, std::span<const double> y);
+
 /// One line of JSON: {name, commit, cpu, threads, figures}.
 void print_figures(const std::string& name, int threads,
                    const std::vector<std::pair<std::string, double>>& figures);
+
+/// Exit code of a benchmark; user errors are told.
+template <class Benchmark>
+int run_main(Benchmark&& benchmark) {
+  try {
+    benchmark();
+    return 0;
+  } catch (const Error& error) {
+    log_error(error.what());
+    return static_cast<int>(error.code());
+  }
+}
 
 }  // namespace vantage::bench

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,14 +41,19 @@ inline std::string_view unit_of(const Gain& gain) {
       gain);
 }
 
-/// Names of the gains whose value is a number of cells, to be held against what a view showed.
-inline std::vector<std::string_view> cell_predictors() {
-  std::vector<std::string_view> names;
+/// Whether its value is a number of cells, to be held against what a view showed.
+inline bool predicts_cells(const Gain& gain) {
+  return std::visit([](const auto& g) { return g.predicts_cells; }, gain);
+}
+
+/// The gains that predict cells, with their defaults.
+inline std::vector<Gain> cell_predictors() {
+  std::vector<Gain> predictors;
   for (const std::string_view name : strategy_names<Gain>()) {
-    const Gain gain = make_strategy<Gain>(name);
-    if (std::visit([](const auto& g) { return g.predicts_cells; }, gain)) names.push_back(name);
+    Gain gain = make_strategy<Gain>(name);
+    if (predicts_cells(gain)) predictors.push_back(std::move(gain));
   }
-  return names;
+  return predictors;
 }
 
 }  // namespace vantage

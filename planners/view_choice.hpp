@@ -21,6 +21,7 @@ namespace vantage {
 /// Any view, each as likely as the other.
 struct RandomView {
   static constexpr std::string_view name = "random";
+  static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
@@ -28,6 +29,7 @@ struct RandomView {
 /// The largest gain; of equal ones the shorter path, then the lower id.
 struct GreedyGain {
   static constexpr std::string_view name = "greedy";
+  static constexpr bool weighs_gain = true;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
@@ -36,6 +38,7 @@ struct GreedyGain {
 /// Every candidate must carry `true_new_cells`. Ties as in GreedyGain.
 struct OracleView {
   static constexpr std::string_view name = "oracle";
+  static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
@@ -44,6 +47,7 @@ struct OracleView {
 /// come last.  [Yamauchi1997]
 struct NearestFrontier {
   static constexpr std::string_view name = "nearest_frontier";
+  static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
@@ -52,6 +56,7 @@ struct NearestFrontier {
 /// unreachable views come last.  [GonzalezBanosLatombe2002]
 struct GainOverDistance {
   static constexpr std::string_view name = "gain_over_distance";
+  static constexpr bool weighs_gain = true;
   double lambda_per_m = 0.2;  ///< 1/m, >= 0; higher prefers near views, 0 is greedy
   void fields(auto&& f) { f("lambda_per_m", lambda_per_m, at_least(0.0)); }
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
@@ -61,6 +66,11 @@ using ViewChoice =
     std::variant<RandomView, GreedyGain, OracleView, NearestFrontier, GainOverDistance>;
 template <>
 inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
+
+/// Whether it looks at Candidate::gain_bits.
+inline bool weighs_gain(const ViewChoice& choice) {
+  return std::visit([](const auto& c) { return c.weighs_gain; }, choice);
+}
 
 /// Index of the view to take; exhausted candidates are left out unless all are. `candidates` must
 /// not be empty.

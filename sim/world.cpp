@@ -9,6 +9,7 @@
 
 #include "sim/mujoco_errors.hpp"
 #include "src/core/error.hpp"
+#include "src/core/log.hpp"
 
 namespace vantage {
 namespace {
@@ -122,10 +123,12 @@ double World::time_s() const { return data_->time; }
 
 void World::advance_tick() {
   expects(!diverged_, "a diverged world is not stepped before set_state()");
+  const double start_s = wall_s();
   for (int i = 0; i < options_.steps_per_tick(); ++i) {
     step();
     if (on_step) on_step(*this);
   }
+  stepping_wall_s_ += wall_s() - start_s;
   ++ticks_;
   if (on_tick) on_tick(*this);
 }

@@ -67,6 +67,8 @@ class World {
   /// then until set_state().
   void advance_tick();
   [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  /// Wall time that the physics has taken so far.
+  [[nodiscard]] double stepping_wall_s() const { return stepping_wall_s_; }
   std::function<void(World&)> on_tick;        ///< recording, video; may be empty
   std::function<void(const World&)> on_step;  ///< after each physics step; may be empty
 
@@ -94,6 +96,7 @@ class World {
   DataPtr data_;
   mutable DataPtr snapshot_;
   std::uint64_t ticks_ = 0;
+  double stepping_wall_s_ = 0.0;
   bool diverged_ = false;
 };
 

@@ -89,10 +89,12 @@ std::vector<Candidate> NextBestView::propose() {
 }
 
 void NextBestView::score(std::vector<Candidate>& candidates) {
-  const auto transmission = belief_.hazard().transmission_per_slice();
-  const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
-                                     candidates, rig_.view_field(), episode_.threads);
-  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
+  if (weighs_gain(episode_.choice)) {
+    const auto transmission = belief_.hazard().transmission_per_slice();
+    const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
+                                       candidates, rig_.view_field(), episode_.threads);
+    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
+  }
   if (std::holds_alternative<OracleView>(episode_.choice)) {
     for (Candidate& candidate : candidates) {
       candidate.true_new_cells =

@@ -145,10 +145,12 @@ std::vector<Candidate> OfficeExploration::find_views() {
 std::vector<Candidate> OfficeExploration::propose() { return views_; }
 
 void OfficeExploration::score(std::vector<Candidate>& candidates) {
-  const auto transmission = belief_.hazard().transmission_per_slice();
-  const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
-                                     candidates, rig_.view_field(), episode_.threads);
-  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
+  if (weighs_gain(episode_.choice)) {
+    const auto transmission = belief_.hazard().transmission_per_slice();
+    const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
+                                       candidates, rig_.view_field(), episode_.threads);
+    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
+  }
   if (std::holds_alternative<OracleView>(episode_.choice)) {
     for (Candidate& candidate : candidates) {
       candidate.true_new_cells =

@@ -22,8 +22,9 @@ constexpr std::string_view kStepsHeader =
 
 std::string steps_header(const Episode& episode) {
   std::string gains;
-  for (const auto name : recorded_predictors(episode))
-    gains += fmt::format("predicted_{}_cells,", name);
+  for (const Predictor& predictor : recorded_predictors(episode)) {
+    gains += fmt::format("predicted_{}_cells,", predictor.label);
+  }
   return fmt::format(fmt::runtime(kStepsHeader), fmt::arg("gains", gains));
 }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
-#include "planners/exact_gain.hpp"
 #include "planners/swept_gain.hpp"
 #include "src/core/log.hpp"
 
@@ -23,13 +23,21 @@ double predicted_by(const ScanRecord& scan, std::string_view gain) {
 
 }  // namespace
 
-std::vector<std::string_view> recorded_predictors(const Episode& episode) {
-  std::vector<std::string_view> names = cell_predictors();
-  if (!episode.in_office()) return names;
-  std::erase_if(names, [&](std::string_view name) {
-    return name != strategy_name_of(episode.gain) && !can_sweep(make_strategy<Gain>(name));
-  });
-  return names;
+std::vector<Predictor> recorded_predictors(const Episode& episode) {
+  std::vector<Gain> gains = episode.metrics.predictors;
+  if (gains.empty()) {
+    gains = cell_predictors();
+    if (episode.in_office())
+      std::erase_if(gains, [](const Gain& gain) { return !can_sweep(gain); });
+  }
+  if (predicts_cells(episode.gain)) gains.push_back(episode.gain);
+  std::vector<Predictor> predictors;
+  for (Gain& gain : gains) {
+    std::string label = strategy_label(gain);
+    if (std::ranges::find(predictors, label, &Predictor::label) != predictors.end()) continue;
+    predictors.push_back({std::move(label), std::move(gain)});
+  }
+  return predictors;
 }
 
 std::vector<std::pair<std::string, double>> predicted_cells(const Episode& episode,
@@ -39,13 +47,9 @@ std::vector<std::pair<std::string, double>> predicted_cells(const Episode& episo
   std::array<Candidate, 1> view;
   view.front().T_world_sensor = T_world_sensor;
   std::vector<std::pair<std::string, double>> predictions;
-  for (const std::string_view name : recorded_predictors(episode)) {
-    const auto gain =
-        name == strategy_name_of(episode.gain) ? episode.gain : make_strategy<Gain>(name);
-    predictions.emplace_back(
-        name, episode.in_office()
-                  ? view_gains_bits(gain, context, view, field_of_view, episode.threads).front()
-                  : exact_gain_bits(gain, context, T_world_sensor, field_of_view));
+  for (const auto& [label, gain] : recorded_predictors(episode)) {
+    const auto gains_bits = view_gains_bits(gain, context, view, field_of_view, episode.threads);
+    predictions.emplace_back(label, gains_bits.front());
   }
   return predictions;
 }
@@ -60,7 +64,7 @@ MapPanelInput panel_of_scans(const Episode& episode, std::span<const ScanRecord>
         static_cast<double>(scan.observable_unobserved_cells));
   }
   if (scans.empty()) return input;
-  input.predicted_new_cells = predicted_by(scans.back(), strategy_name_of(episode.gain));
+  input.predicted_new_cells = predicted_by(scans.back(), strategy_label(episode.gain));
   input.actual_new_cells = scans.back().actual_new_cells;
   return input;
 }

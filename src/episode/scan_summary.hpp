@@ -14,11 +14,14 @@
 
 namespace vantage {
 
-/// The gains whose prediction an episode records: all that predict cells; in an office, where rays
-/// to every cell take seconds, those that can be swept, and the one in use.
-std::vector<std::string_view> recorded_predictors(const Episode& episode);
+struct Predictor {
+  std::string label;
+  Gain gain;
+};
+/// The gains whose prediction an episode records: MetricsOptions::predictors and the one in use.
+std::vector<Predictor> recorded_predictors(const Episode& episode);
 
-/// Per recorded predictor, what it expects of the view: exact at a table, swept in an office.
+/// Per recorded predictor, what it expects of the view.
 std::vector<std::pair<std::string, double>> predicted_cells(const Episode& episode,
                                                             const GainContext& context,
                                                             const Pose& T_world_sensor,

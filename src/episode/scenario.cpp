@@ -1,6 +1,7 @@
 #include "src/episode/scenario.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -14,6 +15,12 @@ constexpr double kMostCells = 67108864.0;
 /// What each view truly sees is known per cell.
 constexpr double kMostCellsOfAllViews = 2147483648.0;
 
+std::string labels(const std::vector<Gain>& gains) {
+  std::vector<std::string> names;
+  for (const Gain& gain : gains) names.push_back(strategy_label(gain));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 }  // namespace
 
 double MapOptions::count() const { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
@@ -22,6 +29,14 @@ void MapOptions::check() const {
   if (count() > kMostCells) {
     throw ConfigError(
         fmt::format("cells: {} x {} x {} is more than 2^26 cells", cells[0], cells[1], cells[2]));
+  }
+}
+
+void MetricsOptions::check() const {
+  for (const Gain& gain : predictors) {
+    if (predicts_cells(gain)) continue;
+    throw ConfigError(fmt::format("predictors: '{}' does not predict cells; those that do: {}",
+                                  strategy_name_of(gain), labels(cell_predictors())));
   }
 }
 
@@ -84,9 +99,10 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   return resolved;
 }
 
-std::string_view method_name(const Episode& episode) {
-  return std::holds_alternative<GreedyGain>(episode.choice) ? strategy_name_of(episode.gain)
-                                                            : strategy_name_of(episode.choice);
+std::string method_name(const Episode& episode) {
+  if (std::holds_alternative<GreedyGain>(episode.choice)) return strategy_label(episode.gain);
+  const std::string choice = strategy_label(episode.choice);
+  return weighs_gain(episode.choice) ? choice + " of " + strategy_label(episode.gain) : choice;
 }
 
 std::string episode_yaml(const Episode& episode) { return to_yaml(write_node(episode)); }

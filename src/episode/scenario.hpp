@@ -31,12 +31,14 @@ namespace vantage {
 
 struct RobotOptions {
   std::string model = "models/robots/pr2/pr2.xml";  ///< MJCF of the robot
-  int start_view = 0;      ///< table top: position on the ring of views where the robot starts
-  std::string start_site;  ///< office: site of the scene where it starts; empty: start_pose
+  int start_view = 0;           ///< table top: position on the ring of views where the robot starts
+  double start_behind_m = 0.0;  ///< table top: how far behind that position, seen from the table
+  std::string start_site;       ///< office: site of the scene where it starts; empty: start_pose
   std::array<double, 3> start_pose{0.0, 0.0, 0.0};  ///< office: x m, y m, yaw rad, world
   void fields(auto&& f) {
     f("model", model);
     f("start_view", start_view, at_least(0));
+    f("start_behind_m", start_behind_m, between(0.0, 100.0));
     f("start_site", start_site);
     f("start_pose", start_pose);
   }
@@ -62,10 +64,16 @@ struct MetricsOptions {
   /// Office: between the poses, reachable from the start, that say which cells are observable;
   /// lower misses fewer, takes longer.
   double pose_spacing_m = 1.0;
+  /// Gains whose prediction of newly observed cells is recorded at every scan, beside that of the
+  /// gain in use. Empty: every gain that predicts cells; in an office, where rays to every cell
+  /// take seconds, those that can be swept. Each costs the time of one view.
+  std::vector<Gain> predictors;
   void fields(auto&& f) {
     f("tolerance_cells", tolerance_cells, between(0, 10));
     f("pose_spacing_m", pose_spacing_m, between(0.05, 100.0));
+    f("predictors", predictors);
   }
+  void check() const;  ///< every predictor predicts cells
 };
 
 struct RecordingOptions {
@@ -163,8 +171,8 @@ ResolvedEpisode load_episode(const std::filesystem::path& path,
 ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::path& path);
 
 /// "adaptive" for a greedy choice by that gain, "random" or "oracle" for a choice that looks at
-/// none.
-std::string_view method_name(const Episode& episode);
+/// none, "gain_over_distance of simple" for another that does.
+std::string method_name(const Episode& episode);
 
 std::string episode_yaml(const Episode& episode);
 

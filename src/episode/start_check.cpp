@@ -16,8 +16,9 @@ std::string geom_text(const mjModel& model, int geom) {
 }
 
 std::string place_text(const Episode& episode) {
-  return fmt::format("robot.start_view {} on the ring of candidates.radius_m {}",
-                     episode.robot.start_view, episode.candidates.radius_m);
+  return fmt::format(
+      "robot.start_view {} on the ring of candidates.radius_m {}, robot.start_behind_m {}",
+      episode.robot.start_view, episode.candidates.radius_m, episode.robot.start_behind_m);
 }
 
 }  // namespace

@@ -20,12 +20,13 @@ double torso_m(const World& world, const Pr2& robot, const Episode& episode) {
   return std::max(episode.candidates.height_m - lowest_m, 0.0);
 }
 
-/// The robot, standing where the episode starts: at a position on the ring of views.
+/// The robot, standing where the episode starts: at or behind a position on the ring of views.
 Pr2 placed_robot(World& world, const Episode& episode) {
   Pr2 robot(world.model());
   check_reach(world, robot, episode);
   RingOfViews ring = episode.candidates;
   ring.yaw_offsets_rad = {0.0};
+  ring.radius_m += episode.robot.start_behind_m;
   const auto& centre = episode.map.centre_m;
   const auto views = ring_of_views(ring, {centre[0], centre[1], centre[2]});
   const auto& start = views[static_cast<std::size_t>(episode.robot.start_view)];

@@ -22,10 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-double wall_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 std::string duration_text(double seconds) {
   const auto whole = std::lround(seconds);
   if (whole < 60) return fmt::format("{} s", whole);

@@ -62,6 +62,7 @@ TEST_F(CommandLine, OverridesAreNamedInErrors) {
   };
   named("robot.start_view=40", {"--set robot.start_view: ", "candidates.positions"});
   named("laser.tilt_min_rad=1 ", {"--set laser.tilt_min_rad: laser: ", "tilt_max_rad"});
+  named("metrics.predictors=[simple,fsmi]", {"metrics: predictors: 'fsmi'", "beer_lambert"});
   named("gain=[1]", {"--set: gain: expected a name"});
   named("gain.a=0.5", {"--set: gain.a: unknown key 'a'", "beer_lambert"});
 }

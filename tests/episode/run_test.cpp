@@ -70,6 +70,18 @@ TEST_F(Run, AnotherSeedAnotherEpisode) {
   EXPECT_NE(first_["state_hash"], other["state_hash"]);
 }
 
+TEST_F(Run, RecordsTheWantedPredictorsAndItsOwn) {
+  const auto metrics = short_run(
+      "predictors", {"scans=1", "metrics.predictors=[simple, {name: beer_lambert, a: 0.9}]",
+                     "gain=beer_lambert", "gain.a=0.8"});
+  EXPECT_EQ(metrics["method"], "beer_lambert a=0.8");
+  const auto& predicted = metrics["scans"][0]["predicted"];
+  EXPECT_EQ(predicted.size(), 3U);
+  EXPECT_GT(predicted.at("beer_lambert a=0.8"), 0.0);
+  EXPECT_LT(predicted.at("beer_lambert a=0.8"), predicted.at("beer_lambert a=0.9"));
+  EXPECT_LT(predicted.at("beer_lambert a=0.9"), predicted.at("simple"));
+}
+
 TEST_F(Run, WritesTheWholeFolder) {
   for (const char* name :
        {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",

@@ -131,9 +131,19 @@ TYPED_TEST(EveryGain, SeesFromAllSidesAlikeInEmptyUnknownSpace) {
 }
 
 TEST(Gain, OfCellsIsRecordedAsAPrediction) {
-  EXPECT_THAT(cell_predictors(),
-              testing::ElementsAre("simple", "posterior_chain", "visibility_weighted",
-                                   "beer_lambert", "adaptive"));
+  std::vector<std::string> labels;
+  for (const Gain& gain : cell_predictors()) labels.push_back(strategy_label(gain));
+  EXPECT_THAT(labels, testing::ElementsAre("simple", "posterior_chain", "visibility_weighted",
+                                           "beer_lambert", "adaptive"));
+}
+
+TEST(Gain, IsLabelledByWhatIsNotItsDefault) {
+  EXPECT_EQ(strategy_label(Gain(BeerLambertGain{.a = 0.99})), "beer_lambert a=0.99");
+  PosteriorChainGain chain;
+  chain.model.visibility.a = 0.9997;
+  chain.model.p_occupied_at_sensor = 0.1;
+  EXPECT_EQ(strategy_label(Gain(chain)),
+            "posterior_chain visibility.a=0.9997 p_occupied_at_sensor=0.1");
 }
 
 TEST(Gain, NamesItsKindInErrors) {

@@ -125,6 +125,17 @@ TEST(NearestFrontier, TakesTheShortestPathThenTheLowestId) {
   EXPECT_EQ(choose_view(NearestFrontier{}, views, rng), 0U);
 }
 
+TEST(ViewChoice, OnlyThoseThatWeighGainsNeedThem) {
+  const auto weighing = [] {
+    std::vector<std::string_view> names;
+    for (const std::string_view name : strategy_names<ViewChoice>()) {
+      if (weighs_gain(make_strategy<ViewChoice>(name))) names.push_back(name);
+    }
+    return names;
+  };
+  EXPECT_EQ(weighing(), (std::vector<std::string_view>{"greedy", "gain_over_distance"}));
+}
+
 TEST(GainOverDistance, WeighsGainAgainstTheWay) {
   // 10 exp(-5 l) = 6 exp(-l) at l = ln(10 / 6) / 4, about 0.128.
   const std::vector<Candidate> views{view(0, 10.0, 5.0, 0.0), view(1, 6.0, 1.0, 0.0)};

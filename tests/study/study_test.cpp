@@ -69,6 +69,10 @@ TEST_F(StudyFile, OverridesReachTheEpisode) {
   EXPECT_EQ(last.robot.start_view, 5);
   EXPECT_EQ(std::get<BeerLambertGain>(last.gain).a, 0.999);
   EXPECT_EQ(method_name(episodes[0].resolved.episode), "random");
+  EXPECT_EQ(method_name(last), "beer_lambert a=0.999");
+  Episode near = last;
+  near.choice = GainOverDistance{};
+  EXPECT_EQ(method_name(near), "gain_over_distance of beer_lambert a=0.999");
 }
 
 TEST_F(StudyFile, SetFromTheCommandLineReachesEveryEpisode) {

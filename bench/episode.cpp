@@ -1,0 +1,92 @@
+// How fast episodes run, and what takes the time.
+#include <filesystem>
+
+#include "bench/measures.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/episode_loop.hpp"
+#include "src/episode/next_best_view.hpp"
+#include "src/episode/office_exploration.hpp"
+
+namespace vantage::bench {
+namespace {
+namespace fs = std::filesystem;
+
+/// The parts of an episode, each timed without the physics that runs in it.
+template <class Parts>
+class Timed : public Parts {
+ public:
+  Timed(const ResolvedEpisode& resolved, auto& rig, Recorder& recorder)
+      : Parts(resolved, rig, recorder), world_(rig.world()) {}
+
+  auto observe() {
+    return timed(rendering_s, [&] { return Parts::observe(); });
+  }
+  void update(const auto& observation) {
+    timed(belief_s, [&] { Parts::update(observation); });
+  }
+  auto propose() {
+    return timed(planning_s, [&] { return Parts::propose(); });
+  }
+  void score(std::vector<Candidate>& candidates) {
+    timed(planning_s, [&] { Parts::score(candidates); });
+  }
+  void act(const Candidate& candidate) {
+    timed(driving_s, [&] { Parts::act(candidate); });
+  }
+
+  double rendering_s = 0.0;
+  double belief_s = 0.0;
+  double planning_s = 0.0;
+  double driving_s = 0.0;  ///< prediction, path planning and control
+
+ private:
+  auto timed(double& sum_s, auto&& work) {
+    const double start_s = wall_s() - world_.stepping_wall_s();
+    struct Add {
+      double& sum_s;
+      double start_s;
+      const World& world;
+      ~Add() { sum_s += wall_s() - world.stepping_wall_s() - start_s; }
+    } const add{sum_s, start_s, world_};
+    return work();
+  }
+  const World& world_;
+};
+
+template <class Rig, class Parts>
+void measure(const std::string& task, const char* file, const fs::path& directory,
+             std::vector<std::pair<std::string, double>>& figures) {
+  const auto resolved = load_episode(file, {"scans=6"});
+  Rig rig(resolved);
+  Recorder recorder(resolved, rig, directory, false, true);
+  Timed<Parts> episode(resolved, rig, recorder);
+  const double start_s = wall_s();
+  run_episode(episode);
+  const double all_s = wall_s() - start_s;
+  const auto add = [&](const char* name, double figure) {
+    figures.emplace_back(task + "_" + name, figure);
+  };
+  add("real_time_factor", rig.world().time_s() / all_s);
+  add("physics_share", rig.world().stepping_wall_s() / all_s);
+  add("rendering_share", episode.rendering_s / all_s);
+  add("belief_share", episode.belief_s / all_s);
+  add("planning_share", episode.planning_s / all_s);
+  add("driving_share", episode.driving_s / all_s);
+}
+
+void run_benchmark() {
+  const fs::path directory = fs::temp_directory_path() / "vantage_bench_episode";
+  fs::create_directories(directory);
+  std::vector<std::pair<std::string, double>> figures;
+  measure<TabletopRig, NextBestView>("tabletop", "assets/episodes/tabletop.yaml", directory,
+                                     figures);
+  measure<OfficeRig, OfficeExploration>("office", "assets/episodes/office_small.yaml", directory,
+                                        figures);
+  fs::remove_all(directory);
+  print_figures("episode", 2, figures);
+}
+
+}  // namespace
+}  // namespace vantage::bench
+
+int main() { return vantage::bench::run_main(vantage::bench::run_benchmark); }

@@ -1,0 +1,58 @@
+// The office decision: up to 30 panoramas by the sweep, by exact rays and by castRay, on maps that
+// an episode in each of two offices builds.
+#include <filesystem>
+
+#include "bench/measures.hpp"
+#include "bench/situation.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/episode_loop.hpp"
+#include "src/episode/office_exploration.hpp"
+
+namespace vantage::bench {
+namespace {
+namespace fs = std::filesystem;
+
+/// Every `kEvery`-th decision is held against exact rays: each of those takes a while.
+constexpr std::size_t kEvery = 4;
+
+std::vector<Situation> situations_of(const char* episode_file, const fs::path& directory) {
+  const auto resolved = load_episode(episode_file, {"scans=14"});
+  OfficeRig rig(resolved);
+  Recorder recorder(resolved, rig, directory, false, true);
+  Watched<OfficeExploration> episode(resolved, rig, recorder);
+  run_episode(episode);
+  std::vector<Situation> kept;
+  for (std::size_t i = 0; i < episode.situations.size(); i += kEvery) {
+    kept.push_back(std::move(episode.situations[i]));
+  }
+  return kept;
+}
+
+void run_benchmark() {
+  const fs::path directory = fs::temp_directory_path() / "vantage_bench_office";
+  fs::create_directories(directory);
+  Agreement agreement;
+  const Situation* most = nullptr;
+  const std::vector<Situation> small =
+      situations_of("assets/episodes/office_small.yaml", directory);
+  const std::vector<Situation> large =
+      situations_of("assets/episodes/office_large.yaml", directory);
+  for (const auto* situations : {&small, &large}) {
+    for (const Situation& situation : *situations) {
+      agreement.compare(SimpleGain{}, situation);
+      agreement.compare(AdaptiveGain{}, situation);
+      if (most == nullptr || situation.views.size() > most->views.size()) most = &situation;
+    }
+  }
+  fs::remove_all(directory);
+  const RgbdOptions camera;
+  const double pixel_rad = camera.fovy_rad / 480.0;
+  const double castray = castray_ms(*most, pixel_rad, pixel_rad, most->views.size());
+  print_decision("office", time_both(AdaptiveGain{}, *most), castray, agreement);
+  print_figures("office_views", kThreads, {{"views", static_cast<double>(most->views.size())}});
+}
+
+}  // namespace
+}  // namespace vantage::bench
+
+int main() { return vantage::bench::run_main(vantage::bench::run_benchmark); }

@@ -1,0 +1,69 @@
+#include "bench/situation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/castray.hpp"
+#include "bench/measures.hpp"
+#include "planners/exact_gain.hpp"
+#include "planners/swept_gain.hpp"
+#include "src/core/log.hpp"
+
+namespace vantage::bench {
+
+void Agreement::compare(const Gain& gain, const Situation& s) {
+  const auto exact = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads);
+  std::vector<double> swept;
+  const double ms = median_ms(
+      1, [&] { swept = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
+  const double best = *std::ranges::max_element(exact);
+  const auto chosen = static_cast<std::size_t>(std::ranges::max_element(swept) - swept.begin());
+  const double rank_correlation = spearman(swept, exact);
+  const double regret = best > 0.0 ? 1.0 - exact[chosen] / best : 0.0;
+  spearman_min = std::min(spearman_min, rank_correlation);
+  regret_max = std::max(regret_max, regret);
+  sweep_ms_max = std::max(sweep_ms_max, ms);
+  log_debug(fmt::format("{} of {} views: best {:.0f}, Spearman {:.4f}, regret {:.4f}, {:.1f} ms",
+                        strategy_name_of(gain), exact.size(), best, rank_correlation, regret, ms));
+}
+
+Timings time_both(const Gain& gain, const Situation& s) {
+  constexpr int kRepeats = 9;
+  std::vector<double> gains;
+  Timings timings;
+  timings.sweep_ms = median_ms(
+      kRepeats, [&] { gains = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
+  timings.exact_ms = median_ms(
+      1, [&] { gains = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
+  return timings;
+}
+
+double castray_ms(const Situation& s, double pixel_width_rad, double pixel_height_rad,
+                  std::size_t every) {
+  const CastrayGain castray(s.grid);
+  double sum = 0.0;
+  std::size_t timed = 0;
+  const double taken_ms = median_ms(1, [&] {
+    for (std::size_t i = 0; i < s.views.size(); i += every, ++timed) {
+      sum += castray.of_view(s.views[i].T_world_sensor, s.field, pixel_width_rad, pixel_height_rad);
+    }
+  });
+  expects(sum > 0.0, "the views see unobserved cells");
+  return taken_ms * static_cast<double>(s.views.size()) / static_cast<double>(timed);
+}
+
+void print_decision(const std::string& name, const Timings& timings, double castray_ms,
+                    const Agreement& agreement) {
+  print_figures(name, kThreads,
+                {{"sweep_ms", timings.sweep_ms},
+                 {"exact_ms", timings.exact_ms},
+                 {"castray_ms", castray_ms},
+                 {"exact_over_sweep", timings.exact_ms / timings.sweep_ms},
+                 {"castray_over_sweep", castray_ms / timings.sweep_ms},
+                 {"spearman_min", agreement.spearman_min},
+                 {"regret_max", agreement.regret_max},
+                 {"sweep_ms_max", agreement.sweep_ms_max}});
+}
+
+}  // namespace vantage::bench

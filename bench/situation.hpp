@@ -1,0 +1,69 @@
+/// What benchmarks of a decision share: the maps of an episode's decisions, and the sweep held
+/// against the exact evaluator and a peer's.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "planners/gain.hpp"
+#include "src/episode/recorder.hpp"
+
+namespace vantage::bench {
+
+inline constexpr int kThreads = 2;
+
+/// What a decision looks at.
+struct Situation {
+  OccupancyGrid grid;
+  std::vector<double> transmission;  ///< per z slice
+  std::vector<Candidate> views;
+  FieldOfView field;
+
+  [[nodiscard]] GainContext context() const { return {grid, transmission}; }
+};
+
+/// The parts of an episode that keep what every decision looks at.
+template <class Parts>
+class Watched : public Parts {
+ public:
+  Watched(const ResolvedEpisode& resolved, auto& rig, Recorder& recorder)
+      : Parts(resolved, rig, recorder), field_(rig.view_field()) {}
+
+  void score(std::vector<Candidate>& candidates) {
+    situations.push_back({this->belief().filled_grid(),
+                          this->belief().hazard().transmission_per_slice(), candidates, field_});
+    Parts::score(candidates);
+  }
+
+  std::vector<Situation> situations;
+
+ private:
+  FieldOfView field_;
+};
+
+/// How well the sweep agrees with exact rays, at worst.
+struct Agreement {
+  double spearman_min = 1.0;
+  double regret_max = 0.0;  ///< share of the best view's exact gain that the chosen one lacks
+  double sweep_ms_max = 0.0;
+
+  void compare(const Gain& gain, const Situation& situation);
+};
+
+struct Timings {
+  double sweep_ms = 0.0;  ///< median of several
+  double exact_ms = 0.0;
+};
+/// Of all views of a decision.
+Timings time_both(const Gain& gain, const Situation& situation);
+
+/// castRay as peers use it: a ray for each pixel of the images that a view is made of. Every
+/// `every`-th view is timed, and multiplied for all of them.
+double castray_ms(const Situation& situation, double pixel_width_rad, double pixel_height_rad,
+                  std::size_t every);
+
+/// One line of JSON with the figures of the contract.
+void print_decision(const std::string& name, const Timings& timings, double castray_ms,
+                    const Agreement& agreement);
+
+}  // namespace vantage::bench
