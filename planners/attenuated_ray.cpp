@@ -5,9 +5,7 @@
 
 namespace vantage {
 
-float Fading::worth_of_cell(float log_odds) const {
-  if (classify(log_odds) != CellState::unobserved) return 0.0F;
-  if (!by_entropy || log_odds == 0.0F) return static_cast<float>(worth);
+float Fading::worth_by_entropy(float log_odds) const {
   return static_cast<float>(worth *
                             binary_entropy_bits(probability_of(static_cast<double>(log_odds))));
 }

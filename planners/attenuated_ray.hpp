@@ -17,7 +17,14 @@ struct Fading {
   double worth = 1.0;                          ///< of an unobserved cell, in the gain's unit
   bool by_entropy = true;                      ///< times its entropy in bits
 
-  [[nodiscard]] float worth_of_cell(float log_odds) const;
+  [[nodiscard]] float worth_of_cell(float log_odds) const {
+    if (classify(log_odds) != CellState::unobserved) return 0.0F;
+    if (!by_entropy || log_odds == 0.0F) return static_cast<float>(worth);
+    return worth_by_entropy(log_odds);
+  }
+
+ private:
+  [[nodiscard]] float worth_by_entropy(float log_odds) const;
 };
 
 class AttenuatedRay {

@@ -5,12 +5,19 @@
 #include <cstddef>
 #include <vector>
 
+#include "src/core/rounding.hpp"
+
 namespace vantage {
 
 /// Cells [begin, end) of a row or column.
 struct CellSpan {
   int begin = 0;
   int end = 0;
+  /// Those of the cells 0, 1, ... count - 1 that lie in [from, to].
+  static CellSpan between(double from, double to, int count) {
+    return {ceil_int(std::clamp(from, 0.0, static_cast<double>(count))),
+            floor_int(std::clamp(to, -1.0, count - 1.0)) + 1};
+  }
   [[nodiscard]] bool empty() const { return begin >= end; }
   void include(const CellSpan& other) {
     if (other.empty()) return;

@@ -27,10 +27,10 @@ class PartlySeen {
     if (most_ == 0) return;
     phase_ = (phase_ + 0x9E3779B9U) & 0xFFFFFFFFU;  // the golden ratio of 2^32
     const std::size_t start = phase_ >> 12U;
-    for (std::size_t i = (stride_ - start % stride_) % stride_; i < static_cast<std::size_t>(count);
+    for (std::size_t i = -start & (stride_ - 1); i < static_cast<std::size_t>(count);
          i += stride_) {
       Cell cell = take(static_cast<int>(i));
-      if (cell.weight <= 0.0F || (start + i) % stride_ != 0) continue;
+      if (cell.weight <= 0.0F || !divides(stride_, start + i)) continue;
       cell.order = start + i;
       cells_.push_back(cell);
       if (cells_.size() > most_) thin();
@@ -46,8 +46,8 @@ class PartlySeen {
     for (std::size_t share = kCoarsest; share >= 1; share /= 2) {
       const std::size_t stride = share * stride_;
       for (const Cell& cell : cells_) {
-        const bool done_before = share < kCoarsest && cell.order % (2 * stride) == 0;
-        if (cell.order % stride != 0 || done_before) continue;
+        const bool done_before = share < kCoarsest && divides(2 * stride, cell.order);
+        if (!divides(stride, cell.order) || done_before) continue;
         const double e = error(cell);
         sum += e;
         squares += e * e;
@@ -59,9 +59,13 @@ class PartlySeen {
   }
 
  private:
+  /// Strides are powers of two.
+  static constexpr bool divides(std::size_t stride, std::size_t order) {
+    return (order & (stride - 1)) == 0;
+  }
   void thin() {
     stride_ *= 2;
-    std::erase_if(cells_, [&](const Cell& cell) { return cell.order % stride_ != 0; });
+    std::erase_if(cells_, [&](const Cell& cell) { return !divides(stride_, cell.order); });
   }
 
   std::size_t most_;

@@ -57,19 +57,32 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
   }
 }
 
-VANTAGE_SIMD_CLONES
-double sum_in_view(const ConeRow& view, const float* worth, int begin, int end) {
+namespace {
+
+template <class Counts>
+double sum_where(const float* worth, int begin, int end, const Counts& counts) {
   std::array<float, kLanes> lanes{};
   for (int i = begin; i < end; i += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const float cell = worth[i + lane];
-      const bool counts = view.contains(static_cast<float>(i + lane)) & (i + lane < end);
-      lanes[static_cast<std::size_t>(lane)] += counts ? cell : 0.0F;
+      lanes[static_cast<std::size_t>(lane)] += counts(i + lane) & (i + lane < end) ? cell : 0.0F;
     }
   }
   double sum = 0.0;
   for (const float lane : lanes) sum += static_cast<double>(lane);
   return sum;
+}
+
+}  // namespace
+
+VANTAGE_SIMD_CLONES
+double sum_run(const float* worth, int begin, int end) {
+  return sum_where(worth, begin, end, [](int) { return true; });
+}
+
+VANTAGE_SIMD_CLONES
+double sum_in_view(const ConeRow& view, const float* worth, int begin, int end) {
+  return sum_where(worth, begin, end, [&](int i) { return view.contains(static_cast<float>(i)); });
 }
 
 }  // namespace vantage

@@ -33,6 +33,9 @@ struct SweepRow {
 void advance_row(const SweepRow& row, int shift, int begin, int end, float* visible,
                  float* seen_worth);
 
+/// Sum of worth[i] over i in [begin, end); reads up to kLanes - 1 beyond.
+double sum_run(const float* worth, int begin, int end);
+
 /// Sum of worth[i] over the i in [begin, end) that the view holds; reads up to kLanes - 1 beyond.
 double sum_in_view(const ConeRow& view, const float* worth, int begin, int end);
 

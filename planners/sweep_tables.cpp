@@ -42,7 +42,10 @@ SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int th
   for (const double transmission : fading.transmission_per_slice) {
     depth_per_slice.push_back(std::min(static_cast<float>(-std::log(transmission)), kOpaque));
   }
-  for (auto& axis : layers) axis.resize(grid.size() + kLanes);
+  for (auto& axis : layers) {
+    axis = std::make_unique_for_overwrite<float[]>(grid.size() + kLanes);
+    std::fill_n(&axis[grid.size()], kLanes, 0.0F);
+  }
   auto& [x_layers, y_layers, z_layers] = layers;
   parallel_for(slices, threads, [&](std::size_t z) {
     const std::size_t begin = z * cells_per_slice_;
@@ -51,7 +54,7 @@ SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int th
                            ? -1.0F
                            : fading.worth_of_cell(grid.log_odds[cell]);
     }
-    distribute(frame, z, &z_layers[begin], x_layers.data(), y_layers.data());
+    distribute(frame, z, &z_layers[begin], x_layers.get(), y_layers.get());
   });
 }
 

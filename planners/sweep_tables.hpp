@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "planners/attenuated_ray.hpp"
@@ -27,7 +28,7 @@ struct SweepTables {
   /// Cells in layers of equal x, y, z. In a layer, the rows along u come one after the other in the
   /// order of v. So layers[2] has the order of `frame.index`.
   /// > 0: unobserved, and worth that much to see; 0: free; < 0: occupied.
-  std::array<std::vector<float>, 3> layers;
+  std::array<std::unique_ptr<float[]>, 3> layers;
   std::vector<float> depth_per_slice;  ///< -ln(transmission) of the unobserved cells of a z slice
 
   SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads);

@@ -8,6 +8,7 @@
 #include "planners/light_layer.hpp"
 #include "planners/partly_seen.hpp"
 #include "planners/sweep_kernels.hpp"
+#include "src/core/rounding.hpp"
 
 namespace vantage {
 namespace {
@@ -17,17 +18,13 @@ constexpr int kMargin = 2;
 /// A cell that so much light reaches is plainly seen.
 constexpr float kPlain = 0.998F;
 
-int clamped(double x, int low, int high) {
-  return static_cast<int>(std::clamp(x, static_cast<double>(low), static_cast<double>(high)));
-}
-
 class PyramidSweep {
  public:
   PyramidSweep(const SweepTables& tables, std::span<const ViewCone> views, const Pyramid& pyramid,
                const SweepOptions& options)
       : tables_(tables),
         frame_(tables.frame),
-        cells_(tables.layers[static_cast<std::size_t>(pyramid.axis)]),
+        cells_(tables.layers[static_cast<std::size_t>(pyramid.axis)].get()),
         views_(views),
         pyramid_(pyramid),
         tolerance_(options.tolerance),
@@ -56,9 +53,8 @@ class PyramidSweep {
   std::vector<double> run() {
     if (std::ranges::none_of(meets_, [](auto meets) { return meets != 0; })) return sums_bits_;
     const double from = source_[axes_.w];
-    const int first = pyramid_.ascending ? clamped(std::ceil(from), 0, nw_)
-                                         : clamped(std::ceil(from) - 1.0, -1, nw_ - 1);
     const int step = pyramid_.ascending ? 1 : -1;
+    const int first = CellSpan::between(from, nw_, nw_).begin - (pyramid_.ascending ? 0 : 1);
     for (int w = first; w >= 0 && w < nw_; w += step) {
       layer_ = w;
       depth_ = std::abs(w - from);
@@ -93,9 +89,8 @@ class PyramidSweep {
 
   /// Cells whose distance from the sensor along `axis` is at most the layer's depth plus `more`.
   [[nodiscard]] CellSpan within(int axis, int count, double more) const {
-    const double from = source_[axis] - depth_ - more;
-    const double to = source_[axis] + depth_ + more;
-    return {clamped(std::ceil(from), 0, count), clamped(std::floor(to) + 1.0, 0, count)};
+    const double reach = depth_ + more;
+    return CellSpan::between(source_[axis] - reach, source_[axis] + reach, count);
   }
 
   /// The same for the cells that are this pyramid's own: ties belong to the lower axis.
@@ -116,6 +111,11 @@ class PyramidSweep {
     }
   }
 
+  /// The pyramid's own cells of row `v` that view `i` holds.
+  [[nodiscard]] RowBounds::Runs& in_view(std::size_t i, int v) {
+    return in_view_[i * static_cast<std::size_t>(nv_) + static_cast<std::size_t>(v)];
+  }
+
   /// The cells of the layer to work out: a box round those in view. Fills `in_view_`.
   std::pair<CellSpan, CellSpan> bounds_in_view() {
     CellSpan u;
@@ -126,12 +126,12 @@ class PyramidSweep {
       const Eigen::Vector3d start_m = frame_.centre(cell(0, row));
       for (std::size_t i = 0; i < views_.size(); ++i) {
         if (meets_[i] == 0) continue;
-        const auto bound = bounds_[i].of_row(start_m, nu_);
-        const CellSpan seen = CellSpan{bound.begin, bound.end}.cut(own_u);
-        in_view_[i * static_cast<std::size_t>(nv_) + static_cast<std::size_t>(row)] = seen;
-        if (seen.empty()) continue;
-        u.include(seen);
-        v.include({row, row + 1});
+        const auto& seen = in_view(i, row) =
+            bounds_[i].runs_of_row(start_m, own_u.begin, own_u.end);
+        for (const auto& run : seen.runs) {
+          if (run.begin < run.end) v.include({row, row + 1});
+          u.include({run.begin, run.end});
+        }
       }
     }
     if (u.empty() || v.empty()) return {};
@@ -144,24 +144,23 @@ class PyramidSweep {
   /// The cells of the layer before that rays to `span` cross.
   [[nodiscard]] CellSpan reach(int axis, CellSpan span) const {
     const auto crossed = [&](int i) { return i + (source_[axis] - i) / depth_; };
-    return {static_cast<int>(std::floor(crossed(span.begin))) - 1,
-            static_cast<int>(std::floor(crossed(span.end - 1))) + 3};
+    return {floor_int(crossed(span.begin)) - 1, floor_int(crossed(span.end - 1)) + 3};
   }
 
   void sweep_row(int v, CellSpan u) {
     if (depth_ < 1.0 || layer_before() < 0 || layer_before() >= nw_) return see_all(v, u);
     const double lateral = (source_[axes_.v] - v) / depth_;
-    const int shift = static_cast<int>(std::floor(lateral));
+    const int shift = floor_int(lateral);
     const CellSpan needed = reach(axes_.u, u);
     blend_rows(before_.row(v + shift), before_.row(v + shift + 1),
                static_cast<float>(lateral - shift), needed.begin, needed.end,
                arriving_.data() + LightLayer::kPadding);
-    const int v_slanted = v + static_cast<int>(std::lround(lateral));
+    const int v_slanted = v + floor_int(lateral + 0.5);
     copy_slanted(v_slanted, needed);
     SweepRow row;
     row.arriving = arriving_.data() + LightLayer::kPadding;
-    row.cells = cells_.data() + row_start(v, layer_);
-    row.straight = cells_.data() + row_start(v, layer_before());
+    row.cells = cells_ + row_start(v, layer_);
+    row.straight = cells_ + row_start(v, layer_before());
     row.slanted = slanted_.data() + LightLayer::kPadding;
     row.straight_depth = depth_of(v);
     row.slanted_depth = depth_of(v_slanted);
@@ -173,7 +172,7 @@ class PyramidSweep {
 
   /// Nothing stands between the sensor and the cells round it.
   void see_all(int v, CellSpan u) {
-    const float* cells = cells_.data() + row_start(v, layer_);
+    const float* cells = cells_ + row_start(v, layer_);
     std::fill(current_.row(v) + u.begin, current_.row(v) + u.end, 1.0F);
     for (int i = u.begin; i < u.end; ++i)
       worth_[static_cast<std::size_t>(i)] = std::max(cells[i], 0.0F);
@@ -186,7 +185,7 @@ class PyramidSweep {
     if (v < 0 || v >= nv_) {
       std::fill(cells + inside.begin, cells + inside.end, 0.0F);
     } else {
-      const float* row = cells_.data() + row_start(v, layer_before());
+      const float* row = cells_ + row_start(v, layer_before());
       std::copy(row + inside.begin, row + inside.end, cells + inside.begin);
     }
   }
@@ -200,9 +199,9 @@ class PyramidSweep {
   /// Along a row, the crossed cell moves against the cell itself at most a few times.
   void advance_in_runs(const SweepRow& row, CellSpan u, int v) {
     for (int begin = u.begin; begin < u.end;) {
-      const int shift = static_cast<int>(std::floor((source_[axes_.u] - begin) / depth_));
+      const int shift = floor_int((source_[axes_.u] - begin) / depth_);
       // (source - i) / depth >= shift
-      const int last = static_cast<int>(std::floor(source_[axes_.u] - shift * depth_));
+      const int last = floor_int(source_[axes_.u] - shift * depth_);
       const int end = std::clamp(last + 1, begin + 1, u.end);
       advance_row(row, shift, begin, end, current_.row(v), worth_.data());
       begin = end;
@@ -210,23 +209,30 @@ class PyramidSweep {
   }
 
   void add_worth(int v) {
-    const Eigen::Vector3d start_m = frame_.centre(cell(0, v));
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      const CellSpan seen =
-          in_view_[i * static_cast<std::size_t>(nv_) + static_cast<std::size_t>(v)];
-      if (seen.empty()) continue;
-      const ConeRow view = views_[i].row(start_m, step_u_);
-      sums_bits_[i] += sum_in_view(view, worth_.data(), seen.begin, seen.end);
-      const float* cells = cells_.data() + row_start(v, layer_);
-      partly_seen_[i].offer(seen.end - seen.begin, [&](int k) {
-        const int u = seen.begin + k;
-        const bool doubtful =
-            cells[u] > 0.0F && in_doubt(u, v) && view.contains(static_cast<float>(u));
-        return PartlySeen::Cell{.cell = cell(u, v),
-                                .visible = current_.row(v)[u],
-                                .weight = doubtful ? cells[u] : 0.0F};
-      });
+      const RowBounds::Runs& seen = in_view(i, v);
+      for (const auto& [begin, end] : seen.runs) {
+        if (begin < end) add_run(i, v, begin, end, seen.exact);
+      }
     }
+  }
+
+  void add_run(std::size_t i, int v, int begin, int end, bool all_inside) {
+    ConeRow view;
+    if (all_inside) {
+      sums_bits_[i] += sum_run(worth_.data(), begin, end);
+    } else {
+      view = views_[i].row(frame_.centre(cell(0, v)), step_u_);
+      sums_bits_[i] += sum_in_view(view, worth_.data(), begin, end);
+    }
+    const float* cells = cells_ + row_start(v, layer_);
+    partly_seen_[i].offer(end - begin, [&](int k) {
+      const int u = begin + k;
+      const bool doubtful =
+          cells[u] > 0.0F && in_doubt(u, v) && (all_inside || view.contains(static_cast<float>(u)));
+      return PartlySeen::Cell{
+          .cell = cell(u, v), .visible = current_.row(v)[u], .weight = doubtful ? cells[u] : 0.0F};
+    });
   }
 
   /// Neither plainly seen, nor hidden like its neighbours.
@@ -260,7 +266,7 @@ class PyramidSweep {
 
   const SweepTables& tables_;
   const GridFrame& frame_;
-  const std::vector<float>& cells_;
+  const float* cells_;  ///< the layers along the pyramid's axis
   std::span<const ViewCone> views_;
   Pyramid pyramid_;
   double tolerance_;
@@ -277,7 +283,7 @@ class PyramidSweep {
   std::vector<float> arriving_;
   std::vector<float> slanted_;
   std::vector<float> worth_;
-  std::vector<CellSpan> in_view_;  ///< per view and row
+  std::vector<RowBounds::Runs> in_view_;  ///< per view and row
   std::vector<double> sums_bits_;
   std::vector<PartlySeen> partly_seen_;  ///< per view
   int layer_ = 0;

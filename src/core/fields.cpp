@@ -68,16 +68,6 @@ bool is_plain_text(const std::string& text) {
                              [&](unsigned char c) { return is_word(c) || c == '.' || c == '-'; });
 }
 
-void add_differences(const std::string& prefix, const ConfigNode& given, const ConfigNode& defaults,
-                     std::string& label) {
-  for (std::size_t i = 0; i < given.entries.size(); ++i) {
-    const auto& [key, value] = given.entries[i];
-    const ConfigNode& usual = defaults.entries[i].second;
-    add_differences(prefix + key + ".", value, usual, label);
-    if (value.scalar != usual.scalar) label += fmt::format(" {}{}={}", prefix, key, value.scalar);
-  }
-}
-
 }  // namespace
 
 void read_value(const ConfigNode& node, double& target) {
@@ -148,12 +138,6 @@ void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>&
     }
     throw ConfigError(message);
   }
-}
-
-std::string label_of(std::string_view name, const ConfigNode& given, const ConfigNode& defaults) {
-  std::string label(name);
-  add_differences("", given, defaults, label);
-  return label;
 }
 
 std::string place_of(const ConfigNode& node, std::string_view message) {

@@ -89,9 +89,6 @@ void run_check(const ConfigNode& node, T& options) {
   }
 }
 
-/// `name`, then " key=value" for every number or text of `given` that `defaults` has otherwise.
-std::string label_of(std::string_view name, const ConfigNode& given, const ConfigNode& defaults);
-
 /// The struct's own check(), if it has one, with `where` in front of what it says.
 template <class T>
 void run_check(const std::string& where, T& options) {
@@ -291,14 +288,6 @@ ConfigNode write_node(const T& value) {
   } else {
     return detail::write_value(value);
   }
-}
-
-/// "beer_lambert a=0.99": the strategy's name and what is not its default.
-template <class Variant>
-std::string strategy_label(const Variant& strategy) {
-  const auto name = strategy_name_of(strategy);
-  const Variant defaults = make_strategy<Variant>(name);
-  return detail::label_of(name, write_node(strategy), write_node(defaults));
 }
 
 }  // namespace vantage

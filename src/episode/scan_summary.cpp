@@ -9,6 +9,7 @@
 
 #include "planners/swept_gain.hpp"
 #include "src/core/log.hpp"
+#include "src/core/strategy_label.hpp"
 
 namespace vantage {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/core/data_root.hpp"
+#include "src/core/strategy_label.hpp"
 #include "src/core/yaml.hpp"
 
 namespace vantage {

@@ -7,6 +7,11 @@
 #include <span>
 
 namespace vantage {
+namespace {
+
+constexpr double kSlack = 1e-6;  // cells: rounding must not lose a cell that contains() accepts
+
+}  // namespace
 
 ViewCone::ViewCone(const Pose& T_world_sensor, const FieldOfView& fov)
     : apex_m_(T_world_sensor.translation()),
@@ -56,20 +61,23 @@ RowBounds::RowBounds(const ViewCone& cone, const Eigen::Vector3d& step)
     : apex_m_(cone.apex_m()),
       along_(step / step.squaredNorm()),
       step2_m2_(step.squaredNorm()),
+      range2_min_m2_(cone.range2_min_m2()),
       range2_max_m2_(cone.range2_max_m2()),
-      count_(cone.normals().size()) {
+      count_(cone.normals().size()),
+      across_(cone.across()),
+      step_(step),
+      sin2_half_width_(cone.sin2_half_width()),
+      across_per_index_(across_.dot(step)),
+      curvature_(across_per_index_ * across_per_index_ - sin2_half_width_ * step2_m2_) {
   for (std::size_t i = 0; i < count_; ++i) {
     const double change = cone.normals()[i].dot(step);
     planes_[i] = {cone.normals()[i], std::abs(change) < 1e-12 ? 0.0 : 1.0 / change};
   }
 }
 
-RowBounds::Interval RowBounds::of_row(const Eigen::Vector3d& p_world, int count) const {
-  constexpr double kSlack = 1e-6;  // cells: rounding must not lose a cell that contains() accepts
-  const Eigen::Vector3d p = p_world - apex_m_;
-  double low = 0.0;
-  double high = count - 1.0;
-  for (const Plane& plane : std::span(planes_).first(count_)) {
+RowBounds::Reals RowBounds::clip(const Eigen::Vector3d& p, Reals row, std::size_t planes) const {
+  auto& [low, high] = row;
+  for (const Plane& plane : std::span(planes_).first(planes)) {
     const double inside = plane.normal.dot(p);
     if (plane.per_index > 0.0) {
       low = std::max(low, -inside * plane.per_index - kSlack);
@@ -84,10 +92,42 @@ RowBounds::Interval RowBounds::of_row(const Eigen::Vector3d& p_world, int count)
   const double off2 = p.squaredNorm() - nearest * nearest * step2_m2_;
   if (off2 > range2_max_m2_ * (1.0 + kSlack)) return {};
   const double reach = std::sqrt(std::max(0.0, range2_max_m2_ - off2) / step2_m2_) + kSlack;
-  low = std::max(low, nearest - reach);
-  high = std::min(high, nearest + reach);
-  if (low > high) return {};
-  return {static_cast<int>(std::ceil(low)), static_cast<int>(std::floor(high)) + 1};
+  return {std::max(low, nearest - reach), std::min(high, nearest + reach)};
+}
+
+RowBounds::Interval RowBounds::of_row(const Eigen::Vector3d& p_world, int count) const {
+  return clip(p_world - apex_m_, {0.0, count - 1.0}, count_).whole();
+}
+
+RowBounds::Runs RowBounds::runs_of_row(const Eigen::Vector3d& p_world, int begin, int end) const {
+  const Eigen::Vector3d p = p_world - apex_m_;
+  const Reals row{static_cast<double>(begin), end - 1.0};
+  const double nearest = -along_.dot(p);
+  const bool far = p.squaredNorm() - nearest * nearest * step2_m2_ > range2_min_m2_;
+  if (count_ == 0 || !far) return {{clip(p, row, count_).whole()}, false};
+  return inside_sector(p, clip(p, row, 3));
+}
+
+/// The part of the row where across^2 <= sin^2(half width) range^2.
+RowBounds::Runs RowBounds::inside_sector(const Eigen::Vector3d& p, const Reals& row) const {
+  if (row.empty()) return {{}, true};
+  const double across = across_.dot(p);
+  const double half_slope = across * across_per_index_ - sin2_half_width_ * p.dot(step_);
+  const double at_0 = across * across - sin2_half_width_ * p.squaredNorm();
+  const double discriminant = half_slope * half_slope - curvature_ * at_0;
+  if (std::abs(curvature_) < 1e-9 * step2_m2_) return {{row.whole()}, false};
+  if (discriminant <= 0.0) return {{curvature_ > 0.0 ? Interval{} : row.whole()}, true};
+  const double root = std::sqrt(discriminant) / std::abs(curvature_);
+  const double middle = -half_slope / curvature_;
+  const double first = middle - root;
+  const double second = middle + root;
+  if (curvature_ > 0.0) {
+    const Reals between{std::max(row.low, first), std::min(row.high, second)};
+    return {{between.whole()}, true};
+  }
+  const Reals before{row.low, std::min(row.high, first)};
+  const Reals after{std::max(row.low, second), row.high};
+  return {{before.whole(), after.whole()}, true};
 }
 
 ConeRow ViewCone::row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& step) const {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 
+#include "src/core/rounding.hpp"
 #include "src/geometry/field_of_view.hpp"
 #include "src/geometry/grid_frame.hpp"
 #include "src/geometry/pose.hpp"
@@ -58,6 +59,10 @@ class ViewCone {
     return std::span(normals_).first(behind_ ? 0 : normals_.size());
   }
   [[nodiscard]] double range2_max_m2() const { return range2_max_m2_; }
+  [[nodiscard]] double range2_min_m2() const { return range2_min_m2_; }
+  /// The sensor's y axis in the world, across the sector.
+  [[nodiscard]] Eigen::Vector3d across() const { return R_sensor_world_.row(1).transpose(); }
+  [[nodiscard]] double sin2_half_width() const { return sin2_half_width_; }
 
  private:
   Eigen::Vector3d apex_m_;
@@ -84,7 +89,28 @@ class RowBounds {
   /// Bounds on the indices i in [0, count) that the cone contains.
   [[nodiscard]] Interval of_row(const Eigen::Vector3d& p_world, int count) const;
 
+  struct Runs {
+    std::array<Interval, 2> runs;  ///< ascending; may be empty
+    bool exact = false;            ///< all of them are inside, but for rounding at the rim
+  };
+  /// Where the indices i in [begin, end) that the cone contains are: exactly, unless it sees behind
+  /// itself or its nearest range cuts the row.
+  [[nodiscard]] Runs runs_of_row(const Eigen::Vector3d& p_world, int begin, int end) const;
+
  private:
+  struct Reals {
+    double low = 0.0;
+    double high = -1.0;
+    [[nodiscard]] bool empty() const { return !(low <= high); }
+    [[nodiscard]] Interval whole() const {  ///< numbers of it
+      if (empty()) return {};
+      return {ceil_int(low), floor_int(high) + 1};
+    }
+  };
+  /// Inside the first `planes` planes and the greatest range.
+  [[nodiscard]] Reals clip(const Eigen::Vector3d& p, Reals row, std::size_t planes) const;
+  [[nodiscard]] Runs inside_sector(const Eigen::Vector3d& p, const Reals& row) const;
+
   struct Plane {
     Eigen::Vector3d normal;  ///< world, inwards
     double per_index = 0.0;  ///< 1 / (what a step moves inwards); 0: along the plane
@@ -92,9 +118,16 @@ class RowBounds {
   Eigen::Vector3d apex_m_;
   Eigen::Vector3d along_;  ///< step / |step|^2
   double step2_m2_;
+  double range2_min_m2_;
   double range2_max_m2_;
   std::array<Plane, 5> planes_;
-  std::size_t count_;  ///< of the planes that bound the cone
+  std::size_t
+      count_;  ///< of the planes that bound the cone; of those the first 3 are its own faces
+  Eigen::Vector3d across_;
+  Eigen::Vector3d step_;
+  double sin2_half_width_;
+  double across_per_index_;
+  double curvature_;  ///< of across^2 - sin^2(half width) range^2 along the row
 };
 
 /// Calls `visit(cell, cell index)` in index order for each cell with `wanted(cell index)` whose

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "src/core/rng.hpp"
@@ -80,6 +81,36 @@ TEST(ForEachCellInView, MissesNoCellAndVisitsInOrder) {
     found += visited.size();
   }
   EXPECT_GT(found, 1000U);
+}
+
+TEST(RowBounds, ExactRunsHoldWhatTheConeContainsButForRoundingAtTheRim) {
+  Rng rng(17);
+  int exact = 0;
+  int twofold = 0;
+  int inside = 0;
+  int different = 0;
+  for (int draw = 0; draw < 40000; ++draw) {
+    const ViewCone cone(random_pose(rng), random_sector(rng));
+    const Eigen::Vector3d p(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0));
+    const Eigen::Vector3d step =
+        0.05 * Eigen::Vector3d(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0), 1.0);
+    const auto seen = RowBounds(cone, step).runs_of_row(p, 3, 60);
+    exact += seen.exact ? 1 : 0;
+    twofold += seen.runs[1].begin < seen.runs[1].end ? 1 : 0;
+    for (int i = 3; i < 60; ++i) {
+      const bool in_run = std::ranges::any_of(
+          seen.runs, [&](const auto& run) { return i >= run.begin && i < run.end; });
+      const bool contained = cone.contains(p + i * step);
+      EXPECT_TRUE(in_run || !contained || seen.exact) << "draw " << draw << ", cell " << i;
+      if (!seen.exact) continue;
+      inside += contained ? 1 : 0;
+      different += in_run == contained ? 0 : 1;
+    }
+  }
+  EXPECT_GT(exact, 1000);
+  EXPECT_GT(twofold, 10);
+  EXPECT_GT(inside, 3000);
+  EXPECT_LE(different, 2);
 }
 
 TEST(RowBounds, HoldTheSector) {

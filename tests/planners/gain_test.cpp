@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "planners/exact_gain.hpp"
-#include "src/core/fields.hpp"
+#include "src/core/strategy_label.hpp"
 #include "tests/planners/gain_along.hpp"
 
 namespace vantage {
