@@ -36,13 +36,30 @@ void measure_pose(const RigTruth& truth, const Pose2& dead_reckoned, const Pose2
   record.collisions = truth.collisions;
 }
 
-CellTruth::CellTruth(const World& world, const GridFrame& frame)
-    : observable_(frame.size(), 0),
+CellTruth::CellTruth(const World& world, const RayScene& geometry, const GridFrame& frame,
+                     const FieldOfView& field_of_view, int threads)
+    : geometry_(geometry),
+      frame_(frame),
+      field_of_view_(field_of_view),
+      threads_(threads),
+      observable_(frame.size(), 0),
       surface_(surface_cells(world.model(), world.snapshot(), frame, kWithoutRobot)) {}
 
-void CellTruth::set_observable(std::vector<std::uint8_t> observable) {
-  observable_ = std::move(observable);
+void CellTruth::add_observable(std::span<const Pose> T_world_sensors) {
+  for (const Pose& pose : T_world_sensors) {
+    add_visible_cells(geometry_, frame_, pose, field_of_view_, observable_, -1, threads_);
+  }
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));
+}
+
+std::size_t CellTruth::true_new_cells(const OccupancyGrid& grid, const Pose& T_world_sensor) const {
+  std::vector<std::uint8_t> known(grid.size());
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    known[cell] = grid.state(cell) == CellState::unobserved ? 0 : 1;
+  }
+  const auto before = std::ranges::count(known, std::uint8_t{1});
+  add_visible_cells(geometry_, frame_, T_world_sensor, field_of_view_, known, -1, threads_);
+  return static_cast<std::size_t>(std::ranges::count(known, std::uint8_t{1}) - before);
 }
 
 std::size_t CellTruth::observable_unobserved(const OccupancyGrid& grid) const {

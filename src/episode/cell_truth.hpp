@@ -15,6 +15,15 @@ namespace vantage {
 
 class CellTruth {
  public:
+  /// Nothing is observable yet. `geometry`, of which the truth is, must outlive it.
+  CellTruth(const World& world, const RayScene& geometry, const GridFrame& frame,
+            const FieldOfView& field_of_view, int threads);
+  /// Makes observable what a noise-free sensor sees from at least one of the poses.
+  void add_observable(std::span<const Pose> T_world_sensors);
+
+  /// Unobserved cells that a view would really show.
+  [[nodiscard]] std::size_t true_new_cells(const OccupancyGrid& grid,
+                                           const Pose& T_world_sensor) const;
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
   [[nodiscard]] std::size_t observable_unobserved(const OccupancyGrid& grid) const;
   [[nodiscard]] MapScore score(const OccupancyGrid& grid, int tolerance_cells) const;
@@ -22,12 +31,13 @@ class CellTruth {
   void measure(const OccupancyGrid& grid, int tolerance_cells, ScanRecord& record) const;
 
  protected:
-  CellTruth(const World& world, const GridFrame& frame);
-  ~CellTruth() = default;
-  void set_observable(std::vector<std::uint8_t> observable);
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
 
  private:
+  const RayScene& geometry_;
+  GridFrame frame_;
+  FieldOfView field_of_view_;
+  int threads_;
   std::vector<std::uint8_t> observable_;
   std::vector<std::uint8_t> surface_;
   std::size_t observable_count_ = 0;

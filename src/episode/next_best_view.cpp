@@ -26,12 +26,13 @@ NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Re
       recorder_(recorder),
       views_(ring_of_views(episode_.candidates, region_centre(episode_))),
       belief_(episode_),
-      truth_(rig.world(), rig.true_geometry(), belief_.grid().frame, views_, rig.view_field(),
+      truth_(rig.world(), rig.true_geometry(), belief_.grid().frame, rig.view_field(),
              episode_.threads),
       navigator_(episode_, rig, WallMap(episode_.registration)),
       choice_rng_(Rng::stream(episode_.seed, "view choice")) {
   const Eigen::AlignedBox3d region = belief_.grid().frame.box();
   block_box(navigator_.floor(), {region.min().head<2>(), region.max().head<2>()});
+  for (const Candidate& view : views_) truth_.add_observable({&view.T_world_sensor, 1});
   recorder_.set_panel([this] { return panel(); });
   if (truth_.observable_cells() == 0) log_warning("map: none of the views sees any of its cells");
 }
@@ -98,7 +99,7 @@ void NextBestView::score(std::vector<Candidate>& candidates) {
   if (std::holds_alternative<OracleView>(episode_.choice)) {
     for (Candidate& candidate : candidates) {
       candidate.true_new_cells =
-          static_cast<double>(truth_.true_new_cells(belief_.grid(), candidate.id));
+          static_cast<double>(truth_.true_new_cells(belief_.grid(), candidate.T_world_sensor));
     }
   }
 }

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "planners/candidate.hpp"
+#include "src/episode/cell_truth.hpp"
 #include "src/episode/navigator.hpp"
 #include "src/episode/recorder.hpp"
 #include "src/episode/scan_record.hpp"
 #include "src/episode/tabletop_belief.hpp"
 #include "src/episode/tabletop_rig.hpp"
-#include "src/episode/tabletop_truth.hpp"
 
 namespace vantage {
 
@@ -29,7 +29,7 @@ class NextBestView {
 
   [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
   [[nodiscard]] const TabletopBelief& belief() const { return belief_; }
-  [[nodiscard]] const TabletopTruth& truth() const { return truth_; }
+  [[nodiscard]] const CellTruth& truth() const { return truth_; }
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
  private:
@@ -42,7 +42,7 @@ class NextBestView {
   Recorder& recorder_;
   std::vector<Candidate> views_;  ///< the ring, in id order
   TabletopBelief belief_;
-  TabletopTruth truth_;
+  CellTruth truth_;
   Navigator navigator_;
   Rng choice_rng_;
   double decision_start_s_ = 0.0;  ///< wall

@@ -50,7 +50,7 @@ std::vector<Eigen::Vector2d> reachable_places(const PathField& field, const Grid
 }  // namespace
 
 OfficeTruth::OfficeTruth(const Episode& episode, const OfficeRig& rig, const GridFrame& frame)
-    : CellTruth(rig.world(), frame), rig_(rig), threads_(episode.threads) {
+    : CellTruth(rig.world(), rig.true_geometry(), frame, rig.view_field(), episode.threads) {
   const Pose2 start = rig.truth().T_world_base;
   const FloorMap floor = true_floor(episode, frame, surface());
   const PathField field = make_path_field(floor, start, episode.navigation);
@@ -58,23 +58,7 @@ OfficeTruth::OfficeTruth(const Episode& episode, const OfficeRig& rig, const Gri
   for (const auto& p : reachable_places(field, frame, episode.metrics.pose_spacing_m)) {
     poses_.push_back(lift({p.x(), p.y(), 0.0}) * rig.T_base_sweep());
   }
-  std::vector<std::uint8_t> observable(frame.size(), 0);
-  for (const Pose& pose : poses_) {
-    add_visible_cells(rig.true_geometry(), frame, pose, rig.view_field(), observable, -1, threads_);
-  }
-  set_observable(std::move(observable));
-}
-
-std::size_t OfficeTruth::true_new_cells(const OccupancyGrid& grid,
-                                        const Pose& T_world_sweep) const {
-  std::vector<std::uint8_t> known(grid.size());
-  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-    known[cell] = grid.state(cell) == CellState::unobserved ? 0 : 1;
-  }
-  const auto before = std::ranges::count(known, std::uint8_t{1});
-  add_visible_cells(rig_.true_geometry(), grid.frame, T_world_sweep, rig_.view_field(), known, -1,
-                    threads_);
-  return static_cast<std::size_t>(std::ranges::count(known, std::uint8_t{1}) - before);
+  add_observable(poses_);
 }
 
 }  // namespace vantage

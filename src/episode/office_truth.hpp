@@ -14,14 +14,9 @@ class OfficeTruth : public CellTruth {
   /// can reach; one such place in every square of metrics.pose_spacing_m. `rig` must outlive it.
   OfficeTruth(const Episode& episode, const OfficeRig& rig, const GridFrame& frame);
 
-  /// Unobserved cells that a sweep from there would really show.
-  [[nodiscard]] std::size_t true_new_cells(const OccupancyGrid& grid,
-                                           const Pose& T_world_sweep) const;
   [[nodiscard]] std::size_t poses() const { return poses_.size(); }
 
  private:
-  const OfficeRig& rig_;
-  int threads_;
   std::vector<Pose> poses_;  ///< T_world_sweep
 };
 

@@ -13,7 +13,7 @@ namespace vantage {
 namespace {
 
 constexpr double kMostCells = 67108864.0;
-/// What each view truly sees is known per cell.
+/// What each view truly sees is worked out cell by cell.
 constexpr double kMostCellsOfAllViews = 2147483648.0;
 
 std::string labels(const std::vector<Gain>& gains) {

@@ -1,0 +1,124 @@
+// Writes bench/RESULTS.md from what benchmarks and studies left in bench/results.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "bench/claims.hpp"
+#include "bench/measures.hpp"
+#include "src/core/atomic_file.hpp"
+#include "src/study/figure.hpp"
+
+namespace vantage::bench {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::string_view kIntroduction =
+    R"(# Results
+
+Written by `bench/run all` and `bench/studies`; not edited by hand. Times are medians of one machine
+and say little by themselves; their ratios inside one run are what is claimed. Means carry 95 %
+bootstrap intervals, differences are paired over the same scene and start, `p` is that of a
+sign-flip test, `x` the ratio of the means to the reference method. The dissertation is C. Potthast,
+*Information Theoretical Action Selection*, USC 2016.
+)";
+
+struct StudyPart {
+  std::string name;
+  const char* title;
+  std::vector<std::string> tables;
+  std::vector<Finding> (*findings)(const StudySummary&);
+};
+
+const std::vector<StudyPart>& study_parts() {
+  static const std::vector<std::string> tables = {"area", "scans", "observed_share",
+                                                  "path_length_m", "collisions"};
+  static const std::vector<StudyPart> parts = {
+      {"tabletop", "Table top (Fig. 3.10)", tables, tabletop_findings},
+      {"tabletop_predictors",
+       "Predictions on the table top (Fig. 3.11)",
+       {"predictors"},
+       prediction_findings},
+      {"office_small", "Small office (Fig. 3.15)", tables,
+       [](const StudySummary& study) { return office_findings(study, "Fig. 3.15", "20-25"); }},
+      {"office_large", "Large office (Fig. 3.16)", tables,
+       [](const StudySummary& study) { return office_findings(study, "Fig. 3.16", "60-70"); }}};
+  return parts;
+}
+
+std::string findings_table(const std::vector<Finding>& findings) {
+  std::string text =
+      "| claim or goal | what it says | here | holds | if not, why |\n"
+      "|---|---|---|---|---|\n";
+  for (const Finding& f : findings) {
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", f.source, f.claim, f.measured,
+                        f.holds ? "yes" : "**no**", f.holds ? "" : f.why);
+  }
+  return text;
+}
+
+std::string figures_table(const Figures& all) {
+  std::string text = "| benchmark | figure | |\n|---|---|---|\n";
+  for (const auto& [name, figures] : all) {
+    for (const auto& [key, value] : figures.items()) {
+      text += fmt::format("| {} | `{}` | {:.5g} |\n", name, key, value.get<double>());
+    }
+  }
+  return text;
+}
+
+/// Time against cells, from the keys ms_of_N_cells.
+Figure scaling_figure(const Json& figures) {
+  FigureSeries series{"sweep", 0, {}};
+  for (const auto& [key, value] : figures.items()) {
+    if (!key.starts_with("ms_of_")) continue;
+    const double cells = std::stod(key.substr(6));
+    const double ms = value.get<double>();
+    series.points.push_back({1e-6 * cells, 1, ms, {ms, ms}});
+  }
+  return {"scaling", "Time of a decision of 30 views", "million cells", "ms", {{"", {series}}}};
+}
+
+void write_results(const fs::path& directory) {
+  Figures figures;
+  std::string machine;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    if (entry.path().extension() != ".json") continue;
+    const Json benchmark = read_json(entry.path());
+    figures.emplace(benchmark.at("name").get<std::string>(), benchmark.at("figures"));
+    machine =
+        fmt::format("{}, {} threads, commit {}", benchmark.at("cpu").get<std::string>(),
+                    benchmark.at("threads").get<int>(), benchmark.at("commit").get<std::string>());
+  }
+  std::string text(kIntroduction);
+  text += "\n## Speed\n\n" + machine + "\n\n" + findings_table(speed_findings(figures)) + "\n" +
+          figures_table(figures);
+  if (const auto scaling = figures.find("scaling"); scaling != figures.end()) {
+    write_file(directory / "scaling.svg", figure_svg(scaling_figure(scaling->second)));
+    text += "\n![Time against cells](results/scaling.svg)\n";
+  }
+  for (const StudyPart& part : study_parts()) {
+    const fs::path folder = directory / part.name;
+    if (!fs::exists(folder / "summary.json")) continue;
+    const StudySummary study(read_json(folder / "summary.json"));
+    text += fmt::format("\n## {}\n\n`bench/studies {}`: {}.\n\n", part.title, part.name,
+                        study.extent());
+    text += findings_table(part.findings(study));
+    for (const std::string& table : part.tables) {
+      if (!study.has(table)) continue;
+      text += fmt::format("\n### {}: {}\n\n{}", part.title, table, study.markdown(table));
+    }
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() != ".svg") continue;
+      text += fmt::format("\n![{}](results/{}/{})\n", entry.path().stem().string(), part.name,
+                          entry.path().filename().string());
+    }
+  }
+  write_file(directory.parent_path() / "RESULTS.md", text);
+}
+
+}  // namespace
+}  // namespace vantage::bench
+
+int main() {
+  return vantage::bench::run_main([] { vantage::bench::write_results("bench/results"); });
+}

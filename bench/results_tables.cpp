@@ -1,0 +1,110 @@
+#include "bench/results_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/core/atomic_file.hpp"
+#include "src/core/error.hpp"
+
+namespace vantage::bench {
+namespace {
+
+std::string number(double value) {
+  const double size = std::abs(value);
+  if (size >= 1000.0 || size == std::round(size)) return fmt::format("{:.0f}", value);
+  return size >= 10.0 ? fmt::format("{:.1f}", value) : fmt::format("{:.3f}", value);
+}
+
+}  // namespace
+
+Json read_json(const std::filesystem::path& file) {
+  Json json = Json::parse(read_file(file), nullptr, false);
+  if (json.is_discarded()) throw InputError(file.string() + ": not JSON");
+  return json;
+}
+
+const Json* StudySummary::entry(const std::string& table, const std::string& panel,
+                                const std::string& level) const {
+  const Json* at = &json_.at("tables");
+  for (const std::string& key : {table, panel, level}) {
+    const auto found = at->find(key);
+    if (found == at->end()) return nullptr;
+    at = &*found;
+  }
+  return at;
+}
+
+std::optional<double> StudySummary::mean(const std::string& table, const std::string& panel,
+                                         const std::string& level) const {
+  const Json* found = entry(table, panel, level);
+  if (found == nullptr) return std::nullopt;
+  return found->at("mean").get<double>();
+}
+
+std::optional<double> StudySummary::ratio(const std::string& table, const std::string& panel,
+                                          const std::string& level) const {
+  const Json* found = entry(table, panel, level);
+  if (found == nullptr || !found->contains("difference")) return std::nullopt;
+  const Json& difference = found->at("difference");
+  if (!difference.contains("ratio")) return std::nullopt;
+  return difference.at("ratio").get<double>();
+}
+
+std::vector<std::string> StudySummary::panels(const std::string& table) const {
+  std::vector<std::string> names;
+  for (const auto& [panel, levels] : json_.at("tables").at(table).items()) {
+    if (panel != "all") names.push_back(panel);
+  }
+  return names;
+}
+
+std::vector<std::string> StudySummary::levels(const std::string& table) const {
+  std::vector<std::string> names;
+  for (const auto& [panel, levels] : json_.at("tables").at(table).items()) {
+    for (const auto& [level, value] : levels.items()) {
+      if (std::ranges::find(names, level) == names.end()) names.push_back(level);
+    }
+  }
+  return names;
+}
+
+std::string StudySummary::extent() const {
+  return fmt::format("{} of {} episodes", json_.at("completed").get<int>(),
+                     json_.at("episodes").get<int>());
+}
+
+std::string StudySummary::markdown(const std::string& table) const {
+  std::vector<std::string> columns = panels(table);
+  columns.emplace_back("all");
+  std::string header = "| |";
+  std::string rule = "|---|";
+  for (const std::string& panel : columns) {
+    header += fmt::format(" {} |", panel);
+    rule += "---|";
+  }
+  std::string text = header + "\n" + rule + "\n";
+  for (const std::string& level : levels(table)) {
+    text += fmt::format("| {} |", level);
+    for (const std::string& panel : columns) {
+      const Json* cell = entry(table, panel, level);
+      if (cell == nullptr) {
+        text += " |";
+        continue;
+      }
+      const Json& interval = cell->at("interval");
+      text += fmt::format(" {} [{}, {}]", number(cell->at("mean").get<double>()),
+                          number(interval[0].get<double>()), number(interval[1].get<double>()));
+      if (const auto times = ratio(table, panel, level)) {
+        text += fmt::format(", x {:.2f}, p {:.2g}", *times,
+                            cell->at("difference").at("p_value").get<double>());
+      }
+      text += " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace vantage::bench

@@ -1,0 +1,46 @@
+/// What a study came to, read back from its summary.json, as tables and as numbers for claims.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vantage::bench {
+
+using Json = nlohmann::ordered_json;
+
+/// @throws InputError if the file is not there or is not JSON.
+Json read_json(const std::filesystem::path& file);
+
+class StudySummary {
+ public:
+  explicit StudySummary(Json json) : json_(std::move(json)) {}
+
+  [[nodiscard]] bool has(const std::string& table) const {
+    return json_.at("tables").contains(table);
+  }
+  /// Of a table's panel ("objects_8", "all") and level ("adaptive"); none if it was not run.
+  [[nodiscard]] std::optional<double> mean(const std::string& table, const std::string& panel,
+                                           const std::string& level) const;
+  /// To the reference level, of the same starts.
+  [[nodiscard]] std::optional<double> ratio(const std::string& table, const std::string& panel,
+                                            const std::string& level) const;
+  /// Those of the table but "all", in order.
+  [[nodiscard]] std::vector<std::string> panels(const std::string& table) const;
+  [[nodiscard]] std::vector<std::string> levels(const std::string& table) const;
+  /// "120 of 320 episodes"
+  [[nodiscard]] std::string extent() const;
+
+  /// A row a level, a column a panel: mean [95 % interval], ratio to the reference, p.
+  [[nodiscard]] std::string markdown(const std::string& table) const;
+
+ private:
+  [[nodiscard]] const Json* entry(const std::string& table, const std::string& panel,
+                                  const std::string& level) const;
+  Json json_;
+};
+
+}  // namespace vantage::bench
