@@ -47,7 +47,7 @@ class PlaybackGate {
   bool closed_ = false;
   int steps_ = 0;
   std::optional<double> seek_s_;
-  WallTime last_due_;
+  WallTime last_due_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace vantage

@@ -146,7 +146,7 @@ double timeline_height_px(int picture_height_px) { return std::max(8.0, picture_
 void lay_map(MapCanvas& canvas, const MapCamera& camera, const OccupancyGrid& grid) {
   MapCanvas layer = make_canvas(canvas.bgr.size());
   draw_voxels(layer, camera, grid);
-  const auto tolerance_m = static_cast<float>(grid.frame.cell_size_m.norm());
+  const auto tolerance_m = static_cast<float>(0.5 * grid.frame.cell_size_m.norm());
   for (int y = 0; y < canvas.bgr.rows; ++y) {
     const auto* cells = layer.inverse_depth.ptr<float>(y);
     const auto* colours = layer.bgr.ptr<cv::Vec3b>(y);

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kFovy_rad = 0.7853981633974483;
 /// Round the region of the map, for the robot beside it.
-constexpr double kMargin_m = 1.0;
+constexpr double kMargin_m = 1.2;
+/// Of the half diagonal of the region, which is seen obliquely in a picture wider than high.
+constexpr double kRegionShare = 0.75;
 constexpr double kBodyMiddle_m = 0.7;
 
 MapCamera camera_of(const RenderedImages& image) {
@@ -48,7 +50,7 @@ std::string scene_caption(const Episode& episode, double time_s, std::size_t sca
 
 FreeCamera overview_of(const World& world, const Episode& episode) {
   const auto& size_m = episode.map.size_m;
-  const double radius_m = 0.5 * std::hypot(size_m[0], size_m[1]) + kMargin_m;
+  const double radius_m = 0.5 * kRegionShare * std::hypot(size_m[0], size_m[1]) + kMargin_m;
   FreeCamera camera{
       .lookat_m = Eigen::Vector3d(episode.map.centre_m[0], episode.map.centre_m[1], kBodyMiddle_m),
       .distance_m = radius_m / std::sin(0.5 * kFovy_rad),
