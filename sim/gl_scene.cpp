@@ -71,6 +71,17 @@ void describe_camera(const mjvScene& scene, RenderedImages& out) {
   out.focal_px = 0.5 * out.height_px * camera.frustum_near / camera.frustum_top;
 }
 
+/// Moves the near plane, if anything, away from the camera.
+void cut_away(mjvScene& scene, double near_m) {
+  for (mjvGLCamera& camera : scene.camera) {
+    const float scale = std::max(1.0F, static_cast<float>(near_m) / camera.frustum_near);
+    for (float* edge : {&camera.frustum_near, &camera.frustum_top, &camera.frustum_bottom,
+                        &camera.frustum_center}) {
+      *edge *= scale;
+    }
+  }
+}
+
 struct DrawMarker {
   mjvGeom& geom;
 
@@ -127,6 +138,9 @@ void GlScene::update(const mjData& data, const CameraView& view, const RenderReq
   mjv_updateScene(model_, drawn, &option, nullptr, &camera, mjCAT_ALL, &scene_);
   const auto fovy_rad = std::visit([](const auto& camera) { return camera.fovy_rad; }, view);
   if (fovy_rad) set_field_of_view(scene_, *fovy_rad);
+  if (const auto* free = std::get_if<FreeCamera>(&view); free != nullptr && free->cutaway_m) {
+    cut_away(scene_, free->distance_m - *free->cutaway_m);
+  }
   add_markers(request.markers);
 }
 

@@ -32,6 +32,8 @@ struct FreeCamera {
   double azimuth_rad = 1.5707963267948966;     ///< heading of the line of sight
   double elevation_rad = -0.7853981633974483;  ///< of the line of sight; negative looks down
   std::optional<double> fovy_rad = {};         ///< as of a FixedCamera
+  /// What stands farther than that before the point, along the line of sight, is cut away.
+  std::optional<double> cutaway_m = {};
 };
 using CameraView = std::variant<FixedCamera, FreeCamera>;
 

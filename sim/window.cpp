@@ -15,7 +15,7 @@ namespace {
 [[noreturn]] void fail(const std::string& what) {
   const char* why = nullptr;
   glfwGetError(&why);
-  throw RendererError("no window: " + what + (why == nullptr ? "" : std::string(": ") + why));
+  throw RendererError(what + (why == nullptr ? "" : std::string(": ") + why));
 }
 
 /// GLFW as long as there is a window.
@@ -36,6 +36,7 @@ void look_up(Function& function, const char* name) {
 
 /// From the display's OpenGL: the functions linked under these names are OSMesa's.
 struct OpenGl {
+  decltype(&glGetString) get_string = nullptr;
   decltype(&glViewport) viewport = nullptr;
   decltype(&glPixelStorei) pixel_store = nullptr;
   decltype(&glPixelZoom) pixel_zoom = nullptr;
@@ -45,6 +46,7 @@ struct OpenGl {
   decltype(&glReadPixels) read_pixels = nullptr;
 
   void look_up_all() {
+    look_up(get_string, "glGetString");
     look_up(viewport, "glViewport");
     look_up(pixel_store, "glPixelStorei");
     look_up(pixel_zoom, "glPixelZoom");
@@ -97,6 +99,7 @@ struct Window::Handle {
   static Handle& of(GLFWwindow* window) {
     return *static_cast<Handle*>(glfwGetWindowUserPointer(window));
   }
+  void open(const std::string& title, PixelSize size);
   void listen();
   void key(int code) {
     if (const auto key = find_in(kKeys, code)) events.emplace_back(KeyPressed{*key});
@@ -140,12 +143,15 @@ void Window::Handle::listen() {
   });
 }
 
+void Window::Handle::open(const std::string& title, PixelSize size) {
+  window = glfwCreateWindow(size.width_px, size.height_px, title.c_str(), nullptr, nullptr);
+  if (window == nullptr) fail("no OpenGL on this display");
+  glfwMakeContextCurrent(window);
+  gl.look_up_all();
+}
+
 Window::Window(const std::string& title, PixelSize size) : handle_(std::make_unique<Handle>()) {
-  handle_->window =
-      glfwCreateWindow(size.width_px, size.height_px, title.c_str(), nullptr, nullptr);
-  if (handle_->window == nullptr) fail("no OpenGL on this display");
-  glfwMakeContextCurrent(handle_->window);
-  handle_->gl.look_up_all();
+  handle_->open(title, size);
   glfwSwapInterval(1);
   handle_->listen();
 }
@@ -193,6 +199,16 @@ RenderedImages Window::show_and_read(const RenderedImages& picture) {
   }
   glfwSwapBuffers(handle_->window);
   return held;
+}
+
+std::string Window::display_renderer_name() {
+  Handle hidden;
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  hidden.open("", {16, 16});
+  const auto text = [&](GLenum name) {
+    return std::string(reinterpret_cast<const char*>(hidden.gl.get_string(name)));
+  };
+  return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
 }  // namespace vantage

@@ -60,6 +60,9 @@ class Window {
   Window& operator=(const Window&) = delete;
   ~Window();
 
+  /// What draws on the display, as renderer_name() says it. @throws RendererError as a window does
+  static std::string display_renderer_name();
+
   [[nodiscard]] PixelSize size() const;  ///< of the picture that fills it
   [[nodiscard]] bool closed() const;     ///< the user asked for that
   /// What was done, in order, after at most `timeout_s` of waiting for it.

@@ -10,7 +10,7 @@ namespace vantage {
 
 /// Called in the thread of the episode, which waits for them. Either may be empty.
 struct Spectator {
-  /// With the world as it begins, then after each control tick. May throw Interrupted.
+  /// With the world as it begins, then after each control tick; then it may throw Interrupted.
   std::function<void(const World&)> on_tick;
   std::function<void(const StoryEvent&)> on_event;
 };

@@ -30,7 +30,7 @@ class ScratchFolder {
   fs::path path_;
 };
 
-/// Shows every tick of an episode and lets it wait at the gate.
+/// Shows every tick of an episode up to the still one, and lets it wait at the gate.
 struct LivePlayer {
   ViewLink& link;
   PlaybackGate& gate;
@@ -39,12 +39,15 @@ struct LivePlayer {
   bool still_shown = false;
 
   void tick(const World& world) {
+    const bool begins = state.empty();
     state = world.state();
-    const bool still = options.at_s && world.time_s() >= *options.at_s - 1e-9;
-    if (still) gate.pause();
-    still_shown = still;
-    link.show(state, link.events(), still);
-    if (gate.wait(world.options().control_period_s)) return;
+    if (!still_shown) {
+      still_shown = options.at_s && world.time_s() >= *options.at_s - 1e-9;
+      if (still_shown) gate.pause();
+      link.show(state, link.events(), still_shown);
+    }
+    // An episode that has not begun cannot be interrupted yet.
+    if (begins || gate.wait(world.options().control_period_s)) return;
     throw_if_interrupted();
     throw Interrupted(SIGINT);
   }

@@ -129,12 +129,12 @@ void help_card(cv::Mat& image) {
   const Layout layout = layout_of(image);
   const double line = 25.0;
   const double height = line * kHelp.size() + 24.0;
-  const cv::Rect card = layout.rect(20.0, 54.0, 590.0, height);
+  const cv::Rect card = layout.rect(20.0, 54.0, 750.0, height);
   darken(image, card);
   double y = 54.0 + 29.0;
   for (const auto& [key, what] : kHelp) {
     text(image, layout, key, {layout.px(36.0), layout.px(y)}, 14.0, kAccent);
-    text(image, layout, what, {layout.px(226.0), layout.px(y)}, 14.0, kText);
+    text(image, layout, what, {layout.px(276.0), layout.px(y)}, 14.0, kText);
     y += line;
   }
 }

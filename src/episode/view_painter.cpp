@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "sim/camera.hpp"
-#include "src/episode/view_overlays.hpp"
 
 namespace vantage {
 namespace {
@@ -41,9 +39,12 @@ MapCanvas canvas_of(RenderedImages& image) {
   return canvas;
 }
 
-std::string scene_caption(const Episode& episode, double time_s, std::size_t scans) {
-  return fmt::format("{}    {:.2f} s    scan {} of {}", method_name(episode), time_s, scans,
-                     episode.scans);
+/// Leaves nothing but the colours in `image`.
+void set_colours(RenderedImages& image, const cv::Mat& bgr) {
+  cv::Mat rgb(bgr.size(), CV_8UC3, image.rgb.data());
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  image.depth_m.clear();
+  image.segmentation.clear();
 }
 
 }  // namespace
@@ -56,7 +57,8 @@ FreeCamera overview_of(const World& world, const Episode& episode) {
       .distance_m = radius_m / std::sin(0.5 * kFovy_rad),
       .azimuth_rad = 0.8,
       .elevation_rad = -0.6,
-      .fovy_rad = kFovy_rad};
+      .fovy_rad = kFovy_rad,
+      .cutaway_m = radius_m};
   if (const auto id = find_model_id(world.model(), ModelObject::camera, "overview")) {
     const Eigen::Vector3d forward =
         T_world_camera(world.model(), world.snapshot(), *id).linear().col(2);
@@ -71,7 +73,8 @@ FreeCamera follow_of_robot() {
           .distance_m = 3.0,
           .azimuth_rad = 0.8,
           .elevation_rad = -0.5,
-          .fovy_rad = kFovy_rad};
+          .fovy_rad = kFovy_rad,
+          .cutaway_m = 1.5};
 }
 
 ViewPainter::ViewPainter(World& world, const Episode& episode)
@@ -86,40 +89,45 @@ CameraView ViewPainter::camera_for(const ViewControls& controls) const {
   return camera;
 }
 
+Renderer& ViewPainter::renderer_of(PixelSize size) {
+  if (!renderer_ || PixelSize{renderer_->width_px(), renderer_->height_px()} != size) {
+    renderer_ = nullptr;  // the memory of one is enough
+    renderer_ = make_offscreen_renderer(world_.model(), size.width_px, size.height_px);
+  }
+  return *renderer_;
+}
+
 ViewPicture ViewPainter::paint(const ViewLink::Work& work) {
   const ViewControls& controls = work.controls;
   story_.insert(story_.end(), work.new_events.begin(), work.new_events.end());
   known_.go_to(story_, work.moment.events);
   world_.set_state(work.moment.state);
-  const auto [width_px, height_px] = controls.size;
-  if (!renderer_ || PixelSize{renderer_->width_px(), renderer_->height_px()} != controls.size) {
-    renderer_ = nullptr;
-    renderer_ = make_offscreen_renderer(world_.model(), width_px, height_px);
-  }
   RenderRequest request;
   request.shadows = true;
   request.depth_and_segmentation = controls.map || controls.gains;
   ViewPicture picture{{}, world_.time_s(), work.moment.still};
-  renderer_->render(world_.model(), world_.snapshot(), camera_for(controls), request,
-                    picture.image);
+  renderer_of(controls.size)
+      .render(world_.model(), world_.snapshot(), camera_for(controls), request, picture.image);
 
   MapCanvas canvas = canvas_of(picture.image);
   const MapCamera camera = camera_of(picture.image);
   if (controls.map) lay_map(canvas, camera, known_.grid());
   if (controls.gains) lay_views(canvas, camera, known_);
-  ViewCaptions captions{.scene = scene_caption(episode_, picture.time_s, known_.scans()),
-                        .playback = controls.playback,
-                        .gain_unit = std::string(unit_of(episode_.gain)),
-                        .decision = controls.gains ? known_.decision() : std::nullopt,
-                        .progress = std::nullopt,
-                        .help = controls.help};
-  if (controls.duration_s) captions.progress = picture.time_s / *controls.duration_s;
-  lay_captions(canvas.bgr, captions);
-  cv::Mat rgb(height_px, width_px, CV_8UC3, picture.image.rgb.data());
-  cv::cvtColor(canvas.bgr, rgb, cv::COLOR_BGR2RGB);
-  picture.image.depth_m.clear();
-  picture.image.segmentation.clear();
+  lay_captions(canvas.bgr, captions_for(controls, picture.time_s));
+  set_colours(picture.image, canvas.bgr);
   return picture;
+}
+
+ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time_s) const {
+  ViewCaptions captions;
+  captions.scene = fmt::format("{}    {:.2f} s    scan {} of {}", method_name(episode_), time_s,
+                               known_.scans(), episode_.scans);
+  captions.playback = controls.playback;
+  captions.gain_unit = unit_of(episode_.gain);
+  if (controls.gains) captions.decision = known_.decision();
+  if (controls.duration_s) captions.progress = time_s / *controls.duration_s;
+  captions.help = controls.help;
+  return captions;
 }
 
 }  // namespace vantage

@@ -10,6 +10,7 @@
 #include "sim/world.hpp"
 #include "src/episode/scenario.hpp"
 #include "src/episode/view_link.hpp"
+#include "src/episode/view_overlays.hpp"
 
 namespace vantage {
 
@@ -31,6 +32,8 @@ class ViewPainter {
 
  private:
   [[nodiscard]] CameraView camera_for(const ViewControls& controls) const;
+  Renderer& renderer_of(PixelSize size);
+  [[nodiscard]] ViewCaptions captions_for(const ViewControls& controls, double time_s) const;
 
   World& world_;
   Episode episode_;

@@ -64,6 +64,7 @@ TEST_F(View, ARunAndItsRecordingLookTheSame) {
   EXPECT_FALSE(same(plain, map));
   EXPECT_FALSE(same(plain, gains));
   EXPECT_TRUE(same(start, bare)) << "nothing is known yet";
+  EXPECT_TRUE(same(start, shot("begin.png", std::string(kTwoScans) + "--at 0 " + kSmall)));
   for (const char* camera : {"follow", "robot"}) {
     const auto other = shot("other.png", std::string("run --camera ") + camera + " " + kSmall);
     EXPECT_GT(colours(other), 100U) << camera;

@@ -149,6 +149,23 @@ TEST(Renderer, FreeCameraLooksAtItsPoint) {
   EXPECT_NEAR(images.depth_m[centre], 1.75, 2e-3);
 }
 
+TEST(Renderer, CutsAwayWhatIsBeforeThePoint) {
+  const auto scene = test::compile_mjcf(R"(
+    <mujoco><worldbody>
+      <geom name="wall" type="box" size="0.05 2 2" pos="2 0 0"/>
+      <geom name="ball" type="sphere" size="0.3"/>
+    </worldbody></mujoco>)");
+  FreeCamera camera{.distance_m = 4.0, .azimuth_rad = M_PI, .elevation_rad = 0.0};
+  const std::size_t centre = at(kHeight / 2, kWidth / 2);
+  EXPECT_EQ(draw(scene, camera).segmentation[centre], scene.geom("wall"));
+  camera.cutaway_m = 1.5;
+  const RenderedImages images = draw(scene, camera);
+  EXPECT_EQ(images.segmentation[centre], scene.geom("ball"));
+  EXPECT_NEAR(images.depth_m[centre], 3.7, 2e-3);
+  camera.distance_m = 1.0;  // the point is nearer than what may stand before it
+  EXPECT_EQ(draw(scene, camera).segmentation[centre], scene.geom("ball"));
+}
+
 TEST(Renderer, SaysWhatCameraTookThePicture) {
   const auto scene = test::sensor_scene();
   const Eigen::Vector3d p_world(0.2, 1.1, 0.7);
