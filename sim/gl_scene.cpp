@@ -61,6 +61,27 @@ void set_field_of_view(mjvScene& scene, double fovy_rad) {
   }
 }
 
+/// The scene holds a camera for each eye; pictures are taken from the middle between them.
+void describe_camera(const mjvScene& scene, RenderedImages& out) {
+  const mjvGLCamera camera = mjv_averageCamera(&scene.camera[0], &scene.camera[1]);
+  const Eigen::Vector3d forward = Eigen::Vector3f(camera.forward).cast<double>();
+  const Eigen::Vector3d down = -Eigen::Vector3f(camera.up).cast<double>();
+  out.T_world_camera.linear() << down.cross(forward), down, forward;
+  out.T_world_camera.translation() = Eigen::Vector3f(camera.pos).cast<double>();
+  out.focal_px = 0.5 * out.height_px * camera.frustum_near / camera.frustum_top;
+}
+
+/// Moves the near plane, if anything, away from the camera.
+void cut_away(mjvScene& scene, double near_m) {
+  for (mjvGLCamera& camera : scene.camera) {
+    const float scale = std::max(1.0F, static_cast<float>(near_m) / camera.frustum_near);
+    for (float* edge : {&camera.frustum_near, &camera.frustum_top, &camera.frustum_bottom,
+                        &camera.frustum_center}) {
+      *edge *= scale;
+    }
+  }
+}
+
 struct DrawMarker {
   mjvGeom& geom;
 
@@ -115,8 +136,10 @@ void GlScene::update(const mjData& data, const CameraView& view, const RenderReq
   // a picture would depend on the one before.
   mjv_updateCamera(model_, drawn, &camera, &scene_);
   mjv_updateScene(model_, drawn, &option, nullptr, &camera, mjCAT_ALL, &scene_);
-  if (const auto* fixed = std::get_if<FixedCamera>(&view); fixed != nullptr && fixed->fovy_rad) {
-    set_field_of_view(scene_, *fixed->fovy_rad);
+  const auto fovy_rad = std::visit([](const auto& camera) { return camera.fovy_rad; }, view);
+  if (fovy_rad) set_field_of_view(scene_, *fovy_rad);
+  if (const auto* free = std::get_if<FreeCamera>(&view); free != nullptr && free->cutaway_m) {
+    cut_away(scene_, free->distance_m - *free->cutaway_m);
   }
   add_markers(request.markers);
 }
@@ -143,6 +166,7 @@ void GlScene::render(const mjData& data, const CameraView& view, const RenderReq
   out.segmentation.clear();
   mjr_setBuffer(mjFB_WINDOW, &context_);
   update(data, view, request);
+  describe_camera(scene_, out);
   scene_.flags[mjRND_SHADOW] = request.shadows ? 1 : 0;
   if (request.rgb) {
     scene_.flags[mjRND_SEGMENT] = scene_.flags[mjRND_IDCOLOR] = 0;

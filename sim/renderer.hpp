@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "src/geometry/pose.hpp"
+
 struct mjModel_;
 using mjModel = mjModel_;
 struct mjData_;
@@ -29,6 +31,9 @@ struct FreeCamera {
   double distance_m = 3.0;
   double azimuth_rad = 1.5707963267948966;     ///< heading of the line of sight
   double elevation_rad = -0.7853981633974483;  ///< of the line of sight; negative looks down
+  std::optional<double> fovy_rad = {};         ///< as of a FixedCamera
+  /// What stands farther than that before the point, along the line of sight, is cut away.
+  std::optional<double> cutaway_m = {};
 };
 using CameraView = std::variant<FixedCamera, FreeCamera>;
 
@@ -65,7 +70,9 @@ struct RenderRequest {
 struct RenderedImages {
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::uint8_t> rgb;  ///< 3 bytes a pixel
+  Pose T_world_camera = Pose::Identity();  ///< axes as in sim/camera.hpp
+  double focal_px = 0.0;                   ///< the optical axis meets the middle of the picture
+  std::vector<std::uint8_t> rgb;           ///< 3 bytes a pixel
   std::vector<float> depth_m;     ///< along the optical axis; 0: nothing up to the far plane
   std::vector<int> segmentation;  ///< geom id, -1: nothing
 };

@@ -23,6 +23,7 @@
 #include "src/study/study.hpp"
 #include "src/study/study_page.hpp"
 #include "src/sweep_commands.hpp"
+#include "src/view_command.hpp"
 
 namespace vantage {
 namespace {
@@ -214,6 +215,8 @@ std::function<ExitCode()> declare_doctor(CLI::App&) {
 
 void remember_command_line(int argc, char** argv) { g_command_line.assign(argv, argv + argc); }
 
+const std::vector<std::string>& command_line() { return g_command_line; }
+
 const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       {"run", "run an episode and write its run folder", declare_run},
@@ -221,6 +224,7 @@ const std::vector<Command>& commands() {
       {"report", "write the report page of a run or a study", declare_report},
       {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
+      {"view", "an episode in a window, as it runs or from its run folder", declare_view},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
       {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
       {"list", "what there is to choose from", declare_list},

@@ -24,5 +24,6 @@ const std::vector<Command>& commands();
 
 /// The command line as typed, for the manifest.
 void remember_command_line(int argc, char** argv);
+const std::vector<std::string>& command_line();
 
 }  // namespace vantage

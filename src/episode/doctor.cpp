@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "sim/renderer.hpp"
+#include "sim/window.hpp"
 #include "sim/world.hpp"
 #include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
@@ -42,6 +43,7 @@ DoctorReport examine() {
   line("vantage", version_text());
   line("mujoco", mujoco_version());
   line("renderer", renderer);
+  line("window", attempt(Window::display_renderer_name));
   line("opencv", CV_VERSION);
   line("video", attempt(video_text));
   line("data",

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <ctime>
@@ -10,7 +11,9 @@
 namespace vantage {
 namespace {
 
-volatile std::sig_atomic_t g_signal = 0;
+/// Any thread may look.
+std::atomic<int> g_signal = 0;
+static_assert(std::atomic<int>::is_always_lock_free, "as a signal handler needs");
 timespec g_first{};
 
 /// One Ctrl-C can arrive twice: at the process and at its group.
@@ -52,7 +55,7 @@ Interrupted::Interrupted(int signal)
 }
 
 void throw_if_interrupted() {
-  if (g_signal != 0) throw Interrupted(g_signal);
+  if (const int signal = g_signal; signal != 0) throw Interrupted(signal);
 }
 
 int interrupt_signal() { return g_signal; }

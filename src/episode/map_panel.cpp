@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "src/core/error.hpp"
+#include "src/episode/frustum.hpp"
 #include "src/episode/map_view.hpp"
 #include "src/episode/panel_style.hpp"
 
@@ -62,20 +63,6 @@ void draw_box(MapCanvas& canvas, const MapCamera& camera, const Eigen::AlignedBo
       const LineStyle style{kDim, (ground ? 1.6 : 1.0) * unit, ground ? 0.9 : 0.4};
       draw_line(canvas, camera, corners[i], corners[i | bit], style);
     }
-  }
-}
-
-/// Pyramid of a view: tip at the sensor, opening along x.
-void draw_frustum(MapCanvas& canvas, const MapCamera& camera, const Pose& T_world_sensor,
-                  double length_m, const LineStyle& style) {
-  const std::array<Eigen::Vector3d, 4> rim{
-      {{1, .3, .2}, {1, -.3, .2}, {1, -.3, -.2}, {1, .3, -.2}}};
-  const Eigen::Vector3d tip = T_world_sensor.translation();
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector3d p = T_world_sensor * Eigen::Vector3d(length_m * rim[i]);
-    const Eigen::Vector3d next = T_world_sensor * Eigen::Vector3d(length_m * rim[(i + 1) % 4]);
-    draw_line(canvas, camera, tip, p, style);
-    draw_line(canvas, camera, p, next, style);
   }
 }
 

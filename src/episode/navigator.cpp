@@ -81,6 +81,7 @@ Approach Navigator::approach(const Pose2& goal, const std::optional<Eigen::Vecto
     const double remaining_m = std::hypot(path.end.x_m - goal.x_m, path.end.y_m - goal.y_m);
     if (!path.reaches_goal && remaining_m > nearest_m - kProgress_m) return result;
     nearest_m = remaining_m;
+    if (on_plan) on_plan(path);
     const DriveResult drive = drive_and_map(path.waypoints);
     result.path_length_m += drive.path_length_m;
     result.reached = drive.status == DriveStatus::arrived && path.reaches_goal;

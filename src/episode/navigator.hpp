@@ -1,6 +1,7 @@
 /// Drives the robot over the floor it knows, and gets to know more of it on the way.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -35,6 +36,9 @@ class Navigator {
   /// Drives to the goal, or as near as the known free floor allows; plans again as the floor map
   /// grows. Short of the goal it ends facing `look_at_m`, see plan_path().
   Approach approach(const Pose2& goal, const std::optional<Eigen::Vector2d>& look_at_m);
+
+  /// Told every path before it is driven; may be empty.
+  std::function<void(const PlannedPath&)> on_plan;
 
   [[nodiscard]] FloorMap& floor() { return floor_; }
   [[nodiscard]] const WallMap& walls() const { return walls_; }

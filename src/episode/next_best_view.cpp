@@ -34,6 +34,7 @@ NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Re
   block_box(navigator_.floor(), {region.min().head<2>(), region.max().head<2>()});
   for (const Candidate& view : views_) truth_.add_observable({&view.T_world_sensor, 1});
   recorder_.set_panel([this] { return panel(); });
+  navigator_.on_plan = [this](const PlannedPath& path) { recorder_.way(path.waypoints); };
   if (truth_.observable_cells() == 0) log_warning("map: none of the views sees any of its cells");
 }
 
@@ -108,6 +109,7 @@ std::size_t NextBestView::choose(const std::vector<Candidate>& candidates) {
   const std::size_t chosen = choose_view(episode_.choice, candidates, choice_rng_);
   current_.candidates = candidates.size();
   current_.plan_time_s = wall_s() - decision_start_s_;
+  recorder_.decision(candidates, chosen);
   return chosen;
 }
 

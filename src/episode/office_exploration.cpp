@@ -49,6 +49,7 @@ OfficeExploration::OfficeExploration(const ResolvedEpisode& resolved, OfficeRig&
       vouched_(navigator_.floor().size(), 0),
       choice_rng_(Rng::stream(episode_.seed, "view choice")) {
   recorder_.set_panel([this] { return panel(); });
+  navigator_.on_plan = [this](const PlannedPath& path) { recorder_.way(path.waypoints); };
   log_debug(fmt::format("{} cells are observable, from {} places", truth_.observable_cells(),
                         truth_.poses()));
 }
@@ -163,6 +164,7 @@ std::size_t OfficeExploration::choose(const std::vector<Candidate>& candidates) 
   const std::size_t chosen = choose_view(episode_.choice, candidates, choice_rng_);
   current_.candidates = candidates.size();
   current_.plan_time_s = wall_s() - decision_start_s_;
+  recorder_.decision(candidates, chosen);
   return chosen;
 }
 

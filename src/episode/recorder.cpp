@@ -48,7 +48,7 @@ std::string tum_row(double time_s, const Pose2& base) {
 }  // namespace
 
 Recorder::Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
-                   bool with_video, bool lean)
+                   bool with_video, bool lean, Spectator spectator)
     : directory_(std::move(directory)),
       rig_(rig),
       planned_scans_(resolved.episode.scans),
@@ -58,12 +58,15 @@ Recorder::Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesys
       steps_(directory_ / "steps.csv"),
       trajectory_(directory_ / "trajectory.tum"),
       estimated_(directory_ / "trajectory_estimated.tum"),
+      spectator_(std::move(spectator)),
       progress_(resolved.name, resolved.episode.scans) {
   steps_.write(steps_header(resolved.episode));
   trajectory_.write(kTumHeader);
   estimated_.write(kTumHeader);
+  if (!lean) story_.emplace(directory_);
   if (with_video) film_.emplace(rig.world(), resolved.episode.recording, directory_);
   rig_.world().on_tick = [this](World&) { tick(); };
+  if (spectator_.on_tick) spectator_.on_tick(rig_.world());
 }
 
 Recorder::~Recorder() { rig_.world().on_tick = nullptr; }
@@ -81,6 +84,24 @@ void Recorder::tick() {
     path_length_m_ += std::hypot(base.x_m - last_base_->x_m, base.y_m - last_base_->y_m);
   last_base_ = base;
   if (film_) film_->tick(world);
+  if (spectator_.on_tick) spectator_.on_tick(world);
+}
+
+void Recorder::tell(StoryEvent event) {
+  event.tick = states_.ticks();
+  if (story_) story_->add(event);
+  if (spectator_.on_event) spectator_.on_event(event);
+}
+
+void Recorder::decision(const std::vector<Candidate>& candidates, std::size_t chosen) {
+  if (tells_story()) tell({0, Decision{candidates, chosen}});
+}
+
+void Recorder::way(const std::vector<Pose2>& waypoints) {
+  if (!tells_story()) return;
+  PlannedWay way;
+  for (const Pose2& waypoint : waypoints) way.path_m.emplace_back(waypoint.x_m, waypoint.y_m);
+  tell({0, std::move(way)});
 }
 
 /// The world ticks before the odometry does: the estimate at hand belongs to the tick before.
@@ -95,6 +116,7 @@ void Recorder::pose_rows() {
 void Recorder::scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid) {
   steps_.write(steps_row(record, index));
   if (!lean_) add_occupied_voxels(grid, index);
+  if (tells_story()) tell({0, map_change(known_, grid)});
   ++scans_done_;
   progress_.update(
       static_cast<double>(scans_done_),
@@ -123,6 +145,7 @@ void Recorder::commit() {
   steps_.commit();
   trajectory_.commit();
   estimated_.commit();
+  if (story_) story_->commit();
 }
 
 void Recorder::write_map(const OccupancyGrid& grid, const PointCloud& cloud) {

@@ -14,16 +14,17 @@
 #include "src/episode/report_data.hpp"
 #include "src/episode/scan_record.hpp"
 #include "src/episode/scenario.hpp"
+#include "src/episode/spectator.hpp"
 #include "src/episode/state_log.hpp"
 
 namespace vantage {
 
 class Recorder {
  public:
-  /// Hooks itself to the world's ticks. Lean: neither states nor voxels are kept.
+  /// Hooks itself to the world's ticks. Lean: neither states nor voxels nor story are kept.
   /// @throws OutputError, RendererError
   Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
-           bool with_video, bool lean);
+           bool with_video, bool lean, Spectator spectator = {});
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -31,6 +32,9 @@ class Recorder {
   void set_panel(std::function<MapPanelInput()> panel);
   /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
   void scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid);
+  /// What was chosen among, and the way that was planned to it.
+  void decision(const std::vector<Candidate>& candidates, std::size_t chosen);
+  void way(const std::vector<Pose2>& waypoints);
   void commit();  ///< puts the growing files under their final names
   void write_map(const OccupancyGrid& grid, const PointCloud& cloud);
   void finish_video();
@@ -42,6 +46,8 @@ class Recorder {
  private:
   void tick();
   void pose_rows();
+  [[nodiscard]] bool tells_story() const { return story_ || spectator_.on_event; }
+  void tell(StoryEvent event);
   void add_occupied_voxels(const OccupancyGrid& grid, std::size_t step);
   void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);
 
@@ -53,9 +59,12 @@ class Recorder {
   GrowingFile steps_;
   GrowingFile trajectory_;
   GrowingFile estimated_;
+  std::optional<StoryLog> story_;
   std::optional<Film> film_;
   std::vector<VoxelRecord> voxels_;
   std::vector<std::uint8_t> was_occupied_;
+  std::vector<CellState> known_;  ///< of the map, as far as the story goes
+  Spectator spectator_;
   Progress progress_;
   std::size_t scans_done_ = 0;
   double next_pose_s_ = 0.0;

@@ -9,6 +9,7 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/hash.hpp"
 #include "src/episode/manifest.hpp"
+#include "src/episode/recording.hpp"
 #include "src/episode/scenario.hpp"
 #include "src/episode/state_log.hpp"
 
@@ -26,17 +27,6 @@ nlohmann::json read_manifest(const std::filesystem::path& run_dir) {
   auto manifest = nlohmann::json::parse(read_file(run_dir / "manifest.json"), nullptr, false);
   if (manifest.is_object()) return manifest;
   throw InputError((run_dir / "manifest.json").string() + ": not a JSON object");
-}
-
-ResolvedEpisode load_recorded(const std::filesystem::path& run_dir) {
-  try {
-    return load_episode(run_dir / "config.yaml", {});
-  } catch (const ConfigError& error) {
-    throw InputError(
-        fmt::format("{}: not a configuration of this version, {}; manifest.json names "
-                    "the one that recorded it",
-                    error.what(), version_text()));
-  }
 }
 
 std::vector<std::string> changed_files(const nlohmann::json& manifest,
@@ -58,14 +48,9 @@ std::vector<std::string> changed_files(const nlohmann::json& manifest,
 ReplayResult replay(const std::filesystem::path& run_dir) {
   const ResolvedEpisode resolved = load_recorded(run_dir);
   World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
-  const RecordedStates recorded = read_states(run_dir / "states.bin");
+  const RecordedStates recorded = load_states(run_dir, world);
   const auto names = actuator_names(world);
   const auto actions = read_actions(run_dir / "actions.csv", names);
-  if (recorded.state_size != world.state().size() || recorded.actuators != names.size()) {
-    throw InputError(fmt::format("{}: recorded with another scene or robot than {}",
-                                 (run_dir / "states.bin").string(), resolved.scene.string()));
-  }
-
   world.set_state(recorded.state(0));
   ReplayResult result;
   result.changed_files = changed_files(read_manifest(run_dir), resolved);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr auto kRunFiles = std::to_array<std::string_view>(
     {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
      "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
-     "voxels.bin", "video.mp4", "report.html", "log.txt", "frames"});
+     "voxels.bin", "story.bin", "video.mp4", "report.html", "log.txt", "frames"});
 
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {
@@ -65,7 +65,8 @@ template <class Parts>
 void run_parts(auto& rig, const ResolvedEpisode& resolved, const RunOptions& options,
                RunOutcome& outcome) {
   const double start_s = wall_s();
-  Recorder recorder(resolved, rig, outcome.directory, options.video, options.lean);
+  Recorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
+                    options.spectator);
   Parts parts(resolved, rig, recorder);
   RunSummary summary;
   const Ending ending = run_to_end(parts);

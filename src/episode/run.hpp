@@ -7,6 +7,7 @@
 
 #include "src/episode/metrics.hpp"
 #include "src/episode/scenario.hpp"
+#include "src/episode/spectator.hpp"
 
 namespace vantage {
 
@@ -16,6 +17,7 @@ struct RunOptions {
   bool video = false;
   std::vector<std::string> command;  ///< as typed, for the manifest
   bool lean = false;  ///< metrics, steps, trajectories, configuration, manifest and nothing else
+  Spectator spectator = {};
 };
 
 struct RunOutcome {

@@ -60,7 +60,7 @@ TEST_F(Run, SameSeedSameBytes) {
   EXPECT_EQ(first.dump(2), second.dump(2));
   for (const char* name :
        {"states.bin", "actions.csv", "trajectory.tum", "trajectory_estimated.tum", "map.bt",
-        "map.ot", "cloud.ply", "voxels.bin"}) {
+        "map.ot", "cloud.ply", "voxels.bin", "story.bin"}) {
     EXPECT_EQ(read_file(folder_ / "first" / name), read_file(folder_ / "second" / name)) << name;
   }
 }
@@ -86,7 +86,7 @@ TEST_F(Run, WritesTheWholeFolder) {
   for (const char* name :
        {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
         "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
-        "report.html", "log.txt"}) {
+        "story.bin", "report.html", "log.txt"}) {
     EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
   }
   for (const auto& entry : fs::directory_iterator(folder_ / "first")) {

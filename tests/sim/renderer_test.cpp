@@ -149,5 +149,55 @@ TEST(Renderer, FreeCameraLooksAtItsPoint) {
   EXPECT_NEAR(images.depth_m[centre], 1.75, 2e-3);
 }
 
+TEST(Renderer, CutsAwayWhatIsBeforeThePoint) {
+  const auto scene = test::compile_mjcf(R"(
+    <mujoco><worldbody>
+      <geom name="wall" type="box" size="0.05 2 2" pos="2 0 0"/>
+      <geom name="ball" type="sphere" size="0.3"/>
+    </worldbody></mujoco>)");
+  FreeCamera camera{.distance_m = 4.0, .azimuth_rad = M_PI, .elevation_rad = 0.0};
+  const std::size_t centre = at(kHeight / 2, kWidth / 2);
+  EXPECT_EQ(draw(scene, camera).segmentation[centre], scene.geom("wall"));
+  camera.cutaway_m = 1.5;
+  const RenderedImages images = draw(scene, camera);
+  EXPECT_EQ(images.segmentation[centre], scene.geom("ball"));
+  EXPECT_NEAR(images.depth_m[centre], 3.7, 2e-3);
+  camera.distance_m = 1.0;  // the point is nearer than what may stand before it
+  EXPECT_EQ(draw(scene, camera).segmentation[centre], scene.geom("ball"));
+}
+
+TEST(Renderer, SaysWhatCameraTookThePicture) {
+  const auto scene = test::sensor_scene();
+  const Eigen::Vector3d p_world(0.2, 1.1, 0.7);
+  const FreeCamera from_above{.lookat_m = {0.0, 1.0, 0.5}, .azimuth_rad = 0.4, .fovy_rad = 0.6};
+  const FixedCamera oblique{scene.camera("oblique")};
+  for (const CameraView& view : {CameraView(from_above), CameraView(oblique)}) {
+    const RenderedImages plain = draw(scene, view);
+    const Eigen::Vector3d p_camera = plain.T_world_camera.inverse() * p_world;
+    const double u = 0.5 * kWidth + plain.focal_px * p_camera.x() / p_camera.z();
+    const double v = 0.5 * kHeight + plain.focal_px * p_camera.y() / p_camera.z();
+    // A marker at the near plane of whatever stands between: seen in the direction of the point.
+    const Eigen::Vector3d p_near =
+        plain.T_world_camera * Eigen::Vector3d(p_camera * 0.3 / p_camera.z());
+    const RenderedImages marked =
+        draw(scene, view, {.markers = {SphereMarker{p_near, 0.01, {0.0F, 1.0F, 0.0F, 1.0F}}}});
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    int pixels = 0;
+    for (int row = 0; row < kHeight; ++row) {
+      for (int column = 0; column < kWidth; ++column) {
+        if (std::equal(&marked.rgb[3 * at(row, column)], &marked.rgb[3 * at(row, column)] + 3,
+                       &plain.rgb[3 * at(row, column)])) {
+          continue;
+        }
+        sum += Eigen::Vector2d(column + 0.5, row + 0.5);
+        ++pixels;
+      }
+    }
+    ASSERT_GT(pixels, 10);
+    EXPECT_NEAR(sum.x() / pixels, u, 0.6);
+    EXPECT_NEAR(sum.y() / pixels, v, 0.6);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

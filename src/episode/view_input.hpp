@@ -1,0 +1,32 @@
+/// What keys and mouse do in a window that shows an episode.
+#pragma once
+
+#include "sim/window.hpp"
+#include "src/episode/playback_gate.hpp"
+#include "src/episode/view_link.hpp"
+
+namespace vantage {
+
+struct ViewInput {
+  ViewControls& controls;
+  PlaybackGate& gate;
+  double shown_s = 0.0;  ///< simulated time of the picture that is shown
+  double tick_s = 0.025;
+  bool scrubbing = false;  ///< the drag began on the timeline
+
+  bool quit = false;
+  bool screenshot = false;
+
+  void operator()(const KeyPressed& event);
+  void operator()(const MousePressed& event);
+  void operator()(const MouseDragged& event);
+  void operator()(const WheelTurned& event);
+
+ private:
+  void playback_key(char key);
+  void recording_key(char key);
+  void scrub_to(double x_px);
+  FreeCamera* moved_camera();
+};
+
+}  // namespace vantage

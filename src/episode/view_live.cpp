@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "src/episode/interrupt.hpp"
+#include "src/episode/view_window.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+/// For a run of which nothing is kept.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "vantage-view-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw OutputError(name + ": cannot be made");
+    path_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Shows every tick of an episode up to the still one, and lets it wait at the gate.
+struct LivePlayer {
+  ViewLink& link;
+  PlaybackGate& gate;
+  const ViewOptions& options;
+  std::vector<double> state = {};
+  bool still_shown = false;
+
+  void tick(const World& world) {
+    const bool begins = state.empty();
+    state = world.state();
+    if (!still_shown) {
+      still_shown = options.at_s && world.time_s() >= *options.at_s - 1e-9;
+      if (still_shown) gate.pause();
+      link.show(state, link.events(), still_shown);
+    }
+    // An episode that has not begun cannot be interrupted yet.
+    if (begins || gate.wait(world.options().control_period_s)) return;
+    throw_if_interrupted();
+    throw Interrupted(SIGINT);
+  }
+};
+
+}  // namespace
+
+ExitCode view_live(const ResolvedEpisode& resolved, const ViewOptions& options,
+                   const RunOptions& run_options) {
+  const auto player = [&](ViewLink& link, PlaybackGate& gate) {
+    std::optional<ScratchFolder> scratch;
+    RunOptions run_as = run_options;
+    if (run_as.directory.empty()) {
+      run_as.directory = scratch.emplace().path();
+      run_as.lean = true;
+    }
+    LivePlayer live{link, gate, options};
+    run_as.spectator.on_tick = [&](const World& world) { live.tick(world); };
+    run_as.spectator.on_event = [&](const StoryEvent& event) { link.tell(event); };
+    const ExitCode code = run(resolved, run_as).code;
+    if (!live.still_shown) link.show(live.state, link.events(), !options.screenshot.empty());
+    return code;
+  };
+  return show_in_window({resolved, "vantage: " + resolved.name, std::nullopt}, options, player);
+}
+
+}  // namespace vantage

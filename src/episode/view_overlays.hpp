@@ -1,0 +1,36 @@
+/// What is laid over the picture of the world: the map, the views weighed, words.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/episode/map_view.hpp"
+#include "src/episode/story.hpp"
+
+namespace vantage {
+
+/// Occupied cells as draw_voxels() shows them, but for those that the scene of the canvas hides.
+/// A cell belongs to a surface, and is not hidden by it.
+void lay_map(MapCanvas& canvas, const MapCamera& camera, const OccupancyGrid& grid);
+
+/// Views as pyramids, coloured by their gain from the lowest to the highest; unreachable ones grey,
+/// the chosen one white and larger; the way there.
+void lay_views(MapCanvas& canvas, const MapCamera& camera, const StoryMoment& known);
+
+struct ViewCaptions {
+  std::string scene;     ///< top left
+  std::string playback;  ///< top right
+  std::string gain_unit;
+  std::optional<Decision> decision;  ///< whose gains want a legend
+  std::optional<double> progress;    ///< share of the timeline
+  bool help = false;
+};
+void lay_captions(cv::Mat& bgr, const ViewCaptions& captions);
+
+/// Of the timeline at the foot of a picture.
+double timeline_height_px(int picture_height_px);
+
+}  // namespace vantage

@@ -1,0 +1,133 @@
+#include "src/episode/view_painter.hpp"
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/camera.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kFovy_rad = 0.7853981633974483;
+/// Round the region of the map, for the robot beside it.
+constexpr double kMargin_m = 1.2;
+/// Of the half diagonal of the region, which is seen obliquely in a picture wider than high.
+constexpr double kRegionShare = 0.75;
+constexpr double kBodyMiddle_m = 0.7;
+
+MapCamera camera_of(const RenderedImages& image) {
+  MapCamera camera;
+  camera.T_camera_world = image.T_world_camera.inverse();
+  camera.focal_px = image.focal_px;
+  camera.centre_px = {0.5 * (image.width_px - 1), 0.5 * (image.height_px - 1)};  // of the pixels
+  return camera;
+}
+
+/// Colours, and depth if there is any.
+MapCanvas canvas_of(RenderedImages& image) {
+  MapCanvas canvas;
+  const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3, image.rgb.data());
+  cv::cvtColor(rgb, canvas.bgr, cv::COLOR_RGB2BGR);
+  if (image.depth_m.empty()) return canvas;
+  canvas.inverse_depth = cv::Mat(rgb.size(), CV_32F);
+  std::ranges::transform(image.depth_m, canvas.inverse_depth.begin<float>(),
+                         [](float depth_m) { return depth_m > 0.0F ? 1.0F / depth_m : 0.0F; });
+  return canvas;
+}
+
+/// Leaves nothing but the colours in `image`.
+void set_colours(RenderedImages& image, const cv::Mat& bgr) {
+  cv::Mat rgb(bgr.size(), CV_8UC3, image.rgb.data());
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  image.depth_m.clear();
+  image.segmentation.clear();
+}
+
+}  // namespace
+
+FreeCamera overview_of(const World& world, const Episode& episode) {
+  const auto& size_m = episode.map.size_m;
+  const double radius_m = 0.5 * kRegionShare * std::hypot(size_m[0], size_m[1]) + kMargin_m;
+  FreeCamera camera{
+      .lookat_m = Eigen::Vector3d(episode.map.centre_m[0], episode.map.centre_m[1], kBodyMiddle_m),
+      .distance_m = radius_m / std::sin(0.5 * kFovy_rad),
+      .azimuth_rad = 0.8,
+      .elevation_rad = -0.6,
+      .fovy_rad = kFovy_rad,
+      .cutaway_m = radius_m};
+  if (const auto id = find_model_id(world.model(), ModelObject::camera, "overview")) {
+    const Eigen::Vector3d forward =
+        T_world_camera(world.model(), world.snapshot(), *id).linear().col(2);
+    camera.azimuth_rad = std::atan2(forward.y(), forward.x());
+    camera.elevation_rad = std::asin(std::clamp(forward.z(), -1.0, 1.0));
+  }
+  return camera;
+}
+
+FreeCamera follow_of_robot() {
+  return {.lookat_m = {0.0, 0.0, kBodyMiddle_m},
+          .distance_m = 3.0,
+          .azimuth_rad = 0.8,
+          .elevation_rad = -0.5,
+          .fovy_rad = kFovy_rad,
+          .cutaway_m = 1.5};
+}
+
+ViewPainter::ViewPainter(World& world, const Episode& episode)
+    : world_(world), episode_(episode), robot_(world.model()), known_(episode.grid_frame()) {}
+
+CameraView ViewPainter::camera_for(const ViewControls& controls) const {
+  if (controls.camera == ViewCamera::robot) return FixedCamera{.camera_id = robot_.camera_id()};
+  if (controls.camera == ViewCamera::overview) return controls.overview;
+  FreeCamera camera = controls.follow;
+  const Pose2 base = robot_.T_world_base(world_);
+  camera.lookat_m += Eigen::Vector3d(base.x_m, base.y_m, 0.0);
+  return camera;
+}
+
+Renderer& ViewPainter::renderer_of(PixelSize size) {
+  if (!renderer_ || PixelSize{renderer_->width_px(), renderer_->height_px()} != size) {
+    renderer_ = nullptr;  // the memory of one is enough
+    renderer_ = make_offscreen_renderer(world_.model(), size.width_px, size.height_px);
+  }
+  return *renderer_;
+}
+
+ViewPicture ViewPainter::paint(const ViewLink::Work& work) {
+  const ViewControls& controls = work.controls;
+  story_.insert(story_.end(), work.new_events.begin(), work.new_events.end());
+  known_.go_to(story_, work.moment.events);
+  world_.set_state(work.moment.state);
+  RenderRequest request;
+  request.shadows = true;
+  request.depth_and_segmentation = controls.map || controls.gains;
+  ViewPicture picture{{}, world_.time_s(), work.moment.still};
+  renderer_of(controls.size)
+      .render(world_.model(), world_.snapshot(), camera_for(controls), request, picture.image);
+
+  MapCanvas canvas = canvas_of(picture.image);
+  const MapCamera camera = camera_of(picture.image);
+  if (controls.map) lay_map(canvas, camera, known_.grid());
+  if (controls.gains) lay_views(canvas, camera, known_);
+  lay_captions(canvas.bgr, captions_for(controls, picture.time_s));
+  set_colours(picture.image, canvas.bgr);
+  return picture;
+}
+
+ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time_s) const {
+  ViewCaptions captions;
+  captions.scene = fmt::format("{}    {:.2f} s    scan {} of {}", method_name(episode_), time_s,
+                               known_.scans(), episode_.scans);
+  captions.playback = controls.playback;
+  captions.gain_unit = unit_of(episode_.gain);
+  if (controls.gains) captions.decision = known_.decision();
+  if (controls.duration_s) captions.progress = time_s / *controls.duration_s;
+  captions.help = controls.help;
+  return captions;
+}
+
+}  // namespace vantage

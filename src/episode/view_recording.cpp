@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ranges>
+
+#include "src/core/log.hpp"
+#include "src/episode/interrupt.hpp"
+#include "src/episode/recording.hpp"
+#include "src/episode/view_window.hpp"
+
+namespace vantage {
+namespace {
+
+/// Positions are the recorded states, and one more: the last state with all that followed it.
+struct RecordedPlayer {
+  RecordedStates states;
+  std::vector<StoryEvent> story;
+  double tick_s = 0.0;
+
+  [[nodiscard]] std::size_t end() const { return states.count(); }
+  [[nodiscard]] std::size_t state_at(std::size_t position) const {
+    return std::min(position, states.count() - 1);
+  }
+  [[nodiscard]] double time_s(std::size_t position) const {
+    return states.state(state_at(position))[0];
+  }
+  /// The first position at that time or later.
+  [[nodiscard]] std::size_t position_at(double wanted_s) const {
+    const auto positions = std::views::iota(std::size_t{0}, end());
+    const auto found = std::ranges::partition_point(
+        positions, [&](std::size_t position) { return time_s(position) < wanted_s - 1e-9; });
+    return static_cast<std::size_t>(found - positions.begin());
+  }
+  [[nodiscard]] std::size_t events_at(std::size_t position) const {
+    if (position == end()) return story.size();
+    const auto after = std::ranges::lower_bound(story, position, {}, &StoryEvent::tick);
+    return static_cast<std::size_t>(after - story.begin());
+  }
+
+  void play(ViewLink& link, PlaybackGate& gate, std::size_t position, bool still) const {
+    for (const StoryEvent& event : story) link.tell(event);
+    while (true) {
+      const auto state = states.state(state_at(position));
+      if (still || position == end()) gate.pause();
+      link.show({state.begin(), state.end()}, events_at(position), still);
+      if (!gate.wait(tick_s)) return;
+      const auto wanted_s = gate.take_seek();
+      position = wanted_s ? position_at(*wanted_s) : std::min(position + 1, end());
+    }
+  }
+};
+
+/// Runs of before there were stories can still be looked at.
+std::vector<StoryEvent> story_of(const std::filesystem::path& run_dir, const Episode& episode) {
+  const auto path = run_dir / "story.bin";
+  if (std::filesystem::exists(path)) return read_story(path, episode.grid_frame().size());
+  log_warning(path.string() + ": missing; there is neither map nor gains to show");
+  return {};
+}
+
+}  // namespace
+
+ExitCode view_recording(const std::filesystem::path& run_dir, const ViewOptions& options) {
+  const ResolvedEpisode resolved = load_recorded(run_dir);
+  RecordedPlayer recorded;
+  const World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
+  recorded.states = load_states(run_dir, world);
+  recorded.story = story_of(run_dir, resolved.episode);
+  recorded.tick_s = resolved.episode.simulation.control_period_s;
+  const bool still = !options.screenshot.empty();
+  std::size_t first = still ? recorded.end() : 0;
+  if (options.at_s) first = recorded.position_at(*options.at_s);
+  const auto player = [&](ViewLink& link, PlaybackGate& gate) {
+    recorded.play(link, gate, first, still);
+    return interrupt_signal() == 0 ? ExitCode::done : Interrupted(interrupt_signal()).code();
+  };
+  return show_in_window({resolved, "vantage: " + run_dir.string(), recorded.time_s(recorded.end())},
+                        options, player);
+}
+
+}  // namespace vantage

@@ -1,0 +1,181 @@
+#include "src/episode/view_window.hpp"
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "src/core/atomic_file.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/interrupt.hpp"
+#include "src/episode/view_input.hpp"
+#include "src/episode/view_painter.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPoll_s = 1.0 / 60.0;
+/// The painter leaves a core to the simulation.
+constexpr std::chrono::milliseconds kBetweenPictures{30};
+
+void write_png(const std::filesystem::path& path, RenderedImages image) {
+  const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3, image.rgb.data());
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  write_file_with(path, [&](const auto& part) { return cv::imwrite(part.string(), bgr); });
+}
+
+/// The painter's and the player's threads, which end with it.
+class Crew {
+ public:
+  Crew(const Episode& episode, World& world, const Player& player, double speed) : gate(speed) {
+    painter_ = std::thread([&, episode] { guarded([&] { paint(world, episode); }); });
+    player_ = std::thread([&] {
+      guarded([&] { code_ = player(link, gate); });
+      ended_ = true;
+    });
+  }
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+  ~Crew() { dismiss(); }
+
+  /// @return what the player came to. @throws what a thread threw
+  ExitCode finish() {
+    dismiss();
+    link.rethrow();
+    return code_;
+  }
+
+  [[nodiscard]] bool ended() const { return ended_; }  ///< the player is
+
+  ViewLink link;
+  PlaybackGate gate;
+
+ private:
+  void guarded(const std::function<void()>& work) {
+    try {
+      work();
+    } catch (...) {
+      link.fail(std::current_exception());
+    }
+  }
+  void paint(World& world, const Episode& episode) {
+    ViewPainter painter(world, episode);
+    while (const auto work = link.wait_for_work()) {
+      const auto next = std::chrono::steady_clock::now() + kBetweenPictures;
+      link.deliver(painter.paint(*work));
+      std::this_thread::sleep_until(next);
+    }
+  }
+  void dismiss() {
+    gate.close();
+    link.close();
+    if (painter_.joinable()) painter_.join();
+    if (player_.joinable()) player_.join();
+  }
+
+  ExitCode code_ = ExitCode::done;
+  std::atomic<bool> ended_ = false;
+  std::thread painter_;
+  std::thread player_;
+};
+
+ViewControls first_controls(const World& world, const ViewSubject& subject,
+                            const ViewOptions& options) {
+  ViewControls controls{.camera = options.camera,
+                        .overview = overview_of(world, subject.resolved.episode),
+                        .follow = follow_of_robot(),
+                        .map = options.map,
+                        .gains = options.gains,
+                        .playback = {},
+                        .duration_s = std::nullopt};
+  if (options.screenshot.empty()) controls.duration_s = subject.duration_s;
+  return controls;
+}
+
+std::string playback_text(const Crew& crew, bool recorded) {
+  std::string pace = fmt::format("{:g} x", crew.gate.speed());
+  if (crew.gate.paused()) pace = "paused";
+  if (crew.ended()) pace = "ended";
+  return fmt::format("{}    {}    h: help", recorded ? "recording" : "live", pace);
+}
+
+/// Until the window is closed or the picture of the still moment is taken.
+void take_still(Window& window, Crew& crew, ViewControls controls, const ViewOptions& options) {
+  crew.link.set_controls(controls);
+  while (!window.closed() && interrupt_signal() == 0) {
+    window.wait(kPoll_s);
+    crew.link.rethrow();
+    if (controls.size != window.size()) {
+      controls.size = window.size();
+      crew.link.set_controls(controls);
+    }
+    const auto picture = crew.link.take_picture();
+    if (!picture) continue;
+    const PixelSize drawn{picture->image.width_px, picture->image.height_px};
+    if (!picture->still || drawn != window.size()) {
+      window.show(picture->image);
+      continue;
+    }
+    write_png(options.screenshot, window.show_and_read(picture->image));
+    return;
+  }
+  throw Interrupted(interrupt_signal() == 0 ? SIGINT : interrupt_signal());
+}
+
+void keep_open(Window& window, Crew& crew, ViewControls controls, const ViewSubject& subject) {
+  ViewInput input{.controls = controls,
+                  .gate = crew.gate,
+                  .tick_s = subject.resolved.episode.simulation.control_period_s};
+  RenderedImages shown;
+  while (!window.closed() && !input.quit && interrupt_signal() == 0) {
+    const auto events = window.wait(kPoll_s);
+    for (const WindowEvent& event : events) std::visit(input, event);
+    crew.link.rethrow();
+    const std::string playback = playback_text(crew, subject.duration_s.has_value());
+    if (!events.empty() || playback != controls.playback || controls.size != window.size()) {
+      controls.playback = playback;
+      controls.size = window.size();
+      crew.link.set_controls(controls);
+    }
+    if (auto picture = crew.link.take_picture()) {
+      input.shown_s = picture->time_s;
+      shown = std::move(picture->image);
+      window.show(shown);
+    }
+    if (!std::exchange(input.screenshot, false) || shown.rgb.empty()) continue;
+    const auto file = fmt::format("vantage-view-{:.2f}s.png", input.shown_s);
+    write_png(file, window.show_and_read(shown));
+    log_info("written: " + file);
+  }
+}
+
+}  // namespace
+
+ExitCode show_in_window(const ViewSubject& subject, const ViewOptions& options,
+                        const Player& player) {
+  catch_interrupts();
+  std::optional<Window> window;
+  window.emplace(subject.title, options.size);
+  const Episode& episode = subject.resolved.episode;
+  World world({subject.resolved.scene, subject.resolved.robot}, episode.simulation);
+  const ViewControls controls = first_controls(world, subject, options);
+  const bool still = !options.screenshot.empty();
+  Crew crew(episode, world, player, still ? std::numeric_limits<double>::infinity() : 1.0);
+  if (still) {
+    take_still(*window, crew, controls, options);
+  } else {
+    keep_open(*window, crew, controls, subject);
+  }
+  window.reset();  // an episode may take a moment to write what there is
+  const ExitCode code = crew.finish();
+  return still && code == ExitCode::interrupted ? ExitCode::done : code;
+}
+
+}  // namespace vantage

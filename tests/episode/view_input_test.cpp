@@ -1,0 +1,116 @@
+#include "src/episode/view_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include "src/episode/view_painter.hpp"
+
+namespace vantage {
+namespace {
+
+class ViewInputTest : public testing::Test {
+ protected:
+  ViewInputTest() {
+    controls.size = {900, 600};
+    controls.overview = controls.follow = follow_of_robot();
+    gate.pause();  // so that a wait returns at once or not at all
+  }
+  void type(const std::string& text) {
+    for (const char key : text) input(KeyPressed{key});
+  }
+  /// Where playing goes on, if it was told to go elsewhere.
+  std::optional<double> seek() { return gate.take_seek(); }
+
+  ViewControls controls;
+  PlaybackGate gate{1.0};
+  ViewInput input{.controls = controls, .gate = gate, .shown_s = 8.0, .tick_s = 0.025};
+};
+
+TEST_F(ViewInputTest, KeysToggle) {
+  type("mgh");
+  EXPECT_TRUE(controls.map && controls.gains && controls.help);
+  type("MGH");
+  EXPECT_FALSE(controls.map || controls.gains || controls.help);
+  type("s");
+  EXPECT_TRUE(input.screenshot);
+  EXPECT_FALSE(input.quit);
+  type("q");
+  EXPECT_TRUE(input.quit);
+}
+
+TEST_F(ViewInputTest, CamerasInTurn) {
+  for (const ViewCamera expected : {ViewCamera::follow, ViewCamera::robot, ViewCamera::overview}) {
+    type("c");
+    EXPECT_EQ(controls.camera, expected);
+  }
+}
+
+TEST_F(ViewInputTest, PauseStepAndPace) {
+  type(" ");
+  EXPECT_FALSE(gate.paused());
+  type(".");
+  EXPECT_TRUE(gate.paused());
+  EXPECT_TRUE(gate.wait(0.025)) << "the one step";
+  type("+++");
+  EXPECT_EQ(gate.speed(), 8.0);
+  type("----");
+  EXPECT_EQ(gate.speed(), 0.5);
+  type(std::string(40, '+'));
+  EXPECT_EQ(gate.speed(), 64.0);
+}
+
+TEST_F(ViewInputTest, OnlyARecordingGoesBack) {
+  type("r,");
+  input(MousePressed{MouseButton::left, {450.0, 599.0}});
+  EXPECT_FALSE(seek());
+  controls.duration_s = 20.0;
+  type("r");
+  EXPECT_EQ(seek(), 0.0);
+  type(",");
+  EXPECT_EQ(seek(), 8.0 - 0.025);
+  input(KeyPressed{keys::page_up});
+  EXPECT_EQ(seek(), 3.0);
+  input(KeyPressed{keys::page_down});
+  EXPECT_EQ(seek(), 13.0);
+  input(KeyPressed{keys::end});
+  EXPECT_GT(seek(), 20.0);
+}
+
+TEST_F(ViewInputTest, TheTimelineIsDragged) {
+  controls.duration_s = 20.0;
+  const double before_rad = controls.overview.azimuth_rad;
+  input(MousePressed{MouseButton::left, {0.0, 599.0}});
+  EXPECT_EQ(seek(), 0.0);
+  input(MouseDragged{MouseButton::left, {449.5, 300.0}, {449.5, -299.0}});
+  EXPECT_NEAR(*seek(), 10.0, 0.02);
+  input(MouseDragged{MouseButton::left, {5000.0, 300.0}, {1.0, 0.0}});
+  EXPECT_GT(seek(), 20.0) << "the end, with what followed the last tick";
+  EXPECT_EQ(controls.overview.azimuth_rad, before_rad);
+  input(MousePressed{MouseButton::left, {450.0, 300.0}});
+  input(MouseDragged{MouseButton::left, {460.0, 300.0}, {10.0, 0.0}});
+  EXPECT_FALSE(seek());
+  EXPECT_NE(controls.overview.azimuth_rad, before_rad);
+}
+
+TEST_F(ViewInputTest, TheMouseMovesTheCameraInUse) {
+  const FreeCamera before = controls.overview;
+  input(MouseDragged{MouseButton::left, {0, 0}, {60.0, 0.0}});
+  EXPECT_NE(controls.overview.azimuth_rad, before.azimuth_rad);
+  EXPECT_EQ(controls.overview.lookat_m, before.lookat_m);
+  input(MouseDragged{MouseButton::right, {0, 0}, {60.0, 0.0}});
+  EXPECT_NE(controls.overview.lookat_m, before.lookat_m);
+  input(WheelTurned{1.0});
+  EXPECT_LT(controls.overview.distance_m, before.distance_m);
+  EXPECT_EQ(controls.follow.azimuth_rad, before.azimuth_rad);
+  type("c");
+  input(WheelTurned{1.0});
+  EXPECT_LT(controls.follow.distance_m, before.distance_m);
+  type("c");
+  const FreeCamera follow = controls.follow;
+  input(WheelTurned{1.0});  // the robot's own camera is where it is
+  input(MouseDragged{MouseButton::left, {0, 0}, {60.0, 0.0}});
+  EXPECT_EQ(controls.follow.distance_m, follow.distance_m);
+  EXPECT_EQ(controls.follow.azimuth_rad, follow.azimuth_rad);
+}
+
+}  // namespace
+}  // namespace vantage
