@@ -10,7 +10,7 @@
 
 #include "src/commands.hpp"
 #include "src/core/data_root.hpp"
-#include "src/episode/view.hpp"
+#include "src/view/view.hpp"
 
 namespace vantage {
 namespace {

@@ -49,9 +49,10 @@ const std::map<std::string, std::vector<std::string>> kAllowed{
     {"episode",
      {"core", "geometry", "information", "perception", "belief", "planners", "sim", "models"}},
     {"study", {"core", "information", "episode"}},
+    {"view", {"core", "geometry", "belief", "planners", "sim", "episode"}},
     {"main",
      {"core", "geometry", "information", "perception", "belief", "planners", "sim", "models",
-      "episode", "study"}},
+      "episode", "study", "view"}},
 };
 
 /// Where the headers of a library may appear.
@@ -67,7 +68,7 @@ const std::vector<LibraryRule> kLibraries{
     {"GLFW/", {"sim"}},
     {"embree", {"sim"}},
     {"octomap/", {"belief"}, true},
-    {"opencv2/", {"perception", "episode"}},
+    {"opencv2/", {"perception", "episode", "view"}},
     {"nanoflann", {"perception"}},
     {"yaml-cpp/", {"core"}, true},
     {"spdlog/", {"core"}, true},

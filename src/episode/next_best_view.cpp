@@ -91,7 +91,7 @@ std::vector<Candidate> NextBestView::propose() {
 }
 
 void NextBestView::score(std::vector<Candidate>& candidates) {
-  if (weighs_gain(episode_.choice)) {
+  if (weighs_gain(episode_.choice) || recorder_.tells_story()) {
     const auto transmission = belief_.hazard().transmission_per_slice();
     const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
                                        candidates, rig_.view_field(), episode_.threads);

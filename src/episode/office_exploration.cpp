@@ -146,7 +146,7 @@ std::vector<Candidate> OfficeExploration::find_views() {
 std::vector<Candidate> OfficeExploration::propose() { return views_; }
 
 void OfficeExploration::score(std::vector<Candidate>& candidates) {
-  if (weighs_gain(episode_.choice)) {
+  if (weighs_gain(episode_.choice) || recorder_.tells_story()) {
     const auto transmission = belief_.hazard().transmission_per_slice();
     const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
                                        candidates, rig_.view_field(), episode_.threads);

@@ -32,6 +32,8 @@ class Recorder {
   void set_panel(std::function<MapPanelInput()> panel);
   /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
   void scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid);
+  /// Whether somebody will look at decisions and what they were made by.
+  [[nodiscard]] bool tells_story() const { return story_ || spectator_.on_event; }
   /// What was chosen among, and the way that was planned to it.
   void decision(const std::vector<Candidate>& candidates, std::size_t chosen);
   void way(const std::vector<Pose2>& waypoints);
@@ -46,7 +48,6 @@ class Recorder {
  private:
   void tick();
   void pose_rows();
-  [[nodiscard]] bool tells_story() const { return story_ || spectator_.on_event; }
   void tell(StoryEvent event);
   void add_occupied_voxels(const OccupancyGrid& grid, std::size_t step);
   void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);

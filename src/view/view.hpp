@@ -9,7 +9,7 @@
 #include "sim/window.hpp"
 #include "src/episode/run.hpp"
 #include "src/episode/scenario.hpp"
-#include "src/episode/view_link.hpp"
+#include "src/view/link.hpp"
 
 namespace vantage {
 

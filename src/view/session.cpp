@@ -1,4 +1,4 @@
-#include "src/episode/view_window.hpp"
+#include "src/view/session.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -14,8 +14,8 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/interrupt.hpp"
-#include "src/episode/view_input.hpp"
-#include "src/episode/view_painter.hpp"
+#include "src/view/input.hpp"
+#include "src/view/painter.hpp"
 
 namespace vantage {
 namespace {

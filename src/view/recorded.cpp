@@ -6,7 +6,7 @@
 #include "src/core/log.hpp"
 #include "src/episode/interrupt.hpp"
 #include "src/episode/recording.hpp"
-#include "src/episode/view_window.hpp"
+#include "src/view/session.hpp"
 
 namespace vantage {
 namespace {

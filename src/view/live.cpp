@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "src/episode/interrupt.hpp"
-#include "src/episode/view_window.hpp"
+#include "src/view/session.hpp"
 
 namespace vantage {
 namespace {

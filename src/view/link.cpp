@@ -1,4 +1,4 @@
-#include "src/episode/view_link.hpp"
+#include "src/view/link.hpp"
 
 #include <utility>
 

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "sim/world.hpp"
-#include "src/episode/playback_gate.hpp"
-#include "src/episode/view.hpp"
+#include "src/view/playback_gate.hpp"
+#include "src/view/view.hpp"
 
 namespace vantage {
 

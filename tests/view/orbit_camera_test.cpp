@@ -1,4 +1,4 @@
-#include "src/episode/orbit_camera.hpp"
+#include "src/view/orbit_camera.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,11 +1,11 @@
-#include "src/episode/view_input.hpp"
+#include "src/view/input.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <limits>
 
-#include "src/episode/orbit_camera.hpp"
-#include "src/episode/view_overlays.hpp"
+#include "src/view/orbit_camera.hpp"
+#include "src/view/overlays.hpp"
 
 namespace vantage {
 namespace {

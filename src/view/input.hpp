@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sim/window.hpp"
-#include "src/episode/playback_gate.hpp"
-#include "src/episode/view_link.hpp"
+#include "src/view/link.hpp"
+#include "src/view/playback_gate.hpp"
 
 namespace vantage {
 

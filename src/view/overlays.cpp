@@ -1,4 +1,4 @@
-#include "src/episode/view_overlays.hpp"
+#include "src/view/overlays.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>

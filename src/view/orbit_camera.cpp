@@ -1,4 +1,4 @@
-#include "src/episode/orbit_camera.hpp"
+#include "src/view/orbit_camera.hpp"
 
 #include <algorithm>
 #include <cmath>

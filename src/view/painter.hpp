@@ -9,8 +9,8 @@
 #include "sim/renderer.hpp"
 #include "sim/world.hpp"
 #include "src/episode/scenario.hpp"
-#include "src/episode/view_link.hpp"
-#include "src/episode/view_overlays.hpp"
+#include "src/view/link.hpp"
+#include "src/view/overlays.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/episode/playback_gate.hpp"
+#include "src/view/playback_gate.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "src/episode/view_painter.hpp"
+#include "src/view/painter.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>

@@ -1,8 +1,8 @@
-#include "src/episode/view_input.hpp"
+#include "src/view/input.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/episode/view_painter.hpp"
+#include "src/view/painter.hpp"
 
 namespace vantage {
 namespace {
