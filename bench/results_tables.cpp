@@ -52,6 +52,13 @@ std::optional<double> StudySummary::ratio(const std::string& table, const std::s
   return difference.at("ratio").get<double>();
 }
 
+bool StudySummary::above_reference(const std::string& table, const std::string& panel,
+                                   const std::string& level) const {
+  const Json* found = entry(table, panel, level);
+  return found != nullptr && found->contains("difference") &&
+         found->at("difference").at("interval")[0].get<double>() > 0.0;
+}
+
 std::vector<std::string> StudySummary::panels(const std::string& table) const {
   std::vector<std::string> names;
   for (const auto& [panel, levels] : json_.at("tables").at(table).items()) {

@@ -28,6 +28,10 @@ class StudySummary {
   /// To the reference level, of the same starts.
   [[nodiscard]] std::optional<double> ratio(const std::string& table, const std::string& panel,
                                             const std::string& level) const;
+  /// Whether the interval of the difference to the reference level lies above 0; not for that
+  /// level.
+  [[nodiscard]] bool above_reference(const std::string& table, const std::string& panel,
+                                     const std::string& level) const;
   /// Those of the table but "all", in order.
   [[nodiscard]] std::vector<std::string> panels(const std::string& table) const;
   [[nodiscard]] std::vector<std::string> levels(const std::string& table) const;
