@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 namespace vantage::bench {
 namespace {
@@ -161,7 +162,7 @@ std::vector<Finding> prediction_findings(const StudySummary& study) {
 }
 
 std::vector<Finding> office_findings(const StudySummary& study, const std::string& figure,
-                                     const std::string& scans_claimed) {
+                                     const ScansClaimed& claimed) {
   const auto all = [&](const char* table, const char* level) {
     return study.mean(table, "all", level).value_or(0.0);
   };
@@ -180,9 +181,11 @@ std::vector<Finding> office_findings(const StudySummary& study, const std::strin
        all("area", "probabilistic_0.9999") <= 1.05 * study.mean("area", "all", best).value_or(0.0),
        "see the paired differences in the table"});
   findings.push_back(
-      {figure, fmt::format("it takes {} scans", scans_claimed),
+      {figure, fmt::format("it takes {} to {} scans", claimed.fewest, claimed.most),
        fmt::format("{:.1f} scans until no frontier is left", all("scans", "probabilistic_0.9999")),
-       false, "other scenes, and frontiers are worked off to the last cluster"});
+       all("scans", "probabilistic_0.9999") >= claimed.fewest &&
+           all("scans", "probabilistic_0.9999") <= claimed.most,
+       "other scenes, and frontiers are worked off to the last cluster"});
   findings.push_back(
       {figure, "`nearest_frontier` travels least, but needs about twice the scans",
        fmt::format("{:.0f} m and {:.1f} scans, `simple` {:.0f} m and {:.1f} scans",

@@ -23,8 +23,12 @@ using Figures = std::map<std::string, Json>;
 std::vector<Finding> speed_findings(const Figures& figures);
 std::vector<Finding> tabletop_findings(const StudySummary& study);
 std::vector<Finding> prediction_findings(const StudySummary& study);
-/// @param scans_claimed that the dissertation's best method takes, "20-25"
+/// Scans that the dissertation's best method takes.
+struct ScansClaimed {
+  int fewest = 0;
+  int most = 0;
+};
 std::vector<Finding> office_findings(const StudySummary& study, const std::string& figure,
-                                     const std::string& scans_claimed);
+                                     const ScansClaimed& claimed);
 
 }  // namespace vantage::bench

@@ -1,6 +1,7 @@
 // Writes bench/RESULTS.md from what benchmarks and studies left in bench/results.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bench/claims.hpp"
@@ -39,10 +40,23 @@ const std::vector<StudyPart>& study_parts() {
        {"predictors"},
        prediction_findings},
       {"office_small", "Small office (Fig. 3.15)", tables,
-       [](const StudySummary& study) { return office_findings(study, "Fig. 3.15", "20-25"); }},
-      {"office_large", "Large office (Fig. 3.16)", tables,
-       [](const StudySummary& study) { return office_findings(study, "Fig. 3.16", "60-70"); }}};
+       [](const StudySummary& study) {
+         return office_findings(study, "Fig. 3.15", {20, 25});
+       }},
+      {"office_large", "Large office (Fig. 3.16)", tables, [](const StudySummary& study) {
+         return office_findings(study, "Fig. 3.16", {60, 70});
+       }}};
   return parts;
+}
+
+/// The folder's files of that extension, by name.
+std::vector<fs::path> files_in(const fs::path& folder, std::string_view extension) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == extension) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
 }
 
 std::string findings_table(const std::vector<Finding>& findings) {
@@ -81,9 +95,8 @@ Figure scaling_figure(const Json& figures) {
 void write_results(const fs::path& directory) {
   Figures figures;
   std::string machine;
-  for (const auto& entry : fs::directory_iterator(directory)) {
-    if (entry.path().extension() != ".json") continue;
-    const Json benchmark = read_json(entry.path());
+  for (const fs::path& file : files_in(directory, ".json")) {
+    const Json benchmark = read_json(file);
     figures.emplace(benchmark.at("name").get<std::string>(), benchmark.at("figures"));
     machine =
         fmt::format("{}, {} threads, commit {}", benchmark.at("cpu").get<std::string>(),
@@ -107,10 +120,9 @@ void write_results(const fs::path& directory) {
       if (!study.has(table)) continue;
       text += fmt::format("\n### {}: {}\n\n{}", part.title, table, study.markdown(table));
     }
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() != ".svg") continue;
-      text += fmt::format("\n![{}](results/{}/{})\n", entry.path().stem().string(), part.name,
-                          entry.path().filename().string());
+    for (const fs::path& picture : files_in(folder, ".svg")) {
+      text += fmt::format("\n![{}](results/{}/{})\n", picture.stem().string(), part.name,
+                          picture.filename().string());
     }
   }
   write_file(directory.parent_path() / "RESULTS.md", text);

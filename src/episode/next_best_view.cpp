@@ -32,7 +32,9 @@ NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Re
       choice_rng_(Rng::stream(episode_.seed, "view choice")) {
   const Eigen::AlignedBox3d region = belief_.grid().frame.box();
   block_box(navigator_.floor(), {region.min().head<2>(), region.max().head<2>()});
-  for (const Candidate& view : views_) truth_.add_observable({&view.T_world_sensor, 1});
+  std::vector<Pose> T_world_views;
+  for (const Candidate& view : views_) T_world_views.push_back(view.T_world_sensor);
+  truth_.add_observable(T_world_views);
   recorder_.set_panel([this] { return panel(); });
   navigator_.on_plan = [this](const PlannedPath& path) { recorder_.way(path.waypoints); };
   if (truth_.observable_cells() == 0) log_warning("map: none of the views sees any of its cells");

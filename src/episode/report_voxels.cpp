@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "src/core/atomic_file.hpp"
+#include "src/core/bytes.hpp"
 #include "src/core/error.hpp"
 #include "src/episode/report_data.hpp"
 #include "src/geometry/grid_frame.hpp"
@@ -18,19 +18,6 @@ constexpr std::size_t kHeaderBytes = 8 + 9 * sizeof(double) + sizeof(std::uint64
 constexpr std::size_t kRecordBytes = 16;
 constexpr int kMaxCellsPerAxis = 65535;
 constexpr std::size_t kMaxCells = 256U << 20;
-
-template <class T>
-void put(std::string& bytes, T value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-template <class T>
-T take(std::string_view& bytes) {
-  T value;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  bytes.remove_prefix(sizeof value);
-  return value;
-}
 
 GridFrame frame_of(const VoxelMap& map) {
   GridFrame frame;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string_view>
 
+#include "src/core/bytes.hpp"
 #include "src/core/error.hpp"
 
 namespace vantage {
@@ -14,19 +14,6 @@ namespace {
 
 constexpr std::string_view kMagic = "VANTAGE STORY 1\n";
 constexpr std::array<std::size_t, 3> kEntryBytes{12, 14 * sizeof(double), 2 * sizeof(double)};
-
-template <class T>
-void put(std::string& bytes, T value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-template <class T>
-T take(std::string_view& bytes) {
-  T value;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  bytes.remove_prefix(sizeof value);
-  return value;
-}
 
 struct PutEntries {
   std::string& bytes;
