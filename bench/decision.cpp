@@ -42,11 +42,9 @@ Situation resampled(const Situation& s, double cells_per_cell) {
     result.grid.log_odds[cell] =
         s.grid.log_odds[from.index(from.cell_at(to.centre(to.cell(cell))))];
   }
-  result.transmission.clear();
-  for (int z = 0; z < cells.z(); ++z) {
-    const int slice = from.cell_at(to.centre({0, 0, z})).z();
-    result.transmission.push_back(
-        std::pow(s.transmission[static_cast<std::size_t>(slice)], 1.0 / cells_per_cell));
+  result.transmission.layout.cells = cells;
+  for (double& transmission : result.transmission.per_block) {
+    transmission = std::pow(transmission, 1.0 / cells_per_cell);
   }
   return result;
 }

@@ -38,10 +38,10 @@ template <class G>
 void decision(benchmark::State& state) {
   const auto views = ring_of_views(RingOfViews{}, Eigen::Vector3d::Zero());
   const OccupancyGrid grid = half_explored(views);
-  const std::vector<double> transmission(65, 0.99);
+  const BlockField transmission = uniform_field(grid.frame.cells, 0.99);
   const int threads = static_cast<int>(state.range(0));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(exact_gains_bits(G{}, {grid, transmission}, views, kField, threads));
+    benchmark::DoNotOptimize(exact_gains_bits(G{}, {grid, &transmission}, views, kField, threads));
   }
 }
 

@@ -15,11 +15,11 @@ inline constexpr int kThreads = 2;
 /// What a decision looks at.
 struct Situation {
   OccupancyGrid grid;
-  std::vector<double> transmission;  ///< per z slice
+  BlockField transmission;
   std::vector<Candidate> views;
   FieldOfView field;
 
-  [[nodiscard]] GainContext context() const { return {grid, transmission}; }
+  [[nodiscard]] GainContext context() const { return {grid, &transmission}; }
 };
 
 /// The parts of an episode that keep what every decision looks at.
@@ -30,8 +30,8 @@ class Watched : public Parts {
       : Parts(resolved, rig, recorder), field_(rig.view_field()) {}
 
   void score(std::vector<Candidate>& candidates) {
-    situations.push_back({this->belief().filled_grid(),
-                          this->belief().hazard().transmission_per_slice(), candidates, field_});
+    situations.push_back(
+        {this->belief().filled_grid(), this->belief().hazard().transmission(), candidates, field_});
     Parts::score(candidates);
   }
 

@@ -3,11 +3,12 @@
 #include <string_view>
 
 #include "planners/attenuated_ray.hpp"
+#include "src/core/error.hpp"
 
 namespace vantage {
 
-/// As `beer_lambert`, with the transmission of an unobserved cell estimated on the run, one for
-/// each height: GainContext::transmission_per_slice.
+/// As `beer_lambert`, with the transmission of an unobserved cell estimated on the run, by height
+/// and place: GainContext::transmission.
 struct AdaptiveGain {
   static constexpr std::string_view name = "adaptive";
   static constexpr bool predicts_cells = true;
@@ -17,8 +18,8 @@ struct AdaptiveGain {
   using Ray = AttenuatedRay;
 
   [[nodiscard]] Fading fading(const GainContext& context) const {
-    const auto& learnt = context.transmission_per_slice;
-    return {.transmission_per_slice = {learnt.begin(), learnt.end()}};
+    expects(context.transmission != nullptr, "adaptive needs what was learnt of transmission");
+    return {.transmission = *context.transmission};
   }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
     return fading_tables(context.grid, fading(context));

@@ -13,7 +13,7 @@ float Fading::worth_by_entropy(float log_odds) const {
 CellTables fading_tables(const OccupancyGrid& grid, const Fading& fading) {
   CellTables tables;
   tables.state = cell_states(grid);
-  tables.transmission = cell_transmissions(grid, fading.transmission_per_slice);
+  tables.transmission = cell_transmissions(grid, fading.transmission);
   tables.worth.reserve(grid.size());
   for (const float log_odds : grid.log_odds) tables.worth.push_back(fading.worth_of_cell(log_odds));
   return tables;

@@ -4,7 +4,6 @@
 
 #include <concepts>
 #include <cstddef>
-#include <vector>
 
 #include "planners/cell_tables.hpp"
 
@@ -13,9 +12,9 @@ namespace vantage {
 /// How light fades and what it is worth where it arrives. Free cells let it pass, occupied ones
 /// stop it; seeing either is worth nothing.
 struct Fading {
-  std::vector<double> transmission_per_slice;  ///< of the unobserved cells of each z slice
-  double worth = 1.0;                          ///< of an unobserved cell, in the gain's unit
-  bool by_entropy = true;                      ///< times its entropy in bits
+  BlockField transmission;  ///< of the unobserved cells
+  double worth = 1.0;       ///< of an unobserved cell, in the gain's unit
+  bool by_entropy = true;   ///< times its entropy in bits
 
   [[nodiscard]] float worth_of_cell(float log_odds) const {
     if (classify(log_odds) != CellState::unobserved) return 0.0F;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "planners/attenuated_ray.hpp"
 #include "src/core/fields.hpp"
@@ -21,7 +20,7 @@ struct BeerLambertGain {
   using Ray = AttenuatedRay;
 
   [[nodiscard]] Fading fading(const GainContext& context) const {
-    return {.transmission_per_slice = std::vector<double>(context.slices(), a)};
+    return {.transmission = uniform_field(context.grid.frame.cells, a)};
   }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
     return fading_tables(context.grid, fading(context));

@@ -40,18 +40,16 @@ std::vector<float> unobserved_entropies_bits(const OccupancyGrid& grid) {
   });
 }
 
-std::vector<float> cell_transmissions(const OccupancyGrid& grid,
-                                      std::span<const double> per_slice) {
-  const auto slices = static_cast<std::size_t>(grid.frame.cells.z());
-  expects(per_slice.size() == slices, "one transmission per z slice of the grid");
-  const std::size_t cells_per_slice = grid.size() / slices;
+std::vector<float> cell_transmissions(const OccupancyGrid& grid, const BlockField& unobserved) {
+  expects((unobserved.layout.cells == grid.frame.cells).all(),
+          "transmissions for a grid of this size");
   std::vector<float> table(grid.size());
   for (std::size_t cell = 0; cell < table.size(); ++cell) {
     switch (grid.state(cell)) {
       case CellState::free: table[cell] = 1.0F; break;
       case CellState::occupied: table[cell] = 0.0F; break;
       case CellState::unobserved:
-        table[cell] = static_cast<float>(per_slice[cell / cells_per_slice]);
+        table[cell] = static_cast<float>(unobserved.at_cell(grid.frame.cell(cell)));
         break;
     }
   }

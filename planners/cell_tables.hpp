@@ -4,22 +4,18 @@
 
 #include <concepts>
 #include <cstddef>
-#include <span>
 #include <vector>
 
+#include "src/belief/block_field.hpp"
 #include "src/belief/occupancy_grid.hpp"
 
 namespace vantage {
 
 struct GainContext {
   const OccupancyGrid& grid;
-  /// p(a beam passes an unobserved cell), one per z slice of the grid, as learnt on the run;
-  /// `adaptive` needs it, the others do not look.
-  std::span<const double> transmission_per_slice = {};
-
-  [[nodiscard]] std::size_t slices() const {
-    return static_cast<std::size_t>(grid.frame.cells.z());
-  }
+  /// p(a beam passes an unobserved cell), as learnt on the run; `adaptive` needs it, the others do
+  /// not look.
+  const BlockField* transmission = nullptr;
 };
 
 /// One entry per cell, `frame.index` order. A gain fills what it reads and leaves the rest empty.
@@ -36,8 +32,8 @@ std::vector<float> cell_probabilities(const OccupancyGrid& grid);
 std::vector<float> cell_entropies_bits(const OccupancyGrid& grid);
 /// The same with 0 in known cells.
 std::vector<float> unobserved_entropies_bits(const OccupancyGrid& grid);
-/// 1 in free cells, 0 in occupied ones, `per_slice[z]` in unobserved ones.
-std::vector<float> cell_transmissions(const OccupancyGrid& grid, std::span<const double> per_slice);
+/// 1 in free cells, 0 in occupied ones, `unobserved` in unobserved ones.
+std::vector<float> cell_transmissions(const OccupancyGrid& grid, const BlockField& unobserved);
 /// p(a beam ends in the cell it met): p(o) of occupied cells; of the others what p(o) would be had
 /// it started from the prior `opacity_unobserved` instead of 0.5. At 0.5 it is p(o) throughout.
 std::vector<float> cell_opacities(const OccupancyGrid& grid, double opacity_unobserved);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "planners/attenuated_ray.hpp"
 
@@ -18,8 +17,7 @@ struct SimpleGain {
   using Ray = AttenuatedRay;
 
   [[nodiscard]] Fading fading(const GainContext& context) const {
-    return {.transmission_per_slice = std::vector<double>(context.slices(), 1.0),
-            .by_entropy = false};
+    return {.transmission = uniform_field(context.grid.frame.cells, 1.0), .by_entropy = false};
   }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
     return fading_tables(context.grid, fading(context));

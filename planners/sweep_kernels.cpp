@@ -25,8 +25,8 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
   const float* __restrict straight = row.straight;
   const float* __restrict slanted = row.slanted + shift;
   const float* __restrict cells = row.cells;
-  const float straight_depth = row.straight_depth;
-  const float slanted_depth = row.slanted_depth;
+  const float* __restrict straight_depth = row.straight_depth;
+  const float* __restrict slanted_depth = row.slanted_depth + shift;
   const float across = row.across;
   const float source = row.source;
   const float per_layer = 1.0F / row.depth;
@@ -40,9 +40,13 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
     const float own = straight[i];
     const float near = slanted[i];
     const float far = slanted[i + 1];
+    const float near_depth = slanted_depth[i];
+    const float far_depth = slanted_depth[i + 1];
     const float other = fraction < 0.5F ? near : far;
-    const float first = own > 0.0F ? straight_depth : 0.0F;
-    const float second = other > 0.0F ? slanted_depth : 0.0F;
+    const float other_depth = fraction < 0.5F ? near_depth : far_depth;
+    const float own_depth = straight_depth[i];
+    const float first = own > 0.0F ? own_depth : 0.0F;
+    const float second = other > 0.0F ? other_depth : 0.0F;
     const float x = first + (across + std::fabs(along)) * second;
     // exp(-x) = (exp(-x / 8))^8 with a second-order series: 3e-6 off at x = 0.1.
     const float eighth = std::min(0.125F * x, 1.0F);

@@ -20,8 +20,8 @@ struct SweepRow {
   const float* cells;           ///< of this row, as SweepTables::layers has them
   const float* straight;        ///< of the layer before, right before this row
   const float* slanted;         ///< of the layer before, in the row the rays come through
-  float straight_depth = 0.0F;  ///< optical depth of unobserved cells there
-  float slanted_depth = 0.0F;   ///< likewise
+  const float* straight_depth;  ///< optical depth of the cells there, were they unobserved
+  const float* slanted_depth;   ///< likewise
   float source = 0.0F;          ///< place of the sensor along the row, cells
   float depth = 1.0F;           ///< layers from the sensor to this one, >= 1
   float across = 0.0F;          ///< cells that the rays move across the rows, per layer

@@ -35,27 +35,65 @@ SweepAxes sweep_axes(int w) {
 }
 
 SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads)
-    : frame(grid.frame) {
-  const auto slices = static_cast<std::size_t>(frame.cells.z());
-  cells_per_slice_ = grid.size() / slices;
-  expects(fading.transmission_per_slice.size() == slices, "one transmission per z slice");
-  for (const double transmission : fading.transmission_per_slice) {
-    depth_per_slice.push_back(std::min(static_cast<float>(-std::log(transmission)), kOpaque));
+    : frame(grid.frame), blocks_(fading.transmission.layout) {
+  expects((blocks_.cells == frame.cells).all(), "transmissions for a grid of this size");
+  BlockField unobserved = fading.transmission;
+  for (double& depth : unobserved.per_block) {
+    depth = std::min(-std::log(depth), static_cast<double>(kOpaque));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    depth_rows_[static_cast<std::size_t>(axis)] = depth_rows(axis, unobserved);
   }
   for (auto& axis : layers) {
     axis = std::make_unique_for_overwrite<float[]>(grid.size() + kLanes);
     std::fill_n(&axis[grid.size()], kLanes, 0.0F);
   }
+  depth_ = std::make_unique_for_overwrite<float[]>(grid.size());
+  parallel_for(static_cast<std::size_t>(frame.cells.z()), threads,
+               [&](std::size_t z) { fill_slice(grid, fading, static_cast<int>(z)); });
+}
+
+void SweepTables::fill_slice(const OccupancyGrid& grid, const Fading& fading, int z) {
+  const auto nx = static_cast<std::size_t>(frame.cells.x());
   auto& [x_layers, y_layers, z_layers] = layers;
-  parallel_for(slices, threads, [&](std::size_t z) {
-    const std::size_t begin = z * cells_per_slice_;
-    for (std::size_t cell = begin; cell < begin + cells_per_slice_; ++cell) {
-      z_layers[cell] = grid.state(cell) == CellState::occupied
-                           ? -1.0F
-                           : fading.worth_of_cell(grid.log_odds[cell]);
+  const std::size_t begin = frame.index({0, 0, z});
+  std::size_t cell = begin;
+  for (int y = 0; y < frame.cells.y(); ++y) {
+    const float* unobserved = row_of_depths(2, y, z);
+    for (std::size_t x = 0; x < nx; ++x, ++cell) {
+      const bool occupied = grid.state(cell) == CellState::occupied;
+      const float worth = occupied ? -1.0F : fading.worth_of_cell(grid.log_odds[cell]);
+      z_layers[cell] = worth;
+      depth_[cell] = occupied ? kOpaque : worth > 0.0F ? unobserved[x] : 0.0F;
     }
-    distribute(frame, z, &z_layers[begin], x_layers.get(), y_layers.get());
-  });
+  }
+  distribute(frame, static_cast<std::size_t>(z), &z_layers[begin], x_layers.get(), y_layers.get());
+}
+
+SweepTables::DepthRows SweepTables::depth_rows(int axis, const BlockField& depth) const {
+  const SweepAxes axes = sweep_axes(axis);
+  const int length = frame.cells[axes.u];
+  DepthRows made;
+  made.stride = static_cast<std::size_t>(length) + 2 * LightLayer::kPadding;
+  Eigen::Array3i block;
+  for (block[axes.w] = 0; block[axes.w] < blocks_.blocks[axes.w]; ++block[axes.w]) {
+    for (block[axes.v] = 0; block[axes.v] < blocks_.blocks[axes.v]; ++block[axes.v]) {
+      for (int i = -LightLayer::kPadding; i < length + LightLayer::kPadding; ++i) {
+        block[axes.u] = blocks_.block_of(axes.u, std::clamp(i, 0, length - 1));
+        const std::size_t index = blocks_.index(block.x(), block.y(), block.z());
+        made.rows.push_back(static_cast<float>(depth.per_block[index]));
+      }
+    }
+  }
+  return made;
+}
+
+const float* SweepTables::row_of_depths(int axis, int v, int w) const {
+  const SweepAxes axes = sweep_axes(axis);
+  const DepthRows& table = depth_rows_[static_cast<std::size_t>(axis)];
+  const int row =
+      blocks_.block_of(axes.w, w) * blocks_.blocks[axes.v] + blocks_.block_of(axes.v, v);
+  return &table.rows[static_cast<std::size_t>(row) * table.stride + LightLayer::kPadding];
 }
 
 }  // namespace vantage

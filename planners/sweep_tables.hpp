@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planners/attenuated_ray.hpp"
+#include "planners/light_layer.hpp"
 #include "src/geometry/grid_frame.hpp"
 
 namespace vantage {
@@ -29,19 +30,28 @@ struct SweepTables {
   /// order of v. So layers[2] has the order of `frame.index`.
   /// > 0: unobserved, and worth that much to see; 0: free; < 0: occupied.
   std::array<std::unique_ptr<float[]>, 3> layers;
-  std::vector<float> depth_per_slice;  ///< -ln(transmission) of the unobserved cells of a z slice
 
   SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads);
 
   /// -ln p(a beam passes the cell), of index `cell` in the order of `frame.index`.
-  [[nodiscard]] float optical_depth(std::size_t cell) const {
-    const float content = layers[2][cell];
-    if (content <= 0.0F) return content < 0.0F ? kOpaque : 0.0F;
-    return depth_per_slice[cell / cells_per_slice_];
-  }
+  [[nodiscard]] float optical_depth(std::size_t cell) const { return depth_[cell]; }
+
+  /// -ln(transmission) along the row of the cells (., v) in layer w of an axis, were they all
+  /// unobserved. Readable up to LightLayer::kPadding places beyond either end.
+  [[nodiscard]] const float* row_of_depths(int axis, int v, int w) const;
 
  private:
-  std::size_t cells_per_slice_;
+  /// Rows differ from block to block only.
+  struct DepthRows {
+    std::size_t stride = 0;
+    std::vector<float> rows;
+  };
+  void fill_slice(const OccupancyGrid& grid, const Fading& fading, int z);
+  [[nodiscard]] DepthRows depth_rows(int axis, const BlockField& depth) const;
+
+  BlockLayout blocks_;
+  std::array<DepthRows, 3> depth_rows_;
+  std::unique_ptr<float[]> depth_;  ///< of each cell as it is
 };
 
 }  // namespace vantage

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "planners/attenuated_ray.hpp"
 
@@ -19,7 +18,7 @@ struct UnmappedVolumeGain {
   using Ray = AttenuatedRay;
 
   [[nodiscard]] Fading fading(const GainContext& context) const {
-    return {.transmission_per_slice = std::vector<double>(context.slices(), 1.0),
+    return {.transmission = uniform_field(context.grid.frame.cells, 1.0),
             .worth = context.grid.frame.cell_size_m.prod(),
             .by_entropy = false};
   }

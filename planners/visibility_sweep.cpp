@@ -190,10 +190,9 @@ class PyramidSweep {
     }
   }
 
-  /// Optical depth of the unobserved cells of row `v` in the layer before.
-  [[nodiscard]] float depth_of(int v) const {
-    const int z = axes_.w == 2 ? layer_before() : std::clamp(v, 0, nv_ - 1);
-    return tables_.depth_per_slice[static_cast<std::size_t>(z)];
+  /// Optical depths of the unobserved cells of row `v` in the layer before.
+  [[nodiscard]] const float* depth_of(int v) const {
+    return tables_.row_of_depths(axes_.w, std::clamp(v, 0, nv_ - 1), layer_before());
   }
 
   /// Along a row, the crossed cell moves against the cell itself at most a few times.

@@ -94,8 +94,8 @@ std::vector<Candidate> NextBestView::propose() {
 
 void NextBestView::score(std::vector<Candidate>& candidates) {
   if (weighs_gain(episode_.choice) || recorder_.tells_story()) {
-    const auto transmission = belief_.hazard().transmission_per_slice();
-    const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
+    const BlockField transmission = belief_.hazard().transmission();
+    const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), &transmission},
                                        candidates, rig_.view_field(), episode_.threads);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }
@@ -130,8 +130,8 @@ void NextBestView::act(const Candidate& candidate) {
 }
 
 void NextBestView::predict(const Pose& T_world_sensor) {
-  const auto transmission = belief_.hazard().transmission_per_slice();
-  current_.predicted_cells = predicted_cells(episode_, {belief_.filled_grid(), transmission},
+  const BlockField transmission = belief_.hazard().transmission();
+  current_.predicted_cells = predicted_cells(episode_, {belief_.filled_grid(), &transmission},
                                              T_world_sensor, rig_.view_field());
 }
 

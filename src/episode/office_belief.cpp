@@ -32,7 +32,7 @@ OfficeBelief::OfficeBelief(const Episode& episode)
     : episode_(episode),
       grid_(episode.grid_frame()),
       filled_(grid_),
-      hazard_(episode.clutter_hazard, grid_.frame.cells.z()) {}
+      hazard_(episode.clutter_hazard, grid_.frame.cells) {}
 
 BeliefUpdate OfficeBelief::update(const OfficeObservation& observation, const WallMap& walls) {
   const auto located = walls.locate(observation.base_scan, observation.base_scan_height_m,

@@ -147,8 +147,8 @@ std::vector<Candidate> OfficeExploration::propose() { return views_; }
 
 void OfficeExploration::score(std::vector<Candidate>& candidates) {
   if (weighs_gain(episode_.choice) || recorder_.tells_story()) {
-    const auto transmission = belief_.hazard().transmission_per_slice();
-    const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), transmission},
+    const BlockField transmission = belief_.hazard().transmission();
+    const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), &transmission},
                                        candidates, rig_.view_field(), episode_.threads);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }
@@ -183,8 +183,8 @@ void OfficeExploration::act(const Candidate& candidate) {
 }
 
 void OfficeExploration::predict(const Pose& T_world_sweep) {
-  const auto transmission = belief_.hazard().transmission_per_slice();
-  current_.predicted_cells = predicted_cells(episode_, {belief_.filled_grid(), transmission},
+  const BlockField transmission = belief_.hazard().transmission();
+  current_.predicted_cells = predicted_cells(episode_, {belief_.filled_grid(), &transmission},
                                              T_world_sweep, rig_.view_field());
 }
 

@@ -21,7 +21,7 @@ TabletopBelief::TabletopBelief(const Episode& episode)
     : episode_(episode),
       grid_(episode.grid_frame()),
       filled_(grid_),
-      hazard_(episode.clutter_hazard, grid_.frame.cells.z()),
+      hazard_(episode.clutter_hazard, grid_.frame.cells),
       sampling_(Rng::stream(episode.seed, "table sampling")) {
   const MapOptions& map = episode_.map;
   episode_.table.region_centre_m = {map.centre_m[0], map.centre_m[1]};

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "tests/belief/voxel_scene.hpp"
 
@@ -28,8 +30,9 @@ Counted beam(const std::string& row, float range_m, double range_max_m = 100.0) 
   scan.azimuth_rad = {0.0};
   scan.range_m = {range_m};
   scan.field_of_view.range_max_m = range_max_m;
-  ClutterHazard hazard({.layers = 1}, 1);
-  hazard.observe(parse({row}), scan, make_pose({0.0, 0.5, 0.0}, 0.0));
+  const OccupancyGrid before = parse({row});
+  ClutterHazard hazard({.layers = 1}, before.frame.cells);
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 0.0}, 0.0));
   return {hazard.crossings(0), hazard.hits(0)};
 }
 
@@ -53,16 +56,17 @@ TEST(ClutterHazard, InvalidBeamsAreIgnored) {
 }
 
 TEST(ClutterHazard, StartsAtThePrior) {
-  const ClutterHazard hazard({.prior_hazard = 0.02}, 65);
+  const ClutterHazard hazard({.prior_hazard = 0.02}, {20, 30, 65});
   EXPECT_DOUBLE_EQ(hazard.global_transmission(), 0.98);
   ASSERT_EQ(hazard.transmission_per_slice().size(), 65U);
   for (const double t : hazard.transmission_per_slice()) EXPECT_DOUBLE_EQ(t, 0.98);
+  for (const double t : hazard.transmission().per_block) EXPECT_DOUBLE_EQ(t, 0.98);
 }
 
 TEST(ClutterHazard, LayersDivideTheSlicesEvenly) {
-  const ClutterHazard hazard({.layers = 13}, 65);
+  const ClutterHazard hazard({.layers = 13}, {1, 1, 65});
   for (int slice = 0; slice < 65; ++slice) EXPECT_EQ(hazard.layer_of(slice), slice / 5);
-  const ClutterHazard more_layers_than_slices({.layers = 13}, 4);
+  const ClutterHazard more_layers_than_slices({.layers = 13}, {1, 1, 4});
   EXPECT_EQ(more_layers_than_slices.transmission_per_slice().size(), 4U);
 }
 
@@ -75,7 +79,7 @@ TEST(ClutterHazard, ShrinksALayerTowardsTheGlobalRate) {
   scan.azimuth_rad = {0.0};
   const ClutterHazardOptions options{
       .layers = 2, .prior_crossings = 30.0, .prior_hazard = 0.1, .prior_weight = 10.0};
-  ClutterHazard hazard(options, 2);
+  ClutterHazard hazard(options, frame.cells);
   scan.range_m = {4.5F};  // upper layer: 5 crossings, 1 hit
   hazard.observe(before, scan, make_pose({0.0, 0.5, 1.5}, 0.0));
   scan.range_m = {kNoReturn};  // lower layer: 10 crossings, no hit
@@ -89,9 +93,39 @@ TEST(ClutterHazard, ShrinksALayerTowardsTheGlobalRate) {
   EXPECT_DOUBLE_EQ(transmission[1], 1.0 - hazard.hazard(1));
 }
 
+TEST(ClutterHazard, EachBlockHearsOfWhatWasCountedRoundIt) {
+  GridFrame frame;
+  frame.cells = {12, 1, 1};
+  const OccupancyGrid before(frame);
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  scan.range_m = {4.5F};  // 4 crossings in the first block; 1 and a hit in the second
+  ClutterHazardOptions options{
+      .layers = 1, .block_cells = 4, .reach_cells = 0.0, .block_crossings = 2.0};
+  const auto transmission_after_scan = [&] {
+    ClutterHazard hazard(options, frame.cells);
+    hazard.observe(before, scan, make_pose({0.0, 0.5, 0.5}, 0.0));
+    const double pull = 2.0 * hazard.hazard(0);
+    return std::pair(pull, hazard.transmission().per_block);
+  };
+  const auto [pull, alone] = transmission_after_scan();
+  ASSERT_EQ(alone.size(), 3U);
+  EXPECT_DOUBLE_EQ(alone[0], 1.0 - pull / (4.0 + 2.0));
+  EXPECT_DOUBLE_EQ(alone[1], 1.0 - (1.0 + pull) / (1.0 + 2.0));
+  EXPECT_DOUBLE_EQ(alone[2], 1.0 - pull / 2.0) << "nothing was counted there";
+  options.reach_cells = 4.0;
+  const double next = std::exp(-0.5);
+  const double over_next = std::exp(-2.0);
+  const auto smooth = transmission_after_scan().second;
+  EXPECT_DOUBLE_EQ(smooth[0], 1.0 - (next + pull) / (4.0 + next + 2.0));
+  EXPECT_DOUBLE_EQ(smooth[1], 1.0 - (1.0 + pull) / (4.0 * next + 1.0 + 2.0));
+  EXPECT_DOUBLE_EQ(smooth[2], 1.0 - (next + pull) / (4.0 * over_next + next + 2.0));
+}
+
 TEST(ClutterHazard, RejectsOptionsOutOfRange) {
-  EXPECT_THROW(ClutterHazard({.layers = 0}, 4), ConfigError);
-  EXPECT_THROW(ClutterHazard({.prior_hazard = 0.0}, 4), ConfigError);
+  EXPECT_THROW(ClutterHazard({.layers = 0}, {4, 4, 4}), ConfigError);
+  EXPECT_THROW(ClutterHazard({.prior_hazard = 0.0}, {4, 4, 4}), ConfigError);
 }
 
 // Voxels occupied at random, more of them low than high: the hazards come back.
@@ -105,7 +139,7 @@ TEST(ClutterHazard, RecoversAKnownHazardPerLayer) {
                          .tilt_max_rad = 0.12,
                          .range_min_m = 0.1,
                          .range_max_m = 200.0};
-  ClutterHazard hazard({.layers = 2}, slices);
+  ClutterHazard hazard({.layers = 2}, frame.cells);
   Rng rng(11);
   for (int scene = 0; scene < 30; ++scene) {
     OccupancyGrid truth(frame);
@@ -133,11 +167,11 @@ TEST(ClutterHazard, CountsTheBeamsOfAnImage) {
   Pose T_world_camera = Pose::Identity();
   T_world_camera.translation() = Eigen::Vector3d(-5.0, 0.0, 0.0);
   T_world_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
-  ClutterHazard every({.layers = 1}, 1);
+  ClutterHazard every({.layers = 1}, grid.frame.cells);
   every.observe(grid, image, T_world_camera, 1);
   EXPECT_EQ(every.crossings(0), 4.0 + 8.0 + 2.0);
   EXPECT_EQ(every.hits(0), 2.0);
-  ClutterHazard some({.layers = 1}, 1);
+  ClutterHazard some({.layers = 1}, grid.frame.cells);
   some.observe(grid, image, T_world_camera, 3);
   EXPECT_EQ(some.crossings(0), 4.0 + 2.0);
 }

@@ -58,7 +58,7 @@ cv::Mat picture(const OccupancyGrid& grid, const std::vector<Candidate>& views) 
 GoldenResult explore_voxels(const Gain& gain) {
   const VoxelWorld world = voxel_world(kPlan, 0.05, 10);
   OccupancyGrid grid(world.frame);
-  ClutterHazard hazard({}, world.frame.cells.z());
+  ClutterHazard hazard({}, world.frame.cells);
   const FieldOfView field{.half_width_rad = 0.35, .tilt_min_rad = -0.2, .tilt_max_rad = 0.8};
   const RingOfViews ring{
       .positions = 8, .radius_m = 1.1, .height_m = 0.6, .yaw_offsets_rad = {0.0}};
@@ -73,9 +73,9 @@ GoldenResult explore_voxels(const Gain& gain) {
     add_measurements(grid, hits(scan, T_world_sensor), InverseSensorModel{});
     carve_free_space(grid, scan, T_world_sensor, FreeSpaceUpdate{});
     const auto filled = fill_holes(grid, HoleFilling{});
-    const auto transmission = hazard.transmission_per_slice();
+    const BlockField transmission = hazard.transmission();
     auto candidates = views;
-    const auto gains = exact_gains_bits(gain, {filled.grid, transmission}, candidates, field, 2);
+    const auto gains = exact_gains_bits(gain, {filled.grid, &transmission}, candidates, field, 2);
     for (std::size_t i = 0; i < gains.size(); ++i) candidates[i].gain_bits = gains[i];
     result.trace.exact(step, "view", static_cast<double>(view));
     result.trace.exact(step, "unobserved_cells",

@@ -23,14 +23,15 @@ TEST(CellTables, HoldOneEntryPerCell) {
               ElementsAre(FloatNear(h_free, 1e-5F), 1.0F, FloatNear(0.0F, 1e-4F)));
 }
 
-TEST(CellTables, TransmissionOfUnobservedCellsGoesByTheirSlice) {
+TEST(CellTables, TransmissionOfUnobservedCellsGoesByTheirBlock) {
   GridFrame frame;
   frame.cells = {2, 1, 2};
   OccupancyGrid grid(frame);
   grid.log_odds[1] = -3.0F;
   grid.log_odds[2] = 3.0F;
-  EXPECT_THAT(cell_transmissions(grid, std::vector{0.75, 0.5}),
-              ElementsAre(0.75F, 1.0F, 0.0F, 0.5F));
+  const BlockField slices{.layout = {.cells = frame.cells, .blocks = {1, 1, 2}},
+                          .per_block = {0.75, 0.5}};
+  EXPECT_THAT(cell_transmissions(grid, slices), ElementsAre(0.75F, 1.0F, 0.0F, 0.5F));
 }
 
 // A free cell of odds 0.02 / 0.98 from even ones is one of odds 0.02 / 0.98 / 3 from 1 / 3.
@@ -47,8 +48,9 @@ TEST(BeamTransmissions, EndABeamInOccupiedCells) {
   EXPECT_THAT(beam_transmissions(row_of_cells("?#"), 0.25), ElementsAre(0.75F, 0.0F));
 }
 
-TEST(CellTablesDeathTest, WantsATransmissionForEachSlice) {
-  EXPECT_DEATH(cell_transmissions(row_of_cells("??"), {}), "one transmission per z slice");
+TEST(CellTablesDeathTest, WantsTransmissionsForTheGrid) {
+  EXPECT_DEATH(cell_transmissions(row_of_cells("??"), uniform_field({3, 1, 1}, 1.0)),
+               "transmissions for a grid of this size");
 }
 
 }  // namespace

@@ -28,15 +28,14 @@ FieldOfView wide_sector() {
 
 TEST(ExactGains, AreTheSameBitsForEveryNumberOfThreads) {
   const OccupancyGrid grid = cluttered_grid();
-  const std::vector<double> slices(7, 0.9);
+  const BlockField even = uniform_field(grid.frame.cells, 0.9);
   const auto views = ring_of_views(low_ring(), Eigen::Vector3d::Zero());
   for (const auto name : strategy_names<Gain>()) {
     const Gain gain = make_strategy<Gain>(name);
-    const auto one = exact_gains_bits(gain, {grid, slices}, views, wide_sector(), 1);
-    EXPECT_EQ(exact_gains_bits(gain, {grid, slices}, views, wide_sector(), 3), one) << name;
-    EXPECT_EQ(exact_gains_bits(gain, {grid, slices}, views, wide_sector(), 64), one) << name;
-    EXPECT_EQ(exact_gain_bits(gain, {grid, slices}, views[4].T_world_sensor, wide_sector()),
-              one[4]);
+    const auto one = exact_gains_bits(gain, {grid, &even}, views, wide_sector(), 1);
+    EXPECT_EQ(exact_gains_bits(gain, {grid, &even}, views, wide_sector(), 3), one) << name;
+    EXPECT_EQ(exact_gains_bits(gain, {grid, &even}, views, wide_sector(), 64), one) << name;
+    EXPECT_EQ(exact_gain_bits(gain, {grid, &even}, views[4].T_world_sensor, wide_sector()), one[4]);
   }
 }
 

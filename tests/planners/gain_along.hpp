@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "planners/exact_gain.hpp"
 #include "tests/planners/ascii_ray.hpp"
@@ -18,12 +17,12 @@ inline FieldOfView straight_ahead() {
 }
 
 /// Gain of looking along a row of unit cells from just in front of it.
-inline double along(const Gain& gain, const OccupancyGrid& row, double slice_transmission = 0.5) {
-  const std::vector<double> slices{slice_transmission};
-  return exact_gain_bits(gain, {row, slices}, make_pose({-0.5, 0.0, 0.0}, 0.0), straight_ahead());
+inline double along(const Gain& gain, const OccupancyGrid& row, double transmission = 0.5) {
+  const BlockField field = uniform_field(row.frame.cells, transmission);
+  return exact_gain_bits(gain, {row, &field}, make_pose({-0.5, 0.0, 0.0}, 0.0), straight_ahead());
 }
-inline double along(const Gain& gain, std::string_view cells, double slice_transmission = 0.5) {
-  return along(gain, row_of_cells(cells), slice_transmission);
+inline double along(const Gain& gain, std::string_view cells, double transmission = 0.5) {
+  return along(gain, row_of_cells(cells), transmission);
 }
 
 }  // namespace vantage

@@ -41,7 +41,7 @@ TEST(AdaptiveGain, TakesTheTransmissionOfTheContext) {
               kTolerance);
 }
 
-TEST(AdaptiveGain, TakesTheTransmissionOfEachHeight) {
+TEST(AdaptiveGain, TakesTheTransmissionOfEachBlock) {
   // Two layers of three cells; the sensor sees both level from afar, one ray never leaves a layer.
   GridFrame frame;
   frame.min_corner_m = {0.0, -0.5, -1.0};
@@ -49,10 +49,11 @@ TEST(AdaptiveGain, TakesTheTransmissionOfEachHeight) {
   const OccupancyGrid grid(frame);
   FieldOfView fov;
   fov.range_max_m = 1e4;
-  const std::vector<double> slices{0.5, 0.25};
+  const BlockField blocks{.layout = {.cells = frame.cells, .blocks = {3, 1, 2}},
+                          .per_block = {0.5, 0.75, 1.0, 0.25, 0.125, 1.0}};
   const double gain =
-      exact_gain_bits(AdaptiveGain{}, {grid, slices}, make_pose({-1000.0, 0.0, 0.0}, 0.0), fov);
-  EXPECT_NEAR(gain, (1.0 + 0.5 + 0.25) + (1.0 + 0.25 + 0.0625), kTolerance);
+      exact_gain_bits(AdaptiveGain{}, {grid, &blocks}, make_pose({-1000.0, 0.0, 0.0}, 0.0), fov);
+  EXPECT_NEAR(gain, (1.0 + 0.5 + 0.5 * 0.75) + (1.0 + 0.25 + 0.25 * 0.125), kTolerance);
 }
 
 TEST(VisibilityWeightedGain, SumsVisibilityOverUnobservedCells) {
@@ -121,10 +122,10 @@ TYPED_TEST(EveryGain, PrefersMoreUnobservedCellsInSight) {
 
 TYPED_TEST(EveryGain, SeesFromAllSidesAlikeInEmptyUnknownSpace) {
   const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {1.1, 1.1, 1.1}, {11, 11, 11}));
-  const std::vector<double> slices(11, 0.9);
+  const BlockField even = uniform_field(grid.frame.cells, 0.9);
   const auto from = [&](const Eigen::Vector3d& p, double yaw_rad) {
     const FieldOfView fov{.half_width_rad = 0.4, .tilt_min_rad = -0.4, .tilt_max_rad = 0.4};
-    return exact_gain_bits(TypeParam{}, {grid, slices}, make_pose(p, yaw_rad), fov);
+    return exact_gain_bits(TypeParam{}, {grid, &even}, make_pose(p, yaw_rad), fov);
   };
   const double front = from({-1.03, 0.0, 0.0}, 0.0);
   EXPECT_NEAR(from({0.0, 1.03, 0.0}, -0.5 * std::numbers::pi), front, 0.01 * front);

@@ -49,6 +49,16 @@ OccupancyGrid cluttered_grid(std::uint64_t seed) {
   return grid;
 }
 
+/// Blocks of very different transmission.
+BlockField patchy_field(const Eigen::Array3i& cells) {
+  BlockField field{.layout = {.cells = cells, .blocks = {5, 4, 3}}, .per_block = {}};
+  Rng rng(7);
+  while (field.per_block.size() < field.layout.size()) {
+    field.per_block.push_back(rng.uniform(0.94, 1.0));
+  }
+  return field;
+}
+
 std::vector<Candidate> ring() {
   return ring_of_views({.positions = 7, .radius_m = 1.3, .height_m = 0.2}, Eigen::Vector3d::Zero());
 }
@@ -130,15 +140,15 @@ TEST(SweptGain, FollowsBeerLambertInAnEvenMedium) {
 }
 
 TEST(SweptGain, IsNearExactRaysInClutter) {
-  const std::vector<double> transmission(24, 0.98);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const OccupancyGrid grid = cluttered_grid(seed);
+    const BlockField transmission = patchy_field(grid.frame.cells);
     for (const Gain& gain : {Gain(SimpleGain{}), Gain(AdaptiveGain{})}) {
       for (const Candidate& view : ring()) {
-        const double expected = exact(gain, {grid, transmission}, view, sector());
-        EXPECT_NEAR(swept(gain, {grid, transmission}, view, sector(), 0), expected,
+        const double expected = exact(gain, {grid, &transmission}, view, sector());
+        EXPECT_NEAR(swept(gain, {grid, &transmission}, view, sector(), 0), expected,
                     0.25 * expected);
-        EXPECT_NEAR(swept(gain, {grid, transmission}, view, sector(), 1024), expected,
+        EXPECT_NEAR(swept(gain, {grid, &transmission}, view, sector(), 1024), expected,
                     0.05 * expected);
       }
     }
@@ -160,12 +170,12 @@ TEST(SweptGain, ComesCloserToExactWithMoreRays) {
 
 TEST(SweptGains, AreTheSameBitsForEveryNumberOfThreadsAndCompany) {
   const OccupancyGrid grid = cluttered_grid(5);
-  const std::vector<double> transmission(24, 0.97);
+  const BlockField transmission = patchy_field(grid.frame.cells);
   const auto views = ring();
   const Gain gain = AdaptiveGain{};
-  const auto one = swept_gains_bits(gain, {grid, transmission}, views, sector(), 1);
-  EXPECT_EQ(swept_gains_bits(gain, {grid, transmission}, views, sector(), 2), one);
-  EXPECT_EQ(swept_gains_bits(gain, {grid, transmission}, views, sector(), 64), one);
+  const auto one = swept_gains_bits(gain, {grid, &transmission}, views, sector(), 1);
+  EXPECT_EQ(swept_gains_bits(gain, {grid, &transmission}, views, sector(), 2), one);
+  EXPECT_EQ(swept_gains_bits(gain, {grid, &transmission}, views, sector(), 64), one);
 }
 
 TEST(SweptGain, OfAViewFarAwayIsZero) {
