@@ -60,4 +60,17 @@ double gaussian_jeffreys_divergence_bits(const DiagonalGaussian& p, const Diagon
   return bits_from_nats(gaussian_jeffreys_divergence_nats(p, q));
 }
 
+double gaussian_bhattacharyya_distance_nats(const DiagonalGaussian& p, const DiagonalGaussian& q) {
+  require_pair(p, q, "gaussian_bhattacharyya_distance_nats");
+  const Eigen::ArrayXd vp = p.variance.array();
+  const Eigen::ArrayXd vq = q.variance.array();
+  const Eigen::ArrayXd offset = 0.25 * (p.mean - q.mean).array().square() / (vp + vq);
+  const Eigen::ArrayXd spread = 0.5 * ((vp / vq).sqrt() + (vq / vp).sqrt());
+  return std::max((offset + 0.5 * spread.log()).sum(), 0.0);
+}
+
+double gaussian_bhattacharyya_distance_bits(const DiagonalGaussian& p, const DiagonalGaussian& q) {
+  return bits_from_nats(gaussian_bhattacharyya_distance_nats(p, q));
+}
+
 }  // namespace vantage

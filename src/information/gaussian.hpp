@@ -26,4 +26,11 @@ double gaussian_kl_divergence_bits(const DiagonalGaussian& p, const DiagonalGaus
 double gaussian_jeffreys_divergence_nats(const DiagonalGaussian& p, const DiagonalGaussian& q);
 double gaussian_jeffreys_divergence_bits(const DiagonalGaussian& p, const DiagonalGaussian& q);
 
+/// D(p, q) = -ln integral sqrt(p q)
+///         = sum_i [ (mp - mq)^2 / (4 (vp + vq)) + 1/2 ln((vp + vq) / (2 sqrt(vp vq))) ] >= 0.
+/// [Kailath1967]
+/// @throws DistributionError as above.
+double gaussian_bhattacharyya_distance_nats(const DiagonalGaussian& p, const DiagonalGaussian& q);
+double gaussian_bhattacharyya_distance_bits(const DiagonalGaussian& p, const DiagonalGaussian& q);
+
 }  // namespace vantage

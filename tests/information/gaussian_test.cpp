@@ -36,12 +36,14 @@ DiagonalGaussian random_gaussian(int size) {
 
 bool same(double a, double b) { return std::abs(a - b) <= kTolerance * (1.0 + std::abs(a)); }
 
+/// Of one dimension.
+double log_density(const DiagonalGaussian& g, double x) {
+  const double d = x - g.mean[0];
+  return -0.5 * (d * d / g.variance[0] + std::log(2.0 * M_PI * g.variance[0]));
+}
+
 /// KL by the trapezium rule, one dimension.
 double numeric_kl_nats(const DiagonalGaussian& p, const DiagonalGaussian& q) {
-  const auto log_density = [](const DiagonalGaussian& g, double x) {
-    const double d = x - g.mean[0];
-    return -0.5 * (d * d / g.variance[0] + std::log(2.0 * M_PI * g.variance[0]));
-  };
   const double sigma = std::sqrt(p.variance[0]);
   const double step = sigma / 1000.0;
   double sum = 0.0;
@@ -68,6 +70,33 @@ TEST(GaussianKl, AgreesWithTheIntegral) {
   const auto q = gaussian({-0.4}, {2.1});
   EXPECT_NEAR(gaussian_kl_divergence_nats(p, q), numeric_kl_nats(p, q), 1e-6);
   EXPECT_NEAR(gaussian_kl_divergence_nats(q, p), numeric_kl_nats(q, p), 1e-6);
+}
+
+TEST(GaussianJeffreys, AgreesWithTheIntegral) {
+  const auto p = gaussian({0.3}, {0.7});
+  const auto q = gaussian({-0.4}, {2.1});
+  EXPECT_NEAR(gaussian_jeffreys_divergence_nats(p, q),
+              numeric_kl_nats(p, q) + numeric_kl_nats(q, p), 1e-6);
+}
+
+TEST(GaussianBhattacharyya, KnownAnswers) {
+  const auto standard = gaussian({0.0, 0.0}, {1.0, 1.0});
+  EXPECT_NEAR(gaussian_bhattacharyya_distance_nats(gaussian({2.0, 0.0}, {1.0, 1.0}), standard), 0.5,
+              kTolerance);
+  EXPECT_NEAR(gaussian_bhattacharyya_distance_nats(gaussian({0.0, 0.0}, {1.0, 4.0}), standard),
+              0.5 * std::log(1.25), kTolerance);
+  EXPECT_NEAR(gaussian_bhattacharyya_distance_bits(gaussian({2.0, 0.0}, {1.0, 1.0}), standard),
+              0.5 / std::log(2.0), kTolerance);
+}
+
+TEST(GaussianBhattacharyya, AgreesWithTheIntegral) {
+  const auto p = gaussian({0.3}, {0.7});
+  const auto q = gaussian({-0.4}, {2.1});
+  double overlap = 0.0;
+  for (double x = -20.0; x < 20.0; x += 1e-3) {
+    overlap += 1e-3 * std::exp(0.5 * (log_density(p, x) + log_density(q, x)));
+  }
+  EXPECT_NEAR(gaussian_bhattacharyya_distance_nats(p, q), -std::log(overlap), 1e-6);
 }
 
 TEST(GaussianValidation, NamesTheOffendingValue) {
@@ -101,6 +130,17 @@ RC_GTEST_PROP(GaussianProperty, JeffreysIsTheSymmetricSumOfKl, ()) {
   RC_ASSERT(gaussian_jeffreys_divergence_nats(p, p) == 0.0);
   RC_ASSERT(gaussian_kl_divergence_nats(p, p) == 0.0);
   RC_ASSERT(same(gaussian_jeffreys_divergence_bits(p, q), bits_from_nats(j)));
+}
+
+RC_GTEST_PROP(GaussianProperty, BhattacharyyaIsSymmetricAndAtMostAQuarterOfJeffreys, ()) {
+  const int size = *rc::gen::inRange(1, 6);
+  const auto p = random_gaussian(size);
+  const auto q = random_gaussian(size);
+  const double d = gaussian_bhattacharyya_distance_nats(p, q);
+  RC_ASSERT(d >= 0.0);
+  RC_ASSERT(same(d, gaussian_bhattacharyya_distance_nats(q, p)));
+  RC_ASSERT(d <= 0.25 * gaussian_jeffreys_divergence_nats(p, q) + kTolerance);
+  RC_ASSERT(gaussian_bhattacharyya_distance_nats(p, p) == 0.0);
 }
 
 }  // namespace
