@@ -1,7 +1,7 @@
 # Sourced by ./run and ./test: installs what is missing, from Debian alone.
 packages=(build-essential ca-certificates cmake git ninja-build
   libcli11-dev libeigen3-dev libembree-dev libfmt-dev libglfw3-dev libmujoco-dev libnanoflann-dev
-  liboctomap-dev libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-videoio-dev libopencv-dev
+  liboctomap-dev libopencv-core-dev libopencv-dnn-dev libopencv-features2d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-videoio-dev libopencv-dev
   libosmesa6-dev libpng-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev
   libgl1-mesa-dri libx11-dev xvfb)

@@ -1,0 +1,70 @@
+// What each feature costs on one view: extraction only, one thread. The views are noisy striped
+// balls that fill a crop of 150 x 150 px; what is learnt has its full size, 1000 words and 1000
+// components, from crops of 64 x 64 px, which is quicker and costs the same to use.
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/measures.hpp"
+#include "src/perception/features/feature.hpp"
+#include "tests/support/object_views.hpp"
+
+namespace vantage::bench {
+namespace {
+
+constexpr int kSide_px = 150;
+constexpr int kTrainingSide_px = 64;
+constexpr int kTrainingViews = 1100;
+constexpr int kViews = 8;
+constexpr int kRepeats = 31;
+
+/// Vocabulary, pyramid and components at their full size; quicker to learn.
+Feature full_size(std::string_view name) {
+  auto feature = make_strategy<Feature>(name);
+  std::visit(
+      [](auto& options) {
+        if constexpr (requires { options.learning; }) options.learning.iterations = 2;
+      },
+      feature);
+  return feature;
+}
+
+double cost_ms(std::string_view name, const std::vector<ObjectView>& training,
+               const std::vector<ObjectView>& views) {
+  Rng rng(1);
+  const TrainedFeature feature = train_feature(full_size(name), training, rng);
+  log_info(fmt::format("{}: {} dimensions", name, feature.dimension()));
+  std::size_t next = 0;
+  return median_ms(kRepeats, [&] {
+    expects(feature.extract(views[next++ % views.size()]).extracted(), "a ball has every feature");
+  });
+}
+
+void run_benchmark() {
+  cv::setNumThreads(1);
+  Rng rng(1);
+  const std::vector<ObjectView> training = ball_views(kTrainingViews, kTrainingSide_px, rng);
+  const std::vector<ObjectView> views = ball_views(kViews, kSide_px, rng);
+  const auto cost = [&](std::string_view name) { return cost_ms(name, training, views); };
+  std::vector<std::pair<std::string, double>> figures{{"colour_ms", cost(Colour::name)},
+                                                      {"bbox_ms", cost(BoundingBox::name)},
+                                                      {"sift_ms", cost(Sift::name)},
+                                                      {"vfh_ms", cost(Vfh::name)}};
+  double sum_ms = 0.0;
+  for (const PatchKindRow& kind : kPatchKinds) {
+    const double ms = cost(kind.name);
+    figures.emplace_back("kernel_" + std::string(kind.name) + "_ms", ms);
+    sum_ms += ms;
+  }
+  figures.emplace_back("kernel_ms", sum_ms);
+  print_figures("features", 1, figures);
+}
+
+}  // namespace
+}  // namespace vantage::bench
+
+int main() { return vantage::bench::run_main(vantage::bench::run_benchmark); }

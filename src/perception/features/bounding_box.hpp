@@ -1,0 +1,36 @@
+/// Extents of an object.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "src/core/fields.hpp"
+#include "src/core/rng.hpp"
+#include "src/perception/features/feature_result.hpp"
+#include "src/perception/features/state_bytes.hpp"
+#include "src/perception/object_view.hpp"
+
+namespace vantage {
+
+/// Metres: height along gravity, then the greater and the smaller of the extents along the two
+/// principal axes of the points seen from above; each between two quantiles. [Potthast2016, 4.5.2]
+struct BoundingBox {
+  static constexpr std::string_view name = "bounding_box";
+  double low_quantile = 0.01;   ///< share; higher cuts more off the one end
+  double high_quantile = 0.99;  ///< share, above the other; lower cuts more off the other end
+  int min_pixels = 16;          ///< px with depth; fewer: skipped; higher is more careful
+  void fields(auto&& f) {
+    f("low_quantile", low_quantile, between(0.0, 0.5));
+    f("high_quantile", high_quantile, between(0.5, 1.0));
+    f("min_pixels", min_pixels, at_least(3));
+  }
+
+  [[nodiscard]] BoundingBox train(std::span<const ObjectView>, Rng&) const { return *this; }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
+  void put_state(std::string& bytes) const { put_options(bytes, *this); }
+  static BoundingBox take_state(StateReader& reader) { return take_options<BoundingBox>(reader); }
+};
+
+}  // namespace vantage

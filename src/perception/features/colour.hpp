@@ -1,0 +1,34 @@
+/// Colour histogram of an object.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "src/core/fields.hpp"
+#include "src/core/rng.hpp"
+#include "src/perception/features/feature_result.hpp"
+#include "src/perception/features/state_bytes.hpp"
+#include "src/perception/object_view.hpp"
+
+namespace vantage {
+
+/// HSV histogram over 16 hues x 3 saturations x 3 values, L1-normalised, square-rooted.
+/// Bin (h * 3 + s) * 3 + v. [Potthast2016, 4.5.2]
+struct Colour {
+  static constexpr std::string_view name = "colour";
+  int min_pixels = 16;  ///< px; fewer on the object: skipped; higher is more careful
+  void fields(auto&& f) { f("min_pixels", min_pixels, at_least(1)); }
+
+  static constexpr int hues = 16;
+  static constexpr int saturations = 3;
+  static constexpr int values = 3;
+
+  [[nodiscard]] Colour train(std::span<const ObjectView>, Rng&) const { return *this; }
+  [[nodiscard]] int dimension() const { return hues * saturations * values; }
+  [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
+  void put_state(std::string& bytes) const { put_options(bytes, *this); }
+  static Colour take_state(StateReader& reader) { return take_options<Colour>(reader); }
+};
+
+}  // namespace vantage

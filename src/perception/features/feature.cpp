@@ -1,0 +1,104 @@
+#include "src/perception/features/feature.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+constexpr std::string_view kMagic = "vantage feature 1\n";
+constexpr std::size_t kTimedViews = 9;
+
+template <class State>
+std::string_view name_of(const State& state) {
+  if constexpr (requires { state.feature_name(); }) {
+    return state.feature_name();
+  } else {
+    return State::name;
+  }
+}
+
+double median_cost_s(const TrainedFeature& feature, std::span<const ObjectView> views) {
+  std::vector<double> costs_s;
+  for (const ObjectView& view : views) {
+    if (costs_s.size() == kTimedViews) break;
+    const auto start = std::chrono::steady_clock::now();
+    const bool extracted = feature.extract(view).extracted();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    if (extracted) costs_s.push_back(taken.count());
+  }
+  if (costs_s.empty()) return 0.0;
+  const auto middle = costs_s.begin() + static_cast<std::ptrdiff_t>(costs_s.size() / 2);
+  std::ranges::nth_element(costs_s, middle);
+  return *middle;
+}
+
+TrainedFeature::State take_state(std::string_view name, StateReader& reader) {
+  std::optional<TrainedFeature::State> state;
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    (void)((std::variant_alternative_t<I, Feature>::name == name
+                ? (state.emplace(std::variant_alternative_t<I, Feature>::take_state(reader)), true)
+                : false) ||
+           ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Feature>>{});
+  if (!state) {
+    reader.fail(unknown_strategy(strategy_family<Feature>, name, strategy_names<Feature>()));
+  }
+  return std::move(*state);
+}
+
+}  // namespace
+
+std::string_view TrainedFeature::name() const {
+  return std::visit([](const auto& state) { return name_of(state); }, *state_);
+}
+
+int TrainedFeature::dimension() const {
+  return std::visit([](const auto& state) { return state.dimension(); }, *state_);
+}
+
+FeatureResult TrainedFeature::extract(const ObjectView& view) const {
+  FeatureResult result =
+      std::visit([&](const auto& state) { return state.extract(view); }, *state_);
+  if (result.extracted() && !result.vector.allFinite()) {
+    return FeatureResult::skip("the vector has entries that are not finite");
+  }
+  return result;
+}
+
+std::string TrainedFeature::to_bytes() const {
+  std::string bytes(kMagic);
+  put_text(bytes, name());
+  put(bytes, cost_s_);
+  std::visit([&](const auto& state) { state.put_state(bytes); }, *state_);
+  return bytes;
+}
+
+TrainedFeature TrainedFeature::from_bytes(std::string_view bytes, const std::string& source) {
+  if (!bytes.starts_with(kMagic)) throw InputError(source + ": not a trained feature");
+  bytes.remove_prefix(kMagic.size());
+  StateReader reader(bytes, source);
+  const std::string name = reader.text();
+  const auto cost_s = reader.number<double>();
+  if (!(cost_s >= 0.0) || !std::isfinite(cost_s)) reader.fail("holds a cost that is no time");
+  TrainedFeature feature(take_state(name, reader), cost_s);
+  reader.finish();
+  return feature;
+}
+
+TrainedFeature train_feature(const Feature& feature, std::span<const ObjectView> views, Rng& rng) {
+  TrainedFeature::State state = std::visit(
+      [&](const auto& options) -> TrainedFeature::State {
+        check_options(options, std::string(options.name));
+        return options.train(views, rng);
+      },
+      feature);
+  const double cost_s = median_cost_s(TrainedFeature(state, 0.0), views);
+  return {std::move(state), cost_s};
+}
+
+}  // namespace vantage

@@ -1,0 +1,51 @@
+/// Viewpoint feature histogram.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "src/core/fields.hpp"
+#include "src/core/rng.hpp"
+#include "src/perception/features/feature_result.hpp"
+#include "src/perception/features/state_bytes.hpp"
+#include "src/perception/object_view.hpp"
+#include "src/perception/point_cloud.hpp"
+
+namespace vantage {
+
+/// Distances from the centroid in the histogram's fourth block.
+enum class VfhSizes {
+  none,      ///< the block is zero, so that objects of one shape are alike
+  metres,    ///< bins of 1 cm
+  relative,  ///< bins of 1/45 of the greatest distance
+};
+
+/// 308 bins [RusuEtAl2010]: three angles between each point's normal and the mean normal at the
+/// centroid (45 each), distance from the centroid (45), angle between normals and line of sight
+/// (128). Each block sums to 100, or nearly: the centroid counts as one of the points in PCL's
+/// 100 / (N - 1), to which ours is held.
+/// @param cloud with normals, not empty; points with a zero normal are left out
+Eigen::VectorXf viewpoint_feature_histogram(const PointCloud& cloud,
+                                            const Eigen::Vector3d& p_viewpoint, VfhSizes sizes);
+
+/// The histogram of a view's surface as shares, square-rooted.
+struct Vfh {
+  static constexpr std::string_view name = "vfh";
+  double normal_radius_m = 0.01;  ///< m, neighbourhood of a normal; higher is smoother
+  bool size_block = false;        ///< whether distances from the centroid count, in cm
+  int min_points = 32;            ///< with a normal; fewer: skipped; higher is more careful
+  void fields(auto&& f) {
+    f("normal_radius_m", normal_radius_m, above(0.0));
+    f("size_block", size_block);
+    f("min_points", min_points, at_least(3));
+  }
+
+  [[nodiscard]] Vfh train(std::span<const ObjectView>, Rng&) const { return *this; }
+  [[nodiscard]] int dimension() const { return 308; }
+  [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
+  void put_state(std::string& bytes) const { put_options(bytes, *this); }
+  static Vfh take_state(StateReader& reader) { return take_options<Vfh>(reader); }
+};
+
+}  // namespace vantage

@@ -1,0 +1,98 @@
+// Colour and bounding box against what can be worked out by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/perception/features/bounding_box.hpp"
+#include "src/perception/features/colour.hpp"
+#include "tests/support/object_views.hpp"
+
+namespace vantage {
+namespace {
+
+ObjectView filled(int width_px, int height_px) {
+  ObjectView view = blank_view(width_px, height_px);
+  std::ranges::fill(view.mask, 1);
+  std::ranges::fill(view.depth_m, 1.0F);
+  return view;
+}
+
+void paint(ObjectView& view, int row, int column, int r, int g, int b) {
+  const std::size_t i = 3 * view.index(row, column);
+  view.rgb[i] = static_cast<std::uint8_t>(r);
+  view.rgb[i + 1] = static_cast<std::uint8_t>(g);
+  view.rgb[i + 2] = static_cast<std::uint8_t>(b);
+}
+
+TEST(Colour, OneQuarterGreenAndTheRestRed) {
+  ObjectView view = filled(20, 20);
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column) {
+      column < 5 ? paint(view, row, column, 0, 255, 0) : paint(view, row, column, 255, 0, 0);
+    }
+  }
+  const FeatureResult result = Colour{}.extract(view);
+  ASSERT_TRUE(result.extracted());
+  ASSERT_EQ(result.vector.size(), 144);
+  const int red = (0 * 3 + 2) * 3 + 2;
+  const int green = (120 * 16 / 360 * 3 + 2) * 3 + 2;
+  EXPECT_FLOAT_EQ(result.vector[red], std::sqrt(0.75F));
+  EXPECT_FLOAT_EQ(result.vector[green], std::sqrt(0.25F));
+  EXPECT_FLOAT_EQ(result.vector.squaredNorm(), 1.0F);
+}
+
+TEST(Colour, WhatIsBesideTheMaskDoesNotCount) {
+  ObjectView view = filled(20, 20);
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column) {
+      if (column < 10) view.mask[view.index(row, column)] = 0;
+      column < 12 ? paint(view, row, column, 0, 0, 255) : paint(view, row, column, 255, 0, 0);
+    }
+  }
+  EXPECT_FLOAT_EQ(Colour{}.extract(view).vector[(0 * 3 + 2) * 3 + 2], 1.0F);
+}
+
+TEST(Colour, APixelIsTooFew) {
+  ObjectView view = blank_view(20, 20);
+  view.mask[view.index(10, 10)] = 1;
+  EXPECT_EQ(Colour{}.extract(view).skipped, "the mask has 1 usable pixels, fewer than 16");
+}
+
+// A plate of 100 x 60 px facing the camera: no depth extent at all.
+TEST(BoundingBox, OfAPlateFacingTheCamera) {
+  const ObjectView view = filled(101, 61);
+  const BoundingBox whole{.low_quantile = 0.0, .high_quantile = 1.0};
+  const FeatureResult result = whole.extract(view);
+  ASSERT_TRUE(result.extracted());
+  EXPECT_NEAR(result.vector[0], 60.0 / view.focal_px, 1e-6);
+  EXPECT_NEAR(result.vector[1], 100.0 / view.focal_px, 1e-6);
+  EXPECT_NEAR(result.vector[2], 0.0, 1e-6);
+  const FeatureResult inner = BoundingBox{}.extract(view);
+  EXPECT_NEAR(inner.vector[1] / result.vector[1], 0.98, 0.02);
+}
+
+TEST(BoundingBox, HeightIsAlongGravityHoweverTheCameraIsHeld) {
+  ObjectView view = filled(101, 61);
+  view.up = Eigen::Vector3d(1.0, 0.0, 0.0);
+  const FeatureResult result = BoundingBox{.low_quantile = 0.0, .high_quantile = 1.0}.extract(view);
+  EXPECT_NEAR(result.vector[0], 100.0 / view.focal_px, 1e-6);
+  EXPECT_NEAR(result.vector[1], 60.0 / view.focal_px, 1e-6);
+}
+
+TEST(BoundingBox, BackgroundInsideTheMaskDoesNotStretchIt) {
+  ObjectView view = filled(101, 61);
+  for (int row = 0; row < 61; ++row) view.depth_m[view.index(row, 50)] = 2.0F;
+  EXPECT_NEAR(BoundingBox{}.extract(view).vector[2], 0.0, 1e-6);
+}
+
+TEST(BoundingBox, SaysWhatIsMissing) {
+  ObjectView view = filled(20, 20);
+  view.up = Eigen::Vector3d::Constant(std::nan(""));
+  EXPECT_EQ(BoundingBox{}.extract(view).skipped, "the direction of gravity is not known");
+  std::ranges::fill(view.depth_m, 0.0F);
+  EXPECT_EQ(BoundingBox{}.extract(view).skipped,
+            "0 pixels of the object have depth, fewer than 16");
+}
+
+}  // namespace
+}  // namespace vantage
