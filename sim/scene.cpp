@@ -61,10 +61,13 @@ VfsPtr make_vfs() {
 
 void add_file(mjVFS& vfs, const char* name, std::string_view content) {
   const int failed = mj_makeEmptyFileVFS(&vfs, name, static_cast<int>(content.size()));
-  expects(failed == 0, "a file fits into an empty virtual file system");
+  expects(failed == 0, "a file of its own name fits into the virtual file system");
   const int index = mj_findFileVFS(&vfs, name);
   std::memcpy(vfs.filedata[index], content.data(), content.size());
 }
+
+/// MuJoCo remembers the model it read last in a global.
+std::mutex one_at_a_time;
 
 std::string one_line(std::string text) {
   text.erase(text.find_last_not_of(" \n\r\t") + 1);
@@ -160,8 +163,6 @@ ModelPtr compile_both(const ModelSource& source, const std::string& scene_text,
 void ModelDeleter::operator()(mjModel* model) const { mj_deleteModel(model); }
 
 LoadedModel load_model(const ModelSource& source) {
-  // MuJoCo remembers the model it read last in a global.
-  static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   install_mujoco_handlers();
 
@@ -175,6 +176,19 @@ LoadedModel load_model(const ModelSource& source) {
   std::vector<std::string> repeated;  // what compiling each for itself has already said
   const ModelPtr robot = compile_file(source.robot, loaded.warnings);
   loaded.model = compile_both(source, scene_text, *loaded.model, *robot, repeated);
+  return loaded;
+}
+
+LoadedModel load_model(std::string_view mjcf, std::span<const MemoryFile> files,
+                       const std::string& name) {
+  constexpr auto kMain = "vantage_main.xml";
+  const std::lock_guard lock(one_at_a_time);
+  install_mujoco_handlers();
+  const VfsPtr vfs = make_vfs();
+  add_file(*vfs, kMain, mjcf);
+  for (const MemoryFile& file : files) add_file(*vfs, file.name.c_str(), file.content);
+  LoadedModel loaded;
+  loaded.model = compile(kMain, vfs.get(), name, loaded.warnings);
   return loaded;
 }
 

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 struct mjModel_;
@@ -35,5 +37,16 @@ struct LoadedModel {
 /// @throws InputError with the file and MuJoCo's message if one is missing, malformed, holds a
 /// number that is not finite, a time step outside (0, 0.1] s, or a scene name like `robot/...`.
 LoadedModel load_model(const ModelSource& source);
+
+struct MemoryFile {
+  std::string name;  ///< as the MJCF calls it
+  std::string content;
+};
+
+/// Compiles a scene that is nowhere on disk, with the meshes and textures it names. `name` stands
+/// for it in messages. Thread-safe (one at a time).
+/// @throws InputError as above.
+LoadedModel load_model(std::string_view mjcf, std::span<const MemoryFile> files,
+                       const std::string& name);
 
 }  // namespace vantage

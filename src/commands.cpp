@@ -12,6 +12,7 @@
 #include "src/core/data_root.hpp"
 #include "src/core/hash.hpp"
 #include "src/core/log.hpp"
+#include "src/dataset_commands.hpp"
 #include "src/episode/doctor.hpp"
 #include "src/episode/interrupt.hpp"
 #include "src/episode/listing.hpp"
@@ -227,6 +228,7 @@ const std::vector<Command>& commands() {
       {"view", "an episode in a window, as it runs or from its run folder", declare_view},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
       {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
+      {"dataset", "render, inspect and show databases of objects", declare_dataset},
       {"list", "what there is to choose from", declare_list},
       {"doctor", "versions, renderer, codecs; what would not work and why", declare_doctor},
   };

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 
 #include "models/catalogue/family_kit.hpp"
 #include "models/catalogue/footprint.hpp"
@@ -48,7 +49,30 @@ constexpr std::array kFamilies{
     Family{"pear", family::make_pear},
     Family{"flashlight", family::make_flashlight},
     Family{"sponge", family::make_sponge},
+    // Not on the tables of the scenes.
+    Family{"tomato", family::make_tomato},
+    Family{"onion", family::make_onion},
+    Family{"potato", family::make_potato},
+    Family{"bell_pepper", family::make_bell_pepper},
+    Family{"mushroom", family::make_mushroom},
+    Family{"garlic", family::make_garlic},
+    Family{"peach", family::make_peach},
+    Family{"calculator", family::make_calculator},
+    Family{"cell_phone", family::make_cell_phone},
+    Family{"keyboard", family::make_keyboard},
+    Family{"camera", family::make_camera},
+    Family{"stapler", family::make_stapler},
+    Family{"ball", family::make_ball},
+    Family{"light_bulb", family::make_light_bulb},
+    Family{"dry_battery", family::make_dry_battery},
+    Family{"glue_stick", family::make_glue_stick},
+    Family{"marker", family::make_marker},
+    Family{"shampoo", family::make_shampoo},
+    Family{"toothpaste", family::make_toothpaste},
+    Family{"instant_noodles", family::make_instant_noodles},
+    Family{"food_bag", family::make_food_bag},
 };
+constexpr std::size_t kTabletopCategories = 30;  // the first; the scenes depend on their number
 
 /// Moves the origin below the middle of the bounding box and measures what follows from the mesh.
 void settle(GeneratedObject& object) {
@@ -72,7 +96,7 @@ std::vector<std::string_view> object_categories() {
 
 std::vector<ObjectSpec> catalogue(std::uint64_t seed, int per_category) {
   std::vector<ObjectSpec> specs;
-  for (const Family& family : kFamilies) {
+  for (const Family& family : std::span(kFamilies).first<kTabletopCategories>()) {
     for (int i = 0; i < per_category; ++i) {
       specs.push_back(
           {fmt::format("{}_{:02}", family.category, i), std::string(family.category), seed});

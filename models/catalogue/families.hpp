@@ -33,10 +33,11 @@ struct GeneratedObject {
   bool stands = false;        ///< has a flat base, can be put on another object
 };
 
-/// All categories, in a fixed order.
+/// All categories, in a fixed order: 51.
 std::vector<std::string_view> object_categories();
 
-/// `per_category` objects of each category, numbered from 0.
+/// What the table-top scenes choose from: `per_category` objects of each of 30 categories, numbered
+/// from 0.
 std::vector<ObjectSpec> catalogue(std::uint64_t seed, int per_category = 6);
 
 /// @throws ConfigError if no family has the category's name.

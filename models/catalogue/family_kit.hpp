@@ -106,4 +106,28 @@ GeneratedObject make_wrench(Rng& rng);
 GeneratedObject make_flashlight(Rng& rng);
 GeneratedObject make_sponge(Rng& rng);
 
+GeneratedObject make_tomato(Rng& rng);
+GeneratedObject make_onion(Rng& rng);
+GeneratedObject make_potato(Rng& rng);
+GeneratedObject make_bell_pepper(Rng& rng);
+GeneratedObject make_mushroom(Rng& rng);
+GeneratedObject make_garlic(Rng& rng);
+GeneratedObject make_peach(Rng& rng);
+
+GeneratedObject make_calculator(Rng& rng);
+GeneratedObject make_cell_phone(Rng& rng);
+GeneratedObject make_keyboard(Rng& rng);
+GeneratedObject make_camera(Rng& rng);
+GeneratedObject make_stapler(Rng& rng);
+
+GeneratedObject make_ball(Rng& rng);
+GeneratedObject make_light_bulb(Rng& rng);
+GeneratedObject make_dry_battery(Rng& rng);
+GeneratedObject make_glue_stick(Rng& rng);
+GeneratedObject make_marker(Rng& rng);
+GeneratedObject make_shampoo(Rng& rng);
+GeneratedObject make_toothpaste(Rng& rng);
+GeneratedObject make_instant_noodles(Rng& rng);
+GeneratedObject make_food_bag(Rng& rng);
+
 }  // namespace vantage::family

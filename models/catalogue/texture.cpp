@@ -36,6 +36,12 @@ struct PngImage {
   PngImage& operator=(const PngImage&) = delete;
 };
 
+void describe(const Image& image, png_image& header) {
+  header.width = static_cast<png_uint_32>(image.width_px);
+  header.height = static_cast<png_uint_32>(image.height_px);
+  header.format = PNG_FORMAT_RGB;
+}
+
 }  // namespace
 
 Colour hsv(double hue, double saturation, double brightness) {
@@ -104,12 +110,24 @@ void speckle(Image& image, const UvRect& rect, double sigma, int block_px, Rng& 
   }
 }
 
+std::string png_bytes(const Image& image) {
+  PngImage png;
+  describe(image, png.header);
+  const auto write = [&](void* memory, png_alloc_size_t& size) {
+    return png_image_write_to_memory(&png.header, memory, &size, 0, image.rgb.data(), 0, nullptr);
+  };
+  png_alloc_size_t size = 0;
+  expects(write(nullptr, size) != 0, "an image becomes a PNG");
+  std::string bytes(size, '\0');
+  expects(write(bytes.data(), size) != 0, "an image becomes a PNG");
+  bytes.resize(size);
+  return bytes;
+}
+
 void write_png(const Image& image, const std::filesystem::path& path) {
   write_file_with(path, [&](const std::filesystem::path& part) {
     PngImage png;
-    png.header.width = static_cast<png_uint_32>(image.width_px);
-    png.header.height = static_cast<png_uint_32>(image.height_px);
-    png.header.format = PNG_FORMAT_RGB;
+    describe(image, png.header);
     return png_image_write_to_file(&png.header, part.c_str(), 0, image.rgb.data(), 0, nullptr) != 0;
   });
 }

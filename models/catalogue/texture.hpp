@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "models/catalogue/uv_rect.hpp"
@@ -43,6 +44,8 @@ void paint(Image& image, const UvRect& rect, const Colour& colour);
 /// Brightness noise of standard deviation `sigma` in blocks of `block_px`.
 void speckle(Image& image, const UvRect& rect, double sigma, int block_px, Rng& rng);
 
+/// The bytes of a PNG file.
+std::string png_bytes(const Image& image);
 /// @throws OutputError if the file cannot be written.
 void write_png(const Image& image, const std::filesystem::path& path);
 /// @throws InputError if the file is missing or no PNG; other formats than RGB are converted.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "models/catalogue/object_database.hpp"
 #include "planners/gain.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/data_root.hpp"
@@ -42,6 +43,12 @@ std::vector<std::string> scenes() {
   return found;
 }
 
+std::vector<std::string> objects() {
+  std::vector<std::string> names;
+  for (const DatabaseObject& object : object_database()) names.push_back(object.name);
+  return names;
+}
+
 struct Topic {
   std::string_view name;
   std::vector<std::string> (*entries)();
@@ -53,6 +60,7 @@ constexpr auto kTopics = std::to_array<Topic>({
     {"episodes", [] { return yaml_files("assets/episodes"); }},
     {"studies", [] { return yaml_files("assets/studies"); }},
     {"scenes", scenes},
+    {"objects", objects},
 });
 
 }  // namespace

@@ -1,0 +1,186 @@
+#include "src/perception/dataset_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "src/core/atomic_file.hpp"
+#include "src/core/error.hpp"
+
+namespace vantage {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+constexpr std::string_view kCrop = "_crop.png";
+constexpr std::array<std::string_view, 4> kBeside{"depthcrop.png", "maskcrop.png", "loc.txt",
+                                                  "pose.txt"};
+
+/// Takes "_<number>" off the end; nothing if it does not end so.
+std::optional<int> take_number(std::string_view& text) {
+  const auto underscore = text.rfind('_');
+  if (underscore == std::string_view::npos || underscore == 0) return std::nullopt;
+  const std::string_view digits = text.substr(underscore + 1);
+  int number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc{} || end != digits.data() + digits.size() || number < 0) {
+    return std::nullopt;
+  }
+  text = text.substr(0, underscore);
+  return number;
+}
+
+std::vector<fs::path> sorted_folders(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const bool hidden = entry.path().filename().string().starts_with('.');
+    if (entry.is_directory(error) && !hidden) found.push_back(entry.path());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+double read_yaw_rad(const fs::path& file) {
+  const std::string text = read_file(file);
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const char* begin = text.data() + std::min(first, text.size());
+  const char* end = text.data() + text.size();
+  double degrees = 0.0;
+  const auto [stop, error] = std::from_chars(begin, end, degrees);
+  const bool rest_blank = std::all_of(stop, end, [](char c) { return std::isspace(c) != 0; });
+  if (error != std::errc{} || !rest_blank || !std::isfinite(degrees)) {
+    throw InputError(fmt::format("{}: expected the pose in degrees, one number", file.string()));
+  }
+  const double turns = degrees / 360.0;
+  const double yaw_rad = 2.0 * std::numbers::pi * (turns - std::floor(turns));
+  return yaw_rad < 2.0 * std::numbers::pi ? yaw_rad : 0.0;
+}
+
+class Indexer {
+ public:
+  explicit Indexer(OnBadView on_bad) : on_bad_(on_bad) {}
+
+  void add_object(const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      names.insert(entry.path().filename().string());
+    }
+    for (const std::string& name : names) {
+      if (!name.ends_with(kCrop)) continue;
+      const auto parsed =
+          parse_view_name(std::string_view(name).substr(0, name.size() - kCrop.size()));
+      if (parsed) add_view(folder, *parsed, names);
+    }
+  }
+
+  DatasetIndex finish() {
+    std::map<std::string, int> views_of;
+    for (const ViewEntry& view : index_.views) ++views_of[view.name.category];
+    std::erase_if(index_.views, [&](const ViewEntry& view) {
+      if (views_of[view.name.category] > 1) return false;
+      reject(view.file("crop.png"), "the only view of its category");
+      return true;
+    });
+    std::ranges::sort(index_.views, {}, [](const ViewEntry& view) {
+      return std::tie(view.name.category, view.name.object, view.name.video, view.name.frame);
+    });
+    return std::move(index_);
+  }
+
+ private:
+  void add_view(const fs::path& folder, const ViewName& name, const std::set<std::string>& files) {
+    ViewEntry view{name, folder, 0.0};
+    for (const std::string_view suffix : kBeside) {
+      const fs::path file = view.file(suffix);
+      if (!files.contains(file.filename().string())) return reject(file, "is missing");
+    }
+    if (!video_elevation_rad(name.video)) {
+      return reject(view.file("crop.png"), fmt::format("video {} is none of 1, 2, 4", name.video));
+    }
+    try {
+      view.yaw_rad = read_yaw_rad(view.file("pose.txt"));
+    } catch (const InputError& error) {
+      if (on_bad_ == OnBadView::fail) throw;
+      index_.skipped.push_back({view.file("pose.txt"), error.what()});
+      return;
+    }
+    index_.views.push_back(std::move(view));
+  }
+
+  void reject(const fs::path& file, const std::string& reason) {
+    const std::string what = fmt::format("{}: {}", file.string(), reason);
+    if (on_bad_ == OnBadView::fail) throw InputError(what);
+    index_.skipped.push_back({file, what});
+  }
+
+  OnBadView on_bad_;
+  DatasetIndex index_;
+};
+
+}  // namespace
+
+std::optional<ViewName> parse_view_name(std::string_view text) {
+  ViewName name;
+  const auto frame = take_number(text);
+  const auto video = frame ? take_number(text) : std::nullopt;
+  if (!video) return std::nullopt;
+  name.frame = *frame;
+  name.video = *video;
+  name.object = text;
+  if (!take_number(text)) return std::nullopt;
+  name.category = text;
+  return name;
+}
+
+std::string to_string(const ViewName& name) {
+  return fmt::format("{}_{}_{}", name.object, name.video, name.frame);
+}
+
+std::optional<double> video_elevation_rad(int video) {
+  switch (video) {
+    case 1: return 30.0 * kRadiansPerDegree;
+    case 2: return 45.0 * kRadiansPerDegree;
+    case 4: return 60.0 * kRadiansPerDegree;
+    default: return std::nullopt;
+  }
+}
+
+int yaw_bin(double yaw_rad, int bins) {
+  expects(bins > 0, "there are yaw bins");
+  const double turns = yaw_rad / (2.0 * std::numbers::pi);
+  const auto bin = static_cast<int>(std::floor((turns - std::floor(turns)) * bins + 0.5));
+  return bin % bins;
+}
+
+fs::path ViewEntry::file(std::string_view suffix) const {
+  return folder / fmt::format("{}_{}", to_string(name), suffix);
+}
+
+DatasetIndex index_dataset(const fs::path& root, OnBadView on_bad) {
+  std::error_code error;
+  if (!fs::is_directory(root, error)) {
+    throw InputError(fmt::format("{}: no such folder of a dataset", root.string()));
+  }
+  Indexer indexer(on_bad);
+  for (const fs::path& category : sorted_folders(root)) {
+    for (const fs::path& object : sorted_folders(category)) indexer.add_object(object);
+  }
+  DatasetIndex index = indexer.finish();
+  if (index.views.empty()) {
+    const std::string first =
+        index.skipped.empty() ? "" : fmt::format("; {}", index.skipped.front().reason);
+    throw InputError(fmt::format(
+        "{}: no view <category>/<category>_<instance>/..._crop.png in it{}", root.string(), first));
+  }
+  return index;
+}
+
+}  // namespace vantage

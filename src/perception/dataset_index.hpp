@@ -1,0 +1,61 @@
+/// What there is in a folder of views laid out like the RGB-D Object Dataset [LaiBoRenFox2011]:
+/// <root>/<category>/<category>_<instance>/<category>_<instance>_<video>_<frame>_{crop.png,
+/// depthcrop.png, maskcrop.png, loc.txt, pose.txt}.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vantage {
+
+/// What a file name says. Categories may contain underscores.
+struct ViewName {
+  std::string category;  ///< "coffee_mug"
+  std::string object;    ///< "coffee_mug_3"
+  int video = 0;         ///< 1, 2 or 4
+  int frame = 0;         ///< from 1
+  bool operator==(const ViewName&) const = default;
+};
+
+/// "coffee_mug_3_1_42"; nothing if it is not of that form.
+std::optional<ViewName> parse_view_name(std::string_view text);
+std::string to_string(const ViewName& name);
+
+/// Of the camera above the turntable: 30, 45, 60 deg for videos 1, 2, 4; nothing for others.
+std::optional<double> video_elevation_rad(int video);
+
+/// Nearest of `bins` yaw bins, bin q centred on q * 2 pi / bins.
+int yaw_bin(double yaw_rad, int bins = 8);
+
+struct ViewEntry {
+  ViewName name;
+  std::filesystem::path folder;  ///< of the object
+  double yaw_rad = 0.0;          ///< of the object on the turntable, [0, 2 pi)
+
+  /// One of the view's files; `suffix` is "crop.png", "loc.txt", ...
+  [[nodiscard]] std::filesystem::path file(std::string_view suffix) const;
+};
+
+struct SkippedView {
+  std::filesystem::path file;
+  std::string reason;
+};
+
+enum class OnBadView { fail, skip };
+
+struct DatasetIndex {
+  std::vector<ViewEntry> views;      ///< by category, object, video and frame
+  std::vector<SkippedView> skipped;  ///< empty with OnBadView::fail
+};
+
+/// Lists the views and reads their yaw; no picture is opened. A view is bad if one of its files is
+/// missing, its pose is no number, its video is unknown or its category has no other view. Files of
+/// other names are left alone.
+/// @throws InputError naming the file of the first bad view (OnBadView::fail), or the root if it is
+/// no folder or holds no view.
+DatasetIndex index_dataset(const std::filesystem::path& root, OnBadView on_bad = OnBadView::fail);
+
+}  // namespace vantage

@@ -1,0 +1,48 @@
+#include "src/dataset/contact_sheet.hpp"
+
+#include <gtest/gtest.h>
+
+#include "models/catalogue/texture.hpp"
+#include "src/dataset/view_files.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+/// A view of 10 x 20 px in one colour.
+ObjectView plain(std::uint8_t grey) {
+  ObjectView view;
+  view.width_px = 10;
+  view.height_px = 20;
+  view.rgb.assign(600, grey);
+  view.depth_m.assign(200, 1.0F);
+  view.mask.assign(200, 1);
+  return view;
+}
+
+TEST(ContactSheet, ShowsTheViewNearestToTheYawOfTheVideo) {
+  const support::TemporaryDirectory folder;
+  DatasetIndex index;
+  const auto put = [&](const char* object, int video, int frame, double yaw_rad, int grey) {
+    const ViewEntry entry{{"cup", object, video, frame}, folder.path(), yaw_rad};
+    write_view(plain(static_cast<std::uint8_t>(grey)), entry);
+    index.views.push_back(entry);
+  };
+  put("cup_1", 1, 1, 1.0, 10);
+  put("cup_1", 2, 1, 3.0, 20);
+  put("cup_1", 2, 2, 6.2, 30);
+  put("cup_2", 1, 1, 1.0, 40);
+  put("cup_3", 2, 1, 0.0, 50);
+  write_contact_sheet(index, {.cell_px = 40, .columns = 2, .video = 2, .yaw_rad = 0.1},
+                      folder / "sheet.png");
+  const Image sheet = read_png(folder / "sheet.png");
+  EXPECT_EQ(sheet.width_px, 80);
+  EXPECT_EQ(sheet.height_px, 2 * 52);
+  EXPECT_NEAR(sheet.at(5, 20).x() * 255.0, 30.0, 1.0);
+  EXPECT_NEAR(sheet.at(45, 20).x() * 255.0, 40.0, 1.0);
+  EXPECT_NEAR(sheet.at(5, 72).x() * 255.0, 50.0, 1.0);
+  EXPECT_EQ(sheet.at(30, 20), Colour::Ones());  // beside a narrow picture
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,80 @@
+#include "src/dataset/object_source.hpp"
+
+#include <gtest/gtest.h>
+
+#include "models/catalogue/obj.hpp"
+#include "models/catalogue/object_database.hpp"
+#include "models/catalogue/texture.hpp"
+#include "src/core/atomic_file.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+TEST(ObjectSource, TakesTheFirstOfTheCatalogue) {
+  const auto names = object_names({.objects = 10});
+  const auto objects = object_database(1);
+  ASSERT_EQ(names.size(), 10U);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(names[i].object, objects[i].name);
+    EXPECT_EQ(names[i].category, objects[i].category);
+  }
+  EXPECT_EQ(object_names({.objects = 1000}).size(), 326U);
+}
+
+TEST(ObjectSource, BoundsAreThoseOfTheMesh) {
+  const TurntableObject object = make_turntable_object({}, object_names({.objects = 1}).front());
+  const auto box = bounds(generate(object_database(1).front()).mesh);
+  EXPECT_TRUE(object.box_m.isApprox(box));
+  EXPECT_TRUE(object.png.starts_with("\x89PNG"));
+}
+
+class Scans : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"toy_2", "duck"}) {
+      std::filesystem::create_directories(root_ / name);
+      write_file(root_.path() / name / "model.obj",
+                 "# scan\nv 0 0 0.1\nv 0.2 0 0.1\r\nv 0 -0.3 0.1\nv 0\t0 0.5\nvn 0 0 9\nf 1 2 3\n");
+      write_png(Image(8, 8, Colour::Ones()), root_.path() / name / "texture.png");
+    }
+    std::filesystem::create_directories(root_ / "empty");
+    options_.models = root_.path();
+  }
+  support::TemporaryDirectory root_;
+  DatasetOptions options_;
+};
+
+TEST_F(Scans, AreCategoriesOfTheirOwn) {
+  const auto names = object_names(options_);
+  ASSERT_EQ(names.size(), 2U);
+  EXPECT_EQ(names[0].object, "duck_1");
+  EXPECT_EQ(names[1].object, "toy_2_1");
+  EXPECT_EQ(names[1].category, "toy_2");
+}
+
+TEST_F(Scans, BoundsAreReadFromTheFile) {
+  const TurntableObject object = make_turntable_object(options_, object_names(options_)[1]);
+  EXPECT_TRUE(object.box_m.min().isApprox(Eigen::Vector3d(0, -0.3, 0.1)));
+  EXPECT_TRUE(object.box_m.max().isApprox(Eigen::Vector3d(0.2, 0, 0.5)));
+}
+
+TEST_F(Scans, DamageIsNamed) {
+  write_file(root_.path() / "duck" / "model.obj", "v 1 2\n");
+  EXPECT_THROW(make_turntable_object(options_, object_names(options_)[0]), InputError);
+  write_file(root_.path() / "duck" / "model.obj", "f 1 2 3\n");
+  EXPECT_THROW(make_turntable_object(options_, object_names(options_)[0]), InputError);
+  options_.models = root_ / "empty";
+  EXPECT_THROW(object_names(options_), InputError);
+}
+
+TEST(DatasetOptionsTest, FramesAreWholeSteps) {
+  EXPECT_EQ(DatasetOptions{.step_deg = 20.0}.frames(), 18);
+  EXPECT_EQ(DatasetOptions{.step_deg = 22.5}.frames(), 16);
+  EXPECT_EQ(DatasetOptions{.step_deg = 100.0}.frames(), 3);
+  EXPECT_EQ(DatasetOptions{.step_deg = 0.1}.frames(), 3600);
+  EXPECT_THROW(check_options(DatasetOptions{.supersampling = 2}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,145 @@
+#include "src/dataset/render_dataset.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <map>
+#include <numbers>
+
+#include "src/core/atomic_file.hpp"
+#include "src/perception/dataset_reader.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Few and small views.
+DatasetOptions few(int objects) {
+  return {.objects = objects, .step_deg = 120.0, .supersampling = 1};
+}
+
+std::map<std::string, std::string> contents(const fs::path& root) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (entry.is_regular_file()) {
+      files[fs::relative(entry.path(), root).string()] = read_file(entry.path());
+    }
+  }
+  return files;
+}
+
+TEST(RenderDataset, IsReadAsADataset) {
+  const support::TemporaryDirectory out;
+  const DatasetOutcome outcome = render_dataset(few(3), {.root = out / "d"});
+  EXPECT_EQ(outcome.objects, 3);
+  EXPECT_EQ(outcome.rendered, 3);
+  EXPECT_EQ(outcome.views, 3 * 3 * 3);
+  const DatasetIndex index = index_dataset(out / "d");
+  ASSERT_EQ(index.views.size(), 27U);
+  for (const ViewEntry& entry : index.views) {
+    SCOPED_TRACE(to_string(entry.name));
+    const LabelledView read = load_view(entry);
+    int on_object = 0;
+    int measured = 0;
+    for (std::size_t i = 0; i < read.view.mask.size(); ++i) {
+      on_object += read.view.mask[i];
+      measured += read.view.mask[i] != 0 && read.view.depth_m[i] > 0.0F ? 1 : 0;
+    }
+    EXPECT_GT(on_object, 500);
+    EXPECT_GT(measured, on_object * 3 / 4);
+    EXPECT_GE(read.view.left_px, 0);
+    EXPECT_LE(read.view.left_px + read.view.width_px, 640);
+    EXPECT_LE(read.view.top_px + read.view.height_px, 480);
+  }
+}
+
+TEST(RenderDataset, ViewsOfAVideoAreAStepApart) {
+  const support::TemporaryDirectory out;
+  render_dataset(few(1), {.root = out / "d"});
+  const auto views = index_dataset(out / "d").views;
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    if (views[i].name.video != views[i - 1].name.video) continue;
+    const double step =
+        std::remainder(views[i].yaw_rad - views[i - 1].yaw_rad, 2 * std::numbers::pi);
+    EXPECT_NEAR(step, 2.0 * std::numbers::pi / 3.0, 1e-5);
+  }
+}
+
+TEST(RenderDataset, TheObjectStandsUprightOnItsPlane) {
+  const support::TemporaryDirectory out;
+  DatasetOptions options = few(1);  // a mug
+  options.depth_noise = false;
+  render_dataset(options, {.root = out / "d"});
+  for (const ViewEntry& entry : index_dataset(out / "d").views) {
+    const ObjectView view = load_view(entry).view;
+    double low = 1e9;
+    double high = -1e9;
+    for (int row = 0; row < view.height_px; ++row) {
+      for (int column = 0; column < view.width_px; ++column) {
+        if (view.depth_m[view.index(row, column)] == 0.0F) continue;
+        const double height = view.up.dot(view.point(row, column));
+        low = std::min(low, height);
+        high = std::max(high, height);
+      }
+    }
+    EXPECT_GT(high - low, 0.08) << to_string(entry.name);  // above the turntable
+    EXPECT_LT(high - low, 0.12) << to_string(entry.name);
+  }
+}
+
+TEST(RenderDataset, FilesDoNotDependOnThreads) {
+  const support::TemporaryDirectory out;
+  render_dataset(few(5), {.root = out / "one", .jobs = 1});
+  render_dataset(few(5), {.root = out / "three", .jobs = 3});
+  EXPECT_EQ(contents(out / "one"), contents(out / "three"));
+}
+
+TEST(RenderDataset, GoesOnWhereItWasStopped) {
+  const support::TemporaryDirectory out;
+  render_dataset(few(4), {.root = out / "whole"});
+  std::atomic<int> views = 0;
+  const DatasetOutcome stopped = render_dataset(
+      few(4), {.root = out / "parts", .jobs = 2, .stop = [&] { return ++views > 22; }});
+  EXPECT_TRUE(stopped.stopped);
+  EXPECT_LT(stopped.objects, 4);
+  fs::create_directories(out / "parts" / "mug" / ".mug_2.part");  // as a kill leaves it
+  write_file(out / "parts" / "mug" / ".mug_2.part" / "mug_2_1_1_crop.png", "half");
+  const DatasetOutcome resumed = render_dataset(few(4), {.root = out / "parts"});
+  EXPECT_FALSE(resumed.stopped);
+  EXPECT_EQ(resumed.objects, 4);
+  EXPECT_EQ(resumed.rendered + stopped.rendered, 4);
+  fs::remove_all(out / "parts" / "mug" / ".mug_2.part");
+  EXPECT_EQ(contents(out / "whole"), contents(out / "parts"));
+}
+
+TEST(RenderDataset, OtherOptionsNeedOverwrite) {
+  const support::TemporaryDirectory out;
+  render_dataset(few(1), {.root = out / "d"});
+  DatasetOptions other = few(1);
+  other.seed = 9;
+  EXPECT_THROW(render_dataset(other, {.root = out / "d"}), ConfigError);
+  EXPECT_EQ(render_dataset(few(2), {.root = out / "d"}).rendered, 1);  // one more
+  EXPECT_EQ(render_dataset(other, {.root = out / "d", .overwrite = true}).rendered, 1);
+  EXPECT_THAT(dataset_options_text(out / "d"), testing::HasSubstr("seed: 9"));
+}
+
+TEST(RenderDataset, AnotherFolderIsLeftAlone) {
+  const support::TemporaryDirectory out;
+  write_file(out / "precious.txt", "mine");
+  EXPECT_THROW(render_dataset(few(1), {.root = out.path(), .overwrite = true}), ConfigError);
+  EXPECT_TRUE(fs::exists(out / "precious.txt"));
+}
+
+TEST(RenderDataset, FailsAsAWorkerDoes) {
+  const support::TemporaryDirectory out;
+  DatasetOptions options = few(4);
+  options.distance_m = 0.3;
+  options.placement_m = 0.1;
+  EXPECT_THROW(render_dataset(options, {.root = out / "d", .jobs = 2}), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

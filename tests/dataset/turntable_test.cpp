@@ -1,0 +1,111 @@
+#include "src/dataset/turntable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tests/dataset/cube.hpp"
+
+namespace vantage {
+namespace {
+
+using std::numbers::pi;
+constexpr double kElevation_rad = pi / 6.0;
+
+struct Pixel {
+  int r, g, b;
+};
+
+/// Mean colour of the lower middle of the object: the face towards the camera.
+Pixel face_colour(const RenderedImages& images) {
+  const std::size_t row = static_cast<std::size_t>(images.height_px * 11 / 20);
+  const std::size_t i = 3 * (row * static_cast<std::size_t>(images.width_px) +
+                             static_cast<std::size_t>(images.width_px / 2));
+  return {images.rgb[i], images.rgb[i + 1], images.rgb[i + 2]};
+}
+
+class Cube : public testing::Test {
+ protected:
+  RenderedImages draw(double yaw_rad) {
+    RenderedImages images;
+    table_.draw(yaw_rad, images);
+    return images;
+  }
+  DatasetOptions options_{.supersampling = 1};
+  Turntable table_{support::coloured_cube(), support::plain_session(kElevation_rad), options_,
+                   "cube"};
+};
+
+TEST_F(Cube, ShowsItsXSideAtYawZeroAndTurnsCounterClockwise) {
+  const Pixel front = face_colour(draw(0.0));
+  EXPECT_GT(front.r, 2 * std::max(front.g, front.b));  // +x is red
+  const Pixel quarter = face_colour(draw(0.5 * pi));
+  EXPECT_GT(quarter.r, 2 * quarter.b);  // -y is yellow
+  EXPECT_GT(quarter.g, 2 * quarter.b);
+  const Pixel half = face_colour(draw(pi));
+  EXPECT_GT(half.g, 2 * std::max(half.r, half.b));  // -x is green
+}
+
+TEST_F(Cube, DepthAndSizeAreThoseOfTheVirtualCamera) {
+  const RenderedImages images = draw(0.0);
+  const int middle = images.width_px / 2;
+  const auto at = [&](int row, int column) {
+    return static_cast<std::size_t>(row * images.width_px + column);
+  };
+  EXPECT_NEAR(images.focal_px, kFocal_px, 1e-3 * kFocal_px);
+  EXPECT_EQ(images.segmentation[at(middle, middle)], table_.object_geom());
+  // The optical axis meets the upright face x = 0.05 at 0.05 / cos(elevation) before the axis.
+  EXPECT_NEAR(images.depth_m[at(middle, middle)], 0.8 - 0.05 / std::cos(kElevation_rad), 1e-3);
+  int width = 0;
+  for (int column = 0; column < images.width_px; ++column) {
+    width += images.segmentation[at(middle, column)] == table_.object_geom() ? 1 : 0;
+  }
+  EXPECT_NEAR(width, kFocal_px * 0.1 / (0.8 - 0.05 / std::cos(kElevation_rad)), 1.5);
+}
+
+TEST_F(Cube, StandsOnTheTableInsideTheWindow) {
+  for (const double yaw : {0.0, 0.3, pi / 4.0}) {
+    const RenderedImages images = draw(yaw);
+    for (int i = 0; i < images.width_px; ++i) {
+      for (const int at : {i, (images.height_px - 1) * images.width_px + i, i * images.width_px,
+                           (i + 1) * images.width_px - 1}) {
+        EXPECT_NE(images.segmentation[static_cast<std::size_t>(at)], table_.object_geom());
+      }
+    }
+  }
+}
+
+TEST(Window, HoldsTheBoundingSphere) {
+  const TurntableObject object = support::coloured_cube();
+  Session session = support::plain_session(kElevation_rad);
+  const double reach = std::sqrt(3.0) * 0.05;
+  const double angle = std::asin(reach / session.distance_m);
+  EXPECT_GE(window_radius_px(object, session, "cube"), kFocal_px * std::tan(angle));
+  EXPECT_LE(window_radius_px(object, session, "cube"), kFocal_px * std::tan(angle) + 10.0);
+  session.distance_m = 0.2;
+  EXPECT_THROW(window_radius_px(object, session, "cube"), InputError);
+  session.distance_m = 0.05;
+  EXPECT_THROW(window_radius_px(object, session, "cube"), InputError);
+}
+
+TEST(Sessions, ChangeOnlyWhatTheOptionsLet) {
+  Rng rng(3);
+  const DatasetOptions still{.step_deg = 30.0, .placement_m = 0.0, .lighting = 0.0};
+  const Session a = draw_session(still, 0.5, rng);
+  const Session b = draw_session(still, 0.5, rng);
+  EXPECT_EQ(a.lamp_heading_rad, b.lamp_heading_rad);
+  EXPECT_EQ(a.gain, Eigen::Vector3d::Ones());
+  EXPECT_EQ(a.offset_m.norm(), 0.0);
+  EXPECT_NE(a.first_yaw_rad, b.first_yaw_rad);
+  for (int i = 0; i < 200; ++i) {
+    const Session session = draw_session({.step_deg = 30.0, .placement_m = 0.02}, 0.5, rng);
+    EXPECT_LE(session.offset_m.norm(), 0.02);
+    EXPECT_GE(session.first_yaw_rad, 0.0);
+    EXPECT_LT(session.first_yaw_rad, pi / 6.0);
+    EXPECT_LT((session.gain - Eigen::Vector3d::Ones()).cwiseAbs().maxCoeff(), 0.13);
+  }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,118 @@
+#include "src/perception/dataset_index.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "src/core/error.hpp"
+#include "tests/perception/dataset_files.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+using std::numbers::pi;
+using testing::HasSubstr;
+
+TEST(ViewNames, AreReadFromTheRight) {
+  EXPECT_EQ(parse_view_name("coffee_mug_3_1_42"), (ViewName{"coffee_mug", "coffee_mug_3", 1, 42}));
+  EXPECT_EQ(parse_view_name("apple_12_4_1"), (ViewName{"apple", "apple_12", 4, 1}));
+  EXPECT_EQ(parse_view_name("model_2_b_7_2_9"), (ViewName{"model_2_b", "model_2_b_7", 2, 9}));
+  for (const char* bad : {"", "apple", "apple_1", "apple_1_2", "_1_2_3", "apple_1_2_x",
+                          "apple_1_2_", "apple_x_1_2", "apple_1_-2_3"}) {
+    EXPECT_FALSE(parse_view_name(bad)) << bad;
+  }
+}
+
+TEST(ViewNames, AreWrittenAsRead) {
+  const ViewName name{"food_can", "food_can_7", 4, 133};
+  EXPECT_EQ(to_string(name), "food_can_7_4_133");
+  EXPECT_EQ(parse_view_name(to_string(name)), name);
+}
+
+TEST(YawBins, AreCentredOnMultiples) {
+  for (int q = 0; q < 8; ++q) {
+    EXPECT_EQ(yaw_bin(q * pi / 4.0), q);
+    EXPECT_EQ(yaw_bin(q * pi / 4.0 + 0.99 * pi / 8.0), q);
+    EXPECT_EQ(yaw_bin(q * pi / 4.0 - 0.99 * pi / 8.0), q);
+    EXPECT_EQ(yaw_bin(q * pi / 4.0 - 6.0 * pi), q);
+  }
+  EXPECT_EQ(yaw_bin(pi, 2), 1);
+}
+
+class Index : public testing::Test {
+ protected:
+  void SetUp() override {
+    support::put_view(root_.path(), "mug", "mug_1", 2, 10, "90.0\n");
+    support::put_view(root_.path(), "mug", "mug_1", 2, 9, "-45");
+    support::put_view(root_.path(), "food_can", "food_can_2", 1, 1, "  360.0 \n");
+    support::put_view(root_.path(), "food_can", "food_can_2", 4, 1, "0");
+  }
+  std::filesystem::path of_mug(const std::string& name) {
+    return root_.path() / "mug" / "mug_1" / name;
+  }
+  void expect_bad(const std::string& file, const std::string& reason) {
+    try {
+      index_dataset(root_.path());
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(file));
+      EXPECT_THAT(error.what(), HasSubstr(reason));
+    }
+    const DatasetIndex index = index_dataset(root_.path(), OnBadView::skip);
+    ASSERT_FALSE(index.skipped.empty());
+    EXPECT_THAT(index.skipped.front().file.string(), HasSubstr(file));
+    EXPECT_THAT(index.skipped.front().reason, HasSubstr(reason));
+  }
+  support::TemporaryDirectory root_;
+};
+
+TEST_F(Index, IsSortedByNumberAndHasYaws) {
+  write_file(root_.path() / "mug" / "mug_1" / "notes_crop.png", "of no view");
+  std::filesystem::create_directories(root_.path() / "mug" / ".mug_2.part");
+  const DatasetIndex index = index_dataset(root_.path());
+  ASSERT_EQ(index.views.size(), 4U);
+  EXPECT_EQ(to_string(index.views[0].name), "food_can_2_1_1");
+  EXPECT_EQ(to_string(index.views[1].name), "food_can_2_4_1");
+  EXPECT_EQ(to_string(index.views[2].name), "mug_1_2_9");
+  EXPECT_EQ(to_string(index.views[3].name), "mug_1_2_10");
+  EXPECT_NEAR(index.views[0].yaw_rad, 0.0, 1e-12);
+  EXPECT_NEAR(index.views[2].yaw_rad, 1.75 * pi, 1e-12);
+  EXPECT_NEAR(index.views[3].yaw_rad, 0.5 * pi, 1e-12);
+  EXPECT_EQ(index.views[3].file("loc.txt"), of_mug("mug_1_2_10_loc.txt"));
+}
+
+TEST_F(Index, NamesAMissingFile) {
+  std::filesystem::remove(of_mug("mug_1_2_10_depthcrop.png"));
+  support::put_view(root_.path(), "mug", "mug_1", 2, 11, "0");
+  expect_bad("mug_1_2_10_depthcrop.png", "is missing");
+  EXPECT_EQ(index_dataset(root_.path(), OnBadView::skip).views.size(), 4U);
+}
+
+TEST_F(Index, NamesABadPose) {
+  support::put_view(root_.path(), "mug", "mug_1", 2, 11, "north");
+  expect_bad("mug_1_2_11_pose.txt", "expected the pose in degrees");
+  support::put_view(root_.path(), "mug", "mug_1", 2, 11, "nan");
+  expect_bad("mug_1_2_11_pose.txt", "expected the pose in degrees");
+}
+
+TEST_F(Index, NamesAnUnknownVideo) {
+  support::put_view(root_.path(), "mug", "mug_1", 3, 1, "0");
+  expect_bad("mug_1_3_1_crop.png", "video 3 is none of 1, 2, 4");
+}
+
+TEST_F(Index, NamesACategoryOfOneView) {
+  support::put_view(root_.path(), "bowl", "bowl_1", 1, 1, "0");
+  expect_bad("bowl_1_1_1_crop.png", "the only view of its category");
+  EXPECT_EQ(index_dataset(root_.path(), OnBadView::skip).views.size(), 4U);
+}
+
+TEST(EmptyIndex, IsAnError) {
+  const support::TemporaryDirectory root;
+  EXPECT_THROW(index_dataset(root.path()), InputError);
+  EXPECT_THROW(index_dataset(root.path() / "none"), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

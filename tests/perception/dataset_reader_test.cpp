@@ -1,0 +1,116 @@
+#include "src/perception/dataset_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "src/core/error.hpp"
+#include "tests/perception/dataset_files.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+using std::numbers::pi;
+using testing::HasSubstr;
+
+class Reader : public testing::Test {
+ protected:
+  void SetUp() override {
+    support::put_view(root_.path(), "coffee_mug", "coffee_mug_1", 4, 1, "100.0\n");
+    support::put_view(root_.path(), "coffee_mug", "coffee_mug_1", 4, 2, "105.0\n");
+    entry_ = index_dataset(root_.path()).views.front();
+  }
+  void expect_bad(const std::string& file, const std::string& reason) {
+    try {
+      load_view(entry_);
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(file));
+      EXPECT_THAT(error.what(), HasSubstr(reason));
+    }
+    std::vector<SkippedView> skipped;
+    EXPECT_FALSE(load_view(entry_, skipped));
+    ASSERT_EQ(skipped.size(), 1U);
+    EXPECT_THAT(skipped.front().reason, HasSubstr(reason));
+  }
+  support::TemporaryDirectory root_;
+  ViewEntry entry_;
+};
+
+TEST_F(Reader, ReadsEveryPixel) {
+  const LabelledView labelled = load_view(entry_);
+  const ObjectView& view = labelled.view;
+  EXPECT_EQ(labelled.name, entry_.name);
+  EXPECT_NEAR(labelled.yaw_rad, 100.0 * pi / 180.0, 1e-12);
+  EXPECT_EQ(labelled.bin, 2);
+  EXPECT_EQ(view.width_px, 5);
+  EXPECT_EQ(view.height_px, 4);
+  EXPECT_EQ(view.left_px, 300);
+  EXPECT_EQ(view.top_px, 200);
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      const std::size_t i = view.index(row, column);
+      EXPECT_EQ(view.rgb[3 * i], row);
+      EXPECT_EQ(view.rgb[3 * i + 1], column);
+      EXPECT_EQ(view.rgb[3 * i + 2], 7);
+      const bool hole = row == 0 && column == 0;
+      EXPECT_FLOAT_EQ(view.depth_m[i], hole ? 0.0F : 0.001F * static_cast<float>(1000 + column));
+      EXPECT_EQ(view.mask[i], row == 1 || row == 2 ? 1 : 0);
+    }
+  }
+}
+
+TEST_F(Reader, UpFollowsFromTheElevation) {
+  EXPECT_LT((load_view(entry_).view.up - Eigen::Vector3d(0.0, -0.5, -std::sqrt(0.75))).norm(),
+            1e-12);
+  EXPECT_LT((up_in_camera(0.0) - Eigen::Vector3d(0.0, -1.0, 0.0)).norm(), 1e-12);
+}
+
+TEST_F(Reader, NamesATruncatedPicture) {
+  const auto file = entry_.file("crop.png");
+  const std::string whole = read_file(file);
+  for (const std::size_t length : {std::size_t{1}, whole.size() / 2, whole.size() - 1}) {
+    write_file(file, whole.substr(0, length));
+    expect_bad("coffee_mug_1_4_1_crop.png", "is no whole PNG");
+  }
+}
+
+TEST_F(Reader, NamesDamagedPixels) {
+  const auto file = entry_.file("depthcrop.png");
+  std::string bytes = read_file(file);
+  const auto data = bytes.find("IDAT");
+  for (std::size_t i = data + 4; i < data + 16; ++i) bytes[i] = '\x55';
+  write_file(file, bytes);
+  expect_bad("coffee_mug_1_4_1_depthcrop.png", "cannot be decoded");
+}
+
+TEST_F(Reader, NamesAMissingPicture) {
+  std::filesystem::remove(entry_.file("depthcrop.png"));
+  expect_bad("coffee_mug_1_4_1_depthcrop.png", "cannot read");
+}
+
+TEST_F(Reader, NamesSizesThatDiffer) {
+  cv::imwrite(entry_.file("depthcrop.png").string(), cv::Mat(4, 6, CV_16UC1, cv::Scalar(900)));
+  expect_bad("depthcrop.png", "is 6 x 4 px, the colour crop 5 x 4");
+}
+
+TEST_F(Reader, NamesAPictureOfAnotherKind) {
+  cv::imwrite(entry_.file("depthcrop.png").string(), cv::Mat(4, 5, CV_8UC1, cv::Scalar(90)));
+  expect_bad("depthcrop.png", "expected a PNG of 16-bit depth");
+}
+
+TEST_F(Reader, NamesAnEmptyMask) {
+  cv::imwrite(entry_.file("maskcrop.png").string(), cv::Mat::zeros(4, 5, CV_8UC1));
+  expect_bad("maskcrop.png", "the mask is empty");
+}
+
+TEST_F(Reader, NamesABadLocation) {
+  write_file(entry_.file("loc.txt"), "300;200");
+  expect_bad("loc.txt", "expected the crop's top left pixel");
+}
+
+}  // namespace
+}  // namespace vantage
