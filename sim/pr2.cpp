@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "src/core/error.hpp"
 
@@ -15,12 +16,6 @@ constexpr double kSpeedCap_m_s = 1.0;
 
 Eigen::Vector3d site_in_model(const mjModel& model, int site) {
   return Eigen::Map<const Eigen::Vector3d>(model.site_pos + 3 * site);
-}
-
-std::vector<int> sorted_once(std::vector<int> ids) {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
 }
 
 }  // namespace
@@ -126,52 +121,24 @@ Pose2 Pr2::base_for_laser(const Pose& T_world_sensor) const {
   return compose(flatten(T_world_sensor), inverse(flatten(T_base_laser_low_)));
 }
 
-template <class Visit>
-void Pr2::visit_contacts(const mjModel& model, const mjData& data, Visit&& visit) const {
-  const auto is_robot = [&](int geom) {
-    return model.body_rootid[model.geom_bodyid[geom]] == base_body_;
-  };
-  for (int i = 0; i < data.ncon; ++i) {
-    const mjContact& contact = data.contact[i];
-    const bool first = is_robot(contact.geom1);
-    if (contact.dist > 0.0 || first == is_robot(contact.geom2)) continue;
-    visit(first ? contact.geom2 : contact.geom1);
-  }
-}
-
 std::vector<int> Pr2::touched_geoms(const World& world) const {
-  std::vector<int> geoms;
-  visit_contacts(world.model(), world.data(), [&](int geom) { geoms.push_back(geom); });
-  return sorted_once(std::move(geoms));
+  return vantage::touched_geoms(world.model(), world.data(), base_body_);
 }
 
 std::vector<int> Pr2::touched_by_turning(const World& world) const {
   constexpr int kHeadings = 24;
   const DataPtr copy = world.copy_data();
-  std::vector<int> geoms;
+  std::set<int> geoms;
   for (int i = 0; i < kHeadings; ++i) {
     copy->qpos[yaw_.qpos] += 2.0 * std::numbers::pi / kHeadings;
     mj_fwdPosition(&world.model(), copy.get());
-    visit_contacts(world.model(), *copy, [&](int geom) { geoms.push_back(geom); });
+    for (const int geom : contact_points(world.model(), *copy, base_body_)) geoms.insert(geom);
   }
-  return sorted_once(std::move(geoms));
+  return {geoms.begin(), geoms.end()};
 }
 
 int Pr2::contacts(const World& world) const {
-  int count = 0;
-  visit_contacts(world.model(), world.data(), [&](int) { ++count; });
-  return count;
-}
-
-int CollisionCounter::update(const Pr2& robot, const World& world) {
-  int begun = 0;
-  for (const int geom : robot.touched_geoms(world)) {
-    const auto [last, is_new] = last_touched_s_.try_emplace(geom, world.time_s());
-    if (is_new || world.time_s() - last->second > release_s_) ++begun;
-    last->second = world.time_s();
-  }
-  count_ += begun;
-  return begun;
+  return static_cast<int>(contact_points(world.model(), world.data(), base_body_).size());
 }
 
 }  // namespace vantage

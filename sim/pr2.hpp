@@ -1,9 +1,9 @@
 /// The PR2-like robot of models/robots/pr2: commands in, encoder readings and frames out.
 #pragma once
 
-#include <map>
 #include <vector>
 
+#include "sim/contacts.hpp"
 #include "sim/world.hpp"
 
 namespace vantage {
@@ -82,9 +82,6 @@ class Pr2 {
   static Axis find_axis(const mjModel& model, const std::string& name);
   static double position(const World& world, const Axis& axis);
   static void command(World& world, const Axis& axis, double target);
-  /// Calls `visit(geom)` with the other side of each contact of the robot.
-  template <class Visit>
-  void visit_contacts(const mjModel& model, const mjData& data, Visit&& visit) const;
 
   Axis x_, y_, yaw_, torso_, head_pan_, head_tilt_, laser_tilt_;
   int base_body_ = 0;
@@ -95,20 +92,6 @@ class Pr2 {
   Pose T_base_laser_low_ = Pose::Identity();  ///< torso down, tilt 0
   Pose2 T_base_base_scan_;
   double base_scan_height_m_ = 0.0;
-};
-
-/// Counts collisions by their onset: touching a geom again within `release_s` is the same one.
-class CollisionCounter {
- public:
-  explicit CollisionCounter(double release_s = 0.5) : release_s_(release_s) {}
-  /// Once per physics step (World::on_step), or short touches are missed. @return how many began.
-  int update(const Pr2& robot, const World& world);
-  [[nodiscard]] int count() const { return count_; }
-
- private:
-  double release_s_;
-  std::map<int, double> last_touched_s_;
-  int count_ = 0;
 };
 
 }  // namespace vantage
