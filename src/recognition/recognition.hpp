@@ -1,0 +1,93 @@
+/// Active recognition of one object: look, extract features while they are worth it, choose the
+/// next view, until it is sure enough.  [Potthast2016, figure 4.1]
+///
+/// Who moves the camera is the caller's business: a dataset that is leafed through, or a robot.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planners/feature_choice.hpp"
+#include "planners/object_view_choice.hpp"
+#include "src/belief/object_belief.hpp"
+#include "src/belief/transition.hpp"
+#include "src/recognition/recogniser.hpp"
+
+namespace vantage {
+
+struct RecognitionOptions {
+  FeatureChoice features;
+  bool all_features = false;  ///< extract every feature instead of choosing
+  ObjectViewOptions views;
+  EnoughViews enough;
+  TransitionModel transition = RigidTransition{};
+  int most_views = 8;  ///< after so many it stops, sure or not, >= 1
+  void fields(auto&& f) {
+    f("features", features);
+    f("all_features", all_features);
+    f("views", views);
+    f("enough", enough);
+    f("transition", transition);
+    f("most_views", most_views, between(1, 1000));
+  }
+};
+
+/// A feature as a view gives it, and the time that took.
+struct ExtractedFeature {
+  FeatureResult result;
+  double time_s = 0.0;
+};
+/// Extracts the feature of that index from the view at hand.
+using ExtractFeature = std::function<ExtractedFeature(std::size_t feature)>;
+
+struct SkippedFeature {
+  std::string feature;
+  std::string reason;
+};
+
+/// What one view told.
+struct ViewReport {
+  double view_rad = 0.0;              ///< bearing of the camera round the object, as commanded
+  std::vector<std::string> features;  ///< that were extracted, in order
+  std::vector<SkippedFeature> skipped;
+  double entropy_bits = 0.0;  ///< of the state, after the view
+  double feature_time_s = 0.0;
+  double selection_time_s = 0.0;  ///< to choose the features
+  double view_time_s = 0.0;       ///< to choose this view
+};
+
+/// What is known of the object so far.
+struct Recognition {
+  ObjectBelief belief;
+  std::vector<ViewReport> views;
+};
+
+Recognition begin_recognition(const Recogniser& recogniser);
+
+/// Takes in a view from where the camera is: chooses features, extracts and applies them, and
+/// appends a report to `recognition.views`.
+void take_view(const Recogniser& recogniser, const RecognitionOptions& options,
+               const ExtractFeature& extract, double view_rad, Recognition& recognition, Rng& rng);
+
+/// Why no further view is taken, if so.
+enum class RecognitionEnd { sure, most_views };
+std::optional<RecognitionEnd> recognition_end(const Recogniser& recogniser,
+                                              const RecognitionOptions& options,
+                                              const Recognition& recognition);
+
+/// Which of `actions` to take next, and how long the choice took. The belief is not changed.
+struct NextView {
+  ObjectViewDecision decision;
+  double time_s = 0.0;
+};
+NextView next_view(const Recogniser& recogniser, const RecognitionOptions& options,
+                   const Recognition& recognition, std::span<const ObjectViewAction> actions,
+                   Rng& rng);
+
+/// The camera turned about the object by `motion_rad`: what is believed of its yaw follows.
+void moved(const Recogniser& recogniser, const RecognitionOptions& options, double motion_rad,
+           Recognition& recognition);
+
+}  // namespace vantage
