@@ -35,6 +35,8 @@ function(vantage_test folder)
   target_link_libraries(test_${folder} PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
   target_compile_definitions(test_${folder} PRIVATE VANTAGE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   vantage_compile_options(test_${folder})
+  # Tests compile a quarter faster so, and run as fast: their time is spent in the libraries.
+  target_compile_options(test_${folder} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT})
 endfunction()
