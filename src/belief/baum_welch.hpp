@@ -40,6 +40,7 @@ double add_expected_moves(const ObjectStates& states, const LearnedTransition& t
 
 /// Sequential learning: one sequence, seen once, and the transition it leads to. Start from
 /// prior_counts(): the larger, the slower it learns and the less the order of sequences matters.
+/// A sequence that no states explain adds nothing.
 /// @return the transition for the counts, the sequence's included
 LearnedTransition learn_sequence(const ObjectStates& states, std::span<const ViewStep> sequence,
                                  TransitionCounts& counts);

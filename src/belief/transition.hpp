@@ -77,7 +77,7 @@ struct MotionBins {
 /// @param motion_rad finite
 MotionBins motion_bins(double motion_rad, int bins);
 
-/// @param motion_rad finite, not 0: see the top
+/// @param motion_rad finite; 0 is a full turn here, see the top
 TransitionKernel kernel_of(const TransitionModel& model, double motion_rad, int bins);
 
 }  // namespace vantage

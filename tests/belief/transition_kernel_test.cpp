@@ -62,7 +62,6 @@ TEST(TransitionForward, LosesNoStateHoweverUnlikely) {
   EXPECT_EQ(transition_backward(states, kernel, moved), log_p);
 }
 
-/// Which group of the kernel each entry of the matrix belongs to, and its count.
 RC_GTEST_PROP(ExpectedMoves, AreThePosteriorsOfAllPairs, ()) {
   const Case c = random_case();
   const Eigen::MatrixXd a = dense(c.states, c.kernel);
