@@ -55,8 +55,10 @@ inline std::string convolution_network(int channels) {
   std::string weights = number_field(1, 1) + number_field(1, static_cast<std::uint64_t>(channels)) +
                         number_field(1, 1) + number_field(1, 1);
   weights += number_field(2, 1) + bytes_field(8, "w") + bytes_field(9, raw);
-  const std::string node =
-      bytes_field(1, "x") + bytes_field(1, "w") + bytes_field(2, "y") + bytes_field(4, "Conv");
+  const std::string node = bytes_field(1, "x") + bytes_field(1, "w") + bytes_field(2, "y") +
+                           bytes_field(4, "Conv") +
+                           bytes_field(5, bytes_field(1, "kernel_shape") + number_field(8, 1) +
+                                              number_field(8, 1) + number_field(20, 7));
   return onnx_model(bytes_field(1, node), bytes_field(5, weights));
 }
 
