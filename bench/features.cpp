@@ -27,7 +27,10 @@ Feature full_size(std::string_view name) {
   auto feature = make_strategy<Feature>(name);
   std::visit(
       [](auto& options) {
-        if constexpr (requires { options.learning; }) options.learning.iterations = 2;
+        if constexpr (requires { options.learning; }) {
+          options.learning.iterations = 2;
+          options.learning.samples_per_word = 5;
+        }
       },
       feature);
   return feature;

@@ -33,10 +33,11 @@ inline std::string value_info(std::string_view name, const std::vector<int>& sha
   return bytes_field(1, name) + bytes_field(2, bytes_field(1, tensor));
 }
 
-/// ModelProto around the nodes and constants of a graph from "x" to "y".
-inline std::string onnx_model(const std::string& nodes, const std::string& constants) {
+/// ModelProto around the nodes and constants of a graph from "x", of so many channels, to "y".
+inline std::string onnx_model(const std::string& nodes, const std::string& constants,
+                              int channels) {
   const std::string graph = nodes + bytes_field(2, "tiny") + constants +
-                            bytes_field(11, value_info("x", {1, 3, 224, 224})) +
+                            bytes_field(11, value_info("x", {1, channels, 224, 224})) +
                             bytes_field(12, value_info("y", {1, 3, 1, 1}));
   const std::string opset = bytes_field(1, "") + number_field(2, 11);
   return number_field(1, 7) + bytes_field(7, graph) + bytes_field(8, opset);
@@ -46,18 +47,20 @@ inline std::string onnx_model(const std::string& nodes, const std::string& const
 inline std::string averaging_network() {
   const std::string node =
       bytes_field(1, "x") + bytes_field(2, "y") + bytes_field(4, "GlobalAveragePool");
-  return onnx_model(bytes_field(1, node), "");
+  return onnx_model(bytes_field(1, node), "", 3);
 }
 
-/// A 1 x 1 convolution of `channels` channels, where the input has 3.
+/// A 1 x 1 convolution of an input of `channels` channels.
 inline std::string convolution_network(int channels) {
   const std::string raw(static_cast<std::size_t>(channels) * sizeof(float), '\0');
   std::string weights = number_field(1, 1) + number_field(1, static_cast<std::uint64_t>(channels)) +
                         number_field(1, 1) + number_field(1, 1);
   weights += number_field(2, 1) + bytes_field(8, "w") + bytes_field(9, raw);
-  const std::string node =
-      bytes_field(1, "x") + bytes_field(1, "w") + bytes_field(2, "y") + bytes_field(4, "Conv");
-  return onnx_model(bytes_field(1, node), bytes_field(5, weights));
+  const std::string node = bytes_field(1, "x") + bytes_field(1, "w") + bytes_field(2, "y") +
+                           bytes_field(4, "Conv") +
+                           bytes_field(5, bytes_field(1, "kernel_shape") + number_field(8, 1) +
+                                              number_field(8, 1) + number_field(20, 7));
+  return onnx_model(bytes_field(1, node), bytes_field(5, weights), channels);
 }
 
 }  // namespace vantage

@@ -37,7 +37,7 @@ PatchResult patches_or(PatchSet patches, const char* otherwise) {
 
 PatchResult image_patches(PatchKind kind, const ObjectView& given, const ProductBasis& basis) {
   const ObjectView view = at_kernel_size(given);
-  const ObjectPixels pixels = object_pixels(view);
+  const ObjectPixels pixels = resized(object_pixels(given), view.width_px, view.height_px);
   if (auto why = lacks_colour(pixels, kMinPixels); !why.empty()) return {{}, why};
   const bool of_depth = kind == PatchKind::depth_gradient || kind == PatchKind::depth_lbp;
   if (of_depth) {

@@ -114,6 +114,26 @@ std::array<float, 2> place_in_box(const ObjectPixels& pixels, double x_px, doubl
   return {static_cast<float>(std::clamp(x, 0.0, 1.0)), static_cast<float>(std::clamp(y, 0.0, 1.0))};
 }
 
+ObjectPixels resized(const ObjectPixels& pixels, int width_px, int height_px) {
+  if (pixels.colour.empty()) return pixels;
+  ObjectPixels result;
+  result.width_px = width_px;
+  result.height_px = height_px;
+  const auto resize = [&](std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& from) {
+    to.resize(static_cast<std::size_t>(width_px) * height_px);
+    const cv::Mat source(pixels.height_px, pixels.width_px, CV_8U,
+                         const_cast<std::uint8_t*>(from.data()));
+    cv::Mat target(height_px, width_px, CV_8U, to.data());
+    cv::resize(source, target, target.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  };
+  resize(result.colour, pixels.colour);
+  resize(result.depth, pixels.depth);
+  result.colour_count = count_of(result.colour);
+  result.depth_count = count_of(result.depth);
+  mark_bounds(result);
+  return result;
+}
+
 ObjectView resized(const ObjectView& view, int width_px, int height_px) {
   if (width_px == view.width_px && height_px == view.height_px) return view;
   ObjectView result = view;

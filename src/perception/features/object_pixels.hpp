@@ -37,6 +37,10 @@ std::string lacks_depth(const ObjectPixels& pixels, int min_pixels);
 /// Bounds of pyramid cells and patches: `x_px`, `y_px` as shares of the object's box, 0 .. 1.
 std::array<float, 2> place_in_box(const ObjectPixels& pixels, double x_px, double y_px);
 
+/// Flags of the same pixels at another size, each of the nearest. Pixels are told apart at the
+/// camera's own resolution, before a view is resized: what is interpolated stays on the object.
+ObjectPixels resized(const ObjectPixels& pixels, int width_px, int height_px);
+
 /// The view at another size: colour averaged or interpolated, depth and mask of the nearest pixel,
 /// intrinsics scaled with it.
 ObjectView resized(const ObjectView& view, int width_px, int height_px);

@@ -33,7 +33,7 @@ Eigen::VectorXf network_input(const ObjectView& view) {
   const int longer_px = std::max(view.width_px, view.height_px);
   const auto side = [&](int px) { return std::max(1, px * Onnx::side_px / longer_px); };
   const ObjectView crop = resized(view, side(view.width_px), side(view.height_px));
-  const ObjectPixels pixels = object_pixels(crop);
+  const ObjectPixels pixels = resized(object_pixels(view), crop.width_px, crop.height_px);
   const int left_px = (Onnx::side_px - crop.width_px) / 2;
   const int top_px = (Onnx::side_px - crop.height_px) / 2;
   constexpr Eigen::Index plane = Onnx::side_px * Onnx::side_px;

@@ -45,7 +45,7 @@ std::vector<cv::KeyPoint> grid_on(const ObjectPixels& pixels, const Sift& option
 DenseSift dense_root_sift(const ObjectView& view, const Sift& options) {
   if (view.mask.empty()) return {};
   const ObjectView crop = scaled(view, options);
-  const ObjectPixels pixels = object_pixels(crop);
+  const ObjectPixels pixels = resized(object_pixels(view), crop.width_px, crop.height_px);
   std::vector<cv::KeyPoint> points = grid_on(pixels, options);
   if (points.empty()) return {};
   const cv::Mat rgb(crop.height_px, crop.width_px, CV_8UC3,

@@ -23,8 +23,9 @@ enum class VfhSizes {
 
 /// 308 bins [RusuEtAl2010]: three angles between each point's normal and the mean normal at the
 /// centroid (45 each), distance from the centroid (45), angle between normals and line of sight
-/// (128). Each block sums to 100, or nearly: the centroid counts as one of the points in PCL's
-/// 100 / (N - 1), to which ours is held.
+/// (128). Increments as PCL has them: 100 / (N - 1) for pairs with the centroid, 100 / N for lines
+/// of sight. Unlike PCL, which divides both by sqrt(length^2 + 1), the line of sight has unit
+/// length and relative distances their greatest for a unit.
 /// @param cloud with normals, not empty; points with a zero normal are left out
 Eigen::VectorXf viewpoint_feature_histogram(const PointCloud& cloud,
                                             const Eigen::Vector3d& p_viewpoint, VfhSizes sizes);
