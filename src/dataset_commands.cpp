@@ -77,7 +77,9 @@ std::function<ExitCode()> declare_render(CLI::App& app) {
   app.add_option("--models", arguments->models,
                  "folder of scanned objects, <name>/{model.obj, texture.png}, instead of our own")
       ->check(not_empty);
-  app.add_option("--jobs", arguments->run.jobs, "threads")->capture_default_str();
+  app.add_option("--jobs", arguments->run.jobs, "threads")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   app.add_option("--set", arguments->overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);

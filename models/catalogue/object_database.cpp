@@ -145,8 +145,8 @@ GeneratedObject generate(const DatabaseObject& object) {
   GeneratedObject made = generate(ObjectSpec{object.family, object.category, object.seed});
   Rng rng = Rng::stream(object.seed, object.family + "/stickers");
   if (object.twin == Twin::larger) enlarge(made, kTwinScale);
-  if (object.twin == Twin::warmer) recolour(made.texture, kTwinHue_turns, 0.94);
-  if (object.twin == Twin::cooler) recolour(made.texture, -kTwinHue_turns, 0.94);
+  if (object.twin == Twin::warmer) recolour(made.texture, kTwinHue_turns, kTwinBrightness);
+  if (object.twin == Twin::cooler) recolour(made.texture, -kTwinHue_turns, kTwinBrightness);
   const double heading = rng.uniform(-std::numbers::pi, std::numbers::pi);
   const double width_m = typical_width_m(made);
   const Image decal = decal_picture(rng);

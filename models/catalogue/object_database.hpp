@@ -14,7 +14,7 @@ namespace vantage {
 enum class Twin {
   original,
   larger,      ///< all lengths by kTwinScale
-  warmer,      ///< hue turned by kTwinHue_turns and darkened
+  warmer,      ///< hue turned by kTwinHue_turns, brightness times kTwinBrightness
   cooler,      ///< hue turned the other way
   decal,       ///< a small picture on one side
   back_label,  ///< another label at the back than the rest of the family
@@ -22,7 +22,8 @@ enum class Twin {
 std::string_view twin_name(Twin twin);
 
 inline constexpr double kTwinScale = 1.06;
-inline constexpr double kTwinHue_turns = 0.035;
+inline constexpr double kTwinHue_turns = 0.02;
+inline constexpr double kTwinBrightness = 0.96;
 inline constexpr int kDatabaseObjects = 326;
 
 struct DatabaseObject {

@@ -59,6 +59,9 @@ void draw_cell(cv::Mat cell, const ViewEntry& entry, const ContactSheetOptions& 
 void write_contact_sheet(const DatasetIndex& index, const ContactSheetOptions& options,
                          const std::filesystem::path& path) {
   expects(options.cell_px > 0 && options.columns > 0, "a grid of cells");
+  if (path.extension() != ".png") {
+    throw ConfigError(path.string() + ": the name of a contact sheet ends in .png");
+  }
   const std::vector<const ViewEntry*> chosen = choose(index, options);
   const int count = static_cast<int>(chosen.size());
   const int columns = std::min(options.columns, std::max(count, 1));

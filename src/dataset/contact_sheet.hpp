@@ -15,7 +15,8 @@ struct ContactSheetOptions {
 };
 
 /// Writes a PNG: objects in the order of the index, each under its name.
-/// @throws InputError if a view cannot be read, OutputError if the file cannot be written.
+/// @throws ConfigError if the name does not end in .png, InputError if a view cannot be read,
+/// OutputError if the file cannot be written.
 void write_contact_sheet(const DatasetIndex& index, const ContactSheetOptions& options,
                          const std::filesystem::path& path);
 

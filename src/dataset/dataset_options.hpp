@@ -14,7 +14,7 @@ struct DatasetOptions {
   int objects = 326;       ///< the first of the catalogue, or of `models`; more take longer
   double step_deg = 20.0;  ///< of the turntable; lower gives more views
   /// Folder of <name>/{model.obj, texture.png} instead of the catalogue; empty: the catalogue
-  std::string models;
+  std::string models = {};
   double distance_m = 0.85;   ///< camera to the turntable's axis; higher makes crops smaller
   double placement_m = 0.01;  ///< largest offset of an object from the axis, changes per video
   double lighting = 1.0;      ///< strength of the changes of light between videos; 0: none

@@ -30,6 +30,22 @@ struct Stopped {};
 
 std::string options_text(DatasetOptions options) { return to_yaml(write_node(options)); }
 
+void remove_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::remove_all(folder, error);
+  if (error) {
+    throw OutputError(fmt::format("{}: cannot remove: {}", folder.string(), error.message()));
+  }
+}
+
+void rename_folder(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error) {
+    throw OutputError(fmt::format("{}: cannot write: {}", to.string(), error.message()));
+  }
+}
+
 /// @throws ConfigError if the folder cannot become or remain a dataset of these options.
 void prepare_root(const DatasetOptions& options, const DatasetRun& run) {
   make_writable_directory(run.root);
@@ -39,7 +55,7 @@ void prepare_root(const DatasetOptions& options, const DatasetRun& run) {
       throw ConfigError(fmt::format("{}: is not empty, and no dataset of ours", run.root.string()));
     }
   } else if (run.overwrite) {
-    fs::remove_all(run.root);
+    remove_folder(run.root);
     make_writable_directory(run.root);
   } else {
     DatasetOptions before;
@@ -76,7 +92,7 @@ int render_video(const TurntableObject& object, const ObjectName& name, int vide
 int render_object(const ObjectName& name, const fs::path& folder, const DatasetOptions& options,
                   const DatasetRun& run) {
   const fs::path part = folder.parent_path() / fmt::format(".{}.part", name.object);
-  fs::remove_all(part);
+  remove_folder(part);
   make_writable_directory(part);
   const TurntableObject object = make_turntable_object(options, name);
   int views = 0;
@@ -87,7 +103,7 @@ int render_object(const ObjectName& name, const fs::path& folder, const DatasetO
     fs::remove_all(part, ignored);
     throw;
   }
-  fs::rename(part, folder);
+  rename_folder(part, folder);
   return views;
 }
 

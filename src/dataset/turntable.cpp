@@ -68,7 +68,7 @@ std::string turntable_mjcf(const TurntableObject& object, const Session& session
                      "shininess"_a = 0.3 + 0.5 * object.specular, "table"_a = session.table,
                      "lamp"_a = xyz(lamp), "at"_a = xyz(at), "eye"_a = xyz(eye),
                      "up"_a = xyz({-s, 0, c}),
-                     "fovy"_a = 2.0 * std::atan((radius_px + 0.5) / kFocal_px));
+                     "fovy"_a = 360.0 / pi * std::atan((radius_px + 0.5) / kFocal_px));
 }
 
 ModelPtr compile(const TurntableObject& object, const std::string& mjcf, const std::string& name) {

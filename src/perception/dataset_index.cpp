@@ -70,9 +70,11 @@ class Indexer {
 
   void add_object(const fs::path& folder) {
     std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder)) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
       names.insert(entry.path().filename().string());
     }
+    if (error) reject(folder, error.message());
     for (const std::string& name : names) {
       if (!name.ends_with(kCrop)) continue;
       const auto parsed =
