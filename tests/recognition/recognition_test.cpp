@@ -184,8 +184,10 @@ TEST(Recognition, OptionsOutOfRangeAreNamed) {
   Rng rng(1);
   const Recogniser recogniser = testing::made_up_recogniser(2, {2.0}, {}, rng);
   MadeUpCamera camera{.recogniser = recogniser, .rng = rng};
+  RecognitionOptions options;
+  options.most_views = 0;
   try {
-    recognise(recogniser, {.most_views = 0}, object_camera(camera), rng);
+    recognise(recogniser, options, object_camera(camera), rng);
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("most_views"));

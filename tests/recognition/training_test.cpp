@@ -34,7 +34,7 @@ class Training : public ::testing::Test {
   }
   void expect_error(const std::string& part) const {
     try {
-      train();
+      (void)train();
       FAIL() << "no error that says " << part;
     } catch (const Error& error) {
       EXPECT_THAT(error.what(), HasSubstr(part));
