@@ -20,6 +20,7 @@
 #include "src/episode/report.hpp"
 #include "src/episode/run.hpp"
 #include "src/episode/validate.hpp"
+#include "src/recognition_commands.hpp"
 #include "src/score_views_command.hpp"
 #include "src/study/study.hpp"
 #include "src/study/study_page.hpp"
@@ -229,6 +230,10 @@ const std::vector<Command>& commands() {
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
       {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
       {"dataset", "render, inspect and show databases of objects", declare_dataset},
+      {"train", "learn to recognise the objects of a dataset", declare_train},
+      {"recognise", "what object views show, and from where to look next", declare_recognise},
+      {"evaluate", "recognition over a dataset, every method from the same starts",
+       declare_evaluate},
       {"list", "what there is to choose from", declare_list},
       {"doctor", "versions, renderer, codecs; what would not work and why", declare_doctor},
   };

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -78,6 +80,35 @@ void read_depth(const fs::path& file, ObjectView& view) {
                  });
 }
 
+/// The file beside `<stem>_crop.png` with another ending; nothing if it is not there.
+std::optional<fs::path> file_beside(const fs::path& colour, std::string_view ending) {
+  constexpr std::string_view kEnding = "crop.png";
+  std::string name = colour.filename().string();
+  if (!name.ends_with("_crop.png")) return std::nullopt;
+  name.replace(name.size() - kEnding.size(), kEnding.size(), ending);
+  const fs::path file = colour.parent_path() / name;
+  if (!fs::exists(file)) return std::nullopt;
+  return file;
+}
+
+/// Of the video in the file's name, if it has that form.
+std::optional<double> elevation_in_name(const fs::path& colour) {
+  const std::string name = colour.filename().string();
+  const auto view = parse_view_name(name.substr(0, name.rfind('_')));
+  return view ? video_elevation_rad(view->video) : std::nullopt;
+}
+
+/// What is measured and no farther than `farthest_m`; everything if that is 0.
+void mask_by_depth(const fs::path& file, double farthest_m, ObjectView& view) {
+  for (const float depth_m : view.depth_m) {
+    const bool near = depth_m > 0.0F && static_cast<double>(depth_m) <= farthest_m;
+    view.mask.push_back(static_cast<std::uint8_t>(farthest_m <= 0.0 || near));
+  }
+  if (std::ranges::find(view.mask, 1) == view.mask.end()) {
+    fail(file, fmt::format("nothing is nearer than {} m", farthest_m));
+  }
+}
+
 void read_mask(const fs::path& file, ObjectView& view) {
   const cv::Mat picture = read_picture(file, CV_8UC1, "1 or 8 bits of grey");
   require_same_size(file, picture, view);
@@ -105,6 +136,37 @@ LabelledView load_view(const ViewEntry& entry) {
   if (!elevation_rad) fail(entry.file("crop.png"), "its video is none of 1, 2, 4");
   view.up = up_in_camera(*elevation_rad);
   return labelled;
+}
+
+ObjectView load_picture_pair(const fs::path& colour, const fs::path& depth,
+                             const PairSetting& setting) {
+  ObjectView view;
+  read_colour(colour, view);
+  read_depth(depth, view);
+  if (const auto mask = file_beside(colour, "maskcrop.png")) {
+    read_mask(*mask, view);
+  } else {
+    mask_by_depth(depth, setting.farthest_m, view);
+  }
+  if (const auto place = file_beside(colour, "loc.txt")) {
+    std::tie(view.left_px, view.top_px) = read_location(*place);
+  } else {
+    view.left_px = static_cast<int>(view.centre_px.x()) - view.width_px / 2;
+    view.top_px = static_cast<int>(view.centre_px.y()) - view.height_px / 2;
+  }
+  view.up = up_in_camera(elevation_in_name(colour).value_or(setting.elevation_rad));
+  return view;
+}
+
+std::optional<double> yaw_beside(const fs::path& colour) {
+  const auto file = file_beside(colour, "pose.txt");
+  if (!file) return std::nullopt;
+  const std::string text = read_file(*file);
+  double yaw_deg = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), yaw_deg);
+  if (read.ec != std::errc{} || !std::isfinite(yaw_deg)) fail(*file, "expected a yaw in degrees");
+  const double yaw_rad = std::remainder(yaw_deg * std::numbers::pi / 180.0, 2.0 * std::numbers::pi);
+  return yaw_rad < 0.0 ? yaw_rad + 2.0 * std::numbers::pi : yaw_rad;
 }
 
 std::optional<LabelledView> load_view(const ViewEntry& entry, std::vector<SkippedView>& skipped) {

@@ -1,6 +1,7 @@
 /// Views of the RGB-D Object Dataset, or of one rendered in its layout, from files.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -27,5 +28,23 @@ LabelledView load_view(const ViewEntry& entry);
 
 /// The same, but a bad view is recorded and nothing returned.
 std::optional<LabelledView> load_view(const ViewEntry& entry, std::vector<SkippedView>& skipped);
+
+/// What two pictures do not say of themselves.
+struct PairSetting {
+  double elevation_rad = 0.785;  ///< of the camera above the object's table
+  double farthest_m = 0.0;       ///< what is beyond is not the object; 0: everything is
+};
+
+/// A view from a picture and its depth, of the same size. Files of the dataset's form that lie
+/// beside `<stem>_crop.png` are used: the mask, the place in the image, and the video's elevation.
+/// Without a mask what is nearer than `farthest_m` is the object; without a place the pictures are
+/// the middle of the full image.
+/// @throws InputError as load_view, also if nothing is near enough.
+ObjectView load_picture_pair(const std::filesystem::path& colour,
+                             const std::filesystem::path& depth, const PairSetting& setting);
+
+/// Yaw in the `_pose.txt` beside `<stem>_crop.png`, [0, 2 pi); nothing if there is no such file.
+/// @throws InputError naming the file if it holds no number.
+std::optional<double> yaw_beside(const std::filesystem::path& colour);
 
 }  // namespace vantage

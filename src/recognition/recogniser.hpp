@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "planners/state_divergence.hpp"
@@ -13,10 +14,14 @@
 
 namespace vantage {
 
+/// Under this name FeatureModel::blobs holds TrainedFeature::to_bytes().
+inline constexpr auto kExtractorBlob = "extractor";
+
 struct RecogniserFeature {
   TrainedFeature extractor;
   ObservationModel observation;
-  DivergenceTables tables;  ///< of this feature alone
+  PreparedObservationModel prepared;  ///< of `observation`
+  DivergenceTables tables;            ///< of this feature alone
 };
 
 /// Immutable once made; may be used from several threads.
@@ -24,6 +29,8 @@ struct Recogniser {
   ObjectStates states;
   std::vector<RecogniserFeature> features;
   DivergenceTables tables;  ///< of all features together
+  /// As the model learnt it; RecognitionOptions::transition `learned` without slips means this.
+  LearnedTransition transition = {};
 };
 
 struct RecogniserOptions {
@@ -35,6 +42,15 @@ struct RecogniserOptions {
   }
 };
 
+/// A feature's model with what extracts it.
+struct FeaturePair {
+  TrainedFeature extractor;
+  ObservationModel observation;
+};
+
+/// @param features at least one, models of every state
+Recogniser make_recogniser(ObjectStates states, std::vector<FeaturePair> features, int threads);
+
 /// @throws ConfigError if `options` are out of range or name a feature that the model has not;
 /// InputError if the model is damaged.
 Recogniser make_recogniser(const RecognitionModel& model, const RecogniserOptions& options,
@@ -43,5 +59,10 @@ Recogniser make_recogniser(const RecognitionModel& model, const RecogniserOption
 /// read_recognition_model() and make_recogniser().
 Recogniser load_recogniser(const std::filesystem::path& path, const RecogniserOptions& options,
                            int threads);
+
+/// What extracts the feature, from its model.
+/// @param source of the model, for messages
+/// @throws InputError if it is missing, damaged, or of another size than the statistics.
+TrainedFeature extractor_of(const FeatureModel& feature, const std::string& source);
 
 }  // namespace vantage

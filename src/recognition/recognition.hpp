@@ -4,8 +4,10 @@
 /// Who moves the camera is the caller's business: a dataset that is leafed through, or a robot.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,9 +40,14 @@ struct RecognitionOptions {
 struct ExtractedFeature {
   FeatureResult result;
   double time_s = 0.0;
+  /// Of every state, psi included, where the caller has it from before; empty: of `result`.
+  Eigen::VectorXd log_likelihood = {};
 };
 /// Extracts the feature of that index from the view at hand.
 using ExtractFeature = std::function<ExtractedFeature(std::size_t feature)>;
+
+/// Extracts from `view`, which must outlive the result, and takes the time.
+ExtractFeature extract_from(const Recogniser& recogniser, const ObjectView& view);
 
 struct SkippedFeature {
   std::string feature;
@@ -55,7 +62,7 @@ struct ViewReport {
   double entropy_bits = 0.0;  ///< of the state, after the view
   double feature_time_s = 0.0;
   double selection_time_s = 0.0;  ///< to choose the features
-  double view_time_s = 0.0;       ///< to choose this view
+  double view_time_s = 0.0;       ///< to choose this view: NextView::time_s, put in by who moves
 };
 
 /// What is known of the object so far.
@@ -67,7 +74,8 @@ struct Recognition {
 Recognition begin_recognition(const Recogniser& recogniser);
 
 /// Takes in a view from where the camera is: chooses features, extracts and applies them, and
-/// appends a report to `recognition.views`.
+/// appends a report to `recognition.views`. A feature that cannot be extracted, or that the belief
+/// cannot be reconciled with, is reported as skipped and not tried again at this view.
 void take_view(const Recogniser& recogniser, const RecognitionOptions& options,
                const ExtractFeature& extract, double view_rad, Recognition& recognition, Rng& rng);
 
@@ -86,8 +94,22 @@ NextView next_view(const Recogniser& recogniser, const RecognitionOptions& optio
                    const Recognition& recognition, std::span<const ObjectViewAction> actions,
                    Rng& rng);
 
-/// The camera turned about the object by `motion_rad`: what is believed of its yaw follows.
+/// The camera turned about the object by `motion_rad`, counter-clockwise seen from above: the
+/// object's yaw, as the camera sees it, is less by as much, and what is believed of it follows.
 void moved(const Recogniser& recogniser, const RecognitionOptions& options, double motion_rad,
            Recognition& recognition);
+
+/// A camera that can be turned about an object.
+struct ObjectCamera {
+  ExtractFeature extract;                                    ///< from the view where it is
+  std::function<double()> bearing_rad;                       ///< where that is
+  std::function<std::vector<ObjectViewAction>()> actions;    ///< at least one, or there is no next
+  std::function<void(const ObjectViewAction& action)> turn;  ///< to there
+};
+
+/// The loop: look, choose and extract features, choose a view, turn, until it ends.
+/// @throws ConfigError if `options` are out of range.
+Recognition recognise(const Recogniser& recogniser, const RecognitionOptions& options,
+                      const ObjectCamera& camera, Rng& rng);
 
 }  // namespace vantage

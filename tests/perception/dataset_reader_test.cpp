@@ -112,5 +112,44 @@ TEST_F(Reader, NamesABadLocation) {
   expect_bad("loc.txt", "expected the crop's top left pixel");
 }
 
+TEST_F(Reader, APairOfPicturesIsTheViewWithTheFilesBesideThem) {
+  const auto colour = entry_.file("crop.png");
+  const ObjectView pair = load_picture_pair(colour, entry_.file("depthcrop.png"), {});
+  const ObjectView whole = load_view(entry_).view;
+  EXPECT_EQ(pair.rgb, whole.rgb);
+  EXPECT_EQ(pair.depth_m, whole.depth_m);
+  EXPECT_EQ(pair.mask, whole.mask);
+  EXPECT_EQ(pair.left_px, 300);
+  EXPECT_EQ(pair.up, whole.up);
+  EXPECT_NEAR(yaw_beside(colour).value(), 100.0 * pi / 180.0, 1e-12);
+}
+
+TEST_F(Reader, APairByItselfIsMaskedByDepthAndInTheMiddle) {
+  const auto colour = root_.path() / "mine.png";
+  const auto depth = root_.path() / "mine_depth.png";
+  std::filesystem::copy(entry_.file("crop.png"), colour);
+  std::filesystem::copy(entry_.file("depthcrop.png"), depth);
+  EXPECT_FALSE(yaw_beside(colour).has_value());
+  const ObjectView near =
+      load_picture_pair(colour, depth, {.elevation_rad = 0.0, .farthest_m = 1.0015});
+  EXPECT_THAT(near.mask,
+              testing::ElementsAre(0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0));
+  EXPECT_EQ(near.left_px, 318);
+  EXPECT_EQ(near.top_px, 238);
+  EXPECT_EQ(near.up, Eigen::Vector3d(0.0, -1.0, -0.0));
+  EXPECT_THAT(load_picture_pair(colour, depth, {}).mask, testing::Each(1));
+  try {
+    load_picture_pair(colour, depth, {.farthest_m = 0.5});
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("mine_depth.png: nothing is nearer"));
+  }
+}
+
+TEST_F(Reader, APoseBesideAPictureMustBeANumber) {
+  write_file(entry_.file("pose.txt"), "north\n");
+  EXPECT_THROW(yaw_beside(entry_.file("crop.png")), InputError);
+}
+
 }  // namespace
 }  // namespace vantage

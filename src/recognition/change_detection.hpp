@@ -1,0 +1,52 @@
+/// Is the object still what and how the map says?  [Potthast2016, 4.5.8]
+///
+/// Two hypotheses are followed through all motions: it is as expected, or it is anything else. What
+/// the views say of each decides between them: P(u) = 1 - P(expected | views).
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "src/recognition/recognition.hpp"
+
+namespace vantage {
+
+enum class Change {
+  none,
+  object,   ///< another object
+  pose,     ///< the same one, turned into another yaw bin
+  removed,  ///< nothing is there
+};
+std::string_view to_string(Change change);
+
+struct ChangeOptions {
+  RecognitionOptions recognition;  ///< how features and views are chosen, and how many at most
+  double threshold = 0.6;    ///< tau of P(u), [0.5, 1): changed above, unchanged below 1 - tau;
+                             ///< higher looks more often
+  double prior_pose = 0.25;  ///< that it was turned; higher finds turns sooner, falsely more often
+  double prior_object = 0.25;  ///< that it is another object; likewise
+  int empty_views = 2;         ///< without any feature, until it is held to be removed
+  void fields(auto&& f) {
+    f("recognition", recognition);
+    f("threshold", threshold, Range{0.5, 1.0, false});
+    f("prior_pose", prior_pose, Range{0.0, 1.0, true});
+    f("prior_object", prior_object, Range{0.0, 1.0, true});
+    f("empty_views", empty_views, between(1, 100));
+  }
+  void check() const;  ///< the priors leave some for no change
+};
+
+struct ChangeReport {
+  Change change = Change::none;
+  double p_changed = 0.0;   ///< P(u)
+  Recognition recognition;  ///< of what is there now: belief under both hypotheses, and the views
+};
+
+/// Looks until P(u) is beyond the threshold one way or the other, or there are no views left; if it
+/// is still between then, nothing has changed.
+/// @param expected_state as the camera sees it from where it is at first
+/// @throws ConfigError if `options` are out of range.
+ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& options,
+                           int expected_state, const ObjectCamera& camera, Rng& rng);
+
+}  // namespace vantage

@@ -1,0 +1,40 @@
+/// How well changes of objects of a dataset are detected: unchanged, another object, turned.
+/// [Potthast2016, tables 4.10-4.15]
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "src/recognition/change_detection.hpp"
+#include "src/recognition/evaluation.hpp"
+
+namespace vantage {
+
+struct ChangeTrial {
+  Change decision = Change::none;
+  double p_changed = 0.0;
+  int observations = 0;
+  double time_s = 0.0;  ///< of features and choices
+};
+
+struct ChangeTrials {
+  std::string method;  ///< of choosing views
+  Change scenario = Change::none;
+  std::vector<ChangeTrial> trials;  ///< one a start
+
+  /// Share that was held for changed if it was, and for unchanged if it was not.
+  [[nodiscard]] double accuracy() const;
+  /// Share whose decision is the scenario.
+  [[nodiscard]] double kind_accuracy() const;
+};
+
+/// From each start, an object that is as expected, one where another was expected in any pose, and
+/// one that was turned by one to seven bins; by each published choice of views.
+std::vector<ChangeTrials> evaluate_changes(const Recogniser& recogniser, const TestViews& test,
+                                           std::span<const Eigen::MatrixXf> log_likelihood,
+                                           std::span<const Start> starts,
+                                           const ChangeOptions& options, std::uint64_t seed,
+                                           const LongWork& how);
+
+}  // namespace vantage

@@ -1,0 +1,53 @@
+/// Learns to recognise the objects of a dataset from its views.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "src/belief/psi_rule.hpp"
+#include "src/belief/recognition_model.hpp"
+#include "src/recognition/held_out.hpp"
+#include "src/recognition/view_features.hpp"
+
+namespace vantage {
+
+struct TrainingOptions {
+  std::uint64_t seed = 1;  ///< of every random stream
+  std::vector<Feature> features{Colour{}, BoundingBox{}, Sift{}, Vfh{}};
+  std::vector<int> videos{1, 4};  ///< to train on: 1, 2, 4 are 30, 45, 60 deg
+  int bins = 8;                   ///< of yaw, an object; more tell poses better, with fewer views
+  int feature_views = 1000;       ///< drawn at random, that features learn from; higher is slower
+  HeldOut held_out = HeldOutShare{};
+  VarianceEstimate variance = ShrunkVariance{};  ///< that psi is calibrated for
+  PsiRule psi = CalibratedPsi{};
+  /// Moves that the start, `rigid`, is worth to a transition learnt from walks round the training
+  /// views; higher learns slower, 0: none is learnt.
+  double transition_prior_moves = 100.0;
+  void fields(auto&& f) {
+    f("seed", seed);
+    f("features", features);
+    f("videos", videos, between(1, 4));
+    f("bins", bins, between(2, 3600));
+    f("feature_views", feature_views, at_least(2));
+    f("held_out", held_out);
+    f("variance", variance);
+    f("psi", psi);
+    f("transition_prior_moves", transition_prior_moves, at_least(0.0));
+  }
+  void check() const;  ///< features and videos: some, of different names and numbers
+};
+
+/// What is held out to choose psi is trained on as well once psi is chosen. The same for any number
+/// of threads, but for the features' measured cost.
+/// @throws ConfigError if `options` are out of range; InputError if a view is bad or there are too
+/// few of them; what `how.poll` throws.
+RecognitionModel train_recognition(const DatasetIndex& dataset, const TrainingOptions& options,
+                                   const LongWork& how);
+
+/// Adds the objects of another dataset; features, psi and the objects known before stay as they
+/// are. Of `options`, only `videos` counts.
+/// @throws InputError also if an object of that name is known already.
+void extend_recognition(RecognitionModel& model, const DatasetIndex& dataset,
+                        const TrainingOptions& options, const LongWork& how);
+
+}  // namespace vantage

@@ -1,0 +1,131 @@
+#include "src/recognition/change_detection.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/recognition/made_up.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::MadeUpCamera;
+
+constexpr int kObjects = 12;
+
+class ChangeDetection : public ::testing::Test {
+ protected:
+  ChangeDetection() : recogniser_(make()) {}
+
+  static Recogniser make() {
+    Rng rng(2);
+    return testing::made_up_recogniser(kObjects, {6.0, 10.0}, {.twin = 0.8}, rng);
+  }
+
+  ChangeReport detect(int object, int bin, int expected_object, int expected_bin,
+                      std::uint64_t seed) {
+    Rng rng(seed);
+    MadeUpCamera camera{.recogniser = recogniser_, .object = object, .bin = bin, .rng = rng};
+    return detect_change(recogniser_, options_,
+                         recogniser_.states.state(expected_object, expected_bin),
+                         object_camera(camera), rng);
+  }
+
+  Recogniser recogniser_;
+  ChangeOptions options_;
+};
+
+TEST_F(ChangeDetection, TellsWhatChanged) {
+  int unchanged = 0;
+  int object = 0;
+  int pose = 0;
+  constexpr int kTrials = 60;
+  for (int i = 0; i < kTrials; ++i) {
+    const int k = i % kObjects;
+    const int q = i % 8;
+    const auto seed = static_cast<std::uint64_t>(i);
+    unchanged += detect(k, q, k, q, seed).change == Change::none;
+    object += detect(k, q, (k + 5) % kObjects, (q + 2) % 8, seed).change == Change::object;
+    pose += detect(k, q, k, (q + 3) % 8, seed).change == Change::pose;
+  }
+  EXPECT_GE(unchanged, 57);
+  EXPECT_GE(object, 54);
+  EXPECT_GE(pose, 54);
+}
+
+TEST_F(ChangeDetection, NothingWhereSomethingWasExpectedIsRemoved) {
+  int turns = 0;
+  const ObjectCamera nothing{
+      .extract =
+          [](std::size_t) { return ExtractedFeature{.result = FeatureResult::skip("no object")}; },
+      .bearing_rad = [] { return 0.0; },
+      .actions = [] { return std::vector<ObjectViewAction>{{.yaw_rad = 1.0}}; },
+      .turn = [&](const ObjectViewAction&) { ++turns; }};
+  Rng rng(1);
+  options_.empty_views = 3;
+  const ChangeReport report = detect_change(recogniser_, options_, 0, nothing, rng);
+  EXPECT_EQ(report.change, Change::removed);
+  EXPECT_EQ(turns, 2);
+  EXPECT_EQ(report.recognition.views.size(), 3U);
+}
+
+/// Two states and one feature: P(u) in closed form.
+TEST(ChangeDetectionInClosedForm, WeighsTheHypothesesByBayesRule) {
+  ObjectStates states;
+  states.objects = {"a_1", "b_1"};
+  states.categories = {"a", "b"};
+  states.category_of = {0, 1};
+  states.bins = 1;
+  ObservationModel model{
+      .feature = "colour", .mean = Eigen::MatrixXf(1, 2), .variance = Eigen::MatrixXf::Ones(1, 2)};
+  model.mean << 0.0F, 1.0F;
+  const Recogniser recogniser =
+      make_recogniser(states, {{TrainedFeature(Colour{}, 0.0), model}}, 1);
+  ChangeOptions options;
+  options.recognition.all_features = true;
+  options.recognition.most_views = 1;
+  options.prior_pose = 0.0;
+  options.prior_object = 0.2;
+  const float x = 0.9F;
+  const ObjectCamera camera{
+      .extract =
+          [&](std::size_t) {
+            return ExtractedFeature{.result = {Eigen::VectorXf::Constant(1, x), {}}};
+          },
+      .bearing_rad = [] { return 0.0; },
+      .actions = [] { return std::vector<ObjectViewAction>{}; },
+      .turn = [](const ObjectViewAction&) {}};
+  Rng rng(1);
+  const ChangeReport report = detect_change(recogniser, options, 0, camera, rng);
+  const double a = 0.8 * std::exp(-0.5 * 0.9 * 0.9);
+  const double b = 0.2 * std::exp(-0.5 * 0.1 * 0.1);
+  EXPECT_NEAR(report.p_changed, b / (a + b), 1e-6);
+  EXPECT_EQ(report.change, Change::none);
+  EXPECT_NEAR(p_state(report.recognition.belief)[1], b / (a + b), 1e-6);
+}
+
+TEST_F(ChangeDetection, LooksAgainWhileItIsUncertain) {
+  options_.threshold = 0.5;
+  double bold = 0.0;
+  double careful = 0.0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    options_.threshold = 0.5;
+    bold += static_cast<double>(detect(3, 1, 3, 2, i).recognition.views.size());
+    options_.threshold = 0.99;
+    careful += static_cast<double>(detect(3, 1, 3, 2, i).recognition.views.size());
+  }
+  EXPECT_GT(careful, bold);
+}
+
+TEST_F(ChangeDetection, PriorsMustLeaveRoomForNoChange) {
+  options_.prior_object = 0.8;
+  try {
+    detect(0, 0, 0, 0, 1);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("less than 1"));
+  }
+}
+
+}  // namespace
+}  // namespace vantage

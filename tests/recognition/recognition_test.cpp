@@ -1,0 +1,198 @@
+#include "src/recognition/recognition.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/recognition/made_up.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::MadeUpCamera;
+using ::testing::SizeIs;
+
+constexpr double kTurn_rad = std::numbers::pi / 4.0;
+
+/// Two objects of two poses, alike but in pose 1; a feature without noise to speak of.
+class TwinMugs : public ::testing::Test {
+ protected:
+  TwinMugs() {
+    states_.objects = {"mug_1", "mug_2"};
+    states_.categories = {"mug"};
+    states_.category_of = {0, 0};
+    states_.bins = 2;
+    ObservationModel model{.feature = "colour",
+                           .mean = Eigen::MatrixXf(1, 4),
+                           .variance = Eigen::MatrixXf::Constant(1, 4, 0.01F),
+                           .cost_s = 0.5};
+    model.mean << 0.0F, 1.0F, 0.0F, 2.0F;
+    ObservationModel useless = model;
+    useless.feature = "useless";
+    useless.mean.setZero();
+    recogniser_ = make_recogniser(
+        states_, {{TrainedFeature(Colour{}, 0.5), model}, {TrainedFeature(Colour{}, 0.5), useless}},
+        1);
+    options_.transition = RigidTransition{.slip = 0.0};
+  }
+
+  /// Measures the mean of `state` with any feature.
+  ExtractFeature measuring(int state) {
+    return [this, state](std::size_t feature) {
+      return ExtractedFeature{
+          .result = {recogniser_.features[feature].observation.mean.col(state), {}},
+          .time_s = 0.25};
+    };
+  }
+
+  ObjectStates states_;
+  Recogniser recogniser_;
+  RecognitionOptions options_;
+  Rng rng_{1};
+};
+
+TEST_F(TwinMugs, AViewIsBayesRuleWithTheFeaturesChosen) {
+  Recognition recognition = begin_recognition(recogniser_);
+  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  const Eigen::VectorXd p = p_state(recognition.belief);
+  EXPECT_NEAR(p[0], 0.5, 1e-9);
+  EXPECT_NEAR(p[2], 0.5, 1e-9);
+  ASSERT_THAT(recognition.views, SizeIs(1));
+  EXPECT_THAT(recognition.views[0].features, ElementsAre("colour"));
+  EXPECT_NEAR(recognition.views[0].entropy_bits, 1.0, 1e-9);
+  EXPECT_EQ(recognition.views[0].feature_time_s, 0.25);
+}
+
+TEST_F(TwinMugs, AllFeaturesAreExtractedInOrderIfAsked) {
+  options_.all_features = true;
+  Recognition recognition = begin_recognition(recogniser_);
+  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  EXPECT_THAT(recognition.views[0].features, ElementsAre("colour", "useless"));
+  EXPECT_EQ(recognition.views[0].feature_time_s, 0.5);
+}
+
+TEST_F(TwinMugs, ASkippedFeatureIsReportedAndNotTriedAgain) {
+  int calls = 0;
+  const ExtractFeature failing = [&](std::size_t) {
+    ++calls;
+    return ExtractedFeature{.result = FeatureResult::skip("too few pixels"), .time_s = 0.1};
+  };
+  options_.all_features = true;
+  Recognition recognition = begin_recognition(recogniser_);
+  take_view(recogniser_, options_, failing, 0.0, recognition, rng_);
+  EXPECT_EQ(calls, 2);
+  EXPECT_THAT(recognition.views[0].features, IsEmpty());
+  ASSERT_THAT(recognition.views[0].skipped, SizeIs(2));
+  EXPECT_EQ(recognition.views[0].skipped[0].feature, "colour");
+  EXPECT_EQ(recognition.views[0].skipped[0].reason, "too few pixels");
+  EXPECT_NEAR(recognition.views[0].entropy_bits, 2.0, 1e-9);
+}
+
+TEST_F(TwinMugs, AFeatureThatFitsNoStateIsSkippedWithTheReason) {
+  const ExtractFeature impossible = [&](std::size_t) {
+    return ExtractedFeature{
+        .result = {Eigen::VectorXf::Zero(1), {}},
+        .log_likelihood = Eigen::VectorXd::Constant(4, -std::numeric_limits<double>::infinity())};
+  };
+  Recognition recognition = begin_recognition(recogniser_);
+  take_view(recogniser_, options_, impossible, 0.0, recognition, rng_);
+  ASSERT_FALSE(recognition.views[0].skipped.empty());
+  EXPECT_THAT(recognition.views[0].skipped[0].reason, HasSubstr("no state"));
+}
+
+TEST_F(TwinMugs, TheNextViewIsWhereTheyDiffer) {
+  Recognition recognition = begin_recognition(recogniser_);
+  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  const std::vector<ObjectViewAction> actions{{.yaw_rad = 2.0 * std::numbers::pi},
+                                              {.yaw_rad = std::numbers::pi}};
+  const NextView next = next_view(recogniser_, options_, recognition, actions, rng_);
+  EXPECT_EQ(next.decision.action, 1U);
+  EXPECT_NEAR(next.decision.scores[1].gain.bits, 1.0, 1e-6);
+  EXPECT_NEAR(next.decision.scores[0].gain.bits, 0.0, 1e-6);
+}
+
+TEST_F(TwinMugs, ItEndsWhenSureOrAfterSoManyViews) {
+  Recognition recognition = begin_recognition(recogniser_);
+  EXPECT_EQ(recognition_end(recogniser_, options_, recognition), std::nullopt);
+  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  EXPECT_EQ(recognition_end(recogniser_, options_, recognition), std::nullopt);
+  options_.most_views = 1;
+  EXPECT_EQ(recognition_end(recogniser_, options_, recognition), RecognitionEnd::most_views);
+  take_view(recogniser_, options_, measuring(3), 0.0, recognition, rng_);
+  recognition.belief = uniform_belief(states_);
+  take_view(recogniser_, options_, measuring(3), 0.0, recognition, rng_);
+  EXPECT_EQ(recognition_end(recogniser_, options_, recognition), RecognitionEnd::sure);
+}
+
+TEST(Recognition, TheYawThatACameraSeesFallsAsItsBearingRises) {
+  Rng rng(3);
+  const Recogniser recogniser = testing::made_up_recogniser(2, {2.0}, {}, rng);
+  RecognitionOptions options;
+  options.transition = RigidTransition{.slip = 0.0};
+  Recognition recognition = begin_recognition(recogniser);
+  const int before = recogniser.states.state(1, 2);
+  recognition.belief.log_p.setConstant(-std::numeric_limits<double>::infinity());
+  recognition.belief.log_p[before] = 0.0;
+  moved(recogniser, options, kTurn_rad, recognition);
+  EXPECT_EQ(most_probable_state(recognition.belief), recogniser.states.state(1, 1));
+}
+
+TEST(Recognition, TheLoopFindsTheObjectAndKnowsItsPose) {
+  Rng rng(7);
+  const Recogniser recogniser = testing::made_up_recogniser(12, {6.0, 12.0}, {}, rng);
+  RecognitionOptions options;
+  options.enough = {.object_probability = 0.99, .entropy_bits = 0.05};
+  int right = 0;
+  int close = 0;
+  constexpr int kTrials = 60;
+  for (int i = 0; i < kTrials; ++i) {
+    MadeUpCamera camera{.recogniser = recogniser, .object = i % 12, .bin = i % 8, .rng = rng};
+    const Recognition known = recognise(recogniser, options, object_camera(camera), rng);
+    right += most_probable_object(recogniser.states, known.belief) == camera.object;
+    const int truth = recogniser.states.state(camera.object, camera.bin);
+    close += bin_error(recogniser.states, most_probable_state(known.belief), truth) <= 1;
+    EXPECT_LE(known.views.size(), 8U);
+    EXPECT_NEAR(known.views.back().view_rad, camera.bearing_rad, 1e-12);
+  }
+  EXPECT_GE(right, 58);
+  EXPECT_GE(close, 54);
+}
+
+TEST(Recognition, ChosenViewsNeedFewerThanRandomOnes) {
+  Rng made(11);
+  const Recogniser recogniser = testing::made_up_recogniser(16, {4.0}, {.decal = 2.5}, made);
+  const auto mean_views = [&](const ObjectViewChoice& choice) {
+    RecognitionOptions options;
+    options.views.choice = choice;
+    options.enough = {.object_probability = 0.95, .entropy_bits = 0.0};
+    double views = 0.0;
+    constexpr int kTrials = 200;
+    for (int i = 0; i < kTrials; ++i) {
+      Rng rng = Rng::stream(5, std::to_string(i));
+      MadeUpCamera camera{.recogniser = recogniser, .object = i % 16, .bin = i % 8, .rng = rng};
+      const Recognition known = recognise(recogniser, options, object_camera(camera), rng);
+      views += static_cast<double>(known.views.size()) / kTrials;
+    }
+    return views;
+  };
+  EXPECT_LT(mean_views(MutualInformation{}), 0.95 * mean_views(RandomObjectView{}));
+}
+
+TEST(Recognition, OptionsOutOfRangeAreNamed) {
+  Rng rng(1);
+  const Recogniser recogniser = testing::made_up_recogniser(2, {2.0}, {}, rng);
+  MadeUpCamera camera{.recogniser = recogniser, .rng = rng};
+  RecognitionOptions options;
+  options.most_views = 0;
+  try {
+    recognise(recogniser, options, object_camera(camera), rng);
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("most_views"));
+  }
+}
+
+}  // namespace
+}  // namespace vantage

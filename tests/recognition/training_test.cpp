@@ -1,0 +1,160 @@
+#include "src/recognition/training.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "src/perception/dataset_reader.hpp"
+#include "src/recognition/recognition.hpp"
+#include "src/recognition/shown_states.hpp"
+#include "src/recognition/transition_training.hpp"
+#include "tests/recognition/painted_dataset.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Training : public ::testing::Test {
+ protected:
+  Training() {
+    put("cup", "cup_1", 0);
+    put("cup", "cup_2", 40);
+    put("hat", "hat_1", 80);
+    options_.features = {Colour{}, BoundingBox{}};
+    options_.transition_prior_moves = 10.0;
+  }
+
+  void put(const std::string& category, const std::string& object, int hue) {
+    testing::put_painted_object(folder_.path(), {category, object, hue}, 16);
+  }
+  [[nodiscard]] RecognitionModel train(int threads = 2) const {
+    return train_recognition(index_dataset(folder_.path()), options_, {.threads = threads});
+  }
+  void expect_error(const std::string& part) const {
+    try {
+      (void)train();
+      FAIL() << "no error that says " << part;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(part));
+    }
+  }
+
+  support::TemporaryDirectory folder_;
+  TrainingOptions options_;
+};
+
+/// Without what was measured with a clock.
+void expect_same(const RecognitionModel& a, const RecognitionModel& b) {
+  ASSERT_EQ(a.features.size(), b.features.size());
+  EXPECT_EQ(a.states.objects, b.states.objects);
+  for (std::size_t f = 0; f < a.features.size(); ++f) {
+    EXPECT_EQ(a.features[f].statistics.count, b.features[f].statistics.count);
+    EXPECT_EQ(a.features[f].statistics.mean, b.features[f].statistics.mean);
+    EXPECT_EQ(a.features[f].statistics.squared_deviation,
+              b.features[f].statistics.squared_deviation);
+    EXPECT_EQ(a.features[f].psi, b.features[f].psi);
+  }
+}
+
+TEST_F(Training, ViewsNotTrainedOnAreRecognisedWithTheirPose) {
+  const Recogniser recogniser = make_recogniser(train(), {}, 1);
+  RecognitionOptions options;
+  options.all_features = true;
+  Rng rng(1);
+  int views = 0;
+  for (const ViewEntry& entry : index_dataset(folder_.path()).views) {
+    if (entry.name.video != 2) continue;
+    const LabelledView view = load_view(entry);
+    Recognition known = begin_recognition(recogniser);
+    take_view(recogniser, options, extract_from(recogniser, view.view), 0.0, known, rng);
+    const int best = most_probable_state(known.belief);
+    const auto object = static_cast<std::size_t>(recogniser.states.object_of(best));
+    EXPECT_EQ(recogniser.states.objects[object], view.name.object);
+    EXPECT_LE(bin_error(recogniser.states, best, view.bin), 1);
+    ++views;
+  }
+  EXPECT_EQ(views, 48);
+}
+
+TEST_F(Training, EveryTrainingViewCounts) {
+  const RecognitionModel model = train();
+  EXPECT_THAT(model.states.objects, ElementsAre("cup_1", "cup_2", "hat_1"));
+  EXPECT_THAT(model.states.categories, ElementsAre("cup", "hat"));
+  EXPECT_THAT(model.features[0].statistics.count, ::testing::Each(4));
+  EXPECT_GT(model.features[0].psi, 0.0);
+  EXPECT_GT(model.features[0].cost_s, 0.0);
+}
+
+TEST_F(Training, IsTheSameForAnyNumberOfThreads) { expect_same(train(1), train(3)); }
+
+TEST_F(Training, ObjectsAddedLaterAreAsIfTheyHadBeenThere) {
+  RecognitionModel model = train();
+  const double psi = model.features[0].psi;
+  const support::TemporaryDirectory more;
+  testing::put_painted_object(more.path(), {"hat", "hat_2", 120}, 16);
+  testing::put_painted_object(more.path(), {"shoe", "shoe_1", 150}, 16);
+  extend_recognition(model, index_dataset(more.path()), options_, {.threads = 2});
+  EXPECT_THAT(model.states.categories, ElementsAre("cup", "hat", "shoe"));
+  EXPECT_THAT(model.states.category_of, ElementsAre(0, 0, 1, 1, 2));
+  put("hat", "hat_2", 120);
+  put("shoe", "shoe_1", 150);
+  RecognitionModel whole = train();
+  EXPECT_EQ(model.features[0].psi, psi);
+  for (std::size_t f = 0; f < 2; ++f) whole.features[f].psi = model.features[f].psi;
+  expect_same(model, whole);
+}
+
+TEST_F(Training, AnObjectKnownAlreadyIsNotAddedTwice) {
+  RecognitionModel model = train();
+  try {
+    extend_recognition(model, index_dataset(folder_.path()), options_, {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'cup_1' already"));
+  }
+}
+
+TEST_F(Training, LearnsATransitionThatKeepsTheObjectAndDistributesSlips) {
+  const LearnedTransition learnt = transition_of(train());
+  EXPECT_NEAR(learnt.same_object, 1.0, 1e-9);
+  EXPECT_NO_THROW(learnt.check());
+  EXPECT_GT(learnt.slip[1 * 8 + 0], 0.5);
+}
+
+TEST_F(Training, VideosCanBeHeldOutInTurn) {
+  options_.held_out = HeldOutVideos{};
+  EXPECT_GT(train().features[0].psi, 0.0);
+  options_.videos = {1};
+  expect_error("two videos");
+}
+
+TEST_F(Training, SaysWhatIsWrongWithItsOptions) {
+  options_.videos = {3};
+  expect_error("3 is none of 1, 2, 4");
+  options_.videos = {1, 1};
+  expect_error("each once");
+  options_.videos = {1, 4};
+  options_.features = {Colour{}, Colour{}};
+  expect_error("'colour' appears twice");
+  options_.features = {};
+  expect_error("at least one");
+}
+
+TEST_F(Training, ABadViewIsAnErrorOfItsFile) {
+  write_file(folder_.path() / "cup" / "cup_1" / "cup_1_1_3_crop.png", "no picture");
+  expect_error("cup_1_1_3_crop.png");
+}
+
+TEST_F(Training, EndsWhereItIsPolled) {
+  struct Stop {};
+  std::atomic<int> calls = 0;
+  const LongWork how{.threads = 2, .poll = [&] {
+                       if (++calls > 20) throw Stop{};
+                     }};
+  EXPECT_THROW(train_recognition(index_dataset(folder_.path()), options_, how), Stop);
+}
+
+}  // namespace
+}  // namespace vantage
