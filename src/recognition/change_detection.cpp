@@ -124,6 +124,10 @@ void ChangeOptions::check() const {
   if (prior_pose + prior_object >= 1.0) {
     throw ConfigError("prior_pose and prior_object: must sum to less than 1");
   }
+  if (prior_pose + prior_object == 0.0) {
+    throw ConfigError("prior_pose and prior_object: must not both be 0");
+  }
+  if (threshold >= 1.0) throw ConfigError("threshold: must be less than 1");
 }
 
 ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& options,

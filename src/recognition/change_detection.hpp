@@ -28,12 +28,12 @@ struct ChangeOptions {
   int empty_views = 2;         ///< without any feature, until it is held to be removed
   void fields(auto&& f) {
     f("recognition", recognition);
-    f("threshold", threshold, Range{0.5, 1.0, false});
-    f("prior_pose", prior_pose, Range{0.0, 1.0, true});
-    f("prior_object", prior_object, Range{0.0, 1.0, true});
+    f("threshold", threshold, between(0.5, 1.0));
+    f("prior_pose", prior_pose, between(0.0, 1.0));
+    f("prior_object", prior_object, between(0.0, 1.0));
     f("empty_views", empty_views, between(1, 100));
   }
-  void check() const;  ///< the priors leave some for no change
+  void check() const;  ///< the priors leave some for a change and some for none; threshold < 1
 };
 
 struct ChangeReport {

@@ -33,7 +33,19 @@ std::vector<double> published_psi(const RecognitionModel& model) {
   return choose_psi(DissertationPsi{}, {.models = models, .held_out = {}});
 }
 
-/// A single view, all features.
+/// The model with these features only, in that order; with all if there are no names.
+RecognitionModel with_features(const RecognitionModel& model,
+                               const std::vector<std::string>& names) {
+  if (names.empty()) return model;
+  RecognitionModel used{.states = model.states, .features = {}, .transitions = model.transitions};
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(model.features, name, &FeatureModel::name);
+    if (found != model.features.end()) used.features.push_back(*found);
+  }
+  return used;
+}
+
+/// A single view, all features, maximum-likelihood variances.
 MethodTrials literal_trials(const RecognitionModel& model, std::string name, const Trials& trials) {
   RecogniserOptions literal = trials.options.recogniser;
   literal.variance = LiteralVariance{};
@@ -45,6 +57,14 @@ MethodTrials literal_trials(const RecognitionModel& model, std::string name, con
           .trials = run_trials(
               recogniser, trials.test, log_likelihoods(recogniser, trials.test, trials.how),
               trials.starts, {.name = name, .options = options}, trials.options.seed, trials.how)};
+}
+
+void add_literal_settings(RecognitionStudy& study, const RecognitionModel& model,
+                          const Trials& trials) {
+  const std::vector<double> one(model.features.size(), 1.0);
+  study.methods.push_back(literal_trials(with_psi(model, one), "literal, psi 1", trials));
+  study.methods.push_back(
+      literal_trials(with_psi(model, published_psi(model)), "literal, published psi", trials));
 }
 
 /// Predicts for the views that trials start from, each once.
@@ -139,41 +159,25 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
                                        const RecognitionStudyOptions& options,
                                        const LongWork& how) {
   check_options(options);
-  RecognitionModel used = model;
-  if (!options.recogniser.features.empty()) {
-    std::erase_if(used.features, [&](const FeatureModel& feature) {
-      return std::ranges::find(options.recogniser.features, feature.name) ==
-             options.recogniser.features.end();
-    });
-  }
-  RecogniserOptions in_order = options.recogniser;
-  in_order.features.clear();
-  const Recogniser recogniser = make_recogniser(used, in_order, how.threads);
+  const Recogniser recogniser = make_recogniser(model, options.recogniser, how.threads);
+  const RecognitionModel used = with_features(model, options.recogniser.features);
   const TestViews test = read_test_views(dataset, used, options.video, how);
   const std::vector<Start> starts = draw_starts(test, options.starts, options.seed);
-  RecognitionStudyOptions resolved = options;
-  resolved.recogniser = in_order;
-  const Trials trials{test, starts, resolved, how};
-  const auto likelihoods = log_likelihoods(recogniser, test, how);
+  const std::vector<Eigen::MatrixXf> likelihoods = log_likelihoods(recogniser, test, how);
+  const Trials trials{test, starts, options, how};
   RecognitionStudy study{.options = options, .states = used.states, .methods = {}, .changes = {}};
   for (const Method& method : published_methods(options.recognition)) {
     study.methods.push_back(
         {.method = method.name,
          .trials = run_trials(recogniser, test, likelihoods, starts, method, options.seed, how)});
   }
-  if (options.literal) {
-    const std::vector<double> one(used.features.size(), 1.0);
-    study.methods.push_back(literal_trials(with_psi(used, one), "literal, psi 1", trials));
-    study.methods.push_back(
-        literal_trials(with_psi(used, published_psi(used)), "literal, published psi", trials));
-  }
+  if (options.literal) add_literal_settings(study, used, trials);
   if (options.baselines) add_baselines(study, used, dataset, trials);
   if (options.change_starts > 0) {
-    ChangeOptions change;
-    change.recognition = options.recognition;
-    study.changes = evaluate_changes(recogniser, test, likelihoods,
-                                     draw_starts(test, options.change_starts, options.seed), change,
-                                     options.seed, how);
+    const ChangeOptions change{.recognition = options.recognition};
+    const std::vector<Start> change_starts = draw_starts(test, options.change_starts, options.seed);
+    study.changes =
+        evaluate_changes(recogniser, test, likelihoods, change_starts, change, options.seed, how);
   }
   return study;
 }

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <numeric>
+
 #include "src/perception/dataset_reader.hpp"
 #include "src/recognition/recognition.hpp"
 #include "src/recognition/shown_states.hpp"
@@ -82,7 +85,8 @@ TEST_F(Training, EveryTrainingViewCounts) {
   const RecognitionModel model = train();
   EXPECT_THAT(model.states.objects, ElementsAre("cup_1", "cup_2", "hat_1"));
   EXPECT_THAT(model.states.categories, ElementsAre("cup", "hat"));
-  EXPECT_THAT(model.features[0].statistics.count, ::testing::Each(4));
+  const std::vector<int>& count = model.features[0].statistics.count;
+  EXPECT_EQ(std::accumulate(count.begin(), count.end(), 0), 3 * 2 * 16);
   EXPECT_GT(model.features[0].psi, 0.0);
   EXPECT_GT(model.features[0].cost_s, 0.0);
 }
