@@ -1,8 +1,12 @@
 #include "src/study/recognition_study.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "src/belief/psi_rule.hpp"
 #include "src/recognition/shown_states.hpp"
 #include "src/recognition/svm_baseline.hpp"
 
@@ -43,6 +47,24 @@ RecognitionModel with_features(const RecognitionModel& model,
     if (found != model.features.end()) used.features.push_back(*found);
   }
   return used;
+}
+
+/// Those asked for, in the order of the tables.
+std::vector<Method> wanted_methods(const RecognitionStudyOptions& options) {
+  std::vector<Method> methods = published_methods(options.recognition);
+  for (const std::string& name : options.methods) {
+    if (std::ranges::find(methods, name, &Method::name) != methods.end()) continue;
+    std::vector<std::string> known;
+    for (const Method& method : methods) known.push_back(method.name);
+    throw ConfigError(
+        fmt::format("methods: unknown '{}'; known: {}", name, fmt::join(known, "; ")));
+  }
+  if (!options.methods.empty()) {
+    std::erase_if(methods, [&](const Method& method) {
+      return std::ranges::find(options.methods, method.name) == options.methods.end();
+    });
+  }
+  return methods;
 }
 
 /// A single view, all features, maximum-likelihood variances.
@@ -159,6 +181,7 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
                                        const RecognitionStudyOptions& options,
                                        const LongWork& how) {
   check_options(options);
+  const std::vector<Method> methods = wanted_methods(options);
   const Recogniser recogniser = make_recogniser(model, options.recogniser, how.threads);
   const RecognitionModel used = with_features(model, options.recogniser.features);
   const TestViews test = read_test_views(dataset, used, options.video, how);
@@ -166,7 +189,7 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
   const std::vector<Eigen::MatrixXf> likelihoods = log_likelihoods(recogniser, test, how);
   const Trials trials{test, starts, options, how};
   RecognitionStudy study{.options = options, .states = used.states, .methods = {}, .changes = {}};
-  for (const Method& method : published_methods(options.recognition)) {
+  for (const Method& method : methods) {
     study.methods.push_back(
         {.method = method.name,
          .trials = run_trials(recogniser, test, likelihoods, starts, method, options.seed, how)});

@@ -14,11 +14,12 @@
 namespace vantage {
 
 struct RecognitionStudyOptions {
-  std::uint64_t seed = 1;          ///< of starts, choices and intervals
-  int starts = 2000;               ///< each method's trials; more make intervals narrower
-  int video = 2;                   ///< tested on: 1, 2, 4 are 30, 45, 60 deg
-  RecogniserOptions recogniser;    ///< variance and features
-  RecognitionOptions recognition;  ///< what all methods have in common
+  std::uint64_t seed = 1;            ///< of starts, choices and intervals
+  int starts = 2000;                 ///< each method's trials; more make intervals narrower
+  int video = 2;                     ///< tested on: 1, 2, 4 are 30, 45, 60 deg
+  RecogniserOptions recogniser;      ///< variance and features
+  RecognitionOptions recognition;    ///< what all methods have in common
+  std::vector<std::string> methods;  ///< names of published_methods() to try; empty: all
   bool literal = true;     ///< also maximum-likelihood variances with psi 1 and as published
   bool baselines = false;  ///< also support vector machines, which takes long
   int change_starts = 0;   ///< trials of change detection, a scenario and method; 0: none
@@ -28,6 +29,7 @@ struct RecognitionStudyOptions {
     f("video", video, between(1, 4));
     f("recogniser", recogniser);
     f("recognition", recognition);
+    f("methods", methods);
     f("literal", literal);
     f("baselines", baselines);
     f("change_starts", change_starts, at_least(0));
