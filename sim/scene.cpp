@@ -53,17 +53,18 @@ struct VfsDeleter {
 };
 using VfsPtr = std::unique_ptr<mjVFS, VfsDeleter>;
 
-VfsPtr make_vfs() {
-  VfsPtr vfs(new mjVFS);
-  mj_defaultVFS(vfs.get());
-  return vfs;
-}
-
 void add_file(mjVFS& vfs, const char* name, std::string_view content) {
   const int failed = mj_makeEmptyFileVFS(&vfs, name, static_cast<int>(content.size()));
   expects(failed == 0, "a file of its own name fits into the virtual file system");
   const int index = mj_findFileVFS(&vfs, name);
   std::memcpy(vfs.filedata[index], content.data(), content.size());
+}
+
+VfsPtr make_vfs(std::span<const MemoryFile> files) {
+  VfsPtr vfs(new mjVFS);
+  mj_defaultVFS(vfs.get());
+  for (const MemoryFile& file : files) add_file(*vfs, file.name.c_str(), file.content);
+  return vfs;
 }
 
 /// MuJoCo remembers the model it read last in a global.
@@ -103,11 +104,14 @@ ModelPtr compile(const std::filesystem::path& path, const mjVFS* vfs, const std:
   return model;
 }
 
-ModelPtr compile_file(const std::filesystem::path& path, std::vector<std::string>& warnings) {
+ModelPtr compile_file(const std::filesystem::path& path, std::span<const MemoryFile> files,
+                      std::vector<std::string>& warnings) {
   if (!std::filesystem::is_regular_file(path)) {
     throw InputError(fmt::format("{}: no such file", path.string()));
   }
-  return compile(path, nullptr, path.string(), warnings);
+  if (files.empty()) return compile(path, nullptr, path.string(), warnings);
+  const VfsPtr vfs = make_vfs(files);
+  return compile(path, vfs.get(), path.string(), warnings);
 }
 
 /// Erases the first `begin` up to and with the next `end`, if there are such.
@@ -145,7 +149,7 @@ ModelPtr compile_both(const ModelSource& source, const std::string& scene_text,
   constexpr auto kMain = "vantage_main.xml";
   constexpr auto kScene = "vantage_scene.xml";
   constexpr auto kRobot = "vantage_robot.xml";
-  const VfsPtr vfs = make_vfs();
+  const VfsPtr vfs = make_vfs(source.files);
   add_file(*vfs, kScene, scene_text);
   add_file(*vfs, kRobot, read_file(source.robot));
   add_file(*vfs, kMain,
@@ -167,14 +171,14 @@ LoadedModel load_model(const ModelSource& source) {
   install_mujoco_handlers();
 
   LoadedModel loaded;
-  loaded.model = compile_file(source.scene, loaded.warnings);
+  loaded.model = compile_file(source.scene, source.files, loaded.warnings);
   if (source.robot.empty()) return loaded;
 
   const std::string file = source.scene.string();
   check_no_robot_names(*loaded.model, file);
   const std::string scene_text = canonical_text(*loaded.model);
   std::vector<std::string> repeated;  // what compiling each for itself has already said
-  const ModelPtr robot = compile_file(source.robot, loaded.warnings);
+  const ModelPtr robot = compile_file(source.robot, {}, loaded.warnings);
   loaded.model = compile_both(source, scene_text, *loaded.model, *robot, repeated);
   return loaded;
 }
@@ -184,9 +188,8 @@ LoadedModel load_model(std::string_view mjcf, std::span<const MemoryFile> files,
   constexpr auto kMain = "vantage_main.xml";
   const std::lock_guard lock(one_at_a_time);
   install_mujoco_handlers();
-  const VfsPtr vfs = make_vfs();
+  const VfsPtr vfs = make_vfs(files);
   add_file(*vfs, kMain, mjcf);
-  for (const MemoryFile& file : files) add_file(*vfs, file.name.c_str(), file.content);
   LoadedModel loaded;
   loaded.model = compile(kMain, vfs.get(), name, loaded.warnings);
   return loaded;

@@ -18,6 +18,11 @@ struct ModelDeleter {
 };
 using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
 
+struct MemoryFile {
+  std::string name;  ///< as the MJCF calls it
+  std::string content;
+};
+
 /// Two MJCF files. The scene may use any `<compiler>` settings and includes. When a robot joins it,
 /// its numbers are rounded to six digits and its keyframes dropped (their length would no longer
 /// fit), and names starting with `robot/` belong to the robot. The robot brings no files of its
@@ -25,6 +30,8 @@ using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
 struct ModelSource {
   std::filesystem::path scene;
   std::filesystem::path robot;  ///< empty: no robot
+  std::vector<MemoryFile> files =
+      {};  ///< stand in for files of these names that the scene refers to
 };
 
 struct LoadedModel {
@@ -37,11 +44,6 @@ struct LoadedModel {
 /// @throws InputError with the file and MuJoCo's message if one is missing, malformed, holds a
 /// number that is not finite, a time step outside (0, 0.1] s, or a scene name like `robot/...`.
 LoadedModel load_model(const ModelSource& source);
-
-struct MemoryFile {
-  std::string name;  ///< as the MJCF calls it
-  std::string content;
-};
 
 /// Compiles a scene that is nowhere on disk, with the meshes and textures it names. `name` stands
 /// for it in messages. Thread-safe (one at a time).

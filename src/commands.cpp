@@ -45,8 +45,7 @@ struct RunArguments {
   bool dry_run = false;
 };
 
-void print_outcome(const RunOutcome& outcome) {
-  const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
+void print_mapping(const nlohmann::ordered_json& metrics) {
   const auto& scans = metrics["scans"];
   const auto total = metrics["observable_cells"].get<double>();
   const double left =
@@ -59,6 +58,27 @@ void print_outcome(const RunOutcome& outcome) {
       metrics["path_length_m"].get<double>(), metrics["collisions"].get<int>(),
       metrics["map"]["precision"].get<double>(), metrics["map"]["recall"].get<double>(),
       metrics["real_time_factor"].get<double>());
+}
+
+void print_recognition(const nlohmann::ordered_json& metrics) {
+  const auto text = [&](const char* key) {
+    return metrics[key].is_string() ? metrics[key].get<std::string>() : "nothing yet";
+  };
+  fmt::print("{}: {} after {} views, recognised {}, which is {} ({})\n", text("method"),
+             text("status"), metrics["observations"].size(), text("estimate"),
+             metrics["correct"].get<bool>() ? "right" : "wrong", text("truth"));
+  fmt::print("entropy {:.2f} bit, path {:.2f} m, {} collisions, {:.1f} x real time\n",
+             metrics["entropy_bits"].get<double>(), metrics["path_length_m"].get<double>(),
+             metrics["collisions"].get<int>(), metrics["real_time_factor"].get<double>());
+}
+
+void print_outcome(const RunOutcome& outcome) {
+  const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
+  if (metrics.contains("observations")) {
+    print_recognition(metrics);
+  } else {
+    print_mapping(metrics);
+  }
   fmt::print("state hash {}\n", metrics["state_hash"].get<std::string>());
   if (fs::exists(outcome.directory / "report.html")) {
     fmt::print("report {}\n", (outcome.directory / "report.html").string());
@@ -74,16 +94,18 @@ void print_config(const Episode& episode, bool json) {
 
 void print_plan(const ResolvedEpisode& resolved, bool json) {
   const Episode& episode = resolved.episode;
+  const int most = episode.flies() ? episode.recognition.decision.most_views : episode.scans;
   if (json) {
     fmt::print("{}", json_text({{"episode", resolved.name},
-                                {"scans", episode.scans},
+                                {episode.flies() ? "most_views" : "scans", most},
                                 {"scene", resolved.scene.string()},
                                 {"method", method_name(episode)},
                                 {"seed", episode.seed}}));
     return;
   }
-  fmt::print("{}: {} scans in {} by {}, seed {}\n", resolved.name, episode.scans,
-             resolved.scene.string(), method_name(episode), episode.seed);
+  fmt::print("{}: {} {} in {} by {}, seed {}\n", resolved.name, most,
+             episode.flies() ? "views at most" : "scans", resolved.scene.string(),
+             method_name(episode), episode.seed);
 }
 
 ExitCode run_episode_command(const RunArguments& arguments) {

@@ -50,7 +50,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed{
     {"dataset", {"core", "geometry", "perception", "models", "sim"}},
     {"episode",
      {"core", "geometry", "information", "perception", "belief", "planners", "recognition", "sim",
-      "models"}},
+      "models", "dataset"}},
     {"study", {"core", "information", "recognition", "episode"}},
     {"view", {"core", "geometry", "belief", "planners", "sim", "episode"}},
     {"main",

@@ -1,8 +1,11 @@
-// The run's data, and the plots against scans.
+// The run's data, and the plots against scans, or against views of an object.
 
 const DATA = JSON.parse(document.getElementById("run-data").textContent);
 const METRICS = DATA.metrics;
 const SCANS = METRICS.scans ?? [];
+const SIGHTINGS = METRICS.observations ?? [];
+const STEPS = SCANS.length ? SCANS : SIGHTINGS;
+const STEP_WORD = SIGHTINGS.length ? "view" : "scan";
 const at = (id) => document.getElementById(id);
 const column = (key) => SCANS.map((s) => s[key]);
 const words = (key) => String(key ?? "").replaceAll("_", " ");
@@ -54,8 +57,27 @@ function cumulativePath() {
   return already ? legs : summed;
 }
 
+// Of recognition: what each view told, and how well it was flown to.
+function sightingPlots(parent) {
+  const seen = (key, scale = 1) => perScan(SIGHTINGS.map((s) => (isNumber(s[key]) ? scale * s[key] : null)));
+  const chart = (title, subtitle, y, unit, series) => lineChart(parent, { title, subtitle, x: "view", y, unit, integerX: true, series });
+  chart("Entropy", "of object and pose, after each view", "entropy in bits", "bits", [
+    { name: "entropy", colour: seriesColour(0), strong: true, points: seen("entropy_bits") },
+  ]);
+  chart("Probability of the estimate", "summed over its poses", "probability", "", [
+    { name: "most probable object", colour: seriesColour(2), strong: true, points: seen("map_probability") },
+  ]);
+  chart("Where the pictures were taken", "camera against where it was meant to be", "position error in mm", "mm", [
+    { name: "position", colour: seriesColour(1), strong: true, points: seen("position_error_m", 1000) },
+  ]);
+  chart("How the camera was turned", "against how it was meant to be", "angle error in degrees", "°", [
+    { name: "angle", colour: seriesColour(3), strong: true, points: seen("angle_error_rad", 180 / Math.PI) },
+  ]);
+}
+
 function fillPlots() {
   const parent = at("plots");
+  if (SIGHTINGS.length) { sightingPlots(parent); return; }
   if (!SCANS.length) { at("section-plots").hidden = true; return; }
   const chart = (title, subtitle, y, unit, series) => {
     if (series.some((s) => s.points.some((p) => isNumber(p[1])))) lineChart(parent, { title, subtitle, x: "scan", y, unit, integerX: true, series });

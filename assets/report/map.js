@@ -125,7 +125,7 @@ function drawChosen(svg, run, px, py) {
     append(group, "rect", { class: "pin", x: px(pin.x) - half, y: py(pin.y) - 10, width: 2 * half, height: 20, rx: 10 });
     append(group, "text", { x: px(pin.x), y: py(pin.y) + 4 }, label);
     const rows = pin.views.flatMap((v) => viewRows(v, pin.views.length > 1));
-    const show = (x, y) => Tooltip.show(x, y, pin.views.length > 1 ? `Scans ${label}` : `Scan ${label}`, rows);
+    const show = (x, y) => Tooltip.show(x, y, `${words(STEP_WORD)}${pin.views.length > 1 ? "s" : ""} ${label}`, rows);
     group.addEventListener("pointermove", (event) => show(event.clientX, event.clientY));
     group.addEventListener("pointerleave", () => Tooltip.hide());
     group.addEventListener("focus", () => { const box = group.getBoundingClientRect(); show(box.right, box.top); });
@@ -134,11 +134,13 @@ function drawChosen(svg, run, px, py) {
 }
 
 function viewRows(view, several) {
-  const rows = several ? [{ name: "scan", value: String(view.number) }] : [];
+  const rows = several ? [{ name: STEP_WORD, value: String(view.number) }] : [];
   if (isNumber(view.id) && view.id >= 0) rows.push({ name: "candidate", value: String(view.id) });
   rows.push({ name: "position", value: `${formatNumber(view.x, 3)}, ${formatNumber(view.y, 3)} m` });
   rows.push({ name: "heading", value: `${formatNumber((view.yaw * 180) / Math.PI, 3)}°` });
   if (isNumber(view.scan.actual_new_cells)) rows.push({ name: "new cells", value: formatNumber(view.scan.actual_new_cells) });
+  if (view.scan.estimate) rows.push({ name: "estimate", value: `${view.scan.estimate}, ${formatNumber(view.scan.map_probability, 2)}` });
+  if (isNumber(view.scan.entropy_bits)) rows.push({ name: "entropy", value: `${formatNumber(view.scan.entropy_bits, 3)} bits` });
   if (view.scan.fallback) rows.push({ name: "fallback", value: "yes" });
   return rows;
 }

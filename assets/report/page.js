@@ -5,7 +5,7 @@ function collectScene() {
   const view = (v) => ({ x: v.x_m, y: v.y_m, z: v.z_m ?? 0, yaw: v.yaw_rad ?? 0, id: v.id });
   const placed = (v) => v && isNumber(v.x_m) && isNumber(v.y_m);
   const candidates = (METRICS.candidates ?? []).filter(placed).map(view);
-  const views = SCANS.map((scan, step) => {
+  const views = STEPS.map((scan, step) => {
     const source = placed(scan.view) ? scan.view : (METRICS.candidates ?? []).find((c) => c.id === scan.chosen_view);
     return placed(source) ? { ...view(source), id: scan.chosen_view, number: step + 1, step, scan } : null;
   }).filter(Boolean);
@@ -14,12 +14,12 @@ function collectScene() {
   const region = box(METRICS.region?.min_m, METRICS.region?.max_m) ?? box(voxels?.min_m, voxels?.max_m);
   return {
     candidates, views, voxels, region, cloud: DATA.cloud, truth: DATA.trajectory.truth,
-    estimated: DATA.trajectory.estimated, scanTimes: column("time_s"), scans: scanCount(voxels),
+    estimated: DATA.trajectory.estimated, scanTimes: STEPS.map((s) => s.time_s), scans: scanCount(voxels),
   };
 }
 
 function scanCount(voxels) {
-  let count = Math.max(1, SCANS.length);
+  let count = Math.max(1, STEPS.length);
   if (voxels?.kept[0]) count = Math.max(count, voxels.packed[4 * voxels.kept[0] - 1] + 1);
   return count;
 }
@@ -27,6 +27,7 @@ function scanCount(voxels) {
 function fillHead() {
   at("eyebrow").textContent = words(METRICS.task);
   at("heading").textContent = METRICS.scene ?? "Run";
+  if (SIGHTINGS.length) at("h-map3d").textContent = "The flight, view by view";
   const tag = (name, value, kind = "") => {
     if (value === undefined || value === null) return;
     const node = append(at("tags"), "span", { class: `tag ${kind}` });
@@ -65,6 +66,7 @@ function fillCards() {
   if (METRICS.estimate !== undefined) {
     card("Estimate", String(METRICS.estimate), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
   }
+  if (SIGHTINGS.length) card("Views", String(SIGHTINGS.length), { sub: `entropy ${formatNumber(METRICS.entropy_bits, 3)} bits at the end` });
   if (METRICS.scans) {
     const fallbacks = SCANS.filter((s) => s.fallback).length;
     card("Scans", String(SCANS.length), { sub: fallbacks ? `${fallbacks} of them fallbacks` : "no fallback" });
@@ -118,7 +120,7 @@ function pairs(table, object, prefix = "") {
 function fillDetails() {
   pairs(at("manifest"), DATA.manifest);
   at("config").textContent = DATA.config;
-  const { scans, candidates, ...rest } = METRICS;
+  const { scans, observations, candidates, ...rest } = METRICS;
   pairs(at("other"), rest);
 }
 
@@ -176,7 +178,7 @@ function attachSteps(viewer, scene) {
   const show = (step) => {
     viewer.step = step;
     slider.value = step;
-    at("step-label").textContent = `scan ${step + 1} of ${scene.scans}`;
+    at("step-label").textContent = `${STEP_WORD} ${step + 1} of ${scene.scans}`;
     slider.setAttribute("aria-valuetext", at("step-label").textContent);
     viewer.redraw();
   };

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "src/core/atomic_file.hpp"
+#include "src/episode/map_panel.hpp"
 
 namespace vantage {
 namespace {
@@ -50,7 +51,7 @@ cv::Mat Film::draw(const World& world) {
   request.depth_and_segmentation = false;
   renderer_->render(world.model(), world.snapshot(), camera_, request, overview_);
   const cv::Mat rgb(overview_.height_px, overview_.width_px, CV_8UC3, overview_.rgb.data());
-  return side_by_side(rgb, draw_map_panel(panel_(), half_));
+  return side_by_side(rgb, panel_(half_));
 }
 
 }  // namespace vantage

@@ -1,5 +1,7 @@
-/// The video of an episode: the robot in its room beside the growing map.
+/// The video of an episode: the robot in its room beside what it knows.
 #pragma once
+
+#include <opencv2/core.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -7,18 +9,20 @@
 
 #include "sim/renderer.hpp"
 #include "sim/world.hpp"
-#include "src/episode/map_panel.hpp"
 #include "src/episode/scenario.hpp"
 #include "src/episode/video.hpp"
 
 namespace vantage {
+
+/// Draws what the robot knows: CV_8UC3, BGR, of that size.
+using PanelPainter = std::function<cv::Mat(cv::Size)>;
 
 class Film {
  public:
   /// Makes `directory`/video.mp4 and `directory`/frames. @throws RendererError, OutputError
   Film(const World& world, const RecordingOptions& options, std::filesystem::path directory);
 
-  void set_panel(std::function<MapPanelInput()> panel) { panel_ = std::move(panel); }
+  void set_panel(PanelPainter panel) { panel_ = std::move(panel); }
   /// Adds a frame if one is due at the world's time.
   void tick(const World& world);
   /// Keeps the present view as frames/scan_<index>.png.
@@ -35,7 +39,7 @@ class Film {
   VideoWriter video_;
   CameraView camera_;
   RenderedImages overview_;
-  std::function<MapPanelInput()> panel_;
+  PanelPainter panel_;
   double next_frame_s_ = 0.0;
 };
 

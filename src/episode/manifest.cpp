@@ -10,6 +10,7 @@
 #include "sim/renderer.hpp"
 #include "sim/world.hpp"
 #include "src/core/atomic_file.hpp"
+#include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
 #include "src/core/hash.hpp"
 
@@ -78,6 +79,10 @@ std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved)
     for (const fs::path& file : scene_files(root)) {
       hashes[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
     }
+  }
+  const fs::path model = data_root() / resolved.episode.recognition.model;
+  if (resolved.episode.flies() && fs::exists(model)) {
+    hashes["recognition.model"] = hash_text(hash_file(model));
   }
   return hashes;
 }

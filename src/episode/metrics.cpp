@@ -9,12 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json view_json(const Pose& T_world_sensor) {
-  const Eigen::Vector3d p = T_world_sensor.translation();
-  return {
-      {"x_m", p.x()}, {"y_m", p.y()}, {"z_m", p.z()}, {"yaw_rad", flatten(T_world_sensor).yaw_rad}};
-}
-
 Json scan_json(const ScanRecord& scan) {
   Json predicted = Json::object();
   for (const auto& [gain, cells] : scan.predicted_cells) predicted[gain] = cells;
@@ -85,23 +79,44 @@ std::string_view status_name(EpisodeStatus status) {
   return "?";
 }
 
+Json view_json(const Pose& T_world_sensor) {
+  const Eigen::Vector3d p = T_world_sensor.translation();
+  return {
+      {"x_m", p.x()}, {"y_m", p.y()}, {"z_m", p.z()}, {"yaw_rad", flatten(T_world_sensor).yaw_rad}};
+}
+
+Json candidates_json(std::span<const Candidate> views) {
+  Json list = Json::array();
+  for (const Candidate& view : views) {
+    Json entry = {{"id", view.id}};
+    entry.update(view_json(view.T_world_sensor));
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json summary_json(const ResolvedEpisode& resolved, const RunSummary& summary) {
+  const Episode& episode = resolved.episode;
+  return {{"task", episode.task},
+          {"status", status_name(summary.status)},
+          {"reason", summary.reason},
+          {"seed", episode.seed},
+          {"scene", episode.scene},
+          {"method", method_name(episode)},
+          {"simulated_time_s", summary.simulated_time_s},
+          {"wall_time_s", summary.wall_time_s},
+          {"real_time_factor",
+           summary.wall_time_s > 0.0 ? summary.simulated_time_s / summary.wall_time_s : 0.0},
+          {"path_length_m", summary.path_length_m},
+          {"collisions", summary.collisions},
+          {"state_hash", hash_text(summary.state_hash)}};
+}
+
 Json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
                   const MappingResult& run) {
   const Episode& episode = resolved.episode;
   const MapScore map = run.truth.score(run.grid, episode.metrics.tolerance_cells);
-  Json json = {{"task", episode.task},
-               {"status", status_name(summary.status)},
-               {"reason", summary.reason},
-               {"seed", episode.seed},
-               {"scene", episode.scene},
-               {"method", method_name(episode)},
-               {"simulated_time_s", summary.simulated_time_s},
-               {"wall_time_s", summary.wall_time_s},
-               {"real_time_factor",
-                summary.wall_time_s > 0.0 ? summary.simulated_time_s / summary.wall_time_s : 0.0},
-               {"path_length_m", summary.path_length_m},
-               {"collisions", summary.collisions},
-               {"state_hash", hash_text(summary.state_hash)}};
+  Json json = summary_json(resolved, summary);
   json["observable_cells"] = run.truth.observable_cells();
   json["scans"] = Json::array();
   for (const ScanRecord& scan : run.scans) json["scans"].push_back(scan_json(scan));
@@ -111,12 +126,7 @@ Json metrics_json(const ResolvedEpisode& resolved, const RunSummary& summary,
   json["observability"] = observability(episode, run.hazard);
   json["observability_per_slice"] = run.hazard.transmission_per_slice();
   json["region"] = box_json(run.grid.frame.box());
-  json["candidates"] = Json::array();
-  for (const Candidate& view : run.views) {
-    Json entry = {{"id", view.id}};
-    entry.update(view_json(view.T_world_sensor));
-    json["candidates"].push_back(entry);
-  }
+  json["candidates"] = candidates_json(run.views);
   return json;
 }
 

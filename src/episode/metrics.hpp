@@ -30,6 +30,12 @@ nlohmann::ordered_json box_json(const Eigen::AlignedBox3d& box_m);  ///< min_m, 
 
 std::string_view status_name(EpisodeStatus status);
 
+/// What metrics.json says of every task.
+nlohmann::ordered_json summary_json(const ResolvedEpisode& resolved, const RunSummary& summary);
+/// Position and heading.
+nlohmann::ordered_json view_json(const Pose& T_world_sensor);
+nlohmann::ordered_json candidates_json(std::span<const Candidate> views);
+
 /// What an episode that maps has come to.
 struct MappingResult {
   const OccupancyGrid& grid;

@@ -1,12 +1,13 @@
 #include "src/episode/mobile_rig.hpp"
 
 #include "src/episode/interrupt.hpp"
+#include "src/episode/model_source.hpp"
 
 namespace vantage {
 
 MobileRig::MobileRig(const ResolvedEpisode& resolved, const std::function<Pr2(World&)>& place)
     : episode_(resolved.episode),
-      world_({resolved.scene, resolved.robot}, resolved.episode.simulation),
+      world_(model_source(resolved), resolved.episode.simulation),
       robot_(place(world_)),
       geometry_(world_.model(), world_.snapshot()),
       geometry_without_robot_(world_.model(), world_.snapshot(), kWithoutRobot),

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "src/belief/octomap_io.hpp"
 #include "src/episode/scan_summary.hpp"
 #include "src/perception/ply.hpp"
@@ -11,9 +9,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kPoseRowEvery_s = 0.1;
-
-constexpr std::string_view kTumHeader = "# time_s x y z qx qy qz qw\n";
 constexpr std::string_view kStepsHeader =
     "time_s,scan,chosen_view,fallback,unobserved_cells,observable_unobserved_cells,actual_new_"
     "cells,"
@@ -39,58 +34,30 @@ std::string steps_row(const ScanRecord& scan, std::size_t index) {
                      scan.registered, scan.collisions, scan.precision, scan.recall);
 }
 
-/// A row of a TUM trajectory: time x y z qx qy qz qw.
-std::string tum_row(double time_s, const Pose2& base) {
-  return fmt::format("{:.3f} {:.6f} {:.6f} 0 0 0 {:.6f} {:.6f}\n", time_s, base.x_m, base.y_m,
-                     std::sin(0.5 * base.yaw_rad), std::cos(0.5 * base.yaw_rad));
-}
-
 }  // namespace
 
 Recorder::Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
                    bool with_video, bool lean, Spectator spectator)
     : directory_(std::move(directory)),
-      rig_(rig),
       planned_scans_(resolved.episode.scans),
       lean_(lean),
-      states_(lean ? std::filesystem::path() : directory_, actuator_names(rig.world()),
-              rig.world().state()),
+      log_({rig.world(), [&rig] { return lift(rig.truth().T_world_base); },
+            [&rig] { return lift(rig.estimated_base()); }},
+           resolved.episode.recording, directory_, with_video, lean, std::move(spectator)),
       steps_(directory_ / "steps.csv"),
-      trajectory_(directory_ / "trajectory.tum"),
-      estimated_(directory_ / "trajectory_estimated.tum"),
-      spectator_(std::move(spectator)),
       progress_(resolved.name, resolved.episode.scans) {
   steps_.write(steps_header(resolved.episode));
-  trajectory_.write(kTumHeader);
-  estimated_.write(kTumHeader);
   if (!lean) story_.emplace(directory_);
-  if (with_video) film_.emplace(rig.world(), resolved.episode.recording, directory_);
-  rig_.world().on_tick = [this](World&) { tick(); };
-  if (spectator_.on_tick) spectator_.on_tick(rig_.world());
 }
-
-Recorder::~Recorder() { rig_.world().on_tick = nullptr; }
 
 void Recorder::set_panel(std::function<MapPanelInput()> panel) {
-  if (film_) film_->set_panel(std::move(panel));
-}
-
-void Recorder::tick() {
-  const World& world = rig_.world();
-  states_.add(world.controls(), world.state());
-  if (last_base_ && world.time_s() >= next_pose_s_) pose_rows();
-  const Pose2 base = rig_.truth().T_world_base;
-  if (last_base_)
-    path_length_m_ += std::hypot(base.x_m - last_base_->x_m, base.y_m - last_base_->y_m);
-  last_base_ = base;
-  if (film_) film_->tick(world);
-  if (spectator_.on_tick) spectator_.on_tick(world);
+  log_.set_panel(
+      [panel = std::move(panel)](cv::Size size) { return draw_map_panel(panel(), size); });
 }
 
 void Recorder::tell(StoryEvent event) {
-  event.tick = states_.ticks();
+  log_.tell(event);
   if (story_) story_->add(event);
-  if (spectator_.on_event) spectator_.on_event(event);
 }
 
 void Recorder::decision(const std::vector<Candidate>& candidates, std::size_t chosen) {
@@ -104,15 +71,6 @@ void Recorder::way(const std::vector<Pose2>& waypoints) {
   tell({0, std::move(way)});
 }
 
-/// The world ticks before the odometry does: the estimate at hand belongs to the tick before.
-void Recorder::pose_rows() {
-  const World& world = rig_.world();
-  const double time_s = world.time_s() - world.options().control_period_s;
-  trajectory_.write(tum_row(time_s, *last_base_));
-  estimated_.write(tum_row(time_s, rig_.estimated_base()));
-  next_pose_s_ = world.time_s() + kPoseRowEvery_s;
-}
-
 void Recorder::scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid) {
   steps_.write(steps_row(record, index));
   if (!lean_) add_occupied_voxels(grid, index);
@@ -122,7 +80,7 @@ void Recorder::scan(const ScanRecord& record, std::size_t index, const Occupancy
       static_cast<double>(scans_done_),
       fmt::format("scan {} of {}: {} observable cells left, {:.1f} s simulated", scans_done_,
                   planned_scans_, record.observable_unobserved_cells, record.time_s));
-  if (film_) film_->keep_still(rig_.world(), index);
+  log_.keep_still(index);
 }
 
 void Recorder::add_occupied_voxels(const OccupancyGrid& grid, std::size_t step) {
@@ -141,10 +99,8 @@ void Recorder::add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_
 }
 
 void Recorder::commit() {
-  states_.commit();
+  log_.commit();
   steps_.commit();
-  trajectory_.commit();
-  estimated_.commit();
   if (story_) story_->commit();
 }
 
@@ -158,10 +114,6 @@ void Recorder::write_map(const OccupancyGrid& grid, const PointCloud& cloud) {
     write_octomap(grid, directory_ / "map.bt");
     write_octomap(grid, directory_ / "map.ot");
   }
-}
-
-void Recorder::finish_video() {
-  if (film_) film_->finish();
 }
 
 }  // namespace vantage

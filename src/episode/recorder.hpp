@@ -1,4 +1,4 @@
-/// Writes the run folder while the episode runs.
+/// Writes the run folder of an episode that maps while it runs.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,12 @@
 
 #include "sim/world.hpp"
 #include "src/core/log.hpp"
-#include "src/episode/film.hpp"
+#include "src/episode/map_panel.hpp"
 #include "src/episode/mobile_rig.hpp"
 #include "src/episode/report_data.hpp"
+#include "src/episode/run_log.hpp"
 #include "src/episode/scan_record.hpp"
 #include "src/episode/scenario.hpp"
-#include "src/episode/spectator.hpp"
-#include "src/episode/state_log.hpp"
 
 namespace vantage {
 
@@ -25,52 +24,39 @@ class Recorder {
   /// @throws OutputError, RendererError
   Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
            bool with_video, bool lean, Spectator spectator = {});
-  ~Recorder();
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
 
   void set_panel(std::function<MapPanelInput()> panel);
   /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
   void scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid);
   /// Whether somebody will look at decisions and what they were made by.
-  [[nodiscard]] bool tells_story() const { return story_ || spectator_.on_event; }
+  [[nodiscard]] bool tells_story() const { return story_ || log_.watched(); }
   /// What was chosen among, and the way that was planned to it.
   void decision(const std::vector<Candidate>& candidates, std::size_t chosen);
   void way(const std::vector<Pose2>& waypoints);
   void commit();  ///< puts the growing files under their final names
   void write_map(const OccupancyGrid& grid, const PointCloud& cloud);
-  void finish_video();
+  void finish_video() { log_.finish_video(); }
 
-  [[nodiscard]] std::uint64_t state_hash() const { return states_.hash(); }
-  [[nodiscard]] double path_length_m() const { return path_length_m_; }
+  [[nodiscard]] std::uint64_t state_hash() const { return log_.state_hash(); }
+  [[nodiscard]] double path_length_m() const { return log_.path_length_m(); }
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
 
  private:
-  void tick();
-  void pose_rows();
   void tell(StoryEvent event);
   void add_occupied_voxels(const OccupancyGrid& grid, std::size_t step);
   void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);
 
   std::filesystem::path directory_;
-  MobileRig& rig_;
   int planned_scans_;
   bool lean_;
-  StateLog states_;
+  RunLog log_;
   GrowingFile steps_;
-  GrowingFile trajectory_;
-  GrowingFile estimated_;
   std::optional<StoryLog> story_;
-  std::optional<Film> film_;
   std::vector<VoxelRecord> voxels_;
   std::vector<std::uint8_t> was_occupied_;
   std::vector<CellState> known_;  ///< of the map, as far as the story goes
-  Spectator spectator_;
   Progress progress_;
   std::size_t scans_done_ = 0;
-  double next_pose_s_ = 0.0;
-  double path_length_m_ = 0.0;
-  std::optional<Pose2> last_base_;
 };
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/hash.hpp"
 #include "src/episode/manifest.hpp"
+#include "src/episode/model_source.hpp"
 #include "src/episode/recording.hpp"
 #include "src/episode/scenario.hpp"
 #include "src/episode/state_log.hpp"
@@ -47,7 +48,7 @@ std::vector<std::string> changed_files(const nlohmann::json& manifest,
 
 ReplayResult replay(const std::filesystem::path& run_dir) {
   const ResolvedEpisode resolved = load_recorded(run_dir);
-  World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
+  World world(model_source(resolved), resolved.episode.simulation);
   const RecordedStates recorded = load_states(run_dir, world);
   const auto names = actuator_names(world);
   const auto actions = read_actions(run_dir / "actions.csv", names);

@@ -61,6 +61,7 @@ constexpr KeyType kMetricsTypes[] = {
     {"map", is_object, "an object"},
     {"region", is_object, "an object"},
     {"scans", is_objects, "a list of objects"},
+    {"observations", is_objects, "a list of objects"},
     {"candidates", is_objects, "a list of objects"},
 };
 constexpr KeyType kScanTypes[] = {

@@ -9,7 +9,9 @@
 #include "src/core/log.hpp"
 #include "src/episode/manifest.hpp"
 #include "src/episode/next_best_view.hpp"
+#include "src/episode/object_recognition.hpp"
 #include "src/episode/office_exploration.hpp"
+#include "src/episode/recognition_metrics.hpp"
 #include "src/episode/report.hpp"
 
 namespace vantage {
@@ -19,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr auto kRunFiles = std::to_array<std::string_view>(
     {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
      "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
-     "voxels.bin", "story.bin", "video.mp4", "report.html", "log.txt", "frames"});
+     "voxels.bin", "story.bin", "video.mp4", "report.html", "log.txt", "frames", "views"});
 
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {
@@ -60,45 +62,84 @@ Ending run_to_end(Parts& parts) {
   }
 }
 
-/// Runs the parts made for `rig` and writes everything they come to.
 template <class Parts>
-void run_parts(auto& rig, const ResolvedEpisode& resolved, const RunOptions& options,
-               RunOutcome& outcome) {
-  const double start_s = wall_s();
-  Recorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
-                    options.spectator);
-  Parts parts(resolved, rig, recorder);
+nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
+                                  const Parts& parts) {
+  const auto& belief = parts.belief();
+  return metrics_json(
+      resolved, summary,
+      {belief.grid(), belief.hazard(), parts.truth(), parts.scans(), parts.views()});
+}
+nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
+                                  const ObjectRecognition& parts) {
+  return recognition_metrics(resolved, summary, parts);
+}
+
+template <class Parts>
+void write_learnt(Recorder& recorder, const Parts& parts) {
+  recorder.write_map(parts.belief().grid(), parts.belief().cloud());
+}
+void write_learnt(RecognitionRecorder&, const ObjectRecognition&) {}
+
+/// An episode that is about to run.
+struct Running {
+  const ResolvedEpisode& resolved;
+  const RunOptions& options;
+  RunOutcome& outcome;
+  double start_s;  ///< wall
+};
+
+/// Runs the parts made for `rig` and writes everything they come to.
+void run_parts(const Running& run, auto& rig, auto& recorder, auto& parts) {
   RunSummary summary;
   const Ending ending = run_to_end(parts);
   summary.status = ending.status;
   summary.reason = ending.reason;
   summary.simulated_time_s = rig.world().time_s();
-  summary.wall_time_s = wall_s() - start_s;
+  summary.wall_time_s = wall_s() - run.start_s;
   summary.path_length_m = recorder.path_length_m();
   summary.collisions = rig.truth().collisions;
   summary.state_hash = recorder.state_hash();
 
   // What cannot be made again comes first.
   recorder.commit();
+  RunOutcome& outcome = run.outcome;
   outcome.code = ending.code;
-  const auto& belief = parts.belief();
-  outcome.metrics = json_text(
-      metrics_json(resolved, summary,
-                   {belief.grid(), belief.hazard(), parts.truth(), parts.scans(), parts.views()}));
-  write_file(outcome.directory / "config.yaml", episode_yaml(resolved.episode));
+  outcome.metrics = json_text(metrics_of(run.resolved, summary, parts));
+  write_file(outcome.directory / "config.yaml", episode_yaml(run.resolved.episode));
   write_file(outcome.directory / "manifest.json",
-             manifest_json(resolved, options.command, summary));
+             manifest_json(run.resolved, run.options.command, summary));
   write_file(outcome.directory / "metrics.json", outcome.metrics);
   recorder.finish_video();
-  if (!options.lean) recorder.write_map(belief.grid(), belief.cloud());
+  if (!run.options.lean) write_learnt(recorder, parts);
+}
+
+/// After this an old run is gone: what may fail comes before.
+Running begin(const ResolvedEpisode& resolved, const RunOptions& options, RunOutcome& outcome) {
+  prepare_directory(outcome.directory, options.overwrite);
+  log_to_file(outcome.directory / "log.txt");
+  return {resolved, options, outcome, wall_s()};
 }
 
 template <class Rig, class Parts>
-void run_in(const ResolvedEpisode& resolved, const RunOptions& options, RunOutcome& outcome) {
-  Rig rig(resolved);  // before an old run is removed: it may fail
-  prepare_directory(outcome.directory, options.overwrite);
-  log_to_file(outcome.directory / "log.txt");
-  run_parts<Parts>(rig, resolved, options, outcome);
+void run_mapping(const ResolvedEpisode& resolved, const RunOptions& options, RunOutcome& outcome) {
+  Rig rig(resolved);
+  const Running run = begin(resolved, options, outcome);
+  Recorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
+                    options.spectator);
+  Parts parts(resolved, rig, recorder);
+  run_parts(run, rig, recorder, parts);
+}
+
+void run_recognition(const ResolvedEpisode& resolved, const RunOptions& options,
+                     RunOutcome& outcome) {
+  FlightRig rig(resolved);
+  const Recogniser recogniser = load_episode_recogniser(resolved);
+  const Running run = begin(resolved, options, outcome);
+  RecognitionRecorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
+                               options.spectator);
+  ObjectRecognition parts(resolved, recogniser, rig, recorder);
+  run_parts(run, rig, recorder, parts);
 }
 
 }  // namespace
@@ -109,10 +150,12 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
       options.directory.empty()
           ? fs::path("out") / fmt::format("{}-{}", resolved.name, resolved.episode.seed)
           : options.directory;
-  if (resolved.episode.in_office()) {
-    run_in<OfficeRig, OfficeExploration>(resolved, options, outcome);
+  if (resolved.episode.flies()) {
+    run_recognition(resolved, options, outcome);
+  } else if (resolved.episode.in_office()) {
+    run_mapping<OfficeRig, OfficeExploration>(resolved, options, outcome);
   } else {
-    run_in<TabletopRig, NextBestView>(resolved, options, outcome);
+    run_mapping<TabletopRig, NextBestView>(resolved, options, outcome);
   }
   if (!options.lean) write_report(outcome.directory);
   log_to_file({});

@@ -22,6 +22,25 @@ std::string labels(const std::vector<Gain>& gains) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+void check_flight(const Episode& episode) {
+  if (episode.simulation.steps_per_tick() == 1) return;
+  throw ConfigError(fmt::format(
+      "simulation.control_period_s: {} must equal simulation.timestep_s = {}: a quadrotor is "
+      "commanded at every step",
+      episode.simulation.control_period_s, episode.simulation.timestep_s));
+}
+
+/// A model that is not there yet is missed where it is needed: to replay an episode it is not.
+void settle_recognition_model(ResolvedEpisode& resolved, const std::filesystem::path& base) {
+  std::string& model = resolved.episode.recognition.model;
+  if (!resolved.episode.flies() || model.empty()) return;
+  try {
+    model = lasting_name(find_input(model, base, "recognition.model"));
+  } catch (const InputError&) {
+    return;
+  }
+}
+
 }  // namespace
 
 double MapOptions::count() const { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
@@ -42,8 +61,13 @@ void MetricsOptions::check() const {
 }
 
 void Episode::check() const {
-  if (task != "next_best_view") {
-    throw ConfigError(fmt::format("task: unknown task '{}'; known: next_best_view", task));
+  if (task != "next_best_view" && task != "recognition") {
+    throw ConfigError(
+        fmt::format("task: unknown task '{}'; known: next_best_view, recognition", task));
+  }
+  if (flies()) {
+    check_flight(*this);
+    return;
   }
   if (setting != "table_top" && setting != "office") {
     throw ConfigError(
@@ -96,11 +120,13 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   resolved.scene = find_input(resolved.episode.scene, base, key("scene", root.find("scene")));
   resolved.robot = find_input(resolved.episode.robot.model, base, key("robot.model", model));
   resolved.episode.scene = lasting_name(resolved.scene);
+  settle_recognition_model(resolved, base);
   resolved.episode.robot.model = lasting_name(resolved.robot);
   return resolved;
 }
 
 std::string method_name(const Episode& episode) {
+  if (episode.flies()) return strategy_label(episode.recognition.decision.views.choice);
   if (std::holds_alternative<GreedyGain>(episode.choice)) return strategy_label(episode.gain);
   const std::string choice = strategy_label(episode.choice);
   return weighs_gain(episode.choice) ? choice + " of " + strategy_label(episode.gain) : choice;

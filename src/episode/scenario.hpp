@@ -24,6 +24,7 @@
 #include "src/belief/sensor_model.hpp"
 #include "src/core/fields.hpp"
 #include "src/episode/exploration_options.hpp"
+#include "src/episode/recognition_task.hpp"
 #include "src/perception/registration.hpp"
 #include "src/perception/table_extraction.hpp"
 
@@ -88,7 +89,7 @@ struct RecordingOptions {
 };
 
 struct Episode {
-  std::string task = "next_best_view";
+  std::string task = "next_best_view";                       ///< or recognition
   std::string setting = "table_top";                         ///< or office
   std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF
   std::uint64_t seed = 1;                                    ///< of every random stream
@@ -116,6 +117,7 @@ struct Episode {
   DriveOptions drive;
   MetricsOptions metrics;
   RecordingOptions recording;
+  RecognitionTask recognition;
 
   void fields(auto&& f) {
     f("task", task);
@@ -146,9 +148,11 @@ struct Episode {
     f("drive", drive);
     f("metrics", metrics);
     f("recording", recording);
+    f("recognition", recognition);
   }
   void check() const;  ///< what concerns more than one part
 
+  [[nodiscard]] bool flies() const { return task == "recognition"; }
   [[nodiscard]] bool in_office() const { return setting == "office"; }
   [[nodiscard]] GridFrame grid_frame() const {
     return make_grid_frame(map.centre_m, map.size_m, map.cells);

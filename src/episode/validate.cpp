@@ -7,6 +7,8 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
+#include "src/episode/flight_rig.hpp"
+#include "src/episode/object_recognition.hpp"
 #include "src/episode/office_rig.hpp"
 #include "src/episode/start_check.hpp"
 #include "src/episode/tabletop_rig.hpp"
@@ -47,7 +49,10 @@ Validation validation_of(const std::function<Validation()>& check) {
 
 void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
   try {
-    if (resolved.episode.in_office()) {
+    if (resolved.episode.flies()) {
+      const FlightRig rig(resolved);
+      load_episode_recogniser(resolved);
+    } else if (resolved.episode.in_office()) {
       const OfficeRig rig(resolved);
     } else {
       const TabletopRig rig(resolved);

@@ -223,7 +223,7 @@ std::string timings_csv(const StudyResults& results) {
     const Json metrics = metrics_of(results, i);
     double plan_s = 0.0;
     double map_s = 0.0;
-    for (const Json& scan : metrics["scans"]) {
+    for (const Json& scan : metrics.value("scans", Json::array())) {
       plan_s += scan.value("plan_time_s", 0.0);
       map_s += scan.value("map_time_s", 0.0);
     }

@@ -14,14 +14,26 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Scalar = std::optional<double>;
 
-Curve scan_values(const Json& metrics, const char* key) {
+bool recognises(const Json& metrics) { return metrics.contains("observations"); }
+
+Curve step_values(const Json& steps, const char* key) {
   Curve values;
-  for (const Json& scan : metrics.at("scans")) values.push_back(scan.at(key).get<double>());
+  for (const Json& step : steps) values.push_back(step.at(key).get<double>());
   return values;
+}
+
+/// Of each scan; none where nothing is mapped.
+Curve scan_values(const Json& metrics, const char* key) {
+  return recognises(metrics) ? Curve{} : step_values(metrics.at("scans"), key);
+}
+/// Of each view of an object; none where nothing is recognised.
+Curve view_values(const Json& metrics, const char* key) {
+  return recognises(metrics) ? step_values(metrics.at("observations"), key) : Curve{};
 }
 
 Curve share_left(const Json& metrics) {
   Curve shares = scan_values(metrics, "observable_unobserved_cells");
+  if (shares.empty()) return shares;
   const double all = metrics.at("observable_cells").get<double>();
   for (double& share : shares) share = all > 0.0 ? share / all : 0.0;
   return shares;
@@ -36,6 +48,7 @@ Curve distance_m(const Json& metrics) {
 
 std::vector<std::pair<std::string, Curve>> prediction_errors(const Json& metrics) {
   std::vector<std::pair<std::string, Curve>> errors;
+  if (recognises(metrics)) return errors;
   const Json& scans = metrics.at("scans");
   for (std::size_t k = 1; k < scans.size(); ++k) {
     const double actual = scans[k].at("actual_new_cells").get<double>();
@@ -76,9 +89,13 @@ Scalar own_prediction_error(const Json& metrics, const Episode&) {
   return {};
 }
 
-Scalar mean_of(const Json& metrics, const char* key) {
-  const Curve values = scan_values(metrics, key);
-  return values.empty() ? Scalar{} : mean(values);
+Scalar mean_of(const Curve& values) { return values.empty() ? Scalar{} : mean(values); }
+
+/// A number or truth value of an episode that recognises.
+Scalar of_recognition(const Json& metrics, const char* key) {
+  if (!recognises(metrics) || metrics.at(key).is_null()) return {};
+  const Json& value = metrics.at(key);
+  return value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
 }
 
 struct ScalarMeasure {
@@ -93,10 +110,12 @@ constexpr auto kScalars = std::to_array<ScalarMeasure>({
      own_prediction_error},
     {{"scans", "scans taken"},
      [](const Json& m, const Episode&) -> Scalar {
+       if (recognises(m)) return {};
        return static_cast<double>(m.at("scans").size());
      }},
     {{"fallbacks", "views out of reach"},
      [](const Json& m, const Episode&) -> Scalar {
+       if (recognises(m)) return {};
        double count = 0.0;
        for (const Json& scan : m.at("scans")) count += scan.at("fallback").get<bool>() ? 1.0 : 0.0;
        return count;
@@ -107,20 +126,41 @@ constexpr auto kScalars = std::to_array<ScalarMeasure>({
      [](const Json& m, const Episode&) -> Scalar { return m.at("collisions").get<double>(); }},
     {{"precision", "precision of occupied cells"},
      [](const Json& m, const Episode&) -> Scalar {
-       return m.at("map").at("precision").get<double>();
+       return recognises(m) ? Scalar{} : m.at("map").at("precision").get<double>();
      }},
     {{"recall", "recall of occupied cells"},
      [](const Json& m, const Episode&) -> Scalar {
-       return m.at("map").at("recall").get<double>();
+       return recognises(m) ? Scalar{} : m.at("map").at("recall").get<double>();
      }},
     {{"pose_error_m", "mean position error after registration, m"},
-     [](const Json& m, const Episode&) { return mean_of(m, "pose_error_m"); }},
+     [](const Json& m, const Episode&) { return mean_of(scan_values(m, "pose_error_m")); }},
     {{"pose_error_before_registration_m", "mean position error before registration, m"},
-     [](const Json& m, const Episode&) { return mean_of(m, "pose_error_before_registration_m"); }},
+     [](const Json& m, const Episode&) {
+       return mean_of(scan_values(m, "pose_error_before_registration_m"));
+     }},
     {{"simulated_time_s", "simulated time, s"},
      [](const Json& m, const Episode&) -> Scalar {
        return m.at("simulated_time_s").get<double>();
      }},
+    {{"correct", "recognised the object, share"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "correct"); }},
+    {{"category_correct", "recognised the category, share"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "category_correct"); }},
+    {{"views", "views taken"},
+     [](const Json& m, const Episode&) -> Scalar {
+       if (!recognises(m)) return {};
+       return static_cast<double>(m.at("observations").size());
+     }},
+    {{"entropy_bits", "entropy of the state at the end, bits"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "entropy_bits"); }},
+    {{"map_probability", "probability of the estimate at the end"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "map_probability"); }},
+    {{"bin_error", "error of the pose, bins"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "bin_error"); }},
+    {{"view_position_error_m", "mean position error of a view, m"},
+     [](const Json& m, const Episode&) { return mean_of(view_values(m, "position_error_m")); }},
+    {{"view_angle_error_rad", "mean angle error of a view, rad"},
+     [](const Json& m, const Episode&) { return mean_of(view_values(m, "angle_error_rad")); }},
 });
 
 struct CurveMeasure {
@@ -141,6 +181,8 @@ constexpr auto kCurves = std::to_array<CurveMeasure>({
      [](const Json& m) { return scan_values(m, "precision"); }},
     {{"recall", "recall of occupied cells"},
      [](const Json& m) { return scan_values(m, "recall"); }},
+    {{"view_entropy_bits", "entropy of the state, bits"},
+     [](const Json& m) { return view_values(m, "entropy_bits"); }},
 });
 
 std::vector<MeasureName> names_of(const auto& measures) {

@@ -78,14 +78,19 @@ FreeCamera follow_of_robot() {
 }
 
 ViewPainter::ViewPainter(World& world, const Episode& episode)
-    : world_(world), episode_(episode), robot_(world.model()), known_(episode.grid_frame()) {}
+    : world_(world),
+      episode_(episode),
+      camera_(model_id(world.model(), ModelObject::camera, "robot/camera")),
+      base_body_(model_id(world.model(), ModelObject::body, "robot/base")),
+      known_(episode.grid_frame()) {}
 
 CameraView ViewPainter::camera_for(const ViewControls& controls) const {
-  if (controls.camera == ViewCamera::robot) return FixedCamera{.camera_id = robot_.camera_id()};
+  if (controls.camera == ViewCamera::robot) return FixedCamera{.camera_id = camera_};
   if (controls.camera == ViewCamera::overview) return controls.overview;
   FreeCamera camera = controls.follow;
-  const Pose2 base = robot_.T_world_base(world_);
-  camera.lookat_m += Eigen::Vector3d(base.x_m, base.y_m, 0.0);
+  const Eigen::Vector3d p_m = body_pose(world_, base_body_).translation();
+  camera.lookat_m += Eigen::Vector3d(p_m.x(), p_m.y(), 0.0);
+  if (episode_.flies()) camera.lookat_m.z() = p_m.z();
   return camera;
 }
 
@@ -111,7 +116,7 @@ ViewPicture ViewPainter::paint(const ViewLink::Work& work) {
 
   MapCanvas canvas = canvas_of(picture.image);
   const MapCamera camera = camera_of(picture.image);
-  if (controls.map) lay_map(canvas, camera, known_.grid());
+  if (controls.map && !episode_.flies()) lay_map(canvas, camera, known_.grid());
   if (controls.gains) lay_views(canvas, camera, known_);
   lay_captions(canvas.bgr, captions_for(controls, picture.time_s));
   set_colours(picture.image, canvas.bgr);
@@ -120,8 +125,10 @@ ViewPicture ViewPainter::paint(const ViewLink::Work& work) {
 
 ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time_s) const {
   ViewCaptions captions;
-  captions.scene = fmt::format("{}    {:.2f} s    scan {} of {}", method_name(episode_), time_s,
-                               known_.scans(), episode_.scans);
+  captions.scene = fmt::format("{}    {:.2f} s", method_name(episode_), time_s);
+  if (!episode_.flies()) {
+    captions.scene += fmt::format("    scan {} of {}", known_.scans(), episode_.scans);
+  }
   captions.playback = controls.playback;
   captions.gain_unit = unit_of(episode_.gain);
   if (controls.gains) captions.decision = known_.decision();

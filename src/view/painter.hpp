@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "sim/pr2.hpp"
 #include "sim/renderer.hpp"
 #include "sim/world.hpp"
 #include "src/episode/scenario.hpp"
@@ -37,7 +36,8 @@ class ViewPainter {
 
   World& world_;
   Episode episode_;
-  Pr2 robot_;
+  int camera_;  ///< the robot's
+  int base_body_;
   std::unique_ptr<Renderer> renderer_;
   std::vector<StoryEvent> story_;
   StoryMoment known_;

@@ -5,6 +5,7 @@
 
 #include "src/core/log.hpp"
 #include "src/episode/interrupt.hpp"
+#include "src/episode/model_source.hpp"
 #include "src/episode/recording.hpp"
 #include "src/view/session.hpp"
 
@@ -54,6 +55,7 @@ struct RecordedPlayer {
 std::vector<StoryEvent> story_of(const std::filesystem::path& run_dir, const Episode& episode) {
   const auto path = run_dir / "story.bin";
   if (std::filesystem::exists(path)) return read_story(path, episode.grid_frame().size());
+  if (episode.flies()) return {};
   log_warning(path.string() + ": missing; there is neither map nor gains to show");
   return {};
 }
@@ -63,7 +65,7 @@ std::vector<StoryEvent> story_of(const std::filesystem::path& run_dir, const Epi
 ExitCode view_recording(const std::filesystem::path& run_dir, const ViewOptions& options) {
   const ResolvedEpisode resolved = load_recorded(run_dir);
   RecordedPlayer recorded;
-  const World world({resolved.scene, resolved.robot}, resolved.episode.simulation);
+  const World world(model_source(resolved), resolved.episode.simulation);
   recorded.states = load_states(run_dir, world);
   recorded.story = story_of(run_dir, resolved.episode);
   recorded.tick_s = resolved.episode.simulation.control_period_s;

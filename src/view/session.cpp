@@ -14,6 +14,7 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/interrupt.hpp"
+#include "src/episode/model_source.hpp"
 #include "src/view/input.hpp"
 #include "src/view/painter.hpp"
 
@@ -164,7 +165,7 @@ ExitCode show_in_window(const ViewSubject& subject, const ViewOptions& options,
   std::optional<Window> window;
   window.emplace(subject.title, options.size);
   const Episode& episode = subject.resolved.episode;
-  World world({subject.resolved.scene, subject.resolved.robot}, episode.simulation);
+  World world(model_source(subject.resolved), episode.simulation);
   const ViewControls controls = first_controls(world, subject, options);
   const bool still = !options.screenshot.empty();
   Crew crew(episode, world, player, still ? std::numeric_limits<double>::infinity() : 1.0);

@@ -225,5 +225,32 @@ TEST(Scene, LoadsInSeveralThreads) {
   EXPECT_THAT(bodies, ::testing::Each(load_model(folder.with_pr2()).model->nbody));
 }
 
+TEST(Scene, FilesInMemoryStandInForThoseItRefersTo) {
+  const SceneFolder folder(R"(
+    <mujoco>
+      <compiler meshdir="meshes"/>
+      <worldbody><geom name="floor" type="plane" size="1 1 1"/></worldbody>
+      <include file="object.xml"/>
+    </mujoco>)");
+  folder.add("object.xml", "<mujoco><worldbody><body name='stand_in'/></worldbody></mujoco>");
+  ModelSource source = folder.with_pr2();
+  EXPECT_GE(mj_name2id(load_model(source).model.get(), mjOBJ_BODY, "stand_in"), 0);
+  source.files = {{"object.xml", R"(
+    <mujoco>
+      <asset><mesh name="object" file="object.obj"/></asset>
+      <worldbody><body name="object"><geom type="mesh" mesh="object"/></body></worldbody>
+    </mujoco>)"},
+                  {"object.obj",
+                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                   "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"}};
+  for (const std::filesystem::path& robot : {source.robot, std::filesystem::path()}) {
+    source.robot = robot;
+    const LoadedModel loaded = load_model(source);
+    EXPECT_GE(mj_name2id(loaded.model.get(), mjOBJ_BODY, "object"), 0);
+    EXPECT_LT(mj_name2id(loaded.model.get(), mjOBJ_BODY, "stand_in"), 0);
+    EXPECT_GT(loaded.model->nmesh, 0);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

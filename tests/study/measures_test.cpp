@@ -86,5 +86,41 @@ TEST(Measures, MissingKeysAreErrors) {
   EXPECT_THROW(measure(json, planned_scans(3)), nlohmann::json::exception);
 }
 
+Json recognition_metrics() {
+  const auto view = [](double entropy_bits, double error_m) -> Json {
+    return {
+        {"entropy_bits", entropy_bits}, {"position_error_m", error_m}, {"angle_error_rad", 0.01}};
+  };
+  return {{"method", "mutual_information"}, {"correct", true},
+          {"category_correct", true},       {"entropy_bits", 0.5},
+          {"map_probability", 0.9},         {"bin_error", 1},
+          {"path_length_m", 2.5},           {"collisions", 0},
+          {"simulated_time_s", 8.0},        {"observations", {view(3.0, 0.01), view(0.5, 0.03)}}};
+}
+
+TEST(Measures, RecognitionHasMeasuresOfItsOwnAndNoneOfMapping) {
+  const auto measures = measure(recognition_metrics(), Episode{});
+  EXPECT_DOUBLE_EQ(*scalar(measures, "correct"), 1.0);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "bin_error"), 1.0);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "views"), 2.0);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "view_position_error_m"), 0.02);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "path_length_m"), 2.5);
+  for (const char* name : {"area", "observed_share", "scans", "precision", "pose_error_m"}) {
+    EXPECT_FALSE(scalar(measures, name)) << name;
+  }
+  EXPECT_EQ(measures.curves[*find_curve("view_entropy_bits")], (Curve{3.0, 0.5}));
+  EXPECT_TRUE(measures.curves[*find_curve("share_left")].empty());
+  EXPECT_FALSE(scalar(measure(metrics("adaptive"), planned_scans(3)), "correct"));
+}
+
+TEST(Measures, AnEpisodeInterruptedBeforeItsFirstViewHasNoEstimate) {
+  Json metrics = recognition_metrics();
+  metrics["observations"] = Json::array();
+  metrics["bin_error"] = nullptr;
+  const auto measures = measure(metrics, Episode{});
+  EXPECT_FALSE(scalar(measures, "bin_error"));
+  EXPECT_FALSE(scalar(measures, "view_position_error_m"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,0 +1,14 @@
+/// metrics.json of recognition, as the contract has it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "src/episode/metrics.hpp"
+#include "src/episode/object_recognition.hpp"
+
+namespace vantage {
+
+nlohmann::ordered_json recognition_metrics(const ResolvedEpisode& resolved,
+                                           const RunSummary& summary, const ObjectRecognition& run);
+
+}  // namespace vantage

@@ -1,0 +1,137 @@
+#include "src/perception/object_segmentation.hpp"
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+namespace vantage {
+namespace {
+
+/// The image of depth without lone outliers.
+cv::Mat1f smooth_depth(const CameraImages& images) {
+  cv::Mat1f depth(images.height_px, images.width_px);
+  std::copy(images.depth_m.begin(), images.depth_m.end(), depth.begin());
+  cv::Mat1f smooth;
+  cv::medianBlur(depth, smooth, 3);
+  return smooth;
+}
+
+TableSearch find_table_top(const CameraImages& images, const Pose& T_world_camera,
+                           const Eigen::Vector3d& p_world_table_m,
+                           const ObjectSegmentationOptions& options, Rng& rng) {
+  constexpr int kStride_px = 2;
+  TableOptions table;
+  table.region_centre_m = {p_world_table_m.x(), p_world_table_m.y()};
+  table.region_size_m = {4.0 * options.radius_m, 4.0 * options.radius_m};
+  table.min_height_m = p_world_table_m.z() - options.table_tolerance_m;
+  table.max_height_m = p_world_table_m.z() + options.table_tolerance_m;
+  table.inlier_distance_m = 0.008;
+  return find_table(transform(to_cloud(images, kStride_px), T_world_camera), table, rng);
+}
+
+constexpr float kOutside = -1.0F;
+
+/// Above the table, m, where a pixel shows something in the column over its middle; else kOutside.
+cv::Mat1f heights_over(const CameraImages& images, const Pose& T_world_camera,
+                       const TablePlane& table, const Eigen::Vector3d& p_world_table_m,
+                       const ObjectSegmentationOptions& options) {
+  const cv::Mat1f depth_m = smooth_depth(images);
+  cv::Mat1f heights_m(images.height_px, images.width_px, kOutside);
+  for (int row = 0; row < heights_m.rows; ++row) {
+    for (int column = 0; column < heights_m.cols; ++column) {
+      const float z_m = depth_m(row, column);
+      if (!(z_m > 0.0F) || !std::isfinite(z_m)) continue;
+      const Eigen::Vector3d p = T_world_camera * (z_m * images.ray(row, column));
+      const double height_m = table.height_above(p);
+      const double off_m = (p - p_world_table_m).head<2>().norm();
+      if (off_m > options.radius_m || height_m > options.max_height_m) continue;
+      heights_m(row, column) = static_cast<float>(height_m);
+    }
+  }
+  return heights_m;
+}
+
+/// Of holes, those that show no table: a bowl's bottom is thinner than what is told from noise
+/// pixel by pixel, but not on average.
+void fill_holes(cv::Mat1b& mask, const cv::Mat1f& heights_m, double min_height_m) {
+  const cv::Mat1b beside = mask == 0;
+  cv::Mat labels, statistics, centres;
+  const int count = cv::connectedComponentsWithStats(beside, labels, statistics, centres, 4);
+  for (int label = 1; label < count; ++label) {
+    const cv::Rect box(statistics.at<int>(label, cv::CC_STAT_LEFT),
+                       statistics.at<int>(label, cv::CC_STAT_TOP),
+                       statistics.at<int>(label, cv::CC_STAT_WIDTH),
+                       statistics.at<int>(label, cv::CC_STAT_HEIGHT));
+    const bool enclosed =
+        box.x > 0 && box.y > 0 && box.br().x < mask.cols && box.br().y < mask.rows;
+    const cv::Mat hole = labels(box) == label;
+    if (enclosed && cv::mean(heights_m(box), hole)[0] > min_height_m) mask(box).setTo(255, hole);
+  }
+}
+
+/// The largest patch; returns its pixels.
+int keep_largest(cv::Mat1b& mask) {
+  cv::Mat labels, statistics, centres;
+  const int count = cv::connectedComponentsWithStats(mask, labels, statistics, centres, 8);
+  int best = 0;
+  int most = 0;
+  for (int label = 1; label < count; ++label) {
+    const int pixels = statistics.at<int>(label, cv::CC_STAT_AREA);
+    if (pixels > most) std::tie(best, most) = std::pair(label, pixels);
+  }
+  mask = most > 0 ? cv::Mat1b(labels == best) : mask;
+  return most;
+}
+
+cv::Mat box(int half_px) {
+  return cv::getStructuringElement(cv::MORPH_RECT, {2 * half_px + 1, 2 * half_px + 1});
+}
+
+ObjectView cut(const CameraImages& images, const cv::Mat1b& mask, int margin_px) {
+  cv::Rect place = cv::boundingRect(mask);
+  place -= cv::Point(margin_px, margin_px);
+  place += cv::Size(2 * margin_px, 2 * margin_px);
+  place &= cv::Rect(0, 0, mask.cols, mask.rows);
+  ObjectView view;
+  view.width_px = place.width;
+  view.height_px = place.height;
+  view.left_px = place.x;
+  view.top_px = place.y;
+  view.focal_px = images.focal_px;
+  view.centre_px = {0.5 * (images.width_px - 1), 0.5 * (images.height_px - 1)};
+  for (int row = place.y; row < place.y + place.height; ++row) {
+    for (int column = place.x; column < place.x + place.width; ++column) {
+      const auto pixel = static_cast<std::size_t>(row * images.width_px + column);
+      for (std::size_t c = 0; c < 3; ++c) view.rgb.push_back(images.rgb[3 * pixel + c]);
+      const float depth_m = images.depth_m[pixel];
+      view.depth_m.push_back(std::isfinite(depth_m) ? depth_m : 0.0F);
+      view.mask.push_back(mask(row, column) != 0 ? 1 : 0);
+    }
+  }
+  return view;
+}
+
+}  // namespace
+
+SegmentedObject segment_object(const CameraImages& images, const Pose& T_world_camera,
+                               const Eigen::Vector3d& p_world_table_m,
+                               const ObjectSegmentationOptions& options, Rng& rng) {
+  const TableSearch found = find_table_top(images, T_world_camera, p_world_table_m, options, rng);
+  if (!found.table) return {std::nullopt, "no table: " + found.reason};
+  const cv::Mat1f heights_m =
+      heights_over(images, T_world_camera, *found.table, p_world_table_m, options);
+  cv::Mat1b mask = heights_m >= options.min_height_m;
+  cv::morphologyEx(mask, mask, cv::MORPH_OPEN, box(1));
+  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, box(2));
+  const int pixels = keep_largest(mask);
+  if (pixels < options.min_pixels) {
+    return {std::nullopt, fmt::format("{} pixels rise from the table, an object has at least {}",
+                                      pixels, options.min_pixels)};
+  }
+  fill_holes(mask, heights_m, options.min_height_m / 3.0);
+  if (options.mask_growth_px > 0) cv::dilate(mask, mask, box(options.mask_growth_px));
+  SegmentedObject object{cut(images, mask, options.margin_px), {}};
+  object.view->up = T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
+  return object;
+}
+
+}  // namespace vantage

@@ -1,0 +1,49 @@
+/// The one object on a table, cut out of an image by depth.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "src/core/fields.hpp"
+#include "src/core/rng.hpp"
+#include "src/geometry/range_scan.hpp"
+#include "src/perception/object_view.hpp"
+#include "src/perception/table_extraction.hpp"
+
+namespace vantage {
+
+struct ObjectSegmentationOptions {
+  double radius_m = 0.2;            ///< of the column over the middle that holds the object
+  double max_height_m = 0.5;        ///< of that column over the table
+  double min_height_m = 0.006;      ///< over the table; higher loses more of the object's foot
+  double table_tolerance_m = 0.06;  ///< how far the table may seem off its height; pose errors
+  int min_pixels = 150;             ///< of an object; fewer are taken for noise
+  int mask_growth_px = 1;           ///< how far the mask reaches over what was found
+  int margin_px = 3;                ///< of the cut round the mask
+  void fields(auto&& f) {
+    f("radius_m", radius_m, Range{0.0, 2.0, true});
+    f("max_height_m", max_height_m, Range{0.0, 2.0, true});
+    f("min_height_m", min_height_m, between(0.0, 0.1));
+    f("table_tolerance_m", table_tolerance_m, Range{0.0, 0.5, true});
+    f("min_pixels", min_pixels, at_least(1));
+    f("mask_growth_px", mask_growth_px, between(0, 20));
+    f("margin_px", margin_px, between(0, 50));
+  }
+};
+
+struct SegmentedObject {
+  std::optional<ObjectView> view;
+  std::string reason;  ///< why there is none; empty when found
+};
+
+/// The largest connected patch of what rises from the table near its middle. The table's plane is
+/// found in the image itself, so that an error of the pose shifts the column but not the cut
+/// between object and table. Mask and `up` are what the camera's owner can know: no truth is used.
+/// @param images colour and measured depth; segmentation is not looked at
+/// @param T_world_camera as estimated, OpenCV's axes
+/// @param p_world_table_m middle of the table top, on its surface
+SegmentedObject segment_object(const CameraImages& images, const Pose& T_world_camera,
+                               const Eigen::Vector3d& p_world_table_m,
+                               const ObjectSegmentationOptions& options, Rng& rng);
+
+}  // namespace vantage
