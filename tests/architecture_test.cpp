@@ -51,7 +51,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed{
     {"episode",
      {"core", "geometry", "information", "perception", "belief", "planners", "recognition", "sim",
       "models", "dataset"}},
-    {"study", {"core", "information", "recognition", "episode"}},
+    {"study", {"core", "information", "belief", "recognition", "episode"}},
     {"view", {"core", "geometry", "belief", "planners", "sim", "episode"}},
     {"main",
      {"core", "geometry", "information", "perception", "belief", "planners", "recognition", "sim",
