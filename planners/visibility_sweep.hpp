@@ -23,9 +23,9 @@ struct SweepOptions {
   /// Most rays walked for each view and pyramid, to cells that the sweep saw partly: they tell how
   /// far interpolation is off round the edges of what hides them. Higher is slower and closer to
   /// exact; 0 is the sweep alone.
-  int rays_per_view = 1024;
+  int rays_per_view = 4096;
   /// Standard error of that correction, of the sum, at which fewer rays are enough.
-  double tolerance = 0.002;
+  double tolerance = 0.0014;
 };
 
 /// Expected worth of each of `views` as far as it lies in the pyramid, bits. All have one apex.
