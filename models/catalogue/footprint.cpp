@@ -28,7 +28,7 @@ double gap_along_edges(std::span<const Vector2d> a, std::span<const Vector2d> b)
 
 }  // namespace
 
-Outline convex_hull(std::vector<Vector2d> points) {
+Outline convex_outline(std::vector<Vector2d> points) {
   std::ranges::sort(points, [](const Vector2d& a, const Vector2d& b) {
     return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
   });
@@ -50,7 +50,7 @@ Outline convex_footprint(const TriangleMesh& mesh) {
   std::vector<Vector2d> points;
   points.reserve(mesh.positions_m.size());
   for (const auto& p : mesh.positions_m) points.emplace_back(p.head<2>());
-  return convex_hull(std::move(points));
+  return convex_outline(std::move(points));
 }
 
 Outline moved(std::span<const Vector2d> outline, const Pose2& T_new_old) {

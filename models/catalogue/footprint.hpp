@@ -14,7 +14,7 @@ namespace vantage {
 using Outline = std::vector<Eigen::Vector2d>;  ///< convex, counter-clockwise, metres
 
 /// [Andrew1979]
-Outline convex_hull(std::vector<Eigen::Vector2d> points);
+Outline convex_outline(std::vector<Eigen::Vector2d> points);
 Outline convex_footprint(const TriangleMesh& mesh);
 Outline moved(std::span<const Eigen::Vector2d> outline, const Pose2& T_new_old);
 

@@ -76,7 +76,7 @@ Outline unit_outline(const std::vector<PlacedObject>& objects, std::size_t base,
     const Outline turned = moved(rider.object.footprint_m, {0.0, 0.0, rider_yaw_rad});
     points.insert(points.end(), turned.begin(), turned.end());
   }
-  return convex_hull(std::move(points));
+  return convex_outline(std::move(points));
 }
 
 Pose2 any_pose(Rng& rng) {

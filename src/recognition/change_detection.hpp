@@ -22,7 +22,7 @@ std::string_view to_string(Change change);
 struct ChangeOptions {
   RecognitionOptions recognition;  ///< how features and views are chosen, and how many at most
   double threshold = 0.6;          ///< tau: changed if P(u) is above; higher looks more often
-  double unchanged_below = 0.05;   ///< if P(u) is below, nothing has; lower looks more often, and
+  double unchanged_below = 0.4;    ///< if P(u) is below, nothing has; lower looks more often, and
                                    ///< finds small changes that a single view does not show
   double prior_pose = 0.25;  ///< that it was turned; higher finds turns sooner, falsely more often
   double prior_object = 0.25;  ///< that it is another object; likewise

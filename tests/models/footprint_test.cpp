@@ -13,7 +13,8 @@ using Eigen::Vector2d;
 const Outline kSquare{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 TEST(Footprint, HullDropsInnerAndCollinearPoints) {
-  const Outline hull = convex_hull({{0, 0}, {0.5, 0}, {1, 0}, {0.4, 0.6}, {1, 1}, {0, 1}, {0, 0}});
+  const Outline hull =
+      convex_outline({{0, 0}, {0.5, 0}, {1, 0}, {0.4, 0.6}, {1, 1}, {0, 1}, {0, 0}});
   EXPECT_EQ(hull.size(), 4U);
 }
 
