@@ -127,7 +127,9 @@ void ChangeOptions::check() const {
   if (prior_pose + prior_object == 0.0) {
     throw ConfigError("prior_pose and prior_object: must not both be 0");
   }
-  if (threshold >= 1.0) throw ConfigError("threshold: must be less than 1");
+  if (unchanged_below > threshold) {
+    throw ConfigError("unchanged_below: must not be above threshold");
+  }
 }
 
 ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& options,
@@ -147,7 +149,7 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
       return report;
     }
     const bool uncertain =
-        report.p_changed <= options.threshold && report.p_changed >= 1.0 - options.threshold;
+        report.p_changed <= options.threshold && report.p_changed >= options.unchanged_below;
     const bool doubtful = uncertain || empty == view;
     const std::vector<ObjectViewAction> actions = camera.actions();
     if (!doubtful || view >= options.recognition.most_views || actions.empty()) break;

@@ -21,19 +21,22 @@ std::string_view to_string(Change change);
 
 struct ChangeOptions {
   RecognitionOptions recognition;  ///< how features and views are chosen, and how many at most
-  double threshold = 0.6;    ///< tau of P(u), [0.5, 1): changed above, unchanged below 1 - tau;
-                             ///< higher looks more often
+  double threshold = 0.6;          ///< tau: changed if P(u) is above; higher looks more often
+  double unchanged_below = 0.4;    ///< if P(u) is below, nothing has; lower looks more often, and
+                                   ///< finds small changes that a single view does not show
   double prior_pose = 0.25;  ///< that it was turned; higher finds turns sooner, falsely more often
   double prior_object = 0.25;  ///< that it is another object; likewise
   int empty_views = 2;         ///< without any feature, until it is held to be removed
   void fields(auto&& f) {
     f("recognition", recognition);
-    f("threshold", threshold, between(0.5, 1.0));
+    f("threshold", threshold, between(0.0, 1.0));
+    f("unchanged_below", unchanged_below, between(0.0, 1.0));
     f("prior_pose", prior_pose, between(0.0, 1.0));
     f("prior_object", prior_object, between(0.0, 1.0));
     f("empty_views", empty_views, between(1, 100));
   }
-  void check() const;  ///< the priors leave some for a change and some for none; threshold < 1
+  void check() const;  ///< the priors leave some for a change and some for none; unchanged_below <=
+                       ///< threshold
 };
 
 struct ChangeReport {
@@ -42,8 +45,8 @@ struct ChangeReport {
   Recognition recognition;  ///< of what is there now: belief under both hypotheses, and the views
 };
 
-/// Looks until P(u) is beyond the threshold one way or the other, or there are no views left; if it
-/// is still between then, nothing has changed.
+/// Looks until P(u) is above the one threshold or below the other, or there are no views left; if
+/// it is still between then, nothing has changed.
 /// @param expected_state as the camera sees it from where it is at first
 /// @throws ConfigError if `options` are out of range.
 ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& options,

@@ -105,13 +105,12 @@ TEST(ChangeDetectionInClosedForm, WeighsTheHypothesesByBayesRule) {
 }
 
 TEST_F(ChangeDetection, LooksAgainWhileItIsUncertain) {
-  options_.threshold = 0.5;
   double bold = 0.0;
   double careful = 0.0;
   for (std::uint64_t i = 0; i < 40; ++i) {
-    options_.threshold = 0.5;
+    options_.unchanged_below = 0.4;
     bold += static_cast<double>(detect(3, 1, 3, 2, i).recognition.views.size());
-    options_.threshold = 0.99;
+    options_.unchanged_below = 0.001;
     careful += static_cast<double>(detect(3, 1, 3, 2, i).recognition.views.size());
   }
   EXPECT_GT(careful, bold);
