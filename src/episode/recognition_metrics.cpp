@@ -2,12 +2,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <cmath>
 
 namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Where the camera is, x axis level the way it looks.
+Pose line_of_sight(const Pose& T_world_camera) {
+  const Eigen::Vector3d ahead = T_world_camera.linear().col(2);
+  return make_pose(T_world_camera.translation(), std::atan2(ahead.y(), ahead.x()));
+}
 
 Json observation_json(const Sighting& sighting, int bins) {
   const ViewReport& report = sighting.report;
@@ -30,7 +36,7 @@ Json observation_json(const Sighting& sighting, int bins) {
                {"bin_error", sighting.bin_error},
                {"bins", bins},
                {"collisions", sighting.collisions},
-               {"view", view_json(sighting.T_world_camera)}};
+               {"view", view_json(line_of_sight(sighting.T_world_camera))}};
   json["skipped"] = Json::array();
   for (const SkippedFeature& skipped : report.skipped) {
     json["skipped"].push_back({{"feature", skipped.feature}, {"reason", skipped.reason}});

@@ -22,18 +22,17 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 const fs::path kEpisode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml";
-constexpr int kObjects = 5;
+constexpr int kObjects = 4;  // mugs, and a cereal box without a twin
 
 void make_model(const fs::path& dataset, const fs::path& model) {
   DatasetOptions objects;
   objects.objects = kObjects;
-  objects.step_deg = 45.0;
+  objects.step_deg = 24.0;
   objects.supersampling = 1;
   objects.lighting = 0.2;
   render_dataset(objects, {.root = dataset});
   TrainingOptions training;
   training.features = {Colour{}, BoundingBox{}};
-  training.psi = PerDimensionPsi{};
   training.transition_prior_moves = 0.0;
   write_recognition_model(train_recognition(index_dataset(dataset), training, {}), model);
 }
@@ -54,6 +53,7 @@ class RecognitionEpisode : public testing::Test {
         fmt::format("recognition.database.objects={}", kObjects),
         "recognition.settle_s=0.1",
         "recognition.most_views=2",
+        "recognition.all_features=true",
         "recognition.enough={object_probability: 1, entropy_bits: 0}",
         "recognition.object=cereal_box_1",
         "recognition.camera={width_px: 320, height_px: 240}",
@@ -88,15 +88,15 @@ TEST_F(RecognitionEpisode, SaysWhatTheContractAsksFor) {
          {"view_rad", "entropy_bits", "feature_time_s", "selection_time_s", "view_time_s"}) {
       EXPECT_TRUE(view.at(key).is_number()) << key;
     }
-    EXPECT_THAT(view["features"], testing::Not(testing::IsEmpty()));
     EXPECT_LT(view["position_error_m"], 0.05);
     EXPECT_GT(view["object_px"], 40);
   }
+  EXPECT_THAT(first_["observations"][0]["features"], testing::Not(testing::IsEmpty()));
   EXPECT_EQ(first_["observations"].back()["entropy_bits"], first_["entropy_bits"]);
   EXPECT_EQ(first_["collisions"], 0);
 }
 
-TEST_F(RecognitionEpisode, KnowsAnObjectThatIsLikeNoOther) { EXPECT_EQ(first_["correct"], true); }
+TEST_F(RecognitionEpisode, KnowsAnObjectThatIsLikeNoOther) { EXPECT_EQ(first_["correct"], true) << first_.dump(1); }
 
 TEST_F(RecognitionEpisode, FliesToAnotherBearingAndTurnsWhatItBelieves) {
   const json& views = first_["observations"];
