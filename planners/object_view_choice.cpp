@@ -95,7 +95,8 @@ std::optional<EnoughReason> seen_enough(const EnoughViews& enough, const ObjectS
   expects(belief.size() == database.size(), "a belief holds a probability for each state");
   const Eigen::VectorXd objects =
       belief.reshaped(database.bins, database.object_count()).colwise().sum();
-  if (objects.maxCoeff() > enough.object_probability) return EnoughReason::probability;
+  const double most = std::min(objects.maxCoeff(), 1.0);  // sums round to a little above
+  if (most > enough.object_probability) return EnoughReason::probability;
   const double entropy = entropy_bits({belief.data(), static_cast<std::size_t>(belief.size())});
   if (entropy < enough.entropy_bits) return EnoughReason::entropy;
   return std::nullopt;
