@@ -49,6 +49,16 @@ double best_fixed_error(const StudySummary& study, const std::string& panel) {
   return best;
 }
 
+/// The simple features of one view, together.
+Finding simple_features(const Json& features) {
+  double sum_ms = 0.0;
+  for (const char* feature : {"colour_ms", "bbox_ms", "sift_ms", "vfh_ms"}) {
+    sum_ms += features.at(feature).get<double>();
+  }
+  return {"goal", "all simple features of a view at most 25 ms", fmt::format("{:.1f} ms", sum_ms),
+          sum_ms <= 25.0, ""};
+}
+
 }  // namespace
 
 std::vector<Finding> speed_findings(const Figures& figures) {
@@ -78,6 +88,15 @@ std::vector<Finding> speed_findings(const Figures& figures) {
     findings.push_back(at_most("goal", found->second, "sweep_ms", 150.0));
     findings.push_back(at_least("goal", found->second, "spearman_min", 0.99));
     findings.push_back(at_most("goal", found->second, "regret_max", 0.02));
+  }
+  if (const auto found = figures.find("selection"); found != figures.end()) {
+    findings.push_back(at_most("goal", found->second, "mi_ms", 10.0));
+    findings.push_back(at_most("goal", found->second, "le_ms", 100.0));
+    findings.push_back(at_most("goal", found->second, "jd_ms", 1.0));
+  }
+  if (const auto found = figures.find("features"); found != figures.end()) {
+    findings.push_back(simple_features(found->second));
+    findings.push_back(at_most("goal", found->second, "kernel_ms", 200.0));
   }
   return findings;
 }
