@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-void upload(RTCGeometry geometry, const TriangleMesh& mesh) {
+void upload(RTCGeometry geometry, const SurfaceMesh& mesh) {
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                                                mesh.vertices_m.size()));
@@ -25,7 +25,7 @@ void upload(RTCGeometry geometry, const TriangleMesh& mesh) {
 
 }  // namespace
 
-EmbreeMesh::EmbreeMesh(RTCDevice device, TriangleMesh mesh)
+EmbreeMesh::EmbreeMesh(RTCDevice device, SurfaceMesh mesh)
     : mesh_(std::move(mesh)), scene_(rtcNewScene(device)) {
   for (const Eigen::Vector3d& p : mesh_.vertices_m) box_m_.extend(p);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);

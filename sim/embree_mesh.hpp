@@ -20,7 +20,7 @@ using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseEmbr
 
 class EmbreeMesh {
  public:
-  EmbreeMesh(RTCDevice device, TriangleMesh mesh);
+  EmbreeMesh(RTCDevice device, SurfaceMesh mesh);
 
   [[nodiscard]] const Eigen::AlignedBox3d& box() const { return box_m_; }
 
@@ -33,7 +33,7 @@ class EmbreeMesh {
   [[nodiscard]] double distance_to_plane(std::size_t triangle, const Eigen::Vector3d& p,
                                          const Eigen::Vector3d& d, double otherwise) const;
 
-  TriangleMesh mesh_;
+  SurfaceMesh mesh_;
   Eigen::AlignedBox3d box_m_;
   EmbreeScene scene_;
 };

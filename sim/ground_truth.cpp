@@ -171,7 +171,7 @@ std::vector<std::uint8_t> surface_cells(const mjModel& model, const mjData& data
       mark_plane(model, data, geom_id, grid, marker);
       continue;
     }
-    TriangleMesh mesh = geom_triangles(model, geom_id, marker.max_edge_m());
+    SurfaceMesh mesh = geom_triangles(model, geom_id, marker.max_edge_m());
     const Eigen::Isometry3d T = T_world_geom(data, geom_id);
     for (Eigen::Vector3d& p : mesh.vertices_m) p = T * p;
     for (const auto& [a, b, c] : mesh.triangles) {

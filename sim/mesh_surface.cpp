@@ -24,13 +24,13 @@ bool invisible(const mjModel& model, int geom_id) {
   return (material < 0 ? model.geom_rgba[4 * geom_id + 3] : model.mat_rgba[4 * material + 3]) == 0;
 }
 
-void add_quad(TriangleMesh& mesh, int a, int b, int c, int d) {
+void add_quad(SurfaceMesh& mesh, int a, int b, int c, int d) {
   mesh.triangles.push_back({a, b, c});
   mesh.triangles.push_back({a, c, d});
 }
 
-TriangleMesh asset_triangles(const mjModel& model, int mesh_id) {
-  TriangleMesh mesh;
+SurfaceMesh asset_triangles(const mjModel& model, int mesh_id) {
+  SurfaceMesh mesh;
   const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh_id];
   for (int v = 0; v < model.mesh_vertnum[mesh_id]; ++v) {
     mesh.vertices_m.emplace_back(vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]);
@@ -44,7 +44,7 @@ TriangleMesh asset_triangles(const mjModel& model, int mesh_id) {
 
 /// Closes a height field below: sides and floor at z = -base. Vertices 0 .. nrow * ncol - 1 are the
 /// relief's; their copies at the base follow in the same order.
-void add_base(TriangleMesh& mesh, int nrow, int ncol, double base_m) {
+void add_base(SurfaceMesh& mesh, int nrow, int ncol, double base_m) {
   const int top = nrow * ncol;
   for (int i = 0; i < top; ++i) {
     const Eigen::Vector3d p = mesh.vertices_m[static_cast<std::size_t>(i)];
@@ -63,12 +63,12 @@ void add_base(TriangleMesh& mesh, int nrow, int ncol, double base_m) {
 }
 
 /// The relief is cut along the same diagonals as in MuJoCo's renderer and ray caster.
-TriangleMesh relief_triangles(const mjModel& model, int hfield_id) {
+SurfaceMesh relief_triangles(const mjModel& model, int hfield_id) {
   const int nrow = model.hfield_nrow[hfield_id];
   const int ncol = model.hfield_ncol[hfield_id];
   const double* size = model.hfield_size + 4 * hfield_id;
   const float* height = model.hfield_data + model.hfield_adr[hfield_id];
-  TriangleMesh mesh;
+  SurfaceMesh mesh;
   for (int r = 0; r < nrow; ++r) {
     for (int c = 0; c < ncol; ++c) {
       mesh.vertices_m.emplace_back(2.0 * size[0] * c / (ncol - 1) - size[0],
@@ -86,8 +86,8 @@ TriangleMesh relief_triangles(const mjModel& model, int hfield_id) {
   return mesh;
 }
 
-TriangleMesh box_triangles(const Eigen::Vector3d& half_m) {
-  TriangleMesh mesh;
+SurfaceMesh box_triangles(const Eigen::Vector3d& half_m) {
+  SurfaceMesh mesh;
   for (int corner = 0; corner < 8; ++corner) {
     mesh.vertices_m.emplace_back((corner & 1) != 0 ? half_m.x() : -half_m.x(),
                                  (corner & 2) != 0 ? half_m.y() : -half_m.y(),
@@ -102,8 +102,8 @@ TriangleMesh box_triangles(const Eigen::Vector3d& half_m) {
 }
 
 /// Turns a profile of points (radius, z) once round the z axis.
-TriangleMesh revolve(const std::vector<Eigen::Vector2d>& profile, int segments) {
-  TriangleMesh mesh;
+SurfaceMesh revolve(const std::vector<Eigen::Vector2d>& profile, int segments) {
+  SurfaceMesh mesh;
   for (const Eigen::Vector2d& point : profile) {
     for (int s = 0; s < segments; ++s) {
       const double angle = 2.0 * std::numbers::pi * s / segments;
@@ -181,7 +181,7 @@ Eigen::Vector3d primitive_half_extent(const mjModel& model, int geom_id) {
   }
 }
 
-TriangleMesh geom_triangles(const mjModel& model, int geom_id, double max_edge_m) {
+SurfaceMesh geom_triangles(const mjModel& model, int geom_id, double max_edge_m) {
   expects(max_edge_m > 0.0, "edge length above 0");
   const Eigen::Vector3d size = Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom_id);
   switch (model.geom_type[geom_id]) {
@@ -201,7 +201,7 @@ TriangleMesh geom_triangles(const mjModel& model, int geom_id, double max_edge_m
     }
     case mjGEOM_ELLIPSOID: {
       const int segments = segments_for(size.maxCoeff(), max_edge_m);
-      TriangleMesh mesh = revolve(capsule_profile(1.0, 0.0, segments), segments);
+      SurfaceMesh mesh = revolve(capsule_profile(1.0, 0.0, segments), segments);
       for (Eigen::Vector3d& v : mesh.vertices_m) v = v.cwiseProduct(size);
       return mesh;
     }

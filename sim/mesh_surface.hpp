@@ -40,7 +40,7 @@ Eigen::Isometry3d T_world_geom(const mjData& data, int geom_id);
 /// and height fields.
 Eigen::Vector3d primitive_half_extent(const mjModel& model, int geom_id);
 
-struct TriangleMesh {
+struct SurfaceMesh {
   std::vector<Eigen::Vector3d> vertices_m;
   std::vector<std::array<int, 3>> triangles;  ///< vertex indices, no particular orientation
 };
@@ -48,6 +48,6 @@ struct TriangleMesh {
 /// Surface of any geom but a plane, in the geom's frame. Meshes, height fields and boxes are exact;
 /// on round primitives edges across the curvature are at most `max_edge_m` long (but at least 16
 /// and at most 512 of them make a turn).
-TriangleMesh geom_triangles(const mjModel& model, int geom_id, double max_edge_m);
+SurfaceMesh geom_triangles(const mjModel& model, int geom_id, double max_edge_m);
 
 }  // namespace vantage

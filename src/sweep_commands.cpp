@@ -66,7 +66,7 @@ ExitCode run_command(const SweepArguments& arguments) {
   if (arguments.quiet) set_verbosity(Verbosity::quiet);
   const OpenedStudy opened = open_study(arguments);
   const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
-  const SweepOptions options{opened.directory, arguments.jobs, arguments.overwrite};
+  const StudySweepOptions options{opened.directory, arguments.jobs, arguments.overwrite};
   prepare_study_folder(opened.study, options);
   catch_interrupts();
   const auto states = run_sweep(plan, options);

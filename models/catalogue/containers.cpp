@@ -31,8 +31,8 @@ GeneratedObject make_bottle(Rng& rng) {
   GeneratedObject bottle;
   add_solid(bottle.mesh, outer, kWallUv, kInnerUv);
   add_solid(bottle.mesh, Profile{{0.42 * r, 0.925 * h}, {0.42 * r, h}}, kPartUv, kPartUv);
-  const Colour drink = rng.uniform() < 0.5 ? hsv(rng.uniform(), 0.35, 0.9) : vivid(rng);
-  const Colour ground = rng.uniform() < 0.5 ? kWhite : vivid(rng);
+  const RgbColour drink = rng.uniform() < 0.5 ? hsv(rng.uniform(), 0.35, 0.9) : vivid(rng);
+  const RgbColour ground = rng.uniform() < 0.5 ? kWhite : vivid(rng);
   bottle.texture = make_texture(drink, drink, vivid(rng));
   paint(bottle.texture, kWall, gradient(mix(drink, kBlack, 0.25), mix(drink, kWhite, 0.35)));
   draw_label(bottle.texture, part_of(kWall, 0.0, 0.28, 1.0, 0.62),
@@ -58,7 +58,7 @@ GeneratedObject make_wine_bottle(Rng& rng) {
   add_solid(bottle.mesh, outer, kWallUv, kInnerUv);
   add_solid(bottle.mesh, Profile{{0.4 * r, 0.88 * h}, {0.4 * r, 0.975 * h}, {0.37 * r, h}}, kPartUv,
             kPartUv);
-  const Colour glass = any_colour({{0.2, 0.45}, {0.5, 0.9}, {0.12, 0.32}}, rng);
+  const RgbColour glass = any_colour({{0.2, 0.45}, {0.5, 0.9}, {0.12, 0.32}}, rng);
   bottle.texture = make_texture(glass, glass, vivid(rng));
   draw_label(bottle.texture, part_of(kWall, 0.0, 0.14, 1.0, 0.48),
              {pick(kWines, rng), pale(rng), dark(rng)}, rng);
@@ -87,7 +87,7 @@ GeneratedObject make_detergent_bottle(Rng& rng) {
   if (rng.uniform() < 0.6) {
     append(bottle.mesh, make_handle(outer, 0.42 * h, 0.8 * h, 0.022, 0.02));
   }
-  const Colour plastic = vivid(rng);
+  const RgbColour plastic = vivid(rng);
   bottle.texture = make_texture(plastic, plastic, rng.uniform() < 0.4 ? kWhite : vivid(rng));
   draw_label(bottle.texture, part_of(kWall, 0.5, 0.12, 1.0, 0.66),
              {pick(kCleaners, rng), kWhite, dark(rng)}, rng);
@@ -112,8 +112,8 @@ GeneratedObject make_soda_can(Rng& rng) {
   add_lathe(can.mesh, Profile{high, rim}, kAround, kPartUv);
   add_lathe(can.mesh, Profile{rim, {0.76 * r, h}, {0.74 * r, h - 0.004}, {0.0, h - 0.004}}, kAround,
             kPartUv);
-  const Colour ground = vivid(rng);
-  const Colour accent = rng.uniform() < 0.5 ? kWhite : vivid(rng);
+  const RgbColour ground = vivid(rng);
+  const RgbColour accent = rng.uniform() < 0.5 ? kWhite : vivid(rng);
   can.texture = make_texture(ground, ground, kSteel);
   paint(can.texture, kWall,
         rng.uniform() < 0.5 ? gradient(ground, mix(ground, accent, 0.6))
@@ -147,7 +147,7 @@ GeneratedObject make_food_can(Rng& rng) {
             kAround, kPartUv);
   can.texture = make_texture(kWhite, kWhite, kSteel);
   paint(can.texture, kPart, bands(kSteel, 0.9 * kSteel, 3));
-  const Colour ground = vivid(rng);
+  const RgbColour ground = vivid(rng);
   draw_label(can.texture, kWall,
              {pick(kTins, rng), ground, rng.uniform() < 0.5 ? kWhite : dark(rng)}, rng);
   can.specular = 0.5;
@@ -168,7 +168,7 @@ GeneratedObject make_jar(Rng& rng) {
   add_solid(jar.mesh, outer, kWallUv, kInnerUv);
   add_solid(jar.mesh, Profile{{lid_r, 0.845 * h}, {lid_r, h - 0.003}, {lid_r - 0.002, h}}, kPartUv,
             kPartUv);
-  const Colour content = any_colour({{-0.05, 0.3}, {0.6, 0.95}, {0.35, 0.85}}, rng);
+  const RgbColour content = any_colour({{-0.05, 0.3}, {0.6, 0.95}, {0.35, 0.85}}, rng);
   jar.texture = make_texture(content, content, vivid(rng));
   paint(jar.texture, kWall, mottled(content, mix(content, kBlack, 0.35), 8, rng));
   draw_label(jar.texture, part_of(kWall, 0.0, 0.22, 1.0, 0.68),
@@ -203,8 +203,8 @@ GeneratedObject make_lamp(Rng& rng) {
   add_lathe(lamp.mesh, Profile{high, high - inner}, kAround, kInnerUv);
   add_lathe(lamp.mesh, Profile{high - inner, low - inner}, kAround, kInnerUv);
   add_lathe(lamp.mesh, Profile{low - inner, low}, kAround, kInnerUv);
-  const Colour shade = pale(rng);
-  const Colour accent = vivid(rng);
+  const RgbColour shade = pale(rng);
+  const RgbColour accent = vivid(rng);
   lamp.texture = make_texture(shade, kWhite, rng.uniform() < 0.4 ? kSteel : vivid(rng));
   if (rng.uniform() < 0.5)
     paint(lamp.texture, kWall, any_pattern(shade, mix(shade, accent, 0.6), rng));

@@ -11,9 +11,9 @@ namespace {
 
 enum Face : std::size_t { right, left, back, front, top, bottom };
 
-const Colour kScreen{0.56, 0.64, 0.52};
+const RgbColour kScreen{0.56, 0.64, 0.52};
 
-Colour housing(Rng& rng) {
+RgbColour housing(Rng& rng) {
   const double kind = rng.uniform();
   if (kind < 0.35) return any_colour({{0.55, 0.7}, {0.0, 0.2}, {0.12, 0.25}}, rng);
   if (kind < 0.65) return any_colour({{0.08, 0.6}, {0.0, 0.08}, {0.7, 0.9}}, rng);
@@ -32,7 +32,7 @@ BoxUv plain(const UvRect& rect) {
 
 /// Keys in rows and columns, `share` of the pitch wide.
 void draw_keys(Image& image, const UvRect& rect, int columns, int rows, double share,
-               const Colour& key, const Colour& ink) {
+               const RgbColour& key, const RgbColour& ink) {
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const double s = (column + 0.5) / columns;
@@ -53,14 +53,14 @@ GeneratedObject make_calculator(Rng& rng) {
   const BoxUv uv = unfold_box(size);
   GeneratedObject object;
   add_box(object.mesh, size, 0.004, uv, Vector3d::Zero());
-  const Colour body = housing(rng);
+  const RgbColour body = housing(rng);
   object.texture = Image(kTexture_px, kTexture_px, body);
   const double screen = rng.uniform(0.68, 0.75);
   paint(object.texture, part_of(uv[top], 0.08, screen, 0.92, 0.94), mix(body, kBlack, 0.6));
   paint(object.texture, part_of(uv[top], 0.13, screen + 0.04, 0.87, 0.9), kScreen);
   draw_text(object.texture, part_of(uv[top], 0.45, screen + 0.07, 0.85, 0.87), "1234", kBlack);
-  const Colour key = body.sum() > 1.2 ? Colour(0.2, 0.2, 0.22) : pale(rng);
-  const Colour ink = body.sum() > 1.2 ? kWhite : kBlack;
+  const RgbColour key = body.sum() > 1.2 ? RgbColour(0.2, 0.2, 0.22) : pale(rng);
+  const RgbColour ink = body.sum() > 1.2 ? kWhite : kBlack;
   const int rows = 4 + static_cast<int>(rng.uniform_index(3));
   draw_keys(object.texture, part_of(uv[top], 0.07, 0.06, 0.93, screen - 0.06), 4, rows, 0.76, key,
             ink);
@@ -77,12 +77,12 @@ GeneratedObject make_cell_phone(Rng& rng) {
   const BoxUv uv = unfold_box(size);
   GeneratedObject object;
   add_box(object.mesh, size, 0.0055, uv, Vector3d::Zero());
-  const Colour body = housing(rng);
+  const RgbColour body = housing(rng);
   object.texture = Image(kTexture_px, kTexture_px, body);
   const bool touch = rng.uniform() < 0.4;
   const double screen = touch ? 0.18 : rng.uniform(0.46, 0.54);
   paint(object.texture, part_of(uv[top], 0.1, screen, 0.9, 0.9), kBlack);
-  const Colour sky = vivid(rng);
+  const RgbColour sky = vivid(rng);
   const UvRect picture = part_of(uv[top], 0.14, screen + 0.03, 0.86, 0.87);
   paint(object.texture, picture, gradient(mix(sky, kWhite, 0.6), sky));
   draw_text(object.texture, part_of(picture, 0.15, 0.7, 0.85, 0.9), "12 30", kWhite);
@@ -109,18 +109,18 @@ GeneratedObject make_keyboard(Rng& rng) {  // without a number pad
   GeneratedObject object;
   add_box(object.mesh, size, 0.004, uv, Vector3d::Zero());
   add_box(object.mesh, keys, 0.002, key_uv, {0.0, -0.004, 0.5 * size.z() + 0.001});
-  const Colour body = housing(rng);
+  const RgbColour body = housing(rng);
   const bool dark_keys = rng.uniform() < 0.5;
-  const Colour key = dark_keys ? Colour(0.17, 0.17, 0.19) : Colour(0.88, 0.87, 0.84);
+  const RgbColour key = dark_keys ? RgbColour(0.17, 0.17, 0.19) : RgbColour(0.88, 0.87, 0.84);
   object.texture = Image(2 * kTexture_px, 2 * kTexture_px, body);
   for (const UvRect& face : key_uv)
-    paint(object.texture, shrink(face, -0.004), mix(key, Colour::Zero(), 0.3));
+    paint(object.texture, shrink(face, -0.004), mix(key, RgbColour::Zero(), 0.3));
   const UvRect field = part_of(key_uv[top], 0.01, 0.02, 0.99, 0.98);
   draw_keys(object.texture, field, 15, 5, 0.82, key, dark_keys ? kWhite : kBlack);
   const double width = rng.uniform(0.3, 0.45);
   paint(object.texture, part_of(field, 0.26, 0.0, 0.26 + width, 0.19), key);
   if (rng.uniform() < 0.6) {
-    const Colour accent = vivid(rng);
+    const RgbColour accent = vivid(rng);
     draw_keys(object.texture, part_of(field, 0.0, 0.8, 1.0 / 15.0, 1.0), 1, 1, 0.82, accent,
               kWhite);
     draw_keys(object.texture, part_of(field, 13.0 / 15.0, 0.4, 1.0, 0.6), 1, 1, 0.9, accent,
@@ -155,16 +155,16 @@ GeneratedObject make_camera(Rng& rng) {  // looks along -y
   add_solid(button, Profile{{0.006, 0.0}, {0.006, 0.004}, {0.005, 0.005}},
             shrink(metal_region, 0.02), shrink(metal_region, 0.02));
   append(object.mesh, button, make_pose({-0.33 * size.x(), 0.0, size.z() - 0.001}, 0.0));
-  const Colour body = housing(rng);
+  const RgbColour body = housing(rng);
   object.texture = Image(kTexture_px, kTexture_px, body);
-  paint(object.texture, metal_region, rng.uniform() < 0.5 ? kSteel : Colour(0.2, 0.2, 0.22));
-  paint(object.texture, lens_region, gradient(Colour(0.1, 0.1, 0.2), kBlack));
+  paint(object.texture, metal_region, rng.uniform() < 0.5 ? kSteel : RgbColour(0.2, 0.2, 0.22));
+  paint(object.texture, lens_region, gradient(RgbColour(0.1, 0.1, 0.2), kBlack));
   paint(object.texture, part_of(uv[front], 0.0, 0.0, 1.0, rng.uniform(0.2, 0.6)),
-        mix(body, Colour::Zero(), 0.45));
-  paint(object.texture, part_of(uv[front], 0.72, 0.74, 0.92, 0.9), Colour(0.95, 0.95, 0.85));
+        mix(body, RgbColour::Zero(), 0.45));
+  paint(object.texture, part_of(uv[front], 0.72, 0.74, 0.92, 0.9), RgbColour(0.95, 0.95, 0.85));
   draw_text(object.texture, part_of(uv[front], 0.06, 0.77, 0.36, 0.9), "FOTO", kWhite);
   paint(object.texture, part_of(uv[back], 0.28, 0.14, 0.92, 0.86), kBlack);
-  paint(object.texture, part_of(uv[back], 0.32, 0.2, 0.88, 0.8), Colour(0.32, 0.38, 0.45));
+  paint(object.texture, part_of(uv[back], 0.32, 0.2, 0.88, 0.8), RgbColour(0.32, 0.38, 0.45));
   draw_keys(object.texture, part_of(uv[back], 0.06, 0.2, 0.24, 0.8), 1, 4, 0.6, kSteel, kBlack);
   object.specular = 0.5;
   object.mass_kg = 0.25;
@@ -206,9 +206,9 @@ GeneratedObject make_stapler(Rng& rng) {  // hinged at -x
   append(object.mesh,
          make_rounded_box({0.1 * length, 0.85 * width, 0.024}, 0.003, 2, plain(steel_region)),
          make_pose({0.02 * length, 0.0, 0.014}, 0.0));
-  const Colour body = housing(rng);
+  const RgbColour body = housing(rng);
   object.texture = Image(kTexture_px, kTexture_px, body);
-  paint(object.texture, foot_region, rng.uniform() < 0.5 ? body : Colour(0.15, 0.15, 0.16));
+  paint(object.texture, foot_region, rng.uniform() < 0.5 ? body : RgbColour(0.15, 0.15, 0.16));
   paint(object.texture, steel_region, kSteel);
   draw_text(object.texture, part_of(arm_region, 0.3, 0.4, 0.7, 0.68), "OFFICE",
             body.sum() > 1.2 ? kBlack : kWhite);

@@ -8,7 +8,7 @@ namespace vantage::family {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-Colour any_colour(const ColourRange& range, Rng& rng) {
+RgbColour any_colour(const ColourRange& range, Rng& rng) {
   const auto draw = [&](const std::array<double, 2>& limits) {
     return rng.uniform(limits[0], limits[1]);
   };
@@ -17,7 +17,7 @@ Colour any_colour(const ColourRange& range, Rng& rng) {
   return hsv(hue, saturation, draw(range.brightness));
 }
 
-Colour vivid(Rng& rng) {
+RgbColour vivid(Rng& rng) {
   constexpr std::array<ColourRange, 11> paints{{
       {{-0.02, 0.02}, {0.75, 0.92}, {0.65, 0.85}},  // red
       {{0.05, 0.08}, {0.75, 0.92}, {0.80, 0.95}},   // orange
@@ -33,10 +33,10 @@ Colour vivid(Rng& rng) {
   }};
   return any_colour(pick(paints, rng), rng);
 }
-Colour pale(Rng& rng) { return any_colour({{0.0, 1.0}, {0.04, 0.25}, {0.88, 0.98}}, rng); }
-Colour dark(Rng& rng) { return any_colour({{0.0, 1.0}, {0.4, 0.9}, {0.15, 0.35}}, rng); }
+RgbColour pale(Rng& rng) { return any_colour({{0.0, 1.0}, {0.04, 0.25}, {0.88, 0.98}}, rng); }
+RgbColour dark(Rng& rng) { return any_colour({{0.0, 1.0}, {0.4, 0.9}, {0.15, 0.35}}, rng); }
 
-Image make_texture(const Colour& wall, const Colour& inner, const Colour& part) {
+Image make_texture(const RgbColour& wall, const RgbColour& inner, const RgbColour& part) {
   Image image(kTexture_px, kTexture_px, wall);
   paint(image, kInner, inner);
   paint(image, kPart, part);
@@ -107,7 +107,7 @@ void draw_label(Image& image, const UvRect& wall, const Label& label, Rng& rng) 
   paint(image, part_of(wall, 0.0, 0.92, 1.0, 1.0), ink);
   paint(image, part_of(wall, 0.0, 0.0, 1.0, 0.08), ink);
   draw_text(image, part_of(wall, 0.11, 0.52, 0.49, 0.8), text, ink);
-  const Colour ornament = vivid(rng);
+  const RgbColour ornament = vivid(rng);
   switch (rng.uniform_index(3)) {
     case 0: draw_disc(image, part_of(wall, 0.2, 0.12, 0.4, 0.46), ornament); break;
     case 1:

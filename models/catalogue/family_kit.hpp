@@ -32,20 +32,20 @@ struct ColourRange {
   std::array<double, 2> saturation;
   std::array<double, 2> brightness;
 };
-Colour any_colour(const ColourRange& range, Rng& rng);
-Colour vivid(Rng& rng);
-Colour pale(Rng& rng);
-Colour dark(Rng& rng);
-inline const Colour kWhite{0.96, 0.96, 0.94};
-inline const Colour kBlack{0.08, 0.08, 0.09};
-inline const Colour kSteel{0.68, 0.70, 0.72};
+RgbColour any_colour(const ColourRange& range, Rng& rng);
+RgbColour vivid(Rng& rng);
+RgbColour pale(Rng& rng);
+RgbColour dark(Rng& rng);
+inline const RgbColour kWhite{0.96, 0.96, 0.94};
+inline const RgbColour kBlack{0.08, 0.08, 0.09};
+inline const RgbColour kSteel{0.68, 0.70, 0.72};
 
 template <class T, std::size_t N>
 const T& pick(const std::array<T, N>& choices, Rng& rng) {
   return choices[rng.uniform_index(N)];
 }
 
-Image make_texture(const Colour& wall, const Colour& inner, const Colour& part);
+Image make_texture(const RgbColour& wall, const RgbColour& inner, const RgbColour& part);
 
 double radius_at(std::span<const Eigen::Vector2d> profile_m, double z_m);
 
@@ -65,8 +65,8 @@ void lay_down(TriangleMesh& mesh);
 
 struct Label {
   std::string_view text;
-  Colour ground;
-  Colour ink;
+  RgbColour ground;
+  RgbColour ink;
 };
 /// A label across part of a wall: name, ornament, small print, barcode.
 void draw_label(Image& image, const UvRect& wall, const Label& label, Rng& rng);

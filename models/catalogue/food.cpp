@@ -26,7 +26,7 @@ TriangleMesh make_stem(double z_m, double length_m) {
   return make_tube(path, radii, Vector3d::UnitY(), 6, kPartUv);
 }
 
-const Colour kBark{0.35, 0.24, 0.12};
+const RgbColour kBark{0.35, 0.24, 0.12};
 
 }  // namespace
 
@@ -46,7 +46,7 @@ GeneratedObject make_banana(Rng& rng) {
   GeneratedObject banana;
   append(banana.mesh, make_tube(path, radii, Vector3d::UnitZ(), 16, kWallUv));
   const double ripeness = rng.uniform();
-  const Colour skin = mix(Colour(0.72, 0.78, 0.2), Colour(0.95, 0.78, 0.12), ripeness);
+  const RgbColour skin = mix(RgbColour(0.72, 0.78, 0.2), RgbColour(0.95, 0.78, 0.12), ripeness);
   banana.texture = make_texture(skin, skin, skin);
   paint(banana.texture, kWall, mottled(skin, mix(skin, kBark, 0.15 + 0.3 * ripeness), 10, rng));
   for (int side = 0; side < 5; ++side) {
@@ -54,7 +54,7 @@ GeneratedObject make_banana(Rng& rng) {
           mix(skin, kBark, 0.35));
   }
   paint(banana.texture, part_of(kWall, 0.0, 0.0, 1.0, 0.1),
-        mix(skin, Colour(0.45, 0.5, 0.15), 0.7));
+        mix(skin, RgbColour(0.45, 0.5, 0.15), 0.7));
   paint(banana.texture, part_of(kWall, 0.0, 0.95, 1.0, 1.0), kBark);
   banana.mass_kg = 0.15;
   return banana;
@@ -74,9 +74,9 @@ GeneratedObject make_apple(Rng& rng) {
              {0.0, 0.84 * h}},
             kWallUv);
   append(apple.mesh, make_stem(0.83 * h, 0.25 * h));
-  const Colour skin =
+  const RgbColour skin =
       hsv(rng.uniform() < 0.7 ? rng.uniform(-0.03, 0.03) : rng.uniform(0.2, 0.28), 0.85, 0.75);
-  const Colour blush = hsv(rng.uniform(0.1, 0.2), 0.7, 0.85);
+  const RgbColour blush = hsv(rng.uniform(0.1, 0.2), 0.7, 0.85);
   apple.texture = make_texture(skin, skin, kBark);
   paint(apple.texture, kWall, mottled(skin, mix(skin, blush, 0.7), 7, rng));
   paint(apple.texture, part_of(kWall, 0.0, 0.93, 1.0, 1.0), mix(skin, blush, 0.8));
@@ -91,10 +91,10 @@ GeneratedObject make_orange(Rng& rng) {
   GeneratedObject orange;
   append(orange.mesh,
          make_superellipsoid({r, r, rng.uniform(0.9, 0.98) * r}, 1.0, 1.0, kAround, 16, kWallUv));
-  const Colour skin = any_colour({{0.06, 0.1}, {0.92, 0.92}, {0.85, 0.98}}, rng);
+  const RgbColour skin = any_colour({{0.06, 0.1}, {0.92, 0.92}, {0.85, 0.98}}, rng);
   orange.texture = make_texture(skin, skin, skin);
   speckle(orange.texture, kWall, 0.06, 2, rng);
-  paint(orange.texture, part_of(kWall, 0.0, 0.985, 1.0, 1.0), Colour(0.3, 0.42, 0.15));
+  paint(orange.texture, part_of(kWall, 0.0, 0.985, 1.0, 1.0), RgbColour(0.3, 0.42, 0.15));
   orange.mass_kg = 0.18;
   return orange;
 }
@@ -114,7 +114,7 @@ GeneratedObject make_lemon(Rng& rng) {
             kWallUv);
   lay_down(lemon.mesh);
   const bool lime = rng.uniform() < 0.3;
-  const Colour skin =
+  const RgbColour skin =
       lime ? hsv(rng.uniform(0.22, 0.28), 0.8, 0.6) : hsv(rng.uniform(0.13, 0.155), 0.85, 0.95);
   lemon.texture = make_texture(skin, skin, skin);
   speckle(lemon.texture, kWall, 0.06, 2, rng);
@@ -137,9 +137,9 @@ GeneratedObject make_pear(Rng& rng) {
              {0.0, 0.97 * h}},
             kWallUv);
   append(pear.mesh, make_stem(0.95 * h, 0.22 * h));
-  const Colour skin = any_colour({{0.14, 0.24}, {0.6, 0.8}, {0.65, 0.85}}, rng);
+  const RgbColour skin = any_colour({{0.14, 0.24}, {0.6, 0.8}, {0.65, 0.85}}, rng);
   pear.texture = make_texture(skin, skin, kBark);
-  paint(pear.texture, kWall, mottled(skin, mix(skin, Colour(0.7, 0.3, 0.1), 0.5), 6, rng));
+  paint(pear.texture, kWall, mottled(skin, mix(skin, RgbColour(0.7, 0.3, 0.1), 0.5), 6, rng));
   speckle(pear.texture, kWall, 0.05, 2, rng);
   pear.mass_kg = 0.18;
   return pear;

@@ -37,7 +37,7 @@ bool is_inked(char c, int column, int row) {
 
 }  // namespace
 
-void draw_text(Image& image, const UvRect& rect, std::string_view text, const Colour& colour) {
+void draw_text(Image& image, const UvRect& rect, std::string_view text, const RgbColour& colour) {
   const int columns = static_cast<int>(text.size()) * (kColumns + 1) - 1;
   for (int column = 0; column < columns; ++column) {
     const char c = text[static_cast<std::size_t>(column / (kColumns + 1))];
@@ -52,7 +52,7 @@ void draw_text(Image& image, const UvRect& rect, std::string_view text, const Co
   }
 }
 
-void draw_small_print(Image& image, const UvRect& rect, const Colour& ink, Rng& rng) {
+void draw_small_print(Image& image, const UvRect& rect, const RgbColour& ink, Rng& rng) {
   constexpr int lines = 7;
   for (int line = 0; line < lines; ++line) {
     const double t = (line + 0.3) / lines;
@@ -67,15 +67,15 @@ void draw_small_print(Image& image, const UvRect& rect, const Colour& ink, Rng& 
 
 void draw_barcode(Image& image, const UvRect& rect, Rng& rng) {
   constexpr int modules = 38;
-  paint(image, rect, Colour(0.97, 0.97, 0.97));
+  paint(image, rect, RgbColour(0.97, 0.97, 0.97));
   for (int i = 2; i < modules - 2; ++i) {
     if (rng.uniform() < 0.5) continue;
     const double s = static_cast<double>(i) / modules;
-    paint(image, part_of(rect, s, 0.08, s + 1.0 / modules, 0.92), Colour(0.05, 0.05, 0.05));
+    paint(image, part_of(rect, s, 0.08, s + 1.0 / modules, 0.92), RgbColour(0.05, 0.05, 0.05));
   }
 }
 
-void draw_disc(Image& image, const UvRect& rect, const Colour& colour) {
+void draw_disc(Image& image, const UvRect& rect, const RgbColour& colour) {
   const Image under = image;
   paint(image, rect, [&](double s, double t) {
     if (std::hypot(s - 0.5, t - 0.5) < 0.5) return colour;

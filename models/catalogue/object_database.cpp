@@ -65,7 +65,7 @@ void enlarge(GeneratedObject& object, double factor) {
 }
 
 /// The hue of a colour turned, and `brightness` times as bright.
-Colour turned(const Colour& colour, double turns, double brightness) {
+RgbColour turned(const RgbColour& colour, double turns, double brightness) {
   const double high = colour.maxCoeff();
   const double chroma = high - colour.minCoeff();
   if (chroma <= 0.0) return brightness * colour;
@@ -90,23 +90,23 @@ void recolour(Image& image, double turns, double brightness) {
 
 Image decal_picture(Rng& rng) {
   const double hue = rng.uniform();
-  const Colour ground = hsv(hue, 0.75, 0.8);
-  Image picture(64, 64, Colour(0.96, 0.96, 0.94));
+  const RgbColour ground = hsv(hue, 0.75, 0.8);
+  Image picture(64, 64, RgbColour(0.96, 0.96, 0.94));
   draw_disc(picture, {0.06, 0.06, 0.94, 0.94}, ground);
   const char letter = static_cast<char>('A' + rng.uniform_index(26));
-  draw_text(picture, {0.32, 0.25, 0.68, 0.75}, std::string_view(&letter, 1), Colour::Ones());
+  draw_text(picture, {0.32, 0.25, 0.68, 0.75}, std::string_view(&letter, 1), RgbColour::Ones());
   return picture;
 }
 
 Image label_picture(Rng& rng) {
   const double hue = rng.uniform();
-  const Colour accent = hsv(hue, 0.7, 0.7);
-  Image picture(96, 96, Colour(0.95, 0.94, 0.9));
+  const RgbColour accent = hsv(hue, 0.7, 0.7);
+  Image picture(96, 96, RgbColour(0.95, 0.94, 0.9));
   paint(picture, {0.0, 0.72, 1.0, 1.0}, accent);
   std::array<char, 3> code{};
   for (char& letter : code) letter = static_cast<char>('A' + rng.uniform_index(26));
-  draw_text(picture, {0.2, 0.77, 0.8, 0.95}, {code.data(), code.size()}, Colour::Ones());
-  draw_small_print(picture, {0.08, 0.3, 0.92, 0.68}, Colour(0.2, 0.2, 0.2), rng);
+  draw_text(picture, {0.2, 0.77, 0.8, 0.95}, {code.data(), code.size()}, RgbColour::Ones());
+  draw_small_print(picture, {0.08, 0.3, 0.92, 0.68}, RgbColour(0.2, 0.2, 0.2), rng);
   draw_barcode(picture, {0.1, 0.05, 0.55, 0.25}, rng);
   draw_disc(picture, {0.65, 0.04, 0.92, 0.27}, accent);
   return picture;

@@ -59,18 +59,18 @@ UvRect rect_of(Finish finish) {
 
 /// Upright spines in rows of colours, as books or binders stand on a board.
 void paint_spines(Image& image, const UvRect& rect, int count, double label, Rng& rng) {
-  paint(image, rect, Colour(0.08, 0.07, 0.06));
+  paint(image, rect, RgbColour(0.08, 0.07, 0.06));
   for (int i = 0; i < count; ++i) {
     const double top = rng.uniform(0.75, 0.98);
     const UvRect spine = part_of(rect, (i + 0.06) / count, 0.0, (i + 0.94) / count, top);
-    const Colour cover = hsv(rng.uniform(), rng.uniform(0.15, 0.7), rng.uniform(0.25, 0.85));
+    const RgbColour cover = hsv(rng.uniform(), rng.uniform(0.15, 0.7), rng.uniform(0.25, 0.85));
     paint(image, spine, cover);
-    paint(image, part_of(spine, 0.2, 0.55, 0.8, 0.55 + label), mix(cover, Colour::Ones(), 0.75));
+    paint(image, part_of(spine, 0.2, 0.55, 0.8, 0.55 + label), mix(cover, RgbColour::Ones(), 0.75));
   }
 }
 
-void paint_screen(Image& image, const UvRect& rect, const Colour& ground, const Colour& bar,
-                  const Colour& ink, Rng& rng) {
+void paint_screen(Image& image, const UvRect& rect, const RgbColour& ground, const RgbColour& bar,
+                  const RgbColour& ink, Rng& rng) {
   paint(image, rect, ground);
   paint(image, part_of(rect, 0.0, 0.9, 1.0, 1.0), bar);
   paint(image, part_of(rect, 0.0, 0.0, 0.18, 0.9), mix(ground, bar, 0.35));
@@ -82,53 +82,53 @@ void paint_screen(Image& image, const UvRect& rect, const Colour& ground, const 
 }
 
 void paint_view(Image& image, const UvRect& rect, Rng& rng) {
-  paint(image, rect, gradient(Colour(0.78, 0.87, 0.95), Colour(0.45, 0.66, 0.92)));
+  paint(image, rect, gradient(RgbColour(0.78, 0.87, 0.95), RgbColour(0.45, 0.66, 0.92)));
   for (int i = 0; i < 7; ++i) {
     const double s = i / 7.0;
     const double top = rng.uniform(0.2, 0.65);
-    const Colour stone = hsv(0.08, rng.uniform(0.05, 0.25), rng.uniform(0.45, 0.75));
+    const RgbColour stone = hsv(0.08, rng.uniform(0.05, 0.25), rng.uniform(0.45, 0.75));
     paint(image, part_of(rect, s, 0.0, s + 1.0 / 7.0, top),
           checks(stone, 0.75 * stone, 6, static_cast<int>(30 * top)));
   }
-  paint(image, part_of(rect, 0.0, 0.0, 1.0, 0.12), Colour(0.30, 0.45, 0.22));
+  paint(image, part_of(rect, 0.0, 0.0, 1.0, 0.12), RgbColour(0.30, 0.45, 0.22));
 }
 
-void paint_fabric(Image& image, Finish finish, const Colour& colour, Rng& rng) {
+void paint_fabric(Image& image, Finish finish, const RgbColour& colour, Rng& rng) {
   paint(image, rect_of(finish), mottled(0.88 * colour, 1.08 * colour, 24, rng));
 }
 
-void paint_plain(Image& image, Finish finish, const Colour& colour, Rng& rng) {
+void paint_plain(Image& image, Finish finish, const RgbColour& colour, Rng& rng) {
   paint(image, rect_of(finish), mottled(0.96 * colour, 1.02 * colour, 4, rng));
 }
 
 void paint_cardboard(Image& image, Rng& rng) {
-  const Colour board(0.72, 0.55, 0.36);
+  const RgbColour board(0.72, 0.55, 0.36);
   const UvRect rect = rect_of(Finish::cardboard);
   paint(image, rect, mottled(0.93 * board, 1.05 * board, 8, rng));
-  paint(image, part_of(rect, 0.0, 0.44, 1.0, 0.56), Colour(0.80, 0.68, 0.48));  // tape
-  paint(image, part_of(rect, 0.62, 0.65, 0.92, 0.9), Colour(0.92, 0.91, 0.88));
-  draw_small_print(image, part_of(rect, 0.64, 0.67, 0.90, 0.88), Colour(0.2, 0.2, 0.2), rng);
+  paint(image, part_of(rect, 0.0, 0.44, 1.0, 0.56), RgbColour(0.80, 0.68, 0.48));  // tape
+  paint(image, part_of(rect, 0.62, 0.65, 0.92, 0.9), RgbColour(0.92, 0.91, 0.88));
+  draw_small_print(image, part_of(rect, 0.64, 0.67, 0.90, 0.88), RgbColour(0.2, 0.2, 0.2), rng);
 }
 
 void paint_keyboard(Image& image) {
   const UvRect rect = rect_of(Finish::keyboard);
-  paint(image, rect, Colour(0.12, 0.12, 0.13));
+  paint(image, rect, RgbColour(0.12, 0.12, 0.13));
   for (int row = 0; row < 5; ++row) {
     for (int key = 0; key < 15; ++key) {
       paint(image,
             part_of(rect, (key + 0.35) / 16, (row + 0.3) / 5.4, (key + 1.15) / 16, (row + 1) / 5.4),
-            Colour(0.30, 0.30, 0.32));
+            RgbColour(0.30, 0.30, 0.32));
     }
   }
 }
 
 void paint_poster(Image& image, Rng& rng) {
   const UvRect rect = rect_of(Finish::poster);
-  paint(image, rect, gradient(Colour(0.95, 0.85, 0.62), Colour(0.88, 0.45, 0.28)));
+  paint(image, rect, gradient(RgbColour(0.95, 0.85, 0.62), RgbColour(0.88, 0.45, 0.28)));
   paint(image, part_of(rect, 0.0, 0.0, 1.0, 0.3),
-        zigzag(Colour(0.15, 0.30, 0.40), Colour(0.24, 0.44, 0.50), 5, 3));
-  draw_disc(image, part_of(rect, 0.55, 0.5, 0.85, 0.8), Colour(0.98, 0.95, 0.80));
-  draw_small_print(image, part_of(rect, 0.1, 0.84, 0.6, 0.96), Colour(0.3, 0.1, 0.1), rng);
+        zigzag(RgbColour(0.15, 0.30, 0.40), RgbColour(0.24, 0.44, 0.50), 5, 3));
+  draw_disc(image, part_of(rect, 0.55, 0.5, 0.85, 0.8), RgbColour(0.98, 0.95, 0.80));
+  draw_small_print(image, part_of(rect, 0.1, 0.84, 0.6, 0.96), RgbColour(0.3, 0.1, 0.1), rng);
 }
 
 }  // namespace
@@ -144,32 +144,35 @@ UvRect finish_uv(Finish finish, double width_m, double height_m) {
 Image paint_finishes() {
   using enum Finish;
   Rng rng = Rng::stream(0, "office finishes");
-  Image image(kCells * kCell_px, kCells * kCell_px, Colour(0.5, 0.5, 0.5));
-  paint(image, rect_of(oak), wood(Colour(0.85, 0.70, 0.50), Colour(0.66, 0.48, 0.30), 3, rng));
-  paint(image, rect_of(walnut), wood(Colour(0.50, 0.33, 0.22), Colour(0.30, 0.18, 0.11), 3, rng));
+  Image image(kCells * kCell_px, kCells * kCell_px, RgbColour(0.5, 0.5, 0.5));
+  paint(image, rect_of(oak),
+        wood(RgbColour(0.85, 0.70, 0.50), RgbColour(0.66, 0.48, 0.30), 3, rng));
+  paint(image, rect_of(walnut),
+        wood(RgbColour(0.50, 0.33, 0.22), RgbColour(0.30, 0.18, 0.11), 3, rng));
   paint_cardboard(image, rng);
   paint_spines(image, rect_of(books), 22, 0.12, rng);
   paint_spines(image, rect_of(binders), 11, 0.25, rng);
-  paint_screen(image, rect_of(spreadsheet), Colour(0.93, 0.95, 0.97), Colour(0.16, 0.42, 0.30),
-               Colour(0.45, 0.50, 0.58), rng);
-  paint_screen(image, rect_of(editor), Colour(0.11, 0.13, 0.18), Colour(0.25, 0.30, 0.40),
-               Colour(0.55, 0.72, 0.62), rng);
+  paint_screen(image, rect_of(spreadsheet), RgbColour(0.93, 0.95, 0.97),
+               RgbColour(0.16, 0.42, 0.30), RgbColour(0.45, 0.50, 0.58), rng);
+  paint_screen(image, rect_of(editor), RgbColour(0.11, 0.13, 0.18), RgbColour(0.25, 0.30, 0.40),
+               RgbColour(0.55, 0.72, 0.62), rng);
   paint_view(image, rect_of(view), rng);
   paint_poster(image, rng);
   paint_keyboard(image);
-  paint(image, rect_of(paper), Colour(0.95, 0.95, 0.93));
-  draw_small_print(image, part_of(rect_of(paper), 0.1, 0.1, 0.9, 0.9), Colour(0.3, 0.3, 0.3), rng);
+  paint(image, rect_of(paper), RgbColour(0.95, 0.95, 0.93));
+  draw_small_print(image, part_of(rect_of(paper), 0.1, 0.1, 0.9, 0.9), RgbColour(0.3, 0.3, 0.3),
+                   rng);
   paint(image, rect_of(foliage),
-        mottled(Colour(0.13, 0.34, 0.12), Colour(0.34, 0.60, 0.22), 5, rng));
-  paint_plain(image, clay, Colour(0.72, 0.40, 0.28), rng);
-  paint_plain(image, white, Colour(0.93, 0.93, 0.91), rng);
-  paint_plain(image, grey, Colour(0.62, 0.64, 0.66), rng);
-  paint_plain(image, dark, Colour(0.13, 0.13, 0.15), rng);
-  paint_plain(image, steel, Colour(0.76, 0.78, 0.80), rng);
-  paint_fabric(image, blue_fabric, Colour(0.20, 0.34, 0.55), rng);
-  paint_fabric(image, green_fabric, Colour(0.30, 0.45, 0.33), rng);
-  paint_fabric(image, red_fabric, Colour(0.58, 0.20, 0.18), rng);
-  paint_fabric(image, grey_fabric, Colour(0.38, 0.39, 0.42), rng);
+        mottled(RgbColour(0.13, 0.34, 0.12), RgbColour(0.34, 0.60, 0.22), 5, rng));
+  paint_plain(image, clay, RgbColour(0.72, 0.40, 0.28), rng);
+  paint_plain(image, white, RgbColour(0.93, 0.93, 0.91), rng);
+  paint_plain(image, grey, RgbColour(0.62, 0.64, 0.66), rng);
+  paint_plain(image, dark, RgbColour(0.13, 0.13, 0.15), rng);
+  paint_plain(image, steel, RgbColour(0.76, 0.78, 0.80), rng);
+  paint_fabric(image, blue_fabric, RgbColour(0.20, 0.34, 0.55), rng);
+  paint_fabric(image, green_fabric, RgbColour(0.30, 0.45, 0.33), rng);
+  paint_fabric(image, red_fabric, RgbColour(0.58, 0.20, 0.18), rng);
+  paint_fabric(image, grey_fabric, RgbColour(0.38, 0.39, 0.42), rng);
   return image;
 }
 

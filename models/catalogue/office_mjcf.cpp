@@ -170,14 +170,15 @@ std::string cameras(const FloorPlan& plan) {
 
 void write_textures(const std::filesystem::path& directory) {
   Rng rng = Rng::stream(0, "office rooms");
-  Image carpet(128, 128, Colour::Zero());
-  const Pattern pile = mottled(Colour(0.33, 0.36, 0.40), Colour(0.50, 0.52, 0.55), 40, rng);
-  const Pattern tile = checks(Colour::Ones(), 0.94 * Colour::Ones(), 2, 2);
+  Image carpet(128, 128, RgbColour::Zero());
+  const Pattern pile = mottled(RgbColour(0.33, 0.36, 0.40), RgbColour(0.50, 0.52, 0.55), 40, rng);
+  const Pattern tile = checks(RgbColour::Ones(), 0.94 * RgbColour::Ones(), 2, 2);
   paint(carpet, UvRect{},
-        [&](double s, double t) -> Colour { return pile(s, t).cwiseProduct(tile(s, t)); });
+        [&](double s, double t) -> RgbColour { return pile(s, t).cwiseProduct(tile(s, t)); });
   write_png(carpet, directory / "carpet.png");
-  Image plaster(128, 128, Colour::Zero());
-  paint(plaster, UvRect{}, mottled(Colour(0.82, 0.81, 0.79), Colour(0.93, 0.92, 0.90), 9, rng));
+  Image plaster(128, 128, RgbColour::Zero());
+  paint(plaster, UvRect{},
+        mottled(RgbColour(0.82, 0.81, 0.79), RgbColour(0.93, 0.92, 0.90), 9, rng));
   write_png(plaster, directory / "plaster.png");
   write_png(paint_finishes(), directory / "furniture.png");
 }

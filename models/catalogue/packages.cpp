@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 4> kCartons{"MILK", "JUICE", "SOYA", "CRE
 constexpr std::array<std::string_view, 6> kTitles{"ATLAS", "FABLES", "OPTICS",
                                                   "POEMS", "GARDEN", "ALGEBRA"};
 
-void paint_all(Image& image, const BoxUv& uv, const Colour& colour) {
+void paint_all(Image& image, const BoxUv& uv, const RgbColour& colour) {
   for (const UvRect& rect : uv) paint(image, shrink(rect, -0.004), colour);
 }
 
@@ -30,8 +30,8 @@ GeneratedObject make_cereal_box(Rng& rng) {
   const BoxUv uv = unfold_box(size);
   GeneratedObject box;
   append(box.mesh, make_rounded_box(size, 0.003, 2, uv));
-  const Colour ground = vivid(rng);
-  const Colour accent = rng.uniform() < 0.5 ? kWhite : vivid(rng);
+  const RgbColour ground = vivid(rng);
+  const RgbColour accent = rng.uniform() < 0.5 ? kWhite : vivid(rng);
   const std::string_view word = pick(kCereals, rng);
   box.texture = Image(kTexture_px, kTexture_px, ground);
   for (const UvRect& face : {uv[front], uv[back]}) {
@@ -39,7 +39,7 @@ GeneratedObject make_cereal_box(Rng& rng) {
     draw_text(box.texture, part_of(face, 0.08, 0.66, 0.92, 0.89), word, dark(rng));
   }
   draw_disc(box.texture, part_of(uv[front], 0.14, 0.08, 0.86, 0.52), pale(rng));
-  const Colour flakes = hsv(rng.uniform(0.05, 0.15), 0.8, 0.85);
+  const RgbColour flakes = hsv(rng.uniform(0.05, 0.15), 0.8, 0.85);
   draw_disc(box.texture, part_of(uv[front], 0.24, 0.16, 0.76, 0.44), flakes);
   paint(box.texture, part_of(uv[front], 0.34, 0.2, 0.66, 0.4),
         dots(flakes, 0.7 * flakes, 4, 3, 0.35));
@@ -81,8 +81,8 @@ GeneratedObject make_milk_carton(Rng& rng) {
   append(carton.mesh, cap,
          Eigen::Translation3d(0.25 * w, 0.0, body + 0.45 * roof) *
              Pose(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vector3d::UnitY())));
-  const Colour ground = rng.uniform() < 0.4 ? kWhite : pale(rng);
-  const Colour accent = vivid(rng);
+  const RgbColour ground = rng.uniform() < 0.4 ? kWhite : pale(rng);
+  const RgbColour accent = vivid(rng);
   carton.texture = Image(kTexture_px, kTexture_px, ground);
   paint(carton.texture, roof_region, accent);
   paint(carton.texture, cap_region, vivid(rng));
@@ -109,8 +109,8 @@ GeneratedObject make_tissue_box(Rng& rng) {
   const BoxUv uv = unfold_box(size);
   GeneratedObject box;
   append(box.mesh, make_rounded_box(size, 0.003, 2, uv));
-  const Colour ground = pale(rng);
-  const Colour accent = vivid(rng);
+  const RgbColour ground = pale(rng);
+  const RgbColour accent = vivid(rng);
   box.texture = Image(kTexture_px, kTexture_px, ground);
   const Pattern pattern = any_pattern(ground, accent, rng);
   for (const UvRect& face : uv) paint(box.texture, face, pattern);
@@ -150,10 +150,11 @@ GeneratedObject make_book(Rng& rng) {  // lying; the spine is on -x
          make_rounded_box({board, size.y(), size.z() - 0.001}, 0.0012, 1,
                           {edge, edge, edge, edge, edge, edge}),
          make_pose({-0.5 * size.x() + 0.5 * board, 0.0, 0.5 * size.z()}, 0.0));
-  const Colour ground = vivid(rng);
-  const Colour accent = rng.uniform() < 0.5 ? pale(rng) : dark(rng);
+  const RgbColour ground = vivid(rng);
+  const RgbColour accent = rng.uniform() < 0.5 ? pale(rng) : dark(rng);
   book.texture = Image(kTexture_px, kTexture_px, ground);
-  paint(book.texture, pages_region, bands(Colour(0.93, 0.90, 0.80), Colour(0.82, 0.78, 0.68), 8));
+  paint(book.texture, pages_region,
+        bands(RgbColour(0.93, 0.90, 0.80), RgbColour(0.82, 0.78, 0.68), 8));
   draw_text(book.texture, part_of(cover_region, 0.1, 0.74, 0.9, 0.88), pick(kTitles, rng), accent);
   const UvRect art = part_of(cover_region, 0.15, 0.2, 0.85, 0.66);
   paint(book.texture, art, any_pattern(accent, vivid(rng), rng));
@@ -203,7 +204,7 @@ GeneratedObject make_toy_blocks(Rng& rng) {
               upper);
     append(blocks.mesh, cone, lift_to(z_upper));
   }
-  const Colour cube = vivid(rng);
+  const RgbColour cube = vivid(rng);
   blocks.texture = Image(kTexture_px, kTexture_px, cube);
   paint_all(blocks.texture, cube_uv, cube);
   for (const UvRect& face : cube_uv) {
@@ -212,7 +213,8 @@ GeneratedObject make_toy_blocks(Rng& rng) {
     draw_text(blocks.texture, part_of(face, 0.3, 0.22, 0.7, 0.78), std::string_view(&letter, 1),
               cube);
   }
-  paint(blocks.texture, region[1], wood(Colour(0.86, 0.68, 0.45), Colour(0.6, 0.4, 0.2), 1, rng));
+  paint(blocks.texture, region[1],
+        wood(RgbColour(0.86, 0.68, 0.45), RgbColour(0.6, 0.4, 0.2), 1, rng));
   if (rng.uniform() < 0.7) paint(blocks.texture, region[1], vivid(rng));
   paint(blocks.texture, region[2], vivid(rng));
   blocks.mass_kg = rng.uniform(0.15, 0.3);

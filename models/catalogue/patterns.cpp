@@ -41,22 +41,22 @@ class Noise {
 
 }  // namespace
 
-Pattern bands(const Colour& a, const Colour& b, int count) {
+Pattern bands(const RgbColour& a, const RgbColour& b, int count) {
   return [=](double, double t) { return fraction(t * count) < 0.5 ? a : b; };
 }
 
-Pattern stripes(const Colour& a, const Colour& b, int count, double slant) {
+Pattern stripes(const RgbColour& a, const RgbColour& b, int count, double slant) {
   return [=](double s, double t) { return fraction(s * count + slant * t) < 0.5 ? a : b; };
 }
 
-Pattern checks(const Colour& a, const Colour& b, int columns, int rows) {
+Pattern checks(const RgbColour& a, const RgbColour& b, int columns, int rows) {
   return [=](double s, double t) {
     const auto parity = static_cast<long>(std::floor(s * columns) + std::floor(t * rows));
     return parity % 2 == 0 ? a : b;
   };
 }
 
-Pattern dots(const Colour& ground, const Colour& dot, int columns, int rows, double radius) {
+Pattern dots(const RgbColour& ground, const RgbColour& dot, int columns, int rows, double radius) {
   return [=](double s, double t) {
     const double row = std::floor(t * rows);
     const double x = fraction(s * columns + (std::fmod(row, 2.0) == 0.0 ? 0.0 : 0.5)) - 0.5;
@@ -65,18 +65,18 @@ Pattern dots(const Colour& ground, const Colour& dot, int columns, int rows, dou
   };
 }
 
-Pattern zigzag(const Colour& a, const Colour& b, int columns, int rows) {
+Pattern zigzag(const RgbColour& a, const RgbColour& b, int columns, int rows) {
   return [=](double s, double t) {
     const double wave = std::abs(fraction(s * columns) - 0.5);
     return fraction(t * rows + wave) < 0.5 ? a : b;
   };
 }
 
-Pattern gradient(const Colour& bottom, const Colour& top) {
+Pattern gradient(const RgbColour& bottom, const RgbColour& top) {
   return [=](double, double t) { return mix(bottom, top, t); };
 }
 
-Pattern wood(const Colour& light, const Colour& dark, int boards, Rng& rng) {
+Pattern wood(const RgbColour& light, const RgbColour& dark, int boards, Rng& rng) {
   const Noise bend(3, 4 * boards, rng);
   const Noise grain(6, 40 * boards, rng);
   const Noise tone(1, 2 * boards, rng);
@@ -91,10 +91,10 @@ Pattern wood(const Colour& light, const Colour& dark, int boards, Rng& rng) {
   };
 }
 
-Pattern tiles(const Colour& tile, const Colour& joint, int columns, int rows, Rng& rng) {
+Pattern tiles(const RgbColour& tile, const RgbColour& joint, int columns, int rows, Rng& rng) {
   std::vector<double> tone(static_cast<std::size_t>(columns * rows));
   for (double& brightness : tone) brightness = rng.uniform(0.9, 1.05);
-  return [=](double s, double t) -> Colour {
+  return [=](double s, double t) -> RgbColour {
     const double x = s * columns;
     const double y = t * rows;
     if (fraction(x) < 0.03 || fraction(y) < 0.03) return joint;
@@ -103,13 +103,13 @@ Pattern tiles(const Colour& tile, const Colour& joint, int columns, int rows, Rn
   };
 }
 
-Pattern mottled(const Colour& a, const Colour& b, int cells, Rng& rng) {
+Pattern mottled(const RgbColour& a, const RgbColour& b, int cells, Rng& rng) {
   const Noise coarse(cells, cells, rng);
   const Noise fine(3 * cells, 3 * cells, rng);
   return [=](double s, double t) { return mix(a, b, 0.7 * coarse(s, t) + 0.3 * fine(s, t)); };
 }
 
-Pattern any_pattern(const Colour& a, const Colour& b, Rng& rng) {
+Pattern any_pattern(const RgbColour& a, const RgbColour& b, Rng& rng) {
   const int count = 2 + static_cast<int>(rng.uniform_index(4));
   switch (rng.uniform_index(7)) {
     case 0: return bands(a, b, count);

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-const Colour kLeaf{0.25, 0.42, 0.14};
+const RgbColour kLeaf{0.25, 0.42, 0.14};
 
 /// A factor on the distance from the z axis at a heading and a height.
 using Bulge = std::function<double(double heading_rad, double z_m)>;
@@ -83,7 +83,7 @@ GeneratedObject make_tomato(Rng& rng) {
             {0.0, 0.88 * h}},
            3, [=](double heading, double) { return 1.0 + ribs * std::cos(5.0 * heading); });
   add_stalk(mesh, 0.87 * h, 0.012, 0.0022);
-  const Colour skin = any_colour({{-0.01, 0.05}, {0.82, 0.95}, {0.7, 0.88}}, rng);
+  const RgbColour skin = any_colour({{-0.01, 0.05}, {0.82, 0.95}, {0.7, 0.88}}, rng);
   Image texture = make_texture(skin, skin, kLeaf);
   paint(texture, kWall, mottled(skin, mix(skin, hsv(0.09, 0.8, 0.85), 0.35), 5, rng));
   paint(texture, part_of(kWall, 0.0, 0.86, 1.0, 1.0), [=](double s, double t) {
@@ -104,9 +104,9 @@ GeneratedObject make_onion(Rng& rng) {
                             {0.12 * r, 0.97 * h},
                             {0.0, h}},
                            3, round);
-  const Colour skin = rng.uniform() < 0.35
-                          ? any_colour({{0.9, 0.95}, {0.5, 0.7}, {0.4, 0.55}}, rng)
-                          : any_colour({{0.07, 0.11}, {0.55, 0.8}, {0.65, 0.85}}, rng);
+  const RgbColour skin = rng.uniform() < 0.35
+                             ? any_colour({{0.9, 0.95}, {0.5, 0.7}, {0.4, 0.55}}, rng)
+                             : any_colour({{0.07, 0.11}, {0.55, 0.8}, {0.65, 0.85}}, rng);
   Image texture = make_texture(skin, skin, skin);
   paint(texture, kWall, mottled(skin, mix(skin, kWhite, 0.25), 5, rng));
   for (int line = 0; line < 24; ++line) {
@@ -116,7 +116,7 @@ GeneratedObject make_onion(Rng& rng) {
     const double shade = rng.uniform(0.15, 0.4);
     paint(texture, part_of(kWall, s, low, s + 0.008, high), mix(skin, kBlack, shade));
   }
-  paint(texture, part_of(kWall, 0.0, 0.9, 1.0, 1.0), mix(skin, Colour(0.6, 0.5, 0.3), 0.7));
+  paint(texture, part_of(kWall, 0.0, 0.9, 1.0, 1.0), mix(skin, RgbColour(0.6, 0.5, 0.3), 0.7));
   return finished(std::move(mesh), std::move(texture), 0.35, 0.15);
 }
 
@@ -133,7 +133,7 @@ GeneratedObject make_potato(Rng& rng) {
          0.5 * depth * std::sin(5.0 * u.z() + 4.0 * u.x() + tilt);
   }
   renew_normals(mesh);
-  const Colour skin = any_colour({{0.07, 0.12}, {0.35, 0.6}, {0.55, 0.8}}, rng);
+  const RgbColour skin = any_colour({{0.07, 0.12}, {0.35, 0.6}, {0.55, 0.8}}, rng);
   Image texture = make_texture(skin, skin, skin);
   paint(texture, kWall, mottled(skin, 0.75 * skin, 9, rng));
   for (int eye = 0; eye < 14; ++eye) {
@@ -162,7 +162,7 @@ GeneratedObject make_bell_pepper(Rng& rng) {
   add_stalk(mesh, 0.87 * h, 0.3 * h, 0.005);
   constexpr std::array<double, 4> hues{-0.005, 0.08, 0.14, 0.3};  // red, orange, yellow, green
   const double hue = pick(hues, rng) + rng.uniform(-0.01, 0.01);
-  const Colour skin = hsv(hue, rng.uniform(0.8, 0.95), hue > 0.2 ? 0.5 : 0.82);
+  const RgbColour skin = hsv(hue, rng.uniform(0.8, 0.95), hue > 0.2 ? 0.5 : 0.82);
   Image texture = make_texture(skin, skin, mix(kLeaf, skin, 0.2));
   paint(texture, kWall, mottled(skin, 0.85 * skin, 5, rng));
   paint(texture, part_of(kWall, 0.0, 0.93, 1.0, 1.0), mix(kLeaf, skin, 0.4));
@@ -193,10 +193,10 @@ GeneratedObject make_mushroom(Rng& rng) {
                                               3);
   add_lathe(mushroom.mesh, dome, kAround, kWallUv);
   const bool brown = rng.uniform() < 0.5;
-  const Colour cap = brown ? any_colour({{0.06, 0.09}, {0.45, 0.65}, {0.4, 0.6}}, rng)
-                           : any_colour({{0.09, 0.12}, {0.08, 0.2}, {0.85, 0.95}}, rng);
-  const Colour flesh(0.9, 0.86, 0.78);
-  mushroom.texture = make_texture(cap, mix(flesh, Colour(0.45, 0.3, 0.2), 0.5), flesh);
+  const RgbColour cap = brown ? any_colour({{0.06, 0.09}, {0.45, 0.65}, {0.4, 0.6}}, rng)
+                              : any_colour({{0.09, 0.12}, {0.08, 0.2}, {0.85, 0.95}}, rng);
+  const RgbColour flesh(0.9, 0.86, 0.78);
+  mushroom.texture = make_texture(cap, mix(flesh, RgbColour(0.45, 0.3, 0.2), 0.5), flesh);
   paint(mushroom.texture, kWall, mottled(cap, mix(cap, flesh, 0.3), 6, rng));
   speckle(mushroom.texture, kPart, 0.03, 3, rng);
   mushroom.mass_kg = 0.03;
@@ -219,11 +219,11 @@ GeneratedObject make_garlic(Rng& rng) {
                              const double bulb = std::clamp(1.4 - 2.0 * z / h, 0.0, 1.0);
                              return 1.0 + 0.07 * bulb * std::cos(cloves * heading);
                            });
-  const Colour skin = any_colour({{0.05, 0.12}, {0.03, 0.1}, {0.88, 0.96}}, rng);
-  const Colour veins = any_colour({{0.85, 0.95}, {0.25, 0.45}, {0.6, 0.75}}, rng);
+  const RgbColour skin = any_colour({{0.05, 0.12}, {0.03, 0.1}, {0.88, 0.96}}, rng);
+  const RgbColour veins = any_colour({{0.85, 0.95}, {0.25, 0.45}, {0.6, 0.75}}, rng);
   Image texture = make_texture(skin, skin, skin);
   paint(texture, kWall, mottled(skin, mix(skin, veins, rng.uniform(0.1, 0.6)), 6, rng));
-  paint(texture, part_of(kWall, 0.0, 0.9, 1.0, 1.0), Colour(0.75, 0.66, 0.5));
+  paint(texture, part_of(kWall, 0.0, 0.9, 1.0, 1.0), RgbColour(0.75, 0.66, 0.5));
   return finished(std::move(mesh), std::move(texture), 0.15, 0.05);
 }
 
@@ -240,8 +240,8 @@ GeneratedObject make_peach(Rng& rng) {
                            3, [](double heading, double) {
                              return 1.0 - 0.09 * std::exp(-std::pow(heading / 0.3, 2.0));
                            });
-  const Colour skin = any_colour({{0.08, 0.11}, {0.45, 0.65}, {0.9, 0.98}}, rng);
-  const Colour blush = any_colour({{-0.02, 0.02}, {0.6, 0.8}, {0.6, 0.8}}, rng);
+  const RgbColour skin = any_colour({{0.08, 0.11}, {0.45, 0.65}, {0.9, 0.98}}, rng);
+  const RgbColour blush = any_colour({{-0.02, 0.02}, {0.6, 0.8}, {0.6, 0.8}}, rng);
   Image texture = make_texture(skin, skin, skin);
   const Pattern clouds = mottled(skin, blush, 4, rng);
   const double side = rng.uniform();

@@ -130,11 +130,12 @@ std::string object_body(const PlacedObject& placed) {
 
 void write_room_textures(const std::filesystem::path& directory) {
   Rng rng = Rng::stream(0, "room");
-  Image table(256, 256, Colour::Zero());
-  paint(table, UvRect{}, wood(Colour(0.78, 0.58, 0.38), Colour(0.50, 0.32, 0.17), 4, rng));
+  Image table(256, 256, RgbColour::Zero());
+  paint(table, UvRect{}, wood(RgbColour(0.78, 0.58, 0.38), RgbColour(0.50, 0.32, 0.17), 4, rng));
   write_png(table, directory / "wood.png");
-  Image floor(256, 256, Colour::Zero());
-  paint(floor, UvRect{}, tiles(Colour(0.70, 0.68, 0.64), Colour(0.42, 0.41, 0.40), 3, 3, rng));
+  Image floor(256, 256, RgbColour::Zero());
+  paint(floor, UvRect{},
+        tiles(RgbColour(0.70, 0.68, 0.64), RgbColour(0.42, 0.41, 0.40), 3, 3, rng));
   write_png(floor, directory / "floor.png");
 }
 

@@ -77,7 +77,7 @@ std::optional<Hit> nearest(const TriangleMesh& mesh, const SightFrame& frame, co
 UvRect extend_texture(GeneratedObject& object, const Image& picture) {
   Image& old = object.texture;
   Image taller(std::max(old.width_px, picture.width_px), old.height_px + picture.height_px,
-               Colour::Ones());
+               RgbColour::Ones());
   expects(old.width_px == taller.width_px, "a sticker's picture is no wider than the texture");
   std::ranges::copy(old.rgb, taller.rgb.begin());
   for (int y = 0; y < picture.height_px; ++y) {

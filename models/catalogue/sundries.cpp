@@ -23,8 +23,8 @@ GeneratedObject make_ball(Rng& rng) {
   GeneratedObject ball;
   append(ball.mesh, make_superellipsoid({r, oval ? 0.62 * r : r, oval ? 0.62 * r : r}, 1.0, 1.0,
                                         kAround, 16, kWallUv));
-  const Colour a = vivid(rng);
-  const Colour b = rng.uniform() < 0.6 ? kWhite : vivid(rng);
+  const RgbColour a = vivid(rng);
+  const RgbColour b = rng.uniform() < 0.6 ? kWhite : vivid(rng);
   ball.texture = make_texture(a, a, a);
   switch (rng.uniform_index(4)) {
     case 0: paint(ball.texture, kWall, stripes(a, b, 4)); break;
@@ -61,7 +61,7 @@ GeneratedObject make_light_bulb(Rng& rng) {
   const double tilt = std::asin((r - cap_r) / (h - 1.05 * r));
   transform(bulb.mesh, make_pose(Vector3d::Zero(), 0.0, tilt));
   const bool clear = rng.uniform() < 0.4;
-  const Colour tint = clear ? any_colour({{0.1, 0.13}, {0.2, 0.4}, {0.8, 0.9}}, rng) : pale(rng);
+  const RgbColour tint = clear ? any_colour({{0.1, 0.13}, {0.2, 0.4}, {0.8, 0.9}}, rng) : pale(rng);
   bulb.texture = make_texture(tint, tint, kSteel);
   paint(bulb.texture, kPart, bands(kSteel, 0.6 * kSteel, 5));
   draw_text(bulb.texture, part_of(kWall, 0.6, 0.72, 0.9, 0.82), "60W", mix(tint, kBlack, 0.6));
@@ -84,8 +84,8 @@ GeneratedObject make_dry_battery(Rng& rng) {
             kWallUv, kPartUv);
   add_solid(battery.mesh, Profile{{0.33 * r, h - 0.003}, {0.33 * r, h - 0.0004}, {0.3 * r, h}},
             kPartUv, kPartUv);
-  const Colour band = vivid(rng);
-  const Colour body = rng.uniform() < 0.6 ? kBlack : vivid(rng);
+  const RgbColour band = vivid(rng);
+  const RgbColour body = rng.uniform() < 0.6 ? kBlack : vivid(rng);
   battery.texture = make_texture(body, kSteel, kSteel);
   paint(battery.texture, part_of(kWall, 0.0, rng.uniform(0.62, 0.75), 1.0, 1.0), band);
   draw_text(battery.texture, part_of(kWall, 0.56, 0.28, 0.94, 0.5), "VOLT",
@@ -107,7 +107,7 @@ GeneratedObject make_glue_stick(Rng& rng) {
             kWallUv, kInnerUv);
   add_solid(stick.mesh, Profile{{1.04 * r, split - 0.001}, {1.04 * r, h - 0.003}, {0.9 * r, h}},
             kPartUv, kPartUv);
-  const Colour label = vivid(rng);
+  const RgbColour label = vivid(rng);
   stick.texture = make_texture(label, kWhite, rng.uniform() < 0.5 ? kWhite : vivid(rng));
   paint(stick.texture, part_of(kWall, 0.0, 0.0, 1.0, 0.2), mix(label, kBlack, 0.3));
   draw_text(stick.texture, part_of(kWall, 0.56, 0.45, 0.94, 0.72), "GLUE", kWhite);
@@ -130,10 +130,10 @@ GeneratedObject make_marker(Rng& rng) {
       Profile{{1.12 * r, length - cap - 0.001}, {1.12 * r, length - 0.004}, {0.7 * r, length}},
       kPartUv, kPartUv);
   lay_down(marker.mesh);
-  const Colour ink = vivid(rng);
-  const Colour body = rng.uniform() < 0.55 ? kWhite : mix(ink, kBlack, 0.2);
+  const RgbColour ink = vivid(rng);
+  const RgbColour body = rng.uniform() < 0.55 ? kWhite : mix(ink, kBlack, 0.2);
   marker.texture = make_texture(body, ink, ink);
-  const Colour print = body.sum() > 2.0 ? ink : kWhite;
+  const RgbColour print = body.sum() > 2.0 ? ink : kWhite;
   paint(marker.texture, part_of(kWall, 0.0, 0.78, 1.0, 0.86), print);
   paint(marker.texture, part_of(kWall, 0.42, 0.2, 0.58, 0.7), any_pattern(body, print, rng));
   marker.specular = 0.4;
@@ -158,10 +158,10 @@ GeneratedObject make_shampoo(Rng& rng) {
   add_solid(bottle.mesh, Profile{{cap_r, 0.81 * h}, {0.98 * cap_r, 0.985 * h}, {0.85 * cap_r, h}},
             kPartUv, kPartUv);
   scale(bottle.mesh, {1.0, flatness, 1.0});
-  const Colour plastic = rng.uniform() < 0.4 ? pale(rng) : vivid(rng);
-  const Colour accent = vivid(rng);
+  const RgbColour plastic = rng.uniform() < 0.4 ? pale(rng) : vivid(rng);
+  const RgbColour accent = vivid(rng);
   bottle.texture = make_texture(plastic, plastic, rng.uniform() < 0.5 ? accent : kWhite);
-  const Colour ink = plastic.sum() > 1.8 ? dark(rng) : kWhite;
+  const RgbColour ink = plastic.sum() > 1.8 ? dark(rng) : kWhite;
   draw_text(bottle.texture, part_of(kWall, 0.58, 0.58, 0.92, 0.72), pick(kShampoos, rng), ink);
   draw_disc(bottle.texture, part_of(kWall, 0.66, 0.22, 0.84, 0.5), accent);
   draw_small_print(bottle.texture, part_of(kWall, 0.1, 0.25, 0.4, 0.65), ink, rng);
@@ -188,8 +188,8 @@ GeneratedObject make_toothpaste(Rng& rng) {  // lying, its cap at -x
   add_solid(cap, Profile{{0.85 * cap_r, 0.0}, {cap_r, 0.004}, {cap_r, 0.022}}, kPartUv, kPartUv);
   lay_down(cap);
   append(tube.mesh, cap, make_pose({-0.02, 0.0, radii[0].y()}, 0.0));
-  const Colour ground = rng.uniform() < 0.6 ? kWhite : vivid(rng);
-  const Colour accent = vivid(rng);
+  const RgbColour ground = rng.uniform() < 0.6 ? kWhite : vivid(rng);
+  const RgbColour accent = vivid(rng);
   tube.texture = make_texture(ground, ground, rng.uniform() < 0.5 ? kWhite : accent);
   const double edge = rng.uniform(0.3, 0.5);
   paint(tube.texture, part_of(kWall, 0.0, 0.0, 1.0, 0.14), accent);
@@ -215,7 +215,7 @@ GeneratedObject make_instant_noodles(Rng& rng) {
   add_solid(cup.mesh, Profile{{base * r, 0.0}, {0.5 * (1.0 + base) * r, 0.5 * h}, {r, h - 0.005}},
             kWallUv, kInnerUv);
   add_solid(cup.mesh, Profile{{1.02 * r, h - 0.006}, rim, {0.96 * r, h}}, kPartUv, kPartUv);
-  const Colour ground = rng.uniform() < 0.35 ? kWhite : vivid(rng);
+  const RgbColour ground = rng.uniform() < 0.35 ? kWhite : vivid(rng);
   cup.texture =
       make_texture(ground, kWhite, rng.uniform() < 0.5 ? mix(ground, kWhite, 0.5) : kSteel);
   draw_label(cup.texture, part_of(kWall, 0.0, 0.12, 1.0, 0.86),
@@ -244,12 +244,12 @@ GeneratedObject make_food_bag(Rng& rng) {  // stands on a gusset, its print on -
   }
   GeneratedObject bag;
   append(bag.mesh, make_tube(path, radii, Vector3d::UnitX(), 36, kWallUv));
-  const Colour ground = vivid(rng);
-  const Colour accent = rng.uniform() < 0.5 ? kWhite : vivid(rng);
+  const RgbColour ground = vivid(rng);
+  const RgbColour accent = rng.uniform() < 0.5 ? kWhite : vivid(rng);
   bag.texture = make_texture(ground, ground, ground);
   paint(bag.texture, kWall, gradient(ground, mix(ground, accent, 0.35)));
   const std::string_view word = pick(kSnacks, rng);
-  const Colour food = hsv(rng.uniform(0.07, 0.14), 0.75, 0.92);
+  const RgbColour food = hsv(rng.uniform(0.07, 0.14), 0.75, 0.92);
   draw_text(bag.texture, part_of(kWall, 0.58, 0.6, 0.92, 0.8), word, accent);
   draw_text(bag.texture, part_of(kWall, 0.12, 0.68, 0.38, 0.8), word, accent);
   draw_disc(bag.texture, part_of(kWall, 0.6, 0.14, 0.9, 0.5), mix(ground, kWhite, 0.7));

@@ -44,7 +44,7 @@ void describe(const Image& image, png_image& header) {
 
 }  // namespace
 
-Colour hsv(double hue, double saturation, double brightness) {
+RgbColour hsv(double hue, double saturation, double brightness) {
   const auto channel = [&](double offset) {
     const double k = std::fmod(offset + (hue - std::floor(hue)) * 6.0, 6.0);
     return brightness * (1.0 - saturation * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
@@ -52,9 +52,11 @@ Colour hsv(double hue, double saturation, double brightness) {
   return {channel(5.0), channel(3.0), channel(1.0)};
 }
 
-Colour mix(const Colour& a, const Colour& b, double share_of_b) { return a + share_of_b * (b - a); }
+RgbColour mix(const RgbColour& a, const RgbColour& b, double share_of_b) {
+  return a + share_of_b * (b - a);
+}
 
-Image::Image(int width, int height, const Colour& fill) : width_px(width), height_px(height) {
+Image::Image(int width, int height, const RgbColour& fill) : width_px(width), height_px(height) {
   expects(width > 0 && height > 0, "an image has pixels");
   rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   paint(*this, UvRect{}, fill);
@@ -67,12 +69,12 @@ std::size_t first_byte(int width_px, int x_px, int y_px) {
 }
 }  // namespace
 
-Colour Image::at(int x_px, int y_px) const {
+RgbColour Image::at(int x_px, int y_px) const {
   const std::size_t i = first_byte(width_px, x_px, y_px);
-  return Colour(rgb[i], rgb[i + 1], rgb[i + 2]) / 255.0;
+  return RgbColour(rgb[i], rgb[i + 1], rgb[i + 2]) / 255.0;
 }
 
-void Image::set(int x_px, int y_px, const Colour& colour) {
+void Image::set(int x_px, int y_px, const RgbColour& colour) {
   const std::size_t i = first_byte(width_px, x_px, y_px);
   for (int c = 0; c < 3; ++c) {
     rgb[i + static_cast<std::size_t>(c)] =
@@ -92,7 +94,7 @@ void paint(Image& image, const UvRect& rect, const Pattern& pattern) {
   }
 }
 
-void paint(Image& image, const UvRect& rect, const Colour& colour) {
+void paint(Image& image, const UvRect& rect, const RgbColour& colour) {
   paint(image, rect, [&](double, double) { return colour; });
 }
 

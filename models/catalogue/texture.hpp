@@ -15,11 +15,11 @@
 namespace vantage {
 
 /// Red, green, blue in [0, 1].
-using Colour = Eigen::Vector3d;
+using RgbColour = Eigen::Vector3d;
 
 /// Hue in turns (0 red, 1/3 green, 2/3 blue), saturation and brightness in [0, 1].
-Colour hsv(double hue, double saturation, double brightness);
-Colour mix(const Colour& a, const Colour& b, double share_of_b);
+RgbColour hsv(double hue, double saturation, double brightness);
+RgbColour mix(const RgbColour& a, const RgbColour& b, double share_of_b);
 
 struct Image {
   int width_px = 0;
@@ -27,19 +27,19 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< row-major, top row first
 
   Image() = default;
-  Image(int width_px, int height_px, const Colour& fill);
+  Image(int width_px, int height_px, const RgbColour& fill);
 
-  [[nodiscard]] Colour at(int x_px, int y_px) const;
-  void set(int x_px, int y_px, const Colour& colour);  ///< clamps to [0, 1]
+  [[nodiscard]] RgbColour at(int x_px, int y_px) const;
+  void set(int x_px, int y_px, const RgbColour& colour);  ///< clamps to [0, 1]
   bool operator==(const Image&) const = default;
 };
 
 /// A colour at fractions (s, t) of a rectangle, s to the right and t up.
-using Pattern = std::function<Colour(double s, double t)>;
+using Pattern = std::function<RgbColour(double s, double t)>;
 
 /// Fills the pixels whose centres lie in `rect`.
 void paint(Image& image, const UvRect& rect, const Pattern& pattern);
-void paint(Image& image, const UvRect& rect, const Colour& colour);
+void paint(Image& image, const UvRect& rect, const RgbColour& colour);
 
 /// Brightness noise of standard deviation `sigma` in blocks of `block_px`.
 void speckle(Image& image, const UvRect& rect, double sigma, int block_px, Rng& rng);

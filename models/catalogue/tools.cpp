@@ -39,10 +39,10 @@ GeneratedObject make_hammer(Rng& rng) {
                                      Vector2d(0.012, 0.0),    Vector2d(0.0, 0.008)};
   append(hammer.mesh, make_extrusion(claw, 1.5 * head_r, 0.002, {kPartUv, kPartUv, kPartUv}),
          make_pose(p_head - Vector3d(0, 0, 0.75 * head_r), 0.0));
-  const Colour grip = rng.uniform() < 0.4 ? kBlack : vivid(rng);
+  const RgbColour grip = rng.uniform() < 0.4 ? kBlack : vivid(rng);
   hammer.texture = make_texture(grip, kSteel, 0.75 * kSteel);
   paint(hammer.texture, part_of(kWall, 0.0, 0.42, 1.0, 1.0),
-        wood(Colour(0.83, 0.65, 0.42), Colour(0.55, 0.36, 0.18), 1, rng));
+        wood(RgbColour(0.83, 0.65, 0.42), RgbColour(0.55, 0.36, 0.18), 1, rng));
   paint(hammer.texture, part_of(kWall, 0.0, 0.05, 1.0, 0.38), bands(grip, 0.7 * grip, 8));
   hammer.mass_kg = rng.uniform(0.5, 0.75);
   return hammer;
@@ -67,7 +67,7 @@ GeneratedObject make_screwdriver(Rng& rng) {
           {shaft_r, grip - 0.002}, {shaft_r, grip + 0.92 * shaft}, {0.5 * shaft_r, grip + shaft}},
       kPartUv, kPartUv);
   lay_down(driver.mesh);
-  const Colour ground = vivid(rng);
+  const RgbColour ground = vivid(rng);
   driver.texture = make_texture(ground, ground, kSteel);
   paint(driver.texture, part_of(kWall, 0.0, 0.15, 1.0, 0.75),
         stripes(ground, rng.uniform() < 0.5 ? kBlack : vivid(rng), 6));
@@ -130,8 +130,8 @@ GeneratedObject make_flashlight(Rng& rng) {
   add_lathe(torch.mesh, Profile{bezel, lens}, kAround, kPartUv);
   add_lathe(torch.mesh, Profile{lens, {0.0, length - 0.006}}, kAround, kPartUv);
   lay_down(torch.mesh);
-  const Colour body = rng.uniform() < 0.3 ? kBlack : vivid(rng);
-  torch.texture = make_texture(body, mix(body, kBlack, 0.5), Colour(0.98, 0.95, 0.75));
+  const RgbColour body = rng.uniform() < 0.3 ? kBlack : vivid(rng);
+  torch.texture = make_texture(body, mix(body, kBlack, 0.5), RgbColour(0.98, 0.95, 0.75));
   paint(torch.texture, part_of(kWall, 0.0, 0.15, 1.0, 0.55),
         checks(body, mix(body, kBlack, 0.5), 24, 16));
   paint(torch.texture, part_of(kWall, 0.0, 0.72, 1.0, 0.78), vivid(rng));
@@ -150,8 +150,8 @@ GeneratedObject make_sponge(Rng& rng) {
   append(sponge.mesh, make_rounded_box(foam_size, 0.005, 3, foam_uv));
   append(sponge.mesh, make_rounded_box(scourer_size, 0.004, 3, scourer_uv),
          make_pose({0.0, 0.0, 0.5 * foam_size.z() + 0.0035}, 0.0));
-  const Colour foam = any_colour({{0.0, 1.0}, {0.5, 0.8}, {0.95, 0.95}}, rng);
-  const Colour scourer = mix(dark(rng), kWhite, 0.2);
+  const RgbColour foam = any_colour({{0.0, 1.0}, {0.5, 0.8}, {0.95, 0.95}}, rng);
+  const RgbColour scourer = mix(dark(rng), kWhite, 0.2);
   sponge.texture = make_texture(foam, foam, scourer);
   speckle(sponge.texture, kWall, 0.08, 3, rng);
   speckle(sponge.texture, kPart, 0.1, 3, rng);

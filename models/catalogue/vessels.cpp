@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 6> kMugWords{"HELLO",  "TEA",   "BOSS",
                                                     "COFFEE", "ROBOT", "MOM"};
 
 /// Crockery: a pattern, a word or a plain glaze, with a rim in the second colour.
-void decorate(Image& image, const Colour& ground, const Colour& accent, Rng& rng) {
+void decorate(Image& image, const RgbColour& ground, const RgbColour& accent, Rng& rng) {
   const double kind = rng.uniform();
   if (kind < 0.55) {
     paint(image, part_of(kWall, 0.0, 0.15, 1.0, 0.85), any_pattern(ground, accent, rng));
@@ -28,9 +28,9 @@ void decorate(Image& image, const Colour& ground, const Colour& accent, Rng& rng
 }
 
 /// Ceramic colours: pale outside with a vivid accent, or the other way round.
-std::array<Colour, 2> glaze(Rng& rng) {
-  const Colour a = pale(rng);
-  const Colour b = vivid(rng);
+std::array<RgbColour, 2> glaze(Rng& rng) {
+  const RgbColour a = pale(rng);
+  const RgbColour b = vivid(rng);
   if (rng.uniform() < 0.5) return {a, b};
   return {b, a};
 }
@@ -110,8 +110,8 @@ GeneratedObject make_cup(Rng& rng) {  // of paper, with a lid or without
   const Profile outer{{0.7 * r, 0.0}, {0.8 * r, 0.34 * h}, {0.9 * r, 0.67 * h}, {r, h}};
   const bool lid = rng.uniform() < 0.5;
   GeneratedObject cup;
-  const Colour ground = rng.uniform() < 0.5 ? kWhite : Colour(0.66, 0.47, 0.30);
-  const Colour accent = vivid(rng);
+  const RgbColour ground = rng.uniform() < 0.5 ? kWhite : RgbColour(0.66, 0.47, 0.30);
+  const RgbColour accent = vivid(rng);
   cup.texture = make_texture(ground, kWhite, dark(rng));
   if (lid) {
     add_solid(cup.mesh, outer, kWallUv, kInnerUv);
@@ -142,10 +142,10 @@ GeneratedObject make_tumbler(Rng& rng) {
       3);
   GeneratedObject glass;
   add_vessel(glass.mesh, outer, 0.003, 0.012);
-  const Colour tint = any_colour({{0.0, 1.0}, {0.15, 0.55}, {0.9, 0.9}}, rng);
+  const RgbColour tint = any_colour({{0.0, 1.0}, {0.15, 0.55}, {0.9, 0.9}}, rng);
   glass.texture = make_texture(tint, mix(tint, kWhite, 0.3), tint);
   paint(glass.texture, part_of(kWall, 0.0, 0.0, 1.0, 0.12), mix(tint, kBlack, 0.35));
-  const Colour accent = vivid(rng);
+  const RgbColour accent = vivid(rng);
   if (rng.uniform() < 0.6) {
     paint(glass.texture, part_of(kWall, 0.0, 0.55, 1.0, 0.85), any_pattern(tint, accent, rng));
   } else {

@@ -52,7 +52,7 @@ struct Running {
 
 class Sweep {
  public:
-  Sweep(const std::vector<PlannedEpisode>& plan, const SweepOptions& options)
+  Sweep(const std::vector<PlannedEpisode>& plan, const StudySweepOptions& options)
       : plan_(plan),
         options_(options),
         states_(episode_states(options.directory, plan)),
@@ -147,7 +147,7 @@ class Sweep {
   }
 
   const std::vector<PlannedEpisode>& plan_;
-  const SweepOptions& options_;
+  const StudySweepOptions& options_;
   ResultCheck check_;
   std::vector<EpisodeState> states_;
   std::list<std::size_t> open_;
@@ -182,7 +182,7 @@ std::vector<PlannedEpisode> shard_of(std::vector<PlannedEpisode> plan, const Sha
   return part;
 }
 
-void prepare_study_folder(const Study& study, const SweepOptions& options) {
+void prepare_study_folder(const Study& study, const StudySweepOptions& options) {
   const fs::path file = options.directory / "study.yaml";
   std::error_code error;
   if (fs::exists(file, error)) {
@@ -199,7 +199,7 @@ void prepare_study_folder(const Study& study, const SweepOptions& options) {
 }
 
 std::vector<EpisodeState> run_sweep(const std::vector<PlannedEpisode>& plan,
-                                    const SweepOptions& options) {
+                                    const StudySweepOptions& options) {
   return Sweep(plan, options).run();
 }
 

@@ -20,7 +20,7 @@ struct Shard {
 Shard parse_shard(const std::string& text);
 std::vector<PlannedEpisode> shard_of(std::vector<PlannedEpisode> plan, const Shard& shard);
 
-struct SweepOptions {
+struct StudySweepOptions {
   std::filesystem::path directory;
   int jobs = 1;            ///< episodes at a time; with more than one each runs on one thread
   bool overwrite = false;  ///< go on in a folder that holds another study
@@ -28,11 +28,11 @@ struct SweepOptions {
 
 /// Makes the folder and writes study.yaml into it.
 /// @throws ConfigError if it holds another study and `overwrite` is not set, OutputError.
-void prepare_study_folder(const Study& study, const SweepOptions& options);
+void prepare_study_folder(const Study& study, const StudySweepOptions& options);
 
 /// Runs what has no result yet, and returns the states of all of `plan`. Ends early, its children
 /// interrupted and waited for, on SIGINT and SIGTERM (see interrupt_signal()).
 std::vector<EpisodeState> run_sweep(const std::vector<PlannedEpisode>& plan,
-                                    const SweepOptions& options);
+                                    const StudySweepOptions& options);
 
 }  // namespace vantage

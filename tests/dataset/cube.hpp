@@ -10,10 +10,11 @@ namespace vantage::support {
 
 /// Faces +x red, -x green, +y blue, -y yellow, +z white, -z black.
 inline TurntableObject coloured_cube() {
-  const std::array<Colour, 6> colours{Colour(1, 0, 0), Colour(0, 1, 0), Colour(0, 0, 1),
-                                      Colour(1, 1, 0), Colour(1, 1, 1), Colour(0, 0, 0)};
+  const std::array<RgbColour, 6> colours{RgbColour(1, 0, 0), RgbColour(0, 1, 0),
+                                         RgbColour(0, 0, 1), RgbColour(1, 1, 0),
+                                         RgbColour(1, 1, 1), RgbColour(0, 0, 0)};
   const BoxUv uv = unfold_box(Eigen::Vector3d::Constant(0.1));
-  Image texture(256, 256, Colour::Zero());
+  Image texture(256, 256, RgbColour::Zero());
   for (std::size_t i = 0; i < 6; ++i) paint(texture, shrink(uv[i], -0.004), colours[i]);
   const TriangleMesh mesh = make_rounded_box(Eigen::Vector3d::Constant(0.1), 0.001, 2, uv);
   return {to_obj(mesh), png_bytes(texture), 0.0, bounds(mesh)};

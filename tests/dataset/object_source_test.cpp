@@ -36,7 +36,7 @@ class Scans : public testing::Test {
       std::filesystem::create_directories(root_ / name);
       write_file(root_.path() / name / "model.obj",
                  "# scan\nv 0 0 0.1\nv 0.2 0 0.1\r\nv 0 -0.3 0.1\nv 0\t0 0.5\nvn 0 0 9\nf 1 2 3\n");
-      write_png(Image(8, 8, Colour::Ones()), root_.path() / name / "texture.png");
+      write_png(Image(8, 8, RgbColour::Ones()), root_.path() / name / "texture.png");
     }
     std::filesystem::create_directories(root_ / "empty");
     options_.models = root_.path();

@@ -7,8 +7,8 @@
 namespace vantage {
 namespace {
 
-const Colour kInk(0, 0, 0);
-const Colour kPaper(1, 1, 1);
+const RgbColour kInk(0, 0, 0);
+const RgbColour kPaper(1, 1, 1);
 
 std::string as_ascii(const Image& image) {
   std::string text;

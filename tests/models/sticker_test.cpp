@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-const Colour kRed{1, 0, 0};
-const Colour kGreen{0, 1, 0};
+const RgbColour kRed{1, 0, 0};
+const RgbColour kGreen{0, 1, 0};
 
 /// Radius 5 cm, 10 cm high, base at z = 0.
 GeneratedObject cylinder() {

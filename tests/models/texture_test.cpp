@@ -10,15 +10,15 @@
 namespace vantage {
 namespace {
 
-const Colour kRed(1, 0, 0);
-const Colour kBlue(0, 0, 1);
+const RgbColour kRed(1, 0, 0);
+const RgbColour kBlue(0, 0, 1);
 
 TEST(Texture, HsvHitsThePrimaries) {
   EXPECT_TRUE(hsv(0.0, 1.0, 1.0).isApprox(kRed, 1e-12));
-  EXPECT_TRUE(hsv(1.0 / 3.0, 1.0, 1.0).isApprox(Colour(0, 1, 0), 1e-12));
+  EXPECT_TRUE(hsv(1.0 / 3.0, 1.0, 1.0).isApprox(RgbColour(0, 1, 0), 1e-12));
   EXPECT_TRUE(hsv(2.0 / 3.0, 1.0, 1.0).isApprox(kBlue, 1e-12));
   EXPECT_TRUE(hsv(-1.0 / 3.0, 1.0, 1.0).isApprox(kBlue, 1e-12));
-  EXPECT_TRUE(hsv(0.77, 0.0, 0.4).isApprox(Colour::Constant(0.4), 1e-12));
+  EXPECT_TRUE(hsv(0.77, 0.0, 0.4).isApprox(RgbColour::Constant(0.4), 1e-12));
 }
 
 TEST(Texture, PaintFillsTheRectangleOnly) {
@@ -38,14 +38,14 @@ TEST(Texture, PaintFillsTheRectangleOnly) {
 
 TEST(Texture, PatternsSeeFractionsOfTheRectangleUpwards) {
   Image image(2, 4, kBlue);
-  paint(image, UvRect{}, [](double s, double t) { return Colour(s, t, 0.0); });
+  paint(image, UvRect{}, [](double s, double t) { return RgbColour(s, t, 0.0); });
   EXPECT_NEAR(image.at(0, 0).y(), 0.875, 1.0 / 255.0);
   EXPECT_NEAR(image.at(1, 3).y(), 0.125, 1.0 / 255.0);
   EXPECT_NEAR(image.at(1, 3).x(), 0.75, 1.0 / 255.0);
 }
 
 TEST(Texture, SpeckleDependsOnTheStreamOnly) {
-  const Image plain(16, 16, Colour::Constant(0.5));
+  const Image plain(16, 16, RgbColour::Constant(0.5));
   Image a = plain;
   Image b = plain;
   Rng rng_a(7);
@@ -60,7 +60,7 @@ TEST(Texture, PngKeepsEveryPixel) {
   const support::TemporaryDirectory directory;
   Image image(31, 17, kBlue);
   Rng rng(3);
-  paint(image, UvRect{}, [&](double s, double t) { return Colour(s, t, rng.uniform()); });
+  paint(image, UvRect{}, [&](double s, double t) { return RgbColour(s, t, rng.uniform()); });
   write_png(image, directory / "image.png");
   EXPECT_EQ(read_png(directory / "image.png"), image);
 }

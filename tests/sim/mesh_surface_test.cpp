@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-double area(const TriangleMesh& mesh) {
+double area(const SurfaceMesh& mesh) {
   double sum = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const auto p = [&](int i) { return mesh.vertices_m[static_cast<std::size_t>(i)]; };
@@ -21,7 +21,7 @@ double area(const TriangleMesh& mesh) {
 }
 
 /// A surface without holes: every edge belongs to an even number of triangles.
-bool is_closed(const TriangleMesh& mesh) {
+bool is_closed(const SurfaceMesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& triangle : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
