@@ -1,15 +1,22 @@
 /// The loop of every task: the dissertation's figure, one part a line.
 #pragma once
 
+#include <string>
+
 #include "src/episode/interrupt.hpp"
 
 namespace vantage {
 
-enum class EpisodeStatus { completed, diverged, interrupted };
+enum class EpisodeStatus { completed, failed, diverged, interrupted };
+
+/// Ends an episode from within: its task cannot be done any more. A recorded result.
+struct EpisodeFailed : Error {
+  explicit EpisodeFailed(const std::string& message) : Error(ExitCode::goal_failed, message) {}
+};
 
 /// Runs `parts` until it says it is finished. A task (next best view, recognition, trajectory) is a
 /// type with these eight members.
-/// @throws Interrupted, DivergedError
+/// @throws Interrupted, DivergedError, EpisodeFailed
 template <class Parts>
 void run_episode(Parts& parts) {
   while (true) {

@@ -1,0 +1,111 @@
+#include "src/episode/object_looks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vantage {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
+}  // namespace
+
+double bearing_from(const Eigen::Vector3d& p_world_object_m, const Pose& T_world_camera) {
+  const Eigen::Vector3d d = T_world_camera.translation() - p_world_object_m;
+  return std::atan2(d.y(), d.x());
+}
+
+int look_direction(double bearing_rad, int directions) {
+  const auto sector = static_cast<int>(std::lround(bearing_rad / kTurn_rad * directions));
+  return (sector % directions + directions) % directions;
+}
+
+ObjectLooks::ObjectLooks(const Recogniser& recogniser, const LookOptions& options,
+                         const TransitionModel& transition)
+    : recogniser_(recogniser), options_(options) {
+  recognition_.all_features = true;
+  recognition_.transition = transition;
+}
+
+const LookedAtObject* ObjectLooks::find(int id) const {
+  const auto found = std::ranges::find(objects_, id, &LookedAtObject::id);
+  return found == objects_.end() ? nullptr : &*found;
+}
+
+LookedAtObject& ObjectLooks::of(int id) {
+  const auto found = std::ranges::find(objects_, id, &LookedAtObject::id);
+  expects(found != objects_.end(), "an object that was found");
+  return *found;
+}
+
+void ObjectLooks::found(int id, const Eigen::Vector3d& p_world_m) {
+  if (find(id) == nullptr) {
+    objects_.push_back({.id = id,
+                        .p_world_m = p_world_m,
+                        .recognition = begin_recognition(recogniser_),
+                        .used = std::vector<bool>(static_cast<std::size_t>(options_.directions)),
+                        .looks = {}});
+  }
+  of(id).p_world_m = p_world_m;
+}
+
+void ObjectLooks::forget(int id) {
+  std::erase_if(objects_, [id](const LookedAtObject& object) { return object.id == id; });
+}
+
+bool ObjectLooks::wants(int id, const ObjectSighting& sighting, const Pose& T_world_camera) const {
+  const LookedAtObject* object = find(id);
+  if (object == nullptr || !sighting.whole || sighting.distance_m > options_.range_m) return false;
+  const int direction =
+      look_direction(bearing_from(object->p_world_m, T_world_camera), options_.directions);
+  return !object->used[static_cast<std::size_t>(direction)] &&
+         (options_.look_at_known || !known(*object));
+}
+
+const ObjectLook& ObjectLooks::take(int id, const ObjectSighting& sighting, const ObjectView& view,
+                                    const Pose& T_world_camera, double time_s, Rng& rng) {
+  LookedAtObject& object = of(id);
+  const double bearing_rad = bearing_from(object.p_world_m, T_world_camera);
+  if (!object.looks.empty()) {
+    moved(recogniser_, recognition_, wrap_angle(bearing_rad - object.looks.back().bearing_rad),
+          object.recognition);
+  }
+  take_view(recogniser_, recognition_, extract_from(recogniser_, view), bearing_rad,
+            object.recognition, rng);
+  const Eigen::Vector3d up = T_world_camera.translation() - sighting.p_world_object_m;
+  ObjectLook look{.time_s = time_s,
+                  .bearing_rad = bearing_rad,
+                  .direction = look_direction(bearing_rad, options_.directions),
+                  .distance_m = sighting.distance_m,
+                  .elevation_rad = std::atan2(up.z(), up.head<2>().norm()),
+                  .pixels = sighting.pixels,
+                  .report = object.recognition.views.back(),
+                  .entropy_nats = entropy_nats(object),
+                  .estimate = estimate(object),
+                  .map_probability = map_probability(object),
+                  .T_world_camera = T_world_camera};
+  object.used[static_cast<std::size_t>(look.direction)] = true;
+  object.looks.push_back(std::move(look));
+  ++total_;
+  return object.looks.back();
+}
+
+double ObjectLooks::entropy_nats(const LookedAtObject& object) const {
+  return std::numbers::ln2 * object_entropy_bits(recogniser_.states, object.recognition.belief);
+}
+
+bool ObjectLooks::known(const LookedAtObject& object) const {
+  return entropy_nats(object) < options_.known_below_nats;
+}
+
+const std::string& ObjectLooks::estimate(const LookedAtObject& object) const {
+  const int best = most_probable_object(recogniser_.states, object.recognition.belief);
+  return recogniser_.states.objects[static_cast<std::size_t>(best)];
+}
+
+double ObjectLooks::map_probability(const LookedAtObject& object) const {
+  return p_object(recogniser_.states, object.recognition.belief).maxCoeff();
+}
+
+}  // namespace vantage

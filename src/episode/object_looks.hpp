@@ -1,0 +1,97 @@
+/// What is believed of the objects that were found in flight, and which looks at them count.
+/// [Potthast2016, 5.3]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+#include "src/geometry/object_sighting.hpp"
+#include "src/geometry/pose.hpp"
+#include "src/recognition/recognition.hpp"
+
+namespace vantage {
+
+/// Which looks are taken as observations. One a direction, of objects that are not known yet.
+struct LookOptions {
+  double range_m = 2.0;            ///< camera to object; higher sees more and worse
+  int directions = 8;              ///< round an object, evenly; direction 0 is along world x
+  double known_below_nats = 0.1;   ///< entropy of the object below which it is known
+  bool look_at_known = false;      ///< go on observing what is known
+  void fields(auto&& f) {
+    f("range_m", range_m, Range{0.0, 20.0, true});
+    f("directions", directions, between(2, 360));
+    f("known_below_nats", known_below_nats, at_least(0.0));
+    f("look_at_known", look_at_known);
+  }
+};
+
+/// An observation.
+struct ObjectLook {
+  double time_s = 0.0;       ///< simulated
+  double bearing_rad = 0.0;  ///< from the object to the camera, world
+  int direction = 0;         ///< that it uses up
+  double distance_m = 0.0;
+  double elevation_rad = 0.0;  ///< of the camera above the object
+  int pixels = 0;              ///< that show the object
+  ViewReport report;
+  double entropy_nats = 0.0;  ///< of the object, after it
+  std::string estimate;       ///< the most probable object, after it
+  double map_probability = 0.0;
+  Pose T_world_camera = Pose::Identity();  ///< as estimated
+};
+
+/// One object that was found.
+struct LookedAtObject {
+  int id = 0;  ///< of FoundObject
+  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
+  Recognition recognition;
+  std::vector<bool> used;  ///< directions
+  std::vector<ObjectLook> looks;
+};
+
+class ObjectLooks {
+ public:
+  /// @param recogniser outlives this
+  ObjectLooks(const Recogniser& recogniser, const LookOptions& options,
+              const TransitionModel& transition);
+
+  /// Where the object of that id is believed to be; the first time is the first one hears of it.
+  void found(int id, const Eigen::Vector3d& p_world_m);
+  /// It turned out to be another one.
+  void forget(int id);
+
+  /// Whether a look at the object from there would be an observation.
+  [[nodiscard]] bool wants(int id, const ObjectSighting& sighting,
+                           const Pose& T_world_camera) const;
+  /// Takes it. @param rng of feature choices, of which there are none as long as all are extracted
+  const ObjectLook& take(int id, const ObjectSighting& sighting, const ObjectView& view,
+                         const Pose& T_world_camera, double time_s, Rng& rng);
+
+  [[nodiscard]] const std::vector<LookedAtObject>& objects() const { return objects_; }
+  [[nodiscard]] double entropy_nats(const LookedAtObject& object) const;
+  [[nodiscard]] bool known(const LookedAtObject& object) const;
+  [[nodiscard]] int total() const { return total_; }  ///< observations, of forgotten ones too
+  [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
+  /// The most probable object.
+  [[nodiscard]] const std::string& estimate(const LookedAtObject& object) const;
+  [[nodiscard]] double map_probability(const LookedAtObject& object) const;
+
+ private:
+  [[nodiscard]] LookedAtObject& of(int id);
+  [[nodiscard]] const LookedAtObject* find(int id) const;
+
+  const Recogniser& recogniser_;
+  LookOptions options_;
+  RecognitionOptions recognition_;
+  std::vector<LookedAtObject> objects_;
+  int total_ = 0;
+};
+
+/// Of an object, from there.
+double bearing_from(const Eigen::Vector3d& p_world_object_m, const Pose& T_world_camera);
+/// The direction that a bearing falls into: direction i is the sector round i turns / directions.
+int look_direction(double bearing_rad, int directions);
+
+}  // namespace vantage
