@@ -13,6 +13,8 @@
 #include "src/episode/office_exploration.hpp"
 #include "src/episode/recognition_metrics.hpp"
 #include "src/episode/report.hpp"
+#include "src/episode/flight_layout.hpp"
+#include "src/episode/trajectory_metrics.hpp"
 
 namespace vantage {
 namespace {
@@ -21,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr auto kRunFiles = std::to_array<std::string_view>(
     {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
      "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
-     "voxels.bin", "story.bin", "video.mp4", "report.html", "log.txt", "frames", "views"});
+     "voxels.bin", "story.bin", "looks.csv", "video.mp4", "report.html", "log.txt", "frames", "views"});
 
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {
@@ -65,17 +67,21 @@ Ending run_to_end(Parts& parts) {
   }
 }
 
-template <class Parts>
+template <class Rig, class Parts>
 nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
-                                  const Parts& parts) {
+                                  const Rig&, const Parts& parts) {
   const auto& belief = parts.belief();
   return metrics_json(
       resolved, summary,
       {belief.grid(), belief.hazard(), parts.truth(), parts.scans(), parts.views()});
 }
 nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
-                                  const ObjectRecognition& parts) {
+                                  const FlightRig&, const ObjectRecognition& parts) {
   return recognition_metrics(resolved, summary, parts);
+}
+nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
+                                  const TrajectoryRig& rig, const TrajectoryFlight& parts) {
+  return trajectory_metrics(resolved, summary, rig, parts);
 }
 
 template <class Parts>
@@ -83,6 +89,7 @@ void write_learnt(Recorder& recorder, const Parts& parts) {
   recorder.write_map(parts.belief().grid(), parts.belief().cloud());
 }
 void write_learnt(RecognitionRecorder&, const ObjectRecognition&) {}
+void write_learnt(TrajectoryRecorder&, const TrajectoryFlight&) {}
 
 /// An episode that is about to run.
 struct Running {
@@ -108,7 +115,7 @@ void run_parts(const Running& run, auto& rig, auto& recorder, auto& parts) {
   recorder.commit();
   RunOutcome& outcome = run.outcome;
   outcome.code = ending.code;
-  outcome.metrics = json_text(metrics_of(run.resolved, summary, parts));
+  outcome.metrics = json_text(metrics_of(run.resolved, summary, rig, parts));
   write_file(outcome.directory / "config.yaml", episode_yaml(run.resolved.episode));
   write_file(outcome.directory / "manifest.json",
              manifest_json(run.resolved, run.options.command, summary));
@@ -145,6 +152,17 @@ void run_recognition(const ResolvedEpisode& resolved, const RunOptions& options,
   run_parts(run, rig, recorder, parts);
 }
 
+void run_trajectory(const ResolvedEpisode& resolved, const RunOptions& options,
+                    RunOutcome& outcome) {
+  TrajectoryRig rig(resolved, read_flight_layout(resolved.scene).path.front());
+  const Recogniser recogniser = load_trajectory_recogniser(resolved);
+  const Running run = begin(resolved, options, outcome);
+  TrajectoryRecorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
+                              options.spectator);
+  TrajectoryFlight parts(resolved, recogniser, rig, recorder);
+  run_parts(run, rig, recorder, parts);
+}
+
 }  // namespace
 
 RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
@@ -153,7 +171,9 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
       options.directory.empty()
           ? fs::path("out") / fmt::format("{}-{}", resolved.name, resolved.episode.seed)
           : options.directory;
-  if (resolved.episode.flies()) {
+  if (resolved.episode.flies_trajectory()) {
+    run_trajectory(resolved, options, outcome);
+  } else if (resolved.episode.flies()) {
     run_recognition(resolved, options, outcome);
   } else if (resolved.episode.in_office()) {
     run_mapping<OfficeRig, OfficeExploration>(resolved, options, outcome);

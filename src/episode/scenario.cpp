@@ -32,10 +32,12 @@ void check_flight(const Episode& episode) {
 
 /// A model that is not there yet is missed where it is needed: to replay an episode it is not.
 void settle_recognition_model(ResolvedEpisode& resolved, const std::filesystem::path& base) {
-  std::string& model = resolved.episode.recognition.model;
-  if (!resolved.episode.flies() || model.empty()) return;
+  Episode& episode = resolved.episode;
+  std::string& model =
+      episode.flies_trajectory() ? episode.trajectory.model : episode.recognition.model;
+  if (!episode.flies() || model.empty()) return;
   try {
-    model = lasting_name(find_input(model, base, "recognition.model"));
+    model = lasting_name(find_input(model, base, episode.task + ".model"));
   } catch (const InputError&) {
     return;
   }
@@ -61,9 +63,9 @@ void MetricsOptions::check() const {
 }
 
 void Episode::check() const {
-  if (task != "next_best_view" && task != "recognition") {
-    throw ConfigError(
-        fmt::format("task: unknown task '{}'; known: next_best_view, recognition", task));
+  if (task != "next_best_view" && !flies()) {
+    throw ConfigError(fmt::format(
+        "task: unknown task '{}'; known: next_best_view, recognition, trajectory", task));
   }
   if (flies()) {
     check_flight(*this);
@@ -126,6 +128,7 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
 }
 
 std::string method_name(const Episode& episode) {
+  if (episode.flies_trajectory()) return trajectory_method_name(episode.trajectory);
   if (episode.flies()) return strategy_label(episode.recognition.decision.views.choice);
   if (std::holds_alternative<GreedyGain>(episode.choice)) return strategy_label(episode.gain);
   const std::string choice = strategy_label(episode.choice);

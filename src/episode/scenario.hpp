@@ -25,6 +25,7 @@
 #include "src/core/fields.hpp"
 #include "src/episode/exploration_options.hpp"
 #include "src/episode/recognition_task.hpp"
+#include "src/episode/trajectory_task.hpp"
 #include "src/perception/registration.hpp"
 #include "src/perception/table_extraction.hpp"
 
@@ -89,7 +90,7 @@ struct RecordingOptions {
 };
 
 struct Episode {
-  std::string task = "next_best_view";                       ///< or recognition
+  std::string task = "next_best_view";                       ///< or recognition, trajectory
   std::string setting = "table_top";                         ///< or office
   std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF
   std::uint64_t seed = 1;                                    ///< of every random stream
@@ -118,6 +119,7 @@ struct Episode {
   MetricsOptions metrics;
   RecordingOptions recording;
   RecognitionTask recognition;
+  TrajectoryTask trajectory;
 
   void fields(auto&& f) {
     f("task", task);
@@ -149,10 +151,12 @@ struct Episode {
     f("metrics", metrics);
     f("recording", recording);
     f("recognition", recognition);
+    f("trajectory", trajectory);
   }
   void check() const;  ///< what concerns more than one part
 
-  [[nodiscard]] bool flies() const { return task == "recognition"; }
+  [[nodiscard]] bool flies_trajectory() const { return task == "trajectory"; }
+  [[nodiscard]] bool flies() const { return task == "recognition" || flies_trajectory(); }
   [[nodiscard]] bool in_office() const { return setting == "office"; }
   [[nodiscard]] GridFrame grid_frame() const {
     return make_grid_frame(map.centre_m, map.size_m, map.cells);
@@ -175,7 +179,8 @@ ResolvedEpisode load_episode(const std::filesystem::path& path,
 ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::path& path);
 
 /// "adaptive" for a greedy choice by that gain, "random" or "oracle" for a choice that looks at
-/// none, "gain_over_distance of simple" for another that does.
+/// none, "gain_over_distance of simple" for another that does. In trajectory flight the planner's
+/// label, and what its cost leaves out.
 std::string method_name(const Episode& episode);
 
 std::string episode_yaml(const Episode& episode);

@@ -7,11 +7,13 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
+#include "src/episode/flight_layout.hpp"
 #include "src/episode/flight_rig.hpp"
 #include "src/episode/object_recognition.hpp"
 #include "src/episode/office_rig.hpp"
 #include "src/episode/start_check.hpp"
 #include "src/episode/tabletop_rig.hpp"
+#include "src/episode/trajectory_flight.hpp"
 
 namespace vantage {
 namespace {
@@ -49,7 +51,10 @@ Validation validation_of(const std::function<Validation()>& check) {
 
 void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
   try {
-    if (resolved.episode.flies()) {
+    if (resolved.episode.flies_trajectory()) {
+      const TrajectoryRig rig(resolved, read_flight_layout(resolved.scene).path.front());
+      load_trajectory_recogniser(resolved);
+    } else if (resolved.episode.flies()) {
       const FlightRig rig(resolved);
       load_episode_recogniser(resolved);
     } else if (resolved.episode.in_office()) {

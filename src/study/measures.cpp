@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 using Scalar = std::optional<double>;
 
 bool recognises(const Json& metrics) { return metrics.contains("observations"); }
+bool flies_path(const Json& metrics) { return metrics.contains("objects"); }
+bool maps(const Json& metrics) { return metrics.contains("scans"); }
 
 Curve step_values(const Json& steps, const char* key) {
   Curve values;
@@ -24,7 +26,7 @@ Curve step_values(const Json& steps, const char* key) {
 
 /// Of each scan; none where nothing is mapped.
 Curve scan_values(const Json& metrics, const char* key) {
-  return recognises(metrics) ? Curve{} : step_values(metrics.at("scans"), key);
+  return maps(metrics) ? step_values(metrics.at("scans"), key) : Curve{};
 }
 /// Of each view of an object; none where nothing is recognised.
 Curve view_values(const Json& metrics, const char* key) {
@@ -48,7 +50,7 @@ Curve distance_m(const Json& metrics) {
 
 std::vector<std::pair<std::string, Curve>> prediction_errors(const Json& metrics) {
   std::vector<std::pair<std::string, Curve>> errors;
-  if (recognises(metrics)) return errors;
+  if (!maps(metrics)) return errors;
   const Json& scans = metrics.at("scans");
   for (std::size_t k = 1; k < scans.size(); ++k) {
     const double actual = scans[k].at("actual_new_cells").get<double>();
@@ -98,6 +100,19 @@ Scalar of_recognition(const Json& metrics, const char* key) {
   return value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
 }
 
+/// A number of a flight along a path; `inner` of an object of numbers.
+Scalar of_path_flight(const Json& metrics, const char* key, const char* inner = nullptr) {
+  if (!flies_path(metrics)) return {};
+  const Json& value = inner == nullptr ? metrics.at(key) : metrics.at(key).at(inner);
+  return value.get<double>();
+}
+
+/// Kinds of collisions are not told apart: one ends the flight.
+Scalar ended_by_collision(const Json& metrics) {
+  if (!flies_path(metrics)) return {};
+  return metrics.at("collisions").get<double>() > 0.0 ? 1.0 : 0.0;
+}
+
 struct ScalarMeasure {
   MeasureName name;
   Scalar (*of)(const Json& metrics, const Episode& episode);
@@ -110,12 +125,12 @@ constexpr auto kScalars = std::to_array<ScalarMeasure>({
      own_prediction_error},
     {{"scans", "scans taken"},
      [](const Json& m, const Episode&) -> Scalar {
-       if (recognises(m)) return {};
+       if (!maps(m)) return {};
        return static_cast<double>(m.at("scans").size());
      }},
     {{"fallbacks", "views out of reach"},
      [](const Json& m, const Episode&) -> Scalar {
-       if (recognises(m)) return {};
+       if (!maps(m)) return {};
        double count = 0.0;
        for (const Json& scan : m.at("scans")) count += scan.at("fallback").get<bool>() ? 1.0 : 0.0;
        return count;
@@ -126,11 +141,11 @@ constexpr auto kScalars = std::to_array<ScalarMeasure>({
      [](const Json& m, const Episode&) -> Scalar { return m.at("collisions").get<double>(); }},
     {{"precision", "precision of occupied cells"},
      [](const Json& m, const Episode&) -> Scalar {
-       return recognises(m) ? Scalar{} : m.at("map").at("precision").get<double>();
+       return maps(m) ? m.at("map").at("precision").get<double>() : Scalar{};
      }},
     {{"recall", "recall of occupied cells"},
      [](const Json& m, const Episode&) -> Scalar {
-       return recognises(m) ? Scalar{} : m.at("map").at("recall").get<double>();
+       return maps(m) ? m.at("map").at("recall").get<double>() : Scalar{};
      }},
     {{"pose_error_m", "mean position error after registration, m"},
      [](const Json& m, const Episode&) { return mean_of(scan_values(m, "pose_error_m")); }},
@@ -161,6 +176,34 @@ constexpr auto kScalars = std::to_array<ScalarMeasure>({
      [](const Json& m, const Episode&) { return mean_of(view_values(m, "position_error_m")); }},
     {{"view_angle_error_rad", "mean angle error of a view, rad"},
      [](const Json& m, const Episode&) { return mean_of(view_values(m, "angle_error_rad")); }},
+    {{"accuracy", "objects of the scene recognised, share"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "accuracy"); }},
+    {{"observations", "observations of all objects"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "observations_total"); }},
+    {{"mean_entropy_nats", "mean entropy of the scene's objects at the end, nats"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "mean_entropy_nats"); }},
+    {{"objects_found", "objects of the scene found"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "objects_found"); }},
+    {{"false_objects", "objects found where there are none"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "false_objects"); }},
+    {{"flight_time_s", "flight time, s"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "flight_time_s"); }},
+    {{"minimum_clearance_m", "minimum clearance, m"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "minimum_clearance_m"); }},
+    {{"collided", "flights that touched something, share"},
+     [](const Json& m, const Episode&) { return ended_by_collision(m); }},
+    {{"tracking_error_m", "mean distance from the reference, m"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "tracking_error_m", "mean"); }},
+    {{"plan_time_s", "median time of a replan, s"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "plan_time_s", "median"); }},
+    {{"plan_time_p95_s", "95 % quantile of the time of a replan, s"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "plan_time_s", "p95"); }},
+    {{"late_plans", "replans that took longer than the latency charged"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "late_plans"); }},
+    {{"missed_deadlines", "replans that came after the next waypoint"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "missed_deadlines"); }},
+    {{"energy_j", "energy of the rotors, J"},
+     [](const Json& m, const Episode&) { return of_path_flight(m, "energy_j"); }},
 });
 
 struct CurveMeasure {

@@ -1,0 +1,213 @@
+#include "src/episode/trajectory_flight.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "src/core/data_root.hpp"
+#include "src/core/log.hpp"
+#include "src/episode/flight_layout.hpp"
+
+namespace vantage {
+namespace {
+
+/// Beyond the horizon, so that it is not about to stop at its end.
+constexpr int kFollowedBeyond = 2;
+
+std::vector<Eigen::Vector4d> columns_of(const std::vector<FlightWaypoint>& path) {
+  std::vector<Eigen::Vector4d> columns;
+  for (const FlightWaypoint& waypoint : path) {
+    columns.emplace_back(waypoint.p_world_m.x(), waypoint.p_world_m.y(), waypoint.p_world_m.z(),
+                         waypoint.yaw_rad);
+  }
+  return columns;
+}
+
+std::filesystem::path model_file(const ResolvedEpisode& resolved) {
+  const std::string& model = resolved.episode.trajectory.model;
+  try {
+    return find_input(model, {}, "trajectory.model");
+  } catch (const InputError& error) {
+    throw InputError(fmt::format(
+        "{}; make one: vantage dataset render out/flight_objects --set distance_m=1.3, then "
+        "vantage train out/flight_objects --out {}",
+        error.what(), model.empty() ? "out/trajectory.model" : model));
+  }
+}
+
+/// Room for colour that was not asked for.
+CameraImages without_colour(const FlightPicture& picture) {
+  CameraImages images = picture.depth;
+  images.rgb.assign(3 * images.depth_m.size(), 0);
+  return images;
+}
+
+}  // namespace
+
+Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved) {
+  const TrajectoryTask& task = resolved.episode.trajectory;
+  const auto path = model_file(resolved);
+  Recogniser recogniser = load_recogniser(path, task.recogniser, resolved.episode.threads);
+  for (const ObjectOnStand& stand : draw_flight_objects(resolved)) {
+    const auto& known = recogniser.states.objects;
+    if (std::ranges::find(known, stand.object) != known.end()) continue;
+    throw ConfigError(fmt::format(
+        "trajectory.model: {}: knows {} objects, but not '{}'; trajectory.database is not what it "
+        "was trained on",
+        path.string(), known.size(), stand.object));
+  }
+  return recogniser;
+}
+
+TrajectoryFlight::TrajectoryFlight(const ResolvedEpisode& resolved, const Recogniser& recogniser,
+                                   TrajectoryRig& rig, TrajectoryRecorder& recorder)
+    : episode_(resolved.episode),
+      rig_(rig),
+      recorder_(recorder),
+      truth_(draw_flight_objects(resolved)),
+      nominal_(columns_of(read_flight_layout(resolved.scene).path)),
+      plan_(nominal_),
+      map_(flight_region(read_flight_layout(resolved.scene).path), episode_.trajectory.map),
+      found_(episode_.trajectory.found),
+      looks_(recogniser, episode_.trajectory.looks, episode_.trajectory.transition),
+      planner_(episode_.trajectory, rig.T_body_camera(),
+               Rng::stream(episode_.seed, "trajectory planner")),
+      look_rng_(Rng::stream(episode_.seed, "looks")) {
+  recorder_.set_panel([this] { return panel(); });
+}
+
+WaypointReached TrajectoryFlight::observe() {
+  const LookAt look = [this](const FlightPicture& picture) { this->look(picture); };
+  if (at_ < 0) {
+    rig_.look_now(look);
+  } else {
+    rig_.fly_past(1, look);
+  }
+  return {.waypoint = ++at_, .time_s = rig_.world().time_s(), .T_world_body = rig_.estimated_body()};
+}
+
+void TrajectoryFlight::look(const FlightPicture& picture) {
+  map_.insert(picture.depth, picture.T_world_camera);
+  const std::vector<SeenObject> seen = find_objects(
+      without_colour(picture), picture.T_world_camera, episode_.trajectory.search);
+  const std::vector<int> ids = found_.update(sightings_of(seen));
+  for (const FoundObject& object : found_.confirmed()) {
+    looks_.found(object.id, object.p_world_object_m);
+  }
+  std::vector<int> gone;
+  for (const LookedAtObject& object : looks_.objects()) {
+    if (found_.find(object.id) == nullptr) gone.push_back(object.id);
+  }
+  for (const int id : gone) looks_.forget(id);
+  take_looks(picture, ids, seen);
+}
+
+void TrajectoryFlight::take_looks(const FlightPicture& picture, const std::vector<int>& ids,
+                                  const std::vector<SeenObject>& seen) {
+  std::vector<SeenObject> coloured;  // none yet
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!looks_.wants(ids[i], seen[i].sighting, picture.T_world_camera)) continue;
+    if (coloured.empty()) {
+      coloured = find_objects(picture.with_colour(), picture.T_world_camera,
+                              episode_.trajectory.search);
+      expects(coloured.size() == seen.size(), "the same objects in the same picture");
+    }
+    const ObjectLook& look = looks_.take(ids[i], seen[i].sighting, coloured[i].view,
+                                         picture.T_world_camera, picture.time_s, look_rng_);
+    recorder_.look(ids[i], look, looks_.total(), coloured[i].view);
+  }
+}
+
+void TrajectoryFlight::update(const WaypointReached& reached) {
+  current_.waypoint = reached.waypoint;
+  current_.time_s = reached.time_s;
+  current_.T_world_body = reached.T_world_body;
+  current_.objects = static_cast<int>(looks_.objects().size());
+  current_.looks = looks_.total();
+  double sum_nats = 0.0;
+  for (const LookedAtObject& object : looks_.objects()) {
+    sum_nats += looks_.entropy_nats(object);
+    current_.known += looks_.known(object) ? 1 : 0;
+  }
+  if (current_.objects > 0) current_.mean_entropy_nats = sum_nats / current_.objects;
+  const TrajectoryTruth truth = rig_.truth();
+  current_.clearance_m = truth.minimum_clearance_m;
+  current_.tracking_error_m = truth.tracking_error_mean_m;
+  current_.flown_m = truth.flown_m;
+  current_.collisions = truth.collisions;
+}
+
+void TrajectoryFlight::record() {
+  records_.push_back(std::exchange(current_, {}));
+  recorder_.waypoint(records_.back(), static_cast<int>(nominal_.size()));
+}
+
+bool TrajectoryFlight::finished() const { return at_ + 1 >= static_cast<int>(nominal_.size()); }
+
+std::vector<PlannableObject> TrajectoryFlight::plannable() const {
+  std::vector<PlannableObject> objects;
+  for (const LookedAtObject& object : looks_.objects()) {
+    objects.push_back({.id = object.id,
+                       .p_world_m = object.p_world_m,
+                       .entropy_nats = looks_.entropy_nats(object),
+                       .used = object.used});
+  }
+  return objects;
+}
+
+std::vector<WayOn> TrajectoryFlight::propose() {
+  planning_since_s_ = wall_s();
+  return planner_.propose({.at = at_, .nominal = nominal_, .plan = plan_},
+                          plannable(), map_);
+}
+
+void TrajectoryFlight::score(std::vector<WayOn>& ways) { planner_.score(rig_.reference(), ways); }
+
+std::size_t TrajectoryFlight::choose(const std::vector<WayOn>& ways) {
+  const std::size_t chosen = safest_of_best(ways);
+  current_.plan_time_s = wall_s() - planning_since_s_;
+  current_.target = planner_.target();
+  return chosen;
+}
+
+void TrajectoryFlight::act(const WayOn& way) {
+  const LookAt look = [this](const FlightPicture& picture) { this->look(picture); };
+  const double latency_s = episode_.trajectory.latency_s;
+  const int passed = rig_.passed();
+  rig_.fly_for(latency_s, look);  // on the plan before
+  const int missed = rig_.passed() - passed;
+  for (Eigen::Index i = 0; i < way.points.cols(); ++i) {
+    plan_[static_cast<std::size_t>(at_ + 1 + i)] = way.points.col(i);
+  }
+  at_ += missed;
+  current_.planner = way.planner;
+  current_.cost = way.cost;
+  current_.planned_clearance_m = way.clearance_m;
+  current_.latency_s = latency_s;
+  current_.late = current_.plan_time_s > latency_s;
+  current_.missed = missed > 0;
+  current_.plan.assign(plan_.begin() + at_ + 1, plan_.end());
+  follow_plan();
+}
+
+void TrajectoryFlight::follow_plan() {
+  const auto first = static_cast<std::size_t>(at_ + 1);
+  const auto beyond = static_cast<std::size_t>(episode_.trajectory.horizon + kFollowedBeyond);
+  std::vector<FlightWaypoint> waypoints;
+  for (std::size_t i = first; i < std::min(plan_.size(), first + beyond); ++i) {
+    waypoints.push_back({.p_world_m = plan_[i].head<3>(), .yaw_rad = plan_[i][3]});
+  }
+  rig_.follow(waypoints);
+}
+
+TrajectoryPanelInput TrajectoryFlight::panel() const {
+  TrajectoryPanelInput input{.looks = looks_, .nominal = nominal_, .plan = plan_, .at = at_};
+  input.T_world_body = rig_.estimated_body();
+  input.target = planner_.target();
+  input.method = method_name(episode_);
+  input.range_m = episode_.trajectory.looks.range_m;
+  return input;
+}
+
+}  // namespace vantage
