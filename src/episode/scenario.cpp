@@ -128,7 +128,9 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
 }
 
 std::string method_name(const Episode& episode) {
-  if (episode.flies_trajectory()) return trajectory_method_name(episode.trajectory);
+  if (episode.flies_trajectory()) {
+    return trajectory_method_name(episode.trajectory.method, episode.trajectory.planner.cost);
+  }
   if (episode.flies()) return strategy_label(episode.recognition.decision.views.choice);
   if (std::holds_alternative<GreedyGain>(episode.choice)) return strategy_label(episode.gain);
   const std::string choice = strategy_label(episode.choice);

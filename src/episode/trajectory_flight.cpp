@@ -8,6 +8,7 @@
 #include "src/core/data_root.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/flight_layout.hpp"
+#include "src/episode/model_source.hpp"
 
 namespace vantage {
 namespace {

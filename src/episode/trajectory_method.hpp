@@ -1,10 +1,13 @@
 /// How a vehicle plans its next waypoints, closed as a variant.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <variant>
 
+#include "planners/trajectory/flight_cost.hpp"
 #include "planners/trajectory/trajectory_optimiser.hpp"
+#include "src/core/fields.hpp"
 
 namespace vantage {
 
@@ -28,5 +31,22 @@ using TrajectoryMethod =
     std::variant<InitialPath, InitialYaw, GreedyDetour, Stomp, Mppi, Cem, CovariantGradient>;
 template <>
 inline constexpr std::string_view strategy_family<TrajectoryMethod> = "trajectory method";
+
+/// What all methods plan by.
+struct FlightPlannerOptions {
+  FlightCostOptions cost;
+  double ring_m = 1.3;       ///< camera to object where it is looked at best; higher sees it smaller
+  double clearance_m = 0.55; ///< of the body's centre on a path that is flown, by the map
+  double sample_s = 0.05;    ///< between places of a path whose clearance is looked at
+  void fields(auto&& f) {
+    f("cost", cost);
+    f("ring_m", ring_m, between(0.3, 3.0));
+    f("clearance_m", clearance_m, between(0.0, 3.0));
+    f("sample_s", sample_s, between(0.01, 1.0));
+  }
+};
+
+/// "stomp", "stomp rollouts=10 without c_v": what of the cost is left out is named.
+std::string trajectory_method_name(const TrajectoryMethod& method, const FlightCostOptions& cost);
 
 }  // namespace vantage

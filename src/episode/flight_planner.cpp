@@ -1,0 +1,112 @@
+#include "src/episode/flight_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "src/core/strategy_label.hpp"
+
+namespace vantage {
+namespace {
+
+template <class Method>
+constexpr bool kOptimises = std::is_constructible_v<TrajectoryOptimiser, Method>;
+
+Eigen::Matrix4Xd columns(const std::vector<Eigen::Vector4d>& path, int first, int count) {
+  Eigen::Matrix4Xd points(4, count);
+  for (int i = 0; i < count; ++i) points.col(i) = path[static_cast<std::size_t>(first + i)];
+  return points;
+}
+
+std::vector<FlightWaypoint> waypoints_of(const Eigen::Matrix4Xd& points) {
+  std::vector<FlightWaypoint> waypoints;
+  for (const auto& q : points.colwise()) {
+    waypoints.push_back({.p_world_m = q.head<3>(), .yaw_rad = q[3]});
+  }
+  return waypoints;
+}
+
+}  // namespace
+
+std::string trajectory_method_name(const TrajectoryMethod& method, const FlightCostOptions& cost) {
+  std::string label = strategy_label(method);
+  if (!cost.information) label += " without c_i";
+  if (cost.centre_weight == 0.0) label += " without c_v";
+  if (cost.literal) label += " literal";
+  return label;
+}
+
+FlightPlanner::FlightPlanner(const TrajectoryTask& task, const Pose& T_body_camera, Rng rng)
+    : task_(task), rng_(rng) {
+  const double focal = 0.5 * task.camera.height_px / std::tan(0.5 * task.camera.fovy_rad);
+  camera_.T_body_camera = T_body_camera;
+  camera_.vertical_fov_rad = task.camera.fovy_rad;
+  camera_.horizontal_fov_rad = 2.0 * std::atan(0.5 * task.camera.width_px / focal);
+  task_.planner.cost.tau_nats = task.looks.known_below_nats;
+}
+
+Horizon FlightPlanner::horizon(const PlanState& state,
+                               const std::vector<Eigen::Vector4d>& path) const {
+  const int first = state.at + 1;
+  const auto size = static_cast<int>(state.nominal.size());
+  const int count = std::min(task_.horizon, size - first);
+  Horizon horizon;
+  horizon.before = state.plan[static_cast<std::size_t>(state.at)];
+  horizon.points = columns(path, first, count);
+  horizon.points.col(0) = state.plan[static_cast<std::size_t>(first)];
+  if (count > 1) horizon.points.col(count - 1) = state.nominal[static_cast<std::size_t>(first + count - 1)];
+  horizon.after = state.nominal[static_cast<std::size_t>(std::min(first + count, size - 1))];
+  return unwrapped(std::move(horizon));
+}
+
+PathCost FlightPlanner::cost() const {
+  FlightScene scene{.surface = &*surface_, .target = std::nullopt};
+  if (target_) {
+    scene.target = ObservationTarget{.p_world_object_m = target_->p_world_object_m,
+                                     .p_world_view_m = target_->p_world_view_m,
+                                     .entropy_nats = target_->entropy_nats};
+  }
+  return flight_cost(task_.planner.cost, camera_, std::move(scene));
+}
+
+std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
+                                          const std::vector<PlannableObject>& objects,
+                                          const FlightMap& map) {
+  surface_.emplace(map.grid().frame, map.obstacles());
+  std::vector<WayOn> ways;
+  const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
+    ways.push_back({.planner = std::move(planner), .points = points});
+  };
+  add(std::string(strategy_name_of(task_.method)), method_path(state, objects));
+  if (std::holds_alternative<InitialPath>(task_.method) ||
+      std::holds_alternative<InitialYaw>(task_.method)) {
+    return ways;
+  }
+  add("as before", horizon(state, state.plan).points);
+  add("as given", horizon(state, state.nominal).points);
+  return ways;
+}
+
+void FlightPlanner::score(const FlightReference& from, std::vector<WayOn>& ways) const {
+  for (WayOn& way : ways) {
+    const FlightPath path(from, waypoints_of(way.points), task_.pilot.limits);
+    way.clearance_m = std::numeric_limits<double>::infinity();
+    for (double t_s = 0.0; t_s <= path.duration_s(); t_s += task_.planner.sample_s) {
+      way.clearance_m =
+          std::min(way.clearance_m, surface_->distance_m(path.at(t_s).p_world_m));
+    }
+    way.clear = way.clearance_m >= task_.planner.clearance_m;
+  }
+}
+
+std::size_t safest_of_best(const std::vector<WayOn>& ways) {
+  const auto clear = std::ranges::find(ways, true, &WayOn::clear);
+  if (clear != ways.end()) return static_cast<std::size_t>(clear - ways.begin());
+  return static_cast<std::size_t>(std::ranges::max_element(ways, {}, &WayOn::clearance_m) -
+                                  ways.begin());
+}
+
+}  // namespace vantage

@@ -1,0 +1,66 @@
+/// From what is known in flight to ways on: which object to look at next and from where, and the
+/// next waypoints as a trajectory method wants them.  [Potthast2016, 5.2]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "planners/trajectory/flight_cost.hpp"
+#include "planners/trajectory/surface_distance.hpp"
+#include "sim/flight_path.hpp"
+#include "src/belief/flight_map.hpp"
+#include "src/core/rng.hpp"
+#include "src/episode/trajectory_record.hpp"
+#include "src/episode/trajectory_task.hpp"
+
+namespace vantage {
+
+/// An object that was found.
+struct PlannableObject {
+  int id = 0;
+  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
+  double entropy_nats = 0.0;
+  std::vector<bool> used;  ///< directions
+};
+
+/// Where the flight is.
+struct PlanState {
+  int at = 0;                                   ///< the waypoint reached last
+  const std::vector<Eigen::Vector4d>& nominal;  ///< the path as given
+  const std::vector<Eigen::Vector4d>& plan;     ///< as it is flown until now
+};
+
+class FlightPlanner {
+ public:
+  FlightPlanner(const TrajectoryTask& task, const Pose& T_body_camera, Rng rng);
+
+  /// Ways on for the next waypoints, the method's own first, then what it falls back on.
+  std::vector<WayOn> propose(const PlanState& state, const std::vector<PlannableObject>& objects,
+                             const FlightMap& map);
+  /// Flies each in thought, from the reference as it is, and tells its clearance.
+  void score(const FlightReference& from, std::vector<WayOn>& ways) const;
+
+  /// What the last proposal looks at; nothing: where it goes.
+  [[nodiscard]] const std::optional<LookTarget>& target() const { return target_; }
+
+ private:
+  [[nodiscard]] Horizon horizon(const PlanState& state,
+                                const std::vector<Eigen::Vector4d>& path) const;
+  [[nodiscard]] PathCost cost() const;
+  [[nodiscard]] Eigen::Matrix4Xd method_path(const PlanState& state,
+                                             const std::vector<PlannableObject>& objects);
+
+  TrajectoryTask task_;
+  FlightCamera camera_;
+  Rng rng_;
+  std::optional<SurfaceDistance> surface_;
+  std::optional<LookTarget> target_;
+};
+
+/// The first that is clear; if none is, the one that keeps off farthest.
+std::size_t safest_of_best(const std::vector<WayOn>& ways);
+
+}  // namespace vantage
