@@ -50,6 +50,9 @@ class FoundObjects {
   [[nodiscard]] const FoundObject* find(int id) const;
 
  private:
+  int take(FoundObject seen);
+  void merge_neighbours(std::vector<int>& ids);
+
   FoundObjectsOptions options_;
   std::vector<FoundObject> objects_;
   int next_id_ = 0;

@@ -12,9 +12,6 @@
 namespace vantage {
 namespace {
 
-template <class Method>
-constexpr bool kOptimises = std::is_constructible_v<TrajectoryOptimiser, Method>;
-
 Eigen::Matrix4Xd columns(const std::vector<Eigen::Vector4d>& path, int first, int count) {
   Eigen::Matrix4Xd points(4, count);
   for (int i = 0; i < count; ++i) points.col(i) = path[static_cast<std::size_t>(first + i)];
@@ -62,6 +59,64 @@ Horizon FlightPlanner::horizon(const PlanState& state,
   return unwrapped(std::move(horizon));
 }
 
+std::vector<ObservedObject> FlightPlanner::observed(const std::vector<PlannableObject>& objects,
+                                                    double height_m) const {
+  std::vector<ObservedObject> observed;
+  for (const PlannableObject& object : objects) {
+    ObservedObject& ring = observed.emplace_back();
+    ring = {.ring = {.p_world_object_m = object.p_world_m,
+                     .radius_m = task_.planner.ring_m,
+                     .height_m = height_m},
+            .used = object.used,
+            .entropy_nats = object.entropy_nats};
+    leave_out_blocked(ring, *surface_, task_.planner.clearance_m);
+  }
+  return observed;
+}
+
+void FlightPlanner::choose_target(const PlanState& state,
+                                  const std::vector<PlannableObject>& objects,
+                                  const std::vector<ObservedObject>& rings) {
+  target_.reset();
+  const Eigen::Vector3d p_m = state.plan[static_cast<std::size_t>(state.at)].head<3>();
+  const auto active =
+      active_object(rings, p_m, task_.looks.known_below_nats, task_.planner.range_m);
+  if (!active) return;
+  const auto direction =
+      active_direction(rings[*active], horizon(state, state.nominal).points);
+  if (!direction) return;
+  const PlannableObject& object = objects[*active];
+  target_ = LookTarget{.object = object.id,
+                       .direction = *direction,
+                       .p_world_object_m = object.p_world_m,
+                       .p_world_view_m = rings[*active].ring.view_m(*direction),
+                       .entropy_nats = object.entropy_nats};
+}
+
+Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
+                                            const std::vector<ObservedObject>& objects) {
+  const Horizon given = horizon(state, state.nominal);
+  const Eigen::Vector4d next = given.points.col(0);  // flown to already
+  Eigen::Matrix4Xd points = std::visit(
+      [&](auto method) -> Eigen::Matrix4Xd {
+        using Method = decltype(method);
+        if constexpr (std::is_same_v<Method, GivenPath>) {
+          return given.points;
+        } else if constexpr (std::is_same_v<Method, GivenPathYaw>) {
+          method.yaw.tau_nats = task_.looks.known_below_nats;
+          return initial_yaw(given.points, objects, method.yaw);
+        } else if constexpr (std::is_same_v<Method, DetourPath>) {
+          method.detour.tau_nats = task_.looks.known_below_nats;
+          return greedy_detour(given, objects, method.detour);
+        } else {
+          return method(horizon(state, state.plan), cost(), rng_).points;
+        }
+      },
+      task_.method);
+  points.col(0) = next;
+  return points;
+}
+
 PathCost FlightPlanner::cost() const {
   FlightScene scene{.surface = &*surface_, .target = std::nullopt};
   if (target_) {
@@ -80,10 +135,13 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
     ways.push_back({.planner = std::move(planner), .points = points});
   };
-  add(std::string(strategy_name_of(task_.method)), method_path(state, objects));
-  if (std::holds_alternative<InitialPath>(task_.method) ||
-      std::holds_alternative<InitialYaw>(task_.method)) {
-    return ways;
+  const double height_m = state.nominal[static_cast<std::size_t>(state.at)].z();
+  const std::vector<ObservedObject> rings = observed(objects, height_m);
+  choose_target(state, objects, rings);
+  add(std::string(strategy_name_of(task_.method)), method_path(state, rings));
+  if (std::holds_alternative<GivenPath>(task_.method) ||
+      std::holds_alternative<GivenPathYaw>(task_.method)) {
+    return ways;  // these go nowhere else, whatever is in the way
   }
   add("as before", horizon(state, state.plan).points);
   add("as given", horizon(state, state.nominal).points);

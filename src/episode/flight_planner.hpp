@@ -4,11 +4,12 @@
 
 #include <Eigen/Core>
 
-#include <memory>
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "planners/trajectory/flight_cost.hpp"
+#include "planners/trajectory/observation_ring.hpp"
 #include "planners/trajectory/surface_distance.hpp"
 #include "sim/flight_path.hpp"
 #include "src/belief/flight_map.hpp"
@@ -23,7 +24,7 @@ struct PlannableObject {
   int id = 0;
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
   double entropy_nats = 0.0;
-  std::vector<bool> used;  ///< directions
+  std::array<bool, kObservationDirections> used{};
 };
 
 /// Where the flight is.
@@ -49,9 +50,13 @@ class FlightPlanner {
  private:
   [[nodiscard]] Horizon horizon(const PlanState& state,
                                 const std::vector<Eigen::Vector4d>& path) const;
+  [[nodiscard]] std::vector<ObservedObject> observed(const std::vector<PlannableObject>& objects,
+                                                     double height_m) const;
+  void choose_target(const PlanState& state, const std::vector<PlannableObject>& objects,
+                     const std::vector<ObservedObject>& rings);
   [[nodiscard]] PathCost cost() const;
   [[nodiscard]] Eigen::Matrix4Xd method_path(const PlanState& state,
-                                             const std::vector<PlannableObject>& objects);
+                                             const std::vector<ObservedObject>& objects);
 
   TrajectoryTask task_;
   FlightCamera camera_;

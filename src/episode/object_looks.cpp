@@ -7,19 +7,18 @@
 namespace vantage {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-
-}  // namespace
-
+/// From the object to the camera.
 double bearing_from(const Eigen::Vector3d& p_world_object_m, const Pose& T_world_camera) {
   const Eigen::Vector3d d = T_world_camera.translation() - p_world_object_m;
   return std::atan2(d.y(), d.x());
 }
 
-int look_direction(double bearing_rad, int directions) {
-  const auto sector = static_cast<int>(std::lround(bearing_rad / kTurn_rad * directions));
-  return (sector % directions + directions) % directions;
+int direction_from(const Eigen::Vector3d& p_world_object_m, const Pose& T_world_camera) {
+  const ObservationRing ring{.p_world_object_m = p_world_object_m};
+  return ring.direction_of(T_world_camera.translation());
 }
+
+}  // namespace
 
 ObjectLooks::ObjectLooks(const Recogniser& recogniser, const LookOptions& options,
                          const TransitionModel& transition)
@@ -43,9 +42,7 @@ void ObjectLooks::found(int id, const Eigen::Vector3d& p_world_m) {
   if (find(id) == nullptr) {
     objects_.push_back({.id = id,
                         .p_world_m = p_world_m,
-                        .recognition = begin_recognition(recogniser_),
-                        .used = std::vector<bool>(static_cast<std::size_t>(options_.directions)),
-                        .looks = {}});
+                        .recognition = begin_recognition(recogniser_)});
   }
   of(id).p_world_m = p_world_m;
 }
@@ -57,8 +54,7 @@ void ObjectLooks::forget(int id) {
 bool ObjectLooks::wants(int id, const ObjectSighting& sighting, const Pose& T_world_camera) const {
   const LookedAtObject* object = find(id);
   if (object == nullptr || !sighting.whole || sighting.distance_m > options_.range_m) return false;
-  const int direction =
-      look_direction(bearing_from(object->p_world_m, T_world_camera), options_.directions);
+  const int direction = direction_from(object->p_world_m, T_world_camera);
   return !object->used[static_cast<std::size_t>(direction)] &&
          (options_.look_at_known || !known(*object));
 }
@@ -76,7 +72,7 @@ const ObjectLook& ObjectLooks::take(int id, const ObjectSighting& sighting, cons
   const Eigen::Vector3d up = T_world_camera.translation() - sighting.p_world_object_m;
   ObjectLook look{.time_s = time_s,
                   .bearing_rad = bearing_rad,
-                  .direction = look_direction(bearing_rad, options_.directions),
+                  .direction = direction_from(object.p_world_m, T_world_camera),
                   .distance_m = sighting.distance_m,
                   .elevation_rad = std::atan2(up.z(), up.head<2>().norm()),
                   .pixels = sighting.pixels,

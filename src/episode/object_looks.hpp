@@ -4,24 +4,25 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <string>
 #include <vector>
 
+#include "planners/trajectory/observation_ring.hpp"
 #include "src/geometry/object_sighting.hpp"
 #include "src/geometry/pose.hpp"
 #include "src/recognition/recognition.hpp"
 
 namespace vantage {
 
-/// Which looks are taken as observations. One a direction, of objects that are not known yet.
+/// Which looks are taken as observations: one from each direction of ObservationRing, of objects
+/// that are not known yet.
 struct LookOptions {
   double range_m = 2.0;            ///< camera to object; higher sees more and worse
-  int directions = 8;              ///< round an object, evenly; direction 0 is along world x
   double known_below_nats = 0.1;   ///< entropy of the object below which it is known
   bool look_at_known = false;      ///< go on observing what is known
   void fields(auto&& f) {
     f("range_m", range_m, Range{0.0, 20.0, true});
-    f("directions", directions, between(2, 360));
     f("known_below_nats", known_below_nats, at_least(0.0));
     f("look_at_known", look_at_known);
   }
@@ -47,8 +48,8 @@ struct LookedAtObject {
   int id = 0;  ///< of FoundObject
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
   Recognition recognition;
-  std::vector<bool> used;  ///< directions
-  std::vector<ObjectLook> looks;
+  std::array<bool, kObservationDirections> used{};
+  std::vector<ObjectLook> looks = {};
 };
 
 class ObjectLooks {
@@ -88,10 +89,5 @@ class ObjectLooks {
   std::vector<LookedAtObject> objects_;
   int total_ = 0;
 };
-
-/// Of an object, from there.
-double bearing_from(const Eigen::Vector3d& p_world_object_m, const Pose& T_world_camera);
-/// The direction that a bearing falls into: direction i is the sector round i turns / directions.
-int look_direction(double bearing_rad, int directions);
 
 }  // namespace vantage

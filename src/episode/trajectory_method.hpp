@@ -6,41 +6,50 @@
 #include <variant>
 
 #include "planners/trajectory/flight_cost.hpp"
+#include "planners/trajectory/simple_paths.hpp"
 #include "planners/trajectory/trajectory_optimiser.hpp"
 #include "src/core/fields.hpp"
 
 namespace vantage {
 
 /// The path as it is given, camera along it.
-struct InitialPath {
+struct GivenPath {
   static constexpr std::string_view name = "initial";
   void fields(auto&&) {}
 };
 /// The path as it is given, camera towards the active target: what yaw alone is worth.
-struct InitialYaw {
+struct GivenPathYaw {
   static constexpr std::string_view name = "initial_yaw";
-  void fields(auto&&) {}
+  YawToTarget yaw;
+  void fields(auto&& f) { f("range_m", yaw.range_m, above(0.0)); }
 };
 /// Bends the path through the nearest unused directions, without optimising.
-struct GreedyDetour {
+struct DetourPath {
   static constexpr std::string_view name = "greedy_detour";
-  void fields(auto&&) {}
+  GreedyDetour detour;
+  void fields(auto&& f) {
+    f("range_m", detour.range_m, above(0.0));
+    f("views", detour.views, between(1, kObservationDirections));
+  }
 };
 
 using TrajectoryMethod =
-    std::variant<InitialPath, InitialYaw, GreedyDetour, Stomp, Mppi, Cem, CovariantGradient>;
+    std::variant<GivenPath, GivenPathYaw, DetourPath, Stomp, Mppi, Cem, CovariantGradient>;
 template <>
 inline constexpr std::string_view strategy_family<TrajectoryMethod> = "trajectory method";
 
 /// What all methods plan by.
 struct FlightPlannerOptions {
   FlightCostOptions cost;
-  double ring_m = 1.3;       ///< camera to object where it is looked at best; higher sees it smaller
-  double clearance_m = 0.55; ///< of the body's centre on a path that is flown, by the map
-  double sample_s = 0.05;    ///< between places of a path whose clearance is looked at
+  /// Level, from an object to the body where the object is looked at best; higher sees it smaller.
+  double ring_m = 1.05;
+  double range_m = 3.0;       ///< level; farther objects are no targets
+  double clearance_m = 0.55;  ///< of the body's centre on a path that is flown, by the map
+  double sample_s = 0.05;     ///< between places of a path whose clearance is looked at
   void fields(auto&& f) {
     f("cost", cost);
     f("ring_m", ring_m, between(0.3, 3.0));
+    f("range_m", range_m, above(0.0));
     f("clearance_m", clearance_m, between(0.0, 3.0));
     f("sample_s", sample_s, between(0.01, 1.0));
   }

@@ -11,7 +11,6 @@ namespace vantage {
 struct SupportSearchOptions {
   double min_height_m = 0.3;        ///< world z; lower surfaces are floor
   double max_height_m = 1.5;        ///< world z
-  double range_m = 3.5;             ///< from the camera; farther points are not looked at
   int columns = 160;                ///< of the image that are looked at; higher is slower
   double cell_m = 0.05;             ///< of the raster that surfaces are found in
   double min_area_m2 = 0.03;        ///< of the free part that is seen; smaller ones are none
@@ -20,7 +19,6 @@ struct SupportSearchOptions {
   void fields(auto&& f) {
     f("min_height_m", min_height_m);
     f("max_height_m", max_height_m);
-    f("range_m", range_m, above(0.0));
     f("columns", columns, between(16, 4096));
     f("cell_m", cell_m, Range{0.0, 0.5, true});
     f("min_area_m2", min_area_m2, above(0.0));
