@@ -14,6 +14,7 @@
 #include "src/core/log.hpp"
 #include "src/dataset_commands.hpp"
 #include "src/episode/doctor.hpp"
+#include "src/episode/flight_layout.hpp"
 #include "src/episode/interrupt.hpp"
 #include "src/episode/listing.hpp"
 #include "src/episode/replay.hpp"
@@ -72,9 +73,26 @@ void print_recognition(const nlohmann::ordered_json& metrics) {
              metrics["collisions"].get<int>(), metrics["real_time_factor"].get<double>());
 }
 
+void print_trajectory(const nlohmann::ordered_json& metrics) {
+  const auto number = [&](const char* key) { return metrics[key].get<double>(); };
+  int correct = 0;
+  for (const auto& object : metrics["objects"]) correct += object["correct"].get<bool>() ? 1 : 0;
+  fmt::print("{}: {} after {:.1f} s, recognised {} of {} objects in {} observations\n",
+             metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
+             number("flight_time_s"), correct, metrics["objects"].size(),
+             metrics["observations_total"].get<int>());
+  fmt::print(
+      "mean entropy {:.3f} nats, clearance {:.2f} m, path {:.2f} m, {} collisions, {:.1f} x real "
+      "time\n",
+      number("mean_entropy_nats"), number("minimum_clearance_m"), number("path_length_m"),
+      metrics["collisions"].get<int>(), number("real_time_factor"));
+}
+
 void print_outcome(const RunOutcome& outcome) {
   const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
-  if (metrics.contains("observations")) {
+  if (metrics.contains("objects")) {
+    print_trajectory(metrics);
+  } else if (metrics.contains("observations")) {
     print_recognition(metrics);
   } else {
     print_mapping(metrics);
@@ -92,19 +110,29 @@ void print_config(const Episode& episode, bool json) {
   fmt::print("{}", json ? json_text(config_json(write_node(episode))) : episode_yaml(episode));
 }
 
+/// How long it is at most, and in what.
+std::pair<std::string, std::size_t> extent_of(const ResolvedEpisode& resolved) {
+  const Episode& episode = resolved.episode;
+  if (episode.flies_trajectory()) {
+    return {"waypoints", read_flight_layout(resolved.scene).path.size()};
+  }
+  if (episode.flies()) return {"most_views", episode.recognition.decision.most_views};
+  return {"scans", episode.scans};
+}
+
 void print_plan(const ResolvedEpisode& resolved, bool json) {
   const Episode& episode = resolved.episode;
-  const int most = episode.flies() ? episode.recognition.decision.most_views : episode.scans;
+  const auto [what, count] = extent_of(resolved);
   if (json) {
     fmt::print("{}", json_text({{"episode", resolved.name},
-                                {episode.flies() ? "most_views" : "scans", most},
+                                {what, count},
                                 {"scene", resolved.scene.string()},
                                 {"method", method_name(episode)},
                                 {"seed", episode.seed}}));
     return;
   }
-  fmt::print("{}: {} {} in {} by {}, seed {}\n", resolved.name, most,
-             episode.flies() ? "views at most" : "scans", resolved.scene.string(),
+  fmt::print("{}: {} {} in {} by {}, seed {}\n", resolved.name, count,
+             what == "most_views" ? "views at most" : what, resolved.scene.string(),
              method_name(episode), episode.seed);
 }
 

@@ -77,6 +77,7 @@ function sightingPlots(parent) {
 
 function fillPlots() {
   const parent = at("plots");
+  if (FLIGHT) { flightPlots(parent); return; }
   if (SIGHTINGS.length) { sightingPlots(parent); return; }
   if (!SCANS.length) { at("section-plots").hidden = true; return; }
   const chart = (title, subtitle, y, unit, series) => {

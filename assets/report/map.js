@@ -13,6 +13,7 @@ function topDownMap(parent, run) {
   if (run.estimated.length) mark("estimated path", "var(--belief)", { dashed: true });
   if (run.region) mark("region of interest", "var(--dim)");
   if (run.views.length) mark("views taken, in order", "var(--view)", { pin: true });
+  if (run.flight) flightMarks(mark);
   const backdrop = run.voxels ? backdropImage(run.voxels) : null;
   onWidth(holder, (width) => drawMap(holder, run, backdrop, width));
 }
@@ -49,6 +50,8 @@ function mapBounds(run) {
   const add = (x, y) => { if (isNumber(x) && isNumber(y)) { xs.push(x); ys.push(y); } };
   for (const p of [...run.truth, ...run.estimated]) add(p[1], p[2]);
   for (const v of [...run.candidates, ...run.views]) add(v.x, v.y);
+  for (const q of run.flight?.path ?? []) add(q[0], q[1]);
+  for (const o of run.flight?.objects ?? []) add(o.x_m, o.y_m);
   if (run.region) { add(run.region.min[0], run.region.min[1]); add(run.region.max[0], run.region.max[1]); }
   if (!xs.length) return null;
   const low = (list) => list.reduce((a, b) => Math.min(a, b));
@@ -91,6 +94,7 @@ function drawMap(holder, run, backdrop, width) {
   if (run.truth.length) append(svg, "path", { class: "truth", d: route(run.truth) });
   if (run.estimated.length) append(svg, "path", { class: "estimated", d: route(run.estimated) });
   drawChosen(svg, run, px, py);
+  if (run.flight) drawFlight(svg, run.flight, px, py, scale);
 }
 
 function drawMapAxes(svg, f) {

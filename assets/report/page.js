@@ -14,7 +14,7 @@ function collectScene() {
   const region = box(METRICS.region?.min_m, METRICS.region?.max_m) ?? box(voxels?.min_m, voxels?.max_m);
   return {
     candidates, views, voxels, region, cloud: DATA.cloud, truth: DATA.trajectory.truth,
-    estimated: DATA.trajectory.estimated, scanTimes: STEPS.map((s) => s.time_s), scans: scanCount(voxels),
+    flight: FLIGHT, estimated: DATA.trajectory.estimated, scanTimes: STEPS.map((s) => s.time_s), scans: scanCount(voxels),
   };
 }
 
@@ -28,6 +28,7 @@ function fillHead() {
   at("eyebrow").textContent = words(METRICS.task);
   at("heading").textContent = METRICS.scene ?? "Run";
   if (SIGHTINGS.length) at("h-map3d").textContent = "The flight, view by view";
+  if (FLIGHT) at("h-map3d").textContent = "The flight";
   const tag = (name, value, kind = "") => {
     if (value === undefined || value === null) return;
     const node = append(at("tags"), "span", { class: `tag ${kind}` });
@@ -63,6 +64,7 @@ function coverageCard() {
 
 function fillCards() {
   coverageCard();
+  if (FLIGHT) flightCards();
   if (METRICS.estimate !== undefined) {
     card("Estimate", String(METRICS.estimate), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
   }
@@ -120,7 +122,7 @@ function pairs(table, object, prefix = "") {
 function fillDetails() {
   pairs(at("manifest"), DATA.manifest);
   at("config").textContent = DATA.config;
-  const { scans, observations, candidates, ...rest } = METRICS;
+  const { scans, observations, candidates, objects, path, plan, ...rest } = METRICS;
   pairs(at("other"), rest);
 }
 
@@ -218,6 +220,7 @@ function startViewer(scene) {
   }
   fillLayers(viewer, scene);
   showScale(viewer, scene);
+  if (scene.flight) for (const id of ["play", "step", "step-label", "colour-by"]) (at(id).closest("label") ?? at(id)).hidden = true;
   attachSteps(viewer, scene);
   at("colour-by").addEventListener("change", (event) => { viewer.byScan = event.target.value === "scan"; showScale(viewer, scene); viewer.redraw(); });
   at("reset-view").addEventListener("click", () => viewer.reset());

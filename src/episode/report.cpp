@@ -63,6 +63,7 @@ constexpr KeyType kMetricsTypes[] = {
     {"scans", is_objects, "a list of objects"},
     {"observations", is_objects, "a list of objects"},
     {"candidates", is_objects, "a list of objects"},
+    {"objects", is_objects, "a list of objects"},
 };
 constexpr KeyType kScanTypes[] = {
     {"unobserved_cells", is_number, "a number"},
@@ -258,7 +259,7 @@ void write_report(const fs::path& run_dir) {
       {"title", html_escaped(page_title(run["metrics"]))},
       {"data", script_safe(run)},
       {"script", scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "viewer.js",
-                          "figures.js", "page.js"})}};
+                          "figures.js", "flight.js", "page.js"})}};
   write_file(run_dir / "report.html", filled_page("page.html", replacements));
 }
 

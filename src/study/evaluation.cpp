@@ -189,7 +189,9 @@ StudyResults read_study_results(const fs::path& study_dir) {
   results.states = episode_states(study_dir, results.plan);
   results.measures.resize(results.plan.size());
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
-    if (results.states[i] != EpisodeState::completed) continue;
+    // What failed has come to something as well; leaving it out would flatter what fails.
+    const EpisodeState state = results.states[i];
+    if (state != EpisodeState::completed && state != EpisodeState::failed) continue;
     try {
       results.measures[i] = measure(metrics_of(results, i), results.plan[i].resolved.episode);
     } catch (const nlohmann::json::exception& error) {
