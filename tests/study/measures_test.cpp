@@ -122,5 +122,35 @@ TEST(Measures, AnEpisodeInterruptedBeforeItsFirstViewHasNoEstimate) {
   EXPECT_FALSE(scalar(measures, "view_position_error_m"));
 }
 
+TEST(Measures, OfAFlightPastObjects) {
+  const Json flight = {{"method", "stomp"},
+                       {"status", "failed"},
+                       {"objects", {{{"correct", true}}, {{"correct", false}}}},
+                       {"accuracy", 0.5},
+                       {"mean_entropy_nats", 1.25},
+                       {"observations_total", 9},
+                       {"objects_found", 2},
+                       {"false_objects", 0},
+                       {"flight_time_s", 70.0},
+                       {"simulated_time_s", 70.0},
+                       {"path_length_m", 31.0},
+                       {"collisions", 1},
+                       {"minimum_clearance_m", 0.0},
+                       {"tracking_error_m", {{"mean", 0.02}, {"max", 0.09}}},
+                       {"plan_time_s", {{"median", 0.004}, {"p95", 0.006}}},
+                       {"late_plans", 0},
+                       {"missed_deadlines", 0},
+                       {"energy_j", 5000.0}};
+  const auto measures = measure(flight, planned_scans(3));
+  EXPECT_DOUBLE_EQ(*scalar(measures, "accuracy"), 0.5);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "observations"), 9.0);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "mean_entropy_nats"), 1.25);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "collided"), 1.0);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "tracking_error_m"), 0.02);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "plan_time_p95_s"), 0.006);
+  EXPECT_FALSE(scalar(measures, "area")) << "nothing is mapped";
+  EXPECT_FALSE(scalar(measures, "correct")) << "not one object but several";
+}
+
 }  // namespace
 }  // namespace vantage
