@@ -30,5 +30,6 @@ struct ScansClaimed {
 };
 std::vector<Finding> office_findings(const StudySummary& study, const std::string& figure,
                                      const ScansClaimed& claimed);
+std::vector<Finding> trajectory_findings(const StudySummary& study);
 
 }  // namespace vantage::bench

@@ -45,7 +45,12 @@ const std::vector<StudyPart>& study_parts() {
        }},
       {"office_large", "Large office (Fig. 3.16)", tables, [](const StudySummary& study) {
          return office_findings(study, "Fig. 3.16", {60, 70});
-       }}};
+       }},
+      {"trajectory",
+       "Trajectories for recognition (tables 5.1-5.3)",
+       {"accuracy", "observations", "mean_entropy_nats", "flight_time_s", "path_length_m",
+        "minimum_clearance_m", "collided", "tracking_error_m", "replan_time_s", "energy_j"},
+       trajectory_findings}};
   return parts;
 }
 

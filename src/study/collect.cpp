@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "src/core/atomic_file.hpp"
+#include "src/study/flight_figure.hpp"
 
 namespace vantage {
 namespace {
@@ -43,6 +46,30 @@ std::vector<Comparison> of_levels(const Evaluation& evaluation) {
   return comparisons;
 }
 
+/// The first level of every factor but that of the panels and the one compared.
+bool stands_for_its_panel(const StudyResults& results, const PlannedEpisode& episode) {
+  const StudyReport& report = results.study.report;
+  for (std::size_t f = 0; f < results.study.factors.size(); ++f) {
+    const std::string& factor = results.study.factors[f].name;
+    if (factor != report.compare && factor != report.panels && episode.levels[f] != 0) return false;
+  }
+  return true;
+}
+
+/// One flight for each panel and method.
+void write_flights(const StudyResults& results) {
+  for (std::size_t i = 0; i < results.plan.size(); ++i) {
+    const PlannedEpisode& episode = results.plan[i];
+    if (!results.measures[i] || !stands_for_its_panel(results, episode)) continue;
+    const Json metrics =
+        read_json_or_null(episode_folder(results.directory, episode) / "metrics.json");
+    if (!metrics.contains("plan")) continue;
+    std::string stem = episode.name;
+    std::ranges::replace(stem, '/', '-');
+    write_file(results.directory / "figures" / (stem + ".svg"), flight_svg(metrics, episode.name));
+  }
+}
+
 }  // namespace
 
 TextTable study_overview(const Evaluation& evaluation) { return overview(of_levels(evaluation)); }
@@ -64,6 +91,7 @@ void write_collection(const StudyResults& results, const Evaluation& evaluation)
     write_file(stem.string() + ".csv", figure_csv(figure));
     write_file(stem.string() + ".md", markdown(figure.title, text_tables(figure)));
   }
+  write_flights(results);
   write_file(directory / "summary.md", markdown(results.study.title, {study_overview(evaluation)}));
   write_file(directory / "summary.json", summary_json(results, evaluation).dump(2) + "\n");
 }

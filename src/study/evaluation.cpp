@@ -204,11 +204,14 @@ StudyResults read_study_results(const fs::path& study_dir) {
 
 std::string results_csv(const StudyResults& results) {
   std::string text = csv_header(results) + ",status";
-  for (const MeasureName& scalar : scalar_measures()) text += fmt::format(",{}", scalar.name);
+  for (const MeasureName& scalar : scalar_measures()) {
+    if (!scalar.wall) text += fmt::format(",{}", scalar.name);
+  }
   text += ",state_hash\n";
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     text += fmt::format("{},{}", csv_start(results, i), state_name(results.states[i]));
     for (std::size_t s = 0; s < scalar_measures().size(); ++s) {
+      if (scalar_measures()[s].wall) continue;
       const auto value = results.measures[i] ? results.measures[i]->scalars[s] : std::nullopt;
       text += value ? fmt::format(",{}", *value) : ",";
     }
@@ -219,7 +222,11 @@ std::string results_csv(const StudyResults& results) {
 }
 
 std::string timings_csv(const StudyResults& results) {
-  std::string text = csv_header(results) + ",wall_time_s,real_time_factor,plan_time_s,map_time_s\n";
+  std::string text = csv_header(results) + ",wall_time_s,real_time_factor,plan_time_s,map_time_s";
+  for (const MeasureName& scalar : scalar_measures()) {
+    if (scalar.wall) text += fmt::format(",{}", scalar.name);
+  }
+  text += "\n";
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     if (!results.measures[i]) continue;
     const Json metrics = metrics_of(results, i);
@@ -230,8 +237,14 @@ std::string timings_csv(const StudyResults& results) {
       map_s += scan.value("map_time_s", 0.0);
     }
     text +=
-        fmt::format("{},{},{},{},{}\n", csv_start(results, i), metrics.value("wall_time_s", 0.0),
+        fmt::format("{},{},{},{},{}", csv_start(results, i), metrics.value("wall_time_s", 0.0),
                     metrics.value("real_time_factor", 0.0), plan_s, map_s);
+    for (std::size_t s = 0; s < scalar_measures().size(); ++s) {
+      if (!scalar_measures()[s].wall) continue;
+      const auto& value = results.measures[i]->scalars[s];
+      text += value ? fmt::format(",{}", *value) : ",";
+    }
+    text += "\n";
   }
   return text;
 }

@@ -16,6 +16,7 @@ namespace vantage {
 struct MeasureName {
   std::string_view name;   ///< column of results.csv
   std::string_view title;  ///< with unit
+  bool wall = false;       ///< of wall time: another run gives another value
 };
 
 /// Numbers of an episode, in the order of the columns of results.csv.

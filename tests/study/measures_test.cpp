@@ -147,7 +147,7 @@ TEST(Measures, OfAFlightPastObjects) {
   EXPECT_DOUBLE_EQ(*scalar(measures, "mean_entropy_nats"), 1.25);
   EXPECT_DOUBLE_EQ(*scalar(measures, "collided"), 1.0);
   EXPECT_DOUBLE_EQ(*scalar(measures, "tracking_error_m"), 0.02);
-  EXPECT_DOUBLE_EQ(*scalar(measures, "plan_time_p95_s"), 0.006);
+  EXPECT_DOUBLE_EQ(*scalar(measures, "replan_time_p95_s"), 0.006);
   EXPECT_FALSE(scalar(measures, "area")) << "nothing is mapped";
   EXPECT_FALSE(scalar(measures, "correct")) << "not one object but several";
 }
