@@ -3,7 +3,9 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "sim/mesh_surface.hpp"
 
@@ -19,9 +21,14 @@ bool collides(const mjModel& model, int geom) {
   return model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0;
 }
 
-/// A grid over each triangle, edges included.
-void for_each_surface_point(const mjModel& model, int geom, double spacing_m, auto&& visit) {
+/// A grid over each triangle, edges included, points that nearly coincide once.
+void for_each_surface_point(const mjModel& model, int geom, double spacing_m, auto&& visit_new) {
   const SurfaceMesh mesh = geom_triangles(model, geom, spacing_m);
+  std::set<std::array<int, 3>> known;
+  const auto visit = [&](const Eigen::Vector3d& p) {
+    const Eigen::Array3i cell = (p.array() / (0.1 * spacing_m)).round().cast<int>();
+    if (known.insert({cell.x(), cell.y(), cell.z()}).second) visit_new(p);
+  };
   const auto vertex = [&](int i) { return mesh.vertices_m[static_cast<std::size_t>(i)]; };
   for (const auto& [a, b, c] : mesh.triangles) {
     const Eigen::Vector3d u = vertex(b) - vertex(a);

@@ -27,11 +27,12 @@ struct CollisionSurfaces {
 };
 
 struct SurfaceSpacing {
-  double robot_m = 0.02;  ///< between neighbouring points at most
+  double robot_m = 0.03;  ///< between neighbouring points at most
   double scene_m = 0.03;
 };
 
-/// Of geoms that take part in collisions; those of bodies `robot/...` are the robot.
+/// Of geoms that take part in collisions; those of bodies `robot/...` are the robot. Of points
+/// nearer to each other than a tenth of the spacing one is kept.
 CollisionSurfaces collision_surfaces(const World& world, const SurfaceSpacing& spacing = {});
 
 }  // namespace vantage

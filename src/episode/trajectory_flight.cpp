@@ -8,6 +8,7 @@
 #include "src/core/data_root.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/flight_layout.hpp"
+#include "src/recognition/plain_recogniser.hpp"
 #include "src/episode/model_source.hpp"
 
 namespace vantage {
@@ -49,7 +50,7 @@ CameraImages without_colour(const FlightPicture& picture) {
 Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved) {
   const TrajectoryTask& task = resolved.episode.trajectory;
   const auto path = model_file(resolved);
-  Recogniser recogniser = load_recogniser(path, task.recogniser, resolved.episode.threads);
+  Recogniser recogniser = load_plain_recogniser(path, task.recogniser);
   for (const ObjectOnStand& stand : draw_flight_objects(resolved)) {
     const auto& known = recogniser.states.objects;
     if (std::ranges::find(known, stand.object) != known.end()) continue;

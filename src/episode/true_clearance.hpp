@@ -18,7 +18,7 @@ class TrueClearance {
 
  private:
   explicit TrueClearance(CollisionSurfaces surfaces);
-  [[nodiscard]] double distance_m(const Eigen::Vector3d& p_world_m) const;
+  [[nodiscard]] double distance_m(const Eigen::Vector3d& p_world_m, double most_m) const;
 
   std::vector<SurfacePoint> robot_;
   std::vector<SolidPlane> planes_;

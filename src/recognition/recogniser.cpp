@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "src/recognition/plain_recogniser.hpp"
 #include "src/recognition/transition_training.hpp"
 
 namespace vantage {
@@ -13,13 +14,18 @@ namespace {
 
 constexpr auto kModel = "recognition model";
 
-/// Bhattacharyya distances only: the default measure asks for no other.
-RecogniserFeature ready(FeaturePair pair, int threads) {
+RecogniserFeature plain(FeaturePair pair) {
   RecogniserFeature feature{.extractor = std::move(pair.extractor),
                             .observation = std::move(pair.observation),
                             .prepared = {},
                             .tables = {}};
   feature.prepared = prepare(feature.observation);
+  return feature;
+}
+
+/// Bhattacharyya distances only: the default measure asks for no other.
+RecogniserFeature ready(FeaturePair pair, int threads) {
+  RecogniserFeature feature = plain(std::move(pair));
   feature.tables.bhattacharyya_nats =
       divergence_table(Divergence::bhattacharyya, feature.observation, threads);
   return feature;
@@ -47,8 +53,9 @@ std::vector<const FeatureModel*> wanted_features(const RecognitionModel& model,
   return wanted;
 }
 
-Recogniser make_named_recogniser(const RecognitionModel& model, const RecogniserOptions& options,
-                                 int threads, const std::string& source) {
+/// Of the features that the options want, in their order.
+std::vector<FeaturePair> pairs_of(const RecognitionModel& model, const RecogniserOptions& options,
+                                  const std::string& source) {
   check_options(options);
   std::vector<FeaturePair> pairs;
   for (const FeatureModel* feature : wanted_features(model, options.features)) {
@@ -58,7 +65,13 @@ Recogniser make_named_recogniser(const RecognitionModel& model, const Recogniser
   if (pairs.empty() || model.states.size() == 0) {
     throw InputError(source + ": holds no features or no objects");
   }
-  Recogniser recogniser = make_recogniser(model.states, std::move(pairs), threads);
+  return pairs;
+}
+
+Recogniser make_named_recogniser(const RecognitionModel& model, const RecogniserOptions& options,
+                                 int threads, const std::string& source) {
+  Recogniser recogniser =
+      make_recogniser(model.states, pairs_of(model, options, source), threads);
   recogniser.transition = transition_of(model);
   return recogniser;
 }
@@ -87,6 +100,17 @@ Recogniser make_recogniser(const RecognitionModel& model, const RecogniserOption
 Recogniser load_recogniser(const std::filesystem::path& path, const RecogniserOptions& options,
                            int threads) {
   return make_named_recogniser(read_recognition_model(path), options, threads, path.string());
+}
+
+Recogniser load_plain_recogniser(const std::filesystem::path& path,
+                                 const RecogniserOptions& options) {
+  const RecognitionModel model = read_recognition_model(path);
+  Recogniser recogniser{
+      .states = model.states, .features = {}, .tables = {}, .transition = transition_of(model)};
+  for (FeaturePair& pair : pairs_of(model, options, path.string())) {
+    recogniser.features.push_back(plain(std::move(pair)));
+  }
+  return recogniser;
 }
 
 TrainedFeature extractor_of(const FeatureModel& feature, const std::string& source) {
