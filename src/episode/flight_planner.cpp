@@ -26,6 +26,41 @@ std::vector<FlightWaypoint> waypoints_of(const Eigen::Matrix4Xd& points) {
   return waypoints;
 }
 
+/// Farther surfaces cost nothing.
+constexpr double kReach_m = 1.5;
+/// Beyond the path, where its detours may lead.
+constexpr double kAside_m = 2.5;
+
+/// The part of the map's obstacles inside a box.
+SurfaceDistance surface_inside(const FlightMap& map, const Eigen::AlignedBox3d& box_m) {
+  const GridFrame& whole = map.grid().frame;
+  const std::vector<std::uint8_t> obstacles = map.obstacles();
+  const Eigen::Array3i low = whole.cell_at(box_m.min()).max(0).min(whole.cells - 1);
+  const Eigen::Array3i high = whole.cell_at(box_m.max()).max(0).min(whole.cells - 1);
+  const GridFrame part{whole.min_corner_m + (low.cast<double>() * whole.cell_size_m.array()).matrix(),
+                       whole.cell_size_m, high - low + 1};
+  std::vector<std::uint8_t> flags;
+  flags.reserve(part.size());
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      const auto row = obstacles.begin() +
+                       static_cast<std::ptrdiff_t>(whole.index({low.x(), y, z}));
+      flags.insert(flags.end(), row, row + part.cells.x());
+    }
+  }
+  return SurfaceDistance(part, flags, kReach_m);
+}
+
+/// Round the paths, by so much.
+Eigen::AlignedBox3d box_round(const std::vector<Eigen::Matrix4Xd>& paths, double by_m) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Matrix4Xd& path : paths) {
+    for (const auto& q : path.colwise()) box.extend(Eigen::Vector3d(q.head<3>()));
+  }
+  const Eigen::Vector3d more_m = Eigen::Vector3d::Constant(by_m);
+  return {box.min() - more_m, box.max() + more_m};
+}
+
 }  // namespace
 
 std::string trajectory_method_name(const TrajectoryMethod& method, const FlightCostOptions& cost) {
@@ -130,7 +165,9 @@ PathCost FlightPlanner::cost() const {
 std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                                           const std::vector<PlannableObject>& objects,
                                           const FlightMap& map) {
-  surface_.emplace(map.grid().frame, map.obstacles());
+  surface_ = surface_inside(map, box_round({horizon(state, state.nominal).points,
+                                            horizon(state, state.plan).points},
+                                           kAside_m));
   std::vector<WayOn> ways;
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
     ways.push_back({.planner = std::move(planner), .points = points});
