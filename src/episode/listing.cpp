@@ -10,6 +10,7 @@
 #include "models/catalogue/object_database.hpp"
 #include "planners/gain.hpp"
 #include "planners/object_view_choice.hpp"
+#include "planners/trajectory/trajectory_optimiser.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/data_root.hpp"
 
@@ -59,6 +60,7 @@ constexpr auto kTopics = std::to_array<Topic>({
     {"gains", [] { return owned(strategy_names<Gain>()); }},
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
     {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
+    {"optimisers", [] { return owned(strategy_names<TrajectoryOptimiser>()); }},
     {"episodes", [] { return yaml_files("assets/episodes"); }},
     {"studies", [] { return yaml_files("assets/studies"); }},
     {"scenes", scenes},
