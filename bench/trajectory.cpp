@@ -1,12 +1,11 @@
-// The time an optimisation of ten waypoints takes in flight: ten objects in the map, of which the
+// The time a replan of the next ten waypoints takes in flight: ten objects in the map, of which the
 // nearest that is not yet known is the target, distances looked up in their distance field.
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "bench/measures.hpp"
-#include "planners/trajectory/observation_ring.hpp"
-#include "planners/trajectory/trajectory_optimiser.hpp"
+#include "planners/trajectory/replanning.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -50,8 +49,8 @@ class Flight {
     return {frame, occupied};
   }
 
-  OptimisedHorizon replan(const TrajectoryOptimiser& optimiser, const SurfaceDistance& surface,
-                          Eigen::Index waypoint) const {
+  OptimisedHorizon plan(const TrajectoryOptimiser& optimiser, const SurfaceDistance& surface,
+                        Eigen::Index waypoint) const {
     const Horizon horizon{waypoints_.col(waypoint - 1), waypoints_.middleCols(waypoint, kHorizon),
                           waypoints_.col(waypoint + kHorizon)};
     const FlightCostOptions options;
@@ -59,7 +58,7 @@ class Flight {
                                            horizon.points, options.tau_nats);
     const PathCost cost = flight_cost(options, camera_, {.surface = &surface, .target = target});
     Rng rng(static_cast<std::uint64_t>(waypoint));
-    return optimise(optimiser, horizon, cost, rng);
+    return replan(optimiser, horizon, horizon.points, objects_, {}, cost, rng);
   }
 
  private:
@@ -80,10 +79,10 @@ void run_benchmark() {
     int evaluations = 0;
     for (Eigen::Index waypoint = 1; waypoint + kHorizon < kWaypoints; waypoint += 3) {
       const SurfaceDistance surface = flight.surface_at(waypoint);
-      const auto plan = flight.replan(optimiser, surface, waypoint);
+      const auto plan = flight.plan(optimiser, surface, waypoint);
       left += plan.cost / plan.initial_cost;
       evaluations = std::max(evaluations, plan.evaluations);
-      times_ms.push_back(median_ms(9, [&] { flight.replan(optimiser, surface, waypoint); }));
+      times_ms.push_back(median_ms(9, [&] { flight.plan(optimiser, surface, waypoint); }));
     }
     const auto situations = static_cast<double>(times_ms.size());
     std::ranges::sort(times_ms);
