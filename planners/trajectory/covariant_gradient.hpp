@@ -34,9 +34,19 @@ struct CovariantGradient {
   OptimisedHorizon operator()(const Horizon& horizon, const PathCost& cost, Rng& rng) const;
 };
 
-/// Gradient of the path's cost, control included, 4 x n. `search` has just evaluated
-/// `free_points`; takes 12 evaluations.
-void path_gradient(PathSearch& search, const Eigen::Matrix4Xd& free_points, double difference,
-                   Eigen::Matrix4Xd& gradient);
+/// Gradients of a path's cost, control included. Allocates once.
+class PathGradient {
+ public:
+  explicit PathGradient(Eigen::Index free_points);
+
+  /// 4 x n, at the free points that `search` has just evaluated; takes 12 evaluations.
+  const Eigen::Matrix4Xd& operator()(PathSearch& search, const Eigen::Matrix4Xd& free_points,
+                                     double difference);
+
+ private:
+  Eigen::Matrix4Xd gradient_;
+  Eigen::Matrix4Xd moved_;
+  Eigen::VectorXd cost_here_;
+};
 
 }  // namespace vantage

@@ -24,7 +24,7 @@ struct FlightCostOptions {
   double body_radius_m = 0.5;       ///< of the sphere that holds the vehicle
   double speed_floor_m_s = 0.2;     ///< so that standing in an obstacle costs; higher costs more
   double segment_s = 1.0;           ///< time from a waypoint to the next; higher takes it as slower
-  double bearing_weight = 0.2;     ///< of the bearing in c_v; higher turns sooner to what is behind
+  double bearing_weight = 0.5;     ///< of the bearing in c_v; higher turns sooner to what is behind
   bool between_waypoints = true;   ///< c_o looks half way to the neighbours too
   double clearance_m = 0.6;        ///< from centre to surface that must be kept
   double clearance_weight = 50.0;  ///< 1/m, of what is missing; higher is harder
@@ -93,7 +93,7 @@ double information_cost(const FlightCostOptions& options, double entropy_nats);
 /// What is known round the vehicle.
 struct FlightScene {
   const SurfaceDistance* surface = nullptr;            ///< null: nothing is in the way
-  std::optional<ObservationTarget> target;             ///< none: look where you go
+  std::optional<ObservationTarget> target{};           ///< none: look where you go
   std::vector<Eigen::Vector3d> p_world_obstacles_m{};  ///< literal: centres o_c
 };
 

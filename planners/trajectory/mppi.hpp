@@ -18,7 +18,7 @@ struct Mppi {
   int iterations = 50;  ///< higher takes longer and settles better
   double sensitivity =
       10.0;  ///< span of costs over temperature, > 0; higher follows the best alone
-  PathNoise noise;
+  PathNoise noise{};
   void fields(auto&& f) {
     f("rollouts", rollouts, between(2, 10'000));
     f("iterations", iterations, between(1, 100'000));

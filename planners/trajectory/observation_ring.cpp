@@ -9,6 +9,7 @@
 namespace vantage {
 namespace {
 
+constexpr double kSame_m = 1e-6;  ///< rounding does not decide
 constexpr double kStep_rad = 2.0 * std::numbers::pi / kObservationDirections;
 
 }  // namespace
@@ -62,14 +63,15 @@ std::optional<std::size_t> active_object(std::span<const ObservedObject> objects
 std::optional<int> active_direction(const ObservedObject& object,
                                     const Eigen::Matrix4Xd& remaining) {
   std::optional<int> nearest;
-  double least_m = std::numeric_limits<double>::infinity();
+  OnPath least;
   for (int d = 0; d < kObservationDirections; ++d) {
     if (object.used[static_cast<std::size_t>(d)]) continue;
-    const double away_m = nearest_on_path(remaining, object.ring.view_m(d)).distance_m;
-    if (away_m < least_m) {
-      nearest = d;
-      least_m = away_m;
-    }
+    const OnPath here = nearest_on_path(remaining, object.ring.view_m(d));
+    const double farther_m = here.distance_m - least.distance_m;
+    const bool sooner = farther_m < -kSame_m || (farther_m < kSame_m && here.at < least.at);
+    if (nearest && !sooner) continue;
+    nearest = d;
+    least = here;
   }
   return nearest;
 }

@@ -47,7 +47,8 @@ std::optional<std::size_t> active_object(std::span<const ObservedObject> objects
                                          const Eigen::Vector3d& p_world_vehicle_m, double tau_nats,
                                          double range_m = std::numeric_limits<double>::infinity());
 
-/// The unused direction whose place is nearest the remaining path, of equal ones the first.
+/// The unused direction whose place is nearest the remaining path; of equal ones that which comes
+/// first along it.
 std::optional<int> active_direction(const ObservedObject& object,
                                     const Eigen::Matrix4Xd& remaining);
 

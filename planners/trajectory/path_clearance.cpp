@@ -18,7 +18,7 @@ std::vector<Eigen::Vector3d> places_along(const Horizon& horizon, double step_m)
   const PathSpline spline(waypoints);
   std::vector<Eigen::Vector3d> places;
   for (std::size_t segment = 0; segment < spline.segments(); ++segment) {
-    // Nowhere does it go faster than 1.5 + 1/4 + 1/4 chords a segment, tangents being unit at most.
+    // Tangents being of unit length at most, it goes at up to two chords a segment.
     const int steps =
         std::max(1, static_cast<int>(std::ceil(2.0 * spline.chord_m(segment) / step_m)));
     for (int k = 0; k < steps; ++k) places.push_back(spline.at(segment, k / double(steps)));

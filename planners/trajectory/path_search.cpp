@@ -8,6 +8,23 @@
 
 namespace vantage {
 
+double path_cost(const Horizon& horizon, const PathCost& cost) {
+  return PathSearch(horizon, cost).best_cost();
+}
+
+std::size_t cheapest(std::span<const Horizon> starts, const PathCost& cost) {
+  expects(!starts.empty(), "there is a start");
+  std::size_t best = 0;
+  double least = path_cost(starts[0], cost);
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    const double here = path_cost(starts[i], cost);
+    if (here >= least) continue;
+    best = i;
+    least = here;
+  }
+  return best;
+}
+
 PathSearch::PathSearch(const Horizon& nominal, const PathCost& cost)
     : cost_(cost),
       given_(nominal.points),

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
 
 #include "planners/trajectory/horizon.hpp"
 
@@ -17,6 +19,14 @@ struct PathNoise {
     return {sigma_m[0], sigma_m[1], sigma_m[2], sigma_yaw_rad};
   }
 };
+
+/// Cost of a horizon as it is, control included.
+double path_cost(const Horizon& horizon, const PathCost& cost);
+
+/// The one of several starts, at least one, that costs least; of equal ones the first. Plans, once
+/// bent, are slow to straighten: it is worth the few evaluations to ask whether the plan at hand is
+/// still better to start from than the nominal path or the smoothest.
+std::size_t cheapest(std::span<const Horizon> starts, const PathCost& cost);
 
 /// Tries free points of one horizon. The first try is that of the given ones.
 class PathSearch {

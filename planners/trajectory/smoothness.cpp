@@ -23,6 +23,20 @@ void add_control_cost(const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_o
   }
 }
 
+Horizon smoothest(const Horizon& horizon) {
+  Horizon smooth = unwrapped(horizon);
+  const Eigen::Index n = horizon.free_points();
+  if (n == 0) return smooth;
+  smooth.points.middleCols(1, n).setZero();
+  Eigen::MatrixXd b(4, n + 2);
+  for (Eigen::Index i = 0; i < n + 2; ++i) {
+    b.col(i) = smooth.point(i - 1) - 2.0 * smooth.point(i) + smooth.point(i + 1);
+  }
+  const Eigen::MatrixXd A = second_differences(n);
+  smooth.points.middleCols(1, n) = -b * A * Smoothness(n).R_inverse();
+  return smooth;
+}
+
 Smoothness::Smoothness(Eigen::Index free_points) {
   expects(free_points > 0, "a path has free points");
   const Eigen::MatrixXd A = second_differences(free_points);

@@ -17,6 +17,10 @@ Eigen::MatrixXd second_differences(Eigen::Index free_points);
 /// speed costs nothing, whatever Q is. Yaw must be unwrapped.
 void add_control_cost(const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point);
 
+/// The free points that cost least control, Q = -R^-1 A' b: the clamped spline between the fixed
+/// ones. A start that is smooth, where the points that are at hand are not.
+Horizon smoothest(const Horizon& horizon);
+
 class Smoothness {
  public:
   /// @param free_points > 0

@@ -16,7 +16,7 @@ struct Stomp {
   int rollouts = 20;          ///< paths tried an iteration, the noise-free one among them
   int iterations = 50;        ///< higher takes longer and settles better
   double sensitivity = 10.0;  ///< h, > 0; higher follows the best rollouts alone
-  PathNoise noise;
+  PathNoise noise{};
   void fields(auto&& f) {
     f("rollouts", rollouts, between(2, 10'000));
     f("iterations", iterations, between(1, 100'000));

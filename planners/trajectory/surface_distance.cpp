@@ -9,8 +9,8 @@
 namespace vantage {
 namespace {
 
-/// Squared distances of the rows of a grid, m^2, along one axis after the other. What is farther
-/// than the reach is at the reach, and rows that hold nothing nearer are passed over.
+/// Squared distances between cells, m^2, along one axis after the other. What is farther than the
+/// reach is at the reach, so that few rows matter to a row, each of them in one vectorised pass.
 class Transform {
  public:
   Transform(const GridFrame& frame, double reach_m)
@@ -19,7 +19,7 @@ class Transform {
         far_(static_cast<float>(reach_m * reach_m)),
         reach_m_(reach_m) {}
 
-  /// To the nearest cell whose flag is `wanted`, or not 0 where any will do.
+  /// From each cell to the nearest that is occupied, or to the nearest that is not.
   std::vector<float> squared_distances(std::span<const std::uint8_t> occupied, bool to_occupied) {
     std::vector<float> squared(frame_.size());
     for (std::size_t begin = 0; begin < squared.size(); begin += nx_) {
@@ -57,14 +57,17 @@ class Transform {
   /// distance on top.
   void across(float* first, std::size_t rows, std::size_t stride, double cell_m) {
     before_.resize(rows * nx_);
-    nothing_.assign(rows, 0);
+    nothing_.resize(rows);
+    settled_.resize(rows);
     for (std::size_t row = 0; row < rows; ++row) {
       const std::span<const float> from(first + row * stride, nx_);
       std::ranges::copy(from, before_.begin() + static_cast<std::ptrdiff_t>(row * nx_));
       nothing_[row] = std::ranges::all_of(from, [&](float d) { return d >= far_; }) ? 1 : 0;
+      settled_[row] = std::ranges::all_of(from, [](float d) { return d == 0.0F; }) ? 1 : 0;
     }
     const auto reach = static_cast<std::size_t>(reach_m_ / cell_m);
     for (std::size_t row = 0; row < rows; ++row) {
+      if (settled_[row] != 0) continue;
       float* const to = first + row * stride;
       const std::size_t end = std::min(rows, row + reach + 1);
       for (std::size_t other = row > reach ? row - reach : 0; other < end; ++other) {
@@ -87,7 +90,8 @@ class Transform {
   float far_;
   double reach_m_;
   std::vector<float> before_;
-  std::vector<std::uint8_t> nothing_;
+  std::vector<std::uint8_t> nothing_;  // in reach of the row
+  std::vector<std::uint8_t> settled_;  // nothing is nearer
 };
 
 }  // namespace
@@ -97,16 +101,15 @@ SurfaceDistance::SurfaceDistance(const GridFrame& frame, std::span<const std::ui
     : frame_(frame), reach_m_(reach_m) {
   expects(occupied.size() == frame.size(), "a flag for each cell");
   expects(reach_m > 0.0, "distances reach somewhere");
-  Transform transform(frame_, reach_m);
+  const double half_m = 0.5 * frame.cell_size_m.minCoeff();
+  Transform transform(frame_, reach_m + half_m);
   signed_m_ = transform.squared_distances(occupied, true);
   const std::vector<float> inside = transform.squared_distances(occupied, false);
-  const auto half = static_cast<float>(0.5 * frame.cell_size_m.minCoeff());
-  const auto far = static_cast<float>(reach_m);
+  const auto half = static_cast<float>(half_m);
   for (std::size_t i = 0; i < signed_m_.size(); ++i) {
-    const float out = std::sqrt(signed_m_[i]);
-    const float in = std::sqrt(inside[i]);
-    const float surface = in > 0.0F ? half - in : out - half;
-    signed_m_[i] = out >= far ? far : surface;
+    const float out = std::sqrt(signed_m_[i]) - half;
+    const float in = half - std::sqrt(inside[i]);
+    signed_m_[i] = inside[i] > 0.0F ? in : out;
   }
 }
 

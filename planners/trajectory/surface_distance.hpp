@@ -14,15 +14,14 @@ namespace vantage {
 
 /// Signed distance to the surface of the occupied cells of a grid: above 0 outside, below 0 inside.
 ///
-/// Distances between cell centres are exact (up to `reach_m`, where they end: farther surfaces are
-/// at reach_m); the surface lies half a cell, the shortest edge, from an occupied centre, so it may
-/// be nearer than told by up to 0.37 cells where a cube's corner points at the place. Outside the
-/// grid nothing is occupied.
+/// Between cell centres it is exact, and the surface lies half a cell, the shortest edge, from an
+/// occupied centre: it may be up to 0.37 cells nearer than told where a cube's corner points at the
+/// place. No distance is told to be more than `reach_m`. Outside the grid nothing is occupied.
 class SurfaceDistance {
  public:
   /// @param occupied a flag for each cell, `frame.index` order
   SurfaceDistance(const GridFrame& frame, std::span<const std::uint8_t> occupied,
-                  double reach_m = 2.0);
+                  double reach_m = 1.5);
 
   struct Sample {
     double distance_m = 0.0;
@@ -50,6 +49,6 @@ class SurfaceDistance {
 /// Of the occupied cells of a map inside `window` (world; cut to the map). What was never observed
 /// is not occupied.
 SurfaceDistance surface_distance(const OccupancyGrid& map, const Eigen::AlignedBox3d& window,
-                                 double reach_m = 2.0);
+                                 double reach_m = 1.5);
 
 }  // namespace vantage

@@ -16,9 +16,9 @@ template <>
 inline constexpr std::string_view strategy_family<TrajectoryOptimiser> = "trajectory optimiser";
 
 /// Minimises the sum of `cost` over the points and 1/2 |A Q + b|^2, the cost of control, in x, y, z
-/// and yaw. The first and the last point stay; yaw differences are taken the short way round. All
-/// optimisers stop after the same number of evaluations, rollouts x iterations + 1, and return the
-/// best path they saw, so never one that is worse than what they were given.
+/// and yaw. The first and the last point stay; yaw differences are taken the short way round. By
+/// default all optimisers take the same number of evaluations, 20 x 50 + 1 (covariant_gradient: at
+/// most), and return the best path they saw, so never one that is worse than what they were given.
 OptimisedHorizon optimise(const TrajectoryOptimiser& optimiser, const Horizon& horizon,
                           const PathCost& cost, Rng& rng);
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "planners/trajectory/replanning.hpp"
 #include "src/core/strategy_label.hpp"
 
 namespace vantage {
@@ -144,7 +145,11 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
           method.detour.tau_nats = task_.looks.known_below_nats;
           return greedy_detour(given, objects, method.detour);
         } else {
-          return method(horizon(state, state.plan), cost(), rng_).points;
+          const YawToTarget heading{.tau_nats = task_.looks.known_below_nats,
+                                    .range_m = task_.planner.range_m};
+          return replan(method, horizon(state, state.plan), given.points, objects, heading, cost(),
+                        rng_)
+              .points;
         }
       },
       task_.method);
