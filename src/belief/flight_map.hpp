@@ -18,7 +18,7 @@ struct FlightMapOptions {
   int stride_px = 4;      ///< of the pixels used, each way, at 640 px width; higher is faster
   double noise_m = 0.03;  ///< of a point, standard deviation; depth and estimated pose
   double rise_m = 0.3;    ///< height of a wall that is taken to go on beyond what was seen of it
-  FreeSpaceUpdate free_space;
+  FreeSpaceUpdate free_space = {};
   void fields(auto&& f) {
     f("cell_m", cell_m, Range{0.01, 1.0});
     f("stride_px", stride_px, between(1, 64));

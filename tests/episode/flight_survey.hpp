@@ -60,8 +60,8 @@ class FlightSurvey {
 
   /// Flies to the path's end; a picture at every period.
   FlightResult fly(const std::function<void(const SurveyMoment&)>& look = {}) {
-    const auto renderer = make_offscreen_renderer(world.model(), options_.camera.width_px,
-                                                  options_.camera.height_px);
+    const auto renderer =
+        make_offscreen_renderer(world.model(), options_.camera.width_px, options_.camera.height_px);
     Rng noise = Rng::stream(options_.seed, "camera");
     double next_s = 0.0;
     return pilot.fly_to(std::span(layout.path).subspan(1), [&](const Pilot&) {
@@ -93,7 +93,8 @@ class FlightSurvey {
     search_ms += ms_since(middle);
     ++images_taken;
     const std::vector<int> ids = found.update(sightings_of(seen));
-    const Pose T_true = vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
+    const Pose T_true =
+        vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
     if (look) look({picture, T_true, seen, ids});
   }
 
@@ -114,15 +115,16 @@ class FlightSurvey {
 
 /// How what was found compares with what is there.
 struct SurveyScore {
-  int shown = 0;        ///< times an object was well in view: see `score_of`
-  int seen = 0;         ///< of those, times it was reported
-  int strangers = 0;    ///< reports of what is no object
-  int whole = 0;        ///< reports of whole objects within 2 m
-  int whole_wrong = 0;  ///< of those, objects that the frame cuts
+  int shown = 0;                ///< times an object was well in view: see `score_of`
+  int seen = 0;                 ///< of those, times it was reported
+  int strangers = 0;            ///< reports of what is no object
+  int whole = 0;                ///< reports of whole objects within 2 m
+  int whole_wrong = 0;          ///< of those, objects that the frame cuts
   std::vector<double> error_m;  ///< of reports of whole objects, level
 };
 
-/// Adds what one image tells. An object is well in view within 3 m if at least `min_pixels` show it.
+/// Adds what one image tells. An object is well in view within 3 m if at least `min_pixels` show
+/// it.
 inline void add(SurveyScore& score, const FlightSurvey& survey, const SurveyMoment& moment,
                 int min_pixels = 150) {
   std::vector<int> reported(survey.objects.size(), 0);
@@ -146,8 +148,8 @@ inline void add(SurveyScore& score, const FlightSurvey& survey, const SurveyMome
       const CameraImages& truth = moment.truth;
       for (int row = 0; row < truth.height_px; ++row) {
         for (int column = 0; column < truth.width_px; ++column) {
-          const bool border = row == 0 || column == 0 || row == truth.height_px - 1 ||
-                              column == truth.width_px - 1;
+          const bool border =
+              row == 0 || column == 0 || row == truth.height_px - 1 || column == truth.width_px - 1;
           const auto pixel = static_cast<std::size_t>(row * truth.width_px + column);
           cut = cut || (border && truth.segmentation[pixel] == body);
         }
