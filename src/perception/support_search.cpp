@@ -123,20 +123,21 @@ double area_m2(const std::vector<Eigen::Vector2d>& hull) {
   return 0.5 * twice_m2;
 }
 
-/// The points of a patch, fitted twice so that what only leans against it drops out.
+/// The points of a patch, fitted again without what only leans against it: feet of objects would
+/// tilt the plane.
 std::optional<TablePlane> plane_of(std::vector<Eigen::Vector3d> points,
                                    const SupportSearchOptions& options) {
   constexpr std::size_t kFewest = 8;
-  Fit fit;
-  for (int pass = 0; pass < 2; ++pass) {
+  const double steepest = std::tan(options.max_tilt_rad);
+  for (const double share : {1.0, 0.75, 0.5}) {
     if (points.size() < kFewest) return std::nullopt;
-    fit = fit_plane(points, std::tan(options.max_tilt_rad));
+    const Fit fit = fit_plane(points, steepest);
     std::erase_if(points, [&](const Eigen::Vector3d& p) {
-      return std::abs(fit.above(p)) > options.inlier_distance_m;
+      return std::abs(fit.above(p)) > share * options.inlier_distance_m;
     });
   }
   if (points.size() < kFewest) return std::nullopt;
-  return to_plane(points, fit_plane(points, std::tan(options.max_tilt_rad)));
+  return to_plane(points, fit_plane(points, steepest));
 }
 
 /// Cells that show something at a height, without those that show something well above it too: a
