@@ -1,6 +1,7 @@
 /// A flight along the initial path of a scene, and what a robot that knows nothing of it finds.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -121,7 +122,35 @@ struct SurveyScore {
   int whole = 0;                ///< reports of whole objects within 2 m
   int whole_wrong = 0;          ///< of those, objects that the frame cuts
   std::vector<double> error_m;  ///< of reports of whole objects, level
+  std::vector<double> overlap;  ///< of their masks within 2 m with truth: intersection over union
 };
+
+inline bool touches_border(const CameraImages& truth, int body) {
+  for (int row = 0; row < truth.height_px; ++row) {
+    const int step = row == 0 || row == truth.height_px - 1 ? 1 : truth.width_px - 1;
+    for (int column = 0; column < truth.width_px; column += step) {
+      if (truth.segmentation[static_cast<std::size_t>(row * truth.width_px + column)] == body) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+inline double overlap(const ObjectView& view, const CameraImages& truth, int body) {
+  std::ptrdiff_t both = 0;
+  std::ptrdiff_t masked = 0;
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      if (view.mask[view.index(row, column)] == 0) continue;
+      ++masked;
+      const int at = (view.top_px + row) * truth.width_px + view.left_px + column;
+      both += truth.segmentation[static_cast<std::size_t>(at)] == body ? 1 : 0;
+    }
+  }
+  const auto meant = std::ranges::count(truth.segmentation, body);
+  return static_cast<double>(both) / static_cast<double>(masked + meant - both);
+}
 
 /// Adds what one image tells. An object is well in view within 3 m if at least `min_pixels` show
 /// it.
@@ -143,18 +172,8 @@ inline void add(SurveyScore& score, const FlightSurvey& survey, const SurveyMome
       score.error_m.push_back(off_m);
       if (seen.sighting.distance_m > 2.0) continue;
       ++score.whole;
-      const int body = body_of(i);
-      bool cut = false;
-      const CameraImages& truth = moment.truth;
-      for (int row = 0; row < truth.height_px; ++row) {
-        for (int column = 0; column < truth.width_px; ++column) {
-          const bool border =
-              row == 0 || column == 0 || row == truth.height_px - 1 || column == truth.width_px - 1;
-          const auto pixel = static_cast<std::size_t>(row * truth.width_px + column);
-          cut = cut || (border && truth.segmentation[pixel] == body);
-        }
-      }
-      score.whole_wrong += cut ? 1 : 0;
+      score.whole_wrong += touches_border(moment.truth, body_of(i)) ? 1 : 0;
+      score.overlap.push_back(overlap(seen.view, moment.truth, body_of(i)));
     }
     score.strangers += known ? 0 : 1;
   }
