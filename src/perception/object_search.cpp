@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/perception/table_segmentation.hpp"
+
 namespace vantage {
 namespace {
 

@@ -11,13 +11,13 @@
 namespace vantage {
 
 struct ObjectSearchOptions {
-  SupportSearchOptions support;
+  SupportSearchOptions support = {};
   ObjectSegmentationOptions cut{.radius_m = 0.3, .max_height_m = 0.5, .min_pixels = 60};
   double range_m = 3.0;         ///< farther objects are not reported; higher finds them earlier
   double nearest_m = 0.85;      ///< of the object's surface; where it is nearer, depth may lack
   int border_px = 2;            ///< an object that close to the frame's edge is not whole
   double gap_m = 0.05;          ///< between parts of one object; higher joins neighbours
-  double noise_per_m = 0.0012;  ///< of heights, standard deviation per squared distance, 1/m
+  double noise_per_m = 0.0008;  ///< of heights, standard deviation per squared distance, 1/m
   void fields(auto&& f) {
     f("support", support);
     f("cut", cut);

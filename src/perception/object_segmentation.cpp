@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "src/perception/table_segmentation.hpp"
+
 namespace vantage {
 namespace {
 

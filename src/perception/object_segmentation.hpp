@@ -46,9 +46,4 @@ SegmentedObject segment_object(const CameraImages& images, const Pose& T_world_c
                                const Eigen::Vector3d& p_world_table_m,
                                const ObjectSegmentationOptions& options, Rng& rng);
 
-/// The same on a table that was found in this image already; looks at no other part of it.
-SegmentedObject segment_on_table(const CameraImages& images, const Pose& T_world_camera,
-                                 const TablePlane& table, const Eigen::Vector3d& p_world_table_m,
-                                 const ObjectSegmentationOptions& options);
-
 }  // namespace vantage

@@ -114,33 +114,56 @@ TablePlane to_plane(const std::vector<Eigen::Vector3d>& points, const Fit& fit) 
   return plane;
 }
 
-/// The points of a patch, fitted twice so that what only leans against it drops out.
+double area_m2(const std::vector<Eigen::Vector2d>& hull) {
+  double twice_m2 = 0.0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d& next = hull[(i + 1) % hull.size()];
+    twice_m2 += hull[i].x() * next.y() - hull[i].y() * next.x();
+  }
+  return 0.5 * twice_m2;
+}
+
+/// The points of a patch, fitted again without what only leans against it: feet of objects would
+/// tilt the plane.
 std::optional<TablePlane> plane_of(std::vector<Eigen::Vector3d> points,
                                    const SupportSearchOptions& options) {
   constexpr std::size_t kFewest = 8;
-  Fit fit;
-  for (int pass = 0; pass < 2; ++pass) {
+  const double steepest = std::tan(options.max_tilt_rad);
+  for (const double share : {1.0, 0.75, 0.5}) {
     if (points.size() < kFewest) return std::nullopt;
-    fit = fit_plane(points, std::tan(options.max_tilt_rad));
+    const Fit fit = fit_plane(points, steepest);
     std::erase_if(points, [&](const Eigen::Vector3d& p) {
-      return std::abs(fit.above(p)) > options.inlier_distance_m;
+      return std::abs(fit.above(p)) > share * options.inlier_distance_m;
     });
   }
   if (points.size() < kFewest) return std::nullopt;
-  return to_plane(points, fit_plane(points, std::tan(options.max_tilt_rad)));
+  return to_plane(points, fit_plane(points, steepest));
+}
+
+/// Cells that show something at a height, without those that show something well above it too: a
+/// wall's, and those that objects cover.
+cv::Mat1b level_cells(const Band& band, double height_m, const SupportSearchOptions& options) {
+  constexpr double kTall_m = 0.08;
+  const double half_m = 2.0 * options.inlier_distance_m;
+  cv::Mat1b level(band.cells, static_cast<unsigned char>(0));
+  cv::Mat1b tall(band.cells, static_cast<unsigned char>(0));
+  for (const auto& p : band.points) {
+    const cv::Point cell = cell_of(band, p, options.cell_m);
+    if (std::abs(p.z() - height_m) <= half_m) level(cell) = 255;
+    if (p.z() > height_m + kTall_m) tall(cell) = 255;
+  }
+  const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
+  cv::morphologyEx(level, level, cv::MORPH_CLOSE, square);
+  level.setTo(0, tall);
+  cv::morphologyEx(level, level, cv::MORPH_OPEN, square);
+  return level;
 }
 
 /// Level patches about one height: as thick as walls are not.
 std::vector<TablePlane> patches_at(const Band& band, double height_m,
                                    const SupportSearchOptions& options) {
   const double half_m = 2.0 * options.inlier_distance_m;
-  cv::Mat1b raster(band.cells, 0);
-  for (const auto& p : band.points) {
-    if (std::abs(p.z() - height_m) <= half_m) raster(cell_of(band, p, options.cell_m)) = 255;
-  }
-  const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
-  cv::morphologyEx(raster, raster, cv::MORPH_CLOSE, square);
-  cv::morphologyEx(raster, raster, cv::MORPH_OPEN, square);
+  const cv::Mat1b raster = level_cells(band, height_m, options);
   cv::Mat labels, statistics, centres;
   const int count = cv::connectedComponentsWithStats(raster, labels, statistics, centres, 8);
   std::vector<std::vector<Eigen::Vector3d>> members(static_cast<std::size_t>(count));
@@ -154,7 +177,8 @@ std::vector<TablePlane> patches_at(const Band& band, double height_m,
   for (int label = 1; label < count; ++label) {
     if (statistics.at<int>(label, cv::CC_STAT_AREA) * cell_area_m2 < options.min_area_m2) continue;
     auto plane = plane_of(std::move(members[static_cast<std::size_t>(label)]), options);
-    if (plane) planes.push_back(std::move(*plane));
+    const bool wide = plane && area_m2(plane->hull) >= options.min_area_m2;
+    if (wide) planes.push_back(std::move(*plane));
   }
   return planes;
 }
