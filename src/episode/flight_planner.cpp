@@ -132,6 +132,7 @@ void FlightPlanner::choose_target(const PlanState& state,
 Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
                                             const std::vector<ObservedObject>& objects) {
   const Horizon given = horizon(state, state.nominal);
+  if (given.free_points() == 0) return given.points;
   const Eigen::Vector4d next = given.points.col(0);  // flown to already
   Eigen::Matrix4Xd points = std::visit(
       [&](auto method) -> Eigen::Matrix4Xd {

@@ -59,6 +59,12 @@ bool ObjectLooks::wants(int id, const ObjectSighting& sighting, const Pose& T_wo
          (options_.look_at_known || !known(*object));
 }
 
+int ObjectLooks::direction(int id, const Pose& T_world_camera) const {
+  const LookedAtObject* object = find(id);
+  expects(object != nullptr, "an object that was found");
+  return direction_from(object->p_world_m, T_world_camera);
+}
+
 const ObjectLook& ObjectLooks::take(int id, const ObjectSighting& sighting, const ObjectView& view,
                                     const Pose& T_world_camera, double time_s, Rng& rng) {
   LookedAtObject& object = of(id);

@@ -21,10 +21,14 @@ struct LookOptions {
   double range_m = 2.0;            ///< camera to object; higher sees more and worse
   double known_below_nats = 0.1;   ///< entropy of the object below which it is known
   bool look_at_known = false;      ///< go on observing what is known
+  /// Of a direction the nearest picture is the observation: it is taken once none was nearer for so
+  /// long, or the direction was left. Higher waits for better pictures; 0 takes the first.
+  double patience_s = 1.0;
   void fields(auto&& f) {
     f("range_m", range_m, Range{0.0, 20.0, true});
     f("known_below_nats", known_below_nats, at_least(0.0));
     f("look_at_known", look_at_known);
+    f("patience_s", patience_s, between(0.0, 100.0));
   }
 };
 
@@ -66,6 +70,8 @@ class ObjectLooks {
   /// Whether a look at the object from there would be an observation.
   [[nodiscard]] bool wants(int id, const ObjectSighting& sighting,
                            const Pose& T_world_camera) const;
+  /// That the object of that id is seen from.
+  [[nodiscard]] int direction(int id, const Pose& T_world_camera) const;
   /// Takes it. @param rng of feature choices, of which there are none as long as all are extracted
   const ObjectLook& take(int id, const ObjectSighting& sighting, const ObjectView& view,
                          const Pose& T_world_camera, double time_s, Rng& rng);

@@ -16,6 +16,8 @@ namespace {
 
 /// Beyond the horizon, so that it is not about to stop at its end.
 constexpr int kFollowedBeyond = 2;
+/// A picture replaces another if it is nearer by that.
+constexpr double kNearer_m = 0.1;
 
 std::vector<Eigen::Vector4d> columns_of(const std::vector<FlightWaypoint>& path) {
   std::vector<Eigen::Vector4d> columns;
@@ -83,9 +85,12 @@ WaypointReached TrajectoryFlight::observe() {
   const LookAt look = [this](const FlightPicture& picture) { this->look(picture); };
   if (at_ < 0) {
     rig_.look_now(look);
+    follow(0);
   } else {
     rig_.fly_past(1, look);
   }
+  const bool last = at_ + 2 >= static_cast<int>(nominal_.size());
+  if (last) take_looks([](const KeptLook&) { return true; });
   return {.waypoint = ++at_, .time_s = rig_.world().time_s(), .T_world_body = rig_.estimated_body()};
 }
 
@@ -101,24 +106,57 @@ void TrajectoryFlight::look(const FlightPicture& picture) {
   for (const LookedAtObject& object : looks_.objects()) {
     if (found_.find(object.id) == nullptr) gone.push_back(object.id);
   }
-  for (const int id : gone) looks_.forget(id);
-  take_looks(picture, ids, seen);
+  for (const int id : gone) {
+    looks_.forget(id);
+    std::erase_if(kept_, [id](const KeptLook& kept) { return kept.id == id; });
+  }
+  const double patience_s = episode_.trajectory.looks.patience_s;
+  const auto ripe = [&](const KeptLook& kept) {
+    return kept.direction != looks_.direction(kept.id, picture.T_world_camera) ||
+           picture.time_s - kept.time_s >= patience_s;
+  };
+  take_looks(ripe);  // of a direction that was left, before pictures from the next
+  keep_looks(picture, ids, seen);
+  take_looks(ripe);
 }
 
-void TrajectoryFlight::take_looks(const FlightPicture& picture, const std::vector<int>& ids,
+void TrajectoryFlight::keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
                                   const std::vector<SeenObject>& seen) {
   std::vector<SeenObject> coloured;  // none yet
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!looks_.wants(ids[i], seen[i].sighting, picture.T_world_camera)) continue;
+    const auto before = std::ranges::find(kept_, ids[i], &KeptLook::id);
+    if (before != kept_.end() && seen[i].sighting.distance_m >
+                                     before->seen.sighting.distance_m - kNearer_m) {
+      continue;
+    }
     if (coloured.empty()) {
       coloured = find_objects(picture.with_colour(), picture.T_world_camera,
                               episode_.trajectory.search);
       expects(coloured.size() == seen.size(), "the same objects in the same picture");
     }
-    const ObjectLook& look = looks_.take(ids[i], seen[i].sighting, coloured[i].view,
-                                         picture.T_world_camera, picture.time_s, look_rng_);
-    recorder_.look(ids[i], look, looks_.total(), coloured[i].view);
+    KeptLook kept{.id = ids[i],
+                  .direction = looks_.direction(ids[i], picture.T_world_camera),
+                  .seen = coloured[i],
+                  .T_world_camera = picture.T_world_camera,
+                  .time_s = picture.time_s};
+    if (before == kept_.end()) {
+      kept_.push_back(std::move(kept));
+    } else {
+      *before = std::move(kept);
+    }
   }
+}
+
+void TrajectoryFlight::take_looks(const std::function<bool(const KeptLook&)>& ripe) {
+  for (const KeptLook& kept : kept_) {
+    // Where the object is believed to be may have moved it into a direction that was used.
+    if (!ripe(kept) || !looks_.wants(kept.id, kept.seen.sighting, kept.T_world_camera)) continue;
+    const ObjectLook& look = looks_.take(kept.id, kept.seen.sighting, kept.seen.view,
+                                         kept.T_world_camera, kept.time_s, look_rng_);
+    recorder_.look(kept.id, look, looks_.total(), kept.seen.view);
+  }
+  std::erase_if(kept_, ripe);
 }
 
 void TrajectoryFlight::update(const WaypointReached& reached) {
@@ -182,7 +220,7 @@ void TrajectoryFlight::act(const WayOn& way) {
   for (Eigen::Index i = 0; i < way.points.cols(); ++i) {
     plan_[static_cast<std::size_t>(at_ + 1 + i)] = way.points.col(i);
   }
-  at_ += missed;
+  at_ = std::min(at_ + missed, static_cast<int>(nominal_.size()) - 2);
   current_.planner = way.planner;
   current_.cost = way.cost;
   current_.planned_clearance_m = way.clearance_m;
@@ -190,11 +228,12 @@ void TrajectoryFlight::act(const WayOn& way) {
   current_.late = current_.plan_time_s > latency_s;
   current_.missed = missed > 0;
   current_.plan.assign(plan_.begin() + at_ + 1, plan_.end());
-  follow_plan();
+  follow(at_);
 }
 
-void TrajectoryFlight::follow_plan() {
-  const auto first = static_cast<std::size_t>(at_ + 1);
+/// The plan from the waypoint after that one on.
+void TrajectoryFlight::follow(int from) {
+  const auto first = static_cast<std::size_t>(from + 1);
   const auto beyond = static_cast<std::size_t>(episode_.trajectory.horizon + kFollowedBeyond);
   std::vector<FlightWaypoint> waypoints;
   for (std::size_t i = first; i < std::min(plan_.size(), first + beyond); ++i) {

@@ -2,6 +2,7 @@
 /// [Potthast2016, chapter 5]
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "src/belief/flight_map.hpp"
@@ -23,6 +24,15 @@ struct WaypointReached {
   int waypoint = 0;
   double time_s = 0.0;
   Pose T_world_body = Pose::Identity();  ///< as estimated
+};
+
+/// A picture of an object that may become an observation.
+struct KeptLook {
+  int id = 0;
+  int direction = 0;
+  SeenObject seen;
+  Pose T_world_camera = Pose::Identity();  ///< as estimated
+  double time_s = 0.0;
 };
 
 class TrajectoryFlight {
@@ -49,9 +59,10 @@ class TrajectoryFlight {
 
  private:
   void look(const FlightPicture& picture);
-  void take_looks(const FlightPicture& picture, const std::vector<int>& ids,
+  void keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
                   const std::vector<SeenObject>& seen);
-  void follow_plan();
+  void take_looks(const std::function<bool(const KeptLook&)>& ripe);
+  void follow(int from);
   [[nodiscard]] std::vector<PlannableObject> plannable() const;
   [[nodiscard]] TrajectoryPanelInput panel() const;
 
@@ -66,6 +77,7 @@ class TrajectoryFlight {
   ObjectLooks looks_;
   FlightPlanner planner_;
   Rng look_rng_;
+  std::vector<KeptLook> kept_;
   int at_ = -1;  ///< the waypoint reached last
   double planning_since_s_ = 0.0;  ///< wall
   WaypointRecord current_;         ///< filled in from the decision to the end of its segment
