@@ -43,7 +43,8 @@ const std::vector<StudyPart>& study_parts() {
        [](const StudySummary& study) {
          return office_findings(study, "Fig. 3.15", {20, 25});
        }},
-      {"office_large", "Large office (Fig. 3.16)", tables, [](const StudySummary& study) {
+      {"office_large", "Large office (Fig. 3.16)", tables,
+       [](const StudySummary& study) {
          return office_findings(study, "Fig. 3.16", {60, 70});
        }},
       {"trajectory",

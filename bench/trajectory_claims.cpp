@@ -45,11 +45,10 @@ class FlightStudy {
     const double points =
         100.0 * (mean("accuracy", "all", "stomp") - mean("accuracy", "all", level));
     return {"goal", fmt::format("the difference to `{}` is told, whatever it is", level),
-            fmt::format("accuracy {:+.1f} points, mean entropy {:+.3f} nats, observations {:+.1f}",
-                        points,
-                        mean("mean_entropy_nats", "all", "stomp") -
-                            mean("mean_entropy_nats", "all", level),
-                        mean("observations", "all", "stomp") - mean("observations", "all", level)),
+            fmt::format(
+                "accuracy {:+.1f} points, mean entropy {:+.3f} nats, observations {:+.1f}", points,
+                mean("mean_entropy_nats", "all", "stomp") - mean("mean_entropy_nats", "all", level),
+                mean("observations", "all", "stomp") - mean("observations", "all", level)),
             true, ""};
   }
 
@@ -71,9 +70,9 @@ Finding accuracy_goal(const FlightStudy& study) {
 Finding published_gain(const FlightStudy& study) {
   std::string published;
   for (const Published& p : kPublished) {
-    published += fmt::format("{}{} {} to {} %, {} to {} nats", published.empty() ? "" : ", ",
-                             p.panel, p.initial_percent, p.optimised_percent, p.initial_nats,
-                             p.optimised_nats);
+    published +=
+        fmt::format("{}{} {} to {} %, {} to {} nats", published.empty() ? "" : ", ", p.panel,
+                    p.initial_percent, p.optimised_percent, p.initial_nats, p.optimised_nats);
   }
   const auto both = [&](const std::string& panel) {
     return study.mean("accuracy", panel, "stomp") > study.mean("accuracy", panel, "initial") &&

@@ -38,14 +38,15 @@ SurfaceDistance surface_inside(const FlightMap& map, const Eigen::AlignedBox3d& 
   const std::vector<std::uint8_t> obstacles = map.obstacles();
   const Eigen::Array3i low = whole.cell_at(box_m.min()).max(0).min(whole.cells - 1);
   const Eigen::Array3i high = whole.cell_at(box_m.max()).max(0).min(whole.cells - 1);
-  const GridFrame part{whole.min_corner_m + (low.cast<double>() * whole.cell_size_m.array()).matrix(),
-                       whole.cell_size_m, high - low + 1};
+  const GridFrame part{
+      whole.min_corner_m + (low.cast<double>() * whole.cell_size_m.array()).matrix(),
+      whole.cell_size_m, high - low + 1};
   std::vector<std::uint8_t> flags;
   flags.reserve(part.size());
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
-      const auto row = obstacles.begin() +
-                       static_cast<std::ptrdiff_t>(whole.index({low.x(), y, z}));
+      const auto row =
+          obstacles.begin() + static_cast<std::ptrdiff_t>(whole.index({low.x(), y, z}));
       flags.insert(flags.end(), row, row + part.cells.x());
     }
   }
@@ -90,7 +91,8 @@ Horizon FlightPlanner::horizon(const PlanState& state,
   horizon.before = state.plan[static_cast<std::size_t>(state.at)];
   horizon.points = columns(path, first, count);
   horizon.points.col(0) = state.plan[static_cast<std::size_t>(first)];
-  if (count > 1) horizon.points.col(count - 1) = state.nominal[static_cast<std::size_t>(first + count - 1)];
+  if (count > 1)
+    horizon.points.col(count - 1) = state.nominal[static_cast<std::size_t>(first + count - 1)];
   horizon.after = state.nominal[static_cast<std::size_t>(std::min(first + count, size - 1))];
   return unwrapped(std::move(horizon));
 }
@@ -118,8 +120,7 @@ void FlightPlanner::choose_target(const PlanState& state,
   const auto active =
       active_object(rings, p_m, task_.looks.known_below_nats, task_.planner.range_m);
   if (!active) return;
-  const auto direction =
-      active_direction(rings[*active], horizon(state, state.nominal).points);
+  const auto direction = active_direction(rings[*active], horizon(state, state.nominal).points);
   if (!direction) return;
   const PlannableObject& object = objects[*active];
   target_ = LookTarget{.object = object.id,
@@ -171,9 +172,9 @@ PathCost FlightPlanner::cost() const {
 std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                                           const std::vector<PlannableObject>& objects,
                                           const FlightMap& map) {
-  surface_ = surface_inside(map, box_round({horizon(state, state.nominal).points,
-                                            horizon(state, state.plan).points},
-                                           kAside_m));
+  surface_ = surface_inside(
+      map, box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
+                     kAside_m));
   std::vector<WayOn> ways;
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
     ways.push_back({.planner = std::move(planner), .points = points});
@@ -196,8 +197,7 @@ void FlightPlanner::score(const FlightReference& from, std::vector<WayOn>& ways)
     const FlightPath path(from, waypoints_of(way.points), task_.pilot.limits);
     way.clearance_m = std::numeric_limits<double>::infinity();
     for (double t_s = 0.0; t_s <= path.duration_s(); t_s += task_.planner.sample_s) {
-      way.clearance_m =
-          std::min(way.clearance_m, surface_->distance_m(path.at(t_s).p_world_m));
+      way.clearance_m = std::min(way.clearance_m, surface_->distance_m(path.at(t_s).p_world_m));
     }
     way.clear = way.clearance_m >= task_.planner.clearance_m;
   }

@@ -11,8 +11,8 @@
 #include "planners/gain.hpp"
 #include "planners/object_view_choice.hpp"
 #include "planners/view_choice.hpp"
-#include "src/episode/trajectory_method.hpp"
 #include "src/core/data_root.hpp"
+#include "src/episode/trajectory_method.hpp"
 
 namespace vantage {
 namespace {

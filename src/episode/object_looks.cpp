@@ -40,9 +40,8 @@ LookedAtObject& ObjectLooks::of(int id) {
 
 void ObjectLooks::found(int id, const Eigen::Vector3d& p_world_m) {
   if (find(id) == nullptr) {
-    objects_.push_back({.id = id,
-                        .p_world_m = p_world_m,
-                        .recognition = begin_recognition(recogniser_)});
+    objects_.push_back(
+        {.id = id, .p_world_m = p_world_m, .recognition = begin_recognition(recogniser_)});
   }
   of(id).p_world_m = p_world_m;
 }

@@ -18,9 +18,9 @@ namespace vantage {
 /// Which looks are taken as observations: one from each direction of ObservationRing, of objects
 /// that are not known yet.
 struct LookOptions {
-  double range_m = 2.0;            ///< camera to object; higher sees more and worse
-  double known_below_nats = 0.1;   ///< entropy of the object below which it is known
-  bool look_at_known = false;      ///< go on observing what is known
+  double range_m = 2.0;           ///< camera to object; higher sees more and worse
+  double known_below_nats = 0.1;  ///< entropy of the object below which it is known
+  bool look_at_known = false;     ///< go on observing what is known
   /// Of a direction the nearest picture is the observation: it is taken once none was nearer for so
   /// long, or the direction was left. Higher waits for better pictures; 0 takes the first.
   double patience_s = 1.0;

@@ -7,13 +7,13 @@
 
 #include "src/core/atomic_file.hpp"
 #include "src/core/log.hpp"
+#include "src/episode/flight_layout.hpp"
 #include "src/episode/manifest.hpp"
 #include "src/episode/next_best_view.hpp"
 #include "src/episode/object_recognition.hpp"
 #include "src/episode/office_exploration.hpp"
 #include "src/episode/recognition_metrics.hpp"
 #include "src/episode/report.hpp"
-#include "src/episode/flight_layout.hpp"
 #include "src/episode/trajectory_metrics.hpp"
 
 namespace vantage {
@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 constexpr auto kRunFiles = std::to_array<std::string_view>(
     {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
      "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
-     "voxels.bin", "story.bin", "looks.csv", "video.mp4", "report.html", "log.txt", "frames", "views"});
+     "voxels.bin", "story.bin", "looks.csv", "video.mp4", "report.html", "log.txt", "frames",
+     "views"});
 
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {

@@ -8,8 +8,8 @@
 #include "src/core/data_root.hpp"
 #include "src/core/log.hpp"
 #include "src/episode/flight_layout.hpp"
-#include "src/recognition/plain_recogniser.hpp"
 #include "src/episode/model_source.hpp"
+#include "src/recognition/plain_recogniser.hpp"
 
 namespace vantage {
 namespace {
@@ -91,13 +91,14 @@ WaypointReached TrajectoryFlight::observe() {
   }
   const bool last = at_ + 2 >= static_cast<int>(nominal_.size());
   if (last) take_looks([](const KeptLook&) { return true; });
-  return {.waypoint = ++at_, .time_s = rig_.world().time_s(), .T_world_body = rig_.estimated_body()};
+  return {
+      .waypoint = ++at_, .time_s = rig_.world().time_s(), .T_world_body = rig_.estimated_body()};
 }
 
 void TrajectoryFlight::look(const FlightPicture& picture) {
   map_.insert(picture.depth, picture.T_world_camera);
-  const std::vector<SeenObject> seen = find_objects(
-      without_colour(picture), picture.T_world_camera, episode_.trajectory.search);
+  const std::vector<SeenObject> seen =
+      find_objects(without_colour(picture), picture.T_world_camera, episode_.trajectory.search);
   const std::vector<int> ids = found_.update(sightings_of(seen));
   for (const FoundObject& object : found_.confirmed()) {
     looks_.found(object.id, object.p_world_object_m);
@@ -126,13 +127,13 @@ void TrajectoryFlight::keep_looks(const FlightPicture& picture, const std::vecto
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!looks_.wants(ids[i], seen[i].sighting, picture.T_world_camera)) continue;
     const auto before = std::ranges::find(kept_, ids[i], &KeptLook::id);
-    if (before != kept_.end() && seen[i].sighting.distance_m >
-                                     before->seen.sighting.distance_m - kNearer_m) {
+    if (before != kept_.end() &&
+        seen[i].sighting.distance_m > before->seen.sighting.distance_m - kNearer_m) {
       continue;
     }
     if (coloured.empty()) {
-      coloured = find_objects(picture.with_colour(), picture.T_world_camera,
-                              episode_.trajectory.search);
+      coloured =
+          find_objects(picture.with_colour(), picture.T_world_camera, episode_.trajectory.search);
       expects(coloured.size() == seen.size(), "the same objects in the same picture");
     }
     KeptLook kept{.id = ids[i],
@@ -198,8 +199,7 @@ std::vector<PlannableObject> TrajectoryFlight::plannable() const {
 
 std::vector<WayOn> TrajectoryFlight::propose() {
   planning_since_s_ = wall_s();
-  return planner_.propose({.at = at_, .nominal = nominal_, .plan = plan_},
-                          plannable(), map_);
+  return planner_.propose({.at = at_, .nominal = nominal_, .plan = plan_}, plannable(), map_);
 }
 
 void TrajectoryFlight::score(std::vector<WayOn>& ways) { planner_.score(rig_.reference(), ways); }

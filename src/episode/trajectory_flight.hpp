@@ -78,7 +78,7 @@ class TrajectoryFlight {
   FlightPlanner planner_;
   Rng look_rng_;
   std::vector<KeptLook> kept_;
-  int at_ = -1;  ///< the waypoint reached last
+  int at_ = -1;                    ///< the waypoint reached last
   double planning_since_s_ = 0.0;  ///< wall
   WaypointRecord current_;         ///< filled in from the decision to the end of its segment
   std::vector<WaypointRecord> records_;

@@ -56,8 +56,7 @@ Json look_json(const ObjectLook& look) {
 Json object_json(const ObjectOnStand& truth, const LookedAtObject* found,
                  const TrajectoryFlight& run) {
   const ObjectLooks& looks = run.looks();
-  const double prior_nats =
-      std::log(static_cast<double>(looks.recogniser().states.object_count()));
+  const double prior_nats = std::log(static_cast<double>(looks.recogniser().states.object_count()));
   const bool seen = found != nullptr && !found->looks.empty();
   const std::string estimate = seen ? looks.estimate(*found) : "";
   Json json = {{"truth", truth.object},

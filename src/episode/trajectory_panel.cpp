@@ -30,9 +30,9 @@ void draw_picture(cv::Mat& image, const cv::Rect& place, const cv::Mat& picture)
                                 static_cast<double>(place.height) / picture.rows);
   cv::Mat scaled;
   cv::resize(picture, scaled, {}, scale, scale, cv::INTER_AREA);
-  scaled.copyTo(image(cv::Rect(place.x + (place.width - scaled.cols) / 2,
-                               place.y + (place.height - scaled.rows) / 2, scaled.cols,
-                               scaled.rows)));
+  scaled.copyTo(
+      image(cv::Rect(place.x + (place.width - scaled.cols) / 2,
+                     place.y + (place.height - scaled.rows) / 2, scaled.cols, scaled.rows)));
 }
 
 /// The path from above, scaled to fit.
@@ -105,8 +105,8 @@ void draw_path(cv::Mat& image, const Layout& layout, const cv::Rect& place,
   }
   const Eigen::Vector2d robot_m = input.T_world_body.translation().head<2>();
   if (input.target) {
-    cv::line(image, map.at(robot_m), map.at(input.target->p_world_object_m.head<2>()),
-             panel::kDim, 1, cv::LINE_AA);
+    cv::line(image, map.at(robot_m), map.at(input.target->p_world_object_m.head<2>()), panel::kDim,
+             1, cv::LINE_AA);
     cv::circle(image, map.at(input.target->p_world_view_m.head<2>()),
                static_cast<int>(layout.px(6)), panel::kAccent, layout.stroke(1.5), cv::LINE_AA);
   }
@@ -131,10 +131,10 @@ void draw_objects(cv::Mat& image, const Layout& layout, const cv::Rect& place,
     const std::string estimate = seen ? input.looks.estimate(object) : "not seen closely yet";
     text(image, layout, fmt::format("{}  {}", object.id, estimate), {left, y}, 10,
          seen ? panel::kText : panel::kDim);
-    text(image, layout,
-         fmt::format("{:.2f} nats, {} looks", input.looks.entropy_nats(object),
-                     object.looks.size()),
-         {left, y + layout.px(14)}, 9, colour_of(input, object));
+    text(
+        image, layout,
+        fmt::format("{:.2f} nats, {} looks", input.looks.entropy_nats(object), object.looks.size()),
+        {left, y + layout.px(14)}, 9, colour_of(input, object));
     y += layout.px(32);
     if (y > place.br().y - layout.px(10)) break;
   }

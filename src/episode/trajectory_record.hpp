@@ -20,8 +20,8 @@ struct LookTarget {
   double entropy_nats = 0.0;
 };
 
-/// The next waypoints as one planner wants them, x, y, z, yaw a column; the first is the one that is
-/// flown to already.
+/// The next waypoints as one planner wants them, x, y, z, yaw a column; the first is the one that
+/// is flown to already.
 struct WayOn {
   std::string planner;
   Eigen::Matrix4Xd points;
@@ -45,12 +45,12 @@ struct WaypointRecord {
   std::optional<LookTarget> target;
   std::vector<Eigen::Vector4d> plan;  ///< from here on
   // What is known:
-  int objects = 0;  ///< found
-  int known = 0;    ///< of those
-  int looks = 0;    ///< observations so far
+  int objects = 0;                 ///< found
+  int known = 0;                   ///< of those
+  int looks = 0;                   ///< observations so far
   double mean_entropy_nats = 0.0;  ///< of the objects found
   // Truth:
-  double clearance_m = 0.0;  ///< least so far
+  double clearance_m = 0.0;       ///< least so far
   double tracking_error_m = 0.0;  ///< mean so far
   double flown_m = 0.0;
   int collisions = 0;

@@ -19,14 +19,13 @@ constexpr std::string_view kStepsHeader =
 
 std::string steps_row(const WaypointRecord& r) {
   const Eigen::Vector3d& p = r.T_world_body.translation();
-  return fmt::format("{:.3f},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{:.6g},{:.4f},{},{},{},"
-                     "{},{},{:.5f},{:.4f},{:.5f},{:.4f},{}\n",
-                     r.time_s, r.waypoint, p.x(), p.y(), p.z(), flatten(r.T_world_body).yaw_rad,
-                     r.planner, r.plan_time_s, r.latency_s, r.late, r.missed, r.cost,
-                     r.planned_clearance_m, r.target ? r.target->object : -1,
-                     r.target ? r.target->direction : -1, r.objects, r.known, r.looks,
-                     r.mean_entropy_nats, r.clearance_m, r.tracking_error_m, r.flown_m,
-                     r.collisions);
+  return fmt::format(
+      "{:.3f},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{:.6g},{:.4f},{},{},{},"
+      "{},{},{:.5f},{:.4f},{:.5f},{:.4f},{}\n",
+      r.time_s, r.waypoint, p.x(), p.y(), p.z(), flatten(r.T_world_body).yaw_rad, r.planner,
+      r.plan_time_s, r.latency_s, r.late, r.missed, r.cost, r.planned_clearance_m,
+      r.target ? r.target->object : -1, r.target ? r.target->direction : -1, r.objects, r.known,
+      r.looks, r.mean_entropy_nats, r.clearance_m, r.tracking_error_m, r.flown_m, r.collisions);
 }
 
 constexpr std::string_view kLooksHeader =
@@ -35,10 +34,10 @@ constexpr std::string_view kLooksHeader =
 
 std::string looks_row(int object, const ObjectLook& look, int number) {
   return fmt::format("{:.3f},{},{},{},{:.4f},{:.4f},{:.4f},{},{},{},{:.5f},{},{:.5f}\n",
-                     look.time_s, number, object, look.direction, look.bearing_rad,
-                     look.distance_m, look.elevation_rad, look.pixels,
-                     fmt::join(look.report.features, " "), look.report.feature_time_s,
-                     look.entropy_nats, look.estimate, look.map_probability);
+                     look.time_s, number, object, look.direction, look.bearing_rad, look.distance_m,
+                     look.elevation_rad, look.pixels, fmt::join(look.report.features, " "),
+                     look.report.feature_time_s, look.entropy_nats, look.estimate,
+                     look.map_probability);
 }
 
 /// The crop, what the mask leaves out darker.
@@ -73,9 +72,9 @@ TrajectoryRecorder::TrajectoryRecorder(const ResolvedEpisode& resolved, Trajecto
   looks_.write(kLooksHeader);
   if (!lean_) make_writable_directory(directory_ / "views");
   if (with_video) {
-    onboard_ = make_offscreen_renderer(
-        rig_.world().model(), kOnboardHeight_px * camera_.width_px / camera_.height_px,
-        kOnboardHeight_px);
+    onboard_ = make_offscreen_renderer(rig_.world().model(),
+                                       kOnboardHeight_px * camera_.width_px / camera_.height_px,
+                                       kOnboardHeight_px);
   }
 }
 
@@ -113,9 +112,8 @@ void TrajectoryRecorder::look(int object, const ObjectLook& look, int number,
   looks_.write(looks_row(object, look, number));
   if (lean_) return;
   const cv::Mat crop = crop_of(view);
-  write_file_with(
-      directory_ / "views" / fmt::format("look_{:03}_object_{}.png", number, object),
-      [&](const auto& part) { return cv::imwrite(part.string(), crop); });
+  write_file_with(directory_ / "views" / fmt::format("look_{:03}_object_{}.png", number, object),
+                  [&](const auto& part) { return cv::imwrite(part.string(), crop); });
 }
 
 void TrajectoryRecorder::commit() {

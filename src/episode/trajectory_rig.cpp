@@ -31,8 +31,8 @@ TrajectoryRig::TrajectoryRig(const ResolvedEpisode& resolved, const FlightWaypoi
       vehicle_(hovering(world_, start, task_.camera_pitch_rad)),
       pilot_(world_, vehicle_, task_.pilot, Rng::stream(resolved.episode.seed, "pose")),
       clearance_(world_),
-      renderer_(make_offscreen_renderer(world_.model(), task_.camera.width_px,
-                                        task_.camera.height_px)),
+      renderer_(
+          make_offscreen_renderer(world_.model(), task_.camera.width_px, task_.camera.height_px)),
       depth_noise_(Rng::stream(resolved.episode.seed, "camera")),
       colour_noise_(Rng::stream(resolved.episode.seed, "colour")) {
   clearance_.update(world_);
@@ -89,9 +89,8 @@ void TrajectoryRig::tick() {
     next_clearance_s_ = world_.time_s() + kClearanceEvery_s;
   }
   if (pilot_.collisions() > 0) {
-    throw EpisodeFailed(
-        fmt::format("touched {} at {:.2f} s, ({:.2f}, {:.2f}, {:.2f}) m", touched(),
-                    world_.time_s(), after_m.x(), after_m.y(), after_m.z()));
+    throw EpisodeFailed(fmt::format("touched {} at {:.2f} s, ({:.2f}, {:.2f}, {:.2f}) m", touched(),
+                                    world_.time_s(), after_m.x(), after_m.y(), after_m.z()));
   }
 }
 

@@ -16,9 +16,9 @@ namespace vantage {
 
 /// A picture taken in flight.
 struct FlightPicture {
-  double time_s = 0.0;     ///< simulated
-  CameraImages depth;      ///< measured depth, neither colour nor truth
-  Pose T_world_camera;     ///< as estimated, OpenCV's axes
+  double time_s = 0.0;  ///< simulated
+  CameraImages depth;   ///< measured depth, neither colour nor truth
+  Pose T_world_camera;  ///< as estimated, OpenCV's axes
   /// The same picture with its colour. A camera gives both at once; it is drawn when asked for, and
   /// only before the flight goes on. Noise of colour has a stream of its own, so that asking
   /// changes nothing else.

@@ -27,8 +27,8 @@ struct TrajectoryTask {
   double placement_m = 0.02;  ///< largest offset of an object from the middle of its stand
   TrajectoryMethod method = Stomp{};
   FlightPlannerOptions planner;
-  int horizon = 10;           ///< waypoints that are planned at once, K
-  double latency_s = 0.1;     ///< simulated, from a waypoint to its new plan, whatever it took
+  int horizon = 10;        ///< waypoints that are planned at once, K
+  double latency_s = 0.1;  ///< simulated, from a waypoint to its new plan, whatever it took
   double picture_rate_hz = 10.0;
   double camera_pitch_rad = 0.35;  ///< below the horizon of the body, all the way
   LookOptions looks;

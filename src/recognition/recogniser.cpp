@@ -70,8 +70,7 @@ std::vector<FeaturePair> pairs_of(const RecognitionModel& model, const Recognise
 
 Recogniser make_named_recogniser(const RecognitionModel& model, const RecogniserOptions& options,
                                  int threads, const std::string& source) {
-  Recogniser recogniser =
-      make_recogniser(model.states, pairs_of(model, options, source), threads);
+  Recogniser recogniser = make_recogniser(model.states, pairs_of(model, options, source), threads);
   recogniser.transition = transition_of(model);
   return recogniser;
 }

@@ -13,7 +13,8 @@ namespace vantage {
 ///   summary.json, summary.md        states, means, intervals, paired differences
 ///   tables/NAME.csv, .md            StudyReport::tables, with intervals and tests
 ///   figures/NAME.svg, .csv, .md     StudyReport::curves
-///   figures/EPISODE.svg             trajectory flights from above, the first of each panel and level
+///   figures/EPISODE.svg             trajectory flights from above, the first of each panel and
+///   level
 /// Episodes that are not completed are left out of everything but results.csv and summary.json,
 /// which name them. The text of a file depends on the results alone.
 /// @throws OutputError

@@ -236,9 +236,8 @@ std::string timings_csv(const StudyResults& results) {
       plan_s += scan.value("plan_time_s", 0.0);
       map_s += scan.value("map_time_s", 0.0);
     }
-    text +=
-        fmt::format("{},{},{},{},{}", csv_start(results, i), metrics.value("wall_time_s", 0.0),
-                    metrics.value("real_time_factor", 0.0), plan_s, map_s);
+    text += fmt::format("{},{},{},{},{}", csv_start(results, i), metrics.value("wall_time_s", 0.0),
+                        metrics.value("real_time_factor", 0.0), plan_s, map_s);
     for (std::size_t s = 0; s < scalar_measures().size(); ++s) {
       if (!scalar_measures()[s].wall) continue;
       const auto& value = results.measures[i]->scalars[s];

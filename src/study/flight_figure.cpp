@@ -49,8 +49,8 @@ class Frame {
 std::string polyline(const Frame& frame, const Json& path, std::string_view style) {
   std::string points;
   for (const Json& q : path) {
-    points += fmt::format("{:.1f},{:.1f} ", frame.x(q[0].get<double>()),
-                          frame.y(q[1].get<double>()));
+    points +=
+        fmt::format("{:.1f},{:.1f} ", frame.x(q[0].get<double>()), frame.y(q[1].get<double>()));
   }
   return fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", points, style);
 }

@@ -148,8 +148,9 @@ TEST_F(TrajectoryEpisode, FliesOnWhileASlowPlannerThinks) {
 }
 
 TEST_F(TrajectoryEpisode, ContactEndsItAsAFailure) {
-  const fs::path scene = arena_with_path(*folder_ / "into", "-2.2,-1.25,0.6,0\n-1.6,-1.25,0.6,0\n"
-                                                            "-0.9,-1.25,0.6,0\n0,-1.25,0.6,0\n");
+  const fs::path scene = arena_with_path(*folder_ / "into",
+                                         "-2.2,-1.25,0.6,0\n-1.6,-1.25,0.6,0\n"
+                                         "-0.9,-1.25,0.6,0\n0,-1.25,0.6,0\n");
   const json crash = metrics_of("crash", scene, {"trajectory.method=initial"});
   EXPECT_EQ(crash["status"], "failed");
   EXPECT_EQ(code_, ExitCode::goal_failed);
