@@ -149,8 +149,8 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
         } else {
           const YawToTarget heading{.tau_nats = task_.looks.known_below_nats,
                                     .range_m = task_.planner.range_m};
-          return replan(method, horizon(state, state.plan), given.points, objects, heading, cost(),
-                        rng_)
+          return replan(method, horizon(state, state.plan), given.points, objects, heading,
+                        cost(given.points), rng_)
               .points;
         }
       },
@@ -159,14 +159,23 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
   return points;
 }
 
-PathCost FlightPlanner::cost() const {
+/// @param given where the path as given has the points
+PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
   FlightScene scene{.surface = &*surface_, .target = std::nullopt};
   if (target_) {
     scene.target = ObservationTarget{.p_world_object_m = target_->p_world_object_m,
                                      .p_world_view_m = target_->p_world_view_m,
                                      .entropy_nats = target_->entropy_nats};
   }
-  return flight_cost(task_.planner.cost, camera_, std::move(scene));
+  return [of_flight = flight_cost(task_.planner.cost, camera_, std::move(scene)), given,
+          leash_m = task_.planner.leash_m, weight = task_.planner.leash_weight](
+             const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) {
+    of_flight(horizon, cost_of_point);
+    for (Eigen::Index i = 0; i < horizon.count(); ++i) {
+      const double off_m = (horizon.points.col(i) - given.col(i)).head<3>().norm();
+      cost_of_point[i] += weight * std::max(0.0, off_m - leash_m);
+    }
+  };
 }
 
 std::vector<WayOn> FlightPlanner::propose(const PlanState& state,

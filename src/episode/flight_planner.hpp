@@ -54,7 +54,7 @@ class FlightPlanner {
                                                      double height_m) const;
   void choose_target(const PlanState& state, const std::vector<PlannableObject>& objects,
                      const std::vector<ObservedObject>& rings);
-  [[nodiscard]] PathCost cost() const;
+  [[nodiscard]] PathCost cost(const Eigen::Matrix4Xd& given) const;
   [[nodiscard]] Eigen::Matrix4Xd method_path(const PlanState& state,
                                              const std::vector<ObservedObject>& objects);
 

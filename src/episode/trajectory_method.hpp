@@ -43,13 +43,19 @@ struct FlightPlannerOptions {
   FlightCostOptions cost;
   /// Level, from an object to the body where the object is looked at best; higher sees it smaller.
   double ring_m = 1.05;
-  double range_m = 3.0;       ///< level; farther objects are no targets
+  double range_m = 3.0;  ///< level; farther objects are no targets
+  /// A point of a horizon may be so far from where the given path has it; the rest costs. Without,
+  /// the smoothest way on from one lane of a path to the next is the straight one.
+  double leash_m = 1.2;
+  double leash_weight = 2.0;  ///< 1/m, of what is beyond; higher keeps to the given path
   double clearance_m = 0.55;  ///< of the body's centre on a path that is flown, by the map
   double sample_s = 0.05;     ///< between places of a path whose clearance is looked at
   void fields(auto&& f) {
     f("cost", cost);
     f("ring_m", ring_m, between(0.3, 3.0));
     f("range_m", range_m, above(0.0));
+    f("leash_m", leash_m, at_least(0.0));
+    f("leash_weight", leash_weight, at_least(0.0));
     f("clearance_m", clearance_m, between(0.0, 3.0));
     f("sample_s", sample_s, between(0.01, 1.0));
   }
