@@ -32,6 +32,10 @@ constexpr double kReach_m = 1.5;
 /// Beyond the path, where its detours may lead.
 constexpr double kAside_m = 2.5;
 
+/// How much shorter the leash is upwards and down: a fixed camera has an object in its middle from
+/// high above as well, but sees less of it there.
+constexpr double kUpright = 4.0;
+
 /// The part of the map's obstacles inside a box.
 SurfaceDistance surface_inside(const FlightMap& map, const Eigen::AlignedBox3d& box_m) {
   const GridFrame& whole = map.grid().frame;
@@ -172,8 +176,9 @@ PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
              const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) {
     of_flight(horizon, cost_of_point);
     for (Eigen::Index i = 0; i < horizon.count(); ++i) {
-      const double off_m = (horizon.points.col(i) - given.col(i)).head<3>().norm();
-      cost_of_point[i] += weight * std::max(0.0, off_m - leash_m);
+      Eigen::Vector3d off_m = (horizon.points.col(i) - given.col(i)).head<3>();
+      off_m.z() *= kUpright;
+      cost_of_point[i] += weight * std::max(0.0, off_m.norm() - leash_m);
     }
   };
 }

@@ -43,7 +43,7 @@ class PathMap {
       : image_(image), layout_(layout), place_(place) {
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector4d& q : path) box.extend(Eigen::Vector2d(q.head<2>()));
-    const Eigen::Vector2d room_m = box.sizes() + Eigen::Vector2d::Constant(4.0);
+    const Eigen::Vector2d room_m = box.sizes() + Eigen::Vector2d::Constant(2.4);
     middle_m_ = box.center();
     scale_ = std::min(place.width / room_m.x(), place.height / room_m.y());
   }
@@ -122,8 +122,8 @@ void draw_path(cv::Mat& image, const Layout& layout, const cv::Rect& place,
 void draw_objects(cv::Mat& image, const Layout& layout, const cv::Rect& place,
                   const TrajectoryPanelInput& input) {
   cv::rectangle(image, place, panel::kCard, cv::FILLED);
-  text(image, layout, "objects found: what they may be",
-       {place.x + layout.px(10), place.y + layout.px(18)}, 11, panel::kDim);
+  text(image, layout, "objects: what they may be",
+       {place.x + layout.px(10), place.y + layout.px(18)}, 10, panel::kDim);
   double y = place.y + layout.px(38);
   for (const LookedAtObject& object : input.looks.objects()) {
     const double left = place.x + layout.px(10);
@@ -153,7 +153,7 @@ cv::Mat draw_trajectory_panel(const TrajectoryPanelInput& input, const cv::Mat& 
                    input.looks.total()),
        {layout.px(626), layout.px(24)}, 12, panel::kDim, Align::right);
   constexpr double kTop = 36;
-  constexpr double kPictureHeight = 294;
+  constexpr double kPictureHeight = 284;
   const double lower = layout.height() - kTop - kPictureHeight - 20;
   draw_picture(image, layout.rect(12, kTop, 392, kPictureHeight), picture);
   draw_objects(image, layout, layout.rect(414, kTop, 214, layout.height() - kTop - 10), input);
