@@ -17,7 +17,7 @@ function flightCards() {
 
 // One row an object: what it is and what it was taken for.
 function flightTable() {
-  const section = append(at("section-plots"), "div", { class: "table-wrap", tabindex: "0" });
+  const section = append(at("section-plots"), "div", { class: "panel table-wrap", tabindex: "0", style: "margin-top: 16px" });
   const table = append(section, "table");
   const head = append(append(table, "thead"), "tr");
   for (const name of ["object", "truth", "estimate", "entropy in nats", "looks", "place off by"]) append(head, "th", { scope: "col", class: "text" }, name);

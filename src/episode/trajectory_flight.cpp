@@ -34,7 +34,7 @@ std::filesystem::path model_file(const ResolvedEpisode& resolved) {
     return find_input(model, {}, "trajectory.model");
   } catch (const InputError& error) {
     throw InputError(fmt::format(
-        "{}; make one: vantage dataset render out/flight_objects --set distance_m=1.3, then "
+        "{}; make one: vantage dataset render out/flight_objects --set lighting=0.3, then "
         "vantage train out/flight_objects --out {}",
         error.what(), model.empty() ? "out/trajectory.model" : model));
   }

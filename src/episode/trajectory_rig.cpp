@@ -89,6 +89,7 @@ void TrajectoryRig::tick() {
     next_clearance_s_ = world_.time_s() + kClearanceEvery_s;
   }
   if (pilot_.collisions() > 0) {
+    clearance_.touched();
     throw EpisodeFailed(fmt::format("touched {} at {:.2f} s, ({:.2f}, {:.2f}, {:.2f}) m", touched(),
                                     world_.time_s(), after_m.x(), after_m.y(), after_m.z()));
   }

@@ -14,6 +14,8 @@ class TrueClearance {
   explicit TrueClearance(const World& world);
 
   void update(const World& world);
+  /// It touched something: between two moments, or between two samples.
+  void touched() { least_m_ = 0.0; }
   [[nodiscard]] double least_m() const { return least_m_; }
 
  private:
