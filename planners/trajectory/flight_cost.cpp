@@ -60,7 +60,7 @@ class NearestSurface {
 
 class Evaluator {
  public:
-  Evaluator(const FlightCostOptions& options, const FlightCamera& camera, FlightScene scene)
+  Evaluator(const FlightCostOptions& options, const FlightCamera& camera, FlightSurroundings scene)
       : options_(options), camera_(camera), scene_(std::move(scene)) {}
 
   void operator()(const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) const {
@@ -123,7 +123,7 @@ class Evaluator {
 
   FlightCostOptions options_;
   FlightCamera camera_;
-  FlightScene scene_;
+  FlightSurroundings scene_;
 };
 
 }  // namespace
@@ -188,7 +188,7 @@ double information_cost(const FlightCostOptions& options, double entropy_nats) {
 }
 
 PathCost flight_cost(const FlightCostOptions& options, const FlightCamera& camera,
-                     FlightScene scene) {
+                     FlightSurroundings scene) {
   return Evaluator(options, camera, std::move(scene));
 }
 

@@ -91,7 +91,7 @@ double recognition_cost(const FlightCostOptions& options, const ObservationTarge
 double information_cost(const FlightCostOptions& options, double entropy_nats);
 
 /// What is known round the vehicle.
-struct FlightScene {
+struct FlightSurroundings {
   const SurfaceDistance* surface = nullptr;            ///< null: nothing is in the way
   std::optional<ObservationTarget> target{};           ///< none: look where you go
   std::vector<Eigen::Vector3d> p_world_obstacles_m{};  ///< literal: centres o_c
@@ -100,6 +100,6 @@ struct FlightScene {
 /// c_o + c_v + c_r c_i of each point, weighed. `scene.surface` must outlive it.
 /// [Potthast2016, (5.7)]
 PathCost flight_cost(const FlightCostOptions& options, const FlightCamera& camera,
-                     FlightScene scene);
+                     FlightSurroundings scene);
 
 }  // namespace vantage

@@ -118,7 +118,7 @@ TEST(InformationCost, EndsBelowTau) {
 }
 
 /// Costs of the ten points of a straight flight, 0.5 m and 1 s apart.
-Eigen::VectorXd costs(const FlightCostOptions& options, const FlightScene& scene,
+Eigen::VectorXd costs(const FlightCostOptions& options, const FlightSurroundings& scene,
                       const Horizon& horizon = testing::straight_flight()) {
   Eigen::VectorXd cost(horizon.count());
   flight_cost(options, {}, scene)(horizon, cost);
@@ -134,7 +134,7 @@ TEST(FlightCost, OfAColumnBesideThePath) {
   const SurfaceDistance surface = testing::columns({{1.5, 0.9}});
   const double here_m = surface.distance_m({1.5, 0.0, 1.2});
   EXPECT_NEAR(here_m, 0.7, 0.05);
-  FlightScene scene{.surface = &surface, .target = {}};
+  FlightSurroundings scene{.surface = &surface, .target = {}};
   const FlightCostOptions options{.obstacle_weight = 3.0, .clearance_m = 0.0};
   const auto cost = costs(options, scene);
   EXPECT_NEAR(cost[3], 3.0 * (1.0 - here_m) * 0.5, 1e-9);
@@ -145,7 +145,7 @@ TEST(FlightCost, OfAColumnBesideThePath) {
 
 TEST(FlightCost, LooksBetweenWaypointsToo) {
   const SurfaceDistance surface = testing::columns({{1.75, 0.0}});  // between the 4th and the 5th
-  FlightScene scene{.surface = &surface, .target = {}};
+  FlightSurroundings scene{.surface = &surface, .target = {}};
   FlightCostOptions options{.clearance_weight = 0.0};
   const auto with = costs(options, scene);
   options.between_waypoints = false;
@@ -159,7 +159,7 @@ TEST(FlightCost, StandingInAnObstacleIsNotFree) {
   const SurfaceDistance surface = testing::columns({{1.5, 0.0}});
   Horizon standing = testing::straight_flight();
   standing.points.colwise() = Eigen::Vector4d(1.5, 0.0, 1.2, 0.0);
-  FlightScene scene{.surface = &surface, .target = {}};
+  FlightSurroundings scene{.surface = &surface, .target = {}};
   const FlightCostOptions options{.obstacle_weight = 1.0, .clearance_weight = 0.0};
   const double depth_m = surface.distance_m({1.5, 0.0, 1.2});
   EXPECT_NEAR(costs(options, scene, standing)[5], 0.2 * (1.0 - depth_m), 1e-9);
@@ -183,7 +183,7 @@ TEST(FlightCost, AddsTheTermsOfTheTarget) {
 
 TEST(FlightCost, AsPrintedSumsOverCentresWithinDelta) {
   const FlightCostOptions options{.obstacle_weight = 1.0, .centre_weight = 0.0, .literal = true};
-  FlightScene scene;
+  FlightSurroundings scene;
   scene.p_world_obstacles_m = {{1.5, 0.8, 1.2}, {1.5, -0.4, 1.2}, {1.5, 3.0, 1.2}};
   EXPECT_NEAR(costs(options, scene)[3], (0.2 + 0.6) * 0.5, 1e-12);
   const FlightCostOptions near{

@@ -20,7 +20,7 @@ double nearest_to_object_m(bool literal, double lateral_m, std::uint64_t seed) {
   const SurfaceDistance surface = testing::columns({ring.p_world_object_m.head<2>()});
   const Horizon horizon = testing::straight_flight();
   const ObservedObject object{.ring = ring, .used = {}, .entropy_nats = 3.0};
-  FlightScene scene{.surface = &surface, .target = {}, .p_world_obstacles_m = {}};
+  FlightSurroundings scene{.surface = &surface, .target = {}, .p_world_obstacles_m = {}};
   scene.target = observation_target({&object, 1}, horizon.points.col(0).head<3>(), horizon.points,
                                     FlightCostOptions{}.tau_nats);
   scene.p_world_obstacles_m = {ring.p_world_object_m};

@@ -36,7 +36,7 @@ TEST(Smoothest, CostsLeastControl) {
 class ReplanTest : public ::testing::Test {
  protected:
   OptimisedHorizon run(const Horizon& plan, std::span<const ObservedObject> objects) {
-    FlightScene scene;
+    FlightSurroundings scene;
     scene.target = observation_target(objects, {0.0, 0.0, 1.2}, nominal_, 0.1);
     Rng rng(1);
     return replan(Stomp{}, plan, nominal_, objects, {}, flight_cost({}, {}, scene), rng);

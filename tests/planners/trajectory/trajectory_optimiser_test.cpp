@@ -35,7 +35,7 @@ class EveryOptimiser : public ::testing::TestWithParam<std::string_view> {
 
   SurfaceDistance surface_ = testing::columns({{3.0, -0.25}, {1.5, 2.1}});
   FlightCamera camera_;
-  FlightScene scene_;
+  FlightSurroundings scene_;
   Horizon horizon_ = testing::straight_flight();
 };
 
