@@ -119,7 +119,7 @@ std::string obstacle_body(const FlightObstacle& obstacle, int index) {
   return body(name, obstacle.p_world_m, obstacle.yaw_rad, geoms);
 }
 
-std::string cameras(const FlightRoom& scene) {
+std::string cameras(const FlightScene& scene) {
   constexpr double kFovy_deg = 50.0;
   const Eigen::Vector2d half = 0.5 * scene.room_m + Eigen::Vector2d::Constant(0.4);
   const double reach = std::max(half.y(), 0.75 * half.x());  // pictures are 4 : 3
@@ -130,7 +130,7 @@ std::string cameras(const FlightRoom& scene) {
          mjcf_camera("top", {0, 0, height}, Vector3d::Zero(), Vector3d::UnitY(), kFovy_deg);
 }
 
-std::string stand_ins(const FlightRoom& scene) {
+std::string stand_ins(const FlightScene& scene) {
   std::string text =
       "<!-- Stand-ins. An episode puts objects of its database in the place of this file: bodies "
       "and\n     geoms called object_0, object_1 ... -->\n<mujoco>\n  <worldbody>\n";
@@ -153,7 +153,7 @@ constexpr std::string_view kCsvHeader = "x_m,y_m,z_m,yaw_rad\n";
 
 }  // namespace
 
-std::string to_mjcf(const FlightRoom& scene) {
+std::string to_mjcf(const FlightScene& scene) {
   std::string text = fmt::format(
       "<!-- {}; written by vantage_make_scenes, see ../README.md -->\n"
       "<mujoco model=\"{}\">\n  ",
@@ -171,7 +171,7 @@ std::string to_mjcf(const FlightRoom& scene) {
   return text + "  </worldbody>\n  <include file=\"objects.xml\"/>\n</mujoco>\n";
 }
 
-void write_scene(const FlightRoom& scene, const std::filesystem::path& directory) {
+void write_scene(const FlightScene& scene, const std::filesystem::path& directory) {
   make_writable_directory(directory);
   write_file(directory / "scene.xml", to_mjcf(scene));
   write_file(directory / "objects.xml", stand_ins(scene));

@@ -9,10 +9,10 @@
 namespace vantage {
 
 /// The text of scene.xml: room, stands, obstacles, lights and cameras. It includes objects.xml.
-std::string to_mjcf(const FlightRoom& scene);
+std::string to_mjcf(const FlightScene& scene);
 
 /// Writes scene.xml, objects.xml (stand-ins: a box a stand), path.csv and stands.csv.
 /// @throws OutputError if a file cannot be written.
-void write_scene(const FlightRoom& scene, const std::filesystem::path& directory);
+void write_scene(const FlightScene& scene, const std::filesystem::path& directory);
 
 }  // namespace vantage

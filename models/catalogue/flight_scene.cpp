@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Polyline = std::vector<Vector2d>;
 
-FlightRoom scenario_1() {
+FlightScene scenario_1() {
   return {.name = "trajectory_1",
           .about = "45 waypoints, 5 objects: lanes along the room, then across it",
           .room_m = {10.0, 10.0},
@@ -44,7 +44,7 @@ FlightRoom scenario_1() {
                         {"cupboard", {-4.7, 2.6}, {0.5, 1.2, 2.0}}}};
 }
 
-FlightRoom scenario_2() {
+FlightScene scenario_2() {
   return {.name = "trajectory_2",
           .about = "45 waypoints, 7 objects: to and fro",
           .room_m = {11.0, 8.4},
@@ -74,7 +74,7 @@ FlightRoom scenario_2() {
                         {"column", {-4.7, -0.2}, {0.3, 0.3, 2.5}}}};
 }
 
-FlightRoom scenario_3() {
+FlightScene scenario_3() {
   return {.name = "trajectory_3",
           .about = "56 waypoints, 10 objects: to and fro, obstacles where one would turn aside",
           .room_m = {11.4, 9.4},
@@ -110,7 +110,7 @@ FlightRoom scenario_3() {
                         {"cupboard", {4.15, -1.1}, {0.4, 0.6, 2.0}}}};
 }
 
-FlightRoom scenario_4() {
+FlightScene scenario_4() {
   return {.name = "trajectory_4",
           .about = "44 waypoints, 4 objects: a flying arena",
           .room_m = {8.6, 6.4},
@@ -142,7 +142,7 @@ Polyline cut_corners(const Polyline& line) {
   return cut;
 }
 
-Polyline rounded(const FlightRoom& scene) {
+Polyline rounded(const FlightScene& scene) {
   Polyline line = scene.corners_m;
   for (int i = 0; i < 4; ++i) line = cut_corners(line);
   return line;
@@ -173,11 +173,11 @@ double distance_m(const FlightObstacle& obstacle, const Vector2d& p) {
 
 }  // namespace
 
-std::vector<FlightRoom> flight_scenes() {
+std::vector<FlightScene> flight_scenes() {
   return {scenario_1(), scenario_2(), scenario_3(), scenario_4()};
 }
 
-std::vector<PathPoint> flight_path_points(const FlightRoom& scene) {
+std::vector<PathPoint> flight_path_points(const FlightScene& scene) {
   const Polyline even = evenly(rounded(scene), scene.waypoints);
   std::vector<PathPoint> points;
   for (std::size_t i = 0; i < even.size(); ++i) {
@@ -187,7 +187,7 @@ std::vector<PathPoint> flight_path_points(const FlightRoom& scene) {
   return points;
 }
 
-double path_clearance_m(const FlightRoom& scene) {
+double path_clearance_m(const FlightScene& scene) {
   double least_m = std::numeric_limits<double>::infinity();
   for (const Vector2d& p : evenly(rounded(scene), 2000)) {
     least_m = std::min(least_m, (0.5 * scene.room_m - p.cwiseAbs()).minCoeff());

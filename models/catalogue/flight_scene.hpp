@@ -36,7 +36,7 @@ struct PathPoint {
   double yaw_rad = 0.0;  ///< along the path
 };
 
-struct FlightRoom {
+struct FlightScene {
   std::string name;
   std::string about;  ///< one line for people
   Eigen::Vector2d room_m;
@@ -47,12 +47,12 @@ struct FlightRoom {
 };
 
 /// trajectory_1 ... trajectory_4.
-std::vector<FlightRoom> flight_scenes();
+std::vector<FlightScene> flight_scenes();
 
 /// The waypoints: corners cut four times over [Chaikin1974], evenly along the curve.
-std::vector<PathPoint> flight_path_points(const FlightRoom& scene);
+std::vector<PathPoint> flight_path_points(const FlightScene& scene);
 
 /// The least distance of any obstacle or wall from the middle of the vehicle on its path, level.
-double path_clearance_m(const FlightRoom& scene);
+double path_clearance_m(const FlightScene& scene);
 
 }  // namespace vantage

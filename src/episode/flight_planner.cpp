@@ -165,7 +165,7 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
 
 /// @param given where the path as given has the points
 PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
-  FlightScene scene{.surface = &*surface_, .target = std::nullopt};
+  FlightSurroundings scene{.surface = &*surface_, .target = std::nullopt};
   if (target_) {
     scene.target = ObservationTarget{.p_world_object_m = target_->p_world_object_m,
                                      .p_world_view_m = target_->p_world_view_m,

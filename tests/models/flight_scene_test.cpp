@@ -20,15 +20,15 @@ using support::Model;
 /// Half the span of the vehicle with its rotors: 0.117 sqrt 2 + 0.105.
 constexpr double kVehicleRadius_m = 0.271;
 
-class FlightRoomFolder : public testing::TestWithParam<FlightRoom> {};
+class FlightSceneFolder : public testing::TestWithParam<FlightScene> {};
 
-TEST_P(FlightRoomFolder, IsWhatTheToolWrites) {
+TEST_P(FlightSceneFolder, IsWhatTheToolWrites) {
   const support::TemporaryDirectory directory;
   write_scene(GetParam(), directory.path());
   support::expect_same_files(directory.path(), kCheckedInScenes / GetParam().name);
 }
 
-TEST_P(FlightRoomFolder, LoadsWithStandsWhereTheLayoutSays) {
+TEST_P(FlightSceneFolder, LoadsWithStandsWhereTheLayoutSays) {
   const Model model = support::load_mjcf(kCheckedInScenes / GetParam().name / "scene.xml");
   ASSERT_NE(model, nullptr);
   EXPECT_EQ(model->nv, 0);
@@ -47,7 +47,7 @@ TEST_P(FlightRoomFolder, LoadsWithStandsWhereTheLayoutSays) {
   }
 }
 
-TEST_P(FlightRoomFolder, ThePathKeepsClear) {
+TEST_P(FlightSceneFolder, ThePathKeepsClear) {
   EXPECT_GE(path_clearance_m(GetParam()), kVehicleRadius_m + 0.35);
   // The skids hang 0.12 m below the body's middle, objects are below 0.4 m.
   for (const FlightStand& stand : GetParam().stands) {
@@ -56,7 +56,7 @@ TEST_P(FlightRoomFolder, ThePathKeepsClear) {
   }
 }
 
-TEST_P(FlightRoomFolder, ThePathIsEvenAndLooksAhead) {
+TEST_P(FlightSceneFolder, ThePathIsEvenAndLooksAhead) {
   const auto path = flight_path_points(GetParam());
   ASSERT_EQ(path.size(), static_cast<std::size_t>(GetParam().waypoints));
   const double step_m = (path[1].p_world_m - path[0].p_world_m).norm();
@@ -71,8 +71,8 @@ TEST_P(FlightRoomFolder, ThePathIsEvenAndLooksAhead) {
   }
 }
 
-TEST_P(FlightRoomFolder, StandsAreBesideThePathAndApart) {
-  const FlightRoom& scene = GetParam();
+TEST_P(FlightSceneFolder, StandsAreBesideThePathAndApart) {
+  const FlightScene& scene = GetParam();
   const auto path = flight_path_points(scene);
   for (std::size_t i = 0; i < scene.stands.size(); ++i) {
     double nearest_m = 1e9;
@@ -87,20 +87,20 @@ TEST_P(FlightRoomFolder, StandsAreBesideThePathAndApart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FlightRoomFolder, testing::ValuesIn(flight_scenes()),
+INSTANTIATE_TEST_SUITE_P(All, FlightSceneFolder, testing::ValuesIn(flight_scenes()),
                          [](const auto& scene) { return scene.param.name; });
 
-TEST(FlightRoom, NumbersAreThePublishedOnes) {
+TEST(FlightScene, NumbersAreThePublishedOnes) {
   std::vector<std::pair<int, std::size_t>> sizes;
-  for (const FlightRoom& scene : flight_scenes()) {
+  for (const FlightScene& scene : flight_scenes()) {
     sizes.emplace_back(scene.waypoints, scene.stands.size());
   }
   const std::vector<std::pair<int, std::size_t>> published{{45, 5}, {45, 7}, {56, 10}, {44, 4}};
   EXPECT_EQ(sizes, published);
 }
 
-TEST(FlightRoom, InTheThirdObstaclesStandWhereOneWouldTurnAside) {
-  const FlightRoom scene = flight_scenes()[2];
+TEST(FlightScene, InTheThirdObstaclesStandWhereOneWouldTurnAside) {
+  const FlightScene scene = flight_scenes()[2];
   ASSERT_GE(scene.obstacles.size(), 3U);
   for (const FlightObstacle& obstacle : scene.obstacles) {
     double nearest_m = 1e9;
@@ -112,7 +112,7 @@ TEST(FlightRoom, InTheThirdObstaclesStandWhereOneWouldTurnAside) {
   }
 }
 
-TEST(FlightRoom, EveryObjectOfTheDatabaseFitsOnAStand) {
+TEST(FlightScene, EveryObjectOfTheDatabaseFitsOnAStand) {
   constexpr double kPlacement_m = 0.02;
   double widest_m = 0.0;
   double highest_m = 0.0;
