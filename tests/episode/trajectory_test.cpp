@@ -120,7 +120,8 @@ TEST_F(TrajectoryEpisode, FindsWhatItFliesPastAndLooksAtItOnceADirection) {
   std::set<int> directions;
   for (const json& look : near["looks"]) {
     EXPECT_LE(look["distance_m"], 2.0);
-    EXPECT_TRUE(directions.insert(look["direction"].get<int>()).second) << "a direction counts once";
+    EXPECT_TRUE(directions.insert(look["direction"].get<int>()).second)
+        << "a direction counts once";
   }
   const json& far = first_["objects"][2];
   EXPECT_FALSE(far["correct"]) << "behind it, all the time";

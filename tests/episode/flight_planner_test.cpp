@@ -1,0 +1,131 @@
+// From objects that were found to ways on: straight paths in an empty room.
+#include "src/episode/flight_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace vantage {
+namespace {
+
+/// Along x, a metre between waypoints.
+std::vector<Eigen::Vector4d> straight_path(int waypoints) {
+  std::vector<Eigen::Vector4d> path;
+  for (int i = 0; i < waypoints; ++i) path.emplace_back(i, 0.0, 1.8, 0.0);
+  return path;
+}
+
+class Planner : public testing::Test {
+ protected:
+  FlightPlanner planner(const TrajectoryMethod& method) {
+    task_.method = method;
+    return {task_, FlightCamera::ahead(0.65).T_body_camera, Rng(1)};
+  }
+  std::vector<WayOn> propose(FlightPlanner& planner, int at = 0) {
+    return planner.propose({.at = at, .nominal = path_, .plan = path_}, objects_, map_);
+  }
+
+  TrajectoryTask task_;
+  std::vector<Eigen::Vector4d> path_ = straight_path(20);
+  std::vector<PlannableObject> objects_ = {
+      {.id = 3, .p_world_m = {2.5, 0.9, 0.9}, .entropy_nats = 2.0}};
+  FlightMap map_{
+      Eigen::AlignedBox3d(Eigen::Vector3d(-3.0, -4.0, 0.0), Eigen::Vector3d(22.0, 4.0, 3.0))};
+};
+
+TEST_F(Planner, GoesOnAsGivenWhereThereIsNothingToSee) {
+  objects_.clear();
+  FlightPlanner stomp = planner(Stomp{});
+  const std::vector<WayOn> ways = propose(stomp);
+  ASSERT_EQ(ways.front().points.cols(), 10);
+  EXPECT_FALSE(stomp.target());
+  for (Eigen::Index i = 0; i < 10; ++i) {
+    EXPECT_NEAR((ways.front().points.col(i) - path_[static_cast<std::size_t>(i) + 1]).norm(), 0.0,
+                0.05);
+  }
+}
+
+TEST_F(Planner, LooksAtAnUnknownObjectFromBesideThePath) {
+  FlightPlanner stomp = planner(Stomp{});
+  const Eigen::Matrix4Xd points = propose(stomp).front().points;
+  ASSERT_TRUE(stomp.target());
+  EXPECT_EQ(stomp.target()->object, 3);
+  EXPECT_EQ(points.col(0), path_[1]) << "flown to already";
+  EXPECT_EQ(points.col(9).head<3>(), path_[10].head<3>()) << "it comes back to the path";
+  const Eigen::Vector2d to_object =
+      objects_[0].p_world_m.head<2>() - Eigen::Vector2d(points.col(1).head<2>());
+  EXPECT_NEAR(points(3, 1), std::atan2(to_object.y(), to_object.x()), 0.6) << "it turns to it";
+}
+
+TEST_F(Planner, AKnownObjectIsNoTarget) {
+  objects_[0].entropy_nats = 0.05;
+  FlightPlanner stomp = planner(Stomp{});
+  propose(stomp);
+  EXPECT_FALSE(stomp.target());
+  objects_[0].entropy_nats = 2.0;
+  objects_[0].used.fill(true);
+  propose(stomp);
+  EXPECT_FALSE(stomp.target()) << "no direction is left";
+}
+
+TEST_F(Planner, TheGivenPathIsFlownWhateverIsInTheWay) {
+  FlightPlanner given = planner(GivenPath{});
+  const std::vector<WayOn> ways = propose(given);
+  ASSERT_EQ(ways.size(), 1U);
+  EXPECT_EQ(ways.front().points.col(4), path_[5]);
+}
+
+TEST_F(Planner, OnlyYawFollowsTheObjectOnTheGivenPath) {
+  FlightPlanner yaw = planner(GivenPathYaw{});
+  const Eigen::Matrix4Xd points = propose(yaw).front().points;
+  EXPECT_EQ(points.col(1).head<3>(), path_[2].head<3>());
+  EXPECT_NEAR(points(3, 1), std::atan2(0.9, 0.5), 1e-9);
+}
+
+TEST_F(Planner, TheLeashHoldsEveryMethodNearThePath) {
+  for (const TrajectoryMethod& method :
+       {TrajectoryMethod(Stomp{}), TrajectoryMethod(Mppi{}), TrajectoryMethod(Cem{}),
+        TrajectoryMethod(CovariantGradient{})}) {
+    task_.planner.leash_m = 0.5;
+    task_.planner.leash_weight = 20.0;
+    FlightPlanner optimiser = planner(method);
+    const Eigen::Matrix4Xd points = propose(optimiser).front().points;
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      EXPECT_LT((points.col(i) - path_[static_cast<std::size_t>(i) + 1]).head<3>().norm(), 0.75)
+          << strategy_name_of(method) << ", point " << i;
+    }
+  }
+}
+
+TEST_F(Planner, TheLastWaypointsAreFlownAsGiven) {
+  FlightPlanner stomp = planner(Stomp{});
+  for (const int at : {17, 18}) {
+    const Eigen::Matrix4Xd points = propose(stomp, at).front().points;
+    EXPECT_EQ(points.cols(), 19 - at);
+    EXPECT_EQ(points.rightCols<1>().topRows<3>(), path_.back().head<3>());
+  }
+}
+
+TEST_F(Planner, TellsTheClearanceOfASpline) {
+  CameraImages wall{.width_px = 160, .height_px = 120, .focal_px = 120.0, .range_max_m = 6.0};
+  wall.depth_m.assign(160 * 120, 3.0F);  // a wall 3 m ahead of the start
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(0.0, 0.0, 1.8);
+  T_world_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // looks along x
+  for (int i = 0; i < 3; ++i) map_.insert(wall, T_world_camera);
+  objects_.clear();
+  FlightPlanner given = planner(GivenPath{});
+  std::vector<WayOn> ways = propose(given);
+  given.score({.p_world_m = path_[0].head<3>()}, ways);
+  EXPECT_FALSE(ways.front().clear);
+  EXPECT_LT(ways.front().clearance_m, 0.0) << "through the wall";
+  map_ = FlightMap(
+      Eigen::AlignedBox3d(Eigen::Vector3d(-3.0, -4.0, 0.0), Eigen::Vector3d(22.0, 4.0, 3.0)));
+  ways = propose(given);
+  given.score({.p_world_m = path_[0].head<3>()}, ways);
+  EXPECT_TRUE(ways.front().clear);
+}
+
+}  // namespace
+}  // namespace vantage
