@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "planners/trajectory/path_search.hpp"
 #include "planners/trajectory/replanning.hpp"
 #include "src/core/strategy_label.hpp"
 
@@ -189,13 +190,18 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
   surface_ = surface_inside(
       map, box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
                      kAside_m));
-  std::vector<WayOn> ways;
-  const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
-    ways.push_back({.planner = std::move(planner), .points = points});
-  };
   const double height_m = state.nominal[static_cast<std::size_t>(state.at)].z();
   const std::vector<ObservedObject> rings = observed(objects, height_m);
   choose_target(state, objects, rings);
+  std::vector<WayOn> ways;
+  const PathCost cost = this->cost(horizon(state, state.nominal).points);
+  const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
+    Horizon ahead = horizon(state, state.plan);
+    ahead.points = points;
+    ways.push_back({.planner = std::move(planner),
+                    .points = points,
+                    .cost = path_cost(unwrapped(ahead), cost)});
+  };
   add(std::string(strategy_name_of(task_.method)), method_path(state, rings));
   if (std::holds_alternative<GivenPath>(task_.method) ||
       std::holds_alternative<GivenPathYaw>(task_.method)) {
