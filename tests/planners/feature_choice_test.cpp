@@ -107,7 +107,7 @@ TEST_F(FeatureChoiceTest, NamesTheFeaturesThereAreIfTheFirstIsUnknown) {
 
 TEST_F(FeatureChoiceTest, StopsBelowTheThreshold) {
   belief_ << 0.99, 0.004, 0.003, 0.003;
-  const auto decision = choose({.about_object = false});
+  const auto decision = choose({.about_object = false, .stop = GainBelow{.threshold = 0.1}});
   EXPECT_FALSE(decision.feature.has_value());
   EXPECT_FALSE(decision.score.has_value());
   EXPECT_EQ(decision.reason, FeatureReason::not_worth_while);
