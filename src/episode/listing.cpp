@@ -12,6 +12,7 @@
 #include "planners/object_view_choice.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/data_root.hpp"
+#include "src/episode/feature_listing.hpp"
 
 namespace vantage {
 namespace {
@@ -58,6 +59,7 @@ struct Topic {
 constexpr auto kTopics = std::to_array<Topic>({
     {"gains", [] { return owned(strategy_names<Gain>()); }},
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
+    {"features", feature_lines},
     {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
     {"episodes", [] { return yaml_files("assets/episodes"); }},
     {"studies", [] { return yaml_files("assets/studies"); }},
