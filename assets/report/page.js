@@ -67,7 +67,8 @@ function fillCards() {
     const decision = METRICS.decision ?? "not decided";
     card("Change", String(decision), { sub: `truth: ${METRICS.scenario}; ${METRICS.expected?.object} was expected`, kind: METRICS.correct ? "good" : "bad" });
     card("Probability of a change", isNumber(METRICS.change_probability) ? formatNumber(METRICS.change_probability, 3) : "–", { share: METRICS.change_probability });
-    card("Most like", String(METRICS.estimate ?? "–"), { sub: `there is ${METRICS.truth ?? "nothing"}` });
+    const seen = METRICS.decision === "removed" ? "nothing" : METRICS.estimate ?? "–";
+    card("Most like", String(seen), { sub: `there is ${METRICS.truth ?? "nothing"}` });
   } else if (METRICS.estimate !== undefined) {
     card("Estimate", String(METRICS.estimate), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
   }

@@ -7,8 +7,8 @@
 namespace vantage {
 
 std::string listing_topics_text();  ///< "gains, choices, features, ..."
-/// One topic, an entry a line that begins with its name; empty: all topics with headings. @throws ConfigError for another
-/// topic.
+/// One topic, an entry a line that begins with its name; empty: all topics with headings. @throws
+/// ConfigError for another topic.
 std::string listing(std::string_view topic);
 
 }  // namespace vantage

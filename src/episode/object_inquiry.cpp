@@ -72,6 +72,7 @@ const Recognition& ObjectInquiry::recognition() const {
 }
 
 double ObjectInquiry::p_changed() const {
+  if (verdict() == Change::removed) return 1.0;
   return std::get<ChangeSearch>(known_).hypotheses.p_changed();
 }
 

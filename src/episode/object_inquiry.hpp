@@ -24,7 +24,9 @@ class ObjectInquiry {
 
   [[nodiscard]] const Recognition& recognition() const;
   [[nodiscard]] bool of_change() const { return std::holds_alternative<ChangeSearch>(known_); }
-  [[nodiscard]] double p_changed() const;  ///< only of_change()
+  /// Only of_change(); an object that is held to be taken away is a change, which views of nothing
+  /// cannot weigh.
+  [[nodiscard]] double p_changed() const;
   [[nodiscard]] Change verdict() const;    ///< likewise
 
  private:

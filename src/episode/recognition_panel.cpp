@@ -107,9 +107,7 @@ void draw_progress(cv::Mat& image, const Layout& layout, const cv::Rect& place,
   }
   const bool looked = !input.sightings.empty();
   const auto verdict = looked ? to_string(input.sightings.back().change->verdict) : "not known yet";
-  card(
-      image, layout, place,
-      fmt::format("probability of a change; {} is expected; changed: {}", input.expected, verdict));
+  card(image, layout, place, fmt::format("probability of a change, by now: {}", verdict));
   draw_bars(image, layout, place, input, input.threshold,
             [](const Sighting& s) { return s.change->probability; });
 }
@@ -166,8 +164,9 @@ cv::Mat draw_recognition_panel(const RecognitionPanelInput& input, cv::Size size
   const Layout layout{size.width / 640.0, size};
   cv::Mat image(size, CV_8UC3, panel::kBottom);
   const double height = layout.height();
-  text(image, layout, input.method, {layout.px(14), layout.px(24)}, 14, panel::kText, Align::left,
-       true);
+  const std::string heading =
+      input.expected.empty() ? input.method : fmt::format("is it {} still?", input.expected);
+  text(image, layout, heading, {layout.px(14), layout.px(24)}, 14, panel::kText, Align::left, true);
   text(image, layout, fmt::format("{} views", input.sightings.size()),
        {layout.px(626), layout.px(24)}, 12, panel::kDim, Align::right);
   const double top = 36;

@@ -100,6 +100,7 @@ TEST_F(ChangeEpisode, AnEmptyTableIsLookedAtTwice) {
   const json metrics = metrics_of("removed");
   EXPECT_EQ(metrics["decision"], "removed");
   EXPECT_EQ(metrics["correct"], true);
+  EXPECT_EQ(metrics["change_probability"], 1.0);
   EXPECT_TRUE(metrics["truth"].is_null());
   EXPECT_TRUE(metrics["bin_error"].is_null());
   ASSERT_EQ(metrics["observations"].size(), 2U);
