@@ -98,6 +98,11 @@ std::vector<Finding> speed_findings(const Figures& figures) {
     findings.push_back(simple_features(found->second));
     findings.push_back(at_most("goal", found->second, "kernel_ms", 200.0));
   }
+  if (const auto found = figures.find("trajectory"); found != figures.end()) {
+    for (const char* method : {"stomp_ms", "mppi_ms", "cem_ms", "covariant_gradient_ms"}) {
+      findings.push_back(at_most("goal", found->second, method, 3.0));
+    }
+  }
   return findings;
 }
 

@@ -10,6 +10,7 @@
 #include "models/catalogue/object_database.hpp"
 #include "planners/gain.hpp"
 #include "planners/object_view_choice.hpp"
+#include "planners/trajectory/trajectory_optimiser.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/data_root.hpp"
 #include "src/episode/feature_listing.hpp"
@@ -61,6 +62,7 @@ constexpr auto kTopics = std::to_array<Topic>({
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
     {"features", feature_lines},
     {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
+    {"optimisers", [] { return owned(strategy_names<TrajectoryOptimiser>()); }},
     {"episodes", [] { return yaml_files("assets/episodes"); }},
     {"studies", [] { return yaml_files("assets/studies"); }},
     {"scenes", scenes},

@@ -7,24 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/dataset/object_source.hpp"
+#include "src/episode/object_mjcf.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr std::string_view kObject = R"(<mujoco>
-  <asset>
-    <mesh name="object" file="object.obj"/>
-    <texture name="object" type="2d" file="object.png"/>
-    <material name="object" texture="object" specular="{specular}" shininess="{shininess}"/>
-  </asset>
-  <worldbody>
-    <body name="object" pos="{x} {y} {z}" quat="{qw} 0 0 {qz}">
-      <geom name="object" type="mesh" mesh="object" material="object" pos="{at_x} {at_y} {at_z}"/>
-    </body>
-  </worldbody>
-</mujoco>
-)";
 
 constexpr std::string_view kNothing = R"(<mujoco>
   <worldbody>
@@ -34,14 +20,6 @@ constexpr std::string_view kNothing = R"(<mujoco>
 )";
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-
-DatasetOptions dataset_of(const ObjectDatabaseOptions& database) {
-  DatasetOptions options;
-  options.seed = database.seed;
-  options.objects = database.objects;
-  options.models = database.models;
-  return options;
-}
 
 /// The one of that name, or if that is empty one drawn from the stream.
 const ObjectName& named_or_drawn(const std::vector<ObjectName>& names, const std::string& object,
@@ -125,15 +103,12 @@ std::vector<MemoryFile> object_files(const Episode& episode, const ObjectOnTable
   const RecognitionTask& task = episode.recognition;
   const TurntableObject made =
       make_turntable_object(dataset_of(task.database), {object.category, object.object});
-  const Eigen::Vector3d middle = made.box_m.center();
-  using namespace fmt::literals;
-  const std::string mjcf =
-      fmt::format(kObject, "specular"_a = made.specular, "shininess"_a = 0.3 + 0.5 * made.specular,
-                  "x"_a = task.table_m[0] + object.offset_m.x(),
-                  "y"_a = task.table_m[1] + object.offset_m.y(), "z"_a = task.table_m[2],
-                  "qw"_a = std::cos(0.5 * object.yaw_rad), "qz"_a = std::sin(0.5 * object.yaw_rad),
-                  "at_x"_a = -middle.x(), "at_y"_a = -middle.y(), "at_z"_a = -made.box_m.min().z());
-  return {{"object.xml", mjcf}, {"object.obj", made.obj}, {"object.png", made.png}};
+  const Eigen::Vector3d p_world_m(task.table_m[0] + object.offset_m.x(),
+                                  task.table_m[1] + object.offset_m.y(), task.table_m[2]);
+  const ObjectMjcf mjcf = object_mjcf("object", made, {p_world_m, object.yaw_rad});
+  return {{"object.xml", mjcf_file(mjcf.assets, mjcf.body)},
+          {"object.obj", made.obj},
+          {"object.png", made.png}};
 }
 
 }  // namespace vantage
