@@ -42,6 +42,15 @@ void require_known(const Recogniser& recogniser, const std::filesystem::path& pa
       path.string(), known.size(), object, which));
 }
 
+/// Where it began. If something is expected, the nearest bearing from which that is in the middle
+/// of a yaw bin: from there a turn by more than half a bin shows.
+double first_bearing_rad(const Episode& episode, double start_rad, double bin_rad) {
+  if (!episode.detects_change()) return start_rad;
+  const double seen_rad = draw_expected_object(episode).yaw_rad - start_rad;
+  const double first_rad = start_rad + std::remainder(seen_rad, bin_rad);
+  return first_rad - kTurn_rad * std::floor(first_rad / kTurn_rad);
+}
+
 /// Of a view without an object in it.
 ExtractFeature extract_nothing(const std::string& reason) {
   return [reason](std::size_t) { return ExtractedFeature{.result = FeatureResult::skip(reason)}; };
@@ -66,14 +75,21 @@ ObjectRecognition::ObjectRecognition(const ResolvedEpisode& resolved, const Reco
       rig_(rig),
       recorder_(recorder),
       truth_(draw_object_on_table(episode_)),
+      first_rad_(
+          first_bearing_rad(episode_, rig_.start_bearing_rad(), recogniser.states.bin_rad())),
       recogniser_(recogniser),
-      inquiry_(recogniser_, episode_, rig_.bearing_rad()),
+      inquiry_(recogniser_, episode_, first_rad_),
       choice_rng_(Rng::stream(episode_.seed, "recognition")),
       segmentation_rng_(Rng::stream(episode_.seed, "segmentation")) {
   recorder_.set_panel([this] { return panel(); });
 }
 
-FlightObservation ObjectRecognition::observe() { return rig_.observe(); }
+FlightObservation ObjectRecognition::observe() {
+  if (sightings_.empty() && rig_.bearing_rad() != first_rad_) {
+    current_.flight = rig_.fly_to(first_rad_);
+  }
+  return rig_.observe();
+}
 
 void ObjectRecognition::update(const FlightObservation& observation) {
   const RecognitionTask& task = episode_.recognition;
@@ -162,8 +178,7 @@ void ObjectRecognition::act(const BearingOption& option) {
 }
 
 double ObjectRecognition::bearing_rad(int id) const {
-  return std::fmod(rig_.start_bearing_rad() + id * kTurn_rad / episode_.recognition.bearings,
-                   kTurn_rad);
+  return std::fmod(first_rad_ + id * kTurn_rad / episode_.recognition.bearings, kTurn_rad);
 }
 
 bool ObjectRecognition::visited(int id) const {

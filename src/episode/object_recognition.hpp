@@ -51,6 +51,7 @@ class ObjectRecognition {
   FlightRig& rig_;
   RecognitionRecorder& recorder_;
   ObjectOnTable truth_;
+  double first_rad_;  ///< bearing of the first view, from which all others count
   const Recogniser& recogniser_;
   ObjectInquiry inquiry_;
   Rng choice_rng_;

@@ -64,6 +64,9 @@ TEST_F(ChangeEpisode, NothingHasChanged) {
   EXPECT_EQ(metrics["expected"]["yaw_rad"], metrics["true_yaw_rad"]);
   EXPECT_LE(metrics["change_probability"], 0.6);
   ASSERT_THAT(metrics["observations"], testing::Not(testing::IsEmpty()));
+  const double seen_rad = metrics["expected"]["yaw_rad"].get<double>() -
+                          metrics["observations"][0]["view_rad"].get<double>();
+  EXPECT_NEAR(std::remainder(seen_rad, std::numbers::pi / 4.0), 0.0, 1e-9) << "mid of its bin";
   for (const json& view : metrics["observations"]) {
     for (const char* key : {"view_rad", "entropy_bits", "feature_time_s", "selection_time_s",
                             "view_time_s", "change_probability"}) {
