@@ -127,8 +127,8 @@ void ChangeOptions::check() const {
   if (prior_pose + prior_object == 0.0) {
     throw ConfigError("prior_pose and prior_object: must not both be 0");
   }
-  if (unchanged_below > threshold) {
-    throw ConfigError("unchanged_below: must not be above threshold");
+  if (unchanged_below > threshold || threshold > changed_above) {
+    throw ConfigError("threshold: must lie between unchanged_below and changed_above");
   }
 }
 
@@ -149,7 +149,7 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
       return report;
     }
     const bool uncertain =
-        report.p_changed <= options.threshold && report.p_changed >= options.unchanged_below;
+        report.p_changed <= options.changed_above && report.p_changed >= options.unchanged_below;
     const bool doubtful = uncertain || empty == view;
     const std::vector<ObjectViewAction> actions = camera.actions();
     if (!doubtful || view >= options.recognition.most_views || actions.empty()) break;
@@ -164,6 +164,19 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
     report.change = kind_of_change(recogniser.states, h, expected_state);
   }
   return report;
+}
+
+bool tells_apart(const Recogniser& recogniser, int state, int other, double most_error) {
+  const ObjectStates& states = recogniser.states;
+  const auto turned = [&](int which, int turn) {
+    return states.state(states.object_of(which), (states.bin_of(which) + turn) % states.bins);
+  };
+  double nats = 0.0;
+  for (int turn = 0; turn < states.bins; ++turn) {
+    nats += static_cast<double>(
+        recogniser.tables.bhattacharyya_nats(turned(state, turn), turned(other, turn)));
+  }
+  return 0.5 * std::exp(-nats) <= most_error;
 }
 
 }  // namespace vantage
