@@ -13,6 +13,7 @@
 #include "planners/trajectory/trajectory_optimiser.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/data_root.hpp"
+#include "src/episode/feature_listing.hpp"
 
 namespace vantage {
 namespace {
@@ -59,6 +60,7 @@ struct Topic {
 constexpr auto kTopics = std::to_array<Topic>({
     {"gains", [] { return owned(strategy_names<Gain>()); }},
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
+    {"features", feature_lines},
     {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
     {"optimisers", [] { return owned(strategy_names<TrajectoryOptimiser>()); }},
     {"episodes", [] { return yaml_files("assets/episodes"); }},

@@ -93,7 +93,7 @@ Scalar mean_of(const Curve& values) { return values.empty() ? Scalar{} : mean(va
 
 /// A number or truth value of an episode that recognises.
 Scalar of_recognition(const Json& metrics, const char* key) {
-  if (!recognises(metrics) || metrics.at(key).is_null()) return {};
+  if (!metrics.contains(key) || metrics.at(key).is_null()) return {};
   const Json& value = metrics.at(key);
   return value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
 }
@@ -142,10 +142,14 @@ constexpr auto kScalars = std::to_array<ScalarMeasure>({
      [](const Json& m, const Episode&) -> Scalar {
        return m.at("simulated_time_s").get<double>();
      }},
-    {{"correct", "recognised the object, share"},
+    {{"correct", "recognised the object, or what has changed, share"},
      [](const Json& m, const Episode&) { return of_recognition(m, "correct"); }},
     {{"category_correct", "recognised the category, share"},
      [](const Json& m, const Episode&) { return of_recognition(m, "category_correct"); }},
+    {{"changed_correct", "told changed from unchanged, share"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "changed_correct"); }},
+    {{"change_probability", "probability of a change at the end"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "change_probability"); }},
     {{"views", "views taken"},
      [](const Json& m, const Episode&) -> Scalar {
        if (!recognises(m)) return {};
