@@ -109,21 +109,29 @@ void OfficeExploration::record() {
   recorder_.scan(scan, scans_.size() - 1, belief_.grid());
   decision_start_s_ = wall_s();
   views_ = find_views();
+  are_views_weighed_ = false;
   if (options.enough.scans > 0 && !views_.empty()) weigh_going_on();
 }
 
-/// Counts how often in a row the best view promised less than a share of what is known.
+/// Counts how often in a row the best view promised less than a share of what is known. Not asked
+/// while scans show many times that: then there is more.
 void OfficeExploration::weigh_going_on() {
+  constexpr double kPlenty = 10.0;
   const double start_s = wall_s();
+  const auto known = static_cast<double>(belief_.grid().size() - scans_.back().unobserved_cells);
+  const double poor_cells = episode_.exploration.enough.share * known;
+  if (scans_.back().actual_new_cells > kPlenty * poor_cells) {
+    poor_promises_ = 0;
+    return;
+  }
   const auto promises = learnt_gains_bits(AdaptiveGain{});
   if (std::holds_alternative<AdaptiveGain>(episode_.gain)) {
     for (std::size_t i = 0; i < views_.size(); ++i) views_[i].gain_bits = promises[i];
+    are_views_weighed_ = true;
   } else {
     decision_start_s_ += wall_s() - start_s;  // the method itself does not need it
   }
-  const auto known = static_cast<double>(belief_.grid().size() - scans_.back().unobserved_cells);
-  const bool is_poor = std::ranges::max(promises) < episode_.exploration.enough.share * known;
-  poor_promises_ = is_poor ? poor_promises_ + 1 : 0;
+  poor_promises_ = std::ranges::max(promises) < poor_cells ? poor_promises_ + 1 : 0;
   if (is_enough()) log_info(fmt::format("explored: none of {} views is worth it", views_.size()));
 }
 

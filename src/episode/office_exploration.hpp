@@ -55,6 +55,7 @@ class OfficeExploration {
   VisitedPlaces visited_;
   Rng choice_rng_;
   std::vector<Candidate> views_;
+  bool are_views_weighed_ = false;
   int poor_promises_ = 0;          ///< scans in a row after which no view was worth one more
   double decision_start_s_ = 0.0;  ///< wall
   ScanRecord current_;             ///< filled in from the decision to the end of its scan
