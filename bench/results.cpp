@@ -32,8 +32,9 @@ struct StudyPart {
 };
 
 const std::vector<StudyPart>& study_parts() {
-  static const std::vector<std::string> tables = {"area",          "scans",      "observed_share",
-                                                  "path_length_m", "collisions", "predictors"};
+  static const std::vector<std::string> tables = {"area",           "scans_to_95",   "scans",
+                                                  "observed_share", "path_length_m", "collisions",
+                                                  "predictors"};
   static const std::vector<StudyPart> parts = {
       {"tabletop", "Table top (Fig. 3.10)", tables, tabletop_findings},
       {"tabletop_predictors",
