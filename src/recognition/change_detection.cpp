@@ -87,8 +87,8 @@ void ChangeOptions::check() const {
   if (prior_pose + prior_object == 0.0) {
     throw ConfigError("prior_pose and prior_object: must not both be 0");
   }
-  if (unchanged_below > threshold) {
-    throw ConfigError("unchanged_below: must not be above threshold");
+  if (unchanged_below > threshold || threshold > changed_above) {
+    throw ConfigError("threshold: must lie between unchanged_below and changed_above");
   }
 }
 
@@ -142,7 +142,7 @@ bool in_doubt(const ChangeOptions& options, const ChangeSearch& search) {
   if (search.empty_views >= options.empty_views) return false;
   if (views >= static_cast<std::size_t>(options.recognition.most_views)) return false;
   const double p = search.hypotheses.p_changed();
-  const bool uncertain = p <= options.threshold && p >= options.unchanged_below;
+  const bool uncertain = p <= options.changed_above && p >= options.unchanged_below;
   return uncertain || search.empty_views == static_cast<int>(views);
 }
 
@@ -176,6 +176,19 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
   return {.change = verdict(recogniser, options, search),
           .p_changed = search.hypotheses.p_changed(),
           .recognition = std::move(search.recognition)};
+}
+
+bool tells_apart(const Recogniser& recogniser, int state, int other, double most_error) {
+  const ObjectStates& states = recogniser.states;
+  const auto turned = [&](int which, int turn) {
+    return states.state(states.object_of(which), (states.bin_of(which) + turn) % states.bins);
+  };
+  double nats = 0.0;
+  for (int turn = 0; turn < states.bins; ++turn) {
+    nats += static_cast<double>(
+        recogniser.tables.bhattacharyya_nats(turned(state, turn), turned(other, turn)));
+  }
+  return 0.5 * std::exp(-nats) <= most_error;
 }
 
 }  // namespace vantage
