@@ -32,8 +32,9 @@ struct StudyPart {
 };
 
 const std::vector<StudyPart>& study_parts() {
-  static const std::vector<std::string> tables = {"area",          "scans",      "observed_share",
-                                                  "path_length_m", "collisions", "predictors"};
+  static const std::vector<std::string> tables = {"area",           "scans_to_95",   "scans",
+                                                  "observed_share", "path_length_m", "collisions",
+                                                  "predictors"};
   static const std::vector<StudyPart> parts = {
       {"tabletop", "Table top (Fig. 3.10)", tables, tabletop_findings},
       {"tabletop_predictors",
@@ -44,9 +45,18 @@ const std::vector<StudyPart>& study_parts() {
        [](const StudySummary& study) {
          return office_findings(study, "Fig. 3.15", {20, 25});
        }},
-      {"office_large", "Large office (Fig. 3.16)", tables, [](const StudySummary& study) {
+      {"office_large", "Large office (Fig. 3.16)", tables,
+       [](const StudySummary& study) {
          return office_findings(study, "Fig. 3.16", {60, 70});
-       }}};
+       }},
+      {"recognition_flight",
+       "Recognition on the quadrotor (4.5.7)",
+       {"correct", "category_correct", "views", "bin_error", "path_length_m", "collisions"},
+       flight_recognition_findings},
+      {"change_flight",
+       "Change detection on the quadrotor (Table 4.16)",
+       {"changed_correct", "correct", "views", "collisions"},
+       flight_change_findings}};
   return parts;
 }
 

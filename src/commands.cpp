@@ -72,9 +72,25 @@ void print_recognition(const nlohmann::ordered_json& metrics) {
              metrics["collisions"].get<int>(), metrics["real_time_factor"].get<double>());
 }
 
+void print_change(const nlohmann::ordered_json& metrics) {
+  const auto text = [&](const char* key) {
+    return metrics[key].is_string() ? metrics[key].get<std::string>() : "nothing yet";
+  };
+  fmt::print("{}: {} after {} views, changed: {}, which is {} ({})\n", text("method"),
+             text("status"), metrics["observations"].size(), text("decision"),
+             metrics["correct"].get<bool>() ? "right" : "wrong", text("scenario"));
+  const auto& probability = metrics["change_probability"];
+  fmt::print("probability of a change {}, path {:.2f} m, {} collisions, {:.1f} x real time\n",
+             probability.is_number() ? fmt::format("{:.3f}", probability.get<double>()) : "unknown",
+             metrics["path_length_m"].get<double>(), metrics["collisions"].get<int>(),
+             metrics["real_time_factor"].get<double>());
+}
+
 void print_outcome(const RunOutcome& outcome) {
   const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
-  if (metrics.contains("observations")) {
+  if (metrics.contains("change_probability")) {
+    print_change(metrics);
+  } else if (metrics.contains("observations")) {
     print_recognition(metrics);
   } else {
     print_mapping(metrics);

@@ -1,10 +1,12 @@
-/// vantage_make_scenes DIR: writes the table scenes and offices into DIR/<name>/.
+/// vantage_make_scenes DIR: writes the table scenes, offices and rooms to fly through into
+/// DIR/<name>/.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
+#include "models/catalogue/flight_mjcf.hpp"
 #include "models/catalogue/office_mjcf.hpp"
 #include "models/catalogue/scene_mjcf.hpp"
 #include "src/core/error.hpp"
@@ -24,6 +26,10 @@ int main(int argc, char** argv) {
     for (const auto& options : vantage::office_scenes()) {
       vantage::write_scene(vantage::make_office_scene(options), scenes / options.name);
       fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
+    }
+    for (const auto& scene : vantage::flight_scenes()) {
+      vantage::write_scene(scene, scenes / scene.name);
+      fmt::print("{}\n", (scenes / scene.name / "scene.xml").string());
     }
   } catch (const vantage::Error& error) {
     fmt::print(stderr, "error: {}\n", error.what());

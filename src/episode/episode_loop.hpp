@@ -1,15 +1,23 @@
 /// The loop of every task: the dissertation's figure, one part a line.
 #pragma once
 
+#include <string>
+
+#include "src/core/error.hpp"
 #include "src/episode/interrupt.hpp"
 
 namespace vantage {
 
-enum class EpisodeStatus { completed, diverged, interrupted };
+enum class EpisodeStatus { completed, failed, diverged, interrupted };
+
+/// Ends an episode that cannot be completed: a recorded result, and a goal that was missed.
+struct EpisodeFailed : Error {
+  explicit EpisodeFailed(const std::string& why) : Error(ExitCode::goal_failed, why) {}
+};
 
 /// Runs `parts` until it says it is finished. A task (next best view, recognition, trajectory) is a
 /// type with these eight members.
-/// @throws Interrupted, DivergedError
+/// @throws Interrupted, DivergedError, EpisodeFailed
 template <class Parts>
 void run_episode(Parts& parts) {
   while (true) {

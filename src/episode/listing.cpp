@@ -10,8 +10,10 @@
 #include "models/catalogue/object_database.hpp"
 #include "planners/gain.hpp"
 #include "planners/object_view_choice.hpp"
+#include "planners/trajectory/trajectory_optimiser.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/data_root.hpp"
+#include "src/episode/feature_listing.hpp"
 
 namespace vantage {
 namespace {
@@ -58,7 +60,9 @@ struct Topic {
 constexpr auto kTopics = std::to_array<Topic>({
     {"gains", [] { return owned(strategy_names<Gain>()); }},
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
+    {"features", feature_lines},
     {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
+    {"optimisers", [] { return owned(strategy_names<TrajectoryOptimiser>()); }},
     {"episodes", [] { return yaml_files("assets/episodes"); }},
     {"studies", [] { return yaml_files("assets/studies"); }},
     {"scenes", scenes},

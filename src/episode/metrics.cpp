@@ -73,6 +73,7 @@ Json box_json(const Eigen::AlignedBox3d& box) {
 std::string_view status_name(EpisodeStatus status) {
   switch (status) {
     case EpisodeStatus::completed: return "completed";
+    case EpisodeStatus::failed: return "failed";
     case EpisodeStatus::diverged: return "diverged";
     case EpisodeStatus::interrupted: return "interrupted";
   }

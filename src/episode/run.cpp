@@ -41,7 +41,7 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
   }
 }
 
-/// How the episode ended. A divergence and an interruption are recorded results.
+/// How the episode ended. A failure, a divergence and an interruption are recorded results.
 struct Ending {
   EpisodeStatus status = EpisodeStatus::completed;
   ExitCode code = ExitCode::done;
@@ -56,6 +56,9 @@ Ending run_to_end(Parts& parts) {
   } catch (const DivergedError& error) {
     log_error(std::string("diverged: ") + error.what());
     return {EpisodeStatus::diverged, error.code(), error.what()};
+  } catch (const EpisodeFailed& error) {
+    log_error(std::string("failed: ") + error.what());
+    return {EpisodeStatus::failed, error.code(), error.what()};
   } catch (const Interrupted& error) {
     log_debug(error.what());
     return {EpisodeStatus::interrupted, error.code(), error.what()};

@@ -30,6 +30,24 @@ void check_flight(const Episode& episode) {
       episode.simulation.control_period_s, episode.simulation.timestep_s));
 }
 
+/// What stands on the table is what is expected there, unless it is another object.
+void check_change(const Episode& episode) {
+  const ChangeDetectionTask& task = episode.change_detection;
+  const std::string& there = episode.recognition.object;
+  if (task.scenario == to_string(Change::object)) {
+    if (there.empty() || there != task.expected_object) return;
+    throw ConfigError(fmt::format(
+        "recognition.object: '{}' is what change_detection.expected_object says, so that scenario "
+        "object changes nothing",
+        there));
+  }
+  if (there.empty()) return;
+  throw ConfigError(fmt::format(
+      "recognition.object: '{}' is another object, which change_detection.scenario: {} has not; "
+      "what should stand there is change_detection.expected_object",
+      there, task.scenario));
+}
+
 /// A model that is not there yet is missed where it is needed: to replay an episode it is not.
 void settle_recognition_model(ResolvedEpisode& resolved, const std::filesystem::path& base) {
   std::string& model = resolved.episode.recognition.model;
@@ -60,11 +78,20 @@ void MetricsOptions::check() const {
   }
 }
 
-void Episode::check() const {
-  if (task != "next_best_view" && task != "recognition") {
-    throw ConfigError(
-        fmt::format("task: unknown task '{}'; known: next_best_view, recognition", task));
+void ChangeDetectionTask::check() const {
+  if (!change_named(scenario)) {
+    throw ConfigError(fmt::format(
+        "scenario: unknown scenario '{}'; known: none, object, pose, removed", scenario));
   }
+  options.check();
+}
+
+void Episode::check() const {
+  if (task != "next_best_view" && !flies()) {
+    throw ConfigError(fmt::format(
+        "task: unknown task '{}'; known: next_best_view, recognition, change_detection", task));
+  }
+  if (detects_change()) check_change(*this);
   if (flies()) {
     check_flight(*this);
     return;

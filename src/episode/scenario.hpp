@@ -23,6 +23,7 @@
 #include "src/belief/hole_filling.hpp"
 #include "src/belief/sensor_model.hpp"
 #include "src/core/fields.hpp"
+#include "src/episode/change_detection_task.hpp"
 #include "src/episode/exploration_options.hpp"
 #include "src/episode/recognition_task.hpp"
 #include "src/perception/registration.hpp"
@@ -89,7 +90,7 @@ struct RecordingOptions {
 };
 
 struct Episode {
-  std::string task = "next_best_view";                       ///< or recognition
+  std::string task = "next_best_view";                       ///< or recognition, change_detection
   std::string setting = "table_top";                         ///< or office
   std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF
   std::uint64_t seed = 1;                                    ///< of every random stream
@@ -118,6 +119,7 @@ struct Episode {
   MetricsOptions metrics;
   RecordingOptions recording;
   RecognitionTask recognition;
+  ChangeDetectionTask change_detection;
 
   void fields(auto&& f) {
     f("task", task);
@@ -149,10 +151,12 @@ struct Episode {
     f("metrics", metrics);
     f("recording", recording);
     f("recognition", recognition);
+    f("change_detection", change_detection);
   }
   void check() const;  ///< what concerns more than one part
 
-  [[nodiscard]] bool flies() const { return task == "recognition"; }
+  [[nodiscard]] bool flies() const { return task == "recognition" || detects_change(); }
+  [[nodiscard]] bool detects_change() const { return task == "change_detection"; }
   [[nodiscard]] bool in_office() const { return setting == "office"; }
   [[nodiscard]] GridFrame grid_frame() const {
     return make_grid_frame(map.centre_m, map.size_m, map.cells);

@@ -4,6 +4,7 @@
 /// the views say of each decides between them: P(u) = 1 - P(expected | views).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -17,7 +18,10 @@ enum class Change {
   pose,     ///< the same one, turned into another yaw bin
   removed,  ///< nothing is there
 };
+inline constexpr auto kChanges =
+    std::to_array({Change::none, Change::object, Change::pose, Change::removed});
 std::string_view to_string(Change change);
+std::optional<Change> change_named(std::string_view name);
 
 /// `options` with all features, what is left out could be what a turn shows in, and views that tell
 /// of the pose as well.
@@ -39,6 +43,10 @@ struct ChangeOptions {
   int empty_views = 2;         ///< without any feature, until it is held to be removed
   void fields(auto&& f) {
     f("recognition", recognition);
+    decision_fields(f);
+  }
+  /// All but how to look.
+  void decision_fields(auto&& f) {
     f("threshold", threshold, between(0.0, 1.0));
     f("unchanged_below", unchanged_below, between(0.0, 1.0));
     f("changed_above", changed_above, between(0.0, 1.0));
@@ -56,6 +64,44 @@ struct ChangeReport {
   double p_changed = 0.0;   ///< P(u)
   Recognition recognition;  ///< of what is there now: belief under both hypotheses, and the views
 };
+
+/// Two hypotheses: it is as expected, or it is anything else. Beliefs given each, and how probable
+/// each is.
+struct ChangeHypotheses {
+  ObjectBelief expected;
+  ObjectBelief changed;
+  double log_p_expected = 0.0;
+  double log_p_changed = 0.0;
+
+  [[nodiscard]] double p_changed() const;      ///< P(u)
+  [[nodiscard]] ObjectBelief mixture() const;  ///< whatever the hypothesis
+};
+
+/// What is known so far.
+struct ChangeSearch {
+  int expected_object = 0;
+  ChangeHypotheses hypotheses;
+  Recognition recognition;  ///< of what is there now: belief under both, and the views
+  int empty_views = 0;      ///< of those, without any feature
+};
+
+/// @param expected_state as the camera sees it from where it is at first
+/// @throws ConfigError if `options` are out of range.
+ChangeSearch begin_change_search(const Recogniser& recogniser, const ChangeOptions& options,
+                                 int expected_state);
+
+/// As take_view() of a recognition.
+void take_view(const Recogniser& recogniser, const ChangeOptions& options,
+               const ExtractFeature& extract, double view_rad, ChangeSearch& search, Rng& rng);
+/// As moved() of a recognition.
+void moved(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
+           ChangeSearch& search);
+/// Whether another view would be worth it: fewer than the most were taken, and it is still open
+/// what has changed.
+bool in_doubt(const ChangeOptions& options, const ChangeSearch& search);
+/// What has changed, if it has to be said now: nothing unless P(u) is above tau.
+Change verdict(const Recogniser& recogniser, const ChangeOptions& options,
+               const ChangeSearch& search);
 
 /// Looks until it is sure either way or there are no views left; then it has changed if P(u) is
 /// above tau.

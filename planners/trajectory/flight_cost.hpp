@@ -1,0 +1,105 @@
+/// What a waypoint costs: near obstacles, without its target in view, far from where to look at it.
+/// [Potthast2016, 5.2]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+#include "planners/trajectory/horizon.hpp"
+#include "planners/trajectory/surface_distance.hpp"
+#include "src/core/fields.hpp"
+#include "src/geometry/pose.hpp"
+
+namespace vantage {
+
+struct FlightCostOptions {
+  double obstacle_weight = 5.0;     ///< of c_o; higher keeps off further
+  double centre_weight = 1.0;       ///< of c_v; higher keeps the target in view
+  double recognition_weight = 0.5;  ///< of c_r c_i, 1/m; higher leaves the path for a view
+  bool information = true;          ///< false: c_i is 1 of every target
+  double tau_nats = 0.1;            ///< entropy below which a target is known; higher looks less
+  double epsilon_m = 0.5;           ///< margin round the body; higher keeps off further
+  double body_radius_m = 0.5;       ///< of the sphere that holds the vehicle
+  double speed_floor_m_s = 0.2;     ///< so that standing in an obstacle costs; higher costs more
+  double segment_s = 1.0;           ///< time from a waypoint to the next; higher takes it as slower
+  double bearing_weight = 0.5;     ///< of the bearing in c_v; higher turns sooner to what is behind
+  bool between_waypoints = true;   ///< c_o looks half way to the neighbours too
+  double clearance_m = 0.6;        ///< from centre to surface that must be kept
+  double clearance_weight = 50.0;  ///< 1/m, of what is missing; higher is harder
+  double delta_m = 2.0;  ///< literal: obstacles farther away do not count; higher counts more
+  bool literal = false;  ///< the dissertation's forms as printed: for the record, they fly into it
+  void fields(auto&& f) {
+    f("obstacle_weight", obstacle_weight, at_least(0.0));
+    f("centre_weight", centre_weight, at_least(0.0));
+    f("recognition_weight", recognition_weight, at_least(0.0));
+    f("information", information);
+    f("tau_nats", tau_nats, at_least(0.0));
+    f("epsilon_m", epsilon_m, at_least(0.0));
+    f("body_radius_m", body_radius_m, at_least(0.0));
+    f("speed_floor_m_s", speed_floor_m_s, at_least(0.0));
+    f("segment_s", segment_s, above(0.0));
+    f("bearing_weight", bearing_weight, at_least(0.0));
+    f("between_waypoints", between_waypoints);
+    f("clearance_m", clearance_m, at_least(0.0));
+    f("clearance_weight", clearance_weight, at_least(0.0));
+    f("delta_m", delta_m, at_least(0.0));
+    f("literal", literal);
+  }
+};
+
+/// A camera on the body that looks `pitch_rad` below the horizon ahead of it.
+Pose camera_ahead(double pitch_rad,
+                  const Eigen::Vector3d& p_body_camera_m = Eigen::Vector3d::Zero());
+
+/// The camera on the body; axes as in src/geometry/pose.hpp.
+struct FlightCamera {
+  Pose T_body_camera = camera_ahead(0.0);
+  double horizontal_fov_rad = 0.9948376736367679;  ///< 57 deg
+  double vertical_fov_rad = 0.7853981633974483;    ///< 45 deg
+};
+
+/// What to recognise and from where.
+struct ObservationTarget {
+  Eigen::Vector3d p_world_object_m = Eigen::Vector3d::Zero();  ///< o_r
+  Eigen::Vector3d p_world_view_m = Eigen::Vector3d::Zero();    ///< o_v
+  double entropy_nats = 0.0;                                   ///< H of what it may be
+};
+
+/// c_o of a place so far from the surface, max(epsilon + r_b - d, 0) |x'|.  [Potthast2016, (5.8)]
+double obstacle_cost(const FlightCostOptions& options, double distance_m, double speed_m_s);
+
+/// The image plane: 1 where the frame ends. Nothing if it is not in front of the camera.
+std::optional<Eigen::Vector2d> in_frame(const FlightCamera& camera, const Eigen::Vector4d& waypoint,
+                                        const Eigen::Vector3d& p_world);
+
+/// c_v of a waypoint that should see a place in the middle.  [Potthast2016, (5.9)]
+double centre_cost(const FlightCostOptions& options, const FlightCamera& camera,
+                   const Eigen::Vector4d& waypoint, const Eigen::Vector3d& p_world);
+
+/// c_v of a waypoint without a target: that it heads for a place, whatever its height.
+double heading_cost(const FlightCostOptions& options, const FlightCamera& camera,
+                    const Eigen::Vector4d& waypoint, const Eigen::Vector3d& p_world);
+
+/// c_r.  [Potthast2016, (5.10)], with o_v in place of o_r, which the vehicle would fly into, and
+/// the ray from the object through o_v in place of the line, which has two sides.
+double recognition_cost(const FlightCostOptions& options, const ObservationTarget& target,
+                        const Eigen::Vector3d& p_world);
+
+/// c_i.  [Potthast2016, (5.11)]
+double information_cost(const FlightCostOptions& options, double entropy_nats);
+
+/// What is known round the vehicle.
+struct FlightSurroundings {
+  const SurfaceDistance* surface = nullptr;            ///< null: nothing is in the way
+  std::optional<ObservationTarget> target{};           ///< none: look where you go
+  std::vector<Eigen::Vector3d> p_world_obstacles_m{};  ///< literal: centres o_c
+};
+
+/// c_o + c_v + c_r c_i of each point, weighed. `scene.surface` must outlive it.
+/// [Potthast2016, (5.7)]
+PathCost flight_cost(const FlightCostOptions& options, const FlightCamera& camera,
+                     FlightSurroundings scene);
+
+}  // namespace vantage

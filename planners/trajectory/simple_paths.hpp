@@ -1,0 +1,44 @@
+/// What optimised paths are compared with: only the heading follows the objects, or the path goes
+/// through their nearest views without weighing anything.
+#pragma once
+
+#include <span>
+
+#include "planners/trajectory/horizon.hpp"
+#include "planners/trajectory/observation_ring.hpp"
+
+namespace vantage {
+
+struct YawToTarget {
+  double tau_nats = 0.1;  ///< entropy below which an object is not looked at
+  double range_m = 3.0;   ///< farther objects are not looked at; higher turns earlier
+  void fields(auto&& f) {
+    f("tau_nats", tau_nats, at_least(0.0));
+    f("range_m", range_m, above(0.0));
+  }
+};
+
+/// The same places; where an object that is not yet known is in range the waypoint heads for the
+/// nearest one, elsewhere it keeps its heading. `initial_yaw`.
+Eigen::Matrix4Xd initial_yaw(const Eigen::Matrix4Xd& waypoints,
+                             std::span<const ObservedObject> objects,
+                             const YawToTarget& options = {});
+
+struct GreedyDetour {
+  double tau_nats = 0.1;  ///< entropy below which an object is passed by
+  double range_m = 3.0;   ///< from the first point; objects farther away are passed by
+  int views = 2;          ///< of the object on one horizon, 1 to 8; higher goes further round it
+  void fields(auto&& f) {
+    f("tau_nats", tau_nats, at_least(0.0));
+    f("range_m", range_m, above(0.0));
+    f("views", views, between(1, kObservationDirections));
+  }
+};
+
+/// A spline from the first point of the horizon to its last, through the unused directions of the
+/// active object that are nearest the path, in the order in which the path comes by; as many points
+/// as before, evenly along it, heading for the object. The horizon's own where no object is active.
+Eigen::Matrix4Xd greedy_detour(const Horizon& horizon, std::span<const ObservedObject> objects,
+                               const GreedyDetour& options = {});
+
+}  // namespace vantage

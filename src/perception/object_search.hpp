@@ -1,0 +1,50 @@
+/// Objects on stands, found in a depth image: how many there are, where, and on what is not known.
+#pragma once
+
+#include <vector>
+
+#include "src/core/fields.hpp"
+#include "src/geometry/object_sighting.hpp"
+#include "src/perception/object_segmentation.hpp"
+#include "src/perception/support_search.hpp"
+
+namespace vantage {
+
+struct ObjectSearchOptions {
+  SupportSearchOptions support = {};
+  ObjectSegmentationOptions cut{.radius_m = 0.3, .max_height_m = 0.5, .min_pixels = 60};
+  double range_m = 3.0;         ///< farther objects are not reported; higher finds them earlier
+  double nearest_m = 0.85;      ///< of the object's surface; where it is nearer, depth may lack
+  int border_px = 2;            ///< an object that close to the frame's edge is not whole
+  double gap_m = 0.05;          ///< between parts of one object; higher joins neighbours
+  double noise_per_m = 0.0008;  ///< of heights, standard deviation per squared distance, 1/m
+  void fields(auto&& f) {
+    f("support", support);
+    f("cut", cut);
+    f("range_m", range_m, Range{0.0, 20.0, true});
+    f("nearest_m", nearest_m, at_least(0.0));
+    f("border_px", border_px, between(0, 100));
+    f("gap_m", gap_m, Range{0.0, 1.0, true});
+    f("noise_per_m", noise_per_m, between(0.0, 0.1));
+  }
+};
+
+struct SeenObject {
+  ObjectSighting sighting;
+  ObjectView view;  ///< for the recogniser
+};
+
+/// Every object that stands alone on a level surface, nearest first. Surfaces are found by
+/// find_supports(), what rises from one is clustered, and each cluster is cut out as
+/// segment_object() does. What rises higher than `cut.max_height_m`, or mostly stands beside the
+/// surface, is no object.
+/// @param images colour and measured depth; segmentation is not looked at
+/// @param T_world_camera as estimated, OpenCV's axes
+/// @throws ConfigError if options are out of range.
+std::vector<SeenObject> find_objects(const CameraImages& images, const Pose& T_world_camera,
+                                     const ObjectSearchOptions& options = {});
+
+/// The sightings alone, for FoundObjects.
+std::vector<ObjectSighting> sightings_of(const std::vector<SeenObject>& seen);
+
+}  // namespace vantage

@@ -1,0 +1,110 @@
+#include "planners/trajectory/observation_ring.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/planners/trajectory/straight_flight.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(ObservationRing, HasEightPlacesRoundTheObjectAtTheHeightFlown) {
+  const ObservationRing ring{.p_world_object_m = {1.0, 2.0, 0.4}, .radius_m = 1.3, .height_m = 1.2};
+  EXPECT_LT((ring.view_m(0) - Eigen::Vector3d(2.3, 2.0, 1.2)).norm(), 1e-12);
+  EXPECT_LT((ring.view_m(2) - Eigen::Vector3d(1.0, 3.3, 1.2)).norm(), 1e-12);
+  const double diagonal = 1.3 * std::sqrt(0.5);
+  EXPECT_LT((ring.view_m(5) - Eigen::Vector3d(1.0 - diagonal, 2.0 - diagonal, 1.2)).norm(), 1e-12);
+}
+
+TEST(ObservationRing, PlacesFallIntoDirectionsByTheirBearing) {
+  for (const double first : {0.0, 0.3, -3.0, 5.0}) {
+    const ObservationRing ring{.p_world_object_m = {1.0, 2.0, 0.4}, .first_bearing_rad = first};
+    for (int d = 0; d < kObservationDirections; ++d) {
+      EXPECT_EQ(ring.direction_of(ring.view_m(d)), d);
+      for (const double off_rad : {-0.49 * kPi / 4.0, 0.49 * kPi / 4.0}) {
+        const double bearing = first + d * kPi / 4.0 + off_rad;
+        const Eigen::Vector3d place(1.0 + 3.0 * std::cos(bearing), 2.0 + 3.0 * std::sin(bearing),
+                                    7.0);
+        EXPECT_EQ(ring.direction_of(place), d);
+      }
+    }
+  }
+}
+
+TEST(FramingDistance, LetsACylinderTouchTheFrame) {
+  const FlightCamera camera;
+  // Flat and wide: rays at half of 57 deg touch its sides.
+  EXPECT_NEAR(framing_distance_m(camera, 1.0, 0.0, 1.0),
+              0.5 / std::sin(0.5 * camera.horizontal_fov_rad), 1e-12);
+  // Tall and thin: its top is at half of 45 deg.
+  EXPECT_NEAR(framing_distance_m(camera, 0.0, 1.0, 1.0),
+              0.5 / std::tan(0.5 * camera.vertical_fov_rad), 1e-12);
+  EXPECT_GT(framing_distance_m(camera, 0.5, 0.5, 0.8), framing_distance_m(camera, 0.5, 0.5, 1.0));
+}
+
+ObservedObject object_at(double x, double y, double entropy_nats = 2.0) {
+  return {.ring = {.p_world_object_m = {x, y, 0.5}, .height_m = 1.2},
+          .used = {},
+          .entropy_nats = entropy_nats};
+}
+
+TEST(ActiveObject, IsTheNearestThatIsNotKnown) {
+  std::vector<ObservedObject> objects{object_at(3.0, 0.0), object_at(1.0, 0.0, 0.05),
+                                      object_at(2.0, 0.0, 0.1)};
+  EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1), 2U);
+  EXPECT_EQ(active_object(objects, {3.1, 0.0, 1.2}, 0.1), 0U);
+  EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.01), 1U);
+  objects[2].used.fill(true);  // nothing left to see of it
+  EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1), 0U);
+  EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1, 2.9), std::nullopt);
+  EXPECT_EQ(active_object({}, {0.0, 0.0, 1.2}, 0.1), std::nullopt);
+}
+
+TEST(ActiveDirection, IsTheUnusedOneNearestTheRemainingPath) {
+  ObservedObject object = object_at(2.0, 1.5);
+  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  EXPECT_EQ(active_direction(object, path), 6);  // straight below the object
+  object.used[6] = true;
+  EXPECT_EQ(active_direction(object, path), 5);  // as near as 7, and the path comes by it first
+  EXPECT_EQ(active_direction(object, path.rightCols(5)), 7);  // 5 has been passed
+  object.used.fill(true);
+  EXPECT_EQ(active_direction(object, path), std::nullopt);
+}
+
+TEST(ObservationTarget, IsTheActiveDirectionOfTheActiveObject) {
+  const std::vector<ObservedObject> objects{object_at(9.0, 1.5), object_at(2.0, 1.5, 0.7)};
+  const Horizon flight = testing::straight_flight();
+  const auto target = observation_target(objects, {0.0, 0.0, 1.2}, flight.points, 0.1);
+  ASSERT_TRUE(target);
+  EXPECT_EQ(target->p_world_object_m, Eigen::Vector3d(2.0, 1.5, 0.5));
+  EXPECT_LT((target->p_world_view_m - Eigen::Vector3d(2.0, 0.2, 1.2)).norm(), 1e-12);
+  EXPECT_EQ(target->entropy_nats, 0.7);
+  EXPECT_FALSE(observation_target(objects, {0.0, 0.0, 1.2}, flight.points, 3.0));
+}
+
+TEST(BlockedDirections, AreLeftOut) {
+  ObservedObject object = object_at(2.0, 1.0);
+  const SurfaceDistance surface = testing::columns({{2.0, 1.0}, {3.4, 1.0}});
+  leave_out_blocked(object, surface, 0.6);
+  EXPECT_TRUE(object.used[0]);  // 0.1 m from the other column's axis
+  EXPECT_FALSE(object.used[2]);
+  EXPECT_FALSE(object.used[4]);
+}
+
+TEST(NearestOnPath, IsOnTheSegmentsNotAtTheWaypointsAlone) {
+  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  const OnPath beside = nearest_on_path(path, {0.7, 0.3, 1.2});
+  EXPECT_NEAR(beside.distance_m, 0.3, 1e-12);
+  EXPECT_NEAR(beside.at, 1.4, 1e-12);
+  const OnPath behind = nearest_on_path(path, {-3.0, 4.0, 1.2});
+  EXPECT_NEAR(behind.distance_m, 5.0, 1e-12);
+  EXPECT_EQ(behind.at, 0.0);
+}
+
+}  // namespace
+}  // namespace vantage

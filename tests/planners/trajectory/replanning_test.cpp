@@ -1,0 +1,97 @@
+#include "planners/trajectory/replanning.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "planners/trajectory/smoothness.hpp"
+#include "tests/planners/trajectory/straight_flight.hpp"
+
+namespace vantage {
+namespace {
+
+TEST(Smoothest, IsTheStraightFlightBetweenItsEnds) {
+  Horizon bent = testing::straight_flight();
+  for (Eigen::Index i = 1; i < 9; ++i) bent.points.col(i) << 0.3, 7.0, -2.0, 0.5;
+  const Horizon smooth = smoothest(bent);
+  EXPECT_LT((smooth.points - testing::straight_flight().points).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Smoothest, CostsLeastControl) {
+  Horizon turn = testing::straight_flight();
+  turn.points.col(9) << 2.0, 3.0, 1.5, 3.0;
+  turn.after << 2.0, 3.5, 1.5, -3.0;  // the short way on
+  const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
+  const Horizon smooth = smoothest(turn);
+  const double least = path_cost(smooth, nothing);
+  Rng rng(1);
+  for (int i = 0; i < 200; ++i) {
+    Horizon other = smooth;
+    for (double& value : other.points.middleCols(1, 8).reshaped()) value += 0.01 * rng.normal();
+    EXPECT_GT(path_cost(other, nothing), least);
+  }
+}
+
+class ReplanTest : public ::testing::Test {
+ protected:
+  OptimisedHorizon run(const Horizon& plan, std::span<const ObservedObject> objects) {
+    FlightSurroundings scene;
+    scene.target = observation_target(objects, {0.0, 0.0, 1.2}, nominal_, 0.1);
+    Rng rng(1);
+    return replan(Stomp{}, plan, nominal_, objects, {}, flight_cost({}, {}, scene), rng);
+  }
+
+  Horizon flight_ = testing::straight_flight();
+  Eigen::Matrix4Xd nominal_ = flight_.points;
+};
+
+TEST_F(ReplanTest, GoesBackToThePathWhenNothingIsLeftToSee) {
+  Horizon bent = flight_;
+  for (Eigen::Index i = 1; i < 9; ++i) {
+    bent.points(1, i) = 1.5 * std::sin(M_PI * static_cast<double>(i) / 9.0);
+  }
+  const auto result = run(bent, {});
+  EXPECT_LT((result.points - nominal_).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GT(result.initial_cost, result.cost);
+  EXPECT_EQ(result.evaluations, 1001 + 7);
+}
+
+TEST_F(ReplanTest, TurnsToWhatTheCameraDoesNotSee) {
+  ObservedObject object;
+  object.ring.p_world_object_m << 2.0, 1.5, 1.2;
+  object.ring.height_m = 1.2;
+  const auto result = run(flight_, {&object, 1});
+  int seen = 0;
+  for (const auto waypoint : result.points.colwise()) {
+    const auto v = in_frame({}, waypoint, object.ring.p_world_object_m);
+    if (v && v->norm() < 1.0) ++seen;
+  }
+  EXPECT_GE(seen, 6);
+  EXPECT_EQ(result.points.col(0), flight_.points.col(0));
+  EXPECT_EQ(result.points.col(9), flight_.points.col(9));
+}
+
+TEST_F(ReplanTest, KeepsAPlanThatIsBetterThanAnyOtherStart) {
+  ObservedObject object;
+  object.ring.p_world_object_m << 2.0, 1.5, 1.2;
+  object.ring.height_m = 1.2;
+  const auto first = run(flight_, {&object, 1});
+  const auto second = run({flight_.before, first.points, flight_.after}, {&object, 1});
+  EXPECT_NEAR(second.initial_cost, first.cost, 1e-9);
+  EXPECT_LE(second.cost, first.cost);
+}
+
+TEST_F(ReplanTest, TakesTheLastTwoWaypoints) {
+  flight_ = testing::straight_flight(2);
+  nominal_ = flight_.points;
+  EXPECT_EQ(run(flight_, {}).points, nominal_);
+}
+
+TEST_F(ReplanTest, NeedsANominalPointForEach) {
+  nominal_ = nominal_.leftCols(4).eval();
+  EXPECT_DEATH(run(flight_, {}), "a nominal point for each");
+}
+
+}  // namespace
+}  // namespace vantage

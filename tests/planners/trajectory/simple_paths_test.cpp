@@ -1,0 +1,90 @@
+#include "planners/trajectory/simple_paths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/planners/trajectory/straight_flight.hpp"
+
+namespace vantage {
+namespace {
+
+ObservedObject object_at(double x, double y, double entropy_nats = 2.0) {
+  return {.ring = {.p_world_object_m = {x, y, 1.2}, .radius_m = 1.3, .height_m = 1.2},
+          .used = {},
+          .entropy_nats = entropy_nats};
+}
+
+double bearing_rad(const Eigen::Vector4d& from, const Eigen::Vector3d& to) {
+  return std::atan2(to.y() - from.y(), to.x() - from.x());
+}
+
+TEST(InitialYaw, HeadsForTheNearestUnknownObjectInRange) {
+  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  const std::vector<ObservedObject> objects{object_at(1.0, 1.0), object_at(4.0, -1.5),
+                                            object_at(2.0, 0.5, 0.01)};
+  const auto turned = initial_yaw(path, objects, {.range_m = 2.0});
+  EXPECT_EQ(turned.topRows(3), path.topRows(3));
+  for (Eigen::Index i = 0; i < 10; ++i) {
+    const double near_m = (path.col(i).head<2>() - Eigen::Vector2d(1.0, 1.0)).norm();
+    const double far_m = (path.col(i).head<2>() - Eigen::Vector2d(4.0, -1.5)).norm();
+    const auto& object = objects[near_m < far_m ? 0 : 1];
+    EXPECT_DOUBLE_EQ(turned(3, i), bearing_rad(path.col(i), object.ring.p_world_object_m));
+  }
+}
+
+TEST(InitialYaw, KeepsTheHeadingElsewhere) {
+  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  EXPECT_EQ(initial_yaw(path, {}), path);
+  const std::vector<ObservedObject> objects{object_at(1.0, 1.0, 0.05), object_at(1.0, 5.0)};
+  EXPECT_EQ(initial_yaw(path, objects), path);
+}
+
+TEST(GreedyDetour, PassesTheNearestUnusedViews) {
+  const Horizon flight = testing::straight_flight();
+  std::vector<ObservedObject> objects{object_at(2.0, 2.0)};
+  objects[0].used[6] = true;  // the one at (2.0, 0.7)
+  const auto detour = greedy_detour(flight, objects);
+  EXPECT_EQ(detour.col(0), flight.points.col(0));
+  EXPECT_EQ(detour.col(9), flight.points.col(9));
+  for (const int direction : {5, 7}) {
+    EXPECT_LT(nearest_on_path(detour, objects[0].ring.view_m(direction)).distance_m, 0.12);
+  }
+  for (Eigen::Index i = 1; i < 9; ++i) {
+    EXPECT_NEAR(detour(3, i), bearing_rad(detour.col(i), objects[0].ring.p_world_object_m), 1e-12);
+    EXPECT_NEAR(detour(2, i), 1.2, 1e-12);
+  }
+}
+
+TEST(GreedyDetour, SpacesItsPointsEvenly) {
+  const Horizon flight = testing::straight_flight();
+  const std::vector<ObservedObject> objects{object_at(2.0, 2.0)};
+  const auto detour = greedy_detour(flight, objects, {.views = 1});
+  double least_m = 1e9;
+  double most_m = 0.0;
+  for (Eigen::Index i = 1; i < 10; ++i) {
+    const double step_m = (detour.col(i) - detour.col(i - 1)).head<3>().norm();
+    least_m = std::min(least_m, step_m);
+    most_m = std::max(most_m, step_m);
+  }
+  EXPECT_GT(least_m, 0.9 * most_m);
+  EXPECT_GT(most_m, 0.5);
+}
+
+TEST(GreedyDetour, KeepsToThePathWhereNothingIsLeftToSee) {
+  const Horizon flight = testing::straight_flight();
+  EXPECT_EQ(greedy_detour(flight, {}), flight.points);
+  const std::vector<ObservedObject> objects{object_at(2.0, 2.0, 0.05), object_at(40.0, 1.0)};
+  EXPECT_EQ(greedy_detour(flight, objects), flight.points);
+}
+
+TEST(GreedyDetour, TakesAViewWhereTheVehicleIs) {
+  const Horizon flight = testing::straight_flight();
+  const std::vector<ObservedObject> objects{object_at(0.0, 1.3)};
+  EXPECT_TRUE(greedy_detour(flight, objects).allFinite());
+}
+
+}  // namespace
+}  // namespace vantage
