@@ -23,6 +23,9 @@ using Figures = std::map<std::string, Json>;
 std::vector<Finding> speed_findings(const Figures& figures);
 std::vector<Finding> tabletop_findings(const StudySummary& study);
 std::vector<Finding> prediction_findings(const StudySummary& study);
+/// Of recognition and of change detection on the quadrotor.
+std::vector<Finding> flight_recognition_findings(const StudySummary& study);
+std::vector<Finding> flight_change_findings(const StudySummary& study);
 /// Scans that the dissertation's best method takes.
 struct ScansClaimed {
   int fewest = 0;

@@ -6,6 +6,7 @@
 
 #include "bench/claims.hpp"
 #include "bench/measures.hpp"
+#include "bench/recognition_claims.hpp"
 #include "src/core/atomic_file.hpp"
 #include "src/study/figure.hpp"
 
@@ -31,8 +32,9 @@ struct StudyPart {
 };
 
 const std::vector<StudyPart>& study_parts() {
-  static const std::vector<std::string> tables = {"area",          "scans",      "observed_share",
-                                                  "path_length_m", "collisions", "predictors"};
+  static const std::vector<std::string> tables = {"area",           "scans_to_95",   "scans",
+                                                  "observed_share", "path_length_m", "collisions",
+                                                  "predictors"};
   static const std::vector<StudyPart> parts = {
       {"tabletop", "Table top (Fig. 3.10)", tables, tabletop_findings},
       {"tabletop_predictors",
@@ -47,12 +49,24 @@ const std::vector<StudyPart>& study_parts() {
        [](const StudySummary& study) {
          return office_findings(study, "Fig. 3.16", {60, 70});
        }},
-      {"trajectory",
-       "Trajectories for recognition (tables 5.1-5.3)",
-       {"accuracy", "observations", "mean_entropy_nats", "flight_time_s", "path_length_m",
-        "minimum_clearance_m", "collided", "tracking_error_m", "replan_time_s", "energy_j"},
-       trajectory_findings}};
-  return parts;
+      {"recognition_flight",
+       "Recognition on the quadrotor (4.5.7)",
+       {"correct", "category_correct", "views", "bin_error", "path_length_m", "collisions"},
+       flight_recognition_findings},
+      {"change_flight",
+       "Change detection on the quadrotor (Table 4.16)",
+       {"changed_correct", "correct", "views", "collisions"},
+       flight_change_findings}};
+  {
+    "trajectory", "Trajectories for recognition (tables 5.1-5.3)",
+        {"accuracy",      "observations",     "mean_entropy_nats",
+         "flight_time_s", "path_length_m",    "minimum_clearance_m",
+         "collided",      "tracking_error_m", "replan_time_s",
+         "energy_j"},
+        trajectory_findings
+  }
+};
+return parts;
 }
 
 /// The folder's files of that extension, by name.
@@ -98,6 +112,34 @@ Figure scaling_figure(const Json& figures) {
   return {"scaling", "Time of a decision of 30 views", "million cells", "ms", {{"", {series}}}};
 }
 
+/// Tables of `vantage evaluate`, their headings two levels down.
+std::string evaluation_tables(const fs::path& folder, const std::string& title) {
+  std::string text = "\n### " + title + read_file(folder / "recognition.md").substr(1);
+  for (auto at = text.find("\n## "); at != std::string::npos; at = text.find("\n## ", at + 1)) {
+    text.insert(at + 1, "##");
+  }
+  return text;
+}
+
+/// What `vantage evaluate` wrote of recognition, with simple features and kernel descriptors.
+std::string recognition_part(const fs::path& folder) {
+  if (!fs::exists(folder / "simple" / "summary.json")) return {};
+  std::vector<Finding> findings =
+      recognition_findings(read_json(folder / "simple" / "summary.json"));
+  std::string tables = evaluation_tables(folder / "simple", "Simple features:");
+  const fs::path same = folder / "simple_same_objects";
+  if (fs::exists(folder / "kernel" / "summary.json") && fs::exists(same / "summary.json")) {
+    const std::vector<Finding> more = kernel_findings(read_json(folder / "kernel" / "summary.json"),
+                                                      read_json(same / "summary.json"));
+    findings.insert(findings.end(), more.begin(), more.end());
+    tables += evaluation_tables(folder / "kernel", "Kernel descriptors:");
+    tables += evaluation_tables(same, "Simple features on the same objects:");
+  }
+  return "\n## Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n`bench/studies recognition`, "
+         "a rendered database; trained at 30 and 60 deg, tested at 45 deg.\n\n" +
+         findings_table(findings) + tables;
+}
+
 void write_results(const fs::path& directory) {
   Figures figures;
   std::string machine;
@@ -131,6 +173,7 @@ void write_results(const fs::path& directory) {
                           picture.filename().string());
     }
   }
+  text += recognition_part(directory / "recognition");
   write_file(directory.parent_path() / "RESULTS.md", text);
 }
 

@@ -59,6 +59,23 @@ bool StudySummary::above_reference(const std::string& table, const std::string& 
          found->at("difference").at("interval")[0].get<double>() > 0.0;
 }
 
+bool StudySummary::below_reference(const std::string& table, const std::string& panel,
+                                   const std::string& level) const {
+  const Json* found = entry(table, panel, level);
+  return found != nullptr && found->contains("difference") &&
+         found->at("difference").at("interval")[1].get<double>() < 0.0;
+}
+
+std::string StudySummary::ratio_text(const std::string& table, const std::string& panel,
+                                     const std::string& level) const {
+  const auto times = ratio(table, panel, level);
+  if (!times) return {};
+  const Json& difference = entry(table, panel, level)->at("difference");
+  const Json& interval = difference.at("ratio_interval");
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}], {} pairs", *times, interval[0].get<double>(),
+                     interval[1].get<double>(), difference.at("pairs").get<int>());
+}
+
 std::vector<std::string> StudySummary::panels(const std::string& table) const {
   std::vector<std::string> names;
   for (const auto& [panel, levels] : json_.at("tables").at(table).items()) {

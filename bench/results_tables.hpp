@@ -32,6 +32,12 @@ class StudySummary {
   /// level.
   [[nodiscard]] bool above_reference(const std::string& table, const std::string& panel,
                                      const std::string& level) const;
+  /// The same below 0.
+  [[nodiscard]] bool below_reference(const std::string& table, const std::string& panel,
+                                     const std::string& level) const;
+  /// "1.04 [1.01, 1.07], 20 pairs": ratio to the reference level; empty for that level.
+  [[nodiscard]] std::string ratio_text(const std::string& table, const std::string& panel,
+                                       const std::string& level) const;
   /// Those of the table but "all", in order.
   [[nodiscard]] std::vector<std::string> panels(const std::string& table) const;
   [[nodiscard]] std::vector<std::string> levels(const std::string& table) const;

@@ -19,7 +19,7 @@ namespace vantage {
 /// No feature is worth its while any more.  [Potthast2016, 4.3.1]
 struct GainBelow {
   static constexpr std::string_view name = "gain_below";
-  double threshold = 0.1;  ///< bits, or bits/s if per cost, >= 0; higher stops earlier, 0 never
+  double threshold = 0.02;  ///< bits, or bits/s if per cost, >= 0; higher stops earlier, 0 never
   void fields(auto&& f) { f("threshold", threshold, at_least(0.0)); }
   [[nodiscard]] bool operator()(double best, std::optional<double> /*last*/) const {
     return best < threshold;
@@ -41,10 +41,10 @@ inline constexpr std::string_view strategy_family<FeatureStop> = "feature stop";
 
 struct FeatureChoice {
   InformationMeasure measure = MutualInformation{};
-  std::string first = "";     ///< extracted first at every view; empty: chosen as all others
-  int states = 48;            ///< most probable ones that are told apart, > 0; effort is its square
-  bool about_object = false;  ///< count what is told of the object, not also of its pose
-  bool per_cost = false;      ///< compare gains per second of extraction
+  std::string first = "";    ///< extracted first at every view; empty: chosen as all others
+  int states = 48;           ///< most probable ones that are told apart, > 0; effort is its square
+  bool about_object = true;  ///< count what is told of the object, not also of its pose
+  bool per_cost = false;     ///< compare gains per second of extraction
   FeatureStop stop = GainBelow{};
   void fields(auto&& f) {
     f("measure", measure);

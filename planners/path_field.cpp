@@ -69,15 +69,16 @@ SearchTree empty_tree(std::size_t size) {
   return {std::vector<double>(size, kInfinity), std::vector<std::size_t>(size, PathField::kNone)};
 }
 
-/// Where the search may begin: the robot's own cell, or the end of the shortest way out to a
-/// traversable one, whose cells get their parents in `field`.
-std::size_t find_entry(const FloorMap& map, PathField& field) {
-  if (field.traversable(field.start_cell)) return field.start_cell;
+/// The end of the shortest way out over cells with at least `clearance_m`, whose cells get their
+/// parents in `field`.
+std::size_t find_way_out(const FloorMap& map, float clearance_m, PathField& field) {
   SearchTree tree = empty_tree(map.size());
   double length_m = 0.0;
   const std::size_t entry = search(
       map, field.start_cell, 0.0,
-      [&](std::size_t cell) { return map.state(cell) == CellState::free; },
+      [&](std::size_t cell) {
+        return map.state(cell) == CellState::free && field.clearance_m[cell] >= clearance_m;
+      },
       [](std::size_t, std::size_t) { return 1.0; },
       [&](std::size_t cell, double cost) {
         length_m = cost;
@@ -91,6 +92,13 @@ std::size_t find_entry(const FloorMap& map, PathField& field) {
   }
   field.cost[entry] = length_m * (1.0 + field.options.clearance_weight);
   return entry;
+}
+
+/// Where the search may begin: the robot's own cell, or a way out to a traversable one.
+std::size_t find_entry(const FloorMap& map, PathField& field) {
+  if (field.traversable(field.start_cell)) return field.start_cell;
+  const std::size_t entry = find_way_out(map, field.clearance_m[field.start_cell], field);
+  return entry != PathField::kNone ? entry : find_way_out(map, 0.0F, field);
 }
 
 }  // namespace

@@ -16,12 +16,14 @@ struct NavigationOptions {
   double clearance_weight = 1;   ///< cost of touching the margin, per length; higher takes detours
   double comfort_m = 0.30;       ///< clearance beyond the margin from where on more is not better
   double escape_radius_m = 0.6;  ///< how far to look for a way out of a place too near an obstacle
+  double watch_m = 1.0;  ///< of the way ahead, where something newly seen stops the robot; 0 is off
   void fields(auto&& f) {
     f("footprint_radius_m", footprint_radius_m, at_least(0.0));
     f("margin_m", margin_m, at_least(0.0));
     f("clearance_weight", clearance_weight, at_least(0.0));
     f("comfort_m", comfort_m, above(0.0));
     f("escape_radius_m", escape_radius_m, at_least(0.0));
+    f("watch_m", watch_m, at_least(0.0));
   }
   [[nodiscard]] double inflation_m() const { return footprint_radius_m + margin_m; }
 };
@@ -49,8 +51,8 @@ struct PathField {
 
 /// Dijkstra over 8-connected cells; diagonal steps do not cut corners. If the robot stands closer
 /// to something than the inflation allows, the search starts from the traversable cell that is
-/// nearest by a way through known free cells and at most escape_radius_m long; if there is none,
-/// nothing is reachable.
+/// nearest by a way through known free cells and at most escape_radius_m long, if possible one that
+/// comes no nearer to anything; if there is none, nothing is reachable.
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options);
 

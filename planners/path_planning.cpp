@@ -78,7 +78,54 @@ double heading_towards(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return std::atan2(to.y() - from.y(), to.x() - from.x());
 }
 
+/// The path from its point nearest to `p_m` on, as points at most `step_m` apart, over `length_m`.
+Points way_ahead(std::span<const Pose2> waypoints, const Eigen::Vector2d& p_m, double step_m,
+                 double length_m) {
+  Points way;
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    const Eigen::Vector2d from = position(waypoints[i - 1]);
+    const Eigen::Vector2d leg = position(waypoints[i]) - from;
+    const int steps = 1 + static_cast<int>(leg.norm() / step_m);
+    for (int k = 0; k <= steps; ++k) {
+      way.emplace_back(from + static_cast<double>(k) / steps * leg);
+      if ((way.back() - p_m).norm() < (way[nearest] - p_m).norm()) nearest = way.size() - 1;
+    }
+  }
+  way.erase(way.begin(), way.begin() + static_cast<std::ptrdiff_t>(nearest));
+  double gone_m = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    gone_m += (way[i] - way[i - 1]).norm();
+    if (gone_m > length_m) way.resize(i);
+  }
+  return way;
+}
+
 }  // namespace
+
+bool is_way_blocked(const FloorMap& map, std::span<const Pose2> waypoints,
+                    const Pose2& T_world_base, const NavigationOptions& options) {
+  const Eigen::Vector2d p_base = position(T_world_base);
+  const Points way = way_ahead(waypoints, p_base, map.cell_m, options.watch_m);
+  if (way.empty() || options.watch_m == 0.0) return false;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : way) box.extend(p);
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(options.footprint_radius_m);
+  const Eigen::Array2i low = map.cell_at(box.min() - reach).max(0);
+  const Eigen::Array2i high =
+      map.cell_at(box.max() + reach).min(Eigen::Array2i(map.nx - 1, map.ny - 1));
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      if (map.state(map.index({x, y})) != CellState::occupied) continue;
+      const Eigen::Vector2d obstacle = map.centre({x, y});
+      const double now_m = (obstacle - p_base).norm() - 0.5 * map.cell_m;
+      const double limit_m = std::min(options.footprint_radius_m, now_m);
+      if (std::ranges::any_of(way, [&](const auto& p) { return (p - obstacle).norm() < limit_m; }))
+        return true;
+    }
+  }
+  return false;
+}
 
 PlannedPath plan_path(const PathField& field, const Pose2& goal,
                       const std::optional<Eigen::Vector2d>& look_at_m) {

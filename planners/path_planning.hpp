@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "planners/path_field.hpp"
@@ -22,6 +23,12 @@ struct PlannedPath {
 /// goal's heading without one. If nothing can be reached, it is the robot's pose alone.
 PlannedPath plan_path(const PathField& field, const Pose2& goal,
                       const std::optional<Eigen::Vector2d>& look_at_m = std::nullopt);
+
+/// Whether something occupied that the path was not planned round stands in the way: within
+/// footprint_radius_m of the next `watch_m` of it, from its point nearest to the robot on, and
+/// nearer to that place than to where the robot is. (Out of a tight place it must be able to go.)
+bool is_way_blocked(const FloorMap& map, std::span<const Pose2> waypoints,
+                    const Pose2& T_world_base, const NavigationOptions& options);
 
 /// Length of that path; infinity if the goal cannot be reached.
 double path_length_m(const PathField& field, const Pose2& goal);

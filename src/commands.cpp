@@ -21,6 +21,7 @@
 #include "src/episode/report.hpp"
 #include "src/episode/run.hpp"
 #include "src/episode/validate.hpp"
+#include "src/outcome_text.hpp"
 #include "src/recognition_commands.hpp"
 #include "src/score_views_command.hpp"
 #include "src/study/study.hpp"
@@ -45,66 +46,6 @@ struct RunArguments {
   bool print_config = false;
   bool dry_run = false;
 };
-
-void print_mapping(const nlohmann::ordered_json& metrics) {
-  const auto& scans = metrics["scans"];
-  const auto total = metrics["observable_cells"].get<double>();
-  const double left =
-      scans.empty() ? total : scans.back()["observable_unobserved_cells"].get<double>();
-  fmt::print("{}: {} after {} scans, {:.1f} % of the observable cells observed\n",
-             metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
-             scans.size(), total > 0.0 ? 100.0 * (1.0 - left / total) : 0.0);
-  fmt::print(
-      "path {:.2f} m, {} collisions, map precision {:.3f}, recall {:.3f}, {:.1f} x real time\n",
-      metrics["path_length_m"].get<double>(), metrics["collisions"].get<int>(),
-      metrics["map"]["precision"].get<double>(), metrics["map"]["recall"].get<double>(),
-      metrics["real_time_factor"].get<double>());
-}
-
-void print_recognition(const nlohmann::ordered_json& metrics) {
-  const auto text = [&](const char* key) {
-    return metrics[key].is_string() ? metrics[key].get<std::string>() : "nothing yet";
-  };
-  fmt::print("{}: {} after {} views, recognised {}, which is {} ({})\n", text("method"),
-             text("status"), metrics["observations"].size(), text("estimate"),
-             metrics["correct"].get<bool>() ? "right" : "wrong", text("truth"));
-  fmt::print("entropy {:.2f} bit, path {:.2f} m, {} collisions, {:.1f} x real time\n",
-             metrics["entropy_bits"].get<double>(), metrics["path_length_m"].get<double>(),
-             metrics["collisions"].get<int>(), metrics["real_time_factor"].get<double>());
-}
-
-void print_trajectory(const nlohmann::ordered_json& metrics) {
-  const auto number = [&](const char* key) { return metrics[key].get<double>(); };
-  int correct = 0;
-  for (const auto& object : metrics["objects"]) correct += object["correct"].get<bool>() ? 1 : 0;
-  fmt::print("{}: {} after {:.1f} s, recognised {} of {} objects in {} observations\n",
-             metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
-             number("flight_time_s"), correct, metrics["objects"].size(),
-             metrics["observations_total"].get<int>());
-  fmt::print(
-      "mean entropy {:.3f} nats, clearance {:.2f} m, path {:.2f} m, {} collisions, {:.1f} x real "
-      "time\n",
-      number("mean_entropy_nats"), number("minimum_clearance_m"), number("path_length_m"),
-      metrics["collisions"].get<int>(), number("real_time_factor"));
-}
-
-void print_outcome(const RunOutcome& outcome) {
-  const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
-  if (metrics.contains("objects")) {
-    print_trajectory(metrics);
-  } else if (metrics.contains("observations")) {
-    print_recognition(metrics);
-  } else {
-    print_mapping(metrics);
-  }
-  fmt::print("state hash {}\n", metrics["state_hash"].get<std::string>());
-  if (fs::exists(outcome.directory / "report.html")) {
-    fmt::print("report {}\n", (outcome.directory / "report.html").string());
-  }
-  if (fs::exists(outcome.directory / "video.mp4")) {
-    fmt::print("video  {}\n", (outcome.directory / "video.mp4").string());
-  }
-}
 
 void print_config(const Episode& episode, bool json) {
   fmt::print("{}", json ? json_text(config_json(write_node(episode))) : episode_yaml(episode));

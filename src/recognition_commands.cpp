@@ -31,18 +31,24 @@ struct Arguments {
   fs::path dataset;
   fs::path model;
   fs::path out;
+  fs::path config;
   std::vector<std::string> overrides;
+  fs::path cache;
   int jobs = all_cores();
   bool skip_bad = false;
   bool json = false;
   bool quiet = false;
 
-  [[nodiscard]] LongWork how() const { return {.threads = jobs, .poll = throw_if_interrupted}; }
+  [[nodiscard]] LongWork how() const {
+    return {.threads = jobs, .poll = throw_if_interrupted, .feature_cache = cache};
+  }
 };
 
 template <class Options>
 Options options_of(const Arguments& arguments) {
-  ConfigNode node = write_node(Options{});
+  Options from_file;
+  if (!arguments.config.empty()) read_into(read_yaml(arguments.config), from_file, {});
+  ConfigNode node = write_node(from_file);
   for (const std::string& assignment : arguments.overrides) apply_override(node, assignment);
   Options options;
   read_into(node, options, {});
@@ -55,6 +61,9 @@ void declare_common(CLI::App& app, Arguments& arguments) {
   app.add_option("--jobs", arguments.jobs, "threads")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  app.add_option("--cache", arguments.cache,
+                 "folder where the views' features are kept for the next command");
+  app.add_option("--config", arguments.config, "YAML file of the keys below; --set comes after it");
   app.add_option("--set", arguments.overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);

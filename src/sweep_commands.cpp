@@ -32,6 +32,7 @@ struct SweepArguments {
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool overwrite = false;
   bool quiet = false;
+  bool json = false;
 };
 
 struct OpenedStudy {
@@ -91,7 +92,11 @@ ExitCode status_command(const SweepArguments& arguments) {
   const OpenedStudy opened = open_study(arguments);
   const auto plan = plan_study(opened.study);
   const auto states = episode_states(opened.directory, plan);
-  fmt::print("{}: {}", opened.directory.string(), status_text(opened.directory, plan, states));
+  if (arguments.json) {
+    fmt::print("{}\n", status_json(opened.directory, plan, states).dump(2));
+  } else {
+    fmt::print("{}: {}", opened.directory.string(), status_text(opened.directory, plan, states));
+  }
   return code_of(states);
 }
 
@@ -142,7 +147,9 @@ constexpr SweepVerb kVerbs[] = {
        add_shard(app, arguments);
      }},
     {"status", "what is missing, failed, diverged; exit 1 unless all is there", status_command,
-     [](CLI::App&, SweepArguments&) {}},
+     [](CLI::App& app, SweepArguments& arguments) {
+       app.add_flag("--json", arguments.json, "print one JSON object");
+     }},
     {"collect", "merge the results to tables and figures; exit 1 unless all is there",
      collect_command, [](CLI::App&, SweepArguments&) {}},
 };

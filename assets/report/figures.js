@@ -61,6 +61,11 @@ function cumulativePath() {
 function sightingPlots(parent) {
   const seen = (key, scale = 1) => perScan(SIGHTINGS.map((s) => (isNumber(s[key]) ? scale * s[key] : null)));
   const chart = (title, subtitle, y, unit, series) => lineChart(parent, { title, subtitle, x: "view", y, unit, integerX: true, series });
+  if (SIGHTINGS.some((s) => isNumber(s.change_probability))) {
+    chart("Probability of a change", "P(u): that it is not as expected, after each view", "probability", "", [
+      { name: "changed", colour: seriesColour(3), strong: true, points: seen("change_probability") },
+    ]);
+  }
   chart("Entropy", "of object and pose, after each view", "entropy in bits", "bits", [
     { name: "entropy", colour: seriesColour(0), strong: true, points: seen("entropy_bits") },
   ]);

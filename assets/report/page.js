@@ -65,7 +65,13 @@ function coverageCard() {
 function fillCards() {
   coverageCard();
   if (FLIGHT) flightCards();
-  if (METRICS.estimate !== undefined) {
+  if (METRICS.change_probability !== undefined) {
+    const decision = METRICS.decision ?? "not decided";
+    card("Change", String(decision), { sub: `truth: ${METRICS.scenario}; ${METRICS.expected?.object} was expected`, kind: METRICS.correct ? "good" : "bad" });
+    card("Probability of a change", isNumber(METRICS.change_probability) ? formatNumber(METRICS.change_probability, 3) : "–", { share: METRICS.change_probability });
+    const seen = METRICS.decision === "removed" ? "nothing" : METRICS.estimate ?? "–";
+    card("Most like", String(seen), { sub: `there is ${METRICS.truth ?? "nothing"}` });
+  } else if (METRICS.estimate !== undefined) {
     card("Estimate", String(METRICS.estimate), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
   }
   if (SIGHTINGS.length) card("Views", String(SIGHTINGS.length), { sub: `entropy ${formatNumber(METRICS.entropy_bits, 3)} bits at the end` });

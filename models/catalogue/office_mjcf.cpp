@@ -14,6 +14,7 @@
 #include "models/catalogue/obj.hpp"
 #include "models/catalogue/office_finish.hpp"
 #include "models/catalogue/patterns.hpp"
+#include "models/catalogue/solid_pieces.hpp"
 #include "src/core/atomic_file.hpp"
 
 namespace vantage {
@@ -34,6 +35,9 @@ constexpr std::string_view kHead =
   <default>
     <default class="still">
       <geom conaffinity="0"/>
+      <default class="solid">
+        <geom type="mesh" group="3" rgba="0 0 0 0"/>
+      </default>
     </default>
   </default>
 )";
@@ -56,10 +60,16 @@ constexpr std::string_view kLights =
     <light name="fill" directional="true" castshadow="false" pos="0 0 5" dir="0.5 -0.55 -0.6" diffuse="0.22 0.22 0.24" specular="0 0 0"/>
 )";
 
-/// What stands in a square of that size makes one body; longer walls have one of their own.
-constexpr double kTile_m = 3.3;
-constexpr double kLongWall_m = 5.0;
+/// What stands in a square of that size makes one body.
+constexpr double kTile_m = 2.2;
+/// Longer walls are several geoms: MuJoCo looks for contacts in bounding spheres, and that of a
+/// long wall is the whole room.
+constexpr double kLongestWall_m = 1.7;
+/// Contacts may be felt that far beyond a recess's edge. The robot keeps farther away.
+constexpr double kContactSlack_m = 0.03;
 constexpr std::string_view kLooks = " contype=\"0\"";
+constexpr std::string_view kFurniture = "type=\"mesh\" material=\"furniture\"";
+constexpr std::string_view kUnfeltFurniture = "type=\"mesh\" material=\"furniture\" contype=\"0\"";
 
 /// A box on the floor, as high as the walls. MuJoCo projects textures along a geom's z, so that
 /// axis is turned to point through the thinner direction.
@@ -80,19 +90,37 @@ std::string mesh_name(OfficeItem item, int variant) {
   return fmt::format("{}_v{}", item_name(item), variant);
 }
 
+std::string mesh_asset(const std::string& name) {
+  return fmt::format("    <mesh name=\"{0}\" file=\"{0}.obj\"/>\n", name);
+}
+
 std::set<std::pair<OfficeItem, int>> meshes_of(const OfficeScene& scene) {
   std::set<std::pair<OfficeItem, int>> meshes;
   for (const PlacedItem& placed : scene.furniture) meshes.emplace(placed.item, placed.variant);
   return meshes;
 }
 
-std::string furniture_geom(const PlacedItem& placed, const std::string& name) {
-  const Pose2& pose = placed.T_world_item;
+std::string solid_name(const std::string& name, std::size_t piece) {
+  return fmt::format("{}_solid_{}", name, piece);
+}
+
+/// What is bumped into, if that is not the convex hull of the mesh.
+std::vector<TriangleMesh> separate_solids(OfficeItem item, int variant) {
+  if (hangs_on_wall(item)) return {};
+  static std::map<std::pair<OfficeItem, int>, std::vector<TriangleMesh>> known;
+  const auto [entry, is_new] = known.try_emplace({item, variant});
+  if (is_new) {
+    entry->second = solid_pieces(make_office_item(item, variant), kContactSlack_m);
+    if (entry->second.size() == 1) entry->second.clear();
+  }
+  return entry->second;
+}
+
+std::string mesh_geom(const std::string& name, std::string_view how, const std::string& mesh,
+                      const Pose2& pose) {
   return fmt::format(
-      "      <geom name=\"{}\" type=\"mesh\" mesh=\"{}\" pos=\"{:.4f} {:.4f} 0\" "
-      "euler=\"0 0 {:.5f}\" material=\"furniture\"{}/>\n",
-      name, mesh_name(placed.item, placed.variant), pose.x_m, pose.y_m, wrap_angle(pose.yaw_rad),
-      hangs_on_wall(placed.item) ? kLooks : "");
+      "      <geom name=\"{}\" {} mesh=\"{}\" pos=\"{:.4f} {:.4f} 0\" euler=\"0 0 {:.5f}\"/>\n",
+      name, how, mesh, pose.x_m, pose.y_m, wrap_angle(pose.yaw_rad));
 }
 
 using Bodies = std::map<std::string, std::string>;  // geoms by the body's name
@@ -102,20 +130,33 @@ std::string tile_name(const Eigen::Vector2d& p_m, const FloorPlan& plan) {
   return fmt::format("tile_{}_{}", static_cast<int>(tile.x()), static_cast<int>(tile.y()));
 }
 
+/// Equal parts along the longer side.
+std::vector<AlignedBox2d> cut_up(const AlignedBox2d& wall_m) {
+  const int axis = wall_m.sizes().x() >= wall_m.sizes().y() ? 0 : 1;
+  const int count = static_cast<int>(std::ceil(wall_m.sizes()[axis] / kLongestWall_m));
+  std::vector<AlignedBox2d> parts(static_cast<std::size_t>(count), wall_m);
+  for (int i = 0; i < count; ++i) {
+    AlignedBox2d& part = parts[static_cast<std::size_t>(i)];
+    part.min()[axis] = wall_m.min()[axis] + wall_m.sizes()[axis] * i / count;
+    part.max()[axis] = wall_m.min()[axis] + wall_m.sizes()[axis] * (i + 1) / count;
+  }
+  return parts;
+}
+
 void add_building(Bodies& bodies, const FloorPlan& plan) {
   int walls = 0;
   int posts = 0;
   int pillars = 0;
   for (std::size_t w = 0; w < plan.walls.size(); ++w) {
     for (const AlignedBox2d& piece : wall_pieces(plan.walls[w])) {
-      const std::string name = fmt::format("wall_{:02}", walls++);
-      const bool long_one = piece.sizes().maxCoeff() > kLongWall_m;
-      bodies[long_one ? name : tile_name(piece.center(), plan)] +=
-          upright_box(name, piece, w < kOuterWalls ? "outer_wall" : "inner_wall");
+      for (const AlignedBox2d& part : cut_up(piece)) {
+        bodies[tile_name(part.center(), plan)] +=
+            upright_box(fmt::format("wall_{:02}", walls++), part,
+                        w < kOuterWalls ? "outer_wall" : "inner_wall");
+      }
     }
     for (const AlignedBox2d& post : door_posts(plan.walls[w])) {
-      bodies["door_posts"] +=
-          upright_box(fmt::format("door_post_{:02}", posts++), post, "trim", kLooks);
+      bodies["looks"] += upright_box(fmt::format("door_post_{:02}", posts++), post, "trim", kLooks);
     }
   }
   for (const AlignedBox2d& pillar : plan.pillars) {
@@ -124,21 +165,33 @@ void add_building(Bodies& bodies, const FloorPlan& plan) {
   }
 }
 
+void add_furniture(Bodies& bodies, const PlacedItem& placed, const std::string& name,
+                   const FloorPlan& plan) {
+  const Pose2& pose = placed.T_world_item;
+  const std::string mesh = mesh_name(placed.item, placed.variant);
+  const std::size_t solids = separate_solids(placed.item, placed.variant).size();
+  std::string& on_tile = bodies[tile_name({pose.x_m, pose.y_m}, plan)];
+  const bool is_felt = solids == 0 && !hangs_on_wall(placed.item);
+  (is_felt ? on_tile : bodies["looks"]) +=
+      mesh_geom(name, is_felt ? kFurniture : kUnfeltFurniture, mesh, pose);
+  for (std::size_t i = 0; i < solids; ++i) {
+    on_tile += mesh_geom(solid_name(name, i), "class=\"solid\"", solid_name(mesh, i), pose);
+  }
+}
+
 std::string static_bodies(const OfficeScene& scene) {
   Bodies bodies;
   add_building(bodies, scene.plan);
   const std::vector<std::string> names = furniture_names(scene);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const PlacedItem& placed = scene.furniture[i];
-    const Eigen::Vector2d place(placed.T_world_item.x_m, placed.T_world_item.y_m);
-    bodies[hangs_on_wall(placed.item) ? "on_walls" : tile_name(place, scene.plan)] +=
-        furniture_geom(placed, names[i]);
+    add_furniture(bodies, scene.furniture[i], names[i], scene.plan);
   }
   std::string text = fmt::format(
       "    <geom name=\"floor\" type=\"plane\" size=\"{} {} 0.1\" "
       "material=\"carpet\"/>\n",
       scene.plan.size_m.x() / 2, scene.plan.size_m.y() / 2);
   for (const auto& [name, geoms] : bodies) {
+    if (geoms.empty()) continue;
     text +=
         fmt::format("    <body name=\"{}\" childclass=\"still\">\n{}    </body>\n", name, geoms);
   }
@@ -203,7 +256,11 @@ std::string to_mjcf(const OfficeScene& scene) {
   text += "  <asset>\n";
   text += kSharedAssets;
   for (const auto& [item, variant] : meshes_of(scene)) {
-    text += fmt::format("    <mesh name=\"{0}\" file=\"{0}.obj\"/>\n", mesh_name(item, variant));
+    const std::string name = mesh_name(item, variant);
+    text += mesh_asset(name);
+    for (std::size_t i = 0; i < separate_solids(item, variant).size(); ++i) {
+      text += mesh_asset(solid_name(name, i));
+    }
   }
   text += "  </asset>\n  <worldbody>\n";
   text += kLights;
@@ -216,7 +273,12 @@ std::string to_mjcf(const OfficeScene& scene) {
 void write_scene(const OfficeScene& scene, const std::filesystem::path& directory) {
   const auto [meshes, textures] = empty_asset_folders(directory);
   for (const auto& [item, variant] : meshes_of(scene)) {
-    write_obj(make_office_item(item, variant), meshes / (mesh_name(item, variant) + ".obj"));
+    const std::string name = mesh_name(item, variant);
+    write_obj(make_office_item(item, variant), meshes / (name + ".obj"));
+    const auto solids = separate_solids(item, variant);
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+      write_obj(solids[i], meshes / (solid_name(name, i) + ".obj"));
+    }
   }
   write_textures(textures);
   write_file(directory / "scene.xml", to_mjcf(scene));

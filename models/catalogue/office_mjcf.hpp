@@ -10,12 +10,12 @@
 namespace vantage {
 
 /// The text of scene.xml. Bodies have no joints: one for the furniture and walls on each tile of
-/// the floor ("tile_2_3"), one for each long wall. MuJoCo sorts bodies along one axis and then
-/// tests each geom of one against each of the other: a body apiece for every chair, or one for all
-/// of them, takes several times as long. Furniture is called after its kind ("desk_03"); contacts
-/// with it are those of its convex hull, door posts and what hangs on walls have none. Sites
-/// `start_0`
-/// ... `start_4` on the floor, turned by their yaw, are where a robot may begin.
+/// the floor ("tile_2_3"). MuJoCo sorts bodies along one axis and then tests each geom of one
+/// against each of the other: a body apiece for every chair, or one for all of them, takes several
+/// times as long. Furniture is called after its kind ("desk_03"); contacts with it are those of its
+/// convex hull or, where that would fill a recess, of unseen convex pieces
+/// ("partition_01_solid_0"). Door posts and what hangs on walls have none. Sites `start_0` ...
+/// `start_4` on the floor, turned by their yaw, are where a robot may begin.
 std::string to_mjcf(const OfficeScene& scene);
 
 /// Names of the scene's furniture in order, unique.

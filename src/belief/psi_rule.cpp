@@ -18,32 +18,50 @@ struct Regression {
   const Eigen::MatrixXf& score;
   const Eigen::MatrixXf& base;  ///< empty: zeros
   const std::vector<int>& state;
+  int group = 1;  ///< so many consecutive states are one answer
 };
 
-/// Of the mean over views of ln p(true state), with respect to psi.
+/// Of the mean over views of ln p(true group of states), with respect to psi.
 struct Derivatives {
   double value = 0.0;
   double first = 0.0;
   double second = 0.0;
 };
 
+/// Of states with probabilities in proportion to exp(logit).
+struct Moments {
+  double log_sum = 0.0;
+  double mean = 0.0;  ///< of the scores, as the variance
+  double variance = 0.0;
+};
+
+using Entries = Eigen::Ref<const Eigen::ArrayXf>;
+
+Moments moments_of(const Entries& logit, const Entries& score) {
+  const float largest = logit.maxCoeff();
+  Eigen::ArrayXf weight = (logit - largest).max(kNegligible).exp();
+  const auto total = static_cast<double>(weight.sum());
+  weight /= static_cast<float>(total);
+  const float mean = (weight * score).sum();
+  return {static_cast<double>(largest) + std::log(total), static_cast<double>(mean),
+          static_cast<double>((weight * (score - mean).square()).sum())};
+}
+
 Derivatives derivatives_at(const Regression& regression, double psi) {
   Derivatives sum;
-  Eigen::ArrayXf weight(regression.score.rows());
+  Eigen::ArrayXf logit(regression.score.rows());
   for (Eigen::Index v = 0; v < regression.score.cols(); ++v) {
     const auto score = regression.score.col(v).array();
-    weight = static_cast<float>(psi) * score;
-    if (regression.base.size() > 0) weight += regression.base.col(v).array();
-    const float largest = weight.maxCoeff();
-    const auto truth = regression.state[static_cast<std::size_t>(v)];
-    const double at_truth = static_cast<double>(weight[truth]) - static_cast<double>(largest);
-    weight = (weight - largest).max(kNegligible).exp();
-    const auto total = static_cast<double>(weight.sum());
-    weight /= static_cast<float>(total);
-    const float mean = (weight * score).sum();
-    sum.value += at_truth - std::log(total);
-    sum.first += static_cast<double>(score[truth]) - static_cast<double>(mean);
-    sum.second -= static_cast<double>((weight * (score - mean).square()).sum());
+    logit = static_cast<float>(psi) * score;
+    if (regression.base.size() > 0) logit += regression.base.col(v).array();
+    const int truth = regression.state[static_cast<std::size_t>(v)];
+    const Eigen::Index first = truth / regression.group * regression.group;
+    const Moments all = moments_of(logit, score);
+    const Moments own =
+        moments_of(logit.segment(first, regression.group), score.segment(first, regression.group));
+    sum.value += own.log_sum - all.log_sum;
+    sum.first += own.mean - all.mean;
+    sum.second += own.variance - all.variance;
   }
   const auto views = static_cast<double>(regression.score.cols());
   return {sum.value / views, sum.first / views, sum.second / views};
@@ -91,6 +109,7 @@ void require_held_out(const HeldOutViews& held_out) {
   for (const Eigen::MatrixXf& density : held_out.log_density) {
     expects(density.cols() == static_cast<Eigen::Index>(held_out.state.size()),
             "a density for every view held out");
+    expects(held_out.bins >= 1 && density.rows() % held_out.bins == 0, "states of whole objects");
     for (const int state : held_out.state) {
       expects(state >= 0 && state < density.rows(), "views of states that are modelled");
     }
@@ -114,18 +133,20 @@ std::vector<double> CalibratedPsi::operator()(const PsiContext& context) const {
   expects(held_out.log_density.size() == context.models.size(), "densities of every feature");
   const std::vector<Eigen::MatrixXf> scores = scores_of(held_out);
   const Eigen::MatrixXf none;
+  const int group = about_object ? held_out.bins : 1;
   std::vector<double> psi;
   for (const Eigen::MatrixXf& score : scores) {
-    psi.push_back(most_likely_psi({score, none, held_out.state}));
+    psi.push_back(most_likely_psi({score, none, held_out.state, group}));
   }
   if (psi.size() == 1) return psi;
-  const double temperature = most_likely_psi({weighted_sum(scores, psi), none, held_out.state});
+  const double temperature =
+      most_likely_psi({weighted_sum(scores, psi), none, held_out.state, group});
   for (double& p : psi) p *= temperature;
   for (int round = 0; round < joint_rounds; ++round) {
     for (std::size_t f = 0; f < psi.size(); ++f) {
       psi[f] = 0.0;
       const Eigen::MatrixXf others = weighted_sum(scores, psi);
-      psi[f] = most_likely_psi({scores[f], others, held_out.state});
+      psi[f] = most_likely_psi({scores[f], others, held_out.state, group});
     }
   }
   return psi;

@@ -21,6 +21,7 @@ namespace vantage {
 /// Views that no model was trained on, of known states.
 struct HeldOutViews {
   std::vector<int> state;  ///< of each view
+  int bins = 1;            ///< consecutive states that are one object
   /// Of each feature, states x views: log_density(); single precision up to a constant a view
   std::vector<Eigen::MatrixXf> log_density;
 };
@@ -31,15 +32,24 @@ struct PsiContext {
   const HeldOutViews& held_out;              ///< features in the same order
 };
 
-/// Each feature alone such that the held-out views' states are as likely as can be, then all of
-/// them times one temperature, for what the features repeat of each other. The likelihood is that
-/// of a logistic regression, concave in every psi, so each search has one answer.
+/// Each feature alone such that what the held-out views show is as likely as can be, then all of
+/// them times one temperature, for what the features repeat of each other.
+///
+/// About states, the likelihood is that of a logistic regression, concave in every psi. About
+/// objects it is not, but its derivative falls from above zero to below, and where that happens is
+/// the answer.
 struct CalibratedPsi {
   static constexpr std::string_view name = "calibrated";
+  /// The likelihood of the object, whatever its pose, instead of the state's. Views between two
+  /// bins are mistaken in pose however good a feature is, which would count against it.
+  bool about_object = true;
   /// Rounds of adjusting each psi in turn to all features together, after the temperature; higher:
   /// better when all are extracted, worse when only some are. 0: leave them in proportion.
   int joint_rounds = 0;
-  void fields(auto&& f) { f("joint_rounds", joint_rounds, between(0, 100)); }
+  void fields(auto&& f) {
+    f("about_object", about_object);
+    f("joint_rounds", joint_rounds, between(0, 100));
+  }
   /// @throws InputError if no view was held out.
   [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
 };

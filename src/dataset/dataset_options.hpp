@@ -17,7 +17,9 @@ struct DatasetOptions {
   std::string models = {};
   double distance_m = 0.85;   ///< camera to the turntable's axis; higher makes crops smaller
   double placement_m = 0.01;  ///< largest offset of an object from the axis, changes per video
-  double lighting = 1.0;      ///< strength of the changes of light between videos; 0: none
+  /// Strength of the changes of light between videos; 0: none. At 1 they bias colours by as much
+  /// as near twins differ, which no number of views averages out.
+  double lighting = 0.3;
   double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
   bool depth_noise = true;    ///< false: exact depth
   double edge_dropout = 0.3;  ///< probability that a pixel beside a depth edge has no depth

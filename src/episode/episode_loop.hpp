@@ -3,15 +3,16 @@
 
 #include <string>
 
+#include "src/core/error.hpp"
 #include "src/episode/interrupt.hpp"
 
 namespace vantage {
 
 enum class EpisodeStatus { completed, failed, diverged, interrupted };
 
-/// Ends an episode from within: its task cannot be done any more. A recorded result.
+/// Ends an episode that cannot be completed: a recorded result, and a goal that was missed.
 struct EpisodeFailed : Error {
-  explicit EpisodeFailed(const std::string& message) : Error(ExitCode::goal_failed, message) {}
+  explicit EpisodeFailed(const std::string& why) : Error(ExitCode::goal_failed, why) {}
 };
 
 /// Runs `parts` until it says it is finished. A task (next best view, recognition, trajectory) is a

@@ -29,6 +29,17 @@ std::vector<double> pan_angles_rad(const HeadSweep& sweep);
 /// @throws ConfigError if the images leave gaps, between the columns or between the rows.
 FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera);
 
+/// When exploring is no longer worth a scan, asked alike of every method: the best view in reach
+/// promises too little, by what was learnt of clutter.
+struct EnoughOptions {
+  double share = 0.0015;  ///< of the cells known; less is too little, higher ends earlier
+  int scans = 3;          ///< in a row after which it was too little; 0 explores all there is
+  void fields(auto&& f) {
+    f("share", share, between(0.0, 1.0));
+    f("scans", scans, at_least(0));
+  }
+};
+
 struct ExplorationOptions {
   HeadSweep sweep;
   RgbdOptions camera{.tells_far = true};
@@ -40,7 +51,8 @@ struct ExplorationOptions {
   double taken_m = 0.3;        ///< places nearer to one that was scanned from are not proposed
   double poor_m = 1.0;         ///< the same round a place whose scan showed too little
   int poor_cells = 2000;       ///< fewer new cells are too little; higher gives up sooner
-  double keyframe_m = 0.5;     ///< between places on the way where walls are remembered to drive by
+  EnoughOptions enough;
+  double keyframe_m = 0.5;  ///< between places on the way where walls are remembered to drive by
   double wall_novelty_m = 0.05;  ///< walls nearer than this to remembered ones are not remembered
   int stride_px = 3;             ///< pixels between those that mark surfaces; higher is faster
   int hazard_stride_px = 8;      ///< pixels between those that count clutter; higher is faster
@@ -55,6 +67,7 @@ struct ExplorationOptions {
     f("taken_m", taken_m, above(0.0));
     f("poor_m", poor_m, at_least(0.0));
     f("poor_cells", poor_cells, at_least(0));
+    f("enough", enough);
     f("keyframe_m", keyframe_m, above(0.0));
     f("wall_novelty_m", wall_novelty_m, at_least(0.0));
     f("stride_px", stride_px, between(1, 100));

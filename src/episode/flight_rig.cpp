@@ -1,12 +1,13 @@
 #include "src/episode/flight_rig.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "src/episode/interrupt.hpp"
+#include "src/episode/episode_loop.hpp"
 #include "src/episode/model_source.hpp"
 #include "src/episode/object_on_table.hpp"
 
@@ -65,7 +66,7 @@ FlightRig::FlightRig(const ResolvedEpisode& resolved)
 FlightObservation FlightRig::observe() {
   const RecognitionTask& task = episode_.recognition;
   throw_if_interrupted();
-  pilot_.hold(task.settle_s);
+  require_untouched(pilot_.hold(task.settle_s));
   FlightObservation observation;
   observation.images = rgbd_exposed(*renderer_, world_, vehicle_.camera_id(), task.camera,
                                     task.exposure, camera_noise_);
@@ -80,10 +81,24 @@ FlightObservation FlightRig::observe() {
 FlightResult FlightRig::fly_to(double bearing_rad) {
   const FlightPlan planned = plan(bearing_rad);
   bearing_rad_ = bearing_rad;
-  return pilot_.fly_to(planned.waypoints, [](const Pilot&) {
+  const FlightResult flight = pilot_.fly_to(planned.waypoints, [](const Pilot&) {
     throw_if_interrupted();
     return true;
   });
+  require_untouched(flight);
+  return flight;
+}
+
+/// A quadrotor that touches something does not fly on.
+void FlightRig::require_untouched(const FlightResult& flight) const {
+  if (flight.status != FlightStatus::contact) return;
+  std::vector<std::string> touched;
+  for (const int geom : vehicle_.touched_geoms(world_)) {
+    const std::string name = model_name(world_.model(), ModelObject::geom, geom);
+    touched.push_back(name.empty() ? fmt::format("geom number {}", geom) : name);
+  }
+  throw EpisodeFailed(fmt::format("the quadrotor touched {} at {:.2f} s", fmt::join(touched, ", "),
+                                  world_.time_s()));
 }
 
 FlightPlan FlightRig::plan(double bearing_rad) const {

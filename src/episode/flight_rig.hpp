@@ -40,9 +40,10 @@ class FlightRig {
   FlightRig(const FlightRig&) = delete;
   FlightRig& operator=(const FlightRig&) = delete;
 
-  /// Comes to rest for a while and takes a picture. @throws Interrupted, RendererError
+  /// Comes to rest for a while and takes a picture.
+  /// @throws Interrupted, RendererError, EpisodeFailed if it touches anything
   FlightObservation observe();
-  /// Along the circle, the short way. @throws Interrupted
+  /// Along the circle, the short way. @throws Interrupted, EpisodeFailed if it touches anything
   FlightResult fly_to(double bearing_rad);
   [[nodiscard]] FlightPlan plan(double bearing_rad) const;
 
@@ -58,6 +59,7 @@ class FlightRig {
   [[nodiscard]] const World& world() const { return world_; }
 
  private:
+  void require_untouched(const FlightResult& flight) const;
   [[nodiscard]] FlightWaypoint waypoint(const Pose& T_world_place) const;
 
   Episode episode_;

@@ -12,6 +12,7 @@
 #include "planners/object_view_choice.hpp"
 #include "planners/view_choice.hpp"
 #include "src/core/data_root.hpp"
+#include "src/episode/feature_listing.hpp"
 #include "src/episode/trajectory_method.hpp"
 
 namespace vantage {
@@ -59,6 +60,7 @@ struct Topic {
 constexpr auto kTopics = std::to_array<Topic>({
     {"gains", [] { return owned(strategy_names<Gain>()); }},
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
+    {"features", feature_lines},
     {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
     {"optimisers", [] { return owned(strategy_names<TrajectoryMethod>()); }},
     {"episodes", [] { return yaml_files("assets/episodes"); }},

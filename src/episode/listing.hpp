@@ -6,9 +6,9 @@
 
 namespace vantage {
 
-std::string listing_topics_text();  ///< "gains, choices, episodes, scenes"
-/// One topic, a name a line; empty: all topics with headings. @throws ConfigError for another
-/// topic.
+std::string listing_topics_text();  ///< "gains, choices, features, ..."
+/// One topic, an entry a line that begins with its name; empty: all topics with headings. @throws
+/// ConfigError for another topic.
 std::string listing(std::string_view topic);
 
 }  // namespace vantage

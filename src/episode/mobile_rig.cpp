@@ -1,5 +1,10 @@
 #include "src/episode/mobile_rig.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
+
+#include "src/core/log.hpp"
 #include "src/episode/interrupt.hpp"
 #include "src/episode/model_source.hpp"
 
@@ -15,7 +20,20 @@ MobileRig::MobileRig(const ResolvedEpisode& resolved, const std::function<Pr2(Wo
                 robot_.T_world_base(world_)),
       scanner_noise_(Rng::stream(episode_.seed, "base scanner")) {
   restart_dead_reckoning();
-  world_.on_step = [this](const World& world) { collisions_.update(robot_, world); };
+  world_.on_step = [this](const World& world) {
+    if (collisions_.update(robot_, world) > 0) report_touch();
+  };
+}
+
+/// For whoever reads the log; the robot has no sense of touch.
+void MobileRig::report_touch() const {
+  std::string names;
+  for (const int geom : robot_.touched_geoms(world_)) {
+    names += " '" + model_name(world_.model(), ModelObject::geom, geom) + "'";
+  }
+  const Pose2 pose = robot_.T_world_base(world_);
+  log_warning(fmt::format("{:.2f} s: the robot at ({:.2f}, {:.2f}) touches{}", world_.time_s(),
+                          pose.x_m, pose.y_m, names));
 }
 
 void MobileRig::tick() {
@@ -31,11 +49,10 @@ PlanarScan MobileRig::look_around() {
 }
 
 DriveResult MobileRig::drive_along(std::span<const Pose2> path,
-                                   const std::function<void()>& on_tick) {
+                                   const std::function<bool()>& go_on) {
   return drive(world_, robot_, odometry_, path, episode_.drive, [&](World&, const Pose2&) {
     throw_if_interrupted();
-    on_tick();
-    return true;
+    return go_on();
   });
 }
 

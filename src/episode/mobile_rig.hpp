@@ -27,8 +27,8 @@ class MobileRig {
 
   /// A single reading of the planar scanner, at the present place.
   PlanarScan look_around();
-  /// `on_tick` is called while driving; truth is not passed on. @throws Interrupted
-  DriveResult drive_along(std::span<const Pose2> path, const std::function<void()>& on_tick);
+  /// `go_on` is asked every tick; truth is not passed on. @throws Interrupted
+  DriveResult drive_along(std::span<const Pose2> path, const std::function<bool()>& go_on);
   void correct_pose(const Pose2& T_world_base);
   /// What the wheels alone say, without the corrections since restart_dead_reckoning().
   [[nodiscard]] Pose2 dead_reckoned_base() const;
@@ -56,6 +56,8 @@ class MobileRig {
   Odometry odometry_;
 
  private:
+  void report_touch() const;
+
   Pose2 T_world_dead_reckoned_;  ///< at the last correction
   Pose2 T_world_corrected_;      ///< the pose that correction set
   CollisionCounter collisions_;

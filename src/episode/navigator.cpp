@@ -67,9 +67,10 @@ PathField Navigator::plan() {
 DriveResult Navigator::drive_and_map(const std::vector<Pose2>& waypoints) {
   int tick = 0;
   return rig_.drive_along(waypoints, [&] {
-    if (++tick % kTicksPerFloorScan != 0) return;
+    if (++tick % kTicksPerFloorScan != 0) return true;
     localise();
     path_m_.emplace_back(rig_.estimated_base().x_m, rig_.estimated_base().y_m);
+    return !is_way_blocked(floor_, waypoints, rig_.estimated_base(), options_);
   });
 }
 

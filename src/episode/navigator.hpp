@@ -34,7 +34,8 @@ class Navigator {
   /// The ways from where the robot is.
   PathField plan();
   /// Drives to the goal, or as near as the known free floor allows; plans again as the floor map
-  /// grows. Short of the goal it ends facing `look_at_m`, see plan_path().
+  /// grows, and where something new stands in the way. Short of the goal it ends facing
+  /// `look_at_m`, see plan_path().
   Approach approach(const Pose2& goal, const std::optional<Eigen::Vector2d>& look_at_m);
 
   /// Told every path before it is driven; may be empty.

@@ -9,6 +9,7 @@
 
 #include "src/core/data_root.hpp"
 #include "src/core/log.hpp"
+#include "src/recognition/lean_recogniser.hpp"
 
 namespace vantage {
 namespace {
@@ -31,6 +32,25 @@ std::filesystem::path model_file(const ResolvedEpisode& resolved) {
   }
 }
 
+void require_known(const Recogniser& recogniser, const std::filesystem::path& path,
+                   const std::string& object, const char* which) {
+  const auto& known = recogniser.states.objects;
+  if (object.empty() || std::ranges::find(known, object) != known.end()) return;
+  throw ConfigError(fmt::format(
+      "recognition.model: {}: knows {} objects, but not '{}', which {}; recognition.database is "
+      "not what it was trained on",
+      path.string(), known.size(), object, which));
+}
+
+/// Where it began. If something is expected, the nearest bearing from which that is in the middle
+/// of a yaw bin: from there a turn by more than half a bin shows.
+double first_bearing_rad(const Episode& episode, double start_rad, double bin_rad) {
+  if (!episode.detects_change()) return start_rad;
+  const double seen_rad = draw_expected_object(episode).yaw_rad - start_rad;
+  const double first_rad = start_rad + std::remainder(seen_rad, bin_rad);
+  return first_rad - kTurn_rad * std::floor(first_rad / kTurn_rad);
+}
+
 /// Of a view without an object in it.
 ExtractFeature extract_nothing(const std::string& reason) {
   return [reason](std::size_t) { return ExtractedFeature{.result = FeatureResult::skip(reason)}; };
@@ -41,13 +61,10 @@ ExtractFeature extract_nothing(const std::string& reason) {
 Recogniser load_episode_recogniser(const ResolvedEpisode& resolved) {
   const Episode& episode = resolved.episode;
   const auto path = model_file(resolved);
-  Recogniser recogniser = load_recogniser(path, episode.recognition.recogniser, episode.threads);
-  const std::string object = draw_object_on_table(episode).object;
-  if (std::ranges::find(recogniser.states.objects, object) == recogniser.states.objects.end()) {
-    throw ConfigError(fmt::format(
-        "recognition.model: {}: knows {} objects, but not '{}', which stands on the table; "
-        "recognition.database is not what it was trained on",
-        path.string(), recogniser.states.object_count(), object));
+  Recogniser recogniser = load_lean_recogniser(path, episode.recognition.recogniser);
+  require_known(recogniser, path, draw_object_on_table(episode).object, "stands on the table");
+  if (episode.detects_change()) {
+    require_known(recogniser, path, draw_expected_object(episode).object, "is expected there");
   }
   return recogniser;
 }
@@ -58,14 +75,21 @@ ObjectRecognition::ObjectRecognition(const ResolvedEpisode& resolved, const Reco
       rig_(rig),
       recorder_(recorder),
       truth_(draw_object_on_table(episode_)),
+      first_rad_(
+          first_bearing_rad(episode_, rig_.start_bearing_rad(), recogniser.states.bin_rad())),
       recogniser_(recogniser),
-      recognition_(begin_recognition(recogniser_)),
+      inquiry_(recogniser_, episode_, first_rad_),
       choice_rng_(Rng::stream(episode_.seed, "recognition")),
       segmentation_rng_(Rng::stream(episode_.seed, "segmentation")) {
   recorder_.set_panel([this] { return panel(); });
 }
 
-FlightObservation ObjectRecognition::observe() { return rig_.observe(); }
+FlightObservation ObjectRecognition::observe() {
+  if (sightings_.empty() && rig_.bearing_rad() != first_rad_) {
+    current_.flight = rig_.fly_to(first_rad_);
+  }
+  return rig_.observe();
+}
 
 void ObjectRecognition::update(const FlightObservation& observation) {
   const RecognitionTask& task = episode_.recognition;
@@ -74,9 +98,7 @@ void ObjectRecognition::update(const FlightObservation& observation) {
   picture_ = observation.images;
   const ExtractFeature extract =
       seen_.view ? extract_from(recogniser_, *seen_.view) : extract_nothing(seen_.reason);
-  take_view(recogniser_, task.decision, extract, observation.bearing_rad, recognition_,
-            choice_rng_);
-  recognition_.views.back().view_time_s = next_.time_s;
+  inquiry_.look(extract, observation.bearing_rad, next_.time_s, choice_rng_);
   current_.T_world_camera = observation.T_world_camera;
   conclude();
 }
@@ -84,14 +106,16 @@ void ObjectRecognition::update(const FlightObservation& observation) {
 /// What is believed now, beside the truth.
 void ObjectRecognition::conclude() {
   const ObjectStates& states = recogniser_.states;
-  const int object = most_probable_object(states, recognition_.belief);
+  const ObjectBelief& belief = recognition().belief;
+  const int object = most_probable_object(states, belief);
   current_.time_s = rig_.world().time_s();
-  current_.report = recognition_.views.back();
+  current_.report = recognition().views.back();
+  if (inquiry_.of_change()) current_.change = {inquiry_.p_changed(), inquiry_.verdict()};
   current_.not_segmented = seen_.reason;
   current_.object_px = seen_.view ? static_cast<int>(std::ranges::count(seen_.view->mask, 1)) : 0;
   current_.estimate = states.objects[static_cast<std::size_t>(object)];
-  current_.map_probability = p_object(states, recognition_.belief)[object];
-  const int state = expected_state(states, recognition_.belief);
+  current_.map_probability = std::min(1.0, p_object(states, belief)[object]);
+  const int state = expected_state(states, belief);
   current_.estimated_bin = states.bin_of(state);
   current_.category = states.categories[static_cast<std::size_t>(
       states.category_of[static_cast<std::size_t>(object)])];
@@ -113,9 +137,7 @@ void ObjectRecognition::record() {
   recorder_.sighting(sighting, sightings_.size() - 1, picture_, seen_.view);
 }
 
-bool ObjectRecognition::finished() const {
-  return recognition_end(recogniser_, episode_.recognition.decision, recognition_).has_value();
-}
+bool ObjectRecognition::finished() const { return inquiry_.over(); }
 
 std::vector<BearingOption> ObjectRecognition::propose() {
   std::vector<BearingOption> options;
@@ -136,7 +158,8 @@ std::vector<BearingOption> ObjectRecognition::propose() {
 void ObjectRecognition::score(std::vector<BearingOption>& options) {
   std::vector<ObjectViewAction> actions;
   for (const BearingOption& option : options) actions.push_back(option.action);
-  next_ = next_view(recogniser_, episode_.recognition.decision, recognition_, actions, choice_rng_);
+  next_ =
+      next_view(recogniser_, episode_.recognition.decision, recognition(), actions, choice_rng_);
 }
 
 std::size_t ObjectRecognition::choose(const std::vector<BearingOption>&) {
@@ -148,15 +171,14 @@ std::size_t ObjectRecognition::choose(const std::vector<BearingOption>&) {
 void ObjectRecognition::act(const BearingOption& option) {
   current_.bearing_id = option.id;
   current_.flight = rig_.fly_to(option.bearing_rad);
-  moved(recogniser_, episode_.recognition.decision, option.action.yaw_rad, recognition_);
+  inquiry_.turned(option.action.yaw_rad);
   if (current_.flight->status == FlightStatus::arrived) return;
   log_warning(fmt::format("bearing {}: {} on the way there", option.id,
                           to_string(current_.flight->status)));
 }
 
 double ObjectRecognition::bearing_rad(int id) const {
-  return std::fmod(rig_.start_bearing_rad() + id * kTurn_rad / episode_.recognition.bearings,
-                   kTurn_rad);
+  return std::fmod(first_rad_ + id * kTurn_rad / episode_.recognition.bearings, kTurn_rad);
 }
 
 bool ObjectRecognition::visited(int id) const {
@@ -183,7 +205,11 @@ RecognitionPanelInput ObjectRecognition::panel() const {
   input.picture = &picture_;
   input.cut = seen_.view ? &*seen_.view : nullptr;
   input.objects = recogniser_.states.objects;
-  input.p_object = p_object(recogniser_.states, recognition_.belief);
+  input.p_object = p_object(recogniser_.states, recognition().belief);
+  if (inquiry_.of_change()) {
+    input.expected = draw_expected_object(episode_).object;
+    input.threshold = episode_.change_detection.options.threshold;
+  }
   input.method = method_name(episode_);
   return input;
 }

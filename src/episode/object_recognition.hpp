@@ -1,10 +1,12 @@
-/// The parts of the loop for recognition of one object from a quadrotor.  [Potthast2016, 4.5.7]
+/// The parts of the loop for a quadrotor that recognises one object, or tells whether it has
+/// changed.  [Potthast2016, 4.5.7, 4.5.8]
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
 #include "src/episode/flight_rig.hpp"
+#include "src/episode/object_inquiry.hpp"
 #include "src/episode/object_on_table.hpp"
 #include "src/episode/recognition_recorder.hpp"
 #include "src/episode/sighting.hpp"
@@ -13,7 +15,7 @@ namespace vantage {
 
 /// The recogniser of an episode, made ready.
 /// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
-/// if it does not know the object on the table.
+/// if it does not know the object on the table, or the one that is expected there.
 Recogniser load_episode_recogniser(const ResolvedEpisode& resolved);
 
 class ObjectRecognition {
@@ -33,7 +35,8 @@ class ObjectRecognition {
 
   [[nodiscard]] const std::vector<Sighting>& sightings() const { return sightings_; }
   [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
-  [[nodiscard]] const Recognition& recognition() const { return recognition_; }
+  [[nodiscard]] const Recognition& recognition() const { return inquiry_.recognition(); }
+  [[nodiscard]] const ObjectInquiry& inquiry() const { return inquiry_; }
   [[nodiscard]] const ObjectOnTable& truth() const { return truth_; }
   /// All places to look from.
   [[nodiscard]] std::vector<Candidate> places() const;
@@ -48,8 +51,9 @@ class ObjectRecognition {
   FlightRig& rig_;
   RecognitionRecorder& recorder_;
   ObjectOnTable truth_;
+  double first_rad_;  ///< bearing of the first view, from which all others count
   const Recogniser& recogniser_;
-  Recognition recognition_;
+  ObjectInquiry inquiry_;
   Rng choice_rng_;
   Rng segmentation_rng_;
   NextView next_;

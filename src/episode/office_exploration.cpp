@@ -109,10 +109,39 @@ void OfficeExploration::record() {
   recorder_.scan(scan, scans_.size() - 1, belief_.grid());
   decision_start_s_ = wall_s();
   views_ = find_views();
+  are_views_weighed_ = false;
+  if (options.enough.scans > 0 && !views_.empty()) weigh_going_on();
+}
+
+/// Counts how often in a row the best view promised less than a share of what is known. Not asked
+/// while scans show many times that: then there is more.
+void OfficeExploration::weigh_going_on() {
+  constexpr double kPlenty = 10.0;
+  const double start_s = wall_s();
+  const auto known = static_cast<double>(belief_.grid().size() - scans_.back().unobserved_cells);
+  const double poor_cells = episode_.exploration.enough.share * known;
+  if (scans_.back().actual_new_cells > kPlenty * poor_cells) {
+    poor_promises_ = 0;
+    return;
+  }
+  const auto promises = learnt_gains_bits(AdaptiveGain{});
+  if (std::holds_alternative<AdaptiveGain>(episode_.gain)) {
+    for (std::size_t i = 0; i < views_.size(); ++i) views_[i].gain_bits = promises[i];
+    are_views_weighed_ = true;
+  } else {
+    decision_start_s_ += wall_s() - start_s;  // the method itself does not need it
+  }
+  poor_promises_ = std::ranges::max(promises) < poor_cells ? poor_promises_ + 1 : 0;
+  if (is_enough()) log_info(fmt::format("explored: none of {} views is worth it", views_.size()));
+}
+
+bool OfficeExploration::is_enough() const {
+  const int scans = episode_.exploration.enough.scans;
+  return scans > 0 && poor_promises_ >= scans;
 }
 
 bool OfficeExploration::finished() const {
-  return views_.empty() || static_cast<int>(scans_.size()) >= episode_.scans;
+  return views_.empty() || static_cast<int>(scans_.size()) >= episode_.scans || is_enough();
 }
 
 /// The place nearest to each frontier where the robot can stand, the largest frontiers first.
@@ -143,13 +172,19 @@ std::vector<Candidate> OfficeExploration::find_views() {
   return views;
 }
 
+std::vector<double> OfficeExploration::learnt_gains_bits(const Gain& gain) const {
+  const BlockField transmission = belief_.hazard().transmission();
+  return view_gains_bits(gain, {belief_.filled_grid(), &transmission}, views_, rig_.view_field(),
+                         episode_.threads);
+}
+
 std::vector<Candidate> OfficeExploration::propose() { return views_; }
 
 void OfficeExploration::score(std::vector<Candidate>& candidates) {
-  if (weighs_gain(episode_.choice) || recorder_.tells_story()) {
-    const BlockField transmission = belief_.hazard().transmission();
-    const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), &transmission},
-                                       candidates, rig_.view_field(), episode_.threads);
+  const bool is_weighed =
+      episode_.exploration.enough.scans > 0 && std::holds_alternative<AdaptiveGain>(episode_.gain);
+  if (!is_weighed && (weighs_gain(episode_.choice) || recorder_.tells_story())) {
+    const auto gains = learnt_gains_bits(episode_.gain);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }
   if (std::holds_alternative<OracleView>(episode_.choice)) {
@@ -170,13 +205,15 @@ std::size_t OfficeExploration::choose(const std::vector<Candidate>& candidates) 
 
 void OfficeExploration::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
-  predict(candidate.T_world_sensor);
   visited_.add(place_of(candidate.T_world_sensor), episode_.exploration.taken_m);
   const Approach approach =
       navigator_.approach(rig_.base_for_sweep(candidate.T_world_sensor), std::nullopt);
   current_.path_length_m = approach.path_length_m;
   current_.fallback = !candidate.reachable || !approach.reached;
-  if (approach.reached) return;
+  if (approach.reached) {
+    predict(candidate.T_world_sensor);
+    return;
+  }
   log_warning(
       fmt::format("view {} is out of reach: scanning from as near as possible", candidate.id));
   predict(rig_.estimated_sweep());  // of the place the scan will be taken from

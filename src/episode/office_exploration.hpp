@@ -38,6 +38,10 @@ class OfficeExploration {
   void predict(const Pose& T_world_sweep);
   void block_floor();
   std::vector<Candidate> find_views();
+  /// What the views show by the clutter learnt, in bits.
+  [[nodiscard]] std::vector<double> learnt_gains_bits(const Gain& gain) const;
+  void weigh_going_on();
+  [[nodiscard]] bool is_enough() const;
   [[nodiscard]] MapPanelInput panel() const;
 
   Episode episode_;
@@ -51,6 +55,8 @@ class OfficeExploration {
   VisitedPlaces visited_;
   Rng choice_rng_;
   std::vector<Candidate> views_;
+  bool are_views_weighed_ = false;
+  int poor_promises_ = 0;          ///< scans in a row after which no view was worth one more
   double decision_start_s_ = 0.0;  ///< wall
   ScanRecord current_;             ///< filled in from the decision to the end of its scan
   std::vector<ScanRecord> scans_;

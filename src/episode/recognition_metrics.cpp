@@ -37,6 +37,10 @@ Json observation_json(const Sighting& sighting, int bins) {
                {"bins", bins},
                {"collisions", sighting.collisions},
                {"view", view_json(line_of_sight(sighting.T_world_camera))}};
+  if (sighting.change) {
+    json["change_probability"] = sighting.change->probability;
+    json["decision"] = to_string(sighting.change->verdict);
+  }
   json["skipped"] = Json::array();
   for (const SkippedFeature& skipped : report.skipped) {
     json["skipped"].push_back({{"feature", skipped.feature}, {"reason", skipped.reason}});
@@ -59,6 +63,43 @@ Eigen::AlignedBox3d object_column(const RecognitionTask& task) {
   return {foot_m - half_m, foot_m + half_m + top_m};
 }
 
+/// What was decided of the change, beside what has changed.
+void add_change(const ResolvedEpisode& resolved, const ObjectRecognition& run, Json& json) {
+  const std::string& scenario = resolved.episode.change_detection.scenario;
+  const ObjectOnTable expected = draw_expected_object(resolved.episode);
+  json["scenario"] = scenario;
+  json["decision"] = json["change_probability"] = nullptr;
+  json["correct"] = json["changed_correct"] = false;
+  if (!run.sightings().empty()) {
+    const SuspectedChange& change = run.sightings().back().change.value();
+    json["decision"] = to_string(change.verdict);
+    json["correct"] = to_string(change.verdict) == scenario;
+    json["changed_correct"] =
+        (change.verdict == Change::none) == (scenario == to_string(Change::none));
+    json["change_probability"] = change.probability;
+  }
+  json["expected"] = {{"object", expected.object}, {"yaw_rad", expected.yaw_rad}};
+}
+
+/// What was recognised, beside what is there.
+void add_estimate(const ObjectRecognition& run, Json& json) {
+  if (run.sightings().empty()) {  // ended before the first view
+    for (const char* key : {"estimate", "map_probability", "bin_error"}) json[key] = nullptr;
+    if (!run.inquiry().of_change()) json["correct"] = json["category_correct"] = false;
+    json["entropy_bits"] = state_entropy_bits(run.recognition().belief);
+    return;
+  }
+  const Sighting& last = run.sightings().back();
+  json["estimate"] = last.estimate;
+  if (!run.inquiry().of_change()) {
+    json["correct"] = last.estimate == run.truth().object;
+    json["category_correct"] = last.category == run.truth().category;
+  }
+  json["entropy_bits"] = last.report.entropy_bits;
+  json["map_probability"] = last.map_probability;
+  json["bin_error"] = run.truth().object.empty() ? Json(nullptr) : Json(last.bin_error);
+}
+
 }  // namespace
 
 Json recognition_metrics(const ResolvedEpisode& resolved, const RunSummary& summary,
@@ -66,21 +107,11 @@ Json recognition_metrics(const ResolvedEpisode& resolved, const RunSummary& summ
   const ObjectStates& states = run.recogniser().states;
   const auto& sightings = run.sightings();
   Json json = summary_json(resolved, summary);
-  json["truth"] = run.truth().object;
-  json["true_yaw_rad"] = run.truth().yaw_rad;
-  if (sightings.empty()) {  // interrupted before the first view
-    for (const char* key : {"estimate", "map_probability", "bin_error"}) json[key] = nullptr;
-    json["correct"] = json["category_correct"] = false;
-    json["entropy_bits"] = state_entropy_bits(run.recognition().belief);
-  } else {
-    const Sighting& last = sightings.back();
-    json["estimate"] = last.estimate;
-    json["correct"] = last.estimate == run.truth().object;
-    json["category_correct"] = last.category == run.truth().category;
-    json["entropy_bits"] = last.report.entropy_bits;
-    json["map_probability"] = last.map_probability;
-    json["bin_error"] = last.bin_error;
-  }
+  const ObjectOnTable& truth = run.truth();
+  json["truth"] = truth.object.empty() ? Json(nullptr) : Json(truth.object);
+  json["true_yaw_rad"] = truth.object.empty() ? Json(nullptr) : Json(truth.yaw_rad);
+  if (run.inquiry().of_change()) add_change(resolved, run, json);
+  add_estimate(run, json);
   json["observations"] = Json::array();
   for (const Sighting& sighting : sightings) {
     json["observations"].push_back(observation_json(sighting, states.bins));

@@ -1,4 +1,4 @@
-/// metrics.json of recognition, as the contract has it.
+/// metrics.json of recognition and of change detection, as the contract has it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "src/episode/panel_style.hpp"
@@ -70,25 +71,45 @@ void draw_objects(cv::Mat& image, const Layout& layout, const cv::Rect& place,
   }
 }
 
-void draw_entropy(cv::Mat& image, const Layout& layout, const cv::Rect& place,
-                  const RecognitionPanelInput& input) {
-  card(image, layout, place, "entropy, bits, after each view");
+/// A bar a view. @param line at which to draw a level line; 0: none
+void draw_bars(cv::Mat& image, const Layout& layout, const cv::Rect& place,
+               const RecognitionPanelInput& input, double line,
+               const std::function<double(const Sighting&)>& value) {
   if (input.sightings.empty()) return;
   double most = 1.0;
-  for (const Sighting& s : input.sightings) most = std::max(most, s.report.entropy_bits);
+  for (const Sighting& s : input.sightings) most = std::max(most, value(s));
   const auto count = static_cast<double>(std::max<std::size_t>(input.sightings.size(), 4));
   const double left = place.x + layout.px(10);
   const double floor_y = place.y + place.height - layout.px(12);
   const double height = place.height - layout.px(54);
   const double step = (place.width - layout.px(20)) / count;
   for (std::size_t i = 0; i < input.sightings.size(); ++i) {
-    const double bits = input.sightings[i].report.entropy_bits;
-    const double tall = std::max(layout.px(1), height * bits / most);
+    const double shown = value(input.sightings[i]);
+    const double tall = std::max(layout.px(1), height * shown / most);
     const cv::Rect2d bar(left + step * static_cast<double>(i), floor_y - tall, 0.7 * step, tall);
     cv::rectangle(image, bar, panel::kVisited, cv::FILLED);
-    text(image, layout, fmt::format("{:.1f}", bits),
+    text(image, layout, fmt::format("{:.{}f}", shown, line > 0.0 ? 2 : 1),
          {bar.x + 0.5 * bar.width, bar.y - layout.px(4)}, 10, panel::kText, Align::centre);
   }
+  if (line == 0.0) return;
+  const double y = floor_y - height * line / most;
+  cv::line(image, cv::Point2d(left, y), cv::Point2d(place.x + place.width - layout.px(10), y),
+           panel::kAccent, layout.stroke(1));
+}
+
+void draw_progress(cv::Mat& image, const Layout& layout, const cv::Rect& place,
+                   const RecognitionPanelInput& input) {
+  if (input.expected.empty()) {
+    card(image, layout, place, "entropy, bits, after each view");
+    draw_bars(image, layout, place, input, 0.0,
+              [](const Sighting& s) { return s.report.entropy_bits; });
+    return;
+  }
+  const bool looked = !input.sightings.empty();
+  const auto verdict = looked ? to_string(input.sightings.back().change->verdict) : "not known yet";
+  card(image, layout, place, fmt::format("probability of a change, by now: {}", verdict));
+  draw_bars(image, layout, place, input, input.threshold,
+            [](const Sighting& s) { return s.change->probability; });
 }
 
 void draw_places(cv::Mat& image, const Layout& layout, const cv::Rect& place,
@@ -143,8 +164,9 @@ cv::Mat draw_recognition_panel(const RecognitionPanelInput& input, cv::Size size
   const Layout layout{size.width / 640.0, size};
   cv::Mat image(size, CV_8UC3, panel::kBottom);
   const double height = layout.height();
-  text(image, layout, input.method, {layout.px(14), layout.px(24)}, 14, panel::kText, Align::left,
-       true);
+  const std::string heading =
+      input.expected.empty() ? input.method : fmt::format("is it {} still?", input.expected);
+  text(image, layout, heading, {layout.px(14), layout.px(24)}, 14, panel::kText, Align::left, true);
   text(image, layout, fmt::format("{} views", input.sightings.size()),
        {layout.px(626), layout.px(24)}, 12, panel::kDim, Align::right);
   const double top = 36;
@@ -152,7 +174,7 @@ cv::Mat draw_recognition_panel(const RecognitionPanelInput& input, cv::Size size
   const double lower = height - top - upper - 20;
   draw_picture(image, layout, layout.rect(12, top, 386, upper), input);
   draw_objects(image, layout, layout.rect(408, top, 220, upper), input);
-  draw_entropy(image, layout, layout.rect(12, top + upper + 10, 386, lower), input);
+  draw_progress(image, layout, layout.rect(12, top + upper + 10, 386, lower), input);
   draw_places(image, layout, layout.rect(408, top + upper + 10, 220, lower), input);
   return image;
 }

@@ -25,6 +25,8 @@ struct RecognitionPanelInput {
   const ObjectView* cut = nullptr;        ///< the object in it; null: not found
   std::vector<std::string> objects = {};  ///< of the database
   Eigen::VectorXd p_object = {};          ///< of each
+  std::string expected = {};              ///< what the map says is there; empty: it says nothing
+  double threshold = 0.0;                 ///< of P(u), above which it is changed
   std::string method = {};
 };
 

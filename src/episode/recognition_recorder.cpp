@@ -12,18 +12,33 @@ namespace {
 constexpr std::string_view kStepsHeader =
     "time_s,view,chosen_view,view_rad,features,entropy_bits,estimate,map_probability,gain_bits,"
     "feature_time_s,selection_time_s,view_time_s,flight,flight_time_s,path_length_m,energy_j,"
-    "object_px,position_error_m,angle_error_rad,bin_error,collisions\n";
+    "object_px,position_error_m,angle_error_rad,bin_error,collisions";
+
+constexpr std::string_view kChangeHeader = ",change_probability,decision";
+
+std::string change_columns(const Sighting& sighting) {
+  if (!sighting.change) return {};
+  return fmt::format(",{},{}", sighting.change->probability, to_string(sighting.change->verdict));
+}
+
+std::string belief_text(const Sighting& sighting) {
+  if (!sighting.change) {
+    return fmt::format("{} with probability {:.2f}", sighting.estimate, sighting.map_probability);
+  }
+  return fmt::format("changed with probability {:.2f}", sighting.change->probability);
+}
 
 std::string steps_row(const Sighting& sighting, std::size_t index) {
   const ViewReport& report = sighting.report;
   const FlightResult flight = sighting.flight.value_or(FlightResult{});
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", sighting.time_s, index,
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}\n", sighting.time_s, index,
       sighting.bearing_id, report.view_rad, fmt::join(report.features, " "), report.entropy_bits,
       sighting.estimate, sighting.map_probability, sighting.gain_bits, report.feature_time_s,
       report.selection_time_s, report.view_time_s, sighting.flight ? to_string(flight.status) : "",
       flight.duration_s, flight.path_length_m, flight.energy_J, sighting.object_px,
-      sighting.position_error_m, sighting.angle_error_rad, sighting.bin_error, sighting.collisions);
+      sighting.position_error_m, sighting.angle_error_rad, sighting.bin_error, sighting.collisions,
+      change_columns(sighting));
 }
 
 }  // namespace
@@ -40,6 +55,8 @@ RecognitionRecorder::RecognitionRecorder(const ResolvedEpisode& resolved, Flight
       steps_(directory_ / "steps.csv"),
       progress_(resolved.name, most_views_) {
   steps_.write(kStepsHeader);
+  if (resolved.episode.detects_change()) steps_.write(kChangeHeader);
+  steps_.write("\n");
   if (!lean_) make_writable_directory(directory_ / "views");
 }
 
@@ -53,10 +70,8 @@ void RecognitionRecorder::sighting(const Sighting& sighting, std::size_t index,
                                    const std::optional<ObjectView>& cut) {
   steps_.write(steps_row(sighting, index));
   progress_.update(static_cast<double>(index + 1),
-                   fmt::format("view {} of at most {}: {} with probability {:.2f}, {:.1f} s "
-                               "simulated",
-                               index + 1, most_views_, sighting.estimate, sighting.map_probability,
-                               sighting.time_s));
+                   fmt::format("view {} of at most {}: {}, {:.1f} s simulated", index + 1,
+                               most_views_, belief_text(sighting), sighting.time_s));
   log_.keep_still(index);
   if (lean_) return;
   const cv::Mat drawn = outlined(picture, cut ? &*cut : nullptr);

@@ -44,7 +44,7 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
   }
 }
 
-/// How the episode ended. A divergence and an interruption are recorded results.
+/// How the episode ended. A failure, a divergence and an interruption are recorded results.
 struct Ending {
   EpisodeStatus status = EpisodeStatus::completed;
   ExitCode code = ExitCode::done;

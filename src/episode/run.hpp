@@ -22,11 +22,11 @@ struct RunOptions {
 
 struct RunOutcome {
   std::filesystem::path directory;
-  ExitCode code = ExitCode::done;  ///< diverged and interrupted runs have results too
+  ExitCode code = ExitCode::done;  ///< failed, diverged and interrupted runs have results too
   std::string metrics;             ///< the JSON text
 };
 
-/// A divergence and an interruption are outcomes, not exceptions.
+/// A failure, a divergence and an interruption are outcomes, not exceptions.
 /// @throws OutputError, InputError, RendererError
 RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options);
 

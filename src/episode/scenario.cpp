@@ -30,14 +30,33 @@ void check_flight(const Episode& episode) {
       episode.simulation.control_period_s, episode.simulation.timestep_s));
 }
 
+/// What stands on the table is what is expected there, unless it is another object.
+void check_change(const Episode& episode) {
+  const ChangeDetectionTask& task = episode.change_detection;
+  const std::string& there = episode.recognition.object;
+  if (task.scenario == to_string(Change::object)) {
+    if (there.empty() || there != task.expected_object) return;
+    throw ConfigError(fmt::format(
+        "recognition.object: '{}' is what change_detection.expected_object says, so that scenario "
+        "object changes nothing",
+        there));
+  }
+  if (there.empty()) return;
+  throw ConfigError(fmt::format(
+      "recognition.object: '{}' is another object, which change_detection.scenario: {} has not; "
+      "what should stand there is change_detection.expected_object",
+      there, task.scenario));
+}
+
 /// A model that is not there yet is missed where it is needed: to replay an episode it is not.
 void settle_recognition_model(ResolvedEpisode& resolved, const std::filesystem::path& base) {
   Episode& episode = resolved.episode;
-  std::string& model =
-      episode.flies_trajectory() ? episode.trajectory.model : episode.recognition.model;
+  const bool along_path = episode.flies_trajectory();
+  std::string& model = along_path ? episode.trajectory.model : episode.recognition.model;
   if (!episode.flies() || model.empty()) return;
   try {
-    model = lasting_name(find_input(model, base, episode.task + ".model"));
+    const char* key = along_path ? "trajectory.model" : "recognition.model";
+    model = lasting_name(find_input(model, base, key));
   } catch (const InputError&) {
     return;
   }
@@ -62,11 +81,21 @@ void MetricsOptions::check() const {
   }
 }
 
+void ChangeDetectionTask::check() const {
+  if (!change_named(scenario)) {
+    throw ConfigError(fmt::format(
+        "scenario: unknown scenario '{}'; known: none, object, pose, removed", scenario));
+  }
+  options.check();
+}
+
 void Episode::check() const {
   if (task != "next_best_view" && !flies()) {
     throw ConfigError(fmt::format(
-        "task: unknown task '{}'; known: next_best_view, recognition, trajectory", task));
+        "task: unknown task '{}'; known: next_best_view, recognition, change_detection, trajectory",
+        task));
   }
+  if (detects_change()) check_change(*this);
   if (flies()) {
     check_flight(*this);
     return;

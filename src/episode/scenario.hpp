@@ -23,6 +23,7 @@
 #include "src/belief/hole_filling.hpp"
 #include "src/belief/sensor_model.hpp"
 #include "src/core/fields.hpp"
+#include "src/episode/change_detection_task.hpp"
 #include "src/episode/exploration_options.hpp"
 #include "src/episode/recognition_task.hpp"
 #include "src/episode/trajectory_task.hpp"
@@ -90,7 +91,8 @@ struct RecordingOptions {
 };
 
 struct Episode {
-  std::string task = "next_best_view";                       ///< or recognition, trajectory
+  /// or recognition, change_detection, trajectory
+  std::string task = "next_best_view";
   std::string setting = "table_top";                         ///< or office
   std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF
   std::uint64_t seed = 1;                                    ///< of every random stream
@@ -119,6 +121,7 @@ struct Episode {
   MetricsOptions metrics;
   RecordingOptions recording;
   RecognitionTask recognition;
+  ChangeDetectionTask change_detection;
   TrajectoryTask trajectory;
 
   void fields(auto&& f) {
@@ -151,12 +154,17 @@ struct Episode {
     f("metrics", metrics);
     f("recording", recording);
     f("recognition", recognition);
+    f("change_detection", change_detection);
     f("trajectory", trajectory);
   }
   void check() const;  ///< what concerns more than one part
 
+  /// Round one object on a table, or past several along a path.
+  [[nodiscard]] bool flies() const {
+    return task == "recognition" || detects_change() || flies_trajectory();
+  }
+  [[nodiscard]] bool detects_change() const { return task == "change_detection"; }
   [[nodiscard]] bool flies_trajectory() const { return task == "trajectory"; }
-  [[nodiscard]] bool flies() const { return task == "recognition" || flies_trajectory(); }
   [[nodiscard]] bool in_office() const { return setting == "office"; }
   [[nodiscard]] GridFrame grid_frame() const {
     return make_grid_frame(map.centre_m, map.size_m, map.cells);

@@ -9,7 +9,7 @@
 #include "src/core/log.hpp"
 #include "src/episode/flight_layout.hpp"
 #include "src/episode/model_source.hpp"
-#include "src/recognition/plain_recogniser.hpp"
+#include "src/recognition/lean_recogniser.hpp"
 
 namespace vantage {
 namespace {
@@ -52,7 +52,7 @@ CameraImages without_colour(const FlightPicture& picture) {
 Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved) {
   const TrajectoryTask& task = resolved.episode.trajectory;
   const auto path = model_file(resolved);
-  Recogniser recogniser = load_plain_recogniser(path, task.recogniser);
+  Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   for (const ObjectOnStand& stand : draw_flight_objects(resolved)) {
     const auto& known = recogniser.states.objects;
     if (std::ranges::find(known, stand.object) != known.end()) continue;

@@ -66,6 +66,8 @@ TableSearch find_table_top(const CameraImages& images, const Pose& T_world_camer
 }
 
 constexpr float kOutside = -1.0F;
+/// Of the least height of an object: what is lower than that is table even beside an object.
+constexpr double kLow = 1.0 / 3.0;
 
 /// Above the table, m, where a pixel shows something in the column over its middle; else kOutside.
 cv::Mat1f heights_over(const Patch& patch, const CameraImages& images, const Pose& T_world_camera,
@@ -117,6 +119,20 @@ int keep_largest(cv::Mat1b& mask) {
   }
   mask = most > 0 ? cv::Mat1b(labels == best) : mask;
   return most;
+}
+
+/// The object's foot, lower than what tells an object from noise: what is a little above the table
+/// and no farther below the mask than the foot is high.
+void add_foot(cv::Mat1b& mask, const cv::Mat1f& heights_m, const CameraImages& images,
+              double distance_m, double min_height_m) {
+  const cv::Mat1b low = heights_m >= kLow * min_height_m;
+  const int reach_px =
+      static_cast<int>(std::ceil(min_height_m * images.focal_px / std::max(distance_m, 0.1)));
+  for (int i = 0; i < reach_px; ++i) {
+    cv::Mat1b wider;
+    cv::dilate(mask, wider, cv::getStructuringElement(cv::MORPH_CROSS, {3, 3}));
+    mask |= wider & low;
+  }
 }
 
 cv::Mat box(int half_px) {
@@ -176,7 +192,9 @@ SegmentedObject segment_on_table(const CameraImages& images, const Pose& T_world
     return {std::nullopt, fmt::format("{} pixels rise from the table, an object has at least {}",
                                       pixels, options.min_pixels)};
   }
-  fill_holes(mask, heights_m, options.min_height_m / 3.0);
+  const double distance_m = (T_world_camera.translation() - p_world_table_m).norm();
+  add_foot(mask, heights_m, images, distance_m, options.min_height_m);
+  fill_holes(mask, heights_m, kLow * options.min_height_m);
   if (options.mask_growth_px > 0) cv::dilate(mask, mask, box(options.mask_growth_px));
   SegmentedObject object{cut(images, mask, place.tl(), options.margin_px), {}};
   object.view->up = T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ();

@@ -12,30 +12,12 @@ namespace {
 
 constexpr double kNegInf = -std::numeric_limits<double>::infinity();
 
-/// Beliefs given each hypothesis, and how probable those are.
-struct Hypotheses {
-  ObjectBelief expected;
-  ObjectBelief changed;
-  double log_p_expected = 0.0;
-  double log_p_changed = 0.0;
-
-  [[nodiscard]] double p_changed() const {
-    return 1.0 / (1.0 + std::exp(log_p_expected - log_p_changed));
-  }
-  /// Whatever the hypothesis.
-  [[nodiscard]] ObjectBelief mixture() const {
-    const double p = p_changed();
-    ObjectBelief mixed;
-    mixed.log_p = (p * p_state(changed) + (1.0 - p) * p_state(expected)).array().log();
-    return mixed;
-  }
-};
-
-Hypotheses hypotheses(const ObjectStates& states, const ChangeOptions& options, int expected) {
+ChangeHypotheses hypotheses(const ObjectStates& states, const ChangeOptions& options,
+                            int expected) {
   const int object = states.object_of(expected);
   const double turned = options.prior_pose / std::max(states.bins - 1, 1);
   const double other = options.prior_object / std::max(states.size() - states.bins, 1);
-  Hypotheses h;
+  ChangeHypotheses h;
   h.expected.log_p = Eigen::VectorXd::Constant(states.size(), kNegInf);
   h.expected.log_p[expected] = 0.0;
   h.changed.log_p = Eigen::VectorXd::Constant(states.size(), std::log(other));
@@ -79,35 +61,6 @@ class Witness {
   std::vector<Eigen::VectorXd> measured_;
 };
 
-/// @return whether there was anything to see.
-bool look(const Recogniser& recogniser, const ChangeOptions& options, const ObjectCamera& camera,
-          Hypotheses& h, Recognition& recognition, Rng& rng) {
-  Witness witness(recogniser, camera.extract);
-  take_view(recogniser, options.recognition, std::ref(witness), camera.bearing_rad(), recognition,
-            rng);
-  for (const Eigen::VectorXd& log_likelihood : witness.measured()) {
-    weigh(h.expected, h.log_p_expected, log_likelihood);
-    weigh(h.changed, h.log_p_changed, log_likelihood);
-  }
-  recognition.belief = h.mixture();
-  return !witness.measured().empty();
-}
-
-void follow(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
-            Hypotheses& h, Recognition& recognition) {
-  for (ObjectBelief* belief : {&h.expected, &h.changed}) {
-    Recognition turned{.belief = std::move(*belief), .views = {}};
-    moved(recogniser, options.recognition, motion_rad, turned);
-    *belief = std::move(turned.belief);
-  }
-  recognition.belief = h.mixture();
-}
-
-Change kind_of_change(const ObjectStates& states, const Hypotheses& h, int expected) {
-  const double same = p_object(states, h.changed)[states.object_of(expected)];
-  return same >= 0.5 ? Change::pose : Change::object;
-}
-
 }  // namespace
 
 std::string_view to_string(Change change) {
@@ -120,6 +73,13 @@ std::string_view to_string(Change change) {
   return "";
 }
 
+std::optional<Change> change_named(std::string_view name) {
+  for (const Change change : kChanges) {
+    if (to_string(change) == name) return change;
+  }
+  return std::nullopt;
+}
+
 void ChangeOptions::check() const {
   if (prior_pose + prior_object >= 1.0) {
     throw ConfigError("prior_pose and prior_object: must sum to less than 1");
@@ -127,43 +87,108 @@ void ChangeOptions::check() const {
   if (prior_pose + prior_object == 0.0) {
     throw ConfigError("prior_pose and prior_object: must not both be 0");
   }
-  if (unchanged_below > threshold) {
-    throw ConfigError("unchanged_below: must not be above threshold");
+  if (unchanged_below > threshold || threshold > changed_above) {
+    throw ConfigError("threshold: must lie between unchanged_below and changed_above");
   }
+}
+
+double ChangeHypotheses::p_changed() const {
+  return 1.0 / (1.0 + std::exp(log_p_expected - log_p_changed));
+}
+
+ObjectBelief ChangeHypotheses::mixture() const {
+  const double p = p_changed();
+  ObjectBelief mixed;
+  mixed.log_p = (p * p_state(changed) + (1.0 - p) * p_state(expected)).array().log();
+  return mixed;
+}
+
+ChangeSearch begin_change_search(const Recogniser& recogniser, const ChangeOptions& options,
+                                 int expected_state) {
+  check_options(options);
+  expects(expected_state >= 0 && expected_state < recogniser.states.size(), "a state");
+  ChangeSearch search{.expected_object = recogniser.states.object_of(expected_state),
+                      .hypotheses = hypotheses(recogniser.states, options, expected_state),
+                      .recognition = {}};
+  search.recognition.belief = search.hypotheses.mixture();
+  return search;
+}
+
+void take_view(const Recogniser& recogniser, const ChangeOptions& options,
+               const ExtractFeature& extract, double view_rad, ChangeSearch& search, Rng& rng) {
+  Witness witness(recogniser, extract);
+  take_view(recogniser, options.recognition, std::ref(witness), view_rad, search.recognition, rng);
+  ChangeHypotheses& h = search.hypotheses;
+  for (const Eigen::VectorXd& log_likelihood : witness.measured()) {
+    weigh(h.expected, h.log_p_expected, log_likelihood);
+    weigh(h.changed, h.log_p_changed, log_likelihood);
+  }
+  search.recognition.belief = h.mixture();
+  if (witness.measured().empty()) ++search.empty_views;
+}
+
+void moved(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
+           ChangeSearch& search) {
+  for (ObjectBelief* belief : {&search.hypotheses.expected, &search.hypotheses.changed}) {
+    Recognition turned{.belief = std::move(*belief), .views = {}};
+    moved(recogniser, options.recognition, motion_rad, turned);
+    *belief = std::move(turned.belief);
+  }
+  search.recognition.belief = search.hypotheses.mixture();
+}
+
+bool in_doubt(const ChangeOptions& options, const ChangeSearch& search) {
+  const std::size_t views = search.recognition.views.size();
+  if (search.empty_views >= options.empty_views) return false;
+  if (views >= static_cast<std::size_t>(options.recognition.most_views)) return false;
+  const double p = search.hypotheses.p_changed();
+  const bool uncertain = p <= options.changed_above && p >= options.unchanged_below;
+  return uncertain || search.empty_views == static_cast<int>(views);
+}
+
+Change verdict(const Recogniser& recogniser, const ChangeOptions& options,
+               const ChangeSearch& search) {
+  const bool nothing_seen =
+      search.empty_views > 0 && search.empty_views == std::ssize(search.recognition.views);
+  if (nothing_seen || search.empty_views >= options.empty_views) return Change::removed;
+  if (search.hypotheses.p_changed() <= options.threshold) return Change::none;
+  const double same =
+      p_object(recogniser.states, search.hypotheses.changed)[search.expected_object];
+  return same >= 0.5 ? Change::pose : Change::object;
 }
 
 ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& options,
                            int expected_state, const ObjectCamera& camera, Rng& rng) {
-  check_options(options);
-  expects(expected_state >= 0 && expected_state < recogniser.states.size(), "a state");
-  Hypotheses h = hypotheses(recogniser.states, options, expected_state);
-  ChangeReport report{.recognition = {.belief = h.mixture(), .views = {}}};
-  int empty = 0;
+  ChangeSearch search = begin_change_search(recogniser, options, expected_state);
   double view_time_s = 0.0;
-  for (int view = 1;; ++view) {
-    if (!look(recogniser, options, camera, h, report.recognition, rng)) ++empty;
-    report.recognition.views.back().view_time_s = view_time_s;
-    report.p_changed = h.p_changed();
-    if (empty >= options.empty_views) {
-      report.change = Change::removed;
-      return report;
-    }
-    const bool uncertain =
-        report.p_changed <= options.threshold && report.p_changed >= options.unchanged_below;
-    const bool doubtful = uncertain || empty == view;
+  for (;;) {
+    take_view(recogniser, options, camera.extract, camera.bearing_rad(), search, rng);
+    search.recognition.views.back().view_time_s = view_time_s;
     const std::vector<ObjectViewAction> actions = camera.actions();
-    if (!doubtful || view >= options.recognition.most_views || actions.empty()) break;
+    if (!in_doubt(options, search) || actions.empty()) break;
     const NextView next =
-        next_view(recogniser, options.recognition, report.recognition, actions, rng);
+        next_view(recogniser, options.recognition, search.recognition, actions, rng);
     view_time_s = next.time_s;
     const ObjectViewAction& action = actions[next.decision.action];
     camera.turn(action);
-    follow(recogniser, options, action.yaw_rad, h, report.recognition);
+    moved(recogniser, options, action.yaw_rad, search);
   }
-  if (report.p_changed > options.threshold) {
-    report.change = kind_of_change(recogniser.states, h, expected_state);
+  return {.change = verdict(recogniser, options, search),
+          .p_changed = search.hypotheses.p_changed(),
+          .recognition = std::move(search.recognition)};
+}
+
+bool tells_apart(const Recogniser& recogniser, int state, int other, double most_error) {
+  const ObjectStates& states = recogniser.states;
+  const auto turned = [&](int which, int turn) {
+    return states.state(states.object_of(which), (states.bin_of(which) + turn) % states.bins);
+  };
+  double nats = 0.0;
+  for (int turn = 0; turn < states.bins; ++turn) {
+    nats += static_cast<double>(
+        recogniser.tables.bhattacharyya_nats(turned(state, turn), turned(other, turn)));
   }
-  return report;
+  return 0.5 * std::exp(-nats) <= most_error;
 }
 
 }  // namespace vantage

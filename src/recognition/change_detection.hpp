@@ -4,6 +4,7 @@
 /// the views say of each decides between them: P(u) = 1 - P(expected | views).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -17,26 +18,45 @@ enum class Change {
   pose,     ///< the same one, turned into another yaw bin
   removed,  ///< nothing is there
 };
+inline constexpr auto kChanges =
+    std::to_array({Change::none, Change::object, Change::pose, Change::removed});
 std::string_view to_string(Change change);
+std::optional<Change> change_named(std::string_view name);
+
+/// `options` with all features, what is left out could be what a turn shows in, and views that tell
+/// of the pose as well.
+inline RecognitionOptions for_changes(RecognitionOptions options = {}) {
+  options.all_features = true;
+  options.views.about_object = false;
+  return options;
+}
 
 struct ChangeOptions {
-  RecognitionOptions recognition;  ///< how features and views are chosen, and how many at most
-  double threshold = 0.6;          ///< tau: changed if P(u) is above; higher looks more often
-  double unchanged_below = 0.4;    ///< if P(u) is below, nothing has; lower looks more often, and
-                                   ///< finds small changes that a single view does not show
-  double prior_pose = 0.25;  ///< that it was turned; higher finds turns sooner, falsely more often
-  double prior_object = 0.25;  ///< that it is another object; likewise
+  /// How features and views are chosen, and how many at most.
+  RecognitionOptions recognition = for_changes();
+  double threshold = 0.6;         ///< tau: changed if P(u) is above; higher looks more often
+  double unchanged_below = 0.05;  ///< P(u) at which it is sure that nothing has; lower looks more
+                                  ///< often, and finds changes that few views show
+  double changed_above = 0.95;    ///< P(u) at which it is sure of a change; higher looks more often
+  double prior_pose = 0.45;  ///< that it was turned; higher finds turns sooner, falsely more often
+  double prior_object = 0.05;  ///< that it is another object; likewise
   int empty_views = 2;         ///< without any feature, until it is held to be removed
   void fields(auto&& f) {
     f("recognition", recognition);
+    decision_fields(f);
+  }
+  /// All but how to look.
+  void decision_fields(auto&& f) {
     f("threshold", threshold, between(0.0, 1.0));
     f("unchanged_below", unchanged_below, between(0.0, 1.0));
+    f("changed_above", changed_above, between(0.0, 1.0));
     f("prior_pose", prior_pose, between(0.0, 1.0));
     f("prior_object", prior_object, between(0.0, 1.0));
     f("empty_views", empty_views, between(1, 100));
   }
-  void check() const;  ///< the priors leave some for a change and some for none; unchanged_below <=
-                       ///< threshold
+  /// The priors leave some for a change and some for none; unchanged_below <= threshold <=
+  /// changed_above.
+  void check() const;
 };
 
 struct ChangeReport {
@@ -45,11 +65,55 @@ struct ChangeReport {
   Recognition recognition;  ///< of what is there now: belief under both hypotheses, and the views
 };
 
-/// Looks until P(u) is above the one threshold or below the other, or there are no views left; if
-/// it is still between then, nothing has changed.
+/// Two hypotheses: it is as expected, or it is anything else. Beliefs given each, and how probable
+/// each is.
+struct ChangeHypotheses {
+  ObjectBelief expected;
+  ObjectBelief changed;
+  double log_p_expected = 0.0;
+  double log_p_changed = 0.0;
+
+  [[nodiscard]] double p_changed() const;      ///< P(u)
+  [[nodiscard]] ObjectBelief mixture() const;  ///< whatever the hypothesis
+};
+
+/// What is known so far.
+struct ChangeSearch {
+  int expected_object = 0;
+  ChangeHypotheses hypotheses;
+  Recognition recognition;  ///< of what is there now: belief under both, and the views
+  int empty_views = 0;      ///< of those, without any feature
+};
+
+/// @param expected_state as the camera sees it from where it is at first
+/// @throws ConfigError if `options` are out of range.
+ChangeSearch begin_change_search(const Recogniser& recogniser, const ChangeOptions& options,
+                                 int expected_state);
+
+/// As take_view() of a recognition.
+void take_view(const Recogniser& recogniser, const ChangeOptions& options,
+               const ExtractFeature& extract, double view_rad, ChangeSearch& search, Rng& rng);
+/// As moved() of a recognition.
+void moved(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
+           ChangeSearch& search);
+/// Whether another view would be worth it: fewer than the most were taken, and it is still open
+/// what has changed.
+bool in_doubt(const ChangeOptions& options, const ChangeSearch& search);
+/// What has changed, if it has to be said now: nothing unless P(u) is above tau.
+Change verdict(const Recogniser& recogniser, const ChangeOptions& options,
+               const ChangeSearch& search);
+
+/// Looks until it is sure either way or there are no views left; then it has changed if P(u) is
+/// above tau.
 /// @param expected_state as the camera sees it from where it is at first
 /// @throws ConfigError if `options` are out of range.
 ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& options,
                            int expected_state, const ObjectCamera& camera, Rng& rng);
+
+/// Whether what was learnt tells a state from another at all: by all features from every bearing,
+/// no more than `most_error` of decisions between the two, each as likely as the other, would be
+/// wrong. By Bhattacharyya's bound, 1/2 exp(-sum D): it leaves out what is told apart by a hair,
+/// and with it all turns of things that look the same from all sides.
+bool tells_apart(const Recogniser& recogniser, int state, int other, double most_error = 0.05);
 
 }  // namespace vantage

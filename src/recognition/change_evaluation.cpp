@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace vantage {
 namespace {
@@ -48,6 +49,19 @@ double ChangeTrials::accuracy() const {
   });
 }
 
+double ChangeTrials::detectable_share() const {
+  return share_of(trials, [](const ChangeTrial& trial) { return trial.detectable; });
+}
+
+double ChangeTrials::detectable_accuracy() const {
+  if (scenario == Change::none) return accuracy();
+  std::vector<ChangeTrial> detectable;
+  std::ranges::copy_if(trials, std::back_inserter(detectable), &ChangeTrial::detectable);
+  if (detectable.empty()) return 0.0;
+  return share_of(detectable,
+                  [](const ChangeTrial& trial) { return trial.decision != Change::none; });
+}
+
 double ChangeTrials::kind_accuracy() const {
   return share_of(trials, [this](const ChangeTrial& trial) { return trial.decision == scenario; });
 }
@@ -72,11 +86,12 @@ std::vector<ChangeTrials> evaluate_changes(const Recogniser& recogniser, const T
       const std::string label = fmt::format("{} change, {}", to_string(scenario), result.method);
       work_through(starts.size(), how, label, [&](std::size_t i) {
         Rng rng = Rng::stream(seed, fmt::format("change {} {}", to_string(scenario), i));
-        const int expected =
-            expected_state(recogniser.states, scenario, test.shown[starts[i].view], rng);
+        const int shown = test.shown[starts[i].view];
+        const int expected = expected_state(recogniser.states, scenario, shown, rng);
         DatasetCamera camera(recogniser, test, log_likelihood, starts[i]);
         result.trials[i] =
             trial_of(detect_change(recogniser, by, expected, camera.as_object_camera(), rng));
+        result.trials[i].detectable = tells_apart(recogniser, shown, expected);
       });
     }
   }

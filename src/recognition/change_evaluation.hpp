@@ -15,7 +15,8 @@ struct ChangeTrial {
   Change decision = Change::none;
   double p_changed = 0.0;
   int observations = 0;
-  double time_s = 0.0;  ///< of features and choices
+  double time_s = 0.0;      ///< of features and choices
+  bool detectable = false;  ///< the model tells what is expected from what is there: tells_apart()
 };
 
 struct ChangeTrials {
@@ -25,6 +26,9 @@ struct ChangeTrials {
 
   /// Share that was held for changed if it was, and for unchanged if it was not.
   [[nodiscard]] double accuracy() const;
+  /// The same of the changes that are detectable; of all where there is no change.
+  [[nodiscard]] double detectable_accuracy() const;
+  [[nodiscard]] double detectable_share() const;
   /// Share whose decision is the scenario.
   [[nodiscard]] double kind_accuracy() const;
 };

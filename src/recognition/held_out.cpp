@@ -104,6 +104,7 @@ Calibration hold_out(std::span<const ViewFeatures> views, std::span<const int> s
                      const LongWork& how) {
   std::vector<Split> splits = splits_of(views, options);
   Calibration calibration;
+  calibration.held_out.bins = model.states.bins;
   calibration.held_out.log_density.resize(model.features.size());
   for (Split& split : splits) {
     limit(split, kMostViews / static_cast<Eigen::Index>(splits.size()), options.seed);

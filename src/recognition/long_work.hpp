@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -17,6 +18,9 @@ struct LongWork {
   int threads = 1;  ///< >= 1; results do not depend on it
   /// Called before each item, by any thread; ends the work by throwing.
   std::function<void()> poll = [] {};
+  /// Where extracted features are kept for the next time, see FeatureCache; empty: nowhere. Results
+  /// do not depend on it.
+  std::filesystem::path feature_cache = {};
 };
 
 /// Calls work(0) ... work(count - 1), each once, in any order. Of what they throw, one is rethrown

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/recognition/plain_recogniser.hpp"
+#include "src/recognition/lean_recogniser.hpp"
 #include "src/recognition/transition_training.hpp"
 
 namespace vantage {
@@ -14,18 +14,17 @@ namespace {
 
 constexpr auto kModel = "recognition model";
 
-RecogniserFeature plain(FeaturePair pair) {
+/// Tables of divergences, or none.
+enum class Tables { made, none };
+
+/// Bhattacharyya distances only: the default measure asks for no other.
+RecogniserFeature ready(FeaturePair pair, int threads, Tables tables) {
   RecogniserFeature feature{.extractor = std::move(pair.extractor),
                             .observation = std::move(pair.observation),
                             .prepared = {},
                             .tables = {}};
   feature.prepared = prepare(feature.observation);
-  return feature;
-}
-
-/// Bhattacharyya distances only: the default measure asks for no other.
-RecogniserFeature ready(FeaturePair pair, int threads) {
-  RecogniserFeature feature = plain(std::move(pair));
+  if (tables == Tables::none) return feature;
   feature.tables.bhattacharyya_nats =
       divergence_table(Divergence::bhattacharyya, feature.observation, threads);
   return feature;
@@ -53,9 +52,25 @@ std::vector<const FeatureModel*> wanted_features(const RecognitionModel& model,
   return wanted;
 }
 
-/// Of the features that the options want, in their order.
-std::vector<FeaturePair> pairs_of(const RecognitionModel& model, const RecogniserOptions& options,
-                                  const std::string& source) {
+Recogniser assembled(ObjectStates states, std::vector<FeaturePair> features, int threads,
+                     Tables tables) {
+  expects(!features.empty(), "a recogniser has features");
+  Recogniser recogniser{
+      .states = std::move(states), .features = {}, .tables = {}, .transition = {}};
+  const int count = recogniser.states.size();
+  Eigen::MatrixXf& sum = recogniser.tables.bhattacharyya_nats;
+  if (tables == Tables::made) sum.setZero(count, count);
+  for (FeaturePair& pair : features) {
+    expects(pair.observation.states() == count, "a feature models every state");
+    recogniser.features.push_back(ready(std::move(pair), threads, tables));
+    if (tables == Tables::made) sum += recogniser.features.back().tables.bhattacharyya_nats;
+  }
+  return recogniser;
+}
+
+Recogniser make_named_recogniser(const RecognitionModel& model, const RecogniserOptions& options,
+                                 int threads, const std::string& source,
+                                 Tables tables = Tables::made) {
   check_options(options);
   std::vector<FeaturePair> pairs;
   for (const FeatureModel* feature : wanted_features(model, options.features)) {
@@ -65,12 +80,7 @@ std::vector<FeaturePair> pairs_of(const RecognitionModel& model, const Recognise
   if (pairs.empty() || model.states.size() == 0) {
     throw InputError(source + ": holds no features or no objects");
   }
-  return pairs;
-}
-
-Recogniser make_named_recogniser(const RecognitionModel& model, const RecogniserOptions& options,
-                                 int threads, const std::string& source) {
-  Recogniser recogniser = make_recogniser(model.states, pairs_of(model, options, source), threads);
+  Recogniser recogniser = assembled(model.states, std::move(pairs), threads, tables);
   recogniser.transition = transition_of(model);
   return recogniser;
 }
@@ -78,17 +88,7 @@ Recogniser make_named_recogniser(const RecognitionModel& model, const Recogniser
 }  // namespace
 
 Recogniser make_recogniser(ObjectStates states, std::vector<FeaturePair> features, int threads) {
-  expects(!features.empty(), "a recogniser has features");
-  Recogniser recogniser{
-      .states = std::move(states), .features = {}, .tables = {}, .transition = {}};
-  const int count = recogniser.states.size();
-  recogniser.tables.bhattacharyya_nats.setZero(count, count);
-  for (FeaturePair& pair : features) {
-    expects(pair.observation.states() == count, "a feature models every state");
-    recogniser.features.push_back(ready(std::move(pair), threads));
-    recogniser.tables.bhattacharyya_nats += recogniser.features.back().tables.bhattacharyya_nats;
-  }
-  return recogniser;
+  return assembled(std::move(states), std::move(features), threads, Tables::made);
 }
 
 Recogniser make_recogniser(const RecognitionModel& model, const RecogniserOptions& options,
@@ -101,15 +101,10 @@ Recogniser load_recogniser(const std::filesystem::path& path, const RecogniserOp
   return make_named_recogniser(read_recognition_model(path), options, threads, path.string());
 }
 
-Recogniser load_plain_recogniser(const std::filesystem::path& path,
-                                 const RecogniserOptions& options) {
-  const RecognitionModel model = read_recognition_model(path);
-  Recogniser recogniser{
-      .states = model.states, .features = {}, .tables = {}, .transition = transition_of(model)};
-  for (FeaturePair& pair : pairs_of(model, options, path.string())) {
-    recogniser.features.push_back(plain(std::move(pair)));
-  }
-  return recogniser;
+Recogniser load_lean_recogniser(const std::filesystem::path& path,
+                                const RecogniserOptions& options) {
+  return make_named_recogniser(read_recognition_model(path), options, 1, path.string(),
+                               Tables::none);
 }
 
 TrainedFeature extractor_of(const FeatureModel& feature, const std::string& source) {

@@ -1,21 +1,44 @@
 #include "src/recognition/view_features.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "src/perception/dataset_reader.hpp"
+#include "src/recognition/feature_cache.hpp"
 
 namespace vantage {
+namespace {
+
+/// The pictures are opened only if something is missing.
+std::vector<FeatureResult> features_of(const ViewEntry& entry,
+                                       std::span<const TrainedFeature> extractors,
+                                       FeatureCache& cache) {
+  const std::uint64_t hash = cache.active() ? view_hash(entry) : 0;
+  std::optional<LabelledView> view;
+  std::vector<FeatureResult> features;
+  for (std::size_t f = 0; f < extractors.size(); ++f) {
+    if (auto known = cache.find(f, hash)) {
+      features.push_back(std::move(*known));
+      continue;
+    }
+    if (!view) view = load_view(entry);
+    features.push_back(extractors[f].extract(view->view));
+    cache.keep(f, hash, features.back());
+  }
+  return features;
+}
+
+}  // namespace
 
 std::vector<ViewFeatures> extract_features(std::span<const ViewEntry> views,
                                            std::span<const TrainedFeature> extractors,
                                            const LongWork& how, const std::string& label) {
   std::vector<ViewFeatures> extracted(views.size());
+  FeatureCache cache(how.feature_cache, extractors);
   work_through(views.size(), how, label, [&](std::size_t i) {
-    const LabelledView view = load_view(views[i]);
-    extracted[i] = {.name = view.name, .yaw_rad = view.yaw_rad, .features = {}};
-    for (const TrainedFeature& extractor : extractors) {
-      extracted[i].features.push_back(extractor.extract(view.view));
-    }
+    extracted[i] = {.name = views[i].name,
+                    .yaw_rad = views[i].yaw_rad,
+                    .features = features_of(views[i], extractors, cache)};
   });
   return extracted;
 }

@@ -82,6 +82,15 @@ Scalar observed_share(const Json& metrics, const Episode&) {
   return shares.empty() ? Scalar{} : 1.0 - shares.back();
 }
 
+/// An episode that never gets there counts with all its planned scans.
+Scalar scans_to_95(const Json& metrics, const Episode& episode) {
+  const Curve shares = share_left(metrics);
+  if (shares.empty()) return {};
+  const auto there = std::ranges::find_if(shares, [](double share) { return share <= 0.05; });
+  return there == shares.end() ? static_cast<double>(episode.scans)
+                               : static_cast<double>(there - shares.begin() + 1);
+}
+
 /// Of the gain the method itself goes by, if it goes by one.
 Scalar own_prediction_error(const Json& metrics, const Episode&) {
   const auto method = metrics.at("method").get<std::string>();
@@ -95,7 +104,7 @@ Scalar mean_of(const Curve& values) { return values.empty() ? Scalar{} : mean(va
 
 /// A number or truth value of an episode that recognises.
 Scalar of_recognition(const Json& metrics, const char* key) {
-  if (!recognises(metrics) || metrics.at(key).is_null()) return {};
+  if (!metrics.contains(key) || metrics.at(key).is_null()) return {};
   const Json& value = metrics.at(key);
   return value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
 }
@@ -121,6 +130,7 @@ struct ScalarMeasure {
 constexpr auto kScalars = std::to_array<ScalarMeasure>({
     {{"area", "area under the curve of observable cells left, scans"}, area},
     {{"observed_share", "share of the observable cells observed at the end"}, observed_share},
+    {{"scans_to_95", "scans until 95 % of the observable cells are observed"}, scans_to_95},
     {{"prediction_error_cells", "mean error of the method's own prediction, cells"},
      own_prediction_error},
     {{"scans", "scans taken"},
@@ -157,10 +167,14 @@ constexpr auto kScalars = std::to_array<ScalarMeasure>({
      [](const Json& m, const Episode&) -> Scalar {
        return m.at("simulated_time_s").get<double>();
      }},
-    {{"correct", "recognised the object, share"},
+    {{"correct", "recognised the object, or what has changed, share"},
      [](const Json& m, const Episode&) { return of_recognition(m, "correct"); }},
     {{"category_correct", "recognised the category, share"},
      [](const Json& m, const Episode&) { return of_recognition(m, "category_correct"); }},
+    {{"changed_correct", "told changed from unchanged, share"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "changed_correct"); }},
+    {{"change_probability", "probability of a change at the end"},
+     [](const Json& m, const Episode&) { return of_recognition(m, "change_probability"); }},
     {{"views", "views taken"},
      [](const Json& m, const Episode&) -> Scalar {
        if (!recognises(m)) return {};

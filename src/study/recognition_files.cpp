@@ -50,6 +50,8 @@ Json json_of(const ChangeTrials& change) {
           {"method", change.method},
           {"accuracy_percent", 100.0 * change.accuracy()},
           {"kind_percent", 100.0 * change.kind_accuracy()},
+          {"detectable_percent", 100.0 * change.detectable_accuracy()},
+          {"detectable_share_percent", 100.0 * change.detectable_share()},
           {"observations", observations / count},
           {"time_s", time_s / count}};
 }
@@ -86,13 +88,13 @@ std::string trials_csv(const RecognitionStudy& study) {
 }
 
 std::string changes_csv(const RecognitionStudy& study) {
-  std::string csv = "scenario,method,start,decision,p_changed,observations,time_s\n";
+  std::string csv = "scenario,method,start,decision,detectable,p_changed,observations,time_s\n";
   for (const ChangeTrials& change : study.changes) {
     for (std::size_t i = 0; i < change.trials.size(); ++i) {
       const ChangeTrial& t = change.trials[i];
-      csv +=
-          fmt::format("{},{},{},{},{:.6g},{},{:.6g}\n", to_string(change.scenario), change.method,
-                      i, to_string(t.decision), t.p_changed, t.observations, t.time_s);
+      csv += fmt::format("{},{},{},{},{:d},{:.6g},{},{:.6g}\n", to_string(change.scenario),
+                         change.method, i, to_string(t.decision), t.detectable, t.p_changed,
+                         t.observations, t.time_s);
     }
   }
   return csv;
@@ -125,16 +127,20 @@ std::string difference_table(const std::vector<MethodSummary>& all) {
   return text;
 }
 
+/// Changes that the model does not tell from none are counted, and counted apart.
 std::string change_table(const RecognitionStudy& study) {
   std::string text =
-      "| what changed | method | accuracy % | says which % | observations | cost s |\n"
-      "|---|---|---|---|---|---|\n";
+      "| what changed | method | accuracy % | of detectable ones % | those are % | says which % | "
+      "observations | cost s |\n|---|---|---|---|---|---|---|---|\n";
   for (const ChangeTrials& change : study.changes) {
     const Json j = json_of(change);
-    text += fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.4f} |\n",
-                        to_string(change.scenario), change.method,
-                        j["accuracy_percent"].get<double>(), j["kind_percent"].get<double>(),
-                        j["observations"].get<double>(), j["time_s"].get<double>());
+    const auto value = [&](const char* key) { return j[key].get<double>(); };
+    const bool none = change.scenario == Change::none;
+    text += fmt::format("| {} | {} | {:.2f} | {} | {} | {:.2f} | {:.2f} | {:.4f} |\n",
+                        to_string(change.scenario), change.method, value("accuracy_percent"),
+                        none ? "-" : fmt::format("{:.2f}", value("detectable_percent")),
+                        none ? "-" : fmt::format("{:.1f}", value("detectable_share_percent")),
+                        value("kind_percent"), value("observations"), value("time_s"));
   }
   return text;
 }

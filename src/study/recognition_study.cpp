@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "src/belief/psi_rule.hpp"
+#include "src/recognition/feature_combinations.hpp"
 #include "src/recognition/shown_states.hpp"
 #include "src/recognition/svm_baseline.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr auto kSingleView = "single view, all features";
 constexpr auto kRandom = "random";
+constexpr auto kRandomAll = "random, all features";
 
 /// What the trials of one recogniser need.
 struct Trials {
@@ -87,6 +89,19 @@ void add_literal_settings(RecognitionStudy& study, const RecognitionModel& model
   study.methods.push_back(literal_trials(with_psi(model, one), "literal, psi 1", trials));
   study.methods.push_back(
       literal_trials(with_psi(model, published_psi(model)), "literal, published psi", trials));
+}
+
+void add_combinations(RecognitionStudy& study, const Recogniser& recogniser,
+                      std::span<const Eigen::MatrixXf> likelihoods, const Trials& trials) {
+  for (const FeatureCombination& features : feature_combinations(recogniser.features.size())) {
+    std::vector<std::string> names;
+    for (const std::size_t f : features) {
+      names.push_back(recogniser.features[f].observation.feature);
+    }
+    study.methods.push_back({.method = fmt::format("only {}", fmt::join(names, " + ")),
+                             .trials = combination_trials(recogniser, trials.test, likelihoods,
+                                                          trials.starts, features)});
+  }
 }
 
 /// Predicts for the views that trials start from, each once.
@@ -194,10 +209,11 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
         {.method = method.name,
          .trials = run_trials(recogniser, test, likelihoods, starts, method, options.seed, how)});
   }
+  if (options.combinations) add_combinations(study, recogniser, likelihoods, trials);
   if (options.literal) add_literal_settings(study, used, trials);
   if (options.baselines) add_baselines(study, used, dataset, trials);
   if (options.change_starts > 0) {
-    const ChangeOptions change{.recognition = options.recognition};
+    const ChangeOptions change{.recognition = for_changes(options.recognition)};
     const std::vector<Start> change_starts = draw_starts(test, options.change_starts, options.seed);
     study.changes =
         evaluate_changes(recogniser, test, likelihoods, change_starts, change, options.seed, how);
@@ -209,7 +225,7 @@ std::vector<MethodSummary> summaries(const RecognitionStudy& study) {
   std::vector<MethodSummary> all;
   for (const MethodTrials& method : study.methods) {
     MethodSummary& summary = all.emplace_back(summary_of(method, study.options.seed));
-    for (const auto& name : {kSingleView, kRandom}) {
+    for (const auto& name : {kSingleView, kRandom, kRandomAll}) {
       const auto reference = std::ranges::find(study.methods, name, &MethodTrials::method);
       if (reference == study.methods.end() || method.method == name) continue;
       summary.differences.push_back(paired(method, *reference, study.options.seed));

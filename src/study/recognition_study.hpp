@@ -20,9 +20,10 @@ struct RecognitionStudyOptions {
   RecogniserOptions recogniser;      ///< variance and features
   RecognitionOptions recognition;    ///< what all methods have in common
   std::vector<std::string> methods;  ///< names of published_methods() to try; empty: all
-  bool literal = true;     ///< also maximum-likelihood variances with psi 1 and as published
-  bool baselines = false;  ///< also support vector machines, which takes long
-  int change_starts = 0;   ///< trials of change detection, a scenario and method; 0: none
+  bool literal = true;        ///< also maximum-likelihood variances with psi 1 and as published
+  bool combinations = false;  ///< also a single view by every combination of features
+  bool baselines = false;     ///< also support vector machines, which takes long
+  int change_starts = 0;      ///< trials of change detection, a scenario and method; 0: none
   void fields(auto&& f) {
     f("seed", seed);
     f("starts", starts, at_least(1));
@@ -31,6 +32,7 @@ struct RecognitionStudyOptions {
     f("recognition", recognition);
     f("methods", methods);
     f("literal", literal);
+    f("combinations", combinations);
     f("baselines", baselines);
     f("change_starts", change_starts, at_least(0));
   }
@@ -75,7 +77,7 @@ struct MethodSummary {
   double feature_time_s = 0.0;
   double selection_time_s = 0.0;
   double view_time_s = 0.0;
-  std::vector<PairedEstimate> differences;  ///< to random views and the single view, all features
+  std::vector<PairedEstimate> differences;  ///< to random views and the single view
 };
 std::vector<MethodSummary> summaries(const RecognitionStudy& study);
 

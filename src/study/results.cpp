@@ -121,4 +121,21 @@ std::string status_text(const fs::path& study_dir, const std::vector<PlannedEpis
   return lines;
 }
 
+Json status_json(const fs::path& study_dir, const std::vector<PlannedEpisode>& plan,
+                 const std::vector<EpisodeState>& states) {
+  Json json = {{"directory", study_dir.string()}, {"episodes", plan.size()}};
+  for (std::size_t s = kStateNames.size(); s-- > 0;) {
+    json[std::string(kStateNames[s])] = std::ranges::count(states, static_cast<EpisodeState>(s));
+  }
+  json["not_completed"] = Json::array();
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (states[i] == EpisodeState::completed) continue;
+    json["not_completed"].push_back(
+        {{"episode", plan[i].name},
+         {"state", state_name(states[i])},
+         {"reason", reason(episode_folder(study_dir, plan[i]), states[i])}});
+  }
+  return json;
+}
+
 }  // namespace vantage

@@ -55,4 +55,9 @@ std::string status_text(const std::filesystem::path& study_dir,
                         const std::vector<PlannedEpisode>& plan,
                         const std::vector<EpisodeState>& states);
 
+/// The same as an object: how many of each state, and each that is not completed.
+nlohmann::ordered_json status_json(const std::filesystem::path& study_dir,
+                                   const std::vector<PlannedEpisode>& plan,
+                                   const std::vector<EpisodeState>& states);
+
 }  // namespace vantage

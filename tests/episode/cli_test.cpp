@@ -124,6 +124,9 @@ TEST_F(CommandLine, SceneBesideTheEpisodeIsReplayed) {
 TEST_F(CommandLine, ListsWhatThereIs) {
   EXPECT_THAT(vantage("list gains").output, HasSubstr("adaptive\n"));
   EXPECT_THAT(vantage("list scenes").output, HasSubstr("tabletop_25"));
+  EXPECT_THAT(vantage("list features").output,
+              testing::AllOf(testing::ContainsRegex("colour +144 dimensions +[0-9.]+ ms\n"),
+                             testing::ContainsRegex("sift +1000 dimensions"), HasSubstr("onnx")));
   EXPECT_EQ(vantage("list nothing").exit_code, 2);
 }
 

@@ -127,6 +127,21 @@ nlohmann::json explore(const std::filesystem::path& out, std::vector<std::string
       run(load_episode(episode, overrides), {out, true, false, {}}).metrics);
 }
 
+TEST(Exploration, EndsWhenNothingIsWorthAScan) {
+  const support::TemporaryDirectory folder;
+  const auto all = explore(folder.path() / "all", {"exploration.enough.scans=0"});
+  EXPECT_EQ(all["scans"].size(), 3U);
+  const auto demanding = {std::string("exploration.enough.share=1"),
+                          std::string("exploration.enough.scans=2")};
+  for (const std::string method : {"choice=greedy", "choice=random"}) {
+    std::vector<std::string> more = demanding;
+    more.push_back(method);
+    const auto ended = explore(folder.path() / method, more);
+    EXPECT_EQ(ended["status"], "completed");
+    EXPECT_EQ(ended["scans"].size(), 2U) << "no view shows as much as all that is known";
+  }
+}
+
 TEST(Exploration, LearnsTheOfficeWithoutTouchingIt) {
   const support::TemporaryDirectory folder;
   const auto metrics = explore(folder.path() / "run", {});

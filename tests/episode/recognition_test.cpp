@@ -1,5 +1,4 @@
 // Whole short episodes of recognition: a small database is rendered and learnt, then flown round.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -7,12 +6,11 @@
 
 #include "src/core/atomic_file.hpp"
 #include "src/core/log.hpp"
-#include "src/dataset/render_dataset.hpp"
 #include "src/episode/object_recognition.hpp"
 #include "src/episode/replay.hpp"
 #include "src/episode/run.hpp"
 #include "src/episode/validate.hpp"
-#include "src/recognition/training.hpp"
+#include "tests/episode/small_recognition.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
@@ -20,50 +18,32 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using support::make_small_model;
+using support::small_flight;
 
-const fs::path kEpisode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml";
-constexpr int kObjects = 4;  // mugs, and a cereal box without a twin
-
-void make_model(const fs::path& dataset, const fs::path& model) {
-  DatasetOptions objects;
-  objects.objects = kObjects;
-  objects.step_deg = 24.0;
-  objects.supersampling = 1;
-  render_dataset(objects, {.root = dataset});
-  TrainingOptions training;
-  training.features = {Colour{}, BoundingBox{}};
-  training.transition_prior_moves = 0.0;
-  write_recognition_model(train_recognition(index_dataset(dataset), training, {}), model);
-}
+const fs::path kRecognition = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml";
 
 class RecognitionEpisode : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     set_verbosity(Verbosity::quiet);
     folder_.emplace();
-    make_model(*folder_ / "objects", *folder_ / "model");
+    make_small_model(folder_->path());
     first_ = metrics_of("first", {});
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
   static std::vector<std::string> overrides(std::vector<std::string> more) {
-    std::vector<std::string> all = {
-        fmt::format("recognition.model={}", (*folder_ / "model").string()),
-        fmt::format("recognition.database.objects={}", kObjects),
-        "recognition.settle_s=0.1",
-        "recognition.most_views=2",
-        "recognition.all_features=true",
-        "recognition.enough={object_probability: 1, entropy_bits: 0}",
-        "recognition.object=cereal_box_1",
-        "recognition.camera={width_px: 320, height_px: 240}",
-        "recognition.segmentation.min_pixels=40"};
+    std::vector<std::string> all = small_flight(folder_->path());
+    all.emplace_back("recognition.enough={object_probability: 1, entropy_bits: 0}");
+    all.emplace_back("recognition.object=cereal_box_1");
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
   static json metrics_of(const std::string& name, std::vector<std::string> more) {
     RunOptions options;
     options.directory = *folder_ / name;
-    const RunOutcome outcome = run(load_episode(kEpisode, overrides(std::move(more))), options);
+    const RunOutcome outcome = run(load_episode(kRecognition, overrides(std::move(more))), options);
     return json::parse(outcome.metrics);
   }
 
@@ -95,7 +75,9 @@ TEST_F(RecognitionEpisode, SaysWhatTheContractAsksFor) {
   EXPECT_EQ(first_["collisions"], 0);
 }
 
-TEST_F(RecognitionEpisode, KnowsAnObjectThatIsLikeNoOther) { EXPECT_EQ(first_["correct"], true) << first_["estimate"]; }
+TEST_F(RecognitionEpisode, KnowsAnObjectThatIsLikeNoOther) {
+  EXPECT_EQ(first_["correct"], true) << first_["estimate"];
+}
 
 TEST_F(RecognitionEpisode, FliesToAnotherBearingAndTurnsWhatItBelieves) {
   const json& views = first_["observations"];
@@ -130,8 +112,25 @@ TEST_F(RecognitionEpisode, SameSeedSameFlight) {
             first_["state_hash"]);
 }
 
+TEST_F(RecognitionEpisode, AQuadrotorThatTouchesSomethingHasFailed) {
+  RunOptions options;
+  options.directory = *folder_ / "blown";
+  const std::string gust =
+      "recognition.pilot.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, -1]}]";
+  const RunOutcome outcome =
+      run(load_episode(kRecognition, overrides({gust, "recognition.settle_s=1.5"})), options);
+  const json metrics = json::parse(outcome.metrics);
+  EXPECT_EQ(outcome.code, ExitCode::goal_failed);
+  EXPECT_EQ(metrics["status"], "failed");
+  EXPECT_THAT(metrics["reason"].get<std::string>(), testing::HasSubstr("touched"));
+  EXPECT_EQ(metrics["collisions"], 1);
+  EXPECT_EQ(metrics["correct"], false);
+  EXPECT_THAT(metrics["observations"], testing::IsEmpty());
+  EXPECT_LT(metrics["simulated_time_s"], 1.5);
+}
+
 TEST_F(RecognitionEpisode, AMissingModelSaysHowToMakeOne) {
-  const Validation found = validate_episode(kEpisode, overrides({"recognition.model=nowhere"}));
+  const Validation found = validate_episode(kRecognition, overrides({"recognition.model=nowhere"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0], testing::AllOf(testing::HasSubstr("nowhere"),
                                                 testing::HasSubstr("vantage dataset render"),
@@ -141,15 +140,15 @@ TEST_F(RecognitionEpisode, AMissingModelSaysHowToMakeOne) {
 
 TEST_F(RecognitionEpisode, AForeignModelIsRefused) {
   const Validation found = validate_episode(
-      kEpisode, overrides({"recognition.database.objects=326", "recognition.object=lamp_2"}));
+      kRecognition, overrides({"recognition.database.objects=326", "recognition.object=lamp_2"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0], testing::HasSubstr("lamp_2"));
   EXPECT_EQ(found.code, ExitCode::usage);
-  EXPECT_TRUE(validate_episode(kEpisode, overrides({})).problems.empty());
+  EXPECT_TRUE(validate_episode(kRecognition, overrides({})).problems.empty());
 }
 
 TEST_F(RecognitionEpisode, AQuadrotorIsCommandedAtEveryStep) {
-  EXPECT_THROW(load_episode(kEpisode, overrides({"simulation.control_period_s=0.02"})),
+  EXPECT_THROW(load_episode(kRecognition, overrides({"simulation.control_period_s=0.02"})),
                ConfigError);
 }
 

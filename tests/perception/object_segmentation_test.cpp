@@ -123,6 +123,16 @@ TEST(ObjectSegmentation, CutsABoxOutFromEverySide) {
   }
 }
 
+TEST(ObjectSegmentation, KeepsTheFootThatIsLowerThanAnObjectMustBe) {
+  const Pose T_world_camera = camera_at(0.7);
+  const Drawn drawn = draw({{box_at(0.0, 0.0, {0.1, 0.1, 0.03})}}, T_world_camera, 0.001);
+  ObjectSegmentationOptions options = kExact;
+  options.min_height_m = 0.015;  // half of it
+  const SegmentedObject found = segmented(drawn, T_world_camera, options);
+  ASSERT_TRUE(found.view) << found.reason;
+  EXPECT_GT(overlap(drawn, *found.view), 0.93);
+}
+
 TEST(ObjectSegmentation, TakesAPoseThatIsOffAsItIs) {
   const Pose T_true = camera_at(0.4);
   const Drawn drawn = draw({{box_at(0.0, 0.0, {0.07, 0.07, 0.03})}}, T_true, 0.002);

@@ -49,7 +49,7 @@ class FeatureChoiceTest : public ::testing::Test {
 };
 
 TEST_F(FeatureChoiceTest, TakesTheFeatureThatTellsMost) {
-  const auto decision = choose({});
+  const auto decision = choose({.about_object = false});
   EXPECT_EQ(decision.feature, 2U);
   EXPECT_EQ(decision.reason, FeatureReason::best);
   ASSERT_EQ(decision.scores.size(), 3U);
@@ -64,7 +64,7 @@ TEST_F(FeatureChoiceTest, AboutObjectsThePoseIsWorthNothing) {
 }
 
 TEST_F(FeatureChoiceTest, PerCostTheCheapOneWins) {
-  const auto decision = choose({.per_cost = true});
+  const auto decision = choose({.about_object = false, .per_cost = true});
   EXPECT_EQ(decision.feature, 0U);
   EXPECT_DOUBLE_EQ(decision.scores[0].score, decision.scores[0].gain.bits / 0.001);
 }
@@ -73,20 +73,20 @@ TEST_F(FeatureChoiceTest, OfEqualOnesTheCheaper) {
   auto same = pose_;
   same.cost_s = 0.15;
   features_.push_back({.model = &same});
-  EXPECT_EQ(choose({}).feature, 3U);
+  EXPECT_EQ(choose({.about_object = false}).feature, 3U);
   same.cost_s = pose_.cost_s;
-  EXPECT_EQ(choose({}).feature, 2U);
+  EXPECT_EQ(choose({.about_object = false}).feature, 2U);
 }
 
 TEST_F(FeatureChoiceTest, DoesNotRepeatAFeature) {
   features_[2].extracted = true;
-  const auto decision = choose({});
+  const auto decision = choose({.about_object = false});
   EXPECT_EQ(decision.feature, 1U);
   EXPECT_EQ(decision.scores.size(), 2U);
 }
 
 TEST_F(FeatureChoiceTest, StartsWithTheFirstByName) {
-  const FeatureChoice choice{.first = "weak"};
+  const FeatureChoice choice{.first = "weak", .about_object = false};
   const auto decision = choose(choice);
   EXPECT_EQ(decision.feature, 0U);
   EXPECT_EQ(decision.reason, FeatureReason::first);
@@ -107,15 +107,15 @@ TEST_F(FeatureChoiceTest, NamesTheFeaturesThereAreIfTheFirstIsUnknown) {
 
 TEST_F(FeatureChoiceTest, StopsBelowTheThreshold) {
   belief_ << 0.99, 0.004, 0.003, 0.003;
-  const auto decision = choose({});
+  const auto decision = choose({.about_object = false, .stop = GainBelow{.threshold = 0.1}});
   EXPECT_FALSE(decision.feature.has_value());
   EXPECT_FALSE(decision.score.has_value());
   EXPECT_EQ(decision.reason, FeatureReason::not_worth_while);
-  EXPECT_EQ(choose({.stop = GainBelow{.threshold = 0.001}}).feature, 2U);
+  EXPECT_EQ(choose({.about_object = false, .stop = GainBelow{.threshold = 0.001}}).feature, 2U);
 }
 
 TEST_F(FeatureChoiceTest, StopsWhenTheGainDecreases) {
-  const FeatureChoice choice{.stop = GainDecreasing{}};
+  const FeatureChoice choice{.about_object = false, .stop = GainDecreasing{}};
   EXPECT_EQ(choose(choice).feature, 2U);
   EXPECT_EQ(choose(choice, 0.5).feature, 2U);
   EXPECT_EQ(choose(choice, 1.5).reason, FeatureReason::not_worth_while);
@@ -123,7 +123,7 @@ TEST_F(FeatureChoiceTest, StopsWhenTheGainDecreases) {
 
 TEST_F(FeatureChoiceTest, StopsWhenNoneIsLeft) {
   for (auto& option : features_) option.extracted = true;
-  const auto decision = choose({.stop = GainBelow{.threshold = 0.0}});
+  const auto decision = choose({.about_object = false, .stop = GainBelow{.threshold = 0.0}});
   EXPECT_FALSE(decision.feature.has_value());
   EXPECT_EQ(decision.reason, FeatureReason::none_left);
 }
@@ -131,14 +131,14 @@ TEST_F(FeatureChoiceTest, StopsWhenNoneIsLeft) {
 TEST_F(FeatureChoiceTest, OfTheOnlyFeatureTakesItWhateverItTells) {
   features_.resize(1);
   weak_.psi = 0.0;
-  EXPECT_EQ(choose({.stop = GainBelow{.threshold = 0.0}}).feature, 0U);
-  EXPECT_EQ(choose({}).reason, FeatureReason::not_worth_while);
+  EXPECT_EQ(choose({.about_object = false, .stop = GainBelow{.threshold = 0.0}}).feature, 0U);
+  EXPECT_EQ(choose({.about_object = false}).reason, FeatureReason::not_worth_while);
 }
 
 TEST_F(FeatureChoiceTest, SamplesEveryFeatureAlike) {
   const auto copy = object_;
   features_ = {{.model = &object_}, {.model = &copy}};
-  const auto decision = choose({.measure = LossOfEntropy{}});
+  const auto decision = choose({.measure = LossOfEntropy{}, .about_object = false});
   EXPECT_EQ(decision.scores[0].gain.bits, decision.scores[1].gain.bits);
   EXPECT_GT(decision.scores[0].gain.standard_error_bits, 0.0);
 }

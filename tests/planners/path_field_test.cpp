@@ -127,6 +127,29 @@ TEST(PathField, LeavesAPlaceTooNearAnObstacle) {
   EXPECT_FALSE(nearest_reachable(stuck, {6.5, 2.5}).has_value());
 }
 
+/// The shortest way out leads past a post; the robot takes the one that keeps away from it.
+TEST(PathField, EscapesAwayFromWhatItStandsBeside) {
+  const Drawing rows{
+      "...............",  //
+      "...............",  //
+      "...............",  //
+      "......#........",  //
+      ".....S.........",  //
+      "...............",  //
+      "...............",  //
+  };
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 2.0;
+  options.escape_radius_m = 3.0;
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), options);
+  for (std::size_t cell = map.index({5, 1}); field.parent[cell] != PathField::kNone;
+       cell = field.parent[cell]) {
+    EXPECT_GE(field.clearance_m[cell], field.clearance_m[field.start_cell]);
+  }
+  EXPECT_TRUE(field.reachable(map.index({5, 1})));
+}
+
 TEST(PathField, DoesNotEscapeThroughAWall) {
   const Drawing rows{
       "???#......",  //

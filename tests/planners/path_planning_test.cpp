@@ -123,6 +123,35 @@ TEST(PlanPath, GetsOutOfCollisionFirst) {
   EXPECT_DOUBLE_EQ(path.waypoints[1].y_m, 4.5);
 }
 
+TEST(WayBlocked, ByWhatWasNotThereWhenItWasPlanned) {
+  const Drawing rows{
+      ".........",  //
+      ".........",  //
+      "S.......G",  //
+      ".........",  //
+      ".........",  //
+  };
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 1.2;
+  options.watch_m = 4.0;
+  FloorMap map = floor_of(rows);
+  const std::vector<Pose2> way{place_of(rows, 'S'), place_of(rows, 'G')};
+  const auto blocked_by = [&](int x, int y, const Pose2& base) {
+    FloorMap changed = map;
+    changed.log_odds[map.index({x, y})] = 3.0F;
+    return is_way_blocked(changed, way, base, options);
+  };
+  EXPECT_FALSE(is_way_blocked(map, way, way.front(), options));
+  EXPECT_TRUE(blocked_by(4, 2, way.front()));
+  EXPECT_TRUE(blocked_by(4, 1, way.front())) << "the footprint would touch it";
+  EXPECT_FALSE(blocked_by(4, 0, way.front())) << "beside the way";
+  EXPECT_FALSE(blocked_by(7, 2, way.front())) << "too far ahead to matter yet";
+  EXPECT_TRUE(blocked_by(7, 2, {4.5, 2.5, 0.0})) << "until the robot has come nearer";
+  EXPECT_FALSE(blocked_by(3, 2, {4.5, 2.5, 0.0})) << "the robot is leaving it behind";
+  options.watch_m = 0.0;
+  EXPECT_FALSE(blocked_by(4, 2, way.front()));
+}
+
 TEST(PlanPath, StaysWhereItIsIfThereIsNoWay) {
   const FloorMap map = floor_of({"?????", "??.??", "?????"});
   NavigationOptions options = point_robot();

@@ -116,6 +116,32 @@ TEST_F(ChangeDetection, LooksAgainWhileItIsUncertain) {
   EXPECT_GT(careful, bold);
 }
 
+/// Two objects a and b of two bins, means as given, variance 1: D = (difference)^2 / 8 a bearing.
+TEST(TellsApart, IsAQuestionOfAllBearings) {
+  ObjectStates states;
+  states.objects = {"a_1", "b_1"};
+  states.categories = {"a", "b"};
+  states.category_of = {0, 1};
+  states.bins = 2;
+  ObservationModel model{
+      .feature = "colour", .mean = Eigen::MatrixXf(1, 4), .variance = Eigen::MatrixXf::Ones(1, 4)};
+  model.mean << 0.0F, 4.0F, 4.0F, 4.0F;  // b looks the same from both sides
+  const Recogniser recogniser =
+      make_recogniser(states, {{TrainedFeature(Colour{}, 0.0), model}}, 1);
+  EXPECT_FALSE(tells_apart(recogniser, 0, 0));
+  EXPECT_FALSE(tells_apart(recogniser, 2, 3));
+  EXPECT_TRUE(tells_apart(recogniser, 0, 1));  // 1/2 exp(-4) from the two bearings
+  EXPECT_FALSE(tells_apart(recogniser, 0, 1, 0.009));
+  EXPECT_FALSE(tells_apart(recogniser, 0, 2));  // 1/2 exp(-2): from one of them
+  EXPECT_TRUE(tells_apart(recogniser, 0, 2, 0.07));
+  EXPECT_FALSE(tells_apart(recogniser, 1, 3, 0.06));
+}
+
+TEST_F(ChangeDetection, TheThresholdLiesBetweenTheBounds) {
+  options_.changed_above = 0.5;
+  EXPECT_THROW(detect(0, 0, 0, 0, 1), ConfigError);
+}
+
 TEST_F(ChangeDetection, PriorsMustLeaveRoomForNoChange) {
   options_.prior_object = 0.8;
   try {

@@ -146,6 +146,8 @@ TEST_F(Evaluation, SupportVectorMachinesTellWhatASingleViewTells) {
 
 TEST_F(Evaluation, ChangesAreScoredByScenario) {
   ChangeOptions options;
+  options.prior_pose = 0.25;
+  options.prior_object = 0.25;
   const auto all = evaluate_changes(recogniser_, *test_, likelihoods_, draw_starts(*test_, 30, 1),
                                     options, 1, {});
   ASSERT_EQ(all.size(), 15U);

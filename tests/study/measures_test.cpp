@@ -55,6 +55,13 @@ TEST(Measures, AnEpisodeThatEndsEarlyKeepsItsLastShare) {
   EXPECT_DOUBLE_EQ(*scalar(early, "scans"), 3.0);
 }
 
+TEST(Measures, ScansToNinetyFivePercent) {
+  Json json = metrics("adaptive");
+  EXPECT_DOUBLE_EQ(*scalar(measure(json, planned_scans(7)), "scans_to_95"), 7.0) << "never there";
+  json["scans"][1]["observable_unobserved_cells"] = 5.0;
+  EXPECT_DOUBLE_EQ(*scalar(measure(json, planned_scans(7)), "scans_to_95"), 2.0);
+}
+
 TEST(Measures, PredictionErrorsBeginWithTheFirstChoice) {
   const auto measures = measure(metrics("adaptive"), planned_scans(3));
   EXPECT_DOUBLE_EQ(*scalar(measures, "prediction_error_cells"), 2.0);

@@ -37,9 +37,9 @@ RecognitionStudy small_study() {
                    method("mutual_information", 4, 2)};
   study.changes = {{.method = "star",
                     .scenario = Change::pose,
-                    .trials = {{.decision = Change::pose, .observations = 1},
+                    .trials = {{.decision = Change::pose, .observations = 1, .detectable = true},
                                {.decision = Change::object, .observations = 2},
-                               {.decision = Change::none, .observations = 3},
+                               {.decision = Change::none, .observations = 3, .detectable = true},
                                {.decision = Change::pose, .observations = 2}}}};
   return study;
 }
@@ -64,6 +64,8 @@ TEST(RecognitionStudy, ChangesCountWhatWasSeenAndWhatItWas) {
   const RecognitionStudy study = small_study();
   EXPECT_DOUBLE_EQ(study.changes[0].accuracy(), 0.75);
   EXPECT_DOUBLE_EQ(study.changes[0].kind_accuracy(), 0.5);
+  EXPECT_DOUBLE_EQ(study.changes[0].detectable_accuracy(), 0.5);
+  EXPECT_DOUBLE_EQ(study.changes[0].detectable_share(), 0.5);
 }
 
 TEST(RecognitionStudy, FilesHoldARowATrialAndATable) {
@@ -79,7 +81,7 @@ TEST(RecognitionStudy, FilesHoldARowATrialAndATable) {
   EXPECT_DOUBLE_EQ(summary["changes"][0]["observations"].get<double>(), 2.0);
   const std::string tables = read_file(folder.path() / "out" / "recognition.md");
   EXPECT_THAT(tables, HasSubstr("| random | 75.00 ["));
-  EXPECT_THAT(tables, HasSubstr("| pose | star | 75.00 | 50.00 | 2.00 |"));
+  EXPECT_THAT(tables, HasSubstr("| pose | star | 75.00 | 50.00 | 50.0 | 50.00 | 2.00 |"));
 }
 
 }  // namespace

@@ -150,6 +150,7 @@ TEST_F(StudyFile, IsToldFromAnEpisode) {
 TEST_F(StudyFile, ShippedStudiesAreGood) {
   const fs::path studies = fs::path(VANTAGE_SOURCE_DIR) / "assets/studies";
   for (const auto& entry : fs::directory_iterator(studies)) {
+    if (entry.is_directory()) continue;  // of commands of their own
     EXPECT_FALSE(plan_study(read_study(entry.path())).empty()) << entry.path();
   }
 }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "src/core/hash.hpp"
+
 namespace vantage {
 namespace {
 
@@ -68,6 +70,12 @@ FeatureResult TrainedFeature::extract(const ObjectView& view) const {
     return FeatureResult::skip("the vector has entries that are not finite");
   }
   return result;
+}
+
+std::uint64_t TrainedFeature::state_hash() const {
+  std::string bytes(name());
+  std::visit([&](const auto& state) { state.put_state(bytes); }, *state_);
+  return hash_bytes(bytes);
 }
 
 std::string TrainedFeature::to_bytes() const {

@@ -1,6 +1,7 @@
 /// Features of objects: what a recogniser extracts from a view, one at a time, cheap ones first.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,6 +45,9 @@ class TrainedFeature {
   [[nodiscard]] int dimension() const;                     ///< of every vector it extracts
   [[nodiscard]] double cost_s() const { return cost_s_; }  ///< as measured when it was trained
   [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
+
+  /// Of all that decides what it extracts: the cost is not among it.
+  [[nodiscard]] std::uint64_t state_hash() const;
 
   /// In the machine's byte order.
   [[nodiscard]] std::string to_bytes() const;
