@@ -181,9 +181,7 @@ std::vector<double> OfficeExploration::learnt_gains_bits(const Gain& gain) const
 std::vector<Candidate> OfficeExploration::propose() { return views_; }
 
 void OfficeExploration::score(std::vector<Candidate>& candidates) {
-  const bool is_weighed =
-      episode_.exploration.enough.scans > 0 && std::holds_alternative<AdaptiveGain>(episode_.gain);
-  if (!is_weighed && (weighs_gain(episode_.choice) || recorder_.tells_story())) {
+  if (!are_views_weighed_ && (weighs_gain(episode_.choice) || recorder_.tells_story())) {
     const auto gains = learnt_gains_bits(episode_.gain);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }

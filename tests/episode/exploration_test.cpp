@@ -131,6 +131,8 @@ TEST(Exploration, EndsWhenNothingIsWorthAScan) {
   const support::TemporaryDirectory folder;
   const auto all = explore(folder.path() / "all", {"exploration.enough.scans=0"});
   EXPECT_EQ(all["scans"].size(), 3U);
+  const auto asked = explore(folder.path() / "asked", {});
+  EXPECT_EQ(asked["state_hash"], all["state_hash"]) << "whether to go on is not where to";
   const auto demanding = {std::string("exploration.enough.share=1"),
                           std::string("exploration.enough.scans=2")};
   for (const std::string method : {"choice=greedy", "choice=random"}) {
