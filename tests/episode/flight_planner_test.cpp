@@ -20,7 +20,7 @@ class Planner : public testing::Test {
  protected:
   FlightPlanner planner(const TrajectoryMethod& method) {
     task_.method = method;
-    return {task_, FlightCamera::ahead(0.65).T_body_camera, Rng(1)};
+    return {task_, camera_ahead(0.65), Rng(1)};
   }
   std::vector<WayOn> propose(FlightPlanner& planner, int at = 0) {
     return planner.propose({.at = at, .nominal = path_, .plan = path_}, objects_, map_);
