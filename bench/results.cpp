@@ -127,6 +127,12 @@ std::string recognition_part(const fs::path& folder) {
   std::vector<Finding> findings =
       recognition_findings(read_json(folder / "simple" / "summary.json"));
   std::string tables = evaluation_tables(folder / "simple", "Simple features:");
+  if (fs::exists(folder / "changes" / "summary.json")) {
+    const std::vector<Finding> more =
+        change_findings(read_json(folder / "changes" / "summary.json"));
+    findings.insert(findings.end(), more.begin(), more.end());
+    tables += evaluation_tables(folder / "changes", "Changes:");
+  }
   const fs::path same = folder / "simple_same_objects";
   if (fs::exists(folder / "kernel" / "summary.json") && fs::exists(same / "summary.json")) {
     const std::vector<Finding> more = kernel_findings(read_json(folder / "kernel" / "summary.json"),

@@ -20,7 +20,7 @@ class Planner : public testing::Test {
  protected:
   FlightPlanner planner(const TrajectoryMethod& method) {
     task_.method = method;
-    return {task_, FlightCamera::ahead(0.65).T_body_camera, Rng(1)};
+    return {task_, camera_ahead(0.65), Rng(1)};
   }
   std::vector<WayOn> propose(FlightPlanner& planner, int at = 0) {
     return planner.propose({.at = at, .nominal = path_, .plan = path_}, objects_, map_);
@@ -108,7 +108,11 @@ TEST_F(Planner, TheLastWaypointsAreFlownAsGiven) {
 }
 
 TEST_F(Planner, TellsTheClearanceOfASpline) {
-  CameraImages wall{.width_px = 160, .height_px = 120, .focal_px = 120.0, .range_max_m = 6.0};
+  CameraImages wall;
+  wall.width_px = 160;
+  wall.height_px = 120;
+  wall.focal_px = 120.0;
+  wall.range_max_m = 6.0;
   wall.depth_m.assign(160 * 120, 3.0F);  // a wall 3 m ahead of the start
   Pose T_world_camera = Pose::Identity();
   T_world_camera.translation() = Eigen::Vector3d(0.0, 0.0, 1.8);
