@@ -200,7 +200,7 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
     ahead.points = points;
     ways.push_back({.planner = std::move(planner),
                     .points = points,
-                    .cost = path_cost(unwrapped(ahead), cost)});
+                    .cost = ahead.count() < 2 ? 0.0 : path_cost(unwrapped(ahead), cost)});
   };
   add(std::string(strategy_name_of(task_.method)), method_path(state, rings));
   if (std::holds_alternative<GivenPath>(task_.method) ||
