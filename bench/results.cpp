@@ -56,17 +56,13 @@ const std::vector<StudyPart>& study_parts() {
       {"change_flight",
        "Change detection on the quadrotor (Table 4.16)",
        {"changed_correct", "correct", "views", "collisions"},
-       flight_change_findings}};
-  {
-    "trajectory", "Trajectories for recognition (tables 5.1-5.3)",
-        {"accuracy",      "observations",     "mean_entropy_nats",
-         "flight_time_s", "path_length_m",    "minimum_clearance_m",
-         "collided",      "tracking_error_m", "replan_time_s",
-         "energy_j"},
-        trajectory_findings
-  }
-};
-return parts;
+       flight_change_findings},
+      {"trajectory",
+       "Trajectories for recognition (tables 5.1-5.3)",
+       {"accuracy", "observations", "mean_entropy_nats", "flight_time_s", "path_length_m",
+        "minimum_clearance_m", "collided", "tracking_error_m", "replan_time_s", "energy_j"},
+       trajectory_findings}};
+  return parts;
 }
 
 /// The folder's files of that extension, by name.
