@@ -56,17 +56,13 @@ const std::vector<StudyPart>& study_parts() {
       {"change_flight",
        "Change detection on the quadrotor (Table 4.16)",
        {"changed_correct", "correct", "views", "collisions"},
-       flight_change_findings}};
-  {
-    "trajectory", "Trajectories for recognition (tables 5.1-5.3)",
-        {"accuracy",      "observations",     "mean_entropy_nats",
-         "flight_time_s", "path_length_m",    "minimum_clearance_m",
-         "collided",      "tracking_error_m", "replan_time_s",
-         "energy_j"},
-        trajectory_findings
-  }
-};
-return parts;
+       flight_change_findings},
+      {"trajectory",
+       "Trajectories for recognition (tables 5.1-5.3)",
+       {"accuracy", "observations", "mean_entropy_nats", "flight_time_s", "path_length_m",
+        "minimum_clearance_m", "collided", "tracking_error_m", "replan_time_s", "energy_j"},
+       trajectory_findings}};
+  return parts;
 }
 
 /// The folder's files of that extension, by name.
@@ -127,6 +123,12 @@ std::string recognition_part(const fs::path& folder) {
   std::vector<Finding> findings =
       recognition_findings(read_json(folder / "simple" / "summary.json"));
   std::string tables = evaluation_tables(folder / "simple", "Simple features:");
+  if (fs::exists(folder / "changes" / "summary.json")) {
+    const std::vector<Finding> more =
+        change_findings(read_json(folder / "changes" / "summary.json"));
+    findings.insert(findings.end(), more.begin(), more.end());
+    tables += evaluation_tables(folder / "changes", "Changes:");
+  }
   const fs::path same = folder / "simple_same_objects";
   if (fs::exists(folder / "kernel" / "summary.json") && fs::exists(same / "summary.json")) {
     const std::vector<Finding> more = kernel_findings(read_json(folder / "kernel" / "summary.json"),

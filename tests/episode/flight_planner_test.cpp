@@ -108,7 +108,11 @@ TEST_F(Planner, TheLastWaypointsAreFlownAsGiven) {
 }
 
 TEST_F(Planner, TellsTheClearanceOfASpline) {
-  CameraImages wall{.width_px = 160, .height_px = 120, .focal_px = 120.0, .range_max_m = 6.0};
+  CameraImages wall;
+  wall.width_px = 160;
+  wall.height_px = 120;
+  wall.focal_px = 120.0;
+  wall.range_max_m = 6.0;
   wall.depth_m.assign(160 * 120, 3.0F);  // a wall 3 m ahead of the start
   Pose T_world_camera = Pose::Identity();
   T_world_camera.translation() = Eigen::Vector3d(0.0, 0.0, 1.8);
