@@ -183,20 +183,35 @@ SurfaceDistance::Sample SurfaceDistance::sample(const Eigen::Vector3d& p_world) 
   return s;
 }
 
-SurfaceDistance surface_distance(const OccupancyGrid& map, const Eigen::AlignedBox3d& window,
-                                 double reach_m) {
-  const Eigen::Array3i last = map.frame.cells - 1;
-  const Eigen::Array3i low = map.frame.cell_at(window.min()).max(0).min(last);
-  const Eigen::Array3i high = map.frame.cell_at(window.max()).max(low).min(last);
-  GridFrame frame = map.frame;
-  frame.min_corner_m += (low.cast<double>() * map.frame.cell_size_m.array()).matrix();
+namespace {
+
+/// @param occupied_at (index of a cell of `whole`) -> whether it is
+SurfaceDistance cut_out(const GridFrame& whole, const Eigen::AlignedBox3d& window, double reach_m,
+                        auto&& occupied_at) {
+  const Eigen::Array3i last = whole.cells - 1;
+  const Eigen::Array3i low = whole.cell_at(window.min()).max(0).min(last);
+  const Eigen::Array3i high = whole.cell_at(window.max()).max(low).min(last);
+  GridFrame frame = whole;
+  frame.min_corner_m += (low.cast<double>() * whole.cell_size_m.array()).matrix();
   frame.cells = high - low + 1;
   std::vector<std::uint8_t> occupied(frame.size());
   for (std::size_t i = 0; i < occupied.size(); ++i) {
-    const std::size_t cell = map.frame.index(low + frame.cell(i));
-    occupied[i] = map.state(cell) == CellState::occupied ? 1 : 0;
+    occupied[i] = occupied_at(whole.index(low + frame.cell(i))) ? 1 : 0;
   }
   return {frame, occupied, reach_m};
+}
+
+}  // namespace
+
+SurfaceDistance surface_distance(const OccupancyGrid& map, const Eigen::AlignedBox3d& window,
+                                 double reach_m) {
+  return cut_out(map.frame, window, reach_m,
+                 [&](std::size_t cell) { return map.state(cell) == CellState::occupied; });
+}
+
+SurfaceDistance surface_distance(const GridFrame& frame, std::span<const std::uint8_t> occupied,
+                                 const Eigen::AlignedBox3d& window, double reach_m) {
+  return cut_out(frame, window, reach_m, [&](std::size_t cell) { return occupied[cell] != 0; });
 }
 
 }  // namespace vantage

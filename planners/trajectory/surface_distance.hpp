@@ -50,5 +50,8 @@ class SurfaceDistance {
 /// is not occupied.
 SurfaceDistance surface_distance(const OccupancyGrid& map, const Eigen::AlignedBox3d& window,
                                  double reach_m = 1.5);
+/// The same of what a flag for each cell of `frame`, `frame.index` order, calls occupied.
+SurfaceDistance surface_distance(const GridFrame& frame, std::span<const std::uint8_t> occupied,
+                                 const Eigen::AlignedBox3d& window, double reach_m = 1.5);
 
 }  // namespace vantage

@@ -37,27 +37,6 @@ constexpr double kAside_m = 2.5;
 /// high above as well, but sees less of it there.
 constexpr double kUpright = 4.0;
 
-/// The part of the map's obstacles inside a box.
-SurfaceDistance surface_inside(const FlightMap& map, const Eigen::AlignedBox3d& box_m) {
-  const GridFrame& whole = map.grid().frame;
-  const std::vector<std::uint8_t> obstacles = map.obstacles();
-  const Eigen::Array3i low = whole.cell_at(box_m.min()).max(0).min(whole.cells - 1);
-  const Eigen::Array3i high = whole.cell_at(box_m.max()).max(0).min(whole.cells - 1);
-  const GridFrame part{
-      whole.min_corner_m + (low.cast<double>() * whole.cell_size_m.array()).matrix(),
-      whole.cell_size_m, high - low + 1};
-  std::vector<std::uint8_t> flags;
-  flags.reserve(part.size());
-  for (int z = low.z(); z <= high.z(); ++z) {
-    for (int y = low.y(); y <= high.y(); ++y) {
-      const auto row =
-          obstacles.begin() + static_cast<std::ptrdiff_t>(whole.index({low.x(), y, z}));
-      flags.insert(flags.end(), row, row + part.cells.x());
-    }
-  }
-  return SurfaceDistance(part, flags, kReach_m);
-}
-
 /// Round the paths, by so much.
 Eigen::AlignedBox3d box_round(const std::vector<Eigen::Matrix4Xd>& paths, double by_m) {
   Eigen::AlignedBox3d box;
@@ -187,9 +166,11 @@ PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
 std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                                           const std::vector<PlannableObject>& objects,
                                           const FlightMap& map) {
-  surface_ = surface_inside(
-      map, box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
-                     kAside_m));
+  surface_ = surface_distance(
+      map.grid().frame, map.obstacles(),
+      box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
+                kAside_m),
+      kReach_m);
   const double height_m = state.nominal[static_cast<std::size_t>(state.at)].z();
   const std::vector<ObservedObject> rings = observed(objects, height_m);
   choose_target(state, objects, rings);

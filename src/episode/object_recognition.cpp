@@ -9,6 +9,7 @@
 
 #include "src/core/data_root.hpp"
 #include "src/core/log.hpp"
+#include "src/episode/recognition_model_file.hpp"
 #include "src/recognition/lean_recogniser.hpp"
 
 namespace vantage {
@@ -18,28 +19,6 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 int bin_of(double yaw_rad, int bins) {
   return static_cast<int>(std::lround(yaw_rad / kTurn_rad * bins)) % bins;
-}
-
-std::filesystem::path model_file(const ResolvedEpisode& resolved) {
-  const std::string& model = resolved.episode.recognition.model;
-  try {
-    return find_input(model, {}, "recognition.model");
-  } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}; make one: vantage dataset render out/objects, then vantage "
-                    "train out/objects --out {}",
-                    error.what(), model.empty() ? "out/recognition.model" : model));
-  }
-}
-
-void require_known(const Recogniser& recogniser, const std::filesystem::path& path,
-                   const std::string& object, const char* which) {
-  const auto& known = recogniser.states.objects;
-  if (object.empty() || std::ranges::find(known, object) != known.end()) return;
-  throw ConfigError(fmt::format(
-      "recognition.model: {}: knows {} objects, but not '{}', which {}; recognition.database is "
-      "not what it was trained on",
-      path.string(), known.size(), object, which));
 }
 
 /// Where it began. If something is expected, the nearest bearing from which that is in the middle
@@ -60,11 +39,13 @@ ExtractFeature extract_nothing(const std::string& reason) {
 
 Recogniser load_episode_recogniser(const ResolvedEpisode& resolved) {
   const Episode& episode = resolved.episode;
-  const auto path = model_file(resolved);
+  const auto path = find_recognition_model(episode.recognition.model, "recognition.model");
   Recogniser recogniser = load_lean_recogniser(path, episode.recognition.recogniser);
-  require_known(recogniser, path, draw_object_on_table(episode).object, "stands on the table");
+  require_known(recogniser, path, draw_object_on_table(episode).object, "stands on the table",
+                "recognition");
   if (episode.detects_change()) {
-    require_known(recogniser, path, draw_expected_object(episode).object, "is expected there");
+    require_known(recogniser, path, draw_expected_object(episode).object, "is expected there",
+                  "recognition");
   }
   return recogniser;
 }

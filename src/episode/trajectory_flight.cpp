@@ -9,6 +9,7 @@
 #include "src/core/log.hpp"
 #include "src/episode/flight_layout.hpp"
 #include "src/episode/model_source.hpp"
+#include "src/episode/recognition_model_file.hpp"
 #include "src/recognition/lean_recogniser.hpp"
 
 namespace vantage {
@@ -28,18 +29,6 @@ std::vector<Eigen::Vector4d> columns_of(const std::vector<FlightWaypoint>& path)
   return columns;
 }
 
-std::filesystem::path model_file(const ResolvedEpisode& resolved) {
-  const std::string& model = resolved.episode.trajectory.model;
-  try {
-    return find_input(model, {}, "trajectory.model");
-  } catch (const InputError& error) {
-    throw InputError(fmt::format(
-        "{}; make one: vantage dataset render out/flight_objects --set lighting=0.3, then "
-        "vantage train out/flight_objects --out {}",
-        error.what(), model.empty() ? "out/trajectory.model" : model));
-  }
-}
-
 /// Room for colour that was not asked for.
 CameraImages without_colour(const FlightPicture& picture) {
   CameraImages images = picture.depth;
@@ -51,15 +40,10 @@ CameraImages without_colour(const FlightPicture& picture) {
 
 Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved) {
   const TrajectoryTask& task = resolved.episode.trajectory;
-  const auto path = model_file(resolved);
+  const auto path = find_recognition_model(task.model, "trajectory.model");
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   for (const ObjectOnStand& stand : draw_flight_objects(resolved)) {
-    const auto& known = recogniser.states.objects;
-    if (std::ranges::find(known, stand.object) != known.end()) continue;
-    throw ConfigError(fmt::format(
-        "trajectory.model: {}: knows {} objects, but not '{}'; trajectory.database is not what it "
-        "was trained on",
-        path.string(), known.size(), stand.object));
+    require_known(recogniser, path, stand.object, "stands in the room", "trajectory");
   }
   return recogniser;
 }
