@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -77,6 +79,39 @@ TEST(Headroom, AColumnHardlySeenBlocksUnlessTheRobotHasBeenThere) {
   set(grid, 7, 3, kOccupied);
   block_columns(floor, grid, vouched, kOptions);
   EXPECT_EQ(row(floor), "..............xx....") << "what was seen there counts all the same";
+}
+
+/// Free but for columns of which nothing was seen, 0.2 m wide, at their indices.
+OccupancyGrid unseen_columns(std::initializer_list<Eigen::Array2i> columns) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 1.0}, {2.0, 2.0, 2.0}, {10, 10, 10}));
+  std::ranges::fill(grid.log_odds, kFree);
+  for (const Eigen::Array2i& column : columns) {
+    for (int z = 0; z < 10; ++z) {
+      grid.log_odds[grid.frame.index({column.x(), column.y(), z})] = 0.0F;
+    }
+  }
+  return grid;
+}
+
+/// Cells of the floor that are blocked.
+std::ptrdiff_t blocked_by(const OccupancyGrid& grid) {
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  return std::ranges::count(floor.blocked, std::uint8_t{1});
+}
+
+TEST(Headroom, ASingleUnseenColumnAmidOpenOnesDoesNotBlock) {
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}})), 0);
+}
+
+TEST(Headroom, UnseenColumnsThatTouchEachOtherOrAnObstacleOrTheEdgeBlock) {
+  constexpr int kFloorCells = 4;  // below a column
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}, {5, 6}})), 2 * kFloorCells);
+  EXPECT_EQ(blocked_by(unseen_columns({{0, 5}})), kFloorCells);
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 9}})), kFloorCells);
+  OccupancyGrid beside_a_post = unseen_columns({{4, 5}});
+  beside_a_post.log_odds[beside_a_post.frame.index({3, 4, 5})] = kOccupied;
+  EXPECT_EQ(blocked_by(beside_a_post), 2 * kFloorCells);
 }
 
 TEST(Headroom, ForgetsWhatIsNoLongerThere) {
