@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "src/episode/interrupt.hpp"
+
 namespace vantage {
 
 std::size_t count_unobserved(const OccupancyGrid& grid, std::span<const std::uint8_t> among) {
@@ -47,6 +49,7 @@ CellTruth::CellTruth(const World& world, const RayScene& geometry, const GridFra
 
 void CellTruth::add_observable(std::span<const Pose> T_world_sensors) {
   for (const Pose& pose : T_world_sensors) {
+    throw_if_interrupted();  // minutes, of an office
     add_visible_cells(geometry_, frame_, pose, field_of_view_, observable_, -1, threads_);
   }
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));

@@ -214,6 +214,9 @@ json run_json(const fs::path& run_dir) {
                        {"estimated", trajectory_json(run_dir / "trajectory_estimated.tum")}};
   const fs::path voxels = run_dir / "voxels.bin";
   const bool has_map = run["metrics"]["task"] == "next_best_view" || fs::exists(voxels);
+  if (has_map && !fs::exists(voxels)) {
+    throw InputError(voxels.string() + ": missing; a run with --lean leaves it out");
+  }
   run["voxels"] = has_map ? voxels_json(voxels) : json(nullptr);
   const fs::path cloud = run_dir / "cloud.ply";
   run["cloud"] = fs::exists(cloud) ? cloud_json(cloud) : json(nullptr);
