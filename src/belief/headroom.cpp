@@ -42,25 +42,65 @@ class Columns {
                                                   : Column::open);
       }
     }
+    open_lone_groups();
   }
 
-  [[nodiscard]] Column at(int x, int y) const {
-    return columns_[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) +
-                    static_cast<std::size_t>(x)];
-  }
-
-  /// Whether it and all eight round it are in the grid and those round it open.
-  [[nodiscard]] bool amid_open(int x, int y) const {
-    if (x < 1 || y < 1 || x + 1 >= nx_ || y + 1 >= ny_) return false;
-    for (int v = y - 1; v <= y + 1; ++v) {
-      for (int u = x - 1; u <= x + 1; ++u) {
-        if ((u != x || v != y) && at(u, v) != Column::open) return false;
-      }
-    }
-    return true;
-  }
+  [[nodiscard]] Column at(int x, int y) const { return columns_[index(x, y)]; }
 
  private:
+  static constexpr std::size_t kLoneGroup = 4;  ///< columns
+
+  /// Few unseen columns amid open ones count as open.
+  void open_lone_groups() {
+    std::vector<std::uint8_t> asked(columns_.size(), 0);
+    for (int y = 0; y < ny_; ++y) {
+      for (int x = 0; x < nx_; ++x) {
+        if (asked[index(x, y)] != 0 || at(x, y) != Column::unseen) continue;
+        const std::vector<Eigen::Array2i> group = unseen_group({x, y}, asked);
+        const auto nothing_beside = [&](const auto& column) { return is_clear_of_things(column); };
+        if (group.size() > kLoneGroup || !std::ranges::all_of(group, nothing_beside)) continue;
+        for (const auto& column : group) columns_[index(column.x(), column.y())] = Column::open;
+      }
+    }
+  }
+
+  /// Those that touch the first and each other. Marks them as asked.
+  [[nodiscard]] std::vector<Eigen::Array2i> unseen_group(const Eigen::Array2i& first,
+                                                         std::vector<std::uint8_t>& asked) const {
+    std::vector<Eigen::Array2i> group{first};
+    asked[index(first.x(), first.y())] = 1;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const Eigen::Array2i from = group[i];
+      for_each_beside(from, [&](int x, int y) {
+        if (asked[index(x, y)] != 0 || at(x, y) != Column::unseen) return;
+        asked[index(x, y)] = 1;
+        group.emplace_back(x, y);
+      });
+    }
+    return group;
+  }
+
+  /// Whether all eight round it are in the grid and none obstructed.
+  [[nodiscard]] bool is_clear_of_things(const Eigen::Array2i& column) const {
+    int clear = 0;
+    for_each_beside(column, [&](int x, int y) { clear += at(x, y) != Column::obstructed ? 1 : 0; });
+    return clear == 8;
+  }
+
+  template <class Visit>
+  void for_each_beside(const Eigen::Array2i& column, Visit&& visit) const {
+    for (int y = std::max(column.y() - 1, 0); y <= std::min(column.y() + 1, ny_ - 1); ++y) {
+      for (int x = std::max(column.x() - 1, 0); x <= std::min(column.x() + 1, nx_ - 1); ++x) {
+        if (x != column.x() || y != column.y()) visit(x, y);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) +
+           static_cast<std::size_t>(x);
+  }
+
   static int count(const OccupancyGrid& grid, int x, int y, const Slices& slices, CellState state) {
     int cells = 0;
     for (int z = slices.begin; z < slices.end; ++z) {
@@ -96,7 +136,6 @@ void block_columns(FloorMap& floor, const OccupancyGrid& grid,
     for (int x = 0; x < frame.cells.x(); ++x) {
       const Column column = columns.at(x, y);
       if (column == Column::open) continue;
-      if (column == Column::unseen && columns.amid_open(x, y)) continue;
       const Eigen::Vector2d centre = frame.centre({x, y, 0}).head<2>();
       const Eigen::Array2i low = floor.cell_at((centre - half).array() + kTouching).max(0);
       const Eigen::Array2i high = floor.cell_at((centre + half).array() - kTouching)

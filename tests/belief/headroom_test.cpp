@@ -100,18 +100,19 @@ std::ptrdiff_t blocked_by(const OccupancyGrid& grid) {
   return std::ranges::count(floor.blocked, std::uint8_t{1});
 }
 
-TEST(Headroom, ASingleUnseenColumnAmidOpenOnesDoesNotBlock) {
+TEST(Headroom, FewUnseenColumnsAmidOpenOnesDoNotBlock) {
   EXPECT_EQ(blocked_by(unseen_columns({{4, 5}})), 0);
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}, {5, 6}, {5, 7}, {4, 8}, {1, 1}})), 0);
 }
 
-TEST(Headroom, UnseenColumnsThatTouchEachOtherOrAnObstacleOrTheEdgeBlock) {
+TEST(Headroom, UnseenColumnsThatAreManyOrTouchAnObstacleOrTheEdgeBlock) {
   constexpr int kFloorCells = 4;  // below a column
-  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}, {5, 6}})), 2 * kFloorCells);
-  EXPECT_EQ(blocked_by(unseen_columns({{0, 5}})), kFloorCells);
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}, {5, 6}, {5, 7}, {4, 8}, {5, 5}})), 5 * kFloorCells);
+  EXPECT_EQ(blocked_by(unseen_columns({{0, 5}, {1, 6}})), 2 * kFloorCells);
   EXPECT_EQ(blocked_by(unseen_columns({{4, 9}})), kFloorCells);
-  OccupancyGrid beside_a_post = unseen_columns({{4, 5}});
+  OccupancyGrid beside_a_post = unseen_columns({{4, 5}, {5, 5}});
   beside_a_post.log_odds[beside_a_post.frame.index({3, 4, 5})] = kOccupied;
-  EXPECT_EQ(blocked_by(beside_a_post), 2 * kFloorCells);
+  EXPECT_EQ(blocked_by(beside_a_post), 3 * kFloorCells);
 }
 
 TEST(Headroom, ForgetsWhatIsNoLongerThere) {
