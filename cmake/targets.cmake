@@ -25,6 +25,26 @@ function(vantage_compile_options target)
     $<$<CONFIG:Debug>:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
 endfunction()
 
+# What nearly every test includes, parsed once for all of them: two thirds of the time a test takes
+# to compile. CMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
+function(vantage_test_headers)
+  add_library(vantage_test_headers OBJECT ${PROJECT_SOURCE_DIR}/tests/support/test_headers.cpp)
+  target_link_libraries(vantage_test_headers PRIVATE Eigen3::Eigen GTest::gtest_main GTest::gmock)
+  vantage_test_options(vantage_test_headers)
+  target_precompile_headers(vantage_test_headers PRIVATE
+    <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <numbers> <optional> <random>
+    <ranges> <set> <span> <string> <variant> <vector>
+    <Eigen/Core> <Eigen/Geometry> <gmock/gmock.h> <gtest/gtest.h>)
+endfunction()
+
+# Of tests and of their headers alike, else the headers cannot be used.
+function(vantage_test_options target)
+  target_compile_definitions(${target} PRIVATE VANTAGE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  vantage_compile_options(${target})
+  # Tests compile a quarter faster so, and run as fast: their time is spent in the libraries.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # vantage_test(FOLDER SOURCES ... LINK ...): one GoogleTest program per folder, test_FOLDER.
 function(vantage_test folder)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
@@ -33,10 +53,8 @@ function(vantage_test folder)
   endif()
   add_executable(test_${folder} ${ARG_SOURCES})
   target_link_libraries(test_${folder} PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
-  target_compile_definitions(test_${folder} PRIVATE VANTAGE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  vantage_compile_options(test_${folder})
-  # Tests compile a quarter faster so, and run as fast: their time is spent in the libraries.
-  target_compile_options(test_${folder} PRIVATE $<$<CONFIG:Release>:-O1>)
+  vantage_test_options(test_${folder})
+  target_precompile_headers(test_${folder} REUSE_FROM vantage_test_headers)
   gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${ARG_TIMEOUT})
 endfunction()
