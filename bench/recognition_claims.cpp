@@ -11,6 +11,7 @@
 namespace vantage::bench {
 namespace {
 
+constexpr auto kSvm = "linear_svm";
 constexpr auto kSingle = "single view, all features";
 constexpr auto kSingleChosen = "single view, features by mutual_information";
 constexpr auto kInformed = "mutual_information, all features";
@@ -150,7 +151,11 @@ std::vector<Finding> kernel_findings(const Json& kernel, const Json& simple) {
            fmt::format("kernel descriptors beat simple features in a single view ({} objects)",
                        kernel.at("objects").get<int>()),
            fmt::format("{:.1f} % against {:.1f} %", descriptors, features), descriptors > features,
-           "see psi"}};
+           fmt::format("the category is right in {:.0f} %: what is taken for each other are near "
+                       "twins, which differ in hue and in small stickers, and none of the seven "
+                       "holds a colour as such; a linear SVM of the same: {:.1f} against {:.1f} %",
+                       method_of(kernel, kSingle).at("category_percent").get<double>(),
+                       accuracy(kernel, kSvm), accuracy(simple, kSvm))}};
 }
 
 }  // namespace vantage::bench
