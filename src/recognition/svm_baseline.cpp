@@ -54,15 +54,15 @@ cv::Mat rows_of(std::span<const ViewFeatures> views, const Scaling& scaling) {
   return rows;
 }
 
-void set_up(cv::ml::SVM& machine, const LinearSvm& svm) {
+void set_up(cv::ml::SVM& machine, const LinearSvm& svm, std::size_t) {
   machine.setKernel(cv::ml::SVM::LINEAR);
   machine.setC(svm.c);
 }
 
-void set_up(cv::ml::SVM& machine, const KernelSvm& svm) {
+void set_up(cv::ml::SVM& machine, const KernelSvm& svm, std::size_t features) {
   machine.setKernel(cv::ml::SVM::RBF);
   machine.setC(svm.c);
-  machine.setGamma(svm.gamma);
+  machine.setGamma(svm.gamma / static_cast<double>(features));
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ std::vector<int> svm_predictions(const Svm& svm, const LabelledFeatures& trainin
   std::visit(
       [&](const auto& options) {
         check_options(options, std::string(options.name));
-        set_up(*machine, options);
+        set_up(*machine, options, scaling.mean.size());
       },
       svm);
   const cv::Mat labels(static_cast<int>(training.label.size()), 1, CV_32S,

@@ -23,8 +23,7 @@ struct LinearSvm {
 struct KernelSvm {
   static constexpr std::string_view name = "kernel_svm";
   double c = 10.0;     ///< weight of training errors, > 0; higher fits closer
-  double gamma = 1.0;  ///< of vectors whose features have a mean square distance of 1 each, > 0;
-                       ///< higher is more local
+  double gamma = 1.0;  ///< of vectors with a mean square distance of 1, > 0; higher is more local
   void fields(auto&& f) {
     f("c", c, above(0.0));
     f("gamma", gamma, above(0.0));
