@@ -100,8 +100,8 @@ const ObjectLook& ObjectLooks::take(int id, const ObjectSighting& sighting, cons
 
 std::array<double, kObservationDirections> ObjectLooks::gains_nats(
     const LookedAtObject& object) const {
-  std::array<double, kObservationDirections> gains = every_direction(0.0);
-  if (recogniser_.features.empty()) return gains;
+  if (recogniser_.features.empty()) return object.gain_nats;
+  std::array<double, kObservationDirections> gains{};
   std::vector<ObjectViewAction> actions;
   for (int d = 0; d < kObservationDirections; ++d) {
     const double to_rad = d * 2.0 * std::numbers::pi / kObservationDirections;

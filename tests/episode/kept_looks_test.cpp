@@ -9,7 +9,10 @@ namespace {
 const LookOptions kOptions{.near_m = 1.3, .patience_s = 0.5, .left_after_s = 2.0};
 
 KeptLook look_at(int id, int direction, double distance_m, double time_s) {
-  KeptLook look{.id = id, .direction = direction, .time_s = time_s};
+  KeptLook look;
+  look.id = id;
+  look.direction = direction;
+  look.time_s = time_s;
   look.seen.sighting.distance_m = distance_m;
   return look;
 }
