@@ -33,6 +33,9 @@ constexpr double kReach_m = 1.5;
 /// Beyond the path, where its detours may lead.
 constexpr double kAside_m = 2.5;
 
+/// With fewer waypoints left no view is sought: whoever turns back at the last one swings past it.
+constexpr Eigen::Index kLastAsGiven = 6;
+
 /// How much shorter the leash is upwards and down: a fixed camera has an object in its middle from
 /// high above as well, but sees less of it there.
 constexpr double kUpright = 4.0;
@@ -126,6 +129,10 @@ void FlightPlanner::choose_target(const PlanState& state,
 void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
                                  const std::vector<PlannableObject>& objects,
                                  const std::vector<ObservedObject>& rings) {
+  if (given.cols() < kLastAsGiven) {
+    target_of_point_.resize(static_cast<std::size_t>(given.cols()));
+    return;
+  }
   const std::vector<ScheduledView> views =
       schedule_views(options, rings, given, task_.looks.known_below_nats);
   for (const auto& view : views_of_points(options, views, given)) {
