@@ -6,6 +6,7 @@
 
 #include "bench/measures.hpp"
 #include "planners/trajectory/replanning.hpp"
+#include "planners/trajectory/simple_paths.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -58,7 +59,10 @@ class Flight {
                                            horizon.points, options.tau_nats);
     const PathCost cost = flight_cost(options, camera_, {.surface = &surface, .target = target});
     Rng rng(static_cast<std::uint64_t>(waypoint));
-    return replan(optimiser, horizon, horizon.points, objects_, {}, cost, rng);
+    return replan(
+        optimiser, horizon, horizon.points,
+        [this](const Eigen::Matrix4Xd& points) { return initial_yaw(points, objects_); }, cost,
+        rng);
   }
 
  private:

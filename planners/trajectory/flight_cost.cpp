@@ -70,23 +70,26 @@ class Evaluator {
     } else if (scene_.surface != nullptr) {
       add_surface(horizon, cost_of_point);
     }
-    const double to_view = scene_.target ? information_cost(options_, scene_.target->entropy_nats) *
-                                               options_.recognition_weight
-                                         : 0.0;
     for (Eigen::Index i = 0; i < horizon.count(); ++i) {
       cost_of_point[i] += options_.centre_weight * view_cost(horizon, i);
-      if (to_view > 0.0) {
-        cost_of_point[i] +=
-            to_view * recognition_cost(options_, *scene_.target, horizon.points.col(i).head<3>());
+      if (const auto& target = target_of(i)) {
+        cost_of_point[i] += options_.recognition_weight *
+                            information_cost(options_, target->entropy_nats) *
+                            recognition_cost(options_, *target, horizon.points.col(i).head<3>());
       }
     }
   }
 
  private:
+  [[nodiscard]] const std::optional<ObservationTarget>& target_of(Eigen::Index i) const {
+    const auto& of_point = scene_.target_of_point;
+    return of_point.empty() ? scene_.target : of_point[static_cast<std::size_t>(i)];
+  }
+
   [[nodiscard]] double view_cost(const Horizon& horizon, Eigen::Index i) const {
     const Eigen::Vector4d waypoint = horizon.points.col(i);
-    if (scene_.target) {
-      return centre_cost(options_, camera_, waypoint, scene_.target->p_world_object_m);
+    if (const auto& target = target_of(i)) {
+      return centre_cost(options_, camera_, waypoint, target->p_world_object_m);
     }
     const Eigen::Vector3d next = horizon.point(i + 1).head<3>();
     return options_.literal ? centre_cost(options_, camera_, waypoint, next)

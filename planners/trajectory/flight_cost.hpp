@@ -92,8 +92,10 @@ double information_cost(const FlightCostOptions& options, double entropy_nats);
 
 /// What is known round the vehicle.
 struct FlightSurroundings {
-  const SurfaceDistance* surface = nullptr;            ///< null: nothing is in the way
-  std::optional<ObservationTarget> target{};           ///< none: look where you go
+  const SurfaceDistance* surface = nullptr;   ///< null: nothing is in the way
+  std::optional<ObservationTarget> target{};  ///< none: look where you go
+  /// Of each of the K points, instead of `target`; empty: all have that.
+  std::vector<std::optional<ObservationTarget>> target_of_point{};
   std::vector<Eigen::Vector3d> p_world_obstacles_m{};  ///< literal: centres o_c
 };
 

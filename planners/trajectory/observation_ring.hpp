@@ -14,6 +14,12 @@ namespace vantage {
 
 inline constexpr int kObservationDirections = 8;
 
+constexpr std::array<double, kObservationDirections> every_direction(double value) {
+  std::array<double, kObservationDirections> values{};
+  values.fill(value);
+  return values;
+}
+
 /// Places round an object at the height flown, 45 deg apart.  [Potthast2016, 5.2.3]
 struct ObservationRing {
   Eigen::Vector3d p_world_object_m = Eigen::Vector3d::Zero();
@@ -36,6 +42,9 @@ struct ObservedObject {
   ObservationRing ring;
   std::array<bool, kObservationDirections> used{};  ///< seen from there, or out of reach
   double entropy_nats = std::numeric_limits<double>::infinity();  ///< of what it may be
+  /// What a look from each direction is expected to tell of that.
+  std::array<double, kObservationDirections> gain_nats =
+      every_direction(std::numeric_limits<double>::infinity());
 };
 
 /// Marks directions as used whose place is nearer than `clearance_m` to a surface.

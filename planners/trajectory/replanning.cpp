@@ -18,13 +18,13 @@ Horizon between_ends(const Horizon& horizon, const Eigen::Matrix4Xd& points) {
 }  // namespace
 
 OptimisedHorizon replan(const TrajectoryOptimiser& optimiser, const Horizon& plan,
-                        const Eigen::Matrix4Xd& nominal, std::span<const ObservedObject> objects,
-                        const YawToTarget& heading, const PathCost& cost, Rng& rng) {
+                        const Eigen::Matrix4Xd& nominal, const TurnHeadings& turned,
+                        const PathCost& cost, Rng& rng) {
   expects(nominal.cols() == plan.count(), "a nominal point for each of the plan");
   std::vector<Horizon> starts{plan, between_ends(plan, nominal),
                               between_ends(plan, smoothest(plan).points)};
   for (std::size_t i = 0; i < 3; ++i) {
-    starts.push_back(between_ends(plan, initial_yaw(starts[i].points, objects, heading)));
+    starts.push_back(between_ends(plan, turned(starts[i].points)));
   }
   const double cost_of_plan = path_cost(plan, cost);
   OptimisedHorizon result = optimise(optimiser, starts[cheapest(starts, cost)], cost, rng);

@@ -33,6 +33,9 @@ constexpr double kReach_m = 1.5;
 /// Beyond the path, where its detours may lead.
 constexpr double kAside_m = 2.5;
 
+/// With fewer waypoints left no view is sought: whoever turns back at the last one swings past it.
+constexpr Eigen::Index kLastAsGiven = 6;
+
 /// How much shorter the leash is upwards and down: a fixed camera has an object in its middle from
 /// high above as well, but sees less of it there.
 constexpr double kUpright = 4.0;
@@ -83,14 +86,17 @@ Horizon FlightPlanner::horizon(const PlanState& state,
 
 std::vector<ObservedObject> FlightPlanner::observed(const std::vector<PlannableObject>& objects,
                                                     double height_m) const {
+  const Eigen::Vector3d in_body_m =
+      camera_.T_body_camera * Eigen::Vector3d(0.0, 0.0, task_.planner.look_m);
   std::vector<ObservedObject> observed;
   for (const PlannableObject& object : objects) {
     ObservedObject& ring = observed.emplace_back();
     ring = {.ring = {.p_world_object_m = object.p_world_m,
-                     .radius_m = task_.planner.ring_m,
-                     .height_m = height_m},
+                     .radius_m = in_body_m.head<2>().norm(),
+                     .height_m = std::min(height_m, object.p_world_m.z() - in_body_m.z())},
             .used = object.used,
-            .entropy_nats = object.entropy_nats};
+            .entropy_nats = object.entropy_nats,
+            .gain_nats = object.gain_nats};
     leave_out_blocked(ring, *surface_, task_.planner.clearance_m);
   }
   return observed;
@@ -100,6 +106,11 @@ void FlightPlanner::choose_target(const PlanState& state,
                                   const std::vector<PlannableObject>& objects,
                                   const std::vector<ObservedObject>& rings) {
   target_.reset();
+  target_of_point_.clear();
+  if (const auto* on_the_way = std::get_if<ViewsOnTheWay>(&task_.planner.views)) {
+    choose_views(*on_the_way, horizon(state, state.nominal).points, objects, rings);
+    return;
+  }
   const Eigen::Vector3d p_m = state.plan[static_cast<std::size_t>(state.at)].head<3>();
   const auto active =
       active_object(rings, p_m, task_.looks.known_below_nats, task_.planner.range_m);
@@ -112,6 +123,61 @@ void FlightPlanner::choose_target(const PlanState& state,
                        .p_world_object_m = object.p_world_m,
                        .p_world_view_m = rings[*active].ring.view_m(*direction),
                        .entropy_nats = object.entropy_nats};
+}
+
+/// The views that the next waypoints take, and the first of them as what is looked at.
+void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
+                                 const std::vector<PlannableObject>& objects,
+                                 const std::vector<ObservedObject>& rings) {
+  if (given.cols() < kLastAsGiven) {
+    target_of_point_.resize(static_cast<std::size_t>(given.cols()));
+    return;
+  }
+  const std::vector<ScheduledView> views =
+      schedule_views(options, rings, given, task_.looks.known_below_nats);
+  for (const auto& view : views_of_points(options, views, given)) {
+    auto& target = target_of_point_.emplace_back();
+    if (!view) continue;
+    const ObservedObject& object = rings[views[*view].object];
+    target = ObservationTarget{.p_world_object_m = object.ring.p_world_object_m,
+                               .p_world_view_m = object.ring.view_m(views[*view].direction),
+                               .entropy_nats = object.entropy_nats};
+  }
+  if (views.empty()) return;
+  const ScheduledView& first = views.front();
+  target_ = LookTarget{.object = objects[first.object].id,
+                       .direction = first.direction,
+                       .p_world_object_m = objects[first.object].p_world_m,
+                       .p_world_view_m = rings[first.object].ring.view_m(first.direction),
+                       .entropy_nats = objects[first.object].entropy_nats};
+}
+
+/// The same places, headed for what each is to look at.
+Eigen::Matrix4Xd FlightPlanner::turned(const Eigen::Matrix4Xd& points,
+                                       const std::vector<ObservedObject>& objects) const {
+  if (target_of_point_.empty()) {
+    return initial_yaw(
+        points, objects,
+        {.tau_nats = task_.looks.known_below_nats, .range_m = task_.planner.range_m});
+  }
+  Eigen::Matrix4Xd headed = points;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const auto& target = target_of_point_[static_cast<std::size_t>(i)];
+    if (!target) continue;
+    const Eigen::Vector3d to_m = target->p_world_object_m - points.col(i).head<3>();
+    headed(3, i) = std::atan2(to_m.y(), to_m.x());
+  }
+  return headed;
+}
+
+/// Of what is looked at, no higher than the path.
+double FlightPlanner::lowest_view_m(double height_m) const {
+  double lowest_m = height_m;
+  if (target_) lowest_m = std::min(lowest_m, target_->p_world_view_m.z());
+  for (const auto& target : target_of_point_) {
+    if (target) lowest_m = std::min(lowest_m, target->p_world_view_m.z());
+  }
+  return lowest_m;
 }
 
 Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
@@ -131,9 +197,10 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
           method.detour.tau_nats = task_.looks.known_below_nats;
           return greedy_detour(given, objects, method.detour);
         } else {
-          const YawToTarget heading{.tau_nats = task_.looks.known_below_nats,
-                                    .range_m = task_.planner.range_m};
-          return replan(method, horizon(state, state.plan), given.points, objects, heading,
+          const auto turned = [&](const Eigen::Matrix4Xd& points) {
+            return this->turned(points, objects);
+          };
+          return replan(method, horizon(state, state.plan), given.points, turned,
                         cost(given.points), rng_)
               .points;
         }
@@ -145,19 +212,20 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
 
 /// @param given where the path as given has the points
 PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
-  FlightSurroundings scene{.surface = &*surface_, .target = std::nullopt};
+  FlightSurroundings scene{.surface = &*surface_, .target_of_point = target_of_point_};
   if (target_) {
     scene.target = ObservationTarget{.p_world_object_m = target_->p_world_object_m,
                                      .p_world_view_m = target_->p_world_view_m,
                                      .entropy_nats = target_->entropy_nats};
   }
   return [of_flight = flight_cost(task_.planner.cost, camera_, std::move(scene)), given,
-          leash_m = task_.planner.leash_m, weight = task_.planner.leash_weight](
+          leash_m = task_.planner.leash_m, weight = task_.planner.leash_weight,
+          lowest_m = lowest_view_m(given.row(2).minCoeff())](
              const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) {
     of_flight(horizon, cost_of_point);
     for (Eigen::Index i = 0; i < horizon.count(); ++i) {
       Eigen::Vector3d off_m = (horizon.points.col(i) - given.col(i)).head<3>();
-      off_m.z() *= kUpright;
+      off_m.z() = kUpright * std::max({off_m.z(), lowest_m - horizon.points(2, i), 0.0});
       cost_of_point[i] += weight * std::max(0.0, off_m.norm() - leash_m);
     }
   };

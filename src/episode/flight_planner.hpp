@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,7 +25,10 @@ struct PlannableObject {
   int id = 0;
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
   double entropy_nats = 0.0;
-  std::array<bool, kObservationDirections> used{};
+  std::array<bool, kObservationDirections> used{};  ///< or not worth a look
+  /// What a look from each direction is expected to tell of it.
+  std::array<double, kObservationDirections> gain_nats =
+      every_direction(std::numeric_limits<double>::infinity());
 };
 
 /// Where the flight is.
@@ -54,6 +58,12 @@ class FlightPlanner {
                                                      double height_m) const;
   void choose_target(const PlanState& state, const std::vector<PlannableObject>& objects,
                      const std::vector<ObservedObject>& rings);
+  void choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
+                    const std::vector<PlannableObject>& objects,
+                    const std::vector<ObservedObject>& rings);
+  [[nodiscard]] Eigen::Matrix4Xd turned(const Eigen::Matrix4Xd& points,
+                                        const std::vector<ObservedObject>& objects) const;
+  [[nodiscard]] double lowest_view_m(double height_m) const;
   [[nodiscard]] PathCost cost(const Eigen::Matrix4Xd& given) const;
   [[nodiscard]] Eigen::Matrix4Xd method_path(const PlanState& state,
                                              const std::vector<ObservedObject>& objects);
@@ -63,6 +73,8 @@ class FlightPlanner {
   Rng rng_;
   std::optional<SurfaceDistance> surface_;
   std::optional<LookTarget> target_;
+  /// Of each point of the horizon; empty: all have `target_`.
+  std::vector<std::optional<ObservationTarget>> target_of_point_;
 };
 
 /// The first that is clear; if none is, the one that keeps off farthest.

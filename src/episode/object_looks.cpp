@@ -7,6 +7,9 @@
 namespace vantage {
 namespace {
 
+/// What a first look tells, of the entropy there is: with two one usually knows.
+constexpr double kFirstLook = 0.75;
+
 /// From the object to the camera.
 double bearing_from(const Eigen::Vector3d& p_world_object_m, const Pose& T_world_camera) {
   const Eigen::Vector3d d = T_world_camera.translation() - p_world_object_m;
@@ -42,6 +45,7 @@ void ObjectLooks::found(int id, const Eigen::Vector3d& p_world_m) {
   if (find(id) == nullptr) {
     objects_.push_back(
         {.id = id, .p_world_m = p_world_m, .recognition = begin_recognition(recogniser_)});
+    objects_.back().gain_nats = every_direction(kFirstLook * entropy_nats(objects_.back()));
   }
   of(id).p_world_m = p_world_m;
 }
@@ -53,8 +57,9 @@ void ObjectLooks::forget(int id) {
 bool ObjectLooks::wants(int id, const ObjectSighting& sighting, const Pose& T_world_camera) const {
   const LookedAtObject* object = find(id);
   if (object == nullptr || !sighting.whole || sighting.distance_m > options_.range_m) return false;
-  const int direction = direction_from(object->p_world_m, T_world_camera);
-  return !object->used[static_cast<std::size_t>(direction)] &&
+  const auto direction =
+      static_cast<std::size_t>(direction_from(object->p_world_m, T_world_camera));
+  return !object->used[direction] && object->gain_nats[direction] >= options_.least_gain_nats &&
          (options_.look_at_known || !known(*object));
 }
 
@@ -88,8 +93,26 @@ const ObjectLook& ObjectLooks::take(int id, const ObjectSighting& sighting, cons
                   .T_world_camera = T_world_camera};
   object.used[static_cast<std::size_t>(look.direction)] = true;
   object.looks.push_back(std::move(look));
+  object.gain_nats = gains_nats(object);
   ++total_;
   return object.looks.back();
+}
+
+std::array<double, kObservationDirections> ObjectLooks::gains_nats(
+    const LookedAtObject& object) const {
+  if (recogniser_.features.empty()) return object.gain_nats;
+  std::array<double, kObservationDirections> gains{};
+  std::vector<ObjectViewAction> actions;
+  for (int d = 0; d < kObservationDirections; ++d) {
+    const double to_rad = d * 2.0 * std::numbers::pi / kObservationDirections;
+    actions.push_back({.yaw_rad = wrap_angle(to_rad - object.looks.back().bearing_rad)});
+  }
+  Rng unused(0);  // the measure does not sample
+  const NextView next = next_view(recogniser_, recognition_, object.recognition, actions, unused);
+  for (std::size_t d = 0; d < gains.size(); ++d) {
+    gains[d] = std::numbers::ln2 * std::max(0.0, next.decision.scores[d].gain.bits);
+  }
+  return gains;
 }
 
 double ObjectLooks::entropy_nats(const LookedAtObject& object) const {

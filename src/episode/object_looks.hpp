@@ -16,19 +16,29 @@
 namespace vantage {
 
 /// Which looks are taken as observations: one from each direction of ObservationRing, of objects
-/// that are not known yet.
+/// that are not known yet, where it is expected to tell something. Of a direction the nearest
+/// picture is the observation.
 struct LookOptions {
   double range_m = 2.0;           ///< camera to object; higher sees more and worse
   double known_below_nats = 0.1;  ///< entropy of the object below which it is known
   bool look_at_known = false;     ///< go on observing what is known
-  /// Of a direction the nearest picture is the observation: it is taken once none was nearer for so
-  /// long, or the direction was left. Higher waits for better pictures; 0 takes the first.
-  double patience_s = 1.0;
+  /// Expected of the object, from that direction; higher looks less. 0: every direction counts.
+  double least_gain_nats = 0.03;
+  /// A picture from nearer than that is taken once none was nearer for `patience_s`, or the
+  /// direction was left. Higher takes more pictures that a nearer one would have made needless.
+  double near_m = 1.3;
+  double patience_s = 0.5;  ///< higher waits for better pictures; 0 takes the first
+  /// Those from farther off are taken when the object was not in view for so long, the nearest
+  /// first, as long as it is not known.
+  double left_after_s = 2.0;
   void fields(auto&& f) {
     f("range_m", range_m, Range{0.0, 20.0, true});
     f("known_below_nats", known_below_nats, at_least(0.0));
     f("look_at_known", look_at_known);
+    f("least_gain_nats", least_gain_nats, at_least(0.0));
+    f("near_m", near_m, at_least(0.0));
     f("patience_s", patience_s, between(0.0, 100.0));
+    f("left_after_s", left_after_s, between(0.0, 100.0));
   }
 };
 
@@ -54,6 +64,9 @@ struct LookedAtObject {
   Recognition recognition;
   std::array<bool, kObservationDirections> used{};
   std::vector<ObjectLook> looks = {};
+  /// What a look from each direction is expected to tell of the object; of one that was never
+  /// looked at a guess, the same of all.
+  std::array<double, kObservationDirections> gain_nats{};
 };
 
 class ObjectLooks {
@@ -87,6 +100,8 @@ class ObjectLooks {
 
  private:
   [[nodiscard]] LookedAtObject& of(int id);
+  [[nodiscard]] std::array<double, kObservationDirections> gains_nats(
+      const LookedAtObject& object) const;
   [[nodiscard]] const LookedAtObject* find(int id) const;
 
   const Recogniser& recogniser_;

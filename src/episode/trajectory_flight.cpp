@@ -17,8 +17,6 @@ namespace {
 
 /// Beyond the horizon, so that it is not about to stop at its end.
 constexpr int kFollowedBeyond = 2;
-/// A picture replaces another if it is nearer by that.
-constexpr double kNearer_m = 0.1;
 
 std::vector<Eigen::Vector4d> columns_of(const std::vector<FlightWaypoint>& path) {
   std::vector<Eigen::Vector4d> columns;
@@ -61,7 +59,8 @@ TrajectoryFlight::TrajectoryFlight(const ResolvedEpisode& resolved, const Recogn
       looks_(recogniser, episode_.trajectory.looks, episode_.trajectory.transition),
       planner_(episode_.trajectory, rig.T_body_camera(),
                Rng::stream(episode_.seed, "trajectory planner")),
-      look_rng_(Rng::stream(episode_.seed, "looks")) {
+      look_rng_(Rng::stream(episode_.seed, "looks")),
+      kept_(episode_.trajectory.looks) {
   recorder_.set_panel([this] { return panel(); });
 }
 
@@ -74,7 +73,7 @@ WaypointReached TrajectoryFlight::observe() {
     rig_.fly_past(1, look);
   }
   const bool last = at_ + 2 >= static_cast<int>(nominal_.size());
-  if (last) take_looks([](const KeptLook&) { return true; });
+  if (last) take_looks(kept_.take_all());
   return {
       .waypoint = ++at_, .time_s = rig_.world().time_s(), .T_world_body = rig_.estimated_body()};
 }
@@ -93,16 +92,13 @@ void TrajectoryFlight::look(const FlightPicture& picture) {
   }
   for (const int id : gone) {
     looks_.forget(id);
-    std::erase_if(kept_, [id](const KeptLook& kept) { return kept.id == id; });
+    kept_.forget(id);
   }
-  const double patience_s = episode_.trajectory.looks.patience_s;
-  const auto ripe = [&](const KeptLook& kept) {
-    return kept.direction != looks_.direction(kept.id, picture.T_world_camera) ||
-           picture.time_s - kept.time_s >= patience_s;
-  };
-  take_looks(ripe);  // of a direction that was left, before pictures from the next
+  const auto direction_of = [&](int id) { return looks_.direction(id, picture.T_world_camera); };
+  for (const int id : ids) kept_.sighted(id, picture.time_s);
+  take_looks(kept_.take_due(picture.time_s, direction_of));  // before pictures from elsewhere
   keep_looks(picture, ids, seen);
-  take_looks(ripe);
+  take_looks(kept_.take_due(picture.time_s, direction_of));
 }
 
 void TrajectoryFlight::keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
@@ -110,38 +106,29 @@ void TrajectoryFlight::keep_looks(const FlightPicture& picture, const std::vecto
   std::vector<SeenObject> coloured;  // none yet
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!looks_.wants(ids[i], seen[i].sighting, picture.T_world_camera)) continue;
-    const auto before = std::ranges::find(kept_, ids[i], &KeptLook::id);
-    if (before != kept_.end() &&
-        seen[i].sighting.distance_m > before->seen.sighting.distance_m - kNearer_m) {
-      continue;
-    }
+    const int direction = looks_.direction(ids[i], picture.T_world_camera);
+    if (!kept_.improves(ids[i], direction, seen[i].sighting.distance_m)) continue;
     if (coloured.empty()) {
       coloured =
           find_objects(picture.with_colour(), picture.T_world_camera, episode_.trajectory.search);
       expects(coloured.size() == seen.size(), "the same objects in the same picture");
     }
-    KeptLook kept{.id = ids[i],
-                  .direction = looks_.direction(ids[i], picture.T_world_camera),
-                  .seen = coloured[i],
-                  .T_world_camera = picture.T_world_camera,
-                  .time_s = picture.time_s};
-    if (before == kept_.end()) {
-      kept_.push_back(std::move(kept));
-    } else {
-      *before = std::move(kept);
-    }
+    kept_.keep({.id = ids[i],
+                .direction = direction,
+                .seen = coloured[i],
+                .T_world_camera = picture.T_world_camera,
+                .time_s = picture.time_s});
   }
 }
 
-void TrajectoryFlight::take_looks(const std::function<bool(const KeptLook&)>& ripe) {
-  for (const KeptLook& kept : kept_) {
+void TrajectoryFlight::take_looks(const std::vector<KeptLook>& due) {
+  for (const KeptLook& kept : due) {
     // Where the object is believed to be may have moved it into a direction that was used.
-    if (!ripe(kept) || !looks_.wants(kept.id, kept.seen.sighting, kept.T_world_camera)) continue;
+    if (!looks_.wants(kept.id, kept.seen.sighting, kept.T_world_camera)) continue;
     const ObjectLook& look = looks_.take(kept.id, kept.seen.sighting, kept.seen.view,
                                          kept.T_world_camera, kept.time_s, look_rng_);
     recorder_.look(kept.id, look, looks_.total(), kept.seen.view);
   }
-  std::erase_if(kept_, ripe);
 }
 
 void TrajectoryFlight::update(const WaypointReached& reached) {
@@ -176,7 +163,12 @@ std::vector<PlannableObject> TrajectoryFlight::plannable() const {
     objects.push_back({.id = object.id,
                        .p_world_m = object.p_world_m,
                        .entropy_nats = looks_.entropy_nats(object),
-                       .used = object.used});
+                       .used = object.used,
+                       .gain_nats = object.gain_nats});
+    const double least_nats = episode_.trajectory.looks.least_gain_nats;
+    for (std::size_t d = 0; d < object.used.size(); ++d) {
+      if (object.gain_nats[d] < least_nats) objects.back().used[d] = true;
+    }
   }
   return objects;
 }

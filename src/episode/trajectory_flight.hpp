@@ -2,12 +2,12 @@
 /// [Potthast2016, chapter 5]
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "src/belief/flight_map.hpp"
 #include "src/belief/found_objects.hpp"
 #include "src/episode/flight_planner.hpp"
+#include "src/episode/kept_looks.hpp"
 #include "src/episode/objects_on_stands.hpp"
 #include "src/episode/trajectory_recorder.hpp"
 #include "src/episode/trajectory_rig.hpp"
@@ -24,15 +24,6 @@ struct WaypointReached {
   int waypoint = 0;
   double time_s = 0.0;
   Pose T_world_body = Pose::Identity();  ///< as estimated
-};
-
-/// A picture of an object that may become an observation.
-struct KeptLook {
-  int id = 0;
-  int direction = 0;
-  SeenObject seen;
-  Pose T_world_camera = Pose::Identity();  ///< as estimated
-  double time_s = 0.0;
 };
 
 class TrajectoryFlight {
@@ -61,7 +52,7 @@ class TrajectoryFlight {
   void look(const FlightPicture& picture);
   void keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
                   const std::vector<SeenObject>& seen);
-  void take_looks(const std::function<bool(const KeptLook&)>& ripe);
+  void take_looks(const std::vector<KeptLook>& due);
   void follow(int from);
   [[nodiscard]] std::vector<PlannableObject> plannable() const;
   [[nodiscard]] TrajectoryPanelInput panel() const;
@@ -77,7 +68,7 @@ class TrajectoryFlight {
   ObjectLooks looks_;
   FlightPlanner planner_;
   Rng look_rng_;
-  std::vector<KeptLook> kept_;
+  KeptLooks kept_;
   int at_ = -1;                    ///< the waypoint reached last
   double planning_since_s_ = 0.0;  ///< wall
   WaypointRecord current_;         ///< filled in from the decision to the end of its segment

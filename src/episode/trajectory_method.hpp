@@ -8,6 +8,7 @@
 #include "planners/trajectory/flight_cost.hpp"
 #include "planners/trajectory/simple_paths.hpp"
 #include "planners/trajectory/trajectory_optimiser.hpp"
+#include "planners/trajectory/view_schedule.hpp"
 #include "src/core/fields.hpp"
 
 namespace vantage {
@@ -38,12 +39,19 @@ using TrajectoryMethod =
 template <>
 inline constexpr std::string_view strategy_family<TrajectoryMethod> = "trajectory method";
 
+/// What an optimised path looks at.
+using ViewPlan = std::variant<NearestObject, ViewsOnTheWay>;
+template <>
+inline constexpr std::string_view strategy_family<ViewPlan> = "view plan";
+
 /// What all methods plan by.
 struct FlightPlannerOptions {
   FlightCostOptions cost;
-  /// Level, from an object to the body where the object is looked at best; higher sees it smaller.
-  double ring_m = 1.05;
-  double range_m = 3.0;  ///< level; farther objects are no targets
+  ViewPlan views = ViewsOnTheWay{};
+  /// Camera to object, in the middle of the picture, where the object is looked at best: the body
+  /// goes as low as that takes, never above the path. Higher sees it smaller.
+  double look_m = 1.05;
+  double range_m = 3.0;  ///< level; farther objects are no targets of `nearest`
   /// A point of a horizon may be so far from where the given path has it; the rest costs. Without,
   /// the smoothest way on from one lane of a path to the next is the straight one.
   double leash_m = 1.2;
@@ -52,7 +60,8 @@ struct FlightPlannerOptions {
   double sample_s = 0.05;     ///< between places of a path whose clearance is looked at
   void fields(auto&& f) {
     f("cost", cost);
-    f("ring_m", ring_m, between(0.3, 3.0));
+    f("views", views);
+    f("look_m", look_m, between(0.3, 3.0));
     f("range_m", range_m, above(0.0));
     f("leash_m", leash_m, at_least(0.0));
     f("leash_weight", leash_weight, at_least(0.0));

@@ -47,15 +47,28 @@ TEST_F(Planner, GoesOnAsGivenWhereThereIsNothingToSee) {
 }
 
 TEST_F(Planner, LooksAtAnUnknownObjectFromBesideThePath) {
+  task_.planner.cost.centre_weight = 5.0;
+  for (const ViewPlan& views : {ViewPlan(NearestObject{}), ViewPlan(ViewsOnTheWay{})}) {
+    task_.planner.views = views;
+    FlightPlanner stomp = planner(Stomp{});
+    const Eigen::Matrix4Xd points = propose(stomp).front().points;
+    ASSERT_TRUE(stomp.target());
+    EXPECT_EQ(stomp.target()->object, 3);
+    EXPECT_EQ(points.col(0), path_[1]) << "flown to already";
+    EXPECT_EQ(points.col(9).head<3>(), path_[10].head<3>()) << "it comes back to the path";
+    const Eigen::Vector2d to_object =
+        objects_[0].p_world_m.head<2>() - Eigen::Vector2d(points.col(1).head<2>());
+    EXPECT_NEAR(points(3, 1), std::atan2(to_object.y(), to_object.x()), 0.6) << "it turns to it";
+    EXPECT_NEAR(stomp.target()->p_world_view_m.z(), 0.9 + 1.05 * std::sin(0.65), 1e-9)
+        << "from where the camera has it in its middle";
+    EXPECT_LT(points.row(2).minCoeff(), 1.79) << "it goes down for that";
+  }
+}
+
+TEST_F(Planner, LooksAheadOnceItIsPast) {
   FlightPlanner stomp = planner(Stomp{});
   const Eigen::Matrix4Xd points = propose(stomp).front().points;
-  ASSERT_TRUE(stomp.target());
-  EXPECT_EQ(stomp.target()->object, 3);
-  EXPECT_EQ(points.col(0), path_[1]) << "flown to already";
-  EXPECT_EQ(points.col(9).head<3>(), path_[10].head<3>()) << "it comes back to the path";
-  const Eigen::Vector2d to_object =
-      objects_[0].p_world_m.head<2>() - Eigen::Vector2d(points.col(1).head<2>());
-  EXPECT_NEAR(points(3, 1), std::atan2(to_object.y(), to_object.x()), 0.6) << "it turns to it";
+  for (Eigen::Index i = 6; i < 9; ++i) EXPECT_NEAR(points(3, i), 0.0, 0.3) << "point " << i;
 }
 
 TEST_F(Planner, AKnownObjectIsNoTarget) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "planners/trajectory/simple_paths.hpp"
 #include "planners/trajectory/smoothness.hpp"
 #include "tests/planners/trajectory/straight_flight.hpp"
 
@@ -39,7 +40,10 @@ class ReplanTest : public ::testing::Test {
     FlightSurroundings scene;
     scene.target = observation_target(objects, {0.0, 0.0, 1.2}, nominal_, 0.1);
     Rng rng(1);
-    return replan(Stomp{}, plan, nominal_, objects, {}, flight_cost({}, {}, scene), rng);
+    const auto turned = [&](const Eigen::Matrix4Xd& waypoints) {
+      return initial_yaw(waypoints, objects);
+    };
+    return replan(Stomp{}, plan, nominal_, turned, flight_cost({}, {}, scene), rng);
   }
 
   Horizon flight_ = testing::straight_flight();

@@ -1,0 +1,96 @@
+// Which views are taken on the way, and where the camera looks between them.
+#include "planners/trajectory/view_schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace vantage {
+namespace {
+
+constexpr double kTau = 0.1;
+
+/// Along x, a metre between waypoints.
+Eigen::Matrix4Xd along_x(int count) {
+  Eigen::Matrix4Xd points = Eigen::Matrix4Xd::Zero(4, count);
+  for (int i = 0; i < count; ++i) points.col(i) << i, 0.0, 1.8, 0.0;
+  return points;
+}
+
+ObservedObject object_at(double x, double y, double entropy_nats = 2.0) {
+  ObservedObject object;
+  object.ring = {.p_world_object_m = {x, y, 0.9}, .radius_m = 1.0, .height_m = 1.5};
+  object.entropy_nats = entropy_nats;
+  object.gain_nats.fill(0.6 * entropy_nats);
+  return object;
+}
+
+class Schedule : public testing::Test {
+ protected:
+  [[nodiscard]] std::vector<ScheduledView> views() const {
+    return schedule_views(options_, objects_, path_, kTau);
+  }
+  ViewsOnTheWay options_;
+  std::vector<ObservedObject> objects_;
+  Eigen::Matrix4Xd path_ = along_x(10);
+};
+
+TEST_F(Schedule, TakesAsManyViewsAsTellWhatItIs) {
+  objects_ = {object_at(4.0, 1.0)};
+  EXPECT_EQ(views().size(), 2U) << "0.6 of what is unknown each";
+  objects_[0].gain_nats.fill(2.0);
+  ASSERT_EQ(views().size(), 1U);
+  EXPECT_EQ(views()[0].direction, 6) << "the one on the path";
+  EXPECT_NEAR(views()[0].at_m, 4.0, 1e-9);
+  objects_[0].entropy_nats = 0.05;
+  EXPECT_TRUE(views().empty()) << "it is known";
+}
+
+TEST_F(Schedule, PrefersTheDirectionThatTells) {
+  objects_ = {object_at(4.0, 1.0)};
+  objects_[0].gain_nats.fill(0.1);
+  objects_[0].gain_nats[5] = 2.0;  // before the path comes by
+  ASSERT_EQ(views().size(), 1U);
+  EXPECT_EQ(views()[0].direction, 5);
+  objects_[0].used[5] = true;
+  EXPECT_NE(views()[0].direction, 5);
+}
+
+TEST_F(Schedule, PassesByWhatIsOutOfReach) {
+  objects_ = {object_at(4.0, 1.0 + options_.reach_m + 0.1)};
+  for (const ScheduledView& view : views()) EXPECT_EQ(view.direction, 6);
+  objects_ = {object_at(4.0, 3.0)};
+  EXPECT_TRUE(views().empty());
+}
+
+TEST_F(Schedule, IsInTheOrderOfThePathAndApart) {
+  objects_ = {object_at(6.0, -1.0), object_at(3.0, 1.0), object_at(3.2, -1.0)};
+  const auto all = views();
+  ASSERT_GE(all.size(), 3U);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    EXPECT_GE(all[i].at_m - all[i - 1].at_m, options_.apart_m);
+  }
+  for (std::size_t object = 0; object < 3; ++object) {
+    EXPECT_TRUE(std::ranges::any_of(all, [&](const ScheduledView& view) {
+      return view.object == object;
+    })) << object;
+  }
+}
+
+TEST_F(Schedule, LooksAheadBetweenViews) {
+  options_.before_m = 1.2;
+  options_.after_m = 0.4;
+  const std::vector<ScheduledView> two{{.object = 0, .at_m = 2.5}, {.object = 1, .at_m = 7.0}};
+  const auto of_point = views_of_points(options_, two, path_);
+  ASSERT_EQ(of_point.size(), 10U);
+  EXPECT_FALSE(of_point[1]);
+  EXPECT_EQ(of_point[2], 0U);
+  EXPECT_FALSE(of_point[3]) << "0.5 m beyond it";
+  EXPECT_FALSE(of_point[5]);
+  EXPECT_EQ(of_point[6], 1U);
+  EXPECT_EQ(of_point[7], 1U);
+  EXPECT_FALSE(of_point[8]);
+}
+
+}  // namespace
+}  // namespace vantage
