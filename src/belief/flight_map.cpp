@@ -88,4 +88,17 @@ std::vector<std::uint8_t> FlightMap::obstacles() const {
   return blocked;
 }
 
+std::vector<std::uint8_t> FlightMap::unseen_places() const {
+  const GridFrame& frame = grid_.frame;
+  const auto layer =
+      static_cast<std::size_t>(frame.cells.x()) * static_cast<std::size_t>(frame.cells.y());
+  std::vector<std::uint8_t> seen(layer, 0);
+  for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
+    if (grid_.state(cell) != CellState::unobserved) seen[cell % layer] = 1;
+  }
+  std::vector<std::uint8_t> unseen(grid_.size());
+  for (std::size_t cell = 0; cell < grid_.size(); ++cell) unseen[cell] = 1 - seen[cell % layer];
+  return unseen;
+}
+
 }  // namespace vantage

@@ -43,6 +43,8 @@ class FlightMap {
   /// an occupied run of at least `rise_m` all that was not seen to be free. A camera that looks
   /// down sees the foot of a column, not that it goes on.
   [[nodiscard]] std::vector<std::uint8_t> obstacles() const;
+  /// 1 for each cell above a place of which nothing was ever seen, at no height; the same order.
+  [[nodiscard]] std::vector<std::uint8_t> unseen_places() const;
 
  private:
   FlightMapOptions options_;

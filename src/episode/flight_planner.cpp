@@ -10,6 +10,7 @@
 #include "planners/trajectory/path_search.hpp"
 #include "planners/trajectory/replanning.hpp"
 #include "src/core/strategy_label.hpp"
+#include "src/episode/flight_hazards.hpp"
 
 namespace vantage {
 namespace {
@@ -235,7 +236,8 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                                           const std::vector<PlannableObject>& objects,
                                           const FlightMap& map) {
   surface_ = surface_distance(
-      map.grid().frame, map.obstacles(),
+      map.grid().frame,
+      flight_hazards(map, columns(state.nominal, 0, static_cast<int>(state.nominal.size()))),
       box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
                 kAside_m),
       kReach_m);

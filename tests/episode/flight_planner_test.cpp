@@ -16,6 +16,33 @@ std::vector<Eigen::Vector4d> straight_path(int waypoints) {
   return path;
 }
 
+FlightMap unseen_room() {
+  return FlightMap(
+      Eigen::AlignedBox3d(Eigen::Vector3d(-3.0, -4.0, 0.0), Eigen::Vector3d(22.0, 4.0, 3.0)));
+}
+
+/// Of which all has been seen from above, and there is nothing.
+FlightMap empty_room() {
+  constexpr double kHeight_m = 2.9;
+  CameraImages images;
+  images.width_px = 260;
+  images.height_px = 90;
+  images.focal_px = 30.0;
+  images.range_max_m = 30.0;
+  const auto pixels = static_cast<std::size_t>(images.width_px * images.height_px);
+  images.depth_m.assign(pixels, static_cast<float>(kHeight_m));
+  images.rgb.assign(3 * pixels, 0);
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = Eigen::Vector3d(9.5, 0.0, kHeight_m);
+  FlightMap map = unseen_room();
+  map.insert(images, T_world_camera);
+  return map;
+}
+
+/// How far to the side of the straight path a way leads.
+double aside_m(const WayOn& way) { return way.points.row(1).cwiseAbs().maxCoeff(); }
+
 class Planner : public testing::Test {
  protected:
   FlightPlanner planner(const TrajectoryMethod& method) {
@@ -30,8 +57,7 @@ class Planner : public testing::Test {
   std::vector<Eigen::Vector4d> path_ = straight_path(20);
   std::vector<PlannableObject> objects_ = {
       {.id = 3, .p_world_m = {2.5, 0.9, 0.9}, .entropy_nats = 2.0}};
-  FlightMap map_{
-      Eigen::AlignedBox3d(Eigen::Vector3d(-3.0, -4.0, 0.0), Eigen::Vector3d(22.0, 4.0, 3.0))};
+  FlightMap map_ = empty_room();
 };
 
 TEST_F(Planner, GoesOnAsGivenWhereThereIsNothingToSee) {
@@ -63,6 +89,18 @@ TEST_F(Planner, LooksAtAnUnknownObjectFromBesideThePath) {
         << "from where the camera has it in its middle";
     EXPECT_LT(points.row(2).minCoeff(), 1.79) << "it goes down for that";
   }
+}
+
+TEST_F(Planner, LeavesThePathOnlyThroughWhatWasSeen) {
+  task_.planner.cost.recognition_weight = 3.0;
+  objects_[0].p_world_m.y() = 1.3;
+  FlightPlanner in_the_open = planner(Stomp{});
+  const double seen_m = aside_m(propose(in_the_open).front());
+  map_ = unseen_room();
+  FlightPlanner in_the_dark = planner(Stomp{});
+  const double unseen_m = aside_m(propose(in_the_dark).front());
+  EXPECT_GT(seen_m, 0.3);
+  EXPECT_LT(unseen_m, 0.25);
 }
 
 TEST_F(Planner, LooksAheadOnceItIsPast) {
