@@ -25,8 +25,8 @@ function(vantage_compile_options target)
     $<$<CONFIG:Debug>:EIGEN_INITIALIZE_MATRICES_BY_NAN>)
 endfunction()
 
-# What nearly every test includes, parsed once for all of them: two thirds of the time a test takes
-# to compile. CMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
+# What nearly every test includes, parsed once for all of them: a test compiles in two thirds of
+# the time. CMAKE_DISABLE_PRECOMPILE_HEADERS=ON builds without.
 function(vantage_test_headers)
   add_library(vantage_test_headers OBJECT ${PROJECT_SOURCE_DIR}/tests/support/test_headers.cpp)
   target_link_libraries(vantage_test_headers PRIVATE Eigen3::Eigen GTest::gtest_main GTest::gmock)
