@@ -181,7 +181,9 @@ std::vector<Finding> prediction_findings(const StudySummary& study) {
        "error of `adaptive` at most 1.1 x that of the best fixed `a`, which "
        "differs from scene to scene",
        by_panel(study, "predictors", to_best),
-       in_every_panel(study, "predictors", [&](const auto& p) { return to_best(p) <= 1.1; }), ""});
+       in_every_panel(study, "predictors", [&](const auto& p) { return to_best(p) <= 1.1; }),
+       "the best is picked among those of the study once its errors are known; where there is next "
+       "to no clutter a transmission near 1 is ahead of one that is learnt on the run"});
   return findings;
 }
 
