@@ -28,7 +28,7 @@ int all_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_con
 
 /// What both commands take.
 struct Arguments {
-  fs::path dataset;
+  std::vector<fs::path> datasets;
   fs::path model;
   fs::path out;
   fs::path config;
@@ -57,7 +57,6 @@ Options options_of(const Arguments& arguments) {
 
 template <class Options>
 void declare_common(CLI::App& app, Arguments& arguments) {
-  app.add_option("dataset", arguments.dataset, "folder of views")->required();
   app.add_option("--jobs", arguments.jobs, "threads")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
@@ -75,11 +74,16 @@ void declare_common(CLI::App& app, Arguments& arguments) {
       [] { return "Keys of --set with their defaults:\n\n" + to_yaml(write_node(Options{})); });
 }
 
+/// Of all datasets together: recordings of the same objects, or others.
 DatasetIndex index_of(const Arguments& arguments) {
-  DatasetIndex index =
-      index_dataset(arguments.dataset, arguments.skip_bad ? OnBadView::skip : OnBadView::fail);
-  for (const SkippedView& skipped : index.skipped) log_warning(skipped.reason);
-  return index;
+  DatasetIndex all;
+  for (const fs::path& dataset : arguments.datasets) {
+    const DatasetIndex index =
+        index_dataset(dataset, arguments.skip_bad ? OnBadView::skip : OnBadView::fail);
+    for (const SkippedView& skipped : index.skipped) log_warning(skipped.reason);
+    all.views.insert(all.views.end(), index.views.begin(), index.views.end());
+  }
+  return all;
 }
 
 Json model_json(const fs::path& path, const RecognitionModel& model) {
@@ -152,6 +156,9 @@ ExitCode evaluate_command(const Arguments& arguments) {
 
 std::function<ExitCode()> declare_train(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
+  app.add_option("dataset", arguments->datasets,
+                 "folders of views; of the same objects: more recordings of them")
+      ->required();
   declare_common<TrainingOptions>(app, *arguments);
   app.add_option("--out", arguments->out, "model file to write")->required();
   app.add_option("--add-to", arguments->model,
@@ -161,6 +168,7 @@ std::function<ExitCode()> declare_train(CLI::App& app) {
 
 std::function<ExitCode()> declare_evaluate(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
+  app.add_option("dataset", arguments->datasets, "folder of views")->required()->expected(1);
   declare_common<RecognitionStudyOptions>(app, *arguments);
   app.add_option("--model", arguments->model, "trained model")->required();
   app.add_option("--out", arguments->out, "folder for results and tables")->required();

@@ -11,6 +11,7 @@ namespace vantage {
 struct DatasetOptions {
   /// Of objects, placement, lighting and noise. The same seed gives the same files.
   std::uint64_t seed = 1;
+  int session = 1;         ///< of the recording; another has other placement, light and noise
   int objects = 326;       ///< the first of the catalogue, or of `models`; more take longer
   double step_deg = 20.0;  ///< of the turntable; lower gives more views
   /// Folder of <name>/{model.obj, texture.png} instead of the catalogue; empty: the catalogue
@@ -28,6 +29,7 @@ struct DatasetOptions {
   int supersampling = 3;      ///< rays a pixel each way, odd; higher is smoother and slower
   void fields(auto&& f) {
     f("seed", seed);
+    f("session", session, at_least(1));
     f("objects", objects, between(1, 100000));
     f("step_deg", step_deg, between(0.1, 360.0));
     f("models", models);

@@ -73,7 +73,10 @@ void prepare_root(const DatasetOptions& options, const DatasetRun& run) {
 /// @return the number of views.
 int render_video(const TurntableObject& object, const ObjectName& name, int video,
                  const fs::path& folder, const DatasetOptions& options, const DatasetRun& run) {
-  Rng rng = Rng::stream(options.seed, fmt::format("{}/{}", name.object, video));
+  const std::string stream = fmt::format("{}/{}", name.object, video);
+  Rng rng = Rng::stream(options.seed, options.session == 1
+                                          ? stream
+                                          : fmt::format("{}/session {}", stream, options.session));
   const Session session = draw_session(options, *video_elevation_rad(video), rng);
   Turntable turntable(object, session, options, name.object);
   RenderedImages drawn;

@@ -80,9 +80,12 @@ std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved)
       hashes[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
     }
   }
-  const fs::path model = data_root() / resolved.episode.recognition.model;
-  if (resolved.episode.flies() && fs::exists(model)) {
-    hashes["recognition.model"] = hash_text(hash_file(model));
+  const Episode& episode = resolved.episode;
+  const bool along_path = episode.flies_trajectory();
+  const fs::path model =
+      data_root() / (along_path ? episode.trajectory.model : episode.recognition.model);
+  if (episode.flies() && fs::exists(model)) {
+    hashes[along_path ? "trajectory.model" : "recognition.model"] = hash_text(hash_file(model));
   }
   return hashes;
 }

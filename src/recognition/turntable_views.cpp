@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "src/core/error.hpp"
@@ -13,10 +13,10 @@ namespace vantage {
 
 std::vector<TurntableViews> turntables_of(std::span<const ViewFeatures> views) {
   std::vector<TurntableViews> turntables;
-  std::map<std::pair<std::string, int>, std::size_t> index;
+  std::map<std::pair<std::filesystem::path, int>, std::size_t> index;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto [found, added] =
-        index.emplace(std::pair(views[i].name.object, views[i].name.video), turntables.size());
+        index.emplace(std::pair(views[i].folder, views[i].name.video), turntables.size());
     if (added) turntables.emplace_back();
     turntables[found->second].views.push_back(i);
   }

@@ -12,7 +12,7 @@ struct TurntableViews {
   std::vector<std::size_t> views;  ///< indices into those of the dataset, at least one
 };
 
-/// Of every object and video, in order of appearance.
+/// Of every object and video of each recording, in order of appearance.
 std::vector<TurntableViews> turntables_of(std::span<const ViewFeatures> views);
 
 /// The one nearest to `yaw_rad` of the object; of equal ones the first.

@@ -37,6 +37,7 @@ std::vector<ViewFeatures> extract_features(std::span<const ViewEntry> views,
   FeatureCache cache(how.feature_cache, extractors);
   work_through(views.size(), how, label, [&](std::size_t i) {
     extracted[i] = {.name = views[i].name,
+                    .folder = views[i].folder,
                     .yaw_rad = views[i].yaw_rad,
                     .features = features_of(views[i], extractors, cache)};
   });

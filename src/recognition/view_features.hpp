@@ -1,6 +1,7 @@
 /// The features of many views of a dataset, extracted once.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace vantage {
 
 struct ViewFeatures {
   ViewName name;
+  std::filesystem::path folder;         ///< of the object; another recording has another
   double yaw_rad = 0.0;                 ///< of the object, [0, 2 pi)
   std::vector<FeatureResult> features;  ///< in the order of the extractors
 };

@@ -92,6 +92,23 @@ TEST(RenderDataset, TheObjectStandsUprightOnItsPlane) {
   }
 }
 
+TEST(RenderDataset, AnotherSessionShowsTheSameObjectsInOtherLight) {
+  const support::TemporaryDirectory out;
+  DatasetOptions options = few(1);
+  options.depth_noise = false;
+  render_dataset(options, {.root = out / "first"});
+  options.session = 2;
+  render_dataset(options, {.root = out / "second"});
+  const auto first = index_dataset(out / "first").views;
+  const auto second = index_dataset(out / "second").views;
+  ASSERT_EQ(first.size(), second.size());
+  EXPECT_EQ(first.front().name, second.front().name);
+  EXPECT_GT(std::abs(std::remainder(first.front().yaw_rad - second.front().yaw_rad,
+                                    2.0 * std::numbers::pi)),
+            1e-3);
+  EXPECT_NE(contents(out / "first"), contents(out / "second"));
+}
+
 TEST(RenderDataset, FilesDoNotDependOnThreads) {
   const support::TemporaryDirectory out;
   render_dataset(few(5), {.root = out / "one", .jobs = 1});

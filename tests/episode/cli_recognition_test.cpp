@@ -96,6 +96,15 @@ TEST_F(RecognitionCommands, AddsObjectsAndLeavesTheOthersAsTheyAre) {
   expect_error(vantage("train data --add-to model --out larger -q"), 3, {"can_1", "already"});
 }
 
+TEST_F(RecognitionCommands, TrainsOnSeveralRecordingsOfTheSameObjects) {
+  put({"mug", "mug_1", 0}, "again");
+  put({"can", "can_3", 90}, "again");
+  const json model = parsed("train data again --out model -q --json --set 'features=[colour]'");
+  EXPECT_EQ(model["objects"], 4);
+  EXPECT_EQ(model["views"], 2 * (3 + 2) * 16);
+  expect_error(vantage("train data nowhere --out model -q"), 3, {"nowhere"});
+}
+
 TEST_F(RecognitionCommands, FeaturesAreExtractedOnce) {
   const json first = parsed(std::string(kTrain) + "--cache cache --json");
   const std::size_t files = cached_files();
