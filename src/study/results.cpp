@@ -19,10 +19,22 @@ using Json = nlohmann::ordered_json;
 constexpr auto kStateNames = std::to_array<std::string_view>(
     {"missing", "stale", "interrupted", "crashed", "failed", "diverged", "completed"});
 
-/// One text for all configurations that give the same results.
-std::string canonical(std::string_view yaml, const std::string& name) {
+/// The parts of a configuration that only tasks other than that of `episode` read.
+std::vector<std::string_view> parts_of_other_tasks(const Episode& episode) {
+  std::vector<std::string_view> parts;
+  if (!episode.flies() || episode.flies_trajectory()) parts.push_back("recognition");
+  if (!episode.detects_change()) parts.push_back("change_detection");
+  if (!episode.flies_trajectory()) parts.push_back("trajectory");
+  return parts;
+}
+
+/// One text for all configurations that give the same results as that of `episode`.
+std::string canonical(std::string_view yaml, const std::string& name, const Episode& episode) {
   ConfigNode root = parse_yaml(yaml, name);
   root.set("threads", ConfigNode::make_scalar("1"));
+  for (const std::string_view part : parts_of_other_tasks(episode)) {
+    std::erase_if(root.entries, [part](const auto& entry) { return entry.first == part; });
+  }
   return to_yaml(root);
 }
 
@@ -37,7 +49,8 @@ bool same_configuration(const fs::path& folder, const Episode& episode) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return false;
   try {
-    return canonical(read_file(file), file.string()) == canonical(episode_yaml(episode), "plan");
+    return canonical(read_file(file), file.string(), episode) ==
+           canonical(episode_yaml(episode), "plan", episode);
   } catch (const Error&) {
     return false;
   }

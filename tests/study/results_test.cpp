@@ -48,6 +48,17 @@ TEST_F(Results, AnotherConfigurationIsStale) {
   EXPECT_EQ(state(), EpisodeState::stale);
 }
 
+TEST_F(Results, WhatOnlyOtherTasksReadDoesNotMatter) {
+  episode_.resolved.episode.trajectory.horizon = 7;
+  episode_.resolved.episode.recognition.decision.most_views = 3;
+  EXPECT_EQ(state(), EpisodeState::completed);
+  episode_.resolved.episode.task = "recognition";
+  write("config.yaml", episode_yaml(episode_.resolved.episode));
+  EXPECT_EQ(state(), EpisodeState::completed);
+  episode_.resolved.episode.recognition.decision.most_views = 4;
+  EXPECT_EQ(state(), EpisodeState::stale);
+}
+
 TEST_F(Results, AnotherSceneIsStale) {
   write("manifest.json", R"({"scene_hash": "0"})");
   EXPECT_EQ(state(), EpisodeState::stale);
