@@ -76,6 +76,25 @@ std::string StudySummary::ratio_text(const std::string& table, const std::string
                      interval[1].get<double>(), difference.at("pairs").get<int>());
 }
 
+std::string StudySummary::less_text(const std::string& table, const std::string& panel,
+                                    const std::string& level, double scale, int digits) const {
+  const Json* found = entry(table, panel, level);
+  if (found == nullptr || !found->contains("difference")) return {};
+  const Json& difference = found->at("difference");
+  const Json& interval = difference.at("interval");
+  const auto less = [&](const Json& more) { return -scale * more.get<double>(); };
+  return fmt::format("{:+.{}f} [{:+.{}f}, {:+.{}f}]", less(difference.at("mean")), digits,
+                     less(interval[1]), digits, less(interval[0]), digits);
+}
+
+int StudySummary::pairs(const std::string& table, const std::string& panel,
+                        const std::string& level) const {
+  const Json* found = entry(table, panel, level);
+  return found == nullptr || !found->contains("difference")
+             ? 0
+             : found->at("difference").at("pairs").get<int>();
+}
+
 std::vector<std::string> StudySummary::panels(const std::string& table) const {
   std::vector<std::string> names;
   for (const auto& [panel, levels] : json_.at("tables").at(table).items()) {

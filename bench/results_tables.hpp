@@ -38,6 +38,13 @@ class StudySummary {
   /// "1.04 [1.01, 1.07], 20 pairs": ratio to the reference level; empty for that level.
   [[nodiscard]] std::string ratio_text(const std::string& table, const std::string& panel,
                                        const std::string& level) const;
+  /// "-3.1 [-4.0, -2.2]": by how much the reference is above that level, paired, times `scale`;
+  /// empty for the reference.
+  [[nodiscard]] std::string less_text(const std::string& table, const std::string& panel,
+                                      const std::string& level, double scale, int digits) const;
+  /// How many pairs that is of; 0 for the reference.
+  [[nodiscard]] int pairs(const std::string& table, const std::string& panel,
+                          const std::string& level) const;
   /// Those of the table but "all", in order.
   [[nodiscard]] std::vector<std::string> panels(const std::string& table) const;
   [[nodiscard]] std::vector<std::string> levels(const std::string& table) const;

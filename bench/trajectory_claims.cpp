@@ -42,15 +42,15 @@ class FlightStudy {
     return std::ranges::all_of(study_.panels(table), holds);
   }
   [[nodiscard]] Finding against(const char* level) const {
-    const std::string claim = fmt::format("the difference to `{}` is told, whatever it is", level);
+    const std::string claim =
+        fmt::format("the difference of `stomp` to `{}` is told, whatever it is", level);
     if (!study_.mean("accuracy", "all", level)) return {"goal", claim, "", false, "not flown yet"};
-    const double points =
-        100.0 * (mean("accuracy", "all", "stomp") - mean("accuracy", "all", level));
     return {"goal", claim,
-            fmt::format(
-                "accuracy {:+.1f} points, mean entropy {:+.3f} nats, observations {:+.1f}", points,
-                mean("mean_entropy_nats", "all", "stomp") - mean("mean_entropy_nats", "all", level),
-                mean("observations", "all", "stomp") - mean("observations", "all", level)),
+            fmt::format("accuracy {} points, mean entropy {} nats, observations {}; {} pairs",
+                        study_.less_text("accuracy", "all", level, 100.0, 1),
+                        study_.less_text("mean_entropy_nats", "all", level, 1.0, 3),
+                        study_.less_text("observations", "all", level, 1.0, 1),
+                        study_.pairs("accuracy", "all", level)),
             true, ""};
   }
 
@@ -129,8 +129,9 @@ std::vector<Finding> trajectory_findings(const StudySummary& summary) {
   findings.push_back({"goal", "replans never miss the next waypoint",
                       fmt::format("{:.2f} a flight", stomp("missed_deadlines", "all")),
                       stomp("missed_deadlines", "all") == 0.0, ""});
-  findings.push_back(study.against("initial_yaw"));
-  findings.push_back(study.against("greedy_detour"));
+  for (const char* level : {"initial", "initial_stopping", "initial_yaw", "greedy_detour"}) {
+    findings.push_back(study.against(level));
+  }
   return findings;
 }
 
