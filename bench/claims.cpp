@@ -277,10 +277,12 @@ std::vector<Finding> office_findings(const StudySummary& study, const std::strin
              between(study, "scans_to_95", "nearest_frontier", "simple") > 1.5,
          "candidates are the same clusters of frontiers for every method"});
   }
-  findings.push_back({"goal", "`adaptive` observes at least 95 % of the observable cells",
-                      fmt::format("{:.1f} % on average", 100.0 * all("observed_share", "adaptive")),
-                      all("observed_share", "adaptive") >= 0.95,
-                      "see `observed_share` by episode"});
+  const double least = study.least("observed_share", "all", "adaptive").value_or(0.0);
+  findings.push_back({"goal",
+                      "`adaptive` observes at least 95 % of the observable cells in every episode",
+                      fmt::format("{:.1f} % on average, {:.1f} % at least",
+                                  100.0 * all("observed_share", "adaptive"), 100.0 * least),
+                      least >= 0.95, "see `observed_share` by episode"});
   findings.push_back(without_collision(study));
   if (study.levels("area").size() > 1) findings.push_back(on_par(study));
   return findings;

@@ -43,6 +43,13 @@ std::optional<double> StudySummary::mean(const std::string& table, const std::st
   return found->at("mean").get<double>();
 }
 
+std::optional<double> StudySummary::least(const std::string& table, const std::string& panel,
+                                          const std::string& level) const {
+  const Json* found = entry(table, panel, level);
+  if (found == nullptr || !found->contains("least")) return std::nullopt;
+  return found->at("least").get<double>();
+}
+
 std::optional<double> StudySummary::ratio(const std::string& table, const std::string& panel,
                                           const std::string& level) const {
   const Json* found = entry(table, panel, level);

@@ -25,6 +25,9 @@ class StudySummary {
   /// Of a table's panel ("objects_8", "all") and level ("adaptive"); none if it was not run.
   [[nodiscard]] std::optional<double> mean(const std::string& table, const std::string& panel,
                                            const std::string& level) const;
+  /// Of any episode; none also in what an older collect wrote.
+  [[nodiscard]] std::optional<double> least(const std::string& table, const std::string& panel,
+                                            const std::string& level) const;
   /// To the reference level, of the same starts.
   [[nodiscard]] std::optional<double> ratio(const std::string& table, const std::string& panel,
                                             const std::string& level) const;

@@ -116,13 +116,11 @@ std::vector<Finding> trajectory_findings(const StudySummary& summary) {
   findings.push_back({"goal", "no collision in any flight of `stomp`",
                       fmt::format("share of flights {:.3f}", stomp("collided", "all")),
                       stomp("collided", "all") == 0.0, "see `collided`"});
-  findings.push_back({"goal", "mean clearance of `stomp` at least 0.3 m, everywhere",
-                      study.from_to("minimum_clearance_m", 1.0, 2),
-                      study.everywhere("minimum_clearance_m",
-                                       [&](const std::string& p) {
-                                         return stomp("minimum_clearance_m", p) >= 0.3;
-                                       }),
-                      "see results.csv for the least"});
+  const double least_m = summary.least("minimum_clearance_m", "all", "stomp").value_or(0.0);
+  findings.push_back({"goal", "`stomp` comes no nearer to anything than 0.3 m, in any flight",
+                      fmt::format("least {:.2f} m; mean of a flight's least {}", least_m,
+                                  study.from_to("minimum_clearance_m", 1.0, 2)),
+                      least_m >= 0.3, "see `minimum_clearance_m` by episode"});
   findings.push_back({"goal", "mean tracking error at most 0.05 m",
                       fmt::format("{:.4f} m", stomp("tracking_error_m", "all")),
                       stomp("tracking_error_m", "all") <= 0.05, ""});

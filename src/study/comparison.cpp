@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 
 namespace vantage {
@@ -79,9 +80,14 @@ Comparison compare_levels(std::string name, std::string title,
       const std::string stream =
           fmt::format("{}/{}/{}", comparison.name, group.panel, levels[level]);
       Rng rng = Rng::stream(kSeed, stream);
-      ComparisonRow row{
-          group.panel, levels[level], values.size(), mean(values), bootstrap_mean(values, rng),
-          std::nullopt};
+      ComparisonRow row{.panel = group.panel,
+                        .level = levels[level],
+                        .count = values.size(),
+                        .mean = mean(values),
+                        .interval = bootstrap_mean(values, rng),
+                        .least = std::ranges::min(values),
+                        .most = std::ranges::max(values),
+                        .difference = std::nullopt};
       if (level != reference) row.difference = difference(by_pair, reference_values, stream);
       if (row.difference && row.difference->pairs == 0) row.difference.reset();
       comparison.rows.push_back(std::move(row));
@@ -116,8 +122,11 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
   const auto interval = [](const Interval& i) { return Json{i.low, i.high}; };
   Json json = Json::object();
   for (const ComparisonRow& row : comparison.rows) {
-    Json entry = {
-        {"episodes", row.count}, {"mean", row.mean}, {"interval", interval(row.interval)}};
+    Json entry = {{"episodes", row.count},
+                  {"mean", row.mean},
+                  {"interval", interval(row.interval)},
+                  {"least", row.least},
+                  {"most", row.most}};
     if (row.difference) {
       const Difference& d = *row.difference;
       entry["difference"] = {{"to", comparison.reference},

@@ -33,7 +33,9 @@ struct ComparisonRow {
   std::string level;
   std::size_t count = 0;
   double mean = 0.0;
-  Interval interval;                     ///< 95 % bootstrap
+  Interval interval;  ///< 95 % bootstrap
+  double least = 0.0;
+  double most = 0.0;
   std::optional<Difference> difference;  ///< none for the reference itself
 };
 

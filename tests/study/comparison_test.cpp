@@ -36,6 +36,8 @@ TEST(Comparison, PairsCancelWhatTheyShare) {
   EXPECT_EQ(left.count, 5U);
   EXPECT_DOUBLE_EQ(left.mean, 14.0);
   EXPECT_LT(left.interval.low, 14.0);
+  EXPECT_DOUBLE_EQ(left.least, 8.0);
+  EXPECT_DOUBLE_EQ(left.most, 20.0);
   ASSERT_TRUE(left.difference);
   EXPECT_DOUBLE_EQ(left.difference->mean, -2.0);
   EXPECT_DOUBLE_EQ(left.difference->interval.low, -2.0);
