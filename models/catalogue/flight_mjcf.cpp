@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Light is that of the turntable that datasets are rendered on, in the middle of its range.
+/// The vehicle takes a lamp along, as the turntable of datasets has one beside its camera: the
+/// headlight. Above is another; faces are on average as bright as on the turntable.
 constexpr std::string_view kHead =
     R"(<compiler angle="radian" convexhull="true"/>
   <statistic extent="1" center="0 0 0.9"/>
@@ -23,7 +24,7 @@ constexpr std::string_view kHead =
     <map znear="0.05" zfar="25"/>
     <global offwidth="1920" offheight="1080"/>
     <quality shadowsize="0" offsamples="0"/>
-    <headlight ambient="0.42 0.42 0.42" diffuse="0.2 0.2 0.2" specular="0 0 0"/>
+    <headlight ambient="0.42 0.42 0.42" diffuse="0.52 0.52 0.52" specular="0 0 0"/>
   </visual>
   <asset>
     <texture name="sky" type="skybox" builtin="gradient" rgb1="0.75 0.82 0.9" rgb2="0.45 0.5 0.6" width="64" height="384"/>
@@ -39,7 +40,7 @@ constexpr std::string_view kHead =
 )";
 
 constexpr std::string_view kLamp =
-    R"(    <light name="lamp" directional="true" castshadow="false" pos="0 0 3" dir="-0.45 -0.3 -0.84" diffuse="0.5 0.5 0.5" specular="0.25 0.25 0.25"/>
+    R"(    <light name="ceiling" directional="true" castshadow="false" pos="0 0 3" dir="0 0 -1" diffuse="0.18 0.18 0.18" specular="0.25 0.25 0.25"/>
 )";
 
 std::string geom(std::string_view name, std::string_view type, const Vector3d& p_m,
