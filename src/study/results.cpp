@@ -22,9 +22,9 @@ constexpr auto kStateNames = std::to_array<std::string_view>(
 /// The parts of a configuration that only tasks other than that of `episode` read.
 std::vector<std::string_view> parts_of_other_tasks(const Episode& episode) {
   std::vector<std::string_view> parts;
-  if (!episode.flies() || episode.flies_trajectory()) parts.push_back("recognition");
-  if (!episode.detects_change()) parts.push_back("change_detection");
-  if (!episode.flies_trajectory()) parts.push_back("trajectory");
+  if (!episode.flies() || episode.flies_trajectory()) parts.emplace_back("recognition");
+  if (!episode.detects_change()) parts.emplace_back("change_detection");
+  if (!episode.flies_trajectory()) parts.emplace_back("trajectory");
   return parts;
 }
 

@@ -119,6 +119,7 @@ struct SurveyScore {
   int shown = 0;                ///< times an object was well in view: see `score_of`
   int seen = 0;                 ///< of those, times it was reported
   int strangers = 0;            ///< reports of what is no object
+  int whole_strangers = 0;      ///< of those, what might be observed
   int whole = 0;                ///< reports of whole objects within 2 m
   int whole_wrong = 0;          ///< of those, objects that the frame cuts
   std::vector<double> error_m;  ///< of reports of whole objects, level
@@ -176,6 +177,7 @@ inline void add(SurveyScore& score, const FlightSurvey& survey, const SurveyMome
       score.overlap.push_back(overlap(seen.view, moment.truth, body_of(i)));
     }
     score.strangers += known ? 0 : 1;
+    score.whole_strangers += known || !seen.sighting.whole ? 0 : 1;
   }
   for (std::size_t i = 0; i < survey.objects.size(); ++i) {
     const double away_m =
