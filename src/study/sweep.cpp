@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -195,7 +196,10 @@ void prepare_study_folder(const Study& study, const StudySweepOptions& options) 
     }
   }
   make_writable_directory(options.directory);
-  write_file(file, study.yaml);
+  // Shards that begin together each write a file of their own.
+  const fs::path own = options.directory / fmt::format("study-{}.yaml", ::getpid());
+  write_file(own, study.yaml);
+  fs::rename(own, file);
 }
 
 std::vector<EpisodeState> run_sweep(const std::vector<PlannedEpisode>& plan,

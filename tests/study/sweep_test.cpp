@@ -98,6 +98,20 @@ TEST_F(Sweep, ShardsMergeToTheSameResults) {
   EXPECT_EQ(collected("parts"), reference());
 }
 
+TEST_F(Sweep, ShardsMayBeginTogether) {
+  const std::string run =
+      std::string(VANTAGE_BINARY " sweep run -q ") + kStudy + " --out together --jobs 1 --shard ";
+  std::string shards = "cd '" + folder_.path().string() + "'; ";
+  for (int i = 1; i <= 4; ++i)
+    shards += run + std::to_string(i) + "/4 & s" + std::to_string(i) + "=$!; ";
+  const ShellResult all = shell(shards + "wait $s1 && wait $s2 && wait $s3 && wait $s4");
+  EXPECT_EQ(all.exit_code, 0) << all.output;
+  EXPECT_EQ(collected("together"), reference());
+  for (const auto& entry : fs::directory_iterator(folder_ / "together")) {
+    EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("study-")));
+  }
+}
+
 TEST_F(Sweep, InterruptedSweepEndsIn130AndResumes) {
   const ShellResult interrupted =
       shell("cd '" + folder_.path().string() +
