@@ -36,6 +36,12 @@ const Json* StudySummary::entry(const std::string& table, const std::string& pan
   return at;
 }
 
+const Json* StudySummary::difference(const std::string& table, const std::string& panel,
+                                     const std::string& level) const {
+  const Json* found = entry(table, panel, level);
+  return found == nullptr || !found->contains("difference") ? nullptr : &found->at("difference");
+}
+
 std::optional<double> StudySummary::mean(const std::string& table, const std::string& panel,
                                          const std::string& level) const {
   const Json* found = entry(table, panel, level);
@@ -52,54 +58,46 @@ std::optional<double> StudySummary::least(const std::string& table, const std::s
 
 std::optional<double> StudySummary::ratio(const std::string& table, const std::string& panel,
                                           const std::string& level) const {
-  const Json* found = entry(table, panel, level);
-  if (found == nullptr || !found->contains("difference")) return std::nullopt;
-  const Json& difference = found->at("difference");
-  if (!difference.contains("ratio")) return std::nullopt;
-  return difference.at("ratio").get<double>();
+  const Json* found = difference(table, panel, level);
+  if (found == nullptr || !found->contains("ratio")) return std::nullopt;
+  return found->at("ratio").get<double>();
 }
 
 bool StudySummary::above_reference(const std::string& table, const std::string& panel,
                                    const std::string& level) const {
-  const Json* found = entry(table, panel, level);
-  return found != nullptr && found->contains("difference") &&
-         found->at("difference").at("interval")[0].get<double>() > 0.0;
+  const Json* found = difference(table, panel, level);
+  return found != nullptr && found->at("interval")[0].get<double>() > 0.0;
 }
 
 bool StudySummary::below_reference(const std::string& table, const std::string& panel,
                                    const std::string& level) const {
-  const Json* found = entry(table, panel, level);
-  return found != nullptr && found->contains("difference") &&
-         found->at("difference").at("interval")[1].get<double>() < 0.0;
+  const Json* found = difference(table, panel, level);
+  return found != nullptr && found->at("interval")[1].get<double>() < 0.0;
 }
 
 std::string StudySummary::ratio_text(const std::string& table, const std::string& panel,
                                      const std::string& level) const {
   const auto times = ratio(table, panel, level);
   if (!times) return {};
-  const Json& difference = entry(table, panel, level)->at("difference");
-  const Json& interval = difference.at("ratio_interval");
+  const Json& interval = difference(table, panel, level)->at("ratio_interval");
   return fmt::format("{:.2f} [{:.2f}, {:.2f}], {} pairs", *times, interval[0].get<double>(),
-                     interval[1].get<double>(), difference.at("pairs").get<int>());
+                     interval[1].get<double>(), pairs(table, panel, level));
 }
 
 std::string StudySummary::less_text(const std::string& table, const std::string& panel,
                                     const std::string& level, double scale, int digits) const {
-  const Json* found = entry(table, panel, level);
-  if (found == nullptr || !found->contains("difference")) return {};
-  const Json& difference = found->at("difference");
-  const Json& interval = difference.at("interval");
+  const Json* found = difference(table, panel, level);
+  if (found == nullptr) return {};
+  const Json& interval = found->at("interval");
   const auto less = [&](const Json& more) { return -scale * more.get<double>(); };
-  return fmt::format("{:+.{}f} [{:+.{}f}, {:+.{}f}]", less(difference.at("mean")), digits,
+  return fmt::format("{:+.{}f} [{:+.{}f}, {:+.{}f}]", less(found->at("mean")), digits,
                      less(interval[1]), digits, less(interval[0]), digits);
 }
 
 int StudySummary::pairs(const std::string& table, const std::string& panel,
                         const std::string& level) const {
-  const Json* found = entry(table, panel, level);
-  return found == nullptr || !found->contains("difference")
-             ? 0
-             : found->at("difference").at("pairs").get<int>();
+  const Json* found = difference(table, panel, level);
+  return found == nullptr ? 0 : found->at("pairs").get<int>();
 }
 
 std::vector<std::string> StudySummary::panels(const std::string& table) const {

@@ -60,6 +60,9 @@ class StudySummary {
  private:
   [[nodiscard]] const Json* entry(const std::string& table, const std::string& panel,
                                   const std::string& level) const;
+  /// To the reference level; none for that level, and without pairs.
+  [[nodiscard]] const Json* difference(const std::string& table, const std::string& panel,
+                                       const std::string& level) const;
   Json json_;
 };
 

@@ -13,6 +13,7 @@
 #include "src/core/data_root.hpp"
 #include "src/core/error.hpp"
 #include "src/core/hash.hpp"
+#include "src/episode/recognition_model_setting.hpp"
 
 namespace vantage {
 namespace {
@@ -81,11 +82,9 @@ std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved)
     }
   }
   const Episode& episode = resolved.episode;
-  const bool along_path = episode.flies_trajectory();
-  const fs::path model =
-      data_root() / (along_path ? episode.trajectory.model : episode.recognition.model);
+  const fs::path model = data_root() / recognition_model_of(episode);
   if (episode.flies() && fs::exists(model)) {
-    hashes[along_path ? "trajectory.model" : "recognition.model"] = hash_text(hash_file(model));
+    hashes[recognition_model_key(episode)] = hash_text(hash_file(model));
   }
   return hashes;
 }

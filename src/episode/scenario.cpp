@@ -8,6 +8,7 @@
 #include "src/core/data_root.hpp"
 #include "src/core/strategy_label.hpp"
 #include "src/core/yaml.hpp"
+#include "src/episode/recognition_model_setting.hpp"
 
 namespace vantage {
 namespace {
@@ -51,12 +52,10 @@ void check_change(const Episode& episode) {
 /// A model that is not there yet is missed where it is needed: to replay an episode it is not.
 void settle_recognition_model(ResolvedEpisode& resolved, const std::filesystem::path& base) {
   Episode& episode = resolved.episode;
-  const bool along_path = episode.flies_trajectory();
-  std::string& model = along_path ? episode.trajectory.model : episode.recognition.model;
+  std::string& model = recognition_model_of(episode);
   if (!episode.flies() || model.empty()) return;
   try {
-    const char* key = along_path ? "trajectory.model" : "recognition.model";
-    model = lasting_name(find_input(model, base, key));
+    model = lasting_name(find_input(model, base, recognition_model_key(episode)));
   } catch (const InputError&) {
     return;
   }

@@ -199,7 +199,10 @@ void prepare_study_folder(const Study& study, const StudySweepOptions& options) 
   // Shards that begin together each write a file of their own.
   const fs::path own = options.directory / fmt::format("study-{}.yaml", ::getpid());
   write_file(own, study.yaml);
-  fs::rename(own, file);
+  fs::rename(own, file, error);
+  if (error) {
+    throw OutputError(fmt::format("{}: cannot write: {}", file.string(), error.message()));
+  }
 }
 
 std::vector<EpisodeState> run_sweep(const std::vector<PlannedEpisode>& plan,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "planners/trajectory/observation_ring.hpp"
 #include "tests/episode/flight_survey.hpp"
 
 namespace vantage {
@@ -38,15 +39,11 @@ bool blocks(const FlightMap& map, const Eigen::Vector3d& p_world_m, double radiu
 
 /// Least distance of the given path from there, level.
 double pass_m(const FlightLayout& layout, const Eigen::Vector3d& p_world_m) {
-  double least_m = 1e9;
-  for (std::size_t i = 1; i < layout.path.size(); ++i) {
-    for (double share = 0.0; share <= 1.0; share += 0.1) {
-      const Eigen::Vector3d p_m =
-          (1.0 - share) * layout.path[i - 1].p_world_m + share * layout.path[i].p_world_m;
-      least_m = std::min(least_m, (p_m - p_world_m).head<2>().norm());
-    }
+  Eigen::Matrix4Xd path = Eigen::Matrix4Xd::Zero(4, static_cast<Eigen::Index>(layout.path.size()));
+  for (Eigen::Index i = 0; i < path.cols(); ++i) {
+    path.col(i).head<2>() = layout.path[static_cast<std::size_t>(i)].p_world_m.head<2>();
   }
-  return least_m;
+  return nearest_on_path(path, {p_world_m.x(), p_world_m.y(), 0.0}).distance_m;
 }
 
 TEST_P(ObjectDiscovery, FindsEveryObjectAndNothingElseAlongTheInitialPath) {
