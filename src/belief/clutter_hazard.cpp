@@ -1,9 +1,27 @@
 #include "src/belief/clutter_hazard.hpp"
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
 namespace vantage {
+namespace {
+
+bool is_beside_occupied(const OccupancyGrid& grid, std::size_t cell) {
+  const Eigen::Array3i at = grid.frame.cell(cell);
+  const auto nx = static_cast<std::size_t>(grid.frame.cells.x());
+  const std::array<std::size_t, 3> strides{1, nx,
+                                           nx * static_cast<std::size_t>(grid.frame.cells.y())};
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t stride = strides[static_cast<std::size_t>(axis)];
+    const auto occupied = [&](std::size_t i) { return grid.state(i) == CellState::occupied; };
+    if (at[axis] > 0 && occupied(cell - stride)) return true;
+    if (at[axis] + 1 < grid.frame.cells[axis] && occupied(cell + stride)) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 ClutterHazard::ClutterHazard(const ClutterHazardOptions& options, const Eigen::Array3i& cells)
     : options_(options) {
@@ -35,7 +53,7 @@ void ClutterHazard::count_beam(const OccupancyGrid& before, const Eigen::Vector3
   const std::size_t end = returned && frame.contains(last) ? frame.index(last) : frame.size();
   walk_ray(frame, p_from, p_to, [&](std::size_t cell) {
     const CellState state = before.state(cell);
-    if (state == CellState::unobserved) {
+    if (state == CellState::unobserved && !is_beside_occupied(before, cell)) {
       const std::size_t slice = cell / column_of_.size();
       const int layer = layer_of(static_cast<int>(slice));
       const std::size_t block =

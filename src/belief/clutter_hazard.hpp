@@ -32,9 +32,10 @@ struct ClutterHazardOptions {
 
 /// A beam that enters unobserved cells is a survival experiment: each cell entered is one crossing,
 /// and the cell that stops it one hit. The hazard of an unobserved cell is hits / crossings, its
-/// transmission 1 - hazard. Clutter has its heights and its places: each height layer has a rate,
-/// shrunk towards that of all layers, and each block of a layer one of what was counted round it,
-/// shrunk towards the layer's.
+/// transmission 1 - hazard. A cell beside an occupied one is left out: what stops a beam there is
+/// as a rule the surface known already, measured a little off. Clutter has its heights and its
+/// places: each height layer has a rate, shrunk towards that of all layers, and each block of a
+/// layer one of what was counted round it, shrunk towards the layer's.
 class ClutterHazard {
  public:
   /// @param cells of the grid along each axis, >= 1

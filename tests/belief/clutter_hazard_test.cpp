@@ -40,9 +40,14 @@ TEST(ClutterHazard, CountsABeam) {
   EXPECT_EQ(beam("..????", 3.5F), (Counted{2, 1})) << "stopped in the second unobserved cell";
   EXPECT_EQ(beam("..????", 2.5F), (Counted{1, 1})) << "stopped in the first";
   EXPECT_EQ(beam("..????", 1.5F), (Counted{0, 0})) << "ended in a free cell";
-  EXPECT_EQ(beam("..??##", 4.5F), (Counted{2, 0})) << "ended in a cell already occupied";
-  EXPECT_EQ(beam("..?#??", 5.5F), (Counted{1, 0})) << "met a known surface on the way";
+  EXPECT_EQ(beam("..???##", 5.5F), (Counted{2, 0})) << "ended in a cell already occupied";
+  EXPECT_EQ(beam("..??#??", 6.5F), (Counted{1, 0})) << "met a known surface on the way";
   EXPECT_EQ(beam("??..??", 4.5F), (Counted{3, 1})) << "free cells between do not count";
+}
+
+TEST(ClutterHazard, AKnownSurfaceMeasuredALittleOffIsNoHit) {
+  EXPECT_EQ(beam("..???#?", 4.5F), (Counted{2, 0})) << "just before it";
+  EXPECT_EQ(beam("..???#?", 3.5F), (Counted{2, 1})) << "farther before it";
 }
 
 TEST(ClutterHazard, BeamWithoutReturnCrossesAll) {
