@@ -51,7 +51,7 @@ inline std::vector<Gain> cell_predictors() {
   std::vector<Gain> predictors;
   for (const std::string_view name : strategy_names<Gain>()) {
     Gain gain = make_strategy<Gain>(name);
-    if (predicts_cells(gain)) predictors.push_back(std::move(gain));
+    if (predicts_cells(gain)) predictors.push_back(gain);
   }
   return predictors;
 }
