@@ -12,9 +12,9 @@ bool is_beside_occupied(const OccupancyGrid& grid, std::size_t cell) {
   const auto nx = static_cast<std::size_t>(grid.frame.cells.x());
   const std::array<std::size_t, 3> strides{1, nx,
                                            nx * static_cast<std::size_t>(grid.frame.cells.y())};
+  const auto occupied = [&](std::size_t i) { return grid.state(i) == CellState::occupied; };
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t stride = strides[static_cast<std::size_t>(axis)];
-    const auto occupied = [&](std::size_t i) { return grid.state(i) == CellState::occupied; };
     if (at[axis] > 0 && occupied(cell - stride)) return true;
     if (at[axis] + 1 < grid.frame.cells[axis] && occupied(cell + stride)) return true;
   }
