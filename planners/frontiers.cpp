@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "src/geometry/face_neighbours.hpp"
+
 namespace vantage {
 namespace {
 
@@ -129,8 +131,6 @@ void FrontierOptions::check() const {
 
 std::vector<std::size_t> frontier_cells(const OccupancyGrid& grid, const FrontierOptions& options) {
   const GridFrame& frame = grid.frame;
-  const auto nx = static_cast<std::size_t>(frame.cells.x());
-  const std::size_t nxy = nx * static_cast<std::size_t>(frame.cells.y());
   const Slices slices = slices_in_band(frame, options);
   const auto unknown = [&](std::size_t cell) { return grid.state(cell) == CellState::unobserved; };
   Cells found;
@@ -139,11 +139,7 @@ std::vector<std::size_t> frontier_cells(const OccupancyGrid& grid, const Frontie
       for (int x = 0; x < frame.cells.x(); ++x) {
         const std::size_t cell = frame.index({x, y, z});
         if (grid.state(cell) != CellState::free) continue;
-        if ((x > 0 && unknown(cell - 1)) || (x + 1 < frame.cells.x() && unknown(cell + 1)) ||
-            (y > 0 && unknown(cell - nx)) || (y + 1 < frame.cells.y() && unknown(cell + nx)) ||
-            (z > 0 && unknown(cell - nxy)) || (z + 1 < frame.cells.z() && unknown(cell + nxy))) {
-          found.push_back(cell);
-        }
+        if (any_face_neighbour(frame, {x, y, z}, unknown)) found.push_back(cell);
       }
     }
   }

@@ -1,24 +1,17 @@
 #include "src/belief/clutter_hazard.hpp"
 
-#include <array>
 #include <cmath>
 #include <numeric>
+
+#include "src/geometry/face_neighbours.hpp"
 
 namespace vantage {
 namespace {
 
 bool is_beside_occupied(const OccupancyGrid& grid, std::size_t cell) {
-  const Eigen::Array3i at = grid.frame.cell(cell);
-  const auto nx = static_cast<std::size_t>(grid.frame.cells.x());
-  const std::array<std::size_t, 3> strides{1, nx,
-                                           nx * static_cast<std::size_t>(grid.frame.cells.y())};
-  const auto occupied = [&](std::size_t i) { return grid.state(i) == CellState::occupied; };
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t stride = strides[static_cast<std::size_t>(axis)];
-    if (at[axis] > 0 && occupied(cell - stride)) return true;
-    if (at[axis] + 1 < grid.frame.cells[axis] && occupied(cell + stride)) return true;
-  }
-  return false;
+  return any_face_neighbour(grid.frame, grid.frame.cell(cell), [&](std::size_t neighbour) {
+    return grid.state(neighbour) == CellState::occupied;
+  });
 }
 
 }  // namespace
