@@ -105,11 +105,12 @@ std::vector<ObservedObject> FlightPlanner::observed(const std::vector<PlannableO
 
 void FlightPlanner::choose_target(const PlanState& state,
                                   const std::vector<PlannableObject>& objects,
-                                  const std::vector<ObservedObject>& rings) {
+                                  const std::vector<ObservedObject>& rings,
+                                  const OccupancyGrid& grid) {
   target_.reset();
   target_of_point_.clear();
   if (const auto* on_the_way = std::get_if<ViewsOnTheWay>(&task_.planner.views)) {
-    choose_views(*on_the_way, horizon(state, state.nominal).points, objects, rings);
+    choose_views(*on_the_way, horizon(state, state.nominal).points, objects, rings, grid);
     return;
   }
   const Eigen::Vector3d p_m = state.plan[static_cast<std::size_t>(state.at)].head<3>();
@@ -126,10 +127,30 @@ void FlightPlanner::choose_target(const PlanState& state,
                        .entropy_nats = object.entropy_nats};
 }
 
+/// Known as it were, so that it is turned to and not flown to.
+std::optional<ObservationTarget> FlightPlanner::search_target(const Eigen::Matrix4Xd& given,
+                                                              Eigen::Index point,
+                                                              const OccupancyGrid& grid) const {
+  const Eigen::Vector3d at_m = given.col(point).head<3>();
+  const Eigen::Index from = std::min(point, given.cols() - 2);
+  const Eigen::Vector2d ahead = (given.col(from + 1) - given.col(from)).head<2>();
+  const auto yaw_rad = search_heading(task_.planner.search, grid, at_m,
+                                      std::atan2(ahead.y(), ahead.x()),
+                                      camera_.horizontal_fov_rad);
+  if (!yaw_rad) return std::nullopt;
+  const Pose T_world_body = make_pose(at_m, *yaw_rad);
+  return ObservationTarget{
+      .p_world_object_m =
+          T_world_body * (camera_.T_body_camera * Eigen::Vector3d(0.0, 0.0, task_.planner.look_m)),
+      .p_world_view_m = at_m,
+      .entropy_nats = 0.0};
+}
+
 /// The views that the next waypoints take, and the first of them as what is looked at.
 void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
                                  const std::vector<PlannableObject>& objects,
-                                 const std::vector<ObservedObject>& rings) {
+                                 const std::vector<ObservedObject>& rings,
+                                 const OccupancyGrid& grid) {
   if (given.cols() < kLastAsGiven) {
     target_of_point_.resize(static_cast<std::size_t>(given.cols()));
     return;
@@ -137,8 +158,12 @@ void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matr
   const std::vector<ScheduledView> views =
       schedule_views(options, rings, given, task_.looks.known_below_nats);
   for (const auto& view : views_of_points(options, views, given)) {
+    const auto point = static_cast<Eigen::Index>(target_of_point_.size());
     auto& target = target_of_point_.emplace_back();
-    if (!view) continue;
+    if (!view) {
+      target = search_target(given, point, grid);
+      continue;
+    }
     const ObservedObject& object = rings[views[*view].object];
     target = ObservationTarget{.p_world_object_m = object.ring.p_world_object_m,
                                .p_world_view_m = object.ring.view_m(views[*view].direction),
@@ -243,7 +268,7 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
       kReach_m);
   const double height_m = state.nominal[static_cast<std::size_t>(state.at)].z();
   const std::vector<ObservedObject> rings = observed(objects, height_m);
-  choose_target(state, objects, rings);
+  choose_target(state, objects, rings, map.grid());
   std::vector<WayOn> ways;
   const PathCost cost = this->cost(horizon(state, state.nominal).points);
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {

@@ -57,9 +57,13 @@ void ObjectLooks::forget(int id) {
 bool ObjectLooks::wants(int id, const ObjectSighting& sighting, const Pose& T_world_camera) const {
   const LookedAtObject* object = find(id);
   if (object == nullptr || !sighting.whole || sighting.distance_m > options_.range_m) return false;
+  const double bearing_rad = bearing_from(object->p_world_m, T_world_camera);
   const auto direction =
       static_cast<std::size_t>(direction_from(object->p_world_m, T_world_camera));
-  return !object->used[direction] && object->gain_nats[direction] >= options_.least_gain_nats &&
+  const bool hardly_another_side = std::ranges::any_of(object->looks, [&](const ObjectLook& look) {
+    return std::abs(wrap_angle(bearing_rad - look.bearing_rad)) < options_.apart_rad;
+  });
+  return !hardly_another_side && !object->used[direction] && object->gain_nats[direction] >= options_.least_gain_nats &&
          (options_.look_at_known || !known(*object));
 }
 

@@ -24,6 +24,8 @@ struct LookOptions {
   bool look_at_known = false;     ///< go on observing what is known
   /// Expected of the object, from that direction; higher looks less. 0: every direction counts.
   double least_gain_nats = 0.03;
+  /// Between the bearings of an object's observations; lower takes two from hardly another side.
+  double apart_rad = 0.3;
   /// A picture from nearer than that is taken once none was nearer for `patience_s`, or the
   /// direction was left. Higher takes more pictures that a nearer one would have made needless.
   double near_m = 1.3;
@@ -36,6 +38,7 @@ struct LookOptions {
     f("known_below_nats", known_below_nats, at_least(0.0));
     f("look_at_known", look_at_known);
     f("least_gain_nats", least_gain_nats, at_least(0.0));
+    f("apart_rad", apart_rad, between(0.0, 3.0));
     f("near_m", near_m, at_least(0.0));
     f("patience_s", patience_s, between(0.0, 100.0));
     f("left_after_s", left_after_s, between(0.0, 100.0));

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "planners/trajectory/flight_cost.hpp"
+#include "planners/trajectory/search_heading.hpp"
 #include "planners/trajectory/simple_paths.hpp"
 #include "planners/trajectory/trajectory_optimiser.hpp"
 #include "planners/trajectory/view_schedule.hpp"
@@ -48,6 +49,7 @@ inline constexpr std::string_view strategy_family<ViewPlan> = "view plan";
 struct FlightPlannerOptions {
   FlightCostOptions cost;
   ViewPlan views = ViewsOnTheWay{};
+  SearchOptions search;  ///< of `on_the_way`, between its views
   /// Camera to object, in the middle of the picture, where the object is looked at best: the body
   /// goes as low as that takes, never above the path. Higher sees it smaller.
   double look_m = 1.05;
@@ -61,6 +63,7 @@ struct FlightPlannerOptions {
   void fields(auto&& f) {
     f("cost", cost);
     f("views", views);
+    f("search", search);
     f("look_m", look_m, between(0.3, 3.0));
     f("range_m", range_m, above(0.0));
     f("leash_m", leash_m, at_least(0.0));

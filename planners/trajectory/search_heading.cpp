@@ -1,0 +1,61 @@
+#include "planners/trajectory/search_heading.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "src/geometry/pose.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kBetweenRays_rad = std::numbers::pi / 36.0;
+constexpr double kNearest_m = 0.5;  // nearer is below the frame
+
+/// Area that a ray stands for, between its neighbours.
+double unseen_along_m2(const SearchOptions& options, const OccupancyGrid& grid,
+                       const Eigen::Vector3d& from_m, double bearing_rad) {
+  const Eigen::Vector3d direction(std::cos(bearing_rad), std::sin(bearing_rad), 0.0);
+  const double step_m = grid.frame.cell_size_m.head<2>().minCoeff();
+  double area_m2 = 0.0;
+  for (double away_m = kNearest_m; away_m < options.range_m; away_m += step_m) {
+    const Eigen::Array3i cell = grid.frame.cell_at(from_m + away_m * direction);
+    if (!grid.frame.contains(cell)) break;
+    const CellState state = grid.state(grid.frame.index(cell));
+    if (state == CellState::occupied) break;
+    if (state == CellState::unobserved) area_m2 += away_m * kBetweenRays_rad * step_m;
+  }
+  return area_m2;
+}
+
+}  // namespace
+
+std::optional<double> search_heading(const SearchOptions& options, const OccupancyGrid& grid,
+                                     const Eigen::Vector3d& p_world_vehicle_m, double ahead_rad,
+                                     double fov_rad) {
+  const Eigen::Vector3d from_m = p_world_vehicle_m - Eigen::Vector3d(0.0, 0.0, options.below_m);
+  const auto turns = static_cast<int>(options.turn_rad / kBetweenRays_rad);  // to either side
+  const auto beside = static_cast<int>(0.5 * fov_rad / kBetweenRays_rad);
+  std::vector<double> unseen_m2;
+  for (int ray = -turns - beside; ray <= turns + beside; ++ray) {
+    unseen_m2.push_back(
+        unseen_along_m2(options, grid, from_m, ahead_rad + ray * kBetweenRays_rad));
+  }
+  int best = 0;
+  double best_worth = options.least_m2;
+  for (int turn = -turns; turn <= turns; ++turn) {
+    double seen_m2 = 0.0;
+    for (int ray = turn - beside; ray <= turn + beside; ++ray) {
+      seen_m2 += unseen_m2[static_cast<std::size_t>(ray + turns + beside)];
+    }
+    const double worth = seen_m2 * std::cos(0.5 * turn * kBetweenRays_rad);
+    if (worth > best_worth) {
+      best = turn;
+      best_worth = worth;
+    }
+  }
+  if (best == 0) return std::nullopt;
+  return wrap_angle(ahead_rad + best * kBetweenRays_rad);
+}
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+/// Where to look for objects that were not found yet, while there is none to look at.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+
+#include "src/belief/occupancy_grid.hpp"
+#include "src/core/fields.hpp"
+
+namespace vantage {
+
+struct SearchOptions {
+  double turn_rad = 1.0;  ///< from the way ahead, at most; higher looks aside more, 0 never
+  double below_m = 0.9;   ///< the vehicle, that objects are looked for; higher looks for lower ones
+  double range_m = 2.5;   ///< that is searched; higher looks farther
+  double least_m2 = 0.3;  ///< unseen, that one turns to; higher turns less
+  void fields(auto&& f) {
+    f("turn_rad", turn_rad, between(0.0, 3.0));
+    f("below_m", below_m, at_least(0.0));
+    f("range_m", range_m, between(0.6, 10.0));
+    f("least_m2", least_m2, at_least(0.0));
+  }
+};
+
+/// The yaw from which a camera sees most of what was not seen yet, at the height where objects are
+/// looked for and before anything that is in the way there; a turn aside counts against it.
+/// Nothing if that is the way ahead, or if there is too little to see.
+/// @param ahead_rad yaw of the way, world
+/// @param fov_rad of the camera, horizontal
+std::optional<double> search_heading(const SearchOptions& options, const OccupancyGrid& grid,
+                                     const Eigen::Vector3d& p_world_vehicle_m, double ahead_rad,
+                                     double fov_rad);
+
+}  // namespace vantage
