@@ -1,5 +1,6 @@
 #include "planners/trajectory/search_heading.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -38,8 +39,7 @@ std::optional<double> search_heading(const SearchOptions& options, const Occupan
   const auto beside = static_cast<int>(0.5 * fov_rad / kBetweenRays_rad);
   std::vector<double> unseen_m2;
   for (int ray = -turns - beside; ray <= turns + beside; ++ray) {
-    unseen_m2.push_back(
-        unseen_along_m2(options, grid, from_m, ahead_rad + ray * kBetweenRays_rad));
+    unseen_m2.push_back(unseen_along_m2(options, grid, from_m, ahead_rad + ray * kBetweenRays_rad));
   }
   int best = 0;
   double best_worth = options.least_m2;
@@ -56,6 +56,23 @@ std::optional<double> search_heading(const SearchOptions& options, const Occupan
   }
   if (best == 0) return std::nullopt;
   return wrap_angle(ahead_rad + best * kBetweenRays_rad);
+}
+
+std::optional<ObservationTarget> search_target(const SearchOptions& options,
+                                               const OccupancyGrid& grid,
+                                               const FlightCamera& camera,
+                                               const Eigen::Matrix4Xd& path, Eigen::Index waypoint,
+                                               double away_m) {
+  const Eigen::Vector3d at_m = path.col(waypoint).head<3>();
+  const Eigen::Index from = std::min(waypoint, path.cols() - 2);
+  const Eigen::Vector2d ahead = (path.col(from + 1) - path.col(from)).head<2>();
+  const auto yaw_rad = search_heading(options, grid, at_m, std::atan2(ahead.y(), ahead.x()),
+                                      camera.horizontal_fov_rad);
+  if (!yaw_rad) return std::nullopt;
+  const Pose T_world_camera = make_pose(at_m, *yaw_rad) * camera.T_body_camera;
+  return ObservationTarget{.p_world_object_m = T_world_camera * Eigen::Vector3d(0.0, 0.0, away_m),
+                           .p_world_view_m = at_m,
+                           .entropy_nats = 0.0};
 }
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "planners/trajectory/flight_cost.hpp"
 #include "src/belief/occupancy_grid.hpp"
 #include "src/core/fields.hpp"
 
@@ -31,5 +32,14 @@ struct SearchOptions {
 std::optional<double> search_heading(const SearchOptions& options, const OccupancyGrid& grid,
                                      const Eigen::Vector3d& p_world_vehicle_m, double ahead_rad,
                                      double fov_rad);
+
+/// What a waypoint turns to by that: a place `away_m` in the middle of the picture. It is no
+/// object, so it is known (H = 0), looked at and not flown to.
+/// @param path 2 waypoints or more, as they are given
+std::optional<ObservationTarget> search_target(const SearchOptions& options,
+                                               const OccupancyGrid& grid,
+                                               const FlightCamera& camera,
+                                               const Eigen::Matrix4Xd& path, Eigen::Index waypoint,
+                                               double away_m);
 
 }  // namespace vantage

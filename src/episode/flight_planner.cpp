@@ -127,25 +127,6 @@ void FlightPlanner::choose_target(const PlanState& state,
                        .entropy_nats = object.entropy_nats};
 }
 
-/// Known as it were, so that it is turned to and not flown to.
-std::optional<ObservationTarget> FlightPlanner::search_target(const Eigen::Matrix4Xd& given,
-                                                              Eigen::Index point,
-                                                              const OccupancyGrid& grid) const {
-  const Eigen::Vector3d at_m = given.col(point).head<3>();
-  const Eigen::Index from = std::min(point, given.cols() - 2);
-  const Eigen::Vector2d ahead = (given.col(from + 1) - given.col(from)).head<2>();
-  const auto yaw_rad = search_heading(task_.planner.search, grid, at_m,
-                                      std::atan2(ahead.y(), ahead.x()),
-                                      camera_.horizontal_fov_rad);
-  if (!yaw_rad) return std::nullopt;
-  const Pose T_world_body = make_pose(at_m, *yaw_rad);
-  return ObservationTarget{
-      .p_world_object_m =
-          T_world_body * (camera_.T_body_camera * Eigen::Vector3d(0.0, 0.0, task_.planner.look_m)),
-      .p_world_view_m = at_m,
-      .entropy_nats = 0.0};
-}
-
 /// The views that the next waypoints take, and the first of them as what is looked at.
 void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
                                  const std::vector<PlannableObject>& objects,
@@ -161,7 +142,8 @@ void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matr
     const auto point = static_cast<Eigen::Index>(target_of_point_.size());
     auto& target = target_of_point_.emplace_back();
     if (!view) {
-      target = search_target(given, point, grid);
+      target =
+          search_target(task_.planner.search, grid, camera_, given, point, task_.planner.look_m);
       continue;
     }
     const ObservedObject& object = rings[views[*view].object];

@@ -61,9 +61,6 @@ class FlightPlanner {
   void choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
                     const std::vector<PlannableObject>& objects,
                     const std::vector<ObservedObject>& rings, const OccupancyGrid& grid);
-  [[nodiscard]] std::optional<ObservationTarget> search_target(const Eigen::Matrix4Xd& given,
-                                                               Eigen::Index point,
-                                                               const OccupancyGrid& grid) const;
   [[nodiscard]] Eigen::Matrix4Xd turned(const Eigen::Matrix4Xd& points,
                                         const std::vector<ObservedObject>& objects) const;
   [[nodiscard]] double lowest_view_m(double height_m) const;

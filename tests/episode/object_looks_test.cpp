@@ -56,6 +56,13 @@ TEST_F(Looks, CountWholeWithinRangeAndOnceADirection) {
   EXPECT_EQ(looks_.total(), 2);
 }
 
+TEST_F(Looks, AreTakenFromApart) {
+  take(0.35);
+  EXPECT_EQ(looks_.direction(7, from(0.45)), 1) << "another direction";
+  EXPECT_FALSE(wants(0.45, kGood)) << "but hardly another side";
+  EXPECT_TRUE(wants(0.7, kGood));
+}
+
 TEST_F(Looks, OfAKnownObjectAreNotWanted) {
   ObjectLooks looks(recogniser_, {.known_below_nats = 2.0}, RigidTransition{});
   looks.found(7, {1.0, 2.0, 0.9});

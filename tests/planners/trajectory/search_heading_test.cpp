@@ -1,0 +1,79 @@
+// Where a camera turns that has no object to look at.
+#include "planners/trajectory/search_heading.hpp"
+
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+constexpr double kFov_rad = 0.995;
+
+/// 6 x 6 m round the vehicle, one layer 0.9 m below it; all of it seen and free.
+class Search : public testing::Test {
+ protected:
+  Search() : grid_(GridFrame{{-3.0, -3.0, 0.8}, {0.1, 0.1, 0.2}, {60, 60, 1}}) {
+    for (float& odds : grid_.log_odds) odds = -2.0F;
+  }
+  /// Everything in a box, level.
+  void set(double x0, double x1, double y0, double y1, float log_odds) {
+    for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
+      const Eigen::Vector3d p = grid_.frame.centre(grid_.frame.cell(cell));
+      if (p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1) grid_.log_odds[cell] = log_odds;
+    }
+  }
+  [[nodiscard]] std::optional<double> heading(double ahead_rad = 0.0) const {
+    return search_heading(options_, grid_, {0.0, 0.0, 1.8}, ahead_rad, kFov_rad);
+  }
+
+  OccupancyGrid grid_;
+  SearchOptions options_;
+};
+
+TEST_F(Search, TurnsToWhatWasNotSeen) {
+  EXPECT_FALSE(heading()) << "all was seen";
+  set(0.4, 1.6, 0.8, 2.0, 0.0F);
+  const auto left = heading();
+  ASSERT_TRUE(left);
+  EXPECT_GT(*left, 0.4);
+  EXPECT_LE(*left, options_.turn_rad + 1e-9);
+  EXPECT_FALSE(heading(-2.5)) << "it is behind";
+}
+
+TEST_F(Search, LooksAheadWhenMostIsThere) {
+  set(0.6, 2.5, -0.8, 0.8, 0.0F);
+  set(-0.2, 0.2, 0.8, 1.6, 0.0F);
+  EXPECT_FALSE(heading());
+}
+
+TEST_F(Search, DoesNotSeeBehindWhatStandsThere) {
+  set(0.4, 1.6, 1.0, 2.2, 0.0F);
+  set(-0.2, 2.2, 0.7, 0.9, 2.0F);
+  EXPECT_FALSE(heading());
+}
+
+TEST_F(Search, AWaypointLooksAtTheMiddleOfWhatItTurnsTo) {
+  set(0.4, 1.6, 0.8, 2.0, 0.0F);
+  Eigen::Matrix4Xd path = Eigen::Matrix4Xd::Zero(4, 2);
+  path.row(2).setConstant(1.8);
+  path(0, 1) = 1.0;
+  const FlightCamera camera{.T_body_camera = camera_ahead(0.6)};
+  const auto target = search_target(options_, grid_, camera, path, 0, 1.2);
+  ASSERT_TRUE(target);
+  Eigen::Vector4d turned = path.col(0);
+  turned[3] = *heading();
+  const auto v = in_frame(camera, turned, target->p_world_object_m);
+  ASSERT_TRUE(v);
+  EXPECT_NEAR(v->norm(), 0.0, 1e-9);
+  EXPECT_EQ(target->entropy_nats, 0.0) << "nothing to fly to";
+}
+
+TEST_F(Search, TurnsForEnoughAlone) {
+  set(0.4, 1.6, 0.8, 2.0, 0.0F);
+  options_.least_m2 = 5.0;
+  EXPECT_FALSE(heading());
+  options_ = {.turn_rad = 0.0};
+  EXPECT_FALSE(heading()) << "it may not";
+}
+
+}  // namespace
+}  // namespace vantage
