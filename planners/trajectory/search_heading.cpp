@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "src/geometry/pose.hpp"
@@ -44,10 +45,8 @@ std::optional<double> search_heading(const SearchOptions& options, const Occupan
   int best = 0;
   double best_worth = options.least_m2;
   for (int turn = -turns; turn <= turns; ++turn) {
-    double seen_m2 = 0.0;
-    for (int ray = turn - beside; ray <= turn + beside; ++ray) {
-      seen_m2 += unseen_m2[static_cast<std::size_t>(ray + turns + beside)];
-    }
+    const auto first_ray = unseen_m2.begin() + turns + turn;
+    const double seen_m2 = std::accumulate(first_ray, first_ray + 2 * beside + 1, 0.0);
     const double worth = seen_m2 * std::cos(0.5 * turn * kBetweenRays_rad);
     if (worth > best_worth) {
       best = turn;

@@ -17,7 +17,8 @@ namespace {
 
 Eigen::Matrix4Xd columns(const std::vector<Eigen::Vector4d>& path, int first, int count) {
   Eigen::Matrix4Xd points(4, count);
-  for (int i = 0; i < count; ++i) points.col(i) = path[static_cast<std::size_t>(first + i)];
+  const auto from = static_cast<std::size_t>(first);
+  for (int i = 0; i < count; ++i) points.col(i) = path[from + static_cast<std::size_t>(i)];
   return points;
 }
 
