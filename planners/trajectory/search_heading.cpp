@@ -68,10 +68,10 @@ std::optional<ObservationTarget> search_target(const SearchOptions& options,
   const auto yaw_rad = search_heading(options, grid, at_m, std::atan2(ahead.y(), ahead.x()),
                                       camera.horizontal_fov_rad);
   if (!yaw_rad) return std::nullopt;
-  const Pose T_world_camera = make_pose(at_m, *yaw_rad) * camera.T_body_camera;
-  return ObservationTarget{.p_world_object_m = T_world_camera * Eigen::Vector3d(0.0, 0.0, away_m),
-                           .p_world_view_m = at_m,
-                           .entropy_nats = 0.0};
+  const Pose T_world_body = make_pose(at_m, *yaw_rad);
+  const Eigen::Vector3d p_body_m = camera.T_body_camera * Eigen::Vector3d(0.0, 0.0, away_m);
+  return ObservationTarget{
+      .p_world_object_m = T_world_body * p_body_m, .p_world_view_m = at_m, .entropy_nats = 0.0};
 }
 
 }  // namespace vantage
