@@ -63,7 +63,8 @@ bool ObjectLooks::wants(int id, const ObjectSighting& sighting, const Pose& T_wo
   const bool hardly_another_side = std::ranges::any_of(object->looks, [&](const ObjectLook& look) {
     return std::abs(wrap_angle(bearing_rad - look.bearing_rad)) < options_.apart_rad;
   });
-  return !hardly_another_side && !object->used[direction] && object->gain_nats[direction] >= options_.least_gain_nats &&
+  return !hardly_another_side && !object->used[direction] &&
+         object->gain_nats[direction] >= options_.least_gain_nats &&
          (options_.look_at_known || !known(*object));
 }
 
