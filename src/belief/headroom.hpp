@@ -28,8 +28,8 @@ struct HeadroomOptions {
 /// ones, at the robot's height, and unblocks all other floor. The latter do not block where
 /// `vouched` (one flag per cell of the floor map) says that the robot knows it otherwise: it has
 /// been there, nor where up to four that touch each other are surrounded by open ones: what stands
-/// there would stand alone, in a place that was seen past on all sides. A floor cell counts as below
-/// a column if they overlap at all.
+/// there would stand alone, in a place that was seen past on all sides. A floor cell counts as
+/// below a column if they overlap at all.
 /// @throws ConfigError if the options are out of range.
 void block_columns(FloorMap& floor, const OccupancyGrid& grid,
                    std::span<const std::uint8_t> vouched, const HeadroomOptions& options);

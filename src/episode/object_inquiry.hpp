@@ -27,7 +27,7 @@ class ObjectInquiry {
   /// Only of_change(); an object that is held to be taken away is a change, which views of nothing
   /// cannot weigh.
   [[nodiscard]] double p_changed() const;
-  [[nodiscard]] Change verdict() const;    ///< likewise
+  [[nodiscard]] Change verdict() const;  ///< likewise
 
  private:
   const Recogniser& recogniser_;

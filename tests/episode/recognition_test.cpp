@@ -116,7 +116,8 @@ TEST_F(RecognitionEpisode, AQuadrotorThatTouchesSomethingHasFailed) {
   RunOptions options;
   options.directory = *folder_ / "blown";
   const std::string gust =
-      "recognition.pilot.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, -1]}]";
+      "recognition.pilot.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, "
+      "-1]}]";
   const RunOutcome outcome =
       run(load_episode(kRecognition, overrides({gust, "recognition.settle_s=1.5"})), options);
   const json metrics = json::parse(outcome.metrics);
