@@ -69,22 +69,36 @@ int FoundObjects::take(FoundObject seen) {
     return seen.id;
   }
   join(*nearest, seen);
-  nearest->confirmed = nearest->confirmed || nearest->sightings >= options_.min_sightings;
+  confirm(*nearest);
   return nearest->id;
 }
 
-/// Two that their means have brought together were one, cut differently by the frame.
-void FoundObjects::merge_neighbours(std::vector<int>& ids) {
+std::optional<std::pair<std::size_t, std::size_t>> FoundObjects::neighbours() const {
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     for (std::size_t j = objects_.size(); --j > i;) {
       const double off_m =
           level_distance_m(objects_[i].p_world_object_m, objects_[j].p_world_object_m);
-      if (off_m > 0.5 * options_.gate_m) continue;
-      std::ranges::replace(ids, objects_[j].id, objects_[i].id);
-      join(objects_[i], objects_[j]);
-      objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(j));
+      if (off_m <= 0.5 * options_.gate_m) return std::pair(i, j);
     }
   }
+  return std::nullopt;
+}
+
+/// Two that their means have brought together were one, cut differently by the frame. The one that
+/// is confirmed stays, since it may have been looked at; of two such the first.
+void FoundObjects::merge_neighbours(std::vector<int>& ids) {
+  while (const auto pair = neighbours()) {
+    auto [kept, gone] = *pair;
+    if (objects_[gone].confirmed && !objects_[kept].confirmed) std::swap(kept, gone);
+    std::ranges::replace(ids, objects_[gone].id, objects_[kept].id);
+    join(objects_[kept], objects_[gone]);
+    confirm(objects_[kept]);
+    objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(gone));
+  }
+}
+
+void FoundObjects::confirm(FoundObject& object) const {
+  object.confirmed = object.confirmed || object.sightings >= options_.min_sightings;
 }
 
 std::vector<FoundObject> FoundObjects::confirmed() const {

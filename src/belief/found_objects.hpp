@@ -1,7 +1,10 @@
 /// The objects that were found so far, without knowing how many there are.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "src/core/fields.hpp"
@@ -52,6 +55,8 @@ class FoundObjects {
  private:
   int take(FoundObject seen);
   void merge_neighbours(std::vector<int>& ids);
+  [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> neighbours() const;
+  void confirm(FoundObject& object) const;
 
   FoundObjectsOptions options_;
   std::vector<FoundObject> objects_;

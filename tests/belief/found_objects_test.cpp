@@ -65,13 +65,23 @@ TEST(FoundObjects, ThatDriftTogetherWereOne) {
   FoundObjects found({.gate_m = 0.3});
   const std::vector<ObjectSighting> cut{at(1.0, 0.0, 2.5, false), at(1.35, 0.0, 2.5, false)};
   EXPECT_EQ(found.update(cut), (std::vector<int>{0, 1}));
-  std::vector<int> last;
-  for (int i = 0; i < 4; ++i) last = found.update(std::vector{at(1.16, 0.0)});
-  EXPECT_EQ(last, std::vector<int>{0});
-  for (int i = 0; i < 4 && found.objects().size() > 1; ++i) {
-    found.update(std::vector{at(1.24, 0.0, 2.5, false)});
-  }
-  EXPECT_NE(found.find(0), nullptr);
+  EXPECT_EQ(found.update(std::vector{at(1.16, 0.0)}), std::vector<int>{0});
+  ASSERT_EQ(found.objects().size(), 2U) << "0.19 m apart";
+  EXPECT_EQ(found.update(std::vector{at(1.27, 0.0)}), std::vector<int>{0}) << "it was 1";
+  ASSERT_EQ(found.objects().size(), 1U);
+  EXPECT_EQ(found.objects()[0].sightings, 4);
+  EXPECT_EQ(found.confirmed().size(), 1U) << "as all of its sightings together";
+}
+
+TEST(FoundObjects, WhatIsConfirmedStaysWhatItIs) {
+  FoundObjects found({.gate_m = 0.3, .min_sightings = 4});
+  found.update(std::vector{at(1.0, 0.0, 2.5, false), at(1.35, 0.0)});
+  for (int i = 0; i < 3; ++i) found.update(std::vector{at(1.35, 0.0)});
+  ASSERT_EQ(found.confirmed().size(), 1U);
+  EXPECT_EQ(found.update(std::vector{at(1.17, 0.0)}), std::vector<int>{0});
+  EXPECT_EQ(found.update(std::vector{at(1.25, 0.0)}), std::vector<int>{1}) << "it was 0";
+  ASSERT_EQ(found.objects().size(), 1U);
+  EXPECT_EQ(found.objects()[0].id, 1) << "which was confirmed, though 0 came first";
 }
 
 TEST(FoundObjects, IdsAreNotUsedAgain) {
