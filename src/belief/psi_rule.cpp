@@ -171,12 +171,14 @@ std::vector<double> DissertationPsi::operator()(const PsiContext& context) const
 }
 
 std::vector<double> choose_psi(const PsiRule& rule, const PsiContext& context) {
-  return std::visit(
+  std::vector<double> psi = std::visit(
       [&](const auto& r) {
         check_options(r, "psi");
         return r(context);
       },
       rule);
+  expects(psi.size() == context.models.size(), "a psi for every feature");
+  return psi;
 }
 
 double mean_log_posterior(const HeldOutViews& held_out, std::span<const double> psi) {

@@ -1,6 +1,7 @@
 #include "src/recognition/held_out.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -45,6 +46,7 @@ std::vector<Split> splits_of(std::span<const ViewFeatures> views, const HoldOutO
       [&](const auto& by) { return folds_of(by, views, options.seed); }, options.held_out);
   std::set<int> numbers(folds.begin(), folds.end());
   numbers.erase(-1);
+  if (numbers.empty()) numbers.insert(std::numeric_limits<int>::max());  // all is trained on
   std::vector<Split> splits;
   for (const int fold : numbers) {
     Split& split = splits.emplace_back();
