@@ -41,7 +41,7 @@ inline constexpr std::string_view strategy_family<FeatureStop> = "feature stop";
 
 struct FeatureChoice {
   InformationMeasure measure = MutualInformation{};
-  std::string first = "";    ///< extracted first at every view; empty: chosen as all others
+  std::string first = {};    ///< extracted first at every view; empty: chosen as all others
   int states = 48;           ///< most probable ones that are told apart, > 0; effort is its square
   bool about_object = true;  ///< count what is told of the object, not also of its pose
   bool per_cost = false;     ///< compare gains per second of extraction

@@ -1,6 +1,7 @@
 #include "src/episode/flight_layout.hpp"
 
 #include "planners/view_list.hpp"
+#include "src/core/error.hpp"
 
 namespace vantage {
 
@@ -9,6 +10,9 @@ FlightLayout read_flight_layout(const std::filesystem::path& scene) {
   FlightLayout layout;
   for (const Candidate& place : read_views(folder / "path.csv")) {
     layout.path.push_back({place.T_world_sensor.translation(), yaw_of(place)});
+  }
+  if (layout.path.size() < 2) {
+    throw InputError((folder / "path.csv").string() + ": a path has two waypoints or more");
   }
   for (const Candidate& stand : read_views(folder / "stands.csv")) {
     layout.stands_m.emplace_back(stand.T_world_sensor.translation());

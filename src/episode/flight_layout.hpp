@@ -17,7 +17,8 @@ struct FlightLayout {
 };
 
 /// Reads path.csv and stands.csv beside `scene`, an MJCF file.
-/// @throws InputError naming file, line and column if one is missing, malformed or has no row.
+/// @throws InputError naming file, line and column if one is missing, malformed or has no row,
+/// or if the path has only one.
 FlightLayout read_flight_layout(const std::filesystem::path& scene);
 
 /// What to map for a flight along that path: its box, wider by `margin_m` on all sides, from the

@@ -39,7 +39,9 @@ ExtractFeature extract_nothing(const std::string& reason) {
 
 Recogniser load_episode_recogniser(const ResolvedEpisode& resolved) {
   const Episode& episode = resolved.episode;
-  const auto path = find_recognition_model(episode.recognition.model, "recognition.model");
+  const auto path =
+      find_recognition_model(episode.recognition.model, "recognition.model",
+                             episode.detects_change() ? "change_detection" : "recognition");
   Recogniser recogniser = load_lean_recogniser(path, episode.recognition.recogniser);
   require_known(recogniser, path, draw_object_on_table(episode).object, "stands on the table",
                 "recognition");

@@ -9,14 +9,13 @@
 
 namespace vantage {
 
-std::filesystem::path find_recognition_model(const std::string& model, const char* key) {
+std::filesystem::path find_recognition_model(const std::string& model, const char* key,
+                                             const char* task) {
   try {
     return find_input(model, {}, key);
   } catch (const InputError& error) {
     throw InputError(
-        fmt::format("{}; make one: vantage dataset render out/objects, then vantage "
-                    "train out/objects --out {} --set 'videos=[1, 2, 4]'",
-                    error.what(), model.empty() ? "out/recognition.model" : model));
+        fmt::format("{}; assets/episodes/{}.yaml says how to make one", error.what(), task));
   }
 }
 

@@ -10,7 +10,9 @@ namespace vantage {
 
 /// @param key of the episode that names it, for messages
 /// @throws InputError if there is none, saying how to make one.
-std::filesystem::path find_recognition_model(const std::string& model, const char* key);
+/// @param key of the configuration, for messages; the task's episode file tells how
+std::filesystem::path find_recognition_model(const std::string& model, const char* key,
+                                             const char* task);
 
 /// @param task section of the episode that holds `model` and `database`
 /// @param role of the object, "stands on the table"

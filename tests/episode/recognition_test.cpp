@@ -133,9 +133,9 @@ TEST_F(RecognitionEpisode, AQuadrotorThatTouchesSomethingHasFailed) {
 TEST_F(RecognitionEpisode, AMissingModelSaysHowToMakeOne) {
   const Validation found = validate_episode(kRecognition, overrides({"recognition.model=nowhere"}));
   ASSERT_EQ(found.problems.size(), 1U);
-  EXPECT_THAT(found.problems[0], testing::AllOf(testing::HasSubstr("nowhere"),
-                                                testing::HasSubstr("vantage dataset render"),
-                                                testing::HasSubstr("vantage train")));
+  EXPECT_THAT(found.problems[0],
+              testing::AllOf(testing::HasSubstr("nowhere"),
+                             testing::HasSubstr("assets/episodes/recognition.yaml")));
   EXPECT_EQ(found.code, ExitCode::bad_input);
 }
 
