@@ -72,7 +72,7 @@ class Evaluator {
     }
     for (Eigen::Index i = 0; i < horizon.count(); ++i) {
       cost_of_point[i] += options_.centre_weight * view_cost(horizon, i);
-      if (const auto& target = target_of(i)) {
+      if (const auto& target = target_of(i); target && target->flown_to) {
         cost_of_point[i] += options_.recognition_weight *
                             information_cost(options_, target->entropy_nats) *
                             recognition_cost(options_, *target, horizon.points.col(i).head<3>());
@@ -156,10 +156,10 @@ std::optional<Eigen::Vector2d> in_frame(const FlightCamera& camera, const Eigen:
 
 double centre_cost(const FlightCostOptions& options, const FlightCamera& camera,
                    const Eigen::Vector4d& waypoint, const Eigen::Vector3d& p_world) {
+  if (options.literal) return 1.0;  // min(|v|^2, 1) of v = [vx, vy, 1]
   const Eigen::Vector3d p = in_camera(camera, waypoint, p_world);
   const Eigen::Vector2d v(p.x() / p.z() / std::tan(0.5 * camera.horizontal_fov_rad),
                           p.y() / p.z() / std::tan(0.5 * camera.vertical_fov_rad));
-  if (options.literal) return std::min(v.squaredNorm() + 1.0, 1.0);  // v = [vx, vy, 1]
   const double away = p.norm();
   return away < kHere_m ? 1.0 : off_axis(options, v, p.z(), away);
 }

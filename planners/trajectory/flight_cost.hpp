@@ -19,14 +19,14 @@ struct FlightCostOptions {
   double centre_weight = 1.0;       ///< of c_v; higher keeps the target in view
   double recognition_weight = 0.5;  ///< of c_r c_i, 1/m; higher leaves the path for a view
   bool information = true;          ///< false: c_i is 1 of every target
-  double tau_nats = 0.1;            ///< entropy below which a target is known; higher looks less
-  double epsilon_m = 0.5;           ///< margin round the body; higher keeps off further
-  double body_radius_m = 0.5;       ///< of the sphere that holds the vehicle
-  double speed_floor_m_s = 0.2;     ///< so that standing in an obstacle costs; higher costs more
-  double segment_s = 1.0;           ///< time from a waypoint to the next; higher takes it as slower
-  double bearing_weight = 0.5;     ///< of the bearing in c_v; higher turns sooner to what is behind
-  bool between_waypoints = true;   ///< c_o looks half way to the neighbours too
-  double clearance_m = 0.6;        ///< from centre to surface that must be kept
+  double tau_nats = 0.1;          ///< entropy below which a target is known; no key: the looks tell
+  double epsilon_m = 0.5;         ///< margin round the body; higher keeps off further
+  double body_radius_m = 0.5;     ///< of the sphere that holds the vehicle
+  double speed_floor_m_s = 0.2;   ///< so that standing in an obstacle costs; higher costs more
+  double segment_s = 1.0;         ///< time from a waypoint to the next; higher takes it as slower
+  double bearing_weight = 0.5;    ///< of the bearing in c_v; higher turns sooner to what is behind
+  bool between_waypoints = true;  ///< c_o looks half way to the neighbours too
+  double clearance_m = 0.6;       ///< from centre to surface that must be kept
   double clearance_weight = 50.0;  ///< 1/m, of what is missing; higher is harder
   double delta_m = 2.0;  ///< literal: obstacles farther away do not count; higher counts more
   bool literal = false;  ///< the dissertation's forms as printed: for the record, they fly into it
@@ -35,7 +35,6 @@ struct FlightCostOptions {
     f("centre_weight", centre_weight, at_least(0.0));
     f("recognition_weight", recognition_weight, at_least(0.0));
     f("information", information);
-    f("tau_nats", tau_nats, at_least(0.0));
     f("epsilon_m", epsilon_m, at_least(0.0));
     f("body_radius_m", body_radius_m, at_least(0.0));
     f("speed_floor_m_s", speed_floor_m_s, at_least(0.0));
@@ -65,6 +64,7 @@ struct ObservationTarget {
   Eigen::Vector3d p_world_object_m = Eigen::Vector3d::Zero();  ///< o_r
   Eigen::Vector3d p_world_view_m = Eigen::Vector3d::Zero();    ///< o_v
   double entropy_nats = 0.0;                                   ///< H of what it may be
+  bool flown_to = true;  ///< false: it is only looked at, c_r does not count
 };
 
 /// c_o of a place so far from the surface, max(epsilon + r_b - d, 0) |x'|.  [Potthast2016, (5.8)]

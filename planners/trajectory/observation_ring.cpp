@@ -27,15 +27,6 @@ int ObservationRing::direction_of(const Eigen::Vector3d& p_world) const {
   return direction < 0 ? direction + kObservationDirections : direction;
 }
 
-double framing_distance_m(const FlightCamera& camera, double diameter_m, double height_m,
-                          double share) {
-  const double across = std::atan(share * std::tan(0.5 * camera.horizontal_fov_rad));
-  const double up = share * std::tan(0.5 * camera.vertical_fov_rad);
-  const double radius_m = 0.5 * diameter_m;
-  // Rays that touch the cylinder's sides; the edge of its top that is nearest.
-  return std::max(radius_m / std::sin(across), radius_m + 0.5 * height_m / up);
-}
-
 void leave_out_blocked(ObservedObject& object, const SurfaceDistance& surface, double clearance_m) {
   for (int d = 0; d < kObservationDirections; ++d) {
     bool& used = object.used[static_cast<std::size_t>(d)];
@@ -103,6 +94,12 @@ OnPath nearest_on_path(const Eigen::Matrix4Xd& waypoints, const Eigen::Vector3d&
     if (away_m < nearest.distance_m) nearest = {away_m, static_cast<double>(i) + share};
   }
   return nearest;
+}
+
+Eigen::Matrix4Xd levelled(const Eigen::Matrix4Xd& waypoints) {
+  Eigen::Matrix4Xd level = waypoints;
+  level.row(2).setZero();
+  return level;
 }
 
 }  // namespace vantage

@@ -32,11 +32,6 @@ struct ObservationRing {
   [[nodiscard]] int direction_of(const Eigen::Vector3d& p_world) const;
 };
 
-/// From where an upright cylinder just fills the middle `share` of the frame's width or height:
-/// distance of its axis from the camera, which looks at its middle from the same height.
-double framing_distance_m(const FlightCamera& camera, double diameter_m, double height_m,
-                          double share = 0.9);
-
 /// An object that was detected.
 struct ObservedObject {
   ObservationRing ring;
@@ -74,5 +69,8 @@ struct OnPath {
   double at = 0.0;  ///< index of the waypoint before and the share of the way to the next
 };
 OnPath nearest_on_path(const Eigen::Matrix4Xd& waypoints, const Eigen::Vector3d& p_world);
+
+/// The path at z = 0: how far aside a place is, whatever the heights, is its distance to that.
+Eigen::Matrix4Xd levelled(const Eigen::Matrix4Xd& waypoints);
 
 }  // namespace vantage

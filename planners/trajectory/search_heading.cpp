@@ -71,7 +71,7 @@ std::optional<ObservationTarget> search_target(const SearchOptions& options,
   const Pose T_world_body = make_pose(at_m, *yaw_rad);
   const Eigen::Vector3d p_body_m = camera.T_body_camera * Eigen::Vector3d(0.0, 0.0, away_m);
   return ObservationTarget{
-      .p_world_object_m = T_world_body * p_body_m, .p_world_view_m = at_m, .entropy_nats = 0.0};
+      .p_world_object_m = T_world_body * p_body_m, .p_world_view_m = at_m, .flown_to = false};
 }
 
 }  // namespace vantage

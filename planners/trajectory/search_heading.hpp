@@ -33,8 +33,8 @@ std::optional<double> search_heading(const SearchOptions& options, const Occupan
                                      const Eigen::Vector3d& p_world_vehicle_m, double ahead_rad,
                                      double fov_rad);
 
-/// What a waypoint turns to by that: a place `away_m` in the middle of the picture. It is no
-/// object, so it is known (H = 0), looked at and not flown to.
+/// What a waypoint turns to by that: a place `away_m` in the middle of the picture, looked at and
+/// not flown to.
 /// @param path 2 waypoints or more, as they are given
 std::optional<ObservationTarget> search_target(const SearchOptions& options,
                                                const OccupancyGrid& grid,

@@ -26,7 +26,7 @@ Eigen::Matrix4Xd initial_yaw(const Eigen::Matrix4Xd& waypoints,
 
 struct GreedyDetour {
   double tau_nats = 0.1;  ///< entropy below which an object is passed by
-  double range_m = 3.0;   ///< from the first point; objects farther away are passed by
+  double range_m = 3.0;   ///< objects farther away are passed by
   int views = 2;          ///< of the object on one horizon, 1 to 8; higher goes further round it
   void fields(auto&& f) {
     f("tau_nats", tau_nats, at_least(0.0));
@@ -35,9 +35,8 @@ struct GreedyDetour {
   }
 };
 
-/// A spline from the first point of the horizon to its last, through the unused directions of the
-/// active object that are nearest the path, in the order in which the path comes by; as many points
-/// as before, evenly along it, heading for the object. The horizon's own where no object is active.
+/// `initial_yaw` of a path that takes views of the active object on its way: of the unused ones
+/// that it comes by those nearest it, each in place of the waypoint nearest it. Both ends stay.
 Eigen::Matrix4Xd greedy_detour(const Horizon& horizon, std::span<const ObservedObject> objects,
                                const GreedyDetour& options = {});
 

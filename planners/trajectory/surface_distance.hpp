@@ -16,7 +16,8 @@ namespace vantage {
 ///
 /// Between cell centres it is exact, and the surface lies half a cell, the shortest edge, from an
 /// occupied centre: it may be up to 0.37 cells nearer than told where a cube's corner points at the
-/// place. No distance is told to be more than `reach_m`. Outside the grid nothing is occupied.
+/// place. Inside the grid no distance is told to be more than `reach_m`. Outside of it nothing is
+/// occupied.
 class SurfaceDistance {
  public:
   /// @param occupied a flag for each cell, `frame.index` order

@@ -16,11 +16,12 @@ std::vector<std::uint8_t> flight_hazards(const FlightMap& map, const Eigen::Matr
   const GridFrame& frame = map.grid().frame;
   const auto layer =
       static_cast<std::size_t>(frame.cells.x()) * static_cast<std::size_t>(frame.cells.y());
+  const Eigen::Matrix4Xd level = levelled(given);
   for (std::size_t place = 0; place < layer; ++place) {
     if (unseen[place] == 0) continue;
     Eigen::Vector3d p_m = frame.centre(frame.cell(place));
-    p_m.z() = given(2, 0);
-    if (nearest_on_path(given, p_m).distance_m <= kTrusted_m) continue;
+    p_m.z() = 0.0;
+    if (nearest_on_path(level, p_m).distance_m <= kTrusted_m) continue;
     for (std::size_t cell = place; cell < cells.size(); cell += layer) cells[cell] = 1;
   }
   return cells;

@@ -36,7 +36,7 @@ constexpr double kReach_m = 1.5;
 constexpr double kAside_m = 2.5;
 
 /// With fewer waypoints left no view is sought: whoever turns back at the last one swings past it.
-constexpr Eigen::Index kLastAsGiven = 6;
+constexpr int kLastAsGiven = 6;
 
 /// How much shorter the leash is upwards and down: a fixed camera has an object in its middle from
 /// high above as well, but sees less of it there.
@@ -108,10 +108,9 @@ void FlightPlanner::choose_target(const PlanState& state,
                                   const std::vector<PlannableObject>& objects,
                                   const std::vector<ObservedObject>& rings,
                                   const OccupancyGrid& grid) {
-  target_.reset();
-  target_of_point_.clear();
   if (const auto* on_the_way = std::get_if<ViewsOnTheWay>(&task_.planner.views)) {
-    choose_views(*on_the_way, horizon(state, state.nominal).points, objects, rings, grid);
+    const int left = static_cast<int>(state.nominal.size()) - 1 - state.at;
+    choose_views(*on_the_way, horizon(state, state.nominal).points, left, objects, rings, grid);
     return;
   }
   const Eigen::Vector3d p_m = state.plan[static_cast<std::size_t>(state.at)].head<3>();
@@ -130,10 +129,10 @@ void FlightPlanner::choose_target(const PlanState& state,
 
 /// The views that the next waypoints take, and the first of them as what is looked at.
 void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
-                                 const std::vector<PlannableObject>& objects,
+                                 int left, const std::vector<PlannableObject>& objects,
                                  const std::vector<ObservedObject>& rings,
                                  const OccupancyGrid& grid) {
-  if (given.cols() < kLastAsGiven) {
+  if (left < kLastAsGiven) {
     target_of_point_.resize(static_cast<std::size_t>(given.cols()));
     return;
   }
@@ -221,7 +220,9 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
 
 /// @param given where the path as given has the points
 PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
-  FlightSurroundings scene{.surface = &*surface_, .target_of_point = target_of_point_};
+  FlightSurroundings scene{.surface = &*surface_,
+                           .target_of_point = target_of_point_,
+                           .p_world_obstacles_m = p_world_objects_m_};
   if (target_) {
     scene.target = ObservationTarget{.p_world_object_m = target_->p_world_object_m,
                                      .p_world_view_m = target_->p_world_view_m,
@@ -243,15 +244,19 @@ PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
 std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                                           const std::vector<PlannableObject>& objects,
                                           const FlightMap& map) {
+  p_world_objects_m_.clear();
+  for (const PlannableObject& object : objects) p_world_objects_m_.push_back(object.p_world_m);
+  window_ = box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
+                      kAside_m);
   surface_ = surface_distance(
       map.grid().frame,
       flight_hazards(map, columns(state.nominal, 0, static_cast<int>(state.nominal.size()))),
-      box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
-                kAside_m),
-      kReach_m);
+      window_, kReach_m);
   const double height_m = state.nominal[static_cast<std::size_t>(state.at)].z();
   const std::vector<ObservedObject> rings = observed(objects, height_m);
-  choose_target(state, objects, rings, map.grid());
+  target_.reset();
+  target_of_point_.clear();
+  if (optimises(task_.method)) choose_target(state, objects, rings, map.grid());
   std::vector<WayOn> ways;
   const PathCost cost = this->cost(horizon(state, state.nominal).points);
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
@@ -271,12 +276,19 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
   return ways;
 }
 
+/// To the surface or the end of the window, beyond which nothing is known of surfaces.
+double FlightPlanner::clearance_m(const Eigen::Vector3d& p_world_m) const {
+  const double inside_m =
+      std::min((p_world_m - window_.min()).minCoeff(), (window_.max() - p_world_m).minCoeff());
+  return std::min(surface_->distance_m(p_world_m), inside_m);
+}
+
 void FlightPlanner::score(const FlightReference& from, std::vector<WayOn>& ways) const {
   for (WayOn& way : ways) {
     const FlightPath path(from, waypoints_of(way.points), task_.pilot.limits);
     way.clearance_m = std::numeric_limits<double>::infinity();
     for (double t_s = 0.0; t_s <= path.duration_s(); t_s += task_.planner.sample_s) {
-      way.clearance_m = std::min(way.clearance_m, surface_->distance_m(path.at(t_s).p_world_m));
+      way.clearance_m = std::min(way.clearance_m, clearance_m(path.at(t_s).p_world_m));
     }
     way.clear = way.clearance_m >= task_.planner.clearance_m;
   }

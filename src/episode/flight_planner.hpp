@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <limits>
@@ -48,7 +49,7 @@ class FlightPlanner {
   /// Flies each in thought, from the reference as it is, and tells its clearance.
   void score(const FlightReference& from, std::vector<WayOn>& ways) const;
 
-  /// What the last proposal looks at; nothing: where it goes.
+  /// What the last proposal of an optimiser looks at; nothing: where it goes.
   [[nodiscard]] const std::optional<LookTarget>& target() const { return target_; }
 
  private:
@@ -58,11 +59,12 @@ class FlightPlanner {
                                                      double height_m) const;
   void choose_target(const PlanState& state, const std::vector<PlannableObject>& objects,
                      const std::vector<ObservedObject>& rings, const OccupancyGrid& grid);
-  void choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
+  void choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given, int left,
                     const std::vector<PlannableObject>& objects,
                     const std::vector<ObservedObject>& rings, const OccupancyGrid& grid);
   [[nodiscard]] Eigen::Matrix4Xd turned(const Eigen::Matrix4Xd& points,
                                         const std::vector<ObservedObject>& objects) const;
+  [[nodiscard]] double clearance_m(const Eigen::Vector3d& p_world_m) const;
   [[nodiscard]] double lowest_view_m(double height_m) const;
   [[nodiscard]] PathCost cost(const Eigen::Matrix4Xd& given) const;
   [[nodiscard]] Eigen::Matrix4Xd method_path(const PlanState& state,
@@ -71,7 +73,9 @@ class FlightPlanner {
   TrajectoryTask task_;
   FlightCamera camera_;
   Rng rng_;
+  Eigen::AlignedBox3d window_;  ///< round the way ahead; what is outside of it was not looked at
   std::optional<SurfaceDistance> surface_;
+  std::vector<Eigen::Vector3d> p_world_objects_m_;  ///< what the literal cost takes for obstacles
   std::optional<LookTarget> target_;
   /// Of each point of the horizon; empty: all have `target_`.
   std::vector<std::optional<ObservationTarget>> target_of_point_;

@@ -105,7 +105,6 @@ const ObjectLook& ObjectLooks::take(int id, const ObjectSighting& sighting, cons
 
 std::array<double, kObservationDirections> ObjectLooks::gains_nats(
     const LookedAtObject& object) const {
-  if (recogniser_.features.empty()) return object.gain_nats;
   std::array<double, kObservationDirections> gains{};
   std::vector<ObjectViewAction> actions;
   for (int d = 0; d < kObservationDirections; ++d) {

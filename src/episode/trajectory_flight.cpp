@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "src/core/data_root.hpp"
@@ -38,7 +39,7 @@ CameraImages without_colour(const FlightPicture& picture) {
 
 Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved) {
   const TrajectoryTask& task = resolved.episode.trajectory;
-  const auto path = find_recognition_model(task.model, "trajectory.model");
+  const auto path = find_recognition_model(task.model, "trajectory.model", "trajectory");
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   for (const ObjectOnStand& stand : draw_flight_objects(resolved)) {
     require_known(recogniser, path, stand.object, "stands in the room", "trajectory");
@@ -158,16 +159,21 @@ void TrajectoryFlight::record() {
 bool TrajectoryFlight::finished() const { return at_ + 1 >= static_cast<int>(nominal_.size()); }
 
 std::vector<PlannableObject> TrajectoryFlight::plannable() const {
+  const TrajectoryTask& task = episode_.trajectory;
+  const double at_first_nats = std::log(looks_.recogniser().states.object_count());
   std::vector<PlannableObject> objects;
   for (const LookedAtObject& object : looks_.objects()) {
-    objects.push_back({.id = object.id,
-                       .p_world_m = object.p_world_m,
-                       .entropy_nats = looks_.entropy_nats(object),
-                       .used = object.used,
-                       .gain_nats = object.gain_nats});
-    const double least_nats = episode_.trajectory.looks.least_gain_nats;
+    PlannableObject& plannable = objects.emplace_back();
+    plannable = {.id = object.id,
+                 .p_world_m = object.p_world_m,
+                 .entropy_nats = at_first_nats,
+                 .used = object.used,
+                 .gain_nats = every_direction(at_first_nats)};
+    if (!task.planner.cost.information) continue;  // each as if it had never been looked at
+    plannable.entropy_nats = looks_.entropy_nats(object);
+    plannable.gain_nats = object.gain_nats;
     for (std::size_t d = 0; d < object.used.size(); ++d) {
-      if (object.gain_nats[d] < least_nats) objects.back().used[d] = true;
+      if (object.gain_nats[d] < task.looks.least_gain_nats) plannable.used[d] = true;
     }
   }
   return objects;
@@ -193,7 +199,7 @@ void TrajectoryFlight::act(const WayOn& way) {
   const int passed = rig_.passed();
   rig_.fly_for(latency_s, look);  // on the plan before
   const int missed = rig_.passed() - passed;
-  for (Eigen::Index i = 0; i < way.points.cols(); ++i) {
+  for (Eigen::Index i = missed; i < way.points.cols(); ++i) {
     plan_[static_cast<std::size_t>(at_ + 1 + i)] = way.points.col(i);
   }
   at_ = std::min(at_ + missed, static_cast<int>(nominal_.size()) - 2);

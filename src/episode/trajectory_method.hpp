@@ -25,7 +25,7 @@ struct GivenPathYaw {
   YawToTarget yaw;
   void fields(auto&& f) { f("range_m", yaw.range_m, above(0.0)); }
 };
-/// Bends the path through the nearest unused directions, without optimising.
+/// That through the nearest unused directions, without optimising.
 struct DetourPath {
   static constexpr std::string_view name = "greedy_detour";
   GreedyDetour detour;
@@ -39,6 +39,13 @@ using TrajectoryMethod =
     std::variant<GivenPath, GivenPathYaw, DetourPath, Stomp, Mppi, Cem, CovariantGradient>;
 template <>
 inline constexpr std::string_view strategy_family<TrajectoryMethod> = "trajectory method";
+
+/// Whether it minimises the cost of its way, or follows a rule.
+inline bool optimises(const TrajectoryMethod& method) {
+  return !std::holds_alternative<GivenPath>(method) &&
+         !std::holds_alternative<GivenPathYaw>(method) &&
+         !std::holds_alternative<DetourPath>(method);
+}
 
 /// What an optimised path looks at.
 using ViewPlan = std::variant<NearestObject, ViewsOnTheWay>;

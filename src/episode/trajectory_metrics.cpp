@@ -137,7 +137,7 @@ Json trajectory_metrics(const ResolvedEpisode& resolved, const RunSummary& summa
   json["tracking_error_m"] = {{"mean", truth.tracking_error_mean_m},
                               {"max", truth.tracking_error_max_m}};
   json["energy_j"] = truth.energy_j;
-  json["waypoints_reached"] = run.waypoints().size();
+  json["waypoints_reached"] = run.waypoints().empty() ? 0 : run.waypoints().back().waypoint + 1;
   add_planning(json, run.waypoints());
   add_path(json, run);
   return json;

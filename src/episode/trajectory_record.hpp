@@ -34,16 +34,16 @@ struct WaypointRecord {
   int waypoint = 0;  ///< of the path, 0 is where it starts
   double time_s = 0.0;
   Pose T_world_body = Pose::Identity();  ///< as estimated, when it was passed
-  // The plan made here; nothing at the last waypoint:
+  // The plan that was flown to here; nothing at the first waypoint:
   std::string planner;
   double plan_time_s = 0.0;  ///< measured
   double latency_s = 0.0;    ///< charged
   bool late = false;         ///< measured above charged
-  bool missed = false;       ///< the next waypoint came before the plan
+  bool missed = false;       ///< one came before the plan
   double cost = 0.0;
   double planned_clearance_m = 0.0;
   std::optional<LookTarget> target;
-  std::vector<Eigen::Vector4d> plan;  ///< from here on
+  std::vector<Eigen::Vector4d> plan;  ///< from the waypoint on that it was made for
   // What is known:
   int objects = 0;                 ///< found
   int known = 0;                   ///< of those

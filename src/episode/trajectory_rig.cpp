@@ -67,12 +67,6 @@ int TrajectoryRig::passed() const {
                           (knots_s.begin() + 1));
 }
 
-double TrajectoryRig::time_to_next_s() const {
-  const auto next = static_cast<std::size_t>(passed()) + 1;
-  if (!path_ || next >= path_->knots_s().size()) return std::numeric_limits<double>::infinity();
-  return path_start_s_ + path_->knots_s()[next] - world_.time_s();
-}
-
 void TrajectoryRig::tick() {
   const double period_s = world_.options().control_period_s;
   const Eigen::Vector3d before_m = true_body().translation();

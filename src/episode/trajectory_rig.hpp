@@ -51,7 +51,6 @@ class TrajectoryRig {
   void fly_past(int waypoints, const LookAt& look);
   /// Waypoints of the plan that the reference has passed.
   [[nodiscard]] int passed() const;
-  [[nodiscard]] double time_to_next_s() const;  ///< infinity after the last
   /// Takes a picture of now.
   void look_now(const LookAt& look);
 
@@ -67,7 +66,6 @@ class TrajectoryRig {
 
  private:
   void tick();
-  void measure();
   [[nodiscard]] std::string touched() const;
   [[nodiscard]] CameraImages colour_picture();
 

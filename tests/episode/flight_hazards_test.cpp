@@ -43,6 +43,13 @@ TEST(FlightHazards, WhereNobodyLookedSomethingMayStandButBesideTheGivenPath) {
   EXPECT_EQ(at(-2.0, -1.5), 1);
 }
 
+TEST(FlightHazards, APathThatClimbsIsTrustedAllAlong) {
+  const FlightMap map = room();
+  Eigen::Matrix4Xd climbing = straight_path();
+  climbing(2, 1) = 3.3;
+  EXPECT_EQ(flight_hazards(map, climbing), flight_hazards(map, straight_path()));
+}
+
 TEST(FlightHazards, WhatWasSeenToBeEmptyIsNone) {
   FlightMap map = room();
   Pose T_world_camera = Pose::Identity();

@@ -151,11 +151,37 @@ TEST_F(Planner, TheLeashHoldsEveryMethodNearThePath) {
 
 TEST_F(Planner, TheLastWaypointsAreFlownAsGiven) {
   FlightPlanner stomp = planner(Stomp{});
-  for (const int at : {17, 18}) {
-    const Eigen::Matrix4Xd points = propose(stomp, at).front().points;
-    EXPECT_EQ(points.cols(), 19 - at);
-    EXPECT_EQ(points.rightCols<1>().topRows<3>(), path_.back().head<3>());
+  const auto beside = [&](int at) {
+    objects_[0].p_world_m.x() = path_[static_cast<std::size_t>(at)].x() + 1.0;
+    propose(stomp, at);
+    return stomp.target();
+  };
+  EXPECT_TRUE(beside(13).has_value());
+  EXPECT_FALSE(beside(14).has_value());
+  task_.horizon = 4;
+  stomp = planner(Stomp{});
+  EXPECT_TRUE(beside(10).has_value()) << "however few are planned at a time";
+}
+
+TEST_F(Planner, RulesHaveNoTargetOfThePlanners) {
+  for (const TrajectoryMethod& method :
+       {TrajectoryMethod(GivenPath{}), TrajectoryMethod(GivenPathYaw{}),
+        TrajectoryMethod(DetourPath{})}) {
+    FlightPlanner rule = planner(method);
+    propose(rule);
+    EXPECT_FALSE(rule.target().has_value()) << strategy_name_of(method);
   }
+}
+
+TEST_F(Planner, WhatIsBeyondItsWindowIsNotClear) {
+  FlightPlanner stomp = planner(Stomp{});
+  std::vector<WayOn> ways = propose(stomp);
+  ways.resize(1);
+  stomp.score({.p_world_m = path_[0].head<3>()}, ways);
+  ASSERT_TRUE(ways[0].clear);
+  ways[0].points.row(1).rightCols(3).setConstant(-3.8);  // within the map, where a wall may be
+  stomp.score({.p_world_m = path_[0].head<3>()}, ways);
+  EXPECT_FALSE(ways[0].clear);
 }
 
 TEST_F(Planner, TellsTheClearanceOfASpline) {

@@ -161,12 +161,24 @@ TEST_F(TrajectoryEpisode, ContactEndsItAsAFailure) {
   EXPECT_THAT(crash["reason"].get<std::string>(), testing::HasSubstr("stand_0"));
 }
 
+TEST_F(TrajectoryEpisode, SeeksViewsOfWhatItFound) {
+  std::string rows;
+  for (int i = 0; i < 12; ++i) rows += fmt::format("{:.2f},-1.9,1.8,0\n", -2.67 + 0.4 * i);
+  const json metrics = metrics_of("seeks", arena_with_path(*folder_ / "longer", rows), {});
+  EXPECT_EQ(metrics["status"], "completed") << metrics["reason"];
+  EXPECT_EQ(metrics["waypoints_reached"], 12);
+  EXPECT_THAT(read_file(*folder_ / "seeks" / "steps.csv"),
+              testing::ContainsRegex(",0\\.[0-9]+,[0-9]+,[0-7],"))
+      << "clearance, target, direction";
+}
+
 TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
   const Validation found =
       validate_episode(kEpisode, overrides(past_a_stand_, {"trajectory.model=nowhere"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
-              testing::AllOf(testing::HasSubstr("nowhere"), testing::HasSubstr("vantage train")));
+              testing::AllOf(testing::HasSubstr("nowhere"),
+                             testing::HasSubstr("assets/episodes/trajectory.yaml")));
 }
 
 TEST_F(TrajectoryEpisode, AnUnknownMethodNamesThoseThereAre) {

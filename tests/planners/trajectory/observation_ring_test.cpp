@@ -36,17 +36,6 @@ TEST(ObservationRing, PlacesFallIntoDirectionsByTheirBearing) {
   }
 }
 
-TEST(FramingDistance, LetsACylinderTouchTheFrame) {
-  const FlightCamera camera;
-  // Flat and wide: rays at half of 57 deg touch its sides.
-  EXPECT_NEAR(framing_distance_m(camera, 1.0, 0.0, 1.0),
-              0.5 / std::sin(0.5 * camera.horizontal_fov_rad), 1e-12);
-  // Tall and thin: its top is at half of 45 deg.
-  EXPECT_NEAR(framing_distance_m(camera, 0.0, 1.0, 1.0),
-              0.5 / std::tan(0.5 * camera.vertical_fov_rad), 1e-12);
-  EXPECT_GT(framing_distance_m(camera, 0.5, 0.5, 0.8), framing_distance_m(camera, 0.5, 0.5, 1.0));
-}
-
 ObservedObject object_at(double x, double y, double entropy_nats = 2.0) {
   return {.ring = {.p_world_object_m = {x, y, 0.5}, .height_m = 1.2},
           .used = {},

@@ -42,35 +42,39 @@ TEST(InitialYaw, KeepsTheHeadingElsewhere) {
   EXPECT_EQ(initial_yaw(path, objects), path);
 }
 
-TEST(GreedyDetour, PassesTheNearestUnusedViews) {
+TEST(GreedyDetour, TakesTheNearestUnusedViewsInPlaceOfWaypoints) {
   const Horizon flight = testing::straight_flight();
   std::vector<ObservedObject> objects{object_at(2.0, 2.0)};
   objects[0].used[6] = true;  // the one at (2.0, 0.7)
   const auto detour = greedy_detour(flight, objects);
-  EXPECT_EQ(detour.col(0), flight.points.col(0));
-  EXPECT_EQ(detour.col(9), flight.points.col(9));
-  for (const int direction : {5, 7}) {
-    EXPECT_LT(nearest_on_path(detour, objects[0].ring.view_m(direction)).distance_m, 0.12);
+  // At x = 1.08 and 2.92.
+  EXPECT_EQ(detour.col(2).head<3>(), objects[0].ring.view_m(5));
+  EXPECT_EQ(detour.col(6).head<3>(), objects[0].ring.view_m(7));
+  for (const Eigen::Index i : {0, 1, 3, 4, 5, 7, 8, 9}) {
+    EXPECT_EQ(detour.col(i).head<3>(), flight.points.col(i).head<3>()) << i;
   }
-  for (Eigen::Index i = 1; i < 9; ++i) {
-    EXPECT_NEAR(detour(3, i), bearing_rad(detour.col(i), objects[0].ring.p_world_object_m), 1e-12);
-    EXPECT_NEAR(detour(2, i), 1.2, 1e-12);
-  }
+  EXPECT_NEAR(detour(3, 2), bearing_rad(detour.col(2), objects[0].ring.p_world_object_m), 1e-12);
+  EXPECT_EQ(detour(3, 9), flight.points(3, 9)) << "too far off to look at";
 }
 
-TEST(GreedyDetour, SpacesItsPointsEvenly) {
+TEST(GreedyDetour, ViewsAtTheSameWaypointFollowEachOther) {
   const Horizon flight = testing::straight_flight();
-  const std::vector<ObservedObject> objects{object_at(2.0, 2.0)};
-  const auto detour = greedy_detour(flight, objects, {.views = 1});
-  double least_m = 1e9;
-  double most_m = 0.0;
-  for (Eigen::Index i = 1; i < 10; ++i) {
-    const double step_m = (detour.col(i) - detour.col(i - 1)).head<3>().norm();
-    least_m = std::min(least_m, step_m);
-    most_m = std::max(most_m, step_m);
+  std::vector<ObservedObject> objects{object_at(2.01, 0.1)};
+  for (const int direction : {0, 1, 3, 4, 5, 7}) {
+    objects[0].used[static_cast<std::size_t>(direction)] = true;
   }
-  EXPECT_GT(least_m, 0.9 * most_m);
-  EXPECT_GT(most_m, 0.5);
+  const auto detour = greedy_detour(flight, objects);
+  EXPECT_EQ(detour.col(4).head<3>(), objects[0].ring.view_m(6));
+  EXPECT_EQ(detour.col(5).head<3>(), objects[0].ring.view_m(2));
+}
+
+TEST(GreedyDetour, DoesNotTurnBackNorCutShort) {
+  const Horizon flight = testing::straight_flight();
+  for (const double x_m : {-1.5, 6.0}) {
+    const std::vector<ObservedObject> objects{object_at(x_m, 0.5)};
+    const auto detour = greedy_detour(flight, objects, {.range_m = 8.0});
+    EXPECT_EQ(detour.topRows(3), flight.points.topRows(3)) << x_m;
+  }
 }
 
 TEST(GreedyDetour, KeepsToThePathWhereNothingIsLeftToSee) {

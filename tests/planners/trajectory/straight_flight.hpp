@@ -1,6 +1,7 @@
 /// A horizon straight ahead, and things beside it and in its way.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,18 @@ inline SurfaceDistance columns(const std::vector<Eigen::Vector2d>& centres_m) {
     }
   }
   return {frame, occupied};
+}
+
+/// Least on the straight ways between the points.
+inline double clearance_m(const SurfaceDistance& surface, const Horizon& horizon) {
+  double least_m = surface.distance_m(horizon.point(0).head<3>());
+  for (Eigen::Index i = 1; i < horizon.count(); ++i) {
+    for (double share = 0.05; share < 1.01; share += 0.05) {
+      const Eigen::Vector4d place = (1.0 - share) * horizon.point(i - 1) + share * horizon.point(i);
+      least_m = std::min(least_m, surface.distance_m(place.head<3>()));
+    }
+  }
+  return least_m;
 }
 
 }  // namespace vantage::testing

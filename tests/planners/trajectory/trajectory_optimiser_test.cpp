@@ -13,7 +13,6 @@
 #include <cmath>
 #include <limits>
 
-#include "planners/trajectory/path_clearance.hpp"
 #include "tests/planners/trajectory/straight_flight.hpp"
 
 namespace vantage {
@@ -44,8 +43,8 @@ TEST_P(EveryOptimiser, GoesRoundTheObstacleAndLooksAtTheTarget) {
     const auto result = run(horizon_, cost(), seed);
     EXPECT_LT(result.cost, 0.3 * result.initial_cost);
     const Horizon best{horizon_.before, result.points, horizon_.after};
-    EXPECT_LT(clearance_m(surface_, horizon_), 0.2);
-    EXPECT_GT(clearance_m(surface_, best), 0.6);
+    EXPECT_LT(testing::clearance_m(surface_, horizon_), 0.2);
+    EXPECT_GT(testing::clearance_m(surface_, best), 0.6);
     const Eigen::Vector3d view = scene_.target->p_world_view_m;
     double nearest_m = std::numeric_limits<double>::infinity();
     bool seen = false;
