@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <span>
 #include <utility>
 
 #include "planners/trajectory/path_search.hpp"
 #include "planners/trajectory/replanning.hpp"
-#include "src/core/strategy_label.hpp"
 #include "src/episode/flight_hazards.hpp"
 
 namespace vantage {
@@ -42,6 +39,14 @@ constexpr int kLastAsGiven = 6;
 /// high above as well, but sees less of it there.
 constexpr double kUpright = 4.0;
 
+LookTarget look_target(int id, const ObservedObject& object, int direction) {
+  return {.object = id,
+          .direction = direction,
+          .p_world_object_m = object.ring.p_world_object_m,
+          .p_world_view_m = object.ring.view_m(direction),
+          .entropy_nats = object.entropy_nats};
+}
+
 /// Round the paths, by so much.
 Eigen::AlignedBox3d box_round(const std::vector<Eigen::Matrix4Xd>& paths, double by_m) {
   Eigen::AlignedBox3d box;
@@ -53,14 +58,6 @@ Eigen::AlignedBox3d box_round(const std::vector<Eigen::Matrix4Xd>& paths, double
 }
 
 }  // namespace
-
-std::string trajectory_method_name(const TrajectoryMethod& method, const FlightCostOptions& cost) {
-  std::string label = strategy_label(method);
-  if (!cost.information) label += " without c_i";
-  if (cost.centre_weight == 0.0) label += " without c_v";
-  if (cost.literal) label += " literal";
-  return label;
-}
 
 FlightPlanner::FlightPlanner(const TrajectoryTask& task, const Pose& T_body_camera, Rng rng)
     : task_(task), rng_(rng) {
@@ -110,8 +107,8 @@ void FlightPlanner::choose_target(const PlanState& state,
                                   const OccupancyGrid& grid) {
   if (const auto* on_the_way = std::get_if<ViewsOnTheWay>(&task_.planner.views)) {
     const int left = static_cast<int>(state.nominal.size()) - 1 - state.at;
-    choose_views(*on_the_way, horizon(state, state.nominal).points, left, objects, rings, grid);
-    return;
+    return choose_views(*on_the_way, horizon(state, state.nominal).points, left, objects, rings,
+                        grid);
   }
   const Eigen::Vector3d p_m = state.plan[static_cast<std::size_t>(state.at)].head<3>();
   const auto active =
@@ -119,12 +116,7 @@ void FlightPlanner::choose_target(const PlanState& state,
   if (!active) return;
   const auto direction = active_direction(rings[*active], horizon(state, state.nominal).points);
   if (!direction) return;
-  const PlannableObject& object = objects[*active];
-  target_ = LookTarget{.object = object.id,
-                       .direction = *direction,
-                       .p_world_object_m = object.p_world_m,
-                       .p_world_view_m = rings[*active].ring.view_m(*direction),
-                       .entropy_nats = object.entropy_nats};
+  target_ = look_target(objects[*active].id, rings[*active], *direction);
 }
 
 /// The views that the next waypoints take, and the first of them as what is looked at.
@@ -153,11 +145,7 @@ void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matr
   }
   if (views.empty()) return;
   const ScheduledView& first = views.front();
-  target_ = LookTarget{.object = objects[first.object].id,
-                       .direction = first.direction,
-                       .p_world_object_m = objects[first.object].p_world_m,
-                       .p_world_view_m = rings[first.object].ring.view_m(first.direction),
-                       .entropy_nats = objects[first.object].entropy_nats};
+  target_ = look_target(objects[first.object].id, rings[first.object], first.direction);
 }
 
 /// The same places, headed for what each is to look at.
@@ -246,8 +234,9 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                                           const FlightMap& map) {
   p_world_objects_m_.clear();
   for (const PlannableObject& object : objects) p_world_objects_m_.push_back(object.p_world_m);
-  window_ = box_round({horizon(state, state.nominal).points, horizon(state, state.plan).points},
-                      kAside_m);
+  const Eigen::Matrix4Xd given = horizon(state, state.nominal).points;
+  const Eigen::Matrix4Xd planned = horizon(state, state.plan).points;
+  window_ = box_round({given, planned}, kAside_m);
   surface_ = surface_distance(
       map.grid().frame,
       flight_hazards(map, columns(state.nominal, 0, static_cast<int>(state.nominal.size()))),
@@ -258,7 +247,7 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
   target_of_point_.clear();
   if (optimises(task_.method)) choose_target(state, objects, rings, map.grid());
   std::vector<WayOn> ways;
-  const PathCost cost = this->cost(horizon(state, state.nominal).points);
+  const PathCost cost = this->cost(given);
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
     Horizon ahead = horizon(state, state.plan);
     ahead.points = points;
@@ -271,8 +260,8 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
       std::holds_alternative<GivenPathYaw>(task_.method)) {
     return ways;  // these go nowhere else, whatever is in the way
   }
-  add("as before", horizon(state, state.plan).points);
-  add("as given", horizon(state, state.nominal).points);
+  add("as before", planned);
+  add("as given", given);
   return ways;
 }
 

@@ -41,11 +41,7 @@ template <>
 inline constexpr std::string_view strategy_family<TrajectoryMethod> = "trajectory method";
 
 /// Whether it minimises the cost of its way, or follows a rule.
-inline bool optimises(const TrajectoryMethod& method) {
-  return !std::holds_alternative<GivenPath>(method) &&
-         !std::holds_alternative<GivenPathYaw>(method) &&
-         !std::holds_alternative<DetourPath>(method);
-}
+bool optimises(const TrajectoryMethod& method);
 
 /// What an optimised path looks at.
 using ViewPlan = std::variant<NearestObject, ViewsOnTheWay>;

@@ -43,6 +43,8 @@ TEST(FlightLayout, SaysWhichFileIsMissingOrWrong) {
   };
   EXPECT_THAT(message(), testing::HasSubstr("path.csv"));
   write_file(folder.path() / "path.csv", "x_m,y_m,z_m,yaw_rad\n0,0,1.8,0\n");
+  EXPECT_THAT(message(), testing::HasSubstr("two waypoints"));
+  write_file(folder.path() / "path.csv", "x_m,y_m,z_m,yaw_rad\n0,0,1.8,0\n1,0,1.8,0\n");
   EXPECT_THAT(message(), testing::HasSubstr("stands.csv"));
   write_file(folder.path() / "stands.csv", "x_m,y_m,z_m,yaw_rad\n0,zero,1,0\n");
   EXPECT_THAT(message(), testing::HasSubstr("zero"));

@@ -154,8 +154,8 @@ TEST_F(Evaluation, ChangesAreScoredByScenario) {
   for (const ChangeTrials& change : all) {
     ASSERT_EQ(change.trials.size(), 30U);
     EXPECT_LE(change.kind_accuracy(), change.accuracy());
-    EXPECT_GE(change.scenario == Change::none ? change.accuracy() : change.detectable_accuracy(),
-              0.9);
+    const bool unchanged = change.scenario == Change::none;
+    EXPECT_GE(unchanged ? change.accuracy() : change.detectable_accuracy(), unchanged ? 0.9 : 0.7);
   }
 }
 
