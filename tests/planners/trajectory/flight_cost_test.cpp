@@ -181,6 +181,14 @@ TEST(FlightCost, AddsTheTermsOfTheTarget) {
               2.0 * centre_cost(options, {}, flight.points.col(4), known.p_world_object_m), 1e-12);
 }
 
+TEST(FlightCost, WhatIsOnlyLookedAtDoesNotDraw) {
+  const FlightCostOptions options{.centre_weight = 0.0, .information = false};
+  ObservationTarget target{.p_world_object_m = {2.0, 1.0, 1.2}, .p_world_view_m = {2.0, 0.3, 1.2}};
+  EXPECT_GT(costs(options, {.target = target}).minCoeff(), 0.0);
+  target.flown_to = false;
+  EXPECT_EQ(costs(options, {.target = target}).maxCoeff(), 0.0);
+}
+
 TEST(FlightCost, AsPrintedSumsOverCentresWithinDelta) {
   const FlightCostOptions options{.obstacle_weight = 1.0, .centre_weight = 0.0, .literal = true};
   FlightSurroundings scene;
