@@ -57,20 +57,19 @@ Eigen::Matrix4Xd initial_yaw(const Eigen::Matrix4Xd& waypoints,
 
 Eigen::Matrix4Xd greedy_detour(const Horizon& horizon, std::span<const ObservedObject> objects,
                                const GreedyDetour& options) {
-  const YawToTarget yaw{.tau_nats = options.tau_nats, .range_m = options.range_m};
   Eigen::Matrix4Xd detour = horizon.points;
   const auto active =
       active_object(objects, horizon.points.col(0).head<3>(), options.tau_nats, options.range_m);
-  if (!active) return initial_yaw(detour, objects, yaw);
+  const auto views = active ? views_by_the_path(objects[*active], horizon.points, options.views)
+                            : std::vector<ViewByThePath>();
   Eigen::Index free = 1;
-  for (const ViewByThePath& view :
-       views_by_the_path(objects[*active], horizon.points, options.views)) {
+  for (const ViewByThePath& view : views) {
     const Eigen::Index point = std::max(free, std::lround(view.on_path.at));
     if (point + 1 >= horizon.count()) break;
     detour.col(point).head<3>() = view.place_m;
     free = point + 1;
   }
-  return initial_yaw(detour, objects, yaw);
+  return initial_yaw(detour, objects, {.tau_nats = options.tau_nats, .range_m = options.range_m});
 }
 
 }  // namespace vantage

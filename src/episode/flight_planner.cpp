@@ -106,9 +106,7 @@ void FlightPlanner::choose_target(const PlanState& state,
                                   const std::vector<ObservedObject>& rings,
                                   const OccupancyGrid& grid) {
   if (const auto* on_the_way = std::get_if<ViewsOnTheWay>(&task_.planner.views)) {
-    const int left = static_cast<int>(state.nominal.size()) - 1 - state.at;
-    return choose_views(*on_the_way, horizon(state, state.nominal).points, left, objects, rings,
-                        grid);
+    return choose_views(*on_the_way, state, objects, rings, grid);
   }
   const Eigen::Vector3d p_m = state.plan[static_cast<std::size_t>(state.at)].head<3>();
   const auto active =
@@ -120,11 +118,12 @@ void FlightPlanner::choose_target(const PlanState& state,
 }
 
 /// The views that the next waypoints take, and the first of them as what is looked at.
-void FlightPlanner::choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given,
-                                 int left, const std::vector<PlannableObject>& objects,
+void FlightPlanner::choose_views(const ViewsOnTheWay& options, const PlanState& state,
+                                 const std::vector<PlannableObject>& objects,
                                  const std::vector<ObservedObject>& rings,
                                  const OccupancyGrid& grid) {
-  if (left < kLastAsGiven) {
+  const Eigen::Matrix4Xd given = horizon(state, state.nominal).points;
+  if (static_cast<int>(state.nominal.size()) - 1 - state.at < kLastAsGiven) {
     target_of_point_.resize(static_cast<std::size_t>(given.cols()));
     return;
   }
@@ -177,7 +176,8 @@ double FlightPlanner::lowest_view_m(double height_m) const {
 }
 
 Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
-                                            const std::vector<ObservedObject>& objects) {
+                                            const std::vector<ObservedObject>& objects,
+                                            const PathCost& cost) {
   const Horizon given = horizon(state, state.nominal);
   if (given.free_points() == 0) return given.points;
   const Eigen::Vector4d next = given.points.col(0);  // flown to already
@@ -196,8 +196,7 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
           const auto turned = [&](const Eigen::Matrix4Xd& points) {
             return this->turned(points, objects);
           };
-          return replan(method, horizon(state, state.plan), given.points, turned,
-                        cost(given.points), rng_)
+          return replan(method, horizon(state, state.plan), given.points, turned, cost, rng_)
               .points;
         }
       },
@@ -207,10 +206,12 @@ Eigen::Matrix4Xd FlightPlanner::method_path(const PlanState& state,
 }
 
 /// @param given where the path as given has the points
-PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
-  FlightSurroundings scene{.surface = &*surface_,
-                           .target_of_point = target_of_point_,
-                           .p_world_obstacles_m = p_world_objects_m_};
+PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given,
+                             const std::vector<ObservedObject>& objects) const {
+  FlightSurroundings scene{.surface = &*surface_, .target_of_point = target_of_point_};
+  for (const ObservedObject& object : objects) {  // what the literal cost takes for obstacles
+    scene.p_world_obstacles_m.push_back(object.ring.p_world_object_m);
+  }
   if (target_) {
     scene.target = ObservationTarget{.p_world_object_m = target_->p_world_object_m,
                                      .p_world_view_m = target_->p_world_view_m,
@@ -232,8 +233,6 @@ PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given) const {
 std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                                           const std::vector<PlannableObject>& objects,
                                           const FlightMap& map) {
-  p_world_objects_m_.clear();
-  for (const PlannableObject& object : objects) p_world_objects_m_.push_back(object.p_world_m);
   const Eigen::Matrix4Xd given = horizon(state, state.nominal).points;
   const Eigen::Matrix4Xd planned = horizon(state, state.plan).points;
   window_ = box_round({given, planned}, kAside_m);
@@ -247,7 +246,7 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
   target_of_point_.clear();
   if (optimises(task_.method)) choose_target(state, objects, rings, map.grid());
   std::vector<WayOn> ways;
-  const PathCost cost = this->cost(given);
+  const PathCost cost = this->cost(given, rings);
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
     Horizon ahead = horizon(state, state.plan);
     ahead.points = points;
@@ -255,7 +254,7 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
                     .points = points,
                     .cost = ahead.count() < 2 ? 0.0 : path_cost(unwrapped(ahead), cost)});
   };
-  add(std::string(strategy_name_of(task_.method)), method_path(state, rings));
+  add(std::string(strategy_name_of(task_.method)), method_path(state, rings, cost));
   if (std::holds_alternative<GivenPath>(task_.method) ||
       std::holds_alternative<GivenPathYaw>(task_.method)) {
     return ways;  // these go nowhere else, whatever is in the way

@@ -59,23 +59,24 @@ class FlightPlanner {
                                                      double height_m) const;
   void choose_target(const PlanState& state, const std::vector<PlannableObject>& objects,
                      const std::vector<ObservedObject>& rings, const OccupancyGrid& grid);
-  void choose_views(const ViewsOnTheWay& options, const Eigen::Matrix4Xd& given, int left,
+  void choose_views(const ViewsOnTheWay& options, const PlanState& state,
                     const std::vector<PlannableObject>& objects,
                     const std::vector<ObservedObject>& rings, const OccupancyGrid& grid);
   [[nodiscard]] Eigen::Matrix4Xd turned(const Eigen::Matrix4Xd& points,
                                         const std::vector<ObservedObject>& objects) const;
   [[nodiscard]] double clearance_m(const Eigen::Vector3d& p_world_m) const;
   [[nodiscard]] double lowest_view_m(double height_m) const;
-  [[nodiscard]] PathCost cost(const Eigen::Matrix4Xd& given) const;
+  [[nodiscard]] PathCost cost(const Eigen::Matrix4Xd& given,
+                              const std::vector<ObservedObject>& objects) const;
   [[nodiscard]] Eigen::Matrix4Xd method_path(const PlanState& state,
-                                             const std::vector<ObservedObject>& objects);
+                                             const std::vector<ObservedObject>& objects,
+                                             const PathCost& cost);
 
   TrajectoryTask task_;
   FlightCamera camera_;
   Rng rng_;
   Eigen::AlignedBox3d window_;  ///< round the way ahead; what is outside of it was not looked at
   std::optional<SurfaceDistance> surface_;
-  std::vector<Eigen::Vector3d> p_world_objects_m_;  ///< what the literal cost takes for obstacles
   std::optional<LookTarget> target_;
   /// Of each point of the horizon; empty: all have `target_`.
   std::vector<std::optional<ObservationTarget>> target_of_point_;

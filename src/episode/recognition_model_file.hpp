@@ -9,8 +9,8 @@
 namespace vantage {
 
 /// @param key of the episode that names it, for messages
-/// @throws InputError if there is none, saying how to make one.
-/// @param key of the configuration, for messages; the task's episode file tells how
+/// @param task whose episode file tells how to make one
+/// @throws InputError if there is none, naming that file.
 std::filesystem::path find_recognition_model(const std::string& model, const char* key,
                                              const char* task);
 

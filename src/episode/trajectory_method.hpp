@@ -25,7 +25,7 @@ struct GivenPathYaw {
   YawToTarget yaw;
   void fields(auto&& f) { f("range_m", yaw.range_m, above(0.0)); }
 };
-/// That through the nearest unused directions, without optimising.
+/// The path through the nearest unused directions on its way, camera likewise.
 struct DetourPath {
   static constexpr std::string_view name = "greedy_detour";
   GreedyDetour detour;

@@ -151,6 +151,11 @@ TEST_F(Planner, TheLeashHoldsEveryMethodNearThePath) {
 
 TEST_F(Planner, TheLastWaypointsAreFlownAsGiven) {
   FlightPlanner stomp = planner(Stomp{});
+  for (const int at : {17, 18}) {
+    const Eigen::Matrix4Xd points = propose(stomp, at).front().points;
+    EXPECT_EQ(points.cols(), 19 - at);
+    EXPECT_EQ(points.rightCols<1>().topRows<3>(), path_.back().head<3>());
+  }
   const auto beside = [&](int at) {
     objects_[0].p_world_m.x() = path_[static_cast<std::size_t>(at)].x() + 1.0;
     propose(stomp, at);

@@ -65,6 +65,7 @@ TEST_F(Search, AWaypointLooksAtTheMiddleOfWhatItTurnsTo) {
   ASSERT_TRUE(v);
   EXPECT_NEAR(v->norm(), 0.0, 1e-9);
   EXPECT_EQ(target->entropy_nats, 0.0) << "nothing to fly to";
+  EXPECT_FALSE(target->flown_to);
 }
 
 TEST_F(Search, TurnsForEnoughAlone) {
