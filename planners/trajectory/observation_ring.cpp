@@ -102,4 +102,6 @@ Eigen::Matrix4Xd levelled(const Eigen::Matrix4Xd& waypoints) {
   return level;
 }
 
+Eigen::Vector3d levelled(const Eigen::Vector3d& p_world) { return {p_world.x(), p_world.y(), 0.0}; }
+
 }  // namespace vantage

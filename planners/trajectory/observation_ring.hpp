@@ -70,7 +70,8 @@ struct OnPath {
 };
 OnPath nearest_on_path(const Eigen::Matrix4Xd& waypoints, const Eigen::Vector3d& p_world);
 
-/// The path at z = 0: how far aside a place is, whatever the heights, is its distance to that.
+/// At z = 0: how far aside of a path a place is, whatever the heights, is the distance of these.
 Eigen::Matrix4Xd levelled(const Eigen::Matrix4Xd& waypoints);
+Eigen::Vector3d levelled(const Eigen::Vector3d& p_world);
 
 }  // namespace vantage

@@ -23,12 +23,6 @@ double length_at_m(const std::vector<double>& run_m, double at) {
   return run_m[before] + (at - static_cast<double>(before)) * (run_m[after] - run_m[before]);
 }
 
-/// As high as the path, so that what is left is how far aside it is.
-Eigen::Vector3d at_height_of(const Eigen::Matrix4Xd& path, Eigen::Vector3d p_m) {
-  p_m.z() = path(2, 0);
-  return p_m;
-}
-
 }  // namespace
 
 std::vector<ScheduledView> schedule_views(const ViewsOnTheWay& options,
@@ -36,6 +30,7 @@ std::vector<ScheduledView> schedule_views(const ViewsOnTheWay& options,
                                           const Eigen::Matrix4Xd& remaining, double tau_nats) {
   expects(remaining.cols() > 0, "a path has waypoints");
   const std::vector<double> run_m = lengths_m(remaining);
+  const Eigen::Matrix4Xd level = levelled(remaining);  // what is left is how far aside a view is
   std::vector<ScheduledView> candidates;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const ObservedObject& object = objects[i];
@@ -43,8 +38,7 @@ std::vector<ScheduledView> schedule_views(const ViewsOnTheWay& options,
     for (int d = 0; d < kObservationDirections; ++d) {
       const auto at_d = static_cast<std::size_t>(d);
       if (object.used[at_d]) continue;
-      const OnPath on_path =
-          nearest_on_path(remaining, at_height_of(remaining, object.ring.view_m(d)));
+      const OnPath on_path = nearest_on_path(level, levelled(object.ring.view_m(d)));
       if (on_path.distance_m > options.reach_m) continue;
       const double worth = std::min(object.gain_nats[at_d], object.entropy_nats) *
                            std::exp2(-on_path.distance_m / options.off_m);

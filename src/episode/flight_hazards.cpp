@@ -19,8 +19,7 @@ std::vector<std::uint8_t> flight_hazards(const FlightMap& map, const Eigen::Matr
   const Eigen::Matrix4Xd level = levelled(given);
   for (std::size_t place = 0; place < layer; ++place) {
     if (unseen[place] == 0) continue;
-    Eigen::Vector3d p_m = frame.centre(frame.cell(place));
-    p_m.z() = 0.0;
+    const Eigen::Vector3d p_m = levelled(frame.centre(frame.cell(place)));
     if (nearest_on_path(level, p_m).distance_m <= kTrusted_m) continue;
     for (std::size_t cell = place; cell < cells.size(); cell += layer) cells[cell] = 1;
   }

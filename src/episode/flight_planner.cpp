@@ -19,14 +19,6 @@ Eigen::Matrix4Xd columns(const std::vector<Eigen::Vector4d>& path, int first, in
   return points;
 }
 
-std::vector<FlightWaypoint> waypoints_of(const Eigen::Matrix4Xd& points) {
-  std::vector<FlightWaypoint> waypoints;
-  for (const auto& q : points.colwise()) {
-    waypoints.push_back({.p_world_m = q.head<3>(), .yaw_rad = q[3]});
-  }
-  return waypoints;
-}
-
 /// Farther surfaces cost nothing.
 constexpr double kReach_m = 1.5;
 /// Beyond the path, where its detours may lead.
@@ -271,15 +263,12 @@ double FlightPlanner::clearance_m(const Eigen::Vector3d& p_world_m) const {
   return std::min(surface_->distance_m(p_world_m), inside_m);
 }
 
-void FlightPlanner::score(const FlightReference& from, std::vector<WayOn>& ways) const {
-  for (WayOn& way : ways) {
-    const FlightPath path(from, waypoints_of(way.points), task_.pilot.limits);
-    way.clearance_m = std::numeric_limits<double>::infinity();
-    for (double t_s = 0.0; t_s <= path.duration_s(); t_s += task_.planner.sample_s) {
-      way.clearance_m = std::min(way.clearance_m, clearance_m(path.at(t_s).p_world_m));
-    }
-    way.clear = way.clearance_m >= task_.planner.clearance_m;
+double FlightPlanner::clearance_m(const FlightPath& path, double until_s) const {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (double t_s = 0.0; t_s <= until_s; t_s += task_.planner.sample_s) {
+    least_m = std::min(least_m, clearance_m(path.at(t_s).p_world_m));
   }
+  return least_m;
 }
 
 std::size_t safest_of_best(const std::vector<WayOn>& ways) {

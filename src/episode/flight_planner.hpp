@@ -46,8 +46,11 @@ class FlightPlanner {
   /// Ways on for the next waypoints, the method's own first, then what it falls back on.
   std::vector<WayOn> propose(const PlanState& state, const std::vector<PlannableObject>& objects,
                              const FlightMap& map);
-  /// Flies each in thought, from the reference as it is, and tells its clearance.
-  void score(const FlightReference& from, std::vector<WayOn>& ways) const;
+  /// Least distance from what is known to be in the way, and from what is not known of, until then.
+  [[nodiscard]] double clearance_m(const FlightPath& path, double until_s) const;
+  [[nodiscard]] bool clear(double clearance_m) const {
+    return clearance_m >= task_.planner.clearance_m;
+  }
 
   /// What the last proposal of an optimiser looks at; nothing: where it goes.
   [[nodiscard]] const std::optional<LookTarget>& target() const { return target_; }

@@ -69,7 +69,7 @@ WaypointReached TrajectoryFlight::observe() {
   const LookAt look = [this](const FlightPicture& picture) { this->look(picture); };
   if (at_ < 0) {
     rig_.look_now(look);
-    follow(0);
+    rig_.follow(followed(plan_, 0));
   } else {
     rig_.fly_past(1, look);
   }
@@ -184,7 +184,19 @@ std::vector<WayOn> TrajectoryFlight::propose() {
   return planner_.propose({.at = at_, .nominal = nominal_, .plan = plan_}, plannable(), map_);
 }
 
-void TrajectoryFlight::score(std::vector<WayOn>& ways) { planner_.score(rig_.reference(), ways); }
+/// Flies each in thought as it will be flown: from where the plan before has led by then.
+void TrajectoryFlight::score(std::vector<WayOn>& ways) {
+  const double latency_s = episode_.trajectory.latency_s;
+  const int missed = rig_.passed(latency_s) - rig_.passed();
+  for (WayOn& way : ways) {
+    const std::vector<FlightWaypoint> waypoints =
+        followed(plan_with(way, missed), at_after(missed));
+    const FlightPath path = rig_.path_in(latency_s, waypoints);
+    const auto planned = std::max(Eigen::Index{1}, way.points.cols() - missed);
+    way.clearance_m = planner_.clearance_m(path, path.knots_s()[static_cast<std::size_t>(planned)]);
+    way.clear = planner_.clear(way.clearance_m);
+  }
+}
 
 std::size_t TrajectoryFlight::choose(const std::vector<WayOn>& ways) {
   const std::size_t chosen = safest_of_best(ways);
@@ -199,10 +211,8 @@ void TrajectoryFlight::act(const WayOn& way) {
   const int passed = rig_.passed();
   rig_.fly_for(latency_s, look);  // on the plan before
   const int missed = rig_.passed() - passed;
-  for (Eigen::Index i = missed; i < way.points.cols(); ++i) {
-    plan_[static_cast<std::size_t>(at_ + 1 + i)] = way.points.col(i);
-  }
-  at_ = std::min(at_ + missed, static_cast<int>(nominal_.size()) - 2);
+  plan_ = plan_with(way, missed);
+  at_ = at_after(missed);
   current_.planner = way.planner;
   current_.cost = way.cost;
   current_.planned_clearance_m = way.clearance_m;
@@ -210,18 +220,33 @@ void TrajectoryFlight::act(const WayOn& way) {
   current_.late = current_.plan_time_s > latency_s;
   current_.missed = missed > 0;
   current_.plan.assign(plan_.begin() + at_ + 1, plan_.end());
-  follow(at_);
+  rig_.follow(followed(plan_, at_));
+}
+
+/// Once the way is taken so many waypoints later than it was made for.
+std::vector<Eigen::Vector4d> TrajectoryFlight::plan_with(const WayOn& way, int missed) const {
+  std::vector<Eigen::Vector4d> plan = plan_;
+  for (Eigen::Index i = missed; i < way.points.cols(); ++i) {
+    plan[static_cast<std::size_t>(at_ + 1 + i)] = way.points.col(i);
+  }
+  return plan;
+}
+
+/// The waypoint that is then behind; there is always one to fly to.
+int TrajectoryFlight::at_after(int missed) const {
+  return std::min(at_ + missed, static_cast<int>(nominal_.size()) - 2);
 }
 
 /// The plan from the waypoint after that one on.
-void TrajectoryFlight::follow(int from) {
+std::vector<FlightWaypoint> TrajectoryFlight::followed(const std::vector<Eigen::Vector4d>& plan,
+                                                       int from) const {
   const auto first = static_cast<std::size_t>(from + 1);
   const auto beyond = static_cast<std::size_t>(episode_.trajectory.horizon + kFollowedBeyond);
   std::vector<FlightWaypoint> waypoints;
-  for (std::size_t i = first; i < std::min(plan_.size(), first + beyond); ++i) {
-    waypoints.push_back({.p_world_m = plan_[i].head<3>(), .yaw_rad = plan_[i][3]});
+  for (std::size_t i = first; i < std::min(plan.size(), first + beyond); ++i) {
+    waypoints.push_back({.p_world_m = plan[i].head<3>(), .yaw_rad = plan[i][3]});
   }
-  rig_.follow(waypoints);
+  return waypoints;
 }
 
 TrajectoryPanelInput TrajectoryFlight::panel() const {

@@ -53,7 +53,10 @@ class TrajectoryFlight {
   void keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
                   const std::vector<SeenObject>& seen);
   void take_looks(const std::vector<KeptLook>& due);
-  void follow(int from);
+  [[nodiscard]] std::vector<Eigen::Vector4d> plan_with(const WayOn& way, int missed) const;
+  [[nodiscard]] int at_after(int missed) const;
+  [[nodiscard]] std::vector<FlightWaypoint> followed(const std::vector<Eigen::Vector4d>& plan,
+                                                     int from) const;
   [[nodiscard]] std::vector<PlannableObject> plannable() const;
   [[nodiscard]] TrajectoryPanelInput panel() const;
 

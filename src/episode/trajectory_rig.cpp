@@ -59,9 +59,15 @@ void TrajectoryRig::fly_past(int waypoints, const LookAt& look) {
   fly_for(path_start_s_ + path_->knots_s()[goal] - world_.time_s(), look);
 }
 
-int TrajectoryRig::passed() const {
+FlightPath TrajectoryRig::path_in(double delay_s, std::span<const FlightWaypoint> waypoints) const {
+  const FlightReference from =
+      path_ ? path_->at(world_.time_s() - path_start_s_ + delay_s) : pilot_.reference();
+  return {from, waypoints, task_.pilot.limits};
+}
+
+int TrajectoryRig::passed(double in_s) const {
   if (!path_) return 0;
-  const double since_s = world_.time_s() - path_start_s_ + kSameMoment_s;
+  const double since_s = world_.time_s() - path_start_s_ + in_s + kSameMoment_s;
   const auto& knots_s = path_->knots_s();
   return static_cast<int>(std::upper_bound(knots_s.begin() + 1, knots_s.end(), since_s) -
                           (knots_s.begin() + 1));

@@ -49,14 +49,15 @@ class TrajectoryRig {
   void fly_for(double duration_s, const LookAt& look);
   /// Until the next waypoint of the plan is reached, or that many after it.
   void fly_past(int waypoints, const LookAt& look);
-  /// Waypoints of the plan that the reference has passed.
-  [[nodiscard]] int passed() const;
+  /// What `follow` leads through these waypoints in so long, flying on as now until then.
+  [[nodiscard]] FlightPath path_in(double delay_s, std::span<const FlightWaypoint> waypoints) const;
+  /// Waypoints of the plan that the reference has passed, or will have in so long.
+  [[nodiscard]] int passed(double in_s = 0.0) const;
   /// Takes a picture of now.
   void look_now(const LookAt& look);
 
   [[nodiscard]] Pose estimated_body() const { return pilot_.estimate().T_world_body; }
   [[nodiscard]] Pose T_body_camera() const;
-  [[nodiscard]] const FlightReference& reference() const { return pilot_.reference(); }
 
   [[nodiscard]] TrajectoryTruth truth() const;
   [[nodiscard]] Pose true_body() const { return vehicle_.state(world_).T_world_body; }

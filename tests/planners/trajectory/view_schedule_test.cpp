@@ -56,6 +56,18 @@ TEST_F(Schedule, PrefersTheDirectionThatTells) {
   EXPECT_NE(views()[0].direction, 5);
 }
 
+// The path may sink on the way to where a view is taken.
+TEST_F(Schedule, ReachIsMeasuredAside) {
+  objects_ = {object_at(4.0, 1.0 + 0.9 * options_.reach_m)};
+  const std::vector<ScheduledView> at_one_height = views();
+  ASSERT_FALSE(at_one_height.empty());
+  for (Eigen::Index i = 0; i < path_.cols(); ++i) path_(2, i) -= 0.15 * static_cast<double>(i);
+  const std::vector<ScheduledView> sinking = views();
+  ASSERT_EQ(sinking.size(), at_one_height.size());
+  EXPECT_EQ(sinking[0].direction, at_one_height[0].direction);
+  EXPECT_NEAR(sinking[0].worth, at_one_height[0].worth, 1e-9);
+}
+
 TEST_F(Schedule, PassesByWhatIsOutOfReach) {
   objects_ = {object_at(4.0, 1.0 + options_.reach_m + 0.1)};
   for (const ScheduledView& view : views()) EXPECT_EQ(view.direction, 6);
