@@ -5,6 +5,7 @@
 
 #include "src/perception/features/bounding_box.hpp"
 #include "src/perception/features/colour.hpp"
+#include "src/perception/features/soft_colour.hpp"
 #include "tests/support/object_views.hpp"
 
 namespace vantage {
@@ -59,6 +60,42 @@ TEST(Colour, APixelIsTooFew) {
 }
 
 // A plate of 100 x 60 px facing the camera: no depth extent at all.
+ObjectView of_colour(int r, int g, int b) {
+  ObjectView view = filled(20, 20);
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column) paint(view, row, column, r, g, b);
+  }
+  return view;
+}
+
+/// Share of the pixels in a bin.
+float share(const FeatureResult& result, int hue, int saturation, int value) {
+  const float root = result.vector[(hue * 3 + saturation) * 3 + value];
+  return root * root;
+}
+
+TEST(SoftColour, SharesAPixelAmongTheBinsRoundIt) {
+  // Hue 30 deg: 4/3 bins from the start, 5/6 from the first middle. Brightest and most saturated.
+  const FeatureResult orange = SoftColour{}.extract(of_colour(254, 127, 0));
+  ASSERT_EQ(orange.vector.size(), Colour{}.dimension());
+  EXPECT_NEAR(share(orange, 0, 2, 2), 1.0 / 6.0, 1e-3);
+  EXPECT_NEAR(share(orange, 1, 2, 2), 5.0 / 6.0, 1e-3);
+  // Red is half way between the first hue and the last; value 0.5 is the middle bin's middle.
+  const FeatureResult red = SoftColour{}.extract(of_colour(128, 0, 0));
+  EXPECT_NEAR(share(red, 0, 2, 1), 0.5, 1e-2);
+  EXPECT_NEAR(share(red, 15, 2, 1), 0.5, 1e-2);
+}
+
+TEST(SoftColour, ALittleLightMoreChangesLittle) {
+  const auto change = [](const auto& feature) {
+    return (feature.extract(of_colour(0, 173, 0)).vector -
+            feature.extract(of_colour(0, 169, 0)).vector)
+        .norm();
+  };
+  EXPECT_GT(change(Colour{}), 1.4F) << "two thirds of the way up, where a bin ends";
+  EXPECT_LT(change(SoftColour{}), 0.05F);
+}
+
 TEST(BoundingBox, OfAPlateFacingTheCamera) {
   const ObjectView view = filled(101, 61);
   const BoundingBox whole{.low_quantile = 0.0, .high_quantile = 1.0};

@@ -1,0 +1,27 @@
+/// Colour histogram that small changes of light change little.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "src/perception/features/colour.hpp"
+
+namespace vantage {
+
+/// The bins of Colour, each pixel shared among the eight whose middles are round its colour, by how
+/// near it is to them: what lies at a bin's edge does not jump with a little light more or less.
+/// Hues go round, ends of saturation and value do not.
+struct SoftColour {
+  static constexpr std::string_view name = "soft_colour";
+  int min_pixels = 16;  ///< px; fewer on the object: skipped; higher is more careful
+  void fields(auto&& f) { f("min_pixels", min_pixels, at_least(1)); }
+
+  [[nodiscard]] SoftColour train(std::span<const ObjectView>, Rng&) const { return *this; }
+  [[nodiscard]] int dimension() const { return Colour{}.dimension(); }
+  [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
+  void put_state(std::string& bytes) const { put_options(bytes, *this); }
+  static SoftColour take_state(StateReader& reader) { return take_options<SoftColour>(reader); }
+};
+
+}  // namespace vantage
