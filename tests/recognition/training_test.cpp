@@ -91,6 +91,24 @@ TEST_F(Training, EveryTrainingViewCounts) {
   EXPECT_GT(model.features[0].cost_s, 0.0);
 }
 
+TEST_F(Training, WithoutViewsHeldOutPsiIsForRulesThatNeedNone) {
+  const support::TemporaryDirectory few;
+  testing::put_painted_object(few.path(), {"cup", "cup_1", 0}, 8);
+  testing::put_painted_object(few.path(), {"hat", "hat_1", 80}, 8);
+  options_.held_out = HeldOutShare{.share = 0.01};
+  options_.seed = 3;
+  const auto train_few = [&] {
+    return train_recognition(index_dataset(few.path()), options_, {.threads = 1});
+  };
+  EXPECT_THROW(train_few(), InputError) << "this seed holds out none of the 32";
+  options_.psi = PerDimensionPsi{};
+  const RecognitionModel model = train_few();
+  EXPECT_EQ(model.features[0].psi, 1.0 / 144.0);
+  EXPECT_EQ(model.features[1].psi, 1.0 / 3.0);
+  options_.psi = DissertationPsi{};
+  EXPECT_EQ(train_few().features[1].psi, 0.02);
+}
+
 TEST_F(Training, IsTheSameForAnyNumberOfThreads) { expect_same(train(1), train(3)); }
 
 TEST_F(Training, ObjectsAddedLaterAreAsIfTheyHadBeenThere) {
