@@ -24,9 +24,13 @@ struct DatasetOptions {
   double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
   bool depth_noise = true;    ///< false: exact depth
   double edge_dropout = 0.3;  ///< probability that a pixel beside a depth edge has no depth
-  int mask_growth_px = 1;     ///< how far the mask reaches over the object's edge
-  int margin_px = 3;          ///< of the crop round the mask
-  int supersampling = 3;      ///< rays a pixel each way, odd; higher is smoother and slower
+  /// The object is cut out by depth, as a robot does that sees it on a stand, not along its
+  /// outline: a little of the table round its foot is then taken for it, and less of what lies
+  /// flat.
+  bool cut_by_depth = false;
+  int mask_growth_px = 1;  ///< how far the mask reaches over the object's edge
+  int margin_px = 3;       ///< of the crop round the mask
+  int supersampling = 3;   ///< rays a pixel each way, odd; higher is smoother and slower
   void fields(auto&& f) {
     f("seed", seed);
     f("session", session, at_least(1));
@@ -39,6 +43,7 @@ struct DatasetOptions {
     f("colour_noise", colour_noise, between(0.0, 100.0));
     f("depth_noise", depth_noise);
     f("edge_dropout", edge_dropout, between(0.0, 1.0));
+    f("cut_by_depth", cut_by_depth);
     f("mask_growth_px", mask_growth_px, between(0, 20));
     f("margin_px", margin_px, between(0, 50));
     f("supersampling", supersampling, between(1, 7));

@@ -80,15 +80,18 @@ int render_video(const TurntableObject& object, const ObjectName& name, int vide
   const Session session = draw_session(options, *video_elevation_rad(video), rng);
   Turntable turntable(object, session, options, name.object);
   RenderedImages drawn;
+  int views = 0;
   for (int i = 0; i < options.frames(); ++i) {
     if (run.stop()) throw Stopped{};
     const double yaw_rad = session.first_yaw_rad + i * options.step_deg * std::numbers::pi / 180.0;
     turntable.draw(yaw_rad, drawn);
     const ObjectView view = sense(drawn, turntable.object_geom(), session, options, rng);
+    if (view.width_px == 0 && options.cut_by_depth) continue;  // too flat for so far away
     if (view.width_px == 0) throw InputError(fmt::format("{}: cannot be seen", name.object));
     write_view(view, {{name.category, name.object, video, i + 1}, folder, yaw_rad});
+    ++views;
   }
-  return options.frames();
+  return views;
 }
 
 /// Renders into a folder beside the final one and renames it when all is there.

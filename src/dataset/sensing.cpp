@@ -5,6 +5,8 @@
 
 #include "sim/camera.hpp"
 #include "src/perception/dataset_reader.hpp"
+#include "src/perception/object_search.hpp"
+#include "src/perception/table_segmentation.hpp"
 
 namespace vantage {
 namespace {
@@ -125,11 +127,37 @@ void disturb_depth(ObjectView& view, const DatasetOptions& options, Rng& rng) {
   }
 }
 
+/// What rises from the turntable, whose surface is at z = 0.
+ObjectView cut_by_depth(const ObjectView& window, const Pose& T_world_camera,
+                        const DatasetOptions& options) {
+  const CameraImages images{.width_px = window.width_px,
+                            .height_px = window.height_px,
+                            .focal_px = window.focal_px,
+                            .rgb = window.rgb,
+                            .depth_m = window.depth_m,
+                            .segmentation = {}};
+  const Eigen::Vector3d p_world_table_m = Eigen::Vector3d::Zero();
+  ObjectSegmentationOptions cut = cut_at({}, T_world_camera.translation().norm());
+  cut.mask_growth_px = options.mask_growth_px;
+  cut.margin_px = options.margin_px;
+  SegmentedObject found = segment_on_table(images, T_world_camera, {}, p_world_table_m, cut);
+  if (!found.view) return {};
+  found.view->left_px += window.left_px;
+  found.view->top_px += window.top_px;
+  found.view->centre_px = window.centre_px;
+  return std::move(*found.view);
+}
+
 }  // namespace
 
 ObjectView sense(const RenderedImages& drawn, int object_geom, const Session& session,
                  const DatasetOptions& options, Rng& rng) {
   ObjectView window = average_rays(drawn, object_geom, session, options.supersampling);
+  if (options.cut_by_depth) {
+    disturb_colour(window, session, options.colour_noise, rng);
+    disturb_depth(window, options, rng);
+    return cut_by_depth(window, drawn.T_world_camera, options);
+  }
   for (int i = 0; i < options.mask_growth_px; ++i) grow(window);
   if (std::ranges::find(window.mask, 1) == window.mask.end()) return {};
   ObjectView view = crop(window, box_of_mask(window, options.margin_px));

@@ -187,13 +187,11 @@ std::optional<SeenObject> seen_object(const CameraImages& images, const Pose& T_
                                       const TablePlane& support, const Cluster& cluster,
                                       const ObjectSearchOptions& options) {
   constexpr double kMargin_m = 0.04;
-  constexpr double kSigmas = 1.5;
   const Eigen::Vector3d p_world_foot_m(cluster.middle_m.x(), cluster.middle_m.y(),
                                        support.height_m);
   const Eigen::Vector3d p_world_camera = T_world_camera.translation();
-  ObjectSegmentationOptions cut = options.cut;
+  ObjectSegmentationOptions cut = cut_at(options, (p_world_foot_m - p_world_camera).norm());
   cut.radius_m = cluster.radius_m + kMargin_m;
-  cut.min_height_m += kSigmas * height_sigma_m(options, (p_world_foot_m - p_world_camera).norm());
   SegmentedObject found = segment_on_table(images, T_world_camera, support, p_world_foot_m, cut);
   if (!found.view) return std::nullopt;
   const Points points = points_of(*found.view, T_world_camera, support, cluster, cut);
@@ -205,6 +203,13 @@ std::optional<SeenObject> seen_object(const CameraImages& images, const Pose& T_
 }
 
 }  // namespace
+
+ObjectSegmentationOptions cut_at(const ObjectSearchOptions& options, double distance_m) {
+  constexpr double kSigmas = 1.5;
+  ObjectSegmentationOptions cut = options.cut;
+  cut.min_height_m += kSigmas * height_sigma_m(options, distance_m);
+  return cut;
+}
 
 std::vector<SeenObject> find_objects(const CameraImages& images, const Pose& T_world_camera,
                                      const ObjectSearchOptions& options) {

@@ -29,6 +29,9 @@ struct ObjectSearchOptions {
   }
 };
 
+/// How an object that far away is cut out: what stands out of the noise there.
+ObjectSegmentationOptions cut_at(const ObjectSearchOptions& options, double distance_m);
+
 struct SeenObject {
   ObjectSighting sighting;
   ObjectView view;  ///< for the recogniser

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
+#include <set>
 
+#include "src/dataset/sensing.hpp"
 #include "tests/dataset/cube.hpp"
 
 namespace vantage {
@@ -74,6 +77,59 @@ TEST_F(Cube, StandsOnTheTableInsideTheWindow) {
       }
     }
   }
+}
+
+/// Flags of the pixels of the full image that a view's mask has.
+std::set<std::pair<int, int>> pixels_of(const ObjectView& view) {
+  std::set<std::pair<int, int>> pixels;
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      if (view.mask[view.index(row, column)] == 0) continue;
+      pixels.emplace(view.top_px + row, view.left_px + column);
+    }
+  }
+  return pixels;
+}
+
+TEST_F(Cube, CutOutByDepthIsWhatRisesFromTheTable) {
+  DatasetOptions options{.colour_noise = 0.0,
+                         .depth_noise = false,
+                         .edge_dropout = 0.0,
+                         .mask_growth_px = 0,
+                         .supersampling = 1};
+  const auto cut = [&](double yaw_rad) {
+    Rng rng(1);
+    return pixels_of(sense(draw(yaw_rad), table_.object_geom(),
+                           support::plain_session(kElevation_rad), options, rng));
+  };
+  const std::set<std::pair<int, int>> outline = cut(0.3);
+  options.cut_by_depth = true;
+  const std::set<std::pair<int, int>> by_depth = cut(0.3);
+  std::vector<std::pair<int, int>> both;
+  std::ranges::set_intersection(outline, by_depth, std::back_inserter(both));
+  EXPECT_NE(by_depth, outline) << "the lowest millimetres of it are lost";
+  EXPECT_GT(both.size(), outline.size() * 97 / 100);
+  EXPECT_GT(both.size(), by_depth.size() * 97 / 100);
+}
+
+TEST_F(Cube, WhatIsTooFlatIsNotCutOutByDepth) {
+  Rng rng(1);
+  RenderedImages bare = draw(0.0);
+  const Eigen::Vector3d p_m = bare.T_world_camera.translation();
+  const Eigen::Matrix3d rotation = bare.T_world_camera.linear();
+  for (int row = 0; row < bare.height_px; ++row) {  // a table 5 mm higher and nothing on it
+    for (int column = 0; column < bare.width_px; ++column) {
+      const Eigen::Vector3d ray((column - 0.5 * (bare.width_px - 1)) / bare.focal_px,
+                                (row - 0.5 * (bare.height_px - 1)) / bare.focal_px, 1.0);
+      const auto i = static_cast<std::size_t>(row * bare.width_px + column);
+      bare.depth_m[i] = static_cast<float>((0.005 - p_m.z()) / (rotation * ray).z());
+    }
+  }
+  options_.cut_by_depth = true;
+  options_.depth_noise = false;
+  const ObjectView view =
+      sense(bare, table_.object_geom(), support::plain_session(kElevation_rad), options_, rng);
+  EXPECT_EQ(view.width_px, 0);
 }
 
 TEST(Window, HoldsTheBoundingSphere) {
