@@ -79,7 +79,7 @@ TEST_F(Cube, StandsOnTheTableInsideTheWindow) {
   }
 }
 
-/// Flags of the pixels of the full image that a view's mask has.
+/// Pixels of the full image that a view's mask has.
 std::set<std::pair<int, int>> pixels_of(const ObjectView& view) {
   std::set<std::pair<int, int>> pixels;
   for (int row = 0; row < view.height_px; ++row) {

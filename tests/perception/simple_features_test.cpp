@@ -59,7 +59,6 @@ TEST(Colour, APixelIsTooFew) {
   EXPECT_EQ(Colour{}.extract(view).skipped, "the mask has 1 usable pixels, fewer than 16");
 }
 
-// A plate of 100 x 60 px facing the camera: no depth extent at all.
 ObjectView of_colour(int r, int g, int b) {
   ObjectView view = filled(20, 20);
   for (int row = 0; row < 20; ++row) {
@@ -96,6 +95,7 @@ TEST(SoftColour, ALittleLightMoreChangesLittle) {
   EXPECT_LT(change(SoftColour{}), 0.05F);
 }
 
+// A plate of 100 x 60 px facing the camera: no depth extent at all.
 TEST(BoundingBox, OfAPlateFacingTheCamera) {
   const ObjectView view = filled(101, 61);
   const BoundingBox whole{.low_quantile = 0.0, .high_quantile = 1.0};
