@@ -195,6 +195,23 @@ FlightReference FlightPath::at(double time_s) const {
   return reference;
 }
 
+FlightPath FlightPath::from(double time_s) const {
+  expects(time_s >= 0.0 && time_s < duration_s(), "something is left of the path");
+  const auto next = std::upper_bound(knot_s_.begin() + 1, knot_s_.end(), time_s);
+  const auto to = static_cast<std::size_t>(next - knot_s_.begin());
+  const double h = knot_s_[to] - knot_s_[to - 1];
+  const double t = (time_s - knot_s_[to - 1]) / h;
+  const Coefficients c = quintic(knots_[to - 1], knots_[to], h);
+  FlightPath rest;
+  rest.knot_s_.push_back(0.0);
+  rest.knots_.push_back({derivative(c, t, h, 0), derivative(c, t, h, 1), derivative(c, t, h, 2)});
+  for (std::size_t i = to; i < knots_.size(); ++i) {
+    rest.knot_s_.push_back(knot_s_[i] - time_s);
+    rest.knots_.push_back(knots_[i]);
+  }
+  return rest;
+}
+
 FlightWaypoint FlightPath::goal() const {
   const Eigen::Vector4d& p = knots_.back().p;
   return {.p_world_m = p.head<3>(), .yaw_rad = wrap_angle(p[3])};

@@ -45,6 +45,8 @@ class FlightPath {
   [[nodiscard]] const std::vector<double>& knots_s() const { return knot_s_; }
   /// The start before 0, at rest at the last waypoint after the end.
   [[nodiscard]] FlightReference at(double time_s) const;
+  /// What is left of it from then on, its time 0; before the end.
+  [[nodiscard]] FlightPath from(double time_s) const;
   [[nodiscard]] FlightWaypoint goal() const;
 
   /// Value and derivatives of (x, y, z, yaw) at a knot.
@@ -55,6 +57,7 @@ class FlightPath {
   };
 
  private:
+  FlightPath() = default;
   /// How many times over the limits it is at its worst, as a factor of time.
   [[nodiscard]] double stretch_needed(const FlightLimits& limits) const;
 

@@ -253,6 +253,8 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
   }
   add("as before", planned);
   add("as given", given);
+  add("as flown", planned);
+  ways.back().same_spline = true;
   return ways;
 }
 

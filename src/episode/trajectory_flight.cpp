@@ -189,11 +189,14 @@ void TrajectoryFlight::score(std::vector<WayOn>& ways) {
   const double latency_s = episode_.trajectory.latency_s;
   const int missed = rig_.passed(latency_s) - rig_.passed();
   for (WayOn& way : ways) {
-    const std::vector<FlightWaypoint> waypoints =
-        followed(plan_with(way, missed), at_after(missed));
-    const FlightPath path = rig_.path_in(latency_s, waypoints);
-    const auto planned = std::max(Eigen::Index{1}, way.points.cols() - missed);
-    way.clearance_m = planner_.clearance_m(path, path.knots_s()[static_cast<std::size_t>(planned)]);
+    const auto on = way.same_spline ? rig_.path_on(latency_s) : std::nullopt;
+    way.same_spline = on.has_value();
+    const FlightPath path =
+        on ? *on : rig_.path_in(latency_s, followed(plan_with(way, missed), at_after(missed)));
+    const std::vector<double>& knots_s = path.knots_s();
+    const auto planned =
+        std::clamp(way.points.cols() - missed, Eigen::Index{1}, std::ssize(knots_s) - 1);
+    way.clearance_m = planner_.clearance_m(path, knots_s[static_cast<std::size_t>(planned)]);
     way.clear = planner_.clear(way.clearance_m);
   }
 }
@@ -220,7 +223,7 @@ void TrajectoryFlight::act(const WayOn& way) {
   current_.late = current_.plan_time_s > latency_s;
   current_.missed = missed > 0;
   current_.plan.assign(plan_.begin() + at_ + 1, plan_.end());
-  rig_.follow(followed(plan_, at_));
+  if (!way.same_spline) rig_.follow(followed(plan_, at_));
 }
 
 /// Once the way is taken so many waypoints later than it was made for.

@@ -26,6 +26,7 @@ struct WayOn {
   std::string planner;
   Eigen::Matrix4Xd points;
   double cost = 0.0;
+  bool same_spline = false;  ///< the plan as it is flown, without another spline through it
   double clearance_m = 0.0;  ///< least of its spline, from the body's centre, by the map
   bool clear = true;         ///< enough of it
 };

@@ -65,6 +65,14 @@ FlightPath TrajectoryRig::path_in(double delay_s, std::span<const FlightWaypoint
   return {from, waypoints, task_.pilot.limits};
 }
 
+std::optional<FlightPath> TrajectoryRig::path_on(double delay_s) const {
+  constexpr std::size_t kLeast = 3;  // so that it does not slow down yet
+  if (!path_) return std::nullopt;
+  const std::size_t waypoints = path_->knots_s().size() - 1;
+  if (waypoints < static_cast<std::size_t>(passed(delay_s)) + kLeast) return std::nullopt;
+  return path_->from(world_.time_s() - path_start_s_ + delay_s);
+}
+
 int TrajectoryRig::passed(double in_s) const {
   if (!path_) return 0;
   const double since_s = world_.time_s() - path_start_s_ + in_s + kSameMoment_s;

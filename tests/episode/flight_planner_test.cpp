@@ -137,6 +137,16 @@ TEST_F(Planner, TheGivenPathIsFlownWhateverIsInTheWay) {
   EXPECT_EQ(ways.front().points.col(4), path_[5]);
 }
 
+TEST_F(Planner, GoingOnAsFlownIsTheLastResort) {
+  FlightPlanner stomp = planner(Stomp{});
+  const std::vector<WayOn> ways = propose(stomp);
+  EXPECT_EQ(std::ranges::count(ways, true, &WayOn::same_spline), 1);
+  ASSERT_TRUE(ways.back().same_spline);
+  for (Eigen::Index i = 0; i < ways.back().points.cols(); ++i) {
+    EXPECT_EQ(ways.back().points.col(i), path_[static_cast<std::size_t>(i) + 1]);
+  }
+}
+
 TEST_F(Planner, OnlyYawFollowsTheObjectOnTheGivenPath) {
   FlightPlanner yaw = planner(GivenPathYaw{});
   const Eigen::Matrix4Xd points = propose(yaw).front().points;

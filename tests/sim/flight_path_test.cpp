@@ -118,6 +118,23 @@ TEST(FlightPath, StaysWhereItIs) {
   EXPECT_TRUE(path.at(0.05).p_world_m.isApprox(here.p_world_m, 1e-12));
 }
 
+TEST(FlightPath, WhatIsLeftOfItIsTheSamePath) {
+  const auto waypoints = random_waypoints(5, 11);
+  const FlightPath path({.p_world_m = {0.0, 0.0, 1.0}, .yaw_rad = 3.0}, waypoints);
+  for (const double since_s : {0.0, 0.3, path.knots_s()[2], 0.99 * path.duration_s()}) {
+    const FlightPath rest = path.from(since_s);
+    EXPECT_NEAR(rest.duration_s(), path.duration_s() - since_s, 1e-12);
+    for (double t = 0.0; t < rest.duration_s(); t += 0.07) {
+      const FlightReference a = rest.at(t);
+      const FlightReference b = path.at(since_s + t);
+      EXPECT_LT((a.p_world_m - b.p_world_m).norm(), 1e-9);
+      EXPECT_LT((a.a_world_m_s2 - b.a_world_m_s2).norm(), 1e-6);
+      EXPECT_NEAR(wrap_angle(a.yaw_rad - b.yaw_rad), 0.0, 1e-9);
+    }
+  }
+  EXPECT_EQ(path.from(path.knots_s()[2]).knots_s().size(), path.knots_s().size() - 2);
+}
+
 TEST(FlightPath, RefusesLimitsOutOfRange) {
   const FlightWaypoint goal{.p_world_m = {2.0, 0.0, 0.0}};
   EXPECT_THROW(FlightPath({}, std::span(&goal, 1), {.speed_m_s = 0.0}), ConfigError);
