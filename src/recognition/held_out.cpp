@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 
@@ -17,8 +18,11 @@ constexpr Eigen::Index kMostViews = 4000;
 std::vector<int> folds_of(const HeldOutShare& by, std::span<const ViewFeatures> views,
                           std::uint64_t seed) {
   std::vector<int> folds;
+  std::map<std::string, int> recordings;  // that have a view of that name
   for (const ViewFeatures& view : views) {
-    Rng rng = Rng::stream(seed, "hold out " + to_string(view.name));
+    const std::string name = to_string(view.name);
+    const int recording = ++recordings[name];
+    Rng rng = Rng::stream(seed, "hold out " + name + std::string(recording - 1, '+'));
     folds.push_back(rng.uniform() < by.share ? 0 : -1);
   }
   return folds;
