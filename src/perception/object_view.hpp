@@ -26,11 +26,14 @@ struct ObjectView {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px) +
            static_cast<std::size_t>(column);
   }
+  /// Of a pixel of the crop, camera frame, its z 1.
+  [[nodiscard]] Eigen::Vector3d ray(int row, int column) const {
+    return {(left_px + column - centre_px.x()) / focal_px,
+            (top_px + row - centre_px.y()) / focal_px, 1.0};
+  }
   /// The point a pixel of the crop shows, camera frame, metres; meaningless where depth_m is 0.
   [[nodiscard]] Eigen::Vector3d point(int row, int column) const {
-    const double z = depth_m[index(row, column)];
-    return {(left_px + column - centre_px.x()) / focal_px * z,
-            (top_px + row - centre_px.y()) / focal_px * z, z};
+    return depth_m[index(row, column)] * ray(row, column);
   }
 };
 

@@ -38,7 +38,7 @@ class EveryFeature : public testing::TestWithParam<std::string_view> {
  protected:
   EveryFeature() {
     Rng rng(1);
-    views = ball_views(8, 48, rng);
+    views = ball_views(8, 48, rng, 3.0);  // with what is beside them
   }
   [[nodiscard]] TrainedFeature trained(std::uint64_t seed = 1) const {
     Rng rng(seed);

@@ -59,6 +59,26 @@ TEST(ObjectPixels, AnObjectSpreadInDepthIsWhole) {
   EXPECT_EQ(object_pixels(view).depth_count, 144);
 }
 
+TEST(ObjectPixels, OutliersAlongTheSightAreTheSameBesideThePicturesMiddle) {
+  const auto counted = [](int left_px, bool along_sight) {
+    ObjectView view = square(0, 20);
+    view.left_px = left_px;
+    const Eigen::Vector3d sight =
+        (view.ray(9, 9) + view.ray(9, 10) + view.ray(10, 9) + view.ray(10, 10)).normalized();
+    for (int row = 0; row < 20; ++row) {
+      for (int column = 0; column < 20; ++column) {  // a plane across the sight, with a far part
+        const Eigen::Vector3d ray = view.ray(row, column);
+        const double away_m = row < 8 ? 1.021 : 1.0;
+        view.depth_m[view.index(row, column)] = static_cast<float>(away_m / sight.dot(ray));
+      }
+    }
+    return object_pixels(view, {.floor_m = 0.02, .along_sight = along_sight}).depth_count;
+  };
+  EXPECT_EQ(counted(310, true), 20 * 12);
+  EXPECT_EQ(counted(600, true), 20 * 12);
+  EXPECT_NE(counted(600, false), 20 * 12) << "it counts as nearer along the optical axis";
+}
+
 TEST(ObjectPixels, EmptyMasksAndViewsAreSaidToLackPixels) {
   EXPECT_EQ(object_pixels(blank_view(20, 20)).colour_count, 0);
   const ObjectPixels none = object_pixels(blank_view(0, 0));

@@ -6,6 +6,7 @@
 #include "src/perception/features/bounding_box.hpp"
 #include "src/perception/features/colour.hpp"
 #include "src/perception/features/soft_colour.hpp"
+#include "src/perception/features/standing_box.hpp"
 #include "tests/support/object_views.hpp"
 
 namespace vantage {
@@ -129,6 +130,73 @@ TEST(BoundingBox, SaysWhatIsMissing) {
   std::ranges::fill(view.depth_m, 0.0F);
   EXPECT_EQ(BoundingBox{}.extract(view).skipped,
             "0 pixels of the object have depth, fewer than 16");
+}
+
+constexpr double kTall_m = 0.12;
+
+/// A cylinder of 6 cm across on a level stand, seen from `elevation_rad` and a metre, `off_px`
+/// beside the picture's middle.
+ObjectView cylinder(double elevation_rad, int off_px = 0) {
+  ObjectView view = blank_view(161, 161);
+  view.left_px += off_px;
+  const double c = std::cos(elevation_rad);
+  const double s = std::sin(elevation_rad);
+  view.up = {0.0, -c, -s};
+  const Eigen::Vector3d ahead = view.ray(80, 80);
+  const Eigen::Vector3d foot = ahead / ahead.norm();
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      const Eigen::Vector3d ray = view.ray(row, column);
+      double nearest = foot.dot(view.up) / ray.dot(view.up);  // the stand
+      bool on_object = false;
+      for (double t = 0.8; t < nearest; t += 0.0002) {
+        const Eigen::Vector3d p = t * ray - foot;
+        const double height = p.dot(view.up);
+        if (height > kTall_m || (p - height * view.up).norm() > 0.03) continue;
+        nearest = t;
+        on_object = true;
+        break;
+      }
+      view.depth_m[view.index(row, column)] = static_cast<float>(nearest);
+      view.mask[view.index(row, column)] = on_object ? 1 : 0;
+    }
+  }
+  return view;
+}
+
+TEST(StandingBox, HeightIsFromTheStandFromWhereverItIsSeen) {
+  for (const double elevation_rad : {0.5, 0.8, 1.05}) {
+    const FeatureResult box = StandingBox{}.extract(cylinder(elevation_rad));
+    ASSERT_TRUE(box.extracted()) << box.skipped;
+    EXPECT_NEAR(box.vector[0], kTall_m, 0.003) << elevation_rad;
+  }
+  const double low = BoundingBox{}.extract(cylinder(0.5)).vector[0];
+  const double high = BoundingBox{}.extract(cylinder(1.05)).vector[0];
+  EXPECT_GT(low - high, 0.004) << "of what is seen alone it changes with the foot";
+}
+
+TEST(StandingBox, IsTheSameWhereverInThePictureTheObjectIs) {
+  const FeatureResult middle = StandingBox{}.extract(cylinder(0.7));
+  const FeatureResult aside = StandingBox{}.extract(cylinder(0.7, 180));
+  ASSERT_TRUE(middle.extracted() && aside.extracted());
+  EXPECT_LT((middle.vector - aside.vector).cwiseAbs().maxCoeff(), 0.004F);
+}
+
+TEST(StandingBox, WhatIsBehindAndBelowIsNoStand) {
+  ObjectView view = cylinder(0.7);
+  for (int row = 0; row < 60; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      const std::size_t i = view.index(row, column);
+      if (view.mask[i] == 0) view.depth_m[i] += 0.8F;  // the floor
+    }
+  }
+  EXPECT_NEAR(StandingBox{}.extract(view).vector[0], kTall_m, 0.003);
+}
+
+TEST(StandingBox, SaysWhatIsMissing) {
+  const ObjectView view = filled(40, 40);
+  EXPECT_EQ(StandingBox{}.extract(view).skipped,
+            "0 pixels beside the object show its stand, fewer than 16");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 /// Views of simple objects, drawn without a renderer.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -34,8 +35,8 @@ struct BallLook {
   double noise = 0.0;  ///< standard deviation of colour, 0 .. 1, and of depth, cm
 };
 
-/// A striped ball in the middle of the crop, in front of a wall half a metre behind it. The mask
-/// reaches one pixel over its edge.
+/// A striped ball in the middle of the crop, on a level stand, in front of a wall half a metre
+/// behind it. The mask reaches one pixel over its edge.
 inline ObjectView ball_view(int side_px, const BallLook& look, Rng& rng) {
   ObjectView view = blank_view(side_px, side_px);
   const double reach_m = look.radius_m + look.distance_m / view.focal_px;
@@ -48,7 +49,9 @@ inline ObjectView ball_view(int side_px, const BallLook& look, Rng& rng) {
       view.mask[i] = off2 < reach_m * reach_m ? 1 : 0;
       const double inside = look.radius_m * look.radius_m - off2;
       const bool hit = inside > 0.0;
-      const double depth = look.distance_m - (hit ? std::sqrt(inside) : -0.5);
+      const double wall_m = look.distance_m + 0.5;
+      const double behind_m = y > 0.0 ? std::min(wall_m, look.radius_m / y) : wall_m;
+      const double depth = hit ? look.distance_m - std::sqrt(inside) : behind_m;
       view.depth_m[i] = static_cast<float>(depth + 0.01 * look.noise * rng.normal());
       const double turn = std::atan2(x * look.distance_m, look.distance_m - depth) + look.phase_rad;
       const double shade = hit ? 0.6 + 0.4 * std::sin(look.stripes * turn + 20.0 * y) : 0.3;
@@ -63,10 +66,12 @@ inline ObjectView ball_view(int side_px, const BallLook& look, Rng& rng) {
 }
 
 /// Different balls, `count` of them.
-inline std::vector<ObjectView> ball_views(int count, int side_px, Rng& rng) {
+inline std::vector<ObjectView> ball_views(int count, int side_px, Rng& rng,
+                                          double distance_m = 1.0) {
   std::vector<ObjectView> views;
   for (int i = 0; i < count; ++i) {
-    BallLook look{.radius_m = rng.uniform(0.05, 0.12), .stripes = rng.uniform(2.0, 12.0)};
+    BallLook look{.radius_m = rng.uniform(0.05, 0.12), .distance_m = distance_m};
+    look.stripes = rng.uniform(2.0, 12.0);
     look.phase_rad = rng.uniform(0.0, 2.0 * std::numbers::pi);
     for (double& c : look.hue) c = rng.uniform(0.1, 1.0);
     look.noise = 0.02;

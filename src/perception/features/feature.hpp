@@ -17,6 +17,7 @@
 #include "src/perception/features/onnx.hpp"
 #include "src/perception/features/sift.hpp"
 #include "src/perception/features/soft_colour.hpp"
+#include "src/perception/features/standing_box.hpp"
 #include "src/perception/features/vfh.hpp"
 #include "src/perception/object_view.hpp"
 
@@ -28,7 +29,7 @@ using Feature =
                  KernelDescriptor<PatchKind::lbp>, KernelDescriptor<PatchKind::normalised_rgb>,
                  KernelDescriptor<PatchKind::depth_gradient>,
                  KernelDescriptor<PatchKind::depth_lbp>, KernelDescriptor<PatchKind::normal_spin>,
-                 KernelDescriptor<PatchKind::size>, Onnx, SoftColour>;
+                 KernelDescriptor<PatchKind::size>, Onnx, SoftColour, StandingBox>;
 template <>
 inline constexpr std::string_view strategy_family<Feature> = "feature";
 
@@ -37,7 +38,7 @@ inline constexpr std::string_view strategy_family<Feature> = "feature";
 class TrainedFeature {
  public:
   using State = std::variant<Colour, BoundingBox, Vfh, TrainedSift, TrainedKernelDescriptor,
-                             TrainedOnnx, SoftColour>;
+                             TrainedOnnx, SoftColour, StandingBox>;
   /// @param cost_s time to extract it from one view
   TrainedFeature(State state, double cost_s)
       : state_(std::make_shared<const State>(std::move(state))), cost_s_(cost_s) {}

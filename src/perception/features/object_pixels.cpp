@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kErosion_px = 2;
 constexpr double kOutlierDeviations = 4.0;
-constexpr double kOutlierFloor_m = 0.02;
 
 void expect_whole(const ObjectView& view) {
   const auto pixels = static_cast<std::size_t>(view.width_px) * view.height_px;
@@ -48,20 +47,39 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
-void mark_depth(const ObjectView& view, ObjectPixels& pixels) {
+/// To the middle of what is marked: unit length, camera frame; the optical axis if nothing is.
+Eigen::Vector3d sight_of(const ObjectView& view, const std::vector<std::uint8_t>& marked) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      if (marked[view.index(row, column)] != 0) sum += view.ray(row, column);
+    }
+  }
+  return sum.isZero() ? Eigen::Vector3d::UnitZ() : sum.normalized();
+}
+
+void mark_depth(const ObjectView& view, const OutlierOptions& outliers, ObjectPixels& pixels) {
   pixels.depth.assign(view.depth_m.size(), 0);
+  const Eigen::Vector3d sight =
+      outliers.along_sight ? sight_of(view, pixels.colour) : Eigen::Vector3d::UnitZ();
   std::vector<double> depths_m;
-  for (std::size_t i = 0; i < pixels.colour.size(); ++i) {
-    const float z = view.depth_m[i];
-    if (pixels.colour[i] != 0 && std::isfinite(z) && z > 0.0F) depths_m.push_back(z);
+  std::vector<std::size_t> places;
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      const std::size_t i = view.index(row, column);
+      const float z = view.depth_m[i];
+      if (pixels.colour[i] == 0 || !std::isfinite(z) || !(z > 0.0F)) continue;
+      depths_m.push_back(outliers.along_sight ? sight.dot(view.point(row, column)) : z);
+      places.push_back(i);
+    }
   }
   if (depths_m.empty()) return;
-  const double median_m = median_of(depths_m);
-  for (double& z : depths_m) z = std::abs(z - median_m);
-  const double reach_m = std::max(kOutlierDeviations * median_of(depths_m), kOutlierFloor_m);
-  for (std::size_t i = 0; i < pixels.colour.size(); ++i) {
-    const double z = view.depth_m[i];  // NaN fails both comparisons
-    pixels.depth[i] = pixels.colour[i] != 0 && z > 0.0 && std::abs(z - median_m) <= reach_m ? 1 : 0;
+  std::vector<double> sorted = depths_m;
+  const double median_m = median_of(sorted);
+  for (double& z : sorted) z = std::abs(z - median_m);
+  const double reach_m = std::max(kOutlierDeviations * median_of(sorted), outliers.floor_m);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    pixels.depth[places[k]] = std::abs(depths_m[k] - median_m) <= reach_m ? 1 : 0;
   }
 }
 
@@ -82,14 +100,14 @@ void mark_bounds(ObjectPixels& pixels) {
 
 }  // namespace
 
-ObjectPixels object_pixels(const ObjectView& view) {
+ObjectPixels object_pixels(const ObjectView& view, const OutlierOptions& outliers) {
   expect_whole(view);
   ObjectPixels pixels;
   pixels.width_px = view.width_px;
   pixels.height_px = view.height_px;
   if (view.mask.empty()) return pixels;
   pixels.colour = eroded_mask(view);
-  mark_depth(view, pixels);
+  mark_depth(view, outliers, pixels);
   pixels.colour_count = count_of(pixels.colour);
   pixels.depth_count = count_of(pixels.depth);
   mark_bounds(pixels);

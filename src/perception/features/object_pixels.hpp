@@ -24,10 +24,19 @@ struct ObjectPixels {
   int bottom_px = 0;  ///< one past its last row
 };
 
+/// What is no outlier of depth however little the object is spread.
+struct OutlierOptions {
+  double floor_m = 0.02;  ///< higher keeps a bowl's far wall, and more of what is behind an object
+  /// Depth is taken along the line of sight to the mask's middle, not along the optical axis: the
+  /// same pixels then count wherever in the picture the object is.
+  bool along_sight = false;
+};
+
 /// The mask loses 2 px at its edges, fewer where that would take more than half of it; the frame's
 /// border is no edge. Of its depths, those farther from the median than 4 median absolute
-/// deviations, and than 2 cm, are outliers: an object spread evenly in depth reaches 2 of them.
-ObjectPixels object_pixels(const ObjectView& view);
+/// deviations, and than the floor, are outliers: an object spread evenly in depth reaches 2 of
+/// them.
+ObjectPixels object_pixels(const ObjectView& view, const OutlierOptions& outliers = {});
 
 /// Why fewer than `min_pixels` pixels of colour, or of depth, are too few; empty if there are
 /// enough.

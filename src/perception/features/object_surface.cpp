@@ -73,6 +73,10 @@ std::string lacks_geometry(const ObjectView& view) {
   return {};
 }
 
+std::string lacks_up(const ObjectView& view) {
+  return view.up.norm() > 0.5 ? "" : "the direction of gravity is not known";
+}
+
 Eigen::Matrix3Xd object_points(const ObjectView& view, const ObjectPixels& pixels) {
   Eigen::Matrix3Xd points(3, pixels.depth_count);
   Eigen::Index next = 0;

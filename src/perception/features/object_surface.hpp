@@ -15,6 +15,9 @@ namespace vantage {
 /// Why pixels of the view cannot become points; empty if they can.
 std::string lacks_geometry(const ObjectView& view);
 
+/// Why heights are not known; empty if they are.
+std::string lacks_up(const ObjectView& view);
+
 /// The pixels with depth as points, row by row. 3 x depth_count, metres, camera frame.
 Eigen::Matrix3Xd object_points(const ObjectView& view, const ObjectPixels& pixels);
 

@@ -1,0 +1,42 @@
+/// Extents of an object that stands on something.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "src/core/fields.hpp"
+#include "src/core/rng.hpp"
+#include "src/perception/features/feature_result.hpp"
+#include "src/perception/features/state_bytes.hpp"
+#include "src/perception/object_view.hpp"
+
+namespace vantage {
+
+/// Metres: height above what the object stands on, as seen beside it, then the greater and the
+/// smaller extent as in BoundingBox. How much of an object's foot is seen changes with the height
+/// it is seen from, and from how far, by more than near twins differ in size; where its top is
+/// over its stand does not. Outliers of depth are told along the line of sight.
+struct StandingBox {
+  static constexpr std::string_view name = "standing_box";
+  double low_quantile = 0.01;     ///< share; higher cuts more off the one end, not off the foot
+  double high_quantile = 0.99;    ///< share, above the other; lower cuts more off the other end
+  double outlier_floor_m = 0.06;  ///< from the median; higher keeps walls of wider bowls
+  double stand_below_m = 0.1;     ///< the lowest that is seen; higher finds feet hidden deeper
+  int min_pixels = 16;  ///< px with depth, of either; fewer: skipped; higher is more careful
+  void fields(auto&& f) {
+    f("low_quantile", low_quantile, between(0.0, 0.5));
+    f("high_quantile", high_quantile, between(0.5, 1.0));
+    f("outlier_floor_m", outlier_floor_m, between(0.0, 1.0));
+    f("stand_below_m", stand_below_m, between(0.0, 1.0));
+    f("min_pixels", min_pixels, at_least(3));
+  }
+
+  [[nodiscard]] StandingBox train(std::span<const ObjectView>, Rng&) const { return *this; }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
+  void put_state(std::string& bytes) const { put_options(bytes, *this); }
+  static StandingBox take_state(StateReader& reader) { return take_options<StandingBox>(reader); }
+};
+
+}  // namespace vantage
