@@ -22,7 +22,7 @@ inline void make_small_model(const std::filesystem::path& folder) {
   objects.supersampling = 1;
   render_dataset(objects, {.root = folder / "objects"});
   TrainingOptions training;
-  training.features = {SoftColour{}, BoundingBox{}};
+  training.features = {SoftColour{}, StandingBox{}};
   training.transition_prior_moves = 0.0;
   write_recognition_model(train_recognition(index_dataset(folder / "objects"), training, {}),
                           folder / "model");
