@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "src/information/quantile.hpp"
+
 namespace vantage {
 namespace {
 
@@ -76,13 +78,6 @@ Json object_json(const ObjectOnStand& truth, const LookedAtObject* found,
   return json;
 }
 
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::ranges::sort(values);
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(share * last))];
-}
-
 void add_planning(Json& json, const std::vector<WaypointRecord>& records) {
   std::vector<double> time_s;
   int late = 0;
@@ -93,6 +88,7 @@ void add_planning(Json& json, const std::vector<WaypointRecord>& records) {
     late += record.late ? 1 : 0;
     missed += record.missed ? 1 : 0;
   }
+  if (time_s.empty()) time_s.push_back(0.0);
   json["plan_time_s"] = {{"median", quantile(time_s, 0.5)}, {"p95", quantile(time_s, 0.95)}};
   json["replans"] = time_s.size();
   json["late_plans"] = late;

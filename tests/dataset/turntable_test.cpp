@@ -8,6 +8,7 @@
 #include <set>
 
 #include "src/dataset/sensing.hpp"
+#include "src/perception/features/standing_box.hpp"
 #include "tests/dataset/cube.hpp"
 
 namespace vantage {
@@ -110,6 +111,16 @@ TEST_F(Cube, CutOutByDepthIsWhatRisesFromTheTable) {
   EXPECT_NE(by_depth, outline) << "the lowest millimetres of it are lost";
   EXPECT_GT(both.size(), outline.size() * 97 / 100);
   EXPECT_GT(both.size(), by_depth.size() * 97 / 100);
+}
+
+TEST_F(Cube, CutOutByDepthItShowsItsStand) {
+  options_.cut_by_depth = true;
+  Rng rng(1);
+  const ObjectView view =
+      sense(draw(0.0), table_.object_geom(), support::plain_session(kElevation_rad), options_, rng);
+  const FeatureResult box = StandingBox{}.extract(view);
+  ASSERT_TRUE(box.extracted()) << box.skipped;
+  EXPECT_NEAR(box.vector[0], 0.1, 0.004);
 }
 
 TEST_F(Cube, WhatIsTooFlatIsNotCutOutByDepth) {

@@ -132,33 +132,32 @@ TEST(BoundingBox, SaysWhatIsMissing) {
             "0 pixels of the object have depth, fewer than 16");
 }
 
-constexpr double kTall_m = 0.12;
+struct Can {
+  double tall_m = 0.12;
+  double radius_m = 0.06;
+  bool full = true;  ///< else open at its top, its wall 4 mm
+};
 
-/// A cylinder of 6 cm across on a level stand, seen from `elevation_rad` and a metre, `off_px`
-/// beside the picture's middle.
-ObjectView cylinder(double elevation_rad, int off_px = 0) {
-  ObjectView view = blank_view(161, 161);
+/// On a level stand, seen from `elevation_rad` and a metre, `off_px` beside the picture's middle.
+ObjectView can_view(const Can& can, double elevation_rad, int off_px = 0) {
+  ObjectView view = blank_view(221, 221);
   view.left_px += off_px;
-  const double c = std::cos(elevation_rad);
-  const double s = std::sin(elevation_rad);
-  view.up = {0.0, -c, -s};
-  const Eigen::Vector3d ahead = view.ray(80, 80);
-  const Eigen::Vector3d foot = ahead / ahead.norm();
+  view.up = {0.0, -std::cos(elevation_rad), -std::sin(elevation_rad)};
+  const Eigen::Vector3d foot = view.ray(110, 110).normalized();
+  const auto inside = [&](const Eigen::Vector3d& p) {
+    const double height = p.dot(view.up);
+    const double radius = (p - height * view.up).norm();
+    return height < can.tall_m && radius < can.radius_m &&
+           (can.full || radius > can.radius_m - 0.004 || height < 0.004);
+  };
   for (int row = 0; row < view.height_px; ++row) {
     for (int column = 0; column < view.width_px; ++column) {
       const Eigen::Vector3d ray = view.ray(row, column);
-      double nearest = foot.dot(view.up) / ray.dot(view.up);  // the stand
-      bool on_object = false;
-      for (double t = 0.8; t < nearest; t += 0.0002) {
-        const Eigen::Vector3d p = t * ray - foot;
-        const double height = p.dot(view.up);
-        if (height > kTall_m || (p - height * view.up).norm() > 0.03) continue;
-        nearest = t;
-        on_object = true;
-        break;
-      }
-      view.depth_m[view.index(row, column)] = static_cast<float>(nearest);
-      view.mask[view.index(row, column)] = on_object ? 1 : 0;
+      const double stand = foot.dot(view.up) / ray.dot(view.up);
+      double at = 0.75;
+      while (at < stand && !inside(at * ray - foot)) at += 0.0005;
+      view.depth_m[view.index(row, column)] = static_cast<float>(std::min(at, stand));
+      view.mask[view.index(row, column)] = at < stand ? 1 : 0;
     }
   }
   return view;
@@ -166,37 +165,63 @@ ObjectView cylinder(double elevation_rad, int off_px = 0) {
 
 TEST(StandingBox, HeightIsFromTheStandFromWhereverItIsSeen) {
   for (const double elevation_rad : {0.5, 0.8, 1.05}) {
-    const FeatureResult box = StandingBox{}.extract(cylinder(elevation_rad));
+    const FeatureResult box = StandingBox{}.extract(can_view({}, elevation_rad));
     ASSERT_TRUE(box.extracted()) << box.skipped;
-    EXPECT_NEAR(box.vector[0], kTall_m, 0.003) << elevation_rad;
+    EXPECT_NEAR(box.vector[0], 0.12, 0.003) << elevation_rad;
   }
-  const double low = BoundingBox{}.extract(cylinder(0.5)).vector[0];
-  const double high = BoundingBox{}.extract(cylinder(1.05)).vector[0];
-  EXPECT_GT(low - high, 0.004) << "of what is seen alone it changes with the foot";
+  const double low = BoundingBox{}.extract(can_view({}, 0.5)).vector[0];
+  const double high = BoundingBox{}.extract(can_view({}, 0.8)).vector[0];
+  EXPECT_GT(std::abs(low - high), 0.001) << "of what is seen alone it changes with the foot";
 }
 
-TEST(StandingBox, IsTheSameWhereverInThePictureTheObjectIs) {
-  const FeatureResult middle = StandingBox{}.extract(cylinder(0.7));
-  const FeatureResult aside = StandingBox{}.extract(cylinder(0.7, 180));
-  ASSERT_TRUE(middle.extracted() && aside.extracted());
-  EXPECT_LT((middle.vector - aside.vector).cwiseAbs().maxCoeff(), 0.004F);
+TEST(StandingBox, ABowlIsTheSameWhereverInThePictureItIs) {
+  const Can bowl{.tall_m = 0.06, .radius_m = 0.075, .full = false};
+  const ObjectView middle = can_view(bowl, 0.3);
+  const ObjectView aside = can_view(bowl, 0.3, 200);
+  const auto change = [&](const auto& feature) {
+    return (feature.extract(middle).vector - feature.extract(aside).vector).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(change(StandingBox{}), 0.002F);
+  EXPECT_GT(change(BoundingBox{}), 0.02F) << "its far wall is no outlier along the optical axis";
+}
+
+TEST(StandingBox, TheOutlierFloorKeepsWhatIsLittleBehind) {
+  const ObjectView bowl = can_view({.tall_m = 0.06, .radius_m = 0.06, .full = false}, 0.3);
+  EXPECT_GT(StandingBox{}.extract(bowl).vector[2],
+            StandingBox{.outlier_floor_m = 0.02}.extract(bowl).vector[2] + 0.001F);
 }
 
 TEST(StandingBox, WhatIsBehindAndBelowIsNoStand) {
-  ObjectView view = cylinder(0.7);
-  for (int row = 0; row < 60; ++row) {
+  ObjectView view = can_view({}, 0.7);
+  int floor = 0;
+  int stand = 0;
+  for (int row = 0; row < view.height_px; ++row) {
     for (int column = 0; column < view.width_px; ++column) {
       const std::size_t i = view.index(row, column);
-      if (view.mask[i] == 0) view.depth_m[i] += 0.8F;  // the floor
+      if (view.mask[i] != 0) continue;
+      if (row < 150) view.depth_m[i] += 0.8F;
+      ++(row < 150 ? floor : stand);
     }
   }
-  EXPECT_NEAR(StandingBox{}.extract(view).vector[0], kTall_m, 0.003);
+  ASSERT_GT(floor, stand) << "so that it would be taken for the stand";
+  EXPECT_NEAR(StandingBox{}.extract(view).vector[0], 0.12, 0.003);
+  EXPECT_GT(StandingBox{.stand_below_m = 1.0}.extract(view).vector[0], 0.24);
 }
 
 TEST(StandingBox, SaysWhatIsMissing) {
-  const ObjectView view = filled(40, 40);
-  EXPECT_EQ(StandingBox{}.extract(view).skipped,
+  const ObjectView whole = filled(40, 40);
+  EXPECT_EQ(StandingBox{}.extract(whole).skipped,
             "0 pixels beside the object show its stand, fewer than 16");
+  ObjectView view = whole;
+  view.focal_px = std::nan("");
+  EXPECT_EQ(StandingBox{}.extract(view).skipped, "the camera's intrinsics are not finite numbers");
+  view = whole;
+  view.up = Eigen::Vector3d::Constant(std::nan(""));
+  EXPECT_EQ(StandingBox{}.extract(view).skipped, "the direction of gravity is not known");
+  view = whole;
+  std::ranges::fill(view.depth_m, 0.0F);
+  EXPECT_EQ(StandingBox{}.extract(view).skipped,
+            "0 pixels of the object have depth, fewer than 16");
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
+#include "src/information/quantile.hpp"
 #include "src/perception/features/object_pixels.hpp"
 #include "src/perception/features/object_surface.hpp"
 #include "src/perception/features/upright_extents.hpp"
@@ -18,9 +18,9 @@ constexpr double kAbove_m = 0.015;
 /// About a level stand.
 constexpr double kThick_m = 0.008;
 
-/// Along `up`, of what is beside the mask and about as low as the object's foot.
-std::vector<double> heights_beside(const ObjectView& view, const Eigen::Vector3d& up,
-                                   double lowest_m, double highest_m) {
+/// Along `up`, of what is beside the mask and between these heights: most of it, which is level.
+std::vector<double> level_beside(const ObjectView& view, const Eigen::Vector3d& up, double lowest_m,
+                                 double highest_m) {
   std::vector<double> heights_m;
   for (int row = 0; row < view.height_px; ++row) {
     for (int column = 0; column < view.width_px; ++column) {
@@ -32,30 +32,31 @@ std::vector<double> heights_beside(const ObjectView& view, const Eigen::Vector3d
       if (height_m > lowest_m && height_m < highest_m) heights_m.push_back(height_m);
     }
   }
+  if (heights_m.empty()) return heights_m;
+  const double level_m = quantile(heights_m, 0.5);
+  std::erase_if(heights_m, [&](double m) { return std::abs(m - level_m) > kThick_m; });
   return heights_m;
 }
 
 }  // namespace
 
 FeatureResult StandingBox::extract(const ObjectView& view) const {
+  if (auto why = lacks_geometry(view); !why.empty()) return FeatureResult::skip(why);
+  if (auto why = lacks_up(view); !why.empty()) return FeatureResult::skip(why);
   const ObjectPixels pixels =
       object_pixels(view, {.floor_m = outlier_floor_m, .along_sight = true});
   if (auto why = lacks_depth(pixels, min_pixels); !why.empty()) return FeatureResult::skip(why);
-  if (auto why = lacks_geometry(view); !why.empty()) return FeatureResult::skip(why);
-  if (auto why = lacks_up(view); !why.empty()) return FeatureResult::skip(why);
   const Eigen::Vector3d up = view.up.normalized();
   const UprightExtents box =
       upright_extents(object_points(view, pixels), up, low_quantile, high_quantile);
-  std::vector<double> beside_m =
-      heights_beside(view, up, box.bottom_m - stand_below_m, box.bottom_m + kAbove_m);
-  if (std::ssize(beside_m) < min_pixels) {
+  const std::vector<double> stand_m =
+      level_beside(view, up, box.bottom_m - stand_below_m, box.bottom_m + kAbove_m);
+  if (std::ssize(stand_m) < min_pixels) {
     return FeatureResult::skip(fmt::format(
-        "{} pixels beside the object show its stand, fewer than {}", beside_m.size(), min_pixels));
+        "{} pixels beside the object show its stand, fewer than {}", stand_m.size(), min_pixels));
   }
-  const double about_m = quantile(beside_m, 0.5);
-  std::erase_if(beside_m, [&](double m) { return std::abs(m - about_m) > kThick_m; });
-  const double stand_m = quantile(std::move(beside_m), 0.5);
-  return {Eigen::Vector3d(box.top_m - stand_m, box.greater_m, box.smaller_m).cast<float>(), {}};
+  const double height_m = box.top_m - quantile(stand_m, 0.5);
+  return {Eigen::Vector3d(height_m, box.greater_m, box.smaller_m).cast<float>(), {}};
 }
 
 }  // namespace vantage

@@ -4,15 +4,11 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
+
+#include "src/information/quantile.hpp"
 
 namespace vantage {
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + std::lround(share * (static_cast<double>(values.size()) - 1.0));
-  std::ranges::nth_element(values, at);
-  return *at;
-}
 
 UprightExtents upright_extents(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& up,
                                double low, double high) {

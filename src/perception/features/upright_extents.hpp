@@ -3,12 +3,7 @@
 
 #include <Eigen/Core>
 
-#include <vector>
-
 namespace vantage {
-
-/// @param share 0 .. 1, of the values that are below; of the nearest rank
-double quantile(std::vector<double> values, double share);
 
 struct UprightExtents {
   double bottom_m = 0.0;  ///< along `up` from the camera
@@ -18,7 +13,7 @@ struct UprightExtents {
 };
 
 /// Each between the quantiles `low` and `high` of the points' coordinates.
-/// @param points camera frame, a column each, at least one
+/// @param points m, camera frame, 3 x n, n > 0
 /// @param up unit length, camera frame
 UprightExtents upright_extents(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& up,
                                double low, double high);
