@@ -177,12 +177,15 @@ FlightPath::FlightPath(const FlightReference& start, std::span<const FlightWaypo
   }
 }
 
-FlightReference FlightPath::at(double time_s) const {
-  const double t_s = std::clamp(time_s, 0.0, duration_s());
-  const auto after = std::upper_bound(knot_s_.begin() + 1, knot_s_.end() - 1, t_s);
+FlightPath::Segment FlightPath::segment_at(double time_s) const {
+  const auto after = std::upper_bound(knot_s_.begin() + 1, knot_s_.end() - 1, time_s);
   const auto to = static_cast<std::size_t>(after - knot_s_.begin());
   const double h = knot_s_[to] - knot_s_[to - 1];
-  const double t = (t_s - knot_s_[to - 1]) / h;
+  return {to, h, (time_s - knot_s_[to - 1]) / h};
+}
+
+FlightReference FlightPath::at(double time_s) const {
+  const auto [to, h, t] = segment_at(std::clamp(time_s, 0.0, duration_s()));
   const Coefficients c = quintic(knots_[to - 1], knots_[to], h);
   const Eigen::Vector4d p = derivative(c, t, h, 0);
   FlightReference reference{.p_world_m = p.head<3>(), .yaw_rad = wrap_angle(p[3])};
@@ -197,10 +200,7 @@ FlightReference FlightPath::at(double time_s) const {
 
 FlightPath FlightPath::from(double time_s) const {
   expects(time_s >= 0.0 && time_s < duration_s(), "something is left of the path");
-  const auto next = std::upper_bound(knot_s_.begin() + 1, knot_s_.end(), time_s);
-  const auto to = static_cast<std::size_t>(next - knot_s_.begin());
-  const double h = knot_s_[to] - knot_s_[to - 1];
-  const double t = (time_s - knot_s_[to - 1]) / h;
+  const auto [to, h, t] = segment_at(time_s);
   const Coefficients c = quintic(knots_[to - 1], knots_[to], h);
   FlightPath rest;
   rest.knot_s_.push_back(0.0);

@@ -58,6 +58,13 @@ class FlightPath {
 
  private:
   FlightPath() = default;
+  /// Between two knots.
+  struct Segment {
+    std::size_t to = 1;  ///< the later one
+    double duration_s = 0.0;
+    double t = 0.0;  ///< of it that has passed, a share
+  };
+  [[nodiscard]] Segment segment_at(double time_s) const;
   /// How many times over the limits it is at its worst, as a factor of time.
   [[nodiscard]] double stretch_needed(const FlightLimits& limits) const;
 

@@ -27,8 +27,10 @@ struct WayOn {
   Eigen::Matrix4Xd points;
   double cost = 0.0;
   bool same_spline = false;  ///< the plan as it is flown, without another spline through it
-  double clearance_m = 0.0;  ///< least of its spline, from the body's centre, by the map
-  bool clear = true;         ///< enough of it
+  /// Least of its spline up to the last of the points, or its end, from the body's centre, by the
+  /// map.
+  double clearance_m = 0.0;
+  bool clear = true;  ///< enough of it
 };
 
 struct WaypointRecord {

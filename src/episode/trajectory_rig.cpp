@@ -66,7 +66,7 @@ FlightPath TrajectoryRig::path_in(double delay_s, std::span<const FlightWaypoint
 }
 
 std::optional<FlightPath> TrajectoryRig::path_on(double delay_s) const {
-  constexpr std::size_t kLeast = 3;  // so that it does not slow down yet
+  constexpr std::size_t kLeast = 3;  // it is at rest at the last
   if (!path_) return std::nullopt;
   const std::size_t waypoints = path_->knots_s().size() - 1;
   if (waypoints < static_cast<std::size_t>(passed(delay_s)) + kLeast) return std::nullopt;

@@ -51,7 +51,7 @@ class TrajectoryRig {
   void fly_past(int waypoints, const LookAt& look);
   /// What `follow` leads through these waypoints in so long, flying on as now until then.
   [[nodiscard]] FlightPath path_in(double delay_s, std::span<const FlightWaypoint> waypoints) const;
-  /// What is left in so long of the path that is flown; nothing if it is about to end.
+  /// What is left in so long of the path that is flown; nothing with fewer than 3 waypoints left.
   [[nodiscard]] std::optional<FlightPath> path_on(double delay_s) const;
   /// Waypoints of the plan that the reference has passed, or will have in so long.
   [[nodiscard]] int passed(double in_s = 0.0) const;

@@ -9,8 +9,10 @@
 #include "src/core/atomic_file.hpp"
 #include "src/core/log.hpp"
 #include "src/dataset/render_dataset.hpp"
+#include "src/episode/flight_layout.hpp"
 #include "src/episode/replay.hpp"
 #include "src/episode/run.hpp"
+#include "src/episode/trajectory_flight.hpp"
 #include "src/episode/validate.hpp"
 #include "src/recognition/training.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -170,6 +172,40 @@ TEST_F(TrajectoryEpisode, SeeksViewsOfWhatItFound) {
   EXPECT_THAT(read_file(*folder_ / "seeks" / "steps.csv"),
               testing::ContainsRegex(",0\\.[0-9]+,[0-9]+,[0-7],"))
       << "clearance, target, direction";
+}
+
+TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
+  std::string rows;
+  for (int i = 0; i < 12; ++i) rows += fmt::format("{:.2f},-1.9,1.8,0\n", -2.67 + 0.4 * i);
+  const ResolvedEpisode episode =
+      load_episode(kEpisode, overrides(arena_with_path(*folder_ / "on", rows), {}));
+  const Recogniser recogniser = load_trajectory_recogniser(episode);
+  TrajectoryRig rig(episode, read_flight_layout(episode.scene).path.front());
+  fs::create_directories(*folder_ / "goes_on");
+  TrajectoryRecorder recorder(episode, rig, *folder_ / "goes_on", false, true);
+  TrajectoryFlight flight(episode, recogniser, rig, recorder);
+  const double latency_s = episode.episode.trajectory.latency_s;
+  int went_on = 0;
+  while (true) {
+    flight.update(flight.observe());
+    if (flight.finished()) break;
+    std::vector<WayOn> ways = flight.propose();
+    flight.score(ways);
+    const auto on = rig.path_on(latency_s);
+    ASSERT_EQ(ways.back().same_spline, on.has_value());
+    const std::vector<Eigen::Vector4d> plan = flight.plan();
+    flight.act(ways.back());
+    EXPECT_EQ(flight.plan(), plan);
+    if (!on) continue;
+    ++went_on;
+    const auto now = rig.path_on(0.0);
+    ASSERT_TRUE(now);
+    EXPECT_EQ(now->knots_s().size(), on->knots_s().size());
+    for (const double t_s : {0.0, 0.5, 1.0}) {
+      EXPECT_LT((now->at(t_s).p_world_m - on->at(t_s).p_world_m).norm(), 1e-6);
+    }
+  }
+  EXPECT_GE(went_on, 7) << "of 11; then too little is left of the spline";
 }
 
 TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
