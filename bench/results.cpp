@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "bench/claims.hpp"
+#include "bench/cost_figures.hpp"
 #include "bench/measures.hpp"
 #include "bench/recognition_claims.hpp"
 #include "src/core/atomic_file.hpp"
@@ -105,7 +106,12 @@ Figure scaling_figure(const Json& figures) {
     const double ms = value.get<double>();
     series.points.push_back({1e-6 * cells, 1, ms, {ms, ms}});
   }
-  return {"scaling", "Time of a decision of 30 views", "million cells", "ms", {{"", {series}}}};
+  return {.name = "scaling",
+          .title = "Time of a decision of 30 views",
+          .x_label = "million cells",
+          .y_label = "ms",
+          .panels = {{"", {series}}},
+          .note = "Medians of one run."};
 }
 
 /// Tables of `vantage evaluate`, their headings two levels down.
@@ -142,6 +148,18 @@ std::string recognition_part(const fs::path& folder) {
          findings_table(findings) + tables;
 }
 
+/// Writes their pictures too.
+std::string cost_part(const fs::path& directory) {
+  std::string text =
+      "\n## The cost of a flight, term by term ((5.8) - (5.11))\n\n"
+      "Unweighed, of the default options; with `literal: true` as printed.\n";
+  for (const Figure& figure : cost_figures()) {
+    write_file(directory / (figure.name + ".svg"), figure_svg(figure));
+    text += fmt::format("\n![{}](results/{}.svg)\n", figure.title, figure.name);
+  }
+  return text;
+}
+
 void write_results(const fs::path& directory) {
   Figures figures;
   std::string machine;
@@ -175,6 +193,7 @@ void write_results(const fs::path& directory) {
                           picture.filename().string());
     }
   }
+  text += cost_part(directory);
   text += recognition_part(directory / "recognition");
   write_file(directory.parent_path() / "RESULTS.md", text);
 }

@@ -32,6 +32,7 @@ struct Figure {
   std::string x_label;
   std::string y_label;
   std::vector<FigurePanel> panels;
+  std::string note = "Mean over episodes; band: 95 % bootstrap interval of the mean.";  ///< below
 };
 
 /// Adds the mean and its interval at each x = first_x, first_x + 1, ... of curves that may differ

@@ -236,8 +236,7 @@ std::string figure_svg(const Figure& figure) {
   double legend_height = 0.0;
   body += legend_svg(figure, width, legend_top, legend_height);
   const double height = legend_top + legend_height + 30.0;
-  body += text_at(kLeft, height - 12.0, "start", R"(font-size="11")",
-                  "Mean over episodes; band: 95 % bootstrap interval of the mean.");
+  body += text_at(kLeft, height - 12.0, "start", R"(font-size="11")", figure.note);
   return fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0:.0f} {1:.0f}" width="{0:.0f}" )"
       R"(height="{1:.0f}" font-family="system-ui, 'Segoe UI', 'Noto Sans', 'DejaVu Sans', )"

@@ -45,6 +45,14 @@ TEST(FigureSvg, TextIsEscapedAndNumbersAreFinite) {
   for (const char* part : {"nan", "inf", "<left>"}) EXPECT_THAT(svg, Not(HasSubstr(part)));
 }
 
+TEST(FigureSvg, SaysBelowWhatItShows) {
+  Figure figure = small_figure();
+  EXPECT_THAT(figure_svg(figure), HasSubstr(">Mean over episodes; band: 95 %"));
+  figure.note = "Medians <of one run>.";
+  EXPECT_THAT(figure_svg(figure), HasSubstr(">Medians &lt;of one run&gt;.<"));
+  EXPECT_THAT(figure_svg(figure), Not(HasSubstr("Mean over episodes")));
+}
+
 TEST(FigureSvg, OneLegendEntryForEachSeries) {
   Figure figure = small_figure();
   figure.panels.push_back(figure.panels.front());
