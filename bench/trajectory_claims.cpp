@@ -67,8 +67,7 @@ Finding accuracy_goal(const FlightStudy& study) {
   return {
       "goal", "`stomp` recognises at least 15 points more than `initial`, or 95 %, everywhere",
       study.from_to("accuracy", 100.0, 1), study.everywhere("accuracy", rises),
-      "what is mistaken are near twins, most often bowls and others that narrow at the foot: they "
-      "measure otherwise in flight than in the recordings that were learnt from"};
+      "what is mistaken are near twins of one size that differ by a shade"};
 }
 
 Finding published_gain(const FlightStudy& study) {
