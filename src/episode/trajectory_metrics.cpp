@@ -88,8 +88,8 @@ void add_planning(Json& json, const std::vector<WaypointRecord>& records) {
     late += record.late ? 1 : 0;
     missed += record.missed ? 1 : 0;
   }
-  if (time_s.empty()) time_s.push_back(0.0);
-  json["plan_time_s"] = {{"median", quantile(time_s, 0.5)}, {"p95", quantile(time_s, 0.95)}};
+  const auto share_s = [&](double share) { return time_s.empty() ? 0.0 : quantile(time_s, share); };
+  json["plan_time_s"] = {{"median", share_s(0.5)}, {"p95", share_s(0.95)}};
   json["replans"] = time_s.size();
   json["late_plans"] = late;
   json["missed_deadlines"] = missed;

@@ -1,3 +1,4 @@
+/// What so many of some values are below.
 #pragma once
 
 #include <vector>

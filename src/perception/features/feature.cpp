@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "src/core/hash.hpp"
+#include "src/information/quantile.hpp"
 
 namespace vantage {
 namespace {
@@ -33,9 +35,7 @@ double median_cost_s(const TrainedFeature& feature, std::span<const ObjectView> 
     if (extracted) costs_s.push_back(taken.count());
   }
   if (costs_s.empty()) return 0.0;
-  const auto middle = costs_s.begin() + static_cast<std::ptrdiff_t>(costs_s.size() / 2);
-  std::ranges::nth_element(costs_s, middle);
-  return *middle;
+  return quantile(std::move(costs_s), 0.5);
 }
 
 TrainedFeature::State take_state(std::string_view name, StateReader& reader) {

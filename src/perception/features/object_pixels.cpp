@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "src/core/error.hpp"
+#include "src/information/quantile.hpp"
 
 namespace vantage {
 namespace {
@@ -41,12 +42,6 @@ std::vector<std::uint8_t> eroded_mask(const ObjectView& view) {
   return mask;
 }
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// To the middle of what is marked: unit length, camera frame; the optical axis if nothing is.
 Eigen::Vector3d sight_of(const ObjectView& view, const std::vector<std::uint8_t>& marked) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -74,12 +69,11 @@ void mark_depth(const ObjectView& view, const OutlierOptions& outliers, ObjectPi
     }
   }
   if (depths_m.empty()) return;
-  std::vector<double> sorted = depths_m;
-  const double median_m = median_of(sorted);
-  for (double& z : sorted) z = std::abs(z - median_m);
-  const double reach_m = std::max(kOutlierDeviations * median_of(sorted), outliers.floor_m);
+  const double median_m = quantile(depths_m, 0.5);
+  for (double& z : depths_m) z = std::abs(z - median_m);
+  const double reach_m = std::max(kOutlierDeviations * quantile(depths_m, 0.5), outliers.floor_m);
   for (std::size_t k = 0; k < places.size(); ++k) {
-    pixels.depth[places[k]] = std::abs(depths_m[k] - median_m) <= reach_m ? 1 : 0;
+    pixels.depth[places[k]] = depths_m[k] <= reach_m ? 1 : 0;
   }
 }
 

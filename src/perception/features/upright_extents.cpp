@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "src/information/quantile.hpp"
@@ -22,8 +23,9 @@ UprightExtents upright_extents(const Eigen::Matrix3Xd& points, const Eigen::Vect
   const Eigen::Matrix<double, 3, 2> axes = horizontal * solver.eigenvectors();
   const auto ends_m = [&](const Eigen::Vector3d& axis) -> Eigen::Vector2d {
     const Eigen::RowVectorXd along = axis.transpose() * points;
-    const std::vector<double> values(along.begin(), along.end());
-    return {quantile(values, low), quantile(values, high)};
+    std::vector<double> values(along.begin(), along.end());
+    const double lower_m = quantile(values, low);
+    return {lower_m, quantile(std::move(values), high)};
   };
   const auto extent_m = [&](const Eigen::Vector3d& axis) {
     const Eigen::Vector2d ends = ends_m(axis);
