@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "src/belief/occupancy_grid.hpp"
-#include "src/geometry/field_of_view.hpp"
-#include "src/geometry/pose.hpp"
+#include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/geometry/field_of_view.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage::bench {
 

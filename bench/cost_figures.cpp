@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "planners/trajectory/flight_cost.hpp"
+#include "vantage/planners/trajectory/flight_cost.hpp"
 
 namespace vantage::bench {
 namespace {

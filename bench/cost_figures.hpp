@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "src/study/figure.hpp"
+#include "vantage/study/figures/figure.hpp"
 
 namespace vantage::bench {
 

@@ -7,10 +7,10 @@
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
-#include "planners/swept_gain.hpp"
-#include "src/core/log.hpp"
-#include "src/episode/episode_loop.hpp"
-#include "src/episode/next_best_view.hpp"
+#include "vantage/planners/swept_gain.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/tabletop/next_best_view.hpp"
 
 namespace vantage::bench {
 namespace {

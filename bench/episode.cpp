@@ -2,10 +2,10 @@
 #include <filesystem>
 
 #include "bench/measures.hpp"
-#include "src/core/log.hpp"
-#include "src/episode/episode_loop.hpp"
-#include "src/episode/next_best_view.hpp"
-#include "src/episode/office_exploration.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/tabletop/next_best_view.hpp"
+#include "vantage/tasks/exploration/office_exploration.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/measures.hpp"
-#include "src/perception/features/feature.hpp"
+#include "vantage/perception/features/feature.hpp"
 #include "tests/support/object_views.hpp"
 
 namespace vantage::bench {

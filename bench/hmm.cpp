@@ -10,11 +10,11 @@
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
-#include "planners/cell_walk.hpp"
-#include "planners/exact_gain.hpp"
-#include "src/episode/episode_loop.hpp"
-#include "src/episode/next_best_view.hpp"
-#include "src/geometry/view_cone.hpp"
+#include "vantage/planners/visibility/cell_walk.hpp"
+#include "vantage/planners/exact_gain.hpp"
+#include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/tabletop/next_best_view.hpp"
+#include "vantage/geometry/view_cone.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/core/error.hpp"
-#include "src/core/log.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
 
 namespace vantage::bench {
 

@@ -4,9 +4,9 @@
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
-#include "src/core/log.hpp"
-#include "src/episode/episode_loop.hpp"
-#include "src/episode/office_exploration.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/exploration/office_exploration.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bench/claims.hpp"
+#include "bench/claims/claims.hpp"
 #include "bench/cost_figures.hpp"
 #include "bench/measures.hpp"
-#include "bench/recognition_claims.hpp"
-#include "src/core/atomic_file.hpp"
-#include "src/study/figure.hpp"
+#include "bench/claims/recognition_claims.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/study/figures/figure.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/error.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage::bench {
 namespace {

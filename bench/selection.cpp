@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/measures.hpp"
-#include "planners/object_view_choice.hpp"
+#include "vantage/planners/objects/object_view_choice.hpp"
 
 namespace vantage::bench {
 namespace {

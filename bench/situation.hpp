@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "planners/gain.hpp"
-#include "src/episode/recorder.hpp"
+#include "vantage/planners/gain.hpp"
+#include "vantage/tasks/mapping/recorder.hpp"
 
 namespace vantage::bench {
 

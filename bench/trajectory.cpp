@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/measures.hpp"
-#include "planners/trajectory/replanning.hpp"
-#include "planners/trajectory/simple_paths.hpp"
+#include "vantage/planners/trajectory/replanning.hpp"
+#include "vantage/planners/trajectory/simple_paths.hpp"
 
 namespace vantage::bench {
 namespace {

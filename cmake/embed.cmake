@@ -21,7 +21,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
 
 #include <utility>
 
-#include \"src/core/error.hpp\"
+#include \"vantage/core/error.hpp\"
 
 namespace vantage {
 namespace {

@@ -4,8 +4,8 @@ include(CMakePackageConfigHelpers)
 get_property(targets GLOBAL PROPERTY VANTAGE_INSTALLED_TARGETS)
 install(TARGETS ${targets} EXPORT vantage-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         COMPONENT library)
-foreach(folder core geometry information perception belief)
-  install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vantage/src
+foreach(folder core geometry information control perception belief)
+  install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vantage
           COMPONENT library FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 install(DIRECTORY planners DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vantage

@@ -1,15 +1,43 @@
+# Headers are included by the same name in the tree and once installed, vantage/<folder>/<file>.hpp:
+# these links lead there.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include/vantage)
+file(GLOB vantage_folders LIST_DIRECTORIES true ${PROJECT_SOURCE_DIR}/src/*)
+foreach(folder IN LISTS vantage_folders ITEMS ${PROJECT_SOURCE_DIR}/planners ${PROJECT_SOURCE_DIR}/sim
+                                              ${PROJECT_SOURCE_DIR}/models)
+  if(IS_DIRECTORY ${folder})
+    get_filename_component(name ${folder} NAME)
+    file(CREATE_LINK ${folder} ${PROJECT_BINARY_DIR}/include/vantage/${name} SYMBOLIC)
+  endif()
+endforeach()
+
 # vantage_library(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...]): one static library per folder, target
-# vantage_NAME, alias vantage::NAME, include paths rooted at the repository.
+# vantage_NAME, alias vantage::NAME.
 function(vantage_library name)
   cmake_parse_arguments(ARG "NOT_INSTALLED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(vantage_${name} STATIC ${ARG_SOURCES})
   add_library(vantage::${name} ALIAS vantage_${name})
   set_target_properties(vantage_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_include_directories(vantage_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vantage>)
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(vantage_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   vantage_compile_options(vantage_${name})
   if(NOT ARG_NOT_INSTALLED)
+    set_property(GLOBAL APPEND PROPERTY VANTAGE_INSTALLED_TARGETS vantage_${name})
+  endif()
+endfunction()
+
+# vantage_bundle(NAME FOLDERS...): one name for the libraries of several rooms.
+function(vantage_bundle name)
+  add_library(vantage_${name} INTERFACE)
+  add_library(vantage::${name} ALIAS vantage_${name})
+  set_target_properties(vantage_${name} PROPERTIES EXPORT_NAME ${name})
+  foreach(room IN LISTS ARGN)
+    target_link_libraries(vantage_${name} INTERFACE vantage::${room})
+  endforeach()
+  get_property(installed GLOBAL PROPERTY VANTAGE_INSTALLED_TARGETS)
+  list(TRANSFORM ARGN PREPEND vantage_ OUTPUT_VARIABLE rooms)
+  list(REMOVE_ITEM rooms ${installed})
+  if(NOT rooms)
     set_property(GLOBAL APPEND PROPERTY VANTAGE_INSTALLED_TARGETS vantage_${name})
   endif()
 endfunction()
@@ -41,6 +69,7 @@ endfunction()
 # Of tests and of their headers alike, else the headers cannot be used.
 function(vantage_test_options target)
   target_compile_definitions(${target} PRIVATE VANTAGE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   vantage_compile_options(${target})
   # Tests compile a quarter faster so, and run as fast: their time is spent in the libraries.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "src/geometry/field_of_view.hpp"
-#include "src/geometry/pose.hpp"
+#include "vantage/geometry/field_of_view.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 

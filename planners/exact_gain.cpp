@@ -1,6 +1,6 @@
-#include "planners/exact_gain.hpp"
+#include "vantage/planners/exact_gain.hpp"
 
-#include "planners/parallel_for.hpp"
+#include "vantage/core/parallel_for.hpp"
 
 namespace vantage {
 double exact_gain_bits(const Gain& gain, const GainContext& context, const Pose& T_world_sensor,

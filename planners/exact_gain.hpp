@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "planners/beam_gain.hpp"
-#include "planners/candidate.hpp"
-#include "planners/cell_walk.hpp"
-#include "planners/gain.hpp"
-#include "src/geometry/view_cone.hpp"
+#include "vantage/planners/visibility/beam_gain.hpp"
+#include "vantage/planners/candidate.hpp"
+#include "vantage/planners/visibility/cell_walk.hpp"
+#include "vantage/planners/gain.hpp"
+#include "vantage/geometry/view_cone.hpp"
 
 namespace vantage {
 

@@ -6,18 +6,18 @@
 #include <variant>
 #include <vector>
 
-#include "planners/adaptive_gain.hpp"
-#include "planners/beer_lambert_gain.hpp"
-#include "planners/fsmi_gain.hpp"
-#include "planners/occlusion_aware_gain.hpp"
-#include "planners/posterior_chain_gain.hpp"
-#include "planners/rear_side_entropy_gain.hpp"
-#include "planners/rear_side_voxel_gain.hpp"
-#include "planners/simple_gain.hpp"
-#include "planners/unmapped_volume_gain.hpp"
-#include "planners/unobserved_voxel_gain.hpp"
-#include "planners/visibility_weighted_gain.hpp"
-#include "src/core/strategy.hpp"
+#include "vantage/planners/gains/adaptive_gain.hpp"
+#include "vantage/planners/gains/beer_lambert_gain.hpp"
+#include "vantage/planners/gains/fsmi_gain.hpp"
+#include "vantage/planners/gains/occlusion_aware_gain.hpp"
+#include "vantage/planners/gains/posterior_chain_gain.hpp"
+#include "vantage/planners/gains/rear_side_entropy_gain.hpp"
+#include "vantage/planners/gains/rear_side_voxel_gain.hpp"
+#include "vantage/planners/gains/simple_gain.hpp"
+#include "vantage/planners/gains/unmapped_volume_gain.hpp"
+#include "vantage/planners/gains/unobserved_voxel_gain.hpp"
+#include "vantage/planners/gains/visibility_weighted_gain.hpp"
+#include "vantage/core/strategy.hpp"
 
 namespace vantage {
 

@@ -1,10 +1,10 @@
-#include "planners/swept_gain.hpp"
+#include "vantage/planners/swept_gain.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "planners/exact_gain.hpp"
-#include "planners/parallel_for.hpp"
+#include "vantage/planners/exact_gain.hpp"
+#include "vantage/core/parallel_for.hpp"
 
 namespace vantage {
 namespace {

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "planners/candidate.hpp"
-#include "planners/gain.hpp"
-#include "planners/visibility_sweep.hpp"
+#include "vantage/planners/candidate.hpp"
+#include "vantage/planners/gain.hpp"
+#include "vantage/planners/visibility/visibility_sweep.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "planners/trajectory/flight_cost.hpp"
+#include "vantage/planners/trajectory/flight_cost.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -130,6 +130,14 @@ class Evaluator {
 };
 
 }  // namespace
+
+FlightCamera flight_camera(const Pose& T_body_camera, int width_px, int height_px,
+                           double vertical_fov_rad) {
+  const double focal_px = 0.5 * height_px / std::tan(0.5 * vertical_fov_rad);
+  return {.T_body_camera = T_body_camera,
+          .horizontal_fov_rad = 2.0 * std::atan(0.5 * width_px / focal_px),
+          .vertical_fov_rad = vertical_fov_rad};
+}
 
 Pose camera_ahead(double pitch_rad, const Eigen::Vector3d& p_body_camera_m) {
   const double c = std::cos(pitch_rad);

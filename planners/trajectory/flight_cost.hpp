@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "planners/trajectory/horizon.hpp"
-#include "planners/trajectory/surface_distance.hpp"
-#include "src/core/fields.hpp"
-#include "src/geometry/pose.hpp"
+#include "vantage/planners/trajectory/optimisers/horizon.hpp"
+#include "vantage/planners/trajectory/surface_distance.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 
@@ -58,6 +58,10 @@ struct FlightCamera {
   double horizontal_fov_rad = 0.9948376736367679;  ///< 57 deg
   double vertical_fov_rad = 0.7853981633974483;    ///< 45 deg
 };
+
+/// Of a pinhole camera with square pixels.
+FlightCamera flight_camera(const Pose& T_body_camera, int width_px, int height_px,
+                           double vertical_fov_rad);
 
 /// What to recognise and from where.
 struct ObservationTarget {

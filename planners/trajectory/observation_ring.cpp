@@ -1,10 +1,10 @@
-#include "planners/trajectory/observation_ring.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "planners/trajectory/flight_cost.hpp"
+#include "vantage/planners/trajectory/flight_cost.hpp"
 
 namespace vantage {
 

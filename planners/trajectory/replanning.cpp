@@ -1,9 +1,9 @@
-#include "planners/trajectory/replanning.hpp"
+#include "vantage/planners/trajectory/replanning.hpp"
 
 #include <vector>
 
-#include "planners/trajectory/smoothness.hpp"
-#include "src/core/error.hpp"
+#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

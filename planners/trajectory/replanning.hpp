@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "planners/trajectory/trajectory_optimiser.hpp"
+#include "vantage/planners/trajectory/optimisers/trajectory_optimiser.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "planners/trajectory/search_heading.hpp"
+#include "vantage/planners/trajectory/search_heading.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "src/geometry/pose.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 namespace {

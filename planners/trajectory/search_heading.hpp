@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include "planners/trajectory/flight_cost.hpp"
-#include "src/belief/occupancy_grid.hpp"
-#include "src/core/fields.hpp"
+#include "vantage/planners/trajectory/flight_cost.hpp"
+#include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/core/fields.hpp"
 
 namespace vantage {
 

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "planners/trajectory/horizon.hpp"
-#include "planners/trajectory/observation_ring.hpp"
+#include "vantage/planners/trajectory/optimisers/horizon.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
 
 namespace vantage {
 

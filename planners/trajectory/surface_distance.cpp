@@ -1,10 +1,10 @@
-#include "planners/trajectory/surface_distance.hpp"
+#include "vantage/planners/trajectory/surface_distance.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "src/belief/occupancy_grid.hpp"
-#include "src/geometry/grid_frame.hpp"
+#include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/geometry/grid_frame.hpp"
 
 namespace vantage {
 

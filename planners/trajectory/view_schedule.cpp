@@ -1,9 +1,9 @@
-#include "planners/trajectory/view_schedule.hpp"
+#include "vantage/planners/trajectory/view_schedule.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "planners/trajectory/observation_ring.hpp"
-#include "src/core/fields.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
+#include "vantage/core/fields.hpp"
 
 namespace vantage {
 

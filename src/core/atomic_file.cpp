@@ -1,4 +1,4 @@
-#include "src/core/atomic_file.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;

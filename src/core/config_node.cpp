@@ -1,4 +1,4 @@
-#include "src/core/config_node.hpp"
+#include "vantage/core/config_node.hpp"
 
 namespace vantage {
 

@@ -1,10 +1,10 @@
-#include "src/core/data_root.hpp"
+#include "vantage/core/data_root.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;

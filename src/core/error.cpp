@@ -1,4 +1,4 @@
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "src/core/fields.hpp"
+#include "vantage/core/fields.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -16,9 +16,9 @@
 #include <variant>
 #include <vector>
 
-#include "src/core/config_node.hpp"
-#include "src/core/error.hpp"
-#include "src/core/strategy.hpp"
+#include "vantage/core/config_node.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/strategy.hpp"
 
 namespace vantage {
 

@@ -1,8 +1,8 @@
-#include "src/core/hash.hpp"
+#include "vantage/core/hash.hpp"
 
 #include <fmt/format.h>
 
-#include "src/core/atomic_file.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 

@@ -1,10 +1,10 @@
-#include "src/core/rng.hpp"
+#include "vantage/core/rng.hpp"
 
 #include <bit>
 #include <cmath>
 
-#include "src/core/error.hpp"
-#include "src/core/hash.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/hash.hpp"
 
 namespace vantage {
 namespace {

@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 

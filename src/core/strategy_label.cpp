@@ -1,4 +1,4 @@
-#include "src/core/strategy_label.hpp"
+#include "vantage/core/strategy_label.hpp"
 
 #include <fmt/format.h>
 

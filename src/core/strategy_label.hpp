@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "src/core/fields.hpp"
+#include "vantage/core/fields.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/core/yaml.hpp"
+#include "vantage/core/yaml.hpp"
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/error.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

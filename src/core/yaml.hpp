@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/core/config_node.hpp"
+#include "vantage/core/config_node.hpp"
 
 namespace vantage {
 

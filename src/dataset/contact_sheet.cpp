@@ -1,4 +1,4 @@
-#include "src/dataset/contact_sheet.hpp"
+#include "vantage/dataset/contact_sheet.hpp"
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/error.hpp"
-#include "src/perception/dataset_reader.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/perception/dataset_reader.hpp"
 
 namespace vantage {
 namespace {

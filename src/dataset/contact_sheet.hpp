@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "src/perception/dataset_index.hpp"
+#include "vantage/perception/dataset_index.hpp"
 
 namespace vantage {
 

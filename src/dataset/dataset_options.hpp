@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "src/core/fields.hpp"
+#include "vantage/core/fields.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/dataset/object_source.hpp"
+#include "vantage/dataset/object_source.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <string_view>
 
-#include "models/catalogue/obj.hpp"
-#include "models/catalogue/object_database.hpp"
-#include "src/core/atomic_file.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
+#include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;

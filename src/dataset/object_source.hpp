@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/dataset/dataset_options.hpp"
+#include "vantage/dataset/dataset_options.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/dataset/render_dataset.hpp"
+#include "vantage/dataset/render_dataset.hpp"
 
 #include <fmt/format.h>
 
@@ -10,13 +10,13 @@
 #include <thread>
 #include <vector>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/log.hpp"
-#include "src/core/yaml.hpp"
-#include "src/dataset/object_source.hpp"
-#include "src/dataset/sensing.hpp"
-#include "src/dataset/turntable.hpp"
-#include "src/dataset/view_files.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/core/yaml.hpp"
+#include "vantage/dataset/object_source.hpp"
+#include "vantage/dataset/sensing.hpp"
+#include "vantage/dataset/turntable.hpp"
+#include "vantage/dataset/view_files.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;

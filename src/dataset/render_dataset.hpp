@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "src/dataset/dataset_options.hpp"
+#include "vantage/dataset/dataset_options.hpp"
 
 namespace vantage {
 

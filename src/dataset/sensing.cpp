@@ -1,12 +1,12 @@
-#include "src/dataset/sensing.hpp"
+#include "vantage/dataset/sensing.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/camera.hpp"
-#include "src/perception/dataset_reader.hpp"
-#include "src/perception/object_search.hpp"
-#include "src/perception/table_segmentation.hpp"
+#include "vantage/sim/sensors/camera.hpp"
+#include "vantage/perception/dataset_reader.hpp"
+#include "vantage/perception/object_search.hpp"
+#include "vantage/perception/table_segmentation.hpp"
 
 namespace vantage {
 namespace {

@@ -1,10 +1,10 @@
 /// From a picture of the simulator to the view a real camera and its segmentation would give.
 #pragma once
 
-#include "sim/renderer.hpp"
-#include "src/core/rng.hpp"
-#include "src/dataset/turntable.hpp"
-#include "src/perception/object_view.hpp"
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/dataset/turntable.hpp"
+#include "vantage/perception/object_view.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/dataset/turntable.hpp"
+#include "vantage/dataset/turntable.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "src/dataset/view_files.hpp"
+#include "vantage/dataset/view_files.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "src/perception/dataset_index.hpp"
-#include "src/perception/object_view.hpp"
+#include "vantage/perception/dataset_index.hpp"
+#include "vantage/perception/object_view.hpp"
 
 namespace vantage {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "src/geometry/grid_frame.hpp"
+#include "vantage/geometry/grid_frame.hpp"
 
 namespace vantage {
 

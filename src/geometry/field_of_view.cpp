@@ -1,9 +1,9 @@
-#include "src/geometry/field_of_view.hpp"
+#include "vantage/geometry/field_of_view.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "src/geometry/pose.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 

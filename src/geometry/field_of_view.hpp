@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "src/core/fields.hpp"
+#include "vantage/core/fields.hpp"
 
 namespace vantage {
 

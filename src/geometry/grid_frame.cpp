@@ -1,4 +1,4 @@
-#include "src/geometry/grid_frame.hpp"
+#include "vantage/geometry/grid_frame.hpp"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 

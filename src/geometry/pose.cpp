@@ -1,4 +1,4 @@
-#include "src/geometry/pose.hpp"
+#include "vantage/geometry/pose.hpp"
 
 #include <cmath>
 #include <numbers>

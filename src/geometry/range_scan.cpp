@@ -1,4 +1,4 @@
-#include "src/geometry/range_scan.hpp"
+#include "vantage/geometry/range_scan.hpp"
 
 #include <algorithm>
 #include <cmath>

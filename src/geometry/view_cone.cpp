@@ -1,4 +1,4 @@
-#include "src/geometry/view_cone.hpp"
+#include "vantage/geometry/view_cone.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <span>
 
-#include "src/core/rounding.hpp"
-#include "src/geometry/field_of_view.hpp"
-#include "src/geometry/grid_frame.hpp"
-#include "src/geometry/pose.hpp"
+#include "vantage/core/rounding.hpp"
+#include "vantage/geometry/field_of_view.hpp"
+#include "vantage/geometry/grid_frame.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/information/discrete.hpp"
+#include "vantage/information/discrete.hpp"
 
 #include <fmt/format.h>
 

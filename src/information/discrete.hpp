@@ -12,7 +12,7 @@
 #include <cmath>
 #include <span>
 
-#include "src/information/distribution_error.hpp"
+#include "vantage/information/distribution_error.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/information/gaussian.hpp"
+#include "vantage/information/gaussian.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "src/information/distribution_error.hpp"
+#include "vantage/information/distribution_error.hpp"
 
 namespace vantage {
 

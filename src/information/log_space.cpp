@@ -1,4 +1,4 @@
-#include "src/information/log_space.hpp"
+#include "vantage/information/log_space.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "src/information/discrete.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <span>
 
-#include "src/information/distribution_error.hpp"
+#include "vantage/information/distribution_error.hpp"
 
 namespace vantage {
 

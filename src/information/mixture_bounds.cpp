@@ -1,4 +1,4 @@
-#include "src/information/mixture_bounds.hpp"
+#include "vantage/information/mixture_bounds.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "src/information/discrete.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 namespace {

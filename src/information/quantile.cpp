@@ -1,9 +1,9 @@
-#include "src/information/quantile.hpp"
+#include "vantage/information/quantile.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/information/resampling.hpp"
+#include "vantage/information/resampling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

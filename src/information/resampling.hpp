@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "src/core/rng.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 

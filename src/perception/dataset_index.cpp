@@ -1,4 +1,4 @@
-#include "src/perception/dataset_index.hpp"
+#include "vantage/perception/dataset_index.hpp"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <set>
 #include <tuple>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/error.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;

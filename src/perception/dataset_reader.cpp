@@ -1,4 +1,4 @@
-#include "src/perception/dataset_reader.hpp"
+#include "vantage/perception/dataset_reader.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -11,8 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/error.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "src/perception/dataset_index.hpp"
-#include "src/perception/object_view.hpp"
+#include "vantage/perception/dataset_index.hpp"
+#include "vantage/perception/object_view.hpp"
 
 namespace vantage {
 

@@ -1,11 +1,11 @@
-#include "src/perception/object_search.hpp"
+#include "vantage/perception/object_search.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/perception/table_segmentation.hpp"
+#include "vantage/perception/table_segmentation.hpp"
 
 namespace vantage {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "src/core/fields.hpp"
-#include "src/geometry/object_sighting.hpp"
-#include "src/perception/object_segmentation.hpp"
-#include "src/perception/support_search.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/geometry/object_sighting.hpp"
+#include "vantage/perception/object_segmentation.hpp"
+#include "vantage/perception/support_search.hpp"
 
 namespace vantage {
 

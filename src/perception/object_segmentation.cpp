@@ -1,9 +1,9 @@
-#include "src/perception/object_segmentation.hpp"
+#include "vantage/perception/object_segmentation.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
-#include "src/perception/table_segmentation.hpp"
+#include "vantage/perception/table_segmentation.hpp"
 
 namespace vantage {
 namespace {

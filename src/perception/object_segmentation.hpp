@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "src/core/fields.hpp"
-#include "src/core/rng.hpp"
-#include "src/geometry/range_scan.hpp"
-#include "src/perception/object_view.hpp"
-#include "src/perception/table_extraction.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/range_scan.hpp"
+#include "vantage/perception/object_view.hpp"
+#include "vantage/perception/table_extraction.hpp"
 
 namespace vantage {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "src/core/fields.hpp"
-#include "src/perception/table_extraction.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/perception/table_extraction.hpp"
 
 namespace vantage {
 

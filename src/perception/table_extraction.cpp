@@ -1,4 +1,4 @@
-#include "src/perception/table_extraction.hpp"
+#include "vantage/perception/table_extraction.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

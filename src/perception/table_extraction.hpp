@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "src/core/fields.hpp"
-#include "src/core/rng.hpp"
-#include "src/perception/point_cloud.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/perception/clouds/point_cloud.hpp"
 
 namespace vantage {
 

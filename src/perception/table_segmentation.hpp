@@ -1,7 +1,7 @@
 /// An object cut out of an image in which its table was found already.
 #pragma once
 
-#include "src/perception/object_segmentation.hpp"
+#include "vantage/perception/object_segmentation.hpp"
 
 namespace vantage {
 

@@ -1,11 +1,11 @@
-#include "src/recognition/change_detection.hpp"
+#include "vantage/recognition/change_detection.hpp"
 
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "src/information/log_space.hpp"
+#include "vantage/information/log_space.hpp"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "src/recognition/recognition.hpp"
+#include "vantage/recognition/recognition.hpp"
 
 namespace vantage {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "src/recognition/recogniser.hpp"
+#include "vantage/recognition/recogniser.hpp"
 
 namespace vantage {
 

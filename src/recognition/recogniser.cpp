@@ -1,4 +1,4 @@
-#include "src/recognition/recogniser.hpp"
+#include "vantage/recognition/recogniser.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "src/recognition/lean_recogniser.hpp"
-#include "src/recognition/transition_training.hpp"
+#include "vantage/recognition/lean_recogniser.hpp"
+#include "vantage/recognition/dataset/transition_training.hpp"
 
 namespace vantage {
 namespace {

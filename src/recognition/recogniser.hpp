@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "planners/state_divergence.hpp"
-#include "src/belief/gaussian_statistics.hpp"
-#include "src/belief/object_states.hpp"
-#include "src/belief/recognition_model.hpp"
-#include "src/belief/transition.hpp"
-#include "src/perception/features/feature.hpp"
+#include "vantage/planners/objects/state_divergence.hpp"
+#include "vantage/belief/objects/gaussian_statistics.hpp"
+#include "vantage/belief/objects/object_states.hpp"
+#include "vantage/belief/objects/recognition_model.hpp"
+#include "vantage/belief/objects/transition.hpp"
+#include "vantage/perception/features/feature.hpp"
 
 namespace vantage {
 

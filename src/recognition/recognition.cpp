@@ -1,6 +1,6 @@
-#include "src/recognition/recognition.hpp"
+#include "vantage/recognition/recognition.hpp"
 
-#include "src/core/log.hpp"
+#include "vantage/core/log.hpp"
 
 namespace vantage {
 namespace {

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "planners/feature_choice.hpp"
-#include "planners/object_view_choice.hpp"
-#include "src/belief/object_belief.hpp"
-#include "src/belief/transition.hpp"
-#include "src/recognition/recogniser.hpp"
+#include "vantage/planners/objects/feature_choice.hpp"
+#include "vantage/planners/objects/object_view_choice.hpp"
+#include "vantage/belief/objects/object_belief.hpp"
+#include "vantage/belief/objects/transition.hpp"
+#include "vantage/recognition/recogniser.hpp"
 
 namespace vantage {
 

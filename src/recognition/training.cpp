@@ -1,4 +1,4 @@
-#include "src/recognition/training.hpp"
+#include "vantage/recognition/training.hpp"
 
 #include <fmt/format.h>
 
@@ -9,11 +9,11 @@
 #include <set>
 #include <utility>
 
-#include "src/perception/dataset_reader.hpp"
-#include "src/perception/features/k_means.hpp"
-#include "src/recognition/recogniser.hpp"
-#include "src/recognition/shown_states.hpp"
-#include "src/recognition/transition_training.hpp"
+#include "vantage/perception/dataset_reader.hpp"
+#include "vantage/perception/features/kit/k_means.hpp"
+#include "vantage/recognition/recogniser.hpp"
+#include "vantage/recognition/dataset/shown_states.hpp"
+#include "vantage/recognition/dataset/transition_training.hpp"
 
 namespace vantage {
 namespace {

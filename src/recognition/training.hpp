@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/belief/psi_rule.hpp"
-#include "src/belief/recognition_model.hpp"
-#include "src/recognition/held_out.hpp"
-#include "src/recognition/view_features.hpp"
+#include "vantage/belief/objects/psi_rule.hpp"
+#include "vantage/belief/objects/recognition_model.hpp"
+#include "vantage/recognition/dataset/held_out.hpp"
+#include "vantage/recognition/dataset/view_features.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/study/child_process.hpp"
+#include "vantage/study/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

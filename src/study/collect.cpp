@@ -1,12 +1,12 @@
-#include "src/study/collect.hpp"
+#include "vantage/study/collect.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 
-#include "src/core/atomic_file.hpp"
-#include "src/study/flight_figure.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/study/figures/flight_figure.hpp"
 
 namespace vantage {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "src/study/evaluation.hpp"
-#include "src/study/text_table.hpp"
+#include "vantage/study/evaluation.hpp"
+#include "vantage/study/text_table.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/study/compare.hpp"
+#include "vantage/study/compare.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <map>
 
-#include "src/core/error.hpp"
-#include "src/study/results.hpp"
-#include "src/study/study_page.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/study/results.hpp"
+#include "vantage/study/study_page.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/study/comparison.hpp"
+#include "vantage/study/comparison.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/information/resampling.hpp"
+#include "vantage/information/resampling.hpp"
 
 namespace vantage {
 

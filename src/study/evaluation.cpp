@@ -1,11 +1,11 @@
-#include "src/study/evaluation.hpp"
+#include "vantage/study/evaluation.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "src/study/comparison.hpp"
-#include "src/study/figure.hpp"
-#include "src/study/measures.hpp"
-#include "src/study/results.hpp"
-#include "src/study/study.hpp"
+#include "vantage/study/comparison.hpp"
+#include "vantage/study/figures/figure.hpp"
+#include "vantage/study/measures.hpp"
+#include "vantage/study/results.hpp"
+#include "vantage/study/study.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/study/measures.hpp"
+#include "vantage/study/measures.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/information/resampling.hpp"
+#include "vantage/information/resampling.hpp"
 
 namespace vantage {
 namespace {

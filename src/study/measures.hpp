@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/episode/scenario.hpp"
+#include "vantage/tasks/scenario.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/study/results.hpp"
+#include "vantage/study/results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/hash.hpp"
-#include "src/core/yaml.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/hash.hpp"
+#include "vantage/core/yaml.hpp"
 
 namespace vantage {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "src/study/study.hpp"
+#include "vantage/study/study.hpp"
 
 namespace vantage {
 

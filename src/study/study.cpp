@@ -1,4 +1,4 @@
-#include "src/study/study.hpp"
+#include "vantage/study/study.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,9 +7,9 @@
 #include <cctype>
 #include <set>
 
-#include "src/core/data_root.hpp"
-#include "src/core/yaml.hpp"
-#include "src/study/measures.hpp"
+#include "vantage/core/data_root.hpp"
+#include "vantage/core/yaml.hpp"
+#include "vantage/study/measures.hpp"
 
 namespace vantage {
 namespace {

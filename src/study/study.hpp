@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "src/core/config_node.hpp"
-#include "src/core/fields.hpp"
-#include "src/episode/scenario.hpp"
-#include "src/episode/validate.hpp"
+#include "vantage/core/config_node.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/tasks/scenario.hpp"
+#include "vantage/tasks/validate.hpp"
 
 namespace vantage {
 

@@ -1,11 +1,11 @@
-#include "src/study/study_page.hpp"
+#include "vantage/study/study_page.hpp"
 
 #include <fmt/format.h>
 
-#include "src/core/atomic_file.hpp"
-#include "src/episode/page.hpp"
-#include "src/study/collect.hpp"
-#include "src/study/text_table.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/report/page.hpp"
+#include "vantage/study/collect.hpp"
+#include "vantage/study/text_table.hpp"
 
 namespace vantage {
 namespace {

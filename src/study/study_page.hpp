@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "src/study/evaluation.hpp"
+#include "vantage/study/evaluation.hpp"
 
 namespace vantage {
 

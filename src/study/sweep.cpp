@@ -1,4 +1,4 @@
-#include "src/study/sweep.hpp"
+#include "vantage/study/sweep.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,10 +13,10 @@
 #include <sstream>
 #include <thread>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/log.hpp"
-#include "src/episode/interrupt.hpp"
-#include "src/study/child_process.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/study/child_process.hpp"
 
 namespace vantage {
 namespace {

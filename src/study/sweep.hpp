@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "src/study/results.hpp"
-#include "src/study/study.hpp"
+#include "vantage/study/results.hpp"
+#include "vantage/study/study.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/study/text_table.hpp"
+#include "vantage/study/text_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/episode/page.hpp"
+#include "vantage/report/page.hpp"
 
 namespace vantage {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "src/study/comparison.hpp"
-#include "src/study/figure.hpp"
+#include "vantage/study/comparison.hpp"
+#include "vantage/study/figures/figure.hpp"
 
 namespace vantage {
 

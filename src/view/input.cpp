@@ -1,11 +1,11 @@
-#include "src/view/input.hpp"
+#include "vantage/view/input.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <limits>
 
-#include "src/view/orbit_camera.hpp"
-#include "src/view/overlays.hpp"
+#include "vantage/view/orbit_camera.hpp"
+#include "vantage/view/overlays.hpp"
 
 namespace vantage {
 namespace {

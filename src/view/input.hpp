@@ -1,9 +1,9 @@
 /// What keys and mouse do in a window that shows an episode.
 #pragma once
 
-#include "sim/window.hpp"
-#include "src/view/link.hpp"
-#include "src/view/playback_gate.hpp"
+#include "vantage/sim/render/window.hpp"
+#include "vantage/view/link.hpp"
+#include "vantage/view/playback_gate.hpp"
 
 namespace vantage {
 

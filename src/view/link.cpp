@@ -1,4 +1,4 @@
-#include "src/view/link.hpp"
+#include "vantage/view/link.hpp"
 
 #include <utility>
 

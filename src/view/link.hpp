@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/renderer.hpp"
-#include "sim/window.hpp"
-#include "src/episode/story.hpp"
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/sim/render/window.hpp"
+#include "vantage/runtime/story.hpp"
 
 namespace vantage {
 

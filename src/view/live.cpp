@@ -3,8 +3,8 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "src/episode/interrupt.hpp"
-#include "src/view/session.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/view/session.hpp"
 
 namespace vantage {
 namespace {

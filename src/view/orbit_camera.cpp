@@ -1,11 +1,11 @@
-#include "src/view/orbit_camera.hpp"
+#include "vantage/view/orbit_camera.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "src/core/error.hpp"
-#include "src/geometry/pose.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 namespace {

@@ -1,7 +1,7 @@
 /// How a mouse moves a camera that circles a point.
 #pragma once
 
-#include "sim/renderer.hpp"
+#include "vantage/sim/render/renderer.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/view/overlays.hpp"
+#include "vantage/view/overlays.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "src/episode/frustum.hpp"
-#include "src/episode/panel_style.hpp"
+#include "vantage/runtime/drawing/frustum.hpp"
+#include "vantage/runtime/drawing/panel_style.hpp"
 
 namespace vantage {
 namespace {

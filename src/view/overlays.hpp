@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "src/episode/map_view.hpp"
-#include "src/episode/story.hpp"
+#include "vantage/runtime/drawing/map_view.hpp"
+#include "vantage/runtime/story.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/view/painter.hpp"
+#include "vantage/view/painter.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/camera.hpp"
+#include "vantage/sim/sensors/camera.hpp"
 
 namespace vantage {
 namespace {

@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "sim/renderer.hpp"
-#include "sim/world.hpp"
-#include "src/episode/scenario.hpp"
-#include "src/view/link.hpp"
-#include "src/view/overlays.hpp"
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/scenario.hpp"
+#include "vantage/view/link.hpp"
+#include "vantage/view/overlays.hpp"
 
 namespace vantage {
 

@@ -1,9 +1,9 @@
-#include "src/view/playback_gate.hpp"
+#include "vantage/view/playback_gate.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <ranges>
 
-#include "src/core/log.hpp"
-#include "src/episode/interrupt.hpp"
-#include "src/episode/model_source.hpp"
-#include "src/episode/recording.hpp"
-#include "src/view/session.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/tasks/model_source.hpp"
+#include "vantage/runtime/recording.hpp"
+#include "vantage/view/session.hpp"
 
 namespace vantage {
 namespace {

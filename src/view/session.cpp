@@ -1,4 +1,4 @@
-#include "src/view/session.hpp"
+#include "vantage/view/session.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -11,12 +11,12 @@
 #include <thread>
 #include <utility>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/log.hpp"
-#include "src/episode/interrupt.hpp"
-#include "src/episode/model_source.hpp"
-#include "src/view/input.hpp"
-#include "src/view/painter.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/tasks/model_source.hpp"
+#include "vantage/view/input.hpp"
+#include "vantage/view/painter.hpp"
 
 namespace vantage {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "sim/world.hpp"
-#include "src/view/playback_gate.hpp"
-#include "src/view/view.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/view/playback_gate.hpp"
+#include "vantage/view/view.hpp"
 
 namespace vantage {
 

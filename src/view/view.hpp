@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/window.hpp"
-#include "src/episode/run.hpp"
-#include "src/episode/scenario.hpp"
-#include "src/view/link.hpp"
+#include "vantage/sim/render/window.hpp"
+#include "vantage/tasks/run.hpp"
+#include "vantage/tasks/scenario.hpp"
+#include "vantage/view/link.hpp"
 
 namespace vantage {
 

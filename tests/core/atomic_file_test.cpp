@@ -1,4 +1,4 @@
-#include "src/core/atomic_file.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <csignal>
 #include <string>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

@@ -1,11 +1,11 @@
-#include "src/core/data_root.hpp"
+#include "vantage/core/data_root.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

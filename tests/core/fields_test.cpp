@@ -1,11 +1,11 @@
-#include "src/core/fields.hpp"
+#include "vantage/core/fields.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
-#include "src/core/yaml.hpp"
+#include "vantage/core/yaml.hpp"
 
 namespace vantage {
 namespace {

@@ -1,11 +1,11 @@
-#include "src/core/hash.hpp"
+#include "vantage/core/hash.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <fstream>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

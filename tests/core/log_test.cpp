@@ -1,12 +1,12 @@
-#include "src/core/log.hpp"
+#include "vantage/core/log.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <string>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/error.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

@@ -1,8 +1,8 @@
 // apply_override: --set key=value on top of a file.
 #include <gtest/gtest.h>
 
-#include "src/core/error.hpp"
-#include "src/core/yaml.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/yaml.hpp"
 
 namespace vantage {
 namespace {

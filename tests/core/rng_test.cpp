@@ -1,4 +1,4 @@
-#include "src/core/rng.hpp"
+#include "vantage/core/rng.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "src/core/rounding.hpp"
+#include "vantage/core/rounding.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

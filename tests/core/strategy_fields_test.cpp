@@ -1,8 +1,8 @@
 // Strategies in a configuration: by name, or a map with a name and options.
 #include <gtest/gtest.h>
 
-#include "src/core/fields.hpp"
-#include "src/core/yaml.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/yaml.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/core/strategy.hpp"
+#include "vantage/core/strategy.hpp"
 
 #include <gtest/gtest.h>
 

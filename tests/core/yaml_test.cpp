@@ -1,12 +1,12 @@
-#include "src/core/yaml.hpp"
+#include "vantage/core/yaml.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <fstream>
 
-#include "src/core/error.hpp"
-#include "src/core/fields.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/fields.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

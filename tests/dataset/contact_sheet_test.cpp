@@ -1,9 +1,9 @@
-#include "src/dataset/contact_sheet.hpp"
+#include "vantage/dataset/contact_sheet.hpp"
 
 #include <gtest/gtest.h>
 
-#include "models/catalogue/texture.hpp"
-#include "src/dataset/view_files.hpp"
+#include "vantage/models/catalogue/shapes/texture.hpp"
+#include "vantage/dataset/view_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

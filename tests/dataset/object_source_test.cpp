@@ -1,11 +1,11 @@
-#include "src/dataset/object_source.hpp"
+#include "vantage/dataset/object_source.hpp"
 
 #include <gtest/gtest.h>
 
-#include "models/catalogue/obj.hpp"
-#include "models/catalogue/object_database.hpp"
-#include "models/catalogue/texture.hpp"
-#include "src/core/atomic_file.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
+#include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/models/catalogue/shapes/texture.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "src/dataset/render_dataset.hpp"
+#include "vantage/dataset/render_dataset.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <map>
 #include <numbers>
 
-#include "src/core/atomic_file.hpp"
-#include "src/perception/dataset_reader.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/perception/dataset_reader.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "src/dataset/sensing.hpp"
+#include "vantage/dataset/sensing.hpp"
 
 #include <gtest/gtest.h>
 

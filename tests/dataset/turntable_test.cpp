@@ -1,4 +1,4 @@
-#include "src/dataset/turntable.hpp"
+#include "vantage/dataset/turntable.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "src/dataset/sensing.hpp"
-#include "src/perception/features/standing_box.hpp"
+#include "vantage/dataset/sensing.hpp"
+#include "vantage/perception/features/standing_box.hpp"
 #include "tests/dataset/cube.hpp"
 
 namespace vantage {

@@ -1,10 +1,10 @@
-#include "src/dataset/view_files.hpp"
+#include "vantage/dataset/view_files.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/core/error.hpp"
-#include "src/core/rng.hpp"
-#include "src/perception/dataset_reader.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/perception/dataset_reader.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

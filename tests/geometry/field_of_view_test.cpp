@@ -1,4 +1,4 @@
-#include "src/geometry/field_of_view.hpp"
+#include "vantage/geometry/field_of_view.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/core/rng.hpp"
-#include "src/geometry/pose.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 namespace {

@@ -1,9 +1,9 @@
-#include "src/geometry/grid_frame.hpp"
+#include "vantage/geometry/grid_frame.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "src/core/rng.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

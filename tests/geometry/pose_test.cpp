@@ -1,4 +1,4 @@
-#include "src/geometry/pose.hpp"
+#include "vantage/geometry/pose.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/core/rng.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

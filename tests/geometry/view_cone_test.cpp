@@ -1,11 +1,11 @@
-#include "src/geometry/view_cone.hpp"
+#include "vantage/geometry/view_cone.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "src/core/rng.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "src/core/rng.hpp"
-#include "src/geometry/grid_frame.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/grid_frame.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/information/discrete.hpp"
+#include "vantage/information/discrete.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

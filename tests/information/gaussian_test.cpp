@@ -1,4 +1,4 @@
-#include "src/information/gaussian.hpp"
+#include "vantage/information/gaussian.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

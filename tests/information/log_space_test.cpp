@@ -1,4 +1,4 @@
-#include "src/information/log_space.hpp"
+#include "vantage/information/log_space.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "src/information/discrete.hpp"
+#include "vantage/information/discrete.hpp"
 #include "tests/information/distributions.hpp"
 
 namespace vantage {

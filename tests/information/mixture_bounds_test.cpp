@@ -1,4 +1,4 @@
-#include "src/information/mixture_bounds.hpp"
+#include "vantage/information/mixture_bounds.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/information/discrete.hpp"
+#include "vantage/information/discrete.hpp"
 #include "tests/information/distributions.hpp"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "src/information/quantile.hpp"
+#include "vantage/information/quantile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Intervals and tests against closed forms.
-#include "src/information/resampling.hpp"
+#include "vantage/information/resampling.hpp"
 
 #include <gtest/gtest.h>
 

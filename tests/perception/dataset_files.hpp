@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "src/core/atomic_file.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage::support {
 

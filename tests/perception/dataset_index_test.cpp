@@ -1,11 +1,11 @@
-#include "src/perception/dataset_index.hpp"
+#include "vantage/perception/dataset_index.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 #include "tests/perception/dataset_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 

@@ -1,4 +1,4 @@
-#include "src/perception/dataset_reader.hpp"
+#include "vantage/perception/dataset_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 #include "tests/perception/dataset_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 

@@ -1,5 +1,5 @@
 // Against images of a table and a box, drawn ray by ray.
-#include "src/perception/object_segmentation.hpp"
+#include "vantage/perception/object_segmentation.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "src/perception/table_extraction.hpp"
+#include "vantage/perception/table_extraction.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/perception/normals.hpp"
+#include "vantage/perception/clouds/normals.hpp"
 #include "tests/support/synthetic_room.hpp"
 
 namespace vantage {

@@ -1,9 +1,9 @@
-#include "planners/exact_gain.hpp"
+#include "vantage/planners/exact_gain.hpp"
 
 #include <gtest/gtest.h>
 
-#include "planners/view_candidates.hpp"
-#include "src/core/rng.hpp"
+#include "vantage/planners/views/view_candidates.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

@@ -1,13 +1,13 @@
-#include "planners/swept_gain.hpp"
+#include "vantage/planners/swept_gain.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "planners/exact_gain.hpp"
-#include "planners/view_candidates.hpp"
-#include "src/core/rng.hpp"
+#include "vantage/planners/exact_gain.hpp"
+#include "vantage/planners/views/view_candidates.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/recognition/change_detection.hpp"
+#include "vantage/recognition/change_detection.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

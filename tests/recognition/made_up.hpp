@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/recognition/recognition.hpp"
+#include "vantage/recognition/recognition.hpp"
 #include "tests/support/twin_families.hpp"
 
 namespace vantage::testing {

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <string>
 
-#include "src/core/atomic_file.hpp"
-#include "src/core/rng.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage::testing {
 

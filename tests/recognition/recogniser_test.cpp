@@ -1,4 +1,4 @@
-#include "src/recognition/recogniser.hpp"
+#include "vantage/recognition/recogniser.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "src/recognition/recognition.hpp"
+#include "vantage/recognition/recognition.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

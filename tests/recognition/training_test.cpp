@@ -1,4 +1,4 @@
-#include "src/recognition/training.hpp"
+#include "vantage/recognition/training.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 #include <atomic>
 #include <numeric>
 
-#include "src/perception/dataset_reader.hpp"
-#include "src/recognition/recognition.hpp"
-#include "src/recognition/shown_states.hpp"
-#include "src/recognition/transition_training.hpp"
+#include "vantage/perception/dataset_reader.hpp"
+#include "vantage/recognition/recognition.hpp"
+#include "vantage/recognition/dataset/shown_states.hpp"
+#include "vantage/recognition/dataset/transition_training.hpp"
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
 

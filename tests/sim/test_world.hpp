@@ -4,9 +4,9 @@
 #include <functional>
 #include <string>
 
-#include "sim/pr2.hpp"
-#include "sim/world.hpp"
-#include "src/core/atomic_file.hpp"
+#include "vantage/sim/robots/pr2.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage::test {

@@ -1,5 +1,5 @@
 // Two folders side by side.
-#include "src/study/compare.hpp"
+#include "vantage/study/compare.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "src/core/error.hpp"
+#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

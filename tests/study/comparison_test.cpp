@@ -1,5 +1,5 @@
 // Means and paired differences with answers known beforehand.
-#include "src/study/comparison.hpp"
+#include "vantage/study/comparison.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

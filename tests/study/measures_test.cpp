@@ -1,5 +1,5 @@
 // What is read off an episode's metrics.
-#include "src/study/measures.hpp"
+#include "vantage/study/measures.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

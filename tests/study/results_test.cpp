@@ -1,5 +1,5 @@
 // When a run folder counts as a result.
-#include "src/study/results.hpp"
+#include "vantage/study/results.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "src/core/hash.hpp"
+#include "vantage/core/hash.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

@@ -1,13 +1,13 @@
 // The study file: what it means, and what is said of a wrong one.
-#include "src/study/study.hpp"
+#include "vantage/study/study.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "src/core/error.hpp"
-#include "src/study/sweep.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/study/sweep.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "src/core/atomic_file.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "tests/support/shell.hpp"
 #include "tests/support/temporary_directory.hpp"
 

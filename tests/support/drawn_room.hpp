@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "src/core/rng.hpp"
-#include "src/geometry/range_scan.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/range_scan.hpp"
 
 namespace vantage::support {
 

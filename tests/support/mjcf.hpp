@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/mujoco_errors.hpp"
+#include "vantage/sim/world/mujoco_errors.hpp"
 
 namespace vantage::test {
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "src/core/rng.hpp"
-#include "src/perception/object_view.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/perception/object_view.hpp"
 
 namespace vantage {
 

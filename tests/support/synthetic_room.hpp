@@ -9,10 +9,10 @@
 #include <numbers>
 #include <vector>
 
-#include "src/core/rng.hpp"
-#include "src/geometry/grid_frame.hpp"
-#include "src/geometry/pose.hpp"
-#include "src/geometry/range_scan.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/grid_frame.hpp"
+#include "vantage/geometry/pose.hpp"
+#include "vantage/geometry/range_scan.hpp"
 
 namespace vantage::support {
 

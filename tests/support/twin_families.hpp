@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "src/belief/object_states.hpp"
-#include "src/belief/observation_model.hpp"
-#include "src/core/rng.hpp"
+#include "vantage/belief/objects/object_states.hpp"
+#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage::testing {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "src/geometry/grid_frame.hpp"
-#include "src/geometry/range_scan.hpp"
+#include "vantage/geometry/grid_frame.hpp"
+#include "vantage/geometry/range_scan.hpp"
 
 namespace vantage {
 

@@ -1,8 +1,8 @@
-#include "src/view/input.hpp"
+#include "vantage/view/input.hpp"
 
 #include <gtest/gtest.h>
 
-#include "src/view/painter.hpp"
+#include "vantage/view/painter.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/view/orbit_camera.hpp"
+#include "vantage/view/orbit_camera.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "src/geometry/pose.hpp"
+#include "vantage/geometry/pose.hpp"
 
 namespace vantage {
 namespace {

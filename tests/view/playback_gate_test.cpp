@@ -1,4 +1,4 @@
-#include "src/view/playback_gate.hpp"
+#include "vantage/view/playback_gate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <future>
 #include <set>
 
-#include "src/core/atomic_file.hpp"
-#include "src/episode/scenario.hpp"
-#include "src/episode/story.hpp"
-#include "tests/episode/command_line.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/tasks/scenario.hpp"
+#include "vantage/runtime/story.hpp"
+#include "tests/cli/command_line.hpp"
 #include "tests/support/virtual_display.hpp"
 
 namespace vantage {

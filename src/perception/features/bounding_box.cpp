@@ -1,8 +1,8 @@
-#include "src/perception/features/bounding_box.hpp"
+#include "vantage/perception/features/bounding_box.hpp"
 
-#include "src/perception/features/object_pixels.hpp"
-#include "src/perception/features/object_surface.hpp"
-#include "src/perception/features/upright_extents.hpp"
+#include "vantage/perception/features/kit/object_pixels.hpp"
+#include "vantage/perception/features/kit/object_surface.hpp"
+#include "vantage/perception/features/kit/upright_extents.hpp"
 
 namespace vantage {
 

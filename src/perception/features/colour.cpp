@@ -1,9 +1,9 @@
-#include "src/perception/features/colour.hpp"
+#include "vantage/perception/features/colour.hpp"
 
 #include <opencv2/imgproc.hpp>
 
-#include "src/perception/features/histogram.hpp"
-#include "src/perception/features/object_pixels.hpp"
+#include "vantage/perception/features/kit/histogram.hpp"
+#include "vantage/perception/features/kit/object_pixels.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "src/perception/features/feature.hpp"
+#include "vantage/perception/features/feature.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/core/hash.hpp"
-#include "src/information/quantile.hpp"
+#include "vantage/core/hash.hpp"
+#include "vantage/information/quantile.hpp"
 
 namespace vantage {
 namespace {

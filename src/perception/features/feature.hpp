@@ -8,18 +8,18 @@
 #include <string_view>
 #include <variant>
 
-#include "src/core/rng.hpp"
-#include "src/core/strategy.hpp"
-#include "src/perception/features/bounding_box.hpp"
-#include "src/perception/features/colour.hpp"
-#include "src/perception/features/feature_result.hpp"
-#include "src/perception/features/kernel_descriptor.hpp"
-#include "src/perception/features/onnx.hpp"
-#include "src/perception/features/sift.hpp"
-#include "src/perception/features/soft_colour.hpp"
-#include "src/perception/features/standing_box.hpp"
-#include "src/perception/features/vfh.hpp"
-#include "src/perception/object_view.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/core/strategy.hpp"
+#include "vantage/perception/features/bounding_box.hpp"
+#include "vantage/perception/features/colour.hpp"
+#include "vantage/perception/features/kit/feature_result.hpp"
+#include "vantage/perception/features/patches/kernel_descriptor.hpp"
+#include "vantage/perception/features/onnx.hpp"
+#include "vantage/perception/features/sift.hpp"
+#include "vantage/perception/features/soft_colour.hpp"
+#include "vantage/perception/features/standing_box.hpp"
+#include "vantage/perception/features/vfh.hpp"
+#include "vantage/perception/object_view.hpp"
 
 namespace vantage {
 

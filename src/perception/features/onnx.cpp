@@ -1,4 +1,4 @@
-#include "src/perception/features/onnx.hpp"
+#include "vantage/perception/features/onnx.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/dnn.hpp>
@@ -8,8 +8,8 @@
 #include <mutex>
 #include <sstream>
 
-#include "src/perception/features/k_means.hpp"
-#include "src/perception/features/object_pixels.hpp"
+#include "vantage/perception/features/kit/k_means.hpp"
+#include "vantage/perception/features/kit/object_pixels.hpp"
 
 namespace vantage {
 namespace {

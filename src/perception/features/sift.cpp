@@ -1,4 +1,4 @@
-#include "src/perception/features/sift.hpp"
+#include "vantage/perception/features/sift.hpp"
 
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "src/perception/features/histogram.hpp"
-#include "src/perception/features/k_means.hpp"
-#include "src/perception/features/object_pixels.hpp"
-#include "src/perception/features/training_views.hpp"
+#include "vantage/perception/features/kit/histogram.hpp"
+#include "vantage/perception/features/kit/k_means.hpp"
+#include "vantage/perception/features/kit/object_pixels.hpp"
+#include "vantage/perception/features/kit/training_views.hpp"
 
 namespace vantage {
 namespace {

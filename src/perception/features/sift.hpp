@@ -7,11 +7,11 @@
 #include <string>
 #include <string_view>
 
-#include "src/core/fields.hpp"
-#include "src/core/rng.hpp"
-#include "src/perception/features/feature_result.hpp"
-#include "src/perception/features/state_bytes.hpp"
-#include "src/perception/object_view.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/perception/features/kit/feature_result.hpp"
+#include "vantage/perception/features/kit/state_bytes.hpp"
+#include "vantage/perception/object_view.hpp"
 
 namespace vantage {
 

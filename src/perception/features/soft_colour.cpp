@@ -1,4 +1,4 @@
-#include "src/perception/features/soft_colour.hpp"
+#include "vantage/perception/features/soft_colour.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "src/perception/features/histogram.hpp"
-#include "src/perception/features/object_pixels.hpp"
+#include "vantage/perception/features/kit/histogram.hpp"
+#include "vantage/perception/features/kit/object_pixels.hpp"
 
 namespace vantage {
 namespace {

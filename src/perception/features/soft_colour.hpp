@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "src/perception/features/colour.hpp"
+#include "vantage/perception/features/colour.hpp"
 
 namespace vantage {
 

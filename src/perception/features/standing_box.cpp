@@ -1,14 +1,14 @@
-#include "src/perception/features/standing_box.hpp"
+#include "vantage/perception/features/standing_box.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <vector>
 
-#include "src/information/quantile.hpp"
-#include "src/perception/features/object_pixels.hpp"
-#include "src/perception/features/object_surface.hpp"
-#include "src/perception/features/upright_extents.hpp"
+#include "vantage/information/quantile.hpp"
+#include "vantage/perception/features/kit/object_pixels.hpp"
+#include "vantage/perception/features/kit/object_surface.hpp"
+#include "vantage/perception/features/kit/upright_extents.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "src/perception/features/vfh.hpp"
+#include "vantage/perception/features/vfh.hpp"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -9,9 +9,9 @@
 #include <numbers>
 #include <optional>
 
-#include "src/perception/features/histogram.hpp"
-#include "src/perception/features/object_pixels.hpp"
-#include "src/perception/features/object_surface.hpp"
+#include "vantage/perception/features/kit/histogram.hpp"
+#include "vantage/perception/features/kit/object_pixels.hpp"
+#include "vantage/perception/features/kit/object_surface.hpp"
 
 namespace vantage {
 namespace {

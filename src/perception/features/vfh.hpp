@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include "src/core/fields.hpp"
-#include "src/core/rng.hpp"
-#include "src/perception/features/feature_result.hpp"
-#include "src/perception/features/state_bytes.hpp"
-#include "src/perception/object_view.hpp"
-#include "src/perception/point_cloud.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/perception/features/kit/feature_result.hpp"
+#include "vantage/perception/features/kit/state_bytes.hpp"
+#include "vantage/perception/object_view.hpp"
+#include "vantage/perception/clouds/point_cloud.hpp"
 
 namespace vantage {
 

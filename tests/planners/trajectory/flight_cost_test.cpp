@@ -1,4 +1,4 @@
-#include "planners/trajectory/flight_cost.hpp"
+#include "vantage/planners/trajectory/flight_cost.hpp"
 
 #include <gtest/gtest.h>
 

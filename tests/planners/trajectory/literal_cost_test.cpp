@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "planners/trajectory/observation_ring.hpp"
-#include "planners/trajectory/trajectory_optimiser.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
+#include "vantage/planners/trajectory/optimisers/trajectory_optimiser.hpp"
 #include "tests/planners/trajectory/straight_flight.hpp"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "planners/trajectory/observation_ring.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "planners/trajectory/replanning.hpp"
+#include "vantage/planners/trajectory/replanning.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "planners/trajectory/simple_paths.hpp"
-#include "planners/trajectory/smoothness.hpp"
+#include "vantage/planners/trajectory/simple_paths.hpp"
+#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 #include "tests/planners/trajectory/straight_flight.hpp"
 
 namespace vantage {

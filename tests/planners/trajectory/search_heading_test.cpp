@@ -1,5 +1,5 @@
 // Where a camera turns that has no object to look at.
-#include "planners/trajectory/search_heading.hpp"
+#include "vantage/planners/trajectory/search_heading.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "planners/trajectory/simple_paths.hpp"
+#include "vantage/planners/trajectory/simple_paths.hpp"
 
 #include <gtest/gtest.h>
 

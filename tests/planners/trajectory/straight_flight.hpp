@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planners/trajectory/flight_cost.hpp"
+#include "vantage/planners/trajectory/flight_cost.hpp"
 
 namespace vantage::testing {
 

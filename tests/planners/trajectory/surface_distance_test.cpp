@@ -1,11 +1,11 @@
-#include "planners/trajectory/surface_distance.hpp"
+#include "vantage/planners/trajectory/surface_distance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/core/rng.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

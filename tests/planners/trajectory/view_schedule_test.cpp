@@ -1,5 +1,5 @@
 // Which views are taken on the way, and where the camera looks between them.
-#include "planners/trajectory/view_schedule.hpp"
+#include "vantage/planners/trajectory/view_schedule.hpp"
 
 #include <gtest/gtest.h>
 

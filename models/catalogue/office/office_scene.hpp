@@ -1,0 +1,57 @@
+/// Furnished offices: what stands where.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vantage/models/catalogue/office/clearance_map.hpp"
+#include "vantage/models/catalogue/office/floor_plan.hpp"
+#include "vantage/models/catalogue/office/office_furniture.hpp"
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+inline constexpr double kDriveRadius_m = 0.62;  ///< a disc of this radius gets into every room
+inline constexpr double kStartClearance_m = 0.6;
+inline constexpr int kClutterLevels = 4;
+
+struct OfficeOptions {
+  std::string name = "office";
+  std::uint64_t seed = 1;  ///< of the choice and the places; walls are fixed
+  bool large = false;      ///< 20 x 25 m instead of 15 x 10 m
+  int clutter = 1;         ///< a level has everything of the levels below it and more
+  void fields(auto&& f) {
+    f("name", name);
+    f("seed", seed);
+    f("large", large);
+    f("clutter", clutter, between(1, kClutterLevels));
+  }
+};
+
+struct PlacedItem {
+  OfficeItem item = OfficeItem::desk;
+  int variant = 0;
+  Pose2 T_world_item;
+};
+
+struct OfficeScene {
+  std::string name;
+  std::uint64_t seed = 0;
+  int clutter = 1;
+  FloorPlan plan;
+  std::vector<PlacedItem> furniture;
+};
+
+/// Furniture keeps the doors free, every room stays within reach of every start for a disc of
+/// kDriveRadius_m, and the starts keep kStartClearance_m. Chairs may stand partly under tables.
+/// @throws ConfigError if an option is out of range.
+OfficeScene make_office_scene(const OfficeOptions& options);
+
+/// What bounds the robot's way: walls, pillars, door posts, furniture.
+std::vector<Outline> obstacles(const OfficeScene& scene);
+
+/// The scenes checked in under models/scenes: office_{small,large}_{1..4}.
+std::vector<OfficeOptions> office_scenes();
+
+}  // namespace vantage

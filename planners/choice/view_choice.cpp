@@ -1,0 +1,69 @@
+#include "vantage/planners/choice/view_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+/// Index of the best candidate: highest score, then shortest path, then lowest id.
+template <class Score>
+std::size_t best_by(std::span<const Candidate> candidates, Score&& score) {
+  const auto rank = [&](const Candidate& view) {
+    return std::tuple(-score(view), view.path_length_m, view.id);
+  };
+  const auto best = std::ranges::min_element(candidates, {}, rank);
+  return static_cast<std::size_t>(best - candidates.begin());
+}
+
+}  // namespace
+
+std::size_t RandomView::operator()(std::span<const Candidate> candidates, Rng& rng) const {
+  return rng.uniform_index(candidates.size());
+}
+
+std::size_t GreedyGain::operator()(std::span<const Candidate> candidates, Rng& /*rng*/) const {
+  return best_by(candidates, [](const Candidate& view) { return view.gain_bits; });
+}
+
+std::size_t OracleView::operator()(std::span<const Candidate> candidates, Rng& /*rng*/) const {
+  return best_by(candidates, [](const Candidate& view) {
+    expects(view.true_new_cells.has_value(), "the oracle needs true_new_cells of every candidate");
+    return *view.true_new_cells;
+  });
+}
+
+std::size_t NearestFrontier::operator()(std::span<const Candidate> candidates, Rng& /*rng*/) const {
+  return best_by(candidates, [](const Candidate& view) {
+    return view.reachable ? -view.path_length_m : kNever;
+  });
+}
+
+std::size_t GainOverDistance::operator()(std::span<const Candidate> candidates,
+                                         Rng& /*rng*/) const {
+  return best_by(candidates, [&](const Candidate& view) {
+    return view.reachable ? view.gain_bits * std::exp(-lambda_per_m * view.path_length_m) : kNever;
+  });
+}
+
+std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng) {
+  expects(!candidates.empty(), "choose_view needs a candidate");
+  std::vector<std::size_t> open;
+  std::vector<Candidate> views;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].exhausted) continue;
+    open.push_back(i);
+    views.push_back(candidates[i]);
+  }
+  const auto choose = [&](std::span<const Candidate> from) {
+    return std::visit([&](const auto& strategy) { return strategy(from, rng); }, choice);
+  };
+  return open.empty() ? choose(candidates) : open[choose(views)];
+}
+
+}  // namespace vantage

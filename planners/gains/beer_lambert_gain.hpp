@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string_view>
+
+#include "vantage/planners/visibility/attenuated_ray.hpp"
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+/// Sum of a^n H(p(o)) over the unobserved cells in view, n the unobserved cells in front of each;
+/// nothing behind a known occupied cell. `a` is the transmission of an unobserved cell, so the
+/// right value depends on the clutter and on the cell size.
+struct BeerLambertGain {
+  static constexpr std::string_view name = "beer_lambert";
+  static constexpr bool predicts_cells = true;
+  double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
+  void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
+
+  static constexpr bool unobserved_only = true;
+  using Ray = AttenuatedRay;
+
+  [[nodiscard]] Fading fading(const GainContext& context) const {
+    return {.transmission = uniform_field(context.grid.frame.cells, a)};
+  }
+  [[nodiscard]] CellTables prepare(const GainContext& context) const {
+    return fading_tables(context.grid, fading(context));
+  }
+  [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
+};
+
+}  // namespace vantage

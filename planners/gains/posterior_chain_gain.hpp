@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "vantage/planners/visibility/cell_tables.hpp"
+#include "vantage/planners/visibility/ray_visibility.hpp"
+#include "vantage/information/discrete.hpp"
+
+namespace vantage {
+
+/// Entropy of each cell less that of its posterior, over every cell in view, known ones included.
+/// [Potthast2016, (3.11)-(3.15)]
+///
+/// For the record: the chain forgets the free space in front of it within some ten unobserved
+/// cells, so it values little more than the rim of the unknown. `visibility_weighted` is the gain
+/// that predicts what a view shows.
+struct PosteriorChainGain {
+  static constexpr std::string_view name = "posterior_chain";
+  static constexpr bool unobserved_only = false;
+  static constexpr bool predicts_cells = true;
+  PosteriorModel model;
+  void fields(auto&& f) { model.fields(f); }
+
+  class Ray {
+   public:
+    Ray(const PosteriorModel& model, const CellTables& tables)
+        : model_(model),
+          p_occupied_(tables.p_occupied.data()),
+          entropy_bits_(tables.entropy_bits.data()),
+          chain_(model) {}
+    void start() { chain_ = PosteriorChain(model_); }
+    bool pass(std::size_t cell) {
+      chain_.enter(static_cast<double>(p_occupied_[cell]));
+      return true;
+    }
+    double worth(std::size_t cell) {
+      chain_.enter(static_cast<double>(p_occupied_[cell]));
+      return static_cast<double>(entropy_bits_[cell]) - binary_entropy_bits(chain_.p_occupied());
+    }
+
+   private:
+    PosteriorModel model_;
+    const float* p_occupied_;
+    const float* entropy_bits_;
+    PosteriorChain chain_;
+  };
+
+  [[nodiscard]] CellTables prepare(const GainContext& context) const {
+    CellTables tables;
+    tables.p_occupied = cell_probabilities(context.grid);
+    tables.entropy_bits = cell_entropies_bits(context.grid);
+    return tables;
+  }
+  [[nodiscard]] Ray ray(const CellTables& tables) const { return {model, tables}; }
+};
+
+}  // namespace vantage

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "vantage/planners/visibility/beam_gain.hpp"
+#include "vantage/planners/visibility/entropy_beam.hpp"
+
+namespace vantage {
+
+/// As `occlusion_aware`, in bits, over the unobserved cells alone.  [Isler2016]
+struct UnobservedVoxelGain {
+  static constexpr std::string_view name = "unobserved_voxel";
+  static constexpr bool predicts_cells = false;
+  BeamFan fan = {};
+  double opacity_unobserved = kOpacityUnobserved;  ///< of a cell, [0, 0.5]; higher sees less deep
+  void fields(auto&& f) {
+    fan.fields(f);
+    f("opacity_unobserved", opacity_unobserved, between(0.0, 0.5));
+  }
+
+  using Beam = EntropyBeam;
+
+  [[nodiscard]] CellTables prepare(const GainContext& context) const {
+    CellTables tables;
+    tables.entropy_bits = cell_entropies_bits(context.grid);
+    for (std::size_t cell = 0; cell < context.grid.size(); ++cell) {
+      if (context.grid.state(cell) != CellState::unobserved) tables.entropy_bits[cell] = 0.0F;
+    }
+    tables.transmission = beam_transmissions(context.grid, opacity_unobserved);
+    return tables;
+  }
+  [[nodiscard]] Beam beam(const CellTables& tables) const { return Beam(tables); }
+};
+
+}  // namespace vantage

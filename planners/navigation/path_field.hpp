@@ -1,0 +1,64 @@
+/// Shortest ways from the robot to everywhere it can drive.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "vantage/belief/map/floor_map.hpp"
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+struct NavigationOptions {
+  double footprint_radius_m = 0.48;  ///< circle round the base at any heading; higher keeps away
+  double margin_m = 0.04;        ///< on top; at least cell_m / sqrt(2) makes up for the cells' size
+  double clearance_weight = 1;   ///< cost of touching the margin, per length; higher takes detours
+  double comfort_m = 0.30;       ///< clearance beyond the margin from where on more is not better
+  double escape_radius_m = 0.6;  ///< how far to look for a way out of a place too near an obstacle
+  double watch_m = 1.0;  ///< of the way ahead, where something newly seen stops the robot; 0 is off
+  void fields(auto&& f) {
+    f("footprint_radius_m", footprint_radius_m, at_least(0.0));
+    f("margin_m", margin_m, at_least(0.0));
+    f("clearance_weight", clearance_weight, at_least(0.0));
+    f("comfort_m", comfort_m, above(0.0));
+    f("escape_radius_m", escape_radius_m, at_least(0.0));
+    f("watch_m", watch_m, at_least(0.0));
+  }
+  [[nodiscard]] double inflation_m() const { return footprint_radius_m + margin_m; }
+};
+
+/// One search from the robot's pose over the known free cells that keep the footprint and margin
+/// from everything else; answers any goal. It holds a copy of the map: after a new scan, make a new
+/// one.
+struct PathField {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  FloorMap map;  ///< as it was searched
+  NavigationOptions options;
+  Pose2 start;                      ///< T_world_base the search started from
+  std::vector<float> clearance_m;   ///< per cell, see clearances_m()
+  std::vector<double> cost;         ///< length weighted by clearance; infinity where unreachable
+  std::vector<std::size_t> parent;  ///< the cell before, towards the start; kNone at its cell
+  std::size_t start_cell = kNone;
+
+  [[nodiscard]] bool traversable(std::size_t cell) const;
+  [[nodiscard]] bool reachable(std::size_t cell) const;
+  [[nodiscard]] bool reachable(const Eigen::Vector2d& p_world) const;
+  /// Cost of a metre driven in `cell`, 1 to 1 + clearance_weight.
+  [[nodiscard]] double cost_per_metre(std::size_t cell) const;
+};
+
+/// Dijkstra over 8-connected cells; diagonal steps do not cut corners. If the robot stands closer
+/// to something than the inflation allows, the search starts from the traversable cell that is
+/// nearest by a way through known free cells and at most escape_radius_m long, if possible one that
+/// comes no nearer to anything; if there is none, nothing is reachable.
+PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
+                          const NavigationOptions& options);
+
+/// The reachable cell whose centre is nearest to `p_world`, the cheaper one of equals; none if
+/// nothing is reachable.
+std::optional<std::size_t> nearest_reachable(const PathField& field,
+                                             const Eigen::Vector2d& p_world);
+
+}  // namespace vantage

@@ -1,0 +1,93 @@
+/// Which feature to extract next from a view, or that it is not worth while.
+/// [Potthast2016, 4.3]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vantage/planners/objects/information_measure.hpp"
+
+namespace vantage {
+
+/// No feature is worth its while any more.  [Potthast2016, 4.3.1]
+struct GainBelow {
+  static constexpr std::string_view name = "gain_below";
+  double threshold = 0.02;  ///< bits, or bits/s if per cost, >= 0; higher stops earlier, 0 never
+  void fields(auto&& f) { f("threshold", threshold, at_least(0.0)); }
+  [[nodiscard]] bool operator()(double best, std::optional<double> /*last*/) const {
+    return best < threshold;
+  }
+};
+
+/// The best feature is worth less than the one chosen before it was.  [Potthast2016, 4.3.2]
+struct GainDecreasing {
+  static constexpr std::string_view name = "gain_decreasing";
+  void fields(auto&&) {}
+  [[nodiscard]] bool operator()(double best, std::optional<double> last) const {
+    return last.has_value() && best < *last;
+  }
+};
+
+using FeatureStop = std::variant<GainBelow, GainDecreasing>;
+template <>
+inline constexpr std::string_view strategy_family<FeatureStop> = "feature stop";
+
+struct FeatureChoice {
+  InformationMeasure measure = MutualInformation{};
+  std::string first = {};    ///< extracted first at every view; empty: chosen as all others
+  int states = 48;           ///< most probable ones that are told apart, > 0; effort is its square
+  bool about_object = true;  ///< count what is told of the object, not also of its pose
+  bool per_cost = false;     ///< compare gains per second of extraction
+  FeatureStop stop = GainBelow{};
+  void fields(auto&& f) {
+    f("measure", measure);
+    f("first", first);
+    f("states", states, between(1, 100'000));
+    f("about_object", about_object);
+    f("per_cost", per_cost);
+    f("stop", stop);
+  }
+};
+
+struct FeatureOption {
+  const ObservationModel* model = nullptr;
+  const DivergenceTables* tables = nullptr;  ///< of this feature; null: none
+  bool extracted = false;                    ///< from this view
+};
+
+struct FeatureSituation {
+  const ObjectStates& database;
+  const Eigen::VectorXd& belief;  ///< a probability per state
+  std::span<const FeatureOption> features;
+  std::optional<double> last_score = {};  ///< of the feature chosen before at this view, if any
+};
+
+struct FeatureScore {
+  std::size_t feature = 0;
+  InformationEstimate gain;
+  double score = 0.0;  ///< gain in bits, or per second
+};
+
+enum class FeatureReason { first, best, not_worth_while, none_left };
+
+struct FeatureDecision {
+  std::optional<std::size_t> feature;  ///< none: stop
+  FeatureReason reason = FeatureReason::none_left;
+  std::vector<FeatureScore> scores;  ///< of every feature not extracted; none for the first one
+  std::optional<double> score;       ///< of the chosen one, the `last_score` of the next decision
+};
+
+/// The best feature not extracted, of equal ones the cheaper, then the one before. Measures that
+/// sample look at all features with the same random numbers.
+/// @throws ConfigError if no feature is called `choice.first`.
+FeatureDecision choose_feature(const FeatureChoice& choice, const FeatureSituation& situation,
+                               Rng& rng);
+
+}  // namespace vantage

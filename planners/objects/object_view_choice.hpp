@@ -1,0 +1,110 @@
+/// From where to look at an object next, and when that is enough.
+/// [Potthast2016, 4.4]
+///
+/// Motions are turns about the object; what is believed after each, before anything is measured
+/// there, comes from the caller.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vantage/planners/objects/information_measure.hpp"
+
+namespace vantage {
+
+/// Any view, each as likely as the other.
+struct RandomObjectView {
+  static constexpr std::string_view name = "random";
+  void fields(auto&&) {}
+};
+
+/// The view most nearly opposite; with views not taken twice the way is a star.
+/// [Potthast2016, 4.5.5]
+struct StarView {
+  static constexpr std::string_view name = "star";
+  void fields(auto&&) {}
+};
+
+/// A measure of information chooses the view that it rates highest.
+using ObjectViewChoice = std::variant<MutualInformation, InformationUpperBound,
+                                      MeanFeatureInformation, MonteCarloInformation, LossOfEntropy,
+                                      JeffreysDivergence, RandomObjectView, StarView>;
+template <>
+inline constexpr std::string_view strategy_family<ObjectViewChoice> = "object view choice";
+
+struct ObjectViewOptions {
+  ObjectViewChoice choice = MutualInformation{};
+  int states = 48;            ///< most probable ones that are told apart, > 0; effort is its square
+  bool about_object = true;   ///< count what is told of the object, not also of its pose
+  double weight_per_s = 0.0;  ///< cost of an action is the weighted sum of its time, path and
+  double weight_per_m = 0.0;  ///< energy; weights >= 0, higher prefers cheap actions. All 0: gains
+  double weight_per_j = 0.0;  ///< are compared as they are, otherwise per cost
+  double visited_weight = 0.0;  ///< of a view taken before, [0, 1]; 0: not while others are left
+  void fields(auto&& f) {
+    f("choice", choice);
+    f("states", states, between(1, 100'000));
+    f("about_object", about_object);
+    f("weight_per_s", weight_per_s, at_least(0.0));
+    f("weight_per_m", weight_per_m, at_least(0.0));
+    f("weight_per_j", weight_per_j, at_least(0.0));
+    f("visited_weight", visited_weight, between(0.0, 1.0));
+  }
+};
+
+struct ObjectViewAction {
+  double yaw_rad = 0.0;  ///< turn about the object from where the sensor is
+  double time_s = 0.0;
+  double path_m = 0.0;
+  double energy_j = 0.0;
+  bool visited = false;  ///< the view it leads to was taken before
+};
+
+struct ObjectViewSituation {
+  const ObjectStates& database;
+  FeatureModels features;                     ///< that will be extracted at the view
+  const DivergenceTables* tables = nullptr;   ///< of these features together; null: none
+  std::span<const ObjectViewAction> actions;  ///< at least one
+  std::span<const Eigen::VectorXd>
+      predicted_belief;  ///< after each action, a probability per state
+};
+
+struct ObjectViewScore {
+  InformationEstimate gain;  ///< 0 of choices that do not ask for information
+  double cost = 1.0;         ///< what the gain was divided by
+  double score = 0.0;        ///< what the choice compares; -inf: left out
+};
+
+struct ObjectViewDecision {
+  std::size_t action = 0;
+  std::vector<ObjectViewScore> scores;  ///< of each action
+};
+
+/// The action with the highest score, of equal ones the first. Measures that sample look at all
+/// actions with the same random numbers, so that differences are less noisy than values.
+ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
+                                      const ObjectViewSituation& situation, Rng& rng);
+
+/// When to look no further.
+struct EnoughViews {
+  double object_probability = 0.9;  ///< of an object in any pose, (0, 1]; higher looks more often
+  double entropy_bits = 0.1;        ///< of the state, >= 0; lower looks more often
+  void fields(auto&& f) {
+    f("object_probability", object_probability, Range{0.0, 1.0, true});
+    f("entropy_bits", entropy_bits, at_least(0.0));
+  }
+};
+
+enum class EnoughReason { probability, entropy };
+
+/// An object is more probable, or the state less uncertain, than `enough` asks for; none: look on.
+/// @param belief a probability per state
+std::optional<EnoughReason> seen_enough(const EnoughViews& enough, const ObjectStates& database,
+                                        const Eigen::VectorXd& belief);
+
+}  // namespace vantage

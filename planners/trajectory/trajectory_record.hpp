@@ -1,0 +1,62 @@
+/// What is recorded at every waypoint of a trajectory flight.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/geometry/pose.hpp"
+
+namespace vantage {
+
+/// What an object is looked at from next.
+struct LookTarget {
+  int object = 0;     ///< id of FoundObject
+  int direction = 0;  ///< not used yet
+  Eigen::Vector3d p_world_object_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_world_view_m = Eigen::Vector3d::Zero();
+  double entropy_nats = 0.0;
+};
+
+/// The next waypoints as one planner wants them, x, y, z, yaw a column; the first is the one that
+/// is flown to already.
+struct WayOn {
+  std::string planner;
+  Eigen::Matrix4Xd points;
+  double cost = 0.0;
+  bool same_spline = false;  ///< the plan as it is flown, without another spline through it
+  /// Least of its spline up to the last of the points, or its end, from the body's centre, by the
+  /// map.
+  double clearance_m = 0.0;
+  bool clear = true;  ///< enough of it
+};
+
+struct WaypointRecord {
+  int waypoint = 0;  ///< of the path, 0 is where it starts
+  double time_s = 0.0;
+  Pose T_world_body = Pose::Identity();  ///< as estimated, when it was passed
+  // The plan that was flown to here; nothing at the first waypoint:
+  std::string planner;
+  double plan_time_s = 0.0;  ///< measured
+  double latency_s = 0.0;    ///< charged
+  bool late = false;         ///< measured above charged
+  bool missed = false;       ///< one came before the plan
+  double cost = 0.0;
+  double planned_clearance_m = 0.0;
+  std::optional<LookTarget> target;
+  std::vector<Eigen::Vector4d> plan;  ///< from the waypoint on that it was made for
+  // What is known:
+  int objects = 0;                 ///< found
+  int known = 0;                   ///< of those
+  int looks = 0;                   ///< observations so far
+  double mean_entropy_nats = 0.0;  ///< of the objects found
+  // Truth:
+  double clearance_m = 0.0;       ///< least so far
+  double tracking_error_m = 0.0;  ///< mean so far
+  double flown_m = 0.0;
+  int collisions = 0;
+};
+
+}  // namespace vantage

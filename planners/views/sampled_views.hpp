@@ -1,0 +1,41 @@
+/// Views proposed where a map is free, for robots that bring none.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "vantage/planners/candidate.hpp"
+#include "vantage/belief/map/octomap_file.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+
+struct SampledViews {
+  int positions = 30;                   ///< places; more cost planning time
+  int headings = 8;                     ///< views at each place, evenly spaced; higher aims better
+  std::optional<double> height_m = {};  ///< world z of the sensor; none: any height that is free
+  double clearance_m = 0.2;  ///< from every known occupied cell; higher keeps clear of obstacles
+  double pitch_rad = 0.0;    ///< of every view; positive looks down
+  void fields(auto&& f) {
+    f("positions", positions, between(1, 1000));
+    f("headings", headings, between(1, 20));
+    f("height_m", height_m, between(-1e6, 1e6));
+    f("clearance_m", clearance_m, between(0.0, 1e6));
+    f("pitch_rad", pitch_rad, between(-std::numbers::pi / 2.0, std::numbers::pi / 2.0));
+  }
+};
+
+/// Sensor poses (x forward, z up; world frame) in free cells of the map inside `within_m`, spread
+/// out: of ten times as many places drawn evenly, each taken lies farthest from those before it.
+/// Ids count up place by place. Fewer places if fewer have the clearance. The effort is that of
+/// reading the map a few times, whatever its extent.
+/// @throws ConfigError if the options are out of range, InputError naming the map if no place will
+/// do.
+std::vector<Candidate> sample_views(const SampledViews& options, const OctomapFile& map,
+                                    const Eigen::AlignedBox3d& within_m, Rng& rng);
+
+}  // namespace vantage

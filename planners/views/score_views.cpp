@@ -1,0 +1,85 @@
+#include "vantage/planners/views/score_views.hpp"
+
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "vantage/planners/swept_gain.hpp"
+
+namespace vantage {
+namespace {
+
+/// Views next to each other in the list, and the cells they reach together.
+struct Batch {
+  CellBlock reach;
+  std::vector<Candidate> views;
+  std::vector<std::size_t> places;  ///< of the views in the list
+};
+
+CellBlock reach_of(const OctomapFile& map, const CellBlock& region, const Candidate& view,
+                   const FieldOfView& sensor) {
+  const Eigen::Vector3d p_sensor = view.T_world_sensor.translation();
+  const Eigen::Vector3d range_m = Eigen::Vector3d::Constant(sensor.range_max_m);
+  return map.cells_in({p_sensor - range_m, p_sensor + range_m}).cut(region);
+}
+
+bool fits(const CellBlock& reach, const ScoredRegion& region) {
+  return reach.coarsened(region.coarsen).count() <= kMostScoredCells;
+}
+
+void require_fit(const OctomapFile& map, const CellBlock& reach, const ScoredRegion& region,
+                 const Candidate& view) {
+  if (fits(reach, region)) return;
+  const CellBlock coarse = reach.coarsened(region.coarsen);
+  const Eigen::Array3i cells = coarse.end - coarse.begin;
+  throw InputError(fmt::format(
+      "{}: view {} reaches over {} x {} x {} cells of {} m, more than 2^25: lower "
+      "sensor.range_max_m, narrow region.min_m and region.max_m, or raise region.coarsen",
+      map.name(), view.id, cells.x(), cells.y(), cells.z(), region.cell_m(map)));
+}
+
+/// As few batches as fit, so that views that overlap share their tables.
+std::vector<Batch> batches_of(const OctomapFile& map, const ScoredRegion& region,
+                              std::span<const Candidate> views, const FieldOfView& sensor) {
+  const CellBlock wanted = region.cells(map);
+  std::vector<Batch> batches;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const CellBlock reach = reach_of(map, wanted, views[i], sensor);
+    if (reach.empty()) continue;
+    require_fit(map, reach, region, views[i]);
+    if (batches.empty() || !fits(batches.back().reach.joined(reach), region)) {
+      batches.emplace_back();
+    }
+    Batch& batch = batches.back();
+    batch.reach = batch.reach.joined(reach);
+    batch.views.push_back(views[i]);
+    batch.places.push_back(i);
+  }
+  return batches;
+}
+
+}  // namespace
+
+CellBlock ScoredRegion::cells(const OctomapFile& map) const {
+  Eigen::AlignedBox3d box_m = map.box_of(map.known());
+  if (min_m) box_m.min() = Eigen::Vector3d::Map(min_m->data());
+  if (max_m) box_m.max() = Eigen::Vector3d::Map(max_m->data());
+  return map.cells_in(box_m);
+}
+
+std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& region,
+                                const Gain& gain, std::span<const Candidate> views,
+                                const FieldOfView& sensor, int threads) {
+  expects(!std::holds_alternative<AdaptiveGain>(gain), "a gain that needs no run");
+  check_options(sensor, "sensor");
+  check_options(region, "region");
+  std::vector<double> gains(views.size(), 0.0);
+  for (const Batch& batch : batches_of(map, region, views, sensor)) {
+    const OccupancyGrid grid = map.grid_of(batch.reach, region.coarsen);
+    const auto found = view_gains_bits(gain, {grid}, batch.views, sensor, threads);
+    for (std::size_t i = 0; i < found.size(); ++i) gains[batch.places[i]] = found[i];
+  }
+  return gains;
+}
+
+}  // namespace vantage

@@ -1,0 +1,38 @@
+/// Which views are proposed.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <numbers>
+#include <vector>
+
+#include "vantage/planners/candidate.hpp"
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+/// Views from a circle round the region of interest.  [Potthast2016, 3.3.3]
+struct RingOfViews {
+  int positions = 10;            ///< on the circle, evenly spaced; more cost planning time
+  double radius_m = 1.2;         ///< of the circle; higher sees more of the region, less finely
+  double height_m = 1.05;        ///< of the sensor above the floor; higher looks over objects
+  double start_angle_rad = 0.0;  ///< world bearing of the first position from the centre
+  /// Turns of the view away from the centre, left positive; one view per position and offset.
+  std::vector<double> yaw_offsets_rad = {-std::numbers::pi / 12.0, 0.0, std::numbers::pi / 12.0};
+  void fields(auto&& f) {
+    f("positions", positions, between(1, 100000));
+    f("radius_m", radius_m, above(0.0));
+    f("height_m", height_m, above(0.0));
+    f("start_angle_rad", start_angle_rad);
+    f("yaw_offsets_rad", yaw_offsets_rad, between(-std::numbers::pi, std::numbers::pi));
+  }
+  void check() const;  ///< at least one offset
+};
+
+/// Level sensor poses (x forward, z up; world frame) that face the axis through `centre_m` plus a
+/// yaw offset. Ids count up position by position, offset by offset. Of the centre only x and y
+/// matter: the height is above the floor, world z = 0.
+/// @throws ConfigError if the options are out of range.
+std::vector<Candidate> ring_of_views(const RingOfViews& ring, const Eigen::Vector3d& centre_m);
+
+}  // namespace vantage

@@ -1,0 +1,42 @@
+/// The inner loops of the visibility sweep: rows of cells, in single precision. They are compiled
+/// for AVX2 as well and dispatched at run time; both give the same bits.
+#pragma once
+
+#include "vantage/planners/visibility/sweep_tables.hpp"
+#include "vantage/geometry/view_cone.hpp"
+
+namespace vantage {
+
+/// out[j] = (1 - fraction) a[j] + fraction b[j] for j in [begin, end).
+void blend_rows(const float* a, const float* b, float fraction, int begin, int end, float* out);
+
+/// Less light than this is taken for none: interpolation lets a trace of it behind every edge.
+inline constexpr float kDark = 0.002F;
+
+/// A row of cells and what stands between it and the layer before; arrays are indexed by the place
+/// i along the row.
+struct SweepRow {
+  const float* arriving;        ///< light that arrives in the layer before, blended to this row
+  const float* cells;           ///< of this row, as SweepTables::layers has them
+  const float* straight;        ///< of the layer before, right before this row
+  const float* slanted;         ///< of the layer before, in the row the rays come through
+  const float* straight_depth;  ///< optical depth of the cells there, were they unobserved
+  const float* slanted_depth;   ///< likewise
+  float source = 0.0F;          ///< place of the sensor along the row, cells
+  float depth = 1.0F;           ///< layers from the sensor to this one, >= 1
+  float across = 0.0F;          ///< cells that the rays move across the rows, per layer
+};
+
+/// For i in [begin, end), all with floor((source - i) / depth) == shift: the light that arrives,
+/// taken where the ray from the sensor crossed the layer before and weakened by the cells it went
+/// through since, and what it is worth. Up to kLanes - 1 places beyond `end` are written too.
+void advance_row(const SweepRow& row, int shift, int begin, int end, float* visible,
+                 float* seen_worth);
+
+/// Sum of worth[i] over i in [begin, end); reads up to kLanes - 1 beyond.
+double sum_run(const float* worth, int begin, int end);
+
+/// Sum of worth[i] over the i in [begin, end) that the view holds; reads up to kLanes - 1 beyond.
+double sum_in_view(const ConeRow& view, const float* worth, int begin, int end);
+
+}  // namespace vantage

@@ -1,0 +1,99 @@
+#include "vantage/planners/visibility/sweep_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vantage/core/parallel_for.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+/// Copies a z slice, x fastest, to its places in the layers of equal x and of equal y.
+void distribute(const GridFrame& frame, std::size_t z, const float* slice, float* x_layers,
+                float* y_layers) {
+  const auto nx = static_cast<std::size_t>(frame.cells.x());
+  const auto ny = static_cast<std::size_t>(frame.cells.y());
+  const auto nz = static_cast<std::size_t>(frame.cells.z());
+  for (std::size_t y = 0; y < ny; ++y) {
+    std::copy_n(slice + y * nx, nx, y_layers + (y * nz + z) * nx);
+  }
+  for (std::size_t x = 0; x < nx; ++x) {
+    float* row = x_layers + (x * nz + z) * ny;
+    for (std::size_t y = 0; y < ny; ++y) row[y] = slice[y * nx + x];
+  }
+}
+
+}  // namespace
+
+SweepAxes sweep_axes(int w) {
+  switch (w) {
+    case 0: return {.u = 1, .v = 2, .w = 0};
+    case 1: return {.u = 0, .v = 2, .w = 1};
+    default: return {.u = 0, .v = 1, .w = 2};
+  }
+}
+
+SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads)
+    : frame(grid.frame), blocks_(fading.transmission.layout) {
+  expects((blocks_.cells == frame.cells).all(), "transmissions for a grid of this size");
+  BlockField unobserved = fading.transmission;
+  for (double& depth : unobserved.per_block) {
+    depth = std::min(-std::log(depth), static_cast<double>(kOpaque));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    depth_rows_[static_cast<std::size_t>(axis)] = depth_rows(axis, unobserved);
+  }
+  for (auto& axis : layers) {
+    axis = std::make_unique_for_overwrite<float[]>(grid.size() + kLanes);
+    std::fill_n(&axis[grid.size()], kLanes, 0.0F);
+  }
+  depth_ = std::make_unique_for_overwrite<float[]>(grid.size());
+  parallel_for(static_cast<std::size_t>(frame.cells.z()), threads,
+               [&](std::size_t z) { fill_slice(grid, fading, static_cast<int>(z)); });
+}
+
+void SweepTables::fill_slice(const OccupancyGrid& grid, const Fading& fading, int z) {
+  const auto nx = static_cast<std::size_t>(frame.cells.x());
+  auto& [x_layers, y_layers, z_layers] = layers;
+  const std::size_t begin = frame.index({0, 0, z});
+  std::size_t cell = begin;
+  for (int y = 0; y < frame.cells.y(); ++y) {
+    const float* unobserved = row_of_depths(2, y, z);
+    for (std::size_t x = 0; x < nx; ++x, ++cell) {
+      const bool occupied = grid.state(cell) == CellState::occupied;
+      const float worth = occupied ? -1.0F : fading.worth_of_cell(grid.log_odds[cell]);
+      z_layers[cell] = worth;
+      depth_[cell] = occupied ? kOpaque : worth > 0.0F ? unobserved[x] : 0.0F;
+    }
+  }
+  distribute(frame, static_cast<std::size_t>(z), &z_layers[begin], x_layers.get(), y_layers.get());
+}
+
+SweepTables::DepthRows SweepTables::depth_rows(int axis, const BlockField& depth) const {
+  const SweepAxes axes = sweep_axes(axis);
+  const int length = frame.cells[axes.u];
+  DepthRows made;
+  made.stride = static_cast<std::size_t>(length) + 2 * LightLayer::kPadding;
+  Eigen::Array3i block;
+  for (block[axes.w] = 0; block[axes.w] < blocks_.blocks[axes.w]; ++block[axes.w]) {
+    for (block[axes.v] = 0; block[axes.v] < blocks_.blocks[axes.v]; ++block[axes.v]) {
+      for (int i = -LightLayer::kPadding; i < length + LightLayer::kPadding; ++i) {
+        block[axes.u] = blocks_.block_of(axes.u, std::clamp(i, 0, length - 1));
+        const std::size_t index = blocks_.index(block.x(), block.y(), block.z());
+        made.rows.push_back(static_cast<float>(depth.per_block[index]));
+      }
+    }
+  }
+  return made;
+}
+
+const float* SweepTables::row_of_depths(int axis, int v, int w) const {
+  const SweepAxes axes = sweep_axes(axis);
+  const DepthRows& table = depth_rows_[static_cast<std::size_t>(axis)];
+  const int row =
+      blocks_.block_of(axes.w, w) * blocks_.blocks[axes.v] + blocks_.block_of(axes.v, v);
+  return &table.rows[static_cast<std::size_t>(row) * table.stride + LightLayer::kPadding];
+}
+
+}  // namespace vantage

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "vantage/planners/visibility/attenuated_ray.hpp"
+#include "vantage/planners/visibility/light_layer.hpp"
+#include "vantage/geometry/grid_frame.hpp"
+
+namespace vantage {
+
+inline constexpr float kOpaque = 64.0F;  ///< optical depth from which on a cell stops all light
+/// Row loops work on so many cells at a time, and so may read and write beyond a row's end.
+inline constexpr int kLanes = 8;
+
+/// Axes of the sweep along w: u along the rows of a layer, v across them.
+struct SweepAxes {
+  int u = 0;
+  int v = 1;
+  int w = 2;
+};
+SweepAxes sweep_axes(int w);
+
+/// What the sweep reads of the map, three times: once for each axis along which it goes from layer
+/// to layer, with each layer contiguous.
+struct SweepTables {
+  GridFrame frame;
+  /// Cells in layers of equal x, y, z. In a layer, the rows along u come one after the other in the
+  /// order of v. So layers[2] has the order of `frame.index`.
+  /// > 0: unobserved, and worth that much to see; 0: free; < 0: occupied.
+  std::array<std::unique_ptr<float[]>, 3> layers;
+
+  SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads);
+
+  /// -ln p(a beam passes the cell), of index `cell` in the order of `frame.index`.
+  [[nodiscard]] float optical_depth(std::size_t cell) const { return depth_[cell]; }
+
+  /// -ln(transmission) along the row of the cells (., v) in layer w of an axis, were they all
+  /// unobserved. Readable up to LightLayer::kPadding places beyond either end.
+  [[nodiscard]] const float* row_of_depths(int axis, int v, int w) const;
+
+ private:
+  /// Rows differ from block to block only.
+  struct DepthRows {
+    std::size_t stride = 0;
+    std::vector<float> rows;
+  };
+  void fill_slice(const OccupancyGrid& grid, const Fading& fading, int z);
+  [[nodiscard]] DepthRows depth_rows(int axis, const BlockField& depth) const;
+
+  BlockLayout blocks_;
+  std::array<DepthRows, 3> depth_rows_;
+  std::unique_ptr<float[]> depth_;  ///< of each cell as it is
+};
+
+}  // namespace vantage

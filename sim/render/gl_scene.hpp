@@ -1,0 +1,42 @@
+/// MuJoCo's drawing resources inside whatever OpenGL context is current: shared by the renderers
+/// that differ in where the context comes from.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <vector>
+
+#include "vantage/sim/render/renderer.hpp"
+
+namespace vantage {
+
+/// Owns an mjvScene and an mjrContext. The context that was current at construction must be current
+/// again at each call and at destruction.
+class GlScene {
+ public:
+  /// @throws RendererError if MuJoCo cannot use the current context.
+  explicit GlScene(const mjModel& model);
+  GlScene(const GlScene&) = delete;
+  GlScene& operator=(const GlScene&) = delete;
+  ~GlScene();
+
+  /// Draws into the context's default framebuffer of that size and reads the images back.
+  void render(const mjData& data, const CameraView& view, const RenderRequest& request,
+              int width_px, int height_px, RenderedImages& out);
+
+  [[nodiscard]] const mjModel& model() const { return *model_; }
+
+ private:
+  void update(const mjData& data, const CameraView& view, const RenderRequest& request);
+  void add_markers(const std::vector<Marker>& markers);
+  void read_rgb(const mjrRect& viewport, RenderedImages& out);
+  void read_depth_and_segmentation(const mjrRect& viewport, RenderedImages& out);
+
+  const mjModel* model_;
+  mjvScene scene_{};
+  mjrContext context_{};
+  std::vector<float> buffer_depth_;  ///< scratch, bottom row first
+  std::vector<unsigned char> buffer_rgb_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,33 @@
+/// Pictures of a scene whose things are put where they shall be, without physics.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/world.hpp"
+
+namespace vantage {
+
+/// A model with its state and renderer. Use it from the thread that made it.
+class PosedScene {
+ public:
+  /// @throws RendererError if there is no OpenGL context to be had.
+  PosedScene(ModelPtr model, int width_px, int height_px);
+
+  /// Moves a body that the model declares as mocap.
+  void set_pose(std::string_view body, const Pose& T_world_body);
+  /// Draws what `camera` of the model sees, every geom as it was posed last.
+  /// @throws RendererError if OpenGL fails.
+  void render(std::string_view camera, const RenderRequest& request, RenderedImages& out);
+  /// Id of a geom, as segmentation tells it.
+  [[nodiscard]] int geom_id(std::string_view name) const;
+
+ private:
+  ModelPtr model_;
+  DataPtr data_;
+  std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,127 @@
+#include "vantage/sim/robots/drive.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace vantage {
+namespace {
+
+/// Distance of the footprint's corners from its centre: makes one speed of turning and moving.
+constexpr double kCornerRadius_m = 0.47;
+constexpr double kPushing_m_s = 0.1;
+constexpr double kMoving_m_s = 0.02;
+constexpr double kLongestBraking_s = 3.0;
+constexpr double kGrace_s = 10.0;
+
+double corner_speed(const Twist2& twist) {
+  return std::hypot(twist.vx_m_s, twist.vy_m_s) + kCornerRadius_m * std::abs(twist.wz_rad_s);
+}
+
+class Driver {
+ public:
+  Driver(World& world, const Pr2& robot, Odometry& odometry, const DriveOptions& options)
+      : world_(world), robot_(robot), odometry_(odometry), options_(options) {}
+
+  DriveResult run(const DrivePath& path, const KeepDriving& keep_driving) {
+    const double start_s = world_.time_s();
+    result_.status = follow(path, start_s + allowed_s(path), keep_driving);
+    brake();
+    result_.duration_s = world_.time_s() - start_s;
+    return result_;
+  }
+
+  void stand_until(double time_s) {
+    while (world_.time_s() < time_s) tick({});
+  }
+
+ private:
+  [[nodiscard]] double allowed_s(const DrivePath& path) const {
+    const BaseControllerOptions& control = options_.controller;
+    const double ideal_s =
+        path.length_m() / control.speed_m_s + std::abs(path.turn_rad()) / control.turn_rate_rad_s;
+    return kGrace_s + options_.timeout_factor * ideal_s;
+  }
+
+  DriveStatus follow(const DrivePath& path, double deadline_s, const KeepDriving& keep_driving) {
+    PathFollowing following;
+    double pushing_s = 0.0;
+    while (world_.time_s() < deadline_s) {
+      const Twist2 command =
+          follow_path(path, odometry_.estimate(), world_.options().control_period_s,
+                      options_.controller, following);
+      tick(command);
+      if (keep_driving && !keep_driving(world_, odometry_.estimate())) return DriveStatus::stopped;
+      pushing_s = is_pushing(command) ? pushing_s + world_.options().control_period_s : 0.0;
+      if (pushing_s >= options_.stuck_time_s) return DriveStatus::stuck;
+      if (!is_at(path.goal(), 0.5)) continue;
+      brake();
+      if (is_at(path.goal(), 1.0) && is_at_rest()) return DriveStatus::arrived;
+      following = {.arc_m = following.arc_m};
+    }
+    return DriveStatus::timeout;
+  }
+
+  /// Within `share` of the tolerance of the goal.
+  [[nodiscard]] bool is_at(const Pose2& goal, double share) const {
+    const Pose2 error = compose(inverse(odometry_.estimate()), goal);
+    return std::hypot(error.x_m, error.y_m) < share * options_.goal_tolerance_m &&
+           std::abs(error.yaw_rad) < share * options_.goal_tolerance_rad;
+  }
+
+  [[nodiscard]] bool is_pushing(const Twist2& command) const {
+    return corner_speed(command) > kPushing_m_s &&
+           corner_speed(robot_.twist(world_)) < kMoving_m_s && robot_.contacts(world_) > 0;
+  }
+
+  [[nodiscard]] bool is_at_rest() const {
+    return corner_speed(robot_.twist(world_)) < options_.rest_speed_m_s;
+  }
+
+  void brake() {
+    const double latest_s = world_.time_s() + kLongestBraking_s;
+    do {
+      tick({});
+    } while (!is_at_rest() && world_.time_s() < latest_s);
+  }
+
+  void tick(const Twist2& command) {
+    const Pose2 before = robot_.T_world_base(world_);
+    robot_.command_twist(world_, command);
+    world_.advance_tick();
+    const Pose2 after = robot_.T_world_base(world_);
+    odometry_.update(after);
+    result_.path_length_m += std::hypot(after.x_m - before.x_m, after.y_m - before.y_m);
+  }
+
+  World& world_;
+  const Pr2& robot_;
+  Odometry& odometry_;
+  const DriveOptions& options_;
+  DriveResult result_;
+};
+
+}  // namespace
+
+std::string_view to_string(DriveStatus status) {
+  switch (status) {
+    case DriveStatus::arrived: return "arrived";
+    case DriveStatus::stuck: return "stuck";
+    case DriveStatus::stopped: return "stopped";
+    case DriveStatus::timeout: return "timeout";
+  }
+  return "unknown";
+}
+
+DriveResult drive(World& world, const Pr2& robot, Odometry& odometry, std::span<const Pose2> path,
+                  const DriveOptions& options, const KeepDriving& keep_driving) {
+  check_options(options, "drive");
+  return Driver(world, robot, odometry, options)
+      .run(DrivePath(odometry.estimate(), path), keep_driving);
+}
+
+void stand(World& world, const Pr2& robot, Odometry& odometry, double duration_s) {
+  const DriveOptions options;
+  Driver(world, robot, odometry, options).stand_until(world.time_s() + duration_s);
+}
+
+}  // namespace vantage

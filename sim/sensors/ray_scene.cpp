@@ -1,0 +1,226 @@
+#include "vantage/sim/sensors/ray_scene.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "vantage/sim/sensors/embree_mesh.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+using RowMajor3d = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+struct SolidGeom {
+  int geom_id = -1;
+  int body_id = -1;
+  int type = mjGEOM_NONE;
+  bool moving = false;
+  Eigen::Vector3d size_m;
+  Eigen::AlignedBox3d box_m;         ///< in the geom's frame; unused for planes
+  const EmbreeMesh* mesh = nullptr;  ///< of meshes and height fields
+  Eigen::Vector3d p_world_m;
+  RowMajor3d R_world;
+};
+
+void place(SolidGeom& geom, const mjData& data) {
+  geom.p_world_m = Eigen::Map<const Eigen::Vector3d>(data.geom_xpos + 3 * geom.geom_id);
+  geom.R_world = Eigen::Map<const RowMajor3d>(data.geom_xmat + 9 * geom.geom_id);
+}
+
+/// Distance along the ray, infinity if it is not below `range_max_m`.
+double cast_geom(const SolidGeom& geom, const Eigen::Vector3d& p, const Eigen::Vector3d& d,
+                 double range_max_m) {
+  if (geom.mesh != nullptr) {
+    return geom.mesh->cast(geom.R_world.transpose() * (p - geom.p_world_m),
+                           geom.R_world.transpose() * d, range_max_m);
+  }
+  const double distance = mju_rayGeom(geom.p_world_m.data(), geom.R_world.data(),
+                                      geom.size_m.data(), p.data(), d.data(), geom.type);
+  return distance >= 0.0 && distance < range_max_m ? distance
+                                                   : std::numeric_limits<double>::infinity();
+}
+
+/// A ray on its way through Embree; the base class must come first.
+struct RayQuery : RTCIntersectContext {
+  Eigen::Vector3d p_world_m;
+  Eigen::Vector3d direction;
+  int exclude_body = -1;
+  RayHit best;
+
+  /// @return whether `geom` is the nearest so far.
+  bool meet(const SolidGeom& geom) {
+    if (geom.body_id == exclude_body) return false;
+    const double limit = std::nextafter(best.distance_m, std::numeric_limits<double>::infinity());
+    const double distance = cast_geom(geom, p_world_m, direction, limit);
+    const bool nearer =
+        distance < best.distance_m || (distance == best.distance_m && std::isfinite(distance) &&
+                                       (best.geom_id < 0 || geom.geom_id < best.geom_id));
+    if (nearer) best = {distance, geom.geom_id};
+    return nearer;
+  }
+};
+
+/// Rounded up to float with room for a tie, so that Embree does not skip what lies just as near.
+float search_limit(double distance_m) { return static_cast<float>(distance_m * 1.00001 + 1e-5); }
+
+Eigen::AlignedBox3d world_box(const SolidGeom& geom) {
+  const Eigen::Vector3d centre = geom.p_world_m + geom.R_world * geom.box_m.center();
+  const Eigen::Vector3d half = geom.R_world.cwiseAbs() * (0.5 * geom.box_m.sizes());
+  // Padded for what the ray's origin and the box lose in float.
+  const double pad = 1e-5 + 1e-6 * (centre.cwiseAbs() + half).maxCoeff();
+  return {centre - half - Eigen::Vector3d::Constant(pad),
+          centre + half + Eigen::Vector3d::Constant(pad)};
+}
+
+}  // namespace
+
+class RayScene::Impl {
+ public:
+  Impl(const mjModel& model, const mjData& data, const GeomFilter& filter);
+  void update(const mjData& data);
+  [[nodiscard]] RayHit cast(RayQuery& query) const;
+
+ private:
+  void add(const mjModel& model, const mjData& data, int geom_id);
+  const EmbreeMesh* mesh_of(const mjModel& model, int geom_id);
+  void commit();
+  static void bounds(const RTCBoundsFunctionArguments* arguments);
+  static void intersect(const RTCIntersectFunctionNArguments* arguments);
+
+  EmbreeDevice device_;
+  std::map<std::pair<int, int>, std::unique_ptr<EmbreeMesh>> meshes_;  ///< by geom type and asset
+  std::vector<SolidGeom> planes_;  ///< unbounded and few: tested one by one
+  std::vector<SolidGeom> bounded_;
+  EmbreeScene scene_;
+};
+
+// One thread builds: the same tree on every run.
+RayScene::Impl::Impl(const mjModel& model, const mjData& data, const GeomFilter& filter)
+    : device_(rtcNewDevice("threads=1")) {
+  if (!device_) throw Error(ExitCode::internal, "Embree: no device for ray casting");
+  scene_.reset(rtcNewScene(device_.get()));
+  for (const int geom_id : solid_geoms(model, filter)) add(model, data, geom_id);
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(bounded_.size()));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(geometry, &Impl::bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, &Impl::intersect);
+  rtcAttachGeometryByID(scene_.get(), geometry, 0);
+  rtcReleaseGeometry(geometry);
+  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  commit();
+}
+
+void RayScene::Impl::add(const mjModel& model, const mjData& data, int geom_id) {
+  SolidGeom geom;
+  geom.geom_id = geom_id;
+  geom.body_id = model.geom_bodyid[geom_id];
+  geom.type = model.geom_type[geom_id];
+  geom.moving = is_moving_geom(model, geom_id);
+  geom.size_m = Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom_id);
+  place(geom, data);
+  if (geom.type == mjGEOM_PLANE) {
+    planes_.push_back(geom);
+    return;
+  }
+  geom.mesh = mesh_of(model, geom_id);
+  if (geom.mesh != nullptr) {
+    geom.box_m = geom.mesh->box();
+  } else {
+    const Eigen::Vector3d half = primitive_half_extent(model, geom_id);
+    geom.box_m = {-half, half};
+  }
+  bounded_.push_back(geom);
+}
+
+const EmbreeMesh* RayScene::Impl::mesh_of(const mjModel& model, int geom_id) {
+  const int type = model.geom_type[geom_id];
+  if (type != mjGEOM_MESH && type != mjGEOM_HFIELD) return nullptr;
+  auto& mesh = meshes_[{type, model.geom_dataid[geom_id]}];
+  if (!mesh) {
+    mesh = std::make_unique<EmbreeMesh>(device_.get(), geom_triangles(model, geom_id, 1.0));
+  }
+  return mesh.get();
+}
+
+void RayScene::Impl::commit() {
+  rtcCommitGeometry(rtcGetGeometry(scene_.get(), 0));
+  rtcCommitScene(scene_.get());
+}
+
+void RayScene::Impl::update(const mjData& data) {
+  for (auto* geoms : {&planes_, &bounded_}) {
+    for (SolidGeom& geom : *geoms) {
+      if (geom.moving) place(geom, data);
+    }
+  }
+  commit();
+}
+
+void RayScene::Impl::bounds(const RTCBoundsFunctionArguments* arguments) {
+  const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+  const Eigen::AlignedBox3d box = world_box(self.bounded_[arguments->primID]);
+  const Eigen::Vector3f low = box.min().cast<float>();
+  const Eigen::Vector3f high = box.max().cast<float>();
+  *arguments->bounds_o = {low.x(), low.y(), low.z(), 0.0F, high.x(), high.y(), high.z(), 0.0F};
+}
+
+void RayScene::Impl::intersect(const RTCIntersectFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+  auto& query = *static_cast<RayQuery*>(arguments->context);
+  if (!query.meet(self.bounded_[arguments->primID])) return;
+  RTCRayN* ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
+  RTCRayN_tfar(ray, arguments->N, 0) = search_limit(query.best.distance_m);
+}
+
+RayHit RayScene::Impl::cast(RayQuery& query) const {
+  const double range_max_m = query.best.distance_m;
+  for (const SolidGeom& plane : planes_) query.meet(plane);
+  const Eigen::Vector3f origin = query.p_world_m.cast<float>();
+  const Eigen::Vector3f direction = query.direction.cast<float>();
+  RTCRayHit ray{};
+  ray.ray = {origin.x(),
+             origin.y(),
+             origin.z(),
+             0.0F,
+             direction.x(),
+             direction.y(),
+             direction.z(),
+             0.0F,
+             search_limit(query.best.distance_m),
+             0xFFFFFFFFU,
+             0,
+             0};
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene_.get(), &query, &ray);
+  return query.best.hit() && query.best.distance_m <= range_max_m ? query.best : RayHit{};
+}
+
+RayScene::RayScene(const mjModel& model, const mjData& data, const GeomFilter& filter)
+    : impl_(std::make_unique<Impl>(model, data, filter)) {}
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+void RayScene::update(const mjData& data) { impl_->update(data); }
+
+RayHit RayScene::cast(const Eigen::Vector3d& p_world_m, const Eigen::Vector3d& direction,
+                      double range_max_m, int exclude_body) const {
+  expects(std::abs(direction.squaredNorm() - 1.0) < 1e-9, "ray direction of length 1");
+  RayQuery query;
+  rtcInitIntersectContext(&query);
+  query.p_world_m = p_world_m;
+  query.direction = direction;
+  query.exclude_body = exclude_body;
+  query.best.distance_m = range_max_m;
+  return impl_->cast(query);
+}
+
+}  // namespace vantage

@@ -1,0 +1,119 @@
+/// The simulated world: MuJoCo's model and state behind RAII, stepped in control periods.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vantage/sim/world/scene.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/geometry/pose.hpp"
+
+struct mjData_;
+using mjData = mjData_;
+
+namespace vantage {
+
+struct DataDeleter {
+  void operator()(mjData* data) const;
+};
+using DataPtr = std::unique_ptr<mjData, DataDeleter>;
+
+struct WorldOptions {
+  double timestep_s = 0.0025;       ///< physics step; higher is faster and less stable
+  double control_period_s = 0.025;  ///< commands are constant this long; whole multiple of the step
+  void fields(auto&& f) {
+    f("timestep_s", timestep_s, Range{1e-5, 0.02});
+    f("control_period_s", control_period_s, Range{1e-5, 1.0});
+  }
+  void check() const;  ///< @throws ConfigError if the period is no whole multiple of the step
+  [[nodiscard]] int steps_per_tick() const;
+};
+
+/// Deterministic: the same model, options, initial state and commands give the same bits in any
+/// thread and process of one machine. Not shareable between threads while one of them steps it.
+class World {
+ public:
+  /// @throws InputError as load_model, ConfigError if the options are out of range.
+  explicit World(const ModelSource& source, const WorldOptions& options = {});
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  ~World();
+
+  [[nodiscard]] const mjModel& model() const { return *model_; }
+  /// The stepping state. Apart from forces and mocap poses leave it alone, and never run mj_forward
+  /// on it (it changes the bits of what follows): look at `snapshot()`, plan on `copy_data()`.
+  [[nodiscard]] mjData& data() { return *data_; }
+  [[nodiscard]] const mjData& data() const { return *data_; }
+  /// Poses of bodies, geoms, sites, cameras and lights at the present positions. (In `data()` they
+  /// lag by one step.) For sensors and rendering; valid until the next step or call.
+  [[nodiscard]] const mjData& snapshot() const;
+  [[nodiscard]] DataPtr copy_data() const;
+
+  [[nodiscard]] double time_s() const;
+  [[nodiscard]] const WorldOptions& options() const { return options_; }
+  [[nodiscard]] const ModelSource& source() const { return source_; }
+  /// MuJoCo's warnings while compiling the model.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// One control period of physics, then `on_tick`.
+  /// @throws DivergedError naming the time, MuJoCo's warning and the body; the world is unusable
+  /// then until set_state().
+  void advance_tick();
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  /// Wall time that the physics has taken so far.
+  [[nodiscard]] double stepping_wall_s() const { return stepping_wall_s_; }
+  std::function<void(World&)> on_tick;        ///< recording, video; may be empty
+  std::function<void(const World&)> on_step;  ///< after each physics step; may be empty
+
+  /// Everything the future depends on besides commands, applied forces and mocap poses: time, qpos,
+  /// qvel, act, qacc_warmstart.
+  [[nodiscard]] std::vector<double> state() const;
+  /// Also puts commands and applied forces to zero and mocap poses where they started.
+  /// @throws InputError if the length does not fit the model or a number is not finite.
+  void set_state(std::span<const double> state);
+  [[nodiscard]] std::span<const double> controls() const;
+  void set_controls(std::span<const double> controls);
+
+  /// Where a slide or hinge joint starts, m or rad. Only before the first tick.
+  /// @throws InputError if the model has no such joint.
+  void set_initial_joint(const std::string& name, double position);
+  /// The same for a free joint.
+  void set_initial_pose(const std::string& free_joint, const Pose& T_world_body);
+
+ private:
+  void step();
+  ModelSource source_;
+  WorldOptions options_;
+  std::vector<std::string> warnings_;
+  ModelPtr model_;
+  DataPtr data_;
+  mutable DataPtr snapshot_;
+  std::uint64_t ticks_ = 0;
+  double stepping_wall_s_ = 0.0;
+  bool diverged_ = false;
+};
+
+enum class ModelObject { body, joint, geom, site, camera, actuator };
+
+/// @throws InputError naming the kind of object and the name if the model has none.
+int model_id(const mjModel& model, ModelObject kind, const std::string& name);
+std::optional<int> find_model_id(const mjModel& model, ModelObject kind, const std::string& name);
+/// Empty for objects without a name.
+std::string model_name(const mjModel& model, ModelObject kind, int id);
+
+/// Of all objects of that kind that have a name, in the model's order.
+std::vector<std::string> model_names(const mjModel& model, ModelObject kind);
+
+std::string mujoco_version();
+
+Pose body_pose(const World& world, int body_id);  ///< T_world_body, now
+Pose site_pose(const World& world, int site_id);  ///< T_world_site, now
+
+}  // namespace vantage

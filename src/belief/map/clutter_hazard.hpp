@@ -1,0 +1,79 @@
+/// How likely an unobserved cell stops a beam, learnt from the scans so far.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "vantage/belief/map/block_field.hpp"
+#include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/geometry/range_scan.hpp"
+
+namespace vantage {
+
+struct ClutterHazardOptions {
+  int layers = 13;                 ///< height bands with a rate of their own
+  double prior_crossings = 300.0;  ///< pull of a layer towards the global rate; higher: less detail
+  int block_cells = 6;             ///< side of the blocks of a layer that have rates of their own
+  double reach_cells = 20.0;  ///< standard deviation of what a block hears of; higher: smoother
+  double block_crossings = 1000.0;  ///< pull of a block towards its layer; higher: less detail
+  double prior_hazard = 0.005;      ///< mean of the Beta prior on the global rate, per cell
+  double prior_weight = 300.0;      ///< crossings the prior is worth; higher: slower to learn
+  void fields(auto&& f) {
+    f("layers", layers, between(1, 4096));
+    f("prior_crossings", prior_crossings, at_least(0.0));
+    f("block_cells", block_cells, between(1, 4096));
+    f("reach_cells", reach_cells, between(0.0, 4096.0));
+    f("block_crossings", block_crossings, above(0.0));
+    f("prior_hazard", prior_hazard, between(1e-6, 0.999));
+    f("prior_weight", prior_weight, above(0.0));
+  }
+};
+
+/// A beam that enters unobserved cells is a survival experiment: each cell entered is one crossing,
+/// and the cell that stops it one hit. The hazard of an unobserved cell is hits / crossings, its
+/// transmission 1 - hazard. A cell beside an occupied one is left out: what stops a beam there is
+/// as a rule the surface known already, measured a little off. Clutter has its heights and its
+/// places: each height layer has a rate, shrunk towards that of all layers, and each block of a
+/// layer one of what was counted round it, shrunk towards the layer's.
+class ClutterHazard {
+ public:
+  /// @param cells of the grid along each axis, >= 1
+  /// @throws ConfigError if `options` are out of range.
+  ClutterHazard(const ClutterHazardOptions& options, const Eigen::Array3i& cells);
+
+  /// Counts the beams of one scan through the grid as it was before that scan. A beam counts until
+  /// it ends, or meets a cell then known to be occupied, which is no hit; without a return it
+  /// crosses all to the range or the grid's end. NaN beams are ignored.
+  void observe(const OccupancyGrid& before, const RangeScan& scan, const Pose& T_world_sensor);
+
+  /// The same for a depth image, of which every `stride`-th pixel of every `stride`-th row is a
+  /// beam; pixels without measurement are ignored, those beyond range cross all to the range.
+  void observe(const OccupancyGrid& before, const CameraImages& image, const Pose& T_world_camera,
+               int stride);
+
+  [[nodiscard]] int layer_of(int slice) const { return crossings_.layout.block_of(2, slice); }
+  [[nodiscard]] double crossings(int layer) const { return sum_of_layer(crossings_, layer); }
+  [[nodiscard]] double hits(int layer) const { return sum_of_layer(hits_, layer); }
+
+  /// Posterior means, per cell entered, in (0, 1).
+  [[nodiscard]] double global_hazard() const;
+  [[nodiscard]] double hazard(int layer) const;
+  [[nodiscard]] double global_transmission() const { return 1.0 - global_hazard(); }
+  /// 1 - hazard of the slice's layer, for every z slice of the grid.
+  [[nodiscard]] std::vector<double> transmission_per_slice() const;
+  /// 1 - hazard of each block.
+  [[nodiscard]] BlockField transmission() const;
+
+ private:
+  [[nodiscard]] double sum_of_layer(const BlockField& counts, int layer) const;
+  void count_beam(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
+                  const Eigen::Vector3d& p_to, bool returned);
+
+  ClutterHazardOptions options_;
+  BlockField crossings_;
+  BlockField hits_;
+  std::vector<std::size_t> column_of_;  ///< block in its layer, for each cell of a slice
+};
+
+}  // namespace vantage

@@ -1,0 +1,153 @@
+#include "vantage/belief/map/headroom.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+enum class Column { open, unseen, obstructed };
+
+struct Slices {
+  int begin = 0;
+  int end = 0;
+};
+
+/// The z slices with their lower faces between two heights.
+Slices slices_between(const GridFrame& frame, double low_m, double high_m) {
+  Slices slices{0, frame.cells.z()};
+  const auto foot_m = [&](int z) { return frame.min_corner_m.z() + z * frame.cell_size_m.z(); };
+  while (slices.begin < slices.end && foot_m(slices.begin) < low_m) ++slices.begin;
+  while (slices.end > slices.begin && foot_m(slices.end - 1) > high_m) --slices.end;
+  return slices;
+}
+
+/// What there is above each place of the floor; x runs fastest.
+class Columns {
+ public:
+  Columns(const OccupancyGrid& grid, const HeadroomOptions& options)
+      : nx_(grid.frame.cells.x()), ny_(grid.frame.cells.y()) {
+    const Slices body = slices_between(grid.frame, options.low_m, options.high_m);
+    const Slices seen = slices_between(grid.frame, options.seen_low_m, options.high_m);
+    const double most_unseen = options.most_unseen * (seen.end - seen.begin);
+    columns_.reserve(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_));
+    for (int y = 0; y < ny_; ++y) {
+      for (int x = 0; x < nx_; ++x) {
+        const bool obstructed = count(grid, x, y, body, CellState::occupied) > 0;
+        const int unseen = count(grid, x, y, seen, CellState::unobserved);
+        columns_.push_back(obstructed             ? Column::obstructed
+                           : unseen > most_unseen ? Column::unseen
+                                                  : Column::open);
+      }
+    }
+    open_lone_groups();
+  }
+
+  [[nodiscard]] Column at(int x, int y) const { return columns_[index(x, y)]; }
+
+ private:
+  static constexpr std::size_t kLoneGroup = 4;  ///< columns
+
+  /// Few unseen columns amid open ones count as open.
+  void open_lone_groups() {
+    std::vector<std::uint8_t> asked(columns_.size(), 0);
+    for (int y = 0; y < ny_; ++y) {
+      for (int x = 0; x < nx_; ++x) {
+        if (asked[index(x, y)] != 0 || at(x, y) != Column::unseen) continue;
+        const std::vector<Eigen::Array2i> group = unseen_group({x, y}, asked);
+        const auto nothing_beside = [&](const auto& column) { return is_clear_of_things(column); };
+        if (group.size() > kLoneGroup || !std::ranges::all_of(group, nothing_beside)) continue;
+        for (const auto& column : group) columns_[index(column.x(), column.y())] = Column::open;
+      }
+    }
+  }
+
+  /// Those that touch the first and each other. Marks them as asked.
+  [[nodiscard]] std::vector<Eigen::Array2i> unseen_group(const Eigen::Array2i& first,
+                                                         std::vector<std::uint8_t>& asked) const {
+    std::vector<Eigen::Array2i> group{first};
+    asked[index(first.x(), first.y())] = 1;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const Eigen::Array2i from = group[i];
+      for_each_beside(from, [&](int x, int y) {
+        if (asked[index(x, y)] != 0 || at(x, y) != Column::unseen) return;
+        asked[index(x, y)] = 1;
+        group.emplace_back(x, y);
+      });
+    }
+    return group;
+  }
+
+  /// Whether all eight round it are in the grid and none obstructed.
+  [[nodiscard]] bool is_clear_of_things(const Eigen::Array2i& column) const {
+    int clear = 0;
+    for_each_beside(column, [&](int x, int y) { clear += at(x, y) != Column::obstructed ? 1 : 0; });
+    return clear == 8;
+  }
+
+  template <class Visit>
+  void for_each_beside(const Eigen::Array2i& column, Visit&& visit) const {
+    for (int y = std::max(column.y() - 1, 0); y <= std::min(column.y() + 1, ny_ - 1); ++y) {
+      for (int x = std::max(column.x() - 1, 0); x <= std::min(column.x() + 1, nx_ - 1); ++x) {
+        if (x != column.x() || y != column.y()) visit(x, y);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) +
+           static_cast<std::size_t>(x);
+  }
+
+  static int count(const OccupancyGrid& grid, int x, int y, const Slices& slices, CellState state) {
+    int cells = 0;
+    for (int z = slices.begin; z < slices.end; ++z) {
+      if (grid.state(grid.frame.index({x, y, z})) == state) ++cells;
+    }
+    return cells;
+  }
+
+  int nx_;
+  int ny_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace
+
+void HeadroomOptions::check() const {
+  if (low_m >= high_m || seen_low_m >= high_m) {
+    throw ConfigError(fmt::format("low_m {} and seen_low_m {} must be below high_m {}", low_m,
+                                  seen_low_m, high_m));
+  }
+}
+
+void block_columns(FloorMap& floor, const OccupancyGrid& grid,
+                   std::span<const std::uint8_t> vouched, const HeadroomOptions& options) {
+  check_options(options, "headroom");
+  expects(vouched.size() == floor.size(), "a flag per cell of the floor map");
+  const GridFrame& frame = grid.frame;
+  const Columns columns(grid, options);
+  std::ranges::fill(floor.blocked, std::uint8_t{0});
+  const Eigen::Vector2d half = 0.5 * frame.cell_size_m.head<2>();
+  constexpr double kTouching = 1e-9;
+  for (int y = 0; y < frame.cells.y(); ++y) {
+    for (int x = 0; x < frame.cells.x(); ++x) {
+      const Column column = columns.at(x, y);
+      if (column == Column::open) continue;
+      const Eigen::Vector2d centre = frame.centre({x, y, 0}).head<2>();
+      const Eigen::Array2i low = floor.cell_at((centre - half).array() + kTouching).max(0);
+      const Eigen::Array2i high = floor.cell_at((centre + half).array() - kTouching)
+                                      .min(Eigen::Array2i(floor.nx - 1, floor.ny - 1));
+      for (int v = low.y(); v <= high.y(); ++v) {
+        for (int u = low.x(); u <= high.x(); ++u) {
+          const std::size_t cell = floor.index({u, v});
+          if (column == Column::obstructed || vouched[cell] == 0) floor.blocked[cell] = 1;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,80 @@
+/// What training keeps of the views it saw: enough to go on with more of them, in any order.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+/// Of one feature. The states are independent of each other: adding an object appends columns and
+/// leaves the others as they are, to the bit.
+struct GaussianStatistics {
+  std::vector<int> count;             ///< training views of each state
+  Eigen::MatrixXf mean;               ///< dimensions x states; 0 where count is 0
+  Eigen::MatrixXf squared_deviation;  ///< dimensions x states, sum over views of (x - mean)^2
+
+  [[nodiscard]] int dimensions() const { return static_cast<int>(mean.rows()); }
+  [[nodiscard]] int states() const { return static_cast<int>(mean.cols()); }
+};
+
+/// @param dimensions >= 1
+GaussianStatistics empty_statistics(int dimensions, int states);
+
+/// Appends states without views.
+void add_states(GaussianStatistics& statistics, int states);
+
+/// @param feature of `dimensions()` finite numbers  [Welford1962]
+void add_view(GaussianStatistics& statistics, int state,
+              const Eigen::Ref<const Eigen::VectorXf>& feature);
+
+/// Adds the views of `other`, which has the same dimensions and states.  [Chan1983]
+void merge(GaussianStatistics& statistics, const GaussianStatistics& other);
+
+/// Drawn towards what the states have in common: (nu0 s_pool^2 + d) / (nu0 + n - 1), where n is the
+/// state's number of views, d its squared deviation and s_pool^2 the variance within states, over
+/// all of them. The mean of a scaled inverse chi-squared posterior, nearly.  [Gelman2013, 3.2]
+struct ShrunkVariance {
+  static constexpr std::string_view name = "shrunk";
+  double nu0 = 5.0;     ///< views the pooled variance is worth; higher: states differ less
+  double floor = 0.01;  ///< least variance, of the mean s_pool^2 of all dimensions; higher: flatter
+  void fields(auto&& f) {
+    f("nu0", nu0, above(0.0));
+    f("floor", floor, above(0.0));
+  }
+  /// @param count >= 1
+  [[nodiscard]] Eigen::ArrayXd operator()(int count, const Eigen::ArrayXd& squared_deviation,
+                                          const Eigen::ArrayXd& pooled) const;
+};
+
+/// Maximum likelihood, d / n, as printed; s_pool^2 for a state of a single view, which has none.
+/// [Potthast2016, 4.1.3]
+struct LiteralVariance {
+  static constexpr std::string_view name = "literal";
+  double floor = 0.01;  ///< as in ShrunkVariance: bins that no view fills have none
+  void fields(auto&& f) { f("floor", floor, above(0.0)); }
+  /// @param count >= 1
+  [[nodiscard]] Eigen::ArrayXd operator()(int count, const Eigen::ArrayXd& squared_deviation,
+                                          const Eigen::ArrayXd& pooled) const;
+};
+
+using VarianceEstimate = std::variant<ShrunkVariance, LiteralVariance>;
+template <>
+inline constexpr std::string_view strategy_family<VarianceEstimate> = "variance estimate";
+
+/// The model that the views so far amount to, with psi = 1 and no name or cost.
+///
+/// A state without views is the Gaussian with the moments of its object's other bins, taken as a
+/// mixture of equal parts, or of all states if its object has no views at all. Where no state has
+/// two views, s_pool^2 is the variance between the states.
+/// @param bins consecutive states that are one object
+/// @throws ConfigError if `estimate` is out of range; InputError if no state has a view.
+ObservationModel make_observation_model(const GaussianStatistics& statistics, int bins,
+                                        const VarianceEstimate& estimate);
+
+}  // namespace vantage

@@ -1,0 +1,64 @@
+/// The belief over objects and their yaw: a forward filter in log space, and what it says.
+/// [Potthast2016, (4.3)-(4.6)]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+
+#include "vantage/belief/objects/object_states.hpp"
+#include "vantage/belief/objects/transition.hpp"
+
+namespace vantage {
+
+/// ln p(state | all so far), normalised; -inf for probability zero.
+struct ObjectBelief {
+  Eigen::VectorXd log_p;
+};
+
+/// What an update did, or why it could not.
+struct EvidenceResult {
+  double log_evidence = 0.0;  ///< ln p(feature | all before)
+  std::string reason;         ///< why the belief was left as it was; empty if it was updated
+  [[nodiscard]] bool used() const { return reason.empty(); }
+};
+
+/// Every state alike. @param states at least one
+ObjectBelief uniform_belief(const ObjectStates& states);
+
+/// After a motion: ln p(j) <- LSE_i [ln p(i) + ln A_ij(motion)]. No motion changes nothing.
+void predict(ObjectBelief& belief, const ObjectStates& states, const TransitionModel& transition,
+             double motion_rad);
+
+/// Bayes: ln p(j) <- ln p(j) + ln p(feature | j), normalised. A likelihood that is NaN or +inf, or
+/// zero wherever the belief is not, leaves the belief as it was, and the result says so.
+/// @param log_likelihood of every state; -inf for zero
+EvidenceResult update(ObjectBelief& belief,
+                      const Eigen::Ref<const Eigen::VectorXd>& log_likelihood);
+
+/// p(state).
+Eigen::VectorXd p_state(const ObjectBelief& belief);
+/// p(object), summed over its bins.
+Eigen::VectorXd p_object(const ObjectStates& states, const ObjectBelief& belief);
+/// p(category), summed over its objects.
+Eigen::VectorXd p_category(const ObjectStates& states, const ObjectBelief& belief);
+
+double state_entropy_bits(const ObjectBelief& belief);
+double object_entropy_bits(const ObjectStates& states, const ObjectBelief& belief);
+
+/// The maximum a posteriori; of equal ones the first.
+int most_probable_state(const ObjectBelief& belief);
+/// Of the marginal, so not always the object of the most probable state; of equal ones the first.
+int most_probable_object(const ObjectStates& states, const ObjectBelief& belief);
+
+/// Direction of the mean of the unit vectors to an object's bins, weighted by p(bin | object), in
+/// [0, 2 pi). Between bins where the belief is; 0 if the object is impossible or all bins alike.
+double mean_yaw_rad(const ObjectStates& states, const ObjectBelief& belief, int object);
+
+/// The most probable object, in the bin nearest to its mean yaw.
+int expected_state(const ObjectStates& states, const ObjectBelief& belief);
+
+/// How many bins apart two states are, whatever their objects, the short way round: 0 .. bins / 2.
+int bin_error(const ObjectStates& states, int state, int other);
+
+}  // namespace vantage

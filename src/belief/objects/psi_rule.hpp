@@ -1,0 +1,93 @@
+/// How far each feature's density is believed: psi, the exponent on it.
+///
+/// Neighbouring bins of a histogram say the same thing twice, and the model takes them for
+/// independent: with psi = 1 the first feature decides with certainty, right or wrong.
+/// [Potthast2016, (4.10)]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+/// Views that no model was trained on, of known states.
+struct HeldOutViews {
+  std::vector<int> state;  ///< of each view
+  int bins = 1;            ///< consecutive states that are one object
+  /// Of each feature, states x views: log_density(); single precision up to a constant a view
+  std::vector<Eigen::MatrixXf> log_density;
+};
+
+/// What a rule may look at.
+struct PsiContext {
+  std::span<const ObservationModel> models;  ///< one a feature
+  const HeldOutViews& held_out;              ///< features in the same order
+};
+
+/// Each feature alone such that what the held-out views show is as likely as can be, then all of
+/// them times one temperature, for what the features repeat of each other.
+///
+/// About states, the likelihood is that of a logistic regression, concave in every psi. About
+/// objects it is not, but its derivative falls from above zero to below, and where that happens is
+/// the answer.
+struct CalibratedPsi {
+  static constexpr std::string_view name = "calibrated";
+  /// The likelihood of the object, whatever its pose, instead of the state's. Views between two
+  /// bins are mistaken in pose however good a feature is, which would count against it.
+  bool about_object = true;
+  /// Rounds of adjusting each psi in turn to all features together, after the temperature; higher:
+  /// better when all are extracted, worse when only some are. 0: leave them in proportion.
+  int joint_rounds = 0;
+  void fields(auto&& f) {
+    f("about_object", about_object);
+    f("joint_rounds", joint_rounds, between(0, 100));
+  }
+  /// @throws InputError if no view was held out.
+  [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
+};
+
+/// 1 / dimensions: a feature is worth one dimension, whatever its size. Needs no views.
+struct PerDimensionPsi {
+  static constexpr std::string_view name = "per_dimension";
+  void fields(auto&&) {}
+  [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
+};
+
+/// The published factors, by the feature's name.  [Potthast2016, 4.5.2]
+struct DissertationPsi {
+  static constexpr std::string_view name = "dissertation";
+  double colour = 1.0;         ///< of feature `colour`; higher believes it more, as for all below
+  double bounding_box = 0.02;  ///< of feature `bounding_box`
+  double sift = 0.2;           ///< of feature `sift`
+  double vfh = 0.001;          ///< of feature `vfh`
+  double other = 1.0;          ///< of any other, the kernel descriptors
+  void fields(auto&& f) {
+    f("colour", colour, at_least(0.0));
+    f("bounding_box", bounding_box, at_least(0.0));
+    f("sift", sift, at_least(0.0));
+    f("vfh", vfh, at_least(0.0));
+    f("other", other, at_least(0.0));
+  }
+  [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
+};
+
+using PsiRule = std::variant<CalibratedPsi, PerDimensionPsi, DissertationPsi>;
+template <>
+inline constexpr std::string_view strategy_family<PsiRule> = "psi rule";
+
+/// psi of each feature.
+/// @throws ConfigError if `rule` is out of range, and what it throws itself.
+std::vector<double> choose_psi(const PsiRule& rule, const PsiContext& context);
+
+/// Mean over the held-out views of ln p(state | all features), from a uniform prior.
+double mean_log_posterior(const HeldOutViews& held_out, std::span<const double> psi);
+
+}  // namespace vantage

@@ -1,0 +1,57 @@
+#include "vantage/cli/doctor.hpp"
+
+#include <fmt/format.h>
+#include <opencv2/core/version.hpp>
+
+#include <filesystem>
+#include <thread>
+
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/sim/render/window.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/core/data_root.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/runtime/manifest.hpp"
+#include "vantage/runtime/video.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+std::string attempt(auto&& action) {
+  try {
+    return action();
+  } catch (const std::exception& error) {
+    return fmt::format("does NOT work: {}", error.what());
+  }
+}
+
+std::string video_text() {
+  const std::string missing = missing_video_codec();
+  return missing.empty() ? "H.264 in MP4 works" : "does NOT work: " + missing;
+}
+
+}  // namespace
+
+DoctorReport examine() {
+  DoctorReport report;
+  const std::string renderer = attempt([] { return renderer_name(); });
+  report.renderer_works = !renderer.starts_with("does NOT");
+  const auto line = [&](std::string_view what, const std::string& text) {
+    report.text += fmt::format("{:<10} {}\n", what, text);
+  };
+  line("vantage", version_text());
+  line("mujoco", mujoco_version());
+  line("renderer", renderer);
+  line("window", attempt(Window::display_renderer_name));
+  line("opencv", CV_VERSION);
+  line("video", attempt(video_text));
+  line("data",
+       fs::is_directory(data_root() / "models" / "scenes")
+           ? data_root().string()
+           : fmt::format("does NOT work: no models in {}; set VANTAGE_DATA", data_root().string()));
+  line("threads", fmt::format("{}", std::thread::hardware_concurrency()));
+  return report;
+}
+
+}  // namespace vantage

@@ -1,0 +1,97 @@
+#include "vantage/cli/listing.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/planners/gain.hpp"
+#include "vantage/planners/objects/object_view_choice.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
+#include "vantage/core/data_root.hpp"
+#include "vantage/cli/feature_listing.hpp"
+#include "vantage/planners/trajectory/trajectory_method.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+std::vector<std::string> owned(const std::vector<std::string_view>& names) {
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> sorted_entries(const fs::path& folder, auto&& wanted) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(data_root() / folder, error)) {
+    if (wanted(entry)) found.push_back((folder / entry.path().filename()).string());
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+std::vector<std::string> yaml_files(const fs::path& folder) {
+  return sorted_entries(
+      folder, [](const fs::directory_entry& e) { return e.path().extension() == ".yaml"; });
+}
+
+std::vector<std::string> scenes() {
+  auto found = sorted_entries("models/scenes", [](const fs::directory_entry& e) {
+    return fs::exists(e.path() / "scene.xml");
+  });
+  for (auto& scene : found) scene += "/scene.xml";
+  return found;
+}
+
+std::vector<std::string> objects() {
+  std::vector<std::string> names;
+  for (const DatabaseObject& object : object_database()) names.push_back(object.name);
+  return names;
+}
+
+struct Topic {
+  std::string_view name;
+  std::vector<std::string> (*entries)();
+};
+
+constexpr auto kTopics = std::to_array<Topic>({
+    {"gains", [] { return owned(strategy_names<Gain>()); }},
+    {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
+    {"features", feature_lines},
+    {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
+    {"optimisers", [] { return owned(strategy_names<TrajectoryMethod>()); }},
+    {"episodes", [] { return yaml_files("assets/episodes"); }},
+    {"studies", [] { return yaml_files("assets/studies"); }},
+    {"scenes", scenes},
+    {"objects", objects},
+});
+
+}  // namespace
+
+std::string listing_topics_text() {
+  std::vector<std::string_view> names;
+  for (const Topic& topic : kTopics) names.push_back(topic.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string listing(std::string_view wanted) {
+  std::string text;
+  for (const Topic& topic : kTopics) {
+    if (!wanted.empty() && topic.name != wanted) continue;
+    if (wanted.empty()) text += fmt::format("{}:\n", topic.name);
+    for (const auto& entry : topic.entries()) {
+      text += fmt::format("{}{}\n", wanted.empty() ? "  " : "", entry);
+    }
+    if (!wanted.empty()) return text;
+  }
+  if (!wanted.empty()) {
+    throw ConfigError(
+        fmt::format("list: unknown topic '{}'; known: {}", wanted, listing_topics_text()));
+  }
+  return text;
+}
+
+}  // namespace vantage

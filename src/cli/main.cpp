@@ -1,0 +1,63 @@
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <cstdio>
+#include <functional>
+
+#include "vantage/cli/commands.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/manifest.hpp"
+
+namespace {
+
+int exit_code(vantage::ExitCode code) { return static_cast<int>(code); }
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"Vantage: robots that choose their next action by how much they will learn from it"};
+  app.name("vantage");
+  app.require_subcommand(0, 1);
+  app.set_version_flag("--version", vantage::version_text());
+  std::function<vantage::ExitCode()> chosen;
+  for (const vantage::Command& command : vantage::commands()) {
+    CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.help));
+    auto action = command.declare(*sub);
+    sub->callback([&chosen, action] { chosen = action; });
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "error: %s\nvantage --help shows how it is used\n", error.what());
+    return exit_code(vantage::ExitCode::usage);
+  }
+  if (!chosen) {
+    std::fputs(app.help().c_str(), stderr);
+    return exit_code(vantage::ExitCode::usage);
+  }
+  const vantage::ExitCode code = chosen();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw vantage::OutputError("stdout: cannot write");
+  }
+  return exit_code(code);
+}
+
+int fail(vantage::ExitCode code, const std::string& message) {
+  vantage::log_error(message);
+  vantage::log_to_file({});
+  return exit_code(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is a write error like any other
+  vantage::remember_command_line(argc, argv);
+  try {
+    return run_command_line(argc, argv);
+  } catch (const vantage::Error& error) {
+    return fail(error.code(), error.what());
+  } catch (const std::exception& error) {
+    return fail(vantage::ExitCode::internal, std::string("internal error: ") + error.what());
+  }
+}

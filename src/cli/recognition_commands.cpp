@@ -1,0 +1,178 @@
+#include "vantage/cli/recognition_commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/core/yaml.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/metrics.hpp"
+#include "vantage/recognition/training.hpp"
+#include "vantage/study/recognition/recognition_study.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+int all_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
+
+/// What both commands take.
+struct Arguments {
+  std::vector<fs::path> datasets;
+  fs::path model;
+  fs::path out;
+  fs::path config;
+  std::vector<std::string> overrides;
+  fs::path cache;
+  int jobs = all_cores();
+  bool skip_bad = false;
+  bool json = false;
+  bool quiet = false;
+
+  [[nodiscard]] LongWork how() const {
+    return {.threads = jobs, .poll = throw_if_interrupted, .feature_cache = cache};
+  }
+};
+
+template <class Options>
+Options options_of(const Arguments& arguments) {
+  Options from_file;
+  if (!arguments.config.empty()) read_into(read_yaml(arguments.config), from_file, {});
+  ConfigNode node = write_node(from_file);
+  for (const std::string& assignment : arguments.overrides) apply_override(node, assignment);
+  Options options;
+  read_into(node, options, {});
+  return options;
+}
+
+template <class Options>
+void declare_common(CLI::App& app, Arguments& arguments) {
+  app.add_option("--jobs", arguments.jobs, "threads")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--cache", arguments.cache,
+                 "folder where the views' features are kept for the next command");
+  app.add_option("--config", arguments.config, "YAML file of the keys below; --set comes after it");
+  app.add_option("--set", arguments.overrides, "key=value of the keys below")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  app.add_flag("--skip-bad", arguments.skip_bad, "leave out views whose files are not complete")
+      ->disable_flag_override();
+  app.add_flag("--json", arguments.json, "print one JSON object")->disable_flag_override();
+  app.add_flag("-q,--quiet", arguments.quiet, "warnings and errors only")->disable_flag_override();
+  app.footer(
+      [] { return "Keys of --set with their defaults:\n\n" + to_yaml(write_node(Options{})); });
+}
+
+/// Of all datasets together: recordings of the same objects, or others.
+DatasetIndex index_of(const Arguments& arguments) {
+  DatasetIndex all;
+  for (const fs::path& dataset : arguments.datasets) {
+    const DatasetIndex index =
+        index_dataset(dataset, arguments.skip_bad ? OnBadView::skip : OnBadView::fail);
+    for (const SkippedView& skipped : index.skipped) log_warning(skipped.reason);
+    all.views.insert(all.views.end(), index.views.begin(), index.views.end());
+  }
+  return all;
+}
+
+Json model_json(const fs::path& path, const RecognitionModel& model) {
+  Json features = Json::array();
+  for (const FeatureModel& feature : model.features) {
+    features.push_back({{"name", feature.name},
+                        {"dimensions", feature.statistics.dimensions()},
+                        {"psi", feature.psi},
+                        {"cost_s", feature.cost_s}});
+  }
+  std::size_t views = 0;
+  for (const int count : model.features.front().statistics.count) {
+    views += static_cast<std::size_t>(count);
+  }
+  return {{"model", path.string()},
+          {"objects", model.states.objects.size()},
+          {"categories", model.states.categories.size()},
+          {"states", model.states.size()},
+          {"views", views},
+          {"features", features}};
+}
+
+void print_model(const Json& model) {
+  fmt::print("{}: {} objects in {} categories, {} states, {} views\n",
+             model["model"].get<std::string>(), model["objects"].get<int>(),
+             model["categories"].get<int>(), model["states"].get<int>(), model["views"].get<int>());
+  for (const Json& feature : model["features"]) {
+    fmt::print("{}: {} dimensions, psi {:.4g}, {:.2f} ms\n", feature["name"].get<std::string>(),
+               feature["dimensions"].get<int>(), feature["psi"].get<double>(),
+               1e3 * feature["cost_s"].get<double>());
+  }
+}
+
+ExitCode train_command(const Arguments& arguments) {
+  if (arguments.quiet) set_verbosity(Verbosity::quiet);
+  const auto options = options_of<TrainingOptions>(arguments);
+  make_writable_directory(fs::absolute(arguments.out).parent_path());
+  catch_interrupts();
+  RecognitionModel model;
+  if (arguments.model.empty()) {
+    model = train_recognition(index_of(arguments), options, arguments.how());
+  } else {
+    model = read_recognition_model(arguments.model);
+    extend_recognition(model, index_of(arguments), options, arguments.how());
+  }
+  write_recognition_model(model, arguments.out);
+  const Json summary = model_json(arguments.out, model);
+  if (arguments.json) {
+    fmt::print("{}", json_text(summary));
+  } else {
+    print_model(summary);
+  }
+  return ExitCode::done;
+}
+
+ExitCode evaluate_command(const Arguments& arguments) {
+  if (arguments.quiet) set_verbosity(Verbosity::quiet);
+  const auto options = options_of<RecognitionStudyOptions>(arguments);
+  make_writable_directory(arguments.out);
+  catch_interrupts();
+  const RecognitionStudy study = run_recognition_study(
+      read_recognition_model(arguments.model), index_of(arguments), options, arguments.how());
+  write_recognition_study(study, arguments.out);
+  fmt::print("{}", arguments.json ? read_file(arguments.out / "summary.json")
+                                  : read_file(arguments.out / "recognition.md"));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+std::function<ExitCode()> declare_train(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.add_option("dataset", arguments->datasets,
+                 "folders of views; of the same objects: more recordings of them")
+      ->required();
+  declare_common<TrainingOptions>(app, *arguments);
+  app.add_option("--out", arguments->out, "model file to write")->required();
+  app.add_option("--add-to", arguments->model,
+                 "model to add the dataset's objects to; those it knows are not trained again");
+  return [arguments] { return train_command(*arguments); };
+}
+
+std::function<ExitCode()> declare_evaluate(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  app.add_option("dataset", arguments->datasets, "folder of views")->required()->expected(1);
+  declare_common<RecognitionStudyOptions>(app, *arguments);
+  app.add_option("--model", arguments->model, "trained model")->required();
+  app.add_option("--out", arguments->out, "folder for results and tables")->required();
+  return [arguments] { return evaluate_command(*arguments); };
+}
+
+}  // namespace vantage

@@ -1,0 +1,64 @@
+/// What makes flying hard: gusts of wind, and an estimate of the pose that is a little off.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+
+#include "vantage/control/flight_controller.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/pose.hpp"
+
+namespace vantage {
+
+/// A push of constant force on the body for a while.
+struct Gust {
+  double force_N = 4.0;                               ///< higher throws it farther off
+  std::array<double, 3> direction = {0.0, 1.0, 0.0};  ///< world; any length but 0
+  double start_s = 0.0;                               ///< simulated time
+  double duration_s = 0.5;                            ///< longer throws it farther off
+  void fields(auto&& f) {
+    f("force_N", force_N, between(0.0, 50.0));
+    f("direction", direction);
+    f("start_s", start_s, at_least(0.0));
+    f("duration_s", duration_s, above(0.0));
+  }
+  void check() const;  ///< @throws ConfigError for a direction without length
+
+  [[nodiscard]] Eigen::Vector3d force_world_N(double time_s) const;
+};
+
+/// Errors of position, heading and tilt that wander: Gaussian at any moment, correlated over
+/// `correlation_s` (Ornstein-Uhlenbeck), as those of visual-inertial estimates are.
+struct PoseNoiseOptions {
+  double sigma_position_m = 0.01;  ///< per axis; higher is noisier
+  double sigma_yaw_rad = 0.01;     ///< of the heading
+  double sigma_tilt_rad = 0.003;   ///< about x and y each; gravity is easily felt
+  double correlation_s = 2.0;      ///< higher drifts slower
+  void fields(auto&& f) {
+    f("sigma_position_m", sigma_position_m, between(0.0, 1.0));
+    f("sigma_yaw_rad", sigma_yaw_rad, between(0.0, 0.5));
+    f("sigma_tilt_rad", sigma_tilt_rad, between(0.0, 0.1));
+    f("correlation_s", correlation_s, above(0.0));
+  }
+  static PoseNoiseOptions perfect();  ///< no errors at all
+};
+
+/// Where the vehicle believes to be. Give it a stream of random numbers of its own.
+class PoseEstimate {
+ public:
+  PoseEstimate(const PoseNoiseOptions& options, Rng rng);
+
+  /// Moves the errors on by `period_s`.
+  void update(double period_s);
+  /// The true state with the errors of now on its pose; velocities are taken as they are.
+  [[nodiscard]] FlightState of(const FlightState& truth) const;
+
+ private:
+  PoseNoiseOptions options_;
+  Rng rng_;
+  Eigen::Matrix<double, 6, 1> error_;  ///< standardised: x, y, z, yaw, about x, about y
+};
+
+}  // namespace vantage

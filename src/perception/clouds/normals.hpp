@@ -1,0 +1,30 @@
+/// Surface normals of a point cloud.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vantage/core/fields.hpp"
+#include "vantage/perception/clouds/point_cloud.hpp"
+
+namespace vantage {
+
+struct NormalOptions {
+  double radius_m = 0.08;    ///< neighbourhood; higher is smoother and rounds edges
+  int min_neighbours = 5;    ///< fewer within the radius: no normal
+  double line_ratio = 0.05;  ///< neighbourhoods whose second spread is below this share of the
+                             ///< first are lines, not planes; higher calls more of them lines
+  void fields(auto&& f) {
+    f("radius_m", radius_m, above(0.0));
+    f("min_neighbours", min_neighbours, at_least(3));
+    f("line_ratio", line_ratio, between(0.0, 1.0));
+  }
+};
+
+/// Fills in `cloud.normals`: the direction of least spread of each point's neighbourhood
+/// [Hoppe1992], pointing to the side of `p_viewpoint` (same frame as the cloud). A neighbourhood
+/// that is a horizontal line, as a planar scanner draws it on a wall, gets the horizontal normal
+/// across it; any other line, and a point without neighbours, gets zero.
+void estimate_normals(PointCloud& cloud, const Eigen::Vector3d& p_viewpoint,
+                      const NormalOptions& options = {});
+
+}  // namespace vantage

@@ -1,0 +1,215 @@
+#include "vantage/perception/clouds/registration.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vantage/perception/clouds/kd_tree.hpp"
+
+namespace vantage {
+namespace {
+
+/// A scan point, the map point nearest to it, and the plane through the latter; all in the world.
+struct Pair {
+  Eigen::Vector3d lever;   ///< from the base to the scan point
+  Eigen::Vector3d normal;  ///< of the map
+  double residual_m;       ///< signed distance of the scan point from the map's plane
+};
+
+/// The surfaces of the map that tell something of x, y and yaw.
+struct UprightMap {
+  std::vector<Eigen::Vector3f> normals;
+  KdTree tree;
+};
+
+struct Step {
+  Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();
+  double turn_rad = 0.0;
+  int unconstrained = 3;
+};
+
+PointCloud upright_part(const PointCloud& cloud, double max_normal_z) {
+  if (!cloud.has_normals()) return cloud;
+  std::vector<std::size_t> upright;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f& n = cloud.normals[i];
+    if (!n.isZero() && std::abs(n.z()) <= max_normal_z) upright.push_back(i);
+  }
+  return select(cloud, upright);
+}
+
+/// @return for each scan point with a compatible partner no farther than `radius_m`, the pair.
+std::vector<Pair> find_pairs(const PointCloud& scan_base, const UprightMap& map, const Pose2& pose,
+                             double radius_m, const RegistrationOptions& options) {
+  const Pose T_world_base = lift(pose);
+  const Eigen::Matrix3d rotation = T_world_base.linear();
+  const double min_cosine = std::cos(options.max_normal_angle_rad);
+  std::vector<Pair> pairs;
+  pairs.reserve(scan_base.size());
+  for (std::size_t i = 0; i < scan_base.size(); ++i) {
+    const Eigen::Vector3d p = T_world_base * scan_base.points[i].cast<double>();
+    const auto found = map.tree.nearest(p.cast<float>(), radius_m);
+    if (!found) continue;
+    const Eigen::Vector3d normal = map.normals[found->index].cast<double>();
+    if (scan_base.has_normals() &&
+        normal.dot(rotation * scan_base.normals[i].cast<double>()) < min_cosine) {
+      continue;
+    }
+    const Eigen::Vector3d q = map.tree.points()[found->index].cast<double>();
+    pairs.push_back({p - T_world_base.translation(), normal, normal.dot(p - q)});
+  }
+  return pairs;
+}
+
+/// Keeps the pairs with the smallest residuals.
+void trim(std::vector<Pair>& pairs, double fraction) {
+  const auto keep =
+      static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(pairs.size())));
+  std::ranges::stable_sort(pairs, {}, [](const Pair& pair) { return std::abs(pair.residual_m); });
+  pairs.resize(std::min(keep, pairs.size()));
+}
+
+/// rho'(r) / r of the Geman-McClure kernel, 1 at r = 0.
+double robust_weight(double residual_m, double scale_m) {
+  const double ratio = residual_m / scale_m;
+  const double w = 1.0 / (1.0 + ratio * ratio);
+  return w * w;
+}
+
+/// One Gauss-Newton step on  sum_i w_i (r_i + n_i . (d + theta z x l_i))^2  [ChenMedioni1992, (4)].
+/// The turn is scaled by the mean lever so that all three unknowns are metres; eigenvectors of the
+/// normal matrix that hardly any surface constrains are left out [ZhangKaessSingh2016, (16)].
+Step gauss_newton_step(const std::vector<Pair>& pairs, double kernel_m,
+                       const RegistrationOptions& options) {
+  double lever2 = 0.0;
+  for (const Pair& pair : pairs) lever2 += pair.lever.head<2>().squaredNorm();
+  const double arm_m = std::sqrt(lever2 / static_cast<double>(pairs.size()));
+  if (!(arm_m > 0.0)) return {};
+
+  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  double weights = 0.0;
+  for (const Pair& pair : pairs) {
+    const double moment = pair.normal.y() * pair.lever.x() - pair.normal.x() * pair.lever.y();
+    const Eigen::Vector3d row(pair.normal.x(), pair.normal.y(), moment / arm_m);
+    const double w = robust_weight(pair.residual_m, kernel_m);
+    normal_matrix += w * row * row.transpose();
+    gradient += w * pair.residual_m * row;
+    weights += w;
+  }
+  // Per unit weight: a bad start makes all weights small, which is no lack of constraint.
+  const double least_share = std::max(
+      options.min_constraint, options.min_constraint_pairs / static_cast<double>(pairs.size()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal_matrix);
+  Eigen::Vector3d solution = Eigen::Vector3d::Zero();
+  Step step;
+  for (int i = 0; i < 3; ++i) {
+    const double strength = solver.eigenvalues()[i];
+    if (!(strength > least_share * weights)) continue;
+    const Eigen::Vector3d direction = solver.eigenvectors().col(i);
+    solution -= direction * (direction.dot(gradient) / strength);
+    --step.unconstrained;
+  }
+  step.shift_m = solution.head<2>();
+  step.turn_rad = solution.z() / arm_m;
+  return step;
+}
+
+double rms_residual(const std::vector<Pair>& pairs) {
+  double sum = 0.0;
+  for (const Pair& pair : pairs) sum += pair.residual_m * pair.residual_m;
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+/// Iterates until a step at the smallest search radius is negligible. `result.reason` says why not.
+void iterate(const PointCloud& scan_base, const UprightMap& map, const RegistrationOptions& options,
+             RegistrationResult& result) {
+  double radius_m = options.max_correspondence_m;
+  while (result.iterations < options.max_iterations) {
+    ++result.iterations;
+    auto pairs = find_pairs(scan_base, map, result.T_world_base, radius_m, options);
+    result.overlap = static_cast<double>(pairs.size()) / static_cast<double>(scan_base.size());
+    if (pairs.size() < static_cast<std::size_t>(options.min_pairs)) {
+      result.reason = fmt::format("only {} points have a partner in the map", pairs.size());
+      return;
+    }
+    trim(pairs, options.trim_fraction);
+    result.rmse_m = rms_residual(pairs);
+    const double kernel_m = std::max(options.kernel_scale_m, radius_m / 3.0);
+    const Step step = gauss_newton_step(pairs, kernel_m, options);
+    result.unconstrained = step.unconstrained;
+    if (step.unconstrained == 3) {
+      result.reason = "no surface constrains the pose";
+      return;
+    }
+    Pose2& pose = result.T_world_base;
+    pose = {pose.x_m + step.shift_m.x(), pose.y_m + step.shift_m.y(),
+            wrap_angle(pose.yaw_rad + step.turn_rad)};
+    const bool at_rest = step.shift_m.norm() < options.tolerance_m &&
+                         std::abs(step.turn_rad) < options.tolerance_rad;
+    if (at_rest && radius_m <= options.min_correspondence_m) return;
+    radius_m = std::max(options.min_correspondence_m, radius_m * options.shrink);
+  }
+  result.reason = fmt::format("no convergence in {} iterations", options.max_iterations);
+}
+
+/// Why a pose that the iteration came to rest at is still not to be trusted; empty if it is.
+std::string objection(const RegistrationResult& result, const Pose2& guess,
+                      const RegistrationOptions& options) {
+  const Pose2& pose = result.T_world_base;
+  const double moved_m = std::hypot(pose.x_m - guess.x_m, pose.y_m - guess.y_m);
+  const double turned_rad = std::abs(wrap_angle(pose.yaw_rad - guess.yaw_rad));
+  if (result.overlap < options.min_overlap) {
+    return fmt::format("overlap {:.3f} is below {}", result.overlap, options.min_overlap);
+  }
+  if (moved_m > options.max_correction_m) {
+    return fmt::format("moved {:.3f} m, more than {} m", moved_m, options.max_correction_m);
+  }
+  if (turned_rad > options.max_correction_rad) {
+    return fmt::format("turned {:.3f} rad, more than {} rad", turned_rad,
+                       options.max_correction_rad);
+  }
+  return {};
+}
+
+}  // namespace
+
+void RegistrationOptions::check() const {
+  if (min_correspondence_m > max_correspondence_m) {
+    throw ConfigError("min_correspondence_m must not be above max_correspondence_m");
+  }
+}
+
+PointCloud prepare_scan(const PointCloud& cloud, const Eigen::Vector3d& p_viewpoint,
+                        const RegistrationOptions& options) {
+  PointCloud thin = voxel_downsample(cloud, options.voxel_m);
+  estimate_normals(thin, p_viewpoint, options.normals);
+  return thin;
+}
+
+RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& map_world,
+                                 const Pose2& T_world_base_guess,
+                                 const RegistrationOptions& options) {
+  expects(map_world.empty() || map_world.has_normals(), "the map's cloud needs normals");
+  RegistrationResult result;
+  result.T_world_base = T_world_base_guess;
+  PointCloud upright_map = upright_part(map_world, options.max_normal_z);
+  const PointCloud scan =
+      upright_part(voxel_downsample(scan_base, options.voxel_m), options.max_normal_z);
+  if (upright_map.empty() || scan.empty()) {
+    result.reason =
+        upright_map.empty() ? "the map has no upright surface" : "the scan has no upright surface";
+    return result;
+  }
+  const UprightMap map{std::move(upright_map.normals), KdTree(std::move(upright_map.points))};
+  iterate(scan, map, options, result);
+  if (result.reason.empty()) result.reason = objection(result, T_world_base_guess, options);
+  result.converged = result.reason.empty();
+  if (!result.converged) result.T_world_base = T_world_base_guess;
+  return result;
+}
+
+}  // namespace vantage

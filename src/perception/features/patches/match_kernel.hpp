@@ -1,0 +1,64 @@
+/// From the patches of a view to one vector: efficient match kernels.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+
+#include "vantage/core/fields.hpp"
+#include "vantage/perception/features/patches/patch_set.hpp"
+#include "vantage/perception/features/kit/state_bytes.hpp"
+
+namespace vantage {
+
+struct MatchOptions {
+  double gamma = 0.01;    ///< of exp(-gamma d^2) between descriptors; higher tells more apart
+  int words = 1000;       ///< of the vocabulary; higher approximates the kernel better
+  int levels = 3;         ///< of the pyramid, level l has l x l cells; higher keeps more of where
+  int components = 1000;  ///< principal components kept; n training views give n - 1 at most
+  double power = 0.3;     ///< of sign(x) |x|^power; lower evens out the components more
+  void fields(auto&& f) {
+    f("gamma", gamma, above(0.0));
+    f("words", words, between(1, 100000));
+    f("levels", levels, between(1, 8));
+    f("components", components, between(1, 100000));
+    f("power", power, between(0.01, 1.0));
+  }
+  [[nodiscard]] int cells() const { return levels * (levels + 1) * (2 * levels + 1) / 6; }
+};
+
+/// Mean kernel vector of each pyramid cell, times the cell's weight, 1 / l^2 over the sum of those:
+/// cells * words. Of the patches of a cell that have the same nearest word, only the nearest
+/// counts, so that a repeated texture does not drown what is rare. Empty cells are zero.
+/// [BoSminchisescu2009]
+Eigen::VectorXf pooled_kernels(const PatchSet& patches, const Eigen::MatrixXf& words,
+                               const MatchOptions& options);
+
+/// L^-1 with L L' = K(words, words) + 1e-6 I: inner products of G times kernel vectors are the
+/// match kernel. It is the spec's chol(K^-1) up to a rotation, without inverting K.
+Eigen::MatrixXd inverse_root(const Eigen::MatrixXf& words, double gamma);
+
+/// sign(x) |x|^power of the principal components of G times the mean kernel vectors. Both maps are
+/// linear, so they are one. G is ill-conditioned: the mean goes off before it, not after.
+class MatchKernel {
+ public:
+  /// @param words dimensions x words
+  /// @param pooled pooled_kernels() of training views, one a column, 2 or more
+  static MatchKernel learn(const MatchOptions& options, Eigen::MatrixXf words,
+                           const Eigen::MatrixXf& pooled);
+  [[nodiscard]] int dimension() const { return static_cast<int>(projection_.rows()); }
+  [[nodiscard]] const Eigen::MatrixXf& words() const { return words_; }
+  [[nodiscard]] Eigen::VectorXf extract(const PatchSet& patches) const;
+
+  void put_state(std::string& bytes) const;
+  static MatchKernel take_state(StateReader& reader);
+
+ private:
+  MatchKernel() = default;
+  MatchOptions options_;
+  Eigen::MatrixXf words_;
+  Eigen::MatrixXf projection_;  ///< components x (cells * words)
+  Eigen::VectorXf mean_;        ///< of the pooled kernels in training; cells * words
+};
+
+}  // namespace vantage

@@ -1,0 +1,167 @@
+#include "vantage/recognition/evaluation/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "vantage/recognition/dataset/shown_states.hpp"
+
+namespace vantage {
+namespace {
+
+Trial trial_of(const Recogniser& recogniser, const Recognition& known, int shown) {
+  const ObjectStates& states = recogniser.states;
+  Trial trial{.object = states.object_of(shown),
+              .estimate = most_probable_object(states, known.belief),
+              .observations = static_cast<int>(known.views.size()),
+              .entropy_bits = known.views.back().entropy_bits};
+  const auto category = [&](int object) {
+    return states.category_of[static_cast<std::size_t>(object)];
+  };
+  trial.correct = trial.estimate == trial.object;
+  trial.category_correct = category(trial.estimate) == category(trial.object);
+  trial.bin_error = bin_error(states, expected_state(states, known.belief), shown);
+  for (const ViewReport& view : known.views) {
+    trial.features += static_cast<int>(view.features.size());
+    trial.feature_time_s += view.feature_time_s;
+    trial.selection_time_s += view.selection_time_s;
+    trial.view_time_s += view.view_time_s;
+  }
+  return trial;
+}
+
+}  // namespace
+
+TestViews read_test_views(const DatasetIndex& dataset, const RecognitionModel& model, int video,
+                          const LongWork& how) {
+  const std::vector<ViewEntry> entries = views_of_videos(dataset, {{video}});
+  if (entries.empty()) throw InputError(fmt::format("the dataset has no views of video {}", video));
+  std::vector<TrainedFeature> extractors;
+  for (const FeatureModel& feature : model.features) {
+    extractors.push_back(extractor_of(feature, "recognition model"));
+  }
+  TestViews test;
+  test.views = extract_features(entries, extractors, how, "extracting features of test views");
+  test.shown = states_shown(test.views, model.states);
+  test.turntables = turntables_of(test.views);
+  return test;
+}
+
+std::vector<Start> draw_starts(const TestViews& test, int count, std::uint64_t seed) {
+  Rng rng = Rng::stream(seed, "starts");
+  std::vector<Start> starts;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t turntable = rng.uniform_index(test.turntables.size());
+    const std::vector<std::size_t>& views = test.turntables[turntable].views;
+    starts.push_back({.turntable = turntable, .view = views[rng.uniform_index(views.size())]});
+  }
+  return starts;
+}
+
+std::vector<Method> published_methods(const RecognitionOptions& common) {
+  std::vector<Method> methods;
+  const auto add = [&](std::string name, const ObjectViewChoice& views, int most_views,
+                       const auto& change) {
+    RecognitionOptions options = common;
+    options.views.choice = views;
+    options.most_views = most_views;
+    change(options);
+    methods.push_back({.name = std::move(name), .options = std::move(options)});
+  };
+  const auto all = [](RecognitionOptions& o) { o.all_features = true; };
+  const auto chosen = [](const InformationMeasure& measure) {
+    return [measure](RecognitionOptions& o) { o.features.measure = measure; };
+  };
+  add("single view, all features", RandomObjectView{}, 1, all);
+  add("single view, features by loss_of_entropy", RandomObjectView{}, 1, chosen(LossOfEntropy{}));
+  add("single view, features by mutual_information", RandomObjectView{}, 1,
+      chosen(MutualInformation{}));
+  const std::array<ObjectViewChoice, 5> choices{
+      RandomObjectView{}, StarView{}, JeffreysDivergence{}, LossOfEntropy{}, MutualInformation{}};
+  for (const ObjectViewChoice& views : choices) {
+    const std::string name(strategy_name_of(views));
+    add(name + ", all features", views, common.most_views, all);
+    add(name, views, common.most_views, chosen(MutualInformation{}));
+  }
+  return methods;
+}
+
+DatasetCamera::DatasetCamera(const Recogniser& recogniser, const TestViews& test,
+                             std::span<const Eigen::MatrixXf> log_likelihood, const Start& start)
+    : recogniser_(&recogniser),
+      test_(&test),
+      log_likelihood_(log_likelihood),
+      turntable_(start.turntable),
+      view_(start.view),
+      seen_{start.view} {}
+
+ObjectCamera DatasetCamera::as_object_camera() {
+  return {.extract = [this](std::size_t feature) { return extract(feature); },
+          .bearing_rad = [this] { return bearing_rad_; },
+          .actions = [this] { return actions(); },
+          .turn = [this](const ObjectViewAction& action) { turn(action); }};
+}
+
+ExtractedFeature DatasetCamera::extract(std::size_t feature) const {
+  return {.result = test_->views[view_].features[feature],
+          .time_s = recogniser_->features[feature].observation.cost_s,
+          .log_likelihood =
+              log_likelihood_[feature].col(static_cast<Eigen::Index>(view_)).cast<double>()};
+}
+
+/// A camera further on sees the object turned back.
+std::size_t DatasetCamera::view_after(double turn_rad) const {
+  return nearest_view(test_->turntables[turntable_], test_->views,
+                      test_->views[view_].yaw_rad - turn_rad);
+}
+
+std::vector<ObjectViewAction> DatasetCamera::actions() const {
+  std::vector<ObjectViewAction> actions;
+  for (int turn = 1; turn < recogniser_->states.bins; ++turn) {
+    const double turn_rad = turn * recogniser_->states.bin_rad();
+    const bool visited = std::ranges::find(seen_, view_after(turn_rad)) != seen_.end();
+    actions.push_back({.yaw_rad = turn_rad, .visited = visited});
+  }
+  return actions;
+}
+
+void DatasetCamera::turn(const ObjectViewAction& action) {
+  view_ = view_after(action.yaw_rad);
+  bearing_rad_ += action.yaw_rad;
+  seen_.push_back(view_);
+}
+
+std::vector<Eigen::MatrixXf> log_likelihoods(const Recogniser& recogniser, const TestViews& test,
+                                             const LongWork& how) {
+  const auto views = static_cast<Eigen::Index>(test.views.size());
+  std::vector<Eigen::MatrixXf> all(recogniser.features.size(),
+                                   Eigen::MatrixXf::Zero(recogniser.states.size(), views));
+  work_through(test.views.size(), how, "likelihoods of test views", [&](std::size_t i) {
+    for (std::size_t f = 0; f < all.size(); ++f) {
+      const FeatureResult& feature = test.views[i].features[f];
+      if (!feature.extracted()) continue;
+      all[f].col(static_cast<Eigen::Index>(i)) =
+          log_likelihood(recogniser.features[f].prepared, feature.vector).cast<float>();
+    }
+  });
+  return all;
+}
+
+std::vector<Trial> run_trials(const Recogniser& recogniser, const TestViews& test,
+                              std::span<const Eigen::MatrixXf> log_likelihood,
+                              std::span<const Start> starts, const Method& method,
+                              std::uint64_t seed, const LongWork& how) {
+  check_options(method.options, method.name);
+  expects(log_likelihood.size() == recogniser.features.size(), "likelihoods of every feature");
+  std::vector<Trial> trials(starts.size());
+  work_through(starts.size(), how, method.name, [&](std::size_t i) {
+    Rng rng = Rng::stream(seed, fmt::format("trial {}", i));
+    DatasetCamera camera(recogniser, test, log_likelihood, starts[i]);
+    const Recognition known = recognise(recogniser, method.options, camera.as_object_camera(), rng);
+    trials[i] = trial_of(recogniser, known, test.shown[camera.view()]);
+  });
+  return trials;
+}
+
+}  // namespace vantage

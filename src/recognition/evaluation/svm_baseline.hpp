@@ -1,0 +1,49 @@
+/// What a discriminative classifier makes of the same features of a single view: a baseline.
+/// It is trained on all objects at once and knows neither pose nor how sure it is.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "vantage/core/fields.hpp"
+#include "vantage/core/strategy.hpp"
+#include "vantage/recognition/dataset/view_features.hpp"
+
+namespace vantage {
+
+struct LinearSvm {
+  static constexpr std::string_view name = "linear_svm";
+  double c = 10.0;  ///< weight of training errors, > 0; higher fits closer
+  void fields(auto&& f) { f("c", c, above(0.0)); }
+};
+
+/// exp(-gamma |x - y|^2)
+struct KernelSvm {
+  static constexpr std::string_view name = "kernel_svm";
+  double c = 10.0;     ///< weight of training errors, > 0; higher fits closer
+  double gamma = 1.0;  ///< of vectors with a mean square distance of 1, > 0; higher is more local
+  void fields(auto&& f) {
+    f("c", c, above(0.0));
+    f("gamma", gamma, above(0.0));
+  }
+};
+
+using Svm = std::variant<LinearSvm, KernelSvm>;
+template <>
+inline constexpr std::string_view strategy_family<Svm> = "svm";
+
+/// Views with a label each.
+struct LabelledFeatures {
+  std::span<const ViewFeatures> views;
+  std::span<const int> label;
+};
+
+/// Label of each test view, one object against one; features are centred, scaled to equal
+/// mean squares, and strung together. A view that lacks one has zeros in its place.
+/// @throws ConfigError if options are out of range.
+std::vector<int> svm_predictions(const Svm& svm, const LabelledFeatures& training,
+                                 std::span<const ViewFeatures> test);
+
+}  // namespace vantage

@@ -1,0 +1,25 @@
+/// manifest.json: what ran, on what, with which inputs.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "vantage/runtime/metrics.hpp"
+
+namespace vantage {
+
+/// The version control state of the build, "0.1.0 (abc1234)".
+std::string version_text();
+
+/// Every file the MJCF at `scene` refers to, itself and its includes among them, in a fixed order.
+std::vector<std::filesystem::path> scene_files(const std::filesystem::path& scene);
+
+/// Hash of each file that the scene and the robot are made of, by its name beside them.
+std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved);
+
+std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
+                          const RunSummary& summary);
+
+}  // namespace vantage

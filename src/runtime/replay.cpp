@@ -1,0 +1,98 @@
+#include "vantage/runtime/replay.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+#include "vantage/sim/world/world.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/hash.hpp"
+#include "vantage/runtime/manifest.hpp"
+#include "vantage/tasks/model_source.hpp"
+#include "vantage/runtime/recording.hpp"
+#include "vantage/tasks/scenario.hpp"
+#include "vantage/runtime/state_log.hpp"
+
+namespace vantage {
+namespace {
+
+std::optional<std::string> state_difference(std::span<const double> expected,
+                                            std::span<const double> actual) {
+  const auto [e, a] = std::ranges::mismatch(expected, actual);
+  if (e == expected.end()) return std::nullopt;
+  return fmt::format("state[{}] is {}, recorded {}", e - expected.begin(), *a, *e);
+}
+
+nlohmann::json read_manifest(const std::filesystem::path& run_dir) {
+  auto manifest = nlohmann::json::parse(read_file(run_dir / "manifest.json"), nullptr, false);
+  if (manifest.is_object()) return manifest;
+  throw InputError((run_dir / "manifest.json").string() + ": not a JSON object");
+}
+
+std::vector<std::string> changed_files(const nlohmann::json& manifest,
+                                       const ResolvedEpisode& resolved) {
+  std::vector<std::string> changed;
+  const auto recorded = manifest.value("assets", nlohmann::json::object());
+  const auto present = asset_hashes(resolved);
+  for (const auto& [name, hash] : present) {
+    if (!recorded.contains(name) || recorded[name] != hash) changed.push_back(name);
+  }
+  for (const auto& [name, hash] : recorded.items()) {
+    if (!present.contains(name)) changed.push_back(name);
+  }
+  return changed;
+}
+
+}  // namespace
+
+ReplayResult replay(const std::filesystem::path& run_dir) {
+  const ResolvedEpisode resolved = load_recorded(run_dir);
+  World world(model_source(resolved), resolved.episode.simulation);
+  const RecordedStates recorded = load_states(run_dir, world);
+  const auto names = actuator_names(world);
+  const auto actions = read_actions(run_dir / "actions.csv", names);
+  world.set_state(recorded.state(0));
+  ReplayResult result;
+  result.changed_files = changed_files(read_manifest(run_dir), resolved);
+  result.state_hash = hash_doubles(recorded.state(0));
+  auto next = actions.begin();
+  for (std::uint64_t tick = 0; tick + 1 < recorded.count(); ++tick) {
+    const auto diverged = [&](std::string what) {
+      result.first_difference = tick;
+      result.time_s = recorded.state(tick)[0];
+      result.what = std::move(what);
+      return result;
+    };
+    if (next != actions.end() && next->tick <= tick) {
+      if (!next->canonical) return diverged("actions.csv was changed in this row");
+      world.set_controls(next->controls);
+      ++next;
+    }
+    if (const auto expected = recorded.controls(tick + 1);
+        !std::ranges::equal(world.controls(), expected)) {
+      return diverged("the commands in actions.csv are not the ones recorded");
+    }
+    try {
+      world.advance_tick();
+    } catch (const DivergedError& error) {
+      return diverged(error.what());
+    }
+    const auto state = world.state();
+    if (auto what = state_difference(recorded.state(tick + 1), state)) return diverged(*what);
+    result.state_hash = hash_doubles(state, hash_doubles(world.controls(), result.state_hash));
+    result.ticks = tick + 1;
+  }
+  const auto metrics = nlohmann::json::parse(read_file(run_dir / "metrics.json"), nullptr, false);
+  if (!metrics.is_object() || metrics.value("state_hash", "") != hash_text(result.state_hash)) {
+    result.first_difference = result.ticks;
+    result.what = "metrics.json has another state_hash";
+  }
+  if (next != actions.end()) {
+    result.first_difference = std::max(next->tick, result.ticks);
+    result.what = "actions.csv goes on after the last recorded state";
+  }
+  return result;
+}
+
+}  // namespace vantage

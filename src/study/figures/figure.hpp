@@ -1,0 +1,48 @@
+/// Line figures with intervals: as data, as text, as a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vantage/information/resampling.hpp"
+
+namespace vantage {
+
+struct FigurePoint {
+  double x = 0.0;
+  std::size_t count = 0;  ///< episodes the mean is of
+  double mean = 0.0;
+  Interval interval;  ///< 95 % bootstrap
+};
+
+struct FigureSeries {
+  std::string name;
+  std::size_t style = 0;  ///< the same in every panel: colour and dash
+  std::vector<FigurePoint> points;
+};
+
+struct FigurePanel {
+  std::string title;
+  std::vector<FigureSeries> series;
+};
+
+struct Figure {
+  std::string name;  ///< of its files
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::vector<FigurePanel> panels;
+  std::string note = "Mean over episodes; band: 95 % bootstrap interval of the mean.";  ///< below
+};
+
+/// Adds the mean and its interval at each x = first_x, first_x + 1, ... of curves that may differ
+/// in length; `carry_last`: a curve that has ended keeps its last value.
+FigureSeries mean_series(const Figure& figure, const std::string& panel, const std::string& name,
+                         std::size_t style, const std::vector<std::vector<double>>& curves,
+                         int first_x, bool carry_last);
+
+std::string figure_csv(const Figure& figure);
+/// Light background, no script, no external font.
+std::string figure_svg(const Figure& figure);
+
+}  // namespace vantage

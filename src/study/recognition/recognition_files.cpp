@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/yaml.hpp"
+#include "vantage/runtime/metrics.hpp"
+#include "vantage/study/recognition/recognition_study.hpp"
+
+namespace vantage {
+namespace {
+using Json = nlohmann::ordered_json;
+
+std::string with_interval(const Estimate& e) {
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", e.mean, e.interval.low, e.interval.high);
+}
+
+Json json_of(const Estimate& e) {
+  return {{"mean", e.mean}, {"interval", {e.interval.low, e.interval.high}}};
+}
+
+Json json_of(const MethodSummary& summary) {
+  Json json{{"method", summary.method},
+            {"accuracy_percent", json_of(summary.accuracy_percent)},
+            {"category_percent", summary.category_percent},
+            {"observations", json_of(summary.observations)},
+            {"bin_error", json_of(summary.bin_error)},
+            {"features", summary.features},
+            {"feature_time_s", summary.feature_time_s},
+            {"selection_time_s", summary.selection_time_s},
+            {"view_time_s", summary.view_time_s},
+            {"differences", Json::array()}};
+  for (const PairedEstimate& d : summary.differences) {
+    json["differences"].push_back({{"reference", d.reference},
+                                   {"accuracy_percent", json_of(d.accuracy_percent)},
+                                   {"observations", json_of(d.observations)},
+                                   {"p_value", d.p_value}});
+  }
+  return json;
+}
+
+Json json_of(const ChangeTrials& change) {
+  double observations = 0.0;
+  double time_s = 0.0;
+  for (const ChangeTrial& trial : change.trials) {
+    observations += trial.observations;
+    time_s += trial.time_s;
+  }
+  const auto count = static_cast<double>(change.trials.size());
+  return {{"scenario", to_string(change.scenario)},
+          {"method", change.method},
+          {"accuracy_percent", 100.0 * change.accuracy()},
+          {"kind_percent", 100.0 * change.kind_accuracy()},
+          {"detectable_percent", 100.0 * change.detectable_accuracy()},
+          {"detectable_share_percent", 100.0 * change.detectable_share()},
+          {"observations", observations / count},
+          {"time_s", time_s / count}};
+}
+
+Json summary_json(const RecognitionStudy& study) {
+  Json json{{"objects", study.states.objects.size()},
+            {"categories", study.states.categories.size()},
+            {"starts", study.options.starts},
+            {"seed", study.options.seed},
+            {"methods", Json::array()},
+            {"changes", Json::array()}};
+  for (const MethodSummary& summary : summaries(study)) json["methods"].push_back(json_of(summary));
+  for (const ChangeTrials& change : study.changes) json["changes"].push_back(json_of(change));
+  return json;
+}
+
+std::string trials_csv(const RecognitionStudy& study) {
+  std::string csv =
+      "method,start,object,estimate,correct,category_correct,observations,bin_error,features,"
+      "entropy_bits,feature_time_s,selection_time_s,view_time_s\n";
+  const auto name = [&](int object) {
+    return study.states.objects[static_cast<std::size_t>(object)];
+  };
+  for (const MethodTrials& method : study.methods) {
+    for (std::size_t i = 0; i < method.trials.size(); ++i) {
+      const Trial& t = method.trials[i];
+      csv += fmt::format("\"{}\",{},{},{},{:d},{:d},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+                         method.method, i, name(t.object), name(t.estimate), t.correct,
+                         t.category_correct, t.observations, t.bin_error, t.features,
+                         t.entropy_bits, t.feature_time_s, t.selection_time_s, t.view_time_s);
+    }
+  }
+  return csv;
+}
+
+std::string changes_csv(const RecognitionStudy& study) {
+  std::string csv = "scenario,method,start,decision,detectable,p_changed,observations,time_s\n";
+  for (const ChangeTrials& change : study.changes) {
+    for (std::size_t i = 0; i < change.trials.size(); ++i) {
+      const ChangeTrial& t = change.trials[i];
+      csv += fmt::format("{},{},{},{},{:d},{:.6g},{},{:.6g}\n", to_string(change.scenario),
+                         change.method, i, to_string(t.decision), t.detectable, t.p_changed,
+                         t.observations, t.time_s);
+    }
+  }
+  return csv;
+}
+
+std::string method_table(const std::vector<MethodSummary>& all) {
+  std::string text =
+      "| method | accuracy % | category % | observations | bin error | features | feature s | "
+      "selection s | view s | total s |\n|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const MethodSummary& m : all) {
+    text += fmt::format(
+        "| {} | {} | {:.2f} | {} | {} | {:.2f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |\n", m.method,
+        with_interval(m.accuracy_percent), m.category_percent, with_interval(m.observations),
+        with_interval(m.bin_error), m.features, m.feature_time_s, m.selection_time_s, m.view_time_s,
+        m.feature_time_s + m.selection_time_s + m.view_time_s);
+  }
+  return text;
+}
+
+std::string difference_table(const std::vector<MethodSummary>& all) {
+  std::string text =
+      "| method | less | accuracy, points | p | observations |\n|---|---|---|---|---|\n";
+  for (const MethodSummary& m : all) {
+    for (const PairedEstimate& d : m.differences) {
+      text +=
+          fmt::format("| {} | {} | {} | {:.2g} | {} |\n", m.method, d.reference,
+                      with_interval(d.accuracy_percent), d.p_value, with_interval(d.observations));
+    }
+  }
+  return text;
+}
+
+/// Changes that the model does not tell from none are counted, and counted apart.
+std::string change_table(const RecognitionStudy& study) {
+  std::string text =
+      "| what changed | method | accuracy % | of detectable ones % | those are % | says which % | "
+      "observations | cost s |\n|---|---|---|---|---|---|---|---|\n";
+  for (const ChangeTrials& change : study.changes) {
+    const Json j = json_of(change);
+    const auto value = [&](const char* key) { return j[key].get<double>(); };
+    const bool none = change.scenario == Change::none;
+    text += fmt::format("| {} | {} | {:.2f} | {} | {} | {:.2f} | {:.2f} | {:.4f} |\n",
+                        to_string(change.scenario), change.method, value("accuracy_percent"),
+                        none ? "-" : fmt::format("{:.2f}", value("detectable_percent")),
+                        none ? "-" : fmt::format("{:.1f}", value("detectable_share_percent")),
+                        value("kind_percent"), value("observations"), value("time_s"));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string recognition_tables(const RecognitionStudy& study) {
+  const std::vector<MethodSummary> all = summaries(study);
+  std::string text = fmt::format(
+      "# Recognition of {} objects in {} categories\n\n{} starts, the same for every method; means "
+      "with 95 % bootstrap intervals. Features are counted at their measured cost.\n\n",
+      study.states.objects.size(), study.states.categories.size(), study.options.starts);
+  text += method_table(all) + "\n## Paired differences\n\n" + difference_table(all);
+  if (!study.changes.empty()) text += "\n## Change detection\n\n" + change_table(study);
+  return text;
+}
+
+void write_recognition_study(const RecognitionStudy& study,
+                             const std::filesystem::path& directory) {
+  make_writable_directory(directory);
+  write_file(directory / "config.yaml", to_yaml(write_node(study.options)));
+  write_file(directory / "results.csv", trials_csv(study));
+  if (!study.changes.empty()) write_file(directory / "changes.csv", changes_csv(study));
+  write_file(directory / "recognition.md", recognition_tables(study));
+  write_file(directory / "summary.json", json_text(summary_json(study)));
+}
+
+}  // namespace vantage

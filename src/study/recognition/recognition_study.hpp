@@ -1,0 +1,91 @@
+/// Recognition over a dataset: every method from the same starts, in the form of the published
+/// tables.  [Potthast2016, tables 4.2-4.7, 4.10-4.15]
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vantage/information/resampling.hpp"
+#include "vantage/recognition/evaluation/change_evaluation.hpp"
+#include "vantage/recognition/evaluation/evaluation.hpp"
+
+namespace vantage {
+
+struct RecognitionStudyOptions {
+  std::uint64_t seed = 1;            ///< of starts, choices and intervals
+  int starts = 2000;                 ///< each method's trials; more make intervals narrower
+  int video = 2;                     ///< tested on: 1, 2, 4 are 30, 45, 60 deg
+  RecogniserOptions recogniser;      ///< variance and features
+  RecognitionOptions recognition;    ///< what all methods have in common
+  std::vector<std::string> methods;  ///< names of published_methods() to try; empty: all
+  bool literal = true;        ///< also maximum-likelihood variances with psi 1 and as published
+  bool combinations = false;  ///< also a single view by every combination of features
+  bool baselines = false;     ///< also support vector machines, which takes long
+  int change_starts = 0;      ///< trials of change detection, a scenario and method; 0: none
+  void fields(auto&& f) {
+    f("seed", seed);
+    f("starts", starts, at_least(1));
+    f("video", video, between(1, 4));
+    f("recogniser", recogniser);
+    f("recognition", recognition);
+    f("methods", methods);
+    f("literal", literal);
+    f("combinations", combinations);
+    f("baselines", baselines);
+    f("change_starts", change_starts, at_least(0));
+  }
+};
+
+struct MethodTrials {
+  std::string method;
+  std::vector<Trial> trials;  ///< one a start
+};
+
+struct RecognitionStudy {
+  RecognitionStudyOptions options;
+  ObjectStates states;
+  std::vector<MethodTrials> methods;
+  std::vector<ChangeTrials> changes;
+};
+
+/// @throws ConfigError if `options` are out of range; InputError as read_test_views().
+RecognitionStudy run_recognition_study(const RecognitionModel& model, const DatasetIndex& dataset,
+                                       const RecognitionStudyOptions& options, const LongWork& how);
+
+struct Estimate {
+  double mean = 0.0;
+  Interval interval;  ///< 95 % bootstrap
+};
+
+/// To another method, from the same starts.
+struct PairedEstimate {
+  std::string reference;
+  Estimate accuracy_percent;
+  Estimate observations;
+  double p_value = 1.0;  ///< of the accuracy, sign-flip test
+};
+
+struct MethodSummary {
+  std::string method;
+  Estimate accuracy_percent;
+  double category_percent = 0.0;
+  Estimate observations;
+  Estimate bin_error;
+  double features = 0.0;  ///< extracted, a trial; so are the times
+  double feature_time_s = 0.0;
+  double selection_time_s = 0.0;
+  double view_time_s = 0.0;
+  std::vector<PairedEstimate> differences;  ///< to random views and the single view
+};
+std::vector<MethodSummary> summaries(const RecognitionStudy& study);
+
+/// results.csv (a row a trial), changes.csv, summary.json, recognition.md.
+/// @throws OutputError
+void write_recognition_study(const RecognitionStudy& study, const std::filesystem::path& directory);
+
+/// The tables, as Markdown.
+std::string recognition_tables(const RecognitionStudy& study);
+
+}  // namespace vantage

@@ -1,0 +1,35 @@
+/// What the robot believes about an office: pose, map, clutter.
+#pragma once
+
+#include "vantage/belief/map/clutter_hazard.hpp"
+#include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/tasks/mapping/belief_update.hpp"
+#include "vantage/tasks/exploration/office_rig.hpp"
+#include "vantage/tasks/mapping/wall_map.hpp"
+#include "vantage/perception/clouds/point_cloud.hpp"
+
+namespace vantage {
+
+class OfficeBelief {
+ public:
+  explicit OfficeBelief(const Episode& episode);
+
+  /// Registration with `walls`, measurements, free space, holes.  [Potthast2016, 3.2]
+  BeliefUpdate update(const OfficeObservation& observation, const WallMap& walls);
+
+  [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
+  /// The grid with holes filled: what planning looks at.
+  [[nodiscard]] const OccupancyGrid& filled_grid() const { return filled_; }
+  [[nodiscard]] const ClutterHazard& hazard() const { return hazard_; }
+  /// Surfaces, world, a point or less a cell.
+  [[nodiscard]] const PointCloud& cloud() const { return cloud_; }
+
+ private:
+  Episode episode_;
+  OccupancyGrid grid_;
+  OccupancyGrid filled_;
+  ClutterHazard hazard_;
+  PointCloud cloud_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,64 @@
+/// Drives the robot over the floor it knows, and gets to know more of it on the way.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/belief/map/floor_map.hpp"
+#include "vantage/tasks/mapping/mobile_rig.hpp"
+#include "vantage/tasks/mapping/wall_map.hpp"
+
+namespace vantage {
+
+/// How far the robot got towards a goal.
+struct Approach {
+  bool reached = false;
+  double path_length_m = 0.0;
+};
+
+class Navigator {
+ public:
+  /// @param walls to drive by
+  /// @param keyframe_m remembers the walls that often while driving; infinity: only when told to
+  Navigator(const Episode& episode, MobileRig& rig, WallMap walls,
+            double keyframe_m = std::numeric_limits<double>::infinity());
+
+  /// Turns once in place, to know the floor on all sides: the scanner does not see behind the
+  /// robot. Whoever starts the robot gives it room for that.
+  void look_round();
+  /// Adds a scan that was taken at a known place to what it drives by and over.
+  void remember(const PlanarScan& scan, const Pose2& T_world_base);
+  /// The ways from where the robot is.
+  PathField plan();
+  /// Drives to the goal, or as near as the known free floor allows; plans again as the floor map
+  /// grows, and where something new stands in the way. Short of the goal it ends facing
+  /// `look_at_m`, see plan_path().
+  Approach approach(const Pose2& goal, const std::optional<Eigen::Vector2d>& look_at_m);
+
+  /// Told every path before it is driven; may be empty.
+  std::function<void(const PlannedPath&)> on_plan;
+
+  [[nodiscard]] FloorMap& floor() { return floor_; }
+  [[nodiscard]] const WallMap& walls() const { return walls_; }
+  /// Driven, as the robot believes.
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& path_m() const { return path_m_; }
+
+ private:
+  void localise();
+  void remember_walls(const PlanarScan& scan, const Pose2& T_world_base);
+  DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
+
+  FloorMapOptions floor_options_;
+  NavigationOptions options_;
+  MobileRig& rig_;
+  FloorMap floor_;
+  WallMap walls_;
+  double keyframe_m_;
+  Eigen::Vector2d last_keyframe_m_ = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector2d> path_m_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,119 @@
+#include "vantage/tasks/mapping/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/tasks/mapping/scan_summary.hpp"
+#include "vantage/perception/clouds/ply.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::string_view kStepsHeader =
+    "time_s,scan,chosen_view,fallback,unobserved_cells,observable_unobserved_cells,actual_new_"
+    "cells,"
+    "{gains}path_length_m,plan_time_s,map_time_s,scan_time_s,pose_error_m,"
+    "pose_error_before_registration_m,yaw_error_rad,registered,collisions,precision,recall\n";
+
+std::string steps_header(const Episode& episode) {
+  std::string gains;
+  for (const Predictor& predictor : recorded_predictors(episode)) {
+    gains += fmt::format("predicted_{}_cells,", predictor.label);
+  }
+  return fmt::format(fmt::runtime(kStepsHeader), fmt::arg("gains", gains));
+}
+
+std::string steps_row(const ScanRecord& scan, std::size_t index) {
+  std::string gains;
+  for (const auto& [name, cells] : scan.predicted_cells) gains += fmt::format("{},", cells);
+  return fmt::format("{},{},{},{},{},{},{},{}{},{},{},{},{},{},{},{},{},{},{}\n", scan.time_s,
+                     index, scan.chosen_view, scan.fallback, scan.unobserved_cells,
+                     scan.observable_unobserved_cells, scan.actual_new_cells, gains,
+                     scan.path_length_m, scan.plan_time_s, scan.map_time_s, scan.scan_time_s,
+                     scan.pose_error_m, scan.pose_error_before_registration_m, scan.yaw_error_rad,
+                     scan.registered, scan.collisions, scan.precision, scan.recall);
+}
+
+}  // namespace
+
+Recorder::Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
+                   bool with_video, bool lean, Spectator spectator)
+    : directory_(std::move(directory)),
+      planned_scans_(resolved.episode.scans),
+      lean_(lean),
+      log_({rig.world(), [&rig] { return lift(rig.truth().T_world_base); },
+            [&rig] { return lift(rig.estimated_base()); }},
+           resolved.episode.recording, directory_, with_video, lean, std::move(spectator)),
+      steps_(directory_ / "steps.csv"),
+      progress_(resolved.name, resolved.episode.scans) {
+  steps_.write(steps_header(resolved.episode));
+  if (!lean) story_.emplace(directory_);
+}
+
+void Recorder::set_panel(std::function<MapPanelInput()> panel) {
+  log_.set_panel(
+      [panel = std::move(panel)](cv::Size size) { return draw_map_panel(panel(), size); });
+}
+
+void Recorder::tell(StoryEvent event) {
+  log_.tell(event);
+  if (story_) story_->add(event);
+}
+
+void Recorder::decision(const std::vector<Candidate>& candidates, std::size_t chosen) {
+  if (tells_story()) tell({0, Decision{candidates, chosen}});
+}
+
+void Recorder::way(const std::vector<Pose2>& waypoints) {
+  if (!tells_story()) return;
+  PlannedWay way;
+  for (const Pose2& waypoint : waypoints) way.path_m.emplace_back(waypoint.x_m, waypoint.y_m);
+  tell({0, std::move(way)});
+}
+
+void Recorder::scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid) {
+  steps_.write(steps_row(record, index));
+  if (!lean_) add_occupied_voxels(grid, index);
+  if (tells_story()) tell({0, map_change(known_, grid)});
+  ++scans_done_;
+  progress_.update(
+      static_cast<double>(scans_done_),
+      fmt::format("scan {} of {}: {} observable cells left, {:.1f} s simulated", scans_done_,
+                  planned_scans_, record.observable_unobserved_cells, record.time_s));
+  log_.keep_still(index);
+}
+
+void Recorder::add_occupied_voxels(const OccupancyGrid& grid, std::size_t step) {
+  was_occupied_.resize(grid.size(), 0);
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    if (was_occupied_[cell] != 0 || grid.state(cell) != CellState::occupied) continue;
+    was_occupied_[cell] = 1;
+    add_voxel(grid, cell, step, kVoxelOccupied);
+  }
+}
+
+void Recorder::add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step,
+                         std::uint8_t kind) {
+  const Eigen::Vector3f p = grid.frame.centre(grid.frame.cell(cell)).cast<float>();
+  voxels_.push_back({p.x(), p.y(), p.z(), static_cast<std::uint16_t>(step), kind});
+}
+
+void Recorder::commit() {
+  log_.commit();
+  steps_.commit();
+  if (story_) story_->commit();
+}
+
+void Recorder::write_map(const OccupancyGrid& grid, const PointCloud& cloud) {
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    if (grid.state(cell) == CellState::unobserved) add_voxel(grid, cell, 0, kVoxelUnobserved);
+  }
+  write_voxels(directory_ / "voxels.bin", {grid.frame.cell_size_m, grid.frame.box(), voxels_});
+  write_ply(directory_ / "cloud.ply", cloud);
+  if (grid.count(CellState::unobserved) < grid.size()) {
+    write_octomap(grid, directory_ / "map.bt");
+    write_octomap(grid, directory_ / "map.ot");
+  }
+}
+
+}  // namespace vantage

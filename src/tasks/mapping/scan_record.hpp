@@ -1,0 +1,35 @@
+/// What is recorded at every scan.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vantage/planners/candidate.hpp"
+
+namespace vantage {
+
+struct ScanRecord {
+  double time_s = 0.0;  ///< simulated, at the end of the scan
+  std::size_t unobserved_cells = 0;
+  std::size_t observable_unobserved_cells = 0;
+  std::vector<std::pair<std::string, double>> predicted_cells;  ///< per gain, for the view taken
+  double actual_new_cells = 0.0;
+  int chosen_view = -1;  ///< candidate id; -1: the scan at the start
+  std::size_t candidates = 0;
+  double plan_time_s = 0.0;  ///< wall, of the decision that led here
+  double map_time_s = 0.0;   ///< wall, of registration and map update
+  double scan_time_s = 0.0;  ///< simulated
+  double path_length_m = 0.0;
+  double pose_error_m = 0.0;
+  double pose_error_before_registration_m = 0.0;
+  double yaw_error_rad = 0.0;
+  bool registered = true;
+  bool fallback = false;
+  int collisions = 0;  ///< up to here
+  double precision = 0.0;
+  double recall = 0.0;
+  Pose T_world_sensor = Pose::Identity();  ///< as the robot believes it
+};
+
+}  // namespace vantage

@@ -1,0 +1,81 @@
+/// The parts of the loop for a flight along waypoints that are planned anew at each of them.
+/// [Potthast2016, chapter 5]
+#pragma once
+
+#include <vector>
+
+#include "vantage/belief/map/flight_map.hpp"
+#include "vantage/belief/objects/found_objects.hpp"
+#include "vantage/planners/trajectory/flight_planner.hpp"
+#include "vantage/recognition/kept_looks.hpp"
+#include "vantage/tasks/trajectory/objects_on_stands.hpp"
+#include "vantage/tasks/trajectory/trajectory_recorder.hpp"
+#include "vantage/tasks/trajectory/trajectory_rig.hpp"
+
+namespace vantage {
+
+/// The recogniser of an episode, made ready.
+/// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
+/// if it does not know an object of the database.
+Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved);
+
+/// A waypoint that was flown to. Pictures were looked at on the way.
+struct WaypointReached {
+  int waypoint = 0;
+  double time_s = 0.0;
+  Pose T_world_body = Pose::Identity();  ///< as estimated
+};
+
+class TrajectoryFlight {
+ public:
+  /// @param recogniser knows the database; outlives this
+  TrajectoryFlight(const ResolvedEpisode& resolved, const Recogniser& recogniser,
+                   TrajectoryRig& rig, TrajectoryRecorder& recorder);
+
+  WaypointReached observe();
+  void update(const WaypointReached& reached);
+  void record();
+  [[nodiscard]] bool finished() const;
+  std::vector<WayOn> propose();
+  void score(std::vector<WayOn>& ways);
+  std::size_t choose(const std::vector<WayOn>& ways);
+  void act(const WayOn& way);
+
+  [[nodiscard]] const std::vector<WaypointRecord>& waypoints() const { return records_; }
+  [[nodiscard]] const ObjectLooks& looks() const { return looks_; }
+  [[nodiscard]] const std::vector<Eigen::Vector4d>& nominal() const { return nominal_; }
+  [[nodiscard]] const std::vector<Eigen::Vector4d>& plan() const { return plan_; }
+  [[nodiscard]] const FlightMap& map() const { return map_; }
+  [[nodiscard]] const std::vector<ObjectOnStand>& truth() const { return truth_; }
+
+ private:
+  void look(const FlightPicture& picture);
+  void keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
+                  const std::vector<SeenObject>& seen);
+  void take_looks(const std::vector<KeptLook>& due);
+  [[nodiscard]] std::vector<Eigen::Vector4d> plan_with(const WayOn& way, int missed) const;
+  [[nodiscard]] int at_after(int missed) const;
+  [[nodiscard]] std::vector<FlightWaypoint> followed(const std::vector<Eigen::Vector4d>& plan,
+                                                     int from) const;
+  [[nodiscard]] std::vector<PlannableObject> plannable() const;
+  [[nodiscard]] TrajectoryPanelInput panel() const;
+
+  Episode episode_;
+  TrajectoryRig& rig_;
+  TrajectoryRecorder& recorder_;
+  std::vector<ObjectOnStand> truth_;
+  std::vector<Eigen::Vector4d> nominal_;  ///< the path as given
+  std::vector<Eigen::Vector4d> plan_;     ///< as it is flown
+  FlightMap map_;
+  FoundObjects found_;
+  ObjectLooks looks_;
+  FlightPlanner planner_;
+  Rng look_rng_;
+  KeptLooks kept_;
+  int at_ = -1;                    ///< the waypoint reached last
+  double planning_since_s_ = 0.0;  ///< wall
+  WaypointRecord current_;         ///< filled in from the decision to the end of its segment
+  std::vector<WaypointRecord> records_;
+};
+
+}  // namespace vantage

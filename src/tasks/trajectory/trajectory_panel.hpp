@@ -1,0 +1,34 @@
+/// The right half of the video of a trajectory flight: what the camera sees, the path from above,
+/// and what is believed of each object.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vantage/recognition/object_looks.hpp"
+#include "vantage/planners/trajectory/trajectory_record.hpp"
+
+namespace vantage {
+
+struct TrajectoryPanelInput {
+  const ObjectLooks& looks;
+  const std::vector<Eigen::Vector4d>& nominal;  ///< the path as given
+  const std::vector<Eigen::Vector4d>& plan;     ///< as it was flown and will be
+  int at = 0;                                   ///< the waypoint reached last
+  Pose T_world_body = Pose::Identity();         ///< as estimated
+  std::optional<LookTarget> target = {};
+  std::string method = {};
+  double range_m = 2.0;  ///< within which looks count
+};
+
+/// A dark panel of `size`. Deterministic.
+/// @param picture of the camera on board, CV_8UC3, BGR; empty: none
+/// @return CV_8UC3, BGR
+cv::Mat draw_trajectory_panel(const TrajectoryPanelInput& input, const cv::Mat& picture,
+                              cv::Size size);
+
+}  // namespace vantage

@@ -1,0 +1,125 @@
+#include "vantage/tasks/trajectory/trajectory_recorder.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr int kOnboardHeight_px = 270;
+
+constexpr std::string_view kStepsHeader =
+    "time_s,waypoint,x_m,y_m,z_m,yaw_rad,planner,plan_time_s,latency_s,late,missed,cost,"
+    "planned_clearance_m,target,direction,objects,known,looks,mean_entropy_nats,clearance_m,"
+    "tracking_error_m,path_length_m,collisions\n";
+
+std::string steps_row(const WaypointRecord& r) {
+  const Eigen::Vector3d& p = r.T_world_body.translation();
+  return fmt::format(
+      "{:.3f},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{:.6g},{:.4f},{},{},{},"
+      "{},{},{:.5f},{:.4f},{:.5f},{:.4f},{}\n",
+      r.time_s, r.waypoint, p.x(), p.y(), p.z(), flatten(r.T_world_body).yaw_rad, r.planner,
+      r.plan_time_s, r.latency_s, r.late, r.missed, r.cost, r.planned_clearance_m,
+      r.target ? r.target->object : -1, r.target ? r.target->direction : -1, r.objects, r.known,
+      r.looks, r.mean_entropy_nats, r.clearance_m, r.tracking_error_m, r.flown_m, r.collisions);
+}
+
+constexpr std::string_view kLooksHeader =
+    "time_s,look,object,direction,bearing_rad,distance_m,elevation_rad,pixels,features,"
+    "feature_time_s,entropy_nats,estimate,map_probability\n";
+
+std::string looks_row(int object, const ObjectLook& look, int number) {
+  return fmt::format("{:.3f},{},{},{},{:.4f},{:.4f},{:.4f},{},{},{},{:.5f},{},{:.5f}\n",
+                     look.time_s, number, object, look.direction, look.bearing_rad, look.distance_m,
+                     look.elevation_rad, look.pixels, fmt::join(look.report.features, " "),
+                     look.report.feature_time_s, look.entropy_nats, look.estimate,
+                     look.map_probability);
+}
+
+/// The crop, what the mask leaves out darker.
+cv::Mat crop_of(const ObjectView& view) {
+  const cv::Mat rgb(view.height_px, view.width_px, CV_8UC3,
+                    const_cast<std::uint8_t*>(view.rgb.data()));
+  const cv::Mat mask(view.height_px, view.width_px, CV_8UC1,
+                     const_cast<std::uint8_t*>(view.mask.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  cv::Mat dark = 0.35 * bgr;
+  bgr.copyTo(dark, mask);
+  return dark;
+}
+
+}  // namespace
+
+TrajectoryRecorder::TrajectoryRecorder(const ResolvedEpisode& resolved, TrajectoryRig& rig,
+                                       std::filesystem::path directory, bool with_video, bool lean,
+                                       Spectator spectator)
+    : directory_(std::move(directory)),
+      rig_(rig),
+      lean_(lean),
+      log_({rig.world(), [&rig] { return rig.true_body(); },
+            [&rig] { return rig.estimated_body(); }},
+           resolved.episode.recording, directory_, with_video, lean, std::move(spectator)),
+      steps_(directory_ / "steps.csv"),
+      looks_(directory_ / "looks.csv"),
+      progress_(resolved.name, 1.0),
+      camera_(resolved.episode.trajectory.camera) {
+  steps_.write(kStepsHeader);
+  looks_.write(kLooksHeader);
+  if (!lean_) make_writable_directory(directory_ / "views");
+  if (with_video) {
+    onboard_ = make_offscreen_renderer(rig_.world().model(),
+                                       kOnboardHeight_px * camera_.width_px / camera_.height_px,
+                                       kOnboardHeight_px);
+  }
+}
+
+void TrajectoryRecorder::set_panel(std::function<TrajectoryPanelInput()> panel) {
+  log_.set_panel([this, panel = std::move(panel)](cv::Size size) {
+    return draw_trajectory_panel(panel(), onboard_picture(), size);
+  });
+}
+
+/// As the vehicle's camera sees it now, sharp.
+cv::Mat TrajectoryRecorder::onboard_picture() {
+  RenderRequest request;
+  request.depth_and_segmentation = false;
+  RenderedImages drawn;
+  onboard_->render(rig_.world().model(), rig_.world().snapshot(),
+                   FixedCamera{rig_.camera_id(), camera_.fovy_rad}, request, drawn);
+  const cv::Mat rgb(drawn.height_px, drawn.width_px, CV_8UC3, drawn.rgb.data());
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  return bgr;
+}
+
+void TrajectoryRecorder::waypoint(const WaypointRecord& record, int waypoints) {
+  steps_.write(steps_row(record));
+  progress_.update(static_cast<double>(record.waypoint + 1) / waypoints,
+                   fmt::format("waypoint {} of {}: {} objects found, {} known, {} looks, {:.1f} s "
+                               "simulated",
+                               record.waypoint + 1, waypoints, record.objects, record.known,
+                               record.looks, record.time_s));
+  log_.keep_still(static_cast<std::size_t>(record.waypoint));
+}
+
+void TrajectoryRecorder::look(int object, const ObjectLook& look, int number,
+                              const ObjectView& view) {
+  looks_.write(looks_row(object, look, number));
+  if (lean_) return;
+  const cv::Mat crop = crop_of(view);
+  write_file_with(directory_ / "views" / fmt::format("look_{:03}_object_{}.png", number, object),
+                  [&](const auto& part) { return cv::imwrite(part.string(), crop); });
+}
+
+void TrajectoryRecorder::commit() {
+  log_.commit();
+  steps_.commit();
+  looks_.commit();
+}
+
+}  // namespace vantage

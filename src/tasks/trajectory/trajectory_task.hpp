@@ -1,0 +1,65 @@
+/// The options of trajectory flight: a quadrotor flies a given path, finds objects on its way and
+/// recognises them.  [Potthast2016, chapter 5]
+#pragma once
+
+#include <string>
+
+#include "vantage/sim/sensors/camera.hpp"
+#include "vantage/sim/sensors/exposure.hpp"
+#include "vantage/sim/robots/pilot.hpp"
+#include "vantage/belief/map/flight_map.hpp"
+#include "vantage/belief/objects/found_objects.hpp"
+#include "vantage/belief/objects/transition.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/recognition/object_looks.hpp"
+#include "vantage/tasks/recognition/recognition_task.hpp"
+#include "vantage/planners/trajectory/trajectory_method.hpp"
+#include "vantage/perception/object_search.hpp"
+#include "vantage/recognition/recogniser.hpp"
+
+namespace vantage {
+
+struct TrajectoryTask {
+  std::string model = "out/trajectory.model";  ///< file that `vantage train` made
+  RecogniserOptions recogniser{.features = {"colour", "bounding_box", "sift"}};
+  TransitionModel transition = RigidTransition{};
+  ObjectDatabaseOptions database;
+  double placement_m = 0.02;  ///< largest offset of an object from the middle of its stand
+  TrajectoryMethod method = Stomp{};
+  FlightPlannerOptions planner;
+  int horizon = 10;        ///< waypoints that are planned at once, K
+  double latency_s = 0.1;  ///< simulated, from a waypoint to its new plan, whatever it took
+  double picture_rate_hz = 10.0;
+  double camera_pitch_rad = 0.35;  ///< below the horizon of the body, all the way
+  LookOptions looks;
+  ObjectSearchOptions search;
+  FoundObjectsOptions found;
+  FlightMapOptions map;
+  PilotOptions pilot;
+  RgbdOptions camera;
+  ExposureOptions exposure;
+  double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
+  void fields(auto&& f) {
+    f("model", model);
+    f("recogniser", recogniser);
+    f("transition", transition);
+    f("database", database);
+    f("placement_m", placement_m, between(0.0, 0.1));
+    f("method", method);
+    f("planner", planner);
+    f("horizon", horizon, between(3, 100));
+    f("latency_s", latency_s, between(0.0, 100.0));
+    f("picture_rate_hz", picture_rate_hz, between(0.1, 100.0));
+    f("camera_pitch_rad", camera_pitch_rad, between(0.0, 1.0471975511965976));
+    f("looks", looks);
+    f("search", search);
+    f("found", found);
+    f("map", map);
+    f("pilot", pilot);
+    f("camera", camera);
+    f("exposure", exposure);
+    f("colour_noise", colour_noise, between(0.0, 100.0));
+  }
+};
+
+}  // namespace vantage

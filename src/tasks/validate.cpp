@@ -1,0 +1,95 @@
+#include "vantage/tasks/validate.hpp"
+
+#include <fmt/format.h>
+
+#include "vantage/sim/world/world.hpp"
+#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/data_root.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
+#include "vantage/tasks/recognition/flight_rig.hpp"
+#include "vantage/tasks/recognition/object_recognition.hpp"
+#include "vantage/tasks/exploration/office_rig.hpp"
+#include "vantage/tasks/start_check.hpp"
+#include "vantage/tasks/tabletop/tabletop_rig.hpp"
+#include "vantage/tasks/trajectory/trajectory_flight.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+/// As it will be loaded, beside the robot.
+Validation validate_scene(const fs::path& file) {
+  const Episode defaults;
+  const World world({file, find_input(defaults.robot.model, {}, "robot.model")}, {});
+  const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
+  if (has_table(geometry, defaults)) return {};
+  return {{},
+          {file.string() + ": note: no table where map.centre_m and map.size_m are by default"}};
+}
+
+Validation validate_map(const fs::path& file) {
+  const OctomapContent content = read_octomap(file);
+  if (content.occupied + content.free == 0) {
+    throw InputError(file.string() + ": the map holds no cells");
+  }
+  return {};
+}
+
+}  // namespace
+
+Validation validation_of(const std::function<Validation()>& check) {
+  try {
+    return check();
+  } catch (const ConfigError& error) {
+    return {error.problems(), {}, error.code()};
+  } catch (const Error& error) {
+    return {{error.what()}, {}, error.code()};
+  }
+}
+
+void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
+  try {
+    if (resolved.episode.flies_trajectory()) {
+      const TrajectoryRig rig(resolved, read_flight_layout(resolved.scene).path.front());
+      load_trajectory_recogniser(resolved);
+    } else if (resolved.episode.flies()) {
+      const FlightRig rig(resolved);
+      load_episode_recogniser(resolved);
+    } else if (resolved.episode.in_office()) {
+      const OfficeRig rig(resolved);
+    } else {
+      const TabletopRig rig(resolved);
+    }
+  } catch (const ConfigError& error) {
+    throw ConfigError(file.string() + ": " + error.what());
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
+
+Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides) {
+  return validation_of([&] {
+    require_start(file, load_episode(file, overrides));
+    return Validation{};
+  });
+}
+
+Validation validate_file(const fs::path& file) {
+  return validation_of([&]() -> Validation {
+    const std::string type = file.extension().string();
+    std::error_code error;
+    if (!fs::exists(file, error)) throw InputError(file.string() + ": no such file");
+    if (fs::is_directory(file, error)) {
+      throw InputError(file.string() + ": is a directory, expected a file");
+    }
+    if (type == ".yaml" || type == ".yml") return validate_episode(file);
+    if (type == ".xml" || type == ".mjcf") return validate_scene(file);
+    if (type == ".bt" || type == ".ot") return validate_map(file);
+    throw InputError(fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",
+                                 file.string(), type));
+  });
+}
+
+}  // namespace vantage

@@ -1,0 +1,32 @@
+/// `vantage validate`: everything wrong with a file, nothing run.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vantage/core/error.hpp"
+#include "vantage/tasks/scenario.hpp"
+
+namespace vantage {
+
+struct Validation {
+  std::vector<std::string> problems;  ///< one line each, naming the file; empty: the file is good
+  std::vector<std::string> notes;     ///< what is worth knowing about a good file, the same way
+  ExitCode code = ExitCode::done;     ///< usage for a configuration, bad_input for anything else
+};
+
+/// What `check` finds, or the error that it throws.
+Validation validation_of(const std::function<Validation()>& check);
+
+/// @throws ConfigError or InputError, `file` in front, if the episode cannot start.
+void require_start(const std::filesystem::path& file, const ResolvedEpisode& resolved);
+
+/// Of the episode as it would run.
+Validation validate_episode(const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides = {});
+
+Validation validate_file(const std::filesystem::path& file);
+
+}  // namespace vantage

@@ -1,0 +1,185 @@
+#include "vantage/belief/map/clutter_hazard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "tests/belief/map/voxel_scene.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::parse;
+
+constexpr float kNoReturn = std::numeric_limits<float>::infinity();
+
+/// One beam along a row of 1 m cells, from its left edge.
+struct Counted {
+  double crossings;
+  double hits;
+  bool operator==(const Counted&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const Counted& c) {
+  return out << c.crossings << " crossings, " << c.hits << " hits";
+}
+Counted beam(const std::string& row, float range_m, double range_max_m = 100.0) {
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  scan.range_m = {range_m};
+  scan.field_of_view.range_max_m = range_max_m;
+  const OccupancyGrid before = parse({row});
+  ClutterHazard hazard({.layers = 1}, before.frame.cells);
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 0.0}, 0.0));
+  return {hazard.crossings(0), hazard.hits(0)};
+}
+
+TEST(ClutterHazard, CountsABeam) {
+  EXPECT_EQ(beam("..????", 3.5F), (Counted{2, 1})) << "stopped in the second unobserved cell";
+  EXPECT_EQ(beam("..????", 2.5F), (Counted{1, 1})) << "stopped in the first";
+  EXPECT_EQ(beam("..????", 1.5F), (Counted{0, 0})) << "ended in a free cell";
+  EXPECT_EQ(beam("..???##", 5.5F), (Counted{2, 0})) << "ended in a cell already occupied";
+  EXPECT_EQ(beam("..??#??", 6.5F), (Counted{1, 0})) << "met a known surface on the way";
+  EXPECT_EQ(beam("??..??", 4.5F), (Counted{3, 1})) << "free cells between do not count";
+}
+
+TEST(ClutterHazard, AKnownSurfaceMeasuredALittleOffIsNoHit) {
+  EXPECT_EQ(beam("..???#?", 4.5F), (Counted{2, 0})) << "just before it";
+  EXPECT_EQ(beam("..???#?", 3.5F), (Counted{2, 1})) << "farther before it";
+}
+
+TEST(ClutterHazard, BeamWithoutReturnCrossesAll) {
+  EXPECT_EQ(beam("..????", kNoReturn), (Counted{4, 0})) << "to the grid's end";
+  EXPECT_EQ(beam("..????", kNoReturn, 4.5), (Counted{3, 0})) << "to the range";
+  EXPECT_EQ(beam("..????", 50.0F), (Counted{4, 0})) << "stopped outside the grid";
+}
+
+TEST(ClutterHazard, InvalidBeamsAreIgnored) {
+  EXPECT_EQ(beam("??????", std::numeric_limits<float>::quiet_NaN()), (Counted{0, 0}));
+}
+
+TEST(ClutterHazard, StartsAtThePrior) {
+  const ClutterHazard hazard({.prior_hazard = 0.02}, {20, 30, 65});
+  EXPECT_DOUBLE_EQ(hazard.global_transmission(), 0.98);
+  ASSERT_EQ(hazard.transmission_per_slice().size(), 65U);
+  for (const double t : hazard.transmission_per_slice()) EXPECT_DOUBLE_EQ(t, 0.98);
+  for (const double t : hazard.transmission().per_block) EXPECT_DOUBLE_EQ(t, 0.98);
+}
+
+TEST(ClutterHazard, LayersDivideTheSlicesEvenly) {
+  const ClutterHazard hazard({.layers = 13}, {1, 1, 65});
+  for (int slice = 0; slice < 65; ++slice) EXPECT_EQ(hazard.layer_of(slice), slice / 5);
+  const ClutterHazard more_layers_than_slices({.layers = 13}, {1, 1, 4});
+  EXPECT_EQ(more_layers_than_slices.transmission_per_slice().size(), 4U);
+}
+
+TEST(ClutterHazard, ShrinksALayerTowardsTheGlobalRate) {
+  GridFrame frame;
+  frame.cells = {10, 1, 2};
+  const OccupancyGrid before(frame);
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  const ClutterHazardOptions options{
+      .layers = 2, .prior_crossings = 30.0, .prior_hazard = 0.1, .prior_weight = 10.0};
+  ClutterHazard hazard(options, frame.cells);
+  scan.range_m = {4.5F};  // upper layer: 5 crossings, 1 hit
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 1.5}, 0.0));
+  scan.range_m = {kNoReturn};  // lower layer: 10 crossings, no hit
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 0.5}, 0.0));
+  const double global = (1.0 + 10.0 * 0.1) / (15.0 + 10.0);
+  EXPECT_DOUBLE_EQ(hazard.global_hazard(), global);
+  EXPECT_DOUBLE_EQ(hazard.hazard(0), (0.0 + 30.0 * global) / (10.0 + 30.0));
+  EXPECT_DOUBLE_EQ(hazard.hazard(1), (1.0 + 30.0 * global) / (5.0 + 30.0));
+  const auto transmission = hazard.transmission_per_slice();
+  EXPECT_DOUBLE_EQ(transmission[0], 1.0 - hazard.hazard(0));
+  EXPECT_DOUBLE_EQ(transmission[1], 1.0 - hazard.hazard(1));
+}
+
+TEST(ClutterHazard, EachBlockHearsOfWhatWasCountedRoundIt) {
+  GridFrame frame;
+  frame.cells = {12, 1, 1};
+  const OccupancyGrid before(frame);
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  scan.range_m = {4.5F};  // 4 crossings in the first block; 1 and a hit in the second
+  ClutterHazardOptions options{
+      .layers = 1, .block_cells = 4, .reach_cells = 0.0, .block_crossings = 2.0};
+  const auto transmission_after_scan = [&] {
+    ClutterHazard hazard(options, frame.cells);
+    hazard.observe(before, scan, make_pose({0.0, 0.5, 0.5}, 0.0));
+    const double pull = 2.0 * hazard.hazard(0);
+    return std::pair(pull, hazard.transmission().per_block);
+  };
+  const auto [pull, alone] = transmission_after_scan();
+  ASSERT_EQ(alone.size(), 3U);
+  EXPECT_DOUBLE_EQ(alone[0], 1.0 - pull / (4.0 + 2.0));
+  EXPECT_DOUBLE_EQ(alone[1], 1.0 - (1.0 + pull) / (1.0 + 2.0));
+  EXPECT_DOUBLE_EQ(alone[2], 1.0 - pull / 2.0) << "nothing was counted there";
+  options.reach_cells = 4.0;
+  const double next = std::exp(-0.5);
+  const double over_next = std::exp(-2.0);
+  const auto smooth = transmission_after_scan().second;
+  EXPECT_DOUBLE_EQ(smooth[0], 1.0 - (next + pull) / (4.0 + next + 2.0));
+  EXPECT_DOUBLE_EQ(smooth[1], 1.0 - (1.0 + pull) / (4.0 * next + 1.0 + 2.0));
+  EXPECT_DOUBLE_EQ(smooth[2], 1.0 - (next + pull) / (4.0 * over_next + next + 2.0));
+}
+
+TEST(ClutterHazard, RejectsOptionsOutOfRange) {
+  EXPECT_THROW(ClutterHazard({.layers = 0}, {4, 4, 4}), ConfigError);
+  EXPECT_THROW(ClutterHazard({.prior_hazard = 0.0}, {4, 4, 4}), ConfigError);
+}
+
+// Voxels occupied at random, more of them low than high: the hazards come back.
+TEST(ClutterHazard, RecoversAKnownHazardPerLayer) {
+  constexpr int slices = 12;
+  constexpr double low = 0.05;
+  constexpr double high = 0.01;
+  const GridFrame frame = make_grid_frame({0, 0, 0}, {60, 60, slices}, {60, 60, slices});
+  const FieldOfView view{.half_width_rad = 0.6,
+                         .tilt_min_rad = -0.12,
+                         .tilt_max_rad = 0.12,
+                         .range_min_m = 0.1,
+                         .range_max_m = 200.0};
+  ClutterHazard hazard({.layers = 2}, frame.cells);
+  Rng rng(11);
+  for (int scene = 0; scene < 30; ++scene) {
+    OccupancyGrid truth(frame);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      truth.log_odds[i] = rng.uniform() < (frame.cell(i).z() < slices / 2 ? low : high) ? 2 : -1;
+    }
+    const Pose T_world_sensor = make_pose({-40.0, 0.1, 0.0}, 0.0);
+    const RangeScan scan = testing::scan_of(truth, T_world_sensor, view, 30, 60);
+    hazard.observe(OccupancyGrid(frame), scan, T_world_sensor);
+  }
+  EXPECT_GT(hazard.crossings(0), 10'000.0);
+  EXPECT_NEAR(hazard.hazard(0), low, 0.15 * low);
+  EXPECT_NEAR(hazard.hazard(1), high, 0.15 * high);
+}
+
+TEST(ClutterHazard, CountsTheBeamsOfAnImage) {
+  // Along x: a return in the fourth cell, one beyond range, none, and one in the second cell.
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {10.0, 4.0, 1.0}, {10, 1, 1}));
+  CameraImages image;
+  image.width_px = 4;
+  image.height_px = 1;
+  image.focal_px = 1000.0;
+  image.range_max_m = 7.5;
+  image.depth_m = {3.5F, std::numeric_limits<float>::infinity(), 0.0F, 1.5F};
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(-5.0, 0.0, 0.0);
+  T_world_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  ClutterHazard every({.layers = 1}, grid.frame.cells);
+  every.observe(grid, image, T_world_camera, 1);
+  EXPECT_EQ(every.crossings(0), 4.0 + 8.0 + 2.0);
+  EXPECT_EQ(every.hits(0), 2.0);
+  ClutterHazard some({.layers = 1}, grid.frame.cells);
+  some.observe(grid, image, T_world_camera, 3);
+  EXPECT_EQ(some.crossings(0), 4.0 + 2.0);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,122 @@
+#include "vantage/belief/map/floor_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace vantage {
+namespace {
+
+constexpr float kNoReturn = std::numeric_limits<float>::infinity();
+
+/// Twelve cells of 1 m from x = -6, one row of them at y in [0, 1) drawn.
+FloorMapOptions metre_cells() { return {.cell_m = 1.0, .half_size_m = 6.0}; }
+
+std::string row(const FloorMap& map, double y_m) {
+  std::string drawn;
+  for (int x = 0; x < map.nx; ++x) {
+    const CellState state = map.state_at({map.centre({x, 0}).x(), y_m});
+    drawn += state == CellState::free ? '.' : (state == CellState::occupied ? '#' : '?');
+  }
+  return drawn;
+}
+
+PlanarScan one_beam(float range_m, double azimuth_rad = 0.0) {
+  return {
+      .T_base_sensor = {}, .azimuth_rad = {azimuth_rad}, .range_m = {range_m}, .range_max_m = 4.0};
+}
+
+TEST(FloorMap, KnowsNothingAtFirst) {
+  const FloorMap map = make_floor_map({});
+  EXPECT_EQ(map.nx, 240);
+  EXPECT_EQ(map.ny, 240);
+  EXPECT_TRUE(map.min_corner_m.isApprox(Eigen::Vector2d(-6.0, -6.0)));
+  for (std::size_t cell = 0; cell < map.size(); cell += 97) {
+    EXPECT_EQ(map.state(cell), CellState::unobserved);
+    EXPECT_EQ(map.index(map.cell(cell)), cell);
+  }
+  EXPECT_EQ(map.state_at({100.0, 0.0}), CellState::unobserved);
+}
+
+TEST(AddPlanarScan, FreesAlongTheBeamAndOccupiesItsEnd) {
+  FloorMap map = make_floor_map(metre_cells());
+  add_planar_scan(map, one_beam(3.0F), {-0.5, 0.5, 0.0}, metre_cells());
+  //                                  x = 0
+  EXPECT_EQ(row(map, 0.5), "?????...#???");
+  EXPECT_EQ(row(map, 1.5), "????????????");
+}
+
+TEST(AddPlanarScan, FreesUpToTheRangeWithoutAReturn) {
+  FloorMap map = make_floor_map(metre_cells());
+  add_planar_scan(map, one_beam(kNoReturn), {-0.5, 0.5, 0.0}, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "?????.....??");
+}
+
+TEST(AddPlanarScan, SkipsInvalidBeamsAndStopsAtTheBorder) {
+  FloorMap map = make_floor_map(metre_cells());
+  add_planar_scan(map, one_beam(std::nanf("")), {-0.5, 0.5, 0.0}, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "????????????");
+  add_planar_scan(map, one_beam(3.5F), {4.5, 0.5, 0.0}, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "??????????..");
+}
+
+TEST(AddPlanarScan, GoesByThePoseOfBaseAndSensor) {
+  FloorMap map = make_floor_map(metre_cells());
+  PlanarScan scan = one_beam(2.0F, -std::numbers::pi / 2.0);
+  scan.T_base_sensor = {1.0, 0.0, std::numbers::pi / 2.0};
+  add_planar_scan(map, scan, {-2.5, 0.5, 0.0}, metre_cells());  // looks along x from x = -1.5
+  EXPECT_EQ(row(map, 0.5), "????..#?????");
+}
+
+TEST(AddPlanarScan, AReturnOutweighsBeamsOfTheSameScan) {
+  FloorMap map = make_floor_map(metre_cells());
+  const PlanarScan scan{.T_base_sensor = {},
+                        .azimuth_rad = {0.0, 0.0, 0.0},
+                        .range_m = {4.0F, 2.0F, 4.0F},
+                        .range_max_m = 10.0};
+  add_planar_scan(map, scan, {-0.5, 0.5, 0.0}, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "?????..#.#??");
+}
+
+TEST(AddPlanarScan, ForgetsWhatWentAwayAndStaysWithinTheLimit) {
+  FloorMap map = make_floor_map(metre_cells());
+  const Pose2 base{-0.5, 0.5, 0.0};
+  for (int i = 0; i < 100; ++i) add_planar_scan(map, one_beam(2.0F), base, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "?????..#????");
+  for (int i = 0; i < 8; ++i) add_planar_scan(map, one_beam(3.0F), base, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "?????...#???");
+}
+
+TEST(BlockBox, OverridesEverything) {
+  FloorMap map = make_floor_map(metre_cells());
+  block_box(map, {Eigen::Vector2d(0.2, 0.2), Eigen::Vector2d(1.2, 0.8)});
+  for (int i = 0; i < 5; ++i) {
+    add_planar_scan(map, one_beam(kNoReturn), {-0.5, 0.5, 0.0}, metre_cells());
+  }
+  clear_footprint(map, {0.5, 0.5, 0.0}, 0.6);
+  EXPECT_EQ(row(map, 0.5), "?????.##..??");
+  EXPECT_EQ(row(map, 1.5), "????????????");
+  block_box(map, {Eigen::Vector2d(-50.0, -50.0), Eigen::Vector2d(50.0, 50.0)});
+  EXPECT_EQ(row(map, -5.5), "############");
+}
+
+TEST(ClearFootprint, FreesTheDiscTheRobotStandsOn) {
+  FloorMap map = make_floor_map(metre_cells());
+  add_planar_scan(map, one_beam(1.0F), {-0.5, 0.5, 0.0}, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "?????.#?????");
+  clear_footprint(map, {0.5, 0.5, 0.0}, 1.1);
+  EXPECT_EQ(row(map, 0.5), "?????...????");
+  EXPECT_EQ(row(map, 1.5), "??????.?????");
+  EXPECT_EQ(row(map, 2.5), "????????????");
+}
+
+TEST(FloorMapOptions, RejectWeightsThatNeverDecide) {
+  EXPECT_THROW(make_floor_map({.log_odds_miss = 0.3}), ConfigError);
+  EXPECT_THROW(make_floor_map({.cell_m = 0.0}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,134 @@
+#include "vantage/belief/map/headroom.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+constexpr float kFree = -1.0F;
+constexpr float kOccupied = 1.0F;
+
+/// Ten columns of 0.2 m along x, ten cells of 0.2 m high, free but for what a test puts there.
+OccupancyGrid free_row() {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.1, 1.0}, {2.0, 0.2, 2.0}, {10, 1, 10}));
+  std::ranges::fill(grid.log_odds, kFree);
+  return grid;
+}
+
+FloorMap free_floor() {
+  FloorMap floor = make_floor_map({.cell_m = 0.1, .half_size_m = 1.5});
+  std::ranges::fill(floor.log_odds, kFree);
+  return floor;
+}
+
+void set(OccupancyGrid& grid, int x, int z, float log_odds) {
+  grid.log_odds[grid.frame.index({x, 0, z})] = log_odds;
+}
+
+/// The floor from x = -1 to 1 along y = 0.05: 'x' blocked, '.' not.
+std::string row(const FloorMap& floor) {
+  std::string drawn;
+  for (double x_m = -0.95; x_m < 1.0; x_m += 0.1) {
+    drawn += floor.blocked[floor.index(floor.cell_at({x_m, 0.05}))] != 0 ? 'x' : '.';
+  }
+  return drawn;
+}
+
+std::vector<std::uint8_t> nowhere(const FloorMap& floor) {
+  return std::vector<std::uint8_t>(floor.size(), 0);
+}
+
+constexpr HeadroomOptions kOptions{
+    .low_m = 0.15, .high_m = 1.5, .seen_low_m = 0.15, .most_unseen = 0.3};
+
+TEST(Headroom, ATableTopBlocksTheFloorBelowIt) {
+  OccupancyGrid grid = free_row();
+  for (const int x : {3, 4, 5}) set(grid, x, 3, kOccupied);
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  EXPECT_EQ(row(floor), "......xxxxxx........");
+  EXPECT_EQ(floor.state_at({-0.35, 0.05}), CellState::occupied);
+}
+
+TEST(Headroom, TheFloorItselfAndWhatIsAboveTheRobotDoNot) {
+  OccupancyGrid grid = free_row();
+  set(grid, 2, 0, kOccupied);
+  set(grid, 6, 8, kOccupied);
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  EXPECT_EQ(row(floor), "....................");
+}
+
+TEST(Headroom, AColumnHardlySeenBlocksUnlessTheRobotHasBeenThere) {
+  OccupancyGrid grid = free_row();
+  for (int z = 1; z <= 2; ++z) set(grid, 1, z, 0.0F);  // two of seven
+  for (int z = 1; z <= 3; ++z) set(grid, 7, z, 0.0F);
+  FloorMap floor = free_floor();
+  std::vector<std::uint8_t> vouched = nowhere(floor);
+  block_columns(floor, grid, vouched, kOptions);
+  EXPECT_EQ(row(floor), "..............xx....");
+  vouched[floor.index(floor.cell_at({0.45, 0.05}))] = 1;
+  block_columns(floor, grid, vouched, kOptions);
+  EXPECT_EQ(row(floor), "...............x....");
+  set(grid, 7, 3, kOccupied);
+  block_columns(floor, grid, vouched, kOptions);
+  EXPECT_EQ(row(floor), "..............xx....") << "what was seen there counts all the same";
+}
+
+/// Free but for columns of which nothing was seen, 0.2 m wide, at their indices.
+OccupancyGrid unseen_columns(std::initializer_list<Eigen::Array2i> columns) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 1.0}, {2.0, 2.0, 2.0}, {10, 10, 10}));
+  std::ranges::fill(grid.log_odds, kFree);
+  for (const Eigen::Array2i& column : columns) {
+    for (int z = 0; z < 10; ++z) {
+      grid.log_odds[grid.frame.index({column.x(), column.y(), z})] = 0.0F;
+    }
+  }
+  return grid;
+}
+
+/// Cells of the floor that are blocked.
+std::ptrdiff_t blocked_by(const OccupancyGrid& grid) {
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  return std::ranges::count(floor.blocked, std::uint8_t{1});
+}
+
+TEST(Headroom, FewUnseenColumnsAmidOpenOnesDoNotBlock) {
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}})), 0);
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}, {5, 6}, {5, 7}, {4, 8}, {1, 1}})), 0);
+}
+
+TEST(Headroom, UnseenColumnsThatAreManyOrTouchAnObstacleOrTheEdgeBlock) {
+  constexpr int kFloorCells = 4;  // below a column
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 5}, {5, 6}, {5, 7}, {4, 8}, {5, 5}})), 5 * kFloorCells);
+  EXPECT_EQ(blocked_by(unseen_columns({{0, 5}, {1, 6}})), 2 * kFloorCells);
+  EXPECT_EQ(blocked_by(unseen_columns({{4, 9}})), kFloorCells);
+  OccupancyGrid beside_a_post = unseen_columns({{4, 5}, {5, 5}});
+  beside_a_post.log_odds[beside_a_post.frame.index({3, 4, 5})] = kOccupied;
+  EXPECT_EQ(blocked_by(beside_a_post), 3 * kFloorCells);
+}
+
+TEST(Headroom, ForgetsWhatIsNoLongerThere) {
+  OccupancyGrid grid = free_row();
+  set(grid, 4, 4, kOccupied);
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  block_columns(floor, free_row(), nowhere(floor), kOptions);
+  EXPECT_EQ(row(floor), "....................");
+}
+
+TEST(Headroom, RejectsOptionsOutOfRange) {
+  FloorMap floor = free_floor();
+  EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.low_m = 2.0}), ConfigError);
+  EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.most_unseen = 1.5}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

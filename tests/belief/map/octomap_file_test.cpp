@@ -1,0 +1,140 @@
+#include "vantage/belief/map/octomap_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/core/error.hpp"
+#include "tests/belief/map/voxel_scene.hpp"
+#include "tests/support/octomap_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class OctomapFiles : public ::testing::Test {
+ protected:
+  fs::path file(const std::string& name, const std::string& bytes) {
+    std::ofstream(directory_ / name, std::ios::binary) << bytes;
+    return directory_ / name;
+  }
+  OctomapFile map(const std::vector<support::MapCube>& cubes, double resolution_m) {
+    return OctomapFile(file("map.bt", support::octomap_bytes(cubes, resolution_m)));
+  }
+  static std::string error_of(const fs::path& path) {
+    try {
+      const OctomapFile map(path);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  support::TemporaryDirectory directory_;
+};
+
+TEST_F(OctomapFiles, CellsKilometresApart) {
+  const auto far = map({{{-32768, -32768, -32768}, 1, true},
+                        {{0, 0, 0}, 4, false},
+                        {{32767, 32767, 32767}, 1, true}},
+                       0.5);
+  EXPECT_EQ(far.occupied(), 2U);
+  EXPECT_EQ(far.free(), 64U);
+  EXPECT_TRUE(far.box_of(far.known())
+                  .isApprox(Eigen::AlignedBox3d(Eigen::Vector3d::Constant(-16384.0),
+                                                Eigen::Vector3d::Constant(16384.0))));
+  const OccupancyGrid middle =
+      far.grid_of(far.cells_in({Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Constant(3.0)}));
+  EXPECT_EQ(middle.size(), 512U);
+  EXPECT_EQ(middle.count(CellState::free), 64U);
+  EXPECT_EQ(middle.count(CellState::occupied), 0U);
+  EXPECT_EQ(middle.state(middle.frame.index(middle.frame.cell_at({0.1, 0.1, 1.9}))),
+            CellState::free);
+}
+
+TEST_F(OctomapFiles, WholeTreeOfHugeLeaves) {
+  std::vector<support::MapCube> cubes;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Array3i corner(i & 1, i >> 1 & 1, i >> 2 & 1);
+    cubes.push_back({(corner - 1) * 32768, 32768, i == 0});
+  }
+  const auto full = map(cubes, 0.01);
+  EXPECT_EQ(full.occupied(), std::size_t{1} << 45);
+  EXPECT_EQ(full.grid_of({{-2, -2, -2}, {2, 2, 2}}).count(CellState::occupied), 8U);
+  EXPECT_THROW(read_octomap(directory_ / "map.bt"), InputError);
+  EXPECT_THROW(read_octomap_grid(directory_ / "map.bt"), InputError);
+}
+
+TEST_F(OctomapFiles, CellsInABoxAreThoseItReachesInto) {
+  const auto one = map({{{0, 0, 0}, 1, true}}, 0.1);
+  const auto along = [&](double from, double to) {
+    const CellBlock cells = one.cells_in({Eigen::Vector3d(from, 0, 0), Eigen::Vector3d(to, 1, 1)});
+    return std::pair{cells.begin.x(), cells.end.x()};
+  };
+  EXPECT_EQ(along(0.05, 0.15), (std::pair{0, 2}));
+  EXPECT_EQ(along(0.1, 0.3), (std::pair{1, 3}));  // rounding apart, two cells
+  EXPECT_EQ(along(-0.05, 0.05), (std::pair{-1, 1}));
+  EXPECT_EQ(along(-1e300, 1e300), (std::pair{-32768, 32768}));
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(along(-infinity, infinity), (std::pair{-32768, 32768}));
+  EXPECT_TRUE(one.cells_in({}).empty());
+  const CellBlock whole = one.cells_in(one.box_of(one.known()));
+  EXPECT_TRUE((whole.begin == one.known().begin).all() && (whole.end == one.known().end).all());
+}
+
+TEST_F(OctomapFiles, GridsAreTheSameWhicheverWriterAndFormat) {
+  Rng rng(8);
+  const GridFrame frame = make_grid_frame({-0.4, 0.2, 0.4}, {1.6, 1.2, 0.8}, {16, 12, 8});
+  const OccupancyGrid grid = testing::random_grid(frame, 0.2, 0.4, rng);
+  for (const char* name : {"map.ot", "map.bt"}) {
+    write_octomap(grid, directory_ / name);
+    const OctomapFile map(directory_ / name);
+    const OccupancyGrid back = map.grid_of(map.cells_in(frame.box()));
+    ASSERT_TRUE((back.frame.cells == frame.cells).all());
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      ASSERT_EQ(back.state(i), grid.state(i)) << name << ' ' << i;
+    }
+  }
+}
+
+TEST_F(OctomapFiles, CoarseCells) {
+  // Cubes of two: occupied if one cell is, free if half of them are known, else unobserved.
+  std::vector<support::MapCube> cubes{{{-2, 0, 0}, 2, false}, {{2, 0, 0}, 1, true}};
+  for (int i = 0; i < 4; ++i) cubes.push_back({{i & 1, i >> 1, 0}, 1, false});
+  for (int i = 0; i < 3; ++i) cubes.push_back({{4 + (i & 1), i >> 1, 0}, 1, false});
+  const auto fine = map(cubes, 0.1);
+  const OccupancyGrid coarse = fine.grid_of(fine.known(), 2);
+  EXPECT_TRUE(coarse.frame.min_corner_m.isApprox(Eigen::Vector3d(-0.2, 0.0, 0.0)));
+  EXPECT_TRUE(coarse.frame.cell_size_m.isApprox(Eigen::Vector3d::Constant(0.2)));
+  EXPECT_EQ(testing::draw(coarse), (std::vector<std::string>{"..#?"}));
+}
+
+TEST_F(OctomapFiles, CoarseBlocksHoldTheFineOnes) {
+  const CellBlock block{{-3, -1, 4}, {5, 1, 8}};
+  const CellBlock coarse = block.coarsened(4);
+  EXPECT_TRUE((coarse.begin == Eigen::Array3i(-1, -1, 1)).all());
+  EXPECT_TRUE((coarse.end == Eigen::Array3i(2, 1, 2)).all());
+}
+
+TEST_F(OctomapFiles, RefusesWhatNeverEnds) {
+  EXPECT_THAT(error_of("/dev/zero"), HasSubstr("/dev/zero: is not a regular file"));
+  EXPECT_THAT(error_of(directory_.path()), HasSubstr("directory"));
+  EXPECT_THAT(error_of(directory_ / "none.bt"), HasSubstr("none.bt"));
+  const fs::path large = file("large.bt", "# Octomap OcTree file\n");
+  fs::resize_file(large, (std::uintmax_t{1} << 31) + 1);  // sparse on disk
+  EXPECT_THAT(error_of(large), HasSubstr("larger than 2 GiB"));
+}
+
+TEST_F(OctomapFiles, ResolutionsThatNoWorldHas) {
+  for (const char* res : {"1e-300", "1e300", "1e-7", "2e6"}) {
+    const std::string text = std::string("# Octomap OcTree file\nid OcTree\nsize 0\nres ") + res;
+    EXPECT_THAT(error_of(file("map.ot", text + "\ndata\n")), HasSubstr("'res' is "));
+  }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,100 @@
+#include "vantage/belief/map/octomap_format.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string bt(const std::string& header, const std::string& data) {
+  return "# Octomap OcTree binary file\n# (a comment)\n#\n" + header + "data\n" + data;
+}
+std::string ot(const std::string& header, const std::string& data) {
+  return "# Octomap OcTree file\n" + header + "data\n" + data;
+}
+std::string full_record(float log_odds, char children) {
+  std::string record(sizeof(float), '\0');
+  std::memcpy(record.data(), &log_odds, sizeof(float));
+  return record + children;
+}
+
+/// A chain of `levels` inner nodes, each the first child of the last, that ends in one leaf.
+std::string binary_chain(int levels) {
+  std::string data;
+  for (int i = 1; i < levels; ++i) data += std::string("\x03\x00", 2);
+  return data + std::string("\x02\x00", 2);
+}
+
+OctomapHeader check_octomap(const std::string& bytes, const std::string& name) {
+  return parse_octomap(bytes, name, [](const OctomapLeaf&) {});
+}
+
+std::string error_of(const std::string& bytes) {
+  try {
+    check_octomap(bytes, "map.bt");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(OctomapFormat, ReadsTheHeader) {
+  const std::string bytes = bt("id OcTree\nsize 2\nres 0.05\n", std::string("\x02\x00", 2));
+  const OctomapHeader header = check_octomap(bytes, "map.bt");
+  EXPECT_TRUE(header.binary);
+  EXPECT_EQ(header.nodes, 2U);
+  EXPECT_EQ(header.resolution_m, 0.05);
+  EXPECT_EQ(bytes.size() - header.data_offset, 2U);
+  EXPECT_FALSE(check_octomap(ot("id OcTree\nsize 0\nres 1\n", ""), "map.ot").binary);
+}
+
+TEST(OctomapFormat, ReadsTheHeaderItWrites) {
+  for (const bool binary : {false, true}) {
+    const OctomapHeader header = check_octomap(octomap_header({binary, 1.0 / 129, 0}), "map");
+    EXPECT_EQ(header.binary, binary);
+    EXPECT_NEAR(header.resolution_m, 1.0 / 129, 1e-13);
+  }
+}
+
+TEST(OctomapFormat, AcceptsTheFullDepthAndNoMore) {
+  EXPECT_EQ(error_of(bt("id OcTree\nsize 17\nres 1\n", binary_chain(16))), "accepted");
+  EXPECT_THAT(error_of(bt("id OcTree\nsize 18\nres 1\n", binary_chain(17))),
+              HasSubstr("more than 16 levels"));
+}
+
+TEST(OctomapFormat, EndlessRecursionIsCaught) {
+  const std::string children(200'000, '\xff');
+  EXPECT_THAT(error_of(bt("id OcTree\nsize 9\nres 1\n", children)), HasSubstr("16 levels"));
+  std::string chain;
+  for (int i = 0; i < 100'000; ++i) chain += full_record(0.0F, 1);
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 9\nres 1\n", chain)), HasSubstr("16 levels"));
+}
+
+TEST(OctomapFormat, NamesWhatIsWrong) {
+  EXPECT_THAT(error_of(""), HasSubstr("map.bt: is empty"));
+  EXPECT_THAT(error_of("PNG"), HasSubstr("not an OctoMap file"));
+  EXPECT_THAT(error_of("# Octomap OcTree file\nid OcTree\nsize 1\n"), HasSubstr("cut short"));
+  EXPECT_THAT(error_of(ot("id ColorOcTree\nsize 0\nres 1\n", "")), HasSubstr("'ColorOcTree'"));
+  EXPECT_THAT(error_of(ot("id OcTree\nsize -1\nres 1\n", "")), HasSubstr("'size' has value '-1'"));
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 1\nres big\n", "")), HasSubstr("'res' has value 'big'"));
+  for (const std::string res : {"0", "-0.1", "nan", "inf"}) {
+    EXPECT_THAT(error_of(ot("id OcTree\nsize 0\nres " + res + "\n", "")), HasSubstr("'res' is "));
+  }
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 5\nres 1\n", full_record(1.0F, 0))),
+              HasSubstr("'size' is 5, the data hold 1"));
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 2\nres 1\n", full_record(1.0F, 1))),
+              HasSubstr("cut short: the tree goes on after 5 bytes"));
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 1\nres 1\n", full_record(std::nanf(""), 0))),
+              HasSubstr("not a number"));
+  EXPECT_THAT(error_of(bt("id OcTree\nsize 1\nres 1\n", std::string(2, '\0'))),
+              HasSubstr("without children"));
+}
+
+}  // namespace
+}  // namespace vantage

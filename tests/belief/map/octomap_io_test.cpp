@@ -1,0 +1,134 @@
+#include "vantage/belief/map/octomap_io.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "vantage/core/atomic_file.hpp"
+#include "tests/belief/map/voxel_scene.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OctomapIo : public ::testing::Test {
+ protected:
+  OctomapIo() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    directory_ = fs::temp_directory_path() /
+                 ("vantage_octomap_" + std::string(test->name()) + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  ~OctomapIo() override { fs::remove_all(directory_); }
+
+  fs::path directory_;
+};
+
+/// The table top's cells, moved where they do not line up with the world's origin.
+GridFrame table_frame() {
+  return make_grid_frame({0.413, -0.207, 0.951}, {40.0 / 129, 30.0 / 129, 20.0 / 129},
+                         {40, 30, 20});
+}
+
+void expect_same_cells(const OccupancyGrid& grid, const OctomapContent& content) {
+  EXPECT_EQ(content.occupied, grid.count(CellState::occupied));
+  EXPECT_EQ(content.free, grid.count(CellState::free));
+  ASSERT_EQ(content.occupied_centres.size(), content.occupied);
+  const Eigen::Array3d half_cell = 0.5 * grid.frame.cell_size_m.array() + 1e-6;
+  std::vector<bool> seen(grid.size(), false);
+  for (const Eigen::Vector3f& centre : content.occupied_centres) {
+    bool found = false;
+    for (std::size_t i = 0; i < grid.size() && !found; ++i) {
+      if (seen[i] || grid.state(i) != CellState::occupied) continue;
+      const Eigen::Vector3d d = centre.cast<double>() - grid.frame.centre(grid.frame.cell(i));
+      if ((d.array().abs() <= half_cell).all()) found = seen[i] = true;
+    }
+    EXPECT_TRUE(found) << centre.transpose();
+  }
+}
+
+TEST_F(OctomapIo, KeepsEveryCell) {
+  Rng rng(3);
+  for (const char* extension : {".bt", ".ot"}) {
+    const OccupancyGrid grid = testing::random_grid(table_frame(), 0.05, 0.5, rng);
+    const fs::path path = directory_ / ("map" + std::string(extension));
+    write_octomap(grid, path);
+    const OctomapContent content = read_octomap(path);
+    EXPECT_NEAR(content.resolution_m, 1.0 / 129, 1e-12);
+    expect_same_cells(grid, content);
+  }
+}
+
+TEST_F(OctomapIo, KeepsEveryCellOfAGridThatIsNotCubic) {
+  Rng rng(4);
+  const GridFrame frame = make_grid_frame({-3.3, 12.1, 0.4}, {3.0, 1.7, 1.1}, {20, 17, 8});
+  const OccupancyGrid grid = testing::random_grid(frame, 0.1, 0.4, rng);
+  write_octomap(grid, directory_ / "map.bt");
+  expect_same_cells(grid, read_octomap(directory_ / "map.bt"));
+}
+
+// With centres on key borders, rounding puts neighbours into one key at 1.5 m, 0.95 m, -7.06 m.
+TEST_F(OctomapIo, NoTwoCellsShareALeafWhereverTheGridLies) {
+  for (const double shift_m : {0.0, 0.5 / 129, 1e-12, 1.5, 122.5 / 129, -910.5 / 129, 123.456}) {
+    GridFrame frame;
+    frame.min_corner_m.setConstant(shift_m);
+    frame.cell_size_m.setConstant(1.0 / 129);
+    frame.cells = {129, 3, 2};
+    OccupancyGrid grid(frame);
+    std::ranges::fill(grid.log_odds, 2.0F);
+    write_octomap(grid, directory_ / "map.bt");
+    EXPECT_EQ(read_octomap(directory_ / "map.bt").occupied, grid.size()) << shift_m;
+  }
+}
+
+TEST_F(OctomapIo, CountsCellsOfPrunedLeaves) {
+  GridFrame frame;
+  frame.cells = {16, 16, 16};
+  OccupancyGrid grid(frame);
+  std::ranges::fill(grid.log_odds, 2.0F);
+  write_octomap(grid, directory_ / "map.ot");
+  EXPECT_LT(fs::file_size(directory_ / "map.ot"), 1000U);
+  const OctomapContent content = read_octomap(directory_ / "map.ot");
+  EXPECT_EQ(content.occupied, 4096U);
+  EXPECT_TRUE(content.box.isApprox(frame.box()));
+}
+
+TEST_F(OctomapIo, UnobservedCellsAreNotStored) {
+  write_octomap(OccupancyGrid(table_frame()), directory_ / "empty.bt");
+  const OctomapContent content = read_octomap(directory_ / "empty.bt");
+  EXPECT_EQ(content.occupied + content.free, 0U);
+  EXPECT_TRUE(content.box.isEmpty());
+  EXPECT_THROW(read_octomap_grid(directory_ / "empty.bt"), InputError);
+}
+
+TEST_F(OctomapIo, GridComesBackWithItsLogOdds) {
+  const OccupancyGrid grid = testing::parse({".#?.", "???#", "#..?"});
+  write_octomap(grid, directory_ / "map.ot");
+  const OccupancyGrid back = read_octomap_grid(directory_ / "map.ot");
+  EXPECT_EQ(testing::draw(back), testing::draw(grid));
+  EXPECT_EQ(back.log_odds, grid.log_odds);
+  write_octomap(grid, directory_ / "map.bt");
+  EXPECT_EQ(testing::draw(read_octomap_grid(directory_ / "map.bt")), testing::draw(grid));
+}
+
+TEST_F(OctomapIo, RefusesWhatItCannotWrite) {
+  const OccupancyGrid grid = testing::parse({".#"});
+  EXPECT_THROW(write_octomap(grid, directory_ / "map.pcd"), OutputError);
+  EXPECT_THROW(write_octomap(grid, directory_ / "missing" / "map.bt"), OutputError);
+  OccupancyGrid far_away = grid;
+  far_away.frame.min_corner_m.x() = 40'000.0;
+  EXPECT_THROW(write_octomap(far_away, directory_ / "far.bt"), OutputError);
+  EXPECT_TRUE(fs::is_empty(directory_));
+}
+
+TEST_F(OctomapIo, RefusesWhatIsNotThere) {
+  EXPECT_THROW(read_octomap(directory_ / "missing.bt"), InputError);
+  EXPECT_THROW(read_octomap(directory_), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

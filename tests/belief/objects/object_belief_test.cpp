@@ -1,0 +1,215 @@
+#include "vantage/belief/objects/object_belief.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tests/belief/objects/recognition_world.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::exp_of;
+using ::testing::HasSubstr;
+using testing::make_states;
+
+constexpr double kTolerance = 1e-9;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+ObjectBelief belief_of(std::initializer_list<double> p) {
+  ObjectBelief belief{Eigen::VectorXd(static_cast<Eigen::Index>(p.size()))};
+  std::ranges::transform(p, belief.log_p.begin(), [](double mass) { return std::log(mass); });
+  return belief;
+}
+
+ObjectBelief random_belief(const ObjectStates& states, Rng& rng) {
+  ObjectBelief belief = uniform_belief(states);
+  Eigen::VectorXd likelihood = testing::random_logs(states.size(), rng);
+  likelihood[0] = 0.0;
+  update(belief, likelihood);
+  return belief;
+}
+
+TEST(Update, IsBayes) {
+  ObjectBelief belief = belief_of({0.5, 0.25, 0.25, 0.0});
+  const EvidenceResult result = update(belief, belief_of({0.1, 0.2, 0.0, 0.9}).log_p);
+  EXPECT_TRUE(result.used());
+  EXPECT_NEAR(result.log_evidence, std::log(0.1), kTolerance);
+  EXPECT_TRUE(exp_of(belief.log_p).isApprox(Eigen::Vector4d(0.5, 0.5, 0.0, 0.0), kTolerance));
+}
+
+TEST(Update, SurvivesDensitiesOfAnySize) {
+  ObjectBelief belief = uniform_belief(make_states({0, 0}, 2));
+  update(belief, Eigen::Vector4d(3200.0, 3201.0, -1e6, -kInfinity));
+  EXPECT_NEAR(std::exp(belief.log_p[1]), 1.0 / (1.0 + std::exp(-1.0)), kTolerance);
+  update(belief, Eigen::Vector4d(-1e7, -1e7, 0.0, 0.0));
+  EXPECT_NEAR(belief.log_p[2], 0.0, kTolerance);  // written off, and yet it comes back
+}
+
+TEST(Update, LeavesTheBeliefWhereEvidenceIsImpossible) {
+  const ObjectBelief before = belief_of({0.5, 0.5, 0.0, 0.0});
+  for (const Eigen::Vector4d& impossible :
+       {Eigen::Vector4d(-kInfinity, -kInfinity, 0.0, 0.0),
+        Eigen::Vector4d(Eigen::Vector4d::Constant(-kInfinity))}) {
+    ObjectBelief belief = before;
+    const EvidenceResult result = update(belief, impossible);
+    EXPECT_FALSE(result.used());
+    EXPECT_THAT(result.reason, HasSubstr("no state"));
+    EXPECT_EQ(belief.log_p, before.log_p);
+  }
+}
+
+TEST(Update, NamesTheStateWhoseLikelihoodIsNone) {
+  for (const double bad : {kInfinity, std::nan("")}) {
+    ObjectBelief belief = belief_of({0.5, 0.5});
+    const EvidenceResult result = update(belief, Eigen::Vector2d(0.0, bad));
+    EXPECT_THAT(result.reason, HasSubstr("state 1"));
+    EXPECT_EQ(belief.log_p, belief_of({0.5, 0.5}).log_p);
+  }
+}
+
+RC_GTEST_PROP(ObjectBelief, SumsToOneWhateverHappens, ()) {
+  const ObjectStates states = testing::random_states();
+  Rng rng = testing::random_generator();
+  ObjectBelief belief = uniform_belief(states);
+  for (int step = 0; step < 6; ++step) {
+    for (const std::string_view name : strategy_names<TransitionModel>()) {
+      predict(belief, states, make_strategy<TransitionModel>(name), rng.uniform(-7.0, 7.0));
+      RC_ASSERT(std::abs(p_state(belief).sum() - 1.0) < kTolerance);
+      update(belief, 100.0 * testing::random_logs(states.size(), rng));
+      RC_ASSERT(std::abs(p_state(belief).sum() - 1.0) < kTolerance);
+    }
+  }
+}
+
+RC_GTEST_PROP(ObjectBelief, DoesNotCareForTheOrderOfFeatures, ()) {
+  const ObjectStates states = testing::random_states();
+  Rng rng = testing::random_generator();
+  std::vector<Eigen::VectorXd> features;
+  for (int f = 0; f < 4; ++f) {
+    features.push_back(testing::random_logs(states.size(), rng));
+    features.back()[0] = 0.0;
+  }
+  ObjectBelief forth = uniform_belief(states);
+  ObjectBelief back = forth;
+  double evidence = 0.0;
+  for (const Eigen::VectorXd& feature : features) {
+    predict(forth, states, TableTransition{}, 0.0);
+    evidence += update(forth, feature).log_evidence;
+  }
+  std::ranges::reverse(features);
+  for (const Eigen::VectorXd& feature : features) evidence -= update(back, feature).log_evidence;
+  RC_ASSERT(p_state(forth).isApprox(p_state(back), kTolerance));
+  RC_ASSERT(std::abs(evidence) < kTolerance);
+}
+
+RC_GTEST_PROP(Predict, LeaksNothingWithoutMotion, ()) {
+  const ObjectStates states = testing::random_states();
+  Rng rng = testing::random_generator();
+  const ObjectBelief before = random_belief(states, rng);
+  for (const std::string_view name : strategy_names<TransitionModel>()) {
+    ObjectBelief belief = before;
+    predict(belief, states, make_strategy<TransitionModel>(name), 0.0);
+    RC_ASSERT(belief.log_p == before.log_p);
+  }
+}
+
+RC_GTEST_PROP(Predict, RigidlyRoundAFullTurnComesBack, ()) {
+  const ObjectStates states = testing::random_states();
+  Rng rng = testing::random_generator();
+  const ObjectBelief before = random_belief(states, rng);
+  ObjectBelief belief = before;
+  for (int step = 0; step < states.bins; ++step) {
+    predict(belief, states, RigidTransition{.slip = 0.0}, states.bin_rad());
+  }
+  RC_ASSERT(p_state(belief).isApprox(p_state(before), kTolerance));
+}
+
+RC_GTEST_PROP(Predict, RigidlyKeepsWhatIsBelievedOfObjects, ()) {
+  const ObjectStates states = testing::random_states();
+  Rng rng = testing::random_generator();
+  ObjectBelief belief = random_belief(states, rng);
+  const Eigen::VectorXd before = p_object(states, belief);
+  predict(belief, states, RigidTransition{.slip = 0.3}, rng.uniform(0.1, 6.0));
+  RC_ASSERT(p_object(states, belief).isApprox(before, kTolerance));
+}
+
+TEST(Predict, IsTheTableForTheTable) {
+  const ObjectStates states = make_states({0, 0, 1}, 4);
+  ObjectBelief belief = belief_of({1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  predict(belief, states, TableTransition{}, kTurn / 4.0);
+  Eigen::VectorXd expected(12);
+  expected << 0.1, 0.4, 0.1, 0.1, 0.025, 0.025, 0.025, 0.025, 0.05, 0.05, 0.05, 0.05;
+  EXPECT_TRUE(p_state(belief).isApprox(expected, kTolerance));
+}
+
+class Marginals : public ::testing::Test {
+ protected:
+  ObjectStates states_ = make_states({0, 0, 1}, 2);
+  ObjectBelief belief_ = belief_of({0.25, 0.25, 0.375, 0.0, 0.125, 0.0});
+};
+
+TEST_F(Marginals, SumOverPosesAndInstances) {
+  EXPECT_TRUE(p_object(states_, belief_).isApprox(Eigen::Vector3d(0.5, 0.375, 0.125), kTolerance));
+  EXPECT_TRUE(p_category(states_, belief_).isApprox(Eigen::Vector2d(0.875, 0.125), kTolerance));
+}
+
+TEST_F(Marginals, EntropiesInBits) {
+  EXPECT_NEAR(state_entropy_bits(belief_), 1.0 + 0.125 * 3.0 - 0.375 * std::log2(0.375),
+              kTolerance);
+  EXPECT_NEAR(object_entropy_bits(states_, belief_), 0.5 + 0.125 * 3.0 - 0.375 * std::log2(0.375),
+              kTolerance);
+}
+
+TEST_F(Marginals, TheMostProbableObjectNeedNotHaveTheMostProbableState) {
+  EXPECT_EQ(most_probable_state(belief_), 2);
+  EXPECT_EQ(most_probable_object(states_, belief_), 0);
+}
+
+TEST(MeanYaw, GoesTheShortWayRoundZero) {
+  const ObjectStates states = make_states({0}, 8);
+  const ObjectBelief belief = belief_of({0.5, 0, 0, 0, 0, 0, 0, 0.5});
+  EXPECT_NEAR(mean_yaw_rad(states, belief, 0), kTurn - kTurn / 16.0, kTolerance);
+}
+
+TEST(MeanYaw, OfNoPreferenceIsZero) {
+  const ObjectStates states = make_states({0, 0}, 4);
+  const ObjectBelief belief = belief_of({0.25, 0.25, 0.25, 0.25, 0, 0, 0, 0});
+  EXPECT_EQ(mean_yaw_rad(states, belief, 0), 0.0);
+  EXPECT_EQ(mean_yaw_rad(states, belief, 1), 0.0);
+}
+
+TEST(ExpectedState, IsNearestToTheMeanYaw) {
+  const ObjectStates states = make_states({0, 0}, 8);
+  ObjectBelief belief = uniform_belief(states);
+  Eigen::VectorXd likelihood = Eigen::VectorXd::Constant(16, -kInfinity);
+  likelihood.segment(8, 8) << std::log(0.3), std::log(0.25), -kInfinity, -kInfinity, -kInfinity,
+      -kInfinity, -kInfinity, std::log(0.25);
+  update(belief, likelihood);
+  EXPECT_EQ(expected_state(states, belief), states.state(1, 0));
+  likelihood.segment(8, 8) << std::log(0.3), std::log(0.29), std::log(0.29), -kInfinity, -kInfinity,
+      -kInfinity, -kInfinity, -kInfinity;
+  belief = uniform_belief(states);
+  update(belief, likelihood);
+  EXPECT_EQ(most_probable_state(belief), states.state(1, 0));
+  EXPECT_EQ(expected_state(states, belief), states.state(1, 1));
+}
+
+TEST(ExpectedState, OfAMeanJustBelowAFullTurnIsBinZero) {
+  const ObjectStates states = make_states({0}, 8);
+  EXPECT_EQ(expected_state(states, belief_of({0.6, 0, 0, 0, 0, 0, 0, 0.4})), 0);
+}
+
+TEST(BinError, IsTheShortWayRound) {
+  const ObjectStates states = make_states({0, 1}, 8);
+  EXPECT_EQ(bin_error(states, states.state(0, 1), states.state(1, 7)), 2);
+  EXPECT_EQ(bin_error(states, states.state(0, 0), states.state(0, 4)), 4);
+  EXPECT_EQ(bin_error(states, states.state(0, 3), states.state(0, 3)), 0);
+}
+
+}  // namespace
+}  // namespace vantage

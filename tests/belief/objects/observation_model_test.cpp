@@ -1,0 +1,89 @@
+#include "vantage/belief/objects/observation_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+ObservationModel random_model(int dimensions, int states, Rng& rng) {
+  ObservationModel model;
+  model.mean = Eigen::MatrixXf::NullaryExpr(
+      dimensions, states, [&] { return static_cast<float>(rng.uniform(-1.0, 1.0)); });
+  model.variance = Eigen::MatrixXf::NullaryExpr(
+      dimensions, states, [&] { return static_cast<float>(rng.uniform(0.01, 2.0)); });
+  return model;
+}
+
+Eigen::VectorXf random_feature(int dimensions, Rng& rng) {
+  return Eigen::VectorXf::NullaryExpr(dimensions, [&] { return static_cast<float>(rng.normal()); });
+}
+
+double log_normal(double x, double mean, double variance) {
+  return -0.5 * (std::log(2.0 * std::numbers::pi * variance) + (x - mean) * (x - mean) / variance);
+}
+
+double density_by_definition(const ObservationModel& model, const Eigen::VectorXf& x, int state) {
+  double sum = 0.0;
+  for (int d = 0; d < model.dimensions(); ++d) {
+    sum += log_normal(x[d], model.mean(d, state), model.variance(d, state));
+  }
+  return sum;
+}
+
+TEST(LogDensity, IsTheSumOverDimensions) {
+  Rng rng(1);
+  for (const int dimensions : {1, 3, 128, 129, 1000}) {
+    const ObservationModel model = random_model(dimensions, 5, rng);
+    const Eigen::VectorXf x = random_feature(dimensions, rng);
+    const Eigen::VectorXd density = log_density(model, x);
+    ASSERT_EQ(density.size(), 5);
+    for (int j = 0; j < 5; ++j) {
+      const double expected = density_by_definition(model, x, j);
+      EXPECT_NEAR(density[j], expected, 1e-6 * std::abs(expected) + 1e-5) << dimensions;
+    }
+  }
+}
+
+TEST(LogLikelihood, IsTheDensityTimesPsi) {
+  Rng rng(2);
+  ObservationModel model = random_model(40, 6, rng);
+  model.psi = 0.125;
+  const Eigen::VectorXf x = random_feature(40, rng);
+  EXPECT_TRUE(log_likelihood(model, x).isApprox(0.125 * log_density(model, x), 1e-14));
+}
+
+TEST(LogLikelihood, OfASkippedFeatureIsZeroEvenWhereTheDensityIs) {
+  ObservationModel model;
+  model.mean = Eigen::MatrixXf::Zero(1, 2);
+  model.variance = Eigen::MatrixXf::Constant(1, 2, 1e-6F);
+  const Eigen::VectorXf far = Eigen::VectorXf::Constant(1, 1e30F);
+  EXPECT_EQ(log_likelihood(model, far)[0], -std::numeric_limits<double>::infinity());
+  model.psi = 0.0;
+  EXPECT_EQ(log_likelihood(model, far), Eigen::VectorXd::Zero(2));
+  EXPECT_EQ(log_likelihood(prepare(model), far), Eigen::VectorXd::Zero(2));
+}
+
+TEST(PreparedObservationModel, SaysTheSame) {
+  Rng rng(3);
+  ObservationModel model = random_model(500, 8, rng);
+  model.psi = 0.7;
+  const Eigen::VectorXf x = random_feature(500, rng);
+  const Eigen::VectorXd direct = log_likelihood(model, x);
+  EXPECT_TRUE(log_likelihood(prepare(model), x).isApprox(direct, 1e-6));
+}
+
+TEST(LogDensityDeathTest, RefusesFeaturesThatAreNone) {
+  Rng rng(4);
+  const ObservationModel model = random_model(2, 2, rng);
+  EXPECT_DEATH(log_density(model, Eigen::VectorXf::Zero(3)), "as many dimensions");
+  EXPECT_DEATH(log_density(model, Eigen::VectorXf::Constant(2, NAN)), "finite");
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,96 @@
+#include "vantage/belief/objects/packed_statistics.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+GaussianStatistics random_statistics(int dimensions, int states, double scale, Rng& rng) {
+  GaussianStatistics statistics = empty_statistics(dimensions, states);
+  for (int j = 0; j < states; ++j) {
+    const auto views = static_cast<int>(rng.uniform_index(4));
+    for (int v = 0; v < views; ++v) {
+      add_view(statistics, j, Eigen::VectorXf::NullaryExpr(dimensions, [&] {
+                 return static_cast<float>(scale * (rng.normal(j, 1.0) + 5.0));
+               }));
+    }
+  }
+  return statistics;
+}
+
+GaussianStatistics packed_and_back(const GaussianStatistics& statistics) {
+  std::string bytes;
+  put_packed(bytes, statistics);
+  ByteReader reader(bytes, "test");
+  const GaussianStatistics read = take_packed(reader, statistics.states());
+  EXPECT_EQ(reader.left(), 0U);
+  return read;
+}
+
+Eigen::ArrayXf range_of(const Eigen::MatrixXf& values) {
+  return (values.rowwise().maxCoeff() - values.rowwise().minCoeff()).array();
+}
+
+RC_GTEST_PROP(PackedStatistics, AreWithinHalfAStep, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint64_t>());
+  const double scale = std::pow(10.0, *rc::gen::inRange(-9, 9));
+  const GaussianStatistics statistics = random_statistics(5, 6, scale, rng);
+  const GaussianStatistics read = packed_and_back(statistics);
+  RC_ASSERT(read.count == statistics.count);
+  const Eigen::ArrayXf half_step = range_of(statistics.mean) / 65535.0F * 0.51F;
+  const Eigen::ArrayXf rounding = statistics.mean.cwiseAbs().rowwise().maxCoeff() * 1e-6F;
+  const Eigen::MatrixXf spread = statistics.squared_deviation.cwiseSqrt();
+  const Eigen::ArrayXf half_spread = spread.rowwise().maxCoeff().array() / 65535.0F * 0.51F;
+  for (int j = 0; j < 6; ++j) {
+    RC_ASSERT(
+        ((read.mean.col(j) - statistics.mean.col(j)).array().abs() <= half_step + rounding).all());
+    RC_ASSERT(((read.squared_deviation.col(j).cwiseSqrt() - spread.col(j)).array().abs() <=
+               half_spread * 1.01F)
+                  .all());
+  }
+}
+
+RC_GTEST_PROP(PackedStatistics, DoNotDriftWhenPackedAgain, ()) {
+  Rng rng(*rc::gen::arbitrary<std::uint64_t>());
+  const GaussianStatistics once = packed_and_back(random_statistics(4, 5, 1.0, rng));
+  GaussianStatistics often = once;
+  for (int i = 0; i < 20; ++i) often = packed_and_back(often);
+  const float step = range_of(once.mean).maxCoeff() / 65535.0F;
+  RC_ASSERT((often.mean - once.mean).cwiseAbs().maxCoeff() <= 0.5F * step);
+  const Eigen::MatrixXf change = often.squared_deviation - once.squared_deviation;
+  RC_ASSERT(change.cwiseAbs().maxCoeff() <= 1e-5F * once.squared_deviation.maxCoeff());
+}
+
+TEST(PackedStatistics, KeepStatesWithoutViewsEmpty) {
+  GaussianStatistics statistics = empty_statistics(2, 3);
+  add_view(statistics, 1, Eigen::Vector2f(7.0F, -3.0F));
+  const GaussianStatistics read = packed_and_back(statistics);
+  EXPECT_EQ(read.count, (std::vector{0, 1, 0}));
+  EXPECT_EQ(read.mean, statistics.mean);
+  EXPECT_EQ(read.squared_deviation, statistics.squared_deviation);
+}
+
+TEST(PackedStatistics, RefuseRangesThatAreNotFinite) {
+  GaussianStatistics statistics = empty_statistics(1, 1);
+  add_view(statistics, 0, Eigen::VectorXf::Ones(1));
+  std::string whole;
+  put_packed(whole, statistics);
+  const std::size_t ranges = 2 * sizeof(std::int32_t);
+  for (const std::size_t field : {0U, 1U, 2U}) {  // low and step of means, step of spreads
+    for (const float bad : {NAN, INFINITY, -INFINITY, 3e38F}) {
+      if (field == 0 && bad == 3e38F) continue;
+      std::string bytes = whole;
+      std::memcpy(bytes.data() + ranges + field * sizeof(float), &bad, sizeof bad);
+      ByteReader reader(bytes, "test");
+      EXPECT_THROW(take_packed(reader, 1), InputError) << field << " " << bad;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,189 @@
+#include "vantage/belief/objects/psi_rule.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+/// Ten states a standard deviation apart.
+constexpr int kStates = 10;
+
+/// A feature that says the same thing `repeats` times.
+ObservationModel repeating_model(int repeats) {
+  ObservationModel model;
+  model.mean =
+      Eigen::VectorXf::Ones(repeats) * Eigen::RowVectorXf::LinSpaced(kStates, 0.0F, kStates - 1.0F);
+  model.variance = Eigen::MatrixXf::Ones(repeats, kStates);
+  return model;
+}
+
+struct World {
+  std::vector<ObservationModel> models;
+  HeldOutViews held_out;
+
+  [[nodiscard]] PsiContext context() const { return {models, held_out}; }
+};
+
+/// Views whose features are measured with noise of deviation `noise[f]`, where 1 is the model's.
+World make_world(const std::vector<int>& repeats, const std::vector<double>& noise, int views) {
+  World world;
+  Rng rng(11);
+  for (int v = 0; v < views; ++v) {
+    world.held_out.state.push_back(static_cast<int>(rng.uniform_index(kStates)));
+  }
+  for (std::size_t f = 0; f < repeats.size(); ++f) {
+    world.models.push_back(repeating_model(repeats[f]));
+    Eigen::MatrixXf densities(kStates, views);
+    for (int v = 0; v < views; ++v) {
+      const double seen =
+          world.held_out.state[static_cast<std::size_t>(v)] + noise[f] * rng.normal();
+      densities.col(v) = log_density(world.models[f], Eigen::VectorXf::Constant(
+                                                          repeats[f], static_cast<float>(seen)))
+                             .cast<float>();
+    }
+    world.held_out.log_density.push_back(densities);
+  }
+  return world;
+}
+
+TEST(CalibratedPsi, IsOneForAModelThatIsTrue) {
+  const World world = make_world({1}, {1.0}, 4000);
+  EXPECT_NEAR(CalibratedPsi{}(world.context())[0], 1.0, 0.06);
+}
+
+TEST(CalibratedPsi, TakesWhatIsSaidTenTimesForOnce) {
+  const World world = make_world({10}, {1.0}, 4000);
+  EXPECT_NEAR(CalibratedPsi{}(world.context())[0], 0.1, 0.006);
+}
+
+TEST(CalibratedPsi, TrustsANoisyFeatureAsTheSquareOfItsNoise) {
+  const World world = make_world({1}, {2.0}, 4000);
+  EXPECT_NEAR(CalibratedPsi{}(world.context())[0], 0.25, 0.03);
+}
+
+TEST(CalibratedPsi, SharesTheTemperatureBetweenFeaturesThatRepeatEachOther) {
+  World world = make_world({1}, {1.0}, 500);
+  const double alone = CalibratedPsi{}(world.context())[0];
+  world.models.push_back(world.models[0]);
+  world.held_out.log_density.push_back(world.held_out.log_density[0]);
+  const std::vector<double> both = CalibratedPsi{}(world.context());
+  EXPECT_NEAR(both[0], 0.5 * alone, 1e-3);
+  EXPECT_NEAR(both[1], 0.5 * alone, 1e-3);
+}
+
+RC_GTEST_PROP(CalibratedPsi, IsTheMostLikely, ()) {
+  const int repeats = *rc::gen::inRange(1, 50);
+  const World world = make_world({repeats}, {0.1 * *rc::gen::inRange(5, 30)}, 100);
+  const double psi = CalibratedPsi{}(world.context())[0];
+  const auto likelihood = [&](double p) {
+    return mean_log_posterior(world.held_out, std::vector{p});
+  };
+  for (const double other : {0.3 * psi, 0.98 * psi, 1.02 * psi, 3.0 * psi}) {
+    RC_ASSERT(likelihood(psi) >= likelihood(other));
+  }
+}
+
+TEST(CalibratedPsi, JointRoundsFindTheBestProportion) {
+  const World world = make_world({1, 1}, {0.5, 3.0}, 1000);
+  const std::vector<double> in_proportion = CalibratedPsi{}(world.context());
+  const std::vector<double> joint = CalibratedPsi{.joint_rounds = 10}(world.context());
+  const double best = mean_log_posterior(world.held_out, joint);
+  EXPECT_GE(best, mean_log_posterior(world.held_out, in_proportion));
+  for (const double factor : {0.95, 1.05}) {
+    EXPECT_GT(best, mean_log_posterior(world.held_out, std::vector{factor * joint[0], joint[1]}));
+    EXPECT_GT(best, mean_log_posterior(world.held_out, std::vector{joint[0], factor * joint[1]}));
+  }
+}
+
+/// Mean of ln p(object) over the views held out.
+double mean_log_object(const HeldOutViews& held_out, double psi) {
+  double sum = 0.0;
+  for (Eigen::Index v = 0; v < held_out.log_density[0].cols(); ++v) {
+    Eigen::ArrayXd p = psi * held_out.log_density[0].col(v).cast<double>().array();
+    p = (p - p.maxCoeff()).exp();
+    const int first = held_out.state[static_cast<std::size_t>(v)] / held_out.bins * held_out.bins;
+    sum += std::log(p.segment(first, held_out.bins).sum() / p.sum());
+  }
+  return sum / static_cast<double>(held_out.log_density[0].cols());
+}
+
+/// Objects are measured with noise of deviation 1.5, where 1 is the model's; which of its two poses
+/// an object seems to be in is anyone's guess.
+TEST(CalibratedPsi, AboutObjectsDoesNotMindMistakesOfPose) {
+  World world = make_world({1}, {1.0}, 4000);
+  world.held_out.bins = 2;
+  Rng rng(3);
+  for (Eigen::Index v = 0; v < 4000; ++v) {
+    const int object = world.held_out.state[static_cast<std::size_t>(v)] / 2;
+    const double seen = object + 1.5 * rng.normal();
+    const int seeming_pose = rng.uniform() < 0.5 ? 1 : 0;
+    for (int j = 0; j < kStates; ++j) {
+      const double apart = j / 2 - seen;
+      world.held_out.log_density[0](j, v) =
+          static_cast<float>(-0.5 * apart * apart - (j % 2 == seeming_pose ? 0.0 : 4.0));
+    }
+  }
+  EXPECT_NEAR(CalibratedPsi{}(world.context())[0], 1.0 / 2.25, 0.04);
+  EXPECT_LT(CalibratedPsi{.about_object = false}(world.context())[0], 0.2);
+}
+
+TEST(CalibratedPsi, AboutObjectsIsWhereTheLikelihoodPeaks) {
+  World world = make_world({3}, {1.5}, 2000);
+  world.held_out.bins = 2;
+  const double psi = CalibratedPsi{}(world.context())[0];
+  for (const double factor : {0.5, 0.95, 1.05, 2.0}) {
+    EXPECT_GT(mean_log_object(world.held_out, psi), mean_log_object(world.held_out, factor * psi));
+  }
+}
+
+TEST(CalibratedPsi, GivesUpAFeatureThatMisleads) {
+  World world = make_world({1}, {1.0}, 200);
+  world.held_out.log_density[0] = -world.held_out.log_density[0];
+  EXPECT_LT(CalibratedPsi{}(world.context())[0], 1e-6);
+}
+
+TEST(CalibratedPsi, SurvivesStatesThatAreImpossible) {
+  World world = make_world({1}, {1.0}, 200);
+  constexpr float kImpossible = -std::numeric_limits<float>::infinity();
+  for (int v = 0; v < 200; ++v) {
+    const int truth = world.held_out.state[static_cast<std::size_t>(v)];
+    world.held_out.log_density[0]((truth + 5) % kStates, v) = kImpossible;
+  }
+  EXPECT_NEAR(CalibratedPsi{}(world.context())[0], 1.0, 0.3);
+  world.held_out.log_density[0].col(3).setConstant(kImpossible);
+  EXPECT_NEAR(CalibratedPsi{}(world.context())[0], 1.0, 0.3);
+}
+
+TEST(CalibratedPsi, NeedsViews) {
+  World world = make_world({1}, {1.0}, 10);
+  world.held_out.state.clear();
+  EXPECT_THROW(choose_psi(CalibratedPsi{}, world.context()), InputError);
+}
+
+TEST(PsiRule, PerDimensionIsOneOverIts) {
+  const World world = make_world({4, 10}, {1.0, 1.0}, 1);
+  EXPECT_EQ(choose_psi(PerDimensionPsi{}, world.context()), (std::vector{0.25, 0.1}));
+}
+
+TEST(PsiRule, DissertationGoesByName) {
+  World world = make_world({1, 1, 1, 1, 1}, {1.0, 1.0, 1.0, 1.0, 1.0}, 1);
+  const std::vector<std::string> names{"colour", "bounding_box", "sift", "vfh", "size"};
+  for (std::size_t f = 0; f < names.size(); ++f) world.models[f].feature = names[f];
+  EXPECT_EQ(choose_psi(DissertationPsi{}, world.context()),
+            (std::vector{1.0, 0.02, 0.2, 0.001, 1.0}));
+  EXPECT_THROW(choose_psi(DissertationPsi{.vfh = -1.0}, world.context()), ConfigError);
+}
+
+TEST(MeanLogPosterior, WithoutFeaturesThatCountIsAGuess) {
+  const World world = make_world({1}, {1.0}, 20);
+  EXPECT_NEAR(mean_log_posterior(world.held_out, std::vector{0.0}), -std::log(kStates), 1e-6);
+}
+
+}  // namespace
+}  // namespace vantage

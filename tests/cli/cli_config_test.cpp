@@ -1,0 +1,139 @@
+// What the command line says about a configuration before anything runs.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_line.hpp"
+
+namespace vantage {
+namespace {
+
+TEST_F(CommandLine, UnknownKey) {
+  const auto episode = file("e.yaml", "scans: 3\nscnas: 4\n");
+  expect_error(vantage("run " + episode), 2, {"e.yaml:2", "scnas", "scans"});
+}
+
+TEST_F(CommandLine, DuplicateKey) {
+  const auto episode = file("e.yaml", "scans: 3\nseed: 1\nscans: 4\n");
+  expect_error(vantage("run " + episode), 2, {"e.yaml:3", "scans", "duplicate"});
+}
+
+TEST_F(CommandLine, WrongType) {
+  const auto episode = file("e.yaml", "scans: many\n");
+  expect_error(vantage("run " + episode), 2, {"e.yaml:1", "scans", "many"});
+}
+
+TEST_F(CommandLine, Infinity) {
+  const auto episode = file("e.yaml", "laser:\n  noise_sigma_m: .inf\n");
+  expect_error(vantage("run " + episode), 2, {"e.yaml:2", "laser.noise_sigma_m", ".inf"});
+}
+
+TEST_F(CommandLine, UnknownGain) {
+  expect_error(vantage("run --set gain=adaptiv"), 2, {"gain", "adaptiv", "adaptive"});
+}
+
+TEST_F(CommandLine, DryRunSeesOverrides) {
+  expect_error(vantage("run -q --dry-run --set scans=0 "), 2, {"scans"});
+  const auto scene = file("broken.xml", "<mujoco><nonsense/></mujoco>");
+  EXPECT_EQ(vantage("run --dry-run --set scene=" + scene).exit_code, 3);
+}
+
+TEST_F(CommandLine, RefusesAStartWithoutRoom) {
+  for (const char* when : {"--dry-run ", ""}) {
+    const std::string run = std::string("run -q ") + when;
+    expect_error(vantage(run + "--set candidates.radius_m=0.6"), 2,
+                 {"candidates.radius_m 0.6", "region of the map"});
+    const auto scene = file("post.xml", R"(<mujoco><worldbody>
+      <geom type="plane" size="5 5 .1"/>
+      <geom type="box" size=".5 .5 .02" pos="0 0 .7"/>
+      <geom name="post" type="box" size=".05 .05 .5" pos="1.3 .5 .5"/>
+    </worldbody></mujoco>)");
+    expect_error(vantage(run + "--set scene=" + scene), 2, {"robot.start_view 0", "'post'"});
+    expect_error(vantage(run + "--set candidates.height_m=3"), 2, {"candidates.height_m", "reach"});
+    expect_error(vantage(run + "--set laser.tilt_min_rad=-1.4"), 2, {"tilt_min_rad", "joint"});
+  }
+  EXPECT_THAT(written(), IsEmpty());
+}
+
+TEST_F(CommandLine, OverridesAreNamedInErrors) {
+  const auto named = [&](const std::string& assignment, const std::vector<std::string>& parts) {
+    const Result result = vantage("run --dry-run --set " + assignment);
+    expect_error(result, 2, parts);
+    EXPECT_THAT(result.output, testing::Not(HasSubstr("yaml"))) << assignment;
+    EXPECT_EQ(result.output.find("--set"), result.output.rfind("--set")) << result.output;
+  };
+  named("robot.start_view=40", {"--set robot.start_view: ", "candidates.positions"});
+  named("laser.tilt_min_rad=1 ", {"--set laser.tilt_min_rad: laser: ", "tilt_max_rad"});
+  named("metrics.predictors=[simple,fsmi]", {"metrics: predictors: 'fsmi'", "beer_lambert"});
+  named("gain=[1]", {"--set: gain: expected a name"});
+  named("gain.a=0.5", {"--set: gain.a: unknown key 'a'", "beer_lambert"});
+}
+
+TEST_F(CommandLine, JsonIsJson) {
+  const auto config =
+      vantage("run --print-config --json --set scans=4 --set scene=" +
+              std::string(VANTAGE_SOURCE_DIR "/models/scenes/tabletop_4/scene.xml"));
+  const auto parsed = nlohmann::json::parse(config.output, nullptr, false);
+  ASSERT_TRUE(parsed.is_object()) << config.output;
+  EXPECT_EQ(parsed["scans"], 4);
+  EXPECT_EQ(parsed["gain"]["name"], "adaptive");
+  const auto plan = nlohmann::json::parse(vantage("run --dry-run --json").output, nullptr, false);
+  ASSERT_TRUE(plan.is_object());
+  EXPECT_EQ(plan["method"], "adaptive");
+}
+
+TEST_F(CommandLine, ValidateKnowsWhatCannotRun) {
+  expect_error(vantage("validate " + file("empty.yaml", "# nothing\n")), 2, {"empty.yaml: empty"});
+  expect_error(vantage("validate ."), 3, {"directory"});
+  const std::string floor = "<geom type='plane' size='5 5 .1'/>";
+  const auto reserved = file("reserved.xml", "<mujoco><worldbody>" + floor +
+                                                 "<body name='robot/x'/></worldbody></mujoco>");
+  expect_error(vantage("validate " + reserved), 3, {"reserved.xml", "robot/x"});
+  const auto bare = file("bare.xml", "<mujoco><worldbody>" + floor + "</worldbody></mujoco>");
+  const Result good = vantage("validate " + bare);
+  EXPECT_EQ(good.exit_code, 0);
+  EXPECT_THAT(good.output,
+              testing::AllOf(HasSubstr("note: no table"), HasSubstr("bare.xml: good")));
+}
+
+TEST_F(CommandLine, RefusesWhatNoMemoryHolds) {
+  const std::pair<const char*, std::vector<std::string>> cases[] = {
+      {"floor_map.cell_m=1e-6", {"floor_map", "cell_m", "half_size_m", "2^26"}},
+      {"floor_map.half_size_m=1e300", {"floor_map", "cell_m", "half_size_m", "2^26"}},
+      {"laser.step_rad=1e-9", {"laser", "step_rad", "10^7"}},
+      {"base_scanner.step_rad=1e-9", {"base_scanner", "step_rad", "10^7"}},
+      {"map.cells=[4096,4096,4096]", {"map", "cells", "2^26"}},
+      {"candidates.positions=90000", {"map.cells", "candidates.positions", "2^31"}},
+  };
+  for (const auto& [assignment, parts] : cases) {
+    expect_error(vantage("run --dry-run --set " + std::string(assignment)), 2, parts);
+  }
+}
+
+TEST_F(CommandLine, PrintConfigIsReadBack) {
+  const Result first = vantage("run --set scans=4 --set gain.weight_rate=1 --print-config");
+  EXPECT_EQ(first.exit_code, 2);  // no such key in any gain
+  const Result config = vantage("run --set scans=4 --print-config");
+  ASSERT_EQ(config.exit_code, 0) << config.output;
+  const auto copy = file("copy.yaml", config.output);
+  EXPECT_EQ(vantage("run " + copy + " --print-config").output, config.output);
+}
+
+TEST_F(CommandLine, UsageErrorsEndInTwo) {
+  EXPECT_EQ(vantage("rnu").exit_code, 2);
+  EXPECT_EQ(vantage("run --sede 1").exit_code, 2);
+  EXPECT_EQ(vantage("run --dry-run --video=3").exit_code, 2);
+  EXPECT_EQ(vantage("run --dry-run --out ''").exit_code, 2);
+  EXPECT_EQ(vantage("").exit_code, 2);
+  EXPECT_EQ(vantage("--help").exit_code, 0);
+}
+
+TEST_F(CommandLine, ValidateNamesEveryProblem) {
+  const auto episode = file("e.yaml", "scans: 0\nseed: -1\nfoo: 1\n");
+  const Result result = vantage("validate " + episode);
+  EXPECT_EQ(result.exit_code, 2);
+  for (const char* part : {"e.yaml:1", "e.yaml:2", "e.yaml:3"}) {
+    EXPECT_THAT(result.output, HasSubstr(part));
+  }
+}
+
+}  // namespace
+}  // namespace vantage

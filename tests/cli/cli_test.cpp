@@ -1,0 +1,140 @@
+// The command line as a user meets it: exit codes, one clear line, nothing half-written.
+#include "tests/cli/command_line.hpp"
+
+namespace vantage {
+namespace {
+
+TEST_F(CommandLine, MissingFile) { expect_error(vantage("run nowhere.yaml"), 3, {"nowhere.yaml"}); }
+
+TEST_F(CommandLine, MissingScene) {
+  const auto episode = file("e.yaml", "scans: 1\nscene: no/such.xml\n");
+  expect_error(vantage("run " + episode), 3, {"e.yaml:2", "scene", "no/such.xml"});
+}
+
+TEST_F(CommandLine, MalformedScene) {
+  const auto scene =
+      file("broken.xml", "<mujoco>\n  <worldbody>\n    <geom type='bix'/>\n</mujoco>");
+  expect_error(vantage("run -q --set scene=" + scene), 3, {"broken.xml"});
+  EXPECT_EQ(vantage("validate " + scene).exit_code, 3);
+}
+
+TEST_F(CommandLine, SceneWithoutTable) {
+  const auto scene = file(
+      "bare.xml", "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
+  expect_error(vantage(std::string("run ") + kShort + "--set scene=" + scene), 3,
+               {"bare.xml", "no table"});
+  EXPECT_THAT(written(), testing::Not(testing::Contains("metrics.json")));
+  const auto episode = file("e.yaml", "scene: bare.xml\n");
+  expect_error(vantage("validate " + episode), 3, {"e.yaml", "bare.xml", "no table"});
+}
+
+TEST_F(CommandLine, DivergedEpisodeIsARecordedResult) {
+  // A spring that pushes away from rest: the ball runs off exponentially.
+  const auto scene = file("unstable.xml", R"(<mujoco><worldbody>
+    <geom type="plane" size="5 5 .1"/>
+    <geom type="box" size=".5 .5 .02" pos="0 0 .7"/>
+    <body pos="3 3 1"><joint type="slide" axis="1 0 0" stiffness="-30" springref="-0.01"/>
+      <geom size=".05" mass="1" contype="0" conaffinity="0"/></body>
+  </worldbody></mujoco>)");
+  const Result result = vantage(std::string("run ") + kShort + "--set scene=" + scene);
+  EXPECT_EQ(result.exit_code, 4) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("the simulation diverged at"));
+  const Result metrics = shell("cat '" + folder_.string() + "'/out/*/metrics.json");
+  EXPECT_THAT(metrics.output, HasSubstr("\"status\": \"diverged\""));
+  EXPECT_THAT(written(), testing::IsSupersetOf({"states.bin", "actions.csv", "report.html"}));
+}
+
+TEST_F(CommandLine, EmptyMap) {
+  const auto map = file("empty.bt", "");
+  expect_error(vantage("validate " + map), 3, {"empty.bt"});
+}
+
+TEST_F(CommandLine, OutputNotADirectory) {
+  const auto blocker = file("blocker", "x");
+  expect_error(vantage(std::string("run ") + kShort + "--out " + blocker + "/run"), 5, {"blocker"});
+}
+
+TEST_F(CommandLine, FullDisk) {
+  // A file size limit fails the write as a full disk does.
+  const Result result =
+      shell("cd '" + folder_.string() +
+            "' && trap '' XFSZ && ulimit -f 16 && " VANTAGE_BINARY " run " + kShort);
+  EXPECT_EQ(result.exit_code, 5) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("cannot write"));
+  const auto left = written();
+  for (const auto& name : left) EXPECT_THAT(name, testing::Not(HasSubstr(".part")));
+  EXPECT_THAT(left, testing::Not(testing::Contains("metrics.json")));
+  EXPECT_THAT(shell("cat '" + folder_.string() + "'/out/*/log.txt").output,
+              HasSubstr("cannot write"));
+}
+
+TEST_F(CommandLine, SecondRunNeedsOverwrite) {
+  const std::string run = std::string("run ") + kShort;
+  ASSERT_EQ(vantage(run).exit_code, 0);
+  expect_error(vantage(run), 2, {"--overwrite"});
+  EXPECT_EQ(vantage(run + "--overwrite").exit_code, 0);
+}
+
+TEST_F(CommandLine, InterruptedRunWritesWhatThereIs) {
+  const Result result =
+      shell("cd '" + folder_.string() +
+            "' && timeout --preserve-status -s INT 4 " VANTAGE_BINARY " run -q --json");
+  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("\"status\": \"interrupted\""));
+  EXPECT_THAT(written(), testing::IsSupersetOf({"metrics.json", "report.html", "states.bin"}));
+}
+
+TEST_F(CommandLine, InterruptedScanIsNotFinished) {
+  // An hour of scanning: no machine is through with it after four seconds.
+  const Result result = shell("cd '" + folder_.string() +
+                              "' && timeout --preserve-status -s INT 4 " VANTAGE_BINARY
+                              " run -q --json --set laser.scan_duration_s=3600 --out run");
+  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("\"scans\": []"));
+  EXPECT_EQ(vantage("replay run").exit_code, 0);
+  EXPECT_EQ(vantage("report run").exit_code, 0);
+}
+
+TEST_F(CommandLine, TerminatedRunEndsIn143) {
+  const Result result = shell("cd '" + folder_.string() +
+                              "' && timeout --preserve-status -s TERM 4 " VANTAGE_BINARY " run -q");
+  EXPECT_EQ(result.exit_code, 143) << result.output;
+  EXPECT_THAT(written(), testing::Contains("metrics.json"));
+}
+
+TEST_F(CommandLine, FullStdoutIsAnOutputError) {
+  EXPECT_EQ(vantage("list gains >/dev/full").exit_code, 5);
+}
+
+TEST_F(CommandLine, FailedOverwriteKeepsTheOldRun) {
+  const std::string run = std::string("run ") + kShort;
+  ASSERT_EQ(vantage(run).exit_code, 0);
+  EXPECT_EQ(vantage(run + "--overwrite --set scene=no.xml").exit_code, 3);
+  EXPECT_THAT(written(), testing::Contains("metrics.json"));
+}
+
+TEST_F(CommandLine, SceneBesideTheEpisodeIsReplayed) {
+  fs::copy(fs::path(VANTAGE_SOURCE_DIR) / "models/scenes/tabletop_4", folder_ / "mine",
+           fs::copy_options::recursive);
+  file("mine/e.yaml", "scene: scene.xml\n");
+  ASSERT_EQ(vantage(std::string("run mine/e.yaml ") + kShort + "--out run").exit_code, 0);
+  EXPECT_EQ(vantage("replay run").exit_code, 0);
+}
+
+TEST_F(CommandLine, ListsWhatThereIs) {
+  EXPECT_THAT(vantage("list gains").output, HasSubstr("adaptive\n"));
+  EXPECT_THAT(vantage("list scenes").output, HasSubstr("tabletop_25"));
+  EXPECT_THAT(vantage("list features").output,
+              testing::AllOf(testing::ContainsRegex("colour +144 dimensions +[0-9.]+ ms\n"),
+                             testing::ContainsRegex("sift +1000 dimensions"), HasSubstr("onnx")));
+  EXPECT_EQ(vantage("list nothing").exit_code, 2);
+}
+
+TEST_F(CommandLine, DoctorFindsTheRenderer) {
+  const Result result = vantage("doctor");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("H.264 in MP4 works"));
+}
+
+}  // namespace
+}  // namespace vantage

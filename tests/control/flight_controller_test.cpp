@@ -1,0 +1,161 @@
+#include "vantage/control/flight_controller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/control/flight_kit.hpp"
+
+namespace vantage {
+namespace {
+
+using test::airframe;
+constexpr double kPi = std::numbers::pi;
+constexpr double kPeriod_s = 0.002;
+
+Eigen::Matrix3d turned(double angle_rad, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(angle_rad, axis.normalized()).toRotationMatrix();
+}
+
+TEST(AttitudeError, OfKnownTurns) {
+  const Eigen::Matrix3d desired = turned(0.7, {0.2, 0.1, 1.0});
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(0.6, -0.8, 0.0), Eigen::Vector3d(0.0, 0.0, 1.0)}) {
+    for (const double angle : {0.01, 0.5, 1.5, 3.0, kPi}) {
+      const Eigen::Vector3d error = attitude_error(desired * turned(angle, axis), desired);
+      const Eigen::Vector3d expected = 2.0 * std::sin(angle / 2.0) * axis;
+      EXPECT_TRUE(error.isApprox(expected, 1e-9) ||
+                  (angle == kPi && error.isApprox(-expected, 1e-9)))
+          << angle;
+    }
+    // Beyond half a turn the short way is the other way.
+    EXPECT_TRUE(attitude_error(desired * turned(4.0, axis), desired)
+                    .isApprox(-2.0 * std::sin((2.0 * kPi - 4.0) / 2.0) * axis, 1e-9));
+  }
+  EXPECT_LT(attitude_error(desired, desired).norm(), 1e-12);
+}
+
+TEST(AttitudeError, TurnsTheThrustAxisTheShortWayWhateverTheHeading) {
+  for (const double yaw : {-3.1, -1.0, 0.3, 3.0}) {
+    const Eigen::Matrix3d R = turned(0.8, {0.3, 1.0, 0.2});
+    const Eigen::Matrix3d desired = turned(0.5, {1.0, -0.4, 0.0}) * turned(yaw, {0.0, 0.0, 1.0});
+    const Eigen::Vector3d error = attitude_error(R, desired);
+    const Eigen::Vector3d wanted = R.transpose() * desired.col(2);  // thrust axis, in body axes
+    const Eigen::Vector3d way = Eigen::Vector3d::UnitZ().cross(wanted).normalized();
+    const double angle = std::acos(wanted.z());
+    EXPECT_LT((error.head<2>() + 2.0 * std::sin(angle / 2.0) * way.head<2>()).norm(), 1e-9) << yaw;
+  }
+}
+
+TEST(AttitudeError, IsThatOfLeeToFirstOrder) {
+  const Eigen::Matrix3d R = turned(0.002, {1.0, 2.0, 3.0});
+  const Eigen::Matrix3d skew = 0.5 * (R - R.transpose());
+  const Eigen::Vector3d lee(skew(2, 1), skew(0, 2), skew(1, 0));
+  EXPECT_LT((attitude_error(R, Eigen::Matrix3d::Identity()) - lee).norm(), 0.002 * lee.norm());
+}
+
+TEST(AttitudeAlong, PointsThrustAndHeading) {
+  const Eigen::Vector3d force(2.0, -1.0, 9.0);
+  const Eigen::Matrix3d R = attitude_along(force, Eigen::Vector3d::Zero(), 0.8, 0.0).R_world_body;
+  EXPECT_TRUE(R.col(2).isApprox(force.normalized(), 1e-12));
+  EXPECT_NEAR(R.determinant(), 1.0, 1e-12);
+  EXPECT_NEAR(std::atan2(R(1, 0), R(0, 0)), 0.8, 0.05);
+  EXPECT_NEAR(R.col(1).dot(Eigen::Vector3d(std::cos(0.8), std::sin(0.8), 0.0)), 0.0, 1e-12);
+}
+
+TEST(AttitudeAlong, TurnsAsTheForceChanges) {
+  constexpr double kStep_s = 1e-6;
+  const Eigen::Vector3d force(2.0, -1.0, 9.0);
+  const Eigen::Vector3d rate(1.0, 3.0, -2.0);
+  const AttitudeReference now = attitude_along(force, rate, 0.8, 0.0);
+  const AttitudeReference next =
+      attitude_along(force + kStep_s * rate, Eigen::Vector3d::Zero(), 0.8, 0.0);
+  const Eigen::Vector3d w = attitude_error(next.R_world_body, now.R_world_body) / kStep_s;
+  EXPECT_NEAR(w.x(), now.w_body_rad_s.x(), 1e-4);
+  EXPECT_NEAR(w.y(), now.w_body_rad_s.y(), 1e-4);
+}
+
+TEST(ControlFlight, HoverCarriesTheWeight) {
+  const Airframe frame = airframe();
+  FlightMemory memory;
+  const Allocation given = control_flight({}, {}, frame, kPeriod_s, {}, memory);
+  const Wrench got = wrench_of(frame, given.thrust_N);
+  EXPECT_NEAR(got.collective_N, 1.24 * 9.81, 1e-9);
+  EXPECT_LT(got.torque_Nm.norm(), 1e-9);
+}
+
+TEST(ControlFlight, PushesTowardsTheReference) {
+  const Airframe frame = airframe();
+  const auto torque = [&](const Eigen::Vector3d& p_m, double yaw_rad) {
+    FlightMemory memory;
+    const FlightReference reference{.p_world_m = p_m, .yaw_rad = yaw_rad};
+    const Allocation given = control_flight({}, reference, frame, kPeriod_s, {}, memory);
+    return wrench_of(frame, given.thrust_N);
+  };
+  EXPECT_GT(torque({0.3, 0.0, 0.0}, 0.0).torque_Nm.y(), 0.1) << "forward: nose down";
+  EXPECT_LT(torque({0.0, 0.3, 0.0}, 0.0).torque_Nm.x(), -0.1) << "left: roll to the left";
+  EXPECT_GT(torque({0.0, 0.0, 0.3}, 0.0).collective_N, 1.24 * 9.81 + 1.0);
+  EXPECT_GT(torque({0.0, 0.0, 0.0}, 0.2).torque_Nm.z(), 0.01);
+}
+
+TEST(ControlFlight, NeverAsksForMoreTiltThanAllowed) {
+  // Level is as far as it may tilt if the allowed tilt is next to nothing: no torque, however far
+  // off it is.
+  const Airframe frame = airframe();
+  FlightControllerOptions options;
+  options.tilt_max_rad = 1e-6;
+  FlightMemory memory;
+  const FlightReference far{.p_world_m = {50.0, 0.0, 0.0}};
+  const Allocation given = control_flight({}, far, frame, kPeriod_s, options, memory);
+  EXPECT_LT(wrench_of(frame, given.thrust_N).torque_Nm.norm(), 1e-3);
+}
+
+TEST(ControlFlight, UpsideDownTurnsWithoutPushingDown) {
+  const Airframe frame = airframe();
+  FlightState state;
+  state.T_world_body.linear() = turned(2.8, {1.0, 0.0, 0.0});
+  FlightMemory memory;
+  const Allocation given = control_flight(state, {}, frame, kPeriod_s, {}, memory);
+  const Wrench got = wrench_of(frame, given.thrust_N);
+  EXPECT_LT(got.torque_Nm.x(), -0.5);
+  // No more force than the torque needs: one rotor at least is at rest.
+  EXPECT_NEAR(given.thrust_N.minCoeff(), 0.0, 1e-9);
+}
+
+/// A point mass that answers the controller at once: no attitude dynamics.
+struct Hover {
+  Airframe frame = airframe();
+  FlightControllerOptions options;
+  FlightMemory memory;
+  FlightState state;
+
+  void step(const FlightReference& reference, const Eigen::Vector3d& push_m_s2) {
+    const Allocation given = control_flight(state, reference, frame, kPeriod_s, options, memory);
+    Eigen::Vector3d a = push_m_s2;
+    a.z() += given.collective_N / frame.mass_kg - frame.gravity_m_s2;
+    state.v_world_m_s += kPeriod_s * a;
+    state.T_world_body.translation() += kPeriod_s * state.v_world_m_s;
+  }
+};
+
+TEST(ControlFlight, LearnsASteadyPush) {
+  Hover hover;
+  for (int i = 0; i < 5000; ++i) hover.step({}, {0.0, 0.0, -1.5});
+  EXPECT_NEAR(hover.memory.push_m_s2.z(), -1.5, 1e-6);
+  EXPECT_NEAR(hover.state.T_world_body.translation().z(), 0.0, 1e-6);
+}
+
+TEST(ControlFlight, StepsOfTheReferenceTeachNoPush) {
+  Hover hover;
+  double most = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    hover.step({.p_world_m = {0.0, 0.0, 5.0}}, Eigen::Vector3d::Zero());
+    most = std::max(most, hover.memory.push_m_s2.norm());
+  }
+  EXPECT_LT(most, 1e-9);
+  EXPECT_GT(hover.state.T_world_body.translation().z(), 4.0);
+}
+
+}  // namespace
+}  // namespace vantage

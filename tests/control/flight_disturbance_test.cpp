@@ -1,0 +1,64 @@
+#include "vantage/control/flight_disturbance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+TEST(Gust, PushesForItsTime) {
+  const Gust gust{.force_N = 4.0, .direction = {3.0, 0.0, 4.0}, .start_s = 1.0, .duration_s = 0.5};
+  EXPECT_TRUE(gust.force_world_N(1.2).isApprox(Eigen::Vector3d(2.4, 0.0, 3.2), 1e-12));
+  EXPECT_TRUE(gust.force_world_N(1.0).isApprox(Eigen::Vector3d(2.4, 0.0, 3.2), 1e-12));
+  EXPECT_EQ(gust.force_world_N(0.999), Eigen::Vector3d::Zero());
+  EXPECT_EQ(gust.force_world_N(1.5), Eigen::Vector3d::Zero());
+}
+
+TEST(Gust, NeedsADirection) {
+  EXPECT_THROW(check_options(Gust{.direction = {0.0, 0.0, 0.0}}, "gust"), ConfigError);
+}
+
+TEST(PoseEstimate, IsExactWithoutNoise) {
+  PoseEstimate estimate(PoseNoiseOptions::perfect(), Rng(1));
+  FlightState truth;
+  truth.T_world_body = make_pose({1.0, 2.0, 3.0}, 0.4, 0.2);
+  estimate.update(0.1);
+  EXPECT_EQ(estimate.of(truth).T_world_body.matrix(), truth.T_world_body.matrix());
+}
+
+TEST(PoseEstimate, ErrorsAreGaussianOfTheirSizeAndForgetInTime) {
+  const PoseNoiseOptions options{.sigma_position_m = 0.02,
+                                 .sigma_yaw_rad = 0.03,
+                                 .sigma_tilt_rad = 0.004,
+                                 .correlation_s = 0.5};
+  FlightState truth;
+  truth.T_world_body = make_pose({1.0, 2.0, 3.0}, 0.4);
+  constexpr int kDraws = 4000;
+  double x2 = 0.0;
+  double yaw2 = 0.0;
+  double tilt2 = 0.0;
+  double kept = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    PoseEstimate estimate(options, Rng(static_cast<std::uint64_t>(i)));
+    const Pose first = estimate.of(truth).T_world_body;
+    for (int k = 0; k < 10; ++k) estimate.update(0.05);
+    const Pose T = estimate.of(truth).T_world_body;
+    const double x = T.translation().x() - 1.0;
+    x2 += x * x / kDraws;
+    kept += x * (first.translation().x() - 1.0) / kDraws;
+    yaw2 += std::pow(flatten(T).yaw_rad - 0.4, 2) / kDraws;
+    tilt2 += std::pow(std::acos(std::min(1.0, T.linear()(2, 2))), 2) / kDraws;
+  }
+  // Four standard errors of a variance from that many draws.
+  const double tolerance = 4.0 * std::sqrt(2.0 / kDraws);
+  EXPECT_NEAR(x2 / (0.02 * 0.02), 1.0, tolerance);
+  EXPECT_NEAR(yaw2 / (0.03 * 0.03), 1.0, tolerance);
+  EXPECT_NEAR(tilt2 / (2.0 * 0.004 * 0.004), 1.0, tolerance);
+  EXPECT_NEAR(kept / x2, std::exp(-1.0), tolerance) << "after 0.5 s";
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,51 @@
+/// Quadrotors for the tests: one of numbers alone, one in a world of its own.
+#pragma once
+
+#include "vantage/sim/robots/pilot.hpp"
+#include "tests/sim/test_world.hpp"
+
+namespace vantage::test {
+
+inline std::filesystem::path quadrotor_file() {
+  return std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/quadrotor/quadrotor.xml";
+}
+
+/// What models/robots/quadrotor is meant to be.
+inline Airframe airframe() {
+  Airframe frame;
+  frame.mass_kg = 1.24;
+  frame.inertia_kg_m2 = Eigen::Vector3d(0.0061, 0.0076, 0.0126).asDiagonal();
+  frame.p_body_com_m = {0.008, 0.0, -0.008};
+  frame.rotors = {Rotor{{0.117, 0.117, 0.032}, -0.016}, Rotor{{-0.117, 0.117, 0.032}, 0.016},
+                  Rotor{{-0.117, -0.117, 0.032}, -0.016}, Rotor{{0.117, -0.117, 0.032}, 0.016}};
+  frame.thrust_max_N = 8.0;
+  return frame;
+}
+
+inline PilotOptions sure_pilot() {
+  PilotOptions options;
+  options.pose_noise = PoseNoiseOptions::perfect();
+  return options;
+}
+
+inline Pose at_height(double z_m) { return make_pose({0.0, 0.0, z_m}, 0.0); }
+
+/// Hovering in a scene.
+struct FlightWorld {
+  explicit FlightWorld(const PilotOptions& options = sure_pilot(),
+                       const Pose& T_world_body = at_height(3.0), const std::string& bodies = "",
+                       std::uint64_t seed = 1)
+      : folder(scene_mjcf(bodies)),
+        world({folder.path(), quadrotor_file()}, kFlightWorld),
+        vehicle(world.model()),
+        pilot((vehicle.place(world, T_world_body), world), vehicle, options, Rng(seed)) {}
+  [[nodiscard]] Eigen::Vector3d position_m() const {
+    return vehicle.state(world).T_world_body.translation();
+  }
+  SceneFolder folder;
+  World world;
+  Quadrotor vehicle;
+  Pilot pilot;
+};
+
+}  // namespace vantage::test

@@ -1,0 +1,120 @@
+// Principal components and vocabularies.
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include "vantage/core/error.hpp"
+#include "vantage/perception/features/kit/k_means.hpp"
+#include "vantage/perception/features/kit/pca.hpp"
+
+namespace vantage {
+namespace {
+
+Eigen::MatrixXf noise(Eigen::Index rows, Eigen::Index columns, Rng& rng) {
+  return Eigen::MatrixXf::NullaryExpr(rows, columns,
+                                      [&] { return static_cast<float>(rng.normal()); });
+}
+
+/// `n` samples whose deviation along axis i is 1 / (i + 1).
+Eigen::MatrixXf samples_of(Eigen::Index dimensions, Eigen::Index n, Rng& rng) {
+  Eigen::MatrixXf samples = noise(dimensions, n, rng);
+  for (Eigen::Index i = 0; i < dimensions; ++i) samples.row(i) /= static_cast<float>(i + 1);
+  return samples.array() + 3.0F;
+}
+
+// More samples than dimensions, and fewer: both ways of solving.
+class PcaOf : public testing::TestWithParam<int> {};
+
+TEST_P(PcaOf, ComponentsAreOrthonormalAndUncorrelated) {
+  Rng rng(1);
+  const Eigen::MatrixXf samples = samples_of(20, GetParam(), rng);
+  const Pca pca = learn_pca(samples, 10);
+  ASSERT_EQ(pca.axes.cols(), 10);
+  const Eigen::MatrixXf identity = Eigen::MatrixXf::Identity(10, 10);
+  EXPECT_LT((pca.axes.transpose() * pca.axes - identity).cwiseAbs().maxCoeff(), 1e-4F);
+  Eigen::MatrixXf projected(10, samples.cols());
+  for (Eigen::Index i = 0; i < samples.cols(); ++i) projected.col(i) = pca.project(samples.col(i));
+  const Eigen::MatrixXf covariance =
+      projected * projected.transpose() / static_cast<float>(samples.cols() - 1);
+  const Eigen::MatrixXf expected = pca.variance.asDiagonal();
+  EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 1e-4F * pca.variance[0]);
+  EXPECT_LT(projected.rowwise().mean().cwiseAbs().maxCoeff(), 1e-4F);
+}
+INSTANTIATE_TEST_SUITE_P(Samples, PcaOf, testing::Values(15, 200));
+
+TEST(Pca, OfFewSamplesHasOneComponentLess) {
+  Rng rng(1);
+  EXPECT_EQ(learn_pca(samples_of(20, 4, rng), 10).axes.cols(), 3);
+}
+
+TEST(Pca, ComponentsThatAreRoundingAreLeftOut) {
+  Rng rng(1);
+  const Eigen::MatrixXf plane = noise(8, 2, rng) * noise(2, 50, rng);
+  EXPECT_EQ(learn_pca(plane, 8).axes.cols(), 2);
+}
+
+TEST(Pca, NeedsSamplesThatDiffer) {
+  EXPECT_THROW(learn_pca(Eigen::MatrixXf::Ones(4, 1), 2), InputError);
+  EXPECT_THROW(learn_pca(Eigen::MatrixXf::Ones(4, 5), 2), InputError);
+}
+
+TEST(Words, FindSeparateClusters) {
+  Rng rng(1);
+  Eigen::MatrixXf samples = 0.1F * noise(2, 300, rng);
+  for (Eigen::Index i = 0; i < 300; ++i) samples(0, i) += static_cast<float>(10 * (i % 3));
+  const Eigen::MatrixXf words = learn_words(samples, 3, 20, rng);
+  const auto nearest = nearest_words(words, samples);
+  for (std::size_t i = 0; i < 300; ++i) {
+    EXPECT_EQ(nearest[i], nearest[i % 3]);
+    EXPECT_LT((words.col(nearest[i]) - samples.col(static_cast<Eigen::Index>(i))).norm(), 1.0F);
+  }
+}
+
+TEST(Words, SameSeedSameBits) {
+  Rng data(1);
+  const Eigen::MatrixXf samples = noise(5, 400, data);
+  Rng a(7);
+  Rng b(7);
+  Rng other(8);
+  const Eigen::MatrixXf words = learn_words(samples, 12, 10, a);
+  EXPECT_EQ(words, learn_words(samples, 12, 10, b));
+  EXPECT_NE(words, learn_words(samples, 12, 10, other));
+}
+
+TEST(Words, NoMoreThanSamplesAndNoneLost) {
+  Rng rng(1);
+  EXPECT_EQ(learn_words(noise(3, 4, rng), 10, 5, rng).cols(), 4);
+  const Eigen::MatrixXf alike = Eigen::MatrixXf::Ones(3, 6);
+  EXPECT_EQ(learn_words(alike, 2, 5, rng), Eigen::MatrixXf::Ones(3, 2));
+}
+
+TEST(Words, DistancesAreThoseOfTheDefinition) {
+  Rng rng(1);
+  const Eigen::MatrixXf words = noise(4, 3, rng);
+  const Eigen::MatrixXf samples = noise(4, 5, rng);
+  const Eigen::MatrixXf distances = squared_distances(words, samples);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 5; ++j) {
+      EXPECT_NEAR(distances(i, j), (words.col(i) - samples.col(j)).squaredNorm(), 1e-5);
+    }
+  }
+}
+
+TEST(SomeIndices, AreDrawnOnceAndEvenly) {
+  Rng rng(1);
+  std::vector<int> drawn(10, 0);
+  for (int i = 0; i < 2000; ++i) {
+    const auto indices = some_indices(10, 4, rng);
+    ASSERT_EQ(indices.size(), 4U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      ++drawn[static_cast<std::size_t>(indices[k])];
+      if (k > 0) {
+        ASSERT_LT(indices[k - 1], indices[k]);
+      }
+    }
+  }
+  for (const int count : drawn) EXPECT_NEAR(count, 800, 110);  // 5 standard deviations
+  EXPECT_EQ(some_indices(3, 9, rng).size(), 3U);
+}
+
+}  // namespace
+}  // namespace vantage

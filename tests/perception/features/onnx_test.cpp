@@ -1,0 +1,97 @@
+#include "vantage/perception/features/onnx.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/perception/features/onnx_bytes.hpp"
+#include "tests/support/object_views.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(OnnxNetwork, ComputesWhatItsFileSays) {
+  const OnnxNetwork network(averaging_network(), "mean.onnx");
+  constexpr Eigen::Index plane = Eigen::Index{224} * 224;
+  Eigen::VectorXf input(3 * plane);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    input.segment(c * plane, plane).setLinSpaced(plane, 0.0F, static_cast<float>(c));
+  }
+  const Eigen::VectorXf output = network.compute(input);
+  ASSERT_EQ(output.size(), 3);
+  for (Eigen::Index c = 0; c < 3; ++c) EXPECT_NEAR(output[c], 0.5 * static_cast<double>(c), 1e-3);
+}
+
+TEST(OnnxNetwork, ThatTakesOtherInputsIsNamed) {
+  const OnnxNetwork network(convolution_network(5), "five.onnx");
+  EXPECT_THAT([&] { (void)network.compute(Eigen::VectorXf::Zero(3 * 224 * 224)); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("'five.onnx' cannot take an input of 1 x 3 x 224 x 224")));
+}
+
+TEST(OnnxNetwork, FilesThatAreNoneAreNamed) {
+  EXPECT_THAT([] { OnnxNetwork("no network at all", "junk.onnx"); },
+              ThrowsMessage<InputError>(HasSubstr("'junk.onnx' is no ONNX network")));
+}
+
+class OnnxFeature : public testing::Test {
+ protected:
+  OnnxFeature() {
+    options.file = (directory.path() / "mean.onnx").string();
+    std::ofstream(options.file, std::ios::binary) << averaging_network();
+  }
+  support::TemporaryDirectory directory;
+  Onnx options;
+};
+
+// Means of three channels on the unit sphere have two or three components.
+TEST_F(OnnxFeature, ComponentsOfWhatTheNetworkGives) {
+  Rng rng(1);
+  const auto views = ball_views(5, 40, rng);
+  const TrainedOnnx trained = options.train(views, rng);
+  EXPECT_EQ(trained.dimension(), 3);
+  const FeatureResult a = trained.extract(views[0]);
+  ASSERT_TRUE(a.extracted());
+  EXPECT_EQ(a.vector.size(), 3);
+  EXPECT_NE(a.vector, trained.extract(views[1]).vector);
+}
+
+TEST_F(OnnxFeature, WhatIsBesideTheMaskDoesNotCount) {
+  Rng rng(1);
+  const auto views = ball_views(5, 40, rng);
+  const TrainedOnnx trained = options.train(views, rng);
+  ObjectView other = views[0];
+  for (int i = 0; i < 3 * 40; ++i) other.rgb[static_cast<std::size_t>(i)] = 255;
+  for (int i = 0; i < 40; ++i) other.mask[static_cast<std::size_t>(i)] = 0;
+  ObjectView same = views[0];
+  for (int i = 0; i < 40; ++i) same.mask[static_cast<std::size_t>(i)] = 0;
+  EXPECT_EQ(trained.extract(other).vector, trained.extract(same).vector);
+}
+
+TEST_F(OnnxFeature, WorksWithoutTheFileOnceTrained) {
+  Rng rng(1);
+  const auto views = ball_views(4, 40, rng);
+  const TrainedOnnx trained = options.train(views, rng);
+  std::filesystem::remove(options.file);
+  std::string bytes;
+  trained.put_state(bytes);
+  StateReader reader(bytes, "state");
+  const TrainedOnnx back = Onnx::take_state(reader);
+  EXPECT_EQ(back.extract(views[0]).vector, trained.extract(views[0]).vector);
+  EXPECT_THAT([&] { (void)options.train(views, rng); },
+              ThrowsMessage<InputError>(HasSubstr(options.file)));
+}
+
+TEST_F(OnnxFeature, NeedsTwoViews) {
+  Rng rng(1);
+  const auto views = ball_views(1, 40, rng);
+  EXPECT_THAT([&] { (void)options.train(views, rng); },
+              ThrowsMessage<InputError>(HasSubstr("1 training views can be used, fewer than 2")));
+}
+
+}  // namespace
+}  // namespace vantage

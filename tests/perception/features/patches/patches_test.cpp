@@ -1,0 +1,192 @@
+// Patch descriptors by shared sums against the same, pixel by pixel and point by point.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "vantage/perception/features/patches/cloud_patches.hpp"
+#include "vantage/perception/features/patches/image_patches.hpp"
+#include "vantage/perception/features/patches/kernel_descriptor.hpp"
+#include "tests/support/object_views.hpp"
+
+namespace vantage {
+namespace {
+
+/// E vec(A diag(m) S') of the patch whose upper left pixel is (x, y).
+Eigen::VectorXf patch_by_pixels(const AttributeImage& image, const ProductBasis& basis, int x,
+                                int y) {
+  Eigen::VectorXf sum = Eigen::VectorXf::Zero(basis.rows());
+  double norm2 = 0.0;
+  for (int row = 0; row < kPatchSide_px; ++row) {
+    for (int column = 0; column < kPatchSide_px; ++column) {
+      const Eigen::Index i = Eigen::Index{y + row} * image.width_px + x + column;
+      std::vector<double> values;
+      for (const float value : image.attributes.col(i)) values.push_back(value);
+      values.push_back(column / 16.0);
+      values.push_back(row / 16.0);
+      sum += image.weights[i] * basis.describe(values);
+      norm2 += image.weights[i] * image.weights[i];
+    }
+  }
+  return sum / static_cast<float>(std::max(std::sqrt(norm2), 0.8));
+}
+
+class ImagePatches : public testing::TestWithParam<PatchKind> {};
+
+AttributeImage image_of(PatchKind kind, const ObjectView& view, const ObjectPixels& pixels) {
+  switch (kind) {
+    case PatchKind::rgb_gradient: return rgb_gradient_image(view, pixels);
+    case PatchKind::lbp: return lbp_image(view, pixels);
+    case PatchKind::normalised_rgb: return normalised_rgb_image(view, pixels);
+    case PatchKind::depth_gradient: return depth_gradient_image(view, pixels);
+    default: return depth_lbp_image(view, pixels);
+  }
+}
+
+TEST_P(ImagePatches, AreSumsOverTheirPixels) {
+  Rng rng(1);
+  const ObjectView view = ball_view(45, {.radius_m = 0.05, .noise = 0.02}, rng);
+  const ObjectPixels pixels = object_pixels(view);
+  const AttributeImage image = image_of(GetParam(), view, pixels);
+  const ProductBasis basis = make_product_basis(basis_axes(GetParam()), 30);
+  const PatchSet set = describe_patches(image, pixels, basis);
+  ASSERT_EQ(set.size(), 16);  // 4 x 4, all with enough of the ball
+  Eigen::Index p = 0;
+  for (int x = 2; x <= 26; x += 8) {
+    for (int y = 2; y <= 26; y += 8, ++p) {
+      const Eigen::VectorXf expected = patch_by_pixels(image, basis, x, y);
+      ASSERT_GT(expected.norm(), 1e-3F);
+      EXPECT_LT((set.descriptors.col(p) - expected).norm(), 1e-4F * expected.norm());
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(All, ImagePatches,
+                         testing::Values(PatchKind::rgb_gradient, PatchKind::lbp,
+                                         PatchKind::normalised_rgb, PatchKind::depth_gradient,
+                                         PatchKind::depth_lbp),
+                         [](const auto& info) { return std::string(row_of(info.param).name); });
+
+TEST(AttributeImage, AStepOfOneHasAGradientOfOne) {
+  ObjectView view = blank_view(20, 20);
+  std::ranges::fill(view.mask, 1);
+  for (int row = 0; row < 20; ++row) {
+    for (int i = 30; i < 60; ++i) view.rgb[60 * static_cast<std::size_t>(row) + i] = 255;
+  }
+  const AttributeImage image = rgb_gradient_image(view, object_pixels(view));
+  EXPECT_NEAR(image.weights.maxCoeff(), 1.0, 0.6);
+  const Eigen::Index edge = 10 * 20 + 10;
+  EXPECT_NEAR(image.attributes(0, edge), 1.0, 1e-5);
+  EXPECT_NEAR(image.attributes(1, edge), 0.0, 1e-5);
+  EXPECT_EQ(image.weights[10 * 20 + 2], 0.0F);
+}
+
+// 9 8 7      the centre is 5: bits of 9 8 7 (0 1 2), then 6 (3), not 1 2 3, then 5 (7)
+// 5 5 6
+// 3 2 1
+TEST(AttributeImage, PatternsRunClockwiseFromTheUpperLeft) {
+  ObjectView view = blank_view(3, 3);
+  std::ranges::fill(view.mask, 1);
+  view.depth_m = {1.09F, 1.08F, 1.07F, 1.05F, 1.05F, 1.06F, 1.03F, 1.02F, 1.01F};
+  ObjectPixels pixels = object_pixels(view);
+  std::ranges::fill(pixels.depth, 1);
+  const AttributeImage image = depth_lbp_image(view, pixels);
+  EXPECT_EQ(image.attributes(0, 4), 0b10001111);
+  double mean = 0.0;
+  double mean2 = 0.0;
+  for (const float z : view.depth_m) mean += static_cast<double>(z) / 9.0;
+  for (const float z : view.depth_m) mean2 += (z - mean) * (z - mean) / 9.0;
+  EXPECT_NEAR(image.weights[4], std::sqrt(mean2), 1e-6);
+  EXPECT_EQ(image.weights[0], 0.0F);  // depth is not known all around
+}
+
+TEST(AttributeImage, MissingDepthHasNoGradient) {
+  Rng rng(1);
+  ObjectView view = ball_view(45, {.radius_m = 0.05}, rng);
+  view.depth_m[view.index(22, 22)] = 0.0F;
+  const AttributeImage image = depth_gradient_image(view, object_pixels(view));
+  for (int row = 20; row <= 24; ++row) {
+    for (int column = 20; column <= 24; ++column) {
+      EXPECT_EQ(image.weights[row * 45 + column], 0.0F);
+    }
+  }
+  EXPECT_LT(image.weights.maxCoeff(), 0.1F);  // nor any as steep as to the wall
+}
+
+TEST(AttributeImage, ColourIsNormalisedByItsSurroundings) {
+  ObjectView view = blank_view(20, 20);
+  std::ranges::fill(view.mask, 1);
+  std::ranges::fill(view.rgb, 128);
+  const AttributeImage flat = normalised_rgb_image(view, object_pixels(view));
+  EXPECT_LT(flat.attributes.cwiseAbs().maxCoeff(), 1e-5F);
+  EXPECT_NEAR(flat.weights[210], std::sqrt(0.001), 1e-5);
+}
+
+TEST(Spins, AreMeansOverTheirNeighbours) {
+  Rng rng(1);
+  const ObjectView view = ball_view(21, {.radius_m = 0.05, .distance_m = 2.0}, rng);
+  const ObjectPixels pixels = object_pixels(view);
+  const ObjectSurface surface = object_surface(view, pixels, 0.01);
+  const ProductBasis basis = make_product_basis(basis_axes(PatchKind::normal_spin), 30);
+  const PatchSet set = describe_spins(view, pixels, surface, basis);
+  ASSERT_GE(set.size(), 4);
+  // The first grid point on the surface; 5 cm at 2 m are 15 px, every second of which counts.
+  const int first = 2;
+  std::size_t centre = surface.cloud.size();
+  int row0 = 0;
+  int column0 = 0;
+  for (int row = first; row < 21 && centre == surface.cloud.size(); row += 8) {
+    for (int column = first; column < 21 && centre == surface.cloud.size(); column += 8) {
+      const int point = surface.point_at[view.index(row, column)];
+      if (point < 0 || surface.cloud.normals[static_cast<std::size_t>(point)].isZero()) continue;
+      centre = static_cast<std::size_t>(point);
+      row0 = row;
+      column0 = column;
+    }
+  }
+  ASSERT_LT(centre, surface.cloud.size());
+  const Eigen::Vector3f p = surface.cloud.points[centre];
+  const Eigen::Vector3f n = surface.cloud.normals[centre];
+  Eigen::VectorXf sum = Eigen::VectorXf::Zero(basis.rows());
+  int count = 0;
+  for (int row = row0 % 2; row < 21; row += 2) {
+    for (int column = column0 % 2; column < 21; column += 2) {
+      const int point = surface.point_at[view.index(row, column)];
+      if (point < 0) continue;
+      const Eigen::Vector3f d = surface.cloud.points[static_cast<std::size_t>(point)] - p;
+      const Eigen::Vector3f m = surface.cloud.normals[static_cast<std::size_t>(point)];
+      if (d.norm() > 0.05F || m.isZero()) continue;
+      const double along = n.dot(d);
+      const double off = std::sqrt(std::max(0.0, d.squaredNorm() - along * along));
+      const double angle = std::acos(std::clamp(static_cast<double>(n.dot(m)), -1.0, 1.0));
+      sum += basis.describe(std::array{angle, along, off});
+      ++count;
+    }
+  }
+  ASSERT_GE(count, 10);
+  const Eigen::VectorXf expected = sum / static_cast<float>(count);
+  EXPECT_LT((set.descriptors.col(0) - expected).norm(), 1e-3F * expected.norm());
+}
+
+TEST(Sizes, AreMeansOverThePointsOfTheObject) {
+  Rng rng(1);
+  const ObjectView view = ball_view(31, {.radius_m = 0.05, .distance_m = 2.0}, rng);
+  const ObjectPixels pixels = object_pixels(view);
+  const ObjectSurface surface = object_surface(view, pixels, 0.01);
+  const ProductBasis basis = make_product_basis(basis_axes(PatchKind::size), 50);
+  const PatchSet set = describe_sizes(pixels, surface, basis);
+  const int centre = surface.point_at[view.index(11, 11)];  // the grid is 3, 11, 19, 27
+  ASSERT_GE(centre, 0);
+  Eigen::VectorXf expected = Eigen::VectorXf::Zero(basis.rows());
+  for (const auto& q : surface.cloud.points) {
+    const double d = (q - surface.cloud.points[static_cast<std::size_t>(centre)]).norm();
+    expected += basis.describe(std::array{d}) / static_cast<float>(surface.cloud.size());
+  }
+  float nearest = 1.0F;
+  for (Eigen::Index p = 0; p < set.size(); ++p) {
+    nearest = std::min(nearest, (set.descriptors.col(p) - expected).norm() / expected.norm());
+  }
+  EXPECT_LT(nearest, 1e-3F);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,115 @@
+#include "vantage/perception/features/patches/product_basis.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "vantage/perception/features/patches/kernel_descriptor.hpp"
+
+namespace vantage {
+namespace {
+
+/// The doubly centred Gram matrix of all combinations of basis points, without any structure.
+Eigen::MatrixXd centred_gram(const std::vector<BasisAxis>& axes) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Ones(1, 1);
+  for (const BasisAxis& axis : axes) {
+    const Eigen::Index n = axis.points.size();
+    Eigen::MatrixXd longer(gram.rows() * n, gram.cols() * n);
+    for (Eigen::Index i = 0; i < longer.rows(); ++i) {
+      for (Eigen::Index j = 0; j < longer.cols(); ++j) {
+        longer(i, j) = gram(i / n, j / n) * axis.kernel(axis.points[i % n], axis.points[j % n]);
+      }
+    }
+    gram = std::move(longer);
+  }
+  const Eigen::MatrixXd centring =
+      Eigen::MatrixXd::Identity(gram.rows(), gram.cols()).array() - 1.0 / gram.rows();
+  return centring * gram * centring;
+}
+
+/// Kernels of `values` with all combinations of basis points.
+Eigen::VectorXd joint_kernels(const std::vector<BasisAxis>& axes, std::span<const double> values) {
+  Eigen::VectorXd joint = Eigen::VectorXd::Ones(1);
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const Eigen::Index n = axes[a].points.size();
+    Eigen::VectorXd longer(joint.size() * n);
+    for (Eigen::Index i = 0; i < longer.size(); ++i) {
+      longer[i] = joint[i / n] * axes[a].kernel(values[a], axes[a].points[i % n]);
+    }
+    joint = std::move(longer);
+  }
+  return joint;
+}
+
+const std::vector<BasisAxis> kSmall{even_axis(4, -1.0, 1.0, 5.0), bits_axis(3, 0.7),
+                                    even_axis(3, 0.0, 1.0, 3.0)};
+
+TEST(ProductBasis, EigenvaluesAreThoseOfTheWholeGramMatrix) {
+  const ProductBasis basis = make_product_basis(kSmall, 20);
+  const Eigen::VectorXd expected =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(centred_gram(kSmall)).eigenvalues().reverse();
+  ASSERT_EQ(basis.rows(), 20);
+  for (Eigen::Index i = 0; i < 20; ++i) {
+    EXPECT_NEAR(basis.eigenvalues[i], expected[i], 1e-2 * expected[0]) << i;
+  }
+}
+
+// With all products among the candidates, inner products of descriptors are those that the leading
+// eigenvectors of the whole matrix give; they do not depend on a choice of eigenvectors.
+TEST(ProductBasis, DescriptorsAreThoseOfTheWholeGramMatrix) {
+  const ProductBasis basis = make_product_basis(kSmall, 96);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(centred_gram(kSmall));
+  const Eigen::MatrixXd e = solver.eigenvectors().rightCols(basis.rows());
+  const std::array<std::array<double, 3>, 3> elements{
+      {{-0.7, 5.0, 0.2}, {0.4, 1.0, 0.9}, {0.4, 6.0, 0.25}}};
+  for (const auto& a : elements) {
+    for (const auto& b : elements) {
+      const double expected =
+          (e.transpose() * joint_kernels(kSmall, a)).dot(e.transpose() * joint_kernels(kSmall, b));
+      EXPECT_NEAR(basis.describe(a).dot(basis.describe(b)), expected, 2e-3 * std::abs(expected));
+    }
+  }
+}
+
+TEST(ProductBasis, ValuesBeyondAnAxisCountAsItsEnds) {
+  const ProductBasis basis = make_product_basis(kSmall, 20);
+  EXPECT_EQ(basis.describe(std::array{-9.0, 0.0, 9.0}), basis.describe(std::array{-1.0, 0.0, 1.0}));
+}
+
+TEST(ProductBasis, ComesBackFromBytesAndDamageIsNoticed) {
+  const ProductBasis basis = make_product_basis(kSmall, 20);
+  std::string bytes;
+  put_basis(bytes, basis);
+  StateReader reader(bytes, "x");
+  const ProductBasis back = take_basis(reader);
+  reader.finish();
+  const std::array<double, 3> element{0.3, 2.0, 0.6};
+  EXPECT_EQ(basis.describe(element), back.describe(element));
+  for (std::size_t size = 0; size < bytes.size(); size += 997) {
+    StateReader shorter(std::string_view(bytes).substr(0, size), "x");
+    EXPECT_THROW(take_basis(shorter), InputError) << size;
+  }
+}
+
+class BasisOfKind : public testing::TestWithParam<PatchKind> {};
+
+TEST_P(BasisOfKind, RowsAreOrthonormalAndEigenvaluesDescend) {
+  const int rows = row_of(GetParam()).rows;
+  const ProductBasis basis = make_product_basis(basis_axes(GetParam()), rows);
+  ASSERT_LE(basis.rows(), rows);
+  const Eigen::MatrixXf products = basis.projection * basis.projection.transpose();
+  EXPECT_TRUE(products.isIdentity(1e-4F));
+  for (Eigen::Index i = 1; i < basis.rows(); ++i) {
+    EXPECT_LE(basis.eigenvalues[i], basis.eigenvalues[i - 1]);
+  }
+  EXPECT_GT(basis.eigenvalues[basis.rows() - 1], 0.0F);
+}
+INSTANTIATE_TEST_SUITE_P(All, BasisOfKind,
+                         testing::Values(PatchKind::rgb_gradient, PatchKind::lbp,
+                                         PatchKind::normalised_rgb, PatchKind::normal_spin,
+                                         PatchKind::size),
+                         [](const auto& info) { return std::string(row_of(info.param).name); });
+
+}  // namespace
+}  // namespace vantage

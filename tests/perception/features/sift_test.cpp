@@ -1,0 +1,60 @@
+#include "vantage/perception/features/sift.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/object_views.hpp"
+
+namespace vantage {
+namespace {
+
+const Sift kSmall{.words = 20, .samples_per_word = 20, .iterations = 5};
+
+TEST(DenseSift, DescriptorsAreOfUnitLengthOnAGrid) {
+  Rng rng(1);
+  const ObjectView view = ball_view(100, {.radius_m = 0.07}, rng);
+  const DenseSift sift = dense_root_sift(view, kSmall);
+  ASSERT_EQ(sift.descriptors.rows(), 128);
+  EXPECT_NEAR(static_cast<double>(sift.descriptors.cols()), 75.0, 15.0);  // pi (38 / 8)^2
+  for (Eigen::Index i = 0; i < sift.descriptors.cols(); ++i) {
+    EXPECT_NEAR(sift.descriptors.col(i).norm(), 1.0, 1e-4);
+  }
+  EXPECT_GE(sift.places.minCoeff(), 0.0F);
+  EXPECT_LE(sift.places.maxCoeff(), 1.0F);
+}
+
+TEST(DenseSift, CropsAreBroughtToASizeBetweenTheLimits) {
+  Rng rng(1);
+  Sift same = kSmall;
+  same.min_side_px = same.max_side_px = 100;
+  const auto count = [&](int side_px) {
+    const BallLook look{.radius_m = 0.0007 * side_px};
+    return dense_root_sift(ball_view(side_px, look, rng), same).descriptors.cols();
+  };
+  EXPECT_NEAR(static_cast<double>(count(50)), static_cast<double>(count(200)), 12.0);
+}
+
+TEST(Sift, TheWholeCountsAsMuchAsItsQuarters) {
+  Rng rng(1);
+  const auto views = ball_views(6, 60, rng);
+  const TrainedSift sift = kSmall.train(views, rng);
+  ASSERT_EQ(sift.dimension(), 100);
+  const FeatureResult result = sift.extract(views[0]);
+  ASSERT_TRUE(result.extracted());
+  const Eigen::ArrayXf shares = result.vector.array().square();
+  EXPECT_NEAR(shares.sum(), 1.0, 1e-4);
+  for (Eigen::Index word = 0; word < 20; ++word) {
+    const float quarters =
+        shares[20 + word] + shares[40 + word] + shares[60 + word] + shares[80 + word];
+    EXPECT_NEAR(shares[word], quarters, 1e-4);
+  }
+}
+
+TEST(Sift, CannotLearnFromNothing) {
+  Rng rng(1);
+  const std::vector<ObjectView> views{blank_view(50, 50), blank_view(0, 0)};
+  EXPECT_THROW((void)kSmall.train(views, rng), InputError);
+  EXPECT_THROW((void)kSmall.train({}, rng), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,228 @@
+// Colour and bounding box against what can be worked out by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "vantage/perception/features/bounding_box.hpp"
+#include "vantage/perception/features/colour.hpp"
+#include "vantage/perception/features/soft_colour.hpp"
+#include "vantage/perception/features/standing_box.hpp"
+#include "tests/support/object_views.hpp"
+
+namespace vantage {
+namespace {
+
+ObjectView filled(int width_px, int height_px) {
+  ObjectView view = blank_view(width_px, height_px);
+  std::ranges::fill(view.mask, 1);
+  std::ranges::fill(view.depth_m, 1.0F);
+  return view;
+}
+
+void paint(ObjectView& view, int row, int column, int r, int g, int b) {
+  const std::size_t i = 3 * view.index(row, column);
+  view.rgb[i] = static_cast<std::uint8_t>(r);
+  view.rgb[i + 1] = static_cast<std::uint8_t>(g);
+  view.rgb[i + 2] = static_cast<std::uint8_t>(b);
+}
+
+TEST(Colour, OneQuarterGreenAndTheRestRed) {
+  ObjectView view = filled(20, 20);
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column) {
+      column < 5 ? paint(view, row, column, 0, 255, 0) : paint(view, row, column, 255, 0, 0);
+    }
+  }
+  const FeatureResult result = Colour{}.extract(view);
+  ASSERT_TRUE(result.extracted());
+  ASSERT_EQ(result.vector.size(), 144);
+  const int red = (0 * 3 + 2) * 3 + 2;
+  const int green = (120 * 16 / 360 * 3 + 2) * 3 + 2;
+  EXPECT_FLOAT_EQ(result.vector[red], std::sqrt(0.75F));
+  EXPECT_FLOAT_EQ(result.vector[green], std::sqrt(0.25F));
+  EXPECT_FLOAT_EQ(result.vector.squaredNorm(), 1.0F);
+}
+
+TEST(Colour, WhatIsBesideTheMaskDoesNotCount) {
+  ObjectView view = filled(20, 20);
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column) {
+      if (column < 10) view.mask[view.index(row, column)] = 0;
+      column < 12 ? paint(view, row, column, 0, 0, 255) : paint(view, row, column, 255, 0, 0);
+    }
+  }
+  EXPECT_FLOAT_EQ(Colour{}.extract(view).vector[(0 * 3 + 2) * 3 + 2], 1.0F);
+}
+
+TEST(Colour, APixelIsTooFew) {
+  ObjectView view = blank_view(20, 20);
+  view.mask[view.index(10, 10)] = 1;
+  EXPECT_EQ(Colour{}.extract(view).skipped, "the mask has 1 usable pixels, fewer than 16");
+}
+
+ObjectView of_colour(int r, int g, int b) {
+  ObjectView view = filled(20, 20);
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 20; ++column) paint(view, row, column, r, g, b);
+  }
+  return view;
+}
+
+/// Share of the pixels in a bin.
+float share(const FeatureResult& result, int hue, int saturation, int value) {
+  const float root = result.vector[(hue * 3 + saturation) * 3 + value];
+  return root * root;
+}
+
+TEST(SoftColour, SharesAPixelAmongTheBinsRoundIt) {
+  // Hue 30 deg: 4/3 bins from the start, 5/6 from the first middle. Brightest and most saturated.
+  const FeatureResult orange = SoftColour{}.extract(of_colour(254, 127, 0));
+  ASSERT_EQ(orange.vector.size(), Colour{}.dimension());
+  EXPECT_NEAR(share(orange, 0, 2, 2), 1.0 / 6.0, 1e-3);
+  EXPECT_NEAR(share(orange, 1, 2, 2), 5.0 / 6.0, 1e-3);
+  // Red is half way between the first hue and the last; value 0.5 is the middle bin's middle.
+  const FeatureResult red = SoftColour{}.extract(of_colour(128, 0, 0));
+  EXPECT_NEAR(share(red, 0, 2, 1), 0.5, 1e-2);
+  EXPECT_NEAR(share(red, 15, 2, 1), 0.5, 1e-2);
+}
+
+TEST(SoftColour, ALittleLightMoreChangesLittle) {
+  const auto change = [](const auto& feature) {
+    return (feature.extract(of_colour(0, 173, 0)).vector -
+            feature.extract(of_colour(0, 169, 0)).vector)
+        .norm();
+  };
+  EXPECT_GT(change(Colour{}), 1.4F) << "two thirds of the way up, where a bin ends";
+  EXPECT_LT(change(SoftColour{}), 0.05F);
+}
+
+// A plate of 100 x 60 px facing the camera: no depth extent at all.
+TEST(BoundingBox, OfAPlateFacingTheCamera) {
+  const ObjectView view = filled(101, 61);
+  const BoundingBox whole{.low_quantile = 0.0, .high_quantile = 1.0};
+  const FeatureResult result = whole.extract(view);
+  ASSERT_TRUE(result.extracted());
+  EXPECT_NEAR(result.vector[0], 60.0 / view.focal_px, 1e-6);
+  EXPECT_NEAR(result.vector[1], 100.0 / view.focal_px, 1e-6);
+  EXPECT_NEAR(result.vector[2], 0.0, 1e-6);
+  const FeatureResult inner = BoundingBox{}.extract(view);
+  EXPECT_NEAR(inner.vector[1] / result.vector[1], 0.98, 0.02);
+}
+
+TEST(BoundingBox, HeightIsAlongGravityHoweverTheCameraIsHeld) {
+  ObjectView view = filled(101, 61);
+  view.up = Eigen::Vector3d(1.0, 0.0, 0.0);
+  const FeatureResult result = BoundingBox{.low_quantile = 0.0, .high_quantile = 1.0}.extract(view);
+  EXPECT_NEAR(result.vector[0], 100.0 / view.focal_px, 1e-6);
+  EXPECT_NEAR(result.vector[1], 60.0 / view.focal_px, 1e-6);
+}
+
+TEST(BoundingBox, BackgroundInsideTheMaskDoesNotStretchIt) {
+  ObjectView view = filled(101, 61);
+  for (int row = 0; row < 61; ++row) view.depth_m[view.index(row, 50)] = 2.0F;
+  EXPECT_NEAR(BoundingBox{}.extract(view).vector[2], 0.0, 1e-6);
+}
+
+TEST(BoundingBox, SaysWhatIsMissing) {
+  ObjectView view = filled(20, 20);
+  view.up = Eigen::Vector3d::Constant(std::nan(""));
+  EXPECT_EQ(BoundingBox{}.extract(view).skipped, "the direction of gravity is not known");
+  std::ranges::fill(view.depth_m, 0.0F);
+  EXPECT_EQ(BoundingBox{}.extract(view).skipped,
+            "0 pixels of the object have depth, fewer than 16");
+}
+
+struct Can {
+  double tall_m = 0.12;
+  double radius_m = 0.06;
+  bool full = true;  ///< else open at its top, its wall 4 mm
+};
+
+/// On a level stand, seen from `elevation_rad` and a metre, `off_px` beside the picture's middle.
+ObjectView can_view(const Can& can, double elevation_rad, int off_px = 0) {
+  ObjectView view = blank_view(221, 221);
+  view.left_px += off_px;
+  view.up = {0.0, -std::cos(elevation_rad), -std::sin(elevation_rad)};
+  const Eigen::Vector3d foot = view.ray(110, 110).normalized();
+  const auto inside = [&](const Eigen::Vector3d& p) {
+    const double height = p.dot(view.up);
+    const double radius = (p - height * view.up).norm();
+    return height < can.tall_m && radius < can.radius_m &&
+           (can.full || radius > can.radius_m - 0.004 || height < 0.004);
+  };
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      const Eigen::Vector3d ray = view.ray(row, column);
+      const double stand = foot.dot(view.up) / ray.dot(view.up);
+      double at = 0.75;
+      while (at < stand && !inside(at * ray - foot)) at += 0.0005;
+      view.depth_m[view.index(row, column)] = static_cast<float>(std::min(at, stand));
+      view.mask[view.index(row, column)] = at < stand ? 1 : 0;
+    }
+  }
+  return view;
+}
+
+TEST(StandingBox, HeightIsFromTheStandFromWhereverItIsSeen) {
+  for (const double elevation_rad : {0.5, 0.8, 1.05}) {
+    const FeatureResult box = StandingBox{}.extract(can_view({}, elevation_rad));
+    ASSERT_TRUE(box.extracted()) << box.skipped;
+    EXPECT_NEAR(box.vector[0], 0.12, 0.003) << elevation_rad;
+  }
+  const double low = BoundingBox{}.extract(can_view({}, 0.5)).vector[0];
+  const double high = BoundingBox{}.extract(can_view({}, 0.8)).vector[0];
+  EXPECT_GT(std::abs(low - high), 0.001) << "of what is seen alone it changes with the foot";
+}
+
+TEST(StandingBox, ABowlIsTheSameWhereverInThePictureItIs) {
+  const Can bowl{.tall_m = 0.06, .radius_m = 0.075, .full = false};
+  const ObjectView middle = can_view(bowl, 0.3);
+  const ObjectView aside = can_view(bowl, 0.3, 200);
+  const auto change = [&](const auto& feature) {
+    return (feature.extract(middle).vector - feature.extract(aside).vector).cwiseAbs().maxCoeff();
+  };
+  EXPECT_LT(change(StandingBox{}), 0.002F);
+  EXPECT_GT(change(BoundingBox{}), 0.02F) << "its far wall is no outlier along the optical axis";
+}
+
+TEST(StandingBox, TheOutlierFloorKeepsWhatIsLittleBehind) {
+  const ObjectView bowl = can_view({.tall_m = 0.06, .radius_m = 0.06, .full = false}, 0.3);
+  EXPECT_GT(StandingBox{}.extract(bowl).vector[2],
+            StandingBox{.outlier_floor_m = 0.02}.extract(bowl).vector[2] + 0.001F);
+}
+
+TEST(StandingBox, WhatIsBehindAndBelowIsNoStand) {
+  ObjectView view = can_view({}, 0.7);
+  int floor = 0;
+  int stand = 0;
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      const std::size_t i = view.index(row, column);
+      if (view.mask[i] != 0) continue;
+      if (row < 150) view.depth_m[i] += 0.8F;
+      ++(row < 150 ? floor : stand);
+    }
+  }
+  ASSERT_GT(floor, stand) << "so that it would be taken for the stand";
+  EXPECT_NEAR(StandingBox{}.extract(view).vector[0], 0.12, 0.003);
+  EXPECT_GT(StandingBox{.stand_below_m = 1.0}.extract(view).vector[0], 0.24);
+}
+
+TEST(StandingBox, SaysWhatIsMissing) {
+  const ObjectView whole = filled(40, 40);
+  EXPECT_EQ(StandingBox{}.extract(whole).skipped,
+            "0 pixels beside the object show its stand, fewer than 16");
+  ObjectView view = whole;
+  view.focal_px = std::nan("");
+  EXPECT_EQ(StandingBox{}.extract(view).skipped, "the camera's intrinsics are not finite numbers");
+  view = whole;
+  view.up = Eigen::Vector3d::Constant(std::nan(""));
+  EXPECT_EQ(StandingBox{}.extract(view).skipped, "the direction of gravity is not known");
+  view = whole;
+  std::ranges::fill(view.depth_m, 0.0F);
+  EXPECT_EQ(StandingBox{}.extract(view).skipped,
+            "0 pixels of the object have depth, fewer than 16");
+}
+
+}  // namespace
+}  // namespace vantage

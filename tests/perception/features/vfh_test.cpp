@@ -1,0 +1,176 @@
+#include "vantage/perception/features/vfh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/object_views.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int kSizeBlock = 135;
+constexpr int kViewBlock = 180;
+
+/// What PCL 1.13 computes of 397 points with normals; VANTAGE_ORACLES names the folder it is in,
+/// which is beside the repository otherwise.
+fs::path oracle(const std::string& file) {
+  const char* folder = std::getenv("VANTAGE_ORACLES");
+  const fs::path root =
+      folder != nullptr ? fs::path(folder) : fs::path(VANTAGE_SOURCE_DIR) / "../shared/oracles";
+  return root / "vfh" / file;
+}
+
+std::vector<double> numbers_in(const std::string& file) {
+  std::ifstream stream(oracle(file));
+  std::vector<double> numbers;
+  for (double x = 0.0; stream >> x;) numbers.push_back(x);
+  return numbers;
+}
+
+class VfhOracle : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto rows = numbers_in("bun0_normals_k10.txt");
+    if (rows.empty()) GTEST_SKIP() << "no oracle at " << oracle("bun0_normals_k10.txt");
+    ASSERT_EQ(rows.size(), 397U * 7U);  // x y z nx ny nz curvature
+    for (std::size_t i = 0; i < rows.size(); i += 7) {
+      cloud_.points.emplace_back(rows[i], rows[i + 1], rows[i + 2]);
+      cloud_.normals.emplace_back(rows[i + 3], rows[i + 4], rows[i + 5]);
+    }
+  }
+  [[nodiscard]] Eigen::VectorXf ours(VfhSizes sizes) const {
+    return viewpoint_feature_histogram(cloud_, Eigen::Vector3d::Zero(), sizes);
+  }
+  /// A point at a bin's edge may fall on its other side, in single precision.
+  static void expect_near(const Eigen::VectorXf& histogram, const std::string& file, int from,
+                          int to) {
+    const auto expected = numbers_in(file);
+    ASSERT_EQ(expected.size(), 308U);
+    for (int i = from; i < to; ++i) {
+      EXPECT_NEAR(histogram[i], expected[static_cast<std::size_t>(i)], 0.26) << "bin " << i;
+    }
+  }
+  PointCloud cloud_;
+};
+
+TEST_F(VfhOracle, AnglesAsPcl) {
+  expect_near(ours(VfhSizes::none), "bun0_vfh_mode0.txt", 0, kViewBlock);
+}
+
+TEST_F(VfhOracle, AnglesAndSizesAsPcl) {
+  expect_near(ours(VfhSizes::metres), "bun0_vfh_mode1.txt", 0, kViewBlock);
+}
+
+// PCL divides the line of sight by sqrt(|c|^2 + 1), c the centroid, where |c| is meant. Counted its
+// way, the normals give its block; ours is counted with a line of sight of unit length.
+TEST_F(VfhOracle, AsPclButForItsLineOfSight) {
+  const auto expected = numbers_in("bun0_vfh_mode0.txt");
+  ASSERT_EQ(expected.size(), 308U);
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+  for (const auto& p : cloud_.points) centre += p / 397.0F;
+  const auto counted = [&](float length) {
+    Eigen::VectorXf bins = Eigen::VectorXf::Zero(128);
+    for (const auto& n : cloud_.normals) {
+      const float share = (1.0F - n.dot(centre) / length) / 2.0F;
+      bins[std::clamp(static_cast<int>(128.0F * share), 0, 127)] += 100.0F / 397.0F;
+    }
+    return bins;
+  };
+  const Eigen::VectorXf theirs = counted(std::sqrt(centre.squaredNorm() + 1.0F));
+  const Eigen::VectorXf right = counted(centre.norm());
+  const Eigen::VectorXf histogram = ours(VfhSizes::none);
+  for (int i = 0; i < 128; ++i) {
+    EXPECT_NEAR(theirs[i], expected[static_cast<std::size_t>(kViewBlock + i)], 0.26) << i;
+    EXPECT_NEAR(histogram[kViewBlock + i], right[i], 0.26) << i;
+  }
+}
+
+// PCL divides distances by sqrt(d_max^2 + 1) where d_max is meant. Counted its way, the points give
+// its block; ours fills the block up to its last bin, and nothing else differs.
+TEST_F(VfhOracle, AsPclButForItsNormalisedDistances) {
+  const auto expected = numbers_in("bun0_vfh_mode2.txt");
+  ASSERT_EQ(expected.size(), 308U);
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+  for (const auto& p : cloud_.points) centre += p / 397.0F;
+  float d_max = 0.0F;
+  for (const auto& p : cloud_.points) d_max = std::max(d_max, (p - centre).norm());
+  std::vector<double> theirs(45, 0.0);
+  for (const auto& p : cloud_.points) {
+    const float share = (p - centre).norm() / std::sqrt(d_max * d_max + 1.0F);
+    theirs[static_cast<std::size_t>(45.0F * share)] += 100.0 / 396.0;
+  }
+  for (std::size_t i = 0; i < 45; ++i) EXPECT_NEAR(theirs[i], expected[kSizeBlock + i], 0.26);
+  const Eigen::VectorXf histogram = ours(VfhSizes::relative);
+  expect_near(histogram, "bun0_vfh_mode2.txt", 0, kSizeBlock);
+  EXPECT_GT(histogram[kSizeBlock + 44], 0.0F);
+}
+
+/// A square plate, its normals towards the viewpoint, 1 m in front of it.
+PointCloud plate() {
+  PointCloud cloud;
+  for (int i = -5; i <= 5; ++i) {
+    for (int j = -5; j <= 5; ++j) {
+      cloud.points.emplace_back(0.01F * static_cast<float>(i), 0.01F * static_cast<float>(j), 1.0F);
+      cloud.normals.emplace_back(0.0F, 0.0F, -1.0F);
+    }
+  }
+  return cloud;
+}
+
+// All normals are alike and across every line from the centroid: the three angles are 0, in the
+// middle bin. The centroid itself is a point, and forms no pair.
+TEST(Vfh, OfAPlate) {
+  const Eigen::VectorXf histogram =
+      viewpoint_feature_histogram(plate(), Eigen::Vector3d::Zero(), VfhSizes::metres);
+  for (const int block : {0, 45, 90}) {
+    EXPECT_NEAR(histogram[block + 22], 100.0, 1e-3) << block;
+    EXPECT_NEAR(histogram.segment(block, 45).sum(), 100.0, 1e-3);
+  }
+  EXPECT_NEAR(histogram[kViewBlock + 127], 100.0, 1e-3);
+  EXPECT_NEAR(histogram[kSizeBlock + 5], 100.0 * 28 / 120, 1e-3);  // 4.5 cm .. 5.5 cm
+  EXPECT_NEAR(histogram.segment(kSizeBlock, 45).sum(), 100.0, 1e-3);
+}
+
+TEST(Vfh, RelativeSizesFillTheirBlock) {
+  const Eigen::VectorXf histogram =
+      viewpoint_feature_histogram(plate(), Eigen::Vector3d::Zero(), VfhSizes::relative);
+  EXPECT_NEAR(histogram[kSizeBlock + 44], 100.0 * 4 / 120, 1e-3);  // the four corners
+}
+
+TEST(Vfh, SizesDoNotMatterWithoutTheirBlock) {
+  PointCloud twice = plate();
+  for (auto& p : twice.points) p *= 2.0F;
+  EXPECT_EQ(viewpoint_feature_histogram(plate(), Eigen::Vector3d::Zero(), VfhSizes::none),
+            viewpoint_feature_histogram(twice, Eigen::Vector3d::Zero(), VfhSizes::none));
+}
+
+TEST(Vfh, PointsWithoutANormalAreLeftOut) {
+  PointCloud more = plate();
+  more.points.emplace_back(5.0F, 5.0F, 5.0F);
+  more.normals.emplace_back(0.0F, 0.0F, 0.0F);
+  EXPECT_EQ(viewpoint_feature_histogram(more, Eigen::Vector3d::Zero(), VfhSizes::metres),
+            viewpoint_feature_histogram(plate(), Eigen::Vector3d::Zero(), VfhSizes::metres));
+}
+
+TEST(Vfh, OfAView) {
+  Rng rng(1);
+  ObjectView view = ball_view(100, {.radius_m = 0.07}, rng);
+  const FeatureResult result = Vfh{}.extract(view);
+  ASSERT_TRUE(result.extracted());
+  EXPECT_EQ(result.vector.size(), 308);
+  EXPECT_NEAR(result.vector.squaredNorm(), 1.0, 1e-4);
+  EXPECT_TRUE(result.vector.segment(kSizeBlock, 45).isZero());
+  std::ranges::fill(view.depth_m, 0.0F);
+  EXPECT_FALSE(Vfh{}.extract(view).extracted());
+}
+
+}  // namespace
+}  // namespace vantage

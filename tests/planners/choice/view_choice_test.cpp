@@ -1,0 +1,187 @@
+#include "vantage/planners/choice/view_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+namespace {
+
+Candidate view(int id, double gain_bits, double path_length_m, double true_new_cells) {
+  Candidate candidate;
+  candidate.id = id;
+  candidate.gain_bits = gain_bits;
+  candidate.path_length_m = path_length_m;
+  candidate.true_new_cells = true_new_cells;
+  return candidate;
+}
+
+std::vector<Candidate> five_views() {
+  return {view(0, 5.0, 1.0, 3.0), view(1, 9.0, 2.0, 7.0), view(2, 9.0, 1.0, 2.0),
+          view(3, 9.0, 1.0, 8.0), view(4, 1.0, 0.0, 8.0)};
+}
+
+std::vector<ViewChoice> every_choice() {
+  std::vector<ViewChoice> choices;
+  for (const auto name : strategy_names<ViewChoice>()) {
+    choices.push_back(make_strategy<ViewChoice>(name));
+  }
+  return choices;
+}
+
+TEST(EveryViewChoice, NamesAViewTheSameForTheSameSeed) {
+  const auto views = five_views();
+  for (const ViewChoice& choice : every_choice()) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+      Rng first(seed);
+      Rng second(seed);
+      const std::size_t chosen = choose_view(choice, views, first);
+      EXPECT_LT(chosen, views.size());
+      EXPECT_EQ(choose_view(choice, views, second), chosen) << strategy_name_of(choice);
+    }
+  }
+}
+
+TEST(EveryViewChoice, TakesTheOnlyView) {
+  const std::vector<Candidate> views{view(17, 0.0, 3.0, 0.0)};
+  Rng rng(1);
+  for (const ViewChoice& choice : every_choice()) EXPECT_EQ(choose_view(choice, views, rng), 0U);
+}
+
+TEST(EveryViewChoice, LeavesExhaustedViewsOutUnlessAllAre) {
+  Rng rng(1);
+  for (const ViewChoice& choice : every_choice()) {
+    auto views = five_views();
+    for (Candidate& candidate : views) candidate.exhausted = candidate.id != 3 && candidate.id != 0;
+    std::set<std::size_t> chosen;
+    for (int i = 0; i < 50; ++i) chosen.insert(choose_view(choice, views, rng));
+    for (const std::size_t index : chosen) EXPECT_FALSE(views[index].exhausted);
+    for (Candidate& candidate : views) candidate.exhausted = true;
+    EXPECT_LT(choose_view(choice, views, rng), views.size());
+  }
+}
+
+TEST(EveryViewChoice, MayTakeAnUnreachableView) {
+  std::vector<Candidate> views{view(0, 1.0, 1.0, 1.0)};
+  views[0].reachable = false;
+  Rng rng(1);
+  for (const ViewChoice& choice : every_choice()) EXPECT_EQ(choose_view(choice, views, rng), 0U);
+}
+
+TEST(EveryViewChoice, ReadsBackFromItsName) {
+  for (const ViewChoice& choice : every_choice()) {
+    ViewChoice read;
+    read_into(write_node(choice), read);
+    EXPECT_EQ(read.index(), choice.index());
+  }
+}
+
+TEST(ViewChoice, OfAnUnknownNameListsTheKnown) {
+  try {
+    make_strategy<ViewChoice>("gredy");
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "unknown view choice 'gredy'; known: random, greedy, oracle, nearest_frontier, "
+                 "gain_over_distance");
+  }
+}
+
+TEST(RandomView, TakesEveryViewAboutEquallyOften) {
+  const auto views = five_views();
+  std::vector<int> taken(views.size());
+  Rng rng(2);
+  for (int i = 0; i < 5000; ++i) ++taken[choose_view(RandomView{}, views, rng)];
+  for (const int count : taken) EXPECT_NEAR(count, 1000, 150);
+}
+
+TEST(GreedyGain, BreaksTiesByPathThenById) {
+  Rng rng(1);
+  EXPECT_EQ(choose_view(GreedyGain{}, five_views(), rng), 2U);
+}
+
+TEST(OracleView, KnowsWhatAViewShows) {
+  Rng rng(1);
+  EXPECT_EQ(choose_view(OracleView{}, five_views(), rng), 4U);
+}
+
+TEST(OracleViewDeathTest, NeedsTheTruth) {
+  auto views = five_views();
+  views[2].true_new_cells.reset();
+  Rng rng(1);
+  EXPECT_DEATH(choose_view(OracleView{}, views, rng), "true_new_cells");
+}
+
+TEST(NearestFrontier, TakesTheShortestPathThenTheLowestId) {
+  Rng rng(1);
+  auto views = five_views();
+  EXPECT_EQ(choose_view(NearestFrontier{}, views, rng), 4U);
+  views[4].path_length_m = 5.0;
+  EXPECT_EQ(choose_view(NearestFrontier{}, views, rng), 0U);
+}
+
+TEST(ViewChoice, OnlyThoseThatWeighGainsNeedThem) {
+  const auto weighing = [] {
+    std::vector<std::string_view> names;
+    for (const std::string_view name : strategy_names<ViewChoice>()) {
+      if (weighs_gain(make_strategy<ViewChoice>(name))) names.push_back(name);
+    }
+    return names;
+  };
+  EXPECT_EQ(weighing(), (std::vector<std::string_view>{"greedy", "gain_over_distance"}));
+}
+
+TEST(GainOverDistance, WeighsGainAgainstTheWay) {
+  // 10 exp(-5 l) = 6 exp(-l) at l = ln(10 / 6) / 4, about 0.128.
+  const std::vector<Candidate> views{view(0, 10.0, 5.0, 0.0), view(1, 6.0, 1.0, 0.0)};
+  Rng rng(1);
+  EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 0.12}, views, rng), 0U);
+  EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 0.14}, views, rng), 1U);
+}
+
+TEST(GainOverDistance, WithoutDiscountIsGreedy) {
+  Rng rng(1);
+  for (int i = 0; i < 200; ++i) {
+    auto views = five_views();
+    for (Candidate& candidate : views) {
+      candidate.gain_bits = std::floor(rng.uniform(0.0, 3.0));
+      candidate.path_length_m = rng.uniform(0.0, 9.0);
+    }
+    EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 0.0}, views, rng),
+              choose_view(GreedyGain{}, views, rng));
+  }
+}
+
+TEST(GainOverDistance, OfASteepDiscountIsTheNearestView) {
+  Rng rng(1);
+  EXPECT_EQ(choose_view(GainOverDistance{.lambda_per_m = 50.0}, five_views(), rng), 4U);
+}
+
+TEST(ChoicesThatWeighPaths, TakeAnUnreachableViewOnlyWhereNoOtherIsLeft) {
+  auto views = five_views();
+  for (Candidate& candidate : views) {
+    candidate.reachable = candidate.id == 1;
+    if (!candidate.reachable) candidate.path_length_m = std::numeric_limits<double>::infinity();
+  }
+  Rng rng(1);
+  for (const ViewChoice& choice : {ViewChoice(NearestFrontier{}), ViewChoice(GainOverDistance{}),
+                                   ViewChoice(GainOverDistance{.lambda_per_m = 0.0})}) {
+    EXPECT_EQ(choose_view(choice, views, rng), 1U) << strategy_name_of(choice);
+    auto none = views;
+    none[1].reachable = false;
+    EXPECT_LT(choose_view(choice, none, rng), none.size());
+  }
+}
+
+TEST(ViewChoiceDeathTest, NeedsACandidate) {
+  Rng rng(1);
+  EXPECT_DEATH(choose_view(GreedyGain{}, {}, rng), "needs a candidate");
+}
+
+}  // namespace
+}  // namespace vantage

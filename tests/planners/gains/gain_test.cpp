@@ -1,0 +1,163 @@
+#include "vantage/planners/gain.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "vantage/planners/exact_gain.hpp"
+#include "vantage/core/strategy_label.hpp"
+#include "tests/planners/gains/gain_along.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kTolerance = 1e-5;  // tables are single precision
+
+TEST(SimpleGain, CountsUnobservedCellsInFrontOfTheFirstOccupiedOne) {
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "..??.?#??"), 3.0);
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "????????"), 8.0);
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "#???"), 0.0);
+  EXPECT_DOUBLE_EQ(along(SimpleGain{}, "...#"), 0.0);
+}
+
+TEST(BeerLambertGain, IsAGeometricSeriesInUnobservedSpace) {
+  const double a = 0.75;
+  EXPECT_NEAR(along(BeerLambertGain{.a = a}, "????????"), (1.0 - std::pow(a, 8)) / (1.0 - a),
+              kTolerance);
+  EXPECT_NEAR(along(BeerLambertGain{.a = a}, "..?..?.?"), 1.0 + a + a * a, kTolerance);
+  EXPECT_NEAR(along(BeerLambertGain{.a = a}, "??#????"), 1.0 + a, kTolerance);
+  EXPECT_NEAR(along(BeerLambertGain{.a = 0.0}, "????"), 1.0, kTolerance);
+}
+
+TEST(BeerLambertGain, OfTransparentSpaceIsTheSimpleGain) {
+  EXPECT_NEAR(along(BeerLambertGain{.a = 1.0}, "?.??#??"), along(SimpleGain{}, "?.??#??"),
+              kTolerance);
+}
+
+TEST(AdaptiveGain, TakesTheTransmissionOfTheContext) {
+  EXPECT_NEAR(along(AdaptiveGain{}, "???.?", 0.25), along(BeerLambertGain{.a = 0.25}, "???.?"),
+              kTolerance);
+}
+
+TEST(AdaptiveGain, TakesTheTransmissionOfEachBlock) {
+  // Two layers of three cells; the sensor sees both level from afar, one ray never leaves a layer.
+  GridFrame frame;
+  frame.min_corner_m = {0.0, -0.5, -1.0};
+  frame.cells = {3, 1, 2};
+  const OccupancyGrid grid(frame);
+  FieldOfView fov;
+  fov.range_max_m = 1e4;
+  const BlockField blocks{.layout = {.cells = frame.cells, .blocks = {3, 1, 2}},
+                          .per_block = {0.5, 0.75, 1.0, 0.25, 0.125, 1.0}};
+  const double gain =
+      exact_gain_bits(AdaptiveGain{}, {grid, &blocks}, make_pose({-1000.0, 0.0, 0.0}, 0.0), fov);
+  EXPECT_NEAR(gain, (1.0 + 0.5 + 0.5 * 0.75) + (1.0 + 0.25 + 0.25 * 0.125), kTolerance);
+}
+
+TEST(VisibilityWeightedGain, SumsVisibilityOverUnobservedCells) {
+  const std::string_view ray = ".??#?..?";
+  const auto p_visible = visibility_along_ray(p_occupied_of(ray));
+  double expected = 0.0;
+  for (std::size_t m = 0; m < ray.size(); ++m) expected += ray[m] == '?' ? p_visible[m] : 0.0;
+  EXPECT_NEAR(along(VisibilityWeightedGain{}, ray), expected, 0.02);  // 1 - 1e-6 as a float
+}
+
+TEST(VisibilityWeightedGain, WithoutLossIsTheNumberOfUnobservedCells) {
+  VisibilityWeightedGain gain;
+  gain.model = {.a = 1.0, .p_reappear = 0.0};
+  EXPECT_NEAR(along(gain, "?.???.?"), 5.0, kTolerance);
+}
+
+TEST(PosteriorChainGain, SumsTheEntropyLostOverAllCells) {
+  const std::string_view ray = "..?..??";
+  const auto p_occupied = p_occupied_of(ray);
+  const auto posterior = posterior_along_ray(p_occupied);
+  double expected = 0.0;
+  for (std::size_t m = 0; m < ray.size(); ++m) {
+    expected += binary_entropy_bits(p_occupied[m]) - binary_entropy_bits(posterior[m]);
+  }
+  EXPECT_NEAR(along(PosteriorChainGain{}, ray), expected, 1e-4);
+}
+
+TEST(PosteriorChainGain, ReachesOnlyTheRimOfTheUnknown) {
+  const double rim = along(PosteriorChainGain{}, std::string(40, '?'));
+  EXPECT_GT(rim, 1.0);
+  EXPECT_NEAR(along(PosteriorChainGain{}, std::string(80, '?')), rim, 1e-3);
+}
+
+template <class G>
+class EveryGain : public testing::Test {};
+template <class Variant>
+struct TypesOf;
+template <class... G>
+struct TypesOf<std::variant<G...>> {
+  using type = testing::Types<G...>;
+};
+TYPED_TEST_SUITE(EveryGain, TypesOf<Gain>::type);
+
+TYPED_TEST(EveryGain, SumsOverCellsOrOverBeamsAndHasANameThatReadsBack) {
+  static_assert(RayGain<TypeParam> != BeamGain<TypeParam>);
+  const Gain made = make_strategy<Gain>(TypeParam::name);
+  EXPECT_EQ(strategy_name_of(made), TypeParam::name);
+  Gain read;
+  read_into(write_node(made), read);
+  EXPECT_EQ(strategy_name_of(read), TypeParam::name);
+}
+
+TYPED_TEST(EveryGain, PromisesNextToNothingOfAFullyKnownMapBehindAWall) {
+  EXPECT_NEAR(along(TypeParam{}, "....####"), 0.0, 0.6);  // free cells hold 0.14 bits each
+}
+
+TYPED_TEST(EveryGain, PromisesAtMostOneBitPerCell) {
+  const double gain = along(TypeParam{}, "????????????????#");
+  EXPECT_GT(gain, 0.0);
+  EXPECT_LE(gain, 17.0);
+}
+
+TYPED_TEST(EveryGain, PrefersMoreUnobservedCellsInSight) {
+  EXPECT_GT(along(TypeParam{}, "..???#"), along(TypeParam{}, "..?..#"));
+}
+
+TYPED_TEST(EveryGain, SeesFromAllSidesAlikeInEmptyUnknownSpace) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {1.1, 1.1, 1.1}, {11, 11, 11}));
+  const BlockField even = uniform_field(grid.frame.cells, 0.9);
+  const auto from = [&](const Eigen::Vector3d& p, double yaw_rad) {
+    const FieldOfView fov{.half_width_rad = 0.4, .tilt_min_rad = -0.4, .tilt_max_rad = 0.4};
+    return exact_gain_bits(TypeParam{}, {grid, &even}, make_pose(p, yaw_rad), fov);
+  };
+  const double front = from({-1.03, 0.0, 0.0}, 0.0);
+  EXPECT_NEAR(from({0.0, 1.03, 0.0}, -0.5 * std::numbers::pi), front, 0.01 * front);
+}
+
+TEST(Gain, OfCellsIsRecordedAsAPrediction) {
+  std::vector<std::string> labels;
+  for (const Gain& gain : cell_predictors()) labels.push_back(strategy_label(gain));
+  EXPECT_THAT(labels, testing::ElementsAre("simple", "posterior_chain", "visibility_weighted",
+                                           "beer_lambert", "adaptive"));
+}
+
+TEST(Gain, IsLabelledByWhatIsNotItsDefault) {
+  EXPECT_EQ(strategy_label(Gain(BeerLambertGain{.a = 0.99})), "beer_lambert a=0.99");
+  PosteriorChainGain chain;
+  chain.model.visibility.a = 0.9997;
+  chain.model.p_occupied_at_sensor = 0.1;
+  EXPECT_EQ(strategy_label(Gain(chain)),
+            "posterior_chain visibility.a=0.9997 p_occupied_at_sensor=0.1");
+}
+
+TEST(Gain, NamesItsKindInErrors) {
+  try {
+    make_strategy<Gain>("adaptiv");
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "unknown gain 'adaptiv'; known: simple, posterior_chain, visibility_weighted, "
+                 "beer_lambert, adaptive, occlusion_aware, unobserved_voxel, rear_side_voxel, "
+                 "rear_side_entropy, unmapped_volume, fsmi");
+  }
+}
+
+}  // namespace
+}  // namespace vantage

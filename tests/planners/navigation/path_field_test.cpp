@@ -1,0 +1,173 @@
+#include "vantage/planners/navigation/path_field.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <deque>
+
+#include "vantage/planners/navigation/distance_field.hpp"
+#include "tests/planners/navigation/ascii_floor.hpp"
+
+namespace vantage {
+namespace {
+
+/// A robot that fits wherever its centre's cell is free.
+NavigationOptions point_robot() {
+  NavigationOptions options;
+  options.footprint_radius_m = 0.9;
+  options.margin_m = 0.0;
+  options.clearance_weight = 0.0;
+  options.comfort_m = 2.0;
+  return options;
+}
+
+std::vector<bool> flood(const FloorMap& map, const PathField& field, std::size_t start) {
+  std::vector<bool> seen(map.size(), false);
+  std::deque<std::size_t> open{start};
+  seen[start] = true;
+  while (!open.empty()) {
+    const Eigen::Array2i at = map.cell(open.front());
+    open.pop_front();
+    for (const Eigen::Array2i& step : {Eigen::Array2i(1, 0), Eigen::Array2i(-1, 0),
+                                       Eigen::Array2i(0, 1), Eigen::Array2i(0, -1)}) {
+      const Eigen::Array2i to = at + step;
+      if (!map.contains(to) || seen[map.index(to)] || !field.traversable(map.index(to))) continue;
+      seen[map.index(to)] = true;
+      open.push_back(map.index(to));
+    }
+  }
+  return seen;
+}
+
+RC_GTEST_PROP(PathField, ReachesWhatAFloodReaches, ()) {
+  const int nx = *rc::gen::inRange(2, 16);
+  const int ny = *rc::gen::inRange(2, 16);
+  FloorMap map(Eigen::Vector2d(-3.0, 2.0), 0.5, nx, ny);
+  const int one_in = *rc::gen::inRange(2, 9);
+  for (float& cell : map.log_odds) cell = *rc::gen::inRange(0, one_in) == 0 ? 0.0F : -3.0F;
+  const auto start = static_cast<std::size_t>(*rc::gen::inRange(0, nx * ny));
+  map.log_odds[start] = -3.0F;
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = *rc::gen::element(0.4, 0.6, 0.9);
+  options.clearance_weight = *rc::gen::element(0.0, 2.0);
+
+  const Eigen::Vector2d p_start = map.centre(map.cell(start));
+  const PathField field = make_path_field(map, {p_start.x(), p_start.y(), 0.0}, options);
+  RC_PRE(field.traversable(start));
+  const auto reached = flood(map, field, start);
+  for (std::size_t cell = 0; cell < map.size(); ++cell) {
+    RC_ASSERT(field.reachable(cell) == reached[cell]);
+  }
+}
+
+TEST(PathField, CostsTheOctileDistanceWhereClearanceDoesNotMatter) {
+  const Drawing rows{
+      "......",  //
+      "......",  //
+      "S.....",  //
+  };
+  const PathField field = make_path_field(floor_of(rows), place_of(rows, 'S'), point_robot());
+  EXPECT_NEAR(field.cost[field.map.index({5, 0})], 5.0, 1e-12);
+  EXPECT_NEAR(field.cost[field.map.index({5, 2})], 3.0 + 2.0 * std::sqrt(2.0), 1e-12);
+}
+
+TEST(PathField, DoesNotCutCorners) {
+  const Drawing rows{
+      ".#.",  //
+      "S.#",  //
+      "...",  //
+  };
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), point_robot());
+  EXPECT_TRUE(field.reachable(map.index({1, 1})));
+  EXPECT_FALSE(field.reachable(map.index({2, 2})));
+}
+
+TEST(PathField, KeepsTheFootprintOutOfNarrowPlaces) {
+  const Drawing rows{
+      "...#...",  //
+      "...#...",  //
+      "S.....G",  //
+      "...#...",  //
+      "...#...",  //
+  };
+  const FloorMap map = floor_of(rows);
+  const Pose2 goal = place_of(rows, 'G');
+  NavigationOptions options = point_robot();
+  const auto reaches = [&] {
+    const PathField field = make_path_field(map, place_of(rows, 'S'), options);
+    return field.reachable(Eigen::Vector2d(goal.x_m, goal.y_m));
+  };
+  EXPECT_TRUE(reaches());
+  options.margin_m = 0.2;
+  EXPECT_FALSE(reaches());
+}
+
+TEST(PathField, LeavesAPlaceTooNearAnObstacle) {
+  const Drawing rows{
+      "#########",  //
+      "#S......#",  //
+      "#.......#",  //
+      "#.......#",  //
+      "#.......#",  //
+      "#########",  //
+  };
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 2.0;
+  options.escape_radius_m = 1.5;
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), options);
+  EXPECT_FALSE(field.traversable(field.start_cell));
+  EXPECT_TRUE(field.reachable(map.index({2, 3})));
+  EXPECT_TRUE(field.reachable(map.index({6, 2})));
+  EXPECT_FALSE(field.reachable(map.index({1, 4})));  // only traversable cells are goals
+
+  options.escape_radius_m = 1.0;
+  const PathField stuck = make_path_field(map, place_of(rows, 'S'), options);
+  EXPECT_FALSE(nearest_reachable(stuck, {6.5, 2.5}).has_value());
+}
+
+/// The shortest way out leads past a post; the robot takes the one that keeps away from it.
+TEST(PathField, EscapesAwayFromWhatItStandsBeside) {
+  const Drawing rows{
+      "...............",  //
+      "...............",  //
+      "...............",  //
+      "......#........",  //
+      ".....S.........",  //
+      "...............",  //
+      "...............",  //
+  };
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 2.0;
+  options.escape_radius_m = 3.0;
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), options);
+  for (std::size_t cell = map.index({5, 1}); field.parent[cell] != PathField::kNone;
+       cell = field.parent[cell]) {
+    EXPECT_GE(field.clearance_m[cell], field.clearance_m[field.start_cell]);
+  }
+  EXPECT_TRUE(field.reachable(map.index({5, 1})));
+}
+
+TEST(PathField, DoesNotEscapeThroughAWall) {
+  const Drawing rows{
+      "???#......",  //
+      "?S?#......",  //
+      "???#......",  //
+  };
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 1.5;
+  options.escape_radius_m = 9.0;
+  const PathField field = make_path_field(floor_of(rows), place_of(rows, 'S'), options);
+  EXPECT_FALSE(nearest_reachable(field, {8.5, 1.5}).has_value());
+}
+
+TEST(PathField, OfARobotOutsideTheMapReachesNothing) {
+  const FloorMap map = floor_of({"...", "...", "..."});
+  const PathField field = make_path_field(map, {-5.0, 0.0, 0.0}, point_robot());
+  EXPECT_FALSE(nearest_reachable(field, {1.5, 1.5}).has_value());
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,273 @@
+#include "vantage/planners/objects/information_measure.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "vantage/information/discrete.hpp"
+#include "tests/planners/rank_correlation.hpp"
+#include "tests/planners/objects/small_models.hpp"
+#include "tests/support/twin_families.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::about;
+
+constexpr double kTolerance = 1e-4;  // divergences are single precision
+
+double bits_of(const InformationMeasure& measure, const InformationQuery& query) {
+  Rng rng(1);
+  return expected_information(measure, query, rng).bits;
+}
+
+std::vector<InformationMeasure> every_measure() {
+  std::vector<InformationMeasure> measures;
+  for (const auto name : strategy_names<InformationMeasure>()) {
+    measures.push_back(make_strategy<InformationMeasure>(name));
+  }
+  measures.push_back(LossOfEntropy{.at_mean = true});
+  return measures;
+}
+
+/// In bits of information.
+std::vector<InformationMeasure> every_measure_but_jeffreys() {
+  auto measures = every_measure();
+  std::erase_if(measures, [](const auto& m) { return strategy_name_of(m) == "jeffreys"; });
+  return measures;
+}
+
+TEST(EveryInformationMeasure, OfStatesThatAreAlikeIsNothing) {
+  const auto model = testing::scalar_model({1.0F, 1.0F});
+  const ObservationModel* feature = &model;
+  for (const auto& measure : every_measure()) {
+    EXPECT_NEAR(bits_of(measure, about({&feature, 1}, {0.5, 0.5})), 0.0, 1e-12)
+        << strategy_name_of(measure);
+  }
+}
+
+TEST(EveryInformationMeasure, OfTwoStatesFarApartIsABit) {
+  const auto model = testing::scalar_model({-50.0F, 50.0F});
+  const ObservationModel* feature = &model;
+  for (const auto& measure : every_measure_but_jeffreys()) {
+    EXPECT_NEAR(bits_of(measure, about({&feature, 1}, {0.5, 0.5})), 1.0, 1e-9)
+        << strategy_name_of(measure);
+  }
+}
+
+TEST(EveryInformationMeasure, OfAFeatureThatIsIgnoredIsNothing) {
+  auto model = testing::scalar_model({-50.0F, 50.0F});
+  model.psi = 0.0;
+  const ObservationModel* feature = &model;
+  for (const auto& measure : every_measure()) {
+    EXPECT_NEAR(bits_of(measure, about({&feature, 1}, {0.5, 0.5})), 0.0, 1e-12)
+        << strategy_name_of(measure);
+  }
+}
+
+TEST(EveryInformationMeasure, OfACertainStateIsNothingAndNotMinusNothing) {
+  const auto model = testing::scalar_model({-50.0F});
+  const ObservationModel* feature = &model;
+  for (const auto& measure : every_measure()) {
+    for (const std::vector<int>& group : {std::vector<int>{}, std::vector<int>{3}}) {
+      const double bits = bits_of(measure, about({&feature, 1}, {1.0}, group));
+      EXPECT_EQ(bits, 0.0) << strategy_name_of(measure);
+      EXPECT_FALSE(std::signbit(bits)) << strategy_name_of(measure);
+    }
+  }
+}
+
+TEST(EveryInformationMeasure, AboutOneObjectIsNothing) {
+  const auto model = testing::scalar_model({-5.0F, 5.0F});
+  const ObservationModel* feature = &model;
+  for (const auto& measure : every_measure()) {
+    EXPECT_NEAR(bits_of(measure, about({&feature, 1}, {0.5, 0.5}, {2, 2})), 0.0, 1e-12)
+        << strategy_name_of(measure);
+  }
+}
+
+TEST(EveryInformationMeasure, IsTheSameFromTables) {
+  Rng rng(2);
+  const auto families = testing::twin_families(4);
+  const auto model = testing::twin_model(families, 20, 2.0, {}, rng);
+  const ObservationModel* feature = &model;
+  const DivergenceTables tables{
+      .bhattacharyya_nats = divergence_table(Divergence::bhattacharyya, model, 1),
+      .kullback_leibler_nats = divergence_table(Divergence::kullback_leibler, model, 1)};
+  Eigen::VectorXd belief = Eigen::VectorXd::LinSpaced(32, 1.0, 9.0);
+  belief /= belief.sum();
+  InformationQuery query{.likely = likely_states(belief, 12), .features = {&feature, 1}};
+  for (const auto& measure : every_measure()) {
+    query.tables = nullptr;
+    const double bits = bits_of(measure, query);
+    query.tables = &tables;
+    EXPECT_NEAR(bits_of(measure, query), bits, kTolerance * (1.0 + bits));
+  }
+}
+
+/// Both bounds hold of any Gaussians at psi = 1, and at any psi of those of equal variances, where
+/// sampling is exact too.
+RC_GTEST_PROP(InformationBounds, BracketMonteCarlo, ()) {
+  const int states = *rc::gen::inRange(2, 7);
+  const bool equal_variances = *rc::gen::arbitrary<bool>();
+  auto model = testing::random_model(states, equal_variances);
+  if (equal_variances) model.psi = *rc::gen::element(0.1, 0.5, 1.0, 2.0);
+  const auto b = testing::random_weights(states);
+  const auto group = *rc::gen::element(
+      std::vector<int>{}, *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(states),
+                                                                rc::gen::inRange(0, 3)));
+  const ObservationModel* feature = &model;
+  const auto query = about({&feature, 1}, b, group);
+  Rng rng(static_cast<std::uint64_t>(*rc::gen::inRange(0, 1'000'000)));
+  const auto sampled = MonteCarloInformation{.samples = 2000}(query, rng);
+  const double margin = 5.0 * sampled.standard_error_bits + kTolerance;
+  RC_ASSERT(bits_of(InformationUpperBound{}, query) >= sampled.bits - margin);
+  RC_ASSERT(!group.empty() || bits_of(MutualInformation{}, query) <= sampled.bits + margin);
+}
+
+RC_GTEST_PROP(JeffreysDivergence, IsTheSumOverPairs, ()) {
+  auto model = testing::random_model(4, false);
+  model.psi = *rc::gen::element(0.25, 1.0);
+  const auto b = testing::random_weights(4);
+  double of_states = 0.0;
+  double of_objects = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const double bits = model.psi * b[static_cast<std::size_t>(i)] *
+                          b[static_cast<std::size_t>(j)] *
+                          gaussian_jeffreys_divergence_bits(testing::gaussian_of(model, i),
+                                                            testing::gaussian_of(model, j));
+      of_states += bits;
+      if (i / 2 != j / 2) of_objects += bits;
+    }
+  }
+  const ObservationModel* feature = &model;
+  const double scale = 1.0 + of_states;
+  RC_ASSERT(std::abs(bits_of(JeffreysDivergence{}, about({&feature, 1}, b)) - of_states) <
+            kTolerance * scale);
+  RC_ASSERT(std::abs(bits_of(JeffreysDivergence{}, about({&feature, 1}, b, {0, 0, 1, 1})) -
+                     of_objects) < kTolerance * scale);
+}
+
+RC_GTEST_PROP(MeanFeatureInformation, IsTheFormula, ()) {
+  const auto model = testing::random_model(4, false);
+  const auto b = testing::random_weights(4);
+  double of_states = 0.0;
+  double of_objects = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    double own = 0.0;
+    double all = 0.0;
+    for (int j = 0; j < 4; ++j) {
+      const double relative = testing::log_likelihood_at_mean(model, i, j) -
+                              testing::log_likelihood_at_mean(model, i, i);
+      const double p = b[static_cast<std::size_t>(j)] * std::exp(relative);
+      all += p;
+      if (i / 2 == j / 2) own += p;
+    }
+    const auto first = static_cast<std::size_t>(i / 2 * 2);
+    own /= b[first] + b[first + 1];
+    of_states += b[static_cast<std::size_t>(i)] * std::log2(1.0 / all);
+    of_objects += b[static_cast<std::size_t>(i)] * std::log2(own / all);
+  }
+  const ObservationModel* feature = &model;
+  RC_ASSERT(std::abs(bits_of(MeanFeatureInformation{}, about({&feature, 1}, b)) - of_states) <
+            kTolerance * (1.0 + std::abs(of_states)));
+  RC_ASSERT(std::abs(bits_of(MeanFeatureInformation{}, about({&feature, 1}, b, {0, 0, 1, 1})) -
+                     of_objects) < kTolerance * (1.0 + std::abs(of_objects)));
+}
+
+TEST(MeanFeatureInformation, IsFarBelowNothingWhereANarrowStateLiesAtTheMeanOfAWideOne) {
+  ObservationModel model{.feature = "many",
+                         .mean = Eigen::MatrixXf::Zero(40, 2),
+                         .variance = Eigen::MatrixXf::Ones(40, 2)};
+  model.variance.col(0) *= 0.01F;
+  const ObservationModel* feature = &model;
+  EXPECT_LT(bits_of(MeanFeatureInformation{}, about({&feature, 1}, {0.5, 0.5})), -50.0);
+}
+
+TEST(LossOfEntropy, AgreesWithMonteCarloWithinStandardErrors) {
+  Rng rng(3);
+  const auto families = testing::twin_families(6);
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto model = testing::twin_model(families, 15, 3.0, {}, rng);
+    const ObservationModel* feature = &model;
+    Eigen::VectorXd belief = testing::normals(48, 1.5, rng).array().exp();
+    belief /= belief.sum();
+    const InformationQuery query{.likely = likely_states(belief, 48), .features = {&feature, 1}};
+    const auto few = LossOfEntropy{}(query, rng);
+    const auto many = MonteCarloInformation{.samples = 1000}(query, rng);
+    EXPECT_GT(few.standard_error_bits, many.standard_error_bits);
+    EXPECT_NEAR(few.bits, many.bits,
+                4.0 * std::hypot(few.standard_error_bits, many.standard_error_bits));
+  }
+}
+
+/// What a second view of one of many near twins is worth, by a measure and by sampling, at beliefs
+/// after a first view that leaves a third of them in doubt.
+class NearTwins : public ::testing::Test {
+ protected:
+  static constexpr int kSituations = 20;
+
+  static double correlation_with_monte_carlo(const InformationMeasure& measure, bool about_object) {
+    Rng rng(7);
+    std::vector<double> reference;
+    std::vector<double> values;
+    for (int s = 0; s < kSituations; ++s) {
+      const Models models = random_models(rng);
+      const std::vector<const ObservationModel*> features{&models[0], &models[1]};
+      const Eigen::VectorXd belief = after_first_view(models, rng);
+      for (const int turn : {1, 3, 5}) {
+        const Eigen::VectorXd predicted = testing::turned(families().states, belief, turn);
+        InformationQuery query{.likely = likely_states(predicted, 320), .features = features};
+        if (about_object) query.group = objects_of(families().states, query.likely.states);
+        reference.push_back(MonteCarloInformation{.samples = 500}(query, rng).bits);
+        query.likely = likely_states(predicted, 48);
+        if (about_object) query.group = objects_of(families().states, query.likely.states);
+        values.push_back(expected_information(measure, query, rng).bits);
+      }
+    }
+    return testing::rank_correlation(values, reference);
+  }
+
+ private:
+  using Models = std::array<ObservationModel, 2>;
+
+  static const testing::TwinFamilies& families() {
+    static const auto families = testing::twin_families(40);
+    return families;
+  }
+
+  static Models random_models(Rng& rng) {
+    const double unlikeness = rng.uniform(0.5, 1.5);
+    const testing::TwinSpread spread{.twin = 0.4 * unlikeness, .decal = 1.2 * unlikeness};
+    auto first = testing::twin_model(families(), 20, rng.uniform(2.0, 5.0), spread, rng);
+    auto second = testing::twin_model(families(), 8, rng.uniform(1.0, 3.0), spread, rng);
+    return {std::move(first), std::move(second)};
+  }
+
+  static Eigen::VectorXd after_first_view(const Models& models, Rng& rng) {
+    const int states = families().states.size();
+    const auto truth = static_cast<int>(rng.uniform_index(static_cast<std::size_t>(states)));
+    Eigen::VectorXd belief = Eigen::VectorXd::Constant(states, 1.0 / states);
+    for (const ObservationModel& model : models) {
+      belief = testing::updated(belief, testing::measured_log_likelihoods(model, truth, rng));
+    }
+    return belief;
+  }
+};
+
+TEST_F(NearTwins, TheBoundRanksAsMonteCarloDoes) {
+  EXPECT_GE(correlation_with_monte_carlo(MutualInformation{}, false), 0.95);
+}
+
+TEST_F(NearTwins, TheApproximationAboutObjectsRanksAsMonteCarloDoes) {
+  EXPECT_GE(correlation_with_monte_carlo(MutualInformation{}, true), 0.95);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,232 @@
+// From objects that were found to ways on: straight paths in an empty room.
+#include "vantage/planners/trajectory/flight_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace vantage {
+namespace {
+
+/// Along x, a metre between waypoints.
+std::vector<Eigen::Vector4d> straight_path(int waypoints) {
+  std::vector<Eigen::Vector4d> path;
+  for (int i = 0; i < waypoints; ++i) path.emplace_back(i, 0.0, 1.8, 0.0);
+  return path;
+}
+
+FlightMap unseen_room() {
+  return FlightMap(
+      Eigen::AlignedBox3d(Eigen::Vector3d(-3.0, -4.0, 0.0), Eigen::Vector3d(22.0, 4.0, 3.0)));
+}
+
+/// Of which all has been seen from above, and there is nothing.
+FlightMap empty_room() {
+  constexpr double kHeight_m = 2.9;
+  CameraImages images;
+  images.width_px = 260;
+  images.height_px = 90;
+  images.focal_px = 30.0;
+  images.range_max_m = 30.0;
+  const auto pixels = static_cast<std::size_t>(images.width_px * images.height_px);
+  images.depth_m.assign(pixels, static_cast<float>(kHeight_m));
+  images.rgb.assign(3 * pixels, 0);
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = Eigen::Vector3d(9.5, 0.0, kHeight_m);
+  FlightMap map = unseen_room();
+  map.insert(images, T_world_camera);
+  return map;
+}
+
+/// How far to the side of the straight path a way leads.
+double aside_m(const WayOn& way) { return way.points.row(1).cwiseAbs().maxCoeff(); }
+
+/// Of the spline through a way, from where the straight paths start.
+double clearance_m(const FlightPlanner& planner, const WayOn& way) {
+  std::vector<FlightWaypoint> waypoints;
+  for (const auto& q : way.points.colwise()) {
+    waypoints.push_back({.p_world_m = q.head<3>(), .yaw_rad = q[3]});
+  }
+  const FlightPath path({.p_world_m = {0.0, 0.0, 1.8}}, waypoints);
+  return planner.clearance_m(path, path.duration_s());
+}
+
+class Planner : public testing::Test {
+ protected:
+  FlightPlanner planner(const TrajectoryMethod& method) {
+    planning_.method = method;
+    return {planning_, flight_camera(camera_ahead(0.65), 640, 480, 0.7853981633974483), Rng(1)};
+  }
+  std::vector<WayOn> propose(FlightPlanner& planner, int at = 0) {
+    return planner.propose({.at = at, .nominal = path_, .plan = path_}, objects_, map_);
+  }
+
+  FlightPlanning planning_;
+  std::vector<Eigen::Vector4d> path_ = straight_path(20);
+  std::vector<PlannableObject> objects_ = {
+      {.id = 3, .p_world_m = {2.5, 0.9, 0.9}, .entropy_nats = 2.0}};
+  FlightMap map_ = empty_room();
+};
+
+TEST_F(Planner, GoesOnAsGivenWhereThereIsNothingToSee) {
+  objects_.clear();
+  FlightPlanner stomp = planner(Stomp{});
+  const std::vector<WayOn> ways = propose(stomp);
+  ASSERT_EQ(ways.front().points.cols(), 10);
+  EXPECT_FALSE(stomp.target());
+  for (Eigen::Index i = 0; i < 10; ++i) {
+    EXPECT_NEAR((ways.front().points.col(i) - path_[static_cast<std::size_t>(i) + 1]).norm(), 0.0,
+                0.05);
+  }
+}
+
+TEST_F(Planner, LooksAtAnUnknownObjectFromBesideThePath) {
+  planning_.options.cost.centre_weight = 5.0;
+  for (const ViewPlan& views : {ViewPlan(NearestObject{}), ViewPlan(ViewsOnTheWay{})}) {
+    planning_.options.views = views;
+    FlightPlanner stomp = planner(Stomp{});
+    const Eigen::Matrix4Xd points = propose(stomp).front().points;
+    ASSERT_TRUE(stomp.target());
+    EXPECT_EQ(stomp.target()->object, 3);
+    EXPECT_EQ(points.col(0), path_[1]) << "flown to already";
+    EXPECT_EQ(points.col(9).head<3>(), path_[10].head<3>()) << "it comes back to the path";
+    const Eigen::Vector2d to_object =
+        objects_[0].p_world_m.head<2>() - Eigen::Vector2d(points.col(1).head<2>());
+    EXPECT_NEAR(points(3, 1), std::atan2(to_object.y(), to_object.x()), 0.6) << "it turns to it";
+    EXPECT_NEAR(stomp.target()->p_world_view_m.z(), 0.9 + 1.05 * std::sin(0.65), 1e-9)
+        << "from where the camera has it in its middle";
+    EXPECT_LT(points.row(2).minCoeff(), 1.79) << "it goes down for that";
+  }
+}
+
+TEST_F(Planner, LeavesThePathOnlyThroughWhatWasSeen) {
+  planning_.options.cost.recognition_weight = 3.0;
+  objects_[0].p_world_m.y() = 1.3;
+  FlightPlanner in_the_open = planner(Stomp{});
+  const double seen_m = aside_m(propose(in_the_open).front());
+  map_ = unseen_room();
+  FlightPlanner in_the_dark = planner(Stomp{});
+  const double unseen_m = aside_m(propose(in_the_dark).front());
+  EXPECT_GT(seen_m, 0.3);
+  EXPECT_LT(unseen_m, 0.25);
+}
+
+TEST_F(Planner, LooksAheadOnceItIsPast) {
+  FlightPlanner stomp = planner(Stomp{});
+  const Eigen::Matrix4Xd points = propose(stomp).front().points;
+  for (Eigen::Index i = 6; i < 9; ++i) EXPECT_NEAR(points(3, i), 0.0, 0.3) << "point " << i;
+}
+
+TEST_F(Planner, AKnownObjectIsNoTarget) {
+  objects_[0].entropy_nats = 0.05;
+  FlightPlanner stomp = planner(Stomp{});
+  propose(stomp);
+  EXPECT_FALSE(stomp.target());
+  objects_[0].entropy_nats = 2.0;
+  objects_[0].used.fill(true);
+  propose(stomp);
+  EXPECT_FALSE(stomp.target()) << "no direction is left";
+}
+
+TEST_F(Planner, TheGivenPathIsFlownWhateverIsInTheWay) {
+  FlightPlanner given = planner(GivenPath{});
+  const std::vector<WayOn> ways = propose(given);
+  ASSERT_EQ(ways.size(), 1U);
+  EXPECT_EQ(ways.front().points.col(4), path_[5]);
+}
+
+TEST_F(Planner, GoingOnAsFlownIsTheLastResort) {
+  FlightPlanner stomp = planner(Stomp{});
+  const std::vector<WayOn> ways = propose(stomp);
+  EXPECT_EQ(std::ranges::count(ways, true, &WayOn::same_spline), 1);
+  ASSERT_TRUE(ways.back().same_spline);
+  for (Eigen::Index i = 0; i < ways.back().points.cols(); ++i) {
+    EXPECT_EQ(ways.back().points.col(i), path_[static_cast<std::size_t>(i) + 1]);
+  }
+}
+
+TEST_F(Planner, OnlyYawFollowsTheObjectOnTheGivenPath) {
+  FlightPlanner yaw = planner(GivenPathYaw{});
+  const Eigen::Matrix4Xd points = propose(yaw).front().points;
+  EXPECT_EQ(points.col(1).head<3>(), path_[2].head<3>());
+  EXPECT_NEAR(points(3, 1), std::atan2(0.9, 0.5), 1e-9);
+}
+
+TEST_F(Planner, TheLeashHoldsEveryMethodNearThePath) {
+  for (const TrajectoryMethod& method :
+       {TrajectoryMethod(Stomp{}), TrajectoryMethod(Mppi{}), TrajectoryMethod(Cem{}),
+        TrajectoryMethod(CovariantGradient{})}) {
+    planning_.options.leash_m = 0.5;
+    planning_.options.leash_weight = 20.0;
+    FlightPlanner optimiser = planner(method);
+    const Eigen::Matrix4Xd points = propose(optimiser).front().points;
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      EXPECT_LT((points.col(i) - path_[static_cast<std::size_t>(i) + 1]).head<3>().norm(), 0.75)
+          << strategy_name_of(method) << ", point " << i;
+    }
+  }
+}
+
+TEST_F(Planner, TheLastWaypointsAreFlownAsGiven) {
+  FlightPlanner stomp = planner(Stomp{});
+  for (const int at : {17, 18}) {
+    const Eigen::Matrix4Xd points = propose(stomp, at).front().points;
+    EXPECT_EQ(points.cols(), 19 - at);
+    EXPECT_EQ(points.rightCols<1>().topRows<3>(), path_.back().head<3>());
+  }
+  const auto beside = [&](int at) {
+    objects_[0].p_world_m.x() = path_[static_cast<std::size_t>(at)].x() + 1.0;
+    propose(stomp, at);
+    return stomp.target();
+  };
+  EXPECT_TRUE(beside(13).has_value());
+  EXPECT_FALSE(beside(14).has_value());
+  planning_.horizon = 4;
+  stomp = planner(Stomp{});
+  EXPECT_TRUE(beside(10).has_value()) << "however few are planned at a time";
+}
+
+TEST_F(Planner, RulesHaveNoTargetOfThePlanners) {
+  for (const TrajectoryMethod& method :
+       {TrajectoryMethod(GivenPath{}), TrajectoryMethod(GivenPathYaw{}),
+        TrajectoryMethod(DetourPath{})}) {
+    FlightPlanner rule = planner(method);
+    propose(rule);
+    EXPECT_FALSE(rule.target().has_value()) << strategy_name_of(method);
+  }
+}
+
+TEST_F(Planner, WhatIsBeyondItsWindowIsNotClear) {
+  FlightPlanner stomp = planner(Stomp{});
+  std::vector<WayOn> ways = propose(stomp);
+  ways.resize(1);
+  ASSERT_TRUE(stomp.clear(clearance_m(stomp, ways[0])));
+  ways[0].points.row(1).rightCols(3).setConstant(-3.8);  // within the map, where a wall may be
+  EXPECT_FALSE(stomp.clear(clearance_m(stomp, ways[0])));
+}
+
+TEST_F(Planner, TellsTheClearanceOfASpline) {
+  CameraImages wall;
+  wall.width_px = 160;
+  wall.height_px = 120;
+  wall.focal_px = 120.0;
+  wall.range_max_m = 6.0;
+  wall.depth_m.assign(160 * 120, 3.0F);  // a wall 3 m ahead of the start
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(0.0, 0.0, 1.8);
+  T_world_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // looks along x
+  for (int i = 0; i < 3; ++i) map_.insert(wall, T_world_camera);
+  objects_.clear();
+  FlightPlanner given = planner(GivenPath{});
+  std::vector<WayOn> ways = propose(given);
+  EXPECT_LT(clearance_m(given, ways.front()), 0.0) << "through the wall";
+  map_ = FlightMap(
+      Eigen::AlignedBox3d(Eigen::Vector3d(-3.0, -4.0, 0.0), Eigen::Vector3d(22.0, 4.0, 3.0)));
+  ways = propose(given);
+  EXPECT_TRUE(given.clear(clearance_m(given, ways.front())));
+}
+
+}  // namespace
+}  // namespace vantage

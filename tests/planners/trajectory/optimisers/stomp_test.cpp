@@ -1,0 +1,65 @@
+#include "vantage/planners/trajectory/optimisers/stomp.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/planners/trajectory/straight_flight.hpp"
+
+namespace vantage {
+namespace {
+
+TEST(RolloutProbabilities, SumToOneAtEveryPoint) {
+  Rng rng(1);
+  Eigen::MatrixXd cost(8, 20);
+  for (double& c : cost.reshaped()) c = 1e3 * rng.uniform();
+  Eigen::MatrixXd probability(8, 20);
+  rollout_probabilities(cost, 10.0, probability);
+  for (Eigen::Index t = 0; t < 8; ++t) EXPECT_NEAR(probability.row(t).sum(), 1.0, 1e-14);
+  EXPECT_GT(probability.minCoeff(), 0.0);
+}
+
+TEST(RolloutProbabilities, FallByExpOfHOverTheSpan) {
+  Eigen::MatrixXd cost(1, 3);
+  cost << 2.0, 4.0, 3.0;
+  Eigen::MatrixXd probability(1, 3);
+  rollout_probabilities(cost, 10.0, probability);
+  EXPECT_NEAR(probability(0, 1) / probability(0, 0), std::exp(-10.0), 1e-15);
+  EXPECT_NEAR(probability(0, 2) / probability(0, 0), std::exp(-5.0), 1e-15);
+}
+
+TEST(RolloutProbabilities, AreEqualWhereCostsAre) {
+  const Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(2, 5, 7.0);
+  Eigen::MatrixXd probability(2, 5);
+  rollout_probabilities(cost, 10.0, probability);
+  EXPECT_LT((probability.array() - 0.2).abs().maxCoeff(), 1e-15);
+}
+
+TEST(Stomp, StaysWhereAllPathsCostTheSame) {
+  // Only control counts, and a straight flight of constant speed has none.
+  const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
+  const Horizon horizon = testing::straight_flight();
+  Rng rng(1);
+  const auto result = Stomp{}(horizon, nothing, rng);
+  EXPECT_EQ(result.points, horizon.points);
+  EXPECT_EQ(result.cost, result.initial_cost);
+}
+
+TEST(Stomp, StraightensABentFlight) {
+  const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
+  Horizon horizon = testing::straight_flight();
+  for (Eigen::Index i = 1; i < 9; ++i)
+    horizon.points(1, i) = std::sin(M_PI * static_cast<double>(i) / 9.0);
+  Rng rng(1);
+  const auto result = Stomp{}(horizon, nothing, rng);
+  EXPECT_LT(result.cost, 0.2 * result.initial_cost);
+}
+
+TEST(StompOptions, AreChecked) {
+  EXPECT_THROW(check_options(Stomp{.rollouts = 1}), ConfigError);
+  EXPECT_THROW(check_options(Stomp{.sensitivity = 0.0}), ConfigError);
+  EXPECT_THROW(check_options(Stomp{.noise = {.decay = 1.5}}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,109 @@
+#include "vantage/planners/views/sampled_views.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "vantage/core/error.hpp"
+#include "tests/support/octomap_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Eigen::AlignedBox3d kEverywhere{
+    Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()),
+    Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())};
+
+class SampledViewsOnAMap : public ::testing::Test {
+ protected:
+  OctomapFile map(const std::vector<support::MapCube>& cubes, double resolution_m = 0.1) {
+    std::ofstream(directory_ / "map.bt", std::ios::binary)
+        << support::octomap_bytes(cubes, resolution_m);
+    return OctomapFile(directory_ / "map.bt");
+  }
+  static std::vector<Candidate> sample(const SampledViews& options, const OctomapFile& map,
+                                       const Eigen::AlignedBox3d& within_m = kEverywhere,
+                                       std::uint64_t seed = 1) {
+    Rng rng(seed);
+    return sample_views(options, map, within_m, rng);
+  }
+  static std::string error_of(const SampledViews& options, const OctomapFile& map) {
+    try {
+      sample(options, map);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  support::TemporaryDirectory directory_;
+};
+
+TEST_F(SampledViewsOnAMap, StandInFreeCellsClearOfOccupiedOnes) {
+  const std::vector<support::MapCube> cubes{
+      {{0, 0, 0}, 32, false}, {{32, 0, 0}, 32, true}, {{4096, 0, 0}, 8, false}};
+  const SampledViews options{.positions = 40, .headings = 3, .clearance_m = 0.5, .pitch_rad = 0.2};
+  const auto views = sample(options, map(cubes));
+  ASSERT_EQ(views.size(), 120U);
+  bool far = false;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    EXPECT_EQ(views[i].id, static_cast<int>(i));
+    const Eigen::Vector3d p = views[i].T_world_sensor.translation();
+    const bool near = p.x() >= 0.0 && p.x() <= 3.2 - 0.5;
+    far = far || !near;
+    EXPECT_TRUE(near || (p.x() >= 409.6 && p.x() <= 410.4)) << p.transpose();
+    EXPECT_NEAR(views[i].T_world_sensor.linear()(2, 0), -std::sin(0.2), 1e-12);
+  }
+  EXPECT_TRUE(far);  // spread out: the small room far away has its view
+}
+
+TEST_F(SampledViewsOnAMap, KeepToHeightAndBox) {
+  const std::vector<support::MapCube> cubes{{{0, 0, 0}, 64, false}};
+  const Eigen::AlignedBox3d box{Eigen::Vector3d(1.0, 2.0, 3.0), Eigen::Vector3d(2.0, 2.5, 4.0)};
+  for (const auto& view : sample({.positions = 25}, map(cubes), box)) {
+    EXPECT_TRUE(box.contains(view.T_world_sensor.translation()));
+  }
+  for (const auto& view : sample({.positions = 25, .height_m = 1.05}, map(cubes))) {
+    EXPECT_EQ(view.T_world_sensor.translation().z(), 1.05);
+  }
+}
+
+TEST_F(SampledViewsOnAMap, DrawEvenlyBySize) {
+  // A ninth of the free volume is in the small room.
+  const std::vector<support::MapCube> cubes{{{0, 0, 0}, 64, false}, {{-64, 0, 0}, 32, false}};
+  int small = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const auto views = sample({.positions = 1, .headings = 1}, map(cubes), kEverywhere, seed);
+    small += views.front().T_world_sensor.translation().x() < 0.0 ? 1 : 0;
+  }
+  EXPECT_NEAR(small / 300.0, 1.0 / 9.0, 4.0 * std::sqrt(1.0 / 9.0 * 8.0 / 9.0 / 300.0));
+}
+
+TEST_F(SampledViewsOnAMap, SameSeedSameViews) {
+  const std::vector<support::MapCube> cubes{{{0, 0, 0}, 64, false}};
+  const auto first = sample({}, map(cubes));
+  const auto again = sample({}, map(cubes));
+  const auto other = sample({}, map(cubes), kEverywhere, 2);
+  ASSERT_EQ(first.size(), 240U);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].T_world_sensor.matrix(), again[i].T_world_sensor.matrix());
+  }
+  EXPECT_NE(first[0].T_world_sensor.matrix(), other[0].T_world_sensor.matrix());
+}
+
+TEST_F(SampledViewsOnAMap, SayWhyThereIsNone) {
+  const auto walls = map({{{0, 0, 0}, 8, true}});
+  EXPECT_THAT(error_of({}, walls), HasSubstr("map.bt: no free cell"));
+  const auto room = map({{{0, 0, 0}, 8, false}, {{8, 0, 0}, 8, true}});
+  EXPECT_THAT(error_of({.clearance_m = 2.0}, room), HasSubstr("views.clearance_m = 2"));
+  EXPECT_THAT(error_of({.height_m = 5.0}, room), HasSubstr("views.height_m = 5"));
+  EXPECT_THROW(sample({.positions = 0}, room), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

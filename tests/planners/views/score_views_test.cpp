@@ -1,0 +1,140 @@
+#include "vantage/planners/views/score_views.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+
+#include "vantage/planners/exact_gain.hpp"
+#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/core/rng.hpp"
+#include "tests/support/octomap_bytes.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+
+FieldOfView camera(double range_max_m) {
+  return {.half_width_rad = 0.5,
+          .tilt_min_rad = -0.4,
+          .tilt_max_rad = 0.4,
+          .range_min_m = 0.0,
+          .range_max_m = range_max_m};
+}
+
+Candidate view_at(int id, const Eigen::Vector3d& p_m, double yaw_rad = 0.0) {
+  Candidate view;
+  view.id = id;
+  view.T_world_sensor = make_pose(p_m, yaw_rad);
+  return view;
+}
+
+class ScoreViews : public ::testing::Test {
+ protected:
+  OctomapFile map(const std::vector<support::MapCube>& cubes, double resolution_m) {
+    std::ofstream(directory_ / "map.bt", std::ios::binary)
+        << support::octomap_bytes(cubes, resolution_m);
+    return OctomapFile(directory_ / "map.bt");
+  }
+  support::TemporaryDirectory directory_;
+};
+
+TEST_F(ScoreViews, ARegionAllInViewCountsItsUnobservedCells) {
+  const auto one = map({{{0, 0, 0}, 4, false}}, 0.1);
+  const ScoredRegion region{.min_m = {{0.0, 0.0, 0.0}}, .max_m = {{0.8, 0.4, 0.4}}};
+  const std::vector<Candidate> views{view_at(0, {-3.0, 0.2, 0.2}),
+                                     view_at(1, {-3.0, 0.2, 0.2}, std::numbers::pi)};
+  const auto gains = score_views(one, region, SimpleGain{}, views, camera(5.0), 1);
+  EXPECT_NEAR(gains[0], 4 * 4 * 4, 1e-3);  // the other half is free
+  EXPECT_EQ(gains[1], 0.0);                // looks away
+  const auto known = score_views(one, {}, SimpleGain{}, views, camera(5.0), 1);
+  EXPECT_EQ(known[0], 0.0);  // by default, what lies round the known cells does not count
+}
+
+TEST_F(ScoreViews, SameAsOnTheWholeGrid) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.8}, {3.2, 3.2, 1.6}, {32, 32, 16}));
+  Rng rng(4);
+  for (float& log_odds : grid.log_odds) {
+    const double u = rng.uniform();
+    log_odds = u < 0.02 ? 3.0F : (u < 0.5 ? -2.0F : 0.0F);
+  }
+  grid.log_odds.front() = grid.log_odds.back() = -2.0F;  // the box of the known cells is the grid
+  write_octomap(grid, directory_ / "map.ot");
+  const OctomapFile file(directory_ / "map.ot");
+  std::vector<Candidate> views;
+  views.reserve(12);
+  for (int i = 0; i < 12; ++i) {
+    views.push_back(
+        view_at(i, {rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(0.2, 1.4)}, i));
+  }
+  const FieldOfView sensor = camera(1.2);  // its reach is less than the grid
+  for (const Gain& gain : {Gain(UnobservedVoxelGain{}), Gain(PosteriorChainGain{})}) {
+    const auto whole = exact_gains_bits(gain, {grid}, views, sensor, 1);
+    const auto scored = score_views(file, {}, gain, views, sensor, 2);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      EXPECT_NEAR(scored[i], whole[i], 1e-6 * whole[i] + 1e-9) << i;
+    }
+  }
+}
+
+TEST_F(ScoreViews, ViewsKilometresApartOnAMapThatNoGridHolds) {
+  // Free cells of 5 cm at two ends of a map 3 km wide, before a wall each.
+  const auto far = map({{{-32000, 0, 0}, 16, false},
+                        {{-31984, 0, 0}, 16, true},
+                        {{32000, 0, 0}, 16, false},
+                        {{32032, 0, 0}, 16, false}},
+                       0.05);
+  ASSERT_GT(far.known().count(), 1e6);
+  const std::vector<Candidate> views{view_at(0, {-1599.8, 0.4, 0.4}), view_at(1, {0.0, 0.4, 0.4}),
+                                     view_at(2, {1600.2, 0.4, 0.4})};
+  const ScoredRegion region{.min_m = {{-1700.0, -40.0, -40.0}}, .max_m = {{1700.0, 40.0, 40.0}}};
+  const auto gains = score_views(far, region, SimpleGain{}, views, camera(2.0), 2);
+  const double cone = gains[1];  // all unobserved
+  EXPECT_GT(cone, 10'000.0);
+  EXPECT_LT(gains[0], 0.6 * cone);  // behind the wall nothing counts
+  EXPECT_GT(gains[2], gains[0]);
+  EXPECT_LT(gains[2], cone);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto alone = score_views(far, region, SimpleGain{}, {&views[i], 1}, camera(2.0), 1);
+    EXPECT_NEAR(alone.front(), gains[i], 1e-3 * cone) << i;
+  }
+}
+
+TEST_F(ScoreViews, CoarserCellsHoldTheSameVolume) {
+  const auto one = map({{{0, 0, 0}, 16, false}}, 0.1);
+  ScoredRegion region{.min_m = {{0.0, 0.0, 0.0}}, .max_m = {{3.2, 1.6, 1.6}}};
+  const std::vector<Candidate> views{view_at(0, {-8.0, 0.8, 0.8})};
+  for (const int coarsen : {1, 2, 4}) {
+    region.coarsen = coarsen;
+    const auto gain = score_views(one, region, UnmappedVolumeGain{}, views, camera(20.0), 1);
+    EXPECT_NEAR(gain.front(), 1.6 * 1.6 * 1.6, 1e-3) << coarsen;
+  }
+}
+
+TEST_F(ScoreViews, NamesTheKeysWhereAViewReachesTooFar) {
+  const auto one = map({{{0, 0, 0}, 1, false}}, 0.01);
+  ScoredRegion region{.min_m = {{-5.0, -5.0, -5.0}}, .max_m = {{5.0, 5.0, 5.0}}};
+  const std::vector<Candidate> views{view_at(7, {0.0, 0.0, 0.0})};
+  try {
+    score_views(one, region, SimpleGain{}, views, camera(10.0), 1);
+    FAIL() << "a billion cells";
+  } catch (const InputError& error) {
+    for (const char* part : {"map.bt", "view 7", "1000 x 1000 x 1000", "sensor.range_max_m",
+                             "region.min_m", "region.max_m", "region.coarsen"}) {
+      EXPECT_THAT(error.what(), HasSubstr(part));
+    }
+  }
+  region.coarsen = 16;
+  EXPECT_GT(score_views(one, region, SimpleGain{}, views, camera(10.0), 1).front(), 0.0);
+}
+
+TEST_F(ScoreViews, RefusesASensorOutOfRange) {
+  const auto one = map({{{0, 0, 0}, 1, false}}, 0.1);
+  EXPECT_THROW(score_views(one, {}, SimpleGain{}, {}, camera(-1.0), 1), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

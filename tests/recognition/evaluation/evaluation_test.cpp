@@ -1,0 +1,174 @@
+#include "vantage/recognition/evaluation/evaluation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/recognition/evaluation/change_evaluation.hpp"
+#include "vantage/recognition/dataset/shown_states.hpp"
+#include "vantage/recognition/evaluation/svm_baseline.hpp"
+#include "vantage/recognition/training.hpp"
+#include "tests/recognition/painted_dataset.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Two cups alike from the front and different from behind, and a hat.
+class Evaluation : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const support::TemporaryDirectory folder;
+    testing::put_painted_object(folder.path(), {"cup", "cup_1", 0, 60}, 16);
+    testing::put_painted_object(folder.path(), {"cup", "cup_2", 0, 90}, 16);
+    testing::put_painted_object(folder.path(), {"hat", "hat_1", 140}, 16);
+    index_ = new DatasetIndex(index_dataset(folder.path()));
+    TrainingOptions training;
+    training.features = {Colour{}, BoundingBox{}};
+    model_ = new RecognitionModel(train_recognition(*index_, training, {}));
+    test_ = new TestViews(read_test_views(*index_, *model_, 2, {}));
+    training_ = new std::vector<ViewFeatures>(extract_features(
+        views_of_videos(*index_, std::vector{1, 4}),
+        std::vector{extractor_of(model_->features[0], ""), extractor_of(model_->features[1], "")},
+        {}, "training views"));
+  }
+  static void TearDownTestSuite() {
+    delete index_;
+    delete model_;
+    delete test_;
+    delete training_;
+  }
+
+  Evaluation()
+      : recogniser_(make_recogniser(*model_, {}, 1)),
+        likelihoods_(log_likelihoods(recogniser_, *test_, {})) {}
+
+  std::vector<Trial> run(const RecognitionOptions& options, int threads = 1) {
+    return run_trials(recogniser_, *test_, likelihoods_, draw_starts(*test_, 100, 1),
+                      {"method", options}, 1, {.threads = threads});
+  }
+  static double accuracy(const std::vector<Trial>& trials) {
+    return static_cast<double>(std::ranges::count_if(trials, &Trial::correct)) / 100.0;
+  }
+
+  static DatasetIndex* index_;
+  static RecognitionModel* model_;
+  static TestViews* test_;
+  static std::vector<ViewFeatures>* training_;
+  Recogniser recogniser_;
+  std::vector<Eigen::MatrixXf> likelihoods_;
+};
+DatasetIndex* Evaluation::index_ = nullptr;
+RecognitionModel* Evaluation::model_ = nullptr;
+TestViews* Evaluation::test_ = nullptr;
+std::vector<ViewFeatures>* Evaluation::training_ = nullptr;
+
+TEST_F(Evaluation, ASingleViewCannotTellWhatDiffersBehindAndSeveralCan) {
+  RecognitionOptions options;
+  options.most_views = 1;
+  const double single = accuracy(run(options));
+  EXPECT_GT(single, 0.6);
+  EXPECT_LT(single, 0.95);
+  options.most_views = 8;
+  const std::vector<Trial> several = run(options);
+  EXPECT_GE(accuracy(several), 0.98);
+  for (const Trial& trial : several) {
+    EXPECT_TRUE(trial.category_correct);
+    EXPECT_LE(trial.bin_error, 4);
+    EXPECT_GE(trial.features, trial.observations);
+  }
+}
+
+TEST_F(Evaluation, IsTheSameForAnyNumberOfThreads) {
+  const RecognitionOptions options;
+  const auto one = run(options, 1);
+  const auto three = run(options, 3);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].estimate, three[i].estimate);
+    EXPECT_EQ(one[i].observations, three[i].observations);
+    EXPECT_EQ(one[i].entropy_bits, three[i].entropy_bits);
+    EXPECT_EQ(one[i].feature_time_s, three[i].feature_time_s);
+  }
+}
+
+TEST_F(Evaluation, ACameraTurnedByABinSeesTheYawLessABin) {
+  const Start start{.turntable = 1, .view = test_->turntables[1].views[5]};
+  DatasetCamera camera(recogniser_, *test_, likelihoods_, start);
+  const ObjectCamera as_camera = camera.as_object_camera();
+  const auto actions = as_camera.actions();
+  ASSERT_EQ(actions.size(), 7U);
+  const double before_rad = test_->views[camera.view()].yaw_rad;
+  as_camera.turn(actions[1]);
+  const double turned_rad = before_rad - test_->views[camera.view()].yaw_rad;
+  EXPECT_NEAR(std::remainder(turned_rad - actions[1].yaw_rad, 2.0 * std::numbers::pi), 0.0, 1e-6);
+  EXPECT_NEAR(as_camera.bearing_rad(), actions[1].yaw_rad, 1e-12);
+  EXPECT_TRUE(as_camera.actions()[5].visited);
+  EXPECT_FALSE(as_camera.actions()[0].visited);
+}
+
+TEST_F(Evaluation, StartsAreDrawnFromEveryObject) {
+  std::vector<int> counts(3, 0);
+  for (const Start& start : draw_starts(*test_, 300, 4)) {
+    ++counts[start.turntable];
+    EXPECT_EQ(test_->views[start.view].name.object,
+              test_->views[test_->turntables[start.turntable].views[0]].name.object);
+  }
+  for (const int count : counts) EXPECT_GT(count, 60);
+}
+
+TEST_F(Evaluation, TheTablesHaveTheirMethods) {
+  std::vector<std::string> names;
+  for (const Method& method : published_methods({})) names.push_back(method.name);
+  EXPECT_THAT(names, ::testing::IsSupersetOf({"single view, all features", "random", "star",
+                                              "jeffreys", "loss_of_entropy", "mutual_information",
+                                              "mutual_information, all features"}));
+}
+
+TEST_F(Evaluation, SupportVectorMachinesTellWhatASingleViewTells) {
+  std::vector<int> label;
+  for (const int state : states_shown(*training_, model_->states)) {
+    label.push_back(model_->states.object_of(state));
+  }
+  for (const Svm& svm : {Svm(LinearSvm{}), Svm(KernelSvm{})}) {
+    const std::vector<int> predicted = svm_predictions(svm, {*training_, label}, test_->views);
+    int hats = 0;
+    int right = 0;
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
+      const int truth = model_->states.object_of(test_->shown[i]);
+      hats += (predicted[i] == 2) == (truth == 2);
+      right += predicted[i] == truth;
+    }
+    EXPECT_EQ(hats, 48);
+    EXPECT_GE(right, 32);
+  }
+}
+
+TEST_F(Evaluation, ChangesAreScoredByScenario) {
+  ChangeOptions options;
+  options.prior_pose = 0.25;
+  options.prior_object = 0.25;
+  const auto all = evaluate_changes(recogniser_, *test_, likelihoods_, draw_starts(*test_, 30, 1),
+                                    options, 1, {});
+  ASSERT_EQ(all.size(), 15U);
+  for (const ChangeTrials& change : all) {
+    ASSERT_EQ(change.trials.size(), 30U);
+    EXPECT_LE(change.kind_accuracy(), change.accuracy());
+    const bool unchanged = change.scenario == Change::none;
+    EXPECT_GE(unchanged ? change.accuracy() : change.detectable_accuracy(), unchanged ? 0.9 : 0.75);
+  }
+}
+
+TEST_F(Evaluation, AnUnknownObjectIsAnErrorThatNamesIt) {
+  RecognitionModel model = *model_;
+  model.states.objects[2] = "hat_7";
+  try {
+    states_shown(test_->views, model.states);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'hat_1'"));
+  }
+}
+
+}  // namespace
+}  // namespace vantage

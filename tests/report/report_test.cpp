@@ -1,0 +1,276 @@
+#include "vantage/report/report.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <regex>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/report/report_data.hpp"
+#include "tests/report/sample_run.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+using support::TemporaryDirectory;
+
+/// The data between the tags that hold it, as a browser would find it.
+json embedded_data(const std::string& page) {
+  const std::string open = R"(<script type="application/json" id="run-data">)";
+  const std::size_t begin = page.find(open) + open.size();
+  return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+}
+
+std::string page_of(const TemporaryDirectory& run) {
+  write_report(run.path());
+  return read_file(run / "report.html");
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+/// The message write_report fails with.
+std::string input_error(const TemporaryDirectory& run) {
+  try {
+    write_report(run.path());
+  } catch (const InputError& error) {
+    EXPECT_FALSE(std::filesystem::exists(run / "report.html"));
+    return error.what();
+  }
+  ADD_FAILURE() << "no InputError";
+  return {};
+}
+
+/// A solid block of n^3 cells that all came with scan `step`.
+VoxelMap block(int n, std::uint16_t step, std::uint8_t kind = kVoxelOccupied) {
+  VoxelMap map{{0.1, 0.1, 0.1}, {Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(4, 4, 5)}, {}};
+  for (int i = 0; i < n * n * n; ++i) {
+    const Eigen::Array3i cell(i % n, i / n % n, i / (n * n));
+    const Eigen::Array3f p =
+        map.box_m.min().cast<float>().array() + 0.1F * (cell.cast<float>() + 0.5F);
+    map.voxels.push_back({p.x(), p.y(), p.z(), step, kind});
+  }
+  return map;
+}
+
+TEST(Report, HoldsTheWholeRunInOneFile) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  const std::string page = page_of(run);
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  EXPECT_EQ(page.find("{{"), page.npos);
+  const std::regex outside(R"((\ssrc=|\shref="[^#]|@import|url\(|<link))");
+  EXPECT_FALSE(std::regex_search(page, outside));
+  EXPECT_EQ(count(page, "<script"), 2U);
+  EXPECT_EQ(count(page, "</script"), 2U);
+}
+
+TEST(Report, EmbedsTheMeasurements) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  const json data = embedded_data(page_of(run));
+  EXPECT_EQ(data["metrics"], support::sample_metrics());
+  EXPECT_EQ(data["config"], read_file(run / "config.yaml"));
+  EXPECT_EQ(data["steps"]["rows"].size(), 9U);
+  EXPECT_EQ(data["steps"]["columns"][1], "scan");
+  EXPECT_EQ(data["trajectory"]["truth"].size(), 480U);
+  EXPECT_NEAR(data["trajectory"]["truth"][0][1].get<double>(), 1.15, 1e-3);
+  EXPECT_EQ(data["voxels"]["cells"], json({129, 129, 65}));
+  EXPECT_TRUE(data["cloud"].is_null());
+  EXPECT_TRUE(data["media"]["frame"].is_null());
+}
+
+TEST(Report, IsTheSameFileForTheSameRun) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  EXPECT_EQ(page_of(run), page_of(run));
+}
+
+TEST(Report, RefersToTheVideoByNameIfThereIsOne) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  write_file(run / "video.mp4", "mp4");
+  EXPECT_EQ(embedded_data(page_of(run))["media"]["video"], "video.mp4");
+}
+
+TEST(Report, EmbedsTheLastFrameWithoutVideo) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  std::filesystem::create_directory(run / "frames");
+  write_file(run / "frames" / "scan_00.png", "a");
+  write_file(run / "frames" / "scan_01.png", "bc");
+  write_file(run / "frames" / "scan_02.part.png", "unfinished");
+  EXPECT_EQ(embedded_data(page_of(run))["media"]["frame"], "data:image/png;base64,YmM=");
+}
+
+TEST(Report, NamesCannotInject) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  json metrics = support::sample_metrics();
+  const std::string evil = R"("</title></script><script>alert(1)</script><!--{{data}})";
+  metrics["scene"] = evil;
+  write_file(run / "metrics.json", metrics.dump());
+  write_file(run / "config.yaml", "# </script><script>alert(2)</script>\n");
+  const std::string page = page_of(run);
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+  EXPECT_EQ(page.find("<!--"), std::string::npos);
+  EXPECT_EQ(count(page, "</script"), 2U);
+  EXPECT_EQ(embedded_data(page)["metrics"]["scene"], evil);
+}
+
+TEST(Report, BytesThatAreNotUtf8DoNotStopIt) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  write_file(run / "config.yaml", "name: caf\xe9\n");
+  EXPECT_EQ(embedded_data(page_of(run))["config"], "name: caf\xef\xbf\xbd\n");
+}
+
+TEST(Report, CopesWithoutTheOptionalFields) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  write_file(run / "metrics.json", R"({"task": "recognition", "status": "failed"})");
+  std::filesystem::remove(run / "voxels.bin");
+  EXPECT_TRUE(embedded_data(page_of(run))["voxels"].is_null());
+}
+
+TEST(Report, MissingFilesAreNamed) {
+  for (const std::string name : {"metrics.json", "manifest.json", "config.yaml", "steps.csv",
+                                 "trajectory.tum", "trajectory_estimated.tum", "voxels.bin"}) {
+    const TemporaryDirectory run;
+    support::write_sample_run(run.path());
+    std::filesystem::remove(run / name);
+    EXPECT_NE(input_error(run).find(name), std::string::npos) << name;
+  }
+}
+
+TEST(Report, MalformedFilesAreNamed) {
+  const std::pair<const char*, const char*> broken[] = {
+      {"metrics.json", "{"},
+      {"metrics.json", "[1]"},
+      {"metrics.json", R"({"task": "next_best_view"})"},
+      {"metrics.json", R"({"task": "next_best_view", "status": "completed", "scans": [1]})"},
+      {"metrics.json", R"({"task": "t", "status": "completed", "path_length_m": "far"})"},
+      {"metrics.json", R"({"task": "t", "status": "completed", "scans": [{"chosen_view": []}]})"},
+      {"manifest.json", "nonsense"},
+      {"config.yaml", "\"open"},
+      {"config.yaml", "garbage"},
+      {"steps.csv", "garbage\n"},
+      {"trajectory.tum", ""},
+      {"steps.csv", "a,b\n1\n"},
+      {"steps.csv", ""},
+      {"trajectory.tum", "1 2 3\n"},
+      {"trajectory.tum", "0 0 0 0 0 0 0 0\n"},
+      {"trajectory_estimated.tum", "0 x 0 0 0 0 0 1\n"},
+      {"voxels.bin", "VTGVOX01"},
+      {"cloud.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"},
+      {"cloud.ply", "solid\n"}};
+  for (const auto& [name, content] : broken) {
+    const TemporaryDirectory run;
+    support::write_sample_run(run.path());
+    write_file(run / name, content);
+    EXPECT_NE(input_error(run).find(name), std::string::npos) << name << ": " << content;
+  }
+}
+
+TEST(Report, VoxelCapHolds) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  VoxelMap map{{0.01, 0.01, 0.01}, {Eigen::Vector3d::Zero(), Eigen::Vector3d(8, 8, 1)}, {}};
+  for (int i = 0; i < 160'000; ++i) {
+    map.voxels.push_back({0.02F * static_cast<float>(i % 400) + 0.005F,
+                          0.02F * static_cast<float>(i / 400) + 0.005F, 0.005F,
+                          static_cast<std::uint16_t>(i / 20'000), kVoxelOccupied});
+  }
+  write_voxels(run / "voxels.bin", map);
+  const json voxels = embedded_data(page_of(run))["voxels"];
+  EXPECT_EQ(voxels["total"][0], 160'000);
+  EXPECT_EQ(voxels["surface"][0], 160'000);
+  EXPECT_EQ(voxels["kept"][0], kMaxReportVoxels);
+  EXPECT_EQ(voxels["data"].get<std::string>().size(), (8 * kMaxReportVoxels + 2) / 3 * 4);
+}
+
+TEST(Voxels, SurviveTheFile) {
+  const TemporaryDirectory folder;
+  const VoxelMap written = block(3, 4, kVoxelUnobserved);
+  write_voxels(folder / "voxels.bin", written);
+  const VoxelMap read = read_voxels(folder / "voxels.bin");
+  EXPECT_EQ(read.cell_size_m, written.cell_size_m);
+  EXPECT_EQ(read.box_m.min(), written.box_m.min());
+  EXPECT_EQ(read.box_m.max(), written.box_m.max());
+  ASSERT_EQ(read.voxels.size(), 27U);
+  EXPECT_EQ(read.voxels[5].y, written.voxels[5].y);
+  EXPECT_EQ(read.voxels[5].step, 4);
+  EXPECT_EQ(read.voxels[5].kind, kVoxelUnobserved);
+  const std::string bytes = read_file(folder / "voxels.bin");
+  write_file(folder / "voxels.bin", bytes.substr(0, bytes.size() - 1));
+  EXPECT_THROW(read_voxels(folder / "voxels.bin"), InputError);
+}
+
+// 4^3 cells: 64 - 2^3 = 56 of them have a face outside.
+TEST(Voxels, OnlyTheSurfaceIsKept) {
+  const PackedVoxels packed = pack_voxels(block(4, 0), 1000);
+  EXPECT_EQ(packed.total[0], 64U);
+  EXPECT_EQ(packed.surface[0], 56U);
+  EXPECT_EQ(packed.kept[0], 56U);
+  EXPECT_EQ((packed.cells == Eigen::Array3i(50, 50, 50)).all(), true);
+}
+
+// A core cell found before its neighbours was to be seen then, and stays.
+TEST(Voxels, CellsHiddenOnlyLaterAreKept) {
+  VoxelMap map = block(3, 5);
+  map.voxels[13].step = 2;
+  EXPECT_EQ(pack_voxels(map, 1000).kept[0], 27U);
+  map.voxels[13].step = 5;
+  EXPECT_EQ(pack_voxels(map, 1000).kept[0], 26U);
+}
+
+TEST(Voxels, OccupiedCellsComeFirstAndInOrderOfTheirStep) {
+  VoxelMap map = block(3, 0, kVoxelUnobserved);
+  for (std::size_t i = 0; i < 9; ++i) {
+    map.voxels[i].kind = kVoxelOccupied;
+    map.voxels[i].step = static_cast<std::uint16_t>(8 - i);
+  }
+  const PackedVoxels packed = pack_voxels(map, 12);
+  ASSERT_EQ(packed.voxels.size(), 12U);
+  EXPECT_EQ(packed.kept[0], 9U);
+  EXPECT_EQ(packed.kept[1], 3U);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(packed.voxels[i].step_and_kind, i);
+  for (std::size_t i = 9; i < 12; ++i) EXPECT_EQ(packed.voxels[i].step_and_kind, 0x8000);
+}
+
+TEST(ReportData, TumHeadingComesFromTheQuaternion) {
+  const TemporaryDirectory folder;
+  write_file(folder / "t.tum", "# comment\n1.5 1 2 3 0 0 0.70710678 0.70710678\r\n");
+  const auto samples = read_tum(folder / "t.tum");
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_EQ(samples[0].p_world_m, Eigen::Vector3d(1, 2, 3));
+  EXPECT_NEAR(samples[0].yaw_rad, std::numbers::pi / 2, 1e-6);
+}
+
+TEST(ReportData, CsvQuotes) {
+  const TemporaryDirectory folder;
+  write_file(folder / "t.csv", "a,\"b,c\"\r\n\"x \"\"y\"\"\",\n");
+  const CsvTable table = read_csv(folder / "t.csv");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"a", "b,c"}));
+  EXPECT_EQ(table.rows.at(0), (std::vector<std::string>{"x \"y\"", ""}));
+}
+
+// The test vectors of RFC 4648.
+TEST(ReportData, Base64) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe"), "//4=");
+}
+
+}  // namespace
+}  // namespace vantage

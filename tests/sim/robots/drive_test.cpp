@@ -1,0 +1,152 @@
+#include "vantage/sim/robots/drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/sim/test_world.hpp"
+
+namespace vantage {
+namespace {
+
+using test::RobotWorld;
+
+constexpr double kPi = std::numbers::pi;
+
+/// 3---2
+/// |   |   1.5 m a side, counterclockwise, heading home at the end
+/// 0---1
+const std::vector<Pose2> kSquare = {
+    {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, kPi / 2.0}};
+
+struct Error {
+  double distance_m;
+  double yaw_rad;
+};
+Error between(const Pose2& a, const Pose2& b) {
+  const Pose2 d = compose(inverse(a), b);
+  return {std::hypot(d.x_m, d.y_m), std::abs(d.yaw_rad)};
+}
+
+bool is_at_rest(const RobotWorld& scene) {
+  const Twist2 twist = scene.robot.twist(scene.world);
+  return std::hypot(twist.vx_m_s, twist.vy_m_s) < 0.002;
+}
+
+Odometry perfect(const RobotWorld& scene) {
+  return {OdometryOptions::perfect(), Rng(1), scene.robot.T_world_base(scene.world)};
+}
+
+TEST(Drive, RoundASquare) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  const DriveResult result = drive(scene.world, scene.robot, odometry, kSquare);
+  EXPECT_EQ(to_string(result.status), "arrived");
+  const Error error = between(scene.robot.T_world_base(scene.world), kSquare.back());
+  EXPECT_LT(error.distance_m, 0.01);
+  EXPECT_LT(error.yaw_rad, 0.0105);
+  EXPECT_TRUE(is_at_rest(scene));
+  EXPECT_NEAR(result.path_length_m, 6.0, 0.2);
+  EXPECT_LT(result.duration_s, 30.0);
+  EXPECT_NEAR(result.duration_s, scene.world.time_s(), 1e-9);
+}
+
+TEST(Drive, StaysOnThePath) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  const DrivePath path({}, kSquare);
+  double farthest_m = 0.0;
+  drive(scene.world, scene.robot, odometry, kSquare, {}, [&](World&, const Pose2& base) {
+    const Eigen::Vector2d p(base.x_m, base.y_m);
+    farthest_m =
+        std::max(farthest_m, (path.point(path.project(p, 0.0, path.length_m())) - p).norm());
+    return true;
+  });
+  EXPECT_LT(farthest_m, 0.03) << "it neither cuts corners nor overshoots";
+}
+
+TEST(Drive, NoisyOdometryArrivesWhereItBelievesToBe) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    RobotWorld scene;
+    Odometry odometry({}, Rng::stream(seed, "odometry"), {});
+    const DriveResult result = drive(scene.world, scene.robot, odometry, kSquare);
+    EXPECT_EQ(result.status, DriveStatus::arrived);
+    const Error believed = between(odometry.estimate(), kSquare.back());
+    EXPECT_LT(believed.distance_m, 0.01);
+    EXPECT_LT(believed.yaw_rad, 0.0105);
+    const Error real = between(scene.robot.T_world_base(scene.world), kSquare.back());
+    EXPECT_GT(real.distance_m, 0.005) << "dead reckoning drifts";
+    EXPECT_LT(real.distance_m, 0.4);
+    EXPECT_TRUE(is_at_rest(scene));
+  }
+}
+
+TEST(Drive, TurnsInPlaceAndGoesNowhere) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  const std::vector<Pose2> turn = {{0.0, 0.0, 2.5}};
+  const DriveResult result = drive(scene.world, scene.robot, odometry, turn);
+  EXPECT_EQ(result.status, DriveStatus::arrived);
+  EXPECT_LT(between(scene.robot.T_world_base(scene.world), turn.back()).yaw_rad, 0.0105);
+  EXPECT_LT(result.path_length_m, 0.05);
+  EXPECT_EQ(drive(scene.world, scene.robot, odometry, {}).status, DriveStatus::arrived)
+      << "an empty path";
+}
+
+TEST(Drive, StuckAgainstAWall) {
+  RobotWorld scene("<geom name='wall' type='box' size='0.1 3 1' pos='1.1 0 1'/>");
+  Odometry odometry = perfect(scene);
+  const DriveResult result =
+      drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{3.0, 0.0, 0.0}});
+  EXPECT_EQ(to_string(result.status), "stuck");
+  EXPECT_LT(result.duration_s, 8.0);
+  EXPECT_NEAR(scene.robot.T_world_base(scene.world).x_m, 1.0 - 0.334, 0.01);
+  EXPECT_TRUE(is_at_rest(scene));
+}
+
+TEST(Drive, AGoalJustInsideAWallEndsToo) {
+  RobotWorld scene("<geom name='wall' type='box' size='0.1 3 1' pos='1.1 0 1'/>");
+  Odometry odometry = perfect(scene);
+  const DriveResult result =
+      drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.69, 0.0, 0.0}});
+  EXPECT_EQ(to_string(result.status), "timeout") << "too near to push hard";
+  EXPECT_LT(result.duration_s, 30.0);
+}
+
+TEST(Drive, StopsWhenToldAndComesToRest) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  const DriveResult result =
+      drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{4.0, 0.0, 0.0}}, {},
+            [](World&, const Pose2& base) { return base.x_m < 1.0; });
+  EXPECT_EQ(result.status, DriveStatus::stopped);
+  EXPECT_NEAR(scene.robot.T_world_base(scene.world).x_m, 1.0, 0.3);
+  EXPECT_TRUE(is_at_rest(scene));
+}
+
+TEST(Drive, TicksTheWorldsRecorder) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  std::uint64_t ticks = 0;
+  scene.world.on_tick = [&](World&) { ++ticks; };
+  drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.3, 0.0, 0.0}});
+  stand(scene.world, scene.robot, odometry, 0.5);
+  EXPECT_EQ(ticks, scene.world.ticks());
+  EXPECT_NEAR(scene.world.time_s(), 0.025 * static_cast<double>(ticks), 1e-9);
+}
+
+TEST(Drive, SameSeedSameBits) {
+  const auto run = [] {
+    RobotWorld scene(
+        "<body name='box' pos='1.5 0.8 .2'><freejoint/>"
+        "<geom type='box' size='.1 .1 .2' mass='2'/></body>");
+    Odometry odometry({}, Rng::stream(5, "odometry"), {});
+    drive(scene.world, scene.robot, odometry, kSquare);
+    return scene.world.state();
+  };
+  EXPECT_EQ(run(), run());
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,78 @@
+#include "vantage/sim/sensors/exposure.hpp"
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include "vantage/core/error.hpp"
+#include "tests/sim/test_world.hpp"
+
+namespace vantage {
+namespace {
+
+/// A white bar before black that moves sideways past a camera.
+struct MovingBar {
+  MovingBar()
+      : folder(
+            "<mujoco><visual><headlight ambient='1 1 1' diffuse='0 0 0' specular='0 0 0'/>"
+            "</visual><worldbody>"
+            "<camera name='eye' pos='0 0 0' xyaxes='0 -1 0 0 0 1'/>"
+            "<body pos='2 0 0'><joint name='rail' type='slide' axis='0 1 0'/>"
+            "<geom type='box' size='0.05 0.2 1' mass='1' rgba='1 1 1 1'/></body>"
+            "</worldbody></mujoco>"),
+        world(folder.alone()),
+        camera(model_id(world.model(), ModelObject::camera, "eye")),
+        renderer(make_offscreen_renderer(world.model(), 160, 120)) {}
+
+  CameraImages take(double speed_m_s, const ExposureOptions& exposure) {
+    world.data().qvel[0] = speed_m_s;
+    Rng rng(1);
+    return rgbd_exposed(*renderer, world, camera,
+                        {.width_px = 160, .height_px = 120, .noise = false}, exposure, rng);
+  }
+  /// Pixels of the middle row that are neither bar nor background.
+  static int grey(const CameraImages& images) {
+    int count = 0;
+    for (std::size_t column = 0; column < 160; ++column) {
+      const int value = images.rgb[3 * (60 * 160 + column)];
+      if (value > 20 && value < 235) ++count;
+    }
+    return count;
+  }
+
+  test::SceneFolder folder;
+  World world;
+  int camera;
+  std::unique_ptr<Renderer> renderer;
+};
+
+TEST(Exposure, AtRestIsSharp) {
+  MovingBar bar;
+  const CameraImages sharp = bar.take(0.0, {.samples = 1});
+  EXPECT_EQ(bar.take(0.0, {.exposure_s = 0.1, .samples = 5}).rgb, sharp.rgb);
+}
+
+TEST(Exposure, WhatMovesIsBlurredAsFarAsItMoves) {
+  MovingBar bar;
+  const int sharp = MovingBar::grey(bar.take(1.0, {.samples = 1}));
+  const CameraImages blurred = bar.take(1.0, {.exposure_s = 0.1, .samples = 16});
+  // 0.1 m at 1.95 m, 145 px focal length: both edges are 7.4 px wide.
+  EXPECT_NEAR(MovingBar::grey(blurred) - sharp, 2 * 7.4, 3.0);
+  EXPECT_EQ(blurred.depth_m, bar.take(1.0, {.samples = 1}).depth_m);
+  EXPECT_EQ(blurred.segmentation, bar.take(1.0, {.samples = 1}).segmentation);
+}
+
+TEST(Exposure, LeavesTheWorldAlone) {
+  MovingBar bar;
+  bar.take(1.0, {});
+  const std::vector<double> before = bar.world.state();
+  bar.take(1.0, {.exposure_s = 0.05, .samples = 3});
+  EXPECT_EQ(bar.world.state(), before);
+}
+
+TEST(Exposure, RefusesOptionsOutOfRange) {
+  MovingBar bar;
+  EXPECT_THROW(bar.take(0.0, {.samples = 0}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,265 @@
+#include "vantage/sim/sensors/ground_truth.hpp"
+
+#include <gtest/gtest.h>
+
+#include "vantage/core/rng.hpp"
+#include "tests/sim/sensors/sensor_scene.hpp"
+
+namespace vantage {
+namespace {
+
+/// Cells of 10 cm, one layer: x to the right from 0, y up from 0, z in [0, 0.1).
+GridFrame layer(int nx, int ny) {
+  return {.min_corner_m = Eigen::Vector3d::Zero(),
+          .cell_size_m = Eigen::Vector3d::Constant(0.1),
+          .cells = {nx, ny, 1}};
+}
+
+/// Rows from the highest y down, as one would draw it.
+std::string picture(const GridFrame& grid, const std::vector<std::uint8_t>& flags) {
+  std::string drawn;
+  for (int y = grid.cells.y() - 1; y >= 0; --y) {
+    for (int x = 0; x < grid.cells.x(); ++x) {
+      drawn += flags[grid.index({x, y, 0})] != 0 ? '#' : '.';
+    }
+    drawn += '\n';
+  }
+  return drawn;
+}
+
+std::vector<std::uint8_t> flags_of(const GridFrame& grid, const std::string& drawn) {
+  std::vector<std::uint8_t> flags(grid.size(), 0);
+  for (int y = 0; y < grid.cells.y(); ++y) {
+    for (int x = 0; x < grid.cells.x(); ++x) {
+      const int row = grid.cells.y() - 1 - y;
+      const auto at = static_cast<std::size_t>(row * (grid.cells.x() + 1) + x);
+      flags[grid.index({x, y, 0})] = drawn[at] == '#' ? 1 : 0;
+    }
+  }
+  return flags;
+}
+
+constexpr FieldOfView kWide{.half_width_rad = 1.5,
+                            .tilt_min_rad = -0.4,
+                            .tilt_max_rad = 0.4,
+                            .range_min_m = 0.01,
+                            .range_max_m = 5.0};
+
+/// A wall across the grid at x in [0.55, 0.95], a robot arm in front of it.
+constexpr const char* kWall = R"(
+  <mujoco><worldbody>
+    <geom type="box" size="0.2 2 2" pos="0.75 0 0"/>
+    <body name="robot/base"><joint type="slide"/><geom type="sphere" size="0.02"/>
+      <body><geom type="sphere" size="0.04" pos="0.2 0.25 0.05"/></body>
+    </body>
+  </worldbody></mujoco>)";
+
+TEST(VisibleCells, FreeCellsAndTheSurfacesOwnNotThoseBehind) {
+  const auto scene = test::compile_mjcf(kWall);
+  const RayScene rays(*scene.model, *scene.data, {.exclude_body_prefix = "robot/"});
+  const GridFrame grid = layer(10, 5);
+  const Pose T = make_pose({-1.0, 0.25, 0.05}, 0.0);
+  EXPECT_EQ(picture(grid, visible_cells(rays, grid, T, kWide)),
+            "######....\n"
+            "######....\n"
+            "######....\n"
+            "######....\n"
+            "######....\n");
+}
+
+TEST(VisibleCells, TheRobotHidesCellsUnlessLeftOut) {
+  const auto scene = test::compile_mjcf(kWall);
+  const RayScene rays(*scene.model, *scene.data);
+  const GridFrame grid = layer(10, 5);
+  const Pose T = make_pose({-1.0, 0.25, 0.05}, 0.0);
+  EXPECT_EQ(picture(grid, visible_cells(rays, grid, T, kWide)),
+            "######....\n"
+            "######....\n"
+            "##........\n"
+            "######....\n"
+            "######....\n");
+}
+
+TEST(VisibleCells, ASurfaceOnACellFaceHidesTheCellBehindIt) {
+  const auto scene = test::compile_mjcf(R"(
+    <mujoco><worldbody><geom type="box" size="0.2 2 2" pos="0.7 0 0"/></worldbody></mujoco>)");
+  const RayScene rays(*scene.model, *scene.data);
+  const GridFrame grid = layer(10, 1);
+  const Pose T = make_pose({-1.0, 0.05, 0.05}, 0.0);
+  EXPECT_EQ(picture(grid, visible_cells(rays, grid, T, kWide)), "#####.....\n");
+}
+
+TEST(VisibleCells, APostCastsAShadow) {
+  const auto scene = test::compile_mjcf(R"(
+    <mujoco><worldbody><geom type="box" size="0.04 0.04 1" pos="0.35 0.35 0"/></worldbody></mujoco>)");
+  const RayScene rays(*scene.model, *scene.data);
+  const GridFrame grid = layer(8, 7);
+  const Pose T = make_pose({0.05, 0.35, 0.05}, 0.0);
+  FieldOfView sensor = kWide;
+  sensor.half_width_rad = 0.5;
+  EXPECT_EQ(picture(grid, visible_cells(rays, grid, T, sensor)),
+            "......##\n"
+            "....####\n"
+            "..#####.\n"
+            ".###....\n"
+            "..#####.\n"
+            "....####\n"
+            "......##\n");
+}
+
+TEST(VisibleCells, RangeAndThreadsAndSensorPose) {
+  const auto scene = test::sensor_scene();
+  const RayScene rays(*scene.model, *scene.data, {.exclude_body_prefix = "robot/"});
+  const GridFrame grid = make_grid_frame({0.0, 0.0, 0.5}, {3.0, 3.0, 1.0}, {60, 60, 20});
+  const Pose T = make_pose({-2.5, 0.3, 1.1}, -0.1, 0.1);
+  FieldOfView sensor = kWide;
+  sensor.range_max_m = 3.0;
+  const auto one = visible_cells(rays, grid, T, sensor);
+  EXPECT_EQ(one, visible_cells(rays, grid, T, sensor, -1, 2));
+  EXPECT_EQ(one, visible_cells(rays, grid, T, sensor, -1, 3));
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    if (one[i] == 0) continue;
+    ++seen;
+    ASSERT_TRUE(sensor.contains(T.inverse() * grid.centre(grid.cell(i))));
+  }
+  EXPECT_GT(seen, one.size() / 10);
+  EXPECT_LT(seen, one.size());
+}
+
+TEST(VisibleCells, OfTwoPlacesAreTheUnion) {
+  const auto scene = test::sensor_scene();
+  const RayScene rays(*scene.model, *scene.data, {.exclude_body_prefix = "robot/"});
+  const GridFrame grid = make_grid_frame({0.0, 0.0, 0.5}, {3.0, 3.0, 1.0}, {40, 40, 15});
+  const Pose T_a = make_pose({-2.5, 0.3, 1.1}, -0.1, 0.1);
+  const Pose T_b = make_pose({0.2, -2.0, 1.4}, 1.4, 0.2);
+  FieldOfView sensor = kWide;
+  sensor.range_max_m = 2.6;
+  const auto a = visible_cells(rays, grid, T_a, sensor);
+  const auto b = visible_cells(rays, grid, T_b, sensor);
+  auto both = a;
+  add_visible_cells(rays, grid, T_b, sensor, both, -1, 2);
+  for (std::size_t i = 0; i < both.size(); ++i) ASSERT_EQ(both[i], a[i] | b[i]) << i;
+  EXPECT_NE(both, a);
+}
+
+TEST(SurfaceCells, OutlineOfABox) {
+  const auto scene = test::compile_mjcf(R"(
+    <mujoco><worldbody><geom type="box" size="0.2 0.15 1" pos="0.45 0.4 0"/></worldbody></mujoco>)");
+  const GridFrame grid = layer(9, 7);
+  EXPECT_EQ(picture(grid, surface_cells(*scene.model, *scene.data, grid)),
+            ".........\n"
+            "..#####..\n"
+            "..#...#..\n"
+            "..#...#..\n"
+            "..#####..\n"
+            ".........\n"
+            ".........\n");
+}
+
+TEST(SurfaceCells, LeavesOutTheRobot) {
+  const auto scene = test::compile_mjcf(kWall);
+  const GridFrame grid = layer(6, 3);
+  EXPECT_EQ(picture(grid, surface_cells(*scene.model, *scene.data, grid,
+                                        {.exclude_body_prefix = "robot/"})),
+            ".....#\n.....#\n.....#\n");
+}
+
+TEST(SurfaceCells, APlaneFillsItsLayerOnly) {
+  const auto scene = test::compile_mjcf(R"(
+    <mujoco><worldbody>
+      <geom type="plane" size="0 0 1" pos="100 0 0.05"/>
+      <geom type="plane" size="0.1 0.1 1" pos="0.25 0.25 0.25"/>
+    </worldbody></mujoco>)");
+  GridFrame grid = layer(5, 5);
+  grid.cells.z() = 4;
+  const auto cells = surface_cells(*scene.model, *scene.data, grid);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Eigen::Array3i cell = grid.cell(i);
+    const bool on_tile =
+        cell.z() == 2 && (cell.head<2>() >= 1).all() && (cell.head<2>() <= 3).all();
+    EXPECT_EQ(cells[i] != 0, cell.z() == 0 || on_tile) << cell.transpose();
+  }
+}
+
+/// Every point where a ray meets a geom must lie in or beside a marked cell, and every marked cell
+/// must be near a point of some surface.
+TEST(SurfaceCells, CoverWhatRaysHitOnEveryKindOfGeom) {
+  const auto scene = test::sensor_scene();
+  const RayScene rays(*scene.model, *scene.data);
+  const GridFrame grid = make_grid_frame({0.0, 0.0, 0.7}, {4.0, 4.0, 1.6}, {100, 100, 40});
+  const auto cells = surface_cells(*scene.model, *scene.data, grid);
+  Rng rng(2);
+  int hits = 0;
+  int direct = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector3d p(rng.uniform(-2, 2), rng.uniform(-2, 2), 3.0);
+    const Eigen::Vector3d target(rng.uniform(-2, 2), rng.uniform(-2, 2), 0.0);
+    const Eigen::Vector3d d = (target - p).normalized();
+    const RayHit hit = rays.cast(p, d, 10.0);
+    const Eigen::Array3i cell = grid.cell_at(p + hit.distance_m * d);
+    if (!hit.hit() || !grid.contains(cell)) continue;
+    ++hits;
+    if (cells[grid.index(cell)] != 0) ++direct;
+  }
+  EXPECT_GT(hits, 3000);
+  EXPECT_GT(direct, 0.98 * hits);  // samples half a cell apart miss corners of cells
+}
+
+TEST(ScoreMap, KnownAnswers) {
+  const GridFrame grid = layer(7, 4);
+  const auto surface = flags_of(grid,
+                                "..#....\n"
+                                "..#....\n"
+                                "..#....\n"
+                                "..#...#\n");
+  const auto observable = flags_of(grid,
+                                   "####...\n"
+                                   "####...\n"
+                                   "####...\n"
+                                   "......#\n");
+  const auto occupied = flags_of(grid,
+                                 ".......\n"
+                                 ".#.....\n"
+                                 "..#..#.\n"
+                                 ".......\n");
+  const MapScore exact = score_map(grid, occupied, surface, observable, 0);
+  EXPECT_EQ(exact.occupied_cells, 3U);
+  EXPECT_EQ(exact.correct_cells, 1U);
+  EXPECT_EQ(exact.observable_surface_cells, 4U);
+  EXPECT_EQ(exact.found_cells, 1U);
+  EXPECT_DOUBLE_EQ(exact.precision, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(exact.recall, 0.25);
+
+  const MapScore near = score_map(grid, occupied, surface, observable, 1);
+  EXPECT_EQ(near.correct_cells, 3U);  // (5,1) is diagonal to the surface at (6,0)
+  EXPECT_EQ(near.found_cells, 4U);
+  EXPECT_DOUBLE_EQ(near.precision, 1.0);
+  EXPECT_DOUBLE_EQ(near.recall, 1.0);
+}
+
+TEST(ScoreMap, ToleranceReachesAlongEveryAxisAndEndsThere) {
+  const GridFrame grid{.cells = {5, 5, 5}};
+  std::vector<std::uint8_t> surface(grid.size(), 0);
+  surface[grid.index({2, 2, 2})] = 1;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    std::vector<std::uint8_t> occupied(grid.size(), 0);
+    occupied[i] = 1;
+    const int distance = (grid.cell(i) - 2).abs().maxCoeff();
+    const MapScore score = score_map(grid, occupied, surface, surface, 1);
+    EXPECT_EQ(score.precision, distance <= 1 ? 1.0 : 0.0);
+    EXPECT_EQ(score.recall, score.precision);
+  }
+}
+
+TEST(ScoreMap, NothingClaimedIsNothingWrong) {
+  const GridFrame grid = layer(3, 3);
+  const std::vector<std::uint8_t> none(grid.size(), 0);
+  const std::vector<std::uint8_t> all(grid.size(), 1);
+  EXPECT_EQ(score_map(grid, none, all, all, 1).precision, 1.0);
+  EXPECT_EQ(score_map(grid, none, all, all, 1).recall, 0.0);
+  EXPECT_EQ(score_map(grid, all, all, none, 1).recall, 1.0);
+}
+
+}  // namespace
+}  // namespace vantage

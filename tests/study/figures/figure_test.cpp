@@ -1,0 +1,78 @@
+// Curves against scans, and their picture.
+#include "vantage/study/figures/figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/study/text_table.hpp"
+
+namespace vantage {
+namespace {
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(MeanSeries, EndedCurvesKeepTheirLastValue) {
+  const std::vector<std::vector<double>> curves{{4.0, 2.0}, {8.0, 6.0, 4.0}};
+  const FigureSeries series = mean_series({}, "p", "s", 0, curves, 1, true);
+  ASSERT_EQ(series.points.size(), 3U);
+  EXPECT_EQ(series.points[0].x, 1.0);
+  EXPECT_DOUBLE_EQ(series.points[0].mean, 6.0);
+  EXPECT_DOUBLE_EQ(series.points[2].mean, 3.0);
+  EXPECT_EQ(series.points[2].count, 2U);
+}
+
+TEST(MeanSeries, OrAreLeftOut) {
+  const std::vector<std::vector<double>> curves{{4.0, 2.0}, {8.0, 6.0, 4.0}};
+  const FigureSeries series = mean_series({}, "p", "s", 0, curves, 2, false);
+  EXPECT_EQ(series.points[2].x, 4.0);
+  EXPECT_DOUBLE_EQ(series.points[2].mean, 4.0);
+  EXPECT_EQ(series.points[2].count, 1U);
+}
+
+Figure small_figure() {
+  Figure figure{"f", "Cost & gain", "scans", "cost, m", {}};
+  figure.panels.push_back(
+      {"<left>", {{"ours", 1, {{1, 2, 0.0, {0.0, 0.0}}, {2, 2, 1e6, {9e5, 1.2e6}}}}}});
+  figure.panels.push_back({"empty", {}});
+  return figure;
+}
+
+TEST(FigureSvg, TextIsEscapedAndNumbersAreFinite) {
+  const std::string svg = figure_svg(small_figure());
+  for (const char* part : {"Cost &amp; gain", "&lt;left&gt;", "cost, m", "ours", ">1 M<", ">0<"}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+  for (const char* part : {"nan", "inf", "<left>"}) EXPECT_THAT(svg, Not(HasSubstr(part)));
+}
+
+TEST(FigureSvg, SaysBelowWhatItShows) {
+  Figure figure = small_figure();
+  EXPECT_THAT(figure_svg(figure), HasSubstr(">Mean over episodes; band: 95 %"));
+  figure.note = "Medians <of one run>.";
+  EXPECT_THAT(figure_svg(figure), HasSubstr(">Medians &lt;of one run&gt;.<"));
+  EXPECT_THAT(figure_svg(figure), Not(HasSubstr("Mean over episodes")));
+}
+
+TEST(FigureSvg, OneLegendEntryForEachSeries) {
+  Figure figure = small_figure();
+  figure.panels.push_back(figure.panels.front());
+  const std::string svg = figure_svg(figure);
+  EXPECT_EQ(svg.find(">ours<"), svg.rfind(">ours<"));
+}
+
+TEST(FigureTable, ARowForEveryScan) {
+  const auto tables = text_tables(small_figure());
+  ASSERT_EQ(tables.size(), 2U);
+  EXPECT_EQ(tables[0].rows[1], (std::vector<std::string>{"2", "1000000 [900000, 1200000]"}));
+  const std::string text = markdown("Cost", tables);
+  EXPECT_THAT(text, HasSubstr("| scans | ours |\n|---|---:|\n| 1 | 0 [0, 0] |"));
+}
+
+TEST(FigureCsv, HoldsEveryPoint) {
+  EXPECT_EQ(figure_csv(small_figure()),
+            "panel,series,scans,episodes,mean,low,high\n"
+            "<left>,ours,1,2,0,0,0\n<left>,ours,2,2,1000000,900000,1200000\n");
+}
+
+}  // namespace
+}  // namespace vantage

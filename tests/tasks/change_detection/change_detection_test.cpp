@@ -1,0 +1,159 @@
+// Is the object on the table as the map says? Whole short episodes, and what each scenario makes.
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <numbers>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/recognition/object_on_table.hpp"
+#include "vantage/runtime/replay.hpp"
+#include "vantage/tasks/run.hpp"
+#include "vantage/tasks/validate.hpp"
+#include "tests/tasks/small_recognition.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kChange = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/change_detection.yaml";
+
+class ChangeEpisode : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    set_verbosity(Verbosity::quiet);
+    folder_.emplace();
+    support::make_small_model(folder_->path());
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::vector<std::string> overrides(const std::string& scenario,
+                                            std::vector<std::string> more) {
+    std::vector<std::string> all = support::small_flight(folder_->path());
+    all.emplace_back("change_detection.expected_object=cereal_box_1");
+    all.push_back("change_detection.scenario=" + scenario);
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  static json metrics_of(const std::string& scenario, std::vector<std::string> more = {}) {
+    RunOptions options;
+    options.directory = *folder_ / scenario;
+    options.overwrite = true;
+    const RunOutcome outcome =
+        run(load_episode(kChange, overrides(scenario, std::move(more))), options);
+    EXPECT_EQ(outcome.code, ExitCode::done);
+    return json::parse(outcome.metrics);
+  }
+
+  static inline std::optional<support::TemporaryDirectory> folder_;
+};
+
+TEST_F(ChangeEpisode, NothingHasChanged) {
+  const json metrics = metrics_of("none");
+  EXPECT_EQ(metrics["task"], "change_detection");
+  EXPECT_EQ(metrics["status"], "completed");
+  EXPECT_EQ(metrics["scenario"], "none");
+  EXPECT_EQ(metrics["decision"], "none");
+  EXPECT_EQ(metrics["correct"], true);
+  EXPECT_EQ(metrics["changed_correct"], true);
+  EXPECT_EQ(metrics["truth"], "cereal_box_1");
+  EXPECT_EQ(metrics["expected"]["object"], "cereal_box_1");
+  EXPECT_EQ(metrics["expected"]["yaw_rad"], metrics["true_yaw_rad"]);
+  EXPECT_LE(metrics["change_probability"], 0.6);
+  ASSERT_THAT(metrics["observations"], testing::Not(testing::IsEmpty()));
+  const double seen_rad = metrics["expected"]["yaw_rad"].get<double>() -
+                          metrics["observations"][0]["view_rad"].get<double>();
+  EXPECT_NEAR(std::remainder(seen_rad, std::numbers::pi / 4.0), 0.0, 1e-9) << "mid of its bin";
+  for (const json& view : metrics["observations"]) {
+    for (const char* key : {"view_rad", "entropy_bits", "feature_time_s", "selection_time_s",
+                            "view_time_s", "change_probability"}) {
+      EXPECT_TRUE(view.at(key).is_number()) << key;
+    }
+    EXPECT_TRUE(view.at("features").is_array());
+  }
+  EXPECT_EQ(metrics["observations"].back()["change_probability"], metrics["change_probability"]);
+}
+
+TEST_F(ChangeEpisode, AnotherObjectIsFoundAndItsFlightReplays) {
+  const json metrics = metrics_of("object");
+  EXPECT_EQ(metrics["decision"], "object");
+  EXPECT_EQ(metrics["correct"], true);
+  EXPECT_NE(metrics["truth"], "cereal_box_1");
+  EXPECT_GT(metrics["change_probability"], 0.6);
+  const ReplayResult result = replay(*folder_ / "object");
+  EXPECT_FALSE(result.first_difference) << result.what;
+  EXPECT_GE(result.ticks, 50U);
+  const std::string steps = read_file(*folder_ / "object" / "steps.csv");
+  EXPECT_THAT(steps, testing::HasSubstr(",collisions,change_probability,decision\n"));
+}
+
+TEST_F(ChangeEpisode, ATurnedObjectIsFound) {
+  const json metrics = metrics_of("pose", {"change_detection.turned_rad=1.5707963267948966"});
+  EXPECT_EQ(metrics["decision"], "pose");
+  EXPECT_EQ(metrics["truth"], "cereal_box_1");
+  EXPECT_NEAR(std::abs(wrap_angle(metrics["true_yaw_rad"].get<double>() -
+                                  metrics["expected"]["yaw_rad"].get<double>())),
+              0.5 * std::numbers::pi, 1e-9);
+}
+
+TEST_F(ChangeEpisode, AnEmptyTableIsLookedAtTwice) {
+  const json metrics = metrics_of("removed");
+  EXPECT_EQ(metrics["decision"], "removed");
+  EXPECT_EQ(metrics["correct"], true);
+  EXPECT_EQ(metrics["change_probability"], 1.0);
+  EXPECT_TRUE(metrics["truth"].is_null());
+  EXPECT_TRUE(metrics["bin_error"].is_null());
+  ASSERT_EQ(metrics["observations"].size(), 2U);
+  EXPECT_THAT(metrics["observations"][0]["skipped"], testing::Not(testing::IsEmpty()));
+  EXPECT_FALSE(replay(*folder_ / "removed").first_difference);
+}
+
+TEST_F(ChangeEpisode, WhatCannotBeIsRefused) {
+  EXPECT_THROW(load_episode(kChange, overrides("stolen", {})), ConfigError);
+  EXPECT_THROW(load_episode(kChange, overrides("none", {"recognition.object=mug_1"})), ConfigError);
+  EXPECT_THROW(load_episode(kChange, overrides("object", {"recognition.object=cereal_box_1"})),
+               ConfigError);
+  const Validation found = validate_episode(
+      kChange, overrides("pose", {"change_detection.expected_object=spaceship_1"}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_THAT(found.problems[0], testing::HasSubstr("change_detection.expected_object"));
+  EXPECT_THAT(validate_episode(kChange, overrides("object", {})).problems, testing::IsEmpty());
+}
+
+Episode scenario(const std::string& name, std::uint64_t seed) {
+  Episode episode;
+  episode.task = "change_detection";
+  episode.seed = seed;
+  episode.change_detection.scenario = name;
+  return episode;
+}
+
+TEST(ChangeScenario, MakesOfWhatIsExpectedWhatItSays) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const ObjectOnTable expected = draw_expected_object(scenario("none", seed));
+    const ObjectOnTable same = draw_object_on_table(scenario("none", seed));
+    EXPECT_EQ(same.object, expected.object);
+    EXPECT_EQ(same.yaw_rad, expected.yaw_rad);
+    EXPECT_GT(same.offset_m.norm(), 0.0) << "nobody puts a thing exactly where it was";
+    const ObjectOnTable turned = draw_object_on_table(scenario("pose", seed));
+    EXPECT_EQ(turned.object, expected.object);
+    EXPECT_GT(std::abs(wrap_angle(turned.yaw_rad - expected.yaw_rad)), std::numbers::pi / 8.0);
+    EXPECT_NE(draw_object_on_table(scenario("object", seed)).object, expected.object);
+    EXPECT_TRUE(draw_object_on_table(scenario("removed", seed)).object.empty());
+  }
+}
+
+TEST(ChangeScenario, StartsFromWhatARecognitionWouldSee) {
+  Episode recognition = scenario("none", 7);
+  recognition.task = "recognition";
+  const ObjectOnTable seen = draw_object_on_table(recognition);
+  const ObjectOnTable expected = draw_expected_object(scenario("object", 7));
+  EXPECT_EQ(seen.object, expected.object);
+  EXPECT_EQ(seen.yaw_rad, expected.yaw_rad);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,193 @@
+// Exploring an office: what the head's sweep sees, and a whole short episode.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "vantage/core/log.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/tasks/exploration/exploration_options.hpp"
+#include "vantage/runtime/replay.hpp"
+#include "vantage/tasks/run.hpp"
+#include "vantage/tasks/exploration/visited_places.hpp"
+#include "vantage/tasks/mapping/wall_map.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(HeadSweep, PansEvenlyAllRound) {
+  const auto pans_rad = pan_angles_rad({.pans = 4});
+  ASSERT_EQ(pans_rad.size(), 4U);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(pans_rad[i], (i - 1.5) * kPi / 2.0, 1e-12);
+}
+
+/// Whether an image of the sweep, taken from the pan axis, shows that direction.
+bool in_some_image(const HeadSweep& sweep, const RgbdOptions& camera, const Eigen::Vector3d& d) {
+  const double half_height = std::tan(0.5 * camera.fovy_rad);
+  const double half_width = half_height * camera.width_px / camera.height_px;
+  for (const double tilt_rad : sweep.tilts_rad) {
+    for (const double pan_rad : pan_angles_rad(sweep)) {
+      const Eigen::Vector3d p =
+          make_pose(Eigen::Vector3d::Zero(), pan_rad, tilt_rad).linear().transpose() * d;
+      if (p.x() > 0.0 && std::abs(p.y()) <= half_width * p.x() &&
+          std::abs(p.z()) <= half_height * p.x()) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+RC_GTEST_PROP(HeadSweep, ShowsWhateverIsInItsField, (std::uint64_t seed)) {
+  Rng rng(seed);
+  const ExplorationOptions options;
+  const FieldOfView field = swept_field(options.sweep, options.camera);
+  RC_ASSERT(field.panorama);
+  for (int i = 0; i < 100; ++i) {
+    const double azimuth = rng.uniform(-kPi, kPi);
+    const double tilt = rng.uniform(field.tilt_min_rad, field.tilt_max_rad);
+    const Eigen::Vector3d d(std::cos(tilt) * std::cos(azimuth), std::cos(tilt) * std::sin(azimuth),
+                            -std::sin(tilt));
+    RC_ASSERT(in_some_image(options.sweep, options.camera, d));
+  }
+}
+
+TEST(HeadSweep, GapsAreErrors) {
+  const RgbdOptions camera;
+  EXPECT_THROW(swept_field({.pans = 6}, camera), ConfigError);
+  EXPECT_THROW(swept_field({.tilts_rad = {-0.3, 0.7}}, camera), ConfigError);
+  EXPECT_THROW(swept_field({.tilts_rad = {0.7, 0.1}}, camera), ConfigError);
+  EXPECT_THROW(swept_field({.tilts_rad = {1.2}}, camera), ConfigError);
+  EXPECT_NO_THROW(swept_field({.pans = 7, .tilts_rad = {0.0}}, camera));
+}
+
+/// However the places come, a bounded floor holds only so many that are not near one another.
+TEST(VisitedPlaces, RunOut) {
+  constexpr double radius_m = 0.3;
+  VisitedPlaces visited;
+  Rng rng(2);
+  int chosen = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const Eigen::Vector2d p(rng.uniform(0.0, 3.0), rng.uniform(0.0, 3.0));
+    if (visited.covers(p)) continue;
+    visited.add(p, radius_m);
+    ++chosen;
+  }
+  EXPECT_GT(chosen, 50);
+  EXPECT_LE(chosen, 3.3 * 3.3 / (kPi * 0.15 * 0.15)) << "half discs round them do not overlap";
+}
+
+PlanarScan wall_ahead(double distance_m) {
+  PlanarScan scan{.T_base_sensor = {}, .azimuth_rad = {}, .range_m = {}, .range_max_m = 10.0};
+  for (double azimuth = -0.5; azimuth <= 0.5; azimuth += 0.01) {
+    scan.azimuth_rad.push_back(azimuth);
+    scan.range_m.push_back(static_cast<float>(distance_m / std::cos(azimuth)));
+  }
+  return scan;
+}
+
+TEST(WallMap, RemembersOnlyWhatIsNew) {
+  WallMap all({});
+  WallMap novel({}, 0.05);
+  for (WallMap* walls : {&all, &novel}) walls->remember(wall_ahead(2.0), 0.25, {});
+  const std::size_t once = all.cloud().size();
+  ASSERT_GT(once, 30U);
+  EXPECT_EQ(novel.cloud().size(), once);
+  for (WallMap* walls : {&all, &novel}) walls->remember(wall_ahead(1.99), 0.25, {0.01, 0.0, 0.0});
+  EXPECT_GT(all.cloud().size(), once + 30U);
+  EXPECT_LT(novel.cloud().size(), once + 5U);
+}
+
+TEST(WallMap, FindsTheDistanceToAWall) {
+  WallMap walls({});
+  EXPECT_FALSE(walls.locate(wall_ahead(2.0), 0.25, {}).converged) << "nothing to go by";
+  walls.remember(wall_ahead(2.0), 0.25, {});
+  const auto found = walls.locate(wall_ahead(1.9), 0.25, {0.03, 0.0, 0.0});
+  EXPECT_TRUE(found.converged) << found.reason;
+  EXPECT_NEAR(found.T_world_base.x_m, 0.1, 0.005);
+}
+
+nlohmann::json explore(const std::filesystem::path& out, std::vector<std::string> more) {
+  set_verbosity(Verbosity::quiet);
+  std::vector<std::string> overrides = {"scans=3",
+                                        "map.cells=[100,67,20]",
+                                        "exploration.camera.width_px=160",
+                                        "exploration.camera.height_px=120",
+                                        "exploration.stride_px=1",
+                                        "metrics.pose_spacing_m=2"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  const auto episode =
+      std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml";
+  return nlohmann::json::parse(
+      run(load_episode(episode, overrides), {out, true, false, {}}).metrics);
+}
+
+TEST(Exploration, EndsWhenNothingIsWorthAScan) {
+  const support::TemporaryDirectory folder;
+  const auto all = explore(folder.path() / "all", {"exploration.enough.scans=0"});
+  EXPECT_EQ(all["scans"].size(), 3U);
+  const auto asked = explore(folder.path() / "asked", {});
+  EXPECT_EQ(asked["state_hash"], all["state_hash"]) << "whether to go on is not where to";
+  const auto demanding = {std::string("exploration.enough.share=1"),
+                          std::string("exploration.enough.scans=2")};
+  for (const std::string method : {"choice=greedy", "choice=random"}) {
+    std::vector<std::string> more = demanding;
+    more.push_back(method);
+    const auto ended = explore(folder.path() / method, more);
+    EXPECT_EQ(ended["status"], "completed");
+    EXPECT_EQ(ended["scans"].size(), 2U) << "no view shows as much as all that is known";
+  }
+}
+
+TEST(Exploration, LearnsTheOfficeWithoutTouchingIt) {
+  const support::TemporaryDirectory folder;
+  const auto metrics = explore(folder.path() / "run", {});
+  ASSERT_EQ(metrics["scans"].size(), 3U);
+  EXPECT_EQ(metrics["status"], "completed");
+  EXPECT_EQ(metrics["collisions"], 0);
+  const double observable = metrics["observable_cells"];
+  double left = observable;
+  for (const auto& scan : metrics["scans"]) {
+    EXPECT_LT(scan["observable_unobserved_cells"].get<double>(), left - 0.03 * observable);
+    EXPECT_LT(scan["pose_error_m"], 0.02);
+    EXPECT_NEAR(scan["predicted"]["simple"].get<double>(), scan["actual_new_cells"].get<double>(),
+                0.5 * scan["actual_new_cells"].get<double>());
+    left = scan["observable_unobserved_cells"];
+  }
+  EXPECT_GT(metrics["path_length_m"], 1.0);
+  EXPECT_GT(metrics["map"]["precision"], 0.95);
+  const ReplayResult again = replay(folder.path() / "run");
+  EXPECT_FALSE(again.first_difference) << again.what;
+}
+
+TEST(Exploration, TheOracleKnowsWhatAViewShows) {
+  const support::TemporaryDirectory folder;
+  const auto metrics = explore(folder.path() / "run", {"choice=oracle", "scans=2", "threads=1"});
+  EXPECT_EQ(metrics["method"], "oracle");
+  EXPECT_GT(metrics["scans"][1]["actual_new_cells"], 1000);
+}
+
+TEST(Exploration, NamesTheSitesItCouldStartFrom) {
+  const support::TemporaryDirectory folder;
+  try {
+    explore(folder.path() / "run", {"robot.start_site=start_9"});
+    FAIL() << "expected an error";
+  } catch (const ConfigError& error) {
+    const std::string what = error.what();
+    for (const char* part : {"robot.start_site", "start_9", "start_0", "start_4"}) {
+      EXPECT_NE(what.find(part), std::string::npos) << what;
+    }
+  }
+  EXPECT_THROW(explore(folder.path() / "run", {"robot.start_site=", "robot.start_pose=[0.6,2,0]"}),
+               ConfigError)
+      << "inside a wall";
+  EXPECT_THROW(explore(folder.path() / "run", {"exploration.frontiers.height_m=3"}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

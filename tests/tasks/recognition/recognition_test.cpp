@@ -1,0 +1,157 @@
+// Whole short episodes of recognition: a small database is rendered and learnt, then flown round.
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/recognition/object_recognition.hpp"
+#include "vantage/runtime/replay.hpp"
+#include "vantage/tasks/run.hpp"
+#include "vantage/tasks/validate.hpp"
+#include "tests/tasks/small_recognition.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using support::make_small_model;
+using support::small_flight;
+
+const fs::path kRecognition = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml";
+
+class RecognitionEpisode : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    set_verbosity(Verbosity::quiet);
+    folder_.emplace();
+    make_small_model(folder_->path());
+    first_ = metrics_of("first", {});
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::vector<std::string> overrides(std::vector<std::string> more) {
+    std::vector<std::string> all = small_flight(folder_->path());
+    all.emplace_back("recognition.enough={object_probability: 1, entropy_bits: 0}");
+    all.emplace_back("recognition.object=cereal_box_1");
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  static json metrics_of(const std::string& name, std::vector<std::string> more) {
+    RunOptions options;
+    options.directory = *folder_ / name;
+    const RunOutcome outcome = run(load_episode(kRecognition, overrides(std::move(more))), options);
+    return json::parse(outcome.metrics);
+  }
+
+  static inline std::optional<support::TemporaryDirectory> folder_;
+  static inline json first_;
+};
+
+TEST_F(RecognitionEpisode, SaysWhatTheContractAsksFor) {
+  EXPECT_EQ(first_["task"], "recognition");
+  EXPECT_EQ(first_["status"], "completed");
+  EXPECT_EQ(first_["method"], "mutual_information");
+  EXPECT_EQ(first_["truth"], "cereal_box_1");
+  EXPECT_EQ(first_["correct"], first_["estimate"] == "cereal_box_1");
+  EXPECT_TRUE(first_["category_correct"].is_boolean());
+  EXPECT_GE(first_["entropy_bits"], 0.0);
+  EXPECT_LE(first_["map_probability"], 1.0);
+  EXPECT_LE(first_["bin_error"], 4);
+  ASSERT_EQ(first_["observations"].size(), 2U);
+  for (const json& view : first_["observations"]) {
+    for (const char* key :
+         {"view_rad", "entropy_bits", "feature_time_s", "selection_time_s", "view_time_s"}) {
+      EXPECT_TRUE(view.at(key).is_number()) << key;
+    }
+    EXPECT_LT(view["position_error_m"], 0.05);
+    EXPECT_GT(view["object_px"], 40);
+  }
+  EXPECT_THAT(first_["observations"][0]["features"], testing::Not(testing::IsEmpty()));
+  EXPECT_EQ(first_["observations"].back()["entropy_bits"], first_["entropy_bits"]);
+  EXPECT_EQ(first_["collisions"], 0);
+}
+
+TEST_F(RecognitionEpisode, KnowsAnObjectThatIsLikeNoOther) {
+  EXPECT_EQ(first_["correct"], true) << first_["estimate"];
+}
+
+TEST_F(RecognitionEpisode, FliesToAnotherBearingAndTurnsWhatItBelieves) {
+  const json& views = first_["observations"];
+  EXPECT_EQ(views[0]["chosen_view"], 0);
+  EXPECT_NE(views[1]["chosen_view"], 0);
+  const auto turned = [&](const char* key) {
+    return wrap_angle(views[1][key].get<double>() - views[0][key].get<double>());
+  };
+  EXPECT_NEAR(wrap_angle(turned("view_rad") + turned("true_yaw_rad")), 0.0, 0.08);
+}
+
+TEST_F(RecognitionEpisode, WritesItsFolder) {
+  for (const char* name :
+       {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
+        "trajectory_estimated.tum", "states.bin", "actions.csv", "report.html", "log.txt",
+        "views/view_00.png", "views/view_01.png"}) {
+    EXPECT_TRUE(fs::exists(*folder_ / "first" / name)) << name;
+  }
+  const std::string steps = read_file(*folder_ / "first" / "steps.csv");
+  EXPECT_EQ(std::ranges::count(steps, '\n'), 3) << "a header and a row a view";
+}
+
+TEST_F(RecognitionEpisode, ReplaysEveryState) {
+  const ReplayResult result = replay(*folder_ / "first");
+  EXPECT_FALSE(result.first_difference) << result.what;
+  EXPECT_GT(result.ticks, 500U);
+}
+
+TEST_F(RecognitionEpisode, SameSeedSameFlight) {
+  EXPECT_EQ(metrics_of("second", {"threads=1"})["state_hash"], first_["state_hash"]);
+  EXPECT_NE(metrics_of("other", {"seed=2", "recognition.most_views=1"})["state_hash"],
+            first_["state_hash"]);
+}
+
+TEST_F(RecognitionEpisode, AQuadrotorThatTouchesSomethingHasFailed) {
+  RunOptions options;
+  options.directory = *folder_ / "blown";
+  const std::string gust =
+      "recognition.pilot.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, "
+      "-1]}]";
+  const RunOutcome outcome =
+      run(load_episode(kRecognition, overrides({gust, "recognition.settle_s=1.5"})), options);
+  const json metrics = json::parse(outcome.metrics);
+  EXPECT_EQ(outcome.code, ExitCode::goal_failed);
+  EXPECT_EQ(metrics["status"], "failed");
+  EXPECT_THAT(metrics["reason"].get<std::string>(), testing::HasSubstr("touched"));
+  EXPECT_EQ(metrics["collisions"], 1);
+  EXPECT_EQ(metrics["correct"], false);
+  EXPECT_THAT(metrics["observations"], testing::IsEmpty());
+  EXPECT_LT(metrics["simulated_time_s"], 1.5);
+}
+
+TEST_F(RecognitionEpisode, AMissingModelSaysHowToMakeOne) {
+  const Validation found = validate_episode(kRecognition, overrides({"recognition.model=nowhere"}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_THAT(found.problems[0],
+              testing::AllOf(testing::HasSubstr("nowhere"),
+                             testing::HasSubstr("assets/episodes/recognition.yaml")));
+  EXPECT_EQ(found.code, ExitCode::bad_input);
+}
+
+TEST_F(RecognitionEpisode, AForeignModelIsRefused) {
+  const Validation found = validate_episode(
+      kRecognition, overrides({"recognition.database.objects=326", "recognition.object=lamp_2"}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_THAT(found.problems[0], testing::HasSubstr("lamp_2"));
+  EXPECT_EQ(found.code, ExitCode::usage);
+  EXPECT_TRUE(validate_episode(kRecognition, overrides({})).problems.empty());
+}
+
+TEST_F(RecognitionEpisode, AQuadrotorIsCommandedAtEveryStep) {
+  EXPECT_THROW(load_episode(kRecognition, overrides({"simulation.control_period_s=0.02"})),
+               ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,160 @@
+// Whole short episodes: the same seed gives the same bytes, and replay proves it.
+#include "vantage/tasks/run.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/replay.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+void drop_wall_times(nlohmann::json& json) {
+  for (const char* key : {"wall_time_s", "real_time_factor"}) json.erase(key);
+  for (auto& scan : json["scans"]) {
+    scan.erase("plan_time_s");
+    scan.erase("map_time_s");
+  }
+}
+
+class Run : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    set_verbosity(Verbosity::quiet);
+    folder_ = fs::temp_directory_path() / fmt::format("vantage-run-{}", ::getpid());
+    first_ = short_run("first", {});
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static nlohmann::json short_run(const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> overrides = {"scans=2", "map.cells=[49,49,25]",
+                                          "laser.scan_duration_s=3"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const auto episode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+    const auto outcome = run(load_episode(episode, overrides), {folder_ / name, false, false, {}});
+    return nlohmann::json::parse(outcome.metrics);
+  }
+  static fs::path copy_of_first(const std::string& name) {
+    fs::copy(folder_ / "first", folder_ / name, fs::copy_options::recursive);
+    return folder_ / name;
+  }
+
+  static inline fs::path folder_;
+  static inline nlohmann::json first_;
+};
+
+TEST_F(Run, SameSeedSameBytes) {
+  auto second = short_run("second", {"threads=1"});
+  auto first = first_;
+  drop_wall_times(first);
+  drop_wall_times(second);
+  EXPECT_EQ(first.dump(2), second.dump(2));
+  for (const char* name :
+       {"states.bin", "actions.csv", "trajectory.tum", "trajectory_estimated.tum", "map.bt",
+        "map.ot", "cloud.ply", "voxels.bin", "story.bin"}) {
+    EXPECT_EQ(read_file(folder_ / "first" / name), read_file(folder_ / "second" / name)) << name;
+  }
+}
+
+TEST_F(Run, AnotherSeedAnotherEpisode) {
+  const auto other = short_run("other", {"seed=2"});
+  EXPECT_NE(first_["state_hash"], other["state_hash"]);
+}
+
+TEST_F(Run, RecordsTheWantedPredictorsAndItsOwn) {
+  const auto metrics = short_run(
+      "predictors", {"scans=1", "metrics.predictors=[simple, {name: beer_lambert, a: 0.9}]",
+                     "gain=beer_lambert", "gain.a=0.8"});
+  EXPECT_EQ(metrics["method"], "beer_lambert a=0.8");
+  const auto& predicted = metrics["scans"][0]["predicted"];
+  EXPECT_EQ(predicted.size(), 3U);
+  EXPECT_GT(predicted.at("beer_lambert a=0.8"), 0.0);
+  EXPECT_LT(predicted.at("beer_lambert a=0.8"), predicted.at("beer_lambert a=0.9"));
+  EXPECT_LT(predicted.at("beer_lambert a=0.9"), predicted.at("simple"));
+}
+
+TEST_F(Run, WritesTheWholeFolder) {
+  for (const char* name :
+       {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
+        "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
+        "story.bin", "report.html", "log.txt"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
+  }
+  for (const auto& entry : fs::directory_iterator(folder_ / "first")) {
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(Run, ReplayReachesTheSameStates) {
+  const ReplayResult result = replay(folder_ / "first");
+  EXPECT_FALSE(result.first_difference) << result.what;
+  EXPECT_GT(result.ticks, 100U);
+  EXPECT_EQ(fmt::format("{:016x}", result.state_hash), first_["state_hash"]);
+}
+
+TEST_F(Run, ReplayNamesTheStepOfAnyChangedByte) {
+  const fs::path changed = copy_of_first("changed");
+  const std::string original = read_file(changed / "actions.csv");
+  const std::size_t header = original.find('\n') + 1;
+  for (const std::size_t at : {std::size_t{2}, header, header + 4, original.size() / 2,
+                               original.size() / 3, original.size() - 2, original.size() - 1}) {
+    std::string bytes = original;
+    bytes[at] = bytes[at] == '7' ? '3' : '7';
+    write_file(changed / "actions.csv", bytes);
+    const ReplayResult result = replay(changed);
+    ASSERT_TRUE(result.first_difference) << "byte " << at;
+    const auto line_start = original.rfind('\n', at == 0 ? 0 : at - 1);
+    if (at >= header && original[at] != '\n') {
+      const auto tick = std::stoull(original.substr(line_start + 1));
+      EXPECT_LE(*result.first_difference, tick) << "byte " << at << ": " << result.what;
+      const auto previous = original.rfind('\n', line_start - 1);
+      if (previous != std::string::npos) {
+        EXPECT_GE(*result.first_difference, std::stoull(original.substr(previous + 1))) << at;
+      }
+    }
+  }
+}
+
+TEST_F(Run, ReplayNamesFilesThatChanged) {
+  EXPECT_TRUE(replay(folder_ / "first").changed_files.empty());
+  const fs::path other = copy_of_first("other_scene");
+  auto manifest = nlohmann::json::parse(read_file(other / "manifest.json"));
+  manifest["assets"]["scene.xml"] = "0";
+  write_file(other / "manifest.json", manifest.dump());
+  const ReplayResult result = replay(other);
+  EXPECT_EQ(result.changed_files, std::vector<std::string>{"scene.xml"});
+  EXPECT_FALSE(result.first_difference) << "the states agree all the same";
+}
+
+TEST_F(Run, ReplayRefusesActionsAndKeysOfAnotherKind) {
+  const fs::path other = copy_of_first("other_kind");
+  const std::string actions = read_file(other / "actions.csv");
+  for (const std::string& content :
+       {std::string(), std::string("tick,a\n"), actions.substr(0, actions.find('\n')) + "\r\n"}) {
+    write_file(other / "actions.csv", content);
+    EXPECT_THROW(replay(other), InputError);
+  }
+  write_file(other / "actions.csv", actions);
+  write_file(other / "config.yaml", read_file(other / "config.yaml") + "old_key: 1\n");
+  EXPECT_THROW(replay(other), InputError);
+}
+
+TEST_F(Run, ReplayRefusesATruncatedLog) {
+  const fs::path cut = copy_of_first("cut");
+  fs::resize_file(cut / "states.bin", fs::file_size(cut / "states.bin") - 3);
+  EXPECT_THROW(replay(cut), InputError);
+  fs::remove(cut / "states.bin");
+  EXPECT_THROW(replay(cut), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

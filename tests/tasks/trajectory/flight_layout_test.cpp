@@ -1,0 +1,126 @@
+// What the scenes to fly through publish, and the objects that are drawn into them.
+#include "vantage/tasks/trajectory/flight_layout.hpp"
+
+#include <gmock/gmock.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <set>
+
+#include "vantage/sim/world/world.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/tasks/trajectory/objects_on_stands.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path scene_file(const std::string& name) {
+  return fs::path(VANTAGE_SOURCE_DIR) / "models/scenes" / name / "scene.xml";
+}
+
+TEST(FlightLayout, HasThePathAndTheStands) {
+  const FlightLayout layout = read_flight_layout(scene_file("trajectory_3"));
+  EXPECT_EQ(layout.path.size(), 56U);
+  EXPECT_EQ(layout.stands_m.size(), 10U);
+  EXPECT_NEAR(layout.path[0].p_world_m.z(), 1.8, 1e-9);
+  EXPECT_NEAR(layout.path[0].yaw_rad, 0.0, 1e-3);
+  EXPECT_NEAR((layout.stands_m[0] - Eigen::Vector3d(-2.6, -2.75, 0.8)).norm(), 0.0, 1e-4);
+}
+
+TEST(FlightLayout, SaysWhichFileIsMissingOrWrong) {
+  const support::TemporaryDirectory folder;
+  const fs::path scene = folder.path() / "scene.xml";
+  const auto message = [&] {
+    try {
+      read_flight_layout(scene);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message(), testing::HasSubstr("path.csv"));
+  write_file(folder.path() / "path.csv", "x_m,y_m,z_m,yaw_rad\n0,0,1.8,0\n");
+  EXPECT_THAT(message(), testing::HasSubstr("two waypoints"));
+  write_file(folder.path() / "path.csv", "x_m,y_m,z_m,yaw_rad\n0,0,1.8,0\n1,0,1.8,0\n");
+  EXPECT_THAT(message(), testing::HasSubstr("stands.csv"));
+  write_file(folder.path() / "stands.csv", "x_m,y_m,z_m,yaw_rad\n0,zero,1,0\n");
+  EXPECT_THAT(message(), testing::HasSubstr("zero"));
+}
+
+TEST(FlightLayout, TheRegionHoldsThePathWithRoomAroundIt) {
+  const std::vector<FlightWaypoint> path{{{1.0, 2.0, 1.8}, 0.0}, {{4.0, -1.0, 1.6}, 0.0}};
+  const Eigen::AlignedBox3d region = flight_region(path, 2.0, 0.5);
+  EXPECT_NEAR((region.min() - Eigen::Vector3d(-1.0, -3.0, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((region.max() - Eigen::Vector3d(6.0, 4.0, 2.3)).norm(), 0.0, 1e-12);
+}
+
+const std::vector<Eigen::Vector3d> kStands{{0.0, 0.0, 0.8}, {2.0, 0.0, 0.7}, {0.0, 2.0, 0.9}};
+
+TEST(ObjectsOnStands, ADrawIsItsSeeds) {
+  const auto a = draw_objects({}, kStands, 0.02, 7);
+  const auto b = draw_objects({}, kStands, 0.02, 7);
+  const auto c = draw_objects({}, kStands, 0.02, 8);
+  ASSERT_EQ(a.size(), kStands.size());
+  int same = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].object, b[i].object);
+    EXPECT_EQ(a[i].yaw_rad, b[i].yaw_rad);
+    EXPECT_EQ(a[i].p_world_m, b[i].p_world_m);
+    EXPECT_NE(a[i].yaw_rad, c[i].yaw_rad);
+    same += a[i].object == c[i].object ? 1 : 0;
+    const Eigen::Vector3d off_m = a[i].p_world_m - kStands[i];
+    EXPECT_LE(off_m.norm(), 0.02);
+    EXPECT_EQ(off_m.z(), 0.0);
+  }
+  EXPECT_LT(same, 3);
+}
+
+TEST(ObjectsOnStands, AllDifferAndAllAreDrawnInTime) {
+  ObjectDatabaseOptions small;
+  small.objects = 6;
+  std::set<std::string> drawn;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    std::set<std::string> now;
+    for (const ObjectOnStand& object : draw_objects(small, kStands, 0.02, seed)) {
+      now.insert(object.object);
+    }
+    EXPECT_EQ(now.size(), kStands.size()) << "seed " << seed;
+    drawn.merge(now);
+  }
+  EXPECT_EQ(drawn.size(), 6U);
+  small.objects = 2;
+  EXPECT_THROW(draw_objects(small, kStands, 0.02, 1), ConfigError);
+}
+
+TEST(ObjectsOnStands, StandInTheCompiledScene) {
+  const fs::path scene = scene_file("trajectory_4");
+  const FlightLayout layout = read_flight_layout(scene);
+  const auto objects = draw_objects({}, layout.stands_m, 0.02, 3);
+  const World world({scene, {}, object_files({}, objects)}, {});
+  const mjModel& model = world.model();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const std::string name = "object_" + std::to_string(i);
+    const int body = model_id(model, ModelObject::body, name);
+    const int geom = model_id(model, ModelObject::geom, name);
+    EXPECT_NEAR(model.body_pos[3 * body], objects[i].p_world_m.x(), 1e-5);
+    EXPECT_NEAR(model.body_pos[3 * body + 2], objects[i].p_world_m.z(), 1e-5);
+    EXPECT_EQ(model.geom_type[geom], mjGEOM_MESH);
+    EXPECT_GE(model.geom_matid[geom], 0);
+    double lowest_m = 1e9;
+    const mjData& now = world.snapshot();
+    const int mesh = model.geom_dataid[geom];
+    for (int v = 0; v < model.mesh_vertnum[mesh]; ++v) {
+      const float* p = model.mesh_vert + 3 * (model.mesh_vertadr[mesh] + v);
+      const mjtNum* up = now.geom_xmat + 9 * geom + 6;
+      const double z = up[0] * p[0] + up[1] * p[1] + up[2] * p[2] + now.geom_xpos[3 * geom + 2];
+      lowest_m = std::min(lowest_m, z);
+    }
+    EXPECT_NEAR(lowest_m, objects[i].p_world_m.z(), 1e-3) << objects[i].object;
+  }
+}
+
+}  // namespace
+}  // namespace vantage

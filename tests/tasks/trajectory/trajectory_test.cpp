@@ -1,0 +1,230 @@
+// Short flights along waypoints: a small database is rendered and learnt, then flown past.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <set>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/dataset/render_dataset.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
+#include "vantage/runtime/replay.hpp"
+#include "vantage/tasks/run.hpp"
+#include "vantage/tasks/trajectory/trajectory_flight.hpp"
+#include "vantage/tasks/validate.hpp"
+#include "vantage/recognition/training.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kSource = VANTAGE_SOURCE_DIR;
+const fs::path kEpisode = kSource / "assets/episodes/trajectory.yaml";
+const fs::path kArena = kSource / "models/scenes/trajectory_4";
+constexpr int kObjects = 4;
+
+void make_small_model(const fs::path& dataset, const fs::path& model) {
+  DatasetOptions objects;
+  objects.objects = kObjects;
+  objects.step_deg = 24.0;
+  objects.supersampling = 1;
+  render_dataset(objects, {.root = dataset});
+  TrainingOptions training;
+  training.features = {Colour{}, BoundingBox{}};
+  training.transition_prior_moves = 0.0;
+  write_recognition_model(train_recognition(index_dataset(dataset), training, {}), model);
+}
+
+/// The arena with another path.
+fs::path arena_with_path(const fs::path& folder, const std::string& rows) {
+  fs::create_directories(folder);
+  for (const char* name : {"scene.xml", "objects.xml", "stands.csv"}) {
+    fs::copy_file(kArena / name, folder / name);
+  }
+  write_file(folder / "path.csv", "x_m,y_m,z_m,yaw_rad\n" + rows);
+  return folder / "scene.xml";
+}
+
+class TrajectoryEpisode : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    set_verbosity(Verbosity::quiet);
+    folder_.emplace();
+    make_small_model(*folder_ / "objects", *folder_ / "model");
+    past_a_stand_ = arena_with_path(*folder_ / "past",
+                                    "-2.67,-1.9,1.8,0\n-2.14,-1.9,1.8,0\n-1.61,-1.9,1.8,0\n"
+                                    "-1.08,-1.9,1.8,0\n-0.55,-1.9,1.8,0\n-0.02,-1.9,1.8,0\n");
+    first_ = metrics_of("first", past_a_stand_, {});
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::vector<std::string> overrides(const fs::path& scene, std::vector<std::string> more) {
+    std::vector<std::string> all = {
+        fmt::format("scene={}", scene.string()),
+        fmt::format("trajectory.model={}", (*folder_ / "model").string()),
+        fmt::format("trajectory.database.objects={}", kObjects),
+        "trajectory.recogniser.features=[]",
+        "trajectory.camera={width_px: 320, height_px: 240}",
+        "trajectory.picture_rate_hz=5",
+        "trajectory.method={name: stomp, iterations: 10}"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  static json metrics_of(const std::string& name, const fs::path& scene,
+                         std::vector<std::string> more) {
+    RunOptions options;
+    options.directory = *folder_ / name;
+    const RunOutcome outcome =
+        run(load_episode(kEpisode, overrides(scene, std::move(more))), options);
+    code_ = outcome.code;
+    return json::parse(outcome.metrics);
+  }
+
+  static inline std::optional<support::TemporaryDirectory> folder_;
+  static inline fs::path past_a_stand_;
+  static inline json first_;
+  static inline ExitCode code_ = ExitCode::done;
+};
+
+TEST_F(TrajectoryEpisode, SaysWhatTheContractAsksFor) {
+  EXPECT_EQ(first_["task"], "trajectory");
+  EXPECT_EQ(first_["status"], "completed") << first_["reason"];
+  EXPECT_EQ(first_["method"], "stomp iterations=10");
+  ASSERT_EQ(first_["objects"].size(), 4U);
+  for (const json& object : first_["objects"]) {
+    EXPECT_TRUE(object["truth"].is_string());
+    EXPECT_EQ(object["correct"], object["estimate"] == object["truth"]);
+    EXPECT_GE(object["entropy_nats"], 0.0);
+    EXPECT_EQ(object["observations"], object["looks"].size());
+  }
+  for (const char* key : {"flight_time_s", "minimum_clearance_m", "energy_j", "accuracy",
+                          "mean_entropy_nats", "observations_total"}) {
+    EXPECT_TRUE(first_[key].is_number()) << key;
+  }
+  EXPECT_LE(first_["tracking_error_m"]["mean"], 0.05);
+  EXPECT_GE(first_["tracking_error_m"]["max"], first_["tracking_error_m"]["mean"]);
+  EXPECT_GE(first_["plan_time_s"]["p95"], first_["plan_time_s"]["median"]);
+  EXPECT_EQ(first_["collisions"], 0);
+  EXPECT_EQ(first_["replans"], 5);
+  EXPECT_EQ(first_["missed_deadlines"], 0);
+}
+
+TEST_F(TrajectoryEpisode, FindsWhatItFliesPastAndLooksAtItOnceADirection) {
+  const json& near = first_["objects"][0];
+  EXPECT_TRUE(near["found"]);
+  EXPECT_LT(near["position_error_m"], 0.1);
+  ASSERT_FALSE(near["looks"].empty());
+  std::set<int> directions;
+  for (const json& look : near["looks"]) {
+    EXPECT_LE(look["distance_m"], 2.0);
+    EXPECT_TRUE(directions.insert(look["direction"].get<int>()).second)
+        << "a direction counts once";
+  }
+  const json& far = first_["objects"][2];
+  EXPECT_FALSE(far["correct"]) << "behind it, all the time";
+  EXPECT_NEAR(far["entropy_nats"], std::log(4.0), 1e-9) << "as before the flight";
+}
+
+TEST_F(TrajectoryEpisode, ReplaysEveryState) {
+  const ReplayResult result = replay(*folder_ / "first");
+  EXPECT_FALSE(result.first_difference) << result.what;
+  EXPECT_GT(result.ticks, 1000U);
+}
+
+TEST_F(TrajectoryEpisode, SameSeedSameFlight) {
+  const json again = metrics_of("again", past_a_stand_, {"threads=1"});
+  EXPECT_EQ(again["state_hash"], first_["state_hash"]);
+  EXPECT_EQ(again["mean_entropy_nats"], first_["mean_entropy_nats"]);
+}
+
+TEST_F(TrajectoryEpisode, FliesOnWhileASlowPlannerThinks) {
+  const json slow = metrics_of("slow", past_a_stand_, {"trajectory.latency_s=1.5"});
+  EXPECT_EQ(slow["status"], "completed");
+  EXPECT_GT(slow["missed_deadlines"], 0);
+  EXPECT_LT(slow["replans"], first_["replans"]);
+  EXPECT_LT(slow["flight_time_s"], first_["flight_time_s"].get<double>() + 3.0)
+      << "waiting at each of the waypoints would take 7.5 s";
+}
+
+TEST_F(TrajectoryEpisode, ContactEndsItAsAFailure) {
+  const fs::path scene = arena_with_path(*folder_ / "into",
+                                         "-2.2,-1.25,0.6,0\n-1.6,-1.25,0.6,0\n"
+                                         "-0.9,-1.25,0.6,0\n0,-1.25,0.6,0\n");
+  const json crash = metrics_of("crash", scene, {"trajectory.method=initial"});
+  EXPECT_EQ(crash["status"], "failed");
+  EXPECT_EQ(code_, ExitCode::goal_failed);
+  EXPECT_EQ(crash["collisions"], 1);
+  EXPECT_EQ(crash["minimum_clearance_m"], 0.0);
+  EXPECT_THAT(crash["reason"].get<std::string>(), testing::HasSubstr("stand_0"));
+}
+
+TEST_F(TrajectoryEpisode, SeeksViewsOfWhatItFound) {
+  std::string rows;
+  for (int i = 0; i < 12; ++i) rows += fmt::format("{:.2f},-1.9,1.8,0\n", -2.67 + 0.4 * i);
+  const json metrics = metrics_of("seeks", arena_with_path(*folder_ / "longer", rows), {});
+  EXPECT_EQ(metrics["status"], "completed") << metrics["reason"];
+  EXPECT_EQ(metrics["waypoints_reached"], 12);
+  EXPECT_THAT(read_file(*folder_ / "seeks" / "steps.csv"),
+              testing::ContainsRegex(",0\\.[0-9]+,[0-9]+,[0-7],"))
+      << "clearance, target, direction";
+}
+
+TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
+  std::string rows;
+  for (int i = 0; i < 12; ++i) rows += fmt::format("{:.2f},-1.9,1.8,0\n", -2.67 + 0.4 * i);
+  const ResolvedEpisode episode =
+      load_episode(kEpisode, overrides(arena_with_path(*folder_ / "on", rows), {}));
+  const Recogniser recogniser = load_trajectory_recogniser(episode);
+  TrajectoryRig rig(episode, read_flight_layout(episode.scene).path.front());
+  fs::create_directories(*folder_ / "goes_on");
+  TrajectoryRecorder recorder(episode, rig, *folder_ / "goes_on", false, true);
+  TrajectoryFlight flight(episode, recogniser, rig, recorder);
+  const double latency_s = episode.episode.trajectory.latency_s;
+  int went_on = 0;
+  while (true) {
+    flight.update(flight.observe());
+    if (flight.finished()) break;
+    std::vector<WayOn> ways = flight.propose();
+    flight.score(ways);
+    const auto on = rig.path_on(latency_s);
+    ASSERT_EQ(ways.back().same_spline, on.has_value());
+    const std::vector<Eigen::Vector4d> plan = flight.plan();
+    flight.act(ways.back());
+    EXPECT_EQ(flight.plan(), plan);
+    if (!on) continue;
+    ++went_on;
+    const auto now = rig.path_on(0.0);
+    ASSERT_TRUE(now);
+    EXPECT_EQ(now->knots_s().size(), on->knots_s().size());
+    for (const double t_s : {0.0, 0.5, 1.0}) {
+      EXPECT_LT((now->at(t_s).p_world_m - on->at(t_s).p_world_m).norm(), 1e-6);
+    }
+  }
+  EXPECT_GE(went_on, 7) << "of 11; then too little is left of the spline";
+}
+
+TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
+  const Validation found =
+      validate_episode(kEpisode, overrides(past_a_stand_, {"trajectory.model=nowhere"}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_THAT(found.problems[0],
+              testing::AllOf(testing::HasSubstr("nowhere"),
+                             testing::HasSubstr("assets/episodes/trajectory.yaml")));
+}
+
+TEST_F(TrajectoryEpisode, AnUnknownMethodNamesThoseThereAre) {
+  const Validation found =
+      validate_episode(kEpisode, overrides(past_a_stand_, {"trajectory.method=chomp"}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_THAT(found.problems[0],
+              testing::AllOf(testing::HasSubstr("chomp"), testing::HasSubstr("greedy_detour"),
+                             testing::HasSubstr("covariant_gradient")));
+}
+
+}  // namespace
+}  // namespace vantage
