@@ -7,8 +7,8 @@
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
-#include "vantage/planners/swept_gain.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/planners/swept_gain.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/tasks/tabletop/next_best_view.hpp"
 
@@ -20,9 +20,9 @@ std::vector<Situation> situations_of_scene(int objects, const fs::path& director
   const auto resolved =
       load_episode("assets/episodes/tabletop.yaml",
                    {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
-  TabletopRig rig(resolved);
-  Recorder recorder(resolved, rig, directory, false, true);
-  Watched<NextBestView> episode(resolved, rig, recorder);
+  TabletopRobotInterface robot(resolved);
+  Recorder recorder(resolved, robot, directory, false, true);
+  Watched<NextBestView> episode(resolved, robot, recorder);
   run_episode(episode);
   return std::move(episode.situations);
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bench/measures.hpp"
-#include "vantage/perception/features/feature.hpp"
 #include "tests/support/object_views.hpp"
+#include "vantage/perception/features/feature.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
-#include "vantage/planners/visibility/cell_walk.hpp"
+#include "vantage/geometry/view_cone.hpp"
 #include "vantage/planners/exact_gain.hpp"
+#include "vantage/planners/visibility/cell_walk.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/tasks/tabletop/next_best_view.hpp"
-#include "vantage/geometry/view_cone.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -161,9 +161,9 @@ void run_benchmark() {
         load_episode("assets/episodes/tabletop.yaml",
                      {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects), "scans=4",
                       "metrics.predictors=[simple]"});
-    TabletopRig rig(resolved);
-    Recorder recorder(resolved, rig, directory, false, true);
-    Watched<NextBestView> episode(resolved, rig, recorder);
+    TabletopRobotInterface robot(resolved);
+    Recorder recorder(resolved, robot, directory, false, true);
+    Watched<NextBestView> episode(resolved, robot, recorder);
     run_episode(episode);
     for (const Situation& s : episode.situations) {
       const VisibilityWeightedGain gain;

@@ -1,12 +1,12 @@
 // One table-top decision: 30 views of a half-explored grid of 129 x 129 x 65 cells, per gain.
 #include <benchmark/benchmark.h>
 
-#include "vantage/planners/exact_gain.hpp"
-#include "vantage/planners/views/view_candidates.hpp"
 #include "vantage/belief/map/free_space.hpp"
 #include "vantage/belief/map/sensor_model.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/geometry/range_scan.hpp"
+#include "vantage/planners/exact_gain.hpp"
+#include "vantage/planners/views/view_candidates.hpp"
 
 namespace vantage {
 namespace {

@@ -17,9 +17,9 @@ constexpr std::size_t kEvery = 4;
 
 std::vector<Situation> situations_of(const char* episode_file, const fs::path& directory) {
   const auto resolved = load_episode(episode_file, {"scans=14"});
-  OfficeRig rig(resolved);
-  Recorder recorder(resolved, rig, directory, false, true);
-  Watched<OfficeExploration> episode(resolved, rig, recorder);
+  ExplorationRobotInterface robot(resolved);
+  Recorder recorder(resolved, robot, directory, false, true);
+  Watched<OfficeExploration> episode(resolved, robot, recorder);
   run_episode(episode);
   std::vector<Situation> kept;
   for (std::size_t i = 0; i < episode.situations.size(); i += kEvery) {

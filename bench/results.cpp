@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "bench/claims/claims.hpp"
+#include "bench/claims/recognition_claims.hpp"
 #include "bench/cost_figures.hpp"
 #include "bench/measures.hpp"
-#include "bench/claims/recognition_claims.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/study/figures/figure.hpp"
 
@@ -148,7 +148,7 @@ std::string recognition_part(const fs::path& folder) {
          findings_table(findings) + tables;
 }
 
-/// Writes their pictures too.
+/// Writes their images too.
 std::string cost_part(const fs::path& directory) {
   std::string text =
       "\n## The cost of a flight, term by term ((5.8) - (5.11))\n\n"

@@ -6,9 +6,9 @@
 
 #include "bench/castray.hpp"
 #include "bench/measures.hpp"
+#include "vantage/core/log.hpp"
 #include "vantage/planners/exact_gain.hpp"
 #include "vantage/planners/swept_gain.hpp"
-#include "vantage/core/log.hpp"
 
 namespace vantage::bench {
 

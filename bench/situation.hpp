@@ -26,8 +26,8 @@ struct Situation {
 template <class Parts>
 class Watched : public Parts {
  public:
-  Watched(const ResolvedEpisode& resolved, auto& rig, Recorder& recorder)
-      : Parts(resolved, rig, recorder), field_(rig.view_field()) {}
+  Watched(const ResolvedEpisode& resolved, auto& robot, Recorder& recorder)
+      : Parts(resolved, robot, recorder), field_(robot.view_field()) {}
 
   void score(std::vector<Candidate>& candidates) {
     situations.push_back(

@@ -36,7 +36,7 @@ class Flight {
   }
 
   /// The window of the map that moves with the vehicle.
-  [[nodiscard]] SurfaceDistance surface_at(Eigen::Index waypoint) const {
+  [[nodiscard]] Esdf surface_at(Eigen::Index waypoint) const {
     const double x = waypoints_(0, waypoint);
     const GridFrame frame = make_grid_frame({x + 2.0, 0.0, 2.0}, {10.0, 10.0, 4.0}, {100, 100, 40});
     std::vector<std::uint8_t> occupied(frame.size());
@@ -50,7 +50,7 @@ class Flight {
     return {frame, occupied};
   }
 
-  OptimisedHorizon plan(const TrajectoryOptimiser& optimiser, const SurfaceDistance& surface,
+  OptimisedHorizon plan(const TrajectoryOptimiser& optimiser, const Esdf& surface,
                         Eigen::Index waypoint) const {
     const Horizon horizon{waypoints_.col(waypoint - 1), waypoints_.middleCols(waypoint, kHorizon),
                           waypoints_.col(waypoint + kHorizon)};
@@ -82,7 +82,7 @@ void run_benchmark() {
     double left = 0.0;  // share of the cost that was there before
     int evaluations = 0;
     for (Eigen::Index waypoint = 1; waypoint + kHorizon < kWaypoints; waypoint += 3) {
-      const SurfaceDistance surface = flight.surface_at(waypoint);
+      const Esdf surface = flight.surface_at(waypoint);
       const auto plan = flight.plan(optimiser, surface, waypoint);
       left += plan.cost / plan.initial_cost;
       evaluations = std::max(evaluations, plan.evaluations);
@@ -97,12 +97,12 @@ void run_benchmark() {
   figures.emplace_back("rollouts", Stomp{}.rollouts);
   figures.emplace_back("iterations", Stomp{}.iterations);
   figures.insert(figures.end(), costs.begin(), costs.end());
-  const SurfaceDistance surface = flight.surface_at(1);
+  const Esdf surface = flight.surface_at(1);
   std::vector<std::uint8_t> occupied(surface.frame().size());
   std::ranges::transform(surface.at_centres_m(), occupied.begin(),
                          [](float d) { return d < 0.0F ? 1 : 0; });
   figures.emplace_back("distance_field_ms", median_ms(15, [&] {
-                         const SurfaceDistance again(surface.frame(), occupied);
+                         const Esdf again(surface.frame(), occupied);
                          expects(again.at_centres_m()[0] == surface.at_centres_m()[0], "the same");
                        }));
   print_figures("trajectory", 1, figures);

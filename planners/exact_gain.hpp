@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "vantage/planners/visibility/beam_gain.hpp"
-#include "vantage/planners/candidate.hpp"
-#include "vantage/planners/visibility/cell_walk.hpp"
-#include "vantage/planners/gain.hpp"
 #include "vantage/geometry/view_cone.hpp"
+#include "vantage/planners/candidate.hpp"
+#include "vantage/planners/gain.hpp"
+#include "vantage/planners/visibility/beam_gain.hpp"
+#include "vantage/planners/visibility/cell_walk.hpp"
 
 namespace vantage {
 
-/// Sum over the cells of `grid` inside the field of view of what each is worth, in the gain's unit;
+/// Sum over the cells of `grid` inside the field of view of their utility, in the gain's unit;
 /// a ray is walked from the sensor to the centre of each.  [AmanatidesWoo1987]
 template <RayGain G>
 double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& grid,
@@ -27,7 +27,7 @@ double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& g
   for_each_cell_in_view(grid, cone, wanted, [&](const Eigen::Array3i& target, std::size_t index) {
     ray.start();
     const auto pass = [&](std::size_t cell) { return ray.pass(cell); };
-    if (walk_to_cell(grid, cone.apex_m(), target, pass)) sum_bits += ray.worth(index);
+    if (walk_to_cell(grid, cone.apex_m(), target, pass)) sum_bits += ray.utility(index);
   });
   return sum_bits;
 }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "vantage/core/strategy.hpp"
 #include "vantage/planners/gains/adaptive_gain.hpp"
 #include "vantage/planners/gains/beer_lambert_gain.hpp"
 #include "vantage/planners/gains/fsmi_gain.hpp"
@@ -17,7 +18,6 @@
 #include "vantage/planners/gains/unmapped_volume_gain.hpp"
 #include "vantage/planners/gains/unobserved_voxel_gain.hpp"
 #include "vantage/planners/gains/visibility_weighted_gain.hpp"
-#include "vantage/core/strategy.hpp"
 
 namespace vantage {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "vantage/planners/exact_gain.hpp"
 #include "vantage/core/parallel_for.hpp"
+#include "vantage/planners/exact_gain.hpp"
 
 namespace vantage {
 namespace {
@@ -31,7 +31,7 @@ std::vector<Station> stations_of(std::span<const Candidate> candidates, const Fi
 }  // namespace
 
 bool can_sweep(const Gain& gain) {
-  return std::visit([]<class G>(const G&) { return FadingGain<G>; }, gain);
+  return std::visit([]<class G>(const G&) { return AttenuationGain<G>; }, gain);
 }
 
 std::vector<double> view_gains_bits(const Gain& gain, const GainContext& context,
@@ -47,13 +47,13 @@ std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& contex
                                      const SweepOptions& options) {
   expects(can_sweep(gain), "a gain that can be swept");
   expects(threads >= 1, "swept_gains_bits needs a thread");
-  const Fading fading = std::visit(
-      [&]<class G>(const G& g) -> Fading {
-        if constexpr (FadingGain<G>) return g.fading(context);
+  const Attenuation attenuation = std::visit(
+      [&]<class G>(const G& g) -> Attenuation {
+        if constexpr (AttenuationGain<G>) return g.attenuation(context);
         return {};
       },
       gain);
-  const SweepTables tables(context.grid, fading, threads);
+  const SweepTables tables(context.grid, attenuation, threads);
   const auto stations = stations_of(candidates, field_of_view);
   std::vector<std::vector<double>> parts(stations.size() * kPyramids.size());
   parallel_for(parts.size(), threads, [&](std::size_t i) {

@@ -10,8 +10,8 @@
 
 namespace vantage {
 
-/// Whether a gain is a sum over cells of (light that arrives) x (worth), the light weakened cell by
-/// cell along the ray: what the sweep can work out.
+/// Whether a gain is a sum over cells of transmittance times utility, attenuated cell by cell along
+/// the ray: what the sweep can compute.
 bool can_sweep(const Gain& gain);
 
 /// Gain in bits of each candidate; what exact_gains_bits gives up to interpolation, several ten

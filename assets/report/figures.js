@@ -3,9 +3,9 @@
 const DATA = JSON.parse(document.getElementById("run-data").textContent);
 const METRICS = DATA.metrics;
 const SCANS = METRICS.scans ?? [];
-const SIGHTINGS = METRICS.observations ?? [];
-const STEPS = SCANS.length ? SCANS : SIGHTINGS;
-const STEP_WORD = SIGHTINGS.length ? "view" : "scan";
+const OBSERVATIONS = METRICS.observations ?? [];
+const STEPS = SCANS.length ? SCANS : OBSERVATIONS;
+const STEP_WORD = OBSERVATIONS.length ? "view" : "scan";
 const at = (id) => document.getElementById(id);
 const column = (key) => SCANS.map((s) => s[key]);
 const words = (key) => String(key ?? "").replaceAll("_", " ");
@@ -58,10 +58,10 @@ function cumulativePath() {
 }
 
 // Of recognition: what each view told, and how well it was flown to.
-function sightingPlots(parent) {
-  const seen = (key, scale = 1) => perScan(SIGHTINGS.map((s) => (isNumber(s[key]) ? scale * s[key] : null)));
+function observationPlots(parent) {
+  const seen = (key, scale = 1) => perScan(OBSERVATIONS.map((s) => (isNumber(s[key]) ? scale * s[key] : null)));
   const chart = (title, subtitle, y, unit, series) => lineChart(parent, { title, subtitle, x: "view", y, unit, integerX: true, series });
-  if (SIGHTINGS.some((s) => isNumber(s.change_probability))) {
+  if (OBSERVATIONS.some((s) => isNumber(s.change_probability))) {
     chart("Probability of a change", "P(u): that it is not as expected, after each view", "probability", "", [
       { name: "changed", colour: seriesColour(3), strong: true, points: seen("change_probability") },
     ]);
@@ -72,7 +72,7 @@ function sightingPlots(parent) {
   chart("Probability of the estimate", "summed over its poses", "probability", "", [
     { name: "most probable object", colour: seriesColour(2), strong: true, points: seen("map_probability") },
   ]);
-  chart("Where the pictures were taken", "camera against where it was meant to be", "position error in mm", "mm", [
+  chart("Where the images were taken", "camera against where it was meant to be", "position error in mm", "mm", [
     { name: "position", colour: seriesColour(1), strong: true, points: seen("position_error_m", 1000) },
   ]);
   chart("How the camera was turned", "against how it was meant to be", "angle error in degrees", "°", [
@@ -83,7 +83,7 @@ function sightingPlots(parent) {
 function fillPlots() {
   const parent = at("plots");
   if (FLIGHT) { flightPlots(parent); return; }
-  if (SIGHTINGS.length) { sightingPlots(parent); return; }
+  if (OBSERVATIONS.length) { observationPlots(parent); return; }
   if (!SCANS.length) { at("section-plots").hidden = true; return; }
   const chart = (title, subtitle, y, unit, series) => {
     if (series.some((s) => s.points.some((p) => isNumber(p[1])))) lineChart(parent, { title, subtitle, x: "scan", y, unit, integerX: true, series });

@@ -1,4 +1,4 @@
-// A flight past objects: cards, the map of looks, and figures.
+// A flight past objects: cards, the map of observations, and figures.
 
 const OBJECTS = METRICS.objects ?? [];
 const LOOKS = OBJECTS.flatMap((o, i) => (o.looks ?? []).map((look) => ({ ...look, object: i, truth: o.truth })));
@@ -20,7 +20,7 @@ function flightTable() {
   const section = append(at("section-plots"), "div", { class: "panel table-wrap", tabindex: "0", style: "margin-top: 16px" });
   const table = append(section, "table");
   const head = append(append(table, "thead"), "tr");
-  for (const name of ["object", "truth", "estimate", "entropy in nats", "looks", "place off by"]) append(head, "th", { scope: "col", class: "text" }, name);
+  for (const name of ["object", "truth", "estimate", "entropy in nats", "observations", "place off by"]) append(head, "th", { scope: "col", class: "text" }, name);
   const body = append(table, "tbody");
   OBJECTS.forEach((o, i) => {
     const row = append(body, "tr");

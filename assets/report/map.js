@@ -18,7 +18,7 @@ function topDownMap(parent, run) {
   onWidth(holder, (width) => drawMap(holder, run, backdrop, width));
 }
 
-// Highest occupied cell of each column as a picture, for orientation.
+// Highest occupied cell of each column as an image, for orientation.
 function backdropImage(voxels) {
   const [nx, ny, nz] = voxels.cells;
   if (nx * ny > 4e6) return null;

@@ -27,7 +27,7 @@ function scanCount(voxels) {
 function fillHead() {
   at("eyebrow").textContent = words(METRICS.task);
   at("heading").textContent = METRICS.scene ?? "Run";
-  if (SIGHTINGS.length) at("h-map3d").textContent = "The flight, view by view";
+  if (OBSERVATIONS.length) at("h-map3d").textContent = "The flight, view by view";
   if (FLIGHT) at("h-map3d").textContent = "The flight";
   const tag = (name, value, kind = "") => {
     if (value === undefined || value === null) return;
@@ -74,7 +74,7 @@ function fillCards() {
   } else if (METRICS.estimate !== undefined) {
     card("Estimate", String(METRICS.estimate), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
   }
-  if (SIGHTINGS.length) card("Views", String(SIGHTINGS.length), { sub: `entropy ${formatNumber(METRICS.entropy_bits, 3)} bits at the end` });
+  if (OBSERVATIONS.length) card("Views", String(OBSERVATIONS.length), { sub: `entropy ${formatNumber(METRICS.entropy_bits, 3)} bits at the end` });
   if (METRICS.scans) {
     const fallbacks = SCANS.filter((s) => s.fallback).length;
     card("Scans", String(SCANS.length), { sub: fallbacks ? `${fallbacks} of them fallbacks` : "no fallback" });
@@ -138,7 +138,7 @@ function fillMedia() {
     const node = append(at("media"), "video", { controls: "", muted: "", preload: "metadata", playsinline: "", src: video });
     node.addEventListener("error", () => node.replaceWith(Object.assign(document.createElement("p"), { className: "empty", textContent: `${video} is not beside this page.` })));
   } else if (frame) {
-    append(at("media"), "img", { src: frame, alt: "The last picture taken of the run" });
+    append(at("media"), "img", { src: frame, alt: "The last image of the run" });
   } else {
     at("section-media").hidden = true;
   }

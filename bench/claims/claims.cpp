@@ -204,7 +204,7 @@ std::string area_ratios(const StudySummary& study) {
 }
 
 /// Of the methods that do not know the scene, with 1 for the reference.
-double least_area_ratio(const StudySummary& study) {
+double min_area_ratio(const StudySummary& study) {
   double least = 1.0;
   for (const std::string& level : study.levels("area")) {
     if (level == "oracle") continue;
@@ -259,7 +259,7 @@ std::vector<Finding> office_findings(const StudySummary& study, const std::strin
     findings.push_back(
         {figure, "a = 0.9999 is on par with or better than all others",
          fmt::format("area {}", study.ratio_text("area", "all", kClaimed)),
-         study.ratio("area", "all", kClaimed).value_or(2.0) <= 1.05 * least_area_ratio(study),
+         study.ratio("area", "all", kClaimed).value_or(2.0) <= 1.05 * min_area_ratio(study),
          "see the paired differences in the table"});
   }
   const char* const counted = was_run(kClaimed) ? kClaimed : kOfficeReference;

@@ -64,10 +64,9 @@ Finding accuracy_goal(const FlightStudy& study) {
     const double stomp = study.mean("accuracy", panel, "stomp");
     return stomp >= initial + 0.15 || stomp >= 0.95;
   };
-  return {
-      "goal", "`stomp` recognises at least 15 points more than `initial`, or 95 %, everywhere",
-      study.from_to("accuracy", 100.0, 1), study.everywhere("accuracy", rises),
-      "what is mistaken are near twins of one size that differ by a shade"};
+  return {"goal", "`stomp` recognises at least 15 points more than `initial`, or 95 %, everywhere",
+          study.from_to("accuracy", 100.0, 1), study.everywhere("accuracy", rises),
+          "what is mistaken are near twins of one size that differ by a shade"};
 }
 
 Finding published_gain(const FlightStudy& study) {
@@ -123,11 +122,11 @@ std::vector<Finding> trajectory_findings(const StudySummary& summary) {
   findings.push_back({"goal", "no collision in any flight of `stomp`",
                       fmt::format("share of flights {:.3f}", stomp("collided", "all")),
                       stomp("collided", "all") == 0.0, "see `collided`"});
-  const double least_m = summary.least("minimum_clearance_m", "all", "stomp").value_or(0.0);
+  const double min_m = summary.least("minimum_clearance_m", "all", "stomp").value_or(0.0);
   findings.push_back({"goal", "`stomp` comes no nearer to anything than 0.3 m, in any flight",
-                      fmt::format("least {:.2f} m; mean of a flight's least {}", least_m,
+                      fmt::format("least {:.2f} m; mean of a flight's least {}", min_m,
                                   study.from_to("minimum_clearance_m", 1.0, 2)),
-                      least_m >= 0.3, "see `minimum_clearance_m` by episode"});
+                      min_m >= 0.3, "see `minimum_clearance_m` by episode"});
   findings.push_back({"goal", "mean tracking error at most 0.05 m",
                       fmt::format("{:.4f} m", stomp("tracking_error_m", "all")),
                       stomp("tracking_error_m", "all") <= 0.05, ""});

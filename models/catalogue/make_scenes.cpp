@@ -6,10 +6,10 @@
 #include <exception>
 #include <filesystem>
 
+#include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/flight/flight_mjcf.hpp"
 #include "vantage/models/catalogue/office/office_mjcf.hpp"
 #include "vantage/models/catalogue/table/scene_mjcf.hpp"
-#include "vantage/core/error.hpp"
 
 int main(int argc, char** argv) {
   using vantage::ExitCode;

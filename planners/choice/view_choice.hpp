@@ -11,10 +11,10 @@
 #include <string_view>
 #include <variant>
 
-#include "vantage/planners/candidate.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/core/strategy.hpp"
+#include "vantage/planners/candidate.hpp"
 
 namespace vantage {
 

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "vantage/planners/visibility/attenuated_ray.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/planners/visibility/attenuated_ray.hpp"
 
 namespace vantage {
 
@@ -19,11 +19,11 @@ struct BeerLambertGain {
   static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;
 
-  [[nodiscard]] Fading fading(const GainContext& context) const {
+  [[nodiscard]] Attenuation attenuation(const GainContext& context) const {
     return {.transmission = uniform_field(context.grid.frame.cells, a)};
   }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
-    return fading_tables(context.grid, fading(context));
+    return attenuation_tables(context.grid, attenuation(context));
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
 };

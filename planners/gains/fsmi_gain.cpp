@@ -10,15 +10,15 @@ double odds_update_bits(double d, double odds) {
 
 FsmiGain::Tables FsmiGain::prepare(const GainContext& context) const {
   const OccupancyGrid& grid = context.grid;
-  const auto worth = [this](double odds) {
+  const auto utility = [this](double odds) {
     return Cell{.hit_bits = static_cast<float>(odds_update_bits(d_occ, odds)),
                 .pass_bits = static_cast<float>(odds_update_bits(d_emp, odds))};
   };
   const std::vector<float> p_hit = cell_opacities(grid, opacity_unobserved);
-  Tables tables(grid.size(), worth(1.0));  // most cells have never been measured
+  Tables tables(grid.size(), utility(1.0));  // most cells have never been measured
   for (std::size_t cell = 0; cell < tables.size(); ++cell) {
     if (grid.log_odds[cell] != 0.0F) {
-      tables[cell] = worth(std::exp(static_cast<double>(grid.log_odds[cell])));
+      tables[cell] = utility(std::exp(static_cast<double>(grid.log_odds[cell])));
     }
     tables[cell].p_hit = p_hit[cell];
   }

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <string_view>
 
+#include "vantage/information/discrete.hpp"
 #include "vantage/planners/visibility/cell_tables.hpp"
 #include "vantage/planners/visibility/ray_visibility.hpp"
-#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 
@@ -34,7 +34,7 @@ struct PosteriorChainGain {
       chain_.enter(static_cast<double>(p_occupied_[cell]));
       return true;
     }
-    double worth(std::size_t cell) {
+    double utility(std::size_t cell) {
       chain_.enter(static_cast<double>(p_occupied_[cell]));
       return static_cast<double>(entropy_bits_[cell]) - binary_entropy_bits(chain_.p_occupied());
     }

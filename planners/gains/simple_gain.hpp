@@ -16,11 +16,11 @@ struct SimpleGain {
   static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;
 
-  [[nodiscard]] Fading fading(const GainContext& context) const {
+  [[nodiscard]] Attenuation attenuation(const GainContext& context) const {
     return {.transmission = uniform_field(context.grid.frame.cells, 1.0), .by_entropy = false};
   }
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
-    return fading_tables(context.grid, fading(context));
+    return attenuation_tables(context.grid, attenuation(context));
   }
   [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
 };

@@ -28,7 +28,7 @@ struct VisibilityWeightedGain {
       chain_.pass(static_cast<double>(p_occupied_[cell]));
       return true;
     }
-    [[nodiscard]] double worth(std::size_t cell) const {
+    [[nodiscard]] double utility(std::size_t cell) const {
       return chain_.p_visible() * static_cast<double>(entropy_bits_[cell]);
     }
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "vantage/planners/objects/sampled_information.hpp"
 #include "vantage/information/gaussian.hpp"
 #include "vantage/information/log_space.hpp"
 #include "vantage/information/mixture_bounds.hpp"
+#include "vantage/planners/objects/sampled_information.hpp"
 
 namespace vantage {
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <variant>
 
-#include "vantage/planners/objects/information_query.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/core/strategy.hpp"
+#include "vantage/planners/objects/information_query.hpp"
 
 namespace vantage {
 

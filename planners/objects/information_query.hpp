@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "vantage/belief/objects/object_states.hpp"
 #include "vantage/planners/objects/likely_states.hpp"
 #include "vantage/planners/objects/state_divergence.hpp"
-#include "vantage/belief/objects/object_states.hpp"
 
 namespace vantage {
 

@@ -1,8 +1,8 @@
 /// Information by sampling what would be measured.
 #pragma once
 
-#include "vantage/planners/objects/information_query.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/objects/information_query.hpp"
 
 namespace vantage {
 

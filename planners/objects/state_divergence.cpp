@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "vantage/core/parallel_for.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/core/parallel_for.hpp"
 
 namespace vantage {
 namespace {

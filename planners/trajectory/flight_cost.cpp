@@ -33,8 +33,7 @@ double off_axis(const FlightCostOptions& options, const Eigen::Vector2d& v, doub
 /// Metres that are missing at a waypoint and half way to its neighbours: the nearest surface.
 class NearestSurface {
  public:
-  NearestSurface(const FlightCostOptions& options, const SurfaceDistance& surface,
-                 const Horizon& horizon)
+  NearestSurface(const FlightCostOptions& options, const Esdf& surface, const Horizon& horizon)
       : between_(options.between_waypoints), surface_(surface), horizon_(horizon) {
     if (between_) ahead_m_ = half_way(-1);
   }
@@ -53,7 +52,7 @@ class NearestSurface {
                                (horizon_.point(i).head<3>() + horizon_.point(i + 1).head<3>()));
   }
   bool between_;
-  const SurfaceDistance& surface_;
+  const Esdf& surface_;
   const Horizon& horizon_;
   double ahead_m_ = 0.0;
 };

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/planners/trajectory/optimisers/horizon.hpp"
-#include "vantage/planners/trajectory/surface_distance.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/planners/trajectory/esdf.hpp"
+#include "vantage/planners/trajectory/optimisers/horizon.hpp"
 
 namespace vantage {
 
@@ -96,7 +96,7 @@ double information_cost(const FlightCostOptions& options, double entropy_nats);
 
 /// What is known round the vehicle.
 struct FlightSurroundings {
-  const SurfaceDistance* surface = nullptr;   ///< null: nothing is in the way
+  const Esdf* surface = nullptr;              ///< null: nothing is in the way
   std::optional<ObservationTarget> target{};  ///< none: look where you go
   /// Of each of the K points, instead of `target`; empty: all have that.
   std::vector<std::optional<ObservationTarget>> target_of_point{};

@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "vantage/planners/trajectory/flight_hazards.hpp"
 #include "vantage/planners/trajectory/optimisers/path_search.hpp"
 #include "vantage/planners/trajectory/replanning.hpp"
-#include "vantage/planners/trajectory/flight_hazards.hpp"
 
 namespace vantage {
 namespace {
@@ -27,11 +27,11 @@ constexpr double kAside_m = 2.5;
 /// With fewer waypoints left no view is sought: whoever turns back at the last one swings past it.
 constexpr int kLastAsGiven = 6;
 
-/// How much shorter the leash is upwards and down: a fixed camera has an object in its middle from
-/// high above as well, but sees less of it there.
+/// How much smaller the path-deviation tolerance is upwards and down: a fixed camera has an object
+/// in its middle from high above as well, but sees less of it there.
 constexpr double kUpright = 4.0;
 
-LookTarget look_target(int id, const ObservedObject& object, int direction) {
+ViewTarget view_target(int id, const ObservedObject& object, int direction) {
   return {.object = id,
           .direction = direction,
           .p_world_object_m = object.ring.p_world_object_m,
@@ -74,7 +74,7 @@ Horizon FlightPlanner::horizon(const PlanState& state,
 std::vector<ObservedObject> FlightPlanner::observed(const std::vector<PlannableObject>& objects,
                                                     double height_m) const {
   const Eigen::Vector3d in_body_m =
-      camera_.T_body_camera * Eigen::Vector3d(0.0, 0.0, planning_.options.look_m);
+      camera_.T_body_camera * Eigen::Vector3d(0.0, 0.0, planning_.options.observation_distance_m);
   std::vector<ObservedObject> observed;
   for (const PlannableObject& object : objects) {
     ObservedObject& ring = observed.emplace_back();
@@ -102,7 +102,7 @@ void FlightPlanner::choose_target(const PlanState& state,
   if (!active) return;
   const auto direction = active_direction(rings[*active], horizon(state, state.nominal).points);
   if (!direction) return;
-  target_ = look_target(objects[*active].id, rings[*active], *direction);
+  target_ = view_target(objects[*active].id, rings[*active], *direction);
 }
 
 /// The views that the next waypoints take, and the first of them as what is looked at.
@@ -121,8 +121,8 @@ void FlightPlanner::choose_views(const ViewsOnTheWay& options, const PlanState& 
     const auto point = static_cast<Eigen::Index>(target_of_point_.size());
     auto& target = target_of_point_.emplace_back();
     if (!view) {
-      target =
-          search_target(planning_.options.search, grid, camera_, given, point, planning_.options.look_m);
+      target = search_target(planning_.options.search, grid, camera_, given, point,
+                             planning_.options.observation_distance_m);
       continue;
     }
     const ObservedObject& object = rings[views[*view].object];
@@ -132,7 +132,7 @@ void FlightPlanner::choose_views(const ViewsOnTheWay& options, const PlanState& 
   }
   if (views.empty()) return;
   const ScheduledView& first = views.front();
-  target_ = look_target(objects[first.object].id, rings[first.object], first.direction);
+  target_ = view_target(objects[first.object].id, rings[first.object], first.direction);
 }
 
 /// The same places, headed for what each is to look at.
@@ -206,25 +206,26 @@ PathCost FlightPlanner::cost(const Eigen::Matrix4Xd& given,
                                      .entropy_nats = target_->entropy_nats};
   }
   return [of_flight = flight_cost(planning_.options.cost, camera_, std::move(scene)), given,
-          leash_m = planning_.options.leash_m, weight = planning_.options.leash_weight,
+          path_deviation_tolerance_m = planning_.options.path_deviation_tolerance_m,
+          weight = planning_.options.path_deviation_weight,
           lowest_m = lowest_view_m(given.row(2).minCoeff())](
              const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) {
     of_flight(horizon, cost_of_point);
     for (Eigen::Index i = 0; i < horizon.count(); ++i) {
       Eigen::Vector3d off_m = (horizon.points.col(i) - given.col(i)).head<3>();
       off_m.z() = kUpright * std::max({off_m.z(), lowest_m - horizon.points(2, i), 0.0});
-      cost_of_point[i] += weight * std::max(0.0, off_m.norm() - leash_m);
+      cost_of_point[i] += weight * std::max(0.0, off_m.norm() - path_deviation_tolerance_m);
     }
   };
 }
 
-std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
-                                          const std::vector<PlannableObject>& objects,
-                                          const FlightMap& map) {
+std::vector<CandidatePlan> FlightPlanner::propose(const PlanState& state,
+                                                  const std::vector<PlannableObject>& objects,
+                                                  const FlightMap& map) {
   const Eigen::Matrix4Xd given = horizon(state, state.nominal).points;
   const Eigen::Matrix4Xd planned = horizon(state, state.plan).points;
   window_ = box_round({given, planned}, kAside_m);
-  surface_ = surface_distance(
+  surface_ = make_esdf(
       map.grid().frame,
       flight_hazards(map, columns(state.nominal, 0, static_cast<int>(state.nominal.size()))),
       window_, kReach_m);
@@ -233,25 +234,25 @@ std::vector<WayOn> FlightPlanner::propose(const PlanState& state,
   target_.reset();
   target_of_point_.clear();
   if (optimises(planning_.method)) choose_target(state, objects, rings, map.grid());
-  std::vector<WayOn> ways;
+  std::vector<CandidatePlan> candidates;
   const PathCost cost = this->cost(given, rings);
   const auto add = [&](std::string planner, const Eigen::Matrix4Xd& points) {
     Horizon ahead = horizon(state, state.plan);
     ahead.points = points;
-    ways.push_back({.planner = std::move(planner),
-                    .points = points,
-                    .cost = ahead.count() < 2 ? 0.0 : path_cost(unwrapped(ahead), cost)});
+    candidates.push_back({.planner = std::move(planner),
+                          .points = points,
+                          .cost = ahead.count() < 2 ? 0.0 : path_cost(unwrapped(ahead), cost)});
   };
   add(std::string(strategy_name_of(planning_.method)), method_path(state, rings, cost));
   if (std::holds_alternative<GivenPath>(planning_.method) ||
       std::holds_alternative<GivenPathYaw>(planning_.method)) {
-    return ways;  // these go nowhere else, whatever is in the way
+    return candidates;  // these go nowhere else, whatever is in the way
   }
   add("as before", planned);
   add("as given", given);
   add("as flown", planned);
-  ways.back().same_spline = true;
-  return ways;
+  candidates.back().same_spline = true;
+  return candidates;
 }
 
 /// To the surface or the end of the window, beyond which nothing is known of surfaces.
@@ -261,19 +262,19 @@ double FlightPlanner::clearance_m(const Eigen::Vector3d& p_world_m) const {
   return std::min(surface_->distance_m(p_world_m), inside_m);
 }
 
-double FlightPlanner::clearance_m(const FlightPath& path, double until_s) const {
-  double least_m = std::numeric_limits<double>::infinity();
+double FlightPlanner::clearance_m(const MinimumJerkTrajectory& path, double until_s) const {
+  double min_m = std::numeric_limits<double>::infinity();
   for (double t_s = 0.0; t_s <= until_s; t_s += planning_.options.sample_s) {
-    least_m = std::min(least_m, clearance_m(path.at(t_s).p_world_m));
+    min_m = std::min(min_m, clearance_m(path.at(t_s).p_world_m));
   }
-  return least_m;
+  return min_m;
 }
 
-std::size_t safest_of_best(const std::vector<WayOn>& ways) {
-  const auto clear = std::ranges::find(ways, true, &WayOn::clear);
-  if (clear != ways.end()) return static_cast<std::size_t>(clear - ways.begin());
-  return static_cast<std::size_t>(std::ranges::max_element(ways, {}, &WayOn::clearance_m) -
-                                  ways.begin());
+std::size_t safest_of_best(const std::vector<CandidatePlan>& candidates) {
+  const auto clear = std::ranges::find(candidates, true, &CandidatePlan::clear);
+  if (clear != candidates.end()) return static_cast<std::size_t>(clear - candidates.begin());
+  return static_cast<std::size_t>(
+      std::ranges::max_element(candidates, {}, &CandidatePlan::clearance_m) - candidates.begin());
 }
 
 }  // namespace vantage

@@ -1,5 +1,5 @@
-/// From what is known in flight to ways on: which object to look at next and from where, and the
-/// next waypoints as a trajectory method wants them.  [Potthast2016, 5.2]
+/// Candidate plans for the next waypoints: which object to observe next, from which viewpoint, and
+/// the waypoints of each trajectory method.  [Potthast2016, 5.2]
 #pragma once
 
 #include <Eigen/Core>
@@ -10,12 +10,12 @@
 #include <optional>
 #include <vector>
 
+#include "vantage/belief/map/flight_map.hpp"
+#include "vantage/control/minimum_jerk_trajectory.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/planners/trajectory/esdf.hpp"
 #include "vantage/planners/trajectory/flight_cost.hpp"
 #include "vantage/planners/trajectory/observation_ring.hpp"
-#include "vantage/planners/trajectory/surface_distance.hpp"
-#include "vantage/control/flight_path.hpp"
-#include "vantage/belief/map/flight_map.hpp"
-#include "vantage/core/rng.hpp"
 #include "vantage/planners/trajectory/trajectory_method.hpp"
 #include "vantage/planners/trajectory/trajectory_record.hpp"
 
@@ -26,8 +26,8 @@ struct PlannableObject {
   int id = 0;
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
   double entropy_nats = 0.0;
-  std::array<bool, kObservationDirections> used{};  ///< or not worth a look
-  /// What a look from each direction is expected to tell of it.
+  std::array<bool, kObservationDirections> used{};  ///< or not worth an observation
+  /// Expected information of an observation from each direction.
   std::array<double, kObservationDirections> gain_nats =
       every_direction(std::numeric_limits<double>::infinity());
 };
@@ -51,17 +51,18 @@ class FlightPlanner {
  public:
   FlightPlanner(const FlightPlanning& planning, const FlightCamera& camera, Rng rng);
 
-  /// Ways on for the next waypoints, the method's own first, then what it falls back on.
-  std::vector<WayOn> propose(const PlanState& state, const std::vector<PlannableObject>& objects,
-                             const FlightMap& map);
+  /// Candidate plans for the next waypoints: the method's own first, then its fallbacks.
+  std::vector<CandidatePlan> propose(const PlanState& state,
+                                     const std::vector<PlannableObject>& objects,
+                                     const FlightMap& map);
   /// Least distance from what is known to be in the way, and from what is not known of, until then.
-  [[nodiscard]] double clearance_m(const FlightPath& path, double until_s) const;
+  [[nodiscard]] double clearance_m(const MinimumJerkTrajectory& path, double until_s) const;
   [[nodiscard]] bool clear(double clearance_m) const {
     return clearance_m >= planning_.options.clearance_m;
   }
 
   /// What the last proposal of an optimiser looks at; nothing: where it goes.
-  [[nodiscard]] const std::optional<LookTarget>& target() const { return target_; }
+  [[nodiscard]] const std::optional<ViewTarget>& target() const { return target_; }
 
  private:
   [[nodiscard]] Horizon horizon(const PlanState& state,
@@ -87,13 +88,13 @@ class FlightPlanner {
   FlightCamera camera_;
   Rng rng_;
   Eigen::AlignedBox3d window_;  ///< round the way ahead; what is outside of it was not looked at
-  std::optional<SurfaceDistance> surface_;
-  std::optional<LookTarget> target_;
+  std::optional<Esdf> surface_;
+  std::optional<ViewTarget> target_;
   /// Of each point of the horizon; empty: all have `target_`.
   std::vector<std::optional<ObservationTarget>> target_of_point_;
 };
 
 /// The first that is clear; if none is, the one that keeps off farthest.
-std::size_t safest_of_best(const std::vector<WayOn>& ways);
+std::size_t safest_of_best(const std::vector<CandidatePlan>& candidates);
 
 }  // namespace vantage

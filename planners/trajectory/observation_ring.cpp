@@ -27,7 +27,7 @@ int ObservationRing::direction_of(const Eigen::Vector3d& p_world) const {
   return direction < 0 ? direction + kObservationDirections : direction;
 }
 
-void leave_out_blocked(ObservedObject& object, const SurfaceDistance& surface, double clearance_m) {
+void leave_out_blocked(ObservedObject& object, const Esdf& surface, double clearance_m) {
   for (int d = 0; d < kObservationDirections; ++d) {
     bool& used = object.used[static_cast<std::size_t>(d)];
     used = used || surface.distance_m(object.ring.view_m(d)) < clearance_m;
@@ -38,14 +38,14 @@ std::optional<std::size_t> active_object(std::span<const ObservedObject> objects
                                          const Eigen::Vector3d& p_world_vehicle_m, double tau_nats,
                                          double range_m) {
   std::optional<std::size_t> nearest;
-  double least_m = range_m;
+  double min_m = range_m;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const ObservedObject& object = objects[i];
     if (object.entropy_nats < tau_nats || std::ranges::count(object.used, false) == 0) continue;
     const double away_m = (object.ring.p_world_object_m - p_world_vehicle_m).head<2>().norm();
-    if (nearest ? away_m < least_m : away_m <= least_m) {
+    if (nearest ? away_m < min_m : away_m <= min_m) {
       nearest = i;
-      least_m = away_m;
+      min_m = away_m;
     }
   }
   return nearest;

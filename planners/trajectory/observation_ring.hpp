@@ -37,13 +37,13 @@ struct ObservedObject {
   ObservationRing ring;
   std::array<bool, kObservationDirections> used{};  ///< seen from there, or out of reach
   double entropy_nats = std::numeric_limits<double>::infinity();  ///< of what it may be
-  /// What a look from each direction is expected to tell of that.
+  /// Expected information of an observation from each direction.
   std::array<double, kObservationDirections> gain_nats =
       every_direction(std::numeric_limits<double>::infinity());
 };
 
 /// Marks directions as used whose place is nearer than `clearance_m` to a surface.
-void leave_out_blocked(ObservedObject& object, const SurfaceDistance& surface, double clearance_m);
+void leave_out_blocked(ObservedObject& object, const Esdf& surface, double clearance_m);
 
 /// The nearest object, level, that is not yet known (H >= tau) and has directions left; none
 /// farther away than `range_m`.

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 
 namespace vantage {
 namespace {

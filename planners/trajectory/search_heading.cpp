@@ -43,14 +43,14 @@ std::optional<double> search_heading(const SearchOptions& options, const Occupan
     unseen_m2.push_back(unseen_along_m2(options, grid, from_m, ahead_rad + ray * kBetweenRays_rad));
   }
   int best = 0;
-  double best_worth = options.least_m2;
+  double best_utility = options.min_area_m2;
   for (int turn = -turns; turn <= turns; ++turn) {
     const auto first_ray = unseen_m2.begin() + turns + turn;
     const double seen_m2 = std::accumulate(first_ray, first_ray + 2 * beside + 1, 0.0);
-    const double worth = seen_m2 * std::cos(0.5 * turn * kBetweenRays_rad);
-    if (worth > best_worth) {
+    const double utility = seen_m2 * std::cos(0.5 * turn * kBetweenRays_rad);
+    if (utility > best_utility) {
       best = turn;
-      best_worth = worth;
+      best_utility = utility;
     }
   }
   if (best == 0) return std::nullopt;

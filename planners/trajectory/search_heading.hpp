@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include "vantage/planners/trajectory/flight_cost.hpp"
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/planners/trajectory/flight_cost.hpp"
 
 namespace vantage {
 
@@ -15,12 +15,12 @@ struct SearchOptions {
   double turn_rad = 1.0;  ///< from the way ahead, at most; higher looks aside more, 0 never
   double below_m = 0.9;   ///< the vehicle, that objects are looked for; higher looks for lower ones
   double range_m = 2.5;   ///< that is searched; higher looks farther
-  double least_m2 = 0.3;  ///< unseen, that one turns to; higher turns less
+  double min_area_m2 = 0.3;  ///< unseen, that one turns to; higher turns less
   void fields(auto&& f) {
     f("turn_rad", turn_rad, between(0.0, 3.0));
     f("below_m", below_m, at_least(0.0));
     f("range_m", range_m, between(0.6, 10.0));
-    f("least_m2", least_m2, at_least(0.0));
+    f("min_area_m2", min_area_m2, at_least(0.0));
   }
 };
 
@@ -33,7 +33,7 @@ std::optional<double> search_heading(const SearchOptions& options, const Occupan
                                      const Eigen::Vector3d& p_world_vehicle_m, double ahead_rad,
                                      double fov_rad);
 
-/// What a waypoint turns to by that: a place `away_m` in the middle of the picture, looked at and
+/// What a waypoint turns to by that: a place `away_m` in the middle of the image, looked at and
 /// not flown to.
 /// @param path 2 waypoints or more, as they are given
 std::optional<ObservationTarget> search_target(const SearchOptions& options,

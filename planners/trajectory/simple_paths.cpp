@@ -41,13 +41,13 @@ Eigen::Matrix4Xd initial_yaw(const Eigen::Matrix4Xd& waypoints,
   Eigen::Matrix4Xd turned = waypoints;
   for (auto waypoint : turned.colwise()) {
     const ObservedObject* nearest = nullptr;
-    double least_m = options.range_m;
+    double min_m = options.range_m;
     for (const ObservedObject& object : objects) {
       if (object.entropy_nats < options.tau_nats) continue;
       const double away_m = (object.ring.p_world_object_m - waypoint.head<3>()).head<2>().norm();
-      if (away_m > least_m) continue;
+      if (away_m > min_m) continue;
       nearest = &object;
-      least_m = away_m;
+      min_m = away_m;
     }
     if (nearest == nullptr) continue;
     waypoint[3] = heading_rad(waypoint.head<3>(), nearest->ring.p_world_object_m);

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "vantage/planners/trajectory/optimisers/horizon.hpp"
 #include "vantage/planners/trajectory/observation_ring.hpp"
+#include "vantage/planners/trajectory/optimisers/horizon.hpp"
 
 namespace vantage {
 

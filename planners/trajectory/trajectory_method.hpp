@@ -5,12 +5,12 @@
 #include <string_view>
 #include <variant>
 
+#include "vantage/core/fields.hpp"
 #include "vantage/planners/trajectory/flight_cost.hpp"
+#include "vantage/planners/trajectory/optimisers/trajectory_optimiser.hpp"
 #include "vantage/planners/trajectory/search_heading.hpp"
 #include "vantage/planners/trajectory/simple_paths.hpp"
-#include "vantage/planners/trajectory/optimisers/trajectory_optimiser.hpp"
 #include "vantage/planners/trajectory/view_schedule.hpp"
-#include "vantage/core/fields.hpp"
 
 namespace vantage {
 
@@ -35,8 +35,7 @@ struct DetourPath {
   }
 };
 
-using TrajectoryMethod =
-    std::variant<GivenPath, GivenPathYaw, DetourPath, Stomp, Mppi, Cem, CovariantGradient>;
+using TrajectoryMethod = std::variant<GivenPath, GivenPathYaw, DetourPath, Stomp, Mppi, Cem, Chomp>;
 template <>
 inline constexpr std::string_view strategy_family<TrajectoryMethod> = "trajectory method";
 
@@ -53,24 +52,26 @@ struct FlightPlannerOptions {
   FlightCostOptions cost;
   ViewPlan views = ViewsOnTheWay{};
   SearchOptions search;  ///< of `on_the_way`, between its views
-  /// Camera to object, in the middle of the picture, where the object is looked at best: the body
-  /// goes as low as that takes, never above the path. Higher sees it smaller.
-  double look_m = 1.05;
+  /// Distance from camera to object of the best observation, on the optical axis: the body descends
+  /// as far as that takes, never above the path. Higher: the object appears smaller.
+  double observation_distance_m = 1.05;
   double range_m = 3.0;  ///< level; farther objects are no targets of `nearest`
-  /// A point of a horizon may be so far from where the given path has it; the rest costs. Without,
-  /// the smoothest way on from one lane of a path to the next is the straight one.
-  double leash_m = 1.2;
-  double leash_weight = 2.0;  ///< 1/m, of what is beyond; higher keeps to the given path
+  /// Path-deviation tolerance: distance of a point of the horizon from its place on the given path
+  /// that costs nothing. With a large one the smoothest plan cuts from one lane of a path to the
+  /// next.
+  double path_deviation_tolerance_m = 1.2;
+  double path_deviation_weight =
+      2.0;                    ///< 1/m, of the deviation beyond it; higher keeps to the given path
   double clearance_m = 0.55;  ///< of the body's centre on a path that is flown, by the map
   double sample_s = 0.05;     ///< between places of a path whose clearance is looked at
   void fields(auto&& f) {
     f("cost", cost);
     f("views", views);
     f("search", search);
-    f("look_m", look_m, between(0.3, 3.0));
+    f("observation_distance_m", observation_distance_m, between(0.3, 3.0));
     f("range_m", range_m, above(0.0));
-    f("leash_m", leash_m, at_least(0.0));
-    f("leash_weight", leash_weight, at_least(0.0));
+    f("path_deviation_tolerance_m", path_deviation_tolerance_m, at_least(0.0));
+    f("path_deviation_weight", path_deviation_weight, at_least(0.0));
     f("clearance_m", clearance_m, between(0.0, 3.0));
     f("sample_s", sample_s, between(0.01, 1.0));
   }

@@ -12,8 +12,8 @@
 namespace vantage {
 
 /// What an object is looked at from next.
-struct LookTarget {
-  int object = 0;     ///< id of FoundObject
+struct ViewTarget {
+  int object = 0;     ///< id of TrackedObject
   int direction = 0;  ///< not used yet
   Eigen::Vector3d p_world_object_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d p_world_view_m = Eigen::Vector3d::Zero();
@@ -22,7 +22,7 @@ struct LookTarget {
 
 /// The next waypoints as one planner wants them, x, y, z, yaw a column; the first is the one that
 /// is flown to already.
-struct WayOn {
+struct CandidatePlan {
   std::string planner;
   Eigen::Matrix4Xd points;
   double cost = 0.0;
@@ -45,12 +45,12 @@ struct WaypointRecord {
   bool missed = false;       ///< one came before the plan
   double cost = 0.0;
   double planned_clearance_m = 0.0;
-  std::optional<LookTarget> target;
+  std::optional<ViewTarget> target;
   std::vector<Eigen::Vector4d> plan;  ///< from the waypoint on that it was made for
   // What is known:
   int objects = 0;                 ///< found
   int known = 0;                   ///< of those
-  int looks = 0;                   ///< observations so far
+  int observations = 0;            ///< observations so far
   double mean_entropy_nats = 0.0;  ///< of the objects found
   // Truth:
   double clearance_m = 0.0;       ///< least so far

@@ -40,12 +40,12 @@ std::vector<ScheduledView> schedule_views(const ViewsOnTheWay& options,
       if (object.used[at_d]) continue;
       const OnPath on_path = nearest_on_path(level, levelled(object.ring.view_m(d)));
       if (on_path.distance_m > options.reach_m) continue;
-      const double worth = std::min(object.gain_nats[at_d], object.entropy_nats) *
-                           std::exp2(-on_path.distance_m / options.off_m);
-      candidates.push_back({i, d, length_at_m(run_m, on_path.at), worth});
+      const double utility = std::min(object.gain_nats[at_d], object.entropy_nats) *
+                             std::exp2(-on_path.distance_m / options.off_m);
+      candidates.push_back({i, d, length_at_m(run_m, on_path.at), utility});
     }
   }
-  std::ranges::stable_sort(candidates, std::greater{}, &ScheduledView::worth);
+  std::ranges::stable_sort(candidates, std::greater{}, &ScheduledView::utility);
   std::vector<ScheduledView> views;
   std::vector<double> told_nats(objects.size(), 0.0);
   for (const ScheduledView& candidate : candidates) {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "vantage/planners/trajectory/observation_ring.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
 
 namespace vantage {
 
@@ -40,8 +40,8 @@ struct ViewsOnTheWay {
 struct ScheduledView {
   std::size_t object = 0;
   int direction = 0;
-  double at_m = 0.0;   ///< along the path
-  double worth = 0.0;  ///< nats
+  double at_m = 0.0;     ///< along the path
+  double utility = 0.0;  ///< nats
 };
 
 /// In the order in which the path comes by. Of an object that is not yet known (H >= tau) so many

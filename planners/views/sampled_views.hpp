@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/planners/candidate.hpp"
 #include "vantage/belief/map/octomap_file.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/candidate.hpp"
 
 namespace vantage {
 

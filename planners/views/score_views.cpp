@@ -24,7 +24,7 @@ CellBlock reach_of(const OctomapFile& map, const CellBlock& region, const Candid
 }
 
 bool fits(const CellBlock& reach, const ScoredRegion& region) {
-  return reach.coarsened(region.coarsen).count() <= kMostScoredCells;
+  return reach.coarsened(region.coarsen).count() <= kMaxScoredCells;
 }
 
 void require_fit(const OctomapFile& map, const CellBlock& reach, const ScoredRegion& region,

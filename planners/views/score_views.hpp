@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "vantage/planners/candidate.hpp"
-#include "vantage/planners/gain.hpp"
 #include "vantage/belief/map/octomap_file.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/planners/candidate.hpp"
+#include "vantage/planners/gain.hpp"
 
 namespace vantage {
 
@@ -30,13 +30,13 @@ struct ScoredRegion {
 };
 
 /// Cells that scoring holds at once, about 1 GB.
-inline constexpr double kMostScoredCells = 33554432.0;
+inline constexpr double kMaxScoredCells = 33554432.0;
 
 /// Gain of each view, in bits or the unit the gain names; 0 if it reaches no cell of the region.
 /// The gain is not `adaptive`: a map tells nothing of the beams that were stopped. The result does
 /// not depend on `threads` (at least 1).
 /// @throws ConfigError if the sensor or the region is out of range, InputError if a single view
-/// reaches over more than kMostScoredCells.
+/// reaches over more than kMaxScoredCells.
 std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& region,
                                 const Gain& gain, std::span<const Candidate> views,
                                 const FieldOfView& sensor, int threads);

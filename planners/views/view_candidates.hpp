@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "vantage/planners/candidate.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/planners/candidate.hpp"
 
 namespace vantage {
 

@@ -17,13 +17,13 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostViews = 20'000;  // stations are compared pair by pair
+constexpr std::size_t kMaxViews = 20'000;  // stations are compared pair by pair
 
 enum Column : std::size_t { kX, kY, kZ, kYaw, kPitch, kId, kColumns };
 constexpr std::array<std::string_view, kColumns> kNames{"x_m",     "y_m",       "z_m",
                                                         "yaw_rad", "pitch_rad", "id"};
 constexpr std::size_t kRequired = 4;
-constexpr double kFarthest_m = 1e6;
+constexpr double kMaxDistance_m = 1e6;
 
 std::string_view trim(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r");
@@ -91,7 +91,7 @@ class ViewReader {
     if (fields.size() != columns_.size()) {
       fail(fmt::format("{} fields, the header has {}", fields.size(), columns_.size()));
     }
-    if (views_.size() == kMostViews) fail(fmt::format("more than {} views", kMostViews));
+    if (views_.size() == kMaxViews) fail(fmt::format("more than {} views", kMaxViews));
     std::array<double, kId> values{};
     Candidate view;
     view.id = static_cast<int>(views_.size());
@@ -117,10 +117,10 @@ class ViewReader {
   double number_of(Column column, std::string_view field) const {
     double value = 0.0;
     if (!parse(field, value) || !std::isfinite(value)) wrong(column, "a finite number", field);
-    const double most = column == kPitch ? std::numbers::pi / 2.0 + 1e-9 : kFarthest_m;
-    if (std::abs(value) > most) {
-      fail(fmt::format("column {}: {} is not in [{:.6g}, {:.6g}]", kNames[column], value, -most,
-                       most));
+    const double max_value = column == kPitch ? std::numbers::pi / 2.0 + 1e-9 : kMaxDistance_m;
+    if (std::abs(value) > max_value) {
+      fail(fmt::format("column {}: {} is not in [{:.6g}, {:.6g}]", kNames[column], value,
+                       -max_value, max_value));
     }
     return value;
   }

@@ -5,17 +5,18 @@
 
 namespace vantage {
 
-float Fading::worth_by_entropy(float log_odds) const {
-  return static_cast<float>(worth *
+float Attenuation::utility_by_entropy(float log_odds) const {
+  return static_cast<float>(utility *
                             binary_entropy_bits(probability_of(static_cast<double>(log_odds))));
 }
 
-CellTables fading_tables(const OccupancyGrid& grid, const Fading& fading) {
+CellTables attenuation_tables(const OccupancyGrid& grid, const Attenuation& attenuation) {
   CellTables tables;
   tables.state = cell_states(grid);
-  tables.transmission = cell_transmissions(grid, fading.transmission);
-  tables.worth.reserve(grid.size());
-  for (const float log_odds : grid.log_odds) tables.worth.push_back(fading.worth_of_cell(log_odds));
+  tables.transmission = cell_transmissions(grid, attenuation.transmission);
+  tables.utility.reserve(grid.size());
+  for (const float log_odds : grid.log_odds)
+    tables.utility.push_back(attenuation.utility_of_cell(log_odds));
   return tables;
 }
 

@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "vantage/planners/visibility/cell_tables.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/grid_frame.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/planners/visibility/cell_tables.hpp"
 
 namespace vantage {
 

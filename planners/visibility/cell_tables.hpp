@@ -23,7 +23,7 @@ struct CellTables {
   std::vector<CellState> state;
   std::vector<float> p_occupied;
   std::vector<float> entropy_bits;
-  std::vector<float> worth;         ///< of seeing the cell, in the gain's unit
+  std::vector<float> utility;       ///< of seeing the cell, in the gain's unit
   std::vector<float> transmission;  ///< share of a beam that a cell lets pass, [0, 1]
 };
 
@@ -40,18 +40,18 @@ std::vector<float> cell_opacities(const OccupancyGrid& grid, double opacity_unob
 /// 1 - opacity, and 0 in occupied cells: there beams end.
 std::vector<float> beam_transmissions(const OccupancyGrid& grid, double opacity_unobserved);
 
-/// A gain that is a sum over cells, each worth something to the ray that looks at it. `Ray` is the
+/// A gain that is a sum over cells of their utility to the ray that sees them. `Ray` is the
 /// state of one ray: start() at the sensor, pass(cell) for each cell crossed (false: nothing behind
-/// it counts, the walk may stop), worth(cell) in the gain's unit for the cell the ray ends in.
+/// it counts, the walk may stop), utility(cell) in the gain's unit for the cell the ray ends in.
 template <class G>
 concept RayGain = requires(const G& gain, const GainContext& context, const CellTables& tables,
                            typename G::Ray ray, std::size_t cell) {
-  { G::unobserved_only } -> std::convertible_to<bool>;  // are known cells worth nothing?
+  { G::unobserved_only } -> std::convertible_to<bool>;  // do known cells have no utility?
   { gain.prepare(context) } -> std::same_as<CellTables>;
   { gain.ray(tables) } -> std::same_as<typename G::Ray>;
   ray.start();
   { ray.pass(cell) } -> std::same_as<bool>;
-  { ray.worth(cell) } -> std::same_as<double>;
+  { ray.utility(cell) } -> std::same_as<double>;
 };
 
 }  // namespace vantage

@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// An evenly spread sample of cells that a view sees partly, of at most `most` cells.
+/// An evenly spread sample of cells that a view sees partly, of at most `max_cells` cells.
 class PartlySeen {
  public:
   struct Cell {
@@ -17,14 +17,14 @@ class PartlySeen {
     float visible = 0.0F;
     float weight = 0.0F;
   };
-  explicit PartlySeen(int most) : most_(static_cast<std::size_t>(most)) {}
+  explicit PartlySeen(int max_cells) : max_cells_(static_cast<std::size_t>(max_cells)) {}
 
   /// Offers a row of `count` cells, of which it asks for every stride-th by `take(i) -> Cell`;
   /// those without weight are skipped. Each row starts the stride elsewhere: cells of neighbouring
   /// rows are alike.
   template <class Take>
   void offer(int count, Take&& take) {
-    if (most_ == 0) return;
+    if (max_cells_ == 0) return;
     phase_ = (phase_ + 0x9E3779B9U) & 0xFFFFFFFFU;  // the golden ratio of 2^32
     const std::size_t start = phase_ >> 12U;
     for (std::size_t i = -start & (stride_ - 1); i < static_cast<std::size_t>(count);
@@ -33,7 +33,7 @@ class PartlySeen {
       if (cell.weight <= 0.0F || !divides(stride_, start + i)) continue;
       cell.order = start + i;
       cells_.push_back(cell);
-      if (cells_.size() > most_) thin();
+      if (cells_.size() > max_cells_) thin();
     }
   }
   /// Sum of `error(cell)` over the cells offered, from as much of the sample as it takes for a
@@ -68,7 +68,7 @@ class PartlySeen {
     std::erase_if(cells_, [&](const Cell& cell) { return !divides(stride_, cell.order); });
   }
 
-  std::size_t most_;
+  std::size_t max_cells_;
   std::size_t stride_ = 1;
   std::size_t phase_ = 0;
   std::vector<Cell> cells_;

@@ -20,7 +20,7 @@ void blend_rows(const float* a, const float* b, float fraction, int begin, int e
 
 VANTAGE_SIMD_CLONES
 void advance_row(const SweepRow& row, int shift, int begin, int end, float* __restrict visible,
-                 float* __restrict seen_worth) {
+                 float* __restrict seen_utility) {
   const float* __restrict arriving = row.arriving + shift;
   const float* __restrict straight = row.straight;
   const float* __restrict slanted = row.slanted + shift;
@@ -35,7 +35,7 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
   for (int i = begin; i < whole; ++i) {
     const float along = (source - static_cast<float>(i)) * per_layer;
     const float fraction = along - offset;
-    const float light = arriving[i] + fraction * (arriving[i + 1] - arriving[i]);
+    const float transmittance = arriving[i] + fraction * (arriving[i + 1] - arriving[i]);
     // The ray ends in the column of cell i and comes from that of the nearest cell.
     const float own = straight[i];
     const float near = slanted[i];
@@ -54,21 +54,21 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
     passes *= passes;
     passes *= passes;
     passes *= passes;
-    const float seen = std::min(own, other) < 0.0F ? 0.0F : light * passes;
+    const float seen = std::min(own, other) < 0.0F ? 0.0F : transmittance * passes;
     visible[i] = seen;
     const float value = seen * std::max(cells[i], 0.0F);
-    seen_worth[i] = seen > kDark ? value : 0.0F;
+    seen_utility[i] = seen > kDark ? value : 0.0F;
   }
 }
 
 namespace {
 
 template <class Counts>
-double sum_where(const float* worth, int begin, int end, const Counts& counts) {
+double sum_where(const float* utility, int begin, int end, const Counts& counts) {
   std::array<float, kLanes> lanes{};
   for (int i = begin; i < end; i += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
-      const float cell = worth[i + lane];
+      const float cell = utility[i + lane];
       lanes[static_cast<std::size_t>(lane)] += counts(i + lane) & (i + lane < end) ? cell : 0.0F;
     }
   }
@@ -80,13 +80,14 @@ double sum_where(const float* worth, int begin, int end, const Counts& counts) {
 }  // namespace
 
 VANTAGE_SIMD_CLONES
-double sum_run(const float* worth, int begin, int end) {
-  return sum_where(worth, begin, end, [](int) { return true; });
+double sum_run(const float* utility, int begin, int end) {
+  return sum_where(utility, begin, end, [](int) { return true; });
 }
 
 VANTAGE_SIMD_CLONES
-double sum_in_view(const ConeRow& view, const float* worth, int begin, int end) {
-  return sum_where(worth, begin, end, [&](int i) { return view.contains(static_cast<float>(i)); });
+double sum_in_view(const ConeRow& view, const float* utility, int begin, int end) {
+  return sum_where(utility, begin, end,
+                   [&](int i) { return view.contains(static_cast<float>(i)); });
 }
 
 }  // namespace vantage

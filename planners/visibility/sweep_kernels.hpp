@@ -2,21 +2,21 @@
 /// for AVX2 as well and dispatched at run time; both give the same bits.
 #pragma once
 
-#include "vantage/planners/visibility/sweep_tables.hpp"
 #include "vantage/geometry/view_cone.hpp"
+#include "vantage/planners/visibility/sweep_tables.hpp"
 
 namespace vantage {
 
 /// out[j] = (1 - fraction) a[j] + fraction b[j] for j in [begin, end).
 void blend_rows(const float* a, const float* b, float fraction, int begin, int end, float* out);
 
-/// Less light than this is taken for none: interpolation lets a trace of it behind every edge.
+/// A lower transmittance counts as 0: interpolation leaks a trace behind every edge.
 inline constexpr float kDark = 0.002F;
 
 /// A row of cells and what stands between it and the layer before; arrays are indexed by the place
 /// i along the row.
 struct SweepRow {
-  const float* arriving;        ///< light that arrives in the layer before, blended to this row
+  const float* arriving;        ///< transmittance up to the layer before, blended to this row
   const float* cells;           ///< of this row, as SweepTables::layers has them
   const float* straight;        ///< of the layer before, right before this row
   const float* slanted;         ///< of the layer before, in the row the rays come through
@@ -27,16 +27,16 @@ struct SweepRow {
   float across = 0.0F;          ///< cells that the rays move across the rows, per layer
 };
 
-/// For i in [begin, end), all with floor((source - i) / depth) == shift: the light that arrives,
-/// taken where the ray from the sensor crossed the layer before and weakened by the cells it went
-/// through since, and what it is worth. Up to kLanes - 1 places beyond `end` are written too.
+/// For i in [begin, end), all with floor((source - i) / depth) == shift: the transmittance, taken
+/// where the ray from the sensor crossed the layer before and attenuated by the cells it crossed
+/// since, and the utility of what is seen. Up to kLanes - 1 places beyond `end` are written too.
 void advance_row(const SweepRow& row, int shift, int begin, int end, float* visible,
-                 float* seen_worth);
+                 float* seen_utility);
 
-/// Sum of worth[i] over i in [begin, end); reads up to kLanes - 1 beyond.
-double sum_run(const float* worth, int begin, int end);
+/// Sum of utility[i] over i in [begin, end); reads up to kLanes - 1 beyond.
+double sum_run(const float* utility, int begin, int end);
 
-/// Sum of worth[i] over the i in [begin, end) that the view holds; reads up to kLanes - 1 beyond.
-double sum_in_view(const ConeRow& view, const float* worth, int begin, int end);
+/// Sum of utility[i] over the i in [begin, end) that the view holds; reads up to kLanes - 1 beyond.
+double sum_in_view(const ConeRow& view, const float* utility, int begin, int end);
 
 }  // namespace vantage

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/core/parallel_for.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/core/parallel_for.hpp"
 
 namespace vantage {
 namespace {
@@ -34,10 +34,10 @@ SweepAxes sweep_axes(int w) {
   }
 }
 
-SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads)
-    : frame(grid.frame), blocks_(fading.transmission.layout) {
+SweepTables::SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads)
+    : frame(grid.frame), blocks_(attenuation.transmission.layout) {
   expects((blocks_.cells == frame.cells).all(), "transmissions for a grid of this size");
-  BlockField unobserved = fading.transmission;
+  BlockField unobserved = attenuation.transmission;
   for (double& depth : unobserved.per_block) {
     depth = std::min(-std::log(depth), static_cast<double>(kOpaque));
   }
@@ -50,10 +50,10 @@ SweepTables::SweepTables(const OccupancyGrid& grid, const Fading& fading, int th
   }
   depth_ = std::make_unique_for_overwrite<float[]>(grid.size());
   parallel_for(static_cast<std::size_t>(frame.cells.z()), threads,
-               [&](std::size_t z) { fill_slice(grid, fading, static_cast<int>(z)); });
+               [&](std::size_t z) { fill_slice(grid, attenuation, static_cast<int>(z)); });
 }
 
-void SweepTables::fill_slice(const OccupancyGrid& grid, const Fading& fading, int z) {
+void SweepTables::fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation, int z) {
   const auto nx = static_cast<std::size_t>(frame.cells.x());
   auto& [x_layers, y_layers, z_layers] = layers;
   const std::size_t begin = frame.index({0, 0, z});
@@ -62,9 +62,9 @@ void SweepTables::fill_slice(const OccupancyGrid& grid, const Fading& fading, in
     const float* unobserved = row_of_depths(2, y, z);
     for (std::size_t x = 0; x < nx; ++x, ++cell) {
       const bool occupied = grid.state(cell) == CellState::occupied;
-      const float worth = occupied ? -1.0F : fading.worth_of_cell(grid.log_odds[cell]);
-      z_layers[cell] = worth;
-      depth_[cell] = occupied ? kOpaque : worth > 0.0F ? unobserved[x] : 0.0F;
+      const float utility = occupied ? -1.0F : attenuation.utility_of_cell(grid.log_odds[cell]);
+      z_layers[cell] = utility;
+      depth_[cell] = occupied ? kOpaque : utility > 0.0F ? unobserved[x] : 0.0F;
     }
   }
   distribute(frame, static_cast<std::size_t>(z), &z_layers[begin], x_layers.get(), y_layers.get());
@@ -74,11 +74,11 @@ SweepTables::DepthRows SweepTables::depth_rows(int axis, const BlockField& depth
   const SweepAxes axes = sweep_axes(axis);
   const int length = frame.cells[axes.u];
   DepthRows made;
-  made.stride = static_cast<std::size_t>(length) + 2 * LightLayer::kPadding;
+  made.stride = static_cast<std::size_t>(length) + 2 * TransmittanceLayer::kPadding;
   Eigen::Array3i block;
   for (block[axes.w] = 0; block[axes.w] < blocks_.blocks[axes.w]; ++block[axes.w]) {
     for (block[axes.v] = 0; block[axes.v] < blocks_.blocks[axes.v]; ++block[axes.v]) {
-      for (int i = -LightLayer::kPadding; i < length + LightLayer::kPadding; ++i) {
+      for (int i = -TransmittanceLayer::kPadding; i < length + TransmittanceLayer::kPadding; ++i) {
         block[axes.u] = blocks_.block_of(axes.u, std::clamp(i, 0, length - 1));
         const std::size_t index = blocks_.index(block.x(), block.y(), block.z());
         made.rows.push_back(static_cast<float>(depth.per_block[index]));
@@ -93,7 +93,7 @@ const float* SweepTables::row_of_depths(int axis, int v, int w) const {
   const DepthRows& table = depth_rows_[static_cast<std::size_t>(axis)];
   const int row =
       blocks_.block_of(axes.w, w) * blocks_.blocks[axes.v] + blocks_.block_of(axes.v, v);
-  return &table.rows[static_cast<std::size_t>(row) * table.stride + LightLayer::kPadding];
+  return &table.rows[static_cast<std::size_t>(row) * table.stride + TransmittanceLayer::kPadding];
 }
 
 }  // namespace vantage

@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "vantage/planners/visibility/attenuated_ray.hpp"
-#include "vantage/planners/visibility/light_layer.hpp"
 #include "vantage/geometry/grid_frame.hpp"
+#include "vantage/planners/visibility/attenuated_ray.hpp"
+#include "vantage/planners/visibility/transmittance_layer.hpp"
 
 namespace vantage {
 
-inline constexpr float kOpaque = 64.0F;  ///< optical depth from which on a cell stops all light
+inline constexpr float kOpaque = 64.0F;  ///< optical depth from which on a cell is opaque
 /// Row loops work on so many cells at a time, and so may read and write beyond a row's end.
 inline constexpr int kLanes = 8;
 
@@ -28,16 +28,16 @@ struct SweepTables {
   GridFrame frame;
   /// Cells in layers of equal x, y, z. In a layer, the rows along u come one after the other in the
   /// order of v. So layers[2] has the order of `frame.index`.
-  /// > 0: unobserved, and worth that much to see; 0: free; < 0: occupied.
+  /// > 0: unobserved, its utility; 0: free; < 0: occupied.
   std::array<std::unique_ptr<float[]>, 3> layers;
 
-  SweepTables(const OccupancyGrid& grid, const Fading& fading, int threads);
+  SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads);
 
   /// -ln p(a beam passes the cell), of index `cell` in the order of `frame.index`.
   [[nodiscard]] float optical_depth(std::size_t cell) const { return depth_[cell]; }
 
   /// -ln(transmission) along the row of the cells (., v) in layer w of an axis, were they all
-  /// unobserved. Readable up to LightLayer::kPadding places beyond either end.
+  /// unobserved. Readable up to TransmittanceLayer::kPadding places beyond either end.
   [[nodiscard]] const float* row_of_depths(int axis, int v, int w) const;
 
  private:
@@ -46,7 +46,7 @@ struct SweepTables {
     std::size_t stride = 0;
     std::vector<float> rows;
   };
-  void fill_slice(const OccupancyGrid& grid, const Fading& fading, int z);
+  void fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation, int z);
   [[nodiscard]] DepthRows depth_rows(int axis, const BlockField& depth) const;
 
   BlockLayout blocks_;

@@ -4,18 +4,19 @@
 #include <cmath>
 #include <cstdint>
 
+#include "vantage/core/rounding.hpp"
 #include "vantage/planners/visibility/cell_walk.hpp"
-#include "vantage/planners/visibility/light_layer.hpp"
 #include "vantage/planners/visibility/partly_seen.hpp"
 #include "vantage/planners/visibility/sweep_kernels.hpp"
-#include "vantage/core/rounding.hpp"
+#include "vantage/planners/visibility/transmittance_layer.hpp"
 
 namespace vantage {
 namespace {
 
-/// Cells whose light is worked out beyond those in view, so that interpolation finds neighbours.
+/// Cells beyond those in view whose transmittance is computed, so that interpolation finds
+/// neighbours.
 constexpr int kMargin = 2;
-/// A cell that so much light reaches is plainly seen.
+/// A cell of at least this transmittance is plainly seen.
 constexpr float kPlain = 0.998F;
 
 class PyramidSweep {
@@ -38,9 +39,9 @@ class PyramidSweep {
         step_u_(Eigen::Vector3d::Unit(axes_.u) * frame_.cell_size_m[axes_.u]),
         before_(nu_, nv_),
         current_(nu_, nv_),
-        arriving_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding),
-        slanted_(static_cast<std::size_t>(nu_) + 2 * LightLayer::kPadding, 0.0F),
-        worth_(static_cast<std::size_t>(nu_) + kLanes),
+        arriving_(static_cast<std::size_t>(nu_) + 2 * TransmittanceLayer::kPadding),
+        slanted_(static_cast<std::size_t>(nu_) + 2 * TransmittanceLayer::kPadding, 0.0F),
+        utility_(static_cast<std::size_t>(nu_) + kLanes),
         in_view_(views.size() * static_cast<std::size_t>(nv_)),
         sums_bits_(views.size(), 0.0),
         partly_seen_(views.size(), PartlySeen(options.rays_per_view)) {
@@ -107,7 +108,7 @@ class PyramidSweep {
     const CellSpan own_v = own(axes_.v, nv_);
     for (int row = v.begin; row < v.end; ++row) {
       sweep_row(row, u);
-      if (row >= own_v.begin && row < own_v.end) add_worth(row);
+      if (row >= own_v.begin && row < own_v.end) add_utility(row);
     }
   }
 
@@ -154,14 +155,14 @@ class PyramidSweep {
     const CellSpan needed = reach(axes_.u, u);
     blend_rows(before_.row(v + shift), before_.row(v + shift + 1),
                static_cast<float>(lateral - shift), needed.begin, needed.end,
-               arriving_.data() + LightLayer::kPadding);
+               arriving_.data() + TransmittanceLayer::kPadding);
     const int v_slanted = v + floor_int(lateral + 0.5);
     copy_slanted(v_slanted, needed);
     SweepRow row;
-    row.arriving = arriving_.data() + LightLayer::kPadding;
+    row.arriving = arriving_.data() + TransmittanceLayer::kPadding;
     row.cells = cells_ + row_start(v, layer_);
     row.straight = cells_ + row_start(v, layer_before());
-    row.slanted = slanted_.data() + LightLayer::kPadding;
+    row.slanted = slanted_.data() + TransmittanceLayer::kPadding;
     row.straight_depth = depth_of(v);
     row.slanted_depth = depth_of(v_slanted);
     row.source = static_cast<float>(source_[axes_.u]);
@@ -175,13 +176,13 @@ class PyramidSweep {
     const float* cells = cells_ + row_start(v, layer_);
     std::fill(current_.row(v) + u.begin, current_.row(v) + u.end, 1.0F);
     for (int i = u.begin; i < u.end; ++i)
-      worth_[static_cast<std::size_t>(i)] = std::max(cells[i], 0.0F);
+      utility_[static_cast<std::size_t>(i)] = std::max(cells[i], 0.0F);
   }
 
   /// Beyond the grid there is nothing: the padding stays 0.
   void copy_slanted(int v, CellSpan needed) {
     const CellSpan inside = needed.cut({0, nu_});
-    float* cells = slanted_.data() + LightLayer::kPadding;
+    float* cells = slanted_.data() + TransmittanceLayer::kPadding;
     if (v < 0 || v >= nv_) {
       std::fill(cells + inside.begin, cells + inside.end, 0.0F);
     } else {
@@ -202,12 +203,12 @@ class PyramidSweep {
       // (source - i) / depth >= shift
       const int last = floor_int(source_[axes_.u] - shift * depth_);
       const int end = std::clamp(last + 1, begin + 1, u.end);
-      advance_row(row, shift, begin, end, current_.row(v), worth_.data());
+      advance_row(row, shift, begin, end, current_.row(v), utility_.data());
       begin = end;
     }
   }
 
-  void add_worth(int v) {
+  void add_utility(int v) {
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const RowBounds::Runs& seen = in_view(i, v);
       for (const auto& [begin, end] : seen.runs) {
@@ -219,10 +220,10 @@ class PyramidSweep {
   void add_run(std::size_t i, int v, int begin, int end, bool all_inside) {
     ConeRow view;
     if (all_inside) {
-      sums_bits_[i] += sum_run(worth_.data(), begin, end);
+      sums_bits_[i] += sum_run(utility_.data(), begin, end);
     } else {
       view = views_[i].row(frame_.centre(cell(0, v)), step_u_);
-      sums_bits_[i] += sum_in_view(view, worth_.data(), begin, end);
+      sums_bits_[i] += sum_in_view(view, utility_.data(), begin, end);
     }
     const float* cells = cells_ + row_start(v, layer_);
     partly_seen_[i].offer(end - begin, [&](int k) {
@@ -242,7 +243,7 @@ class PyramidSweep {
            current_.row(v - 1)[u] > kDark;
   }
 
-  /// What an exact ray to the cell says it is worth, less what the sweep says.
+  /// Utility of the cell by an exact ray, less that by the sweep.
   [[nodiscard]] double error_bits(const PartlySeen::Cell& target) const {
     float depth = 0.0F;
     const auto pass = [&](std::size_t cell) {
@@ -277,11 +278,11 @@ class PyramidSweep {
   Eigen::Vector3d step_u_;
   std::vector<RowBounds> bounds_;    ///< per view
   std::vector<std::uint8_t> meets_;  ///< per view: has it a part in the pyramid?
-  LightLayer before_;
-  LightLayer current_;
+  TransmittanceLayer before_;
+  TransmittanceLayer current_;
   std::vector<float> arriving_;
   std::vector<float> slanted_;
-  std::vector<float> worth_;
+  std::vector<float> utility_;
   std::vector<RowBounds::Runs> in_view_;  ///< per view and row
   std::vector<double> sums_bits_;
   std::vector<PartlySeen> partly_seen_;  ///< per view

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "vantage/planners/visibility/sweep_tables.hpp"
 #include "vantage/geometry/view_cone.hpp"
+#include "vantage/planners/visibility/sweep_tables.hpp"
 
 namespace vantage {
 
@@ -28,9 +28,9 @@ struct SweepOptions {
   double tolerance = 0.0014;
 };
 
-/// Expected worth of each of `views` as far as it lies in the pyramid, bits. All have one apex.
+/// Expected utility of each of `views` as far as it lies in the pyramid, bits. All have one apex.
 ///
-/// A ray to a cell's centre crosses the layer before between four cells: the light that arrives
+/// A ray to a cell's centre crosses the layer before between four cells: the transmittance
 /// there, interpolated, is weakened by the cells the ray goes through from there on.
 std::vector<double> sweep_pyramid(const SweepTables& tables, std::span<const ViewCone> views,
                                   const Pyramid& pyramid, const SweepOptions& options);

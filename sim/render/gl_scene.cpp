@@ -6,8 +6,8 @@
 #include <mutex>
 #include <numbers>
 
-#include "vantage/sim/world/mujoco_errors.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/sim/world/mujoco_errors.hpp"
 
 namespace vantage {
 namespace {
@@ -61,7 +61,7 @@ void set_field_of_view(mjvScene& scene, double fovy_rad) {
   }
 }
 
-/// The scene holds a camera for each eye; pictures are taken from the middle between them.
+/// The scene holds a camera for each eye; images are taken from the middle between them.
 void describe_camera(const mjvScene& scene, RenderedImages& out) {
   const mjvGLCamera camera = mjv_averageCamera(&scene.camera[0], &scene.camera[1]);
   const Eigen::Vector3d forward = Eigen::Vector3f(camera.forward).cast<double>();
@@ -133,7 +133,7 @@ void GlScene::update(const mjData& data, const CameraView& view, const RenderReq
   const mjvOption option = drawing_options(request.max_group);
   mjvCamera camera = mujoco_camera(view);
   // Infinite planes are laid round the camera that the scene holds before the update: without this
-  // a picture would depend on the one before.
+  // an image would depend on the one before.
   mjv_updateCamera(model_, drawn, &camera, &scene_);
   mjv_updateScene(model_, drawn, &option, nullptr, &camera, mjCAT_ALL, &scene_);
   const auto fovy_rad = std::visit([](const auto& camera) { return camera.fovy_rad; }, view);

@@ -1,4 +1,4 @@
-/// Pictures of a scene whose things are put where they shall be, without physics.
+/// Images of a scene whose things are put where they shall be, without physics.
 #pragma once
 
 #include <memory>

@@ -5,8 +5,8 @@
 
 #include <type_traits>
 
-#include "vantage/sim/render/gl_scene.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/sim/render/gl_scene.hpp"
 
 namespace vantage {
 namespace {

@@ -1,5 +1,5 @@
-/// Pictures of the simulated world. The seam between where pixels are drawn (OSMesa's memory
-/// buffer, a window) and those who want pictures.
+/// Images of the simulated world. The seam between where pixels are drawn (OSMesa's memory
+/// buffer, a window) and those who want images.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -71,7 +71,7 @@ struct RenderedImages {
   int width_px = 0;
   int height_px = 0;
   Pose T_world_camera = Pose::Identity();  ///< axes as in sim/camera.hpp
-  double focal_px = 0.0;                   ///< the optical axis meets the middle of the picture
+  double focal_px = 0.0;                   ///< the optical axis meets the middle of the image
   std::vector<std::uint8_t> rgb;           ///< 3 bytes a pixel
   std::vector<float> depth_m;     ///< along the optical axis; 0: nothing up to the far plane
   std::vector<int> segmentation;  ///< geom id, -1: nothing

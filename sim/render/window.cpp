@@ -167,24 +167,24 @@ std::vector<WindowEvent> Window::wait(double timeout_s) {
   return std::exchange(handle_->events, {});
 }
 
-void Window::draw(const RenderedImages& picture) {
-  expects(!picture.rgb.empty(), "a picture with colours");
+void Window::draw(const RenderedImages& image) {
+  expects(!image.rgb.empty(), "an image with colours");
   const OpenGl& gl = handle_->gl;
   const PixelSize shown = size();
   gl.viewport(0, 0, shown.width_px, shown.height_px);
   gl.raster_position(-1.0F, 1.0F);
-  gl.pixel_zoom(static_cast<float>(shown.width_px) / static_cast<float>(picture.width_px),
-                -static_cast<float>(shown.height_px) / static_cast<float>(picture.height_px));
-  gl.draw_pixels(picture.width_px, picture.height_px, GL_RGB, GL_UNSIGNED_BYTE, picture.rgb.data());
+  gl.pixel_zoom(static_cast<float>(shown.width_px) / static_cast<float>(image.width_px),
+                -static_cast<float>(shown.height_px) / static_cast<float>(image.height_px));
+  gl.draw_pixels(image.width_px, image.height_px, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
 }
 
-void Window::show(const RenderedImages& picture) {
-  draw(picture);
+void Window::show(const RenderedImages& image) {
+  draw(image);
   glfwSwapBuffers(handle_->window);
 }
 
-RenderedImages Window::show_and_read(const RenderedImages& picture) {
-  draw(picture);
+RenderedImages Window::show_and_read(const RenderedImages& image) {
+  draw(image);
   const PixelSize shown = size();
   RenderedImages held;
   held.width_px = shown.width_px;

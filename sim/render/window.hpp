@@ -1,4 +1,4 @@
-/// A window on the desktop: shows pictures that are drawn elsewhere and tells what was done in it.
+/// A window on the desktop: shows images that are drawn elsewhere and tells what was done in it.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ inline constexpr char end = 8;
 }  // namespace keys
 
 enum class MouseButton { left, right, middle };
-/// Places are in px of the picture, y down.
+/// Places are in px of the image, y down.
 struct MousePressed {
   MouseButton button = MouseButton::left;
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();
@@ -63,17 +63,17 @@ class Window {
   /// What draws on the display, as renderer_name() says it. @throws RendererError as a window does
   static std::string display_renderer_name();
 
-  [[nodiscard]] PixelSize size() const;  ///< of the picture that fills it
+  [[nodiscard]] PixelSize size() const;  ///< of the image that fills it
   [[nodiscard]] bool closed() const;     ///< the user asked for that
   /// What was done, in order, after at most `timeout_s` of waiting for it.
   std::vector<WindowEvent> wait(double timeout_s);
-  /// Shows the colours of `picture`, stretched if its size is not that of the window.
-  void show(const RenderedImages& picture);
+  /// Shows the colours of `image`, stretched if its size is not that of the window.
+  void show(const RenderedImages& image);
   /// The same, and what the window then holds.
-  RenderedImages show_and_read(const RenderedImages& picture);
+  RenderedImages show_and_read(const RenderedImages& image);
 
  private:
-  void draw(const RenderedImages& picture);
+  void draw(const RenderedImages& image);
   struct Handle;
   std::unique_ptr<Handle> handle_;
 };

@@ -119,7 +119,7 @@ DriveResult drive(World& world, const Pr2& robot, Odometry& odometry, std::span<
       .run(DrivePath(odometry.estimate(), path), keep_driving);
 }
 
-void stand(World& world, const Pr2& robot, Odometry& odometry, double duration_s) {
+void hold_still(World& world, const Pr2& robot, Odometry& odometry, double duration_s) {
   const DriveOptions options;
   Driver(world, robot, odometry, options).stand_until(world.time_s() + duration_s);
 }

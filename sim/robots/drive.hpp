@@ -47,7 +47,7 @@ using KeepDriving = std::function<bool(World&, const Pose2& T_world_base_estimat
 DriveResult drive(World& world, const Pr2& robot, Odometry& odometry, std::span<const Pose2> path,
                   const DriveOptions& options = {}, const KeepDriving& keep_driving = {});
 
-/// Lets the world go on for `duration_s` with the base at rest, e.g. for the torso to move.
-void stand(World& world, const Pr2& robot, Odometry& odometry, double duration_s);
+/// Simulates `duration_s` with the base at rest, e.g. for the torso to move.
+void hold_still(World& world, const Pr2& robot, Odometry& odometry, double duration_s);
 
 }  // namespace vantage

@@ -118,7 +118,7 @@ Pose Pr2::T_base_laser_mount(const World& world) const {
 }
 
 Pose2 Pr2::base_for_laser(const Pose& T_world_sensor) const {
-  return compose(flatten(T_world_sensor), inverse(flatten(T_base_laser_low_)));
+  return compose(project_to_se2(T_world_sensor), inverse(project_to_se2(T_base_laser_low_)));
 }
 
 std::vector<int> Pr2::touched_geoms(const World& world) const {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "vantage/control/airframe.hpp"
-#include "vantage/sim/world/contacts.hpp"
 #include "vantage/control/flight_controller.hpp"
+#include "vantage/sim/world/contacts.hpp"
 #include "vantage/sim/world/world.hpp"
 
 namespace vantage {

@@ -2,11 +2,11 @@
 /// into OpenCV's (along +z).
 #pragma once
 
-#include "vantage/sim/render/renderer.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/geometry/range_scan.hpp"
+#include "vantage/sim/render/renderer.hpp"
 
 namespace vantage {
 

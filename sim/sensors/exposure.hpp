@@ -1,4 +1,4 @@
-/// Pictures that take a moment: what moves meanwhile is blurred.
+/// Images that take a moment: what moves meanwhile is blurred.
 #pragma once
 
 #include "vantage/sim/sensors/camera.hpp"
@@ -8,7 +8,7 @@ namespace vantage {
 
 struct ExposureOptions {
   double exposure_s = 0.004;  ///< higher blurs more; 0 is sharp
-  int samples = 4;            ///< pictures averaged; higher blurs more smoothly, renders slower
+  int samples = 4;            ///< images averaged; higher blurs more smoothly, renders slower
   void fields(auto&& f) {
     f("exposure_s", exposure_s, between(0.0, 0.1));
     f("samples", samples, between(1, 64));

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "vantage/sim/sensors/ray_scene.hpp"
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/grid_frame.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/sim/sensors/ray_scene.hpp"
 
 namespace vantage {
 

@@ -48,7 +48,7 @@ std::vector<float> measure_line(const RayScene& scene, const Pose& T_world_senso
   return range_m;
 }
 
-constexpr double kMostBeams = 1e7;
+constexpr double kMaxBeams = 1e7;
 
 void check_ranges(double range_min_m, double range_max_m, double step_rad, double sector_rad) {
   if (range_min_m >= range_max_m) throw ConfigError("range_min_m must be below range_max_m");
@@ -57,7 +57,7 @@ void check_ranges(double range_min_m, double range_max_m, double step_rad, doubl
 
 /// Memory ends somewhere: says so before it does.
 void check_beams(double beams, std::string_view keys) {
-  if (beams <= kMostBeams) return;
+  if (beams <= kMaxBeams) return;
   throw ConfigError(fmt::format("{} make {:.3g} beams a scan, more than 10^7", keys, beams));
 }
 

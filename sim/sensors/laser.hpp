@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "vantage/sim/sensors/ray_scene.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/geometry/range_scan.hpp"
+#include "vantage/sim/sensors/ray_scene.hpp"
 
 namespace vantage {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "vantage/sim/sensors/embree_mesh.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/sim/sensors/embree_mesh.hpp"
 
 namespace vantage {
 namespace {

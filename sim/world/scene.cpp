@@ -11,10 +11,10 @@
 #include <mutex>
 #include <string_view>
 
-#include "vantage/sim/world/model_check.hpp"
-#include "vantage/sim/world/mujoco_errors.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/sim/world/model_check.hpp"
+#include "vantage/sim/world/mujoco_errors.hpp"
 
 namespace vantage {
 namespace {

@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "vantage/sim/world/mujoco_errors.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/sim/world/mujoco_errors.hpp"
 
 namespace vantage {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "vantage/sim/world/scene.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/sim/world/scene.hpp"
 
 struct mjData_;
 using mjData = mjData_;

@@ -9,25 +9,25 @@
 #include <cstdio>
 #include <memory>
 
-#include "vantage/core/data_root.hpp"
-#include "vantage/core/hash.hpp"
-#include "vantage/core/log.hpp"
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/runtime/interrupt.hpp"
 #include "vantage/cli/listing.hpp"
-#include "vantage/runtime/replay.hpp"
-#include "vantage/report/report.hpp"
-#include "vantage/tasks/run.hpp"
-#include "vantage/tasks/validate.hpp"
 #include "vantage/cli/outcome_text.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/cli/score_views_command.hpp"
-#include "vantage/study/study.hpp"
-#include "vantage/study/study_page.hpp"
 #include "vantage/cli/sweep_commands.hpp"
 #include "vantage/cli/view_command.hpp"
+#include "vantage/core/data_root.hpp"
+#include "vantage/core/hash.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/report/report.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/replay.hpp"
+#include "vantage/study/study.hpp"
+#include "vantage/study/study_page.hpp"
+#include "vantage/tasks/run.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
+#include "vantage/tasks/validate.hpp"
 
 namespace vantage {
 namespace {
@@ -57,7 +57,7 @@ std::pair<std::string, std::size_t> extent_of(const ResolvedEpisode& resolved) {
   if (episode.flies_trajectory()) {
     return {"waypoints", read_flight_layout(resolved.scene).path.size()};
   }
-  if (episode.flies()) return {"most_views", episode.recognition.decision.most_views};
+  if (episode.flies()) return {"max_views", episode.recognition.decision.max_views};
   return {"scans", episode.scans};
 }
 
@@ -73,7 +73,7 @@ void print_plan(const ResolvedEpisode& resolved, bool json) {
     return;
   }
   fmt::print("{}: {} {} in {} by {}, seed {}\n", resolved.name, count,
-             what == "most_views" ? "views at most" : what, resolved.scene.string(),
+             what == "max_views" ? "views at most" : what, resolved.scene.string(),
              method_name(episode), episode.seed);
 }
 

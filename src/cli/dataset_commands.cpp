@@ -19,9 +19,9 @@
 #include "vantage/core/yaml.hpp"
 #include "vantage/dataset/contact_sheet.hpp"
 #include "vantage/dataset/render_dataset.hpp"
+#include "vantage/perception/dataset_reader.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/metrics.hpp"
-#include "vantage/perception/dataset_reader.hpp"
 
 namespace vantage {
 namespace {
@@ -193,10 +193,10 @@ std::function<ExitCode()> declare_contact_sheet(CLI::App& app) {
       ->capture_default_str();
   app.add_option("--yaw-deg", arguments->yaw_deg, "the view nearest to it is shown")
       ->capture_default_str();
-  app.add_option("--cell", options.cell_px, "side of a picture, px")
+  app.add_option("--cell", options.cell_px, "side of an image, px")
       ->check(CLI::Range(16, 640))
       ->capture_default_str();
-  app.add_option("--columns", options.columns, "pictures in a row")
+  app.add_option("--columns", options.columns, "images in a row")
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
   return [arguments] {
@@ -218,7 +218,7 @@ constexpr std::array kParts{
          declare_render},
     Part{"info", "how many objects and views a dataset has, and what is wrong with it",
          declare_info},
-    Part{"contact-sheet", "a picture of every object", declare_contact_sheet},
+    Part{"contact-sheet", "an image of every object", declare_contact_sheet},
 };
 
 }  // namespace

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <thread>
 
-#include "vantage/sim/render/renderer.hpp"
-#include "vantage/sim/render/window.hpp"
-#include "vantage/sim/world/world.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/runtime/video.hpp"
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/sim/render/window.hpp"
+#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 namespace {

@@ -7,12 +7,12 @@
 #include <filesystem>
 #include <vector>
 
+#include "vantage/cli/feature_listing.hpp"
+#include "vantage/core/data_root.hpp"
 #include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/objects/object_view_choice.hpp"
-#include "vantage/planners/choice/view_choice.hpp"
-#include "vantage/core/data_root.hpp"
-#include "vantage/cli/feature_listing.hpp"
 #include "vantage/planners/trajectory/trajectory_method.hpp"
 
 namespace vantage {

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "vantage/cli/recognition_commands.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
-#include "vantage/runtime/metrics.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/recognition/recognition.hpp"
-#include "vantage/cli/recognition_commands.hpp"
+#include "vantage/runtime/metrics.hpp"
 
 namespace vantage {
 namespace {
@@ -43,7 +43,7 @@ struct RecogniseArguments {
   std::vector<double> motion_deg;
   std::vector<std::string> overrides;
   double elevation_deg = 45.0;
-  double farthest_m = 0.0;
+  double max_depth_m = 0.0;
   int top = 5;
   bool json = false;
 };
@@ -72,7 +72,7 @@ double motion_before(const RecogniseArguments& arguments, std::size_t index) {
 
 void check(const RecogniseArguments& arguments) {
   if (arguments.files.size() % 2 != 0) {
-    throw ConfigError("views are pairs of files, a picture and its depth; one is missing");
+    throw ConfigError("views are pairs of files, an image and its depth; one is missing");
   }
   const std::size_t turns = arguments.files.size() / 2 - 1;
   const std::size_t given = arguments.motion_deg.size();
@@ -152,10 +152,10 @@ ExitCode recognise_command(const RecogniseArguments& arguments) {
   check(arguments);
   const RecogniseOptions options = options_of(arguments);
   const PairSetting setting{.elevation_rad = arguments.elevation_deg * kDegree_rad,
-                            .farthest_m = arguments.farthest_m};
+                            .max_depth_m = arguments.max_depth_m};
   std::vector<ObjectView> views;
   for (std::size_t i = 0; i < arguments.files.size(); i += 2) {
-    views.push_back(load_picture_pair(arguments.files[i], arguments.files[i + 1], setting));
+    views.push_back(load_image_pair(arguments.files[i], arguments.files[i + 1], setting));
   }
   const Recogniser recogniser = load_recogniser(arguments.model, options.recogniser, 1);
   Recognition known = begin_recognition(recogniser);
@@ -163,10 +163,10 @@ ExitCode recognise_command(const RecogniseArguments& arguments) {
   double bearing_rad = 0.0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const double motion_rad = i == 0 ? 0.0 : motion_before(arguments, i);
-    moved(recogniser, options.recognition, motion_rad, known);
+    predict_motion(recogniser, options.recognition, motion_rad, known);
     bearing_rad += motion_rad;
-    take_view(recogniser, options.recognition, extract_from(recogniser, views[i]), bearing_rad,
-              known, rng);
+    update_with_view(recogniser, options.recognition, extract_from(recogniser, views[i]),
+                     bearing_rad, known, rng);
     for (const SkippedFeature& s : known.views.back().skipped) {
       log_warning(fmt::format("{}: {}: {}", arguments.files[2 * i].string(), s.feature, s.reason));
     }
@@ -205,7 +205,7 @@ std::function<ExitCode()> declare_recognise(CLI::App& app) {
                  "of the camera, where the file's name does not tell")
       ->check(CLI::Range(0.0, 90.0))
       ->capture_default_str();
-  app.add_option("--farthest-m", arguments->farthest_m,
+  app.add_option("--farthest-m", arguments->max_depth_m,
                  "without a mask, the object is what is nearer; 0: everything")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -14,9 +14,9 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/recognition/training.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/metrics.hpp"
-#include "vantage/recognition/training.hpp"
 #include "vantage/study/recognition/recognition_study.hpp"
 
 namespace vantage {

@@ -9,12 +9,12 @@
 #include <cstdio>
 #include <memory>
 
-#include "vantage/planners/views/view_list.hpp"
+#include "vantage/cli/view_scoring.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/planners/views/view_list.hpp"
 #include "vantage/runtime/metrics.hpp"
-#include "vantage/cli/view_scoring.hpp"
 
 namespace vantage {
 namespace {

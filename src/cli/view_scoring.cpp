@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/planners/views/view_list.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/planners/views/view_list.hpp"
 #include "vantage/runtime/metrics.hpp"
 
 namespace vantage {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "vantage/core/fields.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/views/sampled_views.hpp"
 #include "vantage/planners/views/score_views.hpp"
-#include "vantage/core/fields.hpp"
 
 namespace vantage {
 

@@ -151,8 +151,8 @@ Twist2 follow_path(const DrivePath& path, const Pose2& T_world_base, double peri
           options.turn_rate_rad_s,
           approach(std::abs(yaw_error_rad), options.turn_acceleration_rad_s2, options.gain_per_s)),
       yaw_error_rad);
-  const double most_rad_s = options.turn_acceleration_rad_s2 * period_s;
-  following.wz_rad_s += std::clamp(wz_rad_s - following.wz_rad_s, -most_rad_s, most_rad_s);
+  const double max_rad_s = options.turn_acceleration_rad_s2 * period_s;
+  following.wz_rad_s += std::clamp(wz_rad_s - following.wz_rad_s, -max_rad_s, max_rad_s);
   return to_base_frame(following, T_world_base.yaw_rad);
 }
 

@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 /// Vertical pull, in shares of gravity, that is always kept: the thrust never points down.
-constexpr double kLeastLift = 0.2;
+constexpr double kMinLift = 0.2;
 /// Cosine between thrust and wanted thrust above which integrals trust what they see.
 constexpr double kAligned = 0.7;
 
@@ -23,11 +23,11 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& v, double most) {
 /// Within what the rotors can lift and the tilt that is allowed; height comes before the way.
 Eigen::Vector3d feasible_force(const Eigen::Vector3d& wanted_m_s2, const Airframe& airframe,
                                double tilt_max_rad) {
-  const double most_m_s2 = kRotors * airframe.thrust_max_N / airframe.mass_kg;
+  const double max_m_s2 = kRotors * airframe.thrust_max_N / airframe.mass_kg;
   Eigen::Vector3d force = wanted_m_s2;
-  force.z() = std::clamp(force.z(), kLeastLift * airframe.gravity_m_s2, most_m_s2);
+  force.z() = std::clamp(force.z(), kMinLift * airframe.gravity_m_s2, max_m_s2);
   const double level_m_s2 = std::min(force.z() * std::tan(tilt_max_rad),
-                                     std::sqrt(most_m_s2 * most_m_s2 - force.z() * force.z()));
+                                     std::sqrt(max_m_s2 * max_m_s2 - force.z() * force.z()));
   const Eigen::Vector2d level = force.head<2>();
   if (level.norm() > level_m_s2) force.head<2>() = level_m_s2 / level.norm() * level;
   return force;
@@ -59,13 +59,15 @@ Motion planned_centre(const FlightReference& reference, const Airframe& airframe
       .v_m_s = reference.v_world_m_s + planned.R_world_body * planned.w_body_rad_s.cross(com_m)};
 }
 
-void observe_push(const Eigen::Vector3d& v_world_m_s, double period_s,
-                  const FlightControllerOptions& options, FlightMemory& memory) {
+void estimate_disturbance(const Eigen::Vector3d& v_world_m_s, double period_s,
+                          const FlightControllerOptions& options, FlightMemory& memory) {
   if (memory.started) {
     const Eigen::Vector3d unexplained_m_s =
-        v_world_m_s - memory.v_world_m_s - period_s * (memory.a_given_m_s2 + memory.push_m_s2);
-    memory.push_m_s2 =
-        limited(memory.push_m_s2 + options.push_per_s * unexplained_m_s, options.push_max_m_s2);
+        v_world_m_s - memory.v_world_m_s -
+        period_s * (memory.a_given_m_s2 + memory.disturbance_m_s2);
+    memory.disturbance_m_s2 =
+        limited(memory.disturbance_m_s2 + options.disturbance_per_s * unexplained_m_s,
+                options.disturbance_max_m_s2);
   }
   memory.v_world_m_s = v_world_m_s;
   memory.started = true;
@@ -87,13 +89,13 @@ Force wanted_force(const Motion& centre, const FlightReference& reference,
   const Eigen::Vector3d v_error_m_s = centre.v_m_s - planned.v_m_s;
   const Eigen::Vector3d up_m_s2 = airframe.gravity_m_s2 * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d wanted_m_s2 =
-      reference.a_world_m_s2 + up_m_s2 - memory.push_m_s2 -
+      reference.a_world_m_s2 + up_m_s2 - memory.disturbance_m_s2 -
       options.position_per_s2 * shortened(p_error_m, options.position_error_max_m) -
       options.velocity_per_s * v_error_m_s;
   Force force{.m_s2 = feasible_force(wanted_m_s2, airframe, options.tilt_max_rad)};
   const double along_m_s2 = force.m_s2.dot(thrust_axis);
   if (force.m_s2 == wanted_m_s2 && along_m_s2 > kAligned * force.m_s2.norm()) {
-    const Eigen::Vector3d a_m_s2 = along_m_s2 * thrust_axis - up_m_s2 + memory.push_m_s2;
+    const Eigen::Vector3d a_m_s2 = along_m_s2 * thrust_axis - up_m_s2 + memory.disturbance_m_s2;
     force.rate_m_s3 = reference.j_world_m_s3 - options.position_per_s2 * v_error_m_s -
                       options.velocity_per_s * (a_m_s2 - reference.a_world_m_s2);
   }
@@ -154,7 +156,7 @@ Allocation control_flight(const FlightState& state, const FlightReference& refer
                           const Airframe& airframe, double period_s,
                           const FlightControllerOptions& options, FlightMemory& memory) {
   const Motion centre = centre_of(state, airframe);
-  observe_push(centre.v_m_s, period_s, options, memory);
+  estimate_disturbance(centre.v_m_s, period_s, options, memory);
   const Eigen::Vector3d axis = state.T_world_body.linear().col(2);
   const Force force = wanted_force(centre, reference, axis, airframe, options, memory);
   const AttitudeReference attitude =

@@ -30,8 +30,9 @@ struct FlightReference {
 struct FlightControllerOptions {
   double position_per_s2 = 16.0;  ///< higher is stiffer, rings where the attitude cannot follow
   double velocity_per_s = 6.5;    ///< higher damps, amplifies noise of the velocity
-  double push_per_s = 7.0;        ///< learns a push in 1/that; higher rings; 0: no integral action
-  double push_max_m_s2 = 4.0;     ///< strongest push that is balanced, per axis
+  double disturbance_per_s =
+      7.0;  ///< estimates a disturbance in 1/that; higher rings; 0: no integral action
+  double disturbance_max_m_s2 = 4.0;  ///< strongest disturbance that is balanced, per axis
   double position_error_max_m = 1.0;  ///< farther off counts as that; higher approaches faster
   double attitude_per_s2 = 240.0;     ///< of tilt; higher is faster, rings by the motors' lag
   double rate_per_s = 22.0;           ///< higher damps; above 1 / motor lag it rings
@@ -43,8 +44,8 @@ struct FlightControllerOptions {
   void fields(auto&& f) {
     f("position_per_s2", position_per_s2, Range{0.0, 50.0, true});
     f("velocity_per_s", velocity_per_s, Range{0.0, 20.0, true});
-    f("push_per_s", push_per_s, between(0.0, 20.0));
-    f("push_max_m_s2", push_max_m_s2, between(0.0, 10.0));
+    f("disturbance_per_s", disturbance_per_s, between(0.0, 20.0));
+    f("disturbance_max_m_s2", disturbance_max_m_s2, between(0.0, 10.0));
     f("position_error_max_m", position_error_max_m, Range{0.0, 10.0, true});
     f("attitude_per_s2", attitude_per_s2, Range{0.0, 1000.0, true});
     f("rate_per_s", rate_per_s, Range{0.0, 100.0, true});
@@ -58,10 +59,10 @@ struct FlightControllerOptions {
 
 /// What the controller remembers between periods; its integral action.
 struct FlightMemory {
-  /// What pushes beside thrust and gravity, m/s^2, world: a first-order observer of the momentum.
-  /// It compares the change of velocity with the thrust that was given, not with the reference, so
-  /// that no step, saturation or tumble winds it up.
-  Eigen::Vector3d push_m_s2 = Eigen::Vector3d::Zero();
+  /// Disturbance: acceleration beside thrust and gravity, m/s^2, world, by a first-order observer
+  /// of the momentum. It compares the change of velocity with the thrust that was given, not with
+  /// the reference, so that no step, saturation or tumble winds it up.
+  Eigen::Vector3d disturbance_m_s2 = Eigen::Vector3d::Zero();
   /// What turns beside the rotors, over inertia, rad/s^2, body axes: integral of the attitude's
   /// pull.
   Eigen::Vector3d torque_rad_s2 = Eigen::Vector3d::Zero();

@@ -12,7 +12,7 @@
 
 namespace vantage {
 
-/// A push of constant force on the body for a while.
+/// A disturbance: a constant force on the body for a while.
 struct Gust {
   double force_N = 4.0;                               ///< higher throws it farther off
   std::array<double, 3> direction = {0.0, 1.0, 0.0};  ///< world; any length but 0

@@ -44,12 +44,12 @@ void draw_cell(cv::Mat cell, const ViewEntry& entry, const ContactSheetOptions& 
   const cv::Mat rgb(view.height_px, view.width_px, CV_8UC3, view.rgb.data());
   const double zoom =
       static_cast<double>(options.cell_px) / std::max(view.width_px, view.height_px);
-  cv::Mat picture;
-  cv::resize(rgb, picture, {}, zoom, zoom, zoom < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
-  cv::cvtColor(picture, picture, cv::COLOR_RGB2BGR);
-  const cv::Rect inside(0, 0, std::min(picture.cols, cell.cols),
-                        std::min(picture.rows, options.cell_px));
-  picture(inside).copyTo(cell(inside));
+  cv::Mat image;
+  cv::resize(rgb, image, {}, zoom, zoom, zoom < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
+  const cv::Rect inside(0, 0, std::min(image.cols, cell.cols),
+                        std::min(image.rows, options.cell_px));
+  image(inside).copyTo(cell(inside));
   cv::putText(cell, entry.name.object, {1, options.cell_px + kCaption_px - 3},
               cv::FONT_HERSHEY_PLAIN, 0.6, {0, 0, 0}, 1, cv::LINE_AA);
 }

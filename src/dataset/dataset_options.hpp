@@ -19,7 +19,7 @@ struct DatasetOptions {
   double distance_m = 0.85;   ///< camera to the turntable's axis; higher makes crops smaller
   double placement_m = 0.01;  ///< largest offset of an object from the axis, changes per video
   /// Strength of the changes of light between videos; 0: none. At 1 they bias colours by as much
-  /// as near twins differ, which no number of views averages out.
+  /// as near-duplicates differ, which no number of views averages out.
   double lighting = 0.3;
   double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
   bool depth_noise = true;    ///< false: exact depth

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <string_view>
 
-#include "vantage/models/catalogue/shapes/obj.hpp"
-#include "vantage/models/catalogue/database/object_database.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;

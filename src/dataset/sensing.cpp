@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vantage/sim/sensors/camera.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/perception/object_search.hpp"
 #include "vantage/perception/table_segmentation.hpp"
+#include "vantage/sim/sensors/camera.hpp"
 
 namespace vantage {
 namespace {

@@ -1,10 +1,10 @@
-/// From a picture of the simulator to the view a real camera and its segmentation would give.
+/// From an image of the simulator to the view a real camera and its segmentation would give.
 #pragma once
 
-#include "vantage/sim/render/renderer.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/dataset/turntable.hpp"
 #include "vantage/perception/object_view.hpp"
+#include "vantage/sim/render/renderer.hpp"
 
 namespace vantage {
 

@@ -102,12 +102,12 @@ Session draw_session(const DatasetOptions& options, double elevation_rad, Rng& r
 int window_radius_px(const TurntableObject& object, const Session& session,
                      const std::string& name) {
   constexpr int kEdge_px = 8;  // for the mask's growth and the crop's margin
-  constexpr int kMost_px = kImageHeight_px / 2 - 1;
+  constexpr int kMax_px = kImageHeight_px / 2 - 1;
   const double reach = reach_m(object, session);
   if (reach < session.distance_m) {
     const double radius =
         kFocal_px * reach / std::sqrt(session.distance_m * session.distance_m - reach * reach);
-    if (radius + kEdge_px <= kMost_px) return static_cast<int>(std::ceil(radius)) + kEdge_px;
+    if (radius + kEdge_px <= kMax_px) return static_cast<int>(std::ceil(radius)) + kEdge_px;
   }
   throw InputError(fmt::format(
       "{}: reaches {:.3f} m from its middle, too far for the image at distance_m {:.3f}", name,

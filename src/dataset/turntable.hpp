@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "vantage/sim/render/posed_scene.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/dataset/object_source.hpp"
+#include "vantage/sim/render/posed_scene.hpp"
 
 namespace vantage {
 

@@ -30,10 +30,10 @@ void write_bytes(const std::filesystem::path& path, std::span<const char> bytes)
   }
 }
 
-void write_picture(const std::filesystem::path& path, const cv::Mat& picture,
-                   const std::vector<int>& parameters = {}) {
+void write_image(const std::filesystem::path& path, const cv::Mat& image,
+                 const std::vector<int>& parameters = {}) {
   std::vector<unsigned char> bytes;
-  expects(cv::imencode(".png", picture, bytes, parameters), "a picture becomes a PNG");
+  expects(cv::imencode(".png", image, bytes, parameters), "an image becomes a PNG");
   write_bytes(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -52,14 +52,14 @@ cv::Mat look_at(const ObjectView& view, int type, const std::vector<T>& values) 
 void write_view(const ObjectView& view, const ViewEntry& entry) {
   cv::Mat colour;
   cv::cvtColor(look_at(view, CV_8UC3, view.rgb), colour, cv::COLOR_RGB2BGR);
-  write_picture(entry.file("crop.png"), colour);
+  write_image(entry.file("crop.png"), colour);
   std::vector<std::uint16_t> depth_mm(view.depth_m.size());
   std::ranges::transform(view.depth_m, depth_mm.begin(), [](float z_m) {
     return static_cast<std::uint16_t>(std::clamp(std::lround(1000.0 * z_m), 0L, 65535L));
   });
-  write_picture(entry.file("depthcrop.png"), look_at(view, CV_16UC1, depth_mm));
+  write_image(entry.file("depthcrop.png"), look_at(view, CV_16UC1, depth_mm));
   const cv::Mat mask = 255 * look_at(view, CV_8UC1, view.mask);
-  write_picture(entry.file("maskcrop.png"), mask, {cv::IMWRITE_PNG_BILEVEL, 1});
+  write_image(entry.file("maskcrop.png"), mask, {cv::IMWRITE_PNG_BILEVEL, 1});
   write_text(entry.file("loc.txt"), fmt::format("{},{}\n", view.left_px, view.top_px));
   write_text(entry.file("pose.txt"),
              fmt::format("{:.4f}\n", entry.yaw_rad * 180.0 / std::numbers::pi));

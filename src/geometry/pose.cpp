@@ -15,11 +15,11 @@ Pose make_pose(const Eigen::Vector3d& p_m, double yaw_rad, double pitch_rad) {
          Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY());
 }
 
-Pose lift(const Pose2& planar, double z_m) {
+Pose to_se3(const Pose2& planar, double z_m) {
   return make_pose({planar.x_m, planar.y_m, z_m}, planar.yaw_rad);
 }
 
-Pose2 flatten(const Pose& T_world_body) {
+Pose2 project_to_se2(const Pose& T_world_body) {
   const Eigen::Vector3d forward = T_world_body.linear().col(0);
   return {T_world_body.translation().x(), T_world_body.translation().y(),
           std::atan2(forward.y(), forward.x())};

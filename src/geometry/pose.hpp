@@ -18,8 +18,8 @@ struct Pose2 {
 double wrap_angle(double angle_rad);  ///< to (-pi, pi]
 
 Pose make_pose(const Eigen::Vector3d& p_m, double yaw_rad, double pitch_rad = 0.0);
-Pose lift(const Pose2& planar, double z_m = 0.0);
-Pose2 flatten(const Pose& T_world_body);  ///< x, y and the heading of the body's x axis
+Pose to_se3(const Pose2& planar, double z_m = 0.0);
+Pose2 project_to_se2(const Pose& T_world_body);  ///< x, y and the heading of the body's x axis
 
 Pose2 compose(const Pose2& T_a_b, const Pose2& T_b_c);
 Pose2 inverse(const Pose2& T_a_b);

@@ -139,8 +139,8 @@ ConeRow ViewCone::row(const Eigen::Vector3d& p_world, const Eigen::Vector3d& ste
           .tan_tilt_min = static_cast<float>(tan_tilt_min_),
           .tan_tilt_max = static_cast<float>(tan_tilt_max_),
           .sin2_half_width = static_cast<float>(sin2_half_width_),
-          .most_excess_ahead_m2 = behind_ ? kAny : 0.0F,
-          .least_excess_behind_m2 = behind_ ? 0.0F : kAny,
+          .max_excess_ahead_m2 = behind_ ? kAny : 0.0F,
+          .min_excess_behind_m2 = behind_ ? 0.0F : kAny,
           .range2_min_m2 = static_cast<float>(range2_min_m2_),
           .range2_max_m2 = static_cast<float>(range2_max_m2_),
           .all_round = panorama_ ? 1.0F : 0.0F};

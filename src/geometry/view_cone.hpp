@@ -23,8 +23,8 @@ struct ConeRow {
   float tan_tilt_min = 0.0F;
   float tan_tilt_max = 0.0F;
   float sin2_half_width = 0.0F;
-  float most_excess_ahead_m2 = 0.0F;
-  float least_excess_behind_m2 = 0.0F;
+  float max_excess_ahead_m2 = 0.0F;
+  float min_excess_behind_m2 = 0.0F;
   float range2_min_m2 = 0.0F;
   float range2_max_m2 = 0.0F;
   float all_round = 0.0F;  ///< 1 for a panorama, else 0
@@ -37,8 +37,8 @@ struct ConeRow {
     const float depth = std::sqrt(x * x + all_round * (y * y));
     const float drop = ((x >= 0.0F) | (all_round > 0.0F)) ? -z : z;
     const float excess = y * y - sin2_half_width * range2;
-    const bool in_sector = ((x >= 0.0F) & (excess <= most_excess_ahead_m2)) |
-                           ((x < 0.0F) & (excess >= least_excess_behind_m2));
+    const bool in_sector = ((x >= 0.0F) & (excess <= max_excess_ahead_m2)) |
+                           ((x < 0.0F) & (excess >= min_excess_behind_m2));
     return in_sector & (range2 >= range2_min_m2) & (range2 <= range2_max_m2) &
            (drop >= tan_tilt_min * depth) & (drop <= tan_tilt_max * depth);
   }

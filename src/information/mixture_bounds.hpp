@@ -25,9 +25,9 @@ double pairwise_information_bits(std::span<const double> b,
 ///
 ///   -sum_i b_i log2 [ sum_j b_j exp(-D_ij) / sum_{j in group of i} b_j/b_group exp(-D_ij) ]
 ///
-/// A difference of two bounds is none; over views of families of near twins it ranks as Monte Carlo
-/// does with 0.97, where the lower bound that sums the overlaps of all pairs of components has
-/// 0.76.
+/// A difference of two bounds is none; over views of families of near-duplicates it ranks as Monte
+/// Carlo does with 0.97, where the lower bound that sums the overlaps of all pairs of components
+/// has 0.76.
 /// @param group of each component, >= 0
 double pairwise_group_information_bits(std::span<const double> b, std::span<const int> group,
                                        const Eigen::Ref<const Eigen::MatrixXf>& D);

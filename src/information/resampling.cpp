@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMostEnumerated = 16;
+constexpr std::size_t kMaxEnumerated = 16;
 
 /// Linear between order statistics (type 7).  [HyndmanFan1996]
 double quantile(const std::vector<double>& sorted, double share) {
@@ -94,7 +94,7 @@ double sign_flip_p_value(std::span<const double> differences, Rng& rng, int draw
     total += difference;
   }
   const double threshold = std::abs(total) - 1e-12 * size;  // equal but for rounding is equal
-  if (differences.size() <= kMostEnumerated) {
+  if (differences.size() <= kMaxEnumerated) {
     const std::uint64_t patterns = std::uint64_t{1} << differences.size();
     std::uint64_t extreme = 0;
     for (std::uint64_t pattern = 0; pattern < patterns; ++pattern) {

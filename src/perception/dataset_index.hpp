@@ -51,7 +51,7 @@ struct DatasetIndex {
   std::vector<SkippedView> skipped;  ///< empty with OnBadView::fail
 };
 
-/// Lists the views and reads their yaw; no picture is opened. A view is bad if one of its files is
+/// Lists the views and reads their yaw; no image is opened. A view is bad if one of its files is
 /// missing, its pose is no number, its video is unknown or its category has no other view. Files of
 /// other names are left alone.
 /// @throws InputError naming the file of the first bad view (OnBadView::fail), or the root if it is

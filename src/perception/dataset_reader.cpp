@@ -30,24 +30,24 @@ bool is_whole_png(const std::string& bytes) {
   return bytes.size() > kEnd.size() && bytes.starts_with("\x89PNG") && bytes.ends_with(kEnd);
 }
 
-cv::Mat read_picture(const fs::path& file, int type, std::string_view kind) {
+cv::Mat read_image(const fs::path& file, int type, std::string_view kind) {
   const std::string bytes = read_file(file);
   if (!is_whole_png(bytes)) fail(file, "is no whole PNG");
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
                         const_cast<char*>(bytes.data()));
-  cv::Mat picture;
+  cv::Mat image;
   try {
-    picture = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+    image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
   }
-  if (picture.empty()) fail(file, "cannot be decoded");
-  if (picture.type() != type) fail(file, fmt::format("expected a PNG of {}", kind));
-  return picture.isContinuous() ? picture : picture.clone();
+  if (image.empty()) fail(file, "cannot be decoded");
+  if (image.type() != type) fail(file, fmt::format("expected a PNG of {}", kind));
+  return image.isContinuous() ? image : image.clone();
 }
 
-void require_same_size(const fs::path& file, const cv::Mat& picture, const ObjectView& view) {
-  if (picture.cols == view.width_px && picture.rows == view.height_px) return;
-  fail(file, fmt::format("is {} x {} px, the colour crop {} x {}", picture.cols, picture.rows,
+void require_same_size(const fs::path& file, const cv::Mat& image, const ObjectView& view) {
+  if (image.cols == view.width_px && image.rows == view.height_px) return;
+  fail(file, fmt::format("is {} x {} px, the colour crop {} x {}", image.cols, image.rows,
                          view.width_px, view.height_px));
 }
 
@@ -63,21 +63,20 @@ std::pair<int, int> read_location(const fs::path& file) {
 }
 
 void read_colour(const fs::path& file, ObjectView& view) {
-  const cv::Mat picture = read_picture(file, CV_8UC3, "8-bit colour");
-  view.width_px = picture.cols;
-  view.height_px = picture.rows;
-  view.rgb.assign(picture.datastart, picture.dataend);
+  const cv::Mat image = read_image(file, CV_8UC3, "8-bit colour");
+  view.width_px = image.cols;
+  view.height_px = image.rows;
+  view.rgb.assign(image.datastart, image.dataend);
   for (std::size_t i = 0; i < view.rgb.size(); i += 3) std::swap(view.rgb[i], view.rgb[i + 2]);
 }
 
 void read_depth(const fs::path& file, ObjectView& view) {
-  const cv::Mat picture = read_picture(file, CV_16UC1, "16-bit depth");
-  require_same_size(file, picture, view);
-  view.depth_m.reserve(picture.total());
-  std::transform(picture.begin<std::uint16_t>(), picture.end<std::uint16_t>(),
-                 std::back_inserter(view.depth_m), [](std::uint16_t depth_mm) {
-                   return kMetresPerMillimetre * static_cast<float>(depth_mm);
-                 });
+  const cv::Mat image = read_image(file, CV_16UC1, "16-bit depth");
+  require_same_size(file, image, view);
+  view.depth_m.reserve(image.total());
+  std::transform(
+      image.begin<std::uint16_t>(), image.end<std::uint16_t>(), std::back_inserter(view.depth_m),
+      [](std::uint16_t depth_mm) { return kMetresPerMillimetre * static_cast<float>(depth_mm); });
 }
 
 /// The file beside `<stem>_crop.png` with another ending; nothing if it is not there.
@@ -98,22 +97,22 @@ std::optional<double> elevation_in_name(const fs::path& colour) {
   return view ? video_elevation_rad(view->video) : std::nullopt;
 }
 
-/// What is measured and no farther than `farthest_m`; everything if that is 0.
-void mask_by_depth(const fs::path& file, double farthest_m, ObjectView& view) {
+/// What is measured and no farther than `max_depth_m`; everything if that is 0.
+void mask_by_depth(const fs::path& file, double max_depth_m, ObjectView& view) {
   for (const float depth_m : view.depth_m) {
-    const bool near = depth_m > 0.0F && static_cast<double>(depth_m) <= farthest_m;
-    view.mask.push_back(static_cast<std::uint8_t>(farthest_m <= 0.0 || near));
+    const bool near = depth_m > 0.0F && static_cast<double>(depth_m) <= max_depth_m;
+    view.mask.push_back(static_cast<std::uint8_t>(max_depth_m <= 0.0 || near));
   }
   if (std::ranges::find(view.mask, 1) == view.mask.end()) {
-    fail(file, fmt::format("nothing is nearer than {} m", farthest_m));
+    fail(file, fmt::format("nothing is nearer than {} m", max_depth_m));
   }
 }
 
 void read_mask(const fs::path& file, ObjectView& view) {
-  const cv::Mat picture = read_picture(file, CV_8UC1, "1 or 8 bits of grey");
-  require_same_size(file, picture, view);
-  view.mask.reserve(picture.total());
-  std::transform(picture.begin<std::uint8_t>(), picture.end<std::uint8_t>(),
+  const cv::Mat image = read_image(file, CV_8UC1, "1 or 8 bits of grey");
+  require_same_size(file, image, view);
+  view.mask.reserve(image.total());
+  std::transform(image.begin<std::uint8_t>(), image.end<std::uint8_t>(),
                  std::back_inserter(view.mask),
                  [](std::uint8_t value) { return static_cast<std::uint8_t>(value != 0); });
   if (std::ranges::find(view.mask, 1) == view.mask.end()) fail(file, "the mask is empty");
@@ -138,15 +137,15 @@ LabelledView load_view(const ViewEntry& entry) {
   return labelled;
 }
 
-ObjectView load_picture_pair(const fs::path& colour, const fs::path& depth,
-                             const PairSetting& setting) {
+ObjectView load_image_pair(const fs::path& colour, const fs::path& depth,
+                           const PairSetting& setting) {
   ObjectView view;
   read_colour(colour, view);
   read_depth(depth, view);
   if (const auto mask = file_beside(colour, "maskcrop.png")) {
     read_mask(*mask, view);
   } else {
-    mask_by_depth(depth, setting.farthest_m, view);
+    mask_by_depth(depth, setting.max_depth_m, view);
   }
   if (const auto place = file_beside(colour, "loc.txt")) {
     std::tie(view.left_px, view.top_px) = read_location(*place);

@@ -87,9 +87,9 @@ std::vector<Cluster> clusters_of(const Points& points, const TablePlane& support
 }
 
 bool may_be_object(const Cluster& cluster, const ObjectSearchOptions& options) {
-  constexpr double kMostBeside = 0.3;
+  constexpr double kMaxBeside = 0.3;
   return cluster.height_m <= options.cut.max_height_m && cluster.radius_m <= options.cut.radius_m &&
-         cluster.beside <= kMostBeside;
+         cluster.beside <= kMaxBeside;
 }
 
 /// The value that this share of the others lie below; reorders.
@@ -123,8 +123,8 @@ Points points_of(const ObjectView& view, const Pose& T_world_camera, const Table
 }
 
 /// Place and size from the points' extent along and across the line of sight.
-ObjectSighting measured(const Points& points, const TablePlane& support,
-                        const Eigen::Vector3d& p_world_camera) {
+ObjectDetection measured(const Points& points, const TablePlane& support,
+                         const Eigen::Vector3d& p_world_camera) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const auto& p : points) mean += p.head<2>();
   mean /= static_cast<double>(points.size());
@@ -138,17 +138,17 @@ ObjectSighting measured(const Points& points, const TablePlane& support,
   }
   const Eigen::Vector2d far = ends(std::move(far_m));
   const Eigen::Vector2d side = ends(std::move(side_m));
-  ObjectSighting sighting;
-  sighting.height_m = ends(std::move(high_m)).y();
+  ObjectDetection detection;
+  detection.height_m = ends(std::move(high_m)).y();
   const Eigen::Vector2d middle = mean + far.mean() * along + side.mean() * across;
   std::vector<double> off_m;
   for (const auto& p : points) off_m.push_back((p.head<2>() - middle).norm());
-  sighting.radius_m = ends(std::move(off_m)).y();
+  detection.radius_m = ends(std::move(off_m)).y();
   const Eigen::Vector2d slope = -support.normal.head<2>() / support.normal.z();
-  sighting.support_z_m = support.height_m + slope.dot(middle - support.centroid_m.head<2>());
-  sighting.p_world_object_m << middle, sighting.support_z_m + 0.5 * sighting.height_m;
-  sighting.distance_m = (sighting.p_world_object_m - p_world_camera).norm();
-  return sighting;
+  detection.support_z_m = support.height_m + slope.dot(middle - support.centroid_m.head<2>());
+  detection.p_world_object_m << middle, detection.support_z_m + 0.5 * detection.height_m;
+  detection.distance_m = (detection.p_world_object_m - p_world_camera).norm();
+  return detection;
 }
 
 /// Not cut by the frame, not partly too near, nothing in front of it.
@@ -163,7 +163,7 @@ bool is_whole(const ObjectView& view, const CameraImages& images,
     return false;
   }
   constexpr float kInFront_m = 0.15F;
-  constexpr double kMostHidden = 0.05;
+  constexpr double kMaxHidden = 0.05;
   cv::Mat1b ring;
   cv::dilate(mask, ring, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
   std::vector<double> depths_m;
@@ -180,7 +180,7 @@ bool is_whole(const ObjectView& view, const CameraImages& images,
     const float depth_m = view.depth_m[i];
     hidden += depth_m > 0.0F && depth_m < nearest_m - kInFront_m ? 1 : 0;
   }
-  return nearest_m >= options.nearest_m && hidden <= kMostHidden * around;
+  return nearest_m >= options.nearest_m && hidden <= kMaxHidden * around;
 }
 
 std::optional<SeenObject> seen_object(const CameraImages& images, const Pose& T_world_camera,
@@ -197,8 +197,8 @@ std::optional<SeenObject> seen_object(const CameraImages& images, const Pose& T_
   const Points points = points_of(*found.view, T_world_camera, support, cluster, cut);
   if (points.size() < static_cast<std::size_t>(cut.min_pixels) / 2) return std::nullopt;
   SeenObject seen{measured(points, support, p_world_camera), std::move(*found.view)};
-  seen.sighting.pixels = static_cast<int>(points.size());
-  seen.sighting.whole = is_whole(seen.view, images, options);
+  seen.detection.pixels = static_cast<int>(points.size());
+  seen.detection.whole = is_whole(seen.view, images, options);
   return seen;
 }
 
@@ -223,19 +223,19 @@ std::vector<SeenObject> find_objects(const CameraImages& images, const Pose& T_w
     for (const Cluster& cluster : clusters_of(rising, support, options)) {
       if (!may_be_object(cluster, options)) continue;
       auto object = seen_object(images, T_world_camera, support, cluster, options);
-      if (object && object->sighting.distance_m <= options.range_m) {
+      if (object && object->detection.distance_m <= options.range_m) {
         seen.push_back(std::move(*object));
       }
     }
   }
-  std::ranges::stable_sort(seen, {}, [](const SeenObject& s) { return s.sighting.distance_m; });
+  std::ranges::stable_sort(seen, {}, [](const SeenObject& s) { return s.detection.distance_m; });
   return seen;
 }
 
-std::vector<ObjectSighting> sightings_of(const std::vector<SeenObject>& seen) {
-  std::vector<ObjectSighting> sightings;
-  for (const SeenObject& object : seen) sightings.push_back(object.sighting);
-  return sightings;
+std::vector<ObjectDetection> detections_of(const std::vector<SeenObject>& seen) {
+  std::vector<ObjectDetection> detections;
+  for (const SeenObject& object : seen) detections.push_back(object.detection);
+  return detections;
 }
 
 }  // namespace vantage

@@ -1,10 +1,10 @@
-/// Objects on stands, found in a depth image: how many there are, where, and on what is not known.
+/// Detects objects on support surfaces in a depth image; number, places and surfaces are unknown.
 #pragma once
 
 #include <vector>
 
 #include "vantage/core/fields.hpp"
-#include "vantage/geometry/object_sighting.hpp"
+#include "vantage/geometry/object_detection.hpp"
 #include "vantage/perception/object_segmentation.hpp"
 #include "vantage/perception/support_search.hpp"
 
@@ -33,7 +33,7 @@ struct ObjectSearchOptions {
 ObjectSegmentationOptions cut_at(const ObjectSearchOptions& options, double distance_m);
 
 struct SeenObject {
-  ObjectSighting sighting;
+  ObjectDetection detection;
   ObjectView view;  ///< for the recogniser
 };
 
@@ -47,7 +47,7 @@ struct SeenObject {
 std::vector<SeenObject> find_objects(const CameraImages& images, const Pose& T_world_camera,
                                      const ObjectSearchOptions& options = {});
 
-/// The sightings alone, for FoundObjects.
-std::vector<ObjectSighting> sightings_of(const std::vector<SeenObject>& seen);
+/// The detections alone, for ObjectTracker.
+std::vector<ObjectDetection> detections_of(const std::vector<SeenObject>& seen);
 
 }  // namespace vantage

@@ -114,10 +114,12 @@ ChangeSearch begin_change_search(const Recogniser& recogniser, const ChangeOptio
   return search;
 }
 
-void take_view(const Recogniser& recogniser, const ChangeOptions& options,
-               const ExtractFeature& extract, double view_rad, ChangeSearch& search, Rng& rng) {
+void update_with_view(const Recogniser& recogniser, const ChangeOptions& options,
+                      const ExtractFeature& extract, double view_rad, ChangeSearch& search,
+                      Rng& rng) {
   Witness witness(recogniser, extract);
-  take_view(recogniser, options.recognition, std::ref(witness), view_rad, search.recognition, rng);
+  update_with_view(recogniser, options.recognition, std::ref(witness), view_rad, search.recognition,
+                   rng);
   ChangeHypotheses& h = search.hypotheses;
   for (const Eigen::VectorXd& log_likelihood : witness.measured()) {
     weigh(h.expected, h.log_p_expected, log_likelihood);
@@ -127,11 +129,11 @@ void take_view(const Recogniser& recogniser, const ChangeOptions& options,
   if (witness.measured().empty()) ++search.empty_views;
 }
 
-void moved(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
-           ChangeSearch& search) {
+void predict_motion(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
+                    ChangeSearch& search) {
   for (ObjectBelief* belief : {&search.hypotheses.expected, &search.hypotheses.changed}) {
     Recognition turned{.belief = std::move(*belief), .views = {}};
-    moved(recogniser, options.recognition, motion_rad, turned);
+    predict_motion(recogniser, options.recognition, motion_rad, turned);
     *belief = std::move(turned.belief);
   }
   search.recognition.belief = search.hypotheses.mixture();
@@ -140,7 +142,7 @@ void moved(const Recogniser& recogniser, const ChangeOptions& options, double mo
 bool in_doubt(const ChangeOptions& options, const ChangeSearch& search) {
   const std::size_t views = search.recognition.views.size();
   if (search.empty_views >= options.empty_views) return false;
-  if (views >= static_cast<std::size_t>(options.recognition.most_views)) return false;
+  if (views >= static_cast<std::size_t>(options.recognition.max_views)) return false;
   const double p = search.hypotheses.p_changed();
   const bool uncertain = p <= options.changed_above && p >= options.unchanged_below;
   return uncertain || search.empty_views == static_cast<int>(views);
@@ -162,7 +164,7 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
   ChangeSearch search = begin_change_search(recogniser, options, expected_state);
   double view_time_s = 0.0;
   for (;;) {
-    take_view(recogniser, options, camera.extract, camera.bearing_rad(), search, rng);
+    update_with_view(recogniser, options, camera.extract, camera.bearing_rad(), search, rng);
     search.recognition.views.back().view_time_s = view_time_s;
     const std::vector<ObjectViewAction> actions = camera.actions();
     if (!in_doubt(options, search) || actions.empty()) break;
@@ -171,14 +173,14 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
     view_time_s = next.time_s;
     const ObjectViewAction& action = actions[next.decision.action];
     camera.turn(action);
-    moved(recogniser, options, action.yaw_rad, search);
+    predict_motion(recogniser, options, action.yaw_rad, search);
   }
   return {.change = verdict(recogniser, options, search),
           .p_changed = search.hypotheses.p_changed(),
           .recognition = std::move(search.recognition)};
 }
 
-bool tells_apart(const Recogniser& recogniser, int state, int other, double most_error) {
+bool distinguishable(const Recogniser& recogniser, int state, int other, double max_error) {
   const ObjectStates& states = recogniser.states;
   const auto turned = [&](int which, int turn) {
     return states.state(states.object_of(which), (states.bin_of(which) + turn) % states.bins);
@@ -188,7 +190,7 @@ bool tells_apart(const Recogniser& recogniser, int state, int other, double most
     nats += static_cast<double>(
         recogniser.tables.bhattacharyya_nats(turned(state, turn), turned(other, turn)));
   }
-  return 0.5 * std::exp(-nats) <= most_error;
+  return 0.5 * std::exp(-nats) <= max_error;
 }
 
 }  // namespace vantage

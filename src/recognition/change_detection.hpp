@@ -90,12 +90,13 @@ struct ChangeSearch {
 ChangeSearch begin_change_search(const Recogniser& recogniser, const ChangeOptions& options,
                                  int expected_state);
 
-/// As take_view() of a recognition.
-void take_view(const Recogniser& recogniser, const ChangeOptions& options,
-               const ExtractFeature& extract, double view_rad, ChangeSearch& search, Rng& rng);
-/// As moved() of a recognition.
-void moved(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
-           ChangeSearch& search);
+/// As update_with_view() of a recognition.
+void update_with_view(const Recogniser& recogniser, const ChangeOptions& options,
+                      const ExtractFeature& extract, double view_rad, ChangeSearch& search,
+                      Rng& rng);
+/// As predict_motion() of a recognition.
+void predict_motion(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
+                    ChangeSearch& search);
 /// Whether another view would be worth it: fewer than the most were taken, and it is still open
 /// what has changed.
 bool in_doubt(const ChangeOptions& options, const ChangeSearch& search);
@@ -110,10 +111,10 @@ Change verdict(const Recogniser& recogniser, const ChangeOptions& options,
 ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& options,
                            int expected_state, const ObjectCamera& camera, Rng& rng);
 
-/// Whether what was learnt tells a state from another at all: by all features from every bearing,
-/// no more than `most_error` of decisions between the two, each as likely as the other, would be
+/// Whether two states are distinguishable by the model at all: by all features from every bearing,
+/// no more than `max_error` of decisions between the two, each as likely as the other, would be
 /// wrong. By Bhattacharyya's bound, 1/2 exp(-sum D): it leaves out what is told apart by a hair,
 /// and with it all turns of things that look the same from all sides.
-bool tells_apart(const Recogniser& recogniser, int state, int other, double most_error = 0.05);
+bool distinguishable(const Recogniser& recogniser, int state, int other, double max_error = 0.05);
 
 }  // namespace vantage

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/recognition/dataset/transition_training.hpp"
+#include "vantage/recognition/lean_recogniser.hpp"
 
 namespace vantage {
 namespace {

@@ -78,8 +78,9 @@ Recognition begin_recognition(const Recogniser& recogniser) {
   return {.belief = uniform_belief(recogniser.states), .views = {}};
 }
 
-void take_view(const Recogniser& recogniser, const RecognitionOptions& options,
-               const ExtractFeature& extract, double view_rad, Recognition& recognition, Rng& rng) {
+void update_with_view(const Recogniser& recogniser, const RecognitionOptions& options,
+                      const ExtractFeature& extract, double view_rad, Recognition& recognition,
+                      Rng& rng) {
   ViewReport report{.view_rad = view_rad, .features = {}, .skipped = {}};
   std::vector<FeatureOption> features = feature_options(recogniser);
   std::optional<double> last_score;
@@ -103,8 +104,8 @@ std::optional<RecognitionEnd> recognition_end(const Recogniser& recogniser,
                                               const Recognition& recognition) {
   const Eigen::VectorXd belief = p_state(recognition.belief);
   if (seen_enough(options.enough, recogniser.states, belief)) return RecognitionEnd::sure;
-  if (recognition.views.size() >= static_cast<std::size_t>(options.most_views)) {
-    return RecognitionEnd::most_views;
+  if (recognition.views.size() >= static_cast<std::size_t>(options.max_views)) {
+    return RecognitionEnd::max_views;
   }
   return std::nullopt;
 }
@@ -116,7 +117,7 @@ NextView next_view(const Recogniser& recogniser, const RecognitionOptions& optio
   std::vector<Eigen::VectorXd> predicted;
   for (const ObjectViewAction& action : actions) {
     Recognition there{.belief = recognition.belief, .views = {}};
-    moved(recogniser, options, action.yaw_rad, there);
+    predict_motion(recogniser, options, action.yaw_rad, there);
     predicted.push_back(p_state(there.belief));
   }
   const std::vector<const ObservationModel*> models = models_of(recogniser);
@@ -130,8 +131,8 @@ NextView next_view(const Recogniser& recogniser, const RecognitionOptions& optio
   return {.decision = std::move(decision), .time_s = wall_s() - start_s};
 }
 
-void moved(const Recogniser& recogniser, const RecognitionOptions& options, double motion_rad,
-           Recognition& recognition) {
+void predict_motion(const Recogniser& recogniser, const RecognitionOptions& options,
+                    double motion_rad, Recognition& recognition) {
   const auto* learned = std::get_if<LearnedTransition>(&options.transition);
   const bool from_model = learned != nullptr && learned->slip.empty();
   predict(recognition.belief, recogniser.states,
@@ -144,7 +145,7 @@ Recognition recognise(const Recogniser& recogniser, const RecognitionOptions& op
   Recognition recognition = begin_recognition(recogniser);
   double view_time_s = 0.0;
   for (;;) {
-    take_view(recogniser, options, camera.extract, camera.bearing_rad(), recognition, rng);
+    update_with_view(recogniser, options, camera.extract, camera.bearing_rad(), recognition, rng);
     recognition.views.back().view_time_s = view_time_s;
     if (recognition_end(recogniser, options, recognition)) return recognition;
     const std::vector<ObjectViewAction> actions = camera.actions();
@@ -153,7 +154,7 @@ Recognition recognise(const Recogniser& recogniser, const RecognitionOptions& op
     view_time_s = next.time_s;
     const ObjectViewAction& action = actions[next.decision.action];
     camera.turn(action);
-    moved(recogniser, options, action.yaw_rad, recognition);
+    predict_motion(recogniser, options, action.yaw_rad, recognition);
   }
 }
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "vantage/planners/objects/feature_choice.hpp"
-#include "vantage/planners/objects/object_view_choice.hpp"
 #include "vantage/belief/objects/object_belief.hpp"
 #include "vantage/belief/objects/transition.hpp"
+#include "vantage/planners/objects/feature_choice.hpp"
+#include "vantage/planners/objects/object_view_choice.hpp"
 #include "vantage/recognition/recogniser.hpp"
 
 namespace vantage {
@@ -25,14 +25,14 @@ struct RecognitionOptions {
   ObjectViewOptions views;
   EnoughViews enough;
   TransitionModel transition = RigidTransition{};
-  int most_views = 8;  ///< after so many it stops, sure or not, >= 1
+  int max_views = 8;  ///< after so many it stops, sure or not, >= 1
   void fields(auto&& f) {
     f("features", features);
     f("all_features", all_features);
     f("views", views);
     f("enough", enough);
     f("transition", transition);
-    f("most_views", most_views, between(1, 1000));
+    f("max_views", max_views, between(1, 1000));
   }
 };
 
@@ -73,14 +73,15 @@ struct Recognition {
 
 Recognition begin_recognition(const Recogniser& recogniser);
 
-/// Takes in a view from where the camera is: chooses features, extracts and applies them, and
-/// appends a report to `recognition.views`. A feature that cannot be extracted, or that the belief
-/// cannot be reconciled with, is reported as skipped and not tried again at this view.
-void take_view(const Recogniser& recogniser, const RecognitionOptions& options,
-               const ExtractFeature& extract, double view_rad, Recognition& recognition, Rng& rng);
+/// Measurement update with a view from where the camera is: chooses features, extracts and applies
+/// them, and appends a report to `recognition.views`. A feature that cannot be extracted, or that
+/// the belief cannot be reconciled with, is reported as skipped and not tried again at this view.
+void update_with_view(const Recogniser& recogniser, const RecognitionOptions& options,
+                      const ExtractFeature& extract, double view_rad, Recognition& recognition,
+                      Rng& rng);
 
 /// Why no further view is taken, if so.
-enum class RecognitionEnd { sure, most_views };
+enum class RecognitionEnd { sure, max_views };
 std::optional<RecognitionEnd> recognition_end(const Recogniser& recogniser,
                                               const RecognitionOptions& options,
                                               const Recognition& recognition);
@@ -94,10 +95,11 @@ NextView next_view(const Recogniser& recogniser, const RecognitionOptions& optio
                    const Recognition& recognition, std::span<const ObjectViewAction> actions,
                    Rng& rng);
 
-/// The camera turned about the object by `motion_rad`, counter-clockwise seen from above: the
-/// object's yaw, as the camera sees it, is less by as much, and what is believed of it follows.
-void moved(const Recogniser& recogniser, const RecognitionOptions& options, double motion_rad,
-           Recognition& recognition);
+/// Prediction: the camera turned about the object by `motion_rad`, counter-clockwise seen from
+/// above: the object's yaw, as the camera sees it, is less by as much, and what is believed of it
+/// follows.
+void predict_motion(const Recogniser& recogniser, const RecognitionOptions& options,
+                    double motion_rad, Recognition& recognition);
 
 /// A camera that can be turned about an object.
 struct ObjectCamera {

@@ -11,9 +11,9 @@
 
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/perception/features/kit/k_means.hpp"
-#include "vantage/recognition/recogniser.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/dataset/transition_training.hpp"
+#include "vantage/recognition/recogniser.hpp"
 
 namespace vantage {
 namespace {

@@ -13,9 +13,9 @@
 #include "vantage/core/error.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/perception/clouds/ply.hpp"
 #include "vantage/report/page.hpp"
 #include "vantage/report/report_data.hpp"
-#include "vantage/perception/clouds/ply.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
@@ -183,15 +183,15 @@ json cloud_json(const fs::path& path) {
           {"data", base64(bytes)}};
 }
 
-/// The last picture of `frames/` by name, as a data URI; null if there is none.
+/// The last image of `frames/` by name, as a data URI; null if there is none.
 json last_frame(const fs::path& folder) {
   fs::path last;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const auto extension = entry.path().extension();
-    const bool picture = extension == ".png" || extension == ".jpg";
+    const bool image = extension == ".png" || extension == ".jpg";
     const bool part = entry.path().stem().extension() == ".part";
-    if (picture && !part && (last.empty() || entry.path() > last)) last = entry.path();
+    if (image && !part && (last.empty() || entry.path() > last)) last = entry.path();
   }
   if (last.empty()) return nullptr;
   const std::string type = last.extension() == ".png" ? "png" : "jpeg";

@@ -11,7 +11,7 @@ inline constexpr std::size_t kMaxReportVoxels = 100'000;
 
 /// Reads the run folder and writes `report.html` into it: static, self-contained, opens from the
 /// file system. Only `video.mp4` stays outside, referenced by name if it is there; else the last
-/// picture of `frames/` is shown. `cloud.ply` is optional, `voxels.bin` is so for tasks without
+/// image of `frames/` is shown. `cloud.ply` is optional, `voxels.bin` is so for tasks without
 /// map.
 /// @throws InputError naming the file that is missing or malformed, OutputError.
 void write_report(const std::filesystem::path& run_dir);

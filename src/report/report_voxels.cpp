@@ -7,8 +7,8 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/bytes.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/report/report_data.hpp"
 #include "vantage/geometry/grid_frame.hpp"
+#include "vantage/report/report_data.hpp"
 
 namespace vantage {
 namespace {

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <set>
 
-#include "vantage/sim/render/renderer.hpp"
-#include "vantage/sim/world/world.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/flight/recognition_model_setting.hpp"
 
 namespace vantage {

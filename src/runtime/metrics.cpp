@@ -82,8 +82,10 @@ std::string_view status_name(EpisodeStatus status) {
 
 Json view_json(const Pose& T_world_sensor) {
   const Eigen::Vector3d p = T_world_sensor.translation();
-  return {
-      {"x_m", p.x()}, {"y_m", p.y()}, {"z_m", p.z()}, {"yaw_rad", flatten(T_world_sensor).yaw_rad}};
+  return {{"x_m", p.x()},
+          {"y_m", p.y()},
+          {"z_m", p.z()},
+          {"yaw_rad", project_to_se2(T_world_sensor).yaw_rad}};
 }
 
 Json candidates_json(std::span<const Candidate> views) {

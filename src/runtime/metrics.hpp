@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "vantage/belief/map/clutter_hazard.hpp"
-#include "vantage/tasks/mapping/cell_truth.hpp"
 #include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 #include "vantage/tasks/scenario.hpp"
 
 namespace vantage {
@@ -40,7 +40,7 @@ nlohmann::ordered_json candidates_json(std::span<const Candidate> views);
 struct MappingResult {
   const OccupancyGrid& grid;
   const ClutterHazard& hazard;
-  const CellTruth& truth;
+  const GroundTruthMapEvaluator& truth;
   std::span<const ScanRecord> scans;
   std::span<const Candidate> views;
 };

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "vantage/runtime/state_log.hpp"
 #include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/scenario.hpp"
-#include "vantage/runtime/state_log.hpp"
 
 namespace vantage {
 

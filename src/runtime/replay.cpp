@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "vantage/sim/world/world.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/runtime/manifest.hpp"
-#include "vantage/tasks/model_source.hpp"
 #include "vantage/runtime/recording.hpp"
-#include "vantage/tasks/scenario.hpp"
 #include "vantage/runtime/state_log.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/model_source.hpp"
+#include "vantage/tasks/scenario.hpp"
 
 namespace vantage {
 namespace {

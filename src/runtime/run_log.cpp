@@ -31,7 +31,7 @@ RunLog::RunLog(RecordedRobot robot, const RecordingOptions& options,
       spectator_(std::move(spectator)) {
   trajectory_.write(kTumHeader);
   estimated_.write(kTumHeader);
-  if (with_video) film_.emplace(robot_.world, options, directory);
+  if (with_video) video_recorder_.emplace(robot_.world, options, directory);
   robot_.world.on_tick = [this](World&) { tick(); };
   if (spectator_.on_tick) spectator_.on_tick(robot_.world);
 }
@@ -39,7 +39,7 @@ RunLog::RunLog(RecordedRobot robot, const RecordingOptions& options,
 RunLog::~RunLog() { robot_.world.on_tick = nullptr; }
 
 void RunLog::set_panel(PanelPainter panel) {
-  if (film_) film_->set_panel(std::move(panel));
+  if (video_recorder_) video_recorder_->set_panel(std::move(panel));
 }
 
 void RunLog::tick() {
@@ -49,11 +49,11 @@ void RunLog::tick() {
   const Pose body = robot_.T_world_body();
   if (last_body_) path_length_m_ += (body.translation() - last_body_->translation()).norm();
   last_body_ = body;
-  if (film_) film_->tick(world);
+  if (video_recorder_) video_recorder_->tick(world);
   if (spectator_.on_tick) spectator_.on_tick(world);
 }
 
-void RunLog::tell(StoryEvent& event) {
+void RunLog::tell(EpisodeEvent& event) {
   event.tick = states_.ticks();
   if (spectator_.on_event) spectator_.on_event(event);
 }
@@ -67,8 +67,8 @@ void RunLog::pose_rows() {
   next_pose_s_ = world.time_s() + kPoseRowEvery_s;
 }
 
-void RunLog::keep_still(std::size_t index) {
-  if (film_) film_->keep_still(robot_.world, index);
+void RunLog::save_still(std::size_t index) {
+  if (video_recorder_) video_recorder_->save_still(robot_.world, index);
 }
 
 void RunLog::commit() {
@@ -78,7 +78,7 @@ void RunLog::commit() {
 }
 
 void RunLog::finish_video() {
-  if (film_) film_->finish();
+  if (video_recorder_) video_recorder_->finish();
 }
 
 }  // namespace vantage

@@ -1,5 +1,5 @@
 /// What every run folder has, whatever the task: states and commands for replay, where the robot
-/// was and believed to be, and a film of it.
+/// was and believed to be, and a video of it.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 #include <functional>
 #include <optional>
 
-#include "vantage/sim/world/world.hpp"
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/runtime/film.hpp"
 #include "vantage/runtime/spectator.hpp"
 #include "vantage/runtime/state_log.hpp"
+#include "vantage/runtime/video_recorder.hpp"
+#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 
@@ -31,13 +31,13 @@ class RunLog {
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  /// What stands beside the room in the film.
+  /// What stands beside the room in the video.
   void set_panel(PanelPainter panel);
   [[nodiscard]] bool watched() const { return static_cast<bool>(spectator_.on_event); }
   /// Tells the spectator, at the present tick.
-  void tell(StoryEvent& event);
-  /// Keeps the present picture as a frame of that number.
-  void keep_still(std::size_t index);
+  void tell(EpisodeEvent& event);
+  /// Keeps the present image as a frame of that number.
+  void save_still(std::size_t index);
   void commit();  ///< puts the growing files under their final names
   void finish_video();
 
@@ -52,7 +52,7 @@ class RunLog {
   StateLog states_;
   GrowingFile trajectory_;
   GrowingFile estimated_;
-  std::optional<Film> film_;
+  std::optional<VideoRecorder> video_recorder_;
   Spectator spectator_;
   double next_pose_s_ = 0.0;
   double path_length_m_ = 0.0;

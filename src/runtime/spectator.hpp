@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "vantage/runtime/event_log.hpp"
 #include "vantage/sim/world/world.hpp"
-#include "vantage/runtime/story.hpp"
 
 namespace vantage {
 
@@ -12,7 +12,7 @@ namespace vantage {
 struct Spectator {
   /// With the world as it begins, then after each control tick; then it may throw Interrupted.
   std::function<void(const World&)> on_tick;
-  std::function<void(const StoryEvent&)> on_event;
+  std::function<void(const EpisodeEvent&)> on_event;
 };
 
 }  // namespace vantage

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/sim/world/world.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kMostDifferences = 40;
+constexpr std::size_t kMaxDifferences = 40;
 
 /// What depends on the machine and its load.
 constexpr auto kWallTimes = std::to_array<std::string_view>(
@@ -113,7 +113,7 @@ std::string comparison_text(const FolderComparison& comparison) {
   std::size_t shown = 0;
   for (const ComparedValue& value : comparison.values) {
     if (!value.beyond && !concerns_the_whole(value)) continue;
-    if (value.beyond && ++shown > kMostDifferences) continue;
+    if (value.beyond && ++shown > kMaxDifferences) continue;
     text += fmt::format("{} {:<44} {:>24} {:>24}", value.beyond ? "!" : " ", value.key,
                         value.first.empty() ? "-" : value.first,
                         value.second.empty() ? "-" : value.second);
@@ -122,8 +122,8 @@ std::string comparison_text(const FolderComparison& comparison) {
     }
     text += "\n";
   }
-  if (shown > kMostDifferences) {
-    text += fmt::format("! and {} more\n", shown - kMostDifferences);
+  if (shown > kMaxDifferences) {
+    text += fmt::format("! and {} more\n", shown - kMaxDifferences);
   }
   return text + fmt::format("{} of {} values differ beyond the tolerance\n", comparison.beyond,
                             comparison.values.size());

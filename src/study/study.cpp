@@ -15,7 +15,7 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostEpisodes = 100'000;
+constexpr std::size_t kMaxEpisodes = 100'000;
 
 /// Names become folders and columns.
 void require_name(const ConfigNode& node, const std::string& name, const char* what) {
@@ -158,8 +158,8 @@ std::size_t episode_count(const Study& study) {
   std::size_t count = 1;
   for (const Factor& factor : study.factors) {
     count *= factor.levels.size();
-    if (count > kMostEpisodes) {
-      throw ConfigError(fmt::format("factors: more than {} episodes", kMostEpisodes));
+    if (count > kMaxEpisodes) {
+      throw ConfigError(fmt::format("factors: more than {} episodes", kMaxEpisodes));
     }
   }
   return count;

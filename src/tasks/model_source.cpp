@@ -1,7 +1,7 @@
 #include "vantage/tasks/model_source.hpp"
 
-#include "vantage/tasks/trajectory/flight_layout.hpp"
 #include "vantage/tasks/recognition/object_on_table.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
 
 namespace vantage {
 
@@ -16,10 +16,10 @@ ModelSource model_source(const ResolvedEpisode& resolved) {
   return source;
 }
 
-std::vector<ObjectOnStand> draw_flight_objects(const ResolvedEpisode& resolved) {
+std::vector<ObjectOnSupport> draw_flight_objects(const ResolvedEpisode& resolved) {
   const TrajectoryTask& task = resolved.episode.trajectory;
-  return draw_objects(task.database, read_flight_layout(resolved.scene).stands_m, task.placement_m,
-                      resolved.episode.seed);
+  return draw_objects(task.database, read_flight_layout(resolved.scene).supports_m,
+                      task.placement_m, resolved.episode.seed);
 }
 
 }  // namespace vantage

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "vantage/sim/world/scene.hpp"
-#include "vantage/tasks/trajectory/objects_on_stands.hpp"
 #include "vantage/tasks/scenario.hpp"
+#include "vantage/tasks/trajectory/objects_on_supports.hpp"
 
 namespace vantage {
 
@@ -16,6 +16,6 @@ ModelSource model_source(const ResolvedEpisode& resolved);
 
 /// What stands about in a trajectory flight. Truth: for the scene and the metrics.
 /// @throws InputError as read_flight_layout(), and as draw_objects()
-std::vector<ObjectOnStand> draw_flight_objects(const ResolvedEpisode& resolved);
+std::vector<ObjectOnSupport> draw_flight_objects(const ResolvedEpisode& resolved);
 
 }  // namespace vantage

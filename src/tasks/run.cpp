@@ -7,13 +7,13 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/runtime/manifest.hpp"
-#include "vantage/tasks/tabletop/next_best_view.hpp"
-#include "vantage/tasks/recognition/object_recognition.hpp"
-#include "vantage/tasks/exploration/office_exploration.hpp"
-#include "vantage/tasks/recognition/recognition_metrics.hpp"
 #include "vantage/report/report.hpp"
+#include "vantage/runtime/manifest.hpp"
+#include "vantage/tasks/exploration/office_exploration.hpp"
+#include "vantage/tasks/recognition/object_recognition.hpp"
+#include "vantage/tasks/recognition/recognition_metrics.hpp"
+#include "vantage/tasks/tabletop/next_best_view.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
 #include "vantage/tasks/trajectory/trajectory_metrics.hpp"
 
 namespace vantage {
@@ -68,21 +68,22 @@ Ending run_to_end(Parts& parts) {
   }
 }
 
-template <class Rig, class Parts>
+template <class Interface, class Parts>
 nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
-                                  const Rig&, const Parts& parts) {
+                                  const Interface&, const Parts& parts) {
   const auto& belief = parts.belief();
   return metrics_json(
       resolved, summary,
       {belief.grid(), belief.hazard(), parts.truth(), parts.scans(), parts.views()});
 }
 nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
-                                  const FlightRig&, const ObjectRecognition& parts) {
+                                  const OrbitRobotInterface&, const ObjectRecognition& parts) {
   return recognition_metrics(resolved, summary, parts);
 }
 nlohmann::ordered_json metrics_of(const ResolvedEpisode& resolved, const RunSummary& summary,
-                                  const TrajectoryRig& rig, const TrajectoryFlight& parts) {
-  return trajectory_metrics(resolved, summary, rig, parts);
+                                  const TrajectoryRobotInterface& robot,
+                                  const TrajectoryFlight& parts) {
+  return trajectory_metrics(resolved, summary, robot, parts);
 }
 
 template <class Parts>
@@ -100,23 +101,23 @@ struct Running {
   double start_s;  ///< wall
 };
 
-/// Runs the parts made for `rig` and writes everything they come to.
-void run_parts(const Running& run, auto& rig, auto& recorder, auto& parts) {
+/// Runs the parts made for `robot` and writes everything they come to.
+void run_parts(const Running& run, auto& robot, auto& recorder, auto& parts) {
   RunSummary summary;
   const Ending ending = run_to_end(parts);
   summary.status = ending.status;
   summary.reason = ending.reason;
-  summary.simulated_time_s = rig.world().time_s();
+  summary.simulated_time_s = robot.world().time_s();
   summary.wall_time_s = wall_s() - run.start_s;
   summary.path_length_m = recorder.path_length_m();
-  summary.collisions = rig.truth().collisions;
+  summary.collisions = robot.truth().collisions;
   summary.state_hash = recorder.state_hash();
 
   // What cannot be made again comes first.
   recorder.commit();
   RunOutcome& outcome = run.outcome;
   outcome.code = ending.code;
-  outcome.metrics = json_text(metrics_of(run.resolved, summary, rig, parts));
+  outcome.metrics = json_text(metrics_of(run.resolved, summary, robot, parts));
   write_file(outcome.directory / "config.yaml", episode_yaml(run.resolved.episode));
   write_file(outcome.directory / "manifest.json",
              manifest_json(run.resolved, run.options.command, summary));
@@ -132,36 +133,36 @@ Running begin(const ResolvedEpisode& resolved, const RunOptions& options, RunOut
   return {resolved, options, outcome, wall_s()};
 }
 
-template <class Rig, class Parts>
+template <class Interface, class Parts>
 void run_mapping(const ResolvedEpisode& resolved, const RunOptions& options, RunOutcome& outcome) {
-  Rig rig(resolved);
+  Interface robot(resolved);
   const Running run = begin(resolved, options, outcome);
-  Recorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
+  Recorder recorder(resolved, robot, outcome.directory, options.video, options.lean,
                     options.spectator);
-  Parts parts(resolved, rig, recorder);
-  run_parts(run, rig, recorder, parts);
+  Parts parts(resolved, robot, recorder);
+  run_parts(run, robot, recorder, parts);
 }
 
 void run_recognition(const ResolvedEpisode& resolved, const RunOptions& options,
                      RunOutcome& outcome) {
-  FlightRig rig(resolved);
+  OrbitRobotInterface robot(resolved);
   const Recogniser recogniser = load_episode_recogniser(resolved);
   const Running run = begin(resolved, options, outcome);
-  RecognitionRecorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
+  RecognitionRecorder recorder(resolved, robot, outcome.directory, options.video, options.lean,
                                options.spectator);
-  ObjectRecognition parts(resolved, recogniser, rig, recorder);
-  run_parts(run, rig, recorder, parts);
+  ObjectRecognition parts(resolved, recogniser, robot, recorder);
+  run_parts(run, robot, recorder, parts);
 }
 
 void run_trajectory(const ResolvedEpisode& resolved, const RunOptions& options,
                     RunOutcome& outcome) {
-  TrajectoryRig rig(resolved, read_flight_layout(resolved.scene).path.front());
+  TrajectoryRobotInterface robot(resolved, read_flight_layout(resolved.scene).path.front());
   const Recogniser recogniser = load_trajectory_recogniser(resolved);
   const Running run = begin(resolved, options, outcome);
-  TrajectoryRecorder recorder(resolved, rig, outcome.directory, options.video, options.lean,
+  TrajectoryRecorder recorder(resolved, robot, outcome.directory, options.video, options.lean,
                               options.spectator);
-  TrajectoryFlight parts(resolved, recogniser, rig, recorder);
-  run_parts(run, rig, recorder, parts);
+  TrajectoryFlight parts(resolved, recogniser, robot, recorder);
+  run_parts(run, robot, recorder, parts);
 }
 
 }  // namespace
@@ -177,9 +178,9 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   } else if (resolved.episode.flies()) {
     run_recognition(resolved, options, outcome);
   } else if (resolved.episode.in_office()) {
-    run_mapping<OfficeRig, OfficeExploration>(resolved, options, outcome);
+    run_mapping<ExplorationRobotInterface, OfficeExploration>(resolved, options, outcome);
   } else {
-    run_mapping<TabletopRig, NextBestView>(resolved, options, outcome);
+    run_mapping<TabletopRobotInterface, NextBestView>(resolved, options, outcome);
   }
   if (!options.lean) write_report(outcome.directory);
   log_to_file({});

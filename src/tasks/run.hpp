@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "vantage/runtime/metrics.hpp"
-#include "vantage/tasks/scenario.hpp"
 #include "vantage/runtime/spectator.hpp"
+#include "vantage/tasks/scenario.hpp"
 
 namespace vantage {
 

@@ -13,9 +13,9 @@
 namespace vantage {
 namespace {
 
-constexpr double kMostCells = 67108864.0;
+constexpr double kMaxCells = 67108864.0;
 /// What each view truly sees is worked out cell by cell.
-constexpr double kMostCellsOfAllViews = 2147483648.0;
+constexpr double kMaxCellsOfAllViews = 2147483648.0;
 
 std::string labels(const std::vector<Gain>& gains) {
   std::vector<std::string> names;
@@ -66,7 +66,7 @@ void settle_recognition_model(ResolvedEpisode& resolved, const std::filesystem::
 double MapOptions::count() const { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
 
 void MapOptions::check() const {
-  if (count() > kMostCells) {
+  if (count() > kMaxCells) {
     throw ConfigError(
         fmt::format("cells: {} x {} x {} is more than 2^26 cells", cells[0], cells[1], cells[2]));
   }
@@ -115,7 +115,7 @@ void Episode::check() const {
   }
   const double views = static_cast<double>(candidates.positions) *
                        static_cast<double>(candidates.yaw_offsets_rad.size());
-  if (map.count() * views > kMostCellsOfAllViews) {
+  if (map.count() * views > kMaxCellsOfAllViews) {
     throw ConfigError(
         fmt::format("map.cells: {:.3g} cells times {} views of candidates.positions and "
                     "candidates.yaw_offsets_rad is more than 2^31",

@@ -8,27 +8,27 @@
 #include <string>
 #include <vector>
 
-#include "vantage/planners/gain.hpp"
-#include "vantage/planners/navigation/path_planning.hpp"
-#include "vantage/planners/views/view_candidates.hpp"
-#include "vantage/planners/choice/view_choice.hpp"
-#include "vantage/control/base_controller.hpp"
-#include "vantage/sim/robots/drive.hpp"
-#include "vantage/sim/sensors/laser.hpp"
-#include "vantage/sim/robots/odometry.hpp"
-#include "vantage/sim/world/world.hpp"
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/belief/map/floor_map.hpp"
 #include "vantage/belief/map/free_space.hpp"
 #include "vantage/belief/map/hole_filling.hpp"
 #include "vantage/belief/map/sensor_model.hpp"
+#include "vantage/control/base_controller.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/perception/clouds/registration.hpp"
+#include "vantage/perception/table_extraction.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
+#include "vantage/planners/gain.hpp"
+#include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/planners/views/view_candidates.hpp"
+#include "vantage/sim/robots/drive.hpp"
+#include "vantage/sim/robots/odometry.hpp"
+#include "vantage/sim/sensors/laser.hpp"
+#include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/change_detection/change_detection_task.hpp"
 #include "vantage/tasks/exploration/exploration_options.hpp"
 #include "vantage/tasks/recognition/recognition_task.hpp"
 #include "vantage/tasks/trajectory/trajectory_task.hpp"
-#include "vantage/perception/clouds/registration.hpp"
-#include "vantage/perception/table_extraction.hpp"
 
 namespace vantage {
 

@@ -86,7 +86,7 @@ Pose2 office_start(const World& world, const ResolvedEpisode& resolved) {
     return {robot.start_pose[0], robot.start_pose[1], wrap_angle(robot.start_pose[2])};
   }
   if (const auto site = find_model_id(world.model(), ModelObject::site, robot.start_site)) {
-    return flatten(site_pose(world, *site));
+    return project_to_se2(site_pose(world, *site));
   }
   std::vector<std::string> known = model_names(world.model(), ModelObject::site);
   std::erase_if(known, [](const std::string& name) { return name.starts_with("robot/"); });

@@ -2,17 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "vantage/sim/world/world.hpp"
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/tasks/recognition/flight_rig.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/exploration/exploration_robot_interface.hpp"
 #include "vantage/tasks/recognition/object_recognition.hpp"
-#include "vantage/tasks/exploration/office_rig.hpp"
+#include "vantage/tasks/recognition/orbit_robot_interface.hpp"
 #include "vantage/tasks/start_check.hpp"
-#include "vantage/tasks/tabletop/tabletop_rig.hpp"
+#include "vantage/tasks/tabletop/tabletop_robot_interface.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
 #include "vantage/tasks/trajectory/trajectory_flight.hpp"
 
 namespace vantage {
@@ -52,15 +52,16 @@ Validation validation_of(const std::function<Validation()>& check) {
 void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
   try {
     if (resolved.episode.flies_trajectory()) {
-      const TrajectoryRig rig(resolved, read_flight_layout(resolved.scene).path.front());
+      const TrajectoryRobotInterface robot(resolved,
+                                           read_flight_layout(resolved.scene).path.front());
       load_trajectory_recogniser(resolved);
     } else if (resolved.episode.flies()) {
-      const FlightRig rig(resolved);
+      const OrbitRobotInterface robot(resolved);
       load_episode_recogniser(resolved);
     } else if (resolved.episode.in_office()) {
-      const OfficeRig rig(resolved);
+      const ExplorationRobotInterface robot(resolved);
     } else {
-      const TabletopRig rig(resolved);
+      const TabletopRobotInterface robot(resolved);
     }
   } catch (const ConfigError& error) {
     throw ConfigError(file.string() + ": " + error.what());

@@ -10,7 +10,7 @@ namespace vantage {
 struct ViewInput {
   ViewControls& controls;
   PlaybackGate& gate;
-  double shown_s = 0.0;  ///< simulated time of the picture that is shown
+  double shown_s = 0.0;  ///< simulated time of the image that is shown
   double tick_s = 0.025;
   bool scrubbing = false;  ///< the drag began on the timeline
 

@@ -4,14 +4,14 @@
 
 namespace vantage {
 
-void ViewLink::tell(const StoryEvent& event) {
+void ViewLink::tell(const EpisodeEvent& event) {
   const std::lock_guard lock(mutex_);
-  story_.push_back(event);
+  event_log_.push_back(event);
 }
 
 std::size_t ViewLink::events() const {
   const std::lock_guard lock(mutex_);
-  return story_.size();
+  return event_log_.size();
 }
 
 void ViewLink::show(std::vector<double> state, std::size_t events, bool still) {
@@ -29,14 +29,14 @@ std::optional<ViewLink::Work> ViewLink::wait_for_work() {
   if (closed_) return std::nullopt;
   drawn_ = true;
   Work work{moment_, controls_, {}};
-  work.new_events.assign(story_.begin() + static_cast<std::ptrdiff_t>(told_), story_.end());
-  told_ = story_.size();
+  work.new_events.assign(event_log_.begin() + static_cast<std::ptrdiff_t>(told_), event_log_.end());
+  told_ = event_log_.size();
   return work;
 }
 
-void ViewLink::deliver(ViewPicture picture) {
+void ViewLink::deliver(ViewFrame frame) {
   const std::lock_guard lock(mutex_);
-  picture_ = std::move(picture);
+  frame_ = std::move(frame);
 }
 
 void ViewLink::set_controls(ViewControls controls) {
@@ -48,9 +48,9 @@ void ViewLink::set_controls(ViewControls controls) {
   changed_.notify_all();
 }
 
-std::optional<ViewPicture> ViewLink::take_picture() {
+std::optional<ViewFrame> ViewLink::take_frame() {
   const std::lock_guard lock(mutex_);
-  return std::exchange(picture_, std::nullopt);
+  return std::exchange(frame_, std::nullopt);
 }
 
 void ViewLink::close() {

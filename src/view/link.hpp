@@ -1,5 +1,5 @@
 /// What the three threads behind a window hand each other: the player (an episode that runs, or a
-/// recording) gives moments, the window gives controls, the painter makes pictures of both.
+/// recording) gives moments, the window gives controls, the painter makes images of both.
 #pragma once
 
 #include <condition_variable>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "vantage/runtime/event_log.hpp"
 #include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/render/window.hpp"
-#include "vantage/runtime/story.hpp"
 
 namespace vantage {
 
@@ -32,11 +32,11 @@ struct ViewControls {
 
 struct ViewMoment {
   std::vector<double> state;  ///< World::state()
-  std::size_t events = 0;     ///< of the story so far
+  std::size_t events = 0;     ///< of the event log so far
   bool still = false;         ///< the player waits here for a screenshot
 };
 
-struct ViewPicture {
+struct ViewFrame {
   RenderedImages image;
   double time_s = 0.0;  ///< simulated
   bool still = false;
@@ -44,23 +44,23 @@ struct ViewPicture {
 
 class ViewLink {
  public:
-  /// The player: adds to the story; gives the moment to show from now on.
-  void tell(const StoryEvent& event);
+  /// The player: adds to the event log; gives the moment to show from now on.
+  void tell(const EpisodeEvent& event);
   void show(std::vector<double> state, std::size_t events, bool still);
   [[nodiscard]] std::size_t events() const;
 
   struct Work {
     ViewMoment moment;
     ViewControls controls;
-    std::vector<StoryEvent> new_events;  ///< since the work before
+    std::vector<EpisodeEvent> new_events;  ///< since the work before
   };
   /// The painter: waits for something to draw that has not been drawn. Empty once closed.
   std::optional<Work> wait_for_work();
-  void deliver(ViewPicture picture);
+  void deliver(ViewFrame frame);
 
   /// The window.
   void set_controls(ViewControls controls);
-  std::optional<ViewPicture> take_picture();
+  std::optional<ViewFrame> take_frame();
   void close();
 
   /// Any thread: what went wrong in it, for the window's to throw.
@@ -70,11 +70,11 @@ class ViewLink {
  private:
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<StoryEvent> story_;
+  std::vector<EpisodeEvent> event_log_;
   std::size_t told_ = 0;  ///< events that the painter has
   ViewMoment moment_;
   ViewControls controls_;
-  std::optional<ViewPicture> picture_;
+  std::optional<ViewFrame> frame_;
   bool drawn_ = true;
   bool closed_ = false;
   std::exception_ptr error_;

@@ -66,7 +66,7 @@ ExitCode view_live(const ResolvedEpisode& resolved, const ViewOptions& options,
     }
     LivePlayer live{link, gate, options};
     run_as.spectator.on_tick = [&](const World& world) { live.tick(world); };
-    run_as.spectator.on_event = [&](const StoryEvent& event) { link.tell(event); };
+    run_as.spectator.on_event = [&](const EpisodeEvent& event) { link.tell(event); };
     const ExitCode code = run(resolved, run_as).code;
     if (!live.still_shown) link.show(live.state, link.events(), !options.screenshot.empty());
     return code;

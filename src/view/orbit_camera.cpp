@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kSteepest_rad = 0.5 * std::numbers::pi - 0.01;
 constexpr double kNearest_m = 0.05;
-constexpr double kFarthest_m = 200.0;
+constexpr double kMaxDistance_m = 200.0;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ FreeCamera panned(FreeCamera camera, const Eigen::Vector2d& drag) {
 
 FreeCamera zoomed(FreeCamera camera, double notches) {
   camera.distance_m =
-      std::clamp(camera.distance_m * std::pow(0.9, notches), kNearest_m, kFarthest_m);
+      std::clamp(camera.distance_m * std::pow(0.9, notches), kNearest_m, kMaxDistance_m);
   return camera;
 }
 

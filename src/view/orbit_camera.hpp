@@ -5,7 +5,7 @@
 
 namespace vantage {
 
-/// Drags are in heights of the picture, x right, y down. Half a turn per height; never over the
+/// Drags are in heights of the image, x right, y down. Half a turn per height; never over the
 /// top.
 FreeCamera orbited(FreeCamera camera, const Eigen::Vector2d& drag);
 

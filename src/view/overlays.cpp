@@ -50,7 +50,7 @@ void lay_way(MapCanvas& canvas, const MapCamera& camera, const std::vector<Eigen
   }
 }
 
-/// As on a picture 720 px high.
+/// As on an image 720 px high.
 Layout layout_of(const cv::Mat& image) { return {image.rows / 720.0, image.size()}; }
 
 void darken(cv::Mat& image, cv::Rect area) {
@@ -141,7 +141,7 @@ void help_card(cv::Mat& image) {
 
 }  // namespace
 
-double timeline_height_px(int picture_height_px) { return std::max(8.0, picture_height_px / 45.0); }
+double timeline_height_px(int frame_height_px) { return std::max(8.0, frame_height_px / 45.0); }
 
 void lay_map(MapCanvas& canvas, const MapCamera& camera, const OccupancyGrid& grid) {
   MapCanvas layer = make_canvas(canvas.bgr.size());
@@ -161,7 +161,7 @@ void lay_map(MapCanvas& canvas, const MapCamera& camera, const OccupancyGrid& gr
   }
 }
 
-void lay_views(MapCanvas& canvas, const MapCamera& camera, const StoryMoment& known) {
+void lay_views(MapCanvas& canvas, const MapCamera& camera, const EventReplay& known) {
   if (!known.decision()) return;
   const Decision& decision = *known.decision();
   const double unit = canvas.bgr.rows / 720.0;

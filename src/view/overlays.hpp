@@ -1,4 +1,4 @@
-/// What is laid over the picture of the world: the map, the views weighed, words.
+/// What is laid over the image of the world: the map, the views weighed, words.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "vantage/runtime/drawing/map_view.hpp"
-#include "vantage/runtime/story.hpp"
+#include "vantage/runtime/event_log.hpp"
 
 namespace vantage {
 
@@ -18,7 +18,7 @@ void lay_map(MapCanvas& canvas, const MapCamera& camera, const OccupancyGrid& gr
 
 /// Views as pyramids, coloured by their gain from the lowest to the highest; unreachable ones grey,
 /// the chosen one white and larger; the way there.
-void lay_views(MapCanvas& canvas, const MapCamera& camera, const StoryMoment& known);
+void lay_views(MapCanvas& canvas, const MapCamera& camera, const EventReplay& known);
 
 struct ViewCaptions {
   std::string scene;     ///< top left
@@ -30,7 +30,7 @@ struct ViewCaptions {
 };
 void lay_captions(cv::Mat& bgr, const ViewCaptions& captions);
 
-/// Of the timeline at the foot of a picture.
-double timeline_height_px(int picture_height_px);
+/// Of the timeline at the foot of an image.
+double timeline_height_px(int frame_height_px);
 
 }  // namespace vantage

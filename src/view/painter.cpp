@@ -15,7 +15,7 @@ namespace {
 constexpr double kFovy_rad = 0.7853981633974483;
 /// Round the region of the map, for the robot beside it.
 constexpr double kMargin_m = 1.2;
-/// Of the half diagonal of the region, which is seen obliquely in a picture wider than high.
+/// Of the half diagonal of the region, which is seen obliquely in an image wider than high.
 constexpr double kRegionShare = 0.75;
 constexpr double kBodyMiddle_m = 0.7;
 
@@ -102,25 +102,25 @@ Renderer& ViewPainter::renderer_of(PixelSize size) {
   return *renderer_;
 }
 
-ViewPicture ViewPainter::paint(const ViewLink::Work& work) {
+ViewFrame ViewPainter::paint(const ViewLink::Work& work) {
   const ViewControls& controls = work.controls;
-  story_.insert(story_.end(), work.new_events.begin(), work.new_events.end());
-  known_.go_to(story_, work.moment.events);
+  event_log_.insert(event_log_.end(), work.new_events.begin(), work.new_events.end());
+  known_.go_to(event_log_, work.moment.events);
   world_.set_state(work.moment.state);
   RenderRequest request;
   request.shadows = true;
   request.depth_and_segmentation = controls.map || controls.gains;
-  ViewPicture picture{{}, world_.time_s(), work.moment.still};
+  ViewFrame frame{{}, world_.time_s(), work.moment.still};
   renderer_of(controls.size)
-      .render(world_.model(), world_.snapshot(), camera_for(controls), request, picture.image);
+      .render(world_.model(), world_.snapshot(), camera_for(controls), request, frame.image);
 
-  MapCanvas canvas = canvas_of(picture.image);
-  const MapCamera camera = camera_of(picture.image);
+  MapCanvas canvas = canvas_of(frame.image);
+  const MapCamera camera = camera_of(frame.image);
   if (controls.map && !episode_.flies()) lay_map(canvas, camera, known_.grid());
   if (controls.gains) lay_views(canvas, camera, known_);
-  lay_captions(canvas.bgr, captions_for(controls, picture.time_s));
-  set_colours(picture.image, canvas.bgr);
-  return picture;
+  lay_captions(canvas.bgr, captions_for(controls, frame.time_s));
+  set_colours(frame.image, canvas.bgr);
+  return frame;
 }
 
 ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time_s) const {

@@ -25,9 +25,9 @@ class ViewPainter {
   /// thread that made it.
   ViewPainter(World& world, const Episode& episode);
 
-  /// The same picture for the same moment, however it was reached.
+  /// The same image for the same moment, however it was reached.
   /// @throws RendererError
-  ViewPicture paint(const ViewLink::Work& work);
+  ViewFrame paint(const ViewLink::Work& work);
 
  private:
   [[nodiscard]] CameraView camera_for(const ViewControls& controls) const;
@@ -39,8 +39,8 @@ class ViewPainter {
   int camera_;  ///< the robot's
   int base_body_;
   std::unique_ptr<Renderer> renderer_;
-  std::vector<StoryEvent> story_;
-  StoryMoment known_;
+  std::vector<EpisodeEvent> event_log_;
+  EventReplay known_;
 };
 
 }  // namespace vantage

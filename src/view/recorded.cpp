@@ -5,8 +5,8 @@
 
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
-#include "vantage/tasks/model_source.hpp"
 #include "vantage/runtime/recording.hpp"
+#include "vantage/tasks/model_source.hpp"
 #include "vantage/view/session.hpp"
 
 namespace vantage {
@@ -15,7 +15,7 @@ namespace {
 /// Positions are the recorded states, and one more: the last state with all that followed it.
 struct RecordedPlayer {
   RecordedStates states;
-  std::vector<StoryEvent> story;
+  std::vector<EpisodeEvent> event_log;
   double tick_s = 0.0;
 
   [[nodiscard]] std::size_t end() const { return states.count(); }
@@ -33,13 +33,13 @@ struct RecordedPlayer {
     return static_cast<std::size_t>(found - positions.begin());
   }
   [[nodiscard]] std::size_t events_at(std::size_t position) const {
-    if (position == end()) return story.size();
-    const auto after = std::ranges::lower_bound(story, position, {}, &StoryEvent::tick);
-    return static_cast<std::size_t>(after - story.begin());
+    if (position == end()) return event_log.size();
+    const auto after = std::ranges::lower_bound(event_log, position, {}, &EpisodeEvent::tick);
+    return static_cast<std::size_t>(after - event_log.begin());
   }
 
   void play(ViewLink& link, PlaybackGate& gate, std::size_t position, bool still) const {
-    for (const StoryEvent& event : story) link.tell(event);
+    for (const EpisodeEvent& event : event_log) link.tell(event);
     while (true) {
       const auto state = states.state(state_at(position));
       if (still || position == end()) gate.pause();
@@ -51,10 +51,11 @@ struct RecordedPlayer {
   }
 };
 
-/// Runs of before there were stories can still be looked at.
-std::vector<StoryEvent> story_of(const std::filesystem::path& run_dir, const Episode& episode) {
+/// Runs of before there were event logs can still be looked at.
+std::vector<EpisodeEvent> event_log_of(const std::filesystem::path& run_dir,
+                                       const Episode& episode) {
   const auto path = run_dir / "story.bin";
-  if (std::filesystem::exists(path)) return read_story(path, episode.grid_frame().size());
+  if (std::filesystem::exists(path)) return read_event_log(path, episode.grid_frame().size());
   if (episode.flies()) return {};
   log_warning(path.string() + ": missing; there is neither map nor gains to show");
   return {};
@@ -67,7 +68,7 @@ ExitCode view_recording(const std::filesystem::path& run_dir, const ViewOptions&
   RecordedPlayer recorded;
   const World world(model_source(resolved), resolved.episode.simulation);
   recorded.states = load_states(run_dir, world);
-  recorded.story = story_of(run_dir, resolved.episode);
+  recorded.event_log = event_log_of(run_dir, resolved.episode);
   recorded.tick_s = resolved.episode.simulation.control_period_s;
   const bool still = !options.screenshot.empty();
   std::size_t first = still ? recorded.end() : 0;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kPoll_s = 1.0 / 60.0;
 /// The painter leaves a core to the simulation.
-constexpr std::chrono::milliseconds kBetweenPictures{30};
+constexpr std::chrono::milliseconds kBetweenFrames{30};
 
 void write_png(const std::filesystem::path& path, RenderedImages image) {
   const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3, image.rgb.data());
@@ -69,7 +69,7 @@ class Crew {
   void paint(World& world, const Episode& episode) {
     ViewPainter painter(world, episode);
     while (const auto work = link.wait_for_work()) {
-      const auto next = std::chrono::steady_clock::now() + kBetweenPictures;
+      const auto next = std::chrono::steady_clock::now() + kBetweenFrames;
       link.deliver(painter.paint(*work));
       std::this_thread::sleep_until(next);
     }
@@ -107,7 +107,7 @@ std::string playback_text(const Crew& crew, bool recorded) {
   return fmt::format("{}    {}    h: help", recorded ? "recording" : "live", pace);
 }
 
-/// Until the window is closed or the picture of the still moment is taken.
+/// Until the window is closed or the image of the still moment is taken.
 void take_still(Window& window, Crew& crew, ViewControls controls, const ViewOptions& options) {
   crew.link.set_controls(controls);
   while (!window.closed() && interrupt_signal() == 0) {
@@ -117,14 +117,14 @@ void take_still(Window& window, Crew& crew, ViewControls controls, const ViewOpt
       controls.size = window.size();
       crew.link.set_controls(controls);
     }
-    const auto picture = crew.link.take_picture();
-    if (!picture) continue;
-    const PixelSize drawn{picture->image.width_px, picture->image.height_px};
-    if (!picture->still || drawn != window.size()) {
-      window.show(picture->image);
+    const auto frame = crew.link.take_frame();
+    if (!frame) continue;
+    const PixelSize drawn{frame->image.width_px, frame->image.height_px};
+    if (!frame->still || drawn != window.size()) {
+      window.show(frame->image);
       continue;
     }
-    write_png(options.screenshot, window.show_and_read(picture->image));
+    write_png(options.screenshot, window.show_and_read(frame->image));
     return;
   }
   throw Interrupted(interrupt_signal() == 0 ? SIGINT : interrupt_signal());
@@ -145,9 +145,9 @@ void keep_open(Window& window, Crew& crew, ViewControls controls, const ViewSubj
       controls.size = window.size();
       crew.link.set_controls(controls);
     }
-    if (auto picture = crew.link.take_picture()) {
-      input.shown_s = picture->time_s;
-      shown = std::move(picture->image);
+    if (auto frame = crew.link.take_frame()) {
+      input.shown_s = frame->time_s;
+      shown = std::move(frame->image);
       window.show(shown);
     }
     if (!std::exchange(input.screenshot, false) || shown.rgb.empty()) continue;

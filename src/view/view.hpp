@@ -18,9 +18,9 @@ struct ViewOptions {
   ViewCamera camera = ViewCamera::overview;
   bool map = false;    ///< shown from the beginning
   bool gains = false;  ///< shown from the beginning
-  /// Not empty: a picture of the window goes there, and that is all.
+  /// Not empty: an image of the window goes there, and that is all.
   std::filesystem::path screenshot;
-  std::optional<double> at_s;  ///< simulated, of that picture; else the end
+  std::optional<double> at_s;  ///< simulated, of that image; else the end
 };
 
 /// Runs the episode as run() does, at the pace of the viewer, into `run_options.directory`; if that

@@ -1,10 +1,10 @@
 // `vantage train`, `recognise` and `evaluate` on a dataset of painted blocks.
 #include <nlohmann/json.hpp>
 
-#include "vantage/core/atomic_file.hpp"
 #include "tests/cli/command_line.hpp"
 #include "tests/perception/features/onnx_bytes.hpp"
 #include "tests/recognition/painted_dataset.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {
@@ -13,7 +13,7 @@ using nlohmann::json;
 
 constexpr auto kTrain = "train data --out model -q --set 'features=[colour,bounding_box]' ";
 constexpr auto kRecognise = "recognise --model model --json ";
-/// A view of the test video, its picture and its depth.
+/// A view of the test video, its image and its depth.
 constexpr auto kRed = "data/mug/mug_1/mug_1_2_3_crop.png data/mug/mug_1/mug_1_2_3_depthcrop.png";
 
 class RecognitionCommands : public CommandLine {
@@ -171,7 +171,7 @@ TEST_F(RecognitionCommands, AnObjectCutByTheFrameHasABeliefAllTheSame) {
   train();
   write_file(view("loc.txt"), "0,0\n");
   cv::Mat mask = cv::Mat::zeros(24, 30, CV_8UC1);
-  mask.colRange(0, 4).setTo(255);  // a strip of it is in the picture
+  mask.colRange(0, 4).setTo(255);  // a strip of it is in the image
   cv::imwrite(view("maskcrop.png").string(), mask);
   expect_finite(parsed(std::string(kRecognise) + kRed + " --set recognition.all_features=true"));
 }

@@ -1,9 +1,9 @@
 // `vantage score-views` as the owner of a robot meets it.
 #include <nlohmann/json.hpp>
 
-#include "vantage/belief/map/octomap_io.hpp"
 #include "tests/cli/command_line.hpp"
 #include "tests/support/octomap_bytes.hpp"
+#include "vantage/belief/map/octomap_io.hpp"
 
 namespace vantage {
 namespace {

@@ -21,7 +21,7 @@ struct IdealRun {
   Pose2 end;
   double fastest_m_s = 0.0;
   double sharpest_m_s2 = 0.0;
-  double farthest_off_m = 0.0;
+  double max_off_m = 0.0;
   double time_s = 0.0;
 };
 IdealRun run(const Pose2& start, const std::vector<Pose2>& waypoints,
@@ -41,7 +41,7 @@ IdealRun run(const Pose2& start, const std::vector<Pose2>& waypoints,
                                       twist.wz_rad_s * kPeriod_s});
     const Eigen::Vector2d p(result.end.x_m, result.end.y_m);
     const double nearest_m = (path.point(path.project(p, 0.0, path.length_m())) - p).norm();
-    result.farthest_off_m = std::max(result.farthest_off_m, nearest_m);
+    result.max_off_m = std::max(result.max_off_m, nearest_m);
     const Pose2 left = compose(inverse(result.end), path.goal());
     if (std::hypot(left.x_m, left.y_m) < 0.003 && std::abs(left.yaw_rad) < 0.003) break;
   }
@@ -92,7 +92,7 @@ TEST(FollowPath, ArrivesWithinItsLimits) {
   EXPECT_NEAR(result.end.yaw_rad, kPi / 2.0, 0.003);
   EXPECT_LE(result.fastest_m_s, options.speed_m_s + 1e-12);
   EXPECT_LE(result.sharpest_m_s2, options.acceleration_m_s2 + 1e-9);
-  EXPECT_LT(result.farthest_off_m, 0.05);
+  EXPECT_LT(result.max_off_m, 0.05);
   EXPECT_LT(result.time_s, 12.0);
 }
 

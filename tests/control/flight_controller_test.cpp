@@ -130,9 +130,9 @@ struct Hover {
   FlightMemory memory;
   FlightState state;
 
-  void step(const FlightReference& reference, const Eigen::Vector3d& push_m_s2) {
+  void step(const FlightReference& reference, const Eigen::Vector3d& disturbance_m_s2) {
     const Allocation given = control_flight(state, reference, frame, kPeriod_s, options, memory);
-    Eigen::Vector3d a = push_m_s2;
+    Eigen::Vector3d a = disturbance_m_s2;
     a.z() += given.collective_N / frame.mass_kg - frame.gravity_m_s2;
     state.v_world_m_s += kPeriod_s * a;
     state.T_world_body.translation() += kPeriod_s * state.v_world_m_s;
@@ -142,7 +142,7 @@ struct Hover {
 TEST(ControlFlight, LearnsASteadyPush) {
   Hover hover;
   for (int i = 0; i < 5000; ++i) hover.step({}, {0.0, 0.0, -1.5});
-  EXPECT_NEAR(hover.memory.push_m_s2.z(), -1.5, 1e-6);
+  EXPECT_NEAR(hover.memory.disturbance_m_s2.z(), -1.5, 1e-6);
   EXPECT_NEAR(hover.state.T_world_body.translation().z(), 0.0, 1e-6);
 }
 
@@ -151,7 +151,7 @@ TEST(ControlFlight, StepsOfTheReferenceTeachNoPush) {
   double most = 0.0;
   for (int i = 0; i < 2000; ++i) {
     hover.step({.p_world_m = {0.0, 0.0, 5.0}}, Eigen::Vector3d::Zero());
-    most = std::max(most, hover.memory.push_m_s2.norm());
+    most = std::max(most, hover.memory.disturbance_m_s2.norm());
   }
   EXPECT_LT(most, 1e-9);
   EXPECT_GT(hover.state.T_world_body.translation().z(), 4.0);

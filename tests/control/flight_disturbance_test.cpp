@@ -49,7 +49,7 @@ TEST(PoseEstimate, ErrorsAreGaussianOfTheirSizeAndForgetInTime) {
     const double x = T.translation().x() - 1.0;
     x2 += x * x / kDraws;
     kept += x * (first.translation().x() - 1.0) / kDraws;
-    yaw2 += std::pow(flatten(T).yaw_rad - 0.4, 2) / kDraws;
+    yaw2 += std::pow(project_to_se2(T).yaw_rad - 0.4, 2) / kDraws;
     tilt2 += std::pow(std::acos(std::min(1.0, T.linear()(2, 2))), 2) / kDraws;
   }
   // Four standard errors of a variance from that many draws.

@@ -1,8 +1,8 @@
 /// Quadrotors for the tests: one of numbers alone, one in a world of its own.
 #pragma once
 
-#include "vantage/sim/robots/pilot.hpp"
 #include "tests/sim/test_world.hpp"
+#include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 
 namespace vantage::test {
 
@@ -22,8 +22,8 @@ inline Airframe airframe() {
   return frame;
 }
 
-inline PilotOptions sure_pilot() {
-  PilotOptions options;
+inline TrajectoryTrackingOptions exact_tracking() {
+  TrajectoryTrackingOptions options;
   options.pose_noise = PoseNoiseOptions::perfect();
   return options;
 }
@@ -32,20 +32,20 @@ inline Pose at_height(double z_m) { return make_pose({0.0, 0.0, z_m}, 0.0); }
 
 /// Hovering in a scene.
 struct FlightWorld {
-  explicit FlightWorld(const PilotOptions& options = sure_pilot(),
+  explicit FlightWorld(const TrajectoryTrackingOptions& options = exact_tracking(),
                        const Pose& T_world_body = at_height(3.0), const std::string& bodies = "",
                        std::uint64_t seed = 1)
       : folder(scene_mjcf(bodies)),
         world({folder.path(), quadrotor_file()}, kFlightWorld),
         vehicle(world.model()),
-        pilot((vehicle.place(world, T_world_body), world), vehicle, options, Rng(seed)) {}
+        tracking((vehicle.place(world, T_world_body), world), vehicle, options, Rng(seed)) {}
   [[nodiscard]] Eigen::Vector3d position_m() const {
     return vehicle.state(world).T_world_body.translation();
   }
   SceneFolder folder;
   World world;
   Quadrotor vehicle;
-  Pilot pilot;
+  TrajectoryTrackingController tracking;
 };
 
 }  // namespace vantage::test

@@ -8,8 +8,8 @@
 #include <csignal>
 #include <string>
 
-#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

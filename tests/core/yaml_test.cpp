@@ -5,9 +5,9 @@
 
 #include <fstream>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/fields.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/models/catalogue/shapes/texture.hpp"
-#include "vantage/dataset/view_files.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/dataset/view_files.hpp"
+#include "vantage/models/catalogue/shapes/texture.hpp"
 
 namespace vantage {
 namespace {
@@ -41,7 +41,7 @@ TEST(ContactSheet, ShowsTheViewNearestToTheYawOfTheVideo) {
   EXPECT_NEAR(sheet.at(5, 20).x() * 255.0, 30.0, 1.0);
   EXPECT_NEAR(sheet.at(45, 20).x() * 255.0, 40.0, 1.0);
   EXPECT_NEAR(sheet.at(5, 72).x() * 255.0, 50.0, 1.0);
-  EXPECT_EQ(sheet.at(30, 20), RgbColour::Ones());  // beside a narrow picture
+  EXPECT_EQ(sheet.at(30, 20), RgbColour::Ones());  // beside a narrow image
 }
 
 }  // namespace

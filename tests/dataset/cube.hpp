@@ -1,10 +1,10 @@
 /// A cube of 10 cm with a face of each colour, to see which way it was turned.
 #pragma once
 
+#include "vantage/dataset/turntable.hpp"
 #include "vantage/models/catalogue/shapes/mesh_builders.hpp"
 #include "vantage/models/catalogue/shapes/obj.hpp"
 #include "vantage/models/catalogue/shapes/texture.hpp"
-#include "vantage/dataset/turntable.hpp"
 
 namespace vantage::support {
 

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/models/catalogue/shapes/obj.hpp"
-#include "vantage/models/catalogue/database/object_database.hpp"
-#include "vantage/models/catalogue/shapes/texture.hpp"
-#include "vantage/core/atomic_file.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
+#include "vantage/models/catalogue/shapes/texture.hpp"
 
 namespace vantage {
 namespace {

@@ -7,9 +7,9 @@
 #include <map>
 #include <numbers>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/perception/dataset_reader.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kObject = 4;
 
 /// 15 x 15 px: an object of 5 x 3 px at rows 6-8, columns 5-9, 0.5 m away before a wall at 0.8 m.
-RenderedImages picture(int rays = 1) {
+RenderedImages image(int rays = 1) {
   RenderedImages images;
   images.width_px = images.height_px = 15 * rays;
   for (int row = 0; row < 15 * rays; ++row) {
@@ -40,7 +40,7 @@ DatasetOptions exact() {
           .supersampling = 1};
 }
 
-ObjectView sensed(const DatasetOptions& options, const RenderedImages& images = picture()) {
+ObjectView sensed(const DatasetOptions& options, const RenderedImages& images = image()) {
   Rng rng(5);
   return sense(images, kObject, support::plain_session(0.7), options, rng);
 }
@@ -69,7 +69,7 @@ TEST(Sensing, CutsTheObjectOutWhereTheVirtualCameraSeesIt) {
 TEST(Sensing, AveragesRaysAndTakesDepthFromTheMiddle) {
   DatasetOptions options = exact();
   options.supersampling = 3;
-  RenderedImages images = picture(3);
+  RenderedImages images = image(3);
   const std::size_t ray = (3 * 7 + 0) * 45 + 3 * 7;  // a corner ray of pixel (7, 7)
   images.rgb[3 * ray] = 20;
   images.depth_m[ray] = 0.1F;
@@ -104,7 +104,7 @@ TEST(Sensing, ColourNoiseHasItsDeviation) {
   int pixels = 0;
   Rng rng(8);
   for (int repeat = 0; repeat < 40; ++repeat) {
-    const ObjectView view = sense(picture(), kObject, support::plain_session(0.7), options, rng);
+    const ObjectView view = sense(image(), kObject, support::plain_session(0.7), options, rng);
     for (std::size_t i = 1; i < view.rgb.size(); i += 3) {
       sum += std::pow(view.rgb[i] - 100.0, 2.0);
       ++pixels;
@@ -114,7 +114,7 @@ TEST(Sensing, ColourNoiseHasItsDeviation) {
 }
 
 TEST(Sensing, NothingSeenIsAnEmptyView) {
-  RenderedImages images = picture();
+  RenderedImages images = image();
   for (int& id : images.segmentation) id = 1;
   EXPECT_EQ(sensed(exact(), images).width_px, 0);
 }

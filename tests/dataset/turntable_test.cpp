@@ -7,9 +7,9 @@
 #include <numbers>
 #include <set>
 
+#include "tests/dataset/cube.hpp"
 #include "vantage/dataset/sensing.hpp"
 #include "vantage/perception/features/standing_box.hpp"
-#include "tests/dataset/cube.hpp"
 
 namespace vantage {
 namespace {

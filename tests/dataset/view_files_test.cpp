@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/perception/dataset_reader.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

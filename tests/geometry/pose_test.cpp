@@ -56,9 +56,9 @@ RC_GTEST_PROP(Pose2, AgreesWithThePoseInSpace, (std::uint64_t seed)) {
   Rng rng(seed);
   const Pose2 a = random_pose2(rng);
   const Pose2 b = random_pose2(rng);
-  RC_ASSERT(near(flatten(lift(a, 3.0)), a));
-  RC_ASSERT(near(flatten(lift(a) * lift(b)), compose(a, b)));
-  RC_ASSERT(near(flatten(lift(a).inverse()), inverse(a)));
+  RC_ASSERT(near(project_to_se2(to_se3(a, 3.0)), a));
+  RC_ASSERT(near(project_to_se2(to_se3(a) * to_se3(b)), compose(a, b)));
+  RC_ASSERT(near(project_to_se2(to_se3(a).inverse()), inverse(a)));
 }
 
 TEST(Pose2, InverseOfAHalfTurnStaysInRange) { EXPECT_EQ(inverse({0.0, 0.0, kPi}).yaw_rad, kPi); }
@@ -66,7 +66,7 @@ TEST(Pose2, InverseOfAHalfTurnStaysInRange) { EXPECT_EQ(inverse({0.0, 0.0, kPi})
 //        y
 //        ^  b's origin at (1, 2), facing +y: its x axis is the world's y axis
 TEST(Pose2, KnownTransform) {
-  const Pose p = lift({1.0, 2.0, kPi / 2.0}, 0.5);
+  const Pose p = to_se3({1.0, 2.0, kPi / 2.0}, 0.5);
   EXPECT_TRUE((p * Eigen::Vector3d(3, 0, 0)).isApprox(Eigen::Vector3d(1, 5, 0.5)));
   EXPECT_TRUE((p * Eigen::Vector3d(0, 3, 0)).isApprox(Eigen::Vector3d(-2, 2, 0.5)));
 }
@@ -77,7 +77,7 @@ TEST(MakePose, PositivePitchLooksDown) {
   EXPECT_NEAR(forward.x(), 0.0, 1e-12);
   EXPECT_NEAR(forward.y(), std::cos(0.3), 1e-12);
   EXPECT_NEAR(forward.z(), -std::sin(0.3), 1e-12);
-  EXPECT_NEAR(flatten(pose).yaw_rad, kPi / 2.0, 1e-12);
+  EXPECT_NEAR(project_to_se2(pose).yaw_rad, kPi / 2.0, 1e-12);
 }
 
 }  // namespace

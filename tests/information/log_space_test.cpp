@@ -8,8 +8,8 @@
 #include <limits>
 #include <numbers>
 
-#include "vantage/information/discrete.hpp"
 #include "tests/information/distributions.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/information/discrete.hpp"
 #include "tests/information/distributions.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 namespace {

@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <vector>
 
+#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/exact_gain.hpp"
 #include "vantage/planners/views/score_views.hpp"
 #include "vantage/planners/views/view_candidates.hpp"
-#include "vantage/planners/choice/view_choice.hpp"
-#include "vantage/belief/map/octomap_io.hpp"
 
 int main() {
   using namespace vantage;

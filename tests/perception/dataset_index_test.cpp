@@ -5,9 +5,9 @@
 
 #include <numbers>
 
-#include "vantage/core/error.hpp"
 #include "tests/perception/dataset_files.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/core/error.hpp"
 #include "tests/perception/dataset_files.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -114,7 +114,7 @@ TEST_F(Reader, NamesABadLocation) {
 
 TEST_F(Reader, APairOfPicturesIsTheViewWithTheFilesBesideThem) {
   const auto colour = entry_.file("crop.png");
-  const ObjectView pair = load_picture_pair(colour, entry_.file("depthcrop.png"), {});
+  const ObjectView pair = load_image_pair(colour, entry_.file("depthcrop.png"), {});
   const ObjectView whole = load_view(entry_).view;
   EXPECT_EQ(pair.rgb, whole.rgb);
   EXPECT_EQ(pair.depth_m, whole.depth_m);
@@ -131,15 +131,15 @@ TEST_F(Reader, APairByItselfIsMaskedByDepthAndInTheMiddle) {
   std::filesystem::copy(entry_.file("depthcrop.png"), depth);
   EXPECT_FALSE(yaw_beside(colour).has_value());
   const ObjectView near =
-      load_picture_pair(colour, depth, {.elevation_rad = 0.0, .farthest_m = 1.0015});
+      load_image_pair(colour, depth, {.elevation_rad = 0.0, .max_depth_m = 1.0015});
   EXPECT_THAT(near.mask,
               testing::ElementsAre(0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0));
   EXPECT_EQ(near.left_px, 318);
   EXPECT_EQ(near.top_px, 238);
   EXPECT_EQ(near.up, Eigen::Vector3d(0.0, -1.0, -0.0));
-  EXPECT_THAT(load_picture_pair(colour, depth, {}).mask, testing::Each(1));
+  EXPECT_THAT(load_image_pair(colour, depth, {}).mask, testing::Each(1));
   try {
-    load_picture_pair(colour, depth, {.farthest_m = 0.5});
+    load_image_pair(colour, depth, {.max_depth_m = 0.5});
     ADD_FAILURE() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("mine_depth.png: nothing is nearer"));

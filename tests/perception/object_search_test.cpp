@@ -30,23 +30,23 @@ std::vector<SeenObject> found_in(const std::vector<DrawnBox>& boxes,
 }
 
 double level_error_m(const SeenObject& seen, double x_m, double y_m) {
-  return (seen.sighting.p_world_object_m.head<2>() - Eigen::Vector2d(x_m, y_m)).norm();
+  return (seen.detection.p_world_object_m.head<2>() - Eigen::Vector2d(x_m, y_m)).norm();
 }
 
 TEST(ObjectSearch, FindsTwoObjectsOnStandsOfDifferentHeights) {
   const auto seen = found_in({pedestal(1.3, 0.45), box_on(0.8, 1.3, 0.45, {0.08, 0.1, 0.15}),
                               pedestal(1.5, -0.5, 0.7), box_on(0.7, 1.5, -0.5, {0.12, 0.12, 0.1})});
   ASSERT_EQ(seen.size(), 2U);
-  EXPECT_LE(seen[0].sighting.distance_m, seen[1].sighting.distance_m) << "nearest first";
+  EXPECT_LE(seen[0].detection.distance_m, seen[1].detection.distance_m) << "nearest first";
   EXPECT_LT(level_error_m(seen[0], 1.3, 0.45), 0.02);
   EXPECT_LT(level_error_m(seen[1], 1.5, -0.5), 0.02);
-  EXPECT_NEAR(seen[0].sighting.support_z_m, 0.8, 0.01);
-  EXPECT_NEAR(seen[1].sighting.support_z_m, 0.7, 0.01);
-  EXPECT_NEAR(seen[0].sighting.height_m, 0.15, 0.02);
-  EXPECT_NEAR(seen[0].sighting.radius_m, 0.064, 0.02);
-  EXPECT_NEAR(seen[0].sighting.p_world_object_m.z(), 0.875, 0.02);
-  EXPECT_TRUE(seen[0].sighting.whole);
-  EXPECT_TRUE(seen[1].sighting.whole);
+  EXPECT_NEAR(seen[0].detection.support_z_m, 0.8, 0.01);
+  EXPECT_NEAR(seen[1].detection.support_z_m, 0.7, 0.01);
+  EXPECT_NEAR(seen[0].detection.height_m, 0.15, 0.02);
+  EXPECT_NEAR(seen[0].detection.radius_m, 0.064, 0.02);
+  EXPECT_NEAR(seen[0].detection.p_world_object_m.z(), 0.875, 0.02);
+  EXPECT_TRUE(seen[0].detection.whole);
+  EXPECT_TRUE(seen[1].detection.whole);
 }
 
 TEST(ObjectSearch, GivesTheRecogniserTheCutOut) {
@@ -74,7 +74,7 @@ TEST(ObjectSearch, TellsWhatTheFrameCuts) {
   const double edge_m = 0.552 * (1.4 + 0.85) / std::sqrt(2.0);
   const auto seen = found_in({pedestal(1.4, edge_m), box_on(0.8, 1.4, edge_m, {0.1, 0.14, 0.2})});
   ASSERT_EQ(seen.size(), 1U);
-  EXPECT_FALSE(seen[0].sighting.whole);
+  EXPECT_FALSE(seen[0].detection.whole);
   EXPECT_LT(level_error_m(seen[0], 1.4, edge_m), 0.1);
 }
 
@@ -95,7 +95,7 @@ TEST(ObjectSearch, AColumnBehindAStandIsNotOnIt) {
                               box_on(0.0, 1.7, 0.0, {0.2, 0.2, 2.5})});
   ASSERT_EQ(seen.size(), 1U);
   EXPECT_LT(level_error_m(seen[0], 1.2, 0.0), 0.03);
-  EXPECT_LT(seen[0].sighting.height_m, 0.16);
+  EXPECT_LT(seen[0].detection.height_m, 0.16);
 }
 
 TEST(ObjectSearch, WhatStandsInFrontMakesAnObjectPartial) {
@@ -103,18 +103,18 @@ TEST(ObjectSearch, WhatStandsInFrontMakesAnObjectPartial) {
   std::vector<DrawnBox> hidden = room;
   hidden.push_back(box_on(0.0, 1.0, 0.1, {0.1, 0.12, 1.3}));
   ASSERT_EQ(found_in(room).size(), 1U);
-  EXPECT_TRUE(found_in(room)[0].sighting.whole);
+  EXPECT_TRUE(found_in(room)[0].detection.whole);
   const auto seen = found_in(hidden);
-  ASSERT_EQ(seen.size(), 1U) << "what is in front is too narrow for a stand";
+  ASSERT_EQ(seen.size(), 1U) << "what is in front is too narrow for a support surface";
   EXPECT_LT(level_error_m(seen[0], 1.5, 0.0), 0.06);
-  EXPECT_FALSE(seen[0].sighting.whole);
+  EXPECT_FALSE(seen[0].detection.whole);
 }
 
 TEST(ObjectSearch, ABookIsNoStand) {
   const auto seen = found_in({pedestal(1.3, 0.0), box_on(0.8, 1.3, 0.0, {0.2, 0.26, 0.04})});
   ASSERT_EQ(seen.size(), 1U);
   EXPECT_LT(level_error_m(seen[0], 1.3, 0.0), 0.02);
-  EXPECT_NEAR(seen[0].sighting.height_m, 0.04, 0.015);
+  EXPECT_NEAR(seen[0].detection.height_m, 0.04, 0.015);
 }
 
 TEST(ObjectSearch, BearsTheErrorsOfAnEstimatedPose) {
@@ -124,7 +124,7 @@ TEST(ObjectSearch, BearsTheErrorsOfAnEstimatedPose) {
   const auto seen = find_objects(draw_room(room, kCamera), T_estimated);
   ASSERT_EQ(seen.size(), 1U);
   EXPECT_LT(level_error_m(seen[0], 1.5, 0.2), 0.07);
-  EXPECT_NEAR(seen[0].sighting.height_m, 0.06, 0.02);
+  EXPECT_NEAR(seen[0].detection.height_m, 0.06, 0.02);
 }
 
 TEST(ObjectSearch, ReportsNothingBeyondItsRange) {
@@ -141,7 +141,7 @@ TEST(ObjectSearch, TheSameImageGivesTheSameBits) {
   const auto b = found_in(room);
   ASSERT_EQ(a.size(), 1U);
   ASSERT_EQ(b.size(), 1U);
-  EXPECT_EQ(a[0].sighting.p_world_object_m, b[0].sighting.p_world_object_m);
+  EXPECT_EQ(a[0].detection.p_world_object_m, b[0].detection.p_world_object_m);
   EXPECT_EQ(a[0].view.mask, b[0].view.mask);
 }
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/perception/clouds/normals.hpp"
 #include "tests/support/synthetic_room.hpp"
+#include "vantage/perception/clouds/normals.hpp"
 
 namespace vantage {
 namespace {
@@ -128,7 +128,7 @@ TEST_F(FindTable, VerticalSurfacesAreLeftOutByTheirNormals) {
 // What a robot sees: a sector of the table, its objects, floor and walls, with noise.
 TEST_F(FindTable, InAScanOfARoom) {
   const auto scene = support::table_scene();
-  const Pose T_world_sensor = lift(support::view_of_table(0.4), 1.05);
+  const Pose T_world_sensor = to_se3(support::view_of_table(0.4), 1.05);
   auto cloud = transform(to_cloud(support::sector_scan(scene, T_world_sensor, 600, 0.005, rng)),
                          T_world_sensor);
   const auto found = find(cloud);

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/planners/views/view_candidates.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/views/view_candidates.hpp"
 
 namespace vantage {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <numbers>
 
+#include "vantage/core/rng.hpp"
 #include "vantage/planners/exact_gain.hpp"
 #include "vantage/planners/views/view_candidates.hpp"
-#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

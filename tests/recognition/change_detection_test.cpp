@@ -19,7 +19,7 @@ class ChangeDetection : public ::testing::Test {
 
   static Recogniser make() {
     Rng rng(2);
-    return testing::made_up_recogniser(kObjects, {6.0, 10.0}, {.twin = 0.8}, rng);
+    return testing::made_up_recogniser(kObjects, {6.0, 10.0}, {.near_duplicate = 0.8}, rng);
   }
 
   ChangeReport detect(int object, int bin, int expected_object, int expected_bin,
@@ -83,7 +83,7 @@ TEST(ChangeDetectionInClosedForm, WeighsTheHypothesesByBayesRule) {
       make_recogniser(states, {{TrainedFeature(Colour{}, 0.0), model}}, 1);
   ChangeOptions options;
   options.recognition.all_features = true;
-  options.recognition.most_views = 1;
+  options.recognition.max_views = 1;
   options.prior_pose = 0.0;
   options.prior_object = 0.2;
   const float x = 0.9F;
@@ -128,13 +128,13 @@ TEST(TellsApart, IsAQuestionOfAllBearings) {
   model.mean << 0.0F, 4.0F, 4.0F, 4.0F;  // b looks the same from both sides
   const Recogniser recogniser =
       make_recogniser(states, {{TrainedFeature(Colour{}, 0.0), model}}, 1);
-  EXPECT_FALSE(tells_apart(recogniser, 0, 0));
-  EXPECT_FALSE(tells_apart(recogniser, 2, 3));
-  EXPECT_TRUE(tells_apart(recogniser, 0, 1));  // 1/2 exp(-4) from the two bearings
-  EXPECT_FALSE(tells_apart(recogniser, 0, 1, 0.009));
-  EXPECT_FALSE(tells_apart(recogniser, 0, 2));  // 1/2 exp(-2): from one of them
-  EXPECT_TRUE(tells_apart(recogniser, 0, 2, 0.07));
-  EXPECT_FALSE(tells_apart(recogniser, 1, 3, 0.06));
+  EXPECT_FALSE(distinguishable(recogniser, 0, 0));
+  EXPECT_FALSE(distinguishable(recogniser, 2, 3));
+  EXPECT_TRUE(distinguishable(recogniser, 0, 1));  // 1/2 exp(-4) from the two bearings
+  EXPECT_FALSE(distinguishable(recogniser, 0, 1, 0.009));
+  EXPECT_FALSE(distinguishable(recogniser, 0, 2));  // 1/2 exp(-2): from one of them
+  EXPECT_TRUE(distinguishable(recogniser, 0, 2, 0.07));
+  EXPECT_FALSE(distinguishable(recogniser, 1, 3, 0.06));
 }
 
 TEST_F(ChangeDetection, TheThresholdLiesBetweenTheBounds) {

@@ -7,19 +7,19 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/near_duplicate_families.hpp"
 #include "vantage/recognition/recognition.hpp"
-#include "tests/support/twin_families.hpp"
 
 namespace vantage::testing {
 
 /// Features of these effective dimensions, of 10 times as many dimensions each.
 inline Recogniser made_up_recogniser(int objects, const std::vector<double>& effective,
-                                     const TwinSpread& spread, Rng& rng, int bins = 8) {
-  const TwinFamilies families = twin_families(objects, bins);
+                                     const NearDuplicateSpread& spread, Rng& rng, int bins = 8) {
+  const NearDuplicateFamilies families = near_duplicate_families(objects, bins);
   std::vector<FeaturePair> pairs;
   for (const double dimensions : effective) {
     ObservationModel model =
-        twin_model(families, static_cast<int>(10 * dimensions), dimensions, spread, rng);
+        near_duplicate_model(families, static_cast<int>(10 * dimensions), dimensions, spread, rng);
     model.feature += "_" + std::to_string(pairs.size());
     pairs.push_back({TrainedFeature(Colour{}, model.cost_s), std::move(model)});
   }

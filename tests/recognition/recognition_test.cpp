@@ -17,9 +17,9 @@ using ::testing::SizeIs;
 constexpr double kTurn_rad = std::numbers::pi / 4.0;
 
 /// Two objects of two poses, alike but in pose 1; a feature without noise to speak of.
-class TwinMugs : public ::testing::Test {
+class NearDuplicateMugs : public ::testing::Test {
  protected:
-  TwinMugs() {
+  NearDuplicateMugs() {
     states_.objects = {"mug_1", "mug_2"};
     states_.categories = {"mug"};
     states_.category_of = {0, 0};
@@ -53,9 +53,9 @@ class TwinMugs : public ::testing::Test {
   Rng rng_{1};
 };
 
-TEST_F(TwinMugs, AViewIsBayesRuleWithTheFeaturesChosen) {
+TEST_F(NearDuplicateMugs, AViewIsBayesRuleWithTheFeaturesChosen) {
   Recognition recognition = begin_recognition(recogniser_);
-  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  update_with_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
   const Eigen::VectorXd p = p_state(recognition.belief);
   EXPECT_NEAR(p[0], 0.5, 1e-9);
   EXPECT_NEAR(p[2], 0.5, 1e-9);
@@ -65,15 +65,15 @@ TEST_F(TwinMugs, AViewIsBayesRuleWithTheFeaturesChosen) {
   EXPECT_EQ(recognition.views[0].feature_time_s, 0.25);
 }
 
-TEST_F(TwinMugs, AllFeaturesAreExtractedInOrderIfAsked) {
+TEST_F(NearDuplicateMugs, AllFeaturesAreExtractedInOrderIfAsked) {
   options_.all_features = true;
   Recognition recognition = begin_recognition(recogniser_);
-  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  update_with_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
   EXPECT_THAT(recognition.views[0].features, ElementsAre("colour", "useless"));
   EXPECT_EQ(recognition.views[0].feature_time_s, 0.5);
 }
 
-TEST_F(TwinMugs, ASkippedFeatureIsReportedAndNotTriedAgain) {
+TEST_F(NearDuplicateMugs, ASkippedFeatureIsReportedAndNotTriedAgain) {
   int calls = 0;
   const ExtractFeature failing = [&](std::size_t) {
     ++calls;
@@ -81,7 +81,7 @@ TEST_F(TwinMugs, ASkippedFeatureIsReportedAndNotTriedAgain) {
   };
   options_.all_features = true;
   Recognition recognition = begin_recognition(recogniser_);
-  take_view(recogniser_, options_, failing, 0.0, recognition, rng_);
+  update_with_view(recogniser_, options_, failing, 0.0, recognition, rng_);
   EXPECT_EQ(calls, 2);
   EXPECT_THAT(recognition.views[0].features, IsEmpty());
   ASSERT_THAT(recognition.views[0].skipped, SizeIs(2));
@@ -90,21 +90,21 @@ TEST_F(TwinMugs, ASkippedFeatureIsReportedAndNotTriedAgain) {
   EXPECT_NEAR(recognition.views[0].entropy_bits, 2.0, 1e-9);
 }
 
-TEST_F(TwinMugs, AFeatureThatFitsNoStateIsSkippedWithTheReason) {
+TEST_F(NearDuplicateMugs, AFeatureThatFitsNoStateIsSkippedWithTheReason) {
   const ExtractFeature impossible = [&](std::size_t) {
     return ExtractedFeature{
         .result = {Eigen::VectorXf::Zero(1), {}},
         .log_likelihood = Eigen::VectorXd::Constant(4, -std::numeric_limits<double>::infinity())};
   };
   Recognition recognition = begin_recognition(recogniser_);
-  take_view(recogniser_, options_, impossible, 0.0, recognition, rng_);
+  update_with_view(recogniser_, options_, impossible, 0.0, recognition, rng_);
   ASSERT_FALSE(recognition.views[0].skipped.empty());
   EXPECT_THAT(recognition.views[0].skipped[0].reason, HasSubstr("no state"));
 }
 
-TEST_F(TwinMugs, TheNextViewIsWhereTheyDiffer) {
+TEST_F(NearDuplicateMugs, TheNextViewIsWhereTheyDiffer) {
   Recognition recognition = begin_recognition(recogniser_);
-  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  update_with_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
   const std::vector<ObjectViewAction> actions{{.yaw_rad = 2.0 * std::numbers::pi},
                                               {.yaw_rad = std::numbers::pi}};
   const NextView next = next_view(recogniser_, options_, recognition, actions, rng_);
@@ -113,16 +113,16 @@ TEST_F(TwinMugs, TheNextViewIsWhereTheyDiffer) {
   EXPECT_NEAR(next.decision.scores[0].gain.bits, 0.0, 1e-6);
 }
 
-TEST_F(TwinMugs, ItEndsWhenSureOrAfterSoManyViews) {
+TEST_F(NearDuplicateMugs, ItEndsWhenSureOrAfterSoManyViews) {
   Recognition recognition = begin_recognition(recogniser_);
   EXPECT_EQ(recognition_end(recogniser_, options_, recognition), std::nullopt);
-  take_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  update_with_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
   EXPECT_EQ(recognition_end(recogniser_, options_, recognition), std::nullopt);
-  options_.most_views = 1;
-  EXPECT_EQ(recognition_end(recogniser_, options_, recognition), RecognitionEnd::most_views);
-  take_view(recogniser_, options_, measuring(3), 0.0, recognition, rng_);
+  options_.max_views = 1;
+  EXPECT_EQ(recognition_end(recogniser_, options_, recognition), RecognitionEnd::max_views);
+  update_with_view(recogniser_, options_, measuring(3), 0.0, recognition, rng_);
   recognition.belief = uniform_belief(states_);
-  take_view(recogniser_, options_, measuring(3), 0.0, recognition, rng_);
+  update_with_view(recogniser_, options_, measuring(3), 0.0, recognition, rng_);
   EXPECT_EQ(recognition_end(recogniser_, options_, recognition), RecognitionEnd::sure);
 }
 
@@ -135,7 +135,7 @@ TEST(Recognition, TheYawThatACameraSeesFallsAsItsBearingRises) {
   const int before = recogniser.states.state(1, 2);
   recognition.belief.log_p.setConstant(-std::numeric_limits<double>::infinity());
   recognition.belief.log_p[before] = 0.0;
-  moved(recogniser, options, kTurn_rad, recognition);
+  predict_motion(recogniser, options, kTurn_rad, recognition);
   EXPECT_EQ(most_probable_state(recognition.belief), recogniser.states.state(1, 1));
 }
 
@@ -185,12 +185,12 @@ TEST(Recognition, OptionsOutOfRangeAreNamed) {
   const Recogniser recogniser = testing::made_up_recogniser(2, {2.0}, {}, rng);
   MadeUpCamera camera{.recogniser = recogniser, .rng = rng};
   RecognitionOptions options;
-  options.most_views = 0;
+  options.max_views = 0;
   try {
     recognise(recogniser, options, object_camera(camera), rng);
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("most_views"));
+    EXPECT_THAT(error.what(), HasSubstr("max_views"));
   }
 }
 

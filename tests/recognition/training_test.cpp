@@ -6,12 +6,12 @@
 #include <atomic>
 #include <numeric>
 
-#include "vantage/perception/dataset_reader.hpp"
-#include "vantage/recognition/recognition.hpp"
-#include "vantage/recognition/dataset/shown_states.hpp"
-#include "vantage/recognition/dataset/transition_training.hpp"
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/perception/dataset_reader.hpp"
+#include "vantage/recognition/dataset/shown_states.hpp"
+#include "vantage/recognition/dataset/transition_training.hpp"
+#include "vantage/recognition/recognition.hpp"
 
 namespace vantage {
 namespace {
@@ -71,7 +71,7 @@ TEST_F(Training, ViewsNotTrainedOnAreRecognisedWithTheirPose) {
     if (entry.name.video != 2) continue;
     const LabelledView view = load_view(entry);
     Recognition known = begin_recognition(recogniser);
-    take_view(recogniser, options, extract_from(recogniser, view.view), 0.0, known, rng);
+    update_with_view(recogniser, options, extract_from(recogniser, view.view), 0.0, known, rng);
     const int best = most_probable_state(known.belief);
     const auto object = static_cast<std::size_t>(recogniser.states.object_of(best));
     EXPECT_EQ(recogniser.states.objects[object], view.name.object);

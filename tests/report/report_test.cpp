@@ -6,11 +6,11 @@
 #include <cstring>
 #include <regex>
 
+#include "tests/report/sample_run.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/report/report_data.hpp"
-#include "tests/report/sample_run.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

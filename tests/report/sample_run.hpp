@@ -13,8 +13,8 @@
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/rng.hpp"
-#include "vantage/report/report_data.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/report/report_data.hpp"
 
 namespace vantage::support {
 
@@ -102,7 +102,7 @@ inline VoxelMap sample_voxels(const OccupancyGrid& grid) {
 
 inline nlohmann::json view_json(const Pose& T) {
   const Eigen::Vector3d p = T.translation();
-  return {{"x_m", p.x()}, {"y_m", p.y()}, {"z_m", p.z()}, {"yaw_rad", flatten(T).yaw_rad}};
+  return {{"x_m", p.x()}, {"y_m", p.y()}, {"z_m", p.z()}, {"yaw_rad", project_to_se2(T).yaw_rad}};
 }
 
 inline nlohmann::json sample_scan(int scan, Rng& rng) {

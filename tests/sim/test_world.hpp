@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/sim/robots/pr2.hpp"
 #include "vantage/sim/world/world.hpp"
-#include "vantage/core/atomic_file.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage::test {
 

@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-#include "vantage/core/error.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <fstream>
 
-#include "vantage/core/hash.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/hash.hpp"
 
 namespace vantage {
 namespace {
@@ -50,12 +50,12 @@ TEST_F(Results, AnotherConfigurationIsStale) {
 
 TEST_F(Results, WhatOnlyOtherTasksReadDoesNotMatter) {
   episode_.resolved.episode.trajectory.horizon = 7;
-  episode_.resolved.episode.recognition.decision.most_views = 3;
+  episode_.resolved.episode.recognition.decision.max_views = 3;
   EXPECT_EQ(state(), EpisodeState::completed);
   episode_.resolved.episode.task = "recognition";
   write("config.yaml", episode_yaml(episode_.resolved.episode));
   EXPECT_EQ(state(), EpisodeState::completed);
-  episode_.resolved.episode.recognition.decision.most_views = 4;
+  episode_.resolved.episode.recognition.decision.max_views = 4;
   EXPECT_EQ(state(), EpisodeState::stale);
 }
 

@@ -6,9 +6,9 @@
 
 #include <fstream>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/study/sweep.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

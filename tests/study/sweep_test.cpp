@@ -8,9 +8,9 @@
 #include <fstream>
 #include <thread>
 
-#include "vantage/core/atomic_file.hpp"
 #include "tests/support/shell.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-/// Depth images of boxes on a floor, drawn ray by ray: pictures whose truth is known exactly.
+/// Depth images of boxes on a floor, drawn ray by ray: images whose truth is known exactly.
 #pragma once
 
 #include <cmath>

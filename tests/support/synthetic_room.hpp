@@ -90,7 +90,7 @@ inline PlanarScan floor_scan(const SyntheticScene& scene, const Pose2& T_world_b
   scan.T_base_sensor = {0.275, 0.0, 0.0};
   scan.azimuth_rad = evenly_spaced(-0.75 * std::numbers::pi, 0.75 * std::numbers::pi, 540);
   scan.range_max_m = 10.0;
-  const Pose T_world_sensor = lift(compose(T_world_base, scan.T_base_sensor), 0.25);
+  const Pose T_world_sensor = to_se3(compose(T_world_base, scan.T_base_sensor), 0.25);
   for (const double azimuth : scan.azimuth_rad) {
     const Eigen::Vector3d direction = T_world_sensor.linear() * beam_direction({azimuth, 0.0});
     const double range = cast_ray(scene, T_world_sensor.translation(), direction);

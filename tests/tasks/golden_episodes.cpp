@@ -7,18 +7,18 @@
 #include <cmath>
 #include <filesystem>
 
-#include "vantage/planners/exact_gain.hpp"
-#include "vantage/planners/views/view_candidates.hpp"
-#include "vantage/planners/choice/view_choice.hpp"
+#include "tests/support/voxel_world.hpp"
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/belief/map/free_space.hpp"
 #include "vantage/belief/map/hole_filling.hpp"
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/belief/map/sensor_model.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
+#include "vantage/planners/exact_gain.hpp"
+#include "vantage/planners/views/view_candidates.hpp"
 #include "vantage/tasks/mapping/map_panel.hpp"
 #include "vantage/tasks/run.hpp"
-#include "tests/support/voxel_world.hpp"
 
 namespace vantage {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "vantage/core/atomic_file.hpp"
 #include "tests/tasks/golden_episodes.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {

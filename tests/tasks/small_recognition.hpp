@@ -12,7 +12,7 @@
 
 namespace vantage::support {
 
-inline constexpr int kSmallObjects = 4;  // mugs, and a cereal box without a twin
+inline constexpr int kSmallObjects = 4;  // mugs, and a cereal box without a near-duplicate
 
 /// Makes `folder`/model.
 inline void make_small_model(const std::filesystem::path& folder) {
@@ -33,7 +33,7 @@ inline std::vector<std::string> small_flight(const std::filesystem::path& folder
   return {fmt::format("recognition.model={}", (folder / "model").string()),
           fmt::format("recognition.database.objects={}", kSmallObjects),
           "recognition.settle_s=0.1",
-          "recognition.most_views=2",
+          "recognition.max_views=2",
           "recognition.all_features=true",
           "recognition.camera={width_px: 320, height_px: 240}",
           "recognition.segmentation.min_pixels=40"};

@@ -23,7 +23,7 @@ Pose T_world_camera(const FreeCamera& camera) {
   return T;
 }
 
-/// In heights of the picture from its middle, x right, y down.
+/// In heights of the image from its middle, x right, y down.
 Eigen::Vector2d projected(const FreeCamera& camera, const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d p = T_world_camera(camera).inverse() * p_world;
   return p.head<2>() / p.z() / (2.0 * std::tan(0.5 * *camera.fovy_rad));

@@ -5,11 +5,11 @@
 #include <future>
 #include <set>
 
-#include "vantage/core/atomic_file.hpp"
-#include "vantage/tasks/scenario.hpp"
-#include "vantage/runtime/story.hpp"
 #include "tests/cli/command_line.hpp"
 #include "tests/support/virtual_display.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/runtime/event_log.hpp"
+#include "vantage/tasks/scenario.hpp"
 
 namespace vantage {
 namespace {
@@ -23,7 +23,7 @@ constexpr const char* kSmall = "--size 400x300 ";
 
 class View : public CommandLine {
  protected:
-  /// The picture that `arguments` make.
+  /// The image that `arguments` make.
   cv::Mat shot(const std::string& name, const std::string& arguments) {
     const Result result = vantage("view " + arguments + " --screenshot " + name);
     EXPECT_EQ(result.exit_code, 0) << result.output;
@@ -76,16 +76,16 @@ TEST_F(View, TheStoryAgreesWithTheMetrics) {
   ASSERT_EQ(vantage(std::string("run -q --out run ") + kTwoScans).exit_code, 0);
   const auto metrics = nlohmann::json::parse(read_file(folder_ / "run/metrics.json"));
   const auto frame = load_episode(folder_ / "run/config.yaml", {}).episode.grid_frame();
-  const auto story = read_story(folder_ / "run/story.bin", frame.size());
-  StoryMoment moment(frame);
+  const auto event_log = read_event_log(folder_ / "run/story.bin", frame.size());
+  EventReplay moment(frame);
   std::size_t decisions = 0;
-  for (std::size_t i = 0; i < story.size(); ++i) {
-    moment.go_to(story, i + 1);
-    if (std::holds_alternative<MapChange>(story[i].what)) {
+  for (std::size_t i = 0; i < event_log.size(); ++i) {
+    moment.go_to(event_log, i + 1);
+    if (std::holds_alternative<MapChange>(event_log[i].what)) {
       EXPECT_EQ(moment.grid().count(CellState::unobserved),
                 metrics["scans"][moment.scans() - 1]["unobserved_cells"]);
     }
-    if (std::holds_alternative<Decision>(story[i].what)) {
+    if (std::holds_alternative<Decision>(event_log[i].what)) {
       const auto& scan = metrics["scans"][++decisions];
       EXPECT_EQ(moment.decision()->candidates[moment.decision()->chosen].id, scan["chosen_view"]);
       EXPECT_EQ(moment.decision()->candidates.size(), scan["candidates"]);
@@ -128,7 +128,7 @@ TEST_F(View, AUserLooksAtARecording) {
     return names;
   };
   user.press("space");
-  while (written().empty()) user.press("s");  // there may be no picture to take yet
+  while (written().empty()) user.press("s");  // there may be no image to take yet
   const auto first = written();
   user.press("End");
   while (written() == first) user.press("s");
@@ -169,8 +169,8 @@ TEST_F(View, WhatCannotBeShown) {
   EXPECT_THAT(bare.output, HasSubstr("no table"));
 
   ASSERT_EQ(vantage(std::string("run -q --out run ") + kTwoScans).exit_code, 0);
-  const std::string story = read_file(folder_ / "run/story.bin");
-  write_file(folder_ / "run/story.bin", story.substr(0, story.size() - 1));
+  const std::string event_log = read_file(folder_ / "run/story.bin");
+  write_file(folder_ / "run/story.bin", event_log.substr(0, event_log.size() - 1));
   expect_error(vantage("view run --screenshot x.png"), 3, {"story.bin"});
   fs::remove(folder_ / "run/story.bin");
   const Result old = vantage(std::string("view run --map --screenshot x.png ") + kSmall);

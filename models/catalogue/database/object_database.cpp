@@ -7,13 +7,13 @@
 #include <numbers>
 #include <span>
 
-#include "vantage/models/catalogue/shapes/patterns.hpp"
 #include "vantage/models/catalogue/database/sticker.hpp"
+#include "vantage/models/catalogue/shapes/patterns.hpp"
 
 namespace vantage {
 namespace {
 
-/// Too low for a picture on the side.
+/// Too low for an image on the side.
 constexpr std::array<std::string_view, 13> kLow{
     "banana",     "plate",  "book",     "screwdriver", "wrench",     "marker",    "hammer",
     "flashlight", "sponge", "keyboard", "calculator",  "cell_phone", "toothpaste"};
@@ -29,12 +29,13 @@ std::vector<int> family_sizes(int objects, bool even) {
 }
 
 /// The kinds of a family in turn, from another one in each family.
-Twin twin_of(std::string_view category, std::size_t family, int member) {
-  if (member == 0) return Twin::original;
-  constexpr std::array tall{Twin::larger, Twin::decal, Twin::warmer, Twin::back_label};
-  constexpr std::array low{Twin::larger, Twin::warmer, Twin::cooler};
+NearDuplicate near_duplicate_of(std::string_view category, std::size_t family, int member) {
+  if (member == 0) return NearDuplicate::original;
+  constexpr std::array tall{NearDuplicate::larger, NearDuplicate::decal, NearDuplicate::warmer,
+                            NearDuplicate::back_label};
+  constexpr std::array low{NearDuplicate::larger, NearDuplicate::warmer, NearDuplicate::cooler};
   const bool is_low = std::ranges::find(kLow, category) != kLow.end();
-  const std::span<const Twin> kinds = is_low ? std::span<const Twin>(low) : tall;
+  const std::span<const NearDuplicate> kinds = is_low ? std::span<const NearDuplicate>(low) : tall;
   return kinds[(family + static_cast<std::size_t>(member)) % kinds.size()];
 }
 
@@ -43,12 +44,12 @@ std::vector<DatabaseObject> plan_family(std::string_view category, std::size_t i
   std::vector<DatabaseObject> members;
   bool labelled = false;
   for (int member = 0; member < size; ++member) {
-    const Twin twin = twin_of(category, index, member);
-    labelled = labelled || twin == Twin::back_label;
+    const NearDuplicate near_duplicate = near_duplicate_of(category, index, member);
+    labelled = labelled || near_duplicate == NearDuplicate::back_label;
     members.push_back({.name = fmt::format("{}_{}", category, first_number + member),
                        .category = std::string(category),
                        .family = fmt::format("{}_{}", category, letter),
-                       .twin = twin,
+                       .near_duplicate = near_duplicate,
                        .seed = seed});
   }
   for (DatabaseObject& object : members) object.labelled = labelled;
@@ -88,28 +89,29 @@ void recolour(Image& image, double turns, double brightness) {
   }
 }
 
-Image decal_picture(Rng& rng) {
+Image decal_image(Rng& rng) {
   const double hue = rng.uniform();
   const RgbColour ground = hsv(hue, 0.75, 0.8);
-  Image picture(64, 64, RgbColour(0.96, 0.96, 0.94));
-  draw_disc(picture, {0.06, 0.06, 0.94, 0.94}, ground);
+  Image sticker_image(64, 64, RgbColour(0.96, 0.96, 0.94));
+  draw_disc(sticker_image, {0.06, 0.06, 0.94, 0.94}, ground);
   const char letter = static_cast<char>('A' + rng.uniform_index(26));
-  draw_text(picture, {0.32, 0.25, 0.68, 0.75}, std::string_view(&letter, 1), RgbColour::Ones());
-  return picture;
+  draw_text(sticker_image, {0.32, 0.25, 0.68, 0.75}, std::string_view(&letter, 1),
+            RgbColour::Ones());
+  return sticker_image;
 }
 
-Image label_picture(Rng& rng) {
+Image label_image(Rng& rng) {
   const double hue = rng.uniform();
   const RgbColour accent = hsv(hue, 0.7, 0.7);
-  Image picture(96, 96, RgbColour(0.95, 0.94, 0.9));
-  paint(picture, {0.0, 0.72, 1.0, 1.0}, accent);
+  Image sticker_image(96, 96, RgbColour(0.95, 0.94, 0.9));
+  paint(sticker_image, {0.0, 0.72, 1.0, 1.0}, accent);
   std::array<char, 3> code{};
   for (char& letter : code) letter = static_cast<char>('A' + rng.uniform_index(26));
-  draw_text(picture, {0.2, 0.77, 0.8, 0.95}, {code.data(), code.size()}, RgbColour::Ones());
-  draw_small_print(picture, {0.08, 0.3, 0.92, 0.68}, RgbColour(0.2, 0.2, 0.2), rng);
-  draw_barcode(picture, {0.1, 0.05, 0.55, 0.25}, rng);
-  draw_disc(picture, {0.65, 0.04, 0.92, 0.27}, accent);
-  return picture;
+  draw_text(sticker_image, {0.2, 0.77, 0.8, 0.95}, {code.data(), code.size()}, RgbColour::Ones());
+  draw_small_print(sticker_image, {0.08, 0.3, 0.92, 0.68}, RgbColour(0.2, 0.2, 0.2), rng);
+  draw_barcode(sticker_image, {0.1, 0.05, 0.55, 0.25}, rng);
+  draw_disc(sticker_image, {0.65, 0.04, 0.92, 0.27}, accent);
+  return sticker_image;
 }
 
 double typical_width_m(const GeneratedObject& object) {
@@ -119,10 +121,10 @@ double typical_width_m(const GeneratedObject& object) {
 
 }  // namespace
 
-std::string_view twin_name(Twin twin) {
+std::string_view near_duplicate_name(NearDuplicate near_duplicate) {
   constexpr std::array<std::string_view, 6> names{"original", "larger", "warmer",
                                                   "cooler",   "decal",  "back_label"};
-  return names[static_cast<std::size_t>(twin)];
+  return names[static_cast<std::size_t>(near_duplicate)];
 }
 
 std::vector<DatabaseObject> object_database(std::uint64_t seed) {
@@ -144,27 +146,30 @@ std::vector<DatabaseObject> object_database(std::uint64_t seed) {
 GeneratedObject generate(const DatabaseObject& object) {
   GeneratedObject made = generate(ObjectSpec{object.family, object.category, object.seed});
   Rng rng = Rng::stream(object.seed, object.family + "/stickers");
-  if (object.twin == Twin::larger) enlarge(made, kTwinScale);
-  if (object.twin == Twin::warmer) recolour(made.texture, kTwinHue_turns, kTwinBrightness);
-  if (object.twin == Twin::cooler) recolour(made.texture, -kTwinHue_turns, kTwinBrightness);
+  if (object.near_duplicate == NearDuplicate::larger) enlarge(made, kNearDuplicateScale);
+  if (object.near_duplicate == NearDuplicate::warmer)
+    recolour(made.texture, kNearDuplicateHue_turns, kNearDuplicateBrightness);
+  if (object.near_duplicate == NearDuplicate::cooler)
+    recolour(made.texture, -kNearDuplicateHue_turns, kNearDuplicateBrightness);
   const double heading = rng.uniform(-std::numbers::pi, std::numbers::pi);
   const double width_m = typical_width_m(made);
-  const Image decal = decal_picture(rng);
-  const std::array<Image, 2> label{label_picture(rng), label_picture(rng)};
+  const Image decal = decal_image(rng);
+  const std::array<Image, 2> label{label_image(rng), label_image(rng)};
   if (object.labelled) {
-    apply_sticker(made, {.heading_rad = 0.5 * std::numbers::pi,
-                         .middle = 0.5,
-                         .width_m = 0.6 * width_m,
-                         .height_m = std::min(0.6 * width_m, 0.5 * made.height_m),
-                         .picture = label[object.twin == Twin::back_label ? 1 : 0]});
+    apply_sticker(
+        made, {.heading_rad = 0.5 * std::numbers::pi,
+               .middle = 0.5,
+               .width_m = 0.6 * width_m,
+               .height_m = std::min(0.6 * width_m, 0.5 * made.height_m),
+               .sticker_image = label[object.near_duplicate == NearDuplicate::back_label ? 1 : 0]});
   }
-  if (object.twin == Twin::decal) {
+  if (object.near_duplicate == NearDuplicate::decal) {
     const double size_m = std::min(0.45 * width_m, 0.45 * made.height_m);
     apply_sticker(made, {.heading_rad = heading,
                          .middle = 0.55,
                          .width_m = size_m,
                          .height_m = size_m,
-                         .picture = decal});
+                         .sticker_image = decal});
   }
   return made;
 }

@@ -1,5 +1,6 @@
 /// The objects that robots recognise: 326 in 51 categories, made on demand. They come in families
-/// of near twins, since distinct things are told apart from one view and leave nothing to choose.
+/// of near-duplicates, since distinct things are told apart from one view and leave nothing to
+/// choose.
 #pragma once
 
 #include <string>
@@ -11,26 +12,26 @@
 namespace vantage {
 
 /// How a member differs from the first of its family.
-enum class Twin {
+enum class NearDuplicate {
   original,
-  larger,      ///< all lengths by kTwinScale
-  warmer,      ///< hue turned by kTwinHue_turns, brightness times kTwinBrightness
+  larger,      ///< all lengths by kNearDuplicateScale
+  warmer,      ///< hue turned by kNearDuplicateHue_turns, brightness times kNearDuplicateBrightness
   cooler,      ///< hue turned the other way
-  decal,       ///< a small picture on one side
+  decal,       ///< a small image on one side
   back_label,  ///< another label at the back than the rest of the family
 };
-std::string_view twin_name(Twin twin);
+std::string_view near_duplicate_name(NearDuplicate near_duplicate);
 
-inline constexpr double kTwinScale = 1.06;
-inline constexpr double kTwinHue_turns = 0.02;
-inline constexpr double kTwinBrightness = 0.96;
+inline constexpr double kNearDuplicateScale = 1.06;
+inline constexpr double kNearDuplicateHue_turns = 0.02;
+inline constexpr double kNearDuplicateBrightness = 0.96;
 inline constexpr int kDatabaseObjects = 326;
 
 struct DatabaseObject {
   std::string name;      ///< "mug_3": the category and a number from 1
   std::string category;  ///< "mug"
-  std::string family;    ///< "mug_a"; its members are near twins
-  Twin twin = Twin::original;
+  std::string family;    ///< "mug_a"; its members are near-duplicates
+  NearDuplicate near_duplicate = NearDuplicate::original;
   bool labelled = false;   ///< the family wears a label at the back
   std::uint64_t seed = 0;  ///< of the family's shape and texture
 };

@@ -13,10 +13,10 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kCells = 12;            // of the sheet, each way
-constexpr double kLift_m = 0.0004;    // above the surface
-constexpr double kLeastFacing = 0.2;  // cosine between normal and heading
-constexpr double kMostSlope = 3.0;    // depth over width of a cell
+constexpr int kCells = 12;          // of the sheet, each way
+constexpr double kLift_m = 0.0004;  // above the surface
+constexpr double kMinFacing = 0.2;  // cosine between normal and heading
+constexpr double kMaxSlope = 3.0;   // depth over width of a cell
 
 struct Hit {
   double depth_m = std::numeric_limits<double>::infinity();  ///< along the line of sight
@@ -67,27 +67,27 @@ std::optional<Hit> nearest(const TriangleMesh& mesh, const SightFrame& frame, co
     const auto hit = meet(mesh, triangle, frame, at);
     if (hit && hit->depth_m < best.depth_m) best = *hit;
   }
-  if (!std::isfinite(best.depth_m) || best.normal.dot(frame.out) < kLeastFacing) {
+  if (!std::isfinite(best.depth_m) || best.normal.dot(frame.out) < kMinFacing) {
     return std::nullopt;
   }
   return best;
 }
 
-/// A texture with the picture in a strip below it. @return where the picture is.
-UvRect extend_texture(GeneratedObject& object, const Image& picture) {
+/// A texture with the image in a strip below it. @return where the image is.
+UvRect extend_texture(GeneratedObject& object, const Image& sticker_image) {
   Image& old = object.texture;
-  Image taller(std::max(old.width_px, picture.width_px), old.height_px + picture.height_px,
-               RgbColour::Ones());
-  expects(old.width_px == taller.width_px, "a sticker's picture is no wider than the texture");
+  Image taller(std::max(old.width_px, sticker_image.width_px),
+               old.height_px + sticker_image.height_px, RgbColour::Ones());
+  expects(old.width_px == taller.width_px, "a sticker's image is no wider than the texture");
   std::ranges::copy(old.rgb, taller.rgb.begin());
-  for (int y = 0; y < picture.height_px; ++y) {
-    for (int x = 0; x < picture.width_px; ++x) {
-      taller.set(x, old.height_px + y, picture.at(x, y));
+  for (int y = 0; y < sticker_image.height_px; ++y) {
+    for (int x = 0; x < sticker_image.width_px; ++x) {
+      taller.set(x, old.height_px + y, sticker_image.at(x, y));
     }
   }
-  const double strip = static_cast<double>(picture.height_px) / taller.height_px;
+  const double strip = static_cast<double>(sticker_image.height_px) / taller.height_px;
   for (Vector2d& uv : object.mesh.uvs) uv.y() = strip + (1.0 - strip) * uv.y();
-  const double width = static_cast<double>(picture.width_px) / taller.width_px;
+  const double width = static_cast<double>(sticker_image.width_px) / taller.width_px;
   old = std::move(taller);
   return shrink({0.0, 0.0, width, strip}, 0.004);
 }
@@ -95,7 +95,7 @@ UvRect extend_texture(GeneratedObject& object, const Image& picture) {
 bool is_smooth(const Hit& a, const Hit& b) {
   const double apart_m = std::abs(a.depth_m - b.depth_m);
   const Vector3d step = a.p_m - b.p_m;
-  return apart_m <= kMostSlope * std::sqrt(std::max(step.squaredNorm() - apart_m * apart_m, 0.0));
+  return apart_m <= kMaxSlope * std::sqrt(std::max(step.squaredNorm() - apart_m * apart_m, 0.0));
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ double apply_sticker(GeneratedObject& object, const Sticker& sticker) {
     hits[i] = nearest(object.mesh, frame,
                       {(share.x() - 0.5) * sticker.width_m, low_m + share.y() * sticker.height_m});
   }
-  const UvRect uv = extend_texture(object, sticker.picture);
+  const UvRect uv = extend_texture(object, sticker.sticker_image);
   std::array<int, n * n> vertex{};
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;

@@ -1,4 +1,4 @@
-/// Pictures stuck onto objects from one side.
+/// Images stuck onto objects from one side.
 #pragma once
 
 #include "vantage/models/catalogue/objects/families.hpp"
@@ -10,13 +10,13 @@ struct Sticker {
   double middle = 0.5;       ///< height of its middle over the object's
   double width_m = 0.03;     ///< across the line of sight
   double height_m = 0.03;    ///< along z
-  Image picture;
+  Image sticker_image;
 };
 
-/// Lays the picture onto what is seen of the object along the sticker's heading, as a thin sheet of
-/// its own; parts that find no surface, or one seen edge-on, are left out. The picture goes into a
+/// Lays the image onto what is seen of the object along the sticker's heading, as a thin sheet of
+/// its own; parts that find no surface, or one seen edge-on, are left out. The image goes into a
 /// strip of texture below the others.
-/// @return share of the picture that found a surface, [0, 1].
+/// @return share of the image that found a surface, [0, 1].
 double apply_sticker(GeneratedObject& object, const Sticker& sticker);
 
 }  // namespace vantage

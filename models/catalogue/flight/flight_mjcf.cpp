@@ -7,8 +7,8 @@
 #include <map>
 #include <numbers>
 
-#include "vantage/models/catalogue/shapes/mjcf_kit.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/models/catalogue/shapes/mjcf_kit.hpp"
 
 namespace vantage {
 namespace {
@@ -89,14 +89,14 @@ std::string room(const Eigen::Vector2d& size_m) {
   return body("room", Eigen::Vector2d::Zero(), 0.0, text);
 }
 
-std::string stand_body(const FlightStand& stand, std::size_t index) {
+std::string support_body(const FlightSupport& support_surface, std::size_t index) {
   constexpr double kHalfTop_m = 0.02;
   constexpr double kHalfFoot_m = 0.01;
   const std::string name = fmt::format("stand_{}", index);
-  const double below_m = stand.top_m - 2.0 * kHalfTop_m;
-  const double top_z = stand.top_m - kHalfTop_m;
+  const double below_m = support_surface.top_m - 2.0 * kHalfTop_m;
+  const double top_z = support_surface.top_m - kHalfTop_m;
   std::string geoms;
-  if (stand.round) {
+  if (support_surface.round) {
     geoms += cylinder(name + "/top", top_z, kRoundTableRadius_m, kHalfTop_m, "top");
     geoms += cylinder(name + "/leg", 0.5 * below_m, 0.035, 0.5 * below_m, "legs");
     geoms += cylinder(name + "/foot", kHalfFoot_m, 0.2, kHalfFoot_m, "legs");
@@ -108,7 +108,7 @@ std::string stand_body(const FlightStand& stand, std::size_t index) {
     geoms +=
         box(name + "/body", {0.0, 0.0, 0.5 * below_m}, {half, half, 0.5 * below_m}, "pedestal");
   }
-  return body(name, stand.p_world_m, stand.yaw_rad, geoms);
+  return body(name, support_surface.p_world_m, support_surface.yaw_rad, geoms);
 }
 
 std::string obstacle_body(const FlightObstacle& obstacle, int index) {
@@ -123,7 +123,7 @@ std::string obstacle_body(const FlightObstacle& obstacle, int index) {
 std::string cameras(const FlightScene& scene) {
   constexpr double kFovy_deg = 50.0;
   const Eigen::Vector2d half = 0.5 * scene.room_m + Eigen::Vector2d::Constant(0.4);
-  const double reach = std::max(half.y(), 0.75 * half.x());  // pictures are 4 : 3
+  const double reach = std::max(half.y(), 0.75 * half.x());  // images are 4 : 3
   const double height =
       kFlightWallHeight_m + reach / std::tan(0.5 * kFovy_deg * std::numbers::pi / 180.0);
   return mjcf_camera("overview", {0.8 * half.x(), -1.7 * half.y(), 1.6 * reach}, {0, -0.4, 0.4},
@@ -135,13 +135,13 @@ std::string stand_ins(const FlightScene& scene) {
   std::string text =
       "<!-- Stand-ins. An episode puts objects of its database in the place of this file: bodies "
       "and\n     geoms called object_0, object_1 ... -->\n<mujoco>\n  <worldbody>\n";
-  for (std::size_t i = 0; i < scene.stands.size(); ++i) {
-    const FlightStand& stand = scene.stands[i];
+  for (std::size_t i = 0; i < scene.support_surfaces.size(); ++i) {
+    const FlightSupport& support_surface = scene.support_surfaces[i];
     text += fmt::format(
         "    <body name=\"object_{0}\" pos=\"{1:.5g} {2:.5g} {3:.5g}\">\n      <geom "
         "name=\"object_{0}\" type=\"box\" pos=\"0 0 0.06\" size=\"0.04 0.03 0.06\" rgba=\"0.75 0.3 "
         "0.2 1\"/>\n    </body>\n",
-        i, stand.p_world_m.x(), stand.p_world_m.y(), stand.top_m);
+        i, support_surface.p_world_m.x(), support_surface.p_world_m.y(), support_surface.top_m);
   }
   return text + "  </worldbody>\n</mujoco>\n";
 }
@@ -164,7 +164,8 @@ std::string to_mjcf(const FlightScene& scene) {
   text += kLamp;
   text += cameras(scene);
   text += room(scene.room_m);
-  for (std::size_t i = 0; i < scene.stands.size(); ++i) text += stand_body(scene.stands[i], i);
+  for (std::size_t i = 0; i < scene.support_surfaces.size(); ++i)
+    text += support_body(scene.support_surfaces[i], i);
   std::map<std::string_view, int> count;
   for (const FlightObstacle& obstacle : scene.obstacles) {
     text += obstacle_body(obstacle, count[obstacle.kind]++);
@@ -181,11 +182,12 @@ void write_scene(const FlightScene& scene, const std::filesystem::path& director
     path += csv_row(point.p_world_m, kPathHeight_m, point.yaw_rad);
   }
   write_file(directory / "path.csv", path);
-  std::string stands(kCsvHeader);
-  for (const FlightStand& stand : scene.stands) {
-    stands += csv_row(stand.p_world_m, stand.top_m, stand.yaw_rad);
+  std::string support_surfaces(kCsvHeader);
+  for (const FlightSupport& support_surface : scene.support_surfaces) {
+    support_surfaces +=
+        csv_row(support_surface.p_world_m, support_surface.top_m, support_surface.yaw_rad);
   }
-  write_file(directory / "stands.csv", stands);
+  write_file(directory / "stands.csv", support_surfaces);
 }
 
 }  // namespace vantage

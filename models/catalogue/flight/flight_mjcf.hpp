@@ -8,10 +8,12 @@
 
 namespace vantage {
 
-/// The text of scene.xml: room, stands, obstacles, lights and cameras. It includes objects.xml.
+/// The text of scene.xml: room, support surfaces, obstacles, lights and cameras. It includes
+/// objects.xml.
 std::string to_mjcf(const FlightScene& scene);
 
-/// Writes scene.xml, objects.xml (stand-ins: a box a stand), path.csv and stands.csv.
+/// Writes scene.xml, objects.xml (placeholders: a box for each support surface), path.csv and
+/// stands.csv.
 /// @throws OutputError if a file cannot be written.
 void write_scene(const FlightScene& scene, const std::filesystem::path& directory);
 

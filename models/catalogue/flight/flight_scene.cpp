@@ -35,11 +35,11 @@ FlightScene scenario_1() {
                         {0.6, 3.1},
                         {-2.4, 3.1}},
           .waypoints = 45,
-          .stands = {{{-1.35, -1.95}, 0.80},
-                     {{0.4, -0.3}, 0.84, 0.4},
-                     {{2.5, -0.3}, 0.78, 0.0, true},
-                     {{0.6, 1.35}, 0.80, -0.3},
-                     {{-1.6, -0.3}, 0.82, 0.0, true}},
+          .support_surfaces = {{{-1.35, -1.95}, 0.80},
+                               {{0.4, -0.3}, 0.84, 0.4},
+                               {{2.5, -0.3}, 0.78, 0.0, true},
+                               {{0.6, 1.35}, 0.80, -0.3},
+                               {{-1.6, -0.3}, 0.82, 0.0, true}},
           .obstacles = {{"sideboard", {4.7, -0.8}, {0.5, 1.4, 0.75}},
                         {"cupboard", {-4.7, 2.6}, {0.5, 1.2, 2.0}}}};
 }
@@ -63,13 +63,13 @@ FlightScene scenario_2() {
                         {-3.2, 2.6},
                         {4.0, 2.6}},
           .waypoints = 45,
-          .stands = {{{-1.9, -2.5}, 0.80, 0.2},
-                     {{1.2, -2.6}, 0.82, 0.0, true},
-                     {{-0.4, -0.95}, 0.78},
-                     {{2.0, -0.9}, 0.84, 0.6},
-                     {{-2.0, 0.6}, 0.80, 0.0, true},
-                     {{1.0, 0.7}, 0.80, -0.2},
-                     {{-0.4, 1.95}, 0.82}},
+          .support_surfaces = {{{-1.9, -2.5}, 0.80, 0.2},
+                               {{1.2, -2.6}, 0.82, 0.0, true},
+                               {{-0.4, -0.95}, 0.78},
+                               {{2.0, -0.9}, 0.84, 0.6},
+                               {{-2.0, 0.6}, 0.80, 0.0, true},
+                               {{1.0, 0.7}, 0.80, -0.2},
+                               {{-0.4, 1.95}, 0.82}},
           .obstacles = {{"sideboard", {-1.0, 3.9}, {1.6, 0.45, 0.8}},
                         {"column", {-4.7, -0.2}, {0.3, 0.3, 2.5}}}};
 }
@@ -93,16 +93,16 @@ FlightScene scenario_3() {
                         {-3.2, 3.2},
                         {4.6, 3.2}},
           .waypoints = 56,
-          .stands = {{{-2.6, -2.75}, 0.80, 0.3},
-                     {{-0.5, -2.8}, 0.82, 0.0, true},
-                     {{1.8, -2.75}, 0.78},
-                     {{-0.9, -1.1}, 0.80, 0.0, true},
-                     {{2.5, -1.15}, 0.84, 0.5},
-                     {{-2.0, 0.5}, 0.80},
-                     {{0.1, 0.6}, 0.80, 0.0, true},
-                     {{2.2, 0.55}, 0.82, -0.4},
-                     {{-1.2, 2.25}, 0.78, 0.2},
-                     {{1.7, 2.6}, 0.80, 0.0, true}},
+          .support_surfaces = {{{-2.6, -2.75}, 0.80, 0.3},
+                               {{-0.5, -2.8}, 0.82, 0.0, true},
+                               {{1.8, -2.75}, 0.78},
+                               {{-0.9, -1.1}, 0.80, 0.0, true},
+                               {{2.5, -1.15}, 0.84, 0.5},
+                               {{-2.0, 0.5}, 0.80},
+                               {{0.1, 0.6}, 0.80, 0.0, true},
+                               {{2.2, 0.55}, 0.82, -0.4},
+                               {{-1.2, 2.25}, 0.78, 0.2},
+                               {{1.7, 2.6}, 0.80, 0.0, true}},
           .obstacles = {{"column", {0.7, -1.1}, {0.26, 0.26, 2.5}},
                         {"column", {-2.45, -1.1}, {0.24, 0.24, 2.5}},
                         {"column", {0.4, 2.2}, {0.26, 0.26, 2.5}},
@@ -126,10 +126,10 @@ FlightScene scenario_4() {
                         {2.4, 2.05},
                         {-3.0, 2.05}},
           .waypoints = 44,
-          .stands = {{{-0.9, -1.5}, 0.80},
-                     {{0.7, -1.5}, 0.82, 0.0, true},
-                     {{0.7, 1.5}, 0.80, 0.3},
-                     {{-0.9, 0.0}, 0.78, 0.0, true}}};
+          .support_surfaces = {{{-0.9, -1.5}, 0.80},
+                               {{0.7, -1.5}, 0.82, 0.0, true},
+                               {{0.7, 1.5}, 0.80, 0.3},
+                               {{-0.9, 0.0}, 0.78, 0.0, true}}};
 }
 
 Polyline cut_corners(const Polyline& line) {
@@ -188,14 +188,14 @@ std::vector<PathPoint> flight_path_points(const FlightScene& scene) {
 }
 
 double path_clearance_m(const FlightScene& scene) {
-  double least_m = std::numeric_limits<double>::infinity();
+  double min_m = std::numeric_limits<double>::infinity();
   for (const Vector2d& p : evenly(rounded(scene), 2000)) {
-    least_m = std::min(least_m, (0.5 * scene.room_m - p.cwiseAbs()).minCoeff());
+    min_m = std::min(min_m, (0.5 * scene.room_m - p.cwiseAbs()).minCoeff());
     for (const FlightObstacle& obstacle : scene.obstacles) {
-      least_m = std::min(least_m, distance_m(obstacle, p));
+      min_m = std::min(min_m, distance_m(obstacle, p));
     }
   }
-  return least_m;
+  return min_m;
 }
 
 }  // namespace vantage

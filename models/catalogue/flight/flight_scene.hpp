@@ -1,5 +1,5 @@
-/// Rooms to fly through: a path at a constant height, stands for objects on both sides of it, and
-/// what is in the way.  [Potthast2016, 5.4]
+/// Rooms to fly through: a path at a constant height, support surfaces for objects on both sides,
+/// and what is in the way.  [Potthast2016, 5.4]
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ inline constexpr double kPedestalHalf_m = 0.25;
 inline constexpr double kRoundTableRadius_m = 0.28;
 
 /// A pedestal or a round table with a bare level top.
-struct FlightStand {
+struct FlightSupport {
   Eigen::Vector2d p_world_m;
   double top_m = 0.8;  ///< world z
   double yaw_rad = 0.0;
@@ -42,7 +42,7 @@ struct FlightScene {
   Eigen::Vector2d room_m;
   std::vector<Eigen::Vector2d> corners_m;  ///< of the polygon that the path follows, rounded
   int waypoints = 0;
-  std::vector<FlightStand> stands;
+  std::vector<FlightSupport> support_surfaces;
   std::vector<FlightObstacle> obstacles = {};
 };
 

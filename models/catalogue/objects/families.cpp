@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <span>
 
+#include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/objects/family_kit.hpp"
 #include "vantage/models/catalogue/shapes/footprint.hpp"
-#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "vantage/models/catalogue/shapes/footprint.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/models/catalogue/shapes/footprint.hpp"
 
 namespace vantage {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <numbers>
 
+#include "vantage/core/rng.hpp"
 #include "vantage/models/catalogue/office/office_finish.hpp"
 #include "vantage/models/catalogue/office/office_furniture.hpp"
-#include "vantage/core/rng.hpp"
 
 namespace vantage::office {
 namespace {

@@ -15,9 +15,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kCell_px = 64;
-constexpr int kCells = 8;  // per edge of the picture
+constexpr int kCells = 8;  // per edge of the image
 
-/// Cells of the picture, and how many metres the region covers; 0: it fills any face.
+/// Cells of the image, and how many metres the region covers; 0: it fills any face.
 struct Region {
   int column, row, columns, rows;
   double scale_m;

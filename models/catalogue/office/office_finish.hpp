@@ -1,4 +1,4 @@
-/// What the surfaces of office furniture look like: regions of one picture, and the parts with
+/// What the surfaces of office furniture look like: regions of one image, and the parts with
 /// those surfaces that furniture is put together from.
 #pragma once
 
@@ -36,8 +36,8 @@ enum class Finish {
   grey_fabric,
 };
 
-/// Where a face of that size (m) gets its picture from: plain finishes keep their grain at true
-/// scale up to the size of their region, pictures fill the face.
+/// Where a face of that size (m) gets its image from: plain finishes keep their grain at true
+/// scale up to the size of their region, images fill the face.
 UvRect finish_uv(Finish finish, double width_m, double height_m);
 Image paint_finishes();
 

@@ -10,12 +10,12 @@
 #include <string_view>
 #include <utility>
 
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/models/catalogue/office/office_finish.hpp"
 #include "vantage/models/catalogue/shapes/mjcf_kit.hpp"
 #include "vantage/models/catalogue/shapes/obj.hpp"
-#include "vantage/models/catalogue/office/office_finish.hpp"
 #include "vantage/models/catalogue/shapes/patterns.hpp"
 #include "vantage/models/catalogue/shapes/solid_pieces.hpp"
-#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {
@@ -213,7 +213,7 @@ std::string start_sites(const FloorPlan& plan) {
 std::string cameras(const FloorPlan& plan) {
   constexpr double kFovy_deg = 50.0;
   const Eigen::Vector2d half = 0.5 * plan.size_m + Eigen::Vector2d::Constant(0.6);
-  const double reach = std::max(half.y(), 0.75 * half.x());  // pictures are 4 : 3
+  const double reach = std::max(half.y(), 0.75 * half.x());  // images are 4 : 3
   const double height =
       kWallHeight_m + reach / std::tan(0.5 * kFovy_deg * std::numbers::pi / 180.0);
   return mjcf_camera("overview", {0.55 * half.x(), -1.5 * half.y(), 1.5 * reach}, {0, -0.5, 0},

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "vantage/core/rng.hpp"
 #include "vantage/models/catalogue/office/floor_plan.hpp"
 #include "vantage/models/catalogue/office/office_scene.hpp"
-#include "vantage/core/rng.hpp"
 
 namespace vantage {
 

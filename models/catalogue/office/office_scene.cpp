@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "vantage/models/catalogue/office/office_programme.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/models/catalogue/office/office_programme.hpp"
 
 namespace vantage {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "vantage/core/fields.hpp"
 #include "vantage/models/catalogue/office/clearance_map.hpp"
 #include "vantage/models/catalogue/office/floor_plan.hpp"
 #include "vantage/models/catalogue/office/office_furniture.hpp"
-#include "vantage/core/fields.hpp"
 
 namespace vantage {
 

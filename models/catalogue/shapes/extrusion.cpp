@@ -2,8 +2,8 @@
 #include <numeric>
 #include <vector>
 
-#include "vantage/models/catalogue/shapes/mesh_builders.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/models/catalogue/shapes/mesh_builders.hpp"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "vantage/models/catalogue/shapes/mesh.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/models/catalogue/shapes/mesh.hpp"
 
 namespace vantage {
 

@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-#include "vantage/models/catalogue/shapes/texture.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/models/catalogue/shapes/texture.hpp"
 
 namespace vantage {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/models/catalogue/shapes/uv_rect.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/models/catalogue/shapes/uv_rect.hpp"
 
 namespace vantage {
 

@@ -4,10 +4,10 @@
 
 #include <array>
 
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/models/catalogue/shapes/mjcf_kit.hpp"
 #include "vantage/models/catalogue/shapes/obj.hpp"
 #include "vantage/models/catalogue/shapes/patterns.hpp"
-#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <utility>
 
-#include "vantage/models/catalogue/shapes/footprint.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/models/catalogue/shapes/footprint.hpp"
 
 namespace vantage {
 namespace {

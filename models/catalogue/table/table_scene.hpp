@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "vantage/models/catalogue/objects/families.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/models/catalogue/objects/families.hpp"
 
 namespace vantage {
 

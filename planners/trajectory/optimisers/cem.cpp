@@ -64,8 +64,8 @@ OptimisedHorizon Cem::operator()(const Horizon& horizon, const PathCost& cost, R
     elite.fit(paths, order, static_cast<std::size_t>(elites));
     mean += learning * (elite.mean - mean);
     for (Eigen::Index k = 0; k < scale.size(); ++k) {
-      const double fitted = deviation(k) > 0.0 ? elite.deviation(k) / deviation(k) : least_sigma;
-      scale(k) = std::max(least_sigma, scale(k) + learning * (fitted - scale(k)));
+      const double fitted = deviation(k) > 0.0 ? elite.deviation(k) / deviation(k) : min_sigma;
+      scale(k) = std::max(min_sigma, scale(k) + learning * (fitted - scale(k)));
     }
   }
   search.evaluate(mean);

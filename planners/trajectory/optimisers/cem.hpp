@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-#include "vantage/planners/trajectory/optimisers/path_search.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/trajectory/optimisers/path_search.hpp"
 
 namespace vantage {
 
@@ -13,11 +13,11 @@ namespace vantage {
 /// each other stays that of R^-1, so that paths are smooth.  [Kobilarov2012]
 struct Cem {
   static constexpr std::string_view name = "cem";
-  int rollouts = 20;         ///< paths tried an iteration, the noise-free one among them
-  int iterations = 50;       ///< higher takes longer and settles better
-  int elites = 5;            ///< paths that are followed, at most `rollouts`; higher settles later
-  double learning = 0.5;     ///< share of the elite in the next mean and deviation, (0, 1]
-  double least_sigma = 0.1;  ///< of a point, as share of the first one's; higher never settles
+  int rollouts = 20;       ///< paths tried an iteration, the noise-free one among them
+  int iterations = 50;     ///< higher takes longer and settles better
+  int elites = 5;          ///< paths that are followed, at most `rollouts`; higher settles later
+  double learning = 0.5;   ///< share of the elite in the next mean and deviation, (0, 1]
+  double min_sigma = 0.1;  ///< of a point, as share of the first one's; higher never settles
   /// Of the first iteration; its decay is not used. Twice as wide as that of the others, as what
   /// the elite does not span is lost.
   PathNoise noise{.sigma_m = {1.0, 1.0, 0.4}, .sigma_yaw_rad = 1.0};
@@ -26,7 +26,7 @@ struct Cem {
     f("iterations", iterations, between(1, 100'000));
     f("elites", elites, between(2, 10'000));
     f("learning", learning, Range{0.0, 1.0, true});
-    f("least_sigma", least_sigma, between(0.0, 1.0));
+    f("min_sigma", min_sigma, between(0.0, 1.0));
     f("sigma_m", noise.sigma_m, at_least(0.0));
     f("sigma_yaw_rad", noise.sigma_yaw_rad, at_least(0.0));
   }

@@ -10,7 +10,7 @@ OptimisedHorizon Mppi::operator()(const Horizon& horizon, const PathCost& cost, 
   Eigen::RowVectorXd weight(rollouts);
   const auto move = [&](const NoisyRollouts& tried, const Smoothness&, Eigen::Matrix4Xd& mean) {
     cost_of = tried.cost.colwise().sum();
-    rollout_probabilities(cost_of, sensitivity, weight);
+    rollout_probabilities(cost_of, inverse_temperature, weight);
     for (int u = 1; u < rollouts; ++u) mean += weight[u] * tried.eps[static_cast<std::size_t>(u)];
   };
   return search_by_rollouts(horizon, cost, rng, {rollouts, iterations, noise}, move);

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-#include "vantage/planners/trajectory/optimisers/path_search.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/trajectory/optimisers/path_search.hpp"
 
 namespace vantage {
 
@@ -14,15 +14,15 @@ namespace vantage {
 /// [Williams2017]
 struct Mppi {
   static constexpr std::string_view name = "mppi";
-  int rollouts = 20;    ///< paths tried an iteration, the noise-free one among them
-  int iterations = 50;  ///< higher takes longer and settles better
-  double sensitivity =
-      10.0;  ///< span of costs over temperature, > 0; higher follows the best alone
+  int rollouts = 20;                  ///< paths tried an iteration, the noise-free one among them
+  int iterations = 50;                ///< higher takes longer and settles better
+  double inverse_temperature = 10.0;  ///< of the weights, times the span of costs, > 0; higher
+                                      ///< follows the best rollouts alone
   PathNoise noise{};
   void fields(auto&& f) {
     f("rollouts", rollouts, between(2, 10'000));
     f("iterations", iterations, between(1, 100'000));
-    f("sensitivity", sensitivity, above(0.0));
+    f("inverse_temperature", inverse_temperature, above(0.0));
     f("sigma_m", noise.sigma_m, at_least(0.0));
     f("sigma_yaw_rad", noise.sigma_yaw_rad, at_least(0.0));
     f("decay", noise.decay, Range{0.0, 1.0, true});

@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
+#include "vantage/core/rng.hpp"
 #include "vantage/planners/trajectory/optimisers/path_search.hpp"
 #include "vantage/planners/trajectory/optimisers/smoothness.hpp"
-#include "vantage/core/rng.hpp"
 
 namespace vantage {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 
 namespace vantage {
 

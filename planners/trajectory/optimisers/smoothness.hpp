@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "vantage/planners/trajectory/optimisers/horizon.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/trajectory/optimisers/horizon.hpp"
 
 namespace vantage {
 

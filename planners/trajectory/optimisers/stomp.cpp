@@ -6,12 +6,12 @@
 
 namespace vantage {
 
-void rollout_probabilities(const Eigen::Ref<const Eigen::MatrixXd>& cost, double sensitivity,
-                           Eigen::Ref<Eigen::MatrixXd> probability) {
+void rollout_probabilities(const Eigen::Ref<const Eigen::MatrixXd>& cost,
+                           double inverse_temperature, Eigen::Ref<Eigen::MatrixXd> probability) {
   for (Eigen::Index t = 0; t < cost.rows(); ++t) {
     const double least = cost.row(t).minCoeff();
     const double span = cost.row(t).maxCoeff() - least;
-    const double factor = span > 0.0 ? -sensitivity / span : 0.0;
+    const double factor = span > 0.0 ? -inverse_temperature / span : 0.0;
     double sum = 0.0;
     for (Eigen::Index u = 0; u < cost.cols(); ++u) {
       probability(t, u) = std::exp(factor * (cost(t, u) - least));
@@ -27,7 +27,7 @@ OptimisedHorizon Stomp::operator()(const Horizon& horizon, const PathCost& cost,
   Eigen::Matrix4Xd step(4, n);
   const auto move = [&](const NoisyRollouts& tried, const Smoothness& smoothness,
                         Eigen::Matrix4Xd& mean) {
-    rollout_probabilities(tried.cost.middleRows(1, n), sensitivity, probability);
+    rollout_probabilities(tried.cost.middleRows(1, n), inverse_temperature, probability);
     step.setZero();
     for (int u = 1; u < rollouts; ++u) {
       for (Eigen::Index t = 0; t < n; ++t) {

@@ -5,13 +5,13 @@
 #include <variant>
 
 #include "vantage/planners/trajectory/optimisers/cem.hpp"
-#include "vantage/planners/trajectory/optimisers/covariant_gradient.hpp"
+#include "vantage/planners/trajectory/optimisers/chomp.hpp"
 #include "vantage/planners/trajectory/optimisers/mppi.hpp"
 #include "vantage/planners/trajectory/optimisers/stomp.hpp"
 
 namespace vantage {
 
-using TrajectoryOptimiser = std::variant<Stomp, Mppi, Cem, CovariantGradient>;
+using TrajectoryOptimiser = std::variant<Stomp, Mppi, Cem, Chomp>;
 template <>
 inline constexpr std::string_view strategy_family<TrajectoryOptimiser> = "trajectory optimiser";
 

@@ -10,9 +10,9 @@ namespace {
 
 GridFrame frame_of(const Eigen::AlignedBox3d& region_m, double cell_m) {
   expects(!region_m.isEmpty(), "a map has a region");
-  constexpr double kMostCells = 67108864.0;  // 2^26
+  constexpr double kMaxCells = 67108864.0;  // 2^26
   const Eigen::Array3d cells = (region_m.sizes().array() / cell_m).ceil().max(1.0);
-  if (!(cells.prod() <= kMostCells)) {
+  if (!(cells.prod() <= kMaxCells)) {
     throw ConfigError(
         fmt::format("flight map: {} cells of cell_m = {}, at most 2^26", cells.prod(), cell_m));
   }

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kMostFloorCells = 67108864.0;
+constexpr double kMaxFloorCells = 67108864.0;
 constexpr float kStandingLogOdds = -2.0F;
 
 enum class Touched : std::uint8_t { no, passed, hit };
@@ -32,7 +32,7 @@ void trace_beam(const FloorMap& map, const GridFrame& frame, const Pose2& T_worl
 
 void FloorMapOptions::check() const {
   const double edge_cells = std::ceil(2.0 * half_size_m / cell_m);
-  if (edge_cells * edge_cells > kMostFloorCells) {
+  if (edge_cells * edge_cells > kMaxFloorCells) {
     throw ConfigError(fmt::format("half_size_m {} and cell_m {} make {:.3g} cells, more than 2^26",
                                   half_size_m, cell_m, edge_cells * edge_cells));
   }

@@ -31,15 +31,15 @@ class Columns {
       : nx_(grid.frame.cells.x()), ny_(grid.frame.cells.y()) {
     const Slices body = slices_between(grid.frame, options.low_m, options.high_m);
     const Slices seen = slices_between(grid.frame, options.seen_low_m, options.high_m);
-    const double most_unseen = options.most_unseen * (seen.end - seen.begin);
+    const double max_unseen = options.max_unseen * (seen.end - seen.begin);
     columns_.reserve(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_));
     for (int y = 0; y < ny_; ++y) {
       for (int x = 0; x < nx_; ++x) {
         const bool obstructed = count(grid, x, y, body, CellState::occupied) > 0;
         const int unseen = count(grid, x, y, seen, CellState::unobserved);
-        columns_.push_back(obstructed             ? Column::obstructed
-                           : unseen > most_unseen ? Column::unseen
-                                                  : Column::open);
+        columns_.push_back(obstructed            ? Column::obstructed
+                           : unseen > max_unseen ? Column::unseen
+                                                 : Column::open);
       }
     }
     open_lone_groups();
@@ -124,9 +124,9 @@ void HeadroomOptions::check() const {
 }
 
 void block_columns(FloorMap& floor, const OccupancyGrid& grid,
-                   std::span<const std::uint8_t> vouched, const HeadroomOptions& options) {
+                   std::span<const std::uint8_t> traversed, const HeadroomOptions& options) {
   check_options(options, "headroom");
-  expects(vouched.size() == floor.size(), "a flag per cell of the floor map");
+  expects(traversed.size() == floor.size(), "a flag per cell of the floor map");
   const GridFrame& frame = grid.frame;
   const Columns columns(grid, options);
   std::ranges::fill(floor.blocked, std::uint8_t{0});
@@ -143,7 +143,7 @@ void block_columns(FloorMap& floor, const OccupancyGrid& grid,
       for (int v = low.y(); v <= high.y(); ++v) {
         for (int u = low.x(); u <= high.x(); ++u) {
           const std::size_t cell = floor.index({u, v});
-          if (column == Column::obstructed || vouched[cell] == 0) floor.blocked[cell] = 1;
+          if (column == Column::obstructed || traversed[cell] == 0) floor.blocked[cell] = 1;
         }
       }
     }

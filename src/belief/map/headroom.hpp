@@ -11,27 +11,27 @@
 namespace vantage {
 
 struct HeadroomOptions {
-  double low_m = 0.03;        ///< world z; occupied cells that begin lower are floor
-  double high_m = 1.65;       ///< world z; cells that begin higher are above the robot
-  double seen_low_m = 0.3;    ///< world z; from here up to high_m a column must have been seen
-  double most_unseen = 0.25;  ///< share of those cells that may be unobserved; higher dares more
+  double low_m = 0.03;       ///< world z; occupied cells that begin lower are floor
+  double high_m = 1.65;      ///< world z; cells that begin higher are above the robot
+  double seen_low_m = 0.3;   ///< world z; from here up to high_m a column must have been seen
+  double max_unseen = 0.25;  ///< share of those cells that may be unobserved; higher dares more
   void fields(auto&& f) {
     f("low_m", low_m);
     f("high_m", high_m);
     f("seen_low_m", seen_low_m);
-    f("most_unseen", most_unseen, between(0.0, 1.0));
+    f("max_unseen", max_unseen, between(0.0, 1.0));
   }
   void check() const;  ///< low_m and seen_low_m below high_m
 };
 
 /// Blocks the floor below every column of `grid` that has an occupied cell, or too many unobserved
 /// ones, at the robot's height, and unblocks all other floor. The latter do not block where
-/// `vouched` (one flag per cell of the floor map) says that the robot knows it otherwise: it has
+/// `traversed` (one flag per cell of the floor map) says that the robot knows it otherwise: it has
 /// been there, nor where up to four that touch each other are surrounded by open ones: what stands
 /// there would stand alone, in a place that was seen past on all sides. A floor cell counts as
 /// below a column if they overlap at all.
 /// @throws ConfigError if the options are out of range.
 void block_columns(FloorMap& floor, const OccupancyGrid& grid,
-                   std::span<const std::uint8_t> vouched, const HeadroomOptions& options);
+                   std::span<const std::uint8_t> traversed, const HeadroomOptions& options);
 
 }  // namespace vantage

@@ -64,7 +64,7 @@ OccupancyGrid OctomapFile::grid_of(const CellBlock& block, int coarsen) const {
                                .cell_size_m = Eigen::Vector3d::Constant(cell_m),
                                .cells = coarse.end - coarse.begin});
   std::vector<float> known(grid.size(), 0.0F);  // share of each cell
-  const double most_known = static_cast<double>(coarsen) * coarsen * coarsen;
+  const double max_known = static_cast<double>(coarsen) * coarsen * coarsen;
   for_each_leaf([&](const OctomapLeaf& leaf) {
     const CellBlock part = leaf.block().cut({coarse.begin * coarsen, coarse.end * coarsen});
     if (part.empty()) return;
@@ -73,7 +73,7 @@ OccupancyGrid OctomapFile::grid_of(const CellBlock& block, int coarsen) const {
       float& log_odds = grid.log_odds[i];
       log_odds = known[i] > 0.0F ? std::max(log_odds, leaf.log_odds) : leaf.log_odds;
       const CellBlock whole{cell * coarsen, (cell + 1) * coarsen};
-      known[i] += static_cast<float>(part.cut(whole).count() / most_known);
+      known[i] += static_cast<float>(part.cut(whole).count() / max_known);
     });
   });
   for (std::size_t i = 0; i < grid.size(); ++i) {

@@ -8,8 +8,8 @@
 namespace vantage {
 namespace {
 
-constexpr double kLeastPsi = 1e-7;
-constexpr double kMostPsi = 10.0;
+constexpr double kMinPsi = 1e-7;
+constexpr double kMaxPsi = 10.0;
 /// exp of less would be a denormal float, with which processors are slow.
 constexpr float kNegligible = -60.0F;
 
@@ -70,8 +70,8 @@ Derivatives derivatives_at(const Regression& regression, double psi) {
 /// Where the first derivative is zero, or the end of the range that it points to: Newton's steps
 /// as long as they stay between the bounds known so far, halving the exponent otherwise.
 double most_likely_psi(const Regression& regression) {
-  double low = kLeastPsi;
-  double high = kMostPsi;
+  double low = kMinPsi;
+  double high = kMaxPsi;
   if (derivatives_at(regression, high).first >= 0.0) return high;
   if (derivatives_at(regression, low).first <= 0.0) return low;
   double psi = std::sqrt(low * high);

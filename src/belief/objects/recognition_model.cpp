@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::string_view kMagic = "vantage recognition model\n";
 constexpr std::uint32_t kVersion = 1;
-constexpr int kMostBins = 3600;
-constexpr std::size_t kMostStates = 10'000'000;
+constexpr int kMaxBins = 3600;
+constexpr std::size_t kMaxStates = 10'000'000;
 
 std::string repeated(std::string_view what, const std::string& name) {
   return fmt::format("{} '{}' appears twice", what, name);
@@ -47,11 +47,11 @@ std::vector<std::string> take_categories(ByteReader& reader) {
 ObjectStates take_states(ByteReader& reader) {
   ObjectStates states;
   states.bins = reader.number<std::int32_t>("the number of bins");
-  reader.require(states.bins >= 1 && states.bins <= kMostBins,
-                 fmt::format("{} yaw bins, must be in [1, {}]", states.bins, kMostBins));
+  reader.require(states.bins >= 1 && states.bins <= kMaxBins,
+                 fmt::format("{} yaw bins, must be in [1, {}]", states.bins, kMaxBins));
   states.categories = take_categories(reader);
   const std::size_t objects = reader.count(2 * sizeof(std::uint32_t), "the objects");
-  reader.require(objects * static_cast<std::size_t>(states.bins) <= kMostStates,
+  reader.require(objects * static_cast<std::size_t>(states.bins) <= kMaxStates,
                  fmt::format("{} objects of {} bins are too many", objects, states.bins));
   std::set<std::string> known;
   for (std::size_t k = 0; k < objects; ++k) {

@@ -61,7 +61,7 @@ PointCloud to_cloud(const RangeScan& scan) {
 
 PointCloud to_cloud(const PlanarScan& scan, double sensor_height_m) {
   expects(scan.range_m.size() == scan.azimuth_rad.size(), "a planar scan has one range per beam");
-  const Pose T_base_sensor = lift(scan.T_base_sensor, sensor_height_m);
+  const Pose T_base_sensor = to_se3(scan.T_base_sensor, sensor_height_m);
   PointCloud cloud;
   for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
     const double range = scan.range_m[beam];

@@ -13,7 +13,7 @@ namespace vantage {
 namespace {
 
 /// A scan point, the map point nearest to it, and the plane through the latter; all in the world.
-struct Pair {
+struct Correspondence {
   Eigen::Vector3d lever;   ///< from the base to the scan point
   Eigen::Vector3d normal;  ///< of the map
   double residual_m;       ///< signed distance of the scan point from the map's plane
@@ -42,13 +42,14 @@ PointCloud upright_part(const PointCloud& cloud, double max_normal_z) {
 }
 
 /// @return for each scan point with a compatible partner no farther than `radius_m`, the pair.
-std::vector<Pair> find_pairs(const PointCloud& scan_base, const UprightMap& map, const Pose2& pose,
-                             double radius_m, const RegistrationOptions& options) {
-  const Pose T_world_base = lift(pose);
+std::vector<Correspondence> find_correspondences(const PointCloud& scan_base, const UprightMap& map,
+                                                 const Pose2& pose, double radius_m,
+                                                 const RegistrationOptions& options) {
+  const Pose T_world_base = to_se3(pose);
   const Eigen::Matrix3d rotation = T_world_base.linear();
   const double min_cosine = std::cos(options.max_normal_angle_rad);
-  std::vector<Pair> pairs;
-  pairs.reserve(scan_base.size());
+  std::vector<Correspondence> correspondences;
+  correspondences.reserve(scan_base.size());
   for (std::size_t i = 0; i < scan_base.size(); ++i) {
     const Eigen::Vector3d p = T_world_base * scan_base.points[i].cast<double>();
     const auto found = map.tree.nearest(p.cast<float>(), radius_m);
@@ -59,17 +60,19 @@ std::vector<Pair> find_pairs(const PointCloud& scan_base, const UprightMap& map,
       continue;
     }
     const Eigen::Vector3d q = map.tree.points()[found->index].cast<double>();
-    pairs.push_back({p - T_world_base.translation(), normal, normal.dot(p - q)});
+    correspondences.push_back({p - T_world_base.translation(), normal, normal.dot(p - q)});
   }
-  return pairs;
+  return correspondences;
 }
 
 /// Keeps the pairs with the smallest residuals.
-void trim(std::vector<Pair>& pairs, double fraction) {
+void trim(std::vector<Correspondence>& correspondences, double fraction) {
   const auto keep =
-      static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(pairs.size())));
-  std::ranges::stable_sort(pairs, {}, [](const Pair& pair) { return std::abs(pair.residual_m); });
-  pairs.resize(std::min(keep, pairs.size()));
+      static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(correspondences.size())));
+  std::ranges::stable_sort(correspondences, {}, [](const Correspondence& correspondence) {
+    return std::abs(correspondence.residual_m);
+  });
+  correspondences.resize(std::min(keep, correspondences.size()));
 }
 
 /// rho'(r) / r of the Geman-McClure kernel, 1 at r = 0.
@@ -82,33 +85,36 @@ double robust_weight(double residual_m, double scale_m) {
 /// One Gauss-Newton step on  sum_i w_i (r_i + n_i . (d + theta z x l_i))^2  [ChenMedioni1992, (4)].
 /// The turn is scaled by the mean lever so that all three unknowns are metres; eigenvectors of the
 /// normal matrix that hardly any surface constrains are left out [ZhangKaessSingh2016, (16)].
-Step gauss_newton_step(const std::vector<Pair>& pairs, double kernel_m,
+Step gauss_newton_step(const std::vector<Correspondence>& correspondences, double kernel_m,
                        const RegistrationOptions& options) {
   double lever2 = 0.0;
-  for (const Pair& pair : pairs) lever2 += pair.lever.head<2>().squaredNorm();
-  const double arm_m = std::sqrt(lever2 / static_cast<double>(pairs.size()));
+  for (const Correspondence& correspondence : correspondences)
+    lever2 += correspondence.lever.head<2>().squaredNorm();
+  const double arm_m = std::sqrt(lever2 / static_cast<double>(correspondences.size()));
   if (!(arm_m > 0.0)) return {};
 
   Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double weights = 0.0;
-  for (const Pair& pair : pairs) {
-    const double moment = pair.normal.y() * pair.lever.x() - pair.normal.x() * pair.lever.y();
-    const Eigen::Vector3d row(pair.normal.x(), pair.normal.y(), moment / arm_m);
-    const double w = robust_weight(pair.residual_m, kernel_m);
+  for (const Correspondence& correspondence : correspondences) {
+    const double moment = correspondence.normal.y() * correspondence.lever.x() -
+                          correspondence.normal.x() * correspondence.lever.y();
+    const Eigen::Vector3d row(correspondence.normal.x(), correspondence.normal.y(), moment / arm_m);
+    const double w = robust_weight(correspondence.residual_m, kernel_m);
     normal_matrix += w * row * row.transpose();
-    gradient += w * pair.residual_m * row;
+    gradient += w * correspondence.residual_m * row;
     weights += w;
   }
   // Per unit weight: a bad start makes all weights small, which is no lack of constraint.
-  const double least_share = std::max(
-      options.min_constraint, options.min_constraint_pairs / static_cast<double>(pairs.size()));
+  const double min_share =
+      std::max(options.min_constraint, options.min_constraint_correspondences /
+                                           static_cast<double>(correspondences.size()));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal_matrix);
   Eigen::Vector3d solution = Eigen::Vector3d::Zero();
   Step step;
   for (int i = 0; i < 3; ++i) {
     const double strength = solver.eigenvalues()[i];
-    if (!(strength > least_share * weights)) continue;
+    if (!(strength > min_share * weights)) continue;
     const Eigen::Vector3d direction = solver.eigenvectors().col(i);
     solution -= direction * (direction.dot(gradient) / strength);
     --step.unconstrained;
@@ -118,10 +124,11 @@ Step gauss_newton_step(const std::vector<Pair>& pairs, double kernel_m,
   return step;
 }
 
-double rms_residual(const std::vector<Pair>& pairs) {
+double rms_residual(const std::vector<Correspondence>& correspondences) {
   double sum = 0.0;
-  for (const Pair& pair : pairs) sum += pair.residual_m * pair.residual_m;
-  return std::sqrt(sum / static_cast<double>(pairs.size()));
+  for (const Correspondence& correspondence : correspondences)
+    sum += correspondence.residual_m * correspondence.residual_m;
+  return std::sqrt(sum / static_cast<double>(correspondences.size()));
 }
 
 /// Iterates until a step at the smallest search radius is negligible. `result.reason` says why not.
@@ -130,16 +137,19 @@ void iterate(const PointCloud& scan_base, const UprightMap& map, const Registrat
   double radius_m = options.max_correspondence_m;
   while (result.iterations < options.max_iterations) {
     ++result.iterations;
-    auto pairs = find_pairs(scan_base, map, result.T_world_base, radius_m, options);
-    result.overlap = static_cast<double>(pairs.size()) / static_cast<double>(scan_base.size());
-    if (pairs.size() < static_cast<std::size_t>(options.min_pairs)) {
-      result.reason = fmt::format("only {} points have a partner in the map", pairs.size());
+    auto correspondences =
+        find_correspondences(scan_base, map, result.T_world_base, radius_m, options);
+    result.overlap =
+        static_cast<double>(correspondences.size()) / static_cast<double>(scan_base.size());
+    if (correspondences.size() < static_cast<std::size_t>(options.min_correspondences)) {
+      result.reason =
+          fmt::format("only {} points have a partner in the map", correspondences.size());
       return;
     }
-    trim(pairs, options.trim_fraction);
-    result.rmse_m = rms_residual(pairs);
+    trim(correspondences, options.trim_fraction);
+    result.rmse_m = rms_residual(correspondences);
     const double kernel_m = std::max(options.kernel_scale_m, radius_m / 3.0);
-    const Step step = gauss_newton_step(pairs, kernel_m, options);
+    const Step step = gauss_newton_step(correspondences, kernel_m, options);
     result.unconstrained = step.unconstrained;
     if (step.unconstrained == 3) {
       result.reason = "no surface constrains the pose";
@@ -157,8 +167,8 @@ void iterate(const PointCloud& scan_base, const UprightMap& map, const Registrat
 }
 
 /// Why a pose that the iteration came to rest at is still not to be trusted; empty if it is.
-std::string objection(const RegistrationResult& result, const Pose2& guess,
-                      const RegistrationOptions& options) {
+std::string rejection_reason(const RegistrationResult& result, const Pose2& guess,
+                             const RegistrationOptions& options) {
   const Pose2& pose = result.T_world_base;
   const double moved_m = std::hypot(pose.x_m - guess.x_m, pose.y_m - guess.y_m);
   const double turned_rad = std::abs(wrap_angle(pose.yaw_rad - guess.yaw_rad));
@@ -206,7 +216,7 @@ RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& 
   }
   const UprightMap map{std::move(upright_map.normals), KdTree(std::move(upright_map.points))};
   iterate(scan, map, options, result);
-  if (result.reason.empty()) result.reason = objection(result, T_world_base_guess, options);
+  if (result.reason.empty()) result.reason = rejection_reason(result, T_world_base_guess, options);
   result.converged = result.reason.empty();
   if (!result.converged) result.T_world_base = T_world_base_guess;
   return result;

@@ -24,15 +24,15 @@ struct RegistrationOptions {
   double max_normal_z = 0.5;          ///< surfaces flatter than this say nothing of x, y, yaw
   double min_constraint = 0.005;  ///< least mean squared alignment of the normals with a direction
                                   ///< (noise of the normals gives about 0.002), and
-  double min_constraint_pairs = 3.0;  ///< the least number of pairs wholly across it;
-                                      ///< below either odometry decides there
-  double min_overlap = 0.02;          ///< least share of upright scan points with a partner
-  int min_pairs = 40;                 ///< fewer partners: rejected
-  int max_iterations = 60;            ///< without convergence by then: rejected
-  double tolerance_m = 5e-5;          ///< converged when a step is shorter, and
-  double tolerance_rad = 2e-5;        ///< turns less
-  double max_correction_m = 0.25;     ///< a result farther from the guess is rejected
-  double max_correction_rad = 0.15;   ///< likewise
+  double min_constraint_correspondences = 3.0;  ///< the least number of pairs wholly across it;
+                                                ///< below either odometry decides there
+  double min_overlap = 0.02;         ///< least share of upright scan points with a partner
+  int min_correspondences = 40;      ///< fewer partners: rejected
+  int max_iterations = 60;           ///< without convergence by then: rejected
+  double tolerance_m = 5e-5;         ///< converged when a step is shorter, and
+  double tolerance_rad = 2e-5;       ///< turns less
+  double max_correction_m = 0.25;    ///< a result farther from the guess is rejected
+  double max_correction_rad = 0.15;  ///< likewise
   void fields(auto&& f) {
     f("voxel_m", voxel_m, above(0.0));
     f("normals", normals);
@@ -44,9 +44,9 @@ struct RegistrationOptions {
     f("max_normal_angle_rad", max_normal_angle_rad, between(0.0, 3.1416));
     f("max_normal_z", max_normal_z, between(0.0, 1.0));
     f("min_constraint", min_constraint, between(0.0, 1.0));
-    f("min_constraint_pairs", min_constraint_pairs, at_least(0.0));
+    f("min_constraint_correspondences", min_constraint_correspondences, at_least(0.0));
     f("min_overlap", min_overlap, between(0.0, 1.0));
-    f("min_pairs", min_pairs, at_least(3));
+    f("min_correspondences", min_correspondences, at_least(3));
     f("max_iterations", max_iterations, at_least(1));
     f("tolerance_m", tolerance_m, above(0.0));
     f("tolerance_rad", tolerance_rad, above(0.0));

@@ -13,9 +13,9 @@
 namespace vantage {
 namespace {
 
-/// Above an object's lowest points, what may be seen of its stand: noise.
+/// Above an object's lowest points, what may be seen of its support surface: noise.
 constexpr double kAbove_m = 0.015;
-/// About a level stand.
+/// About a level support surface.
 constexpr double kThick_m = 0.008;
 
 /// Along `up`, of what is beside the mask and between these heights: most of it, which is level.
@@ -52,8 +52,9 @@ FeatureResult StandingBox::extract(const ObjectView& view) const {
   const std::vector<double> stand_m =
       level_beside(view, up, box.bottom_m - stand_below_m, box.bottom_m + kAbove_m);
   if (std::ssize(stand_m) < min_pixels) {
-    return FeatureResult::skip(fmt::format(
-        "{} pixels beside the object show its stand, fewer than {}", stand_m.size(), min_pixels));
+    return FeatureResult::skip(
+        fmt::format("{} pixels beside the object show its support surface, fewer than {}",
+                    stand_m.size(), min_pixels));
   }
   const double height_m = box.top_m - quantile(stand_m, 0.5);
   return {Eigen::Vector3d(height_m, box.greater_m, box.smaller_m).cast<float>(), {}};

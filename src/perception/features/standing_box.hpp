@@ -15,8 +15,8 @@ namespace vantage {
 
 /// Metres: height above what the object stands on, as seen beside it, then the greater and the
 /// smaller extent as in BoundingBox. How much of an object's foot is seen changes with the height
-/// it is seen from, and from how far, by more than near twins differ in size; where its top is
-/// over its stand does not. Outliers of depth are told along the line of sight.
+/// it is seen from, and from how far, by more than near-duplicates differ in size; where its top is
+/// over its support surface does not. Outliers of depth are told along the line of sight.
 struct StandingBox {
   static constexpr std::string_view name = "standing_box";
   double low_quantile = 0.01;     ///< share; higher cuts more off the one end, not off the foot

@@ -7,10 +7,10 @@
 
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/perception/clouds/point_cloud.hpp"
 #include "vantage/perception/features/kit/feature_result.hpp"
 #include "vantage/perception/features/kit/state_bytes.hpp"
 #include "vantage/perception/object_view.hpp"
-#include "vantage/perception/clouds/point_cloud.hpp"
 
 namespace vantage {
 

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr Eigen::Index kMostViews = 4000;
+constexpr Eigen::Index kMaxViews = 4000;
 
 /// Of each view, in which fold it is held out; -1: in none.
 std::vector<int> folds_of(const HeldOutShare& by, std::span<const ViewFeatures> views,
@@ -113,7 +113,7 @@ Calibration hold_out(std::span<const ViewFeatures> views, std::span<const int> s
   calibration.held_out.bins = model.states.bins;
   calibration.held_out.log_density.resize(model.features.size());
   for (Split& split : splits) {
-    limit(split, kMostViews / static_cast<Eigen::Index>(splits.size()), options.seed);
+    limit(split, kMaxViews / static_cast<Eigen::Index>(splits.size()), options.seed);
     for (const std::size_t i : split.held_out) calibration.held_out.state.push_back(shown[i]);
   }
   for (std::size_t f = 0; f < model.features.size(); ++f) {

@@ -9,8 +9,8 @@
 #include <mutex>
 #include <string>
 
-#include "vantage/core/parallel_for.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/core/parallel_for.hpp"
 
 namespace vantage {
 

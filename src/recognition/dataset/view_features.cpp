@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// The pictures are opened only if something is missing.
+/// The images are opened only if something is missing.
 std::vector<FeatureResult> features_of(const ViewEntry& entry,
                                        std::span<const TrainedFeature> extractors,
                                        FeatureCache& cache) {

@@ -91,7 +91,7 @@ std::vector<ChangeTrials> evaluate_changes(const Recogniser& recogniser, const T
         DatasetCamera camera(recogniser, test, log_likelihood, starts[i]);
         result.trials[i] =
             trial_of(detect_change(recogniser, by, expected, camera.as_object_camera(), rng));
-        result.trials[i].detectable = tells_apart(recogniser, shown, expected);
+        result.trials[i].detectable = distinguishable(recogniser, shown, expected);
       });
     }
   }

@@ -15,8 +15,9 @@ struct ChangeTrial {
   Change decision = Change::none;
   double p_changed = 0.0;
   int observations = 0;
-  double time_s = 0.0;      ///< of features and choices
-  bool detectable = false;  ///< the model tells what is expected from what is there: tells_apart()
+  double time_s = 0.0;  ///< of features and choices
+  bool detectable =
+      false;  ///< the model tells what is expected from what is there: distinguishable()
 };
 
 struct ChangeTrials {

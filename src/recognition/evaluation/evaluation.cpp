@@ -61,11 +61,11 @@ std::vector<Start> draw_starts(const TestViews& test, int count, std::uint64_t s
 
 std::vector<Method> published_methods(const RecognitionOptions& common) {
   std::vector<Method> methods;
-  const auto add = [&](std::string name, const ObjectViewChoice& views, int most_views,
+  const auto add = [&](std::string name, const ObjectViewChoice& views, int max_views,
                        const auto& change) {
     RecognitionOptions options = common;
     options.views.choice = views;
-    options.most_views = most_views;
+    options.max_views = max_views;
     change(options);
     methods.push_back({.name = std::move(name), .options = std::move(options)});
   };
@@ -81,8 +81,8 @@ std::vector<Method> published_methods(const RecognitionOptions& common) {
       RandomObjectView{}, StarView{}, JeffreysDivergence{}, LossOfEntropy{}, MutualInformation{}};
   for (const ObjectViewChoice& views : choices) {
     const std::string name(strategy_name_of(views));
-    add(name + ", all features", views, common.most_views, all);
-    add(name, views, common.most_views, chosen(MutualInformation{}));
+    add(name + ", all features", views, common.max_views, all);
+    add(name, views, common.max_views, chosen(MutualInformation{}));
   }
   return methods;
 }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/recognition/recognition.hpp"
 #include "vantage/recognition/dataset/turntable_views.hpp"
+#include "vantage/recognition/recognition.hpp"
 
 namespace vantage {
 

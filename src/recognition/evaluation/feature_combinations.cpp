@@ -13,7 +13,7 @@ std::vector<FeatureCombination> feature_combinations(std::size_t features) {
       if ((set >> f & 1U) != 0) combination.push_back(f);
     }
     const bool few = combination.size() == 1 || set == all;
-    if (few || features <= kMostCombined) combinations.push_back(std::move(combination));
+    if (few || features <= kMaxCombined) combinations.push_back(std::move(combination));
   }
   std::ranges::stable_sort(combinations, {}, &FeatureCombination::size);
   return combinations;

@@ -11,8 +11,8 @@ namespace vantage {
 /// One of a recogniser's features or more, in its order.
 using FeatureCombination = std::vector<std::size_t>;
 
-/// All of them, smaller ones first; of more than `kMostCombined` features each alone and all.
-inline constexpr std::size_t kMostCombined = 5;
+/// All of them, smaller ones first; of more than `kMaxCombined` features each alone and all.
+inline constexpr std::size_t kMaxCombined = 5;
 std::vector<FeatureCombination> feature_combinations(std::size_t features);
 
 /// A trial from each start with these features and no other, as recognise() with one view has it.

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "vantage/runtime/drawing/map_view.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/runtime/drawing/map_view.hpp"
 
 namespace vantage {
 

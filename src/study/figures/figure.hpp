@@ -1,4 +1,4 @@
-/// Line figures with intervals: as data, as text, as a picture.
+/// Line figures with intervals: as data, as text, as an image.
 #pragma once
 
 #include <string>

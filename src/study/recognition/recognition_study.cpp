@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "vantage/belief/objects/psi_rule.hpp"
-#include "vantage/recognition/evaluation/feature_combinations.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
+#include "vantage/recognition/evaluation/feature_combinations.hpp"
 #include "vantage/recognition/evaluation/svm_baseline.hpp"
 
 namespace vantage {
@@ -76,7 +76,7 @@ MethodTrials literal_trials(const RecognitionModel& model, std::string name, con
   const Recogniser recogniser = make_recogniser(model, literal, trials.how.threads);
   RecognitionOptions options = trials.options.recognition;
   options.all_features = true;
-  options.most_views = 1;
+  options.max_views = 1;
   return {.method = name,
           .trials = run_trials(
               recogniser, trials.test, log_likelihoods(recogniser, trials.test, trials.how),

@@ -46,13 +46,13 @@ FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera) {
   const double half_fovy_rad = 0.5 * camera.fovy_rad;
   const double half_height = std::tan(half_fovy_rad);
   const double half_width = half_height * camera.width_px / camera.height_px;
-  const double farthest_rad = std::numbers::pi / sweep.pans;
+  const double max_azimuth_rad = std::numbers::pi / sweep.pans;
   for (const double tilt_rad : sweep.tilts_rad) {
     if (std::abs(tilt_rad) + half_fovy_rad > 1.5) {
       throw ConfigError(fmt::format(
           "exploration.sweep.tilts_rad: at tilt {} the image reaches past the vertical", tilt_rad));
     }
-    if (half_width_rad(tilt_rad, half_width, half_height) < farthest_rad) {
+    if (half_width_rad(tilt_rad, half_width, half_height) < max_azimuth_rad) {
       throw ConfigError(
           fmt::format("exploration.sweep.pans: {} images leave gaps in the row at tilt {}",
                       sweep.pans, tilt_rad));
@@ -62,7 +62,7 @@ FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera) {
   // The edges of an image are highest in its middle column and nearest the horizon at its sides.
   const auto bound = [&](double tilt_rad, double row, auto narrower) {
     return narrower(depression_at(tilt_rad, half_fovy_rad, row, 0.0),
-                    depression_at(tilt_rad, half_fovy_rad, row, farthest_rad));
+                    depression_at(tilt_rad, half_fovy_rad, row, max_azimuth_rad));
   };
   const auto least = [](double a, double b) { return std::min(a, b); };
   const auto most = [](double a, double b) { return std::max(a, b); };

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "vantage/planners/views/frontiers.hpp"
-#include "vantage/sim/sensors/camera.hpp"
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/field_of_view.hpp"
+#include "vantage/planners/views/frontiers.hpp"
+#include "vantage/sim/sensors/camera.hpp"
 
 namespace vantage {
 
@@ -46,30 +46,31 @@ struct ExplorationOptions {
   FrontierOptions frontiers{.min_cells = 60, .height_m = 1.47, .height_band_m = {{0.2, 1.7}}};
   HeadroomOptions headroom;
   double start_room_m = 0.75;  ///< round the start, known to be free for the robot
-  int most_candidates = 30;    ///< the largest clusters; more take longer to score
+  int max_candidates = 30;     ///< the largest clusters; more take longer to score
   double reach_m = 1.0;        ///< nearest place farther from its frontier: out of reach
   double taken_m = 0.3;        ///< places nearer to one that was scanned from are not proposed
   double poor_m = 1.0;         ///< the same round a place whose scan showed too little
   int poor_cells = 2000;       ///< fewer new cells are too little; higher gives up sooner
   EnoughOptions enough;
   double keyframe_m = 0.5;  ///< between places on the way where walls are remembered to drive by
-  double wall_novelty_m = 0.05;  ///< walls nearer than this to remembered ones are not remembered
-  int stride_px = 3;             ///< pixels between those that mark surfaces; higher is faster
-  int hazard_stride_px = 8;      ///< pixels between those that count clutter; higher is faster
+  double reference_novelty_m =
+      0.05;                  ///< walls nearer than this to remembered ones are not remembered
+  int stride_px = 3;         ///< pixels between those that mark surfaces; higher is faster
+  int hazard_stride_px = 8;  ///< pixels between those that count clutter; higher is faster
   void fields(auto&& f) {
     f("sweep", sweep);
     f("camera", camera);
     f("frontiers", frontiers);
     f("headroom", headroom);
     f("start_room_m", start_room_m, at_least(0.0));
-    f("most_candidates", most_candidates, at_least(1));
+    f("max_candidates", max_candidates, at_least(1));
     f("reach_m", reach_m, at_least(0.0));
     f("taken_m", taken_m, above(0.0));
     f("poor_m", poor_m, at_least(0.0));
     f("poor_cells", poor_cells, at_least(0));
     f("enough", enough);
     f("keyframe_m", keyframe_m, above(0.0));
-    f("wall_novelty_m", wall_novelty_m, at_least(0.0));
+    f("reference_novelty_m", reference_novelty_m, at_least(0.0));
     f("stride_px", stride_px, between(1, 100));
     f("hazard_stride_px", hazard_stride_px, between(1, 100));
   }

@@ -3,10 +3,10 @@
 
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/belief/map/occupancy_grid.hpp"
-#include "vantage/tasks/mapping/belief_update.hpp"
-#include "vantage/tasks/exploration/office_rig.hpp"
-#include "vantage/tasks/mapping/wall_map.hpp"
 #include "vantage/perception/clouds/point_cloud.hpp"
+#include "vantage/tasks/exploration/exploration_robot_interface.hpp"
+#include "vantage/tasks/mapping/belief_update.hpp"
+#include "vantage/tasks/mapping/reference_map.hpp"
 
 namespace vantage {
 
@@ -14,8 +14,8 @@ class OfficeBelief {
  public:
   explicit OfficeBelief(const Episode& episode);
 
-  /// Registration with `walls`, measurements, free space, holes.  [Potthast2016, 3.2]
-  BeliefUpdate update(const OfficeObservation& observation, const WallMap& walls);
+  /// Registration with `reference_map`, measurements, free space, holes.  [Potthast2016, 3.2]
+  BeliefUpdate update(const OfficeObservation& observation, const ReferenceMap& reference_map);
 
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
   /// The grid with holes filled: what planning looks at.

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "vantage/planners/swept_gain.hpp"
-#include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
+#include "vantage/planners/swept_gain.hpp"
 #include "vantage/tasks/mapping/scan_summary.hpp"
 
 namespace vantage {
@@ -37,53 +37,54 @@ void mark_disc(const FloorMap& floor, const Eigen::Vector2d& p_m, double radius_
 
 }  // namespace
 
-OfficeExploration::OfficeExploration(const ResolvedEpisode& resolved, OfficeRig& rig,
-                                     Recorder& recorder)
+OfficeExploration::OfficeExploration(const ResolvedEpisode& resolved,
+                                     ExplorationRobotInterface& robot, Recorder& recorder)
     : episode_(resolved.episode),
-      rig_(rig),
+      robot_(robot),
       recorder_(recorder),
       belief_(episode_),
-      truth_(episode_, rig, belief_.grid().frame),
-      navigator_(episode_, rig, WallMap(episode_.registration, episode_.exploration.wall_novelty_m),
+      truth_(episode_, robot, belief_.grid().frame),
+      navigator_(episode_, robot,
+                 ReferenceMap(episode_.registration, episode_.exploration.reference_novelty_m),
                  episode_.exploration.keyframe_m),
-      vouched_(navigator_.floor().size(), 0),
+      traversed_(navigator_.floor().size(), 0),
       choice_rng_(Rng::stream(episode_.seed, "view choice")) {
   recorder_.set_panel([this] { return panel(); });
-  navigator_.on_plan = [this](const PlannedPath& path) { recorder_.way(path.waypoints); };
+  navigator_.on_plan = [this](const PlannedPath& path) { recorder_.route(path.waypoints); };
   log_debug(fmt::format("{} cells are observable, from {} places", truth_.observable_cells(),
                         truth_.poses()));
 }
 
 OfficeObservation OfficeExploration::observe() {
   if (scans_.empty()) {
-    const Pose2 start = rig_.estimated_base();
+    const Pose2 start = robot_.estimated_base();
     mark_disc(navigator_.floor(), {start.x_m, start.y_m}, episode_.exploration.start_room_m,
-              vouched_);
-    navigator_.look_round();
-    predict(rig_.estimated_sweep());
+              traversed_);
+    navigator_.turn_in_place();
+    predict(robot_.estimated_sweep());
   }
-  const double start_s = rig_.world().time_s();
-  auto observation = rig_.observe();
-  current_.scan_time_s = rig_.world().time_s() - start_s;
+  const double start_s = robot_.world().time_s();
+  auto observation = robot_.observe();
+  current_.scan_time_s = robot_.world().time_s() - start_s;
   return observation;
 }
 
 void OfficeExploration::update(const OfficeObservation& observation) {
   const double start_s = wall_s();
   const OccupancyGrid before = belief_.grid();
-  const Pose2 dead_reckoned = rig_.dead_reckoned_base();
-  const BeliefUpdate report = belief_.update(observation, navigator_.walls());
-  rig_.correct_pose(report.T_world_base);
-  rig_.restart_dead_reckoning();
+  const Pose2 dead_reckoned = robot_.dead_reckoned_base();
+  const BeliefUpdate report = belief_.update(observation, navigator_.reference_map());
+  robot_.correct_pose(report.T_world_base);
+  robot_.restart_dead_reckoning();
   navigator_.remember(observation.base_scan, report.T_world_base);
   block_floor();
   current_.map_time_s = wall_s() - start_s;
   current_.actual_new_cells = newly_observed(before, belief_.grid());
-  current_.time_s = rig_.world().time_s();
+  current_.time_s = robot_.world().time_s();
   current_.registered = report.registered;
-  measure_pose(rig_.truth(), dead_reckoned, report.T_world_base, current_);
+  measure_pose(robot_.truth(), dead_reckoned, report.T_world_base, current_);
   truth_.measure(belief_.grid(), episode_.metrics.tolerance_cells, current_);
-  current_.T_world_sensor = lift(report.T_world_base) * rig_.T_base_sweep();
+  current_.T_world_sensor = to_se3(report.T_world_base) * robot_.T_base_sweep();
   if (!report.registered) {
     log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), report.registration_note));
   }
@@ -92,10 +93,10 @@ void OfficeExploration::update(const OfficeObservation& observation) {
 /// What the camera saw of the room over the floor is in the robot's way too.
 void OfficeExploration::block_floor() {
   const auto& path_m = navigator_.path_m();
-  for (; path_vouched_ < path_m.size(); ++path_vouched_) {
-    mark_disc(navigator_.floor(), path_m[path_vouched_], kInscribedRadius_m, vouched_);
+  for (; path_traversed_ < path_m.size(); ++path_traversed_) {
+    mark_disc(navigator_.floor(), path_m[path_traversed_], kInscribedRadius_m, traversed_);
   }
-  block_columns(navigator_.floor(), belief_.grid(), vouched_, episode_.exploration.headroom);
+  block_columns(navigator_.floor(), belief_.grid(), traversed_, episode_.exploration.headroom);
 }
 
 void OfficeExploration::record() {
@@ -110,12 +111,12 @@ void OfficeExploration::record() {
   decision_start_s_ = wall_s();
   views_ = find_views();
   are_views_weighed_ = false;
-  if (options.enough.scans > 0 && !views_.empty()) weigh_going_on();
+  if (options.enough.scans > 0 && !views_.empty()) update_stopping_criterion();
 }
 
 /// Counts how often in a row the best view promised less than a share of what is known. Not asked
 /// while scans show many times that: then there is more.
-void OfficeExploration::weigh_going_on() {
+void OfficeExploration::update_stopping_criterion() {
   constexpr double kPlenty = 10.0;
   const double start_s = wall_s();
   const auto known = static_cast<double>(belief_.grid().size() - scans_.back().unobserved_cells);
@@ -151,16 +152,16 @@ std::vector<Candidate> OfficeExploration::find_views() {
   VisitedPlaces proposed;
   std::vector<Candidate> views;
   for (const Frontier& frontier : find_frontiers(belief_.filled_grid(), options.frontiers)) {
-    if (static_cast<int>(views.size()) == options.most_candidates) break;
+    if (static_cast<int>(views.size()) == options.max_candidates) break;
     const Eigen::Vector2d wanted = frontier.p_m.head<2>();
     const auto cell = nearest_reachable(paths, wanted);
     if (!cell) break;
     const Eigen::Vector2d place = paths.map.centre(paths.map.cell(*cell));
-    const Pose2 from = rig_.estimated_base();
+    const Pose2 from = robot_.estimated_base();
     const Pose2 base{place.x(), place.y(), std::atan2(place.y() - from.y_m, place.x() - from.x_m)};
     Candidate view;
     view.id = static_cast<int>(views.size());
-    view.T_world_sensor = lift(base) * rig_.T_base_sweep();
+    view.T_world_sensor = to_se3(base) * robot_.T_base_sweep();
     const Eigen::Vector2d p_sweep = place_of(view.T_world_sensor);
     if (visited_.covers(p_sweep) || proposed.covers(p_sweep)) continue;
     view.reachable = (place - wanted).norm() <= options.reach_m;
@@ -174,14 +175,14 @@ std::vector<Candidate> OfficeExploration::find_views() {
 
 std::vector<double> OfficeExploration::learnt_gains_bits(const Gain& gain) const {
   const BlockField transmission = belief_.hazard().transmission();
-  return view_gains_bits(gain, {belief_.filled_grid(), &transmission}, views_, rig_.view_field(),
+  return view_gains_bits(gain, {belief_.filled_grid(), &transmission}, views_, robot_.view_field(),
                          episode_.threads);
 }
 
 std::vector<Candidate> OfficeExploration::propose() { return views_; }
 
 void OfficeExploration::score(std::vector<Candidate>& candidates) {
-  if (!are_views_weighed_ && (weighs_gain(episode_.choice) || recorder_.tells_story())) {
+  if (!are_views_weighed_ && (weighs_gain(episode_.choice) || recorder_.logs_events())) {
     const auto gains = learnt_gains_bits(episode_.gain);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }
@@ -205,7 +206,7 @@ void OfficeExploration::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
   visited_.add(place_of(candidate.T_world_sensor), episode_.exploration.taken_m);
   const Approach approach =
-      navigator_.approach(rig_.base_for_sweep(candidate.T_world_sensor), std::nullopt);
+      navigator_.approach(robot_.base_for_sweep(candidate.T_world_sensor), std::nullopt);
   current_.path_length_m = approach.path_length_m;
   current_.fallback = !candidate.reachable || !approach.reached;
   if (approach.reached) {
@@ -214,13 +215,13 @@ void OfficeExploration::act(const Candidate& candidate) {
   }
   log_warning(
       fmt::format("view {} is out of reach: scanning from as near as possible", candidate.id));
-  predict(rig_.estimated_sweep());  // of the place the scan will be taken from
+  predict(robot_.estimated_sweep());  // of the place the scan will be taken from
 }
 
 void OfficeExploration::predict(const Pose& T_world_sweep) {
   const BlockField transmission = belief_.hazard().transmission();
   current_.predicted_cells = predicted_cells(episode_, {belief_.filled_grid(), &transmission},
-                                             T_world_sweep, rig_.view_field());
+                                             T_world_sweep, robot_.view_field());
 }
 
 MapPanelInput OfficeExploration::panel() const {
@@ -231,7 +232,7 @@ MapPanelInput OfficeExploration::panel() const {
     const auto goal = static_cast<std::size_t>(current_.chosen_view);
     input.T_world_chosen.push_back(views_[goal].T_world_sensor);
   }
-  input.T_world_base = rig_.estimated_base();
+  input.T_world_base = robot_.estimated_base();
   input.path_m = navigator_.path_m();
   return input;
 }

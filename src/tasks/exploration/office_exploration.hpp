@@ -5,19 +5,20 @@
 #include <vector>
 
 #include "vantage/planners/candidate.hpp"
-#include "vantage/tasks/mapping/navigator.hpp"
+#include "vantage/tasks/exploration/exploration_map_evaluator.hpp"
+#include "vantage/tasks/exploration/exploration_robot_interface.hpp"
 #include "vantage/tasks/exploration/office_belief.hpp"
-#include "vantage/tasks/exploration/office_rig.hpp"
-#include "vantage/tasks/exploration/office_truth.hpp"
+#include "vantage/tasks/exploration/visited_places.hpp"
+#include "vantage/tasks/mapping/navigator.hpp"
 #include "vantage/tasks/mapping/recorder.hpp"
 #include "vantage/tasks/mapping/scan_record.hpp"
-#include "vantage/tasks/exploration/visited_places.hpp"
 
 namespace vantage {
 
 class OfficeExploration {
  public:
-  OfficeExploration(const ResolvedEpisode& resolved, OfficeRig& rig, Recorder& recorder);
+  OfficeExploration(const ResolvedEpisode& resolved, ExplorationRobotInterface& robot,
+                    Recorder& recorder);
 
   OfficeObservation observe();
   void update(const OfficeObservation& observation);
@@ -30,7 +31,7 @@ class OfficeExploration {
 
   [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
   [[nodiscard]] const OfficeBelief& belief() const { return belief_; }
-  [[nodiscard]] const OfficeTruth& truth() const { return truth_; }
+  [[nodiscard]] const ExplorationMapEvaluator& truth() const { return truth_; }
   /// Those of the next decision, and after it those it was made among.
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
@@ -40,18 +41,18 @@ class OfficeExploration {
   std::vector<Candidate> find_views();
   /// What the views show by the clutter learnt, in bits.
   [[nodiscard]] std::vector<double> learnt_gains_bits(const Gain& gain) const;
-  void weigh_going_on();
+  void update_stopping_criterion();
   [[nodiscard]] bool is_enough() const;
   [[nodiscard]] MapPanelInput panel() const;
 
   Episode episode_;
-  OfficeRig& rig_;
+  ExplorationRobotInterface& robot_;
   Recorder& recorder_;
   OfficeBelief belief_;
-  OfficeTruth truth_;
+  ExplorationMapEvaluator truth_;
   Navigator navigator_;
-  std::vector<std::uint8_t> vouched_;  ///< per floor cell: the robot has been there
-  std::size_t path_vouched_ = 0;       ///< points of the path so far
+  std::vector<std::uint8_t> traversed_;  ///< per floor cell: the robot has traversed it
+  std::size_t path_traversed_ = 0;       ///< points of the path so far
   VisitedPlaces visited_;
   Rng choice_rng_;
   std::vector<Candidate> views_;

@@ -74,7 +74,7 @@ void draw_robot(MapCanvas& canvas, const MapCamera& camera, const MapPanelInput&
     draw_line(canvas, camera, {p0.x(), p0.y(), z}, {p1.x(), p1.y(), z},
               {kRobot, 2.0 * unit, 0.55, 0.2});
   }
-  const Pose T = lift(input.T_world_base, z);
+  const Pose T = to_se3(input.T_world_base, z);
   const std::array<Eigen::Vector3d, 4> outline{
       {{1.0, 0.0, 0.0}, {-0.7, 0.7, 0.0}, {-0.35, 0.0, 0.0}, {-0.7, -0.7, 0.0}}};
   std::vector<cv::Point> polygon;

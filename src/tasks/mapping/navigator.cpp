@@ -11,73 +11,75 @@ namespace {
 /// How often the planar scanner adds to the floor map while driving.
 constexpr int kTicksPerFloorScan = 10;
 /// Plans towards one view before it counts as out of reach: the floor map grows on the way.
-constexpr int kMostPlans = 12;
+constexpr int kMaxPlans = 12;
 constexpr double kProgress_m = 0.05;
 /// Of the base, 0.668 m square: what it stands on is free.
 constexpr double kInscribedRadius_m = 0.33;
 
 }  // namespace
 
-Navigator::Navigator(const Episode& episode, MobileRig& rig, WallMap walls, double keyframe_m)
+Navigator::Navigator(const Episode& episode, MobileRobotInterface& robot,
+                     ReferenceMap reference_map, double keyframe_m)
     : floor_options_(episode.floor_map),
       options_(episode.navigation),
-      rig_(rig),
+      robot_(robot),
       floor_(make_floor_map(episode.floor_map)),
-      walls_(std::move(walls)),
+      reference_map_(std::move(reference_map)),
       keyframe_m_(keyframe_m) {}
 
-void Navigator::look_round() {
-  const Pose2 start = rig_.estimated_base();
+void Navigator::turn_in_place() {
+  const Pose2 start = robot_.estimated_base();
   clear_footprint(floor_, start, options_.inflation_m() + floor_.cell_m);
-  remember_walls(rig_.look_around(), start);
+  extend_reference_map(robot_.read_base_scanner(), start);
   for (int third = 1; third <= 3; ++third) {
     const double yaw_rad = start.yaw_rad + 2.0 / 3.0 * std::numbers::pi * third;
     drive_and_map({{start.x_m, start.y_m, wrap_angle(yaw_rad)}});
     localise();
-    remember_walls(rig_.look_around(), rig_.estimated_base());
+    extend_reference_map(robot_.read_base_scanner(), robot_.estimated_base());
   }
 }
 
 void Navigator::remember(const PlanarScan& scan, const Pose2& T_world_base) {
-  remember_walls(scan, T_world_base);
+  extend_reference_map(scan, T_world_base);
   add_planar_scan(floor_, scan, T_world_base, floor_options_);
 }
 
-void Navigator::remember_walls(const PlanarScan& scan, const Pose2& T_world_base) {
-  walls_.remember(scan, rig_.base_scan_height_m(), T_world_base);
+void Navigator::extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base) {
+  reference_map_.remember(scan, robot_.base_scan_height_m(), T_world_base);
   last_keyframe_m_ = {T_world_base.x_m, T_world_base.y_m};
 }
 
 /// Corrects dead reckoning by the planar scanner and adds the scan to the floor map.
 void Navigator::localise() {
-  const PlanarScan scan = rig_.look_around();
-  const auto located = walls_.locate(scan, rig_.base_scan_height_m(), rig_.estimated_base());
+  const PlanarScan scan = robot_.read_base_scanner();
+  const auto located =
+      reference_map_.locate(scan, robot_.base_scan_height_m(), robot_.estimated_base());
   const Pose2& pose = located.T_world_base;
-  rig_.correct_pose(pose);
+  robot_.correct_pose(pose);
   add_planar_scan(floor_, scan, pose, floor_options_);
   const double gone_m = (Eigen::Vector2d(pose.x_m, pose.y_m) - last_keyframe_m_).norm();
-  if (located.converged && gone_m >= keyframe_m_) remember_walls(scan, pose);
+  if (located.converged && gone_m >= keyframe_m_) extend_reference_map(scan, pose);
 }
 
 PathField Navigator::plan() {
-  clear_footprint(floor_, rig_.estimated_base(), kInscribedRadius_m);
-  return make_path_field(floor_, rig_.estimated_base(), options_);
+  clear_footprint(floor_, robot_.estimated_base(), kInscribedRadius_m);
+  return make_path_field(floor_, robot_.estimated_base(), options_);
 }
 
 DriveResult Navigator::drive_and_map(const std::vector<Pose2>& waypoints) {
   int tick = 0;
-  return rig_.drive_along(waypoints, [&] {
+  return robot_.drive_along(waypoints, [&] {
     if (++tick % kTicksPerFloorScan != 0) return true;
     localise();
-    path_m_.emplace_back(rig_.estimated_base().x_m, rig_.estimated_base().y_m);
-    return !is_way_blocked(floor_, waypoints, rig_.estimated_base(), options_);
+    path_m_.emplace_back(robot_.estimated_base().x_m, robot_.estimated_base().y_m);
+    return !is_way_blocked(floor_, waypoints, robot_.estimated_base(), options_);
   });
 }
 
 Approach Navigator::approach(const Pose2& goal, const std::optional<Eigen::Vector2d>& look_at_m) {
   Approach result;
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (int attempt = 0; attempt < kMostPlans; ++attempt) {
+  for (int attempt = 0; attempt < kMaxPlans; ++attempt) {
     const PlannedPath path = plan_path(plan(), goal, look_at_m);
     const double remaining_m = std::hypot(path.end.x_m - goal.x_m, path.end.y_m - goal.y_m);
     if (!path.reaches_goal && remaining_m > nearest_m - kProgress_m) return result;

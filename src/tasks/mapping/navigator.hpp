@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/belief/map/floor_map.hpp"
-#include "vantage/tasks/mapping/mobile_rig.hpp"
-#include "vantage/tasks/mapping/wall_map.hpp"
+#include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/tasks/mapping/mobile_robot_interface.hpp"
+#include "vantage/tasks/mapping/reference_map.hpp"
 
 namespace vantage {
 
@@ -23,12 +23,12 @@ class Navigator {
  public:
   /// @param walls to drive by
   /// @param keyframe_m remembers the walls that often while driving; infinity: only when told to
-  Navigator(const Episode& episode, MobileRig& rig, WallMap walls,
+  Navigator(const Episode& episode, MobileRobotInterface& robot, ReferenceMap reference_map,
             double keyframe_m = std::numeric_limits<double>::infinity());
 
   /// Turns once in place, to know the floor on all sides: the scanner does not see behind the
   /// robot. Whoever starts the robot gives it room for that.
-  void look_round();
+  void turn_in_place();
   /// Adds a scan that was taken at a known place to what it drives by and over.
   void remember(const PlanarScan& scan, const Pose2& T_world_base);
   /// The ways from where the robot is.
@@ -42,20 +42,20 @@ class Navigator {
   std::function<void(const PlannedPath&)> on_plan;
 
   [[nodiscard]] FloorMap& floor() { return floor_; }
-  [[nodiscard]] const WallMap& walls() const { return walls_; }
+  [[nodiscard]] const ReferenceMap& reference_map() const { return reference_map_; }
   /// Driven, as the robot believes.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& path_m() const { return path_m_; }
 
  private:
   void localise();
-  void remember_walls(const PlanarScan& scan, const Pose2& T_world_base);
+  void extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base);
   DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
 
   FloorMapOptions floor_options_;
   NavigationOptions options_;
-  MobileRig& rig_;
+  MobileRobotInterface& robot_;
   FloorMap floor_;
-  WallMap walls_;
+  ReferenceMap reference_map_;
   double keyframe_m_;
   Eigen::Vector2d last_keyframe_m_ = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> path_m_;

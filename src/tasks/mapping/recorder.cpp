@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "vantage/belief/map/octomap_io.hpp"
-#include "vantage/tasks/mapping/scan_summary.hpp"
 #include "vantage/perception/clouds/ply.hpp"
+#include "vantage/tasks/mapping/scan_summary.hpp"
 
 namespace vantage {
 namespace {
@@ -36,18 +36,18 @@ std::string steps_row(const ScanRecord& scan, std::size_t index) {
 
 }  // namespace
 
-Recorder::Recorder(const ResolvedEpisode& resolved, MobileRig& rig, std::filesystem::path directory,
-                   bool with_video, bool lean, Spectator spectator)
+Recorder::Recorder(const ResolvedEpisode& resolved, MobileRobotInterface& robot,
+                   std::filesystem::path directory, bool with_video, bool lean, Spectator spectator)
     : directory_(std::move(directory)),
       planned_scans_(resolved.episode.scans),
       lean_(lean),
-      log_({rig.world(), [&rig] { return lift(rig.truth().T_world_base); },
-            [&rig] { return lift(rig.estimated_base()); }},
+      log_({robot.world(), [&robot] { return to_se3(robot.truth().T_world_base); },
+            [&robot] { return to_se3(robot.estimated_base()); }},
            resolved.episode.recording, directory_, with_video, lean, std::move(spectator)),
       steps_(directory_ / "steps.csv"),
       progress_(resolved.name, resolved.episode.scans) {
   steps_.write(steps_header(resolved.episode));
-  if (!lean) story_.emplace(directory_);
+  if (!lean) event_log_.emplace(directory_);
 }
 
 void Recorder::set_panel(std::function<MapPanelInput()> panel) {
@@ -55,32 +55,32 @@ void Recorder::set_panel(std::function<MapPanelInput()> panel) {
       [panel = std::move(panel)](cv::Size size) { return draw_map_panel(panel(), size); });
 }
 
-void Recorder::tell(StoryEvent event) {
+void Recorder::tell(EpisodeEvent event) {
   log_.tell(event);
-  if (story_) story_->add(event);
+  if (event_log_) event_log_->add(event);
 }
 
 void Recorder::decision(const std::vector<Candidate>& candidates, std::size_t chosen) {
-  if (tells_story()) tell({0, Decision{candidates, chosen}});
+  if (logs_events()) tell({0, Decision{candidates, chosen}});
 }
 
-void Recorder::way(const std::vector<Pose2>& waypoints) {
-  if (!tells_story()) return;
-  PlannedWay way;
-  for (const Pose2& waypoint : waypoints) way.path_m.emplace_back(waypoint.x_m, waypoint.y_m);
-  tell({0, std::move(way)});
+void Recorder::route(const std::vector<Pose2>& waypoints) {
+  if (!logs_events()) return;
+  PlannedRoute route;
+  for (const Pose2& waypoint : waypoints) route.path_m.emplace_back(waypoint.x_m, waypoint.y_m);
+  tell({0, std::move(route)});
 }
 
 void Recorder::scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid) {
   steps_.write(steps_row(record, index));
   if (!lean_) add_occupied_voxels(grid, index);
-  if (tells_story()) tell({0, map_change(known_, grid)});
+  if (logs_events()) tell({0, map_change(known_, grid)});
   ++scans_done_;
   progress_.update(
       static_cast<double>(scans_done_),
       fmt::format("scan {} of {}: {} observable cells left, {:.1f} s simulated", scans_done_,
                   planned_scans_, record.observable_unobserved_cells, record.time_s));
-  log_.keep_still(index);
+  log_.save_still(index);
 }
 
 void Recorder::add_occupied_voxels(const OccupancyGrid& grid, std::size_t step) {
@@ -101,7 +101,7 @@ void Recorder::add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_
 void Recorder::commit() {
   log_.commit();
   steps_.commit();
-  if (story_) story_->commit();
+  if (event_log_) event_log_->commit();
 }
 
 void Recorder::write_map(const OccupancyGrid& grid, const PointCloud& cloud) {

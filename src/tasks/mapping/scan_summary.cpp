@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "vantage/planners/swept_gain.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/strategy_label.hpp"
+#include "vantage/planners/swept_gain.hpp"
 
 namespace vantage {
 namespace {

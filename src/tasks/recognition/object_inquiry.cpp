@@ -41,23 +41,23 @@ ObjectInquiry::ObjectInquiry(const Recogniser& recogniser, const Episode& episod
   }
 }
 
-void ObjectInquiry::look(const ExtractFeature& extract, double view_rad, double view_time_s,
-                         Rng& rng) {
+void ObjectInquiry::observe(const ExtractFeature& extract, double view_rad, double view_time_s,
+                            Rng& rng) {
   if (auto* search = std::get_if<ChangeSearch>(&known_)) {
-    take_view(recogniser_, options_, extract, view_rad, *search, rng);
+    update_with_view(recogniser_, options_, extract, view_rad, *search, rng);
     search->recognition.views.back().view_time_s = view_time_s;
     return;
   }
   auto& recognition = std::get<Recognition>(known_);
-  take_view(recogniser_, options_.recognition, extract, view_rad, recognition, rng);
+  update_with_view(recogniser_, options_.recognition, extract, view_rad, recognition, rng);
   recognition.views.back().view_time_s = view_time_s;
 }
 
 void ObjectInquiry::turned(double motion_rad) {
   if (auto* search = std::get_if<ChangeSearch>(&known_)) {
-    moved(recogniser_, options_, motion_rad, *search);
+    predict_motion(recogniser_, options_, motion_rad, *search);
   } else {
-    moved(recogniser_, options_.recognition, motion_rad, std::get<Recognition>(known_));
+    predict_motion(recogniser_, options_.recognition, motion_rad, std::get<Recognition>(known_));
   }
 }
 

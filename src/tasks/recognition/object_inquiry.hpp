@@ -4,8 +4,8 @@
 
 #include <variant>
 
-#include "vantage/tasks/scenario.hpp"
 #include "vantage/recognition/change_detection.hpp"
+#include "vantage/tasks/scenario.hpp"
 
 namespace vantage {
 
@@ -16,7 +16,7 @@ class ObjectInquiry {
   ObjectInquiry(const Recogniser& recogniser, const Episode& episode, double bearing_rad);
 
   /// Takes in a view. @param view_time_s that it took to choose it
-  void look(const ExtractFeature& extract, double view_rad, double view_time_s, Rng& rng);
+  void observe(const ExtractFeature& extract, double view_rad, double view_time_s, Rng& rng);
   /// The camera turned about the object by that, counter-clockwise seen from above.
   void turned(double motion_rad);
   /// Whether it knows, or has looked often enough.

@@ -48,10 +48,10 @@ double wrap_turn(double angle_rad) {
 
 /// Somehow else by more than half a yaw bin, as a map would tell it.
 double turned_yaw_rad(const Episode& episode, double expected_rad) {
-  constexpr double kLeast_rad = std::numbers::pi / 8.0;
+  constexpr double kMin_rad = std::numbers::pi / 8.0;
   Rng turn = Rng::stream(episode.seed, "object turned");
-  const double turned_rad = episode.change_detection.turned_rad.value_or(
-      turn.uniform(kLeast_rad, kTurn_rad - kLeast_rad));
+  const double turned_rad =
+      episode.change_detection.turned_rad.value_or(turn.uniform(kMin_rad, kTurn_rad - kMin_rad));
   return wrap_turn(expected_rad + turned_rad);
 }
 

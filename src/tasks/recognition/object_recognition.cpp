@@ -9,8 +9,8 @@
 
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/tasks/flight/recognition_model_file.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
+#include "vantage/tasks/flight/recognition_model_file.hpp"
 
 namespace vantage {
 namespace {
@@ -53,13 +53,13 @@ Recogniser load_episode_recogniser(const ResolvedEpisode& resolved) {
 }
 
 ObjectRecognition::ObjectRecognition(const ResolvedEpisode& resolved, const Recogniser& recogniser,
-                                     FlightRig& rig, RecognitionRecorder& recorder)
+                                     OrbitRobotInterface& robot, RecognitionRecorder& recorder)
     : episode_(resolved.episode),
-      rig_(rig),
+      robot_(robot),
       recorder_(recorder),
       truth_(draw_object_on_table(episode_)),
       first_rad_(
-          first_bearing_rad(episode_, rig_.start_bearing_rad(), recogniser.states.bin_rad())),
+          first_bearing_rad(episode_, robot_.start_bearing_rad(), recogniser.states.bin_rad())),
       recogniser_(recogniser),
       inquiry_(recogniser_, episode_, first_rad_),
       choice_rng_(Rng::stream(episode_.seed, "recognition")),
@@ -68,20 +68,20 @@ ObjectRecognition::ObjectRecognition(const ResolvedEpisode& resolved, const Reco
 }
 
 FlightObservation ObjectRecognition::observe() {
-  if (sightings_.empty() && rig_.bearing_rad() != first_rad_) {
-    current_.flight = rig_.fly_to(first_rad_);
+  if (observation_records_.empty() && robot_.bearing_rad() != first_rad_) {
+    current_.flight = robot_.fly_to(first_rad_);
   }
-  return rig_.observe();
+  return robot_.observe();
 }
 
 void ObjectRecognition::update(const FlightObservation& observation) {
   const RecognitionTask& task = episode_.recognition;
-  seen_ = segment_object(observation.images, observation.T_world_camera, rig_.p_world_table_m(),
+  seen_ = segment_object(observation.images, observation.T_world_camera, robot_.p_world_table_m(),
                          task.segmentation, segmentation_rng_);
-  picture_ = observation.images;
+  camera_image_ = observation.images;
   const ExtractFeature extract =
       seen_.view ? extract_from(recogniser_, *seen_.view) : extract_nothing(seen_.reason);
-  inquiry_.look(extract, observation.bearing_rad, next_.time_s, choice_rng_);
+  inquiry_.observe(extract, observation.bearing_rad, next_.time_s, choice_rng_);
   current_.T_world_camera = observation.T_world_camera;
   conclude();
 }
@@ -91,7 +91,7 @@ void ObjectRecognition::conclude() {
   const ObjectStates& states = recogniser_.states;
   const ObjectBelief& belief = recognition().belief;
   const int object = most_probable_object(states, belief);
-  current_.time_s = rig_.world().time_s();
+  current_.time_s = robot_.world().time_s();
   current_.report = recognition().views.back();
   if (inquiry_.of_change()) current_.change = {inquiry_.p_changed(), inquiry_.verdict()};
   current_.not_segmented = seen_.reason;
@@ -102,7 +102,7 @@ void ObjectRecognition::conclude() {
   current_.estimated_bin = states.bin_of(state);
   current_.category = states.categories[static_cast<std::size_t>(
       states.category_of[static_cast<std::size_t>(object)])];
-  const FlightTruth truth = rig_.truth();
+  const FlightTruth truth = robot_.truth();
   current_.position_error_m = truth.position_error_m;
   current_.angle_error_rad = truth.angle_error_rad;
   current_.true_yaw_rad = truth.object_angle_rad;
@@ -112,12 +112,14 @@ void ObjectRecognition::conclude() {
 }
 
 void ObjectRecognition::record() {
-  sightings_.push_back(std::exchange(current_, {}));
-  const Sighting& sighting = sightings_.back();
-  if (!sighting.not_segmented.empty()) {
-    log_warning(fmt::format("view {}: {}", sightings_.size(), sighting.not_segmented));
+  observation_records_.push_back(std::exchange(current_, {}));
+  const ObservationRecord& observation_record = observation_records_.back();
+  if (!observation_record.not_segmented.empty()) {
+    log_warning(
+        fmt::format("view {}: {}", observation_records_.size(), observation_record.not_segmented));
   }
-  recorder_.sighting(sighting, sightings_.size() - 1, picture_, seen_.view);
+  recorder_.observation_record(observation_record, observation_records_.size() - 1, camera_image_,
+                               seen_.view);
 }
 
 bool ObjectRecognition::finished() const { return inquiry_.over(); }
@@ -125,10 +127,10 @@ bool ObjectRecognition::finished() const { return inquiry_.over(); }
 std::vector<BearingOption> ObjectRecognition::propose() {
   std::vector<BearingOption> options;
   for (int id = 0; id < episode_.recognition.bearings; ++id) {
-    if (id == sightings_.back().bearing_id) continue;
+    if (id == observation_records_.back().bearing_id) continue;
     BearingOption option{.id = id, .bearing_rad = bearing_rad(id), .action = {}};
-    const FlightPlan plan = rig_.plan(option.bearing_rad);
-    option.action = {.yaw_rad = wrap_angle(option.bearing_rad - rig_.bearing_rad()),
+    const FlightPlan plan = robot_.plan(option.bearing_rad);
+    option.action = {.yaw_rad = wrap_angle(option.bearing_rad - robot_.bearing_rad()),
                      .time_s = plan.duration_s,
                      .path_m = plan.path_m,
                      .energy_j = plan.energy_j,
@@ -153,7 +155,7 @@ std::size_t ObjectRecognition::choose(const std::vector<BearingOption>&) {
 
 void ObjectRecognition::act(const BearingOption& option) {
   current_.bearing_id = option.id;
-  current_.flight = rig_.fly_to(option.bearing_rad);
+  current_.flight = robot_.fly_to(option.bearing_rad);
   inquiry_.turned(option.action.yaw_rad);
   if (current_.flight->status == FlightStatus::arrived) return;
   log_warning(fmt::format("bearing {}: {} on the way there", option.id,
@@ -165,7 +167,8 @@ double ObjectRecognition::bearing_rad(int id) const {
 }
 
 bool ObjectRecognition::visited(int id) const {
-  return std::ranges::find(sightings_, id, &Sighting::bearing_id) != sightings_.end();
+  return std::ranges::find(observation_records_, id, &ObservationRecord::bearing_id) !=
+         observation_records_.end();
 }
 
 std::vector<Candidate> ObjectRecognition::places() const {
@@ -173,19 +176,19 @@ std::vector<Candidate> ObjectRecognition::places() const {
   for (int id = 0; id < episode_.recognition.bearings; ++id) {
     Candidate& place = places.emplace_back();
     place.id = id;
-    place.T_world_sensor = rig_.orbit().place(bearing_rad(id));
+    place.T_world_sensor = robot_.orbit().place(bearing_rad(id));
   }
   return places;
 }
 
 RecognitionPanelInput ObjectRecognition::panel() const {
-  RecognitionPanelInput input{.sightings = sightings_, .orbit = rig_.orbit()};
+  RecognitionPanelInput input{.observation_records = observation_records_, .orbit = robot_.orbit()};
   for (int id = 0; id < episode_.recognition.bearings; ++id) {
     input.bearings_rad.push_back(bearing_rad(id));
   }
-  input.goal_rad = rig_.bearing_rad();
-  input.T_world_body = rig_.estimated_body();
-  input.picture = &picture_;
+  input.goal_rad = robot_.bearing_rad();
+  input.T_world_body = robot_.estimated_body();
+  input.camera_image = &camera_image_;
   input.cut = seen_.view ? &*seen_.view : nullptr;
   input.objects = recogniser_.states.objects;
   input.p_object = p_object(recogniser_.states, recognition().belief);

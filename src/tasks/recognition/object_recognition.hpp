@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "vantage/tasks/recognition/flight_rig.hpp"
 #include "vantage/tasks/recognition/object_inquiry.hpp"
 #include "vantage/tasks/recognition/object_on_table.hpp"
+#include "vantage/tasks/recognition/observation_record.hpp"
+#include "vantage/tasks/recognition/orbit_robot_interface.hpp"
 #include "vantage/tasks/recognition/recognition_recorder.hpp"
-#include "vantage/tasks/recognition/sighting.hpp"
 
 namespace vantage {
 
@@ -21,8 +21,8 @@ Recogniser load_episode_recogniser(const ResolvedEpisode& resolved);
 class ObjectRecognition {
  public:
   /// @param recogniser knows the object on the table; outlives this
-  ObjectRecognition(const ResolvedEpisode& resolved, const Recogniser& recogniser, FlightRig& rig,
-                    RecognitionRecorder& recorder);
+  ObjectRecognition(const ResolvedEpisode& resolved, const Recogniser& recogniser,
+                    OrbitRobotInterface& robot, RecognitionRecorder& recorder);
 
   FlightObservation observe();
   void update(const FlightObservation& observation);
@@ -33,7 +33,9 @@ class ObjectRecognition {
   std::size_t choose(const std::vector<BearingOption>& options);
   void act(const BearingOption& option);
 
-  [[nodiscard]] const std::vector<Sighting>& sightings() const { return sightings_; }
+  [[nodiscard]] const std::vector<ObservationRecord>& observation_records() const {
+    return observation_records_;
+  }
   [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
   [[nodiscard]] const Recognition& recognition() const { return inquiry_.recognition(); }
   [[nodiscard]] const ObjectInquiry& inquiry() const { return inquiry_; }
@@ -48,7 +50,7 @@ class ObjectRecognition {
   [[nodiscard]] RecognitionPanelInput panel() const;
 
   Episode episode_;
-  FlightRig& rig_;
+  OrbitRobotInterface& robot_;
   RecognitionRecorder& recorder_;
   ObjectOnTable truth_;
   double first_rad_;  ///< bearing of the first view, from which all others count
@@ -57,10 +59,10 @@ class ObjectRecognition {
   Rng choice_rng_;
   Rng segmentation_rng_;
   NextView next_;
-  Sighting current_;  ///< filled in from the decision to the end of its view
+  ObservationRecord current_;  ///< filled in from the decision to the end of its view
   SegmentedObject seen_;
-  CameraImages picture_;
-  std::vector<Sighting> sightings_;
+  CameraImages camera_image_;
+  std::vector<ObservationRecord> observation_records_;
 };
 
 }  // namespace vantage

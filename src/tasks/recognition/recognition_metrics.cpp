@@ -15,37 +15,37 @@ Pose line_of_sight(const Pose& T_world_camera) {
   return make_pose(T_world_camera.translation(), std::atan2(ahead.y(), ahead.x()));
 }
 
-Json observation_json(const Sighting& sighting, int bins) {
-  const ViewReport& report = sighting.report;
+Json observation_json(const ObservationRecord& observation_record, int bins) {
+  const ViewReport& report = observation_record.report;
   Json json = {{"view_rad", report.view_rad},
                {"features", report.features},
                {"entropy_bits", report.entropy_bits},
                {"feature_time_s", report.feature_time_s},
                {"selection_time_s", report.selection_time_s},
                {"view_time_s", report.view_time_s},
-               {"time_s", sighting.time_s},
-               {"chosen_view", sighting.bearing_id},
-               {"gain_bits", sighting.gain_bits},
-               {"estimate", sighting.estimate},
-               {"map_probability", sighting.map_probability},
-               {"object_px", sighting.object_px},
-               {"position_error_m", sighting.position_error_m},
-               {"angle_error_rad", sighting.angle_error_rad},
-               {"true_yaw_rad", sighting.true_yaw_rad},
-               {"estimated_bin", sighting.estimated_bin},
-               {"bin_error", sighting.bin_error},
+               {"time_s", observation_record.time_s},
+               {"chosen_view", observation_record.bearing_id},
+               {"gain_bits", observation_record.gain_bits},
+               {"estimate", observation_record.estimate},
+               {"map_probability", observation_record.map_probability},
+               {"object_px", observation_record.object_px},
+               {"position_error_m", observation_record.position_error_m},
+               {"angle_error_rad", observation_record.angle_error_rad},
+               {"true_yaw_rad", observation_record.true_yaw_rad},
+               {"estimated_bin", observation_record.estimated_bin},
+               {"bin_error", observation_record.bin_error},
                {"bins", bins},
-               {"collisions", sighting.collisions},
-               {"view", view_json(line_of_sight(sighting.T_world_camera))}};
-  if (sighting.change) {
-    json["change_probability"] = sighting.change->probability;
-    json["decision"] = to_string(sighting.change->verdict);
+               {"collisions", observation_record.collisions},
+               {"view", view_json(line_of_sight(observation_record.T_world_camera))}};
+  if (observation_record.change) {
+    json["change_probability"] = observation_record.change->probability;
+    json["decision"] = to_string(observation_record.change->verdict);
   }
   json["skipped"] = Json::array();
   for (const SkippedFeature& skipped : report.skipped) {
     json["skipped"].push_back({{"feature", skipped.feature}, {"reason", skipped.reason}});
   }
-  if (const auto& flight = sighting.flight) {
+  if (const auto& flight = observation_record.flight) {
     json["flight"] = {
         {"status", to_string(flight->status)},          {"duration_s", flight->duration_s},
         {"path_length_m", flight->path_length_m},       {"rms_error_m", flight->rms_error_m},
@@ -70,8 +70,8 @@ void add_change(const ResolvedEpisode& resolved, const ObjectRecognition& run, J
   json["scenario"] = scenario;
   json["decision"] = json["change_probability"] = nullptr;
   json["correct"] = json["changed_correct"] = false;
-  if (!run.sightings().empty()) {
-    const SuspectedChange& change = run.sightings().back().change.value();
+  if (!run.observation_records().empty()) {
+    const SuspectedChange& change = run.observation_records().back().change.value();
     json["decision"] = to_string(change.verdict);
     json["correct"] = to_string(change.verdict) == scenario;
     json["changed_correct"] =
@@ -83,13 +83,13 @@ void add_change(const ResolvedEpisode& resolved, const ObjectRecognition& run, J
 
 /// What was recognised, beside what is there.
 void add_estimate(const ObjectRecognition& run, Json& json) {
-  if (run.sightings().empty()) {  // ended before the first view
+  if (run.observation_records().empty()) {  // ended before the first view
     for (const char* key : {"estimate", "map_probability", "bin_error"}) json[key] = nullptr;
     if (!run.inquiry().of_change()) json["correct"] = json["category_correct"] = false;
     json["entropy_bits"] = state_entropy_bits(run.recognition().belief);
     return;
   }
-  const Sighting& last = run.sightings().back();
+  const ObservationRecord& last = run.observation_records().back();
   json["estimate"] = last.estimate;
   if (!run.inquiry().of_change()) {
     json["correct"] = last.estimate == run.truth().object;
@@ -105,7 +105,7 @@ void add_estimate(const ObjectRecognition& run, Json& json) {
 Json recognition_metrics(const ResolvedEpisode& resolved, const RunSummary& summary,
                          const ObjectRecognition& run) {
   const ObjectStates& states = run.recogniser().states;
-  const auto& sightings = run.sightings();
+  const auto& observation_records = run.observation_records();
   Json json = summary_json(resolved, summary);
   const ObjectOnTable& truth = run.truth();
   json["truth"] = truth.object.empty() ? Json(nullptr) : Json(truth.object);
@@ -113,8 +113,8 @@ Json recognition_metrics(const ResolvedEpisode& resolved, const RunSummary& summ
   if (run.inquiry().of_change()) add_change(resolved, run, json);
   add_estimate(run, json);
   json["observations"] = Json::array();
-  for (const Sighting& sighting : sightings) {
-    json["observations"].push_back(observation_json(sighting, states.bins));
+  for (const ObservationRecord& observation_record : observation_records) {
+    json["observations"].push_back(observation_json(observation_record, states.bins));
   }
   json["candidates"] = candidates_json(run.places());
   json["region"] = box_json(object_column(resolved.episode.recognition));

@@ -23,20 +23,19 @@ void card(cv::Mat& image, const Layout& layout, const cv::Rect& place, const std
 }
 
 /// As large as fits into `place`.
-void draw_picture(cv::Mat& image, const Layout& layout, const cv::Rect& place,
-                  const RecognitionPanelInput& input) {
+void draw_camera_image(cv::Mat& image, const Layout& layout, const cv::Rect& place,
+                       const RecognitionPanelInput& input) {
   cv::rectangle(image, place, panel::kCard, cv::FILLED);
-  if (input.picture == nullptr || input.picture->rgb.empty()) {
-    text(image, layout, "no picture yet",
-         {place.x + 0.5 * place.width, place.y + 0.5 * place.height}, 12, panel::kDim,
-         Align::centre);
+  if (input.camera_image == nullptr || input.camera_image->rgb.empty()) {
+    text(image, layout, "no image yet", {place.x + 0.5 * place.width, place.y + 0.5 * place.height},
+         12, panel::kDim, Align::centre);
     return;
   }
-  const cv::Mat picture = outlined(*input.picture, input.cut);
-  const double scale = std::min(static_cast<double>(place.width) / picture.cols,
-                                static_cast<double>(place.height) / picture.rows);
+  const cv::Mat camera_image = outlined(*input.camera_image, input.cut);
+  const double scale = std::min(static_cast<double>(place.width) / camera_image.cols,
+                                static_cast<double>(place.height) / camera_image.rows);
   cv::Mat scaled;
-  cv::resize(picture, scaled, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(camera_image, scaled, {}, scale, scale, cv::INTER_AREA);
   const cv::Rect inside(place.x + (place.width - scaled.cols) / 2,
                         place.y + (place.height - scaled.rows) / 2, scaled.cols, scaled.rows);
   scaled.copyTo(image(inside));
@@ -74,17 +73,18 @@ void draw_objects(cv::Mat& image, const Layout& layout, const cv::Rect& place,
 /// A bar a view. @param line at which to draw a level line; 0: none
 void draw_bars(cv::Mat& image, const Layout& layout, const cv::Rect& place,
                const RecognitionPanelInput& input, double line,
-               const std::function<double(const Sighting&)>& value) {
-  if (input.sightings.empty()) return;
+               const std::function<double(const ObservationRecord&)>& value) {
+  if (input.observation_records.empty()) return;
   double most = 1.0;
-  for (const Sighting& s : input.sightings) most = std::max(most, value(s));
-  const auto count = static_cast<double>(std::max<std::size_t>(input.sightings.size(), 4));
+  for (const ObservationRecord& s : input.observation_records) most = std::max(most, value(s));
+  const auto count =
+      static_cast<double>(std::max<std::size_t>(input.observation_records.size(), 4));
   const double left = place.x + layout.px(10);
   const double floor_y = place.y + place.height - layout.px(12);
   const double height = place.height - layout.px(54);
   const double step = (place.width - layout.px(20)) / count;
-  for (std::size_t i = 0; i < input.sightings.size(); ++i) {
-    const double shown = value(input.sightings[i]);
+  for (std::size_t i = 0; i < input.observation_records.size(); ++i) {
+    const double shown = value(input.observation_records[i]);
     const double tall = std::max(layout.px(1), height * shown / most);
     const cv::Rect2d bar(left + step * static_cast<double>(i), floor_y - tall, 0.7 * step, tall);
     cv::rectangle(image, bar, panel::kVisited, cv::FILLED);
@@ -102,14 +102,15 @@ void draw_progress(cv::Mat& image, const Layout& layout, const cv::Rect& place,
   if (input.expected.empty()) {
     card(image, layout, place, "entropy, bits, after each view");
     draw_bars(image, layout, place, input, 0.0,
-              [](const Sighting& s) { return s.report.entropy_bits; });
+              [](const ObservationRecord& s) { return s.report.entropy_bits; });
     return;
   }
-  const bool looked = !input.sightings.empty();
-  const auto verdict = looked ? to_string(input.sightings.back().change->verdict) : "not known yet";
+  const bool looked = !input.observation_records.empty();
+  const auto verdict =
+      looked ? to_string(input.observation_records.back().change->verdict) : "not known yet";
   card(image, layout, place, fmt::format("probability of a change, by now: {}", verdict));
   draw_bars(image, layout, place, input, input.threshold,
-            [](const Sighting& s) { return s.change->probability; });
+            [](const ObservationRecord& s) { return s.change->probability; });
 }
 
 void draw_places(cv::Mat& image, const Layout& layout, const cv::Rect& place,
@@ -130,8 +131,9 @@ void draw_places(cv::Mat& image, const Layout& layout, const cv::Rect& place,
   for (const double bearing_rad : input.bearings_rad) {
     dot(at(input.orbit.place(bearing_rad).translation()), 4, panel::kDim, layout.stroke(1));
   }
-  for (std::size_t i = 0; i < input.sightings.size(); ++i) {
-    const auto p = at(input.orbit.place(input.sightings[i].report.view_rad).translation());
+  for (std::size_t i = 0; i < input.observation_records.size(); ++i) {
+    const auto p =
+        at(input.orbit.place(input.observation_records[i].report.view_rad).translation());
     dot(p, 9, panel::kVisited, cv::FILLED);
     text(image, layout, fmt::format("{}", i + 1), p + cv::Point2d(0, layout.px(4)), 11,
          panel::kBottom, Align::centre, true);
@@ -145,9 +147,9 @@ void draw_places(cv::Mat& image, const Layout& layout, const cv::Rect& place,
 
 }  // namespace
 
-cv::Mat outlined(const CameraImages& picture, const ObjectView* cut) {
-  const cv::Mat rgb(picture.height_px, picture.width_px, CV_8UC3,
-                    const_cast<std::uint8_t*>(picture.rgb.data()));
+cv::Mat outlined(const CameraImages& camera_image, const ObjectView* cut) {
+  const cv::Mat rgb(camera_image.height_px, camera_image.width_px, CV_8UC3,
+                    const_cast<std::uint8_t*>(camera_image.rgb.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   if (cut == nullptr) return bgr;
@@ -167,12 +169,12 @@ cv::Mat draw_recognition_panel(const RecognitionPanelInput& input, cv::Size size
   const std::string heading =
       input.expected.empty() ? input.method : fmt::format("is it {} still?", input.expected);
   text(image, layout, heading, {layout.px(14), layout.px(24)}, 14, panel::kText, Align::left, true);
-  text(image, layout, fmt::format("{} views", input.sightings.size()),
+  text(image, layout, fmt::format("{} views", input.observation_records.size()),
        {layout.px(626), layout.px(24)}, 12, panel::kDim, Align::right);
   const double top = 36;
   const double upper = 0.56 * (height - top);
   const double lower = height - top - upper - 20;
-  draw_picture(image, layout, layout.rect(12, top, 386, upper), input);
+  draw_camera_image(image, layout, layout.rect(12, top, 386, upper), input);
   draw_objects(image, layout, layout.rect(408, top, 220, upper), input);
   draw_progress(image, layout, layout.rect(12, top + upper + 10, 386, lower), input);
   draw_places(image, layout, layout.rect(408, top + upper + 10, 220, lower), input);

@@ -6,25 +6,25 @@
 #include <optional>
 
 #include "vantage/core/log.hpp"
-#include "vantage/tasks/recognition/flight_rig.hpp"
-#include "vantage/tasks/recognition/recognition_panel.hpp"
 #include "vantage/runtime/run_log.hpp"
-#include "vantage/tasks/recognition/sighting.hpp"
+#include "vantage/tasks/recognition/observation_record.hpp"
+#include "vantage/tasks/recognition/orbit_robot_interface.hpp"
+#include "vantage/tasks/recognition/recognition_panel.hpp"
 
 namespace vantage {
 
 class RecognitionRecorder {
  public:
-  /// Hooks itself to the world's ticks. Lean: neither states nor pictures are kept.
+  /// Hooks itself to the world's ticks. Lean: neither states nor images are kept.
   /// @throws OutputError, RendererError
-  RecognitionRecorder(const ResolvedEpisode& resolved, FlightRig& rig,
+  RecognitionRecorder(const ResolvedEpisode& resolved, OrbitRobotInterface& robot,
                       std::filesystem::path directory, bool with_video, bool lean,
                       Spectator spectator = {});
 
   void set_panel(std::function<RecognitionPanelInput()> panel);
-  /// Adds a row to steps.csv, and the picture with the object's outline to views/.
-  void sighting(const Sighting& sighting, std::size_t index, const CameraImages& picture,
-                const std::optional<ObjectView>& cut);
+  /// Adds a row to steps.csv, and the image with the object's outline to views/.
+  void observation_record(const ObservationRecord& observation_record, std::size_t index,
+                          const CameraImages& image, const std::optional<ObjectView>& cut);
   void commit();  ///< puts the growing files under their final names
   void finish_video() { log_.finish_video(); }
 
@@ -33,7 +33,7 @@ class RecognitionRecorder {
 
  private:
   std::filesystem::path directory_;
-  int most_views_;
+  int max_views_;
   bool lean_;
   RunLog log_;
   GrowingFile steps_;

@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <string>
 
-#include "vantage/sim/sensors/camera.hpp"
-#include "vantage/sim/sensors/exposure.hpp"
-#include "vantage/sim/robots/pilot.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/perception/object_segmentation.hpp"
 #include "vantage/recognition/recogniser.hpp"
 #include "vantage/recognition/recognition.hpp"
+#include "vantage/sim/robots/trajectory_tracking_controller.hpp"
+#include "vantage/sim/sensors/camera.hpp"
+#include "vantage/sim/sensors/exposure.hpp"
 
 namespace vantage {
 
@@ -42,8 +42,8 @@ struct RecognitionTask {
   double elevation_rad = 0.7853981633974483;      ///< of the line of sight (45 deg)
   int bearings = 8;       ///< evenly round the object; the first is drawn by the seed
   double arc_rad = 0.2;   ///< between waypoints; lower keeps closer to the circle
-  double settle_s = 0.5;  ///< hovering before each picture
-  PilotOptions pilot;
+  double settle_s = 0.5;  ///< hovering before each image
+  TrajectoryTrackingOptions tracking;
   RgbdOptions camera;
   ExposureOptions exposure;
   double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
@@ -62,7 +62,7 @@ struct RecognitionTask {
     f("bearings", bearings, between(2, 360));
     f("arc_rad", arc_rad, Range{0.0, 1.5, true});
     f("settle_s", settle_s, between(0.0, 10.0));
-    f("pilot", pilot);
+    f("tracking", tracking);
     f("camera", camera);
     f("exposure", exposure);
     f("colour_noise", colour_noise, between(0.0, 100.0));

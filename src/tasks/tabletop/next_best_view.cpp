@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "vantage/core/log.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/views/view_candidates.hpp"
-#include "vantage/planners/choice/view_choice.hpp"
-#include "vantage/core/log.hpp"
 #include "vantage/tasks/mapping/scan_summary.hpp"
 
 namespace vantage {
@@ -20,15 +20,16 @@ Eigen::Vector3d region_centre(const Episode& episode) {
 
 }  // namespace
 
-NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Recorder& recorder)
+NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRobotInterface& robot,
+                           Recorder& recorder)
     : episode_(resolved.episode),
-      rig_(rig),
+      robot_(robot),
       recorder_(recorder),
       views_(ring_of_views(episode_.candidates, region_centre(episode_))),
       belief_(episode_),
-      truth_(rig.world(), rig.true_geometry(), belief_.grid().frame, rig.view_field(),
+      truth_(robot.world(), robot.true_geometry(), belief_.grid().frame, robot.view_field(),
              episode_.threads),
-      navigator_(episode_, rig, WallMap(episode_.registration)),
+      navigator_(episode_, robot, ReferenceMap(episode_.registration)),
       choice_rng_(Rng::stream(episode_.seed, "view choice")) {
   const Eigen::AlignedBox3d region = belief_.grid().frame.box();
   block_box(navigator_.floor(), {region.min().head<2>(), region.max().head<2>()});
@@ -36,37 +37,37 @@ NextBestView::NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Re
   for (const Candidate& view : views_) T_world_views.push_back(view.T_world_sensor);
   truth_.add_observable(T_world_views);
   recorder_.set_panel([this] { return panel(); });
-  navigator_.on_plan = [this](const PlannedPath& path) { recorder_.way(path.waypoints); };
+  navigator_.on_plan = [this](const PlannedPath& path) { recorder_.route(path.waypoints); };
   if (truth_.observable_cells() == 0) log_warning("map: none of the views sees any of its cells");
 }
 
 TabletopObservation NextBestView::observe() {
   if (scans_.empty()) {
-    navigator_.look_round();
-    predict(rig_.estimated_laser());
+    navigator_.turn_in_place();
+    predict(robot_.estimated_laser());
   }
-  const double start_s = rig_.world().time_s();
-  auto observation = rig_.observe();
-  current_.scan_time_s = rig_.world().time_s() - start_s;
+  const double start_s = robot_.world().time_s();
+  auto observation = robot_.observe();
+  current_.scan_time_s = robot_.world().time_s() - start_s;
   return observation;
 }
 
 void NextBestView::update(const TabletopObservation& observation) {
   const double start_s = wall_s();
   const OccupancyGrid before = belief_.grid();
-  const Pose2 dead_reckoned = rig_.dead_reckoned_base();
-  const BeliefUpdate report = belief_.update(observation, navigator_.walls());
-  rig_.correct_pose(report.T_world_base);
-  rig_.restart_dead_reckoning();
+  const Pose2 dead_reckoned = robot_.dead_reckoned_base();
+  const BeliefUpdate report = belief_.update(observation, navigator_.reference_map());
+  robot_.correct_pose(report.T_world_base);
+  robot_.restart_dead_reckoning();
   block_table();
   navigator_.remember(observation.base_scan, report.T_world_base);
   current_.map_time_s = wall_s() - start_s;
   current_.actual_new_cells = newly_observed(before, belief_.grid());
-  current_.time_s = rig_.world().time_s();
+  current_.time_s = robot_.world().time_s();
   current_.registered = report.registered;
-  measure_pose(rig_.truth(), dead_reckoned, report.T_world_base, current_);
+  measure_pose(robot_.truth(), dead_reckoned, report.T_world_base, current_);
   truth_.measure(belief_.grid(), episode_.metrics.tolerance_cells, current_);
-  current_.T_world_sensor = lift(report.T_world_base) * observation.T_base_laser;
+  current_.T_world_sensor = to_se3(report.T_world_base) * observation.T_base_laser;
   if (!report.registered) {
     log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), report.registration_note));
   }
@@ -86,17 +87,17 @@ std::vector<Candidate> NextBestView::propose() {
   std::vector<Candidate> candidates = views_;
   const PathField paths = navigator_.plan();
   for (Candidate& candidate : candidates) {
-    candidate.path_length_m = path_length_m(paths, rig_.base_for_view(candidate.T_world_sensor));
+    candidate.path_length_m = path_length_m(paths, robot_.base_for_view(candidate.T_world_sensor));
     candidate.reachable = std::isfinite(candidate.path_length_m);
   }
   return candidates;
 }
 
 void NextBestView::score(std::vector<Candidate>& candidates) {
-  if (weighs_gain(episode_.choice) || recorder_.tells_story()) {
+  if (weighs_gain(episode_.choice) || recorder_.logs_events()) {
     const BlockField transmission = belief_.hazard().transmission();
     const auto gains = view_gains_bits(episode_.gain, {belief_.filled_grid(), &transmission},
-                                       candidates, rig_.view_field(), episode_.threads);
+                                       candidates, robot_.view_field(), episode_.threads);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }
   if (std::holds_alternative<OracleView>(episode_.choice)) {
@@ -118,7 +119,7 @@ std::size_t NextBestView::choose(const std::vector<Candidate>& candidates) {
 void NextBestView::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
   predict(candidate.T_world_sensor);
-  const Approach approach = navigator_.approach(rig_.base_for_view(candidate.T_world_sensor),
+  const Approach approach = navigator_.approach(robot_.base_for_view(candidate.T_world_sensor),
                                                 region_centre(episode_).head<2>());
   current_.path_length_m = approach.path_length_m;
   current_.fallback = !approach.reached;
@@ -126,13 +127,13 @@ void NextBestView::act(const Candidate& candidate) {
   log_warning(
       fmt::format("view {} is out of reach: scanning from as near as possible", candidate.id));
   views_[static_cast<std::size_t>(candidate.id)].exhausted = true;
-  predict(rig_.estimated_laser());  // of the place the scan will be taken from
+  predict(robot_.estimated_laser());  // of the place the scan will be taken from
 }
 
 void NextBestView::predict(const Pose& T_world_sensor) {
   const BlockField transmission = belief_.hazard().transmission();
   current_.predicted_cells = predicted_cells(episode_, {belief_.filled_grid(), &transmission},
-                                             T_world_sensor, rig_.view_field());
+                                             T_world_sensor, robot_.view_field());
 }
 
 /// The table's edge, as far as it was seen, is above the planar scanner's sight.
@@ -150,7 +151,7 @@ MapPanelInput NextBestView::panel() const {
     const auto goal = static_cast<std::size_t>(current_.chosen_view);
     input.T_world_chosen.push_back(views_[goal].T_world_sensor);
   }
-  input.T_world_base = rig_.estimated_base();
+  input.T_world_base = robot_.estimated_base();
   input.path_m = navigator_.path_m();
   return input;
 }

@@ -5,18 +5,18 @@
 #include <vector>
 
 #include "vantage/planners/candidate.hpp"
-#include "vantage/tasks/mapping/cell_truth.hpp"
+#include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 #include "vantage/tasks/mapping/navigator.hpp"
 #include "vantage/tasks/mapping/recorder.hpp"
 #include "vantage/tasks/mapping/scan_record.hpp"
 #include "vantage/tasks/tabletop/tabletop_belief.hpp"
-#include "vantage/tasks/tabletop/tabletop_rig.hpp"
+#include "vantage/tasks/tabletop/tabletop_robot_interface.hpp"
 
 namespace vantage {
 
 class NextBestView {
  public:
-  NextBestView(const ResolvedEpisode& resolved, TabletopRig& rig, Recorder& recorder);
+  NextBestView(const ResolvedEpisode& resolved, TabletopRobotInterface& robot, Recorder& recorder);
 
   TabletopObservation observe();
   void update(const TabletopObservation& observation);
@@ -29,7 +29,7 @@ class NextBestView {
 
   [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
   [[nodiscard]] const TabletopBelief& belief() const { return belief_; }
-  [[nodiscard]] const CellTruth& truth() const { return truth_; }
+  [[nodiscard]] const GroundTruthMapEvaluator& truth() const { return truth_; }
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
  private:
@@ -38,11 +38,11 @@ class NextBestView {
   [[nodiscard]] MapPanelInput panel() const;
 
   Episode episode_;
-  TabletopRig& rig_;
+  TabletopRobotInterface& robot_;
   Recorder& recorder_;
   std::vector<Candidate> views_;  ///< the ring, in id order
   TabletopBelief belief_;
-  CellTruth truth_;
+  GroundTruthMapEvaluator truth_;
   Navigator navigator_;
   Rng choice_rng_;
   double decision_start_s_ = 0.0;  ///< wall

@@ -28,10 +28,11 @@ TabletopBelief::TabletopBelief(const Episode& episode)
   episode_.table.region_size_m = {2.0 * map.size_m[0], 2.0 * map.size_m[1]};
 }
 
-BeliefUpdate TabletopBelief::update(const TabletopObservation& observation, const WallMap& walls) {
+BeliefUpdate TabletopBelief::update(const TabletopObservation& observation,
+                                    const ReferenceMap& reference_map) {
   BeliefUpdate report;
-  report.T_world_base = register_pose(observation, walls, report);
-  const Pose T_world_base = lift(report.T_world_base);
+  report.T_world_base = register_pose(observation, reference_map, report);
+  const Pose T_world_base = to_se3(report.T_world_base);
   const Pose T_world_sensor = T_world_base * observation.T_base_laser;
 
   const PointCloud laser_world = transform(to_cloud(observation.scan), T_world_sensor);
@@ -49,19 +50,19 @@ BeliefUpdate TabletopBelief::update(const TabletopObservation& observation, cons
   return report;
 }
 
-Pose2 TabletopBelief::register_pose(const TabletopObservation& observation, const WallMap& walls,
-                                    BeliefUpdate& report) {
+Pose2 TabletopBelief::register_pose(const TabletopObservation& observation,
+                                    const ReferenceMap& reference_map, BeliefUpdate& report) {
   const PointCloud scan_base = prepare_scan(
       cloud_of(observation), observation.T_base_laser.translation(), episode_.registration);
   Pose2 pose = observation.T_world_base_odometry;
-  const PointCloud& reference = map_cloud_.empty() ? walls.cloud() : map_cloud_;
+  const PointCloud& reference = map_cloud_.empty() ? reference_map.cloud() : map_cloud_;
   if (!reference.empty()) {
     const auto result = register_scan(scan_base, reference, pose, episode_.registration);
     report.registered = result.converged;
     report.registration_note = result.reason;
     pose = result.T_world_base;
   }
-  append(map_cloud_, transform(scan_base, lift(pose)));
+  append(map_cloud_, transform(scan_base, to_se3(pose)));
   return pose;
 }
 

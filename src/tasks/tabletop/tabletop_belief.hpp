@@ -6,11 +6,11 @@
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/core/rng.hpp"
-#include "vantage/tasks/mapping/belief_update.hpp"
-#include "vantage/tasks/tabletop/tabletop_rig.hpp"
-#include "vantage/tasks/mapping/wall_map.hpp"
 #include "vantage/perception/clouds/point_cloud.hpp"
 #include "vantage/perception/table_extraction.hpp"
+#include "vantage/tasks/mapping/belief_update.hpp"
+#include "vantage/tasks/mapping/reference_map.hpp"
+#include "vantage/tasks/tabletop/tabletop_robot_interface.hpp"
 
 namespace vantage {
 
@@ -19,9 +19,9 @@ class TabletopBelief {
   explicit TabletopBelief(const Episode& episode);
 
   /// Registration, table extraction, measurements, free space, holes.  [Potthast2016, 3.2]
-  /// The first scan is registered with `walls`.
+  /// The first scan is registered with `reference_map`.
   /// @throws InputError if the first scan shows no table in the region of interest.
-  BeliefUpdate update(const TabletopObservation& observation, const WallMap& walls);
+  BeliefUpdate update(const TabletopObservation& observation, const ReferenceMap& reference_map);
 
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
   /// As far as it was seen; only after the first update.
@@ -32,7 +32,7 @@ class TabletopBelief {
   [[nodiscard]] const PointCloud& cloud() const { return object_cloud_; }
 
  private:
-  Pose2 register_pose(const TabletopObservation& observation, const WallMap& walls,
+  Pose2 register_pose(const TabletopObservation& observation, const ReferenceMap& reference_map,
                       BeliefUpdate& report);
   void extract_table(const PointCloud& cloud_world);
   PointCloud take_objects(const PointCloud& cloud_world);

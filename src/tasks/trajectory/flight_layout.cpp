@@ -1,7 +1,7 @@
 #include "vantage/tasks/trajectory/flight_layout.hpp"
 
-#include "vantage/planners/views/view_list.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/planners/views/view_list.hpp"
 
 namespace vantage {
 
@@ -14,8 +14,8 @@ FlightLayout read_flight_layout(const std::filesystem::path& scene) {
   if (layout.path.size() < 2) {
     throw InputError((folder / "path.csv").string() + ": a path has two waypoints or more");
   }
-  for (const Candidate& stand : read_views(folder / "stands.csv")) {
-    layout.stands_m.emplace_back(stand.T_world_sensor.translation());
+  for (const Candidate& support_surface : read_views(folder / "stands.csv")) {
+    layout.supports_m.emplace_back(support_surface.T_world_sensor.translation());
   }
   return layout;
 }

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "vantage/control/flight_path.hpp"
+#include "vantage/control/minimum_jerk_trajectory.hpp"
 
 namespace vantage {
 
 struct FlightLayout {
-  std::vector<FlightWaypoint> path;       ///< of the vehicle's body, camera ahead; known to it
-  std::vector<Eigen::Vector3d> stands_m;  ///< middles of the tops, world; truth, not known to it
+  std::vector<FlightWaypoint> path;         ///< of the vehicle's body, camera ahead; known to it
+  std::vector<Eigen::Vector3d> supports_m;  ///< middles of the tops, world; truth, not known to it
 };
 
 /// Reads path.csv and stands.csv beside `scene`, an MJCF file.

@@ -8,10 +8,10 @@
 
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/tasks/model_source.hpp"
-#include "vantage/tasks/flight/recognition_model_file.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
+#include "vantage/tasks/flight/recognition_model_file.hpp"
+#include "vantage/tasks/model_source.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
 
 namespace vantage {
 namespace {
@@ -32,12 +32,12 @@ FlightPlanning planning_of(const TrajectoryTask& task) {
   return {.method = task.method,
           .options = task.planner,
           .horizon = task.horizon,
-          .known_below_nats = task.looks.known_below_nats};
+          .known_below_nats = task.observations.known_below_nats};
 }
 
 /// Room for colour that was not asked for.
-CameraImages without_colour(const FlightPicture& picture) {
-  CameraImages images = picture.depth;
+CameraImages without_colour(const FlightImage& image) {
+  CameraImages images = image.depth;
   images.rgb.assign(3 * images.depth_m.size(), 0);
   return images;
 }
@@ -48,97 +48,102 @@ Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved) {
   const TrajectoryTask& task = resolved.episode.trajectory;
   const auto path = find_recognition_model(task.model, "trajectory.model", "trajectory");
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
-  for (const ObjectOnStand& stand : draw_flight_objects(resolved)) {
-    require_known(recogniser, path, stand.object, "stands in the room", "trajectory");
+  for (const ObjectOnSupport& support_surface : draw_flight_objects(resolved)) {
+    require_known(recogniser, path, support_surface.object, "stands in the room", "trajectory");
   }
   return recogniser;
 }
 
 TrajectoryFlight::TrajectoryFlight(const ResolvedEpisode& resolved, const Recogniser& recogniser,
-                                   TrajectoryRig& rig, TrajectoryRecorder& recorder)
+                                   TrajectoryRobotInterface& robot, TrajectoryRecorder& recorder)
     : episode_(resolved.episode),
-      rig_(rig),
+      robot_(robot),
       recorder_(recorder),
       truth_(draw_flight_objects(resolved)),
       nominal_(columns_of(read_flight_layout(resolved.scene).path)),
       plan_(nominal_),
       map_(flight_region(read_flight_layout(resolved.scene).path), episode_.trajectory.map),
-      found_(episode_.trajectory.found),
-      looks_(recogniser, episode_.trajectory.looks, episode_.trajectory.transition),
-      planner_(planning_of(episode_.trajectory),
-               flight_camera(rig.T_body_camera(), episode_.trajectory.camera.width_px,
-                             episode_.trajectory.camera.height_px,
-                             episode_.trajectory.camera.fovy_rad),
-               Rng::stream(episode_.seed, "trajectory planner")),
-      look_rng_(Rng::stream(episode_.seed, "looks")),
-      kept_(episode_.trajectory.looks) {
+      tracker_(episode_.trajectory.tracker),
+      observations_(recogniser, episode_.trajectory.observations, episode_.trajectory.transition),
+      planner_(
+          planning_of(episode_.trajectory),
+          flight_camera(robot.T_body_camera(), episode_.trajectory.camera.width_px,
+                        episode_.trajectory.camera.height_px, episode_.trajectory.camera.fovy_rad),
+          Rng::stream(episode_.seed, "trajectory planner")),
+      observation_rng_(Rng::stream(episode_.seed, "looks")),
+      buffer_(episode_.trajectory.observations) {
   recorder_.set_panel([this] { return panel(); });
 }
 
 WaypointReached TrajectoryFlight::observe() {
-  const LookAt look = [this](const FlightPicture& picture) { this->look(picture); };
+  const ImageCallback on_image = [this](const FlightImage& image) { process_image(image); };
   if (at_ < 0) {
-    rig_.look_now(look);
-    rig_.follow(followed(plan_, 0));
+    robot_.capture_now(on_image);
+    robot_.follow(followed(plan_, 0));
   } else {
-    rig_.fly_past(1, look);
+    robot_.fly_past(1, on_image);
   }
   const bool last = at_ + 2 >= static_cast<int>(nominal_.size());
-  if (last) take_looks(kept_.take_all());
-  return {
-      .waypoint = ++at_, .time_s = rig_.world().time_s(), .T_world_body = rig_.estimated_body()};
+  if (last) apply_observations(buffer_.take_all());
+  return {.waypoint = ++at_,
+          .time_s = robot_.world().time_s(),
+          .T_world_body = robot_.estimated_body()};
 }
 
-void TrajectoryFlight::look(const FlightPicture& picture) {
-  map_.insert(picture.depth, picture.T_world_camera);
+void TrajectoryFlight::process_image(const FlightImage& image) {
+  map_.insert(image.depth, image.T_world_camera);
   const std::vector<SeenObject> seen =
-      find_objects(without_colour(picture), picture.T_world_camera, episode_.trajectory.search);
-  const std::vector<int> ids = found_.update(sightings_of(seen));
-  for (const FoundObject& object : found_.confirmed()) {
-    looks_.found(object.id, object.p_world_object_m);
+      find_objects(without_colour(image), image.T_world_camera, episode_.trajectory.search);
+  const std::vector<int> ids = tracker_.update(detections_of(seen));
+  for (const TrackedObject& object : tracker_.confirmed()) {
+    observations_.found(object.id, object.p_world_object_m);
   }
   std::vector<int> gone;
-  for (const LookedAtObject& object : looks_.objects()) {
-    if (found_.find(object.id) == nullptr) gone.push_back(object.id);
+  for (const RecognisedObject& object : observations_.objects()) {
+    if (tracker_.find(object.id) == nullptr) gone.push_back(object.id);
   }
   for (const int id : gone) {
-    looks_.forget(id);
-    kept_.forget(id);
+    observations_.forget(id);
+    buffer_.forget(id);
   }
-  const auto direction_of = [&](int id) { return looks_.direction(id, picture.T_world_camera); };
-  for (const int id : ids) kept_.sighted(id, picture.time_s);
-  take_looks(kept_.take_due(picture.time_s, direction_of));  // before pictures from elsewhere
-  keep_looks(picture, ids, seen);
-  take_looks(kept_.take_due(picture.time_s, direction_of));
+  const auto direction_of = [&](int id) {
+    return observations_.direction(id, image.T_world_camera);
+  };
+  for (const int id : ids) buffer_.detected(id, image.time_s);
+  apply_observations(buffer_.take_due(image.time_s, direction_of));  // before images from elsewhere
+  buffer_observations(image, ids, seen);
+  apply_observations(buffer_.take_due(image.time_s, direction_of));
 }
 
-void TrajectoryFlight::keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
-                                  const std::vector<SeenObject>& seen) {
+void TrajectoryFlight::buffer_observations(const FlightImage& image, const std::vector<int>& ids,
+                                           const std::vector<SeenObject>& seen) {
   std::vector<SeenObject> coloured;  // none yet
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!looks_.wants(ids[i], seen[i].sighting, picture.T_world_camera)) continue;
-    const int direction = looks_.direction(ids[i], picture.T_world_camera);
-    if (!kept_.improves(ids[i], direction, seen[i].sighting.distance_m)) continue;
+    if (!observations_.wants(ids[i], seen[i].detection, image.T_world_camera)) continue;
+    const int direction = observations_.direction(ids[i], image.T_world_camera);
+    if (!buffer_.improves(ids[i], direction, seen[i].detection.distance_m)) continue;
     if (coloured.empty()) {
       coloured =
-          find_objects(picture.with_colour(), picture.T_world_camera, episode_.trajectory.search);
-      expects(coloured.size() == seen.size(), "the same objects in the same picture");
+          find_objects(image.with_colour(), image.T_world_camera, episode_.trajectory.search);
+      expects(coloured.size() == seen.size(), "the same objects in the same image");
     }
-    kept_.keep({.id = ids[i],
-                .direction = direction,
-                .seen = coloured[i],
-                .T_world_camera = picture.T_world_camera,
-                .time_s = picture.time_s});
+    buffer_.keep({.id = ids[i],
+                  .direction = direction,
+                  .seen = coloured[i],
+                  .T_world_camera = image.T_world_camera,
+                  .time_s = image.time_s});
   }
 }
 
-void TrajectoryFlight::take_looks(const std::vector<KeptLook>& due) {
-  for (const KeptLook& kept : due) {
+void TrajectoryFlight::apply_observations(const std::vector<BufferedObservation>& due) {
+  for (const BufferedObservation& buffered : due) {
     // Where the object is believed to be may have moved it into a direction that was used.
-    if (!looks_.wants(kept.id, kept.seen.sighting, kept.T_world_camera)) continue;
-    const ObjectLook& look = looks_.take(kept.id, kept.seen.sighting, kept.seen.view,
-                                         kept.T_world_camera, kept.time_s, look_rng_);
-    recorder_.look(kept.id, look, looks_.total(), kept.seen.view);
+    if (!observations_.wants(buffered.id, buffered.seen.detection, buffered.T_world_camera))
+      continue;
+    const ObjectObservation& observation =
+        observations_.take(buffered.id, buffered.seen.detection, buffered.seen.view,
+                           buffered.T_world_camera, buffered.time_s, observation_rng_);
+    recorder_.observation(buffered.id, observation, observations_.total(), buffered.seen.view);
   }
 }
 
@@ -146,15 +151,15 @@ void TrajectoryFlight::update(const WaypointReached& reached) {
   current_.waypoint = reached.waypoint;
   current_.time_s = reached.time_s;
   current_.T_world_body = reached.T_world_body;
-  current_.objects = static_cast<int>(looks_.objects().size());
-  current_.looks = looks_.total();
+  current_.objects = static_cast<int>(observations_.objects().size());
+  current_.observations = observations_.total();
   double sum_nats = 0.0;
-  for (const LookedAtObject& object : looks_.objects()) {
-    sum_nats += looks_.entropy_nats(object);
-    current_.known += looks_.known(object) ? 1 : 0;
+  for (const RecognisedObject& object : observations_.objects()) {
+    sum_nats += observations_.entropy_nats(object);
+    current_.known += observations_.known(object) ? 1 : 0;
   }
   if (current_.objects > 0) current_.mean_entropy_nats = sum_nats / current_.objects;
-  const TrajectoryTruth truth = rig_.truth();
+  const TrajectoryTruth truth = robot_.truth();
   current_.clearance_m = truth.minimum_clearance_m;
   current_.tracking_error_m = truth.tracking_error_mean_m;
   current_.flown_m = truth.flown_m;
@@ -170,9 +175,9 @@ bool TrajectoryFlight::finished() const { return at_ + 1 >= static_cast<int>(nom
 
 std::vector<PlannableObject> TrajectoryFlight::plannable() const {
   const TrajectoryTask& task = episode_.trajectory;
-  const double at_first_nats = std::log(looks_.recogniser().states.object_count());
+  const double at_first_nats = std::log(observations_.recogniser().states.object_count());
   std::vector<PlannableObject> objects;
-  for (const LookedAtObject& object : looks_.objects()) {
+  for (const RecognisedObject& object : observations_.objects()) {
     PlannableObject& plannable = objects.emplace_back();
     plannable = {.id = object.id,
                  .p_world_m = object.p_world_m,
@@ -180,67 +185,69 @@ std::vector<PlannableObject> TrajectoryFlight::plannable() const {
                  .used = object.used,
                  .gain_nats = every_direction(at_first_nats)};
     if (!task.planner.cost.information) continue;  // each as if it had never been looked at
-    plannable.entropy_nats = looks_.entropy_nats(object);
+    plannable.entropy_nats = observations_.entropy_nats(object);
     plannable.gain_nats = object.gain_nats;
     for (std::size_t d = 0; d < object.used.size(); ++d) {
-      if (object.gain_nats[d] < task.looks.least_gain_nats) plannable.used[d] = true;
+      if (object.gain_nats[d] < task.observations.min_gain_nats) plannable.used[d] = true;
     }
   }
   return objects;
 }
 
-std::vector<WayOn> TrajectoryFlight::propose() {
+std::vector<CandidatePlan> TrajectoryFlight::propose() {
   planning_since_s_ = wall_s();
   return planner_.propose({.at = at_, .nominal = nominal_, .plan = plan_}, plannable(), map_);
 }
 
 /// Flies each in thought as it will be flown: from where the plan before has led by then.
-void TrajectoryFlight::score(std::vector<WayOn>& ways) {
+void TrajectoryFlight::score(std::vector<CandidatePlan>& candidates) {
   const double latency_s = episode_.trajectory.latency_s;
-  const int missed = rig_.passed(latency_s) - rig_.passed();
-  for (WayOn& way : ways) {
-    const auto on = way.same_spline ? rig_.path_on(latency_s) : std::nullopt;
-    way.same_spline = on.has_value();
-    const FlightPath path =
-        on ? *on : rig_.path_in(latency_s, followed(plan_with(way, missed), at_after(missed)));
+  const int missed = robot_.passed(latency_s) - robot_.passed();
+  for (CandidatePlan& candidate : candidates) {
+    const auto on = candidate.same_spline ? robot_.path_on(latency_s) : std::nullopt;
+    candidate.same_spline = on.has_value();
+    const MinimumJerkTrajectory path =
+        on ? *on
+           : robot_.path_in(latency_s, followed(plan_with(candidate, missed), at_after(missed)));
     const std::vector<double>& knots_s = path.knots_s();
     const auto planned =
-        std::clamp(way.points.cols() - missed, Eigen::Index{1}, std::ssize(knots_s) - 1);
-    way.clearance_m = planner_.clearance_m(path, knots_s[static_cast<std::size_t>(planned)]);
-    way.clear = planner_.clear(way.clearance_m);
+        std::clamp(candidate.points.cols() - missed, Eigen::Index{1}, std::ssize(knots_s) - 1);
+    candidate.clearance_m = planner_.clearance_m(path, knots_s[static_cast<std::size_t>(planned)]);
+    candidate.clear = planner_.clear(candidate.clearance_m);
   }
 }
 
-std::size_t TrajectoryFlight::choose(const std::vector<WayOn>& ways) {
-  const std::size_t chosen = safest_of_best(ways);
+std::size_t TrajectoryFlight::choose(const std::vector<CandidatePlan>& candidates) {
+  const std::size_t chosen = safest_of_best(candidates);
   current_.plan_time_s = wall_s() - planning_since_s_;
   current_.target = planner_.target();
   return chosen;
 }
 
-void TrajectoryFlight::act(const WayOn& way) {
-  const LookAt look = [this](const FlightPicture& picture) { this->look(picture); };
+void TrajectoryFlight::act(const CandidatePlan& candidate) {
+  const ImageCallback on_image = [this](const FlightImage& image) { process_image(image); };
   const double latency_s = episode_.trajectory.latency_s;
-  const int passed = rig_.passed();
-  rig_.fly_for(latency_s, look);  // on the plan before
-  const int missed = rig_.passed() - passed;
-  plan_ = plan_with(way, missed);
+  const int passed = robot_.passed();
+  robot_.fly_for(latency_s, on_image);  // on the plan before
+  const int missed = robot_.passed() - passed;
+  plan_ = plan_with(candidate, missed);
   at_ = at_after(missed);
-  current_.planner = way.planner;
-  current_.cost = way.cost;
-  current_.planned_clearance_m = way.clearance_m;
+  current_.planner = candidate.planner;
+  current_.cost = candidate.cost;
+  current_.planned_clearance_m = candidate.clearance_m;
   current_.latency_s = latency_s;
   current_.late = current_.plan_time_s > latency_s;
   current_.missed = missed > 0;
   current_.plan.assign(plan_.begin() + at_ + 1, plan_.end());
-  if (!way.same_spline) rig_.follow(followed(plan_, at_));
+  if (!candidate.same_spline) robot_.follow(followed(plan_, at_));
 }
 
 /// Once the way is taken so many waypoints later than it was made for.
-std::vector<Eigen::Vector4d> TrajectoryFlight::plan_with(const WayOn& way, int missed) const {
+std::vector<Eigen::Vector4d> TrajectoryFlight::plan_with(const CandidatePlan& candidate,
+                                                         int missed) const {
   std::vector<Eigen::Vector4d> plan = plan_;
-  for (Eigen::Index i = missed; i < way.points.cols(); ++i) {
-    plan[static_cast<std::size_t>(at_ + 1 + i)] = way.points.col(i);
+  for (Eigen::Index i = missed; i < candidate.points.cols(); ++i) {
+    plan[static_cast<std::size_t>(at_ + 1 + i)] = candidate.points.col(i);
   }
   return plan;
 }
@@ -263,11 +270,12 @@ std::vector<FlightWaypoint> TrajectoryFlight::followed(const std::vector<Eigen::
 }
 
 TrajectoryPanelInput TrajectoryFlight::panel() const {
-  TrajectoryPanelInput input{.looks = looks_, .nominal = nominal_, .plan = plan_, .at = at_};
-  input.T_world_body = rig_.estimated_body();
+  TrajectoryPanelInput input{
+      .observations = observations_, .nominal = nominal_, .plan = plan_, .at = at_};
+  input.T_world_body = robot_.estimated_body();
   input.target = planner_.target();
   input.method = method_name(episode_);
-  input.range_m = episode_.trajectory.looks.range_m;
+  input.range_m = episode_.trajectory.observations.range_m;
   return input;
 }
 

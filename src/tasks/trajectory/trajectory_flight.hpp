@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "vantage/belief/map/flight_map.hpp"
-#include "vantage/belief/objects/found_objects.hpp"
+#include "vantage/belief/objects/object_tracker.hpp"
 #include "vantage/planners/trajectory/flight_planner.hpp"
-#include "vantage/recognition/kept_looks.hpp"
-#include "vantage/tasks/trajectory/objects_on_stands.hpp"
+#include "vantage/recognition/observation_buffer.hpp"
+#include "vantage/tasks/trajectory/objects_on_supports.hpp"
 #include "vantage/tasks/trajectory/trajectory_recorder.hpp"
-#include "vantage/tasks/trajectory/trajectory_rig.hpp"
+#include "vantage/tasks/trajectory/trajectory_robot_interface.hpp"
 
 namespace vantage {
 
@@ -19,7 +19,7 @@ namespace vantage {
 /// if it does not know an object of the database.
 Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved);
 
-/// A waypoint that was flown to. Pictures were looked at on the way.
+/// A waypoint that was flown to. Images were looked at on the way.
 struct WaypointReached {
   int waypoint = 0;
   double time_s = 0.0;
@@ -30,30 +30,31 @@ class TrajectoryFlight {
  public:
   /// @param recogniser knows the database; outlives this
   TrajectoryFlight(const ResolvedEpisode& resolved, const Recogniser& recogniser,
-                   TrajectoryRig& rig, TrajectoryRecorder& recorder);
+                   TrajectoryRobotInterface& robot, TrajectoryRecorder& recorder);
 
   WaypointReached observe();
   void update(const WaypointReached& reached);
   void record();
   [[nodiscard]] bool finished() const;
-  std::vector<WayOn> propose();
-  void score(std::vector<WayOn>& ways);
-  std::size_t choose(const std::vector<WayOn>& ways);
-  void act(const WayOn& way);
+  std::vector<CandidatePlan> propose();
+  void score(std::vector<CandidatePlan>& candidates);
+  std::size_t choose(const std::vector<CandidatePlan>& candidates);
+  void act(const CandidatePlan& candidate);
 
   [[nodiscard]] const std::vector<WaypointRecord>& waypoints() const { return records_; }
-  [[nodiscard]] const ObjectLooks& looks() const { return looks_; }
+  [[nodiscard]] const ObjectObservations& observations() const { return observations_; }
   [[nodiscard]] const std::vector<Eigen::Vector4d>& nominal() const { return nominal_; }
   [[nodiscard]] const std::vector<Eigen::Vector4d>& plan() const { return plan_; }
   [[nodiscard]] const FlightMap& map() const { return map_; }
-  [[nodiscard]] const std::vector<ObjectOnStand>& truth() const { return truth_; }
+  [[nodiscard]] const std::vector<ObjectOnSupport>& truth() const { return truth_; }
 
  private:
-  void look(const FlightPicture& picture);
-  void keep_looks(const FlightPicture& picture, const std::vector<int>& ids,
-                  const std::vector<SeenObject>& seen);
-  void take_looks(const std::vector<KeptLook>& due);
-  [[nodiscard]] std::vector<Eigen::Vector4d> plan_with(const WayOn& way, int missed) const;
+  void process_image(const FlightImage& image);
+  void buffer_observations(const FlightImage& image, const std::vector<int>& ids,
+                           const std::vector<SeenObject>& seen);
+  void apply_observations(const std::vector<BufferedObservation>& due);
+  [[nodiscard]] std::vector<Eigen::Vector4d> plan_with(const CandidatePlan& candidate,
+                                                       int missed) const;
   [[nodiscard]] int at_after(int missed) const;
   [[nodiscard]] std::vector<FlightWaypoint> followed(const std::vector<Eigen::Vector4d>& plan,
                                                      int from) const;
@@ -61,17 +62,17 @@ class TrajectoryFlight {
   [[nodiscard]] TrajectoryPanelInput panel() const;
 
   Episode episode_;
-  TrajectoryRig& rig_;
+  TrajectoryRobotInterface& robot_;
   TrajectoryRecorder& recorder_;
-  std::vector<ObjectOnStand> truth_;
+  std::vector<ObjectOnSupport> truth_;
   std::vector<Eigen::Vector4d> nominal_;  ///< the path as given
   std::vector<Eigen::Vector4d> plan_;     ///< as it is flown
   FlightMap map_;
-  FoundObjects found_;
-  ObjectLooks looks_;
+  ObjectTracker tracker_;
+  ObjectObservations observations_;
   FlightPlanner planner_;
-  Rng look_rng_;
-  KeptLooks kept_;
+  Rng observation_rng_;
+  ObservationBuffer buffer_;
   int at_ = -1;                    ///< the waypoint reached last
   double planning_since_s_ = 0.0;  ///< wall
   WaypointRecord current_;         ///< filled in from the decision to the end of its segment

@@ -18,19 +18,19 @@ using Json = nlohmann::ordered_json;
 constexpr double kSameObject_m = 0.5;
 
 /// For each true object the index of the found one that is nearest; -1: none.
-std::vector<int> matches(const std::vector<ObjectOnStand>& truth,
-                         const std::vector<LookedAtObject>& found) {
+std::vector<int> matches(const std::vector<ObjectOnSupport>& truth,
+                         const std::vector<RecognisedObject>& found) {
   std::vector<int> match(truth.size(), -1);
   std::vector<bool> taken(found.size(), false);
   for (;;) {
-    double least_m = kSameObject_m;
+    double min_m = kSameObject_m;
     std::size_t best_true = truth.size();
     std::size_t best_found = 0;
     for (std::size_t t = 0; t < truth.size(); ++t) {
       for (std::size_t f = 0; f < found.size(); ++f) {
         if (match[t] >= 0 || taken[f]) continue;
         const double off_m = (truth[t].p_world_m - found[f].p_world_m).head<2>().norm();
-        if (off_m < least_m) std::tie(least_m, best_true, best_found) = std::tuple(off_m, t, f);
+        if (off_m < min_m) std::tie(min_m, best_true, best_found) = std::tuple(off_m, t, f);
       }
     }
     if (best_true == truth.size()) return match;
@@ -39,33 +39,34 @@ std::vector<int> matches(const std::vector<ObjectOnStand>& truth,
   }
 }
 
-Json look_json(const ObjectLook& look) {
-  return {{"time_s", look.time_s},
-          {"bearing_rad", look.bearing_rad},
-          {"direction", look.direction},
-          {"distance_m", look.distance_m},
-          {"elevation_rad", look.elevation_rad},
-          {"pixels", look.pixels},
-          {"features", look.report.features},
-          {"feature_time_s", look.report.feature_time_s},
-          {"entropy_nats", look.entropy_nats},
-          {"estimate", look.estimate},
-          {"map_probability", look.map_probability},
-          {"view", view_json(look.T_world_camera)}};
+Json observation_json(const ObjectObservation& observation) {
+  return {{"time_s", observation.time_s},
+          {"bearing_rad", observation.bearing_rad},
+          {"direction", observation.direction},
+          {"distance_m", observation.distance_m},
+          {"elevation_rad", observation.elevation_rad},
+          {"pixels", observation.pixels},
+          {"features", observation.report.features},
+          {"feature_time_s", observation.report.feature_time_s},
+          {"entropy_nats", observation.entropy_nats},
+          {"estimate", observation.estimate},
+          {"map_probability", observation.map_probability},
+          {"view", view_json(observation.T_world_camera)}};
 }
 
 /// One that stands there, and what was made of it.
-Json object_json(const ObjectOnStand& truth, const LookedAtObject* found,
+Json object_json(const ObjectOnSupport& truth, const RecognisedObject* found,
                  const TrajectoryFlight& run) {
-  const ObjectLooks& looks = run.looks();
-  const double prior_nats = std::log(static_cast<double>(looks.recogniser().states.object_count()));
-  const bool seen = found != nullptr && !found->looks.empty();
-  const std::string estimate = seen ? looks.estimate(*found) : "";
+  const ObjectObservations& observations = run.observations();
+  const double prior_nats =
+      std::log(static_cast<double>(observations.recogniser().states.object_count()));
+  const bool seen = found != nullptr && !found->observations.empty();
+  const std::string estimate = seen ? observations.estimate(*found) : "";
   Json json = {{"truth", truth.object},
                {"estimate", seen ? Json(estimate) : Json(nullptr)},
                {"correct", seen && estimate == truth.object},
-               {"entropy_nats", seen ? looks.entropy_nats(*found) : prior_nats},
-               {"observations", found == nullptr ? 0 : found->looks.size()},
+               {"entropy_nats", seen ? observations.entropy_nats(*found) : prior_nats},
+               {"observations", found == nullptr ? 0 : found->observations.size()},
                {"found", found != nullptr},
                {"x_m", truth.p_world_m.x()},
                {"y_m", truth.p_world_m.y()},
@@ -74,7 +75,8 @@ Json object_json(const ObjectOnStand& truth, const LookedAtObject* found,
                {"looks", Json::array()}};
   if (found == nullptr) return json;
   json["position_error_m"] = (truth.p_world_m - found->p_world_m).head<2>().norm();
-  for (const ObjectLook& look : found->looks) json["looks"].push_back(look_json(look));
+  for (const ObjectObservation& observation : found->observations)
+    json["looks"].push_back(observation_json(observation));
   return json;
 }
 
@@ -107,16 +109,16 @@ void add_path(Json& json, const TrajectoryFlight& run) {
 }  // namespace
 
 Json trajectory_metrics(const ResolvedEpisode& resolved, const RunSummary& summary,
-                        const TrajectoryRig& rig, const TrajectoryFlight& run) {
+                        const TrajectoryRobotInterface& robot, const TrajectoryFlight& run) {
   Json json = summary_json(resolved, summary);
-  const TrajectoryTruth truth = rig.truth();
-  const auto& found = run.looks().objects();
+  const TrajectoryTruth truth = robot.truth();
+  const auto& found = run.observations().objects();
   const std::vector<int> match = matches(run.truth(), found);
   json["objects"] = Json::array();
   double correct = 0.0;
   double sum_nats = 0.0;
   for (std::size_t i = 0; i < match.size(); ++i) {
-    const LookedAtObject* object =
+    const RecognisedObject* object =
         match[i] < 0 ? nullptr : &found[static_cast<std::size_t>(match[i])];
     json["objects"].push_back(object_json(run.truth()[i], object, run));
     correct += json["objects"].back()["correct"].get<bool>() ? 1.0 : 0.0;
@@ -127,7 +129,7 @@ Json trajectory_metrics(const ResolvedEpisode& resolved, const RunSummary& summa
   json["mean_entropy_nats"] = sum_nats / count;
   json["objects_found"] = std::ranges::count_if(match, [](int m) { return m >= 0; });
   json["false_objects"] = found.size() - json["objects_found"].get<std::size_t>();
-  json["observations_total"] = run.looks().total();
+  json["observations_total"] = run.observations().total();
   json["flight_time_s"] = summary.simulated_time_s;
   json["minimum_clearance_m"] = truth.minimum_clearance_m;
   json["tracking_error_m"] = {{"mean", truth.tracking_error_mean_m},

@@ -10,7 +10,8 @@ namespace vantage {
 
 /// Found objects are matched to true ones by where they are, nearest first, each once.
 nlohmann::ordered_json trajectory_metrics(const ResolvedEpisode& resolved,
-                                          const RunSummary& summary, const TrajectoryRig& rig,
+                                          const RunSummary& summary,
+                                          const TrajectoryRobotInterface& robot,
                                           const TrajectoryFlight& run);
 
 }  // namespace vantage

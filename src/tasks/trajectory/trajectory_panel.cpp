@@ -19,17 +19,17 @@ using panel::text;
 const cv::Scalar kUnknown(80, 110, 240);
 const cv::Scalar kKnown(140, 210, 90);
 
-cv::Scalar colour_of(const TrajectoryPanelInput& input, const LookedAtObject& object) {
-  return input.looks.known(object) ? kKnown : kUnknown;
+cv::Scalar colour_of(const TrajectoryPanelInput& input, const RecognisedObject& object) {
+  return input.observations.known(object) ? kKnown : kUnknown;
 }
 
-void draw_picture(cv::Mat& image, const cv::Rect& place, const cv::Mat& picture) {
+void draw_camera_image(cv::Mat& image, const cv::Rect& place, const cv::Mat& camera_image) {
   cv::rectangle(image, place, panel::kCard, cv::FILLED);
-  if (picture.empty()) return;
-  const double scale = std::min(static_cast<double>(place.width) / picture.cols,
-                                static_cast<double>(place.height) / picture.rows);
+  if (camera_image.empty()) return;
+  const double scale = std::min(static_cast<double>(place.width) / camera_image.cols,
+                                static_cast<double>(place.height) / camera_image.rows);
   cv::Mat scaled;
-  cv::resize(picture, scaled, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(camera_image, scaled, {}, scale, scale, cv::INTER_AREA);
   scaled.copyTo(
       image(cv::Rect(place.x + (place.width - scaled.cols) / 2,
                      place.y + (place.height - scaled.rows) / 2, scaled.cols, scaled.rows)));
@@ -73,7 +73,7 @@ class PathMap {
 };
 
 void draw_object(cv::Mat& image, const Layout& layout, const PathMap& map,
-                 const TrajectoryPanelInput& input, const LookedAtObject& object) {
+                 const TrajectoryPanelInput& input, const RecognisedObject& object) {
   const Eigen::Vector2d middle_m = object.p_world_m.head<2>();
   const cv::Scalar colour = colour_of(input, object);
   const auto directions = static_cast<double>(object.used.size());
@@ -84,8 +84,8 @@ void draw_object(cv::Mat& image, const Layout& layout, const PathMap& map,
              object.used[i] ? colour : panel::kFaint, layout.stroke(object.used[i] ? 2.5 : 1),
              cv::LINE_AA);
   }
-  for (const ObjectLook& look : object.looks) {
-    map.dot(look.T_world_camera.translation().head<2>(), 2, colour);
+  for (const ObjectObservation& observation : object.observations) {
+    map.dot(observation.T_world_camera.translation().head<2>(), 2, colour);
   }
   map.dot(middle_m, 4, colour);
   text(image, layout, fmt::format("{}", object.id),
@@ -100,7 +100,7 @@ void draw_path(cv::Mat& image, const Layout& layout, const cv::Rect& place,
   map.line(input.nominal, 0, input.nominal.size(), panel::kFaint, 1);
   map.line(input.plan, 0, at + 1, panel::kVisited, 2);
   map.line(input.plan, at, input.plan.size(), panel::kAccent, 1.5);
-  for (const LookedAtObject& object : input.looks.objects()) {
+  for (const RecognisedObject& object : input.observations.objects()) {
     draw_object(image, layout, map, input, object);
   }
   const Eigen::Vector2d robot_m = input.T_world_body.translation().head<2>();
@@ -110,7 +110,7 @@ void draw_path(cv::Mat& image, const Layout& layout, const cv::Rect& place,
     cv::circle(image, map.at(input.target->p_world_view_m.head<2>()),
                static_cast<int>(layout.px(6)), panel::kAccent, layout.stroke(1.5), cv::LINE_AA);
   }
-  const double yaw = flatten(input.T_world_body).yaw_rad;
+  const double yaw = project_to_se2(input.T_world_body).yaw_rad;
   for (const double side : {-0.5, 0.5}) {  // what the camera sees
     const Eigen::Vector2d edge(std::cos(yaw + side), std::sin(yaw + side));
     cv::line(image, map.at(robot_m), map.at(robot_m + input.range_m * edge), panel::kRobot, 1,
@@ -125,16 +125,17 @@ void draw_objects(cv::Mat& image, const Layout& layout, const cv::Rect& place,
   text(image, layout, "objects: what they may be",
        {place.x + layout.px(10), place.y + layout.px(18)}, 10, panel::kDim);
   double y = place.y + layout.px(38);
-  for (const LookedAtObject& object : input.looks.objects()) {
+  for (const RecognisedObject& object : input.observations.objects()) {
     const double left = place.x + layout.px(10);
-    const bool seen = !object.looks.empty();
-    const std::string estimate = seen ? input.looks.estimate(object) : "not seen closely yet";
+    const bool seen = !object.observations.empty();
+    const std::string estimate =
+        seen ? input.observations.estimate(object) : "not seen closely yet";
     text(image, layout, fmt::format("{}  {}", object.id, estimate), {left, y}, 10,
          seen ? panel::kText : panel::kDim);
-    text(
-        image, layout,
-        fmt::format("{:.2f} nats, {} looks", input.looks.entropy_nats(object), object.looks.size()),
-        {left, y + layout.px(14)}, 9, colour_of(input, object));
+    text(image, layout,
+         fmt::format("{:.2f} nats, {} observations", input.observations.entropy_nats(object),
+                     object.observations.size()),
+         {left, y + layout.px(14)}, 9, colour_of(input, object));
     y += layout.px(32);
     if (y > place.br().y - layout.px(10)) break;
   }
@@ -142,22 +143,22 @@ void draw_objects(cv::Mat& image, const Layout& layout, const cv::Rect& place,
 
 }  // namespace
 
-cv::Mat draw_trajectory_panel(const TrajectoryPanelInput& input, const cv::Mat& picture,
+cv::Mat draw_trajectory_panel(const TrajectoryPanelInput& input, const cv::Mat& camera_image,
                               cv::Size size) {
   const Layout layout{size.width / 640.0, size};
   cv::Mat image(size, CV_8UC3, panel::kBottom);
   text(image, layout, input.method, {layout.px(14), layout.px(24)}, 14, panel::kText, Align::left,
        true);
   text(image, layout,
-       fmt::format("waypoint {} of {}, {} looks", std::max(input.at, 0) + 1, input.nominal.size(),
-                   input.looks.total()),
+       fmt::format("waypoint {} of {}, {} observations", std::max(input.at, 0) + 1,
+                   input.nominal.size(), input.observations.total()),
        {layout.px(626), layout.px(24)}, 12, panel::kDim, Align::right);
   constexpr double kTop = 36;
-  constexpr double kPictureHeight = 284;
-  const double lower = layout.height() - kTop - kPictureHeight - 20;
-  draw_picture(image, layout.rect(12, kTop, 392, kPictureHeight), picture);
+  constexpr double kImageHeight = 284;
+  const double lower = layout.height() - kTop - kImageHeight - 20;
+  draw_camera_image(image, layout.rect(12, kTop, 392, kImageHeight), camera_image);
   draw_objects(image, layout, layout.rect(414, kTop, 214, layout.height() - kTop - 10), input);
-  draw_path(image, layout, layout.rect(12, kTop + kPictureHeight + 10, 392, lower), input);
+  draw_path(image, layout, layout.rect(12, kTop + kImageHeight + 10, 392, lower), input);
   return image;
 }
 

@@ -9,26 +9,26 @@
 #include <string>
 #include <vector>
 
-#include "vantage/recognition/object_looks.hpp"
 #include "vantage/planners/trajectory/trajectory_record.hpp"
+#include "vantage/recognition/object_observations.hpp"
 
 namespace vantage {
 
 struct TrajectoryPanelInput {
-  const ObjectLooks& looks;
+  const ObjectObservations& observations;
   const std::vector<Eigen::Vector4d>& nominal;  ///< the path as given
   const std::vector<Eigen::Vector4d>& plan;     ///< as it was flown and will be
   int at = 0;                                   ///< the waypoint reached last
   Pose T_world_body = Pose::Identity();         ///< as estimated
-  std::optional<LookTarget> target = {};
+  std::optional<ViewTarget> target = {};
   std::string method = {};
   double range_m = 2.0;  ///< within which looks count
 };
 
 /// A dark panel of `size`. Deterministic.
-/// @param picture of the camera on board, CV_8UC3, BGR; empty: none
+/// @param image of the camera on board, CV_8UC3, BGR; empty: none
 /// @return CV_8UC3, BGR
-cv::Mat draw_trajectory_panel(const TrajectoryPanelInput& input, const cv::Mat& picture,
+cv::Mat draw_trajectory_panel(const TrajectoryPanelInput& input, const cv::Mat& camera_image,
                               cv::Size size);
 
 }  // namespace vantage

@@ -22,22 +22,24 @@ std::string steps_row(const WaypointRecord& r) {
   return fmt::format(
       "{:.3f},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{:.6g},{:.4f},{},{},{},"
       "{},{},{:.5f},{:.4f},{:.5f},{:.4f},{}\n",
-      r.time_s, r.waypoint, p.x(), p.y(), p.z(), flatten(r.T_world_body).yaw_rad, r.planner,
+      r.time_s, r.waypoint, p.x(), p.y(), p.z(), project_to_se2(r.T_world_body).yaw_rad, r.planner,
       r.plan_time_s, r.latency_s, r.late, r.missed, r.cost, r.planned_clearance_m,
       r.target ? r.target->object : -1, r.target ? r.target->direction : -1, r.objects, r.known,
-      r.looks, r.mean_entropy_nats, r.clearance_m, r.tracking_error_m, r.flown_m, r.collisions);
+      r.observations, r.mean_entropy_nats, r.clearance_m, r.tracking_error_m, r.flown_m,
+      r.collisions);
 }
 
-constexpr std::string_view kLooksHeader =
+constexpr std::string_view kObservationHeader =
     "time_s,look,object,direction,bearing_rad,distance_m,elevation_rad,pixels,features,"
     "feature_time_s,entropy_nats,estimate,map_probability\n";
 
-std::string looks_row(int object, const ObjectLook& look, int number) {
+std::string observation_row(int object, const ObjectObservation& observation, int number) {
   return fmt::format("{:.3f},{},{},{},{:.4f},{:.4f},{:.4f},{},{},{},{:.5f},{},{:.5f}\n",
-                     look.time_s, number, object, look.direction, look.bearing_rad, look.distance_m,
-                     look.elevation_rad, look.pixels, fmt::join(look.report.features, " "),
-                     look.report.feature_time_s, look.entropy_nats, look.estimate,
-                     look.map_probability);
+                     observation.time_s, number, object, observation.direction,
+                     observation.bearing_rad, observation.distance_m, observation.elevation_rad,
+                     observation.pixels, fmt::join(observation.report.features, " "),
+                     observation.report.feature_time_s, observation.entropy_nats,
+                     observation.estimate, observation.map_probability);
 }
 
 /// The crop, what the mask leaves out darker.
@@ -55,24 +57,25 @@ cv::Mat crop_of(const ObjectView& view) {
 
 }  // namespace
 
-TrajectoryRecorder::TrajectoryRecorder(const ResolvedEpisode& resolved, TrajectoryRig& rig,
+TrajectoryRecorder::TrajectoryRecorder(const ResolvedEpisode& resolved,
+                                       TrajectoryRobotInterface& robot,
                                        std::filesystem::path directory, bool with_video, bool lean,
                                        Spectator spectator)
     : directory_(std::move(directory)),
-      rig_(rig),
+      robot_(robot),
       lean_(lean),
-      log_({rig.world(), [&rig] { return rig.true_body(); },
-            [&rig] { return rig.estimated_body(); }},
+      log_({robot.world(), [&robot] { return robot.true_body(); },
+            [&robot] { return robot.estimated_body(); }},
            resolved.episode.recording, directory_, with_video, lean, std::move(spectator)),
       steps_(directory_ / "steps.csv"),
-      looks_(directory_ / "looks.csv"),
+      observations_(directory_ / "looks.csv"),
       progress_(resolved.name, 1.0),
       camera_(resolved.episode.trajectory.camera) {
   steps_.write(kStepsHeader);
-  looks_.write(kLooksHeader);
+  observations_.write(kObservationHeader);
   if (!lean_) make_writable_directory(directory_ / "views");
   if (with_video) {
-    onboard_ = make_offscreen_renderer(rig_.world().model(),
+    onboard_ = make_offscreen_renderer(robot_.world().model(),
                                        kOnboardHeight_px * camera_.width_px / camera_.height_px,
                                        kOnboardHeight_px);
   }
@@ -80,17 +83,17 @@ TrajectoryRecorder::TrajectoryRecorder(const ResolvedEpisode& resolved, Trajecto
 
 void TrajectoryRecorder::set_panel(std::function<TrajectoryPanelInput()> panel) {
   log_.set_panel([this, panel = std::move(panel)](cv::Size size) {
-    return draw_trajectory_panel(panel(), onboard_picture(), size);
+    return draw_trajectory_panel(panel(), onboard_image(), size);
   });
 }
 
 /// As the vehicle's camera sees it now, sharp.
-cv::Mat TrajectoryRecorder::onboard_picture() {
+cv::Mat TrajectoryRecorder::onboard_image() {
   RenderRequest request;
   request.depth_and_segmentation = false;
   RenderedImages drawn;
-  onboard_->render(rig_.world().model(), rig_.world().snapshot(),
-                   FixedCamera{rig_.camera_id(), camera_.fovy_rad}, request, drawn);
+  onboard_->render(robot_.world().model(), robot_.world().snapshot(),
+                   FixedCamera{robot_.camera_id(), camera_.fovy_rad}, request, drawn);
   const cv::Mat rgb(drawn.height_px, drawn.width_px, CV_8UC3, drawn.rgb.data());
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
@@ -99,17 +102,18 @@ cv::Mat TrajectoryRecorder::onboard_picture() {
 
 void TrajectoryRecorder::waypoint(const WaypointRecord& record, int waypoints) {
   steps_.write(steps_row(record));
-  progress_.update(static_cast<double>(record.waypoint + 1) / waypoints,
-                   fmt::format("waypoint {} of {}: {} objects found, {} known, {} looks, {:.1f} s "
-                               "simulated",
-                               record.waypoint + 1, waypoints, record.objects, record.known,
-                               record.looks, record.time_s));
-  log_.keep_still(static_cast<std::size_t>(record.waypoint));
+  progress_.update(
+      static_cast<double>(record.waypoint + 1) / waypoints,
+      fmt::format("waypoint {} of {}: {} objects found, {} known, {} observations, {:.1f} s "
+                  "simulated",
+                  record.waypoint + 1, waypoints, record.objects, record.known, record.observations,
+                  record.time_s));
+  log_.save_still(static_cast<std::size_t>(record.waypoint));
 }
 
-void TrajectoryRecorder::look(int object, const ObjectLook& look, int number,
-                              const ObjectView& view) {
-  looks_.write(looks_row(object, look, number));
+void TrajectoryRecorder::observation(int object, const ObjectObservation& observation, int number,
+                                     const ObjectView& view) {
+  observations_.write(observation_row(object, observation, number));
   if (lean_) return;
   const cv::Mat crop = crop_of(view);
   write_file_with(directory_ / "views" / fmt::format("look_{:03}_object_{}.png", number, object),
@@ -119,7 +123,7 @@ void TrajectoryRecorder::look(int object, const ObjectLook& look, int number,
 void TrajectoryRecorder::commit() {
   log_.commit();
   steps_.commit();
-  looks_.commit();
+  observations_.commit();
 }
 
 }  // namespace vantage

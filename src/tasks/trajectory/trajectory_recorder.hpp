@@ -6,26 +6,27 @@
 #include <memory>
 
 #include "vantage/core/log.hpp"
+#include "vantage/planners/trajectory/trajectory_record.hpp"
 #include "vantage/runtime/run_log.hpp"
 #include "vantage/tasks/trajectory/trajectory_panel.hpp"
-#include "vantage/planners/trajectory/trajectory_record.hpp"
-#include "vantage/tasks/trajectory/trajectory_rig.hpp"
+#include "vantage/tasks/trajectory/trajectory_robot_interface.hpp"
 
 namespace vantage {
 
 class TrajectoryRecorder {
  public:
-  /// Hooks itself to the world's ticks. Lean: neither states nor pictures are kept.
+  /// Hooks itself to the world's ticks. Lean: neither states nor images are kept.
   /// @throws OutputError, RendererError
-  TrajectoryRecorder(const ResolvedEpisode& resolved, TrajectoryRig& rig,
+  TrajectoryRecorder(const ResolvedEpisode& resolved, TrajectoryRobotInterface& robot,
                      std::filesystem::path directory, bool with_video, bool lean,
                      Spectator spectator = {});
 
   void set_panel(std::function<TrajectoryPanelInput()> panel);
   /// Adds a row to steps.csv.
   void waypoint(const WaypointRecord& record, int waypoints);
-  /// Adds a row to looks.csv, and the object as it was cut out to views/.
-  void look(int object, const ObjectLook& look, int number, const ObjectView& view);
+  /// Adds a row to looks.csv, and the segmented object to views/.
+  void observation(int object, const ObjectObservation& observation, int number,
+                   const ObjectView& view);
   void commit();  ///< puts the growing files under their final names
   void finish_video() { log_.finish_video(); }
 
@@ -33,16 +34,16 @@ class TrajectoryRecorder {
   [[nodiscard]] double path_length_m() const { return log_.path_length_m(); }
 
  private:
-  cv::Mat onboard_picture();
+  cv::Mat onboard_image();
 
   std::filesystem::path directory_;
-  TrajectoryRig& rig_;
+  TrajectoryRobotInterface& robot_;
   bool lean_;
   RunLog log_;
   GrowingFile steps_;
-  GrowingFile looks_;
+  GrowingFile observations_;
   Progress progress_;
-  std::unique_ptr<Renderer> onboard_;  ///< for the film
+  std::unique_ptr<Renderer> onboard_;  ///< for the video
   RgbdOptions camera_;
 };
 

@@ -4,18 +4,18 @@
 
 #include <string>
 
-#include "vantage/sim/sensors/camera.hpp"
-#include "vantage/sim/sensors/exposure.hpp"
-#include "vantage/sim/robots/pilot.hpp"
 #include "vantage/belief/map/flight_map.hpp"
-#include "vantage/belief/objects/found_objects.hpp"
+#include "vantage/belief/objects/object_tracker.hpp"
 #include "vantage/belief/objects/transition.hpp"
 #include "vantage/core/fields.hpp"
-#include "vantage/recognition/object_looks.hpp"
-#include "vantage/tasks/recognition/recognition_task.hpp"
-#include "vantage/planners/trajectory/trajectory_method.hpp"
 #include "vantage/perception/object_search.hpp"
+#include "vantage/planners/trajectory/trajectory_method.hpp"
+#include "vantage/recognition/object_observations.hpp"
 #include "vantage/recognition/recogniser.hpp"
+#include "vantage/sim/robots/trajectory_tracking_controller.hpp"
+#include "vantage/sim/sensors/camera.hpp"
+#include "vantage/sim/sensors/exposure.hpp"
+#include "vantage/tasks/recognition/recognition_task.hpp"
 
 namespace vantage {
 
@@ -24,18 +24,19 @@ struct TrajectoryTask {
   RecogniserOptions recogniser{.features = {"colour", "bounding_box", "sift"}};
   TransitionModel transition = RigidTransition{};
   ObjectDatabaseOptions database;
-  double placement_m = 0.02;  ///< largest offset of an object from the middle of its stand
+  double placement_m =
+      0.02;  ///< largest offset of an object from the middle of its support surface
   TrajectoryMethod method = Stomp{};
   FlightPlannerOptions planner;
   int horizon = 10;        ///< waypoints that are planned at once, K
   double latency_s = 0.1;  ///< simulated, from a waypoint to its new plan, whatever it took
-  double picture_rate_hz = 10.0;
+  double image_rate_hz = 10.0;
   double camera_pitch_rad = 0.35;  ///< below the horizon of the body, all the way
-  LookOptions looks;
+  ObservationOptions observations;
   ObjectSearchOptions search;
-  FoundObjectsOptions found;
+  ObjectTrackerOptions tracker;
   FlightMapOptions map;
-  PilotOptions pilot;
+  TrajectoryTrackingOptions tracking;
   RgbdOptions camera;
   ExposureOptions exposure;
   double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
@@ -49,13 +50,13 @@ struct TrajectoryTask {
     f("planner", planner);
     f("horizon", horizon, between(3, 100));
     f("latency_s", latency_s, between(0.0, 100.0));
-    f("picture_rate_hz", picture_rate_hz, between(0.1, 100.0));
+    f("image_rate_hz", image_rate_hz, between(0.1, 100.0));
     f("camera_pitch_rad", camera_pitch_rad, between(0.0, 1.0471975511965976));
-    f("looks", looks);
+    f("observations", observations);
     f("search", search);
-    f("found", found);
+    f("tracker", tracker);
     f("map", map);
-    f("pilot", pilot);
+    f("tracking", tracking);
     f("camera", camera);
     f("exposure", exposure);
     f("colour_noise", colour_noise, between(0.0, 100.0));

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kFarthest_m = 4.0;
+constexpr double kMaxDistance_m = 4.0;
 
 }  // namespace
 
@@ -32,16 +32,16 @@ void TrueClearance::update(const World& world) {
   if (points_m.empty()) return;
   // What is so far from the middle is at least as far from a point, but for its way from there.
   const Eigen::Vector3d middle_m = points_m.front();
-  const double from_middle_m = distance_m(middle_m, kFarthest_m);
+  const double from_middle_m = distance_m(middle_m, kMaxDistance_m);
   for (const Eigen::Vector3d& p : points_m) {
-    if (from_middle_m - (p - middle_m).norm() >= least_m_) continue;
-    least_m_ = std::min(least_m_, distance_m(p, least_m_));
+    if (from_middle_m - (p - middle_m).norm() >= min_m_) continue;
+    min_m_ = std::min(min_m_, distance_m(p, min_m_));
   }
 }
 
-/// `most_m` if it is farther.
-double TrueClearance::distance_m(const Eigen::Vector3d& p_world_m, double most_m) const {
-  double nearest_m = most_m;
+/// `max_m` if it is farther.
+double TrueClearance::distance_m(const Eigen::Vector3d& p_world_m, double max_m) const {
+  double nearest_m = max_m;
   for (const SolidPlane& plane : planes_) {
     nearest_m = std::min(nearest_m, (p_world_m - plane.p_world_m).dot(plane.normal));
   }

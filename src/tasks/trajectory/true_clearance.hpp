@@ -1,8 +1,8 @@
 /// How near a robot came to anything, truly. For metrics.
 #pragma once
 
-#include "vantage/sim/world/collision_surfaces.hpp"
 #include "vantage/perception/clouds/kd_tree.hpp"
+#include "vantage/sim/world/collision_surfaces.hpp"
 
 namespace vantage {
 
@@ -15,17 +15,17 @@ class TrueClearance {
 
   void update(const World& world);
   /// It touched something: between two moments, or between two samples.
-  void touched() { least_m_ = 0.0; }
-  [[nodiscard]] double least_m() const { return least_m_; }
+  void touched() { min_m_ = 0.0; }
+  [[nodiscard]] double min_m() const { return min_m_; }
 
  private:
   explicit TrueClearance(CollisionSurfaces surfaces);
-  [[nodiscard]] double distance_m(const Eigen::Vector3d& p_world_m, double most_m) const;
+  [[nodiscard]] double distance_m(const Eigen::Vector3d& p_world_m, double max_m) const;
 
   std::vector<SurfacePoint> robot_;
   std::vector<SolidPlane> planes_;
   KdTree scene_;
-  double least_m_ = 3.0;
+  double min_m_ = 3.0;
 };
 
 }  // namespace vantage

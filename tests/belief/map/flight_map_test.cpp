@@ -56,8 +56,8 @@ TEST(FlightMap, SurfacesAreOccupiedWhatWasSeenThroughIsFree) {
 
 TEST(FlightMap, AColumnGoesOnAboveWhatWasSeenOfItAStandDoesNot) {
   const DrawnBox column = box_on(0.0, 2.0, 0.4, {0.25, 0.25, 2.5});
-  const DrawnBox stand = box_on(0.0, 2.0, -0.5, {0.5, 0.5, 0.78});
-  const FlightMap map = flown({column, stand}, 1.0);
+  const DrawnBox support_surface = box_on(0.0, 2.0, -0.5, {0.5, 0.5, 0.78});
+  const FlightMap map = flown({column, support_surface}, 1.0);
   EXPECT_EQ(state_at(map, {1.85, 0.4, 1.75}), CellState::unobserved);
   EXPECT_TRUE(blocked_at(map, {1.85, 0.4, 1.75}));
   EXPECT_TRUE(blocked_at(map, {1.85, 0.4, 2.45}));

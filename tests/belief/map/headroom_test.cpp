@@ -45,7 +45,7 @@ std::vector<std::uint8_t> nowhere(const FloorMap& floor) {
 }
 
 constexpr HeadroomOptions kOptions{
-    .low_m = 0.15, .high_m = 1.5, .seen_low_m = 0.15, .most_unseen = 0.3};
+    .low_m = 0.15, .high_m = 1.5, .seen_low_m = 0.15, .max_unseen = 0.3};
 
 TEST(Headroom, ATableTopBlocksTheFloorBelowIt) {
   OccupancyGrid grid = free_row();
@@ -70,14 +70,14 @@ TEST(Headroom, AColumnHardlySeenBlocksUnlessTheRobotHasBeenThere) {
   for (int z = 1; z <= 2; ++z) set(grid, 1, z, 0.0F);  // two of seven
   for (int z = 1; z <= 3; ++z) set(grid, 7, z, 0.0F);
   FloorMap floor = free_floor();
-  std::vector<std::uint8_t> vouched = nowhere(floor);
-  block_columns(floor, grid, vouched, kOptions);
+  std::vector<std::uint8_t> traversed = nowhere(floor);
+  block_columns(floor, grid, traversed, kOptions);
   EXPECT_EQ(row(floor), "..............xx....");
-  vouched[floor.index(floor.cell_at({0.45, 0.05}))] = 1;
-  block_columns(floor, grid, vouched, kOptions);
+  traversed[floor.index(floor.cell_at({0.45, 0.05}))] = 1;
+  block_columns(floor, grid, traversed, kOptions);
   EXPECT_EQ(row(floor), "...............x....");
   set(grid, 7, 3, kOccupied);
-  block_columns(floor, grid, vouched, kOptions);
+  block_columns(floor, grid, traversed, kOptions);
   EXPECT_EQ(row(floor), "..............xx....") << "what was seen there counts all the same";
 }
 
@@ -127,7 +127,7 @@ TEST(Headroom, ForgetsWhatIsNoLongerThere) {
 TEST(Headroom, RejectsOptionsOutOfRange) {
   FloorMap floor = free_floor();
   EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.low_m = 2.0}), ConfigError);
-  EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.most_unseen = 1.5}), ConfigError);
+  EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.max_unseen = 1.5}), ConfigError);
 }
 
 }  // namespace

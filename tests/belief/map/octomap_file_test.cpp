@@ -5,11 +5,11 @@
 
 #include <fstream>
 
-#include "vantage/belief/map/octomap_io.hpp"
-#include "vantage/core/error.hpp"
 #include "tests/belief/map/voxel_scene.hpp"
 #include "tests/support/octomap_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

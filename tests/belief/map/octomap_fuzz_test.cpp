@@ -6,12 +6,12 @@
 #include <fstream>
 #include <limits>
 
+#include "tests/belief/map/voxel_scene.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/belief/map/octomap_file.hpp"
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
-#include "tests/belief/map/voxel_scene.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "vantage/core/atomic_file.hpp"
 #include "tests/belief/map/voxel_scene.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {

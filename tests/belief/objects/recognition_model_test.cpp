@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/belief/objects/recognition_world.hpp"
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/bytes.hpp"
 #include "vantage/core/hash.hpp"
-#include "tests/belief/objects/recognition_world.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

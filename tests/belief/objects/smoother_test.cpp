@@ -109,7 +109,7 @@ RC_GTEST_PROP(Smooth, FiltersAsIfItEndedThere, ()) {
 }
 
 TEST(Smooth, LearnsFromLaterViewsWhatTheFirstOneLeftOpen) {
-  const ObjectStates states = testing::make_states({0, 0}, 4);  // twins but for bin 1
+  const ObjectStates states = testing::make_states({0, 0}, 4);  // near-duplicates but for bin 1
   Eigen::VectorXd front = Eigen::VectorXd::Constant(8, -kInfinity);
   front[states.state(0, 0)] = front[states.state(1, 0)] = 0.0;
   Eigen::VectorXd side = Eigen::VectorXd::Constant(8, -kInfinity);

@@ -10,9 +10,9 @@
 #include <memory>
 #include <string>
 
-#include "vantage/models/catalogue/shapes/texture.hpp"
-#include "vantage/core/atomic_file.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/models/catalogue/shapes/texture.hpp"
 
 namespace vantage::support {
 
@@ -40,7 +40,7 @@ inline std::map<std::string, std::filesystem::path> files_below(
   return files;
 }
 
-/// The same names and contents; pictures by their pixels.
+/// The same names and contents; images by their pixels.
 inline void expect_same_files(const std::filesystem::path& made_folder,
                               const std::filesystem::path& kept_folder) {
   const auto made = files_below(made_folder);

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

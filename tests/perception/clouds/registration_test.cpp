@@ -24,7 +24,7 @@ PointCloud measure(const SyntheticScene& scene, const Pose2& T_world_base, doubl
                    Rng& rng) {
   const Pose T_base_sensor = make_pose({0, 0, kSensorHeight}, 0.0);
   const auto sector =
-      support::sector_scan(scene, lift(T_world_base) * T_base_sensor, 600, sigma_m, rng);
+      support::sector_scan(scene, to_se3(T_world_base) * T_base_sensor, 600, sigma_m, rng);
   PointCloud cloud = transform(to_cloud(sector), T_base_sensor);
   append(cloud, to_cloud(support::floor_scan(scene, T_world_base, sigma_m, rng), 0.25));
   return prepare_scan(cloud, {0, 0, kSensorHeight}, RegistrationOptions{});
@@ -58,7 +58,7 @@ class TableRoom : public testing::Test {
  protected:
   PointCloud map_from(double angle_rad) {
     const Pose2 pose = view_of_table(angle_rad);
-    return transform(measure(scene, pose, kSigma, rng), lift(pose));
+    return transform(measure(scene, pose, kSigma, rng), to_se3(pose));
   }
   SyntheticScene scene = table_scene();
   Rng rng{7};
@@ -70,8 +70,8 @@ TEST_F(TableRoom, AccurateFromAnyStart) {
   const PointCloud map = map_from(0.0);
   std::vector<double> distances;
   std::vector<double> angles;
-  double least_overlap = 1.0;
-  int most_iterations = 0;
+  double min_overlap_seen = 1.0;
+  int max_iterations_seen = 0;
   for (int trial = 0; trial < 50; ++trial) {
     const double side = trial % 2 == 0 ? 1.0 : -1.0;
     const Pose2 truth = view_of_table(side * 36.0 * (1 + trial % 5) * kDegree);
@@ -82,15 +82,15 @@ TEST_F(TableRoom, AccurateFromAnyStart) {
     const PoseError error = error_of(result.T_world_base, truth);
     distances.push_back(error.distance_m);
     angles.push_back(error.angle_rad);
-    least_overlap = std::min(least_overlap, result.overlap);
-    most_iterations = std::max(most_iterations, result.iterations);
+    min_overlap_seen = std::min(min_overlap_seen, result.overlap);
+    max_iterations_seen = std::max(max_iterations_seen, result.iterations);
   }
   RecordProperty("rms_mm", std::to_string(1e3 * rms(distances)));
   RecordProperty("max_mm", std::to_string(1e3 * std::ranges::max(distances)));
   RecordProperty("rms_deg", std::to_string(rms(angles) / kDegree));
   RecordProperty("max_deg", std::to_string(std::ranges::max(angles) / kDegree));
-  RecordProperty("least_overlap", std::to_string(least_overlap));
-  RecordProperty("most_iterations", most_iterations);
+  RecordProperty("least_overlap", std::to_string(min_overlap_seen));
+  RecordProperty("most_iterations", max_iterations_seen);
   EXPECT_LT(rms(distances), 0.002);
   EXPECT_LT(std::ranges::max(distances), 0.004);
   EXPECT_LT(rms(angles), 0.1 * kDegree);
@@ -106,14 +106,14 @@ TEST_F(TableRoom, ErrorsDoNotAddUpAlongARun) {
     const auto result = register_scan(scan, map, odometry(truth, rng), options);
     ASSERT_TRUE(result.converged) << "step " << step << ": " << result.reason;
     EXPECT_LT(error_of(result.T_world_base, truth).distance_m, 0.004) << "step " << step;
-    append(map, transform(scan, lift(result.T_world_base)));
+    append(map, transform(scan, to_se3(result.T_world_base)));
   }
 }
 
 TEST_F(TableRoom, ExactWithoutNoiseFromTheSamePlace) {
   const Pose2 truth = view_of_table(0.3);
   const PointCloud scan = measure(scene, truth, 0.0, rng);
-  const PointCloud map = transform(scan, lift(truth));
+  const PointCloud map = transform(scan, to_se3(truth));
   const Pose2 guess{truth.x_m + 0.03, truth.y_m - 0.02, truth.yaw_rad + 1.5 * kDegree};
   options.voxel_m = 1e-4;  // the same points on both sides
   const auto result = register_scan(scan, map, guess, options);
@@ -191,7 +191,7 @@ TEST_F(TableRoom, EmptyMapOrScan) {
   const Pose2 guess = view_of_table(0.0);
   const PointCloud scan = measure(scene, guess, kSigma, rng);
   EXPECT_EQ(register_scan(scan, {}, guess, options).reason, "the map has no upright surface");
-  EXPECT_EQ(register_scan({}, transform(scan, lift(guess)), guess, options).reason,
+  EXPECT_EQ(register_scan({}, transform(scan, to_se3(guess)), guess, options).reason,
             "the scan has no upright surface");
 }
 

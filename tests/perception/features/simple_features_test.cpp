@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "tests/support/object_views.hpp"
 #include "vantage/perception/features/bounding_box.hpp"
 #include "vantage/perception/features/colour.hpp"
 #include "vantage/perception/features/soft_colour.hpp"
 #include "vantage/perception/features/standing_box.hpp"
-#include "tests/support/object_views.hpp"
 
 namespace vantage {
 namespace {
@@ -138,7 +138,7 @@ struct Can {
   bool full = true;  ///< else open at its top, its wall 4 mm
 };
 
-/// On a level stand, seen from `elevation_rad` and a metre, `off_px` beside the picture's middle.
+/// On a level stand, seen from `elevation_rad` and a metre, `off_px` beside the image's middle.
 ObjectView can_view(const Can& can, double elevation_rad, int off_px = 0) {
   ObjectView view = blank_view(221, 221);
   view.left_px += off_px;
@@ -203,7 +203,7 @@ TEST(StandingBox, WhatIsBehindAndBelowIsNoStand) {
       ++(row < 150 ? floor : stand);
     }
   }
-  ASSERT_GT(floor, stand) << "so that it would be taken for the stand";
+  ASSERT_GT(floor, stand) << "so that it would be taken for the support surface";
   EXPECT_NEAR(StandingBox{}.extract(view).vector[0], 0.12, 0.003);
   EXPECT_GT(StandingBox{.stand_below_m = 1.0}.extract(view).vector[0], 0.24);
 }
@@ -211,7 +211,7 @@ TEST(StandingBox, WhatIsBehindAndBelowIsNoStand) {
 TEST(StandingBox, SaysWhatIsMissing) {
   const ObjectView whole = filled(40, 40);
   EXPECT_EQ(StandingBox{}.extract(whole).skipped,
-            "0 pixels beside the object show its stand, fewer than 16");
+            "0 pixels beside the object show its support surface, fewer than 16");
   ObjectView view = whole;
   view.focal_px = std::nan("");
   EXPECT_EQ(StandingBox{}.extract(view).skipped, "the camera's intrinsics are not finite numbers");

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-#include "vantage/planners/exact_gain.hpp"
 #include "tests/planners/gains/ascii_ray.hpp"
+#include "vantage/planners/exact_gain.hpp"
 
 namespace vantage {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/planners/exact_gain.hpp"
-#include "vantage/core/strategy_label.hpp"
 #include "tests/planners/gains/gain_along.hpp"
+#include "vantage/core/strategy_label.hpp"
+#include "vantage/planners/exact_gain.hpp"
 
 namespace vantage {
 namespace {

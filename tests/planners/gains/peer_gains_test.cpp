@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "vantage/information/discrete.hpp"
 #include "tests/planners/gains/gain_along.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 namespace {

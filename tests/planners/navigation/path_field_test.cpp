@@ -5,8 +5,8 @@
 
 #include <deque>
 
-#include "vantage/planners/navigation/distance_field.hpp"
 #include "tests/planners/navigation/ascii_floor.hpp"
+#include "vantage/planners/navigation/distance_field.hpp"
 
 namespace vantage {
 namespace {

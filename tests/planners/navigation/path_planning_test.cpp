@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "vantage/core/rng.hpp"
 #include "tests/planners/navigation/ascii_floor.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "vantage/core/strategy_label.hpp"
 #include "tests/planners/objects/small_models.hpp"
+#include "vantage/core/strategy_label.hpp"
 
 namespace vantage {
 namespace {

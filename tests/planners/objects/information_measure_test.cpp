@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "vantage/information/discrete.hpp"
-#include "tests/planners/rank_correlation.hpp"
 #include "tests/planners/objects/small_models.hpp"
-#include "tests/support/twin_families.hpp"
+#include "tests/planners/rank_correlation.hpp"
+#include "tests/support/near_duplicate_families.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 namespace {
@@ -93,8 +93,8 @@ TEST(EveryInformationMeasure, AboutOneObjectIsNothing) {
 
 TEST(EveryInformationMeasure, IsTheSameFromTables) {
   Rng rng(2);
-  const auto families = testing::twin_families(4);
-  const auto model = testing::twin_model(families, 20, 2.0, {}, rng);
+  const auto families = testing::near_duplicate_families(4);
+  const auto model = testing::near_duplicate_model(families, 20, 2.0, {}, rng);
   const ObservationModel* feature = &model;
   const DivergenceTables tables{
       .bhattacharyya_nats = divergence_table(Divergence::bhattacharyya, model, 1),
@@ -192,9 +192,9 @@ TEST(MeanFeatureInformation, IsFarBelowNothingWhereANarrowStateLiesAtTheMeanOfAW
 
 TEST(LossOfEntropy, AgreesWithMonteCarloWithinStandardErrors) {
   Rng rng(3);
-  const auto families = testing::twin_families(6);
+  const auto families = testing::near_duplicate_families(6);
   for (int trial = 0; trial < 20; ++trial) {
-    const auto model = testing::twin_model(families, 15, 3.0, {}, rng);
+    const auto model = testing::near_duplicate_model(families, 15, 3.0, {}, rng);
     const ObservationModel* feature = &model;
     Eigen::VectorXd belief = testing::normals(48, 1.5, rng).array().exp();
     belief /= belief.sum();
@@ -207,9 +207,9 @@ TEST(LossOfEntropy, AgreesWithMonteCarloWithinStandardErrors) {
   }
 }
 
-/// What a second view of one of many near twins is worth, by a measure and by sampling, at beliefs
-/// after a first view that leaves a third of them in doubt.
-class NearTwins : public ::testing::Test {
+/// What a second view of one of many near-duplicates is worth, by a measure and by sampling, at
+/// beliefs after a first view that leaves a third of them in doubt.
+class NearDuplicates : public ::testing::Test {
  protected:
   static constexpr int kSituations = 20;
 
@@ -237,16 +237,17 @@ class NearTwins : public ::testing::Test {
  private:
   using Models = std::array<ObservationModel, 2>;
 
-  static const testing::TwinFamilies& families() {
-    static const auto families = testing::twin_families(40);
+  static const testing::NearDuplicateFamilies& families() {
+    static const auto families = testing::near_duplicate_families(40);
     return families;
   }
 
   static Models random_models(Rng& rng) {
     const double unlikeness = rng.uniform(0.5, 1.5);
-    const testing::TwinSpread spread{.twin = 0.4 * unlikeness, .decal = 1.2 * unlikeness};
-    auto first = testing::twin_model(families(), 20, rng.uniform(2.0, 5.0), spread, rng);
-    auto second = testing::twin_model(families(), 8, rng.uniform(1.0, 3.0), spread, rng);
+    const testing::NearDuplicateSpread spread{.near_duplicate = 0.4 * unlikeness,
+                                              .decal = 1.2 * unlikeness};
+    auto first = testing::near_duplicate_model(families(), 20, rng.uniform(2.0, 5.0), spread, rng);
+    auto second = testing::near_duplicate_model(families(), 8, rng.uniform(1.0, 3.0), spread, rng);
     return {std::move(first), std::move(second)};
   }
 
@@ -261,11 +262,11 @@ class NearTwins : public ::testing::Test {
   }
 };
 
-TEST_F(NearTwins, TheBoundRanksAsMonteCarloDoes) {
+TEST_F(NearDuplicates, TheBoundRanksAsMonteCarloDoes) {
   EXPECT_GE(correlation_with_monte_carlo(MutualInformation{}, false), 0.95);
 }
 
-TEST_F(NearTwins, TheApproximationAboutObjectsRanksAsMonteCarloDoes) {
+TEST_F(NearDuplicates, TheApproximationAboutObjectsRanksAsMonteCarloDoes) {
   EXPECT_GE(correlation_with_monte_carlo(MutualInformation{}, true), 0.95);
 }
 

@@ -8,17 +8,17 @@
 #include <set>
 #include <vector>
 
-#include "vantage/core/fields.hpp"
 #include "tests/planners/objects/small_models.hpp"
-#include "tests/support/twin_families.hpp"
+#include "tests/support/near_duplicate_families.hpp"
+#include "vantage/core/fields.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Twins in eight poses that differ where a decal is: in bin 3. The pose shows in every view. The
-/// one at hand is either, seen in bin 0.
+/// Near-duplicates in eight poses that differ where a decal is: in bin 3. The pose shows in every
+/// view. The one at hand is either, seen in bin 0.
 class ObjectViewChoiceTest : public ::testing::Test {
  protected:
   ObjectViewChoiceTest() {

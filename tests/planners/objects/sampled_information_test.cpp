@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "vantage/planners/objects/information_measure.hpp"
-#include "vantage/information/discrete.hpp"
 #include "tests/planners/objects/small_models.hpp"
-#include "tests/support/twin_families.hpp"
+#include "tests/support/near_duplicate_families.hpp"
+#include "vantage/information/discrete.hpp"
+#include "vantage/planners/objects/information_measure.hpp"
 
 namespace vantage {
 namespace {
@@ -91,9 +91,9 @@ TEST(SampledInformation, OfEqualVariancesIsThatOfAWiderGaussian) {
 }
 
 TEST(SampledInformation, IsWhatAFilterLosesOnMeasurements) {
-  const auto families = testing::twin_families(3, 4, 3);
+  const auto families = testing::near_duplicate_families(3, 4, 3);
   Rng rng(5);
-  const auto model = testing::twin_model(families, 30, 2.0, {}, rng);
+  const auto model = testing::near_duplicate_model(families, 30, 2.0, {}, rng);
   const int states = families.states.size();
   const Eigen::VectorXd prior = Eigen::VectorXd::Constant(states, 1.0 / states);
   const auto entropy = [](const Eigen::VectorXd& b) {

@@ -9,8 +9,8 @@
 #include <initializer_list>
 #include <vector>
 
-#include "vantage/planners/objects/information_query.hpp"
 #include "vantage/information/gaussian.hpp"
+#include "vantage/planners/objects/information_query.hpp"
 
 namespace vantage::testing {
 

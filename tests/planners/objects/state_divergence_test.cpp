@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/planners/objects/small_models.hpp"
-#include "tests/support/twin_families.hpp"
+#include "tests/support/near_duplicate_families.hpp"
 
 namespace vantage {
 namespace {
@@ -41,16 +41,17 @@ void expect_formula(Divergence divergence, const ObservationModel& model,
 }
 
 /// More states than a block, and dimensions that fill none.
-ObservationModel twins(int dimensions, double psi) {
+ObservationModel near_duplicates(int dimensions, double psi) {
   Rng rng(4);
-  auto model = testing::twin_model(testing::twin_families(5), dimensions, 1.0, {}, rng);
+  auto model =
+      testing::near_duplicate_model(testing::near_duplicate_families(5), dimensions, 1.0, {}, rng);
   model.psi = psi;
   return model;
 }
 
 TEST(StateDivergences, AreTheFormulasOfGaussians) {
   for (const int dimensions : {1, 3, 64, 150}) {
-    const auto model = twins(dimensions, 0.3);
+    const auto model = near_duplicates(dimensions, 0.3);
     for (const auto divergence : {Divergence::bhattacharyya, Divergence::kullback_leibler}) {
       expect_formula(divergence, model, divergence_table(divergence, model, 1));
     }
@@ -66,7 +67,7 @@ TEST(StateDivergences, HoldOfVariancesFarApart) {
 }
 
 TEST(StateDivergences, OfSomeStatesArePartOfTheTable) {
-  const auto model = twins(70, 0.5);
+  const auto model = near_duplicates(70, 0.5);
   const ObservationModel* feature = &model;
   const std::vector<int> states{30, 2, 17};
   for (const auto divergence : {Divergence::bhattacharyya, Divergence::kullback_leibler}) {
@@ -77,15 +78,15 @@ TEST(StateDivergences, OfSomeStatesArePartOfTheTable) {
 }
 
 TEST(StateDivergences, DoNotDependOnThreads) {
-  const auto model = twins(70, 0.5);
+  const auto model = near_duplicates(70, 0.5);
   for (const auto divergence : {Divergence::bhattacharyya, Divergence::kullback_leibler}) {
     EXPECT_EQ(divergence_table(divergence, model, 1), divergence_table(divergence, model, 3));
   }
 }
 
 TEST(StateDivergences, AddOverFeatures) {
-  const auto first = twins(20, 0.5);
-  const auto second = twins(9, 0.25);
+  const auto first = near_duplicates(20, 0.5);
+  const auto second = near_duplicates(9, 0.25);
   const std::vector<const ObservationModel*> both{&first, &second};
   for (const auto divergence : {Divergence::bhattacharyya, Divergence::kullback_leibler}) {
     const Eigen::MatrixXf sum =
@@ -95,14 +96,14 @@ TEST(StateDivergences, AddOverFeatures) {
 }
 
 TEST(StateDivergences, OfAFeatureThatIsIgnoredAreZero) {
-  const auto model = twins(20, 0.0);
+  const auto model = near_duplicates(20, 0.0);
   for (const auto divergence : {Divergence::bhattacharyya, Divergence::kullback_leibler}) {
     EXPECT_TRUE((divergence_table(divergence, model, 1).array() == 0.0F).all());
   }
 }
 
 TEST(StateDivergences, AreNeverNegativeOfStatesThatAreAlike) {
-  auto model = twins(150, 1.0);
+  auto model = near_duplicates(150, 1.0);
   model.mean.colwise() = Eigen::VectorXf(model.mean.col(0));
   model.variance.colwise() = Eigen::VectorXf(model.variance.col(0));
   model.variance.rightCols(8) *= 1.0001F;

@@ -131,7 +131,7 @@ TEST(FlightCost, OfAFlightInTheOpenIsZero) {
 
 TEST(FlightCost, OfAColumnBesideThePath) {
   // The surface of the column is 0.7 m from the path where it passes, at the fourth point.
-  const SurfaceDistance surface = testing::columns({{1.5, 0.9}});
+  const Esdf surface = testing::columns({{1.5, 0.9}});
   const double here_m = surface.distance_m({1.5, 0.0, 1.2});
   EXPECT_NEAR(here_m, 0.7, 0.05);
   FlightSurroundings scene{.surface = &surface, .target = {}};
@@ -144,7 +144,7 @@ TEST(FlightCost, OfAColumnBesideThePath) {
 }
 
 TEST(FlightCost, LooksBetweenWaypointsToo) {
-  const SurfaceDistance surface = testing::columns({{1.75, 0.0}});  // between the 4th and the 5th
+  const Esdf surface = testing::columns({{1.75, 0.0}});  // between the 4th and the 5th
   FlightSurroundings scene{.surface = &surface, .target = {}};
   FlightCostOptions options{.clearance_weight = 0.0};
   const auto with = costs(options, scene);
@@ -156,7 +156,7 @@ TEST(FlightCost, LooksBetweenWaypointsToo) {
 }
 
 TEST(FlightCost, StandingInAnObstacleIsNotFree) {
-  const SurfaceDistance surface = testing::columns({{1.5, 0.0}});
+  const Esdf surface = testing::columns({{1.5, 0.0}});
   Horizon standing = testing::straight_flight();
   standing.points.colwise() = Eigen::Vector4d(1.5, 0.0, 1.2, 0.0);
   FlightSurroundings scene{.surface = &surface, .target = {}};

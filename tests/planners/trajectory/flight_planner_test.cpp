@@ -41,15 +41,17 @@ FlightMap empty_room() {
 }
 
 /// How far to the side of the straight path a way leads.
-double aside_m(const WayOn& way) { return way.points.row(1).cwiseAbs().maxCoeff(); }
+double aside_m(const CandidatePlan& candidate) {
+  return candidate.points.row(1).cwiseAbs().maxCoeff();
+}
 
 /// Of the spline through a way, from where the straight paths start.
-double clearance_m(const FlightPlanner& planner, const WayOn& way) {
+double clearance_m(const FlightPlanner& planner, const CandidatePlan& candidate) {
   std::vector<FlightWaypoint> waypoints;
-  for (const auto& q : way.points.colwise()) {
+  for (const auto& q : candidate.points.colwise()) {
     waypoints.push_back({.p_world_m = q.head<3>(), .yaw_rad = q[3]});
   }
-  const FlightPath path({.p_world_m = {0.0, 0.0, 1.8}}, waypoints);
+  const MinimumJerkTrajectory path({.p_world_m = {0.0, 0.0, 1.8}}, waypoints);
   return planner.clearance_m(path, path.duration_s());
 }
 
@@ -59,7 +61,7 @@ class Planner : public testing::Test {
     planning_.method = method;
     return {planning_, flight_camera(camera_ahead(0.65), 640, 480, 0.7853981633974483), Rng(1)};
   }
-  std::vector<WayOn> propose(FlightPlanner& planner, int at = 0) {
+  std::vector<CandidatePlan> propose(FlightPlanner& planner, int at = 0) {
     return planner.propose({.at = at, .nominal = path_, .plan = path_}, objects_, map_);
   }
 
@@ -73,12 +75,12 @@ class Planner : public testing::Test {
 TEST_F(Planner, GoesOnAsGivenWhereThereIsNothingToSee) {
   objects_.clear();
   FlightPlanner stomp = planner(Stomp{});
-  const std::vector<WayOn> ways = propose(stomp);
-  ASSERT_EQ(ways.front().points.cols(), 10);
+  const std::vector<CandidatePlan> candidates = propose(stomp);
+  ASSERT_EQ(candidates.front().points.cols(), 10);
   EXPECT_FALSE(stomp.target());
   for (Eigen::Index i = 0; i < 10; ++i) {
-    EXPECT_NEAR((ways.front().points.col(i) - path_[static_cast<std::size_t>(i) + 1]).norm(), 0.0,
-                0.05);
+    EXPECT_NEAR((candidates.front().points.col(i) - path_[static_cast<std::size_t>(i) + 1]).norm(),
+                0.0, 0.05);
   }
 }
 
@@ -132,18 +134,18 @@ TEST_F(Planner, AKnownObjectIsNoTarget) {
 
 TEST_F(Planner, TheGivenPathIsFlownWhateverIsInTheWay) {
   FlightPlanner given = planner(GivenPath{});
-  const std::vector<WayOn> ways = propose(given);
-  ASSERT_EQ(ways.size(), 1U);
-  EXPECT_EQ(ways.front().points.col(4), path_[5]);
+  const std::vector<CandidatePlan> candidates = propose(given);
+  ASSERT_EQ(candidates.size(), 1U);
+  EXPECT_EQ(candidates.front().points.col(4), path_[5]);
 }
 
 TEST_F(Planner, GoingOnAsFlownIsTheLastResort) {
   FlightPlanner stomp = planner(Stomp{});
-  const std::vector<WayOn> ways = propose(stomp);
-  EXPECT_EQ(std::ranges::count(ways, true, &WayOn::same_spline), 1);
-  ASSERT_TRUE(ways.back().same_spline);
-  for (Eigen::Index i = 0; i < ways.back().points.cols(); ++i) {
-    EXPECT_EQ(ways.back().points.col(i), path_[static_cast<std::size_t>(i) + 1]);
+  const std::vector<CandidatePlan> candidates = propose(stomp);
+  EXPECT_EQ(std::ranges::count(candidates, true, &CandidatePlan::same_spline), 1);
+  ASSERT_TRUE(candidates.back().same_spline);
+  for (Eigen::Index i = 0; i < candidates.back().points.cols(); ++i) {
+    EXPECT_EQ(candidates.back().points.col(i), path_[static_cast<std::size_t>(i) + 1]);
   }
 }
 
@@ -155,11 +157,10 @@ TEST_F(Planner, OnlyYawFollowsTheObjectOnTheGivenPath) {
 }
 
 TEST_F(Planner, TheLeashHoldsEveryMethodNearThePath) {
-  for (const TrajectoryMethod& method :
-       {TrajectoryMethod(Stomp{}), TrajectoryMethod(Mppi{}), TrajectoryMethod(Cem{}),
-        TrajectoryMethod(CovariantGradient{})}) {
-    planning_.options.leash_m = 0.5;
-    planning_.options.leash_weight = 20.0;
+  for (const TrajectoryMethod& method : {TrajectoryMethod(Stomp{}), TrajectoryMethod(Mppi{}),
+                                         TrajectoryMethod(Cem{}), TrajectoryMethod(Chomp{})}) {
+    planning_.options.path_deviation_tolerance_m = 0.5;
+    planning_.options.path_deviation_weight = 20.0;
     FlightPlanner optimiser = planner(method);
     const Eigen::Matrix4Xd points = propose(optimiser).front().points;
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -200,11 +201,12 @@ TEST_F(Planner, RulesHaveNoTargetOfThePlanners) {
 
 TEST_F(Planner, WhatIsBeyondItsWindowIsNotClear) {
   FlightPlanner stomp = planner(Stomp{});
-  std::vector<WayOn> ways = propose(stomp);
-  ways.resize(1);
-  ASSERT_TRUE(stomp.clear(clearance_m(stomp, ways[0])));
-  ways[0].points.row(1).rightCols(3).setConstant(-3.8);  // within the map, where a wall may be
-  EXPECT_FALSE(stomp.clear(clearance_m(stomp, ways[0])));
+  std::vector<CandidatePlan> candidates = propose(stomp);
+  candidates.resize(1);
+  ASSERT_TRUE(stomp.clear(clearance_m(stomp, candidates[0])));
+  candidates[0].points.row(1).rightCols(3).setConstant(
+      -3.8);  // within the map, where a wall may be
+  EXPECT_FALSE(stomp.clear(clearance_m(stomp, candidates[0])));
 }
 
 TEST_F(Planner, TellsTheClearanceOfASpline) {
@@ -220,12 +222,12 @@ TEST_F(Planner, TellsTheClearanceOfASpline) {
   for (int i = 0; i < 3; ++i) map_.insert(wall, T_world_camera);
   objects_.clear();
   FlightPlanner given = planner(GivenPath{});
-  std::vector<WayOn> ways = propose(given);
-  EXPECT_LT(clearance_m(given, ways.front()), 0.0) << "through the wall";
+  std::vector<CandidatePlan> candidates = propose(given);
+  EXPECT_LT(clearance_m(given, candidates.front()), 0.0) << "through the wall";
   map_ = FlightMap(
       Eigen::AlignedBox3d(Eigen::Vector3d(-3.0, -4.0, 0.0), Eigen::Vector3d(22.0, 4.0, 3.0)));
-  ways = propose(given);
-  EXPECT_TRUE(given.clear(clearance_m(given, ways.front())));
+  candidates = propose(given);
+  EXPECT_TRUE(given.clear(clearance_m(given, candidates.front())));
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/planners/trajectory/straight_flight.hpp"
 #include "vantage/planners/trajectory/observation_ring.hpp"
 #include "vantage/planners/trajectory/optimisers/trajectory_optimiser.hpp"
-#include "tests/planners/trajectory/straight_flight.hpp"
 
 namespace vantage {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 /// Least distance of waypoints from the axis of an object beside the path, 0.2 m in radius.
 double nearest_to_object_m(bool literal, double lateral_m, std::uint64_t seed) {
   const ObservationRing ring{.p_world_object_m = {2.25, lateral_m, 1.2}, .height_m = 1.2};
-  const SurfaceDistance surface = testing::columns({ring.p_world_object_m.head<2>()});
+  const Esdf surface = testing::columns({ring.p_world_object_m.head<2>()});
   const Horizon horizon = testing::straight_flight();
   const ObservedObject object{.ring = ring, .used = {}, .entropy_nats = 3.0};
   FlightSurroundings scene{.surface = &surface, .target = {}, .p_world_obstacles_m = {}};

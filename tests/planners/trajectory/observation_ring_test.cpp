@@ -78,7 +78,7 @@ TEST(ObservationTarget, IsTheActiveDirectionOfTheActiveObject) {
 
 TEST(BlockedDirections, AreLeftOut) {
   ObservedObject object = object_at(2.0, 1.0);
-  const SurfaceDistance surface = testing::columns({{2.0, 1.0}, {3.4, 1.0}});
+  const Esdf surface = testing::columns({{2.0, 1.0}, {3.4, 1.0}});
   leave_out_blocked(object, surface, 0.6);
   EXPECT_TRUE(object.used[0]);  // 0.1 m from the other column's axis
   EXPECT_FALSE(object.used[2]);

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "vantage/planners/trajectory/simple_paths.hpp"
-#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 #include "tests/planners/trajectory/straight_flight.hpp"
+#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
+#include "vantage/planners/trajectory/simple_paths.hpp"
 
 namespace vantage {
 namespace {

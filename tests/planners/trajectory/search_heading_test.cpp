@@ -70,7 +70,7 @@ TEST_F(Search, AWaypointLooksAtTheMiddleOfWhatItTurnsTo) {
 
 TEST_F(Search, TurnsForEnoughAlone) {
   set(0.4, 1.6, 0.8, 2.0, 0.0F);
-  options_.least_m2 = 5.0;
+  options_.min_area_m2 = 5.0;
   EXPECT_FALSE(heading());
   options_ = {.turn_rad = 0.0};
   EXPECT_FALSE(heading()) << "it may not";

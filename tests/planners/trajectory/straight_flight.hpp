@@ -22,7 +22,7 @@ inline Horizon straight_flight(Eigen::Index count = 10) {
 }
 
 /// Upright columns of 0.2 m radius, 2 m high, in cells of 0.1 m round that flight.
-inline SurfaceDistance columns(const std::vector<Eigen::Vector2d>& centres_m) {
+inline Esdf columns(const std::vector<Eigen::Vector2d>& centres_m) {
   const GridFrame frame = make_grid_frame({2.25, 0.0, 1.0}, {8.0, 6.0, 2.0}, {80, 60, 20});
   std::vector<std::uint8_t> occupied(frame.size(), 0);
   for (std::size_t cell = 0; cell < frame.size(); ++cell) {
@@ -35,15 +35,15 @@ inline SurfaceDistance columns(const std::vector<Eigen::Vector2d>& centres_m) {
 }
 
 /// Least on the straight ways between the points.
-inline double clearance_m(const SurfaceDistance& surface, const Horizon& horizon) {
-  double least_m = surface.distance_m(horizon.point(0).head<3>());
+inline double clearance_m(const Esdf& surface, const Horizon& horizon) {
+  double min_m = surface.distance_m(horizon.point(0).head<3>());
   for (Eigen::Index i = 1; i < horizon.count(); ++i) {
     for (double share = 0.05; share < 1.01; share += 0.05) {
       const Eigen::Vector4d place = (1.0 - share) * horizon.point(i - 1) + share * horizon.point(i);
-      least_m = std::min(least_m, surface.distance_m(place.head<3>()));
+      min_m = std::min(min_m, surface.distance_m(place.head<3>()));
     }
   }
-  return least_m;
+  return min_m;
 }
 
 }  // namespace vantage::testing

@@ -65,7 +65,7 @@ TEST_F(Schedule, ReachIsMeasuredAside) {
   const std::vector<ScheduledView> sinking = views();
   ASSERT_EQ(sinking.size(), at_one_height.size());
   EXPECT_EQ(sinking[0].direction, at_one_height[0].direction);
-  EXPECT_NEAR(sinking[0].worth, at_one_height[0].worth, 1e-9);
+  EXPECT_NEAR(sinking[0].utility, at_one_height[0].utility, 1e-9);
 }
 
 TEST_F(Schedule, PassesByWhatIsOutOfReach) {

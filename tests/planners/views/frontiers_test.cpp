@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
+#include "tests/planners/navigation/ascii_floor.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/core/yaml.hpp"
-#include "tests/planners/navigation/ascii_floor.hpp"
 
 namespace vantage {
 namespace {

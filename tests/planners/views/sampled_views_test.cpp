@@ -7,9 +7,9 @@
 #include <limits>
 #include <set>
 
-#include "vantage/core/error.hpp"
 #include "tests/support/octomap_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

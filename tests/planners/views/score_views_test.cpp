@@ -6,11 +6,11 @@
 #include <fstream>
 #include <numbers>
 
-#include "vantage/planners/exact_gain.hpp"
-#include "vantage/belief/map/octomap_io.hpp"
-#include "vantage/core/rng.hpp"
 #include "tests/support/octomap_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/planners/exact_gain.hpp"
 
 namespace vantage {
 namespace {

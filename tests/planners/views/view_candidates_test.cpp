@@ -26,8 +26,8 @@ TEST(RingOfViews, TurnsEachPositionByEveryOffset) {
   const double fifteen_deg = std::numbers::pi / 12.0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     EXPECT_EQ(views[i].id, static_cast<int>(i));
-    const Pose2 ahead = flatten(views[i - i % 3 + 1].T_world_sensor);
-    const Pose2 turned = flatten(views[i].T_world_sensor);
+    const Pose2 ahead = project_to_se2(views[i - i % 3 + 1].T_world_sensor);
+    const Pose2 turned = project_to_se2(views[i].T_world_sensor);
     EXPECT_NEAR(wrap_angle(turned.yaw_rad - ahead.yaw_rad),
                 (static_cast<double>(i % 3) - 1.0) * fifteen_deg, 1e-12);
     EXPECT_NEAR(turned.x_m, ahead.x_m, 1e-12);

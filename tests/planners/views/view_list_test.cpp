@@ -6,9 +6,9 @@
 #include <fstream>
 #include <numbers>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/planners/exact_gain.hpp"
 #include "tests/planners/gains/gain_along.hpp"
+#include "vantage/planners/exact_gain.hpp"
 
 namespace vantage {
 namespace {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "vantage/information/discrete.hpp"
 #include "tests/planners/gains/ascii_ray.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 namespace {

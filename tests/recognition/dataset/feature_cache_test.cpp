@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "vantage/core/atomic_file.hpp"
-#include "vantage/recognition/dataset/view_features.hpp"
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/recognition/dataset/view_features.hpp"
 
 namespace vantage {
 namespace {

@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "vantage/recognition/evaluation/change_evaluation.hpp"
-#include "vantage/recognition/dataset/shown_states.hpp"
-#include "vantage/recognition/evaluation/svm_baseline.hpp"
-#include "vantage/recognition/training.hpp"
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/recognition/dataset/shown_states.hpp"
+#include "vantage/recognition/evaluation/change_evaluation.hpp"
+#include "vantage/recognition/evaluation/svm_baseline.hpp"
+#include "vantage/recognition/training.hpp"
 
 namespace vantage {
 namespace {
@@ -66,11 +66,11 @@ std::vector<ViewFeatures>* Evaluation::training_ = nullptr;
 
 TEST_F(Evaluation, ASingleViewCannotTellWhatDiffersBehindAndSeveralCan) {
   RecognitionOptions options;
-  options.most_views = 1;
+  options.max_views = 1;
   const double single = accuracy(run(options));
   EXPECT_GT(single, 0.6);
   EXPECT_LT(single, 0.95);
-  options.most_views = 8;
+  options.max_views = 8;
   const std::vector<Trial> several = run(options);
   EXPECT_GE(accuracy(several), 0.98);
   for (const Trial& trial : several) {

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <thread>
 
-#include "vantage/sim/sensors/camera.hpp"
 #include "tests/sim/sensors/sensor_scene.hpp"
+#include "vantage/sim/sensors/camera.hpp"
 
 namespace vantage {
 namespace {
@@ -53,7 +53,7 @@ TEST(Renderer, TheSamePictureBitForBit) {
 TEST(Renderer, LeavesTheDataAndWhatFollowsAlone) {
   const auto scene = test::sensor_scene();
   const mjModel* model = scene.model.get();
-  const std::unique_ptr<mjData, test::FreeMujoco> twin(
+  const std::unique_ptr<mjData, test::FreeMujoco> near_duplicate(
       mj_copyData(nullptr, model, scene.data.get()));
   const auto* bytes = static_cast<const char*>(scene.data->buffer);
   const std::vector<char> before(bytes, bytes + scene.data->nbuffer);
@@ -61,11 +61,11 @@ TEST(Renderer, LeavesTheDataAndWhatFollowsAlone) {
   EXPECT_TRUE(std::equal(before.begin(), before.end(), bytes));
   for (int i = 0; i < 100; ++i) {
     mj_step(model, scene.data.get());
-    mj_step(model, twin.get());
+    mj_step(model, near_duplicate.get());
   }
-  EXPECT_EQ(scene.data->time, twin->time);
-  EXPECT_EQ(std::memcmp(scene.data->qpos, twin->qpos, sizeof(mjtNum) * model->nq), 0);
-  EXPECT_EQ(std::memcmp(scene.data->qvel, twin->qvel, sizeof(mjtNum) * model->nv), 0);
+  EXPECT_EQ(scene.data->time, near_duplicate->time);
+  EXPECT_EQ(std::memcmp(scene.data->qpos, near_duplicate->qpos, sizeof(mjtNum) * model->nq), 0);
+  EXPECT_EQ(std::memcmp(scene.data->qvel, near_duplicate->qvel, sizeof(mjtNum) * model->nv), 0);
 }
 
 TEST(Renderer, OneContextPerThread) {

@@ -5,9 +5,9 @@
 
 #include <thread>
 
-#include "vantage/core/error.hpp"
 #include "tests/sim/sensors/sensor_scene.hpp"
 #include "tests/support/virtual_display.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -17,25 +17,25 @@ using support::VirtualDisplay;
 
 /// Another colour for each pixel.
 RenderedImages colourful(int width_px, int height_px) {
-  RenderedImages picture;
-  picture.width_px = width_px;
-  picture.height_px = height_px;
+  RenderedImages image;
+  image.width_px = width_px;
+  image.height_px = height_px;
   for (int y = 0; y < height_px; ++y) {
     for (int x = 0; x < width_px; ++x) {
-      picture.rgb.push_back(static_cast<std::uint8_t>(x % 251));
-      picture.rgb.push_back(static_cast<std::uint8_t>(y % 241));
-      picture.rgb.push_back(static_cast<std::uint8_t>(x / 251 + 16 * (y / 241)));
+      image.rgb.push_back(static_cast<std::uint8_t>(x % 251));
+      image.rgb.push_back(static_cast<std::uint8_t>(y % 241));
+      image.rgb.push_back(static_cast<std::uint8_t>(x / 251 + 16 * (y / 241)));
     }
   }
-  return picture;
+  return image;
 }
 
 TEST(Window, HoldsThePicture) {
   const VirtualDisplay display;
   Window window("picture", {641, 353});
   ASSERT_EQ(window.size(), (PixelSize{641, 353}));
-  const RenderedImages picture = colourful(641, 353);
-  EXPECT_EQ(window.show_and_read(picture).rgb, picture.rgb);
+  const RenderedImages image = colourful(641, 353);
+  EXPECT_EQ(window.show_and_read(image).rgb, image.rgb);
 }
 
 TEST(Window, StretchesASmallerPicture) {
@@ -63,8 +63,8 @@ TEST(Window, BesideAnOffscreenRendererInAnotherThread) {
   Window window("beside", {320, 240});
   RenderedImages meanwhile;
   std::thread other([&] { meanwhile = draw(); });
-  const RenderedImages picture = colourful(320, 240);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(window.show_and_read(picture).rgb, picture.rgb);
+  const RenderedImages image = colourful(320, 240);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(window.show_and_read(image).rgb, image.rgb);
   other.join();
   EXPECT_EQ(meanwhile.rgb, alone.rgb);
   EXPECT_EQ(window.show_and_read(meanwhile).rgb, alone.rgb);

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
 
-#include "vantage/sim/robots/pr2.hpp"
 #include "tests/sim/test_world.hpp"
+#include "vantage/sim/robots/pr2.hpp"
 
 namespace vantage {
 namespace {

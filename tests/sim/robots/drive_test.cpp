@@ -56,14 +56,14 @@ TEST(Drive, StaysOnThePath) {
   RobotWorld scene;
   Odometry odometry = perfect(scene);
   const DrivePath path({}, kSquare);
-  double farthest_m = 0.0;
+  double max_depth_m = 0.0;
   drive(scene.world, scene.robot, odometry, kSquare, {}, [&](World&, const Pose2& base) {
     const Eigen::Vector2d p(base.x_m, base.y_m);
-    farthest_m =
-        std::max(farthest_m, (path.point(path.project(p, 0.0, path.length_m())) - p).norm());
+    max_depth_m =
+        std::max(max_depth_m, (path.point(path.project(p, 0.0, path.length_m())) - p).norm());
     return true;
   });
-  EXPECT_LT(farthest_m, 0.03) << "it neither cuts corners nor overshoots";
+  EXPECT_LT(max_depth_m, 0.03) << "it neither cuts corners nor overshoots";
 }
 
 TEST(Drive, NoisyOdometryArrivesWhereItBelievesToBe) {
@@ -131,7 +131,7 @@ TEST(Drive, TicksTheWorldsRecorder) {
   std::uint64_t ticks = 0;
   scene.world.on_tick = [&](World&) { ++ticks; };
   drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.3, 0.0, 0.0}});
-  stand(scene.world, scene.robot, odometry, 0.5);
+  hold_still(scene.world, scene.robot, odometry, 0.5);
   EXPECT_EQ(ticks, scene.world.ticks());
   EXPECT_NEAR(scene.world.time_s(), 0.025 * static_cast<double>(ticks), 1e-9);
 }

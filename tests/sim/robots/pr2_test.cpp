@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/sim/test_world.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/geometry/field_of_view.hpp"
-#include "tests/sim/test_world.hpp"
 
 namespace vantage {
 namespace {
@@ -51,14 +51,14 @@ TEST(Pr2, MassAndFootprint) {
 TEST(Pr2, SensorsAreWhereTheyShouldBe) {
   for (const double torso_m : {0.0, 0.33}) {
     RobotWorld scene("", {1.0, 2.0, 0.5}, torso_m);
-    const Pose T_world_base = lift(scene.robot.T_world_base(scene.world));
+    const Pose T_world_base = to_se3(scene.robot.T_world_base(scene.world));
     const Pose T_base_laser = T_world_base.inverse() * scene.robot.T_world_laser(scene.world);
     EXPECT_TRUE(T_base_laser.isApprox(scene.robot.T_base_laser_mount(scene.world), 1e-9));
     EXPECT_NEAR(T_base_laser.translation().z(), 1.05 + torso_m, 1e-9);
     EXPECT_NEAR(T_base_laser.translation().x(), 0.12, 1e-9);
     const Pose T_base_scan = T_world_base.inverse() * scene.robot.T_world_base_scan(scene.world);
     EXPECT_TRUE(T_base_scan.isApprox(
-        lift(scene.robot.T_base_base_scan(), scene.robot.base_scan_height_m()), 1e-9));
+        to_se3(scene.robot.T_base_base_scan(), scene.robot.base_scan_height_m()), 1e-9));
     EXPECT_NEAR(scene.robot.base_scan_height_m(), 0.25, 1e-9);
     const mjData& now = scene.world.snapshot();
     EXPECT_NEAR(now.cam_xpos[3 * scene.robot.camera_id() + 2], 1.47 + torso_m, 0.01);

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/sim/sensors/camera.hpp"
-#include "vantage/core/error.hpp"
 #include "tests/control/flight_kit.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/sim/sensors/camera.hpp"
 
 namespace vantage {
 namespace {
@@ -115,7 +115,7 @@ TEST(Quadrotor, MotorsLag) {
 }
 
 TEST(Quadrotor, StateIsThatOfTheBody) {
-  FlightWorld scene(test::sure_pilot(), make_pose({1.0, 2.0, 3.0}, 0.7));
+  FlightWorld scene(test::exact_tracking(), make_pose({1.0, 2.0, 3.0}, 0.7));
   scene.vehicle.command_thrusts(scene.world, {5.0, 2.0, 3.0, 4.0});
   for (int i = 0; i < 40; ++i) scene.world.advance_tick();
   const FlightState a = scene.vehicle.state(scene.world);
@@ -146,19 +146,19 @@ TEST(Quadrotor, CameraIsWhereItSays) {
 
 TEST(Quadrotor, CameraTiltsOnCommandWithoutMovingTheVehicle) {
   FlightWorld scene;
-  scene.pilot.hold(0.5);
+  scene.tracking.hold(0.5);
   scene.vehicle.command_camera_pitch(scene.world, 0.2);
-  const FlightResult result = scene.pilot.hold(1.0);
+  const FlightResult result = scene.tracking.hold(1.0);
   EXPECT_NEAR(scene.vehicle.camera_pitch_rad(scene.world), 0.2, 2e-3);
   EXPECT_LT(result.greatest_error_m, 2e-3);
   scene.vehicle.command_camera_pitch(scene.world, 9.0);
-  scene.pilot.hold(1.0);
+  scene.tracking.hold(1.0);
   EXPECT_NEAR(scene.vehicle.camera_pitch_rad(scene.world), 1.0472, 5e-3) << "clipped";
 }
 
 TEST(Quadrotor, TouchesWithItsRotors) {
   // A pole that only the disc of the front left rotor reaches into.
-  FlightWorld scene(test::sure_pilot(), test::at_height(1.0),
+  FlightWorld scene(test::exact_tracking(), test::at_height(1.0),
                     "<geom name='pole' type='cylinder' size='0.01 1' pos='0.19 0.17 1'/>");
   scene.world.advance_tick();
   const int pole = mj_name2id(&scene.world.model(), mjOBJ_GEOM, "pole");

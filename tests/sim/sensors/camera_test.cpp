@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "vantage/sim/sensors/ray_scene.hpp"
 #include "tests/sim/sensors/sensor_scene.hpp"
+#include "vantage/sim/sensors/ray_scene.hpp"
 
 namespace vantage {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
-#include "vantage/core/error.hpp"
 #include "tests/sim/test_world.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/core/rng.hpp"
 #include "tests/sim/sensors/sensor_scene.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "vantage/core/rng.hpp"
 #include "tests/sim/sensors/sensor_scene.hpp"
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {

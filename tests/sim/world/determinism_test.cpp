@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "vantage/core/hash.hpp"
 #include "tests/sim/test_world.hpp"
+#include "vantage/core/hash.hpp"
 
 namespace vantage {
 namespace {

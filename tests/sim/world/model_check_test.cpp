@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "vantage/core/error.hpp"
 #include "tests/sim/test_world.hpp"
 #include "tests/support/mjcf.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "vantage/core/error.hpp"
 #include "tests/sim/test_world.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -25,7 +25,7 @@ TEST_P(OfficeWorld, TheRobotTurnsOnTheSpotAtEveryStart) {
     EXPECT_TRUE(world.warnings().empty());
     const Pr2 robot(world.model());
     const int site = model_id(world.model(), ModelObject::site, "start_" + std::to_string(i));
-    const Pose2 start = flatten(site_pose(world, site));
+    const Pose2 start = project_to_se2(site_pose(world, site));
     robot.place(world, start);
     robot.command_twist(world, {0.0, 0.0, 1.0});
     for (int tick = 0; tick < 260; ++tick) {
@@ -42,7 +42,7 @@ TEST_P(OfficeWorld, StopsTheRobot) {
   World world(source());
   const Pr2 robot(world.model());
   const int site = model_id(world.model(), ModelObject::site, "start_0");
-  robot.place(world, flatten(site_pose(world, site)));
+  robot.place(world, project_to_se2(site_pose(world, site)));
   robot.command_twist(world, {-0.5, 0.0, 0.0});
   bool touched = false;
   for (int tick = 0; tick < 800 && !touched; ++tick) {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <thread>
 
-#include "vantage/core/error.hpp"
 #include "tests/sim/test_world.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

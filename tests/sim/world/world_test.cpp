@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "vantage/core/error.hpp"
 #include "tests/sim/test_world.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-// Curves against scans, and their picture.
+// Curves against scans, and their image.
 #include "vantage/study/figures/figure.hpp"
 
 #include <gmock/gmock.h>

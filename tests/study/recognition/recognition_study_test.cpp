@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "vantage/core/atomic_file.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <numbers>
 
+#include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/small_recognition.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/tasks/recognition/object_on_table.hpp"
 #include "vantage/runtime/replay.hpp"
+#include "vantage/tasks/recognition/object_on_table.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/validate.hpp"
-#include "tests/tasks/small_recognition.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/rng.hpp"
-#include "vantage/tasks/exploration/exploration_options.hpp"
 #include "vantage/runtime/replay.hpp"
-#include "vantage/tasks/run.hpp"
+#include "vantage/tasks/exploration/exploration_options.hpp"
 #include "vantage/tasks/exploration/visited_places.hpp"
-#include "vantage/tasks/mapping/wall_map.hpp"
-#include "tests/support/temporary_directory.hpp"
+#include "vantage/tasks/mapping/reference_map.hpp"
+#include "vantage/tasks/run.hpp"
 
 namespace vantage {
 namespace {
@@ -91,23 +91,25 @@ PlanarScan wall_ahead(double distance_m) {
   return scan;
 }
 
-TEST(WallMap, RemembersOnlyWhatIsNew) {
-  WallMap all({});
-  WallMap novel({}, 0.05);
-  for (WallMap* walls : {&all, &novel}) walls->remember(wall_ahead(2.0), 0.25, {});
+TEST(ReferenceMap, RemembersOnlyWhatIsNew) {
+  ReferenceMap all({});
+  ReferenceMap novel({}, 0.05);
+  for (ReferenceMap* reference_map : {&all, &novel})
+    reference_map->remember(wall_ahead(2.0), 0.25, {});
   const std::size_t once = all.cloud().size();
   ASSERT_GT(once, 30U);
   EXPECT_EQ(novel.cloud().size(), once);
-  for (WallMap* walls : {&all, &novel}) walls->remember(wall_ahead(1.99), 0.25, {0.01, 0.0, 0.0});
+  for (ReferenceMap* reference_map : {&all, &novel})
+    reference_map->remember(wall_ahead(1.99), 0.25, {0.01, 0.0, 0.0});
   EXPECT_GT(all.cloud().size(), once + 30U);
   EXPECT_LT(novel.cloud().size(), once + 5U);
 }
 
-TEST(WallMap, FindsTheDistanceToAWall) {
-  WallMap walls({});
-  EXPECT_FALSE(walls.locate(wall_ahead(2.0), 0.25, {}).converged) << "nothing to go by";
-  walls.remember(wall_ahead(2.0), 0.25, {});
-  const auto found = walls.locate(wall_ahead(1.9), 0.25, {0.03, 0.0, 0.0});
+TEST(ReferenceMap, FindsTheDistanceToAWall) {
+  ReferenceMap reference_map({});
+  EXPECT_FALSE(reference_map.locate(wall_ahead(2.0), 0.25, {}).converged) << "nothing to go by";
+  reference_map.remember(wall_ahead(2.0), 0.25, {});
+  const auto found = reference_map.locate(wall_ahead(1.9), 0.25, {0.03, 0.0, 0.0});
   EXPECT_TRUE(found.converged) << found.reason;
   EXPECT_NEAR(found.T_world_base.x_m, 0.1, 0.005);
 }

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "vantage/runtime/drawing/map_view.hpp"
 #include "tests/report/sample_run.hpp"
+#include "vantage/runtime/drawing/map_view.hpp"
 
 namespace vantage {
 namespace {
@@ -17,7 +17,7 @@ MapPanelInput sample_input(const OccupancyGrid& grid) {
     input.T_world_chosen.push_back(support::sample_view(support::sample_choice(scan)));
     input.observable_unobserved_cells.push_back(90'000.0 / (scan + 1));
   }
-  input.T_world_base = flatten(input.T_world_chosen.back());
+  input.T_world_base = project_to_se2(input.T_world_chosen.back());
   input.scans_planned = 9;
   input.method = "adaptive";
   return input;
@@ -57,7 +57,7 @@ TEST(MapCamera, FillsItsViewport) {
 }
 
 // Seen from +x, the red top cell at the far side is hidden by the blue bottom one only if it is
-// lower in the picture:
+// lower in the image:
 //
 //   z ^  . . F      F: cell (0, 1, 2), far and high
 //     |  . . .

@@ -4,14 +4,14 @@
 
 #include <set>
 
+#include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/small_recognition.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/tasks/recognition/object_recognition.hpp"
 #include "vantage/runtime/replay.hpp"
+#include "vantage/tasks/recognition/object_recognition.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/validate.hpp"
-#include "tests/tasks/small_recognition.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {
@@ -108,7 +108,7 @@ TEST_F(RecognitionEpisode, ReplaysEveryState) {
 
 TEST_F(RecognitionEpisode, SameSeedSameFlight) {
   EXPECT_EQ(metrics_of("second", {"threads=1"})["state_hash"], first_["state_hash"]);
-  EXPECT_NE(metrics_of("other", {"seed=2", "recognition.most_views=1"})["state_hash"],
+  EXPECT_NE(metrics_of("other", {"seed=2", "recognition.max_views=1"})["state_hash"],
             first_["state_hash"]);
 }
 
@@ -116,7 +116,7 @@ TEST_F(RecognitionEpisode, AQuadrotorThatTouchesSomethingHasFailed) {
   RunOptions options;
   options.directory = *folder_ / "blown";
   const std::string gust =
-      "recognition.pilot.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, "
+      "recognition.tracking.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, "
       "-1]}]";
   const RunOutcome outcome =
       run(load_episode(kRecognition, overrides({gust, "recognition.settle_s=1.5"})), options);

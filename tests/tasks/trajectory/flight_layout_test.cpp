@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <set>
 
-#include "vantage/sim/world/world.hpp"
-#include "vantage/core/atomic_file.hpp"
-#include "vantage/tasks/trajectory/objects_on_stands.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/trajectory/objects_on_supports.hpp"
 
 namespace vantage {
 namespace {
@@ -24,10 +24,10 @@ fs::path scene_file(const std::string& name) {
 TEST(FlightLayout, HasThePathAndTheStands) {
   const FlightLayout layout = read_flight_layout(scene_file("trajectory_3"));
   EXPECT_EQ(layout.path.size(), 56U);
-  EXPECT_EQ(layout.stands_m.size(), 10U);
+  EXPECT_EQ(layout.supports_m.size(), 10U);
   EXPECT_NEAR(layout.path[0].p_world_m.z(), 1.8, 1e-9);
   EXPECT_NEAR(layout.path[0].yaw_rad, 0.0, 1e-3);
-  EXPECT_NEAR((layout.stands_m[0] - Eigen::Vector3d(-2.6, -2.75, 0.8)).norm(), 0.0, 1e-4);
+  EXPECT_NEAR((layout.supports_m[0] - Eigen::Vector3d(-2.6, -2.75, 0.8)).norm(), 0.0, 1e-4);
 }
 
 TEST(FlightLayout, SaysWhichFileIsMissingOrWrong) {
@@ -57,13 +57,13 @@ TEST(FlightLayout, TheRegionHoldsThePathWithRoomAroundIt) {
   EXPECT_NEAR((region.max() - Eigen::Vector3d(6.0, 4.0, 2.3)).norm(), 0.0, 1e-12);
 }
 
-const std::vector<Eigen::Vector3d> kStands{{0.0, 0.0, 0.8}, {2.0, 0.0, 0.7}, {0.0, 2.0, 0.9}};
+const std::vector<Eigen::Vector3d> kSupports{{0.0, 0.0, 0.8}, {2.0, 0.0, 0.7}, {0.0, 2.0, 0.9}};
 
-TEST(ObjectsOnStands, ADrawIsItsSeeds) {
-  const auto a = draw_objects({}, kStands, 0.02, 7);
-  const auto b = draw_objects({}, kStands, 0.02, 7);
-  const auto c = draw_objects({}, kStands, 0.02, 8);
-  ASSERT_EQ(a.size(), kStands.size());
+TEST(ObjectsOnSupports, ADrawIsItsSeeds) {
+  const auto a = draw_objects({}, kSupports, 0.02, 7);
+  const auto b = draw_objects({}, kSupports, 0.02, 7);
+  const auto c = draw_objects({}, kSupports, 0.02, 8);
+  ASSERT_EQ(a.size(), kSupports.size());
   int same = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].object, b[i].object);
@@ -71,34 +71,34 @@ TEST(ObjectsOnStands, ADrawIsItsSeeds) {
     EXPECT_EQ(a[i].p_world_m, b[i].p_world_m);
     EXPECT_NE(a[i].yaw_rad, c[i].yaw_rad);
     same += a[i].object == c[i].object ? 1 : 0;
-    const Eigen::Vector3d off_m = a[i].p_world_m - kStands[i];
+    const Eigen::Vector3d off_m = a[i].p_world_m - kSupports[i];
     EXPECT_LE(off_m.norm(), 0.02);
     EXPECT_EQ(off_m.z(), 0.0);
   }
   EXPECT_LT(same, 3);
 }
 
-TEST(ObjectsOnStands, AllDifferAndAllAreDrawnInTime) {
+TEST(ObjectsOnSupports, AllDifferAndAllAreDrawnInTime) {
   ObjectDatabaseOptions small;
   small.objects = 6;
   std::set<std::string> drawn;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     std::set<std::string> now;
-    for (const ObjectOnStand& object : draw_objects(small, kStands, 0.02, seed)) {
+    for (const ObjectOnSupport& object : draw_objects(small, kSupports, 0.02, seed)) {
       now.insert(object.object);
     }
-    EXPECT_EQ(now.size(), kStands.size()) << "seed " << seed;
+    EXPECT_EQ(now.size(), kSupports.size()) << "seed " << seed;
     drawn.merge(now);
   }
   EXPECT_EQ(drawn.size(), 6U);
   small.objects = 2;
-  EXPECT_THROW(draw_objects(small, kStands, 0.02, 1), ConfigError);
+  EXPECT_THROW(draw_objects(small, kSupports, 0.02, 1), ConfigError);
 }
 
-TEST(ObjectsOnStands, StandInTheCompiledScene) {
+TEST(ObjectsOnSupports, StandInTheCompiledScene) {
   const fs::path scene = scene_file("trajectory_4");
   const FlightLayout layout = read_flight_layout(scene);
-  const auto objects = draw_objects({}, layout.stands_m, 0.02, 3);
+  const auto objects = draw_objects({}, layout.supports_m, 0.02, 3);
   const World world({scene, {}, object_files({}, objects)}, {});
   const mjModel& model = world.model();
   for (std::size_t i = 0; i < objects.size(); ++i) {

@@ -6,13 +6,13 @@
 #include <functional>
 #include <memory>
 
-#include "vantage/sim/sensors/camera.hpp"
-#include "vantage/sim/robots/pilot.hpp"
 #include "vantage/belief/map/flight_map.hpp"
-#include "vantage/belief/objects/found_objects.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/tasks/trajectory/objects_on_stands.hpp"
+#include "vantage/belief/objects/object_tracker.hpp"
 #include "vantage/perception/object_search.hpp"
+#include "vantage/sim/robots/trajectory_tracking_controller.hpp"
+#include "vantage/sim/sensors/camera.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
+#include "vantage/tasks/trajectory/objects_on_supports.hpp"
 
 namespace vantage::support {
 
@@ -45,34 +45,35 @@ class FlightSurvey {
   explicit FlightSurvey(const FlightSurveyOptions& options)
       : options_(options),
         layout(read_flight_layout(scene_file(options.scene))),
-        objects(draw_objects(ObjectDatabaseOptions{}, layout.stands_m, 0.02, options.seed)),
+        objects(draw_objects(ObjectDatabaseOptions{}, layout.supports_m, 0.02, options.seed)),
         world({scene_file(options.scene),
                std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/quadrotor/quadrotor.xml",
                object_files(ObjectDatabaseOptions{}, objects)},
               kFlightWorld),
         vehicle(world.model()),
-        pilot((vehicle.place(world,
-                             make_pose(layout.path.front().p_world_m, layout.path.front().yaw_rad),
-                             options.camera_pitch_rad),
-               world),
-              vehicle, PilotOptions{.limits = {.speed_m_s = options.speed_m_s}},
-              Rng::stream(options.seed, "pose")),
+        tracking((vehicle.place(
+                      world, make_pose(layout.path.front().p_world_m, layout.path.front().yaw_rad),
+                      options.camera_pitch_rad),
+                  world),
+                 vehicle, TrajectoryTrackingOptions{.limits = {.speed_m_s = options.speed_m_s}},
+                 Rng::stream(options.seed, "pose")),
         map(flight_region(layout.path), options.map) {}
 
-  /// Flies to the path's end; a picture at every period.
+  /// Flies to the path's end; an image at every period.
   FlightResult fly(const std::function<void(const SurveyMoment&)>& look = {}) {
     const auto renderer =
         make_offscreen_renderer(world.model(), options_.camera.width_px, options_.camera.height_px);
     Rng noise = Rng::stream(options_.seed, "camera");
     double next_s = 0.0;
-    return pilot.fly_to(std::span(layout.path).subspan(1), [&](const Pilot&) {
-      if (world.time_s() < next_s) return true;
-      next_s = world.time_s() + options_.image_period_s;
-      const CameraImages picture = rgbd(*renderer, world.model(), world.snapshot(),
-                                        vehicle.camera_id(), options_.camera, noise);
-      take(picture, look);
-      return true;
-    });
+    return tracking.fly_to(
+        std::span(layout.path).subspan(1), [&](const TrajectoryTrackingController&) {
+          if (world.time_s() < next_s) return true;
+          next_s = world.time_s() + options_.image_period_s;
+          const CameraImages image = rgbd(*renderer, world.model(), world.snapshot(),
+                                          vehicle.camera_id(), options_.camera, noise);
+          take(image, look);
+          return true;
+        });
   }
 
  private:
@@ -81,11 +82,11 @@ class FlightSurvey {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   }
 
-  void take(const CameraImages& picture, const std::function<void(const SurveyMoment&)>& look) {
-    CameraImages images = picture;
+  void take(const CameraImages& image, const std::function<void(const SurveyMoment&)>& look) {
+    CameraImages images = image;
     images.segmentation.clear();
     const Pose T_world_camera =
-        pilot.estimate().T_world_body * vehicle.T_body_camera(vehicle.camera_pitch_rad(world));
+        tracking.estimate().T_world_body * vehicle.T_body_camera(vehicle.camera_pitch_rad(world));
     const auto start = Clock::now();
     map.insert(images, T_world_camera);
     map_ms += ms_since(start);
@@ -93,22 +94,22 @@ class FlightSurvey {
     const std::vector<SeenObject> seen = find_objects(images, T_world_camera, options_.search);
     search_ms += ms_since(middle);
     ++images_taken;
-    const std::vector<int> ids = found.update(sightings_of(seen));
+    const std::vector<int> ids = found.update(detections_of(seen));
     const Pose T_true =
         vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
-    if (look) look({picture, T_true, seen, ids});
+    if (look) look({image, T_true, seen, ids});
   }
 
   FlightSurveyOptions options_;
 
  public:
   FlightLayout layout;
-  std::vector<ObjectOnStand> objects;
+  std::vector<ObjectOnSupport> objects;
   World world;
   Quadrotor vehicle;
-  Pilot pilot;
+  TrajectoryTrackingController tracking;
   FlightMap map;
-  FoundObjects found;
+  ObjectTracker found;
   double map_ms = 0.0;     ///< wall time in all
   double search_ms = 0.0;  ///< wall time in all
   int images_taken = 0;
@@ -165,19 +166,19 @@ inline void add(SurveyScore& score, const FlightSurvey& survey, const SurveyMome
     bool known = false;
     for (std::size_t i = 0; i < survey.objects.size(); ++i) {
       const double off_m =
-          (seen.sighting.p_world_object_m - survey.objects[i].p_world_m).head<2>().norm();
+          (seen.detection.p_world_object_m - survey.objects[i].p_world_m).head<2>().norm();
       if (off_m > 0.3) continue;
       known = true;
       reported[i] = 1;
-      if (!seen.sighting.whole) continue;
+      if (!seen.detection.whole) continue;
       score.error_m.push_back(off_m);
-      if (seen.sighting.distance_m > 2.0) continue;
+      if (seen.detection.distance_m > 2.0) continue;
       ++score.whole;
       score.whole_wrong += touches_border(moment.truth, body_of(i)) ? 1 : 0;
       score.overlap.push_back(overlap(seen.view, moment.truth, body_of(i)));
     }
     score.strangers += known ? 0 : 1;
-    score.whole_strangers += known || !seen.sighting.whole ? 0 : 1;
+    score.whole_strangers += known || !seen.detection.whole ? 0 : 1;
   }
   for (std::size_t i = 0; i < survey.objects.size(); ++i) {
     const double away_m =

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "vantage/planners/trajectory/observation_ring.hpp"
 #include "tests/tasks/trajectory/flight_survey.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
 
 namespace vantage {
 namespace {
@@ -18,12 +18,12 @@ using support::SurveyScore;
 class ObjectDiscovery : public testing::TestWithParam<int> {};
 
 /// How far off the nearest object is, level.
-double error_m(const FlightSurvey& survey, const FoundObject& found) {
-  double least_m = 1e9;
-  for (const ObjectOnStand& object : survey.objects) {
-    least_m = std::min(least_m, (found.p_world_object_m - object.p_world_m).head<2>().norm());
+double error_m(const FlightSurvey& survey, const TrackedObject& found) {
+  double min_m = 1e9;
+  for (const ObjectOnSupport& object : survey.objects) {
+    min_m = std::min(min_m, (found.p_world_object_m - object.p_world_m).head<2>().norm());
   }
-  return least_m;
+  return min_m;
 }
 
 /// Whether the map knows of an obstacle in the ball.
@@ -57,7 +57,7 @@ TEST_P(ObjectDiscovery, FindsEveryObjectAndNothingElseAlongTheInitialPath) {
       survey.fly([&](const SurveyMoment& moment) { add(score, survey, moment); });
 
   EXPECT_EQ(flight.status, FlightStatus::arrived);
-  EXPECT_EQ(survey.pilot.collisions(), 0);
+  EXPECT_EQ(survey.tracking.collisions(), 0);
   EXPECT_GT(flight.duration_s, 50.0);
   EXPECT_LT(flight.duration_s, 140.0);
 
@@ -77,13 +77,14 @@ TEST_P(ObjectDiscovery, FindsEveryObjectAndNothingElseAlongTheInitialPath) {
   std::ranges::sort(score.overlap);
   EXPECT_GT(score.overlap[score.overlap.size() / 2], 0.85);
 
-  const std::vector<FoundObject> found = survey.found.confirmed();
+  const std::vector<TrackedObject> found = survey.found.confirmed();
   EXPECT_EQ(found.size(), survey.objects.size());
-  for (const FoundObject& object : found) EXPECT_LT(error_m(survey, object), 0.08);
-  for (const Eigen::Vector3d& stand : survey.layout.stands_m) {
-    EXPECT_TRUE(blocks(survey.map, stand, 0.2)) << "the map has the stand";
-    if (pass_m(survey.layout, stand) > 0.85) continue;  // its far edge is never in the picture
-    EXPECT_FALSE(blocks(survey.map, stand + Eigen::Vector3d(0.0, 0.0, 1.0), 0.3))
+  for (const TrackedObject& object : found) EXPECT_LT(error_m(survey, object), 0.08);
+  for (const Eigen::Vector3d& support_surface : survey.layout.supports_m) {
+    EXPECT_TRUE(blocks(survey.map, support_surface, 0.2)) << "the map has the support surface";
+    if (pass_m(survey.layout, support_surface) > 0.85)
+      continue;  // its far edge is never in the image
+    EXPECT_FALSE(blocks(survey.map, support_surface + Eigen::Vector3d(0.0, 0.0, 1.0), 0.3))
         << "and nothing over it";
   }
 }

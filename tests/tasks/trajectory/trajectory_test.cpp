@@ -6,16 +6,16 @@
 #include <cmath>
 #include <set>
 
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/dataset/render_dataset.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
+#include "vantage/recognition/training.hpp"
 #include "vantage/runtime/replay.hpp"
 #include "vantage/tasks/run.hpp"
+#include "vantage/tasks/trajectory/flight_layout.hpp"
 #include "vantage/tasks/trajectory/trajectory_flight.hpp"
 #include "vantage/tasks/validate.hpp"
-#include "vantage/recognition/training.hpp"
-#include "tests/support/temporary_directory.hpp"
 
 namespace vantage {
 namespace {
@@ -56,10 +56,10 @@ class TrajectoryEpisode : public testing::Test {
     set_verbosity(Verbosity::quiet);
     folder_.emplace();
     make_small_model(*folder_ / "objects", *folder_ / "model");
-    past_a_stand_ = arena_with_path(*folder_ / "past",
-                                    "-2.67,-1.9,1.8,0\n-2.14,-1.9,1.8,0\n-1.61,-1.9,1.8,0\n"
-                                    "-1.08,-1.9,1.8,0\n-0.55,-1.9,1.8,0\n-0.02,-1.9,1.8,0\n");
-    first_ = metrics_of("first", past_a_stand_, {});
+    past_a_support_ = arena_with_path(*folder_ / "past",
+                                      "-2.67,-1.9,1.8,0\n-2.14,-1.9,1.8,0\n-1.61,-1.9,1.8,0\n"
+                                      "-1.08,-1.9,1.8,0\n-0.55,-1.9,1.8,0\n-0.02,-1.9,1.8,0\n");
+    first_ = metrics_of("first", past_a_support_, {});
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
@@ -70,7 +70,7 @@ class TrajectoryEpisode : public testing::Test {
         fmt::format("trajectory.database.objects={}", kObjects),
         "trajectory.recogniser.features=[]",
         "trajectory.camera={width_px: 320, height_px: 240}",
-        "trajectory.picture_rate_hz=5",
+        "trajectory.image_rate_hz=5",
         "trajectory.method={name: stomp, iterations: 10}"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
@@ -86,7 +86,7 @@ class TrajectoryEpisode : public testing::Test {
   }
 
   static inline std::optional<support::TemporaryDirectory> folder_;
-  static inline fs::path past_a_stand_;
+  static inline fs::path past_a_support_;
   static inline json first_;
   static inline ExitCode code_ = ExitCode::done;
 };
@@ -137,13 +137,13 @@ TEST_F(TrajectoryEpisode, ReplaysEveryState) {
 }
 
 TEST_F(TrajectoryEpisode, SameSeedSameFlight) {
-  const json again = metrics_of("again", past_a_stand_, {"threads=1"});
+  const json again = metrics_of("again", past_a_support_, {"threads=1"});
   EXPECT_EQ(again["state_hash"], first_["state_hash"]);
   EXPECT_EQ(again["mean_entropy_nats"], first_["mean_entropy_nats"]);
 }
 
 TEST_F(TrajectoryEpisode, FliesOnWhileASlowPlannerThinks) {
-  const json slow = metrics_of("slow", past_a_stand_, {"trajectory.latency_s=1.5"});
+  const json slow = metrics_of("slow", past_a_support_, {"trajectory.latency_s=1.5"});
   EXPECT_EQ(slow["status"], "completed");
   EXPECT_GT(slow["missed_deadlines"], 0);
   EXPECT_LT(slow["replans"], first_["replans"]);
@@ -180,25 +180,25 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
   const ResolvedEpisode episode =
       load_episode(kEpisode, overrides(arena_with_path(*folder_ / "on", rows), {}));
   const Recogniser recogniser = load_trajectory_recogniser(episode);
-  TrajectoryRig rig(episode, read_flight_layout(episode.scene).path.front());
+  TrajectoryRobotInterface robot(episode, read_flight_layout(episode.scene).path.front());
   fs::create_directories(*folder_ / "goes_on");
-  TrajectoryRecorder recorder(episode, rig, *folder_ / "goes_on", false, true);
-  TrajectoryFlight flight(episode, recogniser, rig, recorder);
+  TrajectoryRecorder recorder(episode, robot, *folder_ / "goes_on", false, true);
+  TrajectoryFlight flight(episode, recogniser, robot, recorder);
   const double latency_s = episode.episode.trajectory.latency_s;
   int went_on = 0;
   while (true) {
     flight.update(flight.observe());
     if (flight.finished()) break;
-    std::vector<WayOn> ways = flight.propose();
-    flight.score(ways);
-    const auto on = rig.path_on(latency_s);
-    ASSERT_EQ(ways.back().same_spline, on.has_value());
+    std::vector<CandidatePlan> candidates = flight.propose();
+    flight.score(candidates);
+    const auto on = robot.path_on(latency_s);
+    ASSERT_EQ(candidates.back().same_spline, on.has_value());
     const std::vector<Eigen::Vector4d> plan = flight.plan();
-    flight.act(ways.back());
+    flight.act(candidates.back());
     EXPECT_EQ(flight.plan(), plan);
     if (!on) continue;
     ++went_on;
-    const auto now = rig.path_on(0.0);
+    const auto now = robot.path_on(0.0);
     ASSERT_TRUE(now);
     EXPECT_EQ(now->knots_s().size(), on->knots_s().size());
     for (const double t_s : {0.0, 0.5, 1.0}) {
@@ -210,7 +210,7 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
 
 TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
   const Validation found =
-      validate_episode(kEpisode, overrides(past_a_stand_, {"trajectory.model=nowhere"}));
+      validate_episode(kEpisode, overrides(past_a_support_, {"trajectory.model=nowhere"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("nowhere"),
@@ -219,7 +219,7 @@ TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
 
 TEST_F(TrajectoryEpisode, AnUnknownMethodNamesThoseThereAre) {
   const Validation found =
-      validate_episode(kEpisode, overrides(past_a_stand_, {"trajectory.method=chomp"}));
+      validate_episode(kEpisode, overrides(past_a_support_, {"trajectory.method=chomp"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("chomp"), testing::HasSubstr("greedy_detour"),

@@ -13,39 +13,39 @@ using test::FlightWorld;
 constexpr double kSkid_m = 0.116;   // below the body's origin
 constexpr double kRotor_m = 0.222;  // beside it, the tip of the swept disc
 
-double least_m(const FlightWorld& scene) {
+double min_m(const FlightWorld& scene) {
   TrueClearance clearance(scene.world);
   clearance.update(scene.world);
-  return clearance.least_m();
+  return clearance.min_m();
 }
 
 TEST(TrueClearance, OfTheFloorIsFromTheSkids) {
-  const FlightWorld scene(test::sure_pilot(), test::at_height(1.0));
-  EXPECT_NEAR(least_m(scene), 1.0 - kSkid_m, 2e-3);
+  const FlightWorld scene(test::exact_tracking(), test::at_height(1.0));
+  EXPECT_NEAR(min_m(scene), 1.0 - kSkid_m, 2e-3);
 }
 
 TEST(TrueClearance, OfAWallIsFromTheRotorTips) {
-  const FlightWorld scene(test::sure_pilot(), test::at_height(3.0),
+  const FlightWorld scene(test::exact_tracking(), test::at_height(3.0),
                           R"(<geom type="box" pos="0 0.7 3" size="1 0.1 1"/>)");
-  EXPECT_NEAR(least_m(scene), 0.6 - kRotor_m, 2e-3);
+  EXPECT_NEAR(min_m(scene), 0.6 - kRotor_m, 2e-3);
 }
 
 TEST(TrueClearance, WhatCannotBeTouchedIsNotInTheWay) {
   const FlightWorld scene(
-      test::sure_pilot(), test::at_height(3.0),
+      test::exact_tracking(), test::at_height(3.0),
       R"(<geom type="box" pos="0 0.7 3" size="1 0.1 1" contype="0" conaffinity="0"/>)");
-  EXPECT_NEAR(least_m(scene), 3.0 - kSkid_m, 2e-3);
+  EXPECT_NEAR(min_m(scene), 3.0 - kSkid_m, 2e-3);
 }
 
 TEST(TrueClearance, IsTheLeastOfAllMoments) {
-  FlightWorld scene(test::sure_pilot(), test::at_height(1.0));
+  FlightWorld scene(test::exact_tracking(), test::at_height(1.0));
   TrueClearance clearance(scene.world);
   clearance.update(scene.world);
-  scene.pilot.fly_to(std::vector<FlightWaypoint>{{.p_world_m = {0.0, 0.0, 0.6}}});
+  scene.tracking.fly_to(std::vector<FlightWaypoint>{{.p_world_m = {0.0, 0.0, 0.6}}});
   clearance.update(scene.world);
-  scene.pilot.fly_to(std::vector<FlightWaypoint>{{.p_world_m = {0.0, 0.0, 1.2}}});
+  scene.tracking.fly_to(std::vector<FlightWaypoint>{{.p_world_m = {0.0, 0.0, 1.2}}});
   clearance.update(scene.world);
-  EXPECT_NEAR(clearance.least_m(), 0.6 - kSkid_m, 0.01);
+  EXPECT_NEAR(clearance.min_m(), 0.6 - kSkid_m, 0.01);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct ObjectPixels {
 struct OutlierOptions {
   double floor_m = 0.02;  ///< higher keeps a bowl's far wall, and more of what is behind an object
   /// Depth is taken along the line of sight to the mask's middle, not along the optical axis: the
-  /// same pixels then count wherever in the picture the object is.
+  /// same pixels then count wherever in the image the object is.
   bool along_sight = false;
 };
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "vantage/perception/clouds/point_cloud.hpp"
 #include "vantage/perception/features/kit/object_pixels.hpp"
 #include "vantage/perception/object_view.hpp"
-#include "vantage/perception/clouds/point_cloud.hpp"
 
 namespace vantage {
 

@@ -1,8 +1,8 @@
 /// Kernel descriptors of the patches of an attribute image.
 #pragma once
 
-#include "vantage/perception/features/patches/attribute_image.hpp"
 #include "vantage/perception/features/kit/object_pixels.hpp"
+#include "vantage/perception/features/patches/attribute_image.hpp"
 #include "vantage/perception/features/patches/patch_set.hpp"
 #include "vantage/perception/features/patches/product_basis.hpp"
 

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <vector>
 
+#include "vantage/perception/features/kit/k_means.hpp"
+#include "vantage/perception/features/kit/training_views.hpp"
 #include "vantage/perception/features/patches/attribute_image.hpp"
 #include "vantage/perception/features/patches/cloud_patches.hpp"
 #include "vantage/perception/features/patches/image_patches.hpp"
-#include "vantage/perception/features/kit/k_means.hpp"
-#include "vantage/perception/features/kit/training_views.hpp"
 
 namespace vantage {
 namespace {

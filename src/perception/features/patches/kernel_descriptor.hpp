@@ -10,10 +10,10 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/perception/features/kit/feature_result.hpp"
+#include "vantage/perception/features/kit/state_bytes.hpp"
 #include "vantage/perception/features/patches/match_kernel.hpp"
 #include "vantage/perception/features/patches/patch_set.hpp"
 #include "vantage/perception/features/patches/product_basis.hpp"
-#include "vantage/perception/features/kit/state_bytes.hpp"
 #include "vantage/perception/object_view.hpp"
 
 namespace vantage {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "vantage/core/fields.hpp"
-#include "vantage/perception/features/patches/patch_set.hpp"
 #include "vantage/perception/features/kit/state_bytes.hpp"
+#include "vantage/perception/features/patches/patch_set.hpp"
 
 namespace vantage {
 

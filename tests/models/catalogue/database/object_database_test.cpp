@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "vantage/models/catalogue/shapes/obj.hpp"
 #include "tests/models/catalogue/shapes/mesh_checks.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
 
 namespace vantage {
 namespace {
@@ -17,9 +17,9 @@ const DatabaseObject& first_of(const std::vector<DatabaseObject>& objects, auto&
 }
 
 const DatabaseObject& original_of(const std::vector<DatabaseObject>& objects,
-                                  const DatabaseObject& twin) {
+                                  const DatabaseObject& near_duplicate) {
   return first_of(objects, [&](const DatabaseObject& other) {
-    return other.family == twin.family && other.twin == Twin::original;
+    return other.family == near_duplicate.family && other.near_duplicate == NearDuplicate::original;
   });
 }
 
@@ -51,19 +51,20 @@ TEST(ObjectDatabase, Has326ObjectsIn51Categories) {
 TEST(ObjectDatabase, FamiliesAreTogetherAndBeginWithTheirOriginal) {
   const auto objects = object_database();
   std::set<std::string> seen;
-  std::map<Twin, int> kinds;
+  std::map<NearDuplicate, int> kinds;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    ++kinds[objects[i].twin];
+    ++kinds[objects[i].near_duplicate];
     const bool begins = i == 0 || objects[i].family != objects[i - 1].family;
-    EXPECT_EQ(objects[i].twin == Twin::original, begins) << objects[i].name;
+    EXPECT_EQ(objects[i].near_duplicate == NearDuplicate::original, begins) << objects[i].name;
     if (begins) {
       EXPECT_TRUE(seen.insert(objects[i].family).second) << objects[i].family;
     } else {
       EXPECT_EQ(objects[i].labelled, objects[i - 1].labelled);
     }
   }
-  for (const Twin twin : {Twin::larger, Twin::warmer, Twin::decal, Twin::back_label}) {
-    EXPECT_GE(kinds[twin], 25) << twin_name(twin);
+  for (const NearDuplicate near_duplicate : {NearDuplicate::larger, NearDuplicate::warmer,
+                                             NearDuplicate::decal, NearDuplicate::back_label}) {
+    EXPECT_GE(kinds[near_duplicate], 25) << near_duplicate_name(near_duplicate);
   }
 }
 
@@ -84,31 +85,33 @@ TEST(ObjectDatabase, AnObjectRepeatsAndFollowsItsSeed) {
   EXPECT_NE(to_obj(generate(object).mesh), to_obj(generate(object_database(2).front()).mesh));
 }
 
-TEST(Twins, LargerOnesAreLargerAndNothingElse) {
+TEST(NearDuplicateObjects, LargerOnesAreLargerAndNothingElse) {
   const auto objects = object_database();
-  const auto& twin = first_of(objects, [](const auto& o) { return o.twin == Twin::larger; });
-  const GeneratedObject a = generate(original_of(objects, twin));
-  const GeneratedObject b = generate(twin);
-  EXPECT_NEAR(b.height_m / a.height_m, kTwinScale, 1e-9);
+  const auto& near_duplicate =
+      first_of(objects, [](const auto& o) { return o.near_duplicate == NearDuplicate::larger; });
+  const GeneratedObject a = generate(original_of(objects, near_duplicate));
+  const GeneratedObject b = generate(near_duplicate);
+  EXPECT_NEAR(b.height_m / a.height_m, kNearDuplicateScale, 1e-9);
   EXPECT_EQ(a.texture, b.texture);
 }
 
-TEST(Twins, HuesDifferOnOneShape) {
+TEST(NearDuplicateObjects, HuesDifferOnOneShape) {
   const auto objects = object_database();
-  const auto& twin = first_of(objects, [](const auto& o) { return o.twin == Twin::warmer; });
-  const GeneratedObject a = generate(original_of(objects, twin));
-  const GeneratedObject b = generate(twin);
+  const auto& near_duplicate =
+      first_of(objects, [](const auto& o) { return o.near_duplicate == NearDuplicate::warmer; });
+  const GeneratedObject a = generate(original_of(objects, near_duplicate));
+  const GeneratedObject b = generate(near_duplicate);
   EXPECT_EQ(to_obj(a.mesh), to_obj(b.mesh));
   EXPECT_GT(changed_pixels(a.texture, b.texture), a.texture.rgb.size() / 4);
 }
 
-TEST(Twins, DecalsAreSeenFromOneSideOnly) {
+TEST(NearDuplicateObjects, DecalsAreSeenFromOneSideOnly) {
   const auto objects = object_database();
-  for (const auto& twin : objects) {
-    if (twin.twin != Twin::decal) continue;
-    SCOPED_TRACE(twin.name);
-    const GeneratedObject a = generate(original_of(objects, twin));
-    const GeneratedObject b = generate(twin);
+  for (const auto& near_duplicate : objects) {
+    if (near_duplicate.near_duplicate != NearDuplicate::decal) continue;
+    SCOPED_TRACE(near_duplicate.name);
+    const GeneratedObject a = generate(original_of(objects, near_duplicate));
+    const GeneratedObject b = generate(near_duplicate);
     ASSERT_GT(b.mesh.triangles.size(), a.mesh.triangles.size() + 100);
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     for (std::size_t i = a.mesh.positions_m.size(); i < b.mesh.positions_m.size(); ++i) {
@@ -120,13 +123,13 @@ TEST(Twins, DecalsAreSeenFromOneSideOnly) {
   }
 }
 
-TEST(Twins, BackLabelsDifferOnTheSameSheet) {
+TEST(NearDuplicateObjects, BackLabelsDifferOnTheSameSheet) {
   const auto objects = object_database();
-  for (const auto& twin : objects) {
-    if (twin.twin != Twin::back_label) continue;
-    SCOPED_TRACE(twin.name);
-    const GeneratedObject a = generate(original_of(objects, twin));
-    const GeneratedObject b = generate(twin);
+  for (const auto& near_duplicate : objects) {
+    if (near_duplicate.near_duplicate != NearDuplicate::back_label) continue;
+    SCOPED_TRACE(near_duplicate.name);
+    const GeneratedObject a = generate(original_of(objects, near_duplicate));
+    const GeneratedObject b = generate(near_duplicate);
     EXPECT_EQ(to_obj(a.mesh), to_obj(b.mesh));
     const std::size_t changed = changed_pixels(a.texture, b.texture);
     EXPECT_GT(changed, 3U * 96U * 10U);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "vantage/models/catalogue/shapes/mesh_builders.hpp"
 #include "tests/models/catalogue/shapes/mesh_checks.hpp"
+#include "vantage/models/catalogue/shapes/mesh_builders.hpp"
 
 namespace vantage {
 namespace {
@@ -32,7 +32,7 @@ Sticker sticker(double heading_rad, double size_m) {
           .middle = 0.5,
           .width_m = size_m,
           .height_m = size_m,
-          .picture = Image(32, 32, kRed)};
+          .sticker_image = Image(32, 32, kRed)};
 }
 
 TEST(Stickers, LieOnTheSideTheyAreSeenFrom) {

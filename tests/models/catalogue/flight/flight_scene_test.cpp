@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "vantage/models/catalogue/flight/flight_mjcf.hpp"
-#include "vantage/models/catalogue/database/object_database.hpp"
 #include "tests/models/catalogue/scene_files.hpp"
+#include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/models/catalogue/flight/flight_mjcf.hpp"
 
 namespace vantage {
 namespace {
@@ -45,17 +45,17 @@ TEST_P(FlightSceneFolder, LoadsWithStandsWhereTheLayoutSays) {
   const Model model = support::load_mjcf(kCheckedInScenes / GetParam().name / "scene.xml");
   ASSERT_NE(model, nullptr);
   EXPECT_EQ(model->nv, 0);
-  for (std::size_t i = 0; i < GetParam().stands.size(); ++i) {
-    const FlightStand& stand = GetParam().stands[i];
+  for (std::size_t i = 0; i < GetParam().support_surfaces.size(); ++i) {
+    const FlightSupport& support_surface = GetParam().support_surfaces[i];
     const std::string name = "stand_" + std::to_string(i);
     const int body = mj_name2id(model.get(), mjOBJ_BODY, name.c_str());
     const int top = mj_name2id(model.get(), mjOBJ_GEOM, (name + "/top").c_str());
     ASSERT_GT(body, 0);
     ASSERT_GE(top, 0);
-    EXPECT_NEAR(model->body_pos[3 * body], stand.p_world_m.x(), 1e-9);
-    EXPECT_NEAR(model->body_pos[3 * body + 1], stand.p_world_m.y(), 1e-9);
-    const double half_m = model->geom_size[3 * top + (stand.round ? 1 : 2)];
-    EXPECT_NEAR(model->geom_pos[3 * top + 2] + half_m, stand.top_m, 1e-9);
+    EXPECT_NEAR(model->body_pos[3 * body], support_surface.p_world_m.x(), 1e-9);
+    EXPECT_NEAR(model->body_pos[3 * body + 1], support_surface.p_world_m.y(), 1e-9);
+    const double half_m = model->geom_size[3 * top + (support_surface.round ? 1 : 2)];
+    EXPECT_NEAR(model->geom_pos[3 * top + 2] + half_m, support_surface.top_m, 1e-9);
     EXPECT_NE(model->geom_contype[top], 0);
   }
 }
@@ -63,9 +63,9 @@ TEST_P(FlightSceneFolder, LoadsWithStandsWhereTheLayoutSays) {
 TEST_P(FlightSceneFolder, ThePathKeepsClear) {
   EXPECT_GE(path_clearance_m(GetParam()), kVehicleRadius_m + 0.35);
   // The skids hang 0.12 m below the body's middle, objects are below 0.4 m.
-  for (const FlightStand& stand : GetParam().stands) {
-    EXPECT_GE(kPathHeight_m - 0.12 - (stand.top_m + 0.4), 0.35);
-    EXPECT_NEAR(kPathHeight_m - stand.top_m, 1.0, 0.05);
+  for (const FlightSupport& support_surface : GetParam().support_surfaces) {
+    EXPECT_GE(kPathHeight_m - 0.12 - (support_surface.top_m + 0.4), 0.35);
+    EXPECT_NEAR(kPathHeight_m - support_surface.top_m, 1.0, 0.05);
   }
 }
 
@@ -87,21 +87,23 @@ TEST_P(FlightSceneFolder, ThePathIsEvenAndLooksAhead) {
 TEST_P(FlightSceneFolder, StandsAreBesideThePathAndApart) {
   const FlightScene& scene = GetParam();
   const auto path = flight_path_points(scene);
-  for (std::size_t i = 0; i < scene.stands.size(); ++i) {
-    const double nearest_m = pass_m(path, scene.stands[i].p_world_m);
-    EXPECT_GT(nearest_m, 0.5) << "stand " << i;
-    EXPECT_LT(nearest_m, 1.1) << "stand " << i;
+  for (std::size_t i = 0; i < scene.support_surfaces.size(); ++i) {
+    const double nearest_m = pass_m(path, scene.support_surfaces[i].p_world_m);
+    EXPECT_GT(nearest_m, 0.5) << "support surface " << i;
+    EXPECT_LT(nearest_m, 1.1) << "support surface " << i;
     for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_GT((scene.stands[i].p_world_m - scene.stands[j].p_world_m).norm(), 1.4);
+      EXPECT_GT((scene.support_surfaces[i].p_world_m - scene.support_surfaces[j].p_world_m).norm(),
+                1.4);
     }
   }
 }
 
 TEST_P(FlightSceneFolder, SomeStandsAreTooFarAsideToBeSeenWholeFromWithinTwoMetres) {
   const auto path = flight_path_points(GetParam());
-  const auto far = std::ranges::count_if(GetParam().stands, [&](const FlightStand& stand) {
-    return pass_m(path, stand.p_world_m) > 0.85;
-  });
+  const auto far =
+      std::ranges::count_if(GetParam().support_surfaces, [&](const FlightSupport& support_surface) {
+        return pass_m(path, support_surface.p_world_m) > 0.85;
+      });
   EXPECT_GE(far, 1);
   EXPECT_LE(far, 3);
 }
@@ -112,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(All, FlightSceneFolder, testing::ValuesIn(flight_scenes
 TEST(FlightScene, NumbersAreThePublishedOnes) {
   std::vector<std::pair<int, std::size_t>> sizes;
   for (const FlightScene& scene : flight_scenes()) {
-    sizes.emplace_back(scene.waypoints, scene.stands.size());
+    sizes.emplace_back(scene.waypoints, scene.support_surfaces.size());
   }
   const std::vector<std::pair<int, std::size_t>> published{{45, 5}, {45, 7}, {56, 10}, {44, 4}};
   EXPECT_EQ(sizes, published);
@@ -123,8 +125,8 @@ TEST(FlightScene, InTheThirdObstaclesStandWhereOneWouldTurnAside) {
   ASSERT_GE(scene.obstacles.size(), 3U);
   for (const FlightObstacle& obstacle : scene.obstacles) {
     double nearest_m = 1e9;
-    for (const FlightStand& stand : scene.stands) {
-      nearest_m = std::min(nearest_m, (stand.p_world_m - obstacle.p_world_m).norm());
+    for (const FlightSupport& support_surface : scene.support_surfaces) {
+      nearest_m = std::min(nearest_m, (support_surface.p_world_m - obstacle.p_world_m).norm());
     }
     EXPECT_GT(nearest_m, 0.9);
     EXPECT_LT(nearest_m, 1.9);
@@ -136,7 +138,9 @@ TEST(FlightScene, EveryObjectOfTheDatabaseFitsOnAStand) {
   double widest_m = 0.0;
   double highest_m = 0.0;
   for (const DatabaseObject& object : object_database()) {
-    if (object.twin != Twin::original && object.twin != Twin::larger) continue;
+    if (object.near_duplicate != NearDuplicate::original &&
+        object.near_duplicate != NearDuplicate::larger)
+      continue;
     for (const auto& p : generate(object).mesh.positions_m) {
       widest_m = std::max(widest_m, p.head<2>().norm());
       highest_m = std::max(highest_m, p.z());

@@ -5,9 +5,9 @@
 
 #include <set>
 
-#include "vantage/models/catalogue/shapes/obj.hpp"
-#include "vantage/core/error.hpp"
 #include "tests/models/catalogue/shapes/mesh_checks.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
 
 namespace vantage {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <string>
 
-#include "vantage/models/catalogue/shapes/obj.hpp"
-#include "tests/models/catalogue/shapes/mesh_checks.hpp"
 #include "tests/models/catalogue/scene_files.hpp"
+#include "tests/models/catalogue/shapes/mesh_checks.hpp"
+#include "vantage/models/catalogue/shapes/obj.hpp"
 
 namespace vantage {
 namespace {

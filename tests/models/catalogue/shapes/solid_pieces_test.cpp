@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "vantage/models/catalogue/shapes/mesh_builders.hpp"
 #include "vantage/models/catalogue/office/office_furniture.hpp"
+#include "vantage/models/catalogue/shapes/mesh_builders.hpp"
 
 namespace vantage {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/shapes/footprint.hpp"
 #include "vantage/models/catalogue/table/scene_mjcf.hpp"
-#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {

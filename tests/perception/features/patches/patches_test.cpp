@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "tests/support/object_views.hpp"
 #include "vantage/perception/features/patches/cloud_patches.hpp"
 #include "vantage/perception/features/patches/image_patches.hpp"
 #include "vantage/perception/features/patches/kernel_descriptor.hpp"
-#include "tests/support/object_views.hpp"
 
 namespace vantage {
 namespace {

@@ -57,7 +57,7 @@ TEST(Stomp, StraightensABentFlight) {
 
 TEST(StompOptions, AreChecked) {
   EXPECT_THROW(check_options(Stomp{.rollouts = 1}), ConfigError);
-  EXPECT_THROW(check_options(Stomp{.sensitivity = 0.0}), ConfigError);
+  EXPECT_THROW(check_options(Stomp{.inverse_temperature = 0.0}), ConfigError);
   EXPECT_THROW(check_options(Stomp{.noise = {.decay = 1.5}}), ConfigError);
 }
 

@@ -32,7 +32,7 @@ class EveryOptimiser : public ::testing::TestWithParam<std::string_view> {
     return optimise(make_strategy<TrajectoryOptimiser>(GetParam()), horizon, cost, rng);
   }
 
-  SurfaceDistance surface_ = testing::columns({{3.0, -0.25}, {1.5, 2.1}});
+  Esdf surface_ = testing::columns({{3.0, -0.25}, {1.5, 2.1}});
   FlightCamera camera_;
   FlightSurroundings scene_;
   Horizon horizon_ = testing::straight_flight();

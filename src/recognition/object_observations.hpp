@@ -1,0 +1,118 @@
+/// Beliefs about the objects found in flight, and which detections count as observations.
+/// [Potthast2016, 5.3]
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "vantage/geometry/object_detection.hpp"
+#include "vantage/geometry/pose.hpp"
+#include "vantage/planners/trajectory/observation_ring.hpp"
+#include "vantage/recognition/recognition.hpp"
+
+namespace vantage {
+
+/// Which detections are taken as observations: one from each direction of ObservationRing, of
+/// objects that are not known yet, where the expected information is large enough. Of a direction
+/// the nearest image is the observation.
+struct ObservationOptions {
+  double range_m = 2.0;           ///< camera to object; higher sees more and worse
+  double known_below_nats = 0.1;  ///< entropy of the object below which it is known
+  bool observe_known = false;     ///< go on observing what is known
+  /// Expected information about the object from that direction; higher observes less. 0: every
+  /// direction counts.
+  double min_gain_nats = 0.03;
+  /// Between the bearings of an object's observations; lower takes two from hardly another side.
+  double apart_rad = 0.3;
+  /// An image from nearer than that is taken once none was nearer for `patience_s`, or the
+  /// direction was left. Higher takes more images that a nearer one would have made needless.
+  double near_m = 1.3;
+  double patience_s = 0.5;  ///< higher waits for better images; 0 takes the first
+  /// Those from farther off are taken when the object was not in view for so long, the nearest
+  /// first, as long as it is not known.
+  double left_after_s = 2.0;
+  void fields(auto&& f) {
+    f("range_m", range_m, Range{0.0, 20.0, true});
+    f("known_below_nats", known_below_nats, at_least(0.0));
+    f("observe_known", observe_known);
+    f("min_gain_nats", min_gain_nats, at_least(0.0));
+    f("apart_rad", apart_rad, between(0.0, 3.0));
+    f("near_m", near_m, at_least(0.0));
+    f("patience_s", patience_s, between(0.0, 100.0));
+    f("left_after_s", left_after_s, between(0.0, 100.0));
+  }
+};
+
+/// An observation.
+struct ObjectObservation {
+  double time_s = 0.0;       ///< simulated
+  double bearing_rad = 0.0;  ///< from the object to the camera, world
+  int direction = 0;         ///< that it uses up
+  double distance_m = 0.0;
+  double elevation_rad = 0.0;  ///< of the camera above the object
+  int pixels = 0;              ///< that show the object
+  ViewReport report;
+  double entropy_nats = 0.0;  ///< of the object, after it
+  std::string estimate;       ///< the most probable object, after it
+  double map_probability = 0.0;
+  Pose T_world_camera = Pose::Identity();  ///< as estimated
+};
+
+/// One object that was found.
+struct RecognisedObject {
+  int id = 0;  ///< of TrackedObject
+  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
+  Recognition recognition;
+  std::array<bool, kObservationDirections> used{};
+  std::vector<ObjectObservation> observations = {};
+  /// Expected information of an observation from each direction; the same guess for all of an
+  /// object that was never observed.
+  std::array<double, kObservationDirections> gain_nats{};
+};
+
+class ObjectObservations {
+ public:
+  /// @param recogniser outlives this
+  ObjectObservations(const Recogniser& recogniser, const ObservationOptions& options,
+                     const TransitionModel& transition);
+
+  /// Where the object of that id is believed to be; the first time is the first one hears of it.
+  void found(int id, const Eigen::Vector3d& p_world_m);
+  /// It turned out to be another one.
+  void forget(int id);
+
+  /// Whether a detection of the object from there would be an observation.
+  [[nodiscard]] bool wants(int id, const ObjectDetection& detection,
+                           const Pose& T_world_camera) const;
+  /// That the object of that id is seen from.
+  [[nodiscard]] int direction(int id, const Pose& T_world_camera) const;
+  /// Takes it. @param rng of feature choices, of which there are none as long as all are extracted
+  const ObjectObservation& take(int id, const ObjectDetection& detection, const ObjectView& view,
+                                const Pose& T_world_camera, double time_s, Rng& rng);
+
+  [[nodiscard]] const std::vector<RecognisedObject>& objects() const { return objects_; }
+  [[nodiscard]] double entropy_nats(const RecognisedObject& object) const;
+  [[nodiscard]] bool known(const RecognisedObject& object) const;
+  [[nodiscard]] int total() const { return total_; }  ///< observations, of forgotten ones too
+  [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
+  /// The most probable object.
+  [[nodiscard]] const std::string& estimate(const RecognisedObject& object) const;
+  [[nodiscard]] double map_probability(const RecognisedObject& object) const;
+
+ private:
+  [[nodiscard]] RecognisedObject& of(int id);
+  [[nodiscard]] std::array<double, kObservationDirections> gains_nats(
+      const RecognisedObject& object) const;
+  [[nodiscard]] const RecognisedObject* find(int id) const;
+
+  const Recogniser& recogniser_;
+  ObservationOptions options_;
+  RecognitionOptions recognition_;
+  std::vector<RecognisedObject> objects_;
+  int total_ = 0;
+};
+
+}  // namespace vantage

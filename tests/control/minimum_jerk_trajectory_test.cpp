@@ -1,0 +1,147 @@
+#include "vantage/control/minimum_jerk_trajectory.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "vantage/core/error.hpp"
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+std::vector<FlightWaypoint> random_waypoints(std::size_t count, std::uint64_t seed) {
+  Rng rng(seed);
+  std::vector<FlightWaypoint> waypoints(count);
+  for (FlightWaypoint& waypoint : waypoints) {
+    waypoint.p_world_m = {rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0), rng.uniform(0.5, 2.0)};
+    waypoint.yaw_rad = rng.uniform(-3.1, 3.1);
+  }
+  return waypoints;
+}
+
+TEST(MinimumJerkTrajectory, RestToRestIsTheQuinticOfLeastJerk) {
+  const FlightWaypoint goal{.p_world_m = {2.0, 0.0, 0.0}};
+  const MinimumJerkTrajectory path({}, std::span(&goal, 1));
+  const double T = path.duration_s();
+  EXPECT_NEAR(T, 1.875 * 2.0 / 1.0, 1e-3) << "peak speed is 15/8 of the mean";
+  for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+    const double expected = 2.0 * (10.0 * s * s * s - 15.0 * s * s * s * s + 6.0 * std::pow(s, 5));
+    EXPECT_NEAR(path.at(s * T).p_world_m.x(), expected, 1e-9) << s;
+  }
+}
+
+RC_GTEST_PROP(MinimumJerkTrajectory, PassesItsWaypointsAndKeepsTheLimits, ()) {
+  const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 12));
+  const auto waypoints = random_waypoints(count, *rc::gen::arbitrary<std::uint64_t>());
+  const FlightLimits limits{.speed_m_s = 0.8, .acceleration_m_s2 = 1.5, .yaw_rate_rad_s = 0.7};
+  const MinimumJerkTrajectory path({.p_world_m = {0.0, 0.0, 1.0}, .yaw_rad = 0.3}, waypoints,
+                                   limits);
+  RC_ASSERT(path.knots_s().size() == count + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const FlightReference there = path.at(path.knots_s()[i + 1]);
+    RC_ASSERT((there.p_world_m - waypoints[i].p_world_m).norm() < 1e-6);
+    RC_ASSERT(std::abs(wrap_angle(there.yaw_rad - waypoints[i].yaw_rad)) < 1e-6);
+  }
+  for (double t = 0.0; t < path.duration_s(); t += 0.01) {
+    const FlightReference now = path.at(t);
+    RC_ASSERT(now.v_world_m_s.norm() < 1.02 * limits.speed_m_s);
+    RC_ASSERT(now.a_world_m_s2.norm() < 1.05 * limits.acceleration_m_s2);
+    RC_ASSERT(std::abs(now.yaw_rate_rad_s) < 1.02 * limits.yaw_rate_rad_s);
+  }
+}
+
+TEST(MinimumJerkTrajectory, DerivativesAreThoseOfThePosition) {
+  const auto waypoints = random_waypoints(5, 3);
+  const MinimumJerkTrajectory path({.p_world_m = {0.0, 0.0, 1.0}}, waypoints);
+  constexpr double kStep_s = 1e-4;
+  for (double t = 0.05; t < path.duration_s() - 0.05; t += 0.173) {
+    const FlightReference a = path.at(t - kStep_s);
+    const FlightReference b = path.at(t);
+    const FlightReference c = path.at(t + kStep_s);
+    EXPECT_LT(((c.p_world_m - a.p_world_m) / (2 * kStep_s) - b.v_world_m_s).norm(), 1e-5);
+    EXPECT_LT(((c.v_world_m_s - a.v_world_m_s) / (2 * kStep_s) - b.a_world_m_s2).norm(), 1e-4);
+    EXPECT_LT(((c.a_world_m_s2 - a.a_world_m_s2) / (2 * kStep_s) - b.j_world_m_s3).norm(), 1e-2);
+    EXPECT_NEAR(wrap_angle(c.yaw_rad - a.yaw_rad) / (2 * kStep_s), b.yaw_rate_rad_s, 1e-5);
+  }
+}
+
+TEST(MinimumJerkTrajectory, IsSmoothAtItsKnots) {
+  const auto waypoints = random_waypoints(6, 8);
+  const MinimumJerkTrajectory path({.p_world_m = {0.0, 0.0, 1.0}}, waypoints);
+  for (std::size_t i = 1; i + 1 < path.knots_s().size(); ++i) {
+    const double t = path.knots_s()[i];
+    const FlightReference before = path.at(t - 1e-7);
+    const FlightReference after = path.at(t + 1e-7);
+    EXPECT_LT((after.v_world_m_s - before.v_world_m_s).norm(), 1e-5);
+    EXPECT_LT((after.a_world_m_s2 - before.a_world_m_s2).norm(), 1e-5);
+    EXPECT_LT((after.j_world_m_s3 - before.j_world_m_s3).norm(), 1e-4);
+    EXPECT_GT(before.j_world_m_s3.norm(), 1e-2);
+  }
+}
+
+TEST(MinimumJerkTrajectory, BeginsAsTheReferenceIsAndEndsAtRest) {
+  const FlightReference start{.p_world_m = {1.0, 2.0, 3.0},
+                              .v_world_m_s = {0.5, 0.1, 0.0},
+                              .a_world_m_s2 = {0.0, 0.3, 0.0},
+                              .yaw_rad = 1.0,
+                              .yaw_rate_rad_s = 0.2};
+  const FlightWaypoint goal{.p_world_m = {4.0, 3.0, 2.0}, .yaw_rad = 2.0};
+  const MinimumJerkTrajectory path(start, std::span(&goal, 1));
+  const FlightReference first = path.at(0.0);
+  EXPECT_TRUE(first.p_world_m.isApprox(start.p_world_m, 1e-12));
+  EXPECT_TRUE(first.v_world_m_s.isApprox(start.v_world_m_s, 1e-12));
+  EXPECT_TRUE(first.a_world_m_s2.isApprox(start.a_world_m_s2, 1e-12));
+  EXPECT_NEAR(first.yaw_rate_rad_s, 0.2, 1e-12);
+  for (const double late_s : {0.0, 10.0}) {
+    const FlightReference last = path.at(path.duration_s() + late_s);
+    EXPECT_TRUE(last.p_world_m.isApprox(goal.p_world_m, 1e-9));
+    EXPECT_LT(last.v_world_m_s.norm(), 1e-9);
+    EXPECT_LT(last.a_world_m_s2.norm(), 1e-9);
+    EXPECT_NEAR(last.yaw_rad, 2.0, 1e-9);
+  }
+}
+
+TEST(MinimumJerkTrajectory, TurnsTheShortWay) {
+  const FlightWaypoint goal{.p_world_m = {0.0, 0.0, 1.0}, .yaw_rad = -3.0};
+  const MinimumJerkTrajectory path({.p_world_m = {0.0, 0.0, 1.0}, .yaw_rad = 3.0},
+                                   std::span(&goal, 1));
+  EXPECT_LT(path.duration_s(), 1.0);
+  EXPECT_NEAR(std::abs(path.at(path.duration_s() / 2.0).yaw_rad), std::numbers::pi, 1e-6);
+  EXPECT_GT(path.at(path.duration_s() / 2.0).yaw_rate_rad_s, 0.1);
+}
+
+TEST(MinimumJerkTrajectory, StaysWhereItIs) {
+  const FlightWaypoint here{.p_world_m = {1.0, 1.0, 1.0}, .yaw_rad = 0.5};
+  const MinimumJerkTrajectory path({.p_world_m = {1.0, 1.0, 1.0}, .yaw_rad = 0.5},
+                                   std::span(&here, 1));
+  EXPECT_LE(path.duration_s(), 0.2);
+  EXPECT_TRUE(path.at(0.05).p_world_m.isApprox(here.p_world_m, 1e-12));
+}
+
+TEST(MinimumJerkTrajectory, WhatIsLeftOfItIsTheSamePath) {
+  const auto waypoints = random_waypoints(5, 11);
+  const MinimumJerkTrajectory path({.p_world_m = {0.0, 0.0, 1.0}, .yaw_rad = 3.0}, waypoints);
+  for (const double since_s : {0.0, 0.3, path.knots_s()[2], 0.99 * path.duration_s()}) {
+    const MinimumJerkTrajectory rest = path.from(since_s);
+    EXPECT_NEAR(rest.duration_s(), path.duration_s() - since_s, 1e-12);
+    for (double t = 0.0; t < rest.duration_s(); t += 0.07) {
+      const FlightReference a = rest.at(t);
+      const FlightReference b = path.at(since_s + t);
+      EXPECT_LT((a.p_world_m - b.p_world_m).norm(), 1e-9);
+      EXPECT_LT((a.a_world_m_s2 - b.a_world_m_s2).norm(), 1e-6);
+      EXPECT_NEAR(wrap_angle(a.yaw_rad - b.yaw_rad), 0.0, 1e-9);
+    }
+  }
+  EXPECT_EQ(path.from(path.knots_s()[2]).knots_s().size(), path.knots_s().size() - 2);
+}
+
+TEST(MinimumJerkTrajectory, RefusesLimitsOutOfRange) {
+  const FlightWaypoint goal{.p_world_m = {2.0, 0.0, 0.0}};
+  EXPECT_THROW(MinimumJerkTrajectory({}, std::span(&goal, 1), {.speed_m_s = 0.0}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

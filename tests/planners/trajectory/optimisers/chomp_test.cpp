@@ -1,0 +1,53 @@
+#include "vantage/planners/trajectory/optimisers/chomp.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planners/trajectory/straight_flight.hpp"
+
+namespace vantage {
+namespace {
+
+/// (x - 1)^2 + 2 y^2 of a point, and its squared distance from the one before.
+void made_up_cost(const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) {
+  for (Eigen::Index i = 0; i < horizon.count(); ++i) {
+    const Eigen::Vector4d here = horizon.point(i);
+    cost_of_point[i] = (here[0] - 1.0) * (here[0] - 1.0) + 2.0 * here[1] * here[1] +
+                       (here - horizon.point(i - 1)).head<3>().squaredNorm();
+  }
+}
+
+TEST(PathGradient, AgreesWithOneCoordinateAtATime) {
+  Horizon horizon = testing::straight_flight(7);
+  Rng rng(2);
+  for (double& value : horizon.points.reshaped()) value += 0.2 * rng.normal();
+  const PathCost cost = made_up_cost;
+  PathSearch search(horizon, cost);
+  const Eigen::Matrix4Xd here = search.nominal();
+  PathGradient gradient_at(5);
+  const Eigen::Matrix4Xd gradient = gradient_at(search, here, 1e-6);
+  EXPECT_EQ(search.evaluations(), 1 + 12);
+  for (Eigen::Index k = 0; k < here.size(); ++k) {
+    Eigen::Matrix4Xd up = here;
+    Eigen::Matrix4Xd down = here;
+    up(k) += 1e-5;
+    down(k) -= 1e-5;
+    EXPECT_NEAR(gradient(k), (search.evaluate(up) - search.evaluate(down)) / 2e-5, 1e-4) << k;
+  }
+}
+
+TEST(Chomp, ReachesTheMinimumOfAQuadratic) {
+  // Its gradient vanishes there.
+  const PathCost cost = made_up_cost;
+  const Horizon horizon = testing::straight_flight(7);
+  Rng rng(1);
+  const auto result = Chomp{.difference = 1e-6}(horizon, cost, rng);
+  Horizon best = horizon;
+  best.points = result.points;
+  PathSearch search(best, cost);
+  PathGradient gradient_at(5);
+  EXPECT_LT(gradient_at(search, search.nominal(), 1e-6).cwiseAbs().maxCoeff(), 2e-3);
+  EXPECT_LT(result.cost, result.initial_cost);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,73 @@
+// The path that a flight leads on to, told before it is taken.
+#include "vantage/tasks/trajectory/trajectory_robot_interface.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kSource = VANTAGE_SOURCE_DIR;
+
+FlightWaypoint at(double x_m, double y_m, double yaw_rad) {
+  return {.p_world_m = {x_m, y_m, 1.8}, .yaw_rad = yaw_rad};
+}
+
+const ImageCallback kNothing = [](const FlightImage&) {};
+
+class Interface : public testing::Test {
+ protected:
+  const ResolvedEpisode episode_ = load_episode(
+      kSource / "assets/episodes/trajectory.yaml",
+      {fmt::format("scene={}", (kSource / "models/scenes/trajectory_4/scene.xml").string()),
+       "trajectory.camera={width_px: 32, height_px: 24}"});
+};
+
+TEST_F(Interface, TellsThePathThatItLeadsOnTo) {
+  TrajectoryRobotInterface robot(episode_, at(-2.7, -1.9, 0.0));
+  robot.follow(std::vector{at(-2.5, -1.9, 0.0), at(-2.1, -1.8, 0.2), at(-1.6, -1.8, 0.4)});
+  robot.fly_for(0.9, kNothing);
+  const std::vector<FlightWaypoint> others = {at(-1.6, -1.9, 0.0), at(-1.0, -1.9, -0.3)};
+  constexpr double kDelay_s = 0.4;
+  const int passed = robot.passed(kDelay_s);
+  const MinimumJerkTrajectory told = robot.path_in(kDelay_s, others);
+  const MinimumJerkTrajectory from_here = robot.path_in(0.0, others);
+  robot.fly_for(kDelay_s, kNothing);
+  EXPECT_EQ(robot.passed(), passed);
+  robot.follow(others);
+  for (int i = 1; i <= 4; ++i) {
+    robot.fly_for(0.25, kNothing);
+    const Eigen::Vector3d p_m = robot.path_in(0.0, others).at(0.0).p_world_m;
+    EXPECT_NEAR((told.at(0.25 * i).p_world_m - p_m).norm(), 0.0, 1e-6);
+    EXPECT_GT((from_here.at(0.25 * i).p_world_m - p_m).norm(), 0.01) << "a delay makes another";
+  }
+}
+
+TEST_F(Interface, TellsWhatIsLeftOfThePathThatItFlies) {
+  TrajectoryRobotInterface robot(episode_, at(-2.7, -1.9, 0.0));
+  EXPECT_FALSE(robot.path_on(0.1)) << "none yet";
+  robot.follow(std::vector{at(-2.5, -1.9, 0.0), at(-2.1, -1.8, 0.2), at(-1.6, -1.8, 0.4),
+                           at(-1.1, -1.9, 0.0), at(-0.6, -1.9, 0.0)});
+  robot.fly_for(0.9, kNothing);
+  constexpr double kDelay_s = 0.4;
+  const auto on = robot.path_on(kDelay_s);
+  ASSERT_TRUE(on);
+  EXPECT_EQ(on->knots_s().size(), 6U - static_cast<std::size_t>(robot.passed(kDelay_s)));
+  robot.fly_for(kDelay_s, kNothing);
+  for (const double t : {0.0, 0.1, 0.2, 0.3}) {
+    const auto now = robot.path_on(0.0);
+    ASSERT_TRUE(now);
+    EXPECT_NEAR((on->at(t).p_world_m - now->at(0.0).p_world_m).norm(), 0.0, 1e-6);
+    robot.fly_for(0.1, kNothing);
+  }
+  ASSERT_LE(robot.passed(), 2);
+  robot.fly_past(2 - robot.passed(), kNothing);
+  EXPECT_TRUE(robot.path_on(0.0)) << "three are left";
+  robot.fly_past(1, kNothing);
+  EXPECT_FALSE(robot.path_on(0.0)) << "two are left";
+}
+
+}  // namespace
+}  // namespace vantage
