@@ -33,7 +33,7 @@ void add_states(GaussianStatistics& statistics, int states);
 void add_view(GaussianStatistics& statistics, int state,
               const Eigen::Ref<const Eigen::VectorXf>& feature);
 
-/// Adds the views of `other`, which has the same dimensions and states.  [Chan1983]
+/// Adds the views of `other`, which has the same dimensions and states.  [ChanGolubLeVeque1983]
 void merge(GaussianStatistics& statistics, const GaussianStatistics& other);
 
 /// Drawn towards what the states have in common: (nu0 s_pool^2 + d) / (nu0 + n - 1), where n is the
