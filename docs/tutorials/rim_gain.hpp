@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string_view>
+
+#include "vantage/core/fields.hpp"
+#include "vantage/geometry/face_neighbours.hpp"
+#include "vantage/planners/visibility/attenuated_ray.hpp"
+
+namespace vantage {
+
+/// The unobserved cells that touch a known surface, each weighted by the transmittance up to it.
+struct RimGain {
+  static constexpr std::string_view name = "rim";
+  static constexpr std::string_view unit = "cells";
+  static constexpr bool predicts_cells = false;
+  double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
+  void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
+
+  static constexpr bool unobserved_only = true;
+  using Ray = AttenuatedRay;
+
+  [[nodiscard]] CellTables prepare(const GainContext& context) const {
+    const GridFrame& frame = context.grid.frame;
+    CellTables tables = attenuation_tables(
+        context.grid, {.transmission = uniform_field(frame.cells, a), .by_entropy = false});
+    const auto occupied = [&](std::size_t cell) {
+      return tables.state[cell] == CellState::occupied;
+    };
+    for (std::size_t cell = 0; cell < context.grid.size(); ++cell) {
+      if (!any_face_neighbour(frame, frame.cell(cell), occupied)) tables.utility[cell] = 0.0F;
+    }
+    return tables;
+  }
+  [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
+};
+
+}  // namespace vantage
