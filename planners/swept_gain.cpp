@@ -11,21 +11,57 @@ namespace {
 
 /// Views from one position.
 struct Station {
-  std::vector<ViewCone> views;
+  std::vector<SweptView> views;
   std::vector<std::size_t> candidates;  ///< index of each view in the list of candidates
 };
 
-std::vector<Station> stations_of(std::span<const Candidate> candidates, const FieldOfView& field) {
+std::vector<Station> stations_of(std::span<const Candidate> candidates, const FieldOfView& field,
+                                 const SweepOptions& options) {
   std::vector<Station> stations;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ViewCone view(candidates[i].T_world_sensor, field);
     auto station = std::ranges::find_if(
-        stations, [&](const Station& s) { return s.views.front().apex_m() == view.apex_m(); });
+        stations, [&](const Station& s) { return s.views.front().cone.apex_m() == view.apex_m(); });
     if (station == stations.end()) station = stations.emplace(stations.end());
-    station->views.push_back(view);
+    station->views.push_back({view, options});
     station->candidates.push_back(i);
   }
   return stations;
+}
+
+/// The sum of each of the `count` candidates; 0 for those of no station.
+std::vector<SampledSum> sum_views(const SweepTables& tables, std::span<const Station> stations,
+                                  std::size_t count, int threads) {
+  std::vector<std::vector<SampledSum>> parts(stations.size() * kPyramids.size());
+  parallel_for(parts.size(), threads, [&](std::size_t i) {
+    parts[i] = sweep_pyramid(tables, stations[i / kPyramids.size()].views,
+                             kPyramids[i % kPyramids.size()]);
+  });
+  std::vector<SampledSum> sums(count);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Station& station = stations[i / kPyramids.size()];
+    for (std::size_t view = 0; view < station.views.size(); ++view) {
+      sums[station.candidates[view]] += parts[i][view];
+    }
+  }
+  return sums;
+}
+
+/// The stations with views that are not settled, rays to be walked for those alone. The others keep
+/// their part in how far the light is worked out, so that it is the same again.
+std::vector<Station> unsettled(std::span<const SampledSum> sums,
+                               std::span<const Station> stations) {
+  std::vector<Station> left;
+  for (Station station : stations) {
+    bool any = false;
+    for (std::size_t view = 0; view < station.views.size(); ++view) {
+      const bool settled = sums[station.candidates[view]].is_settled();
+      station.views[view].options = settled ? kNoRays : kEveryRay;
+      any = any || !settled;
+    }
+    if (any) left.push_back(std::move(station));
+  }
+  return left;
 }
 
 }  // namespace
@@ -54,18 +90,15 @@ std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& contex
       },
       gain);
   const SweepTables tables(context.grid, attenuation, threads);
-  const auto stations = stations_of(candidates, field_of_view);
-  std::vector<std::vector<double>> parts(stations.size() * kPyramids.size());
-  parallel_for(parts.size(), threads, [&](std::size_t i) {
-    parts[i] = sweep_pyramid(tables, stations[i / kPyramids.size()].views,
-                             kPyramids[i % kPyramids.size()], options);
-  });
-  std::vector<double> gains_bits(candidates.size(), 0.0);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Station& station = stations[i / kPyramids.size()];
-    for (std::size_t view = 0; view < station.views.size(); ++view) {
-      gains_bits[station.candidates[view]] += parts[i][view];
-    }
+  const auto stations = stations_of(candidates, field_of_view, options);
+  const auto sums = sum_views(tables, stations, candidates.size(), threads);
+  const auto exact = sum_views(tables, unsettled(sums, stations), candidates.size(), threads);
+  std::vector<double> gains_bits;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double gain_bits =
+        sums[i].is_settled() ? sums[i].estimate : sums[i].settled_by(exact[i].estimate);
+    // Below zero is rounding, or half a sample more than four standard errors off.
+    gains_bits.push_back(std::max(gain_bits, 0.0));
   }
   return gains_bits;
 }

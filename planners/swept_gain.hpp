@@ -15,9 +15,8 @@ namespace vantage {
 bool can_sweep(const Gain& gain);
 
 /// Gain in bits of each candidate; what exact_gains_bits gives up to interpolation, several ten
-/// times faster. Candidates at one position share a sweep. The result does not depend on `threads`
-/// (at least 1).
-/// The gain must satisfy can_sweep().
+/// times faster, and like it never below zero. Candidates at one position share a sweep. The result
+/// does not depend on `threads` (at least 1). The gain must satisfy can_sweep().
 std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& context,
                                      std::span<const Candidate> candidates,
                                      const FieldOfView& field_of_view, int threads,

@@ -21,21 +21,18 @@ constexpr float kPlain = 0.998F;
 
 class PyramidSweep {
  public:
-  PyramidSweep(const SweepTables& tables, std::span<const ViewCone> views, const Pyramid& pyramid,
-               const SweepOptions& options)
+  PyramidSweep(const SweepTables& tables, std::span<const SweptView> views, const Pyramid& pyramid)
       : tables_(tables),
         frame_(tables.frame),
         cells_(tables.layers[static_cast<std::size_t>(pyramid.axis)].get()),
         views_(views),
         pyramid_(pyramid),
-        tolerance_(options.tolerance),
         axes_(sweep_axes(pyramid.axis)),
         nu_(frame_.cells[axes_.u]),
         nv_(frame_.cells[axes_.v]),
         nw_(frame_.cells[axes_.w]),
-        source_(
-            ((views.front().apex_m() - frame_.min_corner_m).array() / frame_.cell_size_m.array() -
-             0.5)),
+        apex_m_(views.front().cone.apex_m()),
+        source_((apex_m_ - frame_.min_corner_m).array() / frame_.cell_size_m.array() - 0.5),
         step_u_(Eigen::Vector3d::Unit(axes_.u) * frame_.cell_size_m[axes_.u]),
         before_(nu_, nv_),
         current_(nu_, nv_),
@@ -43,16 +40,17 @@ class PyramidSweep {
         slanted_(static_cast<std::size_t>(nu_) + 2 * TransmittanceLayer::kPadding, 0.0F),
         utility_(static_cast<std::size_t>(nu_) + kLanes),
         in_view_(views.size() * static_cast<std::size_t>(nv_)),
-        sums_bits_(views.size(), 0.0),
-        partly_seen_(views.size(), PartlySeen(options.rays_per_view)) {
-    for (const ViewCone& view : views) {
-      bounds_.emplace_back(view, step_u_);
-      meets_.push_back(meets(view));
+        sums_bits_(views.size(), 0.0) {
+    for (const auto& [cone, options] : views) {
+      bounds_.emplace_back(cone, step_u_);
+      meets_.push_back(meets(cone));
+      partly_seen_.emplace_back(options.rays_per_view, options.first_share);
     }
   }
 
-  std::vector<double> run() {
-    if (std::ranges::none_of(meets_, [](auto meets) { return meets != 0; })) return sums_bits_;
+  std::vector<SampledSum> run() {
+    std::vector<SampledSum> corrected(views_.size());
+    if (std::ranges::none_of(meets_, [](auto meets) { return meets != 0; })) return corrected;
     const double from = source_[axes_.w];
     const int step = pyramid_.ascending ? 1 : -1;
     const int first = CellSpan::between(from, nw_, nw_).begin - (pyramid_.ascending ? 0 : 1);
@@ -63,10 +61,12 @@ class PyramidSweep {
       std::swap(before_, current_);
     }
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      sums_bits_[i] += partly_seen_[i].sum_errors(
-          tolerance_ * sums_bits_[i], [&](const auto& target) { return error_bits(target); });
+      corrected[i] = SampledSum::exact(sums_bits_[i]);
+      corrected[i] +=
+          partly_seen_[i].sum_errors(views_[i].options.tolerance * sums_bits_[i],
+                                     [&](const auto& target) { return error_bits(target); });
     }
-    return sums_bits_;
+    return corrected;
   }
 
  private:
@@ -222,7 +222,7 @@ class PyramidSweep {
     if (all_inside) {
       sums_bits_[i] += sum_run(utility_.data(), begin, end);
     } else {
-      view = views_[i].row(frame_.centre(cell(0, v)), step_u_);
+      view = views_[i].cone.row(frame_.centre(cell(0, v)), step_u_);
       sums_bits_[i] += sum_in_view(view, utility_.data(), begin, end);
     }
     const float* cells = cells_ + row_start(v, layer_);
@@ -250,7 +250,7 @@ class PyramidSweep {
       depth += tables_.optical_depth(cell);
       return depth < kOpaque;
     };
-    const bool arrives = walk_to_cell(frame_, views_.front().apex_m(), target.cell, pass);
+    const bool arrives = walk_to_cell(frame_, apex_m_, target.cell, pass);
     const float visible = arrives ? std::exp(-depth) : 0.0F;
     return static_cast<double>(target.weight *
                                (visible - (target.visible > kDark ? target.visible : 0.0F)));
@@ -267,13 +267,13 @@ class PyramidSweep {
   const SweepTables& tables_;
   const GridFrame& frame_;
   const float* cells_;  ///< the layers along the pyramid's axis
-  std::span<const ViewCone> views_;
+  std::span<const SweptView> views_;
   Pyramid pyramid_;
-  double tolerance_;
   SweepAxes axes_;
   int nu_;
   int nv_;
   int nw_;
+  Eigen::Vector3d apex_m_;
   Eigen::Array3d source_;  ///< of the rays, in cells; whole numbers are centres
   Eigen::Vector3d step_u_;
   std::vector<RowBounds> bounds_;    ///< per view
@@ -292,9 +292,9 @@ class PyramidSweep {
 
 }  // namespace
 
-std::vector<double> sweep_pyramid(const SweepTables& tables, std::span<const ViewCone> views,
-                                  const Pyramid& pyramid, const SweepOptions& options) {
-  return PyramidSweep(tables, views, pyramid, options).run();
+std::vector<SampledSum> sweep_pyramid(const SweepTables& tables, std::span<const SweptView> views,
+                                      const Pyramid& pyramid) {
+  return PyramidSweep(tables, views, pyramid).run();
 }
 
 }  // namespace vantage

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <numbers>
 
 #include "vantage/core/rng.hpp"
@@ -57,6 +59,39 @@ BlockField patchy_field(const Eigen::Array3i& cells) {
     field.per_block.push_back(rng.uniform(0.94, 1.0));
   }
   return field;
+}
+
+/// Free space, a wall with a window of a few cells, and nothing observed behind it.
+OccupancyGrid walled_grid(Rng& rng) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {1.6, 1.2, 0.9}, {48, 36, 27}));
+  const auto between = [&](int low, int high) {
+    return low + static_cast<int>(rng.uniform_index(static_cast<std::size_t>(high - low)));
+  };
+  const Eigen::Array3i wall(between(15, 21), 0, 0);
+  const Eigen::Array3i from = wall + Eigen::Array3i(0, between(0, 36), between(0, 27));
+  const Eigen::Array3i end = from + Eigen::Array3i(1, between(2, 8), between(2, 8));
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Eigen::Array3i at = grid.frame.cell(i);
+    const bool window = (at >= from).all() && (at < end).all();
+    if (at.x() < wall.x()) grid.log_odds[i] = -2.0F;
+    if (at.x() == wall.x() && !window) grid.log_odds[i] = 3.0F;
+  }
+  return grid;
+}
+
+/// Places in front of the wall, each with a view along one of the axes or nearly so.
+std::vector<Candidate> views_of_wall(Rng& rng) {
+  std::vector<Candidate> views;
+  for (int place = 0; place < 8; ++place) {
+    const Eigen::Vector3d p_m(rng.uniform(-0.78, -0.32), rng.uniform(-0.5, 0.5),
+                              rng.uniform(-0.4, 0.4));
+    const auto quarter = static_cast<double>(rng.uniform_index(4));
+    Candidate view;
+    view.T_world_sensor =
+        make_pose(p_m, quarter * std::numbers::pi / 2.0 + rng.uniform(-0.25, 0.25));
+    views.push_back(view);
+  }
+  return views;
 }
 
 std::vector<Candidate> ring() {
@@ -166,6 +201,71 @@ TEST(SweptGain, ComesCloserToExactWithMoreRays) {
     return sum;
   };
   EXPECT_LT(mean_error(1 << 20), 0.3 * mean_error(0));
+}
+
+/// Errors of views, of which the mean is zero if there is no bias.
+struct Errors {
+  double count = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  void add(double error) {
+    count += 1.0;
+    sum += error;
+    squares += error * error;
+  }
+  [[nodiscard]] double standard_errors_from_zero() const {
+    const double mean = sum / count;
+    return std::abs(mean) / std::sqrt((squares / count - mean * mean) / count);
+  }
+};
+
+TEST(SweptGains, AreNeverBelowZeroAndHaveNoBiasHoweverFewTheRays) {
+  FieldOfView field = sector();
+  field.half_width_rad = 0.45;
+  field.range_max_m = 1.4;
+  constexpr std::array kRays{16, 256, 4096};
+  std::array<Errors, kRays.size()> all;
+  std::array<Errors, kRays.size()> near_zero;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    Rng rng(seed);
+    const OccupancyGrid grid = walled_grid(rng);
+    const auto views = views_of_wall(rng);
+    const Gain gain = seed % 2 == 0 ? Gain(SimpleGain{}) : Gain(BeerLambertGain{.a = 0.98});
+    const auto expected = exact_gains_bits(gain, {grid}, views, field, 1);
+    for (std::size_t k = 0; k < kRays.size(); ++k) {
+      const auto swept =
+          swept_gains_bits(gain, {grid}, views, field, 1, {.rays_per_view = kRays[k]});
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        EXPECT_GE(swept[i], 0.0) << "world " << seed << ", view " << i;
+        all[k].add(swept[i] - expected[i]);
+        if (expected[i] < 30.0) near_zero[k].add(swept[i] - expected[i]);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < kRays.size(); ++k) {
+    EXPECT_LT(all[k].standard_errors_from_zero(), 3.0) << kRays[k];
+    EXPECT_LT(near_zero[k].standard_errors_from_zero(), 3.0) << kRays[k];
+  }
+}
+
+TEST(SweptGains, OfViewsThatSeeNothingNewAreThoseOfEveryRay) {
+  constexpr SweepOptions kAll{.rays_per_view = 1 << 30, .first_share = 1};
+  int corrected = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Rng rng(seed);
+    const OccupancyGrid grid = walled_grid(rng);
+    const auto views = views_of_wall(rng);
+    const auto expected = exact_gains_bits(SimpleGain{}, {grid}, views, sector(), 1);
+    const auto swept = swept_gains_bits(SimpleGain{}, {grid}, views, sector(), 1);
+    const auto all = swept_gains_bits(SimpleGain{}, {grid}, views, sector(), 1, kAll);
+    const auto uncorrected = swept_gains_bits(SimpleGain{}, {grid}, views, sector(), 1, kNoRays);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (expected[i] > 0.0) continue;
+      EXPECT_EQ(swept[i], all[i]) << "world " << seed << ", view " << i;
+      if (uncorrected[i] > 0.5) ++corrected;
+    }
+  }
+  EXPECT_GT(corrected, 10);
 }
 
 TEST(SweptGains, AreTheSameBitsForEveryNumberOfThreadsAndCompany) {

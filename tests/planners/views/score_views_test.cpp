@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -11,10 +13,15 @@
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/exact_gain.hpp"
+#include "vantage/planners/views/sampled_views.hpp"
 
 namespace vantage {
 namespace {
 
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::Ge;
+using ::testing::Gt;
 using ::testing::HasSubstr;
 
 FieldOfView camera(double range_max_m) {
@@ -52,6 +59,25 @@ TEST_F(ScoreViews, ARegionAllInViewCountsItsUnobservedCells) {
   EXPECT_EQ(gains[1], 0.0);                // looks away
   const auto known = score_views(one, {}, SimpleGain{}, views, camera(5.0), 1);
   EXPECT_EQ(known[0], 0.0);  // by default, what lies round the known cells does not count
+}
+
+TEST(ScoreViewsOfAMeasuredMap, NoViewIsWorthLessThanNothing) {
+  const std::filesystem::path path = "/usr/share/doc/liboctomap-dev/examples/data/geb079.bt";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+  const OctomapFile corridor(path);
+  const Eigen::AlignedBox3d box_m = corridor.box_of(corridor.known());
+  Rng rng = Rng::stream(1, "sampled views");
+  const Eigen::Vector3d reach_m = Eigen::Vector3d::Constant(3.5);
+  const auto views =
+      sample_views({}, corridor, {box_m.min() - reach_m, box_m.max() + reach_m}, rng);
+  FieldOfView sensor = camera(3.5);
+  sensor.half_width_rad = 0.5044;
+  sensor.tilt_min_rad = -0.3927;
+  sensor.tilt_max_rad = 0.3927;
+  const Gain gain = BeerLambertGain{.a = std::pow(0.5, corridor.resolution_m())};
+  const auto gains = score_views(corridor, {}, gain, views, sensor, 2);
+  EXPECT_THAT(gains, Each(Ge(0.0)));
+  EXPECT_THAT(gains, Contains(Gt(1000.0)));
 }
 
 TEST_F(ScoreViews, SameAsOnTheWholeGrid) {
