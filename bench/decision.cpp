@@ -9,8 +9,7 @@
 #include "bench/situation.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/planners/swept_gain.hpp"
-#include "vantage/runtime/episode_loop.hpp"
-#include "vantage/tasks/tabletop/next_best_view.hpp"
+#include "vantage/tasks/tabletop/tabletop_session.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -20,11 +19,10 @@ std::vector<Situation> situations_of_scene(int objects, const fs::path& director
   const auto resolved =
       load_episode("assets/episodes/tabletop.yaml",
                    {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
-  TabletopRobotInterface robot(resolved);
-  Recorder recorder(resolved, robot, directory, false, true);
-  Watched<NextBestView> episode(resolved, robot, recorder);
-  run_episode(episode);
-  return std::move(episode.situations);
+  const RunRequest request = lean_request(resolved, directory);
+  TabletopSession<Watched<TabletopParts>> session(request, std::get<Tabletop>(resolved.task));
+  run_episode(session.parts);
+  return std::move(session.parts.situations);
 }
 
 /// The same map in cells of another size.

@@ -2,10 +2,10 @@
 #include <filesystem>
 
 #include "bench/measures.hpp"
+#include "bench/situation.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/runtime/episode_loop.hpp"
-#include "vantage/tasks/exploration/office_exploration.hpp"
-#include "vantage/tasks/tabletop/next_best_view.hpp"
+#include "vantage/tasks/exploration/exploration_session.hpp"
+#include "vantage/tasks/tabletop/tabletop_session.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 template <class Parts>
 class Timed : public Parts {
  public:
-  Timed(const ResolvedEpisode& resolved, auto& robot, Recorder& recorder)
-      : Parts(resolved, robot, recorder), world_(robot.world()) {}
+  Timed(const MappingContext& context, const auto& task, auto& robot, auto& belief)
+      : Parts(context, task, robot, belief), world_(robot.world()) {}
 
   auto observe() {
     return timed(rendering_s, [&] { return Parts::observe(); });
@@ -53,21 +53,23 @@ class Timed : public Parts {
   const World& world_;
 };
 
-template <class Interface, class Parts>
+/// @tparam Session of Timed parts
+template <class Session, class Task>
 void measure(const std::string& task, const char* file, const fs::path& directory,
              std::vector<std::pair<std::string, double>>& figures) {
   const auto resolved = load_episode(file, {"scans=6"});
-  Interface robot(resolved);
-  Recorder recorder(resolved, robot, directory, false, true);
-  Timed<Parts> episode(resolved, robot, recorder);
+  const RunRequest request = lean_request(resolved, directory);
+  Session session(request, std::get<Task>(resolved.task));
+  const auto& episode = session.parts;
+  const World& world = session.robot.world();
   const double start_s = wall_s();
-  run_episode(episode);
+  run_episode(session.parts);
   const double all_s = wall_s() - start_s;
   const auto add = [&](const char* name, double figure) {
     figures.emplace_back(task + "_" + name, figure);
   };
-  add("real_time_factor", robot.world().time_s() / all_s);
-  add("physics_share", robot.world().stepping_wall_s() / all_s);
+  add("real_time_factor", world.time_s() / all_s);
+  add("physics_share", world.stepping_wall_s() / all_s);
   add("rendering_share", episode.rendering_s / all_s);
   add("belief_share", episode.belief_s / all_s);
   add("planning_share", episode.planning_s / all_s);
@@ -78,9 +80,9 @@ void run_benchmark() {
   const fs::path directory = fs::temp_directory_path() / "vantage_bench_episode";
   fs::create_directories(directory);
   std::vector<std::pair<std::string, double>> figures;
-  measure<TabletopRobotInterface, NextBestView>("tabletop", "assets/episodes/tabletop.yaml",
-                                                directory, figures);
-  measure<ExplorationRobotInterface, OfficeExploration>(
+  measure<TabletopSession<Timed<TabletopParts>>, Tabletop>(
+      "tabletop", "assets/episodes/tabletop.yaml", directory, figures);
+  measure<ExplorationSession<Timed<ExplorationParts>>, Exploration>(
       "office", "assets/episodes/office_small.yaml", directory, figures);
   fs::remove_all(directory);
   print_figures("episode", 2, figures);

@@ -13,8 +13,7 @@
 #include "vantage/geometry/view_cone.hpp"
 #include "vantage/planners/exact_gain.hpp"
 #include "vantage/planners/visibility/cell_walk.hpp"
-#include "vantage/runtime/episode_loop.hpp"
-#include "vantage/tasks/tabletop/next_best_view.hpp"
+#include "vantage/tasks/tabletop/tabletop_session.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -161,11 +160,10 @@ void run_benchmark() {
         load_episode("assets/episodes/tabletop.yaml",
                      {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects), "scans=4",
                       "metrics.predictors=[simple]"});
-    TabletopRobotInterface robot(resolved);
-    Recorder recorder(resolved, robot, directory, false, true);
-    Watched<NextBestView> episode(resolved, robot, recorder);
-    run_episode(episode);
-    for (const Situation& s : episode.situations) {
+    const RunRequest request = lean_request(resolved, directory);
+    TabletopSession<Watched<TabletopParts>> session(request, std::get<Tabletop>(resolved.task));
+    run_episode(session.parts);
+    for (const Situation& s : session.parts.situations) {
       const VisibilityWeightedGain gain;
       const auto exact = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads);
       const auto fast = interpolated_gains_bits(gain.model, s);

@@ -5,8 +5,7 @@
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/runtime/episode_loop.hpp"
-#include "vantage/tasks/exploration/office_exploration.hpp"
+#include "vantage/tasks/exploration/exploration_session.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -17,13 +16,14 @@ constexpr std::size_t kEvery = 4;
 
 std::vector<Situation> situations_of(const char* episode_file, const fs::path& directory) {
   const auto resolved = load_episode(episode_file, {"scans=14"});
-  ExplorationRobotInterface robot(resolved);
-  Recorder recorder(resolved, robot, directory, false, true);
-  Watched<OfficeExploration> episode(resolved, robot, recorder);
-  run_episode(episode);
+  const RunRequest request = lean_request(resolved, directory);
+  ExplorationSession<Watched<ExplorationParts>> session(request,
+                                                        std::get<Exploration>(resolved.task));
+  run_episode(session.parts);
+  std::vector<Situation>& situations = session.parts.situations;
   std::vector<Situation> kept;
-  for (std::size_t i = 0; i < episode.situations.size(); i += kEvery) {
-    kept.push_back(std::move(episode.situations[i]));
+  for (std::size_t i = 0; i < situations.size(); i += kEvery) {
+    kept.push_back(std::move(situations[i]));
   }
   return kept;
 }

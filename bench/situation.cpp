@@ -12,6 +12,17 @@
 
 namespace vantage::bench {
 
+RunRequest lean_request(const ResolvedEpisode& resolved, const std::filesystem::path& directory) {
+  RunOptions options;
+  options.directory = directory;
+  options.overwrite = true;
+  options.lean = true;
+  const Task& task = resolved.task;
+  return {resolved.setup,    std::string(strategy_name_of(task)),
+          method_name(task), episode_yaml(resolved),
+          inputs(task),      options};
+}
+
 void Agreement::compare(const Gain& gain, const Situation& s) {
   const auto exact = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads);
   std::vector<double> swept;

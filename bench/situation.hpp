@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "vantage/planners/gain.hpp"
-#include "vantage/tasks/mapping/recorder.hpp"
+#include "vantage/tasks/episode.hpp"
+#include "vantage/tasks/mapping/mapping_parts.hpp"
 
 namespace vantage::bench {
 
@@ -22,22 +23,26 @@ struct Situation {
   [[nodiscard]] GainContext context() const { return {grid, &transmission}; }
 };
 
+/// To run in `directory`, in place of what is there; neither states nor voxels are kept.
+RunRequest lean_request(const ResolvedEpisode& resolved, const std::filesystem::path& directory);
+
 /// The parts of an episode that keep what every decision looks at.
 template <class Parts>
 class Watched : public Parts {
  public:
-  Watched(const ResolvedEpisode& resolved, auto& robot, Recorder& recorder)
-      : Parts(resolved, robot, recorder), field_(robot.view_field()) {}
+  Watched(const MappingContext& context, const auto& task, auto& robot, auto& belief)
+      : Parts(context, task, robot, belief), belief_(belief), field_(robot.view_field()) {}
 
   void score(std::vector<Candidate>& candidates) {
     situations.push_back(
-        {this->belief().filled_grid(), this->belief().hazard().transmission(), candidates, field_});
+        {belief_.filled_grid(), belief_.hazard().transmission(), candidates, field_});
     Parts::score(candidates);
   }
 
   std::vector<Situation> situations;
 
  private:
+  const MapBelief& belief_;
   FieldOfView field_;
 };
 

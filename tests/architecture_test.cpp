@@ -1,5 +1,6 @@
 // Reads every #include of the sources and enforces the table of ARCHITECTURE.md: which folder may
-// include which, and where each third-party library may appear. Also the length of files.
+// include which, and where each third-party library may appear. Also how long files are and how
+// large rooms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -17,7 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxLines = 300;
-const std::vector<std::string> kRoots{"src", "sim", "planners", "models"};
+constexpr std::size_t kMaxUnits = 15;
+constexpr std::size_t kMaxRoomLines = 2500;
+const std::vector<std::string> kRoots{"src", "sim", "planners", "models", "bench", "python"};
 
 struct Include {
   std::size_t line = 0;
@@ -25,60 +29,153 @@ struct Include {
   bool quoted = false;
 };
 
-/// The folder of ARCHITECTURE.md that a path from the repository root belongs to: "core" for
-/// src/core/x.hpp, "sim" for sim/a/b.cpp, "main" for src/main.cpp; empty if it is in none.
-std::string folder_of(const std::string& path) {
-  const auto slash = path.find('/');
-  if (slash == std::string::npos) return "";
-  const std::string root = path.substr(0, slash);
-  if (root != "src") return std::ranges::find(kRoots, root) != kRoots.end() ? root : "";
-  const auto second = path.find('/', slash + 1);
-  return second == std::string::npos ? "main" : path.substr(slash + 1, second - slash - 1);
+/// The room that a path from the repository root is in: "core" for src/core/x.hpp,
+/// "planners/gains" for planners/gains/x.hpp; empty if it is in none of the roots.
+std::string room_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  if (folder.empty()) return "";
+  const std::string root = folder.begin()->string();
+  if (std::ranges::find(kRoots, root) == kRoots.end()) return "";
+  const std::string room = folder.generic_string();
+  return root == "src" ? room.substr(std::min(room.size(), std::size_t{4})) : room;
 }
 
-/// Which folders each folder may include besides itself.
-const std::map<std::string, std::vector<std::string>> kAllowed{
+/// The room of an include as it is written: "vantage/core/x.hpp" is in core.
+std::string room_of_include(const std::string& target) {
+  const std::string prefix = "vantage/";
+  if (target.starts_with(prefix)) {
+    return fs::path(target.substr(prefix.size())).parent_path().generic_string();
+  }
+  return fs::path(target).parent_path().generic_string();
+}
+
+using Rooms = std::vector<std::string>;
+
+Rooms operator+(Rooms a, const Rooms& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const Rooms kGround{"core", "geometry", "information"};
+const Rooms kPerception{"perception", "perception/clouds", "perception/features",
+                        "perception/features/kit"};
+const Rooms kBelief{"belief/map", "belief/objects"};
+const Rooms kPlanners{"planners",         "planners/gains",      "planners/visibility",
+                      "planners/views",   "planners/choice",     "planners/navigation",
+                      "planners/objects", "planners/trajectory", "planners/trajectory/optimisers"};
+const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
+const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing"};
+const Rooms kRecognition{"recognition", "recognition/dataset", "recognition/evaluation"};
+const Rooms kStudy{"study", "study/figures", "study/recognition"};
+/// What several tasks share; they never include each other.
+const Rooms kSharedByTasks{"tasks/mapping", "tasks/flight", "tasks/object_flight"};
+const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
+                    kSharedByTasks + Rooms{"control", "dataset", "report"};
+
+/// Which rooms each room may include besides itself.
+const std::map<std::string, Rooms> kAllowed{
     {"core", {}},
     {"geometry", {"core"}},
     {"information", {"core"}},
-    {"perception", {"core", "geometry", "information"}},
-    {"belief", {"core", "geometry", "information"}},
-    {"planners", {"core", "geometry", "information", "belief"}},
-    {"recognition", {"core", "geometry", "information", "perception", "belief", "planners"}},
-    {"sim", {"core", "geometry"}},
-    {"models", {"core", "geometry"}},
-    {"dataset", {"core", "geometry", "perception", "models", "sim"}},
-    {"episode",
-     {"core", "geometry", "information", "perception", "belief", "planners", "recognition", "sim",
-      "models", "dataset"}},
-    {"study", {"core", "information", "belief", "recognition", "episode"}},
-    {"view", {"core", "geometry", "belief", "planners", "sim", "episode"}},
-    {"main",
-     {"core", "geometry", "information", "perception", "belief", "planners", "recognition", "sim",
-      "models", "dataset", "episode", "study", "view"}},
+    {"control", {"core", "geometry"}},
+    {"perception/clouds", {"core", "geometry"}},
+    {"perception", kGround + Rooms{"perception/clouds"}},
+    {"perception/features/kit", kGround + Rooms{"perception", "perception/clouds"}},
+    {"perception/features/patches",
+     kGround + Rooms{"perception", "perception/clouds", "perception/features/kit"}},
+    {"perception/features",
+     kGround + Rooms{"perception", "perception/clouds", "perception/features/kit",
+                     "perception/features/patches"}},
+    {"belief/map", kGround},
+    {"belief/objects", kGround},
+    {"planners/visibility", kGround + Rooms{"belief/map"}},
+    {"planners/gains", kGround + Rooms{"belief/map", "planners/visibility"}},
+    {"planners", kGround + Rooms{"belief/map", "planners/visibility", "planners/gains"}},
+    {"planners/views", kGround + Rooms{"belief/map", "planners"}},
+    {"planners/choice", kGround + Rooms{"planners"}},
+    {"planners/navigation", kGround + Rooms{"belief/map"}},
+    {"planners/objects", kGround + Rooms{"belief/objects"}},
+    {"planners/trajectory/optimisers", {"core", "geometry"}},
+    {"planners/trajectory",
+     kGround + Rooms{"belief/map", "control", "planners/trajectory/optimisers"}},
+    {"recognition/dataset", kGround + kPerception + Rooms{"belief/objects"}},
+    {"recognition",
+     kGround + kPerception +
+         Rooms{"belief/objects", "planners/objects", "planners/trajectory", "recognition/dataset"}},
+    {"recognition/evaluation", kGround + Rooms{"recognition", "recognition/dataset"}},
+    {"sim/world", {"core", "geometry"}},
+    {"sim/render", {"core", "geometry", "sim/world"}},
+    {"sim/sensors", {"core", "geometry", "sim/world", "sim/render"}},
+    {"sim/robots", {"core", "geometry", "control", "sim/world"}},
+    {"models/catalogue/shapes", {"core", "geometry"}},
+    {"models/catalogue/objects", {"core", "geometry", "models/catalogue/shapes"}},
+    {"models/catalogue/database",
+     {"core", "geometry", "models/catalogue/shapes", "models/catalogue/objects"}},
+    {"models/catalogue/table",
+     {"core", "geometry", "models/catalogue/shapes", "models/catalogue/objects"}},
+    {"models/catalogue/office", {"core", "geometry", "models/catalogue/shapes"}},
+    {"models/catalogue/flight", {"core", "geometry", "models/catalogue/shapes"}},
+    {"models/catalogue",
+     {"core", "models/catalogue/table", "models/catalogue/office", "models/catalogue/flight"}},
+    {"dataset",
+     {"core", "geometry", "perception", "models/catalogue/shapes", "models/catalogue/database",
+      "sim/render", "sim/sensors"}},
+    {"report", {"core", "geometry", "perception/clouds"}},
+    {"runtime/drawing", {"core", "geometry", "belief/map"}},
+    {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
+    {"runtime",
+     kGround + Rooms{"belief/map", "planners", "report", "runtime/log", "sim/world", "sim/render"}},
+    {"tasks/mapping", kTask},
+    {"tasks/flight", kTask},
+    {"tasks/object_flight", kTask},
+    {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
+    {"study/figures", {"core", "information", "report"}},
+    {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
+    {"study", kGround + kRuntime + Rooms{"report", "study/figures", "tasks"}},
+    {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
+    {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+                Rooms{"dataset", "models/catalogue/database", "report", "tasks", "view"}},
+    {"bench/claims", {"core", "bench"}},
+    {"bench", kTask + kStudy + Rooms{"bench/claims", "tasks", "tasks/*", "tests/support"}},
+    {"python", kTask + kStudy + Rooms{"tasks", "tasks/*"}},
 };
+
+/// What a room may include; none if it is not in the table. A folder of src/tasks is a task.
+const Rooms* allowed_in(const std::string& room) {
+  if (const auto found = kAllowed.find(room); found != kAllowed.end()) return &found->second;
+  return room.starts_with("tasks/") ? &kTask : nullptr;
+}
+
+bool is_allowed(const Rooms& rooms, const std::string& other) {
+  return std::ranges::any_of(rooms, [&](const std::string& room) {
+    return room == other ||
+           (room.ends_with("/*") && other.starts_with(room.substr(0, room.size() - 1)));
+  });
+}
 
 /// Where the headers of a library may appear.
 struct LibraryRule {
-  std::string_view prefix;  ///< of the header's name
-  std::vector<std::string> folders;
-  bool sources_only = false;  ///< not in our headers
+  std::string_view prefix;           ///< of the header's name
+  std::vector<std::string> folders;  ///< and their rooms
+  bool sources_only = false;         ///< not in our headers
 };
 
 const std::vector<LibraryRule> kLibraries{
     {"mujoco/", {"sim"}},
-    {"GL/", {"sim"}},
-    {"GLFW/", {"sim"}},
-    {"embree", {"sim"}},
-    {"octomap/", {"belief"}, true},
-    {"opencv2/", {"perception", "recognition", "dataset", "episode", "view"}},
-    {"nanoflann", {"perception"}},
+    {"GL/", {"sim/render"}},
+    {"GLFW/", {"sim/render"}},
+    {"embree", {"sim/sensors"}},
+    {"octomap/", {"belief/map", "bench"}, true},
+    {"opencv2/",
+     {"perception", "recognition", "dataset", "runtime", "tasks", "view", "cli", "bench"}},
+    {"nanoflann", {"perception/clouds"}},
     {"yaml-cpp/", {"core"}, true},
     {"spdlog/", {"core"}, true},
-    {"nlohmann/json_fwd.hpp", {"core", "episode", "study", "main"}},  // declarations only
-    {"nlohmann/", {"core", "episode", "study", "main"}, true},
-    {"png", {"models"}},
-    {"CLI/", {"main"}, true},
+    {"nlohmann/json_fwd.hpp",
+     {"core", "runtime", "tasks", "report", "study", "cli", "bench"}},  // declarations only
+    {"nlohmann/", {"core", "runtime", "tasks", "report", "study", "cli", "bench"}, true},
+    {"png", {"models/catalogue/shapes"}},
+    {"CLI/", {"cli"}, true},
 };
 
 /// The includes of a source text; those in comments do not count.
@@ -112,14 +209,15 @@ std::vector<Include> includes_of(const std::string& text) {
 }
 
 /// Why a library's header may not be included there; empty if it may.
-std::string library_violation(const std::string& folder, bool is_header,
-                              const std::string& target) {
+std::string library_violation(const std::string& room, bool is_header, const std::string& target) {
   for (const LibraryRule& rule : kLibraries) {
     if (!target.starts_with(rule.prefix)) continue;
-    if (std::ranges::find(rule.folders, folder) == rule.folders.end()) {
-      return folder + " may not use this library";
-    }
-    if (rule.sources_only && is_header) return "this library may appear in .cpp files only";
+    const bool allowed = std::ranges::any_of(rule.folders, [&](const std::string& folder) {
+      return room == folder || room.starts_with(folder + "/");
+    });
+    if (!allowed) return room + " may not use this library";
+    if (rule.sources_only && is_header && room != "bench")
+      return "this library may appear in .cpp files only";
     return "";
   }
   return "";
@@ -127,27 +225,26 @@ std::string library_violation(const std::string& folder, bool is_header,
 
 /// Why one of our headers may not be included there; empty if it may. The build makes what lies
 /// under generated/, each folder for itself.
-std::string layer_violation(const std::string& folder, const std::string& target) {
+std::string layer_violation(const std::string& room, const std::string& target) {
   if (target.starts_with("generated/")) return "";
-  const std::string other = folder_of(target);
-  if (other.empty()) return "not a path from the repository root";
-  if (other == folder) return "";
-  const auto allowed = kAllowed.find(folder);
-  if (allowed == kAllowed.end()) return "folder " + folder + " is not in the table";
-  if (std::ranges::find(allowed->second, other) == allowed->second.end()) {
-    return folder + " may not include " + other;
-  }
-  return "";
+  const std::string other = room_of_include(target);
+  const bool rooted = target.starts_with("vantage/") || target.starts_with("bench/") ||
+                      target.starts_with("python/") || target.starts_with("tests/");
+  if (!rooted) return "not vantage/<folder>/<file>.hpp";
+  if (other == room) return "";
+  const Rooms* allowed = allowed_in(room);
+  if (allowed == nullptr) return "room " + room + " is not in the table";
+  return is_allowed(*allowed, other) ? "" : room + " may not include " + other;
 }
 
 /// @param path from the repository root
 std::vector<std::string> violations(const std::string& path, const std::string& text) {
   std::vector<std::string> found;
-  const std::string folder = folder_of(path);
+  const std::string room = room_of(path);
   const bool is_header = path.ends_with(".hpp");
   for (const Include& include : includes_of(text)) {
-    std::string why = library_violation(folder, is_header, include.target);
-    if (why.empty() && include.quoted) why = layer_violation(folder, include.target);
+    std::string why = library_violation(room, is_header, include.target);
+    if (why.empty() && include.quoted) why = layer_violation(room, include.target);
     if (why.empty()) continue;
     std::string place = path;
     place.append(":").append(std::to_string(include.line)).append(": ").append(include.target);
@@ -167,6 +264,7 @@ std::map<std::string, std::string> read_sources() {
   const fs::path repository = VANTAGE_SOURCE_DIR;
   std::map<std::string, std::string> sources;
   for (const auto& root : kRoots) {
+    if (!fs::is_directory(repository / root)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(repository / root)) {
       const auto extension = entry.path().extension();
       if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".hpp")) continue;
@@ -200,13 +298,52 @@ TEST(Architecture, FilesAreShort) {
   EXPECT_TRUE(found.empty()) << joined(found);
 }
 
-TEST(Architecture, EveryFolderIsInTheTable) {
+TEST(Architecture, EveryRoomIsInTheTable) {
   std::size_t files = 0;
   for (const auto& [path, text] : read_sources()) {
-    EXPECT_TRUE(kAllowed.contains(folder_of(path))) << path;
+    EXPECT_NE(allowed_in(room_of(path)), nullptr) << path;
     ++files;
   }
   EXPECT_GT(files, 20U);  // it read something
+}
+
+TEST(Architecture, RoomsAreSmall) {
+  std::map<std::string, std::set<std::string>> units;
+  std::map<std::string, std::size_t> lines;
+  for (const auto& [path, text] : read_sources()) {
+    const std::string room = fs::path(path).parent_path().generic_string();
+    units[room].insert(fs::path(path).stem().string());
+    lines[room] += static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  }
+  for (const auto& [room, names] : units) {
+    EXPECT_LE(names.size(), kMaxUnits) << room;
+    EXPECT_LE(lines[room], kMaxRoomLines) << room;
+  }
+}
+
+/// Rooms that include each other, however far around, are one room in disguise.
+TEST(Architecture, NoArrowRunsBack) {
+  std::map<std::string, std::set<std::string>> arrows;
+  for (const auto& [path, text] : read_sources()) {
+    for (const Include& include : includes_of(text)) {
+      const std::string other = room_of_include(include.target);
+      if (include.quoted && include.target.starts_with("vantage/") && other != room_of(path)) {
+        arrows[room_of(path)].insert(other);
+      }
+    }
+  }
+  for (const auto& [start, unused] : arrows) {
+    std::set<std::string> reached;
+    std::vector<std::string> open{start};
+    while (!open.empty()) {
+      const std::string room = open.back();
+      open.pop_back();
+      for (const std::string& next : arrows[room]) {
+        if (reached.insert(next).second) open.push_back(next);
+      }
+    }
+    EXPECT_FALSE(reached.contains(start)) << start << " includes itself by way of others";
+  }
 }
 
 // The checker itself.
@@ -215,72 +352,88 @@ std::size_t count(const std::string& path, const std::string& text) {
   return violations(path, text).size();
 }
 
-TEST(ArchitectureChecker, FoldersOfPaths) {
-  EXPECT_EQ(folder_of("src/core/rng.hpp"), "core");
-  EXPECT_EQ(folder_of("src/main.cpp"), "main");
-  EXPECT_EQ(folder_of("planners/gain.hpp"), "planners");
-  EXPECT_EQ(folder_of("models/catalogue/catalogue.cpp"), "models");
-  EXPECT_EQ(folder_of("tests/support/x.hpp"), "");
-  EXPECT_EQ(folder_of("rng.hpp"), "");
+TEST(ArchitectureChecker, RoomsOfPaths) {
+  EXPECT_EQ(room_of("src/core/rng.hpp"), "core");
+  EXPECT_EQ(room_of("src/tasks/mapping/navigator.cpp"), "tasks/mapping");
+  EXPECT_EQ(room_of("planners/gain.hpp"), "planners");
+  EXPECT_EQ(room_of("planners/trajectory/esdf.hpp"), "planners/trajectory");
+  EXPECT_EQ(room_of("bench/episode.cpp"), "bench");
+  EXPECT_EQ(room_of("tests/support/x.hpp"), "");
+  EXPECT_EQ(room_of("rng.hpp"), "");
+  EXPECT_EQ(room_of_include("vantage/planners/gains/simple_gain.hpp"), "planners/gains");
 }
 
 TEST(ArchitectureChecker, LayersThatMayNotMeet) {
-  EXPECT_EQ(count("src/core/a.cpp", "#include \"src/geometry/pose.hpp\"\n"), 1U);
-  EXPECT_EQ(count("sim/a.cpp", "#include \"planners/gain.hpp\"\n"), 1U);
-  EXPECT_EQ(count("planners/a.hpp", "#include \"sim/world.hpp\"\n"), 1U);
-  EXPECT_EQ(count("planners/a.hpp", "#include \"src/perception/ply.hpp\"\n"), 1U);
-  EXPECT_EQ(count("src/belief/a.hpp", "#include \"src/perception/ply.hpp\"\n"), 1U);
-  EXPECT_EQ(count("src/perception/a.hpp", "#include \"src/belief/floor_map.hpp\"\n"), 1U);
-  EXPECT_EQ(count("src/information/a.hpp", "#include \"src/geometry/pose.hpp\"\n"), 1U);
-  EXPECT_EQ(count("models/a.cpp", "#include \"sim/world.hpp\"\n"), 1U);
-  EXPECT_EQ(count("src/dataset/a.cpp", "#include \"src/episode/interrupt.hpp\"\n"), 1U);
-  EXPECT_EQ(count("src/episode/a.cpp", "#include \"src/commands.hpp\"\n"), 1U);
-  EXPECT_EQ(count("src/brand_new/a.cpp", "#include \"src/core/rng.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/core/a.cpp", "#include \"vantage/geometry/pose.hpp\"\n"), 1U);
+  EXPECT_EQ(count("sim/world/a.cpp", "#include \"vantage/planners/gain.hpp\"\n"), 1U);
+  EXPECT_EQ(count("planners/a.hpp", "#include \"vantage/sim/world/world.hpp\"\n"), 1U);
+  EXPECT_EQ(count("planners/views/a.hpp", "#include \"vantage/perception/clouds/ply.hpp\"\n"), 1U);
+  EXPECT_EQ(count("planners/trajectory/a.hpp", "#include \"vantage/planners/gain.hpp\"\n"), 1U);
+  EXPECT_EQ(count("planners/gains/a.hpp", "#include \"vantage/planners/gain.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/belief/map/a.hpp", "#include \"vantage/perception/clouds/ply.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/perception/a.hpp", "#include \"vantage/belief/map/floor_map.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/information/a.hpp", "#include \"vantage/geometry/pose.hpp\"\n"), 1U);
+  EXPECT_EQ(count("models/catalogue/table/a.cpp", "#include \"vantage/sim/world/world.hpp\"\n"),
+            1U);
+  EXPECT_EQ(count("src/runtime/a.cpp", "#include \"vantage/tasks/task.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/report/a.cpp", "#include \"vantage/sim/world/world.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/tasks/tabletop/a.cpp", "#include \"vantage/tasks/exploration/b.hpp\"\n"),
+            1U);
+  EXPECT_EQ(count("src/tasks/tabletop/a.cpp", "#include \"vantage/tasks/task.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/study/a.cpp", "#include \"vantage/tasks/tabletop/tabletop.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/core/a.cpp", "#include \"bench/measures.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/brand_new/a.cpp", "#include \"vantage/core/rng.hpp\"\n"), 1U);
 }
 
 TEST(ArchitectureChecker, LayersThatMay) {
-  EXPECT_EQ(count("src/geometry/a.cpp", "#include \"src/core/rng.hpp\"\n"), 0U);
-  EXPECT_EQ(count("src/belief/a.cpp", "#include \"src/belief/b.hpp\"\n"), 0U);
-  EXPECT_EQ(count("planners/a.cpp", "#include \"src/belief/occupancy_grid.hpp\"\n"), 0U);
+  EXPECT_EQ(count("src/geometry/a.cpp", "#include \"vantage/core/rng.hpp\"\n"), 0U);
+  EXPECT_EQ(count("src/belief/map/a.cpp", "#include \"vantage/belief/map/b.hpp\"\n"), 0U);
+  EXPECT_EQ(count("planners/a.cpp", "#include \"vantage/belief/map/occupancy_grid.hpp\"\n"), 0U);
   EXPECT_EQ(
-      count("src/episode/a.cpp", "#include \"planners/gain.hpp\"\n#include \"sim/world.hpp\"\n"),
+      count("src/tasks/a_new_task/a.cpp",
+            "#include \"vantage/planners/gain.hpp\"\n#include \"vantage/sim/world/world.hpp\"\n"),
       0U);
-  EXPECT_EQ(count("src/main.cpp", "#include \"src/episode/run.hpp\"\n"), 0U);
+  EXPECT_EQ(count("src/tasks/task.hpp", "#include \"vantage/tasks/a_new_task/a.hpp\"\n"), 0U);
+  EXPECT_EQ(count("bench/a.cpp", "#include \"bench/claims/b.hpp\"\n"), 0U);
 }
 
-TEST(ArchitectureChecker, PathsStartAtTheRepositoryRoot) {
+TEST(ArchitectureChecker, IncludesReadAsTheyDoOnceInstalled) {
   EXPECT_EQ(count("src/core/a.cpp", "#include \"rng.hpp\"\n"), 1U);
   EXPECT_EQ(count("src/core/a.cpp", "#include \"../core/rng.hpp\"\n"), 1U);
+  EXPECT_EQ(count("src/core/a.cpp", "#include \"src/core/rng.hpp\"\n"), 1U);
   EXPECT_EQ(count("src/core/a.cpp", "#include \"tests/support/x.hpp\"\n"), 1U);
   EXPECT_EQ(count("src/core/a.cpp", "#include <vector>\n#include <Eigen/Core>\n"), 0U);
 }
 
 TEST(ArchitectureChecker, LibrariesStayWhereTheyBelong) {
-  EXPECT_EQ(count("src/episode/a.cpp", "#include <mujoco/mujoco.h>\n"), 1U);
-  EXPECT_EQ(count("src/episode/a.cpp", "#include \"mujoco/mujoco.h\"\n"), 1U);
-  EXPECT_EQ(count("sim/a.hpp", "#include <mujoco/mujoco.h>\n#include <GL/osmesa.h>\n"), 0U);
+  EXPECT_EQ(count("src/tasks/mapping/a.cpp", "#include <mujoco/mujoco.h>\n"), 1U);
+  EXPECT_EQ(count("src/tasks/a.cpp", "#include \"mujoco/mujoco.h\"\n"), 1U);
+  EXPECT_EQ(count("sim/render/a.hpp", "#include <mujoco/mujoco.h>\n#include <GL/osmesa.h>\n"), 0U);
+  EXPECT_EQ(count("sim/world/a.hpp", "#include <GL/osmesa.h>\n"), 1U);
   EXPECT_EQ(count("planners/a.cpp", "#include <embree3/rtcore.h>\n"), 1U);
   EXPECT_EQ(count("src/core/a.cpp", "#include <GLFW/glfw3.h>\n"), 1U);
-  EXPECT_EQ(count("src/belief/a.cpp", "#include <octomap/OcTree.h>\n"), 0U);
-  EXPECT_EQ(count("src/belief/a.hpp", "#include <octomap/OcTree.h>\n"), 1U);
+  EXPECT_EQ(count("src/belief/map/a.cpp", "#include <octomap/OcTree.h>\n"), 0U);
+  EXPECT_EQ(count("src/belief/map/a.hpp", "#include <octomap/OcTree.h>\n"), 1U);
   EXPECT_EQ(count("planners/a.cpp", "#include <octomap/OcTree.h>\n"), 1U);
-  EXPECT_EQ(count("sim/a.cpp", "#include <opencv2/core.hpp>\n"), 1U);
+  EXPECT_EQ(count("sim/world/a.cpp", "#include <opencv2/core.hpp>\n"), 1U);
+  EXPECT_EQ(count("planners/trajectory/a.cpp", "#include <opencv2/core.hpp>\n"), 1U);
   EXPECT_EQ(count("src/perception/a.cpp", "#include <opencv2/core.hpp>\n"), 0U);
-  EXPECT_EQ(count("src/belief/a.cpp", "#include <nanoflann.hpp>\n"), 1U);
+  EXPECT_EQ(count("src/belief/map/a.cpp", "#include <nanoflann.hpp>\n"), 1U);
   EXPECT_EQ(count("src/core/a.hpp", "#include <yaml-cpp/yaml.h>\n"), 1U);
-  EXPECT_EQ(count("src/episode/a.cpp", "#include <yaml-cpp/yaml.h>\n"), 1U);
+  EXPECT_EQ(count("src/tasks/a.cpp", "#include <yaml-cpp/yaml.h>\n"), 1U);
   EXPECT_EQ(count("src/core/log.hpp", "#include <spdlog/spdlog.h>\n"), 1U);
-  EXPECT_EQ(count("src/episode/a.hpp", "#include <nlohmann/json.hpp>\n"), 1U);
-  EXPECT_EQ(count("src/episode/a.hpp", "#include <nlohmann/json_fwd.hpp>\n"), 0U);
-  EXPECT_EQ(count("sim/a.hpp", "#include <nlohmann/json_fwd.hpp>\n"), 1U);
-  EXPECT_EQ(count("src/main.cpp", "#include <nlohmann/json.hpp>\n#include <CLI/CLI.hpp>\n"), 0U);
-  EXPECT_EQ(count("src/episode/a.cpp", "#include <CLI/CLI.hpp>\n"), 1U);
-  EXPECT_EQ(count("sim/a.cpp", "#include <png.h>\n"), 1U);
+  EXPECT_EQ(count("src/runtime/a.hpp", "#include <nlohmann/json.hpp>\n"), 1U);
+  EXPECT_EQ(count("src/runtime/a.hpp", "#include <nlohmann/json_fwd.hpp>\n"), 0U);
+  EXPECT_EQ(count("sim/world/a.hpp", "#include <nlohmann/json_fwd.hpp>\n"), 1U);
+  EXPECT_EQ(count("src/cli/main.cpp", "#include <nlohmann/json.hpp>\n#include <CLI/CLI.hpp>\n"),
+            0U);
+  EXPECT_EQ(count("src/tasks/a.cpp", "#include <CLI/CLI.hpp>\n"), 1U);
+  EXPECT_EQ(count("sim/world/a.cpp", "#include <png.h>\n"), 1U);
 }
 
 TEST(ArchitectureChecker, ReadsIncludesHoweverTheyAreWritten) {
   EXPECT_EQ(count("src/core/a.cpp", "  #  include  <mujoco/mujoco.h>  // why\n"), 1U);
-  EXPECT_EQ(count("src/core/a.cpp", "#include\"sim/world.hpp\""), 1U);
+  EXPECT_EQ(count("src/core/a.cpp", "#include\"vantage/sim/world/world.hpp\""), 1U);
   EXPECT_EQ(count("src/core/a.cpp", "#ifdef X\n#include <mujoco/mujoco.h>\n#endif\n"), 1U);
   EXPECT_EQ(count("src/core/a.cpp", "// #include <mujoco/mujoco.h>\n"), 0U);
   EXPECT_EQ(count("src/core/a.cpp", "/*\n#include <mujoco/mujoco.h>\n*/\n#include <vector>\n"), 0U);

@@ -2,12 +2,13 @@
 
 const DATA = JSON.parse(document.getElementById("run-data").textContent);
 const METRICS = DATA.metrics;
-const SCANS = METRICS.scans ?? [];
-const OBSERVATIONS = METRICS.observations ?? [];
-const STEPS = SCANS.length ? SCANS : OBSERVATIONS;
-const STEP_WORD = OBSERVATIONS.length ? "view" : "scan";
+const SECTIONS = DATA.sections;    // what the run's task says of its page
+const STEPS = METRICS[SECTIONS.steps] ?? [];
+const STEP_WORD = SECTIONS.step_word || "step";
+// What a task's page shows, by the name that the task gives: each has cards() and plots(parent).
+const FIGURES = {};
 const at = (id) => document.getElementById(id);
-const column = (key) => SCANS.map((s) => s[key]);
+const column = (key) => STEPS.map((s) => s[key]);
 const words = (key) => String(key ?? "").replaceAll("_", " ");
 const seriesColour = (i) => `var(--s${i % 9})`;
 
@@ -15,12 +16,12 @@ const seriesColour = (i) => `var(--s${i % 9})`;
 const perScan = (values) => values.map((v, i) => [i + 1, isNumber(v) ? v : null]);
 
 function gainNames() {
-  return [...new Set(SCANS.flatMap((s) => Object.keys(s.predicted ?? {})))];
+  return [...new Set(STEPS.flatMap((s) => Object.keys(s.predicted ?? {})))];
 }
 
 // A first scan that nobody chose has no prediction, whatever number stands there.
-const chosenOnly = (values) => values.map((v, i) => (SCANS[i].chosen_view < 0 ? null : v));
-const predictions = (name) => chosenOnly(SCANS.map((s) => s.predicted?.[name]));
+const chosenOnly = (values) => values.map((v, i) => (STEPS[i].chosen_view < 0 ? null : v));
+const predictions = (name) => chosenOnly(STEPS.map((s) => s.predicted?.[name]));
 
 function predictionPlots(parent) {
   const names = gainNames();
@@ -59,13 +60,8 @@ function cumulativePath() {
 
 // Of recognition: what each view told, and how well it was flown to.
 function observationPlots(parent) {
-  const seen = (key, scale = 1) => perScan(OBSERVATIONS.map((s) => (isNumber(s[key]) ? scale * s[key] : null)));
+  const seen = (key, scale = 1) => perScan(STEPS.map((s) => (isNumber(s[key]) ? scale * s[key] : null)));
   const chart = (title, subtitle, y, unit, series) => lineChart(parent, { title, subtitle, x: "view", y, unit, integerX: true, series });
-  if (OBSERVATIONS.some((s) => isNumber(s.change_probability))) {
-    chart("Probability of a change", "P(u): that it is not as expected, after each view", "probability", "", [
-      { name: "changed", colour: seriesColour(3), strong: true, points: seen("change_probability") },
-    ]);
-  }
   chart("Entropy", "of object and pose, after each view", "entropy in bits", "bits", [
     { name: "entropy", colour: seriesColour(0), strong: true, points: seen("entropy_bits") },
   ]);
@@ -80,11 +76,16 @@ function observationPlots(parent) {
   ]);
 }
 
-function fillPlots() {
-  const parent = at("plots");
-  if (FLIGHT) { flightPlots(parent); return; }
-  if (OBSERVATIONS.length) { observationPlots(parent); return; }
-  if (!SCANS.length) { at("section-plots").hidden = true; return; }
+function changePlots(parent) {
+  lineChart(parent, {
+    title: "Probability of a change", subtitle: "P(u): that it is not as expected, after each view",
+    x: "view", y: "probability", unit: "", integerX: true,
+    series: [{ name: "changed", colour: seriesColour(3), strong: true, points: perScan(column("change_probability")) }],
+  });
+  observationPlots(parent);
+}
+
+function mappingPlots(parent) {
   const chart = (title, subtitle, y, unit, series) => {
     if (series.some((s) => s.points.some((p) => isNumber(p[1])))) lineChart(parent, { title, subtitle, x: "scan", y, unit, integerX: true, series });
   };
@@ -109,3 +110,43 @@ function fillPlots() {
     { name: "recall", colour: seriesColour(3), strong: true, points: perScan(column("recall")) },
   ]);
 }
+
+function coverageCard() {
+  const left = column("observable_unobserved_cells").filter(isNumber);
+  if (!left.length) return;
+  const known = isNumber(METRICS.observable_cells) && METRICS.observable_cells > 0;
+  const total = known ? METRICS.observable_cells : left[0];
+  const share = total > 0 ? 1 - left[left.length - 1] / total : 1;
+  const sub = known ? `${formatNumber(left[left.length - 1])} of ${formatNumber(total)} cells left` : "of those left after the first scan";
+  card("Observable cells seen", percent(share), { unit: "%", share, sub });
+}
+
+function mappingCards() {
+  coverageCard();
+  const fallbacks = STEPS.filter((s) => s.fallback).length;
+  card("Scans", String(STEPS.length), { sub: fallbacks ? `${fallbacks} of them fallbacks` : "no fallback" });
+  const { precision, recall } = METRICS.map ?? {};
+  card("Precision / recall", `${percent(precision)} / ${percent(recall)}`, { unit: "%", sub: "of occupied cells, against the true scene" });
+}
+
+function viewsCard() {
+  card("Views", String(STEPS.length), { sub: `entropy ${formatNumber(METRICS.entropy_bits, 3)} bits at the end` });
+}
+
+function recognitionCards() {
+  card("Estimate", String(METRICS.estimate ?? "–"), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
+  viewsCard();
+}
+
+function changeCards() {
+  const decision = METRICS.decision ?? "not decided";
+  card("Change", String(decision), { sub: `truth: ${METRICS.scenario}; ${METRICS.expected?.object} was expected`, kind: METRICS.correct ? "good" : "bad" });
+  card("Probability of a change", isNumber(METRICS.change_probability) ? formatNumber(METRICS.change_probability, 3) : "–", { share: METRICS.change_probability });
+  const seen = METRICS.decision === "removed" ? "nothing" : METRICS.estimate ?? "–";
+  card("Most like", String(seen), { sub: `there is ${METRICS.truth ?? "nothing"}` });
+  viewsCard();
+}
+
+FIGURES.mapping = { cards: mappingCards, plots: mappingPlots };
+FIGURES.recognition = { cards: recognitionCards, plots: observationPlots };
+FIGURES.change = { cards: changeCards, plots: changePlots };

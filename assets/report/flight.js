@@ -2,7 +2,7 @@
 
 const OBJECTS = METRICS.objects ?? [];
 const LOOKS = OBJECTS.flatMap((o, i) => (o.looks ?? []).map((look) => ({ ...look, object: i, truth: o.truth })));
-const FLIGHT = OBJECTS.length ? { path: METRICS.path ?? [], objects: OBJECTS, looks: LOOKS } : null;
+const FLIGHT = SECTIONS.figures === "flight" ? { path: METRICS.path ?? [], objects: OBJECTS, looks: LOOKS } : null;
 const DIRECTIONS = 8;
 
 function flightCards() {
@@ -97,3 +97,5 @@ function drawFlightObject(svg, o, index, px, py, scale) {
   group.addEventListener("focus", () => { const box = group.getBoundingClientRect(); show(box.right, box.top); });
   group.addEventListener("blur", () => Tooltip.hide());
 }
+
+FIGURES.flight = { cards: flightCards, plots: flightPlots };

@@ -27,8 +27,7 @@ function scanCount(voxels) {
 function fillHead() {
   at("eyebrow").textContent = words(METRICS.task);
   at("heading").textContent = METRICS.scene ?? "Run";
-  if (OBSERVATIONS.length) at("h-map3d").textContent = "The flight, view by view";
-  if (FLIGHT) at("h-map3d").textContent = "The flight";
+  if (SECTIONS.view_heading) at("h-map3d").textContent = SECTIONS.view_heading;
   const tag = (name, value, kind = "") => {
     if (value === undefined || value === null) return;
     const node = append(at("tags"), "span", { class: `tag ${kind}` });
@@ -52,39 +51,10 @@ function card(name, value, { unit, sub, kind, share, mono } = {}) {
 
 const percent = (share) => (isNumber(share) ? formatNumber(100 * share, 3) : "–");
 
-function coverageCard() {
-  const left = column("observable_unobserved_cells").filter(isNumber);
-  if (!left.length) return;
-  const known = isNumber(METRICS.observable_cells) && METRICS.observable_cells > 0;
-  const total = known ? METRICS.observable_cells : left[0];
-  const share = total > 0 ? 1 - left[left.length - 1] / total : 1;
-  const sub = known ? `${formatNumber(left[left.length - 1])} of ${formatNumber(total)} cells left` : "of those left after the first scan";
-  card("Observable cells seen", percent(share), { unit: "%", share, sub });
-}
-
 function fillCards() {
-  coverageCard();
-  if (FLIGHT) flightCards();
-  if (METRICS.change_probability !== undefined) {
-    const decision = METRICS.decision ?? "not decided";
-    card("Change", String(decision), { sub: `truth: ${METRICS.scenario}; ${METRICS.expected?.object} was expected`, kind: METRICS.correct ? "good" : "bad" });
-    card("Probability of a change", isNumber(METRICS.change_probability) ? formatNumber(METRICS.change_probability, 3) : "–", { share: METRICS.change_probability });
-    const seen = METRICS.decision === "removed" ? "nothing" : METRICS.estimate ?? "–";
-    card("Most like", String(seen), { sub: `there is ${METRICS.truth ?? "nothing"}` });
-  } else if (METRICS.estimate !== undefined) {
-    card("Estimate", String(METRICS.estimate), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
-  }
-  if (OBSERVATIONS.length) card("Views", String(OBSERVATIONS.length), { sub: `entropy ${formatNumber(METRICS.entropy_bits, 3)} bits at the end` });
-  if (METRICS.scans) {
-    const fallbacks = SCANS.filter((s) => s.fallback).length;
-    card("Scans", String(SCANS.length), { sub: fallbacks ? `${fallbacks} of them fallbacks` : "no fallback" });
-  }
+  FIGURES[SECTIONS.figures]?.cards();
   if (isNumber(METRICS.path_length_m)) card("Path length", formatNumber(METRICS.path_length_m, 3), { unit: "m" });
   if (isNumber(METRICS.collisions)) card("Collisions", String(METRICS.collisions), { kind: METRICS.collisions ? "bad" : "good", sub: METRICS.collisions ? "" : "none" });
-  if (METRICS.map) {
-    const { precision, recall } = METRICS.map;
-    card("Precision / recall", `${percent(precision)} / ${percent(recall)}`, { unit: "%", sub: "of occupied cells, against the true scene" });
-  }
   const sub = isNumber(METRICS.wall_time_s) ? `in ${formatNumber(METRICS.wall_time_s, 3)} s of real time` : "";
   if (isNumber(METRICS.simulated_time_s)) card("Simulated time", formatNumber(METRICS.simulated_time_s, 4), { unit: "s", sub });
   if (isNumber(METRICS.real_time_factor)) card("Real-time factor", formatNumber(METRICS.real_time_factor, 3), { unit: "×" });
@@ -95,6 +65,12 @@ function fillCards() {
 function columnHead(name) {
   const found = name.match(/^(.*)_(m|s|rad|bits|nats|cells|px|j|hz|m_s)$/);
   return found ? [words(found[1]), found[2].replace("m_s", "m/s").replace("j", "J").replace("hz", "Hz")] : [words(name), ""];
+}
+
+function fillPlots() {
+  const figures = FIGURES[SECTIONS.figures];
+  if (figures) figures.plots(at("plots"));
+  at("section-plots").hidden = !at("plots").hasChildNodes();
 }
 
 function fillSteps() {

@@ -13,11 +13,11 @@
 #include "vantage/belief/map/flight_map.hpp"
 #include "vantage/control/minimum_jerk_trajectory.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/trajectory/candidate_plan.hpp"
 #include "vantage/planners/trajectory/esdf.hpp"
 #include "vantage/planners/trajectory/flight_cost.hpp"
 #include "vantage/planners/trajectory/observation_ring.hpp"
 #include "vantage/planners/trajectory/trajectory_method.hpp"
-#include "vantage/planners/trajectory/trajectory_record.hpp"
 
 namespace vantage {
 

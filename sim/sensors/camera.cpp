@@ -66,8 +66,7 @@ CameraImages take(Renderer& renderer, const mjModel& model, const mjData& data, 
                       .focal_px = focal_length_px(options),
                       .range_max_m = options.range_max_m,
                       .rgb = std::move(drawn.rgb),
-                      .depth_m = std::move(drawn.depth_m),
-                      .segmentation = std::move(drawn.segmentation)};
+                      .depth_m = std::move(drawn.depth_m)};
   for (float& depth : images.depth_m) {
     const bool nothing = depth == 0.0F;
     depth =
@@ -80,18 +79,14 @@ CameraImages take(Renderer& renderer, const mjModel& model, const mjData& data, 
 
 CameraImages rgbd(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
                   const RgbdOptions& options, Rng& rng) {
-  CameraImages images = take(renderer, model, data, camera_id, RenderRequest{}, options, rng);
-  for (int& id : images.segmentation) id = id < 0 ? -1 : model.geom_bodyid[id];
-  return images;
+  return take(renderer, model, data, camera_id, RenderRequest{}, options, rng);
 }
 
 CameraImages depth_image(Renderer& renderer, const mjModel& model, const mjData& data,
                          int camera_id, const RgbdOptions& options, Rng& rng) {
   RenderRequest request;
   request.rgb = false;
-  CameraImages images = take(renderer, model, data, camera_id, request, options, rng);
-  images.segmentation.clear();  // truth
-  return images;
+  return take(renderer, model, data, camera_id, request, options, rng);
 }
 
 }  // namespace vantage

@@ -207,4 +207,14 @@ MapScore score_map(const GridFrame& grid, std::span<const std::uint8_t> occupied
   return score;
 }
 
+std::vector<int> body_ids(Renderer& renderer, const mjModel& model, const mjData& data,
+                          int camera_id, double fovy_rad) {
+  RenderRequest request;
+  request.rgb = false;
+  RenderedImages drawn;
+  renderer.render(model, data, FixedCamera{camera_id, fovy_rad}, request, drawn);
+  for (int& id : drawn.segmentation) id = id < 0 ? -1 : model.geom_bodyid[id];
+  return std::move(drawn.segmentation);
+}
+
 }  // namespace vantage

@@ -11,6 +11,7 @@
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/grid_frame.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/sensors/ray_scene.hpp"
 
 namespace vantage {
@@ -44,6 +45,12 @@ struct MapScore {
   std::size_t observable_surface_cells = 0;  ///< surface, and observable
   std::size_t found_cells = 0;               ///< of those, near an occupied cell
 };
+
+/// Body id of each pixel of a camera's image, row-major from the top; -1: nothing. The image is of
+/// the renderer's size.
+/// @throws RendererError if OpenGL fails.
+std::vector<int> body_ids(Renderer& renderer, const mjModel& model, const mjData& data,
+                          int camera_id, double fovy_rad);
 
 /// Compares a map's occupied cells with the truth; flags (0 or not) in `grid.index` order. Near is
 /// within `tolerance_cells` along every axis (Chebyshev distance).

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "vantage/core/fields.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/world_options.hpp"
 
 struct mjData_;
 using mjData = mjData_;
@@ -24,17 +24,6 @@ struct DataDeleter {
   void operator()(mjData* data) const;
 };
 using DataPtr = std::unique_ptr<mjData, DataDeleter>;
-
-struct WorldOptions {
-  double timestep_s = 0.0025;       ///< physics step; higher is faster and less stable
-  double control_period_s = 0.025;  ///< commands are constant this long; whole multiple of the step
-  void fields(auto&& f) {
-    f("timestep_s", timestep_s, Range{1e-5, 0.02});
-    f("control_period_s", control_period_s, Range{1e-5, 1.0});
-  }
-  void check() const;  ///< @throws ConfigError if the period is no whole multiple of the step
-  [[nodiscard]] int steps_per_tick() const;
-};
 
 /// Deterministic: the same model, options, initial state and commands give the same bits in any
 /// thread and process of one machine. Not shareable between threads while one of them steps it.

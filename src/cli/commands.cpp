@@ -12,7 +12,6 @@
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/listing.hpp"
-#include "vantage/cli/outcome_text.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
@@ -22,11 +21,12 @@
 #include "vantage/core/log.hpp"
 #include "vantage/report/report.hpp"
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/json.hpp"
+#include "vantage/runtime/manifest.hpp"
 #include "vantage/runtime/replay.hpp"
 #include "vantage/study/study.hpp"
 #include "vantage/study/study_page.hpp"
 #include "vantage/tasks/run.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
 #include "vantage/tasks/validate.hpp"
 
 namespace vantage {
@@ -47,34 +47,34 @@ struct RunArguments {
   bool dry_run = false;
 };
 
-void print_config(const Episode& episode, bool json) {
-  fmt::print("{}", json ? json_text(config_json(write_node(episode))) : episode_yaml(episode));
-}
-
-/// How long it is at most, and in what.
-std::pair<std::string, std::size_t> extent_of(const ResolvedEpisode& resolved) {
-  const Episode& episode = resolved.episode;
-  if (episode.flies_trajectory()) {
-    return {"waypoints", read_flight_layout(resolved.scene).path.size()};
-  }
-  if (episode.flies()) return {"max_views", episode.recognition.decision.max_views};
-  return {"scans", episode.scans};
+void print_config(const ResolvedEpisode& resolved, bool json) {
+  fmt::print("{}", json ? json_text(config_json(episode_node(resolved))) : episode_yaml(resolved));
 }
 
 void print_plan(const ResolvedEpisode& resolved, bool json) {
-  const Episode& episode = resolved.episode;
-  const auto [what, count] = extent_of(resolved);
+  const EpisodeSetup& setup = resolved.setup;
+  const TaskExtent longest = extent(resolved);
   if (json) {
-    fmt::print("{}", json_text({{"episode", resolved.name},
-                                {what, count},
-                                {"scene", resolved.scene.string()},
-                                {"method", method_name(episode)},
-                                {"seed", episode.seed}}));
+    fmt::print("{}", json_text({{"episode", setup.name},
+                                {longest.key, longest.count},
+                                {"scene", setup.scene.string()},
+                                {"method", method_name(resolved.task)},
+                                {"seed", setup.options.seed}}));
     return;
   }
-  fmt::print("{}: {} {} in {} by {}, seed {}\n", resolved.name, count,
-             what == "max_views" ? "views at most" : what, resolved.scene.string(),
-             method_name(episode), episode.seed);
+  fmt::print("{}: {} {} in {} by {}, seed {}\n", setup.name, longest.count, longest.text,
+             setup.scene.string(), method_name(resolved.task), setup.options.seed);
+}
+
+void print_outcome(const ResolvedEpisode& resolved, const RunOutcome& outcome) {
+  const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
+  fmt::print("{}state hash {}\n", outcome_text(resolved, outcome),
+             metrics["state_hash"].get<std::string>());
+  for (const auto& [label, file] : {std::pair("report", "report.html"), {"video ", "video.mp4"}}) {
+    if (fs::exists(outcome.directory / file)) {
+      fmt::print("{} {}\n", label, (outcome.directory / file).string());
+    }
+  }
 }
 
 ExitCode run_episode_command(const RunArguments& arguments) {
@@ -85,7 +85,7 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
   const ResolvedEpisode resolved = load_episode(path, overrides);
   if (arguments.print_config) {
-    print_config(resolved.episode, arguments.json);
+    print_config(resolved, arguments.json);
     return ExitCode::done;
   }
   if (arguments.dry_run) {
@@ -102,7 +102,7 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   if (arguments.json) {
     std::fputs(outcome.metrics.c_str(), stdout);
   } else {
-    print_outcome(outcome);
+    print_outcome(resolved, outcome);
   }
   return outcome.code;
 }
@@ -139,7 +139,7 @@ std::function<ExitCode()> declare_report(CLI::App& app) {
       const StudyResults results = read_study_results(*directory);
       write_study_page(results, evaluate(results));
     } else {
-      write_report(*directory);
+      write_report(*directory, report_sections(load_recorded(*directory).task));
     }
     fmt::print("{}\n", (*directory / "report.html").string());
     return ExitCode::done;
@@ -150,7 +150,10 @@ std::function<ExitCode()> declare_replay(CLI::App& app) {
   auto directory = std::make_shared<fs::path>();
   app.add_option("dir", *directory, "run folder")->required();
   return [directory] {
-    const ReplayResult result = replay(*directory);
+    const ResolvedEpisode resolved = load_recorded(*directory);
+    World world(model_source(resolved), resolved.setup.options.simulation);
+    const ReplayResult result =
+        replay(*directory, world, asset_hashes(resolved.setup, inputs(resolved.task)));
     if (!result.changed_files.empty()) {
       log_warning(
           fmt::format("changed since the recording: {}", fmt::join(result.changed_files, ", ")));

@@ -21,7 +21,7 @@
 #include "vantage/dataset/render_dataset.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/runtime/interrupt.hpp"
-#include "vantage/runtime/metrics.hpp"
+#include "vantage/runtime/json.hpp"
 
 namespace vantage {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/runtime/log/video.hpp"
 #include "vantage/runtime/manifest.hpp"
-#include "vantage/runtime/video.hpp"
 #include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/render/window.hpp"
 #include "vantage/sim/world/world.hpp"

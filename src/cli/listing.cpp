@@ -14,6 +14,7 @@
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/objects/object_view_choice.hpp"
 #include "vantage/planners/trajectory/trajectory_method.hpp"
+#include "vantage/tasks/task.hpp"
 
 namespace vantage {
 namespace {
@@ -58,6 +59,7 @@ struct Topic {
 };
 
 constexpr auto kTopics = std::to_array<Topic>({
+    {"tasks", [] { return owned(strategy_names<Task>()); }},
     {"gains", [] { return owned(strategy_names<Gain>()); }},
     {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
     {"features", feature_lines},

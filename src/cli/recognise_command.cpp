@@ -17,7 +17,7 @@
 #include "vantage/core/yaml.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/recognition/recognition.hpp"
-#include "vantage/runtime/metrics.hpp"
+#include "vantage/runtime/json.hpp"
 
 namespace vantage {
 namespace {

@@ -16,7 +16,7 @@
 #include "vantage/core/yaml.hpp"
 #include "vantage/recognition/training.hpp"
 #include "vantage/runtime/interrupt.hpp"
-#include "vantage/runtime/metrics.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/study/recognition/recognition_study.hpp"
 
 namespace vantage {

@@ -9,7 +9,7 @@
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/planners/views/view_list.hpp"
-#include "vantage/runtime/metrics.hpp"
+#include "vantage/runtime/json.hpp"
 
 namespace vantage {
 namespace {

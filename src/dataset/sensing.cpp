@@ -134,8 +134,7 @@ ObjectView cut_by_depth(const ObjectView& window, const Pose& T_world_camera,
                             .height_px = window.height_px,
                             .focal_px = window.focal_px,
                             .rgb = window.rgb,
-                            .depth_m = window.depth_m,
-                            .segmentation = {}};
+                            .depth_m = window.depth_m};
   const Eigen::Vector3d p_world_table_m = Eigen::Vector3d::Zero();
   ObjectSegmentationOptions cut = cut_at({}, T_world_camera.translation().norm());
   cut.mask_growth_px = options.mask_growth_px;

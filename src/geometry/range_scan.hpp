@@ -42,7 +42,6 @@ struct CameraImages {
   double range_max_m = 0.0;       ///< along the optical axis
   std::vector<std::uint8_t> rgb;  ///< 3 bytes a pixel
   std::vector<float> depth_m;     ///< along the optical axis; 0: no measurement, +inf: beyond range
-  std::vector<int> segmentation;  ///< body id, -1 nothing; truth: metrics and training only
 
   [[nodiscard]] float depth_at(int row, int column) const {
     return depth_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px) +

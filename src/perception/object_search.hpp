@@ -41,7 +41,7 @@ struct SeenObject {
 /// find_supports(), what rises from one is clustered, and each cluster is cut out as
 /// segment_object() does. What rises higher than `cut.max_height_m`, or mostly stands beside the
 /// surface, is no object.
-/// @param images colour and measured depth; segmentation is not looked at
+/// @param images measured depth, and colour if the views are to have it: take_colour()
 /// @param T_world_camera as estimated, OpenCV's axes
 /// @throws ConfigError if options are out of range.
 std::vector<SeenObject> find_objects(const CameraImages& images, const Pose& T_world_camera,

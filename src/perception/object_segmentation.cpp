@@ -157,17 +157,26 @@ ObjectView cut(const CameraImages& images, const cv::Mat1b& mask, const cv::Poin
   for (int row = place.y; row < place.y + place.height; ++row) {
     for (int column = place.x; column < place.x + place.width; ++column) {
       const auto pixel = static_cast<std::size_t>(row * images.width_px + column);
-      for (std::size_t c = 0; c < 3; ++c) view.rgb.push_back(images.rgb[3 * pixel + c]);
       const float depth_m = images.depth_m[pixel];
       view.depth_m.push_back(std::isfinite(depth_m) ? depth_m : 0.0F);
       const cv::Point at(column, row);
       view.mask.push_back(known.contains(at) && mask(at - corner) != 0 ? 1 : 0);
     }
   }
+  if (!images.rgb.empty()) take_colour(images, view);
   return view;
 }
 
 }  // namespace
+
+void take_colour(const CameraImages& images, ObjectView& view) {
+  view.rgb.clear();
+  for (int row = view.top_px; row < view.top_px + view.height_px; ++row) {
+    const auto first = static_cast<std::ptrdiff_t>(row * images.width_px + view.left_px);
+    view.rgb.insert(view.rgb.end(), images.rgb.begin() + 3 * first,
+                    images.rgb.begin() + 3 * (first + view.width_px));
+  }
+}
 
 SegmentedObject segment_object(const CameraImages& images, const Pose& T_world_camera,
                                const Eigen::Vector3d& p_world_table_m,

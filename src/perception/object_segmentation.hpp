@@ -39,11 +39,14 @@ struct SegmentedObject {
 /// The largest connected patch of what rises from the table near its middle. The table's plane is
 /// found in the image itself, so that an error of the pose shifts the column but not the cut
 /// between object and table. Mask and `up` are what the camera's owner can know: no truth is used.
-/// @param images colour and measured depth; segmentation is not looked at
+/// @param images measured depth, and colour if the view is to have it
 /// @param T_world_camera as estimated, OpenCV's axes
 /// @param p_world_table_m middle of the table top, on its surface
 SegmentedObject segment_object(const CameraImages& images, const Pose& T_world_camera,
                                const Eigen::Vector3d& p_world_table_m,
                                const ObjectSegmentationOptions& options, Rng& rng);
+
+/// Gives a view that was cut out of the depth of `images` its colour.
+void take_colour(const CameraImages& images, ObjectView& view);
 
 }  // namespace vantage

@@ -87,7 +87,7 @@ void require_types(const std::string& place, const json& object, std::span<const
   }
 }
 
-json read_metrics(const fs::path& path) {
+json read_metrics(const fs::path& path, const ReportSections& sections) {
   json metrics = read_json_object(path);
   for (const char* key : {"task", "status"}) {
     if (!metrics.contains(key) || !metrics[key].is_string()) {
@@ -95,7 +95,8 @@ json read_metrics(const fs::path& path) {
     }
   }
   require_types(path.string(), metrics, kMetricsTypes);
-  if (metrics.contains("scans")) {
+  if (sections.map) {
+    if (!metrics.contains("scans")) throw InputError(path.string() + ": scans: missing");
     for (std::size_t i = 0; i < metrics["scans"].size(); ++i) {
       require_types(fmt::format("{}: scans[{}]", path.string(), i), metrics["scans"][i],
                     kScanTypes);
@@ -203,9 +204,18 @@ json media_json(const fs::path& run_dir) {
   return {{"frame", last_frame(run_dir / "frames")}};
 }
 
-json run_json(const fs::path& run_dir) {
+/// What the page knows of the task, by name.
+json sections_json(const ReportSections& sections) {
+  return {{"figures", sections.figures},
+          {"steps", sections.steps},
+          {"step_word", sections.step_word},
+          {"view_heading", sections.view_heading}};
+}
+
+json run_json(const fs::path& run_dir, const ReportSections& sections) {
   json run;
-  run["metrics"] = read_metrics(run_dir / "metrics.json");
+  run["metrics"] = read_metrics(run_dir / "metrics.json", sections);
+  run["sections"] = sections_json(sections);
   run["manifest"] = read_json_object(run_dir / "manifest.json");
   run["config"] = read_config(run_dir / "config.yaml");
   const CsvTable steps = read_steps(run_dir / "steps.csv");
@@ -213,11 +223,10 @@ json run_json(const fs::path& run_dir) {
   run["trajectory"] = {{"truth", trajectory_json(run_dir / "trajectory.tum")},
                        {"estimated", trajectory_json(run_dir / "trajectory_estimated.tum")}};
   const fs::path voxels = run_dir / "voxels.bin";
-  const bool has_map = run["metrics"]["task"] == "next_best_view" || fs::exists(voxels);
-  if (has_map && !fs::exists(voxels)) {
+  if (sections.map && !fs::exists(voxels)) {
     throw InputError(voxels.string() + ": missing; a run with --lean leaves it out");
   }
-  run["voxels"] = has_map ? voxels_json(voxels) : json(nullptr);
+  run["voxels"] = sections.map ? voxels_json(voxels) : json(nullptr);
   const fs::path cloud = run_dir / "cloud.ply";
   run["cloud"] = fs::exists(cloud) ? cloud_json(cloud) : json(nullptr);
   run["media"] = media_json(run_dir);
@@ -256,8 +265,8 @@ std::string scripts(std::initializer_list<std::string_view> names) {
 
 }  // namespace
 
-void write_report(const fs::path& run_dir) {
-  const json run = run_json(run_dir);
+void write_report(const fs::path& run_dir, const ReportSections& sections) {
+  const json run = run_json(run_dir, sections);
   const Replacement replacements[] = {
       {"title", html_escaped(page_title(run["metrics"]))},
       {"data", script_safe(run)},

@@ -8,12 +8,11 @@
 #include <set>
 
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/world/world.hpp"
-#include "vantage/tasks/flight/recognition_model_setting.hpp"
 
 namespace vantage {
 namespace {
@@ -74,25 +73,24 @@ std::vector<fs::path> scene_files(const fs::path& scene) {
   return {found.begin(), found.end()};
 }
 
-std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved) {
+std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
+                                                const std::vector<InputFile>& inputs) {
   std::map<std::string, std::string> hashes;
-  for (const fs::path& root : {resolved.scene, resolved.robot}) {
+  for (const fs::path& root : {setup.scene, setup.robot}) {
     for (const fs::path& file : scene_files(root)) {
       hashes[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
     }
   }
-  const Episode& episode = resolved.episode;
-  const fs::path model = data_root() / recognition_model_of(episode);
-  if (episode.flies() && fs::exists(model)) {
-    hashes[recognition_model_key(episode)] = hash_text(hash_file(model));
+  for (const InputFile& input : inputs) {
+    if (fs::exists(input.path)) hashes[input.key] = hash_text(hash_file(input.path));
   }
   return hashes;
 }
 
-std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
-                          const RunSummary& summary) {
+std::string manifest_json(const RunRequest& request, const RunSummary& summary) {
+  const EpisodeSetup& setup = request.setup;
   const Json json = {
-      {"command", command},
+      {"command", request.options.command},
       {"versions",
        {{"vantage", version_text()},
         {"mujoco", mujoco_version()},
@@ -100,11 +98,11 @@ std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std
         {"opencv", CV_VERSION},
         {"compiler", "g++ " __VERSION__}}},
       {"cpu", cpu_name()},
-      {"seed", resolved.episode.seed},
+      {"seed", setup.options.seed},
       {"status", status_name(summary.status)},
-      {"config_hash", hash_text(hash_bytes(episode_yaml(resolved.episode)))},
-      {"scene_hash", hash_text(hash_file(resolved.scene))},
-      {"assets", asset_hashes(resolved)},
+      {"config_hash", hash_text(hash_bytes(request.config))},
+      {"scene_hash", hash_text(hash_file(setup.scene))},
+      {"assets", asset_hashes(setup, request.inputs)},
       {"wall_time_s", summary.wall_time_s},
       {"simulated_time_s", summary.simulated_time_s},
   };

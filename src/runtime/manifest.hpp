@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/runtime/metrics.hpp"
+#include "vantage/runtime/episode_run.hpp"
 
 namespace vantage {
 
@@ -16,10 +16,11 @@ std::string version_text();
 /// Every file the MJCF at `scene` refers to, itself and its includes among them, in a fixed order.
 std::vector<std::filesystem::path> scene_files(const std::filesystem::path& scene);
 
-/// Hash of each file that the scene and the robot are made of, by its name beside them.
-std::map<std::string, std::string> asset_hashes(const ResolvedEpisode& resolved);
+/// Hash of each file that the scene and the robot are made of, by its name beside them; and of each
+/// input that is there, by its key.
+std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
+                                                const std::vector<InputFile>& inputs);
 
-std::string manifest_json(const ResolvedEpisode& resolved, const std::vector<std::string>& command,
-                          const RunSummary& summary);
+std::string manifest_json(const RunRequest& request, const RunSummary& summary);
 
 }  // namespace vantage

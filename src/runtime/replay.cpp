@@ -7,12 +7,9 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
-#include "vantage/runtime/manifest.hpp"
-#include "vantage/runtime/recording.hpp"
-#include "vantage/runtime/state_log.hpp"
+#include "vantage/runtime/log/recording.hpp"
+#include "vantage/runtime/log/state_log.hpp"
 #include "vantage/sim/world/world.hpp"
-#include "vantage/tasks/model_source.hpp"
-#include "vantage/tasks/scenario.hpp"
 
 namespace vantage {
 namespace {
@@ -31,10 +28,9 @@ nlohmann::json read_manifest(const std::filesystem::path& run_dir) {
 }
 
 std::vector<std::string> changed_files(const nlohmann::json& manifest,
-                                       const ResolvedEpisode& resolved) {
+                                       const std::map<std::string, std::string>& present) {
   std::vector<std::string> changed;
   const auto recorded = manifest.value("assets", nlohmann::json::object());
-  const auto present = asset_hashes(resolved);
   for (const auto& [name, hash] : present) {
     if (!recorded.contains(name) || recorded[name] != hash) changed.push_back(name);
   }
@@ -46,15 +42,14 @@ std::vector<std::string> changed_files(const nlohmann::json& manifest,
 
 }  // namespace
 
-ReplayResult replay(const std::filesystem::path& run_dir) {
-  const ResolvedEpisode resolved = load_recorded(run_dir);
-  World world(model_source(resolved), resolved.episode.simulation);
+ReplayResult replay(const std::filesystem::path& run_dir, World& world,
+                    const std::map<std::string, std::string>& assets) {
   const RecordedStates recorded = load_states(run_dir, world);
   const auto names = actuator_names(world);
   const auto actions = read_actions(run_dir / "actions.csv", names);
   world.set_state(recorded.state(0));
   ReplayResult result;
-  result.changed_files = changed_files(read_manifest(run_dir), resolved);
+  result.changed_files = changed_files(read_manifest(run_dir), assets);
   result.state_hash = hash_doubles(recorded.state(0));
   auto next = actions.begin();
   for (std::uint64_t tick = 0; tick + 1 < recorded.count(); ++tick) {

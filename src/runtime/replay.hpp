@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 
@@ -19,7 +22,10 @@ struct ReplayResult {
 };
 
 /// Files that changed are named, but only the states decide whether the replay differs.
+/// @param world as the episode began it
+/// @param assets hash of each file the episode is made of now, see asset_hashes()
 /// @throws InputError if the folder lacks a file or one is damaged.
-ReplayResult replay(const std::filesystem::path& run_dir);
+ReplayResult replay(const std::filesystem::path& run_dir, World& world,
+                    const std::map<std::string, std::string>& assets);
 
 }  // namespace vantage

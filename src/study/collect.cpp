@@ -60,10 +60,10 @@ bool stands_for_its_panel(const StudyResults& results, const PlannedEpisode& epi
 void write_flights(const StudyResults& results) {
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     const PlannedEpisode& episode = results.plan[i];
+    if (report_sections(episode.resolved.task).figures != kFlightFigures) continue;
     if (!results.measures[i] || !stands_for_its_panel(results, episode)) continue;
     const Json metrics =
         read_json_or_null(episode_folder(results.directory, episode) / "metrics.json");
-    if (!metrics.contains("plan")) continue;
     std::string stem = episode.name;
     std::ranges::replace(stem, '/', '-');
     write_file(results.directory / "figures" / (stem + ".svg"), flight_svg(metrics, episode.name));

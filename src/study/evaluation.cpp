@@ -123,7 +123,7 @@ void add_predictors(Evaluation& evaluation, const StudyResults& results, const L
   std::string reference;
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     if (layout.level(i) == layout.level_called(report.reference)) {
-      reference = method_name(results.plan[i].resolved.episode);
+      reference = method_name(results.plan[i].resolved.task);
     }
     if (!results.measures[i] || layout.level(i) != along || !predictors.empty()) continue;
     for (const auto& [name, curve] : results.measures[i]->prediction_errors) {
@@ -193,7 +193,7 @@ StudyResults read_study_results(const fs::path& study_dir) {
     const EpisodeState state = results.states[i];
     if (state != EpisodeState::completed && state != EpisodeState::failed) continue;
     try {
-      results.measures[i] = measure(metrics_of(results, i), results.plan[i].resolved.episode);
+      results.measures[i] = measure(metrics_of(results, i), results.plan[i].resolved);
     } catch (const nlohmann::json::exception& error) {
       const fs::path file = episode_folder(study_dir, results.plan[i]) / "metrics.json";
       throw InputError(fmt::format("{}: {}", file.string(), error.what()));

@@ -1,4 +1,4 @@
-/// What a study looks at in an episode's metrics.json: numbers, and curves against scans.
+/// What a study looks at in the metrics.json of episodes: the measures of all tasks, as columns.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,22 +6,16 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "vantage/tasks/scenario.hpp"
+#include "vantage/runtime/measure.hpp"
+#include "vantage/tasks/episode.hpp"
 
 namespace vantage {
 
-struct MeasureName {
-  std::string_view name;   ///< column of results.csv
-  std::string_view title;  ///< with unit
-  bool wall = false;       ///< of wall time: another run gives another value
-};
-
 /// Numbers of an episode, in the order of the columns of results.csv.
 const std::vector<MeasureName>& scalar_measures();
-/// Curves against scans.
+/// Curves against steps.
 const std::vector<MeasureName>& curve_measures();
 
 std::vector<std::string> scalar_names();
@@ -30,16 +24,13 @@ std::vector<std::string> curve_names();
 std::optional<std::size_t> find_scalar(std::string_view name);
 std::optional<std::size_t> find_curve(std::string_view name);
 
-using Curve = std::vector<double>;  ///< a value a scan
-
 struct EpisodeMeasures {
   std::vector<std::optional<double>> scalars;  ///< as scalar_measures(); none: does not apply
-  std::vector<Curve> curves;                   ///< as curve_measures()
-  /// |predicted - actual new cells| of each gain, for every scan after the first.
-  std::vector<std::pair<std::string, Curve>> prediction_errors;
+  std::vector<Curve> curves;                   ///< as curve_measures(); empty: does not apply
+  PredictionErrors prediction_errors;
 };
 
 /// @throws nlohmann::json::exception if metrics.json lacks what the contract promises.
-EpisodeMeasures measure(const nlohmann::ordered_json& metrics, const Episode& episode);
+EpisodeMeasures measure(const nlohmann::ordered_json& metrics, const ResolvedEpisode& resolved);
 
 }  // namespace vantage

@@ -19,22 +19,10 @@ using Json = nlohmann::ordered_json;
 constexpr auto kStateNames = std::to_array<std::string_view>(
     {"missing", "stale", "interrupted", "crashed", "failed", "diverged", "completed"});
 
-/// The parts of a configuration that only tasks other than that of `episode` read.
-std::vector<std::string_view> parts_of_other_tasks(const Episode& episode) {
-  std::vector<std::string_view> parts;
-  if (!episode.flies() || episode.flies_trajectory()) parts.emplace_back("recognition");
-  if (!episode.detects_change()) parts.emplace_back("change_detection");
-  if (!episode.flies_trajectory()) parts.emplace_back("trajectory");
-  return parts;
-}
-
-/// One text for all configurations that give the same results as that of `episode`.
-std::string canonical(std::string_view yaml, const std::string& name, const Episode& episode) {
+/// One text for all configurations that give the same results.
+std::string canonical(std::string_view yaml, const std::string& name) {
   ConfigNode root = parse_yaml(yaml, name);
   root.set("threads", ConfigNode::make_scalar("1"));
-  for (const std::string_view part : parts_of_other_tasks(episode)) {
-    std::erase_if(root.entries, [part](const auto& entry) { return entry.first == part; });
-  }
   return to_yaml(root);
 }
 
@@ -44,13 +32,12 @@ std::string text(const Json& json, const char* key) {
   return json[key].get<std::string>();
 }
 
-bool same_configuration(const fs::path& folder, const Episode& episode) {
+bool same_configuration(const fs::path& folder, const ResolvedEpisode& resolved) {
   const fs::path file = folder / "config.yaml";
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return false;
   try {
-    return canonical(read_file(file), file.string(), episode) ==
-           canonical(episode_yaml(episode), "plan", episode);
+    return canonical(read_file(file), file.string()) == canonical(episode_yaml(resolved), "plan");
   } catch (const Error&) {
     return false;
   }
@@ -97,8 +84,8 @@ EpisodeState ResultCheck::operator()(const fs::path& study_dir, const PlannedEpi
                                                       : EpisodeState::missing;
   }
   const Json manifest = read_json_or_null(folder / "manifest.json");
-  if (!same_configuration(folder, episode.resolved.episode) ||
-      text(manifest, "scene_hash") != scene_hash(episode.resolved.scene)) {
+  if (!same_configuration(folder, episode.resolved) ||
+      text(manifest, "scene_hash") != scene_hash(episode.resolved.setup.scene)) {
     return EpisodeState::stale;
   }
   for (const EpisodeState state : {EpisodeState::interrupted, EpisodeState::failed,

@@ -205,7 +205,7 @@ Validation validate_study(const fs::path& file) {
     Validation found;
     std::set<fs::path> seen;
     for (const PlannedEpisode& episode : plan_study(read_study(file))) {
-      if (!seen.insert(episode.resolved.scene).second) continue;
+      if (!seen.insert(episode.resolved.setup.scene).second) continue;
       const Validation scene = validation_of([&] {
         require_start(file, episode.resolved);
         return Validation{};

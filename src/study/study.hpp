@@ -18,7 +18,7 @@
 
 #include "vantage/core/config_node.hpp"
 #include "vantage/core/fields.hpp"
-#include "vantage/tasks/scenario.hpp"
+#include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/validate.hpp"
 
 namespace vantage {

@@ -100,8 +100,8 @@ class Sweep {
       return;
     }
     for (const char* old : {"metrics.json", "failure.json"}) remove_file(folder / old);
-    Episode configuration = episode.resolved.episode;
-    if (options_.jobs > 1) configuration.threads = 1;
+    ResolvedEpisode configuration = episode.resolved;
+    if (options_.jobs > 1) configuration.setup.options.threads = 1;
     write_file(folder / "episode.yaml", episode_yaml(configuration));
     const std::vector<std::string> command{
         "vantage", "run",        (folder / "episode.yaml").string(), "--out", folder.string(),

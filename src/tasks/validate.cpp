@@ -7,13 +7,7 @@
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/sim/world/world.hpp"
-#include "vantage/tasks/exploration/exploration_robot_interface.hpp"
-#include "vantage/tasks/recognition/object_recognition.hpp"
-#include "vantage/tasks/recognition/orbit_robot_interface.hpp"
-#include "vantage/tasks/start_check.hpp"
-#include "vantage/tasks/tabletop/tabletop_robot_interface.hpp"
-#include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/tasks/trajectory/trajectory_flight.hpp"
+#include "vantage/tasks/tabletop/start_check.hpp"
 
 namespace vantage {
 namespace {
@@ -21,10 +15,10 @@ namespace fs = std::filesystem;
 
 /// As it will be loaded, beside the robot.
 Validation validate_scene(const fs::path& file) {
-  const Episode defaults;
-  const World world({file, find_input(defaults.robot.model, {}, "robot.model")}, {});
+  const RobotOptions robot;
+  const World world({file, find_input(robot.model, {}, "robot.model")}, {});
   const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
-  if (has_table(geometry, defaults)) return {};
+  if (has_table(geometry, Tabletop{})) return {};
   return {{},
           {file.string() + ": note: no table where map.centre_m and map.size_m are by default"}};
 }
@@ -51,18 +45,7 @@ Validation validation_of(const std::function<Validation()>& check) {
 
 void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
   try {
-    if (resolved.episode.flies_trajectory()) {
-      const TrajectoryRobotInterface robot(resolved,
-                                           read_flight_layout(resolved.scene).path.front());
-      load_trajectory_recogniser(resolved);
-    } else if (resolved.episode.flies()) {
-      const OrbitRobotInterface robot(resolved);
-      load_episode_recogniser(resolved);
-    } else if (resolved.episode.in_office()) {
-      const ExplorationRobotInterface robot(resolved);
-    } else {
-      const TabletopRobotInterface robot(resolved);
-    }
+    std::visit([&](const auto& task) { task.require_start(resolved.setup); }, resolved.task);
   } catch (const ConfigError& error) {
     throw ConfigError(file.string() + ": " + error.what());
   } catch (const InputError& error) {

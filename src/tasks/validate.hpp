@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vantage/core/error.hpp"
-#include "vantage/tasks/scenario.hpp"
+#include "vantage/tasks/episode.hpp"
 
 namespace vantage {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/runtime/event_log.hpp"
+#include "vantage/runtime/log/event_log.hpp"
 #include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/render/window.hpp"
 

@@ -71,7 +71,8 @@ ExitCode view_live(const ResolvedEpisode& resolved, const ViewOptions& options,
     if (!live.still_shown) link.show(live.state, link.events(), !options.screenshot.empty());
     return code;
   };
-  return show_in_window({resolved, "vantage: " + resolved.name, std::nullopt}, options, player);
+  return show_in_window({resolved, "vantage: " + resolved.setup.name, std::nullopt}, options,
+                        player);
 }
 
 }  // namespace vantage

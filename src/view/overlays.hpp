@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "vantage/runtime/drawing/map_view.hpp"
-#include "vantage/runtime/event_log.hpp"
+#include "vantage/runtime/log/event_log.hpp"
 
 namespace vantage {
 

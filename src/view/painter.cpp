@@ -49,16 +49,16 @@ void set_colours(RenderedImages& image, const cv::Mat& bgr) {
 
 }  // namespace
 
-FreeCamera overview_of(const World& world, const Episode& episode) {
-  const auto& size_m = episode.map.size_m;
+FreeCamera overview_of(const World& world, const WindowContent& content) {
+  const Eigen::Vector2d size_m = content.overview_m.sizes();
+  const Eigen::Vector2d centre_m = content.overview_m.center();
   const double radius_m = 0.5 * kRegionShare * std::hypot(size_m[0], size_m[1]) + kMargin_m;
-  FreeCamera camera{
-      .lookat_m = Eigen::Vector3d(episode.map.centre_m[0], episode.map.centre_m[1], kBodyMiddle_m),
-      .distance_m = radius_m / std::sin(0.5 * kFovy_rad),
-      .azimuth_rad = 0.8,
-      .elevation_rad = -0.6,
-      .fovy_rad = kFovy_rad,
-      .cutaway_m = radius_m};
+  FreeCamera camera{.lookat_m = Eigen::Vector3d(centre_m.x(), centre_m.y(), kBodyMiddle_m),
+                    .distance_m = radius_m / std::sin(0.5 * kFovy_rad),
+                    .azimuth_rad = 0.8,
+                    .elevation_rad = -0.6,
+                    .fovy_rad = kFovy_rad,
+                    .cutaway_m = radius_m};
   if (const auto id = find_model_id(world.model(), ModelObject::camera, "overview")) {
     const Eigen::Vector3d forward =
         T_world_camera(world.model(), world.snapshot(), *id).linear().col(2);
@@ -77,12 +77,12 @@ FreeCamera follow_of_robot() {
           .cutaway_m = 1.5};
 }
 
-ViewPainter::ViewPainter(World& world, const Episode& episode)
+ViewPainter::ViewPainter(World& world, const ViewScene& scene)
     : world_(world),
-      episode_(episode),
+      scene_(scene),
       camera_(model_id(world.model(), ModelObject::camera, "robot/camera")),
       base_body_(model_id(world.model(), ModelObject::body, "robot/base")),
-      known_(episode.grid_frame()) {}
+      known_(scene.content.map.value_or(GridFrame{})) {}
 
 CameraView ViewPainter::camera_for(const ViewControls& controls) const {
   if (controls.camera == ViewCamera::robot) return FixedCamera{.camera_id = camera_};
@@ -90,7 +90,7 @@ CameraView ViewPainter::camera_for(const ViewControls& controls) const {
   FreeCamera camera = controls.follow;
   const Eigen::Vector3d p_m = body_pose(world_, base_body_).translation();
   camera.lookat_m += Eigen::Vector3d(p_m.x(), p_m.y(), 0.0);
-  if (episode_.flies()) camera.lookat_m.z() = p_m.z();
+  if (scene_.content.follows_height) camera.lookat_m.z() = p_m.z();
   return camera;
 }
 
@@ -116,7 +116,7 @@ ViewFrame ViewPainter::paint(const ViewLink::Work& work) {
 
   MapCanvas canvas = canvas_of(frame.image);
   const MapCamera camera = camera_of(frame.image);
-  if (controls.map && !episode_.flies()) lay_map(canvas, camera, known_.grid());
+  if (controls.map && scene_.content.map) lay_map(canvas, camera, known_.grid());
   if (controls.gains) lay_views(canvas, camera, known_);
   lay_captions(canvas.bgr, captions_for(controls, frame.time_s));
   set_colours(frame.image, canvas.bgr);
@@ -125,12 +125,12 @@ ViewFrame ViewPainter::paint(const ViewLink::Work& work) {
 
 ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time_s) const {
   ViewCaptions captions;
-  captions.scene = fmt::format("{}    {:.2f} s", method_name(episode_), time_s);
-  if (!episode_.flies()) {
-    captions.scene += fmt::format("    scan {} of {}", known_.scans(), episode_.scans);
+  captions.scene = fmt::format("{}    {:.2f} s", scene_.method, time_s);
+  if (scene_.content.scans > 0) {
+    captions.scene += fmt::format("    scan {} of {}", known_.scans(), scene_.content.scans);
   }
   captions.playback = controls.playback;
-  captions.gain_unit = unit_of(episode_.gain);
+  captions.gain_unit = scene_.content.gain_unit;
   if (controls.gains) captions.decision = known_.decision();
   if (controls.duration_s) captions.progress = time_s / *controls.duration_s;
   captions.help = controls.help;

@@ -5,8 +5,7 @@
 
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
-#include "vantage/runtime/recording.hpp"
-#include "vantage/tasks/model_source.hpp"
+#include "vantage/runtime/log/recording.hpp"
 #include "vantage/view/session.hpp"
 
 namespace vantage {
@@ -53,10 +52,10 @@ struct RecordedPlayer {
 
 /// Runs of before there were event logs can still be looked at.
 std::vector<EpisodeEvent> event_log_of(const std::filesystem::path& run_dir,
-                                       const Episode& episode) {
+                                       const std::optional<GridFrame>& map) {
   const auto path = run_dir / "story.bin";
-  if (std::filesystem::exists(path)) return read_event_log(path, episode.grid_frame().size());
-  if (episode.flies()) return {};
+  if (std::filesystem::exists(path)) return read_event_log(path, map ? map->size() : 0);
+  if (!map) return {};
   log_warning(path.string() + ": missing; there is neither map nor gains to show");
   return {};
 }
@@ -66,10 +65,10 @@ std::vector<EpisodeEvent> event_log_of(const std::filesystem::path& run_dir,
 ExitCode view_recording(const std::filesystem::path& run_dir, const ViewOptions& options) {
   const ResolvedEpisode resolved = load_recorded(run_dir);
   RecordedPlayer recorded;
-  const World world(model_source(resolved), resolved.episode.simulation);
+  const World world(model_source(resolved), resolved.setup.options.simulation);
   recorded.states = load_states(run_dir, world);
-  recorded.event_log = event_log_of(run_dir, resolved.episode);
-  recorded.tick_s = resolved.episode.simulation.control_period_s;
+  recorded.event_log = event_log_of(run_dir, window(resolved.task).map);
+  recorded.tick_s = resolved.setup.options.simulation.control_period_s;
   const bool still = !options.screenshot.empty();
   std::size_t first = still ? recorded.end() : 0;
   if (options.at_s) first = recorded.position_at(*options.at_s);

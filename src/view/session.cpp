@@ -14,7 +14,6 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
-#include "vantage/tasks/model_source.hpp"
 #include "vantage/view/input.hpp"
 #include "vantage/view/painter.hpp"
 
@@ -35,8 +34,8 @@ void write_png(const std::filesystem::path& path, RenderedImages image) {
 /// The painter's and the player's threads, which end with it.
 class Crew {
  public:
-  Crew(const Episode& episode, World& world, const Player& player, double speed) : gate(speed) {
-    painter_ = std::thread([&, episode] { guarded([&] { paint(world, episode); }); });
+  Crew(const ViewScene& scene, World& world, const Player& player, double speed) : gate(speed) {
+    painter_ = std::thread([&, scene] { guarded([&] { paint(world, scene); }); });
     player_ = std::thread([&] {
       guarded([&] { code_ = player(link, gate); });
       ended_ = true;
@@ -66,8 +65,8 @@ class Crew {
       link.fail(std::current_exception());
     }
   }
-  void paint(World& world, const Episode& episode) {
-    ViewPainter painter(world, episode);
+  void paint(World& world, const ViewScene& scene) {
+    ViewPainter painter(world, scene);
     while (const auto work = link.wait_for_work()) {
       const auto next = std::chrono::steady_clock::now() + kBetweenFrames;
       link.deliver(painter.paint(*work));
@@ -90,7 +89,7 @@ class Crew {
 ViewControls first_controls(const World& world, const ViewSubject& subject,
                             const ViewOptions& options) {
   ViewControls controls{.camera = options.camera,
-                        .overview = overview_of(world, subject.resolved.episode),
+                        .overview = overview_of(world, vantage::window(subject.resolved.task)),
                         .follow = follow_of_robot(),
                         .map = options.map,
                         .gains = options.gains,
@@ -133,7 +132,7 @@ void take_still(Window& window, Crew& crew, ViewControls controls, const ViewOpt
 void keep_open(Window& window, Crew& crew, ViewControls controls, const ViewSubject& subject) {
   ViewInput input{.controls = controls,
                   .gate = crew.gate,
-                  .tick_s = subject.resolved.episode.simulation.control_period_s};
+                  .tick_s = subject.resolved.setup.options.simulation.control_period_s};
   RenderedImages shown;
   while (!window.closed() && !input.quit && interrupt_signal() == 0) {
     const auto events = window.wait(kPoll_s);
@@ -164,11 +163,12 @@ ExitCode show_in_window(const ViewSubject& subject, const ViewOptions& options,
   catch_interrupts();
   std::optional<Window> window;
   window.emplace(subject.title, options.size);
-  const Episode& episode = subject.resolved.episode;
-  World world(model_source(subject.resolved), episode.simulation);
+  const ResolvedEpisode& resolved = subject.resolved;
+  World world(model_source(resolved), resolved.setup.options.simulation);
   const ViewControls controls = first_controls(world, subject, options);
   const bool still = !options.screenshot.empty();
-  Crew crew(episode, world, player, still ? std::numeric_limits<double>::infinity() : 1.0);
+  const ViewScene scene{method_name(resolved.task), vantage::window(resolved.task)};
+  Crew crew(scene, world, player, still ? std::numeric_limits<double>::infinity() : 1.0);
   if (still) {
     take_still(*window, crew, controls, options);
   } else {

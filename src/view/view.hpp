@@ -8,7 +8,6 @@
 
 #include "vantage/sim/render/window.hpp"
 #include "vantage/tasks/run.hpp"
-#include "vantage/tasks/scenario.hpp"
 #include "vantage/view/link.hpp"
 
 namespace vantage {

@@ -117,6 +117,44 @@ TEST_F(CommandLine, PrintConfigIsReadBack) {
   EXPECT_EQ(vantage("run " + copy + " --print-config").output, config.output);
 }
 
+TEST_F(CommandLine, PrintConfigShowsTheTaskFirstAndItsKeys) {
+  const auto printed = [&](const std::string& episode) {
+    const Result result = vantage("run --print-config assets/episodes/" + episode);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    return result.output;
+  };
+  const std::string tabletop = printed("tabletop.yaml");
+  EXPECT_THAT(tabletop, testing::StartsWith("task: tabletop\n"));
+  EXPECT_THAT(tabletop, testing::AllOf(HasSubstr("\ncandidates:"), HasSubstr("\nscans: 10\n")));
+  EXPECT_THAT(tabletop, testing::Not(testing::ContainsRegex("\n(frontiers|horizon|bearings):")));
+  const std::string office = printed("office_small.yaml");
+  EXPECT_THAT(office, testing::StartsWith("task: exploration\n"));
+  EXPECT_THAT(office, testing::AllOf(HasSubstr("\nfrontiers:"), HasSubstr("\nscans: 60\n")));
+  EXPECT_THAT(office, testing::Not(testing::ContainsRegex("\n(candidates|horizon|bearings):")));
+  const std::string flight = printed("trajectory.yaml");
+  EXPECT_THAT(flight, testing::StartsWith("task: trajectory\n"));
+  EXPECT_THAT(flight, HasSubstr("\nhorizon: 10\n"));
+  EXPECT_THAT(flight, testing::Not(testing::ContainsRegex("\n(scans|candidates|bearings):")));
+}
+
+TEST_F(CommandLine, AKeyOfAnotherTaskNamesThatTask) {
+  expect_error(vantage("run assets/episodes/office_small.yaml --set candidates.positions=8"), 2,
+               {"--set", "candidates", "it belongs to tabletop"});
+  const auto episode = file("e.yaml", "task: tabletop\nscans: 2\nhorizon: 5\n");
+  expect_error(vantage("run " + episode), 2, {"e.yaml:3", "horizon", "it belongs to trajectory"});
+  expect_error(vantage("run --set task=flying"), 2, {"task", "'flying'", "trajectory"});
+}
+
+TEST_F(CommandLine, FormerKeysSayWhatToWrite) {
+  const auto office = file("e.yaml", "scene: s.xml\nsetting: office\n");
+  expect_error(vantage("run " + office), 2, {"e.yaml:2", "setting", "write task: exploration"});
+  expect_error(vantage("run --set task=next_best_view"), 2,
+               {"--set", "task: tabletop", "task: exploration"});
+  expect_error(vantage("validate " + file("f.yaml", "recognition:\n  max_views: 3\n")), 2,
+               {"f.yaml:1", "write max_views in place of recognition.max_views"});
+  expect_error(vantage("run --set most_views=3"), 2, {"--set", "most_views", "'max_views'"});
+}
+
 TEST_F(CommandLine, UsageErrorsEndInTwo) {
   EXPECT_EQ(vantage("rnu").exit_code, 2);
   EXPECT_EQ(vantage("run --sede 1").exit_code, 2);

@@ -127,6 +127,8 @@ TEST_F(CommandLine, ListsWhatThereIs) {
   EXPECT_THAT(vantage("list features").output,
               testing::AllOf(testing::ContainsRegex("colour +144 dimensions +[0-9.]+ ms\n"),
                              testing::ContainsRegex("sift +1000 dimensions"), HasSubstr("onnx")));
+  EXPECT_EQ(vantage("list tasks").output,
+            "tabletop\nexploration\nrecognition\nchange_detection\ntrajectory\n");
   EXPECT_EQ(vantage("list nothing").exit_code, 2);
 }
 

@@ -11,6 +11,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/tasks/task.hpp"
 
 namespace vantage {
 namespace {
@@ -25,8 +26,9 @@ json embedded_data(const std::string& page) {
   return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
-std::string page_of(const TemporaryDirectory& run) {
-  write_report(run.path());
+std::string page_of(const TemporaryDirectory& run,
+                    const ReportSections& sections = Tabletop::report()) {
+  write_report(run.path(), sections);
   return read_file(run / "report.html");
 }
 
@@ -39,7 +41,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 /// The message write_report fails with.
 std::string input_error(const TemporaryDirectory& run) {
   try {
-    write_report(run.path());
+    write_report(run.path(), Tabletop::report());
   } catch (const InputError& error) {
     EXPECT_FALSE(std::filesystem::exists(run / "report.html"));
     return error.what();
@@ -137,7 +139,61 @@ TEST(Report, CopesWithoutTheOptionalFields) {
   support::write_sample_run(run.path());
   write_file(run / "metrics.json", R"({"task": "recognition", "status": "failed"})");
   std::filesystem::remove(run / "voxels.bin");
-  EXPECT_TRUE(embedded_data(page_of(run))["voxels"].is_null());
+  EXPECT_TRUE(embedded_data(page_of(run, RecognitionTask::report()))["voxels"].is_null());
+}
+
+/// Metrics that have the lists of every task, and the name of none.
+json metrics_of_no_task() {
+  json metrics = support::sample_metrics();
+  metrics["task"] = "made_up";
+  metrics["observations"] = json::array({{{"time_s", 1.0}, {"entropy_bits", 2.0}}});
+  metrics["objects"] = json::array({{{"truth", "mug_1"}, {"looks", json::array()}}});
+  metrics["path"] = metrics["plan"] = json::array({{0.0, 0.0, 1.0, 0.0}});
+  metrics["change_probability"] = 0.5;
+  return metrics;
+}
+
+TEST(Report, HasTheSectionsOfTheTaskWhateverTheMetricsSay) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  write_file(run / "metrics.json", metrics_of_no_task().dump());
+  for_each_task([&](const auto& task) {
+    const ReportSections sections = task.report();
+    const json data = embedded_data(page_of(run, sections));
+    EXPECT_EQ(data["sections"]["figures"], sections.figures) << task.name;
+    EXPECT_EQ(data["sections"]["steps"], sections.steps) << task.name;
+    EXPECT_EQ(data["sections"]["step_word"], sections.step_word) << task.name;
+    EXPECT_EQ(data["sections"]["view_heading"], sections.view_heading) << task.name;
+    EXPECT_EQ(data["voxels"].is_null(), !sections.map) << task.name;
+    EXPECT_EQ(data["metrics"], metrics_of_no_task()) << task.name;
+  });
+}
+
+TEST(Report, OnlyATaskWithAMapNeedsItsFiles) {
+  for_each_task([](const auto& task) {
+    const TemporaryDirectory run;
+    support::write_sample_run(run.path());
+    std::filesystem::remove(run / "voxels.bin");
+    write_file(run / "metrics.json", R"({"task": "made_up", "status": "completed"})");
+    const ReportSections sections = task.report();
+    if (sections.map) {
+      EXPECT_THROW(write_report(run.path(), sections), InputError) << task.name;
+    } else {
+      EXPECT_NO_THROW(write_report(run.path(), sections)) << task.name;
+    }
+  });
+}
+
+TEST(Report, ThePageKnowsTheFiguresOfEveryTask) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  const std::string page = page_of(run);
+  for_each_task([&](const auto& task) {
+    const std::string name(task.report().figures);
+    ASSERT_FALSE(name.empty()) << task.name;
+    EXPECT_NE(page.find("FIGURES." + name + " ="), std::string::npos) << task.name;
+  });
+  EXPECT_EQ(count(page, "METRICS.task"), 1U) << "in its heading alone";
 }
 
 TEST(Report, MissingFilesAreNamed) {

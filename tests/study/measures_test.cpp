@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <set>
+
 namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
@@ -33,10 +36,10 @@ Json metrics(const std::string& method) {
             scan(20.0, 10.0, 15.0, 9.0, 3.0)}}};
 }
 
-Episode planned_scans(int scans) {
-  Episode episode;
-  episode.scans = scans;
-  return episode;
+ResolvedEpisode planned_scans(int scans) {
+  Tabletop task;
+  task.scans = scans;
+  return {.setup = {}, .task = task};
 }
 
 std::optional<double> scalar(const EpisodeMeasures& measures, const char* name) {
@@ -106,7 +109,7 @@ Json recognition_metrics() {
 }
 
 TEST(Measures, RecognitionHasMeasuresOfItsOwnAndNoneOfMapping) {
-  const auto measures = measure(recognition_metrics(), Episode{});
+  const auto measures = measure(recognition_metrics(), {.setup = {}, .task = RecognitionTask{}});
   EXPECT_DOUBLE_EQ(*scalar(measures, "correct"), 1.0);
   EXPECT_DOUBLE_EQ(*scalar(measures, "bin_error"), 1.0);
   EXPECT_DOUBLE_EQ(*scalar(measures, "views"), 2.0);
@@ -124,7 +127,7 @@ TEST(Measures, AnEpisodeInterruptedBeforeItsFirstViewHasNoEstimate) {
   Json metrics = recognition_metrics();
   metrics["observations"] = Json::array();
   metrics["bin_error"] = nullptr;
-  const auto measures = measure(metrics, Episode{});
+  const auto measures = measure(metrics, {.setup = {}, .task = RecognitionTask{}});
   EXPECT_FALSE(scalar(measures, "bin_error"));
   EXPECT_FALSE(scalar(measures, "view_position_error_m"));
 }
@@ -148,7 +151,9 @@ TEST(Measures, OfAFlightPastObjects) {
                        {"late_plans", 0},
                        {"missed_deadlines", 0},
                        {"energy_j", 5000.0}};
-  const auto measures = measure(flight, planned_scans(3));
+  const auto episode = load_episode(
+      std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/trajectory.yaml", {});
+  const auto measures = measure(flight, episode);
   EXPECT_DOUBLE_EQ(*scalar(measures, "accuracy"), 0.5);
   EXPECT_DOUBLE_EQ(*scalar(measures, "observations"), 9.0);
   EXPECT_DOUBLE_EQ(*scalar(measures, "mean_entropy_nats"), 1.25);
@@ -157,6 +162,69 @@ TEST(Measures, OfAFlightPastObjects) {
   EXPECT_DOUBLE_EQ(*scalar(measures, "replan_time_p95_s"), 0.006);
   EXPECT_FALSE(scalar(measures, "area")) << "nothing is mapped";
   EXPECT_FALSE(scalar(measures, "correct")) << "not one object but several";
+}
+
+TEST(Measures, OfATaskAreAllColumns) {
+  for_each_task([](const auto& task) {
+    const Measures measures = task.measures();
+    ASSERT_FALSE(measures.scalars.empty()) << task.name;
+    std::set<std::string_view> seen;
+    for (const ScalarMeasure& measure : measures.scalars) {
+      EXPECT_NE(measure.of, nullptr) << task.name << " " << measure.name.name;
+      EXPECT_TRUE(seen.insert(measure.name.name).second) << task.name << " " << measure.name.name;
+      const auto column = find_scalar(measure.name.name);
+      ASSERT_TRUE(column) << task.name << " " << measure.name.name;
+      EXPECT_FALSE(scalar_measures()[*column].title.empty());
+      EXPECT_EQ(scalar_measures()[*column].title, measure.name.title) << "one title a column";
+      EXPECT_EQ(scalar_measures()[*column].wall, measure.name.wall) << measure.name.name;
+    }
+    for (const CurveMeasure& measure : measures.curves) {
+      EXPECT_NE(measure.of, nullptr) << task.name << " " << measure.name.name;
+      EXPECT_TRUE(seen.insert(measure.name.name).second) << task.name << " " << measure.name.name;
+      const auto column = find_curve(measure.name.name);
+      ASSERT_TRUE(column) << task.name << " " << measure.name.name;
+      EXPECT_EQ(curve_measures()[*column].title, measure.name.title) << "one title a column";
+    }
+  });
+}
+
+TEST(Measures, EveryColumnIsOneOfATask) {
+  std::set<std::string_view> of_tasks;
+  for_each_task([&](const auto& task) {
+    for (const ScalarMeasure& measure : task.measures().scalars) of_tasks.insert(measure.name.name);
+    for (const CurveMeasure& measure : task.measures().curves) of_tasks.insert(measure.name.name);
+  });
+  std::set<std::string> columns;
+  for (const std::string& name : scalar_names()) EXPECT_TRUE(columns.insert(name).second) << name;
+  for (const std::string& name : curve_names()) EXPECT_TRUE(columns.insert(name).second) << name;
+  EXPECT_EQ(columns, std::set<std::string>(of_tasks.begin(), of_tasks.end()));
+}
+
+TEST(Measures, EveryTaskHasThoseOfAllEpisodes) {
+  for_each_task([](const auto& task) {
+    for (const char* name : {"path_length_m", "collisions", "simulated_time_s"}) {
+      EXPECT_TRUE(std::ranges::any_of(
+          task.measures().scalars,
+          [&](const ScalarMeasure& measure) { return measure.name.name == name; }))
+          << task.name << " " << name;
+    }
+  });
+}
+
+/// The task decides which measures are taken, whatever keys the metrics have.
+TEST(Measures, AreThoseOfTheTaskAndNotOfTheKeys) {
+  Json all = metrics("adaptive");
+  const Json others = recognition_metrics();
+  for (const auto& [key, value] : others.items()) {
+    if (!all.contains(key)) all[key] = value;
+  }
+  const auto mapped = measure(all, planned_scans(3));
+  EXPECT_TRUE(scalar(mapped, "area"));
+  EXPECT_FALSE(scalar(mapped, "correct"));
+  const auto recognised = measure(all, {.setup = {}, .task = RecognitionTask{}});
+  EXPECT_FALSE(scalar(recognised, "area"));
+  EXPECT_TRUE(scalar(recognised, "correct"));
+  EXPECT_TRUE(recognised.prediction_errors.empty());
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ class Results : public testing::Test {
     episode_ = {"near/simple", {0, 0}, load_episode(base, {"gain=simple"})};
     folder_ = episode_folder(study_.path(), episode_);
     fs::create_directories(folder_);
-    write("config.yaml", episode_yaml(episode_.resolved.episode));
-    write("manifest.json",
-          fmt::format(R"({{"scene_hash": "{}"}})", hash_text(hash_file(episode_.resolved.scene))));
+    write("config.yaml", episode_yaml(episode_.resolved));
+    write("manifest.json", fmt::format(R"({{"scene_hash": "{}"}})",
+                                       hash_text(hash_file(episode_.resolved.setup.scene))));
     write("metrics.json", R"({"status": "completed"})");
   }
   void write(const std::string& name, const std::string& text) {
@@ -39,23 +39,23 @@ class Results : public testing::Test {
 TEST_F(Results, WholeAndOfThisConfiguration) { EXPECT_EQ(state(), EpisodeState::completed); }
 
 TEST_F(Results, ThreadsDoNotMatter) {
-  episode_.resolved.episode.threads = 7;
+  episode_.resolved.setup.options.threads = 7;
   EXPECT_EQ(state(), EpisodeState::completed);
 }
 
 TEST_F(Results, AnotherConfigurationIsStale) {
-  episode_.resolved.episode.scans = 9;
+  std::get<Tabletop>(episode_.resolved.task).scans = 9;
   EXPECT_EQ(state(), EpisodeState::stale);
 }
 
-TEST_F(Results, WhatOnlyOtherTasksReadDoesNotMatter) {
-  episode_.resolved.episode.trajectory.horizon = 7;
-  episode_.resolved.episode.recognition.decision.max_views = 3;
+TEST_F(Results, AnotherTaskIsStale) {
+  RecognitionTask task;
+  task.decision.max_views = 3;
+  episode_.resolved.task = task;
+  EXPECT_EQ(state(), EpisodeState::stale);
+  write("config.yaml", episode_yaml(episode_.resolved));
   EXPECT_EQ(state(), EpisodeState::completed);
-  episode_.resolved.episode.task = "recognition";
-  write("config.yaml", episode_yaml(episode_.resolved.episode));
-  EXPECT_EQ(state(), EpisodeState::completed);
-  episode_.resolved.episode.recognition.decision.max_views = 4;
+  std::get<RecognitionTask>(episode_.resolved.task).decision.max_views = 4;
   EXPECT_EQ(state(), EpisodeState::stale);
 }
 

@@ -64,21 +64,22 @@ TEST_F(StudyFile, TheLastFactorIsFastest) {
 
 TEST_F(StudyFile, OverridesReachTheEpisode) {
   const auto episodes = plan(kStudy);
-  const Episode& last = episodes[3].resolved.episode;
+  const auto& last = std::get<Tabletop>(episodes[3].resolved.task);
   EXPECT_EQ(last.scans, 3);
-  EXPECT_EQ(last.robot.start_view, 5);
+  EXPECT_EQ(episodes[3].resolved.setup.options.robot.start_view, 5);
   EXPECT_EQ(std::get<BeerLambertGain>(last.gain).a, 0.999);
-  EXPECT_EQ(method_name(episodes[0].resolved.episode), "random");
+  EXPECT_EQ(method_name(episodes[0].resolved.task), "random");
   EXPECT_EQ(method_name(last), "beer_lambert a=0.999");
-  Episode near = last;
+  Tabletop near = last;
   near.choice = GainOverDistance{};
   EXPECT_EQ(method_name(near), "gain_over_distance of beer_lambert a=0.999");
 }
 
 TEST_F(StudyFile, SetFromTheCommandLineReachesEveryEpisode) {
   for (const auto& episode : plan_study(read(kStudy, {"scans=7", "map.cells=[9,9,9]"}))) {
-    EXPECT_EQ(episode.resolved.episode.scans, 7);
-    EXPECT_EQ(episode.resolved.episode.map.cells[2], 9);
+    const auto& task = std::get<Tabletop>(episode.resolved.task);
+    EXPECT_EQ(task.scans, 7);
+    EXPECT_EQ(task.map.cells[2], 9);
   }
 }
 
@@ -90,7 +91,7 @@ TEST_F(StudyFile, ItsOwnTextIsTheSameStudy) {
   const auto b = plan_study(second);
   ASSERT_EQ(names(a), names(b));
   for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(episode_yaml(a[i].resolved.episode), episode_yaml(b[i].resolved.episode));
+    EXPECT_EQ(episode_yaml(a[i].resolved), episode_yaml(b[i].resolved));
   }
 }
 
@@ -98,7 +99,7 @@ TEST_F(StudyFile, FilesAreFoundBesideIt) {
   fs::create_directory(folder_ / "mine");
   std::ofstream(folder_ / "mine/scene.xml") << "<mujoco/>";
   const auto text = replaced(kStudy, "{choice: random}", "{scene: mine/scene.xml}");
-  EXPECT_EQ(plan(text)[0].resolved.scene, folder_ / "mine/scene.xml");
+  EXPECT_EQ(plan(text)[0].resolved.setup.scene, folder_ / "mine/scene.xml");
   EXPECT_THROW(read(replaced(text, "mine/scene.xml", "no.xml")), InputError);
 }
 

@@ -118,7 +118,7 @@ GoldenResult run_episode_file(const std::string& name) {
     trace.within(step, "precision", std::round(1e3 * scan["precision"].get<double>()) / 1e3, 0.03);
     ++step;
   }
-  OccupancyGrid grid(resolved.episode.grid_frame());
+  OccupancyGrid grid(std::get<Tabletop>(resolved.task).map.frame());
   for (const auto& p : read_octomap(out / "map.bt").occupied_centres) {
     const auto cell = grid.frame.cell_at(p.cast<double>());
     if (grid.frame.contains(cell)) grid.log_odds[grid.frame.index(cell)] = 4.0F;

@@ -9,14 +9,15 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/tasks/replayed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/runtime/replay.hpp"
 
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
+using support::replayed;
 
 void drop_wall_times(nlohmann::json& json) {
   for (const char* key : {"wall_time_s", "real_time_factor"}) json.erase(key);
@@ -95,7 +96,7 @@ TEST_F(Run, WritesTheWholeFolder) {
 }
 
 TEST_F(Run, ReplayReachesTheSameStates) {
-  const ReplayResult result = replay(folder_ / "first");
+  const ReplayResult result = replayed(folder_ / "first");
   EXPECT_FALSE(result.first_difference) << result.what;
   EXPECT_GT(result.ticks, 100U);
   EXPECT_EQ(fmt::format("{:016x}", result.state_hash), first_["state_hash"]);
@@ -110,7 +111,7 @@ TEST_F(Run, ReplayNamesTheStepOfAnyChangedByte) {
     std::string bytes = original;
     bytes[at] = bytes[at] == '7' ? '3' : '7';
     write_file(changed / "actions.csv", bytes);
-    const ReplayResult result = replay(changed);
+    const ReplayResult result = replayed(changed);
     ASSERT_TRUE(result.first_difference) << "byte " << at;
     const auto line_start = original.rfind('\n', at == 0 ? 0 : at - 1);
     if (at >= header && original[at] != '\n') {
@@ -125,12 +126,12 @@ TEST_F(Run, ReplayNamesTheStepOfAnyChangedByte) {
 }
 
 TEST_F(Run, ReplayNamesFilesThatChanged) {
-  EXPECT_TRUE(replay(folder_ / "first").changed_files.empty());
+  EXPECT_TRUE(replayed(folder_ / "first").changed_files.empty());
   const fs::path other = copy_of_first("other_scene");
   auto manifest = nlohmann::json::parse(read_file(other / "manifest.json"));
   manifest["assets"]["scene.xml"] = "0";
   write_file(other / "manifest.json", manifest.dump());
-  const ReplayResult result = replay(other);
+  const ReplayResult result = replayed(other);
   EXPECT_EQ(result.changed_files, std::vector<std::string>{"scene.xml"});
   EXPECT_FALSE(result.first_difference) << "the states agree all the same";
 }
@@ -141,19 +142,19 @@ TEST_F(Run, ReplayRefusesActionsAndKeysOfAnotherKind) {
   for (const std::string& content :
        {std::string(), std::string("tick,a\n"), actions.substr(0, actions.find('\n')) + "\r\n"}) {
     write_file(other / "actions.csv", content);
-    EXPECT_THROW(replay(other), InputError);
+    EXPECT_THROW(replayed(other), InputError);
   }
   write_file(other / "actions.csv", actions);
   write_file(other / "config.yaml", read_file(other / "config.yaml") + "old_key: 1\n");
-  EXPECT_THROW(replay(other), InputError);
+  EXPECT_THROW(replayed(other), InputError);
 }
 
 TEST_F(Run, ReplayRefusesATruncatedLog) {
   const fs::path cut = copy_of_first("cut");
   fs::resize_file(cut / "states.bin", fs::file_size(cut / "states.bin") - 3);
-  EXPECT_THROW(replay(cut), InputError);
+  EXPECT_THROW(replayed(cut), InputError);
   fs::remove(cut / "states.bin");
-  EXPECT_THROW(replay(cut), InputError);
+  EXPECT_THROW(replayed(cut), InputError);
 }
 
 }  // namespace

@@ -30,13 +30,13 @@ inline void make_small_model(const std::filesystem::path& folder) {
 
 /// Overrides of an episode that flies.
 inline std::vector<std::string> small_flight(const std::filesystem::path& folder) {
-  return {fmt::format("recognition.model={}", (folder / "model").string()),
-          fmt::format("recognition.database.objects={}", kSmallObjects),
-          "recognition.settle_s=0.1",
-          "recognition.max_views=2",
-          "recognition.all_features=true",
-          "recognition.camera={width_px: 320, height_px: 240}",
-          "recognition.segmentation.min_pixels=40"};
+  return {fmt::format("model={}", (folder / "model").string()),
+          fmt::format("database.objects={}", kSmallObjects),
+          "settle_s=0.1",
+          "max_views=2",
+          "all_features=true",
+          "camera={width_px: 320, height_px: 240}",
+          "segmentation.min_pixels=40"};
 }
 
 }  // namespace vantage::support

@@ -8,8 +8,8 @@
 #include "tests/cli/command_line.hpp"
 #include "tests/support/virtual_display.hpp"
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/runtime/event_log.hpp"
-#include "vantage/tasks/scenario.hpp"
+#include "vantage/runtime/log/event_log.hpp"
+#include "vantage/tasks/episode.hpp"
 
 namespace vantage {
 namespace {
@@ -75,7 +75,7 @@ TEST_F(View, ARunAndItsRecordingLookTheSame) {
 TEST_F(View, TheStoryAgreesWithTheMetrics) {
   ASSERT_EQ(vantage(std::string("run -q --out run ") + kTwoScans).exit_code, 0);
   const auto metrics = nlohmann::json::parse(read_file(folder_ / "run/metrics.json"));
-  const auto frame = load_episode(folder_ / "run/config.yaml", {}).episode.grid_frame();
+  const auto frame = std::get<Tabletop>(load_recorded(folder_ / "run").task).map.frame();
   const auto event_log = read_event_log(folder_ / "run/story.bin", frame.size());
   EventReplay moment(frame);
   std::size_t decisions = 0;

@@ -3,7 +3,7 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/yaml.hpp"
-#include "vantage/runtime/metrics.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/study/recognition/recognition_study.hpp"
 
 namespace vantage {

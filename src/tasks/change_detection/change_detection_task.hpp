@@ -1,31 +1,54 @@
-/// The options of the task in which a quadrotor looks whether an object on a table is still what
-/// and how its map says. Those of the flight, the views and the database are of RecognitionTask.
+/// The task `change_detection`: a quadrotor looks whether an object on a table is still what and
+/// how its map says.  [Potthast2016, 4.5.8]
 #pragma once
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
+#include <string_view>
 
-#include "vantage/core/fields.hpp"
 #include "vantage/recognition/change_detection.hpp"
+#include "vantage/runtime/measure.hpp"
+#include "vantage/sim/world/scene.hpp"
+#include "vantage/tasks/object_flight/object_flight.hpp"
+#include "vantage/tasks/object_flight/object_on_table.hpp"
 
 namespace vantage {
 
-struct ChangeDetectionTask {
+struct ChangeDetectionTask : ObjectFlight {
+  static constexpr std::string_view name = "change_detection";
+
   /// What has changed on the table: none, object, pose, removed. Truth: the robot is not told.
   std::string scenario = "none";
   std::string expected_object;  ///< what the map says stands there; empty: drawn by the seed
   std::optional<double> expected_yaw_rad;  ///< of that, world; none: drawn by the seed
   /// Scenario pose: how far it was turned; none: drawn by the seed, at least by half a bin
   std::optional<double> turned_rad;
-  ChangeOptions options;  ///< its `recognition` is not read: `recognition` of the episode holds
+  ChangeOptions change;  ///< its `recognition` is not read: `decision` holds
   void fields(auto&& f) {
+    ObjectFlight::fields(f);
     f("scenario", scenario);
     f("expected_object", expected_object);
     f("expected_yaw_rad", expected_yaw_rad, between(-1000.0, 1000.0));
     f("turned_rad", turned_rad, between(-1000.0, 1000.0));
-    options.decision_fields(f);
+    change.decision_fields(f);
   }
-  void check() const;  ///< a known scenario; and what `options` check
+  void check_with(const EpisodeOptions& episode) const;
+
+  [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
+  [[nodiscard]] static ReportSections report();
+  [[nodiscard]] static std::string_view metrics_task() { return name; }
+  [[nodiscard]] static Measures measures();
+  [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
+  /// @throws ConfigError or InputError if the episode cannot begin.
+  void require_start(const EpisodeSetup& setup) const;
+  RunOutcome run(const RunRequest& request) const;
 };
+
+/// What the map says: it stands in the table's middle.
+/// @throws ConfigError if `expected_object` is none of the database's, InputError as
+/// known_objects().
+ObjectOnTable draw_expected_object(const ChangeDetectionTask& task, std::uint64_t seed);
 
 }  // namespace vantage

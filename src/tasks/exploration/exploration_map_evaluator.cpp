@@ -7,21 +7,23 @@
 
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/planners/navigation/path_field.hpp"
+#include "vantage/tasks/exploration/exploration.hpp"
+#include "vantage/tasks/mapping/mobile_ground_truth.hpp"
 
 namespace vantage {
 namespace {
 
 /// All floor is free but where something stands or hangs at the robot's height.
-FloorMap true_floor(const Episode& episode, const GridFrame& frame,
+FloorMap true_floor(const Exploration& task, const GridFrame& frame,
                     const std::vector<std::uint8_t>& surface) {
   OccupancyGrid solid(frame);
   for (std::size_t cell = 0; cell < solid.size(); ++cell) {
     solid.log_odds[cell] = surface[cell] != 0 ? 1.0F : -1.0F;
   }
-  FloorMap floor = make_floor_map(episode.floor_map);
+  FloorMap floor = make_floor_map(task.floor_map);
   std::ranges::fill(floor.log_odds, -1.0F);
   const std::vector<std::uint8_t> nowhere(floor.size(), 0);
-  block_columns(floor, solid, nowhere, episode.exploration.headroom);
+  block_columns(floor, solid, nowhere, task.headroom);
   return floor;
 }
 
@@ -49,17 +51,18 @@ std::vector<Eigen::Vector2d> reachable_places(const PathField& field, const Grid
 
 }  // namespace
 
-ExplorationMapEvaluator::ExplorationMapEvaluator(const Episode& episode,
-                                                 const ExplorationRobotInterface& robot,
-                                                 const GridFrame& frame)
-    : GroundTruthMapEvaluator(robot.world(), robot.true_geometry(), frame, robot.view_field(),
-                              episode.threads) {
-  const Pose2 start = robot.truth().T_world_base;
-  const FloorMap floor = true_floor(episode, frame, surface());
-  const PathField field = make_path_field(floor, start, episode.navigation);
-  poses_.push_back(to_se3(start) * robot.T_base_sweep());
-  for (const auto& p : reachable_places(field, frame, episode.metrics.pose_spacing_m)) {
-    poses_.push_back(to_se3({p.x(), p.y(), 0.0}) * robot.T_base_sweep());
+ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int threads,
+                                                 const MobileGroundTruth& truth,
+                                                 const FieldOfView& view_field,
+                                                 const Pose& T_base_sweep)
+    : GroundTruthMapEvaluator(truth, task.map.frame(), view_field, threads) {
+  const GridFrame frame = task.map.frame();
+  const Pose2 start = truth.T_world_base();
+  const FloorMap floor = true_floor(task, frame, surface());
+  const PathField field = make_path_field(floor, start, task.navigation);
+  poses_.push_back(to_se3(start) * T_base_sweep);
+  for (const auto& p : reachable_places(field, frame, task.metrics.pose_spacing_m)) {
+    poses_.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);
   }
   add_observable(poses_);
 }

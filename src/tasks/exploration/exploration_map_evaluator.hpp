@@ -4,17 +4,18 @@
 
 #include <vector>
 
-#include "vantage/tasks/exploration/exploration_robot_interface.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 
 namespace vantage {
 
+struct Exploration;
+
 class ExplorationMapEvaluator : public GroundTruthMapEvaluator {
  public:
   /// Observable cells: those that a noise-free sweep sees from at least one place that the robot
-  /// can reach; one such place in every square of metrics.pose_spacing_m. `robot` must outlive it.
-  ExplorationMapEvaluator(const Episode& episode, const ExplorationRobotInterface& robot,
-                          const GridFrame& frame);
+  /// can reach; one such place in every square of metrics.pose_spacing_m. `truth` must outlive it.
+  ExplorationMapEvaluator(const Exploration& task, int threads, const MobileGroundTruth& truth,
+                          const FieldOfView& view_field, const Pose& T_base_sweep);
 
   [[nodiscard]] std::size_t poses() const { return poses_.size(); }
 

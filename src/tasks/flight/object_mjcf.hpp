@@ -4,7 +4,7 @@
 #include <string>
 
 #include "vantage/dataset/object_source.hpp"
-#include "vantage/tasks/recognition/recognition_task.hpp"
+#include "vantage/tasks/flight/object_database_options.hpp"
 
 namespace vantage {
 

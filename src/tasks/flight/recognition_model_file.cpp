@@ -9,10 +9,20 @@
 
 namespace vantage {
 
-std::filesystem::path find_recognition_model(const std::string& model, const char* key,
-                                             const char* task) {
+std::string found_model_name(const std::string& model, const std::filesystem::path& base) {
+  if (model.empty()) return model;
   try {
-    return find_input(model, {}, key);
+    return lasting_name(find_input(model, base, "model"));
+  } catch (const InputError&) {
+    return model;
+  }
+}
+
+InputFile model_input(const std::string& model) { return {"model", data_root() / model}; }
+
+std::filesystem::path find_recognition_model(const std::string& model, std::string_view task) {
+  try {
+    return find_input(model, {}, "model");
   } catch (const InputError& error) {
     throw InputError(
         fmt::format("{}; assets/episodes/{}.yaml says how to make one", error.what(), task));
@@ -20,13 +30,13 @@ std::filesystem::path find_recognition_model(const std::string& model, const cha
 }
 
 void require_known(const Recogniser& recogniser, const std::filesystem::path& path,
-                   const std::string& object, const char* role, const char* task) {
+                   const std::string& object, const char* role) {
   const auto& known = recogniser.states.objects;
   if (object.empty() || std::ranges::find(known, object) != known.end()) return;
-  throw ConfigError(
-      fmt::format("{0}.model: {1}: knows {2} objects, but not '{3}', which {4}; {0}.database is "
-                  "not what it was trained on",
-                  task, path.string(), known.size(), object, role));
+  throw ConfigError(fmt::format(
+      "model: {}: knows {} objects, but not '{}', which {}; database is not what it was "
+      "trained on",
+      path.string(), known.size(), object, role));
 }
 
 }  // namespace vantage

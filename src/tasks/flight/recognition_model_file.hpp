@@ -3,21 +3,27 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "vantage/recognition/recogniser.hpp"
+#include "vantage/runtime/episode_run.hpp"
 
 namespace vantage {
 
-/// @param key of the episode that names it, for messages
+/// The name to keep in a configuration, found from `base`. A model that is not there yet keeps the
+/// name it has: it is missed where it is needed, and to replay an episode it is not.
+std::string found_model_name(const std::string& model, const std::filesystem::path& base);
+
+/// The model as an input of an episode.
+InputFile model_input(const std::string& model);
+
 /// @param task whose episode file tells how to make one
 /// @throws InputError if there is none, naming that file.
-std::filesystem::path find_recognition_model(const std::string& model, const char* key,
-                                             const char* task);
+std::filesystem::path find_recognition_model(const std::string& model, std::string_view task);
 
-/// @param task section of the episode that holds `model` and `database`
 /// @param role of the object, "stands on the table"
 /// @throws ConfigError if the recogniser, read from `path`, does not know the object.
 void require_known(const Recogniser& recogniser, const std::filesystem::path& path,
-                   const std::string& object, const char* role, const char* task);
+                   const std::string& object, const char* role);
 
 }  // namespace vantage

@@ -5,9 +5,14 @@
 #include <utility>
 
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/sim/sensors/ground_truth.hpp"
+#include "vantage/tasks/mapping/mobile_ground_truth.hpp"
 
 namespace vantage {
 
+namespace {
+
+/// Flagged cells that the map does not know yet.
 std::size_t count_unobserved(const OccupancyGrid& grid, std::span<const std::uint8_t> among) {
   std::size_t count = 0;
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
@@ -16,42 +21,23 @@ std::size_t count_unobserved(const OccupancyGrid& grid, std::span<const std::uin
   return count;
 }
 
-std::size_t newly_observed(const OccupancyGrid& before, const OccupancyGrid& after) {
-  std::size_t count = 0;
-  for (std::size_t cell = 0; cell < before.size(); ++cell) {
-    count +=
-        before.state(cell) == CellState::unobserved && after.state(cell) != CellState::unobserved
-            ? 1
-            : 0;
-  }
-  return count;
-}
+}  // namespace
 
-void measure_pose(const MobileRobotTruth& truth, const Pose2& dead_reckoned,
-                  const Pose2& T_world_base, ScanRecord& record) {
-  const auto error_m = [&](const Pose2& pose) {
-    return std::hypot(pose.x_m - truth.T_world_base.x_m, pose.y_m - truth.T_world_base.y_m);
-  };
-  record.pose_error_before_registration_m = error_m(dead_reckoned);
-  record.pose_error_m = error_m(T_world_base);
-  record.yaw_error_rad = wrap_angle(T_world_base.yaw_rad - truth.T_world_base.yaw_rad);
-  record.collisions = truth.collisions;
-}
-
-GroundTruthMapEvaluator::GroundTruthMapEvaluator(const World& world, const RayScene& geometry,
+GroundTruthMapEvaluator::GroundTruthMapEvaluator(const MobileGroundTruth& truth,
                                                  const GridFrame& frame,
                                                  const FieldOfView& field_of_view, int threads)
-    : geometry_(geometry),
+    : truth_(truth),
       frame_(frame),
       field_of_view_(field_of_view),
       threads_(threads),
       observable_(frame.size(), 0),
-      surface_(surface_cells(world.model(), world.snapshot(), frame, kWithoutRobot)) {}
+      surface_(
+          surface_cells(truth.world().model(), truth.world().snapshot(), frame, kWithoutRobot)) {}
 
 void GroundTruthMapEvaluator::add_observable(std::span<const Pose> T_world_sensors) {
   for (const Pose& pose : T_world_sensors) {
     throw_if_interrupted();  // minutes, of an office
-    add_visible_cells(geometry_, frame_, pose, field_of_view_, observable_, -1, threads_);
+    add_visible_cells(truth_.geometry(), frame_, pose, field_of_view_, observable_, -1, threads_);
   }
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));
 }
@@ -63,7 +49,7 @@ std::size_t GroundTruthMapEvaluator::true_new_cells(const OccupancyGrid& grid,
     known[cell] = grid.state(cell) == CellState::unobserved ? 0 : 1;
   }
   const auto before = std::ranges::count(known, std::uint8_t{1});
-  add_visible_cells(geometry_, frame_, T_world_sensor, field_of_view_, known, -1, threads_);
+  add_visible_cells(truth_.geometry(), frame_, T_world_sensor, field_of_view_, known, -1, threads_);
   return static_cast<std::size_t>(std::ranges::count(known, std::uint8_t{1}) - before);
 }
 
@@ -86,6 +72,18 @@ void GroundTruthMapEvaluator::measure(const OccupancyGrid& grid, int tolerance_c
   record.observable_unobserved_cells = observable_unobserved(grid);
   record.precision = map.precision;
   record.recall = map.recall;
+}
+
+void GroundTruthMapEvaluator::measure_pose(const Pose2& dead_reckoned, const Pose2& T_world_base,
+                                           ScanRecord& record) const {
+  const Pose2 T_world_true = truth_.T_world_base();
+  const auto error_m = [&](const Pose2& pose) {
+    return std::hypot(pose.x_m - T_world_true.x_m, pose.y_m - T_world_true.y_m);
+  };
+  record.pose_error_before_registration_m = error_m(dead_reckoned);
+  record.pose_error_m = error_m(T_world_base);
+  record.yaw_error_rad = wrap_angle(T_world_base.yaw_rad - T_world_true.yaw_rad);
+  record.collisions = truth_.collisions();
 }
 
 }  // namespace vantage

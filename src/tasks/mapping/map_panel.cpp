@@ -252,15 +252,4 @@ cv::Mat draw_map_panel(const MapPanelInput& input, cv::Size size) {
   return panel;
 }
 
-cv::Mat side_by_side(const cv::Mat& left_rgb, const cv::Mat& right_bgr) {
-  expects(left_rgb.type() == CV_8UC3 && right_bgr.type() == CV_8UC3, "both halves are CV_8UC3");
-  cv::Mat left;
-  cv::cvtColor(left_rgb, left, cv::COLOR_RGB2BGR);
-  if (left.size() != right_bgr.size())
-    cv::resize(left, left, right_bgr.size(), 0.0, 0.0, cv::INTER_AREA);
-  cv::Mat both;
-  cv::hconcat(left, right_bgr, both);
-  return both;
-}
-
 }  // namespace vantage

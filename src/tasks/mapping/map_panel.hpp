@@ -32,8 +32,4 @@ struct MapPanelInput {
 /// @return CV_8UC3, BGR
 cv::Mat draw_map_panel(const MapPanelInput& input, cv::Size size);
 
-/// `left_rgb` (as renderers give it) scaled to the panel's size, beside `right_bgr`.
-/// @return CV_8UC3, BGR, as cv::imwrite and VideoWriter take it
-cv::Mat side_by_side(const cv::Mat& left_rgb, const cv::Mat& right_bgr);
-
 }  // namespace vantage

@@ -1,67 +1,47 @@
-/// Interface of a mobile robot: drive commands in, readings of the planar scanner and odometry out.
-/// Ground truth stays behind `truth()`, which metrics alone may call.
+/// Interface of a mobile robot: drive commands in, readings and estimates out. Ground truth is no
+/// part of it.
 #pragma once
 
 #include <functional>
+#include <span>
 
-#include "vantage/core/rng.hpp"
-#include "vantage/sim/robots/drive.hpp"
-#include "vantage/sim/robots/odometry.hpp"
-#include "vantage/sim/robots/pr2.hpp"
-#include "vantage/sim/sensors/laser.hpp"
-#include "vantage/sim/sensors/ray_scene.hpp"
-#include "vantage/sim/world/world.hpp"
-#include "vantage/tasks/scenario.hpp"
+#include "vantage/control/drive_options.hpp"
+#include "vantage/geometry/field_of_view.hpp"
+#include "vantage/geometry/pose.hpp"
+#include "vantage/geometry/range_scan.hpp"
 
 namespace vantage {
 
-struct MobileRobotTruth {
-  Pose2 T_world_base;
-  int collisions = 0;
-};
-
 class MobileRobotInterface {
  public:
+  MobileRobotInterface() = default;
   MobileRobotInterface(const MobileRobotInterface&) = delete;
   MobileRobotInterface& operator=(const MobileRobotInterface&) = delete;
+  virtual ~MobileRobotInterface() = default;
+
+  /// Of the robot's clock, simulated.
+  [[nodiscard]] virtual double time_s() const = 0;
 
   /// One scan of the planar scanner, from the present pose.
-  PlanarScan read_base_scanner();
-  /// `go_on` is asked every tick; truth is not passed on. @throws Interrupted
-  DriveResult drive_along(std::span<const Pose2> path, const std::function<bool()>& go_on);
-  void correct_pose(const Pose2& T_world_base);
+  virtual PlanarScan read_base_scanner() = 0;
+  /// `go_on` is asked every tick. @throws Interrupted
+  virtual DriveResult drive_along(std::span<const Pose2> path,
+                                  const std::function<bool()>& go_on) = 0;
+  virtual void correct_pose(const Pose2& T_world_base) = 0;
   /// What the wheels alone say, without the corrections since restart_dead_reckoning().
-  [[nodiscard]] Pose2 dead_reckoned_base() const;
-  void restart_dead_reckoning();
-  [[nodiscard]] double base_scan_height_m() const { return robot_.base_scan_height_m(); }
-  [[nodiscard]] Pose2 estimated_base() const { return odometry_.estimate(); }
+  [[nodiscard]] virtual Pose2 dead_reckoned_base() const = 0;
+  virtual void restart_dead_reckoning() = 0;
+  [[nodiscard]] virtual Pose2 estimated_base() const = 0;
+  [[nodiscard]] virtual double base_scan_height_m() const = 0;
+  /// Radius of the largest disc round the base's origin that the footprint covers.
+  [[nodiscard]] virtual double inscribed_radius_m() const = 0;
 
-  [[nodiscard]] MobileRobotTruth truth() const;
-  [[nodiscard]] const RayScene& true_geometry() const { return geometry_without_robot_; }
-  World& world() { return world_; }
-  [[nodiscard]] const World& world() const { return world_; }
-
- protected:
-  /// `place` puts the robot where the episode begins.
-  MobileRobotInterface(const ResolvedEpisode& resolved, const std::function<Pr2(World&)>& place);
-  ~MobileRobotInterface() = default;
-
-  void tick();  ///< @throws Interrupted
-
-  Episode episode_;
-  World world_;
-  Pr2 robot_;
-  RayScene geometry_;
-  RayScene geometry_without_robot_;
-  Odometry odometry_;
-
- private:
-  void report_touch() const;
-
-  Pose2 T_world_dead_reckoned_;  ///< at the last correction
-  Pose2 T_world_corrected_;      ///< the pose that correction set
-  CollisionCounter collisions_;
-  Rng scanner_noise_;
+  /// Where the mapping sensor is, as the robot believes: x forward, z up.
+  [[nodiscard]] virtual Pose estimated_sensor() const = 0;
+  /// Where the base must stand for the mapping sensor to be there.
+  [[nodiscard]] virtual Pose2 base_for_sensor(const Pose& T_world_sensor) const = 0;
+  /// What one scan of the mapping sensor covers.
+  [[nodiscard]] virtual FieldOfView view_field() const = 0;
 };
 
 }  // namespace vantage

@@ -13,17 +13,15 @@ constexpr int kTicksPerFloorScan = 10;
 /// Plans towards one view before it counts as out of reach: the floor map grows on the way.
 constexpr int kMaxPlans = 12;
 constexpr double kProgress_m = 0.05;
-/// Of the base, 0.668 m square: what it stands on is free.
-constexpr double kInscribedRadius_m = 0.33;
 
 }  // namespace
 
-Navigator::Navigator(const Episode& episode, MobileRobotInterface& robot,
-                     ReferenceMap reference_map, double keyframe_m)
-    : floor_options_(episode.floor_map),
-      options_(episode.navigation),
+Navigator::Navigator(const FloorMapOptions& floor, const NavigationOptions& navigation,
+                     MobileRobotInterface& robot, ReferenceMap reference_map, double keyframe_m)
+    : floor_options_(floor),
+      options_(navigation),
       robot_(robot),
-      floor_(make_floor_map(episode.floor_map)),
+      floor_(make_floor_map(floor)),
       reference_map_(std::move(reference_map)),
       keyframe_m_(keyframe_m) {}
 
@@ -62,7 +60,7 @@ void Navigator::localise() {
 }
 
 PathField Navigator::plan() {
-  clear_footprint(floor_, robot_.estimated_base(), kInscribedRadius_m);
+  clear_footprint(floor_, robot_.estimated_base(), robot_.inscribed_radius_m());
   return make_path_field(floor_, robot_.estimated_base(), options_);
 }
 

@@ -23,7 +23,8 @@ class Navigator {
  public:
   /// @param walls to drive by
   /// @param keyframe_m remembers the walls that often while driving; infinity: only when told to
-  Navigator(const Episode& episode, MobileRobotInterface& robot, ReferenceMap reference_map,
+  Navigator(const FloorMapOptions& floor, const NavigationOptions& navigation,
+            MobileRobotInterface& robot, ReferenceMap reference_map,
             double keyframe_m = std::numeric_limits<double>::infinity());
 
   /// Turns once in place, to know the floor on all sides: the scanner does not see behind the

@@ -1,73 +1,28 @@
-/// The options of the tasks in which a quadrotor looks at one object on a table.
+/// The task `recognition`: a quadrotor flies round one object on a table until it knows what it is.
+/// [Potthast2016, 4.5.7]
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <string>
+#include <nlohmann/json_fwd.hpp>
 
-#include "vantage/core/fields.hpp"
-#include "vantage/perception/object_segmentation.hpp"
-#include "vantage/recognition/recogniser.hpp"
-#include "vantage/recognition/recognition.hpp"
-#include "vantage/sim/robots/trajectory_tracking_controller.hpp"
-#include "vantage/sim/sensors/camera.hpp"
-#include "vantage/sim/sensors/exposure.hpp"
+#include <string_view>
+
+#include "vantage/runtime/measure.hpp"
+#include "vantage/sim/world/scene.hpp"
+#include "vantage/tasks/object_flight/object_flight.hpp"
 
 namespace vantage {
 
-/// The objects that may stand on the table, as `vantage dataset render` makes them.
-struct ObjectDatabaseOptions {
-  std::uint64_t seed = 1;  ///< of the generated objects
-  int objects = 326;       ///< the first of the catalogue, or of `models`
-  std::string models;      ///< folder of <name>/{model.obj, texture.png}; empty: the catalogue
-  void fields(auto&& f) {
-    f("seed", seed);
-    f("objects", objects, between(1, 100000));
-    f("models", models);
-  }
-};
+struct RecognitionTask : ObjectFlight {
+  static constexpr std::string_view name = "recognition";
 
-/// Places to look from: level circle round the table's middle, camera on it. The keys of
-/// RecognitionOptions stand beside these.
-struct RecognitionTask {
-  std::string model = "out/recognition.model";  ///< file that `vantage train` made
-  RecogniserOptions recogniser;
-  RecognitionOptions decision;
-  std::string object;  ///< what stands on the table, "mug_3"; empty: drawn by the seed
-  ObjectDatabaseOptions database;
-  double placement_m = 0.01;  ///< largest offset of the object from the table's middle
-  std::array<double, 3> table_m{0.0, 0.0, 0.72};  ///< middle of the table top, world; known
-  double aim_height_m = 0.07;                     ///< of what the camera looks at, over the table
-  double distance_m = 1.0;                        ///< camera to there; higher sees smaller objects
-  double elevation_rad = 0.7853981633974483;      ///< of the line of sight (45 deg)
-  int bearings = 8;       ///< evenly round the object; the first is drawn by the seed
-  double arc_rad = 0.2;   ///< between waypoints; lower keeps closer to the circle
-  double settle_s = 0.5;  ///< hovering before each image
-  TrajectoryTrackingOptions tracking;
-  RgbdOptions camera;
-  ExposureOptions exposure;
-  double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
-  ObjectSegmentationOptions segmentation;
-  void fields(auto&& f) {
-    f("model", model);
-    f("recogniser", recogniser);
-    decision.fields(f);
-    f("object", object);
-    f("database", database);
-    f("placement_m", placement_m, between(0.0, 0.1));
-    f("table_m", table_m, between(-1000.0, 1000.0));
-    f("aim_height_m", aim_height_m, between(0.0, 1.0));
-    f("distance_m", distance_m, between(0.6, 3.0));
-    f("elevation_rad", elevation_rad, between(0.0, 1.0471975511965976));
-    f("bearings", bearings, between(2, 360));
-    f("arc_rad", arc_rad, Range{0.0, 1.5, true});
-    f("settle_s", settle_s, between(0.0, 10.0));
-    f("tracking", tracking);
-    f("camera", camera);
-    f("exposure", exposure);
-    f("colour_noise", colour_noise, between(0.0, 100.0));
-    f("segmentation", segmentation);
-  }
+  [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
+  [[nodiscard]] static ReportSections report();
+  [[nodiscard]] static std::string_view metrics_task() { return name; }
+  [[nodiscard]] static Measures measures();
+  [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
+  /// @throws ConfigError or InputError if the episode cannot begin.
+  void require_start(const EpisodeSetup& setup) const;
+  RunOutcome run(const RunRequest& request) const;
 };
 
 }  // namespace vantage

@@ -17,15 +17,15 @@ PointCloud cloud_of(const TabletopObservation& observation) {
 
 }  // namespace
 
-TabletopBelief::TabletopBelief(const Episode& episode)
-    : episode_(episode),
-      grid_(episode.grid_frame()),
-      filled_(grid_),
-      hazard_(episode.clutter_hazard, grid_.frame.cells),
+TabletopBelief::TabletopBelief(const EpisodeOptions& episode, const Tabletop& task)
+    : MapBelief(task),
+      scene_(episode.scene),
+      threads_(episode.threads),
+      task_(task),
       sampling_(Rng::stream(episode.seed, "table sampling")) {
-  const MapOptions& map = episode_.map;
-  episode_.table.region_centre_m = {map.centre_m[0], map.centre_m[1]};
-  episode_.table.region_size_m = {2.0 * map.size_m[0], 2.0 * map.size_m[1]};
+  const MapOptions& map = task_.map;
+  task_.table.region_centre_m = {map.centre_m[0], map.centre_m[1]};
+  task_.table.region_size_m = {2.0 * map.size_m[0], 2.0 * map.size_m[1]};
 }
 
 BeliefUpdate TabletopBelief::update(const TabletopObservation& observation,
@@ -38,26 +38,24 @@ BeliefUpdate TabletopBelief::update(const TabletopObservation& observation,
   const PointCloud laser_world = transform(to_cloud(observation.scan), T_world_sensor);
   extract_table(laser_world);
   const PointCloud objects = take_objects(laser_world);
-  append(object_cloud_, objects);
+  append(cloud_, objects);
 
   hazard_.observe(grid_, observation.scan, T_world_sensor);
-  add_measurements(grid_, objects.points, episode_.sensor_model);
-  report.freed_cells = carve_free_space(grid_, observation.scan, T_world_sensor,
-                                        episode_.free_space, episode_.threads);
-  auto filling = fill_holes(grid_, episode_.hole_filling);
-  report.filled_cells = filling.filled_cells;
-  filled_ = std::move(filling.grid);
+  add_measurements(grid_, objects.points, task_.sensor_model);
+  report.freed_cells =
+      carve_free_space(grid_, observation.scan, T_world_sensor, task_.free_space, threads_);
+  report.filled_cells = fill(task_.hole_filling);
   return report;
 }
 
 Pose2 TabletopBelief::register_pose(const TabletopObservation& observation,
                                     const ReferenceMap& reference_map, BeliefUpdate& report) {
   const PointCloud scan_base = prepare_scan(
-      cloud_of(observation), observation.T_base_laser.translation(), episode_.registration);
+      cloud_of(observation), observation.T_base_laser.translation(), task_.registration);
   Pose2 pose = observation.T_world_base_odometry;
   const PointCloud& reference = map_cloud_.empty() ? reference_map.cloud() : map_cloud_;
   if (!reference.empty()) {
-    const auto result = register_scan(scan_base, reference, pose, episode_.registration);
+    const auto result = register_scan(scan_base, reference, pose, task_.registration);
     report.registered = result.converged;
     report.registration_note = result.reason;
     pose = result.T_world_base;
@@ -67,15 +65,15 @@ Pose2 TabletopBelief::register_pose(const TabletopObservation& observation,
 }
 
 void TabletopBelief::extract_table(const PointCloud& cloud_world) {
-  auto found = find_table(cloud_world, episode_.table, sampling_);
+  auto found = find_table(cloud_world, task_.table, sampling_);
   if (!table_ && !found.table) {
-    throw InputError(fmt::format("scene: {}: no table in the region of interest: {}",
-                                 episode_.scene, found.reason));
+    throw InputError(
+        fmt::format("scene: {}: no table in the region of interest: {}", scene_, found.reason));
   }
   if (!table_) {
     table_ = std::move(found.table);
   } else if (found.table) {
-    merge_table(*table_, *found.table, episode_.table.max_step_m);
+    merge_table(*table_, *found.table, task_.table.max_step_m);
   }
 }
 
@@ -83,9 +81,9 @@ void TabletopBelief::extract_table(const PointCloud& cloud_world) {
 /// points of the region that are not above it yet are kept for the next.
 PointCloud TabletopBelief::take_objects(const PointCloud& cloud_world) {
   append(unplaced_, crop(cloud_world, grid_.frame.box()));
-  const PointCloud objects = objects_on_table(unplaced_, *table_, episode_.objects);
+  const PointCloud objects = objects_on_table(unplaced_, *table_, task_.objects);
   const auto placed = [&](const Eigen::Vector3f& p) {
-    return inside_hull(table_->hull, p.head<2>().cast<double>(), episode_.objects.hull_margin_m);
+    return inside_hull(table_->hull, p.head<2>().cast<double>(), task_.objects.hull_margin_m);
   };
   std::erase_if(unplaced_.points, placed);
   return objects;

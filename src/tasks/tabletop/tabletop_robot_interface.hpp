@@ -16,20 +16,8 @@ struct TabletopObservation {
 
 class TabletopRobotInterface : public MobileRobotInterface {
  public:
-  /// @throws ConfigError, InputError if the episode cannot begin, see start_check.hpp
-  explicit TabletopRobotInterface(const ResolvedEpisode& resolved);
-
   /// Sweeps the tilting laser through its range while the base stands. @throws Interrupted
-  TabletopObservation observe();
-  /// Where the laser (at tilt 0) is, as the robot believes.
-  [[nodiscard]] Pose estimated_laser() const;
-  [[nodiscard]] Pose2 base_for_view(const Pose& T_world_laser) const;
-  [[nodiscard]] FieldOfView view_field() const { return field_of_view(episode_.laser); }
-
- private:
-  void move_laser_to(double tilt_rad);
-
-  Rng laser_noise_;
+  virtual TabletopObservation observe() = 0;
 };
 
 }  // namespace vantage

@@ -5,19 +5,16 @@
 
 namespace vantage {
 
-FlightLayout read_flight_layout(const std::filesystem::path& scene) {
-  const std::filesystem::path folder = scene.parent_path();
-  FlightLayout layout;
-  for (const Candidate& place : read_views(folder / "path.csv")) {
-    layout.path.push_back({place.T_world_sensor.translation(), yaw_of(place)});
+std::vector<FlightWaypoint> read_flight_path(const std::filesystem::path& scene) {
+  const std::filesystem::path file = scene.parent_path() / "path.csv";
+  std::vector<FlightWaypoint> path;
+  for (const Candidate& place : read_views(file)) {
+    path.push_back({place.T_world_sensor.translation(), yaw_of(place)});
   }
-  if (layout.path.size() < 2) {
-    throw InputError((folder / "path.csv").string() + ": a path has two waypoints or more");
+  if (path.size() < 2) {
+    throw InputError(file.string() + ": a path has two waypoints or more");
   }
-  for (const Candidate& support_surface : read_views(folder / "stands.csv")) {
-    layout.supports_m.emplace_back(support_surface.T_world_sensor.translation());
-  }
-  return layout;
+  return path;
 }
 
 Eigen::AlignedBox3d flight_region(std::span<const FlightWaypoint> path, double margin_m,

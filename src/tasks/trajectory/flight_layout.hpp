@@ -1,4 +1,4 @@
-/// What a scene to fly through publishes beside its MJCF: the path, and where objects may stand.
+/// What a scene to fly through publishes beside its MJCF, and its vehicle knows.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,15 +11,11 @@
 
 namespace vantage {
 
-struct FlightLayout {
-  std::vector<FlightWaypoint> path;         ///< of the vehicle's body, camera ahead; known to it
-  std::vector<Eigen::Vector3d> supports_m;  ///< middles of the tops, world; truth, not known to it
-};
-
-/// Reads path.csv and stands.csv beside `scene`, an MJCF file.
-/// @throws InputError naming file, line and column if one is missing, malformed or has no row,
-/// or if the path has only one.
-FlightLayout read_flight_layout(const std::filesystem::path& scene);
+/// The path of the vehicle's body, camera ahead, of path.csv beside `scene`, an MJCF file. The
+/// vehicle knows it.
+/// @throws InputError naming file, line and column if it is missing or malformed, or has fewer than
+/// two waypoints.
+std::vector<FlightWaypoint> read_flight_path(const std::filesystem::path& scene);
 
 /// What to map for a flight along that path: its box, wider by `margin_m` on all sides, from the
 /// floor to `headroom_m` above the highest waypoint.

@@ -1,282 +1,87 @@
 #include "vantage/tasks/trajectory/trajectory_flight.hpp"
 
-#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "vantage/core/data_root.hpp"
-#include "vantage/core/log.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
+#include "vantage/tasks/flight/flight_world.hpp"
 #include "vantage/tasks/flight/recognition_model_file.hpp"
-#include "vantage/tasks/model_source.hpp"
 #include "vantage/tasks/trajectory/flight_layout.hpp"
+#include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
+#include "vantage/tasks/trajectory/trajectory_metrics.hpp"
 
 namespace vantage {
 namespace {
 
-/// Beyond the horizon, so that it is not about to stop at its end.
-constexpr int kFollowedBeyond = 2;
-
-std::vector<Eigen::Vector4d> columns_of(const std::vector<FlightWaypoint>& path) {
-  std::vector<Eigen::Vector4d> columns;
-  for (const FlightWaypoint& waypoint : path) {
-    columns.emplace_back(waypoint.p_world_m.x(), waypoint.p_world_m.y(), waypoint.p_world_m.z(),
-                         waypoint.yaw_rad);
-  }
-  return columns;
-}
-
-FlightPlanning planning_of(const TrajectoryTask& task) {
-  return {.method = task.method,
-          .options = task.planner,
-          .horizon = task.horizon,
-          .known_below_nats = task.observations.known_below_nats};
-}
-
-/// Room for colour that was not asked for.
-CameraImages without_colour(const FlightImage& image) {
-  CameraImages images = image.depth;
-  images.rgb.assign(3 * images.depth_m.size(), 0);
-  return images;
-}
-
-}  // namespace
-
-Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved) {
-  const TrajectoryTask& task = resolved.episode.trajectory;
-  const auto path = find_recognition_model(task.model, "trajectory.model", "trajectory");
+/// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
+/// if it does not know an object of the scene.
+Recogniser load_recogniser(const TrajectoryFlight& task,
+                           const std::vector<ObjectOnSupport>& objects) {
+  const auto path = find_recognition_model(task.model, TrajectoryFlight::name);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
-  for (const ObjectOnSupport& support_surface : draw_flight_objects(resolved)) {
-    require_known(recogniser, path, support_surface.object, "stands in the room", "trajectory");
+  for (const ObjectOnSupport& object : objects) {
+    require_known(recogniser, path, object.object, "stands in the room");
   }
   return recogniser;
 }
 
-TrajectoryFlight::TrajectoryFlight(const ResolvedEpisode& resolved, const Recogniser& recogniser,
-                                   TrajectoryRobotInterface& robot, TrajectoryRecorder& recorder)
-    : episode_(resolved.episode),
-      robot_(robot),
-      recorder_(recorder),
-      truth_(draw_flight_objects(resolved)),
-      nominal_(columns_of(read_flight_layout(resolved.scene).path)),
-      plan_(nominal_),
-      map_(flight_region(read_flight_layout(resolved.scene).path), episode_.trajectory.map),
-      tracker_(episode_.trajectory.tracker),
-      observations_(recogniser, episode_.trajectory.observations, episode_.trajectory.transition),
-      planner_(
-          planning_of(episode_.trajectory),
-          flight_camera(robot.T_body_camera(), episode_.trajectory.camera.width_px,
-                        episode_.trajectory.camera.height_px, episode_.trajectory.camera.fovy_rad),
-          Rng::stream(episode_.seed, "trajectory planner")),
-      observation_rng_(Rng::stream(episode_.seed, "looks")),
-      buffer_(episode_.trajectory.observations) {
-  recorder_.set_panel([this] { return panel(); });
+}  // namespace
+
+std::string TrajectoryFlight::method_name() const {
+  return trajectory_method_name(method, planner.cost);
 }
 
-WaypointReached TrajectoryFlight::observe() {
-  const ImageCallback on_image = [this](const FlightImage& image) { process_image(image); };
-  if (at_ < 0) {
-    robot_.capture_now(on_image);
-    robot_.follow(followed(plan_, 0));
-  } else {
-    robot_.fly_past(1, on_image);
-  }
-  const bool last = at_ + 2 >= static_cast<int>(nominal_.size());
-  if (last) apply_observations(buffer_.take_all());
-  return {.waypoint = ++at_,
-          .time_s = robot_.world().time_s(),
-          .T_world_body = robot_.estimated_body()};
+void TrajectoryFlight::check_with(const EpisodeOptions& episode) const {
+  require_flight_world(episode.simulation);
 }
 
-void TrajectoryFlight::process_image(const FlightImage& image) {
-  map_.insert(image.depth, image.T_world_camera);
-  const std::vector<SeenObject> seen =
-      find_objects(without_colour(image), image.T_world_camera, episode_.trajectory.search);
-  const std::vector<int> ids = tracker_.update(detections_of(seen));
-  for (const TrackedObject& object : tracker_.confirmed()) {
-    observations_.found(object.id, object.p_world_object_m);
-  }
-  std::vector<int> gone;
-  for (const RecognisedObject& object : observations_.objects()) {
-    if (tracker_.find(object.id) == nullptr) gone.push_back(object.id);
-  }
-  for (const int id : gone) {
-    observations_.forget(id);
-    buffer_.forget(id);
-  }
-  const auto direction_of = [&](int id) {
-    return observations_.direction(id, image.T_world_camera);
-  };
-  for (const int id : ids) buffer_.detected(id, image.time_s);
-  apply_observations(buffer_.take_due(image.time_s, direction_of));  // before images from elsewhere
-  buffer_observations(image, ids, seen);
-  apply_observations(buffer_.take_due(image.time_s, direction_of));
+void TrajectoryFlight::find_files(const std::filesystem::path& base) {
+  model = found_model_name(model, base);
 }
 
-void TrajectoryFlight::buffer_observations(const FlightImage& image, const std::vector<int>& ids,
-                                           const std::vector<SeenObject>& seen) {
-  std::vector<SeenObject> coloured;  // none yet
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!observations_.wants(ids[i], seen[i].detection, image.T_world_camera)) continue;
-    const int direction = observations_.direction(ids[i], image.T_world_camera);
-    if (!buffer_.improves(ids[i], direction, seen[i].detection.distance_m)) continue;
-    if (coloured.empty()) {
-      coloured =
-          find_objects(image.with_colour(), image.T_world_camera, episode_.trajectory.search);
-      expects(coloured.size() == seen.size(), "the same objects in the same image");
-    }
-    buffer_.keep({.id = ids[i],
-                  .direction = direction,
-                  .seen = coloured[i],
-                  .T_world_camera = image.T_world_camera,
-                  .time_s = image.time_s});
-  }
+std::vector<InputFile> TrajectoryFlight::inputs() const { return {model_input(model)}; }
+
+ModelSource TrajectoryFlight::model_source(const EpisodeSetup& setup) const {
+  return {setup.scene, setup.robot, object_files(database, draw_flight_objects(*this, setup))};
 }
 
-void TrajectoryFlight::apply_observations(const std::vector<BufferedObservation>& due) {
-  for (const BufferedObservation& buffered : due) {
-    // Where the object is believed to be may have moved it into a direction that was used.
-    if (!observations_.wants(buffered.id, buffered.seen.detection, buffered.T_world_camera))
-      continue;
-    const ObjectObservation& observation =
-        observations_.take(buffered.id, buffered.seen.detection, buffered.seen.view,
-                           buffered.T_world_camera, buffered.time_s, observation_rng_);
-    recorder_.observation(buffered.id, observation, observations_.total(), buffered.seen.view);
-  }
+TaskExtent TrajectoryFlight::extent(const EpisodeSetup& setup) const {
+  return {"waypoints", "waypoints", read_flight_path(setup.scene).size()};
 }
 
-void TrajectoryFlight::update(const WaypointReached& reached) {
-  current_.waypoint = reached.waypoint;
-  current_.time_s = reached.time_s;
-  current_.T_world_body = reached.T_world_body;
-  current_.objects = static_cast<int>(observations_.objects().size());
-  current_.observations = observations_.total();
-  double sum_nats = 0.0;
-  for (const RecognisedObject& object : observations_.objects()) {
-    sum_nats += observations_.entropy_nats(object);
-    current_.known += observations_.known(object) ? 1 : 0;
-  }
-  if (current_.objects > 0) current_.mean_entropy_nats = sum_nats / current_.objects;
-  const TrajectoryTruth truth = robot_.truth();
-  current_.clearance_m = truth.minimum_clearance_m;
-  current_.tracking_error_m = truth.tracking_error_mean_m;
-  current_.flown_m = truth.flown_m;
-  current_.collisions = truth.collisions;
+WindowContent TrajectoryFlight::window() { return {.follows_height = true}; }
+
+ReportSections TrajectoryFlight::report() {
+  return {.figures = kFlightFigures, .step_word = "waypoint", .view_heading = "The flight"};
 }
 
-void TrajectoryFlight::record() {
-  records_.push_back(std::exchange(current_, {}));
-  recorder_.waypoint(records_.back(), static_cast<int>(nominal_.size()));
+Measures TrajectoryFlight::measures() { return trajectory_measures(); }
+
+std::string TrajectoryFlight::outcome(const nlohmann::ordered_json& metrics) {
+  return trajectory_outcome(metrics);
 }
 
-bool TrajectoryFlight::finished() const { return at_ + 1 >= static_cast<int>(nominal_.size()); }
-
-std::vector<PlannableObject> TrajectoryFlight::plannable() const {
-  const TrajectoryTask& task = episode_.trajectory;
-  const double at_first_nats = std::log(observations_.recogniser().states.object_count());
-  std::vector<PlannableObject> objects;
-  for (const RecognisedObject& object : observations_.objects()) {
-    PlannableObject& plannable = objects.emplace_back();
-    plannable = {.id = object.id,
-                 .p_world_m = object.p_world_m,
-                 .entropy_nats = at_first_nats,
-                 .used = object.used,
-                 .gain_nats = every_direction(at_first_nats)};
-    if (!task.planner.cost.information) continue;  // each as if it had never been looked at
-    plannable.entropy_nats = observations_.entropy_nats(object);
-    plannable.gain_nats = object.gain_nats;
-    for (std::size_t d = 0; d < object.used.size(); ++d) {
-      if (object.gain_nats[d] < task.observations.min_gain_nats) plannable.used[d] = true;
-    }
-  }
-  return objects;
+void TrajectoryFlight::require_start(const EpisodeSetup& setup) const {
+  const SimulatedTrajectoryRobot robot(setup.options, model_source(setup), *this,
+                                       read_flight_path(setup.scene).front());
+  load_recogniser(*this, draw_flight_objects(*this, setup));
 }
 
-std::vector<CandidatePlan> TrajectoryFlight::propose() {
-  planning_since_s_ = wall_s();
-  return planner_.propose({.at = at_, .nominal = nominal_, .plan = plan_}, plannable(), map_);
-}
-
-/// Flies each in thought as it will be flown: from where the plan before has led by then.
-void TrajectoryFlight::score(std::vector<CandidatePlan>& candidates) {
-  const double latency_s = episode_.trajectory.latency_s;
-  const int missed = robot_.passed(latency_s) - robot_.passed();
-  for (CandidatePlan& candidate : candidates) {
-    const auto on = candidate.same_spline ? robot_.path_on(latency_s) : std::nullopt;
-    candidate.same_spline = on.has_value();
-    const MinimumJerkTrajectory path =
-        on ? *on
-           : robot_.path_in(latency_s, followed(plan_with(candidate, missed), at_after(missed)));
-    const std::vector<double>& knots_s = path.knots_s();
-    const auto planned =
-        std::clamp(candidate.points.cols() - missed, Eigen::Index{1}, std::ssize(knots_s) - 1);
-    candidate.clearance_m = planner_.clearance_m(path, knots_s[static_cast<std::size_t>(planned)]);
-    candidate.clear = planner_.clear(candidate.clearance_m);
-  }
-}
-
-std::size_t TrajectoryFlight::choose(const std::vector<CandidatePlan>& candidates) {
-  const std::size_t chosen = safest_of_best(candidates);
-  current_.plan_time_s = wall_s() - planning_since_s_;
-  current_.target = planner_.target();
-  return chosen;
-}
-
-void TrajectoryFlight::act(const CandidatePlan& candidate) {
-  const ImageCallback on_image = [this](const FlightImage& image) { process_image(image); };
-  const double latency_s = episode_.trajectory.latency_s;
-  const int passed = robot_.passed();
-  robot_.fly_for(latency_s, on_image);  // on the plan before
-  const int missed = robot_.passed() - passed;
-  plan_ = plan_with(candidate, missed);
-  at_ = at_after(missed);
-  current_.planner = candidate.planner;
-  current_.cost = candidate.cost;
-  current_.planned_clearance_m = candidate.clearance_m;
-  current_.latency_s = latency_s;
-  current_.late = current_.plan_time_s > latency_s;
-  current_.missed = missed > 0;
-  current_.plan.assign(plan_.begin() + at_ + 1, plan_.end());
-  if (!candidate.same_spline) robot_.follow(followed(plan_, at_));
-}
-
-/// Once the way is taken so many waypoints later than it was made for.
-std::vector<Eigen::Vector4d> TrajectoryFlight::plan_with(const CandidatePlan& candidate,
-                                                         int missed) const {
-  std::vector<Eigen::Vector4d> plan = plan_;
-  for (Eigen::Index i = missed; i < candidate.points.cols(); ++i) {
-    plan[static_cast<std::size_t>(at_ + 1 + i)] = candidate.points.col(i);
-  }
-  return plan;
-}
-
-/// The waypoint that is then behind; there is always one to fly to.
-int TrajectoryFlight::at_after(int missed) const {
-  return std::min(at_ + missed, static_cast<int>(nominal_.size()) - 2);
-}
-
-/// The plan from the waypoint after that one on.
-std::vector<FlightWaypoint> TrajectoryFlight::followed(const std::vector<Eigen::Vector4d>& plan,
-                                                       int from) const {
-  const auto first = static_cast<std::size_t>(from + 1);
-  const auto beyond = static_cast<std::size_t>(episode_.trajectory.horizon + kFollowedBeyond);
-  std::vector<FlightWaypoint> waypoints;
-  for (std::size_t i = first; i < std::min(plan.size(), first + beyond); ++i) {
-    waypoints.push_back({.p_world_m = plan[i].head<3>(), .yaw_rad = plan[i][3]});
-  }
-  return waypoints;
-}
-
-TrajectoryPanelInput TrajectoryFlight::panel() const {
-  TrajectoryPanelInput input{
-      .observations = observations_, .nominal = nominal_, .plan = plan_, .at = at_};
-  input.T_world_body = robot_.estimated_body();
-  input.target = planner_.target();
-  input.method = method_name(episode_);
-  input.range_m = episode_.trajectory.observations.range_m;
-  return input;
+RunOutcome TrajectoryFlight::run(const RunRequest& request) const {
+  const EpisodeSetup& setup = request.setup;
+  const std::vector<FlightWaypoint> path = read_flight_path(setup.scene);
+  const std::vector<ObjectOnSupport> objects = draw_flight_objects(*this, setup);
+  SimulatedTrajectoryRobot robot(setup.options, model_source(setup), *this, path.front());
+  const Recogniser recogniser = load_recogniser(*this, objects);
+  EpisodeRun run(request);
+  TrajectoryRecorder recorder(run, robot.quadrotor(), camera);
+  const TrajectoryEvaluator evaluator(robot);
+  TrajectoryParts parts({setup.options, *this, recogniser, robot, evaluator, recorder}, path);
+  const Ending ending = ending_of([&] { run_episode(parts); });
+  const TrajectoryGroundTruth truth = robot.ground_truth();
+  return run.finish(ending, {robot.time_s(), truth.collisions}, recorder,
+                    [&](nlohmann::ordered_json& metrics) {
+                      add_trajectory_metrics({truth, objects}, parts, metrics);
+                    });
 }
 
 }  // namespace vantage

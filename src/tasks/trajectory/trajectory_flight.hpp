@@ -1,82 +1,91 @@
-/// The parts of the loop for a flight along waypoints that are planned anew at each of them.
-/// [Potthast2016, chapter 5]
+/// The task `trajectory`: a quadrotor flies a given path, finds objects on its way and recognises
+/// them.  [Potthast2016, chapter 5]
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/belief/map/flight_map.hpp"
 #include "vantage/belief/objects/object_tracker.hpp"
-#include "vantage/planners/trajectory/flight_planner.hpp"
-#include "vantage/recognition/observation_buffer.hpp"
-#include "vantage/tasks/trajectory/objects_on_supports.hpp"
-#include "vantage/tasks/trajectory/trajectory_recorder.hpp"
-#include "vantage/tasks/trajectory/trajectory_robot_interface.hpp"
+#include "vantage/belief/objects/transition.hpp"
+#include "vantage/control/tracking_options.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/perception/object_search.hpp"
+#include "vantage/planners/trajectory/trajectory_method.hpp"
+#include "vantage/recognition/object_observations.hpp"
+#include "vantage/recognition/recogniser.hpp"
+#include "vantage/runtime/episode_run.hpp"
+#include "vantage/runtime/measure.hpp"
+#include "vantage/runtime/task_answers.hpp"
+#include "vantage/sim/sensors/camera_options.hpp"
+#include "vantage/sim/world/scene.hpp"
+#include "vantage/tasks/flight/object_database_options.hpp"
 
 namespace vantage {
 
-/// The recogniser of an episode, made ready.
-/// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
-/// if it does not know an object of the database.
-Recogniser load_trajectory_recogniser(const ResolvedEpisode& resolved);
+struct TrajectoryFlight {
+  static constexpr std::string_view name = "trajectory";
 
-/// A waypoint that was flown to. Images were looked at on the way.
-struct WaypointReached {
-  int waypoint = 0;
-  double time_s = 0.0;
-  Pose T_world_body = Pose::Identity();  ///< as estimated
-};
+  std::string model = "out/trajectory.model";  ///< file that `vantage train` made
+  RecogniserOptions recogniser{.features = {"colour", "bounding_box", "sift"}};
+  TransitionModel transition = RigidTransition{};
+  ObjectDatabaseOptions database;
+  double placement_m =
+      0.02;  ///< largest offset of an object from the middle of its support surface
+  TrajectoryMethod method = Stomp{};
+  FlightPlannerOptions planner;
+  int horizon = 10;        ///< waypoints that are planned at once, K
+  double latency_s = 0.1;  ///< simulated, from a waypoint to its new plan, whatever it took
+  double image_rate_hz = 10.0;
+  double camera_pitch_rad = 0.35;  ///< below the horizon of the body, all the way
+  ObservationOptions observations;
+  ObjectSearchOptions search;
+  ObjectTrackerOptions tracker;
+  FlightMapOptions map;
+  TrajectoryTrackingOptions tracking;
+  RgbdOptions camera;
+  ExposureOptions exposure;
+  double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
+  void fields(auto&& f) {
+    f("model", model);
+    f("recogniser", recogniser);
+    f("transition", transition);
+    f("database", database);
+    f("placement_m", placement_m, between(0.0, 0.1));
+    f("method", method);
+    f("planner", planner);
+    f("horizon", horizon, between(3, 100));
+    f("latency_s", latency_s, between(0.0, 100.0));
+    f("image_rate_hz", image_rate_hz, between(0.1, 100.0));
+    f("camera_pitch_rad", camera_pitch_rad, between(0.0, 1.0471975511965976));
+    f("observations", observations);
+    f("search", search);
+    f("tracker", tracker);
+    f("map", map);
+    f("tracking", tracking);
+    f("camera", camera);
+    f("exposure", exposure);
+    f("colour_noise", colour_noise, between(0.0, 100.0));
+  }
 
-class TrajectoryFlight {
- public:
-  /// @param recogniser knows the database; outlives this
-  TrajectoryFlight(const ResolvedEpisode& resolved, const Recogniser& recogniser,
-                   TrajectoryRobotInterface& robot, TrajectoryRecorder& recorder);
-
-  WaypointReached observe();
-  void update(const WaypointReached& reached);
-  void record();
-  [[nodiscard]] bool finished() const;
-  std::vector<CandidatePlan> propose();
-  void score(std::vector<CandidatePlan>& candidates);
-  std::size_t choose(const std::vector<CandidatePlan>& candidates);
-  void act(const CandidatePlan& candidate);
-
-  [[nodiscard]] const std::vector<WaypointRecord>& waypoints() const { return records_; }
-  [[nodiscard]] const ObjectObservations& observations() const { return observations_; }
-  [[nodiscard]] const std::vector<Eigen::Vector4d>& nominal() const { return nominal_; }
-  [[nodiscard]] const std::vector<Eigen::Vector4d>& plan() const { return plan_; }
-  [[nodiscard]] const FlightMap& map() const { return map_; }
-  [[nodiscard]] const std::vector<ObjectOnSupport>& truth() const { return truth_; }
-
- private:
-  void process_image(const FlightImage& image);
-  void buffer_observations(const FlightImage& image, const std::vector<int>& ids,
-                           const std::vector<SeenObject>& seen);
-  void apply_observations(const std::vector<BufferedObservation>& due);
-  [[nodiscard]] std::vector<Eigen::Vector4d> plan_with(const CandidatePlan& candidate,
-                                                       int missed) const;
-  [[nodiscard]] int at_after(int missed) const;
-  [[nodiscard]] std::vector<FlightWaypoint> followed(const std::vector<Eigen::Vector4d>& plan,
-                                                     int from) const;
-  [[nodiscard]] std::vector<PlannableObject> plannable() const;
-  [[nodiscard]] TrajectoryPanelInput panel() const;
-
-  Episode episode_;
-  TrajectoryRobotInterface& robot_;
-  TrajectoryRecorder& recorder_;
-  std::vector<ObjectOnSupport> truth_;
-  std::vector<Eigen::Vector4d> nominal_;  ///< the path as given
-  std::vector<Eigen::Vector4d> plan_;     ///< as it is flown
-  FlightMap map_;
-  ObjectTracker tracker_;
-  ObjectObservations observations_;
-  FlightPlanner planner_;
-  Rng observation_rng_;
-  ObservationBuffer buffer_;
-  int at_ = -1;                    ///< the waypoint reached last
-  double planning_since_s_ = 0.0;  ///< wall
-  WaypointRecord current_;         ///< filled in from the decision to the end of its segment
-  std::vector<WaypointRecord> records_;
+  [[nodiscard]] std::string method_name() const;
+  void check_with(const EpisodeOptions& episode) const;
+  void find_files(const std::filesystem::path& base);
+  [[nodiscard]] std::vector<InputFile> inputs() const;
+  [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
+  [[nodiscard]] TaskExtent extent(const EpisodeSetup& setup) const;
+  [[nodiscard]] static WindowContent window();
+  [[nodiscard]] static ReportSections report();
+  [[nodiscard]] static std::string_view metrics_task() { return name; }
+  [[nodiscard]] static Measures measures();
+  [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
+  /// @throws ConfigError or InputError if the episode cannot begin.
+  void require_start(const EpisodeSetup& setup) const;
+  RunOutcome run(const RunRequest& request) const;
 };
 
 }  // namespace vantage

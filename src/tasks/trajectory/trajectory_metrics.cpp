@@ -1,13 +1,16 @@
 #include "vantage/tasks/trajectory/trajectory_metrics.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "vantage/information/quantile.hpp"
+#include "vantage/runtime/json.hpp"
 
 namespace vantage {
 namespace {
@@ -56,7 +59,7 @@ Json observation_json(const ObjectObservation& observation) {
 
 /// One that stands there, and what was made of it.
 Json object_json(const ObjectOnSupport& truth, const RecognisedObject* found,
-                 const TrajectoryFlight& run) {
+                 const TrajectoryParts& run) {
   const ObjectObservations& observations = run.observations();
   const double prior_nats =
       std::log(static_cast<double>(observations.recogniser().states.object_count()));
@@ -99,46 +102,102 @@ void add_planning(Json& json, const std::vector<WaypointRecord>& records) {
 
 Json waypoint_json(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
 
-void add_path(Json& json, const TrajectoryFlight& run) {
+void add_path(Json& json, const TrajectoryParts& run) {
   json["path"] = Json::array();
   json["plan"] = Json::array();
   for (const Eigen::Vector4d& q : run.nominal()) json["path"].push_back(waypoint_json(q));
   for (const Eigen::Vector4d& q : run.plan()) json["plan"].push_back(waypoint_json(q));
 }
 
+std::optional<double> inner_number(const MeasuredEpisode& episode, const char* key,
+                                   const char* inner) {
+  return episode.metrics.at(key).at(inner).get<double>();
+}
+
+/// Kinds of collisions are not told apart: one ends the flight.
+std::optional<double> ended_by_collision(const MeasuredEpisode& episode) {
+  return episode.metrics.at("collisions").get<double>() > 0.0 ? 1.0 : 0.0;
+}
+
+const auto kScalars = std::to_array<ScalarMeasure>({
+    kPathLength,
+    kCollisions,
+    kSimulatedTime,
+    {{"accuracy", "objects of the scene recognised, share"},
+     [](const MeasuredEpisode& e) { return number_of(e, "accuracy"); }},
+    {{"observations", "observations of all objects"},
+     [](const MeasuredEpisode& e) { return number_of(e, "observations_total"); }},
+    {{"mean_entropy_nats", "mean entropy of the scene's objects at the end, nats"},
+     [](const MeasuredEpisode& e) { return number_of(e, "mean_entropy_nats"); }},
+    {{"objects_found", "objects of the scene found"},
+     [](const MeasuredEpisode& e) { return number_of(e, "objects_found"); }},
+    {{"false_objects", "objects found where there are none"},
+     [](const MeasuredEpisode& e) { return number_of(e, "false_objects"); }},
+    {{"flight_time_s", "flight time, s"},
+     [](const MeasuredEpisode& e) { return number_of(e, "flight_time_s"); }},
+    {{"minimum_clearance_m", "minimum clearance, m"},
+     [](const MeasuredEpisode& e) { return number_of(e, "minimum_clearance_m"); }},
+    {{"collided", "flights that touched something, share"}, ended_by_collision},
+    {{"tracking_error_m", "mean distance from the reference, m"},
+     [](const MeasuredEpisode& e) { return inner_number(e, "tracking_error_m", "mean"); }},
+    {{"replan_time_s", "median time of a replan, s", true},
+     [](const MeasuredEpisode& e) { return inner_number(e, "plan_time_s", "median"); }},
+    {{"replan_time_p95_s", "95 % quantile of the time of a replan, s", true},
+     [](const MeasuredEpisode& e) { return inner_number(e, "plan_time_s", "p95"); }},
+    {{"late_plans", "replans that took longer than the latency charged", true},
+     [](const MeasuredEpisode& e) { return number_of(e, "late_plans"); }},
+    {{"missed_deadlines", "replans that came after the next waypoint"},
+     [](const MeasuredEpisode& e) { return number_of(e, "missed_deadlines"); }},
+    {{"energy_j", "energy of the rotors, J"},
+     [](const MeasuredEpisode& e) { return number_of(e, "energy_j"); }},
+});
+
 }  // namespace
 
-Json trajectory_metrics(const ResolvedEpisode& resolved, const RunSummary& summary,
-                        const TrajectoryRobotInterface& robot, const TrajectoryFlight& run) {
-  Json json = summary_json(resolved, summary);
-  const TrajectoryTruth truth = robot.truth();
+void add_trajectory_metrics(const FlightTruth& truth, const TrajectoryParts& run, Json& metrics) {
   const auto& found = run.observations().objects();
-  const std::vector<int> match = matches(run.truth(), found);
-  json["objects"] = Json::array();
+  const std::vector<int> match = matches(truth.objects, found);
+  metrics["objects"] = Json::array();
   double correct = 0.0;
   double sum_nats = 0.0;
   for (std::size_t i = 0; i < match.size(); ++i) {
     const RecognisedObject* object =
         match[i] < 0 ? nullptr : &found[static_cast<std::size_t>(match[i])];
-    json["objects"].push_back(object_json(run.truth()[i], object, run));
-    correct += json["objects"].back()["correct"].get<bool>() ? 1.0 : 0.0;
-    sum_nats += json["objects"].back()["entropy_nats"].get<double>();
+    const Json& entry = metrics["objects"].emplace_back(object_json(truth.objects[i], object, run));
+    correct += entry["correct"].get<bool>() ? 1.0 : 0.0;
+    sum_nats += entry["entropy_nats"].get<double>();
   }
   const auto count = static_cast<double>(std::max<std::size_t>(match.size(), 1));
-  json["accuracy"] = correct / count;
-  json["mean_entropy_nats"] = sum_nats / count;
-  json["objects_found"] = std::ranges::count_if(match, [](int m) { return m >= 0; });
-  json["false_objects"] = found.size() - json["objects_found"].get<std::size_t>();
-  json["observations_total"] = run.observations().total();
-  json["flight_time_s"] = summary.simulated_time_s;
-  json["minimum_clearance_m"] = truth.minimum_clearance_m;
-  json["tracking_error_m"] = {{"mean", truth.tracking_error_mean_m},
-                              {"max", truth.tracking_error_max_m}};
-  json["energy_j"] = truth.energy_j;
-  json["waypoints_reached"] = run.waypoints().empty() ? 0 : run.waypoints().back().waypoint + 1;
-  add_planning(json, run.waypoints());
-  add_path(json, run);
-  return json;
+  metrics["accuracy"] = correct / count;
+  metrics["mean_entropy_nats"] = sum_nats / count;
+  metrics["objects_found"] = std::ranges::count_if(match, [](int m) { return m >= 0; });
+  metrics["false_objects"] = found.size() - metrics["objects_found"].get<std::size_t>();
+  metrics["observations_total"] = run.observations().total();
+  metrics["flight_time_s"] = metrics["simulated_time_s"];
+  metrics["minimum_clearance_m"] = truth.vehicle.minimum_clearance_m;
+  metrics["tracking_error_m"] = {{"mean", truth.vehicle.tracking_error_mean_m},
+                                 {"max", truth.vehicle.tracking_error_max_m}};
+  metrics["energy_j"] = truth.vehicle.energy_j;
+  metrics["waypoints_reached"] = run.waypoints().empty() ? 0 : run.waypoints().back().waypoint + 1;
+  add_planning(metrics, run.waypoints());
+  add_path(metrics, run);
 }
+
+std::string trajectory_outcome(const Json& metrics) {
+  const auto number = [&](const char* key) { return metrics[key].get<double>(); };
+  int correct = 0;
+  for (const auto& object : metrics["objects"]) correct += object["correct"].get<bool>() ? 1 : 0;
+  return fmt::format(
+      "{}: {} after {:.1f} s, recognised {} of {} objects in {} observations\n"
+      "mean entropy {:.3f} nats, clearance {:.2f} m, path {:.2f} m, {} collisions, {:.1f} x real "
+      "time\n",
+      metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
+      number("flight_time_s"), correct, metrics["objects"].size(),
+      metrics["observations_total"].get<int>(), number("mean_entropy_nats"),
+      number("minimum_clearance_m"), number("path_length_m"), metrics["collisions"].get<int>(),
+      number("real_time_factor"));
+}
+
+Measures trajectory_measures() { return {kScalars}; }
 
 }  // namespace vantage

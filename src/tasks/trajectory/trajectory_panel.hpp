@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/planners/trajectory/trajectory_record.hpp"
 #include "vantage/recognition/object_observations.hpp"
+#include "vantage/tasks/trajectory/waypoint_record.hpp"
 
 namespace vantage {
 

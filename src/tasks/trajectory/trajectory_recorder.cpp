@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/tasks/flight/simulated_quadrotor.hpp"
 
 namespace vantage {
 namespace {
@@ -15,13 +16,13 @@ constexpr int kOnboardHeight_px = 270;
 constexpr std::string_view kStepsHeader =
     "time_s,waypoint,x_m,y_m,z_m,yaw_rad,planner,plan_time_s,latency_s,late,missed,cost,"
     "planned_clearance_m,target,direction,objects,known,looks,mean_entropy_nats,clearance_m,"
-    "tracking_error_m,path_length_m,collisions\n";
+    "tracking_error_m,path_length_m,collisions";
 
 std::string steps_row(const WaypointRecord& r) {
   const Eigen::Vector3d& p = r.T_world_body.translation();
   return fmt::format(
       "{:.3f},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{:.6g},{:.4f},{},{},{},"
-      "{},{},{:.5f},{:.4f},{:.5f},{:.4f},{}\n",
+      "{},{},{:.5f},{:.4f},{:.5f},{:.4f},{}",
       r.time_s, r.waypoint, p.x(), p.y(), p.z(), project_to_se2(r.T_world_body).yaw_rad, r.planner,
       r.plan_time_s, r.latency_s, r.late, r.missed, r.cost, r.planned_clearance_m,
       r.target ? r.target->object : -1, r.target ? r.target->direction : -1, r.objects, r.known,
@@ -57,32 +58,28 @@ cv::Mat crop_of(const ObjectView& view) {
 
 }  // namespace
 
-TrajectoryRecorder::TrajectoryRecorder(const ResolvedEpisode& resolved,
-                                       TrajectoryRobotInterface& robot,
-                                       std::filesystem::path directory, bool with_video, bool lean,
-                                       Spectator spectator)
-    : directory_(std::move(directory)),
-      robot_(robot),
-      lean_(lean),
-      log_({robot.world(), [&robot] { return robot.true_body(); },
-            [&robot] { return robot.estimated_body(); }},
-           resolved.episode.recording, directory_, with_video, lean, std::move(spectator)),
-      steps_(directory_ / "steps.csv"),
-      observations_(directory_ / "looks.csv"),
-      progress_(resolved.name, 1.0),
-      camera_(resolved.episode.trajectory.camera) {
-  steps_.write(kStepsHeader);
+TrajectoryRecorder::TrajectoryRecorder(const EpisodeRun& run, SimulatedQuadrotor& quadrotor,
+                                       const RgbdOptions& camera)
+    : EpisodeRecorder(run,
+                      {quadrotor.world(), [&quadrotor] { return quadrotor.true_body(); },
+                       [&quadrotor] { return quadrotor.estimated_body(); }},
+                      std::string(kStepsHeader), 1.0),
+      quadrotor_(quadrotor),
+      observations_(directory() / "looks.csv"),
+      camera_(camera) {
   observations_.write(kObservationHeader);
-  if (!lean_) make_writable_directory(directory_ / "views");
-  if (with_video) {
-    onboard_ = make_offscreen_renderer(robot_.world().model(),
+  if (!lean()) make_writable_directory(directory() / "views");
+  if (run.request().options.video) {
+    onboard_ = make_offscreen_renderer(quadrotor_.world().model(),
                                        kOnboardHeight_px * camera_.width_px / camera_.height_px,
                                        kOnboardHeight_px);
   }
 }
 
+TrajectoryRecorder::~TrajectoryRecorder() = default;
+
 void TrajectoryRecorder::set_panel(std::function<TrajectoryPanelInput()> panel) {
-  log_.set_panel([this, panel = std::move(panel)](cv::Size size) {
+  log().set_panel([this, panel = std::move(panel)](cv::Size size) {
     return draw_trajectory_panel(panel(), onboard_image(), size);
   });
 }
@@ -92,8 +89,8 @@ cv::Mat TrajectoryRecorder::onboard_image() {
   RenderRequest request;
   request.depth_and_segmentation = false;
   RenderedImages drawn;
-  onboard_->render(robot_.world().model(), robot_.world().snapshot(),
-                   FixedCamera{robot_.camera_id(), camera_.fovy_rad}, request, drawn);
+  onboard_->render(quadrotor_.world().model(), quadrotor_.world().snapshot(),
+                   FixedCamera{quadrotor_.vehicle().camera_id(), camera_.fovy_rad}, request, drawn);
   const cv::Mat rgb(drawn.height_px, drawn.width_px, CV_8UC3, drawn.rgb.data());
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
@@ -101,28 +98,25 @@ cv::Mat TrajectoryRecorder::onboard_image() {
 }
 
 void TrajectoryRecorder::waypoint(const WaypointRecord& record, int waypoints) {
-  steps_.write(steps_row(record));
-  progress_.update(
-      static_cast<double>(record.waypoint + 1) / waypoints,
-      fmt::format("waypoint {} of {}: {} objects found, {} known, {} observations, {:.1f} s "
-                  "simulated",
-                  record.waypoint + 1, waypoints, record.objects, record.known, record.observations,
-                  record.time_s));
-  log_.save_still(static_cast<std::size_t>(record.waypoint));
+  step(steps_row(record), static_cast<std::size_t>(record.waypoint),
+       static_cast<double>(record.waypoint + 1) / waypoints,
+       fmt::format("waypoint {} of {}: {} objects found, {} known, {} observations, {:.1f} s "
+                   "simulated",
+                   record.waypoint + 1, waypoints, record.objects, record.known,
+                   record.observations, record.time_s));
 }
 
 void TrajectoryRecorder::observation(int object, const ObjectObservation& observation, int number,
                                      const ObjectView& view) {
   observations_.write(observation_row(object, observation, number));
-  if (lean_) return;
+  if (lean()) return;
   const cv::Mat crop = crop_of(view);
-  write_file_with(directory_ / "views" / fmt::format("look_{:03}_object_{}.png", number, object),
+  write_file_with(directory() / "views" / fmt::format("look_{:03}_object_{}.png", number, object),
                   [&](const auto& part) { return cv::imwrite(part.string(), crop); });
 }
 
 void TrajectoryRecorder::commit() {
-  log_.commit();
-  steps_.commit();
+  EpisodeRecorder::commit();
   observations_.commit();
 }
 

@@ -5,11 +5,12 @@
 #include <numbers>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/replayed.hpp"
 #include "tests/tasks/small_recognition.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/runtime/replay.hpp"
-#include "vantage/tasks/recognition/object_on_table.hpp"
+#include "vantage/tasks/change_detection/change_ground_truth.hpp"
+#include "vantage/tasks/recognition/recognition_ground_truth.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/validate.hpp"
 
@@ -33,8 +34,8 @@ class ChangeEpisode : public testing::Test {
   static std::vector<std::string> overrides(const std::string& scenario,
                                             std::vector<std::string> more) {
     std::vector<std::string> all = support::small_flight(folder_->path());
-    all.emplace_back("change_detection.expected_object=cereal_box_1");
-    all.push_back("change_detection.scenario=" + scenario);
+    all.emplace_back("expected_object=cereal_box_1");
+    all.push_back("scenario=" + scenario);
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -83,7 +84,7 @@ TEST_F(ChangeEpisode, AnotherObjectIsFoundAndItsFlightReplays) {
   EXPECT_EQ(metrics["correct"], true);
   EXPECT_NE(metrics["truth"], "cereal_box_1");
   EXPECT_GT(metrics["change_probability"], 0.6);
-  const ReplayResult result = replay(*folder_ / "object");
+  const ReplayResult result = support::replayed(*folder_ / "object");
   EXPECT_FALSE(result.first_difference) << result.what;
   EXPECT_GE(result.ticks, 50U);
   const std::string steps = read_file(*folder_ / "object" / "steps.csv");
@@ -91,7 +92,7 @@ TEST_F(ChangeEpisode, AnotherObjectIsFoundAndItsFlightReplays) {
 }
 
 TEST_F(ChangeEpisode, ATurnedObjectIsFound) {
-  const json metrics = metrics_of("pose", {"change_detection.turned_rad=1.5707963267948966"});
+  const json metrics = metrics_of("pose", {"turned_rad=1.5707963267948966"});
   EXPECT_EQ(metrics["decision"], "pose");
   EXPECT_EQ(metrics["truth"], "cereal_box_1");
   EXPECT_NEAR(std::abs(wrap_angle(metrics["true_yaw_rad"].get<double>() -
@@ -108,49 +109,44 @@ TEST_F(ChangeEpisode, AnEmptyTableIsLookedAtTwice) {
   EXPECT_TRUE(metrics["bin_error"].is_null());
   ASSERT_EQ(metrics["observations"].size(), 2U);
   EXPECT_THAT(metrics["observations"][0]["skipped"], testing::Not(testing::IsEmpty()));
-  EXPECT_FALSE(replay(*folder_ / "removed").first_difference);
+  EXPECT_FALSE(support::replayed(*folder_ / "removed").first_difference);
 }
 
 TEST_F(ChangeEpisode, WhatCannotBeIsRefused) {
   EXPECT_THROW(load_episode(kChange, overrides("stolen", {})), ConfigError);
-  EXPECT_THROW(load_episode(kChange, overrides("none", {"recognition.object=mug_1"})), ConfigError);
-  EXPECT_THROW(load_episode(kChange, overrides("object", {"recognition.object=cereal_box_1"})),
-               ConfigError);
-  const Validation found = validate_episode(
-      kChange, overrides("pose", {"change_detection.expected_object=spaceship_1"}));
+  EXPECT_THROW(load_episode(kChange, overrides("none", {"object=mug_1"})), ConfigError);
+  EXPECT_THROW(load_episode(kChange, overrides("object", {"object=cereal_box_1"})), ConfigError);
+  const Validation found =
+      validate_episode(kChange, overrides("pose", {"expected_object=spaceship_1"}));
   ASSERT_EQ(found.problems.size(), 1U);
-  EXPECT_THAT(found.problems[0], testing::HasSubstr("change_detection.expected_object"));
+  EXPECT_THAT(found.problems[0], testing::HasSubstr("expected_object"));
   EXPECT_THAT(validate_episode(kChange, overrides("object", {})).problems, testing::IsEmpty());
 }
 
-Episode scenario(const std::string& name, std::uint64_t seed) {
-  Episode episode;
-  episode.task = "change_detection";
-  episode.seed = seed;
-  episode.change_detection.scenario = name;
-  return episode;
+ChangeDetectionTask scenario(const std::string& name) {
+  ChangeDetectionTask task;
+  task.scenario = name;
+  return task;
 }
 
 TEST(ChangeScenario, MakesOfWhatIsExpectedWhatItSays) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const ObjectOnTable expected = draw_expected_object(scenario("none", seed));
-    const ObjectOnTable same = draw_object_on_table(scenario("none", seed));
+    const ObjectOnTable expected = draw_expected_object(scenario("none"), seed);
+    const ObjectOnTable same = draw_object(scenario("none"), seed);
     EXPECT_EQ(same.object, expected.object);
     EXPECT_EQ(same.yaw_rad, expected.yaw_rad);
     EXPECT_GT(same.offset_m.norm(), 0.0) << "nobody puts a thing exactly where it was";
-    const ObjectOnTable turned = draw_object_on_table(scenario("pose", seed));
+    const ObjectOnTable turned = draw_object(scenario("pose"), seed);
     EXPECT_EQ(turned.object, expected.object);
     EXPECT_GT(std::abs(wrap_angle(turned.yaw_rad - expected.yaw_rad)), std::numbers::pi / 8.0);
-    EXPECT_NE(draw_object_on_table(scenario("object", seed)).object, expected.object);
-    EXPECT_TRUE(draw_object_on_table(scenario("removed", seed)).object.empty());
+    EXPECT_NE(draw_object(scenario("object"), seed).object, expected.object);
+    EXPECT_TRUE(draw_object(scenario("removed"), seed).object.empty());
   }
 }
 
 TEST(ChangeScenario, StartsFromWhatARecognitionWouldSee) {
-  Episode recognition = scenario("none", 7);
-  recognition.task = "recognition";
-  const ObjectOnTable seen = draw_object_on_table(recognition);
-  const ObjectOnTable expected = draw_expected_object(scenario("object", 7));
+  const ObjectOnTable seen = draw_object(RecognitionTask{}, 7);
+  const ObjectOnTable expected = draw_expected_object(scenario("object"), 7);
   EXPECT_EQ(seen.object, expected.object);
   EXPECT_EQ(seen.yaw_rad, expected.yaw_rad);
 }

@@ -1,4 +1,6 @@
 // Exploring an office: what the head's sweep sees, and a whole short episode.
+#include "vantage/tasks/exploration/exploration.hpp"
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
@@ -7,10 +9,9 @@
 #include <numbers>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/replayed.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/rng.hpp"
-#include "vantage/runtime/replay.hpp"
-#include "vantage/tasks/exploration/exploration_options.hpp"
 #include "vantage/tasks/exploration/visited_places.hpp"
 #include "vantage/tasks/mapping/reference_map.hpp"
 #include "vantage/tasks/run.hpp"
@@ -45,7 +46,7 @@ bool in_some_image(const HeadSweep& sweep, const RgbdOptions& camera, const Eige
 
 RC_GTEST_PROP(HeadSweep, ShowsWhateverIsInItsField, (std::uint64_t seed)) {
   Rng rng(seed);
-  const ExplorationOptions options;
+  const Exploration options;
   const FieldOfView field = swept_field(options.sweep, options.camera);
   RC_ASSERT(field.panorama);
   for (int i = 0; i < 100; ++i) {
@@ -116,12 +117,9 @@ TEST(ReferenceMap, FindsTheDistanceToAWall) {
 
 nlohmann::json explore(const std::filesystem::path& out, std::vector<std::string> more) {
   set_verbosity(Verbosity::quiet);
-  std::vector<std::string> overrides = {"scans=3",
-                                        "map.cells=[100,67,20]",
-                                        "exploration.camera.width_px=160",
-                                        "exploration.camera.height_px=120",
-                                        "exploration.stride_px=1",
-                                        "metrics.pose_spacing_m=2"};
+  std::vector<std::string> overrides = {
+      "scans=3",     "map.cells=[100,67,20]",   "camera.width_px=160", "camera.height_px=120",
+      "stride_px=1", "metrics.pose_spacing_m=2"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   const auto episode =
       std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml";
@@ -131,12 +129,11 @@ nlohmann::json explore(const std::filesystem::path& out, std::vector<std::string
 
 TEST(Exploration, EndsWhenNothingIsWorthAScan) {
   const support::TemporaryDirectory folder;
-  const auto all = explore(folder.path() / "all", {"exploration.enough.scans=0"});
+  const auto all = explore(folder.path() / "all", {"enough.scans=0"});
   EXPECT_EQ(all["scans"].size(), 3U);
   const auto asked = explore(folder.path() / "asked", {});
   EXPECT_EQ(asked["state_hash"], all["state_hash"]) << "whether to go on is not where to";
-  const auto demanding = {std::string("exploration.enough.share=1"),
-                          std::string("exploration.enough.scans=2")};
+  const auto demanding = {std::string("enough.share=1"), std::string("enough.scans=2")};
   for (const std::string method : {"choice=greedy", "choice=random"}) {
     std::vector<std::string> more = demanding;
     more.push_back(method);
@@ -163,7 +160,7 @@ TEST(Exploration, LearnsTheOfficeWithoutTouchingIt) {
   }
   EXPECT_GT(metrics["path_length_m"], 1.0);
   EXPECT_GT(metrics["map"]["precision"], 0.95);
-  const ReplayResult again = replay(folder.path() / "run");
+  const ReplayResult again = support::replayed(folder.path() / "run");
   EXPECT_FALSE(again.first_difference) << again.what;
 }
 
@@ -188,7 +185,7 @@ TEST(Exploration, NamesTheSitesItCouldStartFrom) {
   EXPECT_THROW(explore(folder.path() / "run", {"robot.start_site=", "robot.start_pose=[0.6,2,0]"}),
                ConfigError)
       << "inside a wall";
-  EXPECT_THROW(explore(folder.path() / "run", {"exploration.frontiers.height_m=3"}), ConfigError);
+  EXPECT_THROW(explore(folder.path() / "run", {"frontiers.height_m=3"}), ConfigError);
 }
 
 }  // namespace

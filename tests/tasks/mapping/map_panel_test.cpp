@@ -5,6 +5,7 @@
 
 #include "tests/report/sample_run.hpp"
 #include "vantage/runtime/drawing/map_view.hpp"
+#include "vantage/runtime/log/video_recorder.hpp"
 
 namespace vantage {
 namespace {

@@ -1,13 +1,13 @@
 // A quadrotor at a table: where it flies, what it sees, and whether it finds the object itself.
-#include "vantage/tasks/recognition/orbit_robot_interface.hpp"
-
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
 #include <numbers>
 
-#include "vantage/sim/sensors/camera.hpp"
-#include "vantage/tasks/recognition/object_on_table.hpp"
+#include "vantage/sim/sensors/ground_truth.hpp"
+#include "vantage/tasks/episode.hpp"
+#include "vantage/tasks/object_flight/simulated_orbit_robot.hpp"
+#include "vantage/tasks/recognition/recognition_ground_truth.hpp"
 
 namespace vantage {
 namespace {
@@ -15,24 +15,39 @@ namespace {
 namespace fs = std::filesystem;
 
 ResolvedEpisode episode(std::vector<std::string> more = {}) {
-  std::vector<std::string> overrides = {"recognition.settle_s=0.2",
-                                        "recognition.segmentation.mask_growth_px=0"};
+  std::vector<std::string> overrides = {"settle_s=0.2", "segmentation.mask_growth_px=0"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return load_episode(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml", overrides);
 }
 
+RecognitionTask task_of(const ResolvedEpisode& resolved) {
+  return std::get<RecognitionTask>(resolved.task);
+}
+
+ObjectOnTable object_of(const ResolvedEpisode& resolved) {
+  return draw_object(task_of(resolved), resolved.setup.options.seed);
+}
+
+/// The robot of the episode in its world.
+struct OrbitingRobot : SimulatedOrbitRobot {
+  explicit OrbitingRobot(const ResolvedEpisode& resolved)
+      : SimulatedOrbitRobot(resolved.setup.options, model_source(resolved), task_of(resolved),
+                            object_of(resolved).yaw_rad) {}
+};
+
 /// Intersection over union of the cut's mask with where the object truly is in the image.
-double overlap(const ObjectView& view, const CameraImages& truth, int body) {
+double overlap(const ObjectView& view, const RgbdOptions& camera, const std::vector<int>& truth,
+               int body) {
   int both = 0;
   int either = 0;
-  for (int row = 0; row < truth.height_px; ++row) {
-    for (int column = 0; column < truth.width_px; ++column) {
+  for (int row = 0; row < camera.height_px; ++row) {
+    for (int column = 0; column < camera.width_px; ++column) {
       const int r = row - view.top_px;
       const int c = column - view.left_px;
       const bool in_cut = r >= 0 && c >= 0 && r < view.height_px && c < view.width_px;
       const bool masked = in_cut && view.mask[view.index(r, c)] != 0;
-      const auto pixel = static_cast<std::size_t>(row * truth.width_px + column);
-      const bool meant = truth.segmentation[pixel] == body;
+      const auto pixel = static_cast<std::size_t>(row * camera.width_px + column);
+      const bool meant = truth[pixel] == body;
       both += masked && meant ? 1 : 0;
       either += masked || meant ? 1 : 0;
     }
@@ -40,54 +55,55 @@ double overlap(const ObjectView& view, const CameraImages& truth, int body) {
   return static_cast<double>(both) / either;
 }
 
-/// What the robot cut out of its image beside the simulator's segmentation.
-double overlap_with_truth(OrbitRobotInterface& robot, const FlightObservation& observation,
+/// What the robot cut out of its image beside where the simulator knows the object to be.
+double overlap_with_truth(OrbitingRobot& robot, const FlightObservation& observation,
                           const RecognitionTask& task) {
   Rng rng(1);
   const SegmentedObject found = segment_object(observation.images, observation.T_world_camera,
-                                               robot.p_world_table_m(), task.segmentation, rng);
+                                               task.p_world_table_m(), task.segmentation, rng);
   EXPECT_TRUE(found.view) << found.reason;
   if (!found.view) return 0.0;
-  const mjModel& model = robot.world().model();
+  World& world = robot.quadrotor().world();
+  const mjModel& model = world.model();
   const auto renderer = make_offscreen_renderer(model, task.camera.width_px, task.camera.height_px);
-  const CameraImages truth =
-      rgbd(*renderer, model, robot.world().snapshot(),
-           model_id(model, ModelObject::camera, "robot/camera"), task.camera, rng);
-  return overlap(*found.view, truth, model_id(model, ModelObject::body, "object"));
+  const std::vector<int> truth =
+      body_ids(*renderer, model, world.snapshot(),
+               model_id(model, ModelObject::camera, "robot/camera"), task.camera.fovy_rad);
+  return overlap(*found.view, task.camera, truth, model_id(model, ModelObject::body, "object"));
 }
 
 class OrbitRobotObject : public testing::TestWithParam<const char*> {};
 
 TEST_P(OrbitRobotObject, IsCutOutOfPicturesFromSeveralBearings) {
-  const ResolvedEpisode resolved = episode({std::string("recognition.object=") + GetParam()});
-  OrbitRobotInterface robot(resolved);
+  const ResolvedEpisode resolved = episode({std::string("object=") + GetParam()});
+  OrbitingRobot robot(resolved);
   for (int i = 0; i < 3; ++i) {
     if (i > 0) {
       const FlightResult flight = robot.fly_to(robot.bearing_rad() + 1.7);
       EXPECT_EQ(flight.status, FlightStatus::arrived);
     }
     const FlightObservation observation = robot.observe();
-    EXPECT_GT(overlap_with_truth(robot, observation, resolved.episode.recognition), 0.85)
+    EXPECT_GT(overlap_with_truth(robot, observation, task_of(resolved)), 0.85)
         << GetParam() << " at bearing " << robot.bearing_rad();
-    EXPECT_LT(robot.truth().position_error_m, 0.05);
-    EXPECT_LT(robot.truth().angle_error_rad, 3.0 * std::numbers::pi / 180.0);
+    EXPECT_LT(robot.ground_truth().position_error_m, 0.05);
+    EXPECT_LT(robot.ground_truth().angle_error_rad, 3.0 * std::numbers::pi / 180.0);
   }
-  EXPECT_EQ(robot.truth().collisions, 0);
+  EXPECT_EQ(robot.ground_truth().collisions, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Several, OrbitRobotObject,
                          testing::Values("mug_1", "cereal_box_1", "banana_1", "bowl_1"));
 
 TEST(OrbitRobotInterface, SeesTheObjectTurnAgainstIt) {
-  OrbitRobotInterface robot(episode());
-  const double before_rad = robot.truth().object_angle_rad;
+  OrbitingRobot robot(episode());
+  const double before_rad = robot.ground_truth().object_angle_rad;
   const double bearing_rad = robot.bearing_rad();
   EXPECT_EQ(robot.fly_to(bearing_rad + 0.8).status, FlightStatus::arrived);
-  EXPECT_NEAR(wrap_angle(robot.truth().object_angle_rad - before_rad), -0.8, 0.06);
+  EXPECT_NEAR(wrap_angle(robot.ground_truth().object_angle_rad - before_rad), -0.8, 0.06);
 }
 
 TEST(OrbitRobotInterface, PlansWhatItFlies) {
-  OrbitRobotInterface robot(episode());
+  OrbitingRobot robot(episode());
   const double to_rad = robot.bearing_rad() - 1.2;
   const FlightPlan plan = robot.plan(to_rad);
   const FlightResult flight = robot.fly_to(to_rad);
@@ -98,26 +114,37 @@ TEST(OrbitRobotInterface, PlansWhatItFlies) {
               0.1 * plan.energy_j / plan.duration_s);
 }
 
+template <class T>
+concept TellsBodyIds = requires(const T& images) {
+  images.segmentation;
+};
+template <class T>
+concept TellsTruth = requires(T& robot) {
+  robot.ground_truth();
+}
+|| requires(T& robot) { robot.quadrotor(); }
+|| requires(T& robot) { robot.world(); };
+
 TEST(OrbitRobotInterface, TakesNoTruthAlong) {
-  OrbitRobotInterface robot(episode());
-  EXPECT_TRUE(robot.observe().images.segmentation.empty());
+  EXPECT_FALSE(TellsBodyIds<decltype(FlightObservation::images)>);
+  EXPECT_FALSE(TellsTruth<OrbitRobotInterface>);
+  EXPECT_TRUE(TellsTruth<SimulatedOrbitRobot>) << "asked of evaluators";
 }
 
 TEST(ObjectOnTable, NamingItLeavesItWhereItWas) {
-  const Episode drawn = episode().episode;
-  const ObjectOnTable first = draw_object_on_table(drawn);
-  const ObjectOnTable named = draw_object_on_table(episode({"recognition.object=bowl_1"}).episode);
+  const ResolvedEpisode drawn = episode();
+  const ObjectOnTable first = object_of(drawn);
+  const ObjectOnTable named = object_of(episode({"object=bowl_1"}));
   EXPECT_EQ(named.object, "bowl_1");
   EXPECT_EQ(named.category, "bowl");
   EXPECT_EQ(named.yaw_rad, first.yaw_rad);
   EXPECT_EQ(named.offset_m, first.offset_m);
-  EXPECT_LE(first.offset_m.norm(), drawn.recognition.placement_m);
-  EXPECT_NE(draw_object_on_table(episode({"seed=2"}).episode).yaw_rad, first.yaw_rad);
+  EXPECT_LE(first.offset_m.norm(), task_of(drawn).placement_m);
+  EXPECT_NE(object_of(episode({"seed=2"})).yaw_rad, first.yaw_rad);
 }
 
 TEST(ObjectOnTable, MustBeOfTheDatabase) {
-  EXPECT_THROW(draw_object_on_table(episode({"recognition.object=unicorn_1"}).episode),
-               ConfigError);
+  EXPECT_THROW(object_of(episode({"object=unicorn_1"})), ConfigError);
 }
 
 }  // namespace

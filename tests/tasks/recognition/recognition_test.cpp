@@ -5,11 +5,10 @@
 #include <set>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/replayed.hpp"
 #include "tests/tasks/small_recognition.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/runtime/replay.hpp"
-#include "vantage/tasks/recognition/object_recognition.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/validate.hpp"
 
@@ -35,8 +34,8 @@ class RecognitionEpisode : public testing::Test {
 
   static std::vector<std::string> overrides(std::vector<std::string> more) {
     std::vector<std::string> all = small_flight(folder_->path());
-    all.emplace_back("recognition.enough={object_probability: 1, entropy_bits: 0}");
-    all.emplace_back("recognition.object=cereal_box_1");
+    all.emplace_back("enough={object_probability: 1, entropy_bits: 0}");
+    all.emplace_back("object=cereal_box_1");
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -101,25 +100,24 @@ TEST_F(RecognitionEpisode, WritesItsFolder) {
 }
 
 TEST_F(RecognitionEpisode, ReplaysEveryState) {
-  const ReplayResult result = replay(*folder_ / "first");
+  const ReplayResult result = support::replayed(*folder_ / "first");
   EXPECT_FALSE(result.first_difference) << result.what;
   EXPECT_GT(result.ticks, 500U);
 }
 
 TEST_F(RecognitionEpisode, SameSeedSameFlight) {
   EXPECT_EQ(metrics_of("second", {"threads=1"})["state_hash"], first_["state_hash"]);
-  EXPECT_NE(metrics_of("other", {"seed=2", "recognition.max_views=1"})["state_hash"],
-            first_["state_hash"]);
+  EXPECT_NE(metrics_of("other", {"seed=2", "max_views=1"})["state_hash"], first_["state_hash"]);
 }
 
 TEST_F(RecognitionEpisode, AQuadrotorThatTouchesSomethingHasFailed) {
   RunOptions options;
   options.directory = *folder_ / "blown";
   const std::string gust =
-      "recognition.tracking.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, "
+      "tracking.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, "
       "-1]}]";
   const RunOutcome outcome =
-      run(load_episode(kRecognition, overrides({gust, "recognition.settle_s=1.5"})), options);
+      run(load_episode(kRecognition, overrides({gust, "settle_s=1.5"})), options);
   const json metrics = json::parse(outcome.metrics);
   EXPECT_EQ(outcome.code, ExitCode::goal_failed);
   EXPECT_EQ(metrics["status"], "failed");
@@ -131,7 +129,7 @@ TEST_F(RecognitionEpisode, AQuadrotorThatTouchesSomethingHasFailed) {
 }
 
 TEST_F(RecognitionEpisode, AMissingModelSaysHowToMakeOne) {
-  const Validation found = validate_episode(kRecognition, overrides({"recognition.model=nowhere"}));
+  const Validation found = validate_episode(kRecognition, overrides({"model=nowhere"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("nowhere"),
@@ -140,8 +138,8 @@ TEST_F(RecognitionEpisode, AMissingModelSaysHowToMakeOne) {
 }
 
 TEST_F(RecognitionEpisode, AForeignModelIsRefused) {
-  const Validation found = validate_episode(
-      kRecognition, overrides({"recognition.database.objects=326", "recognition.object=lamp_2"}));
+  const Validation found =
+      validate_episode(kRecognition, overrides({"database.objects=326", "object=lamp_2"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0], testing::HasSubstr("lamp_2"));
   EXPECT_EQ(found.code, ExitCode::usage);

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/sim/world/world.hpp"
-#include "vantage/tasks/trajectory/objects_on_supports.hpp"
+#include "vantage/tasks/trajectory/supports_ground_truth.hpp"
 
 namespace vantage {
 namespace {
@@ -22,12 +22,13 @@ fs::path scene_file(const std::string& name) {
 }
 
 TEST(FlightLayout, HasThePathAndTheStands) {
-  const FlightLayout layout = read_flight_layout(scene_file("trajectory_3"));
-  EXPECT_EQ(layout.path.size(), 56U);
-  EXPECT_EQ(layout.supports_m.size(), 10U);
-  EXPECT_NEAR(layout.path[0].p_world_m.z(), 1.8, 1e-9);
-  EXPECT_NEAR(layout.path[0].yaw_rad, 0.0, 1e-3);
-  EXPECT_NEAR((layout.supports_m[0] - Eigen::Vector3d(-2.6, -2.75, 0.8)).norm(), 0.0, 1e-4);
+  const std::vector<FlightWaypoint> path = read_flight_path(scene_file("trajectory_3"));
+  const auto supports_m = read_support_surfaces(scene_file("trajectory_3"));
+  EXPECT_EQ(path.size(), 56U);
+  EXPECT_EQ(supports_m.size(), 10U);
+  EXPECT_NEAR(path[0].p_world_m.z(), 1.8, 1e-9);
+  EXPECT_NEAR(path[0].yaw_rad, 0.0, 1e-3);
+  EXPECT_NEAR((supports_m[0] - Eigen::Vector3d(-2.6, -2.75, 0.8)).norm(), 0.0, 1e-4);
 }
 
 TEST(FlightLayout, SaysWhichFileIsMissingOrWrong) {
@@ -35,7 +36,8 @@ TEST(FlightLayout, SaysWhichFileIsMissingOrWrong) {
   const fs::path scene = folder.path() / "scene.xml";
   const auto message = [&] {
     try {
-      read_flight_layout(scene);
+      read_flight_path(scene);
+      read_support_surfaces(scene);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -97,8 +99,7 @@ TEST(ObjectsOnSupports, AllDifferAndAllAreDrawnInTime) {
 
 TEST(ObjectsOnSupports, StandInTheCompiledScene) {
   const fs::path scene = scene_file("trajectory_4");
-  const FlightLayout layout = read_flight_layout(scene);
-  const auto objects = draw_objects({}, layout.supports_m, 0.02, 3);
+  const auto objects = draw_objects({}, read_support_surfaces(scene), 0.02, 3);
   const World world({scene, {}, object_files({}, objects)}, {});
   const mjModel& model = world.model();
   for (std::size_t i = 0; i < objects.size(); ++i) {

@@ -11,8 +11,9 @@
 #include "vantage/perception/object_search.hpp"
 #include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/sim/sensors/camera.hpp"
+#include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/tasks/trajectory/objects_on_supports.hpp"
+#include "vantage/tasks/trajectory/supports_ground_truth.hpp"
 
 namespace vantage::support {
 
@@ -31,9 +32,16 @@ inline std::filesystem::path scene_file(const std::string& name) {
   return std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/scenes" / name / "scene.xml";
 }
 
-/// Everything about one image; `truth` has the segmentation.
+/// What is truly in an image.
+struct TrueImage {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<int> body_ids;  ///< of each pixel
+};
+
+/// Everything about one image.
 struct SurveyMoment {
-  const CameraImages& truth;
+  const TrueImage& truth;
   Pose T_world_camera;  ///< truth
   const std::vector<SeenObject>& seen;
   const std::vector<int>& ids;
@@ -44,20 +52,20 @@ class FlightSurvey {
  public:
   explicit FlightSurvey(const FlightSurveyOptions& options)
       : options_(options),
-        layout(read_flight_layout(scene_file(options.scene))),
-        objects(draw_objects(ObjectDatabaseOptions{}, layout.supports_m, 0.02, options.seed)),
+        path(read_flight_path(scene_file(options.scene))),
+        supports_m(read_support_surfaces(scene_file(options.scene))),
+        objects(draw_objects(ObjectDatabaseOptions{}, supports_m, 0.02, options.seed)),
         world({scene_file(options.scene),
                std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/quadrotor/quadrotor.xml",
                object_files(ObjectDatabaseOptions{}, objects)},
               kFlightWorld),
         vehicle(world.model()),
-        tracking((vehicle.place(
-                      world, make_pose(layout.path.front().p_world_m, layout.path.front().yaw_rad),
-                      options.camera_pitch_rad),
+        tracking((vehicle.place(world, make_pose(path.front().p_world_m, path.front().yaw_rad),
+                                options.camera_pitch_rad),
                   world),
                  vehicle, TrajectoryTrackingOptions{.limits = {.speed_m_s = options.speed_m_s}},
                  Rng::stream(options.seed, "pose")),
-        map(flight_region(layout.path), options.map) {}
+        map(flight_region(path), options.map) {}
 
   /// Flies to the path's end; an image at every period.
   FlightResult fly(const std::function<void(const SurveyMoment&)>& look = {}) {
@@ -65,15 +73,14 @@ class FlightSurvey {
         make_offscreen_renderer(world.model(), options_.camera.width_px, options_.camera.height_px);
     Rng noise = Rng::stream(options_.seed, "camera");
     double next_s = 0.0;
-    return tracking.fly_to(
-        std::span(layout.path).subspan(1), [&](const TrajectoryTrackingController&) {
-          if (world.time_s() < next_s) return true;
-          next_s = world.time_s() + options_.image_period_s;
-          const CameraImages image = rgbd(*renderer, world.model(), world.snapshot(),
-                                          vehicle.camera_id(), options_.camera, noise);
-          take(image, look);
-          return true;
-        });
+    return tracking.fly_to(std::span(path).subspan(1), [&](const TrajectoryTrackingController&) {
+      if (world.time_s() < next_s) return true;
+      next_s = world.time_s() + options_.image_period_s;
+      const CameraImages image = rgbd(*renderer, world.model(), world.snapshot(),
+                                      vehicle.camera_id(), options_.camera, noise);
+      take(image, *renderer, look);
+      return true;
+    });
   }
 
  private:
@@ -82,9 +89,8 @@ class FlightSurvey {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   }
 
-  void take(const CameraImages& image, const std::function<void(const SurveyMoment&)>& look) {
-    CameraImages images = image;
-    images.segmentation.clear();
+  void take(const CameraImages& images, Renderer& renderer,
+            const std::function<void(const SurveyMoment&)>& look) {
     const Pose T_world_camera =
         tracking.estimate().T_world_body * vehicle.T_body_camera(vehicle.camera_pitch_rad(world));
     const auto start = Clock::now();
@@ -97,13 +103,18 @@ class FlightSurvey {
     const std::vector<int> ids = found.update(detections_of(seen));
     const Pose T_true =
         vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
-    if (look) look({image, T_true, seen, ids});
+    if (!look) return;
+    const TrueImage truth{options_.camera.width_px, options_.camera.height_px,
+                          body_ids(renderer, world.model(), world.snapshot(), vehicle.camera_id(),
+                                   options_.camera.fovy_rad)};
+    look({truth, T_true, seen, ids});
   }
 
   FlightSurveyOptions options_;
 
  public:
-  FlightLayout layout;
+  std::vector<FlightWaypoint> path;
+  std::vector<Eigen::Vector3d> supports_m;
   std::vector<ObjectOnSupport> objects;
   World world;
   Quadrotor vehicle;
@@ -127,11 +138,11 @@ struct SurveyScore {
   std::vector<double> overlap;  ///< of their masks within 2 m with truth: intersection over union
 };
 
-inline bool touches_border(const CameraImages& truth, int body) {
+inline bool touches_border(const TrueImage& truth, int body) {
   for (int row = 0; row < truth.height_px; ++row) {
     const int step = row == 0 || row == truth.height_px - 1 ? 1 : truth.width_px - 1;
     for (int column = 0; column < truth.width_px; column += step) {
-      if (truth.segmentation[static_cast<std::size_t>(row * truth.width_px + column)] == body) {
+      if (truth.body_ids[static_cast<std::size_t>(row * truth.width_px + column)] == body) {
         return true;
       }
     }
@@ -139,7 +150,7 @@ inline bool touches_border(const CameraImages& truth, int body) {
   return false;
 }
 
-inline double overlap(const ObjectView& view, const CameraImages& truth, int body) {
+inline double overlap(const ObjectView& view, const TrueImage& truth, int body) {
   std::ptrdiff_t both = 0;
   std::ptrdiff_t masked = 0;
   for (int row = 0; row < view.height_px; ++row) {
@@ -147,10 +158,10 @@ inline double overlap(const ObjectView& view, const CameraImages& truth, int bod
       if (view.mask[view.index(row, column)] == 0) continue;
       ++masked;
       const int at = (view.top_px + row) * truth.width_px + view.left_px + column;
-      both += truth.segmentation[static_cast<std::size_t>(at)] == body ? 1 : 0;
+      both += truth.body_ids[static_cast<std::size_t>(at)] == body ? 1 : 0;
     }
   }
-  const auto meant = std::ranges::count(truth.segmentation, body);
+  const auto meant = std::ranges::count(truth.body_ids, body);
   return static_cast<double>(both) / static_cast<double>(masked + meant - both);
 }
 
@@ -183,7 +194,7 @@ inline void add(SurveyScore& score, const FlightSurvey& survey, const SurveyMome
   for (std::size_t i = 0; i < survey.objects.size(); ++i) {
     const double away_m =
         (survey.objects[i].p_world_m - moment.T_world_camera.translation()).norm();
-    const auto pixels = std::ranges::count(moment.truth.segmentation, body_of(i));
+    const auto pixels = std::ranges::count(moment.truth.body_ids, body_of(i));
     if (away_m > 2.9 || pixels < min_pixels) continue;
     ++score.shown;
     score.seen += reported[i];

@@ -38,10 +38,10 @@ bool blocks(const FlightMap& map, const Eigen::Vector3d& p_world_m, double radiu
 }
 
 /// Least distance of the given path from there, level.
-double pass_m(const FlightLayout& layout, const Eigen::Vector3d& p_world_m) {
-  Eigen::Matrix4Xd path = Eigen::Matrix4Xd::Zero(4, static_cast<Eigen::Index>(layout.path.size()));
+double pass_m(const std::vector<FlightWaypoint>& waypoints, const Eigen::Vector3d& p_world_m) {
+  Eigen::Matrix4Xd path = Eigen::Matrix4Xd::Zero(4, static_cast<Eigen::Index>(waypoints.size()));
   for (Eigen::Index i = 0; i < path.cols(); ++i) {
-    path.col(i).head<2>() = layout.path[static_cast<std::size_t>(i)].p_world_m.head<2>();
+    path.col(i).head<2>() = waypoints[static_cast<std::size_t>(i)].p_world_m.head<2>();
   }
   return nearest_on_path(path, {p_world_m.x(), p_world_m.y(), 0.0}).distance_m;
 }
@@ -80,9 +80,9 @@ TEST_P(ObjectDiscovery, FindsEveryObjectAndNothingElseAlongTheInitialPath) {
   const std::vector<TrackedObject> found = survey.found.confirmed();
   EXPECT_EQ(found.size(), survey.objects.size());
   for (const TrackedObject& object : found) EXPECT_LT(error_m(survey, object), 0.08);
-  for (const Eigen::Vector3d& support_surface : survey.layout.supports_m) {
+  for (const Eigen::Vector3d& support_surface : survey.supports_m) {
     EXPECT_TRUE(blocks(survey.map, support_surface, 0.2)) << "the map has the support surface";
-    if (pass_m(survey.layout, support_surface) > 0.85)
+    if (pass_m(survey.path, support_surface) > 0.85)
       continue;  // its far edge is never in the image
     EXPECT_FALSE(blocks(survey.map, support_surface + Eigen::Vector3d(0.0, 0.0, 1.0), 0.3))
         << "and nothing over it";

@@ -1,8 +1,9 @@
 // The path that a flight leads on to, told before it is taken.
-#include "vantage/tasks/trajectory/trajectory_robot_interface.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "vantage/tasks/episode.hpp"
+#include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
 
 namespace vantage {
 namespace {
@@ -15,6 +16,13 @@ FlightWaypoint at(double x_m, double y_m, double yaw_rad) {
   return {.p_world_m = {x_m, y_m, 1.8}, .yaw_rad = yaw_rad};
 }
 
+/// The robot of the episode in its world.
+struct FlyingRobot : SimulatedTrajectoryRobot {
+  FlyingRobot(const ResolvedEpisode& resolved, const FlightWaypoint& start)
+      : SimulatedTrajectoryRobot(resolved.setup.options, model_source(resolved),
+                                 std::get<TrajectoryFlight>(resolved.task), start) {}
+};
+
 const ImageCallback kNothing = [](const FlightImage&) {};
 
 class Interface : public testing::Test {
@@ -22,11 +30,11 @@ class Interface : public testing::Test {
   const ResolvedEpisode episode_ = load_episode(
       kSource / "assets/episodes/trajectory.yaml",
       {fmt::format("scene={}", (kSource / "models/scenes/trajectory_4/scene.xml").string()),
-       "trajectory.camera={width_px: 32, height_px: 24}"});
+       "camera={width_px: 32, height_px: 24}"});
 };
 
 TEST_F(Interface, TellsThePathThatItLeadsOnTo) {
-  TrajectoryRobotInterface robot(episode_, at(-2.7, -1.9, 0.0));
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
   robot.follow(std::vector{at(-2.5, -1.9, 0.0), at(-2.1, -1.8, 0.2), at(-1.6, -1.8, 0.4)});
   robot.fly_for(0.9, kNothing);
   const std::vector<FlightWaypoint> others = {at(-1.6, -1.9, 0.0), at(-1.0, -1.9, -0.3)};
@@ -46,7 +54,7 @@ TEST_F(Interface, TellsThePathThatItLeadsOnTo) {
 }
 
 TEST_F(Interface, TellsWhatIsLeftOfThePathThatItFlies) {
-  TrajectoryRobotInterface robot(episode_, at(-2.7, -1.9, 0.0));
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
   EXPECT_FALSE(robot.path_on(0.1)) << "none yet";
   robot.follow(std::vector{at(-2.5, -1.9, 0.0), at(-2.1, -1.8, 0.2), at(-1.6, -1.8, 0.4),
                            at(-1.1, -1.9, 0.0), at(-0.6, -1.9, 0.0)});

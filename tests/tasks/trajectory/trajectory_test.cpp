@@ -7,14 +7,16 @@
 #include <set>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/replayed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/dataset/render_dataset.hpp"
+#include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/recognition/training.hpp"
-#include "vantage/runtime/replay.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/trajectory/flight_layout.hpp"
-#include "vantage/tasks/trajectory/trajectory_flight.hpp"
+#include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
+#include "vantage/tasks/trajectory/trajectory_parts.hpp"
 #include "vantage/tasks/validate.hpp"
 
 namespace vantage {
@@ -64,14 +66,13 @@ class TrajectoryEpisode : public testing::Test {
   static void TearDownTestSuite() { folder_.reset(); }
 
   static std::vector<std::string> overrides(const fs::path& scene, std::vector<std::string> more) {
-    std::vector<std::string> all = {
-        fmt::format("scene={}", scene.string()),
-        fmt::format("trajectory.model={}", (*folder_ / "model").string()),
-        fmt::format("trajectory.database.objects={}", kObjects),
-        "trajectory.recogniser.features=[]",
-        "trajectory.camera={width_px: 320, height_px: 240}",
-        "trajectory.image_rate_hz=5",
-        "trajectory.method={name: stomp, iterations: 10}"};
+    std::vector<std::string> all = {fmt::format("scene={}", scene.string()),
+                                    fmt::format("model={}", (*folder_ / "model").string()),
+                                    fmt::format("database.objects={}", kObjects),
+                                    "recogniser.features=[]",
+                                    "camera={width_px: 320, height_px: 240}",
+                                    "image_rate_hz=5",
+                                    "method={name: stomp, iterations: 10}"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -131,7 +132,7 @@ TEST_F(TrajectoryEpisode, FindsWhatItFliesPastAndLooksAtItOnceADirection) {
 }
 
 TEST_F(TrajectoryEpisode, ReplaysEveryState) {
-  const ReplayResult result = replay(*folder_ / "first");
+  const ReplayResult result = support::replayed(*folder_ / "first");
   EXPECT_FALSE(result.first_difference) << result.what;
   EXPECT_GT(result.ticks, 1000U);
 }
@@ -143,7 +144,7 @@ TEST_F(TrajectoryEpisode, SameSeedSameFlight) {
 }
 
 TEST_F(TrajectoryEpisode, FliesOnWhileASlowPlannerThinks) {
-  const json slow = metrics_of("slow", past_a_support_, {"trajectory.latency_s=1.5"});
+  const json slow = metrics_of("slow", past_a_support_, {"latency_s=1.5"});
   EXPECT_EQ(slow["status"], "completed");
   EXPECT_GT(slow["missed_deadlines"], 0);
   EXPECT_LT(slow["replans"], first_["replans"]);
@@ -155,7 +156,7 @@ TEST_F(TrajectoryEpisode, ContactEndsItAsAFailure) {
   const fs::path scene = arena_with_path(*folder_ / "into",
                                          "-2.2,-1.25,0.6,0\n-1.6,-1.25,0.6,0\n"
                                          "-0.9,-1.25,0.6,0\n0,-1.25,0.6,0\n");
-  const json crash = metrics_of("crash", scene, {"trajectory.method=initial"});
+  const json crash = metrics_of("crash", scene, {"method=initial"});
   EXPECT_EQ(crash["status"], "failed");
   EXPECT_EQ(code_, ExitCode::goal_failed);
   EXPECT_EQ(crash["collisions"], 1);
@@ -179,12 +180,21 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
   for (int i = 0; i < 12; ++i) rows += fmt::format("{:.2f},-1.9,1.8,0\n", -2.67 + 0.4 * i);
   const ResolvedEpisode episode =
       load_episode(kEpisode, overrides(arena_with_path(*folder_ / "on", rows), {}));
-  const Recogniser recogniser = load_trajectory_recogniser(episode);
-  TrajectoryRobotInterface robot(episode, read_flight_layout(episode.scene).path.front());
-  fs::create_directories(*folder_ / "goes_on");
-  TrajectoryRecorder recorder(episode, robot, *folder_ / "goes_on", false, true);
-  TrajectoryFlight flight(episode, recogniser, robot, recorder);
-  const double latency_s = episode.episode.trajectory.latency_s;
+  const auto& task = std::get<TrajectoryFlight>(episode.task);
+  const std::vector<FlightWaypoint> path = read_flight_path(episode.setup.scene);
+  const Recogniser recogniser = load_lean_recogniser(task.model, task.recogniser);
+  SimulatedTrajectoryRobot robot(episode.setup.options, model_source(episode), task, path.front());
+  RunOptions options;
+  options.directory = *folder_ / "goes_on";
+  options.lean = true;
+  const RunRequest request{episode.setup,         "trajectory",  task.method_name(),
+                           episode_yaml(episode), task.inputs(), options};
+  const EpisodeRun run(request);
+  TrajectoryRecorder recorder(run, robot.quadrotor(), task.camera);
+  const TrajectoryEvaluator evaluator(robot);
+  TrajectoryParts flight({episode.setup.options, task, recogniser, robot, evaluator, recorder},
+                         path);
+  const double latency_s = task.latency_s;
   int went_on = 0;
   while (true) {
     flight.update(flight.observe());
@@ -210,7 +220,7 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
 
 TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
   const Validation found =
-      validate_episode(kEpisode, overrides(past_a_support_, {"trajectory.model=nowhere"}));
+      validate_episode(kEpisode, overrides(past_a_support_, {"model=nowhere"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("nowhere"),
@@ -218,8 +228,7 @@ TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
 }
 
 TEST_F(TrajectoryEpisode, AnUnknownMethodNamesThoseThereAre) {
-  const Validation found =
-      validate_episode(kEpisode, overrides(past_a_support_, {"trajectory.method=chomp"}));
+  const Validation found = validate_episode(kEpisode, overrides(past_a_support_, {"method=chomp"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("chomp"), testing::HasSubstr("greedy_detour"),

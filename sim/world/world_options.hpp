@@ -1,0 +1,19 @@
+/// How the simulated world is stepped.
+#pragma once
+
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+struct WorldOptions {
+  double timestep_s = 0.0025;       ///< physics step; higher is faster and less stable
+  double control_period_s = 0.025;  ///< commands are constant this long; whole multiple of the step
+  void fields(auto&& f) {
+    f("timestep_s", timestep_s, Range{1e-5, 0.02});
+    f("control_period_s", control_period_s, Range{1e-5, 1.0});
+  }
+  void check() const;  ///< @throws ConfigError if the period is no whole multiple of the step
+  [[nodiscard]] int steps_per_tick() const;
+};
+
+}  // namespace vantage

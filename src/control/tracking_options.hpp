@@ -1,0 +1,47 @@
+/// Tracking a trajectory: how, and what came of it.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "vantage/control/flight_disturbance.hpp"
+#include "vantage/control/minimum_jerk_trajectory.hpp"
+
+namespace vantage {
+
+struct TrajectoryTrackingOptions {
+  FlightControllerOptions controller = {};
+  FlightLimits limits = {};
+  PoseNoiseOptions pose_noise = {};
+  std::vector<Gust> gusts = {};
+  double goal_tolerance_m = 0.05;    ///< of the estimate; higher arrives sooner, less exactly
+  double goal_tolerance_rad = 0.05;  ///< of the heading
+  double rest_speed_m_s = 0.05;      ///< slower than this is at rest
+  double settle_time_s = 0.3;        ///< within tolerance and at rest that long is arrived
+  double timeout_s = 8.0;            ///< after the path's end; higher is more patient
+  void fields(auto&& f) {
+    f("controller", controller);
+    f("limits", limits);
+    f("pose_noise", pose_noise);
+    f("gusts", gusts);
+    f("goal_tolerance_m", goal_tolerance_m, Range{0.001, 1.0});
+    f("goal_tolerance_rad", goal_tolerance_rad, Range{0.001, 1.0});
+    f("rest_speed_m_s", rest_speed_m_s, Range{0.001, 1.0});
+    f("settle_time_s", settle_time_s, between(0.0, 10.0));
+    f("timeout_s", timeout_s, above(0.0));
+  }
+};
+
+enum class FlightStatus { arrived, contact, stopped, timeout };
+std::string_view to_string(FlightStatus status);
+
+struct FlightResult {
+  FlightStatus status = FlightStatus::arrived;
+  double duration_s = 0.0;     ///< simulated
+  double path_length_m = 0.0;  ///< truly flown
+  double rms_error_m = 0.0;    ///< of the true position from the reference, over time
+  double greatest_error_m = 0.0;
+  double energy_J = 0.0;  ///< induced power of the rotors, integrated
+};
+
+}  // namespace vantage

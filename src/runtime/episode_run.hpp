@@ -1,0 +1,89 @@
+/// An episode from its beginning to its run folder: what is the same for every task.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vantage/runtime/episode_loop.hpp"
+#include "vantage/runtime/episode_setup.hpp"
+#include "vantage/runtime/log/spectator.hpp"
+#include "vantage/runtime/run_summary.hpp"
+
+namespace vantage {
+
+class EpisodeRecorder;
+
+struct RunOptions {
+  std::filesystem::path directory;  ///< empty: out/<episode>-<seed>
+  bool overwrite = false;
+  bool video = false;
+  std::vector<std::string> command;  ///< as typed, for the manifest
+  bool lean = false;  ///< metrics, steps, trajectories, configuration, manifest and nothing else
+  Spectator spectator = {};
+};
+
+struct RunOutcome {
+  std::filesystem::path directory;
+  ExitCode code = ExitCode::done;  ///< failed, diverged and interrupted runs have results too
+  std::string metrics;             ///< the JSON text
+};
+
+/// A file that an episode reads beside its scene and its robot.
+struct InputFile {
+  std::string key;  ///< that names it
+  std::filesystem::path path;
+};
+
+/// An episode that is to run.
+struct RunRequest {
+  const EpisodeSetup& setup;
+  std::string task;    ///< as metrics.json calls it
+  std::string method;  ///< as metrics.json calls it
+  std::string config;  ///< the whole configuration, YAML
+  std::vector<InputFile> inputs;
+  RunOptions options;
+};
+
+/// What is said of an episode when it has ended.
+struct RunTotals {
+  double simulated_time_s = 0.0;
+  int collisions = 0;
+};
+
+/// How the episode ended. A failure, a divergence and an interruption are recorded results.
+struct Ending {
+  EpisodeStatus status = EpisodeStatus::completed;
+  ExitCode code = ExitCode::done;
+  std::string reason;
+};
+
+/// The ending that `run` comes to, which may throw DivergedError, EpisodeFailed or Interrupted.
+Ending ending_of(const std::function<void()>& run);
+
+class EpisodeRun {
+ public:
+  /// Makes the run folder. After this an old run in it is gone: what may fail comes before.
+  /// @throws ConfigError if the folder holds a run that is not to be replaced, OutputError
+  explicit EpisodeRun(const RunRequest& request);
+
+  [[nodiscard]] const RunRequest& request() const { return request_; }
+  [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
+
+  /// Writes what every run folder has. @param add_metrics adds what the task measured
+  RunOutcome finish(const Ending& ending, const RunTotals& totals, EpisodeRecorder& recorder,
+                    const std::function<void(nlohmann::ordered_json&)>& add_metrics);
+
+ private:
+  const RunRequest& request_;
+  std::filesystem::path directory_;
+  double start_s_;  ///< wall
+};
+
+/// out/<episode>-<seed>, unless the options say otherwise.
+std::filesystem::path run_directory(const EpisodeSetup& setup, const RunOptions& options);
+
+}  // namespace vantage

@@ -1,0 +1,55 @@
+/// What every episode has, whatever its task: these keys of its file, and the files they name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "vantage/core/fields.hpp"
+#include "vantage/runtime/log/recording_options.hpp"
+#include "vantage/sim/world/world_options.hpp"
+
+namespace vantage {
+
+struct RobotOptions {
+  std::string model = "models/robots/pr2/pr2.xml";  ///< MJCF of the robot
+  int start_view = 0;           ///< table top: position on the ring of views where the robot starts
+  double start_behind_m = 0.0;  ///< table top: how far behind that position, seen from the table
+  std::string start_site;  ///< exploration: site of the scene where it starts; empty: start_pose
+  std::array<double, 3> start_pose{0.0, 0.0, 0.0};  ///< exploration: x m, y m, yaw rad, world
+  void fields(auto&& f) {
+    f("model", model);
+    f("start_view", start_view, at_least(0));
+    f("start_behind_m", start_behind_m, between(0.0, 100.0));
+    f("start_site", start_site);
+    f("start_pose", start_pose);
+  }
+};
+
+struct EpisodeOptions {
+  std::string scene = "models/scenes/tabletop_8/scene.xml";  ///< MJCF
+  std::uint64_t seed = 1;                                    ///< of every random stream
+  int threads = 2;                                           ///< results do not depend on it
+  RobotOptions robot;
+  WorldOptions simulation;
+  RecordingOptions recording;
+  void fields(auto&& f) {
+    f("scene", scene);
+    f("seed", seed);
+    f("threads", threads, between(1, 256));
+    f("robot", robot);
+    f("simulation", simulation);
+    f("recording", recording);
+  }
+};
+
+/// An episode without its task: defaults filled in, overrides applied, files found.
+struct EpisodeSetup {
+  EpisodeOptions options;
+  std::string name;             ///< of the file, without extension
+  std::filesystem::path scene;  ///< found
+  std::filesystem::path robot;  ///< found
+};
+
+}  // namespace vantage

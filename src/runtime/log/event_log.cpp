@@ -1,0 +1,202 @@
+#include "vantage/runtime/log/event_log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "vantage/core/bytes.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::string_view kMagic = "VANTAGE STORY 1\n";
+constexpr std::array<std::size_t, 3> kEntryBytes{12, 14 * sizeof(double), 2 * sizeof(double)};
+
+struct PutEntries {
+  std::string& bytes;
+
+  void header(std::uint32_t kind, std::size_t count, std::size_t chosen = 0) const {
+    put(bytes, kind);
+    put(bytes, static_cast<std::uint32_t>(count));
+    put(bytes, static_cast<std::uint64_t>(chosen));
+  }
+  void operator()(const MapChange& change) const {
+    header(0, change.runs.size());
+    for (const CellRun& run : change.runs) {
+      put(bytes, run.first);
+      put(bytes, run.count);
+      put(bytes, static_cast<std::uint32_t>(run.state));
+    }
+  }
+  void operator()(const Decision& decision) const {
+    header(1, decision.candidates.size(), decision.chosen);
+    for (const Candidate& view : decision.candidates) {
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) {
+          put(bytes, view.T_world_sensor.matrix()(row, column));
+        }
+      }
+      put(bytes, view.gain_bits);
+      put(bytes, view.reachable ? 1.0 : 0.0);
+    }
+  }
+  void operator()(const PlannedRoute& route) const {
+    header(2, route.path_m.size());
+    for (const Eigen::Vector2d& p : route.path_m) {
+      put(bytes, p.x());
+      put(bytes, p.y());
+    }
+  }
+};
+
+Candidate take_candidate(std::string_view& bytes, int id) {
+  Candidate view;
+  view.id = id;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      view.T_world_sensor.matrix()(row, column) = take<double>(bytes);
+    }
+  }
+  view.gain_bits = take<double>(bytes);
+  view.reachable = take<double>(bytes) != 0.0;
+  return view;
+}
+
+/// The next event of an event log that is long enough; empty if it is not.
+std::optional<EpisodeEvent> take_event(std::string_view& bytes) {
+  if (bytes.size() < 24) return std::nullopt;
+  EpisodeEvent event{take<std::uint64_t>(bytes), {}};
+  const auto kind = take<std::uint32_t>(bytes);
+  const auto count = take<std::uint32_t>(bytes);
+  const auto chosen = take<std::uint64_t>(bytes);
+  if (kind >= kEntryBytes.size() || bytes.size() / kEntryBytes[kind] < count) return std::nullopt;
+  if (kind == 0) {
+    MapChange change;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto first = take<std::uint32_t>(bytes);
+      const auto cells = take<std::uint32_t>(bytes);
+      const auto state = take<std::uint32_t>(bytes);
+      if (state > 2) return std::nullopt;
+      change.runs.push_back({first, cells, static_cast<CellState>(state)});
+    }
+    event.what = std::move(change);
+  } else if (kind == 1) {
+    Decision decision{{}, chosen};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      decision.candidates.push_back(take_candidate(bytes, static_cast<int>(i)));
+    }
+    event.what = std::move(decision);
+  } else {
+    PlannedRoute route;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto x_m = take<double>(bytes);
+      route.path_m.emplace_back(x_m, take<double>(bytes));
+    }
+    event.what = std::move(route);
+  }
+  return event;
+}
+
+struct Plausible {
+  std::size_t cells;
+
+  bool operator()(const MapChange& change) const {
+    return std::ranges::all_of(change.runs, [&](const CellRun& run) {
+      return static_cast<std::size_t>(run.first) + run.count <= cells;
+    });
+  }
+  bool operator()(const Decision& decision) const {
+    return decision.chosen < decision.candidates.size() &&
+           std::ranges::all_of(decision.candidates, [](const Candidate& view) {
+             return view.T_world_sensor.matrix().allFinite();
+           });
+  }
+  bool operator()(const PlannedRoute& route) const {
+    return std::ranges::all_of(route.path_m, [](const auto& p) { return p.allFinite(); });
+  }
+};
+
+/// A number that classify() takes for that state.
+float log_odds_in(CellState state) {
+  if (state == CellState::unobserved) return 0.0F;
+  return state == CellState::occupied ? 1.0F : -1.0F;
+}
+
+}  // namespace
+
+MapChange map_change(std::vector<CellState>& known, const OccupancyGrid& grid) {
+  known.resize(grid.size(), CellState::unobserved);
+  MapChange change;
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    const CellState state = grid.state(cell);
+    if (state == known[cell]) continue;
+    known[cell] = state;
+    const auto index = static_cast<std::uint32_t>(cell);
+    auto& runs = change.runs;
+    if (!runs.empty() && runs.back().state == state &&
+        runs.back().first + runs.back().count == index) {
+      ++runs.back().count;
+    } else {
+      runs.push_back({index, 1, state});
+    }
+  }
+  return change;
+}
+
+EventLog::EventLog(const std::filesystem::path& run_dir) : file_(run_dir / "story.bin") {
+  file_.write(kMagic);
+}
+
+void EventLog::add(const EpisodeEvent& event) {
+  std::string bytes;
+  put(bytes, event.tick);
+  std::visit(PutEntries{bytes}, event.what);
+  file_.write(bytes);
+}
+
+std::vector<EpisodeEvent> read_event_log(const std::filesystem::path& path, std::size_t cells) {
+  const std::string content = read_file(path);
+  std::string_view bytes(content);
+  if (!bytes.starts_with(kMagic)) {
+    throw InputError(path.string() + ": not an event log of this program");
+  }
+  bytes.remove_prefix(kMagic.size());
+  std::vector<EpisodeEvent> events;
+  while (!bytes.empty()) {
+    auto event = take_event(bytes);
+    const bool in_order = !event || events.empty() || events.back().tick <= event->tick;
+    if (!event || !in_order || !std::visit(Plausible{cells}, event->what)) {
+      throw InputError(fmt::format("{}: damaged or cut short: event {} cannot be read",
+                                   path.string(), events.size()));
+    }
+    events.push_back(std::move(*event));
+  }
+  return events;
+}
+
+void EventReplay::go_to(std::span<const EpisodeEvent> events, std::size_t count) {
+  expects(count <= events.size(), "a moment of the event log");
+  if (count < applied_) *this = EventReplay(grid_.frame);
+  for (; applied_ < count; ++applied_) {
+    std::visit([this](const auto& what) { apply(what); }, events[applied_].what);
+  }
+}
+
+void EventReplay::apply(const MapChange& change) {
+  for (const CellRun& run : change.runs) {
+    std::fill_n(grid_.log_odds.begin() + run.first, run.count, log_odds_in(run.state));
+  }
+  ++scans_;
+}
+
+void EventReplay::apply(const Decision& decision) {
+  decision_ = decision;
+  path_m_.clear();
+}
+
+void EventReplay::apply(const PlannedRoute& route) { path_m_ = route.path_m; }
+
+}  // namespace vantage

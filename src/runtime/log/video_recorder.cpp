@@ -1,0 +1,68 @@
+#include "vantage/runtime/log/video_recorder.hpp"
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+
+/// Half of a 16:9 image, both edges even.
+cv::Size half_of(int height_px) { return {height_px * 8 / 9 / 2 * 2, height_px / 2 * 2}; }
+
+/// The scene's own camera "overview", or one that looks at the middle of the room from above.
+CameraView overview_camera(const World& world) {
+  if (const auto id = find_model_id(world.model(), ModelObject::camera, "overview")) {
+    return FixedCamera{.camera_id = *id, .fovy_rad = std::nullopt};
+  }
+  return FreeCamera{
+      .lookat_m = {0.0, 0.0, 0.8}, .distance_m = 4.5, .azimuth_rad = 0.8, .elevation_rad = -0.6};
+}
+
+}  // namespace
+
+cv::Mat side_by_side(const cv::Mat& left_rgb, const cv::Mat& right_bgr) {
+  expects(left_rgb.type() == CV_8UC3 && right_bgr.type() == CV_8UC3, "both halves are CV_8UC3");
+  cv::Mat left;
+  cv::cvtColor(left_rgb, left, cv::COLOR_RGB2BGR);
+  if (left.size() != right_bgr.size())
+    cv::resize(left, left, right_bgr.size(), 0.0, 0.0, cv::INTER_AREA);
+  cv::Mat both;
+  cv::hconcat(left, right_bgr, both);
+  return both;
+}
+
+VideoRecorder::VideoRecorder(const World& world, const RecordingOptions& options,
+                             std::filesystem::path directory)
+    : directory_(std::move(directory)),
+      options_(options),
+      half_(half_of(options.height_px)),
+      renderer_(make_offscreen_renderer(world.model(), half_.width, half_.height)),
+      video_(directory_ / "video.mp4", {2 * half_.width, half_.height}, options.video_fps),
+      camera_(overview_camera(world)) {
+  std::filesystem::create_directories(directory_ / "frames");
+}
+
+void VideoRecorder::tick(const World& world) {
+  if (world.time_s() < next_frame_s_) return;
+  next_frame_s_ += options_.video_speed / options_.video_fps;
+  video_.write(draw(world));
+}
+
+void VideoRecorder::save_still(const World& world, std::size_t index) {
+  const cv::Mat frame = draw(world);
+  write_file_with(directory_ / "frames" / fmt::format("scan_{:02}.png", index),
+                  [&](const auto& part) { return cv::imwrite(part.string(), frame); });
+}
+
+cv::Mat VideoRecorder::draw(const World& world) {
+  RenderRequest request;
+  request.depth_and_segmentation = false;
+  renderer_->render(world.model(), world.snapshot(), camera_, request, overview_);
+  const cv::Mat rgb(overview_.height_px, overview_.width_px, CV_8UC3, overview_.rgb.data());
+  return side_by_side(rgb, panel_(half_));
+}
+
+}  // namespace vantage

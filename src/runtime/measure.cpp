@@ -1,0 +1,35 @@
+#include "vantage/runtime/measure.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "vantage/information/resampling.hpp"
+
+namespace vantage {
+
+const ScalarMeasure kPathLength{
+    {"path_length_m", "path length, m"},
+    [](const MeasuredEpisode& episode) { return number_of(episode, "path_length_m"); }};
+const ScalarMeasure kCollisions{{"collisions", "collisions"}, [](const MeasuredEpisode& episode) {
+                                  return number_of(episode, "collisions");
+                                }};
+const ScalarMeasure kSimulatedTime{
+    {"simulated_time_s", "simulated time, s"},
+    [](const MeasuredEpisode& episode) { return number_of(episode, "simulated_time_s"); }};
+
+std::optional<double> mean_of(const Curve& values) {
+  return values.empty() ? std::optional<double>() : mean(values);
+}
+
+std::optional<double> number_of(const MeasuredEpisode& episode, const char* key) {
+  const auto& value = episode.metrics.at(key);
+  if (value.is_null()) return {};
+  return value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
+}
+
+Curve step_values(const MeasuredEpisode& episode, const char* list, const char* key) {
+  Curve values;
+  for (const auto& step : episode.metrics.at(list)) values.push_back(step.at(key).get<double>());
+  return values;
+}
+
+}  // namespace vantage

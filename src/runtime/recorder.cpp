@@ -1,0 +1,32 @@
+#include "vantage/runtime/recorder.hpp"
+
+#include <utility>
+
+namespace vantage {
+
+EpisodeRecorder::EpisodeRecorder(const EpisodeRun& run, RecordedRobot robot,
+                                 const std::string& steps_header, double extent)
+    : directory_(run.directory()),
+      lean_(run.request().options.lean),
+      log_(std::move(robot), run.request().setup.options.recording, directory_,
+           run.request().options.video, lean_, run.request().options.spectator),
+      steps_(directory_ / "steps.csv"),
+      progress_(run.request().setup.name, extent) {
+  steps_.write(steps_header);
+  steps_.write("\n");
+}
+
+void EpisodeRecorder::step(const std::string& row, std::size_t index, double progress,
+                           const std::string& text) {
+  steps_.write(row);
+  steps_.write("\n");
+  progress_.update(progress, text);
+  log_.save_still(index);
+}
+
+void EpisodeRecorder::commit() {
+  log_.commit();
+  steps_.commit();
+}
+
+}  // namespace vantage

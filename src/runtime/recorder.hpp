@@ -1,0 +1,51 @@
+/// Writes the run folder of an episode while it runs: what the recorders of all tasks share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/episode_run.hpp"
+#include "vantage/runtime/log/run_log.hpp"
+
+namespace vantage {
+
+class EpisodeRecorder {
+ public:
+  EpisodeRecorder(const EpisodeRecorder&) = delete;
+  EpisodeRecorder& operator=(const EpisodeRecorder&) = delete;
+  virtual ~EpisodeRecorder() = default;
+
+  /// Puts the growing files under their final names.
+  virtual void commit();
+  void finish_video() { log_.finish_video(); }
+
+  [[nodiscard]] std::uint64_t state_hash() const { return log_.state_hash(); }
+  [[nodiscard]] double path_length_m() const { return log_.path_length_m(); }
+
+ protected:
+  /// Hooks itself to the world's ticks. With `lean` options neither states nor images are kept.
+  /// @param steps_header of steps.csv, without line end
+  /// @param extent progress that is the whole episode
+  /// @throws OutputError, RendererError
+  EpisodeRecorder(const EpisodeRun& run, RecordedRobot robot, const std::string& steps_header,
+                  double extent);
+
+  /// Adds a row to steps.csv, tells the progress and keeps a still of the video.
+  void step(const std::string& row, std::size_t index, double progress, const std::string& text);
+
+  [[nodiscard]] bool lean() const { return lean_; }
+  [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
+  [[nodiscard]] RunLog& log() { return log_; }
+  [[nodiscard]] const RunLog& log() const { return log_; }
+
+ private:
+  std::filesystem::path directory_;
+  bool lean_;
+  RunLog log_;
+  GrowingFile steps_;
+  Progress progress_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,170 @@
+#include "vantage/tasks/change_detection/change_detection_task.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "vantage/recognition/lean_recogniser.hpp"
+#include "vantage/tasks/change_detection/change_ground_truth.hpp"
+#include "vantage/tasks/flight/recognition_model_file.hpp"
+#include "vantage/tasks/object_flight/object_flight_metrics.hpp"
+#include "vantage/tasks/object_flight/object_flight_run.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
+/// if it does not know what is or what is expected there.
+Recogniser load_recogniser(const ChangeDetectionTask& task, const ObjectOnTable& truth,
+                           const ObjectOnTable& expected) {
+  const auto path = find_recognition_model(task.model, ChangeDetectionTask::name);
+  Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
+  require_known(recogniser, path, truth.object, "stands on the table");
+  require_known(recogniser, path, expected.object, "is expected there");
+  return recogniser;
+}
+
+/// The nearest bearing from which what is expected is in the middle of a yaw bin: from there a turn
+/// by more than half a bin shows.
+double first_bearing_rad(double expected_yaw_rad, double start_rad, double bin_rad) {
+  return wrap_turn(start_rad + std::remainder(expected_yaw_rad - start_rad, bin_rad));
+}
+
+/// What was decided of the change, beside what has changed.
+void add_change(const ChangeDetectionTask& task, const ObjectOnTable& expected,
+                const ObjectFlightParts& run, Json& metrics) {
+  metrics["scenario"] = task.scenario;
+  metrics["decision"] = metrics["change_probability"] = nullptr;
+  metrics["correct"] = metrics["changed_correct"] = false;
+  if (!run.records().empty()) {
+    const SuspectedChange& change = run.records().back().change.value();
+    metrics["decision"] = to_string(change.verdict);
+    metrics["correct"] = to_string(change.verdict) == task.scenario;
+    metrics["changed_correct"] =
+        (change.verdict == Change::none) == (task.scenario == to_string(Change::none));
+    metrics["change_probability"] = change.probability;
+  }
+  metrics["expected"] = {{"object", expected.object}, {"yaw_rad", expected.yaw_rad}};
+}
+
+const auto kScalars = std::to_array<ScalarMeasure>({
+    {{"correct", "recognised the object, or what has changed, share"},
+     [](const MeasuredEpisode& e) { return number_of(e, "correct"); }},
+    {{"changed_correct", "told changed from unchanged, share"},
+     [](const MeasuredEpisode& e) { return number_of(e, "changed_correct"); }},
+    {{"change_probability", "probability of a change at the end"},
+     [](const MeasuredEpisode& e) { return number_of(e, "change_probability"); }},
+    {{"views", "views taken"}, views_taken},
+    {{"entropy_bits", "entropy of the state at the end, bits"},
+     [](const MeasuredEpisode& e) { return number_of(e, "entropy_bits"); }},
+    {{"map_probability", "probability of the estimate at the end"},
+     [](const MeasuredEpisode& e) { return number_of(e, "map_probability"); }},
+    {{"bin_error", "error of the pose, bins"},
+     [](const MeasuredEpisode& e) { return number_of(e, "bin_error"); }},
+    {{"view_position_error_m", "mean position error of a view, m"},
+     [](const MeasuredEpisode& e) { return mean_of_views(e, "position_error_m"); }},
+    {{"view_angle_error_rad", "mean angle error of a view, rad"},
+     [](const MeasuredEpisode& e) { return mean_of_views(e, "angle_error_rad"); }},
+    kPathLength,
+    kCollisions,
+    kSimulatedTime,
+});
+
+constexpr auto kCurves = std::to_array<CurveMeasure>(
+    {{{"view_entropy_bits", "entropy of the state, bits"}, entropy_of_views}});
+
+}  // namespace
+
+/// What stands on the table is what is expected there, unless it is another object.
+void ChangeDetectionTask::check_with(const EpisodeOptions& episode) const {
+  ObjectFlight::check_with(episode);
+  if (!change_named(scenario)) {
+    throw ConfigError(fmt::format(
+        "scenario: unknown scenario '{}'; known: none, object, pose, removed", scenario));
+  }
+  change.check();
+  if (object.empty()) return;
+  if (scenario != to_string(Change::object)) {
+    throw ConfigError(
+        fmt::format("object: '{}' is another object, which scenario: {} has not; what should stand "
+                    "there is expected_object",
+                    object, scenario));
+  }
+  if (object == expected_object) {
+    throw ConfigError(fmt::format(
+        "object: '{}' is what expected_object says, so that scenario object changes nothing",
+        object));
+  }
+}
+
+ObjectOnTable draw_expected_object(const ChangeDetectionTask& task, std::uint64_t seed) {
+  const std::vector<ObjectName> names = known_objects(task);
+  const ObjectName& name =
+      named_or_drawn(names, task.expected_object, "expected_object", Rng::stream(seed, "object"));
+  const double yaw_rad = task.expected_yaw_rad.value_or(drawn_yaw_rad(seed, "object yaw"));
+  return {name.object, name.category, wrap_turn(yaw_rad)};
+}
+
+ModelSource ChangeDetectionTask::model_source(const EpisodeSetup& setup) const {
+  return {setup.scene, setup.robot, object_files(*this, draw_object(*this, setup.options.seed))};
+}
+
+ReportSections ChangeDetectionTask::report() {
+  return {.figures = "change",
+          .steps = "observations",
+          .step_word = "view",
+          .view_heading = "The flight, view by view"};
+}
+
+Measures ChangeDetectionTask::measures() { return {kScalars, kCurves}; }
+
+std::string ChangeDetectionTask::outcome(const Json& metrics) {
+  const auto& probability = metrics["change_probability"];
+  return fmt::format(
+      "{}: {} after {} views, changed: {}, which is {} ({})\n"
+      "probability of a change {}, path {:.2f} m, {} collisions, {:.1f} x real time\n",
+      text_or_nothing(metrics, "method"), text_or_nothing(metrics, "status"),
+      metrics["observations"].size(), text_or_nothing(metrics, "decision"),
+      metrics["correct"].get<bool>() ? "right" : "wrong", text_or_nothing(metrics, "scenario"),
+      probability.is_number() ? fmt::format("{:.3f}", probability.get<double>()) : "unknown",
+      metrics["path_length_m"].get<double>(), metrics["collisions"].get<int>(),
+      metrics["real_time_factor"].get<double>());
+}
+
+void ChangeDetectionTask::require_start(const EpisodeSetup& setup) const {
+  const std::uint64_t seed = setup.options.seed;
+  const ObjectOnTable truth = draw_object(*this, seed);
+  const SimulatedOrbitRobot robot(setup.options, model_source(setup), *this, truth.yaw_rad);
+  load_recogniser(*this, truth, draw_expected_object(*this, seed));
+}
+
+RunOutcome ChangeDetectionTask::run(const RunRequest& request) const {
+  const EpisodeOptions& episode = request.setup.options;
+  const ObjectOnTable truth = draw_object(*this, episode.seed);
+  const ObjectOnTable expected = draw_expected_object(*this, episode.seed);
+  SimulatedOrbitRobot robot(episode, model_source(request.setup), *this, truth.yaw_rad);
+  const Recogniser recogniser = load_recogniser(*this, truth, expected);
+  EpisodeRun run(request);
+  ObjectFlightRecorder recorder(run, recorded(robot), decision.max_views, true);
+  const ObjectFlightEvaluator evaluator(robot, truth);
+  const double first_rad =
+      first_bearing_rad(expected.yaw_rad, robot.start_bearing_rad(), recogniser.states.bin_rad());
+  ChangeOptions options = change;
+  options.recognition = decision;
+  ObjectFlightParts parts(
+      {episode, *this, recogniser, robot, evaluator, recorder},
+      ObjectInquiry(recogniser, options, expected.object, expected.yaw_rad - first_rad), first_rad,
+      {expected.object, change.threshold});
+  return run_object_flight(run, robot, recorder, parts, [&](Json& metrics) {
+    add_change(*this, expected, parts, metrics);
+    add_estimate(truth, parts, metrics);
+    add_observations(*this, parts, metrics);
+  });
+}
+
+}  // namespace vantage

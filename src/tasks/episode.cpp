@@ -1,0 +1,132 @@
+#include "vantage/tasks/episode.hpp"
+
+#include <fmt/format.h>
+
+#include "vantage/core/data_root.hpp"
+#include "vantage/core/yaml.hpp"
+#include "vantage/runtime/manifest.hpp"
+#include "vantage/tasks/former_keys.hpp"
+
+namespace vantage {
+namespace {
+
+/// The task that the file names, with its defaults.
+Task named_task(const ConfigNode& root) {
+  const ConfigNode* node = root.find("task");
+  if (node == nullptr) return Tabletop{};
+  std::string name;
+  read_into(*node, name);
+  try {
+    return make_strategy<Task>(name);
+  } catch (const ConfigError& error) {
+    throw ConfigError(node->where() + ": " + error.what());
+  }
+}
+
+/// What concerns the task and the rest of the episode.
+void check_together(const ConfigNode& root, const EpisodeOptions& options, const Task& task) {
+  try {
+    std::visit([&](const auto& t) { t.check_with(options); }, task);
+  } catch (const ConfigError& error) {
+    throw ConfigError(detail::place_of(root, error.what()) + error.what());
+  }
+}
+
+}  // namespace
+
+void read_episode(const ConfigNode& root, EpisodeOptions& options, Task& task) {
+  if (root.kind != ConfigNode::Kind::null) detail::require_kind(root, ConfigNode::Kind::map);
+  reject_former_keys(root);
+  task = named_task(root);
+  FieldReader reader(root);
+  reader.allow("task");
+  reader.set_owners(detail::owners_of<Task>);
+  options.fields(reader);
+  std::visit([&](auto& t) { t.fields(reader); }, task);
+  reader.finish();
+  check_together(root, options, task);
+}
+
+ResolvedEpisode load_episode(const std::filesystem::path& path,
+                             const std::vector<std::string>& overrides) {
+  ConfigNode root = read_yaml(path);
+  if (root.kind == ConfigNode::Kind::null) {
+    throw ConfigError(path.string() + ": empty; an episode sets at least one key, as scans: 10");
+  }
+  for (const auto& assignment : overrides) apply_override(root, assignment);
+  return resolve_episode(root, path);
+}
+
+ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::path& path) {
+  ResolvedEpisode resolved;
+  EpisodeSetup& setup = resolved.setup;
+  setup.name = path.stem().string();
+  read_episode(root, setup.options, resolved.task);
+  const auto key = [&](const char* name, const ConfigNode* node) {
+    return node == nullptr ? fmt::format("{}: {}", path.string(), name) : node->where();
+  };
+  const ConfigNode* robot = root.find("robot");
+  const ConfigNode* model = robot == nullptr ? nullptr : robot->find("model");
+  const auto base = path.parent_path();
+  setup.scene = find_input(setup.options.scene, base, key("scene", root.find("scene")));
+  setup.robot = find_input(setup.options.robot.model, base, key("robot.model", model));
+  setup.options.scene = lasting_name(setup.scene);
+  setup.options.robot.model = lasting_name(setup.robot);
+  std::visit([&](auto& task) { task.find_files(base); }, resolved.task);
+  return resolved;
+}
+
+ResolvedEpisode load_recorded(const std::filesystem::path& run_dir) {
+  try {
+    return load_episode(run_dir / "config.yaml", {});
+  } catch (const ConfigError& error) {
+    throw InputError(
+        fmt::format("{}: not a configuration of this version, {}; manifest.json names "
+                    "the one that recorded it",
+                    error.what(), version_text()));
+  }
+}
+
+ConfigNode episode_node(const ResolvedEpisode& resolved) {
+  ConfigNode node = ConfigNode::make_map();
+  node.set("task", detail::write_value(std::string(strategy_name_of(resolved.task))));
+  EpisodeOptions options = resolved.setup.options;
+  options.fields(FieldWriter(node));
+  std::visit([&](auto task) { task.fields(FieldWriter(node)); }, resolved.task);
+  return node;
+}
+
+std::string episode_yaml(const ResolvedEpisode& resolved) {
+  return to_yaml(episode_node(resolved));
+}
+
+std::string method_name(const Task& task) {
+  return std::visit([](const auto& t) { return t.method_name(); }, task);
+}
+
+ModelSource model_source(const ResolvedEpisode& resolved) {
+  return std::visit([&](const auto& task) { return task.model_source(resolved.setup); },
+                    resolved.task);
+}
+
+std::vector<InputFile> inputs(const Task& task) {
+  return std::visit([](const auto& t) { return t.inputs(); }, task);
+}
+
+TaskExtent extent(const ResolvedEpisode& resolved) {
+  return std::visit([&](const auto& task) { return task.extent(resolved.setup); }, resolved.task);
+}
+
+WindowContent window(const Task& task) {
+  return std::visit([](const auto& t) { return t.window(); }, task);
+}
+
+ReportSections report_sections(const Task& task) {
+  return std::visit([](const auto& t) { return t.report(); }, task);
+}
+
+Measures measures(const Task& task) {
+  return std::visit([](const auto& t) { return t.measures(); }, task);
+}
+
+}  // namespace vantage

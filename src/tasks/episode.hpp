@@ -1,0 +1,50 @@
+/// An episode as its YAML file has it: what every episode has, and the keys of its task beside
+/// that.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vantage/core/config_node.hpp"
+#include "vantage/runtime/episode_setup.hpp"
+#include "vantage/tasks/task.hpp"
+
+namespace vantage {
+
+/// An episode as it will run: defaults filled in, overrides applied, files found.
+struct ResolvedEpisode {
+  EpisodeSetup setup;
+  Task task = Tabletop{};
+};
+
+/// @throws ConfigError or InputError naming file, line, key and value.
+ResolvedEpisode load_episode(const std::filesystem::path& path,
+                             const std::vector<std::string>& overrides);
+
+/// The same of a configuration that was read already from `path`.
+ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::path& path);
+
+/// The configuration in a run folder.
+/// @throws InputError if it is missing or not one of this version.
+ResolvedEpisode load_recorded(const std::filesystem::path& run_dir);
+
+/// The keys that `root` sets, as an episode; no file is looked for.
+/// @throws ConfigError naming file, line, key and value of every problem.
+void read_episode(const ConfigNode& root, EpisodeOptions& options, Task& task);
+
+/// Every key with its value, defaults included; `task` first.
+ConfigNode episode_node(const ResolvedEpisode& resolved);
+std::string episode_yaml(const ResolvedEpisode& resolved);
+
+std::string method_name(const Task& task);
+/// What the world of the episode is compiled from. @throws InputError, ConfigError
+ModelSource model_source(const ResolvedEpisode& resolved);
+std::vector<InputFile> inputs(const Task& task);
+TaskExtent extent(const ResolvedEpisode& resolved);
+WindowContent window(const Task& task);
+ReportSections report_sections(const Task& task);
+Measures measures(const Task& task);
+
+}  // namespace vantage

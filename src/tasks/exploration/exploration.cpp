@@ -1,0 +1,35 @@
+#include "vantage/tasks/exploration/exploration.hpp"
+
+#include <fmt/format.h>
+
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/exploration/exploration_session.hpp"
+
+namespace vantage {
+
+void Exploration::check_with(const EpisodeOptions&) const { swept_field(sweep, camera); }
+
+ModelSource Exploration::model_source(const EpisodeSetup& setup) const {
+  return {setup.scene, setup.robot};
+}
+
+TaskExtent Exploration::extent(const EpisodeSetup&) const { return mapping_extent(*this); }
+WindowContent Exploration::window() const { return mapping_window(*this); }
+ReportSections Exploration::report() { return mapping_report(); }
+Measures Exploration::measures() { return mapping_measures(); }
+std::string Exploration::outcome(const nlohmann::ordered_json& metrics) {
+  return mapping_outcome(metrics);
+}
+
+void Exploration::require_start(const EpisodeSetup& setup) const {
+  const SimulatedExplorationRobot robot(setup, *this);
+}
+
+RunOutcome Exploration::run(const RunRequest& request) const {
+  ExplorationSession<> session(request, *this);
+  log_debug(fmt::format("{} cells are observable, from {} places",
+                        session.evaluator.observable_cells(), session.evaluator.poses()));
+  return session.run_to_end();
+}
+
+}  // namespace vantage

@@ -1,0 +1,59 @@
+#include "vantage/tasks/exploration/exploration_belief.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "vantage/belief/map/free_space.hpp"
+#include "vantage/belief/map/hole_filling.hpp"
+#include "vantage/belief/map/sensor_model.hpp"
+
+namespace vantage {
+namespace {
+
+/// Returns of an image in the world. One that is no higher above the floor than its error is of the
+/// floor: elsewhere a few centimetres are an obstacle.
+PointCloud surfaces_of(const DepthImage& view, const Pose& T_world_camera,
+                       const Exploration& options) {
+  constexpr double kSigmas = 5.0;  // of some hundred thousand returns hardly one is farther off
+  PointCloud points = transform(to_cloud(view.image, options.stride_px), T_world_camera);
+  const double camera_m = T_world_camera.translation().z();
+  for (Eigen::Vector3f& p : points.points) {
+    const double depth_m = (T_world_camera.inverse() * p.cast<double>()).z();
+    const double slope = std::abs(p.z() - camera_m) / depth_m;
+    const double error_m = kSigmas * slope * depth_error_m(options.camera, depth_m);
+    if (p.z() <= error_m) p.z() = 0.0F;
+  }
+  return points;
+}
+
+}  // namespace
+
+ExplorationBelief::ExplorationBelief(const EpisodeOptions& episode, const Exploration& task)
+    : MapBelief(task), threads_(episode.threads), task_(task) {}
+
+BeliefUpdate ExplorationBelief::update(const ExplorationObservation& observation,
+                                       const ReferenceMap& reference_map) {
+  const auto located = reference_map.locate(observation.base_scan, observation.base_scan_height_m,
+                                            observation.T_world_base_odometry);
+  BeliefUpdate report{.T_world_base = located.T_world_base,
+                      .registered = located.converged,
+                      .registration_note = located.reason};
+  const Pose T_world_base = to_se3(report.T_world_base);
+
+  PointCloud points;
+  for (const DepthImage& view : observation.views) {
+    const Pose T_world_camera = T_world_base * view.T_base_camera;
+    hazard_.observe(grid_, view.image, T_world_camera, task_.hazard_stride_px);
+    append(points, surfaces_of(view, T_world_camera, task_));
+  }
+  add_measurements(grid_, points.points, task_.sensor_model);
+  for (const DepthImage& view : observation.views) {
+    report.freed_cells += carve_free_space(grid_, view.image, T_world_base * view.T_base_camera,
+                                           task_.free_space, threads_);
+  }
+  append(cloud_, voxel_downsample(points, grid_.frame.cell_size_m.maxCoeff()));
+  report.filled_cells = fill(task_.hole_filling);
+  return report;
+}
+
+}  // namespace vantage

@@ -1,0 +1,45 @@
+/// The parts of the loop for the exploration of rooms by their frontiers.  [Potthast2016, chapter
+/// 3], [Yamauchi1997]
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vantage/tasks/exploration/exploration_belief.hpp"
+#include "vantage/tasks/exploration/exploration_robot_interface.hpp"
+#include "vantage/tasks/exploration/visited_places.hpp"
+#include "vantage/tasks/mapping/mapping_parts.hpp"
+
+namespace vantage {
+
+/// The gains whose prediction is recorded: unless named, those that can be swept.
+std::vector<Predictor> exploration_predictors(const Exploration& task);
+
+class ExplorationParts : public MappingParts {
+ public:
+  ExplorationParts(const MappingContext& context, const Exploration& task,
+                   ExplorationRobotInterface& robot, ExplorationBelief& belief);
+
+  ExplorationObservation observe();
+  void update(const ExplorationObservation& observation);
+  void record();
+  [[nodiscard]] bool finished() const;
+  std::vector<Candidate> propose() { return views_; }
+  void act(const Candidate& candidate);
+
+ private:
+  void block_floor();
+  std::vector<Candidate> find_views();
+  void update_stopping_criterion();
+  [[nodiscard]] bool is_enough() const;
+
+  const Exploration task_;
+  ExplorationRobotInterface& exploring_robot_;
+  ExplorationBelief& belief_;
+  std::vector<std::uint8_t> traversed_;  ///< per floor cell: the robot has traversed it
+  std::size_t path_traversed_ = 0;       ///< points of the path so far
+  VisitedPlaces visited_;
+  int poor_promises_ = 0;  ///< scans in a row after which no view was worth one more
+};
+
+}  // namespace vantage

@@ -1,0 +1,143 @@
+#include "vantage/tasks/exploration/simulated_exploration_robot.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vantage/sim/sensors/camera.hpp"
+#include "vantage/tasks/mapping/simulated_mobile_base.hpp"
+
+namespace vantage {
+namespace {
+
+/// The head is at rest when neither joint moves more than this in a tick; the encoders say exactly
+/// where.
+constexpr double kAtRest_rad = 1e-4;
+constexpr int kFewestTicks = 4;
+constexpr int kMaxTicks = 160;
+
+/// On the pan axis, at the height that the camera has when it looks straight on.
+Pose find_sweep_pose(const World& world, const Pr2& robot) {
+  const Pose T_base_world = to_se3(robot.T_world_base(world)).inverse();
+  const int head = model_id(world.model(), ModelObject::body, "robot/head_pan");
+  const Pose T_base_camera =
+      T_base_world * T_world_camera(world.model(), world.snapshot(), robot.camera_id());
+  Pose T_base_sweep = Pose::Identity();
+  T_base_sweep.translation() = (T_base_world * body_pose(world, head)).translation();
+  T_base_sweep.translation().z() = T_base_camera.translation().z();
+  return T_base_sweep;
+}
+
+/// Where the robot starts: robot.start_site or robot.start_pose.
+/// @throws ConfigError naming the scene's sites if it has none of that name.
+Pose2 start_pose(const World& world, const EpisodeSetup& setup) {
+  const RobotOptions& robot = setup.options.robot;
+  if (robot.start_site.empty()) {
+    return {robot.start_pose[0], robot.start_pose[1], wrap_angle(robot.start_pose[2])};
+  }
+  if (const auto site = find_model_id(world.model(), ModelObject::site, robot.start_site)) {
+    return project_to_se2(site_pose(world, *site));
+  }
+  std::vector<std::string> known = model_names(world.model(), ModelObject::site);
+  std::erase_if(known, [](const std::string& name) { return name.starts_with("robot/"); });
+  throw ConfigError(fmt::format("robot.start_site: no site '{}' in {}; {}", robot.start_site,
+                                setup.scene.string(),
+                                known.empty() ? "it has none: set robot.start_pose"
+                                              : fmt::format("known: {}", fmt::join(known, ", "))));
+}
+
+/// "robot.start_site 'start_0'"
+std::string start_text(const RobotOptions& robot) {
+  if (!robot.start_site.empty()) return fmt::format("robot.start_site '{}'", robot.start_site);
+  return fmt::format("robot.start_pose {}", fmt::join(robot.start_pose, ", "));
+}
+
+/// The torso's lift that brings the camera from `lowest_m` to frontiers.height_m.
+/// @throws ConfigError if it cannot.
+double camera_lift_m(const Pr2& robot, double lowest_m, const Exploration& task) {
+  const double height_m = task.frontiers.height_m;
+  const double lift_m = height_m - lowest_m;
+  if (lift_m < -1e-2 || lift_m > robot.torso_max_m()) {
+    throw ConfigError(
+        fmt::format("frontiers.height_m: {} is out of the camera's reach, {:.3f} to {:.3f}",
+                    height_m, lowest_m, lowest_m + robot.torso_max_m()));
+  }
+  return std::max(lift_m, 0.0);
+}
+
+Pr2 placed_robot(World& world, const EpisodeSetup& setup, const Exploration& task) {
+  Pr2 robot(world.model());
+  const Pose2 start = start_pose(world, setup);
+  robot.place(world, start);
+  const double lowest_m = find_sweep_pose(world, robot).translation().z();
+  robot.place(world, start, camera_lift_m(robot, lowest_m, task));
+  return robot;
+}
+
+}  // namespace
+
+SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
+                                                     const Exploration& task)
+    : DrivenByBase(setup.options, task, ModelSource{setup.scene, setup.robot},
+                   [&](World& world) { return placed_robot(world, setup, task); }),
+      sweep_(task.sweep),
+      camera_(task.camera),
+      T_base_sweep_(find_sweep_pose(base_.world(), base_.robot())),
+      field_(swept_field(sweep_, camera_)),
+      renderer_(
+          make_offscreen_renderer(base_.world().model(), camera_.width_px, camera_.height_px)),
+      camera_noise_(Rng::stream(setup.options.seed, "camera")) {
+  check_turning_room(base_.world(), base_.robot(), start_text(setup.options.robot));
+}
+
+ExplorationObservation SimulatedExplorationRobot::observe() {
+  base_.robot().command_twist(base_.world(), {});
+  ExplorationObservation observation;
+  std::vector<double> pans_rad = pan_angles_rad(sweep_);
+  for (const double tilt_rad : sweep_.tilts_rad) {
+    for (const double pan_rad : pans_rad) {
+      turn_head(pan_rad, tilt_rad);
+      observation.views.push_back(take_image());
+    }
+    std::ranges::reverse(pans_rad);  // the next row begins where this one ends
+  }
+  base_.robot().command_head(base_.world(), 0.0, 0.0);
+  observation.base_scan = read_base_scanner();
+  observation.base_scan_height_m = base_scan_height_m();
+  observation.T_world_base_odometry = estimated_base();
+  return observation;
+}
+
+void SimulatedExplorationRobot::turn_head(double pan_rad, double tilt_rad) {
+  base_.robot().command_head(base_.world(), pan_rad, tilt_rad);
+  for (int i = 0; i < kMaxTicks; ++i) {
+    const double pan_before = base_.robot().head_pan_rad(base_.world());
+    const double tilt_before = base_.robot().head_tilt_rad(base_.world());
+    base_.tick();
+    const double moved_rad =
+        std::max(std::abs(base_.robot().head_pan_rad(base_.world()) - pan_before),
+                 std::abs(base_.robot().head_tilt_rad(base_.world()) - tilt_before));
+    if (i >= kFewestTicks && moved_rad < kAtRest_rad) return;
+  }
+}
+
+DepthImage SimulatedExplorationRobot::take_image() {
+  const mjData& now = base_.world().snapshot();
+  const Pose T_base_camera = to_se3(base_.robot().T_world_base(base_.world())).inverse() *
+                             T_world_camera(base_.world().model(), now, base_.robot().camera_id());
+  return {depth_image(*renderer_, base_.world().model(), now, base_.robot().camera_id(), camera_,
+                      camera_noise_),
+          T_base_camera};
+}
+
+Pose2 SimulatedExplorationRobot::base_for_sensor(const Pose& T_world_sweep) const {
+  return compose(project_to_se2(T_world_sweep), inverse(project_to_se2(T_base_sweep_)));
+}
+
+Pose SimulatedExplorationRobot::estimated_sensor() const {
+  return to_se3(estimated_base()) * T_base_sweep_;
+}
+
+}  // namespace vantage

@@ -1,0 +1,37 @@
+/// The simulated robot of the exploration task.
+#pragma once
+
+#include <memory>
+
+#include "vantage/runtime/episode_setup.hpp"
+#include "vantage/sim/render/renderer.hpp"
+#include "vantage/tasks/exploration/exploration.hpp"
+#include "vantage/tasks/exploration/exploration_robot_interface.hpp"
+#include "vantage/tasks/mapping/driven_by_base.hpp"
+
+namespace vantage {
+
+class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface> {
+ public:
+  /// @throws ConfigError, InputError if the episode cannot begin
+  SimulatedExplorationRobot(const EpisodeSetup& setup, const Exploration& task);
+
+  ExplorationObservation observe() override;
+  [[nodiscard]] const Pose& T_base_sweep() const override { return T_base_sweep_; }
+  [[nodiscard]] Pose estimated_sensor() const override;
+  [[nodiscard]] Pose2 base_for_sensor(const Pose& T_world_sweep) const override;
+  [[nodiscard]] FieldOfView view_field() const override { return field_; }
+
+ private:
+  void turn_head(double pan_rad, double tilt_rad);
+  DepthImage take_image();
+
+  HeadSweep sweep_;
+  RgbdOptions camera_;
+  Pose T_base_sweep_;
+  FieldOfView field_;
+  std::unique_ptr<Renderer> renderer_;
+  Rng camera_noise_;
+};
+
+}  // namespace vantage

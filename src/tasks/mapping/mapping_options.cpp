@@ -1,0 +1,61 @@
+#include "vantage/tasks/mapping/mapping_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "vantage/core/strategy_label.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kMaxCells = 67108864.0;
+
+std::string labels(const std::vector<Gain>& gains) {
+  std::vector<std::string> names;
+  for (const Gain& gain : gains) names.push_back(strategy_label(gain));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+double MapOptions::count() const { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
+
+void MapOptions::check() const {
+  if (count() > kMaxCells) {
+    throw ConfigError(
+        fmt::format("cells: {} x {} x {} is more than 2^26 cells", cells[0], cells[1], cells[2]));
+  }
+}
+
+void MetricsOptions::check() const {
+  for (const Gain& gain : predictors) {
+    if (predicts_cells(gain)) continue;
+    throw ConfigError(fmt::format("predictors: '{}' does not predict cells; those that do: {}",
+                                  strategy_name_of(gain), labels(cell_predictors())));
+  }
+}
+
+std::string MappingOptions::method_name() const {
+  if (std::holds_alternative<GreedyGain>(choice)) return strategy_label(gain);
+  const std::string label = strategy_label(choice);
+  return weighs_gain(choice) ? label + " of " + strategy_label(gain) : label;
+}
+
+std::vector<Predictor> recorded_predictors(const MappingOptions& options,
+                                           std::vector<Gain> defaults) {
+  std::vector<Gain> gains =
+      options.metrics.predictors.empty() ? std::move(defaults) : options.metrics.predictors;
+  if (predicts_cells(options.gain)) gains.push_back(options.gain);
+  std::vector<Predictor> predictors;
+  for (Gain& gain : gains) {
+    std::string label = strategy_label(gain);
+    if (std::ranges::find(predictors, label, &Predictor::label) != predictors.end()) continue;
+    predictors.push_back({std::move(label), std::move(gain)});
+  }
+  return predictors;
+}
+
+}  // namespace vantage

@@ -1,0 +1,167 @@
+#include "vantage/tasks/mapping/mapping_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "vantage/core/log.hpp"
+#include "vantage/core/strategy_label.hpp"
+#include "vantage/planners/swept_gain.hpp"
+
+namespace vantage {
+namespace {
+
+/// Cells that `after` knows and `before` did not.
+std::size_t newly_observed(const OccupancyGrid& before, const OccupancyGrid& after) {
+  std::size_t count = 0;
+  for (std::size_t cell = 0; cell < before.size(); ++cell) {
+    count +=
+        before.state(cell) == CellState::unobserved && after.state(cell) != CellState::unobserved
+            ? 1
+            : 0;
+  }
+  return count;
+}
+
+/// NaN if that gain was not recorded.
+double predicted_by(const ScanRecord& scan, std::string_view gain) {
+  const auto found =
+      std::ranges::find(scan.predicted_cells, gain, &std::pair<std::string, double>::first);
+  return found == scan.predicted_cells.end() ? std::numeric_limits<double>::quiet_NaN()
+                                             : found->second;
+}
+
+}  // namespace
+
+MappingParts::MappingParts(const MappingContext& context, const MappingOptions& options,
+                           const MapBelief& belief, std::vector<Predictor> predictors,
+                           Navigator navigator)
+    : episode_(context.options),
+      robot_(context.robot),
+      recorder_(context.recorder),
+      navigator_(std::move(navigator)),
+      options_(options),
+      evaluator_(context.evaluator),
+      belief_(belief),
+      predictors_(std::move(predictors)),
+      choice_rng_(Rng::stream(context.options.seed, "view choice")) {
+  recorder_.set_panel([this] { return panel(); });
+  navigator_.on_plan = [this](const PlannedPath& path) { recorder_.route(path.waypoints); };
+}
+
+void MappingParts::look_round_at_start() {
+  navigator_.turn_in_place();
+  predict(robot_.estimated_sensor());
+}
+
+MappingParts::Before MappingParts::before_update() const {
+  return {wall_s(), belief_.grid(), robot_.dead_reckoned_base()};
+}
+
+void MappingParts::correct_pose(const BeliefUpdate& update) {
+  robot_.correct_pose(update.T_world_base);
+  robot_.restart_dead_reckoning();
+}
+
+void MappingParts::measure(const Before& before, const BeliefUpdate& update,
+                           const Pose& T_world_sensor) {
+  current_.map_time_s = wall_s() - before.start_s;
+  current_.actual_new_cells = static_cast<double>(newly_observed(before.grid, belief_.grid()));
+  current_.time_s = robot_.time_s();
+  current_.registered = update.registered;
+  evaluator_.measure_pose(before.dead_reckoned, update.T_world_base, current_);
+  evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
+  current_.T_world_sensor = T_world_sensor;
+  if (update.registered) return;
+  log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), update.registration_note));
+}
+
+const ScanRecord& MappingParts::record_scan() {
+  scans_.push_back(std::exchange(current_, {}));
+  const ScanRecord& scan = scans_.back();
+  const std::size_t index = scans_.size() - 1;
+  log_debug(fmt::format(
+      "scan {}: view {}{}, {} new cells, {} observable left, pose error {:.1f} mm", index,
+      scan.chosen_view, scan.fallback ? " (fallback)" : "", scan.actual_new_cells,
+      scan.observable_unobserved_cells, 1e3 * scan.pose_error_m));
+  recorder_.scan(scan, index, belief_.grid());
+  return scan;
+}
+
+void MappingParts::start_decision() { decision_start_s_ = wall_s(); }
+
+std::vector<double> MappingParts::gains_bits(const Gain& gain,
+                                             std::span<const Candidate> views) const {
+  const BlockField transmission = belief_.hazard().transmission();
+  return view_gains_bits(gain, {belief_.filled_grid(), &transmission}, views, robot_.view_field(),
+                         episode_.threads);
+}
+
+void MappingParts::score(std::vector<Candidate>& candidates) {
+  if (!views_have_gains_ && (weighs_gain(options_.choice) || recorder_.logs_events())) {
+    const auto gains = gains_bits(options_.gain, candidates);
+    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
+  }
+  if (!std::holds_alternative<OracleView>(options_.choice)) return;
+  for (Candidate& candidate : candidates) {
+    candidate.true_new_cells =
+        static_cast<double>(evaluator_.true_new_cells(belief_.grid(), candidate.T_world_sensor));
+  }
+}
+
+std::size_t MappingParts::choose(const std::vector<Candidate>& candidates) {
+  const std::size_t chosen = choose_view(options_.choice, candidates, choice_rng_);
+  current_.candidates = candidates.size();
+  current_.plan_time_s = wall_s() - decision_start_s_;
+  recorder_.decision(candidates, chosen);
+  return chosen;
+}
+
+Approach MappingParts::approach(const Candidate& view,
+                                const std::optional<Eigen::Vector2d>& look_at_m) {
+  const Approach approach =
+      navigator_.approach(robot_.base_for_sensor(view.T_world_sensor), look_at_m);
+  current_.path_length_m = approach.path_length_m;
+  return approach;
+}
+
+void MappingParts::warn_out_of_reach(const Candidate& view) const {
+  log_warning(fmt::format("view {} is out of reach: scanning from as near as possible", view.id));
+}
+
+void MappingParts::predict(const Pose& T_world_sensor) {
+  std::array<Candidate, 1> view;
+  view.front().T_world_sensor = T_world_sensor;
+  current_.predicted_cells.clear();
+  for (const auto& [label, gain] : predictors_) {
+    current_.predicted_cells.emplace_back(label, gains_bits(gain, view).front());
+  }
+}
+
+MapPanelInput MappingParts::panel() const {
+  MapPanelInput input;
+  input.scans_planned = options_.scans;
+  input.method = options_.method_name();
+  for (const ScanRecord& scan : scans_) {
+    input.T_world_chosen.push_back(scan.T_world_sensor);
+    input.observable_unobserved_cells.push_back(
+        static_cast<double>(scan.observable_unobserved_cells));
+  }
+  if (!scans_.empty()) {
+    input.predicted_new_cells = predicted_by(scans_.back(), strategy_label(options_.gain));
+    input.actual_new_cells = scans_.back().actual_new_cells;
+  }
+  input.grid = &belief_.grid();
+  for (const Candidate& view : views_) input.T_world_candidates.push_back(view.T_world_sensor);
+  if (current_.chosen_view >= 0) {
+    const auto goal = static_cast<std::size_t>(current_.chosen_view);
+    input.T_world_chosen.push_back(views_[goal].T_world_sensor);
+  }
+  input.T_world_base = robot_.estimated_base();
+  input.path_m = navigator_.path_m();
+  return input;
+}
+
+}  // namespace vantage

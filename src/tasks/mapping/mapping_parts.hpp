@@ -1,0 +1,92 @@
+/// What the parts of the loop of all mapping tasks share: localise, update, predict, measure,
+/// drive. Tasks differ in how they propose views and act.  [Potthast2016, chapter 3]
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vantage/core/rng.hpp"
+#include "vantage/planners/candidate.hpp"
+#include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
+#include "vantage/tasks/mapping/map_belief.hpp"
+#include "vantage/tasks/mapping/mapping_recorder.hpp"
+#include "vantage/tasks/mapping/navigator.hpp"
+
+namespace vantage {
+
+/// What the parts work with; all of it outlives them.
+struct MappingContext {
+  const EpisodeOptions& options;
+  MobileRobotInterface& robot;
+  const GroundTruthMapEvaluator& evaluator;  ///< asked when recording, and by the choice `oracle`
+  MappingRecorder& recorder;
+};
+
+class MappingParts {
+ public:
+  MappingParts(const MappingParts&) = delete;
+  MappingParts& operator=(const MappingParts&) = delete;
+
+  void score(std::vector<Candidate>& candidates);
+  std::size_t choose(const std::vector<Candidate>& candidates);
+
+  [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
+  /// Those of the next decision, and after it those it was made among.
+  [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
+
+ protected:
+  /// @param belief outlives this
+  MappingParts(const MappingContext& context, const MappingOptions& options,
+               const MapBelief& belief, std::vector<Predictor> predictors, Navigator navigator);
+  ~MappingParts() = default;
+
+  /// What there was before an update.
+  struct Before {
+    double start_s;  ///< wall
+    OccupancyGrid grid;
+    Pose2 dead_reckoned;
+  };
+
+  void look_round_at_start();
+  /// The observation that `observe` makes, timed.
+  auto observed(auto&& observe) {
+    const double start_s = robot_.time_s();
+    auto observation = observe();
+    current_.scan_time_s = robot_.time_s() - start_s;
+    return observation;
+  }
+  [[nodiscard]] Before before_update() const;
+  void correct_pose(const BeliefUpdate& update);
+  void measure(const Before& before, const BeliefUpdate& update, const Pose& T_world_sensor);
+  const ScanRecord& record_scan();
+  void predict(const Pose& T_world_sensor);
+  [[nodiscard]] std::vector<double> gains_bits(const Gain& gain,
+                                               std::span<const Candidate> views) const;
+  /// Drives to a view, or as near as possible; see Navigator::approach().
+  Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
+  void warn_out_of_reach(const Candidate& view) const;
+  void start_decision();
+
+  const EpisodeOptions& episode_;
+  MobileRobotInterface& robot_;
+  MappingRecorder& recorder_;
+  Navigator navigator_;
+  std::vector<Candidate> views_;
+  bool views_have_gains_ = false;
+  double decision_start_s_ = 0.0;  ///< wall
+  ScanRecord current_;             ///< filled in from the decision to the end of its scan
+  std::vector<ScanRecord> scans_;
+
+ private:
+  [[nodiscard]] MapPanelInput panel() const;
+
+  const MappingOptions options_;
+  const GroundTruthMapEvaluator& evaluator_;
+  const MapBelief& belief_;
+  std::vector<Predictor> predictors_;
+  Rng choice_rng_;
+};
+
+}  // namespace vantage

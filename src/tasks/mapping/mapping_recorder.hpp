@@ -1,0 +1,51 @@
+/// Writes the run folder of an episode that maps while it runs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "vantage/perception/clouds/point_cloud.hpp"
+#include "vantage/report/report_data.hpp"
+#include "vantage/runtime/recorder.hpp"
+#include "vantage/tasks/mapping/map_panel.hpp"
+#include "vantage/tasks/mapping/scan_record.hpp"
+
+namespace vantage {
+
+struct Predictor;
+
+class MappingRecorder : public EpisodeRecorder {
+ public:
+  /// Lean: neither states nor voxels nor event log are kept.
+  /// @param scans at most
+  /// @throws OutputError, RendererError
+  MappingRecorder(const EpisodeRun& run, RecordedRobot robot,
+                  const std::vector<Predictor>& predictors, int scans);
+
+  void set_panel(std::function<MapPanelInput()> panel);
+  /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
+  void scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid);
+  /// Whether somebody will look at decisions and what they were made by.
+  [[nodiscard]] bool logs_events() const { return event_log_ || log().watched(); }
+  /// What was chosen among, and the route that was planned to it.
+  void decision(const std::vector<Candidate>& candidates, std::size_t chosen);
+  void route(const std::vector<Pose2>& waypoints);
+  void commit() override;
+  void write_map(const OccupancyGrid& grid, const PointCloud& cloud);
+
+ private:
+  void tell(EpisodeEvent event);
+  void add_occupied_voxels(const OccupancyGrid& grid, std::size_t step);
+  void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);
+
+  int planned_scans_;
+  std::optional<EventLog> event_log_;
+  std::vector<VoxelRecord> voxels_;
+  std::vector<std::uint8_t> was_occupied_;
+  std::vector<CellState> known_;  ///< of the map, as far as the history goes
+  std::size_t scans_done_ = 0;
+};
+
+}  // namespace vantage

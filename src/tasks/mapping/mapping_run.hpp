@@ -1,0 +1,41 @@
+/// Runs the parts of a mapping task and writes what they come to.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "vantage/geometry/pose.hpp"
+#include "vantage/runtime/task_answers.hpp"
+#include "vantage/tasks/mapping/mapping_metrics.hpp"
+#include "vantage/tasks/mapping/mapping_recorder.hpp"
+#include "vantage/tasks/mapping/mobile_ground_truth.hpp"
+
+namespace vantage {
+
+/// What the recorder follows of a simulated mobile robot.
+template <class Robot>
+RecordedRobot recorded(Robot& robot) {
+  return {robot.world(), [&robot] { return to_se3(robot.ground_truth().T_world_base()); },
+          [&robot] { return to_se3(robot.estimated_base()); }};
+}
+
+template <class Robot, class Belief, class Parts>
+RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& robot,
+                       MappingRecorder& recorder, const GroundTruthMapEvaluator& evaluator,
+                       const Belief& belief, Parts& parts) {
+  const Ending ending = ending_of([&] { run_episode(parts); });
+  const RunTotals totals{robot.time_s(), robot.ground_truth().collisions()};
+  RunOutcome outcome = run.finish(ending, totals, recorder, [&](nlohmann::ordered_json& metrics) {
+    add_mapping_metrics(options,
+                        {belief.grid(), belief.hazard(), evaluator, parts.scans(), parts.views()},
+                        metrics);
+  });
+  if (!run.request().options.lean) recorder.write_map(belief.grid(), belief.cloud());
+  return outcome;
+}
+
+/// What a window shows of a task that maps.
+WindowContent mapping_window(const MappingOptions& options);
+TaskExtent mapping_extent(const MappingOptions& options);
+ReportSections mapping_report();
+
+}  // namespace vantage

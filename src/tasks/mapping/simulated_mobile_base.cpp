@@ -1,0 +1,95 @@
+#include "vantage/tasks/mapping/simulated_mobile_base.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/interrupt.hpp"
+
+namespace vantage {
+namespace {
+
+std::string geom_text(const mjModel& model, int geom) {
+  const std::string name = model_name(model, ModelObject::geom, geom);
+  return name.empty() ? fmt::format("geom number {}", geom) : fmt::format("'{}'", name);
+}
+
+}  // namespace
+
+SimulatedMobileBase::SimulatedMobileBase(const EpisodeOptions& episode,
+                                         const MappingOptions& options, const ModelSource& source,
+                                         const std::function<Pr2(World&)>& place)
+    : drive_(options.drive),
+      scanner_(options.base_scanner),
+      world_(source, episode.simulation),
+      robot_(place(world_)),
+      geometry_(world_.model(), world_.snapshot()),
+      geometry_without_robot_(world_.model(), world_.snapshot(), kWithoutRobot),
+      odometry_(options.odometry, Rng::stream(episode.seed, "odometry"),
+                robot_.T_world_base(world_)),
+      scanner_noise_(Rng::stream(episode.seed, "base scanner")) {
+  restart_dead_reckoning();
+  world_.on_step = [this](const World& world) {
+    if (collisions_.update(robot_, world) > 0) report_touch();
+  };
+}
+
+/// For whoever reads the log; the robot has no sense of touch.
+void SimulatedMobileBase::report_touch() const {
+  std::string names;
+  for (const int geom : robot_.touched_geoms(world_)) {
+    names += " '" + model_name(world_.model(), ModelObject::geom, geom) + "'";
+  }
+  const Pose2 pose = robot_.T_world_base(world_);
+  log_warning(fmt::format("{:.2f} s: the robot at ({:.2f}, {:.2f}) touches{}", world_.time_s(),
+                          pose.x_m, pose.y_m, names));
+}
+
+void SimulatedMobileBase::tick() {
+  throw_if_interrupted();
+  world_.advance_tick();
+  odometry_.update(robot_.T_world_base(world_));
+}
+
+const RayScene& SimulatedMobileBase::seen_geometry() {
+  geometry_.update(world_.snapshot());
+  return geometry_;
+}
+
+PlanarScan SimulatedMobileBase::read_base_scanner() {
+  return planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
+                     robot_.base_body_id(), scanner_, scanner_noise_);
+}
+
+DriveResult SimulatedMobileBase::drive_along(std::span<const Pose2> path,
+                                             const std::function<bool()>& go_on) {
+  return drive(world_, robot_, odometry_, path, drive_, [&](World&, const Pose2&) {
+    throw_if_interrupted();
+    return go_on();
+  });
+}
+
+void SimulatedMobileBase::correct_pose(const Pose2& T_world_base) {
+  T_world_dead_reckoned_ = dead_reckoned_base();
+  T_world_corrected_ = T_world_base;
+  odometry_.correct(T_world_base);
+}
+
+void SimulatedMobileBase::restart_dead_reckoning() {
+  T_world_dead_reckoned_ = T_world_corrected_ = odometry_.estimate();
+}
+
+Pose2 SimulatedMobileBase::dead_reckoned_base() const {
+  return compose(T_world_dead_reckoned_,
+                 compose(inverse(T_world_corrected_), odometry_.estimate()));
+}
+
+void check_turning_room(const World& world, const Pr2& robot, const std::string& place) {
+  if (const auto touched = robot.touched_by_turning(world); !touched.empty()) {
+    throw ConfigError(fmt::format("{}: the robot would touch {} when it turns there", place,
+                                  geom_text(world.model(), touched.front())));
+  }
+}
+
+}  // namespace vantage

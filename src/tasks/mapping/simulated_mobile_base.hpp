@@ -1,0 +1,72 @@
+/// The simulation of a mobile robot, as far as driving goes: its world, its wheels, its planar
+/// scanner. Truth is handed out by ground_truth(), for evaluators and recorders.
+#pragma once
+
+#include <functional>
+
+#include "vantage/core/rng.hpp"
+#include "vantage/runtime/episode_setup.hpp"
+#include "vantage/sim/robots/drive.hpp"
+#include "vantage/sim/robots/odometry.hpp"
+#include "vantage/sim/robots/pr2.hpp"
+#include "vantage/sim/sensors/laser.hpp"
+#include "vantage/sim/sensors/ray_scene.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/mapping/mapping_options.hpp"
+#include "vantage/tasks/mapping/mobile_ground_truth.hpp"
+
+namespace vantage {
+
+class SimulatedMobileBase {
+ public:
+  /// @param place puts the robot where the episode begins
+  SimulatedMobileBase(const EpisodeOptions& episode, const MappingOptions& options,
+                      const ModelSource& source, const std::function<Pr2(World&)>& place);
+  SimulatedMobileBase(const SimulatedMobileBase&) = delete;
+  SimulatedMobileBase& operator=(const SimulatedMobileBase&) = delete;
+
+  /// One scan of the planar scanner, from the present pose.
+  PlanarScan read_base_scanner();
+  /// `go_on` is asked every tick; truth is not passed on. @throws Interrupted
+  DriveResult drive_along(std::span<const Pose2> path, const std::function<bool()>& go_on);
+  void correct_pose(const Pose2& T_world_base);
+  /// What the wheels alone say, without the corrections since restart_dead_reckoning().
+  [[nodiscard]] Pose2 dead_reckoned_base() const;
+  void restart_dead_reckoning();
+  [[nodiscard]] double base_scan_height_m() const { return robot_.base_scan_height_m(); }
+  /// Of the base, 0.668 m square: what it stands on is free.
+  [[nodiscard]] double inscribed_radius_m() const { return 0.33; }
+  [[nodiscard]] Pose2 estimated_base() const { return odometry_.estimate(); }
+
+  void tick();  ///< @throws Interrupted
+  /// Moves the geometry that sensors see to where it is now.
+  const RayScene& seen_geometry();
+
+  [[nodiscard]] MobileGroundTruth ground_truth() const {
+    return {world_, robot_, geometry_without_robot_, collisions_};
+  }
+  World& world() { return world_; }
+  [[nodiscard]] const World& world() const { return world_; }
+  [[nodiscard]] const Pr2& robot() const { return robot_; }
+
+ private:
+  void report_touch() const;
+
+  DriveOptions drive_;
+  PlanarScannerOptions scanner_;
+  World world_;
+  Pr2 robot_;
+  RayScene geometry_;
+  RayScene geometry_without_robot_;
+  Odometry odometry_;
+  Pose2 T_world_dead_reckoned_;  ///< at the last correction
+  Pose2 T_world_corrected_;      ///< the pose that correction set
+  CollisionCounter collisions_;
+  Rng scanner_noise_;
+};
+
+/// @throws ConfigError if the robot would touch something while it turns once where it is;
+/// `place` says which keys put it there.
+void check_turning_room(const World& world, const Pr2& robot, const std::string& place);
+
+}  // namespace vantage

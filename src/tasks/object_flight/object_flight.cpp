@@ -1,0 +1,32 @@
+#include "vantage/tasks/object_flight/object_flight.hpp"
+
+#include "vantage/core/strategy_label.hpp"
+#include "vantage/tasks/flight/flight_world.hpp"
+#include "vantage/tasks/flight/recognition_model_file.hpp"
+
+namespace vantage {
+
+Orbit ObjectFlight::orbit() const {
+  const Eigen::Vector3d aim_m = p_world_table_m() + Eigen::Vector3d(0.0, 0.0, aim_height_m);
+  return Orbit::at_elevation(aim_m, distance_m, elevation_rad);
+}
+
+std::string ObjectFlight::method_name() const { return strategy_label(decision.views.choice); }
+
+void ObjectFlight::check_with(const EpisodeOptions& episode) const {
+  require_flight_world(episode.simulation);
+}
+
+void ObjectFlight::find_files(const std::filesystem::path& base) {
+  model = found_model_name(model, base);
+}
+
+std::vector<InputFile> ObjectFlight::inputs() const { return {model_input(model)}; }
+
+TaskExtent ObjectFlight::extent(const EpisodeSetup&) const {
+  return {"max_views", "views at most", static_cast<std::size_t>(decision.max_views)};
+}
+
+WindowContent ObjectFlight::window() { return {.follows_height = true}; }
+
+}  // namespace vantage

@@ -1,0 +1,32 @@
+/// Holds what is believed of an object on a table against the truth.
+#pragma once
+
+#include <utility>
+
+#include "vantage/belief/objects/object_states.hpp"
+#include "vantage/tasks/object_flight/object_on_table.hpp"
+#include "vantage/tasks/object_flight/observation_record.hpp"
+
+namespace vantage {
+
+class SimulatedOrbitRobot;
+
+/// Whoever decides may hand it a record to fill in, and learns nothing by that.
+class ObjectFlightEvaluator {
+ public:
+  /// `robot` must outlive it.
+  ObjectFlightEvaluator(const SimulatedOrbitRobot& robot, ObjectOnTable truth)
+      : robot_(robot), truth_(std::move(truth)) {}
+
+  /// Fills in what the record says of the pose and of the object, held against the truth.
+  /// @param object the most probable one
+  /// @param state that is estimated
+  void measure(const ObjectStates& states, int object, int state, ObservationRecord& record) const;
+  [[nodiscard]] const ObjectOnTable& truth() const { return truth_; }  ///< for metrics
+
+ private:
+  const SimulatedOrbitRobot& robot_;
+  ObjectOnTable truth_;
+};
+
+}  // namespace vantage

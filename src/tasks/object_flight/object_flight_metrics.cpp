@@ -1,0 +1,110 @@
+#include "vantage/tasks/object_flight/object_flight_metrics.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+#include "vantage/runtime/json.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Where the camera is, x axis level the way it looks.
+Pose line_of_sight(const Pose& T_world_camera) {
+  const Eigen::Vector3d ahead = T_world_camera.linear().col(2);
+  return make_pose(T_world_camera.translation(), std::atan2(ahead.y(), ahead.x()));
+}
+
+Json observation_json(const ObservationRecord& record, int bins) {
+  const ViewReport& report = record.report;
+  Json json = {{"view_rad", report.view_rad},
+               {"features", report.features},
+               {"entropy_bits", report.entropy_bits},
+               {"feature_time_s", report.feature_time_s},
+               {"selection_time_s", report.selection_time_s},
+               {"view_time_s", report.view_time_s},
+               {"time_s", record.time_s},
+               {"chosen_view", record.bearing_id},
+               {"gain_bits", record.gain_bits},
+               {"estimate", record.estimate},
+               {"map_probability", record.map_probability},
+               {"object_px", record.object_px},
+               {"position_error_m", record.position_error_m},
+               {"angle_error_rad", record.angle_error_rad},
+               {"true_yaw_rad", record.true_yaw_rad},
+               {"estimated_bin", record.estimated_bin},
+               {"bin_error", record.bin_error},
+               {"bins", bins},
+               {"collisions", record.collisions},
+               {"view", view_json(line_of_sight(record.T_world_camera))}};
+  if (record.change) {
+    json["change_probability"] = record.change->probability;
+    json["decision"] = to_string(record.change->verdict);
+  }
+  json["skipped"] = Json::array();
+  for (const SkippedFeature& skipped : report.skipped) {
+    json["skipped"].push_back({{"feature", skipped.feature}, {"reason", skipped.reason}});
+  }
+  if (const auto& flight = record.flight) {
+    json["flight"] = {
+        {"status", to_string(flight->status)},          {"duration_s", flight->duration_s},
+        {"path_length_m", flight->path_length_m},       {"rms_error_m", flight->rms_error_m},
+        {"greatest_error_m", flight->greatest_error_m}, {"energy_j", flight->energy_J}};
+  }
+  return json;
+}
+
+/// Where the robot looks for the object.
+Eigen::AlignedBox3d object_column(const ObjectFlight& task) {
+  const double radius_m = task.segmentation.radius_m;
+  const Eigen::Vector3d foot_m = task.p_world_table_m();
+  const Eigen::Vector3d half_m(radius_m, radius_m, 0.0);
+  const Eigen::Vector3d top_m(0.0, 0.0, task.segmentation.max_height_m);
+  return {foot_m - half_m, foot_m + half_m + top_m};
+}
+
+}  // namespace
+
+void add_estimate(const ObjectOnTable& truth, const ObjectFlightParts& run, Json& metrics) {
+  metrics["truth"] = truth.object.empty() ? Json(nullptr) : Json(truth.object);
+  metrics["true_yaw_rad"] = truth.object.empty() ? Json(nullptr) : Json(truth.yaw_rad);
+  if (run.records().empty()) {  // ended before the first view
+    for (const char* key : {"estimate", "map_probability", "bin_error"}) metrics[key] = nullptr;
+    metrics["entropy_bits"] = state_entropy_bits(run.recognition().belief);
+    return;
+  }
+  const ObservationRecord& last = run.records().back();
+  metrics["estimate"] = last.estimate;
+  metrics["entropy_bits"] = last.report.entropy_bits;
+  metrics["map_probability"] = last.map_probability;
+  metrics["bin_error"] = truth.object.empty() ? Json(nullptr) : Json(last.bin_error);
+}
+
+void add_observations(const ObjectFlight& task, const ObjectFlightParts& run, Json& metrics) {
+  metrics["observations"] = Json::array();
+  for (const ObservationRecord& record : run.records()) {
+    metrics["observations"].push_back(observation_json(record, run.recogniser().states.bins));
+  }
+  metrics["candidates"] = candidates_json(run.places());
+  metrics["region"] = box_json(object_column(task));
+}
+
+std::string text_or_nothing(const Json& metrics, const char* key) {
+  return metrics[key].is_string() ? metrics[key].get<std::string>() : "nothing yet";
+}
+
+std::optional<double> views_taken(const MeasuredEpisode& episode) {
+  return static_cast<double>(episode.metrics.at("observations").size());
+}
+
+std::optional<double> mean_of_views(const MeasuredEpisode& episode, const char* key) {
+  return mean_of(step_values(episode, "observations", key));
+}
+
+Curve entropy_of_views(const MeasuredEpisode& episode) {
+  return step_values(episode, "observations", "entropy_bits");
+}
+
+}  // namespace vantage

@@ -1,0 +1,28 @@
+/// What flights round an object measure: metrics.json as the contract has it, and what studies read
+/// of it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+#include "vantage/runtime/measure.hpp"
+#include "vantage/tasks/object_flight/object_flight_parts.hpp"
+
+namespace vantage {
+
+/// What is there and what it was taken for at the end.
+void add_estimate(const ObjectOnTable& truth, const ObjectFlightParts& run,
+                  nlohmann::ordered_json& metrics);
+void add_observations(const ObjectFlight& task, const ObjectFlightParts& run,
+                      nlohmann::ordered_json& metrics);
+
+/// What a text of the metrics says, or that there is nothing yet.
+std::string text_or_nothing(const nlohmann::ordered_json& metrics, const char* key);
+
+// Measures that recognition and change detection share.
+std::optional<double> views_taken(const MeasuredEpisode& episode);
+std::optional<double> mean_of_views(const MeasuredEpisode& episode, const char* key);
+Curve entropy_of_views(const MeasuredEpisode& episode);
+
+}  // namespace vantage

@@ -1,0 +1,29 @@
+/// Writes the run folder of a flight round an object while it runs.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "vantage/runtime/recorder.hpp"
+#include "vantage/tasks/object_flight/object_flight_panel.hpp"
+#include "vantage/tasks/object_flight/observation_record.hpp"
+
+namespace vantage {
+
+class ObjectFlightRecorder : public EpisodeRecorder {
+ public:
+  /// Lean: neither states nor images are kept.
+  /// @param of_change whether records tell of a change
+  /// @throws OutputError, RendererError
+  ObjectFlightRecorder(const EpisodeRun& run, RecordedRobot robot, int max_views, bool of_change);
+
+  void set_panel(std::function<RecognitionPanelInput()> panel);
+  /// Adds a row to steps.csv, and the image with the object's outline to views/.
+  void observation(const ObservationRecord& record, std::size_t index, const CameraImages& image,
+                   const std::optional<ObjectView>& cut);
+
+ private:
+  int max_views_;
+};
+
+}  // namespace vantage

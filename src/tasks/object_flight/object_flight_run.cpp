@@ -1,0 +1,19 @@
+#include "vantage/tasks/object_flight/object_flight_run.hpp"
+
+namespace vantage {
+
+RecordedRobot recorded(SimulatedOrbitRobot& robot) {
+  SimulatedQuadrotor& quadrotor = robot.quadrotor();
+  return {quadrotor.world(), [&quadrotor] { return quadrotor.true_body(); },
+          [&quadrotor] { return quadrotor.estimated_body(); }};
+}
+
+RunOutcome run_object_flight(EpisodeRun& run, SimulatedOrbitRobot& robot,
+                             ObjectFlightRecorder& recorder, ObjectFlightParts& parts,
+                             const std::function<void(nlohmann::ordered_json&)>& add_metrics) {
+  const Ending ending = ending_of([&] { run_episode(parts); });
+  const RunTotals totals{robot.time_s(), robot.ground_truth().collisions};
+  return run.finish(ending, totals, recorder, add_metrics);
+}
+
+}  // namespace vantage

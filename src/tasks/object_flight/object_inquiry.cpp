@@ -1,0 +1,81 @@
+#include "vantage/tasks/object_flight/object_inquiry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vantage {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
+/// What the map says, as the camera would see it.
+int expected_state(const Recogniser& recogniser, const std::string& object, double seen_yaw_rad) {
+  const ObjectStates& states = recogniser.states;
+  const auto found = std::ranges::find(states.objects, object);
+  expects(found != states.objects.end(), "the recogniser knows what is expected");
+  const auto bin = std::lround(seen_yaw_rad / kTurn_rad * states.bins);
+  return states.state(static_cast<int>(found - states.objects.begin()),
+                      static_cast<int>((bin % states.bins + states.bins) % states.bins));
+}
+
+ChangeOptions only_recognition(const RecognitionOptions& options) {
+  ChangeOptions both;
+  both.recognition = options;
+  return both;
+}
+
+}  // namespace
+
+ObjectInquiry::ObjectInquiry(const Recogniser& recogniser, const RecognitionOptions& options)
+    : recogniser_(recogniser),
+      options_(only_recognition(options)),
+      known_(begin_recognition(recogniser_)) {}
+
+ObjectInquiry::ObjectInquiry(const Recogniser& recogniser, const ChangeOptions& options,
+                             const std::string& object, double seen_yaw_rad)
+    : recogniser_(recogniser),
+      options_(options),
+      known_(begin_change_search(recogniser_, options_,
+                                 expected_state(recogniser_, object, seen_yaw_rad))) {}
+
+void ObjectInquiry::observe(const ExtractFeature& extract, double view_rad, double view_time_s,
+                            Rng& rng) {
+  if (auto* search = std::get_if<ChangeSearch>(&known_)) {
+    update_with_view(recogniser_, options_, extract, view_rad, *search, rng);
+    search->recognition.views.back().view_time_s = view_time_s;
+    return;
+  }
+  auto& recognition = std::get<Recognition>(known_);
+  update_with_view(recogniser_, options_.recognition, extract, view_rad, recognition, rng);
+  recognition.views.back().view_time_s = view_time_s;
+}
+
+void ObjectInquiry::turned(double motion_rad) {
+  if (auto* search = std::get_if<ChangeSearch>(&known_)) {
+    predict_motion(recogniser_, options_, motion_rad, *search);
+  } else {
+    predict_motion(recogniser_, options_.recognition, motion_rad, std::get<Recognition>(known_));
+  }
+}
+
+bool ObjectInquiry::over() const {
+  if (const auto* search = std::get_if<ChangeSearch>(&known_)) return !in_doubt(options_, *search);
+  return recognition_end(recogniser_, options_.recognition, recognition()).has_value();
+}
+
+const Recognition& ObjectInquiry::recognition() const {
+  const auto* search = std::get_if<ChangeSearch>(&known_);
+  return search != nullptr ? search->recognition : std::get<Recognition>(known_);
+}
+
+double ObjectInquiry::p_changed() const {
+  if (verdict() == Change::removed) return 1.0;
+  return std::get<ChangeSearch>(known_).hypotheses.p_changed();
+}
+
+Change ObjectInquiry::verdict() const {
+  return vantage::verdict(recogniser_, options_, std::get<ChangeSearch>(known_));
+}
+
+}  // namespace vantage

@@ -1,0 +1,117 @@
+#include "vantage/tasks/object_flight/simulated_orbit_robot.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "vantage/runtime/episode_loop.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/sim/sensors/camera.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
+/// Hovering with the camera at `T_world_place`, rotors carrying it.
+Quadrotor placed(World& world, const Pose& T_world_place, double camera_pitch_rad) {
+  if (!find_model_id(world.model(), ModelObject::body, "object")) {
+    throw InputError(fmt::format(
+        "{}: has no body 'object'; a scene of recognition has <include file=\"object.xml\"/>",
+        world.source().scene.string()));
+  }
+  Quadrotor vehicle(world.model());
+  const Pose T_world_body = vehicle.body_for_camera(
+      T_world_place.translation(), project_to_se2(T_world_place).yaw_rad, camera_pitch_rad);
+  vehicle.place(world, T_world_body, camera_pitch_rad);
+  return vehicle;
+}
+
+double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return Eigen::AngleAxisd(a.transpose() * b).angle();
+}
+
+}  // namespace
+
+SimulatedOrbitRobot::SimulatedOrbitRobot(const EpisodeOptions& episode, const ModelSource& source,
+                                         const ObjectFlight& task, double object_yaw_rad)
+    : task_(task),
+      orbit_(task.orbit()),
+      start_bearing_rad_(Rng::stream(episode.seed, "start bearing").uniform(0.0, kTurn_rad)),
+      bearing_rad_(start_bearing_rad_),
+      quadrotor_(episode, source, task.tracking, {task.camera, task.exposure, task.colour_noise},
+                 [&](World& world) {
+                   return placed(world, orbit_.place(bearing_rad_), task.elevation_rad);
+                 }),
+      object_yaw_rad_(object_yaw_rad),
+      camera_noise_(Rng::stream(episode.seed, "camera")) {}
+
+FlightObservation SimulatedOrbitRobot::observe() {
+  throw_if_interrupted();
+  require_untouched(quadrotor_.tracking().hold(task_.settle_s));
+  return {.images = quadrotor_.colour_image(camera_noise_),
+          .T_world_camera = estimated_body() * quadrotor_.T_body_camera(),
+          .bearing_rad = bearing_rad_};
+}
+
+FlightResult SimulatedOrbitRobot::fly_to(double bearing_rad) {
+  const FlightPlan planned = plan(bearing_rad);
+  bearing_rad_ = bearing_rad;
+  const FlightResult flight =
+      quadrotor_.tracking().fly_to(planned.waypoints, [](const TrajectoryTrackingController&) {
+        throw_if_interrupted();
+        return true;
+      });
+  require_untouched(flight);
+  return flight;
+}
+
+/// A quadrotor that touches something does not fly on.
+void SimulatedOrbitRobot::require_untouched(const FlightResult& flight) const {
+  if (flight.status != FlightStatus::contact) return;
+  throw EpisodeFailed(
+      fmt::format("the quadrotor touched {} at {:.2f} s", quadrotor_.touched(), time_s()));
+}
+
+FlightPlan SimulatedOrbitRobot::plan(double bearing_rad) const {
+  FlightPlan plan;
+  const FlightReference& reference = quadrotor_.tracking().reference();
+  Eigen::Vector3d at_m = reference.p_world_m;
+  for (const Pose& place : orbit_arc(orbit_, bearing_rad_, bearing_rad, task_.arc_rad)) {
+    plan.waypoints.push_back(waypoint(place));
+    plan.path_m += (plan.waypoints.back().p_world_m - at_m).norm();
+    at_m = plan.waypoints.back().p_world_m;
+  }
+  const MinimumJerkTrajectory path(reference, plan.waypoints, task_.tracking.limits);
+  plan.duration_s = path.duration_s();
+  const Airframe& airframe = quadrotor_.vehicle().airframe();
+  const Allocation hover = allocate(airframe, {.collective_N = airframe.weight_N()});
+  plan.energy_j =
+      plan.duration_s * induced_power_W(hover.thrust_N, quadrotor_.vehicle().rotor_radius_m());
+  return plan;
+}
+
+FlightWaypoint SimulatedOrbitRobot::waypoint(const Pose& T_world_place) const {
+  const double yaw_rad = project_to_se2(T_world_place).yaw_rad;
+  const Pose T_world_body = quadrotor_.vehicle().body_for_camera(T_world_place.translation(),
+                                                                 yaw_rad, task_.elevation_rad);
+  return {.p_world_m = T_world_body.translation(), .yaw_rad = yaw_rad};
+}
+
+OrbitGroundTruth SimulatedOrbitRobot::ground_truth() const {
+  const Quadrotor& vehicle = quadrotor_.vehicle();
+  const World& world = quadrotor_.world();
+  const FlightWaypoint meant = waypoint(orbit_.place(bearing_rad_));
+  const Pose T_world_meant =
+      make_pose(meant.p_world_m, meant.yaw_rad) * vehicle.T_body_camera(task_.elevation_rad);
+  const Pose T_world_camera =
+      vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
+  const double seen_rad = object_yaw_rad_ - orbit_.bearing_rad(T_world_camera.translation());
+  return {.collisions = quadrotor_.collisions(),
+          .position_error_m = (T_world_camera.translation() - T_world_meant.translation()).norm(),
+          .angle_error_rad = angle_between(T_world_camera.linear(), T_world_meant.linear()),
+          .object_angle_rad = seen_rad - kTurn_rad * std::floor(seen_rad / kTurn_rad)};
+}
+
+}  // namespace vantage

@@ -1,0 +1,109 @@
+#include "vantage/tasks/recognition/recognition_task.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+
+#include "vantage/recognition/lean_recogniser.hpp"
+#include "vantage/tasks/flight/recognition_model_file.hpp"
+#include "vantage/tasks/object_flight/object_flight_metrics.hpp"
+#include "vantage/tasks/object_flight/object_flight_run.hpp"
+#include "vantage/tasks/recognition/recognition_ground_truth.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
+/// if it does not know the object on the table.
+Recogniser load_recogniser(const RecognitionTask& task, const ObjectOnTable& object) {
+  const auto path = find_recognition_model(task.model, RecognitionTask::name);
+  Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
+  require_known(recogniser, path, object.object, "stands on the table");
+  return recogniser;
+}
+
+void add_metrics(const RecognitionTask& task, const ObjectOnTable& truth,
+                 const ObjectFlightParts& run, Json& metrics) {
+  add_estimate(truth, run, metrics);
+  metrics["correct"] = metrics["category_correct"] = false;
+  if (!run.records().empty()) {
+    metrics["correct"] = run.records().back().estimate == truth.object;
+    metrics["category_correct"] = run.records().back().category == truth.category;
+  }
+  add_observations(task, run, metrics);
+}
+
+const auto kScalars = std::to_array<ScalarMeasure>({
+    {{"correct", "recognised the object, or what has changed, share"},
+     [](const MeasuredEpisode& e) { return number_of(e, "correct"); }},
+    {{"category_correct", "recognised the category, share"},
+     [](const MeasuredEpisode& e) { return number_of(e, "category_correct"); }},
+    {{"views", "views taken"}, views_taken},
+    {{"entropy_bits", "entropy of the state at the end, bits"},
+     [](const MeasuredEpisode& e) { return number_of(e, "entropy_bits"); }},
+    {{"map_probability", "probability of the estimate at the end"},
+     [](const MeasuredEpisode& e) { return number_of(e, "map_probability"); }},
+    {{"bin_error", "error of the pose, bins"},
+     [](const MeasuredEpisode& e) { return number_of(e, "bin_error"); }},
+    {{"view_position_error_m", "mean position error of a view, m"},
+     [](const MeasuredEpisode& e) { return mean_of_views(e, "position_error_m"); }},
+    {{"view_angle_error_rad", "mean angle error of a view, rad"},
+     [](const MeasuredEpisode& e) { return mean_of_views(e, "angle_error_rad"); }},
+    kPathLength,
+    kCollisions,
+    kSimulatedTime,
+});
+
+constexpr auto kCurves = std::to_array<CurveMeasure>(
+    {{{"view_entropy_bits", "entropy of the state, bits"}, entropy_of_views}});
+
+}  // namespace
+
+ModelSource RecognitionTask::model_source(const EpisodeSetup& setup) const {
+  return {setup.scene, setup.robot, object_files(*this, draw_object(*this, setup.options.seed))};
+}
+
+ReportSections RecognitionTask::report() {
+  return {.figures = "recognition",
+          .steps = "observations",
+          .step_word = "view",
+          .view_heading = "The flight, view by view"};
+}
+
+Measures RecognitionTask::measures() { return {kScalars, kCurves}; }
+
+std::string RecognitionTask::outcome(const Json& metrics) {
+  return fmt::format(
+      "{}: {} after {} views, recognised {}, which is {} ({})\n"
+      "entropy {:.2f} bit, path {:.2f} m, {} collisions, {:.1f} x real time\n",
+      text_or_nothing(metrics, "method"), text_or_nothing(metrics, "status"),
+      metrics["observations"].size(), text_or_nothing(metrics, "estimate"),
+      metrics["correct"].get<bool>() ? "right" : "wrong", text_or_nothing(metrics, "truth"),
+      metrics["entropy_bits"].get<double>(), metrics["path_length_m"].get<double>(),
+      metrics["collisions"].get<int>(), metrics["real_time_factor"].get<double>());
+}
+
+void RecognitionTask::require_start(const EpisodeSetup& setup) const {
+  const ObjectOnTable truth = draw_object(*this, setup.options.seed);
+  const SimulatedOrbitRobot robot(setup.options, model_source(setup), *this, truth.yaw_rad);
+  load_recogniser(*this, truth);
+}
+
+RunOutcome RecognitionTask::run(const RunRequest& request) const {
+  const EpisodeOptions& episode = request.setup.options;
+  const ObjectOnTable truth = draw_object(*this, episode.seed);
+  SimulatedOrbitRobot robot(episode, model_source(request.setup), *this, truth.yaw_rad);
+  const Recogniser recogniser = load_recogniser(*this, truth);
+  EpisodeRun run(request);
+  ObjectFlightRecorder recorder(run, recorded(robot), decision.max_views, false);
+  const ObjectFlightEvaluator evaluator(robot, truth);
+  ObjectFlightParts parts({episode, *this, recogniser, robot, evaluator, recorder},
+                          ObjectInquiry(recogniser, decision), robot.start_bearing_rad());
+  return run_object_flight(run, robot, recorder, parts,
+                           [&](Json& metrics) { add_metrics(*this, truth, parts, metrics); });
+}
+
+}  // namespace vantage

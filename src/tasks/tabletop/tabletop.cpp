@@ -1,0 +1,72 @@
+#include "vantage/tasks/tabletop/tabletop.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/tabletop/tabletop_session.hpp"
+
+namespace vantage {
+namespace {
+
+/// What each view truly sees is worked out cell by cell.
+constexpr double kMaxCellsOfAllViews = 2147483648.0;
+
+}  // namespace
+
+GroundTruthMapEvaluator tabletop_evaluator(const Tabletop& task, int threads,
+                                           const MobileGroundTruth& truth,
+                                           const FieldOfView& view_field) {
+  GroundTruthMapEvaluator evaluator(truth, task.map.frame(), view_field, threads);
+  std::vector<Pose> T_world_views;
+  for (const Candidate& view : tabletop_views(task)) T_world_views.push_back(view.T_world_sensor);
+  evaluator.add_observable(T_world_views);
+  if (evaluator.observable_cells() == 0) {
+    log_warning("map: none of the views sees any of its cells");
+  }
+  return evaluator;
+}
+
+void Tabletop::check_with(const EpisodeOptions& episode) const {
+  const double period_s = episode.simulation.control_period_s;
+  if (std::abs(laser.line_rate_hz * period_s - 1.0) > 1e-9) {
+    throw ConfigError(fmt::format(
+        "laser.line_rate_hz: {} must be 1 / simulation.control_period_s = {}: a line per tick",
+        laser.line_rate_hz, 1.0 / period_s));
+  }
+  const double views = static_cast<double>(candidates.positions) *
+                       static_cast<double>(candidates.yaw_offsets_rad.size());
+  if (map.count() * views > kMaxCellsOfAllViews) {
+    throw ConfigError(
+        fmt::format("map.cells: {:.3g} cells times {} views of candidates.positions and "
+                    "candidates.yaw_offsets_rad is more than 2^31",
+                    map.count(), views));
+  }
+  if (episode.robot.start_view >= candidates.positions) {
+    throw ConfigError(fmt::format("robot.start_view: {} is not below candidates.positions = {}",
+                                  episode.robot.start_view, candidates.positions));
+  }
+}
+
+ModelSource Tabletop::model_source(const EpisodeSetup& setup) const {
+  return {setup.scene, setup.robot};
+}
+
+TaskExtent Tabletop::extent(const EpisodeSetup&) const { return mapping_extent(*this); }
+WindowContent Tabletop::window() const { return mapping_window(*this); }
+ReportSections Tabletop::report() { return mapping_report(); }
+Measures Tabletop::measures() { return mapping_measures(); }
+std::string Tabletop::outcome(const nlohmann::ordered_json& metrics) {
+  return mapping_outcome(metrics);
+}
+
+void Tabletop::require_start(const EpisodeSetup& setup) const {
+  const SimulatedTabletopRobot robot(setup, *this);
+}
+
+RunOutcome Tabletop::run(const RunRequest& request) const {
+  return TabletopSession<>(request, *this).run_to_end();
+}
+
+}  // namespace vantage

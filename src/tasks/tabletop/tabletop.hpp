@@ -1,0 +1,50 @@
+/// The task `tabletop`: probabilistic next best view on what stands on a table.  [Potthast2016,
+/// chapter 3]
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string_view>
+
+#include "vantage/perception/table_extraction.hpp"
+#include "vantage/planners/views/view_candidates.hpp"
+#include "vantage/runtime/episode_run.hpp"
+#include "vantage/runtime/measure.hpp"
+#include "vantage/runtime/task_answers.hpp"
+#include "vantage/sim/world/scene.hpp"
+#include "vantage/tasks/mapping/mapping_options.hpp"
+
+namespace vantage {
+
+struct Tabletop : MappingOptions {
+  static constexpr std::string_view name = "tabletop";
+
+  LaserOptions laser;
+  TableOptions table;
+  ObjectCropOptions objects;
+  RingOfViews candidates;
+  void fields(auto&& f) {
+    MappingOptions::fields(f);
+    f("laser", laser);
+    f("table", table);
+    f("objects", objects);
+    f("candidates", candidates);
+  }
+  /// What concerns the task and the rest of the episode. @throws ConfigError
+  void check_with(const EpisodeOptions& episode) const;
+
+  void find_files(const std::filesystem::path&) {}
+  [[nodiscard]] std::vector<InputFile> inputs() const { return {}; }
+  [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
+  [[nodiscard]] TaskExtent extent(const EpisodeSetup& setup) const;
+  [[nodiscard]] WindowContent window() const;
+  [[nodiscard]] static ReportSections report();
+  [[nodiscard]] static std::string_view metrics_task() { return "next_best_view"; }
+  [[nodiscard]] static Measures measures();
+  [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
+  /// @throws ConfigError or InputError if the episode cannot begin.
+  void require_start(const EpisodeSetup& setup) const;
+  RunOutcome run(const RunRequest& request) const;
+};
+
+}  // namespace vantage

@@ -1,0 +1,69 @@
+#include "vantage/tasks/tabletop/tabletop_parts.hpp"
+
+#include <cmath>
+
+namespace vantage {
+
+std::vector<Candidate> tabletop_views(const Tabletop& task) {
+  return ring_of_views(task.candidates, task.map.centre());
+}
+
+TabletopParts::TabletopParts(const MappingContext& context, const Tabletop& task,
+                             TabletopRobotInterface& robot, TabletopBelief& belief)
+    : MappingParts(
+          context, task, belief, recorded_predictors(task, cell_predictors()),
+          Navigator(task.floor_map, task.navigation, robot, ReferenceMap(task.registration))),
+      task_(task),
+      tabletop_robot_(robot),
+      belief_(belief) {
+  views_ = tabletop_views(task_);
+  const Eigen::AlignedBox3d region = belief_.grid().frame.box();
+  block_box(navigator_.floor(), {region.min().head<2>(), region.max().head<2>()});
+}
+
+TabletopObservation TabletopParts::observe() {
+  if (scans_.empty()) look_round_at_start();
+  return observed([this] { return tabletop_robot_.observe(); });
+}
+
+void TabletopParts::update(const TabletopObservation& observation) {
+  const Before before = before_update();
+  const BeliefUpdate update = belief_.update(observation, navigator_.reference_map());
+  correct_pose(update);
+  block_table();
+  navigator_.remember(observation.base_scan, update.T_world_base);
+  measure(before, update, to_se3(update.T_world_base) * observation.T_base_laser);
+}
+
+bool TabletopParts::finished() const { return static_cast<int>(scans_.size()) >= task_.scans; }
+
+std::vector<Candidate> TabletopParts::propose() {
+  start_decision();
+  std::vector<Candidate> candidates = views_;
+  const PathField paths = navigator_.plan();
+  for (Candidate& candidate : candidates) {
+    candidate.path_length_m =
+        path_length_m(paths, robot_.base_for_sensor(candidate.T_world_sensor));
+    candidate.reachable = std::isfinite(candidate.path_length_m);
+  }
+  return candidates;
+}
+
+void TabletopParts::act(const Candidate& candidate) {
+  current_.chosen_view = candidate.id;
+  predict(candidate.T_world_sensor);
+  current_.fallback = !approach(candidate, Eigen::Vector2d(task_.map.centre().head<2>())).reached;
+  if (!current_.fallback) return;
+  warn_out_of_reach(candidate);
+  views_[static_cast<std::size_t>(candidate.id)].exhausted = true;
+  predict(robot_.estimated_sensor());  // of the place the scan will be taken from
+}
+
+/// The table's edge, as far as it was seen, is above the planar scanner's sight.
+void TabletopParts::block_table() {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& corner : belief_.table().hull) box.extend(corner);
+  block_box(navigator_.floor(), box);
+}
+
+}  // namespace vantage

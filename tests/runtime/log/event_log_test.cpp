@@ -1,0 +1,140 @@
+#include "vantage/runtime/log/event_log.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+GridFrame small_frame() { return make_grid_frame({0.5, 0.5, 0.5}, {1, 1, 1}, {7, 5, 3}); }
+
+OccupancyGrid grid_of(const std::vector<float>& log_odds) {
+  OccupancyGrid grid(small_frame());
+  grid.log_odds = log_odds;
+  return grid;
+}
+
+OccupancyGrid any_grid() {
+  return grid_of(*rc::gen::container<std::vector<float>>(
+      small_frame().size(), rc::gen::element(-2.0F, -0.1F, 0.0F, 0.3F, 2.0F)));
+}
+
+std::vector<EpisodeEvent> sample_event_log() {
+  Decision decision;
+  for (int id = 0; id < 3; ++id) {
+    Candidate view;
+    view.id = id;
+    view.T_world_sensor = make_pose({0.1 * id, 1.0 / 3.0, 1.2}, 0.7 * id, 0.1);
+    view.gain_bits = 1000.0 / (id + 1.0);
+    view.reachable = id != 1;
+    decision.candidates.push_back(view);
+  }
+  decision.chosen = 2;
+  return {{40, MapChange{{{0, 7, CellState::free}, {30, 2, CellState::occupied}}}},
+          {40, decision},
+          {40, PlannedRoute{{{0.0, 0.1}, {0.5, -1.0 / 7.0}}}},
+          {95, MapChange{{{30, 1, CellState::free}, {3, 1, CellState::unobserved}}}},
+          {95, MapChange{}}};
+}
+
+RC_GTEST_PROP(EventLogFile, MomentsAreTheMapsTheyWereToldOf, ()) {
+  std::vector<CellState> known;
+  std::vector<EpisodeEvent> events;
+  std::vector<OccupancyGrid> grids{OccupancyGrid(small_frame())};
+  for (std::uint64_t scan = 0; scan < 4; ++scan) {
+    grids.push_back(any_grid());
+    events.push_back({scan, map_change(known, grids.back())});
+  }
+  EventReplay moment(small_frame());
+  for (const std::size_t count : {4U, 1U, 3U, 0U, 2U}) {
+    moment.go_to(events, count);
+    RC_ASSERT(moment.scans() == count);
+    for (std::size_t cell = 0; cell < small_frame().size(); ++cell) {
+      RC_ASSERT(moment.grid().state(cell) == grids[count].state(cell));
+    }
+  }
+}
+
+TEST(EventLogFile, NothingNewIsNoRun) {
+  std::vector<CellState> known;
+  EXPECT_TRUE(map_change(known, OccupancyGrid(small_frame())).runs.empty());
+}
+
+TEST(EventLogFile, IsReadAsItWasWritten) {
+  const support::TemporaryDirectory folder;
+  const auto event_log = sample_event_log();
+  EventLog log(folder.path());
+  for (const EpisodeEvent& event : event_log) log.add(event);
+  EXPECT_FALSE(std::filesystem::exists(folder / "story.bin"));
+  log.commit();
+  const auto read = read_event_log(folder / "story.bin", small_frame().size());
+  ASSERT_EQ(read.size(), event_log.size());
+  for (std::size_t i = 0; i < event_log.size(); ++i) {
+    EXPECT_EQ(read[i].tick, event_log[i].tick);
+    EXPECT_EQ(read[i].what.index(), event_log[i].what.index());
+  }
+  const auto& runs = std::get<MapChange>(read[0].what).runs;
+  ASSERT_EQ(runs.size(), 2U);
+  EXPECT_EQ(runs[1].first, 30U);
+  EXPECT_EQ(runs[1].count, 2U);
+  EXPECT_EQ(runs[1].state, CellState::occupied);
+  const auto& before = std::get<Decision>(event_log[1].what);
+  const auto& after = std::get<Decision>(read[1].what);
+  EXPECT_EQ(after.chosen, 2U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(after.candidates[i].id, before.candidates[i].id);
+    EXPECT_EQ(after.candidates[i].T_world_sensor.matrix(),
+              before.candidates[i].T_world_sensor.matrix());
+    EXPECT_EQ(after.candidates[i].gain_bits, before.candidates[i].gain_bits);
+    EXPECT_EQ(after.candidates[i].reachable, before.candidates[i].reachable);
+  }
+  EXPECT_EQ(std::get<PlannedRoute>(read[2].what).path_m,
+            std::get<PlannedRoute>(event_log[2].what).path_m);
+}
+
+TEST(EventLogFile, EveryDecisionBeginsWithoutAWay) {
+  auto event_log = sample_event_log();
+  event_log.push_back(event_log[1]);
+  EventReplay moment(small_frame());
+  moment.go_to(event_log, 1);
+  EXPECT_FALSE(moment.decision());
+  moment.go_to(event_log, 5);
+  EXPECT_EQ(moment.decision()->chosen, 2U);
+  EXPECT_EQ(moment.path_m().size(), 2U);
+  moment.go_to(event_log, 6);
+  EXPECT_TRUE(moment.path_m().empty());
+}
+
+TEST(EventLogFile, RefusesWhatIsDamaged) {
+  const support::TemporaryDirectory folder;
+  const auto path = folder / "story.bin";
+  const std::size_t cells = small_frame().size();
+  EventLog log(folder.path());
+  for (const EpisodeEvent& event : sample_event_log()) log.add(event);
+  log.commit();
+  const std::string good = read_file(path);
+  EXPECT_THROW(read_event_log(path, 31), InputError) << "cells outside the grid";
+  // Cut inside an event: 24 bytes of head, two runs of 12, then the next head.
+  for (const std::size_t size : {std::size_t{3}, std::size_t{20}, std::size_t{16 + 30},
+                                 std::size_t{16 + 48 + 25}, good.size() - 1}) {
+    write_file(path, good.substr(0, size));
+    EXPECT_THROW(read_event_log(path, cells), InputError) << size;
+  }
+  for (const auto& [at, byte] : {std::pair{16 + 8, '\x05'},
+                                 {16 + 48 + 16, '\x03'},
+                                 {16 + 24 + 8, '\x03'},
+                                 {16, '\x60'},
+                                 {16 + 14, '\x01'}}) {
+    std::string bad = good;
+    bad[static_cast<std::size_t>(at)] = byte;
+    write_file(path, bad);
+    EXPECT_THROW(read_event_log(path, cells), InputError) << at;
+  }
+  EXPECT_THROW(read_event_log(folder / "none.bin", cells), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,104 @@
+#include "vantage/runtime/log/video.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+using support::TemporaryDirectory;
+
+/// A white bar that moves right, 4 px a frame.
+cv::Mat frame(cv::Size size, int index) {
+  cv::Mat image(size, CV_8UC3, cv::Scalar(60, 40, 20));
+  image.colRange(4 * index, 4 * index + 16).setTo(cv::Scalar::all(255));
+  return image;
+}
+
+class Video : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (const std::string missing = missing_video_codec(); !missing.empty()) {
+      GTEST_SKIP() << missing;
+    }
+  }
+  TemporaryDirectory folder;
+};
+
+TEST_F(Video, PlaysBackWhatWasWritten) {
+  const auto path = folder / "video.mp4";
+  VideoWriter writer(path, {320, 180}, 25.0);
+  for (int i = 0; i < 20; ++i) writer.write(frame({320, 180}, i));
+  EXPECT_FALSE(std::filesystem::exists(path));
+  writer.finish();
+  EXPECT_FALSE(std::filesystem::exists(folder / "video.part.mp4"));
+  cv::VideoCapture reader(path.string(), cv::CAP_FFMPEG);
+  EXPECT_EQ(reader.get(cv::CAP_PROP_FRAME_COUNT), 20.0);
+  EXPECT_NEAR(reader.get(cv::CAP_PROP_FPS), 25.0, 0.01);
+  cv::Mat read;
+  for (int i = 0; i <= 10; ++i) ASSERT_TRUE(reader.read(read));
+  EXPECT_GT(read.at<cv::Vec3b>(90, 48)[1], 220);
+  EXPECT_LT(read.at<cv::Vec3b>(90, 100)[1], 80);
+}
+
+TEST_F(Video, IsH264InMp4) {
+  VideoWriter writer(folder / "video.mp4", {64, 64}, 25.0);
+  writer.write(frame({64, 64}, 0));
+  writer.finish();
+  const std::string bytes = read_file(folder / "video.mp4");
+  EXPECT_EQ(bytes.substr(4, 4), "ftyp");
+  EXPECT_NE(bytes.find("avc1"), std::string::npos);
+}
+
+TEST_F(Video, OddEdgesBecomeEven) {
+  VideoWriter writer(folder / "video.mp4", {101, 77}, 25.0);
+  for (int i = 0; i < 3; ++i) writer.write(frame({101, 77}, i));
+  writer.finish();
+  cv::VideoCapture reader((folder / "video.mp4").string(), cv::CAP_FFMPEG);
+  EXPECT_EQ(reader.get(cv::CAP_PROP_FRAME_WIDTH), 102.0);
+  EXPECT_EQ(reader.get(cv::CAP_PROP_FRAME_HEIGHT), 78.0);
+}
+
+TEST_F(Video, LeavesNothingIfItIsNotFinished) {
+  {
+    VideoWriter writer(folder / "video.mp4", {64, 64}, 25.0);
+    writer.write(frame({64, 64}, 0));
+    EXPECT_TRUE(std::filesystem::exists(folder / "video.part.mp4"));
+  }
+  EXPECT_TRUE(folder.is_empty());
+}
+
+TEST_F(Video, WithoutFramesIsAnErrorAndLeavesNothing) {
+  VideoWriter writer(folder / "video.mp4", {64, 64}, 25.0);
+  EXPECT_THROW(writer.finish(), OutputError);
+  EXPECT_TRUE(folder.is_empty());
+}
+
+TEST_F(Video, KeepsAnEarlierFileUntilTheNewOneIsWhole) {
+  write_file(folder / "video.mp4", "earlier");
+  VideoWriter writer(folder / "video.mp4", {64, 64}, 25.0);
+  writer.write(frame({64, 64}, 0));
+  EXPECT_EQ(read_file(folder / "video.mp4"), "earlier");
+  writer.finish();
+  EXPECT_GT(std::filesystem::file_size(folder / "video.mp4"), 100U);
+}
+
+TEST_F(Video, UnusableFolderIsAnOutputError) {
+  EXPECT_THROW(VideoWriter(folder / "missing" / "video.mp4", {64, 64}, 25.0), OutputError);
+}
+
+TEST_F(Video, NothingReachesStderr) {
+  testing::internal::CaptureStderr();
+  {
+    VideoWriter writer(folder / "video.mp4", {64, 64}, 25.0);
+    writer.write(frame({64, 64}, 0));
+    writer.finish();
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,184 @@
+// What every task says of itself, and which keys an episode of it may have.
+#include "vantage/tasks/task.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "vantage/core/yaml.hpp"
+#include "vantage/tasks/episode.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const fs::path kEpisodes = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes";
+
+std::vector<fs::path> shipped_episodes() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(kEpisodes)) files.push_back(entry.path());
+  return files;
+}
+
+std::set<std::string> keys_of(auto options) {
+  ConfigNode node = ConfigNode::make_map();
+  options.fields(FieldWriter(node));
+  std::set<std::string> keys;
+  for (const auto& [key, value] : node.entries) keys.insert(key);
+  return keys;
+}
+
+/// What is said of an episode that is wrong; empty: it is good.
+std::string complaint(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Tasks, HaveTheNamesThatEpisodesAndListingsKnow) {
+  EXPECT_THAT(strategy_names<Task>(), testing::ElementsAre("tabletop", "exploration", "recognition",
+                                                           "change_detection", "trajectory"));
+  for_each_task([](const auto& task) {
+    EXPECT_EQ(strategy_name_of(make_strategy<Task>(task.name)), task.name);
+  });
+}
+
+TEST(Tasks, AShippedEpisodeOfEachResolves) {
+  std::set<std::string_view> resolved;
+  for (const fs::path& file : shipped_episodes()) {
+    const ResolvedEpisode episode = load_episode(file, {});
+    resolved.insert(strategy_name_of(episode.task));
+    EXPECT_TRUE(fs::exists(episode.setup.scene)) << file;
+    EXPECT_GT(extent(episode).count, 0U) << file;
+  }
+  for (const std::string_view name : strategy_names<Task>()) EXPECT_TRUE(resolved.contains(name));
+}
+
+TEST(Tasks, AnEpisodeWithoutTaskIsATableTop) {
+  EXPECT_EQ(strategy_name_of(resolve_episode(parse_yaml("scans: 2", "e.yaml"), "e.yaml").task),
+            "tabletop");
+}
+
+TEST(Tasks, AnUnknownOneNamesThoseThereAre) {
+  EpisodeOptions options;
+  Task task;
+  const std::string said =
+      complaint([&] { read_episode(parse_yaml("task: flying", "e.yaml"), options, task); });
+  EXPECT_THAT(said, testing::AllOf(HasSubstr("e.yaml:1: task"), HasSubstr("'flying'"),
+                                   HasSubstr("tabletop, exploration, recognition, "
+                                             "change_detection, trajectory")));
+}
+
+TEST(Tasks, TheConfigurationBeginsWithTheTaskAndHasItsKeysAlone) {
+  for (const fs::path& file : shipped_episodes()) {
+    const ResolvedEpisode episode = load_episode(file, {});
+    const ConfigNode node = episode_node(episode);
+    ASSERT_FALSE(node.entries.empty());
+    EXPECT_EQ(node.entries.front().first, "task");
+    EXPECT_EQ(node.entries.front().second.scalar, strategy_name_of(episode.task));
+    std::set<std::string> expected = keys_of(EpisodeOptions{});
+    expected.merge(std::visit([](const auto& task) { return keys_of(task); }, episode.task));
+    expected.insert("task");
+    std::set<std::string> written;
+    for (const auto& [key, value] : node.entries) {
+      EXPECT_TRUE(written.insert(key).second) << file << ": " << key << " twice";
+    }
+    EXPECT_EQ(written, expected) << file;
+    EXPECT_EQ(episode_yaml(resolve_episode(parse_yaml(episode_yaml(episode), "again"), file)),
+              episode_yaml(episode))
+        << file;
+  }
+}
+
+TEST(Tasks, HaveKeysThatOthersHaveNot) {
+  const std::vector<std::pair<std::string_view, std::string>> own = {
+      {"tabletop", "candidates"},
+      {"exploration", "frontiers"},
+      {"change_detection", "scenario"},
+      {"trajectory", "horizon"}};
+  for (const auto& [owner, key] : own) {
+    for_each_task([&](const auto& task) {
+      EXPECT_EQ(keys_of(task).contains(key), task.name == owner) << task.name << " " << key;
+    });
+  }
+}
+
+TEST(Tasks, NoKeyOfATaskIsOneOfEveryEpisode) {
+  for_each_task([](const auto& task) {
+    std::set<std::string> common = keys_of(EpisodeOptions{});
+    common.insert("task");
+    for (const std::string& key : keys_of(task)) {
+      EXPECT_FALSE(common.contains(key)) << task.name << ": " << key;
+    }
+  });
+}
+
+/// The complaint about the key of `of`, set in an episode of the task `in`.
+std::string complaint_of_foreign_key(std::string_view in, const std::string& key,
+                                     const ConfigNode& value) {
+  ConfigNode root = ConfigNode::make_map();
+  root.set("task", ConfigNode::make_scalar(std::string(in)));
+  root.set(key, value);
+  EpisodeOptions options;
+  Task task;
+  return complaint([&] { read_episode(root, options, task); });
+}
+
+TEST(Tasks, AKeyOfAnotherTaskNamesThatTask) {
+  int foreign = 0;
+  for_each_task([&](auto owner) {
+    ConfigNode theirs = ConfigNode::make_map();
+    owner.fields(FieldWriter(theirs));
+    for_each_task([&](const auto& task) {
+      const std::set<std::string> known = keys_of(task);
+      for (const auto& [key, value] : theirs.entries) {
+        if (known.contains(key)) continue;
+        ++foreign;
+        const std::string said = complaint_of_foreign_key(task.name, key, value);
+        EXPECT_THAT(said, HasSubstr("unknown key '" + key + "'")) << task.name;
+        const std::size_t belongs = said.find("it belongs to ");
+        ASSERT_NE(belongs, std::string::npos) << said;
+        EXPECT_THAT(said.substr(belongs), HasSubstr(std::string(owner.name)));
+        EXPECT_THAT(said.substr(belongs), testing::Not(HasSubstr(std::string(task.name))));
+      }
+    });
+  });
+  EXPECT_GT(foreign, 100);
+}
+
+TEST(Tasks, AnOverrideOfAnotherTaskNamesItToo) {
+  const auto said = [](const char* episode, const std::string& assignment) {
+    return complaint([&] { load_episode(kEpisodes / episode, {assignment}); });
+  };
+  EXPECT_THAT(said("office_small.yaml", "candidates.positions=8"),
+              testing::AllOf(HasSubstr("--set"), HasSubstr("candidates"),
+                             testing::EndsWith("it belongs to tabletop")));
+  EXPECT_THAT(said("tabletop.yaml", "frontiers.min_cells=5"),
+              testing::EndsWith("it belongs to exploration"));
+  EXPECT_THAT(said("recognition.yaml", "scenario=pose"),
+              testing::EndsWith("it belongs to change_detection"));
+  EXPECT_THAT(said("trajectory.yaml", "scans=3"),
+              testing::EndsWith("it belongs to tabletop, exploration"));
+  EXPECT_THAT(said("tabletop.yaml", "nonsense=1"), testing::Not(HasSubstr("belongs")));
+}
+
+TEST(Tasks, AnswerWithoutAnEpisodeThatRan) {
+  for_each_task([](const auto& task) {
+    EXPECT_FALSE(task.method_name().empty()) << task.name;
+    EXPECT_FALSE(task.metrics_task().empty()) << task.name;
+    EXPECT_FALSE(task.report().step_word.empty()) << task.name;
+    EXPECT_FALSE(task.window().overview_m.isEmpty()) << task.name;
+    EXPECT_EQ(task.window().map.has_value(), task.report().map) << task.name;
+  });
+}
+
+}  // namespace
+}  // namespace vantage
