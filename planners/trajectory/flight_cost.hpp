@@ -52,7 +52,7 @@ struct FlightCostOptions {
 Pose camera_ahead(double pitch_rad,
                   const Eigen::Vector3d& p_body_camera_m = Eigen::Vector3d::Zero());
 
-/// The camera on the body; axes as in src/geometry/pose.hpp.
+/// The camera on the body; axes as in geometry/pose.hpp.
 struct FlightCamera {
   Pose T_body_camera = camera_ahead(0.0);
   double horizontal_fov_rad = 0.9948376736367679;  ///< 57 deg
