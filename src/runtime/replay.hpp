@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
+
+class World;
 
 struct ReplayResult {
   std::uint64_t ticks = 0;                        ///< compared

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "vantage/core/error.hpp"
+#include "vantage/sim/world/world.hpp"
+
 namespace vantage {
 
 RecordedStates load_states(const std::filesystem::path& run_dir, const World& world) {

@@ -4,9 +4,10 @@
 #include <filesystem>
 
 #include "vantage/runtime/log/state_log.hpp"
-#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
+
+class World;
 
 /// The states in a run folder; at least one.
 /// @throws InputError if they are missing, damaged, or not those of such a world.

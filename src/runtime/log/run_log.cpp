@@ -4,6 +4,9 @@
 
 #include <utility>
 
+#include "vantage/runtime/log/video_recorder.hpp"
+#include "vantage/sim/world/world.hpp"
+
 namespace vantage {
 namespace {
 
@@ -31,7 +34,9 @@ RunLog::RunLog(RecordedRobot robot, const RecordingOptions& options,
       spectator_(std::move(spectator)) {
   trajectory_.write(kTumHeader);
   estimated_.write(kTumHeader);
-  if (with_video) video_recorder_.emplace(robot_.world, options, directory);
+  if (with_video) {
+    video_recorder_ = std::make_unique<VideoRecorder>(robot_.world, options, directory);
+  }
   robot_.world.on_tick = [this](World&) { tick(); };
   if (spectator_.on_tick) spectator_.on_tick(robot_.world);
 }

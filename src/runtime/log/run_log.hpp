@@ -5,15 +5,19 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/runtime/log/recording_options.hpp"
 #include "vantage/runtime/log/spectator.hpp"
 #include "vantage/runtime/log/state_log.hpp"
-#include "vantage/runtime/log/video_recorder.hpp"
-#include "vantage/sim/world/world.hpp"
+#include "vantage/runtime/log/video.hpp"
 
 namespace vantage {
+
+class VideoRecorder;
+class World;
 
 struct RecordedRobot {
   World& world;
@@ -52,7 +56,7 @@ class RunLog {
   StateLog states_;
   GrowingFile trajectory_;
   GrowingFile estimated_;
-  std::optional<VideoRecorder> video_recorder_;
+  std::unique_ptr<VideoRecorder> video_recorder_;  ///< none: no video is wanted
   Spectator spectator_;
   double next_pose_s_ = 0.0;
   double path_length_m_ = 0.0;

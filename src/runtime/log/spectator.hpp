@@ -4,9 +4,10 @@
 #include <functional>
 
 #include "vantage/runtime/log/event_log.hpp"
-#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
+
+class World;
 
 /// Called in the thread of the episode, which waits for them. Either may be empty.
 struct Spectator {

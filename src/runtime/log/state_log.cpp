@@ -10,6 +10,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 namespace {

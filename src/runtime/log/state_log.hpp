@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
+
+class World;
 
 std::vector<std::string> actuator_names(const World& world);
 

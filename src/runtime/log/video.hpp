@@ -5,9 +5,13 @@
 #include <opencv2/videoio.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace vantage {
+
+/// Draws what the robot knows: CV_8UC3, BGR, of that size.
+using PanelPainter = std::function<cv::Mat(cv::Size)>;
 
 /// Encodes frames into an .mp4 that any browser plays. The file appears under its name only after
 /// finish(); destroyed without it (an error on the way), the writer removes what it wrote.

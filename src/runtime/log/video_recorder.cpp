@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 namespace {

@@ -4,18 +4,15 @@
 #include <opencv2/core.hpp>
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 
 #include "vantage/runtime/log/recording_options.hpp"
 #include "vantage/runtime/log/video.hpp"
 #include "vantage/sim/render/renderer.hpp"
-#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 
-/// Draws what the robot knows: CV_8UC3, BGR, of that size.
-using PanelPainter = std::function<cv::Mat(cv::Size)>;
+class World;
 
 /// `left_rgb` (as renderers give it) scaled to the panel's size, beside `right_bgr`.
 /// @return CV_8UC3, BGR, as cv::imwrite and VideoWriter take it
