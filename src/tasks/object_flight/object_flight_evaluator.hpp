@@ -22,7 +22,6 @@ class ObjectFlightEvaluator {
   /// @param object the most probable one
   /// @param state that is estimated
   void measure(const ObjectStates& states, int object, int state, ObservationRecord& record) const;
-  [[nodiscard]] const ObjectOnTable& truth() const { return truth_; }  ///< for metrics
 
  private:
   const SimulatedOrbitRobot& robot_;
