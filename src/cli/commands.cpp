@@ -24,6 +24,7 @@
 #include "vantage/runtime/json.hpp"
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/runtime/replay.hpp"
+#include "vantage/sim/world/world.hpp"
 #include "vantage/study/study.hpp"
 #include "vantage/study/study_page.hpp"
 #include "vantage/tasks/run.hpp"

@@ -5,6 +5,7 @@
 
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/runtime/replay.hpp"
+#include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/episode.hpp"
 
 namespace vantage::support {
