@@ -26,14 +26,6 @@ double half_corner_tan(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return std::tan(std::min(angle, 2.8) / 2.0);
 }
 
-/// Fastest approach to a stop `left` away: braking evenly, then proportionally, without a kink.
-double approach(double left, double acceleration, double gain_per_s) {
-  const double braking = kBrakingShare * acceleration;
-  const double proportional = braking / (gain_per_s * gain_per_s);
-  return left < proportional ? gain_per_s * left
-                             : std::sqrt(2.0 * braking * (left - proportional / 2.0));
-}
-
 Eigen::Vector2d step_towards(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double most) {
   const Eigen::Vector2d change = to - from;
   const double size = change.norm();
@@ -50,7 +42,7 @@ Eigen::Vector2d wanted_velocity(const DrivePath& path, const Eigen::Vector2d& p_
   const bool at_end = arc_m + options.lookahead_m >= path.length_m();
   const double speed_m_s =
       at_end ? std::min(options.speed_m_s,
-                        approach(carrot_m, options.acceleration_m_s2, options.gain_per_s))
+                        approach_speed(carrot_m, options.acceleration_m_s2, options.gain_per_s))
              : path.speed_limit(arc_m, options);
   return to_carrot * (speed_m_s / carrot_m);
 }
@@ -63,6 +55,13 @@ Twist2 to_base_frame(const PathFollowing& following, double yaw_rad) {
 }
 
 }  // namespace
+
+double approach_speed(double left, double acceleration, double gain_per_s) {
+  const double braking = kBrakingShare * acceleration;
+  const double proportional = braking / (gain_per_s * gain_per_s);
+  return left < proportional ? gain_per_s * left
+                             : std::sqrt(2.0 * braking * (left - proportional / 2.0));
+}
 
 DrivePath::DrivePath(const Pose2& T_world_base, std::span<const Pose2> waypoints)
     : start_yaw_rad_(T_world_base.yaw_rad),
@@ -118,10 +117,18 @@ double DrivePath::project(const Eigen::Vector2d& p_m, double from_m, double to_m
   return best_arc_m;
 }
 
+double DrivePath::next_corner(double arc_m, double turn_rad) const {
+  const double half_tan = std::tan(turn_rad / 2.0);
+  for (std::size_t i = 1; i + 1 < points_m_.size(); ++i) {
+    if (arc_m_[i] >= arc_m && half_corner_tan_[i] > half_tan) return arc_m_[i];
+  }
+  return length_m();
+}
+
 double DrivePath::speed_limit(double arc_m, const BaseControllerOptions& options) const {
   double limit_m_s =
       std::min(options.speed_m_s,
-               approach(length_m() - arc_m, options.acceleration_m_s2, options.gain_per_s));
+               approach_speed(length_m() - arc_m, options.acceleration_m_s2, options.gain_per_s));
   for (std::size_t i = 1; i + 1 < points_m_.size(); ++i) {
     if (arc_m_[i] < arc_m || half_corner_tan_[i] < 1e-3) continue;
     // A curve that cuts the corner `lookahead` before it has the radius lookahead / tan(angle / 2).
@@ -146,11 +153,11 @@ Twist2 follow_path(const DrivePath& path, const Pose2& T_world_base, double peri
       step_towards(following.v_world_m_s, v, options.acceleration_m_s2 * period_s);
 
   const double yaw_error_rad = wrap_angle(path.yaw(carrot_arc_m) - T_world_base.yaw_rad);
-  const double wz_rad_s = std::copysign(
-      std::min(
-          options.turn_rate_rad_s,
-          approach(std::abs(yaw_error_rad), options.turn_acceleration_rad_s2, options.gain_per_s)),
-      yaw_error_rad);
+  const double wz_rad_s =
+      std::copysign(std::min(options.turn_rate_rad_s,
+                             approach_speed(std::abs(yaw_error_rad),
+                                            options.turn_acceleration_rad_s2, options.gain_per_s)),
+                    yaw_error_rad);
   const double max_rad_s = options.turn_acceleration_rad_s2 * period_s;
   following.wz_rad_s += std::clamp(wz_rad_s - following.wz_rad_s, -max_rad_s, max_rad_s);
   return to_base_frame(following, T_world_base.yaw_rad);

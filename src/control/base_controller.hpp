@@ -42,6 +42,9 @@ class DrivePath {
   [[nodiscard]] double yaw(double arc_m) const;
   /// Arc length of the path's point nearest `p_m`, searched between two arc lengths.
   [[nodiscard]] double project(const Eigen::Vector2d& p_m, double from_m, double to_m) const;
+  /// Arc length of the first corner at or after `arc_m` that turns by more than `turn_rad`; the
+  /// path's length if there is none.
+  [[nodiscard]] double next_corner(double arc_m, double turn_rad) const;
   /// The highest speed at `arc_m` from which corners ahead, and the end, can still be met.
   [[nodiscard]] double speed_limit(double arc_m, const BaseControllerOptions& options) const;
 
@@ -53,6 +56,10 @@ class DrivePath {
   double turn_rad_ = 0.0;
   Pose2 goal_;
 };
+
+/// Fastest approach to a stop `left` away (m or rad): braking evenly, then proportionally, without
+/// a kink. A part of the acceleration is kept back for the lag of the drive.
+double approach_speed(double left, double acceleration, double gain_per_s);
 
 /// What the controller remembers between ticks.
 struct PathFollowing {
