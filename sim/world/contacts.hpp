@@ -10,11 +10,14 @@
 namespace vantage {
 
 /// Geoms of other things that the tree of bodies under `root_body` touches, ascending, each once;
-/// as `data`'s last collision detection left them.
-std::vector<int> touched_geoms(const mjModel& model, const mjData& data, int root_body);
+/// as `data`'s last collision detection left them. Where a geom of `on_floor` (wheels, casters)
+/// stands on something, within 30 degrees of level, it does not count.
+std::vector<int> touched_geoms(const mjModel& model, const mjData& data, int root_body,
+                               std::span<const int> on_floor = {});
 
 /// The same with a geom for each contact point, in no order.
-std::vector<int> contact_points(const mjModel& model, const mjData& data, int root_body);
+std::vector<int> contact_points(const mjModel& model, const mjData& data, int root_body,
+                                std::span<const int> on_floor = {});
 
 /// Counts collisions by their onset: touching a geom again within `release_s` is the same one.
 class CollisionCounter {
