@@ -136,6 +136,17 @@ void check_no_robot_names(const mjModel& model, const std::string& file) {
   }
 }
 
+void check_no_files(std::string_view mjcf, const std::string& file) {
+  constexpr std::string_view attribute = " file=\"";
+  const std::size_t at = mjcf.find(attribute);
+  if (at == std::string_view::npos) return;
+  const std::string_view rest = mjcf.substr(at + attribute.size());
+  throw InputError(
+      fmt::format("{}: refers to '{}'; a robot is one MJCF file of primitives, without meshes, "
+                  "textures and includes",
+                  file, rest.substr(0, rest.find('"'))));
+}
+
 void check_same_scene(const mjModel& scene, const mjModel& both, const std::string& file) {
   const std::vector<ModelArray> alone = scene_arrays(scene);
   const std::vector<ModelArray> together = scene_arrays(both);

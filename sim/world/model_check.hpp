@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 struct mjModel_;
 using mjModel = mjModel_;
@@ -14,6 +15,10 @@ void check_model(const mjModel& model, const std::string& file);
 
 /// @throws InputError, starting with `file`, if an object of the model is called `robot/...`.
 void check_no_robot_names(const mjModel& model, const std::string& file);
+
+/// @throws InputError, starting with `file`, if a robot's MJCF refers to another file: beside a
+/// scene it would be looked for in the scene's folder.
+void check_no_files(std::string_view mjcf, const std::string& file);
 
 /// Makes sure that a scene means the same beside a robot as alone: `both` must begin with the
 /// bodies, joints and geoms of `scene`, unchanged but for rounding.

@@ -179,6 +179,7 @@ LoadedModel load_model(const ModelSource& source) {
   const std::string scene_text = canonical_text(*loaded.model);
   std::vector<std::string> repeated;  // what compiling each for itself has already said
   const ModelPtr robot = compile_file(source.robot, {}, loaded.warnings);
+  check_no_files(read_file(source.robot), source.robot.string());
   loaded.model = compile_both(source, scene_text, *loaded.model, *robot, repeated);
   return loaded;
 }

@@ -157,6 +157,16 @@ struct RobotFigures {
   }
 };
 
+TEST(Scene, ARobotThatRefersToFilesIsAnError) {
+  const SceneFolder folder(test::scene_mjcf(""));
+  folder.add("part.xml", "<mujoco><option/></mujoco>");
+  folder.add("robot.xml",
+             "<mujoco><include file=\"part.xml\"/><worldbody><body name='robot/base'>"
+             "<geom size='.1'/></body></worldbody></mujoco>");
+  EXPECT_THAT(complaint(ModelSource{folder.path(), folder.path().parent_path() / "robot.xml"}),
+              AllOf(HasSubstr("robot.xml: refers to 'part.xml'"), HasSubstr("primitives")));
+}
+
 TEST(Scene, TheRobotIsTheSameInAnyScene) {
   const LoadedModel pr2 = load_model({test::pr2_file(), {}});
   const LoadedModel plain = load_model(SceneFolder(test::scene_mjcf("")).with_pr2());
