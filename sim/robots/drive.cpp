@@ -1,25 +1,36 @@
 #include "vantage/sim/robots/drive.hpp"
 
 #include <cmath>
-#include <optional>
+#include <variant>
+
+#include "vantage/control/differential_controller.hpp"
 
 namespace vantage {
 namespace {
 
-/// Distance of the footprint's corners from its centre: makes one speed of turning and moving.
-constexpr double kCornerRadius_m = 0.47;
 constexpr double kPushing_m_s = 0.1;
 constexpr double kMoving_m_s = 0.02;
 constexpr double kLongestBraking_s = 3.0;
 constexpr double kGrace_s = 10.0;
 
-double corner_speed(const Twist2& twist) {
-  return std::hypot(twist.vx_m_s, twist.vy_m_s) + kCornerRadius_m * std::abs(twist.wz_rad_s);
+using Following = std::variant<PathFollowing, DifferentialFollowing>;
+
+/// What the controller of that drive remembers at `arc_m` of the path, at rest.
+Following following_of(const MobileBase& robot, const DriveOptions& options, double arc_m) {
+  // Well within the tolerance, so that the turn at the end does not leave it.
+  constexpr double kArrivalShare = 0.3;
+  if (robot.is_holonomic()) return PathFollowing{.arc_m = arc_m};
+  return DifferentialFollowing{.arc_m = arc_m,
+                               .arrival_m = kArrivalShare * options.goal_tolerance_m};
+}
+
+double arc_m(const Following& following) {
+  return std::visit([](const auto& f) { return f.arc_m; }, following);
 }
 
 class Driver {
  public:
-  Driver(World& world, const Pr2& robot, Odometry& odometry, const DriveOptions& options)
+  Driver(World& world, const MobileBase& robot, Odometry& odometry, const DriveOptions& options)
       : world_(world), robot_(robot), odometry_(odometry), options_(options) {}
 
   DriveResult run(const DrivePath& path, const KeepDriving& keep_driving) {
@@ -43,12 +54,15 @@ class Driver {
   }
 
   DriveStatus follow(const DrivePath& path, double deadline_s, const KeepDriving& keep_driving) {
-    PathFollowing following;
+    Following following = following_of(robot_, options_, 0.0);
     double pushing_s = 0.0;
     while (world_.time_s() < deadline_s) {
-      const Twist2 command =
-          follow_path(path, odometry_.estimate(), world_.options().control_period_s,
-                      options_.controller, following);
+      const Twist2 command = std::visit(
+          [&](auto& f) {
+            return follow_path(path, odometry_.estimate(), world_.options().control_period_s,
+                               options_.controller, f);
+          },
+          following);
       tick(command);
       if (keep_driving && !keep_driving(world_, odometry_.estimate())) return DriveStatus::stopped;
       pushing_s = is_pushing(command) ? pushing_s + world_.options().control_period_s : 0.0;
@@ -56,7 +70,7 @@ class Driver {
       if (!is_at(path.goal(), 0.5)) continue;
       brake();
       if (is_at(path.goal(), 1.0) && is_at_rest()) return DriveStatus::arrived;
-      following = {.arc_m = following.arc_m};
+      following = following_of(robot_, options_, arc_m(following));
     }
     return DriveStatus::timeout;
   }
@@ -66,6 +80,12 @@ class Driver {
     const Pose2 error = compose(inverse(odometry_.estimate()), goal);
     return std::hypot(error.x_m, error.y_m) < share * options_.goal_tolerance_m &&
            std::abs(error.yaw_rad) < share * options_.goal_tolerance_rad;
+  }
+
+  /// Makes one speed of turning and moving: that of the footprint's corners.
+  [[nodiscard]] double corner_speed(const Twist2& twist) const {
+    return std::hypot(twist.vx_m_s, twist.vy_m_s) +
+           robot_.footprint().circumscribed_radius_m * std::abs(twist.wz_rad_s);
   }
 
   [[nodiscard]] bool is_pushing(const Twist2& command) const {
@@ -94,7 +114,7 @@ class Driver {
   }
 
   World& world_;
-  const Pr2& robot_;
+  const MobileBase& robot_;
   Odometry& odometry_;
   const DriveOptions& options_;
   DriveResult result_;
@@ -112,14 +132,15 @@ std::string_view to_string(DriveStatus status) {
   return "unknown";
 }
 
-DriveResult drive(World& world, const Pr2& robot, Odometry& odometry, std::span<const Pose2> path,
-                  const DriveOptions& options, const KeepDriving& keep_driving) {
+DriveResult drive(World& world, const MobileBase& robot, Odometry& odometry,
+                  std::span<const Pose2> path, const DriveOptions& options,
+                  const KeepDriving& keep_driving) {
   check_options(options, "drive");
   return Driver(world, robot, odometry, options)
       .run(DrivePath(odometry.estimate(), path), keep_driving);
 }
 
-void hold_still(World& world, const Pr2& robot, Odometry& odometry, double duration_s) {
+void hold_still(World& world, const MobileBase& robot, Odometry& odometry, double duration_s) {
   const DriveOptions options;
   Driver(world, robot, odometry, options).stand_until(world.time_s() + duration_s);
 }

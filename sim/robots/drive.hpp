@@ -5,8 +5,8 @@
 #include <span>
 
 #include "vantage/control/drive_options.hpp"
+#include "vantage/sim/robots/mobile_base.hpp"
 #include "vantage/sim/robots/odometry.hpp"
-#include "vantage/sim/robots/pr2.hpp"
 
 namespace vantage {
 
@@ -17,10 +17,11 @@ using KeepDriving = std::function<bool(World&, const Pose2& T_world_base_estimat
 /// headings only the last one counts) and comes to rest, whatever the outcome. Ticks the world and
 /// the odometry, at most for a time that follows from the path's length.
 /// @throws DivergedError from the world.
-DriveResult drive(World& world, const Pr2& robot, Odometry& odometry, std::span<const Pose2> path,
-                  const DriveOptions& options = {}, const KeepDriving& keep_driving = {});
+DriveResult drive(World& world, const MobileBase& robot, Odometry& odometry,
+                  std::span<const Pose2> path, const DriveOptions& options = {},
+                  const KeepDriving& keep_driving = {});
 
-/// Simulates `duration_s` with the base at rest, e.g. for the torso to move.
-void hold_still(World& world, const Pr2& robot, Odometry& odometry, double duration_s);
+/// Simulates `duration_s` with the base at rest, e.g. for the lift to move.
+void hold_still(World& world, const MobileBase& robot, Odometry& odometry, double duration_s);
 
 }  // namespace vantage

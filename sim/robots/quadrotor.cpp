@@ -1,5 +1,6 @@
 #include "vantage/sim/robots/quadrotor.hpp"
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
@@ -10,9 +11,6 @@
 
 namespace vantage {
 namespace {
-
-constexpr auto kFreeJoint = "robot/base";
-constexpr auto kTiltJoint = "robot/camera_tilt";
 
 Eigen::Vector3d vector_at(const mjtNum* numbers, int index) {
   return Eigen::Map<const Eigen::Vector3d>(numbers + 3 * index);
@@ -62,47 +60,122 @@ double downward_gravity(const mjModel& model) {
   return -gravity.z();
 }
 
+/// Axes of a camera of MuJoCo's, looking along -z, that looks along x.
+Eigen::Matrix3d level_camera() {
+  Eigen::Matrix3d R;
+  R << 0.0, 0.0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
+  return R;
+}
+
+/// Where the state of an actuator is. Those without one come first.
+int activation_of(const RobotNames& names, const mjModel& model, std::string_view key,
+                  int actuator) {
+  const int activation = actuator - (model.nu - model.na);
+  if (model.actuator_dyntype[actuator] == mjDYN_NONE || activation < 0) {
+    names.fail(key, fmt::format("actuator '{}' must have a lag: dyntype=\"filter\"",
+                                model_name(model, ModelObject::actuator, actuator)));
+  }
+  return activation;
+}
+
+/// Force along z of one newton for one newton commanded, and a torque about it.
+bool is_thrust(const mjtNum* gear) {
+  return gear[0] == 0.0 && gear[1] == 0.0 && gear[2] == 1.0 && gear[3] == 0.0 && gear[4] == 0.0;
+}
+
+/// Four thrusts must give any small torque beside the weight.
+void require_flight(const RobotNames& names, const Airframe& airframe) {
+  const Eigen::FullPivLU<Eigen::Matrix4d> mixing(mixing_matrix(airframe));
+  if (!mixing.isInvertible() || !(mixing.inverse().col(0).array() > 0.0).all()) {
+    names.fail("rotors",
+               "the four thrusts do not give force and torque about each axis alone: the centre of "
+               "mass must lie amid the rotors, two of which turn each way");
+  }
+  if (kRotors * airframe.thrust_max_N <= airframe.weight_N()) {
+    names.fail("rotors", fmt::format("four times {:.3g} N do not carry {:.3g} kg",
+                                     airframe.thrust_max_N, airframe.mass_kg));
+  }
+}
+
 }  // namespace
 
-Quadrotor::Quadrotor(const mjModel& model)
-    : base_body_(model_id(model, ModelObject::body, "robot/base")),
-      camera_(model_id(model, ModelObject::camera, "robot/camera")),
-      tilt_actuator_(model_id(model, ModelObject::actuator, kTiltJoint)),
-      tilt_max_rad_(model.actuator_ctrlrange[2 * tilt_actuator_ + 1]) {
-  const int joint = model_id(model, ModelObject::joint, kFreeJoint);
+Quadrotor::Quadrotor(const mjModel& model, const QuadrotorDescription& description,
+                     const std::string& where)
+    : free_joint_(description.free_joint),
+      tilt_joint_(description.camera_tilt),
+      base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
+      rotor_radius_m_(description.rotor_radius_m) {
+  const RobotNames names(model, where);
+  const int joint = names.free_joint("free_joint", free_joint_, base_body_);
   qpos_ = model.jnt_qposadr[joint];
   dof_ = model.jnt_dofadr[joint];
-  tilt_qpos_ = model.jnt_qposadr[model_id(model, ModelObject::joint, kTiltJoint)];
-  p_body_tilt_axis_m_ = vector_at(model.body_pos, model.cam_bodyid[camera_]);
-  p_mount_camera_m_ = vector_at(model.cam_pos, camera_);
-
-  // Actuators without a state come first.
-  const auto activation = [&](int actuator) { return actuator - (model.nu - model.na); };
-  tilt_activation_ = activation(tilt_actuator_);
+  find_camera(names, model, description);
   airframe_.gravity_m_s2 = downward_gravity(model);
   add_bodies(model, base_body_, airframe_);
-  for (int i = 0; i < kRotors; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const std::string name = fmt::format("robot/rotor_{}", i);
-    const int actuator = model_id(model, ModelObject::actuator, name);
-    const int site = model_id(model, ModelObject::site, name);
-    actuators_[at] = actuator;
-    activations_[at] = activation(actuator);
-    airframe_.rotors[at] = {.p_body_m = vector_at(model.site_pos, site),
-                            .torque_per_thrust_m = model.actuator_gear[6 * actuator + 5]};
+  find_rotors(names, model, description);
+}
+
+void Quadrotor::find_camera(const RobotNames& names, const mjModel& model,
+                            const QuadrotorDescription& description) {
+  constexpr std::string_view key = "camera";
+  camera_ = names.find(ModelObject::camera, key, description.camera);
+  const int mount = model.cam_bodyid[camera_];
+  if (model.body_parentid[mount] != base_body_) {
+    names.fail(key, "it must be on a body of its own, a child of the base");
+  }
+  const Eigen::Isometry3d T_base_mount = names.pose_in(base_body_, mount, key);
+  const Eigen::Isometry3d T_mount_camera = camera_in_body(model, camera_);
+  if (!(T_base_mount * T_mount_camera).linear().isApprox(level_camera(), 1e-3)) {
+    names.fail(key, "it must look along the base's x at tilt 0: xyaxes=\"0 -1 0 0 0 1\"");
+  }
+  tilt_ = names.driven("camera_tilt", tilt_joint_);
+  names.require_axis("camera_tilt", tilt_.joint, base_body_, Eigen::Vector3d::UnitY());
+  if (model.jnt_bodyid[tilt_.joint] != mount) names.fail("camera_tilt", "it must tilt the camera");
+  tilt_activation_ = activation_of(names, model, "camera_tilt", tilt_.actuator);
+  p_body_tilt_axis_m_ = T_base_mount.translation();
+  p_mount_camera_m_ = T_base_mount.linear() * T_mount_camera.translation();
+}
+
+void Quadrotor::find_rotors(const RobotNames& names, const mjModel& model,
+                            const QuadrotorDescription& description) {
+  constexpr std::string_view key = "rotors";
+  expects(description.rotors.size() == kRotors, "a checked description");
+  for (std::size_t i = 0; i < kRotors; ++i) {
+    const int actuator = names.find(ModelObject::actuator, key, description.rotors[i]);
+    const mjtNum* gear = model.actuator_gear + 6 * actuator;
+    if (model.actuator_trntype[actuator] != mjTRN_SITE || !is_thrust(gear) ||
+        model.actuator_ctrllimited[actuator] == 0) {
+      names.fail(key, fmt::format("actuator '{}' must act at a site, with gear=\"0 0 1 0 0 k\" and "
+                                  "a ctrlrange from 0",
+                                  description.rotors[i]));
+    }
+    actuators_[i] = actuator;
+    activations_[i] = activation_of(names, model, key, actuator);
+    const int site = model.actuator_trnid[2 * actuator];
+    const Eigen::Isometry3d T_base_rotor =
+        names.pose_in(base_body_, model.site_bodyid[site], key) * site_in_body(model, site);
+    if (T_base_rotor.linear().col(2).z() < 0.999) {
+      names.fail(key, fmt::format("the site of actuator '{}' must have its z axis up",
+                                  description.rotors[i]));
+    }
+    airframe_.rotors[i] = {.p_body_m = T_base_rotor.translation(), .torque_per_thrust_m = gear[5]};
     airframe_.thrust_max_N = model.actuator_ctrlrange[2 * actuator + 1];
   }
-  const int swept = mj_name2id(&model, mjOBJ_GEOM, "robot/swept_0");
-  expects(swept >= 0, "a rotor of the model sweeps a volume");
-  rotor_radius_m_ = model.geom_size[3 * swept];
+  require_flight(names, airframe_);
 }
 
 void Quadrotor::place(World& world, const Pose& T_world_body, double camera_pitch_rad) const {
-  world.set_initial_pose(kFreeJoint, T_world_body);
+  if (camera_pitch_rad > tilt_.max) {
+    throw ConfigError(
+        fmt::format("the camera shall look {:.4g} rad down, beyond the {:.4g} rad of "
+                    "joint '{}'",
+                    camera_pitch_rad, tilt_.max, tilt_joint_));
+  }
+  world.set_initial_pose(free_joint_, T_world_body);
   command_camera_pitch(world, camera_pitch_rad);
-  const double pitch_rad = world.data().ctrl[tilt_actuator_];
+  const double pitch_rad = world.data().ctrl[tilt_.actuator];
   world.data().act[tilt_activation_] = pitch_rad;
-  world.set_initial_joint(kTiltJoint, pitch_rad);
+  world.set_initial_joint(tilt_joint_, pitch_rad);
   const Eigen::Vector4d hover_N =
       allocate(airframe_, {.collective_N = airframe_.weight_N()}).thrust_N;
   command_thrusts(world, hover_N);
@@ -121,7 +194,7 @@ void Quadrotor::command_thrusts(World& world, const Eigen::Vector4d& thrust_N) c
 
 void Quadrotor::command_camera_pitch(World& world, double pitch_rad) const {
   expects(std::isfinite(pitch_rad), "a command is a finite number");
-  world.data().ctrl[tilt_actuator_] = std::clamp(pitch_rad, 0.0, tilt_max_rad_);
+  world.data().ctrl[tilt_.actuator] = std::clamp(pitch_rad, 0.0, tilt_.max);
 }
 
 FlightState Quadrotor::state(const World& world) const {
@@ -144,7 +217,7 @@ Eigen::Vector4d Quadrotor::thrusts_N(const World& world) const {
 }
 
 double Quadrotor::camera_pitch_rad(const World& world) const {
-  return world.data().qpos[tilt_qpos_];
+  return world.data().qpos[tilt_.qpos];
 }
 
 Pose Quadrotor::T_body_camera(double pitch_rad) const {

@@ -1,10 +1,13 @@
-/// The quadrotor of models/robots/quadrotor: thrusts in, state and frames out.
+/// A quadrotor, as its robot.yaml describes it: thrusts in, state and frames out.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "vantage/control/airframe.hpp"
 #include "vantage/control/flight_controller.hpp"
+#include "vantage/sim/robots/robot_description.hpp"
+#include "vantage/sim/robots/robot_names.hpp"
 #include "vantage/sim/world/contacts.hpp"
 #include "vantage/sim/world/world.hpp"
 
@@ -17,16 +20,20 @@ inline constexpr WorldOptions kFlightWorld{.timestep_s = 0.002, .control_period_
 /// alone. Commands hold until the next one and are clipped to what the actuators take.
 class Quadrotor {
  public:
-  /// @throws InputError if the model has no such robot, or gravity does not point down.
-  explicit Quadrotor(const mjModel& model);
+  /// @param where the robot's folder, for messages
+  /// @throws InputError naming key and name if the model lacks what robot.yaml names, or has it
+  /// otherwise than the controller takes it to be; or if gravity does not point down.
+  Quadrotor(const mjModel& model, const QuadrotorDescription& description,
+            const std::string& where);
 
   /// Where it hovers when the episode begins, rotors carrying its weight, camera looking
   /// `camera_pitch_rad` below the horizon of the body. Only before the first tick.
+  /// @throws ConfigError if the camera does not tilt so far.
   void place(World& world, const Pose& T_world_body,
              double camera_pitch_rad = kDefaultCameraPitch_rad) const;
 
   void command_thrusts(World& world, const Eigen::Vector4d& thrust_N) const;
-  /// [0, 60 deg], positive looks down; the servo takes about 0.1 s.
+  /// Positive looks down; clipped to what the servo takes, [0, camera_pitch_max_rad()].
   void command_camera_pitch(World& world, double pitch_rad) const;
 
   /// As compiled: mass, inertia and centre of mass of all its bodies.
@@ -37,6 +44,7 @@ class Quadrotor {
   [[nodiscard]] FlightState state(const World& world) const;
   [[nodiscard]] Eigen::Vector4d thrusts_N(const World& world) const;  ///< with the motors' lag
   [[nodiscard]] double camera_pitch_rad(const World& world) const;
+  [[nodiscard]] double camera_pitch_max_rad() const { return tilt_.max; }
 
   /// Axes of the camera as in sim/camera.hpp.
   [[nodiscard]] Pose T_body_camera(double pitch_rad) const;
@@ -54,14 +62,19 @@ class Quadrotor {
   static constexpr double kDefaultCameraPitch_rad = 0.7853981633974483;  ///< 45 deg
 
  private:
+  void find_rotors(const RobotNames& names, const mjModel& model,
+                   const QuadrotorDescription& description);
+  void find_camera(const RobotNames& names, const mjModel& model,
+                   const QuadrotorDescription& description);
+
+  std::string free_joint_;
+  std::string tilt_joint_;
   int qpos_ = 0;  ///< of the free joint: position, quaternion
   int dof_ = 0;
   int base_body_ = 0;
   int camera_ = 0;
-  int tilt_qpos_ = 0;
-  int tilt_actuator_ = 0;
+  DrivenJoint tilt_;
   int tilt_activation_ = 0;
-  double tilt_max_rad_ = 0.0;
   std::array<int, kRotors> actuators_{};
   std::array<int, kRotors> activations_{};
   Airframe airframe_;

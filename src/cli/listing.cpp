@@ -47,6 +47,12 @@ std::vector<std::string> scenes() {
   return found;
 }
 
+std::vector<std::string> robots() {
+  return sorted_entries("models/robots", [](const fs::directory_entry& e) {
+    return fs::exists(e.path() / "robot.yaml");
+  });
+}
+
 std::vector<std::string> objects() {
   std::vector<std::string> names;
   for (const DatabaseObject& object : object_database()) names.push_back(object.name);
@@ -68,6 +74,7 @@ constexpr auto kTopics = std::to_array<Topic>({
     {"episodes", [] { return yaml_files("assets/episodes"); }},
     {"studies", [] { return yaml_files("assets/studies"); }},
     {"scenes", scenes},
+    {"robots", robots},
     {"objects", objects},
 });
 

@@ -8,12 +8,13 @@
 
 #include "vantage/core/fields.hpp"
 #include "vantage/runtime/log/recording_options.hpp"
+#include "vantage/sim/robots/robot_description.hpp"
 #include "vantage/sim/world/world_options.hpp"
 
 namespace vantage {
 
 struct RobotOptions {
-  std::string model = "models/robots/pr2/pr2.xml";  ///< MJCF of the robot
+  std::string model = "models/robots/pr2";  ///< folder with an MJCF file and robot.yaml
   int start_view = 0;           ///< table top: position on the ring of views where the robot starts
   double start_behind_m = 0.0;  ///< table top: how far behind that position, seen from the table
   std::string start_site;  ///< exploration: site of the scene where it starts; empty: start_pose
@@ -49,7 +50,7 @@ struct EpisodeSetup {
   EpisodeOptions options;
   std::string name;             ///< of the file, without extension
   std::filesystem::path scene;  ///< found
-  std::filesystem::path robot;  ///< found
+  RobotFolder robot;            ///< found and read
 };
 
 }  // namespace vantage

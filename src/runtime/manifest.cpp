@@ -76,7 +76,7 @@ std::vector<fs::path> scene_files(const fs::path& scene) {
 std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
                                                 const std::vector<InputFile>& inputs) {
   std::map<std::string, std::string> hashes;
-  for (const fs::path& root : {setup.scene, setup.robot}) {
+  for (const fs::path& root : {setup.scene, setup.robot.mjcf, setup.robot.description}) {
     for (const fs::path& file : scene_files(root)) {
       hashes[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
     }

@@ -6,6 +6,7 @@
 #include "vantage/core/yaml.hpp"
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/tasks/former_keys.hpp"
+#include "vantage/tasks/robot_defaults.hpp"
 
 namespace vantage {
 namespace {
@@ -69,9 +70,15 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   const ConfigNode* model = robot == nullptr ? nullptr : robot->find("model");
   const auto base = path.parent_path();
   setup.scene = find_input(setup.options.scene, base, key("scene", root.find("scene")));
-  setup.robot = find_input(setup.options.robot.model, base, key("robot.model", model));
+  const auto robot_path = find_input(setup.options.robot.model, base, key("robot.model", model));
+  setup.robot = read_robot(robot_path);
+  require_kind(setup.robot,
+               std::visit([](const auto& task) { return task.robot_kind(); }, resolved.task),
+               key("robot.model", model));
+  read_episode(with_robot_defaults(root, setup.robot, strategy_name_of(resolved.task)),
+               setup.options, resolved.task);
   setup.options.scene = lasting_name(setup.scene);
-  setup.options.robot.model = lasting_name(setup.robot);
+  setup.options.robot.model = lasting_name(robot_path);
   std::visit([&](auto& task) { task.find_files(base); }, resolved.task);
   return resolved;
 }

@@ -29,6 +29,8 @@ concept EpisodeTask = HasFields<T> &&
   /// Its value of `task:` in an episode's file, and what metrics.json calls it.
   { T::name } -> std::convertible_to<std::string_view>;
   { T::metrics_task() } -> std::same_as<std::string_view>;
+  /// The kind of robot that it needs, as robot.yaml calls it.
+  { T::robot_kind() } -> std::same_as<std::string_view>;
   /// The method that an episode tries out, for tables and figures.
   { task.method_name() } -> std::same_as<std::string>;
   /// Throws ConfigError where the task and the rest of the episode do not go together.

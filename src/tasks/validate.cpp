@@ -6,6 +6,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/sim/robots/robot_check.hpp"
 #include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/tabletop/start_check.hpp"
 
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 /// As it will be loaded, beside the robot.
 Validation validate_scene(const fs::path& file) {
   const RobotOptions robot;
-  const World world({file, find_input(robot.model, {}, "robot.model")}, {});
+  const World world({file, read_robot(find_input(robot.model, {}, "robot.model")).mjcf}, {});
   const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
   if (has_table(geometry, Tabletop{})) return {};
   return {{},
@@ -65,6 +66,10 @@ Validation validate_file(const fs::path& file) {
     const std::string type = file.extension().string();
     std::error_code error;
     if (!fs::exists(file, error)) throw InputError(file.string() + ": no such file");
+    if (fs::exists(file / "robot.yaml", error) || file.filename() == "robot.yaml") {
+      check_robot(read_robot(file));
+      return {};
+    }
     if (fs::is_directory(file, error)) {
       throw InputError(file.string() + ": is a directory, expected a file");
     }

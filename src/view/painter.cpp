@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "vantage/sim/robots/robot_names.hpp"
 #include "vantage/sim/sensors/camera.hpp"
 
 namespace vantage {
@@ -80,12 +81,12 @@ FreeCamera follow_of_robot() {
 ViewPainter::ViewPainter(World& world, const ViewScene& scene)
     : world_(world),
       scene_(scene),
-      camera_(model_id(world.model(), ModelObject::camera, "robot/camera")),
-      base_body_(model_id(world.model(), ModelObject::body, "robot/base")),
+      camera_(robot_camera(world.model())),
+      base_body_(robot_base(world.model())),
       known_(scene.content.map.value_or(GridFrame{})) {}
 
 CameraView ViewPainter::camera_for(const ViewControls& controls) const {
-  if (controls.camera == ViewCamera::robot) return FixedCamera{.camera_id = camera_};
+  if (controls.camera == ViewCamera::robot && camera_) return FixedCamera{.camera_id = *camera_};
   if (controls.camera == ViewCamera::overview) return controls.overview;
   FreeCamera camera = controls.follow;
   const Eigen::Vector3d p_m = body_pose(world_, base_body_).translation();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,7 @@ class ViewPainter {
 
   World& world_;
   ViewScene scene_;
-  int camera_;  ///< the robot's
+  std::optional<int> camera_;  ///< the robot's
   int base_body_;
   std::unique_ptr<Renderer> renderer_;
   std::vector<EpisodeEvent> event_log_;

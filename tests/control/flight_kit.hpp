@@ -6,8 +6,12 @@
 
 namespace vantage::test {
 
-inline std::filesystem::path quadrotor_file() {
-  return std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/quadrotor/quadrotor.xml";
+inline std::filesystem::path quadrotor_file(const std::string& name = "quadrotor") {
+  return robot_folder(name).mjcf;
+}
+inline Quadrotor quadrotor(const World& world, const std::string& name = "quadrotor") {
+  const RobotFolder robot = robot_folder(name);
+  return {world.model(), quadrotor_of(robot, "robot"), robot.description.string()};
 }
 
 /// What models/robots/quadrotor is meant to be.
@@ -37,7 +41,7 @@ struct FlightWorld {
                        std::uint64_t seed = 1)
       : folder(scene_mjcf(bodies)),
         world({folder.path(), quadrotor_file()}, kFlightWorld),
-        vehicle(world.model()),
+        vehicle(quadrotor(world)),
         tracking((vehicle.place(world, T_world_body), world), vehicle, options, Rng(seed)) {}
   [[nodiscard]] Eigen::Vector3d position_m() const {
     return vehicle.state(world).T_world_body.translation();

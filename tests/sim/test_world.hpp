@@ -6,14 +6,22 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/sim/robots/pr2.hpp"
+#include "vantage/sim/robots/mobile_base.hpp"
 #include "vantage/sim/world/world.hpp"
 
 namespace vantage::test {
 
-inline std::filesystem::path pr2_file() {
-  return std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/pr2/pr2.xml";
+/// One of the robots that come along.
+inline RobotFolder robot_folder(const std::string& name) {
+  return read_robot(std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots" / name);
 }
+
+inline MobileBase mobile_base(const World& world, const RobotFolder& robot) {
+  return {world.model(), mobile_base_of(robot, "robot"), robot.description.string()};
+}
+
+inline std::filesystem::path pr2_file() { return robot_folder("pr2").mjcf; }
+inline MobileBase pr2(const World& world) { return mobile_base(world, robot_folder("pr2")); }
 
 /// A folder with a scene of its own.
 class SceneFolder {
@@ -40,7 +48,7 @@ inline std::string scene_mjcf(const std::string& bodies) {
 struct RobotWorld {
   explicit RobotWorld(const std::string& bodies = "", const Pose2& T_world_base = {},
                       double torso_m = 0.0)
-      : folder(scene_mjcf(bodies)), world(folder.with_pr2()), robot(world.model()) {
+      : folder(scene_mjcf(bodies)), world(folder.with_pr2()), robot(pr2(world)) {
     robot.place(world, T_world_base, torso_m);
   }
   void run(double duration_s) {
@@ -49,7 +57,25 @@ struct RobotWorld {
   }
   SceneFolder folder;
   World world;
-  Pr2 robot;
+  MobileBase robot;
+};
+
+/// A small differential-drive robot in a scene of its own.
+struct RoverWorld {
+  explicit RoverWorld(const std::string& bodies = "", const Pose2& T_world_base = {},
+                      const WorldOptions& options = {})
+      : folder(scene_mjcf(bodies)),
+        world({folder.path(), robot_folder("rover").mjcf}, options),
+        robot(mobile_base(world, robot_folder("rover"))) {
+    robot.place(world, T_world_base);
+  }
+  void run(double duration_s) {
+    const double end_s = world.time_s() + duration_s - 1e-9;
+    while (world.time_s() < end_s) world.advance_tick();
+  }
+  SceneFolder folder;
+  World world;
+  MobileBase robot;
 };
 
 /// What the call throws as an `Expected`; "" if it throws nothing.

@@ -111,7 +111,8 @@ ObjectOnTable draw_expected_object(const ChangeDetectionTask& task, std::uint64_
 }
 
 ModelSource ChangeDetectionTask::model_source(const EpisodeSetup& setup) const {
-  return {setup.scene, setup.robot, object_files(*this, draw_object(*this, setup.options.seed))};
+  return {setup.scene, setup.robot.mjcf,
+          object_files(*this, draw_object(*this, setup.options.seed))};
 }
 
 ReportSections ChangeDetectionTask::report() {
@@ -139,7 +140,7 @@ std::string ChangeDetectionTask::outcome(const Json& metrics) {
 void ChangeDetectionTask::require_start(const EpisodeSetup& setup) const {
   const std::uint64_t seed = setup.options.seed;
   const ObjectOnTable truth = draw_object(*this, seed);
-  const SimulatedOrbitRobot robot(setup.options, model_source(setup), *this, truth.yaw_rad);
+  const SimulatedOrbitRobot robot(setup, model_source(setup), *this, truth.yaw_rad);
   load_recogniser(*this, truth, draw_expected_object(*this, seed));
 }
 
@@ -147,7 +148,7 @@ RunOutcome ChangeDetectionTask::run(const RunRequest& request) const {
   const EpisodeOptions& episode = request.setup.options;
   const ObjectOnTable truth = draw_object(*this, episode.seed);
   const ObjectOnTable expected = draw_expected_object(*this, episode.seed);
-  SimulatedOrbitRobot robot(episode, model_source(request.setup), *this, truth.yaw_rad);
+  SimulatedOrbitRobot robot(request.setup, model_source(request.setup), *this, truth.yaw_rad);
   const Recogniser recogniser = load_recogniser(*this, truth, expected);
   EpisodeRun run(request);
   ObjectFlightRecorder recorder(run, recorded(robot), decision.max_views, true);

@@ -10,7 +10,7 @@ namespace vantage {
 void Exploration::check_with(const EpisodeOptions&) const { swept_field(sweep, camera); }
 
 ModelSource Exploration::model_source(const EpisodeSetup& setup) const {
-  return {setup.scene, setup.robot};
+  return {setup.scene, setup.robot.mjcf};
 }
 
 TaskExtent Exploration::extent(const EpisodeSetup&) const { return mapping_extent(*this); }

@@ -75,6 +75,7 @@ struct Exploration : MappingOptions {
   [[nodiscard]] WindowContent window() const;
   [[nodiscard]] static ReportSections report();
   [[nodiscard]] static std::string_view metrics_task() { return "next_best_view"; }
+  [[nodiscard]] static std::string_view robot_kind() { return MobileBaseDescription::name; }
   [[nodiscard]] static Measures measures();
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @throws ConfigError or InputError if the episode cannot begin.

@@ -19,13 +19,13 @@ constexpr int kFewestTicks = 4;
 constexpr int kMaxTicks = 160;
 
 /// On the pan axis, at the height that the camera has when it looks straight on.
-Pose find_sweep_pose(const World& world, const Pr2& robot) {
+Pose find_sweep_pose(const World& world, const MobileBase& robot) {
   const Pose T_base_world = to_se3(robot.T_world_base(world)).inverse();
-  const int head = model_id(world.model(), ModelObject::body, "robot/head_pan");
   const Pose T_base_camera =
       T_base_world * T_world_camera(world.model(), world.snapshot(), robot.camera_id());
   Pose T_base_sweep = Pose::Identity();
-  T_base_sweep.translation() = (T_base_world * body_pose(world, head)).translation();
+  T_base_sweep.translation() =
+      (T_base_world * body_pose(world, robot.head_body_id())).translation();
   T_base_sweep.translation().z() = T_base_camera.translation().z();
   return T_base_sweep;
 }
@@ -54,21 +54,21 @@ std::string start_text(const RobotOptions& robot) {
   return fmt::format("robot.start_pose {}", fmt::join(robot.start_pose, ", "));
 }
 
-/// The torso's lift that brings the camera from `lowest_m` to frontiers.height_m.
+/// The lift that brings the camera from `lowest_m` to frontiers.height_m.
 /// @throws ConfigError if it cannot.
-double camera_lift_m(const Pr2& robot, double lowest_m, const Exploration& task) {
+double camera_lift_m(const MobileBase& robot, double lowest_m, const Exploration& task) {
   const double height_m = task.frontiers.height_m;
   const double lift_m = height_m - lowest_m;
-  if (lift_m < -1e-2 || lift_m > robot.torso_max_m()) {
+  if (lift_m < -1e-2 || lift_m > robot.lift_max_m()) {
     throw ConfigError(
         fmt::format("frontiers.height_m: {} is out of the camera's reach, {:.3f} to {:.3f}",
-                    height_m, lowest_m, lowest_m + robot.torso_max_m()));
+                    height_m, lowest_m, lowest_m + robot.lift_max_m()));
   }
   return std::max(lift_m, 0.0);
 }
 
-Pr2 placed_robot(World& world, const EpisodeSetup& setup, const Exploration& task) {
-  Pr2 robot(world.model());
+MobileBase placed_robot(World& world, const EpisodeSetup& setup, const Exploration& task) {
+  MobileBase robot = mobile_base(world, setup, task.navigation);
   const Pose2 start = start_pose(world, setup);
   robot.place(world, start);
   const double lowest_m = find_sweep_pose(world, robot).translation().z();
@@ -80,7 +80,7 @@ Pr2 placed_robot(World& world, const EpisodeSetup& setup, const Exploration& tas
 
 SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
                                                      const Exploration& task)
-    : DrivenByBase(setup.options, task, ModelSource{setup.scene, setup.robot},
+    : DrivenByBase(setup.options, task, ModelSource{setup.scene, setup.robot.mjcf},
                    [&](World& world) { return placed_robot(world, setup, task); }),
       sweep_(task.sweep),
       camera_(task.camera),

@@ -1,7 +1,7 @@
 /// What is really so of a mobile robot and its scene. For evaluators alone.
 #pragma once
 
-#include "vantage/sim/robots/pr2.hpp"
+#include "vantage/sim/robots/mobile_base.hpp"
 #include "vantage/sim/sensors/ray_scene.hpp"
 #include "vantage/sim/world/world.hpp"
 
@@ -11,7 +11,7 @@ namespace vantage {
 class MobileGroundTruth {
  public:
   /// @param geometry of the scene without the robot
-  MobileGroundTruth(const World& world, const Pr2& robot, const RayScene& geometry,
+  MobileGroundTruth(const World& world, const MobileBase& robot, const RayScene& geometry,
                     const CollisionCounter& collisions)
       : world_(world), robot_(robot), geometry_(geometry), collisions_(collisions) {}
 
@@ -22,7 +22,7 @@ class MobileGroundTruth {
 
  private:
   const World& world_;
-  const Pr2& robot_;
+  const MobileBase& robot_;
   const RayScene& geometry_;
   const CollisionCounter& collisions_;
 };

@@ -17,9 +17,20 @@ std::string geom_text(const mjModel& model, int geom) {
 
 }  // namespace
 
+MobileBase mobile_base(const World& world, const EpisodeSetup& setup,
+                       const NavigationOptions& navigation) {
+  MobileBase robot(world.model(), mobile_base_of(setup.robot, "robot.model"),
+                   setup.robot.description.string());
+  const double covered_m = robot.footprint().circumscribed_radius_m;
+  if (navigation.footprint_radius_m >= covered_m) return robot;
+  throw ConfigError(fmt::format(
+      "navigation.footprint_radius_m: {} is less than the robot's circumscribed_radius_m {}",
+      navigation.footprint_radius_m, covered_m));
+}
+
 SimulatedMobileBase::SimulatedMobileBase(const EpisodeOptions& episode,
                                          const MappingOptions& options, const ModelSource& source,
-                                         const std::function<Pr2(World&)>& place)
+                                         const std::function<MobileBase(World&)>& place)
     : drive_(options.drive),
       scanner_(options.base_scanner),
       world_(source, episode.simulation),
@@ -85,7 +96,7 @@ Pose2 SimulatedMobileBase::dead_reckoned_base() const {
                  compose(inverse(T_world_corrected_), odometry_.estimate()));
 }
 
-void check_turning_room(const World& world, const Pr2& robot, const std::string& place) {
+void check_turning_room(const World& world, const MobileBase& robot, const std::string& place) {
   if (const auto touched = robot.touched_by_turning(world); !touched.empty()) {
     throw ConfigError(fmt::format("{}: the robot would touch {} when it turns there", place,
                                   geom_text(world.model(), touched.front())));

@@ -7,8 +7,8 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/sim/robots/drive.hpp"
+#include "vantage/sim/robots/mobile_base.hpp"
 #include "vantage/sim/robots/odometry.hpp"
-#include "vantage/sim/robots/pr2.hpp"
 #include "vantage/sim/sensors/laser.hpp"
 #include "vantage/sim/sensors/ray_scene.hpp"
 #include "vantage/sim/world/world.hpp"
@@ -17,11 +17,17 @@
 
 namespace vantage {
 
+/// The robot of an episode in its world.
+/// @throws ConfigError if it is of another kind or larger than its paths allow for, InputError if
+/// its model lacks what it names.
+MobileBase mobile_base(const World& world, const EpisodeSetup& setup,
+                       const NavigationOptions& navigation);
+
 class SimulatedMobileBase {
  public:
   /// @param place puts the robot where the episode begins
   SimulatedMobileBase(const EpisodeOptions& episode, const MappingOptions& options,
-                      const ModelSource& source, const std::function<Pr2(World&)>& place);
+                      const ModelSource& source, const std::function<MobileBase(World&)>& place);
   SimulatedMobileBase(const SimulatedMobileBase&) = delete;
   SimulatedMobileBase& operator=(const SimulatedMobileBase&) = delete;
 
@@ -34,8 +40,8 @@ class SimulatedMobileBase {
   [[nodiscard]] Pose2 dead_reckoned_base() const;
   void restart_dead_reckoning();
   [[nodiscard]] double base_scan_height_m() const { return robot_.base_scan_height_m(); }
-  /// Of the base, 0.668 m square: what it stands on is free.
-  [[nodiscard]] double inscribed_radius_m() const { return 0.33; }
+  /// The disc that the robot covers at any heading: what it stands on is free.
+  [[nodiscard]] double inscribed_radius_m() const { return robot_.footprint().inscribed_radius_m; }
   [[nodiscard]] Pose2 estimated_base() const { return odometry_.estimate(); }
 
   void tick();  ///< @throws Interrupted
@@ -47,7 +53,7 @@ class SimulatedMobileBase {
   }
   World& world() { return world_; }
   [[nodiscard]] const World& world() const { return world_; }
-  [[nodiscard]] const Pr2& robot() const { return robot_; }
+  [[nodiscard]] const MobileBase& robot() const { return robot_; }
 
  private:
   void report_touch() const;
@@ -55,7 +61,7 @@ class SimulatedMobileBase {
   DriveOptions drive_;
   PlanarScannerOptions scanner_;
   World world_;
-  Pr2 robot_;
+  MobileBase robot_;
   RayScene geometry_;
   RayScene geometry_without_robot_;
   Odometry odometry_;
@@ -67,6 +73,6 @@ class SimulatedMobileBase {
 
 /// @throws ConfigError if the robot would touch something while it turns once where it is;
 /// `place` says which keys put it there.
-void check_turning_room(const World& world, const Pr2& robot, const std::string& place);
+void check_turning_room(const World& world, const MobileBase& robot, const std::string& place);
 
 }  // namespace vantage

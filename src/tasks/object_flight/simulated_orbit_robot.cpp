@@ -15,13 +15,14 @@ namespace {
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 /// Hovering with the camera at `T_world_place`, rotors carrying it.
-Quadrotor placed(World& world, const Pose& T_world_place, double camera_pitch_rad) {
+Quadrotor placed(World& world, const RobotFolder& robot, const Pose& T_world_place,
+                 double camera_pitch_rad) {
   if (!find_model_id(world.model(), ModelObject::body, "object")) {
     throw InputError(fmt::format(
         "{}: has no body 'object'; a scene of recognition has <include file=\"object.xml\"/>",
         world.source().scene.string()));
   }
-  Quadrotor vehicle(world.model());
+  Quadrotor vehicle(world.model(), quadrotor_of(robot, "robot.model"), robot.description.string());
   const Pose T_world_body = vehicle.body_for_camera(
       T_world_place.translation(), project_to_se2(T_world_place).yaw_rad, camera_pitch_rad);
   vehicle.place(world, T_world_body, camera_pitch_rad);
@@ -34,18 +35,19 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 }  // namespace
 
-SimulatedOrbitRobot::SimulatedOrbitRobot(const EpisodeOptions& episode, const ModelSource& source,
+SimulatedOrbitRobot::SimulatedOrbitRobot(const EpisodeSetup& setup, const ModelSource& source,
                                          const ObjectFlight& task, double object_yaw_rad)
     : task_(task),
       orbit_(task.orbit()),
-      start_bearing_rad_(Rng::stream(episode.seed, "start bearing").uniform(0.0, kTurn_rad)),
+      start_bearing_rad_(Rng::stream(setup.options.seed, "start bearing").uniform(0.0, kTurn_rad)),
       bearing_rad_(start_bearing_rad_),
-      quadrotor_(episode, source, task.tracking, {task.camera, task.exposure, task.colour_noise},
-                 [&](World& world) {
-                   return placed(world, orbit_.place(bearing_rad_), task.elevation_rad);
-                 }),
+      quadrotor_(
+          setup.options, source, task.tracking, {task.camera, task.exposure, task.colour_noise},
+          [&](World& world) {
+            return placed(world, setup.robot, orbit_.place(bearing_rad_), task.elevation_rad);
+          }),
       object_yaw_rad_(object_yaw_rad),
-      camera_noise_(Rng::stream(episode.seed, "camera")) {}
+      camera_noise_(Rng::stream(setup.options.seed, "camera")) {}
 
 FlightObservation SimulatedOrbitRobot::observe() {
   throw_if_interrupted();

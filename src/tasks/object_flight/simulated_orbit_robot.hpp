@@ -14,7 +14,7 @@ class SimulatedOrbitRobot : public OrbitRobotInterface {
   /// Hovers at a bearing drawn by the seed.
   /// @param object_yaw_rad truth
   /// @throws ConfigError or InputError if the episode cannot begin, RendererError
-  SimulatedOrbitRobot(const EpisodeOptions& episode, const ModelSource& source,
+  SimulatedOrbitRobot(const EpisodeSetup& setup, const ModelSource& source,
                       const ObjectFlight& task, double object_yaw_rad);
 
   [[nodiscard]] double time_s() const override { return quadrotor_.world().time_s(); }

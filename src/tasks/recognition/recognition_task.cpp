@@ -63,7 +63,8 @@ constexpr auto kCurves = std::to_array<CurveMeasure>(
 }  // namespace
 
 ModelSource RecognitionTask::model_source(const EpisodeSetup& setup) const {
-  return {setup.scene, setup.robot, object_files(*this, draw_object(*this, setup.options.seed))};
+  return {setup.scene, setup.robot.mjcf,
+          object_files(*this, draw_object(*this, setup.options.seed))};
 }
 
 ReportSections RecognitionTask::report() {
@@ -88,14 +89,14 @@ std::string RecognitionTask::outcome(const Json& metrics) {
 
 void RecognitionTask::require_start(const EpisodeSetup& setup) const {
   const ObjectOnTable truth = draw_object(*this, setup.options.seed);
-  const SimulatedOrbitRobot robot(setup.options, model_source(setup), *this, truth.yaw_rad);
+  const SimulatedOrbitRobot robot(setup, model_source(setup), *this, truth.yaw_rad);
   load_recogniser(*this, truth);
 }
 
 RunOutcome RecognitionTask::run(const RunRequest& request) const {
   const EpisodeOptions& episode = request.setup.options;
   const ObjectOnTable truth = draw_object(*this, episode.seed);
-  SimulatedOrbitRobot robot(episode, model_source(request.setup), *this, truth.yaw_rad);
+  SimulatedOrbitRobot robot(request.setup, model_source(request.setup), *this, truth.yaw_rad);
   const Recogniser recogniser = load_recogniser(*this, truth);
   EpisodeRun run(request);
   ObjectFlightRecorder recorder(run, recorded(robot), decision.max_views, false);

@@ -9,44 +9,45 @@
 namespace vantage {
 namespace {
 
-/// Time for the torso and the tilt joint to come to rest before and between scans.
+/// Time for the lift and the tilt joint to come to rest before and between scans.
 constexpr int kSettleTicks = 20;
 constexpr int kMaxTicksToReach = 400;
 constexpr double kTiltReached_rad = 0.01;
 
-/// The torso's lift that brings the laser to the height of the views.
-double torso_m(const World& world, const Pr2& robot, const Tabletop& task) {
-  const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.torso_m(world);
+/// The lift that brings the laser to the height of the views.
+double laser_lift_m(const World& world, const MobileBase& robot, const Tabletop& task) {
+  const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.lift_m(world);
   return std::max(task.candidates.height_m - lowest_m, 0.0);
 }
 
 /// The robot, standing where the episode starts: at or behind a position on the ring of views.
-Pr2 placed_robot(World& world, const RobotOptions& options, const Tabletop& task) {
-  Pr2 robot(world.model());
+MobileBase placed_robot(World& world, const EpisodeSetup& setup, const Tabletop& task) {
+  const RobotOptions& options = setup.options.robot;
+  MobileBase robot = mobile_base(world, setup, task.navigation);
   check_reach(world, robot, task);
   RingOfViews ring = task.candidates;
   ring.yaw_offsets_rad = {0.0};
   ring.radius_m += options.start_behind_m;
   const auto views = ring_of_views(ring, task.map.centre());
   const auto& start = views[static_cast<std::size_t>(options.start_view)];
-  robot.place(world, robot.base_for_laser(start.T_world_sensor), torso_m(world, robot, task));
+  robot.place(world, robot.base_for_laser(start.T_world_sensor), laser_lift_m(world, robot, task));
   return robot;
 }
 
 }  // namespace
 
 SimulatedTabletopRobot::SimulatedTabletopRobot(const EpisodeSetup& setup, const Tabletop& task)
-    : DrivenByBase(setup.options, task, ModelSource{setup.scene, setup.robot},
-                   [&](World& world) { return placed_robot(world, setup.options.robot, task); }),
+    : DrivenByBase(setup.options, task, ModelSource{setup.scene, setup.robot.mjcf},
+                   [&](World& world) { return placed_robot(world, setup, task); }),
       laser_(task.laser),
       laser_noise_(Rng::stream(setup.options.seed, "laser")) {
-  const Pr2& robot = base_.robot();
-  robot.command_torso(world(), torso_m(world(), robot, task));
+  const MobileBase& robot = base_.robot();
+  robot.command_lift(world(), laser_lift_m(world(), robot, task));
   check_start(world(), robot, base_.ground_truth().geometry(), setup, task);
 }
 
 void SimulatedTabletopRobot::move_laser_to(double tilt_rad) {
-  const Pr2& robot = base_.robot();
+  const MobileBase& robot = base_.robot();
   robot.command_laser_tilt(world(), tilt_rad);
   for (int i = 0; i < kMaxTicksToReach; ++i) {
     if (i >= kSettleTicks &&
@@ -58,7 +59,7 @@ void SimulatedTabletopRobot::move_laser_to(double tilt_rad) {
 }
 
 TabletopObservation SimulatedTabletopRobot::observe() {
-  const Pr2& robot = base_.robot();
+  const MobileBase& robot = base_.robot();
   World& world = base_.world();
   robot.command_twist(world, {});
   move_laser_to(laser_.tilt_min_rad);

@@ -27,9 +27,9 @@ bool has_table(const RayScene& geometry, const Tabletop& task) {
   return false;
 }
 
-void check_reach(const World& world, const Pr2& robot, const Tabletop& task) {
-  const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.torso_m(world);
-  const double highest_m = lowest_m + robot.torso_max_m();
+void check_reach(const World& world, const MobileBase& robot, const Tabletop& task) {
+  const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.lift_m(world);
+  const double highest_m = lowest_m + robot.lift_max_m();
   const double height_m = task.candidates.height_m;
   if (height_m < lowest_m - 1e-3 || height_m > highest_m) {
     throw ConfigError(
@@ -45,7 +45,7 @@ void check_reach(const World& world, const Pr2& robot, const Tabletop& task) {
   }
 }
 
-void check_start(const World& world, const Pr2& robot, const RayScene& geometry,
+void check_start(const World& world, const MobileBase& robot, const RayScene& geometry,
                  const EpisodeSetup& setup, const Tabletop& task) {
   if (!has_table(geometry, task)) {
     throw InputError(

@@ -50,7 +50,7 @@ void Tabletop::check_with(const EpisodeOptions& episode) const {
 }
 
 ModelSource Tabletop::model_source(const EpisodeSetup& setup) const {
-  return {setup.scene, setup.robot};
+  return {setup.scene, setup.robot.mjcf};
 }
 
 TaskExtent Tabletop::extent(const EpisodeSetup&) const { return mapping_extent(*this); }

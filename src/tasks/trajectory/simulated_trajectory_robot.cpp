@@ -16,25 +16,27 @@ namespace {
 constexpr double kClearanceEvery_s = 0.1;
 constexpr double kSameMoment_s = 1e-9;
 
-Quadrotor hovering(World& world, const FlightWaypoint& start, double camera_pitch_rad) {
-  Quadrotor vehicle(world.model());
+Quadrotor hovering(World& world, const RobotFolder& robot, const FlightWaypoint& start,
+                   double camera_pitch_rad) {
+  Quadrotor vehicle(world.model(), quadrotor_of(robot, "robot.model"), robot.description.string());
   vehicle.place(world, make_pose(start.p_world_m, start.yaw_rad), camera_pitch_rad);
   return vehicle;
 }
 
 }  // namespace
 
-SimulatedTrajectoryRobot::SimulatedTrajectoryRobot(const EpisodeOptions& episode,
+SimulatedTrajectoryRobot::SimulatedTrajectoryRobot(const EpisodeSetup& setup,
                                                    const ModelSource& source,
                                                    const TrajectoryFlight& task,
                                                    const FlightWaypoint& start)
     : limits_(task.tracking.limits),
       image_period_s_(1.0 / task.image_rate_hz),
-      quadrotor_(episode, source, task.tracking, {task.camera, task.exposure, task.colour_noise},
-                 [&](World& world) { return hovering(world, start, task.camera_pitch_rad); }),
+      quadrotor_(
+          setup.options, source, task.tracking, {task.camera, task.exposure, task.colour_noise},
+          [&](World& world) { return hovering(world, setup.robot, start, task.camera_pitch_rad); }),
       clearance_(quadrotor_.world()),
-      depth_noise_(Rng::stream(episode.seed, "camera")),
-      colour_noise_(Rng::stream(episode.seed, "colour")) {
+      depth_noise_(Rng::stream(setup.options.seed, "camera")),
+      colour_noise_(Rng::stream(setup.options.seed, "colour")) {
   clearance_.update(quadrotor_.world());
 }
 

@@ -15,7 +15,7 @@ class SimulatedTrajectoryRobot : public TrajectoryRobotInterface {
  public:
   /// Hovers where `start` is.
   /// @throws ConfigError or InputError if the episode cannot begin, RendererError
-  SimulatedTrajectoryRobot(const EpisodeOptions& episode, const ModelSource& source,
+  SimulatedTrajectoryRobot(const EpisodeSetup& setup, const ModelSource& source,
                            const TrajectoryFlight& task, const FlightWaypoint& start);
 
   [[nodiscard]] double time_s() const override { return quadrotor_.world().time_s(); }

@@ -41,7 +41,7 @@ void TrajectoryFlight::find_files(const std::filesystem::path& base) {
 std::vector<InputFile> TrajectoryFlight::inputs() const { return {model_input(model)}; }
 
 ModelSource TrajectoryFlight::model_source(const EpisodeSetup& setup) const {
-  return {setup.scene, setup.robot, object_files(database, draw_flight_objects(*this, setup))};
+  return {setup.scene, setup.robot.mjcf, object_files(database, draw_flight_objects(*this, setup))};
 }
 
 TaskExtent TrajectoryFlight::extent(const EpisodeSetup& setup) const {
@@ -61,7 +61,7 @@ std::string TrajectoryFlight::outcome(const nlohmann::ordered_json& metrics) {
 }
 
 void TrajectoryFlight::require_start(const EpisodeSetup& setup) const {
-  const SimulatedTrajectoryRobot robot(setup.options, model_source(setup), *this,
+  const SimulatedTrajectoryRobot robot(setup, model_source(setup), *this,
                                        read_flight_path(setup.scene).front());
   load_recogniser(*this, draw_flight_objects(*this, setup));
 }
@@ -70,7 +70,7 @@ RunOutcome TrajectoryFlight::run(const RunRequest& request) const {
   const EpisodeSetup& setup = request.setup;
   const std::vector<FlightWaypoint> path = read_flight_path(setup.scene);
   const std::vector<ObjectOnSupport> objects = draw_flight_objects(*this, setup);
-  SimulatedTrajectoryRobot robot(setup.options, model_source(setup), *this, path.front());
+  SimulatedTrajectoryRobot robot(setup, model_source(setup), *this, path.front());
   const Recogniser recogniser = load_recogniser(*this, objects);
   EpisodeRun run(request);
   TrajectoryRecorder recorder(run, robot.quadrotor(), camera);

@@ -81,6 +81,7 @@ struct TrajectoryFlight {
   [[nodiscard]] static WindowContent window();
   [[nodiscard]] static ReportSections report();
   [[nodiscard]] static std::string_view metrics_task() { return name; }
+  [[nodiscard]] static std::string_view robot_kind() { return QuadrotorDescription::name; }
   [[nodiscard]] static Measures measures();
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @throws ConfigError or InputError if the episode cannot begin.

@@ -2,7 +2,7 @@
 #include <mujoco/mujoco.h>
 
 #include "tests/sim/test_world.hpp"
-#include "vantage/sim/robots/pr2.hpp"
+#include "vantage/sim/robots/mobile_base.hpp"
 
 namespace vantage {
 namespace {
@@ -36,7 +36,7 @@ TEST(CollisionCounter, NoticesATouchWithinATick) {
       "<body name='ball' pos='1 0 .2'><joint name='rail' type='slide' axis='-1 0 0'/>"
       "<geom size='.1' mass='.1'/></body>"));
   World world(folder.with_pr2(), {.timestep_s = 0.0025, .control_period_s = 1.0});
-  const Pr2 robot(world.model());
+  const MobileBase robot = test::pr2(world);
   robot.place(world, {});
   const int rail = model_id(world.model(), ModelObject::joint, "rail");
   const auto speed_m_s = [&]() -> double& {

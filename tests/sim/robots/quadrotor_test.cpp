@@ -19,13 +19,13 @@ using test::FlightWorld;
 TEST(Quadrotor, NeedsARobotInTheModel) {
   const test::SceneFolder folder(test::scene_mjcf(""));
   const World world(folder.alone());
-  EXPECT_THROW(Quadrotor{world.model()}, InputError);
+  EXPECT_THROW(test::quadrotor(world), InputError);
 }
 
 TEST(Quadrotor, NeedsGravityDown) {
   const test::SceneFolder folder("<mujoco><option gravity='0 1 -9.81'/><worldbody/></mujoco>");
   const World world({folder.path(), test::quadrotor_file()}, kFlightWorld);
-  EXPECT_THAT(test::message_of<InputError>([&] { Quadrotor{world.model()}; }),
+  EXPECT_THAT(test::message_of<InputError>([&] { test::quadrotor(world); }),
               testing::HasSubstr("gravity"));
 }
 
@@ -58,7 +58,7 @@ TEST(Quadrotor, WhateverTheScene) {
       <actuator><motor joint="rail"/><cylinder joint="rail"/></actuator>
     </mujoco>)");
   World world({folder.path(), test::quadrotor_file()}, kFlightWorld);
-  const Quadrotor vehicle(world.model());
+  const Quadrotor vehicle = test::quadrotor(world);
   expect_airframe(vehicle.airframe());
   vehicle.place(world, test::at_height(2.0));
   for (int i = 0; i < 50; ++i) world.advance_tick();

@@ -219,7 +219,7 @@ TEST(TrajectoryTrackingController, FollowsItsEstimate) {
 TEST(TrajectoryTrackingController, NeedsACommandAtEveryStep) {
   const test::SceneFolder folder(test::scene_mjcf(""));
   World world({folder.path(), test::quadrotor_file()}, {});
-  const Quadrotor vehicle(world.model());
+  const Quadrotor vehicle = test::quadrotor(world);
   EXPECT_THROW(TrajectoryTrackingController(world, vehicle, {}, Rng(1)), ConfigError);
 }
 

@@ -23,7 +23,7 @@ TEST_P(OfficeWorld, TheRobotTurnsOnTheSpotAtEveryStart) {
     SCOPED_TRACE(i);
     World world(source());
     EXPECT_TRUE(world.warnings().empty());
-    const Pr2 robot(world.model());
+    const MobileBase robot = test::pr2(world);
     const int site = model_id(world.model(), ModelObject::site, "start_" + std::to_string(i));
     const Pose2 start = project_to_se2(site_pose(world, site));
     robot.place(world, start);
@@ -40,7 +40,7 @@ TEST_P(OfficeWorld, TheRobotTurnsOnTheSpotAtEveryStart) {
 /// Furniture has contacts although it ignores other furniture.
 TEST_P(OfficeWorld, StopsTheRobot) {
   World world(source());
-  const Pr2 robot(world.model());
+  const MobileBase robot = test::pr2(world);
   const int site = model_id(world.model(), ModelObject::site, "start_0");
   robot.place(world, project_to_se2(site_pose(world, site)));
   robot.command_twist(world, {-0.5, 0.0, 0.0});

@@ -31,7 +31,7 @@ ObjectOnTable object_of(const ResolvedEpisode& resolved) {
 /// The robot of the episode in its world.
 struct OrbitingRobot : SimulatedOrbitRobot {
   explicit OrbitingRobot(const ResolvedEpisode& resolved)
-      : SimulatedOrbitRobot(resolved.setup.options, model_source(resolved), task_of(resolved),
+      : SimulatedOrbitRobot(resolved.setup, model_source(resolved), task_of(resolved),
                             object_of(resolved).yaw_rad) {}
 };
 

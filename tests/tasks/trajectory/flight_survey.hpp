@@ -47,6 +47,10 @@ struct SurveyMoment {
   const std::vector<int>& ids;
 };
 
+inline RobotFolder robot_folder() {
+  return read_robot(std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/quadrotor");
+}
+
 /// A world with objects drawn by a seed, and the vehicle at the start of the path.
 class FlightSurvey {
  public:
@@ -55,11 +59,10 @@ class FlightSurvey {
         path(read_flight_path(scene_file(options.scene))),
         supports_m(read_support_surfaces(scene_file(options.scene))),
         objects(draw_objects(ObjectDatabaseOptions{}, supports_m, 0.02, options.seed)),
-        world({scene_file(options.scene),
-               std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/quadrotor/quadrotor.xml",
+        world({scene_file(options.scene), robot_folder().mjcf,
                object_files(ObjectDatabaseOptions{}, objects)},
               kFlightWorld),
-        vehicle(world.model()),
+        vehicle(world.model(), quadrotor_of(robot_folder(), "robot"), "quadrotor"),
         tracking((vehicle.place(world, make_pose(path.front().p_world_m, path.front().yaw_rad),
                                 options.camera_pitch_rad),
                   world),

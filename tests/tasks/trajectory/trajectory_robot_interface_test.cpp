@@ -19,7 +19,7 @@ FlightWaypoint at(double x_m, double y_m, double yaw_rad) {
 /// The robot of the episode in its world.
 struct FlyingRobot : SimulatedTrajectoryRobot {
   FlyingRobot(const ResolvedEpisode& resolved, const FlightWaypoint& start)
-      : SimulatedTrajectoryRobot(resolved.setup.options, model_source(resolved),
+      : SimulatedTrajectoryRobot(resolved.setup, model_source(resolved),
                                  std::get<TrajectoryFlight>(resolved.task), start) {}
 };
 

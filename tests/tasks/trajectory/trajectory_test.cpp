@@ -131,6 +131,17 @@ TEST_F(TrajectoryEpisode, FindsWhatItFliesPastAndLooksAtItOnceADirection) {
   EXPECT_NEAR(far["entropy_nats"], std::log(4.0), 1e-9) << "as before the flight";
 }
 
+TEST_F(TrajectoryEpisode, ASmallerQuadrotorFliesTheSamePath) {
+  const json small =
+      metrics_of("small", past_a_support_, {"robot.model=models/robots/quadrotor_mini"});
+  EXPECT_EQ(small["status"], "completed") << small["reason"];
+  EXPECT_EQ(small["collisions"], 0);
+  EXPECT_LE(small["tracking_error_m"]["mean"], 0.05);
+  EXPECT_GT(small["minimum_clearance_m"], first_["minimum_clearance_m"]) << "it is smaller";
+  EXPECT_LT(small["energy_j"], first_["energy_j"]) << "and lighter";
+  EXPECT_NE(small["state_hash"], first_["state_hash"]);
+}
+
 TEST_F(TrajectoryEpisode, ReplaysEveryState) {
   const ReplayResult result = support::replayed(*folder_ / "first");
   EXPECT_FALSE(result.first_difference) << result.what;
@@ -183,7 +194,7 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
   const auto& task = std::get<TrajectoryFlight>(episode.task);
   const std::vector<FlightWaypoint> path = read_flight_path(episode.setup.scene);
   const Recogniser recogniser = load_lean_recogniser(task.model, task.recogniser);
-  SimulatedTrajectoryRobot robot(episode.setup.options, model_source(episode), task, path.front());
+  SimulatedTrajectoryRobot robot(episode.setup, model_source(episode), task, path.front());
   RunOptions options;
   options.directory = *folder_ / "goes_on";
   options.lean = true;

@@ -1,4 +1,4 @@
-#include "vantage/sim/robots/pr2.hpp"
+#include "vantage/sim/robots/mobile_base.hpp"
 
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
@@ -18,13 +18,13 @@ using test::RobotWorld;
 constexpr double kPi = std::numbers::pi;
 const std::string kWall = "<geom name='wall' type='box' size='0.1 3 1' pos='2.1 0 1'/>";
 
-TEST(Pr2, NeedsARobotInTheModel) {
+TEST(MobileBase, NeedsARobotInTheModel) {
   const test::SceneFolder folder(test::scene_mjcf(""));
   const World world(folder.alone());
-  EXPECT_THROW(Pr2{world.model()}, InputError);
+  EXPECT_THROW(test::pr2(world), InputError);
 }
 
-TEST(Pr2, MassAndFootprint) {
+TEST(MobileBase, MassAndFootprint) {
   const RobotWorld scene;
   const mjModel& m = scene.world.model();
   EXPECT_NEAR(m.body_subtreemass[scene.robot.base_body_id()], 200.0, 0.5);
@@ -48,7 +48,7 @@ TEST(Pr2, MassAndFootprint) {
   EXPECT_LE(lowest_m, 0.03);
 }
 
-TEST(Pr2, SensorsAreWhereTheyShouldBe) {
+TEST(MobileBase, SensorsAreWhereTheyShouldBe) {
   for (const double torso_m : {0.0, 0.33}) {
     RobotWorld scene("", {1.0, 2.0, 0.5}, torso_m);
     const Pose T_world_base = to_se3(scene.robot.T_world_base(scene.world));
@@ -65,7 +65,7 @@ TEST(Pr2, SensorsAreWhereTheyShouldBe) {
   }
 }
 
-TEST(Pr2, LaserTiltsDownForPositiveAngles) {
+TEST(MobileBase, LaserTiltsDownForPositiveAngles) {
   RobotWorld scene;
   scene.robot.command_laser_tilt(scene.world, 0.6);
   scene.run(1.0);
@@ -75,7 +75,7 @@ TEST(Pr2, LaserTiltsDownForPositiveAngles) {
   EXPECT_TRUE(T_world_laser.translation().isApprox(Eigen::Vector3d(0.12, 0.0, 1.05), 1e-3));
 }
 
-TEST(Pr2, LaserFollowsASweepEvenly) {
+TEST(MobileBase, LaserFollowsASweepEvenly) {
   RobotWorld scene;
   constexpr double kSpeed_rad_s = 0.1;
   scene.robot.command_laser_tilt(scene.world, -0.4);
@@ -107,7 +107,7 @@ std::string blocked_by(const mjModel& m, const mjData& data, const Eigen::Vector
   return body.starts_with("robot/") ? body + " geom " + std::to_string(geom) : "";
 }
 
-TEST(Pr2, NothingOfItsOwnIsInTheLasersView) {
+TEST(MobileBase, NothingOfItsOwnIsInTheLasersView) {
   for (const double torso_m : {0.0, 0.33}) {
     RobotWorld scene("", {}, torso_m);
     const mjData& now = scene.world.snapshot();
@@ -125,7 +125,7 @@ TEST(Pr2, NothingOfItsOwnIsInTheLasersView) {
   }
 }
 
-TEST(Pr2, BaseScannerSees270Degrees) {
+TEST(MobileBase, BaseScannerSees270Degrees) {
   RobotWorld scene;
   const mjData& now = scene.world.snapshot();
   const Pose T_world_scan = scene.robot.T_world_base_scan(scene.world);
@@ -138,7 +138,7 @@ TEST(Pr2, BaseScannerSees270Degrees) {
   }
 }
 
-TEST(Pr2, KeepsTheSpeedItIsAskedFor) {
+TEST(MobileBase, KeepsTheSpeedItIsAskedFor) {
   for (const Twist2 asked :
        {Twist2{0.6, 0.0, 0.0}, Twist2{0.0, -0.4, 0.0}, Twist2{0.3, 0.3, 0.0}}) {
     RobotWorld scene("", {0.0, 0.0, 0.7});
@@ -153,14 +153,14 @@ TEST(Pr2, KeepsTheSpeedItIsAskedFor) {
   }
 }
 
-TEST(Pr2, SpeedIsCappedAlongTheDirectionAskedFor) {
+TEST(MobileBase, SpeedIsCappedAlongTheDirectionAskedFor) {
   RobotWorld scene;
   scene.robot.command_twist(scene.world, {3.0, 4.0, 0.0});
   EXPECT_NEAR(scene.world.controls()[0], 0.6, 1e-12);
   EXPECT_NEAR(scene.world.controls()[1], 0.8, 1e-12);
 }
 
-TEST(Pr2, TurnsInPlace) {
+TEST(MobileBase, TurnsInPlace) {
   RobotWorld scene;
   scene.robot.command_twist(scene.world, {0.0, 0.0, 0.8});
   scene.run(4.0);
@@ -169,43 +169,43 @@ TEST(Pr2, TurnsInPlace) {
   EXPECT_LT(std::hypot(pose.x_m, pose.y_m), 0.02);
 }
 
-TEST(Pr2, TorsoMovesSlowlyAndHoldsItsHeight) {
+TEST(MobileBase, TorsoMovesSlowlyAndHoldsItsHeight) {
   RobotWorld scene;
   scene.run(1.0);
-  EXPECT_NEAR(scene.robot.torso_m(scene.world), 0.0, 1e-3);
-  scene.robot.command_torso(scene.world, 0.33);
+  EXPECT_NEAR(scene.robot.lift_m(scene.world), 0.0, 1e-3);
+  scene.robot.command_lift(scene.world, 0.33);
   scene.run(2.0);
-  const double early_m = scene.robot.torso_m(scene.world);
+  const double early_m = scene.robot.lift_m(scene.world);
   scene.run(10.0);
-  EXPECT_NEAR((scene.robot.torso_m(scene.world) - early_m) / 10.0, 0.013, 5e-4);
+  EXPECT_NEAR((scene.robot.lift_m(scene.world) - early_m) / 10.0, 0.013, 5e-4);
   scene.run(18.0);
-  EXPECT_NEAR(scene.robot.torso_m(scene.world), 0.33, 1e-3);
-  scene.robot.command_torso(scene.world, 0.2);
+  EXPECT_NEAR(scene.robot.lift_m(scene.world), 0.33, 1e-3);
+  scene.robot.command_lift(scene.world, 0.2);
   scene.run(5.0);
-  EXPECT_NEAR(0.33 - scene.robot.torso_m(scene.world), 5.0 * 0.013, 3e-3);
+  EXPECT_NEAR(0.33 - scene.robot.lift_m(scene.world), 5.0 * 0.013, 3e-3);
   scene.run(10.0);
-  EXPECT_NEAR(scene.robot.torso_m(scene.world), 0.2, 1e-3);
+  EXPECT_NEAR(scene.robot.lift_m(scene.world), 0.2, 1e-3);
 }
 
-TEST(Pr2, StandsAndDrivesWithAnyIntegratorOfTheScene) {
+TEST(MobileBase, StandsAndDrivesWithAnyIntegratorOfTheScene) {
   for (const char* integrator : {"Euler", "RK4", "implicit"}) {
     const test::SceneFolder folder("<mujoco><option integrator='" + std::string(integrator) +
                                    "'/><worldbody><geom type='plane' size='5 5 1'/></worldbody>"
                                    "</mujoco>");
     World world(folder.with_pr2());
-    const Pr2 robot(world.model());
+    const MobileBase robot = test::pr2(world);
     robot.place(world, {}, 0.2);
     robot.command_twist(world, {0.4, 0.0, 0.3});
     robot.command_head(world, 1.0, 1.0);
     robot.command_laser_tilt(world, 0.7);
     for (int tick = 0; tick < 120; ++tick) ASSERT_NO_THROW(world.advance_tick()) << integrator;
-    EXPECT_NEAR(robot.torso_m(world), 0.2, 1e-3) << integrator;
+    EXPECT_NEAR(robot.lift_m(world), 0.2, 1e-3) << integrator;
     EXPECT_NEAR(robot.head_tilt_rad(world), 1.0, 0.01) << integrator;
     EXPECT_NEAR(robot.laser_tilt_rad(world), 0.7, 1e-3) << integrator;
   }
 }
 
-TEST(Pr2, HeadReachesItsLimits) {
+TEST(MobileBase, HeadReachesItsLimits) {
   RobotWorld scene;
   scene.robot.command_head(scene.world, 2.86, 1.40);
   scene.run(4.0);
@@ -217,7 +217,7 @@ TEST(Pr2, HeadReachesItsLimits) {
   EXPECT_NEAR(scene.robot.head_tilt_rad(scene.world), -0.47, 0.01);
 }
 
-TEST(Pr2, AWallStopsItsFootprintWithoutMuchPenetration) {
+TEST(MobileBase, AWallStopsItsFootprintWithoutMuchPenetration) {
   const std::vector<Twist2> ways = {{0.6, 0, 0}, {-0.6, 0, 0}, {0, 0.6, 0}, {0, -0.6, 0}};
   for (const Twist2& way : ways) {
     // Turned so that this side of the robot meets the wall.
@@ -238,7 +238,7 @@ TEST(Pr2, AWallStopsItsFootprintWithoutMuchPenetration) {
 
 // Top view, the table 0.55 m from the base's centre:     |  table
 //                                                  (o)   |
-TEST(Pr2, TurnsInPlaceBesideATable) {
+TEST(MobileBase, TurnsInPlaceBesideATable) {
   RobotWorld scene(
       "<geom name='table' type='box' size='0.5 1 0.36' pos='1.05 0 0.36'/>"
       "<geom name='other' type='box' size='0.5 1 0.36' pos='-1.05 0 0.36'/>");
@@ -251,7 +251,7 @@ TEST(Pr2, TurnsInPlaceBesideATable) {
   EXPECT_EQ(contacts, 0);
 }
 
-TEST(Pr2, ItsOwnPartsDoNotTouchEachOtherOrTheFloor) {
+TEST(MobileBase, ItsOwnPartsDoNotTouchEachOtherOrTheFloor) {
   RobotWorld scene;
   scene.robot.command_head(scene.world, 1.0, 1.4);
   scene.robot.command_twist(scene.world, {0.3, 0.1, 0.4});
@@ -259,7 +259,7 @@ TEST(Pr2, ItsOwnPartsDoNotTouchEachOtherOrTheFloor) {
   EXPECT_EQ(scene.world.data().ncon, 0);
 }
 
-TEST(Pr2, ArmsGiveWayAndComeBack) {
+TEST(MobileBase, ArmsGiveWayAndComeBack) {
   RobotWorld scene;
   const mjModel& m = scene.world.model();
   const int joint = model_id(m, ModelObject::joint, "robot/l_shoulder_pan");
@@ -271,7 +271,7 @@ TEST(Pr2, ArmsGiveWayAndComeBack) {
   EXPECT_NEAR(scene.world.data().qpos[m.jnt_qposadr[joint]], 0.0, 0.01);
 }
 
-TEST(Pr2, BaseForLaserPutsTheLaserThere) {
+TEST(MobileBase, BaseForLaserPutsTheLaserThere) {
   const Pose T_world_sensor = make_pose({1.3, -0.4, 1.2}, 2.1);
   RobotWorld measured;
   const Pose2 T_world_base = measured.robot.base_for_laser(T_world_sensor);

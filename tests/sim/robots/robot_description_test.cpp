@@ -1,0 +1,182 @@
+// What a robot's folder may say, and what it is told when it is wrong.
+#include "vantage/sim/robots/robot_description.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "tests/control/flight_kit.hpp"
+#include "tests/sim/test_world.hpp"
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr auto kRover = R"(kind: mobile_base
+model: robot.xml
+base: robot/base
+footprint: {inscribed_radius_m: 0.17, circumscribed_radius_m: 0.18}
+drive:
+  name: differential
+  free_joint: robot/base
+  left_wheel: robot/left_wheel
+  right_wheel: robot/right_wheel
+  wheel_radius_m: 0.05
+  track_m: 0.27
+  on_floor: [robot/left_tread]
+planar_scanner: robot/base_scan
+head: {pan: robot/head_pan, tilt: robot/head_tilt, camera: robot/camera}
+tilting_laser: {tilt: robot/laser_tilt, site: robot/laser}
+)";
+
+std::string with(std::string text, const std::string& what, const std::string& instead) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), instead);
+}
+
+/// A folder outside the repository with the rover's MJCF and a robot.yaml of its own.
+class Folder {
+ public:
+  explicit Folder(const std::string& yaml) {
+    write_file(path() / "robot.yaml", yaml);
+    fs::copy_file(test::robot_folder("rover").mjcf, path() / "robot.xml");
+  }
+  [[nodiscard]] fs::path path() const { return folder_.path(); }
+
+ private:
+  support::TemporaryDirectory folder_;
+};
+
+std::string complaint(const std::string& yaml) {
+  const Folder folder(yaml);
+  return test::message_of<Error>([&] {
+    const RobotFolder robot = read_robot(folder.path());
+    const test::SceneFolder scene(test::scene_mjcf(""));
+    const World world({scene.path(), robot.mjcf});
+    test::mobile_base(world, robot);
+  });
+}
+
+TEST(RobotDescription, ReadsEveryRobotThatComesAlong) {
+  for (const char* name : {"pr2", "rover"}) {
+    const RobotFolder robot = test::robot_folder(name);
+    EXPECT_GT(mobile_base_of(robot, "robot").footprint.inscribed_radius_m, 0.1) << name;
+  }
+  for (const char* name : {"quadrotor", "quadrotor_mini"}) {
+    EXPECT_EQ(quadrotor_of(test::robot_folder(name), "robot").rotors.size(), 4U) << name;
+  }
+}
+
+TEST(RobotDescription, AFolderAnywhereIsARobot) { EXPECT_EQ(complaint(kRover), ""); }
+
+TEST(RobotDescription, AnMjcfFileInTheFolderReplacesItsOwn) {
+  const Folder folder(kRover);
+  fs::copy_file(folder.path() / "robot.xml", folder.path() / "variant.xml");
+  EXPECT_EQ(read_robot(folder.path()).mjcf.filename(), "robot.xml");
+  EXPECT_EQ(read_robot(folder.path() / "variant.xml").mjcf.filename(), "variant.xml");
+}
+
+TEST(RobotDescription, AFolderWithoutRobotYamlSaysSo) {
+  const support::TemporaryDirectory empty;
+  EXPECT_THAT(test::message_of<InputError>([&] { read_robot(empty.path()); }),
+              AllOf(HasSubstr(empty.path().string()), HasSubstr("robot.yaml: no such file")));
+}
+
+TEST(RobotDescription, WhatIsMissingIsNamed) {
+  EXPECT_THAT(complaint(with(kRover, "kind: mobile_base\n", "")), HasSubstr("kind: missing"));
+  EXPECT_THAT(complaint(with(kRover, "model: robot.xml\n", "")), HasSubstr("model: missing"));
+  EXPECT_THAT(complaint(with(kRover, "robot.xml", "other.xml")),
+              AllOf(HasSubstr("robot.yaml:2: model"), HasSubstr("other.xml: no such file")));
+  EXPECT_THAT(complaint(with(kRover, "base: robot/base\n", "")), HasSubstr("base: missing"));
+  EXPECT_THAT(complaint(with(kRover, "  left_wheel: robot/left_wheel\n", "")),
+              AllOf(HasSubstr("drive"), HasSubstr("left_wheel: missing")));
+  EXPECT_THAT(complaint(with(kRover, "inscribed_radius_m: 0.17, ", "")),
+              HasSubstr("inscribed_radius_m: missing"));
+  EXPECT_THAT(complaint(with(kRover, "  on_floor: [robot/left_tread]\n", "")),
+              HasSubstr("on_floor: missing"));
+}
+
+TEST(RobotDescription, WhatTheModelLacksIsNamedWithWhatItHas) {
+  EXPECT_THAT(complaint(with(kRover, "robot/head_pan", "robot/neck")),
+              AllOf(HasSubstr("robot.yaml: head.pan"), HasSubstr("no joint 'robot/neck'"),
+                    HasSubstr("robot/head_tilt")));
+  EXPECT_THAT(complaint(with(kRover, "site: robot/laser", "site: robot/lidar")),
+              AllOf(HasSubstr("tilting_laser.site"), HasSubstr("no site 'robot/lidar'"),
+                    HasSubstr("robot/base_scan")));
+  EXPECT_THAT(complaint(with(kRover, "[robot/left_tread]", "[robot/tyre]")),
+              AllOf(HasSubstr("drive.on_floor"), HasSubstr("no geom 'robot/tyre'")));
+}
+
+TEST(RobotDescription, JointsMustBeWhatTheKeySays) {
+  EXPECT_THAT(complaint(with(kRover, "pan: robot/head_pan", "pan: robot/head_tilt")),
+              AllOf(HasSubstr("head.pan"), HasSubstr("axis")));
+  EXPECT_THAT(complaint(with(kRover, "left_wheel: robot/left_wheel", "left_wheel: robot/base")),
+              HasSubstr("neither slide nor hinge"));
+  EXPECT_THAT(complaint(with(kRover, "free_joint: robot/base", "free_joint: robot/head_pan")),
+              HasSubstr("not the free joint of body 'robot/base'"));
+}
+
+TEST(RobotDescription, UnknownKindsAndKeysAreErrors) {
+  EXPECT_THAT(complaint(with(kRover, "mobile_base", "submarine")),
+              AllOf(HasSubstr("submarine"), HasSubstr("mobile_base, quadrotor")));
+  EXPECT_THAT(complaint(std::string(kRover) + "rotors: [a]\n"),
+              AllOf(HasSubstr("rotors"), HasSubstr("quadrotor")));
+  EXPECT_THAT(complaint(with(kRover, "name: differential", "name: tracked")),
+              AllOf(HasSubstr("tracked"), HasSubstr("omnidirectional, differential")));
+  EXPECT_THAT(complaint(with(kRover, "inscribed_radius_m: 0.17", "inscribed_radius_m: 0.2")),
+              HasSubstr("above circumscribed_radius_m"));
+}
+
+TEST(RobotDescription, TheKindMustSuitTheTask) {
+  const RobotFolder robot = test::robot_folder("quadrotor");
+  EXPECT_THAT(test::message_of<ConfigError>([&] { mobile_base_of(robot, "robot.model"); }),
+              AllOf(HasSubstr("robot.model"), HasSubstr("models/robots/quadrotor is a quadrotor"),
+                    HasSubstr("needs a mobile_base")));
+}
+
+TEST(RobotDescription, ASensorThatIsNotThereIsMissedWhereItIsNeeded) {
+  const std::string blind =
+      with(kRover, "tilting_laser: {tilt: robot/laser_tilt, site: robot/laser}\n", "");
+  const Folder folder(blind);
+  const RobotFolder robot = read_robot(folder.path());
+  const test::SceneFolder scene(test::scene_mjcf(""));
+  World world({scene.path(), robot.mjcf});
+  const MobileBase base = test::mobile_base(world, robot);
+  EXPECT_TRUE(base.has_head());
+  EXPECT_FALSE(base.has_tilting_laser());
+  EXPECT_THAT(test::message_of<InputError>([&] { base.command_laser_tilt(world, 0.0); }),
+              HasSubstr("robot.yaml: tilting_laser: missing"));
+}
+
+/// The small quadrotor with a change in its MJCF.
+std::string flight_complaint(const std::string& what, const std::string& instead) {
+  const support::TemporaryDirectory folder;
+  const RobotFolder mini = test::robot_folder("quadrotor_mini");
+  write_file(folder.path() / "robot.yaml", read_file(mini.description));
+  write_file(folder.path() / "quadrotor_mini.xml", with(read_file(mini.mjcf), what, instead));
+  return test::message_of<InputError>([&] {
+    const RobotFolder robot = read_robot(folder.path());
+    const test::SceneFolder scene(test::scene_mjcf(""));
+    const World world({scene.path(), robot.mjcf}, kFlightWorld);
+    Quadrotor(world.model(), quadrotor_of(robot, "robot"), "mini");
+  });
+}
+
+TEST(RobotDescription, AQuadrotorMustBeAbleToFly) {
+  EXPECT_THAT(flight_complaint("dynprm=\"0.025\" ctrlrange=\"0 4\" forcerange=\"0 4\"",
+                               "dynprm=\"0.025\" ctrlrange=\"0 1.4\" forcerange=\"0 1.4\""),
+              AllOf(HasSubstr("rotors"), HasSubstr("do not carry")));
+  EXPECT_THAT(flight_complaint("gear=\"0 0 1 0 0 -0.012\"/>\n    <general name=\"robot/rotor_1\"",
+                               "gear=\"0 0 1 0 0 0.012\"/>\n    <general name=\"robot/rotor_1\""),
+              AllOf(HasSubstr("rotors"), HasSubstr("two of which turn each way")));
+  EXPECT_THAT(flight_complaint("xyaxes=\"0 -1 0 0 0 1\"", "xyaxes=\"1 0 0 0 0 1\""),
+              AllOf(HasSubstr("camera"), HasSubstr("look along")));
+}
+
+}  // namespace
+}  // namespace vantage
