@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/bytes.hpp"
@@ -124,32 +125,27 @@ void write_voxels(const std::filesystem::path& path, const VoxelMap& map) {
 
 VoxelMap read_voxels(const std::filesystem::path& path) {
   const std::string content = read_file(path);
-  const auto fail = [&](const std::string& why) {
-    throw InputError(fmt::format("{}: not a voxel file: {}", path.string(), why));
-  };
-  if (content.size() < kHeaderBytes || !content.starts_with(kMagic)) fail("bad header");
-  std::string_view bytes(content);
-  bytes.remove_prefix(kMagic.size());
+  ByteReader reader(content, path.string() + ": not a voxel file");
+  reader.require(content.size() >= kHeaderBytes && content.starts_with(kMagic), "bad header");
+  reader.block(kMagic.size(), "the header");
   VoxelMap map;
   for (Eigen::Vector3d* v : {&map.cell_size_m, &map.box_m.min(), &map.box_m.max()}) {
-    for (int axis = 0; axis < 3; ++axis) (*v)[axis] = take<double>(bytes);
+    reader.numbers(std::span(v->data(), 3), "the header");
   }
-  const auto count = take<std::uint64_t>(bytes);
-  if (const std::string why = header_problem(map); !why.empty()) fail(why);
-  if (bytes.size() % kRecordBytes != 0 || bytes.size() / kRecordBytes != count) {
-    fail(fmt::format("header says {} voxels, the file holds {:.1f}", count,
-                     static_cast<double>(bytes.size()) / kRecordBytes));
+  const auto count = reader.number<std::uint64_t>("the header");
+  if (const std::string why = header_problem(map); !why.empty()) reader.fail(why);
+  if (reader.left() % kRecordBytes != 0 || reader.left() / kRecordBytes != count) {
+    reader.fail(fmt::format("header says {} voxels, the file holds {:.1f}", count,
+                            static_cast<double>(reader.left()) / kRecordBytes));
   }
   map.voxels.resize(count);
   for (VoxelRecord& voxel : map.voxels) {
-    voxel.x = take<float>(bytes);
-    voxel.y = take<float>(bytes);
-    voxel.z = take<float>(bytes);
-    voxel.step = take<std::uint16_t>(bytes);
-    voxel.kind = take<std::uint8_t>(bytes);
-    take<std::uint8_t>(bytes);
+    for (float* p : {&voxel.x, &voxel.y, &voxel.z}) *p = reader.number<float>("a voxel");
+    voxel.step = reader.number<std::uint16_t>("a voxel");
+    voxel.kind = reader.number<std::uint8_t>("a voxel");
+    reader.block(1, "a voxel");
     const bool finite = std::isfinite(voxel.x) && std::isfinite(voxel.y) && std::isfinite(voxel.z);
-    if (voxel.kind > kVoxelUnobserved || !finite) fail("a voxel is out of range");
+    if (voxel.kind > kVoxelUnobserved || !finite) reader.fail("a voxel is out of range");
   }
   return map;
 }

@@ -1,8 +1,8 @@
 #include "vantage/belief/objects/packed_statistics.hpp"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <span>
 
 namespace vantage {
 namespace {
@@ -69,8 +69,7 @@ void put_column(std::string& bytes, const Column& column) {
 template <class Column>
 Column take_column(ByteReader& reader, std::size_t size, std::string_view what) {
   Column column(static_cast<Eigen::Index>(size));
-  const std::string_view bytes = reader.block(size * sizeof(column[0]), what);
-  std::memcpy(column.data(), bytes.data(), bytes.size());
+  reader.numbers(std::span(column.data(), size), what);
   return column;
 }
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "vantage/belief/objects/byte_reader.hpp"
 #include "vantage/belief/objects/gaussian_statistics.hpp"
+#include "vantage/core/bytes.hpp"
 
 namespace vantage {
 

@@ -182,7 +182,7 @@ RecognitionModel read_recognition_model(const std::filesystem::path& path) {
     const std::string& name = model.features.back().name;
     reader.require(known.insert(name).second, repeated("feature", name));
   }
-  reader.require(reader.left() == 0, fmt::format("has {} bytes too many", reader.left()));
+  reader.finish();
   return model;
 }
 

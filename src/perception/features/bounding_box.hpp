@@ -30,7 +30,7 @@ struct BoundingBox {
   [[nodiscard]] int dimension() const { return 3; }
   [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
   void put_state(std::string& bytes) const { put_options(bytes, *this); }
-  static BoundingBox take_state(StateReader& reader) { return take_options<BoundingBox>(reader); }
+  static BoundingBox take_state(ByteReader& reader) { return take_options<BoundingBox>(reader); }
 };
 
 }  // namespace vantage

@@ -28,7 +28,7 @@ struct Colour {
   [[nodiscard]] int dimension() const { return hues * saturations * values; }
   [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
   void put_state(std::string& bytes) const { put_options(bytes, *this); }
-  static Colour take_state(StateReader& reader) { return take_options<Colour>(reader); }
+  static Colour take_state(ByteReader& reader) { return take_options<Colour>(reader); }
 };
 
 }  // namespace vantage

@@ -38,7 +38,7 @@ double median_cost_s(const TrainedFeature& feature, std::span<const ObjectView> 
   return quantile(std::move(costs_s), 0.5);
 }
 
-TrainedFeature::State take_state(std::string_view name, StateReader& reader) {
+TrainedFeature::State take_state(std::string_view name, ByteReader& reader) {
   std::optional<TrainedFeature::State> state;
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (void)((std::variant_alternative_t<I, Feature>::name == name
@@ -89,9 +89,9 @@ std::string TrainedFeature::to_bytes() const {
 TrainedFeature TrainedFeature::from_bytes(std::string_view bytes, const std::string& source) {
   if (!bytes.starts_with(kMagic)) throw InputError(source + ": not a trained feature");
   bytes.remove_prefix(kMagic.size());
-  StateReader reader(bytes, source);
-  const std::string name = reader.text();
-  const auto cost_s = reader.number<double>();
+  ByteReader reader(bytes, source);
+  const std::string name = reader.text("the name");
+  const auto cost_s = reader.number<double>("the cost");
   if (!(cost_s >= 0.0) || !std::isfinite(cost_s)) reader.fail("holds a cost that is no time");
   TrainedFeature feature(take_state(name, reader), cost_s);
   reader.finish();

@@ -136,13 +136,13 @@ void TrainedOnnx::put_state(std::string& bytes) const {
   put_matrix(bytes, pca_.variance);
 }
 
-TrainedOnnx Onnx::take_state(StateReader& reader) {
-  std::string file = reader.text();
-  OnnxNetwork network(reader.text(), std::move(file));
+TrainedOnnx Onnx::take_state(ByteReader& reader) {
+  std::string file = reader.text("the name of the network");
+  OnnxNetwork network(reader.text("the network"), std::move(file));
   Pca pca;
-  pca.mean = reader.matrix(-1, 1);
-  pca.axes = reader.matrix(pca.mean.size(), -1);
-  pca.variance = reader.vector(pca.axes.cols());
+  pca.mean = take_matrix(reader, -1, 1);
+  pca.axes = take_matrix(reader, pca.mean.size(), -1);
+  pca.variance = take_vector(reader, pca.axes.cols());
   const auto outputs = network.compute(Eigen::VectorXf::Zero(3 * side_px * side_px)).size();
   if (outputs != pca.mean.size()) reader.fail("holds components of another network");
   return {std::move(network), std::move(pca)};

@@ -38,7 +38,7 @@ struct Onnx {
   /// @throws InputError naming the file if it is no network, does not take such an input or gives
   /// nothing that can be used; also if fewer than two views can be used.
   [[nodiscard]] TrainedOnnx train(std::span<const ObjectView> views, Rng& rng) const;
-  static TrainedOnnx take_state(StateReader& reader);
+  static TrainedOnnx take_state(ByteReader& reader);
 };
 
 /// A loaded network. Copies share it; it computes for one of them at a time.

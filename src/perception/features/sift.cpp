@@ -98,9 +98,9 @@ TrainedSift Sift::train(std::span<const ObjectView> views, Rng& rng) const {
   return {*this, learn_words(samples, words, iterations, rng)};
 }
 
-TrainedSift Sift::take_state(StateReader& reader) {
+TrainedSift Sift::take_state(ByteReader& reader) {
   const auto options = take_options<Sift>(reader);
-  Eigen::MatrixXf words = reader.matrix(kSiftBins, -1);
+  Eigen::MatrixXf words = take_matrix(reader, kSiftBins, -1);
   if (words.cols() < 1 || words.cols() > options.words) reader.fail("holds too few or many words");
   return {options, std::move(words)};
 }

@@ -43,7 +43,7 @@ struct Sift {
 
   /// @throws InputError if no view has a grid point on its object.
   [[nodiscard]] TrainedSift train(std::span<const ObjectView> views, Rng& rng) const;
-  static TrainedSift take_state(StateReader& reader);
+  static TrainedSift take_state(ByteReader& reader);
 };
 
 /// RootSIFT descriptors of a view and where they are.

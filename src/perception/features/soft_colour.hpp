@@ -21,7 +21,7 @@ struct SoftColour {
   [[nodiscard]] int dimension() const { return Colour{}.dimension(); }
   [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
   void put_state(std::string& bytes) const { put_options(bytes, *this); }
-  static SoftColour take_state(StateReader& reader) { return take_options<SoftColour>(reader); }
+  static SoftColour take_state(ByteReader& reader) { return take_options<SoftColour>(reader); }
 };
 
 }  // namespace vantage

@@ -36,7 +36,7 @@ struct StandingBox {
   [[nodiscard]] int dimension() const { return 3; }
   [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
   void put_state(std::string& bytes) const { put_options(bytes, *this); }
-  static StandingBox take_state(StateReader& reader) { return take_options<StandingBox>(reader); }
+  static StandingBox take_state(ByteReader& reader) { return take_options<StandingBox>(reader); }
 };
 
 }  // namespace vantage

@@ -46,7 +46,7 @@ struct Vfh {
   [[nodiscard]] int dimension() const { return 308; }
   [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
   void put_state(std::string& bytes) const { put_options(bytes, *this); }
-  static Vfh take_state(StateReader& reader) { return take_options<Vfh>(reader); }
+  static Vfh take_state(ByteReader& reader) { return take_options<Vfh>(reader); }
 };
 
 }  // namespace vantage

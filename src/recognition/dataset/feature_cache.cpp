@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cstring>
 #include <exception>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::string_view kMagic = "vantage features\n";
 constexpr auto kExtension = ".features";
+constexpr std::size_t kHashBytes = sizeof(std::uint64_t);
 constexpr int kRecordsOfFile = 256;
 
 std::string shelf_name(const TrainedFeature& extractor) {
@@ -39,13 +40,12 @@ void put_record(std::string& bytes, std::uint64_t view, const FeatureResult& res
 
 /// @throws InputError if the file is not whole.
 std::string_view checked_records(std::string_view bytes, const fs::path& path) {
-  std::uint64_t expected = 0;
-  if (!bytes.starts_with(kMagic) || bytes.size() < kMagic.size() + sizeof expected) {
-    throw InputError(path.string() + ": no file of features");
-  }
-  const std::string_view content = bytes.substr(0, bytes.size() - sizeof expected);
-  std::memcpy(&expected, content.data() + content.size(), sizeof expected);
-  if (hash_bytes(content) != expected) throw InputError(path.string() + ": is damaged");
+  ByteReader reader(bytes, path.string());
+  const bool ours = bytes.starts_with(kMagic) && bytes.size() >= kMagic.size() + kHashBytes;
+  reader.require(ours, "no file of features");
+  const std::string_view content = reader.block(bytes.size() - kHashBytes, "the views");
+  const auto expected = reader.number<std::uint64_t>("the hash");
+  reader.require(hash_bytes(content) == expected, "is damaged");
   return content.substr(kMagic.size());
 }
 
@@ -101,14 +101,14 @@ void FeatureCache::read_shelf(Shelf& shelf) {
     if (entry.path().extension() != kExtension) continue;
     try {
       const std::string bytes = read_file(entry.path());
-      StateReader reader(checked_records(bytes, entry.path()), entry.path().string());
-      const int records = reader.number<std::int32_t>();
+      ByteReader reader(checked_records(bytes, entry.path()), entry.path().string());
+      const int records = reader.number<std::int32_t>("the number of views");
       for (int i = 0; i < records; ++i) {
-        const auto view = reader.number<std::uint64_t>();
-        FeatureResult result{{}, reader.text()};
+        const auto view = reader.number<std::uint64_t>("a view");
+        FeatureResult result{{}, reader.text("a view")};
         if (result.extracted()) {
           result.vector.resize(shelf.dimension);
-          for (float& x : result.vector) x = reader.number<float>();
+          reader.numbers(std::span<float>(result.vector), "a view");
         }
         shelf.known.insert_or_assign(view, std::move(result));
       }

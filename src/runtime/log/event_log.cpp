@@ -52,49 +52,52 @@ struct PutEntries {
   }
 };
 
-Candidate take_candidate(std::string_view& bytes, int id) {
+Candidate take_candidate(ByteReader& reader, int id, std::string_view what) {
   Candidate view;
   view.id = id;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
-      view.T_world_sensor.matrix()(row, column) = take<double>(bytes);
+      view.T_world_sensor.matrix()(row, column) = reader.number<double>(what);
     }
   }
-  view.gain_bits = take<double>(bytes);
-  view.reachable = take<double>(bytes) != 0.0;
+  view.gain_bits = reader.number<double>(what);
+  view.reachable = reader.number<double>(what) != 0.0;
   return view;
 }
 
-/// The next event of an event log that is long enough; empty if it is not.
-std::optional<EpisodeEvent> take_event(std::string_view& bytes) {
-  if (bytes.size() < 24) return std::nullopt;
-  EpisodeEvent event{take<std::uint64_t>(bytes), {}};
-  const auto kind = take<std::uint32_t>(bytes);
-  const auto count = take<std::uint32_t>(bytes);
-  const auto chosen = take<std::uint64_t>(bytes);
-  if (kind >= kEntryBytes.size() || bytes.size() / kEntryBytes[kind] < count) return std::nullopt;
+CellRun take_run(ByteReader& reader, std::string_view what) {
+  const auto first = reader.number<std::uint32_t>(what);
+  const auto cells = reader.number<std::uint32_t>(what);
+  const auto state = reader.number<std::uint32_t>(what);
+  reader.require(state <= 2, fmt::format("{} sets cells to a state {}", what, state));
+  return {first, cells, static_cast<CellState>(state)};
+}
+
+Eigen::Vector2d take_point(ByteReader& reader, std::string_view what) {
+  const auto x_m = reader.number<double>(what);
+  return {x_m, reader.number<double>(what)};
+}
+
+EpisodeEvent take_event(ByteReader& reader, std::string_view what) {
+  EpisodeEvent event{reader.number<std::uint64_t>(what), {}};
+  const auto kind = reader.number<std::uint32_t>(what);
+  const auto count = reader.number<std::uint32_t>(what);
+  const auto chosen = reader.number<std::uint64_t>(what);
+  reader.require(kind < kEntryBytes.size(), fmt::format("{} is of a kind {}", what, kind));
+  reader.require_items(count, kEntryBytes[kind], what);
   if (kind == 0) {
     MapChange change;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto first = take<std::uint32_t>(bytes);
-      const auto cells = take<std::uint32_t>(bytes);
-      const auto state = take<std::uint32_t>(bytes);
-      if (state > 2) return std::nullopt;
-      change.runs.push_back({first, cells, static_cast<CellState>(state)});
-    }
+    for (std::uint32_t i = 0; i < count; ++i) change.runs.push_back(take_run(reader, what));
     event.what = std::move(change);
   } else if (kind == 1) {
     Decision decision{{}, chosen};
     for (std::uint32_t i = 0; i < count; ++i) {
-      decision.candidates.push_back(take_candidate(bytes, static_cast<int>(i)));
+      decision.candidates.push_back(take_candidate(reader, static_cast<int>(i), what));
     }
     event.what = std::move(decision);
   } else {
     PlannedRoute route;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto x_m = take<double>(bytes);
-      route.path_m.emplace_back(x_m, take<double>(bytes));
-    }
+    for (std::uint32_t i = 0; i < count; ++i) route.path_m.push_back(take_point(reader, what));
     event.what = std::move(route);
   }
   return event;
@@ -159,20 +162,16 @@ void EventLog::add(const EpisodeEvent& event) {
 
 std::vector<EpisodeEvent> read_event_log(const std::filesystem::path& path, std::size_t cells) {
   const std::string content = read_file(path);
-  std::string_view bytes(content);
-  if (!bytes.starts_with(kMagic)) {
-    throw InputError(path.string() + ": not an event log of this program");
-  }
-  bytes.remove_prefix(kMagic.size());
+  ByteReader reader(content, path.string());
+  reader.require(content.starts_with(kMagic), "not an event log of this program");
+  reader.block(kMagic.size(), "the header");
   std::vector<EpisodeEvent> events;
-  while (!bytes.empty()) {
-    auto event = take_event(bytes);
-    const bool in_order = !event || events.empty() || events.back().tick <= event->tick;
-    if (!event || !in_order || !std::visit(Plausible{cells}, event->what)) {
-      throw InputError(fmt::format("{}: damaged or cut short: event {} cannot be read",
-                                   path.string(), events.size()));
-    }
-    events.push_back(std::move(*event));
+  while (reader.left() > 0) {
+    const std::string what = fmt::format("event {}", events.size());
+    EpisodeEvent event = take_event(reader, what);
+    const bool in_order = events.empty() || events.back().tick <= event.tick;
+    reader.require(in_order && std::visit(Plausible{cells}, event.what), what + " is damaged");
+    events.push_back(std::move(event));
   }
   return events;
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstring>
 
+#include "vantage/core/bytes.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/sim/world/world.hpp"
@@ -99,20 +99,18 @@ void StateLog::commit() {
 
 RecordedStates read_states(const std::filesystem::path& path) {
   const std::string content = read_file(path);
+  ByteReader reader(content, path.string());
+  reader.require(content.starts_with(kMagic), "not a state log of this program");
+  reader.block(kMagic.size(), "the header");
   std::array<std::uint64_t, 2> sizes{};
-  const std::size_t header = kMagic.size() + sizeof sizes;
-  if (content.size() < header || !content.starts_with(kMagic)) {
-    throw InputError(path.string() + ": not a state log of this program");
-  }
-  std::memcpy(sizes.data(), content.data() + kMagic.size(), sizeof sizes);
-  const std::size_t numbers = (content.size() - header) / sizeof(double);
+  reader.numbers(std::span<std::uint64_t>(sizes), "the header");
+  const std::size_t numbers = reader.left() / sizeof(double);
   const bool plausible = sizes[0] > 0 && sizes[0] <= numbers && sizes[1] <= numbers;
-  if (!plausible || (content.size() - header) % ((sizes[0] + sizes[1]) * sizeof(double)) != 0) {
-    throw InputError(fmt::format("{}: cut short: {} bytes are not whole records of {} numbers",
-                                 path.string(), content.size() - header, sizes[0] + sizes[1]));
-  }
+  const bool whole = plausible && reader.left() % ((sizes[0] + sizes[1]) * sizeof(double)) == 0;
+  reader.require(whole, fmt::format("cut short: {} bytes are not whole records of {} numbers",
+                                    reader.left(), sizes[0] + sizes[1]));
   RecordedStates states{sizes[0], sizes[1], std::vector<double>(numbers)};
-  std::memcpy(states.values.data(), content.data() + header, numbers * sizeof(double));
+  reader.numbers(std::span(states.values), "the states");
   return states;
 }
 

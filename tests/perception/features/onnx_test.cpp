@@ -79,7 +79,7 @@ TEST_F(OnnxFeature, WorksWithoutTheFileOnceTrained) {
   std::filesystem::remove(options.file);
   std::string bytes;
   trained.put_state(bytes);
-  StateReader reader(bytes, "state");
+  ByteReader reader(bytes, "state");
   const TrainedOnnx back = Onnx::take_state(reader);
   EXPECT_EQ(back.extract(views[0]).vector, trained.extract(views[0]).vector);
   EXPECT_THAT([&] { (void)options.train(views, rng); },

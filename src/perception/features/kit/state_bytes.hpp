@@ -1,4 +1,5 @@
-/// The trained state of a feature as bytes: matrices, options, and a reader that trusts nothing.
+/// The trained state of a feature as bytes: matrices and options. What the bytes lack or hold too
+/// much of is an InputError that begins with the reader's file.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,38 +16,11 @@ namespace vantage {
 
 /// Rows and columns as 32-bit integers, then the numbers column by column.
 void put_matrix(std::string& bytes, const Eigen::MatrixXf& matrix);
-/// Length as a 32-bit integer, then the characters.
-void put_text(std::string& bytes, std::string_view text);
-
-/// Reads what put() and the functions above wrote. Whatever the bytes lack or hold too much of is
-/// an InputError that begins with `source`.
-class StateReader {
- public:
-  /// @param source whose bytes they are, for messages: a file's path
-  StateReader(std::string_view bytes, std::string source)
-      : bytes_(bytes), source_(std::move(source)) {}
-
-  template <class T>
-  T number() {
-    static_assert(std::is_arithmetic_v<T>);
-    require(sizeof(T));
-    return take<T>(bytes_);
-  }
-  std::string text();
-  /// A matrix of finite numbers.
-  Eigen::MatrixXf matrix();
-  /// A matrix of just this size; -1: any.
-  Eigen::MatrixXf matrix(Eigen::Index rows, Eigen::Index columns);
-  Eigen::VectorXf vector(Eigen::Index size);
-  /// Nothing may be left.
-  void finish() const;
-  [[noreturn]] void fail(const std::string& what) const;
-
- private:
-  void require(std::size_t bytes) const;
-  std::string_view bytes_;
-  std::string source_;
-};
+/// What put_matrix() wrote, of finite numbers.
+Eigen::MatrixXf take_matrix(ByteReader& reader);
+/// The same of just this size; -1: any.
+Eigen::MatrixXf take_matrix(ByteReader& reader, Eigen::Index rows, Eigen::Index columns);
+Eigen::VectorXf take_vector(ByteReader& reader, Eigen::Index size);
 
 /// Visitors that write and read the fields of an options struct.
 struct FieldPutter {
@@ -64,17 +38,17 @@ struct FieldPutter {
   }
 };
 struct FieldTaker {
-  StateReader& reader;
+  ByteReader& reader;
   template <class T>
-  void operator()(std::string_view, T& value, const Range& = {}) {
+  void operator()(std::string_view name, T& value, const Range& = {}) {
     if constexpr (HasFields<T>) {
       value.fields(*this);
     } else if constexpr (std::is_same_v<T, std::string>) {
-      value = reader.text();
+      value = reader.text(name);
     } else if constexpr (std::is_same_v<T, bool>) {
-      value = reader.number<std::uint8_t>() != 0;
+      value = reader.number<std::uint8_t>(name) != 0;
     } else {
-      value = reader.number<T>();
+      value = reader.number<T>(name);
     }
   }
 };
@@ -85,7 +59,7 @@ void put_options(std::string& bytes, T options) {
 }
 /// Options within their ranges.
 template <HasFields T>
-T take_options(StateReader& reader) {
+T take_options(ByteReader& reader) {
   T options;
   options.fields(FieldTaker{reader});
   try {

@@ -141,7 +141,7 @@ TrainedKernelDescriptor train_kernel_descriptor(PatchKind kind, int rows, const 
           MatchKernel::learn(match, std::move(words), pooled.leftCols(used))};
 }
 
-TrainedKernelDescriptor take_kernel_descriptor(PatchKind kind, StateReader& reader) {
+TrainedKernelDescriptor take_kernel_descriptor(PatchKind kind, ByteReader& reader) {
   ProductBasis basis = take_basis(reader);
   if (basis.axes.size() != basis_axes(kind).size())
     reader.fail("holds the basis of another feature");

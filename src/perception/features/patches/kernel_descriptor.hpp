@@ -88,7 +88,7 @@ class TrainedKernelDescriptor {
 TrainedKernelDescriptor train_kernel_descriptor(PatchKind kind, int rows, const MatchOptions& match,
                                                 const LearningOptions& learning,
                                                 std::span<const ObjectView> views, Rng& rng);
-TrainedKernelDescriptor take_kernel_descriptor(PatchKind kind, StateReader& reader);
+TrainedKernelDescriptor take_kernel_descriptor(PatchKind kind, ByteReader& reader);
 
 template <PatchKind kind>
 struct KernelDescriptor {
@@ -105,7 +105,7 @@ struct KernelDescriptor {
   [[nodiscard]] TrainedKernelDescriptor train(std::span<const ObjectView> views, Rng& rng) const {
     return train_kernel_descriptor(kind, rows, match, learning, views, rng);
   }
-  static TrainedKernelDescriptor take_state(StateReader& reader) {
+  static TrainedKernelDescriptor take_state(ByteReader& reader) {
     return take_kernel_descriptor(kind, reader);
   }
 };

@@ -124,13 +124,13 @@ void MatchKernel::put_state(std::string& bytes) const {
   put_matrix(bytes, mean_);
 }
 
-MatchKernel MatchKernel::take_state(StateReader& reader) {
+MatchKernel MatchKernel::take_state(ByteReader& reader) {
   MatchKernel kernel;
   kernel.options_ = take_options<MatchOptions>(reader);
-  kernel.words_ = reader.matrix();
+  kernel.words_ = take_matrix(reader);
   if (kernel.words_.size() == 0) reader.fail("holds a vocabulary without words");
-  kernel.projection_ = reader.matrix(-1, kernel.options_.cells() * kernel.words_.cols());
-  kernel.mean_ = reader.vector(kernel.projection_.cols());
+  kernel.projection_ = take_matrix(reader, -1, kernel.options_.cells() * kernel.words_.cols());
+  kernel.mean_ = take_vector(reader, kernel.projection_.cols());
   return kernel;
 }
 

@@ -51,7 +51,7 @@ class MatchKernel {
   [[nodiscard]] Eigen::VectorXf extract(const PatchSet& patches) const;
 
   void put_state(std::string& bytes) const;
-  static MatchKernel take_state(StateReader& reader);
+  static MatchKernel take_state(ByteReader& reader);
 
  private:
   MatchKernel() = default;

@@ -175,21 +175,21 @@ void put_basis(std::string& bytes, const ProductBasis& basis) {
   put_matrix(bytes, basis.eigenvalues);
 }
 
-ProductBasis take_basis(StateReader& reader) {
+ProductBasis take_basis(ByteReader& reader) {
   ProductBasis basis;
-  const auto axes = reader.number<std::uint32_t>();
+  const auto axes = reader.number<std::uint32_t>("a basis");
   if (axes < 1 || axes > 16) reader.fail("holds a basis without axes, or of too many");
   for (std::uint32_t a = 0; a < axes; ++a) {
     ProductBasis::Axis axis;
-    axis.low = reader.number<double>();
-    axis.per_unit = reader.number<double>();
-    axis.values = reader.matrix();
+    axis.low = reader.number<double>("a basis");
+    axis.per_unit = reader.number<double>("a basis");
+    axis.values = take_matrix(reader);
     if (axis.values.size() == 0 || !std::isfinite(axis.low) || !(axis.per_unit > 0.0)) {
       reader.fail("holds a basis with an empty axis");
     }
     basis.axes.push_back(std::move(axis));
   }
-  const Eigen::MatrixXf terms = reader.matrix(axes, -1);
+  const Eigen::MatrixXf terms = take_matrix(reader, axes, -1);
   for (std::uint32_t a = 0; a < axes; ++a) {
     const auto functions = static_cast<float>(basis.axes[a].functions());
     if (terms.cols() == 0 ||
@@ -198,8 +198,8 @@ ProductBasis take_basis(StateReader& reader) {
     }
   }
   basis.terms = terms.cast<int>();
-  basis.projection = reader.matrix(-1, terms.cols());
-  basis.eigenvalues = reader.vector(basis.projection.rows());
+  basis.projection = take_matrix(reader, -1, terms.cols());
+  basis.eigenvalues = take_vector(reader, basis.projection.rows());
   return basis;
 }
 

@@ -70,6 +70,6 @@ struct ProductBasis {
 ProductBasis make_product_basis(std::span<const BasisAxis> axes, int rows);
 
 void put_basis(std::string& bytes, const ProductBasis& basis);
-ProductBasis take_basis(StateReader& reader);
+ProductBasis take_basis(ByteReader& reader);
 
 }  // namespace vantage

@@ -81,13 +81,13 @@ TEST(ProductBasis, ComesBackFromBytesAndDamageIsNoticed) {
   const ProductBasis basis = make_product_basis(kSmall, 20);
   std::string bytes;
   put_basis(bytes, basis);
-  StateReader reader(bytes, "x");
+  ByteReader reader(bytes, "x");
   const ProductBasis back = take_basis(reader);
   reader.finish();
   const std::array<double, 3> element{0.3, 2.0, 0.6};
   EXPECT_EQ(basis.describe(element), back.describe(element));
   for (std::size_t size = 0; size < bytes.size(); size += 997) {
-    StateReader shorter(std::string_view(bytes).substr(0, size), "x");
+    ByteReader shorter(std::string_view(bytes).substr(0, size), "x");
     EXPECT_THROW(take_basis(shorter), InputError) << size;
   }
 }
