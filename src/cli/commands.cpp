@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/listing.hpp"
@@ -42,8 +43,6 @@ struct RunArguments {
   std::string seed;
   RunOptions options;
   bool json = false;
-  bool quiet = false;
-  bool verbose = false;
   bool print_config = false;
   bool dry_run = false;
 };
@@ -79,8 +78,6 @@ void print_outcome(const ResolvedEpisode& resolved, const RunOutcome& outcome) {
 }
 
 ExitCode run_episode_command(const RunArguments& arguments) {
-  if (arguments.quiet) set_verbosity(Verbosity::quiet);
-  if (arguments.verbose) set_verbosity(Verbosity::verbose);
   const auto path = find_input(arguments.episode, {}, "episode");
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
@@ -121,50 +118,73 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
   app.add_flag("--video", arguments->options.video, "record video.mp4 and frames/");
   app.add_flag("--lean", arguments->options.lean,
                "neither map, states nor report: metrics, steps, trajectories only");
-  app.add_flag("--json", arguments->json, "print metrics.json to stdout");
-  auto* quiet = app.add_flag("-q,--quiet", arguments->quiet, "warnings and errors only");
-  app.add_flag("-v,--verbose", arguments->verbose, "debug messages too")->excludes(quiet);
+  add_json(app, arguments->json);
   app.add_flag("--print-config", arguments->print_config, "print the resolved episode and stop");
   app.add_flag("--dry-run", arguments->dry_run, "check everything, run nothing");
-  for (CLI::Option* option : app.get_options()) {
-    if (option->get_items_expected_max() == 0) option->disable_flag_override();
-  }
   return [arguments] { return run_episode_command(*arguments); };
 }
 
+/// A command that takes one folder.
+struct FolderArguments {
+  fs::path directory;
+  bool json = false;
+};
+
 std::function<ExitCode()> declare_report(CLI::App& app) {
-  auto directory = std::make_shared<fs::path>();
-  app.add_option("dir", *directory, "folder of a run or of a study")->required();
-  return [directory] {
-    if (is_study_folder(*directory)) {
-      const StudyResults results = read_study_results(*directory);
+  auto arguments = std::make_shared<FolderArguments>();
+  app.add_option("dir", arguments->directory, "folder of a run or of a study")->required();
+  add_json(app, arguments->json);
+  return [arguments] {
+    const fs::path& directory = arguments->directory;
+    if (is_study_folder(directory)) {
+      const StudyResults results = read_study_results(directory);
       write_study_page(results, evaluate(results));
     } else {
-      write_report(*directory, report_sections(load_recorded(*directory).task));
+      write_report(directory, report_sections(load_recorded(directory).task));
     }
-    fmt::print("{}\n", (*directory / "report.html").string());
+    const std::string page = (directory / "report.html").string();
+    fmt::print("{}", arguments->json ? json_text({{"report", page}}) : page + "\n");
     return ExitCode::done;
   };
 }
 
+nlohmann::ordered_json replay_json(const fs::path& directory, const ReplayResult& result) {
+  nlohmann::ordered_json difference = nullptr;
+  if (result.first_difference) {
+    difference = {
+        {"step", *result.first_difference}, {"time_s", result.time_s}, {"what", result.what}};
+  }
+  return {{"directory", directory.string()},
+          {"steps", result.ticks},
+          {"state_hash", hash_text(result.state_hash)},
+          {"first_difference", difference},
+          {"changed_files", result.changed_files}};
+}
+
 std::function<ExitCode()> declare_replay(CLI::App& app) {
-  auto directory = std::make_shared<fs::path>();
-  app.add_option("dir", *directory, "run folder")->required();
-  return [directory] {
-    const ResolvedEpisode resolved = load_recorded(*directory);
+  auto arguments = std::make_shared<FolderArguments>();
+  app.add_option("dir", arguments->directory, "run folder")->required();
+  add_json(app, arguments->json);
+  return [arguments] {
+    const fs::path& directory = arguments->directory;
+    const ResolvedEpisode resolved = load_recorded(directory);
     World world(model_source(resolved), resolved.setup.options.simulation);
     const ReplayResult result =
-        replay(*directory, world, asset_hashes(resolved.setup, inputs(resolved.task)));
+        replay(directory, world, asset_hashes(resolved.setup, inputs(resolved.task)));
     if (!result.changed_files.empty()) {
       log_warning(
           fmt::format("changed since the recording: {}", fmt::join(result.changed_files, ", ")));
     }
+    if (arguments->json) {
+      fmt::print("{}", json_text(replay_json(directory, result)));
+      return result.first_difference ? ExitCode::goal_failed : ExitCode::done;
+    }
     if (result.first_difference) {
-      fmt::print("{}: differs first at step {} ({:.3f} s): {}\n", directory->string(),
+      fmt::print("{}: differs first at step {} ({:.3f} s): {}\n", directory.string(),
                  *result.first_difference, result.time_s, result.what);
       return ExitCode::goal_failed;
     }
-    fmt::print("{}: {} steps, every state the same, state hash {}\n", directory->string(),
+    fmt::print("{}: {} steps, every state the same, state hash {}\n", directory.string(),
                result.ticks, hash_text(result.state_hash));
     return ExitCode::done;
   };
@@ -174,36 +194,63 @@ Validation validate(const fs::path& file) {
   return is_study(file) ? validate_study(file) : validate_file(file);
 }
 
+void print_validation(const fs::path& file, const Validation& found) {
+  for (const auto& problem : found.problems) fmt::print("{}\n", problem);
+  for (const auto& note : found.notes) fmt::print("{}\n", note);
+  if (found.problems.empty()) fmt::print("{}: good\n", file.string());
+}
+
 std::function<ExitCode()> declare_validate(CLI::App& app) {
-  auto files = std::make_shared<std::vector<fs::path>>();
-  app.add_option("files", *files, "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot)")
+  struct Arguments {
+    std::vector<fs::path> files;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  app.add_option("files", arguments->files,
+                 "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot)")
       ->required();
-  return [files] {
+  add_json(app, arguments->json);
+  return [arguments] {
     ExitCode worst = ExitCode::done;
-    for (const auto& file : *files) {
+    nlohmann::ordered_json files = nlohmann::ordered_json::array();
+    for (const auto& file : arguments->files) {
       const Validation found = validate(file);
-      for (const auto& problem : found.problems) fmt::print("{}\n", problem);
-      for (const auto& note : found.notes) fmt::print("{}\n", note);
-      if (found.problems.empty()) fmt::print("{}: good\n", file.string());
+      files.push_back(
+          {{"file", file.string()}, {"problems", found.problems}, {"notes", found.notes}});
+      if (!arguments->json) print_validation(file, found);
       worst = std::max(worst, found.code);
     }
+    if (arguments->json) fmt::print("{}", json_text({{"files", files}}));
     return worst;
   };
 }
 
 std::function<ExitCode()> declare_list(CLI::App& app) {
-  auto what = std::make_shared<std::string>();
-  app.add_option("what", *what, "one of: " + fmt::format("{}", listing_topics_text()));
-  return [what] {
-    fmt::print("{}", listing(*what));
+  struct Arguments {
+    std::string what;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  app.add_option("what", arguments->what, "one of: " + fmt::format("{}", listing_topics_text()));
+  add_json(app, arguments->json);
+  return [arguments] {
+    fmt::print("{}", arguments->json ? json_text(listing_json(arguments->what))
+                                     : listing_text(arguments->what));
     return ExitCode::done;
   };
 }
 
-std::function<ExitCode()> declare_doctor(CLI::App&) {
-  return [] {
+std::function<ExitCode()> declare_doctor(CLI::App& app) {
+  auto json = std::make_shared<bool>(false);
+  add_json(app, *json);
+  return [json] {
     const DoctorReport report = examine();
-    fmt::print("{}", report.text);
+    nlohmann::ordered_json found;
+    for (const auto& [what, text] : report.lines) {
+      found[what] = text;
+      if (!*json) fmt::print("{:<10} {}\n", what, text);
+    }
+    if (*json) fmt::print("{}", json_text(found));
     return report.renderer_works ? ExitCode::done : ExitCode::no_renderer;
   };
 }

@@ -16,7 +16,8 @@ namespace vantage {
 struct Command {
   std::string_view name;
   std::string_view help;
-  /// Declares the options on `app`; the result runs the command once they are parsed.
+  /// Declares the options on `app`, but for common_flags.hpp; the result runs the command once they
+  /// are parsed.
   std::function<ExitCode()> (*declare)(CLI::App& app);
 };
 

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/dataset/contact_sheet.hpp"
@@ -32,7 +33,7 @@ struct RenderArguments {
   std::string objects, step_deg, seed, models;
   DatasetRun run{.root = {},
                  .jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
-  bool quiet = false;
+  bool json = false;
 };
 
 std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
@@ -53,15 +54,23 @@ DatasetOptions render_options(const RenderArguments& arguments) {
 }
 
 ExitCode render_command(const RenderArguments& arguments) {
-  if (arguments.quiet) set_verbosity(Verbosity::quiet);
   const DatasetOptions options = render_options(arguments);
   DatasetRun run = arguments.run;
   run.stop = [] { return interrupt_signal() != 0; };
   catch_interrupts();
   const double start_s = wall_s();
   const DatasetOutcome outcome = render_dataset(options, run);
-  fmt::print("{}: {} objects complete, {} of them and {} views in {:.1f} s\n", run.root.string(),
-             outcome.objects, outcome.rendered, outcome.views, wall_s() - start_s);
+  const double time_s = wall_s() - start_s;
+  if (arguments.json) {
+    fmt::print("{}", json_text({{"root", run.root.string()},
+                                {"objects", outcome.objects},
+                                {"rendered", outcome.rendered},
+                                {"views", outcome.views},
+                                {"time_s", time_s}}));
+  } else {
+    fmt::print("{}: {} objects complete, {} of them and {} views in {:.1f} s\n", run.root.string(),
+               outcome.objects, outcome.rendered, outcome.views, time_s);
+  }
   if (outcome.stopped) return static_cast<ExitCode>(128 + interrupt_signal());
   return ExitCode::done;
 }
@@ -83,8 +92,8 @@ std::function<ExitCode()> declare_render(CLI::App& app) {
   app.add_option("--set", arguments->overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);
-  app.add_flag("--overwrite", arguments->run.overwrite, "begin anew")->disable_flag_override();
-  app.add_flag("-q,--quiet", arguments->quiet, "warnings and errors only")->disable_flag_override();
+  app.add_flag("--overwrite", arguments->run.overwrite, "begin anew");
+  add_json(app, arguments->json);
   app.footer([] {
     return "Goes on where another call with the same options ended.\n"
            "Keys of --set with their defaults:\n\n" +
@@ -170,9 +179,8 @@ ExitCode info_command(const InfoArguments& arguments) {
 std::function<ExitCode()> declare_info(CLI::App& app) {
   auto arguments = std::make_shared<InfoArguments>();
   app.add_option("root", arguments->root, "folder of the dataset")->required();
-  app.add_flag("--check", arguments->check, "open every view, not only its name")
-      ->disable_flag_override();
-  app.add_flag("--json", arguments->json, "print one JSON object")->disable_flag_override();
+  app.add_flag("--check", arguments->check, "open every view, not only its name");
+  add_json(app, arguments->json);
   return [arguments] { return info_command(*arguments); };
 }
 
@@ -181,6 +189,7 @@ struct SheetArguments {
   fs::path out;
   double yaw_deg = 300.0;
   ContactSheetOptions options;
+  bool json = false;
 };
 
 std::function<ExitCode()> declare_contact_sheet(CLI::App& app) {
@@ -199,10 +208,12 @@ std::function<ExitCode()> declare_contact_sheet(CLI::App& app) {
   app.add_option("--columns", options.columns, "images in a row")
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
+  add_json(app, arguments->json);
   return [arguments] {
     arguments->options.yaw_rad = arguments->yaw_deg * std::numbers::pi / 180.0;
     write_contact_sheet(index_dataset(arguments->root), arguments->options, arguments->out);
-    fmt::print("{}\n", arguments->out.string());
+    const std::string image = arguments->out.string();
+    fmt::print("{}", arguments->json ? json_text({{"image", image}}) : image + "\n");
     return ExitCode::done;
   };
 }

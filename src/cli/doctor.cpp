@@ -37,8 +37,8 @@ DoctorReport examine() {
   DoctorReport report;
   const std::string renderer = attempt([] { return renderer_name(); });
   report.renderer_works = !renderer.starts_with("does NOT");
-  const auto line = [&](std::string_view what, const std::string& text) {
-    report.text += fmt::format("{:<10} {}\n", what, text);
+  const auto line = [&](const char* what, std::string text) {
+    report.lines.emplace_back(what, std::move(text));
   };
   line("vantage", version_text());
   line("mujoco", mujoco_version());

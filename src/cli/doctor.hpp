@@ -2,11 +2,13 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace vantage {
 
 struct DoctorReport {
-  std::string text;
+  std::vector<std::pair<std::string, std::string>> lines;  ///< what, and how it is
   bool renderer_works = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -78,6 +79,19 @@ constexpr auto kTopics = std::to_array<Topic>({
     {"objects", objects},
 });
 
+/// The one that is wanted, or all. @throws ConfigError if there is none of that name.
+std::vector<const Topic*> topics(std::string_view wanted) {
+  std::vector<const Topic*> found;
+  for (const Topic& topic : kTopics) {
+    if (wanted.empty() || topic.name == wanted) found.push_back(&topic);
+  }
+  if (found.empty()) {
+    throw ConfigError(
+        fmt::format("list: unknown topic '{}'; known: {}", wanted, listing_topics_text()));
+  }
+  return found;
+}
+
 }  // namespace
 
 std::string listing_topics_text() {
@@ -86,21 +100,21 @@ std::string listing_topics_text() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string listing(std::string_view wanted) {
+std::string listing_text(std::string_view wanted) {
   std::string text;
-  for (const Topic& topic : kTopics) {
-    if (!wanted.empty() && topic.name != wanted) continue;
-    if (wanted.empty()) text += fmt::format("{}:\n", topic.name);
-    for (const auto& entry : topic.entries()) {
+  for (const Topic* topic : topics(wanted)) {
+    if (wanted.empty()) text += fmt::format("{}:\n", topic->name);
+    for (const auto& entry : topic->entries()) {
       text += fmt::format("{}{}\n", wanted.empty() ? "  " : "", entry);
     }
-    if (!wanted.empty()) return text;
-  }
-  if (!wanted.empty()) {
-    throw ConfigError(
-        fmt::format("list: unknown topic '{}'; known: {}", wanted, listing_topics_text()));
   }
   return text;
+}
+
+nlohmann::ordered_json listing_json(std::string_view wanted) {
+  nlohmann::ordered_json listing;
+  for (const Topic* topic : topics(wanted)) listing[std::string(topic->name)] = topic->entries();
+  return listing;
 }
 
 }  // namespace vantage

@@ -1,6 +1,8 @@
 /// `vantage list`: what there is to choose from.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <string_view>
 
@@ -9,6 +11,8 @@ namespace vantage {
 std::string listing_topics_text();  ///< "gains, choices, features, ..."
 /// One topic, an entry a line that begins with its name; empty: all topics with headings. @throws
 /// ConfigError for another topic.
-std::string listing(std::string_view topic);
+std::string listing_text(std::string_view topic);
+/// The same as an array of entries for each topic.
+nlohmann::ordered_json listing_json(std::string_view topic);
 
 }  // namespace vantage

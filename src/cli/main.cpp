@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "vantage/cli/commands.hpp"
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/manifest.hpp"
@@ -22,6 +23,7 @@ int run_command_line(int argc, char** argv) {
   for (const vantage::Command& command : vantage::commands()) {
     CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.help));
     auto action = command.declare(*sub);
+    vantage::add_common_flags(*sub);
     sub->callback([&chosen, action] { chosen = action; });
   }
   try {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
@@ -215,7 +216,7 @@ std::function<ExitCode()> declare_recognise(CLI::App& app) {
   app.add_option("--set", arguments->overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);
-  app.add_flag("--json", arguments->json, "print one JSON object")->disable_flag_override();
+  add_json(app, arguments->json);
   app.footer([] {
     return "Keys of --set with their defaults:\n\n" + to_yaml(write_node(RecogniseOptions{}));
   });

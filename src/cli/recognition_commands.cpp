@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
@@ -37,7 +38,6 @@ struct Arguments {
   int jobs = all_cores();
   bool skip_bad = false;
   bool json = false;
-  bool quiet = false;
 
   [[nodiscard]] LongWork how() const {
     return {.threads = jobs, .poll = throw_if_interrupted, .feature_cache = cache};
@@ -66,10 +66,8 @@ void declare_common(CLI::App& app, Arguments& arguments) {
   app.add_option("--set", arguments.overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);
-  app.add_flag("--skip-bad", arguments.skip_bad, "leave out views whose files are not complete")
-      ->disable_flag_override();
-  app.add_flag("--json", arguments.json, "print one JSON object")->disable_flag_override();
-  app.add_flag("-q,--quiet", arguments.quiet, "warnings and errors only")->disable_flag_override();
+  app.add_flag("--skip-bad", arguments.skip_bad, "leave out views whose files are not complete");
+  add_json(app, arguments.json);
   app.footer(
       [] { return "Keys of --set with their defaults:\n\n" + to_yaml(write_node(Options{})); });
 }
@@ -118,7 +116,6 @@ void print_model(const Json& model) {
 }
 
 ExitCode train_command(const Arguments& arguments) {
-  if (arguments.quiet) set_verbosity(Verbosity::quiet);
   const auto options = options_of<TrainingOptions>(arguments);
   make_writable_directory(fs::absolute(arguments.out).parent_path());
   catch_interrupts();
@@ -140,7 +137,6 @@ ExitCode train_command(const Arguments& arguments) {
 }
 
 ExitCode evaluate_command(const Arguments& arguments) {
-  if (arguments.quiet) set_verbosity(Verbosity::quiet);
   const auto options = options_of<RecognitionStudyOptions>(arguments);
   make_writable_directory(arguments.out);
   catch_interrupts();

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/view_scoring.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
@@ -75,7 +76,7 @@ std::function<ExitCode()> declare_score_views(CLI::App& app) {
   app.add_option("--seed", score.seed, "of sampled views")->check(not_empty);
   app.add_option("--write-views", arguments->write_views, "write the views, best first, as CSV")
       ->check(not_empty);
-  app.add_flag("--json", arguments->json, "print one JSON object")->disable_flag_override();
+  add_json(app, arguments->json);
   app.footer(footer);
   return [arguments] { return score_views_command(*arguments); };
 }

@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/core/data_root.hpp"
-#include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/study/collect.hpp"
 #include "vantage/study/compare.hpp"
@@ -31,7 +31,6 @@ struct SweepArguments {
   std::string shard = "1/1";
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool overwrite = false;
-  bool quiet = false;
   bool json = false;
 };
 
@@ -63,15 +62,24 @@ ExitCode code_of(const std::vector<EpisodeState>& states) {
   return good ? ExitCode::done : ExitCode::goal_failed;
 }
 
+void print_status(const SweepArguments& arguments, const fs::path& directory,
+                  const std::vector<PlannedEpisode>& plan,
+                  const std::vector<EpisodeState>& states) {
+  if (arguments.json) {
+    fmt::print("{}\n", status_json(directory, plan, states).dump(2));
+  } else {
+    fmt::print("{}: {}", directory.string(), status_text(directory, plan, states));
+  }
+}
+
 ExitCode run_command(const SweepArguments& arguments) {
-  if (arguments.quiet) set_verbosity(Verbosity::quiet);
   const OpenedStudy opened = open_study(arguments);
   const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
   const StudySweepOptions options{opened.directory, arguments.jobs, arguments.overwrite};
   prepare_study_folder(opened.study, options);
   catch_interrupts();
   const auto states = run_sweep(plan, options);
-  fmt::print("{}: {}", opened.directory.string(), status_text(opened.directory, plan, states));
+  print_status(arguments, opened.directory, plan, states);
   if (interrupt_signal() != 0) return static_cast<ExitCode>(128 + interrupt_signal());
   return code_of(states);
 }
@@ -82,8 +90,14 @@ ExitCode plan_command(const SweepArguments& arguments) {
   const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
   const auto states = opened.from_folder ? episode_states(opened.directory, plan)
                                          : std::vector<EpisodeState>(plan.size());
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    if (!is_result(states[i])) fmt::print("{}\n", plan[i].name);
+    if (!is_result(states[i])) names.push_back(plan[i].name);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", nlohmann::ordered_json({{"episodes", names}}).dump(2));
+  } else {
+    for (const std::string& name : names) fmt::print("{}\n", name);
   }
   return ExitCode::done;
 }
@@ -92,11 +106,7 @@ ExitCode status_command(const SweepArguments& arguments) {
   const OpenedStudy opened = open_study(arguments);
   const auto plan = plan_study(opened.study);
   const auto states = episode_states(opened.directory, plan);
-  if (arguments.json) {
-    fmt::print("{}\n", status_json(opened.directory, plan, states).dump(2));
-  } else {
-    fmt::print("{}: {}", opened.directory.string(), status_text(opened.directory, plan, states));
-  }
+  print_status(arguments, opened.directory, plan, states);
   return code_of(states);
 }
 
@@ -106,9 +116,10 @@ ExitCode collect_command(const SweepArguments& arguments) {
   const StudyResults results = read_study_results(opened.directory);
   const Evaluation evaluation = evaluate(results);
   write_collection(results, evaluation);
-  fmt::print("{}", markdown(results.study.title, {study_overview(evaluation)}));
-  fmt::print("\n{}: {}", opened.directory.string(),
-             status_text(opened.directory, results.plan, results.states));
+  if (!arguments.json) {
+    fmt::print("{}\n", markdown(results.study.title, {study_overview(evaluation)}));
+  }
+  print_status(arguments, opened.directory, results.plan, results.states);
   return code_of(results.states);
 }
 
@@ -139,7 +150,6 @@ constexpr SweepVerb kVerbs[] = {
            ->check(CLI::Range(1, 1024))
            ->capture_default_str();
        app.add_flag("--overwrite", arguments.overwrite, "go on in a folder of another study");
-       app.add_flag("-q,--quiet", arguments.quiet, "warnings and errors only");
      }},
     {"plan", "list the episodes that would run", plan_command,
      [](CLI::App& app, SweepArguments& arguments) {
@@ -147,9 +157,7 @@ constexpr SweepVerb kVerbs[] = {
        add_shard(app, arguments);
      }},
     {"status", "what is missing, failed, diverged; exit 1 unless all is there", status_command,
-     [](CLI::App& app, SweepArguments& arguments) {
-       app.add_flag("--json", arguments.json, "print one JSON object");
-     }},
+     [](CLI::App&, SweepArguments&) {}},
     {"collect", "merge the results to tables and figures; exit 1 unless all is there",
      collect_command, [](CLI::App&, SweepArguments&) {}},
 };
@@ -165,6 +173,7 @@ std::function<ExitCode()> declare_sweep(CLI::App& app) {
     sub->add_option("study", arguments->study, "study file, or folder of its results")->required();
     sub->add_option("--out", arguments->directory, "study folder; default out/<study>");
     verb.options(*sub, *arguments);
+    add_json(*sub, arguments->json);
     sub->callback([chosen, command = verb.command] { *chosen = command; });
   }
   return [arguments, chosen] { return (*chosen)(*arguments); };
@@ -183,7 +192,7 @@ std::function<ExitCode()> declare_compare(CLI::App& app) {
   app.add_option("--tolerance", arguments->tolerance, "relative; 0: everything but wall times same")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  app.add_flag("--json", arguments->json, "print one JSON object");
+  add_json(app, arguments->json);
   return [arguments] {
     const FolderComparison comparison =
         compare_folders(arguments->first, arguments->second, arguments->tolerance);

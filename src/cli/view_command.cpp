@@ -95,9 +95,6 @@ std::function<ExitCode()> declare_view(CLI::App& app) {
   app.add_option("--at", arguments->at_s, "simulated time of the screenshot, s")
       ->check(CLI::NonNegativeNumber)
       ->needs(screenshot);
-  for (CLI::Option* option : app.get_options()) {
-    if (option->get_items_expected_max() == 0) option->disable_flag_override();
-  }
   app.footer(kFooter);
   return [&app, arguments] { return view_command(app, *arguments); };
 }

@@ -108,7 +108,8 @@ void FeatureCache::read_shelf(Shelf& shelf) {
         FeatureResult result{{}, reader.text("a view")};
         if (result.extracted()) {
           result.vector.resize(shelf.dimension);
-          reader.numbers(std::span<float>(result.vector), "a view");
+          reader.numbers(std::span(result.vector.data(), static_cast<std::size_t>(shelf.dimension)),
+                         "a view");
         }
         shelf.known.insert_or_assign(view, std::move(result));
       }

@@ -1,0 +1,16 @@
+/// The flags that are the same for every command.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace vantage {
+
+/// -q and -v for the command and its subcommands. No flag of theirs takes a value.
+void add_common_flags(CLI::App& app);
+
+/// --json, for a command that prints a result.
+void add_json(CLI::App& app, bool& json);
+
+}  // namespace vantage
