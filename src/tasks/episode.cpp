@@ -75,7 +75,8 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   require_kind(setup.robot,
                std::visit([](const auto& task) { return task.robot_kind(); }, resolved.task),
                key("robot.model", model));
-  read_episode(with_robot_defaults(root, setup.robot, strategy_name_of(resolved.task)),
+  read_episode(with_robot_defaults(root, episode_node(resolved), setup.robot,
+                                   strategy_name_of(resolved.task)),
                setup.options, resolved.task);
   setup.options.scene = lasting_name(setup.scene);
   setup.options.robot.model = lasting_name(robot_path);

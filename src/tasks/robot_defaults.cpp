@@ -38,11 +38,12 @@ ConfigNode footprint_default(const RobotFolder& robot, const Footprint& footprin
 
 }  // namespace
 
-ConfigNode with_robot_defaults(const ConfigNode& episode, const RobotFolder& robot,
-                               std::string_view task) {
+ConfigNode with_robot_defaults(const ConfigNode& episode, const ConfigNode& keys,
+                               const RobotFolder& robot, std::string_view task) {
   ConfigNode filled = episode;
   if (const ConfigNode* defaults = robot.episode_defaults.find(task)) fill_in(filled, *defaults);
-  if (const auto* base = std::get_if<MobileBaseDescription>(&robot.kind)) {
+  const auto* base = std::get_if<MobileBaseDescription>(&robot.kind);
+  if (base != nullptr && keys.find("navigation") != nullptr) {
     fill_in(filled, footprint_default(robot, base->footprint));
   }
   return filled;
