@@ -2,6 +2,7 @@
 /// measured, a gain that sums over cells also predicts how many of them the view will newly show.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -43,6 +44,20 @@ inline std::string_view unit_of(const Gain& gain) {
 /// Whether its value is a number of cells, to be held against what a view showed.
 inline bool predicts_cells(const Gain& gain) {
   return std::visit([](const auto& g) { return g.predicts_cells; }, gain);
+}
+
+/// The transmission of an unobserved cell that the gain assumes, if it assumes one and the same for
+/// all: the gain says so by a member of this name.
+inline std::optional<double> transmission_unobserved(const Gain& gain) {
+  return std::visit(
+      [](const auto& g) -> std::optional<double> {
+        if constexpr (requires { g.transmission_unobserved(); }) {
+          return g.transmission_unobserved();
+        } else {
+          return {};
+        }
+      },
+      gain);
 }
 
 /// The gains that predict cells, with their defaults.

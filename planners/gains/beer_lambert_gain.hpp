@@ -15,6 +15,7 @@ struct BeerLambertGain {
   static constexpr bool predicts_cells = true;
   double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
   void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
+  [[nodiscard]] double transmission_unobserved() const { return a; }
 
   static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;

@@ -32,6 +32,7 @@ struct FsmiGain {
     f("d_occ", d_occ, at_least(1.0));
     f("d_emp", d_emp, Range{0.0, 1.0, true});
   }
+  [[nodiscard]] double transmission_unobserved() const { return 1.0 - opacity_unobserved; }
 
   struct Cell {
     float p_hit = 0.0F;      ///< o_j

@@ -18,6 +18,7 @@ struct OcclusionAwareGain {
     fan.fields(f);
     f("opacity_unobserved", opacity_unobserved, between(0.0, 0.5));
   }
+  [[nodiscard]] double transmission_unobserved() const { return 1.0 - opacity_unobserved; }
 
   using Beam = EntropyBeam;
 

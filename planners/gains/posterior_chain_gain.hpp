@@ -21,6 +21,7 @@ struct PosteriorChainGain {
   static constexpr bool predicts_cells = true;
   PosteriorModel model;
   void fields(auto&& f) { model.fields(f); }
+  [[nodiscard]] double transmission_unobserved() const { return model.visibility.a; }
 
   class Ray {
    public:

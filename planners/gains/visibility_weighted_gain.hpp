@@ -15,6 +15,7 @@ struct VisibilityWeightedGain {
   static constexpr bool predicts_cells = true;
   VisibilityModel model;
   void fields(auto&& f) { model.fields(f); }
+  [[nodiscard]] double transmission_unobserved() const { return model.a; }
 
   class Ray {
    public:

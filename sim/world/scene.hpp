@@ -1,12 +1,13 @@
 /// Scene composition: any MJCF scene of the user's and one of our robots, in one model.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "vantage/sim/world/model_source.hpp"
 
 struct mjModel_;
 using mjModel = mjModel_;
@@ -17,22 +18,6 @@ struct ModelDeleter {
   void operator()(mjModel* model) const;
 };
 using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
-
-struct MemoryFile {
-  std::string name;  ///< as the MJCF calls it
-  std::string content;
-};
-
-/// Two MJCF files. The scene may use any `<compiler>` settings and includes. When a robot joins it,
-/// its numbers are rounded to six digits and its keyframes dropped (their length would no longer
-/// fit), and names starting with `robot/` belong to the robot. The robot brings no files of its
-/// own.
-struct ModelSource {
-  std::filesystem::path scene;
-  std::filesystem::path robot;  ///< empty: no robot
-  std::vector<MemoryFile> files =
-      {};  ///< stand in for files of these names that the scene refers to
-};
 
 struct LoadedModel {
   ModelPtr model;

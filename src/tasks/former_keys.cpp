@@ -53,8 +53,8 @@ std::string instead_of(const ConfigNode& node, const std::string& path) {
   const auto renamed = std::ranges::find(kRenamed, path, &RenamedKey::former);
   if (renamed != kRenamed.end()) return fmt::format("is called '{}' now", renamed->now);
   if (path == "setting") {
-    return node.scalar == "office" ? "is no key any more: write task: exploration"
-                                   : "is no key any more: write task: tabletop";
+    return node.scalar == "office" ? "is no key any more, write 'task: exploration'"
+                                   : "is no key any more, write 'task: tabletop'";
   }
   if (path == "task" && node.scalar == "next_best_view") {
     return "next_best_view is two tasks now: write task: tabletop, or for setting: office task: "

@@ -147,7 +147,7 @@ TEST_F(CommandLine, AKeyOfAnotherTaskNamesThatTask) {
 
 TEST_F(CommandLine, FormerKeysSayWhatToWrite) {
   const auto office = file("e.yaml", "scene: s.xml\nsetting: office\n");
-  expect_error(vantage("run " + office), 2, {"e.yaml:2", "setting", "write task: exploration"});
+  expect_error(vantage("run " + office), 2, {"e.yaml:2", "setting", "write 'task: exploration'"});
   expect_error(vantage("run --set task=next_best_view"), 2,
                {"--set", "task: tabletop", "task: exploration"});
   expect_error(vantage("validate " + file("f.yaml", "recognition:\n  max_views: 3\n")), 2,

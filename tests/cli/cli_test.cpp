@@ -76,19 +76,16 @@ TEST_F(CommandLine, SecondRunNeedsOverwrite) {
 }
 
 TEST_F(CommandLine, InterruptedRunWritesWhatThereIs) {
-  const Result result =
-      shell("cd '" + folder_.string() +
-            "' && timeout --preserve-status -s INT 4 " VANTAGE_BINARY " run -q --json");
+  const Result result = interrupted("run --json", "scan 1", "INT");
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_THAT(result.output, HasSubstr("\"status\": \"interrupted\""));
   EXPECT_THAT(written(), testing::IsSupersetOf({"metrics.json", "report.html", "states.bin"}));
 }
 
 TEST_F(CommandLine, InterruptedScanIsNotFinished) {
-  // An hour of scanning: no machine is through with it after four seconds.
-  const Result result = shell("cd '" + folder_.string() +
-                              "' && timeout --preserve-status -s INT 4 " VANTAGE_BINARY
-                              " run -q --json --set laser.scan_duration_s=3600 --out run");
+  // An hour of scanning: no machine is through with it when it is told to stop.
+  const Result result =
+      interrupted("run --json --set laser.scan_duration_s=3600 --out run", "seed 1", "INT");
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_THAT(result.output, HasSubstr("\"scans\": []"));
   EXPECT_EQ(vantage("replay run").exit_code, 0);
@@ -96,8 +93,7 @@ TEST_F(CommandLine, InterruptedScanIsNotFinished) {
 }
 
 TEST_F(CommandLine, TerminatedRunEndsIn143) {
-  const Result result = shell("cd '" + folder_.string() +
-                              "' && timeout --preserve-status -s TERM 4 " VANTAGE_BINARY " run -q");
+  const Result result = interrupted("run", "scan 1", "TERM");
   EXPECT_EQ(result.exit_code, 143) << result.output;
   EXPECT_THAT(written(), testing::Contains("metrics.json"));
 }

@@ -36,9 +36,9 @@ std::string problem(const std::string& yaml) {
 
 TEST(FormerKeys, ASettingIsATaskNow) {
   EXPECT_THAT(problem("scans: 3\nsetting: office\n"),
-              AllOf(HasSubstr("e.yaml:2: setting"), HasSubstr("write task: exploration")));
+              AllOf(HasSubstr("e.yaml:2: setting"), HasSubstr("write 'task: exploration'")));
   EXPECT_THAT(problem("setting: tabletop\n"),
-              AllOf(HasSubstr("e.yaml:1: setting"), HasSubstr("write task: tabletop")));
+              AllOf(HasSubstr("e.yaml:1: setting"), HasSubstr("write 'task: tabletop'")));
 }
 
 TEST(FormerKeys, NextBestViewIsTwoTasksNow) {

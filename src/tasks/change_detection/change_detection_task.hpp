@@ -10,7 +10,7 @@
 
 #include "vantage/recognition/change_detection.hpp"
 #include "vantage/runtime/measure.hpp"
-#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/object_flight/object_flight.hpp"
 #include "vantage/tasks/object_flight/object_on_table.hpp"
 

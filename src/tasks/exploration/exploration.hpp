@@ -11,7 +11,7 @@
 #include "vantage/runtime/episode_run.hpp"
 #include "vantage/runtime/measure.hpp"
 #include "vantage/runtime/task_answers.hpp"
-#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/exploration/head_sweep.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 

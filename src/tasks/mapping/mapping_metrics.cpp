@@ -44,15 +44,8 @@ Json scan_json(const ScanRecord& scan) {
 /// The transmission that the gain in use assumes for an unobserved cell; null if it assumes none.
 Json observability(const MappingOptions& options, const ClutterHazard& hazard) {
   if (std::holds_alternative<AdaptiveGain>(options.gain)) return hazard.global_transmission();
-  return std::visit(
-      [](const auto& gain) -> Json {
-        if constexpr (requires { gain.a; }) return gain.a;
-        if constexpr (requires { gain.model.a; }) return gain.model.a;
-        if constexpr (requires { gain.model.visibility.a; }) return gain.model.visibility.a;
-        if constexpr (requires { gain.opacity_unobserved; }) return 1.0 - gain.opacity_unobserved;
-        return nullptr;
-      },
-      options.gain);
+  const auto assumed = transmission_unobserved(options.gain);
+  return assumed ? Json(*assumed) : Json();
 }
 
 Curve scan_values(const MeasuredEpisode& episode, const char* key) {

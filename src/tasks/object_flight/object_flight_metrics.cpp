@@ -95,16 +95,39 @@ std::string text_or_nothing(const Json& metrics, const char* key) {
   return metrics[key].is_string() ? metrics[key].get<std::string>() : "nothing yet";
 }
 
-std::optional<double> views_taken(const MeasuredEpisode& episode) {
-  return static_cast<double>(episode.metrics.at("observations").size());
-}
+namespace {
 
 std::optional<double> mean_of_views(const MeasuredEpisode& episode, const char* key) {
   return mean_of(step_values(episode, "observations", key));
 }
 
-Curve entropy_of_views(const MeasuredEpisode& episode) {
-  return step_values(episode, "observations", "entropy_bits");
-}
+}  // namespace
+
+const ScalarMeasure kCorrect{
+    {"correct", "recognised the object, or what has changed, share"},
+    [](const MeasuredEpisode& episode) { return number_of(episode, "correct"); }};
+const ScalarMeasure kViews{{"views", "views taken"},
+                           [](const MeasuredEpisode& episode) -> std::optional<double> {
+                             return static_cast<double>(episode.metrics.at("observations").size());
+                           }};
+const ScalarMeasure kStateEntropy{
+    {"entropy_bits", "entropy of the state at the end, bits"},
+    [](const MeasuredEpisode& episode) { return number_of(episode, "entropy_bits"); }};
+const ScalarMeasure kMapProbability{
+    {"map_probability", "probability of the estimate at the end"},
+    [](const MeasuredEpisode& episode) { return number_of(episode, "map_probability"); }};
+const ScalarMeasure kBinError{
+    {"bin_error", "error of the pose, bins"},
+    [](const MeasuredEpisode& episode) { return number_of(episode, "bin_error"); }};
+const ScalarMeasure kViewPositionError{
+    {"view_position_error_m", "mean position error of a view, m"},
+    [](const MeasuredEpisode& episode) { return mean_of_views(episode, "position_error_m"); }};
+const ScalarMeasure kViewAngleError{
+    {"view_angle_error_rad", "mean angle error of a view, rad"},
+    [](const MeasuredEpisode& episode) { return mean_of_views(episode, "angle_error_rad"); }};
+const CurveMeasure kViewEntropy{{"view_entropy_bits", "entropy of the state, bits"},
+                                [](const MeasuredEpisode& episode) {
+                                  return step_values(episode, "observations", "entropy_bits");
+                                }};
 
 }  // namespace vantage

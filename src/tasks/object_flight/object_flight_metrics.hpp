@@ -21,8 +21,13 @@ void add_observations(const ObjectFlight& task, const ObjectFlightParts& run,
 std::string text_or_nothing(const nlohmann::ordered_json& metrics, const char* key);
 
 // Measures that recognition and change detection share.
-std::optional<double> views_taken(const MeasuredEpisode& episode);
-std::optional<double> mean_of_views(const MeasuredEpisode& episode, const char* key);
-Curve entropy_of_views(const MeasuredEpisode& episode);
+extern const ScalarMeasure kCorrect;
+extern const ScalarMeasure kViews;
+extern const ScalarMeasure kStateEntropy;
+extern const ScalarMeasure kMapProbability;
+extern const ScalarMeasure kBinError;
+extern const ScalarMeasure kViewPositionError;
+extern const ScalarMeasure kViewAngleError;
+extern const CurveMeasure kViewEntropy;
 
 }  // namespace vantage

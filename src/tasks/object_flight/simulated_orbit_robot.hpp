@@ -1,7 +1,7 @@
 /// The simulated quadrotor that flies round a table.
 #pragma once
 
-#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/flight/simulated_quadrotor.hpp"
 #include "vantage/tasks/object_flight/object_flight.hpp"
 #include "vantage/tasks/object_flight/orbit_ground_truth.hpp"

@@ -37,28 +37,21 @@ void add_metrics(const RecognitionTask& task, const ObjectOnTable& truth,
 }
 
 const auto kScalars = std::to_array<ScalarMeasure>({
-    {{"correct", "recognised the object, or what has changed, share"},
-     [](const MeasuredEpisode& e) { return number_of(e, "correct"); }},
+    kCorrect,
     {{"category_correct", "recognised the category, share"},
      [](const MeasuredEpisode& e) { return number_of(e, "category_correct"); }},
-    {{"views", "views taken"}, views_taken},
-    {{"entropy_bits", "entropy of the state at the end, bits"},
-     [](const MeasuredEpisode& e) { return number_of(e, "entropy_bits"); }},
-    {{"map_probability", "probability of the estimate at the end"},
-     [](const MeasuredEpisode& e) { return number_of(e, "map_probability"); }},
-    {{"bin_error", "error of the pose, bins"},
-     [](const MeasuredEpisode& e) { return number_of(e, "bin_error"); }},
-    {{"view_position_error_m", "mean position error of a view, m"},
-     [](const MeasuredEpisode& e) { return mean_of_views(e, "position_error_m"); }},
-    {{"view_angle_error_rad", "mean angle error of a view, rad"},
-     [](const MeasuredEpisode& e) { return mean_of_views(e, "angle_error_rad"); }},
+    kViews,
+    kStateEntropy,
+    kMapProbability,
+    kBinError,
+    kViewPositionError,
+    kViewAngleError,
     kPathLength,
     kCollisions,
     kSimulatedTime,
 });
 
-constexpr auto kCurves = std::to_array<CurveMeasure>(
-    {{{"view_entropy_bits", "entropy of the state, bits"}, entropy_of_views}});
+const auto kCurves = std::to_array<CurveMeasure>({kViewEntropy});
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "vantage/runtime/measure.hpp"
-#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/object_flight/object_flight.hpp"
 
 namespace vantage {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/flight/object_database_options.hpp"
 
 namespace vantage {

@@ -22,7 +22,7 @@
 #include "vantage/runtime/measure.hpp"
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/sensors/camera_options.hpp"
-#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/flight/object_database_options.hpp"
 
 namespace vantage {

@@ -15,7 +15,7 @@
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
 #include "vantage/sim/sensors/laser_options.hpp"
-#include "vantage/sim/world/scene.hpp"
+#include "vantage/sim/world/model_source.hpp"
 
 namespace vantage {
 
