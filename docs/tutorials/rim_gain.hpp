@@ -16,8 +16,10 @@ struct RimGain {
   static constexpr std::string_view name = "rim";
   static constexpr std::string_view unit = "cells";
   static constexpr bool predicts_cells = false;
-  double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
-  void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
+  double a = 0.995;
+  void fields(auto&& f) {
+    f("a", a, "p(a beam passes an unobserved cell); higher sees deeper", between(0.0, 1.0));
+  }
 
   static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;

@@ -57,8 +57,11 @@ struct NearestFrontier {
 struct GainOverDistance {
   static constexpr std::string_view name = "gain_over_distance";
   static constexpr bool weighs_gain = true;
-  double lambda_per_m = 0.2;  ///< 1/m, >= 0; higher prefers near views, 0 is greedy
-  void fields(auto&& f) { f("lambda_per_m", lambda_per_m, at_least(0.0)); }
+  double lambda_per_m = 0.2;
+  void fields(auto&& f) {
+    f("lambda_per_m", lambda_per_m, "1/m, >= 0; higher prefers near views, 0 is greedy",
+      at_least(0.0));
+  }
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 

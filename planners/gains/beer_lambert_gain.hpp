@@ -13,8 +13,10 @@ namespace vantage {
 struct BeerLambertGain {
   static constexpr std::string_view name = "beer_lambert";
   static constexpr bool predicts_cells = true;
-  double a = 0.995;  ///< p(a beam passes an unobserved cell); higher sees deeper
-  void fields(auto&& f) { f("a", a, between(0.0, 1.0)); }
+  double a = 0.995;
+  void fields(auto&& f) {
+    f("a", a, "p(a beam passes an unobserved cell); higher sees deeper", between(0.0, 1.0));
+  }
   [[nodiscard]] double transmission_unobserved() const { return a; }
 
   static constexpr bool unobserved_only = true;

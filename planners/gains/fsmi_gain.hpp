@@ -23,14 +23,17 @@ struct FsmiGain {
   static constexpr std::string_view name = "fsmi";
   static constexpr bool predicts_cells = false;
   BeamFan fan = {};
-  double opacity_unobserved = kOpacityUnobserved;  ///< of a cell, [0, 0.5]; higher sees less deep
-  double d_occ = 0.8 / 0.2;  ///< what a hit multiplies odds by, >= 1; higher values surfaces more
-  double d_emp = 0.3 / 0.7;  ///< the same of a pass, (0, 1]; lower values free space more
+  double opacity_unobserved = kOpacityUnobserved;
+  double d_occ = 0.8 / 0.2;
+  double d_emp = 0.3 / 0.7;
   void fields(auto&& f) {
     fan.fields(f);
-    f("opacity_unobserved", opacity_unobserved, between(0.0, 0.5));
-    f("d_occ", d_occ, at_least(1.0));
-    f("d_emp", d_emp, Range{0.0, 1.0, true});
+    f("opacity_unobserved", opacity_unobserved, "of a cell, [0, 0.5]; higher sees less deep",
+      between(0.0, 0.5));
+    f("d_occ", d_occ, "what a hit multiplies odds by, >= 1; higher values surfaces more",
+      at_least(1.0));
+    f("d_emp", d_emp, "the same of a pass, (0, 1]; lower values free space more",
+      Range{0.0, 1.0, true});
   }
   [[nodiscard]] double transmission_unobserved() const { return 1.0 - opacity_unobserved; }
 

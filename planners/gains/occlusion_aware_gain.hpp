@@ -13,10 +13,11 @@ struct OcclusionAwareGain {
   static constexpr std::string_view name = "occlusion_aware";
   static constexpr bool predicts_cells = false;
   BeamFan fan = {};
-  double opacity_unobserved = kOpacityUnobserved;  ///< of a cell, [0, 0.5]; higher sees less deep
+  double opacity_unobserved = kOpacityUnobserved;
   void fields(auto&& f) {
     fan.fields(f);
-    f("opacity_unobserved", opacity_unobserved, between(0.0, 0.5));
+    f("opacity_unobserved", opacity_unobserved, "of a cell, [0, 0.5]; higher sees less deep",
+      between(0.0, 0.5));
   }
   [[nodiscard]] double transmission_unobserved() const { return 1.0 - opacity_unobserved; }
 

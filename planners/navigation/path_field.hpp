@@ -11,19 +11,25 @@
 namespace vantage {
 
 struct NavigationOptions {
-  double footprint_radius_m = 0.48;  ///< circle round the base at any heading; higher keeps away
-  double margin_m = 0.04;        ///< on top; at least cell_m / sqrt(2) makes up for the cells' size
-  double clearance_weight = 1;   ///< cost of touching the margin, per length; higher takes detours
-  double comfort_m = 0.30;       ///< clearance beyond the margin from where on more is not better
-  double escape_radius_m = 0.6;  ///< how far to look for a way out of a place too near an obstacle
-  double watch_m = 1.0;  ///< of the way ahead, where something newly seen stops the robot; 0 is off
+  double footprint_radius_m = 0.48;
+  double margin_m = 0.04;
+  double clearance_weight = 1;
+  double comfort_m = 0.30;
+  double escape_radius_m = 0.6;
+  double watch_m = 1.0;
   void fields(auto&& f) {
-    f("footprint_radius_m", footprint_radius_m, at_least(0.0));
-    f("margin_m", margin_m, at_least(0.0));
-    f("clearance_weight", clearance_weight, at_least(0.0));
-    f("comfort_m", comfort_m, above(0.0));
-    f("escape_radius_m", escape_radius_m, at_least(0.0));
-    f("watch_m", watch_m, at_least(0.0));
+    f("footprint_radius_m", footprint_radius_m,
+      "circle round the base at any heading; higher keeps away", at_least(0.0));
+    f("margin_m", margin_m, "on top; at least cell_m / sqrt(2) makes up for the cells' size",
+      at_least(0.0));
+    f("clearance_weight", clearance_weight,
+      "cost of touching the margin, per length; higher takes detours", at_least(0.0));
+    f("comfort_m", comfort_m, "clearance beyond the margin from where on more is not better",
+      above(0.0));
+    f("escape_radius_m", escape_radius_m,
+      "how far to look for a way out of a place too near an obstacle", at_least(0.0));
+    f("watch_m", watch_m, "of the way ahead, where something newly seen stops the robot; 0 is off",
+      at_least(0.0));
   }
   [[nodiscard]] double inflation_m() const { return footprint_radius_m + margin_m; }
 };

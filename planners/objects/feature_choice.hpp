@@ -19,8 +19,11 @@ namespace vantage {
 /// No feature is worth its while any more.  [Potthast2016, 4.3.1]
 struct GainBelow {
   static constexpr std::string_view name = "gain_below";
-  double threshold = 0.02;  ///< bits, or bits/s if per cost, >= 0; higher stops earlier, 0 never
-  void fields(auto&& f) { f("threshold", threshold, at_least(0.0)); }
+  double threshold = 0.02;
+  void fields(auto&& f) {
+    f("threshold", threshold, "bits, or bits/s if per cost, >= 0; higher stops earlier, 0 never",
+      at_least(0.0));
+  }
   [[nodiscard]] bool operator()(double best, std::optional<double> /*last*/) const {
     return best < threshold;
   }
@@ -41,18 +44,19 @@ inline constexpr std::string_view strategy_family<FeatureStop> = "feature stop";
 
 struct FeatureChoice {
   InformationMeasure measure = MutualInformation{};
-  std::string first = {};    ///< extracted first at every view; empty: chosen as all others
-  int states = 48;           ///< most probable ones that are told apart, > 0; effort is its square
-  bool about_object = true;  ///< count what is told of the object, not also of its pose
-  bool per_cost = false;     ///< compare gains per second of extraction
+  std::string first = {};
+  int states = 48;
+  bool about_object = true;
+  bool per_cost = false;
   FeatureStop stop = GainBelow{};
   void fields(auto&& f) {
-    f("measure", measure);
-    f("first", first);
-    f("states", states, between(1, 100'000));
-    f("about_object", about_object);
-    f("per_cost", per_cost);
-    f("stop", stop);
+    f("measure", measure, "@@");
+    f("first", first, "extracted first at every view; empty: chosen as all others");
+    f("states", states, "most probable ones that are told apart, > 0; effort is its square",
+      between(1, 100'000));
+    f("about_object", about_object, "count what is told of the object, not also of its pose");
+    f("per_cost", per_cost, "compare gains per second of extraction");
+    f("stop", stop, "@@");
   }
 };
 

@@ -49,8 +49,11 @@ struct MeanFeatureInformation {
 /// The mutual information by sampling, with its standard error: the reference for all others.
 struct MonteCarloInformation {
   static constexpr std::string_view name = "monte_carlo";
-  int samples = 1000;  ///< >= 2; the standard error falls with its root, time rises with it
-  void fields(auto&& f) { f("samples", samples, between(2, 1'000'000)); }
+  int samples = 1000;
+  void fields(auto&& f) {
+    f("samples", samples, ">= 2; the standard error falls with its root, time rises with it",
+      between(2, 1'000'000));
+  }
   InformationEstimate operator()(const InformationQuery& query, Rng& rng) const;
 };
 
@@ -58,11 +61,11 @@ struct MonteCarloInformation {
 /// features.  [Potthast2016, (4.13)-(4.16), (4.21), (4.24)]
 struct LossOfEntropy {
   static constexpr std::string_view name = "loss_of_entropy";
-  int samples = 64;      ///< >= 2; more are less noisy and take longer
-  bool at_mean = false;  ///< one feature per state, its mean, instead of samples
+  int samples = 64;
+  bool at_mean = false;
   void fields(auto&& f) {
-    f("samples", samples, between(2, 1'000'000));
-    f("at_mean", at_mean);
+    f("samples", samples, ">= 2; more are less noisy and take longer", between(2, 1'000'000));
+    f("at_mean", at_mean, "one feature per state, its mean, instead of samples");
   }
   InformationEstimate operator()(const InformationQuery& query, Rng& rng) const;
 };

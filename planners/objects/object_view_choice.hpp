@@ -40,20 +40,24 @@ inline constexpr std::string_view strategy_family<ObjectViewChoice> = "object vi
 
 struct ObjectViewOptions {
   ObjectViewChoice choice = MutualInformation{};
-  int states = 48;            ///< most probable ones that are told apart, > 0; effort is its square
-  bool about_object = true;   ///< count what is told of the object, not also of its pose
-  double weight_per_s = 0.0;  ///< cost of an action is the weighted sum of its time, path and
-  double weight_per_m = 0.0;  ///< energy; weights >= 0, higher prefers cheap actions. All 0: gains
-  double weight_per_j = 0.0;  ///< are compared as they are, otherwise per cost
-  double visited_weight = 0.0;  ///< of a view taken before, [0, 1]; 0: not while others are left
+  int states = 48;
+  bool about_object = true;
+  double weight_per_s = 0.0;
+  double weight_per_m = 0.0;
+  double weight_per_j = 0.0;
+  double visited_weight = 0.0;
   void fields(auto&& f) {
-    f("choice", choice);
-    f("states", states, between(1, 100'000));
-    f("about_object", about_object);
-    f("weight_per_s", weight_per_s, at_least(0.0));
-    f("weight_per_m", weight_per_m, at_least(0.0));
-    f("weight_per_j", weight_per_j, at_least(0.0));
-    f("visited_weight", visited_weight, between(0.0, 1.0));
+    f("choice", choice, "@@");
+    f("states", states, "most probable ones that are told apart, > 0; effort is its square",
+      between(1, 100'000));
+    f("about_object", about_object, "count what is told of the object, not also of its pose");
+    f("weight_per_s", weight_per_s, "cost of an action is the weighted sum of its time, path and",
+      at_least(0.0));
+    f("weight_per_m", weight_per_m,
+      "energy; weights >= 0, higher prefers cheap actions. All 0: gains", at_least(0.0));
+    f("weight_per_j", weight_per_j, "are compared as they are, otherwise per cost", at_least(0.0));
+    f("visited_weight", visited_weight,
+      "of a view taken before, [0, 1]; 0: not while others are left", between(0.0, 1.0));
   }
 };
 
@@ -92,11 +96,12 @@ ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
 
 /// When to look no further.
 struct EnoughViews {
-  double object_probability = 0.9;  ///< of an object in any pose, (0, 1]; higher looks more often
-  double entropy_bits = 0.1;        ///< of the state, >= 0; lower looks more often
+  double object_probability = 0.9;
+  double entropy_bits = 0.1;
   void fields(auto&& f) {
-    f("object_probability", object_probability, Range{0.0, 1.0, true});
-    f("entropy_bits", entropy_bits, at_least(0.0));
+    f("object_probability", object_probability,
+      "of an object in any pose, (0, 1]; higher looks more often", Range{0.0, 1.0, true});
+    f("entropy_bits", entropy_bits, "of the state, >= 0; lower looks more often", at_least(0.0));
   }
 };
 

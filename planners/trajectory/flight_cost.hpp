@@ -15,36 +15,42 @@
 namespace vantage {
 
 struct FlightCostOptions {
-  double obstacle_weight = 5.0;     ///< of c_o; higher keeps off further
-  double centre_weight = 1.0;       ///< of c_v; higher keeps the target in view
-  double recognition_weight = 0.5;  ///< of c_r c_i, 1/m; higher leaves the path for a view
-  bool information = true;          ///< false: c_i is 1 of every target
-  double tau_nats = 0.1;          ///< entropy below which a target is known; no key: the looks tell
-  double epsilon_m = 0.5;         ///< margin round the body; higher keeps off further
-  double body_radius_m = 0.5;     ///< of the sphere that holds the vehicle
-  double speed_floor_m_s = 0.2;   ///< so that standing in an obstacle costs; higher costs more
-  double segment_s = 1.0;         ///< time from a waypoint to the next; higher takes it as slower
-  double bearing_weight = 0.5;    ///< of the bearing in c_v; higher turns sooner to what is behind
-  bool between_waypoints = true;  ///< c_o looks half way to the neighbours too
-  double clearance_m = 0.6;       ///< from centre to surface that must be kept
-  double clearance_weight = 50.0;  ///< 1/m, of what is missing; higher is harder
-  double delta_m = 2.0;  ///< literal: obstacles farther away do not count; higher counts more
-  bool literal = false;  ///< the dissertation's forms as printed: for the record, they fly into it
+  double obstacle_weight = 5.0;
+  double centre_weight = 1.0;
+  double recognition_weight = 0.5;
+  bool information = true;
+  double tau_nats = 0.1;  ///< entropy below which a target is known; no key: the looks tell
+  double epsilon_m = 0.5;
+  double body_radius_m = 0.5;
+  double speed_floor_m_s = 0.2;
+  double segment_s = 1.0;
+  double bearing_weight = 0.5;
+  bool between_waypoints = true;
+  double clearance_m = 0.6;
+  double clearance_weight = 50.0;
+  double delta_m = 2.0;
+  bool literal = false;
   void fields(auto&& f) {
-    f("obstacle_weight", obstacle_weight, at_least(0.0));
-    f("centre_weight", centre_weight, at_least(0.0));
-    f("recognition_weight", recognition_weight, at_least(0.0));
-    f("information", information);
-    f("epsilon_m", epsilon_m, at_least(0.0));
-    f("body_radius_m", body_radius_m, at_least(0.0));
-    f("speed_floor_m_s", speed_floor_m_s, at_least(0.0));
-    f("segment_s", segment_s, above(0.0));
-    f("bearing_weight", bearing_weight, at_least(0.0));
-    f("between_waypoints", between_waypoints);
-    f("clearance_m", clearance_m, at_least(0.0));
-    f("clearance_weight", clearance_weight, at_least(0.0));
-    f("delta_m", delta_m, at_least(0.0));
-    f("literal", literal);
+    f("obstacle_weight", obstacle_weight, "of c_o; higher keeps off further", at_least(0.0));
+    f("centre_weight", centre_weight, "of c_v; higher keeps the target in view", at_least(0.0));
+    f("recognition_weight", recognition_weight,
+      "of c_r c_i, 1/m; higher leaves the path for a view", at_least(0.0));
+    f("information", information, "false: c_i is 1 of every target");
+    f("epsilon_m", epsilon_m, "margin round the body; higher keeps off further", at_least(0.0));
+    f("body_radius_m", body_radius_m, "of the sphere that holds the vehicle", at_least(0.0));
+    f("speed_floor_m_s", speed_floor_m_s,
+      "so that standing in an obstacle costs; higher costs more", at_least(0.0));
+    f("segment_s", segment_s, "time from a waypoint to the next; higher takes it as slower",
+      above(0.0));
+    f("bearing_weight", bearing_weight,
+      "of the bearing in c_v; higher turns sooner to what is behind", at_least(0.0));
+    f("between_waypoints", between_waypoints, "c_o looks half way to the neighbours too");
+    f("clearance_m", clearance_m, "from centre to surface that must be kept", at_least(0.0));
+    f("clearance_weight", clearance_weight, "1/m, of what is missing; higher is harder",
+      at_least(0.0));
+    f("delta_m", delta_m, "literal: obstacles farther away do not count; higher counts more",
+      at_least(0.0));
+    f("literal", literal, "the dissertation's forms as printed: for the record, they fly into it");
   }
 };
 

@@ -12,15 +12,17 @@
 namespace vantage {
 
 struct SearchOptions {
-  double turn_rad = 1.0;  ///< from the way ahead, at most; higher looks aside more, 0 never
-  double below_m = 0.9;   ///< the vehicle, that objects are looked for; higher looks for lower ones
-  double range_m = 2.5;   ///< that is searched; higher looks farther
-  double min_area_m2 = 0.3;  ///< unseen, that one turns to; higher turns less
+  double turn_rad = 1.0;
+  double below_m = 0.9;
+  double range_m = 2.5;
+  double min_area_m2 = 0.3;
   void fields(auto&& f) {
-    f("turn_rad", turn_rad, between(0.0, 3.0));
-    f("below_m", below_m, at_least(0.0));
-    f("range_m", range_m, between(0.6, 10.0));
-    f("min_area_m2", min_area_m2, at_least(0.0));
+    f("turn_rad", turn_rad, "from the way ahead, at most; higher looks aside more, 0 never",
+      between(0.0, 3.0));
+    f("below_m", below_m, "the vehicle, that objects are looked for; higher looks for lower ones",
+      at_least(0.0));
+    f("range_m", range_m, "that is searched; higher looks farther", between(0.6, 10.0));
+    f("min_area_m2", min_area_m2, "unseen, that one turns to; higher turns less", at_least(0.0));
   }
 };
 

@@ -10,11 +10,11 @@
 namespace vantage {
 
 struct YawToTarget {
-  double tau_nats = 0.1;  ///< entropy below which an object is not looked at
-  double range_m = 3.0;   ///< farther objects are not looked at; higher turns earlier
+  double tau_nats = 0.1;
+  double range_m = 3.0;
   void fields(auto&& f) {
-    f("tau_nats", tau_nats, at_least(0.0));
-    f("range_m", range_m, above(0.0));
+    f("tau_nats", tau_nats, "entropy below which an object is not looked at", at_least(0.0));
+    f("range_m", range_m, "farther objects are not looked at; higher turns earlier", above(0.0));
   }
 };
 
@@ -25,13 +25,14 @@ Eigen::Matrix4Xd initial_yaw(const Eigen::Matrix4Xd& waypoints,
                              const YawToTarget& options = {});
 
 struct GreedyDetour {
-  double tau_nats = 0.1;  ///< entropy below which an object is passed by
-  double range_m = 3.0;   ///< objects farther away are passed by
-  int views = 2;          ///< of the object on one horizon, 1 to 8; higher goes further round it
+  double tau_nats = 0.1;
+  double range_m = 3.0;
+  int views = 2;
   void fields(auto&& f) {
-    f("tau_nats", tau_nats, at_least(0.0));
-    f("range_m", range_m, above(0.0));
-    f("views", views, between(1, kObservationDirections));
+    f("tau_nats", tau_nats, "entropy below which an object is passed by", at_least(0.0));
+    f("range_m", range_m, "objects farther away are passed by", above(0.0));
+    f("views", views, "of the object on one horizon, 1 to 8; higher goes further round it",
+      between(1, kObservationDirections));
   }
 };
 

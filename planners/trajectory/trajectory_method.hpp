@@ -23,15 +23,15 @@ struct GivenPath {
 struct GivenPathYaw {
   static constexpr std::string_view name = "initial_yaw";
   YawToTarget yaw;
-  void fields(auto&& f) { f("range_m", yaw.range_m, above(0.0)); }
+  void fields(auto&& f) { f("range_m", yaw.range_m, "@@", above(0.0)); }
 };
 /// The path through the nearest unused directions on its way, camera likewise.
 struct DetourPath {
   static constexpr std::string_view name = "greedy_detour";
   GreedyDetour detour;
   void fields(auto&& f) {
-    f("range_m", detour.range_m, above(0.0));
-    f("views", detour.views, between(1, kObservationDirections));
+    f("range_m", detour.range_m, "@@", above(0.0));
+    f("views", detour.views, "@@", between(1, kObservationDirections));
   }
 };
 
@@ -51,29 +51,33 @@ inline constexpr std::string_view strategy_family<ViewPlan> = "view plan";
 struct FlightPlannerOptions {
   FlightCostOptions cost;
   ViewPlan views = ViewsOnTheWay{};
-  SearchOptions search;  ///< of `on_the_way`, between its views
-  /// Distance from camera to object of the best observation, on the optical axis: the body descends
-  /// as far as that takes, never above the path. Higher: the object appears smaller.
+  SearchOptions search;
   double observation_distance_m = 1.05;
-  double range_m = 3.0;  ///< level; farther objects are no targets of `nearest`
-  /// Path-deviation tolerance: distance of a point of the horizon from its place on the given path
-  /// that costs nothing. With a large one the smoothest plan cuts from one lane of a path to the
-  /// next.
+  double range_m = 3.0;
   double path_deviation_tolerance_m = 1.2;
-  double path_deviation_weight =
-      2.0;                    ///< 1/m, of the deviation beyond it; higher keeps to the given path
-  double clearance_m = 0.55;  ///< of the body's centre on a path that is flown, by the map
-  double sample_s = 0.05;     ///< between places of a path whose clearance is looked at
+  double path_deviation_weight = 2.0;
+  double clearance_m = 0.55;
+  double sample_s = 0.05;
   void fields(auto&& f) {
-    f("cost", cost);
-    f("views", views);
-    f("search", search);
-    f("observation_distance_m", observation_distance_m, between(0.3, 3.0));
-    f("range_m", range_m, above(0.0));
-    f("path_deviation_tolerance_m", path_deviation_tolerance_m, at_least(0.0));
-    f("path_deviation_weight", path_deviation_weight, at_least(0.0));
-    f("clearance_m", clearance_m, between(0.0, 3.0));
-    f("sample_s", sample_s, between(0.01, 1.0));
+    f("cost", cost, "@@");
+    f("views", views, "@@");
+    f("search", search, "of `on_the_way`, between its views");
+    f("observation_distance_m", observation_distance_m,
+      "Distance from camera to object of the best observation, on the optical axis: the body "
+      "descends as far as that takes, never above the path. Higher: the object appears smaller.",
+      between(0.3, 3.0));
+    f("range_m", range_m, "level; farther objects are no targets of `nearest`", above(0.0));
+    f("path_deviation_tolerance_m", path_deviation_tolerance_m,
+      "Path-deviation tolerance: distance of a point of the horizon from its place on the given "
+      "path that costs nothing. With a large one the smoothest plan cuts from one lane of a path "
+      "to the next.",
+      at_least(0.0));
+    f("path_deviation_weight", path_deviation_weight,
+      "1/m, of the deviation beyond it; higher keeps to the given path", at_least(0.0));
+    f("clearance_m", clearance_m, "of the body's centre on a path that is flown, by the map",
+      between(0.0, 3.0));
+    f("sample_s", sample_s, "between places of a path whose clearance is looked at",
+      between(0.01, 1.0));
   }
 };
 

@@ -23,17 +23,20 @@ struct NearestObject {
 /// them the camera looks where the vehicle goes, which is how it finds what comes next.
 struct ViewsOnTheWay {
   static constexpr std::string_view name = "on_the_way";
-  double before_m = 1.0;  ///< along the path, that a view is turned to; higher looks ahead less
-  double after_m = 0.4;   ///< that it is kept in view; higher looks ahead less
-  double apart_m = 0.5;   ///< along the path, between views; lower takes more on one pass
-  double off_m = 0.5;     ///< distance from the path that halves what a view is worth
-  double reach_m = 0.7;   ///< views farther from the path are not taken; higher leaves it more
+  double before_m = 1.0;
+  double after_m = 0.4;
+  double apart_m = 0.5;
+  double off_m = 0.5;
+  double reach_m = 0.7;
   void fields(auto&& f) {
-    f("before_m", before_m, at_least(0.0));
-    f("after_m", after_m, at_least(0.0));
-    f("apart_m", apart_m, above(0.0));
-    f("off_m", off_m, above(0.0));
-    f("reach_m", reach_m, at_least(0.0));
+    f("before_m", before_m, "along the path, that a view is turned to; higher looks ahead less",
+      at_least(0.0));
+    f("after_m", after_m, "that it is kept in view; higher looks ahead less", at_least(0.0));
+    f("apart_m", apart_m, "along the path, between views; lower takes more on one pass",
+      above(0.0));
+    f("off_m", off_m, "distance from the path that halves what a view is worth", above(0.0));
+    f("reach_m", reach_m, "views farther from the path are not taken; higher leaves it more",
+      at_least(0.0));
   }
 };
 

@@ -14,17 +14,19 @@
 namespace vantage {
 
 struct FrontierOptions {
-  int min_cells = 20;         ///< smaller clusters are dropped; higher leaves nooks unexplored
-  double max_extent_m = 3.0;  ///< longer clusters are split; lower proposes more candidates
-  double height_m = 1.05;     ///< world z of the candidates, that of the sensor
-  /// World z, lowest and highest, of the cells that count; none: all. A band spares views for
-  /// floor and ceiling.
+  int min_cells = 20;
+  double max_extent_m = 3.0;
+  double height_m = 1.05;
   std::optional<std::array<double, 2>> height_band_m = {};
   void fields(auto&& f) {
-    f("min_cells", min_cells, at_least(1));
-    f("max_extent_m", max_extent_m, above(0.0));
-    f("height_m", height_m);
-    f("height_band_m", height_band_m);
+    f("min_cells", min_cells, "smaller clusters are dropped; higher leaves nooks unexplored",
+      at_least(1));
+    f("max_extent_m", max_extent_m, "longer clusters are split; lower proposes more candidates",
+      above(0.0));
+    f("height_m", height_m, "world z of the candidates, that of the sensor");
+    f("height_band_m", height_band_m,
+      "World z, lowest and highest, of the cells that count; none: all. A band spares views for "
+      "floor and ceiling.");
   }
   void check() const;  ///< the band's lowest below its highest
 };

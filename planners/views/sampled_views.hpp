@@ -15,17 +15,21 @@
 namespace vantage {
 
 struct SampledViews {
-  int positions = 30;                   ///< places; more cost planning time
-  int headings = 8;                     ///< views at each place, evenly spaced; higher aims better
-  std::optional<double> height_m = {};  ///< world z of the sensor; none: any height that is free
-  double clearance_m = 0.2;  ///< from every known occupied cell; higher keeps clear of obstacles
-  double pitch_rad = 0.0;    ///< of every view; positive looks down
+  int positions = 30;
+  int headings = 8;
+  std::optional<double> height_m = {};
+  double clearance_m = 0.2;
+  double pitch_rad = 0.0;
   void fields(auto&& f) {
-    f("positions", positions, between(1, 1000));
-    f("headings", headings, between(1, 20));
-    f("height_m", height_m, between(-1e6, 1e6));
-    f("clearance_m", clearance_m, between(0.0, 1e6));
-    f("pitch_rad", pitch_rad, between(-std::numbers::pi / 2.0, std::numbers::pi / 2.0));
+    f("positions", positions, "places; more cost planning time", between(1, 1000));
+    f("headings", headings, "views at each place, evenly spaced; higher aims better",
+      between(1, 20));
+    f("height_m", height_m, "world z of the sensor; none: any height that is free",
+      between(-1e6, 1e6));
+    f("clearance_m", clearance_m, "from every known occupied cell; higher keeps clear of obstacles",
+      between(0.0, 1e6));
+    f("pitch_rad", pitch_rad, "of every view; positive looks down",
+      between(-std::numbers::pi / 2.0, std::numbers::pi / 2.0));
   }
 };
 

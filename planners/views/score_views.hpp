@@ -17,13 +17,15 @@ namespace vantage {
 
 /// What of a map counts: a box in the world. Outside it nothing is there to be seen, or in the way.
 struct ScoredRegion {
-  std::optional<std::array<double, 3>> min_m = {};  ///< none: the lowest corner of the known cells
-  std::optional<std::array<double, 3>> max_m = {};  ///< none: their highest corner
-  int coarsen = 1;  ///< cells of the map per cell of the grid, each way; higher is faster, coarser
+  std::optional<std::array<double, 3>> min_m = {};
+  std::optional<std::array<double, 3>> max_m = {};
+  int coarsen = 1;
   void fields(auto&& f) {
-    f("min_m", min_m, between(-1e9, 1e9));
-    f("max_m", max_m, between(-1e9, 1e9));
-    f("coarsen", coarsen, between(1, 1024));
+    f("min_m", min_m, "none: the lowest corner of the known cells", between(-1e9, 1e9));
+    f("max_m", max_m, "none: their highest corner", between(-1e9, 1e9));
+    f("coarsen", coarsen,
+      "cells of the map per cell of the grid, each way; higher is faster, coarser",
+      between(1, 1024));
   }
   [[nodiscard]] CellBlock cells(const OctomapFile& map) const;  ///< empty: none is inside
   [[nodiscard]] double cell_m(const OctomapFile& map) const { return coarsen * map.resolution_m(); }

@@ -13,18 +13,21 @@ namespace vantage {
 
 /// Views from a circle round the region of interest.  [Potthast2016, 3.3.3]
 struct RingOfViews {
-  int positions = 10;            ///< on the circle, evenly spaced; more cost planning time
-  double radius_m = 1.2;         ///< of the circle; higher sees more of the region, less finely
-  double height_m = 1.05;        ///< of the sensor above the floor; higher looks over objects
-  double start_angle_rad = 0.0;  ///< world bearing of the first position from the centre
-  /// Turns of the view away from the centre, left positive; one view per position and offset.
+  int positions = 10;
+  double radius_m = 1.2;
+  double height_m = 1.05;
+  double start_angle_rad = 0.0;
   std::vector<double> yaw_offsets_rad = {-std::numbers::pi / 12.0, 0.0, std::numbers::pi / 12.0};
   void fields(auto&& f) {
-    f("positions", positions, between(1, 100000));
-    f("radius_m", radius_m, above(0.0));
-    f("height_m", height_m, above(0.0));
-    f("start_angle_rad", start_angle_rad);
-    f("yaw_offsets_rad", yaw_offsets_rad, between(-std::numbers::pi, std::numbers::pi));
+    f("positions", positions, "on the circle, evenly spaced; more cost planning time",
+      between(1, 100000));
+    f("radius_m", radius_m, "of the circle; higher sees more of the region, less finely",
+      above(0.0));
+    f("height_m", height_m, "of the sensor above the floor; higher looks over objects", above(0.0));
+    f("start_angle_rad", start_angle_rad, "world bearing of the first position from the centre");
+    f("yaw_offsets_rad", yaw_offsets_rad,
+      "Turns of the view away from the centre, left positive; one view per position and offset.",
+      between(-std::numbers::pi, std::numbers::pi));
   }
   void check() const;  ///< at least one offset
 };

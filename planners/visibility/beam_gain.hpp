@@ -23,8 +23,11 @@ namespace vantage {
 inline constexpr double kOpacityUnobserved = 0.01;
 
 struct BeamFan {
-  double step_rad = 0.01;  ///< between beams; higher is faster and may step over small things
-  void fields(auto&& f) { f("step_rad", step_rad, between(0.001, 1.5)); }
+  double step_rad = 0.01;
+  void fields(auto&& f) {
+    f("step_rad", step_rad, "between beams; higher is faster and may step over small things",
+      between(0.001, 1.5));
+  }
 };
 
 /// Unit vectors, sensor frame: an even lattice of tilts and azimuths, at most step_rad apart, each

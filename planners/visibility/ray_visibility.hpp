@@ -16,11 +16,12 @@ namespace vantage {
 /// An occupied cell hides what lies behind it at once only where its odds exceed those of staying
 /// visible, t / (1 - t).
 struct VisibilityModel {
-  double a = 0.997;         ///< t = a^N after N cells; higher sees deeper into unobserved space
-  double p_reappear = 0.1;  ///< p(visible | not visible before); 0: hidden stays hidden
+  double a = 0.997;
+  double p_reappear = 0.1;
   void fields(auto&& f) {
-    f("a", a, between(0.0, 1.0));
-    f("p_reappear", p_reappear, between(0.0, 1.0));
+    f("a", a, "t = a^N after N cells; higher sees deeper into unobserved space", between(0.0, 1.0));
+    f("p_reappear", p_reappear, "p(visible | not visible before); 0: hidden stays hidden",
+      between(0.0, 1.0));
   }
 };
 
@@ -72,12 +73,13 @@ class VisibilityChain {
 
 struct PosteriorModel {
   VisibilityModel visibility;
-  /// Of the place the ray starts in, before its first cell. A sensor stands in free space; at 0.5
-  /// nothing would ever be learnt from rays through unobserved cells alone.
   double p_occupied_at_sensor = 0.05;
   void fields(auto&& f) {
-    f("visibility", visibility);
-    f("p_occupied_at_sensor", p_occupied_at_sensor, between(0.0, 1.0));
+    f("visibility", visibility, "@@");
+    f("p_occupied_at_sensor", p_occupied_at_sensor,
+      "Of the place the ray starts in, before its first cell. A sensor stands in free space; at "
+      "0.5 nothing would ever be learnt from rays through unobserved cells alone.",
+      between(0.0, 1.0));
   }
 };
 

@@ -10,19 +10,22 @@ namespace vantage {
 /// Errors are a random walk in distance (their variance grows with it, whatever the tick), plus
 /// biases that wander slowly (Ornstein-Uhlenbeck in distance). A robot at rest makes no error.
 struct OdometryOptions {
-  double sigma_translation_m = 0.01;       ///< per axis after 1 m driven; higher is noisier
-  double sigma_yaw_rad = 0.01;             ///< of the heading after 1 m driven
-  double sigma_turn_rad = 0.02;            ///< of the heading after 1 rad turned
-  double bias_translation_m_per_m = 0.01;  ///< size of the wandering error of each axis
-  double bias_yaw_rad_per_m = 0.005;       ///< size of the wandering curvature
-  double bias_length_m = 5.0;              ///< distance over which the biases forget; higher drifts
+  double sigma_translation_m = 0.01;
+  double sigma_yaw_rad = 0.01;
+  double sigma_turn_rad = 0.02;
+  double bias_translation_m_per_m = 0.01;
+  double bias_yaw_rad_per_m = 0.005;
+  double bias_length_m = 5.0;
   void fields(auto&& f) {
-    f("sigma_translation_m", sigma_translation_m, at_least(0.0));
-    f("sigma_yaw_rad", sigma_yaw_rad, at_least(0.0));
-    f("sigma_turn_rad", sigma_turn_rad, at_least(0.0));
-    f("bias_translation_m_per_m", bias_translation_m_per_m, at_least(0.0));
-    f("bias_yaw_rad_per_m", bias_yaw_rad_per_m, at_least(0.0));
-    f("bias_length_m", bias_length_m, above(0.0));
+    f("sigma_translation_m", sigma_translation_m, "per axis after 1 m driven; higher is noisier",
+      at_least(0.0));
+    f("sigma_yaw_rad", sigma_yaw_rad, "of the heading after 1 m driven", at_least(0.0));
+    f("sigma_turn_rad", sigma_turn_rad, "of the heading after 1 rad turned", at_least(0.0));
+    f("bias_translation_m_per_m", bias_translation_m_per_m,
+      "size of the wandering error of each axis", at_least(0.0));
+    f("bias_yaw_rad_per_m", bias_yaw_rad_per_m, "size of the wandering curvature", at_least(0.0));
+    f("bias_length_m", bias_length_m, "distance over which the biases forget; higher drifts",
+      above(0.0));
   }
   static OdometryOptions perfect();  ///< no errors at all
 };

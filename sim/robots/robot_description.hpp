@@ -19,11 +19,13 @@ namespace vantage {
 
 /// Two circles about the base's origin, on the floor.
 struct Footprint {
-  double inscribed_radius_m = 0.0;      ///< the robot covers it at any heading
-  double circumscribed_radius_m = 0.0;  ///< it covers the robot at any heading; higher keeps away
+  double inscribed_radius_m = 0.0;
+  double circumscribed_radius_m = 0.0;
   void fields(auto&& f) {
-    f("inscribed_radius_m", inscribed_radius_m, Range{0.0, 5.0, true});
-    f("circumscribed_radius_m", circumscribed_radius_m, Range{0.0, 5.0, true});
+    f("inscribed_radius_m", inscribed_radius_m, "the robot covers it at any heading",
+      Range{0.0, 5.0, true});
+    f("circumscribed_radius_m", circumscribed_radius_m,
+      "it covers the robot at any heading; higher keeps away", Range{0.0, 5.0, true});
   }
   void check() const;  ///< the inscribed circle within the circumscribed one
 };
@@ -32,15 +34,16 @@ struct Footprint {
 /// direction at any heading.
 struct OmnidirectionalDrive {
   static constexpr std::string_view name = "omnidirectional";
-  std::string x;               ///< joint, with a velocity actuator
-  std::string y;               ///< joint, with a velocity actuator
-  std::string yaw;             ///< joint, with a velocity actuator
-  double speed_max_m_s = 1.0;  ///< along the direction asked for; the actuators cap the turning
+  std::string x;
+  std::string y;
+  std::string yaw;
+  double speed_max_m_s = 1.0;
   void fields(auto&& f) {
-    f("x", x);
-    f("y", y);
-    f("yaw", yaw);
-    f("speed_max_m_s", speed_max_m_s, Range{0.0, 10.0, true});
+    f("x", x, "joint, with a velocity actuator");
+    f("y", y, "joint, with a velocity actuator");
+    f("yaw", yaw, "joint, with a velocity actuator");
+    f("speed_max_m_s", speed_max_m_s,
+      "along the direction asked for; the actuators cap the turning", Range{0.0, 10.0, true});
   }
   void check() const;  ///< every joint is named
 };
@@ -49,23 +52,24 @@ struct OmnidirectionalDrive {
 /// between wheels and floor is what moves it. It cannot go sideways.
 struct DifferentialDrive {
   static constexpr std::string_view name = "differential";
-  std::string free_joint;             ///< of the base
-  std::string left_wheel;             ///< hinge about y, with a velocity actuator
-  std::string right_wheel;            ///< hinge about y, with a velocity actuator
-  double wheel_radius_m = 0.0;        ///< of the rolling circle
-  double track_m = 0.0;               ///< between the points where the wheels touch the floor
-  double speed_max_m_s = 0.5;         ///< higher is faster, and may slip
-  double turn_rate_max_rad_s = 1.5;   ///< in place
-  std::vector<std::string> on_floor;  ///< geoms that roll or glide on the floor: no collision
+  std::string free_joint;
+  std::string left_wheel;
+  std::string right_wheel;
+  double wheel_radius_m = 0.0;
+  double track_m = 0.0;
+  double speed_max_m_s = 0.5;
+  double turn_rate_max_rad_s = 1.5;
+  std::vector<std::string> on_floor;
   void fields(auto&& f) {
-    f("free_joint", free_joint);
-    f("left_wheel", left_wheel);
-    f("right_wheel", right_wheel);
-    f("wheel_radius_m", wheel_radius_m, Range{0.0, 1.0, true});
-    f("track_m", track_m, Range{0.0, 5.0, true});
-    f("speed_max_m_s", speed_max_m_s, Range{0.0, 10.0, true});
-    f("turn_rate_max_rad_s", turn_rate_max_rad_s, Range{0.0, 10.0, true});
-    f("on_floor", on_floor);
+    f("free_joint", free_joint, "of the base");
+    f("left_wheel", left_wheel, "hinge about y, with a velocity actuator");
+    f("right_wheel", right_wheel, "hinge about y, with a velocity actuator");
+    f("wheel_radius_m", wheel_radius_m, "of the rolling circle", Range{0.0, 1.0, true});
+    f("track_m", track_m, "between the points where the wheels touch the floor",
+      Range{0.0, 5.0, true});
+    f("speed_max_m_s", speed_max_m_s, "higher is faster, and may slip", Range{0.0, 10.0, true});
+    f("turn_rate_max_rad_s", turn_rate_max_rad_s, "in place", Range{0.0, 10.0, true});
+    f("on_floor", on_floor, "geoms that roll or glide on the floor: no collision");
   }
   void check() const;  ///< joints and geoms are named, radius and track are given
 };
@@ -76,24 +80,24 @@ inline constexpr std::string_view strategy_family<BaseDrive> = "drive";
 
 /// An RGB-D camera that pans and tilts.
 struct HeadNames {
-  std::string pan;     ///< hinge about z, with a position actuator
-  std::string tilt;    ///< hinge about y, with a position actuator; positive looks down
-  std::string camera;  ///< on the tilting body
+  std::string pan;
+  std::string tilt;
+  std::string camera;
   void fields(auto&& f) {
-    f("pan", pan);
-    f("tilt", tilt);
-    f("camera", camera);
+    f("pan", pan, "hinge about z, with a position actuator");
+    f("tilt", tilt, "hinge about y, with a position actuator; positive looks down");
+    f("camera", camera, "on the tilting body");
   }
   void check() const;  ///< every name is given
 };
 
 /// A line scanner that a joint tilts.
 struct TiltingLaserNames {
-  std::string tilt;  ///< hinge about y, with a position actuator; positive looks down
-  std::string site;  ///< of the scanner on the tilting body: x along the middle beam, z up
+  std::string tilt;
+  std::string site;
   void fields(auto&& f) {
-    f("tilt", tilt);
-    f("site", site);
+    f("tilt", tilt, "hinge about y, with a position actuator; positive looks down");
+    f("site", site, "of the scanner on the tilting body: x along the middle beam, z up");
   }
   void check() const;  ///< every name is given
 };
@@ -101,21 +105,22 @@ struct TiltingLaserNames {
 /// kind: mobile_base. What it has not, it does not name; a task that needs it says so.
 struct MobileBaseDescription {
   static constexpr std::string_view name = "mobile_base";
-  std::string base;  ///< body: x forward, y left, z up, its origin on the floor
+  std::string base;
   Footprint footprint;
   BaseDrive drive = OmnidirectionalDrive{};
-  std::string planar_scanner;  ///< site near the floor, level: x along the middle beam, z up
-  std::string lift;            ///< slide along z that carries head and tilting laser; empty: none
+  std::string planar_scanner;
+  std::string lift;
   std::optional<HeadNames> head;
   std::optional<TiltingLaserNames> tilting_laser;
   void fields(auto&& f) {
-    f("base", base);
-    f("footprint", footprint);
-    f("drive", drive);
-    f("planar_scanner", planar_scanner);
-    f("lift", lift);
-    f("head", head);
-    f("tilting_laser", tilting_laser);
+    f("base", base, "body: x forward, y left, z up, its origin on the floor");
+    f("footprint", footprint, "@@");
+    f("drive", drive, "@@");
+    f("planar_scanner", planar_scanner,
+      "site near the floor, level: x along the middle beam, z up");
+    f("lift", lift, "slide along z that carries head and tilting laser; empty: none");
+    f("head", head, "@@");
+    f("tilting_laser", tilting_laser, "@@");
   }
   void check() const;  ///< what every mobile base needs is there
 };
@@ -123,19 +128,20 @@ struct MobileBaseDescription {
 /// kind: quadrotor.
 struct QuadrotorDescription {
   static constexpr std::string_view name = "quadrotor";
-  std::string base;                 ///< body: x forward, y left, z up, amid the rotors
-  std::string free_joint;           ///< of the base
-  std::vector<std::string> rotors;  ///< four actuators, each at a site; thrust along the site's z
-  double rotor_radius_m = 0.0;      ///< higher needs less power for the same thrust
-  std::string camera;               ///< on the tilting body, looking along x at tilt 0
-  std::string camera_tilt;          ///< hinge about y, with a position actuator with a lag
+  std::string base;
+  std::string free_joint;
+  std::vector<std::string> rotors;
+  double rotor_radius_m = 0.0;
+  std::string camera;
+  std::string camera_tilt;
   void fields(auto&& f) {
-    f("base", base);
-    f("free_joint", free_joint);
-    f("rotors", rotors);
-    f("rotor_radius_m", rotor_radius_m, Range{0.0, 5.0, true});
-    f("camera", camera);
-    f("camera_tilt", camera_tilt);
+    f("base", base, "body: x forward, y left, z up, amid the rotors");
+    f("free_joint", free_joint, "of the base");
+    f("rotors", rotors, "four actuators, each at a site; thrust along the site's z");
+    f("rotor_radius_m", rotor_radius_m, "higher needs less power for the same thrust",
+      Range{0.0, 5.0, true});
+    f("camera", camera, "on the tilting body, looking along x at tilt 0");
+    f("camera_tilt", camera_tilt, "hinge about y, with a position actuator with a lag");
   }
   void check() const;  ///< every name is given, four rotors
 };

@@ -6,11 +6,13 @@
 namespace vantage {
 
 struct WorldOptions {
-  double timestep_s = 0.0025;       ///< physics step; higher is faster and less stable
-  double control_period_s = 0.025;  ///< commands are constant this long; whole multiple of the step
+  double timestep_s = 0.0025;
+  double control_period_s = 0.025;
   void fields(auto&& f) {
-    f("timestep_s", timestep_s, Range{1e-5, 0.02});
-    f("control_period_s", control_period_s, Range{1e-5, 1.0});
+    f("timestep_s", timestep_s, "physics step; higher is faster and less stable",
+      Range{1e-5, 0.02});
+    f("control_period_s", control_period_s,
+      "commands are constant this long; whole multiple of the step", Range{1e-5, 1.0});
   }
   void check() const;  ///< @throws ConfigError if the period is no whole multiple of the step
   [[nodiscard]] int steps_per_tick() const;

@@ -32,9 +32,9 @@ struct RecogniseOptions {
   RecogniserOptions recogniser;
   RecognitionOptions recognition;
   void fields(auto&& f) {
-    f("seed", seed);
-    f("recogniser", recogniser);
-    f("recognition", recognition);
+    f("seed", seed, "@@");
+    f("recogniser", recogniser, "@@");
+    f("recognition", recognition, "@@");
   }
 };
 

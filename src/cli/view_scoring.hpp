@@ -19,28 +19,28 @@ namespace vantage {
 
 /// This struct is what `--set` reaches; `sensor` is the file of `--sensor` as well.
 struct ViewScoring {
-  std::uint64_t seed = 1;  ///< of sampled views
-  int threads = 2;         ///< results do not depend on it
-  /// A Kinect-like RGB-D camera, 57.8 x 45 deg.
+  std::uint64_t seed = 1;
+  int threads = 2;
   FieldOfView sensor{.half_width_rad = 0.5044,
                      .tilt_min_rad = -0.3927,
                      .tilt_max_rad = 0.3927,
                      .range_min_m = 0.8,
                      .range_max_m = 3.5};
   Gain gain = BeerLambertGain{};
-  /// Share of a beam that passes a metre of unobserved space, whatever the cell size; higher sees
-  /// deeper. `beer_lambert` takes gain.a = 0.5^(cell edge / m) from it if neither is given.
   std::optional<double> transmission_per_m = {};
   ScoredRegion region;
   SampledViews views;
   void fields(auto&& f) {
-    f("seed", seed);
-    f("threads", threads, between(1, 256));
-    f("sensor", sensor);
-    f("gain", gain);
-    f("transmission_per_m", transmission_per_m, between(0.0, 1.0));
-    f("region", region);
-    f("views", views);
+    f("seed", seed, "of sampled views");
+    f("threads", threads, "results do not depend on it", between(1, 256));
+    f("sensor", sensor, "A Kinect-like RGB-D camera, 57.8 x 45 deg.");
+    f("gain", gain, "@@");
+    f("transmission_per_m", transmission_per_m,
+      "Share of a beam that passes a metre of unobserved space, whatever the cell size; higher "
+      "sees deeper. `beer_lambert` takes gain.a = 0.5^(cell edge / m) from it if neither is given.",
+      between(0.0, 1.0));
+    f("region", region, "@@");
+    f("views", views, "@@");
   }
 };
 

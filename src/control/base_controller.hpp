@@ -13,19 +13,24 @@
 namespace vantage {
 
 struct BaseControllerOptions {
-  double speed_m_s = 0.6;          ///< cruising speed; higher is faster and cuts corners wider
-  double acceleration_m_s2 = 0.5;  ///< also when braking and across the path in corners
-  double turn_rate_rad_s = 0.8;    ///< cruising turning rate
-  double turn_acceleration_rad_s2 = 1.2;  ///< higher starts and ends turns more sharply
-  double lookahead_m = 0.10;  ///< aims that far ahead; higher is smoother, cuts corners wider
-  double gain_per_s = 2.0;    ///< speed per distance left at the end; above 2.5 it overshoots
+  double speed_m_s = 0.6;
+  double acceleration_m_s2 = 0.5;
+  double turn_rate_rad_s = 0.8;
+  double turn_acceleration_rad_s2 = 1.2;
+  double lookahead_m = 0.10;
+  double gain_per_s = 2.0;
   void fields(auto&& f) {
-    f("speed_m_s", speed_m_s, Range{0.0, 1.0, true});
-    f("acceleration_m_s2", acceleration_m_s2, Range{0.0, 1.5, true});
-    f("turn_rate_rad_s", turn_rate_rad_s, Range{0.0, 1.5, true});
-    f("turn_acceleration_rad_s2", turn_acceleration_rad_s2, Range{0.0, 5.0, true});
-    f("lookahead_m", lookahead_m, Range{0.0, 1.0, true});
-    f("gain_per_s", gain_per_s, Range{0.0, 3.0, true});
+    f("speed_m_s", speed_m_s, "cruising speed; higher is faster and cuts corners wider",
+      Range{0.0, 1.0, true});
+    f("acceleration_m_s2", acceleration_m_s2, "also when braking and across the path in corners",
+      Range{0.0, 1.5, true});
+    f("turn_rate_rad_s", turn_rate_rad_s, "cruising turning rate", Range{0.0, 1.5, true});
+    f("turn_acceleration_rad_s2", turn_acceleration_rad_s2,
+      "higher starts and ends turns more sharply", Range{0.0, 5.0, true});
+    f("lookahead_m", lookahead_m, "aims that far ahead; higher is smoother, cuts corners wider",
+      Range{0.0, 1.0, true});
+    f("gain_per_s", gain_per_s, "speed per distance left at the end; above 2.5 it overshoots",
+      Range{0.0, 3.0, true});
   }
 };
 

@@ -9,18 +9,19 @@ namespace vantage {
 
 struct DriveOptions {
   BaseControllerOptions controller = {};
-  double goal_tolerance_m = 0.01;      ///< in the estimated frame, at rest
-  double goal_tolerance_rad = 0.0105;  ///< 0.6 degrees
-  double rest_speed_m_s = 0.002;       ///< slower than this is at rest
-  double stuck_time_s = 1.0;           ///< pushing that long without moving is stuck
-  double timeout_factor = 4.0;  ///< times the time the path should take; higher is more patient
+  double goal_tolerance_m = 0.01;
+  double goal_tolerance_rad = 0.0105;
+  double rest_speed_m_s = 0.002;
+  double stuck_time_s = 1.0;
+  double timeout_factor = 4.0;
   void fields(auto&& f) {
-    f("controller", controller);
-    f("goal_tolerance_m", goal_tolerance_m, Range{0.001, 1.0});
-    f("goal_tolerance_rad", goal_tolerance_rad, Range{0.001, 1.0});
-    f("rest_speed_m_s", rest_speed_m_s, Range{0.001, 0.1});
-    f("stuck_time_s", stuck_time_s, above(0.0));
-    f("timeout_factor", timeout_factor, at_least(1.0));
+    f("controller", controller, "@@");
+    f("goal_tolerance_m", goal_tolerance_m, "in the estimated frame, at rest", Range{0.001, 1.0});
+    f("goal_tolerance_rad", goal_tolerance_rad, "0.6 degrees", Range{0.001, 1.0});
+    f("rest_speed_m_s", rest_speed_m_s, "slower than this is at rest", Range{0.001, 0.1});
+    f("stuck_time_s", stuck_time_s, "pushing that long without moving is stuck", above(0.0));
+    f("timeout_factor", timeout_factor,
+      "times the time the path should take; higher is more patient", at_least(1.0));
   }
 };
 

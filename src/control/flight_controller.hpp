@@ -28,32 +28,42 @@ struct FlightReference {
 
 /// Gains are per unit of mass or inertia, so that they are those of any airframe.
 struct FlightControllerOptions {
-  double position_per_s2 = 16.0;  ///< higher is stiffer, rings where the attitude cannot follow
-  double velocity_per_s = 6.5;    ///< higher damps, amplifies noise of the velocity
-  double disturbance_per_s =
-      7.0;  ///< estimates a disturbance in 1/that; higher rings; 0: no integral action
-  double disturbance_max_m_s2 = 4.0;  ///< strongest disturbance that is balanced, per axis
-  double position_error_max_m = 1.0;  ///< farther off counts as that; higher approaches faster
-  double attitude_per_s2 = 240.0;     ///< of tilt; higher is faster, rings by the motors' lag
-  double rate_per_s = 22.0;           ///< higher damps; above 1 / motor lag it rings
-  double yaw_per_s2 = 25.0;           ///< of heading; higher saturates the rotors earlier
-  double yaw_rate_per_s = 9.0;        ///< higher damps the heading
-  double torque_per_s = 1.0;  ///< learns a torque in 1/that; higher rings; 0: no integral action
-  double torque_max_rad_s2 = 40.0;  ///< strongest torque that is balanced, over inertia, per axis
-  double tilt_max_rad = 0.6;        ///< never asks for more; higher accelerates harder
+  double position_per_s2 = 16.0;
+  double velocity_per_s = 6.5;
+  double disturbance_per_s = 7.0;
+  double disturbance_max_m_s2 = 4.0;
+  double position_error_max_m = 1.0;
+  double attitude_per_s2 = 240.0;
+  double rate_per_s = 22.0;
+  double yaw_per_s2 = 25.0;
+  double yaw_rate_per_s = 9.0;
+  double torque_per_s = 1.0;
+  double torque_max_rad_s2 = 40.0;
+  double tilt_max_rad = 0.6;
   void fields(auto&& f) {
-    f("position_per_s2", position_per_s2, Range{0.0, 50.0, true});
-    f("velocity_per_s", velocity_per_s, Range{0.0, 20.0, true});
-    f("disturbance_per_s", disturbance_per_s, between(0.0, 20.0));
-    f("disturbance_max_m_s2", disturbance_max_m_s2, between(0.0, 10.0));
-    f("position_error_max_m", position_error_max_m, Range{0.0, 10.0, true});
-    f("attitude_per_s2", attitude_per_s2, Range{0.0, 1000.0, true});
-    f("rate_per_s", rate_per_s, Range{0.0, 100.0, true});
-    f("yaw_per_s2", yaw_per_s2, Range{0.0, 200.0, true});
-    f("yaw_rate_per_s", yaw_rate_per_s, Range{0.0, 50.0, true});
-    f("torque_per_s", torque_per_s, between(0.0, 10.0));
-    f("torque_max_rad_s2", torque_max_rad_s2, between(0.0, 200.0));
-    f("tilt_max_rad", tilt_max_rad, Range{0.0, 1.2, true});
+    f("position_per_s2", position_per_s2,
+      "higher is stiffer, rings where the attitude cannot follow", Range{0.0, 50.0, true});
+    f("velocity_per_s", velocity_per_s, "higher damps, amplifies noise of the velocity",
+      Range{0.0, 20.0, true});
+    f("disturbance_per_s", disturbance_per_s,
+      "estimates a disturbance in 1/that; higher rings; 0: no integral action", between(0.0, 20.0));
+    f("disturbance_max_m_s2", disturbance_max_m_s2,
+      "strongest disturbance that is balanced, per axis", between(0.0, 10.0));
+    f("position_error_max_m", position_error_max_m,
+      "farther off counts as that; higher approaches faster", Range{0.0, 10.0, true});
+    f("attitude_per_s2", attitude_per_s2, "of tilt; higher is faster, rings by the motors' lag",
+      Range{0.0, 1000.0, true});
+    f("rate_per_s", rate_per_s, "higher damps; above 1 / motor lag it rings",
+      Range{0.0, 100.0, true});
+    f("yaw_per_s2", yaw_per_s2, "of heading; higher saturates the rotors earlier",
+      Range{0.0, 200.0, true});
+    f("yaw_rate_per_s", yaw_rate_per_s, "higher damps the heading", Range{0.0, 50.0, true});
+    f("torque_per_s", torque_per_s,
+      "learns a torque in 1/that; higher rings; 0: no integral action", between(0.0, 10.0));
+    f("torque_max_rad_s2", torque_max_rad_s2,
+      "strongest torque that is balanced, over inertia, per axis", between(0.0, 200.0));
+    f("tilt_max_rad", tilt_max_rad, "never asks for more; higher accelerates harder",
+      Range{0.0, 1.2, true});
   }
 };
 

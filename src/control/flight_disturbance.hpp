@@ -14,15 +14,15 @@ namespace vantage {
 
 /// A disturbance: a constant force on the body for a while.
 struct Gust {
-  double force_N = 4.0;                               ///< higher throws it farther off
-  std::array<double, 3> direction = {0.0, 1.0, 0.0};  ///< world; any length but 0
-  double start_s = 0.0;                               ///< simulated time
-  double duration_s = 0.5;                            ///< longer throws it farther off
+  double force_N = 4.0;
+  std::array<double, 3> direction = {0.0, 1.0, 0.0};
+  double start_s = 0.0;
+  double duration_s = 0.5;
   void fields(auto&& f) {
-    f("force_N", force_N, between(0.0, 50.0));
-    f("direction", direction);
-    f("start_s", start_s, at_least(0.0));
-    f("duration_s", duration_s, above(0.0));
+    f("force_N", force_N, "higher throws it farther off", between(0.0, 50.0));
+    f("direction", direction, "world; any length but 0");
+    f("start_s", start_s, "simulated time", at_least(0.0));
+    f("duration_s", duration_s, "longer throws it farther off", above(0.0));
   }
   void check() const;  ///< @throws ConfigError for a direction without length
 
@@ -32,15 +32,16 @@ struct Gust {
 /// Errors of position, heading and tilt that wander: Gaussian at any moment, correlated over
 /// `correlation_s` (Ornstein-Uhlenbeck), as those of visual-inertial estimates are.
 struct PoseNoiseOptions {
-  double sigma_position_m = 0.01;  ///< per axis; higher is noisier
-  double sigma_yaw_rad = 0.01;     ///< of the heading
-  double sigma_tilt_rad = 0.003;   ///< about x and y each; gravity is easily felt
-  double correlation_s = 2.0;      ///< higher drifts slower
+  double sigma_position_m = 0.01;
+  double sigma_yaw_rad = 0.01;
+  double sigma_tilt_rad = 0.003;
+  double correlation_s = 2.0;
   void fields(auto&& f) {
-    f("sigma_position_m", sigma_position_m, between(0.0, 1.0));
-    f("sigma_yaw_rad", sigma_yaw_rad, between(0.0, 0.5));
-    f("sigma_tilt_rad", sigma_tilt_rad, between(0.0, 0.1));
-    f("correlation_s", correlation_s, above(0.0));
+    f("sigma_position_m", sigma_position_m, "per axis; higher is noisier", between(0.0, 1.0));
+    f("sigma_yaw_rad", sigma_yaw_rad, "of the heading", between(0.0, 0.5));
+    f("sigma_tilt_rad", sigma_tilt_rad, "about x and y each; gravity is easily felt",
+      between(0.0, 0.1));
+    f("correlation_s", correlation_s, "higher drifts slower", above(0.0));
   }
   static PoseNoiseOptions perfect();  ///< no errors at all
 };

@@ -18,13 +18,14 @@ struct FlightWaypoint {
 };
 
 struct FlightLimits {
-  double speed_m_s = 1.0;          ///< higher is faster, blurs images
-  double acceleration_m_s2 = 2.0;  ///< higher tilts more: 2 tilts by 11 deg
-  double yaw_rate_rad_s = 1.0;     ///< higher turns faster, blurs images
+  double speed_m_s = 1.0;
+  double acceleration_m_s2 = 2.0;
+  double yaw_rate_rad_s = 1.0;
   void fields(auto&& f) {
-    f("speed_m_s", speed_m_s, Range{0.0, 5.0, true});
-    f("acceleration_m_s2", acceleration_m_s2, Range{0.0, 5.0, true});
-    f("yaw_rate_rad_s", yaw_rate_rad_s, Range{0.0, 4.0, true});
+    f("speed_m_s", speed_m_s, "higher is faster, blurs images", Range{0.0, 5.0, true});
+    f("acceleration_m_s2", acceleration_m_s2, "higher tilts more: 2 tilts by 11 deg",
+      Range{0.0, 5.0, true});
+    f("yaw_rate_rad_s", yaw_rate_rad_s, "higher turns faster, blurs images", Range{0.0, 4.0, true});
   }
 };
 

@@ -14,21 +14,23 @@ struct TrajectoryTrackingOptions {
   FlightLimits limits = {};
   PoseNoiseOptions pose_noise = {};
   std::vector<Gust> gusts = {};
-  double goal_tolerance_m = 0.05;    ///< of the estimate; higher arrives sooner, less exactly
-  double goal_tolerance_rad = 0.05;  ///< of the heading
-  double rest_speed_m_s = 0.05;      ///< slower than this is at rest
-  double settle_time_s = 0.3;        ///< within tolerance and at rest that long is arrived
-  double timeout_s = 8.0;            ///< after the path's end; higher is more patient
+  double goal_tolerance_m = 0.05;
+  double goal_tolerance_rad = 0.05;
+  double rest_speed_m_s = 0.05;
+  double settle_time_s = 0.3;
+  double timeout_s = 8.0;
   void fields(auto&& f) {
-    f("controller", controller);
-    f("limits", limits);
-    f("pose_noise", pose_noise);
-    f("gusts", gusts);
-    f("goal_tolerance_m", goal_tolerance_m, Range{0.001, 1.0});
-    f("goal_tolerance_rad", goal_tolerance_rad, Range{0.001, 1.0});
-    f("rest_speed_m_s", rest_speed_m_s, Range{0.001, 1.0});
-    f("settle_time_s", settle_time_s, between(0.0, 10.0));
-    f("timeout_s", timeout_s, above(0.0));
+    f("controller", controller, "@@");
+    f("limits", limits, "@@");
+    f("pose_noise", pose_noise, "@@");
+    f("gusts", gusts, "@@");
+    f("goal_tolerance_m", goal_tolerance_m, "of the estimate; higher arrives sooner, less exactly",
+      Range{0.001, 1.0});
+    f("goal_tolerance_rad", goal_tolerance_rad, "of the heading", Range{0.001, 1.0});
+    f("rest_speed_m_s", rest_speed_m_s, "slower than this is at rest", Range{0.001, 1.0});
+    f("settle_time_s", settle_time_s, "within tolerance and at rest that long is arrived",
+      between(0.0, 10.0));
+    f("timeout_s", timeout_s, "after the path's end; higher is more patient", above(0.0));
   }
 };
 

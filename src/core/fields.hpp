@@ -1,9 +1,12 @@
 /// Options structs <-> configuration. A struct lists its fields once,
 ///
-///   void fields(auto&& f) { f("radius_m", radius_m, above(0.0)); }
+///   double radius_m = 0.3;
+///   void fields(auto&& f) { f("radius_m", radius_m, "of the footprint", above(0.0)); }
 ///
 /// and is then read strictly (unknown key, wrong type, out of range: an error with file, line, key
-/// and value), written back with its defaults, and checked when it was filled in from C++.
+/// and value), written back with its defaults, checked when it was filled in from C++, and
+/// described to users (schema.hpp). The text says what the field is and what raising it does; its
+/// unit is the end of its name.
 #pragma once
 
 #include <array>
@@ -35,7 +38,7 @@ constexpr Range between(double min, double max) { return {.min = min, .max = max
 namespace detail {
 struct ProbeVisitor {
   template <class T>
-  void operator()(std::string_view, T&, Range = {}) {}
+  void operator()(std::string_view, T&, std::string_view, const Range& = {}) {}
 };
 template <class T>
 struct IsVector : std::false_type {};
@@ -118,7 +121,8 @@ class FieldReader {
  public:
   explicit FieldReader(const ConfigNode& node) : node_(node) {}
   template <class T>
-  void operator()(std::string_view key, T& target, const Range& range = {}) {
+  void operator()(std::string_view key, T& target, std::string_view /*text*/,
+                  const Range& range = {}) {
     known_.push_back(key);
     const ConfigNode* child = node_.find(key);
     if (child == nullptr) return;
@@ -151,7 +155,7 @@ struct KeyFinder {
   std::string_view wanted;
   bool& found;
   template <class T>
-  void operator()(std::string_view key, T&, Range = {}) {
+  void operator()(std::string_view key, T&, std::string_view, const Range& = {}) {
     found = found || key == wanted;
   }
 };
@@ -174,7 +178,7 @@ class FieldWriter {
  public:
   explicit FieldWriter(ConfigNode& node) : node_(node) {}
   template <class T>
-  void operator()(std::string_view key, T& value, const Range& = {}) {
+  void operator()(std::string_view key, T& value, std::string_view, const Range& = {}) {
     node_.set(std::string(key), write_node(value));
   }
 
@@ -187,7 +191,8 @@ class RangeChecker {
  public:
   explicit RangeChecker(std::string prefix) : prefix_(std::move(prefix)) {}
   template <class T>
-  void operator()(std::string_view key, T& value, const Range& range = {}) {
+  void operator()(std::string_view key, T& value, std::string_view /*text*/,
+                  const Range& range = {}) {
     const std::string where = prefix_.empty() ? std::string(key) : prefix_ + "." + std::string(key);
     check_value(where, value, range);
   }

@@ -24,21 +24,23 @@ BeamAngles turned_over(const BeamAngles& angles);
 
 /// Sector of a tilting laser, or what a camera sees that a head pans all round.
 struct FieldOfView {
-  double half_width_rad = 0.1309;  ///< azimuth limit, (0, pi]; higher sees more per scan
-  double tilt_min_rad = -0.30;     ///< highest line of sight (negative looks up)
-  double tilt_max_rad = 0.75;      ///< lowest line of sight
-  double range_min_m = 0.08;       ///< nearer returns are dropped
-  double range_max_m = 10.0;       ///< farther surfaces give no return
-  /// Pan comes before tilt, all round: tilt is the angle below the horizon in any direction, and
-  /// half_width_rad means nothing.
+  double half_width_rad = 0.1309;
+  double tilt_min_rad = -0.30;
+  double tilt_max_rad = 0.75;
+  double range_min_m = 0.08;
+  double range_max_m = 10.0;
   bool panorama = false;
   void fields(auto&& f) {
-    f("half_width_rad", half_width_rad, Range{0.0, 3.1416, true});
-    f("tilt_min_rad", tilt_min_rad, between(-1.5, 1.5));
-    f("tilt_max_rad", tilt_max_rad, between(-1.5, 1.5));
-    f("range_min_m", range_min_m, at_least(0.0));
-    f("range_max_m", range_max_m, above(0.0));
-    f("panorama", panorama);
+    f("half_width_rad", half_width_rad, "azimuth limit, (0, pi]; higher sees more per scan",
+      Range{0.0, 3.1416, true});
+    f("tilt_min_rad", tilt_min_rad, "highest line of sight (negative looks up)",
+      between(-1.5, 1.5));
+    f("tilt_max_rad", tilt_max_rad, "lowest line of sight", between(-1.5, 1.5));
+    f("range_min_m", range_min_m, "nearer returns are dropped", at_least(0.0));
+    f("range_max_m", range_max_m, "farther surfaces give no return", above(0.0));
+    f("panorama", panorama,
+      "Pan comes before tilt, all round: tilt is the angle below the horizon in any direction, and "
+      "half_width_rad means nothing.");
   }
   void check() const;  ///< minima below maxima
 

@@ -13,19 +13,24 @@ namespace vantage {
 struct ObjectSearchOptions {
   SupportSearchOptions support = {};
   ObjectSegmentationOptions cut{.radius_m = 0.3, .max_height_m = 0.5, .min_pixels = 60};
-  double range_m = 3.0;         ///< farther objects are not reported; higher finds them earlier
-  double nearest_m = 0.85;      ///< of the object's surface; where it is nearer, depth may lack
-  int border_px = 2;            ///< an object that close to the frame's edge is not whole
-  double gap_m = 0.05;          ///< between parts of one object; higher joins neighbours
-  double noise_per_m = 0.0008;  ///< of heights, standard deviation per squared distance, 1/m
+  double range_m = 3.0;
+  double nearest_m = 0.85;
+  int border_px = 2;
+  double gap_m = 0.05;
+  double noise_per_m = 0.0008;
   void fields(auto&& f) {
-    f("support", support);
-    f("cut", cut);
-    f("range_m", range_m, Range{0.0, 20.0, true});
-    f("nearest_m", nearest_m, at_least(0.0));
-    f("border_px", border_px, between(0, 100));
-    f("gap_m", gap_m, Range{0.0, 1.0, true});
-    f("noise_per_m", noise_per_m, between(0.0, 0.1));
+    f("support", support, "@@");
+    f("cut", cut, "@@");
+    f("range_m", range_m, "farther objects are not reported; higher finds them earlier",
+      Range{0.0, 20.0, true});
+    f("nearest_m", nearest_m, "of the object's surface; where it is nearer, depth may lack",
+      at_least(0.0));
+    f("border_px", border_px, "an object that close to the frame's edge is not whole",
+      between(0, 100));
+    f("gap_m", gap_m, "between parts of one object; higher joins neighbours",
+      Range{0.0, 1.0, true});
+    f("noise_per_m", noise_per_m, "of heights, standard deviation per squared distance, 1/m",
+      between(0.0, 0.1));
   }
 };
 

@@ -13,21 +13,25 @@
 namespace vantage {
 
 struct ObjectSegmentationOptions {
-  double radius_m = 0.2;            ///< of the column over the middle that holds the object
-  double max_height_m = 0.5;        ///< of that column over the table
-  double min_height_m = 0.006;      ///< over the table; higher loses more of the object's foot
-  double table_tolerance_m = 0.06;  ///< how far the table may seem off its height; pose errors
-  int min_pixels = 150;             ///< of an object; fewer are taken for noise
-  int mask_growth_px = 1;           ///< how far the mask reaches over what was found
-  int margin_px = 3;                ///< of the cut round the mask
+  double radius_m = 0.2;
+  double max_height_m = 0.5;
+  double min_height_m = 0.006;
+  double table_tolerance_m = 0.06;
+  int min_pixels = 150;
+  int mask_growth_px = 1;
+  int margin_px = 3;
   void fields(auto&& f) {
-    f("radius_m", radius_m, Range{0.0, 2.0, true});
-    f("max_height_m", max_height_m, Range{0.0, 2.0, true});
-    f("min_height_m", min_height_m, between(0.0, 0.1));
-    f("table_tolerance_m", table_tolerance_m, Range{0.0, 0.5, true});
-    f("min_pixels", min_pixels, at_least(1));
-    f("mask_growth_px", mask_growth_px, between(0, 20));
-    f("margin_px", margin_px, between(0, 50));
+    f("radius_m", radius_m, "of the column over the middle that holds the object",
+      Range{0.0, 2.0, true});
+    f("max_height_m", max_height_m, "of that column over the table", Range{0.0, 2.0, true});
+    f("min_height_m", min_height_m, "over the table; higher loses more of the object's foot",
+      between(0.0, 0.1));
+    f("table_tolerance_m", table_tolerance_m,
+      "how far the table may seem off its height; pose errors", Range{0.0, 0.5, true});
+    f("min_pixels", min_pixels, "of an object; fewer are taken for noise", at_least(1));
+    f("mask_growth_px", mask_growth_px, "how far the mask reaches over what was found",
+      between(0, 20));
+    f("margin_px", margin_px, "of the cut round the mask", between(0, 50));
   }
 };
 

@@ -18,25 +18,29 @@ namespace vantage {
 struct TableOptions {
   std::array<double, 2> region_centre_m{0.0, 0.0};  ///< world x, y where to look; set by the caller
   std::array<double, 2> region_size_m{2.0, 2.0};    ///< its edge lengths; set by the caller
-  double min_height_m = 0.4;                        ///< lowest table top; must be above the floor
-  double max_height_m = 1.2;                        ///< highest table top
-  double max_tilt_rad = 0.05;         ///< from horizontal; higher accepts sloping surfaces
-  double inlier_distance_m = 0.015;   ///< of a point from the plane; higher bears more noise
-  double max_normal_angle_rad = 0.4;  ///< of a point's normal from vertical, where it has one
-  double cell_m = 0.02;               ///< points are thinned to this, so that counts are areas
-  double min_area_m2 = 0.04;          ///< of the plane's points; smaller planes are no table
-  int hypotheses = 200;               ///< random planes tried; higher is surer and slower
-  double max_step_m = 0.03;           ///< height difference of two views of one table
+  double min_height_m = 0.4;
+  double max_height_m = 1.2;
+  double max_tilt_rad = 0.05;
+  double inlier_distance_m = 0.015;
+  double max_normal_angle_rad = 0.4;
+  double cell_m = 0.02;
+  double min_area_m2 = 0.04;
+  int hypotheses = 200;
+  double max_step_m = 0.03;
   void fields(auto&& f) {
-    f("min_height_m", min_height_m);
-    f("max_height_m", max_height_m);
-    f("max_tilt_rad", max_tilt_rad, between(0.0, 0.8));
-    f("inlier_distance_m", inlier_distance_m, above(0.0));
-    f("max_normal_angle_rad", max_normal_angle_rad, between(0.0, 1.6));
-    f("cell_m", cell_m, above(0.0));
-    f("min_area_m2", min_area_m2, above(0.0));
-    f("hypotheses", hypotheses, between(1, 1000000));
-    f("max_step_m", max_step_m, above(0.0));
+    f("min_height_m", min_height_m, "lowest table top; must be above the floor");
+    f("max_height_m", max_height_m, "highest table top");
+    f("max_tilt_rad", max_tilt_rad, "from horizontal; higher accepts sloping surfaces",
+      between(0.0, 0.8));
+    f("inlier_distance_m", inlier_distance_m, "of a point from the plane; higher bears more noise",
+      above(0.0));
+    f("max_normal_angle_rad", max_normal_angle_rad,
+      "of a point's normal from vertical, where it has one", between(0.0, 1.6));
+    f("cell_m", cell_m, "points are thinned to this, so that counts are areas", above(0.0));
+    f("min_area_m2", min_area_m2, "of the plane's points; smaller planes are no table", above(0.0));
+    f("hypotheses", hypotheses, "random planes tried; higher is surer and slower",
+      between(1, 1000000));
+    f("max_step_m", max_step_m, "height difference of two views of one table", above(0.0));
   }
   void check() const;  ///< min_height_m below max_height_m
 };
@@ -71,13 +75,14 @@ TableSearch find_table(const PointCloud& world, const TableOptions& options, Rng
 bool merge_table(TablePlane& table, const TablePlane& seen, double max_step_m);
 
 struct ObjectCropOptions {
-  double min_height_m = 0.010;  ///< above the plane; higher drops low objects and more noise
-  double max_height_m = 0.60;   ///< above the plane
-  double hull_margin_m = 0.0;   ///< grows the hull (negative shrinks it)
+  double min_height_m = 0.010;
+  double max_height_m = 0.60;
+  double hull_margin_m = 0.0;
   void fields(auto&& f) {
-    f("min_height_m", min_height_m, at_least(0.0));
-    f("max_height_m", max_height_m, above(0.0));
-    f("hull_margin_m", hull_margin_m, between(-0.5, 0.5));
+    f("min_height_m", min_height_m, "above the plane; higher drops low objects and more noise",
+      at_least(0.0));
+    f("max_height_m", max_height_m, "above the plane", above(0.0));
+    f("hull_margin_m", hull_margin_m, "grows the hull (negative shrinks it)", between(-0.5, 0.5));
   }
   void check() const;  ///< min_height_m below max_height_m
 };

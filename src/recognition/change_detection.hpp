@@ -32,27 +32,32 @@ inline RecognitionOptions for_changes(RecognitionOptions options = {}) {
 }
 
 struct ChangeOptions {
-  /// How features and views are chosen, and how many at most.
   RecognitionOptions recognition = for_changes();
-  double threshold = 0.6;         ///< tau: changed if P(u) is above; higher looks more often
-  double unchanged_below = 0.05;  ///< P(u) at which it is sure that nothing has; lower looks more
-                                  ///< often, and finds changes that few views show
-  double changed_above = 0.95;    ///< P(u) at which it is sure of a change; higher looks more often
-  double prior_pose = 0.45;  ///< that it was turned; higher finds turns sooner, falsely more often
-  double prior_object = 0.05;  ///< that it is another object; likewise
-  int empty_views = 2;         ///< without any feature, until it is held to be removed
+  double threshold = 0.6;
+  double unchanged_below = 0.05;
+  double changed_above = 0.95;
+  double prior_pose = 0.45;
+  double prior_object = 0.05;
+  int empty_views = 2;
   void fields(auto&& f) {
-    f("recognition", recognition);
+    f("recognition", recognition, "How features and views are chosen, and how many at most.");
     decision_fields(f);
   }
   /// All but how to look.
   void decision_fields(auto&& f) {
-    f("threshold", threshold, between(0.0, 1.0));
-    f("unchanged_below", unchanged_below, between(0.0, 1.0));
-    f("changed_above", changed_above, between(0.0, 1.0));
-    f("prior_pose", prior_pose, between(0.0, 1.0));
-    f("prior_object", prior_object, between(0.0, 1.0));
-    f("empty_views", empty_views, between(1, 100));
+    f("threshold", threshold, "tau: changed if P(u) is above; higher looks more often",
+      between(0.0, 1.0));
+    f("unchanged_below", unchanged_below,
+      "P(u) at which it is sure that nothing has; lower looks more often, and finds changes that "
+      "few views show",
+      between(0.0, 1.0));
+    f("changed_above", changed_above,
+      "P(u) at which it is sure of a change; higher looks more often", between(0.0, 1.0));
+    f("prior_pose", prior_pose, "that it was turned; higher finds turns sooner, falsely more often",
+      between(0.0, 1.0));
+    f("prior_object", prior_object, "that it is another object; likewise", between(0.0, 1.0));
+    f("empty_views", empty_views, "without any feature, until it is held to be removed",
+      between(1, 100));
   }
   /// The priors leave some for a change and some for none; unchanged_below <= threshold <=
   /// changed_above.

@@ -19,30 +19,36 @@ namespace vantage {
 /// objects that are not known yet, where the expected information is large enough. Of a direction
 /// the nearest image is the observation.
 struct ObservationOptions {
-  double range_m = 2.0;           ///< camera to object; higher sees more and worse
-  double known_below_nats = 0.1;  ///< entropy of the object below which it is known
-  bool observe_known = false;     ///< go on observing what is known
-  /// Expected information about the object from that direction; higher observes less. 0: every
-  /// direction counts.
+  double range_m = 2.0;
+  double known_below_nats = 0.1;
+  bool observe_known = false;
   double min_gain_nats = 0.03;
-  /// Between the bearings of an object's observations; lower takes two from hardly another side.
   double apart_rad = 0.3;
-  /// An image from nearer than that is taken once none was nearer for `patience_s`, or the
-  /// direction was left. Higher takes more images that a nearer one would have made needless.
   double near_m = 1.3;
-  double patience_s = 0.5;  ///< higher waits for better images; 0 takes the first
-  /// Those from farther off are taken when the object was not in view for so long, the nearest
-  /// first, as long as it is not known.
+  double patience_s = 0.5;
   double left_after_s = 2.0;
   void fields(auto&& f) {
-    f("range_m", range_m, Range{0.0, 20.0, true});
-    f("known_below_nats", known_below_nats, at_least(0.0));
-    f("observe_known", observe_known);
-    f("min_gain_nats", min_gain_nats, at_least(0.0));
-    f("apart_rad", apart_rad, between(0.0, 3.0));
-    f("near_m", near_m, at_least(0.0));
-    f("patience_s", patience_s, between(0.0, 100.0));
-    f("left_after_s", left_after_s, between(0.0, 100.0));
+    f("range_m", range_m, "camera to object; higher sees more and worse", Range{0.0, 20.0, true});
+    f("known_below_nats", known_below_nats, "entropy of the object below which it is known",
+      at_least(0.0));
+    f("observe_known", observe_known, "go on observing what is known");
+    f("min_gain_nats", min_gain_nats,
+      "Expected information about the object from that direction; higher observes less. 0: every "
+      "direction counts.",
+      at_least(0.0));
+    f("apart_rad", apart_rad,
+      "Between the bearings of an object's observations; lower takes two from hardly another side.",
+      between(0.0, 3.0));
+    f("near_m", near_m,
+      "An image from nearer than that is taken once none was nearer for `patience_s`, or the "
+      "direction was left. Higher takes more images that a nearer one would have made needless.",
+      at_least(0.0));
+    f("patience_s", patience_s, "higher waits for better images; 0 takes the first",
+      between(0.0, 100.0));
+    f("left_after_s", left_after_s,
+      "Those from farther off are taken when the object was not in view for so long, the nearest "
+      "first, as long as it is not known.",
+      between(0.0, 100.0));
   }
 };
 

@@ -35,10 +35,10 @@ struct Recogniser {
 
 struct RecogniserOptions {
   VarianceEstimate variance = ShrunkVariance{};
-  std::vector<std::string> features;  ///< names to use of those in the model; empty: all
+  std::vector<std::string> features;
   void fields(auto&& f) {
-    f("variance", variance);
-    f("features", features);
+    f("variance", variance, "@@");
+    f("features", features, "names to use of those in the model; empty: all");
   }
 };
 

@@ -21,18 +21,18 @@ namespace vantage {
 
 struct RecognitionOptions {
   FeatureChoice features;
-  bool all_features = false;  ///< extract every feature instead of choosing
+  bool all_features = false;
   ObjectViewOptions views;
   EnoughViews enough;
   TransitionModel transition = RigidTransition{};
-  int max_views = 8;  ///< after so many it stops, sure or not, >= 1
+  int max_views = 8;
   void fields(auto&& f) {
-    f("features", features);
-    f("all_features", all_features);
-    f("views", views);
-    f("enough", enough);
-    f("transition", transition);
-    f("max_views", max_views, between(1, 1000));
+    f("features", features, "@@");
+    f("all_features", all_features, "extract every feature instead of choosing");
+    f("views", views, "@@");
+    f("enough", enough, "@@");
+    f("transition", transition, "@@");
+    f("max_views", max_views, "after so many it stops, sure or not, >= 1", between(1, 1000));
   }
 };
 

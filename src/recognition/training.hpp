@@ -12,27 +12,30 @@
 namespace vantage {
 
 struct TrainingOptions {
-  std::uint64_t seed = 1;  ///< of every random stream
+  std::uint64_t seed = 1;
   std::vector<Feature> features{Colour{}, BoundingBox{}, Sift{}, Vfh{}};
-  std::vector<int> videos{1, 4};  ///< to train on: 1, 2, 4 are 30, 45, 60 deg
-  int bins = 8;                   ///< of yaw, an object; more tell poses better, with fewer views
-  int feature_views = 1000;       ///< drawn at random, that features learn from; higher is slower
+  std::vector<int> videos{1, 4};
+  int bins = 8;
+  int feature_views = 1000;
   HeldOut held_out = HeldOutShare{};
-  VarianceEstimate variance = ShrunkVariance{};  ///< that psi is calibrated for
+  VarianceEstimate variance = ShrunkVariance{};
   PsiRule psi = CalibratedPsi{};
-  /// Moves that the start, `rigid`, is worth to a transition learnt from walks round the training
-  /// views; higher learns slower, 0: none is learnt.
   double transition_prior_moves = 100.0;
   void fields(auto&& f) {
-    f("seed", seed);
-    f("features", features);
-    f("videos", videos, between(1, 4));
-    f("bins", bins, between(2, 3600));
-    f("feature_views", feature_views, at_least(2));
-    f("held_out", held_out);
-    f("variance", variance);
-    f("psi", psi);
-    f("transition_prior_moves", transition_prior_moves, at_least(0.0));
+    f("seed", seed, "of every random stream");
+    f("features", features, "@@");
+    f("videos", videos, "to train on: 1, 2, 4 are 30, 45, 60 deg", between(1, 4));
+    f("bins", bins, "of yaw, an object; more tell poses better, with fewer views",
+      between(2, 3600));
+    f("feature_views", feature_views, "drawn at random, that features learn from; higher is slower",
+      at_least(2));
+    f("held_out", held_out, "@@");
+    f("variance", variance, "that psi is calibrated for");
+    f("psi", psi, "@@");
+    f("transition_prior_moves", transition_prior_moves,
+      "Moves that the start, `rigid`, is worth to a transition learnt from walks round the "
+      "training views; higher learns slower, 0: none is learnt.",
+      at_least(0.0));
   }
   void check() const;  ///< features and videos: some, of different names and numbers
 };

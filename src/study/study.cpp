@@ -224,8 +224,8 @@ Study read_study(const fs::path& file, const std::vector<std::string>& overrides
   study.name = file.stem().string();
   study.title = study.name;
   FieldReader reader(root);
-  reader("title", study.title);
-  reader("report", study.report);
+  reader("title", study.title, "of its report");
+  reader("report", study.report, "what is made of the results");
   for (const char* key : {"episode", "set", "factors"}) reader.allow(key);
   reader.finish();
   study.episode = find_input(root.find("episode")->scalar, {}, "episode");

@@ -25,19 +25,20 @@ namespace vantage {
 
 /// What `sweep collect` makes of the results.
 struct StudyReport {
-  std::string compare = "method";   ///< factor whose levels are compared, paired over all others
-  std::string reference;            ///< level the others are held against; empty: the first
-  std::string panels;               ///< factor with a panel for each level; empty: one panel
-  std::vector<std::string> curves;  ///< against scans, names of kCurves
-  std::vector<std::string> tables;  ///< names of kScalars
-  std::string predictors_along;     ///< level along which all predictors are compared; empty: none
+  std::string compare = "method";
+  std::string reference;
+  std::string panels;
+  std::vector<std::string> curves;
+  std::vector<std::string> tables;
+  std::string predictors_along;
   void fields(auto&& f) {
-    f("compare", compare);
-    f("reference", reference);
-    f("panels", panels);
-    f("curves", curves);
-    f("tables", tables);
-    f("predictors_along", predictors_along);
+    f("compare", compare, "factor whose levels are compared, paired over all others");
+    f("reference", reference, "level the others are held against; empty: the first");
+    f("panels", panels, "factor with a panel for each level; empty: one panel");
+    f("curves", curves, "against scans, names of kCurves");
+    f("tables", tables, "names of kScalars");
+    f("predictors_along", predictors_along,
+      "level along which all predictors are compared; empty: none");
   }
 };
 

@@ -17,8 +17,8 @@ struct Adaptive {
   double prior = 0.1;
   double least = 0.0;
   void fields(auto&& f) {
-    f("prior", prior, between(0.0, 1.0));
-    f("least", least);
+    f("prior", prior, "@@", between(0.0, 1.0));
+    f("least", least, "@@");
   }
   void check() const {
     if (least > prior) throw ConfigError("least must not be above prior");
@@ -38,8 +38,8 @@ struct Planner {
   Gain gain = Adaptive{.prior = 0.7};
   std::vector<Gain> also;
   void fields(auto&& f) {
-    f("gain", gain);
-    f("also", also);
+    f("gain", gain, "@@");
+    f("also", also, "@@");
   }
   bool operator==(const Planner&) const = default;
 };

@@ -18,14 +18,15 @@ inline constexpr int kClutterLevels = 4;
 
 struct OfficeOptions {
   std::string name = "office";
-  std::uint64_t seed = 1;  ///< of the choice and the places; walls are fixed
-  bool large = false;      ///< 20 x 25 m instead of 15 x 10 m
-  int clutter = 1;         ///< a level has everything of the levels below it and more
+  std::uint64_t seed = 1;
+  bool large = false;
+  int clutter = 1;
   void fields(auto&& f) {
-    f("name", name);
-    f("seed", seed);
-    f("large", large);
-    f("clutter", clutter, between(1, kClutterLevels));
+    f("name", name, "@@");
+    f("seed", seed, "of the choice and the places; walls are fixed");
+    f("large", large, "20 x 25 m instead of 15 x 10 m");
+    f("clutter", clutter, "a level has everything of the levels below it and more",
+      between(1, kClutterLevels));
   }
 };
 

@@ -26,17 +26,18 @@ struct Furniture {
 
 struct TableSceneOptions {
   std::string name = "tabletop";
-  std::uint64_t seed = 1;      ///< of the objects' shapes, the choice and the places
-  int objects = 15;            ///< stacked ones included; more clutter the table
-  int stacks = 0;              ///< objects that stand on another one
-  double clearance_m = 0.012;  ///< least gap between footprints; higher spreads things out
+  std::uint64_t seed = 1;
+  int objects = 15;
+  int stacks = 0;
+  double clearance_m = 0.012;
   std::vector<Furniture> furniture;
   void fields(auto&& f) {
-    f("name", name);
-    f("seed", seed);
-    f("objects", objects, between(0, 30));
-    f("stacks", stacks, between(0, 10));
-    f("clearance_m", clearance_m, between(0.0, 0.2));
+    f("name", name, "@@");
+    f("seed", seed, "of the objects' shapes, the choice and the places");
+    f("objects", objects, "stacked ones included; more clutter the table", between(0, 30));
+    f("stacks", stacks, "objects that stand on another one", between(0, 10));
+    f("clearance_m", clearance_m, "least gap between footprints; higher spreads things out",
+      between(0.0, 0.2));
   }
 };
 

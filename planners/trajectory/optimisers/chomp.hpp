@@ -17,19 +17,22 @@ namespace vantage {
 /// [Ratliff2009]
 struct Chomp {
   static constexpr std::string_view name = "covariant_gradient";
-  int evaluations = 1001;    ///< at most; fewer where no step downhill is left
-  double first_step = 0.5;   ///< of the point that moves most, as share of `scale`; > 0
-  double min_step = 1e-4;    ///< the same; smaller ones end it
-  double difference = 1e-4;  ///< m or rad; higher looks past kinks, is less exact
-  std::array<double, 3> scale_m{0.5, 0.5, 0.2};  ///< x, y, z move in proportion to its square
-  double scale_yaw_rad = 0.5;                    ///< the same of yaw
+  int evaluations = 1001;
+  double first_step = 0.5;
+  double min_step = 1e-4;
+  double difference = 1e-4;
+  std::array<double, 3> scale_m{0.5, 0.5, 0.2};
+  double scale_yaw_rad = 0.5;
   void fields(auto&& f) {
-    f("evaluations", evaluations, between(1, 1'000'000));
-    f("first_step", first_step, above(0.0));
-    f("min_step", min_step, above(0.0));
-    f("difference", difference, between(1e-9, 0.1));
-    f("scale_m", scale_m, at_least(0.0));
-    f("scale_yaw_rad", scale_yaw_rad, at_least(0.0));
+    f("evaluations", evaluations, "at most; fewer where no step downhill is left",
+      between(1, 1'000'000));
+    f("first_step", first_step, "of the point that moves most, as share of `scale`; > 0",
+      above(0.0));
+    f("min_step", min_step, "the same; smaller ones end it", above(0.0));
+    f("difference", difference, "m or rad; higher looks past kinks, is less exact",
+      between(1e-9, 0.1));
+    f("scale_m", scale_m, "x, y, z move in proportion to its square", at_least(0.0));
+    f("scale_yaw_rad", scale_yaw_rad, "the same of yaw", at_least(0.0));
   }
   OptimisedHorizon operator()(const Horizon& horizon, const PathCost& cost, Rng& rng) const;
 };

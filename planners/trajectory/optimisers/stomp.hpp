@@ -13,18 +13,20 @@ namespace vantage {
 /// [Kalakrishnan2011], [Potthast2016, (5.1)-(5.6)]
 struct Stomp {
   static constexpr std::string_view name = "stomp";
-  int rollouts = 20;    ///< paths tried an iteration, the noise-free one among them
-  int iterations = 50;  ///< higher takes longer and settles better
-  double inverse_temperature =
-      10.0;  ///< h, > 0: inverse temperature of the weights; higher follows the best rollouts alone
+  int rollouts = 20;
+  int iterations = 50;
+  double inverse_temperature = 10.0;
   PathNoise noise{};
   void fields(auto&& f) {
-    f("rollouts", rollouts, between(2, 10'000));
-    f("iterations", iterations, between(1, 100'000));
-    f("inverse_temperature", inverse_temperature, above(0.0));
-    f("sigma_m", noise.sigma_m, at_least(0.0));
-    f("sigma_yaw_rad", noise.sigma_yaw_rad, at_least(0.0));
-    f("decay", noise.decay, Range{0.0, 1.0, true});
+    f("rollouts", rollouts, "paths tried an iteration, the noise-free one among them",
+      between(2, 10'000));
+    f("iterations", iterations, "higher takes longer and settles better", between(1, 100'000));
+    f("inverse_temperature", inverse_temperature,
+      "h, > 0: inverse temperature of the weights; higher follows the best rollouts alone",
+      above(0.0));
+    f("sigma_m", noise.sigma_m, "@@", at_least(0.0));
+    f("sigma_yaw_rad", noise.sigma_yaw_rad, "@@", at_least(0.0));
+    f("decay", noise.decay, "@@", Range{0.0, 1.0, true});
   }
   OptimisedHorizon operator()(const Horizon& horizon, const PathCost& cost, Rng& rng) const;
 };

@@ -12,21 +12,27 @@
 namespace vantage {
 
 struct ClutterHazardOptions {
-  int layers = 13;                 ///< height bands with a rate of their own
-  double prior_crossings = 300.0;  ///< pull of a layer towards the global rate; higher: less detail
-  int block_cells = 6;             ///< side of the blocks of a layer that have rates of their own
-  double reach_cells = 20.0;  ///< standard deviation of what a block hears of; higher: smoother
-  double block_crossings = 1000.0;  ///< pull of a block towards its layer; higher: less detail
-  double prior_hazard = 0.005;      ///< mean of the Beta prior on the global rate, per cell
-  double prior_weight = 300.0;      ///< crossings the prior is worth; higher: slower to learn
+  int layers = 13;
+  double prior_crossings = 300.0;
+  int block_cells = 6;
+  double reach_cells = 20.0;
+  double block_crossings = 1000.0;
+  double prior_hazard = 0.005;
+  double prior_weight = 300.0;
   void fields(auto&& f) {
-    f("layers", layers, between(1, 4096));
-    f("prior_crossings", prior_crossings, at_least(0.0));
-    f("block_cells", block_cells, between(1, 4096));
-    f("reach_cells", reach_cells, between(0.0, 4096.0));
-    f("block_crossings", block_crossings, above(0.0));
-    f("prior_hazard", prior_hazard, between(1e-6, 0.999));
-    f("prior_weight", prior_weight, above(0.0));
+    f("layers", layers, "height bands with a rate of their own", between(1, 4096));
+    f("prior_crossings", prior_crossings,
+      "pull of a layer towards the global rate; higher: less detail", at_least(0.0));
+    f("block_cells", block_cells, "side of the blocks of a layer that have rates of their own",
+      between(1, 4096));
+    f("reach_cells", reach_cells, "standard deviation of what a block hears of; higher: smoother",
+      between(0.0, 4096.0));
+    f("block_crossings", block_crossings, "pull of a block towards its layer; higher: less detail",
+      above(0.0));
+    f("prior_hazard", prior_hazard, "mean of the Beta prior on the global rate, per cell",
+      between(1e-6, 0.999));
+    f("prior_weight", prior_weight, "crossings the prior is worth; higher: slower to learn",
+      above(0.0));
   }
 };
 

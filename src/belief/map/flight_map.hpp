@@ -14,17 +14,18 @@
 namespace vantage {
 
 struct FlightMapOptions {
-  double cell_m = 0.1;    ///< lower resolves more, costs its inverse cube
-  int columns = 100;      ///< of the image that are used; higher is slower
-  double noise_m = 0.03;  ///< of a point, standard deviation; depth and estimated pose
-  double rise_m = 0.3;    ///< height of a wall that is taken to go on beyond what was seen of it
+  double cell_m = 0.1;
+  int columns = 100;
+  double noise_m = 0.03;
+  double rise_m = 0.3;
   FreeSpaceUpdate free_space = {};
   void fields(auto&& f) {
-    f("cell_m", cell_m, Range{0.01, 1.0});
-    f("columns", columns, between(8, 4096));
-    f("noise_m", noise_m, above(0.0));
-    f("rise_m", rise_m, at_least(0.0));
-    f("free_space", free_space);
+    f("cell_m", cell_m, "lower resolves more, costs its inverse cube", Range{0.01, 1.0});
+    f("columns", columns, "of the image that are used; higher is slower", between(8, 4096));
+    f("noise_m", noise_m, "of a point, standard deviation; depth and estimated pose", above(0.0));
+    f("rise_m", rise_m, "height of a wall that is taken to go on beyond what was seen of it",
+      at_least(0.0));
+    f("free_space", free_space, "@@");
   }
 };
 

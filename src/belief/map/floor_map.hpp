@@ -15,17 +15,21 @@
 namespace vantage {
 
 struct FloorMapOptions {
-  double cell_m = 0.05;         ///< edge of a cell; higher is faster and coarser
-  double half_size_m = 6.0;     ///< the map is a square of twice this edge round the world's origin
-  double log_odds_hit = 1.5;    ///< a return in the cell; higher trusts a single return more
-  double log_odds_miss = 0.5;   ///< a beam through the cell; higher forgets obstacles faster
-  double log_odds_limit = 3.0;  ///< of the sum, either way; higher needs longer to change its mind
+  double cell_m = 0.05;
+  double half_size_m = 6.0;
+  double log_odds_hit = 1.5;
+  double log_odds_miss = 0.5;
+  double log_odds_limit = 3.0;
   void fields(auto&& f) {
-    f("cell_m", cell_m, above(0.0));
-    f("half_size_m", half_size_m, above(0.0));
-    f("log_odds_hit", log_odds_hit, above(0.0));
-    f("log_odds_miss", log_odds_miss, above(0.0));
-    f("log_odds_limit", log_odds_limit, above(0.0));
+    f("cell_m", cell_m, "edge of a cell; higher is faster and coarser", above(0.0));
+    f("half_size_m", half_size_m, "the map is a square of twice this edge round the world's origin",
+      above(0.0));
+    f("log_odds_hit", log_odds_hit, "a return in the cell; higher trusts a single return more",
+      above(0.0));
+    f("log_odds_miss", log_odds_miss, "a beam through the cell; higher forgets obstacles faster",
+      above(0.0));
+    f("log_odds_limit", log_odds_limit,
+      "of the sum, either way; higher needs longer to change its mind", above(0.0));
   }
   /// One hit or miss must be able to decide a cell's state; at most 2^26 cells.
   void check() const;

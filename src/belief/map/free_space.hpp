@@ -10,10 +10,13 @@
 namespace vantage {
 
 struct FreeSpaceUpdate {
-  /// 1 - p(o | a beam passed). From 0.7 on, one pass frees any unobserved cell; higher needs more
-  /// hits to undo.
   double p_free_given_pass = 0.7;
-  void fields(auto&& f) { f("p_free_given_pass", p_free_given_pass, between(0.7, 0.999)); }
+  void fields(auto&& f) {
+    f("p_free_given_pass", p_free_given_pass,
+      "1 - p(o | a beam passed). From 0.7 on, one pass frees any unobserved cell; higher needs "
+      "more hits to undo.",
+      between(0.7, 0.999));
+  }
 };
 
 /// Updates towards free every cell c with 0.4 < p(o) < 0.6 that the scan saw empty:

@@ -11,15 +11,16 @@
 namespace vantage {
 
 struct HeadroomOptions {
-  double low_m = 0.03;       ///< world z; occupied cells that begin lower are floor
-  double high_m = 1.65;      ///< world z; cells that begin higher are above the robot
-  double seen_low_m = 0.3;   ///< world z; from here up to high_m a column must have been seen
-  double max_unseen = 0.25;  ///< share of those cells that may be unobserved; higher dares more
+  double low_m = 0.03;
+  double high_m = 1.65;
+  double seen_low_m = 0.3;
+  double max_unseen = 0.25;
   void fields(auto&& f) {
-    f("low_m", low_m);
-    f("high_m", high_m);
-    f("seen_low_m", seen_low_m);
-    f("max_unseen", max_unseen, between(0.0, 1.0));
+    f("low_m", low_m, "world z; occupied cells that begin lower are floor");
+    f("high_m", high_m, "world z; cells that begin higher are above the robot");
+    f("seen_low_m", seen_low_m, "world z; from here up to high_m a column must have been seen");
+    f("max_unseen", max_unseen, "share of those cells that may be unobserved; higher dares more",
+      between(0.0, 1.0));
   }
   void check() const;  ///< low_m and seen_low_m below high_m
 };

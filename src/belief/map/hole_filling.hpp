@@ -16,15 +16,17 @@ namespace vantage {
 ///
 /// The double sum counts each pair of neighbours twice, as printed.
 struct HoleFilling {
-  double data_weight = 1.0;        ///< alpha; higher keeps more cells as observed
-  double smoothness_weight = 1.0;  ///< beta; higher fills more
-  int max_passes = 100;            ///< bound on the work; reached only by pathological grids
-  double p_occupied_filled = 0.7;  ///< p(o) of a filled cell; higher is harder to carve away
+  double data_weight = 1.0;
+  double smoothness_weight = 1.0;
+  int max_passes = 100;
+  double p_occupied_filled = 0.7;
   void fields(auto&& f) {
-    f("data_weight", data_weight, at_least(0.0));
-    f("smoothness_weight", smoothness_weight, at_least(0.0));
-    f("max_passes", max_passes, at_least(1));
-    f("p_occupied_filled", p_occupied_filled, between(0.61, 0.999));
+    f("data_weight", data_weight, "alpha; higher keeps more cells as observed", at_least(0.0));
+    f("smoothness_weight", smoothness_weight, "beta; higher fills more", at_least(0.0));
+    f("max_passes", max_passes, "bound on the work; reached only by pathological grids",
+      at_least(1));
+    f("p_occupied_filled", p_occupied_filled,
+      "p(o) of a filled cell; higher is harder to carve away", between(0.61, 0.999));
   }
 };
 

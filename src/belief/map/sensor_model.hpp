@@ -18,15 +18,18 @@ namespace vantage {
 /// hit says nothing about free space. sigma_axis is at least 0.65 cell edges, so that a hit in the
 /// corner of a cell still speaks for it whatever the cell size.
 struct InverseSensorModel {
-  double sigma_m = 0.005;         ///< range noise, standard deviation; higher spreads evidence
-  double p_occupied_peak = 0.8;   ///< p(m|z) at the point; below 0.75 one hit may not suffice
-  double spread_sigmas = 2.0;     ///< evidence ends there; higher reaches more neighbours
-  double max_abs_log_odds = 5.0;  ///< clamp; higher needs more evidence to change a cell's state
+  double sigma_m = 0.005;
+  double p_occupied_peak = 0.8;
+  double spread_sigmas = 2.0;
+  double max_abs_log_odds = 5.0;
   void fields(auto&& f) {
-    f("sigma_m", sigma_m, above(0.0));
-    f("p_occupied_peak", p_occupied_peak, between(0.55, 0.999));
-    f("spread_sigmas", spread_sigmas, between(0.0, 4.0));
-    f("max_abs_log_odds", max_abs_log_odds, at_least(0.5));
+    f("sigma_m", sigma_m, "range noise, standard deviation; higher spreads evidence", above(0.0));
+    f("p_occupied_peak", p_occupied_peak, "p(m|z) at the point; below 0.75 one hit may not suffice",
+      between(0.55, 0.999));
+    f("spread_sigmas", spread_sigmas, "evidence ends there; higher reaches more neighbours",
+      between(0.0, 4.0));
+    f("max_abs_log_odds", max_abs_log_odds,
+      "clamp; higher needs more evidence to change a cell's state", at_least(0.5));
   }
 };
 

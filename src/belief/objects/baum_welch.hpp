@@ -46,13 +46,15 @@ LearnedTransition learn_sequence(const ObjectStates& states, std::span<const Vie
                                  TransitionCounts& counts);
 
 struct BaumWelchOptions {
-  double prior_moves = 0.0;  ///< moves that the start is worth; higher: nearer to it, 0: likelihood
-  int max_iterations = 100;  ///< passes over all sequences; higher converges further
-  double tolerance = 1e-6;   ///< nats a sequence; higher stops earlier
+  double prior_moves = 0.0;
+  int max_iterations = 100;
+  double tolerance = 1e-6;
   void fields(auto&& f) {
-    f("prior_moves", prior_moves, at_least(0.0));
-    f("max_iterations", max_iterations, between(1, 10000));
-    f("tolerance", tolerance, above(0.0));
+    f("prior_moves", prior_moves,
+      "moves that the start is worth; higher: nearer to it, 0: likelihood", at_least(0.0));
+    f("max_iterations", max_iterations, "passes over all sequences; higher converges further",
+      between(1, 10000));
+    f("tolerance", tolerance, "nats a sequence; higher stops earlier", above(0.0));
   }
 };
 

@@ -41,11 +41,12 @@ void merge(GaussianStatistics& statistics, const GaussianStatistics& other);
 /// all of them. The mean of a scaled inverse chi-squared posterior, nearly.  [Gelman2013, 3.2]
 struct ShrunkVariance {
   static constexpr std::string_view name = "shrunk";
-  double nu0 = 5.0;     ///< views the pooled variance is worth; higher: states differ less
-  double floor = 0.01;  ///< least variance, of the mean s_pool^2 of all dimensions; higher: flatter
+  double nu0 = 5.0;
+  double floor = 0.01;
   void fields(auto&& f) {
-    f("nu0", nu0, above(0.0));
-    f("floor", floor, above(0.0));
+    f("nu0", nu0, "views the pooled variance is worth; higher: states differ less", above(0.0));
+    f("floor", floor, "least variance, of the mean s_pool^2 of all dimensions; higher: flatter",
+      above(0.0));
   }
   /// @param count >= 1
   [[nodiscard]] Eigen::ArrayXd operator()(int count, const Eigen::ArrayXd& squared_deviation,
@@ -56,8 +57,10 @@ struct ShrunkVariance {
 /// [Potthast2016, 4.1.3]
 struct LiteralVariance {
   static constexpr std::string_view name = "literal";
-  double floor = 0.01;  ///< as in ShrunkVariance: bins that no view fills have none
-  void fields(auto&& f) { f("floor", floor, above(0.0)); }
+  double floor = 0.01;
+  void fields(auto&& f) {
+    f("floor", floor, "as in ShrunkVariance: bins that no view fills have none", above(0.0));
+  }
   /// @param count >= 1
   [[nodiscard]] Eigen::ArrayXd operator()(int count, const Eigen::ArrayXd& squared_deviation,
                                           const Eigen::ArrayXd& pooled) const;

@@ -13,14 +13,16 @@
 namespace vantage {
 
 struct ObjectTrackerOptions {
-  /// Detections nearer than that to an object, level, are of it; higher joins neighbours.
   double gate_m = 0.35;
-  double partial_weight = 0.1;  ///< of a detection cut by the frame, in the mean; whole is 1
-  int min_detections = 3;       ///< fewer may have been noise
+  double partial_weight = 0.1;
+  int min_detections = 3;
   void fields(auto&& f) {
-    f("gate_m", gate_m, Range{0.0, 2.0, true});
-    f("partial_weight", partial_weight, Range{0.0, 1.0, true});
-    f("min_detections", min_detections, at_least(1));
+    f("gate_m", gate_m,
+      "Detections nearer than that to an object, level, are of it; higher joins neighbours.",
+      Range{0.0, 2.0, true});
+    f("partial_weight", partial_weight, "of a detection cut by the frame, in the mean; whole is 1",
+      Range{0.0, 1.0, true});
+    f("min_detections", min_detections, "fewer may have been noise", at_least(1));
   }
 };
 

@@ -40,15 +40,17 @@ struct PsiContext {
 /// the answer.
 struct CalibratedPsi {
   static constexpr std::string_view name = "calibrated";
-  /// The likelihood of the object, whatever its pose, instead of the state's. Views between two
-  /// bins are mistaken in pose however good a feature is, which would count against it.
   bool about_object = true;
-  /// Rounds of adjusting each psi in turn to all features together, after the temperature; higher:
-  /// better when all are extracted, worse when only some are. 0: leave them in proportion.
   int joint_rounds = 0;
   void fields(auto&& f) {
-    f("about_object", about_object);
-    f("joint_rounds", joint_rounds, between(0, 100));
+    f("about_object", about_object,
+      "The likelihood of the object, whatever its pose, instead of the state's. Views between two "
+      "bins are mistaken in pose however good a feature is, which would count against it.");
+    f("joint_rounds", joint_rounds,
+      "Rounds of adjusting each psi in turn to all features together, after the temperature; "
+      "higher: better when all are extracted, worse when only some are. 0: leave them in "
+      "proportion.",
+      between(0, 100));
   }
   /// @throws InputError if no view was held out.
   [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
@@ -64,17 +66,18 @@ struct PerDimensionPsi {
 /// The published factors, by the feature's name.  [Potthast2016, 4.5.2]
 struct DissertationPsi {
   static constexpr std::string_view name = "dissertation";
-  double colour = 1.0;         ///< of feature `colour`; higher believes it more, as for all below
-  double bounding_box = 0.02;  ///< of feature `bounding_box`
-  double sift = 0.2;           ///< of feature `sift`
-  double vfh = 0.001;          ///< of feature `vfh`
-  double other = 1.0;          ///< of any other, the kernel descriptors
+  double colour = 1.0;
+  double bounding_box = 0.02;
+  double sift = 0.2;
+  double vfh = 0.001;
+  double other = 1.0;
   void fields(auto&& f) {
-    f("colour", colour, at_least(0.0));
-    f("bounding_box", bounding_box, at_least(0.0));
-    f("sift", sift, at_least(0.0));
-    f("vfh", vfh, at_least(0.0));
-    f("other", other, at_least(0.0));
+    f("colour", colour, "of feature `colour`; higher believes it more, as for all below",
+      at_least(0.0));
+    f("bounding_box", bounding_box, "of feature `bounding_box`", at_least(0.0));
+    f("sift", sift, "of feature `sift`", at_least(0.0));
+    f("vfh", vfh, "of feature `vfh`", at_least(0.0));
+    f("other", other, "of any other, the kernel descriptors", at_least(0.0));
   }
   [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
 };

@@ -18,15 +18,19 @@ namespace vantage {
 /// [Potthast2016, table 4.1]
 struct TableTransition {
   static constexpr std::string_view name = "table";
-  double right_angle = 0.4;     ///< the object, in the bin that the motion leads to, rounded
-  double wrong_angle = 0.3;     ///< over the object's other bins; higher trusts the motion less
-  double other_instance = 0.1;  ///< over the category's other objects; higher forgets faster
-  double other_category = 0.2;  ///< over all other objects; higher forgets faster
+  double right_angle = 0.4;
+  double wrong_angle = 0.3;
+  double other_instance = 0.1;
+  double other_category = 0.2;
   void fields(auto&& f) {
-    f("right_angle", right_angle, Range{0.0, 1.0, true});
-    f("wrong_angle", wrong_angle, between(0.0, 1.0));
-    f("other_instance", other_instance, between(0.0, 1.0));
-    f("other_category", other_category, between(0.0, 1.0));
+    f("right_angle", right_angle, "the object, in the bin that the motion leads to, rounded",
+      Range{0.0, 1.0, true});
+    f("wrong_angle", wrong_angle, "over the object's other bins; higher trusts the motion less",
+      between(0.0, 1.0));
+    f("other_instance", other_instance, "over the category's other objects; higher forgets faster",
+      between(0.0, 1.0));
+    f("other_category", other_category, "over all other objects; higher forgets faster",
+      between(0.0, 1.0));
   }
   void check() const;  ///< the masses sum to one
   [[nodiscard]] TransitionKernel kernel(double motion_rad, int bins) const;
@@ -36,8 +40,11 @@ struct TableTransition {
 /// two multiples of the bin is shared by the two bins next to it, in proportion.
 struct RigidTransition {
   static constexpr std::string_view name = "rigid";
-  double slip = 0.1;  ///< to a bin beside the right one, half each way; higher trusts motion less
-  void fields(auto&& f) { f("slip", slip, between(0.0, 1.0)); }
+  double slip = 0.1;
+  void fields(auto&& f) {
+    f("slip", slip, "to a bin beside the right one, half each way; higher trusts motion less",
+      between(0.0, 1.0));
+  }
   [[nodiscard]] TransitionKernel kernel(double motion_rad, int bins) const;
 };
 
@@ -47,16 +54,19 @@ struct RigidTransition {
 /// multiples of the bin is a mixture of the two next to it.
 struct LearnedTransition {
   static constexpr std::string_view name = "learned";
-  double same_object = 1.0;     ///< these three sum to one
-  double other_instance = 0.0;  ///< over the category's other objects; higher forgets faster
-  double other_category = 0.0;  ///< over all other objects; higher forgets faster
-  /// p(slip | command) at command * bins + slip, modulo bins; empty: nothing learnt, as `rigid`
+  double same_object = 1.0;
+  double other_instance = 0.0;
+  double other_category = 0.0;
   std::vector<double> slip;
   void fields(auto&& f) {
-    f("same_object", same_object, between(0.0, 1.0));
-    f("other_instance", other_instance, between(0.0, 1.0));
-    f("other_category", other_category, between(0.0, 1.0));
-    f("slip", slip, between(0.0, 1.0));
+    f("same_object", same_object, "these three sum to one", between(0.0, 1.0));
+    f("other_instance", other_instance, "over the category's other objects; higher forgets faster",
+      between(0.0, 1.0));
+    f("other_category", other_category, "over all other objects; higher forgets faster",
+      between(0.0, 1.0));
+    f("slip", slip,
+      "p(slip | command) at command * bins + slip, modulo bins; empty: nothing learnt, as `rigid`",
+      between(0.0, 1.0));
   }
   void check() const;  ///< masses and every row of a square `slip` sum to one
   /// @throws ConfigError if `slip` was learnt with another number of bins.

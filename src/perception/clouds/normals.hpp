@@ -9,14 +9,16 @@
 namespace vantage {
 
 struct NormalOptions {
-  double radius_m = 0.08;    ///< neighbourhood; higher is smoother and rounds edges
-  int min_neighbours = 5;    ///< fewer within the radius: no normal
-  double line_ratio = 0.05;  ///< neighbourhoods whose second spread is below this share of the
-                             ///< first are lines, not planes; higher calls more of them lines
+  double radius_m = 0.08;
+  int min_neighbours = 5;
+  double line_ratio = 0.05;
   void fields(auto&& f) {
-    f("radius_m", radius_m, above(0.0));
-    f("min_neighbours", min_neighbours, at_least(3));
-    f("line_ratio", line_ratio, between(0.0, 1.0));
+    f("radius_m", radius_m, "neighbourhood; higher is smoother and rounds edges", above(0.0));
+    f("min_neighbours", min_neighbours, "fewer within the radius: no normal", at_least(3));
+    f("line_ratio", line_ratio,
+      "neighbourhoods whose second spread is below this share of the first are lines, not planes; "
+      "higher calls more of them lines",
+      between(0.0, 1.0));
   }
 };
 

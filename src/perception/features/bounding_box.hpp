@@ -17,13 +17,15 @@ namespace vantage {
 /// principal axes of the points seen from above; each between two quantiles. [Potthast2016, 4.5.2]
 struct BoundingBox {
   static constexpr std::string_view name = "bounding_box";
-  double low_quantile = 0.01;   ///< share; higher cuts more off the one end
-  double high_quantile = 0.99;  ///< share, above the other; lower cuts more off the other end
-  int min_pixels = 16;          ///< px with depth; fewer: skipped; higher is more careful
+  double low_quantile = 0.01;
+  double high_quantile = 0.99;
+  int min_pixels = 16;
   void fields(auto&& f) {
-    f("low_quantile", low_quantile, between(0.0, 0.5));
-    f("high_quantile", high_quantile, between(0.5, 1.0));
-    f("min_pixels", min_pixels, at_least(3));
+    f("low_quantile", low_quantile, "share; higher cuts more off the one end", between(0.0, 0.5));
+    f("high_quantile", high_quantile, "share, above the other; lower cuts more off the other end",
+      between(0.5, 1.0));
+    f("min_pixels", min_pixels, "px with depth; fewer: skipped; higher is more careful",
+      at_least(3));
   }
 
   [[nodiscard]] BoundingBox train(std::span<const ObjectView>, Rng&) const { return *this; }

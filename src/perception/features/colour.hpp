@@ -17,8 +17,11 @@ namespace vantage {
 /// Bin (h * 3 + s) * 3 + v. [Potthast2016, 4.5.2]
 struct Colour {
   static constexpr std::string_view name = "colour";
-  int min_pixels = 16;  ///< px; fewer on the object: skipped; higher is more careful
-  void fields(auto&& f) { f("min_pixels", min_pixels, at_least(1)); }
+  int min_pixels = 16;
+  void fields(auto&& f) {
+    f("min_pixels", min_pixels, "px; fewer on the object: skipped; higher is more careful",
+      at_least(1));
+  }
 
   static constexpr int hues = 16;
   static constexpr int saturations = 3;

@@ -24,13 +24,15 @@ class TrainedOnnx;
 /// object, the crop's longer side filling the square; output: any shape, always the same.
 struct Onnx {
   static constexpr std::string_view name = "onnx";
-  std::string file;           ///< path of the network
-  int components = 256;       ///< kept; n training views give n - 1 at most; higher keeps more
-  int training_views = 2000;  ///< for the components, drawn at random; higher takes longer
+  std::string file;
+  int components = 256;
+  int training_views = 2000;
   void fields(auto&& f) {
-    f("file", file);
-    f("components", components, between(1, 100000));
-    f("training_views", training_views, at_least(2));
+    f("file", file, "path of the network");
+    f("components", components, "kept; n training views give n - 1 at most; higher keeps more",
+      between(1, 100000));
+    f("training_views", training_views, "for the components, drawn at random; higher takes longer",
+      at_least(2));
   }
 
   static constexpr int side_px = 224;

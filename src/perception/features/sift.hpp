@@ -22,23 +22,28 @@ class TrainedSift;
 /// L1-normalised, square-rooted. [Potthast2016, 4.5.2]
 struct Sift {
   static constexpr std::string_view name = "sift";
-  int step_px = 8;             ///< of the grid; higher is faster and coarser
-  double size_px = 4.0;        ///< diameter of a keypoint, its patch 6 times that; higher blurs
-  int min_side_px = 96;        ///< smaller crops are enlarged to it; higher finds finer grain
-  int max_side_px = 160;       ///< larger crops are shrunk to it; higher is slower
-  int words = 200;             ///< of the vocabulary; higher tells more apart and needs more views
-  int training_views = 2000;   ///< to learn words from, drawn at random; higher takes longer
-  int samples_per_word = 100;  ///< descriptors for each word to learn; higher takes longer
-  int iterations = 20;         ///< of k-means, at most
+  int step_px = 8;
+  double size_px = 4.0;
+  int min_side_px = 96;
+  int max_side_px = 160;
+  int words = 200;
+  int training_views = 2000;
+  int samples_per_word = 100;
+  int iterations = 20;
   void fields(auto&& f) {
-    f("step_px", step_px, at_least(1));
-    f("size_px", size_px, between(1.0, 32.0));
-    f("min_side_px", min_side_px, at_least(16));
-    f("max_side_px", max_side_px, at_least(16));
-    f("words", words, between(1, 100000));
-    f("training_views", training_views, at_least(1));
-    f("samples_per_word", samples_per_word, at_least(1));
-    f("iterations", iterations, at_least(1));
+    f("step_px", step_px, "of the grid; higher is faster and coarser", at_least(1));
+    f("size_px", size_px, "diameter of a keypoint, its patch 6 times that; higher blurs",
+      between(1.0, 32.0));
+    f("min_side_px", min_side_px, "smaller crops are enlarged to it; higher finds finer grain",
+      at_least(16));
+    f("max_side_px", max_side_px, "larger crops are shrunk to it; higher is slower", at_least(16));
+    f("words", words, "of the vocabulary; higher tells more apart and needs more views",
+      between(1, 100000));
+    f("training_views", training_views, "to learn words from, drawn at random; higher takes longer",
+      at_least(1));
+    f("samples_per_word", samples_per_word,
+      "descriptors for each word to learn; higher takes longer", at_least(1));
+    f("iterations", iterations, "of k-means, at most", at_least(1));
   }
 
   /// @throws InputError if no view has a grid point on its object.

@@ -14,8 +14,11 @@ namespace vantage {
 /// Hues go round, ends of saturation and value do not.
 struct SoftColour {
   static constexpr std::string_view name = "soft_colour";
-  int min_pixels = 16;  ///< px; fewer on the object: skipped; higher is more careful
-  void fields(auto&& f) { f("min_pixels", min_pixels, at_least(1)); }
+  int min_pixels = 16;
+  void fields(auto&& f) {
+    f("min_pixels", min_pixels, "px; fewer on the object: skipped; higher is more careful",
+      at_least(1));
+  }
 
   [[nodiscard]] SoftColour train(std::span<const ObjectView>, Rng&) const { return *this; }
   [[nodiscard]] int dimension() const { return Colour{}.dimension(); }

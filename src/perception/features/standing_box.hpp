@@ -19,17 +19,22 @@ namespace vantage {
 /// over its support surface does not. Outliers of depth are told along the line of sight.
 struct StandingBox {
   static constexpr std::string_view name = "standing_box";
-  double low_quantile = 0.01;     ///< share; higher cuts more off the one end, not off the foot
-  double high_quantile = 0.99;    ///< share, above the other; lower cuts more off the other end
-  double outlier_floor_m = 0.06;  ///< from the median; higher keeps walls of wider bowls
-  double stand_below_m = 0.1;     ///< the lowest that is seen; higher finds feet hidden deeper
-  int min_pixels = 16;  ///< px with depth, of either; fewer: skipped; higher is more careful
+  double low_quantile = 0.01;
+  double high_quantile = 0.99;
+  double outlier_floor_m = 0.06;
+  double stand_below_m = 0.1;
+  int min_pixels = 16;
   void fields(auto&& f) {
-    f("low_quantile", low_quantile, between(0.0, 0.5));
-    f("high_quantile", high_quantile, between(0.5, 1.0));
-    f("outlier_floor_m", outlier_floor_m, between(0.0, 1.0));
-    f("stand_below_m", stand_below_m, between(0.0, 1.0));
-    f("min_pixels", min_pixels, at_least(3));
+    f("low_quantile", low_quantile, "share; higher cuts more off the one end, not off the foot",
+      between(0.0, 0.5));
+    f("high_quantile", high_quantile, "share, above the other; lower cuts more off the other end",
+      between(0.5, 1.0));
+    f("outlier_floor_m", outlier_floor_m, "from the median; higher keeps walls of wider bowls",
+      between(0.0, 1.0));
+    f("stand_below_m", stand_below_m, "the lowest that is seen; higher finds feet hidden deeper",
+      between(0.0, 1.0));
+    f("min_pixels", min_pixels, "px with depth, of either; fewer: skipped; higher is more careful",
+      at_least(3));
   }
 
   [[nodiscard]] StandingBox train(std::span<const ObjectView>, Rng&) const { return *this; }

@@ -33,13 +33,15 @@ Eigen::VectorXf viewpoint_feature_histogram(const PointCloud& cloud,
 /// The histogram of a view's surface as shares, square-rooted.
 struct Vfh {
   static constexpr std::string_view name = "vfh";
-  double normal_radius_m = 0.01;  ///< m, neighbourhood of a normal; higher is smoother
-  bool size_block = false;        ///< whether distances from the centroid count, in cm
-  int min_points = 32;            ///< with a normal; fewer: skipped; higher is more careful
+  double normal_radius_m = 0.01;
+  bool size_block = false;
+  int min_points = 32;
   void fields(auto&& f) {
-    f("normal_radius_m", normal_radius_m, above(0.0));
-    f("size_block", size_block);
-    f("min_points", min_points, at_least(3));
+    f("normal_radius_m", normal_radius_m, "m, neighbourhood of a normal; higher is smoother",
+      above(0.0));
+    f("size_block", size_block, "whether distances from the centroid count, in cm");
+    f("min_points", min_points, "with a normal; fewer: skipped; higher is more careful",
+      at_least(3));
   }
 
   [[nodiscard]] Vfh train(std::span<const ObjectView>, Rng&) const { return *this; }

@@ -16,8 +16,11 @@ namespace vantage {
 /// A share of the views, drawn at random: of the sessions that are trained on.
 struct HeldOutShare {
   static constexpr std::string_view name = "share";
-  double share = 0.2;  ///< (0, 1); higher calibrates better but for a poorer model
-  void fields(auto&& f) { f("share", share, between(0.01, 0.9)); }
+  double share = 0.2;
+  void fields(auto&& f) {
+    f("share", share, "(0, 1); higher calibrates better but for a poorer model",
+      between(0.01, 0.9));
+  }
 };
 
 /// Each video in turn, by a model of the others: another session, with other light and elevation.

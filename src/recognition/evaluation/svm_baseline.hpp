@@ -15,18 +15,21 @@ namespace vantage {
 
 struct LinearSvm {
   static constexpr std::string_view name = "linear_svm";
-  double c = 10.0;  ///< weight of training errors, > 0; higher fits closer
-  void fields(auto&& f) { f("c", c, above(0.0)); }
+  double c = 10.0;
+  void fields(auto&& f) {
+    f("c", c, "weight of training errors, > 0; higher fits closer", above(0.0));
+  }
 };
 
 /// exp(-gamma |x - y|^2)
 struct KernelSvm {
   static constexpr std::string_view name = "kernel_svm";
-  double c = 10.0;     ///< weight of training errors, > 0; higher fits closer
-  double gamma = 1.0;  ///< of vectors with a mean square distance of 1, > 0; higher is more local
+  double c = 10.0;
+  double gamma = 1.0;
   void fields(auto&& f) {
-    f("c", c, above(0.0));
-    f("gamma", gamma, above(0.0));
+    f("c", c, "weight of training errors, > 0; higher fits closer", above(0.0));
+    f("gamma", gamma, "of vectors with a mean square distance of 1, > 0; higher is more local",
+      above(0.0));
   }
 };
 

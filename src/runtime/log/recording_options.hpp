@@ -6,13 +6,14 @@
 namespace vantage {
 
 struct RecordingOptions {
-  double video_speed = 10.0;  ///< simulated seconds per second of video; higher is shorter
-  int video_fps = 25;         ///< frames per second of video
-  int height_px = 720;        ///< of the video; its width is 16:9
+  double video_speed = 10.0;
+  int video_fps = 25;
+  int height_px = 720;
   void fields(auto&& f) {
-    f("video_speed", video_speed, between(1.0, 1000.0));
-    f("video_fps", video_fps, between(1, 120));
-    f("height_px", height_px, between(120, 2160));
+    f("video_speed", video_speed, "simulated seconds per second of video; higher is shorter",
+      between(1.0, 1000.0));
+    f("video_fps", video_fps, "frames per second of video", between(1, 120));
+    f("height_px", height_px, "of the video; its width is 16:9", between(120, 2160));
   }
 };
 

@@ -14,27 +14,28 @@
 namespace vantage {
 
 struct RecognitionStudyOptions {
-  std::uint64_t seed = 1;            ///< of starts, choices and intervals
-  int starts = 2000;                 ///< each method's trials; more make intervals narrower
-  int video = 2;                     ///< tested on: 1, 2, 4 are 30, 45, 60 deg
-  RecogniserOptions recogniser;      ///< variance and features
-  RecognitionOptions recognition;    ///< what all methods have in common
-  std::vector<std::string> methods;  ///< names of published_methods() to try; empty: all
-  bool literal = true;        ///< also maximum-likelihood variances with psi 1 and as published
-  bool combinations = false;  ///< also a single view by every combination of features
-  bool baselines = false;     ///< also support vector machines, which takes long
-  int change_starts = 0;      ///< trials of change detection, a scenario and method; 0: none
+  std::uint64_t seed = 1;
+  int starts = 2000;
+  int video = 2;
+  RecogniserOptions recogniser;
+  RecognitionOptions recognition;
+  std::vector<std::string> methods;
+  bool literal = true;
+  bool combinations = false;
+  bool baselines = false;
+  int change_starts = 0;
   void fields(auto&& f) {
-    f("seed", seed);
-    f("starts", starts, at_least(1));
-    f("video", video, between(1, 4));
-    f("recogniser", recogniser);
-    f("recognition", recognition);
-    f("methods", methods);
-    f("literal", literal);
-    f("combinations", combinations);
-    f("baselines", baselines);
-    f("change_starts", change_starts, at_least(0));
+    f("seed", seed, "of starts, choices and intervals");
+    f("starts", starts, "each method's trials; more make intervals narrower", at_least(1));
+    f("video", video, "tested on: 1, 2, 4 are 30, 45, 60 deg", between(1, 4));
+    f("recogniser", recogniser, "variance and features");
+    f("recognition", recognition, "what all methods have in common");
+    f("methods", methods, "names of published_methods() to try; empty: all");
+    f("literal", literal, "also maximum-likelihood variances with psi 1 and as published");
+    f("combinations", combinations, "also a single view by every combination of features");
+    f("baselines", baselines, "also support vector machines, which takes long");
+    f("change_starts", change_starts, "trials of change detection, a scenario and method; 0: none",
+      at_least(0));
   }
 };
 

@@ -19,19 +19,22 @@ namespace vantage {
 struct ChangeDetectionTask : ObjectFlight {
   static constexpr std::string_view name = "change_detection";
 
-  /// What has changed on the table: none, object, pose, removed. Truth: the robot is not told.
   std::string scenario = "none";
-  std::string expected_object;  ///< what the map says stands there; empty: drawn by the seed
-  std::optional<double> expected_yaw_rad;  ///< of that, world; none: drawn by the seed
-  /// Scenario pose: how far it was turned; none: drawn by the seed, at least by half a bin
+  std::string expected_object;
+  std::optional<double> expected_yaw_rad;
   std::optional<double> turned_rad;
   ChangeOptions change;  ///< its `recognition` is not read: `decision` holds
   void fields(auto&& f) {
     ObjectFlight::fields(f);
-    f("scenario", scenario);
-    f("expected_object", expected_object);
-    f("expected_yaw_rad", expected_yaw_rad, between(-1000.0, 1000.0));
-    f("turned_rad", turned_rad, between(-1000.0, 1000.0));
+    f("scenario", scenario,
+      "What has changed on the table: none, object, pose, removed. Truth: the robot is not told.");
+    f("expected_object", expected_object,
+      "what the map says stands there; empty: drawn by the seed");
+    f("expected_yaw_rad", expected_yaw_rad, "of that, world; none: drawn by the seed",
+      between(-1000.0, 1000.0));
+    f("turned_rad", turned_rad,
+      "Scenario pose: how far it was turned; none: drawn by the seed, at least by half a bin",
+      between(-1000.0, 1000.0));
     change.decision_fields(f);
   }
   void check_with(const EpisodeOptions& episode) const;

@@ -20,11 +20,13 @@ namespace vantage {
 /// When exploring is no longer worth a scan, asked alike of every method: the best view in reach
 /// promises too little, by what was learnt of clutter.
 struct EnoughOptions {
-  double share = 0.0015;  ///< of the cells known; less is too little, higher ends earlier
-  int scans = 3;          ///< in a row after which it was too little; 0 explores all there is
+  double share = 0.0015;
+  int scans = 3;
   void fields(auto&& f) {
-    f("share", share, between(0.0, 1.0));
-    f("scans", scans, at_least(0));
+    f("share", share, "of the cells known; less is too little, higher ends earlier",
+      between(0.0, 1.0));
+    f("scans", scans, "in a row after which it was too little; 0 explores all there is",
+      at_least(0));
   }
 };
 
@@ -35,35 +37,42 @@ struct Exploration : MappingOptions {
   RgbdOptions camera{.tells_far = true};
   FrontierOptions frontiers{.min_cells = 60, .height_m = 1.47, .height_band_m = {{0.2, 1.7}}};
   HeadroomOptions headroom;
-  double start_room_m = 0.75;  ///< round the start, known to be free for the robot
-  int max_candidates = 30;     ///< the largest clusters; more take longer to score
-  double reach_m = 1.0;        ///< nearest place farther from its frontier: out of reach
-  double taken_m = 0.3;        ///< places nearer to one that was scanned from are not proposed
-  double poor_m = 1.0;         ///< the same round a place whose scan showed too little
-  int poor_cells = 2000;       ///< fewer new cells are too little; higher gives up sooner
+  double start_room_m = 0.75;
+  int max_candidates = 30;
+  double reach_m = 1.0;
+  double taken_m = 0.3;
+  double poor_m = 1.0;
+  int poor_cells = 2000;
   EnoughOptions enough;
-  double keyframe_m = 0.5;  ///< between places on the way where walls are remembered to drive by
-  double reference_novelty_m =
-      0.05;                  ///< walls nearer than this to remembered ones are not remembered
-  int stride_px = 3;         ///< pixels between those that mark surfaces; higher is faster
-  int hazard_stride_px = 8;  ///< pixels between those that count clutter; higher is faster
+  double keyframe_m = 0.5;
+  double reference_novelty_m = 0.05;
+  int stride_px = 3;
+  int hazard_stride_px = 8;
   void fields(auto&& f) {
     MappingOptions::fields(f);
-    f("sweep", sweep);
-    f("camera", camera);
-    f("frontiers", frontiers);
-    f("headroom", headroom);
-    f("start_room_m", start_room_m, at_least(0.0));
-    f("max_candidates", max_candidates, at_least(1));
-    f("reach_m", reach_m, at_least(0.0));
-    f("taken_m", taken_m, above(0.0));
-    f("poor_m", poor_m, at_least(0.0));
-    f("poor_cells", poor_cells, at_least(0));
-    f("enough", enough);
-    f("keyframe_m", keyframe_m, above(0.0));
-    f("reference_novelty_m", reference_novelty_m, at_least(0.0));
-    f("stride_px", stride_px, between(1, 100));
-    f("hazard_stride_px", hazard_stride_px, between(1, 100));
+    f("sweep", sweep, "@@");
+    f("camera", camera, "@@");
+    f("frontiers", frontiers, "@@");
+    f("headroom", headroom, "@@");
+    f("start_room_m", start_room_m, "round the start, known to be free for the robot",
+      at_least(0.0));
+    f("max_candidates", max_candidates, "the largest clusters; more take longer to score",
+      at_least(1));
+    f("reach_m", reach_m, "nearest place farther from its frontier: out of reach", at_least(0.0));
+    f("taken_m", taken_m, "places nearer to one that was scanned from are not proposed",
+      above(0.0));
+    f("poor_m", poor_m, "the same round a place whose scan showed too little", at_least(0.0));
+    f("poor_cells", poor_cells, "fewer new cells are too little; higher gives up sooner",
+      at_least(0));
+    f("enough", enough, "@@");
+    f("keyframe_m", keyframe_m, "between places on the way where walls are remembered to drive by",
+      above(0.0));
+    f("reference_novelty_m", reference_novelty_m,
+      "walls nearer than this to remembered ones are not remembered", at_least(0.0));
+    f("stride_px", stride_px, "pixels between those that mark surfaces; higher is faster",
+      between(1, 100));
+    f("hazard_stride_px", hazard_stride_px,
+      "pixels between those that count clutter; higher is faster", between(1, 100));
   }
   /// What concerns the task and the rest of the episode. @throws ConfigError
   void check_with(const EpisodeOptions& episode) const;

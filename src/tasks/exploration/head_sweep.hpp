@@ -11,11 +11,11 @@ namespace vantage {
 
 /// Where the head turns the camera at a stop: rows of images at one tilt, all round.
 struct HeadSweep {
-  int pans = 9;                             ///< images a row; more overlap, take longer
-  std::vector<double> tilts_rad{0.0, 0.7};  ///< of the rows, ascending; positive looks down
+  int pans = 9;
+  std::vector<double> tilts_rad{0.0, 0.7};
   void fields(auto&& f) {
-    f("pans", pans, between(1, 360));
-    f("tilts_rad", tilts_rad, between(-1.5, 1.5));
+    f("pans", pans, "images a row; more overlap, take longer", between(1, 360));
+    f("tilts_rad", tilts_rad, "of the rows, ascending; positive looks down", between(-1.5, 1.5));
   }
   void check() const;  ///< at least one row, tilts ascending
 };

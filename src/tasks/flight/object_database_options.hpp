@@ -10,13 +10,13 @@ namespace vantage {
 
 /// The objects that may stand about, as `vantage dataset render` makes them.
 struct ObjectDatabaseOptions {
-  std::uint64_t seed = 1;  ///< of the generated objects
-  int objects = 326;       ///< the first of the catalogue, or of `models`
-  std::string models;      ///< folder of <name>/{model.obj, texture.png}; empty: the catalogue
+  std::uint64_t seed = 1;
+  int objects = 326;
+  std::string models;
   void fields(auto&& f) {
-    f("seed", seed);
-    f("objects", objects, between(1, 100000));
-    f("models", models);
+    f("seed", seed, "of the generated objects");
+    f("objects", objects, "the first of the catalogue, or of `models`", between(1, 100000));
+    f("models", models, "folder of <name>/{model.obj, texture.png}; empty: the catalogue");
   }
 };
 

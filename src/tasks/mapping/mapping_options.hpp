@@ -23,13 +23,13 @@ namespace vantage {
 
 /// The region of interest and its grid.
 struct MapOptions {
-  std::array<double, 3> centre_m{0.0, 0.0, 0.982};  ///< world
-  std::array<double, 3> size_m{1.0, 1.0, 0.504};    ///< m, > 0
-  std::array<int, 3> cells{129, 129, 65};           ///< finer maps cost time in proportion
+  std::array<double, 3> centre_m{0.0, 0.0, 0.982};
+  std::array<double, 3> size_m{1.0, 1.0, 0.504};
+  std::array<int, 3> cells{129, 129, 65};
   void fields(auto&& f) {
-    f("centre_m", centre_m, between(-1000.0, 1000.0));
-    f("size_m", size_m, Range{0.0, 1000.0, true});
-    f("cells", cells, between(1, 4096));
+    f("centre_m", centre_m, "world", between(-1000.0, 1000.0));
+    f("size_m", size_m, "m, > 0", Range{0.0, 1000.0, true});
+    f("cells", cells, "finer maps cost time in proportion", between(1, 4096));
   }
   void check() const;  ///< at most 2^26 cells
   [[nodiscard]] double count() const;
@@ -38,25 +38,28 @@ struct MapOptions {
 };
 
 struct MetricsOptions {
-  /// Cells an occupied cell may be off the true surface and still be right; higher forgives more.
   int tolerance_cells = 1;
-  /// Exploration: between the poses, reachable from the start, that say which cells are observable;
-  /// lower misses fewer, takes longer.
   double pose_spacing_m = 1.0;
-  /// Gains whose prediction of newly observed cells is recorded at every scan, beside that of the
-  /// gain in use. Empty: every gain that predicts cells; in an exploration, where rays to every
-  /// cell take seconds, those that can be swept. Each costs the time of one view.
   std::vector<Gain> predictors;
   void fields(auto&& f) {
-    f("tolerance_cells", tolerance_cells, between(0, 10));
-    f("pose_spacing_m", pose_spacing_m, between(0.05, 100.0));
-    f("predictors", predictors);
+    f("tolerance_cells", tolerance_cells,
+      "Cells an occupied cell may be off the true surface and still be right; higher forgives "
+      "more.",
+      between(0, 10));
+    f("pose_spacing_m", pose_spacing_m,
+      "Exploration: between the poses, reachable from the start, that say which cells are "
+      "observable; lower misses fewer, takes longer.",
+      between(0.05, 100.0));
+    f("predictors", predictors,
+      "Gains whose prediction of newly observed cells is recorded at every scan, beside that of "
+      "the gain in use. Empty: every gain that predicts cells; in an exploration, where rays to "
+      "every cell take seconds, those that can be swept. Each costs the time of one view.");
   }
   void check() const;  ///< every predictor predicts cells
 };
 
 struct MappingOptions {
-  int scans = 10;  ///< at most, the first one included
+  int scans = 10;
   PlanarScannerOptions base_scanner;
   OdometryOptions odometry;
   RegistrationOptions registration;
@@ -72,21 +75,21 @@ struct MappingOptions {
   DriveOptions drive;
   MetricsOptions metrics;
   void fields(auto&& f) {
-    f("scans", scans, between(1, 10000));
-    f("base_scanner", base_scanner);
-    f("odometry", odometry);
-    f("registration", registration);
-    f("map", map);
-    f("sensor_model", sensor_model);
-    f("free_space", free_space);
-    f("hole_filling", hole_filling);
-    f("clutter_hazard", clutter_hazard);
-    f("gain", gain);
-    f("choice", choice);
-    f("floor_map", floor_map);
-    f("navigation", navigation);
-    f("drive", drive);
-    f("metrics", metrics);
+    f("scans", scans, "at most, the first one included", between(1, 10000));
+    f("base_scanner", base_scanner, "@@");
+    f("odometry", odometry, "@@");
+    f("registration", registration, "@@");
+    f("map", map, "@@");
+    f("sensor_model", sensor_model, "@@");
+    f("free_space", free_space, "@@");
+    f("hole_filling", hole_filling, "@@");
+    f("clutter_hazard", clutter_hazard, "@@");
+    f("gain", gain, "@@");
+    f("choice", choice, "@@");
+    f("floor_map", floor_map, "@@");
+    f("navigation", navigation, "@@");
+    f("drive", drive, "@@");
+    f("metrics", metrics, "@@");
   }
 
   /// "adaptive" for a greedy choice by that gain, "random" or "oracle" for a choice that looks at

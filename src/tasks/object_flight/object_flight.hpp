@@ -22,43 +22,49 @@ namespace vantage {
 /// Places to look from: level circle round the table's middle, camera on it. The keys of
 /// RecognitionOptions stand beside these.
 struct ObjectFlight {
-  std::string model = "out/recognition.model";  ///< file that `vantage train` made
+  std::string model = "out/recognition.model";
   RecogniserOptions recogniser;
   RecognitionOptions decision;
-  std::string object;  ///< what stands on the table, "mug_3"; empty: drawn by the seed
+  std::string object;
   ObjectDatabaseOptions database;
-  double placement_m = 0.01;  ///< largest offset of the object from the table's middle
-  std::array<double, 3> table_m{0.0, 0.0, 0.72};  ///< middle of the table top, world; known
-  double aim_height_m = 0.07;                     ///< of what the camera looks at, over the table
-  double distance_m = 1.0;                        ///< camera to there; higher sees smaller objects
-  double elevation_rad = 0.7853981633974483;      ///< of the line of sight (45 deg)
-  int bearings = 8;       ///< evenly round the object; the first is drawn by the seed
-  double arc_rad = 0.2;   ///< between waypoints; lower keeps closer to the circle
-  double settle_s = 0.5;  ///< hovering before each image
+  double placement_m = 0.01;
+  std::array<double, 3> table_m{0.0, 0.0, 0.72};
+  double aim_height_m = 0.07;
+  double distance_m = 1.0;
+  double elevation_rad = 0.7853981633974483;
+  int bearings = 8;
+  double arc_rad = 0.2;
+  double settle_s = 0.5;
   TrajectoryTrackingOptions tracking;
   RgbdOptions camera;
   ExposureOptions exposure;
-  double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
+  double colour_noise = 4.0;
   ObjectSegmentationOptions segmentation;
   void fields(auto&& f) {
-    f("model", model);
-    f("recogniser", recogniser);
+    f("model", model, "file that `vantage train` made");
+    f("recogniser", recogniser, "@@");
     decision.fields(f);
-    f("object", object);
-    f("database", database);
-    f("placement_m", placement_m, between(0.0, 0.1));
-    f("table_m", table_m, between(-1000.0, 1000.0));
-    f("aim_height_m", aim_height_m, between(0.0, 1.0));
-    f("distance_m", distance_m, between(0.6, 3.0));
-    f("elevation_rad", elevation_rad, between(0.0, 1.0471975511965976));
-    f("bearings", bearings, between(2, 360));
-    f("arc_rad", arc_rad, Range{0.0, 1.5, true});
-    f("settle_s", settle_s, between(0.0, 10.0));
-    f("tracking", tracking);
-    f("camera", camera);
-    f("exposure", exposure);
-    f("colour_noise", colour_noise, between(0.0, 100.0));
-    f("segmentation", segmentation);
+    f("object", object, "what stands on the table, \"mug_3\"; empty: drawn by the seed");
+    f("database", database, "@@");
+    f("placement_m", placement_m, "largest offset of the object from the table's middle",
+      between(0.0, 0.1));
+    f("table_m", table_m, "middle of the table top, world; known", between(-1000.0, 1000.0));
+    f("aim_height_m", aim_height_m, "of what the camera looks at, over the table",
+      between(0.0, 1.0));
+    f("distance_m", distance_m, "camera to there; higher sees smaller objects", between(0.6, 3.0));
+    f("elevation_rad", elevation_rad, "of the line of sight (45 deg)",
+      between(0.0, 1.0471975511965976));
+    f("bearings", bearings, "evenly round the object; the first is drawn by the seed",
+      between(2, 360));
+    f("arc_rad", arc_rad, "between waypoints; lower keeps closer to the circle",
+      Range{0.0, 1.5, true});
+    f("settle_s", settle_s, "hovering before each image", between(0.0, 10.0));
+    f("tracking", tracking, "@@");
+    f("camera", camera, "@@");
+    f("exposure", exposure, "@@");
+    f("colour_noise", colour_noise,
+      "standard deviation of a colour value, of 255; higher is noisier", between(0.0, 100.0));
+    f("segmentation", segmentation, "@@");
   }
 
   [[nodiscard]] Eigen::Vector3d p_world_table_m() const {

@@ -25,10 +25,10 @@ struct Tabletop : MappingOptions {
   RingOfViews candidates;
   void fields(auto&& f) {
     MappingOptions::fields(f);
-    f("laser", laser);
-    f("table", table);
-    f("objects", objects);
-    f("candidates", candidates);
+    f("laser", laser, "@@");
+    f("table", table, "@@");
+    f("objects", objects, "@@");
+    f("candidates", candidates, "@@");
   }
   /// What concerns the task and the rest of the episode. @throws ConfigError
   void check_with(const EpisodeOptions& episode) const;

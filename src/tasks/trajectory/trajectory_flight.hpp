@@ -30,18 +30,17 @@ namespace vantage {
 struct TrajectoryFlight {
   static constexpr std::string_view name = "trajectory";
 
-  std::string model = "out/trajectory.model";  ///< file that `vantage train` made
+  std::string model = "out/trajectory.model";
   RecogniserOptions recogniser{.features = {"colour", "bounding_box", "sift"}};
   TransitionModel transition = RigidTransition{};
   ObjectDatabaseOptions database;
-  double placement_m =
-      0.02;  ///< largest offset of an object from the middle of its support surface
+  double placement_m = 0.02;
   TrajectoryMethod method = Stomp{};
   FlightPlannerOptions planner;
-  int horizon = 10;        ///< waypoints that are planned at once, K
-  double latency_s = 0.1;  ///< simulated, from a waypoint to its new plan, whatever it took
+  int horizon = 10;
+  double latency_s = 0.1;
   double image_rate_hz = 10.0;
-  double camera_pitch_rad = 0.35;  ///< below the horizon of the body, all the way
+  double camera_pitch_rad = 0.35;
   ObservationOptions observations;
   ObjectSearchOptions search;
   ObjectTrackerOptions tracker;
@@ -49,27 +48,31 @@ struct TrajectoryFlight {
   TrajectoryTrackingOptions tracking;
   RgbdOptions camera;
   ExposureOptions exposure;
-  double colour_noise = 4.0;  ///< standard deviation of a colour value, of 255; higher is noisier
+  double colour_noise = 4.0;
   void fields(auto&& f) {
-    f("model", model);
-    f("recogniser", recogniser);
-    f("transition", transition);
-    f("database", database);
-    f("placement_m", placement_m, between(0.0, 0.1));
-    f("method", method);
-    f("planner", planner);
-    f("horizon", horizon, between(3, 100));
-    f("latency_s", latency_s, between(0.0, 100.0));
-    f("image_rate_hz", image_rate_hz, between(0.1, 100.0));
-    f("camera_pitch_rad", camera_pitch_rad, between(0.0, 1.0471975511965976));
-    f("observations", observations);
-    f("search", search);
-    f("tracker", tracker);
-    f("map", map);
-    f("tracking", tracking);
-    f("camera", camera);
-    f("exposure", exposure);
-    f("colour_noise", colour_noise, between(0.0, 100.0));
+    f("model", model, "file that `vantage train` made");
+    f("recogniser", recogniser, "@@");
+    f("transition", transition, "@@");
+    f("database", database, "@@");
+    f("placement_m", placement_m,
+      "largest offset of an object from the middle of its support surface", between(0.0, 0.1));
+    f("method", method, "@@");
+    f("planner", planner, "@@");
+    f("horizon", horizon, "waypoints that are planned at once, K", between(3, 100));
+    f("latency_s", latency_s, "simulated, from a waypoint to its new plan, whatever it took",
+      between(0.0, 100.0));
+    f("image_rate_hz", image_rate_hz, "@@", between(0.1, 100.0));
+    f("camera_pitch_rad", camera_pitch_rad, "below the horizon of the body, all the way",
+      between(0.0, 1.0471975511965976));
+    f("observations", observations, "@@");
+    f("search", search, "@@");
+    f("tracker", tracker, "@@");
+    f("map", map, "@@");
+    f("tracking", tracking, "@@");
+    f("camera", camera, "@@");
+    f("exposure", exposure, "@@");
+    f("colour_noise", colour_noise,
+      "standard deviation of a colour value, of 255; higher is noisier", between(0.0, 100.0));
   }
 
   [[nodiscard]] std::string method_name() const;

@@ -26,7 +26,7 @@ Eigen::VectorXf take_vector(ByteReader& reader, Eigen::Index size);
 struct FieldPutter {
   std::string& bytes;
   template <class T>
-  void operator()(std::string_view, T& value, const Range& = {}) {
+  void operator()(std::string_view, T& value, std::string_view, const Range& = {}) {
     if constexpr (HasFields<T>) {
       value.fields(*this);
     } else if constexpr (std::is_same_v<T, std::string>) {
@@ -40,7 +40,7 @@ struct FieldPutter {
 struct FieldTaker {
   ByteReader& reader;
   template <class T>
-  void operator()(std::string_view name, T& value, const Range& = {}) {
+  void operator()(std::string_view name, T& value, std::string_view, const Range& = {}) {
     if constexpr (HasFields<T>) {
       value.fields(*this);
     } else if constexpr (std::is_same_v<T, std::string>) {

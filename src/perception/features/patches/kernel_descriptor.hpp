@@ -59,13 +59,15 @@ PatchResult extract_patches(PatchKind kind, const ObjectView& view, const Produc
 
 /// How to learn a vocabulary and principal components.
 struct LearningOptions {
-  int training_views = 2000;  ///< drawn at random; higher takes longer and more memory
-  int samples_per_word = 20;  ///< patches for each word to learn; higher takes longer
-  int iterations = 10;        ///< of k-means, at most
+  int training_views = 2000;
+  int samples_per_word = 20;
+  int iterations = 10;
   void fields(auto&& f) {
-    f("training_views", training_views, at_least(2));
-    f("samples_per_word", samples_per_word, at_least(1));
-    f("iterations", iterations, at_least(1));
+    f("training_views", training_views, "drawn at random; higher takes longer and more memory",
+      at_least(2));
+    f("samples_per_word", samples_per_word, "patches for each word to learn; higher takes longer",
+      at_least(1));
+    f("iterations", iterations, "of k-means, at most", at_least(1));
   }
 };
 
@@ -93,13 +95,13 @@ TrainedKernelDescriptor take_kernel_descriptor(PatchKind kind, ByteReader& reade
 template <PatchKind kind>
 struct KernelDescriptor {
   static constexpr std::string_view name = row_of(kind).name;
-  int rows = row_of(kind).rows;  ///< of E; higher keeps more of a patch and is slower
+  int rows = row_of(kind).rows;
   MatchOptions match{.gamma = row_of(kind).gamma};
   LearningOptions learning;
   void fields(auto&& f) {
-    f("rows", rows, between(1, 1000));
-    f("match", match);
-    f("learning", learning);
+    f("rows", rows, "of E; higher keeps more of a patch and is slower", between(1, 1000));
+    f("match", match, "@@");
+    f("learning", learning, "@@");
   }
 
   [[nodiscard]] TrainedKernelDescriptor train(std::span<const ObjectView> views, Rng& rng) const {

@@ -12,17 +12,22 @@
 namespace vantage {
 
 struct MatchOptions {
-  double gamma = 0.01;    ///< of exp(-gamma d^2) between descriptors; higher tells more apart
-  int words = 1000;       ///< of the vocabulary; higher approximates the kernel better
-  int levels = 3;         ///< of the pyramid, level l has l x l cells; higher keeps more of where
-  int components = 1000;  ///< principal components kept; n training views give n - 1 at most
-  double power = 0.3;     ///< of sign(x) |x|^power; lower evens out the components more
+  double gamma = 0.01;
+  int words = 1000;
+  int levels = 3;
+  int components = 1000;
+  double power = 0.3;
   void fields(auto&& f) {
-    f("gamma", gamma, above(0.0));
-    f("words", words, between(1, 100000));
-    f("levels", levels, between(1, 8));
-    f("components", components, between(1, 100000));
-    f("power", power, between(0.01, 1.0));
+    f("gamma", gamma, "of exp(-gamma d^2) between descriptors; higher tells more apart",
+      above(0.0));
+    f("words", words, "of the vocabulary; higher approximates the kernel better",
+      between(1, 100000));
+    f("levels", levels, "of the pyramid, level l has l x l cells; higher keeps more of where",
+      between(1, 8));
+    f("components", components, "principal components kept; n training views give n - 1 at most",
+      between(1, 100000));
+    f("power", power, "of sign(x) |x|^power; lower evens out the components more",
+      between(0.01, 1.0));
   }
   [[nodiscard]] int cells() const { return levels * (levels + 1) * (2 * levels + 1) / 6; }
 };
