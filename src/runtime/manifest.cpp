@@ -77,8 +77,9 @@ std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
                                                 const std::vector<InputFile>& inputs) {
   std::map<std::string, std::string> hashes;
   for (const fs::path& root : {setup.scene, setup.robot.mjcf, setup.robot.description}) {
+    const fs::path folder = fs::absolute(root).parent_path();
     for (const fs::path& file : scene_files(root)) {
-      hashes[fs::relative(file, root.parent_path()).string()] = hash_text(hash_file(file));
+      hashes[fs::relative(file, folder).string()] = hash_text(hash_file(file));
     }
   }
   for (const InputFile& input : inputs) {

@@ -117,6 +117,16 @@ TEST_F(CommandLine, SceneBesideTheEpisodeIsReplayed) {
   EXPECT_EQ(vantage("replay run").exit_code, 0);
 }
 
+TEST_F(CommandLine, WhatRanInTheScenesOwnFolderHasNotChanged) {
+  fs::copy(fs::path(VANTAGE_SOURCE_DIR) / "models/scenes/tabletop_4", folder_,
+           fs::copy_options::recursive);
+  file("e.yaml", "scene: scene.xml\n");
+  ASSERT_EQ(vantage(std::string("run e.yaml ") + kShort + "--out run").exit_code, 0);
+  const Result result = vantage("replay run");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.output, testing::Not(HasSubstr("changed")));
+}
+
 TEST_F(CommandLine, ListsWhatThereIs) {
   EXPECT_THAT(vantage("list gains").output, HasSubstr("adaptive\n"));
   EXPECT_THAT(vantage("list scenes").output, HasSubstr("tabletop_25"));
