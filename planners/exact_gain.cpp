@@ -1,8 +1,7 @@
 #include "vantage/planners/exact_gain.hpp"
 
-#include "vantage/core/parallel_for.hpp"
-
 namespace vantage {
+
 double exact_gain_bits(const Gain& gain, const GainContext& context, const Pose& T_world_sensor,
                        const FieldOfView& field_of_view) {
   Candidate view;
@@ -13,18 +12,11 @@ double exact_gain_bits(const Gain& gain, const GainContext& context, const Pose&
 std::vector<double> exact_gains_bits(const Gain& gain, const GainContext& context,
                                      std::span<const Candidate> candidates,
                                      const FieldOfView& field_of_view, int threads) {
-  expects(threads >= 1, "exact_gains_bits needs a thread");
-  std::vector<double> gains_bits(candidates.size());
-  std::visit(
+  return std::visit(
       [&](const auto& g) {
-        const auto tables = g.prepare(context);
-        parallel_for(candidates.size(), threads, [&](std::size_t i) {
-          gains_bits[i] = sum_over_view(g, tables, context.grid.frame, candidates[i].T_world_sensor,
-                                        field_of_view);
-        });
+        return exact_gains_bits(g, context, candidates, field_of_view, threads);
       },
       gain);
-  return gains_bits;
 }
 
 }  // namespace vantage

@@ -5,11 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "vantage/core/parallel_for.hpp"
 #include "vantage/geometry/view_cone.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/gain.hpp"
-#include "vantage/planners/visibility/beam_gain.hpp"
 #include "vantage/planners/visibility/cell_walk.hpp"
+#include "vantage/planners/visibility/view_gain.hpp"
 
 namespace vantage {
 
@@ -32,14 +33,29 @@ double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& g
   return sum_bits;
 }
 
-/// Gain of one view, in bits or the unit the gain names; T_world_sensor has x forward, z up.
-double exact_gain_bits(const Gain& gain, const GainContext& context, const Pose& T_world_sensor,
-                       const FieldOfView& field_of_view);
+/// Gain of each candidate, in bits or the unit the gain names; T_world_sensor has x forward, z up.
+/// Every sum is one thread's, in index order: the result does not depend on `threads` (at least 1).
+template <ViewGain G>
+std::vector<double> exact_gains_bits(const G& gain, const GainContext& context,
+                                     std::span<const Candidate> candidates,
+                                     const FieldOfView& field_of_view, int threads) {
+  expects(threads >= 1, "exact_gains_bits needs a thread");
+  std::vector<double> gains_bits(candidates.size());
+  const auto tables = gain.prepare(context);
+  parallel_for(candidates.size(), threads, [&](std::size_t i) {
+    gains_bits[i] = sum_over_view(gain, tables, context.grid.frame, candidates[i].T_world_sensor,
+                                  field_of_view);
+  });
+  return gains_bits;
+}
 
-/// The same for each candidate. Every sum is one thread's, in index order: the result does not
-/// depend on `threads` (at least 1).
+/// The same of whichever gain was chosen.
 std::vector<double> exact_gains_bits(const Gain& gain, const GainContext& context,
                                      std::span<const Candidate> candidates,
                                      const FieldOfView& field_of_view, int threads);
+
+/// Gain of one view.
+double exact_gain_bits(const Gain& gain, const GainContext& context, const Pose& T_world_sensor,
+                       const FieldOfView& field_of_view);
 
 }  // namespace vantage

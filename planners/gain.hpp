@@ -1,4 +1,6 @@
-/// What a view is worth. In bits, unless a gain says otherwise. With one bit per cell never
+/// What a view is worth: the gains that `gain:` names. The contract of a gain, and a skeleton, are
+/// in visibility/view_gain.hpp; one more is a header in gains/ and a line in the variant. In bits,
+/// unless a gain says otherwise. With one bit per cell never
 /// measured, a gain that sums over cells also predicts how many of them the view will newly show.
 #pragma once
 
@@ -19,6 +21,7 @@
 #include "vantage/planners/gains/unmapped_volume_gain.hpp"
 #include "vantage/planners/gains/unobserved_voxel_gain.hpp"
 #include "vantage/planners/gains/visibility_weighted_gain.hpp"
+#include "vantage/planners/visibility/view_gain.hpp"
 
 namespace vantage {
 
@@ -27,6 +30,14 @@ using Gain = std::variant<SimpleGain, PosteriorChainGain, VisibilityWeightedGain
                           RearSideEntropyGain, UnmappedVolumeGain, FsmiGain>;
 template <>
 inline constexpr std::string_view strategy_family<Gain> = "gain";
+
+namespace detail {
+template <class Variant>
+inline constexpr bool kAllAreGains = false;
+template <class... G>
+inline constexpr bool kAllAreGains<std::variant<G...>> = (ViewGain<G> && ...);
+static_assert(kAllAreGains<Gain>, "every alternative keeps the contract of view_gain.hpp");
+}  // namespace detail
 
 /// What the gain counts: a gain that says nothing counts bits.
 inline std::string_view unit_of(const Gain& gain) {

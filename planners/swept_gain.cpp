@@ -4,7 +4,6 @@
 #include <array>
 
 #include "vantage/core/parallel_for.hpp"
-#include "vantage/planners/exact_gain.hpp"
 
 namespace vantage {
 namespace {
@@ -73,8 +72,11 @@ bool can_sweep(const Gain& gain) {
 std::vector<double> view_gains_bits(const Gain& gain, const GainContext& context,
                                     std::span<const Candidate> candidates,
                                     const FieldOfView& field_of_view, int threads) {
-  return can_sweep(gain) ? swept_gains_bits(gain, context, candidates, field_of_view, threads)
-                         : exact_gains_bits(gain, context, candidates, field_of_view, threads);
+  return std::visit(
+      [&](const auto& g) {
+        return view_gains_bits(g, context, candidates, field_of_view, threads);
+      },
+      gain);
 }
 
 std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& context,
@@ -82,14 +84,21 @@ std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& contex
                                      const FieldOfView& field_of_view, int threads,
                                      const SweepOptions& options) {
   expects(can_sweep(gain), "a gain that can be swept");
-  expects(threads >= 1, "swept_gains_bits needs a thread");
   const Attenuation attenuation = std::visit(
       [&]<class G>(const G& g) -> Attenuation {
         if constexpr (AttenuationGain<G>) return g.attenuation(context);
         return {};
       },
       gain);
-  const SweepTables tables(context.grid, attenuation, threads);
+  return swept_gains_bits(attenuation, context.grid, candidates, field_of_view, threads, options);
+}
+
+std::vector<double> swept_gains_bits(const Attenuation& attenuation, const OccupancyGrid& grid,
+                                     std::span<const Candidate> candidates,
+                                     const FieldOfView& field_of_view, int threads,
+                                     const SweepOptions& options) {
+  expects(threads >= 1, "swept_gains_bits needs a thread");
+  const SweepTables tables(grid, attenuation, threads);
   const auto stations = stations_of(candidates, field_of_view, options);
   const auto sums = sum_views(tables, stations, candidates.size(), threads);
   const auto exact = sum_views(tables, unsettled(sums, stations), candidates.size(), threads);

@@ -67,8 +67,8 @@ std::vector<std::string> all_matches(const std::string& text, const std::regex& 
   return found;
 }
 
-/// The insides of [Key], [Key, place] and [Key, Key], over the ends of lines of comments as well.
-/// A link of Markdown is none.
+/// The insides of [Key], [Key, place] and [Key, Key], over the ends of lines of comments as well,
+/// and the sources of strategies. A link of Markdown is none.
 std::vector<std::string> citations_in(const std::string& text) {
   std::vector<std::string> found;
   const std::regex begins("^" + kKey + R"(\b)");
@@ -82,6 +82,8 @@ std::vector<std::string> citations_in(const std::string& text) {
     const std::string inside = text.substr(open + 1, close - open - 1);
     if (std::regex_search(inside, begins)) found.push_back(inside);
   }
+  const std::regex source(R"re(\.source\s*=\s*"([^"]+)")re");  // of a strategy
+  for (const auto& inside : all_matches(text, source, 1)) found.push_back(inside);
   return found;
 }
 
@@ -194,8 +196,9 @@ TEST(Docs, EveryEquationThatIsCitedHasARow) {
   }
   for (const auto& [path, text] : texts()) {
     for (const auto& citation : citations_in(text)) {
-      if (!citation.starts_with("Potthast2016")) continue;
-      for (const auto& equation : equations_in(citation)) {
+      const auto place = citation.find("Potthast2016");
+      if (place == std::string::npos) continue;
+      for (const auto& equation : equations_in(citation.substr(place))) {
         EXPECT_TRUE(listed.contains(equation)) << path << ": (" << equation << ")";
       }
     }
@@ -239,6 +242,8 @@ TEST(DocsReader, Citations) {
                          " x[i] [[nodiscard]]"),
             (std::vector<std::string>{"Elfes1989", "Potthast2016, chapter\n/// 3"}));
   EXPECT_EQ(keys_in("BoEtAl2010, BoEtAl2011"), (std::set<std::string>{"BoEtAl2010", "BoEtAl2011"}));
+  EXPECT_EQ(citations_in(".formula = \"a[B]\",\n .source = \"Potthast2016, (3.1)\"};"),
+            (std::vector<std::string>{"Potthast2016, (3.1)"}));
 }
 
 TEST(DocsReader, Equations) {

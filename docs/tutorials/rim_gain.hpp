@@ -11,14 +11,21 @@
 
 namespace vantage {
 
-/// The unobserved cells that touch a known surface, each weighted by the transmittance up to it.
 struct RimGain {
   static constexpr std::string_view name = "rim";
+  static constexpr StrategyText text{
+      .summary =
+          "Counts the unobserved cells that touch a known surface, each weighted by the "
+          "transmittance up to it: what is begun is completed.",
+      .formula =
+          "sum of a^n over unobserved cells in view beside an occupied one, n the unobserved cells "
+          "in front"};
   static constexpr std::string_view unit = "cells";
   static constexpr bool predicts_cells = false;
   double a = 0.995;
   void fields(auto&& f) {
-    f("a", a, "p(a beam passes an unobserved cell); higher sees deeper", between(0.0, 1.0));
+    f("a", a, "probability that a beam passes an unobserved cell; higher sees deeper",
+      between(0.0, 1.0));
   }
 
   static constexpr bool unobserved_only = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -51,19 +52,20 @@ std::size_t GainOverDistance::operator()(std::span<const Candidate> candidates,
   });
 }
 
-std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng) {
+std::vector<std::size_t> open_candidates(std::span<const Candidate> candidates) {
   expects(!candidates.empty(), "choose_view needs a candidate");
   std::vector<std::size_t> open;
-  std::vector<Candidate> views;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].exhausted) continue;
-    open.push_back(i);
-    views.push_back(candidates[i]);
+    if (!candidates[i].exhausted) open.push_back(i);
   }
-  const auto choose = [&](std::span<const Candidate> from) {
-    return std::visit([&](const auto& strategy) { return strategy(from, rng); }, choice);
-  };
-  return open.empty() ? choose(candidates) : open[choose(views)];
+  if (!open.empty()) return open;
+  open.resize(candidates.size());
+  std::iota(open.begin(), open.end(), 0U);
+  return open;
+}
+
+std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng) {
+  return std::visit([&](const auto& c) { return choose_view(c, candidates, rng); }, choice);
 }
 
 }  // namespace vantage

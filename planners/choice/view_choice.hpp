@@ -6,10 +6,12 @@
 /// so an episode that wants none of them leaves them out.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
@@ -18,48 +20,67 @@
 
 namespace vantage {
 
-/// Any view, each as likely as the other.
 struct RandomView {
   static constexpr std::string_view name = "random";
+  static constexpr StrategyText text{
+      .summary =
+          "Takes any view, each as likely as the other. The baseline that a gain has to beat."};
   static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
-/// The largest gain; of equal ones the shorter path, then the lower id.
+/// Of equal gains the shorter path, then the lower id.
 struct GreedyGain {
   static constexpr std::string_view name = "greedy";
+  static constexpr StrategyText text{
+      .summary = "Takes the view with the largest gain; of equal ones the nearest.",
+      .formula = "argmax of the gain",
+      .source = "Potthast2016, (3.1)"};
   static constexpr bool weighs_gain = true;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
-/// The view that will really show most: an upper bound for one-step choices, as it knows the scene.
 /// Every candidate must carry `true_new_cells`. Ties as in GreedyGain.
 struct OracleView {
   static constexpr std::string_view name = "oracle";
+  static constexpr StrategyText text{
+      .summary =
+          "Takes the view that will really show most new cells, which it knows from ground truth: "
+          "an upper bound of choices that look one step ahead.",
+      .formula = "argmax of the true number of new cells"};
   static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
-/// The shortest path, whatever is to be seen there; of equal ones the lower id. Unreachable views
-/// come last.  [Yamauchi1997]
+/// Of equal paths the lower id; unreachable views come last.  [Yamauchi1997]
 struct NearestFrontier {
   static constexpr std::string_view name = "nearest_frontier";
+  static constexpr StrategyText text{
+      .summary = "Takes the view with the shortest path, whatever there is to be seen.",
+      .formula = "argmin of the path length",
+      .source = "Yamauchi1997"};
   static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
-/// The largest gain discounted by the way there, A(q) exp(-lambda L(q)). Ties as in GreedyGain;
-/// unreachable views come last.  [GonzalezBanosLatombe2002]
+/// Ties as in GreedyGain; unreachable views come last.  [GonzalezBanosLatombe2002]
 struct GainOverDistance {
   static constexpr std::string_view name = "gain_over_distance";
+  static constexpr StrategyText text{
+      .summary =
+          "Takes the view with the largest gain after a discount for the way there: trades gain "
+          "for shorter ways.",
+      .formula = "argmax of A exp(-lambda L), A the gain, L the path length",
+      .source = "GonzalezBanosLatombe2002"};
   static constexpr bool weighs_gain = true;
   double lambda_per_m = 0.2;
   void fields(auto&& f) {
-    f("lambda_per_m", lambda_per_m, "1/m, >= 0; higher prefers near views, 0 is greedy",
+    f("lambda_per_m", lambda_per_m,
+      "decay of the gain per metre of path; higher prefers near views; 0: as `greedy`",
       at_least(0.0));
   }
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
@@ -75,8 +96,26 @@ inline bool weighs_gain(const ViewChoice& choice) {
   return std::visit([](const auto& c) { return c.weighs_gain; }, choice);
 }
 
+/// What chooses: one of the variant, or a function of your own.
+template <class C>
+concept ChoosesView = requires(const C& choice, std::span<const Candidate> candidates, Rng& rng) {
+  { choice(candidates, rng) } -> std::convertible_to<std::size_t>;
+};
+
+/// Indices of the candidates that are not exhausted; all of them if there is none.
+std::vector<std::size_t> open_candidates(std::span<const Candidate> candidates);
+
 /// Index of the view to take; exhausted candidates are left out unless all are. `candidates` must
 /// not be empty.
+template <ChoosesView C>
+std::size_t choose_view(const C& choice, std::span<const Candidate> candidates, Rng& rng) {
+  const std::vector<std::size_t> open = open_candidates(candidates);
+  std::vector<Candidate> views;
+  for (const std::size_t i : open) views.push_back(candidates[i]);
+  return open[choice(std::span<const Candidate>(views), rng)];
+}
+
+/// The same by whichever was chosen.
 std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng);
 
 }  // namespace vantage

@@ -7,15 +7,19 @@
 
 namespace vantage {
 
-/// Sum of a^n H(p(o)) over the unobserved cells in view, n the unobserved cells in front of each;
-/// nothing behind a known occupied cell. `a` is the transmission of an unobserved cell, so the
-/// right value depends on the clutter and on the cell size.
 struct BeerLambertGain {
   static constexpr std::string_view name = "beer_lambert";
+  static constexpr StrategyText text{
+      .summary =
+          "Entropy of the unobserved cells in view, fading with every unobserved cell in front and "
+          "nothing behind a known occupied one. For maps from elsewhere, with an `a` that suits "
+          "clutter and cell size.",
+      .formula = "sum of a^n H(o) over unobserved cells in view, n the unobserved cells in front"};
   static constexpr bool predicts_cells = true;
   double a = 0.995;
   void fields(auto&& f) {
-    f("a", a, "p(a beam passes an unobserved cell); higher sees deeper", between(0.0, 1.0));
+    f("a", a, "probability that a beam passes an unobserved cell; higher sees deeper",
+      between(0.0, 1.0));
   }
   [[nodiscard]] double transmission_unobserved() const { return a; }
 

@@ -12,15 +12,22 @@ namespace vantage {
 /// f(d, r) = log2((r + 1) / (r + 1 / d)) - log2(d) / (r d + 1).  [Zhang2020]
 double odds_update_bits(double d, double odds);
 
-/// Shannon mutual information in bits between the map and the ranges of a fan of beams without
-/// noise: per beam sum_j P(e_j) C_j over the cells j it may be the first to hit, P(e_j) = o_j V_j,
-/// C_j = f(d_occ, r_j) + sum_{i<j} f(d_emp, r_i), r = o / (1 - o). A beam that hits nothing
-/// teaches nothing.  [Zhang2020]
+/// The sum is over the cells j that a beam may be the first to hit; one that hits nothing teaches
+/// nothing.  [Zhang2020]
 ///
 /// The defaults of d_occ and d_emp are those of InverseSensorModel and FreeSpaceUpdate. With
 /// opacity_unobserved at 0.5 the gain is that of the source.
 struct FsmiGain {
   static constexpr std::string_view name = "fsmi";
+  static constexpr StrategyText text{
+      .summary =
+          "Shannon mutual information between the map and the ranges of a fan of noise-free beams. "
+          "Ranks views, predicts no number of cells.",
+      .formula =
+          "sum over beams of sum_j P(e_j) C_j, P(e_j) = o_j prod_{l<j} (1 - o_l), C_j = f(d_occ, "
+          "r_j) + sum_{i<j} f(d_emp, r_i), r = o / (1 - o), f(d, r) = log2((r + 1) / (r + 1/d)) - "
+          "log2(d) / (r d + 1)",
+      .source = "Zhang2020"};
   static constexpr bool predicts_cells = false;
   BeamFan fan = {};
   double opacity_unobserved = kOpacityUnobserved;
@@ -28,11 +35,15 @@ struct FsmiGain {
   double d_emp = 0.3 / 0.7;
   void fields(auto&& f) {
     fan.fields(f);
-    f("opacity_unobserved", opacity_unobserved, "of a cell, [0, 0.5]; higher sees less deep",
-      between(0.0, 0.5));
-    f("d_occ", d_occ, "what a hit multiplies odds by, >= 1; higher values surfaces more",
+    f("opacity_unobserved", opacity_unobserved,
+      "share of a beam that an unobserved cell stops; higher sees less deep", between(0.0, 0.5));
+    f("d_occ", d_occ,
+      "factor by which a hit multiplies a cell's odds of being occupied; higher values surfaces "
+      "more",
       at_least(1.0));
-    f("d_emp", d_emp, "the same of a pass, (0, 1]; lower values free space more",
+    f("d_emp", d_emp,
+      "factor by which a pass multiplies a cell's odds of being occupied; lower values free space "
+      "more",
       Range{0.0, 1.0, true});
   }
   [[nodiscard]] double transmission_unobserved() const { return 1.0 - opacity_unobserved; }

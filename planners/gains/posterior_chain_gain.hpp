@@ -9,14 +9,17 @@
 
 namespace vantage {
 
-/// Entropy of each cell less that of its posterior, over every cell in view, known ones included.
-/// [Potthast2016, (3.11)-(3.15)]
-///
-/// For the record: the chain forgets the free space in front of it within some ten unobserved
-/// cells, so it values little more than the rim of the unknown. `visibility_weighted` is the gain
-/// that predicts what a view shows.
+/// The chain forgets the free space in front of it within some ten unobserved cells, so it values
+/// little more than the rim of the unknown.  [Potthast2016, (3.11)-(3.15)]
 struct PosteriorChainGain {
   static constexpr std::string_view name = "posterior_chain";
+  static constexpr StrategyText text{
+      .summary =
+          "Expected loss of entropy of every cell in view, known ones included, by the "
+          "dissertation's chain to the letter. For the record: it values little more than the rim "
+          "of the unknown; `visibility_weighted` predicts better.",
+      .formula = "sum of H(o) - H(o') over cells in view, o' the posterior of the chain",
+      .source = "Potthast2016, (3.11)-(3.15)"};
   static constexpr bool unobserved_only = false;
   static constexpr bool predicts_cells = true;
   PosteriorModel model;

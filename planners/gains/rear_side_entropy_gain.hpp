@@ -8,17 +8,24 @@
 
 namespace vantage {
 
-/// Per beam sum of V_i H(o_i) in bits over the unbroken run of unobserved cells that ends at its
-/// first occupied cell; 0 without such a run. V_i as in `occlusion_aware`.  [Isler2016]
+/// A beam without such a run is worth nothing.  [Isler2016]
 struct RearSideEntropyGain {
   static constexpr std::string_view name = "rear_side_entropy";
+  static constexpr StrategyText text{
+      .summary =
+          "Entropy of the unobserved cells directly in front of the unseen side of known surfaces, "
+          "weighted as in `occlusion_aware`. For completing objects that were seen from the front.",
+      .formula =
+          "sum over beams of sum_i V_i H(o_i) over the unbroken run of unobserved cells that ends "
+          "at the first occupied cell",
+      .source = "Isler2016"};
   static constexpr bool predicts_cells = false;
   BeamFan fan = {};
   double opacity_unobserved = kOpacityUnobserved;
   void fields(auto&& f) {
     fan.fields(f);
-    f("opacity_unobserved", opacity_unobserved, "of a cell, [0, 0.5]; higher sees less deep",
-      between(0.0, 0.5));
+    f("opacity_unobserved", opacity_unobserved,
+      "share of a beam that an unobserved cell stops; higher sees less deep", between(0.0, 0.5));
   }
   [[nodiscard]] double transmission_unobserved() const { return 1.0 - opacity_unobserved; }
 

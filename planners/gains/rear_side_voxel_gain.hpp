@@ -7,10 +7,15 @@
 
 namespace vantage {
 
-/// Number of beams whose first occupied cell comes directly behind an unobserved one, which takes
-/// it for the unseen side of a known surface; unit: beams.  [Isler2016]
 struct RearSideVoxelGain {
   static constexpr std::string_view name = "rear_side_voxel";
+  static constexpr StrategyText text{
+      .summary =
+          "Number of beams that meet the unseen side of a known surface: an occupied cell directly "
+          "behind an unobserved one. For completing objects that were seen from the front.",
+      .formula =
+          "number of beams whose first occupied cell comes directly behind an unobserved cell",
+      .source = "Isler2016"};
   static constexpr std::string_view unit = "beams";
   static constexpr bool predicts_cells = false;
   BeamFan fan = {};

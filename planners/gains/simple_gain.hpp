@@ -2,14 +2,18 @@
 
 #include <string_view>
 
+#include "vantage/core/strategy.hpp"
 #include "vantage/planners/visibility/attenuated_ray.hpp"
 
 namespace vantage {
 
-/// Every unobserved cell that no known occupied cell hides counts one bit: unobserved space is
-/// taken to be empty.
 struct SimpleGain {
   static constexpr std::string_view name = "simple";
+  static constexpr StrategyText text{
+      .summary =
+          "Counts the unobserved cells in view that no known occupied cell hides, one bit each: "
+          "unobserved space is taken to be empty. The baseline; it promises too much in clutter.",
+      .formula = "sum of 1 over unobserved cells in view"};
   static constexpr bool predicts_cells = true;
   void fields(auto&&) {}
 

@@ -2,14 +2,19 @@
 
 #include <string_view>
 
+#include "vantage/core/strategy.hpp"
 #include "vantage/planners/visibility/attenuated_ray.hpp"
 
 namespace vantage {
 
-/// Volume of the unobserved cells in view that no known occupied cell hides: `simple`, counted in
-/// cubic metres instead of cells.  [Bircher2016]
 struct UnmappedVolumeGain {
   static constexpr std::string_view name = "unmapped_volume";
+  static constexpr StrategyText text{
+      .summary =
+          "Volume of the unobserved cells in view that no known occupied cell hides: `simple`, in "
+          "cubic metres. The gain of receding-horizon exploration.",
+      .formula = "cell volume times the number of unobserved cells in view",
+      .source = "Bircher2016"};
   static constexpr std::string_view unit = "m3";
   static constexpr bool predicts_cells = false;
   void fields(auto&&) {}

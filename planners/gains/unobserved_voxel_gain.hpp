@@ -8,16 +8,20 @@
 
 namespace vantage {
 
-/// As `occlusion_aware`, in bits, over the unobserved cells alone.  [Isler2016]
 struct UnobservedVoxelGain {
   static constexpr std::string_view name = "unobserved_voxel";
+  static constexpr StrategyText text{
+      .summary = "As `occlusion_aware`, over the unobserved cells alone.",
+      .formula =
+          "sum over beams of sum_i V_i H(o_i) over unobserved cells i, V_i = prod_{j<i} (1 - o_j)",
+      .source = "Isler2016"};
   static constexpr bool predicts_cells = false;
   BeamFan fan = {};
   double opacity_unobserved = kOpacityUnobserved;
   void fields(auto&& f) {
     fan.fields(f);
-    f("opacity_unobserved", opacity_unobserved, "of a cell, [0, 0.5]; higher sees less deep",
-      between(0.0, 0.5));
+    f("opacity_unobserved", opacity_unobserved,
+      "share of a beam that an unobserved cell stops; higher sees less deep", between(0.0, 0.5));
   }
   [[nodiscard]] double transmission_unobserved() const { return 1.0 - opacity_unobserved; }
 

@@ -8,9 +8,15 @@
 
 namespace vantage {
 
-/// Sum of p(x = visible) H(p(o)) over the unobserved cells in view.  [Potthast2016, 3.1.1]
 struct VisibilityWeightedGain {
   static constexpr std::string_view name = "visibility_weighted";
+  static constexpr StrategyText text{
+      .summary =
+          "Entropy of the unobserved cells in view, each weighted by the probability that it is "
+          "visible: the dissertation's gain. Its `a` has to suit the clutter.",
+      .formula =
+          "sum of p(x) H(o) over unobserved cells in view, p(x) the probability of being visible",
+      .source = "Potthast2016, 3.1.1"};
   static constexpr bool unobserved_only = true;
   static constexpr bool predicts_cells = true;
   VisibilityModel model;

@@ -19,16 +19,27 @@ struct NavigationOptions {
   double watch_m = 1.0;
   void fields(auto&& f) {
     f("footprint_radius_m", footprint_radius_m,
-      "circle round the base at any heading; higher keeps away", at_least(0.0));
-    f("margin_m", margin_m, "on top; at least cell_m / sqrt(2) makes up for the cells' size",
+      "radius of a circle that holds the robot at any heading; higher keeps farther away from "
+      "obstacles",
+      at_least(0.0));
+    f("margin_m", margin_m,
+      "clearance beyond the footprint that a path keeps; 0.71 cells of the floor map make up for "
+      "their size",
       at_least(0.0));
     f("clearance_weight", clearance_weight,
-      "cost of touching the margin, per length; higher takes detours", at_least(0.0));
-    f("comfort_m", comfort_m, "clearance beyond the margin from where on more is not better",
+      "extra cost per length of path that touches the margin; higher takes longer detours for more "
+      "clearance",
+      at_least(0.0));
+    f("comfort_m", comfort_m,
+      "clearance beyond the margin from which more is no better; higher keeps to the middle of "
+      "wider places",
       above(0.0));
     f("escape_radius_m", escape_radius_m,
-      "how far to look for a way out of a place too near an obstacle", at_least(0.0));
-    f("watch_m", watch_m, "of the way ahead, where something newly seen stops the robot; 0 is off",
+      "length of the way out that is looked for where the robot stands too near an obstacle",
+      at_least(0.0));
+    f("watch_m", watch_m,
+      "length of the way ahead on which a newly seen obstacle stops the robot; higher stops "
+      "earlier; 0: never",
       at_least(0.0));
   }
   [[nodiscard]] double inflation_m() const { return footprint_radius_m + margin_m; }

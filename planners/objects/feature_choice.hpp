@@ -16,12 +16,17 @@
 
 namespace vantage {
 
-/// No feature is worth its while any more.  [Potthast2016, 4.3.1]
 struct GainBelow {
   static constexpr std::string_view name = "gain_below";
+  static constexpr StrategyText text{
+      .summary = "Stops when no feature is expected to tell more than a threshold.",
+      .formula = "max gain < threshold",
+      .source = "Potthast2016, 4.3.1"};
   double threshold = 0.02;
   void fields(auto&& f) {
-    f("threshold", threshold, "bits, or bits/s if per cost, >= 0; higher stops earlier, 0 never",
+    f("threshold", threshold,
+      "gain, in bits or with `per_cost` in bits/s, below which no further feature is extracted; "
+      "higher stops earlier; 0: never",
       at_least(0.0));
   }
   [[nodiscard]] bool operator()(double best, std::optional<double> /*last*/) const {
@@ -29,9 +34,13 @@ struct GainBelow {
   }
 };
 
-/// The best feature is worth less than the one chosen before it was.  [Potthast2016, 4.3.2]
 struct GainDecreasing {
   static constexpr std::string_view name = "gain_decreasing";
+  static constexpr StrategyText text{.summary =
+                                         "Stops when the best feature is expected to tell less "
+                                         "than the one chosen before it was. Needs no threshold.",
+                                     .formula = "max gain < gain of the last choice",
+                                     .source = "Potthast2016, 4.3.2"};
   void fields(auto&&) {}
   [[nodiscard]] bool operator()(double best, std::optional<double> last) const {
     return last.has_value() && best < *last;
@@ -50,13 +59,17 @@ struct FeatureChoice {
   bool per_cost = false;
   FeatureStop stop = GainBelow{};
   void fields(auto&& f) {
-    f("measure", measure, "@@");
-    f("first", first, "extracted first at every view; empty: chosen as all others");
-    f("states", states, "most probable ones that are told apart, > 0; effort is its square",
+    f("measure", measure, "measure of information that features are chosen by");
+    f("first", first,
+      "feature that is extracted first at every view; empty: chosen like all others");
+    f("states", states,
+      "number of the most probable states that are told apart; higher is more exact, at its square "
+      "in time",
       between(1, 100'000));
-    f("about_object", about_object, "count what is told of the object, not also of its pose");
-    f("per_cost", per_cost, "compare gains per second of extraction");
-    f("stop", stop, "@@");
+    f("about_object", about_object,
+      "true: only information about the object counts; false: about its yaw as well");
+    f("per_cost", per_cost, "true: gains are compared per second of extraction");
+    f("stop", stop, "when no further feature is extracted from a view");
   }
 };
 

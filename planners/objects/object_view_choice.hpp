@@ -18,16 +18,21 @@
 
 namespace vantage {
 
-/// Any view, each as likely as the other.
 struct RandomObjectView {
   static constexpr std::string_view name = "random";
+  static constexpr StrategyText text{
+      .summary = "Takes any view of the object, each as likely as the other. The baseline."};
   void fields(auto&&) {}
 };
 
-/// The view most nearly opposite; with views not taken twice the way is a star.
-/// [Potthast2016, 4.5.5]
 struct StarView {
   static constexpr std::string_view name = "star";
+  static constexpr StrategyText text{
+      .summary =
+          "Takes the view most nearly opposite to the present one; as views are not taken twice, "
+          "the way is a star.",
+      .formula = "argmax of the turn about the object, at most half a turn",
+      .source = "Potthast2016, 4.5.5"};
   void fields(auto&&) {}
 };
 
@@ -47,17 +52,30 @@ struct ObjectViewOptions {
   double weight_per_j = 0.0;
   double visited_weight = 0.0;
   void fields(auto&& f) {
-    f("choice", choice, "@@");
-    f("states", states, "most probable ones that are told apart, > 0; effort is its square",
+    f("choice", choice,
+      "how the next view is chosen: by a measure of information, at random, or from opposite");
+    f("states", states,
+      "number of the most probable states that are told apart; higher is more exact, at its square "
+      "in time",
       between(1, 100'000));
-    f("about_object", about_object, "count what is told of the object, not also of its pose");
-    f("weight_per_s", weight_per_s, "cost of an action is the weighted sum of its time, path and",
+    f("about_object", about_object,
+      "true: only information about the object counts; false: about its yaw as well");
+    f("weight_per_s", weight_per_s,
+      "weight of a motion's time in the cost that gains are divided by; higher prefers quick "
+      "motions; all weights 0: gains as they are",
       at_least(0.0));
     f("weight_per_m", weight_per_m,
-      "energy; weights >= 0, higher prefers cheap actions. All 0: gains", at_least(0.0));
-    f("weight_per_j", weight_per_j, "are compared as they are, otherwise per cost", at_least(0.0));
+      "weight of a motion's path length in the cost that gains are divided by; higher prefers "
+      "short ways",
+      at_least(0.0));
+    f("weight_per_j", weight_per_j,
+      "weight of a motion's energy in the cost that gains are divided by; higher prefers frugal "
+      "motions",
+      at_least(0.0));
     f("visited_weight", visited_weight,
-      "of a view taken before, [0, 1]; 0: not while others are left", between(0.0, 1.0));
+      "factor on the score of a view that was taken before; higher takes it again more readily; 0: "
+      "not while others are left",
+      between(0.0, 1.0));
   }
 };
 
@@ -100,8 +118,13 @@ struct EnoughViews {
   double entropy_bits = 0.1;
   void fields(auto&& f) {
     f("object_probability", object_probability,
-      "of an object in any pose, (0, 1]; higher looks more often", Range{0.0, 1.0, true});
-    f("entropy_bits", entropy_bits, "of the state, >= 0; lower looks more often", at_least(0.0));
+      "probability of an object, whatever its yaw, above which no further view is taken; higher "
+      "takes more views",
+      Range{0.0, 1.0, true});
+    f("entropy_bits", entropy_bits,
+      "entropy of the state, object and yaw bin, below which no further view is taken; lower takes "
+      "more views",
+      at_least(0.0));
   }
 };
 

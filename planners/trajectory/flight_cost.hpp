@@ -19,7 +19,8 @@ struct FlightCostOptions {
   double centre_weight = 1.0;
   double recognition_weight = 0.5;
   bool information = true;
-  double tau_nats = 0.1;  ///< entropy below which a target is known; no key: the looks tell
+  double tau_nats = 0.1;  ///< entropy below which a target is known; no key, see
+                          ///< ObservationOptions::known_below_nats
   double epsilon_m = 0.5;
   double body_radius_m = 0.5;
   double speed_floor_m_s = 0.2;
@@ -31,26 +32,51 @@ struct FlightCostOptions {
   double delta_m = 2.0;
   bool literal = false;
   void fields(auto&& f) {
-    f("obstacle_weight", obstacle_weight, "of c_o; higher keeps off further", at_least(0.0));
-    f("centre_weight", centre_weight, "of c_v; higher keeps the target in view", at_least(0.0));
+    f("obstacle_weight", obstacle_weight,
+      "weight of the obstacle cost c_o, in s/m^2; higher keeps farther off obstacles",
+      at_least(0.0));
+    f("centre_weight", centre_weight,
+      "weight of the centre cost c_v; higher keeps the target nearer the middle of the image",
+      at_least(0.0));
     f("recognition_weight", recognition_weight,
-      "of c_r c_i, 1/m; higher leaves the path for a view", at_least(0.0));
-    f("information", information, "false: c_i is 1 of every target");
-    f("epsilon_m", epsilon_m, "margin round the body; higher keeps off further", at_least(0.0));
-    f("body_radius_m", body_radius_m, "of the sphere that holds the vehicle", at_least(0.0));
+      "weight of the recognition cost c_r c_i, in 1/m; higher leaves the path more for a view",
+      at_least(0.0));
+    f("information", information,
+      "true: known objects cost nothing (c_i); false: each is sought as if it had never been "
+      "observed");
+    f("epsilon_m", epsilon_m,
+      "margin beyond the body within which obstacles cost; higher keeps farther off",
+      at_least(0.0));
+    f("body_radius_m", body_radius_m,
+      "radius of the sphere that holds the vehicle, for the obstacle cost; higher keeps farther "
+      "off",
+      at_least(0.0));
     f("speed_floor_m_s", speed_floor_m_s,
-      "so that standing in an obstacle costs; higher costs more", at_least(0.0));
-    f("segment_s", segment_s, "time from a waypoint to the next; higher takes it as slower",
+      "least speed in the obstacle cost, so that standing in an obstacle costs too; higher costs "
+      "more",
+      at_least(0.0));
+    f("segment_s", segment_s,
+      "time between waypoints that speeds are computed from; higher takes the flight to be slower, "
+      "and obstacles cost less",
       above(0.0));
     f("bearing_weight", bearing_weight,
-      "of the bearing in c_v; higher turns sooner to what is behind", at_least(0.0));
-    f("between_waypoints", between_waypoints, "c_o looks half way to the neighbours too");
-    f("clearance_m", clearance_m, "from centre to surface that must be kept", at_least(0.0));
-    f("clearance_weight", clearance_weight, "1/m, of what is missing; higher is harder",
+      "weight of the angle off the optical axis in c_v; higher turns sooner to a target behind the "
+      "camera",
       at_least(0.0));
-    f("delta_m", delta_m, "literal: obstacles farther away do not count; higher counts more",
+    f("between_waypoints", between_waypoints,
+      "true: the obstacle cost looks half way to the neighbouring waypoints too");
+    f("clearance_m", clearance_m,
+      "distance from the vehicle's centre to surfaces below which what is missing costs; higher "
+      "keeps farther off",
       at_least(0.0));
-    f("literal", literal, "the dissertation's forms as printed: for the record, they fly into it");
+    f("clearance_weight", clearance_weight,
+      "weight of missing clearance, in 1/m; higher makes it harder", at_least(0.0));
+    f("delta_m", delta_m,
+      "with `literal`, distance beyond which obstacles do not count; higher counts more",
+      at_least(0.0));
+    f("literal", literal,
+      "true: the dissertation's costs as printed, for the record, by which the vehicle flies into "
+      "obstacles");
   }
 };
 

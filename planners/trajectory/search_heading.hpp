@@ -17,12 +17,17 @@ struct SearchOptions {
   double range_m = 2.5;
   double min_area_m2 = 0.3;
   void fields(auto&& f) {
-    f("turn_rad", turn_rad, "from the way ahead, at most; higher looks aside more, 0 never",
+    f("turn_rad", turn_rad,
+      "greatest turn from the direction of flight to look for objects; higher looks aside more; 0: "
+      "never",
       between(0.0, 3.0));
-    f("below_m", below_m, "the vehicle, that objects are looked for; higher looks for lower ones",
+    f("below_m", below_m,
+      "height below the vehicle at which objects are looked for; higher looks for lower ones",
       at_least(0.0));
-    f("range_m", range_m, "that is searched; higher looks farther", between(0.6, 10.0));
-    f("min_area_m2", min_area_m2, "unseen, that one turns to; higher turns less", at_least(0.0));
+    f("range_m", range_m, "distance within which objects are looked for; higher looks farther",
+      between(0.6, 10.0));
+    f("min_area_m2", min_area_m2,
+      "least unobserved area that the camera turns to; higher turns less", at_least(0.0));
   }
 };
 

@@ -13,8 +13,12 @@ struct YawToTarget {
   double tau_nats = 0.1;
   double range_m = 3.0;
   void fields(auto&& f) {
-    f("tau_nats", tau_nats, "entropy below which an object is not looked at", at_least(0.0));
-    f("range_m", range_m, "farther objects are not looked at; higher turns earlier", above(0.0));
+    f("tau_nats", tau_nats,
+      "entropy of an object below which it is known and not looked at; higher is satisfied sooner",
+      at_least(0.0));
+    f("range_m", range_m,
+      "greatest horizontal distance of objects that are looked at; higher turns to them earlier",
+      above(0.0));
   }
 };
 
@@ -29,9 +33,14 @@ struct GreedyDetour {
   double range_m = 3.0;
   int views = 2;
   void fields(auto&& f) {
-    f("tau_nats", tau_nats, "entropy below which an object is passed by", at_least(0.0));
-    f("range_m", range_m, "objects farther away are passed by", above(0.0));
-    f("views", views, "of the object on one horizon, 1 to 8; higher goes further round it",
+    f("tau_nats", tau_nats,
+      "entropy of an object below which it is known and passed by; higher is satisfied sooner",
+      at_least(0.0));
+    f("range_m", range_m,
+      "greatest horizontal distance of objects that are visited; higher turns to them earlier",
+      above(0.0));
+    f("views", views,
+      "greatest number of views of an object within one horizon; higher goes farther round it",
       between(1, kObservationDirections));
   }
 };

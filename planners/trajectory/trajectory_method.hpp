@@ -14,24 +14,40 @@
 
 namespace vantage {
 
-/// The path as it is given, camera along it.
 struct GivenPath {
   static constexpr std::string_view name = "initial";
+  static constexpr StrategyText text{
+      .summary = "Flies the path as it is given, with the camera along it. The baseline."};
   void fields(auto&&) {}
 };
-/// The path as it is given, camera towards the active target: what yaw alone is worth.
 struct GivenPathYaw {
   static constexpr std::string_view name = "initial_yaw";
+  static constexpr StrategyText text{
+      .summary =
+          "Flies the path as it is given, with the camera towards the nearest object that is not "
+          "known yet: shows what yaw alone is worth."};
   YawToTarget yaw;
-  void fields(auto&& f) { f("range_m", yaw.range_m, "@@", above(0.0)); }
+  void fields(auto&& f) {
+    f("range_m", yaw.range_m,
+      "greatest horizontal distance of objects that the camera turns to; higher turns to them "
+      "earlier",
+      above(0.0));
+  }
 };
-/// The path through the nearest unused directions on its way, camera likewise.
 struct DetourPath {
   static constexpr std::string_view name = "greedy_detour";
+  static constexpr StrategyText text{
+      .summary =
+          "Flies through the nearest unused viewpoints of the nearest unknown object that its way "
+          "comes by, with the camera towards the object. A rule without cost or obstacles."};
   GreedyDetour detour;
   void fields(auto&& f) {
-    f("range_m", detour.range_m, "@@", above(0.0));
-    f("views", detour.views, "@@", between(1, kObservationDirections));
+    f("range_m", detour.range_m,
+      "greatest horizontal distance of objects that are visited; higher turns to them earlier",
+      above(0.0));
+    f("views", detour.views,
+      "greatest number of views of an object within one horizon; higher goes farther round it",
+      between(1, kObservationDirections));
   }
 };
 
@@ -52,31 +68,37 @@ struct FlightPlannerOptions {
   FlightCostOptions cost;
   ViewPlan views = ViewsOnTheWay{};
   SearchOptions search;
-  double observation_distance_m = 1.05;
+  double observation_distance_m = 1.05;  ///< the body never climbs above the path for it
   double range_m = 3.0;
+  /// With a large one the smoothest plan cuts from one lane of a path to the next.
   double path_deviation_tolerance_m = 1.2;
   double path_deviation_weight = 2.0;
   double clearance_m = 0.55;
   double sample_s = 0.05;
   void fields(auto&& f) {
-    f("cost", cost, "@@");
-    f("views", views, "@@");
-    f("search", search, "of `on_the_way`, between its views");
+    f("cost", cost, "cost of a path: obstacles, target in the image, recognition, information");
+    f("views", views, "which views of objects the optimised waypoints take");
+    f("search", search, "where the camera looks for objects between the views of `on_the_way`");
     f("observation_distance_m", observation_distance_m,
-      "Distance from camera to object of the best observation, on the optical axis: the body "
-      "descends as far as that takes, never above the path. Higher: the object appears smaller.",
+      "distance from camera to object, along the optical axis, of the best observation, for which "
+      "the vehicle descends; higher makes objects smaller in the image",
       between(0.3, 3.0));
-    f("range_m", range_m, "level; farther objects are no targets of `nearest`", above(0.0));
+    f("range_m", range_m,
+      "greatest horizontal distance of an object that `nearest` takes for its target", above(0.0));
     f("path_deviation_tolerance_m", path_deviation_tolerance_m,
-      "Path-deviation tolerance: distance of a point of the horizon from its place on the given "
-      "path that costs nothing. With a large one the smoothest plan cuts from one lane of a path "
-      "to the next.",
+      "distance of a waypoint from its place on the given path that costs nothing; higher leaves "
+      "the path more freely",
       at_least(0.0));
     f("path_deviation_weight", path_deviation_weight,
-      "1/m, of the deviation beyond it; higher keeps to the given path", at_least(0.0));
-    f("clearance_m", clearance_m, "of the body's centre on a path that is flown, by the map",
+      "weight of the deviation beyond the tolerance, in 1/m; higher keeps to the given path",
+      at_least(0.0));
+    f("clearance_m", clearance_m,
+      "least clearance of the vehicle's centre on a path that is flown, by the map; higher rejects "
+      "more plans",
       between(0.0, 3.0));
-    f("sample_s", sample_s, "between places of a path whose clearance is looked at",
+    f("sample_s", sample_s,
+      "time between the points of a path whose clearance is checked; lower misses less and is "
+      "slower",
       between(0.01, 1.0));
   }
 };

@@ -12,30 +12,47 @@
 
 namespace vantage {
 
-/// The dissertation's: the nearest object, from its unused direction nearest the remaining path, at
-/// every waypoint until it is known.  [Potthast2016, 5.2]
 struct NearestObject {
   static constexpr std::string_view name = "nearest";
+  static constexpr StrategyText text{
+      .summary =
+          "Looks at the nearest object until it is known, from its unused direction nearest the "
+          "remaining path: the dissertation's way.",
+      .source = "Potthast2016, 5.2"};
   void fields(auto&&) {}
 };
 
-/// Views by what they tell and how far off the path they are, each for as long as it takes; between
-/// them the camera looks where the vehicle goes, which is how it finds what comes next.
+/// Each view lasts as long as it takes; between views the camera looks where the vehicle goes,
+/// which is how it finds what comes next.
 struct ViewsOnTheWay {
   static constexpr std::string_view name = "on_the_way";
+  static constexpr StrategyText text{
+      .summary =
+          "Schedules views of all objects that the path comes by, those first that tell most and "
+          "lie nearest to the path; between them the camera looks for further objects.",
+      .formula =
+          "worth of a view = min(gain, H) 2^(-d / off_m), H the object's entropy, d the view's "
+          "distance from the path"};
   double before_m = 1.0;
   double after_m = 0.4;
   double apart_m = 0.5;
   double off_m = 0.5;
   double reach_m = 0.7;
   void fields(auto&& f) {
-    f("before_m", before_m, "along the path, that a view is turned to; higher looks ahead less",
+    f("before_m", before_m,
+      "distance along the path before a view at which the camera turns to it; higher looks ahead "
+      "less",
       at_least(0.0));
-    f("after_m", after_m, "that it is kept in view; higher looks ahead less", at_least(0.0));
-    f("apart_m", apart_m, "along the path, between views; lower takes more on one pass",
+    f("after_m", after_m,
+      "distance along the path after a view over which the camera stays on it; higher looks ahead "
+      "less",
+      at_least(0.0));
+    f("apart_m", apart_m,
+      "least distance along the path between views; lower takes more on one pass", above(0.0));
+    f("off_m", off_m,
+      "distance from the path that halves what a view is worth; higher minds detours less",
       above(0.0));
-    f("off_m", off_m, "distance from the path that halves what a view is worth", above(0.0));
-    f("reach_m", reach_m, "views farther from the path are not taken; higher leaves it more",
+    f("reach_m", reach_m, "greatest distance of a view from the path; higher leaves the path more",
       at_least(0.0));
   }
 };

@@ -19,14 +19,18 @@ struct FrontierOptions {
   double height_m = 1.05;
   std::optional<std::array<double, 2>> height_band_m = {};
   void fields(auto&& f) {
-    f("min_cells", min_cells, "smaller clusters are dropped; higher leaves nooks unexplored",
+    f("min_cells", min_cells,
+      "least number of cells of a frontier cluster; smaller ones are dropped; higher leaves nooks "
+      "unexplored",
       at_least(1));
-    f("max_extent_m", max_extent_m, "longer clusters are split; lower proposes more candidates",
+    f("max_extent_m", max_extent_m,
+      "greatest extent of a frontier cluster; longer ones are split; lower proposes more "
+      "candidates",
       above(0.0));
-    f("height_m", height_m, "world z of the candidates, that of the sensor");
+    f("height_m", height_m, "world z of the candidate views: that of the sensor");
     f("height_band_m", height_band_m,
-      "World z, lowest and highest, of the cells that count; none: all. A band spares views for "
-      "floor and ceiling.");
+      "lowest and highest world z of frontier cells, which spares views of floor and ceiling; "
+      "null: all heights count");
   }
   void check() const;  ///< the band's lowest below its highest
 };

@@ -21,14 +21,18 @@ struct SampledViews {
   double clearance_m = 0.2;
   double pitch_rad = 0.0;
   void fields(auto&& f) {
-    f("positions", positions, "places; more cost planning time", between(1, 1000));
-    f("headings", headings, "views at each place, evenly spaced; higher aims better",
+    f("positions", positions, "number of positions that are sampled; more take longer to score",
+      between(1, 1000));
+    f("headings", headings,
+      "number of views at each position, evenly spaced in yaw; more aim better and take longer",
       between(1, 20));
-    f("height_m", height_m, "world z of the sensor; none: any height that is free",
+    f("height_m", height_m, "world z of the sensor; null: any height that is free",
       between(-1e6, 1e6));
-    f("clearance_m", clearance_m, "from every known occupied cell; higher keeps clear of obstacles",
+    f("clearance_m", clearance_m,
+      "least distance of a position from every known occupied cell; higher keeps clear of "
+      "obstacles",
       between(0.0, 1e6));
-    f("pitch_rad", pitch_rad, "of every view; positive looks down",
+    f("pitch_rad", pitch_rad, "pitch of every view; positive looks down",
       between(-std::numbers::pi / 2.0, std::numbers::pi / 2.0));
   }
 };

@@ -4,8 +4,6 @@
 
 #include <variant>
 
-#include "vantage/planners/swept_gain.hpp"
-
 namespace vantage {
 namespace {
 
@@ -68,18 +66,24 @@ CellBlock ScoredRegion::cells(const OctomapFile& map) const {
 }
 
 std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& region,
-                                const Gain& gain, std::span<const Candidate> views,
-                                const FieldOfView& sensor, int threads) {
-  expects(!std::holds_alternative<AdaptiveGain>(gain), "a gain that needs no run");
+                                const GridGains& gains_on, std::span<const Candidate> views,
+                                const FieldOfView& sensor) {
   check_options(sensor, "sensor");
   check_options(region, "region");
   std::vector<double> gains(views.size(), 0.0);
   for (const Batch& batch : batches_of(map, region, views, sensor)) {
-    const OccupancyGrid grid = map.grid_of(batch.reach, region.coarsen);
-    const auto found = view_gains_bits(gain, {grid}, batch.views, sensor, threads);
+    const auto found = gains_on(map.grid_of(batch.reach, region.coarsen), batch.views);
     for (std::size_t i = 0; i < found.size(); ++i) gains[batch.places[i]] = found[i];
   }
   return gains;
+}
+
+std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& region,
+                                const Gain& gain, std::span<const Candidate> views,
+                                const FieldOfView& sensor, int threads) {
+  expects(!std::holds_alternative<AdaptiveGain>(gain), "a gain that needs no run");
+  return std::visit(
+      [&](const auto& g) { return score_views(map, region, g, views, sensor, threads); }, gain);
 }
 
 }  // namespace vantage

@@ -19,14 +19,18 @@ struct RingOfViews {
   double start_angle_rad = 0.0;
   std::vector<double> yaw_offsets_rad = {-std::numbers::pi / 12.0, 0.0, std::numbers::pi / 12.0};
   void fields(auto&& f) {
-    f("positions", positions, "on the circle, evenly spaced; more cost planning time",
+    f("positions", positions,
+      "number of positions on the ring, evenly spaced; more take longer to score",
       between(1, 100000));
-    f("radius_m", radius_m, "of the circle; higher sees more of the region, less finely",
+    f("radius_m", radius_m, "radius of the ring; higher sees more of the region, less finely",
       above(0.0));
-    f("height_m", height_m, "of the sensor above the floor; higher looks over objects", above(0.0));
-    f("start_angle_rad", start_angle_rad, "world bearing of the first position from the centre");
+    f("height_m", height_m, "height of the sensor above the floor; higher looks over objects",
+      above(0.0));
+    f("start_angle_rad", start_angle_rad,
+      "bearing from the centre to the first position, in the world frame");
     f("yaw_offsets_rad", yaw_offsets_rad,
-      "Turns of the view away from the centre, left positive; one view per position and offset.",
+      "turns of the view away from the centre, positive to the left; one view for each position "
+      "and offset",
       between(-std::numbers::pi, std::numbers::pi));
   }
   void check() const;  ///< at least one offset

@@ -25,7 +25,7 @@ inline constexpr double kOpacityUnobserved = 0.01;
 struct BeamFan {
   double step_rad = 0.01;
   void fields(auto&& f) {
-    f("step_rad", step_rad, "between beams; higher is faster and may step over small things",
+    f("step_rad", step_rad, "angle between beams; higher is faster and may step over small things",
       between(0.001, 1.5));
   }
 };

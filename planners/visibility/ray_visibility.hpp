@@ -19,8 +19,13 @@ struct VisibilityModel {
   double a = 0.997;
   double p_reappear = 0.1;
   void fields(auto&& f) {
-    f("a", a, "t = a^N after N cells; higher sees deeper into unobserved space", between(0.0, 1.0));
-    f("p_reappear", p_reappear, "p(visible | not visible before); 0: hidden stays hidden",
+    f("a", a,
+      "a of t = a^N, the probability that a ray stays visible after N cells; higher sees deeper "
+      "into unobserved space",
+      between(0.0, 1.0));
+    f("p_reappear", p_reappear,
+      "probability that a cell is visible behind one that is not; higher sees behind obstacles; 0: "
+      "hidden stays hidden",
       between(0.0, 1.0));
   }
 };
@@ -75,10 +80,10 @@ struct PosteriorModel {
   VisibilityModel visibility;
   double p_occupied_at_sensor = 0.05;
   void fields(auto&& f) {
-    f("visibility", visibility, "@@");
+    f("visibility", visibility, "how likely each cell of a ray is visible");
     f("p_occupied_at_sensor", p_occupied_at_sensor,
-      "Of the place the ray starts in, before its first cell. A sensor stands in free space; at "
-      "0.5 nothing would ever be learnt from rays through unobserved cells alone.",
+      "p(occupied) of the place that a ray starts in; higher learns less, and at 0.5 nothing from "
+      "unobserved cells alone",
       between(0.0, 1.0));
   }
 };

@@ -17,14 +17,25 @@ struct OdometryOptions {
   double bias_yaw_rad_per_m = 0.005;
   double bias_length_m = 5.0;
   void fields(auto&& f) {
-    f("sigma_translation_m", sigma_translation_m, "per axis after 1 m driven; higher is noisier",
+    f("sigma_translation_m", sigma_translation_m,
+      "standard deviation of the position error along each axis after 1 m driven; higher is "
+      "noisier",
       at_least(0.0));
-    f("sigma_yaw_rad", sigma_yaw_rad, "of the heading after 1 m driven", at_least(0.0));
-    f("sigma_turn_rad", sigma_turn_rad, "of the heading after 1 rad turned", at_least(0.0));
+    f("sigma_yaw_rad", sigma_yaw_rad,
+      "standard deviation of the heading error after 1 m driven; higher is noisier", at_least(0.0));
+    f("sigma_turn_rad", sigma_turn_rad,
+      "standard deviation of the heading error after 1 rad turned; higher is noisier",
+      at_least(0.0));
     f("bias_translation_m_per_m", bias_translation_m_per_m,
-      "size of the wandering error of each axis", at_least(0.0));
-    f("bias_yaw_rad_per_m", bias_yaw_rad_per_m, "size of the wandering curvature", at_least(0.0));
-    f("bias_length_m", bias_length_m, "distance over which the biases forget; higher drifts",
+      "standard deviation of the slowly wandering position error along each axis, per metre "
+      "driven; higher drifts faster",
+      at_least(0.0));
+    f("bias_yaw_rad_per_m", bias_yaw_rad_per_m,
+      "standard deviation of the slowly wandering heading error, per metre driven; higher drifts "
+      "faster",
+      at_least(0.0));
+    f("bias_length_m", bias_length_m,
+      "distance driven over which these biases decorrelate; higher drifts longer to one side",
       above(0.0));
   }
   static OdometryOptions perfect();  ///< no errors at all

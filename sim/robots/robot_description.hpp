@@ -22,36 +22,44 @@ struct Footprint {
   double inscribed_radius_m = 0.0;
   double circumscribed_radius_m = 0.0;
   void fields(auto&& f) {
-    f("inscribed_radius_m", inscribed_radius_m, "the robot covers it at any heading",
+    f("inscribed_radius_m", inscribed_radius_m,
+      "radius of the circle about the base's origin that the robot covers at any heading",
       Range{0.0, 5.0, true});
     f("circumscribed_radius_m", circumscribed_radius_m,
-      "it covers the robot at any heading; higher keeps away", Range{0.0, 5.0, true});
+      "radius of the circle about the base's origin that covers the robot at any heading; higher "
+      "keeps farther away from obstacles",
+      Range{0.0, 5.0, true});
   }
   void check() const;  ///< the inscribed circle within the circumscribed one
 };
 
-/// Slides along the world's x and y and a hinge about z, in this order, on the base. Moves in any
-/// direction at any heading.
 struct OmnidirectionalDrive {
   static constexpr std::string_view name = "omnidirectional";
+  static constexpr StrategyText text{
+      .summary =
+          "Moves in any direction at any heading: slide joints along x and y and a hinge about z, "
+          "in this order, on the base."};
   std::string x;
   std::string y;
   std::string yaw;
   double speed_max_m_s = 1.0;
   void fields(auto&& f) {
-    f("x", x, "joint, with a velocity actuator");
-    f("y", y, "joint, with a velocity actuator");
-    f("yaw", yaw, "joint, with a velocity actuator");
+    f("x", x, "name of the slide joint along x, with a velocity actuator");
+    f("y", y, "name of the slide joint along y, with a velocity actuator");
+    f("yaw", yaw, "name of the hinge joint about z, with a velocity actuator");
     f("speed_max_m_s", speed_max_m_s,
-      "along the direction asked for; the actuators cap the turning", Range{0.0, 10.0, true});
+      "greatest speed, in any direction; turning is limited by its actuator",
+      Range{0.0, 10.0, true});
   }
   void check() const;  ///< every joint is named
 };
 
-/// Two driven wheels on one axle through the base's origin, on a base that moves freely: friction
-/// between wheels and floor is what moves it. It cannot go sideways.
+/// The base moves freely: friction between wheels and floor is what moves it.
 struct DifferentialDrive {
   static constexpr std::string_view name = "differential";
+  static constexpr StrategyText text{.summary =
+                                         "Two driven wheels on one axle through the base's origin, "
+                                         "moved by friction with the floor; cannot go sideways."};
   std::string free_joint;
   std::string left_wheel;
   std::string right_wheel;
@@ -61,15 +69,21 @@ struct DifferentialDrive {
   double turn_rate_max_rad_s = 1.5;
   std::vector<std::string> on_floor;
   void fields(auto&& f) {
-    f("free_joint", free_joint, "of the base");
-    f("left_wheel", left_wheel, "hinge about y, with a velocity actuator");
-    f("right_wheel", right_wheel, "hinge about y, with a velocity actuator");
-    f("wheel_radius_m", wheel_radius_m, "of the rolling circle", Range{0.0, 1.0, true});
-    f("track_m", track_m, "between the points where the wheels touch the floor",
+    f("free_joint", free_joint, "name of the base's free joint");
+    f("left_wheel", left_wheel,
+      "name of the left wheel's hinge joint about y, with a velocity actuator");
+    f("right_wheel", right_wheel,
+      "name of the right wheel's hinge joint about y, with a velocity actuator");
+    f("wheel_radius_m", wheel_radius_m, "rolling radius of the driven wheels",
+      Range{0.0, 1.0, true});
+    f("track_m", track_m, "distance between the points where the driven wheels touch the floor",
       Range{0.0, 5.0, true});
-    f("speed_max_m_s", speed_max_m_s, "higher is faster, and may slip", Range{0.0, 10.0, true});
-    f("turn_rate_max_rad_s", turn_rate_max_rad_s, "in place", Range{0.0, 10.0, true});
-    f("on_floor", on_floor, "geoms that roll or glide on the floor: no collision");
+    f("speed_max_m_s", speed_max_m_s, "greatest speed; higher is faster and may slip",
+      Range{0.0, 10.0, true});
+    f("turn_rate_max_rad_s", turn_rate_max_rad_s, "greatest turn rate in place",
+      Range{0.0, 10.0, true});
+    f("on_floor", on_floor,
+      "names of the geoms that roll or glide on the floor, whose contact with it is no collision");
   }
   void check() const;  ///< joints and geoms are named, radius and track are given
 };
@@ -84,9 +98,11 @@ struct HeadNames {
   std::string tilt;
   std::string camera;
   void fields(auto&& f) {
-    f("pan", pan, "hinge about z, with a position actuator");
-    f("tilt", tilt, "hinge about y, with a position actuator; positive looks down");
-    f("camera", camera, "on the tilting body");
+    f("pan", pan, "name of the hinge joint about z that pans the head, with a position actuator");
+    f("tilt", tilt,
+      "name of the hinge joint about y that tilts the head, with a position actuator; positive "
+      "looks down");
+    f("camera", camera, "name of the camera, on the tilting body");
   }
   void check() const;  ///< every name is given
 };
@@ -96,15 +112,22 @@ struct TiltingLaserNames {
   std::string tilt;
   std::string site;
   void fields(auto&& f) {
-    f("tilt", tilt, "hinge about y, with a position actuator; positive looks down");
-    f("site", site, "of the scanner on the tilting body: x along the middle beam, z up");
+    f("tilt", tilt,
+      "name of the hinge joint about y that tilts the scanner, with a position actuator; positive "
+      "looks down");
+    f("site", site,
+      "name of the scanner's site, on the tilting body: x along the middle beam, z up");
   }
   void check() const;  ///< every name is given
 };
 
-/// kind: mobile_base. What it has not, it does not name; a task that needs it says so.
+/// A task that needs what it does not name says so.
 struct MobileBaseDescription {
   static constexpr std::string_view name = "mobile_base";
+  static constexpr StrategyText text{
+      .summary =
+          "A base that drives on the floor, for the tasks `tabletop` and `exploration`. What it "
+          "does not have it does not name."};
   std::string base;
   Footprint footprint;
   BaseDrive drive = OmnidirectionalDrive{};
@@ -113,21 +136,25 @@ struct MobileBaseDescription {
   std::optional<HeadNames> head;
   std::optional<TiltingLaserNames> tilting_laser;
   void fields(auto&& f) {
-    f("base", base, "body: x forward, y left, z up, its origin on the floor");
-    f("footprint", footprint, "@@");
-    f("drive", drive, "@@");
+    f("base", base, "name of the base's body: x forward, y left, z up, its origin on the floor");
+    f("footprint", footprint, "circles on the floor that lie within the robot and hold it");
+    f("drive", drive, "how the base moves, with the names of its joints");
     f("planar_scanner", planar_scanner,
-      "site near the floor, level: x along the middle beam, z up");
-    f("lift", lift, "slide along z that carries head and tilting laser; empty: none");
-    f("head", head, "@@");
-    f("tilting_laser", tilting_laser, "@@");
+      "name of the planar scanner's site, near the floor and level: x along the middle beam, z up");
+    f("lift", lift,
+      "name of the slide joint along z that carries head and tilting laser; empty: none");
+    f("head", head, "pan-tilt head with an RGB-D camera; null: none");
+    f("tilting_laser", tilting_laser, "laser scanner on a tilt joint; null: none");
   }
   void check() const;  ///< what every mobile base needs is there
 };
 
-/// kind: quadrotor.
 struct QuadrotorDescription {
   static constexpr std::string_view name = "quadrotor";
+  static constexpr StrategyText text{
+      .summary =
+          "A vehicle with four rotors and a tilting camera, for the tasks `recognition`, "
+          "`change_detection` and `trajectory`."};
   std::string base;
   std::string free_joint;
   std::vector<std::string> rotors;
@@ -135,13 +162,16 @@ struct QuadrotorDescription {
   std::string camera;
   std::string camera_tilt;
   void fields(auto&& f) {
-    f("base", base, "body: x forward, y left, z up, amid the rotors");
-    f("free_joint", free_joint, "of the base");
-    f("rotors", rotors, "four actuators, each at a site; thrust along the site's z");
-    f("rotor_radius_m", rotor_radius_m, "higher needs less power for the same thrust",
-      Range{0.0, 5.0, true});
-    f("camera", camera, "on the tilting body, looking along x at tilt 0");
-    f("camera_tilt", camera_tilt, "hinge about y, with a position actuator with a lag");
+    f("base", base,
+      "name of the vehicle's body: x forward, y left, z up, its origin amid the rotors");
+    f("free_joint", free_joint, "name of the vehicle's free joint");
+    f("rotors", rotors,
+      "names of the four rotors' actuators, each at a site that has its thrust along z");
+    f("rotor_radius_m", rotor_radius_m,
+      "radius of a rotor; higher needs less power for the same thrust", Range{0.0, 5.0, true});
+    f("camera", camera, "name of the camera, on the tilting body, which looks along x at tilt 0");
+    f("camera_tilt", camera_tilt,
+      "name of the hinge joint about y that tilts the camera, with a position actuator that lags");
   }
   void check() const;  ///< every name is given, four rotors
 };

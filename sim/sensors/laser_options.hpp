@@ -8,8 +8,8 @@ namespace vantage {
 
 /// A Hokuyo-like line scanner on a tilt joint.
 struct LaserOptions {
-  double sector_rad = 0.2617993877991494;
-  double step_rad = 0.004363323129985824;
+  double sector_rad = 0.2617993877991494;  // 15 deg
+  double step_rad = 0.004363323129985824;  // 0.25 deg
   double line_rate_hz = 40.0;
   double tilt_min_rad = -0.36;
   double tilt_max_rad = 0.62;
@@ -18,19 +18,20 @@ struct LaserOptions {
   double range_max_m = 10.0;
   double noise_sigma_m = 0.005;
   void fields(auto&& f) {
-    f("sector_rad", sector_rad, "width of a line (15 deg); higher sees more per scan",
+    f("sector_rad", sector_rad, "angular width of a scan line; higher sees more per scan",
       Range{0.0, 3.1416, true});
-    f("step_rad", step_rad, "between beams (0.25 deg); higher is coarser, faster", above(0.0));
-    f("line_rate_hz", line_rate_hz, "lines per second; higher packs lines closer", above(0.0));
-    f("tilt_min_rad", tilt_min_rad, "where the sweep starts (negative looks up)",
+    f("step_rad", step_rad, "angle between beams; higher is faster and coarser", above(0.0));
+    f("line_rate_hz", line_rate_hz, "scan lines per second; higher packs lines closer", above(0.0));
+    f("tilt_min_rad", tilt_min_rad, "tilt at which the sweep starts; negative looks up",
       between(-1.5, 1.5));
-    f("tilt_max_rad", tilt_max_rad, "where it ends; higher looks nearer to the robot",
-      between(-1.5, 1.5));
-    f("scan_duration_s", scan_duration_s, "of a sweep; higher packs lines closer",
-      between(0.1, 3600.0));
-    f("range_min_m", range_min_m, "nearer returns are invalid", at_least(0.0));
-    f("range_max_m", range_max_m, "farther surfaces give no return", above(0.0));
-    f("noise_sigma_m", noise_sigma_m, "Gaussian, on each range", at_least(0.0));
+    f("tilt_max_rad", tilt_max_rad,
+      "tilt at which the sweep ends; higher looks nearer to the robot", between(-1.5, 1.5));
+    f("scan_duration_s", scan_duration_s,
+      "duration of a sweep; higher packs lines closer and takes longer", between(0.1, 3600.0));
+    f("range_min_m", range_min_m, "least range; nearer returns are invalid", at_least(0.0));
+    f("range_max_m", range_max_m, "greatest range; farther surfaces give no return", above(0.0));
+    f("noise_sigma_m", noise_sigma_m,
+      "standard deviation of the Gaussian noise on each range; higher is noisier", at_least(0.0));
   }
   void check() const;  ///< minima below maxima, step within the sector, at most 10^7 beams
 };
@@ -40,17 +41,19 @@ FieldOfView field_of_view(const LaserOptions& options);
 
 /// A fixed scanner parallel to the floor, for driving.
 struct PlanarScannerOptions {
-  double sector_rad = 4.71238898038469;
-  double step_rad = 0.008726646259971648;
+  double sector_rad = 4.71238898038469;    // 270 deg
+  double step_rad = 0.008726646259971648;  // 0.5 deg
   double range_min_m = 0.05;
   double range_max_m = 10.0;
   double noise_sigma_m = 0.01;
   void fields(auto&& f) {
-    f("sector_rad", sector_rad, "270 deg; higher sees more to the sides", Range{0.0, 6.2832, true});
-    f("step_rad", step_rad, "between beams (0.5 deg); higher is coarser, faster", above(0.0));
-    f("range_min_m", range_min_m, "nearer returns are invalid", at_least(0.0));
-    f("range_max_m", range_max_m, "farther surfaces give no return", above(0.0));
-    f("noise_sigma_m", noise_sigma_m, "Gaussian, on each range", at_least(0.0));
+    f("sector_rad", sector_rad, "horizontal field of view; higher sees more to the sides",
+      Range{0.0, 6.2832, true});
+    f("step_rad", step_rad, "angle between beams; higher is faster and coarser", above(0.0));
+    f("range_min_m", range_min_m, "least range; nearer returns are invalid", at_least(0.0));
+    f("range_max_m", range_max_m, "greatest range; farther surfaces give no return", above(0.0));
+    f("noise_sigma_m", noise_sigma_m,
+      "standard deviation of the Gaussian noise on each range; higher is noisier", at_least(0.0));
   }
   void check() const;  ///< minimum below maximum, step within the sector, at most 10^7 beams
 };

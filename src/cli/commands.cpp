@@ -14,6 +14,7 @@
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
+#include "vantage/cli/reference/explain_command.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
 #include "vantage/cli/view_command.hpp"
@@ -48,7 +49,8 @@ struct RunArguments {
 };
 
 void print_config(const ResolvedEpisode& resolved, bool json) {
-  fmt::print("{}", json ? json_text(config_json(episode_node(resolved))) : episode_yaml(resolved));
+  fmt::print("{}", json ? json_text(config_json(episode_node(resolved)))
+                        : commented_episode_yaml(resolved));
 }
 
 void print_plan(const ResolvedEpisode& resolved, bool json) {
@@ -234,8 +236,9 @@ std::function<ExitCode()> declare_list(CLI::App& app) {
   app.add_option("what", arguments->what, "one of: " + fmt::format("{}", listing_topics_text()));
   add_json(app, arguments->json);
   return [arguments] {
-    fmt::print("{}", arguments->json ? json_text(listing_json(arguments->what))
-                                     : listing_text(arguments->what));
+    fmt::print("{}", arguments->json
+                         ? json_text(listing_json(arguments->what))
+                         : listing_text(arguments->what, verbosity() == Verbosity::verbose));
     return ExitCode::done;
   };
 }
@@ -277,6 +280,7 @@ const std::vector<Command>& commands() {
       {"evaluate", "recognition over a dataset, every method from the same starts",
        declare_evaluate},
       {"list", "what there is to choose from", declare_list},
+      {"explain", "what a key, a strategy, a column or a file means", declare_explain},
       {"doctor", "versions, renderer, codecs; what would not work and why", declare_doctor},
   };
   return table;

@@ -10,7 +10,8 @@ void add_common_flags(CLI::App& app) {
   auto* quiet = app.add_flag_callback(
       "-q,--quiet", [] { set_verbosity(Verbosity::quiet); }, "warnings and errors only");
   app.add_flag_callback(
-         "-v,--verbose", [] { set_verbosity(Verbosity::verbose); }, "debug messages too")
+         "-v,--verbose", [] { set_verbosity(Verbosity::verbose); },
+         "debug messages too; list: what each does")
       ->excludes(quiet);
   for (CLI::Option* option : app.get_options()) {
     if (option->get_items_expected_max() == 0) option->disable_flag_override();

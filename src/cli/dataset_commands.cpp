@@ -40,14 +40,15 @@ std::string not_empty(const std::string& text) { return text.empty() ? "is empty
 
 DatasetOptions render_options(const RenderArguments& arguments) {
   ConfigNode node = write_node(DatasetOptions{});
-  for (const std::string& assignment : arguments.overrides) apply_override(node, assignment);
+  std::vector<std::string> overrides = arguments.overrides;
   const std::array<std::pair<std::string, std::string>, 4> flags{{{"objects", arguments.objects},
                                                                   {"step_deg", arguments.step_deg},
                                                                   {"seed", arguments.seed},
                                                                   {"models", arguments.models}}};
   for (const auto& [key, value] : flags) {
-    if (!value.empty()) apply_override(node, key + "=" + value);
+    if (!value.empty()) overrides.push_back(key + "=" + value);
   }
+  apply_overrides(node, overrides);
   DatasetOptions options;
   read_into(node, options, {});
   return options;

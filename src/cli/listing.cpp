@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "vantage/cli/feature_listing.hpp"
+#include "vantage/cli/reference/entry.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/models/catalogue/database/object_database.hpp"
+#include "vantage/perception/features/feature.hpp"
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/objects/object_view_choice.hpp"
@@ -63,15 +65,18 @@ std::vector<std::string> objects() {
 struct Topic {
   std::string_view name;
   std::vector<std::string> (*entries)();
+  std::string_view family = {};  ///< of the strategies that it lists; empty: none
 };
 
 constexpr auto kTopics = std::to_array<Topic>({
-    {"tasks", [] { return owned(strategy_names<Task>()); }},
-    {"gains", [] { return owned(strategy_names<Gain>()); }},
-    {"choices", [] { return owned(strategy_names<ViewChoice>()); }},
-    {"features", feature_lines},
-    {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); }},
-    {"optimisers", [] { return owned(strategy_names<TrajectoryMethod>()); }},
+    {"tasks", [] { return owned(strategy_names<Task>()); }, strategy_family<Task>},
+    {"gains", [] { return owned(strategy_names<Gain>()); }, strategy_family<Gain>},
+    {"choices", [] { return owned(strategy_names<ViewChoice>()); }, strategy_family<ViewChoice>},
+    {"features", feature_lines, strategy_family<Feature>},
+    {"object_views", [] { return owned(strategy_names<ObjectViewChoice>()); },
+     strategy_family<ObjectViewChoice>},
+    {"optimisers", [] { return owned(strategy_names<TrajectoryMethod>()); },
+     strategy_family<TrajectoryMethod>},
     {"episodes", [] { return yaml_files("assets/episodes"); }},
     {"studies", [] { return yaml_files("assets/studies"); }},
     {"scenes", scenes},
@@ -92,6 +97,14 @@ std::vector<const Topic*> topics(std::string_view wanted) {
   return found;
 }
 
+std::string explained_strategies(std::string_view family) {
+  std::string text;
+  for (const ReferenceEntry& entry : strategy_entries()) {
+    if (entry.place == family) text += entry_text(entry);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string listing_topics_text() {
@@ -100,10 +113,14 @@ std::string listing_topics_text() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-std::string listing_text(std::string_view wanted) {
+std::string listing_text(std::string_view wanted, bool explained) {
   std::string text;
   for (const Topic* topic : topics(wanted)) {
     if (wanted.empty()) text += fmt::format("{}:\n", topic->name);
+    if (explained && !topic->family.empty()) {
+      text += explained_strategies(topic->family);
+      continue;
+    }
     for (const auto& entry : topic->entries()) {
       text += fmt::format("{}{}\n", wanted.empty() ? "  " : "", entry);
     }

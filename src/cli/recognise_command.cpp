@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/recognise_options.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
@@ -27,17 +28,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
-struct RecogniseOptions {
-  std::uint64_t seed = 1;
-  RecogniserOptions recogniser;
-  RecognitionOptions recognition;
-  void fields(auto&& f) {
-    f("seed", seed, "@@");
-    f("recogniser", recogniser, "@@");
-    f("recognition", recognition, "@@");
-  }
-};
-
 struct RecogniseArguments {
   fs::path model;
   std::vector<fs::path> files;
@@ -51,7 +41,7 @@ struct RecogniseArguments {
 
 RecogniseOptions options_of(const RecogniseArguments& arguments) {
   ConfigNode node = write_node(RecogniseOptions{});
-  for (const std::string& assignment : arguments.overrides) apply_override(node, assignment);
+  apply_overrides(node, arguments.overrides);
   RecogniseOptions options;
   read_into(node, options, {});
   return options;

@@ -49,7 +49,7 @@ Options options_of(const Arguments& arguments) {
   Options from_file;
   if (!arguments.config.empty()) read_into(read_yaml(arguments.config), from_file, {});
   ConfigNode node = write_node(from_file);
-  for (const std::string& assignment : arguments.overrides) apply_override(node, assignment);
+  apply_overrides(node, arguments.overrides);
   Options options;
   read_into(node, options, {});
   return options;

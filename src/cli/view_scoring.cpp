@@ -31,8 +31,9 @@ ConfigNode read_configuration(const ScoreArguments& arguments) {
     gain.origin = "--gain";
     root.set("gain", std::move(gain));
   }
-  for (const auto& assignment : arguments.overrides) apply_override(root, assignment);
-  if (!arguments.seed.empty()) apply_override(root, "seed=" + arguments.seed);
+  std::vector<std::string> overrides = arguments.overrides;
+  if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
+  apply_overrides(root, overrides);
   if (root.find("views") != nullptr && !arguments.views.empty()) {
     throw ConfigError("--set views: nothing is sampled where --views names a file");
   }

@@ -21,26 +21,31 @@ namespace vantage {
 struct ViewScoring {
   std::uint64_t seed = 1;
   int threads = 2;
+  /// A Kinect-like RGB-D camera, 57.8 x 45 deg.
   FieldOfView sensor{.half_width_rad = 0.5044,
                      .tilt_min_rad = -0.3927,
                      .tilt_max_rad = 0.3927,
                      .range_min_m = 0.8,
                      .range_max_m = 3.5};
   Gain gain = BeerLambertGain{};
+  /// `beer_lambert` takes gain.a = transmission_per_m^(cell edge / m) from it.
   std::optional<double> transmission_per_m = {};
   ScoredRegion region;
   SampledViews views;
   void fields(auto&& f) {
-    f("seed", seed, "of sampled views");
-    f("threads", threads, "results do not depend on it", between(1, 256));
-    f("sensor", sensor, "A Kinect-like RGB-D camera, 57.8 x 45 deg.");
-    f("gain", gain, "@@");
+    f("seed", seed, "seed of the sampled views");
+    f("threads", threads, "worker threads; more are faster, results do not depend on them",
+      between(1, 256));
+    f("sensor", sensor,
+      "field of view and range of the sensor, as a file of `--sensor` gives them");
+    f("gain", gain, "what a view is worth, as in an episode");
     f("transmission_per_m", transmission_per_m,
-      "Share of a beam that passes a metre of unobserved space, whatever the cell size; higher "
-      "sees deeper. `beer_lambert` takes gain.a = 0.5^(cell edge / m) from it if neither is given.",
+      "share of a beam that passes a metre of unobserved space, for `beer_lambert` and `adaptive`; "
+      "higher sees deeper; null: 0.5, unless `gain.a` is given",
       between(0.0, 1.0));
-    f("region", region, "@@");
-    f("views", views, "@@");
+    f("region", region, "part of the map that counts");
+    f("views", views,
+      "how views are sampled in the map's free space where no file of `--views` is given");
   }
 };
 

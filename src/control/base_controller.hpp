@@ -22,14 +22,21 @@ struct BaseControllerOptions {
   void fields(auto&& f) {
     f("speed_m_s", speed_m_s, "cruising speed; higher is faster and cuts corners wider",
       Range{0.0, 1.0, true});
-    f("acceleration_m_s2", acceleration_m_s2, "also when braking and across the path in corners",
+    f("acceleration_m_s2", acceleration_m_s2,
+      "greatest acceleration, also when braking and across the path in corners; higher is brisker",
       Range{0.0, 1.5, true});
-    f("turn_rate_rad_s", turn_rate_rad_s, "cruising turning rate", Range{0.0, 1.5, true});
+    f("turn_rate_rad_s", turn_rate_rad_s, "cruising turn rate; higher turns faster",
+      Range{0.0, 1.5, true});
     f("turn_acceleration_rad_s2", turn_acceleration_rad_s2,
-      "higher starts and ends turns more sharply", Range{0.0, 5.0, true});
-    f("lookahead_m", lookahead_m, "aims that far ahead; higher is smoother, cuts corners wider",
+      "greatest angular acceleration; higher starts and ends turns more sharply",
+      Range{0.0, 5.0, true});
+    f("lookahead_m", lookahead_m,
+      "distance along the path to the point that is steered for; higher is smoother and cuts "
+      "corners wider",
       Range{0.0, 1.0, true});
-    f("gain_per_s", gain_per_s, "speed per distance left at the end; above 2.5 it overshoots",
+    f("gain_per_s", gain_per_s,
+      "speed per distance left at the end of the path; higher arrives faster, and overshoots above "
+      "2.5",
       Range{0.0, 3.0, true});
   }
 };

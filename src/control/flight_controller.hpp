@@ -42,27 +42,43 @@ struct FlightControllerOptions {
   double tilt_max_rad = 0.6;
   void fields(auto&& f) {
     f("position_per_s2", position_per_s2,
-      "higher is stiffer, rings where the attitude cannot follow", Range{0.0, 50.0, true});
-    f("velocity_per_s", velocity_per_s, "higher damps, amplifies noise of the velocity",
+      "acceleration per position error; higher is stiffer, and rings where the attitude cannot "
+      "follow",
+      Range{0.0, 50.0, true});
+    f("velocity_per_s", velocity_per_s,
+      "acceleration per velocity error; higher damps more, and amplifies noise of the velocity",
       Range{0.0, 20.0, true});
     f("disturbance_per_s", disturbance_per_s,
-      "estimates a disturbance in 1/that; higher rings; 0: no integral action", between(0.0, 20.0));
+      "rate at which a disturbing force is estimated (integral action); higher adapts faster and "
+      "rings; 0: none",
+      between(0.0, 20.0));
     f("disturbance_max_m_s2", disturbance_max_m_s2,
-      "strongest disturbance that is balanced, per axis", between(0.0, 10.0));
+      "strongest disturbance that is compensated, per axis and unit of mass; higher withstands "
+      "stronger wind",
+      between(0.0, 10.0));
     f("position_error_max_m", position_error_max_m,
-      "farther off counts as that; higher approaches faster", Range{0.0, 10.0, true});
-    f("attitude_per_s2", attitude_per_s2, "of tilt; higher is faster, rings by the motors' lag",
+      "position error that larger ones are cut to; higher approaches a far reference faster",
+      Range{0.0, 10.0, true});
+    f("attitude_per_s2", attitude_per_s2,
+      "angular acceleration per tilt error; higher is faster, and rings by the lag of the motors",
       Range{0.0, 1000.0, true});
-    f("rate_per_s", rate_per_s, "higher damps; above 1 / motor lag it rings",
+    f("rate_per_s", rate_per_s,
+      "angular acceleration per error of the tilt rate; higher damps more, and rings above 1 / "
+      "motor lag",
       Range{0.0, 100.0, true});
-    f("yaw_per_s2", yaw_per_s2, "of heading; higher saturates the rotors earlier",
+    f("yaw_per_s2", yaw_per_s2,
+      "angular acceleration per heading error; higher is faster and saturates the rotors earlier",
       Range{0.0, 200.0, true});
-    f("yaw_rate_per_s", yaw_rate_per_s, "higher damps the heading", Range{0.0, 50.0, true});
+    f("yaw_rate_per_s", yaw_rate_per_s,
+      "angular acceleration per error of the yaw rate; higher damps the heading more",
+      Range{0.0, 50.0, true});
     f("torque_per_s", torque_per_s,
-      "learns a torque in 1/that; higher rings; 0: no integral action", between(0.0, 10.0));
+      "rate at which a disturbing torque is learnt (integral action); higher adapts faster and "
+      "rings; 0: none",
+      between(0.0, 10.0));
     f("torque_max_rad_s2", torque_max_rad_s2,
-      "strongest torque that is balanced, over inertia, per axis", between(0.0, 200.0));
-    f("tilt_max_rad", tilt_max_rad, "never asks for more; higher accelerates harder",
+      "strongest torque that is compensated, per axis and unit of inertia", between(0.0, 200.0));
+    f("tilt_max_rad", tilt_max_rad, "greatest tilt that is commanded; higher accelerates harder",
       Range{0.0, 1.2, true});
   }
 };

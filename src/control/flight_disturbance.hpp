@@ -19,10 +19,12 @@ struct Gust {
   double start_s = 0.0;
   double duration_s = 0.5;
   void fields(auto&& f) {
-    f("force_N", force_N, "higher throws it farther off", between(0.0, 50.0));
-    f("direction", direction, "world; any length but 0");
-    f("start_s", start_s, "simulated time", at_least(0.0));
-    f("duration_s", duration_s, "longer throws it farther off", above(0.0));
+    f("force_N", force_N, "strength of the push; higher throws the vehicle farther off",
+      between(0.0, 50.0));
+    f("direction", direction, "direction of the push in the world frame; any length but 0");
+    f("start_s", start_s, "simulated time at which the push begins", at_least(0.0));
+    f("duration_s", duration_s, "duration of the push; higher throws the vehicle farther off",
+      above(0.0));
   }
   void check() const;  ///< @throws ConfigError for a direction without length
 
@@ -34,14 +36,19 @@ struct Gust {
 struct PoseNoiseOptions {
   double sigma_position_m = 0.01;
   double sigma_yaw_rad = 0.01;
-  double sigma_tilt_rad = 0.003;
+  double sigma_tilt_rad = 0.003;  ///< small: gravity is easily felt
   double correlation_s = 2.0;
   void fields(auto&& f) {
-    f("sigma_position_m", sigma_position_m, "per axis; higher is noisier", between(0.0, 1.0));
-    f("sigma_yaw_rad", sigma_yaw_rad, "of the heading", between(0.0, 0.5));
-    f("sigma_tilt_rad", sigma_tilt_rad, "about x and y each; gravity is easily felt",
+    f("sigma_position_m", sigma_position_m,
+      "standard deviation of the position error along each axis; higher is noisier",
+      between(0.0, 1.0));
+    f("sigma_yaw_rad", sigma_yaw_rad, "standard deviation of the heading error; higher is noisier",
+      between(0.0, 0.5));
+    f("sigma_tilt_rad", sigma_tilt_rad,
+      "standard deviation of the tilt error about x and about y; higher is noisier",
       between(0.0, 0.1));
-    f("correlation_s", correlation_s, "higher drifts slower", above(0.0));
+    f("correlation_s", correlation_s,
+      "time over which the errors decorrelate; higher drifts more slowly", above(0.0));
   }
   static PoseNoiseOptions perfect();  ///< no errors at all
 };

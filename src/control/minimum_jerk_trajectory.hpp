@@ -22,10 +22,15 @@ struct FlightLimits {
   double acceleration_m_s2 = 2.0;
   double yaw_rate_rad_s = 1.0;
   void fields(auto&& f) {
-    f("speed_m_s", speed_m_s, "higher is faster, blurs images", Range{0.0, 5.0, true});
-    f("acceleration_m_s2", acceleration_m_s2, "higher tilts more: 2 tilts by 11 deg",
+    f("speed_m_s", speed_m_s, "greatest speed of a trajectory; higher is faster and blurs images",
       Range{0.0, 5.0, true});
-    f("yaw_rate_rad_s", yaw_rate_rad_s, "higher turns faster, blurs images", Range{0.0, 4.0, true});
+    f("acceleration_m_s2", acceleration_m_s2,
+      "greatest acceleration of a trajectory; higher is faster and tilts the vehicle more (11 deg "
+      "at 2 m/s^2)",
+      Range{0.0, 5.0, true});
+    f("yaw_rate_rad_s", yaw_rate_rad_s,
+      "greatest yaw rate of a trajectory; higher turns faster and blurs images",
+      Range{0.0, 4.0, true});
   }
 };
 

@@ -20,17 +20,26 @@ struct TrajectoryTrackingOptions {
   double settle_time_s = 0.3;
   double timeout_s = 8.0;
   void fields(auto&& f) {
-    f("controller", controller, "@@");
-    f("limits", limits, "@@");
-    f("pose_noise", pose_noise, "@@");
-    f("gusts", gusts, "@@");
-    f("goal_tolerance_m", goal_tolerance_m, "of the estimate; higher arrives sooner, less exactly",
+    f("controller", controller, "gains and limits of the flight controller");
+    f("limits", limits, "greatest speed, acceleration and yaw rate of planned trajectories");
+    f("pose_noise", pose_noise, "errors of the pose estimate");
+    f("gusts", gusts, "forces that push the vehicle for a while; empty: none");
+    f("goal_tolerance_m", goal_tolerance_m,
+      "distance of the estimated position from the goal within which the vehicle has arrived; "
+      "higher arrives sooner and less exactly",
       Range{0.001, 1.0});
-    f("goal_tolerance_rad", goal_tolerance_rad, "of the heading", Range{0.001, 1.0});
-    f("rest_speed_m_s", rest_speed_m_s, "slower than this is at rest", Range{0.001, 1.0});
-    f("settle_time_s", settle_time_s, "within tolerance and at rest that long is arrived",
+    f("goal_tolerance_rad", goal_tolerance_rad,
+      "heading error within which the vehicle has arrived; higher arrives sooner and less exactly",
+      Range{0.001, 1.0});
+    f("rest_speed_m_s", rest_speed_m_s, "speed below which the vehicle is at rest",
+      Range{0.001, 1.0});
+    f("settle_time_s", settle_time_s,
+      "time within tolerance and at rest after which the vehicle has arrived; higher is steadier "
+      "and slower",
       between(0.0, 10.0));
-    f("timeout_s", timeout_s, "after the path's end; higher is more patient", above(0.0));
+    f("timeout_s", timeout_s,
+      "time after the planned end of a trajectory until it is given up; higher is more patient",
+      above(0.0));
   }
 };
 

@@ -15,6 +15,16 @@ std::string unknown_strategy(std::string_view family, std::string_view name,
   return fmt::format("unknown {} '{}'; known: {}", family, name, fmt::join(known, ", "));
 }
 
+std::string range_text(const Range& range) {
+  if (std::isfinite(range.min) && std::isfinite(range.max)) {
+    return fmt::format("{}{}, {}]", range.min_excluded ? "(" : "[", range.min, range.max);
+  }
+  if (std::isfinite(range.min)) {
+    return fmt::format("{} {}", range.min_excluded ? ">" : ">=", range.min);
+  }
+  return std::isfinite(range.max) ? fmt::format("<= {}", range.max) : std::string();
+}
+
 namespace detail {
 namespace {
 
@@ -105,14 +115,8 @@ ConfigNode write_value(const std::string& value) {
 void require_range(const std::string& where, double value, const Range& range) {
   const bool low = range.min_excluded ? value <= range.min : value < range.min;
   if (std::isfinite(value) && !low && value <= range.max) return;
-  std::string allowed = "a finite number";
-  if (std::isfinite(range.min) && std::isfinite(range.max)) {
-    allowed = fmt::format("{}{}, {}]", range.min_excluded ? "(" : "[", range.min, range.max);
-  } else if (std::isfinite(range.min)) {
-    allowed = fmt::format("{} {}", range.min_excluded ? ">" : ">=", range.min);
-  } else if (std::isfinite(range.max)) {
-    allowed = fmt::format("<= {}", range.max);
-  }
+  std::string allowed = range_text(range);
+  if (allowed.empty()) allowed = "a finite number";
   throw ConfigError(fmt::format("{}: {} is out of range, allowed: {}", where, value, allowed));
 }
 

@@ -34,6 +34,8 @@ struct Range {
 constexpr Range at_least(double min) { return {.min = min}; }
 constexpr Range above(double min) { return {.min = min, .min_excluded = true}; }
 constexpr Range between(double min, double max) { return {.min = min, .max = max}; }
+/// "[0, 1]", "> 0"; empty if any finite number will do.
+std::string range_text(const Range& range);
 
 namespace detail {
 struct ProbeVisitor {

@@ -54,6 +54,8 @@ void set_verbosity(Verbosity verbosity) {
   logger().sinks().front()->set_level(console_level());
 }
 
+Verbosity verbosity() { return g_verbosity; }
+
 void log_to_file(const std::filesystem::path& path) {
   auto& sinks = logger().sinks();
   sinks.resize(1);

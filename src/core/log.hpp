@@ -10,6 +10,7 @@ namespace vantage {
 enum class Verbosity { quiet, normal, verbose };
 
 void set_verbosity(Verbosity verbosity);
+Verbosity verbosity();
 /// Also writes every line, debug included, beside `path` until the next call, which puts the file
 /// under its name; empty stops it.
 /// @throws OutputError if the file cannot be made.

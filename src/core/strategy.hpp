@@ -1,5 +1,6 @@
 /// Strategies: options structs with a call operator, closed in a std::variant. Each alternative has
-/// `static constexpr std::string_view name`; the variant's family is named beside it:
+/// `static constexpr std::string_view name` and `static constexpr StrategyText text`; the variant's
+/// family is named beside it:
 ///
 ///   template <> inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
 ///
@@ -15,6 +16,13 @@
 #include "vantage/core/error.hpp"
 
 namespace vantage {
+
+/// What users are told of a strategy.
+struct StrategyText {
+  std::string_view summary;       ///< a sentence or two: what it does and when to use it
+  std::string_view formula = {};  ///< in plain text; empty: none
+  std::string_view source = {};   ///< key of docs/references.bib and place in it; empty: ours
+};
 
 template <class Variant>
 inline constexpr std::string_view strategy_family = "strategy";

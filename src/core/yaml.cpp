@@ -146,39 +146,6 @@ void emit(YAML::Emitter& out, const ConfigNode& node) {
   }
 }
 
-}  // namespace
-
-ConfigNode read_yaml(const std::filesystem::path& path) {
-  return parse_yaml(read_file(path), path.string());
-}
-
-ConfigNode parse_yaml(std::string_view text, const std::string& name) {
-  std::vector<YAML::Node> documents;
-  try {
-    inspect(text, name);
-    documents = YAML::LoadAll(std::string(text));
-  } catch (const YAML::Exception& error) {
-    throw ConfigError(
-        fmt::format("{}: not valid YAML: {}", origin_of(name, error.mark), error.msg));
-  }
-  if (documents.size() > 1) throw ConfigError(name + ": more than one YAML document");
-  if (!documents.empty()) return convert(documents.front(), name, "");
-  ConfigNode empty;
-  empty.origin = name;
-  return empty;
-}
-
-void apply_override(ConfigNode& root, const std::string& assignment) {
-  const auto equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw ConfigError(fmt::format("--set {}: expected key=value", assignment));
-  }
-  const std::string key = assignment.substr(0, equals);
-  ConfigNode value = parse_yaml(assignment.substr(equals + 1), "--set " + key);
-  relabel(value, std::string(kOverrideOrigin), key);
-  set_value(root, key, std::move(value));
-}
-
 void set_value(ConfigNode& root, const std::string& key, ConfigNode value) {
   if (root.kind == ConfigNode::Kind::scalar || root.kind == ConfigNode::Kind::list) {
     throw ConfigError(
@@ -202,6 +169,59 @@ void set_value(ConfigNode& root, const std::string& key, ConfigNode value) {
     begin = dot + 1;
   }
   node->set(key.substr(begin), std::move(value));
+}
+
+}  // namespace
+
+ConfigNode read_yaml(const std::filesystem::path& path) {
+  return parse_yaml(read_file(path), path.string());
+}
+
+ConfigNode parse_yaml(std::string_view text, const std::string& name) {
+  std::vector<YAML::Node> documents;
+  try {
+    inspect(text, name);
+    documents = YAML::LoadAll(std::string(text));
+  } catch (const YAML::Exception& error) {
+    throw ConfigError(
+        fmt::format("{}: not valid YAML: {}", origin_of(name, error.mark), error.msg));
+  }
+  if (documents.size() > 1) throw ConfigError(name + ": more than one YAML document");
+  if (!documents.empty()) return convert(documents.front(), name, "");
+  ConfigNode empty;
+  empty.origin = name;
+  return empty;
+}
+
+KeyValue parse_override(const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigError(fmt::format("--set {}: expected key=value", assignment));
+  }
+  const std::string key = assignment.substr(0, equals);
+  ConfigNode value = parse_yaml(assignment.substr(equals + 1), "--set " + key);
+  relabel(value, std::string(kOverrideOrigin), key);
+  return {key, std::move(value)};
+}
+
+void set_values(ConfigNode& root, std::vector<KeyValue> values) {
+  std::ranges::stable_sort(
+      values, {}, [](const KeyValue& value) { return std::ranges::count(value.first, '.'); });
+  for (auto value = values.begin(); value != values.end(); ++value) {
+    const auto same = std::find_if(
+        values.begin(), value, [&](const KeyValue& other) { return other.first == value->first; });
+    if (same != value && to_yaml(same->second) != to_yaml(value->second)) {
+      throw ConfigError(fmt::format("{}: {}: has another value already, from {}",
+                                    value->second.origin, value->first, same->second.origin));
+    }
+  }
+  for (auto& [key, value] : values) set_value(root, key, std::move(value));
+}
+
+void apply_overrides(ConfigNode& root, const std::vector<std::string>& assignments) {
+  std::vector<KeyValue> values;
+  for (const std::string& assignment : assignments) values.push_back(parse_override(assignment));
+  set_values(root, std::move(values));
 }
 
 std::string to_yaml(const ConfigNode& root) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vantage/core/config_node.hpp"
@@ -17,14 +18,21 @@ ConfigNode read_yaml(const std::filesystem::path& path);
 /// `name` stands for the file in error messages.
 ConfigNode parse_yaml(std::string_view text, const std::string& name);
 
-/// Applies "a.b.c=value" (the value is YAML) on top of `root`; maps on the way are made as needed.
-/// @throws ConfigError if the assignment has no '=' or no key, or `root` is not a map.
-void apply_override(ConfigNode& root, const std::string& assignment);
+/// A value for a dotted key, from wherever its origin says.
+using KeyValue = std::pair<std::string, ConfigNode>;
 
-/// Puts `value` under the dotted `key`, replacing what is there; maps on the way are made as
-/// needed. The value keeps its origin, and so do errors about it.
-/// @throws ConfigError if `root` is not a map.
-void set_value(ConfigNode& root, const std::string& key, ConfigNode value);
+/// "a.b.c=value" (the value is YAML).
+/// @throws ConfigError if the assignment has no '=' or no key.
+KeyValue parse_override(const std::string& assignment);
+
+/// Puts each value under its key, replacing what is there; maps on the way are made as needed. The
+/// order does not matter: what holds others comes before them, so `gain` before `gain.a`. A value
+/// keeps its origin, and so do errors about it.
+/// @throws ConfigError if `root` is not a map, or one key has two values.
+void set_values(ConfigNode& root, std::vector<KeyValue> values);
+
+/// The same of the command line's assignments.
+void apply_overrides(ConfigNode& root, const std::vector<std::string>& assignments);
 
 std::string to_yaml(const ConfigNode& root);
 

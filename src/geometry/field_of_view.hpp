@@ -31,16 +31,17 @@ struct FieldOfView {
   double range_max_m = 10.0;
   bool panorama = false;
   void fields(auto&& f) {
-    f("half_width_rad", half_width_rad, "azimuth limit, (0, pi]; higher sees more per scan",
-      Range{0.0, 3.1416, true});
-    f("tilt_min_rad", tilt_min_rad, "highest line of sight (negative looks up)",
+    f("half_width_rad", half_width_rad,
+      "half of the horizontal field of view; higher sees more at once", Range{0.0, 3.1416, true});
+    f("tilt_min_rad", tilt_min_rad, "tilt of the highest line of sight; negative looks up",
       between(-1.5, 1.5));
-    f("tilt_max_rad", tilt_max_rad, "lowest line of sight", between(-1.5, 1.5));
-    f("range_min_m", range_min_m, "nearer returns are dropped", at_least(0.0));
-    f("range_max_m", range_max_m, "farther surfaces give no return", above(0.0));
+    f("tilt_max_rad", tilt_max_rad, "tilt of the lowest line of sight; positive looks down",
+      between(-1.5, 1.5));
+    f("range_min_m", range_min_m, "least range; nearer surfaces give no return", at_least(0.0));
+    f("range_max_m", range_max_m, "greatest range; farther surfaces give no return", above(0.0));
     f("panorama", panorama,
-      "Pan comes before tilt, all round: tilt is the angle below the horizon in any direction, and "
-      "half_width_rad means nothing.");
+      "true: the sensor pans all round before it tilts, so that tilt is the angle below the "
+      "horizon in any direction and `half_width_rad` is ignored");
   }
   void check() const;  ///< minima below maxima
 

@@ -19,17 +19,25 @@ struct ObjectSearchOptions {
   double gap_m = 0.05;
   double noise_per_m = 0.0008;
   void fields(auto&& f) {
-    f("support", support, "@@");
-    f("cut", cut, "@@");
-    f("range_m", range_m, "farther objects are not reported; higher finds them earlier",
+    f("support", support, "how support surfaces are found");
+    f("cut", cut, "how an object is cut out of the image above its support surface");
+    f("range_m", range_m,
+      "greatest distance of an object that is reported; higher finds objects earlier and places "
+      "them worse",
       Range{0.0, 20.0, true});
-    f("nearest_m", nearest_m, "of the object's surface; where it is nearer, depth may lack",
+    f("nearest_m", nearest_m,
+      "distance to the object's surface below which depth may be missing and the view does not "
+      "count as whole",
       at_least(0.0));
-    f("border_px", border_px, "an object that close to the frame's edge is not whole",
+    f("border_px", border_px,
+      "distance from the edge of the image within which an object does not count as whole",
       between(0, 100));
-    f("gap_m", gap_m, "between parts of one object; higher joins neighbours",
+    f("gap_m", gap_m,
+      "width of gaps between parts of one object; higher joins neighbouring objects",
       Range{0.0, 1.0, true});
-    f("noise_per_m", noise_per_m, "of heights, standard deviation per squared distance, 1/m",
+    f("noise_per_m", noise_per_m,
+      "standard deviation of measured heights per squared distance; higher demands that objects "
+      "stand out more",
       between(0.0, 0.1));
   }
 };

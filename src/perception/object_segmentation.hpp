@@ -21,17 +21,25 @@ struct ObjectSegmentationOptions {
   int mask_growth_px = 1;
   int margin_px = 3;
   void fields(auto&& f) {
-    f("radius_m", radius_m, "of the column over the middle that holds the object",
+    f("radius_m", radius_m,
+      "greatest horizontal distance of the object's points from the place where it stands; higher "
+      "takes in more of its surroundings",
       Range{0.0, 2.0, true});
-    f("max_height_m", max_height_m, "of that column over the table", Range{0.0, 2.0, true});
-    f("min_height_m", min_height_m, "over the table; higher loses more of the object's foot",
+    f("max_height_m", max_height_m, "greatest height of the object above its support surface",
+      Range{0.0, 2.0, true});
+    f("min_height_m", min_height_m,
+      "height above the support surface from which points are object and not noise; higher loses "
+      "more of the object's foot",
       between(0.0, 0.1));
     f("table_tolerance_m", table_tolerance_m,
-      "how far the table may seem off its height; pose errors", Range{0.0, 0.5, true});
-    f("min_pixels", min_pixels, "of an object; fewer are taken for noise", at_least(1));
-    f("mask_growth_px", mask_growth_px, "how far the mask reaches over what was found",
+      "how far above and below its known height the table top is looked for, because of pose "
+      "errors",
+      Range{0.0, 0.5, true});
+    f("min_pixels", min_pixels,
+      "least number of pixels of an object; smaller patches are taken for noise", at_least(1));
+    f("mask_growth_px", mask_growth_px, "how far the mask is grown beyond what was found",
       between(0, 20));
-    f("margin_px", margin_px, "of the cut round the mask", between(0, 50));
+    f("margin_px", margin_px, "margin of the crop round the mask", between(0, 50));
   }
 };
 

@@ -17,14 +17,23 @@ struct SupportSearchOptions {
   double inlier_distance_m = 0.02;
   double max_tilt_rad = 0.08;
   void fields(auto&& f) {
-    f("min_height_m", min_height_m, "world z; lower surfaces are floor");
-    f("max_height_m", max_height_m, "world z");
-    f("columns", columns, "of the image that are looked at; higher is slower", between(16, 4096));
-    f("cell_m", cell_m, "of the raster that surfaces are found in", Range{0.0, 0.5, true});
-    f("min_area_m2", min_area_m2, "of the free part that is seen; smaller ones are none",
+    f("min_height_m", min_height_m,
+      "least height of a support surface in the world frame; lower ones are floor");
+    f("max_height_m", max_height_m, "greatest height of a support surface in the world frame");
+    f("columns", columns,
+      "number of image columns that are used; higher resolves finer and is slower",
+      between(16, 4096));
+    f("cell_m", cell_m,
+      "cell edge of the raster that surfaces are found in; higher bridges wider gaps and is "
+      "coarser",
+      Range{0.0, 0.5, true});
+    f("min_area_m2", min_area_m2,
+      "least visible area of a support surface beside its objects; smaller ones are ignored",
       above(0.0));
-    f("inlier_distance_m", inlier_distance_m, "of a point from its surface", above(0.0));
-    f("max_tilt_rad", max_tilt_rad, "from horizontal, errors of the estimated pose included",
+    f("inlier_distance_m", inlier_distance_m,
+      "greatest distance of a point from its surface; higher tolerates more noise", above(0.0));
+    f("max_tilt_rad", max_tilt_rad,
+      "greatest tilt of a support surface from horizontal, errors of the estimated pose included",
       between(0.0, 0.8));
   }
   void check() const;  ///< min_height_m below max_height_m

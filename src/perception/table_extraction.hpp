@@ -28,19 +28,32 @@ struct TableOptions {
   int hypotheses = 200;
   double max_step_m = 0.03;
   void fields(auto&& f) {
-    f("min_height_m", min_height_m, "lowest table top; must be above the floor");
-    f("max_height_m", max_height_m, "highest table top");
-    f("max_tilt_rad", max_tilt_rad, "from horizontal; higher accepts sloping surfaces",
+    f("min_height_m", min_height_m,
+      "least height of a table top in the world frame; must be above the floor");
+    f("max_height_m", max_height_m, "greatest height of a table top in the world frame");
+    f("max_tilt_rad", max_tilt_rad,
+      "greatest tilt of a table top from horizontal; higher accepts sloping surfaces",
       between(0.0, 0.8));
-    f("inlier_distance_m", inlier_distance_m, "of a point from the plane; higher bears more noise",
+    f("inlier_distance_m", inlier_distance_m,
+      "greatest distance of a point from the plane that it belongs to; higher tolerates more noise",
       above(0.0));
     f("max_normal_angle_rad", max_normal_angle_rad,
-      "of a point's normal from vertical, where it has one", between(0.0, 1.6));
-    f("cell_m", cell_m, "points are thinned to this, so that counts are areas", above(0.0));
-    f("min_area_m2", min_area_m2, "of the plane's points; smaller planes are no table", above(0.0));
-    f("hypotheses", hypotheses, "random planes tried; higher is surer and slower",
+      "greatest angle between a point's normal, where it has one, and the vertical; higher keeps "
+      "more points",
+      between(0.0, 1.6));
+    f("cell_m", cell_m,
+      "voxel size that points are thinned to, so that their number is an area; higher is faster "
+      "and coarser",
+      above(0.0));
+    f("min_area_m2", min_area_m2,
+      "least area of the points on the plane; smaller planes are no table", above(0.0));
+    f("hypotheses", hypotheses,
+      "number of random planes that sample consensus tries; higher is surer and slower",
       between(1, 1000000));
-    f("max_step_m", max_step_m, "height difference of two views of one table", above(0.0));
+    f("max_step_m", max_step_m,
+      "greatest height difference between two views of one table; beyond it the new view of the "
+      "table is dropped",
+      above(0.0));
   }
   void check() const;  ///< min_height_m below max_height_m
 };
@@ -79,10 +92,15 @@ struct ObjectCropOptions {
   double max_height_m = 0.60;
   double hull_margin_m = 0.0;
   void fields(auto&& f) {
-    f("min_height_m", min_height_m, "above the plane; higher drops low objects and more noise",
+    f("min_height_m", min_height_m,
+      "least height above the table of points that are kept; higher drops low objects and more "
+      "noise",
       at_least(0.0));
-    f("max_height_m", max_height_m, "above the plane", above(0.0));
-    f("hull_margin_m", hull_margin_m, "grows the hull (negative shrinks it)", between(-0.5, 0.5));
+    f("max_height_m", max_height_m, "greatest height above the table of points that are kept",
+      above(0.0));
+    f("hull_margin_m", hull_margin_m,
+      "how far beyond the convex hull of the table top points are kept; negative shrinks the hull",
+      between(-0.5, 0.5));
   }
   void check() const;  ///< min_height_m below max_height_m
 };

@@ -40,23 +40,34 @@ struct ChangeOptions {
   double prior_object = 0.05;
   int empty_views = 2;
   void fields(auto&& f) {
-    f("recognition", recognition, "How features and views are chosen, and how many at most.");
+    f("recognition", recognition,
+      "how features and views are chosen, and how many views are taken at most");
     decision_fields(f);
   }
   /// All but how to look.
   void decision_fields(auto&& f) {
-    f("threshold", threshold, "tau: changed if P(u) is above; higher looks more often",
+    f("threshold", threshold,
+      "probability of a change above which the verdict is that something has changed (tau); higher "
+      "reports fewer changes",
       between(0.0, 1.0));
     f("unchanged_below", unchanged_below,
-      "P(u) at which it is sure that nothing has; lower looks more often, and finds changes that "
-      "few views show",
+      "probability of a change below which it is sure that nothing has changed; lower takes more "
+      "views and finds changes that few views show",
       between(0.0, 1.0));
     f("changed_above", changed_above,
-      "P(u) at which it is sure of a change; higher looks more often", between(0.0, 1.0));
-    f("prior_pose", prior_pose, "that it was turned; higher finds turns sooner, falsely more often",
+      "probability of a change above which it is sure of one; higher takes more views",
       between(0.0, 1.0));
-    f("prior_object", prior_object, "that it is another object; likewise", between(0.0, 1.0));
-    f("empty_views", empty_views, "without any feature, until it is held to be removed",
+    f("prior_pose", prior_pose,
+      "prior probability that the object was turned; higher finds turns sooner and reports more "
+      "that are none",
+      between(0.0, 1.0));
+    f("prior_object", prior_object,
+      "prior probability that it is another object; higher finds exchanges sooner and reports more "
+      "that are none",
+      between(0.0, 1.0));
+    f("empty_views", empty_views,
+      "number of views without any feature after which the object is held to be removed; higher is "
+      "surer and takes longer",
       between(1, 100));
   }
   /// The priors leave some for a change and some for none; unchanged_below <= threshold <=

@@ -24,30 +24,36 @@ struct ObservationOptions {
   bool observe_known = false;
   double min_gain_nats = 0.03;
   double apart_rad = 0.3;
-  double near_m = 1.3;
+  double near_m = 1.3;  ///< higher takes more images that a nearer one would have made needless
   double patience_s = 0.5;
   double left_after_s = 2.0;
   void fields(auto&& f) {
-    f("range_m", range_m, "camera to object; higher sees more and worse", Range{0.0, 20.0, true});
-    f("known_below_nats", known_below_nats, "entropy of the object below which it is known",
+    f("range_m", range_m,
+      "greatest distance from camera to object of an observation; higher takes more and worse ones",
+      Range{0.0, 20.0, true});
+    f("known_below_nats", known_below_nats,
+      "entropy of what the object is, below which it is known; higher is satisfied sooner",
       at_least(0.0));
-    f("observe_known", observe_known, "go on observing what is known");
+    f("observe_known", observe_known, "true: objects that are known are observed further");
     f("min_gain_nats", min_gain_nats,
-      "Expected information about the object from that direction; higher observes less. 0: every "
-      "direction counts.",
+      "least expected information about the object that is worth an observation; higher observes "
+      "less; 0: every direction counts",
       at_least(0.0));
     f("apart_rad", apart_rad,
-      "Between the bearings of an object's observations; lower takes two from hardly another side.",
+      "least angle between the bearings of an object's observations; lower takes several from "
+      "nearly the same side",
       between(0.0, 3.0));
     f("near_m", near_m,
-      "An image from nearer than that is taken once none was nearer for `patience_s`, or the "
-      "direction was left. Higher takes more images that a nearer one would have made needless.",
+      "distance within which an image is taken once no nearer one comes for `patience_s` or its "
+      "direction is left; higher takes more images",
       at_least(0.0));
-    f("patience_s", patience_s, "higher waits for better images; 0 takes the first",
+    f("patience_s", patience_s,
+      "how long a nearer image of the same direction is waited for; higher waits for better ones; "
+      "0: takes the first",
       between(0.0, 100.0));
     f("left_after_s", left_after_s,
-      "Those from farther off are taken when the object was not in view for so long, the nearest "
-      "first, as long as it is not known.",
+      "time out of view after which images from beyond `near_m` are taken of an object that is not "
+      "known, the nearest first",
       between(0.0, 100.0));
   }
 };

@@ -37,8 +37,9 @@ struct RecogniserOptions {
   VarianceEstimate variance = ShrunkVariance{};
   std::vector<std::string> features;
   void fields(auto&& f) {
-    f("variance", variance, "@@");
-    f("features", features, "names to use of those in the model; empty: all");
+    f("variance", variance,
+      "how the variances of the observation model are estimated from the training views");
+    f("features", features, "names of the model's features that are used; empty: all");
   }
 };
 

@@ -27,12 +27,15 @@ struct RecognitionOptions {
   TransitionModel transition = RigidTransition{};
   int max_views = 8;
   void fields(auto&& f) {
-    f("features", features, "@@");
-    f("all_features", all_features, "extract every feature instead of choosing");
-    f("views", views, "@@");
-    f("enough", enough, "@@");
-    f("transition", transition, "@@");
-    f("max_views", max_views, "after so many it stops, sure or not, >= 1", between(1, 1000));
+    f("features", features, "which features are extracted from a view, and when that is enough");
+    f("all_features", all_features,
+      "true: every feature is extracted from a view instead of choosing");
+    f("views", views, "which view is taken next");
+    f("enough", enough, "stopping criterion: when no further view is taken");
+    f("transition", transition, "how the belief changes when the camera moves round the object");
+    f("max_views", max_views,
+      "greatest number of views, after which recognition ends whether sure or not",
+      between(1, 1000));
   }
 };
 

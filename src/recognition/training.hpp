@@ -20,21 +20,27 @@ struct TrainingOptions {
   HeldOut held_out = HeldOutShare{};
   VarianceEstimate variance = ShrunkVariance{};
   PsiRule psi = CalibratedPsi{};
+  /// The transition is learnt from walks round the training views.
   double transition_prior_moves = 100.0;
   void fields(auto&& f) {
-    f("seed", seed, "of every random stream");
-    f("features", features, "@@");
-    f("videos", videos, "to train on: 1, 2, 4 are 30, 45, 60 deg", between(1, 4));
-    f("bins", bins, "of yaw, an object; more tell poses better, with fewer views",
+    f("seed", seed, "seed of every random stream; the same seed gives the same model");
+    f("features", features, "features to learn, each a name or a name with options");
+    f("videos", videos,
+      "videos of the dataset to train on: 1, 2 and 4 are recorded from 30, 45 and 60 deg of "
+      "elevation",
+      between(1, 4));
+    f("bins", bins,
+      "number of yaw bins of an object; more tell poses apart better, with fewer views each",
       between(2, 3600));
-    f("feature_views", feature_views, "drawn at random, that features learn from; higher is slower",
+    f("feature_views", feature_views,
+      "number of views, drawn at random, that features are learnt from; higher is slower",
       at_least(2));
-    f("held_out", held_out, "@@");
-    f("variance", variance, "that psi is calibrated for");
-    f("psi", psi, "@@");
+    f("held_out", held_out, "which views are held out of training to calibrate psi");
+    f("variance", variance, "estimate of the variances that psi is calibrated for");
+    f("psi", psi, "rule for psi, the exponent that says how far a feature's density is trusted");
     f("transition_prior_moves", transition_prior_moves,
-      "Moves that the start, `rigid`, is worth to a transition learnt from walks round the "
-      "training views; higher learns slower, 0: none is learnt.",
+      "number of moves that the initial transition, `rigid`, is worth when one is learnt in "
+      "training; higher learns more slowly; 0: none is learnt",
       at_least(0.0));
   }
   void check() const;  ///< features and videos: some, of different names and numbers

@@ -20,14 +20,19 @@ struct RobotOptions {
   std::string start_site;
   std::array<double, 3> start_pose{0.0, 0.0, 0.0};
   void fields(auto&& f) {
-    f("model", model, "folder with an MJCF file and robot.yaml");
-    f("start_view", start_view, "table top: position on the ring of views where the robot starts",
+    f("model", model,
+      "folder of the robot, with an MJCF file and `robot.yaml`; or another MJCF file in such a "
+      "folder");
+    f("start_view", start_view,
+      "table top: index of the position on the ring of candidate views where the robot starts",
       at_least(0));
-    f("start_behind_m", start_behind_m,
-      "table top: how far behind that position, seen from the table", between(0.0, 100.0));
+    f("start_behind_m", start_behind_m, "table top: how far outside that ring the robot starts",
+      between(0.0, 100.0));
     f("start_site", start_site,
-      "exploration: site of the scene where it starts; empty: start_pose");
-    f("start_pose", start_pose, "exploration: x m, y m, yaw rad, world");
+      "exploration: site of the scene where the robot starts; empty: at `start_pose`");
+    f("start_pose", start_pose,
+      "exploration: x (m), y (m) and yaw (rad) in the world frame where the robot starts, unless "
+      "`start_site` is set");
   }
 };
 
@@ -39,12 +44,13 @@ struct EpisodeOptions {
   WorldOptions simulation;
   RecordingOptions recording;
   void fields(auto&& f) {
-    f("scene", scene, "MJCF");
-    f("seed", seed, "of every random stream");
-    f("threads", threads, "results do not depend on it", between(1, 256));
-    f("robot", robot, "@@");
-    f("simulation", simulation, "@@");
-    f("recording", recording, "@@");
+    f("scene", scene, "MJCF file of the scene, which the robot is added to");
+    f("seed", seed, "seed of every random stream; the same seed gives the same episode");
+    f("threads", threads, "worker threads; more are faster, results do not depend on them",
+      between(1, 256));
+    f("robot", robot, "the robot and where it starts");
+    f("simulation", simulation, "physics step and control period of the simulation");
+    f("recording", recording, "speed, frame rate and size of the video");
   }
 };
 

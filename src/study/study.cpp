@@ -179,11 +179,13 @@ PlannedEpisode planned(const Study& study, ConfigNode root,
                        const std::vector<std::size_t>& levels) {
   PlannedEpisode episode;
   episode.levels = levels;
+  Overrides overrides = study.set;
   for (std::size_t f = 0; f < levels.size(); ++f) {
     const Level& level = study.factors[f].levels[levels[f]];
     episode.name += (f == 0 ? "" : "/") + level.name;
-    for (const auto& [key, value] : level.overrides) set_value(root, key, value);
+    overrides.insert(overrides.end(), level.overrides.begin(), level.overrides.end());
   }
+  set_values(root, std::move(overrides));
   episode.resolved = resolve_episode(root, study.episode);
   return episode;
 }
@@ -242,10 +244,27 @@ Study read_study(const fs::path& file, const std::vector<std::string>& overrides
   return study;
 }
 
+std::vector<KeyDescription> study_keys() {
+  const auto key = [](const char* name, const char* type, const char* text) {
+    return KeyDescription{.key = name, .type = type, .text = text};
+  };
+  std::vector<KeyDescription> keys{
+      key("title", "text", "of the study's report; default: the name of its file"),
+      key("episode", "text", "file of the episode that every episode of the study begins with"),
+      key("set", "section", "overrides of it, keys as those of --set"),
+      key("factors", "section",
+          "name of a factor: name of a level: overrides; the study is the product of all levels, "
+          "the last factor changes fastest"),
+      key("report", "section", "what is made of the results")};
+  keys[2].section = keys[3].section = keys[4].section = true;
+  StudyReport report;
+  report.fields(FieldDescriber(keys, "report."));
+  return keys;
+}
+
 std::vector<PlannedEpisode> plan_study(const Study& study) {
   const std::size_t count = episode_count(study);
-  ConfigNode base = read_yaml(study.episode);
-  for (const auto& [key, value] : study.set) set_value(base, key, value);
+  const ConfigNode base = read_yaml(study.episode);
   std::vector<PlannedEpisode> plan;
   std::vector<std::string> problems;
   for (std::size_t number = 0; number < count; ++number) {

@@ -17,7 +17,8 @@
 #include <vector>
 
 #include "vantage/core/config_node.hpp"
-#include "vantage/core/fields.hpp"
+#include "vantage/core/schema.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/validate.hpp"
 
@@ -32,17 +33,21 @@ struct StudyReport {
   std::vector<std::string> tables;
   std::string predictors_along;
   void fields(auto&& f) {
-    f("compare", compare, "factor whose levels are compared, paired over all others");
-    f("reference", reference, "level the others are held against; empty: the first");
-    f("panels", panels, "factor with a panel for each level; empty: one panel");
-    f("curves", curves, "against scans, names of kCurves");
-    f("tables", tables, "names of kScalars");
+    f("compare", compare,
+      "factor whose levels are compared with each other, paired over all other factors");
+    f("reference", reference,
+      "level of `compare` that the others are held against; empty: the first");
+    f("panels", panels, "factor with a panel of each figure for every level; empty: one panel");
+    f("curves", curves,
+      "names of the measures drawn as curves over the steps of an episode; empty: none");
+    f("tables", tables, "names of the measures in the tables, one number per episode; empty: none");
     f("predictors_along", predictors_along,
-      "level along which all predictors are compared; empty: none");
+      "level of `compare` along whose episodes the predictions of all gains are compared; empty: "
+      "not compared");
   }
 };
 
-using Overrides = std::vector<std::pair<std::string, ConfigNode>>;
+using Overrides = std::vector<KeyValue>;
 
 struct Level {
   std::string name;
@@ -76,6 +81,9 @@ struct PlannedEpisode {
   std::vector<std::size_t> levels;  ///< index of the level of each factor
   ResolvedEpisode resolved;
 };
+
+/// The keys of a study's file.
+std::vector<KeyDescription> study_keys();
 
 /// Every episode, in the fixed order of the product.
 /// @throws ConfigError with every problem of every level.

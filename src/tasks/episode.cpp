@@ -54,7 +54,7 @@ ResolvedEpisode load_episode(const std::filesystem::path& path,
   if (root.kind == ConfigNode::Kind::null) {
     throw ConfigError(path.string() + ": empty; an episode sets at least one key, as scans: 10");
   }
-  for (const auto& assignment : overrides) apply_override(root, assignment);
+  apply_overrides(root, overrides);
   return resolve_episode(root, path);
 }
 
@@ -106,6 +106,23 @@ ConfigNode episode_node(const ResolvedEpisode& resolved) {
 
 std::string episode_yaml(const ResolvedEpisode& resolved) {
   return to_yaml(episode_node(resolved));
+}
+
+std::vector<KeyDescription> describe_episode(const Task& task) {
+  std::vector<KeyDescription> keys{
+      {.key = "task",
+       .type = detail::choice_type(strategy_names<Task>()),
+       .default_value = std::string(Tabletop::name),
+       .text = "what the episode is about, which decides what other keys there are"}};
+  EpisodeOptions options;
+  options.fields(FieldDescriber(keys));
+  std::visit([&](auto made) { made.fields(FieldDescriber(keys)); },
+             make_strategy<Task>(strategy_name_of(task)));
+  return keys;
+}
+
+std::string commented_episode_yaml(const ResolvedEpisode& resolved) {
+  return commented_yaml(episode_node(resolved), describe_episode(resolved.task));
 }
 
 std::string method_name(const Task& task) {

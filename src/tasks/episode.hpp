@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/core/config_node.hpp"
+#include "vantage/core/schema.hpp"
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/tasks/task.hpp"
 
@@ -37,6 +38,10 @@ void read_episode(const ConfigNode& root, EpisodeOptions& options, Task& task);
 /// Every key with its value, defaults included; `task` first.
 ConfigNode episode_node(const ResolvedEpisode& resolved);
 std::string episode_yaml(const ResolvedEpisode& resolved);
+/// The same with what every key means in comments.
+std::string commented_episode_yaml(const ResolvedEpisode& resolved);
+/// Every key that an episode of this task has, with its default.
+std::vector<KeyDescription> describe_episode(const Task& task);
 
 std::string method_name(const Task& task);
 /// What the world of the episode is compiled from. @throws InputError, ConfigError

@@ -14,8 +14,8 @@ struct Inner {
   double low = 1.0;
   double high = 2.0;
   void fields(auto&& f) {
-    f("low", low, "@@");
-    f("high", high, "@@");
+    f("low", low, "lower end");
+    f("high", high, "upper end");
   }
   void check() const {
     if (low >= high) throw ConfigError("low must be below high");
@@ -35,16 +35,16 @@ struct Options {
   Inner inner;
   std::vector<Inner> more;
   void fields(auto&& f) {
-    f("radius_m", radius_m, "@@", above(0.0));
-    f("cells", cells, "@@", between(1, 100));
-    f("seed", seed, "@@");
-    f("video", video, "@@");
-    f("scene", scene, "@@");
-    f("size_m", size_m, "@@", at_least(0.0));
-    f("ids", ids, "@@", at_least(0.0));
-    f("limit", limit, "@@", at_least(10.0));
-    f("inner", inner, "@@");
-    f("more", more, "@@");
+    f("radius_m", radius_m, "radius of a disc", above(0.0));
+    f("cells", cells, "number of cells", between(1, 100));
+    f("seed", seed, "seed of the random stream");
+    f("video", video, "true: records a video");
+    f("scene", scene, "file of the scene");
+    f("size_m", size_m, "edge lengths", at_least(0.0));
+    f("ids", ids, "some numbers", at_least(0.0));
+    f("limit", limit, "a limit; null: none", at_least(10.0));
+    f("inner", inner, "a section");
+    f("more", more, "a list of sections");
   }
   bool operator==(const Options&) const = default;
 };

@@ -1,5 +1,8 @@
-// apply_override: --set key=value on top of a file.
+// apply_overrides: --set key=value on top of a file.
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/yaml.hpp"
@@ -9,7 +12,7 @@ namespace {
 
 ConfigNode overridden(const std::string& yaml, const std::string& assignment) {
   ConfigNode root = parse_yaml(yaml, "e.yaml");
-  apply_override(root, assignment);
+  apply_overrides(root, {assignment});
   return root;
 }
 
@@ -50,11 +53,26 @@ TEST(Override, IsNamedInErrors) {
   EXPECT_EQ(value.items[1].find("c")->where(), "--set: a.b[1].c");
 }
 
-TEST(Override, LaterOnesWin) {
+TEST(Override, TheirOrderDoesNotMatter) {
+  std::vector<std::string> assignments{"gain=beer_lambert", "gain.a=0.9", "choice.x=1", "b.c.d=3",
+                                       "b={e: 4}"};
+  std::ranges::sort(assignments);
+  std::set<std::string> results;
+  do {
+    ConfigNode root = parse_yaml("b: 0\nchoice: greedy\ngain: {name: fsmi, d: 1}\n", "e.yaml");
+    apply_overrides(root, assignments);
+    results.insert(to_yaml(root));
+  } while (std::ranges::next_permutation(assignments).found);
+  EXPECT_EQ(results, std::set<std::string>{"b:\n  e: 4\n  c:\n    d: 3\n"
+                                           "choice:\n  name: greedy\n  x: 1\n"
+                                           "gain:\n  name: beer_lambert\n  a: 0.9\n"});
+}
+
+TEST(Override, AKeyHasOneValue) {
   ConfigNode root;
-  apply_override(root, "a=1");
-  apply_override(root, "a=2");
-  EXPECT_EQ(to_yaml(root), "a: 2\n");
+  apply_overrides(root, {"a=1", "a=1"});
+  EXPECT_EQ(to_yaml(root), "a: 1\n");
+  EXPECT_THROW(apply_overrides(root, {"a=1", "a=2"}), ConfigError);
 }
 
 TEST(Override, RefusesWhatIsNoAssignment) {
@@ -73,7 +91,7 @@ TEST(Override, DoesNotHideAFileThatIsNoMap) {
 TEST(Override, AValueFromAnotherFileKeepsItsPlaceThere) {
   ConfigNode root = parse_yaml("a: 1\n", "e.yaml");
   const ConfigNode study = parse_yaml("x:\n  b.c:\n    d: [1]\n", "s.yaml");
-  set_value(root, "b.c", *study.find("x")->find("b.c"));
+  set_values(root, {{"b.c", *study.find("x")->find("b.c")}});
   const ConfigNode& value = *root.find("b")->find("c");
   EXPECT_EQ(value.where(), "s.yaml:2: b.c");
   EXPECT_EQ(value.find("d")->where(), "s.yaml:3: b.c.d");

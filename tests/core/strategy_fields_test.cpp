@@ -17,8 +17,8 @@ struct Adaptive {
   double prior = 0.1;
   double least = 0.0;
   void fields(auto&& f) {
-    f("prior", prior, "@@", between(0.0, 1.0));
-    f("least", least, "@@");
+    f("prior", prior, "prior probability", between(0.0, 1.0));
+    f("least", least, "least number");
   }
   void check() const {
     if (least > prior) throw ConfigError("least must not be above prior");
@@ -38,8 +38,8 @@ struct Planner {
   Gain gain = Adaptive{.prior = 0.7};
   std::vector<Gain> also;
   void fields(auto&& f) {
-    f("gain", gain, "@@");
-    f("also", also, "@@");
+    f("gain", gain, "what a view is worth");
+    f("also", also, "more gains");
   }
   bool operator==(const Planner&) const = default;
 };
@@ -106,7 +106,7 @@ TEST(StrategyFields, TheStrategysOwnCheckRuns) {
 
 TEST(StrategyFields, ACheckNamesTheOverrideItIsAbout) {
   ConfigNode root = parse_yaml("gain: {name: adaptive, prior: 0.3}\n", "e.yaml");
-  apply_override(root, "gain.least=0.5");
+  apply_overrides(root, {"gain.least=0.5"});
   Planner planner;
   try {
     read_into(root, planner);
@@ -118,7 +118,7 @@ TEST(StrategyFields, ACheckNamesTheOverrideItIsAbout) {
 
 TEST(StrategyFields, OverrideOnTopOfAName) {
   ConfigNode root = parse_yaml("gain: adaptive\n", "e.yaml");
-  apply_override(root, "gain.prior=0.4");
+  apply_overrides(root, {"gain.prior=0.4"});
   Planner planner;
   read_into(root, planner);
   EXPECT_EQ(planner.gain, Gain(Adaptive{.prior = 0.4}));

@@ -108,7 +108,7 @@ const std::vector<Renamed> kRenamed = {
 /// "a: {b: {c: 1}}" of "a.b.c".
 std::string yaml_of(const std::string& path) {
   ConfigNode root = ConfigNode::make_map();
-  apply_override(root, path + "=1");
+  apply_overrides(root, {path + "=1"});
   return to_yaml(root);
 }
 

@@ -22,10 +22,10 @@ struct OfficeOptions {
   bool large = false;
   int clutter = 1;
   void fields(auto&& f) {
-    f("name", name, "@@");
-    f("seed", seed, "of the choice and the places; walls are fixed");
-    f("large", large, "20 x 25 m instead of 15 x 10 m");
-    f("clutter", clutter, "a level has everything of the levels below it and more",
+    f("name", name, "name of the scene");
+    f("seed", seed, "seed of which furniture stands where; the walls are fixed");
+    f("large", large, "true: the floor plan of 20 x 25 m; false: that of 15 x 10 m");
+    f("clutter", clutter, "level of clutter; each level has everything of those below it and more",
       between(1, kClutterLevels));
   }
 };

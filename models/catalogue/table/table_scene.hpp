@@ -32,12 +32,13 @@ struct TableSceneOptions {
   double clearance_m = 0.012;
   std::vector<Furniture> furniture;
   void fields(auto&& f) {
-    f("name", name, "@@");
-    f("seed", seed, "of the objects' shapes, the choice and the places");
-    f("objects", objects, "stacked ones included; more clutter the table", between(0, 30));
-    f("stacks", stacks, "objects that stand on another one", between(0, 10));
-    f("clearance_m", clearance_m, "least gap between footprints; higher spreads things out",
-      between(0.0, 0.2));
+    f("name", name, "name of the scene");
+    f("seed", seed, "seed of the objects' shapes, choice and places");
+    f("objects", objects, "number of objects on the table, stacked ones included; more clutter it",
+      between(0, 30));
+    f("stacks", stacks, "number of objects that stand on another one", between(0, 10));
+    f("clearance_m", clearance_m,
+      "least gap between the footprints of objects; higher spreads them out", between(0.0, 0.2));
   }
 };
 

@@ -13,6 +13,13 @@ namespace vantage {
 /// each other stays that of R^-1, so that paths are smooth.  [Kobilarov2012]
 struct Cem {
   static constexpr std::string_view name = "cem";
+  static constexpr StrategyText text{
+      .summary =
+          "Cross-entropy method: tries noisy paths and fits mean and deviation of each waypoint to "
+          "the best of them. Needs no gradient; looks farther afield at first.",
+      .formula =
+          "m <- m + l (mean of the elite - m), sigma <- sigma + l (deviation of the elite - sigma)",
+      .source = "Kobilarov2012"};
   int rollouts = 20;
   int iterations = 50;
   int elites = 5;
@@ -22,17 +29,30 @@ struct Cem {
   /// the elite does not span is lost.
   PathNoise noise{.sigma_m = {1.0, 1.0, 0.4}, .sigma_yaw_rad = 1.0};
   void fields(auto&& f) {
-    f("rollouts", rollouts, "paths tried an iteration, the noise-free one among them",
+    f("rollouts", rollouts,
+      "paths tried per iteration, the noise-free one among them; higher explores more and takes "
+      "longer",
       between(2, 10'000));
-    f("iterations", iterations, "higher takes longer and settles better", between(1, 100'000));
-    f("elites", elites, "paths that are followed, at most `rollouts`; higher settles later",
+    f("iterations", iterations, "number of iterations; higher settles better and takes longer",
+      between(1, 100'000));
+    f("elites", elites,
+      "number of the best paths that mean and deviation are fitted to, at most `rollouts`; higher "
+      "settles later",
       between(2, 10'000));
-    f("learning", learning, "share of the elite in the next mean and deviation, (0, 1]",
+    f("learning", learning,
+      "share of the elite in the next mean and deviation; higher settles sooner",
       Range{0.0, 1.0, true});
-    f("min_sigma", min_sigma, "of a point, as share of the first one's; higher never settles",
+    f("min_sigma", min_sigma,
+      "least standard deviation of a point, as a share of its first one; higher goes on searching",
       between(0.0, 1.0));
-    f("sigma_m", noise.sigma_m, "@@", at_least(0.0));
-    f("sigma_yaw_rad", noise.sigma_yaw_rad, "@@", at_least(0.0));
+    f("sigma_m", noise.sigma_m,
+      "first standard deviation of the noise along x, y and z, at the point that moves most; "
+      "higher searches farther afield",
+      at_least(0.0));
+    f("sigma_yaw_rad", noise.sigma_yaw_rad,
+      "first standard deviation of the noise in yaw, at the point that moves most; higher tries "
+      "other headings",
+      at_least(0.0));
   }
   void check() const;  ///< elites are rollouts
   OptimisedHorizon operator()(const Horizon& horizon, const PathCost& cost, Rng& rng) const;

@@ -20,19 +20,29 @@ struct ClutterHazardOptions {
   double prior_hazard = 0.005;
   double prior_weight = 300.0;
   void fields(auto&& f) {
-    f("layers", layers, "height bands with a rate of their own", between(1, 4096));
-    f("prior_crossings", prior_crossings,
-      "pull of a layer towards the global rate; higher: less detail", at_least(0.0));
-    f("block_cells", block_cells, "side of the blocks of a layer that have rates of their own",
+    f("layers", layers,
+      "number of height layers with a hazard of their own; more tell heights apart",
       between(1, 4096));
-    f("reach_cells", reach_cells, "standard deviation of what a block hears of; higher: smoother",
+    f("prior_crossings", prior_crossings,
+      "number of crossings that the global hazard is worth to a layer; higher gives layers less "
+      "detail",
+      at_least(0.0));
+    f("block_cells", block_cells,
+      "edge of the blocks of a layer that have a hazard of their own; lower tells places apart",
+      between(1, 4096));
+    f("reach_cells", reach_cells,
+      "standard deviation of the neighbourhood that a block learns from; higher is smoother",
       between(0.0, 4096.0));
-    f("block_crossings", block_crossings, "pull of a block towards its layer; higher: less detail",
+    f("block_crossings", block_crossings,
+      "number of crossings that the layer's hazard is worth to a block; higher gives blocks less "
+      "detail",
       above(0.0));
-    f("prior_hazard", prior_hazard, "mean of the Beta prior on the global rate, per cell",
+    f("prior_hazard", prior_hazard,
+      "prior mean of the probability, per cell, that an unobserved cell stops a beam; higher sees "
+      "less deep at first",
       between(1e-6, 0.999));
-    f("prior_weight", prior_weight, "crossings the prior is worth; higher: slower to learn",
-      above(0.0));
+    f("prior_weight", prior_weight,
+      "number of crossings that the prior is worth; higher learns more slowly", above(0.0));
   }
 };
 

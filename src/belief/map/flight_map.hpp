@@ -20,12 +20,20 @@ struct FlightMapOptions {
   double rise_m = 0.3;
   FreeSpaceUpdate free_space = {};
   void fields(auto&& f) {
-    f("cell_m", cell_m, "lower resolves more, costs its inverse cube", Range{0.01, 1.0});
-    f("columns", columns, "of the image that are used; higher is slower", between(8, 4096));
-    f("noise_m", noise_m, "of a point, standard deviation; depth and estimated pose", above(0.0));
-    f("rise_m", rise_m, "height of a wall that is taken to go on beyond what was seen of it",
+    f("cell_m", cell_m,
+      "edge of a cell; lower resolves finer, at the inverse cube of it in time and memory",
+      Range{0.01, 1.0});
+    f("columns", columns, "number of image columns that are used; higher maps finer and is slower",
+      between(8, 4096));
+    f("noise_m", noise_m,
+      "standard deviation of a point by errors of depth and estimated pose; higher weights a hit "
+      "at a cell's edge more like one in its middle",
+      above(0.0));
+    f("rise_m", rise_m,
+      "observed height from which a surface is taken to go on above what was seen of it, as walls "
+      "do; higher extends fewer",
       at_least(0.0));
-    f("free_space", free_space, "@@");
+    f("free_space", free_space, "how cells that the camera saw through are updated towards free");
   }
 };
 

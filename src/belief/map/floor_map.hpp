@@ -22,14 +22,18 @@ struct FloorMapOptions {
   double log_odds_limit = 3.0;
   void fields(auto&& f) {
     f("cell_m", cell_m, "edge of a cell; higher is faster and coarser", above(0.0));
-    f("half_size_m", half_size_m, "the map is a square of twice this edge round the world's origin",
+    f("half_size_m", half_size_m,
+      "half of the edge of the map, a square centred on the world's origin; higher covers more "
+      "floor and is slower",
       above(0.0));
-    f("log_odds_hit", log_odds_hit, "a return in the cell; higher trusts a single return more",
-      above(0.0));
-    f("log_odds_miss", log_odds_miss, "a beam through the cell; higher forgets obstacles faster",
+    f("log_odds_hit", log_odds_hit,
+      "log odds that a return adds to a cell; higher trusts a single return more", above(0.0));
+    f("log_odds_miss", log_odds_miss,
+      "log odds that a passing beam takes from a cell; higher forgets obstacles faster",
       above(0.0));
     f("log_odds_limit", log_odds_limit,
-      "of the sum, either way; higher needs longer to change its mind", above(0.0));
+      "greatest magnitude of a cell's log odds; higher takes longer to change its mind",
+      above(0.0));
   }
   /// One hit or miss must be able to decide a cell's state; at most 2^26 cells.
   void check() const;

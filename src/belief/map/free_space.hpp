@@ -13,8 +13,8 @@ struct FreeSpaceUpdate {
   double p_free_given_pass = 0.7;
   void fields(auto&& f) {
     f("p_free_given_pass", p_free_given_pass,
-      "1 - p(o | a beam passed). From 0.7 on, one pass frees any unobserved cell; higher needs "
-      "more hits to undo.",
+      "probability that a cell is free where a beam has passed; one pass frees any unobserved "
+      "cell, higher needs more hits to undo",
       between(0.7, 0.999));
   }
 };

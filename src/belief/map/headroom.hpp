@@ -16,9 +16,12 @@ struct HeadroomOptions {
   double seen_low_m = 0.3;
   double max_unseen = 0.25;
   void fields(auto&& f) {
-    f("low_m", low_m, "world z; occupied cells that begin lower are floor");
-    f("high_m", high_m, "world z; cells that begin higher are above the robot");
-    f("seen_low_m", seen_low_m, "world z; from here up to high_m a column must have been seen");
+    f("low_m", low_m,
+      "world z from which occupied cells are obstacles; those that begin lower are floor");
+    f("high_m", high_m, "world z from which cells are above the robot and do not matter");
+    f("seen_low_m", seen_low_m,
+      "world z from which, up to `high_m`, the cells above a place must have been observed for the "
+      "robot to drive there");
     f("max_unseen", max_unseen, "share of those cells that may be unobserved; higher dares more",
       between(0.0, 1.0));
   }

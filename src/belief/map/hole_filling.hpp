@@ -21,12 +21,15 @@ struct HoleFilling {
   int max_passes = 100;
   double p_occupied_filled = 0.7;
   void fields(auto&& f) {
-    f("data_weight", data_weight, "alpha; higher keeps more cells as observed", at_least(0.0));
-    f("smoothness_weight", smoothness_weight, "beta; higher fills more", at_least(0.0));
-    f("max_passes", max_passes, "bound on the work; reached only by pathological grids",
-      at_least(1));
+    f("data_weight", data_weight,
+      "weight of agreement with what was observed (alpha); higher keeps more cells as observed",
+      at_least(0.0));
+    f("smoothness_weight", smoothness_weight,
+      "weight of agreement with neighbouring cells (beta); higher fills more", at_least(0.0));
+    f("max_passes", max_passes,
+      "greatest number of passes over the grid, which only pathological grids reach", at_least(1));
     f("p_occupied_filled", p_occupied_filled,
-      "p(o) of a filled cell; higher is harder to carve away", between(0.61, 0.999));
+      "p(occupied) of a filled cell; higher makes it harder to carve away", between(0.61, 0.999));
   }
 };
 

@@ -23,13 +23,20 @@ struct InverseSensorModel {
   double spread_sigmas = 2.0;
   double max_abs_log_odds = 5.0;
   void fields(auto&& f) {
-    f("sigma_m", sigma_m, "range noise, standard deviation; higher spreads evidence", above(0.0));
-    f("p_occupied_peak", p_occupied_peak, "p(m|z) at the point; below 0.75 one hit may not suffice",
+    f("sigma_m", sigma_m, "standard deviation of the range noise; higher spreads evidence farther",
+      above(0.0));
+    f("p_occupied_peak", p_occupied_peak,
+      "p(occupied) at the measured point; higher trusts a hit more, and below 0.75 one hit may not "
+      "suffice",
       between(0.55, 0.999));
-    f("spread_sigmas", spread_sigmas, "evidence ends there; higher reaches more neighbours",
+    f("spread_sigmas", spread_sigmas,
+      "number of standard deviations at which evidence ends; higher reaches more neighbouring "
+      "cells",
       between(0.0, 4.0));
     f("max_abs_log_odds", max_abs_log_odds,
-      "clamp; higher needs more evidence to change a cell's state", at_least(0.5));
+      "greatest magnitude of a cell's log odds; higher needs more evidence to change a cell's "
+      "state",
+      at_least(0.5));
   }
 };
 

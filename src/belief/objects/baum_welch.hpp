@@ -51,10 +51,15 @@ struct BaumWelchOptions {
   double tolerance = 1e-6;
   void fields(auto&& f) {
     f("prior_moves", prior_moves,
-      "moves that the start is worth; higher: nearer to it, 0: likelihood", at_least(0.0));
-    f("max_iterations", max_iterations, "passes over all sequences; higher converges further",
-      between(1, 10000));
-    f("tolerance", tolerance, "nats a sequence; higher stops earlier", above(0.0));
+      "number of moves that the initial transition is worth; higher stays nearer to it; 0: maximum "
+      "likelihood",
+      at_least(0.0));
+    f("max_iterations", max_iterations,
+      "greatest number of passes over all sequences; higher converges further", between(1, 10000));
+    f("tolerance", tolerance,
+      "growth of the log likelihood per sequence, in nats, below which learning ends; higher ends "
+      "earlier",
+      above(0.0));
   }
 };
 

@@ -36,16 +36,26 @@ void add_view(GaussianStatistics& statistics, int state,
 /// Adds the views of `other`, which has the same dimensions and states.  [ChanGolubLeVeque1983]
 void merge(GaussianStatistics& statistics, const GaussianStatistics& other);
 
-/// Drawn towards what the states have in common: (nu0 s_pool^2 + d) / (nu0 + n - 1), where n is the
-/// state's number of views, d its squared deviation and s_pool^2 the variance within states, over
-/// all of them. The mean of a scaled inverse chi-squared posterior, nearly.  [Gelman2013, 3.2]
+/// s_pool^2 is the variance within states, over all of them. The mean of a scaled inverse
+/// chi-squared posterior, nearly.  [Gelman2013, 3.2]
 struct ShrunkVariance {
   static constexpr std::string_view name = "shrunk";
+  static constexpr StrategyText text{
+      .summary =
+          "Variances of a state, drawn towards what all states have in common: for states with few "
+          "views.",
+      .formula = "(nu0 s_pool^2 + d) / (nu0 + n - 1), d the sum of squared deviations of n views",
+      .source = "Gelman2013, 3.2"};
   double nu0 = 5.0;
   double floor = 0.01;
   void fields(auto&& f) {
-    f("nu0", nu0, "views the pooled variance is worth; higher: states differ less", above(0.0));
-    f("floor", floor, "least variance, of the mean s_pool^2 of all dimensions; higher: flatter",
+    f("nu0", nu0,
+      "number of views that the pooled variance is worth; higher makes the variances of states "
+      "more alike",
+      above(0.0));
+    f("floor", floor,
+      "least variance, as a share of the mean pooled variance of all dimensions; higher flattens "
+      "the densities",
       above(0.0));
   }
   /// @param count >= 1
@@ -53,13 +63,21 @@ struct ShrunkVariance {
                                           const Eigen::ArrayXd& pooled) const;
 };
 
-/// Maximum likelihood, d / n, as printed; s_pool^2 for a state of a single view, which has none.
-/// [Potthast2016, 4.1.3]
+/// s_pool^2 for a state of a single view, which has none.  [Potthast2016, 4.1.3]
 struct LiteralVariance {
   static constexpr std::string_view name = "literal";
+  static constexpr StrategyText text{
+      .summary =
+          "Maximum-likelihood variances of each state by itself, as the dissertation has them. "
+          "Overfits states with few views.",
+      .formula = "d / n, d the sum of squared deviations of n views",
+      .source = "Potthast2016, 4.1.3"};
   double floor = 0.01;
   void fields(auto&& f) {
-    f("floor", floor, "as in ShrunkVariance: bins that no view fills have none", above(0.0));
+    f("floor", floor,
+      "least variance, as a share of the mean pooled variance of all dimensions, for bins that no "
+      "view fills; higher flattens the densities",
+      above(0.0));
   }
   /// @param count >= 1
   [[nodiscard]] Eigen::ArrayXd operator()(int count, const Eigen::ArrayXd& squared_deviation,

@@ -18,11 +18,16 @@ struct ObjectTrackerOptions {
   int min_detections = 3;
   void fields(auto&& f) {
     f("gate_m", gate_m,
-      "Detections nearer than that to an object, level, are of it; higher joins neighbours.",
+      "horizontal distance from an object within which a detection is associated to it; higher "
+      "joins neighbours",
       Range{0.0, 2.0, true});
-    f("partial_weight", partial_weight, "of a detection cut by the frame, in the mean; whole is 1",
+    f("partial_weight", partial_weight,
+      "weight of a detection that does not show the whole object, relative to one that does, in "
+      "the object's mean place and size",
       Range{0.0, 1.0, true});
-    f("min_detections", min_detections, "fewer may have been noise", at_least(1));
+    f("min_detections", min_detections,
+      "number of detections that confirm an object; higher drops more noise and confirms later",
+      at_least(1));
   }
 };
 

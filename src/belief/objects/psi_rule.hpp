@@ -32,52 +32,61 @@ struct PsiContext {
   const HeldOutViews& held_out;              ///< features in the same order
 };
 
-/// Each feature alone such that what the held-out views show is as likely as can be, then all of
-/// them times one temperature, for what the features repeat of each other.
-///
-/// About states, the likelihood is that of a logistic regression, concave in every psi. About
-/// objects it is not, but its derivative falls from above zero to below, and where that happens is
-/// the answer.
+/// The temperature is for what the features repeat of each other. About states, the likelihood is
+/// that of a logistic regression, concave in every psi. About objects it is not, but its derivative
+/// falls from above zero to below, and where that happens is the answer.
 struct CalibratedPsi {
   static constexpr std::string_view name = "calibrated";
+  static constexpr StrategyText text{
+      .summary =
+          "Psi such that what views held out of training show is as likely as can be: each feature "
+          "alone, then all times one temperature.",
+      .formula = "argmax of the mean of ln p(truth | held-out view)"};
+  /// Views between two bins are mistaken in pose however good a feature is.
   bool about_object = true;
   int joint_rounds = 0;
   void fields(auto&& f) {
     f("about_object", about_object,
-      "The likelihood of the object, whatever its pose, instead of the state's. Views between two "
-      "bins are mistaken in pose however good a feature is, which would count against it.");
+      "true: the object is to be likely, whatever its yaw; false: its yaw bin too, which counts "
+      "views between two bins against a feature");
     f("joint_rounds", joint_rounds,
-      "Rounds of adjusting each psi in turn to all features together, after the temperature; "
-      "higher: better when all are extracted, worse when only some are. 0: leave them in "
-      "proportion.",
+      "rounds in which each psi is adjusted to all features together; higher is better where all "
+      "features are extracted, worse where only some are",
       between(0, 100));
   }
   /// @throws InputError if no view was held out.
   [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
 };
 
-/// 1 / dimensions: a feature is worth one dimension, whatever its size. Needs no views.
 struct PerDimensionPsi {
   static constexpr std::string_view name = "per_dimension";
+  static constexpr StrategyText text{
+      .summary =
+          "Every feature is worth one dimension, whatever its size. Needs no held-out views.",
+      .formula = "psi = 1 / dimensions"};
   void fields(auto&&) {}
   [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
 };
 
-/// The published factors, by the feature's name.  [Potthast2016, 4.5.2]
 struct DissertationPsi {
   static constexpr std::string_view name = "dissertation";
+  static constexpr StrategyText text{
+      .summary = "The published factors, by the name of the feature.",
+      .source = "Potthast2016, 4.5.2"};
   double colour = 1.0;
   double bounding_box = 0.02;
   double sift = 0.2;
   double vfh = 0.001;
   double other = 1.0;
   void fields(auto&& f) {
-    f("colour", colour, "of feature `colour`; higher believes it more, as for all below",
+    f("colour", colour, "psi of the feature `colour`; higher trusts it more", at_least(0.0));
+    f("bounding_box", bounding_box, "psi of the feature `bounding_box`; higher trusts it more",
       at_least(0.0));
-    f("bounding_box", bounding_box, "of feature `bounding_box`", at_least(0.0));
-    f("sift", sift, "of feature `sift`", at_least(0.0));
-    f("vfh", vfh, "of feature `vfh`", at_least(0.0));
-    f("other", other, "of any other, the kernel descriptors", at_least(0.0));
+    f("sift", sift, "psi of the feature `sift`; higher trusts it more", at_least(0.0));
+    f("vfh", vfh, "psi of the feature `vfh`; higher trusts it more", at_least(0.0));
+    f("other", other,
+      "psi of all other features, such as kernel descriptors; higher trusts them more",
+      at_least(0.0));
   }
   [[nodiscard]] std::vector<double> operator()(const PsiContext& context) const;
 };

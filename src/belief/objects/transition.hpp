@@ -14,35 +14,48 @@
 
 namespace vantage {
 
-/// The published table, as masses of groups, whatever the number of their members.
-/// [Potthast2016, table 4.1]
+/// Masses of groups, whatever the number of their members.  [Potthast2016, table 4.1]
 struct TableTransition {
   static constexpr std::string_view name = "table";
+  static constexpr StrategyText text{
+      .summary =
+          "The dissertation's table: fixed probabilities of the right yaw bin, the object's other "
+          "bins, its category and all others.",
+      .source = "Potthast2016, table 4.1"};
   double right_angle = 0.4;
   double wrong_angle = 0.3;
   double other_instance = 0.1;
   double other_category = 0.2;
   void fields(auto&& f) {
-    f("right_angle", right_angle, "the object, in the bin that the motion leads to, rounded",
+    f("right_angle", right_angle,
+      "probability of the same object in the yaw bin that the motion leads to; the four "
+      "probabilities sum to one",
       Range{0.0, 1.0, true});
-    f("wrong_angle", wrong_angle, "over the object's other bins; higher trusts the motion less",
+    f("wrong_angle", wrong_angle,
+      "probability of the object's other yaw bins together; higher trusts the motion less",
       between(0.0, 1.0));
-    f("other_instance", other_instance, "over the category's other objects; higher forgets faster",
+    f("other_instance", other_instance,
+      "probability of all other objects of its category together; higher forgets faster",
       between(0.0, 1.0));
-    f("other_category", other_category, "over all other objects; higher forgets faster",
+    f("other_category", other_category,
+      "probability of all objects of other categories together; higher forgets faster",
       between(0.0, 1.0));
   }
   void check() const;  ///< the masses sum to one
   [[nodiscard]] TransitionKernel kernel(double motion_rad, int bins) const;
 };
 
-/// The object stays what it is; its yaw changes as commanded, give or take a bin. A motion between
-/// two multiples of the bin is shared by the two bins next to it, in proportion.
+/// A motion between two multiples of the bin is shared by the two bins next to it, in proportion.
 struct RigidTransition {
   static constexpr std::string_view name = "rigid";
+  static constexpr StrategyText text{
+      .summary =
+          "The object stays what it is, and its yaw changes as commanded, give or take a bin."};
   double slip = 0.1;
   void fields(auto&& f) {
-    f("slip", slip, "to a bin beside the right one, half each way; higher trusts motion less",
+    f("slip", slip,
+      "probability of a yaw bin beside the expected one, half on either side; higher trusts the "
+      "motion less",
       between(0.0, 1.0));
   }
   [[nodiscard]] TransitionKernel kernel(double motion_rad, int bins) const;
@@ -54,18 +67,30 @@ struct RigidTransition {
 /// multiples of the bin is a mixture of the two next to it.
 struct LearnedTransition {
   static constexpr std::string_view name = "learned";
+  static constexpr StrategyText text{
+      .summary =
+          "Learnt from sequences of views: how far the yaw slips at each commanded motion, and how "
+          "often the object is taken for another. Without a `slip` of its own, what training has "
+          "stored in the model.",
+      .source = "Baum1970; Rabiner1989, III.C"};
   double same_object = 1.0;
   double other_instance = 0.0;
   double other_category = 0.0;
   std::vector<double> slip;
   void fields(auto&& f) {
-    f("same_object", same_object, "these three sum to one", between(0.0, 1.0));
-    f("other_instance", other_instance, "over the category's other objects; higher forgets faster",
+    f("same_object", same_object,
+      "probability that the object stays the same; sums to one with `other_instance` and "
+      "`other_category`",
       between(0.0, 1.0));
-    f("other_category", other_category, "over all other objects; higher forgets faster",
+    f("other_instance", other_instance,
+      "probability of all other objects of its category together; higher forgets faster",
+      between(0.0, 1.0));
+    f("other_category", other_category,
+      "probability of all objects of other categories together; higher forgets faster",
       between(0.0, 1.0));
     f("slip", slip,
-      "p(slip | command) at command * bins + slip, modulo bins; empty: nothing learnt, as `rigid`",
+      "p(slip | command) at index command * bins + slip, both in yaw bins; empty: as the model has "
+      "learnt it, or else as `rigid`",
       between(0.0, 1.0));
   }
   void check() const;  ///< masses and every row of a square `slip` sum to one

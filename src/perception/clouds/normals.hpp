@@ -13,11 +13,15 @@ struct NormalOptions {
   int min_neighbours = 5;
   double line_ratio = 0.05;
   void fields(auto&& f) {
-    f("radius_m", radius_m, "neighbourhood; higher is smoother and rounds edges", above(0.0));
-    f("min_neighbours", min_neighbours, "fewer within the radius: no normal", at_least(3));
+    f("radius_m", radius_m,
+      "radius of the neighbourhood that a normal is fitted to; higher is smoother and rounds edges",
+      above(0.0));
+    f("min_neighbours", min_neighbours,
+      "least number of points in the neighbourhood, below which a point gets no normal",
+      at_least(3));
     f("line_ratio", line_ratio,
-      "neighbourhoods whose second spread is below this share of the first are lines, not planes; "
-      "higher calls more of them lines",
+      "ratio of the second to the greatest variance below which a neighbourhood is a line and no "
+      "plane; higher takes more for lines",
       between(0.0, 1.0));
   }
 };

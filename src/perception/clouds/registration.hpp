@@ -22,7 +22,7 @@ struct RegistrationOptions {
   double kernel_scale_m = 0.01;
   double max_normal_angle_rad = 0.8;
   double max_normal_z = 0.5;
-  double min_constraint = 0.005;
+  double min_constraint = 0.005;  ///< noise of the normals alone gives about 0.002
   double min_constraint_correspondences = 3.0;
   double min_overlap = 0.02;
   int min_correspondences = 40;
@@ -32,38 +32,60 @@ struct RegistrationOptions {
   double max_correction_m = 0.25;
   double max_correction_rad = 0.15;
   void fields(auto&& f) {
-    f("voxel_m", voxel_m, "scan is thinned to this; higher is faster and coarser", above(0.0));
-    f("normals", normals, "for prepare_scan");
-    f("max_correspondence_m", max_correspondence_m,
-      "first search radius; higher bears a worse start", above(0.0));
-    f("min_correspondence_m", min_correspondence_m,
-      "last search radius; higher lets in more outliers", above(0.0));
-    f("shrink", shrink, "radius factor per iteration; higher narrows more slowly",
-      between(0.1, 0.99));
-    f("trim_fraction", trim_fraction, "best share of pairs kept; higher trusts more of them",
-      between(0.1, 1.0));
-    f("kernel_scale_m", kernel_scale_m, "residual with weight 1/4; higher tolerates more noise",
+    f("voxel_m", voxel_m, "voxel size that a scan is thinned to; higher is faster and coarser",
       above(0.0));
-    f("max_normal_angle_rad", max_normal_angle_rad, "pairs whose normals differ more are dropped",
+    f("normals", normals, "how the surface normals of a scan are estimated");
+    f("max_correspondence_m", max_correspondence_m,
+      "search radius for correspondences at first; higher tolerates a worse initial pose",
+      above(0.0));
+    f("min_correspondence_m", min_correspondence_m,
+      "search radius for correspondences at last; higher lets in more outliers", above(0.0));
+    f("shrink", shrink, "factor of the search radius per iteration; higher narrows it more slowly",
+      between(0.1, 0.99));
+    f("trim_fraction", trim_fraction,
+      "share of the correspondences that is kept, the best ones; higher trusts more of them",
+      between(0.1, 1.0));
+    f("kernel_scale_m", kernel_scale_m,
+      "residual that the robust kernel weights by 1/4, once the search radius is small; higher "
+      "tolerates more noise",
+      above(0.0));
+    f("max_normal_angle_rad", max_normal_angle_rad,
+      "greatest angle between the normals of a correspondence; higher keeps more of them",
       between(0.0, 3.1416));
-    f("max_normal_z", max_normal_z, "surfaces flatter than this say nothing of x, y, yaw",
+    f("max_normal_z", max_normal_z,
+      "greatest |z| of the unit normal of a surface that counts; flatter ones tell nothing of x, y "
+      "and yaw",
       between(0.0, 1.0));
     f("min_constraint", min_constraint,
-      "least mean squared alignment of the normals with a direction (noise of the normals gives "
-      "about 0.002), and",
+      "least mean squared alignment of the surface normals with a direction, below which odometry "
+      "decides along it",
       between(0.0, 1.0));
     f("min_constraint_correspondences", min_constraint_correspondences,
-      "the least number of pairs wholly across it; below either odometry decides there",
+      "the same as a number of correspondences whose normals point along the direction; the "
+      "stricter of both holds",
       at_least(0.0));
-    f("min_overlap", min_overlap, "least share of upright scan points with a partner",
+    f("min_overlap", min_overlap,
+      "least share of the points on upright surfaces with a correspondence, below which the result "
+      "is rejected",
       between(0.0, 1.0));
-    f("min_correspondences", min_correspondences, "fewer partners: rejected", at_least(3));
-    f("max_iterations", max_iterations, "without convergence by then: rejected", at_least(1));
-    f("tolerance_m", tolerance_m, "converged when a step is shorter, and", above(0.0));
-    f("tolerance_rad", tolerance_rad, "turns less", above(0.0));
-    f("max_correction_m", max_correction_m, "a result farther from the guess is rejected",
+    f("min_correspondences", min_correspondences,
+      "least number of correspondences, below which the result is rejected", at_least(3));
+    f("max_iterations", max_iterations,
+      "greatest number of iterations; without convergence by then the result is rejected",
+      at_least(1));
+    f("tolerance_m", tolerance_m,
+      "length of a step below which the registration has converged, if it turns less than "
+      "`tolerance_rad`",
       above(0.0));
-    f("max_correction_rad", max_correction_rad, "likewise", above(0.0));
+    f("tolerance_rad", tolerance_rad,
+      "turn of a step below which the registration has converged, if it is shorter than "
+      "`tolerance_m`",
+      above(0.0));
+    f("max_correction_m", max_correction_m,
+      "greatest distance of the result from the initial pose, beyond which it is rejected",
+      above(0.0));
+    f("max_correction_rad", max_correction_rad,
+      "greatest turn of the result from the initial pose, beyond which it is rejected", above(0.0));
   }
   void check() const;  ///< the search radius shrinks
 };

@@ -13,18 +13,29 @@
 
 namespace vantage {
 
-/// Metres: height along gravity, then the greater and the smaller of the extents along the two
-/// principal axes of the points seen from above; each between two quantiles. [Potthast2016, 4.5.2]
+/// The principal axes are those of the points seen from above. [Potthast2016, 4.5.2]
 struct BoundingBox {
   static constexpr std::string_view name = "bounding_box";
+  static constexpr StrategyText text{
+      .summary =
+          "Extents of the object: height along gravity and the two horizontal principal extents.",
+      .formula = "(height, greater, smaller horizontal extent) in m, each between two quantiles",
+      .source = "Potthast2016, 4.5.2"};
   double low_quantile = 0.01;
   double high_quantile = 0.99;
   int min_pixels = 16;
   void fields(auto&& f) {
-    f("low_quantile", low_quantile, "share; higher cuts more off the one end", between(0.0, 0.5));
-    f("high_quantile", high_quantile, "share, above the other; lower cuts more off the other end",
+    f("low_quantile", low_quantile,
+      "share of the points cut off at the low end of each extent; higher drops more outliers, and "
+      "more of the object",
+      between(0.0, 0.5));
+    f("high_quantile", high_quantile,
+      "share of the points below the high end of each extent; lower drops more outliers, and more "
+      "of the object",
       between(0.5, 1.0));
-    f("min_pixels", min_pixels, "px with depth; fewer: skipped; higher is more careful",
+    f("min_pixels", min_pixels,
+      "least number of pixels with depth on the object, below which the feature is skipped; higher "
+      "is more careful",
       at_least(3));
   }
 

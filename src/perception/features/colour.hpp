@@ -13,13 +13,20 @@
 
 namespace vantage {
 
-/// HSV histogram over 16 hues x 3 saturations x 3 values, L1-normalised, square-rooted.
 /// Bin (h * 3 + s) * 3 + v. [Potthast2016, 4.5.2]
 struct Colour {
   static constexpr std::string_view name = "colour";
+  static constexpr StrategyText text{
+      .summary =
+          "Colour histogram of the object: 144 bins of hue, saturation and value. Cheap, and "
+          "strong where light is steady.",
+      .formula = "sqrt of the shares of 16 x 3 x 3 bins of hue, saturation, value",
+      .source = "Potthast2016, 4.5.2"};
   int min_pixels = 16;
   void fields(auto&& f) {
-    f("min_pixels", min_pixels, "px; fewer on the object: skipped; higher is more careful",
+    f("min_pixels", min_pixels,
+      "least number of pixels on the object, below which the feature is skipped; higher is more "
+      "careful",
       at_least(1));
   }
 

@@ -24,14 +24,23 @@ class TrainedOnnx;
 /// object, the crop's longer side filling the square; output: any shape, always the same.
 struct Onnx {
   static constexpr std::string_view name = "onnx";
+  static constexpr StrategyText text{
+      .summary =
+          "Output of an ONNX network of your own for the masked crop of the object, reduced to "
+          "principal components.",
+      .formula = "principal components of y / |y|, y the output of the network"};
   std::string file;
   int components = 256;
   int training_views = 2000;
   void fields(auto&& f) {
-    f("file", file, "path of the network");
-    f("components", components, "kept; n training views give n - 1 at most; higher keeps more",
+    f("file", file, "path of the ONNX network");
+    f("components", components,
+      "number of principal components that are kept, n - 1 at most of n training views; higher "
+      "keeps more of the output",
       between(1, 100000));
-    f("training_views", training_views, "for the components, drawn at random; higher takes longer",
+    f("training_views", training_views,
+      "number of views, drawn at random, that principal components are learnt from; higher takes "
+      "longer",
       at_least(2));
   }
 

@@ -22,6 +22,12 @@ class TrainedSift;
 /// L1-normalised, square-rooted. [Potthast2016, 4.5.2]
 struct Sift {
   static constexpr std::string_view name = "sift";
+  static constexpr StrategyText text{
+      .summary =
+          "Bag of dense SIFT words over the object's box and its four quarters: texture, and "
+          "roughly where it is.",
+      .formula = "sqrt of the shares of words in the box and its quarters, 5 x words",
+      .source = "Potthast2016, 4.5.2; Lowe2004; ArandjelovicZisserman2012; LazebnikEtAl2006"};
   int step_px = 8;
   double size_px = 4.0;
   int min_side_px = 96;
@@ -31,19 +37,26 @@ struct Sift {
   int samples_per_word = 100;
   int iterations = 20;
   void fields(auto&& f) {
-    f("step_px", step_px, "of the grid; higher is faster and coarser", at_least(1));
-    f("size_px", size_px, "diameter of a keypoint, its patch 6 times that; higher blurs",
+    f("step_px", step_px, "spacing of the grid of keypoints; higher is faster and coarser",
+      at_least(1));
+    f("size_px", size_px,
+      "diameter of a keypoint, whose patch is 6 times as wide; higher blurs more",
       between(1.0, 32.0));
-    f("min_side_px", min_side_px, "smaller crops are enlarged to it; higher finds finer grain",
+    f("min_side_px", min_side_px,
+      "length that the longer side of smaller crops is enlarged to; higher finds finer texture",
       at_least(16));
-    f("max_side_px", max_side_px, "larger crops are shrunk to it; higher is slower", at_least(16));
-    f("words", words, "of the vocabulary; higher tells more apart and needs more views",
+    f("max_side_px", max_side_px,
+      "length that the longer side of larger crops is shrunk to; higher keeps finer texture and is "
+      "slower",
+      at_least(16));
+    f("words", words, "size of the vocabulary; higher distinguishes more and needs more views",
       between(1, 100000));
-    f("training_views", training_views, "to learn words from, drawn at random; higher takes longer",
+    f("training_views", training_views,
+      "number of views, drawn at random, that words are learnt from; higher takes longer",
       at_least(1));
     f("samples_per_word", samples_per_word,
-      "descriptors for each word to learn; higher takes longer", at_least(1));
-    f("iterations", iterations, "of k-means, at most", at_least(1));
+      "number of descriptors per word to learn from; higher takes longer", at_least(1));
+    f("iterations", iterations, "greatest number of iterations of k-means", at_least(1));
   }
 
   /// @throws InputError if no view has a grid point on its object.

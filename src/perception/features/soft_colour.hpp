@@ -14,9 +14,17 @@ namespace vantage {
 /// Hues go round, ends of saturation and value do not.
 struct SoftColour {
   static constexpr std::string_view name = "soft_colour";
+  static constexpr StrategyText text{
+      .summary =
+          "As `colour`, each pixel shared among the bins round its colour, so that a little more "
+          "or less light changes little.",
+      .formula =
+          "sqrt of the shares of 16 x 3 x 3 bins, a pixel among the eight nearest in proportion"};
   int min_pixels = 16;
   void fields(auto&& f) {
-    f("min_pixels", min_pixels, "px; fewer on the object: skipped; higher is more careful",
+    f("min_pixels", min_pixels,
+      "least number of pixels on the object, below which the feature is skipped; higher is more "
+      "careful",
       at_least(1));
   }
 

@@ -33,14 +33,26 @@ Eigen::VectorXf viewpoint_feature_histogram(const PointCloud& cloud,
 /// The histogram of a view's surface as shares, square-rooted.
 struct Vfh {
   static constexpr std::string_view name = "vfh";
+  static constexpr StrategyText text{
+      .summary =
+          "Viewpoint feature histogram of the visible surface: shape and the direction it is seen "
+          "from, in 308 bins.",
+      .formula =
+          "sqrt of the shares of 3 x 45 angles to the mean normal, 45 distances from the centroid, "
+          "128 angles to the line of sight",
+      .source = "RusuEtAl2010"};
   double normal_radius_m = 0.01;
   bool size_block = false;
   int min_points = 32;
   void fields(auto&& f) {
-    f("normal_radius_m", normal_radius_m, "m, neighbourhood of a normal; higher is smoother",
-      above(0.0));
-    f("size_block", size_block, "whether distances from the centroid count, in cm");
-    f("min_points", min_points, "with a normal; fewer: skipped; higher is more careful",
+    f("normal_radius_m", normal_radius_m,
+      "radius of the neighbourhood of a surface normal; higher is smoother", above(0.0));
+    f("size_block", size_block,
+      "true: distances of the points from the centroid count too, in bins of 1 cm, so that sizes "
+      "differ");
+    f("min_points", min_points,
+      "least number of points with a normal, below which the feature is skipped; higher is more "
+      "careful",
       at_least(3));
   }
 

@@ -13,19 +13,26 @@
 
 namespace vantage {
 
-/// A share of the views, drawn at random: of the sessions that are trained on.
 struct HeldOutShare {
   static constexpr std::string_view name = "share";
+  static constexpr StrategyText text{.summary =
+                                         "Holds out a share of the views, drawn at random, of the "
+                                         "same recordings that are trained on."};
   double share = 0.2;
   void fields(auto&& f) {
-    f("share", share, "(0, 1); higher calibrates better but for a poorer model",
+    f("share", share,
+      "share of the training views that is held out; higher calibrates better, but for a poorer "
+      "model",
       between(0.01, 0.9));
   }
 };
 
-/// Each video in turn, by a model of the others: another session, with other light and elevation.
 struct HeldOutVideos {
   static constexpr std::string_view name = "videos";
+  static constexpr StrategyText text{
+      .summary =
+          "Holds out each video in turn and trains on the others: another recording, with other "
+          "light and elevation. Needs two videos or more."};
   void fields(auto&&) {}
 };
 

@@ -15,20 +15,30 @@ namespace vantage {
 
 struct LinearSvm {
   static constexpr std::string_view name = "linear_svm";
+  static constexpr StrategyText text{
+      .summary =
+          "Linear support vector machine on the features of a single view: a baseline that knows "
+          "neither pose nor how sure it is."};
   double c = 10.0;
   void fields(auto&& f) {
-    f("c", c, "weight of training errors, > 0; higher fits closer", above(0.0));
+    f("c", c, "weight of training errors; higher fits the training views closer", above(0.0));
   }
 };
 
-/// exp(-gamma |x - y|^2)
 struct KernelSvm {
   static constexpr std::string_view name = "kernel_svm";
+  static constexpr StrategyText text{
+      .summary =
+          "Support vector machine with a Gaussian kernel on the features of a single view: a "
+          "slower, less linear baseline.",
+      .formula = "kernel exp(-gamma |x - y|^2)"};
   double c = 10.0;
   double gamma = 1.0;
   void fields(auto&& f) {
-    f("c", c, "weight of training errors, > 0; higher fits closer", above(0.0));
-    f("gamma", gamma, "of vectors with a mean square distance of 1, > 0; higher is more local",
+    f("c", c, "weight of training errors; higher fits the training views closer", above(0.0));
+    f("gamma", gamma,
+      "gamma of the kernel exp(-gamma |x - y|^2), for vectors scaled to a mean square length of 1; "
+      "higher is more local",
       above(0.0));
   }
 };

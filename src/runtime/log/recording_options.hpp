@@ -10,10 +10,15 @@ struct RecordingOptions {
   int video_fps = 25;
   int height_px = 720;
   void fields(auto&& f) {
-    f("video_speed", video_speed, "simulated seconds per second of video; higher is shorter",
-      between(1.0, 1000.0));
-    f("video_fps", video_fps, "frames per second of video", between(1, 120));
-    f("height_px", height_px, "of the video; its width is 16:9", between(120, 2160));
+    f("video_speed", video_speed,
+      "simulated seconds per second of video; higher makes a shorter video", between(1.0, 1000.0));
+    f("video_fps", video_fps,
+      "frames per second of the video; higher is smoother and takes longer to render",
+      between(1, 120));
+    f("height_px", height_px,
+      "height of the video, whose width follows at 16:9; higher is sharper and takes longer to "
+      "render",
+      between(120, 2160));
   }
 };
 

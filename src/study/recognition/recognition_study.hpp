@@ -25,17 +25,24 @@ struct RecognitionStudyOptions {
   bool baselines = false;
   int change_starts = 0;
   void fields(auto&& f) {
-    f("seed", seed, "of starts, choices and intervals");
-    f("starts", starts, "each method's trials; more make intervals narrower", at_least(1));
-    f("video", video, "tested on: 1, 2, 4 are 30, 45, 60 deg", between(1, 4));
-    f("recogniser", recogniser, "variance and features");
-    f("recognition", recognition, "what all methods have in common");
-    f("methods", methods, "names of published_methods() to try; empty: all");
-    f("literal", literal, "also maximum-likelihood variances with psi 1 and as published");
-    f("combinations", combinations, "also a single view by every combination of features");
-    f("baselines", baselines, "also support vector machines, which takes long");
-    f("change_starts", change_starts, "trials of change detection, a scenario and method; 0: none",
-      at_least(0));
+    f("seed", seed, "seed of starts, choices and confidence intervals");
+    f("starts", starts, "number of trials of each method; more make confidence intervals narrower",
+      at_least(1));
+    f("video", video,
+      "video of the dataset to test on: 1, 2 and 4 are recorded from 30, 45 and 60 deg of "
+      "elevation",
+      between(1, 4));
+    f("recogniser", recogniser,
+      "which features of the model are used, and how its variances are estimated");
+    f("recognition", recognition, "options of recognition that all methods share");
+    f("methods", methods, "names of the methods to evaluate, such as `random`; empty: all");
+    f("literal", literal,
+      "true: also a single view with maximum-likelihood variances, by psi 1 and by psi as "
+      "published");
+    f("combinations", combinations, "true: also a single view by every combination of features");
+    f("baselines", baselines, "true: also support vector machines, which take long to train");
+    f("change_starts", change_starts,
+      "number of trials of change detection for each scenario and method; 0: none", at_least(0));
   }
 };
 

@@ -18,6 +18,11 @@ namespace vantage {
 
 struct ChangeDetectionTask : ObjectFlight {
   static constexpr std::string_view name = "change_detection";
+  static constexpr StrategyText text{
+      .summary =
+          "A quadrotor looks whether an object on a table is still what, and as, its map says: the "
+          "same, another one, turned or removed.",
+      .source = "Potthast2016, 4.5.8"};
 
   std::string scenario = "none";
   std::string expected_object;
@@ -27,13 +32,16 @@ struct ChangeDetectionTask : ObjectFlight {
   void fields(auto&& f) {
     ObjectFlight::fields(f);
     f("scenario", scenario,
-      "What has changed on the table: none, object, pose, removed. Truth: the robot is not told.");
+      "what has changed on the table: `none`, `object`, `pose` or `removed`; the robot is not "
+      "told");
     f("expected_object", expected_object,
-      "what the map says stands there; empty: drawn by the seed");
-    f("expected_yaw_rad", expected_yaw_rad, "of that, world; none: drawn by the seed",
+      "object that the map says stands on the table; empty: drawn by the seed");
+    f("expected_yaw_rad", expected_yaw_rad,
+      "yaw that the map says the object has, in the world frame; null: drawn by the seed",
       between(-1000.0, 1000.0));
     f("turned_rad", turned_rad,
-      "Scenario pose: how far it was turned; none: drawn by the seed, at least by half a bin",
+      "scenario `pose`: how far the object was turned; null: drawn by the seed, at least half a "
+      "yaw bin",
       between(-1000.0, 1000.0));
     change.decision_fields(f);
   }

@@ -23,15 +23,23 @@ struct EnoughOptions {
   double share = 0.0015;
   int scans = 3;
   void fields(auto&& f) {
-    f("share", share, "of the cells known; less is too little, higher ends earlier",
+    f("share", share,
+      "expected new cells of the best view, as a share of the known cells, below which a scan is "
+      "not worth it; higher ends earlier",
       between(0.0, 1.0));
-    f("scans", scans, "in a row after which it was too little; 0 explores all there is",
+    f("scans", scans,
+      "number of decisions in a row that fall below `share` until exploration ends; 0: explores "
+      "until no candidate is left",
       at_least(0));
   }
 };
 
 struct Exploration : MappingOptions {
   static constexpr std::string_view name = "exploration";
+  static constexpr StrategyText text{.summary =
+                                         "A mobile robot explores rooms with the RGB-D camera on "
+                                         "its head, by the frontiers of what it knows.",
+                                     .source = "Potthast2016, chapter 3; Yamauchi1997"};
 
   HeadSweep sweep;
   RgbdOptions camera{.tells_far = true};
@@ -50,29 +58,47 @@ struct Exploration : MappingOptions {
   int hazard_stride_px = 8;
   void fields(auto&& f) {
     MappingOptions::fields(f);
-    f("sweep", sweep, "@@");
-    f("camera", camera, "@@");
-    f("frontiers", frontiers, "@@");
-    f("headroom", headroom, "@@");
-    f("start_room_m", start_room_m, "round the start, known to be free for the robot",
-      at_least(0.0));
-    f("max_candidates", max_candidates, "the largest clusters; more take longer to score",
+    f("sweep", sweep, "where the head turns the camera at each stop");
+    f("camera", camera, "RGB-D camera on the robot's head");
+    f("frontiers", frontiers, "how frontiers are found and clustered into candidate views");
+    f("headroom", headroom, "which places on the floor are blocked by what is above them");
+    f("start_room_m", start_room_m,
+      "radius round the start that is known to be free floor for the robot", at_least(0.0));
+    f("max_candidates", max_candidates,
+      "greatest number of candidate views, those of the largest frontiers; more take longer to "
+      "score",
       at_least(1));
-    f("reach_m", reach_m, "nearest place farther from its frontier: out of reach", at_least(0.0));
-    f("taken_m", taken_m, "places nearer to one that was scanned from are not proposed",
+    f("reach_m", reach_m,
+      "distance from a frontier to the nearest place the robot can drive to, above which its view "
+      "counts as out of reach",
+      at_least(0.0));
+    f("taken_m", taken_m,
+      "distance from a place scanned from, or chosen before, within which no view is proposed; "
+      "higher spreads scans out",
       above(0.0));
-    f("poor_m", poor_m, "the same round a place whose scan showed too little", at_least(0.0));
-    f("poor_cells", poor_cells, "fewer new cells are too little; higher gives up sooner",
+    f("poor_m", poor_m,
+      "the same distance round a place whose scan showed too little; higher leaves such places "
+      "alone",
+      at_least(0.0));
+    f("poor_cells", poor_cells,
+      "number of new cells below which a scan showed too little; higher gives up on a place sooner",
       at_least(0));
-    f("enough", enough, "@@");
-    f("keyframe_m", keyframe_m, "between places on the way where walls are remembered to drive by",
+    f("enough", enough, "stopping criterion: when the best view promises too little to go on");
+    f("keyframe_m", keyframe_m,
+      "distance driven between scans that are added to the reference map of walls; lower adds more "
+      "of them",
       above(0.0));
     f("reference_novelty_m", reference_novelty_m,
-      "walls nearer than this to remembered ones are not remembered", at_least(0.0));
-    f("stride_px", stride_px, "pixels between those that mark surfaces; higher is faster",
+      "distance to the reference map within which wall points are not added to it, as they carry "
+      "more drift; 0: adds all",
+      at_least(0.0));
+    f("stride_px", stride_px,
+      "pixel stride at which depth images mark surfaces in the map; higher is faster and coarser",
       between(1, 100));
     f("hazard_stride_px", hazard_stride_px,
-      "pixels between those that count clutter; higher is faster", between(1, 100));
+      "pixel stride at which depth images count clutter; higher is faster and learns from fewer "
+      "beams",
+      between(1, 100));
   }
   /// What concerns the task and the rest of the episode. @throws ConfigError
   void check_with(const EpisodeOptions& episode) const;

@@ -14,8 +14,10 @@ struct HeadSweep {
   int pans = 9;
   std::vector<double> tilts_rad{0.0, 0.7};
   void fields(auto&& f) {
-    f("pans", pans, "images a row; more overlap, take longer", between(1, 360));
-    f("tilts_rad", tilts_rad, "of the rows, ascending; positive looks down", between(-1.5, 1.5));
+    f("pans", pans, "images per row, evenly all round; more overlap, and take longer",
+      between(1, 360));
+    f("tilts_rad", tilts_rad, "tilt of each row of images, ascending; positive looks down",
+      between(-1.5, 1.5));
   }
   void check() const;  ///< at least one row, tilts ascending
 };

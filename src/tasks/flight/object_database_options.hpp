@@ -14,9 +14,13 @@ struct ObjectDatabaseOptions {
   int objects = 326;
   std::string models;
   void fields(auto&& f) {
-    f("seed", seed, "of the generated objects");
-    f("objects", objects, "the first of the catalogue, or of `models`", between(1, 100000));
-    f("models", models, "folder of <name>/{model.obj, texture.png}; empty: the catalogue");
+    f("seed", seed,
+      "seed of the generated objects: that of the dataset that the model was trained on");
+    f("objects", objects, "number of objects, the first ones of the catalogue or of `models`",
+      between(1, 100000));
+    f("models", models,
+      "folder of objects `<name>/{model.obj, texture.png}` to use instead of the catalogue; empty: "
+      "the catalogue");
   }
 };
 

@@ -27,9 +27,13 @@ struct MapOptions {
   std::array<double, 3> size_m{1.0, 1.0, 0.504};
   std::array<int, 3> cells{129, 129, 65};
   void fields(auto&& f) {
-    f("centre_m", centre_m, "world", between(-1000.0, 1000.0));
-    f("size_m", size_m, "m, > 0", Range{0.0, 1000.0, true});
-    f("cells", cells, "finer maps cost time in proportion", between(1, 4096));
+    f("centre_m", centre_m, "centre of the mapped region in the world frame",
+      between(-1000.0, 1000.0));
+    f("size_m", size_m, "edge lengths of the mapped region along x, y and z",
+      Range{0.0, 1000.0, true});
+    f("cells", cells,
+      "number of cells along x, y and z; more resolve finer and take time in proportion",
+      between(1, 4096));
   }
   void check() const;  ///< at most 2^26 cells
   [[nodiscard]] double count() const;
@@ -40,20 +44,20 @@ struct MapOptions {
 struct MetricsOptions {
   int tolerance_cells = 1;
   double pose_spacing_m = 1.0;
+  /// Each costs the time of one view. In an exploration, rays to every cell take seconds.
   std::vector<Gain> predictors;
   void fields(auto&& f) {
     f("tolerance_cells", tolerance_cells,
-      "Cells an occupied cell may be off the true surface and still be right; higher forgives "
-      "more.",
+      "how far an occupied cell may be off the true surface and still count as right; higher "
+      "forgives more",
       between(0, 10));
     f("pose_spacing_m", pose_spacing_m,
-      "Exploration: between the poses, reachable from the start, that say which cells are "
-      "observable; lower misses fewer, takes longer.",
+      "exploration: spacing of the reachable poses that decide which cells are observable; lower "
+      "misses fewer and takes longer",
       between(0.05, 100.0));
     f("predictors", predictors,
-      "Gains whose prediction of newly observed cells is recorded at every scan, beside that of "
-      "the gain in use. Empty: every gain that predicts cells; in an exploration, where rays to "
-      "every cell take seconds, those that can be swept. Each costs the time of one view.");
+      "gains whose predicted new cells are recorded at every scan, beside the gain in use; empty: "
+      "all that predict cells (exploration: all that can be swept)");
   }
   void check() const;  ///< every predictor predicts cells
 };
@@ -75,21 +79,26 @@ struct MappingOptions {
   DriveOptions drive;
   MetricsOptions metrics;
   void fields(auto&& f) {
-    f("scans", scans, "at most, the first one included", between(1, 10000));
-    f("base_scanner", base_scanner, "@@");
-    f("odometry", odometry, "@@");
-    f("registration", registration, "@@");
-    f("map", map, "@@");
-    f("sensor_model", sensor_model, "@@");
-    f("free_space", free_space, "@@");
-    f("hole_filling", hole_filling, "@@");
-    f("clutter_hazard", clutter_hazard, "@@");
-    f("gain", gain, "@@");
-    f("choice", choice, "@@");
-    f("floor_map", floor_map, "@@");
-    f("navigation", navigation, "@@");
-    f("drive", drive, "@@");
-    f("metrics", metrics, "@@");
+    f("scans", scans, "greatest number of scans of an episode, the first one included",
+      between(1, 10000));
+    f("base_scanner", base_scanner,
+      "planar laser scanner near the floor, which the robot localises and drives by");
+    f("odometry", odometry, "errors of the wheel odometry");
+    f("registration", registration,
+      "ICP registration of scans against earlier ones, which corrects the odometry");
+    f("map", map, "region and resolution of the occupancy grid");
+    f("sensor_model", sensor_model,
+      "inverse sensor model: what a measured point says about the cells round it");
+    f("free_space", free_space, "how cells that beams have passed are updated towards free");
+    f("hole_filling", hole_filling, "Markov random field that fills holes in observed surfaces");
+    f("clutter_hazard", clutter_hazard,
+      "how the probability that an unobserved cell stops a beam is learnt on the run");
+    f("gain", gain, "what a view is worth: how much that is new it is expected to show");
+    f("choice", choice, "which of the candidate views is taken next");
+    f("floor_map", floor_map, "2-D occupancy map of the floor, which paths are planned on");
+    f("navigation", navigation, "path planning on the floor map: footprint, clearance, stopping");
+    f("drive", drive, "how the base follows a path, and when it has arrived or is stuck");
+    f("metrics", metrics, "what is measured of an episode by ground truth");
   }
 
   /// "adaptive" for a greedy choice by that gain, "random" or "oracle" for a choice that looks at

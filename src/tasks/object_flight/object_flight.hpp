@@ -31,7 +31,7 @@ struct ObjectFlight {
   std::array<double, 3> table_m{0.0, 0.0, 0.72};
   double aim_height_m = 0.07;
   double distance_m = 1.0;
-  double elevation_rad = 0.7853981633974483;
+  double elevation_rad = 0.7853981633974483;  // 45 deg
   int bearings = 8;
   double arc_rad = 0.2;
   double settle_s = 0.5;
@@ -41,30 +41,44 @@ struct ObjectFlight {
   double colour_noise = 4.0;
   ObjectSegmentationOptions segmentation;
   void fields(auto&& f) {
-    f("model", model, "file that `vantage train` made");
-    f("recogniser", recogniser, "@@");
+    f("model", model, "file of the recognition model, written by `vantage train`");
+    f("recogniser", recogniser,
+      "which features of the model are used, and how its variances are estimated");
     decision.fields(f);
-    f("object", object, "what stands on the table, \"mug_3\"; empty: drawn by the seed");
-    f("database", database, "@@");
-    f("placement_m", placement_m, "largest offset of the object from the table's middle",
-      between(0.0, 0.1));
-    f("table_m", table_m, "middle of the table top, world; known", between(-1000.0, 1000.0));
-    f("aim_height_m", aim_height_m, "of what the camera looks at, over the table",
+    f("object", object,
+      "object on the table, such as `mug_3` (`change_detection`: only in scenario `object`); "
+      "empty: drawn by the seed");
+    f("database", database, "objects that may stand on the table");
+    f("placement_m", placement_m,
+      "greatest random offset of the object from the middle of the table", between(0.0, 0.1));
+    f("table_m", table_m, "middle of the table top in the world frame, which the robot knows",
+      between(-1000.0, 1000.0));
+    f("aim_height_m", aim_height_m, "height above the table of the point that the camera looks at",
       between(0.0, 1.0));
-    f("distance_m", distance_m, "camera to there; higher sees smaller objects", between(0.6, 3.0));
-    f("elevation_rad", elevation_rad, "of the line of sight (45 deg)",
+    f("distance_m", distance_m,
+      "distance from the camera to the point that it looks at; higher makes objects smaller in the "
+      "image",
+      between(0.6, 3.0));
+    f("elevation_rad", elevation_rad,
+      "elevation of the camera above the point that it looks at; higher looks down more steeply",
       between(0.0, 1.0471975511965976));
-    f("bearings", bearings, "evenly round the object; the first is drawn by the seed",
+    f("bearings", bearings,
+      "number of viewpoints, evenly spaced round the object, the first one drawn by the seed; more "
+      "take longer to choose from",
       between(2, 360));
-    f("arc_rad", arc_rad, "between waypoints; lower keeps closer to the circle",
+    f("arc_rad", arc_rad,
+      "angle between waypoints on the way round the object; lower keeps closer to the circle",
       Range{0.0, 1.5, true});
-    f("settle_s", settle_s, "hovering before each image", between(0.0, 10.0));
-    f("tracking", tracking, "@@");
-    f("camera", camera, "@@");
-    f("exposure", exposure, "@@");
+    f("settle_s", settle_s, "hovering time before each image; higher is steadier and takes longer",
+      between(0.0, 10.0));
+    f("tracking", tracking,
+      "how trajectories are flown: controller, limits, pose errors, gusts, tolerances");
+    f("camera", camera, "RGB-D camera of the vehicle");
+    f("exposure", exposure, "exposure of the colour images, which blurs them in motion");
     f("colour_noise", colour_noise,
-      "standard deviation of a colour value, of 255; higher is noisier", between(0.0, 100.0));
-    f("segmentation", segmentation, "@@");
+      "standard deviation of the noise on colour values of 0 to 255; higher is noisier",
+      between(0.0, 100.0));
+    f("segmentation", segmentation, "how the object is cut out of an image");
   }
 
   [[nodiscard]] Eigen::Vector3d p_world_table_m() const {

@@ -14,6 +14,10 @@ namespace vantage {
 
 struct RecognitionTask : ObjectFlight {
   static constexpr std::string_view name = "recognition";
+  static constexpr StrategyText text{.summary =
+                                         "A quadrotor flies round one object on a table, to the "
+                                         "views that tell most, until it knows what the object is.",
+                                     .source = "Potthast2016, 4.5.7"};
 
   [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
   [[nodiscard]] static ReportSections report();

@@ -18,6 +18,10 @@ namespace vantage {
 
 struct Tabletop : MappingOptions {
   static constexpr std::string_view name = "tabletop";
+  static constexpr StrategyText text{.summary =
+                                         "A mobile robot scans the clutter on a table with its "
+                                         "tilting laser, from the next best of a ring of views.",
+                                     .source = "Potthast2016, chapter 3"};
 
   LaserOptions laser;
   TableOptions table;
@@ -25,10 +29,10 @@ struct Tabletop : MappingOptions {
   RingOfViews candidates;
   void fields(auto&& f) {
     MappingOptions::fields(f);
-    f("laser", laser, "@@");
-    f("table", table, "@@");
-    f("objects", objects, "@@");
-    f("candidates", candidates, "@@");
+    f("laser", laser, "tilting laser scanner that scans the table");
+    f("table", table, "how the table top is found in a scan");
+    f("objects", objects, "which points above the table top enter the map");
+    f("candidates", candidates, "candidate views on a ring round the mapped region");
   }
   /// What concerns the task and the rest of the episode. @throws ConfigError
   void check_with(const EpisodeOptions& episode) const;

@@ -29,6 +29,11 @@ namespace vantage {
 
 struct TrajectoryFlight {
   static constexpr std::string_view name = "trajectory";
+  static constexpr StrategyText text{
+      .summary =
+          "A quadrotor flies a given path through a room, finds the objects on its way, and "
+          "replans in flight so as to recognise them.",
+      .source = "Potthast2016, chapter 5"};
 
   std::string model = "out/trajectory.model";
   RecogniserOptions recogniser{.features = {"colour", "bounding_box", "sift"}};
@@ -50,29 +55,45 @@ struct TrajectoryFlight {
   ExposureOptions exposure;
   double colour_noise = 4.0;
   void fields(auto&& f) {
-    f("model", model, "file that `vantage train` made");
-    f("recogniser", recogniser, "@@");
-    f("transition", transition, "@@");
-    f("database", database, "@@");
+    f("model", model, "file of the recognition model, written by `vantage train`");
+    f("recogniser", recogniser,
+      "which features of the model are used, and how its variances are estimated");
+    f("transition", transition,
+      "how the belief about an object changes between views of it from different bearings");
+    f("database", database, "objects that may stand in the scene");
     f("placement_m", placement_m,
-      "largest offset of an object from the middle of its support surface", between(0.0, 0.1));
-    f("method", method, "@@");
-    f("planner", planner, "@@");
-    f("horizon", horizon, "waypoints that are planned at once, K", between(3, 100));
-    f("latency_s", latency_s, "simulated, from a waypoint to its new plan, whatever it took",
+      "greatest random offset of an object from the middle of its support surface",
+      between(0.0, 0.1));
+    f("method", method,
+      "how the next waypoints are planned: by a simple rule or a trajectory optimiser");
+    f("planner", planner,
+      "what all methods plan by: cost, views, clearance, deviation from the given path");
+    f("horizon", horizon,
+      "number of waypoints that are planned at once (K); higher looks farther ahead and takes "
+      "longer",
+      between(3, 100));
+    f("latency_s", latency_s,
+      "simulated time from reaching a waypoint to flying the plan made there, however long "
+      "planning really took",
       between(0.0, 100.0));
-    f("image_rate_hz", image_rate_hz, "@@", between(0.1, 100.0));
-    f("camera_pitch_rad", camera_pitch_rad, "below the horizon of the body, all the way",
+    f("image_rate_hz", image_rate_hz,
+      "images taken per second of flight; higher gives more detections and takes longer",
+      between(0.1, 100.0));
+    f("camera_pitch_rad", camera_pitch_rad,
+      "tilt of the camera below the body's horizon, fixed during the flight; higher looks down "
+      "more steeply",
       between(0.0, 1.0471975511965976));
-    f("observations", observations, "@@");
-    f("search", search, "@@");
-    f("tracker", tracker, "@@");
-    f("map", map, "@@");
-    f("tracking", tracking, "@@");
-    f("camera", camera, "@@");
-    f("exposure", exposure, "@@");
+    f("observations", observations, "which detections are taken as observations of an object");
+    f("search", search, "how objects on support surfaces are found in depth images");
+    f("tracker", tracker, "how detections are associated to objects");
+    f("map", map, "occupancy map of the obstacles on the way");
+    f("tracking", tracking,
+      "how trajectories are flown: controller, limits, pose errors, gusts, tolerances");
+    f("camera", camera, "RGB-D camera of the vehicle");
+    f("exposure", exposure, "exposure of the colour images, which blurs them in motion");
     f("colour_noise", colour_noise,
-      "standard deviation of a colour value, of 255; higher is noisier", between(0.0, 100.0));
+      "standard deviation of the noise on colour values of 0 to 255; higher is noisier",
+      between(0.0, 100.0));
   }
 
   [[nodiscard]] std::string method_name() const;

@@ -33,15 +33,65 @@ struct PatchKindRow {
   std::string_view name;
   int rows;      ///< of E, the dimension of a patch's descriptor
   double gamma;  ///< of the match kernel
+  StrategyText text;
 };
 inline constexpr std::array<PatchKindRow, 7> kPatchKinds{{
-    {"rgb_gradient", 200, 0.001},
-    {"lbp", 200, 0.01},
-    {"normalised_rgb", 200, 0.01},
-    {"depth_gradient", 200, 0.001},
-    {"depth_lbp", 200, 0.1},
-    {"normal_spin", 200, 0.1},
-    {"size", 50, 1.0},
+    {"rgb_gradient",
+     200,
+     0.001,
+     {.summary = "Kernel descriptors of the gradients of brightness: edges and texture of the "
+                 "object's image.",
+      .formula = "components of match kernels of E vec(A diag(m) S') per patch, attributes (gx, "
+                 "gy) / norm, m by norm",
+      .source = "BoEtAl2010"}},
+    {"lbp",
+     200,
+     0.01,
+     {.summary = "Kernel descriptors of local binary patterns of brightness: fine texture, "
+                 "whatever the light.",
+      .formula = "components of match kernels of E vec(A diag(m) S') per patch, attributes the 8 "
+                 "neighbours >= the pixel, m by deviation",
+      .source = "BoEtAl2010; OjalaEtAl2002"}},
+    {"normalised_rgb",
+     200,
+     0.01,
+     {.summary =
+          "Kernel descriptors of locally normalised colour: colour patterns, whatever the light.",
+      .formula = "components of match kernels of E vec(A diag(m) S') per patch, attributes (rgb - "
+                 "mean) / deviation / 4, m by deviation",
+      .source = "BoEtAl2010"}},
+    {"depth_gradient",
+     200,
+     0.001,
+     {.summary =
+          "Kernel descriptors of the gradients of depth: slopes and edges of the object's surface.",
+      .formula = "components of match kernels of E vec(A diag(m) S') per patch, attributes (gx, "
+                 "gy) / norm of depth, m by norm",
+      .source = "BoEtAl2011"}},
+    {"depth_lbp",
+     200,
+     0.1,
+     {.summary = "Kernel descriptors of local binary patterns of depth: fine relief of the "
+                 "object's surface.",
+      .formula = "components of match kernels of E vec(A diag(m) S') per patch, attributes the 8 "
+                 "neighbours >= the depth, m by deviation",
+      .source = "BoEtAl2011"}},
+    {"normal_spin",
+     200,
+     0.1,
+     {.summary = "Kernel descriptors of surface normals round a point, as in spin images: shape of "
+                 "the surface.",
+      .formula = "components of match kernels of E vec(A S') per patch, attributes angle between "
+                 "normals, place along and off the normal",
+      .source = "BoEtAl2011"}},
+    {"size",
+     50,
+     1.0,
+     {.summary =
+          "Kernel descriptors of distances between the object's points: its size and proportions.",
+      .formula = "components of match kernels of E vec(A) per point, attribute the distance to the "
+                 "object's points",
+      .source = "BoEtAl2011"}},
 }};
 constexpr const PatchKindRow& row_of(PatchKind kind) {
   return kPatchKinds[static_cast<std::size_t>(kind)];
@@ -63,11 +113,13 @@ struct LearningOptions {
   int samples_per_word = 20;
   int iterations = 10;
   void fields(auto&& f) {
-    f("training_views", training_views, "drawn at random; higher takes longer and more memory",
+    f("training_views", training_views,
+      "number of views, drawn at random, to learn from; higher takes longer and more memory",
       at_least(2));
-    f("samples_per_word", samples_per_word, "patches for each word to learn; higher takes longer",
+    f("samples_per_word", samples_per_word,
+      "number of patches per word of the vocabulary to learn from; higher takes longer",
       at_least(1));
-    f("iterations", iterations, "of k-means, at most", at_least(1));
+    f("iterations", iterations, "greatest number of iterations of k-means", at_least(1));
   }
 };
 
@@ -95,13 +147,15 @@ TrainedKernelDescriptor take_kernel_descriptor(PatchKind kind, ByteReader& reade
 template <PatchKind kind>
 struct KernelDescriptor {
   static constexpr std::string_view name = row_of(kind).name;
+  static constexpr StrategyText text = row_of(kind).text;
   int rows = row_of(kind).rows;
   MatchOptions match{.gamma = row_of(kind).gamma};
   LearningOptions learning;
   void fields(auto&& f) {
-    f("rows", rows, "of E; higher keeps more of a patch and is slower", between(1, 1000));
-    f("match", match, "@@");
-    f("learning", learning, "@@");
+    f("rows", rows, "length of a patch's descriptor; higher keeps more of a patch and is slower",
+      between(1, 1000));
+    f("match", match, "match kernel: how the patches of a view become one vector");
+    f("learning", learning, "how vocabulary and principal components are learnt");
   }
 
   [[nodiscard]] TrainedKernelDescriptor train(std::span<const ObjectView> views, Rng& rng) const {

@@ -18,15 +18,21 @@ struct MatchOptions {
   int components = 1000;
   double power = 0.3;
   void fields(auto&& f) {
-    f("gamma", gamma, "of exp(-gamma d^2) between descriptors; higher tells more apart",
+    f("gamma", gamma,
+      "gamma of the kernel exp(-gamma d^2) between patch descriptors; higher distinguishes more",
       above(0.0));
-    f("words", words, "of the vocabulary; higher approximates the kernel better",
+    f("words", words, "size of the vocabulary; higher approximates the kernel better and is slower",
       between(1, 100000));
-    f("levels", levels, "of the pyramid, level l has l x l cells; higher keeps more of where",
+    f("levels", levels,
+      "levels of the spatial pyramid, the l-th with l x l cells; higher keeps more of where "
+      "patches lie",
       between(1, 8));
-    f("components", components, "principal components kept; n training views give n - 1 at most",
+    f("components", components,
+      "number of principal components that are kept, n - 1 at most of n training views; higher "
+      "keeps more detail",
       between(1, 100000));
-    f("power", power, "of sign(x) |x|^power; lower evens out the components more",
+    f("power", power,
+      "exponent p of sign(x) |x|^p on each component; lower evens the components out",
       between(0.01, 1.0));
   }
   [[nodiscard]] int cells() const { return levels * (levels + 1) * (2 * levels + 1) / 6; }

@@ -21,17 +21,21 @@ namespace vantage {
 
 struct Wait {
   static constexpr std::string_view name = "wait";
+  static constexpr StrategyText text{.summary =
+                                         "A mobile robot stays where it is, turns in place between "
+                                         "scans and counts their returns."};
 
   int scans = 3;
   double turning_rate_rad_s = 0.8;
   double turning_time_s = 0.5;
   PlanarScannerOptions base_scanner;
   void fields(auto&& f) {
-    f("scans", scans, "at most, the first one included", between(1, 1000));
+    f("scans", scans, "greatest number of scans, the first one included", between(1, 1000));
     f("turning_rate_rad_s", turning_rate_rad_s,
-      "between scans, to either side; higher turns farther", between(0.0, 1.5));
-    f("turning_time_s", turning_time_s, "between scans; higher turns farther", between(0.0, 60.0));
-    f("base_scanner", base_scanner, "@@");
+      "turn rate between scans, to either side; higher turns farther", between(0.0, 1.5));
+    f("turning_time_s", turning_time_s, "time of turning between scans; higher turns farther",
+      between(0.0, 60.0));
+    f("base_scanner", base_scanner, "planar laser scanner whose returns are counted");
   }
   [[nodiscard]] std::string method_name() const { return "either side"; }
   /// @throws ConfigError if a turn is shorter than a control period

@@ -1,0 +1,137 @@
+#include "vantage/cli/reference/entry.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace vantage {
+namespace {
+
+/// "whole number, default 10, [1, 10000]", of an entry or a key.
+std::string facts(const auto& entry) {
+  std::vector<std::string> parts;
+  if (!entry.type.empty()) parts.push_back(entry.type);
+  if (!entry.unit.empty()) parts.push_back(entry.unit);
+  if (!entry.default_value.empty()) parts.push_back("default " + entry.default_value);
+  if (!entry.range.empty()) parts.push_back(entry.range);
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// `text` in lines of at most 100 characters, each two spaces in.
+std::string indented(std::string_view text) {
+  std::string lines;
+  for (const std::string_view line : wrapped(text, 98)) lines += fmt::format("  {}\n", line);
+  return lines;
+}
+
+/// Letters to insert, delete or replace to come from one to the other.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), 0U);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
+}  // namespace
+
+std::vector<ReferenceEntry> entries_of(const std::vector<KeyDescription>& keys,
+                                       const std::string& place) {
+  std::vector<ReferenceEntry> entries;
+  for (const KeyDescription& key : keys) {
+    ReferenceEntry entry{
+        .name = key.key,
+        .place = place,
+        .type = key.type,
+        .unit = key.unit,
+        .default_value = key.default_value,
+        .range = key.range,
+        .text = key.text,
+    };
+    for (const auto& owner : key.owners) {
+      entry.applies.push_back(fmt::format("{}: {}", owner.key, owner.strategy));
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+std::vector<ReferenceEntry> reference_entries() {
+  std::vector<ReferenceEntry> all = key_entries();
+  for (auto&& entry : strategy_entries()) all.push_back(std::move(entry));
+  for (auto&& entry : record_entries()) all.push_back(std::move(entry));
+  return all;
+}
+
+std::vector<ReferenceEntry> find_entries(const std::vector<ReferenceEntry>& all,
+                                         std::string_view name) {
+  std::vector<ReferenceEntry> found;
+  const auto take = [&](auto&& wanted) {
+    if (found.empty()) std::ranges::copy_if(all, std::back_inserter(found), wanted);
+  };
+  take([&](const ReferenceEntry& entry) { return entry.name == name; });
+  take([&](const ReferenceEntry& entry) { return entry.name.ends_with("." + std::string(name)); });
+  return found;
+}
+
+std::vector<std::string> nearest_names(const std::vector<ReferenceEntry>& all,
+                                       std::string_view name, std::size_t count) {
+  std::vector<std::pair<std::size_t, std::string>> by_distance;
+  for (const ReferenceEntry& entry : all) {
+    const std::size_t distance =
+        std::min(edit_distance(name, entry.name), edit_distance(name, last_part(entry.name)));
+    by_distance.emplace_back(distance, entry.name);
+  }
+  std::ranges::sort(by_distance);
+  std::vector<std::string> names;
+  for (const auto& [distance, near] : by_distance) {
+    if (names.size() == count || distance > std::max<std::size_t>(2, name.size() / 2)) break;
+    if (std::ranges::find(names, near) == names.end()) names.push_back(near);
+  }
+  return names;
+}
+
+std::string entry_text(const ReferenceEntry& entry) {
+  std::string text = fmt::format("{} ({})", entry.name, entry.place);
+  if (const std::string known = facts(entry); !known.empty()) text += ": " + known;
+  text += '\n';
+  text += indented(entry.text);
+  if (!entry.formula.empty()) text += indented(entry.formula);
+  if (!entry.source.empty()) text += indented("[" + entry.source + "]");
+  for (const KeyDescription& key : entry.parameters) {
+    text += indented(fmt::format("{} ({}): {}", key.key, facts(key), key.text));
+  }
+  if (!entry.applies.empty()) {
+    text += indented(fmt::format("with {}", fmt::join(entry.applies, ", ")));
+  }
+  return text;
+}
+
+nlohmann::ordered_json entry_json(const ReferenceEntry& entry) {
+  nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+  for (const KeyDescription& key : entry.parameters) {
+    parameters.push_back({{"name", key.key},
+                          {"type", key.type},
+                          {"unit", key.unit},
+                          {"default", key.default_value},
+                          {"range", key.range},
+                          {"text", key.text}});
+  }
+  return {{"name", entry.name},       {"place", entry.place},           {"type", entry.type},
+          {"unit", entry.unit},       {"default", entry.default_value}, {"range", entry.range},
+          {"text", entry.text},       {"formula", entry.formula},       {"source", entry.source},
+          {"parameters", parameters}, {"applies", entry.applies}};
+}
+
+}  // namespace vantage

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "vantage/cli/recognise_options.hpp"
+#include "vantage/cli/reference/entry.hpp"
+#include "vantage/cli/view_scoring.hpp"
+#include "vantage/dataset/dataset_options.hpp"
+#include "vantage/recognition/training.hpp"
+#include "vantage/sim/robots/robot_description.hpp"
+#include "vantage/study/recognition/recognition_study.hpp"
+#include "vantage/study/study.hpp"
+#include "vantage/tasks/episode.hpp"
+
+namespace vantage {
+namespace {
+
+/// A key of one task, or of several that have it alike.
+struct EpisodeKey {
+  KeyDescription key;
+  std::vector<std::string_view> tasks;
+};
+
+std::vector<EpisodeKey> keys_of_tasks() {
+  std::vector<EpisodeKey> found;
+  for_each_task([&]<class T>(const T& task) {
+    for (KeyDescription& key : describe_episode(task)) {
+      const auto same =
+          std::ranges::find_if(found, [&](const EpisodeKey& other) { return other.key == key; });
+      if (same == found.end()) {
+        found.push_back({std::move(key), {T::name}});
+      } else {
+        same->tasks.push_back(T::name);
+      }
+    }
+  });
+  return found;
+}
+
+std::vector<ReferenceEntry> episode_entries() {
+  std::vector<ReferenceEntry> entries;
+  for (const auto& [key, tasks] : keys_of_tasks()) {
+    entries.push_back(entries_of({key}, "episode").front());
+    if (tasks.size() == std::variant_size_v<Task>) continue;
+    auto& applies = entries.back().applies;
+    applies.insert(applies.begin(), fmt::format("task: {}", fmt::join(tasks, " or ")));
+  }
+  return entries;
+}
+
+std::vector<ReferenceEntry> robot_entries() {
+  std::vector<KeyDescription> keys;
+  for (const std::string_view name : strategy_names<RobotKind>()) {
+    std::visit(
+        [&](auto description) {
+          description.fields(FieldDescriber(keys, {}, {{"kind", std::string(name)}}));
+        },
+        make_strategy<RobotKind>(name));
+  }
+  return entries_of(keys, "robot.yaml");
+}
+
+}  // namespace
+
+std::vector<ReferenceEntry> key_entries() {
+  std::vector<ReferenceEntry> entries = episode_entries();
+  const auto add = [&](std::vector<ReferenceEntry> more) {
+    for (ReferenceEntry& entry : more) entries.push_back(std::move(entry));
+  };
+  add(entries_of(study_keys(), "study"));
+  add(robot_entries());
+  add(entries_of(describe_fields(ViewScoring{}), "score-views"));
+  add(entries_of(describe_fields(DatasetOptions{}), "dataset render"));
+  add(entries_of(describe_fields(TrainingOptions{}), "train"));
+  add(entries_of(describe_fields(RecogniseOptions{}), "recognise"));
+  add(entries_of(describe_fields(RecognitionStudyOptions{}), "evaluate"));
+  return entries;
+}
+
+}  // namespace vantage

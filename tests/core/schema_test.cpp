@@ -1,0 +1,162 @@
+// Options described to users: keys, types, units, defaults, ranges, texts.
+#include "vantage/core/schema.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "vantage/core/yaml.hpp"
+
+namespace vantage {
+namespace {
+
+struct Plain {
+  static constexpr std::string_view name = "plain";
+  static constexpr StrategyText text{.summary = "does nothing"};
+  void fields(auto&&) {}
+};
+
+struct Fading {
+  static constexpr std::string_view name = "fading";
+  static constexpr StrategyText text{
+      .summary = "fades", .formula = "sum a^n", .source = "Somebody2000, (3)"};
+  double a = 0.5;
+  void fields(auto&& f) { f("a", a, "what is left after a cell", between(0.0, 1.0)); }
+};
+
+using Way = std::variant<Plain, Fading>;
+
+struct Inner {
+  std::array<double, 3> size_m{1.0, 2.0, 3.0};
+  bool all = true;
+  void fields(auto&& f) {
+    f("size_m", size_m, "of the box", above(0.0));
+    f("all", all, "everything counts");
+  }
+};
+
+struct Options {
+  int scans = 10;
+  std::optional<double> limit_s;
+  Way way = Fading{.a = 0.25};
+  std::vector<Way> others;
+  Inner inner;
+  void fields(auto&& f) {
+    f("scans", scans, "at most", at_least(1));
+    f("limit_s", limit_s, "of the time");
+    f("way", way, "how it fades");
+    f("others", others, "tried too");
+    f("inner", inner, "the box");
+  }
+};
+
+const KeyDescription& of(const std::vector<KeyDescription>& keys, std::string_view key) {
+  return *std::ranges::find(keys, key, &KeyDescription::key);
+}
+
+TEST(Schema, EveryKeyInOrder) {
+  std::vector<std::string> names;
+  for (const auto& key : describe_fields(Options{})) names.push_back(key.key);
+  EXPECT_THAT(names, testing::ElementsAre("scans", "limit_s", "way", "way.a", "others",
+                                          "others[].a", "inner", "inner.size_m", "inner.all"));
+}
+
+TEST(Schema, TypeUnitDefaultRangeText) {
+  const auto keys = describe_fields(Options{});
+  EXPECT_EQ(of(keys, "scans"), (KeyDescription{.key = "scans",
+                                               .type = "whole number",
+                                               .default_value = "10",
+                                               .range = ">= 1",
+                                               .text = "at most"}));
+  EXPECT_EQ(of(keys, "inner.size_m"), (KeyDescription{.key = "inner.size_m",
+                                                      .type = "list of 3 numbers",
+                                                      .unit = "m",
+                                                      .default_value = "[1, 2, 3]",
+                                                      .range = "> 0",
+                                                      .text = "of the box"}));
+  EXPECT_EQ(of(keys, "limit_s").type, "number, or null");
+  EXPECT_EQ(of(keys, "limit_s").default_value, "null");
+  EXPECT_EQ(of(keys, "inner.all").type, "true or false");
+  EXPECT_TRUE(of(keys, "inner").section);
+}
+
+TEST(Schema, AStrategyNamesItsAlternativesAndTheyTheirs) {
+  const auto keys = describe_fields(Options{});
+  EXPECT_EQ(of(keys, "way").type, "one of plain, fading");
+  EXPECT_EQ(of(keys, "way").default_value, "fading");
+  EXPECT_EQ(of(keys, "way.a").default_value, "0.25");
+  EXPECT_THAT(of(keys, "way.a").owners,
+              testing::ElementsAre(KeyDescription::Owner{"way", "fading"}));
+  EXPECT_EQ(of(keys, "others").type, "list of one of plain, fading");
+  EXPECT_EQ(of(keys, "others[].a").default_value, "0.5");
+}
+
+TEST(Schema, UnitsAreTheEndOfAName) {
+  EXPECT_EQ(unit_in_name("radius_m"), "m");
+  EXPECT_EQ(unit_in_name("speed_m_s"), "m/s");
+  EXPECT_EQ(unit_in_name("weight_per_m"), "1/m");
+  EXPECT_EQ(unit_in_name("area_m2"), "m^2");
+  EXPECT_EQ(unit_in_name("yaw_rad"), "rad");
+  EXPECT_EQ(unit_in_name("scans"), "");
+  EXPECT_EQ(unit_in_name("m"), "");
+}
+
+TEST(Schema, Ranges) {
+  EXPECT_EQ(range_text({}), "");
+  EXPECT_EQ(range_text(between(0.0, 1.0)), "[0, 1]");
+  EXPECT_EQ(range_text(Range{0.0, 1.0, true}), "(0, 1]");
+  EXPECT_EQ(range_text(above(0.0)), "> 0");
+  EXPECT_EQ(range_text(at_least(2.0)), ">= 2");
+  EXPECT_EQ(range_text(Range{.max = 3.0}), "<= 3");
+}
+
+TEST(Schema, StrategiesSayWhatTheyAre) {
+  const auto ways = describe_strategies<Way>();
+  ASSERT_EQ(ways.size(), 2U);
+  EXPECT_EQ(ways[1].name, "fading");
+  EXPECT_EQ(ways[1].text.formula, "sum a^n");
+  ASSERT_EQ(ways[1].parameters.size(), 1U);
+  EXPECT_EQ(ways[1].parameters[0].key, "a");
+}
+
+TEST(Schema, CommentsStandAboveTheirKeys) {
+  Options options;
+  options.others = {Fading{}};
+  EXPECT_EQ(commented_yaml(write_node(options), describe_fields(Options{})),
+            "# at most (>= 1)\n"
+            "scans: 10\n"
+            "# of the time (s)\n"
+            "limit_s: ~\n"
+            "# how it fades (one of plain, fading)\n"
+            "way:\n"
+            "  name: fading\n"
+            "  # what is left after a cell ([0, 1])\n"
+            "  a: 0.25\n"
+            "# tried too\n"
+            "others:\n"
+            "  - name: fading\n"
+            "    a: 0.5\n"
+            "# the box\n"
+            "inner:\n"
+            "  # of the box (m, > 0)\n"
+            "  size_m: [1, 2, 3]\n"
+            "  # everything counts\n"
+            "  all: true\n");
+}
+
+TEST(Schema, CommentedYamlReadsAsTheSame) {
+  Options options;
+  options.way = Plain{};
+  const ConfigNode node = write_node(options);
+  const std::string text = commented_yaml(node, describe_fields(Options{}));
+  EXPECT_EQ(to_yaml(parse_yaml(text, "e.yaml")), to_yaml(node));
+  EXPECT_EQ(text.find("what is left"), text.npos);  // plain has no a
+}
+
+TEST(Schema, TextIsBrokenAtSpaces) {
+  EXPECT_THAT(wrapped("one two three", 7), testing::ElementsAre("one two", "three"));
+  EXPECT_THAT(wrapped("abcdefghij k", 4), testing::ElementsAre("abcdefghij", "k"));
+  EXPECT_THAT(wrapped("", 4), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace vantage
