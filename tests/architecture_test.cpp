@@ -133,8 +133,11 @@ const std::map<std::string, Rooms> kAllowed{
     {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
     {"study", kGround + kRuntime + Rooms{"report", "study/figures", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
-    {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                Rooms{"dataset", "models/catalogue/database", "report", "tasks", "view"}},
+    {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+                          Rooms{"belief/objects", "dataset", "tasks"}},
+    {"cli",
+     kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+         Rooms{"cli/reference", "dataset", "models/catalogue/database", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench", kTask + kStudy + Rooms{"bench/claims", "tasks", "tasks/*", "tests/support"}},
     {"python", kTask + kStudy + Rooms{"tasks", "tasks/*"}},

@@ -226,9 +226,11 @@ TEST(Docs, EveryPathInCodeFormatExists) {
   }
 }
 
-TEST(Docs, TheTutorialShowsTheGainThatIsTested) {
-  const std::string& code = texts().at("docs/tutorials/rim_gain.hpp");
-  EXPECT_NE(texts().at("docs/tutorials/own-gain.md").find(code), std::string::npos);
+TEST(Docs, TheTutorialShowsWhatIsTested) {
+  const std::string& page = texts().at("docs/tutorials/own-gain.md");
+  for (const char* file : {"docs/tutorials/rim_gain.hpp", "tests/package/own_gain/own_gain.cpp"}) {
+    EXPECT_NE(page.find(texts().at(file)), std::string::npos) << file;
+  }
 }
 
 TEST(Docs, TheMapFitsOnAPage) {

@@ -226,8 +226,8 @@ Study read_study(const fs::path& file, const std::vector<std::string>& overrides
   study.name = file.stem().string();
   study.title = study.name;
   FieldReader reader(root);
-  reader("title", study.title, "of its report");
-  reader("report", study.report, "what is made of the results");
+  reader("title", study.title, "title of the report; by default the name of the file");
+  reader("report", study.report, "what `vantage sweep collect` makes of the results");
   for (const char* key : {"episode", "set", "factors"}) reader.allow(key);
   reader.finish();
   study.episode = find_input(root.find("episode")->scalar, {}, "episode");

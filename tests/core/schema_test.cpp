@@ -18,7 +18,7 @@ struct Plain {
 struct Fading {
   static constexpr std::string_view name = "fading";
   static constexpr StrategyText text{
-      .summary = "fades", .formula = "sum a^n", .source = "Somebody2000, (3)"};
+      .summary = "fades", .formula = "sum a^n", .source = "Zhang2020, (3)"};
   double a = 0.5;
   void fields(auto&& f) { f("a", a, "what is left after a cell", between(0.0, 1.0)); }
 };

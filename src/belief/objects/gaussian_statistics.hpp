@@ -72,11 +72,11 @@ struct LiteralVariance {
           "Overfits states with few views.",
       .formula = "d / n, d the sum of squared deviations of n views",
       .source = "Potthast2016, 4.1.3"};
-  double floor = 0.01;
+  double floor = 0.01;  ///< bins of a histogram that no view fills have none of their own
   void fields(auto&& f) {
     f("floor", floor,
-      "least variance, as a share of the mean pooled variance of all dimensions, for bins that no "
-      "view fills; higher flattens the densities",
+      "least variance, as a share of the mean pooled variance of all dimensions; higher flattens "
+      "the densities",
       above(0.0));
   }
   /// @param count >= 1

@@ -67,13 +67,6 @@ std::vector<ReferenceEntry> entries_of(const std::vector<KeyDescription>& keys,
   return entries;
 }
 
-std::vector<ReferenceEntry> reference_entries() {
-  std::vector<ReferenceEntry> all = key_entries();
-  for (auto&& entry : strategy_entries()) all.push_back(std::move(entry));
-  for (auto&& entry : record_entries()) all.push_back(std::move(entry));
-  return all;
-}
-
 std::vector<ReferenceEntry> find_entries(const std::vector<ReferenceEntry>& all,
                                          std::string_view name) {
   std::vector<ReferenceEntry> found;

@@ -32,8 +32,6 @@ std::vector<ReferenceEntry> key_entries();
 std::vector<ReferenceEntry> strategy_entries();
 /// What runs, studies and commands write: files, their columns and keys, exit codes.
 std::vector<ReferenceEntry> record_entries();
-/// All of them, in this order.
-std::vector<ReferenceEntry> reference_entries();
 
 /// As entries of `place`.
 std::vector<ReferenceEntry> entries_of(const std::vector<KeyDescription>& keys,

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "vantage/cli/recognise_options.hpp"
 #include "vantage/cli/reference/entry.hpp"
-#include "vantage/cli/view_scoring.hpp"
 #include "vantage/dataset/dataset_options.hpp"
 #include "vantage/recognition/training.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
@@ -70,10 +68,8 @@ std::vector<ReferenceEntry> key_entries() {
   };
   add(entries_of(study_keys(), "study"));
   add(robot_entries());
-  add(entries_of(describe_fields(ViewScoring{}), "score-views"));
   add(entries_of(describe_fields(DatasetOptions{}), "dataset render"));
   add(entries_of(describe_fields(TrainingOptions{}), "train"));
-  add(entries_of(describe_fields(RecogniseOptions{}), "recognise"));
   add(entries_of(describe_fields(RecognitionStudyOptions{}), "evaluate"));
   return entries;
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <functional>
 
-#include "vantage/cli/reference/entry.hpp"
 #include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
@@ -117,12 +116,13 @@ std::string strategy_texts(const Entries& entries) {
 
 }  // namespace
 
-void write_reference_pages(const std::filesystem::path& directory) {
+void write_reference_pages(const std::vector<ReferenceEntry>& keys,
+                           const std::filesystem::path& directory) {
   make_writable_directory(directory);
   const auto write = [&](const char* name, std::string_view title, const std::string& body) {
     write_file(directory / name, fmt::format("# {}\n\n{}{}", title, kMadeBy, body));
   };
-  write("keys.md", "Keys", by_place(key_entries(), key_tables));
+  write("keys.md", "Keys", by_place(keys, key_tables));
   write("strategies.md", "Strategies", by_place(strategy_entries(), strategy_texts));
   write("files.md", "Files, columns, exit codes", by_place(record_entries(), record_table));
 }

@@ -1,4 +1,4 @@
-#include "vantage/cli/reference/explain_command.hpp"
+#include "vantage/cli/explain_command.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,8 +9,10 @@
 #include <memory>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/recognise_options.hpp"
 #include "vantage/cli/reference/entry.hpp"
 #include "vantage/cli/reference/pages.hpp"
+#include "vantage/cli/view_scoring.hpp"
 #include "vantage/runtime/json.hpp"
 
 namespace vantage {
@@ -21,6 +23,25 @@ struct Arguments {
   std::filesystem::path pages;
   bool json = false;
 };
+
+void append(std::vector<ReferenceEntry>& all, std::vector<ReferenceEntry> more) {
+  for (ReferenceEntry& entry : more) all.push_back(std::move(entry));
+}
+
+/// Those of the commands included.
+std::vector<ReferenceEntry> all_keys() {
+  std::vector<ReferenceEntry> keys = key_entries();
+  append(keys, entries_of(describe_fields(ViewScoring{}), "score-views"));
+  append(keys, entries_of(describe_fields(RecogniseOptions{}), "recognise"));
+  return keys;
+}
+
+std::vector<ReferenceEntry> all_entries() {
+  std::vector<ReferenceEntry> all = all_keys();
+  append(all, strategy_entries());
+  append(all, record_entries());
+  return all;
+}
 
 /// @throws ConfigError if there is nothing of that name
 std::vector<ReferenceEntry> found(const std::vector<ReferenceEntry>& all, const std::string& name) {
@@ -36,10 +57,10 @@ std::vector<ReferenceEntry> found(const std::vector<ReferenceEntry>& all, const 
 
 ExitCode explain(const Arguments& arguments) {
   if (!arguments.pages.empty()) {
-    write_reference_pages(arguments.pages);
+    write_reference_pages(all_keys(), arguments.pages);
     return ExitCode::done;
   }
-  const auto all = reference_entries();
+  const auto all = all_entries();
   if (arguments.names.empty()) throw ConfigError("explain: say what, as in: explain gain.a");
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   std::string text;
