@@ -1,11 +1,13 @@
 #include "vantage/tasks/mapping/simulated_mobile_base.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
 
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/sim/world/settle.hpp"
 
 namespace vantage {
 namespace {
@@ -13,6 +15,22 @@ namespace {
 std::string geom_text(const mjModel& model, int geom) {
   const std::string name = model_name(model, ModelObject::geom, geom);
   return name.empty() ? fmt::format("geom number {}", geom) : fmt::format("'{}'", name);
+}
+
+/// With the robot where it starts and the scene's free bodies at rest.
+/// @throws InputError naming the scene and the body if one does not come to rest.
+MobileBase settled(const std::function<MobileBase(World&)>& place, World& world) {
+  MobileBase robot = place(world);
+  try {
+    const std::vector<std::string> moved = settle_free_bodies(world);
+    if (!moved.empty()) {
+      log_info(
+          fmt::format("bodies that came to rest before the start: {}", fmt::join(moved, ", ")));
+    }
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("scene: {}: {}", world.source().scene.string(), error.what()));
+  }
+  return robot;
 }
 
 }  // namespace
@@ -34,7 +52,7 @@ SimulatedMobileBase::SimulatedMobileBase(const EpisodeOptions& episode,
     : drive_(options.drive),
       scanner_(options.base_scanner),
       world_(source, episode.simulation),
-      robot_(place(world_)),
+      robot_(settled(place, world_)),
       geometry_(world_.model(), world_.snapshot()),
       geometry_without_robot_(world_.model(), world_.snapshot(), kWithoutRobot),
       odometry_(options.odometry, Rng::stream(episode.seed, "odometry"),
