@@ -29,6 +29,7 @@ struct Step {
   Eigen::Vector2d shift_m = Eigen::Vector2d::Zero();
   double turn_rad = 0.0;
   int unconstrained = 3;
+  Eigen::Matrix3d strength = Eigen::Matrix3d::Zero();  ///< weight of (x, y, yaw) where constrained
 };
 
 PointCloud upright_part(const PointCloud& cloud, double max_normal_z) {
@@ -117,8 +118,11 @@ Step gauss_newton_step(const std::vector<Correspondence>& correspondences, doubl
     if (!(strength > min_share * weights)) continue;
     const Eigen::Vector3d direction = solver.eigenvectors().col(i);
     solution -= direction * (direction.dot(gradient) / strength);
+    step.strength += strength * direction * direction.transpose();
     --step.unconstrained;
   }
+  const Eigen::Vector3d scale(1.0, 1.0, arm_m);
+  step.strength = scale.asDiagonal() * step.strength * scale.asDiagonal();
   step.shift_m = solution.head<2>();
   step.turn_rad = solution.z() / arm_m;
   return step;
@@ -151,6 +155,7 @@ void iterate(const PointCloud& scan_base, const UprightMap& map, const Registrat
     const double kernel_m = std::max(options.kernel_scale_m, radius_m / 3.0);
     const Step step = gauss_newton_step(correspondences, kernel_m, options);
     result.unconstrained = step.unconstrained;
+    result.information = step.strength / (options.voxel_m * options.voxel_m);
     if (step.unconstrained == 3) {
       result.reason = "no surface constrains the pose";
       return;
@@ -168,7 +173,7 @@ void iterate(const PointCloud& scan_base, const UprightMap& map, const Registrat
 
 /// Why a pose that the iteration came to rest at is still not to be trusted; empty if it is.
 std::string rejection_reason(const RegistrationResult& result, const Pose2& guess,
-                             const RegistrationOptions& options) {
+                             const RegistrationOptions& options, const Correction& plausible) {
   const Pose2& pose = result.T_world_base;
   const double moved_m = std::hypot(pose.x_m - guess.x_m, pose.y_m - guess.y_m);
   const double turned_rad = std::abs(wrap_angle(pose.yaw_rad - guess.yaw_rad));
@@ -181,6 +186,10 @@ std::string rejection_reason(const RegistrationResult& result, const Pose2& gues
   if (turned_rad > options.max_correction_rad) {
     return fmt::format("turned {:.3f} rad, more than {} rad", turned_rad,
                        options.max_correction_rad);
+  }
+  if (moved_m > plausible.shift_m || turned_rad > plausible.turn_rad) {
+    return fmt::format("moved {:.3f} m and {:.3f} rad, odometry explains {:.3f} m and {:.3f} rad",
+                       moved_m, turned_rad, plausible.shift_m, plausible.turn_rad);
   }
   return {};
 }
@@ -202,7 +211,7 @@ PointCloud prepare_scan(const PointCloud& cloud, const Eigen::Vector3d& p_viewpo
 
 RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& map_world,
                                  const Pose2& T_world_base_guess,
-                                 const RegistrationOptions& options) {
+                                 const RegistrationOptions& options, const Correction& plausible) {
   expects(map_world.empty() || map_world.has_normals(), "the map's cloud needs normals");
   RegistrationResult result;
   result.T_world_base = T_world_base_guess;
@@ -216,9 +225,14 @@ RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& 
   }
   const UprightMap map{std::move(upright_map.normals), KdTree(std::move(upright_map.points))};
   iterate(scan, map, options, result);
-  if (result.reason.empty()) result.reason = rejection_reason(result, T_world_base_guess, options);
+  if (result.reason.empty()) {
+    result.reason = rejection_reason(result, T_world_base_guess, options, plausible);
+  }
   result.converged = result.reason.empty();
-  if (!result.converged) result.T_world_base = T_world_base_guess;
+  if (!result.converged) {
+    result.T_world_base = T_world_base_guess;
+    result.information.setZero();
+  }
   return result;
 }
 

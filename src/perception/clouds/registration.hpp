@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <string>
 
 #include "vantage/core/fields.hpp"
@@ -90,6 +91,12 @@ struct RegistrationOptions {
   void check() const;  ///< the search radius shrinks
 };
 
+/// How far a registration may move the guess.
+struct Correction {
+  double shift_m = std::numeric_limits<double>::infinity();
+  double turn_rad = std::numeric_limits<double>::infinity();
+};
+
 struct RegistrationResult {
   Pose2 T_world_base;  ///< the guess itself unless converged
   bool converged = false;
@@ -98,6 +105,9 @@ struct RegistrationResult {
   double overlap = 0.0;  ///< share of upright scan points with a partner, [0, 1]
   int iterations = 0;
   int unconstrained = 0;  ///< directions of (x, y, yaw) left to odometry in the last iteration
+  /// Inverse covariance of (x, y, yaw), each pair good to `voxel_m`; zero in directions that are
+  /// left to odometry, and unless converged.
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
 /// Thins a raw cloud and gives it normals towards `p_viewpoint` (same frame): what register_scan
@@ -109,9 +119,11 @@ PointCloud prepare_scan(const PointCloud& cloud, const Eigen::Vector3d& p_viewpo
 /// and pitch are known. Directions that no surface constrains keep the guess [ZhangKaessSingh2016].
 /// @param scan_base points in the base frame; normals, if any, sort out opposite faces
 /// @param map_world points with normals in the world frame; must have normals unless empty
+/// @param plausible corrections beyond these are no drift but a wrong optimum
 /// Never throws: a result that cannot be trusted is the guess, with the reason.
 RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& map_world,
                                  const Pose2& T_world_base_guess,
-                                 const RegistrationOptions& options);
+                                 const RegistrationOptions& options,
+                                 const Correction& plausible = {});
 
 }  // namespace vantage

@@ -223,6 +223,31 @@ TEST(Registration, ACorridorLeavesItsLengthToOdometry) {
   EXPECT_NEAR(result.T_world_base.yaw_rad, 0.0, 5e-4);
 }
 
+TEST(Registration, TellsWhatItKnowsAndWhatNot) {
+  PointCloud corridor = wall_along_x(1.0);
+  append(corridor, wall_along_x(-1.0));
+  const auto result = register_scan(corridor, corridor, {}, RegistrationOptions{});
+  const Eigen::Matrix3d& information = result.information;
+  EXPECT_NEAR(information(0, 0), 0.0, 1e-6 * information(1, 1)) << "nothing is seen across";
+  // Each pair is good to 3 cm; of those kept every normal is along y.
+  const double pairs = information(1, 1) * 0.03 * 0.03;
+  EXPECT_GT(pairs, 0.85 * static_cast<double>(corridor.size()));
+  EXPECT_LT(pairs, static_cast<double>(corridor.size()));
+  EXPECT_TRUE(register_scan({}, corridor, {}, RegistrationOptions{}).information.isZero());
+}
+
+TEST_F(TableRoom, KeepsTheGuessWhereOdometryCannotHaveDriftedSoFar) {
+  const PointCloud map = map_from(0.0);
+  const Pose2 truth = view_of_table(0.0);
+  const PointCloud scan = measure(scene, truth, kSigma, rng);
+  const Pose2 guess{truth.x_m + 0.06, truth.y_m, truth.yaw_rad};
+  const auto result = register_scan(scan, map, guess, options, {.shift_m = 0.03, .turn_rad = 0.1});
+  EXPECT_FALSE(result.converged);
+  EXPECT_NE(result.reason.find("odometry explains 0.030 m"), std::string::npos) << result.reason;
+  EXPECT_EQ(result.T_world_base.x_m, guess.x_m);
+  EXPECT_TRUE(register_scan(scan, map, guess, options, {.shift_m = 0.1}).converged);
+}
+
 TEST(Registration, OnlyAFloorSaysNothing) {
   PointCloud floor;
   for (double x = -1.0; x <= 1.0; x += 0.05) {
