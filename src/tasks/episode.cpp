@@ -24,6 +24,21 @@ Task named_task(const ConfigNode& root) {
   }
 }
 
+bool is_auto(const ConfigNode& node) {
+  return node.kind == ConfigNode::Kind::scalar && !node.quoted && node.scalar == "auto";
+}
+
+/// `map: auto` and `map.centre_m: auto` are what the map has if nothing is said of it.
+ConfigNode with_open_map(const ConfigNode& root) {
+  ConfigNode open = root;
+  const ConfigNode* map = root.find("map");
+  if (map == nullptr) return open;
+  ConfigNode left = is_auto(*map) ? ConfigNode{} : *map;
+  std::erase_if(left.entries, [](const auto& entry) { return is_auto(entry.second); });
+  open.set("map", std::move(left));
+  return open;
+}
+
 /// What concerns the task and the rest of the episode.
 void check_together(const ConfigNode& root, const EpisodeOptions& options, const Task& task) {
   try {
@@ -35,7 +50,8 @@ void check_together(const ConfigNode& root, const EpisodeOptions& options, const
 
 }  // namespace
 
-void read_episode(const ConfigNode& root, EpisodeOptions& options, Task& task) {
+void read_episode(const ConfigNode& said, EpisodeOptions& options, Task& task) {
+  const ConfigNode root = with_open_map(said);
   if (root.kind != ConfigNode::Kind::null) detail::require_kind(root, ConfigNode::Kind::map);
   reject_former_keys(root);
   task = named_task(root);
@@ -81,6 +97,11 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   setup.options.scene = lasting_name(setup.scene);
   setup.options.robot.model = lasting_name(robot_path);
   std::visit([&](auto& task) { task.find_files(base); }, resolved.task);
+  std::visit(
+      [&](auto& task) {
+        if constexpr (requires { task.resolve(setup); }) task.resolve(setup);
+      },
+      resolved.task);
   return resolved;
 }
 

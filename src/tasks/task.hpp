@@ -20,7 +20,8 @@
 
 namespace vantage {
 
-/// What a task answers. No other place asks which task it is.
+/// What a task answers. No other place asks which task it is. A task that leaves options to the
+/// scene has `resolve(setup)` too, which fills them in once files are found.
 template <class T>
 concept EpisodeTask = HasFields<T> &&
     requires(const T& task, T& mutable_task, const EpisodeOptions& options,

@@ -2,26 +2,46 @@
 
 #include <fmt/format.h>
 
+#include <type_traits>
+
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/sim/robots/robot_check.hpp"
+#include "vantage/sim/world/level_surfaces.hpp"
+#include "vantage/sim/world/settle.hpp"
 #include "vantage/sim/world/world.hpp"
-#include "vantage/tasks/tabletop/start_check.hpp"
+#include "vantage/tasks/tabletop/table_region.hpp"
 
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-/// As it will be loaded, beside the robot.
+/// A table top with defaults, as `vantage run --set scene=FILE` has it.
+Validation validate_as_table_top(const fs::path& file) {
+  ConfigNode root = ConfigNode::make_map();
+  root.set("scene", ConfigNode::make_scalar(fs::absolute(file).string(), true));
+  try {
+    return {{}, require_start(file, resolve_episode(root, file)), ExitCode::done};
+  } catch (const ConfigError& error) {
+    return {{}, {fmt::format("{}: note: not with defaults: {}", file.string(), error.what())}};
+  }
+}
+
+/// As it will be loaded, beside the robot, its free bodies at rest.
 Validation validate_scene(const fs::path& file) {
   const RobotOptions robot;
-  const World world({file, read_robot(find_input(robot.model, {}, "robot.model")).mjcf}, {});
-  const RayScene geometry(world.model(), world.snapshot(), kWithoutRobot);
-  if (has_table(geometry, Tabletop{})) return {};
-  return {{},
-          {file.string() + ": note: no table where map.centre_m and map.size_m are by default"}};
+  World world({file, read_robot(find_input(robot.model, {}, "robot.model")).mjcf}, {});
+  try {
+    settle_free_bodies(world);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+  const auto surfaces =
+      level_surfaces(world.model(), world.snapshot(), table_surfaces(TableOptions{}));
+  if (!surfaces.empty()) return validate_as_table_top(file);
+  return {{}, {file.string() + ": note: no table; rooms are for task: exploration"}};
 }
 
 Validation validate_map(const fs::path& file) {
@@ -44,20 +64,30 @@ Validation validation_of(const std::function<Validation()>& check) {
   }
 }
 
-void require_start(const fs::path& file, const ResolvedEpisode& resolved) {
+std::vector<std::string> require_start(const fs::path& file, const ResolvedEpisode& resolved) {
+  std::vector<std::string> notes;
   try {
-    std::visit([&](const auto& task) { task.require_start(resolved.setup); }, resolved.task);
+    std::visit(
+        [&](const auto& task) {
+          if constexpr (std::is_void_v<decltype(task.require_start(resolved.setup))>) {
+            task.require_start(resolved.setup);
+          } else {
+            notes = task.require_start(resolved.setup);
+          }
+        },
+        resolved.task);
   } catch (const ConfigError& error) {
     throw ConfigError(file.string() + ": " + error.what());
   } catch (const InputError& error) {
     throw InputError(file.string() + ": " + error.what());
   }
+  for (std::string& note : notes) note = fmt::format("{}: note: {}", file.string(), note);
+  return notes;
 }
 
 Validation validate_episode(const fs::path& file, const std::vector<std::string>& overrides) {
   return validation_of([&] {
-    require_start(file, load_episode(file, overrides));
-    return Validation{};
+    return Validation{{}, require_start(file, load_episode(file, overrides)), ExitCode::done};
   });
 }
 

@@ -20,8 +20,10 @@ struct Validation {
 /// What `check` finds, or the error that it throws.
 Validation validation_of(const std::function<Validation()>& check);
 
+/// @return what is worth a warning, `file` in front
 /// @throws ConfigError or InputError, `file` in front, if the episode cannot start.
-void require_start(const std::filesystem::path& file, const ResolvedEpisode& resolved);
+std::vector<std::string> require_start(const std::filesystem::path& file,
+                                       const ResolvedEpisode& resolved);
 
 /// Of the episode as it would run.
 Validation validate_episode(const std::filesystem::path& file,

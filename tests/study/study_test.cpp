@@ -79,7 +79,7 @@ TEST_F(StudyFile, SetFromTheCommandLineReachesEveryEpisode) {
   for (const auto& episode : plan_study(read(kStudy, {"scans=7", "map.cells=[9,9,9]"}))) {
     const auto& task = std::get<Tabletop>(episode.resolved.task);
     EXPECT_EQ(task.scans, 7);
-    EXPECT_EQ(task.map.cells[2], 9);
+    EXPECT_EQ(task.map.frame().cells.z(), 9);
   }
 }
 

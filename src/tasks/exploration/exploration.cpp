@@ -21,12 +21,13 @@ std::string Exploration::outcome(const nlohmann::ordered_json& metrics) {
   return mapping_outcome(metrics);
 }
 
-void Exploration::require_start(const EpisodeSetup& setup) const {
-  const SimulatedExplorationRobot robot(setup, *this);
+std::vector<std::string> Exploration::require_start(const EpisodeSetup& setup) const {
+  return SimulatedExplorationRobot(setup, *this).start_notes();
 }
 
 RunOutcome Exploration::run(const RunRequest& request) const {
   ExplorationSession<> session(request, *this);
+  for (const std::string& note : session.robot.start_notes()) log_warning(note);
   log_debug(fmt::format("{} cells are observable, from {} places",
                         session.evaluator.observable_cells(), session.evaluator.poses()));
   return session.run_to_end();

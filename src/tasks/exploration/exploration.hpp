@@ -104,6 +104,7 @@ struct Exploration : MappingOptions {
   void check_with(const EpisodeOptions& episode) const;
 
   void find_files(const std::filesystem::path&) {}
+  void resolve(const EpisodeSetup&) { map.fill_in(); }
   [[nodiscard]] std::vector<InputFile> inputs() const { return {}; }
   [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
   [[nodiscard]] TaskExtent extent(const EpisodeSetup& setup) const;
@@ -113,8 +114,8 @@ struct Exploration : MappingOptions {
   [[nodiscard]] static std::string_view robot_kind() { return MobileBaseDescription::name; }
   [[nodiscard]] static Measures measures();
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
-  /// @throws ConfigError or InputError if the episode cannot begin.
-  void require_start(const EpisodeSetup& setup) const;
+  /// @return what is worth a warning @throws ConfigError or InputError if the episode cannot begin.
+  std::vector<std::string> require_start(const EpisodeSetup& setup) const;
   RunOutcome run(const RunRequest& request) const;
 };
 

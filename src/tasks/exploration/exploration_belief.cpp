@@ -32,12 +32,15 @@ ExplorationBelief::ExplorationBelief(const EpisodeOptions& episode, const Explor
     : MapBelief(task), threads_(episode.threads), task_(task) {}
 
 BeliefUpdate ExplorationBelief::update(const ExplorationObservation& observation,
-                                       const ReferenceMap& reference_map) {
+                                       const ReferenceMap& reference_map,
+                                       const Correction& plausible) {
   const auto located = reference_map.locate(observation.base_scan, observation.base_scan_height_m,
-                                            observation.T_world_base_odometry);
+                                            observation.T_world_base_odometry, plausible);
   BeliefUpdate report{.T_world_base = located.T_world_base,
                       .registered = located.converged,
-                      .registration_note = located.reason};
+                      .registration_note = located.reason,
+                      .information = located.information,
+                      .unconstrained = located.converged ? located.unconstrained : 3};
   const Pose T_world_base = to_se3(report.T_world_base);
 
   PointCloud points;

@@ -15,7 +15,8 @@ class ExplorationBelief : public MapBelief {
   ExplorationBelief(const EpisodeOptions& episode, const Exploration& task);
 
   /// Registration with `reference_map`, measurements, free space, holes.  [Potthast2016, 3.2]
-  BeliefUpdate update(const ExplorationObservation& observation, const ReferenceMap& reference_map);
+  BeliefUpdate update(const ExplorationObservation& observation, const ReferenceMap& reference_map,
+                      const Correction& plausible);
 
  private:
   int threads_;

@@ -41,7 +41,7 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
                                    ExplorationRobotInterface& robot, ExplorationBelief& belief)
     : MappingParts(
           context, task, belief, exploration_predictors(task),
-          Navigator(task.floor_map, task.navigation, robot,
+          Navigator(task.floor_map, task.navigation, task.odometry, robot,
                     ReferenceMap(task.registration, task.reference_novelty_m), task.keyframe_m)),
       task_(task),
       exploring_robot_(robot),
@@ -59,7 +59,8 @@ ExplorationObservation ExplorationParts::observe() {
 
 void ExplorationParts::update(const ExplorationObservation& observation) {
   const Before before = before_update();
-  const BeliefUpdate update = belief_.update(observation, navigator_.reference_map());
+  const BeliefUpdate update =
+      belief_.update(observation, navigator_.reference_map(), navigator_.plausible_correction());
   correct_pose(update);
   navigator_.remember(observation.base_scan, update.T_world_base);
   block_floor();

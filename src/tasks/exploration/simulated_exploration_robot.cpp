@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "vantage/sim/sensors/camera.hpp"
+#include "vantage/tasks/exploration/start_check.hpp"
 #include "vantage/tasks/mapping/simulated_mobile_base.hpp"
 
 namespace vantage {
@@ -48,12 +49,6 @@ Pose2 start_pose(const World& world, const EpisodeSetup& setup) {
                                               : fmt::format("known: {}", fmt::join(known, ", "))));
 }
 
-/// "robot.start_site 'start_0'"
-std::string start_text(const RobotOptions& robot) {
-  if (!robot.start_site.empty()) return fmt::format("robot.start_site '{}'", robot.start_site);
-  return fmt::format("robot.start_pose {}", fmt::join(robot.start_pose, ", "));
-}
-
 /// The lift that brings the camera from `lowest_m` to frontiers.height_m.
 /// @throws ConfigError if it cannot.
 double camera_lift_m(const MobileBase& robot, double lowest_m, const Exploration& task) {
@@ -89,7 +84,10 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
       renderer_(
           make_offscreen_renderer(base_.world().model(), camera_.width_px, camera_.height_px)),
       camera_noise_(Rng::stream(setup.options.seed, "camera")) {
+  check_exploration_start(base_.world(), base_.robot(), base_.ground_truth().geometry(), setup,
+                          task);
   check_turning_room(base_.world(), base_.robot(), start_text(setup.options.robot));
+  base_.note_localisation(task.registration, setup.options.seed, start_notes_);
 }
 
 ExplorationObservation SimulatedExplorationRobot::observe() {

@@ -22,6 +22,9 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
   [[nodiscard]] Pose2 base_for_sensor(const Pose& T_world_sweep) const override;
   [[nodiscard]] FieldOfView view_field() const override { return field_; }
 
+  /// What is worth a warning before it starts.
+  [[nodiscard]] const std::vector<std::string>& start_notes() const { return start_notes_; }
+
  private:
   void turn_head(double pan_rad, double tilt_rad);
   DepthImage take_image();
@@ -32,6 +35,7 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
   FieldOfView field_;
   std::unique_ptr<Renderer> renderer_;
   Rng camera_noise_;
+  std::vector<std::string> start_notes_;
 };
 
 }  // namespace vantage

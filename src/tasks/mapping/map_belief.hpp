@@ -13,6 +13,8 @@ struct BeliefUpdate {
   Pose2 T_world_base;      ///< after registration
   bool registered = true;  ///< false: the odometry's pose was kept
   std::string registration_note;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the registration
+  int unconstrained = 0;  ///< directions of (x, y, yaw) that odometry decides
   std::size_t freed_cells = 0;
   std::size_t filled_cells = 0;
 };

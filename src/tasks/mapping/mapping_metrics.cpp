@@ -33,12 +33,28 @@ Json scan_json(const ScanRecord& scan) {
           {"pose_error_m", scan.pose_error_m},
           {"pose_error_before_registration_m", scan.pose_error_before_registration_m},
           {"yaw_error_rad", scan.yaw_error_rad},
+          {"map_sigma_m", scan.map_sigma_m},
           {"registered", scan.registered},
+          {"unconstrained", scan.unconstrained},
           {"fallback", scan.fallback},
           {"collisions", scan.collisions},
           {"precision", scan.precision},
           {"recall", scan.recall},
           {"view", view_json(scan.T_world_sensor)}};
+}
+
+Json localisation_json(const MappingOptions& options, std::span<const ScanRecord> scans) {
+  double sigma_m = 0.0;
+  int registered = 0;
+  for (const ScanRecord& scan : scans) {
+    sigma_m = std::max(sigma_m, scan.map_sigma_m);
+    registered += scan.registered ? 1 : 0;
+  }
+  const double tolerance_m = map_tolerance_m(options);
+  return {{"map_sigma_m", sigma_m},
+          {"tolerance_m", tolerance_m},
+          {"trusted", sigma_m <= tolerance_m},
+          {"registered_scans", registered}};
 }
 
 /// The transmission that the gain in use assumes for an unobserved cell; null if it assumes none.
@@ -182,6 +198,7 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
       {"precision", map.precision}, {"recall", map.recall}, {"tolerance_cells", tolerance_cells}};
   metrics["observability"] = observability(options, run.hazard);
   metrics["observability_per_slice"] = run.hazard.transmission_per_slice();
+  metrics["localisation"] = localisation_json(options, run.scans);
   metrics["region"] = box_json(run.grid.frame.box());
   metrics["candidates"] = candidates_json(run.views);
 }

@@ -21,13 +21,22 @@ std::string labels(const std::vector<Gain>& gains) {
 
 }  // namespace
 
-double MapOptions::count() const { return static_cast<double>(cells[0]) * cells[1] * cells[2]; }
+double MapOptions::count() const {
+  const auto& n = cells ? *cells : kCells;
+  return static_cast<double>(n[0]) * n[1] * n[2];
+}
 
 void MapOptions::check() const {
-  if (count() > kMaxCells) {
-    throw ConfigError(
-        fmt::format("cells: {} x {} x {} is more than 2^26 cells", cells[0], cells[1], cells[2]));
+  if (cells && count() > kMaxCells) {
+    const auto& n = *cells;
+    throw ConfigError(fmt::format("cells: {} x {} x {} is more than 2^26 cells", n[0], n[1], n[2]));
   }
+}
+
+void MapOptions::fill_in() {
+  centre_m = centre_m.value_or(kCentre_m);
+  size_m = size_m.value_or(kSize_m);
+  cells = cells.value_or(kCells);
 }
 
 void MetricsOptions::check() const {
@@ -42,6 +51,10 @@ std::string MappingOptions::method_name() const {
   if (std::holds_alternative<GreedyGain>(choice)) return strategy_label(gain);
   const std::string label = strategy_label(choice);
   return weighs_gain(choice) ? label + " of " + strategy_label(gain) : label;
+}
+
+double map_tolerance_m(const MappingOptions& options) {
+  return options.localisation.tolerance_cells * options.map.frame().cell_size_m.maxCoeff();
 }
 
 std::vector<Predictor> recorded_predictors(const MappingOptions& options,

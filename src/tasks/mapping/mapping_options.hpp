@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,24 +22,43 @@
 
 namespace vantage {
 
-/// The region of interest and its grid.
+/// The region of interest and its grid. What is left out follows the scene before the run, see
+/// follow_table(); until then, and where there is nothing to follow, it has its default.
 struct MapOptions {
-  std::array<double, 3> centre_m{0.0, 0.0, 0.982};
-  std::array<double, 3> size_m{1.0, 1.0, 0.504};
-  std::array<int, 3> cells{129, 129, 65};
+  static constexpr std::array<double, 3> kCentre_m{0.0, 0.0, 0.982};
+  static constexpr std::array<double, 3> kSize_m{1.0, 1.0, 0.504};
+  static constexpr std::array<int, 3> kCells{129, 129, 65};
+
+  std::optional<std::array<double, 3>> centre_m;
+  std::optional<std::array<double, 3>> size_m;
+  std::optional<std::array<int, 3>> cells;
   void fields(auto&& f) {
-    f("centre_m", centre_m, "centre of the mapped region in the world frame",
+    f("centre_m", centre_m,
+      "centre of the mapped region in the world frame; auto: over the table of the scene, the "
+      "lower face 1 cm above its top",
       between(-1000.0, 1000.0));
-    f("size_m", size_m, "edge lengths of the mapped region along x, y and z",
+    f("size_m", size_m,
+      "edge lengths of the mapped region along x, y and z; auto, where centre_m is too: the "
+      "table's extent, 0.504 m high",
       Range{0.0, 1000.0, true});
     f("cells", cells,
-      "number of cells along x, y and z; more resolve finer and take time in proportion",
+      "number of cells along x, y and z; more resolve finer and take time in proportion; auto, "
+      "where size_m is too: of 7.75 mm",
       between(1, 4096));
   }
   void check() const;  ///< at most 2^26 cells
+  void fill_in();      ///< what is still open gets its default
   [[nodiscard]] double count() const;
-  [[nodiscard]] Eigen::Vector3d centre() const { return {centre_m[0], centre_m[1], centre_m[2]}; }
-  [[nodiscard]] GridFrame frame() const { return make_grid_frame(centre_m, size_m, cells); }
+  [[nodiscard]] Eigen::Vector3d centre() const {
+    return Eigen::Vector3d(centre_m.value_or(kCentre_m).data());
+  }
+  [[nodiscard]] Eigen::Vector3d size() const {
+    return Eigen::Vector3d(size_m.value_or(kSize_m).data());
+  }
+  [[nodiscard]] GridFrame frame() const {
+    return make_grid_frame(centre_m.value_or(kCentre_m), size_m.value_or(kSize_m),
+                           cells.value_or(kCells));
+  }
 };
 
 struct MetricsOptions {
@@ -62,11 +82,27 @@ struct MetricsOptions {
   void check() const;  ///< every predictor predicts cells
 };
 
+/// What a map is worth whose robot does not know well where it is.
+struct LocalisationOptions {
+  double tolerance_cells = 4.0;
+  bool accept_drift = false;
+  void fields(auto&& f) {
+    f("tolerance_cells", tolerance_cells,
+      "how far off its place, RMS, the robot may believe what it maps to be, in the longest edge "
+      "of a cell; beyond that the map is not to be trusted",
+      above(0.0));
+    f("accept_drift", accept_drift,
+      "true: a map that is not to be trusted is a completed run all the same, with the reason; "
+      "false: a failed one");
+  }
+};
+
 struct MappingOptions {
   int scans = 10;
   PlanarScannerOptions base_scanner;
   OdometryOptions odometry;
   RegistrationOptions registration;
+  LocalisationOptions localisation;
   MapOptions map;
   InverseSensorModel sensor_model;
   FreeSpaceUpdate free_space;
@@ -86,6 +122,8 @@ struct MappingOptions {
     f("odometry", odometry, "errors of the wheel odometry");
     f("registration", registration,
       "ICP registration of scans against earlier ones, which corrects the odometry");
+    f("localisation", localisation,
+      "when the pose that registration and odometry give is no longer trusted");
     f("map", map, "region and resolution of the occupancy grid");
     f("sensor_model", sensor_model,
       "inverse sensor model: what a measured point says about the cells round it");
@@ -105,6 +143,9 @@ struct MappingOptions {
   /// none, "gain_over_distance of simple" for another that does.
   [[nodiscard]] std::string method_name() const;
 };
+
+/// LocalisationOptions::tolerance_cells in metres.
+double map_tolerance_m(const MappingOptions& options);
 
 /// A gain whose prediction of newly observed cells is recorded, with its label.
 struct Predictor {

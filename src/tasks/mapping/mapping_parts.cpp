@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "vantage/core/log.hpp"
@@ -61,7 +62,7 @@ MappingParts::Before MappingParts::before_update() const {
 }
 
 void MappingParts::correct_pose(const BeliefUpdate& update) {
-  robot_.correct_pose(update.T_world_base);
+  navigator_.correct_pose(update.T_world_base, update.information);
   robot_.restart_dead_reckoning();
 }
 
@@ -71,11 +72,45 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   current_.actual_new_cells = static_cast<double>(newly_observed(before.grid, belief_.grid()));
   current_.time_s = robot_.time_s();
   current_.registered = update.registered;
+  current_.unconstrained = update.unconstrained;
+  current_.map_sigma_m = map_sigma_m();
   evaluator_.measure_pose(before.dead_reckoned, update.T_world_base, current_);
   evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
   current_.T_world_sensor = T_world_sensor;
-  if (update.registered) return;
-  log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), update.registration_note));
+  if (!update.registered) {
+    log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), update.registration_note));
+  } else if (update.unconstrained > 0) {
+    log_warning(fmt::format("scan {}: odometry kept in {} of 3 directions, nothing is seen across",
+                            scans_.size(), update.unconstrained));
+  }
+}
+
+/// Of points about the robot where the region is, RMS.
+double MappingParts::map_sigma_m() const {
+  constexpr double kSight_m = 2.0;
+  const Pose2 base = robot_.estimated_base();
+  const Eigen::Vector2d from(base.x_m, base.y_m);
+  const Eigen::AlignedBox3d region = belief_.grid().frame.box();
+  const Eigen::AlignedBox2d floor(region.min().head<2>(), region.max().head<2>());
+  double sum_m2 = 0.0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Eigen::Vector2d to =
+        floor.corner(static_cast<Eigen::AlignedBox2d::CornerType>(corner)) - from;
+    const Eigen::Vector2d p = from + to * std::min(1.0, kSight_m / std::max(to.norm(), 1e-9));
+    sum_m2 += std::pow(navigator_.uncertainty().sigma_m(p), 2);
+  }
+  return std::sqrt(sum_m2 / 4.0);
+}
+
+std::string MappingParts::distrust() const {
+  const auto worst = std::ranges::max_element(scans_, {}, &ScanRecord::map_sigma_m);
+  const double tolerance_m = map_tolerance_m(options_);
+  if (worst == scans_.end() || worst->map_sigma_m <= tolerance_m) return {};
+  return fmt::format(
+      "the map is not to be trusted: at scan {} the robot knew no better than {:.2f} m where it "
+      "mapped, localisation.tolerance_cells {} allow {:.2f} m",
+      worst - scans_.begin(), worst->map_sigma_m, options_.localisation.tolerance_cells,
+      tolerance_m);
 }
 
 const ScanRecord& MappingParts::record_scan() {

@@ -33,6 +33,8 @@ class MappingParts {
   std::size_t choose(const std::vector<Candidate>& candidates);
 
   [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
+  /// Why the map is not to be trusted, by what the robot knows of its own pose; empty if it is.
+  [[nodiscard]] std::string distrust() const;
   /// Those of the next decision, and after it those it was made among.
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
@@ -81,6 +83,7 @@ class MappingParts {
 
  private:
   [[nodiscard]] MapPanelInput panel() const;
+  [[nodiscard]] double map_sigma_m() const;
 
   const MappingOptions options_;
   const GroundTruthMapEvaluator& evaluator_;

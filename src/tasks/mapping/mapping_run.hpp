@@ -3,6 +3,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
+
+#include "vantage/core/log.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/tasks/mapping/mapping_metrics.hpp"
@@ -22,7 +25,16 @@ template <class Robot, class Belief, class Parts>
 RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& robot,
                        MappingRecorder& recorder, const GroundTruthMapEvaluator& evaluator,
                        const Belief& belief, Parts& parts) {
-  const Ending ending = ending_of([&] { run_episode(parts); });
+  std::string remark;
+  Ending ending = ending_of([&] {
+    run_episode(parts);
+    remark = parts.distrust();
+    if (!remark.empty() && !options.localisation.accept_drift) throw EpisodeFailed(remark);
+  });
+  if (ending.status == EpisodeStatus::completed && !remark.empty()) {
+    log_warning(remark);
+    ending.reason = remark;
+  }
   const RunTotals totals{robot.time_s(), robot.ground_truth().collisions()};
   RunOutcome outcome = run.finish(ending, totals, recorder, [&](nlohmann::ordered_json& metrics) {
     add_mapping_metrics(options,

@@ -17,23 +17,31 @@ constexpr double kProgress_m = 0.05;
 }  // namespace
 
 Navigator::Navigator(const FloorMapOptions& floor, const NavigationOptions& navigation,
-                     MobileRobotInterface& robot, ReferenceMap reference_map, double keyframe_m)
+                     const OdometryOptions& odometry, MobileRobotInterface& robot,
+                     ReferenceMap reference_map, double keyframe_m)
     : floor_options_(floor),
       options_(navigation),
       robot_(robot),
       floor_(make_floor_map(floor)),
       reference_map_(std::move(reference_map)),
+      uncertainty_(odometry, robot.estimated_base()),
       keyframe_m_(keyframe_m) {}
 
 void Navigator::turn_in_place() {
   const Pose2 start = robot_.estimated_base();
   clear_footprint(floor_, start, options_.inflation_m() + floor_.cell_m);
-  extend_reference_map(robot_.read_base_scanner(), start);
+  const PlanarScan scan = robot_.read_base_scanner();
+  extend_reference_map(scan, start);
+  if (!reference_map_.fixes_pose(scan, robot_.base_scan_height_m())) {
+    add_planar_scan(floor_, scan, start, floor_options_);
+    return;
+  }
   for (int third = 1; third <= 3; ++third) {
     const double yaw_rad = start.yaw_rad + 2.0 / 3.0 * std::numbers::pi * third;
     drive_and_map({{start.x_m, start.y_m, wrap_angle(yaw_rad)}});
-    localise();
-    extend_reference_map(robot_.read_base_scanner(), robot_.estimated_base());
+    const bool located = localise();
+    const PlanarScan seen = robot_.read_base_scanner();
+    if (located) extend_reference_map(seen, robot_.estimated_base());
   }
 }
 
@@ -44,19 +52,32 @@ void Navigator::remember(const PlanarScan& scan, const Pose2& T_world_base) {
 
 void Navigator::extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base) {
   reference_map_.remember(scan, robot_.base_scan_height_m(), T_world_base);
+  uncertainty_.remember();
   last_keyframe_m_ = {T_world_base.x_m, T_world_base.y_m};
 }
 
 /// Corrects dead reckoning by the planar scanner and adds the scan to the floor map.
-void Navigator::localise() {
+bool Navigator::localise() {
   const PlanarScan scan = robot_.read_base_scanner();
-  const auto located =
-      reference_map_.locate(scan, robot_.base_scan_height_m(), robot_.estimated_base());
+  const auto located = reference_map_.locate(scan, robot_.base_scan_height_m(),
+                                             robot_.estimated_base(), plausible_correction());
   const Pose2& pose = located.T_world_base;
-  robot_.correct_pose(pose);
+  correct_pose(pose, located.information);
   add_planar_scan(floor_, scan, pose, floor_options_);
   const double gone_m = (Eigen::Vector2d(pose.x_m, pose.y_m) - last_keyframe_m_).norm();
   if (located.converged && gone_m >= keyframe_m_) extend_reference_map(scan, pose);
+  return located.converged;
+}
+
+Correction Navigator::plausible_correction() {
+  uncertainty_.move_to(robot_.estimated_base());
+  return {uncertainty_.plausible_shift_m(), uncertainty_.plausible_turn_rad()};
+}
+
+void Navigator::correct_pose(const Pose2& T_world_base, const Eigen::Matrix3d& information) {
+  uncertainty_.move_to(robot_.estimated_base());
+  uncertainty_.correct(T_world_base, information);
+  robot_.correct_pose(T_world_base);
 }
 
 PathField Navigator::plan() {

@@ -8,6 +8,7 @@
 
 #include "vantage/belief/map/floor_map.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/sim/robots/pose_uncertainty.hpp"
 #include "vantage/tasks/mapping/mobile_robot_interface.hpp"
 #include "vantage/tasks/mapping/reference_map.hpp"
 
@@ -24,14 +25,20 @@ class Navigator {
   /// @param walls to drive by
   /// @param keyframe_m remembers the walls that often while driving; infinity: only when told to
   Navigator(const FloorMapOptions& floor, const NavigationOptions& navigation,
-            MobileRobotInterface& robot, ReferenceMap reference_map,
+            const OdometryOptions& odometry, MobileRobotInterface& robot,
+            ReferenceMap reference_map,
             double keyframe_m = std::numeric_limits<double>::infinity());
 
   /// Turns once in place, to know the floor on all sides: the scanner does not see behind the
-  /// robot. Whoever starts the robot gives it room for that.
+  /// robot. Whoever starts the robot gives it room for that. Where the scanner sees nothing that
+  /// fixes the pose it stays as it stands: a turn would lose the heading.
   void turn_in_place();
   /// Adds a scan that was taken at a known place to what it drives by and over.
   void remember(const PlanarScan& scan, const Pose2& T_world_base);
+  /// A registration has put the base there. @param information of it, zero if it has failed
+  void correct_pose(const Pose2& T_world_base, const Eigen::Matrix3d& information);
+  /// The most that odometry may have drifted since the last correction.
+  Correction plausible_correction();
   /// The ways from where the robot is.
   PathField plan();
   /// Drives to the goal, or as near as the known free floor allows; plans again as the floor map
@@ -44,11 +51,13 @@ class Navigator {
 
   [[nodiscard]] FloorMap& floor() { return floor_; }
   [[nodiscard]] const ReferenceMap& reference_map() const { return reference_map_; }
+  /// How far off the robot may believe itself to be.
+  [[nodiscard]] const PoseUncertainty& uncertainty() const { return uncertainty_; }
   /// Driven, as the robot believes.
   [[nodiscard]] const std::vector<Eigen::Vector2d>& path_m() const { return path_m_; }
 
  private:
-  void localise();
+  bool localise();
   void extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base);
   DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
 
@@ -57,6 +66,7 @@ class Navigator {
   MobileRobotInterface& robot_;
   FloorMap floor_;
   ReferenceMap reference_map_;
+  PoseUncertainty uncertainty_;
   double keyframe_m_;
   Eigen::Vector2d last_keyframe_m_ = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> path_m_;

@@ -19,14 +19,20 @@ void ReferenceMap::remember(const PlanarScan& scan, double scanner_height_m,
 }
 
 RegistrationResult ReferenceMap::locate(const PlanarScan& scan, double scanner_height_m,
-                                        const Pose2& guess) const {
+                                        const Pose2& guess, const Correction& plausible) const {
   if (cloud_.empty()) {
     RegistrationResult unknown;
     unknown.T_world_base = guess;
     unknown.reason = "no wall is known yet";
     return unknown;
   }
-  return register_scan(prepare(scan, scanner_height_m), cloud_, guess, options_);
+  return register_scan(prepare(scan, scanner_height_m), cloud_, guess, options_, plausible);
+}
+
+bool ReferenceMap::fixes_pose(const PlanarScan& scan, double scanner_height_m) const {
+  const PointCloud seen = prepare(scan, scanner_height_m);
+  const RegistrationResult found = register_scan(seen, seen, {}, options_);
+  return found.converged && found.unconstrained == 0;
 }
 
 PointCloud ReferenceMap::prepare(const PlanarScan& scan, double scanner_height_m) const {

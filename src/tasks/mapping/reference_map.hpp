@@ -15,7 +15,10 @@ class ReferenceMap {
   void remember(const PlanarScan& scan, double scanner_height_m, const Pose2& T_world_base);
   /// Where the scan says the base is; `guess` while nothing is remembered.
   [[nodiscard]] RegistrationResult locate(const PlanarScan& scan, double scanner_height_m,
-                                          const Pose2& guess) const;
+                                          const Pose2& guess,
+                                          const Correction& plausible = {}) const;
+  /// Whether a scan shows enough to tell by it, later, where the base was.
+  [[nodiscard]] bool fixes_pose(const PlanarScan& scan, double scanner_height_m) const;
   [[nodiscard]] const PointCloud& cloud() const { return cloud_; }
 
  private:

@@ -24,7 +24,9 @@ struct ScanRecord {
   double pose_error_m = 0.0;
   double pose_error_before_registration_m = 0.0;
   double yaw_error_rad = 0.0;
+  double map_sigma_m = 0.0;  ///< how far off the robot believes what it maps to be, RMS
   bool registered = true;
+  int unconstrained = 0;  ///< directions of (x, y, yaw) that odometry decided
   bool fallback = false;
   int collisions = 0;  ///< up to here
   double precision = 0.0;

@@ -8,6 +8,7 @@
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/sim/world/settle.hpp"
+#include "vantage/tasks/mapping/reference_map.hpp"
 
 namespace vantage {
 namespace {
@@ -89,6 +90,19 @@ const RayScene& SimulatedMobileBase::seen_geometry() {
 PlanarScan SimulatedMobileBase::read_base_scanner() {
   return planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
                      robot_.base_body_id(), scanner_, scanner_noise_);
+}
+
+void SimulatedMobileBase::note_localisation(const RegistrationOptions& registration,
+                                            std::uint64_t seed, std::vector<std::string>& notes) {
+  Rng noise = Rng::stream(seed, "start check");
+  const PlanarScan scan =
+      planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
+                  robot_.base_body_id(), scanner_, noise);
+  if (ReferenceMap(registration).fixes_pose(scan, base_scan_height_m())) return;
+  notes.push_back(fmt::format(
+      "registration: from the start of {} the base scanner sees nothing that fixes where the robot "
+      "is, such as walls within base_scanner.range_max_m {}: odometry will drift between scans",
+      world_.source().scene.string(), scanner_.range_max_m));
 }
 
 DriveResult SimulatedMobileBase::drive_along(std::span<const Pose2> path,

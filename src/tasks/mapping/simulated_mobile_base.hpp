@@ -2,7 +2,10 @@
 /// scanner. Truth is handed out by ground_truth(), for evaluators and recorders.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "vantage/core/rng.hpp"
 #include "vantage/runtime/episode_setup.hpp"
@@ -35,6 +38,10 @@ class SimulatedMobileBase {
   PlanarScan read_base_scanner();
   /// `go_on` is asked every tick; truth is not passed on. @throws Interrupted
   DriveResult drive_along(std::span<const Pose2> path, const std::function<bool()>& go_on);
+  /// Adds a note if the planar scanner shows nothing here that fixes the pose. Draws from no stream
+  /// of the run.
+  void note_localisation(const RegistrationOptions& registration, std::uint64_t seed,
+                         std::vector<std::string>& notes);
   void correct_pose(const Pose2& T_world_base);
   /// What the wheels alone say, without the corrections since restart_dead_reckoning().
   [[nodiscard]] Pose2 dead_reckoned_base() const;

@@ -43,7 +43,8 @@ SimulatedTabletopRobot::SimulatedTabletopRobot(const EpisodeSetup& setup, const 
       laser_noise_(Rng::stream(setup.options.seed, "laser")) {
   const MobileBase& robot = base_.robot();
   robot.command_lift(world(), laser_lift_m(world(), robot, task));
-  check_start(world(), robot, base_.ground_truth().geometry(), setup, task);
+  start_notes_ = check_start(world(), robot, setup, task);
+  base_.note_localisation(task.registration, setup.options.seed, start_notes_);
 }
 
 void SimulatedTabletopRobot::move_laser_to(double tilt_rad) {

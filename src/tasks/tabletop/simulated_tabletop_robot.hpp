@@ -1,6 +1,9 @@
 /// The simulated robot of the table-top task.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/tasks/mapping/driven_by_base.hpp"
 #include "vantage/tasks/tabletop/tabletop.hpp"
@@ -19,11 +22,15 @@ class SimulatedTabletopRobot : public DrivenByBase<TabletopRobotInterface> {
   [[nodiscard]] Pose2 base_for_sensor(const Pose& T_world_laser) const override;
   [[nodiscard]] FieldOfView view_field() const override { return field_of_view(laser_); }
 
+  /// What is worth a warning before it starts.
+  [[nodiscard]] const std::vector<std::string>& start_notes() const { return start_notes_; }
+
  private:
   void move_laser_to(double tilt_rad);
 
   LaserOptions laser_;
   Rng laser_noise_;
+  std::vector<std::string> start_notes_;
 };
 
 }  // namespace vantage

@@ -1,6 +1,9 @@
 /// What keeps a table-top episode from beginning, found before anything runs.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/tasks/mapping/simulated_mobile_base.hpp"
 #include "vantage/tasks/tabletop/tabletop.hpp"
@@ -11,14 +14,17 @@ namespace vantage {
 /// cannot sweep the laser's tilt range.
 void check_reach(const World& world, const MobileBase& robot, const Tabletop& task);
 
-/// Whether anything in the region of interest is as high as a table: rays from above, 5 x 5.
-/// `geometry` is the scene's without the robot.
-bool has_table(const RayScene& geometry, const Tabletop& task);
+/// What is worth a warning about where the table lies in the map.
+/// @throws InputError if the scene has no table; ConfigError if the map misses it.
+std::vector<std::string> check_table(const World& world, const EpisodeSetup& setup,
+                                     const Tabletop& task);
 
 /// With the robot where it starts at a table.
-/// @throws InputError if nothing in the region of interest is as high as a table; ConfigError if
-/// the robot would stand in that region or touch something while it turns once.
-void check_start(const World& world, const MobileBase& robot, const RayScene& geometry,
-                 const EpisodeSetup& setup, const Tabletop& task);
+/// @throws InputError or ConfigError as check_table(); ConfigError if no view can see the region, a
+/// view is off the floor map, or the robot would stand in the region or touch something while it
+/// turns once.
+/// @return what is worth a warning
+std::vector<std::string> check_start(const World& world, const MobileBase& robot,
+                                     const EpisodeSetup& setup, const Tabletop& task);
 
 }  // namespace vantage

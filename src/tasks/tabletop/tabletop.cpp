@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vantage/core/log.hpp"
+#include "vantage/tasks/tabletop/table_region.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"
 
 namespace vantage {
@@ -49,6 +50,13 @@ void Tabletop::check_with(const EpisodeOptions& episode) const {
   }
 }
 
+void Tabletop::resolve(const EpisodeSetup& setup) {
+  if (!map.centre_m) {
+    if (const auto found = scene_table(setup.scene, table)) follow_table(map, *found);
+  }
+  map.fill_in();
+}
+
 ModelSource Tabletop::model_source(const EpisodeSetup& setup) const {
   return {setup.scene, setup.robot.mjcf};
 }
@@ -61,12 +69,14 @@ std::string Tabletop::outcome(const nlohmann::ordered_json& metrics) {
   return mapping_outcome(metrics);
 }
 
-void Tabletop::require_start(const EpisodeSetup& setup) const {
-  const SimulatedTabletopRobot robot(setup, *this);
+std::vector<std::string> Tabletop::require_start(const EpisodeSetup& setup) const {
+  return SimulatedTabletopRobot(setup, *this).start_notes();
 }
 
 RunOutcome Tabletop::run(const RunRequest& request) const {
-  return TabletopSession<>(request, *this).run_to_end();
+  TabletopSession<> session(request, *this);
+  for (const std::string& note : session.robot.start_notes()) log_warning(note);
+  return session.run_to_end();
 }
 
 }  // namespace vantage

@@ -23,15 +23,17 @@ TabletopBelief::TabletopBelief(const EpisodeOptions& episode, const Tabletop& ta
       threads_(episode.threads),
       task_(task),
       sampling_(Rng::stream(episode.seed, "table sampling")) {
-  const MapOptions& map = task_.map;
-  task_.table.region_centre_m = {map.centre_m[0], map.centre_m[1]};
-  task_.table.region_size_m = {2.0 * map.size_m[0], 2.0 * map.size_m[1]};
+  const Eigen::Vector3d centre_m = task_.map.centre();
+  const Eigen::Vector3d size_m = task_.map.size();
+  task_.table.region_centre_m = {centre_m.x(), centre_m.y()};
+  task_.table.region_size_m = {2.0 * size_m.x(), 2.0 * size_m.y()};
 }
 
 BeliefUpdate TabletopBelief::update(const TabletopObservation& observation,
-                                    const ReferenceMap& reference_map) {
+                                    const ReferenceMap& reference_map,
+                                    const Correction& plausible) {
   BeliefUpdate report;
-  report.T_world_base = register_pose(observation, reference_map, report);
+  report.T_world_base = register_pose(observation, reference_map, plausible, report);
   const Pose T_world_base = to_se3(report.T_world_base);
   const Pose T_world_sensor = T_world_base * observation.T_base_laser;
 
@@ -49,15 +51,18 @@ BeliefUpdate TabletopBelief::update(const TabletopObservation& observation,
 }
 
 Pose2 TabletopBelief::register_pose(const TabletopObservation& observation,
-                                    const ReferenceMap& reference_map, BeliefUpdate& report) {
+                                    const ReferenceMap& reference_map, const Correction& plausible,
+                                    BeliefUpdate& report) {
   const PointCloud scan_base = prepare_scan(
       cloud_of(observation), observation.T_base_laser.translation(), task_.registration);
   Pose2 pose = observation.T_world_base_odometry;
   const PointCloud& reference = map_cloud_.empty() ? reference_map.cloud() : map_cloud_;
   if (!reference.empty()) {
-    const auto result = register_scan(scan_base, reference, pose, task_.registration);
+    const auto result = register_scan(scan_base, reference, pose, task_.registration, plausible);
     report.registered = result.converged;
     report.registration_note = result.reason;
+    report.information = result.information;
+    report.unconstrained = result.converged ? result.unconstrained : 3;
     pose = result.T_world_base;
   }
   append(map_cloud_, transform(scan_base, to_se3(pose)));

@@ -22,14 +22,15 @@ class TabletopBelief : public MapBelief {
   /// Registration, table extraction, measurements, free space, holes.  [Potthast2016, 3.2]
   /// The first scan is registered with `reference_map`.
   /// @throws InputError if the first scan shows no table in the region of interest.
-  BeliefUpdate update(const TabletopObservation& observation, const ReferenceMap& reference_map);
+  BeliefUpdate update(const TabletopObservation& observation, const ReferenceMap& reference_map,
+                      const Correction& plausible);
 
   /// As far as it was seen; only after the first update.
   [[nodiscard]] const TablePlane& table() const { return *table_; }
 
  private:
   Pose2 register_pose(const TabletopObservation& observation, const ReferenceMap& reference_map,
-                      BeliefUpdate& report);
+                      const Correction& plausible, BeliefUpdate& report);
   void extract_table(const PointCloud& cloud_world);
   PointCloud take_objects(const PointCloud& cloud_world);
 

@@ -10,9 +10,9 @@ std::vector<Candidate> tabletop_views(const Tabletop& task) {
 
 TabletopParts::TabletopParts(const MappingContext& context, const Tabletop& task,
                              TabletopRobotInterface& robot, TabletopBelief& belief)
-    : MappingParts(
-          context, task, belief, recorded_predictors(task, cell_predictors()),
-          Navigator(task.floor_map, task.navigation, robot, ReferenceMap(task.registration))),
+    : MappingParts(context, task, belief, recorded_predictors(task, cell_predictors()),
+                   Navigator(task.floor_map, task.navigation, task.odometry, robot,
+                             ReferenceMap(task.registration))),
       task_(task),
       tabletop_robot_(robot),
       belief_(belief) {
@@ -28,7 +28,8 @@ TabletopObservation TabletopParts::observe() {
 
 void TabletopParts::update(const TabletopObservation& observation) {
   const Before before = before_update();
-  const BeliefUpdate update = belief_.update(observation, navigator_.reference_map());
+  const BeliefUpdate update =
+      belief_.update(observation, navigator_.reference_map(), navigator_.plausible_correction());
   correct_pose(update);
   block_table();
   navigator_.remember(observation.base_scan, update.T_world_base);

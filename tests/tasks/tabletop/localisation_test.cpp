@@ -1,0 +1,75 @@
+// A table top with nothing to localise by but itself: what the run says of its map.
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tasks/tabletop/own_scene.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/run.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using support::kWalls;
+using support::objects_on;
+using support::OwnScene;
+using support::table_at;
+using testing::HasSubstr;
+
+/// One leg in the middle: nothing that a scanner near the floor could tell a heading by.
+std::string pedestal_table() {
+  return "<geom type='box' size='.5 .5 .02' pos='0 0 .7'/>"
+         "<geom type='box' size='.08 .08 .34' pos='0 0 .34'/>" +
+         objects_on(0.72);
+}
+
+struct Ran {
+  ExitCode code;
+  json metrics;
+};
+
+Ran ran(const OwnScene& scene, std::vector<std::string> more) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  more.insert(more.end(), {scene.set(), "scans=3", "map.cells=[49,49,25]",
+                           "laser.scan_duration_s=3", "localisation.tolerance_cells=1"});
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  RunOptions options;
+  options.directory = folder.path() / "run";
+  options.lean = true;
+  const RunOutcome outcome = run(load_episode(file, more), options);
+  return {outcome.code, json::parse(outcome.metrics)};
+}
+
+TEST(TableTopWithoutWalls, AMapThatOdometryDriftedAwayWithIsNoUnremarkedResult) {
+  const OwnScene scene(pedestal_table());
+  const auto [code, metrics] = ran(scene, {});
+  EXPECT_EQ(code, ExitCode::goal_failed);
+  EXPECT_EQ(metrics["status"], "failed");
+  EXPECT_THAT(metrics["reason"].get<std::string>(),
+              testing::AllOf(HasSubstr("not to be trusted"), HasSubstr("tolerance_cells")));
+  EXPECT_FALSE(metrics["localisation"]["trusted"]);
+  const json& scans = metrics["scans"];
+  ASSERT_EQ(scans.size(), 3U) << "the map is written all the same";
+  EXPECT_LT(scans[0]["pose_error_m"], 1e-3) << "no turn at the start that loses the heading";
+  EXPECT_LT(std::abs(scans[0]["yaw_error_rad"].get<double>()), 1e-3);
+  EXPECT_GT(scans[2]["map_sigma_m"], scans[0]["map_sigma_m"]);
+
+  const auto [accepted_code, accepted] = ran(scene, {"localisation.accept_drift=true"});
+  EXPECT_EQ(accepted_code, ExitCode::done);
+  EXPECT_EQ(accepted["status"], "completed");
+  EXPECT_EQ(accepted["reason"], metrics["reason"]);
+  EXPECT_EQ(accepted["state_hash"], metrics["state_hash"]);
+}
+
+TEST(TableTopWithWalls, IsTrusted) {
+  const auto [code, metrics] = ran(OwnScene(pedestal_table() + kWalls), {});
+  EXPECT_EQ(metrics["status"], "completed");
+  EXPECT_EQ(metrics["reason"], "");
+  EXPECT_TRUE(metrics["localisation"]["trusted"]);
+  EXPECT_GT(metrics["map"]["precision"], 0.9);
+}
+
+}  // namespace
+}  // namespace vantage

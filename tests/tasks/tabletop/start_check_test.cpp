@@ -1,0 +1,140 @@
+// What `vantage validate` says of a mapping task before it runs.
+#include <gmock/gmock.h>
+
+#include "tests/tasks/tabletop/own_scene.hpp"
+#include "vantage/tasks/validate.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using support::kWalls;
+using support::objects_on;
+using support::OwnScene;
+using support::table_at;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kTable = table_at(0.0, 0.0, 0.72, 0.5, 0.5) + objects_on(0.72);
+const std::string kLow = table_at(0.0, 0.0, 0.42, 0.5, 0.5) + objects_on(0.42);
+
+Validation validated(const std::string& episode, const OwnScene& scene,
+                     std::vector<std::string> more) {
+  more.push_back(scene.set());
+  return validate_episode(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes" / (episode + ".yaml"),
+                          more);
+}
+
+std::string problem(const Validation& found) {
+  return found.problems.size() == 1 ? found.problems.front() : "";
+}
+
+TEST(ValidateTableTop, AGoodSceneIsGood) {
+  for (const std::string& table : {kTable, kLow}) {
+    const Validation found = validated("tabletop", OwnScene(table + kWalls), {});
+    EXPECT_THAT(found.problems, IsEmpty());
+    EXPECT_THAT(found.notes, IsEmpty());
+  }
+}
+
+TEST(ValidateTableTop, NothingToLocaliseByIsSaid) {
+  const Validation found = validated("tabletop", OwnScene(kTable), {});
+  EXPECT_THAT(found.problems, IsEmpty());
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_THAT(found.notes[0], AllOf(HasSubstr("tabletop.yaml: note: registration"),
+                                    HasSubstr("base_scanner.range_max_m 10")));
+}
+
+TEST(ValidateTableTop, AMapThatMissesTheTable) {
+  const OwnScene low(kLow + kWalls);
+  const Validation above = validated("tabletop", low, {"map.centre_m=[0,0,0.982]"});
+  EXPECT_EQ(above.code, ExitCode::usage);
+  EXPECT_THAT(problem(above),
+              AllOf(HasSubstr("tabletop.yaml: map.centre_m"), HasSubstr("0.31 m above"),
+                    HasSubstr("'top'"), HasSubstr("z 0.420"), HasSubstr("map.centre_m: auto")));
+  const Validation beside = validated("tabletop", low, {"map.centre_m=[1.5,1.5,0.682]"});
+  EXPECT_THAT(problem(beside), AllOf(HasSubstr("map.centre_m"), HasSubstr("miss the table")));
+  const Validation through = validated("tabletop", low, {"map.centre_m=[0,0,0.6]"});
+  EXPECT_THAT(through.problems, IsEmpty());
+  ASSERT_EQ(through.notes.size(), 1U);
+  EXPECT_THAT(through.notes[0], HasSubstr("below the table top"));
+}
+
+TEST(ValidateTableTop, ASceneWithoutATable) {
+  const Validation found =
+      validated("tabletop", OwnScene(table_at(0.0, 0.0, 0.3, 0.5, 0.5) + kWalls), {});
+  EXPECT_EQ(found.code, ExitCode::bad_input);
+  EXPECT_THAT(problem(found),
+              AllOf(HasSubstr("scene.xml: no table"), HasSubstr("min_height_m 0.4")));
+}
+
+TEST(ValidateTableTop, AMapThatNoViewReaches) {
+  const OwnScene scene(kTable + kWalls);
+  for (const char* laser : {"laser.range_max_m=0.3", "laser.tilt_max_rad=-0.34"}) {
+    const Validation found = validated("tabletop", scene, {laser});
+    EXPECT_EQ(found.code, ExitCode::usage) << laser;
+    EXPECT_THAT(problem(found), AllOf(HasSubstr("laser: range_max_m"), HasSubstr("map.centre_m")));
+  }
+}
+
+TEST(ValidateTableTop, ViewsOffTheFloorMap) {
+  const OwnScene scene(table_at(9.0, 0.0, 0.72, 0.5, 0.5));
+  EXPECT_THAT(problem(validated("tabletop", scene, {})),
+              AllOf(HasSubstr("floor_map.half_size_m: 6"), HasSubstr("11.0 would do")));
+  EXPECT_THAT(validated("tabletop", scene, {"floor_map.half_size_m=11"}).problems, IsEmpty());
+}
+
+TEST(ValidateTableTop, ATableTooLargeForTheCircleOfViews) {
+  const OwnScene scene(table_at(0.0, 0.0, 0.72, 1.0, 0.5) + kWalls);
+  EXPECT_THAT(problem(validated("tabletop", scene, {})), HasSubstr("candidates.radius_m 1.60"));
+  EXPECT_THAT(validated("tabletop", scene, {"candidates.radius_m=1.6"}).problems, IsEmpty());
+}
+
+TEST(ValidateTableTop, ABodyThatNeverRests) {
+  const OwnScene scene(kTable + kWalls +
+                       "<geom type='plane' size='3 3 .1' pos='8 0 0' euler='0 20 0'/><body "
+                       "name='ball' pos='8 0 .5'><freejoint/><geom size='.1'/></body>");
+  const Validation found = validated("tabletop", scene, {});
+  EXPECT_EQ(found.code, ExitCode::bad_input);
+  EXPECT_THAT(problem(found), AllOf(HasSubstr("scene.xml: body 'ball'"), HasSubstr("rest")));
+  EXPECT_EQ(validate_file(scene.path()).code, ExitCode::bad_input);
+}
+
+TEST(ValidateScene, SaysWhatATableTopEpisodeWouldMeet) {
+  EXPECT_THAT(validate_file(OwnScene(kTable + kWalls).path()).notes, IsEmpty());
+  const Validation open = validate_file(OwnScene(kTable).path());
+  ASSERT_EQ(open.notes.size(), 1U);
+  EXPECT_THAT(open.notes[0], HasSubstr("note: registration"));
+  const Validation large =
+      validate_file(OwnScene(table_at(0.0, 0.0, 0.72, 1.0, 0.5) + kWalls).path());
+  ASSERT_EQ(large.notes.size(), 1U);
+  EXPECT_THAT(large.notes[0], HasSubstr("note: not with defaults: "));
+}
+
+std::vector<std::string> started_at(const std::string& pose) {
+  return {"robot.start_site=''", "robot.start_pose=" + pose};
+}
+
+TEST(ValidateExploration, TheStartIsOnTheMap) {
+  const OwnScene room(std::string(kWalls) + "<geom type='plane' size='50 50 .1'/>");
+  EXPECT_THAT(validated("office_small", room, started_at("[0,0,0]")).problems, IsEmpty());
+  const Validation off = validated("office_small", room, started_at("[-9,0,0]"));
+  EXPECT_EQ(off.code, ExitCode::usage);
+  EXPECT_THAT(problem(off), AllOf(HasSubstr("office_small.yaml: map.centre_m, map.size_m"),
+                                  HasSubstr("robot.start_pose")));
+}
+
+TEST(ValidateExploration, ThereIsFreeFloor) {
+  const OwnScene shut(
+      "<geom type='box' size='.05 .7 .5' pos='.65 0 .5'/><geom type='box' size='.05 .7 .5' "
+      "pos='-.65 0 .5'/><geom type='box' size='.7 .05 .5' pos='0 .65 .5'/><geom type='box' "
+      "size='.7 .05 .5' pos='0 -.65 .5'/>");
+  const Validation walled = validated("office_small", shut, started_at("[0,0,0]"));
+  EXPECT_EQ(walled.code, ExitCode::bad_input);
+  EXPECT_THAT(problem(walled),
+              AllOf(HasSubstr("scene.xml: no free floor"), HasSubstr("start_pose")));
+}
+
+}  // namespace
+}  // namespace vantage

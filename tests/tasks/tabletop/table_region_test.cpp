@@ -1,0 +1,79 @@
+// The region of interest follows the table.
+#include "vantage/tasks/tabletop/table_region.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/tasks/tabletop/own_scene.hpp"
+#include "vantage/core/yaml.hpp"
+#include "vantage/tasks/episode.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using support::OwnScene;
+using support::table_at;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Tabletop resolved(const fs::path& scene, std::vector<std::string> more) {
+  more.push_back("scene=" + scene.string());
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  return std::get<Tabletop>(load_episode(file, more).task);
+}
+
+/// What episodes and their hashes were recorded with.
+TEST(TableRegion, OfOurScenesIsTheDefaultToTheLastBit) {
+  for (const char* name : {"tabletop_4", "tabletop_8", "tabletop_15", "tabletop_25"}) {
+    const auto scene = fs::path(VANTAGE_SOURCE_DIR) / "models/scenes" / name / "scene.xml";
+    const MapOptions map = resolved(scene, {}).map;
+    EXPECT_EQ(*map.centre_m, MapOptions::kCentre_m) << name;
+    EXPECT_EQ(*map.size_m, MapOptions::kSize_m) << name;
+    EXPECT_EQ(*map.cells, MapOptions::kCells) << name;
+  }
+}
+
+TEST(TableRegion, FollowsATableWhereverItStands) {
+  const OwnScene scene(table_at(2.0, -1.0, 0.42, 0.6, 0.4));
+  const MapOptions map = resolved(scene.path(), {}).map;
+  EXPECT_THAT(*map.centre_m, ElementsAre(2.0, -1.0, 0.682));
+  EXPECT_THAT(*map.size_m, ElementsAre(1.2, 0.8, 0.504));
+  EXPECT_THAT(*map.cells, ElementsAre(155, 103, 65));
+  EXPECT_NEAR(map.frame().box().min().z(), 0.43, 1e-9) << "1 cm above the top";
+}
+
+TEST(TableRegion, WhatTheEpisodeSaysStays) {
+  const OwnScene scene(table_at(2.0, -1.0, 0.42, 0.6, 0.4));
+  const auto centre = resolved(scene.path(), {"map.centre_m=[0,0,1.012]"}).map;
+  EXPECT_THAT(*centre.centre_m, ElementsAre(0.0, 0.0, 1.012));
+  EXPECT_EQ(*centre.size_m, MapOptions::kSize_m);
+  EXPECT_EQ(*centre.cells, MapOptions::kCells);
+  const auto size = resolved(scene.path(), {"map.size_m=[2,1,0.5]"}).map;
+  EXPECT_THAT(*size.size_m, ElementsAre(2.0, 1.0, 0.5));
+  EXPECT_THAT(*size.centre_m, ElementsAre(2.0, -1.0, 0.68));
+  EXPECT_EQ(*size.cells, MapOptions::kCells);
+  const auto cells = resolved(scene.path(), {"map.cells=[33,33,17]", "map.size_m=auto"}).map;
+  EXPECT_THAT(*cells.cells, ElementsAre(33, 33, 17));
+  EXPECT_THAT(*cells.size_m, ElementsAre(1.2, 0.8, 0.504));
+}
+
+TEST(TableRegion, TheResolvedEpisodeHasNumbers) {
+  const OwnScene scene(table_at(0.0, 0.0, 0.42, 0.5, 0.5));
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  const auto episode = load_episode(file, {"scene=" + scene.path().string(), "map.centre_m=auto"});
+  const std::string yaml = episode_yaml(episode);
+  EXPECT_THAT(yaml, HasSubstr("0.682"));
+  const auto again = resolve_episode(parse_yaml(yaml, "config.yaml"), file);
+  EXPECT_EQ(episode_yaml(again), yaml);
+}
+
+TEST(TableRegion, OverTheOriginComesBeforeTheLargest) {
+  const LevelSurface far{{Eigen::Vector2d(2, 2), Eigen::Vector2d(5, 5)}, 0.9, 9.0, "counter"};
+  const LevelSurface here{{Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, 1)}, 0.7, 4.0, "table"};
+  EXPECT_EQ(table_among({far, here})->name, "table");
+  EXPECT_EQ(table_among({far})->name, "counter");
+  EXPECT_FALSE(table_among({}));
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,53 @@
+// Truth is taken of a scene at rest.
+#include <gtest/gtest.h>
+
+#include "tests/tasks/tabletop/own_scene.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/episode.hpp"
+#include "vantage/tasks/tabletop/tabletop_session.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using support::kWalls;
+using support::OwnScene;
+using support::table_at;
+
+/// A box of 20 cm, its middle at `z_m`, free to fall on a table at 0.72 m.
+std::string box_at(double z_m) {
+  return fmt::format(
+      "{}{}<body name='box' pos='-.15 .1 {}'><freejoint/><geom type='box' size='.1 .05 "
+      ".1'/></body>",
+      table_at(0.0, 0.0, 0.72, 0.5, 0.5), kWalls, z_m);
+}
+
+struct Truth {
+  double top_m = 0.0;
+  std::size_t observable_cells = 0;
+};
+
+Truth truth_of(const OwnScene& scene) {
+  set_verbosity(Verbosity::quiet);
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
+  const auto& task = std::get<Tabletop>(episode.task);
+  const SimulatedTabletopRobot robot(episode.setup, task);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const RayHit hit = truth.geometry().cast({-0.15, 0.1, 2.0}, -Eigen::Vector3d::UnitZ(), 2.0);
+  const auto evaluator = tabletop_evaluator(task, 2, truth, robot.view_field());
+  return {2.0 - hit.distance_m, evaluator.observable_cells()};
+}
+
+TEST(Truth, IsWhereThingsComeToRest) {
+  const Truth standing = truth_of(OwnScene(box_at(0.82)));
+  const Truth spawned = truth_of(OwnScene(box_at(0.90)));
+  EXPECT_NEAR(standing.top_m, 0.92, 1e-3);
+  EXPECT_NEAR(spawned.top_m, 0.92, 1e-3);
+  EXPECT_NEAR(static_cast<double>(spawned.observable_cells),
+              static_cast<double>(standing.observable_cells),
+              0.005 * static_cast<double>(standing.observable_cells));
+}
+
+}  // namespace
+}  // namespace vantage
