@@ -6,6 +6,7 @@ function sceneBox(scene) {
   const min = [Infinity, Infinity, Infinity], max = [-Infinity, -Infinity, -Infinity];
   const add = (p) => p.forEach((v, i) => { if (isNumber(v)) { min[i] = Math.min(min[i], v); max[i] = Math.max(max[i], v); } });
   if (scene.region) { add(scene.region.min); add(scene.region.max); }
+  if (scene.flight && scene.surfaces) { add(scene.surfaces.extent.min); add(scene.surfaces.extent.max); }
   for (const v of [...scene.candidates, ...scene.views]) add([v.x, v.y, v.z]);
   for (const [, x, y, z] of [...scene.truth, ...scene.estimated]) add([x, y, z]);
   if (min[0] > max[0]) { min.fill(-1); max.fill(1); }
@@ -89,23 +90,32 @@ function attachControls(viewer) {
   });
 }
 
-// Order numbers of the views taken, over their sensors; views from one place share a label.
+// Where a point is on the canvas, in px; null behind the eye.
+function projected(viewer, shot, x, y, z) {
+  const m = shot.worldToClip, p = [x, y, z, 1];
+  const clip = [0, 1, 3].map((row) => p.reduce((sum, v, k) => sum + m[4 * k + row] * v, 0));
+  if (clip[2] <= 0) return null;
+  return [((clip[0] / clip[2] + 1) / 2) * viewer.canvas.clientWidth, ((1 - clip[1] / clip[2]) / 2) * viewer.canvas.clientHeight];
+}
+
 function placeLabels(viewer, shot) {
-  const { scene, labelLayer, canvas } = viewer;
-  labelLayer.replaceChildren();
-  if (!viewer.layers.views) return;
+  viewer.labelLayer.replaceChildren();
+  placeObjectLabels(viewer, (x, y, z) => projected(viewer, shot, x, y, z));
+  if (viewer.layers.views) placeViewLabels(viewer, shot);
+}
+
+// Order numbers of the views taken, over their sensors; views from one place share a label.
+function placeViewLabels(viewer, shot) {
   const labels = [];
-  for (const view of scene.views.filter((v) => v.step <= viewer.step)) {
-    const m = shot.worldToClip, p = [view.x, view.y, view.z, 1];
-    const clip = [0, 1, 3].map((row) => p.reduce((sum, v, k) => sum + m[4 * k + row] * v, 0));
-    if (clip[2] <= 0) continue;
-    const x = ((clip[0] / clip[2] + 1) / 2) * canvas.clientWidth, y = ((1 - clip[1] / clip[2]) / 2) * canvas.clientHeight;
-    const near = labels.find((l) => Math.hypot(l.x - x, l.y - y) < 18);
+  for (const view of viewer.scene.views.filter((v) => v.step <= viewer.step)) {
+    const at = projected(viewer, shot, view.x, view.y, view.z);
+    if (!at) continue;
+    const near = labels.find((l) => Math.hypot(l.x - at[0], l.y - at[1]) < 18);
     if (near) { near.numbers.push(view.number); near.now ||= view.step === viewer.step; }
-    else labels.push({ x, y, numbers: [view.number], now: view.step === viewer.step });
+    else labels.push({ x: at[0], y: at[1], numbers: [view.number], now: view.step === viewer.step });
   }
   for (const label of labels) {
-    const node = append(labelLayer, "span", { class: label.now ? "now" : "" }, label.numbers.join(","));
+    const node = append(viewer.labelLayer, "span", { class: label.now ? "now" : "" }, label.numbers.join(","));
     node.style.transform = `translate(${label.x}px, ${label.y}px) translate(-50%, -50%)`;
   }
 }

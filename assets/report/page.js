@@ -11,22 +11,27 @@ function collectScene() {
   }).filter(Boolean);
   const voxels = DATA.voxels && { ...DATA.voxels, packed: u16FromBase64(DATA.voxels.data) };
   const box = (low, high) => (low?.length === 3 && high?.length === 3 ? { min: low, max: high } : null);
-  const region = box(METRICS.region?.min_m, METRICS.region?.max_m) ?? box(voxels?.min_m, voxels?.max_m);
+  const surfaces = decodeSurfaces(DATA.scene);
+  const region = box(METRICS.region?.min_m, METRICS.region?.max_m) ?? (FLIGHT ? null : box(voxels?.min_m, voxels?.max_m));
+  const scanTimes = FLIGHT ? stepTimes() : STEPS.map((s) => s.time_s);
   return {
-    candidates, views, voxels, region, cloud: DATA.cloud, truth: DATA.trajectory.truth,
-    flight: FLIGHT, estimated: DATA.trajectory.estimated, scanTimes: STEPS.map((s) => s.time_s), scans: scanCount(voxels),
+    candidates, views, voxels, surfaces, region, cloud: DATA.cloud, truth: DATA.trajectory.truth,
+    flight: FLIGHT, estimated: DATA.trajectory.estimated, scanTimes, scans: scanCount(voxels, scanTimes.length),
   };
 }
 
-function scanCount(voxels) {
-  let count = Math.max(1, STEPS.length);
+// When each waypoint of a flight was passed: rows of steps.csv.
+const stepTimes = () => DATA.steps.rows.map((row) => Number(row[0]));
+
+function scanCount(voxels, steps) {
+  let count = Math.max(1, steps);
   if (voxels?.kept[0]) count = Math.max(count, voxels.packed[4 * voxels.kept[0] - 1] + 1);
   return count;
 }
 
 function fillHead() {
   at("eyebrow").textContent = words(METRICS.task);
-  at("heading").textContent = METRICS.scene ?? "Run";
+  at("heading").textContent = DATA.title;
   if (SECTIONS.view_heading) at("h-map3d").textContent = SECTIONS.view_heading;
   const tag = (name, value, kind = "") => {
     if (value === undefined || value === null) return;
@@ -111,7 +116,7 @@ function fillDetails() {
 function fillMedia() {
   const { video, frame } = DATA.media;
   if (video) {
-    const node = append(at("media"), "video", { controls: "", muted: "", preload: "metadata", playsinline: "", src: video });
+    const node = append(at("media"), "video", { controls: "", muted: "", preload: "metadata", playsinline: "", src: video, poster: frame });
     node.addEventListener("error", () => node.replaceWith(Object.assign(document.createElement("p"), { className: "empty", textContent: `${video} is not beside this page.` })));
   } else if (frame) {
     append(at("media"), "img", { src: frame, alt: "The last image of the run" });
@@ -132,7 +137,8 @@ function fillLayers(viewer, scene) {
   const unobserved = scene.voxels?.kept[1] ?? 0;
   const part = unobserved < (scene.voxels?.surface[1] ?? 0) ? " (thinned)" : "";
   const layers = [
-    ["voxels", "voxels", scene.voxels], ["candidates", "candidates", scene.candidates.length], ["views", "views taken", scene.views.length],
+    ["surfaces", "room", scene.surfaces], ["voxels", scene.flight ? "map" : "voxels", scene.voxels], ["objects", "objects", scene.flight?.objects.length],
+    ["looks", "looks at objects", scene.flight?.looks.length], ["given", "path as given", scene.flight?.path.length], ["candidates", "candidates", scene.candidates.length], ["views", "views taken", scene.views.length],
     ["truth", "true path", scene.truth.length], ["estimated", "estimated path", scene.estimated.length],
     ["points", "laser points", scene.cloud], ["unobserved", `unobserved at the end${part}`, unobserved],
   ];
@@ -150,8 +156,8 @@ function showScale(viewer, scene) {
   const scale = document.querySelector(".viewer .scale");
   const [low, bar, high] = scale.children;
   const metres = (z) => `${formatNumber(z, 3)} m`;
-  low.textContent = viewer.byScan ? "scan 1" : metres(scene.voxels?.min_m[2] ?? 0);
-  high.textContent = viewer.byScan ? `scan ${scene.scans}` : metres(scene.voxels?.max_m[2] ?? 0);
+  low.textContent = viewer.byScan ? `${STEP_WORD} 1` : metres(scene.voxels?.min_m[2] ?? 0);
+  high.textContent = viewer.byScan ? `${STEP_WORD} ${scene.scans}` : metres(scene.voxels?.max_m[2] ?? 0);
   bar.style.background = rampCss(viewer.byScan ? SCAN_STOPS : HEIGHT_STOPS);
   scale.hidden = !scene.voxels;
 }
@@ -202,7 +208,8 @@ function startViewer(scene) {
   }
   fillLayers(viewer, scene);
   showScale(viewer, scene);
-  if (scene.flight) for (const id of ["play", "step", "step-label", "colour-by"]) (at(id).closest("label") ?? at(id)).hidden = true;
+  if (!scene.voxels) at("colour-by").closest("label").hidden = true;
+  at("colour-by").options[1].textContent = `by ${STEP_WORD}`;
   attachSteps(viewer, scene);
   at("colour-by").addEventListener("change", (event) => { viewer.byScan = event.target.value === "scan"; showScale(viewer, scene); viewer.redraw(); });
   at("reset-view").addEventListener("click", () => viewer.reset());

@@ -12,6 +12,7 @@ uniform vec3 stops[6];
 uniform vec4 flatColour;                // used where its opacity is above 0
 uniform float cellsHigh, lastStep;
 uniform bool byScan;
+uniform float share;                    // of a cell that its cube fills
 out vec4 colour;
 vec3 ramp(float share) {
   float at = clamp(share, 0.0, 1.0) * 5.0;
@@ -21,12 +22,12 @@ vec3 ramp(float share) {
 void main() {
   vec3 centre = gridMin + (vec3(cell.xyz) + 0.5) * cellSize;
   vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThan(eye, centre));
-  gl_Position = worldToClip * vec4(centre + corner * side * cellSize, 1.0);
+  gl_Position = worldToClip * vec4(centre + share * corner * side * cellSize, 1.0);
   vec3 normal = normalize(0.8 * shading.xyz + 0.28 * face * side);
   float lit = (0.50 + 0.58 * max(0.0, dot(normal, toLight))) * mix(1.0, shading.w, 0.4);
   float step = float(cell.w & 0x7FFFu);
-  float share = byScan ? step / max(1.0, lastStep) : float(cell.z) / max(1.0, cellsHigh - 1.0);
-  colour = flatColour.a > 0.0 ? vec4(flatColour.rgb * mix(1.0, lit, 0.6), flatColour.a) : vec4(ramp(share) * lit, 1.0);
+  float place = byScan ? step / max(1.0, lastStep) : float(cell.z) / max(1.0, cellsHigh - 1.0);
+  colour = flatColour.a > 0.0 ? vec4(flatColour.rgb * mix(1.0, lit, 0.6), flatColour.a) : vec4(ramp(place) * lit, 1.0);
   colour.rgb *= colour.a;
 }`;
 
@@ -73,3 +74,29 @@ precision mediump float;
 in vec4 colour;
 out vec4 pixel;
 void main() { pixel = colour; }`;
+
+const SURFACE_VERTEX = `#version 300 es
+precision highp float;
+layout(location = 0) in vec3 quantised;
+layout(location = 1) in vec3 tint;
+uniform mat4 worldToClip;
+uniform vec3 sceneMin, sceneScale;
+out vec3 world, shade;
+void main() {
+  world = sceneMin + quantised * sceneScale;
+  shade = tint;
+  gl_Position = worldToClip * vec4(world, 1.0);
+}`;
+
+// Each triangle is flat, and lit from whichever side it is seen.
+const SURFACE_FRAGMENT = `#version 300 es
+precision highp float;
+in vec3 world, shade;
+uniform vec3 eye, toLight;
+out vec4 pixel;
+void main() {
+  vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
+  if (dot(normal, eye - world) < 0.0) normal = -normal;
+  float lit = 0.60 + 0.30 * max(0.0, dot(normal, toLight)) + 0.14 * max(0.0, normal.z);
+  pixel = vec4(min(vec3(1.0), shade * lit), 1.0);
+}`;

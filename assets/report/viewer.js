@@ -7,14 +7,15 @@ function createViewer(canvas, labelLayer, scene) {
   if (!gl) return null;
   const viewer = {
     gl, canvas, scene, labelLayer,
-    layers: { voxels: true, unobserved: false, points: false, candidates: true, views: true, truth: true, estimated: false },
+    layers: { surfaces: true, voxels: true, objects: true, looks: true, given: false, unobserved: false, points: false, candidates: true, views: true, truth: true, estimated: false },
     step: Math.max(0, scene.scans - 1), byScan: false, frame: 0,
     camera: null, lines: {},
     redraw() { if (!this.frame) this.frame = requestAnimationFrame(() => { this.frame = 0; drawScene(this); }); },
     retheme() { buildLines(this); this.redraw(); },
     reset() { this.camera = startCamera(scene, canvas.clientWidth / Math.max(1, canvas.clientHeight)); this.redraw(); },
   };
-  viewer.programs = { voxel: program(gl, VOXEL_VERTEX), line: program(gl, LINE_VERTEX), point: program(gl, POINT_VERTEX) };
+  viewer.programs = { voxel: program(gl, VOXEL_VERTEX), line: program(gl, LINE_VERTEX), point: program(gl, POINT_VERTEX), surface: program(gl, SURFACE_VERTEX, SURFACE_FRAGMENT) };
+  buildSurfaces(viewer);
   buildVoxels(viewer);
   buildCloud(viewer);
   buildLines(viewer);
@@ -25,9 +26,9 @@ function createViewer(canvas, labelLayer, scene) {
   return viewer;
 }
 
-function program(gl, vertex) {
+function program(gl, vertex, fragment = PLAIN_FRAGMENT) {
   const made = gl.createProgram();
-  for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, PLAIN_FRAGMENT]]) {
+  for (const [type, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(type);
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
@@ -112,11 +113,11 @@ function themeColour(name, opacity = 1) {
 
 function buildLines(viewer) {
   const { gl, scene } = viewer;
-  const lists = { frame: new LineList(), candidates: new LineList(), views: new LineList(), truth: new LineList(), estimated: new LineList() };
+  const lists = { ...flightLines(scene), frame: new LineList(), candidates: new LineList(), views: new LineList(), truth: new LineList(), estimated: new LineList() };
   const size = sceneBox(scene);
   const length_m = 0.14 * (scene.region ? Math.min(scene.region.max[0] - scene.region.min[0], scene.region.max[1] - scene.region.min[1]) : size.radius);
   if (scene.region) lists.frame.box(scene.region.min, scene.region.max, themeColour("--dim", 0.7), 1.2);
-  floorGrid(lists.frame, scene, size);
+  if (!scene.surfaces) floorGrid(lists.frame, scene, size);
   for (const view of scene.candidates) lists.candidates.frustum(view, length_m, themeColour("--dim", 0.55), 1.1);
   for (const view of scene.views) {
     lists.views.frustum(view, 1.35 * length_m, themeColour("--view"), 2.2, view.step);
@@ -180,7 +181,8 @@ function drawScene(viewer) {
 
 function drawSolids(viewer, shot) {
   const { scene } = viewer;
-  if (scene.region) {
+  if (viewer.layers.surfaces && viewer.surfaces) drawSurfaces(viewer, shot);
+  if (scene.region && !scene.surfaces) {
     const { min, max } = scene.region;
     const slab = { min_m: [min[0], min[1], min[2] - 0.012], cell_size_m: [max[0] - min[0], max[1] - min[1], 0.012], cells: [1, 1, 1] };
     drawVoxels(viewer, shot, viewer.slab, 1, slab, themeColour("--grid"));
@@ -203,6 +205,7 @@ function drawVoxels(viewer, shot, array, count, grid, flat) {
   gl.uniform1f(u.cellsHigh, grid.cells[2]);
   gl.uniform1f(u.lastStep, viewer.scene.scans - 1);
   gl.uniform1i(u.byScan, viewer.byScan ? 1 : 0);
+  gl.uniform1f(u.share, viewer.surfaces && viewer.layers.surfaces ? 0.3 : 1);  // the room shows between
   gl.bindVertexArray(array);
   gl.drawElementsInstanced(gl.TRIANGLES, 18, gl.UNSIGNED_SHORT, 0, count);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/world/mesh_surface.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
 
 namespace vantage {
@@ -26,13 +27,14 @@ void make_context(const mjModel& model, mjrContext& context) {
   }
 }
 
-mjvOption drawing_options(int max_group) {
+mjvOption drawing_options(const RenderRequest& request) {
   mjvOption option;
   mjv_defaultOption(&option);
   std::fill(std::begin(option.flags), std::end(option.flags), mjtByte{0});
   for (const int shown : {mjVIS_TEXTURE, mjVIS_STATIC, mjVIS_SKIN}) option.flags[shown] = 1;
   for (int group = 0; group < mjNGROUP; ++group) {
-    option.geomgroup[group] = group <= max_group ? 1 : 0;
+    const bool looks = request.for_people && group == kLooksGroup;
+    option.geomgroup[group] = looks || group <= request.max_group ? 1 : 0;
     option.sitegroup[group] = 0;
   }
   return option;
@@ -80,6 +82,33 @@ void cut_away(mjvScene& scene, double near_m) {
       *edge *= scale;
     }
   }
+}
+
+/// The far plane, and the sky with it, where a camera for people stands far off.
+void look_farther(mjvScene& scene, double far_m) {
+  for (mjvGLCamera& camera : scene.camera) {
+    camera.frustum_far = std::max(camera.frustum_far, static_cast<float>(far_m));
+  }
+}
+
+/// A lamp beside the eye where a scene has no light of its own.
+void lighten(const mjModel& model, mjvScene& scene) {
+  if (model.nlight > 0) return;
+  mjvLight& lamp = scene.lights[0];
+  if (scene.nlight == 0) {
+    const mjvGLCamera camera = mjv_averageCamera(&scene.camera[0], &scene.camera[1]);
+    lamp = {};
+    std::copy_n(camera.pos, 3, lamp.pos);
+    std::copy_n(camera.forward, 3, lamp.dir);
+    lamp.attenuation[0] = 1.0F;
+    lamp.cutoff = 180.0F;
+    lamp.directional = lamp.headlight = 1;
+    scene.nlight = 1;
+  }
+  constexpr float kAmbient = 0.4F;
+  constexpr float kDiffuse = 0.5F;
+  for (float& value : lamp.ambient) value = std::max(value, kAmbient);
+  for (float& value : lamp.diffuse) value = std::max(value, kDiffuse);
 }
 
 struct DrawMarker {
@@ -130,7 +159,7 @@ GlScene::~GlScene() {
 void GlScene::update(const mjData& data, const CameraView& view, const RenderRequest& request) {
   // These functions only read, but for a warning counter when the scene is full.
   auto* drawn = const_cast<mjData*>(&data);
-  const mjvOption option = drawing_options(request.max_group);
+  const mjvOption option = drawing_options(request);
   mjvCamera camera = mujoco_camera(view);
   // Infinite planes are laid round the camera that the scene holds before the update: without this
   // an image would depend on the one before.
@@ -141,7 +170,32 @@ void GlScene::update(const mjData& data, const CameraView& view, const RenderReq
   if (const auto* free = std::get_if<FreeCamera>(&view); free != nullptr && free->cutaway_m) {
     cut_away(scene_, free->distance_m - *free->cutaway_m);
   }
+  if (request.for_people) {
+    lighten(*model_, scene_);
+    leave_out_walls();
+  }
   add_markers(request.markers);
+}
+
+/// Nothing is then before the room, so that the depth of the image is spent on the room.
+void GlScene::leave_out_walls() {
+  constexpr double kSkyPerDistance = 2.5;
+  if (!walls_) walls_ = outer_walls(*model_);
+  const mjvGLCamera camera = mjv_averageCamera(&scene_.camera[0], &scene_.camera[1]);
+  const Eigen::Vector3d eye_m = Eigen::Vector3f(camera.pos).cast<double>();
+  const std::vector<int> hidden = walls_->before(eye_m);
+  if (hidden.empty()) return;
+  cut_away(scene_, 0.5 * walls_->extent_m.exteriorDistance(eye_m));
+  const double size_m = walls_->extent_m.diagonal().norm();
+  look_farther(scene_, kSkyPerDistance * (walls_->extent_m.exteriorDistance(eye_m) + size_m));
+  const auto is_hidden = [&](const mjvGeom& geom) {
+    return geom.objtype == mjOBJ_GEOM && std::ranges::binary_search(hidden, geom.objid);
+  };
+  mjvGeom* const end = std::remove_if(scene_.geoms, scene_.geoms + scene_.ngeom, is_hidden);
+  scene_.ngeom = static_cast<int>(end - scene_.geoms);
+  for (int i = 0; i < scene_.ngeom; ++i) {
+    if (scene_.geoms[i].segid >= 0) scene_.geoms[i].segid = i;  // as readers of the image expect
+  }
 }
 
 void GlScene::add_markers(const std::vector<Marker>& markers) {

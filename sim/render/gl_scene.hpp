@@ -4,8 +4,10 @@
 
 #include <mujoco/mujoco.h>
 
+#include <optional>
 #include <vector>
 
+#include "vantage/sim/render/outer_walls.hpp"
 #include "vantage/sim/render/renderer.hpp"
 
 namespace vantage {
@@ -28,11 +30,13 @@ class GlScene {
 
  private:
   void update(const mjData& data, const CameraView& view, const RenderRequest& request);
+  void leave_out_walls();
   void add_markers(const std::vector<Marker>& markers);
   void read_rgb(const mjrRect& viewport, RenderedImages& out);
   void read_depth_and_segmentation(const mjrRect& viewport, RenderedImages& out);
 
   const mjModel* model_;
+  std::optional<OuterWalls> walls_;  ///< found when people look first
   mjvScene scene_{};
   mjrContext context_{};
   std::vector<float> buffer_depth_;  ///< scratch, bottom row first

@@ -63,7 +63,10 @@ struct RenderRequest {
   bool depth_and_segmentation = true;  ///< one more pass
   bool shadows = false;                ///< slow: another pass per light
   int max_group = 2;                   ///< geoms of higher groups are not drawn
-  std::vector<Marker> markers = {};    ///< at most kMaxMarkers; seen in rgb only
+  /// As people want to see a scene: with the geoms of kLooksGroup, without the outer walls that a
+  /// camera outside of them would look at, and lit where it has no light. Sensors never ask for it.
+  bool for_people = false;
+  std::vector<Marker> markers = {};  ///< at most kMaxMarkers; seen in rgb only
 };
 
 /// Row-major, top row first. What was not requested is empty.

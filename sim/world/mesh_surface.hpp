@@ -15,17 +15,21 @@ using mjData = mjData_;
 
 namespace vantage {
 
+/// Of geoms that are there to be looked at by people alone: no sensor sees them.
+inline constexpr int kLooksGroup = 5;
+
 /// Which geoms a sensor can meet. By default the rule of `mj_ray` with `geomgroup` NULL: every
 /// geom, static ones included, except those whose colour (the material's, if there is one) has
-/// alpha 0.
+/// alpha 0; and those of kLooksGroup.
 struct GeomFilter {
   std::string exclude_body_prefix =
-      {};             ///< leaves out bodies of that name and all below them; "" none
-  int max_group = 5;  ///< leaves out higher groups; 2 keeps what MuJoCo draws by default
+      {};  ///< leaves out bodies of that name and all below them; "" none
+  int max_group =
+      kLooksGroup - 1;  ///< leaves out higher ones; 2 keeps what MuJoCo draws by default
 };
 
 /// The scene without the robot that stands in it.
-inline const GeomFilter kWithoutRobot{.exclude_body_prefix = "robot/", .max_group = 5};
+inline const GeomFilter kWithoutRobot{.exclude_body_prefix = "robot/"};
 
 /// Ids of the geoms that pass `filter`, ascending.
 std::vector<int> solid_geoms(const mjModel& model, const GeomFilter& filter = {});

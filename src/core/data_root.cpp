@@ -40,4 +40,11 @@ std::string lasting_name(const fs::path& found) {
   return inside.empty() || *inside.begin() == ".." ? absolute.string() : inside.string();
 }
 
+std::string scene_title(const std::string& scene) {
+  const fs::path path(scene);
+  if (path.extension() != ".xml") return scene;
+  const std::string folder = path.parent_path().filename().string();
+  return path.stem() == "scene" && !folder.empty() && folder != "." ? folder : path.stem().string();
+}
+
 }  // namespace vantage

@@ -20,4 +20,8 @@ std::filesystem::path find_input(const std::string& name, const std::filesystem:
 /// it is inside, else absolute.
 std::string lasting_name(const std::filesystem::path& found);
 
+/// What people call a scene: "office_small_2" for models/scenes/office_small_2/scene.xml, "kitchen"
+/// for my/kitchen.xml. Anything that is no MJCF file keeps its name.
+std::string scene_title(const std::string& scene);
+
 }  // namespace vantage

@@ -10,19 +10,18 @@
 
 #include "generated/report_assets.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/yaml.hpp"
-#include "vantage/perception/clouds/ply.hpp"
 #include "vantage/report/page.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/report/report_embed.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
 using nlohmann::json;
 namespace {
-
-constexpr std::size_t kMaxTrajectorySamples = 4000;
 
 json read_json_object(const fs::path& path) {
   const std::string text = read_file(path);
@@ -123,85 +122,11 @@ CsvTable read_steps(const fs::path& path) {
   return steps;
 }
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
-
-/// [[t, x, y, z, yaw], ...], thinned evenly, the last sample always kept.
-json trajectory_json(const fs::path& path) {
-  const auto samples = read_tum(path);
-  const std::size_t every = std::max<std::size_t>(
-      1, (samples.size() + kMaxTrajectorySamples - 1) / kMaxTrajectorySamples);
-  json list = json::array();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (i % every != 0 && i + 1 != samples.size()) continue;
-    const TrajectorySample& s = samples[i];
-    list.push_back({rounded(s.time_s, 1e-3), rounded(s.p_world_m.x(), 1e-4),
-                    rounded(s.p_world_m.y(), 1e-4), rounded(s.p_world_m.z(), 1e-4),
-                    rounded(s.yaw_rad, 1e-4)});
-  }
-  return list;
-}
-
-json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-/// Cell indices and steps as base64 of little-endian u16 quadruples.
-json voxels_json(const fs::path& path) {
-  const VoxelMap map = read_voxels(path);
-  const PackedVoxels packed = pack_voxels(map, kMaxReportVoxels);
-  static_assert(sizeof(PackedVoxel) == 8);
-  const std::string_view bytes(reinterpret_cast<const char*>(packed.voxels.data()),
-                               packed.voxels.size() * sizeof(PackedVoxel));
-  return {{"cell_size_m", vector_json(map.cell_size_m)},
-          {"min_m", vector_json(map.box_m.min())},
-          {"max_m", vector_json(map.box_m.max())},
-          {"cells", {packed.cells.x(), packed.cells.y(), packed.cells.z()}},
-          {"total", packed.total},
-          {"surface", packed.surface},
-          {"kept", packed.kept},
-          {"data", base64(bytes)}};
-}
-
-/// Every n-th point, n such that there are not too many, quantised to 16 bits inside their box.
-json cloud_json(const fs::path& path) {
-  const std::vector<Eigen::Vector3f> all = read_ply(path).cloud.points;
-  if (all.empty()) return nullptr;
-  const std::size_t every = (all.size() - 1) / (kMaxReportVoxels / 2) + 1;
-  std::vector<Eigen::Vector3f> points;
-  for (std::size_t i = 0; i < all.size(); i += every) points.push_back(all[i]);
-  Eigen::AlignedBox3f box;
-  for (const auto& p : points) box.extend(p);
-  const Eigen::Array3f scale = box.sizes().array().max(1e-6F) / 65535.0F;
-  std::vector<std::uint16_t> values;
-  values.reserve(3 * points.size());
-  for (const auto& p : points) {
-    const Eigen::Array3f q = ((p - box.min()).array() / scale).round();
-    for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<std::uint16_t>(q[axis]));
-  }
-  const std::string_view bytes(reinterpret_cast<const char*>(values.data()), 2 * values.size());
-  return {{"min_m", vector_json(box.min().cast<double>())},
-          {"scale_m", vector_json(scale.matrix().cast<double>())},
-          {"total", all.size()},
-          {"kept", points.size()},
-          {"data", base64(bytes)}};
-}
-
-/// The last image of `frames/` by name, as a data URI; null if there is none.
-json last_frame(const fs::path& folder) {
-  fs::path last;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const auto extension = entry.path().extension();
-    const bool image = extension == ".png" || extension == ".jpg";
-    const bool part = entry.path().stem().extension() == ".part";
-    if (image && !part && (last.empty() || entry.path() > last)) last = entry.path();
-  }
-  if (last.empty()) return nullptr;
-  const std::string type = last.extension() == ".png" ? "png" : "jpeg";
-  return "data:image/" + type + ";base64," + base64(read_file(last));
-}
-
 json media_json(const fs::path& run_dir) {
-  if (fs::exists(run_dir / "video.mp4")) return {{"video", "video.mp4"}};
-  return {{"frame", last_frame(run_dir / "frames")}};
+  const bool video = fs::exists(run_dir / "video.mp4");
+  json media = {{"frame", frame_of(run_dir / "frames", video)}};
+  if (video) media["video"] = "video.mp4";  // the frame is what stands there until it plays
+  return media;
 }
 
 /// What the page knows of the task, by name.
@@ -212,10 +137,21 @@ json sections_json(const ReportSections& sections) {
           {"view_heading", sections.view_heading}};
 }
 
+std::string text_of(const json& metrics, const char* key) {
+  const auto found = metrics.find(key);
+  return found != metrics.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::string run_title(const json& metrics) {
+  const std::string scene = scene_title(text_of(metrics, "scene"));
+  return scene.empty() ? "Run" : scene;
+}
+
 json run_json(const fs::path& run_dir, const ReportSections& sections) {
   json run;
   run["metrics"] = read_metrics(run_dir / "metrics.json", sections);
   run["sections"] = sections_json(sections);
+  run["title"] = run_title(run["metrics"]);
   run["manifest"] = read_json_object(run_dir / "manifest.json");
   run["config"] = read_config(run_dir / "config.yaml");
   const CsvTable steps = read_steps(run_dir / "steps.csv");
@@ -226,7 +162,10 @@ json run_json(const fs::path& run_dir, const ReportSections& sections) {
   if (sections.map && !fs::exists(voxels)) {
     throw InputError(voxels.string() + ": missing; a run with --lean leaves it out");
   }
-  run["voxels"] = sections.map ? voxels_json(voxels) : json(nullptr);
+  const bool has_voxels = sections.map || (sections.scene && fs::exists(voxels));
+  run["voxels"] = has_voxels ? voxels_json(voxels) : json(nullptr);
+  const fs::path scene = run_dir / "scene.bin";
+  run["scene"] = sections.scene && fs::exists(scene) ? scene_json(scene) : json(nullptr);
   const fs::path cloud = run_dir / "cloud.ply";
   run["cloud"] = fs::exists(cloud) ? cloud_json(cloud) : json(nullptr);
   run["media"] = media_json(run_dir);
@@ -250,11 +189,7 @@ std::string script_safe(const json& value) {
 }
 
 std::string page_title(const json& metrics) {
-  const auto text = [&](const char* key) {
-    const auto found = metrics.find(key);
-    return found != metrics.end() && found->is_string() ? found->get<std::string>() : std::string();
-  };
-  return text("scene") + " · " + text("method") + " · Vantage";
+  return run_title(metrics) + " · " + text_of(metrics, "method") + " · Vantage";
 }
 
 std::string scripts(std::initializer_list<std::string_view> names) {
@@ -270,8 +205,8 @@ void write_report(const fs::path& run_dir, const ReportSections& sections) {
   const Replacement replacements[] = {
       {"title", html_escaped(page_title(run["metrics"]))},
       {"data", script_safe(run)},
-      {"script", scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "viewer.js",
-                          "figures.js", "flight.js", "page.js"})}};
+      {"script", scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "surfaces.js",
+                          "viewer.js", "figures.js", "flight.js", "page.js"})}};
   write_file(run_dir / "report.html", filled_page("page.html", replacements));
 }
 

@@ -14,6 +14,7 @@ struct ReportSections {
   std::string_view steps = {};      ///< list of metrics.json that the page steps through; or empty
   std::string_view step_word = {};  ///< what it calls one of them
   bool map = false;                 ///< voxels.bin is there unless the run was lean
+  bool scene = false;               ///< scene.bin and voxels.bin are shown where they are there
   std::string_view view_heading = {};  ///< of the 3-D view
 };
 

@@ -25,7 +25,8 @@ struct WindowContent {
   std::optional<GridFrame> map = {};  ///< of the map that the event log tells of
   std::size_t scans = 0;              ///< planned; 0: it does not scan
   std::string gain_unit = {};
-  bool follows_height = false;  ///< the camera that follows the robot goes up and down with it
+  bool follows_height = false;     ///< the camera that follows the robot goes up and down with it
+  std::string step_word = "scan";  ///< what it calls one of the `scans`
 };
 
 }  // namespace vantage

@@ -163,8 +163,16 @@ TaskExtent extent(const ResolvedEpisode& resolved) {
   return std::visit([&](const auto& task) { return task.extent(resolved.setup); }, resolved.task);
 }
 
-WindowContent window(const Task& task) {
-  return std::visit([](const auto& t) { return t.window(); }, task);
+WindowContent window(const ResolvedEpisode& resolved) {
+  return std::visit(
+      [&](const auto& task) {
+        if constexpr (requires { task.window(resolved.setup); }) {
+          return task.window(resolved.setup);
+        } else {
+          return task.window();
+        }
+      },
+      resolved.task);
 }
 
 ReportSections report_sections(const Task& task) {

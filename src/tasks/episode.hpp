@@ -48,7 +48,8 @@ std::string method_name(const Task& task);
 ModelSource model_source(const ResolvedEpisode& resolved);
 std::vector<InputFile> inputs(const Task& task);
 TaskExtent extent(const ResolvedEpisode& resolved);
-WindowContent window(const Task& task);
+/// @throws InputError if the scene publishes no path where the task needs one.
+WindowContent window(const ResolvedEpisode& resolved);
 ReportSections report_sections(const Task& task);
 Measures measures(const Task& task);
 

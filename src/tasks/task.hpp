@@ -43,6 +43,7 @@ concept EpisodeTask = HasFields<T> &&
   /// What its world is compiled from.
   { task.model_source(setup) } -> std::same_as<ModelSource>;
   { task.extent(setup) } -> std::same_as<TaskExtent>;
+  /// A task whose map depends on its scene has a window(setup) besides, which is asked then.
   { task.window() } -> std::same_as<WindowContent>;
   { T::report() } -> std::same_as<ReportSections>;
   { T::measures() } -> std::same_as<Measures>;

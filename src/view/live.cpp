@@ -44,7 +44,7 @@ struct LivePlayer {
     if (!still_shown) {
       still_shown = options.at_s && world.time_s() >= *options.at_s - 1e-9;
       if (still_shown) gate.pause();
-      link.show(state, link.events(), still_shown);
+      if (still_shown || options.screenshot.empty()) link.show(state, link.events(), still_shown);
     }
     // An episode that has not begun cannot be interrupted yet.
     if (begins || gate.wait(world.options().control_period_s)) return;
@@ -71,8 +71,7 @@ ExitCode view_live(const ResolvedEpisode& resolved, const ViewOptions& options,
     if (!live.still_shown) link.show(live.state, link.events(), !options.screenshot.empty());
     return code;
   };
-  return show_in_window({resolved, "vantage: " + resolved.setup.name, std::nullopt}, options,
-                        player);
+  return show({resolved, "vantage: " + resolved.setup.name, std::nullopt}, options, player);
 }
 
 }  // namespace vantage

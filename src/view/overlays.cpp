@@ -39,11 +39,11 @@ GainRange gain_range(const Decision& decision) {
 
 cv::Scalar gain_colour(double share) { return cv::Scalar(height_colour_bgr(share)); }
 
-void lay_way(MapCanvas& canvas, const MapCamera& camera, const std::vector<Eigen::Vector2d>& path,
+void lay_way(MapCanvas& canvas, const MapCamera& camera, const std::vector<Eigen::Vector3d>& path,
              double unit) {
   for (std::size_t i = 1; i < path.size(); ++i) {
-    const auto lifted = [&](const Eigen::Vector2d& p) {
-      return Eigen::Vector3d(p.x(), p.y(), kWayHeight_m);
+    const auto lifted = [&](const Eigen::Vector3d& p) {
+      return Eigen::Vector3d(p + Eigen::Vector3d(0.0, 0.0, kWayHeight_m));
     };
     draw_line(canvas, camera, lifted(path[i - 1]), lifted(path[i]),
               {kAccent, 4.0 * unit, 0.95, 0.35});
@@ -174,6 +174,7 @@ void lay_views(MapCanvas& canvas, const MapCamera& camera, const EventReplay& kn
     const cv::Scalar colour = weighed ? gain_colour(range.share(view.gain_bits)) : kFaint;
     draw_frustum(canvas, camera, view.T_world_sensor, length_m, {colour, 2.2 * unit, 0.95, 0.3});
   }
+  if (decision.chosen == decision.candidates.size()) return;
   draw_frustum(canvas, camera, decision.candidates[decision.chosen].T_world_sensor, 1.6 * length_m,
                {kChosen, 3.5 * unit, 1.0, 0.5});
 }

@@ -110,6 +110,7 @@ ViewFrame ViewPainter::paint(const ViewLink::Work& work) {
   world_.set_state(work.moment.state);
   RenderRequest request;
   request.shadows = true;
+  request.for_people = controls.camera != ViewCamera::robot;
   request.depth_and_segmentation = controls.map || controls.gains;
   ViewFrame frame{{}, world_.time_s(), work.moment.still};
   renderer_of(controls.size)
@@ -128,7 +129,8 @@ ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time
   ViewCaptions captions;
   captions.scene = fmt::format("{}    {:.2f} s", scene_.method, time_s);
   if (scene_.content.scans > 0) {
-    captions.scene += fmt::format("    scan {} of {}", known_.scans(), scene_.content.scans);
+    captions.scene += fmt::format("    {} {} of {}", scene_.content.step_word, known_.scans(),
+                                  scene_.content.scans);
   }
   captions.playback = controls.playback;
   captions.gain_unit = scene_.content.gain_unit;

@@ -55,9 +55,13 @@ std::vector<EpisodeEvent> event_log_of(const std::filesystem::path& run_dir,
                                        const std::optional<GridFrame>& map) {
   const auto path = run_dir / "story.bin";
   if (std::filesystem::exists(path)) return read_event_log(path, map ? map->size() : 0);
-  if (!map) return {};
   log_warning(path.string() + ": missing; there is neither map nor gains to show");
   return {};
+}
+
+/// "tabletop-1" of out/tabletop-1/.
+std::string name_of(const std::filesystem::path& run_dir) {
+  return std::filesystem::weakly_canonical(run_dir).filename().string();
 }
 
 }  // namespace
@@ -67,7 +71,7 @@ ExitCode view_recording(const std::filesystem::path& run_dir, const ViewOptions&
   RecordedPlayer recorded;
   const World world(model_source(resolved), resolved.setup.options.simulation);
   recorded.states = load_states(run_dir, world);
-  recorded.event_log = event_log_of(run_dir, window(resolved.task).map);
+  recorded.event_log = event_log_of(run_dir, window(resolved).map);
   recorded.tick_s = resolved.setup.options.simulation.control_period_s;
   const bool still = !options.screenshot.empty();
   std::size_t first = still ? recorded.end() : 0;
@@ -76,8 +80,8 @@ ExitCode view_recording(const std::filesystem::path& run_dir, const ViewOptions&
     recorded.play(link, gate, first, still);
     return interrupt_signal() == 0 ? ExitCode::done : Interrupted(interrupt_signal()).code();
   };
-  return show_in_window({resolved, "vantage: " + run_dir.string(), recorded.time_s(recorded.end())},
-                        options, player);
+  return show({resolved, "vantage: " + name_of(run_dir), recorded.time_s(recorded.end())}, options,
+              player);
 }
 
 }  // namespace vantage

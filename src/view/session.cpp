@@ -23,6 +23,7 @@ namespace {
 constexpr double kPoll_s = 1.0 / 60.0;
 /// The painter leaves a core to the simulation.
 constexpr std::chrono::milliseconds kBetweenFrames{30};
+constexpr std::chrono::milliseconds kStillPoll{5};
 
 void write_png(const std::filesystem::path& path, RenderedImages image) {
   const cv::Mat rgb(image.height_px, image.width_px, CV_8UC3, image.rgb.data());
@@ -88,8 +89,9 @@ class Crew {
 
 ViewControls first_controls(const World& world, const ViewSubject& subject,
                             const ViewOptions& options) {
-  ViewControls controls{.camera = options.camera,
-                        .overview = overview_of(world, vantage::window(subject.resolved.task)),
+  ViewControls controls{.size = options.size,
+                        .camera = options.camera,
+                        .overview = overview_of(world, vantage::window(subject.resolved)),
                         .follow = follow_of_robot(),
                         .map = options.map,
                         .gains = options.gains,
@@ -106,27 +108,19 @@ std::string playback_text(const Crew& crew, bool recorded) {
   return fmt::format("{}    {}    h: help", recorded ? "recording" : "live", pace);
 }
 
-/// Until the window is closed or the image of the still moment is taken.
-void take_still(Window& window, Crew& crew, ViewControls controls, const ViewOptions& options) {
+/// The image of the still moment, drawn in memory: no window has a part in it.
+void take_still(Crew& crew, const ViewControls& controls, const std::filesystem::path& file) {
   crew.link.set_controls(controls);
-  while (!window.closed() && interrupt_signal() == 0) {
-    window.wait(kPoll_s);
+  while (interrupt_signal() == 0) {
     crew.link.rethrow();
-    if (controls.size != window.size()) {
-      controls.size = window.size();
-      crew.link.set_controls(controls);
-    }
     const auto frame = crew.link.take_frame();
-    if (!frame) continue;
-    const PixelSize drawn{frame->image.width_px, frame->image.height_px};
-    if (!frame->still || drawn != window.size()) {
-      window.show(frame->image);
-      continue;
+    if (frame && frame->still) {
+      write_png(file, frame->image);
+      return;
     }
-    write_png(options.screenshot, window.show_and_read(frame->image));
-    return;
+    std::this_thread::sleep_for(kStillPoll);
   }
-  throw Interrupted(interrupt_signal() == 0 ? SIGINT : interrupt_signal());
+  throw Interrupted(interrupt_signal());
 }
 
 void keep_open(Window& window, Crew& crew, ViewControls controls, const ViewSubject& subject) {
@@ -156,26 +150,38 @@ void keep_open(Window& window, Crew& crew, ViewControls controls, const ViewSubj
   }
 }
 
-}  // namespace
-
-ExitCode show_in_window(const ViewSubject& subject, const ViewOptions& options,
-                        const Player& player) {
-  catch_interrupts();
-  std::optional<Window> window;
-  window.emplace(subject.title, options.size);
+/// Until the still moment is drawn, or the window is closed.
+ExitCode look(std::optional<Window>& window, World& world, const ViewSubject& subject,
+              const ViewOptions& options, const Player& player) {
   const ResolvedEpisode& resolved = subject.resolved;
-  World world(model_source(resolved), resolved.setup.options.simulation);
+  const ViewScene scene{method_name(resolved.task), vantage::window(resolved)};
   const ViewControls controls = first_controls(world, subject, options);
-  const bool still = !options.screenshot.empty();
-  const ViewScene scene{method_name(resolved.task), vantage::window(resolved.task)};
-  Crew crew(scene, world, player, still ? std::numeric_limits<double>::infinity() : 1.0);
-  if (still) {
-    take_still(*window, crew, controls, options);
-  } else {
+  Crew crew(scene, world, player, window ? 1.0 : std::numeric_limits<double>::infinity());
+  if (window) {
     keep_open(*window, crew, controls, subject);
+  } else {
+    take_still(crew, controls, options.screenshot);
   }
   window.reset();  // an episode may take a moment to write what there is
-  const ExitCode code = crew.finish();
+  return crew.finish();
+}
+
+}  // namespace
+
+ExitCode show(const ViewSubject& subject, const ViewOptions& options, const Player& player) {
+  catch_interrupts();
+  const ResolvedEpisode& resolved = subject.resolved;
+  const bool still = !options.screenshot.empty();
+  if (options.map && !vantage::window(resolved).map) {
+    log_warning(
+        fmt::format("--map: an episode of {} makes no map of the room, only of what the "
+                    "object is: there are no cells to show",
+                    strategy_name_of(resolved.task)));
+  }
+  std::optional<Window> window;
+  if (!still) window.emplace(subject.title, options.size);
+  World world(model_source(resolved), resolved.setup.options.simulation);
+  const ExitCode code = look(window, world, subject, options, player);
   return still && code == ExitCode::interrupted ? ExitCode::done : code;
 }
 

@@ -24,7 +24,6 @@ struct ViewSubject {
 /// taken.
 /// @return what the player returned; done if it was only ended by the screenshot
 /// @throws RendererError, OutputError, and what the player throws
-ExitCode show_in_window(const ViewSubject& subject, const ViewOptions& options,
-                        const Player& player);
+ExitCode show(const ViewSubject& subject, const ViewOptions& options, const Player& player);
 
 }  // namespace vantage

@@ -43,6 +43,15 @@ TEST_F(DataRoot, BesideTheEpisodeBeforeTheOneThatCameWithVantage) {
   EXPECT_EQ(find_input(own.string(), "/", "scene"), own);
 }
 
+TEST(SceneTitle, IsTheNameThatPeopleUse) {
+  EXPECT_EQ(scene_title("models/scenes/office_small_2/scene.xml"), "office_small_2");
+  EXPECT_EQ(scene_title("/home/me/kitchen.xml"), "kitchen");
+  EXPECT_EQ(scene_title("scene.xml"), "scene");
+  EXPECT_EQ(scene_title("./scene.xml"), "scene");
+  EXPECT_EQ(scene_title("tabletop, 8 objects"), "tabletop, 8 objects");
+  EXPECT_EQ(scene_title(""), "");
+}
+
 TEST_F(DataRoot, MissingFilesNameTheKeyAndTheFile) {
   try {
     (void)find_input("scenes/none.xml", directory.path(), "scene");

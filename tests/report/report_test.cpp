@@ -10,6 +10,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/report/drawn_scene.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/tasks/task.hpp"
 
@@ -112,6 +113,81 @@ TEST(Report, EmbedsTheLastFrameWithoutVideo) {
   EXPECT_EQ(embedded_data(page_of(run))["media"]["frame"], "data:image/png;base64,YmM=");
 }
 
+TEST(Report, AVideoShowsTheFirstFrameUntilItPlays) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  write_file(run / "video.mp4", "mp4");
+  std::filesystem::create_directory(run / "frames");
+  write_file(run / "frames" / "scan_00.png", "a");
+  write_file(run / "frames" / "scan_01.png", "bc");
+  const std::string page = page_of(run);
+  EXPECT_EQ(embedded_data(page)["media"]["frame"], "data:image/png;base64,YQ==");
+  EXPECT_NE(page.find("poster: frame"), page.npos);
+}
+
+TEST(Report, TitlesAreNamesAndNoPaths) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  json metrics = support::sample_metrics();
+  metrics["scene"] = "models/scenes/office_small_2/scene.xml";
+  write_file(run / "metrics.json", metrics.dump());
+  const std::string page = page_of(run);
+  EXPECT_NE(page.find("<title>office_small_2 · adaptive · Vantage</title>"), page.npos);
+  EXPECT_EQ(embedded_data(page)["title"], "office_small_2");
+  EXPECT_NE(page.find("at(\"heading\").textContent = DATA.title"), page.npos);
+}
+
+/// A triangle that is always drawn, and one of the north wall.
+DrawnScene two_triangles() {
+  DrawnScene scene;
+  scene.extent_m = {Eigen::Vector3f(-1, -2, 0), Eigen::Vector3f(1, 2, 3)};
+  scene.vertices_m = {{-1, -2, 0}, {1, -2, 0}, {1, 2, 0}, {1, 2, 3}};
+  scene.colours = {{255, 0, 0}, {255, 0, 0}, {0, 255, 0}, {0, 0, 255}};
+  scene.triangles[0] = {{0, 1, 2}};
+  scene.triangles[4] = {{1, 2, 3}};
+  return scene;
+}
+
+TEST(Report, AFlightShowsItsRoom) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  write_drawn_scene(run / "scene.bin", two_triangles());
+  for_each_task([&](const auto& task) {
+    const ReportSections sections = task.report();
+    const json scene = embedded_data(page_of(run, sections))["scene"];
+    ASSERT_EQ(scene.is_null(), !sections.scene) << task.name;
+    if (scene.is_null()) return;
+    EXPECT_EQ(scene["parts"], json({1, 0, 0, 0, 1, 0}));
+    EXPECT_EQ(scene["extent"]["max"], json({1.0, 2.0, 3.0}));
+    EXPECT_EQ(scene["positions"].get<std::string>().size(), (4 * 6 + 2) / 3 * 4U);
+    EXPECT_EQ(scene["colours"].get<std::string>().size(), (4 * 3 + 2) / 3 * 4U);
+    EXPECT_EQ(scene["triangles"], base64(std::string("\0\0\0\0\1\0\0\0\2\0\0\0"
+                                                     "\1\0\0\0\2\0\0\0\3\0\0\0",
+                                                     24)));
+  });
+  EXPECT_TRUE(TrajectoryFlight::report().scene);
+  EXPECT_TRUE(RecognitionTask::report().scene);
+  EXPECT_TRUE(ChangeDetectionTask::report().scene);
+}
+
+TEST(DrawnSceneFile, ComesBackAsItWasAndIsNotBelievedDamaged) {
+  const TemporaryDirectory folder;
+  const DrawnScene written = two_triangles();
+  write_drawn_scene(folder / "scene.bin", written);
+  const DrawnScene read = read_drawn_scene(folder / "scene.bin");
+  EXPECT_EQ(read.extent_m.max(), written.extent_m.max());
+  EXPECT_EQ(read.vertices_m, written.vertices_m);
+  EXPECT_EQ(read.colours, written.colours);
+  EXPECT_EQ(read.triangles, written.triangles);
+  const std::string bytes = read_file(folder / "scene.bin");
+  const std::string damaged[] = {"", bytes.substr(0, bytes.size() - 1), bytes + "x",
+                                 bytes.substr(0, bytes.size() - 4) + std::string("\4\0\0\0", 4)};
+  for (const std::string& content : damaged) {
+    write_file(folder / "scene.bin", content);
+    EXPECT_THROW(read_drawn_scene(folder / "scene.bin"), InputError) << content.size();
+  }
+}
+
 TEST(Report, NamesCannotInject) {
   const TemporaryDirectory run;
   support::write_sample_run(run.path());
@@ -164,7 +240,7 @@ TEST(Report, HasTheSectionsOfTheTaskWhateverTheMetricsSay) {
     EXPECT_EQ(data["sections"]["steps"], sections.steps) << task.name;
     EXPECT_EQ(data["sections"]["step_word"], sections.step_word) << task.name;
     EXPECT_EQ(data["sections"]["view_heading"], sections.view_heading) << task.name;
-    EXPECT_EQ(data["voxels"].is_null(), !sections.map) << task.name;
+    EXPECT_EQ(data["voxels"].is_null(), !sections.map && !sections.scene) << task.name;
     EXPECT_EQ(data["metrics"], metrics_of_no_task()) << task.name;
   });
 }

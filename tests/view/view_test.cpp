@@ -146,6 +146,19 @@ TEST_F(View, SignalsEndIt) {
   EXPECT_EQ(live.exit_code, 143) << live.output;
 }
 
+TEST_F(View, AScreenshotNeedsNoDisplay) {
+  const std::string arguments = std::string(" view ") + kTwoScans + kSmall + "--at 1 --screenshot ";
+  const Result result =
+      shell("cd '" + folder_.string() + "' && env -u DISPLAY -u WAYLAND_DISPLAY " VANTAGE_BINARY +
+            arguments + "no_display.png");
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  const auto drawn = cv::imread((folder_ / "no_display.png").string(), cv::IMREAD_COLOR);
+  ASSERT_EQ(drawn.size(), cv::Size(400, 300));
+  EXPECT_GT(cv::mean(drawn)[1], 60.0);
+  const VirtualDisplay display;
+  EXPECT_TRUE(same(drawn, shot("display.png", std::string(kTwoScans) + kSmall + "--at 1")));
+}
+
 TEST_F(View, WithoutADisplay) {
   expect_error(shell("env -u DISPLAY -u WAYLAND_DISPLAY " VANTAGE_BINARY " view"), 6,
                {"no display", "DISPLAY"});

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/models/catalogue/flight/flight_looks.hpp"
 #include "vantage/models/catalogue/shapes/mjcf_kit.hpp"
 
 namespace vantage {
@@ -36,7 +37,6 @@ constexpr std::string_view kHead =
     <material name="legs" rgba="0.35 0.35 0.37 1" specular="0.3"/>
     <material name="column" rgba="0.73 0.70 0.66 1" specular="0"/>
     <material name="wood" rgba="0.55 0.40 0.27 1" specular="0.1"/>
-  </asset>
 )";
 
 constexpr std::string_view kLamp =
@@ -120,14 +120,36 @@ std::string obstacle_body(const FlightObstacle& obstacle, int index) {
   return body(name, obstacle.p_world_m, obstacle.yaw_rad, geoms);
 }
 
+/// So far from the middle of the room that a picture of 8 : 9, as half of a video is, holds all of
+/// it; beyond two walls, which pictures for people leave out.
+Vector3d overview_eye(const FlightScene& scene, const Vector3d& target_m, double fovy_deg) {
+  const Vector3d back = Vector3d(0.62, -1.0, 1.02).normalized();
+  const Vector3d right = Vector3d::UnitZ().cross(back).normalized();
+  const Vector3d up = back.cross(right);
+  const double half = std::tan(0.5 * fovy_deg * std::numbers::pi / 180.0);
+  double distance_m = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d p_m((corner & 1) != 0 ? 0.5 * scene.room_m.x() : -0.5 * scene.room_m.x(),
+                       (corner & 2) != 0 ? 0.5 * scene.room_m.y() : -0.5 * scene.room_m.y(),
+                       (corner & 4) != 0 ? kFlightWallHeight_m : 0.0);
+    const Vector3d off_m = p_m - target_m;
+    const double aside_m =
+        std::max(std::abs(off_m.dot(right)) * 9.0 / 8.0, std::abs(off_m.dot(up)));
+    distance_m = std::max(distance_m, off_m.dot(back) + aside_m / half);
+  }
+  return target_m + distance_m * back;
+}
+
 std::string cameras(const FlightScene& scene) {
   constexpr double kFovy_deg = 50.0;
+  constexpr double kOverviewFovy_deg = 64.0;  // from near enough for the far plane
   const Eigen::Vector2d half = 0.5 * scene.room_m + Eigen::Vector2d::Constant(0.4);
   const double reach = std::max(half.y(), 0.75 * half.x());  // images are 4 : 3
   const double height =
       kFlightWallHeight_m + reach / std::tan(0.5 * kFovy_deg * std::numbers::pi / 180.0);
-  return mjcf_camera("overview", {0.8 * half.x(), -1.7 * half.y(), 1.6 * reach}, {0, -0.4, 0.4},
-                     Vector3d::UnitZ(), kFovy_deg) +
+  const Vector3d target_m(0.0, 0.0, 0.7);
+  return mjcf_camera("overview", overview_eye(scene, target_m, kOverviewFovy_deg), target_m,
+                     Vector3d::UnitZ(), kOverviewFovy_deg) +
          mjcf_camera("top", {0, 0, height}, Vector3d::Zero(), Vector3d::UnitY(), kFovy_deg);
 }
 
@@ -160,6 +182,9 @@ std::string to_mjcf(const FlightScene& scene) {
       "<mujoco model=\"{}\">\n  ",
       scene.about, scene.name);
   text += kHead;
+  text += looks_assets();
+  text += "  </asset>\n";
+  text += looks_class();
   text += "  <worldbody>\n";
   text += kLamp;
   text += cameras(scene);
@@ -170,6 +195,7 @@ std::string to_mjcf(const FlightScene& scene) {
   for (const FlightObstacle& obstacle : scene.obstacles) {
     text += obstacle_body(obstacle, count[obstacle.kind]++);
   }
+  text += looks_bodies(scene);
   return text + "  </worldbody>\n  <include file=\"objects.xml\"/>\n</mujoco>\n";
 }
 

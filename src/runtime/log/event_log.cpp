@@ -13,7 +13,8 @@ namespace vantage {
 namespace {
 
 constexpr std::string_view kMagic = "VANTAGE STORY 1\n";
-constexpr std::array<std::size_t, 3> kEntryBytes{12, 14 * sizeof(double), 2 * sizeof(double)};
+constexpr std::array<std::size_t, 4> kEntryBytes{12, 14 * sizeof(double), 2 * sizeof(double),
+                                                 3 * sizeof(double)};
 
 struct PutEntries {
   std::string& bytes;
@@ -48,6 +49,12 @@ struct PutEntries {
     for (const Eigen::Vector2d& p : route.path_m) {
       put(bytes, p.x());
       put(bytes, p.y());
+    }
+  }
+  void operator()(const PlannedFlight& flight) const {
+    header(3, flight.path_m.size());
+    for (const Eigen::Vector3d& p : flight.path_m) {
+      for (const double value : p) put(bytes, value);
     }
   }
 };
@@ -95,10 +102,17 @@ EpisodeEvent take_event(ByteReader& reader, std::string_view what) {
       decision.candidates.push_back(take_candidate(reader, static_cast<int>(i), what));
     }
     event.what = std::move(decision);
-  } else {
+  } else if (kind == 2) {
     PlannedRoute route;
     for (std::uint32_t i = 0; i < count; ++i) route.path_m.push_back(take_point(reader, what));
     event.what = std::move(route);
+  } else {
+    PlannedFlight flight;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Eigen::Vector2d level_m = take_point(reader, what);
+      flight.path_m.emplace_back(level_m.x(), level_m.y(), reader.number<double>(what));
+    }
+    event.what = std::move(flight);
   }
   return event;
 }
@@ -112,13 +126,15 @@ struct Plausible {
     });
   }
   bool operator()(const Decision& decision) const {
-    return decision.chosen < decision.candidates.size() &&
+    return decision.chosen <= decision.candidates.size() &&
            std::ranges::all_of(decision.candidates, [](const Candidate& view) {
              return view.T_world_sensor.matrix().allFinite();
            });
   }
-  bool operator()(const PlannedRoute& route) const {
-    return std::ranges::all_of(route.path_m, [](const auto& p) { return p.allFinite(); });
+  bool operator()(const PlannedRoute& route) const { return all_finite(route.path_m); }
+  bool operator()(const PlannedFlight& flight) const { return all_finite(flight.path_m); }
+  static bool all_finite(const auto& path_m) {
+    return std::ranges::all_of(path_m, [](const auto& p) { return p.allFinite(); });
   }
 };
 
@@ -196,6 +212,11 @@ void EventReplay::apply(const Decision& decision) {
   path_m_.clear();
 }
 
-void EventReplay::apply(const PlannedRoute& route) { path_m_ = route.path_m; }
+void EventReplay::apply(const PlannedRoute& route) {
+  path_m_.clear();
+  for (const Eigen::Vector2d& p : route.path_m) path_m_.emplace_back(p.x(), p.y(), 0.0);
+}
+
+void EventReplay::apply(const PlannedFlight& flight) { path_m_ = flight.path_m; }
 
 }  // namespace vantage

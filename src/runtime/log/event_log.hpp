@@ -27,16 +27,21 @@ struct MapChange {
 /// The views that the robot chose from; of each: id (its index), pose, gain, reachability.
 struct Decision {
   std::vector<Candidate> candidates;
-  std::size_t chosen = 0;
+  std::size_t chosen = 0;  ///< as many as there are candidates: it wants none of them
 };
 /// The path it is about to drive, world frame.
 struct PlannedRoute {
   std::vector<Eigen::Vector2d> path_m;
 };
 
+/// The path that it is about to fly, world frame.
+struct PlannedFlight {
+  std::vector<Eigen::Vector3d> path_m;
+};
+
 struct EpisodeEvent {
   std::uint64_t tick = 0;  ///< it came after this state of states.bin, before the next
-  std::variant<MapChange, Decision, PlannedRoute> what;
+  std::variant<MapChange, Decision, PlannedRoute, PlannedFlight> what;
 };
 
 /// Cells whose state in `grid` is not the one in `known`, which becomes that of `grid`. An empty
@@ -44,10 +49,10 @@ struct EpisodeEvent {
 MapChange map_change(std::vector<CellState>& known, const OccupancyGrid& grid);
 
 /// Writes story.bin as the episode goes. Little-endian: "VANTAGE STORY 1\n", then per event tick
-/// (u64), kind (u32: 0 map, 1 decision, 2 way), count (u32), chosen (u64, 0 but for decisions) and
-/// count entries: of a map first (u32), count (u32), state (u32: 0 free, 1 unobserved, 2 occupied);
-/// of a decision the upper three rows of T_world_sensor row by row, gain, reachable (14 x f64); of
-/// a way x, y (2 x f64).
+/// (u64), kind (u32: 0 map, 1 decision, 2 way, 3 flight), count (u32), chosen (u64, 0 but for
+/// decisions) and count entries: of a map first (u32), count (u32), state (u32: 0 free, 1
+/// unobserved, 2 occupied); of a decision the upper three rows of T_world_sensor row by row, gain,
+/// reachable (14 x f64); of a way x, y (2 x f64); of a flight x, y, z (3 x f64).
 class EventLog {
  public:
   explicit EventLog(const std::filesystem::path& run_dir);
@@ -73,17 +78,19 @@ class EventReplay {
   /// Log odds tell no more than the cells' states.
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
   [[nodiscard]] const std::optional<Decision>& decision() const { return decision_; }
-  [[nodiscard]] const std::vector<Eigen::Vector2d>& path_m() const { return path_m_; }
+  /// Of a way over the floor z is 0.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& path_m() const { return path_m_; }
   [[nodiscard]] std::size_t scans() const { return scans_; }
 
  private:
   void apply(const MapChange& change);
   void apply(const Decision& decision);
   void apply(const PlannedRoute& route);
+  void apply(const PlannedFlight& flight);
 
   OccupancyGrid grid_;
   std::optional<Decision> decision_;
-  std::vector<Eigen::Vector2d> path_m_;
+  std::vector<Eigen::Vector3d> path_m_;
   std::size_t scans_ = 0;
   std::size_t applied_ = 0;
 };

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/sim/render/overview.hpp"
 #include "vantage/sim/world/world.hpp"
 
 namespace vantage {
@@ -12,15 +13,6 @@ namespace {
 
 /// Half of a 16:9 image, both edges even.
 cv::Size half_of(int height_px) { return {height_px * 8 / 9 / 2 * 2, height_px / 2 * 2}; }
-
-/// The scene's own camera "overview", or one that looks at the middle of the room from above.
-CameraView overview_camera(const World& world) {
-  if (const auto id = find_model_id(world.model(), ModelObject::camera, "overview")) {
-    return FixedCamera{.camera_id = *id, .fovy_rad = std::nullopt};
-  }
-  return FreeCamera{
-      .lookat_m = {0.0, 0.0, 0.8}, .distance_m = 4.5, .azimuth_rad = 0.8, .elevation_rad = -0.6};
-}
 
 }  // namespace
 
@@ -42,7 +34,7 @@ VideoRecorder::VideoRecorder(const World& world, const RecordingOptions& options
       half_(half_of(options.height_px)),
       renderer_(make_offscreen_renderer(world.model(), half_.width, half_.height)),
       video_(directory_ / "video.mp4", {2 * half_.width, half_.height}, options.video_fps),
-      camera_(overview_camera(world)) {
+      camera_(overview_camera(world.model())) {
   std::filesystem::create_directories(directory_ / "frames");
 }
 
@@ -61,6 +53,7 @@ void VideoRecorder::save_still(const World& world, std::size_t index) {
 cv::Mat VideoRecorder::draw(const World& world) {
   RenderRequest request;
   request.depth_and_segmentation = false;
+  request.for_people = true;
   renderer_->render(world.model(), world.snapshot(), camera_, request, overview_);
   const cv::Mat rgb(overview_.height_px, overview_.width_px, CV_8UC3, overview_.rgb.data());
   return side_by_side(rgb, panel_(half_));

@@ -112,6 +112,7 @@ ReportSections ChangeDetectionTask::report() {
   return {.figures = "change",
           .steps = "observations",
           .step_word = "view",
+          .scene = true,
           .view_heading = "The flight, view by view"};
 }
 

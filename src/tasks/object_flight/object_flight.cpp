@@ -27,6 +27,6 @@ TaskExtent ObjectFlight::extent(const EpisodeSetup&) const {
   return {"max_views", "views at most", static_cast<std::size_t>(decision.max_views)};
 }
 
-WindowContent ObjectFlight::window() { return {.follows_height = true}; }
+WindowContent ObjectFlight::window() { return {.gain_unit = "bits", .follows_height = true}; }
 
 }  // namespace vantage

@@ -104,10 +104,28 @@ void ObjectFlightParts::score(std::vector<BearingOption>& options) {
   next_ = next_view(recogniser_, task_.decision, recognition(), actions, choice_rng_);
 }
 
-std::size_t ObjectFlightParts::choose(const std::vector<BearingOption>&) {
+std::size_t ObjectFlightParts::choose(const std::vector<BearingOption>& options) {
   const std::size_t chosen = next_.decision.action;
   current_.gain_bits = next_.decision.scores[chosen].gain.bits;
+  tell_decision(options, chosen);
   return chosen;
+}
+
+/// Places with their gains, as those who look on see them.
+void ObjectFlightParts::tell_decision(const std::vector<BearingOption>& options,
+                                      std::size_t chosen) {
+  Decision decision{{}, chosen};
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    Candidate& place = decision.candidates.emplace_back();
+    place.id = static_cast<int>(i);
+    place.T_world_sensor = task_.orbit().place(options[i].bearing_rad);
+    place.gain_bits = next_.decision.scores[i].gain.bits;
+  }
+  PlannedFlight way;
+  for (const FlightWaypoint& waypoint : robot_.plan(options[chosen].bearing_rad).waypoints) {
+    way.path_m.push_back(waypoint.p_world_m);
+  }
+  recorder_.decision(std::move(decision), std::move(way));
 }
 
 void ObjectFlightParts::act(const BearingOption& option) {

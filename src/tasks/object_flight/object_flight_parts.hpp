@@ -56,6 +56,7 @@ class ObjectFlightParts {
   [[nodiscard]] double bearing_rad(int id) const;
   [[nodiscard]] bool visited(int id) const;
   void conclude();
+  void tell_decision(const std::vector<BearingOption>& options, std::size_t chosen);
   [[nodiscard]] RecognitionPanelInput panel() const;
 
   ObjectFlight task_;

@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include <utility>
+
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/runtime/scene_file.hpp"
 
 namespace vantage {
 namespace {
@@ -45,10 +48,31 @@ std::string steps_row(const ObservationRecord& record, std::size_t index) {
 
 ObjectFlightRecorder::ObjectFlightRecorder(const EpisodeRun& run, RecordedRobot robot,
                                            int max_views, bool of_change)
-    : EpisodeRecorder(run, std::move(robot),
-                      std::string(kStepsHeader).append(of_change ? kChangeHeader : ""), max_views),
+    : EpisodeRecorder(run, robot, std::string(kStepsHeader).append(of_change ? kChangeHeader : ""),
+                      max_views),
+      world_(robot.world),
       max_views_(max_views) {
-  if (!lean()) make_writable_directory(directory() / "views");
+  if (lean()) return;
+  make_writable_directory(directory() / "views");
+  event_log_.emplace(directory());
+}
+
+void ObjectFlightRecorder::tell(EpisodeEvent event) {
+  log().tell(event);
+  if (event_log_) event_log_->add(event);
+}
+
+void ObjectFlightRecorder::decision(Decision decision, PlannedFlight way) {
+  if (!event_log_ && !log().watched()) return;
+  tell({0, std::move(decision)});
+  tell({0, std::move(way)});
+}
+
+void ObjectFlightRecorder::commit() {
+  EpisodeRecorder::commit();
+  if (lean()) return;
+  event_log_->commit();
+  write_scene_file(world_, directory());
 }
 
 void ObjectFlightRecorder::set_panel(std::function<RecognitionPanelInput()> panel) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "vantage/runtime/log/event_log.hpp"
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/tasks/object_flight/object_flight_panel.hpp"
 #include "vantage/tasks/object_flight/observation_record.hpp"
@@ -21,9 +22,16 @@ class ObjectFlightRecorder : public EpisodeRecorder {
   /// Adds a row to steps.csv, and the image with the object's outline to views/.
   void observation(const ObservationRecord& record, std::size_t index, const CameraImages& image,
                    const std::optional<ObjectView>& cut);
+  /// The places that were weighed, which one is flown to, and the way there.
+  void decision(Decision decision, PlannedFlight way);
+  void commit() override;
 
  private:
+  void tell(EpisodeEvent event);
+
+  const World& world_;
   int max_views_;
+  std::optional<EventLog> event_log_;
 };
 
 }  // namespace vantage

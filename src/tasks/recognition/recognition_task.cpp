@@ -64,6 +64,7 @@ ReportSections RecognitionTask::report() {
   return {.figures = "recognition",
           .steps = "observations",
           .step_word = "view",
+          .scene = true,
           .view_heading = "The flight, view by view"};
 }
 

@@ -48,10 +48,27 @@ TaskExtent TrajectoryFlight::extent(const EpisodeSetup& setup) const {
   return {"waypoints", "waypoints", read_flight_path(setup.scene).size()};
 }
 
-WindowContent TrajectoryFlight::window() { return {.follows_height = true}; }
+WindowContent TrajectoryFlight::window() {
+  return {.gain_unit = "nats", .follows_height = true, .step_word = "waypoint"};
+}
+
+WindowContent TrajectoryFlight::window(const EpisodeSetup& setup) const {
+  const std::vector<FlightWaypoint> path = read_flight_path(setup.scene);
+  WindowContent content = window();
+  content.map = FlightMap(flight_region(path), map).grid().frame;
+  content.overview_m.setEmpty();
+  for (const FlightWaypoint& waypoint : path) {
+    content.overview_m.extend(Eigen::Vector2d(waypoint.p_world_m.head<2>()));
+  }
+  content.scans = path.size();
+  return content;
+}
 
 ReportSections TrajectoryFlight::report() {
-  return {.figures = kFlightFigures, .step_word = "waypoint", .view_heading = "The flight"};
+  return {.figures = kFlightFigures,
+          .step_word = "waypoint",
+          .scene = true,
+          .view_heading = "The flight"};
 }
 
 Measures TrajectoryFlight::measures() { return trajectory_measures(); }

@@ -103,6 +103,8 @@ struct TrajectoryFlight {
   [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
   [[nodiscard]] TaskExtent extent(const EpisodeSetup& setup) const;
   [[nodiscard]] static WindowContent window();
+  /// With the map of the flight, whose extent is that of the path.
+  [[nodiscard]] WindowContent window(const EpisodeSetup& setup) const;
   [[nodiscard]] static ReportSections report();
   [[nodiscard]] static std::string_view metrics_task() { return name; }
   [[nodiscard]] static std::string_view robot_kind() { return QuadrotorDescription::name; }

@@ -83,6 +83,18 @@ Json object_json(const ObjectOnSupport& truth, const RecognisedObject* found,
   return json;
 }
 
+/// All that was found, whether it is there or not.
+Json found_json(const RecognisedObject& found, const TrajectoryParts& run) {
+  const ObjectObservations& observations = run.observations();
+  const bool seen = !found.observations.empty();
+  return {{"x_m", found.p_world_m.x()},
+          {"y_m", found.p_world_m.y()},
+          {"z_m", found.p_world_m.z()},
+          {"estimate", seen ? Json(observations.estimate(found)) : Json(nullptr)},
+          {"entropy_nats", observations.entropy_nats(found)},
+          {"object", nullptr}};
+}
+
 void add_planning(Json& json, const std::vector<WaypointRecord>& records) {
   std::vector<double> time_s;
   int late = 0;
@@ -158,12 +170,15 @@ void add_trajectory_metrics(const FlightTruth& truth, const TrajectoryParts& run
   const auto& found = run.observations().objects();
   const std::vector<int> match = matches(truth.objects, found);
   metrics["objects"] = Json::array();
+  metrics["found"] = Json::array();
+  for (const RecognisedObject& object : found) metrics["found"].push_back(found_json(object, run));
   double correct = 0.0;
   double sum_nats = 0.0;
   for (std::size_t i = 0; i < match.size(); ++i) {
     const RecognisedObject* object =
         match[i] < 0 ? nullptr : &found[static_cast<std::size_t>(match[i])];
     const Json& entry = metrics["objects"].emplace_back(object_json(truth.objects[i], object, run));
+    if (object != nullptr) metrics["found"][static_cast<std::size_t>(match[i])]["object"] = i;
     correct += entry["correct"].get<bool>() ? 1.0 : 0.0;
     sum_nats += entry["entropy_nats"].get<double>();
   }

@@ -139,6 +139,7 @@ void TrajectoryParts::update(const WaypointReached& reached) {
 
 void TrajectoryParts::record() {
   records_.push_back(std::exchange(current_, {}));
+  if (recorder_.flight().wanted()) recorder_.flight().map(map_.grid(), records_.back().waypoint);
   recorder_.waypoint(records_.back(), static_cast<int>(nominal_.size()));
 }
 
@@ -191,6 +192,11 @@ std::size_t TrajectoryParts::choose(const std::vector<CandidatePlan>& candidates
   const std::size_t chosen = safest_of_best(candidates);
   current_.plan_time_s = wall_s() - planning_since_s_;
   current_.target = planner_.target();
+  if (recorder_.flight().wanted()) {
+    recorder_.flight().decision(view_decision(plannable(), robot_.T_body_camera(),
+                                              task_.planner.observation_distance_m,
+                                              planner_.target()));
+  }
   return chosen;
 }
 
@@ -210,6 +216,10 @@ void TrajectoryParts::act(const CandidatePlan& candidate) {
   current_.missed = missed > 0;
   current_.plan.assign(plan_.begin() + at_ + 1, plan_.end());
   if (!candidate.same_spline) robot_.follow(followed(plan_, at_));
+  if (recorder_.flight().wanted()) {
+    recorder_.flight().plan(plan_, static_cast<std::size_t>(at_),
+                            static_cast<std::size_t>(task_.horizon + 1));
+  }
 }
 
 /// Once the way is taken so many waypoints later than it was made for.

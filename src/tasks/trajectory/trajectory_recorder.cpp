@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/runtime/scene_file.hpp"
 #include "vantage/tasks/flight/simulated_quadrotor.hpp"
 
 namespace vantage {
@@ -65,6 +66,7 @@ TrajectoryRecorder::TrajectoryRecorder(const EpisodeRun& run, SimulatedQuadrotor
                        [&quadrotor] { return quadrotor.estimated_body(); }},
                       std::string(kStepsHeader), 1.0),
       quadrotor_(quadrotor),
+      flight_(log(), directory(), !lean()),
       observations_(directory() / "looks.csv"),
       camera_(camera) {
   observations_.write(kObservationHeader);
@@ -118,6 +120,8 @@ void TrajectoryRecorder::observation(int object, const ObjectObservation& observ
 void TrajectoryRecorder::commit() {
   EpisodeRecorder::commit();
   observations_.commit();
+  flight_.commit();
+  if (!lean()) write_scene_file(quadrotor_.world(), directory());
 }
 
 }  // namespace vantage

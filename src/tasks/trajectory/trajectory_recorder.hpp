@@ -8,6 +8,7 @@
 
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/sim/sensors/camera_options.hpp"
+#include "vantage/tasks/trajectory/flight_log.hpp"
 #include "vantage/tasks/trajectory/trajectory_panel.hpp"
 #include "vantage/tasks/trajectory/waypoint_record.hpp"
 
@@ -30,12 +31,15 @@ class TrajectoryRecorder : public EpisodeRecorder {
   /// Adds a row to looks.csv, and the segmented object to views/.
   void observation(int object, const ObjectObservation& observation, int number,
                    const ObjectView& view);
+  /// What is known and planned, for those who look on.
+  [[nodiscard]] FlightLog& flight() { return flight_; }
   void commit() override;
 
  private:
   cv::Mat onboard_image();
 
   SimulatedQuadrotor& quadrotor_;
+  FlightLog flight_;
   GrowingFile observations_;
   std::unique_ptr<Renderer> onboard_;  ///< for the video
   RgbdOptions camera_;

@@ -95,6 +95,23 @@ TEST(EventLogFile, IsReadAsItWasWritten) {
             std::get<PlannedRoute>(event_log[2].what).path_m);
 }
 
+TEST(EventLogFile, AFlightHasAHeightAndADecisionMayWantNothing) {
+  const support::TemporaryDirectory folder;
+  const std::vector<EpisodeEvent> told{
+      {3, Decision{}}, {3, PlannedFlight{{{0.0, 0.1, 1.8}, {0.5, -1.0 / 7.0, 1.7}}}}};
+  EventLog log(folder.path());
+  for (const EpisodeEvent& event : told) log.add(event);
+  log.commit();
+  const auto read = read_event_log(folder / "story.bin", small_frame().size());
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(std::get<PlannedFlight>(read[1].what).path_m,
+            std::get<PlannedFlight>(told[1].what).path_m);
+  EventReplay moment(small_frame());
+  moment.go_to(read, 2);
+  EXPECT_TRUE(moment.decision()->candidates.empty());
+  EXPECT_EQ(moment.path_m().back().z(), 1.7);
+}
+
 TEST(EventLogFile, EveryDecisionBeginsWithoutAWay) {
   auto event_log = sample_event_log();
   event_log.push_back(event_log[1]);

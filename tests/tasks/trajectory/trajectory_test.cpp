@@ -13,6 +13,9 @@
 #include "vantage/dataset/render_dataset.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/recognition/training.hpp"
+#include "vantage/report/drawn_scene.hpp"
+#include "vantage/report/report_data.hpp"
+#include "vantage/runtime/log/event_log.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/trajectory/flight_layout.hpp"
 #include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
@@ -140,6 +143,37 @@ TEST_F(TrajectoryEpisode, ASmallerQuadrotorFliesTheSamePath) {
   EXPECT_GT(small["minimum_clearance_m"], first_["minimum_clearance_m"]) << "it is smaller";
   EXPECT_LT(small["energy_j"], first_["energy_j"]) << "and lighter";
   EXPECT_NE(small["state_hash"], first_["state_hash"]);
+}
+
+TEST_F(TrajectoryEpisode, KeepsWhatItsPageShows) {
+  const DrawnScene scene = read_drawn_scene(*folder_ / "first/scene.bin");
+  EXPECT_GT(scene.triangles[0].size(), 1000U) << "objects, stands, floor";
+  for (std::size_t wall = 1; wall <= 4; ++wall) EXPECT_FALSE(scene.triangles[wall].empty());
+  const VoxelMap map = read_voxels(*folder_ / "first/voxels.bin");
+  EXPECT_GT(map.voxels.size(), 200U);
+  const bool later = std::ranges::any_of(map.voxels, [](const auto& v) { return v.step > 2; });
+  EXPECT_TRUE(later) << "cells have the waypoint that they were found at";
+  const std::string page = read_file(*folder_ / "first/report.html");
+  EXPECT_LT(page.size(), 5'000'000U);
+  EXPECT_EQ(page.find("\"scene\":null"), page.npos);
+  ASSERT_FALSE(first_["found"].empty());
+  EXPECT_EQ(first_["found"][0]["object"], 0);
+}
+
+TEST_F(TrajectoryEpisode, TellsOfItsMapAndOfTheViewsItWeighs) {
+  const ResolvedEpisode recorded = load_recorded(*folder_ / "first");
+  const WindowContent content = window(recorded);
+  ASSERT_TRUE(content.map);
+  const auto events = read_event_log(*folder_ / "first/story.bin", content.map->size());
+  EventReplay moment(*content.map);
+  moment.go_to(events, events.size());
+  EXPECT_EQ(moment.scans(), 6U) << "one a waypoint";
+  EXPECT_GT(moment.grid().count(CellState::occupied), 200U);
+  ASSERT_TRUE(moment.decision());
+  EXPECT_EQ(moment.decision()->candidates.size() % kObservationDirections, 0U);
+  EXPECT_FALSE(moment.decision()->candidates.empty());
+  ASSERT_FALSE(moment.path_m().empty());
+  EXPECT_GT(moment.path_m()[0].z(), 1.0);
 }
 
 TEST_F(TrajectoryEpisode, ReplaysEveryState) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,6 +59,22 @@ TEST_P(FlightSceneFolder, LoadsWithStandsWhereTheLayoutSays) {
     EXPECT_NEAR(model->geom_pos[3 * top + 2] + half_m, support_surface.top_m, 1e-9);
     EXPECT_NE(model->geom_contype[top], 0);
   }
+}
+
+TEST_P(FlightSceneFolder, WhatIsThereForPeopleTouchesNothingAndNoSensorSeesIt) {
+  const Model model = support::load_mjcf(kCheckedInScenes / GetParam().name / "scene.xml");
+  ASSERT_NE(model, nullptr);
+  int looks = 0;
+  for (int geom = 0; geom < model->ngeom; ++geom) {
+    const int body = model->geom_bodyid[geom];
+    const bool is_look =
+        std::string(model->names + model->name_bodyadr[body]).starts_with("looks/");
+    EXPECT_EQ(model->geom_group[geom], is_look ? 5 : 0);
+    EXPECT_EQ(model->geom_contype[geom] == 0, is_look);
+    EXPECT_EQ(model->geom_conaffinity[geom] == 0, is_look);
+    looks += is_look ? 1 : 0;
+  }
+  EXPECT_GT(looks, 100) << "boards, skirting, windows, a door, drawers";
 }
 
 TEST_P(FlightSceneFolder, ThePathKeepsClear) {

@@ -1,0 +1,175 @@
+// What people see of a scene and sensors do not, and that they see it at all.
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <numeric>
+#include <regex>
+
+#include "tests/support/mjcf.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/sim/render/overview.hpp"
+#include "vantage/sim/render/scene_surfaces.hpp"
+#include "vantage/sim/world/mesh_surface.hpp"
+#include "vantage/sim/world/world.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+const fs::path kScenes = fs::path(VANTAGE_SOURCE_DIR) / "models/scenes";
+
+RenderedImages draw(const mjModel& model, const mjData& data, const CameraView& view,
+                    bool for_people) {
+  RenderRequest request;
+  request.for_people = for_people;
+  RenderedImages images;
+  make_offscreen_renderer(model, kWidth, kHeight)->render(model, data, view, request, images);
+  return images;
+}
+
+double mean_brightness(const RenderedImages& images) {
+  return std::accumulate(images.rgb.begin(), images.rgb.end(), 0.0) /
+         static_cast<double>(images.rgb.size());
+}
+
+bool shows(const RenderedImages& images, int geom) {
+  return std::ranges::find(images.segmentation, geom) != images.segmentation.end();
+}
+
+/// A room of 4 x 4 m, closed above, with a box in its middle and a picture on a wall.
+constexpr const char* kClosedRoom = R"(
+  <mujoco><worldbody>
+    <geom name="floor" type="plane" size="2 2 .1" rgba=".6 .5 .4 1"/>
+    <geom name="east" type="box" pos="2.05 0 1.25" size=".05 2 1.25"/>
+    <geom name="west" type="box" pos="-2.05 0 1.25" size=".05 2 1.25"/>
+    <geom name="north" type="box" pos="0 2.05 1.25" size="2 .05 1.25"/>
+    <geom name="south" type="box" pos="0 -2.05 1.25" size="2 .05 1.25"/>
+    <geom name="ceiling" type="box" pos="0 0 2.55" size="2.1 2.1 .05" rgba="0 0 0 1"/>
+    <geom name="box" type="box" pos="0 0 .4" size=".4 .4 .4" rgba="1 0 0 1"/>
+    <geom name="picture" type="box" pos="0 1.999 1.5" size=".4 .002 .3" rgba="0 0 1 1"
+          group="5" contype="0" conaffinity="0"/>
+    <camera name="in" pos="0 -1.8 1.5" xyaxes="1 0 0 0 0 1"/>
+    <camera name="out" pos="0 -6 1.5" xyaxes="1 0 0 0 0 1"/>
+  </worldbody></mujoco>)";
+
+TEST(ForPeople, NoSensorSeesWhatIsThereToBeLookedAt) {
+  const auto room = test::compile_mjcf(kClosedRoom);
+  const FixedCamera in{room.camera("in")};
+  EXPECT_FALSE(shows(draw(*room.model, *room.data, in, false), room.geom("picture")));
+  EXPECT_TRUE(shows(draw(*room.model, *room.data, in, true), room.geom("picture")));
+  const std::vector<int> sensed = solid_geoms(*room.model);
+  EXPECT_EQ(std::ranges::find(sensed, room.geom("picture")), sensed.end());
+  EXPECT_NE(std::ranges::find(sensed, room.geom("box")), sensed.end());
+}
+
+TEST(ForPeople, AWallBeforeTheEyeIsLeftOut) {
+  const auto room = test::compile_mjcf(kClosedRoom);
+  const FixedCamera out{room.camera("out")};
+  EXPECT_FALSE(shows(draw(*room.model, *room.data, out, false), room.geom("box")));
+  const RenderedImages seen = draw(*room.model, *room.data, out, true);
+  EXPECT_TRUE(shows(seen, room.geom("box")));
+  EXPECT_TRUE(shows(seen, room.geom("north"))) << "the wall behind it stays";
+  EXPECT_FALSE(shows(seen, room.geom("south")));
+}
+
+TEST(ForPeople, ATableIsNoRoom) {
+  const auto table = test::compile_mjcf(R"(
+    <mujoco><worldbody>
+      <geom name="top" type="box" pos="0 0 .7" size=".5 .5 .02"/>
+      <geom name="leg" type="box" pos="-.45 -.45 .34" size=".03 .03 .34"/>
+      <camera name="out" pos="0 -3 1" xyaxes="1 0 0 0 .2 1"/>
+    </worldbody></mujoco>)");
+  EXPECT_TRUE(shows(draw(*table.model, *table.data, FixedCamera{table.camera("out")}, true),
+                    table.geom("leg")));
+}
+
+TEST(Overview, LooksIntoAClosedRoomThatHasNoCameraForIt) {
+  const auto room = test::compile_mjcf(kClosedRoom);
+  const CameraView overview = overview_camera(*room.model);
+  const RenderedImages seen = draw(*room.model, *room.data, overview, true);
+  EXPECT_TRUE(shows(seen, room.geom("box")));
+  EXPECT_GT(mean_brightness(seen), 40.0);
+  EXPECT_FALSE(shows(draw(*room.model, *room.data, overview, false), room.geom("box")))
+      << "a black ceiling, otherwise";
+}
+
+TEST(Overview, ASceneWithoutAnyLightIsNotDark) {
+  const auto dark = test::compile_mjcf(R"(
+    <mujoco>
+      <visual><headlight active="0"/></visual>
+      <worldbody><geom type="box" size="1 1 1" rgba=".8 .8 .8 1"/></worldbody>
+    </mujoco>)");
+  const FreeCamera near{.distance_m = 2.5};
+  EXPECT_LT(mean_brightness(draw(*dark.model, *dark.data, near, false)), 5.0);
+  EXPECT_GT(mean_brightness(draw(*dark.model, *dark.data, near, true)), 60.0);
+}
+
+class OverviewOfScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(OverviewOfScene, IsBright) {
+  const auto path = kScenes / GetParam() / "scene.xml";
+  std::array<char, 500> why{};
+  const ModelPtr model(mj_loadXML(path.c_str(), nullptr, why.data(), why.size()));
+  ASSERT_NE(model, nullptr) << why.data();
+  const DataPtr data(mj_makeData(model.get()));
+  mj_forward(model.get(), data.get());
+  EXPECT_GT(mean_brightness(draw(*model, *data, overview_camera(*model), true)), 80.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OverviewOfScene,
+                         testing::Values("tabletop_8", "office_small_2", "recognition",
+                                         "trajectory_1", "trajectory_2", "trajectory_3",
+                                         "trajectory_4"));
+
+/// The scene without all that is for people alone.
+std::string without_looks(const fs::path& scene) {
+  const std::string text = read_file(scene);
+  return std::regex_replace(text, std::regex("[^\n]*class=\"looks\" type[^\n]*\n"), "");
+}
+
+TEST(ForPeople, TheCameraOfAFlightSeesTheSameBitsWithAndWithoutTheLooksOfTheRoom) {
+  const fs::path scene = kScenes / "trajectory_3/scene.xml";
+  const std::string objects = read_file(scene.parent_path() / "objects.xml");
+  const MemoryFile file{"objects.xml", objects};
+  const LoadedModel plain = load_model(without_looks(scene), std::span(&file, 1), "plain");
+  const LoadedModel furnished = load_model(read_file(scene), std::span(&file, 1), "furnished");
+  ASSERT_GT(furnished.model->ngeom, plain.model->ngeom + 100);
+  const auto seen = [](const mjModel& model, double azimuth_rad) {
+    const DataPtr data(mj_makeData(&model));
+    mj_forward(&model, data.get());
+    const FreeCamera along{.lookat_m = {0.5, -1.0, 0.8},
+                           .distance_m = 2.0,
+                           .azimuth_rad = azimuth_rad,
+                           .elevation_rad = -0.65,
+                           .fovy_rad = 0.8};
+    return draw(model, *data, along, false);
+  };
+  for (const double azimuth_rad : {0.0, 1.3, 2.9, 4.4}) {
+    const RenderedImages a = seen(*plain.model, azimuth_rad);
+    const RenderedImages b = seen(*furnished.model, azimuth_rad);
+    EXPECT_EQ(a.rgb, b.rgb) << azimuth_rad;
+    EXPECT_EQ(a.depth_m, b.depth_m) << azimuth_rad;
+  }
+}
+
+TEST(SceneSurfaces, WallsAreApartByTheirSide) {
+  const auto room = test::compile_mjcf(kClosedRoom);
+  const SceneSurfaces surfaces = scene_surfaces(*room.model, *room.data);
+  ASSERT_EQ(surfaces.vertices_m.size(), surfaces.colours.size());
+  const std::size_t box = 12;
+  EXPECT_EQ(surfaces.triangles[0].size(), 2 + box) << "floor, box";
+  for (const std::size_t side : {1U, 2U, 3U, 5U}) EXPECT_EQ(surfaces.triangles[side].size(), box);
+  EXPECT_EQ(surfaces.triangles[4].size(), 2 * box) << "the picture hangs on the north wall";
+  EXPECT_NEAR(surfaces.extent_m.max().z(), 2.6, 1e-9);
+  EXPECT_NE(std::ranges::find(surfaces.colours, std::array<std::uint8_t, 3>{255, 0, 0}),
+            surfaces.colours.end());
+}
+
+}  // namespace
+}  // namespace vantage
