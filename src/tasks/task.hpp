@@ -47,6 +47,8 @@ concept EpisodeTask = HasFields<T> &&
   { task.window() } -> std::same_as<WindowContent>;
   { T::report() } -> std::same_as<ReportSections>;
   { T::measures() } -> std::same_as<Measures>;
+  /// What the names in its run folders mean, beside run_records().
+  { T::records() } -> std::same_as<RecordTexts>;
   /// A few lines on how an episode has ended.
   { T::outcome(metrics) } -> std::same_as<std::string>;
   /// Throws ConfigError or InputError if the episode cannot begin; runs nothing.

@@ -8,7 +8,6 @@
 #include "tests/tasks/replayed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
-
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/validate.hpp"
 
@@ -66,10 +65,9 @@ TEST(Robots, ASmallDifferentialDriveScansATableTop) {
 
 TEST(Robots, ASmallDifferentialDriveExploresAnOffice) {
   const support::TemporaryDirectory folder;
-  const json metrics =
-      run_short("office_small", folder.path() / "run",
-                {kRover, "map.cells=[100,67,20]", "camera.width_px=160", "camera.height_px=120",
-                 "stride_px=1"});
+  const json metrics = run_short("office_small", folder.path() / "run",
+                                 {kRover, "map.cells=[100,67,20]", "camera.width_px=160",
+                                  "camera.height_px=120", "stride_px=1"});
   expect_progress(metrics);
   EXPECT_GT(metrics["map"]["precision"], 0.95);
 }

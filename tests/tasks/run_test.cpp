@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "tests/tasks/replayed.hpp"
+#include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
@@ -93,6 +94,10 @@ TEST_F(Run, WritesTheWholeFolder) {
   for (const auto& entry : fs::directory_iterator(folder_ / "first")) {
     EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
   }
+}
+
+TEST_F(Run, WhatItWritesIsDescribed) {
+  EXPECT_EQ(test::undescribed(folder_ / "first", Tabletop::records()), std::vector<std::string>{});
 }
 
 TEST_F(Run, ReplayReachesTheSameStates) {

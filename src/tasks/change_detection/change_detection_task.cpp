@@ -11,6 +11,7 @@
 #include "vantage/tasks/change_detection/change_ground_truth.hpp"
 #include "vantage/tasks/flight/recognition_model_file.hpp"
 #include "vantage/tasks/object_flight/object_flight_metrics.hpp"
+#include "vantage/tasks/object_flight/object_flight_records.hpp"
 #include "vantage/tasks/object_flight/object_flight_run.hpp"
 
 namespace vantage {
@@ -117,6 +118,20 @@ ReportSections ChangeDetectionTask::report() {
 }
 
 Measures ChangeDetectionTask::measures() { return {kScalars, kCurves}; }
+
+RecordTexts ChangeDetectionTask::records() {
+  constexpr auto kOfChange = std::to_array<RecordText>({
+      {"steps.csv", "change_probability", "that something has changed"},
+      {"steps.csv", "decision", "none, object, pose or removed"},
+      {"metrics.json", "scenario", "what has changed: none, object, pose or removed"},
+      {"metrics.json", "decision", "what was decided at the end; null: no view was taken"},
+      {"metrics.json", "change_probability", "that something has changed, at the end"},
+      {"metrics.json", "changed_correct", "changed was told from unchanged"},
+      {"metrics.json", "expected.object", "what the robot was told stands there"},
+      {"metrics.json", "expected.yaw_rad", "the yaw that it was told"},
+  });
+  return joined(object_flight_records(), kOfChange);
+}
 
 std::string ChangeDetectionTask::outcome(const Json& metrics) {
   const auto& probability = metrics["change_probability"];

@@ -4,6 +4,7 @@
 
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
+#include "vantage/tasks/mapping/mapping_records.hpp"
 
 namespace vantage {
 
@@ -17,6 +18,8 @@ TaskExtent Exploration::extent(const EpisodeSetup&) const { return mapping_exten
 WindowContent Exploration::window() const { return mapping_window(*this); }
 ReportSections Exploration::report() { return mapping_report(); }
 Measures Exploration::measures() { return mapping_measures(); }
+
+RecordTexts Exploration::records() { return mapping_records(); }
 std::string Exploration::outcome(const nlohmann::ordered_json& metrics) {
   return mapping_outcome(metrics);
 }

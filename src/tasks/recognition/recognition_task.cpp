@@ -8,6 +8,7 @@
 #include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/tasks/flight/recognition_model_file.hpp"
 #include "vantage/tasks/object_flight/object_flight_metrics.hpp"
+#include "vantage/tasks/object_flight/object_flight_records.hpp"
 #include "vantage/tasks/object_flight/object_flight_run.hpp"
 #include "vantage/tasks/recognition/recognition_ground_truth.hpp"
 
@@ -69,6 +70,12 @@ ReportSections RecognitionTask::report() {
 }
 
 Measures RecognitionTask::measures() { return {kScalars, kCurves}; }
+
+RecordTexts RecognitionTask::records() {
+  RecordTexts texts = object_flight_records();
+  texts.push_back({"metrics.json", "category_correct", "the category of the estimate is right"});
+  return texts;
+}
 
 std::string RecognitionTask::outcome(const Json& metrics) {
   return fmt::format(

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "vantage/runtime/measure.hpp"
+#include "vantage/runtime/record_text.hpp"
 #include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/object_flight/object_flight.hpp"
 
@@ -24,6 +25,7 @@ struct RecognitionTask : ObjectFlight {
   [[nodiscard]] static std::string_view metrics_task() { return name; }
   [[nodiscard]] static std::string_view robot_kind() { return QuadrotorDescription::name; }
   [[nodiscard]] static Measures measures();
+  [[nodiscard]] static RecordTexts records();
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @throws ConfigError or InputError if the episode cannot begin.
   void require_start(const EpisodeSetup& setup) const;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "vantage/core/log.hpp"
+#include "vantage/tasks/mapping/mapping_records.hpp"
 #include "vantage/tasks/tabletop/table_region.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"
 
@@ -65,6 +66,8 @@ TaskExtent Tabletop::extent(const EpisodeSetup&) const { return mapping_extent(*
 WindowContent Tabletop::window() const { return mapping_window(*this); }
 ReportSections Tabletop::report() { return mapping_report(); }
 Measures Tabletop::measures() { return mapping_measures(); }
+
+RecordTexts Tabletop::records() { return mapping_records(); }
 std::string Tabletop::outcome(const nlohmann::ordered_json& metrics) {
   return mapping_outcome(metrics);
 }

@@ -10,6 +10,7 @@
 #include "vantage/planners/views/view_candidates.hpp"
 #include "vantage/runtime/episode_run.hpp"
 #include "vantage/runtime/measure.hpp"
+#include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
@@ -48,6 +49,7 @@ struct Tabletop : MappingOptions {
   [[nodiscard]] static std::string_view metrics_task() { return "next_best_view"; }
   [[nodiscard]] static std::string_view robot_kind() { return MobileBaseDescription::name; }
   [[nodiscard]] static Measures measures();
+  [[nodiscard]] static RecordTexts records();
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @return what is worth a warning @throws ConfigError or InputError if the episode cannot begin.
   std::vector<std::string> require_start(const EpisodeSetup& setup) const;

@@ -8,6 +8,7 @@
 #include "vantage/tasks/trajectory/flight_layout.hpp"
 #include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
 #include "vantage/tasks/trajectory/trajectory_metrics.hpp"
+#include "vantage/tasks/trajectory/trajectory_records.hpp"
 
 namespace vantage {
 namespace {
@@ -72,6 +73,8 @@ ReportSections TrajectoryFlight::report() {
 }
 
 Measures TrajectoryFlight::measures() { return trajectory_measures(); }
+
+RecordTexts TrajectoryFlight::records() { return trajectory_records(); }
 
 std::string TrajectoryFlight::outcome(const nlohmann::ordered_json& metrics) {
   return trajectory_outcome(metrics);

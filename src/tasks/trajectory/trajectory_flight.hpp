@@ -20,6 +20,7 @@
 #include "vantage/recognition/recogniser.hpp"
 #include "vantage/runtime/episode_run.hpp"
 #include "vantage/runtime/measure.hpp"
+#include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/sensors/camera_options.hpp"
 #include "vantage/sim/world/model_source.hpp"
@@ -109,6 +110,7 @@ struct TrajectoryFlight {
   [[nodiscard]] static std::string_view metrics_task() { return name; }
   [[nodiscard]] static std::string_view robot_kind() { return QuadrotorDescription::name; }
   [[nodiscard]] static Measures measures();
+  [[nodiscard]] static RecordTexts records();
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @throws ConfigError or InputError if the episode cannot begin.
   void require_start(const EpisodeSetup& setup) const;

@@ -7,6 +7,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/small_recognition.hpp"
+#include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/change_detection/change_ground_truth.hpp"
@@ -87,6 +88,8 @@ TEST_F(ChangeEpisode, AnotherObjectIsFoundAndItsFlightReplays) {
   const ReplayResult result = support::replayed(*folder_ / "object");
   EXPECT_FALSE(result.first_difference) << result.what;
   EXPECT_GE(result.ticks, 50U);
+  EXPECT_EQ(test::undescribed(*folder_ / "object", ChangeDetectionTask::records()),
+            std::vector<std::string>{});
   const std::string steps = read_file(*folder_ / "object" / "steps.csv");
   EXPECT_THAT(steps, testing::HasSubstr(",collisions,change_probability,decision\n"));
 }

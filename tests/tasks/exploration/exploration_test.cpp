@@ -10,6 +10,7 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
+#include "tests/tasks/undescribed.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/tasks/exploration/visited_places.hpp"
@@ -160,6 +161,8 @@ TEST(Exploration, LearnsTheOfficeWithoutTouchingIt) {
   }
   EXPECT_GT(metrics["path_length_m"], 1.0);
   EXPECT_GT(metrics["map"]["precision"], 0.95);
+  EXPECT_EQ(test::undescribed(folder.path() / "run", Exploration::records()),
+            std::vector<std::string>{});
   const ReplayResult again = support::replayed(folder.path() / "run");
   EXPECT_FALSE(again.first_difference) << again.what;
 }

@@ -7,6 +7,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/small_recognition.hpp"
+#include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/run.hpp"
@@ -97,6 +98,11 @@ TEST_F(RecognitionEpisode, WritesItsFolder) {
   }
   const std::string steps = read_file(*folder_ / "first" / "steps.csv");
   EXPECT_EQ(std::ranges::count(steps, '\n'), 3) << "a header and a row a view";
+}
+
+TEST_F(RecognitionEpisode, WhatItWritesIsDescribed) {
+  EXPECT_EQ(test::undescribed(*folder_ / "first", RecognitionTask::records()),
+            std::vector<std::string>{});
 }
 
 TEST_F(RecognitionEpisode, ReplaysEveryState) {

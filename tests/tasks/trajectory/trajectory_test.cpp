@@ -8,6 +8,7 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
+#include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/dataset/render_dataset.hpp"
@@ -174,6 +175,11 @@ TEST_F(TrajectoryEpisode, TellsOfItsMapAndOfTheViewsItWeighs) {
   EXPECT_FALSE(moment.decision()->candidates.empty());
   ASSERT_FALSE(moment.path_m().empty());
   EXPECT_GT(moment.path_m()[0].z(), 1.0);
+}
+
+TEST_F(TrajectoryEpisode, WhatItWritesIsDescribed) {
+  EXPECT_EQ(test::undescribed(*folder_ / "first", TrajectoryFlight::records()),
+            std::vector<std::string>{});
 }
 
 TEST_F(TrajectoryEpisode, ReplaysEveryState) {

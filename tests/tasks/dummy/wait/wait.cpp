@@ -58,6 +58,8 @@ ReportSections Wait::report() {
 
 Measures Wait::measures() { return {kScalars, kCurves}; }
 
+RecordTexts Wait::records() { return {}; }
+
 std::string Wait::outcome(const Json& metrics) {
   return fmt::format("wait: {}, {} returns in {} scans\n", metrics["status"].get<std::string>(),
                      metrics["returns"].get<std::size_t>(), metrics["scans"].size());

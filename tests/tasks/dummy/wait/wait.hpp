@@ -12,6 +12,7 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/runtime/episode_run.hpp"
 #include "vantage/runtime/measure.hpp"
+#include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
 #include "vantage/sim/sensors/laser_options.hpp"
@@ -50,6 +51,7 @@ struct Wait {
   [[nodiscard]] static std::string_view metrics_task() { return name; }
   [[nodiscard]] static std::string_view robot_kind() { return MobileBaseDescription::name; }
   [[nodiscard]] static Measures measures();
+  [[nodiscard]] static RecordTexts records();
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @throws InputError if the model lacks what robot.yaml names.
   void require_start(const EpisodeSetup& setup) const;

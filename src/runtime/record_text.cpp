@@ -1,0 +1,64 @@
+#include "vantage/runtime/record_text.hpp"
+
+namespace vantage {
+
+RecordTexts run_records() {
+  return {
+      {kRunFolder, "manifest.json",
+       "command, versions, CPU, seed, hashes of configuration, scene and every asset, times"},
+      {kRunFolder, "config.yaml", "the configuration as resolved, defaults included"},
+      {kRunFolder, "steps.csv", "a row a scan, view or waypoint"},
+      {kRunFolder, "candidates.csv", "a row a candidate of every decision; not with --lean"},
+      {kRunFolder, "metrics.json", "what was measured of the episode"},
+      {kRunFolder, "trajectory.tum",
+       "true pose of the body: time s, x y z m, quaternion x y z w, world frame"},
+      {kRunFolder, "trajectory_estimated.tum", "the same as the robot believed"},
+      {kRunFolder, "states.bin",
+       "every state, for replay; little-endian: \"VANTAGE STATES 1\\n\", size of a state and "
+       "number of actuators (2 x u64), then per control tick the state and the commands that led "
+       "to it (f64)"},
+      {kRunFolder, "actions.csv",
+       "commands of the actuators, a row whenever they change: tick, then a column an actuator"},
+      {kRunFolder, "story.bin",
+       "events for the window; little-endian: \"VANTAGE STORY 1\\n\", then per event tick (u64), "
+       "kind (u32: 0 map, 1 decision, 2 way, 3 flight), count (u32), chosen (u64) and count "
+       "entries: of a map first (u32), count (u32), state (u32: 0 free, 1 unobserved, 2 occupied); "
+       "of a decision the upper three rows of T_world_sensor, gain, reachable (14 x f64); of a way "
+       "x, y (2 x f64); of a flight x, y, z (3 x f64)"},
+      {kRunFolder, "voxels.bin",
+       "cells for the report; little-endian: \"VTGVOX01\", cell size (3 x f64), box minimum and "
+       "maximum (6 x f64), count (u64), then per voxel x, y, z (f32), step (u16), kind (u8: 0 "
+       "occupied, 1 unobserved at the end), 0 (u8)"},
+      {kRunFolder, "scene.bin",
+       "flights: triangles of the scene for the report; its format is in "
+       "src/report/drawn_scene.hpp"},
+      {kRunFolder, "map.bt", "occupancy map, OctoMap binary: occupied and free"},
+      {kRunFolder, "map.ot", "occupancy map, OctoMap with log odds"},
+      {kRunFolder, "cloud.ply", "points of all scans, world frame"},
+      {kRunFolder, "looks.csv", "flights along a path: a row an observation of an object"},
+      {kRunFolder, "views", "flights: pictures of what was looked at"},
+      {kRunFolder, "video.mp4", "with --video"},
+      {kRunFolder, "frames", "with --video: stills"},
+      {kRunFolder, "report.html", "the page of the run"},
+      {kRunFolder, "log.txt", "what was told on stderr, debug messages included"},
+      {"metrics.json", "task", "of the episode; both mapping tasks are next_best_view"},
+      {"metrics.json", "status", "completed, failed, diverged or interrupted"},
+      {"metrics.json", "reason", "why the episode ended: which limit, which stop, what failed"},
+      {"metrics.json", "seed", "of every random stream"},
+      {"metrics.json", "scene", "MJCF file of the scene"},
+      {"metrics.json", "method", "gain, choice or optimiser that the episode tries out"},
+      {"metrics.json", "simulated_time_s", "length of the episode"},
+      {"metrics.json", "wall_time_s", "how long it took"},
+      {"metrics.json", "real_time_factor", "simulated time over wall time"},
+      {"metrics.json", "path_length_m", "way of the body, from the start"},
+      {"metrics.json", "collisions", "contacts of the robot with something, counted as they begin"},
+      {"metrics.json", "state_hash", "of every state and command; the same for the same episode"},
+  };
+}
+
+RecordTexts joined(RecordTexts first, std::span<const RecordText> more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
+}
+
+}  // namespace vantage

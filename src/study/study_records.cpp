@@ -1,0 +1,32 @@
+#include "vantage/study/study_records.hpp"
+
+#include "vantage/study/measures.hpp"
+
+namespace vantage {
+
+RecordTexts study_records() {
+  RecordTexts texts{
+      {kStudyFolder, "study.yaml", "the study, self-contained"},
+      {kStudyFolder, "episodes", "a run folder for each episode, named by its levels"},
+      {kStudyFolder, "results.csv", "a row an episode; the same to the byte however it was run"},
+      {kStudyFolder, "timings.csv", "wall times of the episodes"},
+      {kStudyFolder, "summary.json", "means, intervals and differences of every table"},
+      {kStudyFolder, "summary.md", "the same of the report's tables, to read"},
+      {kStudyFolder, "tables", "a table a measure, as .csv and .md"},
+      {kStudyFolder, "figures", "figures as .svg, .csv and .md"},
+      {"results.csv", "episode", "its levels joined by /; also its folder"},
+      {"results.csv", "<factor>", "level of that factor"},
+      {"results.csv", "status", "completed, failed, diverged, or why there is no result"},
+      {"results.csv", "state_hash", "of every state and command of the episode"},
+      {"timings.csv", "wall_time_s", "of the episode"},
+      {"timings.csv", "real_time_factor", "simulated time over wall time"},
+      {"timings.csv", "plan_time_s", "of all decisions"},
+      {"timings.csv", "map_time_s", "of all map updates"},
+  };
+  for (const MeasureName& measure : scalar_measures()) {
+    texts.push_back({measure.wall ? "timings.csv" : "results.csv", measure.name, measure.title});
+  }
+  return texts;
+}
+
+}  // namespace vantage
