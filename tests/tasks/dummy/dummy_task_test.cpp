@@ -80,11 +80,11 @@ TEST_F(DummyTask, ListsItself) {
 
 TEST_F(DummyTask, PrintsItsConfigurationAndItsPlan) {
   const Result config = vantage("run --print-config " + episode_);
-  EXPECT_THAT(config.output, StartsWith("task: wait\n"));
+  EXPECT_THAT(config.output, HasSubstr("\ntask: wait\n"));
   for (const char* key : {"\nscans: 3\n", "\nturning_rate_rad_s: 0.8\n", "\nbase_scanner:"}) {
     EXPECT_THAT(config.output, HasSubstr(key));
   }
-  EXPECT_THAT(config.output, Not(HasSubstr("gain"))) << "a key of another task";
+  EXPECT_THAT(config.output, Not(HasSubstr("\ngain:"))) << "a key of another task";
   const Result plan = vantage("run --dry-run " + episode_);
   EXPECT_EQ(plan.exit_code, 0) << plan.output;
   EXPECT_THAT(plan.output, StartsWith("dummy: 3 scans in "));
