@@ -14,17 +14,17 @@ function topDownMap(parent, run) {
   if (run.region) mark("region of interest", "var(--dim)");
   if (run.views.length) mark("views taken, in order", "var(--view)", { pin: true });
   if (run.flight) flightMarks(mark);
-  const backdrop = run.voxels ? backdropImage(run.voxels) : null;
+  const backdrop = run.voxels ? backdropImage(run.voxels, run.flight ? 1 : 0) : null;
   onWidth(holder, (width) => drawMap(holder, run, backdrop, width));
 }
 
-// Highest occupied cell of each column as an image, for orientation.
-function backdropImage(voxels) {
+// Highest occupied cell of each column as an image, for orientation; the lowest layers may be floor.
+function backdropImage(voxels, floorLayers) {
   const [nx, ny, nz] = voxels.cells;
   if (nx * ny > 4e6) return null;
   const top = new Int32Array(nx * ny).fill(-1);
   for (let i = 0; i < voxels.packed.length; i += 4) {
-    if (voxels.packed[i + 3] & 0x8000) continue;
+    if (voxels.packed[i + 3] & 0x8000 || voxels.packed[i + 2] < floorLayers) continue;
     const column = voxels.packed[i + 1] * nx + voxels.packed[i];
     top[column] = Math.max(top[column], voxels.packed[i + 2]);
   }
@@ -52,6 +52,7 @@ function mapBounds(run) {
   for (const v of [...run.candidates, ...run.views]) add(v.x, v.y);
   for (const q of run.flight?.path ?? []) add(q[0], q[1]);
   for (const o of run.flight?.objects ?? []) add(o.x_m, o.y_m);
+  if (run.flight && run.surfaces) for (const p of [run.surfaces.extent.min, run.surfaces.extent.max]) add(p[0], p[1]);
   if (run.region) { add(run.region.min[0], run.region.min[1]); add(run.region.max[0], run.region.max[1]); }
   if (!xs.length) return null;
   const low = (list) => list.reduce((a, b) => Math.min(a, b));
@@ -83,7 +84,8 @@ function drawMap(holder, run, backdrop, width) {
   drawMapAxes(svg, { left, right: width - right, top, bottom: height - bottom, scale, px, py, xMid, yMid, height });
   if (backdrop && run.voxels) {
     const { min_m: low, max_m: high } = run.voxels;
-    append(svg, "image", { href: backdrop, x: px(low[0]), y: py(high[1]), width: (high[0] - low[0]) * scale, height: (high[1] - low[1]) * scale, preserveAspectRatio: "none", style: "image-rendering: pixelated" });
+    const frame = append(svg, "svg", { x: left, y: top, width: width - left - right, height: height - top - bottom, viewBox: `${left} ${top} ${width - left - right} ${height - top - bottom}`, overflow: "hidden" });
+    append(frame, "image", { href: backdrop, x: px(low[0]), y: py(high[1]), width: (high[0] - low[0]) * scale, height: (high[1] - low[1]) * scale, preserveAspectRatio: "none", style: "image-rendering: pixelated" });
   }
   if (run.region) {
     const { min, max } = run.region;

@@ -25,6 +25,7 @@ void main() {
   gl_Position = worldToClip * vec4(centre + share * corner * side * cellSize, 1.0);
   vec3 normal = normalize(0.8 * shading.xyz + 0.28 * face * side);
   float lit = (0.50 + 0.58 * max(0.0, dot(normal, toLight))) * mix(1.0, shading.w, 0.4);
+  if (share < 1.0 && cell.z == 0u) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);  // the room has its floor
   float step = float(cell.w & 0x7FFFu);
   float place = byScan ? step / max(1.0, lastStep) : float(cell.z) / max(1.0, cellsHigh - 1.0);
   colour = flatColour.a > 0.0 ? vec4(flatColour.rgb * mix(1.0, lit, 0.6), flatColour.a) : vec4(ramp(place) * lit, 1.0);

@@ -77,6 +77,12 @@ void headline(cv::Mat& image, const std::string& words, bool right) {
   text(image, layout, words, cv::Point2d(x + pad, layout.px(23.0)), 15.0, kText);
 }
 
+/// Cells in whole numbers, bits and nats with the digits that tell them apart.
+std::string gain_text(double gain, const GainRange& range) {
+  if (range.high >= 100.0 || !std::isfinite(gain)) return grouped(gain);
+  return fmt::format("{:.{}f}", gain, range.high >= 10.0 ? 1 : 3);
+}
+
 void legend(cv::Mat& image, const Decision& decision, const std::string& unit, double foot_px) {
   const GainRange range = gain_range(decision);
   if (range.high < range.low) return;
@@ -94,11 +100,11 @@ void legend(cv::Mat& image, const Decision& decision, const std::string& unit, d
     cv::line(image, {bar.x + x, bar.y}, {bar.x + x, bar.y + bar.height}, colour);
   }
   const double base = bar.y + bar.height + layout.px(20.0);
-  text(image, layout, grouped(range.low), cv::Point2d(bar.x, base), 13.0, kText);
+  text(image, layout, gain_text(range.low, range), cv::Point2d(bar.x, base), 13.0, kText);
   text(image, layout, "gain, " + unit, cv::Point2d(bar.x + 0.5 * bar.width, base), 13.0, kDim,
        Align::centre);
-  text(image, layout, grouped(range.high), cv::Point2d(bar.x + bar.width, base), 13.0, kText,
-       Align::right);
+  text(image, layout, gain_text(range.high, range), cv::Point2d(bar.x + bar.width, base), 13.0,
+       kText, Align::right);
 }
 
 void timeline(cv::Mat& image, double share) {
