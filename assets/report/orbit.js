@@ -19,7 +19,7 @@ function startCamera(scene, aspect) {
   const radius = Math.hypot(...Vec.sub(focus.max, focus.min)) / 2;
   const ring = [...scene.candidates, ...scene.views].reduce((r, v) => Math.max(r, Math.hypot(v.x - centre[0], v.y - centre[1])), radius);
   const half = Math.tan(FIELD_OF_VIEW_RAD / 2);
-  const room = scene.flight ? 0.9 : scene.surfaces ? 1.4 : 1;    // seen obliquely; a table with what is round it
+  const room = scene.flight ? 0.9 : scene.surfaces ? 1.7 : 1;    // seen obliquely; a table with what is round it
   const distance = room * Math.max((1.05 * radius) / half, ring / (0.86 * half * aspect) + 0.5 * ring);
   return { target: centre, azimuth: -0.9, elevation: 0.56, distance };
 }
