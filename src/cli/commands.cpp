@@ -116,7 +116,7 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
   app.add_option("--seed", arguments->seed, "seed of every random stream");
   app.add_option("--out", arguments->options.directory, "run folder; default out/<episode>-<seed>")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
-  app.add_flag("--overwrite", arguments->options.overwrite, "replace a run in that folder");
+  add_overwrite(app, arguments->options.overwrite);
   app.add_flag("--video", arguments->options.video, "record video.mp4 and frames/");
   app.add_flag("--lean", arguments->options.lean,
                "neither map, states nor report: metrics, steps, trajectories only");

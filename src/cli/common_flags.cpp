@@ -21,4 +21,8 @@ void add_common_flags(CLI::App& app) {
 
 void add_json(CLI::App& app, bool& json) { app.add_flag("--json", json, "print one JSON object"); }
 
+void add_overwrite(CLI::App& app, bool& overwrite) {
+  app.add_flag("--overwrite", overwrite, "replace a result that is there");
+}
+
 }  // namespace vantage

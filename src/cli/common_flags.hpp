@@ -13,4 +13,7 @@ void add_common_flags(CLI::App& app);
 /// --json, for a command that prints a result.
 void add_json(CLI::App& app, bool& json);
 
+/// --overwrite, for a command that writes a result: see require_absent().
+void add_overwrite(CLI::App& app, bool& overwrite);
+
 }  // namespace vantage

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/dataset/contact_sheet.hpp"
@@ -93,7 +94,7 @@ std::function<ExitCode()> declare_render(CLI::App& app) {
   app.add_option("--set", arguments->overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);
-  app.add_flag("--overwrite", arguments->run.overwrite, "begin anew");
+  add_overwrite(app, arguments->run.overwrite);
   add_json(app, arguments->json);
   app.footer([] {
     return "Goes on where another call with the same options ended.\n"
@@ -190,6 +191,7 @@ struct SheetArguments {
   fs::path out;
   double yaw_deg = 300.0;
   ContactSheetOptions options;
+  bool overwrite = false;
   bool json = false;
 };
 
@@ -209,8 +211,10 @@ std::function<ExitCode()> declare_contact_sheet(CLI::App& app) {
   app.add_option("--columns", options.columns, "images in a row")
       ->check(CLI::Range(1, 200))
       ->capture_default_str();
+  add_overwrite(app, arguments->overwrite);
   add_json(app, arguments->json);
   return [arguments] {
+    require_absent(arguments->out, arguments->overwrite);
     arguments->options.yaw_rad = arguments->yaw_deg * std::numbers::pi / 180.0;
     write_contact_sheet(index_dataset(arguments->root), arguments->options, arguments->out);
     const std::string image = arguments->out.string();

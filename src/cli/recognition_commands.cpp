@@ -37,6 +37,7 @@ struct Arguments {
   fs::path cache;
   int jobs = all_cores();
   bool skip_bad = false;
+  bool overwrite = false;
   bool json = false;
 
   [[nodiscard]] LongWork how() const {
@@ -67,6 +68,7 @@ void declare_common(CLI::App& app, Arguments& arguments) {
       ->type_size(1)
       ->allow_extra_args(false);
   app.add_flag("--skip-bad", arguments.skip_bad, "leave out views whose files are not complete");
+  add_overwrite(app, arguments.overwrite);
   add_json(app, arguments.json);
   app.footer(
       [] { return "Keys of --set with their defaults:\n\n" + to_yaml(write_node(Options{})); });
@@ -117,6 +119,7 @@ void print_model(const Json& model) {
 
 ExitCode train_command(const Arguments& arguments) {
   const auto options = options_of<TrainingOptions>(arguments);
+  require_absent(arguments.out, arguments.overwrite);
   make_writable_directory(fs::absolute(arguments.out).parent_path());
   catch_interrupts();
   RecognitionModel model;
@@ -138,7 +141,7 @@ ExitCode train_command(const Arguments& arguments) {
 
 ExitCode evaluate_command(const Arguments& arguments) {
   const auto options = options_of<RecognitionStudyOptions>(arguments);
-  make_writable_directory(arguments.out);
+  prepare_recognition_study(arguments.out, arguments.overwrite);
   catch_interrupts();
   const RecognitionStudy study = run_recognition_study(
       read_recognition_model(arguments.model), index_of(arguments), options, arguments.how());

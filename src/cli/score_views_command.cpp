@@ -23,6 +23,7 @@ namespace {
 struct Arguments {
   ScoreArguments score;
   std::filesystem::path write_views;
+  bool overwrite = false;
   bool json = false;
 };
 
@@ -39,6 +40,7 @@ std::string footer() {
 }
 
 ExitCode score_views_command(const Arguments& arguments) {
+  require_absent(arguments.write_views, arguments.overwrite, "--write-views");
   const ScoredViews scored = run_view_scoring(arguments.score);
   if (scored.views.front().gain_bits <= 0.0) {
     log_warning(fmt::format(
@@ -76,6 +78,7 @@ std::function<ExitCode()> declare_score_views(CLI::App& app) {
   app.add_option("--seed", score.seed, "of sampled views")->check(not_empty);
   app.add_option("--write-views", arguments->write_views, "write the views, best first, as CSV")
       ->check(not_empty);
+  add_overwrite(app, arguments->overwrite);
   add_json(app, arguments->json);
   app.footer(footer);
   return [arguments] { return score_views_command(*arguments); };

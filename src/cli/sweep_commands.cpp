@@ -149,7 +149,7 @@ constexpr SweepVerb kVerbs[] = {
        app.add_option("--jobs", arguments.jobs, "episodes at a time")
            ->check(CLI::Range(1, 1024))
            ->capture_default_str();
-       app.add_flag("--overwrite", arguments.overwrite, "go on in a folder of another study");
+       add_overwrite(app, arguments.overwrite);
      }},
     {"plan", "list the episodes that would run", plan_command,
      [](CLI::App& app, SweepArguments& arguments) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "vantage/cli/commands.hpp"
+#include "vantage/cli/common_flags.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/view/view.hpp"
 
@@ -52,8 +54,9 @@ ExitCode view_command(const CLI::App& app, Arguments arguments) {
   if (arguments.camera == "follow") view.camera = ViewCamera::follow;
   if (arguments.camera == "robot") view.camera = ViewCamera::robot;
   if (app.count("--at") > 0) view.at_s = arguments.at_s;
+  require_absent(view.screenshot, arguments.run.overwrite, "--screenshot");
   if (std::filesystem::is_directory(arguments.target)) {
-    for (const char* option : {"--set", "--seed", "--out", "--overwrite"}) {
+    for (const char* option : {"--set", "--seed", "--out"}) {
       if (app.count(option) == 0) continue;
       throw ConfigError(
           fmt::format("{}: {} is a run folder, it has happened already", option, arguments.target));
@@ -80,7 +83,7 @@ std::function<ExitCode()> declare_view(CLI::App& app) {
   app.add_option("--out", arguments->run.directory,
                  "run folder of an episode that runs; without it nothing is kept")
       ->check(not_empty);
-  app.add_flag("--overwrite", arguments->run.overwrite, "replace a run in that folder");
+  add_overwrite(app, arguments->run.overwrite);
   app.add_option("--size", arguments->size, "of the window, px")->capture_default_str();
   app.add_option("--camera", arguments->camera,
                  "overview, follow (circles the robot) or robot (what its own camera sees)")

@@ -100,6 +100,16 @@ void make_writable_directory(const fs::path& directory) {
     throw OutputError(fmt::format("{}: cannot write into directory: {}", directory.string(), why));
 }
 
+void refuse_to_replace(std::string_view place, std::string_view holds) {
+  throw ConfigError(fmt::format("{}: {}; --overwrite replaces it", place, holds));
+}
+
+void require_absent(const fs::path& result, bool overwrite, std::string_view option) {
+  std::error_code ignored;
+  if (overwrite || !fs::exists(result, ignored)) return;
+  refuse_to_replace(fmt::format("{} {}", option, result.string()), "is there already");
+}
+
 GrowingFile::GrowingFile(fs::path path) : path_(std::move(path)) {
   errno = 0;
   stream_.open(part(), std::ios::binary | std::ios::trunc);

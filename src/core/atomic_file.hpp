@@ -28,6 +28,14 @@ void write_file_with(const std::filesystem::path& path,
 /// @throws OutputError naming the directory if it cannot be made or written into.
 void make_writable_directory(const std::filesystem::path& directory);
 
+/// The rule of all commands that write: a result that is there is not replaced unasked.
+/// @param place "--out out/run" @param holds what is there, "holds metrics.json already"
+/// @throws ConfigError "--out out/run: holds metrics.json already; --overwrite replaces it"
+[[noreturn]] void refuse_to_replace(std::string_view place, std::string_view holds);
+/// The same if `result` is there and `overwrite` is not set. @param option that names it
+void require_absent(const std::filesystem::path& result, bool overwrite,
+                    std::string_view option = "--out");
+
 /// A file that grows during a run; visible under `path` only after commit(). Destroyed without
 /// commit (an error on the way), it removes what it wrote.
 class GrowingFile {

@@ -62,9 +62,8 @@ void prepare_root(const DatasetOptions& options, const DatasetRun& run) {
     read_into(read_yaml(file), before, {});
     before.objects = options.objects;
     if (options_text(before) != options_text(options)) {
-      throw ConfigError(
-          fmt::format("{}: was rendered with other options, see {}; --overwrite begins anew",
-                      run.root.string(), kOptionsFile));
+      refuse_to_replace(run.root.string(),
+                        fmt::format("was rendered with other options, see {}", kOptionsFile));
     }
   }
   write_file(file, options_text(options));

@@ -28,10 +28,9 @@ constexpr auto kRunFiles =
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {
   for (const std::string_view name : kRunFiles) {
-    if (name != "log.txt" && fs::exists(directory / name) && !overwrite) {
-      throw ConfigError(fmt::format("--out {}: holds a {} already; --overwrite replaces it",
-                                    directory.string(), name));
-    }
+    if (overwrite || name == "log.txt" || !fs::exists(directory / name)) continue;
+    refuse_to_replace(fmt::format("--out {}", directory.string()),
+                      fmt::format("holds {} already", name));
   }
   make_writable_directory(directory);
   for (const std::string_view name : kRunFiles) {

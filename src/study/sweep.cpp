@@ -189,10 +189,9 @@ void prepare_study_folder(const Study& study, const StudySweepOptions& options) 
   if (fs::exists(file, error)) {
     if (read_file(file) == study.yaml) return;
     if (!options.overwrite) {
-      throw ConfigError(fmt::format(
-          "--out {}: holds another study, or an older state of this one; --overwrite goes on there "
-          "and runs again what no longer fits",
-          options.directory.string()));
+      refuse_to_replace(fmt::format("--out {}", options.directory.string()),
+                        "holds another study, or an older state of this one (results that still "
+                        "fit are kept)");
     }
   }
   make_writable_directory(options.directory);

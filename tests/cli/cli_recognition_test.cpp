@@ -93,7 +93,23 @@ TEST_F(RecognitionCommands, AddsObjectsAndLeavesTheOthersAsTheyAre) {
   EXPECT_EQ(parsed("recognise --model larger --json" + green)["objects"][0]["object"], "can_2");
   EXPECT_EQ(parsed("recognise --model larger --json " + std::string(kRed))["objects"][0]["object"],
             "mug_1");
-  expect_error(vantage("train data --add-to model --out larger -q"), 3, {"can_1", "already"});
+  expect_error(vantage("train data --add-to model --out other -q"), 3, {"can_1", "already"});
+}
+
+TEST_F(RecognitionCommands, AModelOrATableIsNotReplacedUnasked) {
+  train();
+  const std::string model = read_file(folder_ / "model");
+  expect_error(vantage(kTrain), 2, {"--out model", "--overwrite"});
+  expect_error(vantage("train data --add-to model --out model -q"), 2, {"--overwrite"});
+  EXPECT_EQ(read_file(folder_ / "model"), model);
+  EXPECT_EQ(vantage(std::string(kTrain) + "--overwrite").exit_code, 0);
+  fs::create_directories(folder_ / "tables");
+  write_file(folder_ / "tables/summary.json", "{}");
+  const std::string evaluate = "evaluate data --model model --out tables -q --set starts=4 ";
+  expect_error(vantage(evaluate), 2, {"--out tables", "summary.json", "--overwrite"});
+  EXPECT_EQ(read_file(folder_ / "tables/summary.json"), "{}");
+  EXPECT_EQ(vantage(evaluate + "--overwrite").exit_code, 0);
+  EXPECT_NE(read_file(folder_ / "tables/summary.json"), "{}");
 }
 
 TEST_F(RecognitionCommands, TrainsOnSeveralRecordingsOfTheSameObjects) {
@@ -110,7 +126,7 @@ TEST_F(RecognitionCommands, FeaturesAreExtractedOnce) {
   const std::size_t files = cached_files();
   EXPECT_GT(files, 0U);
   const std::string model = read_file(folder_ / "model");
-  const json second = parsed(std::string(kTrain) + "--cache cache --json");
+  const json second = parsed(std::string(kTrain) + "--cache cache --json --overwrite");
   EXPECT_EQ(cached_files(), files);
   EXPECT_EQ(first["features"][0]["psi"], second["features"][0]["psi"]);
   EXPECT_EQ(first["features"][1]["psi"], second["features"][1]["psi"]);

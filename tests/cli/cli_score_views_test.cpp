@@ -114,6 +114,8 @@ TEST_F(ScoreViewsCommand, SampledViewsAreWrittenAndReadBack) {
   EXPECT_NE(score(sampled + "--seed 4").output, first.output);
   EXPECT_EQ(score("--map room.bt --views mine.csv").output, first.output);
   expect_error(score(sampled + "--write-views none/mine.csv"), 5, {"none/mine.csv"});
+  expect_error(score(sampled + "--write-views mine.csv"), 2, {"--write-views", "--overwrite"});
+  EXPECT_EQ(score(sampled + "--write-views mine.csv --overwrite").exit_code, 0);
 }
 
 TEST_F(ScoreViewsCommand, ExamplesOfTheRepository) {

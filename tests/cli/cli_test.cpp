@@ -71,7 +71,7 @@ TEST_F(CommandLine, FullDisk) {
 TEST_F(CommandLine, SecondRunNeedsOverwrite) {
   const std::string run = std::string("run ") + kShort;
   ASSERT_EQ(vantage(run).exit_code, 0);
-  expect_error(vantage(run), 2, {"--overwrite"});
+  expect_error(vantage(run), 2, {"--out out/tabletop-1: holds", "; --overwrite replaces it"});
   EXPECT_EQ(vantage(run + "--overwrite").exit_code, 0);
 }
 

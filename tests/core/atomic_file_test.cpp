@@ -34,6 +34,16 @@ class AtomicFile : public testing::Test {
   support::TemporaryDirectory directory;
 };
 
+TEST_F(AtomicFile, WhatIsThereIsNotReplacedUnasked) {
+  EXPECT_NO_THROW(require_absent(directory / "f.txt", false));
+  write_file(directory / "f.txt", "x");
+  EXPECT_NO_THROW(require_absent(directory / "f.txt", true));
+  EXPECT_NO_THROW(require_absent("", false));
+  EXPECT_EQ(
+      message_of([&] { require_absent(directory / "f.txt", false, "--write"); }),
+      "--write " + (directory / "f.txt").string() + ": is there already; --overwrite replaces it");
+}
+
 TEST_F(AtomicFile, WritesTheWholeContentAndNothingElse) {
   const std::string content("a\0b\r\n\xff", 6);
   write_file(directory / "f.txt", content);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
+
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/runtime/json.hpp"
@@ -9,6 +11,9 @@
 namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
+
+constexpr auto kStudyFiles = std::to_array<const char*>(
+    {"config.yaml", "results.csv", "changes.csv", "recognition.md", "summary.json"});
 
 std::string with_interval(const Estimate& e) {
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", e.mean, e.interval.low, e.interval.high);
@@ -158,12 +163,27 @@ std::string recognition_tables(const RecognitionStudy& study) {
   return text;
 }
 
+void prepare_recognition_study(const std::filesystem::path& directory, bool overwrite) {
+  std::error_code ignored;
+  for (const char* name : kStudyFiles) {
+    if (overwrite || !std::filesystem::exists(directory / name, ignored)) continue;
+    refuse_to_replace(fmt::format("--out {}", directory.string()),
+                      fmt::format("holds {} already", name));
+  }
+  make_writable_directory(directory);
+}
+
 void write_recognition_study(const RecognitionStudy& study,
                              const std::filesystem::path& directory) {
   make_writable_directory(directory);
   write_file(directory / "config.yaml", to_yaml(write_node(study.options)));
   write_file(directory / "results.csv", trials_csv(study));
-  if (!study.changes.empty()) write_file(directory / "changes.csv", changes_csv(study));
+  if (study.changes.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(directory / "changes.csv", ignored);  // of a study that is replaced
+  } else {
+    write_file(directory / "changes.csv", changes_csv(study));
+  }
   write_file(directory / "recognition.md", recognition_tables(study));
   write_file(directory / "summary.json", json_text(summary_json(study)));
 }

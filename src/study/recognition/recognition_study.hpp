@@ -89,7 +89,11 @@ struct MethodSummary {
 };
 std::vector<MethodSummary> summaries(const RecognitionStudy& study);
 
-/// results.csv (a row a trial), changes.csv, summary.json, recognition.md.
+/// Makes the folder of write_recognition_study().
+/// @throws ConfigError if it holds one and `overwrite` is not set, OutputError
+void prepare_recognition_study(const std::filesystem::path& directory, bool overwrite);
+
+/// config.yaml, results.csv (a row a trial), changes.csv, summary.json, recognition.md.
 /// @throws OutputError
 void write_recognition_study(const RecognitionStudy& study, const std::filesystem::path& directory);
 
