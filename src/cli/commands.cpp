@@ -70,8 +70,8 @@ void print_plan(const ResolvedEpisode& resolved, bool json) {
 
 void print_outcome(const ResolvedEpisode& resolved, const RunOutcome& outcome) {
   const auto metrics = nlohmann::ordered_json::parse(outcome.metrics);
-  fmt::print("{}state hash {}\n", outcome_text(resolved, outcome),
-             metrics["state_hash"].get<std::string>());
+  fmt::print("{}ended by: {}\nstate hash {}\n", outcome_text(resolved, outcome),
+             metrics["reason"].get<std::string>(), metrics["state_hash"].get<std::string>());
   for (const auto& [label, file] : {std::pair("report", "report.html"), {"video ", "video.mp4"}}) {
     if (fs::exists(outcome.directory / file)) {
       fmt::print("{} {}\n", label, (outcome.directory / file).string());

@@ -139,13 +139,18 @@ void predict_motion(const Recogniser& recogniser, const ChangeOptions& options, 
   search.recognition.belief = search.hypotheses.mixture();
 }
 
-bool in_doubt(const ChangeOptions& options, const ChangeSearch& search) {
-  const std::size_t views = search.recognition.views.size();
-  if (search.empty_views >= options.empty_views) return false;
-  if (views >= static_cast<std::size_t>(options.recognition.max_views)) return false;
+std::optional<ChangeEnd> change_end(const ChangeOptions& options, const ChangeSearch& search) {
+  const auto views = static_cast<int>(search.recognition.views.size());
+  if (search.empty_views >= options.empty_views) return ChangeEnd::nothing_seen;
   const double p = search.hypotheses.p_changed();
-  const bool uncertain = p <= options.changed_above && p >= options.unchanged_below;
-  return uncertain || search.empty_views == static_cast<int>(views);
+  if (search.empty_views < views && !(p <= options.changed_above)) return ChangeEnd::changed;
+  if (search.empty_views < views && p < options.unchanged_below) return ChangeEnd::unchanged;
+  if (views >= options.recognition.max_views) return ChangeEnd::max_views;
+  return std::nullopt;
+}
+
+bool in_doubt(const ChangeOptions& options, const ChangeSearch& search) {
+  return !change_end(options, search);
 }
 
 Change verdict(const Recogniser& recogniser, const ChangeOptions& options,

@@ -113,6 +113,15 @@ void update_with_view(const Recogniser& recogniser, const ChangeOptions& options
 /// As predict_motion() of a recognition.
 void predict_motion(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,
                     ChangeSearch& search);
+/// Why no further view is taken, if so.
+enum class ChangeEnd {
+  nothing_seen,  ///< in as many views as it takes to hold the object for removed
+  max_views,
+  changed,    ///< it is sure of that
+  unchanged,  ///< likewise
+};
+/// None: another view would be worth it.
+std::optional<ChangeEnd> change_end(const ChangeOptions& options, const ChangeSearch& search);
 /// Whether another view would be worth it: fewer than the most were taken, and it is still open
 /// what has changed.
 bool in_doubt(const ChangeOptions& options, const ChangeSearch& search);

@@ -15,16 +15,18 @@ struct EpisodeFailed : Error {
   explicit EpisodeFailed(const std::string& why) : Error(ExitCode::goal_failed, why) {}
 };
 
-/// Runs `parts` until it says it is finished. A task (next best view, recognition, trajectory) is a
-/// type with these eight members.
+/// Runs `parts` until it says why it is finished: a limit that was hit, a stop that fired, the end
+/// of its path. A task (next best view, recognition, trajectory) is a type with these eight
+/// members; `finished()` is empty as long as the episode goes on.
+/// @return what finished() said
 /// @throws Interrupted, DivergedError, EpisodeFailed
 template <class Parts>
-void run_episode(Parts& parts) {
+std::string run_episode(Parts& parts) {
   while (true) {
     const auto observation = parts.observe();
     parts.update(observation);
     parts.record();
-    if (parts.finished()) return;
+    if (std::string reason = parts.finished(); !reason.empty()) return reason;
     throw_if_interrupted();
     auto candidates = parts.propose();
     parts.score(candidates);

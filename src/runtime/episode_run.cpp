@@ -44,10 +44,9 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
 
 }  // namespace
 
-Ending ending_of(const std::function<void()>& run) {
+Ending ending_of(const std::function<std::string()>& run) {
   try {
-    run();
-    return {};
+    return {.reason = run()};
   } catch (const DivergedError& error) {
     log_error(std::string("diverged: ") + error.what());
     return {EpisodeStatus::diverged, error.code(), error.what()};

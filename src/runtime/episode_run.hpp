@@ -58,11 +58,12 @@ struct RunTotals {
 struct Ending {
   EpisodeStatus status = EpisodeStatus::completed;
   ExitCode code = ExitCode::done;
-  std::string reason;
+  std::string reason;  ///< why it ended then, never empty
 };
 
-/// The ending that `run` comes to, which may throw DivergedError, EpisodeFailed or Interrupted.
-Ending ending_of(const std::function<void()>& run);
+/// The ending that `run` comes to, which returns why it was completed (see run_episode()), or
+/// throws DivergedError, EpisodeFailed or Interrupted.
+Ending ending_of(const std::function<std::string()>& run);
 
 class EpisodeRun {
  public:

@@ -13,7 +13,7 @@ namespace vantage {
 
 struct RunSummary {
   EpisodeStatus status = EpisodeStatus::completed;
-  std::string reason;  ///< why it ended early; empty when completed
+  std::string reason;  ///< why it ended
   double simulated_time_s = 0.0;
   double wall_time_s = 0.0;
   double path_length_m = 0.0;

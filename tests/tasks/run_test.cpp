@@ -67,6 +67,8 @@ TEST_F(Run, SameSeedSameBytes) {
   }
 }
 
+TEST_F(Run, SaysWhichLimitEndedIt) { EXPECT_EQ(first_["reason"], "limit of 2 scans"); }
+
 TEST_F(Run, AnotherSeedAnotherEpisode) {
   const auto other = short_run("other", {"seed=2"});
   EXPECT_NE(first_["state_hash"], other["state_hash"]);

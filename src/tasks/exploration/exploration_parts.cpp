@@ -114,8 +114,12 @@ bool ExplorationParts::is_enough() const {
   return scans > 0 && poor_promises_ >= scans;
 }
 
-bool ExplorationParts::finished() const {
-  return views_.empty() || static_cast<int>(scans_.size()) >= task_.scans || is_enough();
+std::string ExplorationParts::finished() const {
+  if (views_.empty()) return "no frontier is left that can be looked at from a new place in reach";
+  if (!is_enough()) return scans_used_up();
+  return fmt::format(
+      "explored: {} in a row, no view promised more than {:g} % of what is known (enough.share)",
+      task_.enough.scans, 100.0 * task_.enough.share);
 }
 
 /// The place nearest to each frontier where the robot can stand, the largest frontiers first.

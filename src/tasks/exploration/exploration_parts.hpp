@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "vantage/tasks/exploration/exploration_belief.hpp"
@@ -23,7 +24,7 @@ class ExplorationParts : public MappingParts {
   ExplorationObservation observe();
   void update(const ExplorationObservation& observation);
   void record();
-  [[nodiscard]] bool finished() const;
+  [[nodiscard]] std::string finished() const;
   std::vector<Candidate> propose() { return views_; }
   void act(const Candidate& candidate);
 

@@ -125,6 +125,11 @@ const ScanRecord& MappingParts::record_scan() {
   return scan;
 }
 
+std::string MappingParts::scans_used_up() const {
+  if (static_cast<int>(scans_.size()) < options_.scans) return {};
+  return fmt::format("limit of {} scans", options_.scans);
+}
+
 void MappingParts::start_decision() { decision_start_s_ = wall_s(); }
 
 std::vector<double> MappingParts::gains_bits(const Gain& gain,

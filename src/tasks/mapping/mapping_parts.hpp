@@ -70,6 +70,8 @@ class MappingParts {
   Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
   void warn_out_of_reach(const Candidate& view) const;
   void start_decision();
+  /// Why no further scan is taken once there are as many as were asked for; else empty.
+  [[nodiscard]] std::string scans_used_up() const;
 
   const EpisodeOptions& episode_;
   MobileRobotInterface& robot_;

@@ -27,13 +27,14 @@ RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& ro
                        const Belief& belief, Parts& parts) {
   std::string remark;
   Ending ending = ending_of([&] {
-    run_episode(parts);
+    std::string reason = run_episode(parts);
     remark = parts.distrust();
     if (!remark.empty() && !options.localisation.accept_drift) throw EpisodeFailed(remark);
+    return reason;
   });
   if (ending.status == EpisodeStatus::completed && !remark.empty()) {
     log_warning(remark);
-    ending.reason = remark;
+    ending.reason += "; " + remark;
   }
   const RunTotals totals{robot.time_s(), robot.ground_truth().collisions()};
   RunOutcome outcome = run.finish(ending, totals, recorder, [&](nlohmann::ordered_json& metrics) {

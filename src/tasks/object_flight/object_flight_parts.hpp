@@ -40,7 +40,7 @@ class ObjectFlightParts {
   FlightObservation observe();
   void update(const FlightObservation& observation);
   void record();
-  [[nodiscard]] bool finished() const { return inquiry_.over(); }
+  [[nodiscard]] std::string finished() const { return inquiry_.over(); }
   std::vector<BearingOption> propose();
   void score(std::vector<BearingOption>& options);
   std::size_t choose(const std::vector<BearingOption>& options);

@@ -1,5 +1,7 @@
 #include "vantage/tasks/object_flight/object_inquiry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,6 +25,40 @@ ChangeOptions only_recognition(const RecognitionOptions& options) {
   ChangeOptions both;
   both.recognition = options;
   return both;
+}
+
+std::string recognition_text(RecognitionEnd end, const Recogniser& recogniser,
+                             const RecognitionOptions& options, const Recognition& known) {
+  if (end == RecognitionEnd::max_views) {
+    return fmt::format("limit of {} views, not sure", options.max_views);
+  }
+  const ObjectStates& states = recogniser.states;
+  if (seen_enough(options.enough, states, p_state(known.belief)) == EnoughReason::entropy) {
+    return fmt::format("sure: entropy {:.3g} bits, below enough.entropy_bits {:g}",
+                       known.views.back().entropy_bits, options.enough.entropy_bits);
+  }
+  const int object = most_probable_object(states, known.belief);
+  return fmt::format("sure: {} with probability {:.3g}, above enough.object_probability {:g}",
+                     states.objects[static_cast<std::size_t>(object)],
+                     std::min(1.0, p_object(states, known.belief)[object]),
+                     options.enough.object_probability);
+}
+
+std::string change_text(ChangeEnd end, const ChangeOptions& options, const ChangeSearch& search) {
+  const double p = search.hypotheses.p_changed();
+  switch (end) {
+    case ChangeEnd::nothing_seen:
+      return fmt::format("{} views without the object (empty_views)", search.empty_views);
+    case ChangeEnd::max_views:
+      return fmt::format("limit of {} views, still in doubt", options.recognition.max_views);
+    case ChangeEnd::changed:
+      return fmt::format("sure of a change: probability {:.3g}, above changed_above {:g}", p,
+                         options.changed_above);
+    case ChangeEnd::unchanged:
+      return fmt::format("sure of no change: probability {:.3g}, below unchanged_below {:g}", p,
+                         options.unchanged_below);
+  }
+  return {};
 }
 
 }  // namespace
@@ -59,9 +95,13 @@ void ObjectInquiry::turned(double motion_rad) {
   }
 }
 
-bool ObjectInquiry::over() const {
-  if (const auto* search = std::get_if<ChangeSearch>(&known_)) return !in_doubt(options_, *search);
-  return recognition_end(recogniser_, options_.recognition, recognition()).has_value();
+std::string ObjectInquiry::over() const {
+  if (const auto* search = std::get_if<ChangeSearch>(&known_)) {
+    const auto end = change_end(options_, *search);
+    return end ? change_text(*end, options_, *search) : "";
+  }
+  const auto end = recognition_end(recogniser_, options_.recognition, recognition());
+  return end ? recognition_text(*end, recogniser_, options_.recognition, recognition()) : "";
 }
 
 const Recognition& ObjectInquiry::recognition() const {

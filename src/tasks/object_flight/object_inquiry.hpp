@@ -23,8 +23,8 @@ class ObjectInquiry {
   void observe(const ExtractFeature& extract, double view_rad, double view_time_s, Rng& rng);
   /// The camera turned about the object by that, counter-clockwise seen from above.
   void turned(double motion_rad);
-  /// Whether it knows, or has looked often enough.
-  [[nodiscard]] bool over() const;
+  /// Why it looks no further: it knows, or has looked often enough; empty: it does.
+  [[nodiscard]] std::string over() const;
 
   [[nodiscard]] const Recognition& recognition() const;
   [[nodiscard]] bool of_change() const { return std::holds_alternative<ChangeSearch>(known_); }

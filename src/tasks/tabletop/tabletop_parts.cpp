@@ -36,8 +36,6 @@ void TabletopParts::update(const TabletopObservation& observation) {
   measure(before, update, to_se3(update.T_world_base) * observation.T_base_laser);
 }
 
-bool TabletopParts::finished() const { return static_cast<int>(scans_.size()) >= task_.scans; }
-
 std::vector<Candidate> TabletopParts::propose() {
   start_decision();
   std::vector<Candidate> candidates = views_;

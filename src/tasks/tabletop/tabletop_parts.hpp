@@ -2,6 +2,7 @@
 /// 3]
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "vantage/tasks/mapping/mapping_parts.hpp"
@@ -21,7 +22,7 @@ class TabletopParts : public MappingParts {
   TabletopObservation observe();
   void update(const TabletopObservation& observation);
   void record() { record_scan(); }
-  [[nodiscard]] bool finished() const;
+  [[nodiscard]] std::string finished() const { return scans_used_up(); }
   std::vector<Candidate> propose();
   void act(const Candidate& candidate);
 

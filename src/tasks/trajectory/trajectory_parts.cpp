@@ -143,7 +143,10 @@ void TrajectoryParts::record() {
   recorder_.waypoint(records_.back(), static_cast<int>(nominal_.size()));
 }
 
-bool TrajectoryParts::finished() const { return at_ + 1 >= static_cast<int>(nominal_.size()); }
+std::string TrajectoryParts::finished() const {
+  if (at_ + 1 < static_cast<int>(nominal_.size())) return {};
+  return fmt::format("end of the path, {} waypoints", nominal_.size());
+}
 
 std::vector<PlannableObject> TrajectoryParts::plannable() const {
   const double at_first_nats = std::log(observations_.recogniser().states.object_count());

@@ -2,6 +2,7 @@
 /// [Potthast2016, chapter 5]
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "vantage/belief/map/flight_map.hpp"
@@ -40,7 +41,7 @@ class TrajectoryParts {
   WaypointReached observe();
   void update(const WaypointReached& reached);
   void record();
-  [[nodiscard]] bool finished() const;
+  [[nodiscard]] std::string finished() const;
   std::vector<CandidatePlan> propose();
   void score(std::vector<CandidatePlan>& candidates);
   std::size_t choose(const std::vector<CandidatePlan>& candidates);

@@ -31,6 +31,7 @@ TEST_F(DummyTask, Runs) {
   const auto found = metrics("done");
   EXPECT_EQ(found["task"], "wait");
   EXPECT_EQ(found["status"], "completed");
+  EXPECT_EQ(found["reason"], "all scans");
   EXPECT_EQ(found["method"], "either side");
   ASSERT_EQ(found["scans"].size(), 3U);
   std::size_t returns = 0;
@@ -42,6 +43,7 @@ TEST_F(DummyTask, Runs) {
   EXPECT_NEAR(found["simulated_time_s"], 1.0, 1e-9) << "two turns between three scans";
   EXPECT_THAT(result.output,
               StartsWith("wait: completed, " + std::to_string(returns) + " returns in 3 scans\n"));
+  EXPECT_THAT(result.output, HasSubstr("\nended by: all scans\n"));
 }
 
 TEST_F(DummyTask, TurnsInPlace) {

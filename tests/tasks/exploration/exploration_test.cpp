@@ -132,6 +132,7 @@ TEST(Exploration, EndsWhenNothingIsWorthAScan) {
   const support::TemporaryDirectory folder;
   const auto all = explore(folder.path() / "all", {"enough.scans=0"});
   EXPECT_EQ(all["scans"].size(), 3U);
+  EXPECT_EQ(all["reason"], "limit of 3 scans");
   const auto asked = explore(folder.path() / "asked", {});
   EXPECT_EQ(asked["state_hash"], all["state_hash"]) << "whether to go on is not where to";
   const auto demanding = {std::string("enough.share=1"), std::string("enough.scans=2")};
@@ -140,6 +141,9 @@ TEST(Exploration, EndsWhenNothingIsWorthAScan) {
     more.push_back(method);
     const auto ended = explore(folder.path() / method, more);
     EXPECT_EQ(ended["status"], "completed");
+    EXPECT_NE(ended["reason"].get<std::string>().find("no view promised more than 100 %"),
+              std::string::npos)
+        << ended["reason"];
     EXPECT_EQ(ended["scans"].size(), 2U) << "no view shows as much as all that is known";
   }
 }

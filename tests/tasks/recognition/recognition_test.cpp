@@ -54,6 +54,7 @@ class RecognitionEpisode : public testing::Test {
 TEST_F(RecognitionEpisode, SaysWhatTheContractAsksFor) {
   EXPECT_EQ(first_["task"], "recognition");
   EXPECT_EQ(first_["status"], "completed");
+  EXPECT_EQ(first_["reason"], "limit of 2 views, not sure");
   EXPECT_EQ(first_["method"], "mutual_information");
   EXPECT_EQ(first_["truth"], "cereal_box_1");
   EXPECT_EQ(first_["correct"], first_["estimate"] == "cereal_box_1");

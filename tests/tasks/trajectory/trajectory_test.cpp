@@ -249,7 +249,7 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
   int went_on = 0;
   while (true) {
     flight.update(flight.observe());
-    if (flight.finished()) break;
+    if (!flight.finished().empty()) break;
     std::vector<CandidatePlan> candidates = flight.propose();
     flight.score(candidates);
     const auto on = robot.path_on(latency_s);

@@ -17,8 +17,8 @@ void WaitParts::update(const PlanarScan& scan) {
 
 void WaitParts::record() { recorder_.scan(records_.back(), records_.size() - 1); }
 
-bool WaitParts::finished() const {
-  return records_.size() >= static_cast<std::size_t>(task_.scans);
+std::string WaitParts::finished() const {
+  return records_.size() >= static_cast<std::size_t>(task_.scans) ? "all scans" : "";
 }
 
 std::vector<double> WaitParts::propose() const {

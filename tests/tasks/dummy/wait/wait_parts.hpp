@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -19,7 +20,7 @@ class WaitParts {
   PlanarScan observe() { return robot_.observe(); }
   void update(const PlanarScan& scan);
   void record();
-  [[nodiscard]] bool finished() const;
+  [[nodiscard]] std::string finished() const;
   /// Turning rates, rad/s.
   [[nodiscard]] std::vector<double> propose() const;
   void score(const std::vector<double>&) {}
