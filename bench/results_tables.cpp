@@ -17,6 +17,11 @@ std::string number(double value) {
   return size >= 10.0 ? fmt::format("{:.1f}", value) : fmt::format("{:.3f}", value);
 }
 
+/// Of one episode there is none.
+bool has_interval(const Json* found) {
+  return found != nullptr && found->at("interval").is_array();
+}
+
 }  // namespace
 
 Json read_json(const std::filesystem::path& file) {
@@ -66,19 +71,19 @@ std::optional<double> StudySummary::ratio(const std::string& table, const std::s
 bool StudySummary::above_reference(const std::string& table, const std::string& panel,
                                    const std::string& level) const {
   const Json* found = difference(table, panel, level);
-  return found != nullptr && found->at("interval")[0].get<double>() > 0.0;
+  return has_interval(found) && found->at("interval")[0].get<double>() > 0.0;
 }
 
 bool StudySummary::below_reference(const std::string& table, const std::string& panel,
                                    const std::string& level) const {
   const Json* found = difference(table, panel, level);
-  return found != nullptr && found->at("interval")[1].get<double>() < 0.0;
+  return has_interval(found) && found->at("interval")[1].get<double>() < 0.0;
 }
 
 std::string StudySummary::ratio_text(const std::string& table, const std::string& panel,
                                      const std::string& level) const {
   const auto times = ratio(table, panel, level);
-  if (!times) return {};
+  if (!times || !has_interval(difference(table, panel, level))) return {};
   const Json& interval = difference(table, panel, level)->at("ratio_interval");
   return fmt::format("{:.2f} [{:.2f}, {:.2f}], {} pairs", *times, interval[0].get<double>(),
                      interval[1].get<double>(), pairs(table, panel, level));
@@ -87,7 +92,7 @@ std::string StudySummary::ratio_text(const std::string& table, const std::string
 std::string StudySummary::less_text(const std::string& table, const std::string& panel,
                                     const std::string& level, double scale, int digits) const {
   const Json* found = difference(table, panel, level);
-  if (found == nullptr) return {};
+  if (!has_interval(found)) return {};
   const Json& interval = found->at("interval");
   const auto less = [&](const Json& more) { return -scale * more.get<double>(); };
   return fmt::format("{:+.{}f} [{:+.{}f}, {:+.{}f}]", less(found->at("mean")), digits,
@@ -141,9 +146,12 @@ std::string StudySummary::markdown(const std::string& table) const {
         text += " |";
         continue;
       }
-      const Json& interval = cell->at("interval");
-      text += fmt::format(" {} [{}, {}]", number(cell->at("mean").get<double>()),
-                          number(interval[0].get<double>()), number(interval[1].get<double>()));
+      text += " " + number(cell->at("mean").get<double>());
+      if (has_interval(cell)) {
+        const Json& interval = cell->at("interval");
+        text += fmt::format(" [{}, {}]", number(interval[0].get<double>()),
+                            number(interval[1].get<double>()));
+      }
       if (const auto times = ratio(table, panel, level)) {
         text += fmt::format(", x {:.2f}, p {:.2g}", *times,
                             cell->at("difference").at("p_value").get<double>());

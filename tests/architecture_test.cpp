@@ -66,7 +66,7 @@ const Rooms kPlanners{"planners",         "planners/gains",      "planners/visib
 const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
 const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing"};
 const Rooms kRecognition{"recognition", "recognition/dataset", "recognition/evaluation"};
-const Rooms kStudy{"study", "study/figures", "study/recognition"};
+const Rooms kStudy{"study", "study/figures", "study/kit", "study/recognition"};
 /// What several tasks share; they never include each other.
 const Rooms kSharedByTasks{"tasks/mapping", "tasks/flight", "tasks/object_flight"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
@@ -131,13 +131,15 @@ const std::map<std::string, Rooms> kAllowed{
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
     {"study/figures", {"core", "information", "report"}},
     {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
-    {"study", kGround + kRuntime + Rooms{"report", "study/figures", "tasks"}},
+    {"study/kit", kGround + kRuntime + Rooms{"tasks"}},
+    {"study", kGround + kRuntime + Rooms{"report", "study/figures", "study/kit", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
+    {"cli/hints", {"core", "study"}},
     {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                           Rooms{"belief/objects", "dataset", "tasks"}},
-    {"cli",
-     kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-         Rooms{"cli/reference", "dataset", "models/catalogue/database", "report", "tasks", "view"}},
+    {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+                Rooms{"cli/hints", "cli/reference", "dataset", "models/catalogue/database",
+                      "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench", kTask + kStudy + Rooms{"bench/claims", "tasks", "tasks/*", "tests/support"}},
     {"python", kTask + kStudy + Rooms{"tasks", "tasks/*"}},

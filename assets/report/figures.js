@@ -46,18 +46,6 @@ function predictionPlots(parent) {
   });
 }
 
-// The legs may be recorded singly or summed up: take the reading that ends at the run's own length.
-function cumulativePath() {
-  const legs = column("path_length_m");
-  let sum = 0;
-  const summed = legs.map((v) => (isNumber(v) ? (sum += v) : null));
-  const last = legs.filter(isNumber).pop() ?? 0;
-  const total = METRICS.path_length_m;
-  const rising = legs.every((v, i) => !i || !isNumber(v) || !isNumber(legs[i - 1]) || v >= legs[i - 1]);
-  const already = rising && isNumber(total) && Math.abs(last - total) <= Math.abs(sum - total);
-  return already ? legs : summed;
-}
-
 // Of recognition: what each view told, and how well it was flown to.
 function observationPlots(parent) {
   const seen = (key, scale = 1) => perScan(STEPS.map((s) => (isNumber(s[key]) ? scale * s[key] : null)));
@@ -103,7 +91,7 @@ function mappingPlots(parent) {
     { name: "planning", colour: seriesColour(4), strong: true, points: perScan(chosenOnly(column("plan_time_s"))) },
   ]);
   chart("Distance travelled", "cumulative", "path length in m", "m", [
-    { name: "path length", colour: seriesColour(2), strong: true, points: perScan(cumulativePath()) },
+    { name: "path length", colour: seriesColour(2), strong: true, points: perScan(column("path_length_m")) },
   ]);
   chart("Occupied cells against the true scene", "after each scan", "share", "", [
     { name: "precision", colour: seriesColour(0), strong: true, points: perScan(column("precision")) },

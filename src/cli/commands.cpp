@@ -13,12 +13,12 @@
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/explain_command.hpp"
+#include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
 #include "vantage/cli/view_command.hpp"
-#include "vantage/core/data_root.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report.hpp"
@@ -80,7 +80,7 @@ void print_outcome(const ResolvedEpisode& resolved, const RunOutcome& outcome) {
 }
 
 ExitCode run_episode_command(const RunArguments& arguments) {
-  const auto path = find_input(arguments.episode, {}, "episode");
+  const auto path = find_episode(arguments.episode);
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
   const ResolvedEpisode resolved = load_episode(path, overrides);

@@ -8,7 +8,8 @@ namespace vantage {
 
 void add_common_flags(CLI::App& app) {
   auto* quiet = app.add_flag_callback(
-      "-q,--quiet", [] { set_verbosity(Verbosity::quiet); }, "warnings and errors only");
+      "-q,--quiet", [] { set_verbosity(Verbosity::quiet); },
+      "results only; warnings and errors on stderr");
   app.add_flag_callback(
          "-v,--verbose", [] { set_verbosity(Verbosity::verbose); },
          "debug messages too; list: what each does")

@@ -6,6 +6,7 @@
 
 #include "vantage/cli/commands.hpp"
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/hints/suggestion.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/manifest.hpp"
@@ -30,7 +31,9 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "error: %s\nvantage --help shows how it is used\n", error.what());
+    const auto unknown = vantage::unknown_command(app, {argv + 1, argv + argc});
+    std::fprintf(stderr, "error: %s\nvantage --help shows how it is used\n",
+                 unknown ? unknown->c_str() : error.what());
     return exit_code(vantage::ExitCode::usage);
   }
   if (!chosen) {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "vantage/cli/common_flags.hpp"
-#include "vantage/core/data_root.hpp"
+#include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/study/collect.hpp"
 #include "vantage/study/compare.hpp"
@@ -31,6 +31,7 @@ struct SweepArguments {
   std::string shard = "1/1";
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool overwrite = false;
+  bool keep_states = false;
   bool json = false;
 };
 
@@ -50,7 +51,7 @@ OpenedStudy open_study(const SweepArguments& arguments) {
     }
     return {read_study(given / "study.yaml", arguments.overrides), given, true};
   }
-  Study study = read_study(find_input(arguments.study, {}, "study"), arguments.overrides);
+  Study study = read_study(find_study(arguments.study), arguments.overrides);
   fs::path directory =
       arguments.directory.empty() ? fs::path("out") / study.name : arguments.directory;
   return {std::move(study), std::move(directory), false};
@@ -75,7 +76,8 @@ void print_status(const SweepArguments& arguments, const fs::path& directory,
 ExitCode run_command(const SweepArguments& arguments) {
   const OpenedStudy opened = open_study(arguments);
   const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
-  const StudySweepOptions options{opened.directory, arguments.jobs, arguments.overwrite};
+  const StudySweepOptions options{opened.directory, arguments.jobs, arguments.overwrite,
+                                  arguments.keep_states};
   prepare_study_folder(opened.study, options);
   catch_interrupts();
   const auto states = run_sweep(plan, options);
@@ -149,6 +151,8 @@ constexpr SweepVerb kVerbs[] = {
        app.add_option("--jobs", arguments.jobs, "episodes at a time")
            ->check(CLI::Range(1, 1024))
            ->capture_default_str();
+       app.add_flag("--keep-states", arguments.keep_states,
+                    "whole run folders, to view, replay and report on single episodes");
        add_overwrite(app, arguments.overwrite);
      }},
     {"plan", "list the episodes that would run", plan_command,
@@ -184,6 +188,7 @@ std::function<ExitCode()> declare_compare(CLI::App& app) {
     fs::path first;
     fs::path second;
     double tolerance = 0.0;
+    bool all = false;
     bool json = false;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -192,13 +197,14 @@ std::function<ExitCode()> declare_compare(CLI::App& app) {
   app.add_option("--tolerance", arguments->tolerance, "relative; 0: everything but wall times same")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  app.add_flag("--all", arguments->all, "every value that differs, not only what matters most");
   add_json(app, arguments->json);
   return [arguments] {
     const FolderComparison comparison =
         compare_folders(arguments->first, arguments->second, arguments->tolerance);
     fmt::print("{}", arguments->json
                          ? comparison_json(comparison, arguments->tolerance).dump(2) + "\n"
-                         : comparison_text(comparison));
+                         : comparison_text(comparison, arguments->all));
     return comparison.beyond == 0 ? ExitCode::done : ExitCode::goal_failed;
   };
 }

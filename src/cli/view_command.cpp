@@ -10,8 +10,8 @@
 
 #include "vantage/cli/commands.hpp"
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/core/data_root.hpp"
 #include "vantage/view/view.hpp"
 
 namespace vantage {
@@ -65,7 +65,7 @@ ExitCode view_command(const CLI::App& app, Arguments arguments) {
   }
   if (!arguments.seed.empty()) arguments.overrides.push_back("seed=" + arguments.seed);
   arguments.run.command = command_line();
-  const auto episode = find_input(arguments.target, {}, "episode");
+  const auto episode = find_episode(arguments.target);
   return view_live(load_episode(episode, arguments.overrides), view, arguments.run);
 }
 

@@ -132,6 +132,7 @@ void require_size(const ConfigNode& node, std::size_t size) {
 
 void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>& known,
                     KeyOwners owners) {
+  std::vector<std::string> problems;
   for (const auto& [name, child] : node.entries) {
     if (std::ranges::find(known, name) != known.end()) continue;
     std::string message = fmt::format("{}: unknown key '{}'; known here: {}", child.where(), name,
@@ -140,8 +141,9 @@ void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>&
         !names.empty()) {
       message += fmt::format("; it belongs to {}", fmt::join(names, ", "));
     }
-    throw ConfigError(message);
+    problems.push_back(std::move(message));
   }
+  if (!problems.empty()) throw ConfigError(problems);
 }
 
 std::string place_of(const ConfigNode& node, std::string_view message) {

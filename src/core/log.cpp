@@ -4,12 +4,14 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
@@ -19,6 +21,11 @@ namespace {
 
 Verbosity g_verbosity = Verbosity::normal;
 std::filesystem::path g_file;
+
+constexpr double kBarEvery_s = 0.1;
+constexpr double kLineEvery_s = 2.0;
+double g_progress_s = -std::numeric_limits<double>::infinity();  ///< when any was shown last
+bool g_bar_shown = false;                                        ///< in the terminal's last line
 
 spdlog::level::level_enum console_level() {
   switch (g_verbosity) {
@@ -41,6 +48,32 @@ spdlog::logger& logger() {
     return made;
   }();
   return instance;
+}
+
+/// A line of its own, where a bar is shown in its place.
+void write_line(spdlog::level::level_enum level, std::string_view message) {
+  if (g_bar_shown && level >= console_level()) {
+    std::fputs("\r\x1b[K", stderr);
+    g_bar_shown = false;
+  }
+  logger().log(level, message);
+}
+
+std::size_t terminal_columns() {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return size.ws_col;
+}
+
+/// In the line where it was shown before, which it must not outgrow.
+void show_bar(const std::string& label, double fraction, std::string_view note) {
+  const auto filled = static_cast<std::size_t>(fraction * 30.0);
+  std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {}", label, "", filled, "",
+                                 30 - filled, 100.0 * fraction, note);
+  line.resize(std::min(line.size(), terminal_columns() - 1));
+  fmt::print(stderr, "\r{}\x1b[K", line);
+  std::fflush(stderr);
+  g_bar_shown = true;
 }
 
 }  // namespace
@@ -74,31 +107,30 @@ void log_to_file(const std::filesystem::path& path) {
   }
 }
 
-void log_debug(std::string_view message) { logger().debug(message); }
-void log_info(std::string_view message) { logger().info(message); }
-void log_warning(std::string_view message) { logger().warn(message); }
-void log_error(std::string_view message) { logger().error(message); }
+void log_debug(std::string_view message) { write_line(spdlog::level::debug, message); }
+void log_info(std::string_view message) { write_line(spdlog::level::info, message); }
+void log_warning(std::string_view message) { write_line(spdlog::level::warn, message); }
+void log_error(std::string_view message) { write_line(spdlog::level::err, message); }
 
 Progress::Progress(std::string label, double total) : label_(std::move(label)), total_(total) {}
 
 Progress::~Progress() {
-  if (bar_shown_) std::fputc('\n', stderr);
+  if (g_bar_shown) std::fputc('\n', stderr);
+  g_bar_shown = false;
 }
 
 void Progress::update(double done, std::string_view note) {
-  if (g_verbosity == Verbosity::quiet) return;
+  if (g_verbosity == Verbosity::quiet || finished_) return;
+  finished_ = done >= total_;
+  const double fraction = std::clamp(total_ > 0.0 ? done / total_ : 1.0, 0.0, 1.0);
   const bool terminal = ::isatty(STDERR_FILENO) == 1;
   const double now_s = wall_s();
-  const bool finished = done >= total_;
-  if (last_shown_s_ >= 0.0 && !finished && now_s - last_shown_s_ < (terminal ? 0.1 : 5.0)) return;
-  last_shown_s_ = now_s;
-  const double fraction = std::clamp(total_ > 0.0 ? done / total_ : 1.0, 0.0, 1.0);
+  const bool due = now_s - g_progress_s >= (terminal ? kBarEvery_s : kLineEvery_s);
+  if (!due && !(finished_ && shown_)) return;
+  shown_ = true;
+  g_progress_s = now_s;
   if (terminal) {
-    const auto filled = static_cast<std::size_t>(fraction * 30.0);
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} % {}\x1b[K", label_, "", filled, "",
-               30 - filled, 100.0 * fraction, note);
-    std::fflush(stderr);
-    bar_shown_ = true;
+    show_bar(label_, fraction, note);
   } else {
     fmt::print(stderr, "{}: {:.0f} % {}\n", label_, 100.0 * fraction, note);
   }

@@ -23,8 +23,8 @@ void log_error(std::string_view message);
 /// Wall time from some fixed moment on.
 double wall_s();
 
-/// Progress of long work: a bar on a terminal, else a line every few seconds. Honours NO_COLOR and
-/// -q.
+/// Progress of long work: on a terminal a bar in one line, else a line every two seconds at most,
+/// whatever makes progress, and the end of what was told of. Honours NO_COLOR and -q.
 class Progress {
  public:
   Progress(std::string label, double total);
@@ -37,8 +37,8 @@ class Progress {
  private:
   std::string label_;
   double total_;
-  double last_shown_s_ = -1.0;
-  bool bar_shown_ = false;
+  bool shown_ = false;
+  bool finished_ = false;
 };
 
 }  // namespace vantage

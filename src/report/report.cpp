@@ -14,6 +14,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/report/former_run.hpp"
 #include "vantage/report/page.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/report/report_embed.hpp"
@@ -72,6 +73,7 @@ constexpr KeyType kScanTypes[] = {
     {"chosen_view", is_number, "a number"},
     {"plan_time_s", is_number, "a number"},
     {"path_length_m", is_number, "a number"},
+    {"leg_length_m", is_number, "a number"},
     {"pose_error_m", is_number, "a number"},
     {"pose_error_before_registration_m", is_number, "a number"},
     {"view", is_object, "an object"},
@@ -101,6 +103,7 @@ json read_metrics(const fs::path& path, const ReportSections& sections) {
                     kScanTypes);
     }
   }
+  bring_up_to_date(metrics);
   return metrics;
 }
 
@@ -119,6 +122,7 @@ CsvTable read_steps(const fs::path& path) {
   if (steps.columns.front() != "time_s") {
     throw InputError(path.string() + ":1: expected a header that starts with time_s");
   }
+  bring_up_to_date(steps);
   return steps;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <string_view>
 
 #include "vantage/core/atomic_file.hpp"
@@ -16,14 +15,27 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr auto kRunFiles =
-    std::to_array<std::string_view>({"manifest.json", "config.yaml",    "steps.csv",
-                                     "metrics.json",  "trajectory.tum", "trajectory_estimated.tum",
-                                     "states.bin",    "actions.csv",    "map.bt",
-                                     "map.ot",        "cloud.ply",      "voxels.bin",
-                                     "scene.bin",     "story.bin",      "looks.csv",
-                                     "video.mp4",     "report.html",    "log.txt",
-                                     "frames",        "views"});
+constexpr auto kRunFiles = std::to_array<std::string_view>({"manifest.json",
+                                                            "config.yaml",
+                                                            "steps.csv",
+                                                            "candidates.csv",
+                                                            "metrics.json",
+                                                            "trajectory.tum",
+                                                            "trajectory_estimated.tum",
+                                                            "states.bin",
+                                                            "actions.csv",
+                                                            "map.bt",
+                                                            "map.ot",
+                                                            "cloud.ply",
+                                                            "voxels.bin",
+                                                            "scene.bin",
+                                                            "story.bin",
+                                                            "looks.csv",
+                                                            "video.mp4",
+                                                            "report.html",
+                                                            "log.txt",
+                                                            "frames",
+                                                            "views"});
 
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {

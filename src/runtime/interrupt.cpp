@@ -8,6 +8,8 @@
 #include <ctime>
 #include <string_view>
 
+#include "vantage/core/log.hpp"
+
 namespace vantage {
 namespace {
 
@@ -16,13 +18,13 @@ std::atomic<int> g_signal = 0;
 static_assert(std::atomic<int>::is_always_lock_free, "as a signal handler needs");
 timespec g_first{};
 
-/// One Ctrl-C can arrive twice: at the process and at its group.
+/// One Ctrl-C can arrive twice, at the process and at its group; nobody is that fast.
 bool is_echo() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   const double later_s = static_cast<double>(now.tv_sec - g_first.tv_sec) +
                          1e-9 * static_cast<double>(now.tv_nsec - g_first.tv_nsec);
-  return later_s < 1.0;
+  return later_s < 0.15;
 }
 
 /// As a signal handler may.
@@ -36,10 +38,10 @@ extern "C" void remember_signal(int signal) {
   if (g_signal == 0) {
     clock_gettime(CLOCK_MONOTONIC, &g_first);
     g_signal = signal;
+    if (verbosity() == Verbosity::quiet) return;
     say("\nstopping, and writing what there is; once more ends it at once\n");
   } else if (!is_echo()) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
+    ::_exit(128 + signal);
   }
 }
 

@@ -10,8 +10,8 @@ struct Interrupted : Error {
   explicit Interrupted(int signal);
 };
 
-/// Catches SIGINT and SIGTERM from now on and says so on stderr; a second signal, a second or more
-/// after the first, ends the process at once.
+/// Catches SIGINT and SIGTERM from now on and says so on stderr, unless quiet; a second signal ends
+/// the process at once, with the code of the signal and nothing more written.
 void catch_interrupts();
 /// @throws Interrupted if a signal was caught. Called once per control tick and part of the loop.
 void throw_if_interrupted();

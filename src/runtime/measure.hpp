@@ -44,6 +44,7 @@ struct Measures {
   std::span<const ScalarMeasure> scalars;
   std::span<const CurveMeasure> curves = {};
   PredictionErrors (*prediction_errors)(const MeasuredEpisode& episode) = nullptr;
+  std::span<const std::string_view> headlines = {};  ///< names of the scalars to look at first
 };
 
 /// Those that every task has.

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/episode_run.hpp"
+#include "vantage/runtime/log/candidate_table.hpp"
 #include "vantage/runtime/log/run_log.hpp"
 
 namespace vantage {
@@ -28,12 +32,18 @@ class EpisodeRecorder {
   /// Hooks itself to the world's ticks. With `lean` options neither states nor images are kept.
   /// @param steps_header of steps.csv, without line end
   /// @param extent progress that is the whole episode
+  /// @param candidate_columns of candidates.csv, see CandidateTable; empty: there is none
   /// @throws OutputError, RendererError
   EpisodeRecorder(const EpisodeRun& run, RecordedRobot robot, const std::string& steps_header,
-                  double extent);
+                  double extent, std::string_view candidate_columns = {});
 
   /// Adds a row to steps.csv, tells the progress and keeps a still of the video.
-  void step(const std::string& row, std::size_t index, double progress, const std::string& text);
+  /// @param number of the step, the first is 1
+  void step(const std::string& row, std::size_t number, double progress, const std::string& text);
+
+  /// Adds the rows of a decision to candidates.csv.
+  void add_candidates(std::span<const CandidateRow> rows, std::size_t chosen);
+  [[nodiscard]] bool keeps_candidates() const { return candidates_.has_value(); }
 
   [[nodiscard]] bool lean() const { return lean_; }
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
@@ -45,6 +55,7 @@ class EpisodeRecorder {
   bool lean_;
   RunLog log_;
   GrowingFile steps_;
+  std::optional<CandidateTable> candidates_;
   Progress progress_;
 };
 

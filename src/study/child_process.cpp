@@ -19,6 +19,7 @@ namespace {
 
 /// Between fork and exec: system calls only.
 [[noreturn]] void become(char* const* arguments, int output, pid_t parent) {
+  ::setpgid(0, 0);  // Ctrl-C reaches the sweep, which passes it on
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it ended before the line above
   ::close(STDIN_FILENO);

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "vantage/core/error.hpp"
+#include "vantage/report/former_run.hpp"
 #include "vantage/study/results.hpp"
 #include "vantage/study/study_page.hpp"
 
@@ -16,8 +17,6 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kMaxDifferences = 40;
 
 /// What depends on the machine and its load.
 constexpr auto kWallTimes = std::to_array<std::string_view>(
@@ -43,15 +42,20 @@ void flatten(const Json& json, const std::string& key, std::vector<Leaf>& leaves
   }
 }
 
-std::vector<Leaf> leaves_of(const fs::path& folder, bool study) {
+Json numbers_of(const fs::path& folder, bool study) {
   const fs::path file = folder / (study ? "summary.json" : "metrics.json");
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     throw InputError(fmt::format("{}: no such file; {}", file.string(),
                                  study ? "vantage sweep collect writes it" : "not a run folder"));
   }
-  const Json json = read_json_or_null(file);
+  Json json = read_json_or_null(file);
   if (json.is_null()) throw InputError(file.string() + ": not a JSON object");
+  bring_up_to_date(json);
+  return json;
+}
+
+std::vector<Leaf> leaves_of(const Json& json) {
   std::vector<Leaf> leaves;
   flatten(json, "", leaves);
   return leaves;
@@ -67,17 +71,13 @@ ComparedValue compared(const std::string& key, const Json* first, const Json* se
     const double a = first->get<double>();
     const double b = second->get<double>();
     value.difference = b - a;
-    if (a != b) value.relative = std::abs(b - a) / std::max(std::abs(a), std::abs(b));
+    value.relative = relative_difference(a, b);
     value.beyond = value.relative > tolerance;
   } else if (*first != *second) {
     const bool text = first->is_string() && second->is_string();
     value.beyond = tolerance == 0.0 || !text || std::ranges::find(kBinding, key) != kBinding.end();
   }
   return value;
-}
-
-bool concerns_the_whole(const ComparedValue& value) {
-  return value.key.find('[') == std::string::npos && value.key.find("tables.") != 0;
 }
 
 }  // namespace
@@ -89,11 +89,15 @@ FolderComparison compare_folders(const fs::path& first, const fs::path& second, 
                                  study ? "study" : "run", second.string(),
                                  study ? "run" : "study"));
   }
-  const auto ours = leaves_of(first, study);
-  const auto theirs = leaves_of(second, study);
+  const Json our_numbers = numbers_of(first, study);
+  const Json their_numbers = numbers_of(second, study);
+  const auto ours = leaves_of(our_numbers);
+  const auto theirs = leaves_of(their_numbers);
   std::map<std::string, const Json*> by_key;
   for (const Leaf& leaf : theirs) by_key[leaf.first] = &leaf.second;
-  FolderComparison comparison;
+  FolderComparison comparison{first.string(), second.string(), {}, {}, 0};
+  comparison.headlines =
+      (study ? study_headlines : run_headlines)(our_numbers, their_numbers, tolerance);
   for (const auto& [key, json] : ours) {
     const auto other = by_key.find(key);
     const Json* found = other == by_key.end() ? nullptr : other->second;
@@ -108,32 +112,33 @@ FolderComparison compare_folders(const fs::path& first, const fs::path& second, 
   return comparison;
 }
 
-std::string comparison_text(const FolderComparison& comparison) {
-  std::string text;
-  std::size_t shown = 0;
+std::string comparison_text(const FolderComparison& comparison, bool all) {
+  std::string text = headlines_text(comparison.headlines, comparison.first, comparison.second);
   for (const ComparedValue& value : comparison.values) {
-    if (!value.beyond && !concerns_the_whole(value)) continue;
-    if (value.beyond && ++shown > kMaxDifferences) continue;
-    text += fmt::format("{} {:<44} {:>24} {:>24}", value.beyond ? "!" : " ", value.key,
-                        value.first.empty() ? "-" : value.first,
-                        value.second.empty() ? "-" : value.second);
+    if (!all || !value.beyond) continue;
+    text +=
+        fmt::format("! {:<44} {:>24} {:>24}", value.key, value.first.empty() ? "-" : value.first,
+                    value.second.empty() ? "-" : value.second);
     if (value.difference != 0.0) {
       text += fmt::format("  {:+.4g} ({:.2g} %)", value.difference, 100.0 * value.relative);
     }
     text += "\n";
   }
-  if (shown > kMaxDifferences) {
-    text += fmt::format("! and {} more\n", shown - kMaxDifferences);
-  }
-  return text + fmt::format("{} of {} values differ beyond the tolerance\n", comparison.beyond,
-                            comparison.values.size());
+  return text + fmt::format("{} of {} values differ beyond the tolerance{}\n", comparison.beyond,
+                            comparison.values.size(),
+                            all || comparison.beyond == 0 ? "" : "; --all lists them");
 }
 
 Json comparison_json(const FolderComparison& comparison, double tolerance) {
   const auto side = [](const std::string& text) {
     return text.empty() ? Json(nullptr) : Json::parse(text);
   };
-  Json json = {{"tolerance", tolerance}, {"beyond", comparison.beyond}, {"values", Json::object()}};
+  Json json = {{"first", comparison.first},
+               {"second", comparison.second},
+               {"tolerance", tolerance},
+               {"beyond", comparison.beyond},
+               {"headlines", headlines_json(comparison.headlines)},
+               {"values", Json::object()}};
   for (const ComparedValue& value : comparison.values) {
     json["values"][value.key] = {{"first", side(value.first)},
                                  {"second", side(value.second)},

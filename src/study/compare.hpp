@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "vantage/study/kit/headlines.hpp"
+
 namespace vantage {
 
 struct ComparedValue {
@@ -19,6 +21,9 @@ struct ComparedValue {
 };
 
 struct FolderComparison {
+  std::string first;  ///< folder, as it was named
+  std::string second;
+  std::vector<Headline> headlines;
   std::vector<ComparedValue> values;  ///< in the order of the first file; wall times left out
   std::size_t beyond = 0;             ///< how many of them
 };
@@ -30,8 +35,8 @@ struct FolderComparison {
 FolderComparison compare_folders(const std::filesystem::path& first,
                                  const std::filesystem::path& second, double tolerance);
 
-/// Numbers of the whole run or study, and what differs beyond the tolerance.
-std::string comparison_text(const FolderComparison& comparison);
+/// The headlines, and how much else differs beyond the tolerance; `all`: every value that does.
+std::string comparison_text(const FolderComparison& comparison, bool all = false);
 nlohmann::ordered_json comparison_json(const FolderComparison& comparison, double tolerance);
 
 }  // namespace vantage

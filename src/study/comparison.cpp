@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "vantage/study/figures/figure.hpp"
+
 namespace vantage {
 namespace {
 
@@ -101,17 +103,16 @@ std::string comparison_csv(const Comparison& comparison) {
       "panel,level,episodes,mean,low,high,pairs,difference,difference_low,difference_high,ratio,"
       "ratio_low,ratio_high,p_value\n";
   for (const ComparisonRow& row : comparison.rows) {
-    text += fmt::format("{},{},{},{},{},{},", row.panel, row.level, row.count, row.mean,
-                        row.interval.low, row.interval.high);
+    text += fmt::format("{},{},{},{},{},", row.panel, row.level, row.count, row.mean,
+                        interval_csv(row.interval, row.count));
     if (!row.difference) {
       text += ",,,,,,,\n";
       continue;
     }
     const Difference& d = *row.difference;
-    text += fmt::format("{},{},{},{},", d.pairs, d.mean, d.interval.low, d.interval.high);
-    text += d.ratio
-                ? fmt::format("{},{},{},", *d.ratio, d.ratio_interval->low, d.ratio_interval->high)
-                : ",,,";
+    text += fmt::format("{},{},{},", d.pairs, d.mean, interval_csv(d.interval, d.pairs));
+    text +=
+        d.ratio ? fmt::format("{},{},", *d.ratio, interval_csv(*d.ratio_interval, d.pairs)) : ",,,";
     text += fmt::format("{}\n", d.p_value);
   }
   return text;
@@ -119,12 +120,14 @@ std::string comparison_csv(const Comparison& comparison) {
 
 nlohmann::ordered_json comparison_json(const Comparison& comparison) {
   using Json = nlohmann::ordered_json;
-  const auto interval = [](const Interval& i) { return Json{i.low, i.high}; };
+  const auto interval = [](const Interval& i, std::size_t count) {
+    return has_interval(count) ? Json{i.low, i.high} : Json();
+  };
   Json json = Json::object();
   for (const ComparisonRow& row : comparison.rows) {
     Json entry = {{"episodes", row.count},
                   {"mean", row.mean},
-                  {"interval", interval(row.interval)},
+                  {"interval", interval(row.interval, row.count)},
                   {"least", row.least},
                   {"most", row.most}};
     if (row.difference) {
@@ -132,11 +135,11 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
       entry["difference"] = {{"to", comparison.reference},
                              {"pairs", d.pairs},
                              {"mean", d.mean},
-                             {"interval", interval(d.interval)},
+                             {"interval", interval(d.interval, d.pairs)},
                              {"p_value", d.p_value}};
       if (d.ratio) {
         entry["difference"]["ratio"] = *d.ratio;
-        entry["difference"]["ratio_interval"] = interval(*d.ratio_interval);
+        entry["difference"]["ratio_interval"] = interval(*d.ratio_interval, d.pairs);
       }
     }
     json[row.panel][row.level] = std::move(entry);

@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
 
 #include "vantage/core/error.hpp"
+#include "vantage/report/former_run.hpp"
 
 namespace vantage {
 namespace {
@@ -13,7 +15,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json metrics_of(const StudyResults& results, std::size_t i) {
-  return read_json_or_null(episode_folder(results.directory, results.plan[i]) / "metrics.json");
+  Json metrics =
+      read_json_or_null(episode_folder(results.directory, results.plan[i]) / "metrics.json");
+  bring_up_to_date(metrics);
+  return metrics;
 }
 
 /// Where each episode stands in the comparison.
@@ -168,6 +173,17 @@ std::string csv_start(const StudyResults& results, std::size_t episode) {
   return row;
 }
 
+/// The measures of the tasks that the study has, of wall time or else.
+std::vector<std::size_t> columns_of(const StudyResults& results, bool wall) {
+  std::set<std::size_t> columns;
+  for (const PlannedEpisode& episode : results.plan) {
+    for (const ScalarMeasure& scalar : measures(episode.resolved.task).scalars) {
+      if (scalar.name.wall == wall) columns.insert(find_scalar(scalar.name.name).value());
+    }
+  }
+  return {columns.begin(), columns.end()};
+}
+
 std::string csv_header(const StudyResults& results) {
   std::string header = "episode";
   for (const Factor& factor : results.study.factors) header += "," + factor.name;
@@ -204,14 +220,12 @@ StudyResults read_study_results(const fs::path& study_dir) {
 
 std::string results_csv(const StudyResults& results) {
   std::string text = csv_header(results) + ",status";
-  for (const MeasureName& scalar : scalar_measures()) {
-    if (!scalar.wall) text += fmt::format(",{}", scalar.name);
-  }
+  const std::vector<std::size_t> columns = columns_of(results, false);
+  for (const std::size_t s : columns) text += fmt::format(",{}", scalar_measures()[s].name);
   text += ",state_hash\n";
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     text += fmt::format("{},{}", csv_start(results, i), state_name(results.states[i]));
-    for (std::size_t s = 0; s < scalar_measures().size(); ++s) {
-      if (scalar_measures()[s].wall) continue;
+    for (const std::size_t s : columns) {
       const auto value = results.measures[i] ? results.measures[i]->scalars[s] : std::nullopt;
       text += value ? fmt::format(",{}", *value) : ",";
     }
@@ -223,9 +237,8 @@ std::string results_csv(const StudyResults& results) {
 
 std::string timings_csv(const StudyResults& results) {
   std::string text = csv_header(results) + ",wall_time_s,real_time_factor,plan_time_s,map_time_s";
-  for (const MeasureName& scalar : scalar_measures()) {
-    if (scalar.wall) text += fmt::format(",{}", scalar.name);
-  }
+  const std::vector<std::size_t> columns = columns_of(results, true);
+  for (const std::size_t s : columns) text += fmt::format(",{}", scalar_measures()[s].name);
   text += "\n";
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     if (!results.measures[i]) continue;
@@ -238,8 +251,7 @@ std::string timings_csv(const StudyResults& results) {
     }
     text += fmt::format("{},{},{},{},{}", csv_start(results, i), metrics.value("wall_time_s", 0.0),
                         metrics.value("real_time_factor", 0.0), plan_s, map_s);
-    for (std::size_t s = 0; s < scalar_measures().size(); ++s) {
-      if (!scalar_measures()[s].wall) continue;
+    for (const std::size_t s : columns) {
       const auto& value = results.measures[i]->scalars[s];
       text += value ? fmt::format(",{}", *value) : ",";
     }

@@ -3,6 +3,7 @@
 ///   title: ...                   of its report
 ///   episode: tabletop.yaml       base of every episode
 ///   set: {scans: 10}             overrides of it, keys as those of --set
+///   seeds: 1..20                 or a list: a factor called seed, the last one
 ///   factors:                     the episodes are the product of all levels, the last factor
 ///   fastest
 ///     method:
@@ -26,7 +27,7 @@ namespace vantage {
 
 /// What `sweep collect` makes of the results.
 struct StudyReport {
-  std::string compare = "method";
+  std::string compare = "method";  ///< if there is none: the first factor that is no seed
   std::string reference;
   std::string panels;
   std::vector<std::string> curves;

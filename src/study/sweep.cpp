@@ -103,9 +103,9 @@ class Sweep {
     ResolvedEpisode configuration = episode.resolved;
     if (options_.jobs > 1) configuration.setup.options.threads = 1;
     write_file(folder / "episode.yaml", episode_yaml(configuration));
-    const std::vector<std::string> command{
-        "vantage", "run",        (folder / "episode.yaml").string(), "--out", folder.string(),
-        "--lean",  "--overwrite"};
+    std::vector<std::string> command{"vantage", "run",           (folder / "episode.yaml").string(),
+                                     "--out",   folder.string(), "--overwrite"};
+    if (!options_.keep_states) command.emplace_back("--lean");
     const pid_t pid = start_self(command, folder / "output.txt");
     running_.push_back({pid, index, std::move(lock)});
   }

@@ -22,8 +22,9 @@ std::vector<PlannedEpisode> shard_of(std::vector<PlannedEpisode> plan, const Sha
 
 struct StudySweepOptions {
   std::filesystem::path directory;
-  int jobs = 1;            ///< episodes at a time; with more than one each runs on one thread
-  bool overwrite = false;  ///< go on in a folder that holds another study
+  int jobs = 1;              ///< episodes at a time; with more than one each runs on one thread
+  bool overwrite = false;    ///< go on in a folder that holds another study
+  bool keep_states = false;  ///< whole run folders, to view and replay, instead of lean ones
 };
 
 /// Makes the folder and writes study.yaml into it.

@@ -15,20 +15,21 @@ std::string number(double value) {
   return std::abs(value) >= 1e4 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
-std::string with_interval(double value, const Interval& interval) {
+std::string with_interval(double value, const Interval& interval, std::size_t values) {
+  if (!has_interval(values)) return number(value);
   return fmt::format("{} [{}, {}]", number(value), number(interval.low), number(interval.high));
 }
 
 std::vector<std::string> cells(const ComparisonRow& row) {
   std::vector<std::string> cells{row.level, fmt::format("{}", row.count),
-                                 with_interval(row.mean, row.interval)};
+                                 with_interval(row.mean, row.interval, row.count)};
   if (!row.difference) {
     cells.insert(cells.end(), 3, "");
     return cells;
   }
   const Difference& d = *row.difference;
-  cells.push_back(with_interval(d.mean, d.interval));
-  cells.push_back(d.ratio ? with_interval(*d.ratio, *d.ratio_interval) : "");
+  cells.push_back(with_interval(d.mean, d.interval, d.pairs));
+  cells.push_back(d.ratio ? with_interval(*d.ratio, *d.ratio_interval, d.pairs) : "");
   cells.push_back(fmt::format("{:.2g}", d.p_value));
   return cells;
 }
@@ -51,7 +52,8 @@ TextTable table_of(const FigurePanel& panel, const std::string& x_label) {
     std::vector<std::string> row{number(x)};
     for (const FigureSeries& series : panel.series) {
       const FigurePoint* point = point_at(series, x);
-      row.push_back(point == nullptr ? "" : with_interval(point->mean, point->interval));
+      row.push_back(point == nullptr ? ""
+                                     : with_interval(point->mean, point->interval, point->count));
     }
     table.rows.push_back(std::move(row));
   }
@@ -126,7 +128,7 @@ TextTable overview(const std::vector<Comparison>& comparisons) {
         line = table.rows.end() - 1;
       }
       line->resize(table.header.size() - 1);
-      line->push_back(with_interval(row.mean, row.interval));
+      line->push_back(with_interval(row.mean, row.interval, row.count));
     }
   }
   for (auto& row : table.rows) row.resize(table.header.size());

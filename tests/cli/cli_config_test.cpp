@@ -11,6 +11,43 @@ TEST_F(CommandLine, UnknownKey) {
   expect_error(vantage("run " + episode), 2, {"e.yaml:2", "scnas", "scans"});
 }
 
+TEST_F(CommandLine, AMistypedCommandSuggestsTheNearest) {
+  for (const auto& [typed, meant] : {std::pair("rnu", "did you mean run?"),
+                                     {"sweep rn x.yaml", "did you mean run?"},
+                                     {"sweep -q colect", "did you mean collect?"},
+                                     {"dataset contact", "known: render, info"},
+                                     {"valdiate x.yaml", "did you mean validate?"},
+                                     {"-h2", "-h2"}}) {
+    const Result result = vantage(typed);
+    EXPECT_EQ(result.exit_code, 2) << typed;
+    EXPECT_THAT(result.output, HasSubstr(meant)) << typed;
+  }
+  EXPECT_THAT(vantage("rnu").output,
+              HasSubstr("error: unknown command 'rnu'; did you mean run?\n"));
+}
+
+TEST_F(CommandLine, WhatIsNoEpisodeSaysWhatTakesIt) {
+  const auto study = file("s.yaml", "episode: assets/episodes/tabletop.yaml\nseeds: 1..2\n");
+  expect_error(vantage("run " + study), 2, {"this is a study: use vantage sweep run", "--out DIR"});
+  const auto scene = file("room.xml", "<mujoco/>");
+  expect_error(vantage("run " + scene), 2, {"this is a scene; an episode is", "--set scene="});
+  expect_error(vantage("run ."), 3, {"this is a folder"});
+  const auto episode = file("e.yaml", "scans: 3\n");
+  expect_error(vantage("sweep run " + episode), 2, {"this is an episode: use vantage run"});
+}
+
+TEST_F(CommandLine, ValidateListsEveryErrorOfAStudy) {
+  const auto study = file("s.yaml",
+                          "episode: assets/episodes/tabletop.yaml\nset: {scnas: 1}\n"
+                          "factors: {m: {a: {gian: simple}, b: {scans: many}}}\n"
+                          "report: {compare: n, curves: [aera]}\n");
+  const Result result = vantage("validate " + study);
+  EXPECT_EQ(result.exit_code, 2);
+  for (const char* part : {"scnas", "gian", "many", "unknown factor 'n'", "aera"}) {
+    EXPECT_THAT(result.output, HasSubstr(part));
+  }
+}
+
 TEST_F(CommandLine, DuplicateKey) {
   const auto episode = file("e.yaml", "scans: 3\nseed: 1\nscans: 4\n");
   expect_error(vantage("run " + episode), 2, {"e.yaml:3", "scans", "duplicate"});

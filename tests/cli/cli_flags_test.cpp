@@ -70,6 +70,14 @@ TEST_F(CommonFlags, QuietLeavesWarningsAndErrors) {
   EXPECT_THAT(vantage(std::string("run ") + kShort + "--out run").output, Not(HasSubstr("info")));
 }
 
+TEST_F(CommonFlags, QuietPrintsResultsOnly) {
+  const std::string run = std::string("run ") + kShort + "--out run --overwrite ";
+  EXPECT_EQ(vantage(run + ">result 2>told").exit_code, 0);
+  EXPECT_EQ(shell("cat '" + (folder_ / "told").string() + "'").output, "");
+  EXPECT_THAT(shell("cat '" + (folder_ / "result").string() + "'").output,
+              HasSubstr("\nended by: limit of 1 scans\n"));
+}
+
 TEST_F(CommonFlags, JsonIsOneObject) {
   EXPECT_THAT(json_of("list gains")["gains"], Contains("adaptive"));
   EXPECT_TRUE(json_of("list").contains("scenes"));

@@ -99,6 +99,15 @@ TEST(Fields, UnknownKeysAreNamedWithTheKnownOnes) {
   EXPECT_NE(error_of("more: [{x: 1}]\n").find("more[0].x: unknown key 'x'"), std::string::npos);
 }
 
+TEST(Fields, EveryUnknownKeyIsNamed) {
+  try {
+    (void)read("radius: 2\ninner: {hihg: 2, lwo: 1}\ncell: 3\n");
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.problems().size(), 4U);
+  }
+}
+
 TEST(Fields, WrongTypesNameFileLineKeyAndValue) {
   EXPECT_EQ(error_of("\nradius_m: wide\n"), "e.yaml:2: radius_m: expected a number, got 'wide'");
   EXPECT_EQ(error_of("radius_m: [1]\n"), "e.yaml:1: radius_m: expected a number, got a list");

@@ -65,6 +65,18 @@ TEST_F(Log, ProgressIsLinesWithoutATerminal) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "scan: 25 % \nscan: 100 % done\n");
 }
 
+TEST_F(Log, ProgressOfManyThingsIsNotManyLines) {
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 20; ++i) {
+    Progress progress("work", 2.0);
+    progress.update(1.0);
+    progress.update(2.0);
+    progress.update(2.0);
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
 TEST_F(Log, ProgressIsSilentWhenQuiet) {
   set_verbosity(Verbosity::quiet);
   testing::internal::CaptureStderr();

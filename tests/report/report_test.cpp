@@ -90,6 +90,29 @@ TEST(Report, EmbedsTheMeasurements) {
   EXPECT_TRUE(data["media"]["frame"].is_null());
 }
 
+/// Then `path_length_m` of a scan was the length of its leg, and scans counted from 0.
+TEST(Report, BringsARunOfAFormerVersionUpToDate) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  json former = support::sample_metrics();
+  for (json& scan : former["scans"]) {
+    scan["path_length_m"] = scan["leg_length_m"];
+    scan.erase("leg_length_m");
+  }
+  write_file(run / "metrics.json", former.dump());
+  write_file(run / "steps.csv", "time_s,scan,path_length_m\n1,0,0.0\n2,1,1.5\n3,2,2.0\n");
+  const json data = embedded_data(page_of(run));
+  for (int scan = 0; scan < support::kSampleScans; ++scan) {
+    const json& now = support::sample_metrics()["scans"][scan];
+    EXPECT_EQ(data["metrics"]["scans"][scan]["leg_length_m"], now["leg_length_m"]);
+    EXPECT_NEAR(data["metrics"]["scans"][scan]["path_length_m"].get<double>(),
+                now["path_length_m"].get<double>(), 1e-12);
+  }
+  EXPECT_EQ(data["steps"]["columns"], json({"time_s", "scan", "leg_length_m"}));
+  EXPECT_EQ(data["steps"]["rows"][0][1], "1");
+  EXPECT_EQ(data["steps"]["rows"][2], json({"3", "3", "2.0"}));
+}
+
 TEST(Report, IsTheSameFileForTheSameRun) {
   const TemporaryDirectory run;
   support::write_sample_run(run.path());

@@ -124,7 +124,7 @@ inline nlohmann::json sample_scan(int scan, Rng& rng) {
           {"chosen_view", scan == 0 ? -1 : sample_choice(scan)},
           {"candidates", 30},
           {"plan_time_s", 0.05 + 0.02 * rng.uniform()},
-          {"path_length_m", scan == 0 ? 0.0 : 1.1 + 0.8 * rng.uniform()},
+          {"leg_length_m", scan == 0 ? 0.0 : 1.1 + 0.8 * rng.uniform()},
           {"pose_error_m", 0.003 + 0.002 * rng.uniform()},
           {"pose_error_before_registration_m", before_m},
           {"fallback", scan == 4},
@@ -147,8 +147,13 @@ inline nlohmann::json sample_metrics() {
                             {"state_hash", "9f2c41d07be6a813"},
                             {"observability", 0.9962},
                             {"map", {{"precision", 0.981}, {"recall", 0.934}}}};
-  for (int scan = 0; scan < kSampleScans; ++scan)
+  double path_length_m = 0.0;
+  for (int scan = 0; scan < kSampleScans; ++scan) {
     metrics["scans"].push_back(sample_scan(scan, rng));
+    path_length_m += metrics["scans"].back()["leg_length_m"].get<double>();
+    metrics["scans"].back()["path_length_m"] = path_length_m;
+  }
+  metrics["path_length_m"] = path_length_m;
   for (int id = 0; id < 30; ++id) {
     metrics["candidates"].push_back(view_json(sample_view(id)));
     metrics["candidates"].back()["id"] = id;
@@ -182,15 +187,15 @@ inline std::string sample_trajectory(double drift_m) {
 inline std::string sample_steps(const nlohmann::json& metrics) {
   std::string text =
       "time_s,scan,chosen_view,fallback,unobserved_cells,observable_unobserved_cells,"
-      "actual_new_cells,plan_time_s,path_length_m,pose_error_m\n";
-  int index = 0;
+      "actual_new_cells,plan_time_s,path_length_m,leg_length_m,pose_error_m\n";
+  int number = 0;
   for (const auto& s : metrics["scans"]) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", s["time_s"].get<double>(), index++,
-                        s["chosen_view"].get<int>(), s["fallback"].get<bool>(),
-                        s["unobserved_cells"].get<double>(),
-                        s["observable_unobserved_cells"].get<double>(),
-                        s["actual_new_cells"].get<double>(), s["plan_time_s"].get<double>(),
-                        s["path_length_m"].get<double>(), s["pose_error_m"].get<double>());
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{}\n", s["time_s"].get<double>(), ++number,
+        s["chosen_view"].get<int>(), s["fallback"].get<bool>(), s["unobserved_cells"].get<double>(),
+        s["observable_unobserved_cells"].get<double>(), s["actual_new_cells"].get<double>(),
+        s["plan_time_s"].get<double>(), s["path_length_m"].get<double>(),
+        s["leg_length_m"].get<double>(), s["pose_error_m"].get<double>());
   }
   return text;
 }

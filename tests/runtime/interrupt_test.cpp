@@ -7,10 +7,13 @@
 #include <cstdlib>
 #include <thread>
 
+#include "vantage/core/log.hpp"
+
 namespace vantage {
 namespace {
 
-void raise_twice(int second_signal, std::chrono::milliseconds pause) {
+/// @param otherwise exit code where the second one did not end the process
+void raise_twice(int second_signal, std::chrono::milliseconds pause, int otherwise = 0) {
   catch_interrupts();
   std::raise(SIGINT);
   std::this_thread::sleep_for(pause);
@@ -18,7 +21,7 @@ void raise_twice(int second_signal, std::chrono::milliseconds pause) {
   try {
     throw_if_interrupted();
   } catch (const Interrupted& error) {
-    std::_Exit(static_cast<int>(error.code()));
+    std::_Exit(otherwise != 0 ? otherwise : static_cast<int>(error.code()));
   }
 }
 
@@ -30,8 +33,18 @@ TEST(Interrupt, AnEchoOfTheFirstIsNotASecond) {
 
 TEST(Interrupt, ASecondOneEndsTheProcess) {
   using namespace std::chrono_literals;
-  EXPECT_EXIT(raise_twice(SIGINT, 1100ms), testing::KilledBySignal(SIGINT), "stopping");
-  EXPECT_EXIT(raise_twice(SIGTERM, 1100ms), testing::KilledBySignal(SIGTERM), "stopping");
+  for (const auto pause : {300ms, 1100ms}) {
+    EXPECT_EXIT(raise_twice(SIGINT, pause, 1), testing::ExitedWithCode(130), "stopping");
+    EXPECT_EXIT(raise_twice(SIGTERM, pause, 1), testing::ExitedWithCode(143), "stopping");
+  }
+}
+
+TEST(Interrupt, QuietIsQuiet) {
+  const auto quiet = [] {
+    set_verbosity(Verbosity::quiet);
+    raise_twice(SIGINT, {});
+  };
+  EXPECT_EXIT(quiet(), testing::ExitedWithCode(130), "^$");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
@@ -47,6 +49,62 @@ TEST_F(Compare, ToleranceIsRelative) {
   EXPECT_EQ(compare_folders(first, second, 0.21).beyond, 0U);
 }
 
+TEST_F(Compare, SaysFirstWhatMatters) {
+  const auto first = run("a", {{"collisions", 0}, {"simulated_time_s", 61.23456}});
+  const auto second =
+      run("b", {{"path_length_m", 10.0}, {"collisions", 0}, {"simulated_time_s", 61.23456}});
+  const FolderComparison comparison = compare_folders(first, second, 0.0);
+  std::istringstream lines(comparison_text(comparison));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line, testing::AllOf(HasSubstr(first.string()), HasSubstr(second.string()),
+                                   HasSubstr("difference")));
+  std::vector<std::string> path_row;
+  std::size_t rows = 0;
+  for (; std::getline(lines, line) && line.find("values differ") == line.npos; ++rows) {
+    if (line.find("path_length_m") == line.npos) continue;
+    std::istringstream cells(line);
+    path_row.assign(std::istream_iterator<std::string>(cells), {});
+  }
+  EXPECT_EQ(path_row, (std::vector<std::string>{"!", "path_length_m", "8", "10", "+2"}));
+  EXPECT_EQ(rows, 7U) << "nothing else unasked";
+  EXPECT_THAT(line, HasSubstr("1 of 8 values differ beyond the tolerance; --all"));
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("61.23 "));
+  const Json json = comparison_json(comparison, 0.0);
+  EXPECT_EQ(json["first"], first.string());
+  EXPECT_EQ(json["headlines"][2], Json({{"name", "path_length_m"},
+                                        {"first", 8.0},
+                                        {"second", 10.0},
+                                        {"difference", 2.0},
+                                        {"beyond", true}}));
+  EXPECT_TRUE(json["headlines"][0]["first"].is_null()) << "the share of what there is to see";
+}
+
+TEST_F(Compare, AllIsOnDemand) {
+  const auto first = run("a", {});
+  const auto second = run("b", {{"scans", {{{"unobserved_cells", 90}}}}});
+  const FolderComparison comparison = compare_folders(first, second, 0.0);
+  EXPECT_THAT(comparison_text(comparison), testing::Not(HasSubstr("unobserved_cells")));
+  EXPECT_THAT(comparison_text(comparison, true), HasSubstr("! scans[0].unobserved_cells"));
+}
+
+TEST_F(Compare, StudiesAreHeldAgainstEachOtherByTheirTables) {
+  const auto study = [&](const std::string& name, double mean) {
+    fs::create_directories(folder_ / name);
+    std::ofstream(folder_ / name / "study.yaml") << "x";
+    const Json all = {{"adaptive", {{"episodes", 2}, {"mean", mean}}}};
+    const Json summary = {
+        {"study", "s"}, {"completed", 2}, {"tables", {{"area", {{"north", all}, {"all", all}}}}}};
+    std::ofstream(folder_ / name / "summary.json") << summary;
+    return folder_ / name;
+  };
+  const FolderComparison comparison = compare_folders(study("a", 2.0), study("b", 1.5), 0.0);
+  ASSERT_EQ(comparison.headlines.size(), 2U);
+  EXPECT_EQ(comparison.headlines[1].name, "area, adaptive");
+  EXPECT_EQ(comparison.headlines[1].second, 1.5);
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("-0.5"));
+}
+
 TEST_F(Compare, TextsCountExactlyOrWhereTheyBind) {
   const auto first = run("a", {});
   const auto other_method = run("b", {{"method", "simple"}, {"state_hash", "aa"}});
@@ -54,6 +112,15 @@ TEST_F(Compare, TextsCountExactlyOrWhereTheyBind) {
   EXPECT_EQ(compare_folders(first, other_method, 0.01).beyond, 0U);
   const auto diverged = run("c", {{"status", "diverged"}});
   EXPECT_EQ(compare_folders(first, diverged, 0.5).beyond, 1U);
+}
+
+/// Then `path_length_m` of a scan was the length of its leg.
+TEST_F(Compare, ARunOfAFormerVersionMeansWhatItSaid) {
+  const auto former = run("a", {{"scans", {{{"path_length_m", 1.5}}, {{"path_length_m", 2.0}}}}});
+  const auto now = run("b", {{"scans",
+                              {{{"path_length_m", 1.5}, {"leg_length_m", 1.5}},
+                               {{"path_length_m", 3.5}, {"leg_length_m", 2.0}}}}});
+  EXPECT_EQ(compare_folders(former, now, 0.0).beyond, 0U);
 }
 
 TEST_F(Compare, MissingValuesCount) {

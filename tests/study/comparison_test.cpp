@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "vantage/study/text_table.hpp"
+
 namespace vantage {
 namespace {
 
@@ -47,6 +49,19 @@ TEST(Comparison, PairsCancelWhatTheyShare) {
   EXPECT_DOUBLE_EQ(*right.difference->ratio, 0.5);
   EXPECT_DOUBLE_EQ(right.difference->ratio_interval->low, 0.5);
   EXPECT_DOUBLE_EQ(right.difference->ratio_interval->high, 0.5);
+}
+
+TEST(Comparison, OneEpisodeHasNoInterval) {
+  const std::vector<Sample> samples{{0, 0, 0, 1.0}, {0, 1, 0, 2.0}};
+  const Comparison one = compare_levels("n", "n", {"p"}, {"a", "b"}, 0, samples);
+  EXPECT_EQ(comparison_csv(one).substr(comparison_csv(one).find('\n')),
+            "\np,a,1,1,,,,,,,,,,\np,b,1,2,,,1,1,,,2,,,1\n");
+  const auto json = comparison_json(one);
+  EXPECT_TRUE(json["p"]["b"]["interval"].is_null());
+  EXPECT_TRUE(json["p"]["b"]["difference"]["interval"].is_null());
+  EXPECT_EQ(text_tables(one).front().rows[1],
+            (std::vector<std::string>{"b", "1", "2", "1", "2", "1"}));
+  EXPECT_TRUE(comparison_json(two_panels())["left"]["ours"]["interval"].is_array());
 }
 
 TEST(Comparison, AllPanelsComeLast) {

@@ -11,12 +11,13 @@ namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
 
-Json scan(double left, double actual, double simple, double adaptive, double leg_m) {
+Json scan(double left, double actual, double simple, double adaptive, double leg_m, double path_m) {
   return {{"unobserved_cells", left + 10.0},
           {"observable_unobserved_cells", left},
           {"predicted", {{"simple", simple}, {"adaptive", adaptive}}},
           {"actual_new_cells", actual},
-          {"path_length_m", leg_m},
+          {"path_length_m", path_m},
+          {"leg_length_m", leg_m},
           {"pose_error_m", 0.002},
           {"pose_error_before_registration_m", 0.02},
           {"fallback", leg_m > 2.0},
@@ -32,8 +33,8 @@ Json metrics(const std::string& method) {
           {"simulated_time_s", 60.0},
           {"map", {{"precision", 0.9}, {"recall", 0.8}}},
           {"scans",
-           {scan(60.0, 50.0, 0.0, 0.0, 0.0), scan(30.0, 30.0, 40.0, 33.0, 1.5),
-            scan(20.0, 10.0, 15.0, 9.0, 3.0)}}};
+           {scan(60.0, 50.0, 0.0, 0.0, 0.0, 0.0), scan(30.0, 30.0, 40.0, 33.0, 1.5, 1.5),
+            scan(20.0, 10.0, 15.0, 9.0, 3.0, 4.5)}}};
 }
 
 ResolvedEpisode planned_scans(int scans) {
@@ -185,6 +186,20 @@ TEST(Measures, OfATaskAreAllColumns) {
       const auto column = find_curve(measure.name.name);
       ASSERT_TRUE(column) << task.name << " " << measure.name.name;
       EXPECT_EQ(curve_measures()[*column].title, measure.name.title) << "one title a column";
+    }
+  });
+}
+
+TEST(Measures, EveryTaskSaysWhatToLookAtFirst) {
+  for_each_task([](const auto& task) {
+    const Measures measures = task.measures();
+    EXPECT_GE(measures.headlines.size(), 5U) << task.name;
+    EXPECT_LE(measures.headlines.size(), 7U) << task.name;
+    for (const std::string_view name : measures.headlines) {
+      EXPECT_TRUE(std::ranges::any_of(
+          measures.scalars,
+          [&](const ScalarMeasure& measure) { return measure.name.name == name; }))
+          << task.name << " " << name;
     }
   });
 }

@@ -103,6 +103,74 @@ TEST_F(StudyFile, FilesAreFoundBesideIt) {
   EXPECT_THROW(read(replaced(text, "mine/scene.xml", "no.xml")), InputError);
 }
 
+TEST_F(StudyFile, EveryFileOfAnEpisodeIsFoundBesideIt) {
+  fs::create_directory(folder_ / "mine");
+  std::ofstream(folder_ / "mine/a.model") << "model";
+  const std::string text =
+      "episode: assets/episodes/recognition.yaml\n"
+      "set: {database: {models: mine}}\n"
+      "factors:\n  method:\n    a: {model: mine/a.model}\n    b: {model: not/yet.model}\n";
+  const auto episodes = plan(text);
+  const auto& first = std::get<RecognitionTask>(episodes[0].resolved.task);
+  EXPECT_EQ(first.model, folder_ / "mine/a.model");
+  EXPECT_EQ(first.database.models, folder_ / "mine");
+  EXPECT_EQ(std::get<RecognitionTask>(episodes[1].resolved.task).model, "not/yet.model");
+}
+
+TEST_F(StudyFile, SeedsAreAFactor) {
+  const auto episodes = plan(std::string(kStudy) + "seeds: 3..5\n");
+  ASSERT_EQ(episodes.size(), 4U * 3U);
+  EXPECT_EQ(episodes[0].name, "near/random/3");
+  EXPECT_EQ(episodes[2].resolved.setup.options.seed, 5U);
+  EXPECT_EQ(episodes[3].name, "near/sparse/3");
+  EXPECT_EQ(read(read(std::string(kStudy) + "seeds: 3..5\n").yaml).factors.back().levels.size(),
+            3U);
+  const std::string alone = "episode: assets/episodes/tabletop.yaml\nseeds: ";
+  EXPECT_THAT(names(plan(alone + "[4, 2, 9]\n")), ElementsAre("4", "2", "9"));
+  EXPECT_THAT(names(plan(alone + "7\n")), ElementsAre("7"));
+  EXPECT_EQ(read(alone + "1..20\n").report.compare, "seed");
+  EXPECT_TRUE(is_study(folder_ / "s.yaml"));
+  EXPECT_THAT(names(plan(replaced(kStudy, "  start:", "  seeds: 1..2\n  start:"))).front(),
+              HasSubstr("1/near/random"));
+  for (const char* wrong : {"5..3", "1..", "a..b", "-1..2", "[]", "[1, 1]", "[1, x]", "{a: 1}"}) {
+    expect_problem(alone + wrong + "\n", {"s.yaml:2", "seed"});
+  }
+  expect_problem(std::string(kStudy) + "seeds: 1..2\nset: {seed: 4}\n", {"duplicate"});
+  expect_problem(replaced(kStudy, "set: {scans: 3}", "set: {seed: 4}") + "seeds: 1..2\n", {"seed"});
+}
+
+TEST_F(StudyFile, WithoutAMethodTheFirstFactorIsCompared) {
+  const auto study = read(
+      "episode: assets/episodes/tabletop.yaml\nseeds: 1..2\n"
+      "factors: {start: {near: {}, far: {robot.start_view: 5}}}\n");
+  EXPECT_EQ(study.report.compare, "start");
+  EXPECT_EQ(study.report.reference, "near");
+}
+
+TEST_F(StudyFile, ValidationListsEveryProblem) {
+  std::ofstream(folder_ / "s.yaml") << R"(episode: assets/episodes/tabletop.yaml
+titel: Wrong
+set: {scans: 3, scnas: 4}
+factors:
+  start:
+    ../near: {robot.start_view: 0}
+    far: {robot.start_view: five}
+  area: {a: {}}
+  method:
+    random: {choice: radnom}
+    other: {scene: no/such.xml}
+report: {compare: metod, panels: strat, curves: [aera], tables: [area, path]}
+)";
+  const Validation found = validate_study(folder_ / "s.yaml");
+  EXPECT_EQ(found.code, ExitCode::usage);
+  for (const char* part : {"titel", "scnas", "../near", "'five'", "column 'area'", "radnom",
+                           "no/such.xml", "metod", "strat", "aera", "'path'"}) {
+    EXPECT_THAT(found.problems, testing::Contains(HasSubstr(part)));
+  }
+  std::ofstream(folder_ / "s.yaml") << replaced(kStudy, "choice: random", "scene: no.xml");
+  EXPECT_EQ(validate_study(folder_ / "s.yaml").code, ExitCode::bad_input);
+}
+
 TEST_F(StudyFile, UnknownKeysAreNamedWithTheirPlace) {
   expect_problem(std::string(kStudy) + "factor: {}\n", {"s.yaml:10", "factor", "factors"});
   expect_problem(replaced(kStudy, "choice: random", "chioce: random"), {"s.yaml:8", "chioce"});

@@ -170,6 +170,32 @@ TEST_F(Sweep, FoldersOfEpisodesAreLean) {
   EXPECT_EQ(vantage("compare lean/episodes/start_0/random full --json").exit_code, 0);
 }
 
+TEST_F(Sweep, StatesAreKeptOnDemandAndALeanEpisodeSaysHow) {
+  ASSERT_EQ(sweep("lean", "--shard 1/4").exit_code, 0);
+  const ShellResult lean = vantage("replay lean/episodes/start_0/random");
+  EXPECT_EQ(lean.exit_code, 3);
+  const std::string config = "lean/episodes/start_0/random/config.yaml";
+  EXPECT_THAT(lean.output, HasSubstr("vantage run " + config + " --out lean"));
+  EXPECT_THAT(lean.output, HasSubstr("--keep-states"));
+  EXPECT_EQ(vantage("view lean/episodes/start_0/random").exit_code, 3);
+  EXPECT_EQ(
+      vantage("run -q " + config + " --out lean/episodes/start_0/random --overwrite").exit_code, 0);
+  EXPECT_EQ(vantage("replay lean/episodes/start_0/random").exit_code, 0);
+  EXPECT_THAT(vantage("sweep status lean").output, HasSubstr("1 completed"));
+  ASSERT_EQ(sweep("whole", "--shard 1/4 --keep-states").exit_code, 0);
+  for (const char* name : {"states.bin", "story.bin", "candidates.csv", "report.html"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "whole/episodes/start_0/random" / name)) << name;
+  }
+}
+
+TEST_F(Sweep, ResultsHaveTheColumnsOfTheTasksThatOccur) {
+  const std::string header = reference().substr(0, reference().find('\n'));
+  EXPECT_THAT(header, HasSubstr(",observed_share,"));
+  for (const char* of_another : {"accuracy", "entropy_bits", "bin_error", "energy_j"}) {
+    EXPECT_THAT(header, Not(HasSubstr(of_another)));
+  }
+}
+
 TEST_F(Sweep, ThePageOfAStudyHoldsItsFigures) {
   ASSERT_EQ(sweep("page", "--shard 1/2").exit_code, 0);
   const ShellResult result = vantage("report page");

@@ -111,7 +111,7 @@ GoldenResult run_episode_file(const std::string& name) {
     for (const auto& [gain, cells] : scan["predicted"].items()) {
       trace.within_percent(step, "predicted." + gain, std::round(cells.get<double>()), 10.0);
     }
-    trace.within(step, "path_length_m", std::round(1e3 * scan["path_length_m"].get<double>()) / 1e3,
+    trace.within(step, "leg_length_m", std::round(1e3 * scan["leg_length_m"].get<double>()) / 1e3,
                  0.1);
     trace.within(step, "pose_error_m", 0.0, 0.02);
     result.trace.entries.back().number = std::round(1e4 * scan["pose_error_m"].get<double>()) / 1e4;

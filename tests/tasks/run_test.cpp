@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -14,6 +15,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/report/report_data.hpp"
 
 namespace vantage {
 namespace {
@@ -67,6 +69,50 @@ TEST_F(Run, SameSeedSameBytes) {
   }
 }
 
+TEST_F(Run, PathLengthIsATotalAndScansCountFromOne) {
+  double sum_m = 0.0;
+  for (const auto& scan : first_["scans"]) {
+    sum_m += scan["leg_length_m"].get<double>();
+    EXPECT_NEAR(scan["path_length_m"].get<double>(), sum_m, 1e-9);
+  }
+  EXPECT_GT(first_["scans"][1]["leg_length_m"], 0.1);
+  EXPECT_NEAR(first_["path_length_m"].get<double>(), sum_m, 1e-9) << "it ends with a scan";
+  const CsvTable steps = read_csv(folder_ / "first" / "steps.csv");
+  ASSERT_EQ(steps.columns[1], "scan");
+  EXPECT_EQ(steps.rows[0][1], "1");
+  EXPECT_EQ(steps.rows[1][1], "2");
+}
+
+std::size_t column(const CsvTable& table, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::find(table.columns, name) - table.columns.begin());
+}
+
+TEST_F(Run, KeepsWhatEachDecisionWasMadeAmong) {
+  const CsvTable table = read_csv(folder_ / "first" / "candidates.csv");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"decision", "candidate", "x_m", "y_m", "z_m",
+                                                     "yaw_rad", "pitch_rad", "gain", "gain_unit",
+                                                     "predicted_cells", "way_m", "chosen"}));
+  ASSERT_EQ(table.rows.size(), 30U) << "one decision between two scans";
+  const auto chosen =
+      std::ranges::find(table.rows, "1", [](const auto& row) { return row.back(); });
+  ASSERT_NE(chosen, table.rows.end());
+  EXPECT_EQ(std::ranges::count(table.rows, "1", [](const auto& row) { return row.back(); }), 1);
+  const CsvTable steps = read_csv(folder_ / "first" / "steps.csv");
+  EXPECT_EQ((*chosen)[1], steps.rows[1][column(steps, "chosen_view")]);
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(row[0], "1");
+    EXPECT_EQ(row[8], "bits");
+    EXPECT_EQ(row[9], row[7]) << "the gain in use predicts cells";
+    EXPECT_LE(std::stod(row[7]), std::stod((*chosen)[7]));
+  }
+  EXPECT_GT(std::stod((*chosen)[10]), 0.1);
+  for (const char* axis : {"x_m", "y_m", "z_m", "yaw_rad"}) {
+    EXPECT_NEAR(std::stod(steps.rows[1][column(steps, axis)]),
+                std::stod((*chosen)[column(table, axis)]), 0.1)
+        << axis;
+  }
+}
+
 TEST_F(Run, SaysWhichLimitEndedIt) { EXPECT_EQ(first_["reason"], "limit of 2 scans"); }
 
 TEST_F(Run, AnotherSeedAnotherEpisode) {
@@ -88,9 +134,9 @@ TEST_F(Run, RecordsTheWantedPredictorsAndItsOwn) {
 
 TEST_F(Run, WritesTheWholeFolder) {
   for (const char* name :
-       {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
-        "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt", "map.ot", "cloud.ply",
-        "story.bin", "report.html", "log.txt"}) {
+       {"manifest.json", "config.yaml", "steps.csv", "candidates.csv", "metrics.json",
+        "trajectory.tum", "trajectory_estimated.tum", "states.bin", "actions.csv", "map.bt",
+        "map.ot", "cloud.ply", "story.bin", "report.html", "log.txt"}) {
     EXPECT_TRUE(fs::exists(folder_ / "first" / name)) << name;
   }
   for (const auto& entry : fs::directory_iterator(folder_ / "first")) {

@@ -72,8 +72,8 @@ void RunLog::pose_rows() {
   next_pose_s_ = world.time_s() + kPoseRowEvery_s;
 }
 
-void RunLog::save_still(std::size_t index) {
-  if (video_recorder_) video_recorder_->save_still(robot_.world, index);
+void RunLog::save_still(std::size_t number) {
+  if (video_recorder_) video_recorder_->save_still(robot_.world, number);
 }
 
 void RunLog::commit() {

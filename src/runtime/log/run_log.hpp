@@ -41,7 +41,7 @@ class RunLog {
   /// Tells the spectator, at the present tick.
   void tell(EpisodeEvent& event);
   /// Keeps the present image as a frame of that number.
-  void save_still(std::size_t index);
+  void save_still(std::size_t number);
   void commit();  ///< puts the growing files under their final names
   void finish_video();
 

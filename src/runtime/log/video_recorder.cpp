@@ -44,9 +44,9 @@ void VideoRecorder::tick(const World& world) {
   video_.write(draw(world));
 }
 
-void VideoRecorder::save_still(const World& world, std::size_t index) {
+void VideoRecorder::save_still(const World& world, std::size_t number) {
   const cv::Mat frame = draw(world);
-  write_file_with(directory_ / "frames" / fmt::format("scan_{:02}.png", index),
+  write_file_with(directory_ / "frames" / fmt::format("scan_{:02}.png", number),
                   [&](const auto& part) { return cv::imwrite(part.string(), frame); });
 }
 

@@ -27,8 +27,8 @@ class VideoRecorder {
   void set_panel(PanelPainter panel) { panel_ = std::move(panel); }
   /// Adds a frame if one is due at the world's time.
   void tick(const World& world);
-  /// Keeps the present view as frames/scan_<index>.png.
-  void save_still(const World& world, std::size_t index);
+  /// Keeps the present view as frames/scan_<number>.png.
+  void save_still(const World& world, std::size_t number);
   void finish() { video_.finish(); }
 
  private:

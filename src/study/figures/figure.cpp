@@ -24,6 +24,10 @@ std::vector<double> values_at(const std::vector<std::vector<double>>& curves, st
 
 }  // namespace
 
+std::string interval_csv(const Interval& interval, std::size_t values) {
+  return has_interval(values) ? fmt::format("{},{}", interval.low, interval.high) : ",";
+}
+
 FigureSeries mean_series(const Figure& figure, const std::string& panel, const std::string& name,
                          std::size_t style, const std::vector<std::vector<double>>& curves,
                          int first_x, bool carry_last) {
@@ -44,8 +48,8 @@ std::string figure_csv(const Figure& figure) {
   for (const FigurePanel& panel : figure.panels) {
     for (const FigureSeries& series : panel.series) {
       for (const FigurePoint& point : series.points) {
-        text += fmt::format("{},{},{},{},{},{},{}\n", panel.title, series.name, point.x,
-                            point.count, point.mean, point.interval.low, point.interval.high);
+        text += fmt::format("{},{},{},{},{},{}\n", panel.title, series.name, point.x, point.count,
+                            point.mean, interval_csv(point.interval, point.count));
       }
     }
   }

@@ -8,6 +8,11 @@
 
 namespace vantage {
 
+/// Of one value there is no interval to tell.
+constexpr bool has_interval(std::size_t values) { return values > 1; }
+/// "low,high", or "," where there is none.
+std::string interval_csv(const Interval& interval, std::size_t values);
+
 struct FigurePoint {
   double x = 0.0;
   std::size_t count = 0;  ///< episodes the mean is of

@@ -70,6 +70,10 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     kSimulatedTime,
 });
 
+constexpr auto kHeadlines =
+    std::to_array<std::string_view>({"correct", "change_probability", "entropy_bits", "views",
+                                     "path_length_m", "simulated_time_s"});
+
 const auto kCurves = std::to_array<CurveMeasure>({kViewEntropy});
 
 }  // namespace
@@ -117,7 +121,7 @@ ReportSections ChangeDetectionTask::report() {
           .view_heading = "The flight, view by view"};
 }
 
-Measures ChangeDetectionTask::measures() { return {kScalars, kCurves}; }
+Measures ChangeDetectionTask::measures() { return {kScalars, kCurves, nullptr, kHeadlines}; }
 
 RecordTexts ChangeDetectionTask::records() {
   constexpr auto kOfChange = std::to_array<RecordText>({

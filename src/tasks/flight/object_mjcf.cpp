@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "vantage/core/data_root.hpp"
+
 namespace vantage {
 namespace {
 
@@ -44,6 +46,8 @@ DatasetOptions dataset_of(const ObjectDatabaseOptions& database) {
   options.seed = database.seed;
   options.objects = database.objects;
   options.models = database.models;
+  if (options.models.empty()) return options;
+  options.models = find_input(database.models, {}, "database.models").string();
   return options;
 }
 

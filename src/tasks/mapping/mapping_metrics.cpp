@@ -30,6 +30,7 @@ Json scan_json(const ScanRecord& scan) {
           {"map_time_s", scan.map_time_s},
           {"scan_time_s", scan.scan_time_s},
           {"path_length_m", scan.path_length_m},
+          {"leg_length_m", scan.leg_length_m},
           {"pose_error_m", scan.pose_error_m},
           {"pose_error_before_registration_m", scan.pose_error_before_registration_m},
           {"yaw_error_rad", scan.yaw_error_rad},
@@ -73,13 +74,6 @@ Curve share_left(const MeasuredEpisode& episode) {
   const double all = episode.metrics.at("observable_cells").get<double>();
   for (double& share : shares) share = all > 0.0 ? share / all : 0.0;
   return shares;
-}
-
-Curve distance_m(const MeasuredEpisode& episode) {
-  Curve legs = scan_values(episode, "path_length_m");
-  double sum = 0.0;
-  for (double& leg : legs) leg = sum += leg;
-  return legs;
 }
 
 PredictionErrors prediction_errors(const MeasuredEpisode& episode) {
@@ -171,13 +165,18 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     kSimulatedTime,
 });
 
+constexpr auto kHeadlines =
+    std::to_array<std::string_view>({"observed_share", "scans", "path_length_m", "simulated_time_s",
+                                     "precision", "recall", "collisions"});
+
 constexpr auto kCurves = std::to_array<CurveMeasure>({
     {{"unobserved_cells", "unobserved cells"},
      [](const MeasuredEpisode& e) { return scan_values(e, "unobserved_cells"); }},
     {{"observable_unobserved_cells", "observable cells left"},
      [](const MeasuredEpisode& e) { return scan_values(e, "observable_unobserved_cells"); }},
     {{"share_left", "share of the observable cells left"}, share_left},
-    {{"distance_m", "distance travelled, m"}, distance_m},
+    {{"distance_m", "distance travelled, m"},
+     [](const MeasuredEpisode& e) { return scan_values(e, "path_length_m"); }},
     {{"pose_error_m", "position error, m"},
      [](const MeasuredEpisode& e) { return scan_values(e, "pose_error_m"); }},
     {{"precision", "precision of occupied cells"},
@@ -217,6 +216,6 @@ std::string mapping_outcome(const Json& metrics) {
       metrics["map"]["recall"].get<double>(), metrics["real_time_factor"].get<double>());
 }
 
-Measures mapping_measures() { return {kScalars, kCurves, prediction_errors}; }
+Measures mapping_measures() { return {kScalars, kCurves, prediction_errors, kHeadlines}; }
 
 }  // namespace vantage

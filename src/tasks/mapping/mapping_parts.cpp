@@ -78,10 +78,11 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
   current_.T_world_sensor = T_world_sensor;
   if (!update.registered) {
-    log_warning(fmt::format("scan {}: odometry kept, {}", scans_.size(), update.registration_note));
+    log_warning(
+        fmt::format("scan {}: odometry kept, {}", scans_.size() + 1, update.registration_note));
   } else if (update.unconstrained > 0) {
     log_warning(fmt::format("scan {}: odometry kept in {} of 3 directions, nothing is seen across",
-                            scans_.size(), update.unconstrained));
+                            scans_.size() + 1, update.unconstrained));
   }
 }
 
@@ -109,19 +110,21 @@ std::string MappingParts::distrust() const {
   return fmt::format(
       "the map is not to be trusted: at scan {} the robot knew no better than {:.2f} m where it "
       "mapped, localisation.tolerance_cells {} allow {:.2f} m",
-      worst - scans_.begin(), worst->map_sigma_m, options_.localisation.tolerance_cells,
+      worst - scans_.begin() + 1, worst->map_sigma_m, options_.localisation.tolerance_cells,
       tolerance_m);
 }
 
 const ScanRecord& MappingParts::record_scan() {
+  current_.path_length_m = recorder_.path_length_m();
+  current_.leg_length_m =
+      current_.path_length_m - (scans_.empty() ? 0.0 : scans_.back().path_length_m);
   scans_.push_back(std::exchange(current_, {}));
   const ScanRecord& scan = scans_.back();
-  const std::size_t index = scans_.size() - 1;
   log_debug(fmt::format(
-      "scan {}: view {}{}, {} new cells, {} observable left, pose error {:.1f} mm", index,
+      "scan {}: view {}{}, {} new cells, {} observable left, pose error {:.1f} mm", scans_.size(),
       scan.chosen_view, scan.fallback ? " (fallback)" : "", scan.actual_new_cells,
       scan.observable_unobserved_cells, 1e3 * scan.pose_error_m));
-  recorder_.scan(scan, index, belief_.grid());
+  recorder_.scan(scan, scans_.size(), belief_.grid());
   return scan;
 }
 
@@ -155,16 +158,13 @@ std::size_t MappingParts::choose(const std::vector<Candidate>& candidates) {
   const std::size_t chosen = choose_view(options_.choice, candidates, choice_rng_);
   current_.candidates = candidates.size();
   current_.plan_time_s = wall_s() - decision_start_s_;
-  recorder_.decision(candidates, chosen);
+  recorder_.decision(candidates, chosen, options_.gain);
   return chosen;
 }
 
 Approach MappingParts::approach(const Candidate& view,
                                 const std::optional<Eigen::Vector2d>& look_at_m) {
-  const Approach approach =
-      navigator_.approach(robot_.base_for_sensor(view.T_world_sensor), look_at_m);
-  current_.path_length_m = approach.path_length_m;
-  return approach;
+  return navigator_.approach(robot_.base_for_sensor(view.T_world_sensor), look_at_m);
 }
 
 void MappingParts::warn_out_of_reach(const Candidate& view) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vantage/perception/clouds/point_cloud.hpp"
+#include "vantage/planners/gain.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/tasks/mapping/map_panel.hpp"
@@ -26,11 +27,12 @@ class MappingRecorder : public EpisodeRecorder {
 
   void set_panel(std::function<MapPanelInput()> panel);
   /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
-  void scan(const ScanRecord& record, std::size_t index, const OccupancyGrid& grid);
+  /// @param number of the scan, the first is 1
+  void scan(const ScanRecord& record, std::size_t number, const OccupancyGrid& grid);
   /// Whether somebody will look at decisions and what they were made by.
   [[nodiscard]] bool logs_events() const { return event_log_ || log().watched(); }
-  /// What was chosen among, and the route that was planned to it.
-  void decision(const std::vector<Candidate>& candidates, std::size_t chosen);
+  /// What was chosen among, weighed by `gain`, and the route that was planned to it.
+  void decision(const std::vector<Candidate>& candidates, std::size_t chosen, const Gain& gain);
   void route(const std::vector<Pose2>& waypoints);
   void commit() override;
   void write_map(const OccupancyGrid& grid, const PointCloud& cloud);
@@ -45,7 +47,6 @@ class MappingRecorder : public EpisodeRecorder {
   std::vector<VoxelRecord> voxels_;
   std::vector<std::uint8_t> was_occupied_;
   std::vector<CellState> known_;  ///< of the map, as far as the history goes
-  std::size_t scans_done_ = 0;
 };
 
 }  // namespace vantage

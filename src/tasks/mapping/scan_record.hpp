@@ -17,10 +17,11 @@ struct ScanRecord {
   double actual_new_cells = 0.0;
   int chosen_view = -1;  ///< candidate id; -1: the scan at the start
   std::size_t candidates = 0;
-  double plan_time_s = 0.0;  ///< wall, of the decision that led here
-  double map_time_s = 0.0;   ///< wall, of registration and map update
-  double scan_time_s = 0.0;  ///< simulated
-  double path_length_m = 0.0;
+  double plan_time_s = 0.0;    ///< wall, of the decision that led here
+  double map_time_s = 0.0;     ///< wall, of registration and map update
+  double scan_time_s = 0.0;    ///< simulated
+  double path_length_m = 0.0;  ///< truly travelled up to here
+  double leg_length_m = 0.0;   ///< of that, since the scan before
   double pose_error_m = 0.0;
   double pose_error_before_registration_m = 0.0;
   double yaw_error_rad = 0.0;

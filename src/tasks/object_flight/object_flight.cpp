@@ -19,6 +19,7 @@ void ObjectFlight::check_with(const EpisodeOptions& episode) const {
 
 void ObjectFlight::find_files(const std::filesystem::path& base) {
   model = found_model_name(model, base);
+  database.models = found_model_name(database.models, base);
 }
 
 std::vector<InputFile> ObjectFlight::inputs() const { return {model_input(model)}; }

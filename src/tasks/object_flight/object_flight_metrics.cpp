@@ -38,6 +38,8 @@ Json observation_json(const ObservationRecord& record, int bins) {
                {"bin_error", record.bin_error},
                {"bins", bins},
                {"collisions", record.collisions},
+               {"path_length_m", record.path_length_m},
+               {"leg_length_m", record.leg_length_m},
                {"view", view_json(line_of_sight(record.T_world_camera))}};
   if (record.change) {
     json["change_probability"] = record.change->probability;
@@ -50,7 +52,7 @@ Json observation_json(const ObservationRecord& record, int bins) {
   if (const auto& flight = record.flight) {
     json["flight"] = {
         {"status", to_string(flight->status)},          {"duration_s", flight->duration_s},
-        {"path_length_m", flight->path_length_m},       {"rms_error_m", flight->rms_error_m},
+        {"leg_length_m", flight->path_length_m},        {"rms_error_m", flight->rms_error_m},
         {"greatest_error_m", flight->greatest_error_m}, {"energy_j", flight->energy_J}};
   }
   return json;

@@ -74,12 +74,15 @@ void ObjectFlightParts::conclude() {
 }
 
 void ObjectFlightParts::record() {
+  current_.path_length_m = recorder_.path_length_m();
+  current_.leg_length_m =
+      current_.path_length_m - (records_.empty() ? 0.0 : records_.back().path_length_m);
   records_.push_back(std::exchange(current_, {}));
   const ObservationRecord& record = records_.back();
   if (!record.not_segmented.empty()) {
     log_warning(fmt::format("view {}: {}", records_.size(), record.not_segmented));
   }
-  recorder_.observation(record, records_.size() - 1, camera_image_, seen_.view);
+  recorder_.observation(record, records_.size(), camera_image_, seen_.view);
 }
 
 std::vector<BearingOption> ObjectFlightParts::propose() {
@@ -106,6 +109,7 @@ void ObjectFlightParts::score(std::vector<BearingOption>& options) {
 
 std::size_t ObjectFlightParts::choose(const std::vector<BearingOption>& options) {
   const std::size_t chosen = next_.decision.action;
+  recorder_.decision(options, next_.decision, task_.orbit());
   current_.gain_bits = next_.decision.scores[chosen].gain.bits;
   tell_decision(options, chosen);
   return chosen;
@@ -125,7 +129,7 @@ void ObjectFlightParts::tell_decision(const std::vector<BearingOption>& options,
   for (const FlightWaypoint& waypoint : robot_.plan(options[chosen].bearing_rad).waypoints) {
     way.path_m.push_back(waypoint.p_world_m);
   }
-  recorder_.decision(std::move(decision), std::move(way));
+  recorder_.show(std::move(decision), std::move(way));
 }
 
 void ObjectFlightParts::act(const BearingOption& option) {

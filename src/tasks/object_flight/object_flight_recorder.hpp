@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
+#include "vantage/planners/objects/orbit.hpp"
 #include "vantage/runtime/log/event_log.hpp"
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/tasks/object_flight/object_flight_panel.hpp"
@@ -20,10 +22,14 @@ class ObjectFlightRecorder : public EpisodeRecorder {
 
   void set_panel(std::function<RecognitionPanelInput()> panel);
   /// Adds a row to steps.csv, and the image with the object's outline to views/.
-  void observation(const ObservationRecord& record, std::size_t index, const CameraImages& image,
+  /// @param number of the view, the first is 1
+  void observation(const ObservationRecord& record, std::size_t number, const CameraImages& image,
                    const std::optional<ObjectView>& cut);
-  /// The places that were weighed, which one is flown to, and the way there.
-  void decision(Decision decision, PlannedFlight way);
+  /// What was chosen among, on the orbit where it lies.
+  void decision(const std::vector<BearingOption>& options, const ObjectViewDecision& decision,
+                const Orbit& orbit);
+  /// The same for the window, with the way there.
+  void show(Decision decision, PlannedFlight way);
   void commit() override;
 
  private:

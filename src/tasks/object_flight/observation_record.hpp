@@ -42,6 +42,8 @@ struct ObservationRecord {
   double true_yaw_rad = 0.0;               ///< of the object as the camera sees it, [0, 2 pi)
   int bin_error = 0;                       ///< of `estimated_bin`, the short way round
   int collisions = 0;                      ///< up to here
+  double path_length_m = 0.0;              ///< truly flown up to here
+  double leg_length_m = 0.0;               ///< of that, since the view before
   Pose T_world_camera = Pose::Identity();  ///< as estimated
 };
 

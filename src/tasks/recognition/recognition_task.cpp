@@ -52,6 +52,9 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     kSimulatedTime,
 });
 
+constexpr auto kHeadlines = std::to_array<std::string_view>(
+    {"correct", "map_probability", "entropy_bits", "views", "path_length_m", "simulated_time_s"});
+
 const auto kCurves = std::to_array<CurveMeasure>({kViewEntropy});
 
 }  // namespace
@@ -69,7 +72,7 @@ ReportSections RecognitionTask::report() {
           .view_heading = "The flight, view by view"};
 }
 
-Measures RecognitionTask::measures() { return {kScalars, kCurves}; }
+Measures RecognitionTask::measures() { return {kScalars, kCurves, nullptr, kHeadlines}; }
 
 RecordTexts RecognitionTask::records() {
   RecordTexts texts = object_flight_records();

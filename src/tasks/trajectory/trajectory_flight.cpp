@@ -37,6 +37,7 @@ void TrajectoryFlight::check_with(const EpisodeOptions& episode) const {
 
 void TrajectoryFlight::find_files(const std::filesystem::path& base) {
   model = found_model_name(model, base);
+  database.models = found_model_name(database.models, base);
 }
 
 std::vector<InputFile> TrajectoryFlight::inputs() const { return {model_input(model)}; }

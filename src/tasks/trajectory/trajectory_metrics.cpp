@@ -164,6 +164,10 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      [](const MeasuredEpisode& e) { return number_of(e, "energy_j"); }},
 });
 
+constexpr auto kHeadlines = std::to_array<std::string_view>(
+    {"accuracy", "mean_entropy_nats", "objects_found", "path_length_m", "flight_time_s",
+     "minimum_clearance_m", "collisions"});
+
 }  // namespace
 
 void add_trajectory_metrics(const FlightTruth& truth, const TrajectoryParts& run, Json& metrics) {
@@ -213,6 +217,6 @@ std::string trajectory_outcome(const Json& metrics) {
       number("real_time_factor"));
 }
 
-Measures trajectory_measures() { return {kScalars}; }
+Measures trajectory_measures() { return {kScalars, {}, nullptr, kHeadlines}; }
 
 }  // namespace vantage

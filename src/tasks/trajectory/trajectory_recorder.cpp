@@ -24,11 +24,26 @@ std::string steps_row(const WaypointRecord& r) {
   return fmt::format(
       "{:.3f},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{:.6g},{:.4f},{},{},{},"
       "{},{},{:.5f},{:.4f},{:.5f},{:.4f},{}",
-      r.time_s, r.waypoint, p.x(), p.y(), p.z(), project_to_se2(r.T_world_body).yaw_rad, r.planner,
-      r.plan_time_s, r.latency_s, r.late, r.missed, r.cost, r.planned_clearance_m,
+      r.time_s, r.waypoint + 1, p.x(), p.y(), p.z(), project_to_se2(r.T_world_body).yaw_rad,
+      r.planner, r.plan_time_s, r.latency_s, r.late, r.missed, r.cost, r.planned_clearance_m,
       r.target ? r.target->object : -1, r.target ? r.target->direction : -1, r.objects, r.known,
       r.observations, r.mean_entropy_nats, r.clearance_m, r.tracking_error_m, r.flown_m,
       r.collisions);
+}
+
+/// Pose: of the last waypoint that was planned.
+constexpr std::string_view kPlanColumns =
+    "planner,x_m,y_m,z_m,yaw_rad,cost,way_m,clearance_m,clear";
+
+std::string plan_row(const CandidatePlan& plan) {
+  double way_m = 0.0;
+  for (Eigen::Index i = 1; i < plan.points.cols(); ++i) {
+    way_m += (plan.points.col(i) - plan.points.col(i - 1)).head<3>().norm();
+  }
+  const Eigen::Vector4d end = plan.points.col(plan.points.cols() - 1);
+  return fmt::format("{},{:.4f},{:.4f},{:.4f},{:.4f},{:.6g},{:.4f},{:.4f},{:d}", plan.planner,
+                     end[0], end[1], end[2], end[3], plan.cost, way_m, plan.clearance_m,
+                     plan.clear);
 }
 
 constexpr std::string_view kObservationHeader =
@@ -64,7 +79,7 @@ TrajectoryRecorder::TrajectoryRecorder(const EpisodeRun& run, SimulatedQuadrotor
     : EpisodeRecorder(run,
                       {quadrotor.world(), [&quadrotor] { return quadrotor.true_body(); },
                        [&quadrotor] { return quadrotor.estimated_body(); }},
-                      std::string(kStepsHeader), 1.0),
+                      std::string(kStepsHeader), 1.0, kPlanColumns),
       quadrotor_(quadrotor),
       flight_(log(), directory(), !lean()),
       observations_(directory() / "looks.csv"),
@@ -100,12 +115,21 @@ cv::Mat TrajectoryRecorder::onboard_image() {
 }
 
 void TrajectoryRecorder::waypoint(const WaypointRecord& record, int waypoints) {
-  step(steps_row(record), static_cast<std::size_t>(record.waypoint),
+  step(steps_row(record), static_cast<std::size_t>(record.waypoint + 1),
        static_cast<double>(record.waypoint + 1) / waypoints,
        fmt::format("waypoint {} of {}: {} objects found, {} known, {} observations, {:.1f} s "
                    "simulated",
                    record.waypoint + 1, waypoints, record.objects, record.known,
                    record.observations, record.time_s));
+}
+
+void TrajectoryRecorder::decision(const std::vector<CandidatePlan>& plans, std::size_t chosen) {
+  if (!keeps_candidates()) return;
+  std::vector<CandidateRow> rows;
+  for (const CandidatePlan& plan : plans) {
+    rows.push_back({static_cast<int>(rows.size()), plan_row(plan)});
+  }
+  add_candidates(rows, chosen);
 }
 
 void TrajectoryRecorder::observation(int object, const ObjectObservation& observation, int number,

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/sim/sensors/camera_options.hpp"
@@ -28,6 +29,8 @@ class TrajectoryRecorder : public EpisodeRecorder {
   void set_panel(std::function<TrajectoryPanelInput()> panel);
   /// Adds a row to steps.csv.
   void waypoint(const WaypointRecord& record, int waypoints);
+  /// The plans that were chosen among.
+  void decision(const std::vector<CandidatePlan>& plans, std::size_t chosen);
   /// Adds a row to looks.csv, and the segmented object to views/.
   void observation(int object, const ObjectObservation& observation, int number,
                    const ObjectView& view);

@@ -10,6 +10,7 @@
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/report/report_data.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/validate.hpp"
 
@@ -94,7 +95,7 @@ TEST_F(RecognitionEpisode, WritesItsFolder) {
   for (const char* name :
        {"manifest.json", "config.yaml", "steps.csv", "metrics.json", "trajectory.tum",
         "trajectory_estimated.tum", "states.bin", "actions.csv", "report.html", "log.txt",
-        "views/view_00.png", "views/view_01.png"}) {
+        "views/view_01.png", "views/view_02.png"}) {
     EXPECT_TRUE(fs::exists(*folder_ / "first" / name)) << name;
   }
   const std::string steps = read_file(*folder_ / "first" / "steps.csv");
@@ -104,6 +105,30 @@ TEST_F(RecognitionEpisode, WritesItsFolder) {
 TEST_F(RecognitionEpisode, WhatItWritesIsDescribed) {
   EXPECT_EQ(test::undescribed(*folder_ / "first", RecognitionTask::records()),
             std::vector<std::string>{});
+}
+
+TEST_F(RecognitionEpisode, KeepsWhatEachDecisionWasMadeAmong) {
+  const CsvTable table = read_csv(*folder_ / "first" / "candidates.csv");
+  ASSERT_EQ(table.rows.size(), 7U) << "all bearings but the one it is at";
+  const auto chosen =
+      std::ranges::find(table.rows, "1", [](const auto& row) { return row.back(); });
+  ASSERT_NE(chosen, table.rows.end());
+  EXPECT_EQ((*chosen)[1], std::to_string(first_["observations"][1]["chosen_view"].get<int>()));
+  const CsvTable steps = read_csv(*folder_ / "first" / "steps.csv");
+  const std::vector<std::string> pose(steps.columns.begin() + 3, steps.columns.begin() + 8);
+  EXPECT_EQ(pose, std::vector<std::string>(table.columns.begin() + 2, table.columns.begin() + 7));
+  for (std::size_t i = 0; i < pose.size(); ++i) {
+    EXPECT_NEAR(std::stod(steps.rows[1][3 + i]), std::stod((*chosen)[2 + i]), 0.1) << pose[i];
+  }
+}
+
+TEST_F(RecognitionEpisode, PathLengthIsATotal) {
+  double sum_m = 0.0;
+  for (const json& view : first_["observations"]) {
+    sum_m += view["leg_length_m"].get<double>();
+    EXPECT_NEAR(view["path_length_m"].get<double>(), sum_m, 1e-9);
+  }
+  EXPECT_NEAR(first_["path_length_m"].get<double>(), sum_m, 1e-9);
 }
 
 TEST_F(RecognitionEpisode, ReplaysEveryState) {

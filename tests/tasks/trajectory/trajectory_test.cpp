@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "tests/support/temporary_directory.hpp"
@@ -117,6 +118,17 @@ TEST_F(TrajectoryEpisode, SaysWhatTheContractAsksFor) {
   EXPECT_EQ(first_["collisions"], 0);
   EXPECT_EQ(first_["replans"], 5);
   EXPECT_EQ(first_["missed_deadlines"], 0);
+  EXPECT_EQ(first_["reason"], "end of the path, 6 waypoints");
+}
+
+TEST_F(TrajectoryEpisode, KeepsThePlansOfEachDecision) {
+  const CsvTable table = read_csv(*folder_ / "first" / "candidates.csv");
+  std::map<std::string, int> chosen;
+  for (const auto& row : table.rows) chosen[row.front()] += row.back() == "1" ? 1 : 0;
+  EXPECT_EQ(chosen.size(), first_["replans"].get<std::size_t>());
+  for (const auto& [decision, count] : chosen) EXPECT_EQ(count, 1) << decision;
+  const CsvTable steps = read_csv(*folder_ / "first" / "steps.csv");
+  EXPECT_EQ(steps.rows.front()[1], "1") << "waypoints count from 1";
 }
 
 TEST_F(TrajectoryEpisode, FindsWhatItFliesPastAndLooksAtItOnceADirection) {

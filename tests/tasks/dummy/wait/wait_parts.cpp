@@ -15,7 +15,7 @@ void WaitParts::update(const PlanarScan& scan) {
   records_.push_back({robot_.time_s(), static_cast<std::size_t>(returns)});
 }
 
-void WaitParts::record() { recorder_.scan(records_.back(), records_.size() - 1); }
+void WaitParts::record() { recorder_.scan(records_.back(), records_.size()); }
 
 std::string WaitParts::finished() const {
   return records_.size() >= static_cast<std::size_t>(task_.scans) ? "all scans" : "";

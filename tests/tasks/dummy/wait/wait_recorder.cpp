@@ -9,9 +9,9 @@ namespace vantage {
 WaitRecorder::WaitRecorder(const EpisodeRun& run, RecordedRobot robot, int scans)
     : EpisodeRecorder(run, std::move(robot), "time_s,scan,returns", scans) {}
 
-void WaitRecorder::scan(const WaitRecord& record, std::size_t index) {
-  step(fmt::format("{},{},{}", record.time_s, index, record.returns), index,
-       static_cast<double>(index + 1), fmt::format("scan {}: {} returns", index, record.returns));
+void WaitRecorder::scan(const WaitRecord& record, std::size_t number) {
+  step(fmt::format("{},{},{}", record.time_s, number, record.returns), number,
+       static_cast<double>(number), fmt::format("scan {}: {} returns", number, record.returns));
 }
 
 }  // namespace vantage

@@ -14,7 +14,7 @@ struct WaitRecord {
 class WaitRecorder : public EpisodeRecorder {
  public:
   WaitRecorder(const EpisodeRun& run, RecordedRobot robot, int scans);
-  void scan(const WaitRecord& record, std::size_t index);
+  void scan(const WaitRecord& record, std::size_t number);
 };
 
 }  // namespace vantage

@@ -1,0 +1,70 @@
+#include "vantage/report/former_run.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+namespace vantage {
+namespace {
+
+constexpr auto kPath = "path_length_m";
+constexpr auto kLeg = "leg_length_m";
+
+template <class Json>
+bool has_legs_called_paths(const Json& step) {
+  return step.is_object() && step.contains(kPath) && step[kPath].is_number() &&
+         !step.contains(kLeg);
+}
+
+std::optional<std::size_t> column(const CsvTable& table, const char* name) {
+  const auto found = std::ranges::find(table.columns, name);
+  if (found == table.columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - table.columns.begin());
+}
+
+void count_from_one(CsvTable& steps, std::size_t column) {
+  if (steps.rows.empty() || steps.rows.front()[column] != "0") return;
+  for (auto& row : steps.rows) {
+    int number = 0;
+    std::from_chars(row[column].data(), row[column].data() + row[column].size(), number);
+    row[column] = std::to_string(number + 1);
+  }
+}
+
+}  // namespace
+
+template <class Json>
+void bring_up_to_date(Json& metrics) {
+  if (!metrics.is_object()) return;
+  for (const char* list : {"scans", "observations"}) {
+    if (!metrics.contains(list) || !metrics[list].is_array()) continue;
+    double sum_m = 0.0;
+    for (Json& step : metrics[list]) {
+      if (step.is_object() && step.contains("flight") && has_legs_called_paths(step["flight"])) {
+        step["flight"][kLeg] = step["flight"][kPath];
+        step["flight"].erase(kPath);
+      }
+      if (!has_legs_called_paths(step)) continue;
+      sum_m += step[kPath].template get<double>();
+      step[kLeg] = step[kPath];
+      step[kPath] = sum_m;
+    }
+  }
+}
+
+template void bring_up_to_date(nlohmann::json&);
+template void bring_up_to_date(nlohmann::ordered_json&);
+
+void bring_up_to_date(CsvTable& steps) {
+  const auto scan = column(steps, "scan");
+  const auto view = column(steps, "view");
+  const auto path = column(steps, kPath);
+  if ((scan || view) && path && !column(steps, kLeg)) steps.columns[*path] = kLeg;
+  for (const auto& counts : {scan, view, column(steps, "waypoint")}) {
+    if (counts) count_from_one(steps, *counts);
+  }
+}
+
+}  // namespace vantage

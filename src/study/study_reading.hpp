@@ -1,0 +1,26 @@
+/// Reads a study's file as far as it can be read, and says everything that is wrong with it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "vantage/study/kit/problems.hpp"
+#include "vantage/study/study.hpp"
+
+namespace vantage {
+
+struct StudyReading {
+  Study study;  ///< without what is wrong; `episode` is empty if there is none
+  Problems problems;
+};
+
+/// @param overrides as of --set, of every episode
+/// @throws ConfigError or InputError if the file is no YAML map or cannot be read
+StudyReading read_study_file(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides);
+
+/// The episodes of plan_study() that can be planned.
+std::vector<PlannedEpisode> plan_episodes(const Study& study, Problems& problems);
+
+}  // namespace vantage
