@@ -94,6 +94,7 @@ TEST(Schema, UnitsAreTheEndOfAName) {
   EXPECT_EQ(unit_in_name("radius_m"), "m");
   EXPECT_EQ(unit_in_name("speed_m_s"), "m/s");
   EXPECT_EQ(unit_in_name("weight_per_m"), "1/m");
+  EXPECT_EQ(unit_in_name("bias_rad_per_m"), "rad/m");
   EXPECT_EQ(unit_in_name("area_m2"), "m^2");
   EXPECT_EQ(unit_in_name("yaw_rad"), "rad");
   EXPECT_EQ(unit_in_name("scans"), "");
