@@ -141,7 +141,7 @@ TEST(EventLogFile, RefusesWhatIsDamaged) {
     EXPECT_THROW(read_event_log(path, cells), InputError) << size;
   }
   for (const auto& [at, byte] : {std::pair{16 + 8, '\x05'},
-                                 {16 + 48 + 16, '\x03'},
+                                 {16 + 48 + 16, '\x04'},  // one beyond "none of the three"
                                  {16 + 24 + 8, '\x03'},
                                  {16, '\x60'},
                                  {16 + 14, '\x01'}}) {
