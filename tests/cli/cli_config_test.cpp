@@ -16,8 +16,7 @@ TEST_F(CommandLine, AMistypedCommandSuggestsTheNearest) {
                                      {"sweep rn x.yaml", "did you mean run?"},
                                      {"sweep -q colect", "did you mean collect?"},
                                      {"dataset contact", "known: render, info"},
-                                     {"valdiate x.yaml", "did you mean validate?"},
-                                     {"-h2", "-h2"}}) {
+                                     {"valdiate x.yaml", "did you mean validate?"}}) {
     const Result result = vantage(typed);
     EXPECT_EQ(result.exit_code, 2) << typed;
     EXPECT_THAT(result.output, HasSubstr(meant)) << typed;

@@ -87,7 +87,7 @@ TEST(Comparison, WithoutReferenceThereIsNoDifference) {
   EXPECT_FALSE(comparison.rows[0].difference);
   EXPECT_EQ(comparison_csv(comparison),
             "panel,level,episodes,mean,low,high,pairs,difference,difference_low,difference_high,"
-            "ratio,ratio_low,ratio_high,p_value\np,b,1,2,2,2,,,,,,,,\n");
+            "ratio,ratio_low,ratio_high,p_value\np,b,1,2,,,,,,,,,,\n");
 }
 
 TEST(Comparison, NoRatioToZero) {

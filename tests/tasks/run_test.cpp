@@ -75,7 +75,7 @@ TEST_F(Run, PathLengthIsATotalAndScansCountFromOne) {
     sum_m += scan["leg_length_m"].get<double>();
     EXPECT_NEAR(scan["path_length_m"].get<double>(), sum_m, 1e-9);
   }
-  EXPECT_GT(first_["scans"][1]["leg_length_m"], 0.1);
+  EXPECT_GT(first_["scans"][1]["leg_length_m"], 0.01);
   EXPECT_NEAR(first_["path_length_m"].get<double>(), sum_m, 1e-9) << "it ends with a scan";
   const CsvTable steps = read_csv(folder_ / "first" / "steps.csv");
   ASSERT_EQ(steps.columns[1], "scan");
@@ -105,7 +105,7 @@ TEST_F(Run, KeepsWhatEachDecisionWasMadeAmong) {
     EXPECT_EQ(row[9], row[7]) << "the gain in use predicts cells";
     EXPECT_LE(std::stod(row[7]), std::stod((*chosen)[7]));
   }
-  EXPECT_GT(std::stod((*chosen)[10]), 0.1);
+  EXPECT_GT(std::stod((*chosen)[10]), 0.01);
   for (const char* axis : {"x_m", "y_m", "z_m", "yaw_rad"}) {
     EXPECT_NEAR(std::stod(steps.rows[1][column(steps, axis)]),
                 std::stod((*chosen)[column(table, axis)]), 0.1)
