@@ -211,8 +211,10 @@ void set_values(ConfigNode& root, std::vector<KeyValue> values) {
     const auto same = std::find_if(
         values.begin(), value, [&](const KeyValue& other) { return other.first == value->first; });
     if (same != value && to_yaml(same->second) != to_yaml(value->second)) {
-      throw ConfigError(fmt::format("{}: {}: has another value already, from {}",
-                                    value->second.origin, value->first, same->second.origin));
+      throw ConfigError(fmt::format("{}: set twice, to different values{}", value->second.where(),
+                                    same->second.origin == value->second.origin
+                                        ? ""
+                                        : ", also at " + same->second.origin));
     }
   }
   for (auto& [key, value] : values) set_value(root, key, std::move(value));

@@ -37,12 +37,13 @@ class CommandLine : public testing::Test {
   Result vantage(const std::string& arguments) {
     return shell("cd '" + folder_.string() + "' && " VANTAGE_BINARY " " + arguments);
   }
-  /// Runs it until it has told `awaited`, then sends it the signal.
+  /// Runs it until the shell's condition `awaited` holds, its output in the file told, then sends
+  /// it the signal.
   Result interrupted(const std::string& arguments, const std::string& awaited,
                      const std::string& signal) {
     return shell("cd '" + folder_.string() + "' && (env --default-signal=INT " VANTAGE_BINARY " " +
-                 arguments + " >told 2>&1 & pid=$!; while ! grep -q '" + awaited +
-                 "' told && kill -0 $pid; do sleep .1; done; kill -" + signal +
+                 arguments + " >told 2>&1 & pid=$!; until " + awaited +
+                 " || ! kill -0 $pid; do sleep .1; done; kill -" + signal +
                  " $pid; wait $pid; code=$?; cat told; exit $code)");
   }
   /// Exit code, every one of `parts` in the message, one line.

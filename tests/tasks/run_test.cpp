@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/overrides.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -42,7 +43,7 @@ class Run : public testing::Test {
   static nlohmann::json short_run(const std::string& name, std::vector<std::string> more) {
     std::vector<std::string> overrides = {"scans=2", "map.cells=[49,49,25]",
                                           "laser.scan_duration_s=3"};
-    overrides.insert(overrides.end(), more.begin(), more.end());
+    overrides = support::overridden(std::move(overrides), more);
     const auto episode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
     const auto outcome = run(load_episode(episode, overrides), {folder_ / name, false, false, {}});
     return nlohmann::json::parse(outcome.metrics);

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/small_recognition.hpp"
@@ -37,7 +38,7 @@ class ChangeEpisode : public testing::Test {
     std::vector<std::string> all = support::small_flight(folder_->path());
     all.emplace_back("expected_object=cereal_box_1");
     all.push_back("scenario=" + scenario);
-    all.insert(all.end(), more.begin(), more.end());
+    all = support::overridden(std::move(all), more);
     return all;
   }
   static json metrics_of(const std::string& scenario, std::vector<std::string> more = {}) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/undescribed.hpp"
@@ -121,7 +122,7 @@ nlohmann::json explore(const std::filesystem::path& out, std::vector<std::string
   std::vector<std::string> overrides = {
       "scans=3",     "map.cells=[100,67,20]",   "camera.width_px=160", "camera.height_px=120",
       "stride_px=1", "metrics.pose_spacing_m=2"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
+  overrides = support::overridden(std::move(overrides), more);
   const auto episode =
       std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml";
   return nlohmann::json::parse(

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "tests/support/overrides.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/object_flight/simulated_orbit_robot.hpp"
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 
 ResolvedEpisode episode(std::vector<std::string> more = {}) {
   std::vector<std::string> overrides = {"settle_s=0.2", "segmentation.mask_growth_px=0"};
-  overrides.insert(overrides.end(), more.begin(), more.end());
+  overrides = support::overridden(std::move(overrides), more);
   return load_episode(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml", overrides);
 }
 

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/small_recognition.hpp"
@@ -38,7 +39,7 @@ class RecognitionEpisode : public testing::Test {
     std::vector<std::string> all = small_flight(folder_->path());
     all.emplace_back("enough={object_probability: 1, entropy_bits: 0}");
     all.emplace_back("object=cereal_box_1");
-    all.insert(all.end(), more.begin(), more.end());
+    all = support::overridden(std::move(all), more);
     return all;
   }
   static json metrics_of(const std::string& name, std::vector<std::string> more) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/undescribed.hpp"
@@ -78,7 +79,7 @@ class TrajectoryEpisode : public testing::Test {
                                     "camera={width_px: 320, height_px: 240}",
                                     "image_rate_hz=5",
                                     "method={name: stomp, iterations: 10}"};
-    all.insert(all.end(), more.begin(), more.end());
+    all = support::overridden(std::move(all), more);
     return all;
   }
   static json metrics_of(const std::string& name, const fs::path& scene,
