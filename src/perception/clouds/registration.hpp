@@ -10,6 +10,7 @@
 #include "vantage/geometry/pose.hpp"
 #include "vantage/perception/clouds/normals.hpp"
 #include "vantage/perception/clouds/point_cloud.hpp"
+#include "vantage/perception/clouds/posts.hpp"
 
 namespace vantage {
 
@@ -32,6 +33,7 @@ struct RegistrationOptions {
   double tolerance_rad = 2e-5;
   double max_correction_m = 0.25;
   double max_correction_rad = 0.15;
+  PostOptions posts;
   void fields(auto&& f) {
     f("voxel_m", voxel_m, "voxel size that a scan is thinned to; higher is faster and coarser",
       above(0.0));
@@ -87,6 +89,8 @@ struct RegistrationOptions {
       above(0.0));
     f("max_correction_rad", max_correction_rad,
       "greatest turn of the result from the initial pose, beyond which it is rejected", above(0.0));
+    f("posts", posts,
+      "posts, such as the legs of a table, by which the base is located where walls do not do");
   }
   void check() const;  ///< the search radius shrinks
 };

@@ -32,9 +32,12 @@ void Navigator::turn_in_place() {
   clear_footprint(floor_, start, options_.inflation_m() + floor_.cell_m);
   const PlanarScan scan = robot_.read_base_scanner();
   extend_reference_map(scan, start);
-  if (!reference_map_.fixes_pose(scan, robot_.base_scan_height_m())) {
-    add_planar_scan(floor_, scan, start, floor_options_);
-    return;
+  if (!reference_map_.walls_fix_pose(scan, robot_.base_scan_height_m())) {
+    if (!reference_map_.posts_fix_pose(scan)) {
+      add_planar_scan(floor_, scan, start, floor_options_);
+      return;
+    }
+    reference_map_.go_by_posts();
   }
   for (int third = 1; third <= 3; ++third) {
     const double yaw_rad = start.yaw_rad + 2.0 / 3.0 * std::numbers::pi * third;

@@ -1,5 +1,7 @@
 #include "vantage/tasks/mapping/reference_map.hpp"
 
+#include <cmath>
+
 #include "vantage/perception/clouds/kd_tree.hpp"
 
 namespace vantage {
@@ -16,23 +18,47 @@ void ReferenceMap::remember(const PlanarScan& scan, double scanner_height_m,
     seen = select(seen, novel);
   }
   append(cloud_, seen);
+  posts_.remember(find_posts(scan, options_.posts), T_world_base);
 }
 
 RegistrationResult ReferenceMap::locate(const PlanarScan& scan, double scanner_height_m,
                                         const Pose2& guess, const Correction& plausible) const {
-  if (cloud_.empty()) {
-    RegistrationResult unknown;
-    unknown.T_world_base = guess;
-    unknown.reason = "no wall is known yet";
-    return unknown;
+  RegistrationResult result;
+  result.T_world_base = guess;
+  result.reason = "no wall is known yet";
+  if (!cloud_.empty()) {
+    result = register_scan(prepare(scan, scanner_height_m), cloud_, guess, options_, plausible);
   }
-  return register_scan(prepare(scan, scanner_height_m), cloud_, guess, options_, plausible);
+  if (!result.converged && by_posts_) locate_by_posts(scan, plausible, result);
+  return result;
 }
 
-bool ReferenceMap::fixes_pose(const PlanarScan& scan, double scanner_height_m) const {
+/// Leaves `result` as it is, with its reason, if they say nothing either.
+void ReferenceMap::locate_by_posts(const PlanarScan& scan, const Correction& plausible,
+                                   RegistrationResult& result) const {
+  const Pose2 guess = result.T_world_base;
+  const PostFix fix = posts_.locate(find_posts(scan, options_.posts), guess);
+  const Pose2& pose = fix.T_world_base;
+  const double shift_m = std::hypot(pose.x_m - guess.x_m, pose.y_m - guess.y_m);
+  const double turn_rad = std::abs(wrap_angle(pose.yaw_rad - guess.yaw_rad));
+  if (!fix.found || shift_m > plausible.shift_m || turn_rad > plausible.turn_rad) return;
+  result = {};
+  result.T_world_base = pose;
+  result.converged = true;
+  result.information = fix.information;
+}
+
+bool ReferenceMap::walls_fix_pose(const PlanarScan& scan, double scanner_height_m) const {
   const PointCloud seen = prepare(scan, scanner_height_m);
   const RegistrationResult found = register_scan(seen, seen, {}, options_);
   return found.converged && found.unconstrained == 0;
+}
+
+bool ReferenceMap::posts_fix_pose(const PlanarScan& scan) const {
+  const auto posts = find_posts(scan, options_.posts);
+  PostMap here(options_.posts);
+  here.remember(posts, {});
+  return here.locate(posts, {}).found;
 }
 
 PointCloud ReferenceMap::prepare(const PlanarScan& scan, double scanner_height_m) const {

@@ -98,11 +98,15 @@ void SimulatedMobileBase::note_localisation(const RegistrationOptions& registrat
   const PlanarScan scan =
       planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
                   robot_.base_body_id(), scanner_, noise);
-  if (ReferenceMap(registration).fixes_pose(scan, base_scan_height_m())) return;
-  notes.push_back(fmt::format(
-      "registration: from the start of {} the base scanner sees nothing that fixes where the robot "
-      "is, such as walls within base_scanner.range_max_m {}: odometry will drift between scans",
-      world_.source().scene.string(), scanner_.range_max_m));
+  const ReferenceMap reference(registration);
+  if (reference.walls_fix_pose(scan, base_scan_height_m())) return;
+  notes.push_back(
+      fmt::format("registration: from the start of {} the base scanner sees no walls within "
+                  "base_scanner.range_max_m {} that fix where the robot is: {}",
+                  world_.source().scene.string(), scanner_.range_max_m,
+                  reference.posts_fix_pose(scan)
+                      ? "it goes by posts, such as table legs, good to a centimetre or two"
+                      : "odometry will drift between scans"));
 }
 
 DriveResult SimulatedMobileBase::drive_along(std::span<const Pose2> path,

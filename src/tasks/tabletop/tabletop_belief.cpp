@@ -58,7 +58,12 @@ Pose2 TabletopBelief::register_pose(const TabletopObservation& observation,
   Pose2 pose = observation.T_world_base_odometry;
   const PointCloud& reference = map_cloud_.empty() ? reference_map.cloud() : map_cloud_;
   if (!reference.empty()) {
-    const auto result = register_scan(scan_base, reference, pose, task_.registration, plausible);
+    auto result = register_scan(scan_base, reference, pose, task_.registration, plausible);
+    if (reference_map.goes_by_posts() && (!result.converged || result.unconstrained > 0)) {
+      const auto located = reference_map.locate(observation.base_scan,
+                                                observation.base_scan_height_m, pose, plausible);
+      if (located.converged && located.unconstrained == 0) result = located;
+    }
     report.registered = result.converged;
     report.registration_note = result.reason;
     report.information = result.information;

@@ -64,6 +64,18 @@ TEST(TableTopWithoutWalls, AMapThatOdometryDriftedAwayWithIsNoUnremarkedResult) 
   EXPECT_EQ(accepted["state_hash"], metrics["state_hash"]);
 }
 
+TEST(TableTopWithoutWalls, FourLegsAreEnoughToLocaliseBy) {
+  const auto [code, metrics] =
+      ran(OwnScene(table_at(0.0, 0.0, 0.72, 0.5, 0.5) + objects_on(0.72)), {});
+  EXPECT_EQ(code, ExitCode::done) << metrics["reason"];
+  EXPECT_TRUE(metrics["localisation"]["trusted"]);
+  for (const json& scan : metrics["scans"]) {
+    EXPECT_LT(scan["pose_error_m"], 0.025);
+    EXPECT_LT(std::abs(scan["yaw_error_rad"].get<double>()), 0.025);
+  }
+  EXPECT_GT(metrics["map"]["precision"], 0.85);
+}
+
 TEST(TableTopWithWalls, IsTrusted) {
   const auto [code, metrics] = ran(OwnScene(pedestal_table() + kWalls), {});
   EXPECT_EQ(metrics["status"], "completed");
