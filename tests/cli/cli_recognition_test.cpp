@@ -118,7 +118,7 @@ TEST_F(RecognitionCommands, TrainsOnSeveralRecordingsOfTheSameObjects) {
   const json model = parsed("train data again --out model -q --json --set 'features=[colour]'");
   EXPECT_EQ(model["objects"], 4);
   EXPECT_EQ(model["views"], 2 * (3 + 2) * 16);
-  expect_error(vantage("train data nowhere --out model -q"), 3, {"nowhere"});
+  expect_error(vantage("train data nowhere --out other -q"), 3, {"nowhere"});
 }
 
 TEST_F(RecognitionCommands, FeaturesAreExtractedOnce) {

@@ -66,7 +66,8 @@ TEST_F(View, ARunAndItsRecordingLookTheSame) {
   EXPECT_TRUE(same(start, bare)) << "nothing is known yet";
   EXPECT_TRUE(same(start, shot("begin.png", std::string(kTwoScans) + "--at 0 " + kSmall)));
   for (const char* camera : {"follow", "robot"}) {
-    const auto other = shot("other.png", std::string("run --camera ") + camera + " " + kSmall);
+    const auto other =
+        shot(camera + std::string(".png"), std::string("run --camera ") + camera + " " + kSmall);
     EXPECT_GT(colours(other), 100U) << camera;
     EXPECT_FALSE(same(plain, other)) << camera;
   }

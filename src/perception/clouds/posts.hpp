@@ -22,17 +22,26 @@ struct PostOptions {
   int min_posts = 3;
   double min_spread_m = 0.3;
   void fields(auto&& f) {
-    f("min_beams", min_beams, "returns side by side that make a post; higher sees fewer, surer",
+    f("min_beams", min_beams,
+      "least number of neighbouring returns that make a post; higher finds fewer, surer ones",
       between(1, 100));
-    f("max_width_m", max_width_m, "wider things are none", above(0.0));
-    f("gap_m", gap_m, "in range between neighbouring beams that parts one thing from the next",
+    f("max_width_m", max_width_m, "greatest width of a post; higher takes wider things for posts",
       above(0.0));
-    f("same_m", same_m, "a post nearer to a remembered one is that one", above(0.0));
-    f("sigma_m", sigma_m, "of a post's middle; one four times as far from its place spoils the fix",
+    f("gap_m", gap_m,
+      "step in range between neighbouring beams that parts a post from what is beside it; higher "
+      "finds fewer",
       above(0.0));
-    f("min_posts", min_posts, "fewer do not fix a pose", between(2, 1000));
+    f("same_m", same_m,
+      "distance within which a post is taken for a remembered one; higher tolerates a worse guess",
+      above(0.0));
+    f("sigma_m", sigma_m,
+      "standard deviation of the middle of a post; one four times as far from its place spoils the "
+      "fix",
+      above(0.0));
+    f("min_posts", min_posts, "least number of posts that fix a pose", between(2, 1000));
     f("min_spread_m", min_spread_m,
-      "of the posts about their middle, RMS; less leaves the heading open", above(0.0));
+      "least distance of the posts from their middle, RMS, below which they leave the heading open",
+      above(0.0));
   }
 };
 

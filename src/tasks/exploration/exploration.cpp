@@ -4,7 +4,7 @@
 
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
-#include "vantage/tasks/mapping/mapping_records.hpp"
+#include "vantage/tasks/mapping/mapping_metrics.hpp"
 
 namespace vantage {
 

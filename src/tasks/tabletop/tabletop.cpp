@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "vantage/core/log.hpp"
-#include "vantage/tasks/mapping/mapping_records.hpp"
+#include "vantage/tasks/mapping/mapping_metrics.hpp"
 #include "vantage/tasks/tabletop/table_region.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"
 
