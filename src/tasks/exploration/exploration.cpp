@@ -5,6 +5,7 @@
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
 #include "vantage/tasks/mapping/mapping_metrics.hpp"
+#include "vantage/tasks/mapping/mapping_recorder.hpp"
 
 namespace vantage {
 

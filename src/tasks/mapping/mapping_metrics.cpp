@@ -16,10 +16,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Scalar = std::optional<double>;
 
-constexpr std::string_view kSteps = "steps.csv";
-constexpr std::string_view kCandidates = "candidates.csv";
-constexpr std::string_view kMetrics = "metrics.json";
-
 Json scan_json(const ScanRecord& scan) {
   Json predicted = Json::object();
   for (const auto& [gain, cells] : scan.predicted_cells) predicted[gain] = cells;
@@ -221,100 +217,5 @@ std::string mapping_outcome(const Json& metrics) {
 }
 
 Measures mapping_measures() { return {kScalars, kCurves, prediction_errors, kHeadlines}; }
-
-RecordTexts mapping_records() {
-  return {
-      {kSteps, "time_s", "simulated, at the end of the scan"},
-      {kSteps, "scan", "number of the scan, from 1"},
-      {kSteps, "chosen_view", "id of the candidate that was taken; -1: the scan at the start"},
-      {kSteps, "fallback", "the view was out of reach, and the robot went as near as it could"},
-      {kSteps, "x_m", "of the sensor, world, as the robot believes it"},
-      {kSteps, "y_m", "of the sensor, world, as the robot believes it"},
-      {kSteps, "z_m", "of the sensor, world, as the robot believes it"},
-      {kSteps, "yaw_rad", "heading of the sensor, world, as the robot believes it"},
-      {kSteps, "pitch_rad", "of the sensor; positive looks down"},
-      {kSteps, "unobserved_cells", "cells of the map that are still unobserved"},
-      {kSteps, "observable_unobserved_cells",
-       "those of them that can be observed at all, by ground truth"},
-      {kSteps, "actual_new_cells", "unobserved cells that the scan has observed"},
-      {kSteps, "predicted_<gain>_cells", "what that gain said the scan would newly observe"},
-      {kSteps, "path_length_m", "way of the base, from the start"},
-      {kSteps, "leg_length_m", "of it since the scan before"},
-      {kSteps, "plan_time_s", "wall, of the decision that led here"},
-      {kSteps, "map_time_s", "wall, of registration and map update"},
-      {kSteps, "scan_time_s", "simulated, of the scan"},
-      {kSteps, "pose_error_m", "of the believed position after registration, by ground truth"},
-      {kSteps, "pose_error_before_registration_m", "of the odometry's position"},
-      {kSteps, "yaw_error_rad", "of the believed heading after registration"},
-      {kSteps, "registered", "the scan was registered; false: the odometry's pose was kept"},
-      {kSteps, "collisions", "up to here"},
-      {kSteps, "precision",
-       "of occupied cells, share that is occupied within metrics.tolerance_cells"},
-      {kSteps, "recall", "of observed surface cells, share that the map holds as occupied"},
-      {kCandidates, "decision",
-       "number of the decision, from 1; the first leads to the second scan"},
-      {kCandidates, "candidate", "id of the view, as chosen_view of steps.csv has it"},
-      {kCandidates, "x_m", "of the sensor, world"},
-      {kCandidates, "y_m", "of the sensor, world"},
-      {kCandidates, "z_m", "of the sensor, world"},
-      {kCandidates, "yaw_rad", "heading of the sensor, world"},
-      {kCandidates, "pitch_rad", "of the sensor; positive looks down"},
-      {kCandidates, "gain", "what the gain in use says of the view"},
-      {kCandidates, "gain_unit", "what it counts"},
-      {kCandidates, "predicted_cells",
-       "cells that it would newly show; empty: the gain counts no cells"},
-      {kCandidates, "way_m", "length of the planned path to it; empty: out of reach"},
-      {kCandidates, "chosen", "1: it was taken"},
-      {kMetrics, "observable_cells", "cells that can be observed at all, by ground truth"},
-      {kMetrics, "scans", "one entry a scan"},
-      {kMetrics, "scans[].time_s", "simulated, at the end of the scan"},
-      {kMetrics, "scans[].unobserved_cells", "cells of the map that are still unobserved"},
-      {kMetrics, "scans[].observable_unobserved_cells",
-       "those of them that can be observed at all"},
-      {kMetrics, "scans[].predicted", "what each gain said the scan would newly observe"},
-      {kMetrics, "scans[].predicted.<gain>", "cells"},
-      {kMetrics, "scans[].actual_new_cells", "unobserved cells that the scan has observed"},
-      {kMetrics, "scans[].chosen_view",
-       "id of the candidate that was taken; -1: the scan at the start"},
-      {kMetrics, "scans[].candidates", "number of views that were chosen from"},
-      {kMetrics, "scans[].plan_time_s", "wall, of the decision that led here"},
-      {kMetrics, "scans[].map_time_s", "wall, of registration and map update"},
-      {kMetrics, "scans[].scan_time_s", "simulated, of the scan"},
-      {kMetrics, "scans[].path_length_m", "way of the base, from the start"},
-      {kMetrics, "scans[].leg_length_m", "of it since the scan before"},
-      {kMetrics, "scans[].pose_error_m",
-       "of the believed position after registration, by ground truth"},
-      {kMetrics, "scans[].pose_error_before_registration_m", "of the odometry's position"},
-      {kMetrics, "scans[].yaw_error_rad", "of the believed heading after registration"},
-      {kMetrics, "scans[].map_sigma_m",
-       "how far off its place the robot believes what it maps to be, RMS"},
-      {kMetrics, "scans[].registered", "false: the odometry's pose was kept"},
-      {kMetrics, "scans[].unconstrained", "directions of (x, y, yaw) that odometry decided"},
-      {kMetrics, "scans[].fallback",
-       "the view was out of reach, and the robot went as near as it could"},
-      {kMetrics, "scans[].collisions", "up to here"},
-      {kMetrics, "scans[].precision",
-       "of occupied cells, share that is occupied within the tolerance"},
-      {kMetrics, "scans[].recall",
-       "of observed surface cells, share that the map holds as occupied"},
-      {kMetrics, "scans[].view", "pose of the sensor, as the robot believes it"},
-      {kMetrics, "map.precision",
-       "of the map at the end: of occupied cells, share that is occupied within the tolerance"},
-      {kMetrics, "map.recall",
-       "of the map at the end: of observed surface cells, share held as occupied"},
-      {kMetrics, "map.tolerance_cells", "how far an occupied cell may be off the true surface"},
-      {kMetrics, "observability",
-       "transmission of an unobserved cell that the gain assumes at the end; null: none"},
-      {kMetrics, "observability_per_slice",
-       "the same as learnt on the run, from the lowest layer of cells up"},
-      {kMetrics, "localisation.map_sigma_m", "greatest map_sigma_m of the scans"},
-      {kMetrics, "localisation.tolerance_m",
-       "how far off it may believe its map to be, from localisation.tolerance_cells"},
-      {kMetrics, "localisation.trusted", "map_sigma_m is within it"},
-      {kMetrics, "localisation.registered_scans", "scans whose registration was taken"},
-      {kMetrics, "region", "box of the map, world: min_m, max_m"},
-      {kMetrics, "candidates", "views of the last decision"},
-  };
-}
 
 }  // namespace vantage

@@ -10,7 +10,6 @@
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/runtime/measure.hpp"
-#include "vantage/runtime/record_text.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 
@@ -31,8 +30,5 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
 std::string mapping_outcome(const nlohmann::ordered_json& metrics);
 
 Measures mapping_measures();
-
-/// What the names in the run folder mean.
-RecordTexts mapping_records();
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include "vantage/perception/clouds/point_cloud.hpp"
 #include "vantage/planners/gain.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/tasks/mapping/map_panel.hpp"
 #include "vantage/tasks/mapping/scan_record.hpp"
@@ -48,5 +49,8 @@ class MappingRecorder : public EpisodeRecorder {
   std::vector<std::uint8_t> was_occupied_;
   std::vector<CellState> known_;  ///< of the map, as far as the history goes
 };
+
+/// What the names in the run folder mean.
+RecordTexts mapping_records();
 
 }  // namespace vantage
