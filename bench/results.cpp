@@ -29,7 +29,7 @@ struct StudyPart {
   std::string name;
   const char* title;
   std::vector<std::string> tables;
-  std::vector<Finding> (*findings)(const StudySummary&);
+  std::vector<Finding> (*findings)(const StudyTables&);
 };
 
 const std::vector<StudyPart>& study_parts() {
@@ -43,11 +43,11 @@ const std::vector<StudyPart>& study_parts() {
        {"predictors"},
        prediction_findings},
       {"office_small", "Small office (Fig. 3.15)", tables,
-       [](const StudySummary& study) {
+       [](const StudyTables& study) {
          return office_findings(study, "Fig. 3.15", {20, 25});
        }},
       {"office_large", "Large office (Fig. 3.16)", tables,
-       [](const StudySummary& study) {
+       [](const StudyTables& study) {
          return office_findings(study, "Fig. 3.16", {60, 70});
        }},
       {"recognition_flight",
@@ -76,22 +76,15 @@ std::vector<fs::path> files_in(const fs::path& folder, std::string_view extensio
   return files;
 }
 
-std::string findings_table(const std::vector<Finding>& findings) {
-  std::string text =
-      "| claim or goal | what it says | here | holds | if not, why |\n"
-      "|---|---|---|---|---|\n";
-  for (const Finding& f : findings) {
-    text += fmt::format("| {} | {} | {} | {} | {} |\n", f.source, f.claim, f.measured,
-                        f.holds ? "yes" : "**no**", f.holds ? "" : f.why);
-  }
-  return text;
-}
+/// Of what code, on what machine a benchmark ran.
+using Origins = std::map<std::string, std::string>;
 
-std::string figures_table(const Figures& all) {
-  std::string text = "| benchmark | figure | |\n|---|---|---|\n";
+std::string figures_table(const Figures& all, const Origins& origins) {
+  std::string text = "| benchmark | figure | | commit, threads, CPU |\n|---|---|---|---|\n";
   for (const auto& [name, figures] : all) {
     for (const auto& [key, value] : figures.items()) {
-      text += fmt::format("| {} | `{}` | {:.5g} |\n", name, key, value.get<double>());
+      text += fmt::format("| {} | `{}` | {:.5g} | {} |\n", name, key, value.get<double>(),
+                          origins.at(name));
     }
   }
   return text;
@@ -123,25 +116,34 @@ std::string evaluation_tables(const fs::path& folder, const std::string& title) 
   return text;
 }
 
+/// Nothing, where it was not run.
+Json json_or_nothing(const fs::path& file) {
+  return fs::exists(file) ? read_json(file) : Json::object();
+}
+
 /// What `vantage evaluate` wrote of recognition, with simple features and kernel descriptors.
 std::string recognition_part(const fs::path& folder) {
-  if (!fs::exists(folder / "simple" / "summary.json")) return {};
-  std::vector<Finding> findings =
-      recognition_findings(read_json(folder / "simple" / "summary.json"));
-  std::string tables = evaluation_tables(folder / "simple", "Simple features:");
-  if (fs::exists(folder / "changes" / "summary.json")) {
-    const std::vector<Finding> more =
-        change_findings(read_json(folder / "changes" / "summary.json"));
+  struct Part {
+    const char* folder;
+    const char* title;
+  };
+  std::vector<Finding> findings;
+  const auto add = [&](const std::vector<Finding>& more) {
     findings.insert(findings.end(), more.begin(), more.end());
-    tables += evaluation_tables(folder / "changes", "Changes:");
-  }
-  const fs::path same = folder / "simple_same_objects";
-  if (fs::exists(folder / "kernel" / "summary.json") && fs::exists(same / "summary.json")) {
-    const std::vector<Finding> more = kernel_findings(read_json(folder / "kernel" / "summary.json"),
-                                                      read_json(same / "summary.json"));
-    findings.insert(findings.end(), more.begin(), more.end());
-    tables += evaluation_tables(folder / "kernel", "Kernel descriptors:");
-    tables += evaluation_tables(same, "Simple features on the same objects:");
+  };
+  const auto summary = [&](const char* part) {
+    return json_or_nothing(folder / part / "summary.json");
+  };
+  add(recognition_findings(summary("simple")));
+  add(change_findings(summary("changes")));
+  add(kernel_findings(summary("kernel"), summary("simple_same_objects")));
+  std::string tables;
+  for (const Part& part : {Part{"simple", "Simple features:"},
+                           {"changes", "Changes:"},
+                           {"kernel", "Kernel descriptors:"},
+                           {"simple_same_objects", "Simple features on the same objects:"}}) {
+    if (fs::exists(folder / part.folder))
+      tables += evaluation_tables(folder / part.folder, part.title);
   }
   return "\n## Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n`bench/studies recognition`, "
          "a rendered database; trained at 30 and 60 deg, tested at 45 deg.\n\n" +
@@ -162,25 +164,26 @@ std::string cost_part(const fs::path& directory) {
 
 void write_results(const fs::path& directory) {
   Figures figures;
-  std::string machine;
+  Origins origins;
   for (const fs::path& file : files_in(directory, ".json")) {
     const Json benchmark = read_json(file);
-    figures.emplace(benchmark.at("name").get<std::string>(), benchmark.at("figures"));
-    machine =
-        fmt::format("{}, {} threads, commit {}", benchmark.at("cpu").get<std::string>(),
-                    benchmark.at("threads").get<int>(), benchmark.at("commit").get<std::string>());
+    const auto name = benchmark.at("name").get<std::string>();
+    figures.emplace(name, benchmark.at("figures"));
+    origins[name] =
+        fmt::format("{}, {}, {}", benchmark.at("commit").get<std::string>(),
+                    benchmark.at("threads").get<int>(), benchmark.at("cpu").get<std::string>());
   }
   std::string text(kIntroduction);
-  text += "\n## Speed\n\n" + machine + "\n\n" + findings_table(speed_findings(figures)) + "\n" +
-          figures_table(figures);
+  text += "\n## Speed\n\n" + findings_table(speed_findings(figures)) + "\n" +
+          figures_table(figures, origins);
   if (const auto scaling = figures.find("scaling"); scaling != figures.end()) {
     write_file(directory / "scaling.svg", figure_svg(scaling_figure(scaling->second)));
     text += "\n![Time against cells](results/scaling.svg)\n";
   }
   for (const StudyPart& part : study_parts()) {
     const fs::path folder = directory / part.name;
-    if (!fs::exists(folder / "summary.json")) continue;
-    const StudySummary study(read_json(folder / "summary.json"));
+    const StudyTables study(fs::path("assets/studies") / (part.name + ".yaml"),
+                            folder / "results.csv");
     text += fmt::format("\n## {}\n\n`bench/studies {}`: {}.\n\n", part.title, part.name,
                         study.extent());
     text += findings_table(part.findings(study));
@@ -188,6 +191,7 @@ void write_results(const fs::path& directory) {
       if (!study.has(table)) continue;
       text += fmt::format("\n### {}: {}\n\n{}", part.title, table, study.markdown(table));
     }
+    if (!fs::exists(folder)) continue;
     for (const fs::path& picture : files_in(folder, ".svg")) {
       text += fmt::format("\n![{}](results/{}/{})\n", picture.stem().string(), part.name,
                           picture.filename().string());

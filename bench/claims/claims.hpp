@@ -1,38 +1,54 @@
 /// Claims of the dissertation and goals of this project, each held against what was measured.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "bench/results_tables.hpp"
+#include "bench/study_tables.hpp"
 
 namespace vantage::bench {
+
+enum class Verdict { yes, no, not_run };
 
 struct Finding {
   std::string source;    ///< "Fig. 3.10", or the goal
   std::string claim;     ///< what should be seen
-  std::string measured;  ///< what was
-  bool holds = false;
-  std::string why;  ///< what explains it, if it does not
+  std::string measured;  ///< what was, or what is missing
+  Verdict verdict = Verdict::not_run;
+  std::string why;  ///< what explains it, if it does not hold
 };
+
+struct Measured {
+  std::string text;
+  bool holds = false;
+  std::string why = {};  ///< what explains it, if it does not
+};
+
+/// Holds a claim against what `measure` finds. It is not run where a number that it asks for is not
+/// there, and says which.
+Finding held(std::string source, std::string claim, const std::function<Measured()>& measure);
+
+/// The claims as a table.
+std::string findings_table(const std::vector<Finding>& findings);
 
 /// Figures of benchmarks by the benchmark's name: decision, scaling, office, episode.
 using Figures = std::map<std::string, Json>;
 
 std::vector<Finding> speed_findings(const Figures& figures);
-std::vector<Finding> tabletop_findings(const StudySummary& study);
-std::vector<Finding> prediction_findings(const StudySummary& study);
+std::vector<Finding> tabletop_findings(const StudyTables& study);
+std::vector<Finding> prediction_findings(const StudyTables& study);
 /// Of recognition and of change detection on the quadrotor.
-std::vector<Finding> flight_recognition_findings(const StudySummary& study);
-std::vector<Finding> flight_change_findings(const StudySummary& study);
+std::vector<Finding> flight_recognition_findings(const StudyTables& study);
+std::vector<Finding> flight_change_findings(const StudyTables& study);
 /// Scans that the dissertation's best method takes.
 struct ScansClaimed {
   int fewest = 0;
   int most = 0;
 };
-std::vector<Finding> office_findings(const StudySummary& study, const std::string& figure,
+std::vector<Finding> office_findings(const StudyTables& study, const std::string& figure,
                                      const ScansClaimed& claimed);
-std::vector<Finding> trajectory_findings(const StudySummary& study);
+std::vector<Finding> trajectory_findings(const StudyTables& study);
 
 }  // namespace vantage::bench

@@ -190,6 +190,38 @@ std::string csv_header(const StudyResults& results) {
   return header;
 }
 
+/// Whose prediction errors there are, in order.
+std::vector<std::string> predictors_of(const StudyResults& results) {
+  std::vector<std::string> names;
+  for (const auto& measures : results.measures) {
+    if (!measures) continue;
+    for (const auto& [name, curve] : measures->prediction_errors) {
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+/// Mean of an episode, or nothing.
+std::string prediction_error(const StudyResults& results, std::size_t i, const std::string& name) {
+  if (!results.measures[i]) return {};
+  const Curve* curve = curve_named(results.measures[i]->prediction_errors, name);
+  return curve == nullptr || curve->empty() ? std::string() : fmt::format("{}", mean(*curve));
+}
+
+/// State hash, and of what configuration and code the episode is.
+std::string origin_of(const StudyResults& results, std::size_t i) {
+  if (!results.measures[i]) return ",,,";
+  const Json manifest =
+      read_json_or_null(episode_folder(results.directory, results.plan[i]) / "manifest.json");
+  const auto text = [](const Json& json, const char* key) {
+    return json.is_object() ? json.value(key, "") : std::string();
+  };
+  return fmt::format(
+      ",{},{},{}", text(metrics_of(results, i), "state_hash"), text(manifest, "config_hash"),
+      manifest.is_object() ? text(manifest.value("versions", Json()), "vantage") : "");
+}
+
 }  // namespace
 
 bool StudyResults::complete() const {
@@ -221,16 +253,19 @@ StudyResults read_study_results(const fs::path& study_dir) {
 std::string results_csv(const StudyResults& results) {
   std::string text = csv_header(results) + ",status";
   const std::vector<std::size_t> columns = columns_of(results, false);
+  const std::vector<std::string> predictors = predictors_of(results);
   for (const std::size_t s : columns) text += fmt::format(",{}", scalar_measures()[s].name);
-  text += ",state_hash\n";
+  for (const std::string& name : predictors)
+    text += fmt::format(",prediction_error_{}_cells", name);
+  text += ",state_hash,config_hash,commit\n";
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     text += fmt::format("{},{}", csv_start(results, i), state_name(results.states[i]));
     for (const std::size_t s : columns) {
       const auto value = results.measures[i] ? results.measures[i]->scalars[s] : std::nullopt;
       text += value ? fmt::format(",{}", *value) : ",";
     }
-    text +=
-        "," + (results.measures[i] ? metrics_of(results, i).value("state_hash", "") : "") + "\n";
+    for (const std::string& name : predictors) text += "," + prediction_error(results, i, name);
+    text += origin_of(results, i) + "\n";
   }
   return text;
 }

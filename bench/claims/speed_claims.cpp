@@ -1,0 +1,83 @@
+// What benchmarks measured, held against the goals.
+#include <fmt/format.h>
+
+#include "bench/claims/claims.hpp"
+
+namespace vantage::bench {
+namespace {
+
+/// @throws NotRun if the benchmark or the figure is not there
+double figure(const Figures& figures, const std::string& benchmark, const char* key) {
+  const auto found = figures.find(benchmark);
+  if (found == figures.end() || !found->second.contains(key)) {
+    throw NotRun(fmt::format("`{}` of `bench/run {}`", key, benchmark));
+  }
+  return found->second.at(key).get<double>();
+}
+
+Finding at_most(const Figures& figures, const char* benchmark, const char* key, double limit,
+                const char* why = "") {
+  return held("goal", fmt::format("{}: `{}` at most {}", benchmark, key, limit), [&]() -> Measured {
+    const double value = figure(figures, benchmark, key);
+    return {fmt::format("{:.4g}", value), value <= limit, why};
+  });
+}
+
+Finding at_least(const Figures& figures, const char* benchmark, const char* key, double limit,
+                 const char* why = "") {
+  return held("goal", fmt::format("{}: `{}` at least {}", benchmark, key, limit),
+              [&]() -> Measured {
+                const double value = figure(figures, benchmark, key);
+                return {fmt::format("{:.4g}", value), value >= limit, why};
+              });
+}
+
+/// The simple features of one view, together.
+Finding simple_features(const Figures& figures) {
+  return held("goal", "all simple features of a view at most 25 ms", [&]() -> Measured {
+    double sum_ms = 0.0;
+    for (const char* feature : {"colour_ms", "bbox_ms", "sift_ms", "vfh_ms"}) {
+      sum_ms += figure(figures, "features", feature);
+    }
+    return {fmt::format("{:.1f} ms", sum_ms), sum_ms <= 25.0};
+  });
+}
+
+Finding decision_time(const Figures& figures) {
+  return held("Chapter 3", "a decision takes about 30 s; under 10 s is \"a future goal\" (2014 PC)",
+              [&]() -> Measured {
+                const double sweep_ms = figure(figures, "decision", "sweep_ms");
+                return {fmt::format("{:.0f} ms for the same 30 views", sweep_ms), sweep_ms < 1e4};
+              });
+}
+
+}  // namespace
+
+std::vector<Finding> speed_findings(const Figures& figures) {
+  constexpr const char* kExact =
+      "the exact evaluator is fast itself: an integer walk on both cores, `castray_over_sweep / "
+      "exact_over_sweep` times faster than castRay";
+  constexpr const char* kOffice =
+      "timed on the first map with 30 views: from 111 to 170 ms, by the episode that builds it";
+  return {decision_time(figures),
+          at_most(figures, "decision", "sweep_ms", 40.0),
+          at_least(figures, "decision", "exact_over_sweep", 50.0, kExact),
+          at_least(figures, "decision", "castray_over_sweep", 1000.0),
+          at_least(figures, "decision", "spearman_min", 0.99),
+          at_most(figures, "decision", "regret_max", 0.02),
+          at_most(figures, "scaling", "exponent", 1.05),
+          at_most(figures, "office", "sweep_ms", 150.0, kOffice),
+          at_least(figures, "office", "spearman_min", 0.99),
+          at_most(figures, "office", "regret_max", 0.02),
+          at_most(figures, "selection", "mi_ms", 10.0),
+          at_most(figures, "selection", "le_ms", 100.0),
+          at_most(figures, "selection", "jd_ms", 1.0),
+          simple_features(figures),
+          at_most(figures, "features", "kernel_ms", 200.0),
+          at_most(figures, "trajectory", "stomp_ms", 3.0),
+          at_most(figures, "trajectory", "mppi_ms", 3.0),
+          at_most(figures, "trajectory", "cem_ms", 3.0),
+          at_most(figures, "trajectory", "covariant_gradient_ms", 3.0)};
+}
+
+}  // namespace vantage::bench

@@ -1,0 +1,103 @@
+/// What a study came to, read from its results.csv and held against its plan: a number is of every
+/// episode that it stands for, or there is none.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "vantage/report/report_data.hpp"
+#include "vantage/study/comparison.hpp"
+#include "vantage/study/study.hpp"
+
+namespace vantage::bench {
+
+using Json = nlohmann::ordered_json;
+
+/// @throws InputError if the file is not there or is not JSON.
+Json read_json(const std::filesystem::path& file);
+
+/// What was to be known was not measured, or not of all that it is about.
+class NotRun : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// `above` / `below`. @throws NotRun if that is no number
+double quotient(double above, double below);
+
+/// The panel that holds all others.
+inline constexpr const char* kAllPanels = "all";
+
+class StudyTables {
+ public:
+  /// @param results of sweep collect; no rows if it was never run
+  /// @throws ConfigError if the study's file is wrong
+  StudyTables(const std::filesystem::path& study_file, CsvTable results);
+  StudyTables(const std::filesystem::path& study_file, const std::filesystem::path& results_csv);
+
+  // Of a table (a column of results.csv, or "predictors"), a panel and a level; each throws NotRun
+  // unless every episode of the plan that it is about came to a value.
+  [[nodiscard]] double mean(const std::string& table, const std::string& panel,
+                            const std::string& level) const;
+  [[nodiscard]] double least(const std::string& table, const std::string& panel,
+                             const std::string& level) const;
+  /// To the reference level, of the same episodes but for the level; that has none to itself.
+  [[nodiscard]] Difference difference(const std::string& table, const std::string& panel,
+                                      const std::string& level) const;
+  [[nodiscard]] double ratio(const std::string& table, const std::string& panel,
+                             const std::string& level) const;
+  /// "1.04 [1.01, 1.07], 20 pairs": ratio to the reference level.
+  [[nodiscard]] std::string ratio_text(const std::string& table, const std::string& panel,
+                                       const std::string& level) const;
+
+  /// As planned.
+  [[nodiscard]] std::vector<std::string> panels() const;
+  [[nodiscard]] std::vector<std::string> levels() const;
+  [[nodiscard]] const std::string& reference() const { return study_.report.reference; }
+  /// "120 of 320 episodes"
+  [[nodiscard]] std::string extent() const;
+  /// Whether there is any value.
+  [[nodiscard]] bool has(const std::string& table) const;
+  /// A row a level, a column a panel: mean [95 % interval], ratio to the reference, p, and of how
+  /// many episodes where some are missing.
+  [[nodiscard]] std::string markdown(const std::string& table) const;
+
+ private:
+  struct Episode {
+    std::string name;
+    std::size_t panel = 0;
+    std::size_t level = 0;
+    std::size_t pair = 0;
+    const std::vector<std::string>* row = nullptr;  ///< none: it came to no result
+  };
+  /// The panels, or one of all episodes.
+  [[nodiscard]] std::vector<std::string> groups() const;
+  void plan_episodes();
+  void find_rows();
+  struct Table {
+    std::vector<std::string> levels;
+    std::size_t reference = 0;
+    std::vector<Sample> samples;
+  };
+  [[nodiscard]] const Table& table(const std::string& name) const;
+  [[nodiscard]] Table scalar_table(const std::string& name) const;
+  [[nodiscard]] Table predictor_table() const;
+  [[nodiscard]] std::size_t planned(const std::string& panel, std::size_t level) const;
+  /// @throws NotRun if one is missing
+  [[nodiscard]] std::vector<Sample> whole_samples(const std::string& table,
+                                                  const std::string& panel,
+                                                  const std::string& level) const;
+  [[nodiscard]] std::size_t level_of(const std::string& table, const std::string& level) const;
+
+  Study study_;
+  CsvTable results_;
+  std::vector<Episode> episodes_;
+  mutable std::map<std::string, Table> tables_;
+};
+
+}  // namespace vantage::bench

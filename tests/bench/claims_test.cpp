@@ -1,0 +1,258 @@
+// A claim that needs what was not measured is not run: never yes, and never another number.
+#include "bench/claims/claims.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "bench/claims/recognition_claims.hpp"
+#include "vantage/core/hash.hpp"
+#include "vantage/study/measures.hpp"
+#include "vantage/study/study_reading.hpp"
+
+namespace vantage::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Findings = std::vector<Finding>;
+using Hold = std::function<Findings(const StudyTables&)>;
+
+const fs::path kRoot = VANTAGE_SOURCE_DIR;
+
+/// Results of every episode that a study plans, each with every number that a claim may ask for.
+CsvTable invented_results(const fs::path& study) {
+  CsvTable table{{"episode", "status"}, {}};
+  for (const std::string& name : scalar_names()) table.columns.push_back(name);
+  for (const char* label :
+       {"simple", "visibility_weighted", "adaptive", "beer_lambert a=0.98", "beer_lambert a=0.99",
+        "beer_lambert", "beer_lambert a=0.997", "beer_lambert a=0.998", "beer_lambert a=0.999",
+        "beer_lambert a=0.9995", "beer_lambert a=0.9998"}) {
+    table.columns.push_back(std::string("prediction_error_") + label + "_cells");
+  }
+  const StudyReading reading = read_study_file(study, {});
+  std::vector<std::string> names{""};
+  for (const Factor& factor : reading.study.factors) {
+    std::vector<std::string> more;
+    for (const std::string& begun : names) {
+      for (const Level& level : factor.levels) {
+        more.push_back(begun.empty() ? level.name : begun + "/" + level.name);
+      }
+    }
+    names = std::move(more);
+  }
+  for (const std::string& name : names) {
+    auto& row = table.rows.emplace_back(std::vector<std::string>{name, "completed"});
+    for (std::size_t c = 2; c < table.columns.size(); ++c) {
+      const double share = static_cast<double>(hash_bytes(name + table.columns[c]) % 1000) / 1000.0;
+      row.push_back(std::to_string(0.5 + share));
+    }
+  }
+  return table;
+}
+
+/// By some claim; the others change none, and intervals take their time.
+bool is_asked_for(const std::string& column) {
+  constexpr std::array kTables{"area",
+                               "scans",
+                               "scans_to_95",
+                               "observed_share",
+                               "path_length_m",
+                               "collisions",
+                               "correct",
+                               "category_correct",
+                               "changed_correct",
+                               "views",
+                               "view_position_error_m",
+                               "view_angle_error_rad",
+                               "accuracy",
+                               "mean_entropy_nats",
+                               "observations",
+                               "collided",
+                               "minimum_clearance_m",
+                               "tracking_error_m",
+                               "missed_deadlines"};
+  return column.starts_with("prediction_error_") ||
+         std::ranges::find(kTables, column) != kTables.end();
+}
+
+struct Case {
+  const char* study;
+  Hold hold;
+};
+
+class Claims : public testing::TestWithParam<Case> {
+ protected:
+  [[nodiscard]] fs::path study() const {
+    return kRoot / "assets/studies" / (std::string(GetParam().study) + ".yaml");
+  }
+  [[nodiscard]] Findings found(const CsvTable& results) const {
+    return GetParam().hold(StudyTables(study(), results));
+  }
+  /// A claim whose text changes with a number needs it: without it, it is not run.
+  void expect_not_run(const Findings& before, const Findings& changed, const Findings& without) {
+    ASSERT_EQ(before.size(), without.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const bool needs_it = changed[i].measured != before[i].measured;
+      if (needs_it) {
+        EXPECT_EQ(without[i].verdict, Verdict::not_run) << before[i].claim;
+      } else if (without[i].verdict != Verdict::not_run) {
+        EXPECT_EQ(without[i].measured, before[i].measured) << before[i].claim;
+      }
+      needed_ += needs_it ? 1 : 0;
+    }
+  }
+  int needed_ = 0;
+};
+
+TEST_P(Claims, AllAreHeldAgainstWholeResults) {
+  for (const Finding& finding : found(invented_results(study()))) {
+    EXPECT_NE(finding.verdict, Verdict::not_run) << finding.claim << ": " << finding.measured;
+  }
+}
+
+TEST_P(Claims, NoneHoldsWithoutResults) {
+  CsvTable none;
+  for (const Finding& finding : found(none)) {
+    EXPECT_EQ(finding.verdict, Verdict::not_run) << finding.claim;
+    EXPECT_FALSE(finding.measured.empty()) << "it says what is missing";
+  }
+}
+
+TEST_P(Claims, AMissingEpisodeOfAnyMethod) {
+  const CsvTable whole = invented_results(study());
+  const Findings before = found(whole);
+  const auto levels = StudyTables(study(), whole).levels();
+  for (const std::string& level : levels) {
+    CsvTable other = whole;
+    const auto row = std::ranges::find_if(other.rows, [&](const auto& r) {
+      return ("/" + r[0] + "/").find("/" + level + "/") != std::string::npos;
+    });
+    ASSERT_NE(row, other.rows.end()) << level;
+    std::fill(row->begin() + 2, row->end(), "1000000");
+    CsvTable less = whole;
+    less.rows.erase(less.rows.begin() + (row - other.rows.begin()));
+    expect_not_run(before, found(other), found(less));
+  }
+  EXPECT_GT(needed_, 0);
+}
+
+TEST_P(Claims, AMissingTable) {
+  const CsvTable whole = invented_results(study());
+  const Findings before = found(whole);
+  for (std::size_t column = 2; column < whole.columns.size(); ++column) {
+    if (!is_asked_for(whole.columns[column])) continue;
+    CsvTable less = whole;
+    for (auto& row : less.rows) row[column].clear();
+    CsvTable other = whole;
+    for (std::size_t i = 0; i < other.rows.size(); ++i) {
+      other.rows[i][column] = std::to_string(1000 * (i + 7));
+    }
+    expect_not_run(before, found(other), found(less));
+  }
+  EXPECT_GT(needed_, 0);
+}
+
+TEST_P(Claims, WhatIsNoNumberIsMissing) {
+  CsvTable broken = invented_results(study());
+  for (auto& row : broken.rows) {
+    for (std::size_t column = 2; column < row.size(); ++column) row[column] = "nan";
+  }
+  for (const Finding& finding : found(broken)) EXPECT_EQ(finding.verdict, Verdict::not_run);
+}
+
+INSTANTIATE_TEST_SUITE_P(Studies, Claims,
+                         testing::Values(Case{"tabletop", tabletop_findings},
+                                         Case{"tabletop_predictors", prediction_findings},
+                                         Case{"office_small",
+                                              [](const StudyTables& s) {
+                                                return office_findings(s, "Fig. 3.15", {20, 25});
+                                              }},
+                                         Case{"office_large",
+                                              [](const StudyTables& s) {
+                                                return office_findings(s, "Fig. 3.16", {60, 70});
+                                              }},
+                                         Case{"recognition_flight", flight_recognition_findings},
+                                         Case{"change_flight", flight_change_findings},
+                                         Case{"trajectory", trajectory_findings}),
+                         [](const auto& info) { return std::string(info.param.study); });
+
+/// `study` without each of the entries of a list in turn.
+void without_each(const Json& study, const char* list,
+                  const std::function<void(const Json&)>& see) {
+  for (std::size_t i = 0; i < study.at(list).size(); ++i) {
+    Json less = study;
+    less[list].erase(i);
+    see(less);
+  }
+}
+
+void expect_same_or_not_run(const Findings& before, const Findings& after) {
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (after[i].verdict == Verdict::not_run) continue;
+    EXPECT_EQ(after[i].measured, before[i].measured) << after[i].claim;
+  }
+}
+
+TEST(RecognitionClaims, AMissingMethodIsNotRun) {
+  const Json simple = read_json(kRoot / "bench/results/recognition/simple/summary.json");
+  const Findings before = recognition_findings(simple);
+  for (const Finding& finding : before) EXPECT_NE(finding.verdict, Verdict::not_run);
+  without_each(simple, "methods", [&](const Json& less) {
+    expect_same_or_not_run(before, recognition_findings(less));
+  });
+  for (const Finding& finding : recognition_findings(Json::object())) {
+    EXPECT_EQ(finding.verdict, Verdict::not_run);
+  }
+}
+
+TEST(RecognitionClaims, AMissingScenarioIsNotRun) {
+  const Json changes = read_json(kRoot / "bench/results/recognition/changes/summary.json");
+  const Findings before = change_findings(changes);
+  without_each(changes, "changes",
+               [&](const Json& less) { expect_same_or_not_run(before, change_findings(less)); });
+  for (const Finding& finding : change_findings(Json::object())) {
+    EXPECT_EQ(finding.verdict, Verdict::not_run);
+  }
+  for (const Finding& finding : kernel_findings(Json::object(), Json::object())) {
+    EXPECT_EQ(finding.verdict, Verdict::not_run);
+  }
+}
+
+TEST(SpeedClaims, AMissingFigureIsNotRun) {
+  Figures figures;
+  for (const auto& entry : fs::directory_iterator(kRoot / "bench/results")) {
+    if (entry.path().extension() != ".json") continue;
+    const Json benchmark = read_json(entry.path());
+    figures.emplace(benchmark.at("name").get<std::string>(), benchmark.at("figures"));
+  }
+  const Findings before = speed_findings(figures);
+  for (const Finding& finding : before)
+    EXPECT_NE(finding.verdict, Verdict::not_run) << finding.claim;
+  for (const auto& [name, values] : figures) {
+    Figures less = figures;
+    less.erase(name);
+    expect_same_or_not_run(before, speed_findings(less));
+  }
+  for (const Finding& finding : speed_findings({})) EXPECT_EQ(finding.verdict, Verdict::not_run);
+}
+
+TEST(Findings, SayWhatHolds) {
+  const Findings findings{held("goal", "a",
+                               [] {
+                                 return Measured{"1", true, "never said"};
+                               }),
+                          held("goal", "b",
+                               [] {
+                                 return Measured{"2", false, "because"};
+                               }),
+                          held("goal", "c", []() -> Measured { throw NotRun("`x` of `y`"); })};
+  EXPECT_THAT(findings_table(findings),
+              testing::AllOf(testing::HasSubstr("| goal | a | 1 | yes |  |"),
+                             testing::HasSubstr("| goal | b | 2 | **no** | because |"),
+                             testing::HasSubstr("| goal | c | `x` of `y` | not run |  |")));
+}
+
+}  // namespace
+}  // namespace vantage::bench
