@@ -7,6 +7,7 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/study/figures/flight_figure.hpp"
+#include "vantage/study/results_csv.hpp"
 
 namespace vantage {
 namespace {

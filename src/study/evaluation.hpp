@@ -30,11 +30,8 @@ struct StudyResults {
 /// @throws InputError naming the file that is missing or malformed, ConfigError
 StudyResults read_study_results(const std::filesystem::path& study_dir);
 
-/// results.csv: a row an episode, in the order of the plan. Holds nothing that another run of the
-/// same episodes, in whatever order and however often killed, would not give again.
-std::string results_csv(const StudyResults& results);
-/// timings.csv: wall times.
-std::string timings_csv(const StudyResults& results);
+/// metrics.json of an episode as this version has it; null if it is missing or not whole.
+nlohmann::ordered_json episode_metrics(const StudyResults& results, std::size_t episode);
 
 struct Evaluation {
   std::vector<Comparison> comparisons;  ///< StudyReport::tables, then the predictors
