@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "vantage/core/hash.hpp"
 namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
@@ -56,17 +57,21 @@ std::string prediction_error(const StudyResults& results, std::size_t i, const s
   return none ? std::string() : fmt::format("{}", mean(found->second));
 }
 
+/// But for `threads`, which change no result.
+std::string config_hash(ResolvedEpisode resolved) {
+  resolved.setup.options.threads = EpisodeOptions{}.threads;
+  return hash_text(hash_bytes(episode_yaml(resolved)));
+}
+
 /// State hash, and of what configuration and code the episode is.
 std::string origin_of(const StudyResults& results, std::size_t i) {
   if (!results.measures[i]) return ",,,";
   const Json manifest =
       read_json_or_null(episode_folder(results.directory, results.plan[i]) / "manifest.json");
-  const auto text = [](const Json& json, const char* key) {
-    return json.is_object() ? json.value(key, "") : std::string();
-  };
-  return fmt::format(
-      ",{},{},{}", text(episode_metrics(results, i), "state_hash"), text(manifest, "config_hash"),
-      manifest.is_object() ? text(manifest.value("versions", Json()), "vantage") : "");
+  const auto versions = manifest.is_object() ? manifest.value("versions", Json::object()) : Json();
+  return fmt::format(",{},{},{}", episode_metrics(results, i).value("state_hash", ""),
+                     config_hash(results.plan[i].resolved),
+                     versions.is_object() ? versions.value("vantage", "") : "");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ RecordTexts study_records() {
       {"results.csv", "status", "completed, failed, diverged, or why there is no result"},
       {"results.csv", "prediction_error_<gain>_cells",
        "mean error of what that gain predicted, over the scans"},
-      {"results.csv", "config_hash", "of the episode's configuration"},
+      {"results.csv", "config_hash", "of the episode's configuration, but for threads"},
       {"results.csv", "commit", "version of vantage that ran the episode"},
       {"results.csv", "state_hash", "of every state and command of the episode"},
       {"timings.csv", "wall_time_s", "of the episode"},
