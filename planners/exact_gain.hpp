@@ -20,6 +20,8 @@ template <RayGain G>
 double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& grid,
                      const Pose& T_world_sensor, const FieldOfView& field_of_view) {
   const ViewCone cone(T_world_sensor, field_of_view);
+  expects(!G::unobserved_only || tables.state.size() == grid.size(),
+          "a gain of unobserved cells alone tells their state");
   typename G::Ray ray = gain.ray(tables);
   double sum_bits = 0.0;
   const auto wanted = [&](std::size_t cell) {

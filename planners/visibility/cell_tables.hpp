@@ -18,7 +18,8 @@ struct GainContext {
   const BlockField* transmission = nullptr;
 };
 
-/// One entry per cell, `frame.index` order. A gain fills what it reads and leaves the rest empty.
+/// One entry per cell, `frame.index` order. A gain fills what it reads and leaves the rest empty;
+/// `state` is read of every gain that is `unobserved_only`.
 struct CellTables {
   std::vector<CellState> state;
   std::vector<float> p_occupied;

@@ -1,23 +1,25 @@
+// clang-format off
 /// The contract of a gain: what planners/gain.hpp closes in a variant for `gain:` of an episode,
 /// and what a program of one's own may hand to view_gains_bits() and score_views() as it is.
 ///
 ///   struct MyGain {
-///     static constexpr bool unobserved_only = true;    // known cells have no utility
-///     using Ray = AttenuatedRay;                       // or one of your own, see RayGain
-///     CellTables prepare(const GainContext&) const;    // once a decision: of each cell, what is
-///     read Ray ray(const CellTables& tables) const;         // the state of one ray
+///     static constexpr bool unobserved_only = true;          // known cells have no utility
+///     using Ray = AttenuatedRay;                             // or one of your own, see RayGain
+///     CellTables prepare(const GainContext& context) const;  // once a decision, of every cell:
+///                                                            // what the ray reads, and `state`
+///     Ray ray(const CellTables& tables) const;               // the state of one ray
 ///   };
 ///
 /// A gain is one of these:
 ///  - RayGain: a sum over the cells in view, each by the ray that sees it;
-///  - BeamGain: a sum over a fan of beams: `fan` and `beam()` in place of `unobserved_only`,
-///  `ray()`;
+///  - BeamGain: a sum over a fan of beams: `fan` and `beam()` in place of `unobserved_only` and `ray()`;
 ///  - either with `Attenuation attenuation(const GainContext&) const`: a sum of transmittance times
 ///    utility, which is swept, several ten times faster than ray by ray.
 ///
 /// In the variant it also says `name`, `text`, `predicts_cells` (whether its value is a number of
 /// cells, to be held against what a view showed) and `fields()`; and, if so, `unit` (else bits) and
 /// `transmission_unobserved()`.
+// clang-format on
 #pragma once
 
 #include "vantage/planners/visibility/attenuated_ray.hpp"

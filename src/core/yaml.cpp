@@ -171,6 +171,22 @@ void set_value(ConfigNode& root, const std::string& key, ConfigNode value) {
   node->set(key.substr(begin), std::move(value));
 }
 
+/// What an assignment says of `key`: its own value, a part of it, or the name that it stands for.
+const ConfigNode* said_of(const KeyValue& assignment, std::string_view key) {
+  const auto& [known, value] = assignment;
+  if (key == known) return &value;
+  if (!key.starts_with(known + ".")) return nullptr;
+  std::string_view rest = key.substr(known.size() + 1);
+  if (value.kind == ConfigNode::Kind::scalar) return rest == "name" ? &value : nullptr;
+  const ConfigNode* node = &value;
+  while (node != nullptr && !rest.empty()) {
+    const auto dot = rest.find('.');
+    node = node->find(rest.substr(0, dot));
+    rest.remove_prefix(dot == rest.npos ? rest.size() : dot + 1);
+  }
+  return node;
+}
+
 }  // namespace
 
 ConfigNode read_yaml(const std::filesystem::path& path) {
@@ -208,13 +224,13 @@ void set_values(ConfigNode& root, std::vector<KeyValue> values) {
   std::ranges::stable_sort(
       values, {}, [](const KeyValue& value) { return std::ranges::count(value.first, '.'); });
   for (auto value = values.begin(); value != values.end(); ++value) {
-    const auto same = std::find_if(
-        values.begin(), value, [&](const KeyValue& other) { return other.first == value->first; });
-    if (same != value && to_yaml(same->second) != to_yaml(value->second)) {
+    for (auto before = values.begin(); before != value; ++before) {
+      const ConfigNode* said = said_of(*before, value->first);
+      if (said == nullptr || to_yaml(*said) == to_yaml(value->second)) continue;
       throw ConfigError(fmt::format("{}: set twice, to different values{}", value->second.where(),
-                                    same->second.origin == value->second.origin
+                                    before->second.origin == value->second.origin
                                         ? ""
-                                        : ", also at " + same->second.origin));
+                                        : ", also at " + before->second.origin));
     }
   }
   for (auto& [key, value] : values) set_value(root, key, std::move(value));

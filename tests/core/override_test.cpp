@@ -73,6 +73,11 @@ TEST(Override, AKeyHasOneValue) {
   apply_overrides(root, {"a=1", "a=1"});
   EXPECT_EQ(to_yaml(root), "a: 1\n");
   EXPECT_THROW(apply_overrides(root, {"a=1", "a=2"}), ConfigError);
+  EXPECT_THROW(apply_overrides(root, {"gain.name=simple", "gain=fsmi"}), ConfigError);
+  EXPECT_THROW(apply_overrides(root, {"gain={name: fsmi, d: 2}", "gain.d=3"}), ConfigError);
+  ConfigNode refined;
+  apply_overrides(refined, {"gain={name: fsmi, d: 2}", "gain.e=3", "gain.name=fsmi"});
+  EXPECT_EQ(to_yaml(refined), "gain:\n  name: fsmi\n  d: 2\n  e: 3\n");
 }
 
 TEST(Override, RefusesWhatIsNoAssignment) {

@@ -127,12 +127,13 @@ TEST_F(StudyFile, SeedsAreAFactor) {
             3U);
   const std::string alone = "episode: assets/episodes/tabletop.yaml\nseeds: ";
   EXPECT_THAT(names(plan(alone + "[4, 2, 9]\n")), ElementsAre("4", "2", "9"));
-  EXPECT_THAT(names(plan(alone + "7\n")), ElementsAre("7"));
+  EXPECT_THAT(names(plan(alone + "[7]\n")), ElementsAre("7"));
   EXPECT_EQ(read(alone + "1..20\n").report.compare, "seed");
   EXPECT_TRUE(is_study(folder_ / "s.yaml"));
   EXPECT_THAT(names(plan(replaced(kStudy, "  start:", "  seeds: 1..2\n  start:"))).front(),
               HasSubstr("1/near/random"));
-  for (const char* wrong : {"5..3", "1..", "a..b", "-1..2", "[]", "[1, 1]", "[1, x]", "{a: 1}"}) {
+  for (const char* wrong :
+       {"10", "5..3", "1..", "a..b", "-1..2", "[]", "[1, 1]", "[1, x]", "{a: 1}"}) {
     expect_problem(alone + wrong + "\n", {"s.yaml:2", "seed"});
   }
   expect_problem(std::string(kStudy) + "seeds: 1..2\nset: {seed: 4}\n", {"duplicate"});

@@ -25,7 +25,7 @@ constexpr auto kFileKeys = std::to_array<FileKey>(
     {{"scene", false}, {"robot.model", false}, {"model", true}, {"database.models", true}});
 
 [[noreturn]] void wrong_seeds(const ConfigNode& node, std::string_view given) {
-  throw ConfigError(fmt::format("{}: '{}' are no seeds; write 1..20 or a list, as [1, 2, 5]",
+  throw ConfigError(fmt::format("{}: '{}' are no seeds; write 1..20, or a list as [1, 2, 5] or [7]",
                                 node.where(), given));
 }
 
@@ -41,7 +41,8 @@ std::vector<std::uint64_t> seeds_between(const ConfigNode& node) {
   const std::string_view text = node.scalar;
   const auto dots = text.find("..");
   const auto first = whole_number(text.substr(0, dots));
-  const auto last = dots == text.npos ? first : whole_number(text.substr(dots + 2));
+  // A single number is as likely meant as how many there are.
+  const auto last = dots == text.npos ? std::nullopt : whole_number(text.substr(dots + 2));
   if (!first || !last || *last < *first || *last - *first >= kMaxSeeds) wrong_seeds(node, text);
   std::vector<std::uint64_t> seeds;
   for (std::uint64_t seed = *first; seed <= *last; ++seed) seeds.push_back(seed);
