@@ -136,7 +136,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"cli/hints", {"core", "study"}},
     {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                          Rooms{"belief/objects", "dataset", "tasks"}},
+                          Rooms{"belief/objects", "cli/hints", "dataset", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                 Rooms{"cli/hints", "cli/reference", "dataset", "models/catalogue/database",
                       "report", "tasks", "view"}},

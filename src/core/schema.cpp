@@ -34,20 +34,10 @@ constexpr auto kUnits = std::to_array<UnitSuffix>({
     {"_w", "W"},          {"_mb", "MB"},
 });
 
-const ConfigNode* find_path(const ConfigNode& root, std::string_view path) {
-  const ConfigNode* node = &root;
-  while (node != nullptr && !path.empty()) {
-    const auto dot = path.find('.');
-    node = node->find(path.substr(0, dot));
-    path.remove_prefix(dot == path.npos ? path.size() : dot + 1);
-  }
-  return node;
-}
-
 /// Whether `root` chose every strategy that has the key.
 bool belongs(const KeyDescription& key, const ConfigNode& root) {
   return std::ranges::all_of(key.owners, [&](const KeyDescription::Owner& owner) {
-    const ConfigNode* node = find_path(root, owner.key);
+    const ConfigNode* node = find_value(root, owner.key);
     if (node != nullptr && node->kind == ConfigNode::Kind::map) node = node->find("name");
     return node != nullptr && node->scalar == owner.strategy;
   });

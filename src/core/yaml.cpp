@@ -176,15 +176,9 @@ const ConfigNode* said_of(const KeyValue& assignment, std::string_view key) {
   const auto& [known, value] = assignment;
   if (key == known) return &value;
   if (!key.starts_with(known + ".")) return nullptr;
-  std::string_view rest = key.substr(known.size() + 1);
+  const std::string_view rest = key.substr(known.size() + 1);
   if (value.kind == ConfigNode::Kind::scalar) return rest == "name" ? &value : nullptr;
-  const ConfigNode* node = &value;
-  while (node != nullptr && !rest.empty()) {
-    const auto dot = rest.find('.');
-    node = node->find(rest.substr(0, dot));
-    rest.remove_prefix(dot == rest.npos ? rest.size() : dot + 1);
-  }
-  return node;
+  return find_value(value, rest);
 }
 
 }  // namespace
@@ -207,6 +201,16 @@ ConfigNode parse_yaml(std::string_view text, const std::string& name) {
   ConfigNode empty;
   empty.origin = name;
   return empty;
+}
+
+const ConfigNode* find_value(const ConfigNode& root, std::string_view key) {
+  const ConfigNode* node = &root;
+  while (node != nullptr && !key.empty()) {
+    const auto dot = key.find('.');
+    node = node->find(key.substr(0, dot));
+    key.remove_prefix(dot == key.npos ? key.size() : dot + 1);
+  }
+  return node;
 }
 
 KeyValue parse_override(const std::string& assignment) {

@@ -18,6 +18,9 @@ ConfigNode read_yaml(const std::filesystem::path& path);
 /// `name` stands for the file in error messages.
 ConfigNode parse_yaml(std::string_view text, const std::string& name);
 
+/// What stands under the dotted `key`; null if nothing does.
+const ConfigNode* find_value(const ConfigNode& root, std::string_view key);
+
 /// A value for a dotted key, from wherever its origin says.
 using KeyValue = std::pair<std::string, ConfigNode>;
 

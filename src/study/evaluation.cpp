@@ -105,8 +105,6 @@ Figure curve_figure(const StudyResults& results, const Layout& layout, const std
   return figure;
 }
 
-using PredictionErrors = std::vector<std::pair<std::string, Curve>>;
-
 const Curve* curve_named(const PredictionErrors& errors, const std::string& name) {
   const auto found = std::ranges::find(errors, name, &std::pair<std::string, Curve>::first);
   return found == errors.end() ? nullptr : &found->second;

@@ -11,8 +11,15 @@ namespace {
 
 constexpr std::size_t kNear = 2;
 
-/// Optimal string alignment.
-std::size_t distance(std::string_view a, std::string_view b) {
+std::vector<std::string> subcommands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
+  return names;
+}
+
+}  // namespace
+
+std::size_t letters_off(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
     for (std::size_t j = 0; j <= b.size(); ++j) {
@@ -29,19 +36,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-std::vector<std::string> subcommands(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
-  return names;
-}
-
-}  // namespace
-
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
   std::string nearest;
   std::size_t least = std::min(kNear + 1, word.size());
   for (const std::string& candidate : known) {
-    const std::size_t off = distance(word, candidate);
+    const std::size_t off = letters_off(word, candidate);
     if (off >= least) continue;
     least = off;
     nearest = candidate;

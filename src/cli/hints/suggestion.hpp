@@ -12,8 +12,11 @@ class App;
 
 namespace vantage {
 
-/// The one of `known` that is nearest by letters that are left out, added, changed or swapped with
-/// their neighbour; empty if none is near.
+/// Letters that are left out, added, changed or swapped with their neighbour between two words:
+/// optimal string alignment.
+std::size_t letters_off(std::string_view a, std::string_view b);
+
+/// The one of `known` that is nearest by letters_off(); empty if none is near.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
 /// Of the command line's words, the first that stands where a subcommand should and is none:

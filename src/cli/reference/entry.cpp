@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <numeric>
+
+#include "vantage/cli/hints/suggestion.hpp"
 
 namespace vantage {
 namespace {
@@ -25,21 +26,6 @@ std::string indented(std::string_view text) {
   std::string lines;
   for (const std::string_view line : wrapped(text, 98)) lines += fmt::format("  {}\n", line);
   return lines;
-}
-
-/// Letters to insert, delete or replace to come from one to the other.
-std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), 0U);
-  for (const char letter : from) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (letter == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
@@ -83,7 +69,7 @@ std::vector<std::string> nearest_names(const std::vector<ReferenceEntry>& all,
   std::vector<std::pair<std::size_t, std::string>> by_distance;
   for (const ReferenceEntry& entry : all) {
     const std::size_t distance =
-        std::min(edit_distance(name, entry.name), edit_distance(name, last_part(entry.name)));
+        std::min(letters_off(name, entry.name), letters_off(name, last_part(entry.name)));
     by_distance.emplace_back(distance, entry.name);
   }
   std::ranges::sort(by_distance);
