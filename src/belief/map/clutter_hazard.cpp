@@ -76,10 +76,11 @@ void ClutterHazard::observe(const OccupancyGrid& before, const RangeScan& scan,
 }
 
 void ClutterHazard::observe(const OccupancyGrid& before, const CameraImages& image,
-                            const Pose& T_world_camera, int stride) {
+                            const Pose& T_world_camera, int stride, double floor_m) {
   expects((before.frame.cells == crossings_.layout.cells).all(),
           "the hazard was made for a grid of other size");
   expects(stride >= 1, "a stride of at least one pixel");
+  const Eigen::Vector3d& p_from = T_world_camera.translation();
   for (int row = 0; row < image.height_px; row += stride) {
     for (int column = 0; column < image.width_px; column += stride) {
       const double depth_m = image.depth_at(row, column);
@@ -87,7 +88,13 @@ void ClutterHazard::observe(const OccupancyGrid& before, const CameraImages& ima
       const bool returned = std::isfinite(depth_m);
       const Eigen::Vector3d ray = image.ray(row, column);
       const double scale = returned ? depth_m : image.range_max_m / ray.norm();
-      count_beam(before, T_world_camera.translation(), T_world_camera * (scale * ray), returned);
+      const Eigen::Vector3d p_end = T_world_camera * (scale * ray);
+      if (p_end.z() >= floor_m) {
+        count_beam(before, p_from, p_end, returned);
+      } else if (p_from.z() > floor_m) {
+        const double share = (p_from.z() - floor_m) / (p_from.z() - p_end.z());
+        count_beam(before, p_from, p_from + share * (p_end - p_from), false);
+      }
     }
   }
 }

@@ -64,9 +64,10 @@ class ClutterHazard {
   void observe(const OccupancyGrid& before, const RangeScan& scan, const Pose& T_world_sensor);
 
   /// The same for a depth image, of which every `stride`-th pixel of every `stride`-th row is a
-  /// beam; pixels without measurement are ignored, those beyond range cross all to the range.
+  /// beam; pixels without measurement are ignored, those beyond range cross all to the range. What
+  /// is lower than `floor_m` is the floor, which is no clutter: a beam counts down to there.
   void observe(const OccupancyGrid& before, const CameraImages& image, const Pose& T_world_camera,
-               int stride);
+               int stride, double floor_m);
 
   [[nodiscard]] int layer_of(int slice) const { return crossings_.layout.block_of(2, slice); }
   [[nodiscard]] double crossings(int layer) const { return sum_of_layer(crossings_, layer); }

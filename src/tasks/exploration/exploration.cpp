@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-void Exploration::check_with(const EpisodeOptions&) const { swept_field(sweep, camera); }
+void Exploration::check_with(const EpisodeOptions&) const { swept_field(sweep, camera, 0.0); }
 
 ModelSource Exploration::model_source(const EpisodeSetup& setup) const {
   return {setup.scene, setup.robot.mjcf};

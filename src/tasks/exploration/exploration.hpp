@@ -57,6 +57,7 @@ struct Exploration : MappingOptions {
   double reference_novelty_m = 0.05;
   int stride_px = 3;
   int hazard_stride_px = 8;
+  double hazard_floor_m = 0.05;
   void fields(auto&& f) {
     MappingOptions::fields(f);
     f("sweep", sweep, "where the head turns the camera at each stop");
@@ -100,6 +101,10 @@ struct Exploration : MappingOptions {
       "pixel stride at which depth images count clutter; higher is faster and learns from fewer "
       "beams",
       between(1, 100));
+    f("hazard_floor_m", hazard_floor_m,
+      "height below which what stops a beam is the floor and no clutter; higher overlooks low "
+      "things",
+      between(0.0, 10.0));
   }
   /// What concerns the task and the rest of the episode. @throws ConfigError
   void check_with(const EpisodeOptions& episode) const;

@@ -46,7 +46,8 @@ BeliefUpdate ExplorationBelief::update(const ExplorationObservation& observation
   PointCloud points;
   for (const DepthImage& view : observation.views) {
     const Pose T_world_camera = T_world_base * view.T_base_camera;
-    hazard_.observe(grid_, view.image, T_world_camera, task_.hazard_stride_px);
+    hazard_.observe(grid_, view.image, T_world_camera, task_.hazard_stride_px,
+                    task_.hazard_floor_m);
     append(points, surfaces_of(view, T_world_camera, task_));
   }
   add_measurements(grid_, points.points, task_.sensor_model);

@@ -1,11 +1,11 @@
 /// What the robot believes about the rooms it explores: pose, map, clutter.
 #pragma once
 
+#include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/tasks/exploration/exploration.hpp"
 #include "vantage/tasks/exploration/exploration_robot_interface.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
-#include "vantage/tasks/mapping/reference_map.hpp"
 
 namespace vantage {
 

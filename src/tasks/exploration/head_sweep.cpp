@@ -41,7 +41,7 @@ std::vector<double> pan_angles_rad(const HeadSweep& sweep) {
   return pans_rad;
 }
 
-FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera) {
+FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera, double camera_ahead_m) {
   check_options(sweep, "sweep");
   const double half_fovy_rad = 0.5 * camera.fovy_rad;
   const double half_height = std::tan(half_fovy_rad);
@@ -57,7 +57,8 @@ FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera) {
                                     sweep.pans, tilt_rad));
     }
   }
-  FieldOfView field{.range_min_m = 0.0, .range_max_m = camera.range_max_m, .panorama = true};
+  FieldOfView field{
+      .range_min_m = 0.0, .range_max_m = camera.range_max_m + camera_ahead_m, .panorama = true};
   // The edges of an image are highest in its middle column and nearest the horizon at its sides.
   const auto bound = [&](double tilt_rad, double row, auto narrower) {
     return narrower(depression_at(tilt_rad, half_fovy_rad, row, 0.0),

@@ -26,7 +26,8 @@ struct HeadSweep {
 std::vector<double> pan_angles_rad(const HeadSweep& sweep);
 /// What the images of a sweep see from the head's pan axis in every direction. Nearer than
 /// range_min_m space is seen empty, though no surface is.
+/// @param camera_ahead_m how far the camera is before the axis: it sees so much farther
 /// @throws ConfigError if the images leave gaps, between the columns or between the rows.
-FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera);
+FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera, double camera_ahead_m);
 
 }  // namespace vantage

@@ -19,16 +19,27 @@ constexpr double kAtRest_rad = 1e-4;
 constexpr int kFewestTicks = 4;
 constexpr int kMaxTicks = 160;
 
+Pose find_camera_pose(const World& world, const MobileBase& robot) {
+  return to_se3(robot.T_world_base(world)).inverse() *
+         T_world_camera(world.model(), world.snapshot(), robot.camera_id());
+}
+
 /// On the pan axis, at the height that the camera has when it looks straight on.
 Pose find_sweep_pose(const World& world, const MobileBase& robot) {
-  const Pose T_base_world = to_se3(robot.T_world_base(world)).inverse();
-  const Pose T_base_camera =
-      T_base_world * T_world_camera(world.model(), world.snapshot(), robot.camera_id());
+  const Pose T_base_head =
+      to_se3(robot.T_world_base(world)).inverse() * body_pose(world, robot.head_body_id());
   Pose T_base_sweep = Pose::Identity();
-  T_base_sweep.translation() =
-      (T_base_world * body_pose(world, robot.head_body_id())).translation();
-  T_base_sweep.translation().z() = T_base_camera.translation().z();
+  T_base_sweep.translation() = T_base_head.translation();
+  T_base_sweep.translation().z() = find_camera_pose(world, robot).translation().z();
   return T_base_sweep;
+}
+
+/// From the pan axis to the camera, along the floor; the head looks straight on.
+double camera_ahead_m(const World& world, const MobileBase& robot) {
+  return (find_camera_pose(world, robot).translation() -
+          find_sweep_pose(world, robot).translation())
+      .head<2>()
+      .norm();
 }
 
 /// Where the robot starts: robot.start_site or robot.start_pose.
@@ -80,7 +91,7 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
       sweep_(task.sweep),
       camera_(task.camera),
       T_base_sweep_(find_sweep_pose(base_.world(), base_.robot())),
-      field_(swept_field(sweep_, camera_)),
+      field_(swept_field(sweep_, camera_, camera_ahead_m(base_.world(), base_.robot()))),
       renderer_(
           make_offscreen_renderer(base_.world().model(), camera_.width_px, camera_.height_px)),
       camera_noise_(Rng::stream(setup.options.seed, "camera")) {
@@ -123,11 +134,9 @@ void SimulatedExplorationRobot::turn_head(double pan_rad, double tilt_rad) {
 
 DepthImage SimulatedExplorationRobot::take_image() {
   const mjData& now = base_.world().snapshot();
-  const Pose T_base_camera = to_se3(base_.robot().T_world_base(base_.world())).inverse() *
-                             T_world_camera(base_.world().model(), now, base_.robot().camera_id());
   return {depth_image(*renderer_, base_.world().model(), now, base_.robot().camera_id(), camera_,
                       camera_noise_),
-          T_base_camera};
+          find_camera_pose(base_.world(), base_.robot())};
 }
 
 Pose2 SimulatedExplorationRobot::base_for_sensor(const Pose& T_world_sweep) const {

@@ -9,12 +9,25 @@
 
 #include "vantage/runtime/json.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"
+#include "vantage/tasks/mapping/forecast_measures.hpp"
 
 namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using Scalar = std::optional<double>;
+
+Json bands_json(const std::vector<PredictionBand>& bands) {
+  Json rows = Json::array();
+  for (const PredictionBand& band : bands) {
+    rows.push_back({{"from_m", band.from_m},
+                    {"to_m", std::isfinite(band.to_m) ? Json(band.to_m) : Json()},
+                    {"predicted_cells", band.predicted_cells},
+                    {"actual_cells", band.actual_cells},
+                    {"outside_cells", band.outside_cells}});
+  }
+  return rows;
+}
 
 Json scan_json(const ScanRecord& scan) {
   Json predicted = Json::object();
@@ -24,6 +37,8 @@ Json scan_json(const ScanRecord& scan) {
           {"observable_unobserved_cells", scan.observable_unobserved_cells},
           {"predicted", predicted},
           {"actual_new_cells", scan.actual_new_cells},
+          {"by_distance", bands_json(scan.by_distance)},
+          {"hazard_scale", scan.hazard_scale},
           {"chosen_view", scan.chosen_view},
           {"candidates", scan.candidates},
           {"plan_time_s", scan.plan_time_s},
@@ -145,6 +160,18 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     {{"scans_to_95", "scans until 95 % of the observable cells are observed"}, scans_to_95},
     {{"prediction_error_cells", "mean error of the method's own prediction, cells"},
      own_prediction_error},
+    {{"forecast_ratio", "cells forecast by adaptive over cells seen, from scan 2 on"},
+     [](const MeasuredEpisode& e) { return forecast_ratio(e); }},
+    {{"forecast_ratio_to_1_m", "the same of cells up to 1 m from the sensor"},
+     [](const MeasuredEpisode& e) { return forecast_ratio(e, 0.0, 1.0); }},
+    {{"forecast_ratio_to_2_m", "the same from 1 to 2 m"},
+     [](const MeasuredEpisode& e) { return forecast_ratio(e, 1.0, 2.0); }},
+    {{"forecast_ratio_to_3_m", "the same from 2 to 3 m"},
+     [](const MeasuredEpisode& e) { return forecast_ratio(e, 2.0, 3.0); }},
+    {{"forecast_ratio_beyond_3_m", "the same beyond 3 m"},
+     [](const MeasuredEpisode& e) { return forecast_ratio(e, 3.0); }},
+    {{"outside_share", "share of newly seen cells outside the field that forecasts are for"},
+     outside_share},
     {{"scans", "scans taken"},
      [](const MeasuredEpisode& e) -> Scalar {
        return static_cast<double>(e.metrics.at("scans").size());
@@ -175,6 +202,7 @@ constexpr auto kCurves = std::to_array<CurveMeasure>({
     {{"observable_unobserved_cells", "observable cells left"},
      [](const MeasuredEpisode& e) { return scan_values(e, "observable_unobserved_cells"); }},
     {{"share_left", "share of the observable cells left"}, share_left},
+    {{"forecast_ratio", "cells forecast by adaptive over cells seen"}, forecast_ratios},
     {{"distance_m", "distance travelled, m"},
      [](const MeasuredEpisode& e) { return scan_values(e, "path_length_m"); }},
     {{"pose_error_m", "position error, m"},

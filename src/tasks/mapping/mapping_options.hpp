@@ -17,6 +17,7 @@
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/sim/robots/odometry.hpp"
 #include "vantage/sim/sensors/laser_options.hpp"
 
@@ -64,6 +65,7 @@ struct MapOptions {
 struct MetricsOptions {
   int tolerance_cells = 1;
   double pose_spacing_m = 1.0;
+  double distance_band_m = 0.5;
   /// Each costs the time of one view. In an exploration, rays to every cell take seconds.
   std::vector<Gain> predictors;
   void fields(auto&& f) {
@@ -74,6 +76,10 @@ struct MetricsOptions {
     f("pose_spacing_m", pose_spacing_m,
       "exploration: spacing of the reachable poses that decide which cells are observable; lower "
       "misses fewer and takes longer",
+      between(0.05, 100.0));
+    f("distance_band_m", distance_band_m,
+      "width of the bands of distance from the sensor, by which predicted and actual new cells are "
+      "recorded; higher gives fewer bands",
       between(0.05, 100.0));
     f("predictors", predictors,
       "gains whose predicted new cells are recorded at every scan, beside the gain in use; empty: "
@@ -108,6 +114,7 @@ struct MappingOptions {
   FreeSpaceUpdate free_space;
   HoleFilling hole_filling;
   ClutterHazardOptions clutter_hazard;
+  ForecastCalibrationOptions forecast;
   Gain gain = AdaptiveGain{};
   ViewChoice choice = GreedyGain{};
   FloorMapOptions floor_map;
@@ -131,6 +138,7 @@ struct MappingOptions {
     f("hole_filling", hole_filling, "Markov random field that fills holes in observed surfaces");
     f("clutter_hazard", clutter_hazard,
       "how the probability that an unobserved cell stops a beam is learnt on the run");
+    f("forecast", forecast, "how the learnt hazard is corrected by the robot's own forecasts");
     f("gain", gain, "what a view is worth: how much that is new it is expected to show");
     f("choice", choice, "which of the candidate views is taken next");
     f("floor_map", floor_map, "2-D occupancy map of the floor, which paths are planned on");

@@ -9,6 +9,7 @@
 
 #include "vantage/core/log.hpp"
 #include "vantage/core/strategy_label.hpp"
+#include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/swept_gain.hpp"
 
 namespace vantage {
@@ -47,6 +48,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
       evaluator_(context.evaluator),
       belief_(belief),
       predictors_(std::move(predictors)),
+      calibration_(options.forecast),
       choice_rng_(Rng::stream(context.options.seed, "view choice")) {
   recorder_.set_panel([this] { return panel(); });
   navigator_.on_plan = [this](const PlannedPath& path) { recorder_.route(path.waypoints); };
@@ -70,6 +72,7 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
                            const Pose& T_world_sensor) {
   current_.map_time_s = wall_s() - before.start_s;
   current_.actual_new_cells = static_cast<double>(newly_observed(before.grid, belief_.grid()));
+  hold_forecast_against(before.grid);
   current_.time_s = robot_.time_s();
   current_.registered = update.registered;
   current_.unconstrained = update.unconstrained;
@@ -135,10 +138,37 @@ std::string MappingParts::scans_used_up() const {
 
 void MappingParts::start_decision() { decision_start_s_ = wall_s(); }
 
+/// Of unobserved cells, as `adaptive` takes it.
+BlockField MappingParts::transmission() const {
+  return calibration_.transmission(belief_.hazard().transmission());
+}
+
+/// Cells that `adaptive` promises of the scan to come, had all hazards that factor.
+std::vector<PredictionBand> MappingParts::forecast(double hazard_factor, double width_m) const {
+  return predict_by_distance(
+      {.transmission = calibration_.transmission(belief_.hazard().transmission(), hazard_factor)},
+      belief_.filled_grid(), T_world_predicted_, robot_.view_field(), width_m, episode_.threads);
+}
+
+/// The first scan is left out: nothing was learnt yet.
+void MappingParts::hold_forecast_against(const OccupancyGrid& before) {
+  count_new_cells(before, belief_.grid(), T_world_predicted_, robot_.view_field(),
+                  current_.by_distance);
+  if (scans_.empty()) return;
+  double predicted_cells = 0.0;
+  double actual_cells = 0.0;
+  for (const PredictionBand& band : current_.by_distance) {
+    predicted_cells += band.predicted_cells;
+    actual_cells += static_cast<double>(band.actual_cells - band.outside_cells);
+  }
+  calibration_.observe(predicted_cells, predicted_at_half_cells_, actual_cells);
+  current_.hazard_scale = calibration_.scale();
+}
+
 std::vector<double> MappingParts::gains_bits(const Gain& gain,
                                              std::span<const Candidate> views) const {
-  const BlockField transmission = belief_.hazard().transmission();
-  return view_gains_bits(gain, {belief_.filled_grid(), &transmission}, views, robot_.view_field(),
+  const BlockField of_unobserved = transmission();
+  return view_gains_bits(gain, {belief_.filled_grid(), &of_unobserved}, views, robot_.view_field(),
                          episode_.threads);
 }
 
@@ -177,6 +207,12 @@ void MappingParts::predict(const Pose& T_world_sensor) {
   current_.predicted_cells.clear();
   for (const auto& [label, gain] : predictors_) {
     current_.predicted_cells.emplace_back(label, gains_bits(gain, view).front());
+  }
+  T_world_predicted_ = T_world_sensor;
+  current_.by_distance = forecast(1.0, options_.metrics.distance_band_m);
+  if (options_.forecast.calibrate) {
+    predicted_at_half_cells_ =
+        forecast(0.5, robot_.view_field().range_max_m).front().predicted_cells;
   }
 }
 

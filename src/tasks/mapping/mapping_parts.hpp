@@ -9,6 +9,7 @@
 
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
 #include "vantage/tasks/mapping/mapping_recorder.hpp"
@@ -86,11 +87,17 @@ class MappingParts {
  private:
   [[nodiscard]] MapPanelInput panel() const;
   [[nodiscard]] double map_sigma_m() const;
+  [[nodiscard]] BlockField transmission() const;
+  [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
+  void hold_forecast_against(const OccupancyGrid& before);
 
   const MappingOptions options_;
   const GroundTruthMapEvaluator& evaluator_;
   const MapBelief& belief_;
   std::vector<Predictor> predictors_;
+  ForecastCalibration calibration_;
+  double predicted_at_half_cells_ = 0.0;       ///< of the scan to come, with half the hazard
+  Pose T_world_predicted_ = Pose::Identity();  ///< of the sensor, for the scan to come
   Rng choice_rng_;
 };
 

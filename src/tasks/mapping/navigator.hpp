@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "vantage/belief/map/floor_map.hpp"
+#include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/sim/robots/pose_uncertainty.hpp"
 #include "vantage/tasks/mapping/mobile_robot_interface.hpp"
-#include "vantage/tasks/mapping/reference_map.hpp"
 
 namespace vantage {
 

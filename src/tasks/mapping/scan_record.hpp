@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/prediction_bands.hpp"
 
 namespace vantage {
 
@@ -15,7 +16,9 @@ struct ScanRecord {
   std::size_t observable_unobserved_cells = 0;
   std::vector<std::pair<std::string, double>> predicted_cells;  ///< per gain, for the view taken
   double actual_new_cells = 0.0;
-  int chosen_view = -1;  ///< candidate id; -1: the scan at the start
+  std::vector<PredictionBand> by_distance;  ///< the same of `adaptive`, from the pose predicted for
+  double hazard_scale = 1.0;                ///< of the forecasts after this scan
+  int chosen_view = -1;                     ///< candidate id; -1: the scan at the start
   std::size_t candidates = 0;
   double plan_time_s = 0.0;    ///< wall, of the decision that led here
   double map_time_s = 0.0;     ///< wall, of registration and map update

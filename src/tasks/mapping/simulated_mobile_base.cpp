@@ -6,9 +6,9 @@
 #include <string>
 
 #include "vantage/core/log.hpp"
+#include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/sim/world/settle.hpp"
-#include "vantage/tasks/mapping/reference_map.hpp"
 
 namespace vantage {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "vantage/core/rng.hpp"
 #include "vantage/perception/clouds/point_cloud.hpp"
+#include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/perception/table_extraction.hpp"
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
-#include "vantage/tasks/mapping/reference_map.hpp"
 #include "vantage/tasks/tabletop/tabletop.hpp"
 #include "vantage/tasks/tabletop/tabletop_robot_interface.hpp"
 

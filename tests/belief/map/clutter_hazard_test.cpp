@@ -173,12 +173,38 @@ TEST(ClutterHazard, CountsTheBeamsOfAnImage) {
   T_world_camera.translation() = Eigen::Vector3d(-5.0, 0.0, 0.0);
   T_world_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
   ClutterHazard every({.layers = 1}, grid.frame.cells);
-  every.observe(grid, image, T_world_camera, 1);
+  every.observe(grid, image, T_world_camera, 1, -1.0);
   EXPECT_EQ(every.crossings(0), 4.0 + 8.0 + 2.0);
   EXPECT_EQ(every.hits(0), 2.0);
   ClutterHazard some({.layers = 1}, grid.frame.cells);
-  some.observe(grid, image, T_world_camera, 3);
+  some.observe(grid, image, T_world_camera, 3, -1.0);
   EXPECT_EQ(some.crossings(0), 4.0 + 2.0);
+}
+
+/// A beam that comes down at 45 degrees from 4.5 m to the floor, in cells of 1 m.
+TEST(ClutterHazard, TheFloorIsNoClutter) {
+  OccupancyGrid grid(make_grid_frame({5.0, 0.0, 5.0}, {10.0, 1.0, 10.0}, {10, 1, 10}));
+  CameraImages image;
+  image.width_px = 1;
+  image.height_px = 1;
+  image.focal_px = 1000.0;
+  image.range_max_m = 20.0;
+  image.depth_m = {static_cast<float>(4.49 * std::sqrt(2.0))};
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(0.2, 0.0, 4.5);
+  const double c = std::sqrt(0.5);
+  T_world_camera.linear() << 0.0, -c, c, -1.0, 0.0, 0.0, 0.0, -c, -c;
+  ClutterHazard taken_for_clutter({.layers = 10}, grid.frame.cells);
+  taken_for_clutter.observe(grid, image, T_world_camera, 1, 0.0);
+  EXPECT_EQ(taken_for_clutter.hits(0), 1.0);
+  ClutterHazard hazard({.layers = 10}, grid.frame.cells);
+  hazard.observe(grid, image, T_world_camera, 1, 1.0);
+  EXPECT_EQ(hazard.hits(0), 0.0);
+  EXPECT_EQ(hazard.crossings(0), 0.0) << "it counts down to floor_m and no farther";
+  EXPECT_EQ(hazard.crossings(1), taken_for_clutter.crossings(1));
+  ClutterHazard below({.layers = 10}, grid.frame.cells);
+  below.observe(grid, image, T_world_camera, 1, 5.0);
+  EXPECT_EQ(below.crossings(4), 0.0) << "a camera below floor_m sees floor alone";
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/rng.hpp"
+#include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/tasks/exploration/visited_places.hpp"
-#include "vantage/tasks/mapping/reference_map.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {
@@ -49,7 +49,7 @@ bool in_some_image(const HeadSweep& sweep, const RgbdOptions& camera, const Eige
 RC_GTEST_PROP(HeadSweep, ShowsWhateverIsInItsField, (std::uint64_t seed)) {
   Rng rng(seed);
   const Exploration options;
-  const FieldOfView field = swept_field(options.sweep, options.camera);
+  const FieldOfView field = swept_field(options.sweep, options.camera, 0.0);
   RC_ASSERT(field.panorama);
   for (int i = 0; i < 100; ++i) {
     const double azimuth = rng.uniform(-kPi, kPi);
@@ -60,13 +60,20 @@ RC_GTEST_PROP(HeadSweep, ShowsWhateverIsInItsField, (std::uint64_t seed)) {
   }
 }
 
+/// The camera goes round the pan axis: what it sees is as much farther from there.
+TEST(HeadSweep, ReachesAsMuchFartherAsTheCameraIsAhead) {
+  const Exploration options;
+  EXPECT_DOUBLE_EQ(swept_field(options.sweep, options.camera, 0.09).range_max_m,
+                   options.camera.range_max_m + 0.09);
+}
+
 TEST(HeadSweep, GapsAreErrors) {
   const RgbdOptions camera;
-  EXPECT_THROW(swept_field({.pans = 6}, camera), ConfigError);
-  EXPECT_THROW(swept_field({.tilts_rad = {-0.3, 0.7}}, camera), ConfigError);
-  EXPECT_THROW(swept_field({.tilts_rad = {0.7, 0.1}}, camera), ConfigError);
-  EXPECT_THROW(swept_field({.tilts_rad = {1.2}}, camera), ConfigError);
-  EXPECT_NO_THROW(swept_field({.pans = 7, .tilts_rad = {0.0}}, camera));
+  EXPECT_THROW(swept_field({.pans = 6}, camera, 0.0), ConfigError);
+  EXPECT_THROW(swept_field({.tilts_rad = {-0.3, 0.7}}, camera, 0.0), ConfigError);
+  EXPECT_THROW(swept_field({.tilts_rad = {0.7, 0.1}}, camera, 0.0), ConfigError);
+  EXPECT_THROW(swept_field({.tilts_rad = {1.2}}, camera, 0.0), ConfigError);
+  EXPECT_NO_THROW(swept_field({.pans = 7, .tilts_rad = {0.0}}, camera, 0.0));
 }
 
 /// However the places come, a bounded floor holds only so many that are not near one another.

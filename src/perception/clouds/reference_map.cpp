@@ -1,4 +1,4 @@
-#include "vantage/tasks/mapping/reference_map.hpp"
+#include "vantage/perception/clouds/reference_map.hpp"
 
 #include <cmath>
 

@@ -1,0 +1,97 @@
+#include "vantage/planners/prediction_bands.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/view_cone.hpp"
+#include "vantage/planners/swept_gain.hpp"
+
+namespace vantage {
+namespace {
+
+GridFrame room() { return make_grid_frame({0.0, 0.0, 1.0}, {6.0, 5.0, 2.0}, {60, 50, 20}); }
+
+FieldOfView all_round(double range_m) {
+  return {.tilt_min_rad = -0.6,
+          .tilt_max_rad = 0.8,
+          .range_min_m = 0.0,
+          .range_max_m = range_m,
+          .panorama = true};
+}
+
+OccupancyGrid cluttered(Rng& rng) {
+  OccupancyGrid grid(room());
+  for (float& log_odds : grid.log_odds) {
+    const double u = rng.uniform();
+    if (u < 0.02) log_odds = 2.0F;
+    if (u > 0.7) log_odds = -2.0F;
+  }
+  return grid;
+}
+
+TEST(PredictionBands, AddUpToTheGainOfTheView) {
+  Rng rng(3);
+  const OccupancyGrid grid = cluttered(rng);
+  const Attenuation attenuation{.transmission = uniform_field(grid.frame.cells, 0.97)};
+  const Pose T_world_sensor = make_pose({0.3, -0.2, 1.1}, 0.4);
+  const FieldOfView field = all_round(2.2);
+  const auto bands = predict_by_distance(attenuation, grid, T_world_sensor, field, 0.5, 2);
+  Candidate view;
+  view.T_world_sensor = T_world_sensor;
+  const double all = swept_gains_bits(attenuation, grid, {&view, 1}, field, 1, kNoRays).front();
+  double sum = 0.0;
+  for (const PredictionBand& band : bands) sum += band.predicted_cells;
+  EXPECT_NEAR(sum, all, 1e-6 * all);
+  ASSERT_EQ(bands.size(), 4U);  // 0.5 three times, then what is left: 0.7
+  EXPECT_DOUBLE_EQ(bands[3].from_m, 1.5);
+  EXPECT_DOUBLE_EQ(bands[3].to_m, 2.2);
+}
+
+/// Nothing in the way: every unobserved cell of a band is seen.
+TEST(PredictionBands, OfAnEmptyRoomAreItsCells) {
+  const OccupancyGrid grid(room());
+  const Attenuation attenuation{.transmission = uniform_field(grid.frame.cells, 1.0)};
+  const Pose T_world_sensor = make_pose({0.02, 0.01, 1.03}, 0.0);
+  const FieldOfView field = all_round(2.0);
+  auto bands = predict_by_distance(attenuation, grid, T_world_sensor, field, 1.0, 1);
+  OccupancyGrid after = grid;
+  for (float& log_odds : after.log_odds) log_odds = -1.0F;
+  count_new_cells(grid, after, T_world_sensor, field, bands);
+  ASSERT_EQ(bands.size(), 3U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto inside = bands[i].actual_cells - bands[i].outside_cells;
+    EXPECT_NEAR(bands[i].predicted_cells, static_cast<double>(inside),
+                0.002 * bands[i].predicted_cells + 2.0);
+  }
+  EXPECT_EQ(bands[2].to_m, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(bands[2].outside_cells, bands[2].actual_cells);
+  EXPECT_EQ(bands[0].actual_cells + bands[1].actual_cells + bands[2].actual_cells, grid.size());
+}
+
+TEST(PredictionBands, CountOnlyWhatIsNew) {
+  OccupancyGrid before(room());
+  OccupancyGrid after = before;
+  const Pose T_world_sensor = make_pose({0.0, 0.0, 1.0}, 0.0);
+  std::vector<PredictionBand> bands{{0.0, 1.0, 0.0, 0, 0}, {1.0, 2.0, 0.0, 0, 0}};
+  const auto know = [&](OccupancyGrid& grid, const Eigen::Vector3d& p) {
+    grid.log_odds[grid.frame.index(grid.frame.cell_at(p))] = -1.0F;
+  };
+  know(before, {0.55, 0.05, 1.05});  // known before
+  know(after, {0.55, 0.05, 1.05});
+  know(after, {0.75, 0.05, 1.05});  // in the first band
+  know(after, {1.55, 0.05, 1.05});  // in the second
+  know(after, {2.55, 0.05, 1.05});  // beyond
+  know(after, {0.05, 0.05, 1.95});  // above the field of view
+  count_new_cells(before, after, T_world_sensor, all_round(2.0), bands);
+  ASSERT_EQ(bands.size(), 3U);
+  EXPECT_EQ(bands[0].actual_cells, 2U);
+  EXPECT_EQ(bands[0].outside_cells, 1U);
+  EXPECT_EQ(bands[1].actual_cells, 1U);
+  EXPECT_EQ(bands[2].actual_cells, 1U);
+}
+
+}  // namespace
+}  // namespace vantage
