@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "vantage/core/error.hpp"
@@ -33,6 +34,12 @@ Interval percentile_interval(const BootstrapOptions& options, Statistic&& statis
   return {quantile(found, tail), quantile(found, 1.0 - tail)};
 }
 
+Clusters each_alone(std::size_t count) {
+  Clusters clusters(count);
+  for (std::size_t i = 0; i < count; ++i) clusters[i] = {i};
+  return clusters;
+}
+
 /// The sum with the sign of each value turned where its bit in `pattern` is set.
 double flipped_sum(std::span<const double> values, std::uint64_t pattern) {
   double sum = 0.0;
@@ -60,26 +67,57 @@ double mean(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-Interval bootstrap_mean(std::span<const double> values, Rng& rng, const BootstrapOptions& options) {
-  expects(!values.empty(), "a bootstrap of no values");
-  return percentile_interval(options, [&] {
+Clusters clusters_of(std::span<const std::size_t> marks) {
+  Clusters clusters;
+  std::map<std::size_t, std::size_t> place;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const auto [entry, is_new] = place.try_emplace(marks[i], clusters.size());
+    if (is_new) clusters.emplace_back();
+    clusters[entry->second].push_back(i);
+  }
+  return clusters;
+}
+
+std::vector<double> cluster_sums(std::span<const double> values, const Clusters& clusters) {
+  std::vector<double> sums;
+  for (const auto& cluster : clusters) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) sum += values[rng.uniform_index(values.size())];
-    return sum / static_cast<double>(values.size());
-  });
+    for (const std::size_t i : cluster) sum += values[i];
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+Interval bootstrap_mean(std::span<const double> values, Rng& rng, const BootstrapOptions& options) {
+  return bootstrap_mean(values, each_alone(values.size()), rng, options);
+}
+
+Interval bootstrap_mean(std::span<const double> values, const Clusters& clusters, Rng& rng,
+                        const BootstrapOptions& options) {
+  expects(!values.empty(), "a bootstrap of no values");
+  const std::vector<double> ones(values.size(), 1.0);
+  return bootstrap_ratio(values, ones, clusters, rng, options);
 }
 
 Interval bootstrap_ratio(std::span<const double> numerators, std::span<const double> denominators,
                          Rng& rng, const BootstrapOptions& options) {
+  return bootstrap_ratio(numerators, denominators, each_alone(numerators.size()), rng, options);
+}
+
+Interval bootstrap_ratio(std::span<const double> numerators, std::span<const double> denominators,
+                         const Clusters& clusters, Rng& rng, const BootstrapOptions& options) {
   expects(!numerators.empty() && numerators.size() == denominators.size(),
           "a ratio needs as many numerators as denominators");
+  expects(!clusters.empty(), "values are in clusters");
+  const std::vector<double> above_of = cluster_sums(numerators, clusters);
+  const std::vector<double> below_of = cluster_sums(denominators, clusters);
   return percentile_interval(options, [&] {
     double above = 0.0;
     double below = 0.0;
-    for (std::size_t i = 0; i < numerators.size(); ++i) {
-      const auto drawn = rng.uniform_index(numerators.size());
-      above += numerators[drawn];
-      below += denominators[drawn];
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      const auto drawn = rng.uniform_index(clusters.size());
+      above += above_of[drawn];
+      below += below_of[drawn];
     }
     return below == 0.0 ? std::numeric_limits<double>::infinity() : above / below;
   });

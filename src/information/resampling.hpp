@@ -2,7 +2,9 @@
 /// [EfronTibshirani1993, chapters 13, 15]
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "vantage/core/rng.hpp"
 
@@ -29,6 +31,20 @@ Interval bootstrap_mean(std::span<const double> values, Rng& rng,
 /// whose denominators have mean 0 counts as +infinity.
 Interval bootstrap_ratio(std::span<const double> numerators, std::span<const double> denominators,
                          Rng& rng, const BootstrapOptions& options = {});
+
+/// Indices of the values that belong together, as all of one scene do. None is empty.
+using Clusters = std::vector<std::vector<std::size_t>>;
+/// Of values that bear these marks; in the order in which a mark first comes.
+Clusters clusters_of(std::span<const std::size_t> marks);
+
+/// The same of values that are alike within clusters: whole clusters are resampled. Of one cluster
+/// there is no interval: its mean.  [CameronGelbachMiller2008]
+Interval bootstrap_mean(std::span<const double> values, const Clusters& clusters, Rng& rng,
+                        const BootstrapOptions& options = {});
+Interval bootstrap_ratio(std::span<const double> numerators, std::span<const double> denominators,
+                         const Clusters& clusters, Rng& rng, const BootstrapOptions& options = {});
+/// The sum of each cluster's values: for a sign-flip test in which a cluster has one sign.
+std::vector<double> cluster_sums(std::span<const double> values, const Clusters& clusters);
 
 /// Two-sided p-value of mean(differences) = 0 when each sign could as well be the other: all 2^n
 /// sign patterns for up to 16 differences, else `draws` random ones, the observed one included.

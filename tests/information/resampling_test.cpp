@@ -66,6 +66,58 @@ TEST(Bootstrap, CoversTheMeanOfNormalData) {
   EXPECT_LT(covered, 0.965 * kTrials);
 }
 
+TEST(Bootstrap, ClustersOfOneAreTheValuesThemselves) {
+  const std::vector<double> values{3.0, 1.0, 4.0, 1.0, 5.0, 9.0, 2.0, 6.0};
+  const std::vector<std::size_t> marks{7, 1, 2, 3, 4, 5, 6, 0};
+  Rng a(1);
+  Rng b(1);
+  const Interval plain = bootstrap_mean(values, a);
+  const Interval clustered = bootstrap_mean(values, clusters_of(marks), b);
+  EXPECT_EQ(plain.low, clustered.low);
+  EXPECT_EQ(plain.high, clustered.high);
+}
+
+/// Ten starts in each of twenty scenes, all that differs is the scene: two hundred values say as
+/// much as twenty, and an interval that takes them for independent is sqrt(10) too narrow.
+TEST(Bootstrap, CopiesInAClusterSayNothingNew) {
+  Rng data(5);
+  std::vector<double> of_scene(20);
+  for (double& value : of_scene) value = data.normal(10.0, 2.0);
+  std::vector<double> values;
+  std::vector<std::size_t> marks;
+  for (std::size_t scene = 0; scene < of_scene.size(); ++scene) {
+    values.insert(values.end(), 10, of_scene[scene]);
+    marks.insert(marks.end(), 10, scene);
+  }
+  Rng a(6);
+  Rng b(6);
+  Rng c(6);
+  const Interval scenes = bootstrap_mean(of_scene, a);
+  const Interval clustered = bootstrap_mean(values, clusters_of(marks), b);
+  const Interval naive = bootstrap_mean(values, c);
+  EXPECT_NEAR(clustered.high - clustered.low, scenes.high - scenes.low, 1e-9);
+  EXPECT_NEAR((clustered.high - clustered.low) / (naive.high - naive.low), std::sqrt(10.0), 0.2);
+}
+
+/// A resample of clusters of unequal size has the mean of its values, not of its clusters' means.
+TEST(Bootstrap, LargeClustersWeighMore) {
+  const std::vector<double> values{0.0, 1.0, 1.0, 1.0};
+  Rng rng(7);
+  const Interval interval = bootstrap_mean(values, {{0}, {1, 2, 3}}, rng, {.confidence = 0.4});
+  EXPECT_DOUBLE_EQ(interval.low, 0.75);
+  EXPECT_DOUBLE_EQ(interval.high, 0.75);
+  Rng alone(7);
+  EXPECT_DOUBLE_EQ(bootstrap_mean(values, {{0, 1, 2, 3}}, alone).low, 0.75);
+}
+
+TEST(Clusters, AreOfEqualMarks) {
+  const std::vector<std::size_t> marks{4, 2, 4, 9, 2};
+  const Clusters expected{{0, 2}, {1, 4}, {3}};
+  EXPECT_EQ(clusters_of(marks), expected);
+  const std::vector<double> values{1.0, 2.0, 4.0, 8.0, 16.0};
+  EXPECT_EQ(cluster_sums(values, expected), (std::vector<double>{5.0, 18.0, 8.0}));
+}
+
 TEST(BootstrapRatio, OfProportionalPairsIsExact) {
   Rng rng(5);
   const std::vector<double> below{1.0, 5.0, 2.0, 8.0};
