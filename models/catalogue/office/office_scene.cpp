@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -203,13 +204,22 @@ std::vector<Outline> obstacles(const OfficeScene& scene) {
 }
 
 std::vector<OfficeOptions> office_scenes() {
+  struct Draw {
+    const char* suffix;
+    std::uint64_t small_seed;
+    std::uint64_t large_seed;
+  };
+  constexpr std::array kDraws{Draw{"", 1510U, 2025U}, Draw{"_a", 31U, 41U}, Draw{"_b", 32U, 42U}};
   std::vector<OfficeOptions> scenes;
-  for (const bool large : {false, true}) {
-    for (int level = 1; level <= kClutterLevels; ++level) {
-      scenes.push_back({.name = fmt::format("office_{}_{}", large ? "large" : "small", level),
-                        .seed = large ? 2025U : 1510U,
-                        .large = large,
-                        .clutter = level});
+  for (const Draw& draw : kDraws) {
+    for (const bool large : {false, true}) {
+      for (int level = 1; level <= kClutterLevels; ++level) {
+        scenes.push_back(
+            {.name = fmt::format("office_{}{}_{}", large ? "large" : "small", draw.suffix, level),
+             .seed = large ? draw.large_seed : draw.small_seed,
+             .large = large,
+             .clutter = level});
+      }
     }
   }
   return scenes;

@@ -52,7 +52,8 @@ OfficeScene make_office_scene(const OfficeOptions& options);
 /// What bounds the robot's way: walls, pillars, door posts, furniture.
 std::vector<Outline> obstacles(const OfficeScene& scene);
 
-/// The scenes checked in under models/scenes: office_{small,large}_{1..4}.
+/// The scenes checked in under models/scenes: office_{small,large}_{1..4}, which options are chosen
+/// on, and office_{small,large}_{a,b}_{1..4}, furnished afresh, which results are reported on.
 std::vector<OfficeOptions> office_scenes();
 
 }  // namespace vantage
