@@ -29,9 +29,11 @@ vantage_component(trajectory TARGETS trajectory_optimisers trajectory ON belief 
 vantage_component(planners
                   TARGETS visibility gains view_gains views choice navigation object_planning planners
                   ON trajectory PACKAGES fmt Threads)
-vantage_component(perception
-                  TARGETS clouds perception feature_kit patch_features features ON information geometry
-                  PACKAGES fmt nanoflann "OpenCV COMPONENTS core imgproc imgcodecs features2d dnn")
+if(VANTAGE_BUILD_PERCEPTION)
+  vantage_component(perception
+                    TARGETS clouds perception feature_kit patch_features features ON information geometry
+                    PACKAGES fmt nanoflann "OpenCV COMPONENTS core imgproc imgcodecs features2d dnn")
+endif()
 
 get_property(left_over GLOBAL PROPERTY VANTAGE_INSTALLED_TARGETS)
 get_property(component_targets GLOBAL PROPERTY VANTAGE_COMPONENT_TARGETS)
@@ -40,7 +42,11 @@ if(left_over)
   message(FATAL_ERROR "in no component of the package, nor NOT_INSTALLED: ${left_over}")
 endif()
 
-foreach(folder core geometry information control perception belief)
+set(installed_folders core geometry information control belief)
+if(VANTAGE_BUILD_PERCEPTION)
+  list(APPEND installed_folders perception)
+endif()
+foreach(folder IN LISTS installed_folders)
   install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vantage
           COMPONENT library FILES_MATCHING PATTERN "*.hpp")
 endforeach()

@@ -1,6 +1,6 @@
 #include "vantage/planners/trajectory/trajectory_method.hpp"
 
-#include "vantage/core/strategy_label.hpp"
+#include "vantage/core/names.hpp"
 
 namespace vantage {
 

@@ -114,8 +114,10 @@ RobotFolder read_robot(const fs::path& folder_or_mjcf) {
   RobotFolder robot;
   robot.description = folder / kDescription;
   if (!fs::is_regular_file(robot.description)) {
-    throw InputError(fmt::format("{}: no such file; a robot is a folder with an MJCF file and {}",
-                                 robot.description.string(), kDescription));
+    throw InputError(fmt::format(
+        "{}: no {} {}: a robot is a folder with an MJCF file and {}, which says what its joints "
+        "are",
+        folder_or_mjcf.string(), kDescription, is_folder ? "in it" : "beside it", kDescription));
   }
   const ConfigNode root = read_yaml(robot.description);
   detail::require_kind(root, ConfigNode::Kind::map);

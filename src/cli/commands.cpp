@@ -14,6 +14,7 @@
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/explain_command.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
+#include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/cli/score_views_command.hpp"
@@ -138,6 +139,7 @@ std::function<ExitCode()> declare_report(CLI::App& app) {
   add_json(app, arguments->json);
   return [arguments] {
     const fs::path& directory = arguments->directory;
+    require_result_folder(directory);
     if (is_study_folder(directory)) {
       const StudyResults results = read_study_results(directory);
       write_study_page(results, evaluate(results));
@@ -169,6 +171,7 @@ std::function<ExitCode()> declare_replay(CLI::App& app) {
   add_json(app, arguments->json);
   return [arguments] {
     const fs::path& directory = arguments->directory;
+    require_run_folder(directory);
     const ResolvedEpisode resolved = load_recorded(directory);
     World world(model_source(resolved), resolved.setup.options.simulation);
     const ReplayResult result =

@@ -91,8 +91,9 @@ std::vector<const Topic*> topics(std::string_view wanted) {
     if (wanted.empty() || topic.name == wanted) found.push_back(&topic);
   }
   if (found.empty()) {
-    throw ConfigError(
-        fmt::format("list: unknown topic '{}'; known: {}", wanted, listing_topics_text()));
+    std::vector<std::string_view> names;
+    for (const Topic& topic : kTopics) names.push_back(topic.name);
+    throw ConfigError(fmt::format("list: {}", unknown_strategy("topic", wanted, names)));
   }
   return found;
 }

@@ -27,11 +27,12 @@ int run_command_line(int argc, char** argv) {
     vantage::add_common_flags(*sub);
     sub->callback([&chosen, action] { chosen = action; });
   }
+  const std::vector<std::string> words = vantage::with_every_set({argv + 1, argv + argc});
   try {
-    app.parse(argc, argv);
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    const auto unknown = vantage::unknown_command(app, {argv + 1, argv + argc});
+    const auto unknown = vantage::unknown_command(app, words);
     std::fprintf(stderr, "error: %s\nvantage --help shows how it is used\n",
                  unknown ? unknown->c_str() : error.what());
     return exit_code(vantage::ExitCode::usage);

@@ -13,6 +13,7 @@
 
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
+#include "vantage/cli/hints/folder.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/study/collect.hpp"
 #include "vantage/study/compare.hpp"
@@ -49,6 +50,7 @@ OpenedStudy open_study(const SweepArguments& arguments) {
     if (!arguments.directory.empty()) {
       throw ConfigError(fmt::format("--out: {} is a study's folder already", given.string()));
     }
+    require_study_folder(given);
     return {read_study(given / "study.yaml", arguments.overrides), given, true};
   }
   Study study = read_study(find_study(arguments.study), arguments.overrides);
@@ -115,11 +117,12 @@ ExitCode status_command(const SweepArguments& arguments) {
 /// What there is, even if something is missing; says then what, and ends in 1.
 ExitCode collect_command(const SweepArguments& arguments) {
   const OpenedStudy opened = open_study(arguments);
+  require_study_folder(opened.directory);
   const StudyResults results = read_study_results(opened.directory);
   const Evaluation evaluation = evaluate(results);
   write_collection(results, evaluation);
   if (!arguments.json) {
-    fmt::print("{}\n", markdown(results.study.title, {study_overview(evaluation)}));
+    fmt::print("{}\n", study_summary(results, evaluation));
   }
   print_status(arguments, opened.directory, results.plan, results.states);
   return code_of(results.states);
@@ -200,6 +203,9 @@ std::function<ExitCode()> declare_compare(CLI::App& app) {
   app.add_flag("--all", arguments->all, "every value that differs, not only what matters most");
   add_json(app, arguments->json);
   return [arguments] {
+    for (const fs::path& folder : {arguments->first, arguments->second}) {
+      require_result_folder(folder);
+    }
     const FolderComparison comparison =
         compare_folders(arguments->first, arguments->second, arguments->tolerance);
     fmt::print("{}", arguments->json

@@ -11,6 +11,7 @@
 #include "vantage/cli/commands.hpp"
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
+#include "vantage/cli/hints/folder.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/view/view.hpp"
 
@@ -48,6 +49,12 @@ PixelSize parse_size(const std::string& text) {
   return size;
 }
 
+/// What was written is the result of the command.
+ExitCode told(ExitCode code, const ViewOptions& view) {
+  if (!view.screenshot.empty()) fmt::print("{}\n", view.screenshot.string());
+  return code;
+}
+
 ExitCode view_command(const CLI::App& app, Arguments arguments) {
   ViewOptions& view = arguments.view;
   view.size = parse_size(arguments.size);
@@ -61,12 +68,13 @@ ExitCode view_command(const CLI::App& app, Arguments arguments) {
       throw ConfigError(
           fmt::format("{}: {} is a run folder, it has happened already", option, arguments.target));
     }
-    return view_recording(arguments.target, view);
+    require_run_folder(arguments.target);
+    return told(view_recording(arguments.target, view), view);
   }
   if (!arguments.seed.empty()) arguments.overrides.push_back("seed=" + arguments.seed);
   arguments.run.command = command_line();
   const auto episode = find_episode(arguments.target);
-  return view_live(load_episode(episode, arguments.overrides), view, arguments.run);
+  return told(view_live(load_episode(episode, arguments.overrides), view, arguments.run), view);
 }
 
 }  // namespace

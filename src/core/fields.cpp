@@ -8,11 +8,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "vantage/core/names.hpp"
+
 namespace vantage {
 
 std::string unknown_strategy(std::string_view family, std::string_view name,
                              const std::vector<std::string_view>& known) {
-  return fmt::format("unknown {} '{}'; known: {}", family, name, fmt::join(known, ", "));
+  return fmt::format("unknown {} '{}'; {}known: {}", family, name, did_you_mean(name, known),
+                     fmt::join(known, ", "));
 }
 
 std::string range_text(const Range& range) {
@@ -125,18 +128,39 @@ void require_kind(const ConfigNode& node, ConfigNode::Kind kind) {
 }
 
 void require_size(const ConfigNode& node, std::size_t size) {
-  if (node.kind != ConfigNode::Kind::list || node.items.size() != size) {
-    wrong_type(node, fmt::format("a list of {}", size));
-  }
+  if (node.kind != ConfigNode::Kind::list) wrong_type(node, fmt::format("a list of {}", size));
+  if (node.items.size() == size) return;
+  throw ConfigError(
+      fmt::format("{}: expected a list of {}, got {}", node.where(), size, node.items.size()));
 }
+
+namespace {
+
+/// "gain beer_lambert" of a map that names a strategy at that key; empty of another.
+std::string strategy_text(const ConfigNode& node, const std::vector<std::string_view>& known) {
+  const ConfigNode* name = node.find("name");
+  const bool may = std::ranges::find(known, "name") != known.end();
+  if (!may || name == nullptr || name->kind != ConfigNode::Kind::scalar) return {};
+  return fmt::format("{} {}", node.key.substr(node.key.rfind('.') + 1), name->scalar);
+}
+
+}  // namespace
 
 void reject_unknown(const ConfigNode& node, const std::vector<std::string_view>& known,
                     KeyOwners owners) {
   std::vector<std::string> problems;
+  const std::string strategy = strategy_text(node, known);
+  std::vector<std::string_view> own_keys = known;
+  std::erase(own_keys, "name");
+  const std::string own_text =
+      own_keys.empty() ? "none" : fmt::format("{}", fmt::join(own_keys, ", "));
   for (const auto& [name, child] : node.entries) {
     if (std::ranges::find(known, name) != known.end()) continue;
-    std::string message = fmt::format("{}: unknown key '{}'; known here: {}", child.where(), name,
-                                      fmt::join(known, ", "));
+    std::string message = strategy.empty()
+                              ? fmt::format("{}: unknown key '{}'; {}known here: {}", child.where(),
+                                            name, did_you_mean(name, known), fmt::join(known, ", "))
+                              : fmt::format("{}: {} has no key '{}'; {}it has {}", child.where(),
+                                            strategy, name, did_you_mean(name, own_keys), own_text);
     if (const auto names = owners == nullptr ? std::vector<std::string_view>{} : owners(name);
         !names.empty()) {
       message += fmt::format("; it belongs to {}", fmt::join(names, ", "));

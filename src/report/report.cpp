@@ -164,7 +164,10 @@ json run_json(const fs::path& run_dir, const ReportSections& sections) {
                        {"estimated", trajectory_json(run_dir / "trajectory_estimated.tum")}};
   const fs::path voxels = run_dir / "voxels.bin";
   if (sections.map && !fs::exists(voxels)) {
-    throw InputError(voxels.string() + ": missing; a run with --lean leaves it out");
+    throw InputError(fmt::format(
+        "{}: missing, as of lean runs, whose page cannot be made; `vantage run {} --out {} "
+        "--overwrite` makes the run in full (all of a study: vantage sweep run --keep-states)",
+        voxels.string(), (run_dir / "config.yaml").string(), run_dir.string()));
   }
   const bool has_voxels = sections.map || (sections.scene && fs::exists(voxels));
   run["voxels"] = has_voxels ? voxels_json(voxels) : json(nullptr);

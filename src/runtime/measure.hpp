@@ -13,11 +13,19 @@
 
 namespace vantage {
 
+enum class Better { unsaid, lower, higher };
+/// "lower is better"; empty where neither is.
+std::string_view direction_text(Better better);
+
 struct MeasureName {
   std::string_view name;   ///< column of results.csv
   std::string_view title;  ///< with unit
-  bool wall = false;       ///< of wall time: another run gives another value
+  Better better = Better::unsaid;
+  bool wall = false;  ///< of wall time: another run gives another value
 };
+
+/// Its title and which direction is better.
+std::string measure_text(const MeasureName& measure);
 
 using Curve = std::vector<double>;  ///< a value a step
 

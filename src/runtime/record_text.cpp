@@ -11,14 +11,19 @@ RecordTexts run_records() {
       {kRunFolder, "candidates.csv", "a row a candidate of every decision; not with --lean"},
       {kRunFolder, "metrics.json", "what was measured of the episode"},
       {kRunFolder, "trajectory.tum",
-       "true pose of the body: time s, x y z m, quaternion x y z w, world frame"},
-      {kRunFolder, "trajectory_estimated.tum", "the same as the robot believed"},
+       "true pose of the body, some ten rows a simulated second: time s, x y z m, quaternion x y z "
+       "w, world frame; path lengths in metrics.json are of every control tick"},
+      {kRunFolder, "trajectory_estimated.tum", "the same as the robot believed, at the same times"},
       {kRunFolder, "states.bin",
-       "every state, for replay; little-endian: \"VANTAGE STATES 1\\n\", size of a state and "
-       "number of actuators (2 x u64), then per control tick the state and the commands that led "
-       "to it (f64)"},
+       "every state, for replay; little-endian: \"VANTAGE STATES 1\\n\" (17 bytes), size n of a "
+       "state and number m of actuators (2 x u64), then rows of n + m numbers (f64): time s, "
+       "qpos (nq), qvel (nv), act (na), qacc_warmstart (nv) as in MuJoCo, so that n = 1 + nq + 2 "
+       "nv + na, and the m commands held during the tick that led to it, in the order of "
+       "actions.csv. Row 0 is the start, under no command; row k comes k ticks of "
+       "simulation.control_period_s later"},
       {kRunFolder, "actions.csv",
-       "commands of the actuators, a row whenever they change: tick, then a column an actuator"},
+       "commands of the actuators, a row whenever they change: tick, then a column an actuator; a "
+       "row of tick k is held from row k of states.bin on"},
       {kRunFolder, "story.bin",
        "events for the window; little-endian: \"VANTAGE STORY 1\\n\", then per event tick (u64), "
        "kind (u32: 0 map, 1 decision, 2 way, 3 flight), count (u32), chosen (u64) and count "
@@ -27,8 +32,10 @@ RecordTexts run_records() {
        "x, y (2 x f64); of a flight x, y, z (3 x f64)"},
       {kRunFolder, "voxels.bin",
        "cells for the report; little-endian: \"VTGVOX01\", cell size (3 x f64), box minimum and "
-       "maximum (6 x f64), count (u64), then per voxel x, y, z (f32), step (u16), kind (u8: 0 "
-       "occupied, 1 unobserved at the end), 0 (u8)"},
+       "maximum (6 x f64), count (u64), then per voxel, 16 bytes, the centre of its cell x, y, z m "
+       "in the world frame (f32), step (u16), kind (u8: 0 occupied, 1 unobserved at the end), 0 "
+       "(u8). Steps count from 0: one less than the scan or waypoint of steps.csv; of kind 1 they "
+       "mean nothing. Flights list no unobserved cells; what is not listed is free"},
       {kRunFolder, "scene.bin",
        "flights: triangles of the scene for the report; its format is in "
        "src/report/drawn_scene.hpp"},

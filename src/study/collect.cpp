@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json summary_json(const StudyResults& results, const Evaluation& evaluation) {
-  Json json = {{"study", results.study.name},
-               {"title", results.study.title},
+  Json json = {{"title", results.study.title},
                {"episodes", results.plan.size()},
                {"completed", 0},
                {"not_completed", Json::object()},
@@ -75,6 +74,20 @@ void write_flights(const StudyResults& results) {
 
 TextTable study_overview(const Evaluation& evaluation) { return overview(of_levels(evaluation)); }
 
+std::vector<std::string> study_verdicts(const Evaluation& evaluation) {
+  return verdicts(of_levels(evaluation));
+}
+
+std::string study_summary(const StudyResults& results, const Evaluation& evaluation) {
+  std::string text = markdown(results.study.title, {study_overview(evaluation)});
+  const char* before = "\n";
+  for (const std::string& line : study_verdicts(evaluation)) {
+    text += fmt::format("{}- {}\n", before, line);
+    before = "";
+  }
+  return text;
+}
+
 void write_collection(const StudyResults& results, const Evaluation& evaluation) {
   const fs::path& directory = results.directory;
   make_writable_directory(directory / "tables");
@@ -90,10 +103,10 @@ void write_collection(const StudyResults& results, const Evaluation& evaluation)
     const fs::path stem = directory / "figures" / figure.name;
     write_file(stem.string() + ".svg", figure_svg(figure));
     write_file(stem.string() + ".csv", figure_csv(figure));
-    write_file(stem.string() + ".md", markdown(figure.title, text_tables(figure)));
+    write_file(stem.string() + ".md", markdown(full_title(figure), text_tables(figure)));
   }
   write_flights(results);
-  write_file(directory / "summary.md", markdown(results.study.title, {study_overview(evaluation)}));
+  write_file(directory / "summary.md", study_summary(results, evaluation));
   write_file(directory / "summary.json", summary_json(results, evaluation).dump(2) + "\n");
 }
 

@@ -22,5 +22,9 @@ void write_collection(const StudyResults& results, const Evaluation& evaluation)
 
 /// The means of every table over all panels.
 TextTable study_overview(const Evaluation& evaluation);
+/// What each level is against the reference, a line a level and table.
+std::vector<std::string> study_verdicts(const Evaluation& evaluation);
+/// Both, under the study's title: summary.md.
+std::string study_summary(const StudyResults& results, const Evaluation& evaluation);
 
 }  // namespace vantage

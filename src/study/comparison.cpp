@@ -70,7 +70,8 @@ Comparison compare_levels(std::string name, std::string title,
                           const std::vector<std::string>& panels,
                           const std::vector<std::string>& levels, std::size_t reference,
                           const std::vector<Sample>& samples) {
-  Comparison comparison{std::move(name), std::move(title), levels.at(reference), {}};
+  Comparison comparison{
+      std::move(name), std::move(title), levels.at(reference), {}, Better::unsaid};
   for (const Group& group : groups_of(panels)) {
     const auto reference_values = values_by_pair(samples, group, reference);
     for (std::size_t level = 0; level < levels.size(); ++level) {

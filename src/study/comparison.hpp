@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/information/resampling.hpp"
+#include "vantage/runtime/measure.hpp"
 
 namespace vantage {
 
@@ -41,9 +42,10 @@ struct ComparisonRow {
 
 struct Comparison {
   std::string name;   ///< of its files
-  std::string title;  ///< what is compared, with unit
+  std::string title;  ///< what is compared, with unit and the direction that is better
   std::string reference;
   std::vector<ComparisonRow> rows;  ///< panel by panel, then "all"; levels without samples left out
+  Better better = Better::unsaid;
 };
 
 /// Deterministic: each number is drawn from a stream of its own, named by table, panel and level.

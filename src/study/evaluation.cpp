@@ -65,9 +65,12 @@ Comparison scalar_comparison(const StudyResults& results, const Layout& layout,
     samples.push_back(
         {layout.panel(i), layout.level(i), layout.pair(i), *results.measures[i]->scalars[scalar]});
   }
-  return compare_levels(name, std::string(scalar_measures()[scalar].title), layout.panels(),
-                        layout.levels(), layout.level_called(results.study.report.reference),
-                        samples);
+  const MeasureName& measure = scalar_measures()[scalar];
+  Comparison comparison =
+      compare_levels(name, measure_text(measure), layout.panels(), layout.levels(),
+                     layout.level_called(results.study.report.reference), samples);
+  comparison.better = measure.better;
+  return comparison;
 }
 
 /// A panel for each level of the panel factor, a series for each of `names`.
@@ -93,10 +96,20 @@ void add_panels(Figure& figure, const StudyResults& results, const Layout& layou
   }
 }
 
+/// What a curve's values are of: scans, views, waypoints.
+std::string steps_of(const StudyResults& results) {
+  return fmt::format("{}s", report_sections(results.plan.front().resolved.task).step_word);
+}
+
 Figure curve_figure(const StudyResults& results, const Layout& layout, const std::string& name) {
   const std::size_t curve = *find_curve(name);
-  const std::string title(curve_measures()[curve].title);
-  Figure figure{name, results.study.title + ": " + title, "scans", title, {}};
+  const MeasureName& measure = curve_measures()[curve];
+  Figure figure{.name = name,
+                .title = results.study.title,
+                .subtitle = measure_text(measure),
+                .x_label = steps_of(results),
+                .y_label = std::string(measure.title),
+                .panels = {}};
   add_panels(figure, results, layout, layout.levels(), 1, true,
              [&](std::size_t episode, std::size_t level) -> const Curve* {
                if (layout.level(episode) != level) return nullptr;
@@ -139,18 +152,20 @@ void add_predictors(Evaluation& evaluation, const StudyResults& results, const L
     }
   }
   const std::string title = "absolute prediction error, cells";
+  const std::string what = fmt::format("{}, along the episodes of {}, {}", title,
+                                       report.predictors_along, direction_text(Better::lower));
   const auto found = std::ranges::find(predictors, reference);
   const auto reference_index =
       found == predictors.end() ? 0 : static_cast<std::size_t>(found - predictors.begin());
   evaluation.comparisons.push_back(
-      compare_levels("predictors", fmt::format("{}, along {}", title, report.predictors_along),
-                     layout.panels(), predictors, reference_index, samples));
-  Figure figure{"predictors",
-                fmt::format("{}: predictors along the episodes of {}", results.study.title,
-                            report.predictors_along),
-                "scans",
-                title,
-                {}};
+      compare_levels("predictors", what, layout.panels(), predictors, reference_index, samples));
+  evaluation.comparisons.back().better = Better::lower;
+  Figure figure{.name = "predictors",
+                .title = results.study.title,
+                .subtitle = what,
+                .x_label = steps_of(results),
+                .y_label = title,
+                .panels = {}};
   add_panels(figure, results, layout, predictors, 2, false, error_of);
   evaluation.figures.push_back(std::move(figure));
 }

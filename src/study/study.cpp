@@ -103,7 +103,8 @@ std::vector<KeyDescription> study_keys() {
     return KeyDescription{.key = name, .type = type, .text = text};
   };
   std::vector<KeyDescription> keys{
-      key("title", "text", "of the study's report; default: the name of its file"),
+      key("title", "text",
+          "of the study's report; default: the name of its file, or of the folder of its results"),
       key("episode", "text", "file of the episode that every episode of the study begins with"),
       key("set", "section", "overrides of it, keys as those of --set"),
       key("factors", "section",

@@ -19,6 +19,14 @@ std::string figures_html(const Evaluation& evaluation) {
   return text;
 }
 
+std::string verdicts_html(const Evaluation& evaluation) {
+  std::string items;
+  for (const std::string& line : study_verdicts(evaluation)) {
+    items += fmt::format("<li>{}</li>\n", html_escaped(line));
+  }
+  return items.empty() ? items : fmt::format("<ul>\n{}</ul>\n", items);
+}
+
 std::string tables_html(const Evaluation& evaluation) {
   std::string text;
   for (const Comparison& comparison : evaluation.comparisons) {
@@ -39,7 +47,7 @@ void write_study_page(const StudyResults& results, const Evaluation& evaluation)
   const Replacement replacements[] = {
       {"title", html_escaped(results.study.title)},
       {"status", html_escaped(status_text(results.directory, results.plan, results.states))},
-      {"overview", html({study_overview(evaluation)})},
+      {"overview", html({study_overview(evaluation)}) + verdicts_html(evaluation)},
       {"figures", figures_html(evaluation)},
       {"tables", tables_html(evaluation)},
       {"study", html_escaped(results.study.yaml)}};

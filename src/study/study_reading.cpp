@@ -16,6 +16,8 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr std::string_view kStudyFile = "study";  ///< in the folder of its results
+
 /// Names become folders and columns.
 void require_name(const ConfigNode& node, const std::string& name, const char* what) {
   const auto good = [](unsigned char c) {
@@ -169,7 +171,14 @@ void require_known(const std::string& where, const std::string& what, const std:
                    const std::vector<std::string>& known) {
   if (std::ranges::find(known, name) != known.end()) return;
   throw ConfigError(
-      fmt::format("{}: unknown {} '{}'; known: {}", where, what, name, fmt::join(known, ", ")));
+      fmt::format("{}: {}", where, unknown_strategy(what, name, {known.begin(), known.end()})));
+}
+
+/// "s.yaml:9: report.compare"; of a key that is not there, where the report is.
+std::string report_key(const ConfigNode& root, const fs::path& file, const char* key) {
+  const ConfigNode* report = root.find("report");
+  const ConfigNode* node = report == nullptr ? nullptr : report->find(key);
+  return node != nullptr ? node->where() : fmt::format("{}.{}", unnamed(root, file, "report"), key);
 }
 
 /// Unless it says so, a study compares its `method`, or else what comes first and is no seed.
@@ -181,27 +190,26 @@ std::string compared_by_default(const std::vector<std::string>& factors) {
 }
 
 /// What names levels of the factor compared.
-void complete_levels(StudyReport& report, const Factor& compared, const std::string& where,
+void complete_levels(StudyReport& report, const Factor& compared, const auto& where,
                      Problems& problems) {
   const std::vector<std::string> levels = level_names(compared);
   if (report.reference.empty()) report.reference = levels.front();
-  problems.attempt([&] { require_known(where + ".reference", "level", report.reference, levels); });
+  problems.attempt([&] { require_known(where("reference"), "level", report.reference, levels); });
   if (report.predictors_along.empty()) return;
-  problems.attempt([&] {
-    require_known(where + ".predictors_along", "level", report.predictors_along, levels);
-  });
+  problems.attempt(
+      [&] { require_known(where("predictors_along"), "level", report.predictors_along, levels); });
 }
 
 void complete_report(const ConfigNode& root, const fs::path& file, StudyReading& reading) {
   Study& study = reading.study;
   StudyReport& report = study.report;
   Problems& problems = reading.problems;
-  const std::string where = unnamed(root, file, "report");
+  const auto where = [&](const char* key) { return report_key(root, file, key); };
   for (const auto& curve : report.curves) {
-    problems.attempt([&] { require_known(where + ".curves", "curve", curve, curve_names()); });
+    problems.attempt([&] { require_known(where("curves"), "curve", curve, curve_names()); });
   }
   for (const auto& table : report.tables) {
-    problems.attempt([&] { require_known(where + ".tables", "metric", table, scalar_names()); });
+    problems.attempt([&] { require_known(where("tables"), "metric", table, scalar_names()); });
   }
   if (study.factors.empty()) return;
   std::vector<std::string> factors;
@@ -211,17 +219,30 @@ void complete_report(const ConfigNode& root, const fs::path& file, StudyReading&
     report.compare = compared_by_default(factors);
   }
   if (!report.panels.empty()) {
-    problems.attempt([&] { require_known(where + ".panels", "factor", report.panels, factors); });
+    problems.attempt([&] { require_known(where("panels"), "factor", report.panels, factors); });
   }
   if (!problems.attempt(
-          [&] { require_known(where + ".compare", "factor", report.compare, factors); })) {
+          [&] { require_known(where("compare"), "factor", report.compare, factors); })) {
     return;
   }
   problems.attempt([&] {
     if (report.panels != report.compare) return;
-    throw ConfigError(where + ".panels: the factor compared cannot be spread over panels");
+    throw ConfigError(where("panels") + ": the factor compared cannot be spread over panels");
   });
   complete_levels(report, study.factors[factor_index(study, report.compare)], where, problems);
+}
+
+bool is_titled(const ConfigNode& root) {
+  const ConfigNode* title = root.find("title");
+  return title != nullptr && title->kind != ConfigNode::Kind::null &&
+         (title->kind != ConfigNode::Kind::scalar || !title->scalar.empty());
+}
+
+/// Of a study that gives itself none: its file's name, or that of the folder of its results.
+std::string title_of(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path().filename();
+  return stem == kStudyFile && !folder.empty() ? folder.string() : stem;
 }
 
 }  // namespace
@@ -232,7 +253,8 @@ StudyReading read_study_file(const fs::path& file, const std::vector<std::string
   StudyReading reading;
   Study& study = reading.study;
   study.name = file.stem().string();
-  study.title = study.name;
+  study.title = title_of(file);
+  if (!is_titled(root)) root.set("title", detail::write_value(study.title));
   reading.problems.attempt([&] {
     FieldReader reader(root);
     reader("title", study.title, "title of the report; by default the name of the file");

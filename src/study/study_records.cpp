@@ -3,6 +3,15 @@
 #include "vantage/study/measures.hpp"
 
 namespace vantage {
+namespace {
+
+std::vector<std::string> texts_of(const std::vector<MeasureName>& measures) {
+  std::vector<std::string> texts;
+  for (const MeasureName& measure : measures) texts.push_back(measure_text(measure));
+  return texts;
+}
+
+}  // namespace
 
 RecordTexts study_records() {
   RecordTexts texts{
@@ -27,8 +36,14 @@ RecordTexts study_records() {
       {"timings.csv", "plan_time_s", "of all decisions"},
       {"timings.csv", "map_time_s", "of all map updates"},
   };
-  for (const MeasureName& measure : scalar_measures()) {
-    texts.push_back({measure.wall ? "timings.csv" : "results.csv", measure.name, measure.title});
+  static const auto scalars = texts_of(scalar_measures());
+  static const auto curves = texts_of(curve_measures());
+  for (std::size_t i = 0; i < scalars.size(); ++i) {
+    const MeasureName& measure = scalar_measures()[i];
+    texts.push_back({measure.wall ? "timings.csv" : "results.csv", measure.name, scalars[i]});
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    texts.push_back({"curves", curve_measures()[i].name, curves[i]});
   }
   return texts;
 }

@@ -16,7 +16,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
-#include "vantage/study/child_process.hpp"
+#include "vantage/study/kit/child_process.hpp"
 
 namespace vantage {
 namespace {

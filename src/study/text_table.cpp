@@ -60,6 +60,13 @@ TextTable table_of(const FigurePanel& panel, const std::string& x_label) {
   return table;
 }
 
+std::string verdict(const Comparison& comparison, const Difference& d) {
+  if (!has_interval(d.pairs)) return "no interval";
+  if (d.interval.low <= 0.0 && d.interval.high >= 0.0) return "no clear difference";
+  if (comparison.better == Better::unsaid) return d.mean > 0.0 ? "more" : "less";
+  return (d.mean > 0.0) == (comparison.better == Better::higher) ? "better" : "worse";
+}
+
 }  // namespace
 
 std::string markdown(const std::string& title, const std::vector<TextTable>& tables) {
@@ -133,6 +140,22 @@ TextTable overview(const std::vector<Comparison>& comparisons) {
   }
   for (auto& row : table.rows) row.resize(table.header.size());
   return table;
+}
+
+std::vector<std::string> verdicts(const std::vector<Comparison>& comparisons) {
+  std::vector<std::string> lines;
+  for (const Comparison& comparison : comparisons) {
+    for (const ComparisonRow& row : comparison.rows) {
+      if (row.panel != comparison.rows.back().panel || !row.difference) continue;
+      const Difference& d = *row.difference;
+      const char* sign = d.mean > 0.0 ? "+" : "";
+      lines.push_back(fmt::format("{} against {}: {} {}{}, {} ({} pair{})", row.level,
+                                  comparison.reference, comparison.name, sign,
+                                  with_interval(d.mean, d.interval, d.pairs),
+                                  verdict(comparison, d), d.pairs, d.pairs == 1 ? "" : "s"));
+    }
+  }
+  return lines;
 }
 
 }  // namespace vantage

@@ -24,5 +24,8 @@ std::vector<TextTable> text_tables(const Comparison& comparison);
 std::vector<TextTable> text_tables(const Figure& figure);
 /// A row a level, a column a comparison: the means over all panels.
 TextTable overview(const std::vector<Comparison>& comparisons);
+/// Of each level over all panels, "adaptive against simple: area +0.12 [0.03, 0.2], worse (9
+/// pairs)". What the interval does not tell from nothing is neither better nor worse.
+std::vector<std::string> verdicts(const std::vector<Comparison>& comparisons);
 
 }  // namespace vantage

@@ -48,6 +48,27 @@ void check_together(const ConfigNode& root, const EpisodeOptions& options, const
   }
 }
 
+/// @param key what named it
+RobotFolder robot_at(const std::filesystem::path& path, const std::string& key) {
+  try {
+    return read_robot(path);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", key, error.what()));
+  }
+}
+
+/// What is left to the scene has no number before there is one.
+void call_open_map_auto(std::vector<KeyDescription>& keys) {
+  constexpr std::string_view kOrNull = ", or null";
+  for (KeyDescription& key : keys) {
+    if (!key.key.starts_with("map.") || key.default_value != "null") continue;
+    key.default_value = "auto";
+    if (key.type.ends_with(kOrNull)) {
+      key.type.replace(key.type.size() - kOrNull.size(), kOrNull.size(), ", or auto");
+    }
+  }
+}
+
 }  // namespace
 
 void read_episode(const ConfigNode& said, EpisodeOptions& options, Task& task) {
@@ -87,7 +108,7 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   const auto base = path.parent_path();
   setup.scene = find_input(setup.options.scene, base, key("scene", root.find("scene")));
   const auto robot_path = find_input(setup.options.robot.model, base, key("robot.model", model));
-  setup.robot = read_robot(robot_path);
+  setup.robot = robot_at(robot_path, key("robot.model", model));
   require_kind(setup.robot,
                std::visit([](const auto& task) { return task.robot_kind(); }, resolved.task),
                key("robot.model", model));
@@ -139,6 +160,7 @@ std::vector<KeyDescription> describe_episode(const Task& task) {
   options.fields(FieldDescriber(keys));
   std::visit([&](auto made) { made.fields(FieldDescriber(keys)); },
              make_strategy<Task>(strategy_name_of(task)));
+  call_open_map_auto(keys);
   return keys;
 }
 

@@ -33,6 +33,47 @@ TEST_F(CommandLine, WhatIsNoEpisodeSaysWhatTakesIt) {
   expect_error(vantage("run ."), 3, {"this is a folder"});
   const auto episode = file("e.yaml", "scans: 3\n");
   expect_error(vantage("sweep run " + episode), 2, {"this is an episode: use vantage run"});
+  expect_error(vantage("sweep run " + scene), 2, {"room.xml: this is a scene; a study is a YAML"});
+}
+
+TEST_F(CommandLine, AFolderThatIsNotTheirsIsNamed) {
+  fs::create_directories(folder_ / "empty");
+  fs::create_directories(folder_ / "study");
+  file("study/study.yaml", "seeds: 1..2\n");
+  fs::create_directories(folder_ / "run");
+  file("run/config.yaml", "scans: 2\n");
+  for (const char* command : {"view ", "replay "}) {
+    expect_error(vantage(command + std::string("empty")), 3, {"empty: not a run folder", "config"});
+    expect_error(vantage(command + std::string("study")), 3, {"study: the folder of a study"});
+  }
+  for (const char* command : {"sweep collect ", "sweep status "}) {
+    expect_error(vantage(command + std::string("empty")), 3, {"not the folder of a study"});
+    expect_error(vantage(command + std::string("run")), 3, {"run: the folder of a run, not of a"});
+  }
+  expect_error(vantage("report empty"), 3, {"empty: the folder of neither a run nor a study"});
+  expect_error(vantage("report nowhere"), 3, {"nowhere: no such folder"});
+  expect_error(vantage("compare run empty"), 3, {"empty: the folder of neither"});
+}
+
+TEST_F(CommandLine, WhatIsMistypedIsSuggested) {
+  expect_error(vantage("run --set gian=simple"), 2, {"'gian'; did you mean gain? known here: "});
+  expect_error(vantage("list gain"), 2, {"unknown topic 'gain'; did you mean gains? known: tasks"});
+  expect_error(vantage("run --set gain=simple --set gain.a=1"), 2,
+               {"gain simple has no key 'a'; it has none; it belongs to"});
+  expect_error(vantage("run --set 'map.size_m=[1, 2]'"), 2, {"expected a list of 3, got 2"});
+}
+
+TEST_F(CommandLine, ASetTakesSeveralAssignments) {
+  const Result plan = vantage("run --dry-run --set seed=7 scans=2");
+  EXPECT_EQ(plan.exit_code, 0) << plan.output;
+  EXPECT_THAT(plan.output, testing::AllOf(HasSubstr("2 scans"), HasSubstr("seed 7")));
+  EXPECT_EQ(vantage("run --set seed=7 assets/episodes/tabletop.yaml --dry-run").exit_code, 0);
+}
+
+TEST_F(CommandLine, ARobotThatIsNoneIsNamedByItsKey) {
+  const auto model = file("x.xml", "<mujoco/>");
+  expect_error(vantage("run --dry-run --set robot.model=" + model), 3,
+               {"--set: robot.model: ", "x.xml: no robot.yaml beside it: a robot is a folder"});
 }
 
 TEST_F(CommandLine, ValidateListsEveryErrorOfAStudy) {
@@ -100,7 +141,7 @@ TEST_F(CommandLine, OverridesAreNamedInErrors) {
   named("laser.tilt_min_rad=1 ", {"--set laser.tilt_min_rad: laser: ", "tilt_max_rad"});
   named("metrics.predictors=[simple,fsmi]", {"metrics: predictors: 'fsmi'", "beer_lambert"});
   named("gain=[1]", {"--set: gain: expected a name"});
-  named("gain.a=0.5", {"--set: gain.a: unknown key 'a'", "beer_lambert"});
+  named("gain.a=0.5", {"--set: gain.a: gain adaptive has no key 'a'; it has ", "beer_lambert"});
 }
 
 TEST_F(CommandLine, JsonIsJson) {

@@ -53,6 +53,34 @@ TEST_F(CommandLine, ExplainSaysWhatThereIsToKnow) {
   EXPECT_THAT(vantage("explain 4").output, HasSubstr("diverged"));
   expect_error(vantage("explain gian.a"), 2, {"nothing is called 'gian.a'", "gain.a"});
   expect_error(vantage("explain"), 2, {"explain gain.a"});
+  EXPECT_THAT(vantage("explain share_left").output,
+              AllOf(HasSubstr("share_left (curves)"), HasSubstr("lower is better")));
+  EXPECT_THAT(vantage("explain episode_defaults").output, HasSubstr("(robot.yaml): section"));
+}
+
+TEST_F(CommandLine, ExplainSaysWhatItKnowsBesideWhatItDoesNot) {
+  const Result both = vantage("explain nonsense gain.a");
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.output, AllOf(HasSubstr("gain.a (episode)"),
+                                 HasSubstr("error: explain: nothing is called 'nonsense'")));
+  const Result only = vantage("explain gain.a nonsense --json 2>told");
+  EXPECT_EQ(only.exit_code, 2);
+  EXPECT_FALSE(json::parse(only.output)["entries"].empty());
+}
+
+TEST_F(CommandLine, ExplainTakesBeginningsGroupsAndCommands) {
+  EXPECT_THAT(vantage("explain simulation.time").output,
+              HasSubstr("simulation.timestep_s (episode)"));
+  EXPECT_THAT(vantage("explain navigat").output,
+              AllOf(HasSubstr("navigation (episode): section"),
+                    HasSubstr("keys: navigation.footprint_radius_m, ")));
+  expect_error(vantage("explain gai"), 2, {" begin with 'gai': gain, gain_over_distance"});
+  EXPECT_THAT(vantage("explain map").output,
+              HasSubstr("keys: map.centre_m, map.size_m, map.cells"));
+  EXPECT_THAT(vantage("explain sweep").output,
+              AllOf(HasSubstr("sweep (command)\n  run a study"), HasSubstr("  collect: merge")));
+  EXPECT_THAT(vantage("explain 'sweep run'").output,
+              AllOf(HasSubstr("sweep run (command)"), HasSubstr("  --keep-states: ")));
 }
 
 TEST_F(CommandLine, ListExplainsIfAsked) {

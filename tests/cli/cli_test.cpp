@@ -89,6 +89,7 @@ TEST_F(CommandLine, InterruptedScanIsNotFinished) {
                   "[ $(stat -c %s run/states.part.bin || echo 0) -gt 100000 ]", "INT");
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_THAT(result.output, HasSubstr("\"scans\": []"));
+  EXPECT_THAT(result.output, HasSubstr("\"precision\": null")) << "of a map of nothing";
   EXPECT_EQ(vantage("replay run").exit_code, 0);
   EXPECT_EQ(vantage("report run").exit_code, 0);
 }

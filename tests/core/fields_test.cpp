@@ -92,10 +92,10 @@ TEST(Fields, ReadsEveryKind) {
 }
 
 TEST(Fields, UnknownKeysAreNamedWithTheKnownOnes) {
-  EXPECT_EQ(error_of("cells: 1\nradius: 2\n").find("e.yaml:2: radius: unknown key 'radius'; known"),
+  EXPECT_EQ(error_of("cells: 1\nradius: 2\n").find("e.yaml:2: radius: unknown key 'radius'; did"),
             0U);
   EXPECT_EQ(error_of("inner:\n  hihg: 2\n"),
-            "e.yaml:2: inner.hihg: unknown key 'hihg'; known here: low, high");
+            "e.yaml:2: inner.hihg: unknown key 'hihg'; did you mean high? known here: low, high");
   EXPECT_NE(error_of("more: [{x: 1}]\n").find("more[0].x: unknown key 'x'"), std::string::npos);
 }
 
@@ -148,7 +148,7 @@ TEST(Fields, RangesNameTheValueAndWhatIsAllowed) {
 }
 
 TEST(Fields, ArraysHaveTheirSize) {
-  EXPECT_EQ(error_of("size_m: [1, 2]\n"), "e.yaml:1: size_m: expected a list of 3, got a list");
+  EXPECT_EQ(error_of("size_m: [1, 2]\n"), "e.yaml:1: size_m: expected a list of 3, got 2");
   EXPECT_NE(error_of("size_m: [1, 2, 3, 4]\n"), "");
   EXPECT_NE(error_of("size_m: 1\n"), "");
 }

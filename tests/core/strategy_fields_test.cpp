@@ -74,8 +74,9 @@ TEST(StrategyFields, AsAMap) {
 }
 
 TEST(StrategyFields, UnknownNamesListTheKnownOnes) {
-  EXPECT_EQ(error_of("gain: adaptiv\n"),
-            "e.yaml:1: gain: unknown gain 'adaptiv'; known: simple, adaptive");
+  EXPECT_EQ(
+      error_of("gain: adaptiv\n"),
+      "e.yaml:1: gain: unknown gain 'adaptiv'; did you mean adaptive? known: simple, adaptive");
   EXPECT_EQ(error_of("gain:\n  name: adaptiv\n").find("e.yaml:1: gain: unknown gain 'adaptiv'"), 0U)
       << error_of("gain:\n  name: adaptiv\n");
 }
@@ -85,8 +86,14 @@ TEST(StrategyFields, OtherErrors) {
   EXPECT_NE(error_of("gain: [simple]\n").find("expected a name or a map with 'name'"),
             std::string::npos);
   EXPECT_NE(error_of("gain:\n").find("got nothing"), std::string::npos);
-  EXPECT_EQ(error_of("gain:\n  name: simple\n  prior: 0.3\n").find("e.yaml:3: gain.prior: unknown"),
-            0U);
+  EXPECT_EQ(
+      error_of("gain:\n  name: simple\n  prior: 0.3\n")
+          .find("e.yaml:3: gain.prior: gain simple has no key 'prior'; it has none; it belongs to "
+                "adaptive"),
+      0U);
+  EXPECT_NE(error_of("gain: {name: adaptive, priro: 1}\n")
+                .find("gain adaptive has no key 'priro'; did you mean prior? it has prior"),
+            std::string::npos);
   EXPECT_NE(error_of("gain: {name: simple, prior: 1}\n").find("; it belongs to adaptive"),
             std::string::npos);
   EXPECT_EQ(error_of("gain: [simple]\n").find("gain"), error_of("gain: [simple]\n").rfind("gain"));

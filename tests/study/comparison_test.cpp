@@ -64,6 +64,24 @@ TEST(Comparison, OneEpisodeHasNoInterval) {
   EXPECT_TRUE(comparison_json(two_panels())["left"]["ours"]["interval"].is_array());
 }
 
+TEST(Comparison, InWords) {
+  Comparison cost = two_panels();
+  const auto line = [](const Comparison& of) { return verdicts({of}).front(); };
+  ASSERT_EQ(verdicts({cost}).size(), 1U);
+  EXPECT_TRUE(line(cost).starts_with("ours against theirs: cost -5 [")) << line(cost);
+  EXPECT_TRUE(line(cost).ends_with("], less (10 pairs)")) << line(cost);
+  cost.better = Better::lower;
+  EXPECT_TRUE(line(cost).ends_with("], better (10 pairs)")) << line(cost);
+  cost.better = Better::higher;
+  EXPECT_TRUE(line(cost).ends_with("], worse (10 pairs)")) << line(cost);
+  const std::vector<Sample> one{{0, 0, 0, 1.0}, {0, 1, 0, 2.0}};
+  EXPECT_EQ(line(compare_levels("n", "n", {"p"}, {"a", "b"}, 0, one)),
+            "b against a: n +1, no interval (1 pair)");
+  const std::vector<Sample> both{{0, 0, 0, 1.0}, {0, 1, 0, 2.0}, {0, 0, 1, 2.0}, {0, 1, 1, 1.0}};
+  EXPECT_EQ(line(compare_levels("n", "n", {"p"}, {"a", "b"}, 0, both)),
+            "b against a: n 0 [-1, 1], no clear difference (2 pairs)");
+}
+
 TEST(Comparison, AllPanelsComeLast) {
   const Comparison comparison = two_panels();
   EXPECT_EQ(comparison.rows.back().panel, "all");

@@ -178,6 +178,7 @@ TEST(Measures, OfATaskAreAllColumns) {
       EXPECT_FALSE(scalar_measures()[*column].title.empty());
       EXPECT_EQ(scalar_measures()[*column].title, measure.name.title) << "one title a column";
       EXPECT_EQ(scalar_measures()[*column].wall, measure.name.wall) << measure.name.name;
+      EXPECT_EQ(scalar_measures()[*column].better, measure.name.better) << measure.name.name;
     }
     seen.clear();  // scalars and curves are columns of different files
     for (const CurveMeasure& measure : measures.curves) {
@@ -188,6 +189,20 @@ TEST(Measures, OfATaskAreAllColumns) {
       EXPECT_EQ(curve_measures()[*column].title, measure.name.title) << "one title a column";
     }
   });
+}
+
+TEST(Measures, SayWhichDirectionIsBetter) {
+  EXPECT_EQ(measure_text(curve_measures()[*find_curve("share_left")]),
+            "share of the observable cells left, lower is better");
+  EXPECT_EQ(measure_text(scalar_measures()[*find_scalar("recall")]),
+            "recall of occupied cells, higher is better");
+  EXPECT_EQ(measure_text(scalar_measures()[*find_scalar("scans")]), "scans taken");
+}
+
+TEST(Measures, AMapOfNothingHasNoPrecision) {
+  Json none = metrics("adaptive");
+  none["map"] = {{"precision", nullptr}, {"recall", nullptr}};
+  EXPECT_FALSE(scalar(measure(none, planned_scans(3)), "precision"));
 }
 
 TEST(Measures, EveryTaskSaysWhatToLookAtFirst) {

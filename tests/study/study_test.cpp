@@ -117,6 +117,20 @@ TEST_F(StudyFile, EveryFileOfAnEpisodeIsFoundBesideIt) {
   EXPECT_EQ(std::get<RecognitionTask>(episodes[1].resolved.task).model, "not/yet.model");
 }
 
+TEST_F(StudyFile, WithoutATitleItIsCalledAsItsFileOrItsFolder) {
+  const Study first = read(kStudy);
+  EXPECT_EQ(first.title, "s");
+  EXPECT_EQ(read("title: ''\n" + std::string(kStudy)).title, "s");
+  EXPECT_EQ(read("title: Two gains?\n" + std::string(kStudy)).title, "Two gains?");
+  fs::create_directory(folder_ / "results");
+  const auto in_results = [&](const std::string& text) {
+    std::ofstream(folder_ / "results/study.yaml") << text;
+    return read_study(folder_ / "results/study.yaml").title;
+  };
+  EXPECT_EQ(in_results(first.yaml), "s");
+  EXPECT_EQ(in_results(kStudy), "results");
+}
+
 TEST_F(StudyFile, SeedsAreAFactor) {
   const auto episodes = plan(std::string(kStudy) + "seeds: 3..5\n");
   ASSERT_EQ(episodes.size(), 4U * 3U);
@@ -208,6 +222,10 @@ TEST_F(StudyFile, TheReportNamesWhatThereIs) {
   expect_problem(text + "{curves: [aera]}\n", {"s.yaml:10", "aera", "unobserved_cells"});
   expect_problem(text + "{tables: [aera]}\n", {"s.yaml:10", "aera", "area"});
   expect_problem(text + "{predictors_along: start}\n", {"s.yaml:10", "start"});
+  expect_problem(text + "\n  panels: start\n  compare: metod\n",
+                 {"s.yaml:12: report.compare: unknown factor 'metod'; did you mean method?"});
+  expect_problem(text + "\n  panels: start\n  reference: simple\n",
+                 {"s.yaml:12: report.reference: unknown level 'simple'"});
 }
 
 TEST_F(StudyFile, IsToldFromAnEpisode) {

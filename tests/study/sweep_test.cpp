@@ -177,6 +177,9 @@ TEST_F(Sweep, StatesAreKeptOnDemandAndALeanEpisodeSaysHow) {
   const std::string config = "lean/episodes/start_0/random/config.yaml";
   EXPECT_THAT(lean.output, HasSubstr("vantage run " + config + " --out lean"));
   EXPECT_THAT(lean.output, HasSubstr("--keep-states"));
+  const ShellResult page = vantage("report lean/episodes/start_0/random");
+  EXPECT_EQ(page.exit_code, 3);
+  EXPECT_THAT(page.output, HasSubstr("vantage run " + config + " --out lean"));
   EXPECT_EQ(vantage("view lean/episodes/start_0/random").exit_code, 3);
   EXPECT_EQ(
       vantage("run -q " + config + " --out lean/episodes/start_0/random --overwrite").exit_code, 0);

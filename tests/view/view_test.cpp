@@ -27,6 +27,7 @@ class View : public CommandLine {
   cv::Mat shot(const std::string& name, const std::string& arguments) {
     const Result result = vantage("view " + arguments + " --screenshot " + name);
     EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, testing::EndsWith(name + "\n")) << "what is written is told";
     return cv::imread((folder_ / name).string(), cv::IMREAD_COLOR);
   }
   static bool same(const cv::Mat& a, const cv::Mat& b) {

@@ -48,6 +48,12 @@ fs::path find_episode(const std::string& name) {
 
 fs::path find_study(const std::string& name) {
   const fs::path found = find_input(name, {}, "study");
+  if (is_scene(found)) {
+    throw ConfigError(fmt::format(
+        "{}: this is a scene; a study is a YAML file with `episode`, the file that every episode "
+        "begins with, and `factors` or `seeds` that vary it; `set: {{scene: {}}}` names the scene",
+        found.string(), name));
+  }
   if (is_episode(found)) {
     throw ConfigError(fmt::format(
         "{}: this is an episode: use vantage run {}; a study is a YAML file that names an episode "

@@ -5,11 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
+
+#include "vantage/core/names.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr std::size_t kNear = 2;
 
 std::vector<std::string> subcommands(const CLI::App& app) {
   std::vector<std::string> names;
@@ -17,35 +18,25 @@ std::vector<std::string> subcommands(const CLI::App& app) {
   return names;
 }
 
-}  // namespace
-
-std::size_t letters_off(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      if (i == 0 || j == 0) {
-        d[i][j] = i + j;
-        continue;
-      }
-      const std::size_t changed = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, changed});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  }
-  return d[a.size()][b.size()];
+/// key=value, the key dotted.
+bool is_assignment(std::string_view word) {
+  const auto equals = word.find('=');
+  return equals != word.npos && equals > 0 &&
+         std::ranges::all_of(word.substr(0, equals), [](unsigned char c) {
+           return std::islower(c) != 0 || std::isdigit(c) != 0 || c == '_' || c == '.';
+         });
 }
 
-std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
-  std::string nearest;
-  std::size_t least = std::min(kNear + 1, word.size());
-  for (const std::string& candidate : known) {
-    const std::size_t off = letters_off(word, candidate);
-    if (off >= least) continue;
-    least = off;
-    nearest = candidate;
+}  // namespace
+
+std::vector<std::string> with_every_set(const std::vector<std::string>& words) {
+  std::vector<std::string> all;
+  for (const std::string& word : words) {
+    const bool follows = all.size() > 1 && all[all.size() - 2] == "--set";
+    if (follows && is_assignment(word)) all.emplace_back("--set");
+    all.push_back(word);
   }
-  return nearest;
+  return all;
 }
 
 std::optional<std::string> unknown_command(const CLI::App& app,
@@ -59,7 +50,7 @@ std::optional<std::string> unknown_command(const CLI::App& app,
       at = at->get_subcommand(word);
       continue;
     }
-    const std::string nearest = nearest_word(word, known);
+    const std::string_view nearest = nearest_word(word, {known.begin(), known.end()});
     return fmt::format("unknown command '{}'; {}", word,
                        nearest.empty() ? fmt::format("known: {}", fmt::join(known, ", "))
                                        : fmt::format("did you mean {}?", nearest));

@@ -12,12 +12,8 @@ class App;
 
 namespace vantage {
 
-/// Letters that are left out, added, changed or swapped with their neighbour between two words:
-/// optimal string alignment.
-std::size_t letters_off(std::string_view a, std::string_view b);
-
-/// The one of `known` that is nearest by letters_off(); empty if none is near.
-std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
+/// `words` with a --set before each further assignment that follows one: `--set a=1 b=2`.
+std::vector<std::string> with_every_set(const std::vector<std::string>& words);
 
 /// Of the command line's words, the first that stands where a subcommand should and is none:
 /// "unknown command 'rnu'; did you mean run?"

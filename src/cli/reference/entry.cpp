@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "vantage/cli/hints/suggestion.hpp"
+#include "vantage/core/names.hpp"
 
 namespace vantage {
 namespace {
@@ -26,6 +26,12 @@ std::string indented(std::string_view text) {
   std::string lines;
   for (const std::string_view line : wrapped(text, 98)) lines += fmt::format("  {}\n", line);
   return lines;
+}
+
+/// Of map.cells and map, or of the commands sweep run and sweep.
+bool is_or_is_in(std::string_view name, std::string_view group) {
+  if (!name.starts_with(group)) return false;
+  return name.size() == group.size() || name[group.size()] == '.' || name[group.size()] == ' ';
 }
 
 std::string_view last_part(std::string_view name) { return name.substr(name.rfind('.') + 1); }
@@ -61,7 +67,39 @@ std::vector<ReferenceEntry> find_entries(const std::vector<ReferenceEntry>& all,
   };
   take([&](const ReferenceEntry& entry) { return entry.name == name; });
   take([&](const ReferenceEntry& entry) { return entry.name.ends_with("." + std::string(name)); });
+  if (names_beginning(all, name).size() == 1) {
+    const std::string whole = names_beginning(all, name).front();
+    take([&](const ReferenceEntry& entry) { return entry.name == whole; });
+  }
   return found;
+}
+
+std::vector<std::string> names_beginning(const std::vector<ReferenceEntry>& all,
+                                         std::string_view name) {
+  std::vector<std::string> names;
+  for (const ReferenceEntry& entry : all) {
+    if (name.empty() || !entry.name.starts_with(name)) continue;
+    const bool told = std::ranges::any_of(
+        names, [&](const std::string& other) { return is_or_is_in(entry.name, other); });
+    if (!told) names.push_back(entry.name);
+  }
+  return names;
+}
+
+void add_keys_below(std::vector<ReferenceEntry>& all) {
+  for (ReferenceEntry& section : all) {
+    if (!section.type.starts_with("section")) continue;
+    for (const ReferenceEntry& entry : all) {
+      if (entry.place != section.place || !entry.name.starts_with(section.name + ".")) continue;
+      if (!section.applies.empty() && !entry.applies.empty() &&
+          section.applies.front() != entry.applies.front()) {
+        continue;  // of another task's section of the same name
+      }
+      if (std::ranges::find(section.keys_below, entry.name) == section.keys_below.end()) {
+        section.keys_below.push_back(entry.name);
+      }
+    }
+  }
 }
 
 std::vector<std::string> nearest_names(const std::vector<ReferenceEntry>& all,
@@ -89,10 +127,15 @@ std::string entry_text(const ReferenceEntry& entry) {
   if (!entry.formula.empty()) text += indented(entry.formula);
   if (!entry.source.empty()) text += indented("[" + entry.source + "]");
   for (const KeyDescription& key : entry.parameters) {
-    text += indented(fmt::format("{} ({}): {}", key.key, facts(key), key.text));
+    const std::string known = facts(key);
+    text += indented(fmt::format("{}{}: {}", key.key,
+                                 known.empty() ? "" : fmt::format(" ({})", known), key.text));
   }
   if (!entry.applies.empty()) {
     text += indented(fmt::format("with {}", fmt::join(entry.applies, ", ")));
+  }
+  if (!entry.keys_below.empty()) {
+    text += indented(fmt::format("keys: {}", fmt::join(entry.keys_below, ", ")));
   }
   return text;
 }
@@ -110,7 +153,7 @@ nlohmann::ordered_json entry_json(const ReferenceEntry& entry) {
   return {{"name", entry.name},       {"place", entry.place},           {"type", entry.type},
           {"unit", entry.unit},       {"default", entry.default_value}, {"range", entry.range},
           {"text", entry.text},       {"formula", entry.formula},       {"source", entry.source},
-          {"parameters", parameters}, {"applies", entry.applies}};
+          {"parameters", parameters}, {"applies", entry.applies},       {"keys", entry.keys_below}};
 }
 
 }  // namespace vantage

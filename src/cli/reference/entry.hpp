@@ -24,6 +24,7 @@ struct ReferenceEntry {
   std::vector<KeyDescription> parameters = {};  ///< of a strategy
   std::vector<std::string> applies =
       {};  ///< "task: tabletop, exploration", "gain: fsmi"; empty: always
+  std::vector<std::string> keys_below = {};  ///< of a section
 };
 
 /// Keys of configuration files and of --set, each place by itself.
@@ -37,8 +38,15 @@ std::vector<ReferenceEntry> record_entries();
 std::vector<ReferenceEntry> entries_of(const std::vector<KeyDescription>& keys,
                                        const std::string& place);
 
-/// Those of that name, or whose name ends so or names a part of it; empty if there are none.
+/// Fills in the keys below of those that are sections.
+void add_keys_below(std::vector<ReferenceEntry>& all);
+
+/// Those of that name; else those whose name ends so, as a of gain.a; else those of the only name
+/// that begins so. Empty if there are none.
 std::vector<ReferenceEntry> find_entries(const std::vector<ReferenceEntry>& all,
+                                         std::string_view name);
+/// The names that begin so, each once, without those in a section among them.
+std::vector<std::string> names_beginning(const std::vector<ReferenceEntry>& all,
                                          std::string_view name);
 /// The names that are nearest to one that there is not, at most `count`.
 std::vector<std::string> nearest_names(const std::vector<ReferenceEntry>& all,

@@ -48,7 +48,16 @@ std::vector<ReferenceEntry> episode_entries() {
 }
 
 std::vector<ReferenceEntry> robot_entries() {
-  std::vector<KeyDescription> keys;
+  std::vector<KeyDescription> keys{
+      {.key = "kind",
+       .type = detail::choice_type(strategy_names<RobotKind>()),
+       .text = "what the robot is, which decides what other keys there are"},
+      {.key = "model", .type = "text", .text = "MJCF file of the robot, beside robot.yaml"},
+      {.key = "episode_defaults",
+       .type = "section",
+       .text = "task: keys as an episode of that task has them, which hold where an episode with "
+               "this robot says nothing of them",
+       .section = true}};
   for (const std::string_view name : strategy_names<RobotKind>()) {
     std::visit(
         [&](auto description) {

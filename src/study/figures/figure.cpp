@@ -43,6 +43,12 @@ FigureSeries mean_series(const Figure& figure, const std::string& panel, const s
   return series;
 }
 
+std::string full_title(const Figure& figure) {
+  if (figure.subtitle.empty() || figure.title.empty()) return figure.title + figure.subtitle;
+  const bool ends = std::string_view(".?!:").find(figure.title.back()) != std::string_view::npos;
+  return fmt::format("{}{} {}", figure.title, ends ? "" : ":", figure.subtitle);
+}
+
 std::string figure_csv(const Figure& figure) {
   std::string text = fmt::format("panel,series,{},episodes,mean,low,high\n", figure.x_label);
   for (const FigurePanel& panel : figure.panels) {

@@ -34,6 +34,7 @@ struct FigurePanel {
 struct Figure {
   std::string name;  ///< of its files
   std::string title;
+  std::string subtitle = {};  ///< what is drawn, and which direction is better
   std::string x_label;
   std::string y_label;
   std::vector<FigurePanel> panels;
@@ -46,6 +47,8 @@ FigureSeries mean_series(const Figure& figure, const std::string& panel, const s
                          std::size_t style, const std::vector<std::vector<double>>& curves,
                          int first_x, bool carry_last);
 
+/// Title and subtitle in one line.
+std::string full_title(const Figure& figure);
 std::string figure_csv(const Figure& figure);
 /// Light background, no script, no external font.
 std::string figure_svg(const Figure& figure);

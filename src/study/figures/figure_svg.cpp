@@ -8,6 +8,7 @@
 
 #include "vantage/report/page.hpp"
 #include "vantage/study/figures/figure.hpp"
+#include "vantage/study/figures/svg_text.hpp"
 
 namespace vantage {
 namespace {
@@ -18,10 +19,12 @@ constexpr double kLeft = 66.0;
 constexpr double kRight = 14.0;
 constexpr double kTop = 34.0;
 constexpr double kBottom = 48.0;
-constexpr double kHead = 40.0;
+constexpr double kTitleRow = 21.0;
+constexpr double kTextRow = 17.0;
 constexpr double kLegendRow = 24.0;
 constexpr double kNearZero = 0.35;  ///< curves that fall below this share of their top show zero
 
+constexpr std::string_view kInk = "#16202e";
 constexpr auto kColours =
     std::to_array<std::string_view>({"#0f6fde", "#d9480f", "#0c8a5b", "#a61e8c", "#7048e8",
                                      "#a87400", "#0b8599", "#c92a4b", "#5c6b7e"});
@@ -108,12 +111,7 @@ Frame frame_of(const FigurePanel& panel, double left, double top) {
   return frame;
 }
 
-std::string text_at(double x, double y, std::string_view anchor, std::string_view attributes,
-                    std::string_view content) {
-  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}" {}>{}</text>)"
-                     "\n",
-                     x, y, anchor, attributes, html_escaped(content));
-}
+constexpr SvgText kLabel{.anchor = "middle"};
 
 std::string grid_svg(const Frame& frame) {
   std::string svg;
@@ -127,11 +125,12 @@ std::string grid_svg(const Frame& frame) {
   };
   for (const double value : ticks(frame.y)) {
     line(x0, frame.at_y(value), x1, frame.at_y(value), "#e3e8ef");
-    svg += text_at(x0 - 8.0, frame.at_y(value) + 4.0, "end", "", tick_label(value, frame.y));
+    svg += svg_line(x0 - 8.0, frame.at_y(value) + 4.0, kLeft - 10.0, tick_label(value, frame.y),
+                    {.anchor = "end"});
   }
   for (const double value : ticks(frame.x)) {
     line(frame.at_x(value), y0, frame.at_x(value), y0 + 4.0, "#566375");
-    svg += text_at(frame.at_x(value), y0 + 18.0, "middle", "", tick_label(value, frame.x));
+    svg += svg_line(frame.at_x(value), y0 + 18.0, kLeft, tick_label(value, frame.x), kLabel);
   }
   line(x0, y0, x1, y0, "#566375");
   return svg;
@@ -175,17 +174,16 @@ std::string line_svg(const FigureSeries& series, const Frame& frame) {
 std::string panel_svg(const Figure& figure, const FigurePanel& panel, double left, double top) {
   const Frame frame = frame_of(panel, left, top);
   const double middle_y = top + 0.5 * (kPanelHeight + kTop - kBottom);
-  std::string svg = text_at(left + kLeft, top + kTop - 14.0, "start",
-                            R"(font-size="13.5" font-weight="600" fill="#16202e")", panel.title);
+  std::string svg = svg_line(left + kLeft, top + kTop - 14.0, kPanelWidth - kLeft - kRight,
+                             panel.title, {.size_px = 13.5, .bold = true, .colour = kInk});
   svg += grid_svg(frame);
   for (const FigureSeries& series : panel.series) svg += band_svg(series, frame);
   for (const FigureSeries& series : panel.series) svg += line_svg(series, frame);
-  svg += text_at(left + 0.5 * (kPanelWidth + kLeft - kRight), top + kPanelHeight - 10.0, "middle",
-                 "", figure.x_label);
-  svg +=
-      text_at(left + 14.0, middle_y, "middle",
-              fmt::format(R"svg(transform="rotate(-90 {:.1f} {:.1f})")svg", left + 14.0, middle_y),
-              figure.y_label);
+  svg += svg_line(left + 0.5 * (kPanelWidth + kLeft - kRight), top + kPanelHeight - 10.0,
+                  kPanelWidth - kLeft - kRight, figure.x_label, kLabel);
+  svg += svg_line(
+      left + 14.0, middle_y, kPanelHeight - 20.0, figure.y_label, kLabel,
+      fmt::format(R"svg(transform="rotate(-90 {:.1f} {:.1f})")svg", left + 14.0, middle_y));
   return svg;
 }
 
@@ -213,7 +211,7 @@ std::string legend_svg(const Figure& figure, double width, double top, double& h
                        R"(stroke-dasharray="{}"/>)"
                        "\n",
                        x, y, colour(style), dash(style));
-    svg += text_at(x + 28.0, y + 4.0, "start", R"(fill="#16202e")", entries[i]->name);
+    svg += svg_line(x + 28.0, y + 4.0, width - kLeft - 36.0, entries[i]->name, {.colour = kInk});
   }
   height =
       kLegendRow * std::ceil(static_cast<double>(entries.size()) / static_cast<double>(columns));
@@ -226,17 +224,22 @@ std::string figure_svg(const Figure& figure) {
   const std::size_t columns = figure.panels.size() <= 1 ? 1 : figure.panels.size() <= 4 ? 2 : 3;
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
   const double width = kPanelWidth * static_cast<double>(columns) + 16.0;
-  std::string body = text_at(kLeft, 24.0, "start",
-                             R"(font-size="16" font-weight="650" fill="#16202e")", figure.title);
+  const double room = width - kLeft - kRight;
+  double y = 24.0;
+  std::string body = svg_lines(kLeft, y, room, kTitleRow, figure.title,
+                               {.size_px = 16.0, .bold = true, .colour = kInk});
+  body += svg_lines(kLeft, y, room, kTextRow, figure.subtitle, {.size_px = 13.0});
+  const double head = y - 5.0;
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     body += panel_svg(figure, figure.panels[i], kPanelWidth * static_cast<double>(i % columns),
-                      kHead + kPanelHeight * row_of(i, columns));
+                      head + kPanelHeight * row_of(i, columns));
   }
-  const double legend_top = kHead + kPanelHeight * static_cast<double>(rows) + 4.0;
+  const double legend_top = head + kPanelHeight * static_cast<double>(rows) + 4.0;
   double legend_height = 0.0;
   body += legend_svg(figure, width, legend_top, legend_height);
-  const double height = legend_top + legend_height + 30.0;
-  body += text_at(kLeft, height - 12.0, "start", R"(font-size="11")", figure.note);
+  y = legend_top + legend_height + 18.0;
+  body += svg_lines(kLeft, y, room, 0.9 * kTextRow, figure.note, {.size_px = 11.0});
+  const double height = y - 4.0;
   return fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0:.0f} {1:.0f}" width="{0:.0f}" )"
       R"(height="{1:.0f}" font-family="system-ui, 'Segoe UI', 'Noto Sans', 'DejaVu Sans', )"
@@ -244,7 +247,7 @@ std::string figure_svg(const Figure& figure) {
       "\n"
       R"(<rect width="100%" height="100%" fill="#ffffff"/>)"
       "\n{3}</svg>\n",
-      width, height, html_escaped(figure.title), body);
+      width, height, html_escaped(full_title(figure)), body);
 }
 
 }  // namespace vantage

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <set>
 
-#include "vantage/report/page.hpp"
+#include "vantage/study/figures/svg_text.hpp"
 
 namespace vantage {
 namespace {
@@ -94,11 +94,12 @@ std::string flight_svg(const Json& metrics, const std::string& title) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
       "viewBox=\"0 0 {0:.0f} {1:.0f}\" font-family=\"sans-serif\">\n<rect width=\"100%\" "
-      "height=\"100%\" fill=\"#ffffff\"/>\n<text x=\"10\" y=\"16\" font-size=\"13\" "
-      "fill=\"#1c2733\">{2}</text>\n<text x=\"10\" y=\"30\" font-size=\"10\" "
-      "fill=\"#5c6b7e\">dashed: as given, blue: as flown, spokes: seen from there; green: "
-      "recognised</text>\n",
-      kWidth_px, frame.height_px(), html_escaped(title));
+      "height=\"100%\" fill=\"#ffffff\"/>\n",
+      kWidth_px, frame.height_px());
+  svg += svg_line(10.0, 16.0, kWidth_px - 20.0, title, {.size_px = 13.0, .colour = "#1c2733"});
+  svg += svg_line(10.0, 30.0, kWidth_px - 20.0,
+                  "dashed: as given, blue: as flown, spokes: seen from there; green: recognised",
+                  {.size_px = 10.0, .colour = "#5c6b7e"});
   svg += polyline(frame, metrics.at("path"),
                   "stroke=\"#8a96a5\" stroke-width=\"1.2\" stroke-dasharray=\"4 3\"");
   svg += polyline(frame, metrics.at("plan"), "stroke=\"#0f6fde\" stroke-width=\"2\"");

@@ -55,7 +55,7 @@ void add_change(const ChangeDetectionTask& task, const ObjectOnTable& expected,
 
 const auto kScalars = std::to_array<ScalarMeasure>({
     kCorrect,
-    {{"changed_correct", "told changed from unchanged, share"},
+    {{"changed_correct", "told changed from unchanged, share", Better::higher},
      [](const MeasuredEpisode& e) { return number_of(e, "changed_correct"); }},
     {{"change_probability", "probability of a change at the end"},
      [](const MeasuredEpisode& e) { return number_of(e, "change_probability"); }},

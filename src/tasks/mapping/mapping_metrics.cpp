@@ -151,14 +151,17 @@ Scalar fallbacks(const MeasuredEpisode& episode) {
 }
 
 Scalar map_score(const MeasuredEpisode& episode, const char* key) {
-  return episode.metrics.at("map").at(key).get<double>();
+  const Json& value = episode.metrics.at("map").at(key);
+  return value.is_null() ? Scalar{} : value.get<double>();
 }
 
 const auto kScalars = std::to_array<ScalarMeasure>({
-    {{"area", "area under the curve of observable cells left, scans"}, area},
-    {{"observed_share", "share of the observable cells observed at the end"}, observed_share},
-    {{"scans_to_95", "scans until 95 % of the observable cells are observed"}, scans_to_95},
-    {{"prediction_error_cells", "mean error of the method's own prediction, cells"},
+    {{"area", "area under the curve of observable cells left, scans", Better::lower}, area},
+    {{"observed_share", "share of the observable cells observed at the end", Better::higher},
+     observed_share},
+    {{"scans_to_95", "scans until 95 % of the observable cells are observed", Better::lower},
+     scans_to_95},
+    {{"prediction_error_cells", "mean error of the method's own prediction, cells", Better::lower},
      own_prediction_error},
     {{"forecast_ratio", "cells forecast by adaptive over cells seen, from scan 2 on"},
      [](const MeasuredEpisode& e) { return forecast_ratio(e); }},
@@ -176,16 +179,17 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      [](const MeasuredEpisode& e) -> Scalar {
        return static_cast<double>(e.metrics.at("scans").size());
      }},
-    {{"fallbacks", "views out of reach"}, fallbacks},
+    {{"fallbacks", "views out of reach", Better::lower}, fallbacks},
     kPathLength,
     kCollisions,
-    {{"precision", "precision of occupied cells"},
+    {{"precision", "precision of occupied cells", Better::higher},
      [](const MeasuredEpisode& e) { return map_score(e, "precision"); }},
-    {{"recall", "recall of occupied cells"},
+    {{"recall", "recall of occupied cells", Better::higher},
      [](const MeasuredEpisode& e) { return map_score(e, "recall"); }},
-    {{"pose_error_m", "mean position error after registration, m"},
+    {{"pose_error_m", "mean position error after registration, m", Better::lower},
      [](const MeasuredEpisode& e) { return mean_of(scan_values(e, "pose_error_m")); }},
-    {{"pose_error_before_registration_m", "mean position error before registration, m"},
+    {{"pose_error_before_registration_m", "mean position error before registration, m",
+      Better::lower},
      [](const MeasuredEpisode& e) {
        return mean_of(scan_values(e, "pose_error_before_registration_m"));
      }},
@@ -197,19 +201,19 @@ constexpr auto kHeadlines =
                                      "precision", "recall", "collisions"});
 
 constexpr auto kCurves = std::to_array<CurveMeasure>({
-    {{"unobserved_cells", "unobserved cells"},
+    {{"unobserved_cells", "unobserved cells", Better::lower},
      [](const MeasuredEpisode& e) { return scan_values(e, "unobserved_cells"); }},
-    {{"observable_unobserved_cells", "observable cells left"},
+    {{"observable_unobserved_cells", "observable cells left", Better::lower},
      [](const MeasuredEpisode& e) { return scan_values(e, "observable_unobserved_cells"); }},
-    {{"share_left", "share of the observable cells left"}, share_left},
+    {{"share_left", "share of the observable cells left", Better::lower}, share_left},
     {{"forecast_ratio", "cells forecast by adaptive over cells seen"}, forecast_ratios},
-    {{"distance_m", "distance travelled, m"},
+    {{"distance_m", "distance travelled, m", Better::lower},
      [](const MeasuredEpisode& e) { return scan_values(e, "path_length_m"); }},
-    {{"pose_error_m", "position error, m"},
+    {{"pose_error_m", "position error, m", Better::lower},
      [](const MeasuredEpisode& e) { return scan_values(e, "pose_error_m"); }},
-    {{"precision", "precision of occupied cells"},
+    {{"precision", "precision of occupied cells", Better::higher},
      [](const MeasuredEpisode& e) { return scan_values(e, "precision"); }},
-    {{"recall", "recall of occupied cells"},
+    {{"recall", "recall of occupied cells", Better::higher},
      [](const MeasuredEpisode& e) { return scan_values(e, "recall"); }},
 });
 
@@ -221,8 +225,10 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
   metrics["observable_cells"] = run.evaluator.observable_cells();
   metrics["scans"] = Json::array();
   for (const ScanRecord& scan : run.scans) metrics["scans"].push_back(scan_json(scan));
-  metrics["map"] = {
-      {"precision", map.precision}, {"recall", map.recall}, {"tolerance_cells", tolerance_cells}};
+  const auto score = [&](double value) { return run.scans.empty() ? Json() : Json(value); };
+  metrics["map"] = {{"precision", score(map.precision)},
+                    {"recall", score(map.recall)},
+                    {"tolerance_cells", tolerance_cells}};
   metrics["observability"] = observability(options, run.hazard);
   metrics["observability_per_slice"] = run.hazard.transmission_per_slice();
   metrics["localisation"] = localisation_json(options, run.scans);
@@ -235,13 +241,17 @@ std::string mapping_outcome(const Json& metrics) {
   const auto total = metrics["observable_cells"].get<double>();
   const double left =
       scans.empty() ? total : scans.back()["observable_unobserved_cells"].get<double>();
+  const auto score = [&](const char* key) {
+    const Json& value = metrics["map"][key];
+    return value.is_null() ? std::string("unknown") : fmt::format("{:.3f}", value.get<double>());
+  };
   return fmt::format(
       "{}: {} after {} scans, {:.1f} % of the observable cells observed\n"
-      "path {:.2f} m, {} collisions, map precision {:.3f}, recall {:.3f}, {:.1f} x real time\n",
+      "path {:.2f} m, {} collisions, map precision {}, recall {}, {:.1f} x real time\n",
       metrics["method"].get<std::string>(), metrics["status"].get<std::string>(), scans.size(),
       total > 0.0 ? 100.0 * (1.0 - left / total) : 0.0, metrics["path_length_m"].get<double>(),
-      metrics["collisions"].get<int>(), metrics["map"]["precision"].get<double>(),
-      metrics["map"]["recall"].get<double>(), metrics["real_time_factor"].get<double>());
+      metrics["collisions"].get<int>(), score("precision"), score("recall"),
+      metrics["real_time_factor"].get<double>());
 }
 
 Measures mapping_measures() { return {kScalars, kCurves, prediction_errors, kHeadlines}; }

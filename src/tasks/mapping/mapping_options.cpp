@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "vantage/core/strategy_label.hpp"
+#include "vantage/core/names.hpp"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "vantage/core/log.hpp"
-#include "vantage/core/strategy_label.hpp"
+#include "vantage/core/names.hpp"
 #include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/swept_gain.hpp"
 

@@ -211,9 +211,12 @@ RecordTexts mapping_records() {
        "of observed surface cells, share that the map holds as occupied"},
       {kMetrics, "scans[].view", "pose of the sensor, as the robot believes it"},
       {kMetrics, "map.precision",
-       "of the map at the end: of occupied cells, share that is occupied within the tolerance"},
+       "of the map at the end: of occupied cells, share that is occupied within the tolerance; "
+       "null "
+       "before the first scan"},
       {kMetrics, "map.recall",
-       "of the map at the end: of observed surface cells, share held as occupied"},
+       "of the map at the end: of observed surface cells, share held as occupied; null before the "
+       "first scan"},
       {kMetrics, "map.tolerance_cells", "how far an occupied cell may be off the true surface"},
       {kMetrics, "observability",
        "transmission of an unobserved cell that the gain assumes at the end; null: none"},

@@ -1,6 +1,6 @@
 #include "vantage/tasks/object_flight/object_flight.hpp"
 
-#include "vantage/core/strategy_label.hpp"
+#include "vantage/core/names.hpp"
 #include "vantage/tasks/flight/flight_world.hpp"
 #include "vantage/tasks/flight/recognition_model_file.hpp"
 

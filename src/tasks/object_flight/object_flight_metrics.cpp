@@ -106,28 +106,28 @@ std::optional<double> mean_of_views(const MeasuredEpisode& episode, const char* 
 }  // namespace
 
 const ScalarMeasure kCorrect{
-    {"correct", "recognised the object, or what has changed, share"},
+    {"correct", "recognised the object, or what has changed, share", Better::higher},
     [](const MeasuredEpisode& episode) { return number_of(episode, "correct"); }};
-const ScalarMeasure kViews{{"views", "views taken"},
+const ScalarMeasure kViews{{"views", "views taken", Better::lower},
                            [](const MeasuredEpisode& episode) -> std::optional<double> {
                              return static_cast<double>(episode.metrics.at("observations").size());
                            }};
 const ScalarMeasure kStateEntropy{
-    {"entropy_bits", "entropy of the state at the end, bits"},
+    {"entropy_bits", "entropy of the state at the end, bits", Better::lower},
     [](const MeasuredEpisode& episode) { return number_of(episode, "entropy_bits"); }};
 const ScalarMeasure kMapProbability{
-    {"map_probability", "probability of the estimate at the end"},
+    {"map_probability", "probability of the estimate at the end", Better::higher},
     [](const MeasuredEpisode& episode) { return number_of(episode, "map_probability"); }};
 const ScalarMeasure kBinError{
-    {"bin_error", "error of the pose, bins"},
+    {"bin_error", "error of the pose, bins", Better::lower},
     [](const MeasuredEpisode& episode) { return number_of(episode, "bin_error"); }};
 const ScalarMeasure kViewPositionError{
-    {"view_position_error_m", "mean position error of a view, m"},
+    {"view_position_error_m", "mean position error of a view, m", Better::lower},
     [](const MeasuredEpisode& episode) { return mean_of_views(episode, "position_error_m"); }};
 const ScalarMeasure kViewAngleError{
-    {"view_angle_error_rad", "mean angle error of a view, rad"},
+    {"view_angle_error_rad", "mean angle error of a view, rad", Better::lower},
     [](const MeasuredEpisode& episode) { return mean_of_views(episode, "angle_error_rad"); }};
-const CurveMeasure kViewEntropy{{"view_entropy_bits", "entropy of the state, bits"},
+const CurveMeasure kViewEntropy{{"view_entropy_bits", "entropy of the state, bits", Better::lower},
                                 [](const MeasuredEpisode& episode) {
                                   return step_values(episode, "observations", "entropy_bits");
                                 }};

@@ -39,7 +39,7 @@ void add_metrics(const RecognitionTask& task, const ObjectOnTable& truth,
 
 const auto kScalars = std::to_array<ScalarMeasure>({
     kCorrect,
-    {{"category_correct", "recognised the category, share"},
+    {{"category_correct", "recognised the category, share", Better::higher},
      [](const MeasuredEpisode& e) { return number_of(e, "category_correct"); }},
     kViews,
     kStateEntropy,

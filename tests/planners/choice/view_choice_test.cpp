@@ -87,7 +87,8 @@ TEST(ViewChoice, OfAnUnknownNameListsTheKnown) {
     FAIL() << "no error";
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "unknown view choice 'gredy'; known: random, greedy, oracle, nearest_frontier, "
+                 "unknown view choice 'gredy'; did you mean greedy? known: random, greedy, oracle, "
+                 "nearest_frontier, "
                  "gain_over_distance");
   }
 }

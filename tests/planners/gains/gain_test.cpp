@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "tests/planners/gains/gain_along.hpp"
-#include "vantage/core/strategy_label.hpp"
+#include "vantage/core/names.hpp"
 #include "vantage/planners/exact_gain.hpp"
 
 namespace vantage {
@@ -153,7 +153,8 @@ TEST(Gain, NamesItsKindInErrors) {
     FAIL() << "no error";
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "unknown gain 'adaptiv'; known: simple, posterior_chain, visibility_weighted, "
+                 "unknown gain 'adaptiv'; did you mean adaptive? known: simple, posterior_chain, "
+                 "visibility_weighted, "
                  "beer_lambert, adaptive, occlusion_aware, unobserved_voxel, rear_side_voxel, "
                  "rear_side_entropy, unmapped_volume, fsmi");
   }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/planners/objects/small_models.hpp"
-#include "vantage/core/strategy_label.hpp"
+#include "vantage/core/names.hpp"
 
 namespace vantage {
 namespace {

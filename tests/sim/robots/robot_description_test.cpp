@@ -84,7 +84,7 @@ TEST(RobotDescription, AnMjcfFileInTheFolderReplacesItsOwn) {
 TEST(RobotDescription, AFolderWithoutRobotYamlSaysSo) {
   const support::TemporaryDirectory empty;
   EXPECT_THAT(test::message_of<InputError>([&] { read_robot(empty.path()); }),
-              AllOf(HasSubstr(empty.path().string()), HasSubstr("robot.yaml: no such file")));
+              AllOf(HasSubstr(empty.path().string()), HasSubstr("no robot.yaml in it")));
 }
 
 TEST(RobotDescription, WhatIsMissingIsNamed) {

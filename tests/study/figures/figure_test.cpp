@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+
 #include "vantage/study/text_table.hpp"
 
 namespace vantage {
@@ -30,7 +33,7 @@ TEST(MeanSeries, OrAreLeftOut) {
 }
 
 Figure small_figure() {
-  Figure figure{"f", "Cost & gain", "scans", "cost, m", {}};
+  Figure figure{"f", "Cost & gain", "", "scans", "cost, m", {}};
   figure.panels.push_back(
       {"<left>", {{"ours", 1, {{1, 2, 0.0, {0.0, 0.0}}, {2, 2, 1e6, {9e5, 1.2e6}}}}}});
   figure.panels.push_back({"empty", {}});
@@ -43,6 +46,38 @@ TEST(FigureSvg, TextIsEscapedAndNumbersAreFinite) {
     EXPECT_THAT(svg, HasSubstr(part));
   }
   for (const char* part : {"nan", "inf", "<left>"}) EXPECT_THAT(svg, Not(HasSubstr(part)));
+}
+
+/// Right end of the lines of text, letters of half their size wide.
+double rightmost_end(const std::string& svg) {
+  double most = 0.0;
+  const std::regex line(
+      R"re(<text x="([0-9.]+)" [^>]*anchor="start" font-size="([0-9.]+)"([^>]*)>([^<]*)<)re");
+  for (std::sregex_iterator m(svg.begin(), svg.end(), line), end; m != end; ++m) {
+    const bool pressed = (*m)[3].str().find("textLength") != std::string::npos;
+    if (pressed) continue;
+    most = std::max(most, std::stod((*m)[1]) +
+                              0.5 * std::stod((*m)[2]) * static_cast<double>((*m)[4].length()));
+  }
+  return most;
+}
+
+TEST(FigureSvg, NoTextLeavesTheImage) {
+  Figure figure = small_figure();
+  figure.panels.pop_back();
+  figure.title = "Does it pay to learn how far a beam goes into unknown space on a small table?";
+  figure.subtitle = "share of all of the cells that could have been observed, lower is better";
+  figure.panels[0].series[0].name = std::string(120, 'n');
+  figure.panels[0].title = "a_name_without_any_space_in_it_that_is_longer_than_its_panel_is_wide";
+  figure.note = std::string(30, 'a') + " " + std::string(60, 'b') + " " + std::string(30, 'c');
+  const std::string svg = figure_svg(figure);
+  EXPECT_LT(rightmost_end(svg), 486.0);
+  for (const char* part : {"Does it pay", "small table?", "lower is better", "textLength"}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+  EXPECT_EQ(full_title(figure), figure.title + " " + figure.subtitle);
+  figure.title = "Two gains";
+  EXPECT_EQ(full_title(figure), "Two gains: " + figure.subtitle);
 }
 
 TEST(FigureSvg, SaysBelowWhatItShows) {

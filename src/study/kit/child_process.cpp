@@ -1,4 +1,4 @@
-#include "vantage/study/child_process.hpp"
+#include "vantage/study/kit/child_process.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
