@@ -3,10 +3,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <thread>
@@ -38,11 +42,22 @@ class Claims : public testing::Test {
 };
 
 TEST_F(Claims, OneOfManyProcessesTakesIt) {
+  constexpr int kProcesses = 4;
+  fs::create_directories(folder_);
+  void* shared = ::mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
   for (int number = 1; number <= 20; ++number) {
+    auto* ready = new (shared) std::atomic<int>(0);
     std::vector<pid_t> children;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < kProcesses; ++i) {
       const pid_t child = ::fork();
-      if (child == 0) ::_exit(take_claim(folder_, number, this_worker()) ? 1 : 0);
+      if (child == 0) {
+        const Worker self = this_worker();
+        ++*ready;
+        while (*ready < kProcesses) ::sched_yield();
+        ::_exit(take_claim(folder_, number, self) ? 1 : 0);
+      }
       children.push_back(child);
     }
     int taken = 0;
@@ -53,6 +68,7 @@ TEST_F(Claims, OneOfManyProcessesTakesIt) {
     }
     EXPECT_EQ(taken, 1) << number;
   }
+  ::munmap(shared, sizeof(std::atomic<int>));
   EXPECT_EQ(claim_in_force(folder_)->number, 20);
   for (const auto& entry : fs::directory_iterator(folder_)) {
     EXPECT_EQ(entry.path().extension(), ".json") << entry.path();
