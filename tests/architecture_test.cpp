@@ -66,7 +66,8 @@ const Rooms kPlanners{"planners",         "planners/gains",      "planners/visib
 const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
 const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing"};
 const Rooms kRecognition{"recognition", "recognition/dataset", "recognition/evaluation"};
-const Rooms kStudy{"study", "study/figures", "study/kit", "study/recognition"};
+const Rooms kStudy{"study",     "study/cluster",     "study/figures",
+                   "study/kit", "study/recognition", "study/sweep"};
 /// What several tasks share; they never include each other.
 const Rooms kSharedByTasks{"tasks/mapping", "tasks/flight", "tasks/object_flight"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
@@ -132,14 +133,18 @@ const std::map<std::string, Rooms> kAllowed{
     {"study/figures", {"core", "information", "report"}},
     {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
     {"study/kit", kGround + kRuntime + Rooms{"tasks"}},
-    {"study", kGround + kRuntime + Rooms{"report", "study/figures", "study/kit", "tasks"}},
+    {"study/cluster", {"core"}},
+    {"study",
+     kGround + kRuntime + Rooms{"report", "study/cluster", "study/figures", "study/kit", "tasks"}},
+    {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"cli/hints", {"core", "study"}},
+    {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                           Rooms{"belief/objects", "cli/hints", "dataset", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                Rooms{"cli/hints", "cli/reference", "dataset", "models/catalogue/database",
-                      "report", "tasks", "view"}},
+                Rooms{"cli/hints", "cli/reference", "cli/sweep", "dataset",
+                      "models/catalogue/database", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench", kTask + kStudy + Rooms{"bench/claims", "tasks", "tasks/*", "tests/support"}},
     {"python", kTask + kStudy + Rooms{"tasks", "tasks/*"}},

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/study/cluster/worker.hpp"
 #include "vantage/study/figures/flight_figure.hpp"
 #include "vantage/study/results_csv.hpp"
 
@@ -57,7 +59,7 @@ bool stands_for_its_panel(const StudyResults& results, const PlannedEpisode& epi
 }
 
 /// One flight for each panel and method.
-void write_flights(const StudyResults& results) {
+void write_flights(const StudyResults& results, const fs::path& folder) {
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     const PlannedEpisode& episode = results.plan[i];
     if (report_sections(episode.resolved.task).figures != kFlightFigures) continue;
@@ -66,8 +68,46 @@ void write_flights(const StudyResults& results) {
         read_json_or_null(episode_folder(results.directory, episode) / "metrics.json");
     std::string stem = episode.name;
     std::ranges::replace(stem, '/', '-');
-    write_file(results.directory / "figures" / (stem + ".svg"), flight_svg(metrics, episode.name));
+    write_file(folder / "figures" / (stem + ".svg"), flight_svg(metrics, episode.name));
   }
+}
+
+/// Every file of `from`, one by one in place of those of `to`; `from` is gone then.
+void move_files(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  for (const char* folder : {"tables", "figures", "."}) {
+    fs::create_directories(to / folder, error);
+    for (const auto& entry : fs::directory_iterator(from / folder)) {
+      if (!entry.is_regular_file()) continue;
+      const fs::path file = to / folder / entry.path().filename();
+      fs::rename(entry.path(), file, error);
+      if (error)
+        throw OutputError(fmt::format("{}: cannot write: {}", file.string(), error.message()));
+    }
+  }
+  fs::remove_all(from, error);
+}
+
+void write_into(const fs::path& directory, const StudyResults& results,
+                const Evaluation& evaluation) {
+  make_writable_directory(directory / "tables");
+  make_writable_directory(directory / "figures");
+  write_file(directory / "results.csv", results_csv(results));
+  write_file(directory / "timings.csv", timings_csv(results));
+  for (const Comparison& comparison : evaluation.comparisons) {
+    const fs::path stem = directory / "tables" / comparison.name;
+    write_file(stem.string() + ".csv", comparison_csv(comparison));
+    write_file(stem.string() + ".md", markdown(comparison.title, text_tables(comparison)));
+  }
+  for (const Figure& figure : evaluation.figures) {
+    const fs::path stem = directory / "figures" / figure.name;
+    write_file(stem.string() + ".svg", figure_svg(figure));
+    write_file(stem.string() + ".csv", figure_csv(figure));
+    write_file(stem.string() + ".md", markdown(full_title(figure), text_tables(figure)));
+  }
+  write_flights(results, directory);
+  write_file(directory / "summary.md", study_summary(results, evaluation));
+  write_file(directory / "summary.json", summary_json(results, evaluation).dump(2) + "\n");
 }
 
 }  // namespace
@@ -89,25 +129,10 @@ std::string study_summary(const StudyResults& results, const Evaluation& evaluat
 }
 
 void write_collection(const StudyResults& results, const Evaluation& evaluation) {
-  const fs::path& directory = results.directory;
-  make_writable_directory(directory / "tables");
-  make_writable_directory(directory / "figures");
-  write_file(directory / "results.csv", results_csv(results));
-  write_file(directory / "timings.csv", timings_csv(results));
-  for (const Comparison& comparison : evaluation.comparisons) {
-    const fs::path stem = directory / "tables" / comparison.name;
-    write_file(stem.string() + ".csv", comparison_csv(comparison));
-    write_file(stem.string() + ".md", markdown(comparison.title, text_tables(comparison)));
-  }
-  for (const Figure& figure : evaluation.figures) {
-    const fs::path stem = directory / "figures" / figure.name;
-    write_file(stem.string() + ".svg", figure_svg(figure));
-    write_file(stem.string() + ".csv", figure_csv(figure));
-    write_file(stem.string() + ".md", markdown(full_title(figure), text_tables(figure)));
-  }
-  write_flights(results);
-  write_file(directory / "summary.md", study_summary(results, evaluation));
-  write_file(directory / "summary.json", summary_json(results, evaluation).dump(2) + "\n");
+  const Worker self = this_worker();
+  const fs::path own = results.directory / fmt::format(".collection-{}-{}", self.host, self.pid);
+  write_into(own, results, evaluation);
+  move_files(own, results.directory);
 }
 
 }  // namespace vantage

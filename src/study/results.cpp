@@ -52,6 +52,36 @@ std::string reason(const fs::path& folder, EpisodeState state) {
   return {};
 }
 
+/// What a status says of an episode.
+struct Shown {
+  std::string state;
+  std::string reason;
+};
+
+std::vector<Shown> shown(const fs::path& study_dir, const std::vector<PlannedEpisode>& plan,
+                         const std::vector<EpisodeState>& states,
+                         const std::vector<EpisodeActivity>& activities) {
+  std::vector<Shown> all;
+  all.reserve(plan.size());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (i < activities.size() && !activities[i].state.empty()) {
+      all.push_back({activities[i].state, activities[i].reason});
+    } else {
+      const bool completed = states[i] == EpisodeState::completed;
+      all.push_back({std::string(state_name(states[i])),
+                     completed ? "" : reason(episode_folder(study_dir, plan[i]), states[i])});
+    }
+  }
+  return all;
+}
+
+/// In the order in which a status tells them.
+std::vector<std::string> shown_states() {
+  std::vector<std::string> names(kStateNames.rbegin(), kStateNames.rend());
+  names.insert(names.begin() + 1, {"running", "queued"});
+  return names;
+}
+
 }  // namespace
 
 std::string_view state_name(EpisodeState state) {
@@ -76,7 +106,10 @@ std::string ResultCheck::scene_hash(const fs::path& scene) {
 }
 
 EpisodeState ResultCheck::operator()(const fs::path& study_dir, const PlannedEpisode& episode) {
-  const fs::path folder = episode_folder(study_dir, episode);
+  return in_folder(episode_folder(study_dir, episode), episode);
+}
+
+EpisodeState ResultCheck::in_folder(const fs::path& folder, const PlannedEpisode& episode) {
   const std::string status = text(read_json_or_null(folder / "metrics.json"), "status");
   if (status.empty()) {
     std::error_code error;
@@ -105,35 +138,36 @@ std::vector<EpisodeState> episode_states(const fs::path& study_dir,
 }
 
 std::string status_text(const fs::path& study_dir, const std::vector<PlannedEpisode>& plan,
-                        const std::vector<EpisodeState>& states) {
+                        const std::vector<EpisodeState>& states,
+                        const std::vector<EpisodeActivity>& activities) {
+  const std::vector<Shown> all = shown(study_dir, plan, states, activities);
   std::vector<std::string> counts;
-  for (std::size_t s = kStateNames.size(); s-- > 0;) {
-    const auto count = std::ranges::count(states, static_cast<EpisodeState>(s));
-    if (count > 0) counts.push_back(fmt::format("{} {}", count, kStateNames[s]));
+  for (const std::string& state : shown_states()) {
+    const auto count = std::ranges::count(all, state, &Shown::state);
+    if (count > 0) counts.push_back(fmt::format("{} {}", count, state));
   }
   std::string lines = fmt::format("{} of {} episodes\n", fmt::join(counts, ", "), plan.size());
   for (std::size_t i = 0; i < plan.size(); ++i) {
+    const auto& [state, why] = all[i];
     if (states[i] == EpisodeState::completed) continue;
-    const std::string why = reason(episode_folder(study_dir, plan[i]), states[i]);
-    lines += fmt::format("{:<11} {}{}{}\n", state_name(states[i]), plan[i].name,
-                         why.empty() ? "" : ": ", why);
+    lines += fmt::format("{:<11} {}{}{}\n", state, plan[i].name, why.empty() ? "" : ": ", why);
   }
   return lines;
 }
 
 Json status_json(const fs::path& study_dir, const std::vector<PlannedEpisode>& plan,
-                 const std::vector<EpisodeState>& states) {
+                 const std::vector<EpisodeState>& states,
+                 const std::vector<EpisodeActivity>& activities) {
+  const std::vector<Shown> all = shown(study_dir, plan, states, activities);
   Json json = {{"directory", study_dir.string()}, {"episodes", plan.size()}};
-  for (std::size_t s = kStateNames.size(); s-- > 0;) {
-    json[std::string(kStateNames[s])] = std::ranges::count(states, static_cast<EpisodeState>(s));
+  for (const std::string& state : shown_states()) {
+    json[state] = std::ranges::count(all, state, &Shown::state);
   }
   json["not_completed"] = Json::array();
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (states[i] == EpisodeState::completed) continue;
     json["not_completed"].push_back(
-        {{"episode", plan[i].name},
-         {"state", state_name(states[i])},
-         {"reason", reason(episode_folder(study_dir, plan[i]), states[i])}});
+        {{"episode", plan[i].name}, {"state", all[i].state}, {"reason", all[i].reason}});
   }
   return json;
 }

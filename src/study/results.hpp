@@ -37,6 +37,8 @@ std::filesystem::path episode_folder(const std::filesystem::path& study_dir,
 class ResultCheck {
  public:
   EpisodeState operator()(const std::filesystem::path& study_dir, const PlannedEpisode& episode);
+  /// Of a folder that the episode was run in.
+  EpisodeState in_folder(const std::filesystem::path& folder, const PlannedEpisode& episode);
 
  private:
   std::string scene_hash(const std::filesystem::path& scene);
@@ -50,14 +52,23 @@ nlohmann::ordered_json read_json_or_null(const std::filesystem::path& file);
 std::vector<EpisodeState> episode_states(const std::filesystem::path& study_dir,
                                          const std::vector<PlannedEpisode>& plan);
 
-/// "completed 310, missing 10", then a line for each that is not completed, and why.
+/// What is known of an episode beyond its folder.
+struct EpisodeActivity {
+  std::string state;  ///< "running" or "queued"; empty: what its folder says
+  std::string reason;
+};
+
+/// "310 completed, 10 missing of 320 episodes", then a line for each that is not completed, and
+/// why. @param activities of each episode, or empty
 std::string status_text(const std::filesystem::path& study_dir,
                         const std::vector<PlannedEpisode>& plan,
-                        const std::vector<EpisodeState>& states);
+                        const std::vector<EpisodeState>& states,
+                        const std::vector<EpisodeActivity>& activities = {});
 
 /// The same as an object: how many of each state, and each that is not completed.
 nlohmann::ordered_json status_json(const std::filesystem::path& study_dir,
                                    const std::vector<PlannedEpisode>& plan,
-                                   const std::vector<EpisodeState>& states);
+                                   const std::vector<EpisodeState>& states,
+                                   const std::vector<EpisodeActivity>& activities = {});
 
 }  // namespace vantage

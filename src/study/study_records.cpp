@@ -17,6 +17,8 @@ RecordTexts study_records() {
   RecordTexts texts{
       {kStudyFolder, "study.yaml", "the study, self-contained"},
       {kStudyFolder, "episodes", "a run folder for each episode, named by its levels"},
+      {kStudyFolder, "attempts", "claims of workers on episodes, and what runs now"},
+      {kStudyFolder, "slurm", "what was submitted to Slurm, and what its tasks said"},
       {kStudyFolder, "results.csv", "a row an episode; the same to the byte however it was run"},
       {kStudyFolder, "timings.csv", "wall times of the episodes"},
       {kStudyFolder, "summary.json", "means, intervals and differences of every table"},

@@ -8,7 +8,7 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/study/sweep.hpp"
+#include "vantage/study/sweep/sweep.hpp"
 
 namespace vantage {
 namespace {

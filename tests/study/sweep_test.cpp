@@ -51,7 +51,7 @@ class Sweep : public testing::Test {
     for (const auto& entry : fs::directory_iterator("/proc")) {
       std::ifstream stream(entry.path() / "cmdline");
       const std::string line((std::istreambuf_iterator<char>(stream)), {});
-      if (line.find("episodes/start") != std::string::npos &&
+      if (line.find("attempts/start") != std::string::npos &&
           line.find(out_name_) != std::string::npos) {
         ++count;
       }

@@ -1,8 +1,7 @@
-#include "vantage/study/sweep.hpp"
+#include "vantage/study/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -16,7 +15,8 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
-#include "vantage/study/kit/child_process.hpp"
+#include "vantage/study/sweep/child_process.hpp"
+#include "vantage/study/sweep/work_list.hpp"
 
 namespace vantage {
 namespace {
@@ -39,16 +39,10 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-void remove_file(const fs::path& file) {
-  std::error_code error;
-  fs::remove(file, error);
-  if (error) throw OutputError(fmt::format("{}: {}", file.string(), error.message()));
-}
-
 struct Running {
   pid_t pid = 0;
   std::size_t episode = 0;  ///< index into the plan
-  DirectoryLock lock;
+  Attempt attempt;
 };
 
 class Sweep {
@@ -56,19 +50,19 @@ class Sweep {
   Sweep(const std::vector<PlannedEpisode>& plan, const StudySweepOptions& options)
       : plan_(plan),
         options_(options),
-        states_(episode_states(options.directory, plan)),
+        end_{episode_states(options.directory, plan), {}},
+        list_(plan, options, end_.states),
         progress_("sweep", static_cast<double>(plan.size())) {
-    for (std::size_t i = 0; i < plan.size(); ++i) {
-      if (!is_result(states_[i])) open_.push_back(i);
-    }
-    done_ = plan.size() - open_.size();
-    if (done_ > 0) log_info(fmt::format("{} of {} episodes have a result", done_, plan.size()));
+    const std::size_t done = plan.size() - list_.open();
+    if (done > 0) log_info(fmt::format("{} of {} episodes have a result", done, plan.size()));
   }
 
-  std::vector<EpisodeState> run() {
-    while (!open_.empty() || !running_.empty()) {
+  SweepEnd run() {
+    while (true) {
       if (interrupt_signal() != 0) pass_on();
-      while (!open_.empty() && static_cast<int>(running_.size()) < options_.jobs) start_next();
+      fill();
+      if (running_.empty()) break;
+      give_sign();
       bool ended = false;
       while (const auto child = poll_child()) {
         finish(*child);
@@ -76,86 +70,103 @@ class Sweep {
       }
       if (!ended) std::this_thread::sleep_for(20ms);
     }
-    return std::move(states_);
+    for (const std::size_t episode : list_.held()) {
+      log_warning(plan_[episode].name + ": another worker is at it");
+    }
+    return std::move(end_);
   }
 
  private:
   /// Nothing new is started; what runs writes what it has.
   void pass_on() {
-    open_.clear();
+    list_.close();
     if (passed_on_) return;
     passed_on_ = true;
     for (const Running& child : running_) ::kill(child.pid, interrupt_signal());
   }
 
-  void start_next() {
-    const std::size_t index = open_.front();
-    open_.pop_front();
-    const PlannedEpisode& episode = plan_[index];
-    const fs::path folder = episode_folder(options_.directory, episode);
-    make_writable_directory(folder);
-    DirectoryLock lock(folder);
-    if (!lock.held()) {
-      log_warning(episode.name + ": another sweep is running it");
-      return;
+  void fill() {
+    while (static_cast<int>(running_.size()) < options_.jobs) {
+      auto taken = list_.take();
+      if (!taken) return;
+      start(std::move(*taken));
     }
-    for (const char* old : {"metrics.json", "failure.json"}) remove_file(folder / old);
-    ResolvedEpisode configuration = episode.resolved;
-    if (options_.jobs > 1) configuration.setup.options.threads = 1;
+  }
+
+  void start(WorkList::Taken taken) {
+    const fs::path folder = taken.attempt.folder();
+    ResolvedEpisode configuration = plan_[taken.episode].resolved;
+    if (options_.jobs > 1 || options_.single_thread) configuration.setup.options.threads = 1;
     write_file(folder / "episode.yaml", episode_yaml(configuration));
     std::vector<std::string> command{"vantage", "run",           (folder / "episode.yaml").string(),
                                      "--out",   folder.string(), "--overwrite"};
     if (!options_.keep_states) command.emplace_back("--lean");
     const pid_t pid = start_self(command, folder / "output.txt");
-    running_.push_back({pid, index, std::move(lock)});
+    running_.push_back({pid, taken.episode, std::move(taken.attempt)});
+    end_.run.push_back(taken.episode);
+  }
+
+  /// So that no other worker takes over what runs here.
+  void give_sign() {
+    if (wall_s() - sign_s_ < kHeartbeat_s) return;
+    sign_s_ = wall_s();
+    for (const Running& child : running_) child.attempt.claim().heartbeat();
   }
 
   void finish(const ChildEnd& child) {
     const auto found = std::ranges::find(running_, child.pid, &Running::pid);
     if (found == running_.end()) return;
     const PlannedEpisode& episode = plan_[found->episode];
-    const fs::path folder = episode_folder(options_.directory, episode);
-    EpisodeState& state = states_[found->episode];
-    state = check_(options_.directory, episode);
-    if (is_result(state) || state == EpisodeState::interrupted) {
-      remove_file(folder / "output.txt");
-    } else if (interrupt_signal() == 0) {
+    const fs::path folder = found->attempt.folder();
+    EpisodeState state = list_.check().in_folder(folder, episode);
+    const bool has_come_to_something = is_result(state) || state == EpisodeState::interrupted;
+    if (has_come_to_something) {
+      std::error_code ignored;
+      fs::remove(folder / "output.txt", ignored);
+    } else if (interrupt_signal() == 0 && found->attempt.claim().in_force()) {
       record_failure(folder, child.exit_code);
-      state = EpisodeState::crashed;
-      log_warning(fmt::format("{}: exit code {}; see {}", episode.name, child.exit_code,
-                              (folder / "output.txt").string()));
+    }
+    if (has_come_to_something || interrupt_signal() == 0) {
+      state = found->attempt.publish(list_.check());
+    } else {
+      found->attempt.drop();
+    }
+    end_.states[found->episode] = state;
+    if (state == EpisodeState::crashed) {
+      log_warning(
+          fmt::format("{}: exit code {}; see {}", episode.name, child.exit_code,
+                      (episode_folder(options_.directory, episode) / "output.txt").string()));
     }
     running_.erase(found);
     if (interrupt_signal() == 0) report(episode);
   }
 
-  void record_failure(const fs::path& folder, int exit_code) {
+  static void record_failure(const fs::path& folder, int exit_code) {
     const nlohmann::ordered_json failure = {{"exit_code", exit_code},
                                             {"reason", last_line(folder / "output.txt")}};
     write_file(folder / "failure.json", failure.dump(2) + "\n");
   }
 
   void report(const PlannedEpisode& episode) {
-    ++done_;
     ++done_here_;
-    const std::size_t left = open_.size() + running_.size();
+    const std::size_t left = list_.open() + running_.size();
+    const std::size_t done = plan_.size() - left - list_.held().size();
     const double each_s = (wall_s() - start_s_) / static_cast<double>(done_here_);
-    const auto failed = std::ranges::count(states_, EpisodeState::crashed);
-    progress_.update(static_cast<double>(done_),
-                     fmt::format("{} of {} episodes{}, about {} left; {}", done_, plan_.size(),
+    const auto failed = std::ranges::count(end_.states, EpisodeState::crashed);
+    progress_.update(static_cast<double>(done),
+                     fmt::format("{} of {} episodes{}, about {} left; {}", done, plan_.size(),
                                  failed == 0 ? "" : fmt::format(", {} failed", failed),
                                  duration_text(each_s * static_cast<double>(left)), episode.name));
   }
 
   const std::vector<PlannedEpisode>& plan_;
   const StudySweepOptions& options_;
-  ResultCheck check_;
-  std::vector<EpisodeState> states_;
-  std::list<std::size_t> open_;
+  SweepEnd end_;
+  WorkList list_;
   std::list<Running> running_;
   Progress progress_;
   double start_s_ = wall_s();
-  std::size_t done_ = 0;
+  double sign_s_ = wall_s();
   std::size_t done_here_ = 0;
   bool passed_on_ = false;
 };
@@ -189,14 +200,15 @@ void prepare_study_folder(const Study& study, const StudySweepOptions& options) 
   if (fs::exists(file, error)) {
     if (read_file(file) == study.yaml) return;
     if (!options.overwrite) {
-      refuse_to_replace(fmt::format("--out {}", options.directory.string()),
-                        "holds another study, or an older state of this one (results that still "
-                        "fit are kept)");
+      refuse_to_replace(
+          fmt::format("--out {}", options.directory.string()),
+          "holds another study, or an older state of this one (results that still fit are kept)");
     }
   }
   make_writable_directory(options.directory);
   // Shards that begin together each write a file of their own.
-  const fs::path own = options.directory / fmt::format("study-{}.yaml", ::getpid());
+  const Worker self = this_worker();
+  const fs::path own = options.directory / fmt::format("study-{}-{}.yaml", self.host, self.pid);
   write_file(own, study.yaml);
   fs::rename(own, file, error);
   if (error) {
@@ -204,8 +216,7 @@ void prepare_study_folder(const Study& study, const StudySweepOptions& options) 
   }
 }
 
-std::vector<EpisodeState> run_sweep(const std::vector<PlannedEpisode>& plan,
-                                    const StudySweepOptions& options) {
+SweepEnd run_sweep(const std::vector<PlannedEpisode>& plan, const StudySweepOptions& options) {
   return Sweep(plan, options).run();
 }
 

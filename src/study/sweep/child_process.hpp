@@ -23,20 +23,4 @@ struct ChildEnd {
 /// A child that has ended since the last call, if any.
 std::optional<ChildEnd> poll_child();
 
-/// An exclusive claim on a directory, released at destruction or by the end of the process.
-class DirectoryLock {
- public:
-  /// Held or not: another process may be at work there.
-  explicit DirectoryLock(const std::filesystem::path& directory);
-  ~DirectoryLock();
-  DirectoryLock(DirectoryLock&& other) noexcept;
-  DirectoryLock& operator=(DirectoryLock&&) = delete;
-  DirectoryLock(const DirectoryLock&) = delete;
-  DirectoryLock& operator=(const DirectoryLock&) = delete;
-  [[nodiscard]] bool held() const { return descriptor_ >= 0; }
-
- private:
-  int descriptor_ = -1;
-};
-
 }  // namespace vantage

@@ -1,0 +1,45 @@
+/// What the verbs of `vantage sweep` are given.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "vantage/study/results.hpp"
+#include "vantage/study/study.hpp"
+
+namespace vantage {
+
+struct SweepArguments {
+  std::string study;  ///< file or study folder
+  std::filesystem::path directory;
+  std::vector<std::string> overrides;
+  std::string shard = "1/1";
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool overwrite = false;
+  bool keep_states = false;
+  bool json = false;
+  int tasks = 16;  ///< of the array
+  std::string partition;
+  std::string time;
+  std::vector<std::string> sbatch_arguments;
+};
+
+struct OpenedStudy {
+  Study study;
+  std::filesystem::path directory;
+  bool from_folder = false;
+};
+
+/// A study by its file or by the folder of its results.
+OpenedStudy open_study(const SweepArguments& arguments);
+/// By its folder alone: what other machines share. @throws ConfigError if it is none
+OpenedStudy open_study_folder(const SweepArguments& arguments);
+
+/// How it stands: its episodes, and what Slurm knows of it if it was submitted.
+void print_status(const SweepArguments& arguments, const std::filesystem::path& directory,
+                  const std::vector<PlannedEpisode>& plan, const std::vector<EpisodeState>& states);
+
+}  // namespace vantage

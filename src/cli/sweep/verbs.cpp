@@ -1,0 +1,126 @@
+#include "vantage/cli/sweep/verbs.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+#include "vantage/cli/hints/episode_file.hpp"
+#include "vantage/cli/hints/folder.hpp"
+#include "vantage/runtime/interrupt.hpp"
+#include "vantage/study/collect.hpp"
+#include "vantage/study/sweep/submission.hpp"
+#include "vantage/study/sweep/sweep.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+ExitCode code_of(const std::vector<EpisodeState>& states) {
+  const bool good = std::ranges::all_of(
+      states, [](EpisodeState state) { return state == EpisodeState::completed; });
+  return good ? ExitCode::done : ExitCode::goal_failed;
+}
+
+StudyResults collect(const SweepArguments& arguments, const fs::path& directory) {
+  require_study_folder(directory);
+  StudyResults results = read_study_results(directory);
+  const Evaluation evaluation = evaluate(results);
+  write_collection(results, evaluation);
+  if (!arguments.json) {
+    fmt::print("{}\n", study_summary(results, evaluation));
+  }
+  return results;
+}
+
+}  // namespace
+
+OpenedStudy open_study(const SweepArguments& arguments) {
+  const fs::path given = arguments.study;
+  std::error_code error;
+  if (fs::is_directory(given, error)) {
+    if (!arguments.directory.empty()) {
+      throw ConfigError(fmt::format("--out: {} is a study's folder already", given.string()));
+    }
+    require_study_folder(given);
+    return {read_study(given / "study.yaml", arguments.overrides), given, true};
+  }
+  Study study = read_study(find_study(arguments.study), arguments.overrides);
+  fs::path directory =
+      arguments.directory.empty() ? fs::path("out") / study.name : arguments.directory;
+  return {std::move(study), std::move(directory), false};
+}
+
+OpenedStudy open_study_folder(const SweepArguments& arguments) {
+  std::error_code error;
+  if (fs::is_regular_file(arguments.study, error)) {
+    throw ConfigError(
+        fmt::format("{}: is a file; expected the folder of a study", arguments.study));
+  }
+  return open_study(arguments);
+}
+
+void print_status(const SweepArguments& arguments, const fs::path& directory,
+                  const std::vector<PlannedEpisode>& plan,
+                  const std::vector<EpisodeState>& states) {
+  const auto submissions = read_submissions(directory);
+  const SlurmQueue queue = ask_slurm_of(submissions);
+  const auto activities = episode_activities(directory, plan, states, submissions, queue);
+  if (!arguments.json) {
+    fmt::print("{}: {}{}", directory.string(), status_text(directory, plan, states, activities),
+               submissions_text(submissions, queue));
+    return;
+  }
+  auto json = status_json(directory, plan, states, activities);
+  if (!submissions.empty()) json["slurm"] = submissions_json(submissions, queue);
+  fmt::print("{}\n", json.dump(2));
+}
+
+ExitCode run_study(const SweepArguments& arguments) {
+  const OpenedStudy opened = open_study(arguments);
+  const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
+  const StudySweepOptions options{.directory = opened.directory,
+                                  .jobs = arguments.jobs,
+                                  .overwrite = arguments.overwrite,
+                                  .keep_states = arguments.keep_states};
+  prepare_study_folder(opened.study, options);
+  catch_interrupts();
+  const SweepEnd end = run_sweep(plan, options);
+  if (interrupt_signal() == 0) collect(arguments, opened.directory);
+  print_status(arguments, opened.directory, plan, end.states);
+  if (interrupt_signal() != 0) return static_cast<ExitCode>(128 + interrupt_signal());
+  return code_of(end.states);
+}
+
+ExitCode print_study_plan(const SweepArguments& arguments) {
+  const OpenedStudy opened = open_study(arguments);
+  const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
+  const auto states = opened.from_folder ? episode_states(opened.directory, plan)
+                                         : std::vector<EpisodeState>(plan.size());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (!is_result(states[i])) names.push_back(plan[i].name);
+  }
+  if (arguments.json) {
+    fmt::print("{}\n", nlohmann::ordered_json({{"episodes", names}}).dump(2));
+  } else {
+    for (const std::string& name : names) fmt::print("{}\n", name);
+  }
+  return ExitCode::done;
+}
+
+ExitCode print_study_status(const SweepArguments& arguments) {
+  const OpenedStudy opened = open_study(arguments);
+  const auto plan = plan_study(opened.study);
+  const auto states = episode_states(opened.directory, plan);
+  print_status(arguments, opened.directory, plan, states);
+  return code_of(states);
+}
+
+ExitCode collect_study(const SweepArguments& arguments) {
+  const StudyResults results = collect(arguments, open_study(arguments).directory);
+  print_status(arguments, results.directory, results.plan, results.states);
+  return code_of(results.states);
+}
+
+}  // namespace vantage

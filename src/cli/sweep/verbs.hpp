@@ -1,0 +1,17 @@
+/// `vantage sweep run|plan|status|collect`: a study on this machine.
+#pragma once
+
+#include "vantage/cli/sweep/arguments.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+
+/// Ends with what `sweep collect` does.
+ExitCode run_study(const SweepArguments& arguments);
+/// Of a folder, what would run now; of a file, every episode.
+ExitCode print_study_plan(const SweepArguments& arguments);
+ExitCode print_study_status(const SweepArguments& arguments);
+/// What there is, even if something is missing; says then what, and ends in 1.
+ExitCode collect_study(const SweepArguments& arguments);
+
+}  // namespace vantage

@@ -1,0 +1,193 @@
+// Claims on a shared folder: one holder at a time, and what is lost is taken over.
+#include "vantage/study/cluster/claims.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/temporary_directory.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+
+Worker elsewhere(const std::string& task, int restart) {
+  Worker worker{.host = "n7", .machine = "n7 another boot", .pid = 1, .started = "1", .slurm = {}};
+  worker.slurm = SlurmPlace{"c", "12", task, restart};
+  return worker;
+}
+
+Claim claim_of(const Worker& worker, double age_s = 0.0) {
+  return {.number = 1, .worker = worker, .released = false, .age_s = age_s};
+}
+
+SlurmQueue queue_of(const std::string& state, int restart) {
+  return {{"12"}, {{"12", "3", state, "", restart, "n7"}}, {}};
+}
+
+class Claims : public testing::Test {
+ protected:
+  support::TemporaryDirectory directory_;
+  fs::path folder_ = directory_ / "attempts/a/b";
+};
+
+TEST_F(Claims, OneOfManyProcessesTakesIt) {
+  constexpr int kProcesses = 4;
+  fs::create_directories(folder_);
+  void* shared = ::mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  for (int number = 1; number <= 20; ++number) {
+    auto* ready = new (shared) std::atomic<int>(0);
+    std::vector<pid_t> children;
+    for (int i = 0; i < kProcesses; ++i) {
+      const pid_t child = ::fork();
+      if (child == 0) {
+        const Worker self = this_worker();
+        ++*ready;
+        while (*ready < kProcesses) ::sched_yield();
+        ::_exit(take_claim(folder_, number, self) ? 1 : 0);
+      }
+      children.push_back(child);
+    }
+    int taken = 0;
+    for (const pid_t child : children) {
+      int status = 0;
+      ::waitpid(child, &status, 0);
+      taken += WEXITSTATUS(status);
+    }
+    EXPECT_EQ(taken, 1) << number;
+  }
+  ::munmap(shared, sizeof(std::atomic<int>));
+  EXPECT_EQ(claim_in_force(folder_)->number, 20);
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    EXPECT_EQ(entry.path().extension(), ".json") << entry.path();
+  }
+}
+
+TEST_F(Claims, HoldWhileTheirProcessLives) {
+  const Worker self = this_worker();
+  EXPECT_FALSE(claim_in_force(folder_));
+  const auto held = take_claim(folder_, 1, self);
+  ASSERT_TRUE(held);
+  EXPECT_TRUE(held->in_force());
+  auto claim = claim_in_force(folder_);
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->worker.pid, ::getpid());
+  EXPECT_TRUE(holder_lives(*claim, self, {}));
+  claim->worker.started = "0";  // an earlier process had this number
+  EXPECT_FALSE(holder_lives(*claim, self, {}));
+  held->release();
+  EXPECT_TRUE(claim_in_force(folder_)->released);
+  EXPECT_FALSE(holder_lives(*claim_in_force(folder_), self, {}));
+  EXPECT_FALSE(take_claim(folder_, 1, self));
+  EXPECT_TRUE(take_claim(folder_, 2, self));
+  EXPECT_FALSE(held->in_force());
+}
+
+TEST_F(Claims, OfAKilledProcessAreLost) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    take_claim(folder_, 1, this_worker());
+    ::pause();
+  }
+  while (!claim_in_force(folder_)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_TRUE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+  ::kill(child, SIGKILL);
+  siginfo_t info{};
+  ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);  // a zombie for now
+  EXPECT_FALSE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+  ::waitpid(child, nullptr, 0);
+  EXPECT_FALSE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+}
+
+TEST_F(Claims, OfAnotherMachineHoldByTheirHeartbeat) {
+  Worker other = elsewhere("", 0);
+  other.slurm.reset();
+  const auto held = take_claim(folder_, 1, other);
+  ASSERT_TRUE(held);
+  EXPECT_TRUE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+  const auto ago = std::chrono::seconds(static_cast<int>(kSilence_s) + 5);
+  fs::last_write_time(folder_ / "1.json", fs::file_time_type::clock::now() - ago);
+  EXPECT_GT(claim_in_force(folder_)->age_s, kSilence_s);
+  EXPECT_FALSE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+  held->heartbeat();
+  EXPECT_LT(claim_in_force(folder_)->age_s, kHeartbeat_s);
+  EXPECT_TRUE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+}
+
+TEST_F(Claims, ThatCannotBeReadHoldByTheirHeartbeat) {
+  fs::create_directories(folder_);
+  std::ofstream(folder_ / "3.json") << "{\"host\": 7, \"slurm\": [";
+  std::ofstream(folder_ / "notes.json") << "{}";
+  ASSERT_TRUE(claim_in_force(folder_));
+  EXPECT_EQ(claim_in_force(folder_)->number, 3);
+  EXPECT_TRUE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+}
+
+TEST_F(Claims, OfASlurmTaskHoldWhileSlurmRunsIt) {
+  const Worker self = this_worker();
+  const Claim claim = claim_of(elsewhere("3", 1), 2 * kSilence_s);
+  EXPECT_TRUE(holder_lives(claim, self, queue_of("RUNNING", 1)));
+  EXPECT_TRUE(holder_lives(claim, self, queue_of("SUSPENDED", 1)));
+  for (const char* state : {"PENDING", "NODE_FAIL", "COMPLETED", "TIMEOUT"}) {
+    EXPECT_FALSE(holder_lives(claim, self, queue_of(state, 1))) << state;
+  }
+  EXPECT_FALSE(holder_lives(claim, self, queue_of("RUNNING", 2))) << "it runs again";
+  EXPECT_FALSE(holder_lives(claim, self, {{"12"}, {}, {}})) << "Slurm has forgotten it";
+}
+
+TEST_F(Claims, OfASlurmTaskHoldByTheirHeartbeatIfSlurmIsSilent) {
+  const SlurmQueue silent{{"12"}, {}, "Unable to contact slurm controller"};
+  EXPECT_TRUE(holder_lives(claim_of(elsewhere("3", 1), 1.0), this_worker(), silent));
+  EXPECT_FALSE(holder_lives(claim_of(elsewhere("3", 1), 2 * kSilence_s), this_worker(), silent));
+  EXPECT_TRUE(holder_lives(claim_of(elsewhere("3", 1), 1.0), this_worker(), {})) << "not asked";
+}
+
+TEST_F(Claims, OfARequeuedTaskAreLostToItself) {
+  Worker self = this_worker();
+  self.slurm = SlurmPlace{"c", "12", "3", 2};
+  EXPECT_FALSE(holder_lives(claim_of(elsewhere("3", 1)), self, {}));
+  EXPECT_FALSE(holder_lives(claim_of(elsewhere("3", 1)), self, queue_of("RUNNING", 1)));
+  EXPECT_TRUE(holder_lives(claim_of(elsewhere("4", 1)), self, {})) << "of another task";
+  self.slurm->cluster = "d";
+  EXPECT_TRUE(holder_lives(claim_of(elsewhere("3", 1)), self, {})) << "of another cluster";
+}
+
+TEST(Workers, KnowTheirPlaceInSlurm) {
+  for (const auto& [name, value] :
+       {std::pair("SLURM_JOB_ID", "17"), std::pair("SLURM_ARRAY_JOB_ID", "12"),
+        std::pair("SLURM_ARRAY_TASK_ID", "3"), std::pair("SLURM_RESTART_COUNT", "2"),
+        std::pair("SLURM_CLUSTER_NAME", "c"), std::pair("SLURMD_NODENAME", "n7")}) {
+    ::setenv(name, value, 1);
+  }
+  const Worker worker = this_worker();
+  ::unsetenv("SLURM_ARRAY_JOB_ID");
+  ::unsetenv("SLURM_RESTART_COUNT");
+  const Worker single = this_worker();
+  for (const char* name :
+       {"SLURM_JOB_ID", "SLURM_ARRAY_TASK_ID", "SLURM_CLUSTER_NAME", "SLURMD_NODENAME"}) {
+    ::unsetenv(name);
+  }
+  EXPECT_EQ(worker.host, "n7");
+  ASSERT_TRUE(worker.slurm);
+  EXPECT_EQ(worker.slurm->id(), "12_3");
+  EXPECT_EQ(worker.slurm->restart, 2);
+  ASSERT_TRUE(single.slurm);
+  EXPECT_EQ(single.slurm->id(), "17");
+  EXPECT_EQ(single.slurm->restart, 0);
+  EXPECT_FALSE(this_worker().slurm);
+}
+
+}  // namespace
+}  // namespace vantage
