@@ -72,7 +72,8 @@ TEST_F(Sweep, KilledAndResumedGivesTheSameResults) {
   const ShellResult killed = shell(
       "cd '" + folder_.path().string() + "' && " VANTAGE_BINARY " sweep run -q " + kStudy +
       " --jobs 1 --out " + out + " & sweep=$!; until [ -n \"$(find '" + folder_.path().string() +
-      "' -name metrics.json)\" ]; do sleep 0.02; done; sleep 0.3; kill -9 $sweep; wait $sweep");
+      "' -path '*/episodes/*' -name metrics.json)\" ]; do sleep 0.02; done; sleep 0.3; kill -9 "
+      "$sweep; wait $sweep");
   EXPECT_EQ(killed.exit_code, 137) << killed.output;
   for (int i = 0; i < 100 && processes() > 0; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
