@@ -29,19 +29,22 @@ Validation validate_as_table_top(const fs::path& file) {
   }
 }
 
-/// As it will be loaded, beside the robot, its free bodies at rest.
+/// It loads beside the robot, and its free bodies come to rest without it.
 Validation validate_scene(const fs::path& file) {
   const RobotOptions robot;
-  World world({file, read_robot(find_input(robot.model, {}, "robot.model")).mjcf}, {});
+  World(ModelSource{file, read_robot(find_input(robot.model, {}, "robot.model")).mjcf});
+  World world(ModelSource{.scene = file, .robot = {}});
   try {
     settle_free_bodies(world);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
-  const auto surfaces =
-      level_surfaces(world.model(), world.snapshot(), table_surfaces(TableOptions{}));
+  const TableOptions table;
+  const auto surfaces = level_surfaces(world.model(), world.snapshot(), table_surfaces(table));
   if (!surfaces.empty()) return validate_as_table_top(file);
-  return {{}, {file.string() + ": note: no table; rooms are for task: exploration"}};
+  return {{},
+          {fmt::format("{}: note: {}; rooms are for task: exploration", file.string(),
+                       no_table_text(world.model(), world.snapshot(), table))}};
 }
 
 Validation validate_map(const fs::path& file) {

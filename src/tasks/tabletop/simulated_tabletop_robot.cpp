@@ -23,6 +23,7 @@ double laser_lift_m(const World& world, const MobileBase& robot, const Tabletop&
 /// The robot, standing where the episode starts: at or behind a position on the ring of views.
 MobileBase placed_robot(World& world, const EpisodeSetup& setup, const Tabletop& task) {
   const RobotOptions& options = setup.options.robot;
+  require_table(world, setup, task);
   MobileBase robot = mobile_base(world, setup, task.navigation);
   check_reach(world, robot, task);
   RingOfViews ring = task.candidates;

@@ -8,6 +8,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/planners/views/view_candidates.hpp"
 #include "vantage/sim/world/level_surfaces.hpp"
+#include "vantage/sim/world/settle.hpp"
 #include "vantage/tasks/tabletop/table_region.hpp"
 
 namespace vantage {
@@ -87,7 +88,28 @@ void check_views(const MobileBase& robot, const Tabletop& task) {
       task.floor_map.half_size_m, farthest_m, std::ceil(needed_m)));
 }
 
+[[noreturn]] void refuse(const World& world, const std::string& scene, const Tabletop& task) {
+  throw InputError(fmt::format("scene: {}: {}", scene,
+                               no_table_text(world.model(), world.snapshot(), task.table)));
+}
+
+bool has_table(const World& world, const Tabletop& task) {
+  return !level_surfaces(world.model(), world.snapshot(), table_surfaces(task.table)).empty();
+}
+
 }  // namespace
+
+void require_table(const World& world, const EpisodeSetup& setup, const Tabletop& task) {
+  if (has_table(world, task)) return;
+  const std::string scene = setup.scene.string();
+  World alone({.scene = setup.scene, .robot = {}}, setup.options.simulation);
+  try {
+    settle_free_bodies(alone);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("scene: {}: {}", scene, error.what()));
+  }
+  if (!has_table(alone, task)) refuse(alone, scene, task);
+}
 
 void check_reach(const World& world, const MobileBase& robot, const Tabletop& task) {
   const double lowest_m = robot.T_base_laser_mount(world).translation().z() - robot.lift_m(world);
@@ -111,12 +133,7 @@ std::vector<std::string> check_table(const World& world, const EpisodeSetup& set
                                      const Tabletop& task) {
   const std::string scene = setup.scene.string();
   const auto surfaces = level_surfaces(world.model(), world.snapshot(), table_surfaces(task.table));
-  if (surfaces.empty()) {
-    throw InputError(fmt::format(
-        "scene: {}: no table: no level surface of {} m^2 between table.min_height_m {} and "
-        "table.max_height_m {}",
-        scene, task.table.min_area_m2, task.table.min_height_m, task.table.max_height_m));
-  }
+  if (surfaces.empty()) refuse(world, scene, task);
   const Eigen::AlignedBox3d region = task.map.frame().box();
   const Eigen::AlignedBox2d floor(region.min().head<2>(), region.max().head<2>());
   const auto below = std::ranges::find_if(surfaces, [&](const LevelSurface& surface) {

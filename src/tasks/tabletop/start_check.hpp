@@ -14,6 +14,12 @@ namespace vantage {
 /// cannot sweep the laser's tilt range.
 void check_reach(const World& world, const MobileBase& robot, const Tabletop& task);
 
+/// Before the robot is placed, which goes round the table: a robot amid one would burst the
+/// simulation. Free bodies of a scene that has none yet come to rest first, without the robot.
+/// @throws InputError naming the surface that comes nearest to a table, and the key that it fails
+/// by
+void require_table(const World& world, const EpisodeSetup& setup, const Tabletop& task);
+
 /// What is worth a warning about where the table lies in the map.
 /// @throws InputError if the scene has no table; ConfigError if the map misses it.
 std::vector<std::string> check_table(const World& world, const EpisodeSetup& setup,
