@@ -44,7 +44,7 @@ SimulatedTabletopRobot::SimulatedTabletopRobot(const EpisodeSetup& setup, const 
       laser_noise_(Rng::stream(setup.options.seed, "laser")) {
   const MobileBase& robot = base_.robot();
   robot.command_lift(world(), laser_lift_m(world(), robot, task));
-  start_notes_ = check_start(world(), robot, setup, task);
+  start_notes_ = check_start(world(), base_.ground_truth().geometry(), robot, setup, task);
   base_.note_localisation(task.registration, setup.options.seed, start_notes_);
 }
 

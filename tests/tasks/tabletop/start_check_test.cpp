@@ -132,6 +132,30 @@ TEST(ValidateTableTop, ATableTooLargeForTheCircleOfViews) {
   EXPECT_THAT(validated("tabletop", scene, {"candidates.radius_m=1.6"}).problems, IsEmpty());
 }
 
+const std::string kRoom = std::string(kWalls) +
+                          "<geom type='box' pos='-3 0 1.25' size='.05 3 1.25'/>"
+                          "<geom type='box' pos='0 -3 1.25' size='3 .05 1.25'/>";
+
+TEST(ValidateTableTop, ViewsThatAllLieBehindWallsAreAnError) {
+  const OwnScene room(kTable + kRoom);
+  EXPECT_THAT(validated("tabletop", room, {}).notes, IsEmpty());
+  const Validation outside = validated("tabletop", room, {"candidates.radius_m=5"});
+  EXPECT_EQ(outside.code, ExitCode::usage);
+  EXPECT_THAT(problem(outside),
+              AllOf(HasSubstr("candidates.radius_m 5: of 10 positions"), HasSubstr("10 "),
+                    HasSubstr("past what stands between"), HasSubstr("is free all round")));
+}
+
+TEST(ValidateTableTop, ViewsOutOfReachOrBehindAWallAreANote) {
+  const std::string screen = "<geom type='box' pos='-.9 0 .8' size='.02 1.1 .8'/>";
+  const Validation found = validated("tabletop", OwnScene(kTable + kRoom + screen), {});
+  EXPECT_THAT(found.problems, IsEmpty());
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_THAT(found.notes[0],
+              AllOf(HasSubstr("note: candidates.radius_m 1.2: of 10 positions on the ring "),
+                    HasSubstr(" are out of the robot's reach"), testing::Not(HasSubstr(" 0 are"))));
+}
+
 TEST(ValidateTableTop, ABodyThatNeverRests) {
   const OwnScene scene(kTable + kWalls +
                        "<geom type='plane' size='3 3 .1' pos='8 0 0' euler='0 20 0'/><body "
