@@ -84,8 +84,8 @@ function mappingPlots(parent) {
   predictionPlots(parent);
   const millimetres = (key) => perScan(column(key).map((v) => (isNumber(v) ? 1000 * v : null)));
   chart("Pose error", "against the simulator's truth", "position error in mm", "mm", [
-    { name: "before registration (odometry)", colour: seriesColour(1), dashed: true, points: millimetres("pose_error_before_registration_m") },
-    { name: "after registration", colour: seriesColour(0), strong: true, points: millimetres("pose_error_m") },
+    { name: "the wheels alone since the scan before", colour: seriesColour(1), dashed: true, points: millimetres("pose_error_before_registration_m") },
+    { name: "as the scan was taken into the map", colour: seriesColour(0), strong: true, points: millimetres("pose_error_m") },
   ]);
   chart("Planning time", "wall time of the decision that led to each scan", "time in s", "s", [
     { name: "planning", colour: seriesColour(4), strong: true, points: perScan(chosenOnly(column("plan_time_s"))) },

@@ -54,7 +54,7 @@ void print_config(const ResolvedEpisode& resolved, bool json) {
                         : commented_episode_yaml(resolved));
 }
 
-void print_plan(const ResolvedEpisode& resolved, bool json) {
+void print_plan(const ResolvedEpisode& resolved, const std::vector<std::string>& notes, bool json) {
   const EpisodeSetup& setup = resolved.setup;
   const TaskExtent longest = extent(resolved);
   if (json) {
@@ -62,9 +62,11 @@ void print_plan(const ResolvedEpisode& resolved, bool json) {
                                 {longest.key, longest.count},
                                 {"scene", setup.scene.string()},
                                 {"method", method_name(resolved.task)},
-                                {"seed", setup.options.seed}}));
+                                {"seed", setup.options.seed},
+                                {"notes", notes}}));
     return;
   }
+  for (const auto& note : notes) fmt::print("{}\n", note);
   fmt::print("{}: {} {} in {} by {}, seed {}\n", setup.name, longest.count, longest.text,
              setup.scene.string(), method_name(resolved.task), setup.options.seed);
 }
@@ -93,7 +95,7 @@ ExitCode run_episode_command(const RunArguments& arguments) {
     const Validation found = validate_episode(path, overrides);
     for (const auto& problem : found.problems) log_error(problem);
     if (!found.problems.empty()) return found.code;
-    print_plan(resolved, arguments.json);
+    print_plan(resolved, found.notes, arguments.json);
     return found.code;
   }
   catch_interrupts();
@@ -108,12 +110,14 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   return outcome.code;
 }
 
+void add_set(CLI::App& app, std::vector<std::string>& overrides, const std::string& help) {
+  app.add_option("--set", overrides, help)->type_size(1)->allow_extra_args(false);
+}
+
 std::function<ExitCode()> declare_run(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();
   app.add_option("episode", arguments->episode, "episode file")->capture_default_str();
-  app.add_option("--set", arguments->overrides, "key=value, same keys as the file")
-      ->type_size(1)
-      ->allow_extra_args(false);
+  add_set(app, arguments->overrides, "key=value, same keys as the file");
   app.add_option("--seed", arguments->seed, "seed of every random stream");
   app.add_option("--out", arguments->options.directory, "run folder; default out/<episode>-<seed>")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
@@ -195,8 +199,10 @@ std::function<ExitCode()> declare_replay(CLI::App& app) {
   };
 }
 
-Validation validate(const fs::path& file) {
-  return is_study(file) ? validate_study(file) : validate_file(file);
+Validation validate(const fs::path& file, const std::vector<std::string>& overrides) {
+  if (!is_study(file)) return validate_file(file, overrides);
+  if (overrides.empty()) return validate_study(file);
+  return {{file.string() + ": --set is for episodes and scenes"}, {}, ExitCode::usage};
 }
 
 void print_validation(const fs::path& file, const Validation& found) {
@@ -208,18 +214,20 @@ void print_validation(const fs::path& file, const Validation& found) {
 std::function<ExitCode()> declare_validate(CLI::App& app) {
   struct Arguments {
     std::vector<fs::path> files;
+    std::vector<std::string> overrides;
     bool json = false;
   };
   auto arguments = std::make_shared<Arguments>();
   app.add_option("files", arguments->files,
-                 "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot)")
+                 "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot), folders of robots")
       ->required();
+  add_set(app, arguments->overrides, "key=value, as run has it; for episodes and scenes");
   add_json(app, arguments->json);
   return [arguments] {
     ExitCode worst = ExitCode::done;
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
     for (const auto& file : arguments->files) {
-      const Validation found = validate(file);
+      const Validation found = validate(file, arguments->overrides);
       files.push_back(
           {{"file", file.string()}, {"problems", found.problems}, {"notes", found.notes}});
       if (!arguments->json) print_validation(file, found);

@@ -109,15 +109,18 @@ void ObjectCropOptions::check() const {
   if (min_height_m >= max_height_m) throw ConfigError("min_height_m must be below max_height_m");
 }
 
-TableSearch find_table(const PointCloud& world, const TableOptions& options, Rng& rng) {
+TableSearch find_table(const PointCloud& world, const TableOptions& options, Rng& rng,
+                       std::string_view keys) {
   const PointCloud cloud = candidate_points(world, options);
   const double cell_area_m2 = options.cell_m * options.cell_m;
   const auto area_m2 = [&](std::size_t points) {
     return static_cast<double>(points) * cell_area_m2;
   };
   if (cloud.size() < 3) {
-    return {std::nullopt, fmt::format("no level surface in the region between {} and {} m",
-                                      options.min_height_m, options.max_height_m)};
+    return {std::nullopt,
+            fmt::format("no level surface in the region between {0}min_height_m {1} and "
+                        "{0}max_height_m {2}",
+                        keys, options.min_height_m, options.max_height_m)};
   }
   auto on = largest_consensus(cloud, options, rng);
   constexpr int kRefinements = 3;
@@ -127,14 +130,15 @@ TableSearch find_table(const PointCloud& world, const TableOptions& options, Rng
   }
   if (on.size() < 3 || area_m2(on.size()) < options.min_area_m2) {
     return {std::nullopt,
-            fmt::format("largest level surface has {:.3f} m^2, a table at least {} m^2",
-                        area_m2(on.size()), options.min_area_m2)};
+            fmt::format("the largest level surface seen has {:.3f} m^2, less than {}min_area_m2 {}",
+                        area_m2(on.size()), keys, options.min_area_m2)};
   }
   TablePlane table = fit(on);
   if (!is_level(table.normal, options.max_tilt_rad)) {
-    return {std::nullopt,
-            fmt::format("largest surface is tilted by {:.3f} rad, more than {} rad",
-                        std::acos(std::min(1.0, table.normal.z())), options.max_tilt_rad)};
+    return {
+        std::nullopt,
+        fmt::format("the largest surface seen is tilted by {:.3f} rad, more than {}max_tilt_rad {}",
+                    std::acos(std::min(1.0, table.normal.z())), keys, options.max_tilt_rad)};
   }
   return {std::move(table), {}};
 }

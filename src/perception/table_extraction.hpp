@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/core/fields.hpp"
@@ -81,7 +82,9 @@ struct TableSearch {
 
 /// The largest horizontal plane inside the region and the height band, by sample consensus
 /// [FischlerBolles1981] and a least-squares fit of its inliers. `world`: points in the world frame.
-TableSearch find_table(const PointCloud& world, const TableOptions& options, Rng& rng);
+/// @param keys what stands before the names of the options in a reason
+TableSearch find_table(const PointCloud& world, const TableOptions& options, Rng& rng,
+                       std::string_view keys = {});
 
 /// Joins what two scans saw of one table: exact least-squares plane of both, hull of both hulls.
 /// @return false, and `table` unchanged, if `seen` differs in height by more than `max_step_m`.

@@ -29,6 +29,9 @@ std::vector<std::string> require_start(const std::filesystem::path& file,
 Validation validate_episode(const std::filesystem::path& file,
                             const std::vector<std::string>& overrides = {});
 
-Validation validate_file(const std::filesystem::path& file);
+/// @param overrides of an episode, or of the table-top episode that a scene is tried in
+/// @return a problem if the file is neither and there are any
+Validation validate_file(const std::filesystem::path& file,
+                         const std::vector<std::string>& overrides = {});
 
 }  // namespace vantage

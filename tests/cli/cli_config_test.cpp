@@ -171,6 +171,35 @@ TEST_F(CommandLine, ValidateKnowsWhatCannotRun) {
               testing::AllOf(HasSubstr("note: no table"), HasSubstr("bare.xml: good")));
 }
 
+/// A table with nothing to localise by: good, with a note.
+std::string open_scene() {
+  return "<mujoco><worldbody><geom type='plane' size='5 5 .1'/><geom type='box' pos='0 0 .7' "
+         "size='.5 .5 .02'/><geom type='box' pos='0 0 .34' size='.08 .08 .34'/></worldbody>"
+         "</mujoco>";
+}
+
+TEST_F(CommandLine, DryRunAndValidateSayTheSame) {
+  const auto scene = file("open.xml", open_scene());
+  const auto episode = file("e.yaml", "scene: open.xml\n");
+  const std::string note = "e.yaml: note: registration: from the start";
+  EXPECT_THAT(vantage("validate " + episode).output, HasSubstr(note));
+  EXPECT_THAT(vantage("run --dry-run " + episode).output, HasSubstr(note));
+  const auto plan =
+      nlohmann::json::parse(vantage("run --dry-run --json " + episode).output, nullptr, false);
+  ASSERT_TRUE(plan.is_object());
+  EXPECT_EQ(plan["notes"].size(), 1U);
+  for (const std::string command : {"validate ", "run --dry-run "}) {
+    expect_error(vantage(command + episode + " --set scnas=1"), 2, {"scnas", "scans"});
+    expect_error(vantage(command + episode + " --set table.min_height_m=0.8"), 3,
+                 {"open.xml: no table", "below table.min_height_m 0.8"});
+  }
+  const Result set = vantage("validate --set table.min_height_m=0.8 " + scene);
+  EXPECT_EQ(set.exit_code, 0);
+  EXPECT_THAT(set.output, HasSubstr("note: no table: the nearest to one"));
+  const auto study = file("s.yaml", "episode: e.yaml\nseeds: 1..2\n");
+  expect_error(vantage("validate --set scans=3 " + study), 2, {"s.yaml: --set is for episodes"});
+}
+
 TEST_F(CommandLine, RefusesWhatNoMemoryHolds) {
   const std::pair<const char*, std::vector<std::string>> cases[] = {
       {"floor_map.cell_m=1e-6", {"floor_map", "cell_m", "half_size_m", "2^26"}},

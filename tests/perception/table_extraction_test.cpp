@@ -102,13 +102,14 @@ TEST_F(FindTable, ATiltedPlaneWithNormalsSaysSo) {
   const auto found = find(cloud);
   EXPECT_FALSE(found.table);
   EXPECT_NE(found.reason.find("no level surface"), std::string::npos) << found.reason;
+  EXPECT_NE(found.reason.find("min_height_m"), std::string::npos) << found.reason;
 }
 
 TEST_F(FindTable, NothingThereHasAReason) {
   EXPECT_NE(find({}).reason.find("no level surface"), std::string::npos);
   const auto small = find(surface(0, 0, 0.72, 0.1, 0.1));
   EXPECT_FALSE(small.table);
-  EXPECT_NE(small.reason.find("at least 0.04 m^2"), std::string::npos) << small.reason;
+  EXPECT_NE(small.reason.find("less than min_area_m2 0.04"), std::string::npos) << small.reason;
 }
 
 TEST_F(FindTable, VerticalSurfacesAreLeftOutByTheirNormals) {

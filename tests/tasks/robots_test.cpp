@@ -111,6 +111,50 @@ TEST(Robots, ValidateSaysWhatARobotLacks) {
   }
 }
 
+void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
+  std::string text = read_file(file);
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  write_file(file, text.replace(at, from.size(), to));
+}
+
+TEST(Robots, ValidateSaysWhichDefaultsFitItsSensors) {
+  const support::TemporaryDirectory folder;
+  const fs::path own = own_robot(folder.path());
+  EXPECT_TRUE(validate_file(own).notes.empty());
+  replace_in(own / "rover.xml", "pos=\"0.03 0 1.05\"", "pos=\"0.03 0 0.7\"");
+  const Validation low = validate_file(own);
+  EXPECT_TRUE(low.problems.empty());
+  ASSERT_EQ(low.notes.size(), 1U);
+  EXPECT_THAT(low.notes[0],
+              AllOf(HasSubstr("robot.yaml: note: task tabletop: candidates.height_m: 1.05"),
+                    HasSubstr("{tabletop: {candidates: {height_m: 0.700}}}")));
+  const std::string exploration = "exploration: {frontiers: {height_m: 1.2}";
+  replace_in(own / "robot.yaml", exploration,
+             "tabletop: {candidates: {height_m: 0.700}}\n  " + exploration);
+  const Validation cured = validate_file(own);
+  EXPECT_TRUE(cured.problems.empty() && cured.notes.empty());
+}
+
+TEST(Robots, DefaultsThatItsSensorsCannotReachAreAProblem) {
+  const support::TemporaryDirectory folder;
+  const fs::path own = own_robot(folder.path());
+  replace_in(own / "robot.yaml", "height_m: 1.2}", "height_m: 1.4}");
+  const Validation high = validate_file(own);
+  ASSERT_EQ(high.problems.size(), 1U);
+  EXPECT_THAT(high.problems[0], AllOf(HasSubstr("frontiers.height_m: 1.4"),
+                                      HasSubstr("{exploration: {frontiers: {height_m: 1.200}}}")));
+  replace_in(own / "robot.yaml", "height_m: 1.4}", "hight_m: 1.2}");
+  const Validation unknown = validate_file(own);
+  ASSERT_FALSE(unknown.problems.empty());
+  EXPECT_THAT(unknown.problems[0], HasSubstr("hight_m"));
+  replace_in(own / "robot.yaml", "exploration: {", "explore: {");
+  const Validation task = validate_file(own);
+  ASSERT_FALSE(task.problems.empty());
+  EXPECT_THAT(task.problems[0], HasSubstr("no task 'explore'; known: tabletop"));
+  EXPECT_EQ(task.code, ExitCode::usage);
+}
+
 TEST(Robots, TheMjcfInTheFolderNamesTheSameRobot) {
   const auto file =
       load_episode(episode_file("tabletop"), {"robot.model=models/robots/pr2/pr2.xml"});

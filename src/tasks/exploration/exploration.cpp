@@ -29,6 +29,12 @@ std::vector<std::string> Exploration::require_start(const EpisodeSetup& setup) c
   return SimulatedExplorationRobot(setup, *this).start_notes();
 }
 
+void Exploration::check_robot(const World& alone, const RobotFolder& robot) const {
+  const MobileBase base(alone.model(), mobile_base_of(robot, "robot.model"),
+                        robot.description.string());
+  if (base.has_head()) check_camera_reach(alone, base, *this);
+}
+
 RunOutcome Exploration::run(const RunRequest& request) const {
   ExplorationSession<> session(request, *this);
   for (const std::string& note : session.robot.start_notes()) log_warning(note);

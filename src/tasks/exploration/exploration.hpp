@@ -18,6 +18,8 @@
 
 namespace vantage {
 
+class World;
+
 /// When exploring is no longer worth a scan, asked alike of every method: the best view in reach
 /// promises too little, by what was learnt of clutter.
 struct EnoughOptions {
@@ -123,6 +125,9 @@ struct Exploration : MappingOptions {
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @return what is worth a warning @throws ConfigError or InputError if the episode cannot begin.
   std::vector<std::string> require_start(const EpisodeSetup& setup) const;
+  /// Of a robot with a head, alone in its world.
+  /// @throws ConfigError if its camera cannot be at frontiers.height_m
+  void check_robot(const World& alone, const RobotFolder& robot) const;
   RunOutcome run(const RunRequest& request) const;
 };
 

@@ -66,9 +66,13 @@ double camera_lift_m(const MobileBase& robot, double lowest_m, const Exploration
   const double height_m = task.frontiers.height_m;
   const double lift_m = height_m - lowest_m;
   if (lift_m < -1e-2 || lift_m > robot.lift_max_m()) {
-    throw ConfigError(
-        fmt::format("frontiers.height_m: {} is out of the camera's reach, {:.3f} to {:.3f}",
-                    height_m, lowest_m, lowest_m + robot.lift_max_m()));
+    const double highest_m = lowest_m + robot.lift_max_m();
+    const double fitting_m =
+        std::floor(1e3 * std::clamp(height_m, lowest_m, highest_m) + 1e-6) / 1e3;
+    throw ConfigError(fmt::format(
+        "frontiers.height_m: {} is out of the camera's reach, {:.3f} to {:.3f}; {:.3f} fits, in "
+        "robot.yaml episode_defaults: {{exploration: {{frontiers: {{height_m: {:.3f}}}}}}}",
+        height_m, lowest_m, highest_m, fitting_m, fitting_m));
   }
   return std::max(lift_m, 0.0);
 }
@@ -83,6 +87,11 @@ MobileBase placed_robot(World& world, const EpisodeSetup& setup, const Explorati
 }
 
 }  // namespace
+
+void check_camera_reach(const World& world, const MobileBase& robot, const Exploration& task) {
+  const double now_m = find_sweep_pose(world, robot).translation().z();
+  camera_lift_m(robot, now_m - robot.lift_m(world), task);
+}
 
 SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
                                                      const Exploration& task)

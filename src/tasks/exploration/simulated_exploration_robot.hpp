@@ -38,4 +38,7 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
   std::vector<std::string> start_notes_;
 };
 
+/// @throws ConfigError if the lift cannot bring the camera to `frontiers.height_m`.
+void check_camera_reach(const World& world, const MobileBase& robot, const Exploration& task);
+
 }  // namespace vantage

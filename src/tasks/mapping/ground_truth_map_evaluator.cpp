@@ -74,15 +74,15 @@ void GroundTruthMapEvaluator::measure(const OccupancyGrid& grid, int tolerance_c
   record.recall = map.recall;
 }
 
-void GroundTruthMapEvaluator::measure_pose(const Pose2& dead_reckoned, const Pose2& T_world_base,
-                                           ScanRecord& record) const {
+void GroundTruthMapEvaluator::measure_pose(const ScanPoses& poses, ScanRecord& record) const {
   const Pose2 T_world_true = truth_.T_world_base();
   const auto error_m = [&](const Pose2& pose) {
     return std::hypot(pose.x_m - T_world_true.x_m, pose.y_m - T_world_true.y_m);
   };
-  record.pose_error_before_registration_m = error_m(dead_reckoned);
-  record.pose_error_m = error_m(T_world_base);
-  record.yaw_error_rad = wrap_angle(T_world_base.yaw_rad - T_world_true.yaw_rad);
+  record.pose_error_before_registration_m = error_m(poses.dead_reckoned);
+  record.pose_error_tracked_m = error_m(poses.tracked);
+  record.pose_error_m = error_m(poses.kept);
+  record.yaw_error_rad = wrap_angle(poses.kept.yaw_rad - T_world_true.yaw_rad);
   record.collisions = truth_.collisions();
 }
 

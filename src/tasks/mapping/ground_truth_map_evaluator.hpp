@@ -15,6 +15,13 @@ namespace vantage {
 class MobileGroundTruth;
 struct MapScore;
 
+/// T_world_base at a scan, as the robot may have it.
+struct ScanPoses {
+  Pose2 dead_reckoned;  ///< by the wheels alone since the scan before
+  Pose2 tracked;        ///< what registration of the scan starts from
+  Pose2 kept;           ///< what the scan was taken into the map at
+};
+
 /// The only one who holds a map against the truth. Whoever decides may hand it a record to fill in,
 /// and learns nothing by that; the choice `oracle` asks it, which is an upper bound and says so.
 class GroundTruthMapEvaluator {
@@ -34,8 +41,7 @@ class GroundTruthMapEvaluator {
   /// Fills in what the record says of the map, held against the truth.
   void measure(const OccupancyGrid& grid, int tolerance_cells, ScanRecord& record) const;
   /// Fills in what the record says of the pose, held against the truth.
-  void measure_pose(const Pose2& dead_reckoned, const Pose2& T_world_base,
-                    ScanRecord& record) const;
+  void measure_pose(const ScanPoses& poses, ScanRecord& record) const;
 
  protected:
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }

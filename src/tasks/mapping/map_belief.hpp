@@ -11,10 +11,11 @@ namespace vantage {
 /// What taking a scan into the belief came to.
 struct BeliefUpdate {
   Pose2 T_world_base;      ///< after registration
-  bool registered = true;  ///< false: the odometry's pose was kept
+  bool registered = true;  ///< false: the pose tracked on the way was kept
   std::string registration_note;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the registration
-  int unconstrained = 0;  ///< directions of (x, y, yaw) that odometry decides
+  int unconstrained =
+      0;  ///< directions of (x, y, yaw) in which the tracked pose is kept; 3: not registered
   std::size_t freed_cells = 0;
   std::size_t filled_cells = 0;
 };

@@ -48,6 +48,7 @@ Json scan_json(const ScanRecord& scan) {
           {"leg_length_m", scan.leg_length_m},
           {"pose_error_m", scan.pose_error_m},
           {"pose_error_before_registration_m", scan.pose_error_before_registration_m},
+          {"pose_error_tracked_m", scan.pose_error_tracked_m},
           {"yaw_error_rad", scan.yaw_error_rad},
           {"map_sigma_m", scan.map_sigma_m},
           {"registered", scan.registered},
@@ -186,10 +187,11 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      [](const MeasuredEpisode& e) { return map_score(e, "precision"); }},
     {{"recall", "recall of occupied cells", Better::higher},
      [](const MeasuredEpisode& e) { return map_score(e, "recall"); }},
-    {{"pose_error_m", "mean position error after registration, m", Better::lower},
-     [](const MeasuredEpisode& e) { return mean_of(scan_values(e, "pose_error_m")); }},
-    {{"pose_error_before_registration_m", "mean position error before registration, m",
+    {{"pose_error_m", "mean error of the position that scans were taken into the map at, m",
       Better::lower},
+     [](const MeasuredEpisode& e) { return mean_of(scan_values(e, "pose_error_m")); }},
+    {{"pose_error_before_registration_m",
+      "mean position error of the wheels alone since the scan before, m", Better::lower},
      [](const MeasuredEpisode& e) {
        return mean_of(scan_values(e, "pose_error_before_registration_m"));
      }},

@@ -60,7 +60,7 @@ void MappingParts::look_round_at_start() {
 }
 
 MappingParts::Before MappingParts::before_update() const {
-  return {wall_s(), belief_.grid(), robot_.dead_reckoned_base()};
+  return {wall_s(), belief_.grid(), robot_.dead_reckoned_base(), robot_.estimated_base()};
 }
 
 void MappingParts::correct_pose(const BeliefUpdate& update) {
@@ -77,15 +77,17 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   current_.registered = update.registered;
   current_.unconstrained = update.unconstrained;
   current_.map_sigma_m = map_sigma_m();
-  evaluator_.measure_pose(before.dead_reckoned, update.T_world_base, current_);
+  evaluator_.measure_pose({before.dead_reckoned, before.tracked, update.T_world_base}, current_);
   evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
   current_.T_world_sensor = T_world_sensor;
   if (!update.registered) {
-    log_warning(
-        fmt::format("scan {}: odometry kept, {}", scans_.size() + 1, update.registration_note));
+    log_warning(fmt::format("scan {}: not registered, {}: the pose tracked on the way is kept",
+                            scans_.size() + 1, update.registration_note));
   } else if (update.unconstrained > 0) {
-    log_warning(fmt::format("scan {}: odometry kept in {} of 3 directions, nothing is seen across",
-                            scans_.size() + 1, update.unconstrained));
+    log_warning(
+        fmt::format("scan {}: registered, but for {} of 3 directions, across which nothing is "
+                    "seen: there the pose tracked on the way is kept",
+                    scans_.size() + 1, update.unconstrained));
   }
 }
 

@@ -49,7 +49,8 @@ class MappingParts {
   struct Before {
     double start_s;  ///< wall
     OccupancyGrid grid;
-    Pose2 dead_reckoned;
+    Pose2 dead_reckoned;  ///< the wheels alone since the scan before
+    Pose2 tracked;        ///< with the corrections on the way: what registration starts from
   };
 
   void look_round_at_start();

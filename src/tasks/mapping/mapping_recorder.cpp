@@ -15,6 +15,20 @@ constexpr std::string_view kSteps = "steps.csv";
 constexpr std::string_view kCandidates = "candidates.csv";
 constexpr std::string_view kMetrics = "metrics.json";
 
+// Of columns of steps.csv and keys of metrics.json alike.
+constexpr std::string_view kPoseError =
+    "of the position that the scan was taken into the map at, by ground truth: the registered one, "
+    "or the tracked one where the scan was not registered";
+constexpr std::string_view kBefore =
+    "of the position that the wheels alone give since the scan before, without any registration";
+constexpr std::string_view kTracked =
+    "of the position that registration of the scan starts from: the wheels', corrected on the way "
+    "by the planar scanner where it could";
+constexpr std::string_view kRegistered =
+    "the scan itself corrected the pose; false: the tracked pose was kept as it was";
+constexpr std::string_view kUnconstrained =
+    "directions of (x, y, yaw) in which the tracked pose was kept; 3: the scan was not registered";
+
 std::string steps_header(const std::vector<Predictor>& predictors) {
   std::string header =
       "time_s,scan,chosen_view,fallback,x_m,y_m,z_m,yaw_rad,pitch_rad,unobserved_cells,observable_"
@@ -25,19 +39,21 @@ std::string steps_header(const std::vector<Predictor>& predictors) {
   }
   return header +
          "path_length_m,leg_length_m,plan_time_s,map_time_s,scan_time_s,pose_error_m,"
-         "pose_error_before_registration_m,yaw_error_rad,registered,collisions,precision,recall";
+         "pose_error_before_registration_m,pose_error_tracked_m,yaw_error_rad,registered,"
+         "unconstrained,"
+         "collisions,precision,recall";
 }
 
 std::string steps_row(const ScanRecord& scan, std::size_t number) {
   std::string gains;
   for (const auto& [name, cells] : scan.predicted_cells) gains += fmt::format("{},", cells);
-  return fmt::format("{},{},{},{},{},{},{},{},{}{},{},{},{},{},{},{},{},{},{},{},{}", scan.time_s,
-                     number, scan.chosen_view, scan.fallback, pose_columns(scan.T_world_sensor),
-                     scan.unobserved_cells, scan.observable_unobserved_cells, scan.actual_new_cells,
-                     gains, scan.path_length_m, scan.leg_length_m, scan.plan_time_s,
-                     scan.map_time_s, scan.scan_time_s, scan.pose_error_m,
-                     scan.pose_error_before_registration_m, scan.yaw_error_rad, scan.registered,
-                     scan.collisions, scan.precision, scan.recall);
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},{}{},{},{},{},{},{},{},{},{},{},{},{},{},{}", scan.time_s, number,
+      scan.chosen_view, scan.fallback, pose_columns(scan.T_world_sensor), scan.unobserved_cells,
+      scan.observable_unobserved_cells, scan.actual_new_cells, gains, scan.path_length_m,
+      scan.leg_length_m, scan.plan_time_s, scan.map_time_s, scan.scan_time_s, scan.pose_error_m,
+      scan.pose_error_before_registration_m, scan.pose_error_tracked_m, scan.yaw_error_rad,
+      scan.registered, scan.unconstrained, scan.collisions, scan.precision, scan.recall);
 }
 
 std::vector<CandidateRow> candidate_rows(const std::vector<Candidate>& candidates,
@@ -145,10 +161,12 @@ RecordTexts mapping_records() {
       {kSteps, "plan_time_s", "wall, of the decision that led here"},
       {kSteps, "map_time_s", "wall, of registration and map update"},
       {kSteps, "scan_time_s", "simulated, of the scan"},
-      {kSteps, "pose_error_m", "of the believed position after registration, by ground truth"},
-      {kSteps, "pose_error_before_registration_m", "of the odometry's position"},
-      {kSteps, "yaw_error_rad", "of the believed heading after registration"},
-      {kSteps, "registered", "the scan was registered; false: the odometry's pose was kept"},
+      {kSteps, "pose_error_m", kPoseError},
+      {kSteps, "pose_error_before_registration_m", kBefore},
+      {kSteps, "pose_error_tracked_m", kTracked},
+      {kSteps, "yaw_error_rad", "of the heading that goes with pose_error_m"},
+      {kSteps, "registered", kRegistered},
+      {kSteps, "unconstrained", kUnconstrained},
       {kSteps, "collisions", "up to here"},
       {kSteps, "precision",
        "of occupied cells, share that is occupied within metrics.tolerance_cells"},
@@ -194,14 +212,14 @@ RecordTexts mapping_records() {
       {kMetrics, "scans[].scan_time_s", "simulated, of the scan"},
       {kMetrics, "scans[].path_length_m", "way of the base, from the start"},
       {kMetrics, "scans[].leg_length_m", "of it since the scan before"},
-      {kMetrics, "scans[].pose_error_m",
-       "of the believed position after registration, by ground truth"},
-      {kMetrics, "scans[].pose_error_before_registration_m", "of the odometry's position"},
-      {kMetrics, "scans[].yaw_error_rad", "of the believed heading after registration"},
+      {kMetrics, "scans[].pose_error_m", kPoseError},
+      {kMetrics, "scans[].pose_error_before_registration_m", kBefore},
+      {kMetrics, "scans[].pose_error_tracked_m", kTracked},
+      {kMetrics, "scans[].yaw_error_rad", "of the heading that goes with pose_error_m"},
       {kMetrics, "scans[].map_sigma_m",
        "how far off its place the robot believes what it maps to be, RMS"},
-      {kMetrics, "scans[].registered", "false: the odometry's pose was kept"},
-      {kMetrics, "scans[].unconstrained", "directions of (x, y, yaw) that odometry decided"},
+      {kMetrics, "scans[].registered", kRegistered},
+      {kMetrics, "scans[].unconstrained", kUnconstrained},
       {kMetrics, "scans[].fallback",
        "the view was out of reach, and the robot went as near as it could"},
       {kMetrics, "scans[].collisions", "up to here"},

@@ -26,11 +26,12 @@ struct ScanRecord {
   double path_length_m = 0.0;  ///< truly travelled up to here
   double leg_length_m = 0.0;   ///< of that, since the scan before
   double pose_error_m = 0.0;
-  double pose_error_before_registration_m = 0.0;
+  double pose_error_before_registration_m = 0.0;  ///< of the wheels alone since the scan before
+  double pose_error_tracked_m = 0.0;  ///< of the pose that registration of the scan started from
   double yaw_error_rad = 0.0;
   double map_sigma_m = 0.0;  ///< how far off the robot believes what it maps to be, RMS
   bool registered = true;
-  int unconstrained = 0;  ///< directions of (x, y, yaw) that odometry decided
+  int unconstrained = 0;  ///< directions of (x, y, yaw) in which the tracked pose was kept
   bool fallback = false;
   int collisions = 0;  ///< up to here
   double precision = 0.0;

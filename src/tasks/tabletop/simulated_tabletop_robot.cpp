@@ -23,6 +23,7 @@ double laser_lift_m(const World& world, const MobileBase& robot, const Tabletop&
 /// The robot, standing where the episode starts: at or behind a position on the ring of views.
 MobileBase placed_robot(World& world, const EpisodeSetup& setup, const Tabletop& task) {
   const RobotOptions& options = setup.options.robot;
+  require_table(world, setup, task);
   MobileBase robot = mobile_base(world, setup, task.navigation);
   check_reach(world, robot, task);
   RingOfViews ring = task.candidates;
@@ -43,7 +44,7 @@ SimulatedTabletopRobot::SimulatedTabletopRobot(const EpisodeSetup& setup, const 
       laser_noise_(Rng::stream(setup.options.seed, "laser")) {
   const MobileBase& robot = base_.robot();
   robot.command_lift(world(), laser_lift_m(world(), robot, task));
-  start_notes_ = check_start(world(), robot, setup, task);
+  start_notes_ = check_start(world(), base_.ground_truth().geometry(), robot, setup, task);
   base_.note_localisation(task.registration, setup.options.seed, start_notes_);
 }
 

@@ -1,5 +1,8 @@
 #include "vantage/tasks/tabletop/table_region.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -43,6 +46,33 @@ LevelSurfaceOptions table_surfaces(const TableOptions& options) {
           .max_height_m = options.max_height_m,
           .max_tilt_rad = options.max_tilt_rad,
           .min_area_m2 = options.min_area_m2};
+}
+
+std::string no_table_text(const mjModel& model, const mjData& data, const TableOptions& options) {
+  const auto near = nearest_to_level(model, data, table_surfaces(options));
+  if (!near) {
+    return fmt::format(
+        "no table: no level surface of {} m^2 between table.min_height_m {} and "
+        "table.max_height_m {}",
+        options.min_area_m2, options.min_height_m, options.max_height_m);
+  }
+  std::vector<std::string> faults;
+  if (near->height_m < options.min_height_m) {
+    faults.push_back(fmt::format("below table.min_height_m {}", options.min_height_m));
+  }
+  if (near->height_m > options.max_height_m) {
+    faults.push_back(fmt::format("above table.max_height_m {}", options.max_height_m));
+  }
+  if (near->tilt_rad > options.max_tilt_rad) {
+    faults.push_back(fmt::format("tilted by {:.3f} rad, more than table.max_tilt_rad {}",
+                                 near->tilt_rad, options.max_tilt_rad));
+  }
+  if (near->area_m2 < options.min_area_m2) {
+    faults.push_back(fmt::format("smaller than table.min_area_m2 {}", options.min_area_m2));
+  }
+  return fmt::format(
+      "no table: the nearest to one, '{}' of {:.3g} m^2 at a height of {:.3f} m, is {}", near->name,
+      near->area_m2, near->height_m, fmt::join(faults, " and "));
 }
 
 std::optional<LevelSurface> table_among(const std::vector<LevelSurface>& surfaces) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "vantage/perception/table_extraction.hpp"
@@ -17,6 +18,9 @@ std::optional<LevelSurface> table_among(const std::vector<LevelSurface>& surface
 
 /// What is as high and large as the options want a table to be.
 LevelSurfaceOptions table_surfaces(const TableOptions& options);
+
+/// "no table: ...": which surface comes nearest to one, and the key that it fails by.
+std::string no_table_text(const mjModel& model, const mjData& data, const TableOptions& options);
 
 /// The table of a scene as its file has it; read once as long as the file stays the same.
 /// @throws InputError if MuJoCo does not load the scene.

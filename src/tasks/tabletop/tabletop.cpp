@@ -7,6 +7,7 @@
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/mapping/mapping_metrics.hpp"
 #include "vantage/tasks/mapping/mapping_recorder.hpp"
+#include "vantage/tasks/tabletop/start_check.hpp"
 #include "vantage/tasks/tabletop/table_region.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"
 
@@ -75,6 +76,12 @@ std::string Tabletop::outcome(const nlohmann::ordered_json& metrics) {
 
 std::vector<std::string> Tabletop::require_start(const EpisodeSetup& setup) const {
   return SimulatedTabletopRobot(setup, *this).start_notes();
+}
+
+void Tabletop::check_robot(const World& alone, const RobotFolder& robot) const {
+  const MobileBase base(alone.model(), mobile_base_of(robot, "robot.model"),
+                        robot.description.string());
+  if (base.has_tilting_laser()) check_reach(alone, base, *this);
 }
 
 RunOutcome Tabletop::run(const RunRequest& request) const {

@@ -17,6 +17,8 @@
 
 namespace vantage {
 
+class World;
+
 struct Tabletop : MappingOptions {
   static constexpr std::string_view name = "tabletop";
   static constexpr StrategyText text{.summary =
@@ -53,6 +55,8 @@ struct Tabletop : MappingOptions {
   [[nodiscard]] static std::string outcome(const nlohmann::ordered_json& metrics);
   /// @return what is worth a warning @throws ConfigError or InputError if the episode cannot begin.
   std::vector<std::string> require_start(const EpisodeSetup& setup) const;
+  /// Of a robot with a tilting laser, alone in its world. @throws ConfigError as check_reach()
+  void check_robot(const World& alone, const RobotFolder& robot) const;
   RunOutcome run(const RunRequest& request) const;
 };
 

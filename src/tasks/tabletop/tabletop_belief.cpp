@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "vantage/perception/clouds/registration.hpp"
+#include "vantage/runtime/episode_loop.hpp"
 
 namespace vantage {
 namespace {
@@ -75,10 +76,11 @@ Pose2 TabletopBelief::register_pose(const TabletopObservation& observation,
 }
 
 void TabletopBelief::extract_table(const PointCloud& cloud_world) {
-  auto found = find_table(cloud_world, task_.table, sampling_);
+  auto found = find_table(cloud_world, task_.table, sampling_, "table.");
   if (!table_ && !found.table) {
-    throw InputError(
-        fmt::format("scene: {}: no table in the region of interest: {}", scene_, found.reason));
+    throw EpisodeFailed(
+        fmt::format("scene: {}: the first scan shows no table in the region of the map: {}", scene_,
+                    found.reason));
   }
   if (!table_) {
     table_ = std::move(found.table);

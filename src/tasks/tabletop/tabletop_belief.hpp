@@ -21,7 +21,7 @@ class TabletopBelief : public MapBelief {
 
   /// Registration, table extraction, measurements, free space, holes.  [Potthast2016, 3.2]
   /// The first scan is registered with `reference_map`.
-  /// @throws InputError if the first scan shows no table in the region of interest.
+  /// @throws EpisodeFailed if the first scan shows no table in the region of interest.
   BeliefUpdate update(const TabletopObservation& observation, const ReferenceMap& reference_map,
                       const Correction& plausible);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/mjcf.hpp"
 
 namespace vantage {
@@ -47,6 +49,36 @@ TEST(LevelSurfaces, RoundTablesCountAndWhatIsTiltedLowOrSmallDoesNot) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].height_m, 0.72, 1e-9);
   EXPECT_NEAR(found[0].area_m2, 0.785, 0.02);
+}
+
+std::optional<NearSurface> nearest_among(const std::string& geoms) {
+  const auto made = test::compile_mjcf("<mujoco><worldbody><geom type='plane' size='9 9 .1'/>" +
+                                       geoms + "</worldbody></mujoco>");
+  return nearest_to_level(*made.model, *made.data);
+}
+
+TEST(NearestToLevel, IsTheLargestThatIsTooLowTooHighOrTilted) {
+  const std::string low = "<geom name='low' type='box' size='.6 .4 .015' pos='0 0 .365'/>";
+  const std::string tilted =
+      "<geom name='lean' type='box' size='.6 .6 .02' pos='3 0 .7' euler='0 8 0'/>";
+  const auto lower = nearest_among(low);
+  ASSERT_TRUE(lower);
+  EXPECT_EQ(lower->name, "low");
+  EXPECT_NEAR(lower->height_m, 0.38, 1e-9);
+  EXPECT_NEAR(lower->area_m2, 0.96, 1e-9);
+  EXPECT_EQ(lower->tilt_rad, 0.0);
+  const auto steeper = nearest_among(low + tilted);
+  ASSERT_TRUE(steeper);
+  EXPECT_EQ(steeper->name, "lean");
+  EXPECT_NEAR(steeper->tilt_rad, 8.0 * 3.14159265 / 180.0, 1e-6);
+  EXPECT_NEAR(steeper->height_m, 0.7 + 0.02 * std::cos(steeper->tilt_rad), 1e-3);
+}
+
+TEST(NearestToLevel, ASmallOneIsNearAndAFloorIsNot) {
+  const auto small = nearest_among("<geom type='box' size='.09 .09 .02' pos='0 0 .7'/>");
+  ASSERT_TRUE(small);
+  EXPECT_NEAR(small->area_m2, 0.0324, 1e-9);
+  EXPECT_FALSE(nearest_among("<geom type='box' size='2 2 .02' pos='0 0 0'/>"));
 }
 
 }  // namespace

@@ -76,6 +76,43 @@ TEST(TableTopWithoutWalls, FourLegsAreEnoughToLocaliseBy) {
   EXPECT_GT(metrics["map"]["precision"], 0.85);
 }
 
+TEST(TableTopWithoutWalls, AScanThatIsNotRegisteredKeepsTheTrackedPose) {
+  testing::internal::CaptureStderr();
+  const auto [code, metrics] = ran(OwnScene(pedestal_table()), {});
+  const std::string log = testing::internal::GetCapturedStderr();
+  int kept = 0;
+  for (const json& scan : metrics["scans"]) {
+    if (scan["registered"]) continue;
+    ++kept;
+    EXPECT_EQ(scan["unconstrained"], 3);
+    EXPECT_EQ(scan["pose_error_m"], scan["pose_error_tracked_m"]);
+  }
+  EXPECT_GT(kept, 0);
+  EXPECT_THAT(log, HasSubstr("the pose tracked on the way is kept"));
+}
+
+TEST(TableTopWithWalls, TheTrackedPoseIsBetterThanTheWheelsAlone) {
+  const auto [code, metrics] =
+      ran(OwnScene(pedestal_table() + kWalls),
+          {"odometry.sigma_translation_m=0.05", "odometry.bias_translation_m_per_m=0.1"});
+  const json& last = metrics["scans"][2];
+  EXPECT_GT(last["pose_error_before_registration_m"], 0.02);
+  EXPECT_LT(last["pose_error_tracked_m"].get<double>(),
+            0.5 * last["pose_error_before_registration_m"].get<double>());
+}
+
+TEST(TableTopWithWalls, AFirstScanThatShowsNoTableIsAFailedRun) {
+  const auto [code, metrics] =
+      ran(OwnScene(pedestal_table() + kWalls), {"table.max_tilt_rad=1e-9"});
+  EXPECT_EQ(code, ExitCode::goal_failed);
+  EXPECT_EQ(metrics["status"], "failed");
+  EXPECT_THAT(
+      metrics["reason"].get<std::string>(),
+      testing::AllOf(HasSubstr("scene.xml: the first scan shows no table"), HasSubstr("table.m")));
+  EXPECT_TRUE(metrics["scans"].empty());
+  EXPECT_GT(metrics["observable_cells"], 0);
+}
+
 TEST(TableTopWithWalls, IsTrusted) {
   const auto [code, metrics] = ran(OwnScene(pedestal_table() + kWalls), {});
   EXPECT_EQ(metrics["status"], "completed");

@@ -69,6 +69,47 @@ TEST(ValidateTableTop, ASceneWithoutATable) {
               AllOf(HasSubstr("scene.xml: no table"), HasSubstr("min_height_m 0.4")));
 }
 
+/// A slab of 1.2 x 0.8 m, where the robot starts if nothing is known of a table: amid it; with a
+/// free box on it.
+std::string slab(const std::string& height, const std::string& more) {
+  return "<geom name='slab' type='box' pos='1.2 0 " + height + "' size='.6 .4 .015' " + more +
+         "/><body name='box' pos='1.2 0 .75'><freejoint/><geom type='box' size='.05 .05 .05'/>"
+         "</body>";
+}
+
+TEST(ValidateTableTop, WhatIsNearlyATableIsNamed) {
+  const OwnScene low(slab(".365", "") + kWalls);
+  const Validation found = validated("tabletop", low, {});
+  EXPECT_EQ(found.code, ExitCode::bad_input);
+  EXPECT_THAT(problem(found),
+              AllOf(HasSubstr("scene.xml: no table"), HasSubstr("'slab' of 0.96 m^2"),
+                    HasSubstr("0.380 m, is below table.min_height_m 0.4")));
+  EXPECT_THAT(problem(validated("tabletop", OwnScene(slab("1.4", "") + kWalls), {})),
+              HasSubstr("1.415 m, is above table.max_height_m 1.2"));
+  EXPECT_THAT(problem(validated("tabletop", OwnScene(slab(".6", "euler='5 0 0'") + kWalls), {})),
+              HasSubstr("tilted by 0.087 rad, more than table.max_tilt_rad 0.05"));
+  EXPECT_THAT(validated("tabletop", low, {"table.min_height_m=0.3", "robot.start_view=5"}).problems,
+              IsEmpty());
+}
+
+TEST(ValidateScene, SaysWhatIsNearlyATable) {
+  // At the origin stands the robot too, before it is placed: MuJoCo could not tell them apart.
+  const std::string at_origin =
+      "<geom name='slab' type='box' pos='0 0 .365' size='.6 .4 .015'/>"
+      "<geom type='box' pos='.55 .35 .175' size='.02 .02 .195'/>"
+      "<geom type='box' pos='-.55 .35 .175' size='.02 .02 .195'/>"
+      "<geom type='box' pos='-.3 .1 .48' size='.1 .06 .1'/>"
+      "<body pos='.25 -.15 .432'><freejoint/><geom type='box' size='.08 .12 .05'/></body>"
+      "<body pos='.1 .22 .532'><freejoint/><geom type='box' size='.05 .05 .15'/></body>";
+  const Validation found = validate_file(OwnScene(at_origin + kWalls).path());
+  EXPECT_EQ(found.code, ExitCode::done);
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_THAT(found.notes[0], HasSubstr("note: no table: the nearest to one, 'slab'"));
+  const Validation tilted = validate_file(OwnScene(slab(".6", "euler='5 0 0'") + kWalls).path());
+  ASSERT_EQ(tilted.notes.size(), 1U);
+  EXPECT_THAT(tilted.notes[0], HasSubstr("table.max_tilt_rad 0.05"));
+}
+
 TEST(ValidateTableTop, AMapThatNoViewReaches) {
   const OwnScene scene(kTable + kWalls);
   for (const char* laser : {"laser.range_max_m=0.3", "laser.tilt_max_rad=-0.34"}) {
@@ -89,6 +130,30 @@ TEST(ValidateTableTop, ATableTooLargeForTheCircleOfViews) {
   const OwnScene scene(table_at(0.0, 0.0, 0.72, 1.0, 0.5) + kWalls);
   EXPECT_THAT(problem(validated("tabletop", scene, {})), HasSubstr("candidates.radius_m 1.60"));
   EXPECT_THAT(validated("tabletop", scene, {"candidates.radius_m=1.6"}).problems, IsEmpty());
+}
+
+const std::string kRoom = std::string(kWalls) +
+                          "<geom type='box' pos='-3 0 1.25' size='.05 3 1.25'/>"
+                          "<geom type='box' pos='0 -3 1.25' size='3 .05 1.25'/>";
+
+TEST(ValidateTableTop, ViewsThatAllLieBehindWallsAreAnError) {
+  const OwnScene room(kTable + kRoom);
+  EXPECT_THAT(validated("tabletop", room, {}).notes, IsEmpty());
+  const Validation outside = validated("tabletop", room, {"candidates.radius_m=5"});
+  EXPECT_EQ(outside.code, ExitCode::usage);
+  EXPECT_THAT(problem(outside),
+              AllOf(HasSubstr("candidates.radius_m 5: of 10 positions"), HasSubstr("10 "),
+                    HasSubstr("past what stands between"), HasSubstr("is free all round")));
+}
+
+TEST(ValidateTableTop, ViewsOutOfReachOrBehindAWallAreANote) {
+  const std::string screen = "<geom type='box' pos='-.9 0 .8' size='.02 1.1 .8'/>";
+  const Validation found = validated("tabletop", OwnScene(kTable + kRoom + screen), {});
+  EXPECT_THAT(found.problems, IsEmpty());
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_THAT(found.notes[0],
+              AllOf(HasSubstr("note: candidates.radius_m 1.2: of 10 positions on the ring "),
+                    HasSubstr(" are out of the robot's reach"), testing::Not(HasSubstr(" 0 are"))));
 }
 
 TEST(ValidateTableTop, ABodyThatNeverRests) {
