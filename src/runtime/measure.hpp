@@ -14,9 +14,10 @@
 namespace vantage {
 
 struct MeasureName {
-  std::string_view name;   ///< column of results.csv
-  std::string_view title;  ///< with unit
-  bool wall = false;       ///< of wall time: another run gives another value
+  std::string_view name;             ///< column of results.csv
+  std::string_view title;            ///< with unit
+  bool wall = false;                 ///< of wall time: another run gives another value
+  std::string_view along = "scans";  ///< steps of a curve
 };
 
 using Curve = std::vector<double>;  ///< a value a step

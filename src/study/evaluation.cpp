@@ -95,8 +95,9 @@ void add_panels(Figure& figure, const StudyResults& results, const Layout& layou
 
 Figure curve_figure(const StudyResults& results, const Layout& layout, const std::string& name) {
   const std::size_t curve = *find_curve(name);
-  const std::string title(curve_measures()[curve].title);
-  Figure figure{name, results.study.title + ": " + title, "scans", title, {}};
+  const MeasureName& measure = curve_measures()[curve];
+  const std::string title(measure.title);
+  Figure figure{name, results.study.title + ": " + title, std::string(measure.along), title, {}};
   add_panels(figure, results, layout, layout.levels(), 1, true,
              [&](std::size_t episode, std::size_t level) -> const Curve* {
                if (layout.level(episode) != level) return nullptr;

@@ -20,7 +20,8 @@ constexpr double kTop = 34.0;
 constexpr double kBottom = 48.0;
 constexpr double kHead = 40.0;
 constexpr double kLegendRow = 24.0;
-constexpr double kNearZero = 0.35;  ///< curves that fall below this share of their top show zero
+constexpr double kTitleLetter = 9.0;  ///< mean width of a letter of the title, and room to spare
+constexpr double kNearZero = 0.35;    ///< curves that fall below this share of their top show zero
 
 constexpr auto kColours =
     std::to_array<std::string_view>({"#0f6fde", "#d9480f", "#0c8a5b", "#a61e8c", "#7048e8",
@@ -87,7 +88,7 @@ struct Frame {
   }
 };
 
-Frame frame_of(const FigurePanel& panel, double left, double top) {
+Frame frame_of(const Figure& figure, const FigurePanel& panel, double left, double top) {
   double low_x = std::numeric_limits<double>::infinity();
   double high_x = -low_x;
   double low_y = low_x;
@@ -102,9 +103,10 @@ Frame frame_of(const FigurePanel& panel, double left, double top) {
   }
   if (low_x > high_x) low_x = high_x = low_y = high_y = 0.0;
   if (low_y > 0.0 && low_y < kNearZero * high_y) low_y = 0.0;
-  Frame frame{left, top, axis_over(low_x, high_x, 10.0, 1.0), axis_over(low_y, high_y, 5.0, 0.0)};
+  Frame frame{left, top, axis_over(low_x, high_x, 10.0, figure.least_x_step),
+              axis_over(low_y, high_y, 5.0, 0.0)};
   frame.x.low = low_x;  // the curves begin at the axis
-  frame.x.high = std::max(high_x, low_x + 1.0);
+  frame.x.high = std::max(high_x, low_x + figure.least_x_step);
   return frame;
 }
 
@@ -173,7 +175,7 @@ std::string line_svg(const FigureSeries& series, const Frame& frame) {
 }
 
 std::string panel_svg(const Figure& figure, const FigurePanel& panel, double left, double top) {
-  const Frame frame = frame_of(panel, left, top);
+  const Frame frame = frame_of(figure, panel, left, top);
   const double middle_y = top + 0.5 * (kPanelHeight + kTop - kBottom);
   std::string svg = text_at(left + kLeft, top + kTop - 14.0, "start",
                             R"(font-size="13.5" font-weight="600" fill="#16202e")", panel.title);
@@ -225,7 +227,8 @@ std::string legend_svg(const Figure& figure, double width, double top, double& h
 std::string figure_svg(const Figure& figure) {
   const std::size_t columns = figure.panels.size() <= 1 ? 1 : figure.panels.size() <= 4 ? 2 : 3;
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
-  const double width = kPanelWidth * static_cast<double>(columns) + 16.0;
+  const double width = std::max(kPanelWidth * static_cast<double>(columns) + 16.0,
+                                kLeft + kTitleLetter * static_cast<double>(figure.title.size()));
   std::string body = text_at(kLeft, 24.0, "start",
                              R"(font-size="16" font-weight="650" fill="#16202e")", figure.title);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {

@@ -127,7 +127,7 @@ const ScalarMeasure kViewPositionError{
 const ScalarMeasure kViewAngleError{
     {"view_angle_error_rad", "mean angle error of a view, rad"},
     [](const MeasuredEpisode& episode) { return mean_of_views(episode, "angle_error_rad"); }};
-const CurveMeasure kViewEntropy{{"view_entropy_bits", "entropy of the state, bits"},
+const CurveMeasure kViewEntropy{{"view_entropy_bits", "entropy of the state, bits", false, "views"},
                                 [](const MeasuredEpisode& episode) {
                                   return step_values(episode, "observations", "entropy_bits");
                                 }};
