@@ -16,7 +16,7 @@ class CastrayGain {
   ~CastrayGain();
 
   /// Sum over the beams of a line scanner, `step_rad` apart, of the unobserved cells before each
-  /// beam's first occupied one.
+  /// beam's first occupied one. Several threads may ask at once.
   [[nodiscard]] double of_view(const Pose& T_world_sensor, const FieldOfView& field,
                                double azimuth_step_rad, double tilt_step_rad) const;
 

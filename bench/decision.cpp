@@ -83,7 +83,7 @@ void run_benchmark() {
   const Situation& first = timed.front();
   const double castray =
       castray_ms(first, 2.0 * first.field.half_width_rad / 640.0,
-                 (first.field.tilt_max_rad - first.field.tilt_min_rad) / 480.0, 6);
+                 (first.field.tilt_max_rad - first.field.tilt_min_rad) / 480.0, 5);
   print_decision("decision", time_both(AdaptiveGain{}, first), castray, agreement);
   print_scaling(first);
 }

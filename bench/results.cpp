@@ -1,5 +1,6 @@
 // Writes bench/RESULTS.md from what benchmarks and studies left in bench/results.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include "bench/claims/claims.hpp"
 #include "bench/claims/recognition_claims.hpp"
 #include "bench/cost_figures.hpp"
+#include "bench/freshness.hpp"
 #include "bench/measures.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/study/figures/figure.hpp"
@@ -23,7 +25,55 @@ and say little by themselves; their ratios inside one run are what is claimed. M
 bootstrap intervals, differences are paired over the same scene and start, `p` is that of a
 sign-flip test, `x` the ratio of the means to the reference method. The dissertation is C. Potthast,
 *Information Theoretical Action Selection*, USC 2016.
+
+`\*`: the code that it depends on has changed since the commit that it is of. `?`: whether it has is
+unknown.
 )";
+
+/// What any result depends on.
+std::vector<std::string> code_with(const std::vector<std::string>& more) {
+  std::vector<std::string> code{"src", "planners", "sim", "models", "assets"};
+  code.insert(code.end(), more.begin(), more.end());
+  return code;
+}
+
+/// The program that printed a benchmark of that name.
+std::string program_of(const std::string& benchmark) {
+  if (benchmark == "scaling") return "decision";
+  return benchmark == "office_views" ? "office" : benchmark;
+}
+
+Freshness freshness_of_benchmark(const std::string& name, const std::string& commit,
+                                 const fs::path& file) {
+  return freshness_of(
+      {.commits = {commit},
+       .file = file,
+       .code = code_with({"bench/" + program_of(name) + ".cpp", "bench/situation.cpp",
+                          "bench/castray.cpp", "bench/measures.cpp"})});
+}
+
+/// The commits of its episodes, where they are recorded.
+std::set<std::string> commits_of_study(const fs::path& results_csv) {
+  std::set<std::string> commits;
+  if (!fs::exists(results_csv)) return commits;
+  const CsvTable results = read_csv(results_csv);
+  const auto column = std::ranges::find(results.columns, "commit") - results.columns.begin();
+  for (const auto& row : results.rows) {
+    if (column < std::ssize(row) && !row[static_cast<std::size_t>(column)].empty()) {
+      commits.insert(row[static_cast<std::size_t>(column)]);
+    }
+  }
+  return commits;
+}
+
+/// "; of b100039, c29a3d1 \*"
+std::string origin_text(const std::set<std::string>& commits, const fs::path& file) {
+  const std::string marked = mark(freshness_of({commits, file, code_with({})}));
+  return fmt::format(
+      "; of {}{}",
+      commits.empty() ? "a commit not recorded" : fmt::format("{}", fmt::join(commits, ", ")),
+      marked);
+}
 
 struct StudyPart {
   std::string name;
@@ -60,8 +110,9 @@ const std::vector<StudyPart>& study_parts() {
        flight_change_findings},
       {"trajectory",
        "Trajectories for recognition (tables 5.1-5.3)",
-       {"accuracy", "observations", "mean_entropy_nats", "flight_time_s", "path_length_m",
-        "minimum_clearance_m", "collided", "tracking_error_m", "replan_time_s", "energy_j"},
+       {"accuracy", "observations", "mean_entropy_observed_nats", "objects_unseen",
+        "mean_entropy_nats", "flight_time_s", "path_length_m", "minimum_clearance_m", "collided",
+        "tracking_error_m", "replan_time_s", "energy_j"},
        trajectory_findings}};
   return parts;
 }
@@ -77,14 +128,30 @@ std::vector<fs::path> files_in(const fs::path& folder, std::string_view extensio
 }
 
 /// Of what code, on what machine a benchmark ran.
-using Origins = std::map<std::string, std::string>;
+struct BenchmarkOrigin {
+  std::string commit;  ///< with its mark
+  int threads = 0;
+  std::string cpu;
+};
+using Origins = std::map<std::string, BenchmarkOrigin>;
+
+/// Those of the benchmark, but for castRay's where it had others.
+std::string threads_of(const std::string& key, const Json& figures, int threads) {
+  if (!key.starts_with("castray_") || !figures.contains("castray_threads")) {
+    return std::to_string(threads);
+  }
+  const int of_castray = figures["castray_threads"].get<int>();
+  const bool ratio = key == "castray_over_sweep" && of_castray != threads;
+  return ratio ? fmt::format("{} against {}", of_castray, threads) : std::to_string(of_castray);
+}
 
 std::string figures_table(const Figures& all, const Origins& origins) {
   std::string text = "| benchmark | figure | | commit, threads, CPU |\n|---|---|---|---|\n";
   for (const auto& [name, figures] : all) {
     for (const auto& [key, value] : figures.items()) {
-      text += fmt::format("| {} | `{}` | {:.5g} | {} |\n", name, key, value.get<double>(),
-                          origins.at(name));
+      const BenchmarkOrigin& origin = origins.at(name);
+      text += fmt::format("| {} | `{}` | {:.5g} | {}, {}, {} |\n", name, key, value.get<double>(),
+                          origin.commit, threads_of(key, figures, origin.threads), origin.cpu);
     }
   }
   return text;
@@ -138,15 +205,19 @@ std::string recognition_part(const fs::path& folder) {
   add(change_findings(summary("changes")));
   add(kernel_findings(summary("kernel"), summary("simple_same_objects")));
   std::string tables;
+  std::set<std::string> commits;
   for (const Part& part : {Part{"simple", "Simple features:"},
                            {"changes", "Changes:"},
                            {"kernel", "Kernel descriptors:"},
                            {"simple_same_objects", "Simple features on the same objects:"}}) {
-    if (fs::exists(folder / part.folder))
-      tables += evaluation_tables(folder / part.folder, part.title);
+    if (!fs::exists(folder / part.folder)) continue;
+    tables += evaluation_tables(folder / part.folder, part.title);
+    const Json commit = summary(part.folder).value("commit", Json());
+    if (commit.is_string()) commits.insert(commit.get<std::string>());
   }
   return "\n## Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n`bench/studies recognition`, "
-         "a rendered database; trained at 30 and 60 deg, tested at 45 deg.\n\n" +
+         "a rendered database; trained at 30 and 60 deg, tested at 45 deg" +
+         origin_text(commits, folder / "simple" / "summary.json") + ".\n\n" +
          findings_table(findings) + tables;
 }
 
@@ -169,9 +240,9 @@ void write_results(const fs::path& directory) {
     const Json benchmark = read_json(file);
     const auto name = benchmark.at("name").get<std::string>();
     figures.emplace(name, benchmark.at("figures"));
-    origins[name] =
-        fmt::format("{}, {}, {}", benchmark.at("commit").get<std::string>(),
-                    benchmark.at("threads").get<int>(), benchmark.at("cpu").get<std::string>());
+    const auto commit = benchmark.at("commit").get<std::string>();
+    origins[name] = {commit + mark(freshness_of_benchmark(name, commit, file)),
+                     benchmark.at("threads").get<int>(), benchmark.at("cpu").get<std::string>()};
   }
   std::string text(kIntroduction);
   text += "\n## Speed\n\n" + findings_table(speed_findings(figures)) + "\n" +
@@ -184,8 +255,11 @@ void write_results(const fs::path& directory) {
     const fs::path folder = directory / part.name;
     const StudyTables study(fs::path("assets/studies") / (part.name + ".yaml"),
                             folder / "results.csv");
-    text += fmt::format("\n## {}\n\n`bench/studies {}`: {}.\n\n", part.title, part.name,
-                        study.extent());
+    const fs::path results_csv = folder / "results.csv";
+    const std::string origin =
+        fs::exists(results_csv) ? origin_text(commits_of_study(results_csv), results_csv) : "";
+    text += fmt::format("\n## {}\n\n`bench/studies {}`: {}{}.\n\n", part.title, part.name,
+                        study.extent(), origin);
     text += findings_table(part.findings(study));
     for (const std::string& table : part.tables) {
       if (!study.has(table)) continue;

@@ -63,7 +63,8 @@ struct Timings {
 Timings time_both(const Gain& gain, const Situation& situation);
 
 /// castRay as peers use it: a ray for each pixel of the images that a view is made of. Every
-/// `every`-th view is timed, and multiplied for all of them.
+/// `every`-th view is timed, and multiplied for all of them. On kThreads threads, as the sweep is:
+/// timed views should be a multiple of them.
 double castray_ms(const Situation& situation, double pixel_width_rad, double pixel_height_rad,
                   std::size_t every);
 

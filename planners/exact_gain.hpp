@@ -25,6 +25,9 @@ double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& g
   typename G::Ray ray = gain.ray(tables);
   double sum_bits = 0.0;
   const auto wanted = [&](std::size_t cell) {
+    if constexpr (requires { gain.counts(tables, cell); }) {
+      if (!gain.counts(tables, cell)) return false;
+    }
     return !G::unobserved_only || tables.state[cell] == CellState::unobserved;
   };
   for_each_cell_in_view(grid, cone, wanted, [&](const Eigen::Array3i& target, std::size_t index) {

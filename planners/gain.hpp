@@ -11,10 +11,14 @@
 
 #include "vantage/core/strategy.hpp"
 #include "vantage/planners/gains/adaptive_gain.hpp"
+#include "vantage/planners/gains/area_factor_gain.hpp"
+#include "vantage/planners/gains/average_entropy_gain.hpp"
 #include "vantage/planners/gains/beer_lambert_gain.hpp"
+#include "vantage/planners/gains/frontier_cells_gain.hpp"
 #include "vantage/planners/gains/fsmi_gain.hpp"
 #include "vantage/planners/gains/occlusion_aware_gain.hpp"
 #include "vantage/planners/gains/posterior_chain_gain.hpp"
+#include "vantage/planners/gains/proximity_count_gain.hpp"
 #include "vantage/planners/gains/rear_side_entropy_gain.hpp"
 #include "vantage/planners/gains/rear_side_voxel_gain.hpp"
 #include "vantage/planners/gains/simple_gain.hpp"
@@ -27,7 +31,8 @@ namespace vantage {
 
 using Gain = std::variant<SimpleGain, PosteriorChainGain, VisibilityWeightedGain, BeerLambertGain,
                           AdaptiveGain, OcclusionAwareGain, UnobservedVoxelGain, RearSideVoxelGain,
-                          RearSideEntropyGain, UnmappedVolumeGain, FsmiGain>;
+                          RearSideEntropyGain, ProximityCountGain, AverageEntropyGain,
+                          AreaFactorGain, UnmappedVolumeGain, FsmiGain, FrontierCellsGain>;
 template <>
 inline constexpr std::string_view strategy_family<Gain> = "gain";
 

@@ -130,7 +130,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"tasks/flight", kTask},
     {"tasks/object_flight", kTask},
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
-    {"study/figures", {"core", "information", "report"}},
+    {"study/figures", {"core", "geometry", "information", "report"}},
     {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
     {"study/kit", kGround + kRuntime + Rooms{"tasks"}},
     {"study/cluster", {"core"}},

@@ -5,10 +5,16 @@ const LOOKS = OBJECTS.flatMap((o, i) => (o.looks ?? []).map((look) => ({ ...look
 const FLIGHT = SECTIONS.figures === "flight" ? { path: METRICS.path ?? [], objects: OBJECTS, looks: LOOKS } : null;
 const DIRECTIONS = 8;
 
+// Of the objects that were observed.
+function entropyAtTheEnd() {
+  const entropy = isNumber(METRICS.mean_entropy_observed_nats) ? `mean entropy ${formatNumber(METRICS.mean_entropy_observed_nats, 3)} nats, ` : "";
+  return `${entropy}${METRICS.objects_unseen} objects unseen`;
+}
+
 function flightCards() {
   const right = OBJECTS.filter((o) => o.correct).length;
   card("Recognised", `${right} of ${OBJECTS.length}`, { share: OBJECTS.length ? right / OBJECTS.length : 0, sub: `${METRICS.objects_found} found, ${METRICS.false_objects} false` });
-  card("Observations", String(METRICS.observations_total), { sub: `mean entropy ${formatNumber(METRICS.mean_entropy_nats, 3)} nats at the end` });
+  card("Observations", String(METRICS.observations_total), { sub: entropyAtTheEnd() });
   card("Minimum clearance", formatNumber(METRICS.minimum_clearance_m, 3), { unit: "m", sub: "true, from surface to surface" });
   card("Tracking error", formatNumber(1000 * METRICS.tracking_error_m.mean, 3), { unit: "mm", sub: `at most ${formatNumber(1000 * METRICS.tracking_error_m.max, 3)} mm` });
   card("Replanning", formatNumber(1000 * METRICS.plan_time_s.median, 3), { unit: "ms", sub: `95 %: ${formatNumber(1000 * METRICS.plan_time_s.p95, 3)} ms; ${METRICS.missed_deadlines} of ${METRICS.replans} missed` });

@@ -43,7 +43,8 @@ std::vector<float> beam_transmissions(const OccupancyGrid& grid, double opacity_
 
 /// A gain that is a sum over cells of their utility to the ray that sees them. `Ray` is the
 /// state of one ray: start() at the sensor, pass(cell) for each cell crossed (false: nothing behind
-/// it counts, the walk may stop), utility(cell) in the gain's unit for the cell the ray ends in.
+/// it counts, the walk may stop), utility(cell) in the gain's unit for the cell the ray ends in. A
+/// gain that spares rays to cells without utility says which by `counts(tables, cell)`.
 template <class G>
 concept RayGain = requires(const G& gain, const GainContext& context, const CellTables& tables,
                            typename G::Ray ray, std::size_t cell) {

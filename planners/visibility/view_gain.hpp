@@ -12,7 +12,8 @@
 ///
 /// A gain is one of these:
 ///  - RayGain: a sum over the cells in view, each by the ray that sees it;
-///  - BeamGain: a sum over a fan of beams: `fan` and `beam()` in place of `unobserved_only` and `ray()`;
+///  - BeamGain: over a fan of beams: `fan` and `beam()` in place of `unobserved_only` and `ray()`;
+///    a sum of them, unless it also has `view()`;
 ///  - either with `Attenuation attenuation(const GainContext&) const`: a sum of transmittance times
 ///    utility, which is swept, several ten times faster than ray by ray.
 ///

@@ -33,11 +33,31 @@ void count_from_one(CsvTable& steps, std::size_t column) {
   }
 }
 
+/// A flight along a path whose metrics hold the mean entropy of all objects alone.
+template <class Json>
+void tell_unseen_objects_apart(Json& metrics) {
+  if (!metrics.contains("mean_entropy_nats") || !metrics.contains("objects") ||
+      metrics.contains("objects_unseen")) {
+    return;
+  }
+  double observed = 0.0;
+  double sum_nats = 0.0;
+  for (const Json& object : metrics["objects"]) {
+    if (object.at("observations").template get<int>() == 0) continue;
+    observed += 1.0;
+    sum_nats += object.at("entropy_nats").template get<double>();
+  }
+  metrics["objects_unseen"] = metrics["objects"].size() - static_cast<std::size_t>(observed);
+  metrics["mean_entropy_observed_nats"] = nullptr;
+  if (observed > 0.0) metrics["mean_entropy_observed_nats"] = sum_nats / observed;
+}
+
 }  // namespace
 
 template <class Json>
 void bring_up_to_date(Json& metrics) {
   if (!metrics.is_object()) return;
+  tell_unseen_objects_apart(metrics);
   for (const char* list : {"scans", "observations"}) {
     if (!metrics.contains(list) || !metrics[list].is_array()) continue;
     double sum_m = 0.0;

@@ -1,6 +1,6 @@
 /// Run folders of former versions, brought to what their names mean now: in `scans` of metrics.json
 /// and in steps.csv `path_length_m` was the length of the leg to a scan, without a `leg_length_m`,
-/// and steps counted from 0.
+/// and steps counted from 0; a flight along a path told the mean entropy of all objects alone.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -4,6 +4,7 @@
 
 #include "vantage/report/drawn_scene.hpp"
 #include "vantage/sim/render/scene_surfaces.hpp"
+#include "vantage/sim/world/floor_plan.hpp"
 #include "vantage/sim/world/world.hpp"
 
 namespace vantage {
@@ -15,6 +16,11 @@ void write_scene_file(const World& world, const std::filesystem::path& run_dir) 
                                             .vertices_m = std::move(surfaces.vertices_m),
                                             .colours = std::move(surfaces.colours),
                                             .triangles = std::move(surfaces.triangles)});
+}
+
+std::vector<FloorOutline> scene_floor_plan(const ModelSource& source) {
+  const World world(source);
+  return floor_plan(world.model(), world.snapshot());
 }
 
 }  // namespace vantage

@@ -7,6 +7,8 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/scene_file.hpp"
 #include "vantage/study/cluster/worker.hpp"
 #include "vantage/study/figures/flight_figure.hpp"
 #include "vantage/study/results_csv.hpp"
@@ -58,6 +60,16 @@ bool stands_for_its_panel(const StudyResults& results, const PlannedEpisode& epi
   return true;
 }
 
+/// A scene that is not there any more costs a drawing its walls, not the collection its figures.
+std::vector<FloorOutline> room_of(const ResolvedEpisode& episode) {
+  try {
+    return scene_floor_plan(model_source(episode));
+  } catch (const Error& error) {
+    log_warning(fmt::format("figures without walls: {}", error.what()));
+    return {};
+  }
+}
+
 /// One flight for each panel and method.
 void write_flights(const StudyResults& results, const fs::path& folder) {
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
@@ -68,7 +80,8 @@ void write_flights(const StudyResults& results, const fs::path& folder) {
         read_json_or_null(episode_folder(results.directory, episode) / "metrics.json");
     std::string stem = episode.name;
     std::ranges::replace(stem, '/', '-');
-    write_file(folder / "figures" / (stem + ".svg"), flight_svg(metrics, episode.name));
+    write_file(folder / "figures" / (stem + ".svg"),
+               flight_svg(metrics, episode.name, room_of(episode.resolved)));
   }
 }
 

@@ -66,7 +66,8 @@ bool is_asked_for(const std::string& column) {
                                "view_position_error_m",
                                "view_angle_error_rad",
                                "accuracy",
-                               "mean_entropy_nats",
+                               "mean_entropy_observed_nats",
+                               "objects_unseen",
                                "observations",
                                "collided",
                                "minimum_clearance_m",
@@ -227,9 +228,14 @@ TEST(SpeedClaims, AMissingFigureIsNotRun) {
     const Json benchmark = read_json(entry.path());
     figures.emplace(benchmark.at("name").get<std::string>(), benchmark.at("figures"));
   }
+  figures["decision"]["castray_threads"] = 2;  // of former versions 1
   const Findings before = speed_findings(figures);
   for (const Finding& finding : before)
     EXPECT_NE(finding.verdict, Verdict::not_run) << finding.claim;
+  figures["decision"]["castray_threads"] = 1;
+  expect_same_or_not_run(before, speed_findings(figures));
+  EXPECT_EQ(speed_findings(figures)[3].verdict, Verdict::not_run) << "on fewer threads";
+  figures["decision"]["castray_threads"] = 2;
   for (const auto& [name, values] : figures) {
     Figures less = figures;
     less.erase(name);

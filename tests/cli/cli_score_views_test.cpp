@@ -65,8 +65,10 @@ TEST_F(ScoreViewsCommand, TableAndBothFormatsAgree) {
 }
 
 TEST_F(ScoreViewsCommand, EveryGainOfTheListRanks) {
-  for (const char* gain : {"posterior_chain", "visibility_weighted", "occlusion_aware",
-                           "unobserved_voxel", "rear_side_entropy", "fsmi", "unmapped_volume"}) {
+  for (const char* gain :
+       {"posterior_chain", "visibility_weighted", "occlusion_aware", "unobserved_voxel",
+        "rear_side_entropy", "proximity_count", "average_entropy", "area_factor", "fsmi",
+        "unmapped_volume", "frontier_cells"}) {
     const json result = scored("--map room.bt --views views.csv --gain " + std::string(gain));
     EXPECT_EQ(result["views"].size(), 3U) << gain;
   }

@@ -138,6 +138,8 @@ TEST(Measures, OfAFlightPastObjects) {
                        {"status", "failed"},
                        {"objects", {{{"correct", true}}, {{"correct", false}}}},
                        {"accuracy", 0.5},
+                       {"mean_entropy_observed_nats", nullptr},
+                       {"objects_unseen", 2},
                        {"mean_entropy_nats", 1.25},
                        {"observations_total", 9},
                        {"objects_found", 2},
@@ -158,6 +160,8 @@ TEST(Measures, OfAFlightPastObjects) {
   EXPECT_DOUBLE_EQ(*scalar(measures, "accuracy"), 0.5);
   EXPECT_DOUBLE_EQ(*scalar(measures, "observations"), 9.0);
   EXPECT_DOUBLE_EQ(*scalar(measures, "mean_entropy_nats"), 1.25);
+  EXPECT_FALSE(scalar(measures, "mean_entropy_observed_nats")) << "none was observed";
+  EXPECT_DOUBLE_EQ(*scalar(measures, "objects_unseen"), 2.0);
   EXPECT_DOUBLE_EQ(*scalar(measures, "collided"), 1.0);
   EXPECT_DOUBLE_EQ(*scalar(measures, "tracking_error_m"), 0.02);
   EXPECT_DOUBLE_EQ(*scalar(measures, "replan_time_p95_s"), 0.006);

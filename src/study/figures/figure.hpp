@@ -38,6 +38,7 @@ struct Figure {
   std::string x_label;
   std::string y_label;
   std::vector<FigurePanel> panels;
+  double least_x_step = 1.0;  ///< between ticks: 1 where x is a count
   std::string note = "Mean over episodes; band: 95 % bootstrap interval of the mean.";  ///< below
 };
 

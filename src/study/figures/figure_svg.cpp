@@ -22,7 +22,7 @@ constexpr double kBottom = 48.0;
 constexpr double kTitleRow = 21.0;
 constexpr double kTextRow = 17.0;
 constexpr double kLegendRow = 24.0;
-constexpr double kNearZero = 0.35;  ///< curves that fall below this share of their top show zero
+constexpr double kNearZero = 0.35;    ///< curves that fall below this share of their top show zero
 
 constexpr std::string_view kInk = "#16202e";
 constexpr auto kColours =
@@ -90,7 +90,7 @@ struct Frame {
   }
 };
 
-Frame frame_of(const FigurePanel& panel, double left, double top) {
+Frame frame_of(const Figure& figure, const FigurePanel& panel, double left, double top) {
   double low_x = std::numeric_limits<double>::infinity();
   double high_x = -low_x;
   double low_y = low_x;
@@ -105,9 +105,10 @@ Frame frame_of(const FigurePanel& panel, double left, double top) {
   }
   if (low_x > high_x) low_x = high_x = low_y = high_y = 0.0;
   if (low_y > 0.0 && low_y < kNearZero * high_y) low_y = 0.0;
-  Frame frame{left, top, axis_over(low_x, high_x, 10.0, 1.0), axis_over(low_y, high_y, 5.0, 0.0)};
+  Frame frame{left, top, axis_over(low_x, high_x, 10.0, figure.least_x_step),
+              axis_over(low_y, high_y, 5.0, 0.0)};
   frame.x.low = low_x;  // the curves begin at the axis
-  frame.x.high = std::max(high_x, low_x + 1.0);
+  frame.x.high = std::max(high_x, low_x + figure.least_x_step);
   return frame;
 }
 
@@ -172,7 +173,7 @@ std::string line_svg(const FigureSeries& series, const Frame& frame) {
 }
 
 std::string panel_svg(const Figure& figure, const FigurePanel& panel, double left, double top) {
-  const Frame frame = frame_of(panel, left, top);
+  const Frame frame = frame_of(figure, panel, left, top);
   const double middle_y = top + 0.5 * (kPanelHeight + kTop - kBottom);
   std::string svg = svg_line(left + kLeft, top + kTop - 14.0, kPanelWidth - kLeft - kRight,
                              panel.title, {.size_px = 13.5, .bold = true, .colour = kInk});

@@ -6,6 +6,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/runtime/json.hpp"
+#include "vantage/runtime/manifest.hpp"
 #include "vantage/study/recognition/recognition_study.hpp"
 
 namespace vantage {
@@ -23,16 +24,23 @@ Json json_of(const Estimate& e) {
   return {{"mean", e.mean}, {"interval", {e.interval.low, e.interval.high}}};
 }
 
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+/// "-" where there is none.
+std::string number(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
 Json json_of(const MethodSummary& summary) {
   Json json{{"method", summary.method},
             {"accuracy_percent", json_of(summary.accuracy_percent)},
             {"category_percent", summary.category_percent},
             {"observations", json_of(summary.observations)},
-            {"bin_error", json_of(summary.bin_error)},
-            {"features", summary.features},
-            {"feature_time_s", summary.feature_time_s},
-            {"selection_time_s", summary.selection_time_s},
-            {"view_time_s", summary.view_time_s},
+            {"bin_error", summary.bin_error ? json_of(*summary.bin_error) : Json(nullptr)},
+            {"features", json_of(summary.features)},
+            {"feature_time_s", json_of(summary.feature_time_s)},
+            {"selection_time_s", json_of(summary.selection_time_s)},
+            {"view_time_s", json_of(summary.view_time_s)},
             {"differences", Json::array()}};
   for (const PairedEstimate& d : summary.differences) {
     json["differences"].push_back({{"reference", d.reference},
@@ -66,6 +74,7 @@ Json summary_json(const RecognitionStudy& study) {
             {"categories", study.states.categories.size()},
             {"starts", study.options.starts},
             {"seed", study.options.seed},
+            {"commit", version_text()},
             {"methods", Json::array()},
             {"changes", Json::array()}};
   for (const MethodSummary& summary : summaries(study)) json["methods"].push_back(json_of(summary));
@@ -83,10 +92,12 @@ std::string trials_csv(const RecognitionStudy& study) {
   for (const MethodTrials& method : study.methods) {
     for (std::size_t i = 0; i < method.trials.size(); ++i) {
       const Trial& t = method.trials[i];
-      csv += fmt::format("\"{}\",{},{},{},{:d},{:d},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g}\n",
-                         method.method, i, name(t.object), name(t.estimate), t.correct,
-                         t.category_correct, t.observations, t.bin_error, t.features,
-                         t.entropy_bits, t.feature_time_s, t.selection_time_s, t.view_time_s);
+      csv += fmt::format("\"{}\",{},{},{},{:d},{:d},{},", method.method, i, name(t.object),
+                         name(t.estimate), t.correct, t.category_correct, t.observations);
+      csv += method.label_only
+                 ? ",,,,,\n"
+                 : fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", t.bin_error, t.features,
+                               t.entropy_bits, t.feature_time_s, t.selection_time_s, t.view_time_s);
     }
   }
   return csv;
@@ -110,11 +121,15 @@ std::string method_table(const std::vector<MethodSummary>& all) {
       "| method | accuracy % | category % | observations | bin error | features | feature s | "
       "selection s | view s | total s |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const MethodSummary& m : all) {
-    text += fmt::format(
-        "| {} | {} | {:.2f} | {} | {} | {:.2f} | {:.4f} | {:.4f} | {:.4f} | {:.4f} |\n", m.method,
-        with_interval(m.accuracy_percent), m.category_percent, with_interval(m.observations),
-        with_interval(m.bin_error), m.features, m.feature_time_s, m.selection_time_s, m.view_time_s,
-        m.feature_time_s + m.selection_time_s + m.view_time_s);
+    const std::optional<double> total_s =
+        m.feature_time_s ? std::optional(*m.feature_time_s + *m.selection_time_s + *m.view_time_s)
+                         : std::nullopt;
+    text +=
+        fmt::format("| {} | {} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n", m.method,
+                    with_interval(m.accuracy_percent), m.category_percent,
+                    with_interval(m.observations), m.bin_error ? with_interval(*m.bin_error) : "-",
+                    number(m.features, 2), number(m.feature_time_s, 4),
+                    number(m.selection_time_s, 4), number(m.view_time_s, 4), number(total_s, 4));
   }
   return text;
 }

@@ -111,7 +111,8 @@ MethodTrials svm_trials(const Svm& svm, const ObjectStates& states,
   for (const int state : states_shown(training, states)) label.push_back(states.object_of(state));
   const std::vector<int> predicted =
       svm_predictions(svm, {.views = training, .label = label}, trials.test.views);
-  MethodTrials result{.method = std::string(strategy_name_of(svm)), .trials = {}};
+  MethodTrials result{
+      .method = std::string(strategy_name_of(svm)), .trials = {}, .label_only = true};
   for (const Start& start : trials.starts) {
     const int object = states.object_of(trials.test.shown[start.view]);
     const int estimate = predicted[start.view];
@@ -174,20 +175,21 @@ PairedEstimate paired(const MethodTrials& method, const MethodTrials& reference,
 
 MethodSummary summary_of(const MethodTrials& method, std::uint64_t seed) {
   const auto mean_of = [&](auto&& value) { return mean(values_of(method, value)); };
-  return {
+  MethodSummary summary{
       .method = method.method,
       .accuracy_percent =
           estimate_of(values_of(method, percent_correct), seed, "accuracy " + method.method),
       .category_percent = mean_of([](const Trial& t) { return t.category_correct ? 100.0 : 0.0; }),
       .observations = estimate_of(values_of(method, [](const Trial& t) { return t.observations; }),
-                                  seed, "observations " + method.method),
-      .bin_error = estimate_of(values_of(method, [](const Trial& t) { return t.bin_error; }), seed,
-                               "bin error " + method.method),
-      .features = mean_of([](const Trial& t) { return t.features; }),
-      .feature_time_s = mean_of([](const Trial& t) { return t.feature_time_s; }),
-      .selection_time_s = mean_of([](const Trial& t) { return t.selection_time_s; }),
-      .view_time_s = mean_of([](const Trial& t) { return t.view_time_s; }),
-      .differences = {}};
+                                  seed, "observations " + method.method)};
+  if (method.label_only) return summary;
+  summary.bin_error = estimate_of(values_of(method, [](const Trial& t) { return t.bin_error; }),
+                                  seed, "bin error " + method.method);
+  summary.features = mean_of([](const Trial& t) { return t.features; });
+  summary.feature_time_s = mean_of([](const Trial& t) { return t.feature_time_s; });
+  summary.selection_time_s = mean_of([](const Trial& t) { return t.selection_time_s; });
+  summary.view_time_s = mean_of([](const Trial& t) { return t.view_time_s; });
+  return summary;
 }
 
 }  // namespace

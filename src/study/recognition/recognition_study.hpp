@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct RecognitionStudyOptions {
 struct MethodTrials {
   std::string method;
   std::vector<Trial> trials;  ///< one a start
+  /// A classifier tells an object and nothing else: no pose, no entropy, no cost.
+  bool label_only = false;
 };
 
 struct RecognitionStudy {
@@ -80,12 +83,13 @@ struct MethodSummary {
   Estimate accuracy_percent;
   double category_percent = 0.0;
   Estimate observations;
-  Estimate bin_error;
-  double features = 0.0;  ///< extracted, a trial; so are the times
-  double feature_time_s = 0.0;
-  double selection_time_s = 0.0;
-  double view_time_s = 0.0;
-  std::vector<PairedEstimate> differences;  ///< to random views and the single view
+  // Nothing of a method that tells labels only:
+  std::optional<Estimate> bin_error = {};
+  std::optional<double> features = {};  ///< extracted, a trial; so are the times
+  std::optional<double> feature_time_s = {};
+  std::optional<double> selection_time_s = {};
+  std::optional<double> view_time_s = {};
+  std::vector<PairedEstimate> differences = {};  ///< to random views and the single view
 };
 std::vector<MethodSummary> summaries(const RecognitionStudy& study);
 

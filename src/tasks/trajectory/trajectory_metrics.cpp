@@ -95,6 +95,27 @@ Json found_json(const RecognisedObject& found, const TrajectoryParts& run) {
           {"object", nullptr}};
 }
 
+/// An object never observed has the prior's entropy, which would drown that of the others: so the
+/// observed ones are told apart.
+void add_entropies(Json& metrics) {
+  double observed = 0.0;
+  double observed_nats = 0.0;
+  double all = 0.0;
+  double all_nats = 0.0;
+  for (const Json& object : metrics["objects"]) {
+    const double nats = object["entropy_nats"].get<double>();
+    all += 1.0;
+    all_nats += nats;
+    if (object["observations"].get<int>() == 0) continue;
+    observed += 1.0;
+    observed_nats += nats;
+  }
+  metrics["mean_entropy_observed_nats"] =
+      observed > 0.0 ? Json(observed_nats / observed) : Json(nullptr);
+  metrics["objects_unseen"] = static_cast<int>(all - observed);
+  metrics["mean_entropy_nats"] = all_nats / std::max(all, 1.0);
+}
+
 void add_planning(Json& json, const std::vector<WaypointRecord>& records) {
   std::vector<double> time_s;
   int late = 0;
@@ -139,7 +160,14 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      [](const MeasuredEpisode& e) { return number_of(e, "accuracy"); }},
     {{"observations", "observations of all objects"},
      [](const MeasuredEpisode& e) { return number_of(e, "observations_total"); }},
-    {{"mean_entropy_nats", "mean entropy of the scene's objects at the end, nats", Better::lower},
+    {{"mean_entropy_observed_nats", "mean entropy of the scene's objects that were observed, nats",
+      Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "mean_entropy_observed_nats"); }},
+    {{"objects_unseen", "objects of the scene never observed", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "objects_unseen"); }},
+    {{"mean_entropy_nats",
+      "mean entropy of all of the scene's objects, that of the prior for those never observed, "
+      "nats"},
      [](const MeasuredEpisode& e) { return number_of(e, "mean_entropy_nats"); }},
     {{"objects_found", "objects of the scene found", Better::higher},
      [](const MeasuredEpisode& e) { return number_of(e, "objects_found"); }},
@@ -165,7 +193,7 @@ const auto kScalars = std::to_array<ScalarMeasure>({
 });
 
 constexpr auto kHeadlines = std::to_array<std::string_view>(
-    {"accuracy", "mean_entropy_nats", "objects_found", "path_length_m", "flight_time_s",
+    {"accuracy", "mean_entropy_observed_nats", "objects_unseen", "path_length_m", "flight_time_s",
      "minimum_clearance_m", "collisions"});
 
 }  // namespace
@@ -177,18 +205,15 @@ void add_trajectory_metrics(const FlightTruth& truth, const TrajectoryParts& run
   metrics["found"] = Json::array();
   for (const RecognisedObject& object : found) metrics["found"].push_back(found_json(object, run));
   double correct = 0.0;
-  double sum_nats = 0.0;
   for (std::size_t i = 0; i < match.size(); ++i) {
     const RecognisedObject* object =
         match[i] < 0 ? nullptr : &found[static_cast<std::size_t>(match[i])];
     const Json& entry = metrics["objects"].emplace_back(object_json(truth.objects[i], object, run));
     if (object != nullptr) metrics["found"][static_cast<std::size_t>(match[i])]["object"] = i;
     correct += entry["correct"].get<bool>() ? 1.0 : 0.0;
-    sum_nats += entry["entropy_nats"].get<double>();
   }
-  const auto count = static_cast<double>(std::max<std::size_t>(match.size(), 1));
-  metrics["accuracy"] = correct / count;
-  metrics["mean_entropy_nats"] = sum_nats / count;
+  metrics["accuracy"] = correct / static_cast<double>(std::max<std::size_t>(match.size(), 1));
+  add_entropies(metrics);
   metrics["objects_found"] = std::ranges::count_if(match, [](int m) { return m >= 0; });
   metrics["false_objects"] = found.size() - metrics["objects_found"].get<std::size_t>();
   metrics["observations_total"] = run.observations().total();
@@ -204,17 +229,20 @@ void add_trajectory_metrics(const FlightTruth& truth, const TrajectoryParts& run
 
 std::string trajectory_outcome(const Json& metrics) {
   const auto number = [&](const char* key) { return metrics[key].get<double>(); };
+  const Json& observed_nats = metrics["mean_entropy_observed_nats"];
   int correct = 0;
   for (const auto& object : metrics["objects"]) correct += object["correct"].get<bool>() ? 1 : 0;
   return fmt::format(
       "{}: {} after {:.1f} s, recognised {} of {} objects in {} observations\n"
-      "mean entropy {:.3f} nats, clearance {:.2f} m, path {:.2f} m, {} collisions, {:.1f} x real "
+      "mean entropy {} nats of the objects observed, {} unseen, clearance {:.2f} m, path {:.2f} m, "
+      "{} collisions, {:.1f} x real "
       "time\n",
       metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
       number("flight_time_s"), correct, metrics["objects"].size(),
-      metrics["observations_total"].get<int>(), number("mean_entropy_nats"),
-      number("minimum_clearance_m"), number("path_length_m"), metrics["collisions"].get<int>(),
-      number("real_time_factor"));
+      metrics["observations_total"].get<int>(),
+      observed_nats.is_null() ? "-" : fmt::format("{:.3f}", observed_nats.get<double>()),
+      metrics["objects_unseen"].get<int>(), number("minimum_clearance_m"), number("path_length_m"),
+      metrics["collisions"].get<int>(), number("real_time_factor"));
 }
 
 Measures trajectory_measures() { return {kScalars, {}, nullptr, kHeadlines}; }

@@ -93,7 +93,12 @@ RecordTexts trajectory_records() {
       {kMetrics, "found[].entropy_nats", "of what it is"},
       {kMetrics, "found[].object", "index into objects; null: nothing stands there"},
       {kMetrics, "accuracy", "share of the scene's objects that were recognised"},
-      {kMetrics, "mean_entropy_nats", "of the scene's objects, those never seen included"},
+      {kMetrics, "mean_entropy_observed_nats",
+       "of the scene's objects that were observed; null: none"},
+      {kMetrics, "objects_unseen", "of the scene, never observed"},
+      {kMetrics, "mean_entropy_nats",
+       "of all of the scene's objects; one never observed has that of the prior, ln of the number "
+       "of objects known to the model"},
       {kMetrics, "objects_found", "of the scene"},
       {kMetrics, "false_objects", "found where nothing stands"},
       {kMetrics, "observations_total", "of all objects"},

@@ -50,7 +50,7 @@ TEST(RecognitionStudy, SummariesAreMeansAndPairedDifferences) {
   EXPECT_DOUBLE_EQ(all[1].accuracy_percent.mean, 75.0);
   EXPECT_DOUBLE_EQ(all[1].category_percent, 100.0);
   EXPECT_DOUBLE_EQ(all[1].observations.mean, 3.0);
-  EXPECT_DOUBLE_EQ(all[1].bin_error.mean, 0.5);
+  EXPECT_DOUBLE_EQ(all[1].bin_error->mean, 0.5);
   ASSERT_EQ(all[2].differences.size(), 2U);
   EXPECT_EQ(all[2].differences[0].reference, "single view, all features");
   EXPECT_DOUBLE_EQ(all[2].differences[0].accuracy_percent.mean, 50.0);
@@ -66,6 +66,23 @@ TEST(RecognitionStudy, ChangesCountWhatWasSeenAndWhatItWas) {
   EXPECT_DOUBLE_EQ(study.changes[0].kind_accuracy(), 0.5);
   EXPECT_DOUBLE_EQ(study.changes[0].detectable_accuracy(), 0.5);
   EXPECT_DOUBLE_EQ(study.changes[0].detectable_share(), 0.5);
+}
+
+TEST(RecognitionStudy, AClassifierHasNoFiguresOfPoseAndCost) {
+  RecognitionStudy study = small_study();
+  study.methods.push_back(method("linear_svm", 3, 1));
+  study.methods.back().label_only = true;
+  EXPECT_THAT(recognition_tables(study),
+              HasSubstr("100.00 | 1.00 [1.00, 1.00] | - | - | - | - | - | - |\n"));
+  const support::TemporaryDirectory folder;
+  write_recognition_study(study, folder.path() / "out");
+  const std::string csv = read_file(folder.path() / "out" / "results.csv");
+  EXPECT_THAT(csv, HasSubstr("\"linear_svm\",0,cup_1,cup_1,1,1,1,,,,,,\n"));
+  const auto summary =
+      nlohmann::json::parse(read_file(folder.path() / "out" / "summary.json"))["methods"];
+  EXPECT_TRUE(summary[3]["bin_error"].is_null());
+  EXPECT_TRUE(summary[3]["feature_time_s"].is_null());
+  EXPECT_TRUE(summary[2]["feature_time_s"].is_number());
 }
 
 TEST(RecognitionStudy, FilesHoldARowATrialAndATable) {

@@ -109,8 +109,9 @@ TEST_F(TrajectoryEpisode, SaysWhatTheContractAsksFor) {
     EXPECT_GE(object["entropy_nats"], 0.0);
     EXPECT_EQ(object["observations"], object["looks"].size());
   }
-  for (const char* key : {"flight_time_s", "minimum_clearance_m", "energy_j", "accuracy",
-                          "mean_entropy_nats", "observations_total"}) {
+  for (const char* key :
+       {"flight_time_s", "minimum_clearance_m", "energy_j", "accuracy", "mean_entropy_nats",
+        "mean_entropy_observed_nats", "objects_unseen", "observations_total"}) {
     EXPECT_TRUE(first_[key].is_number()) << key;
   }
   EXPECT_LE(first_["tracking_error_m"]["mean"], 0.05);
@@ -146,6 +147,21 @@ TEST_F(TrajectoryEpisode, FindsWhatItFliesPastAndLooksAtItOnceADirection) {
   const json& far = first_["objects"][2];
   EXPECT_FALSE(far["correct"]) << "behind it, all the time";
   EXPECT_NEAR(far["entropy_nats"], std::log(4.0), 1e-9) << "as before the flight";
+}
+
+TEST_F(TrajectoryEpisode, TellsTheEntropyOfWhatItObservedApart) {
+  int unseen = 0;
+  double observed_nats = 0.0;
+  for (const json& object : first_["objects"]) {
+    const bool seen = !object["looks"].empty();
+    unseen += seen ? 0 : 1;
+    observed_nats += seen ? object["entropy_nats"].get<double>() : 0.0;
+  }
+  ASSERT_GT(unseen, 0);
+  ASSERT_LT(unseen, 4);
+  EXPECT_EQ(first_["objects_unseen"], unseen);
+  EXPECT_NEAR(first_["mean_entropy_observed_nats"], observed_nats / (4 - unseen), 1e-9);
+  EXPECT_NEAR(first_["mean_entropy_nats"], (observed_nats + unseen * std::log(4.0)) / 4.0, 1e-9);
 }
 
 TEST_F(TrajectoryEpisode, ASmallerQuadrotorFliesTheSamePath) {
