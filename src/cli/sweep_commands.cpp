@@ -9,6 +9,7 @@
 #include <string>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/sweep/cluster_verbs.hpp"
 #include "vantage/cli/sweep/verbs.hpp"
 #include "vantage/study/compare.hpp"

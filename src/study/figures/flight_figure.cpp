@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "vantage/study/figures/svg_text.hpp"
+#include "vantage/report/page.hpp"
 
 namespace vantage {
 namespace {
