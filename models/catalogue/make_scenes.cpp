@@ -9,6 +9,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/flight/flight_mjcf.hpp"
 #include "vantage/models/catalogue/office/office_mjcf.hpp"
+#include "vantage/models/catalogue/table/clutter_scene.hpp"
 #include "vantage/models/catalogue/table/scene_mjcf.hpp"
 
 int main(int argc, char** argv) {
@@ -21,6 +22,10 @@ int main(int argc, char** argv) {
     const std::filesystem::path scenes = argv[1];
     for (const auto& options : vantage::standard_scenes()) {
       vantage::write_scene(vantage::make_table_scene(options), scenes / options.name);
+      fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
+    }
+    for (const auto& options : vantage::clutter_scenes()) {
+      vantage::write_scene(vantage::make_clutter_scene(options), scenes / options.name);
       fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
     }
     for (const auto& options : vantage::office_scenes()) {

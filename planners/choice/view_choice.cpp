@@ -52,6 +52,15 @@ std::size_t GainOverDistance::operator()(std::span<const Candidate> candidates,
   });
 }
 
+ViewChoice within_scans_left(ViewChoice choice, int scans_left) {
+  expects(scans_left >= 1, "a view is chosen for a scan");
+  const auto limit = [&]<class C>(C& c) {
+    if constexpr (requires { c.depth; }) c.depth = std::min(c.depth, scans_left);
+  };
+  std::visit(limit, choice);
+  return choice;
+}
+
 std::vector<std::size_t> open_candidates(std::span<const Candidate> candidates) {
   expects(!candidates.empty(), "choose_view needs a candidate");
   std::vector<std::size_t> open;

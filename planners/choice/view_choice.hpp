@@ -17,6 +17,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/core/strategy.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/choice/oracle_lookahead.hpp"
 
 namespace vantage {
 
@@ -48,7 +49,8 @@ struct OracleView {
   static constexpr StrategyText text{
       .summary =
           "Takes the view that will really show most new cells, which it knows from ground truth: "
-          "an upper bound of choices that look one step ahead.",
+          "the best that is to be had from the next scan alone. No upper bound of an episode: "
+          "another choice may do better over several scans, see `oracle_lookahead`.",
       .formula = "argmax of the true number of new cells"};
   static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
@@ -86,8 +88,8 @@ struct GainOverDistance {
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
-using ViewChoice =
-    std::variant<RandomView, GreedyGain, OracleView, NearestFrontier, GainOverDistance>;
+using ViewChoice = std::variant<RandomView, GreedyGain, OracleView, OracleLookahead,
+                                NearestFrontier, GainOverDistance>;
 template <>
 inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
 
@@ -95,6 +97,15 @@ inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
 inline bool weighs_gain(const ViewChoice& choice) {
   return std::visit([](const auto& c) { return c.weighs_gain; }, choice);
 }
+
+/// Whether it asks for ground truth: Candidate::true_new_cells or true_new_cell_set.
+inline bool knows_truth(const ViewChoice& choice) {
+  return std::holds_alternative<OracleView>(choice) ||
+         std::holds_alternative<OracleLookahead>(choice);
+}
+
+/// The same choice, which plans no further ahead than the scans that are left (at least 1).
+ViewChoice within_scans_left(ViewChoice choice, int scans_left);
 
 /// What chooses: one of the variant, or a function of your own.
 template <class C>

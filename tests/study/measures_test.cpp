@@ -53,6 +53,16 @@ TEST(Measures, AreaSumsTheShareLeft) {
   EXPECT_DOUBLE_EQ(*scalar(full, "observed_share"), 0.8);
 }
 
+/// The first scan is taken before any choice.
+TEST(Measures, AreaFromScanTwoLeavesTheFirstScanOut) {
+  EXPECT_DOUBLE_EQ(*scalar(measure(metrics("adaptive"), planned_scans(3)), "area_from_scan_2"),
+                   0.3 + 0.2);
+  EXPECT_DOUBLE_EQ(*scalar(measure(metrics("adaptive"), planned_scans(5)), "area_from_scan_2"),
+                   0.3 + 3 * 0.2);
+  EXPECT_DOUBLE_EQ(*scalar(measure(metrics("adaptive"), planned_scans(1)), "area_from_scan_2"),
+                   0.0);
+}
+
 TEST(Measures, AnEpisodeThatEndsEarlyKeepsItsLastShare) {
   const auto early = measure(metrics("adaptive"), planned_scans(5));
   EXPECT_DOUBLE_EQ(*scalar(early, "area"), 0.6 + 0.3 + 3 * 0.2);

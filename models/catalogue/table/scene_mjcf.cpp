@@ -45,21 +45,29 @@ constexpr std::string_view kRoom =
       <geom name="room/wall_north" type="box" pos="0 3.05 1.25" size="3 0.05 1.25" material="wall"/>
       <geom name="room/wall_south" type="box" pos="0 -3.05 1.25" size="3 0.05 1.25" material="wall"/>
     </body>
-    <body name="table">
-      <geom name="table/top" type="box" pos="0 0 0.7" size="0.5 0.5 0.02" material="wood"/>
-      <geom name="table/leg_0" type="box" pos="0.455 0.455 0.34" size="0.025 0.025 0.34" material="wood"/>
-      <geom name="table/leg_1" type="box" pos="-0.455 0.455 0.34" size="0.025 0.025 0.34" material="wood"/>
-      <geom name="table/leg_2" type="box" pos="-0.455 -0.455 0.34" size="0.025 0.025 0.34" material="wood"/>
-      <geom name="table/leg_3" type="box" pos="0.455 -0.455 0.34" size="0.025 0.025 0.34" material="wood"/>
-    </body>
 )";
 
-struct Board {
-  std::string_view name;
-  Vector3d centre_m;
-  Vector3d half_m;
-  std::string_view material = "dark_wood";
-};
+constexpr std::string_view kBoxAssets =
+    R"(    <material name="pine" texture="wood" rgba="1 0.93 0.8 1" specular="0.1" shininess="0.2"/>
+    <material name="cardboard" rgba="0.72 0.56 0.38 1" specular="0"/>
+)";
+
+std::string table_body(double top_m) {
+  constexpr double kHalfThickness_m = 0.02;
+  std::string text = fmt::format(
+      "    <body name=\"table\">\n      <geom name=\"table/top\" type=\"box\" pos=\"0 0 {:.4g}\" "
+      "size=\"0.5 0.5 {}\" material=\"wood\"/>\n",
+      top_m - kHalfThickness_m, kHalfThickness_m);
+  const double half_leg_m = 0.5 * top_m - kHalfThickness_m;
+  for (int leg = 0; leg < 4; ++leg) {
+    text += fmt::format(
+        "      <geom name=\"table/leg_{}\" type=\"box\" pos=\"{} {} {:.4g}\" "
+        "size=\"0.025 0.025 {:.4g}\" material=\"wood\"/>\n",
+        leg, leg == 0 || leg == 3 ? 0.455 : -0.455, leg < 2 ? 0.455 : -0.455, half_leg_m,
+        half_leg_m);
+  }
+  return text + "    </body>\n";
+}
 
 std::vector<Board> boards(Furniture::Kind kind) {
   using enum Furniture::Kind;
@@ -94,20 +102,29 @@ std::string_view kind_name(Furniture::Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string furniture_body(const Furniture& furniture, std::size_t index) {
-  const std::string name = fmt::format("{}_{:02}", kind_name(furniture.kind), index);
-  const Pose2& pose = furniture.T_world_furniture;
+std::string body_of_boards(const std::string& name, const Pose2& pose, const std::string& z_m,
+                           const std::vector<Board>& boards) {
   std::string text =
-      fmt::format("    <body name=\"{}\" pos=\"{:.4f} {:.4f} 0\" euler=\"0 0 {:.4f}\">\n", name,
-                  pose.x_m, pose.y_m, pose.yaw_rad);
-  for (const Board& board : boards(furniture.kind)) {
+      fmt::format("    <body name=\"{}\" pos=\"{:.4f} {:.4f} {}\" euler=\"0 0 {:.4f}\">\n", name,
+                  pose.x_m, pose.y_m, z_m, pose.yaw_rad);
+  for (const Board& board : boards) {
     text += fmt::format(
-        "      <geom name=\"{}/{}\" type=\"box\" pos=\"{} {} {}\" size=\"{} {} {}\" "
-        "material=\"{}\"/>\n",
+        "      <geom name=\"{}/{}\" type=\"box\" pos=\"{:.6g} {:.6g} {:.6g}\" "
+        "size=\"{:.6g} {:.6g} {:.6g}\" material=\"{}\"/>\n",
         name, board.name, board.centre_m.x(), board.centre_m.y(), board.centre_m.z(),
         board.half_m.x(), board.half_m.y(), board.half_m.z(), board.material);
   }
   return text + "    </body>\n";
+}
+
+std::string furniture_body(const Furniture& furniture, std::size_t index) {
+  return body_of_boards(fmt::format("{}_{:02}", kind_name(furniture.kind), index),
+                        furniture.T_world_furniture, "0", boards(furniture.kind));
+}
+
+std::string box_body(const OpenBox& box, std::size_t index, double top_m) {
+  return body_of_boards(fmt::format("open_{}_{:02}", kind_name(box.kind), index), box.T_world_box,
+                        fmt::format("{}", top_m), boards(box));
 }
 
 std::string object_assets(const PlacedObject& placed) {
@@ -149,13 +166,18 @@ std::string to_mjcf(const TableScene& scene) {
   text += kHead;
   text += "  <asset>\n";
   text += kRoomAssets;
+  if (!scene.boxes.empty()) text += kBoxAssets;
   for (const PlacedObject& placed : scene.objects) text += object_assets(placed);
   text += "  </asset>\n  <worldbody>\n";
   text += kRoom;
+  text += table_body(scene.top_m);
   text += mjcf_camera("overview", {2.95, -2.95, 3.4}, {0.0, 0.0, 0.45}, Vector3d::UnitZ(), 44.0);
   text += mjcf_camera("top", {0.0, 0.0, 4.8}, Vector3d::Zero(), Vector3d::UnitY(), 45.0);
   for (std::size_t i = 0; i < scene.furniture.size(); ++i) {
     text += furniture_body(scene.furniture[i], i);
+  }
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    text += box_body(scene.boxes[i], i, scene.top_m);
   }
   for (const PlacedObject& placed : scene.objects) text += object_body(placed);
   return text + "  </worldbody>\n</mujoco>\n";

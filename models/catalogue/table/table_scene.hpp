@@ -9,6 +9,7 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/models/catalogue/objects/families.hpp"
+#include "vantage/models/catalogue/table/open_box.hpp"
 
 namespace vantage {
 
@@ -55,6 +56,8 @@ struct TableScene {
   std::uint64_t seed = 0;
   std::vector<PlacedObject> objects;
   std::vector<Furniture> furniture;
+  std::vector<OpenBox> boxes = {};  ///< on the table
+  double top_m = kTableTop_m;       ///< z of the surface things stand on
 };
 
 /// Objects of different categories, without footprints touching except within a stack.

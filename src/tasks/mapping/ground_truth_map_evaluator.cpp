@@ -1,6 +1,7 @@
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +20,29 @@ std::size_t count_unobserved(const OccupancyGrid& grid, std::span<const std::uin
     count += among[cell] != 0 && grid.state(cell) == CellState::unobserved ? 1 : 0;
   }
   return count;
+}
+
+/// 1 for each cell that the map knows.
+std::vector<std::uint8_t> known_cells(const OccupancyGrid& grid) {
+  std::vector<std::uint8_t> known(grid.size());
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    known[cell] = grid.state(cell) == CellState::unobserved ? 0 : 1;
+  }
+  return known;
+}
+
+/// Of the flags that are 0 or 1.
+CellSet set_of(std::span<const std::uint8_t> flags) {
+  CellSet set((flags.size() + 63) / 64);
+  for (std::size_t cell = 0; cell < flags.size(); ++cell) {
+    set[cell / 64] |= std::uint64_t{flags[cell]} << (cell % 64);
+  }
+  return set;
+}
+
+CellSet without(CellSet set, const CellSet& others) {
+  for (std::size_t i = 0; i < set.size(); ++i) set[i] &= ~others[i];
+  return set;
 }
 
 }  // namespace
@@ -42,15 +66,38 @@ void GroundTruthMapEvaluator::add_observable(std::span<const Pose> T_world_senso
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));
 }
 
+void GroundTruthMapEvaluator::remember_visible(std::span<const Pose> T_world_sensors) {
+  const std::vector<std::uint8_t> nothing(frame_.size(), 0);
+  for (const Pose& pose : T_world_sensors) {
+    throw_if_interrupted();
+    remembered_.push_back({pose, visible_unless(nothing, pose)});
+  }
+}
+
+CellSet GroundTruthMapEvaluator::visible_unless(const std::vector<std::uint8_t>& known,
+                                                const Pose& T_world_sensor) const {
+  std::vector<std::uint8_t> shown = known;
+  add_visible_cells(truth_.geometry(), frame_, T_world_sensor, field_of_view_, shown, -1, threads_);
+  return without(set_of(shown), set_of(known));
+}
+
+CellSet GroundTruthMapEvaluator::true_new_cell_set(const OccupancyGrid& grid,
+                                                   const Pose& T_world_sensor) const {
+  const std::vector<std::uint8_t> known = known_cells(grid);
+  const auto found = std::ranges::find_if(remembered_, [&](const Remembered& remembered) {
+    return remembered.T_world_sensor.matrix() == T_world_sensor.matrix();
+  });
+  if (found == remembered_.end()) return visible_unless(known, T_world_sensor);
+  return without(found->visible, set_of(known));
+}
+
 std::size_t GroundTruthMapEvaluator::true_new_cells(const OccupancyGrid& grid,
                                                     const Pose& T_world_sensor) const {
-  std::vector<std::uint8_t> known(grid.size());
-  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-    known[cell] = grid.state(cell) == CellState::unobserved ? 0 : 1;
+  std::size_t count = 0;
+  for (const std::uint64_t word : true_new_cell_set(grid, T_world_sensor)) {
+    count += static_cast<std::size_t>(std::popcount(word));
   }
-  const auto before = std::ranges::count(known, std::uint8_t{1});
-  add_visible_cells(truth_.geometry(), frame_, T_world_sensor, field_of_view_, known, -1, threads_);
-  return static_cast<std::size_t>(std::ranges::count(known, std::uint8_t{1}) - before);
+  return count;
 }
 
 std::size_t GroundTruthMapEvaluator::observable_unobserved(const OccupancyGrid& grid) const {

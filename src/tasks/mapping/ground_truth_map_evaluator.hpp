@@ -8,6 +8,7 @@
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/planners/candidate.hpp"
 #include "vantage/tasks/mapping/scan_record.hpp"
 
 namespace vantage {
@@ -23,7 +24,7 @@ struct ScanPoses {
 };
 
 /// The only one who holds a map against the truth. Whoever decides may hand it a record to fill in,
-/// and learns nothing by that; the choice `oracle` asks it, which is an upper bound and says so.
+/// and learns nothing by that; the choices `oracle` and `oracle_lookahead` ask it, and say so.
 class GroundTruthMapEvaluator {
  public:
   /// Nothing is observable yet. `truth` must outlive it.
@@ -32,9 +33,16 @@ class GroundTruthMapEvaluator {
   /// Makes observable what a noise-free sensor sees from at least one of the poses.
   void add_observable(std::span<const Pose> T_world_sensors);
 
+  /// Works out once what is really visible from each of these poses, as things stand now. The
+  /// answers below stay the same, and take no time for a pose that is among them.
+  void remember_visible(std::span<const Pose> T_world_sensors);
+
   /// Unobserved cells that a view would really show.
   [[nodiscard]] std::size_t true_new_cells(const OccupancyGrid& grid,
                                            const Pose& T_world_sensor) const;
+  /// The same, cell by cell.
+  [[nodiscard]] CellSet true_new_cell_set(const OccupancyGrid& grid,
+                                          const Pose& T_world_sensor) const;
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
   [[nodiscard]] std::size_t observable_unobserved(const OccupancyGrid& grid) const;
   [[nodiscard]] MapScore score(const OccupancyGrid& grid, int tolerance_cells) const;
@@ -47,12 +55,20 @@ class GroundTruthMapEvaluator {
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
 
  private:
+  struct Remembered {
+    Pose T_world_sensor;
+    CellSet visible;
+  };
+  [[nodiscard]] CellSet visible_unless(const std::vector<std::uint8_t>& known,
+                                       const Pose& T_world_sensor) const;
+
   const MobileGroundTruth& truth_;
   GridFrame frame_;
   FieldOfView field_of_view_;
   int threads_;
   std::vector<std::uint8_t> observable_;
   std::vector<std::uint8_t> surface_;
+  std::vector<Remembered> remembered_;
   std::size_t observable_count_ = 0;
 };
 

@@ -108,13 +108,14 @@ PredictionErrors prediction_errors(const MeasuredEpisode& episode) {
   return errors;
 }
 
-/// Sum over the planned scans of the share of observable cells left; an episode that ends early has
-/// learnt all it could, so its last share counts for the rest.
-Scalar area(const MeasuredEpisode& episode) {
+/// Sum over the planned scans, from number `first` on (counted from 1), of the share of observable
+/// cells left; an episode that ends early has learnt all it could, so its last share counts for the
+/// rest.
+Scalar area_from(const MeasuredEpisode& episode, std::size_t first) {
   const Curve shares = share_left(episode);
   if (shares.empty()) return {};
   double sum = 0.0;
-  for (std::size_t k = 0; k < episode.planned_steps; ++k) {
+  for (std::size_t k = first - 1; k < episode.planned_steps; ++k) {
     sum += shares[std::min(k, shares.size() - 1)];
   }
   return sum;
@@ -157,7 +158,13 @@ Scalar map_score(const MeasuredEpisode& episode, const char* key) {
 }
 
 const auto kScalars = std::to_array<ScalarMeasure>({
-    {{"area", "area under the curve of observable cells left, scans", Better::lower}, area},
+    {{"area", "area under the curve of observable cells left, scans", Better::lower},
+     [](const MeasuredEpisode& e) { return area_from(e, 1); }},
+    {{"area_from_scan_2",
+      "area under the curve of observable cells left from the second scan on, the first chosen by "
+      "the method, scans",
+      Better::lower},
+     [](const MeasuredEpisode& e) { return area_from(e, 2); }},
     {{"observed_share", "share of the observable cells observed at the end", Better::higher},
      observed_share},
     {{"scans_to_95", "scans until 95 % of the observable cells are observed", Better::lower},

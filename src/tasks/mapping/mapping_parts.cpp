@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "vantage/core/log.hpp"
 #include "vantage/core/names.hpp"
@@ -179,15 +180,29 @@ void MappingParts::score(std::vector<Candidate>& candidates) {
     const auto gains = gains_bits(options_.gain, candidates);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }
-  if (!std::holds_alternative<OracleView>(options_.choice)) return;
-  for (Candidate& candidate : candidates) {
-    candidate.true_new_cells =
-        static_cast<double>(evaluator_.true_new_cells(belief_.grid(), candidate.T_world_sensor));
+  tell_truth(candidates);
+}
+
+/// What each view will really show, for the choices that are meant to know.
+void MappingParts::tell_truth(std::vector<Candidate>& candidates) const {
+  const OccupancyGrid& grid = belief_.grid();
+  if (std::holds_alternative<OracleView>(options_.choice)) {
+    for (Candidate& view : candidates) {
+      view.true_new_cells =
+          static_cast<double>(evaluator_.true_new_cells(grid, view.T_world_sensor));
+    }
+  } else if (std::holds_alternative<OracleLookahead>(options_.choice)) {
+    for (Candidate& view : candidates) {
+      view.true_new_cell_set =
+          std::make_shared<CellSet>(evaluator_.true_new_cell_set(grid, view.T_world_sensor));
+    }
   }
 }
 
 std::size_t MappingParts::choose(const std::vector<Candidate>& candidates) {
-  const std::size_t chosen = choose_view(options_.choice, candidates, choice_rng_);
+  const int scans_left = std::max(1, options_.scans - static_cast<int>(scans_.size()));
+  const ViewChoice choice = within_scans_left(options_.choice, scans_left);
+  const std::size_t chosen = choose_view(choice, candidates, choice_rng_);
   current_.candidates = candidates.size();
   current_.plan_time_s = wall_s() - decision_start_s_;
   recorder_.decision(candidates, chosen, options_.gain);

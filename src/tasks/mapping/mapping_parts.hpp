@@ -21,7 +21,7 @@ namespace vantage {
 struct MappingContext {
   const EpisodeOptions& options;
   MobileRobotInterface& robot;
-  const GroundTruthMapEvaluator& evaluator;  ///< asked when recording, and by the choice `oracle`
+  const GroundTruthMapEvaluator& evaluator;  ///< asked when recording, and by the oracles
   MappingRecorder& recorder;
 };
 
@@ -86,6 +86,7 @@ class MappingParts {
   std::vector<ScanRecord> scans_;
 
  private:
+  void tell_truth(std::vector<Candidate>& candidates) const;
   [[nodiscard]] MapPanelInput panel() const;
   [[nodiscard]] double map_sigma_m() const;
   [[nodiscard]] BlockField transmission() const;

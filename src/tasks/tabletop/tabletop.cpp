@@ -26,6 +26,7 @@ GroundTruthMapEvaluator tabletop_evaluator(const Tabletop& task, int threads,
   std::vector<Pose> T_world_views;
   for (const Candidate& view : tabletop_views(task)) T_world_views.push_back(view.T_world_sensor);
   evaluator.add_observable(T_world_views);
+  if (knows_truth(task.choice)) evaluator.remember_visible(T_world_views);
   if (evaluator.observable_cells() == 0) {
     log_warning("map: none of the views sees any of its cells");
   }

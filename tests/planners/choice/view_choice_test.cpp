@@ -18,6 +18,7 @@ Candidate view(int id, double gain_bits, double path_length_m, double true_new_c
   candidate.gain_bits = gain_bits;
   candidate.path_length_m = path_length_m;
   candidate.true_new_cells = true_new_cells;
+  candidate.true_new_cell_set = std::make_shared<CellSet>(1, std::uint64_t{1} << id);
   return candidate;
 }
 
@@ -88,8 +89,7 @@ TEST(ViewChoice, OfAnUnknownNameListsTheKnown) {
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
                  "unknown view choice 'gredy'; did you mean greedy? known: random, greedy, oracle, "
-                 "nearest_frontier, "
-                 "gain_over_distance");
+                 "oracle_lookahead, nearest_frontier, gain_over_distance");
   }
 }
 

@@ -49,5 +49,35 @@ TEST(Truth, IsWhereThingsComeToRest) {
               0.005 * static_cast<double>(standing.observable_cells));
 }
 
+/// What the oracles are told of the ring is worked out once; it must be what they would be told
+/// anew.
+TEST(Truth, RememberedOfTheRingIsTheTruth) {
+  set_verbosity(Verbosity::quiet);
+  const OwnScene scene(box_at(0.82));
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
+  Tabletop task = std::get<Tabletop>(episode.task);
+  const SimulatedTabletopRobot robot(episode.setup, task);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const auto anew = tabletop_evaluator(task, 1, truth, robot.view_field());
+  task.choice = OracleView{};
+  const auto remembered = tabletop_evaluator(task, 1, truth, robot.view_field());
+  OccupancyGrid grid(task.map.frame());
+  for (std::size_t cell = 0; cell < grid.size(); cell += 3) grid.log_odds[cell] = -2.0F;
+  for (const Candidate& view : tabletop_views(task)) {
+    const Pose& pose = view.T_world_sensor;
+    const CellSet cells = remembered.true_new_cell_set(grid, pose);
+    EXPECT_EQ(cells, anew.true_new_cell_set(grid, pose)) << view.id;
+    std::size_t count = 0;
+    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+      const bool shown = (cells[cell / 64] >> (cell % 64) & 1U) != 0;
+      EXPECT_FALSE(shown && cell % 3 == 0) << "known";
+      count += shown ? 1 : 0;
+    }
+    EXPECT_EQ(remembered.true_new_cells(grid, pose), count);
+    EXPECT_GT(count, 0U);
+  }
+}
+
 }  // namespace
 }  // namespace vantage
