@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 
 #include "vantage/belief/map/octomap_io.hpp"
@@ -66,6 +67,33 @@ std::vector<CandidateRow> candidate_rows(const std::vector<Candidate>& candidate
   }
   return rows;
 }
+
+/// The same in metrics.json and, without the front, in steps.csv.
+constexpr std::string_view kFront = "scans[].";
+constexpr auto kScanTexts = std::to_array<std::pair<std::string_view, std::string_view>>({
+    {"scans[].time_s", "simulated, at the end of the scan"},
+    {"scans[].unobserved_cells", "cells of the map that are still unobserved"},
+    {"scans[].observable_unobserved_cells",
+     "those of them that can be observed at all, by ground truth"},
+    {"scans[].actual_new_cells", "unobserved cells that the scan has observed"},
+    {"scans[].chosen_view", "id of the candidate that was taken; -1: the scan at the start"},
+    {"scans[].plan_time_s", "wall, of the decision that led here"},
+    {"scans[].map_time_s", "wall, of registration and map update"},
+    {"scans[].scan_time_s", "simulated, of the scan"},
+    {"scans[].path_length_m", "way of the base, from the start"},
+    {"scans[].leg_length_m", "of it since the scan before"},
+    {"scans[].pose_error_m", kPoseError},
+    {"scans[].pose_error_before_registration_m", kBefore},
+    {"scans[].pose_error_tracked_m", kTracked},
+    {"scans[].yaw_error_rad", "of the heading that goes with pose_error_m"},
+    {"scans[].registered", kRegistered},
+    {"scans[].unconstrained", kUnconstrained},
+    {"scans[].fallback", "the view was out of reach, and the robot went as near as it could"},
+    {"scans[].collisions", "up to here"},
+    {"scans[].precision",
+     "of occupied cells, share that is occupied within metrics.tolerance_cells"},
+    {"scans[].recall", "of observed surface cells, share that the map holds as occupied"},
+});
 
 }  // namespace
 
@@ -141,36 +169,14 @@ void MappingRecorder::write_map(const OccupancyGrid& grid, const PointCloud& clo
 }
 
 RecordTexts mapping_records() {
-  return {
-      {kSteps, "time_s", "simulated, at the end of the scan"},
+  RecordTexts texts{
       {kSteps, "scan", "number of the scan, from 1"},
-      {kSteps, "chosen_view", "id of the candidate that was taken; -1: the scan at the start"},
-      {kSteps, "fallback", "the view was out of reach, and the robot went as near as it could"},
       {kSteps, "x_m", "of the sensor, world, as the robot believes it"},
       {kSteps, "y_m", "of the sensor, world, as the robot believes it"},
       {kSteps, "z_m", "of the sensor, world, as the robot believes it"},
       {kSteps, "yaw_rad", "heading of the sensor, world, as the robot believes it"},
       {kSteps, "pitch_rad", "of the sensor; positive looks down"},
-      {kSteps, "unobserved_cells", "cells of the map that are still unobserved"},
-      {kSteps, "observable_unobserved_cells",
-       "those of them that can be observed at all, by ground truth"},
-      {kSteps, "actual_new_cells", "unobserved cells that the scan has observed"},
       {kSteps, "predicted_<gain>_cells", "what that gain said the scan would newly observe"},
-      {kSteps, "path_length_m", "way of the base, from the start"},
-      {kSteps, "leg_length_m", "of it since the scan before"},
-      {kSteps, "plan_time_s", "wall, of the decision that led here"},
-      {kSteps, "map_time_s", "wall, of registration and map update"},
-      {kSteps, "scan_time_s", "simulated, of the scan"},
-      {kSteps, "pose_error_m", kPoseError},
-      {kSteps, "pose_error_before_registration_m", kBefore},
-      {kSteps, "pose_error_tracked_m", kTracked},
-      {kSteps, "yaw_error_rad", "of the heading that goes with pose_error_m"},
-      {kSteps, "registered", kRegistered},
-      {kSteps, "unconstrained", kUnconstrained},
-      {kSteps, "collisions", "up to here"},
-      {kSteps, "precision",
-       "of occupied cells, share that is occupied within metrics.tolerance_cells"},
-      {kSteps, "recall", "of observed surface cells, share that the map holds as occupied"},
       {kCandidates, "decision",
        "number of the decision, from 1; the first leads to the second scan"},
       {kCandidates, "candidate", "id of the view, as chosen_view of steps.csv has it"},
@@ -187,13 +193,8 @@ RecordTexts mapping_records() {
       {kCandidates, "chosen", "1: it was taken"},
       {kMetrics, "observable_cells", "cells that can be observed at all, by ground truth"},
       {kMetrics, "scans", "one entry a scan"},
-      {kMetrics, "scans[].time_s", "simulated, at the end of the scan"},
-      {kMetrics, "scans[].unobserved_cells", "cells of the map that are still unobserved"},
-      {kMetrics, "scans[].observable_unobserved_cells",
-       "those of them that can be observed at all"},
       {kMetrics, "scans[].predicted", "what each gain said the scan would newly observe"},
       {kMetrics, "scans[].predicted.<gain>", "cells"},
-      {kMetrics, "scans[].actual_new_cells", "unobserved cells that the scan has observed"},
       {kMetrics, "scans[].by_distance",
        "cells of the scan by their distance from where it was expected to be taken"},
       {kMetrics, "scans[].by_distance[].from_m", "least distance"},
@@ -204,29 +205,9 @@ RecordTexts mapping_records() {
        "those of them outside the field of view that gains predict for"},
       {kMetrics, "scans[].hazard_scale",
        "factor on the learnt hazard by the forecasts so far (forecast.calibrate)"},
-      {kMetrics, "scans[].chosen_view",
-       "id of the candidate that was taken; -1: the scan at the start"},
       {kMetrics, "scans[].candidates", "number of views that were chosen from"},
-      {kMetrics, "scans[].plan_time_s", "wall, of the decision that led here"},
-      {kMetrics, "scans[].map_time_s", "wall, of registration and map update"},
-      {kMetrics, "scans[].scan_time_s", "simulated, of the scan"},
-      {kMetrics, "scans[].path_length_m", "way of the base, from the start"},
-      {kMetrics, "scans[].leg_length_m", "of it since the scan before"},
-      {kMetrics, "scans[].pose_error_m", kPoseError},
-      {kMetrics, "scans[].pose_error_before_registration_m", kBefore},
-      {kMetrics, "scans[].pose_error_tracked_m", kTracked},
-      {kMetrics, "scans[].yaw_error_rad", "of the heading that goes with pose_error_m"},
       {kMetrics, "scans[].map_sigma_m",
        "how far off its place the robot believes what it maps to be, RMS"},
-      {kMetrics, "scans[].registered", kRegistered},
-      {kMetrics, "scans[].unconstrained", kUnconstrained},
-      {kMetrics, "scans[].fallback",
-       "the view was out of reach, and the robot went as near as it could"},
-      {kMetrics, "scans[].collisions", "up to here"},
-      {kMetrics, "scans[].precision",
-       "of occupied cells, share that is occupied within the tolerance"},
-      {kMetrics, "scans[].recall",
-       "of observed surface cells, share that the map holds as occupied"},
       {kMetrics, "scans[].view", "pose of the sensor, as the robot believes it"},
       {kMetrics, "map.precision",
        "of the map at the end: of occupied cells, share that is occupied within the tolerance; "
@@ -248,6 +229,11 @@ RecordTexts mapping_records() {
       {kMetrics, "region", "box of the map, world: min_m, max_m"},
       {kMetrics, "candidates", "views of the last decision"},
   };
+  for (const auto& [name, text] : kScanTexts) {
+    texts.push_back({kSteps, name.substr(kFront.size()), text});
+    texts.push_back({kMetrics, name, text});
+  }
+  return texts;
 }
 
 }  // namespace vantage
