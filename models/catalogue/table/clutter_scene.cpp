@@ -16,8 +16,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kTall_m = 0.15;        // of this two are to be had from each category, else one
-constexpr double kHalf_m = 0.475;       // everything stays within |x|, |y| of this
+constexpr double kTall_m = 0.15;     // of this two are to be had from each category, else one
+constexpr double kHalf_m = 0.46;     // things stay within |x|, |y| of this
+constexpr double kBoxHalf_m = 0.42;  // boxes do: a robot must see something of the table it is at
 constexpr double kBeforeABox_m = 0.07;  // free of other boxes
 constexpr double kInBox_m = 0.004;      // least gap in and on boxes
 constexpr double kMaxOverhang = 1.1;    // rider's footprint radius over its support's top radius
@@ -108,11 +109,11 @@ class Arrangement {
       OpenBox box = make_open_box(kinds[static_cast<std::size_t>(i) % kinds.size()], rng_);
       bool found = false;
       for (int attempt = 0; attempt < kBoxAttempts && !found; ++attempt) {
-        box.T_world_box = any_pose(kTable, rng_);
+        box.T_world_box = any_pose(kForBoxes, rng_);
         box.T_world_box.yaw_rad = squared(box.T_world_box.yaw_rad);
         const Outline solid = moved(outline(box), box.T_world_box);
         const Outline with_front = moved(outline(box, kBeforeABox_m), box.T_world_box);
-        found = inside(kTable, with_front) && is_free(with_front, with_fronts, 0.01);
+        found = inside(kForBoxes, solid) && is_free(with_front, with_fronts, 0.01);
         if (!found) continue;
         taken_.push_back(solid);
         with_fronts.push_back(with_front);
@@ -231,6 +232,8 @@ class Arrangement {
     return false;
   }
 
+  inline static const Rectangle kForBoxes{Vector2d::Constant(-kBoxHalf_m),
+                                          Vector2d::Constant(kBoxHalf_m)};
   inline static const Rectangle kTable{Vector2d::Constant(-kHalf_m), Vector2d::Constant(kHalf_m)};
 
   const ClutterSceneOptions& options_;
@@ -260,7 +263,7 @@ std::vector<ClutterSceneOptions> clutter_scenes() {
     int stacks;
   };
   constexpr std::array<Level, 5> kLevels{
-      {{4, 1, 0}, {8, 2, 0}, {15, 3, 1}, {25, 4, 3}, {40, 5, 6}}};
+      {{4, 1, 0}, {8, 2, 0}, {15, 3, 1}, {25, 4, 3}, {40, 4, 6}}};
   std::vector<ClutterSceneOptions> scenes;
   for (const auto& [set, seed] : {std::pair{"dev", 1000U}, {"report", 2000U}}) {
     for (const Level& level : kLevels) {
