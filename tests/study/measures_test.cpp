@@ -69,6 +69,33 @@ TEST(Measures, AnEpisodeThatEndsEarlyKeepsItsLastShare) {
   EXPECT_DOUBLE_EQ(*scalar(early, "scans"), 3.0);
 }
 
+/// Of three scans the first is left out; 5 of the 60 cells are beyond the range.
+TEST(Measures, ForecastsAreHeldAgainstWhatWasSeen) {
+  Json known = metrics("adaptive");
+  const auto band = [](double from_m, const Json& to_m, double predicted, int actual, int outside) {
+    return Json{{"from_m", from_m},
+                {"to_m", to_m},
+                {"predicted_cells", predicted},
+                {"actual_cells", actual},
+                {"outside_cells", outside}};
+  };
+  known["scans"][0]["by_distance"] = {band(0.0, 1.0, 1000.0, 1, 0)};
+  known["scans"][1]["by_distance"] = {band(0.0, 1.0, 10.0, 10, 0), band(1.0, 2.0, 9.0, 18, 1)};
+  known["scans"][2]["by_distance"] = {band(0.0, 1.0, 15.0, 10, 0), band(1.0, 2.0, 9.0, 18, 0),
+                                      band(2.0, nullptr, 0.0, 4, 4)};
+  const auto measured = measure(known, planned_scans(3));
+  EXPECT_DOUBLE_EQ(*scalar(measured, "forecast_ratio"), 43.0 / 60.0);
+  EXPECT_DOUBLE_EQ(*scalar(measured, "forecast_ratio_to_1_m"), 1.25);
+  EXPECT_DOUBLE_EQ(*scalar(measured, "forecast_ratio_to_2_m"), 0.5);
+  EXPECT_FALSE(scalar(measured, "forecast_ratio_to_3_m"));
+  EXPECT_DOUBLE_EQ(*scalar(measured, "forecast_ratio_beyond_3_m"), 0.0);
+  EXPECT_DOUBLE_EQ(*scalar(measured, "outside_share"), 5.0 / 61.0);
+  const Curve& ratios = measured.curves[*find_curve("forecast_ratio")];
+  EXPECT_EQ(ratios, (Curve{1001.0 / 2.0, 20.0 / 29.0, 25.0 / 33.0}));
+  EXPECT_FALSE(scalar(measure(metrics("adaptive"), planned_scans(3)), "forecast_ratio"))
+      << "of a former run";
+}
+
 TEST(Measures, ScansToNinetyFivePercent) {
   Json json = metrics("adaptive");
   EXPECT_DOUBLE_EQ(*scalar(measure(json, planned_scans(7)), "scans_to_95"), 7.0) << "never there";

@@ -9,11 +9,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Forecast of `adaptive` over what was seen, of cells between two distances from the sensor: of
-/// one scan.
+/// Former runs have none.
+Json bands_of(const Json& scan) { return scan.value("by_distance", Json::array()); }
+
+/// Forecast of `adaptive` and what was seen, of cells between two distances from the sensor: of one
+/// scan.
 std::pair<double, double> forecast_of(const Json& scan, double from_m, double to_m) {
   std::pair<double, double> cells{0.0, 0.0};
-  for (const Json& band : scan.at("by_distance")) {
+  for (const Json& band : bands_of(scan)) {
     const double middle_m =
         band.at("to_m").is_null()
             ? std::numeric_limits<double>::infinity()
@@ -55,7 +58,7 @@ Curve forecast_ratios(const MeasuredEpisode& episode) {
 std::optional<double> outside_share(const MeasuredEpisode& episode) {
   std::pair<double, double> sum{0.0, 0.0};
   for (const Json& scan : episode.metrics.at("scans")) {
-    for (const Json& band : scan.at("by_distance")) {
+    for (const Json& band : bands_of(scan)) {
       sum.first += band.at("outside_cells").get<double>();
       sum.second += band.at("actual_cells").get<double>();
     }
