@@ -1,6 +1,7 @@
 #include "bench/study_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,6 +10,7 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/study/study_reading.hpp"
 
 namespace vantage::bench {
@@ -36,10 +38,8 @@ std::size_t place_of(const std::vector<std::string>& names, const std::string& n
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-std::vector<std::string> level_names(const Factor& factor) {
-  std::vector<std::string> names;
-  for (const Level& level : factor.levels) names.push_back(level.name);
-  return names;
+Sample sample_of(const EpisodePlace& place, std::size_t level, double value) {
+  return {place.panel, level, place.pair, value, place.cluster};
 }
 
 CsvTable read_results(const std::filesystem::path& file) {
@@ -49,7 +49,8 @@ CsvTable read_results(const std::filesystem::path& file) {
 
 /// Files that its episodes need, models say, may be elsewhere.
 Study read_plan(const std::filesystem::path& file) {
-  StudyReading reading = read_study_file(file, {});
+  const char* split = read_yaml(file).find("splits") != nullptr ? "report" : "";
+  StudyReading reading = read_study_file(file, {}, split);
   if (reading.problems.code() == ExitCode::usage) reading.problems.throw_if_any();
   return std::move(reading.study);
 }
@@ -69,7 +70,7 @@ double quotient(double above, double below) {
 }
 
 StudyTables::StudyTables(const std::filesystem::path& study_file, CsvTable results)
-    : study_(read_plan(study_file)), results_(std::move(results)) {
+    : study_(read_plan(study_file)), layout_(study_), results_(std::move(results)) {
   plan_episodes();
   find_rows();
 }
@@ -78,24 +79,21 @@ StudyTables::StudyTables(const std::filesystem::path& study_file,
                          const std::filesystem::path& results_csv)
     : StudyTables(study_file, read_results(results_csv)) {}
 
-/// The product of all levels, the last factor fastest; pairs differ in the compared factor alone.
+/// The product of all levels, the last factor fastest.
 void StudyTables::plan_episodes() {
-  const std::size_t compared = factor_index(study_, study_.report.compare);
   episodes_.assign(1, {});
-  for (std::size_t f = 0; f < study_.factors.size(); ++f) {
-    const Factor& factor = study_.factors[f];
+  for (const Factor& factor : study_.factors) {
     std::vector<Episode> more;
     for (const Episode& begun : episodes_) {
       for (std::size_t level = 0; level < factor.levels.size(); ++level) {
         Episode& episode = more.emplace_back(begun);
-        episode.name += (f == 0 ? "" : "/") + factor.levels[level].name;
-        if (f == compared) episode.level = level;
-        if (factor.name == study_.report.panels) episode.panel = level;
-        episode.pair = episode.pair * factor.levels.size() + (f == compared ? 0 : level);
+        episode.name += (begun.levels.empty() ? "" : "/") + factor.levels[level].name;
+        episode.levels.push_back(level);
       }
     }
     episodes_ = std::move(more);
   }
+  for (Episode& episode : episodes_) episode.place = layout_.place(episode.levels);
 }
 
 void StudyTables::find_rows() {
@@ -114,17 +112,12 @@ void StudyTables::find_rows() {
 }
 
 std::vector<std::string> StudyTables::panels() const {
-  if (study_.report.panels.empty()) return {};
-  return level_names(study_.factors[factor_index(study_, study_.report.panels)]);
+  return study_.report.panels.empty() ? std::vector<std::string>{} : layout_.panels();
 }
 
 std::vector<std::string> StudyTables::groups() const {
   const auto names = panels();
   return names.empty() ? std::vector<std::string>{kAllPanels} : names;
-}
-
-std::vector<std::string> StudyTables::levels() const {
-  return level_names(study_.factors[factor_index(study_, study_.report.compare)]);
 }
 
 std::string StudyTables::extent() const {
@@ -139,7 +132,7 @@ StudyTables::Table StudyTables::scalar_table(const std::string& name) const {
   for (const Episode& episode : episodes_) {
     if (episode.row == nullptr || column == results_.columns.size()) continue;
     const auto value = value_in(*episode.row, column);
-    if (value) table.samples.push_back({episode.panel, episode.level, episode.pair, *value});
+    if (value) table.samples.push_back(sample_of(episode.place, episode.place.level, *value));
   }
   return table;
 }
@@ -153,10 +146,10 @@ StudyTables::Table StudyTables::predictor_table() const {
     if (!name.starts_with(kPredictorFront) || !name.ends_with(kPredictorBack)) continue;
     if (name.size() <= kPredictorFront.size() + kPredictorBack.size()) continue;
     for (const Episode& episode : episodes_) {
-      if (episode.row == nullptr || episode.level != along) continue;
+      if (episode.row == nullptr || episode.place.level != along) continue;
       const auto value = value_in(*episode.row, column);
       if (!value) continue;
-      table.samples.push_back({episode.panel, table.levels.size(), episode.pair, *value});
+      table.samples.push_back(sample_of(episode.place, table.levels.size(), *value));
     }
     table.levels.emplace_back(name.substr(
         kPredictorFront.size(), name.size() - kPredictorFront.size() - kPredictorBack.size()));
@@ -176,7 +169,8 @@ const StudyTables::Table& StudyTables::table(const std::string& name) const {
 std::size_t StudyTables::planned(const std::string& panel, std::size_t level) const {
   const auto names = panels();
   return static_cast<std::size_t>(std::ranges::count_if(episodes_, [&](const Episode& episode) {
-    return episode.level == level && (panel == kAllPanels || names.at(episode.panel) == panel);
+    return episode.place.level == level &&
+           (panel == kAllPanels || names.at(episode.place.panel) == panel);
   }));
 }
 
@@ -208,10 +202,9 @@ std::vector<Sample> StudyTables::whole_samples(const std::string& name, const st
 
 double StudyTables::mean(const std::string& name, const std::string& panel,
                          const std::string& level) const {
-  double sum = 0.0;
-  const auto samples = whole_samples(name, panel, level);
-  for (const Sample& sample : samples) sum += sample.value;
-  return sum / static_cast<double>(samples.size());
+  std::vector<double> values;
+  for (const Sample& sample : whole_samples(name, panel, level)) values.push_back(sample.value);
+  return vantage::mean(values);
 }
 
 double StudyTables::least(const std::string& name, const std::string& panel,
@@ -236,8 +229,8 @@ Difference StudyTables::difference(const std::string& name, const std::string& p
   }
   const Comparison compared = compare_levels(name, name, {panel}, pair, 0, samples);
   const auto& difference = compared.rows.back().difference;
-  if (!difference) throw NotRun(fmt::format("`{}` of `{}`: no pairs", name, level));
-  return *difference;
+  if (difference) return *difference;
+  throw NotRun(fmt::format("`{}` of `{}`: no pairs", name, level));
 }
 
 double StudyTables::ratio(const std::string& name, const std::string& panel,
@@ -262,7 +255,7 @@ std::string StudyTables::markdown(const std::string& title) const {
   if (of.samples.empty()) return {};
   const Comparison compared =
       compare_levels(title, title, groups(), of.levels, of.reference, of.samples);
-  std::vector<std::string> columns = groups();
+  auto columns = groups();
   if (columns.size() > 1) columns.emplace_back(kAllPanels);
   std::vector<std::string> names;
   std::map<std::pair<std::string, std::string>, const ComparisonRow*> cells;
@@ -270,8 +263,7 @@ std::string StudyTables::markdown(const std::string& title) const {
     if (place_of(names, row.level) == names.size()) names.push_back(row.level);
     cells[{row.level, row.panel}] = &row;
   }
-  std::string text = "| |";
-  for (const std::string& panel : columns) text += fmt::format(" {} |", panel);
+  std::string text = fmt::format("| | {} |", fmt::join(columns, " | "));
   text += "\n|---|";
   for (std::size_t i = 0; i < columns.size(); ++i) text += "---|";
   for (const std::string& name : names) {
@@ -283,14 +275,22 @@ std::string StudyTables::markdown(const std::string& title) const {
         continue;
       }
       const ComparisonRow& row = *cell->second;
-      text += fmt::format(" {} [{}, {}]", number(row.mean), number(row.interval.low),
-                          number(row.interval.high));
+      text += ' ' + number(row.mean);
+      if (row.clusters > 1) {
+        text += fmt::format(" [{}, {}]", number(row.interval.low), number(row.interval.high));
+      }
       if (row.difference && row.difference->ratio) {
         text +=
             fmt::format(", x {:.2f}, p {:.2g}", *row.difference->ratio, row.difference->p_value);
       }
       const std::size_t count = planned(panel, level_of(title, name));
-      if (row.count < count) text += fmt::format(" ({} of {})", row.count, count);
+      const std::size_t at = place_of(of.levels, name);
+      const std::size_t group = place_of(columns, panel);
+      const auto found =
+          static_cast<std::size_t>(std::ranges::count_if(of.samples, [&](const Sample& sample) {
+            return sample.level == at && (panel == kAllPanels || sample.panel == group);
+          }));
+      if (found < count) text += fmt::format(" ({} of {})", found, count);
       text += " |";
     }
   }

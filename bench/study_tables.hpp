@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "vantage/report/report_data.hpp"
-#include "vantage/study/comparison.hpp"
 #include "vantage/study/study.hpp"
+#include "vantage/study/study_layout.hpp"
+#include "vantage/study/tables/comparison.hpp"
 
 namespace vantage::bench {
 
@@ -57,7 +58,7 @@ class StudyTables {
 
   /// As planned.
   [[nodiscard]] std::vector<std::string> panels() const;
-  [[nodiscard]] std::vector<std::string> levels() const;
+  [[nodiscard]] std::vector<std::string> levels() const { return layout_.levels(); }
   [[nodiscard]] const std::string& reference() const { return study_.report.reference; }
   /// "120 of 320 episodes"
   [[nodiscard]] std::string extent() const;
@@ -70,9 +71,8 @@ class StudyTables {
  private:
   struct Episode {
     std::string name;
-    std::size_t panel = 0;
-    std::size_t level = 0;
-    std::size_t pair = 0;
+    std::vector<std::size_t> levels;  ///< index of the level of each factor
+    EpisodePlace place;
     const std::vector<std::string>* row = nullptr;  ///< none: it came to no result
   };
   /// The panels, or one of all episodes.
@@ -95,6 +95,7 @@ class StudyTables {
   [[nodiscard]] std::size_t level_of(const std::string& table, const std::string& level) const;
 
   Study study_;
+  StudyLayout layout_;
   CsvTable results_;
   std::vector<Episode> episodes_;
   mutable std::map<std::string, Table> tables_;

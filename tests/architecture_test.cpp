@@ -66,8 +66,9 @@ const Rooms kPlanners{"planners",         "planners/gains",      "planners/visib
 const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
 const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing"};
 const Rooms kRecognition{"recognition", "recognition/dataset", "recognition/evaluation"};
-const Rooms kStudy{"study",     "study/cluster",     "study/figures",
-                   "study/kit", "study/recognition", "study/sweep"};
+const Rooms kStudy{"study",       "study/cluster",     "study/figures",
+                   "study/kit",   "study/recognition", "study/sweep",
+                   "study/tables"};
 /// What several tasks share; they never include each other.
 const Rooms kSharedByTasks{"tasks/mapping", "tasks/flight", "tasks/object_flight"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
@@ -134,8 +135,10 @@ const std::map<std::string, Rooms> kAllowed{
     {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
     {"study/kit", kGround + kRuntime + Rooms{"tasks"}},
     {"study/cluster", {"core"}},
+    {"study/tables", {"core", "information", "report", "runtime", "study/figures"}},
     {"study",
-     kGround + kRuntime + Rooms{"report", "study/cluster", "study/figures", "study/kit", "tasks"}},
+     kGround + kRuntime +
+         Rooms{"report", "study/cluster", "study/figures", "study/kit", "study/tables", "tasks"}},
     {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"cli/hints", {"core", "study"}},

@@ -24,6 +24,11 @@ void add_overrides(CLI::App& app, SweepArguments& arguments) {
       ->allow_extra_args(false);
 }
 
+void add_split(CLI::App& app, SweepArguments& arguments) {
+  app.add_option("--split", arguments.split,
+                 "of the study's splits, the one to run; default: the first");
+}
+
 void add_shard(CLI::App& app, SweepArguments& arguments) {
   app.add_option("--shard", arguments.shard, "i/N: every N-th episode, from the i-th on")
       ->capture_default_str();
@@ -66,6 +71,7 @@ constexpr SweepVerb kVerbs[] = {
     {"run", "run the episodes that have no result yet, then collect", run_study,
      [](CLI::App& app, SweepArguments& arguments) {
        add_overrides(app, arguments);
+       add_split(app, arguments);
        add_shard(app, arguments);
        add_jobs(app, arguments);
        add_keep_states(app, arguments);
@@ -74,12 +80,14 @@ constexpr SweepVerb kVerbs[] = {
     {"plan", "list the episodes that would run", print_study_plan,
      [](CLI::App& app, SweepArguments& arguments) {
        add_overrides(app, arguments);
+       add_split(app, arguments);
        add_shard(app, arguments);
      }},
     {"submit", "run the episodes that have no result yet on a Slurm cluster, then collect",
      submit_study,
      [](CLI::App& app, SweepArguments& arguments) {
        add_overrides(app, arguments);
+       add_split(app, arguments);
        add_submission(app, arguments);
        add_keep_states(app, arguments);
        add_overwrite(app, arguments.overwrite);

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "vantage/study/evaluation.hpp"
-#include "vantage/study/text_table.hpp"
+#include "vantage/study/tables/text_table.hpp"
 
 namespace vantage {
 

@@ -7,53 +7,29 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/report/former_run.hpp"
+#include "vantage/study/study_layout.hpp"
 
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Where each episode stands in the comparison.
-class Layout {
+/// The layout of a study's results, by the number of an episode in the plan.
+class Layout : public StudyLayout {
  public:
-  explicit Layout(const StudyResults& results)
-      : results_(results), compared_(factor_index(results.study, results.study.report.compare)) {
-    const std::string& panels = results.study.report.panels;
-    if (!panels.empty()) panel_factor_ = factor_index(results.study, panels);
-  }
+  explicit Layout(const StudyResults& results) : StudyLayout(results.study), results_(results) {}
 
-  [[nodiscard]] std::size_t level(std::size_t episode) const {
-    return results_.plan[episode].levels[compared_];
+  [[nodiscard]] EpisodePlace at(std::size_t episode) const {
+    return place(results_.plan[episode].levels);
   }
-  [[nodiscard]] std::size_t panel(std::size_t episode) const {
-    return panel_factor_ ? results_.plan[episode].levels[*panel_factor_] : 0;
-  }
-  /// The same for episodes that differ in the compared factor only.
-  [[nodiscard]] std::size_t pair(std::size_t episode) const {
-    std::size_t number = 0;
-    for (std::size_t f = 0; f < results_.study.factors.size(); ++f) {
-      const std::size_t digit = f == compared_ ? 0 : results_.plan[episode].levels[f];
-      number = number * results_.study.factors[f].levels.size() + digit;
-    }
-    return number;
-  }
-  [[nodiscard]] std::vector<std::string> panels() const {
-    return panel_factor_ ? names(*panel_factor_) : std::vector<std::string>{"all"};
-  }
-  [[nodiscard]] std::vector<std::string> levels() const { return names(compared_); }
-  [[nodiscard]] std::size_t level_called(const std::string& name) const {
-    return level_index(results_.study.factors[compared_], name);
+  [[nodiscard]] std::size_t level(std::size_t episode) const { return at(episode).level; }
+  [[nodiscard]] Sample sample(std::size_t episode, std::size_t level, double value) const {
+    const EpisodePlace place = at(episode);
+    return {place.panel, level, place.pair, value, place.cluster};
   }
 
  private:
-  [[nodiscard]] std::vector<std::string> names(std::size_t factor) const {
-    std::vector<std::string> found;
-    for (const Level& level : results_.study.factors[factor].levels) found.push_back(level.name);
-    return found;
-  }
   const StudyResults& results_;
-  std::size_t compared_;
-  std::optional<std::size_t> panel_factor_;
 };
 
 Comparison scalar_comparison(const StudyResults& results, const Layout& layout,
@@ -62,14 +38,14 @@ Comparison scalar_comparison(const StudyResults& results, const Layout& layout,
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     if (!results.measures[i] || !results.measures[i]->scalars[scalar]) continue;
-    samples.push_back(
-        {layout.panel(i), layout.level(i), layout.pair(i), *results.measures[i]->scalars[scalar]});
+    samples.push_back(layout.sample(i, layout.level(i), *results.measures[i]->scalars[scalar]));
   }
   const MeasureName& measure = scalar_measures()[scalar];
   Comparison comparison =
       compare_levels(name, measure_text(measure), layout.panels(), layout.levels(),
                      layout.level_called(results.study.report.reference), samples);
   comparison.better = measure.better;
+  comparison.cluster = results.study.report.cluster;
   return comparison;
 }
 
@@ -79,18 +55,22 @@ template <class CurveOf>
 void add_panels(Figure& figure, const StudyResults& results, const Layout& layout,
                 const std::vector<std::string>& names, int first_x, bool carry_last,
                 CurveOf&& curve_of) {
-  const auto panels = layout.panels();
+  const auto& panels = layout.panels();
   for (std::size_t p = 0; p < panels.size(); ++p) {
     FigurePanel panel{panels[p], {}};
     for (std::size_t s = 0; s < names.size(); ++s) {
       std::vector<Curve> curves;
+      std::vector<std::size_t> clusters;
       for (std::size_t i = 0; i < results.plan.size(); ++i) {
-        if (!results.measures[i] || layout.panel(i) != p) continue;
-        if (const Curve* curve = curve_of(i, s)) curves.push_back(*curve);
+        if (!results.measures[i] || layout.at(i).panel != p) continue;
+        if (const Curve* curve = curve_of(i, s)) {
+          curves.push_back(*curve);
+          clusters.push_back(layout.at(i).cluster);
+        }
       }
       if (curves.empty()) continue;
       panel.series.push_back(
-          mean_series(figure, panels[p], names[s], s, curves, first_x, carry_last));
+          mean_series(figure, panels[p], names[s], s, {curves, clusters}, first_x, carry_last));
     }
     figure.panels.push_back(std::move(panel));
   }
@@ -99,6 +79,12 @@ void add_panels(Figure& figure, const StudyResults& results, const Layout& layou
 /// What a curve's values are of: scans, views, waypoints.
 std::string steps_of(const StudyResults& results) {
   return fmt::format("{}s", report_sections(results.plan.front().resolved.task).step_word);
+}
+
+void note_cluster(Figure& figure, const std::string& cluster) {
+  if (cluster.empty()) return;
+  figure.note = fmt::format(
+      "Mean over episodes; band: 95 % bootstrap interval of the mean, resampled by {}.", cluster);
 }
 
 Figure curve_figure(const StudyResults& results, const Layout& layout, const std::string& name) {
@@ -110,6 +96,7 @@ Figure curve_figure(const StudyResults& results, const Layout& layout, const std
                 .x_label = steps_of(results),
                 .y_label = std::string(measure.title),
                 .panels = {}};
+  note_cluster(figure, results.study.report.cluster);
   add_panels(figure, results, layout, layout.levels(), 1, true,
              [&](std::size_t episode, std::size_t level) -> const Curve* {
                if (layout.level(episode) != level) return nullptr;
@@ -148,7 +135,7 @@ void add_predictors(Evaluation& evaluation, const StudyResults& results, const L
     for (std::size_t p = 0; results.measures[i] && p < predictors.size(); ++p) {
       const Curve* curve = error_of(i, p);
       if (curve == nullptr || curve->empty()) continue;
-      samples.push_back({layout.panel(i), p, layout.pair(i), mean(*curve)});
+      samples.push_back(layout.sample(i, p, mean(*curve)));
     }
   }
   const std::string title = "absolute prediction error, cells";
@@ -160,12 +147,14 @@ void add_predictors(Evaluation& evaluation, const StudyResults& results, const L
   evaluation.comparisons.push_back(
       compare_levels("predictors", what, layout.panels(), predictors, reference_index, samples));
   evaluation.comparisons.back().better = Better::lower;
+  evaluation.comparisons.back().cluster = report.cluster;
   Figure figure{.name = "predictors",
                 .title = results.study.title,
                 .subtitle = what,
                 .x_label = steps_of(results),
                 .y_label = title,
                 .panels = {}};
+  note_cluster(figure, report.cluster);
   add_panels(figure, results, layout, predictors, 2, false, error_of);
   evaluation.figures.push_back(std::move(figure));
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "vantage/study/comparison.hpp"
+#include "vantage/study/tables/comparison.hpp"
 #include "vantage/study/figures/figure.hpp"
 #include "vantage/study/measures.hpp"
 #include "vantage/study/results.hpp"

@@ -76,8 +76,9 @@ Validation validate_study(const fs::path& file) {
   });
 }
 
-Study read_study(const fs::path& file, const std::vector<std::string>& overrides) {
-  StudyReading reading = read_study_file(file, overrides);
+Study read_study(const fs::path& file, const std::vector<std::string>& overrides,
+                 const std::string& split) {
+  StudyReading reading = read_study_file(file, overrides, split);
   reading.problems.throw_if_any();
   return std::move(reading.study);
 }
@@ -112,8 +113,15 @@ std::vector<KeyDescription> study_keys() {
           "the last factor changes fastest"),
       key("seeds", "1..20, or a list of whole numbers",
           "a factor called seed, a level for each; beside factors the last one"),
-      key("report", "section", "what is made of the results")};
-  keys[2].section = keys[3].section = keys[5].section = true;
+      key("splits", "section",
+          "name of a split: name of a factor: list of its levels; a factor that a split does not "
+          "name keeps all. Choose on one split, report on another"),
+      key("split", "text", "the split that is run; default: the first. `--split` overrides it"),
+      key("report", "section", "what is made of the results"),
+      key("report.groups", "section",
+          "name: list of levels of one factor that go by that name in panels and comparisons; "
+          "draws of one pair are averaged")};
+  for (KeyDescription& described : keys) described.section = described.type == "section";
   StudyReport report;
   report.fields(FieldDescriber(keys, "report."));
   return keys;

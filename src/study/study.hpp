@@ -9,6 +9,10 @@
 ///     method:
 ///       random: {choice: random}           level: overrides
 ///       sparse: {gain: beer_lambert, gain.a: 0.999}
+///   splits:                      of the levels: what is chosen on, what is reported
+///     development: {start: [start_0, start_1]}
+///     report: {start: [start_2, start_3]}
+///   split: development           the one that is run; by default the first
 ///   report: {compare: method, reference: random, ...}     StudyReport
 #pragma once
 
@@ -25,11 +29,19 @@
 
 namespace vantage {
 
+/// Levels of one factor that go by one name in panels and comparisons.
+struct LevelGroup {
+  std::string name;
+  std::vector<std::string> levels;
+};
+
 /// What `sweep collect` makes of the results.
 struct StudyReport {
   std::string compare = "method";  ///< if there is none: the first factor that is no seed
   std::string reference;
   std::string panels;
+  std::string cluster;
+  std::vector<LevelGroup> groups;  ///< `report.groups`, which is read apart
   std::vector<std::string> curves;
   std::vector<std::string> tables;
   std::string predictors_along;
@@ -39,6 +51,9 @@ struct StudyReport {
     f("reference", reference,
       "level of `compare` that the others are held against; empty: the first");
     f("panels", panels, "factor with a panel of each figure for every level; empty: one panel");
+    f("cluster", cluster,
+      "factor whose levels, scenes say, are resampled as a whole for intervals and tests, as what "
+      "is of one level is alike; empty: every pair for itself");
     f("curves", curves,
       "names of the measures drawn as curves over the steps of an episode; empty: none");
     f("tables", tables, "names of the measures in the tables, one number per episode; empty: none");
@@ -67,7 +82,8 @@ struct Study {
   Overrides set;
   std::vector<Factor> factors;  ///< at least one
   StudyReport report;
-  std::string yaml;  ///< the whole study; files named as found again from any directory
+  std::string split;  ///< of the levels, those that are run; empty: all
+  std::string yaml;   ///< the whole study; files named as found again from any directory
 };
 
 /// Whether a file is YAML and a study, not an episode.
@@ -75,7 +91,9 @@ bool is_study(const std::filesystem::path& file);
 
 /// @param overrides as of --set, of every episode
 /// @throws ConfigError or InputError naming file, line, key and value.
-Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// @param split the one to run; empty: as the file says
+Study read_study(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                 const std::string& split = {});
 
 struct PlannedEpisode {
   std::string name;                 ///< its levels joined by '/': also its folder

@@ -5,7 +5,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/report/page.hpp"
 #include "vantage/study/collect.hpp"
-#include "vantage/study/text_table.hpp"
+#include "vantage/study/tables/text_table.hpp"
 
 namespace vantage {
 namespace {

@@ -11,6 +11,8 @@
 #include "vantage/core/yaml.hpp"
 #include "vantage/study/kit/study_values.hpp"
 #include "vantage/study/measures.hpp"
+#include "vantage/study/study_layout.hpp"
+#include "vantage/study/study_levels.hpp"
 
 namespace vantage {
 namespace {
@@ -161,12 +163,6 @@ void require_disjoint(const Study& study, Problems& problems) {
   }
 }
 
-std::vector<std::string> level_names(const Factor& factor) {
-  std::vector<std::string> names;
-  for (const Level& level : factor.levels) names.push_back(level.name);
-  return names;
-}
-
 void require_known(const std::string& where, const std::string& what, const std::string& name,
                    const std::vector<std::string>& known) {
   if (std::ranges::find(known, name) != known.end()) return;
@@ -192,7 +188,7 @@ std::string compared_by_default(const std::vector<std::string>& factors) {
 /// What names levels of the factor compared.
 void complete_levels(StudyReport& report, const Factor& compared, const auto& where,
                      Problems& problems) {
-  const std::vector<std::string> levels = level_names(compared);
+  const std::vector<std::string> levels = grouped_levels(compared, report.groups).names;
   if (report.reference.empty()) report.reference = levels.front();
   problems.attempt([&] { require_known(where("reference"), "level", report.reference, levels); });
   if (report.predictors_along.empty()) return;
@@ -221,6 +217,9 @@ void complete_report(const ConfigNode& root, const fs::path& file, StudyReading&
   if (!report.panels.empty()) {
     problems.attempt([&] { require_known(where("panels"), "factor", report.panels, factors); });
   }
+  if (!report.cluster.empty()) {
+    problems.attempt([&] { require_known(where("cluster"), "factor", report.cluster, factors); });
+  }
   if (!problems.attempt(
           [&] { require_known(where("compare"), "factor", report.compare, factors); })) {
     return;
@@ -228,6 +227,10 @@ void complete_report(const ConfigNode& root, const fs::path& file, StudyReading&
   problems.attempt([&] {
     if (report.panels != report.compare) return;
     throw ConfigError(where("panels") + ": the factor compared cannot be spread over panels");
+  });
+  problems.attempt([&] {
+    if (report.cluster != report.compare) return;
+    throw ConfigError(where("cluster") + ": the factor compared cannot be what is alike");
   });
   complete_levels(report, study.factors[factor_index(study, report.compare)], where, problems);
 }
@@ -247,7 +250,8 @@ std::string title_of(const fs::path& file) {
 
 }  // namespace
 
-StudyReading read_study_file(const fs::path& file, const std::vector<std::string>& overrides) {
+StudyReading read_study_file(const fs::path& file, const std::vector<std::string>& overrides,
+                             const std::string& split) {
   ConfigNode root = read_yaml(file);
   detail::require_kind(root, ConfigNode::Kind::map);
   StudyReading reading;
@@ -255,17 +259,24 @@ StudyReading read_study_file(const fs::path& file, const std::vector<std::string
   study.name = file.stem().string();
   study.title = title_of(file);
   if (!is_titled(root)) root.set("title", detail::write_value(study.title));
+  std::vector<LevelGroup> groups;
+  const ConfigNode plain = take_groups(root, groups, reading.problems);
   reading.problems.attempt([&] {
-    FieldReader reader(root);
+    FieldReader reader(plain);
     reader("title", study.title, "title of the report; by default the name of the file");
     reader("report", study.report, "what `vantage sweep collect` makes of the results");
-    for (const char* key : {"episode", "set", "factors", "seeds"}) reader.allow(key);
+    for (const char* key : {"episode", "set", "factors", "seeds", "splits", "split"}) {
+      reader.allow(key);
+    }
     reader.finish();
   });
   reading.problems.attempt([&] { read_base(root, file, study); });
   read_set(root, file, overrides, reading);
   read_factors(root, file, reading);
   require_disjoint(study, reading.problems);
+  study.report.groups = std::move(groups);
+  take_split(root, split, study, reading.problems);
+  check_groups(root, study, reading.problems);
   complete_report(root, file, reading);
   study.yaml = to_yaml(root);
   return reading;

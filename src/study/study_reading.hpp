@@ -16,9 +16,11 @@ struct StudyReading {
 };
 
 /// @param overrides as of --set, of every episode
+/// @param split the one to run, of those that the file has; empty: as the file says
 /// @throws ConfigError or InputError if the file is no YAML map or cannot be read
 StudyReading read_study_file(const std::filesystem::path& file,
-                             const std::vector<std::string>& overrides);
+                             const std::vector<std::string>& overrides,
+                             const std::string& split = {});
 
 /// The episodes of plan_study() that can be planned.
 std::vector<PlannedEpisode> plan_episodes(const Study& study, Problems& problems);

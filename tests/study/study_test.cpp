@@ -8,6 +8,7 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/study/study_layout.hpp"
 #include "vantage/study/sweep/sweep.hpp"
 
 namespace vantage {
@@ -241,6 +242,57 @@ TEST_F(StudyFile, ShippedStudiesAreGood) {
     if (entry.is_directory()) continue;  // of commands of their own
     EXPECT_FALSE(plan_study(read_study(entry.path())).empty()) << entry.path();
   }
+}
+
+constexpr const char* kSplits = R"(splits:
+  development: {start: [near]}
+  report: {start: [far], method: [sparse]}
+)";
+
+TEST_F(StudyFile, ASplitIsSomeOfTheLevels) {
+  const std::string text = std::string(kStudy) + kSplits;
+  EXPECT_THAT(names(plan(text)), ElementsAre("near/random", "near/sparse")) << "the first";
+  read(text);
+  const Study report = read_study(folder_ / "s.yaml", {}, "report");
+  EXPECT_EQ(report.split, "report");
+  EXPECT_THAT(names(plan_study(report)), ElementsAre("far/sparse"));
+  EXPECT_THAT(names(plan(report.yaml)), ElementsAre("far/sparse")) << "read back as it was";
+  EXPECT_THROW(read_study(folder_ / "s.yaml", {}, "test"), ConfigError);
+}
+
+TEST_F(StudyFile, WrongSplitsAreTold) {
+  const std::string text = kStudy;
+  expect_problem(text + "splits: {a: {begin: [near]}}\n", {"s.yaml:10", "no factor 'begin'"});
+  expect_problem(text + "splits: {a: {start: [nearby]}}\n", {"no level 'nearby'", "near, far"});
+  expect_problem(text + "splits: {a: {start: []}}\n", {"needs a level"});
+  expect_problem(text + "split: a\n", {"no splits"});
+  expect_problem(text + "splits: {a: {}}\nsplit: b\n", {"unknown split 'b'", "known: a"});
+}
+
+TEST_F(StudyFile, LevelsOfAGroupGoByOneName) {
+  const std::string report = "report: {groups: {any: [near, far]}, panels: start}\n";
+  const Study study = read(kStudy + report);
+  const StudyLayout layout(study);
+  EXPECT_THAT(layout.panels(), ElementsAre("any"));
+  EXPECT_THAT(layout.levels(), ElementsAre("random", "sparse"));
+  EXPECT_NE(layout.place({0, 0}).pair, layout.place({1, 0}).pair);
+  EXPECT_EQ(layout.place({0, 0}).pair, layout.place({0, 1}).pair);
+  EXPECT_EQ(layout.place({1, 1}).panel, 0U);
+  EXPECT_EQ(layout.place({1, 1}).level, 1U);
+  EXPECT_THAT(names(plan(study.yaml)), testing::SizeIs(4));
+  const std::string text = kStudy;
+  expect_problem(text + "report: {groups: {any: [near, sparse]}}\n", {"of one factor"});
+  expect_problem(text + "report: {groups: {any: [here]}}\n", {"no factor has a level 'here'"});
+  expect_problem(text + "report: {groups: {a: [near], b: [near]}}\n", {"'near' is of two groups"});
+}
+
+TEST_F(StudyFile, AClusterIsAFactorThatIsNotCompared) {
+  const StudyLayout layout(read(std::string(kStudy) + "report: {cluster: start}\n"));
+  EXPECT_EQ(layout.place({1, 0}).cluster, layout.place({1, 1}).cluster);
+  EXPECT_NE(layout.place({1, 0}).cluster, layout.place({0, 0}).cluster);
+  const std::string text = kStudy;
+  expect_problem(text + "report: {cluster: begin}\n", {"unknown factor 'begin'"});
+  expect_problem(text + "report: {cluster: method}\n", {"report.cluster", "alike"});
 }
 
 TEST_F(StudyFile, ShardsAreAPartition) {

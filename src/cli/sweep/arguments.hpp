@@ -16,6 +16,7 @@ struct SweepArguments {
   std::string study;  ///< file or study folder
   std::filesystem::path directory;
   std::vector<std::string> overrides;
+  std::string split;  ///< empty: as the study says
   std::string shard = "1/1";
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool overwrite = false;

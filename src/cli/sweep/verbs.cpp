@@ -22,6 +22,11 @@ ExitCode code_of(const std::vector<EpisodeState>& states) {
   return good ? ExitCode::done : ExitCode::goal_failed;
 }
 
+/// Each split has a folder of its own.
+fs::path default_folder(const Study& study) {
+  return fs::path("out") / (study.name + (study.split.empty() ? "" : "_" + study.split));
+}
+
 StudyResults collect(const SweepArguments& arguments, const fs::path& directory) {
   require_study_folder(directory);
   StudyResults results = read_study_results(directory);
@@ -43,11 +48,10 @@ OpenedStudy open_study(const SweepArguments& arguments) {
       throw ConfigError(fmt::format("--out: {} is a study's folder already", given.string()));
     }
     require_study_folder(given);
-    return {read_study(given / "study.yaml", arguments.overrides), given, true};
+    return {read_study(given / "study.yaml", arguments.overrides, arguments.split), given, true};
   }
-  Study study = read_study(find_study(arguments.study), arguments.overrides);
-  fs::path directory =
-      arguments.directory.empty() ? fs::path("out") / study.name : arguments.directory;
+  Study study = read_study(find_study(arguments.study), arguments.overrides, arguments.split);
+  fs::path directory = arguments.directory.empty() ? default_folder(study) : arguments.directory;
   return {std::move(study), std::move(directory), false};
 }
 

@@ -9,17 +9,20 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-std::vector<double> values_at(const std::vector<std::vector<double>>& curves, std::size_t k,
-                              bool carry_last) {
+struct ValuesAtStep {
   std::vector<double> values;
-  for (const auto& curve : curves) {
-    if (k < curve.size()) {
-      values.push_back(curve[k]);
-    } else if (carry_last && !curve.empty()) {
-      values.push_back(curve.back());
-    }
+  std::vector<std::size_t> marks;
+};
+
+ValuesAtStep values_at(const MarkedCurves& episodes, std::size_t k, bool carry_last) {
+  ValuesAtStep found;
+  for (std::size_t i = 0; i < episodes.curves.size(); ++i) {
+    const auto& curve = episodes.curves[i];
+    if (k >= curve.size() && (!carry_last || curve.empty())) continue;
+    found.values.push_back(k < curve.size() ? curve[k] : curve.back());
+    found.marks.push_back(episodes.clusters[i]);
   }
-  return values;
+  return found;
 }
 
 }  // namespace
@@ -29,16 +32,17 @@ std::string interval_csv(const Interval& interval, std::size_t values) {
 }
 
 FigureSeries mean_series(const Figure& figure, const std::string& panel, const std::string& name,
-                         std::size_t style, const std::vector<std::vector<double>>& curves,
-                         int first_x, bool carry_last) {
+                         std::size_t style, const MarkedCurves& episodes, int first_x,
+                         bool carry_last) {
   std::size_t length = 0;
-  for (const auto& curve : curves) length = std::max(length, curve.size());
+  for (const auto& curve : episodes.curves) length = std::max(length, curve.size());
   FigureSeries series{name, style, {}};
   for (std::size_t k = 0; k < length; ++k) {
-    const auto values = values_at(curves, k, carry_last);
+    const auto [values, marks] = values_at(episodes, k, carry_last);
+    const Clusters clusters = clusters_of(marks);
     Rng rng = Rng::stream(kSeed, fmt::format("{}/{}/{}/{}", figure.name, panel, name, k));
     series.points.push_back({static_cast<double>(first_x) + static_cast<double>(k), values.size(),
-                             mean(values), bootstrap_mean(values, rng)});
+                             clusters.size(), mean(values), bootstrap_mean(values, clusters, rng)});
   }
   return series;
 }
@@ -55,7 +59,7 @@ std::string figure_csv(const Figure& figure) {
     for (const FigureSeries& series : panel.series) {
       for (const FigurePoint& point : series.points) {
         text += fmt::format("{},{},{},{},{},{}\n", panel.title, series.name, point.x, point.count,
-                            point.mean, interval_csv(point.interval, point.count));
+                            point.mean, interval_csv(point.interval, point.clusters));
       }
     }
   }

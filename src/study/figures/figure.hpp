@@ -15,7 +15,8 @@ std::string interval_csv(const Interval& interval, std::size_t values);
 
 struct FigurePoint {
   double x = 0.0;
-  std::size_t count = 0;  ///< episodes the mean is of
+  std::size_t count = 0;     ///< episodes the mean is of
+  std::size_t clusters = 0;  ///< that they fall into
   double mean = 0.0;
   Interval interval;  ///< 95 % bootstrap
 };
@@ -42,11 +43,17 @@ struct Figure {
   std::string note = "Mean over episodes; band: 95 % bootstrap interval of the mean.";  ///< below
 };
 
+/// A curve of each episode, and a mark that those that are alike have in common.
+struct MarkedCurves {
+  const std::vector<std::vector<double>>& curves;
+  const std::vector<std::size_t>& clusters;
+};
+
 /// Adds the mean and its interval at each x = first_x, first_x + 1, ... of curves that may differ
 /// in length; `carry_last`: a curve that has ended keeps its last value.
 FigureSeries mean_series(const Figure& figure, const std::string& panel, const std::string& name,
-                         std::size_t style, const std::vector<std::vector<double>>& curves,
-                         int first_x, bool carry_last);
+                         std::size_t style, const MarkedCurves& episodes, int first_x,
+                         bool carry_last);
 
 /// Title and subtitle in one line.
 std::string full_title(const Figure& figure);

@@ -12,8 +12,7 @@ using Json = nlohmann::ordered_json;
 /// Former runs have none.
 Json bands_of(const Json& scan) { return scan.value("by_distance", Json::array()); }
 
-/// Forecast of `adaptive` and what was seen, of cells between two distances from the sensor: of one
-/// scan.
+/// Cells of one scan between two distances from the sensor: forecast by `adaptive`, and seen.
 std::pair<double, double> forecast_of(const Json& scan, double from_m, double to_m) {
   std::pair<double, double> cells{0.0, 0.0};
   for (const Json& band : bands_of(scan)) {

@@ -164,7 +164,7 @@ void MappingParts::hold_forecast_against(const OccupancyGrid& before) {
     predicted_cells += band.predicted_cells;
     actual_cells += static_cast<double>(band.actual_cells - band.outside_cells);
   }
-  calibration_.observe(predicted_cells, predicted_at_half_cells_, actual_cells);
+  calibration_.observe(predicted_cells, at_half_cells_, actual_cells);
   current_.hazard_scale = calibration_.scale();
 }
 
@@ -227,10 +227,8 @@ void MappingParts::predict(const Pose& T_world_sensor) {
   }
   T_world_predicted_ = T_world_sensor;
   current_.by_distance = forecast(1.0, options_.metrics.distance_band_m);
-  if (options_.forecast.calibrate) {
-    predicted_at_half_cells_ =
-        forecast(0.5, robot_.view_field().range_max_m).front().predicted_cells;
-  }
+  const double all_m = robot_.view_field().range_max_m;
+  if (options_.forecast.calibrate) at_half_cells_ = forecast(0.5, all_m).front().predicted_cells;
 }
 
 MapPanelInput MappingParts::panel() const {

@@ -98,7 +98,7 @@ class MappingParts {
   const MapBelief& belief_;
   std::vector<Predictor> predictors_;
   ForecastCalibration calibration_;
-  double predicted_at_half_cells_ = 0.0;       ///< of the scan to come, with half the hazard
+  double at_half_cells_ = 0.0;                 ///< of the scan to come, with half the hazard
   Pose T_world_predicted_ = Pose::Identity();  ///< of the sensor, for the scan to come
   Rng choice_rng_;
 };

@@ -7,16 +7,18 @@
 #include <algorithm>
 #include <regex>
 
-#include "vantage/study/text_table.hpp"
+#include "vantage/study/tables/text_table.hpp"
 
 namespace vantage {
 namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+const std::vector<std::size_t> kApart{0, 1};
+
 TEST(MeanSeries, EndedCurvesKeepTheirLastValue) {
   const std::vector<std::vector<double>> curves{{4.0, 2.0}, {8.0, 6.0, 4.0}};
-  const FigureSeries series = mean_series({}, "p", "s", 0, curves, 1, true);
+  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, kApart}, 1, true);
   ASSERT_EQ(series.points.size(), 3U);
   EXPECT_EQ(series.points[0].x, 1.0);
   EXPECT_DOUBLE_EQ(series.points[0].mean, 6.0);
@@ -26,16 +28,27 @@ TEST(MeanSeries, EndedCurvesKeepTheirLastValue) {
 
 TEST(MeanSeries, OrAreLeftOut) {
   const std::vector<std::vector<double>> curves{{4.0, 2.0}, {8.0, 6.0, 4.0}};
-  const FigureSeries series = mean_series({}, "p", "s", 0, curves, 2, false);
+  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, kApart}, 2, false);
   EXPECT_EQ(series.points[2].x, 4.0);
   EXPECT_DOUBLE_EQ(series.points[2].mean, 4.0);
   EXPECT_EQ(series.points[2].count, 1U);
 }
 
+/// Both of one scene: one value, and no interval.
+TEST(MeanSeries, BandsAreOfClusters) {
+  const std::vector<std::vector<double>> curves{{4.0}, {8.0}};
+  const std::vector<std::size_t> alike{3, 3};
+  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, alike}, 1, true);
+  EXPECT_EQ(series.points[0].count, 2U);
+  EXPECT_EQ(series.points[0].clusters, 1U);
+  EXPECT_DOUBLE_EQ(series.points[0].interval.low, 6.0);
+  EXPECT_DOUBLE_EQ(series.points[0].interval.high, 6.0);
+}
+
 Figure small_figure() {
   Figure figure{"f", "Cost & gain", "", "scans", "cost, m", {}};
   figure.panels.push_back(
-      {"<left>", {{"ours", 1, {{1, 2, 0.0, {0.0, 0.0}}, {2, 2, 1e6, {9e5, 1.2e6}}}}}});
+      {"<left>", {{"ours", 1, {{1, 2, 2, 0.0, {0.0, 0.0}}, {2, 2, 2, 1e6, {9e5, 1.2e6}}}}}});
   figure.panels.push_back({"empty", {}});
   return figure;
 }

@@ -1,12 +1,12 @@
 // Means and paired differences with answers known beforehand.
-#include "vantage/study/comparison.hpp"
+#include "vantage/study/tables/comparison.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 
-#include "vantage/study/text_table.hpp"
+#include "vantage/study/tables/text_table.hpp"
 
 namespace vantage {
 namespace {
@@ -30,6 +30,41 @@ Comparison two_panels() {
     samples.push_back({panel, 1, pair, panel == 0 ? theirs - 2.0 : 0.5 * theirs});
   }
   return compare_levels("cost", "cost, m", {"left", "right"}, {"theirs", "ours"}, 0, samples);
+}
+
+/// Four scenes of ten starts; ours is better by 1, 2, 3 and 4 in all starts of a scene: forty pairs
+/// that say as much as four.
+TEST(Comparison, StartsOfASceneAreAlike) {
+  std::vector<Sample> samples;
+  for (std::size_t pair = 0; pair < 40; ++pair) {
+    const std::size_t scene = pair / 10;
+    samples.push_back({0, 0, pair, 10.0, scene});
+    samples.push_back({0, 1, pair, 10.0 - static_cast<double>(scene + 1), scene});
+  }
+  const Comparison comparison = compare_levels("cost", "cost", {"all"}, {"a", "b"}, 0, samples);
+  const Difference& d = *row(comparison, "all", "b").difference;
+  EXPECT_EQ(d.pairs, 40U);
+  EXPECT_EQ(d.clusters, 4U);
+  EXPECT_DOUBLE_EQ(d.mean, -2.5);
+  EXPECT_DOUBLE_EQ(d.p_value, 2.0 / 16.0);  // the least that four scenes can give
+  EXPECT_LT(d.interval.low, -3.4);
+  EXPECT_GT(d.interval.high, -1.6);
+}
+
+/// Of one level and one pair: draws of a method that chooses at random.
+TEST(Comparison, DrawsOfOnePairCountAsTheirMean) {
+  const std::vector<Sample> samples{{0, 0, 0, 4.0}, {0, 0, 1, 6.0}, {0, 1, 0, 7.0},
+                                    {0, 1, 0, 9.0}, {0, 1, 1, 6.0}, {0, 1, 1, 8.0}};
+  const Comparison comparison = compare_levels("cost", "cost", {"all"}, {"a", "r"}, 0, samples);
+  EXPECT_EQ(row(comparison, "all", "r").count, 2U);
+  EXPECT_DOUBLE_EQ(row(comparison, "all", "r").mean, 7.5);
+  EXPECT_DOUBLE_EQ(row(comparison, "all", "r").difference->mean, 2.5);
+}
+
+TEST(Comparison, OfOneSceneThereIsNoInterval) {
+  const std::vector<Sample> samples{{0, 0, 0, 4.0, 7}, {0, 0, 1, 6.0, 7}};
+  const Comparison comparison = compare_levels("cost", "cost", {"all"}, {"a"}, 0, samples);
+  EXPECT_TRUE(comparison_json(comparison)["all"]["a"]["interval"].is_null());
 }
 
 TEST(Comparison, PairsCancelWhatTheyShare) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "vantage/study/comparison.hpp"
 #include "vantage/study/figures/figure.hpp"
+#include "vantage/study/tables/comparison.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "vantage/study/text_table.hpp"
+#include "vantage/study/tables/text_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,14 +22,14 @@ std::string with_interval(double value, const Interval& interval, std::size_t va
 
 std::vector<std::string> cells(const ComparisonRow& row) {
   std::vector<std::string> cells{row.level, fmt::format("{}", row.count),
-                                 with_interval(row.mean, row.interval, row.count)};
+                                 with_interval(row.mean, row.interval, row.clusters)};
   if (!row.difference) {
     cells.insert(cells.end(), 3, "");
     return cells;
   }
   const Difference& d = *row.difference;
-  cells.push_back(with_interval(d.mean, d.interval, d.pairs));
-  cells.push_back(d.ratio ? with_interval(*d.ratio, *d.ratio_interval, d.pairs) : "");
+  cells.push_back(with_interval(d.mean, d.interval, d.clusters));
+  cells.push_back(d.ratio ? with_interval(*d.ratio, *d.ratio_interval, d.clusters) : "");
   cells.push_back(fmt::format("{:.2g}", d.p_value));
   return cells;
 }
@@ -61,7 +61,7 @@ TextTable table_of(const FigurePanel& panel, const std::string& x_label) {
 }
 
 std::string verdict(const Comparison& comparison, const Difference& d) {
-  if (!has_interval(d.pairs)) return "no interval";
+  if (!has_interval(d.clusters)) return "no interval";
   if (d.interval.low <= 0.0 && d.interval.high >= 0.0) return "no clear difference";
   if (comparison.better == Better::unsaid) return d.mean > 0.0 ? "more" : "less";
   return (d.mean > 0.0) == (comparison.better == Better::higher) ? "better" : "worse";
@@ -105,7 +105,9 @@ std::vector<TextTable> text_tables(const Comparison& comparison) {
     if (tables.empty() || tables.back().title != row.panel) {
       tables.push_back(
           {row.panel,
-           {"", "episodes", "mean [95 %]",
+           {"", "episodes",
+            comparison.cluster.empty() ? "mean [95 %]"
+                                       : fmt::format("mean [95 %, by {}]", comparison.cluster),
             fmt::format("difference to {} [95 %]", comparison.reference), "ratio [95 %]", "p"},
            {}});
     }
@@ -135,7 +137,7 @@ TextTable overview(const std::vector<Comparison>& comparisons) {
         line = table.rows.end() - 1;
       }
       line->resize(table.header.size() - 1);
-      line->push_back(with_interval(row.mean, row.interval, row.count));
+      line->push_back(with_interval(row.mean, row.interval, row.clusters));
     }
   }
   for (auto& row : table.rows) row.resize(table.header.size());
@@ -151,7 +153,7 @@ std::vector<std::string> verdicts(const std::vector<Comparison>& comparisons) {
       const char* sign = d.mean > 0.0 ? "+" : "";
       lines.push_back(fmt::format("{} against {}: {} {}{}, {} ({} pair{})", row.level,
                                   comparison.reference, comparison.name, sign,
-                                  with_interval(d.mean, d.interval, d.pairs),
+                                  with_interval(d.mean, d.interval, d.clusters),
                                   verdict(comparison, d), d.pairs, d.pairs == 1 ? "" : "s"));
     }
   }
