@@ -29,7 +29,7 @@ FigureSeries curve(const std::string& name, std::size_t style, const Over& over,
   for (int i = over.first; i <= over.last; i += over.step) {
     const double x = over.unit * i;
     const double y = cost(x);
-    series.points.push_back({x, 1, y, {y, y}});
+    series.points.push_back({x, 1, 1, y, {y, y}});
   }
   return series;
 }

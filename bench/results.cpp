@@ -164,7 +164,7 @@ Figure scaling_figure(const Json& figures) {
     if (!key.starts_with("ms_of_")) continue;
     const double cells = std::stod(key.substr(6));
     const double ms = value.get<double>();
-    series.points.push_back({1e-6 * cells, 1, ms, {ms, ms}});
+    series.points.push_back({1e-6 * cells, 1, 1, ms, {ms, ms}});
   }
   return {.name = "scaling",
           .title = "Time of a decision of 30 views",
