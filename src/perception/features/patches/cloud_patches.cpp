@@ -39,8 +39,9 @@ Eigen::Vector2f place_of(const ObjectPixels& pixels, const GridPoint& at) {
 std::vector<std::size_t> neighbours(const ObjectView& view, const ObjectSurface& surface,
                                     const GridPoint& at) {
   const Eigen::Vector3f& p = surface.cloud.points[at.point];
-  const int reach_px = std::min(static_cast<int>(std::ceil(kRadius_m * view.focal_px / p.z())),
-                                std::max(view.width_px, view.height_px));
+  // Clamped before it is a whole number: of a point at the camera it is beyond any.
+  const int reach_px = static_cast<int>(std::clamp<double>(
+      std::ceil(kRadius_m * view.focal_px / p.z()), -1.0, std::max(view.width_px, view.height_px)));
   const int stride =
       std::max(1, static_cast<int>(std::ceil((2.0 * reach_px + 1.0) / std::sqrt(kMaxNeighbours))));
   const int reach = reach_px / stride;
