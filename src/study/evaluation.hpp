@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "vantage/study/tables/comparison.hpp"
 #include "vantage/study/figures/figure.hpp"
 #include "vantage/study/measures.hpp"
 #include "vantage/study/results.hpp"
 #include "vantage/study/study.hpp"
+#include "vantage/study/tables/comparison.hpp"
 
 namespace vantage {
 

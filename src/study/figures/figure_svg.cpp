@@ -22,7 +22,7 @@ constexpr double kBottom = 48.0;
 constexpr double kTitleRow = 21.0;
 constexpr double kTextRow = 17.0;
 constexpr double kLegendRow = 24.0;
-constexpr double kNearZero = 0.35;    ///< curves that fall below this share of their top show zero
+constexpr double kNearZero = 0.35;  ///< curves that fall below this share of their top show zero
 
 constexpr std::string_view kInk = "#16202e";
 constexpr auto kColours =
