@@ -49,7 +49,8 @@ struct ProductBasis {
     [[nodiscard]] Eigen::Index sample(double x) const {
       const double at = (x - low) * per_unit + 0.5;
       if (!(at > 0.0)) return 0;
-      return std::min(static_cast<Eigen::Index>(at), values.cols() - 1);
+      // Clamped before it is an index: an odd view may give a size beyond every integer.
+      return static_cast<Eigen::Index>(std::min(at, static_cast<double>(values.cols() - 1)));
     }
     [[nodiscard]] auto at(double x) const { return values.col(sample(x)); }
     [[nodiscard]] Eigen::Index functions() const { return values.rows(); }
