@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "vantage/core/log.hpp"
+#include "vantage/sim/world/near_pairs.hpp"
 
 namespace vantage {
 namespace {
@@ -34,6 +35,7 @@ void install_mujoco_handlers() {
   std::call_once(once, [] {
     mju_user_error = throw_error;
     mju_user_warning = collect_warning;
+    mjcb_contactfilter = discard_far_pair;
   });
 }
 

@@ -89,12 +89,18 @@ void WorldOptions::check() const {
 }
 
 World::World(const ModelSource& source, const WorldOptions& options)
-    : source_(source), options_(options) {
+    : World(source, options, load_model(source)) {}
+
+World::World(const ModelSource& source, const WorldOptions& options, LoadedModel&& loaded)
+    : source_(source),
+      options_(options),
+      warnings_(std::move(loaded.warnings)),
+      model_(std::move(loaded.model)),
+      near_geoms_(*model_) {
   check_options(options_, "world");
-  LoadedModel loaded = load_model(source);
-  model_ = std::move(loaded.model);
-  warnings_ = std::move(loaded.warnings);
   model_->opt.timestep = options_.timestep_s;
+  stepping_.reset(mj_copyModel(nullptr, model_.get()));
+  if (!stepping_) throw InputError("the model is too large for the memory of this machine");
   data_ = make_data(*model_);
   snapshot_ = make_data(*model_);
 }
@@ -133,12 +139,22 @@ void World::advance_tick() {
   if (on_tick) on_tick(*this);
 }
 
+void World::look_for_near_geoms() {
+  if (positions_jumped_) {
+    near_geoms_.start(*stepping_, snapshot());
+  } else {
+    near_geoms_.follow(*stepping_, *data_);
+  }
+  positions_jumped_ = false;
+}
+
 void World::step() {
+  look_for_near_geoms();
   const double before_s = data_->time;
   std::vector<std::string> messages;
   try {
     const WarningCollector collector(messages);
-    mj_step(model_.get(), data_.get());
+    mj_step(stepping_.get(), data_.get());
   } catch (const MujocoError& error) {
     diverged_ = true;
     throw DivergedError(
@@ -186,6 +202,7 @@ void World::set_state(std::span<const double> state) {
   });
   ticks_ = static_cast<std::uint64_t>(std::llround(data_->time / options_.control_period_s));
   diverged_ = false;
+  positions_jumped_ = true;
 }
 
 std::span<const double> World::controls() const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "vantage/geometry/pose.hpp"
+#include "vantage/sim/world/near_geoms.hpp"
 #include "vantage/sim/world/scene.hpp"
 #include "vantage/sim/world/world_options.hpp"
 
@@ -77,13 +78,18 @@ class World {
   void set_initial_pose(const std::string& free_joint, const Pose& T_world_body);
 
  private:
+  World(const ModelSource& source, const WorldOptions& options, LoadedModel&& loaded);
   void step();
+  void look_for_near_geoms();
   ModelSource source_;
   WorldOptions options_;
   std::vector<std::string> warnings_;
   ModelPtr model_;
+  ModelPtr stepping_;  ///< the same but for masks of what is far from all that moves
   DataPtr data_;
   mutable DataPtr snapshot_;
+  NearGeoms near_geoms_;
+  bool positions_jumped_ = true;
   std::uint64_t ticks_ = 0;
   double stepping_wall_s_ = 0.0;
   bool diverged_ = false;
