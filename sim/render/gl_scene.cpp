@@ -254,18 +254,21 @@ void GlScene::read_depth_and_segmentation(const mjrRect& viewport, RenderedImage
   mjr_readPixels(buffer_rgb_.data(), buffer_depth_.data(), viewport, &context_);
   const double near = scene_.camera[0].frustum_near;
   const double far = scene_.camera[0].frustum_far;
+  out.depth_m.resize(pixels);
+  out.segmentation.resize(pixels);
+  std::size_t pixel = 0;
   for (int row = 0; row < viewport.height; ++row) {
-    for (int column = 0; column < viewport.width; ++column) {
-      const std::size_t source = flipped(row, column, viewport);
+    std::size_t source = flipped(row, 0, viewport);
+    for (int column = 0; column < viewport.width; ++column, ++source, ++pixel) {
       const unsigned char* id = buffer_rgb_.data() + 3 * source;
       const int drawn = id[0] + 256 * id[1] + 65536 * id[2] - 1;
       const double d = buffer_depth_[source];
       const bool nothing = drawn < 0 || d >= 1.0;
-      out.depth_m.push_back(nothing ? 0.0F
-                                    : static_cast<float>(near * far / (far - d * (far - near))));
+      out.depth_m[pixel] =
+          nothing ? 0.0F : static_cast<float>(near * far / (far - d * (far - near)));
       const bool is_geom =
           !nothing && drawn < scene_.ngeom && scene_.geoms[drawn].objtype == mjOBJ_GEOM;
-      out.segmentation.push_back(is_geom ? scene_.geoms[drawn].objid : -1);
+      out.segmentation[pixel] = is_geom ? scene_.geoms[drawn].objid : -1;
     }
   }
 }

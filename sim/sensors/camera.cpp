@@ -54,39 +54,51 @@ Pose T_world_camera(const mjModel& model, const mjData& data, int camera_id) {
 
 namespace {
 
-CameraImages take(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
-                  const RenderRequest& request, const RgbdOptions& options, Rng& rng) {
+/// Depth is that of surfaces, without errors; 0: there is none.
+CameraImages drawn_by(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
+                      const RenderRequest& request, const RgbdOptions& options) {
   expects(renderer.width_px() == options.width_px && renderer.height_px() == options.height_px,
           "renderer of the camera's image size");
   expects(camera_id >= 0 && camera_id < model.ncam, "camera id of the model");
   RenderedImages drawn;
   renderer.render(model, data, FixedCamera{camera_id, options.fovy_rad}, request, drawn);
-  CameraImages images{.width_px = drawn.width_px,
-                      .height_px = drawn.height_px,
-                      .focal_px = focal_length_px(options),
-                      .range_max_m = options.range_max_m,
-                      .rgb = std::move(drawn.rgb),
-                      .depth_m = std::move(drawn.depth_m)};
-  for (float& depth : images.depth_m) {
-    const bool nothing = depth == 0.0F;
-    depth =
-        measured_depth_m(options, nothing ? std::numeric_limits<float>::infinity() : depth, rng);
-  }
-  return images;
+  return {.width_px = drawn.width_px,
+          .height_px = drawn.height_px,
+          .focal_px = focal_length_px(options),
+          .range_max_m = options.range_max_m,
+          .rgb = std::move(drawn.rgb),
+          .depth_m = std::move(drawn.depth_m)};
 }
 
 }  // namespace
 
 CameraImages rgbd(Renderer& renderer, const mjModel& model, const mjData& data, int camera_id,
                   const RgbdOptions& options, Rng& rng) {
-  return take(renderer, model, data, camera_id, RenderRequest{}, options, rng);
+  CameraImages images = drawn_by(renderer, model, data, camera_id, RenderRequest{}, options);
+  measure_depth(images, options, rng);
+  return images;
+}
+
+CameraImages exact_depth_image(Renderer& renderer, const mjModel& model, const mjData& data,
+                               int camera_id, const RgbdOptions& options) {
+  RenderRequest request;
+  request.rgb = false;
+  return drawn_by(renderer, model, data, camera_id, request, options);
+}
+
+void measure_depth(CameraImages& images, const RgbdOptions& options, Rng& rng) {
+  for (float& depth : images.depth_m) {
+    const bool nothing = depth == 0.0F;
+    depth =
+        measured_depth_m(options, nothing ? std::numeric_limits<float>::infinity() : depth, rng);
+  }
 }
 
 CameraImages depth_image(Renderer& renderer, const mjModel& model, const mjData& data,
                          int camera_id, const RgbdOptions& options, Rng& rng) {
-  RenderRequest request;
-  request.rgb = false;
-  return take(renderer, model, data, camera_id, request, options, rng);
+  CameraImages images = exact_depth_image(renderer, model, data, camera_id, options);
+  measure_depth(images, options, rng);
+  return images;
 }
 
 }  // namespace vantage

@@ -24,6 +24,12 @@ CameraImages rgbd(Renderer& renderer, const mjModel& model, const mjData& data, 
 CameraImages depth_image(Renderer& renderer, const mjModel& model, const mjData& data,
                          int camera_id, const RgbdOptions& options, Rng& rng);
 
+/// depth_image in two: what is drawn, in the renderer's thread, then what the camera measures of
+/// it, in any.
+CameraImages exact_depth_image(Renderer& renderer, const mjModel& model, const mjData& data,
+                               int camera_id, const RgbdOptions& options);
+void measure_depth(CameraImages& images, const RgbdOptions& options, Rng& rng);
+
 /// Pose of a camera of the model in OpenCV's axes: z forward, x right, y down.
 Pose T_world_camera(const mjModel& model, const mjData& data, int camera_id);
 

@@ -109,18 +109,20 @@ std::size_t count(std::span<const std::uint8_t> flags) {
 std::vector<std::uint8_t> dilate(const GridFrame& grid, std::span<const std::uint8_t> flags,
                                  int reach) {
   std::vector<std::uint8_t> wide(flags.begin(), flags.end());
+  std::size_t stride = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<std::uint8_t> next(wide.size(), 0);
-    for (std::size_t i = 0; i < wide.size(); ++i) {
-      if (wide[i] == 0) continue;
-      Eigen::Array3i cell = grid.cell(i);
-      const int centre = cell[axis];
-      const int last = std::min(centre + reach, grid.cells[axis] - 1);
-      for (cell[axis] = std::max(0, centre - reach); cell[axis] <= last; ++cell[axis]) {
-        next[grid.index(cell)] = 1;
+    const std::size_t line = stride * static_cast<std::size_t>(grid.cells[axis]);
+    const std::vector<std::uint8_t> narrow = wide;
+    for (std::size_t first = 0; first < wide.size(); first += line) {
+      for (int away = 1; away <= std::min(reach, grid.cells[axis] - 1); ++away) {
+        const std::size_t offset = stride * static_cast<std::size_t>(away);
+        for (std::size_t i = first + offset; i < first + line; ++i) {
+          wide[i] |= narrow[i - offset];
+          wide[i - offset] |= narrow[i];
+        }
       }
     }
-    wide = std::move(next);
+    stride = line;
   }
   return wide;
 }

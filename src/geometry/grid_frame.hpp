@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "vantage/core/error.hpp"
 
@@ -63,13 +64,20 @@ struct SegmentClip {
 SegmentClip clip_segment(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p0,
                          const Eigen::Vector3d& p1);
 
-/// Calls `visit(cell index)` for each grid cell the segment from `p_from` to `p_to` passes, in
-/// order, the cell of `p_to` included; stops early when `visit` returns false. Parts of the segment
-/// outside the grid are skipped. [AmanatidesWoo1987]
+/// Calls `visit(cell index)`, or `visit(cell index, cell)`, for each grid cell the segment from
+/// `p_from` to `p_to` passes, in order, the cell of `p_to` included; stops early when `visit`
+/// returns false. Parts of the segment outside the grid are skipped. [AmanatidesWoo1987]
 /// @return false if `visit` stopped the walk.
 template <class Visit>
 bool walk_ray(const GridFrame& grid, const Eigen::Vector3d& p_from, const Eigen::Vector3d& p_to,
               Visit&& visit) {
+  const auto go_on = [&](std::ptrdiff_t index, const Eigen::Array3i& cell) {
+    if constexpr (std::is_invocable_v<Visit&, std::size_t, const Eigen::Array3i&>) {
+      return visit(static_cast<std::size_t>(index), cell);
+    } else {
+      return visit(static_cast<std::size_t>(index));
+    }
+  };
   const SegmentClip clip = clip_segment(grid.box(), p_from, p_to);
   if (clip.empty()) return true;
   const Eigen::Vector3d d = p_to - p_from;
@@ -100,7 +108,7 @@ bool walk_ray(const GridFrame& grid, const Eigen::Vector3d& p_from, const Eigen:
   const std::array<std::ptrdiff_t, 3> stride{1, nx, nx * grid.cells.y()};
   auto index = static_cast<std::ptrdiff_t>(grid.index(cell));
   for (; remaining > 0; --remaining) {
-    if (!visit(static_cast<std::size_t>(index))) return false;
+    if (!go_on(index, cell)) return false;
     int axis = t_next[0] < t_next[1] ? 0 : 1;
     if (t_next[2] < t_next[axis]) axis = 2;
     cell[axis] += step[axis];
@@ -108,7 +116,7 @@ bool walk_ray(const GridFrame& grid, const Eigen::Vector3d& p_from, const Eigen:
     t_next[axis] = cell[axis] == goal[axis] ? std::numeric_limits<double>::infinity()
                                             : t_next[axis] + t_delta[axis];
   }
-  return visit(static_cast<std::size_t>(index));
+  return go_on(index, cell);
 }
 
 }  // namespace vantage

@@ -3,13 +3,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "vantage/core/parallel_for.hpp"
 #include "vantage/geometry/face_neighbours.hpp"
 
 namespace vantage {
 namespace {
 
-bool is_beside_occupied(const OccupancyGrid& grid, std::size_t cell) {
-  return any_face_neighbour(grid.frame, grid.frame.cell(cell), [&](std::size_t neighbour) {
+bool is_beside_occupied(const OccupancyGrid& grid, const Eigen::Array3i& cell) {
+  return any_face_neighbour(grid.frame, cell, [&](std::size_t neighbour) {
     return grid.state(neighbour) == CellState::occupied;
   });
 }
@@ -40,28 +41,46 @@ double ClutterHazard::sum_of_layer(const BlockField& counts, int layer) const {
 }
 
 void ClutterHazard::count_beam(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
-                               const Eigen::Vector3d& p_to, bool returned) {
+                               const Beam& beam, Counts& counts) const {
   const GridFrame& frame = before.frame;
-  const Eigen::Array3i last = frame.cell_at(p_to);
-  const std::size_t end = returned && frame.contains(last) ? frame.index(last) : frame.size();
-  walk_ray(frame, p_from, p_to, [&](std::size_t cell) {
-    const CellState state = before.state(cell);
+  const Eigen::Array3i last = frame.cell_at(beam.p_end);
+  const std::size_t end = beam.returned && frame.contains(last) ? frame.index(last) : frame.size();
+  walk_ray(frame, p_from, beam.p_end, [&](std::size_t index, const Eigen::Array3i& cell) {
+    const CellState state = before.state(index);
     if (state == CellState::unobserved && !is_beside_occupied(before, cell)) {
-      const std::size_t slice = cell / column_of_.size();
-      const int layer = layer_of(static_cast<int>(slice));
+      const auto column = static_cast<std::size_t>(cell.y() * frame.cells.x() + cell.x());
       const std::size_t block =
-          crossings_.layout.index(0, 0, layer) + column_of_[cell - slice * column_of_.size()];
-      crossings_.per_block[block] += 1.0;
-      if (cell == end) hits_.per_block[block] += 1.0;
+          crossings_.layout.index(0, 0, layer_of(cell.z())) + column_of_[column];
+      counts.crossings[block] += 1.0;
+      if (index == end) counts.hits[block] += 1.0;
     }
     return state != CellState::occupied;
   });
 }
 
+/// Whole numbers, whose sum is the same in any order.
+void ClutterHazard::count_beams(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
+                                std::span<const Beam> beams, int threads) {
+  const std::vector<double> none(crossings_.layout.size(), 0.0);
+  std::vector<Counts> parts(static_cast<std::size_t>(threads), {none, none});
+  parallel_for(parts.size(), threads, [&](std::size_t part) {
+    for (std::size_t i = part; i < beams.size(); i += parts.size()) {
+      count_beam(before, p_from, beams[i], parts[part]);
+    }
+  });
+  for (const Counts& part : parts) {
+    for (std::size_t block = 0; block < none.size(); ++block) {
+      crossings_.per_block[block] += part.crossings[block];
+      hits_.per_block[block] += part.hits[block];
+    }
+  }
+}
+
 void ClutterHazard::observe(const OccupancyGrid& before, const RangeScan& scan,
-                            const Pose& T_world_sensor) {
+                            const Pose& T_world_sensor, int threads) {
   expects((before.frame.cells == crossings_.layout.cells).all(),
           "the hazard was made for a grid of other size");
+  std::vector<Beam> beams;
   for (std::size_t line = 0; line < scan.lines(); ++line) {
     for (std::size_t beam = 0; beam < scan.beams(); ++beam) {
       const double measured_m = scan.range(line, beam);
@@ -69,18 +88,19 @@ void ClutterHazard::observe(const OccupancyGrid& before, const RangeScan& scan,
       const bool returned = std::isfinite(measured_m);
       const double length_m = returned ? measured_m : scan.field_of_view.range_max_m;
       const BeamAngles angles{scan.azimuth_rad[beam], scan.tilt_rad[line]};
-      const Eigen::Vector3d p_end = T_world_sensor * (length_m * beam_direction(angles));
-      count_beam(before, T_world_sensor.translation(), p_end, returned);
+      beams.push_back({T_world_sensor * (length_m * beam_direction(angles)), returned});
     }
   }
+  count_beams(before, T_world_sensor.translation(), beams, threads);
 }
 
 void ClutterHazard::observe(const OccupancyGrid& before, const CameraImages& image,
-                            const Pose& T_world_camera, int stride, double floor_m) {
+                            const Pose& T_world_camera, int stride, double floor_m, int threads) {
   expects((before.frame.cells == crossings_.layout.cells).all(),
           "the hazard was made for a grid of other size");
   expects(stride >= 1, "a stride of at least one pixel");
   const Eigen::Vector3d& p_from = T_world_camera.translation();
+  std::vector<Beam> beams;
   for (int row = 0; row < image.height_px; row += stride) {
     for (int column = 0; column < image.width_px; column += stride) {
       const double depth_m = image.depth_at(row, column);
@@ -90,13 +110,14 @@ void ClutterHazard::observe(const OccupancyGrid& before, const CameraImages& ima
       const double scale = returned ? depth_m : image.range_max_m / ray.norm();
       const Eigen::Vector3d p_end = T_world_camera * (scale * ray);
       if (p_end.z() >= floor_m) {
-        count_beam(before, p_from, p_end, returned);
+        beams.push_back({p_end, returned});
       } else if (p_from.z() > floor_m) {
         const double share = (p_from.z() - floor_m) / (p_from.z() - p_end.z());
-        count_beam(before, p_from, p_from + share * (p_end - p_from), false);
+        beams.push_back({p_from + share * (p_end - p_from), false});
       }
     }
   }
+  count_beams(before, p_from, beams, threads);
 }
 
 double ClutterHazard::global_hazard() const {

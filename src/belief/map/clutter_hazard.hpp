@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "vantage/belief/map/block_field.hpp"
@@ -60,14 +61,16 @@ class ClutterHazard {
 
   /// Counts the beams of one scan through the grid as it was before that scan. A beam counts until
   /// it ends, or meets a cell then known to be occupied, which is no hit; without a return it
-  /// crosses all to the range or the grid's end. NaN beams are ignored.
-  void observe(const OccupancyGrid& before, const RangeScan& scan, const Pose& T_world_sensor);
+  /// crosses all to the range or the grid's end. NaN beams are ignored. Does not depend on
+  /// `threads`.
+  void observe(const OccupancyGrid& before, const RangeScan& scan, const Pose& T_world_sensor,
+               int threads = 1);
 
   /// The same for a depth image, of which every `stride`-th pixel of every `stride`-th row is a
   /// beam; pixels without measurement are ignored, those beyond range cross all to the range. What
   /// is lower than `floor_m` is the floor, which is no clutter: a beam counts down to there.
   void observe(const OccupancyGrid& before, const CameraImages& image, const Pose& T_world_camera,
-               int stride, double floor_m);
+               int stride, double floor_m, int threads = 1);
 
   [[nodiscard]] int layer_of(int slice) const { return crossings_.layout.block_of(2, slice); }
   [[nodiscard]] double crossings(int layer) const { return sum_of_layer(crossings_, layer); }
@@ -84,8 +87,20 @@ class ClutterHazard {
 
  private:
   [[nodiscard]] double sum_of_layer(const BlockField& counts, int layer) const;
-  void count_beam(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
-                  const Eigen::Vector3d& p_to, bool returned);
+  /// Ends at what it met, or goes on beyond.
+  struct Beam {
+    Eigen::Vector3d p_end;  ///< world
+    bool returned;
+  };
+  /// What beams have met, block by block.
+  struct Counts {
+    std::vector<double> crossings;
+    std::vector<double> hits;
+  };
+  void count_beams(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
+                   std::span<const Beam> beams, int threads);
+  void count_beam(const OccupancyGrid& before, const Eigen::Vector3d& p_from, const Beam& beam,
+                  Counts& counts) const;
 
   ClutterHazardOptions options_;
   BlockField crossings_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/core/fields.hpp"
@@ -32,11 +33,19 @@ struct FreeSpaceUpdate {
 std::size_t carve_free_space(OccupancyGrid& grid, const RangeScan& scan, const Pose& T_world_sensor,
                              const FreeSpaceUpdate& update, int threads = 1);
 
-/// The same for a depth image, by projecting cell centres into it. Conditions (i) and (ii) become:
-///   (i)   c's centre lies in the image and no farther from the camera than image.range_max_m,
+/// A depth image and where it was taken.
+struct PosedImage {
+  const CameraImages& image;
+  Pose T_world_camera;  ///< OpenCV's axes
+};
+
+/// The same for depth images, by projecting cell centres into them. Conditions (i) and (ii) become:
+///   (i)   c's centre lies in an image and no farther from the camera than image.range_max_m,
 ///   (ii)  each of the four pixels round its projection went farther than the centre;
-/// a pixel without measurement frees nothing, one beyond range frees up to range_max_m.
-/// @param T_world_camera camera in OpenCV's axes
+/// a pixel without measurement frees nothing, one beyond range frees up to range_max_m. A cell that
+/// several images saw empty is freed once, as if one image came after the other.
+std::size_t carve_free_space(OccupancyGrid& grid, std::span<const PosedImage> images,
+                             const FreeSpaceUpdate& update, int threads = 1);
 std::size_t carve_free_space(OccupancyGrid& grid, const CameraImages& image,
                              const Pose& T_world_camera, const FreeSpaceUpdate& update,
                              int threads = 1);

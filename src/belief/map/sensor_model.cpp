@@ -1,9 +1,14 @@
 #include "vantage/belief/map/sensor_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "vantage/core/parallel_for.hpp"
+#include "vantage/core/rounding.hpp"
 
 namespace vantage {
 namespace {
@@ -17,57 +22,86 @@ constexpr float kSpreadLimit = 0.363965F;
 /// What one scan says about each cell.
 struct ScanEvidence {
   explicit ScanEvidence(std::size_t cells)
-      : d2(cells, std::numeric_limits<float>::infinity()), hit(cells, false) {}
-  std::vector<float> d2;             ///< to the nearest point
-  std::vector<bool> hit;             ///< a point lies in the cell
-  std::vector<std::size_t> touched;  ///< cells with finite d2, each once
+      : d2(cells, std::numeric_limits<float>::infinity()), hit(cells, 0) {}
+  std::vector<float> d2;          ///< to the nearest point
+  std::vector<std::uint8_t> hit;  ///< 1: a point lies in the cell
 };
 
-template <class Visit>
-void for_each_cell(const GridFrame& frame, const Eigen::Array3i& low, const Eigen::Array3i& high,
-                   Visit&& visit) {
-  const Eigen::Array3i first = low.max(0);
-  const Eigen::Array3i last = high.min(frame.cells - 1);
-  for (int z = first.z(); z <= last.z(); ++z) {
-    for (int y = first.y(); y <= last.y(); ++y) {
-      for (int x = first.x(); x <= last.x(); ++x) visit(Eigen::Array3i(x, y, z));
+/// Cells along one axis that a point reaches, with their part of d^2.
+struct Reach {
+  int first = 0;
+  std::vector<double> d2;
+
+  void find(const GridFrame& frame, int axis, double p_m, double reach_m, double sigma_m) {
+    const auto cell_at = [&](double at_m) {
+      return floor_int((at_m - frame.min_corner_m[axis]) / frame.cell_size_m[axis]);
+    };
+    const int home = cell_at(p_m);
+    first = std::max(std::min(cell_at(p_m - reach_m), home), 0);
+    const int last = std::min(std::max(cell_at(p_m + reach_m), home), frame.cells[axis] - 1);
+    d2.clear();
+    for (int cell = first; cell <= last; ++cell) {
+      const double centre_m = frame.min_corner_m[axis] + (cell + 0.5) * frame.cell_size_m[axis];
+      const double d = (centre_m - p_m) / sigma_m;
+      d2.push_back(d * d);
     }
   }
-}
+};
 
-void spread_point(const GridFrame& frame, const Eigen::Vector3d& p_world,
-                  const Eigen::Array3d& sigma_m, double spread_sigmas, ScanEvidence& evidence) {
-  const Eigen::Array3i home = frame.cell_at(p_world);
-  const auto home_index = frame.contains(home) ? frame.index(home) : frame.size();
-  if (home_index < frame.size()) evidence.hit[home_index] = true;
-  const Eigen::Vector3d reach = spread_sigmas * sigma_m;
-  const Eigen::Array3i low = frame.cell_at(p_world - reach).min(home);
-  const Eigen::Array3i high = frame.cell_at(p_world + reach).max(home);
-  const double d2_limit = spread_sigmas * spread_sigmas;
-  for_each_cell(frame, low, high, [&](const Eigen::Array3i& cell) {
-    const double d2 = ((frame.centre(cell) - p_world).array() / sigma_m).square().sum();
-    const std::size_t index = frame.index(cell);
-    if (d2 > d2_limit && index != home_index) return;
-    float& best = evidence.d2[index];
-    if (std::isinf(best)) evidence.touched.push_back(index);
-    best = std::min(best, static_cast<float>(d2));
-  });
-}
+/// Spreads points over the slices of one worker.
+class Spreader {
+ public:
+  Spreader(const GridFrame& frame, const InverseSensorModel& model, ScanEvidence& evidence)
+      : frame_(frame),
+        sigma_m_((kSigmaPerCell * frame.cell_size_m).array().max(model.sigma_m)),
+        reach_m_(model.spread_sigmas * sigma_m_),
+        d2_limit_(model.spread_sigmas * model.spread_sigmas),
+        evidence_(evidence),
+        near_(frame.box().min() - reach_m_.matrix(), frame.box().max() + reach_m_.matrix()) {}
 
-ScanEvidence collect(const GridFrame& frame, std::span<const Eigen::Vector3f> p_world,
-                     const InverseSensorModel& model) {
-  ScanEvidence evidence(frame.size());
-  const Eigen::Array3d sigma_m = (kSigmaPerCell * frame.cell_size_m).array().max(model.sigma_m);
-  Eigen::AlignedBox3d near = frame.box();
-  near.min() -= (model.spread_sigmas * sigma_m).matrix();
-  near.max() += (model.spread_sigmas * sigma_m).matrix();
-  for (const Eigen::Vector3f& point : p_world) {
-    const Eigen::Vector3d p = point.cast<double>();
+  /// Into the slices z with z % workers == worker.
+  void add(const Eigen::Vector3d& p_world, int worker, int workers) {
     // NaN compares false, so a point that is not finite is outside.
-    if (near.contains(p)) spread_point(frame, p, sigma_m, model.spread_sigmas, evidence);
+    if (!near_.contains(p_world)) return;
+    const Eigen::Array3i home = frame_.cell_at(p_world);
+    home_ = frame_.contains(home) ? frame_.index(home) : frame_.size();
+    if (home_ < frame_.size() && home.z() % workers == worker) evidence_.hit[home_] = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      along_[axis].find(frame_, axis, p_world[axis], reach_m_[axis], sigma_m_[axis]);
+    }
+    for (std::size_t k = 0; k < along_[2].d2.size(); ++k) {
+      const int z = along_[2].first + static_cast<int>(k);
+      if (z % workers == worker) add_to_slice(z, along_[2].d2[k]);
+    }
   }
-  return evidence;
-}
+
+  [[nodiscard]] const std::vector<std::size_t>& touched() const { return touched_; }
+
+ private:
+  void add_to_slice(int z, double d2_z) {
+    const auto& [along_x, along_y, along_z] = along_;
+    for (std::size_t j = 0; j < along_y.d2.size(); ++j) {
+      std::size_t cell = frame_.index({along_x.first, along_y.first + static_cast<int>(j), z});
+      for (std::size_t i = 0; i < along_x.d2.size(); ++i, ++cell) {
+        const double d2 = along_x.d2[i] + along_y.d2[j] + d2_z;
+        if (d2 > d2_limit_ && cell != home_) continue;
+        float& best = evidence_.d2[cell];
+        if (std::isinf(best)) touched_.push_back(cell);
+        best = std::min(best, static_cast<float>(d2));
+      }
+    }
+  }
+
+  const GridFrame& frame_;
+  Eigen::Array3d sigma_m_;
+  Eigen::Array3d reach_m_;
+  double d2_limit_;
+  ScanEvidence& evidence_;
+  Eigen::AlignedBox3d near_;
+  std::array<Reach, 3> along_;
+  std::size_t home_ = 0;
+  std::vector<std::size_t> touched_;  ///< cells with finite d2, each once
+};
 
 /// Bayes in log odds, l <- l + logit p(m|z), up to the limit of what evidence of its kind may do.
 float updated(float log_odds, float evidence, bool hit, float limit) {
@@ -80,15 +114,23 @@ float updated(float log_odds, float evidence, bool hit, float limit) {
 }  // namespace
 
 void add_measurements(OccupancyGrid& grid, std::span<const Eigen::Vector3f> p_world,
-                      const InverseSensorModel& model) {
+                      const InverseSensorModel& model, int threads) {
   check_options(model, "inverse sensor model");
-  const ScanEvidence scan = collect(grid.frame, p_world, model);
+  expects(threads >= 1, "add_measurements needs a thread");
+  ScanEvidence scan(grid.size());
   const auto limit = static_cast<float>(model.max_abs_log_odds);
-  for (const std::size_t cell : scan.touched) {
-    const double p = 0.5 + (model.p_occupied_peak - 0.5) * std::exp(-0.5 * scan.d2[cell]);
-    float& log_odds = grid.log_odds[cell];
-    log_odds = updated(log_odds, static_cast<float>(log_odds_of(p)), scan.hit[cell], limit);
-  }
+  // A worker reads and writes the cells of its own slices alone.
+  parallel_for(static_cast<std::size_t>(threads), threads, [&](std::size_t worker) {
+    Spreader spreader(grid.frame, model, scan);
+    for (const Eigen::Vector3f& point : p_world) {
+      spreader.add(point.cast<double>(), static_cast<int>(worker), threads);
+    }
+    for (const std::size_t cell : spreader.touched()) {
+      const double p = 0.5 + (model.p_occupied_peak - 0.5) * std::exp(-0.5 * scan.d2[cell]);
+      float& log_odds = grid.log_odds[cell];
+      log_odds = updated(log_odds, static_cast<float>(log_odds_of(p)), scan.hit[cell] != 0, limit);
+    }
+  });
 }
 
 }  // namespace vantage

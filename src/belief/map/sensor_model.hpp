@@ -47,8 +47,9 @@ struct InverseSensorModel {
 ///   evidence, however many points fall near it. The order of the points does not matter.
 /// - Only points inside a cell can make it occupied: evidence that merely spreads into a cell stops
 ///   short of kOccupiedAbove, and does not touch a cell known to be free.
+/// The result does not depend on `threads` (>= 1).
 /// @throws ConfigError if `model` is out of range.
 void add_measurements(OccupancyGrid& grid, std::span<const Eigen::Vector3f> p_world,
-                      const InverseSensorModel& model);
+                      const InverseSensorModel& model, int threads = 1);
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "vantage/belief/map/free_space.hpp"
 #include "vantage/belief/map/hole_filling.hpp"
@@ -17,8 +18,9 @@ PointCloud surfaces_of(const DepthImage& view, const Pose& T_world_camera,
   constexpr double kSigmas = 5.0;  // of some hundred thousand returns hardly one is farther off
   PointCloud points = transform(to_cloud(view.image, options.stride_px), T_world_camera);
   const double camera_m = T_world_camera.translation().z();
+  const Pose T_camera_world = T_world_camera.inverse();
   for (Eigen::Vector3f& p : points.points) {
-    const double depth_m = (T_world_camera.inverse() * p.cast<double>()).z();
+    const double depth_m = (T_camera_world * p.cast<double>()).z();
     const double slope = std::abs(p.z() - camera_m) / depth_m;
     const double error_m = kSigmas * slope * depth_error_m(options.camera, depth_m);
     if (p.z() <= error_m) p.z() = 0.0F;
@@ -46,15 +48,16 @@ BeliefUpdate ExplorationBelief::update(const ExplorationObservation& observation
   PointCloud points;
   for (const DepthImage& view : observation.views) {
     const Pose T_world_camera = T_world_base * view.T_base_camera;
-    hazard_.observe(grid_, view.image, T_world_camera, task_.hazard_stride_px,
-                    task_.hazard_floor_m);
+    hazard_.observe(grid_, view.image, T_world_camera, task_.hazard_stride_px, task_.hazard_floor_m,
+                    threads_);
     append(points, surfaces_of(view, T_world_camera, task_));
   }
-  add_measurements(grid_, points.points, task_.sensor_model);
+  add_measurements(grid_, points.points, task_.sensor_model, threads_);
+  std::vector<PosedImage> images;
   for (const DepthImage& view : observation.views) {
-    report.freed_cells += carve_free_space(grid_, view.image, T_world_base * view.T_base_camera,
-                                           task_.free_space, threads_);
+    images.push_back({view.image, T_world_base * view.T_base_camera});
   }
+  report.freed_cells = carve_free_space(grid_, images, task_.free_space, threads_);
   append(cloud_, voxel_downsample(points, grid_.frame.cell_size_m.maxCoeff()));
   report.filled_cells = fill(task_.hole_filling);
   return report;

@@ -98,7 +98,7 @@ void ExplorationParts::update_stopping_criterion() {
     poor_promises_ = 0;
     return;
   }
-  const auto promises = gains_bits(AdaptiveGain{}, views_);
+  const auto promises = gains_bits(AdaptiveGain{}, views_, episode_.threads);
   if (std::holds_alternative<AdaptiveGain>(task_.gain)) {
     for (std::size_t i = 0; i < views_.size(); ++i) views_[i].gain_bits = promises[i];
     views_have_gains_ = true;

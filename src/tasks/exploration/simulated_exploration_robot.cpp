@@ -103,7 +103,8 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
       field_(swept_field(sweep_, camera_, camera_ahead_m(base_.world(), base_.robot()))),
       renderer_(
           make_offscreen_renderer(base_.world().model(), camera_.width_px, camera_.height_px)),
-      camera_noise_(Rng::stream(setup.options.seed, "camera")) {
+      camera_noise_(Rng::stream(setup.options.seed, "camera")),
+      measuring_(setup.options.threads > 1 ? std::launch::async : std::launch::deferred) {
   check_exploration_start(base_.world(), base_.robot(), base_.ground_truth().geometry(), setup,
                           task);
   check_turning_room(base_.world(), base_.robot(), start_text(setup.options.robot));
@@ -114,13 +115,20 @@ ExplorationObservation SimulatedExplorationRobot::observe() {
   base_.robot().command_twist(base_.world(), {});
   ExplorationObservation observation;
   std::vector<double> pans_rad = pan_angles_rad(sweep_);
+  observation.views.reserve(pans_rad.size() * sweep_.tilts_rad.size());
+  std::future<void> measuring;  // of an image, while the head turns to the next
   for (const double tilt_rad : sweep_.tilts_rad) {
     for (const double pan_rad : pans_rad) {
       turn_head(pan_rad, tilt_rad);
-      observation.views.push_back(take_image());
+      observation.views.push_back(draw_image());
+      if (measuring.valid()) measuring.get();
+      measuring = std::async(measuring_, [this, &drawn = observation.views.back().image] {
+        measure_depth(drawn, camera_, camera_noise_);
+      });
     }
     std::ranges::reverse(pans_rad);  // the next row begins where this one ends
   }
+  measuring.get();
   base_.robot().command_head(base_.world(), 0.0, 0.0);
   observation.base_scan = read_base_scanner();
   observation.base_scan_height_m = base_scan_height_m();
@@ -141,11 +149,12 @@ void SimulatedExplorationRobot::turn_head(double pan_rad, double tilt_rad) {
   }
 }
 
-DepthImage SimulatedExplorationRobot::take_image() {
+/// Depth is exact yet.
+DepthImage SimulatedExplorationRobot::draw_image() {
   const mjData& now = base_.world().snapshot();
-  return {depth_image(*renderer_, base_.world().model(), now, base_.robot().camera_id(), camera_,
-                      camera_noise_),
-          find_camera_pose(base_.world(), base_.robot())};
+  return {
+      exact_depth_image(*renderer_, base_.world().model(), now, base_.robot().camera_id(), camera_),
+      find_camera_pose(base_.world(), base_.robot())};
 }
 
 Pose2 SimulatedExplorationRobot::base_for_sensor(const Pose& T_world_sweep) const {

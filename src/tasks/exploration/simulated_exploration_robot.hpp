@@ -1,6 +1,7 @@
 /// The simulated robot of the exploration task.
 #pragma once
 
+#include <future>
 #include <memory>
 
 #include "vantage/runtime/episode_setup.hpp"
@@ -27,7 +28,7 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
 
  private:
   void turn_head(double pan_rad, double tilt_rad);
-  DepthImage take_image();
+  DepthImage draw_image();
 
   HeadSweep sweep_;
   RgbdOptions camera_;
@@ -35,6 +36,7 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
   FieldOfView field_;
   std::unique_ptr<Renderer> renderer_;
   Rng camera_noise_;
+  std::launch measuring_;  ///< beside the physics, if there are threads
   std::vector<std::string> start_notes_;
 };
 

@@ -16,18 +16,6 @@
 namespace vantage {
 namespace {
 
-/// Cells that `after` knows and `before` did not.
-std::size_t newly_observed(const OccupancyGrid& before, const OccupancyGrid& after) {
-  std::size_t count = 0;
-  for (std::size_t cell = 0; cell < before.size(); ++cell) {
-    count +=
-        before.state(cell) == CellState::unobserved && after.state(cell) != CellState::unobserved
-            ? 1
-            : 0;
-  }
-  return count;
-}
-
 /// NaN if that gain was not recorded.
 double predicted_by(const ScanRecord& scan, std::string_view gain) {
   const auto found =
@@ -60,7 +48,11 @@ void MappingParts::look_round_at_start() {
   predict(robot_.estimated_sensor());
 }
 
-MappingParts::Before MappingParts::before_update() const {
+MappingParts::Before MappingParts::before_update() {
+  Prediction prediction = prediction_.get();
+  current_.predicted_cells = std::move(prediction.cells);
+  current_.by_distance = std::move(prediction.by_distance);
+  at_half_cells_ = prediction.at_half_cells;
   return {wall_s(), belief_.grid(), robot_.dead_reckoned_base(), robot_.estimated_base()};
 }
 
@@ -72,14 +64,16 @@ void MappingParts::correct_pose(const BeliefUpdate& update) {
 void MappingParts::measure(const Before& before, const BeliefUpdate& update,
                            const Pose& T_world_sensor) {
   current_.map_time_s = wall_s() - before.start_s;
-  current_.actual_new_cells = static_cast<double>(newly_observed(before.grid, belief_.grid()));
+  auto truth = std::async(in_background(), [&] {
+    evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
+  });
   hold_forecast_against(before.grid);
+  truth.get();
   current_.time_s = robot_.time_s();
   current_.registered = update.registered;
   current_.unconstrained = update.unconstrained;
   current_.map_sigma_m = map_sigma_m();
   evaluator_.measure_pose({before.dead_reckoned, before.tracked, update.T_world_base}, current_);
-  evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
   current_.T_world_sensor = T_world_sensor;
   if (!update.registered) {
     log_warning(fmt::format("scan {}: not registered, {}: the pose tracked on the way is kept",
@@ -150,34 +144,38 @@ BlockField MappingParts::transmission() const {
 std::vector<PredictionBand> MappingParts::forecast(double hazard_factor, double width_m) const {
   return predict_by_distance(
       {.transmission = calibration_.transmission(belief_.hazard().transmission(), hazard_factor)},
-      belief_.filled_grid(), T_world_predicted_, robot_.view_field(), width_m, episode_.threads);
+      belief_.filled_grid(), T_world_predicted_, robot_.view_field(), width_m, 1);
 }
 
 /// The first scan is left out: nothing was learnt yet.
 void MappingParts::hold_forecast_against(const OccupancyGrid& before) {
   count_new_cells(before, belief_.grid(), T_world_predicted_, robot_.view_field(),
                   current_.by_distance);
+  current_.actual_new_cells = 0.0;
+  for (const PredictionBand& band : current_.by_distance) {
+    current_.actual_new_cells += static_cast<double>(band.actual_cells);
+  }
   if (scans_.empty()) return;
   double predicted_cells = 0.0;
-  double actual_cells = 0.0;
+  double inside_cells = 0.0;
   for (const PredictionBand& band : current_.by_distance) {
     predicted_cells += band.predicted_cells;
-    actual_cells += static_cast<double>(band.actual_cells - band.outside_cells);
+    inside_cells += static_cast<double>(band.actual_cells - band.outside_cells);
   }
-  calibration_.observe(predicted_cells, at_half_cells_, actual_cells);
+  calibration_.observe(predicted_cells, at_half_cells_, inside_cells);
   current_.hazard_scale = calibration_.scale();
 }
 
-std::vector<double> MappingParts::gains_bits(const Gain& gain,
-                                             std::span<const Candidate> views) const {
+std::vector<double> MappingParts::gains_bits(const Gain& gain, std::span<const Candidate> views,
+                                             int threads) const {
   const BlockField of_unobserved = transmission();
   return view_gains_bits(gain, {belief_.filled_grid(), &of_unobserved}, views, robot_.view_field(),
-                         episode_.threads);
+                         threads);
 }
 
 void MappingParts::score(std::vector<Candidate>& candidates) {
   if (!views_have_gains_ && (weighs_gain(options_.choice) || recorder_.logs_events())) {
-    const auto gains = gains_bits(options_.gain, candidates);
+    const auto gains = gains_bits(options_.gain, candidates, episode_.threads);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
   }
   tell_truth(candidates);
@@ -218,17 +216,31 @@ void MappingParts::warn_out_of_reach(const Candidate& view) const {
   log_warning(fmt::format("view {} is out of reach: scanning from as near as possible", view.id));
 }
 
+/// The belief stays as it is until its next update: until then there is time.
 void MappingParts::predict(const Pose& T_world_sensor) {
-  std::array<Candidate, 1> view;
-  view.front().T_world_sensor = T_world_sensor;
-  current_.predicted_cells.clear();
-  for (const auto& [label, gain] : predictors_) {
-    current_.predicted_cells.emplace_back(label, gains_bits(gain, view).front());
-  }
+  if (prediction_.valid()) prediction_.wait();
   T_world_predicted_ = T_world_sensor;
-  current_.by_distance = forecast(1.0, options_.metrics.distance_band_m);
-  const double all_m = robot_.view_field().range_max_m;
-  if (options_.forecast.calibrate) at_half_cells_ = forecast(0.5, all_m).front().predicted_cells;
+  prediction_ = std::async(in_background(), [this] { return predicted(); });
+}
+
+MappingParts::Prediction MappingParts::predicted() const {
+  Prediction prediction;
+  std::array<Candidate, 1> view;
+  view.front().T_world_sensor = T_world_predicted_;
+  for (const auto& [label, gain] : predictors_) {
+    prediction.cells.emplace_back(label, gains_bits(gain, view, 1).front());
+  }
+  prediction.by_distance = forecast(1.0, options_.metrics.distance_band_m);
+  if (options_.forecast.calibrate) {
+    const double all_m = robot_.view_field().range_max_m;
+    prediction.at_half_cells = forecast(0.5, all_m).front().predicted_cells;
+  }
+  return prediction;
+}
+
+/// Where there is one thread, work waits until its result is asked for.
+std::launch MappingParts::in_background() const {
+  return episode_.threads > 1 ? std::launch::async : std::launch::deferred;
 }
 
 MapPanelInput MappingParts::panel() const {

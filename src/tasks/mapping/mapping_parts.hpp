@@ -2,6 +2,7 @@
 /// drive. Tasks differ in how they propose views and act.  [Potthast2016, chapter 3]
 #pragma once
 
+#include <future>
 #include <span>
 #include <string>
 #include <utility>
@@ -61,13 +62,14 @@ class MappingParts {
     current_.scan_time_s = robot_.time_s() - start_s;
     return observation;
   }
-  [[nodiscard]] Before before_update() const;
+  [[nodiscard]] Before before_update();
   void correct_pose(const BeliefUpdate& update);
   void measure(const Before& before, const BeliefUpdate& update, const Pose& T_world_sensor);
   const ScanRecord& record_scan();
+  /// What the scan to come will show, seen from there.
   void predict(const Pose& T_world_sensor);
-  [[nodiscard]] std::vector<double> gains_bits(const Gain& gain,
-                                               std::span<const Candidate> views) const;
+  [[nodiscard]] std::vector<double> gains_bits(const Gain& gain, std::span<const Candidate> views,
+                                               int threads) const;
   /// Drives to a view, or as near as possible; see Navigator::approach().
   Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
   void warn_out_of_reach(const Candidate& view) const;
@@ -86,11 +88,19 @@ class MappingParts {
   std::vector<ScanRecord> scans_;
 
  private:
+  struct Prediction {
+    std::vector<std::pair<std::string, double>> cells;  ///< of each predictor
+    std::vector<PredictionBand> by_distance;
+    double at_half_cells = 0.0;  ///< with half the hazard
+  };
+
   void tell_truth(std::vector<Candidate>& candidates) const;
   [[nodiscard]] MapPanelInput panel() const;
   [[nodiscard]] double map_sigma_m() const;
   [[nodiscard]] BlockField transmission() const;
   [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
+  [[nodiscard]] Prediction predicted() const;
+  [[nodiscard]] std::launch in_background() const;
   void hold_forecast_against(const OccupancyGrid& before);
 
   const MappingOptions options_;
@@ -101,6 +111,7 @@ class MappingParts {
   double at_half_cells_ = 0.0;                 ///< of the scan to come, with half the hazard
   Pose T_world_predicted_ = Pose::Identity();  ///< of the sensor, for the scan to come
   Rng choice_rng_;
+  std::future<Prediction> prediction_;  ///< under way since predict(); reads the above
 };
 
 }  // namespace vantage

@@ -43,8 +43,8 @@ BeliefUpdate TabletopBelief::update(const TabletopObservation& observation,
   const PointCloud objects = take_objects(laser_world);
   append(cloud_, objects);
 
-  hazard_.observe(grid_, observation.scan, T_world_sensor);
-  add_measurements(grid_, objects.points, task_.sensor_model);
+  hazard_.observe(grid_, observation.scan, T_world_sensor, threads_);
+  add_measurements(grid_, objects.points, task_.sensor_model, threads_);
   report.freed_cells =
       carve_free_space(grid_, observation.scan, T_world_sensor, task_.free_space, threads_);
   report.filled_cells = fill(task_.hole_filling);
