@@ -1,9 +1,10 @@
-/// Which fixed geoms the moving ones can touch in the next steps.
+/// Which geoms can touch another in the next steps.
 #pragma once
 
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <map>
 #include <vector>
 
 struct mjModel_;
@@ -13,35 +14,40 @@ using mjData = mjData_;
 
 namespace vantage {
 
-/// Takes fixed geoms that are far from all that moves out of MuJoCo's search for contacts, which
-/// else sorts all of a building in every step. Contacts are the same to the bit.
+/// Takes geoms with nothing near out of MuJoCo's search for contacts, which else sorts all of a
+/// building and asks each part of a robot for the floor in every step. Contacts are the same to the
+/// bit.
 class NearGeoms {
  public:
+  /// @param model outlives this
   explicit NearGeoms(const mjModel& model);
 
-  /// To be called when positions jump; `at` holds the present poses of geoms.
+  /// Sets the masks of `stepping`, a copy of the model. To be called when positions jump; `at`
+  /// holds the present poses of geoms.
   void start(mjModel& stepping, const mjData& at);
   /// Before each step. `at` may lag by one.
   void follow(mjModel& stepping, const mjData& at);
 
-  [[nodiscard]] std::size_t near_count() const { return near_count_; }  ///< that may be touched
+  [[nodiscard]] bool is_near(int geom) const { return near_[static_cast<std::size_t>(geom)] != 0; }
 
  private:
-  struct Fixed {
-    int geom;
-    int contype;
-    int conaffinity;
-  };
   /// A body on joints with all that it carries.
-  struct Moving {
+  struct Tree {
     std::vector<int> geoms;
-    Eigen::AlignedBox3d reach;  ///< leaving it asks for a new look
+    Eigen::AlignedBox3d reach;  ///< world, of all of them
   };
 
+  [[nodiscard]] Eigen::AlignedBox3d reach_of(int geom) const;
+  [[nodiscard]] bool meets(int moving, int fixed, const mjData& at) const;
+  void mark_pair(int geom, int other);
+  void mark_beside_fixed(const Tree& tree, const mjData& at);
+  void mark_beside_moving(const Tree& tree, const Tree& other);
+
   const mjModel& model_;
-  std::vector<Fixed> fixed_;
-  std::vector<Moving> moving_;
-  std::size_t near_count_ = 0;
+  std::vector<int> fixed_;
+  std::map<int, Tree> trees_;             ///< by the body that they hang on
+  std::vector<Eigen::Vector3d> started_;  ///< where geoms were then, world
+  std::vector<char> near_;                ///< of each geom
 };
 
 }  // namespace vantage

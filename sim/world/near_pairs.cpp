@@ -23,11 +23,6 @@ bool joined(const mjModel& model, int a, int b) {
   return piece_a == carrier(piece_b) || piece_b == carrier(piece_a);
 }
 
-bool masks_match(const mjModel& model, int a, int b) {
-  return (model.geom_contype[a] & model.geom_conaffinity[b]) != 0 ||
-         (model.geom_contype[b] & model.geom_conaffinity[a]) != 0;
-}
-
 /// Whether the box round `geom` is farther from the middle of `other` than the sphere round it.
 bool box_is_far(const mjModel& model, const mjData& data, int geom, int other, double margin_m) {
   using Rotation = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -40,6 +35,11 @@ bool box_is_far(const mjModel& model, const mjData& data, int geom, int other, d
 }
 
 }  // namespace
+
+bool masks_match(const mjModel& model, int a, int b) {
+  return (model.geom_contype[a] & model.geom_conaffinity[b]) != 0 ||
+         (model.geom_contype[b] & model.geom_conaffinity[a]) != 0;
+}
 
 bool has_box(const mjModel& model, int geom) {
   return model.geom_type[geom] != mjGEOM_PLANE && model.geom_type[geom] != mjGEOM_HFIELD;

@@ -10,6 +10,8 @@ using mjData = mjData_;
 
 namespace vantage {
 
+/// Whether MuJoCo looks for contacts between such geoms.
+bool masks_match(const mjModel& model, int geom, int other);
 /// Planes and height fields have none.
 bool has_box(const mjModel& model, int geom);
 /// Half edges of a box round the geom, in its frame.

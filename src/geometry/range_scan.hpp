@@ -58,4 +58,10 @@ struct CameraImages {
   [[nodiscard]] double swept_depth_m(const Eigen::Vector3d& p_camera) const;
 };
 
+/// A depth image and where it was taken.
+struct PosedImage {
+  const CameraImages& image;
+  Pose T_world_camera;  ///< OpenCV's axes
+};
+
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #include "vantage/belief/map/clutter_hazard.hpp"
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -7,16 +8,6 @@
 #include "vantage/geometry/face_neighbours.hpp"
 
 namespace vantage {
-namespace {
-
-bool is_beside_occupied(const OccupancyGrid& grid, const Eigen::Array3i& cell) {
-  return any_face_neighbour(grid.frame, cell, [&](std::size_t neighbour) {
-    return grid.state(neighbour) == CellState::occupied;
-  });
-}
-
-}  // namespace
-
 ClutterHazard::ClutterHazard(const ClutterHazardOptions& options, const Eigen::Array3i& cells)
     : options_(options) {
   check_options(options, "clutter hazard");
@@ -40,32 +31,60 @@ double ClutterHazard::sum_of_layer(const BlockField& counts, int layer) const {
   return std::accumulate(begin, begin + counts.layout.index(0, 0, 1), 0.0);
 }
 
-void ClutterHazard::count_beam(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
-                               const Beam& beam, Counts& counts) const {
+ClutterHazard::MetCells ClutterHazard::met_cells(const OccupancyGrid& grid, int threads) {
+  MetCells met{grid.frame, std::vector<Met>(grid.size())};
+  const std::size_t slice = grid.size() / static_cast<std::size_t>(grid.frame.cells.z());
+  const auto slices = static_cast<std::size_t>(grid.frame.cells.z());
+  constexpr std::array by_state{Met::free, Met::unobserved, Met::occupied};
+  parallel_for(slices, threads, [&](std::size_t z) {
+    for (std::size_t cell = z * slice; cell < (z + 1) * slice; ++cell) {
+      met.cells[cell] = by_state[static_cast<std::size_t>(grid.state(cell))];
+    }
+  });
+  parallel_for(slices, threads, [&](std::size_t z) {
+    Eigen::Array3i at(0, 0, static_cast<int>(z));
+    std::size_t cell = z * slice;
+    for (at.y() = 0; at.y() < grid.frame.cells.y(); ++at.y()) {
+      for (at.x() = 0; at.x() < grid.frame.cells.x(); ++at.x(), ++cell) {
+        if (grid.state(cell) != CellState::unobserved) continue;
+        const bool beside = any_face_neighbour(grid.frame, at, [&](std::size_t neighbour) {
+          return grid.log_odds[neighbour] >= kOccupiedLogOdds;
+        });
+        if (beside) met.cells[cell] = Met::unobserved_beside_occupied;
+      }
+    }
+  });
+  return met;
+}
+
+void ClutterHazard::count_beam(const MetCells& before, const Beam& beam, Counts& counts) const {
   const GridFrame& frame = before.frame;
   const Eigen::Array3i last = frame.cell_at(beam.p_end);
   const std::size_t end = beam.returned && frame.contains(last) ? frame.index(last) : frame.size();
-  walk_ray(frame, p_from, beam.p_end, [&](std::size_t index, const Eigen::Array3i& cell) {
-    const CellState state = before.state(index);
-    if (state == CellState::unobserved && !is_beside_occupied(before, cell)) {
+  walk_ray(frame, beam.p_from, beam.p_end, [&](std::size_t index, const Eigen::Array3i& cell) {
+    const Met met = before.cells[index];
+    if (met == Met::unobserved) {
       const auto column = static_cast<std::size_t>(cell.y() * frame.cells.x() + cell.x());
       const std::size_t block =
           crossings_.layout.index(0, 0, layer_of(cell.z())) + column_of_[column];
       counts.crossings[block] += 1.0;
       if (index == end) counts.hits[block] += 1.0;
     }
-    return state != CellState::occupied;
+    return met != Met::occupied;
   });
 }
 
 /// Whole numbers, whose sum is the same in any order.
-void ClutterHazard::count_beams(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
-                                std::span<const Beam> beams, int threads) {
+void ClutterHazard::count_beams(const OccupancyGrid& before, std::span<const Beam> beams,
+                                int threads) {
+  expects((before.frame.cells == crossings_.layout.cells).all(),
+          "the hazard was made for a grid of other size");
+  const MetCells met = met_cells(before, threads);
   const std::vector<double> none(crossings_.layout.size(), 0.0);
   std::vector<Counts> parts(static_cast<std::size_t>(threads), {none, none});
   parallel_for(parts.size(), threads, [&](std::size_t part) {
     for (std::size_t i = part; i < beams.size(); i += parts.size()) {
-      count_beam(before, p_from, beams[i], parts[part]);
+      count_beam(met, beams[i], parts[part]);
     }
   });
   for (const Counts& part : parts) {
@@ -78,8 +97,7 @@ void ClutterHazard::count_beams(const OccupancyGrid& before, const Eigen::Vector
 
 void ClutterHazard::observe(const OccupancyGrid& before, const RangeScan& scan,
                             const Pose& T_world_sensor, int threads) {
-  expects((before.frame.cells == crossings_.layout.cells).all(),
-          "the hazard was made for a grid of other size");
+  const Eigen::Vector3d& p_from = T_world_sensor.translation();
   std::vector<Beam> beams;
   for (std::size_t line = 0; line < scan.lines(); ++line) {
     for (std::size_t beam = 0; beam < scan.beams(); ++beam) {
@@ -88,36 +106,36 @@ void ClutterHazard::observe(const OccupancyGrid& before, const RangeScan& scan,
       const bool returned = std::isfinite(measured_m);
       const double length_m = returned ? measured_m : scan.field_of_view.range_max_m;
       const BeamAngles angles{scan.azimuth_rad[beam], scan.tilt_rad[line]};
-      beams.push_back({T_world_sensor * (length_m * beam_direction(angles)), returned});
+      beams.push_back({p_from, T_world_sensor * (length_m * beam_direction(angles)), returned});
     }
   }
-  count_beams(before, T_world_sensor.translation(), beams, threads);
+  count_beams(before, beams, threads);
 }
 
-void ClutterHazard::observe(const OccupancyGrid& before, const CameraImages& image,
-                            const Pose& T_world_camera, int stride, double floor_m, int threads) {
-  expects((before.frame.cells == crossings_.layout.cells).all(),
-          "the hazard was made for a grid of other size");
+void ClutterHazard::observe(const OccupancyGrid& before, std::span<const PosedImage> images,
+                            int stride, double floor_m, int threads) {
   expects(stride >= 1, "a stride of at least one pixel");
-  const Eigen::Vector3d& p_from = T_world_camera.translation();
   std::vector<Beam> beams;
-  for (int row = 0; row < image.height_px; row += stride) {
-    for (int column = 0; column < image.width_px; column += stride) {
-      const double depth_m = image.depth_at(row, column);
-      if (depth_m == 0.0) continue;
-      const bool returned = std::isfinite(depth_m);
-      const Eigen::Vector3d ray = image.ray(row, column);
-      const double scale = returned ? depth_m : image.range_max_m / ray.norm();
-      const Eigen::Vector3d p_end = T_world_camera * (scale * ray);
-      if (p_end.z() >= floor_m) {
-        beams.push_back({p_end, returned});
-      } else if (p_from.z() > floor_m) {
-        const double share = (p_from.z() - floor_m) / (p_from.z() - p_end.z());
-        beams.push_back({p_from + share * (p_end - p_from), false});
+  for (const auto& [image, T_world_camera] : images) {
+    const Eigen::Vector3d& p_from = T_world_camera.translation();
+    for (int row = 0; row < image.height_px; row += stride) {
+      for (int column = 0; column < image.width_px; column += stride) {
+        const double depth_m = image.depth_at(row, column);
+        if (depth_m == 0.0) continue;
+        const bool returned = std::isfinite(depth_m);
+        const Eigen::Vector3d ray = image.ray(row, column);
+        const double scale = returned ? depth_m : image.range_max_m / ray.norm();
+        const Eigen::Vector3d p_end = T_world_camera * (scale * ray);
+        if (p_end.z() >= floor_m) {
+          beams.push_back({p_from, p_end, returned});
+        } else if (p_from.z() > floor_m) {
+          const double share = (p_from.z() - floor_m) / (p_from.z() - p_end.z());
+          beams.push_back({p_from, p_from + share * (p_end - p_from), false});
+        }
       }
     }
   }
-  count_beams(before, p_from, beams, threads);
+  count_beams(before, beams, threads);
 }
 
 double ClutterHazard::global_hazard() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -66,11 +67,12 @@ class ClutterHazard {
   void observe(const OccupancyGrid& before, const RangeScan& scan, const Pose& T_world_sensor,
                int threads = 1);
 
-  /// The same for a depth image, of which every `stride`-th pixel of every `stride`-th row is a
-  /// beam; pixels without measurement are ignored, those beyond range cross all to the range. What
-  /// is lower than `floor_m` is the floor, which is no clutter: a beam counts down to there.
-  void observe(const OccupancyGrid& before, const CameraImages& image, const Pose& T_world_camera,
-               int stride, double floor_m, int threads = 1);
+  /// The same for the depth images of one scan, of which every `stride`-th pixel of every
+  /// `stride`-th row is a beam; pixels without measurement are ignored, those beyond range cross
+  /// all to the range. What is lower than `floor_m` is the floor, which is no clutter: a beam
+  /// counts down to there.
+  void observe(const OccupancyGrid& before, std::span<const PosedImage> images, int stride,
+               double floor_m, int threads = 1);
 
   [[nodiscard]] int layer_of(int slice) const { return crossings_.layout.block_of(2, slice); }
   [[nodiscard]] double crossings(int layer) const { return sum_of_layer(crossings_, layer); }
@@ -89,7 +91,8 @@ class ClutterHazard {
   [[nodiscard]] double sum_of_layer(const BlockField& counts, int layer) const;
   /// Ends at what it met, or goes on beyond.
   struct Beam {
-    Eigen::Vector3d p_end;  ///< world
+    Eigen::Vector3d p_from;  ///< world
+    Eigen::Vector3d p_end;   ///< world
     bool returned;
   };
   /// What beams have met, block by block.
@@ -97,10 +100,16 @@ class ClutterHazard {
     std::vector<double> crossings;
     std::vector<double> hits;
   };
-  void count_beams(const OccupancyGrid& before, const Eigen::Vector3d& p_from,
-                   std::span<const Beam> beams, int threads);
-  void count_beam(const OccupancyGrid& before, const Eigen::Vector3d& p_from, const Beam& beam,
-                  Counts& counts) const;
+  /// What a cell is to a beam.
+  enum class Met : std::uint8_t { free, unobserved, unobserved_beside_occupied, occupied };
+  struct MetCells {
+    const GridFrame& frame;
+    std::vector<Met> cells;
+  };
+
+  void count_beams(const OccupancyGrid& before, std::span<const Beam> beams, int threads);
+  void count_beam(const MetCells& before, const Beam& beam, Counts& counts) const;
+  static MetCells met_cells(const OccupancyGrid& grid, int threads);
 
   ClutterHazardOptions options_;
   BlockField crossings_;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "vantage/core/parallel_for.hpp"
 
 namespace vantage {
 namespace {
@@ -13,34 +16,31 @@ constexpr float kStandingLogOdds = -2.0F;
 
 enum class Touched : std::uint8_t { no, passed, hit };
 
-/// What a scan shows.
-struct ScanTrace {
-  std::vector<Touched> touched;     ///< of each cell of the map
-  std::vector<std::size_t> passed;  ///< or hit: each cell once
+/// What beams of a scan show of each cell.
+class ScanTrace {
+ public:
+  explicit ScanTrace(const FloorMap& map)
+      : map_(map), frame_(map.frame()), touched_(map.size(), Touched::no) {}
 
-  void pass(std::size_t cell) {
-    if (touched[cell] != Touched::no) return;
-    touched[cell] = Touched::passed;
-    passed.push_back(cell);
+  void add(const Pose2& T_world_beam, double range_m, bool returned) {
+    constexpr double kLayer = 0.5;  // height of the cell centres in FloorMap::frame()
+    const Eigen::Vector2d p_end(T_world_beam.x_m + range_m * std::cos(T_world_beam.yaw_rad),
+                                T_world_beam.y_m + range_m * std::sin(T_world_beam.yaw_rad));
+    walk_ray(frame_, {T_world_beam.x_m, T_world_beam.y_m, kLayer}, {p_end.x(), p_end.y(), kLayer},
+             [&](std::size_t cell) {
+               touched_[cell] = std::max(touched_[cell], Touched::passed);
+               return true;
+             });
+    const Eigen::Array2i end = map_.cell_at(p_end);
+    if (returned && map_.contains(end)) touched_[map_.index(end)] = Touched::hit;
   }
-};
+  [[nodiscard]] Touched touched(std::size_t cell) const { return touched_[cell]; }
 
-/// Marks what one beam of `range_m` from the sensor shows.
-void trace_beam(const FloorMap& map, const GridFrame& frame, const Pose2& T_world_beam,
-                double range_m, bool returned, ScanTrace& trace) {
-  constexpr double kLayer = 0.5;  // height of the cell centres in FloorMap::frame()
-  const Eigen::Vector2d p_end(T_world_beam.x_m + range_m * std::cos(T_world_beam.yaw_rad),
-                              T_world_beam.y_m + range_m * std::sin(T_world_beam.yaw_rad));
-  walk_ray(frame, {T_world_beam.x_m, T_world_beam.y_m, kLayer}, {p_end.x(), p_end.y(), kLayer},
-           [&](std::size_t cell) {
-             trace.pass(cell);
-             return true;
-           });
-  const Eigen::Array2i end = map.cell_at(p_end);
-  if (!returned || !map.contains(end)) return;
-  trace.pass(map.index(end));
-  trace.touched[map.index(end)] = Touched::hit;
-}
+ private:
+  const FloorMap& map_;
+  GridFrame frame_;
+  std::vector<Touched> touched_;
+};
 
 }  // namespace
 
@@ -94,21 +94,26 @@ FloorMap make_floor_map(const FloorMapOptions& options) {
 }
 
 void add_planar_scan(FloorMap& map, const PlanarScan& scan, const Pose2& T_world_base,
-                     const FloorMapOptions& options) {
+                     const FloorMapOptions& options, int threads) {
   expects(scan.azimuth_rad.size() == scan.range_m.size(), "a range for each beam of the scan");
-  const GridFrame frame = map.frame();
+  expects(threads >= 1, "add_planar_scan needs a thread");
   const Pose2 T_world_sensor = compose(T_world_base, scan.T_base_sensor);
-  ScanTrace trace{.touched = std::vector<Touched>(map.size(), Touched::no), .passed = {}};
-  for (std::size_t beam = 0; beam < scan.range_m.size(); ++beam) {
-    const auto range_m = static_cast<double>(scan.range_m[beam]);
-    if (std::isnan(range_m)) continue;
-    const bool returned = range_m <= scan.range_max_m;
-    const Pose2 T_world_beam = compose(T_world_sensor, {0.0, 0.0, scan.azimuth_rad[beam]});
-    trace_beam(map, frame, T_world_beam, std::min(range_m, scan.range_max_m), returned, trace);
-  }
-  for (const std::size_t cell : trace.passed) {
-    const double change =
-        trace.touched[cell] == Touched::hit ? options.log_odds_hit : -options.log_odds_miss;
+  const auto parts = static_cast<std::size_t>(threads);
+  std::vector<ScanTrace> traces(parts, ScanTrace(map));
+  parallel_for(parts, threads, [&](std::size_t part) {
+    for (std::size_t beam = part; beam < scan.range_m.size(); beam += parts) {
+      const auto range_m = static_cast<double>(scan.range_m[beam]);
+      if (std::isnan(range_m)) continue;
+      const bool returned = range_m <= scan.range_max_m;
+      const Pose2 T_world_beam = compose(T_world_sensor, {0.0, 0.0, scan.azimuth_rad[beam]});
+      traces[part].add(T_world_beam, std::min(range_m, scan.range_max_m), returned);
+    }
+  });
+  for (std::size_t cell = 0; cell < map.size(); ++cell) {
+    Touched touched = Touched::no;
+    for (const ScanTrace& trace : traces) touched = std::max(touched, trace.touched(cell));
+    if (touched == Touched::no) continue;
+    const double change = touched == Touched::hit ? options.log_odds_hit : -options.log_odds_miss;
     map.log_odds[cell] =
         static_cast<float>(std::clamp(static_cast<double>(map.log_odds[cell]) + change,
                                       -options.log_odds_limit, options.log_odds_limit));

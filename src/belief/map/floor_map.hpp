@@ -83,9 +83,9 @@ FloorMap make_floor_map(const FloorMapOptions& options);
 
 /// Adds one scan: cells a beam passes become freer, the cell of a return more occupied. A cell
 /// changes once per scan and a return in it outweighs beams through it. A beam without return frees
-/// up to range_max_m; a NaN range is skipped.
+/// up to range_max_m; a NaN range is skipped. Does not depend on `threads` (>= 1).
 void add_planar_scan(FloorMap& map, const PlanarScan& scan, const Pose2& T_world_base,
-                     const FloorMapOptions& options);
+                     const FloorMapOptions& options, int threads = 1);
 
 /// Makes every cell that overlaps `box_m` (world) an obstacle for good: what a low scanner cannot
 /// see, such as a table top.

@@ -33,12 +33,6 @@ struct FreeSpaceUpdate {
 std::size_t carve_free_space(OccupancyGrid& grid, const RangeScan& scan, const Pose& T_world_sensor,
                              const FreeSpaceUpdate& update, int threads = 1);
 
-/// A depth image and where it was taken.
-struct PosedImage {
-  const CameraImages& image;
-  Pose T_world_camera;  ///< OpenCV's axes
-};
-
 /// The same for depth images, by projecting cell centres into them. Conditions (i) and (ii) become:
 ///   (i)   c's centre lies in an image and no farther from the camera than image.range_max_m,
 ///   (ii)  each of the four pixels round its projection went farther than the centre;

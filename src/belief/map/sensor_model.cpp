@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "vantage/core/parallel_for.hpp"
@@ -59,19 +60,26 @@ class Spreader {
         evidence_(evidence),
         near_(frame.box().min() - reach_m_.matrix(), frame.box().max() + reach_m_.matrix()) {}
 
-  /// Into the slices z with z % workers == worker.
-  void add(const Eigen::Vector3d& p_world, int worker, int workers) {
+  /// Into the slices [z_begin, z_end).
+  void add(const Eigen::Vector3d& p_world, int z_begin, int z_end) {
     // NaN compares false, so a point that is not finite is outside.
     if (!near_.contains(p_world)) return;
+    const auto find = [&](int axis) {
+      along_[static_cast<std::size_t>(axis)].find(frame_, axis, p_world[axis], reach_m_[axis],
+                                                  sigma_m_[axis]);
+    };
+    find(2);
+    const Reach& along_z = along_[2];
+    const int first = std::max(along_z.first, z_begin);
+    const int last = std::min(along_z.first + static_cast<int>(along_z.d2.size()), z_end);
+    if (first >= last) return;
+    find(0);
+    find(1);
     const Eigen::Array3i home = frame_.cell_at(p_world);
     home_ = frame_.contains(home) ? frame_.index(home) : frame_.size();
-    if (home_ < frame_.size() && home.z() % workers == worker) evidence_.hit[home_] = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      along_[axis].find(frame_, axis, p_world[axis], reach_m_[axis], sigma_m_[axis]);
-    }
-    for (std::size_t k = 0; k < along_[2].d2.size(); ++k) {
-      const int z = along_[2].first + static_cast<int>(k);
-      if (z % workers == worker) add_to_slice(z, along_[2].d2[k]);
+    if (home_ < frame_.size() && home.z() >= z_begin && home.z() < z_end) evidence_.hit[home_] = 1;
+    for (int z = first; z < last; ++z) {
+      add_to_slice(z, along_z.d2[static_cast<std::size_t>(z - along_z.first)]);
     }
   }
 
@@ -103,6 +111,26 @@ class Spreader {
   std::vector<std::size_t> touched_;  ///< cells with finite d2, each once
 };
 
+/// Bounds of slices [z_0, z_1), [z_1, z_2), ... with about as many points each.
+std::vector<int> even_slices(const GridFrame& frame, std::span<const Eigen::Vector3f> p_world,
+                             int parts) {
+  const int slices = frame.cells.z();
+  std::vector<std::size_t> below(static_cast<std::size_t>(slices) + 1, 0);
+  for (const Eigen::Vector3f& p : p_world) {
+    const double z = (p.z() - frame.min_corner_m.z()) / frame.cell_size_m.z();
+    if (z >= 0.0 && z < slices) ++below[static_cast<std::size_t>(z) + 1];
+  }
+  std::partial_sum(below.begin(), below.end(), below.begin());
+  std::vector<int> bounds{0};
+  for (int part = 1; part < parts; ++part) {
+    const std::size_t wanted =
+        below.back() * static_cast<std::size_t>(part) / static_cast<std::size_t>(parts);
+    bounds.push_back(static_cast<int>(std::ranges::lower_bound(below, wanted) - below.begin()));
+  }
+  bounds.push_back(slices);
+  return bounds;
+}
+
 /// Bayes in log odds, l <- l + logit p(m|z), up to the limit of what evidence of its kind may do.
 float updated(float log_odds, float evidence, bool hit, float limit) {
   const CellState state = classify(log_odds);
@@ -119,11 +147,12 @@ void add_measurements(OccupancyGrid& grid, std::span<const Eigen::Vector3f> p_wo
   expects(threads >= 1, "add_measurements needs a thread");
   ScanEvidence scan(grid.size());
   const auto limit = static_cast<float>(model.max_abs_log_odds);
+  const std::vector<int> bounds = even_slices(grid.frame, p_world, threads);
   // A worker reads and writes the cells of its own slices alone.
   parallel_for(static_cast<std::size_t>(threads), threads, [&](std::size_t worker) {
     Spreader spreader(grid.frame, model, scan);
     for (const Eigen::Vector3f& point : p_world) {
-      spreader.add(point.cast<double>(), static_cast<int>(worker), threads);
+      spreader.add(point.cast<double>(), bounds[worker], bounds[worker + 1]);
     }
     for (const std::size_t cell : spreader.touched()) {
       const double p = 0.5 + (model.p_occupied_peak - 0.5) * std::exp(-0.5 * scan.d2[cell]);

@@ -13,10 +13,10 @@ namespace {
 
 /// Returns of an image in the world. One that is no higher above the floor than its error is of the
 /// floor: elsewhere a few centimetres are an obstacle.
-PointCloud surfaces_of(const DepthImage& view, const Pose& T_world_camera,
-                       const Exploration& options) {
+PointCloud surfaces_of(const PosedImage& posed, const Exploration& options) {
   constexpr double kSigmas = 5.0;  // of some hundred thousand returns hardly one is farther off
-  PointCloud points = transform(to_cloud(view.image, options.stride_px), T_world_camera);
+  const auto& [image, T_world_camera] = posed;
+  PointCloud points = transform(to_cloud(image, options.stride_px), T_world_camera);
   const double camera_m = T_world_camera.translation().z();
   const Pose T_camera_world = T_world_camera.inverse();
   for (Eigen::Vector3f& p : points.points) {
@@ -45,18 +45,14 @@ BeliefUpdate ExplorationBelief::update(const ExplorationObservation& observation
                       .unconstrained = located.converged ? located.unconstrained : 3};
   const Pose T_world_base = to_se3(report.T_world_base);
 
-  PointCloud points;
-  for (const DepthImage& view : observation.views) {
-    const Pose T_world_camera = T_world_base * view.T_base_camera;
-    hazard_.observe(grid_, view.image, T_world_camera, task_.hazard_stride_px, task_.hazard_floor_m,
-                    threads_);
-    append(points, surfaces_of(view, T_world_camera, task_));
-  }
-  add_measurements(grid_, points.points, task_.sensor_model, threads_);
   std::vector<PosedImage> images;
   for (const DepthImage& view : observation.views) {
     images.push_back({view.image, T_world_base * view.T_base_camera});
   }
+  hazard_.observe(grid_, images, task_.hazard_stride_px, task_.hazard_floor_m, threads_);
+  PointCloud points;
+  for (const PosedImage& posed : images) append(points, surfaces_of(posed, task_));
+  add_measurements(grid_, points.points, task_.sensor_model, threads_);
   report.freed_cells = carve_free_space(grid_, images, task_.free_space, threads_);
   append(cloud_, voxel_downsample(points, grid_.frame.cell_size_m.maxCoeff()));
   report.filled_cells = fill(task_.hole_filling);

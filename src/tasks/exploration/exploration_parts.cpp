@@ -39,10 +39,10 @@ std::vector<Predictor> exploration_predictors(const Exploration& task) {
 
 ExplorationParts::ExplorationParts(const MappingContext& context, const Exploration& task,
                                    ExplorationRobotInterface& robot, ExplorationBelief& belief)
-    : MappingParts(
-          context, task, belief, exploration_predictors(task),
-          Navigator(task.floor_map, task.navigation, task.odometry, robot,
-                    ReferenceMap(task.registration, task.reference_novelty_m), task.keyframe_m)),
+    : MappingParts(context, task, belief, exploration_predictors(task),
+                   Navigator(task.floor_map, task.navigation, task.odometry, robot,
+                             ReferenceMap(task.registration, task.reference_novelty_m),
+                             context.options.threads, task.keyframe_m)),
       task_(task),
       exploring_robot_(robot),
       belief_(belief),

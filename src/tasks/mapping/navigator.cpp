@@ -18,8 +18,9 @@ constexpr double kProgress_m = 0.05;
 
 Navigator::Navigator(const FloorMapOptions& floor, const NavigationOptions& navigation,
                      const OdometryOptions& odometry, MobileRobotInterface& robot,
-                     ReferenceMap reference_map, double keyframe_m)
-    : floor_options_(floor),
+                     ReferenceMap reference_map, int threads, double keyframe_m)
+    : threads_(threads),
+      floor_options_(floor),
       options_(navigation),
       robot_(robot),
       floor_(make_floor_map(floor)),
@@ -34,7 +35,7 @@ void Navigator::turn_in_place() {
   extend_reference_map(scan, start);
   if (!reference_map_.walls_fix_pose(scan, robot_.base_scan_height_m())) {
     if (!reference_map_.posts_fix_pose(scan)) {
-      add_planar_scan(floor_, scan, start, floor_options_);
+      add_planar_scan(floor_, scan, start, floor_options_, threads_);
       return;
     }
     reference_map_.go_by_posts();
@@ -50,7 +51,7 @@ void Navigator::turn_in_place() {
 
 void Navigator::remember(const PlanarScan& scan, const Pose2& T_world_base) {
   extend_reference_map(scan, T_world_base);
-  add_planar_scan(floor_, scan, T_world_base, floor_options_);
+  add_planar_scan(floor_, scan, T_world_base, floor_options_, threads_);
 }
 
 void Navigator::extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base) {
@@ -66,7 +67,7 @@ bool Navigator::localise() {
                                              robot_.estimated_base(), plausible_correction());
   const Pose2& pose = located.T_world_base;
   correct_pose(pose, located.information);
-  add_planar_scan(floor_, scan, pose, floor_options_);
+  add_planar_scan(floor_, scan, pose, floor_options_, threads_);
   const double gone_m = (Eigen::Vector2d(pose.x_m, pose.y_m) - last_keyframe_m_).norm();
   if (located.converged && gone_m >= keyframe_m_) extend_reference_map(scan, pose);
   return located.converged;

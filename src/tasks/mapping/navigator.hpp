@@ -26,7 +26,7 @@ class Navigator {
   /// @param keyframe_m remembers the walls that often while driving; infinity: only when told to
   Navigator(const FloorMapOptions& floor, const NavigationOptions& navigation,
             const OdometryOptions& odometry, MobileRobotInterface& robot,
-            ReferenceMap reference_map,
+            ReferenceMap reference_map, int threads,
             double keyframe_m = std::numeric_limits<double>::infinity());
 
   /// Turns once in place, to know the floor on all sides: the scanner does not see behind the
@@ -61,6 +61,7 @@ class Navigator {
   void extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base);
   DriveResult drive_and_map(const std::vector<Pose2>& waypoints);
 
+  int threads_;
   FloorMapOptions floor_options_;
   NavigationOptions options_;
   MobileRobotInterface& robot_;

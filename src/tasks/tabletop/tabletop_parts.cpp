@@ -12,7 +12,7 @@ TabletopParts::TabletopParts(const MappingContext& context, const Tabletop& task
                              TabletopRobotInterface& robot, TabletopBelief& belief)
     : MappingParts(context, task, belief, recorded_predictors(task, cell_predictors()),
                    Navigator(task.floor_map, task.navigation, task.odometry, robot,
-                             ReferenceMap(task.registration))),
+                             ReferenceMap(task.registration), context.options.threads)),
       task_(task),
       tabletop_robot_(robot),
       belief_(belief) {

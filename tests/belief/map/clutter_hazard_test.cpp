@@ -172,12 +172,13 @@ TEST(ClutterHazard, CountsTheBeamsOfAnImage) {
   Pose T_world_camera = Pose::Identity();
   T_world_camera.translation() = Eigen::Vector3d(-5.0, 0.0, 0.0);
   T_world_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  const std::vector<PosedImage> images{{image, T_world_camera}};
   ClutterHazard every({.layers = 1}, grid.frame.cells);
-  every.observe(grid, image, T_world_camera, 1, -1.0);
+  every.observe(grid, images, 1, -1.0);
   EXPECT_EQ(every.crossings(0), 4.0 + 8.0 + 2.0);
   EXPECT_EQ(every.hits(0), 2.0);
   ClutterHazard some({.layers = 1}, grid.frame.cells);
-  some.observe(grid, image, T_world_camera, 3, -1.0);
+  some.observe(grid, images, 3, -1.0);
   EXPECT_EQ(some.crossings(0), 4.0 + 2.0);
 }
 
@@ -194,16 +195,17 @@ TEST(ClutterHazard, TheFloorIsNoClutter) {
   T_world_camera.translation() = Eigen::Vector3d(0.2, 0.0, 4.5);
   const double c = std::sqrt(0.5);
   T_world_camera.linear() << 0.0, -c, c, -1.0, 0.0, 0.0, 0.0, -c, -c;
+  const std::vector<PosedImage> images{{image, T_world_camera}};
   ClutterHazard taken_for_clutter({.layers = 10}, grid.frame.cells);
-  taken_for_clutter.observe(grid, image, T_world_camera, 1, 0.0);
+  taken_for_clutter.observe(grid, images, 1, 0.0);
   EXPECT_EQ(taken_for_clutter.hits(0), 1.0);
   ClutterHazard hazard({.layers = 10}, grid.frame.cells);
-  hazard.observe(grid, image, T_world_camera, 1, 1.0);
+  hazard.observe(grid, images, 1, 1.0);
   EXPECT_EQ(hazard.hits(0), 0.0);
   EXPECT_EQ(hazard.crossings(0), 0.0) << "it counts down to floor_m and no farther";
   EXPECT_EQ(hazard.crossings(1), taken_for_clutter.crossings(1));
   ClutterHazard below({.layers = 10}, grid.frame.cells);
-  below.observe(grid, image, T_world_camera, 1, 5.0);
+  below.observe(grid, images, 1, 5.0);
   EXPECT_EQ(below.crossings(4), 0.0) << "a camera below floor_m sees floor alone";
 }
 

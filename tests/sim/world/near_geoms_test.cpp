@@ -78,17 +78,35 @@ TEST(NearGeoms, WhatIsFarIsLeftOutUntilSomethingComesNear) {
       ".5'/>"
       "<body pos='0 0 .2'><freejoint name='ball'/><geom size='.2'/></body></worldbody></mujoco>");
   World world(folder.alone());
-  mjModel& stepping = const_cast<mjModel&>(world.model());
+  const ModelPtr copy(mj_copyModel(nullptr, &world.model()));
+  mjModel& stepping = *copy;
   NearGeoms near(world.model());
   near.start(stepping, world.snapshot());
-  EXPECT_EQ(near.near_count(), 0U);
   EXPECT_EQ(stepping.geom_contype[1], 0);
-  EXPECT_EQ(stepping.geom_contype[0], 1) << "a plane has no end";
-  world.set_initial_pose("ball", Pose(Eigen::Translation3d(2.4, 0.0, 0.2)));
+  EXPECT_EQ(stepping.geom_contype[2], 0);
+  EXPECT_EQ(stepping.geom_contype[3], 1) << "the ball lies on the floor";
+  EXPECT_EQ(stepping.geom_contype[0], 1);
+  world.set_initial_pose("ball", Pose(Eigen::Translation3d(2.6, 0.0, 0.2)));
   near.follow(stepping, world.snapshot());
-  EXPECT_EQ(near.near_count(), 1U);
+  EXPECT_TRUE(near.is_near(1));
   EXPECT_EQ(stepping.geom_contype[1], 1);
   EXPECT_EQ(stepping.geom_contype[2], 0);
+  world.set_initial_pose("ball", Pose(Eigen::Translation3d(0.0, 0.0, 0.9)));
+  near.follow(stepping, world.snapshot());
+  EXPECT_EQ(stepping.geom_contype[3], 0) << "nothing is near in the air";
+  EXPECT_EQ(stepping.geom_contype[0], 0);
+}
+
+TEST(NearGeoms, WhatMovesWithoutAJointIsAlwaysNear) {
+  const test::SceneFolder folder(
+      "<mujoco><option gravity='0 0 0'/><worldbody>"
+      "<body name='hand' mocap='true' pos='0 0 5'><geom type='box' size='.3 .3 .1'/></body>"
+      "<body pos='0 0 1'><freejoint name='ball'/><geom size='.2'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.advance_tick();
+  world.data().mocap_pos[2] = 1.25;
+  world.advance_tick();
+  EXPECT_GT(world.data().ncon, 0);
 }
 
 TEST(NearGeoms, AJumpIsNoticed) {
