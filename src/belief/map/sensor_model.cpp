@@ -19,6 +19,8 @@ namespace {
 constexpr double kSigmaPerCell = 0.65;
 /// Where spread evidence stops: p(o) = 0.59.
 constexpr float kSpreadLimit = 0.363965F;
+/// A sum may be less than a part of it by that much.
+constexpr double kRounding = 1.0 + 1e-12;
 
 /// What one scan says about each cell.
 struct ScanEvidence {
@@ -89,13 +91,17 @@ class Spreader {
   void add_to_slice(int z, double d2_z) {
     const auto& [along_x, along_y, along_z] = along_;
     for (std::size_t j = 0; j < along_y.d2.size(); ++j) {
-      std::size_t cell = frame_.index({along_x.first, along_y.first + static_cast<int>(j), z});
+      const std::size_t row = frame_.index({0, along_y.first + static_cast<int>(j), z});
+      const bool holds_home = home_ - row < static_cast<std::size_t>(frame_.cells.x());
+      if (along_y.d2[j] + d2_z > kRounding * d2_limit_ && !holds_home) continue;
+      std::size_t cell = row + static_cast<std::size_t>(along_x.first);
       for (std::size_t i = 0; i < along_x.d2.size(); ++i, ++cell) {
         const double d2 = along_x.d2[i] + along_y.d2[j] + d2_z;
         if (d2 > d2_limit_ && cell != home_) continue;
         float& best = evidence_.d2[cell];
+        if (static_cast<float>(d2) >= best) continue;
         if (std::isinf(best)) touched_.push_back(cell);
-        best = std::min(best, static_cast<float>(d2));
+        best = static_cast<float>(d2);
       }
     }
   }
