@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -50,6 +51,12 @@ std::size_t GainOverDistance::operator()(std::span<const Candidate> candidates,
   return best_by(candidates, [&](const Candidate& view) {
     return view.reachable ? view.gain_bits * std::exp(-lambda_per_m * view.path_length_m) : kNever;
   });
+}
+
+Rng choice_stream(const ViewChoice& choice, std::uint64_t seed) {
+  const auto* random = std::get_if<RandomView>(&choice);
+  if (random == nullptr || random->draw == 0) return Rng::stream(seed, "view choice");
+  return Rng::stream(seed, "view choice " + std::to_string(random->draw));
 }
 
 ViewChoice within_scans_left(ViewChoice choice, int scans_left) {

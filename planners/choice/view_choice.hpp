@@ -8,6 +8,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <variant>
@@ -27,7 +28,14 @@ struct RandomView {
       .summary =
           "Takes any view, each as likely as the other. The baseline that a gain has to beat."};
   static constexpr bool weighs_gain = false;
-  void fields(auto&&) {}
+  int draw = 0;
+  void fields(auto&& f) {
+    f("draw", draw,
+      "which of the sequences of views that one seed has; another for each of several episodes "
+      "that "
+      "differ by nothing else",
+      at_least(0));
+  }
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
@@ -103,6 +111,9 @@ inline bool knows_truth(const ViewChoice& choice) {
   return std::holds_alternative<OracleView>(choice) ||
          std::holds_alternative<OracleLookahead>(choice);
 }
+
+/// The random numbers that a choice draws in an episode of that seed.
+Rng choice_stream(const ViewChoice& choice, std::uint64_t seed);
 
 /// The same choice, which plans no further ahead than the scans that are left (at least 1).
 ViewChoice within_scans_left(ViewChoice choice, int scans_left);

@@ -39,7 +39,8 @@ TEST_F(CommandLine, EveryKeyOfEveryTaskIsExplained) {
     ASSERT_GT(keys.size(), 40U);
     const Result explained = vantage(fmt::format("explain {} --json", fmt::join(keys, " ")));
     ASSERT_EQ(explained.exit_code, 0) << explained.output;
-    for (const json& entry : json::parse(explained.output)["entries"]) {
+    const json explanation = json::parse(explained.output);
+    for (const json& entry : explanation["entries"]) {
       EXPECT_FALSE(entry["text"].get<std::string>().empty()) << entry;
     }
   }

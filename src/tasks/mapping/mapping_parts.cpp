@@ -38,7 +38,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
       belief_(belief),
       predictors_(std::move(predictors)),
       calibration_(options.forecast),
-      choice_rng_(Rng::stream(context.options.seed, "view choice")) {
+      choice_rng_(choice_stream(options.choice, context.options.seed)) {
   recorder_.set_panel([this] { return panel(); });
   navigator_.on_plan = [this](const PlannedPath& path) { recorder_.route(path.waypoints); };
 }

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "tests/models/catalogue/scene_files.hpp"
 #include "vantage/core/error.hpp"
@@ -109,16 +111,18 @@ TEST_P(ClutterScene, StandsStably) {
 INSTANTIATE_TEST_SUITE_P(Scenes, ClutterScene, testing::ValuesIn(clutter_scenes()),
                          [](const auto& info) { return info.param.name; });
 
-TEST(ClutterScenes, TheTwoSetsShareLevelsButNoSeed) {
+TEST(ClutterScenes, SetsShareLevelsButNoSeed) {
   const auto scenes = clutter_scenes();
-  ASSERT_EQ(scenes.size() % 2, 0U);
-  const std::size_t levels = scenes.size() / 2;
-  for (std::size_t i = 0; i < levels; ++i) {
-    EXPECT_TRUE(scenes[i].name.starts_with("clutter_dev_"));
-    EXPECT_TRUE(scenes[levels + i].name.starts_with("clutter_report_"));
-    EXPECT_EQ(scenes[i].objects, scenes[levels + i].objects);
-    EXPECT_EQ(scenes[i].boxes, scenes[levels + i].boxes);
-    EXPECT_NE(scenes[i].seed, scenes[levels + i].seed);
+  const std::vector<std::string> sets{"clutter_dev_", "clutter_report_", "clutter_report_b_"};
+  ASSERT_EQ(scenes.size() % sets.size(), 0U);
+  const std::size_t levels = scenes.size() / sets.size();
+  std::set<std::uint64_t> seeds;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const ClutterSceneOptions& first = scenes[i % levels];
+    EXPECT_EQ(scenes[i].name, sets[i / levels] + std::to_string(first.objects));
+    EXPECT_EQ(scenes[i].objects, first.objects);
+    EXPECT_EQ(scenes[i].boxes, first.boxes);
+    EXPECT_TRUE(seeds.insert(scenes[i].seed).second) << scenes[i].name;
   }
 }
 
