@@ -1,4 +1,5 @@
-// Writes bench/RESULTS.md from what benchmarks and studies left in bench/results.
+// Writes bench/RESULTS.md, claims first, and the pages behind it from what benchmarks and studies
+// left in bench/results.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,11 +8,10 @@
 
 #include "bench/claims/claims.hpp"
 #include "bench/claims/recognition_claims.hpp"
-#include "bench/cost_figures.hpp"
-#include "bench/freshness.hpp"
 #include "bench/measures.hpp"
+#include "bench/pages.hpp"
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/study/figures/figure.hpp"
+#include "vantage/core/yaml.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -20,60 +20,17 @@ namespace fs = std::filesystem;
 constexpr std::string_view kIntroduction =
     R"(# Results
 
-Written by `bench/run all` and `bench/studies`; not edited by hand. Times are medians of one machine
-and say little by themselves; their ratios inside one run are what is claimed. Means carry 95 %
-bootstrap intervals, differences are paired over the same scene and start, `p` is that of a
-sign-flip test, `x` the ratio of the means to the reference method. The dissertation is C. Potthast,
-*Information Theoretical Action Selection*, USC 2016.
+Written by `bench/run all` and `bench/studies`; not edited by hand. First what is claimed, and whether
+it holds; behind the links are the tables. Times are medians of one machine and say little by
+themselves; their ratios inside one run are what is claimed. Means carry 95 % bootstrap intervals over
+whole scenes, objects or draws, as what is of one is alike; differences are paired over the same scene
+and start, `p` is that of a sign-flip test, `x` the ratio of the means to the reference method. The
+dissertation is C. Potthast, *Information Theoretical Action Selection*, USC 2016.
 
 `\*`: the code that it depends on has changed since the commit that it is of. `?`: whether it has is
-unknown.
+unknown. A claim on numbers that are not all there is "not run". `bench/studies verify` runs episodes
+drawn at random again, and compares their state hashes.
 )";
-
-/// What any result depends on.
-std::vector<std::string> code_with(const std::vector<std::string>& more) {
-  std::vector<std::string> code{"src", "planners", "sim", "models", "assets"};
-  code.insert(code.end(), more.begin(), more.end());
-  return code;
-}
-
-/// The program that printed a benchmark of that name.
-std::string program_of(const std::string& benchmark) {
-  if (benchmark == "scaling") return "decision";
-  return benchmark == "office_views" ? "office" : benchmark;
-}
-
-Freshness freshness_of_benchmark(const std::string& name, const std::string& commit,
-                                 const fs::path& file) {
-  return freshness_of(
-      {.commits = {commit},
-       .file = file,
-       .code = code_with({"bench/" + program_of(name) + ".cpp", "bench/situation.cpp",
-                          "bench/castray.cpp", "bench/measures.cpp"})});
-}
-
-/// The commits of its episodes, where they are recorded.
-std::set<std::string> commits_of_study(const fs::path& results_csv) {
-  std::set<std::string> commits;
-  if (!fs::exists(results_csv)) return commits;
-  const CsvTable results = read_csv(results_csv);
-  const auto column = std::ranges::find(results.columns, "commit") - results.columns.begin();
-  for (const auto& row : results.rows) {
-    if (column < std::ssize(row) && !row[static_cast<std::size_t>(column)].empty()) {
-      commits.insert(row[static_cast<std::size_t>(column)]);
-    }
-  }
-  return commits;
-}
-
-/// "; of b100039, c29a3d1 \*"
-std::string origin_text(const std::set<std::string>& commits, const fs::path& file) {
-  const std::string marked = mark(freshness_of({commits, file, code_with({})}));
-  return fmt::format(
-      "; of {}{}",
-      commits.empty() ? "a commit not recorded" : fmt::format("{}", fmt::join(commits, ", ")),
-      marked);
-}
 
 struct StudyPart {
   std::string name;
@@ -83,13 +40,13 @@ struct StudyPart {
 };
 
 const std::vector<StudyPart>& study_parts() {
-  static const std::vector<std::string> tables = {"area",           "scans_to_95",   "scans",
-                                                  "observed_share", "path_length_m", "collisions",
-                                                  "predictors"};
+  static const std::vector<std::string> tables = {"area",       "area_from_scan_2", "scans_to_95",
+                                                  "scans",      "observed_share",   "path_length_m",
+                                                  "collisions", "forecast_ratio",   "predictors"};
   static const std::vector<StudyPart> parts = {
-      {"tabletop", "Table top (Fig. 3.10)", tables, tabletop_findings},
+      {"tabletop", "Worktops (Fig. 3.10)", tables, tabletop_findings},
       {"tabletop_predictors",
-       "Predictions on the table top (Fig. 3.11)",
+       "Predictions on worktops (Fig. 3.11)",
        {"predictors"},
        prediction_findings},
       {"office_small", "Small office (Fig. 3.15)", tables,
@@ -117,68 +74,40 @@ const std::vector<StudyPart>& study_parts() {
   return parts;
 }
 
-/// The folder's files of that extension, by name.
-std::vector<fs::path> files_in(const fs::path& folder, std::string_view extension) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == extension) files.push_back(entry.path());
+/// "scene: dev_4, dev_8; start: start_0"
+std::string split_text(const ConfigNode& study, const std::string& split) {
+  const ConfigNode* splits = study.find("splits");
+  const ConfigNode* levels = splits == nullptr ? nullptr : splits->find(split);
+  if (levels == nullptr) return "-";
+  std::vector<std::string> texts;
+  for (const auto& [factor, names] : levels->entries) {
+    std::vector<std::string> of_factor;
+    for (const ConfigNode& name : names.items) of_factor.push_back(name.scalar);
+    texts.push_back(fmt::format("{}: {}", factor, fmt::join(of_factor, ", ")));
   }
-  std::ranges::sort(files);
-  return files;
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Of what code, on what machine a benchmark ran.
-struct BenchmarkOrigin {
-  std::string commit;  ///< with its mark
-  int threads = 0;
-  std::string cpu;
-};
-using Origins = std::map<std::string, BenchmarkOrigin>;
-
-/// Those of the benchmark, but for castRay's where it had others.
-std::string threads_of(const std::string& key, const Json& figures, int threads) {
-  if (!key.starts_with("castray_") || !figures.contains("castray_threads")) {
-    return std::to_string(threads);
-  }
-  const int of_castray = figures["castray_threads"].get<int>();
-  const bool ratio = key == "castray_over_sweep" && of_castray != threads;
-  return ratio ? fmt::format("{} against {}", of_castray, threads) : std::to_string(of_castray);
+fs::path study_file(const std::string& name) {
+  return fs::path("assets/studies") / (name + ".yaml");
 }
 
-std::string figures_table(const Figures& all, const Origins& origins) {
-  std::string text = "| benchmark | figure | | commit, threads, CPU |\n|---|---|---|---|\n";
-  for (const auto& [name, figures] : all) {
-    for (const auto& [key, value] : figures.items()) {
-      const BenchmarkOrigin& origin = origins.at(name);
-      text += fmt::format("| {} | `{}` | {:.5g} | {}, {}, {} |\n", name, key, value.get<double>(),
-                          origin.commit, threads_of(key, figures, origin.threads), origin.cpu);
-    }
-  }
-  return text;
-}
-
-/// Time against cells, from the keys ms_of_N_cells.
-Figure scaling_figure(const Json& figures) {
-  FigureSeries series{"sweep", 0, {}};
-  for (const auto& [key, value] : figures.items()) {
-    if (!key.starts_with("ms_of_")) continue;
-    const double cells = std::stod(key.substr(6));
-    const double ms = value.get<double>();
-    series.points.push_back({1e-6 * cells, 1, 1, ms, {ms, ms}});
-  }
-  return {.name = "scaling",
-          .title = "Time of a decision of 30 views",
-          .x_label = "million cells",
-          .y_label = "ms",
-          .panels = {{"", {series}}},
-          .note = "Medians of one run."};
-}
-
-/// Tables of `vantage evaluate`, their headings two levels down.
-std::string evaluation_tables(const fs::path& folder, const std::string& title) {
-  std::string text = "\n### " + title + read_file(folder / "recognition.md").substr(1);
-  for (auto at = text.find("\n## "); at != std::string::npos; at = text.find("\n## ", at + 1)) {
-    text.insert(at + 1, "##");
+/// What options were chosen on, what is reported, and of what code and machine that is.
+std::string splits_table(const fs::path& directory) {
+  std::string text =
+      "| study | options were chosen on | reported is | episodes | commit | threads, CPU |\n"
+      "|---|---|---|---|---|---|\n";
+  for (const StudyPart& part : study_parts()) {
+    const fs::path results = directory / part.name / "results.csv";
+    const fs::path timings = directory / part.name / "timings.csv";
+    const ConfigNode file = read_yaml(study_file(part.name));
+    const bool run = fs::exists(results);
+    const StudyTables study(study_file(part.name), results);
+    text += fmt::format("| {} | {} | {} | {} | {} | {} {} |\n", part.name,
+                        split_text(file, "development"), split_text(file, "report"), study.extent(),
+                        run ? commits_text(entries_of(results, "commit"), results) : "not run",
+                        fmt::join(entries_of(timings, "threads"), ", "),
+                        fmt::join(entries_of(timings, "cpu"), ", "));
   }
   return text;
 }
@@ -188,91 +117,66 @@ Json json_or_nothing(const fs::path& file) {
   return fs::exists(file) ? read_json(file) : Json::object();
 }
 
-/// What `vantage evaluate` wrote of recognition, with simple features and kernel descriptors.
-std::string recognition_part(const fs::path& folder) {
-  struct Part {
-    const char* folder;
-    const char* title;
-  };
+/// Of what `vantage evaluate` wrote of recognition, with simple features and kernel descriptors.
+std::string recognition_claims(const fs::path& folder) {
   std::vector<Finding> findings;
   const auto add = [&](const std::vector<Finding>& more) {
     findings.insert(findings.end(), more.begin(), more.end());
   };
+  std::set<std::string> commits;
   const auto summary = [&](const char* part) {
-    return json_or_nothing(folder / part / "summary.json");
+    Json json = json_or_nothing(folder / part / "summary.json");
+    const Json commit = json.value("commit", Json());
+    if (commit.is_string()) commits.insert(commit.get<std::string>());
+    return json;
   };
   add(recognition_findings(summary("simple")));
   add(change_findings(summary("changes")));
   add(kernel_findings(summary("kernel"), summary("simple_same_objects")));
-  std::string tables;
-  std::set<std::string> commits;
-  for (const Part& part : {Part{"simple", "Simple features:"},
-                           {"changes", "Changes:"},
-                           {"kernel", "Kernel descriptors:"},
-                           {"simple_same_objects", "Simple features on the same objects:"}}) {
-    if (!fs::exists(folder / part.folder)) continue;
-    tables += evaluation_tables(folder / part.folder, part.title);
-    const Json commit = summary(part.folder).value("commit", Json());
-    if (commit.is_string()) commits.insert(commit.get<std::string>());
-  }
-  return "\n## Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n`bench/studies recognition`, "
-         "a rendered database; trained at 30 and 60 deg, tested at 45 deg" +
-         origin_text(commits, folder / "simple" / "summary.json") + ".\n\n" +
-         findings_table(findings) + tables;
+  return "`bench/studies recognition`; of " +
+         commits_text(commits, folder / "simple" / "summary.json") + ".\n\n" +
+         findings_table(findings);
 }
 
-/// Writes their images too.
-std::string cost_part(const fs::path& directory) {
-  std::string text =
-      "\n## The cost of a flight, term by term ((5.8) - (5.11))\n\n"
-      "Unweighed, of the default options; with `literal: true` as printed.\n";
-  for (const Figure& figure : cost_figures()) {
-    write_file(directory / (figure.name + ".svg"), figure_svg(figure));
-    text += fmt::format("\n![{}](results/{}.svg)\n", figure.title, figure.name);
-  }
-  return text;
-}
-
-void write_results(const fs::path& directory) {
+struct Benchmarks {
   Figures figures;
   Origins origins;
-  for (const fs::path& file : files_in(directory, ".json")) {
+};
+
+Benchmarks read_benchmarks(const fs::path& directory) {
+  Benchmarks all;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const fs::path& file = entry.path();
+    if (file.extension() != ".json") continue;
     const Json benchmark = read_json(file);
     const auto name = benchmark.at("name").get<std::string>();
-    figures.emplace(name, benchmark.at("figures"));
-    const auto commit = benchmark.at("commit").get<std::string>();
-    origins[name] = {commit + mark(freshness_of_benchmark(name, commit, file)),
-                     benchmark.at("threads").get<int>(), benchmark.at("cpu").get<std::string>()};
+    all.figures.emplace(name, benchmark.at("figures"));
+    all.origins[name] = {marked_commit(name, benchmark.at("commit").get<std::string>(), file),
+                         benchmark.at("threads").get<int>(),
+                         benchmark.at("cpu").get<std::string>()};
   }
-  std::string text(kIntroduction);
-  text += "\n## Speed\n\n" + findings_table(speed_findings(figures)) + "\n" +
-          figures_table(figures, origins);
-  if (const auto scaling = figures.find("scaling"); scaling != figures.end()) {
-    write_file(directory / "scaling.svg", figure_svg(scaling_figure(scaling->second)));
-    text += "\n![Time against cells](results/scaling.svg)\n";
-  }
+  return all;
+}
+
+std::string link(const std::string& page) { return fmt::format("\n[Tables](results/{}).\n", page); }
+
+void write_results(const fs::path& directory) {
+  const auto [figures, origins] = read_benchmarks(directory);
+  std::string text = std::string(kIntroduction) + "\n" + splits_table(directory);
+  text += "\n## Speed\n\n`bench/run all`\n\n" + findings_table(speed_findings(figures)) +
+          link(write_speed_page(directory, figures, origins));
   for (const StudyPart& part : study_parts()) {
-    const fs::path folder = directory / part.name;
-    const StudyTables study(fs::path("assets/studies") / (part.name + ".yaml"),
-                            folder / "results.csv");
-    const fs::path results_csv = folder / "results.csv";
-    const std::string origin =
-        fs::exists(results_csv) ? origin_text(commits_of_study(results_csv), results_csv) : "";
-    text += fmt::format("\n## {}\n\n`bench/studies {}`: {}{}.\n\n", part.title, part.name,
-                        study.extent(), origin);
-    text += findings_table(part.findings(study));
-    for (const std::string& table : part.tables) {
-      if (!study.has(table)) continue;
-      text += fmt::format("\n### {}: {}\n\n{}", part.title, table, study.markdown(table));
-    }
-    if (!fs::exists(folder)) continue;
-    for (const fs::path& picture : files_in(folder, ".svg")) {
-      text += fmt::format("\n![{}](results/{}/{})\n", picture.stem().string(), part.name,
-                          picture.filename().string());
-    }
+    const StudyTables study(study_file(part.name), directory / part.name / "results.csv");
+    text += fmt::format("\n## {}\n\n`bench/studies {}`\n\n", part.title, part.name) +
+            findings_table(part.findings(study)) +
+            link(write_study_page(directory, part.name, part.title, study, part.tables));
   }
-  text += cost_part(directory);
-  text += recognition_part(directory / "recognition");
+  text += "\n## Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n" +
+          recognition_claims(directory / "recognition") + link(write_recognition_page(directory));
+  text +=
+      "\n## The cost of a flight ((5.8) - (5.11))\n\nAs (5.8) - (5.11) print it and as it is "
+      "flown: [figures](results/" +
+      write_cost_page(directory) + ").\n";
   write_file(directory.parent_path() / "RESULTS.md", text);
 }
 

@@ -99,6 +99,7 @@ std::string manifest_json(const RunRequest& request, const RunSummary& summary) 
         {"opencv", CV_VERSION},
         {"compiler", "g++ " __VERSION__}}},
       {"cpu", cpu_name()},
+      {"threads", setup.options.threads},
       {"seed", setup.options.seed},
       {"status", status_name(summary.status)},
       {"config_hash", hash_text(hash_bytes(request.config))},

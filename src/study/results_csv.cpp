@@ -63,12 +63,17 @@ std::string config_hash(ResolvedEpisode resolved) {
   return hash_text(hash_bytes(episode_yaml(resolved)));
 }
 
+/// The manifest of the episode, an object; empty if there is none.
+Json manifest_of(const StudyResults& results, std::size_t i) {
+  const Json manifest =
+      read_json_or_null(episode_folder(results.directory, results.plan[i]) / "manifest.json");
+  return manifest.is_object() ? manifest : Json::object();
+}
+
 /// State hash, and of what configuration and code the episode is.
 std::string origin_of(const StudyResults& results, std::size_t i) {
   if (!results.measures[i]) return ",,,";
-  const Json manifest =
-      read_json_or_null(episode_folder(results.directory, results.plan[i]) / "manifest.json");
-  const auto versions = manifest.is_object() ? manifest.value("versions", Json::object()) : Json();
+  const Json versions = manifest_of(results, i).value("versions", Json::object());
   return fmt::format(",{},{},{}", episode_metrics(results, i).value("state_hash", ""),
                      config_hash(results.plan[i].resolved),
                      versions.is_object() ? versions.value("vantage", "") : "");
@@ -100,7 +105,7 @@ std::string timings_csv(const StudyResults& results) {
   std::string text = csv_header(results) + ",wall_time_s,real_time_factor,plan_time_s,map_time_s";
   const std::vector<std::size_t> columns = columns_of(results, true);
   for (const std::size_t s : columns) text += fmt::format(",{}", scalar_measures()[s].name);
-  text += "\n";
+  text += ",threads,cpu\n";
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     if (!results.measures[i]) continue;
     const Json metrics = episode_metrics(results, i);
@@ -116,7 +121,8 @@ std::string timings_csv(const StudyResults& results) {
       const auto& value = results.measures[i]->scalars[s];
       text += value ? fmt::format(",{}", *value) : ",";
     }
-    text += "\n";
+    const Json manifest = manifest_of(results, i);
+    text += fmt::format(",{},{}\n", manifest.value("threads", 0), manifest.value("cpu", ""));
   }
   return text;
 }

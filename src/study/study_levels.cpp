@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/strategy.hpp"
 #include "vantage/core/yaml.hpp"
 
 namespace vantage {
@@ -21,9 +22,9 @@ std::vector<std::string> names_in(const ConfigNode& list) {
   return names;
 }
 
-std::vector<std::string> keys_of(const ConfigNode& map) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : map.entries) keys.push_back(key);
+std::vector<std::string_view> keys_of(const ConfigNode& map) {
+  std::vector<std::string_view> keys;
+  for (const auto& [key, value] : map.entries) keys.emplace_back(key);
   return keys;
 }
 
@@ -69,12 +70,13 @@ void take_split(ConfigNode& root, const std::string& wanted, Study& study, Probl
     }
     detail::require_kind(*splits, ConfigNode::Kind::map);
     if (splits->entries.empty()) throw ConfigError(splits->where() + ": expected a split");
-    study.split = !wanted.empty() ? wanted : said != nullptr ? said->scalar : keys_of(*splits)[0];
+    study.split = !wanted.empty()   ? wanted
+                  : said != nullptr ? said->scalar
+                                    : splits->entries.front().first;
     const ConfigNode* split = splits->find(study.split);
     if (split == nullptr) {
-      throw ConfigError(fmt::format("{}: unknown split '{}'; known: {}",
-                                    wanted.empty() && said ? said->where() : "--split", study.split,
-                                    fmt::join(keys_of(*splits), ", ")));
+      throw ConfigError((wanted.empty() && said ? said->where() : std::string("--split")) + ": " +
+                        unknown_strategy("split", study.split, keys_of(*splits)));
     }
     detail::require_kind(*split, ConfigNode::Kind::map);
     for (const auto& [factor, levels] : split->entries) leave_levels(factor, levels, study);

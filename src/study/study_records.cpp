@@ -37,6 +37,8 @@ RecordTexts study_records() {
       {"timings.csv", "real_time_factor", "simulated time over wall time"},
       {"timings.csv", "plan_time_s", "of all decisions"},
       {"timings.csv", "map_time_s", "of all map updates"},
+      {"timings.csv", "threads", "that the episode ran on"},
+      {"timings.csv", "cpu", "that the episode ran on"},
   };
   static const auto scalars = texts_of(scalar_measures());
   static const auto curves = texts_of(curve_measures());

@@ -1,0 +1,56 @@
+#include "bench/origins.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "bench/freshness.hpp"
+
+namespace vantage::bench {
+namespace {
+
+/// What any result depends on.
+std::vector<std::string> code_with(const std::vector<std::string>& more) {
+  std::vector<std::string> code{"src", "planners", "sim", "models", "assets"};
+  code.insert(code.end(), more.begin(), more.end());
+  return code;
+}
+
+/// The program that printed a benchmark of that name.
+std::string program_of(const std::string& benchmark) {
+  if (benchmark == "scaling") return "decision";
+  return benchmark == "office_views" ? "office" : benchmark;
+}
+
+}  // namespace
+
+std::string marked_commit(const std::string& benchmark, const std::string& commit,
+                          const std::filesystem::path& file) {
+  const Freshness freshness = freshness_of(
+      {.commits = {commit},
+       .file = file,
+       .code = code_with({"bench/" + program_of(benchmark) + ".cpp", "bench/situation.cpp",
+                          "bench/castray.cpp", "bench/measures.cpp"})});
+  return commit + mark(freshness);
+}
+
+std::set<std::string> entries_of(const std::filesystem::path& csv, const std::string& column) {
+  std::set<std::string> entries;
+  if (!std::filesystem::exists(csv)) return entries;
+  const CsvTable table = read_csv(csv);
+  const auto at = std::ranges::find(table.columns, column) - table.columns.begin();
+  for (const auto& row : table.rows) {
+    if (at < std::ssize(row)) entries.insert(row[static_cast<std::size_t>(at)]);
+  }
+  entries.erase("");
+  return entries;
+}
+
+std::string commits_text(const std::set<std::string>& commits, const std::filesystem::path& file) {
+  const std::string marked = mark(freshness_of({commits, file, code_with({})}));
+  return (commits.empty() ? "a commit not recorded" : fmt::format("{}", fmt::join(commits, ", "))) +
+         marked;
+}
+
+}  // namespace vantage::bench

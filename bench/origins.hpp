@@ -1,0 +1,32 @@
+/// Of what code and on what machine results are.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "vantage/report/report_data.hpp"
+
+namespace vantage::bench {
+
+/// Where a benchmark ran.
+struct BenchmarkOrigin {
+  std::string commit;  ///< with its mark
+  int threads = 0;
+  std::string cpu;
+};
+using Origins = std::map<std::string, BenchmarkOrigin>;
+
+/// The commit with a mark where the code that the benchmark depends on has changed since.
+std::string marked_commit(const std::string& benchmark, const std::string& commit,
+                          const std::filesystem::path& file);
+
+/// The different entries of a column, "" left out; none if there is no such file or column.
+std::set<std::string> entries_of(const std::filesystem::path& csv, const std::string& column);
+
+/// "b100039, c29a3d1 \*", or that it is not recorded. @param file whose history tells it then
+std::string commits_text(const std::set<std::string>& commits, const std::filesystem::path& file);
+
+}  // namespace vantage::bench
