@@ -38,10 +38,6 @@ std::size_t place_of(const std::vector<std::string>& names, const std::string& n
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-Sample sample_of(const EpisodePlace& place, std::size_t level, double value) {
-  return {place.panel, level, place.pair, value, place.cluster};
-}
-
 CsvTable read_results(const std::filesystem::path& file) {
   std::error_code error;
   return std::filesystem::exists(file, error) ? read_csv(file) : CsvTable{};
@@ -79,21 +75,10 @@ StudyTables::StudyTables(const std::filesystem::path& study_file,
                          const std::filesystem::path& results_csv)
     : StudyTables(study_file, read_results(results_csv)) {}
 
-/// The product of all levels, the last factor fastest.
 void StudyTables::plan_episodes() {
-  episodes_.assign(1, {});
-  for (const Factor& factor : study_.factors) {
-    std::vector<Episode> more;
-    for (const Episode& begun : episodes_) {
-      for (std::size_t level = 0; level < factor.levels.size(); ++level) {
-        Episode& episode = more.emplace_back(begun);
-        episode.name += (begun.levels.empty() ? "" : "/") + factor.levels[level].name;
-        episode.levels.push_back(level);
-      }
-    }
-    episodes_ = std::move(more);
+  for (const EpisodeLevels& levels : episode_levels(study_)) {
+    episodes_.push_back({levels.name, layout_.place(levels.levels), nullptr});
   }
-  for (Episode& episode : episodes_) episode.place = layout_.place(episode.levels);
 }
 
 void StudyTables::find_rows() {
@@ -132,7 +117,7 @@ StudyTables::Table StudyTables::scalar_table(const std::string& name) const {
   for (const Episode& episode : episodes_) {
     if (episode.row == nullptr || column == results_.columns.size()) continue;
     const auto value = value_in(*episode.row, column);
-    if (value) table.samples.push_back(sample_of(episode.place, episode.place.level, *value));
+    if (value) table.samples.push_back(sample_at(episode.place, episode.place.level, *value));
   }
   return table;
 }
@@ -149,7 +134,7 @@ StudyTables::Table StudyTables::predictor_table() const {
       if (episode.row == nullptr || episode.place.level != along) continue;
       const auto value = value_in(*episode.row, column);
       if (!value) continue;
-      table.samples.push_back(sample_of(episode.place, table.levels.size(), *value));
+      table.samples.push_back(sample_at(episode.place, table.levels.size(), *value));
     }
     table.levels.emplace_back(name.substr(
         kPredictorFront.size(), name.size() - kPredictorFront.size() - kPredictorBack.size()));

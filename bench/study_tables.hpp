@@ -71,7 +71,6 @@ class StudyTables {
  private:
   struct Episode {
     std::string name;
-    std::vector<std::size_t> levels;  ///< index of the level of each factor
     EpisodePlace place;
     const std::vector<std::string>* row = nullptr;  ///< none: it came to no result
   };

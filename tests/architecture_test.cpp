@@ -70,7 +70,8 @@ const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/kit",   "study/recognition", "study/sweep",
                    "study/tables"};
 /// What several tasks share; they never include each other.
-const Rooms kSharedByTasks{"tasks/mapping", "tasks/flight", "tasks/object_flight"};
+const Rooms kSharedByTasks{"tasks/mapping", "tasks/mapping/simulated", "tasks/flight",
+                           "tasks/object_flight"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
                     kSharedByTasks + Rooms{"control", "dataset", "report"};
 
@@ -128,6 +129,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"runtime", kGround + Rooms{"belief/map", "planners", "report", "runtime/log", "sim/world",
                                 "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
+    {"tasks/mapping/simulated", kTask},
     {"tasks/flight", kTask},
     {"tasks/object_flight", kTask},
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
@@ -149,6 +151,9 @@ const std::map<std::string, Rooms> kAllowed{
                 Rooms{"cli/hints", "cli/reference", "cli/sweep", "dataset",
                       "models/catalogue/database", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
+    {"bench/pages",
+     {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",
+      "bench/claims"}},
     {"bench", kTask + kStudy + Rooms{"bench/claims", "tasks", "tasks/*", "tests/support"}},
     {"python", kTask + kStudy + Rooms{"tasks", "tasks/*"}},
 };

@@ -196,7 +196,7 @@ TEST(GroundTruth, EveryIncludeOfOursIsFound) {
 
 /// Those who may: the check above is no blank one.
 TEST(GroundTruth, IsWithinReachOfSimulatedRobotsAndEvaluators) {
-  EXPECT_FALSE(ways_to_truth(sources(), "src/tasks/mapping/driven_by_base.hpp").empty());
+  EXPECT_FALSE(ways_to_truth(sources(), "src/tasks/mapping/simulated/driven_by_base.hpp").empty());
   EXPECT_FALSE(
       ways_to_truth(sources(), "src/tasks/mapping/ground_truth_map_evaluator.cpp").empty());
 }
@@ -234,7 +234,7 @@ TEST(GroundTruthChecker, WhoDecides) {
   }
   for (const char* path :
        {"src/tasks/tabletop/tabletop.cpp", "src/tasks/mapping/ground_truth_map_evaluator.hpp",
-        "src/runtime/recorder.hpp", "sim/robots/pr2.hpp", "src/tasks/mapping/driven_by_base.hpp"}) {
+        "src/runtime/recorder.hpp", "sim/robots/pr2.hpp", "src/tasks/mapping/simulated/driven_by_base.hpp"}) {
     EXPECT_FALSE(decides(path)) << path;
   }
 }

@@ -24,8 +24,7 @@ class Layout : public StudyLayout {
   }
   [[nodiscard]] std::size_t level(std::size_t episode) const { return at(episode).level; }
   [[nodiscard]] Sample sample(std::size_t episode, std::size_t level, double value) const {
-    const EpisodePlace place = at(episode);
-    return {place.panel, level, place.pair, value, place.cluster};
+    return sample_at(at(episode), level, value);
   }
 
  private:

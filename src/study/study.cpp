@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <utility>
 
 #include "vantage/core/yaml.hpp"
 #include "vantage/study/study_reading.hpp"
@@ -36,14 +37,11 @@ std::vector<std::size_t> levels_of(const Study& study, std::size_t number) {
   return levels;
 }
 
-PlannedEpisode planned(const Study& study, ConfigNode root,
-                       const std::vector<std::size_t>& levels) {
-  PlannedEpisode episode;
-  episode.levels = levels;
+PlannedEpisode planned(const Study& study, ConfigNode root, EpisodeLevels levels) {
+  PlannedEpisode episode{std::move(levels.name), std::move(levels.levels), {}};
   Overrides overrides = study.set;
-  for (std::size_t f = 0; f < levels.size(); ++f) {
-    const Level& level = study.factors[f].levels[levels[f]];
-    episode.name += (f == 0 ? "" : "/") + level.name;
+  for (std::size_t f = 0; f < episode.levels.size(); ++f) {
+    const Level& level = study.factors[f].levels[episode.levels[f]];
     overrides.insert(overrides.end(), level.overrides.begin(), level.overrides.end());
   }
   set_values(root, std::move(overrides));
@@ -83,18 +81,31 @@ Study read_study(const fs::path& file, const std::vector<std::string>& overrides
   return std::move(reading.study);
 }
 
+std::vector<EpisodeLevels> episode_levels(const Study& study) {
+  std::vector<EpisodeLevels> episodes;
+  const std::size_t count = episode_count(study);
+  for (std::size_t number = 0; number < count; ++number) {
+    EpisodeLevels episode{{}, levels_of(study, number)};
+    for (std::size_t f = 0; f < episode.levels.size(); ++f) {
+      episode.name += (f == 0 ? "" : "/") + study.factors[f].levels[episode.levels[f]].name;
+    }
+    episodes.push_back(std::move(episode));
+  }
+  return episodes;
+}
+
 std::vector<PlannedEpisode> plan_episodes(const Study& study, Problems& problems) {
   std::vector<PlannedEpisode> plan;
-  std::size_t count = 0;
+  std::vector<EpisodeLevels> all;
   ConfigNode base;
   if (study.episode.empty() || !problems.attempt([&] {
-        count = episode_count(study);
+        all = episode_levels(study);
         base = read_yaml(study.episode);
       })) {
     return plan;
   }
-  for (std::size_t number = 0; number < count; ++number) {
-    problems.attempt([&] { plan.push_back(planned(study, base, levels_of(study, number))); });
+  for (EpisodeLevels& levels : all) {
+    problems.attempt([&] { plan.push_back(planned(study, base, std::move(levels))); });
   }
   return plan;
 }

@@ -101,6 +101,16 @@ struct PlannedEpisode {
   ResolvedEpisode resolved;
 };
 
+/// Where an episode stands among the factors.
+struct EpisodeLevels {
+  std::string name;                 ///< its levels joined by '/'
+  std::vector<std::size_t> levels;  ///< index of the level of each factor
+};
+
+/// Of every episode, in the fixed order of the product.
+/// @throws ConfigError if they are too many
+std::vector<EpisodeLevels> episode_levels(const Study& study);
+
 /// The keys of a study's file.
 std::vector<KeyDescription> study_keys();
 

@@ -21,6 +21,10 @@ GroupedLevels grouped_levels(const Factor& factor, const std::vector<LevelGroup>
   return grouped;
 }
 
+Sample sample_at(const EpisodePlace& place, std::size_t level, double value) {
+  return {place.panel, level, place.pair, value, place.cluster};
+}
+
 StudyLayout::StudyLayout(const Study& study)
     : compared_(factor_index(study, study.report.compare)) {
   const StudyReport& report = study.report;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/study/study.hpp"
+#include "vantage/study/tables/comparison.hpp"
 
 namespace vantage {
 
@@ -23,6 +24,9 @@ struct EpisodePlace {
   std::size_t pair = 0;     ///< the same for episodes that differ in the compared factor only
   std::size_t cluster = 0;  ///< the same for episodes that are alike; of no cluster: the pair
 };
+
+/// What an episode came to, as a sample of that level.
+Sample sample_at(const EpisodePlace& place, std::size_t level, double value);
 
 class StudyLayout {
  public:

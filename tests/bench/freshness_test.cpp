@@ -1,4 +1,4 @@
-#include "bench/freshness.hpp"
+#include "bench/pages/freshness.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 
 #include "vantage/sim/sensors/camera.hpp"
 #include "vantage/tasks/exploration/start_check.hpp"
-#include "vantage/tasks/mapping/simulated_mobile_base.hpp"
+#include "vantage/tasks/mapping/simulated/simulated_mobile_base.hpp"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 #include "vantage/sim/render/renderer.hpp"
 #include "vantage/tasks/exploration/exploration.hpp"
 #include "vantage/tasks/exploration/exploration_robot_interface.hpp"
-#include "vantage/tasks/mapping/driven_by_base.hpp"
+#include "vantage/tasks/mapping/simulated/driven_by_base.hpp"
 
 namespace vantage {
 

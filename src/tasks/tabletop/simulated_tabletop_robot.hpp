@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vantage/runtime/episode_setup.hpp"
-#include "vantage/tasks/mapping/driven_by_base.hpp"
+#include "vantage/tasks/mapping/simulated/driven_by_base.hpp"
 #include "vantage/tasks/tabletop/tabletop.hpp"
 #include "vantage/tasks/tabletop/tabletop_robot_interface.hpp"
 

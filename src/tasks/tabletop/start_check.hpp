@@ -6,7 +6,7 @@
 
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/sim/sensors/ray_scene.hpp"
-#include "vantage/tasks/mapping/simulated_mobile_base.hpp"
+#include "vantage/tasks/mapping/simulated/simulated_mobile_base.hpp"
 #include "vantage/tasks/tabletop/tabletop.hpp"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "bench/cost_figures.hpp"
+#include "bench/pages/cost_figures.hpp"
 
 #include <fmt/format.h>
 

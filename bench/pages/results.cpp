@@ -9,7 +9,7 @@
 #include "bench/claims/claims.hpp"
 #include "bench/claims/recognition_claims.hpp"
 #include "bench/measures.hpp"
-#include "bench/pages.hpp"
+#include "bench/pages/pages.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/yaml.hpp"
 
@@ -58,7 +58,7 @@ const std::vector<StudyPart>& study_parts() {
          return office_findings(study, "Fig. 3.16", {60, 70});
        }},
       {"recognition_flight",
-       "Recognition on the quadrotor (4.5.7)",
+       "Recognition on the quadrotor (4.5.7): it measures flying, not choices of views",
        {"correct", "category_correct", "views", "bin_error", "path_length_m", "collisions"},
        flight_recognition_findings},
       {"change_flight",

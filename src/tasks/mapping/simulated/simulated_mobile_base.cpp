@@ -1,4 +1,4 @@
-#include "vantage/tasks/mapping/simulated_mobile_base.hpp"
+#include "vantage/tasks/mapping/simulated/simulated_mobile_base.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

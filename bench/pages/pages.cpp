@@ -1,10 +1,10 @@
-#include "bench/pages.hpp"
+#include "bench/pages/pages.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "bench/cost_figures.hpp"
+#include "bench/pages/cost_figures.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/study/figures/figure.hpp"
 

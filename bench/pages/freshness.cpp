@@ -1,35 +1,21 @@
-#include "bench/freshness.hpp"
-
-#include <fmt/format.h>
-#include <sys/wait.h>
+#include "bench/pages/freshness.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <memory>
+#include <string>
+#include <vector>
+
+#include "vantage/study/cluster/program.hpp"
 
 namespace vantage::bench {
 namespace {
 
 constexpr std::string_view kDirty = "-dirty";
 
-struct Answer {
-  int exit_code = -1;
-  std::string text;
-};
-
-/// What git says; its complaints are not shown.
-Answer ask_git(const std::filesystem::path& repository, const std::string& arguments) {
-  const std::string command =
-      fmt::format("git -C '{}' {} 2>/dev/null", repository.string(), arguments);
-  std::FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return {};
-  Answer answer;
-  std::array<char, 256> buffer{};
-  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) answer.text += buffer.data();
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) answer.exit_code = WEXITSTATUS(status);
-  while (answer.text.ends_with('\n')) answer.text.pop_back();
+/// What git says, and how it ended; its complaints are not shown.
+ProgramEnd ask_git(const std::filesystem::path& repository, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"git", "-C", repository.string()});
+  ProgramEnd answer = run_program(arguments).value_or(ProgramEnd{-1, {}, {}});
+  while (answer.output.ends_with('\n')) answer.output.pop_back();
   return answer;
 }
 
@@ -48,8 +34,8 @@ bool is_commit(const std::string& text) {
 Freshness since(const std::string& commit, const Origin& origin,
                 const std::filesystem::path& repository) {
   if (!is_commit(commit)) return Freshness::unknown;
-  std::string arguments = fmt::format("diff --quiet {} HEAD --", commit);
-  for (const std::string& path : origin.code) arguments += fmt::format(" '{}'", path);
+  std::vector<std::string> arguments{"diff", "--quiet", commit, "HEAD", "--"};
+  arguments.insert(arguments.end(), origin.code.begin(), origin.code.end());
   const int exit_code = ask_git(repository, arguments).exit_code;
   if (exit_code == 0) return Freshness::fresh;
   return exit_code == 1 ? Freshness::stale : Freshness::unknown;
@@ -75,7 +61,7 @@ std::string mark(Freshness freshness) {
 Freshness freshness_of(const Origin& origin, const std::filesystem::path& repository) {
   if (origin.commits.empty()) {
     const std::string brought =
-        ask_git(repository, fmt::format("log -1 --format=%h -- '{}'", origin.file.string())).text;
+        ask_git(repository, {"log", "-1", "--format=%h", "--", origin.file.string()}).output;
     return worse(since(brought, origin, repository), Freshness::unknown);
   }
   Freshness all = Freshness::fresh;

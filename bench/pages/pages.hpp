@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/claims/claims.hpp"
-#include "bench/origins.hpp"
+#include "bench/pages/origins.hpp"
 
 namespace vantage::bench {
 

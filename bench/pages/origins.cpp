@@ -1,11 +1,11 @@
-#include "bench/origins.hpp"
+#include "bench/pages/origins.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "bench/freshness.hpp"
+#include "bench/pages/freshness.hpp"
 
 namespace vantage::bench {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vantage/tasks/mapping/mobile_robot_interface.hpp"
-#include "vantage/tasks/mapping/simulated_mobile_base.hpp"
+#include "vantage/tasks/mapping/simulated/simulated_mobile_base.hpp"
 
 namespace vantage {
 
