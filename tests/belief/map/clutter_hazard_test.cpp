@@ -145,6 +145,7 @@ TEST(ClutterHazard, RecoversAKnownHazardPerLayer) {
                          .range_min_m = 0.1,
                          .range_max_m = 200.0};
   ClutterHazard hazard({.layers = 2}, frame.cells);
+  ClutterHazard shared({.layers = 2}, frame.cells);
   Rng rng(11);
   for (int scene = 0; scene < 30; ++scene) {
     OccupancyGrid truth(frame);
@@ -154,7 +155,10 @@ TEST(ClutterHazard, RecoversAKnownHazardPerLayer) {
     const Pose T_world_sensor = make_pose({-40.0, 0.1, 0.0}, 0.0);
     const RangeScan scan = testing::scan_of(truth, T_world_sensor, view, 30, 60);
     hazard.observe(OccupancyGrid(frame), scan, T_world_sensor);
+    shared.observe(OccupancyGrid(frame), scan, T_world_sensor, 3);
   }
+  EXPECT_EQ(shared.transmission().per_block, hazard.transmission().per_block)
+      << "it does not depend on threads";
   EXPECT_GT(hazard.crossings(0), 10'000.0);
   EXPECT_NEAR(hazard.hazard(0), low, 0.15 * low);
   EXPECT_NEAR(hazard.hazard(1), high, 0.15 * high);

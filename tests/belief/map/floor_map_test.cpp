@@ -90,6 +90,21 @@ TEST(AddPlanarScan, ForgetsWhatWentAwayAndStaysWithinTheLimit) {
   EXPECT_EQ(row(map, 0.5), "?????...#???");
 }
 
+TEST(AddPlanarScan, DoesNotDependOnThreads) {
+  FloorMap one = make_floor_map(metre_cells());
+  FloorMap three = one;
+  PlanarScan fan = one_beam(0.0F);
+  fan.azimuth_rad.clear();
+  fan.range_m.clear();
+  for (int beam = 0; beam < 50; ++beam) {
+    fan.azimuth_rad.push_back(-1.5 + 0.06 * beam);
+    fan.range_m.push_back(beam % 9 == 0 ? kNoReturn : 1.0F + 0.05F * static_cast<float>(beam));
+  }
+  add_planar_scan(one, fan, {-0.5, 0.5, 0.2}, metre_cells(), 1);
+  add_planar_scan(three, fan, {-0.5, 0.5, 0.2}, metre_cells(), 3);
+  EXPECT_EQ(three.log_odds, one.log_odds);
+}
+
 TEST(BlockBox, OverridesEverything) {
   FloorMap map = make_floor_map(metre_cells());
   block_box(map, {Eigen::Vector2d(0.2, 0.2), Eigen::Vector2d(1.2, 0.8)});

@@ -48,6 +48,19 @@ TEST(SensorModel, PeakIsReachedAtTheCellCentre) {
   EXPECT_NEAR(grid.p_occupied(grid.frame.index({4, 4, 4})), 0.8, 1e-4);
 }
 
+TEST(SensorModel, DoesNotDependOnThreads) {
+  Rng rng(7);
+  OccupancyGrid one(small_frame(Eigen::Vector3d(kCell, 2.0 * kCell, 0.5 * kCell), 17));
+  const OccupancyGrid empty = one;
+  const auto points = random_points(one.frame, 300, rng);
+  add_measurements(one, points, {}, 1);
+  for (const int threads : {2, 3, 40}) {
+    OccupancyGrid shared = empty;
+    add_measurements(shared, points, {}, threads);
+    EXPECT_EQ(shared.log_odds, one.log_odds) << threads;
+  }
+}
+
 TEST(SensorModel, EvidenceFallsWithDistanceToNoneAtAll) {
   OccupancyGrid grid(small_frame());
   const auto point = point_in(grid.frame, {4, 4, 4}, {0.2, 0.0, 0.0});

@@ -101,6 +101,22 @@ TEST(RandomView, TakesEveryViewAboutEquallyOften) {
   for (const int count : taken) EXPECT_NEAR(count, 1000, 150);
 }
 
+TEST(RandomView, EveryDrawIsASequenceOfItsOwn) {
+  const auto views = five_views();
+  const auto sequence = [&](const ViewChoice& choice, std::uint64_t seed) {
+    Rng rng = choice_stream(choice, seed);
+    std::vector<std::size_t> taken;
+    for (int i = 0; i < 20; ++i) taken.push_back(choose_view(choice, views, rng));
+    return taken;
+  };
+  std::set<std::vector<std::size_t>> sequences;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    for (const int draw : {0, 1, 2, 10}) sequences.insert(sequence(RandomView{draw}, seed));
+  }
+  EXPECT_EQ(sequences.size(), 8U);
+  EXPECT_EQ(sequence(RandomView{1}, 1), sequence(RandomView{1}, 1));
+}
+
 TEST(GreedyGain, BreaksTiesByPathThenById) {
   Rng rng(1);
   EXPECT_EQ(choose_view(GreedyGain{}, five_views(), rng), 2U);
