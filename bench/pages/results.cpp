@@ -40,9 +40,10 @@ struct StudyPart {
 };
 
 const std::vector<StudyPart>& study_parts() {
-  static const std::vector<std::string> tables = {"area",       "area_from_scan_2", "scans_to_95",
-                                                  "scans",      "observed_share",   "path_length_m",
-                                                  "collisions", "forecast_ratio",   "predictors"};
+  static const std::vector<std::string> tables = {
+      "area",           "area_from_scan_2", "scans_to_95", "scans",
+      "observed_share", "path_length_m",    "collisions",  "prediction_error_cells",
+      "forecast_ratio", "predictors"};
   static const std::vector<StudyPart> parts = {
       {"tabletop", "Worktops (Fig. 3.10)", tables, tabletop_findings},
       {"tabletop_predictors",

@@ -44,6 +44,8 @@ CsvTable invented_results(const fs::path& study) {
 /// By some claim; the others change none, and intervals take their time.
 bool is_asked_for(const std::string& column) {
   constexpr std::array kTables{"area",
+                               "area_from_scan_2",
+                               "prediction_error_cells",
                                "scans",
                                "scans_to_95",
                                "observed_share",
