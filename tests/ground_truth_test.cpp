@@ -234,7 +234,8 @@ TEST(GroundTruthChecker, WhoDecides) {
   }
   for (const char* path :
        {"src/tasks/tabletop/tabletop.cpp", "src/tasks/mapping/ground_truth_map_evaluator.hpp",
-        "src/runtime/recorder.hpp", "sim/robots/pr2.hpp", "src/tasks/mapping/simulated/driven_by_base.hpp"}) {
+        "src/runtime/recorder.hpp", "sim/robots/pr2.hpp",
+        "src/tasks/mapping/simulated/driven_by_base.hpp"}) {
     EXPECT_FALSE(decides(path)) << path;
   }
 }
