@@ -64,7 +64,9 @@ void ClutterHazard::count_beam(const MetCells& before, const Beam& beam, Counts&
   walk_ray(frame, beam.p_from, beam.p_end, [&](std::size_t index, const Eigen::Array3i& cell) {
     const Met met = before.cells[index];
     if (met == Met::unobserved) {
-      const auto column = static_cast<std::size_t>(cell.y() * frame.cells.x() + cell.x());
+      const std::size_t column =
+          static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(frame.cells.x()) +
+          static_cast<std::size_t>(cell.x());
       const std::size_t block =
           crossings_.layout.index(0, 0, layer_of(cell.z())) + column_of_[column];
       counts.crossings[block] += 1.0;
