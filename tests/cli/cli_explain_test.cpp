@@ -22,7 +22,9 @@ void collect_keys(const json& node, const std::string& prefix, std::set<std::str
     return;
   }
   for (const auto& [name, child] : node.items()) {
-    const std::string path = prefix.empty() ? name : prefix + "." + name;
+    std::string path = prefix;
+    if (!prefix.empty()) path += '.';
+    path += name;
     if (name != "name") keys.insert(path);
     if (child.is_structured()) collect_keys(child, path, keys);
   }
