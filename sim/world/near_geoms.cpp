@@ -71,8 +71,8 @@ Eigen::AlignedBox3d NearGeoms::reach_of(int geom) const {
   return {p_world - reach, p_world + reach};
 }
 
-bool NearGeoms::meets(int moving, int fixed, const mjData& at) const {
-  if (stays_in_box(model_, fixed)) return reach_of(moving).intersects(box_of(model_, at, fixed));
+/// Of a fixed geom without a box that it stays in.
+bool NearGeoms::meets_unbounded(int moving, int fixed, const mjData& at) const {
   if (model_.geom_type[fixed] != mjGEOM_PLANE || follows_mocap(model_, fixed)) return true;
   const Rotation R_world_plane(at.geom_xmat + 9 * fixed);
   const Eigen::Vector3d p_plane = started_[static_cast<std::size_t>(moving)] - place_of(at, fixed);
@@ -85,9 +85,14 @@ void NearGeoms::mark_pair(int geom, int other) {
 
 void NearGeoms::mark_beside_fixed(const Tree& tree, const mjData& at) {
   for (const int fixed : fixed_) {
-    if (stays_in_box(model_, fixed) && !tree.reach.intersects(box_of(model_, at, fixed))) continue;
+    const bool bounded = stays_in_box(model_, fixed);
+    const Eigen::AlignedBox3d box = bounded ? box_of(model_, at, fixed) : Eigen::AlignedBox3d();
+    if (bounded && !tree.reach.intersects(box)) continue;
+    const auto meets = [&](int geom) {
+      return bounded ? reach_of(geom).intersects(box) : meets_unbounded(geom, fixed, at);
+    };
     for (const int geom : tree.geoms) {
-      if (masks_match(model_, geom, fixed) && meets(geom, fixed, at)) mark_pair(geom, fixed);
+      if (masks_match(model_, geom, fixed) && meets(geom)) mark_pair(geom, fixed);
     }
   }
 }

@@ -38,7 +38,7 @@ class NearGeoms {
   };
 
   [[nodiscard]] Eigen::AlignedBox3d reach_of(int geom) const;
-  [[nodiscard]] bool meets(int moving, int fixed, const mjData& at) const;
+  [[nodiscard]] bool meets_unbounded(int moving, int fixed, const mjData& at) const;
   void mark_pair(int geom, int other);
   void mark_beside_fixed(const Tree& tree, const mjData& at);
   void mark_beside_moving(const Tree& tree, const Tree& other);

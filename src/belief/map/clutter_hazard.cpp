@@ -33,24 +33,19 @@ double ClutterHazard::sum_of_layer(const BlockField& counts, int layer) const {
 
 ClutterHazard::MetCells ClutterHazard::met_cells(const OccupancyGrid& grid, int threads) {
   MetCells met{grid.frame, std::vector<Met>(grid.size())};
-  const std::size_t slice = grid.size() / static_cast<std::size_t>(grid.frame.cells.z());
-  const auto slices = static_cast<std::size_t>(grid.frame.cells.z());
   constexpr std::array by_state{Met::free, Met::unobserved, Met::occupied};
-  parallel_for(slices, threads, [&](std::size_t z) {
-    for (std::size_t cell = z * slice; cell < (z + 1) * slice; ++cell) {
-      met.cells[cell] = by_state[static_cast<std::size_t>(grid.state(cell))];
-    }
-  });
-  parallel_for(slices, threads, [&](std::size_t z) {
+  parallel_for(static_cast<std::size_t>(grid.frame.cells.z()), threads, [&](std::size_t z) {
     Eigen::Array3i at(0, 0, static_cast<int>(z));
-    std::size_t cell = z * slice;
+    std::size_t cell = grid.frame.index(at);
     for (at.y() = 0; at.y() < grid.frame.cells.y(); ++at.y()) {
       for (at.x() = 0; at.x() < grid.frame.cells.x(); ++at.x(), ++cell) {
-        if (grid.state(cell) != CellState::unobserved) continue;
-        const bool beside = any_face_neighbour(grid.frame, at, [&](std::size_t neighbour) {
-          return grid.log_odds[neighbour] >= kOccupiedLogOdds;
-        });
-        if (beside) met.cells[cell] = Met::unobserved_beside_occupied;
+        const CellState state = grid.state(cell);
+        const bool beside = state == CellState::unobserved &&
+                            any_face_neighbour(grid.frame, at, [&](std::size_t neighbour) {
+                              return grid.state(neighbour) == CellState::occupied;
+                            });
+        met.cells[cell] =
+            beside ? Met::unobserved_beside_occupied : by_state[static_cast<std::size_t>(state)];
       }
     }
   });
