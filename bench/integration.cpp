@@ -1,5 +1,5 @@
-// Taking scans into the map: ours, and OctoMap's insertPointCloud on the same points, cell by cell
-// of the same edge.
+// Taking scans into the map: ours, and OctoMap's insertPointCloud on the same images, cell by
+// cell of the same edge.
 #include <octomap/octomap.h>
 
 #include <filesystem>

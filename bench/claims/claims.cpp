@@ -57,9 +57,9 @@ Finding fastest_by_information(const StudyTables& study) {
               const double random = area(scene, "random");
               return area(scene, "probabilistic") < simple && simple < random;
             }),
-            "one `a` fits one clutter: where there is less, its chain discounts far too much; to "
-            "be won over `simple` by the one-step oracle is " +
-                by_scene(to_simple("oracle"))};
+            "one `a` fits one clutter: where there is less, its chain discounts far too much; the "
+            "one-step oracle has " +
+                by_scene(to_simple("oracle")) + " of `simple`'s area"};
       });
 }
 

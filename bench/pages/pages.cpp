@@ -12,12 +12,9 @@ namespace vantage::bench {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBack = "\nClaims: [RESULTS.md]({}RESULTS.md).\n";
-
-std::string back_from(int folders) {
-  std::string up;
-  for (int i = 0; i < folders; ++i) up += "../";
-  return fmt::format(fmt::runtime(kBack), up);
+/// @param up from the page's folder to that of RESULTS.md
+std::string back_through(std::string_view up) {
+  return fmt::format("\nClaims: [RESULTS.md]({}RESULTS.md).\n", up);
 }
 
 /// Those of the benchmark, but for castRay's where it had others.
@@ -84,7 +81,7 @@ std::string evaluation_tables(const fs::path& folder, const std::string& title) 
 std::string write_speed_page(const fs::path& directory, const Figures& figures,
                              const Origins& origins) {
   std::string text =
-      "# Speed\n\n`bench/run all`\n" + back_from(1) + "\n" + figures_table(figures, origins);
+      "# Speed\n\n`bench/run all`\n" + back_through("../") + "\n" + figures_table(figures, origins);
   if (const auto scaling = figures.find("scaling"); scaling != figures.end()) {
     write_file(directory / "scaling.svg", figure_svg(scaling_figure(scaling->second)));
     text += "\n![Time against cells](scaling.svg)\n";
@@ -96,8 +93,8 @@ std::string write_speed_page(const fs::path& directory, const Figures& figures,
 std::string write_study_page(const fs::path& directory, const std::string& name,
                              const std::string& title, const StudyTables& study,
                              const std::vector<std::string>& tables) {
-  std::string text =
-      fmt::format("# {}\n\n`bench/studies {}`: {}.\n{}", title, name, study.extent(), back_from(2));
+  std::string text = fmt::format("# {}\n\n`bench/studies {}`: {}.\n{}", title, name, study.extent(),
+                                 back_through("../../"));
   for (const std::string& table : tables) {
     if (study.has(table)) text += fmt::format("\n## {}\n\n{}", table, study.markdown(table));
   }
@@ -110,7 +107,8 @@ std::string write_study_page(const fs::path& directory, const std::string& name,
 }
 
 std::string write_cost_page(const fs::path& directory) {
-  std::string text = "# The cost of a flight, term by term ((5.8) - (5.11))\n" + back_from(1) +
+  std::string text = "# The cost of a flight, term by term ((5.8) - (5.11))\n" +
+                     back_through("../") +
                      "\nUnweighed, of the default options; with `literal: true` as printed.\n";
   for (const Figure& figure : cost_figures()) {
     write_file(directory / (figure.name + ".svg"), figure_svg(figure));
@@ -129,7 +127,7 @@ std::string write_recognition_page(const fs::path& directory) {
   std::string text =
       "# Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n`bench/studies recognition`, a "
       "rendered database; trained at 30 and 60 deg, tested at 45 deg.\n" +
-      back_from(2);
+      back_through("../../");
   for (const auto& [part, title] : {Part{"simple", "Simple features:"},
                                     {"changes", "Changes:"},
                                     {"kernel", "Kernel descriptors:"},

@@ -102,18 +102,32 @@ std::string verified_text(const fs::path& file) {
   return fmt::format("{} of {} on {}", row[2], row[1], row[0]);
 }
 
+/// A study with what it came to.
+struct StudyResult {
+  const StudyPart& part;
+  StudyTables tables;
+};
+
+std::vector<StudyResult> read_studies(const fs::path& directory) {
+  std::vector<StudyResult> studies;
+  for (const StudyPart& part : study_parts()) {
+    studies.push_back(
+        {part, StudyTables(study_file(part.name), directory / part.name / "results.csv")});
+  }
+  return studies;
+}
+
 /// What options were chosen on, what is reported, and of what code and machine that is.
-std::string splits_table(const fs::path& directory) {
+std::string splits_table(const fs::path& directory, const std::vector<StudyResult>& studies) {
   std::string text =
       "| study | options were chosen on | reported is | episodes | commit | run again | threads, "
       "CPU "
       "|\n|---|---|---|---|---|---|---|\n";
-  for (const StudyPart& part : study_parts()) {
+  for (const auto& [part, study] : studies) {
     const fs::path results = directory / part.name / "results.csv";
     const fs::path timings = directory / part.name / "timings.csv";
     const ConfigNode file = read_yaml(study_file(part.name));
     const bool run = fs::exists(results);
-    const StudyTables study(study_file(part.name), results);
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} {} |\n", part.name,
                         split_text(file, "development"), split_text(file, "report"), study.extent(),
                         run ? commits_text(entries_of(results, "commit"), results) : "not run",
@@ -174,11 +188,11 @@ std::string link(const std::string& page) { return fmt::format("\n[Tables](resul
 
 void write_results(const fs::path& directory) {
   const auto [figures, origins] = read_benchmarks(directory);
-  std::string text = std::string(kIntroduction) + "\n" + splits_table(directory);
+  const std::vector<StudyResult> studies = read_studies(directory);
+  std::string text = std::string(kIntroduction) + "\n" + splits_table(directory, studies);
   text += "\n## Speed\n\n`bench/run all`\n\n" + findings_table(speed_findings(figures)) +
           link(write_speed_page(directory, figures, origins));
-  for (const StudyPart& part : study_parts()) {
-    const StudyTables study(study_file(part.name), directory / part.name / "results.csv");
+  for (const auto& [part, study] : studies) {
     text += fmt::format("\n## {}\n\n`bench/studies {}`\n\n", part.title, part.name) +
             findings_table(part.findings(study)) +
             link(write_study_page(directory, part.name, part.title, study, part.tables));
