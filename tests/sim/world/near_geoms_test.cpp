@@ -120,6 +120,15 @@ TEST(NearGeoms, AJumpIsNoticed) {
   world.set_state(state);
   while (world.time_s() < 2.0) world.advance_tick();
   EXPECT_NEAR(world.data().qpos[2], 1.2, 0.02);
+
+  state[3] = 1.19;  // in contact at once
+  world.set_state(state);
+  int contacts = -1;
+  world.on_step = [&](const World& stepped) {
+    if (contacts < 0) contacts = stepped.data().ncon;
+  };
+  world.advance_tick();
+  EXPECT_GT(contacts, 0) << "in the first step";
 }
 
 }  // namespace
