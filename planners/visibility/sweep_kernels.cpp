@@ -69,7 +69,7 @@ double sum_where(const float* utility, int begin, int end, const Counts& counts)
   for (int i = begin; i < end; i += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const float cell = utility[i + lane];
-      lanes[static_cast<std::size_t>(lane)] += counts(i + lane) & (i + lane < end) ? cell : 0.0F;
+      lanes[static_cast<std::size_t>(lane)] += (counts(i + lane) & (i + lane < end)) ? cell : 0.0F;
     }
   }
   double sum = 0.0;

@@ -17,7 +17,7 @@ using testing::AllOf;
 void collect_keys(const json& node, const std::string& prefix, std::set<std::string>& keys) {
   if (node.is_array()) {
     for (const json& item : node) {
-      if (item.is_object()) collect_keys(item, prefix + "[]", keys);
+      if (item.is_object()) collect_keys(item, fmt::format("{}[]", prefix), keys);
     }
     return;
   }

@@ -103,11 +103,14 @@ bool is_smooth(const Hit& a, const Hit& b) {
 double apply_sticker(GeneratedObject& object, const Sticker& sticker) {
   const SightFrame frame(sticker.heading_rad);
   constexpr std::size_t n = kCells + 1;
+  const auto share_of = [](std::size_t i) -> Vector2d {
+    const std::size_t row = i / n;
+    return Vector2d(static_cast<double>(i % n), static_cast<double>(row)) / kCells;
+  };
   std::array<std::optional<Hit>, n * n> hits;
   const double low_m = sticker.middle * object.height_m - 0.5 * sticker.height_m;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const Vector2d share =
-        Vector2d(static_cast<double>(i % n), static_cast<double>(i / n)) / kCells;
+    const Vector2d share = share_of(i);
     hits[i] = nearest(object.mesh, frame,
                       {(share.x() - 0.5) * sticker.width_m, low_m + share.y() * sticker.height_m});
   }
@@ -115,8 +118,7 @@ double apply_sticker(GeneratedObject& object, const Sticker& sticker) {
   std::array<int, n * n> vertex{};
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;
-    const Vector2d share =
-        Vector2d(static_cast<double>(i % n), static_cast<double>(i / n)) / kCells;
+    const Vector2d share = share_of(i);
     vertex[i] = object.mesh.add_vertex(hits[i]->p_m + kLift_m * hits[i]->normal, hits[i]->normal,
                                        uv.at(share.x(), share.y()));
   }

@@ -102,8 +102,8 @@ bool all_within_reach(const FloorPlan& plan, const ClearanceMap& clearance) {
 
 /// Side 0 is west, then counter-clockwise; `share` runs along the side.
 Pose2 foot_of_wall(const AlignedBox2d& area, std::size_t side, double share) {
-  const Vector2d a = area.min();
-  const Vector2d b = area.max();
+  const Vector2d& a = area.min();
+  const Vector2d& b = area.max();
   const double x = a.x() + share * (b.x() - a.x());
   const double y = a.y() + share * (b.y() - a.y());
   switch (side) {

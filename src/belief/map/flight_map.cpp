@@ -26,8 +26,8 @@ std::vector<Eigen::Vector3f> points_of(const CameraImages& images, const Pose& T
     for (int column = stride / 2; column < images.width_px; column += stride) {
       const float z_m = images.depth_at(row, column);
       if (!(z_m > 0.0F) || !std::isfinite(z_m)) continue;
-      const Eigen::Vector3d p = T_world_camera * (z_m * images.ray(row, column));
-      points.push_back(p.cast<float>());
+      const Eigen::Vector3d p_m = T_world_camera * (z_m * images.ray(row, column));
+      points.emplace_back(p_m.cast<float>());
     }
   }
   return points;
