@@ -22,7 +22,7 @@ std::vector<Station> stations_of(std::span<const Candidate> candidates, const Fi
     auto station = std::ranges::find_if(
         stations, [&](const Station& s) { return s.views.front().cone.apex_m() == view.apex_m(); });
     if (station == stations.end()) station = stations.emplace(stations.end());
-    station->views.push_back({view, options});
+    station->views.push_back({view, options, nullptr});
     station->candidates.push_back(i);
   }
   return stations;
@@ -69,6 +69,16 @@ bool can_sweep(const Gain& gain) {
   return std::visit([]<class G>(const G&) { return AttenuationGain<G>; }, gain);
 }
 
+Attenuation attenuation_of(const Gain& gain, const GainContext& context) {
+  expects(can_sweep(gain), "a gain that can be swept");
+  return std::visit(
+      [&]<class G>(const G& g) -> Attenuation {
+        if constexpr (AttenuationGain<G>) return g.attenuation(context);
+        return {};
+      },
+      gain);
+}
+
 std::vector<double> view_gains_bits(const Gain& gain, const GainContext& context,
                                     std::span<const Candidate> candidates,
                                     const FieldOfView& field_of_view, int threads) {
@@ -83,14 +93,8 @@ std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& contex
                                      std::span<const Candidate> candidates,
                                      const FieldOfView& field_of_view, int threads,
                                      const SweepOptions& options) {
-  expects(can_sweep(gain), "a gain that can be swept");
-  const Attenuation attenuation = std::visit(
-      [&]<class G>(const G& g) -> Attenuation {
-        if constexpr (AttenuationGain<G>) return g.attenuation(context);
-        return {};
-      },
-      gain);
-  return swept_gains_bits(attenuation, context.grid, candidates, field_of_view, threads, options);
+  return swept_gains_bits(attenuation_of(gain, context), context.grid, candidates, field_of_view,
+                          threads, options);
 }
 
 std::vector<double> swept_gains_bits(const Attenuation& attenuation, const OccupancyGrid& grid,

@@ -35,6 +35,8 @@ std::vector<double> view_gains_bits(const G& gain, const GainContext& context,
 
 /// Whether a gain can be swept.
 bool can_sweep(const Gain& gain);
+/// Of a gain that can be swept.
+Attenuation attenuation_of(const Gain& gain, const GainContext& context);
 
 /// Of whichever gain was chosen. The gain must satisfy can_sweep().
 std::vector<double> swept_gains_bits(const Gain& gain, const GainContext& context,

@@ -60,9 +60,16 @@ const Rooms kGround{"core", "geometry", "information"};
 const Rooms kPerception{"perception", "perception/clouds", "perception/features",
                         "perception/features/kit"};
 const Rooms kBelief{"belief/map", "belief/objects"};
-const Rooms kPlanners{"planners",         "planners/gains",      "planners/visibility",
-                      "planners/views",   "planners/choice",     "planners/navigation",
-                      "planners/objects", "planners/trajectory", "planners/trajectory/optimisers"};
+const Rooms kPlanners{"planners",
+                      "planners/gains",
+                      "planners/visibility",
+                      "planners/views",
+                      "planners/tours",
+                      "planners/choice",
+                      "planners/navigation",
+                      "planners/objects",
+                      "planners/trajectory",
+                      "planners/trajectory/optimisers"};
 const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
 const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing"};
 const Rooms kRecognition{"recognition", "recognition/dataset", "recognition/evaluation"};
@@ -93,9 +100,11 @@ const std::map<std::string, Rooms> kAllowed{
     {"belief/objects", kGround},
     {"planners/visibility", kGround + Rooms{"belief/map"}},
     {"planners/gains", kGround + Rooms{"belief/map", "planners/visibility"}},
-    {"planners", kGround + Rooms{"belief/map", "planners/visibility", "planners/gains"}},
+    {"planners/tours", {"core", "geometry"}},
+    {"planners",
+     kGround + Rooms{"belief/map", "planners/visibility", "planners/gains", "planners/tours"}},
     {"planners/views", kGround + Rooms{"belief/map", "planners"}},
-    {"planners/choice", kGround + Rooms{"planners"}},
+    {"planners/choice", kGround + Rooms{"planners", "planners/tours"}},
     {"planners/navigation", kGround + Rooms{"belief/map"}},
     {"planners/objects", kGround + Rooms{"belief/objects"}},
     {"planners/trajectory/optimisers", {"core", "geometry"}},

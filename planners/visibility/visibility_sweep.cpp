@@ -41,9 +41,9 @@ class PyramidSweep {
         utility_(static_cast<std::size_t>(nu_) + kLanes),
         in_view_(views.size() * static_cast<std::size_t>(nv_)),
         sums_bits_(views.size(), 0.0) {
-    for (const auto& [cone, options] : views) {
+    for (const auto& [cone, options, blocks] : views) {
       bounds_.emplace_back(cone, step_u_);
-      meets_.push_back(meets(cone));
+      meets_.push_back(may_see(cone, pyramid, frame_.cell_size_m));
       partly_seen_.emplace_back(options.rays_per_view, options.first_share);
     }
   }
@@ -76,16 +76,6 @@ class PyramidSweep {
     at[axes_.v] = v;
     at[axes_.w] = layer_;
     return at;
-  }
-
-  /// Whether some direction of the pyramid may be inside the view's cone.
-  [[nodiscard]] bool meets(const ViewCone& view) const {
-    const Eigen::Vector3d& size = frame_.cell_size_m;
-    return std::ranges::all_of(view.normals(), [&](const Eigen::Vector3d& normal) {
-      const Eigen::Vector3d inwards = normal.cwiseProduct(size);
-      const double ahead = pyramid_.ascending ? inwards[axes_.w] : -inwards[axes_.w];
-      return ahead + std::abs(inwards[axes_.u]) + std::abs(inwards[axes_.v]) >= 0.0;
-    });
   }
 
   /// Cells whose distance from the sensor along `axis` is at most the layer's depth plus `more`.
@@ -224,6 +214,10 @@ class PyramidSweep {
     } else {
       view = views_[i].cone.row(frame_.centre(cell(0, v)), step_u_);
       sums_bits_[i] += sum_in_view(view, utility_.data(), begin, end);
+    }
+    if (views_[i].blocks != nullptr) {
+      views_[i].blocks->add(utility_.data(), axes_.u, cell(begin, v), end,
+                            all_inside ? nullptr : &view);
     }
     const float* cells = cells_ + row_start(v, layer_);
     partly_seen_[i].offer(end - begin, [&](int k) {

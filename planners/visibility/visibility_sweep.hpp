@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "vantage/geometry/view_cone.hpp"
+#include "vantage/planners/visibility/block_sums.hpp"
+#include "vantage/planners/visibility/pyramid.hpp"
 #include "vantage/planners/visibility/sampled_sum.hpp"
 #include "vantage/planners/visibility/sweep_tables.hpp"
 
 namespace vantage {
-
-/// One of the six pyramids round a sensor: the cells to which a ray advances most along one axis.
-struct Pyramid {
-  int axis = 0;
-  bool ascending = true;  ///< away from the sensor, the axis' index grows
-};
-inline constexpr std::array<Pyramid, 6> kPyramids{
-    {{0, true}, {0, false}, {1, true}, {1, false}, {2, true}, {2, false}}};
 
 struct SweepOptions {
   /// Most rays walked for each view and pyramid, to cells that the sweep saw partly: they tell how
@@ -41,6 +35,8 @@ inline constexpr SweepOptions kEveryRay{.rays_per_view = std::numeric_limits<int
 struct SweptView {
   ViewCone cone;
   SweepOptions options;
+  BlockSums* blocks =
+      nullptr;  ///< if given, what is seen of each block by the sweep alone is added
 };
 
 /// Expected utility of each of `views` as far as it lies in the pyramid, bits. All have one apex.

@@ -1,0 +1,31 @@
+/// What each of several views is expected to show, block by block of cells: what planning several
+/// views ahead needs to know, since views of one room share cells.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "vantage/planners/candidate.hpp"
+#include "vantage/planners/gain.hpp"
+#include "vantage/planners/tours/planning_problem.hpp"
+#include "vantage/planners/visibility/block_sums.hpp"
+
+namespace vantage {
+
+struct ShownBlocks {
+  std::vector<float> cells;        ///< per block, its unobserved cells in the unit of the gain
+  std::vector<ShownShares> shows;  ///< per view
+};
+
+/// By one sweep a view, without rays. A view's shares times the cells sum to its swept gain, up to
+/// what rays would correct. Blocks of which nothing is unobserved are in no view's list. The result
+/// does not depend on `threads`.
+/// @param gain of can_sweep(), in whose unit cells count
+ShownBlocks swept_blocks(const Gain& gain, const GainContext& context,
+                         std::span<const Candidate> candidates, const FieldOfView& field_of_view,
+                         const CellBlocks& blocks, int threads);
+
+/// The same where nothing of the views is known but what each shows alone: a block for each.
+ShownBlocks separate_blocks(std::span<const double> gains);
+
+}  // namespace vantage

@@ -1,0 +1,11 @@
+#include "vantage/planners/tours/frontier_tour.hpp"
+
+#include "vantage/planners/tours/view_route.hpp"
+
+namespace vantage {
+
+ViewPlan FrontierTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+  return {affordable_part(problem, route_through(problem, affordable_views(problem)))};
+}
+
+}  // namespace vantage

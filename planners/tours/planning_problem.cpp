@@ -1,0 +1,53 @@
+#include "vantage/planners/tours/planning_problem.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+
+void PlanningProblem::check() const {
+  const auto n = static_cast<Eigen::Index>(views());
+  expects(travel_s.rows() == n + 1 && travel_s.cols() == n, "a travel time from and to each view");
+  expects(place_m.size() == views(), "a place of each view");
+  expects(home_s.empty() || home_s.size() == views() + 1,
+          "a way home from each view and from here");
+  for (const ShownShares& shown : shows) {
+    expects(shown.block.size() == shown.share.size(), "a share of each block");
+    expects(shown.block.empty() || shown.block.back() < cells.size(), "blocks of the problem");
+  }
+}
+
+double gain_of(const PlanningProblem& problem, std::size_t view) {
+  const ShownShares& shown = problem.shows[view];
+  double sum = 0.0;
+  for (std::size_t i = 0; i < shown.block.size(); ++i) {
+    sum += static_cast<double>(shown.share[i] * problem.cells[shown.block[i]]);
+  }
+  return sum;
+}
+
+bool is_affordable(const PlanningProblem& problem, std::span<const std::size_t> order) {
+  double driven_s = 0.0;
+  std::size_t at = problem.here();
+  for (const std::size_t view : order) {
+    driven_s += problem.leg_s(at, view);
+    at = view;
+  }
+  if (!std::isfinite(driven_s)) return false;
+  const double scanned_s = static_cast<double>(order.size()) * problem.scan_s;
+  if (!problem.home_s.empty()) driven_s += problem.home_s[at];
+  return driven_s + scanned_s <= problem.left.time_s &&
+         problem.energy_j(driven_s, scanned_s) <= problem.left.energy_j;
+}
+
+std::vector<std::size_t> affordable_views(const PlanningProblem& problem) {
+  std::vector<std::size_t> views;
+  for (std::size_t view = 0; view < problem.views(); ++view) {
+    if (is_affordable(problem, std::array{view})) views.push_back(view);
+  }
+  return views;
+}
+
+}  // namespace vantage

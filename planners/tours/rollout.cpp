@@ -1,0 +1,25 @@
+#include "vantage/planners/tours/rollout.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+
+ViewPlan Rollout::operator()(const PlanningProblem& problem, Rng& rng) const {
+  expects(static_cast<bool>(problem.draw), "rollout needs maps to draw");
+  const std::vector<Tour> tours = search_tours(problem, objective(), search());
+  if (tours.empty()) return {};
+  std::vector<double> sum_s(tours.size(), 0.0);
+  for (int k = 0; k < draws; ++k) {
+    const PlanningProblem drawn = problem.draw(rng);
+    for (std::size_t i = 0; i < tours.size(); ++i) {
+      sum_s[i] += search_tour(drawn, objective(), search(), tours[i].order.front()).cost_s;
+    }
+  }
+  const auto best = std::ranges::min_element(sum_s);  // of equals the better tour
+  return {tours[static_cast<std::size_t>(best - sum_s.begin())].order};
+}
+
+}  // namespace vantage

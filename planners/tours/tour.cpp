@@ -1,0 +1,22 @@
+#include "vantage/planners/tours/tour.hpp"
+
+namespace vantage {
+namespace {
+
+ViewPlan best_plan(const PlanningProblem& problem, const TourOptions& options) {
+  const auto tours = search_tours(problem, options.objective(), options.search());
+  if (tours.empty()) return {};
+  return {tours.front().order};
+}
+
+}  // namespace
+
+ViewPlan TourChoice::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+  return best_plan(problem, *this);
+}
+
+ViewPlan OracleTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+  return best_plan(problem, *this);
+}
+
+}  // namespace vantage

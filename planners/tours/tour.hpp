@@ -1,0 +1,66 @@
+/// Our choice: the first view of a tour through views, planned anew at each scan.
+#pragma once
+
+#include <string_view>
+
+#include "vantage/core/fields.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/core/strategy.hpp"
+#include "vantage/planners/tours/planning_problem.hpp"
+#include "vantage/planners/tours/tour_search.hpp"
+
+namespace vantage {
+
+/// Options of every choice that searches tours.
+struct TourOptions {
+  double finish_weight = 0.5;
+  double worth_s = 1800.0;
+  int first_moves = 8;
+  void fields(auto&& f) {
+    f("finish_weight", finish_weight,
+      "weight of the time at which the tour ends against the mean time until what it shows is "
+      "seen; higher ends earlier and sees less at first",
+      between(0.0, 1.0));
+    f("worth_s", worth_s,
+      "time, beyond its end, at which what a tour leaves out counts as seen; higher takes in views "
+      "that show less",
+      at_least(0.0));
+    f("first_moves", first_moves,
+      "number of views that are tried as the first one; higher plans better and takes time in "
+      "proportion",
+      between(1, 1000));
+  }
+  [[nodiscard]] TourObjective objective() const { return {finish_weight, worth_s}; }
+  [[nodiscard]] TourSearchOptions search() const {
+    return {.first_moves = static_cast<std::size_t>(first_moves)};
+  }
+};
+
+struct TourChoice : TourOptions {
+  static constexpr std::string_view name = "tour";
+  static constexpr StrategyText text{
+      .summary =
+          "Plans which views to take and in what order, with the time to drive and to scan, by "
+          "what "
+          "they are expected to show together; takes the first, and plans anew after its scan. "
+          "Leaves a room when it is done with, not when another view promises more.",
+      .formula =
+          "argmin over tours of (1 - b) sum_k dE_k t_k / E + b t_end, E = sum_c [1 - prod_i (1 - "
+          "p_i(c))]"};
+  static constexpr bool weighs_gain = true;
+  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+};
+
+/// The same search on what the views really show.
+struct OracleTour : TourOptions {
+  static constexpr std::string_view name = "oracle_tour";
+  static constexpr StrategyText text{
+      .summary =
+          "As `tour`, but knows from ground truth what each view shows: what a planner that knew "
+          "the building would do. In practice no choice without that knowledge does better; it is "
+          "no proven bound, see `vantage bound`."};
+  static constexpr bool weighs_gain = false;
+  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+};
+
+}  // namespace vantage

@@ -1,0 +1,251 @@
+#include "vantage/planners/tours/tour_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "vantage/core/error.hpp"
+#include "vantage/planners/tours/joint_gain.hpp"
+
+namespace vantage {
+namespace {
+
+using Order = std::vector<std::size_t>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kLongestMoved = 3;
+/// A change must save more than rounding does.
+constexpr double kLeastSaved_s = 1e-9;
+
+bool is_cheaper(double cost_s, double than_s) { return cost_s < than_s - kLeastSaved_s; }
+
+Order with(Order order, std::size_t position, std::size_t view) {
+  order.insert(order.begin() + static_cast<std::ptrdiff_t>(position), view);
+  return order;
+}
+
+Order without(Order order, std::size_t position) {
+  order.erase(order.begin() + static_cast<std::ptrdiff_t>(position));
+  return order;
+}
+
+class TourSearch {
+ public:
+  TourSearch(const PlanningProblem& problem, const TourObjective& objective)
+      : problem_(problem), objective_(objective), gain_(problem), adds_(problem.views(), 0.0) {
+    for (std::size_t view = 0; view < problem.views(); ++view) gain_.add(view);
+    all_ = std::max(gain_.total(), std::numeric_limits<double>::min());
+  }
+
+  Tour run(std::size_t rounds, std::optional<std::size_t> first) {
+    fixed_ = first ? 1 : 0;
+    order_ = first ? Order{*first} : Order{};
+    work_out_gains();
+    for (std::size_t round = 0; round < rounds; ++round) {
+      const double before_s = tour_.cost_s;
+      take_in();
+      reorder();
+      leave_out();
+      if (!is_cheaper(tour_.cost_s, before_s)) break;
+    }
+    if (order_.empty()) take_in_one();
+    return tour_;
+  }
+
+  /// Of the order, with the gains it has.
+  double exact_cost_s(std::span<const std::size_t> order) {
+    gain_.clear();
+    for (const std::size_t view : order) adds_[view] = gain_.add(view);
+    return cost_s(order);
+  }
+
+  /// With the gains that the views had in the order they were last worked out for; infinite if it
+  /// is not affordable.
+  [[nodiscard]] double cost_s(std::span<const std::size_t> order) const {
+    if (!is_affordable(problem_, order)) return kInfinity;
+    double time_s = 0.0;
+    double weighted = 0.0;
+    double shown = 0.0;
+    std::size_t at = problem_.here();
+    for (const std::size_t view : order) {
+      time_s += problem_.leg_s(at, view) + problem_.scan_s;
+      weighted += adds_[view] * time_s;
+      shown += adds_[view];
+      at = view;
+    }
+    const double unseen = std::max(all_ - shown, 0.0);
+    const double mean_s = (weighted + unseen * (time_s + objective_.worth_s)) / all_;
+    return (1.0 - objective_.finish_weight) * mean_s + objective_.finish_weight * time_s;
+  }
+
+ private:
+  void work_out_gains() {
+    tour_.cost_s = exact_cost_s(order_);
+    tour_.order = order_;
+  }
+
+  /// Takes the order if it is cheaper with the gains that it really has.
+  bool accept(const Order& order) {
+    const double cost_s = exact_cost_s(order);
+    if (!is_cheaper(cost_s, tour_.cost_s)) {
+      exact_cost_s(order_);
+      return false;
+    }
+    order_ = order;
+    tour_ = {order, cost_s};
+    return true;
+  }
+
+  struct Change {
+    double cost_s = kInfinity;
+    Order order;
+    void offer(double cost_of_order_s, Order&& offered) {
+      if (cost_of_order_s >= cost_s) return;
+      cost_s = cost_of_order_s;
+      order = std::move(offered);
+    }
+  };
+
+  /// Views that make the tour cheaper, the best first.
+  void take_in() {
+    for (;;) {
+      const Change best = best_insertion();
+      if (!is_cheaper(best.cost_s, tour_.cost_s) || !accept(best.order)) return;
+    }
+  }
+
+  Change best_insertion() {
+    Change best;
+    for (std::size_t view = 0; view < problem_.views(); ++view) {
+      if (std::ranges::find(order_, view) != order_.end()) continue;
+      adds_[view] = gain_.of_adding(view);
+      for (std::size_t position = fixed_; position <= order_.size(); ++position) {
+        Order order = with(order_, position, view);
+        const double cost = cost_s(order);
+        best.offer(cost, std::move(order));
+      }
+    }
+    return best;
+  }
+
+  /// Though it is not worth its time.
+  void take_in_one() {
+    const Change best = best_insertion();
+    if (best.cost_s == kInfinity) return;
+    order_ = best.order;
+    work_out_gains();
+  }
+
+  /// Or-opt and 2-opt with gains that stay, as long as that helps; then the truth of it.
+  void reorder() {
+    Order order = order_;
+    double cost = cost_s(order);
+    while (improve_by(order, cost, [&](auto&& offer) { move_segments(order, offer); }) ||
+           improve_by(order, cost, [&](auto&& offer) { reverse_segments(order, offer); })) {
+    }
+    if (order != order_) accept(order);
+  }
+
+  template <class Moves>
+  bool improve_by(Order& order, double& cost, Moves&& moves) {
+    Change best;
+    moves([&](Order&& offered) {
+      const double cost_of_offered_s = cost_s(offered);
+      best.offer(cost_of_offered_s, std::move(offered));
+    });
+    if (!is_cheaper(best.cost_s, cost)) return false;
+    order = std::move(best.order);
+    cost = best.cost_s;
+    return true;
+  }
+
+  template <class Offer>
+  void move_segments(const Order& order, Offer&& offer) const {
+    for (std::size_t length = 1; length <= kLongestMoved; ++length) {
+      for (std::size_t from = fixed_; from + length <= order.size(); ++from) {
+        const auto first = order.begin() + static_cast<std::ptrdiff_t>(from);
+        const Order segment(first, first + static_cast<std::ptrdiff_t>(length));
+        Order rest = order;
+        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(from),
+                   rest.begin() + static_cast<std::ptrdiff_t>(from + length));
+        for (std::size_t to = fixed_; to <= rest.size(); ++to) {
+          if (to == from) continue;
+          Order moved = rest;
+          moved.insert(moved.begin() + static_cast<std::ptrdiff_t>(to), segment.begin(),
+                       segment.end());
+          offer(std::move(moved));
+        }
+      }
+    }
+  }
+
+  template <class Offer>
+  void reverse_segments(const Order& order, Offer&& offer) const {
+    for (std::size_t begin = fixed_; begin < order.size(); ++begin) {
+      for (std::size_t end = begin + 2; end <= order.size(); ++end) {
+        Order reversed = order;
+        std::reverse(reversed.begin() + static_cast<std::ptrdiff_t>(begin),
+                     reversed.begin() + static_cast<std::ptrdiff_t>(end));
+        offer(std::move(reversed));
+      }
+    }
+  }
+
+  /// Views without which the tour is cheaper, each with what is lost without it.
+  void leave_out() {
+    for (std::size_t position = order_.size(); position-- > fixed_;) {
+      if (order_.size() == 1) return;
+      accept(without(order_, position));
+    }
+  }
+
+  const PlanningProblem& problem_;
+  const TourObjective& objective_;
+  JointGain gain_;            ///< of the order
+  std::vector<double> adds_;  ///< per view, what it adds in the order
+  double all_ = 0.0;          ///< what all views show together
+  std::size_t fixed_ = 0;     ///< views at the start of the tour that stay there
+  Order order_;
+  Tour tour_;  ///< the same with its exact cost
+};
+
+}  // namespace
+
+double tour_cost_s(const PlanningProblem& problem, const TourObjective& objective,
+                   std::span<const std::size_t> order) {
+  return TourSearch(problem, objective).exact_cost_s(order);
+}
+
+Tour search_tour(const PlanningProblem& problem, const TourObjective& objective,
+                 const TourSearchOptions& options, std::optional<std::size_t> first) {
+  problem.check();
+  return TourSearch(problem, objective).run(options.rounds, first);
+}
+
+std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& objective,
+                               const TourSearchOptions& options) {
+  problem.check();
+  const Tour free = search_tour(problem, objective, options);
+  if (free.order.empty()) return {};
+  // How good a first view is, is told by the free tour with that view in front.
+  std::vector<std::pair<double, std::size_t>> firsts;
+  TourSearch search(problem, objective);
+  for (const std::size_t view : affordable_views(problem)) {
+    if (view == free.order.front()) continue;
+    Order order{view};
+    std::ranges::copy_if(free.order, std::back_inserter(order),
+                         [&](std::size_t other) { return other != view; });
+    firsts.emplace_back(search.exact_cost_s(order), view);
+  }
+  std::ranges::sort(firsts);
+  std::vector<Tour> tours{free};
+  for (const auto& [cost_s, view] : firsts) {
+    if (tours.size() >= options.first_moves) break;
+    tours.push_back(search_tour(problem, objective, options, view));
+  }
+  std::ranges::stable_sort(tours, {}, &Tour::cost_s);
+  return tours;
+}
+
+}  // namespace vantage

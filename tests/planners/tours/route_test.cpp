@@ -1,0 +1,112 @@
+#include "vantage/planners/tours/route.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planners/tours/small_problem.hpp"
+#include "vantage/planners/tours/route_search.hpp"
+
+namespace vantage {
+namespace {
+
+RouteCosts random_costs(std::size_t places, Rng& rng) {
+  return {test::random_problem(places, 1, rng).travel_s};
+}
+
+/// Nothing holds between its entries, not even the triangle inequality.
+RouteCosts any_costs(std::size_t places, Rng& rng) {
+  RouteCosts costs{
+      Eigen::MatrixXd(static_cast<Eigen::Index>(places) + 1, static_cast<Eigen::Index>(places))};
+  for (double& cost : costs.cost.reshaped()) cost = rng.uniform(0.0, 10.0);
+  return costs;
+}
+
+bool visits_all(const test::Order& order, std::size_t places) {
+  test::Order sorted = order;
+  std::ranges::sort(sorted);
+  test::Order all(places);
+  std::iota(all.begin(), all.end(), 0U);
+  return sorted == all;
+}
+
+TEST(ShortestRoute, IsTheShortestOfAllOrders) {
+  Rng rng(1);
+  for (int k = 0; k < 30; ++k) {
+    const RouteCosts costs = k % 2 == 0 ? random_costs(8, rng) : any_costs(7, rng);
+    const auto order = shortest_route(costs);
+    ASSERT_TRUE(visits_all(order, costs.places()));
+    EXPECT_NEAR(route_cost(costs, order), test::shortest_by_trying(costs.cost), 1e-9);
+  }
+}
+
+TEST(ShortestRoute, EndsWhereItIsTold) {
+  Rng rng(2);
+  for (int k = 0; k < 20; ++k) {
+    const RouteCosts costs = any_costs(6, rng);
+    const auto order = shortest_route(costs, 4);
+    ASSERT_TRUE(visits_all(order, 6));
+    EXPECT_EQ(order.back(), 4U);
+    // The same with ways on from there closed: only at its end it costs nothing.
+    RouteCosts closed = costs;
+    closed.cost.row(4).setConstant(1e6);
+    EXPECT_NEAR(route_cost(costs, order), test::shortest_by_trying(closed.cost), 1e-9);
+  }
+}
+
+TEST(ShortestRoute, OfNoneIsNoneAndOfOneIsThere) {
+  EXPECT_TRUE(shortest_route({Eigen::MatrixXd(1, 0)}).empty());
+  EXPECT_EQ(shortest_route({Eigen::MatrixXd::Constant(2, 1, 3.0)}), test::Order{0});
+}
+
+TEST(ShortestRoute, GoesThroughPlacesOutOfReachTooIfItMust) {
+  RouteCosts costs{Eigen::MatrixXd::Constant(4, 3, std::numeric_limits<double>::infinity())};
+  EXPECT_TRUE(visits_all(shortest_route(costs), 3));
+}
+
+TEST(SearchedRoute, IsSeldomMuchLongerThanTheShortest) {
+  Rng rng(3);
+  double sum = 0.0;
+  double worst = 1.0;
+  for (int k = 0; k < 50; ++k) {
+    const RouteCosts costs = random_costs(kExactRoutePlaces, rng);
+    const auto order = searched_route(costs, std::nullopt);
+    ASSERT_TRUE(visits_all(order, kExactRoutePlaces));
+    const double ratio = route_cost(costs, order) / route_cost(costs, shortest_route(costs));
+    EXPECT_GE(ratio, 1.0 - 1e-12);
+    sum += ratio;
+    worst = std::max(worst, ratio);
+  }
+  EXPECT_LT(sum / 50.0, 1.02);
+  EXPECT_LT(worst, 1.15);
+}
+
+TEST(SearchedRoute, KeepsALastPlaceAtTheEnd) {
+  Rng rng(4);
+  for (int k = 0; k < 20; ++k) {
+    const RouteCosts costs = random_costs(20, rng);
+    const auto order = shortest_route(costs, 7);
+    ASSERT_TRUE(visits_all(order, 20));
+    EXPECT_EQ(order.back(), 7U);
+  }
+}
+
+/// Round a circle the order is that of the circle.
+TEST(SearchedRoute, GoesRoundACircleInOrder) {
+  constexpr std::size_t kPlaces = 24;
+  RouteCosts costs{Eigen::MatrixXd(kPlaces + 1, kPlaces)};
+  const auto at = [](std::size_t i) {
+    const double angle_rad = 2.0 * 3.14159265358979 * static_cast<double>(i) / (kPlaces + 1);
+    return Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+  };
+  for (std::size_t i = 0; i <= kPlaces; ++i) {
+    for (std::size_t j = 0; j < kPlaces; ++j) {
+      // Place j is the j + 1-st round the circle, the start the first.
+      costs.cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          (at(i == kPlaces ? 0 : i + 1) - at(j + 1)).norm();
+    }
+  }
+  const auto order = shortest_route(costs);
+  EXPECT_NEAR(route_cost(costs, order), kPlaces * (at(0) - at(1)).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace vantage

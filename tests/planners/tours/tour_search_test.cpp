@@ -1,0 +1,131 @@
+#include "vantage/planners/tours/tour_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/planners/tours/small_problem.hpp"
+#include "vantage/planners/tours/joint_gain.hpp"
+
+namespace vantage {
+namespace {
+
+/// One view of 10 cells at 5 s, one of 30 at 1 s; they share nothing.
+PlanningProblem two_views() {
+  PlanningProblem problem;
+  problem.cells = {10.0F, 30.0F};
+  problem.shows = {{{0}, {1.0F}}, {{1}, {1.0F}}};
+  problem.place_m.resize(2, Eigen::Vector2d::Zero());
+  problem.travel_s.resize(3, 2);
+  problem.travel_s << 0.0, 4.0,  //
+      4.0, 0.0,                  //
+      5.0, 1.0;
+  problem.scan_s = 2.0;
+  return problem;
+}
+
+TEST(TourCost, IsTheMeanTimeUntilSeenAndTheEnd) {
+  const PlanningProblem problem = two_views();
+  const test::Order both{1, 0};  // seen at 3 s and 9 s
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 0.0}, both), (30.0 * 3.0 + 10.0 * 9.0) / 40.0,
+              1e-9);
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0}, both), 9.0, 1e-9);
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 0.25}, both), 0.75 * 4.5 + 0.25 * 9.0, 1e-9);
+  // What is left out counts as seen 100 s after the end.
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 0.0, .worth_s = 100.0}, test::Order{1}),
+              (30.0 * 3.0 + 10.0 * 103.0) / 40.0, 1e-9);
+}
+
+TEST(SearchTour, IsSeldomMuchDearerThanTheBestOfAllTours) {
+  Rng rng(21);
+  const TourObjective objective{.finish_weight = 0.5, .worth_s = 40.0};
+  int best = 0;
+  double sum = 0.0;
+  constexpr int kProblems = 60;
+  for (int k = 0; k < kProblems; ++k) {
+    const PlanningProblem problem = test::random_problem(6, 20, rng);
+    double by_trying = std::numeric_limits<double>::infinity();
+    test::for_each_order(6, [&](const test::Order& order) {
+      by_trying = std::min(by_trying, tour_cost_s(problem, objective, order));
+    });
+    const auto tours = search_tours(problem, objective, {});
+    ASSERT_FALSE(tours.empty());
+    EXPECT_GE(tours.front().cost_s, by_trying - 1e-6);
+    EXPECT_NEAR(tours.front().cost_s, tour_cost_s(problem, objective, tours.front().order), 1e-6);
+    best += tours.front().cost_s < by_trying + 1e-6 ? 1 : 0;
+    sum += tours.front().cost_s / by_trying;
+  }
+  EXPECT_GE(best, kProblems * 8 / 10);
+  EXPECT_LT(sum / kProblems, 1.01);
+}
+
+TEST(SearchTour, LeavesOutWhatIsNotWorthItsTime) {
+  PlanningProblem problem = two_views();
+  problem.cells[0] = 0.1F;
+  const TourObjective objective{.finish_weight = 0.5, .worth_s = 100.0};
+  EXPECT_EQ(search_tour(problem, objective, {}).order, test::Order{1});
+  // Worth it if nothing else counts.
+  EXPECT_EQ(search_tour(problem, {.finish_weight = 0.0, .worth_s = 1e6}, {}).order,
+            (test::Order{1, 0}));
+}
+
+TEST(SearchTour, LeavesOutAViewOfWhatAnotherShowed) {
+  PlanningProblem problem = two_views();
+  problem.shows[0] = problem.shows[1];
+  EXPECT_EQ(search_tour(problem, {}, {}).order, test::Order{1});
+}
+
+TEST(SearchTour, TakesOneViewThoughNoneIsWorthIt) {
+  PlanningProblem problem = two_views();
+  problem.scan_s = 1e6;
+  EXPECT_EQ(search_tour(problem, {.finish_weight = 1.0}, {}).order.size(), 1U);
+}
+
+TEST(SearchTour, NeverSpendsMoreThanIsLeft) {
+  Rng rng(22);
+  for (int k = 0; k < 100; ++k) {
+    PlanningProblem problem = test::random_problem(9, 25, rng);
+    problem.driving_w = 100.0;
+    problem.scanning_w = 50.0;
+    problem.left = {rng.uniform(2.0, 40.0), rng.uniform(300.0, 4000.0)};
+    problem.home_s.assign(10, 0.0);
+    for (double& home_s : problem.home_s) home_s = rng.uniform(0.0, 8.0);
+    for (const Tour& tour : search_tours(problem, {.worth_s = 1000.0}, {})) {
+      EXPECT_TRUE(is_affordable(problem, tour.order));
+    }
+    if (affordable_views(problem).empty()) continue;
+    EXPECT_FALSE(search_tour(problem, {}, {}).order.empty());
+  }
+}
+
+TEST(SearchTour, BeginsWhereItIsTold) {
+  Rng rng(23);
+  const PlanningProblem problem = test::random_problem(8, 25, rng);
+  for (std::size_t first = 0; first < 8; ++first) {
+    const Tour tour = search_tour(problem, {}, {}, first);
+    EXPECT_EQ(tour.order.front(), first);
+    test::Order sorted = tour.order;
+    std::ranges::sort(sorted);
+    EXPECT_EQ(std::ranges::adjacent_find(sorted), sorted.end());
+  }
+}
+
+/// Four views in a room near by, one far away that shows somewhat more than each of them: who goes
+/// there first comes back.
+TEST(SearchTour, IsDoneWithARoomBeforeItLeaves) {
+  PlanningProblem problem;
+  problem.scan_s = 5.0;
+  problem.cells = {10.0F, 10.0F, 10.0F, 10.0F, 12.0F};
+  for (std::uint32_t i = 0; i < 5; ++i) problem.shows.push_back({{i}, {1.0F}});
+  for (int i = 0; i < 4; ++i) problem.place_m.emplace_back(static_cast<double>(i), 0.0);
+  problem.place_m.emplace_back(40.0, 0.0);
+  problem.travel_s.resize(6, 5);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double from = i == 5 ? 0.0 : problem.place_m[static_cast<std::size_t>(i)].x();
+    for (Eigen::Index j = 0; j < 5; ++j) {
+      problem.travel_s(i, j) = std::abs(problem.place_m[static_cast<std::size_t>(j)].x() - from);
+    }
+  }
+  EXPECT_EQ(search_tours(problem, {}, {}).front().order, (test::Order{0, 1, 2, 3, 4}));
+}
+
+}  // namespace
+}  // namespace vantage
