@@ -5,7 +5,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel_for.hpp"
-#include "vantage/planners/swept_gain.hpp"
+#include "vantage/planners/visibility/visibility_sweep.hpp"
 
 namespace vantage {
 namespace {
@@ -27,7 +27,9 @@ std::vector<float> unobserved_of_blocks(const SweepTables& tables, const CellBlo
   return cells;
 }
 
-ShownShares shares_of(const std::vector<float>& seen, const std::vector<float>& cells) {
+}  // namespace
+
+ShownShares shares_of_blocks(const std::vector<float>& seen, const std::vector<float>& cells) {
   ShownShares shown;
   for (std::size_t block = 0; block < seen.size(); ++block) {
     if (seen[block] <= kLeastShare * cells[block]) continue;
@@ -37,12 +39,10 @@ ShownShares shares_of(const std::vector<float>& seen, const std::vector<float>& 
   return shown;
 }
 
-}  // namespace
-
-ShownBlocks swept_blocks(const Gain& gain, const GainContext& context,
+ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& grid,
                          std::span<const Candidate> candidates, const FieldOfView& field_of_view,
                          const CellBlocks& blocks, int threads) {
-  const SweepTables tables(context.grid, attenuation_of(gain, context), threads);
+  const SweepTables tables(grid, attenuation, threads);
   ShownBlocks result{unobserved_of_blocks(tables, blocks), {}};
   result.shows.resize(candidates.size());
   parallel_for(candidates.size(), threads, [&](std::size_t i) {
@@ -50,7 +50,7 @@ ShownBlocks swept_blocks(const Gain& gain, const GainContext& context,
     const std::array view{
         SweptView{ViewCone(candidates[i].T_world_sensor, field_of_view), kNoRays, &seen}};
     for (const Pyramid& pyramid : kPyramids) sweep_pyramid(tables, view, pyramid);
-    result.shows[i] = shares_of(seen.sums(), result.cells);
+    result.shows[i] = shares_of_blocks(seen.sums(), result.cells);
   });
   return result;
 }

@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/planners/candidate.hpp"
-#include "vantage/planners/gain.hpp"
 #include "vantage/planners/tours/planning_problem.hpp"
+#include "vantage/planners/visibility/attenuated_ray.hpp"
 #include "vantage/planners/visibility/block_sums.hpp"
 
 namespace vantage {
@@ -20,12 +21,14 @@ struct ShownBlocks {
 /// By one sweep a view, without rays. A view's shares times the cells sum to its swept gain, up to
 /// what rays would correct. Blocks of which nothing is unobserved are in no view's list. The result
 /// does not depend on `threads`.
-/// @param gain of can_sweep(), in whose unit cells count
-ShownBlocks swept_blocks(const Gain& gain, const GainContext& context,
+ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& grid,
                          std::span<const Candidate> candidates, const FieldOfView& field_of_view,
                          const CellBlocks& blocks, int threads);
 
 /// The same where nothing of the views is known but what each shows alone: a block for each.
 ShownBlocks separate_blocks(std::span<const double> gains);
+
+/// From what is seen of each block; a trace of a block is none of it.
+ShownShares shares_of_blocks(const std::vector<float>& seen, const std::vector<float>& cells);
 
 }  // namespace vantage

@@ -228,8 +228,8 @@ TEST(GroundTruthChecker, NamesOfTruth) {
 TEST(GroundTruthChecker, WhoDecides) {
   for (const char* path :
        {"planners/choice/view_choice.cpp", "src/belief/map/occupancy_grid.hpp",
-        "src/tasks/tabletop/tabletop_parts.cpp", "src/tasks/mapping/navigator.hpp",
-        "src/tasks/mapping/mobile_robot_interface.hpp", "src/tasks/wait/wait_belief.hpp"}) {
+        "src/tasks/tabletop/tabletop_parts.cpp", "src/tasks/mapping/driving/navigator.hpp",
+        "src/tasks/mapping/driving/mobile_robot_interface.hpp", "src/tasks/wait/wait_belief.hpp"}) {
     EXPECT_TRUE(decides(path)) << path;
   }
   for (const char* path :

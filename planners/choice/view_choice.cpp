@@ -81,7 +81,28 @@ std::vector<std::size_t> open_candidates(std::span<const Candidate> candidates) 
 }
 
 std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng) {
-  return std::visit([&](const auto& c) { return choose_view(c, candidates, rng); }, choice);
+  return std::visit(
+      [&]<class C>(const C& c) -> std::size_t {
+        if constexpr (ChoosesView<C>) return choose_view(c, candidates, rng);
+        expects(false, "a choice that plans ahead chooses by plan_views");
+        return 0;
+      },
+      choice);
+}
+
+bool plans_views(const ViewChoice& choice) {
+  return std::visit([]<class C>(const C&) { return PlansViews<C>; }, choice);
+}
+
+PlannedViews plan_views(const ViewChoice& choice, const PlanningProblem& problem, Rng& rng) {
+  expects(plans_views(choice), "a choice that plans ahead");
+  problem.check();
+  return std::visit(
+      [&]<class C>(const C& c) -> PlannedViews {
+        if constexpr (PlansViews<C>) return c(problem, rng);
+        return {};
+      },
+      choice);
 }
 
 }  // namespace vantage

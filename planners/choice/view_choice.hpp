@@ -19,6 +19,12 @@
 #include "vantage/core/strategy.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/choice/oracle_lookahead.hpp"
+#include "vantage/planners/tours/frontier_tour.hpp"
+#include "vantage/planners/tours/information_rate.hpp"
+#include "vantage/planners/tours/receding_horizon.hpp"
+#include "vantage/planners/tours/rollout.hpp"
+#include "vantage/planners/tours/tour.hpp"
+#include "vantage/planners/tours/two_level_tour.hpp"
 
 namespace vantage {
 
@@ -97,7 +103,8 @@ struct GainOverDistance {
 };
 
 using ViewChoice = std::variant<RandomView, GreedyGain, OracleView, OracleLookahead,
-                                NearestFrontier, GainOverDistance>;
+                                NearestFrontier, GainOverDistance, InformationRate, RecedingHorizon,
+                                FrontierTour, TwoLevelTour, TourChoice, Rollout, OracleTour>;
 template <>
 inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
 
@@ -109,8 +116,21 @@ inline bool weighs_gain(const ViewChoice& choice) {
 /// Whether it asks for ground truth: Candidate::true_new_cells or true_new_cell_set.
 inline bool knows_truth(const ViewChoice& choice) {
   return std::holds_alternative<OracleView>(choice) ||
-         std::holds_alternative<OracleLookahead>(choice);
+         std::holds_alternative<OracleLookahead>(choice) ||
+         std::holds_alternative<OracleTour>(choice);
 }
+
+/// What plans several views ahead, with the times of everything.
+template <class C>
+concept PlansViews = requires(const C& choice, const PlanningProblem& problem, Rng& rng) {
+  { choice(problem, rng) } -> std::same_as<PlannedViews>;
+};
+
+/// Whether it asks for a planning problem; it chooses by plan_views(), the others by choose_view().
+bool plans_views(const ViewChoice& choice);
+
+/// @param choice of plans_views()
+PlannedViews plan_views(const ViewChoice& choice, const PlanningProblem& problem, Rng& rng);
 
 /// The random numbers that a choice draws in an episode of that seed.
 Rng choice_stream(const ViewChoice& choice, std::uint64_t seed);
@@ -137,7 +157,7 @@ std::size_t choose_view(const C& choice, std::span<const Candidate> candidates, 
   return open[choice(std::span<const Candidate>(views), rng)];
 }
 
-/// The same by whichever was chosen.
+/// The same by whichever was chosen, which must not be one that plans_views().
 std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng);
 
 }  // namespace vantage

@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-ViewPlan FrontierTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+PlannedViews FrontierTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
   return {affordable_part(problem, route_through(problem, affordable_views(problem)))};
 }
 

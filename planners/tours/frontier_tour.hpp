@@ -19,7 +19,7 @@ struct FrontierTour {
       .source = "Zhou2021"};
   static constexpr bool weighs_gain = false;
   void fields(auto&&) {}
-  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+  PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 
 }  // namespace vantage

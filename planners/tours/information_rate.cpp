@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-ViewPlan InformationRate::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+PlannedViews InformationRate::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
   const std::vector<std::size_t> views = affordable_views(problem);
   if (views.empty()) return {};
   const auto rate = [&](std::size_t view) {

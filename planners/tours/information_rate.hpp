@@ -17,7 +17,7 @@ struct InformationRate {
       .formula = "argmax of A / (travel time + scan time), A the gain"};
   static constexpr bool weighs_gain = true;
   void fields(auto&&) {}
-  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+  PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 
 }  // namespace vantage

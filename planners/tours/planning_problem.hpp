@@ -66,7 +66,7 @@ std::vector<std::size_t> affordable_views(const PlanningProblem& problem);
 
 /// What a choice that plans ahead wants to do: the views in order, the first one next. Empty if no
 /// view is affordable.
-struct ViewPlan {
+struct PlannedViews {
   std::vector<std::size_t> order;
 };
 

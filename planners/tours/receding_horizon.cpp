@@ -40,7 +40,7 @@ std::vector<std::size_t> branch_to(const std::vector<Node>& tree, std::size_t no
 
 }  // namespace
 
-ViewPlan RecedingHorizon::operator()(const PlanningProblem& problem, Rng& rng) const {
+PlannedViews RecedingHorizon::operator()(const PlanningProblem& problem, Rng& rng) const {
   std::vector<Node> tree{{problem.here(), 0, 0.0, 0.0}};
   std::size_t best = 0;
   for (const std::size_t view :

@@ -29,7 +29,7 @@ struct RecedingHorizon {
     f("nodes", nodes, "greatest number of views in the tree, drawn at random; higher is slower",
       between(1, 1000));
   }
-  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+  PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 
 }  // namespace vantage

@@ -7,7 +7,7 @@
 
 namespace vantage {
 
-ViewPlan Rollout::operator()(const PlanningProblem& problem, Rng& rng) const {
+PlannedViews Rollout::operator()(const PlanningProblem& problem, Rng& rng) const {
   expects(static_cast<bool>(problem.draw), "rollout needs maps to draw");
   const std::vector<Tour> tours = search_tours(problem, objective(), search());
   if (tours.empty()) return {};

@@ -24,7 +24,7 @@ struct Rollout : TourOptions {
       "proportion",
       between(1, 10000));
   }
-  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+  PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 
 }  // namespace vantage

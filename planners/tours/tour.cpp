@@ -3,7 +3,7 @@
 namespace vantage {
 namespace {
 
-ViewPlan best_plan(const PlanningProblem& problem, const TourOptions& options) {
+PlannedViews best_plan(const PlanningProblem& problem, const TourOptions& options) {
   const auto tours = search_tours(problem, options.objective(), options.search());
   if (tours.empty()) return {};
   return {tours.front().order};
@@ -11,11 +11,11 @@ ViewPlan best_plan(const PlanningProblem& problem, const TourOptions& options) {
 
 }  // namespace
 
-ViewPlan TourChoice::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+PlannedViews TourChoice::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
   return best_plan(problem, *this);
 }
 
-ViewPlan OracleTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+PlannedViews OracleTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
   return best_plan(problem, *this);
 }
 

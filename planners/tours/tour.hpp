@@ -48,7 +48,7 @@ struct TourChoice : TourOptions {
           "argmin over tours of (1 - b) sum_k dE_k t_k / E + b t_end, E = sum_c [1 - prod_i (1 - "
           "p_i(c))]"};
   static constexpr bool weighs_gain = true;
-  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+  PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 
 /// The same search on what the views really show.
@@ -60,7 +60,7 @@ struct OracleTour : TourOptions {
           "the building would do. In practice no choice without that knowledge does better; it is "
           "no proven bound, see `vantage bound`."};
   static constexpr bool weighs_gain = false;
-  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+  PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 
 }  // namespace vantage

@@ -53,7 +53,7 @@ Views joined_route(const PlanningProblem& problem, const Views& near, std::size_
 
 }  // namespace
 
-ViewPlan TwoLevelTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
+PlannedViews TwoLevelTour::operator()(const PlanningProblem& problem, Rng& /*rng*/) const {
   Views near;
   Views far;
   for (const std::size_t view : affordable_views(problem)) {

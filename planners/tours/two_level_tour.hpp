@@ -37,7 +37,7 @@ struct TwoLevelTour {
       "coarsely",
       above(0.0));
   }
-  ViewPlan operator()(const PlanningProblem& problem, Rng& rng) const;
+  PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 
 }  // namespace vantage

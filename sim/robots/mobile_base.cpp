@@ -35,6 +35,15 @@ DrivenJoint find_driven(const RobotNames& names, std::string_view key, const std
   return found;
 }
 
+/// Every name in a robot starts with robot/.
+std::vector<int> actuators_of_robot(const mjModel& model) {
+  std::vector<int> actuators;
+  for (int i = 0; i < model.nu; ++i) {
+    if (model_name(model, ModelObject::actuator, i).starts_with("robot/")) actuators.push_back(i);
+  }
+  return actuators;
+}
+
 }  // namespace
 
 std::variant<MobileBase::Slides, MobileBase::Wheels> MobileBase::find_drive(const RobotNames& names,
@@ -114,6 +123,8 @@ MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& descri
                        const std::string& where)
     : where_(where),
       footprint_(description.footprint),
+      idle_power_w_(description.idle_power_w),
+      actuators_(actuators_of_robot(model)),
       base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
       drive_(find_drive(RobotNames(model, where), model, description.drive, base_body_)) {
   const RobotNames names(model, where);
@@ -140,6 +151,14 @@ const MobileBase::Laser& MobileBase::laser() const {
     throw InputError(where_ + ": tilting_laser: missing; this task scans with a tilting laser");
   }
   return *laser_;
+}
+
+double MobileBase::power_w(const World& world) const {
+  double power_w = idle_power_w_;
+  for (const int i : actuators_) {
+    power_w += std::max(world.data().actuator_force[i] * world.data().actuator_velocity[i], 0.0);
+  }
+  return power_w;
 }
 
 void MobileBase::place(World& world, const Pose2& T_world_base, double lift_m) const {

@@ -52,6 +52,10 @@ class MobileBase {
   [[nodiscard]] Pose T_world_laser(const World& world) const;  ///< turns with the tilt
   [[nodiscard]] Pose T_world_base_scan(const World& world) const;
 
+  /// What it draws at rest and the mechanical power of its actuators, at the last step; braking
+  /// gives nothing back.
+  [[nodiscard]] double power_w(const World& world) const;
+
   [[nodiscard]] const Footprint& footprint() const { return footprint_; }
   /// Whether it moves in any direction at any heading.
   [[nodiscard]] bool is_holonomic() const { return std::holds_alternative<Slides>(drive_); }
@@ -123,6 +127,8 @@ class MobileBase {
 
   std::string where_;
   Footprint footprint_;
+  double idle_power_w_ = 0.0;
+  std::vector<int> actuators_;
   int base_body_ = 0;
   std::variant<Slides, Wheels> drive_;
   std::vector<int> on_floor_;  ///< geoms

@@ -130,6 +130,7 @@ struct MobileBaseDescription {
           "does not have it does not name."};
   std::string base;
   Footprint footprint;
+  double idle_power_w = 0.0;
   BaseDrive drive = OmnidirectionalDrive{};
   std::string planar_scanner;
   std::string lift;
@@ -138,6 +139,8 @@ struct MobileBaseDescription {
   void fields(auto&& f) {
     f("base", base, "name of the base's body: x forward, y left, z up, its origin on the floor");
     f("footprint", footprint, "circles on the floor that lie within the robot and hold it");
+    f("idle_power_w", idle_power_w,
+      "power that the robot draws at rest, by computers and sensors, all the time", at_least(0.0));
     f("drive", drive, "how the base moves, with the names of its joints");
     f("planar_scanner", planar_scanner,
       "name of the planar scanner's site, near the floor and level: x along the middle beam, z up");

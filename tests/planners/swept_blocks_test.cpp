@@ -56,7 +56,8 @@ TEST_P(SweptBlocks, SumToTheSweptGain) {
   const auto gains_bits = swept_gains_bits(gain, context, views, GetParam(), 1, kNoRays);
   for (const int edge : {1, 3, 5, 100}) {
     const CellBlocks blocks{grid.frame.cells, {edge, edge, 2 * edge}};
-    const ShownBlocks shown = swept_blocks(gain, context, views, GetParam(), blocks, 1);
+    const ShownBlocks shown =
+        swept_blocks(attenuation_of(gain, context), grid, views, GetParam(), blocks, 1);
     const double unobserved = std::accumulate(shown.cells.begin(), shown.cells.end(), 0.0);
     EXPECT_NEAR(unobserved, 0.35 * static_cast<double>(grid.frame.size()), 200.0);
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -79,8 +80,10 @@ TEST(SweptBlocks, DoNotDependOnThreads) {
   const OccupancyGrid grid = cluttered_grid(2);
   const GainContext context{grid, nullptr};
   const CellBlocks blocks{grid.frame.cells, {4, 4, 4}};
-  const auto one = swept_blocks(SimpleGain{}, context, some_views(), all_round(), blocks, 1);
-  const auto three = swept_blocks(SimpleGain{}, context, some_views(), all_round(), blocks, 3);
+  const auto one = swept_blocks(attenuation_of(SimpleGain{}, context), grid, some_views(),
+                                all_round(), blocks, 1);
+  const auto three = swept_blocks(attenuation_of(SimpleGain{}, context), grid, some_views(),
+                                  all_round(), blocks, 3);
   for (std::size_t i = 0; i < one.shows.size(); ++i) {
     EXPECT_EQ(one.shows[i].block, three.shows[i].block);
     EXPECT_EQ(one.shows[i].share, three.shows[i].share);
@@ -99,7 +102,8 @@ TEST(SweptBlocks, OfViewsOnTwoSidesOfAWallShareNothing) {
   views[0].T_world_sensor = Pose(Eigen::Translation3d(-0.55, 0.05, 0.05));
   views[1].T_world_sensor = Pose(Eigen::Translation3d(0.55, 0.05, 0.05));
   const CellBlocks blocks{grid.frame.cells, {10, 5, 5}};
-  const auto shown = swept_blocks(SimpleGain{}, {grid, nullptr}, views, all_round(), blocks, 2);
+  const auto shown = swept_blocks(attenuation_of(SimpleGain{}, {grid, nullptr}), grid, views,
+                                  all_round(), blocks, 2);
   for (const std::uint32_t block : shown.shows[0].block) EXPECT_EQ(block % 2, 0U);
   for (const std::uint32_t block : shown.shows[1].block) EXPECT_EQ(block % 2, 1U);
   EXPECT_EQ(shown.shows[0].block.size(), 8U);

@@ -12,6 +12,9 @@
 namespace vantage {
 namespace {
 
+/// A frontier so near to a candidate comes into sight from there.
+constexpr double kNear_m = 1.5;
+
 Eigen::Vector2d place_of(const Pose& T_world_sweep) {
   return T_world_sweep.translation().head<2>();
 }
@@ -116,19 +119,24 @@ bool ExplorationParts::is_enough() const {
 
 std::string ExplorationParts::finished() const {
   if (views_.empty()) return "no frontier is left that can be looked at from a new place in reach";
-  if (!is_enough()) return scans_used_up();
+  if (!is_enough()) return limit_reached(views_);
   return fmt::format(
       "explored: {} in a row, no view promised more than {:g} % of what is known (enough.share)",
       task_.enough.scans, 100.0 * task_.enough.share);
 }
 
-/// The place nearest to each frontier where the robot can stand, the largest frontiers first.
+/// The place nearest to each frontier where the robot can stand, the largest frontiers first. A
+/// choice that plans ahead knows of all of them: those beyond max_candidates that are not near one
+/// of these, where they come into sight, are candidates too.
 std::vector<Candidate> ExplorationParts::find_views() {
   const PathField paths = navigator_.plan();
   VisitedPlaces proposed;
+  VisitedPlaces near_proposed;
+  const bool all = plans_views(task_.choice);
   std::vector<Candidate> views;
   for (const Frontier& frontier : find_frontiers(belief_.filled_grid(), task_.frontiers)) {
-    if (static_cast<int>(views.size()) == task_.max_candidates) break;
+    const bool full = static_cast<int>(views.size()) >= task_.max_candidates;
+    if (full && !all) break;
     const Eigen::Vector2d wanted = frontier.p_m.head<2>();
     const auto cell = nearest_reachable(paths, wanted);
     if (!cell) break;
@@ -140,10 +148,12 @@ std::vector<Candidate> ExplorationParts::find_views() {
     view.T_world_sensor = to_se3(base) * exploring_robot_.T_base_sweep();
     const Eigen::Vector2d p_sweep = place_of(view.T_world_sensor);
     if (visited_.covers(p_sweep) || proposed.covers(p_sweep)) continue;
+    if (full && near_proposed.covers(p_sweep)) continue;
     view.reachable = (place - wanted).norm() <= task_.reach_m;
     view.path_length_m =
         view.reachable ? path_length_m(paths, base) : std::numeric_limits<double>::infinity();
     proposed.add(p_sweep, task_.taken_m);
+    near_proposed.add(p_sweep, kNear_m);
     views.push_back(view);
   }
   return views;

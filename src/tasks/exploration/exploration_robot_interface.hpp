@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "vantage/tasks/mapping/mobile_robot_interface.hpp"
+#include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 
 namespace vantage {
 

@@ -9,7 +9,7 @@
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/planners/candidate.hpp"
-#include "vantage/tasks/mapping/scan_record.hpp"
+#include "vantage/tasks/mapping/driving/scan_record.hpp"
 
 namespace vantage {
 

@@ -10,6 +10,7 @@
 #include "vantage/runtime/json.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/mapping/forecast_measures.hpp"
+#include "vantage/tasks/mapping/progress_measures.hpp"
 
 namespace vantage {
 namespace {
@@ -44,6 +45,7 @@ Json scan_json(const ScanRecord& scan) {
           {"plan_time_s", scan.plan_time_s},
           {"map_time_s", scan.map_time_s},
           {"scan_time_s", scan.scan_time_s},
+          {"energy_j", scan.energy_j},
           {"path_length_m", scan.path_length_m},
           {"leg_length_m", scan.leg_length_m},
           {"pose_error_m", scan.pose_error_m},
@@ -169,6 +171,27 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      observed_share},
     {{"scans_to_95", "scans until 95 % of the observable cells are observed", Better::lower},
      scans_to_95},
+    {{"reached_95", "whether 95 % of the observable cells were observed", Better::higher},
+     reached_95},
+    {{"time_to_80_s", "simulated time until 80 % are observed, s", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "time_to_80_s"); }},
+    {{"time_to_90_s", "simulated time until 90 % are observed, s", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "time_to_90_s"); }},
+    {{"time_to_95_s", "simulated time until 95 % are observed, s", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "time_to_95_s"); }},
+    {{"time_to_97_s", "simulated time until 97 % are observed, s", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "time_to_97_s"); }},
+    {{"path_to_80_m", "way driven until 80 % are observed, m", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "path_to_80_m"); }},
+    {{"path_to_90_m", "way driven until 90 % are observed, m", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "path_to_90_m"); }},
+    {{"path_to_95_m", "way driven until 95 % are observed, m", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "path_to_95_m"); }},
+    {{"path_to_97_m", "way driven until 97 % are observed, m", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "path_to_97_m"); }},
+    {{"area_over_time", "area under the curve of observable cells left against simulated time, s",
+      Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "area_over_time"); }},
     {{"prediction_error_cells", "mean error of the method's own prediction, cells", Better::lower},
      own_prediction_error},
     {{"forecast_ratio", "cells forecast by adaptive over cells seen, from scan 2 on"},
@@ -189,6 +212,8 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      }},
     {{"fallbacks", "views out of reach", Better::lower}, fallbacks},
     kPathLength,
+    {{"energy_j", "energy used, J", Better::lower},
+     [](const MeasuredEpisode& e) { return number_of(e, "energy_j"); }},
     kCollisions,
     {{"precision", "precision of occupied cells", Better::higher},
      [](const MeasuredEpisode& e) { return map_score(e, "precision"); }},
@@ -215,6 +240,10 @@ constexpr auto kCurves = std::to_array<CurveMeasure>({
     {{"observable_unobserved_cells", "observable cells left", Better::lower},
      [](const MeasuredEpisode& e) { return scan_values(e, "observable_unobserved_cells"); }},
     {{"share_left", "share of the observable cells left", Better::lower}, share_left},
+    {{"share_left_over_time", "share of the observable cells left every 20 s", Better::lower},
+     share_left_over_time},
+    {{"share_left_over_path", "share of the observable cells left every metre", Better::lower},
+     share_left_over_path},
     {{"forecast_ratio", "cells forecast by adaptive over cells seen"}, forecast_ratios},
     {{"distance_m", "distance travelled, m", Better::lower},
      [](const MeasuredEpisode& e) { return scan_values(e, "path_length_m"); }},
@@ -234,6 +263,7 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
   metrics["observable_cells"] = run.evaluator.observable_cells();
   metrics["scans"] = Json::array();
   for (const ScanRecord& scan : run.scans) metrics["scans"].push_back(scan_json(scan));
+  add_progress(run.scans, run.evaluator.observable_cells(), metrics);
   const auto score = [&](double value) { return run.scans.empty() ? Json() : Json(value); };
   metrics["map"] = {{"precision", score(map.precision)},
                     {"recall", score(map.recall)},

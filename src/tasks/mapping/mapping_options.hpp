@@ -15,11 +15,13 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/perception/clouds/registration.hpp"
 #include "vantage/planners/choice/view_choice.hpp"
+#include "vantage/planners/choice/view_problem.hpp"
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/sim/robots/odometry.hpp"
 #include "vantage/sim/sensors/laser_options.hpp"
+#include "vantage/tasks/mapping/driving/budget.hpp"
 
 namespace vantage {
 
@@ -117,6 +119,8 @@ struct MappingOptions {
   ForecastCalibrationOptions forecast;
   Gain gain = AdaptiveGain{};
   ViewChoice choice = GreedyGain{};
+  ViewPlanningOptions planning;
+  BudgetOptions budget;
   FloorMapOptions floor_map;
   NavigationOptions navigation;
   DriveOptions drive;
@@ -141,6 +145,8 @@ struct MappingOptions {
     f("forecast", forecast, "how the learnt hazard is corrected by the robot's own forecasts");
     f("gain", gain, "what a view is worth: how much that is new it is expected to show");
     f("choice", choice, "which of the candidate views is taken next");
+    f("budget", budget, "what the episode may spend, planned for and kept by every choice");
+    f("planning", planning, "what choices that plan several views ahead know of the map");
     f("floor_map", floor_map, "2-D occupancy map of the floor, which paths are planned on");
     f("navigation", navigation, "path planning on the floor map: footprint, clearance, stopping");
     f("drive", drive, "how the base follows a path, and when it has arrived or is stuck");

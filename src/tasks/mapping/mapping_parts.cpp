@@ -33,6 +33,8 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
       robot_(context.robot),
       recorder_(context.recorder),
       navigator_(std::move(navigator)),
+      budget_(options.budget, options.navigation, options.drive.controller.speed_m_s, robot_,
+              navigator_),
       options_(options),
       evaluator_(context.evaluator),
       belief_(belief),
@@ -70,6 +72,7 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   hold_forecast_against(before.grid);
   truth.get();
   current_.time_s = robot_.time_s();
+  current_.energy_j = robot_.energy_used_j();
   current_.registered = update.registered;
   current_.unconstrained = update.unconstrained;
   current_.map_sigma_m = map_sigma_m();
@@ -120,6 +123,7 @@ const ScanRecord& MappingParts::record_scan() {
       current_.path_length_m - (scans_.empty() ? 0.0 : scans_.back().path_length_m);
   scans_.push_back(std::exchange(current_, {}));
   const ScanRecord& scan = scans_.back();
+  budget_.observe(scan, scans_.size() > 1 ? &scans_[scans_.size() - 2] : nullptr);
   log_debug(fmt::format(
       "scan {}: view {}{}, {} new cells, {} observable left, pose error {:.1f} mm", scans_.size(),
       scan.chosen_view, scan.fallback ? " (fallback)" : "", scan.actual_new_cells,
@@ -128,8 +132,10 @@ const ScanRecord& MappingParts::record_scan() {
   return scan;
 }
 
-std::string MappingParts::scans_used_up() const {
-  if (static_cast<int>(scans_.size()) < options_.scans) return {};
+std::string MappingParts::limit_reached(const std::vector<Candidate>& views) const {
+  if (static_cast<int>(scans_.size()) < options_.scans) {
+    return budget_.used_up(views, scans_.size());
+  }
   return fmt::format("limit of {} scans", options_.scans);
 }
 
@@ -174,6 +180,7 @@ std::vector<double> MappingParts::gains_bits(const Gain& gain, std::span<const C
 }
 
 void MappingParts::score(std::vector<Candidate>& candidates) {
+  budget_.leave_affordable(candidates);
   if (!views_have_gains_ && (weighs_gain(options_.choice) || recorder_.logs_events())) {
     const auto gains = gains_bits(options_.gain, candidates, episode_.threads);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
@@ -189,7 +196,7 @@ void MappingParts::tell_truth(std::vector<Candidate>& candidates) const {
       view.true_new_cells =
           static_cast<double>(evaluator_.true_new_cells(grid, view.T_world_sensor));
     }
-  } else if (std::holds_alternative<OracleLookahead>(options_.choice)) {
+  } else if (knows_truth(options_.choice)) {
     for (Candidate& view : candidates) {
       view.true_new_cell_set =
           std::make_shared<CellSet>(evaluator_.true_new_cell_set(grid, view.T_world_sensor));
@@ -200,11 +207,28 @@ void MappingParts::tell_truth(std::vector<Candidate>& candidates) const {
 std::size_t MappingParts::choose(const std::vector<Candidate>& candidates) {
   const int scans_left = std::max(1, options_.scans - static_cast<int>(scans_.size()));
   const ViewChoice choice = within_scans_left(options_.choice, scans_left);
-  const std::size_t chosen = choose_view(choice, candidates, choice_rng_);
+  const std::size_t chosen =
+      plans_views(choice) ? next_of_plan(candidates) : choose_view(choice, candidates, choice_rng_);
   current_.candidates = candidates.size();
   current_.plan_time_s = wall_s() - decision_start_s_;
   recorder_.decision(candidates, chosen, options_.gain);
   return chosen;
+}
+
+/// Where no view can be planned for, the nearest one: navigation goes as near as it can.
+std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates) {
+  const BlockField of_unobserved = transmission();
+  const PathField paths = navigator_.plan();
+  plan_ = plan_ahead(options_, candidates,
+                     {.belief = belief_,
+                      .transmission = of_unobserved,
+                      .robot = robot_,
+                      .paths = paths,
+                      .budget = budget_,
+                      .threads = episode_.threads},
+                     choice_rng_);
+  if (!plan_.empty()) return plan_.front();
+  return choose_view(NearestFrontier{}, candidates, choice_rng_);
 }
 
 Approach MappingParts::approach(const Candidate& view,

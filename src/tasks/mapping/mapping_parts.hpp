@@ -11,10 +11,11 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
+#include "vantage/tasks/mapping/driving/navigator.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
 #include "vantage/tasks/mapping/mapping_recorder.hpp"
-#include "vantage/tasks/mapping/navigator.hpp"
+#include "vantage/tasks/mapping/view_planner.hpp"
 
 namespace vantage {
 
@@ -35,6 +36,9 @@ class MappingParts {
   std::size_t choose(const std::vector<Candidate>& candidates);
 
   [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
+  /// After the last scan: drives back to the start if that is asked for.
+  void end() { budget_.come_home(); }
+  [[nodiscard]] const BudgetKeeper& budget() const { return budget_; }
   /// Why the map is not to be trusted, by what the robot knows of its own pose; empty if it is.
   [[nodiscard]] std::string distrust() const;
   /// Those of the next decision, and after it those it was made among.
@@ -58,8 +62,10 @@ class MappingParts {
   /// The observation that `observe` makes, timed.
   auto observed(auto&& observe) {
     const double start_s = robot_.time_s();
+    const double start_j = robot_.energy_used_j();
     auto observation = observe();
     current_.scan_time_s = robot_.time_s() - start_s;
+    current_.scan_energy_j = robot_.energy_used_j() - start_j;
     return observation;
   }
   [[nodiscard]] Before before_update();
@@ -74,15 +80,18 @@ class MappingParts {
   Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
   void warn_out_of_reach(const Candidate& view) const;
   void start_decision();
-  /// Why no further scan is taken once there are as many as were asked for; else empty.
-  [[nodiscard]] std::string scans_used_up() const;
+  /// Why no further scan is taken once there are as many as were asked for, or none of these views
+  /// can be paid; else empty.
+  [[nodiscard]] std::string limit_reached(const std::vector<Candidate>& views) const;
 
   const EpisodeOptions& episode_;
   MobileRobotInterface& robot_;
   MappingRecorder& recorder_;
   Navigator navigator_;
+  BudgetKeeper budget_;
   std::vector<Candidate> views_;
   bool views_have_gains_ = false;
+  std::vector<std::size_t> plan_;  ///< candidates that a choice that plans ahead wants to take
   double decision_start_s_ = 0.0;  ///< wall
   ScanRecord current_;             ///< filled in from the decision to the end of its scan
   std::vector<ScanRecord> scans_;
@@ -94,6 +103,7 @@ class MappingParts {
     double at_half_cells = 0.0;  ///< with half the hazard
   };
 
+  std::size_t next_of_plan(const std::vector<Candidate>& candidates);
   void tell_truth(std::vector<Candidate>& candidates) const;
   [[nodiscard]] MapPanelInput panel() const;
   [[nodiscard]] double map_sigma_m() const;

@@ -8,6 +8,7 @@
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/perception/clouds/ply.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
+#include "vantage/tasks/mapping/progress_measures.hpp"
 
 namespace vantage {
 namespace {
@@ -233,6 +234,20 @@ RecordTexts mapping_records() {
     texts.push_back({kSteps, name.substr(kFront.size()), text});
     texts.push_back({kMetrics, name, text});
   }
+  const RecordTexts of_budget{
+      {kMetrics, "energy_j",
+       "used by the robot, as its robot.yaml has it: power at rest and of the motors"},
+      {kMetrics, "scans[].energy_j", "used up to here"},
+      {kMetrics, "budget.time_s", "limit; null: none"},
+      {kMetrics, "budget.energy_j", "limit; null: none"},
+      {kMetrics, "budget.return_to_start", "whether the robot was to come back"},
+      {kMetrics, "budget.kept", "whether it kept within all of that"},
+      {kMetrics, "budget.returned", "whether it came back to the start"},
+      {kMetrics, "budget.from_start_m",
+       "distance from the start at the end, as the robot believes"},
+  };
+  texts.insert(texts.end(), of_budget.begin(), of_budget.end());
+  for (const auto& [name, text] : kProgressTexts) texts.push_back({kMetrics, name, text});
   return texts;
 }
 

@@ -11,8 +11,8 @@
 #include "vantage/report/report_data.hpp"
 #include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/recorder.hpp"
+#include "vantage/tasks/mapping/driving/scan_record.hpp"
 #include "vantage/tasks/mapping/map_panel.hpp"
-#include "vantage/tasks/mapping/scan_record.hpp"
 
 namespace vantage {
 

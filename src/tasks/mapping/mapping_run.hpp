@@ -28,6 +28,7 @@ RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& ro
   std::string remark;
   Ending ending = ending_of([&] {
     std::string reason = run_episode(parts);
+    parts.end();
     remark = parts.distrust();
     if (!remark.empty() && !options.localisation.accept_drift) throw EpisodeFailed(remark);
     return reason;
@@ -41,6 +42,7 @@ RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& ro
     add_mapping_metrics(options,
                         {belief.grid(), belief.hazard(), evaluator, parts.scans(), parts.views()},
                         metrics);
+    parts.budget().add_metrics(metrics);
   });
   if (!run.request().options.lean) recorder.write_map(belief.grid(), belief.cloud());
   return outcome;

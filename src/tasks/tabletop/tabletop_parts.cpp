@@ -36,8 +36,16 @@ void TabletopParts::update(const TabletopObservation& observation) {
   measure(before, update, to_se3(update.T_world_base) * observation.T_base_laser);
 }
 
+std::string TabletopParts::finished() {
+  return limit_reached(task_.budget.is_limited() ? reachable_views() : views_);
+}
+
 std::vector<Candidate> TabletopParts::propose() {
   start_decision();
+  return reachable_views();
+}
+
+std::vector<Candidate> TabletopParts::reachable_views() {
   std::vector<Candidate> candidates = views_;
   const PathField paths = navigator_.plan();
   for (Candidate& candidate : candidates) {

@@ -22,11 +22,13 @@ class TabletopParts : public MappingParts {
   TabletopObservation observe();
   void update(const TabletopObservation& observation);
   void record() { record_scan(); }
-  [[nodiscard]] std::string finished() const { return scans_used_up(); }
+  [[nodiscard]] std::string finished();
   std::vector<Candidate> propose();
   void act(const Candidate& candidate);
 
  private:
+  /// The views with the ways to them from here.
+  std::vector<Candidate> reachable_views();
   void block_table();
 
   const Tabletop task_;

@@ -1,7 +1,7 @@
 /// Robot interface of the table-top task: a mobile robot with a tilting laser scanner.
 #pragma once
 
-#include "vantage/tasks/mapping/mobile_robot_interface.hpp"
+#include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 
 namespace vantage {
 

@@ -1,7 +1,7 @@
 /// A robot interface whose driving is that of a simulated mobile base.
 #pragma once
 
-#include "vantage/tasks/mapping/mobile_robot_interface.hpp"
+#include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 #include "vantage/tasks/mapping/simulated/simulated_mobile_base.hpp"
 
 namespace vantage {
@@ -12,6 +12,7 @@ template <class Interface>
 class DrivenByBase : public Interface {
  public:
   [[nodiscard]] double time_s() const override { return base_.world().time_s(); }
+  [[nodiscard]] double energy_used_j() const override { return base_.energy_used_j(); }
   PlanarScan read_base_scanner() override { return base_.read_base_scanner(); }
   DriveResult drive_along(std::span<const Pose2> path,
                           const std::function<bool()>& go_on) override {

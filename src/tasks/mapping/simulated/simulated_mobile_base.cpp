@@ -80,6 +80,7 @@ void SimulatedMobileBase::tick() {
   throw_if_interrupted();
   world_.advance_tick();
   odometry_.update(robot_.T_world_base(world_));
+  energy_used_j_ += robot_.power_w(world_) * world_.options().control_period_s;
 }
 
 const RayScene& SimulatedMobileBase::seen_geometry() {

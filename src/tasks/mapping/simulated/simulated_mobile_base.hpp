@@ -46,6 +46,8 @@ class SimulatedMobileBase {
   /// What the wheels alone say, without the corrections since restart_dead_reckoning().
   [[nodiscard]] Pose2 dead_reckoned_base() const;
   void restart_dead_reckoning();
+  /// Of its actuators and of what it draws at rest; exact.
+  [[nodiscard]] double energy_used_j() const { return energy_used_j_; }
   [[nodiscard]] double base_scan_height_m() const { return robot_.base_scan_height_m(); }
   /// The disc that the robot covers at any heading: what it stands on is free.
   [[nodiscard]] double inscribed_radius_m() const { return robot_.footprint().inscribed_radius_m; }
@@ -76,6 +78,7 @@ class SimulatedMobileBase {
   Pose2 T_world_corrected_;      ///< the pose that correction set
   CollisionCounter collisions_;
   Rng scanner_noise_;
+  double energy_used_j_ = 0.0;
 };
 
 /// @throws ConfigError if the robot would touch something while it turns once where it is;

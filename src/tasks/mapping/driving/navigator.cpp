@@ -1,4 +1,4 @@
-#include "vantage/tasks/mapping/navigator.hpp"
+#include "vantage/tasks/mapping/driving/navigator.hpp"
 
 #include <cmath>
 #include <limits>
@@ -91,11 +91,13 @@ PathField Navigator::plan() {
 
 DriveResult Navigator::drive_and_map(const std::vector<Pose2>& waypoints) {
   int tick = 0;
+  turned_back_ = false;
   return robot_.drive_along(waypoints, [&] {
     if (++tick % kTicksPerFloorScan != 0) return true;
     localise();
     path_m_.emplace_back(robot_.estimated_base().x_m, robot_.estimated_base().y_m);
-    return !is_way_blocked(floor_, waypoints, robot_.estimated_base(), options_);
+    turned_back_ = may_go_on && !may_go_on();
+    return !turned_back_ && !is_way_blocked(floor_, waypoints, robot_.estimated_base(), options_);
   });
 }
 
@@ -111,7 +113,7 @@ Approach Navigator::approach(const Pose2& goal, const std::optional<Eigen::Vecto
     const DriveResult drive = drive_and_map(path.waypoints);
     result.path_length_m += drive.path_length_m;
     result.reached = drive.status == DriveStatus::arrived && path.reaches_goal;
-    if (result.reached || drive.status == DriveStatus::stuck) return result;
+    if (result.reached || turned_back_ || drive.status == DriveStatus::stuck) return result;
   }
   return result;
 }

@@ -22,6 +22,9 @@ class MobileRobotInterface {
   /// Of the robot's clock, simulated.
   [[nodiscard]] virtual double time_s() const = 0;
 
+  /// Used so far, by its battery's gauge.
+  [[nodiscard]] virtual double energy_used_j() const = 0;
+
   /// One scan of the planar scanner, from the present pose.
   virtual PlanarScan read_base_scanner() = 0;
   /// `go_on` is asked every tick. @throws Interrupted

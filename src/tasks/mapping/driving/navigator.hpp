@@ -10,7 +10,7 @@
 #include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/sim/robots/pose_uncertainty.hpp"
-#include "vantage/tasks/mapping/mobile_robot_interface.hpp"
+#include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 
 namespace vantage {
 
@@ -46,6 +46,8 @@ class Navigator {
   /// `look_at_m`, see plan_path().
   Approach approach(const Pose2& goal, const std::optional<Eigen::Vector2d>& look_at_m);
 
+  /// Asked now and then on every way; where it says no, approach() ends there. May be empty.
+  std::function<bool()> may_go_on;
   /// Told every path before it is driven; may be empty.
   std::function<void(const PlannedPath&)> on_plan;
 
@@ -69,6 +71,7 @@ class Navigator {
   ReferenceMap reference_map_;
   PoseUncertainty uncertainty_;
   double keyframe_m_;
+  bool turned_back_ = false;  ///< on the last drive, since it might not go on
   Eigen::Vector2d last_keyframe_m_ = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> path_m_;
 };

@@ -1,0 +1,104 @@
+#include "vantage/planners/choice/view_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "vantage/core/error.hpp"
+#include "vantage/planners/choice/drawn_map.hpp"
+#include "vantage/planners/navigation/path_lengths.hpp"
+#include "vantage/planners/swept_blocks.hpp"
+#include "vantage/planners/swept_gain.hpp"
+
+namespace vantage {
+namespace {
+
+CellBlocks blocks_of(const GridFrame& frame, double block_m) {
+  return {frame.cells, (block_m / frame.cell_size_m.array()).round().cast<int>().max(1)};
+}
+
+/// Ways from the robot are those that the candidates have, pulled straight.
+Eigen::MatrixXd travel_times_s(const ViewPlanningInput& input) {
+  Eigen::MatrixXd lengths_m = path_lengths_m(input.paths, input.places_m, input.threads);
+  const Eigen::Index n = lengths_m.rows();
+  lengths_m.conservativeResize(n + 1, Eigen::NoChange);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Candidate& view = input.candidates[static_cast<std::size_t>(i)];
+    lengths_m(n, i) = view.reachable ? view.path_length_m : std::numeric_limits<double>::infinity();
+  }
+  return lengths_m.unaryExpr([&](double length_m) { return input.travel_time.of_m(length_m); });
+}
+
+PlanningProblem with_ways(const ViewPlanningInput& input, ShownBlocks shown) {
+  expects(input.places_m.size() == input.candidates.size(), "a place of each candidate");
+  PlanningProblem problem;
+  problem.cells = std::move(shown.cells);
+  problem.shows = std::move(shown.shows);
+  problem.place_m.assign(input.places_m.begin(), input.places_m.end());
+  problem.travel_s = travel_times_s(input);
+  problem.scan_s = input.scan_s;
+  return problem;
+}
+
+ShownBlocks shown_by(const ViewPlanningInput& input, const ViewPlanningOptions& options) {
+  if (!can_sweep(input.gain)) {
+    return separate_blocks(view_gains_bits(input.gain, input.map, input.candidates,
+                                           input.field_of_view, input.threads));
+  }
+  const CellBlocks blocks = blocks_of(input.map.grid.frame, options.block_m);
+  return swept_blocks(attenuation_of(input.gain, input.map), input.map.grid, input.candidates,
+                      input.field_of_view, blocks, input.threads);
+}
+
+/// Of each view, the share of each block's unobserved cells that it really shows.
+ShownBlocks truly_shown(const ViewPlanningInput& input, const CellBlocks& blocks) {
+  const OccupancyGrid& grid = input.map.grid;
+  ShownBlocks result{std::vector<float>(blocks.size(), 0.0F), {}};
+  std::vector<std::uint32_t> block_of(grid.size());
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    block_of[cell] = static_cast<std::uint32_t>(blocks.index_of_cell(grid.frame.cell(cell)));
+    if (grid.state(cell) == CellState::unobserved) result.cells[block_of[cell]] += 1.0F;
+  }
+  for (const Candidate& view : input.candidates) {
+    expects(view.true_new_cell_set != nullptr, "what each candidate really shows");
+    std::vector<float> seen(blocks.size(), 0.0F);
+    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+      const bool shown = ((*view.true_new_cell_set)[cell / 64] >> (cell % 64) & 1U) != 0;
+      if (shown) seen[block_of[cell]] += 1.0F;
+    }
+    result.shows.push_back(shares_of_blocks(seen, result.cells));
+  }
+  return result;
+}
+
+}  // namespace
+
+PlanningProblem make_view_problem(const ViewPlanningInput& input,
+                                  const ViewPlanningOptions& options) {
+  PlanningProblem problem = with_ways(input, shown_by(input, options));
+  if (input.map.transmission == nullptr) return problem;
+  // What is drawn anew is only what the views show; the ways stay.
+  auto belief = std::make_shared<const DrawableMap>(input.map, options.drawn_cells);
+  auto known = std::make_shared<const PlanningProblem>(problem);
+  std::vector<Candidate> views(input.candidates.begin(), input.candidates.end());
+  problem.draw = [=, field = input.field_of_view, threads = input.threads,
+                  block_m = options.block_m](Rng& rng) {
+    PlanningProblem drawn = *known;
+    const CellBlocks blocks = blocks_of(belief->grid().frame, block_m);
+    ShownBlocks shown =
+        swept_blocks(belief->draw(rng), belief->grid(), views, field, blocks, threads);
+    drawn.cells = std::move(shown.cells);
+    drawn.shows = std::move(shown.shows);
+    return drawn;
+  };
+  return problem;
+}
+
+PlanningProblem make_true_view_problem(const ViewPlanningInput& input,
+                                       const ViewPlanningOptions& options) {
+  return with_ways(input, truly_shown(input, blocks_of(input.map.grid.frame, options.block_m)));
+}
+
+}  // namespace vantage

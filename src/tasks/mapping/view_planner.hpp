@@ -1,0 +1,32 @@
+/// Planning several views ahead in an episode: what the choice needs to know, and what it plans.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "vantage/core/rng.hpp"
+#include "vantage/planners/choice/view_choice.hpp"
+#include "vantage/planners/choice/view_problem.hpp"
+#include "vantage/tasks/mapping/driving/budget_keeper.hpp"
+#include "vantage/tasks/mapping/map_belief.hpp"
+#include "vantage/tasks/mapping/mapping_options.hpp"
+#include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
+
+namespace vantage {
+
+struct PlanningSituation {
+  const MapBelief& belief;
+  const BlockField& transmission;
+  const MobileRobotInterface& robot;
+  const PathField& paths;
+  const BudgetKeeper& budget;
+  int threads;
+};
+
+/// Indices of candidates, exhausted ones left out, the next one first; empty if none can be taken.
+/// @param options whose choice plans_views()
+std::vector<std::size_t> plan_ahead(const MappingOptions& options,
+                                    const std::vector<Candidate>& candidates,
+                                    const PlanningSituation& situation, Rng& rng);
+
+}  // namespace vantage

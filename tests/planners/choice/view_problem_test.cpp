@@ -1,0 +1,148 @@
+#include "vantage/planners/choice/view_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "vantage/planners/choice/drawn_map.hpp"
+#include "vantage/planners/swept_gain.hpp"
+#include "vantage/planners/tours/joint_gain.hpp"
+
+namespace vantage {
+namespace {
+
+/// An empty room of 4 x 4 x 1 m whose floor is known and whose air above y = 0 is not.
+struct Room {
+  OccupancyGrid grid{make_grid_frame({0.0, 0.0, 0.5}, {4.0, 4.0, 1.0}, {40, 40, 10})};
+  BlockField transmission = uniform_field(grid.frame.cells, 0.98);
+  FloorMap floor{Eigen::Vector2d(-2.0, -2.0), 0.1, 40, 40};
+  PathField paths;
+  std::vector<Candidate> views;
+  std::vector<Eigen::Vector2d> places_m;
+  FieldOfView field{.range_max_m = 2.5, .panorama = true};
+
+  Room() {
+    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+      grid.log_odds[cell] = grid.frame.cell(cell).y() < 20 ? -3.0F : 0.0F;
+    }
+    for (float& log_odds : floor.log_odds) log_odds = -3.0F;
+    NavigationOptions navigation;
+    navigation.footprint_radius_m = 0.2;
+    navigation.clearance_weight = 0.0;
+    paths = make_path_field(floor, {-1.0, -1.0, 0.0}, navigation);
+    for (const auto& [x, y] : {std::pair{-1.0, 0.5}, {1.0, 0.5}, {1.0, 0.6}}) {
+      Candidate& view = views.emplace_back();
+      view.id = static_cast<int>(views.size()) - 1;
+      view.T_world_sensor = Pose(Eigen::Translation3d(x, y, 0.55));
+      view.path_length_m = std::hypot(x + 1.0, y + 1.0);
+      places_m.emplace_back(x, y);
+    }
+  }
+
+  [[nodiscard]] ViewPlanningInput input(const Gain& gain) const {
+    return {.map = {grid, &transmission},
+            .gain = gain,
+            .candidates = views,
+            .places_m = places_m,
+            .field_of_view = field,
+            .paths = paths,
+            .travel_time = TravelTime(0.5),
+            .scan_s = 7.0,
+            .threads = 2};
+  }
+};
+
+TEST(ViewProblem, HasGainsAndTravelTimes) {
+  const Room room;
+  const auto input = room.input(AdaptiveGain{});
+  const PlanningProblem problem = make_view_problem(input, {});
+  problem.check();
+  EXPECT_EQ(problem.scan_s, 7.0);
+  const auto gains_bits =
+      swept_gains_bits(AdaptiveGain{}, input.map, room.views, room.field, 1, kNoRays);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(gain_of(problem, i), gains_bits[i], 0.02 * gains_bits[i]);
+    EXPECT_NEAR(problem.leg_s(problem.here(), i),
+                input.travel_time.of_m(room.views[i].path_length_m), 1e-9);
+  }
+  EXPECT_NEAR(problem.leg_s(0, 1), input.travel_time.of_m(2.0), 1e-4);
+}
+
+TEST(ViewProblem, KnowsThatTwoViewsOfOnePlaceShareTheirCells) {
+  const Room room;
+  const PlanningProblem problem = make_view_problem(room.input(SimpleGain{}), {});
+  const double one = gain_of(problem, 1);
+  const std::vector<std::size_t> near{1, 2};
+  const std::vector<std::size_t> apart{0, 1};
+  EXPECT_LT(joint_gain(problem, near), 1.15 * one);
+  EXPECT_GT(joint_gain(problem, apart), 1.25 * one);
+}
+
+TEST(ViewProblem, OfAViewOutOfReachIsInfinitelyFar) {
+  Room room;
+  room.views[0].reachable = false;
+  const PlanningProblem problem = make_view_problem(room.input(AdaptiveGain{}), {});
+  EXPECT_EQ(affordable_views(problem), (std::vector<std::size_t>{1, 2}));
+}
+
+TEST(ViewProblem, OfAGainThatCannotBeSweptCountsEachViewAlone) {
+  const Room room;
+  const PlanningProblem problem = make_view_problem(room.input(FsmiGain{}), {});
+  const std::vector<std::size_t> near{1, 2};
+  EXPECT_NEAR(joint_gain(problem, near), gain_of(problem, 1) + gain_of(problem, 2), 1e-3);
+}
+
+TEST(TrueViewProblem, HasWhatTheViewsReallyShow) {
+  Room room;
+  // The truth: view 0 shows a corner of 10 x 5 x 10 cells, the others nothing.
+  for (Candidate& view : room.views) {
+    auto shown = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
+    for (std::size_t cell = 0; view.id == 0 && cell < room.grid.size(); ++cell) {
+      const Eigen::Array3i at = room.grid.frame.cell(cell);
+      if (at.x() < 10 && at.y() >= 20 && at.y() < 25) (*shown)[cell / 64] |= 1ULL << (cell % 64);
+    }
+    view.true_new_cell_set = shown;
+  }
+  const PlanningProblem problem = make_true_view_problem(room.input(SimpleGain{}), {});
+  EXPECT_NEAR(gain_of(problem, 0), 500.0, 1e-2);
+  EXPECT_EQ(gain_of(problem, 1), 0.0);
+}
+
+TEST(DrawnMap, IsOpaqueAsOftenAsBeamsAreStopped) {
+  const Room room;
+  const DrawableMap belief({room.grid, &room.transmission}, 2);
+  Rng rng(3);
+  double opaque = 0.0;
+  double unobserved = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    const Attenuation drawn = belief.draw(rng);
+    for (std::size_t cell = 0; cell < belief.grid().size(); ++cell) {
+      const bool known = belief.grid().state(cell) != CellState::unobserved;
+      if (known) {
+        EXPECT_EQ(drawn.transmission.per_block[cell], 1.0);
+      }
+      unobserved += known ? 0.0 : 1.0;
+      opaque += drawn.transmission.per_block[cell] == 0.0 ? 1.0 : 0.0;
+    }
+  }
+  EXPECT_NEAR(unobserved / 20.0, 20.0 * 10.0 * 5.0, 1e-9);
+  // 1 - 0.98^2, within four standard deviations
+  const double p = 1.0 - 0.98 * 0.98;
+  EXPECT_NEAR(opaque / unobserved, p, 4.0 * std::sqrt(p / unobserved));
+}
+
+/// On average over drawn maps a view shows what `adaptive` expects.
+TEST(DrawnMap, ShowsOnAverageWhatIsExpected) {
+  const Room room;
+  const PlanningProblem problem =
+      make_view_problem(room.input(AdaptiveGain{}), {.block_m = 0.4, .drawn_cells = 1});
+  Rng rng(4);
+  double sum = 0.0;
+  constexpr int kDraws = 30;
+  for (int k = 0; k < kDraws; ++k) sum += gain_of(problem.draw(rng), 1);
+  EXPECT_NEAR(sum / kDraws, gain_of(problem, 1), 0.05 * gain_of(problem, 1));
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,69 @@
+// Whole episodes within a budget: it is kept, and the robot comes back.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/overrides.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/run.hpp"
+
+namespace vantage {
+namespace {
+
+nlohmann::json tabletop(const std::vector<std::string>& more) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  const std::vector<std::string> quick{"scans=10", "map.cells=[49,49,25]",
+                                       "laser.scan_duration_s=3"};
+  const auto overrides = support::overridden(quick, more);
+  const auto outcome =
+      run(load_episode(VANTAGE_SOURCE_DIR "/assets/episodes/tabletop.yaml", overrides),
+          {folder.path() / "run", true, false, {}});
+  return nlohmann::json::parse(outcome.metrics);
+}
+
+class Budgets : public testing::TestWithParam<const char*> {};
+
+TEST_P(Budgets, OfTimeAreKeptWithTheWayHome) {
+  const auto metrics = tabletop({std::string("choice=") + GetParam(), "budget.time_s=75",
+                                 "budget.return_to_start=true", "seed=4"});
+  EXPECT_EQ(metrics["status"], "completed");
+  EXPECT_TRUE(metrics["budget"]["kept"].get<bool>());
+  EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());
+  EXPECT_LE(metrics["simulated_time_s"].get<double>(), 75.0);
+  EXPECT_LT(metrics["budget"]["from_start_m"].get<double>(), 0.05);
+  // It is made use of: the robot went somewhere and came back.
+  EXPECT_GE(metrics["scans"].size(), 2U);
+  EXPECT_LT(metrics["scans"].size(), 10U);
+  EXPECT_GT(metrics["path_length_m"].get<double>(), 1.0);
+  EXPECT_NE(metrics["reason"].get<std::string>().find("budget.time_s 75"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Choices, Budgets, testing::Values("greedy", "tour", "information_rate"));
+
+TEST(Budgets, OfEnergyAreKept) {
+  const auto metrics = tabletop({"budget.energy_j=8000", "seed=5"});
+  EXPECT_EQ(metrics["status"], "completed");
+  EXPECT_LE(metrics["energy_j"].get<double>(), 8000.0);
+  EXPECT_GT(metrics["energy_j"].get<double>(), 5000.0);
+  EXPECT_LT(metrics["scans"].size(), 10U);
+  EXPECT_GE(metrics["scans"].size(), 2U);
+}
+
+TEST(Budgets, TooSmallToMoveAreAFailureThatSaysSo) {
+  const auto metrics = tabletop({"budget.time_s=10"});
+  EXPECT_EQ(metrics["status"], "failed");
+  EXPECT_NE(metrics["reason"].get<std::string>().find("budget.time_s 10: too small to go anywhere"),
+            std::string::npos);
+}
+
+TEST(Budgets, ComeHomeWithoutALimitToo) {
+  const auto metrics = tabletop({"scans=2", "budget.return_to_start=true"});
+  EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());
+}
+
+}  // namespace
+}  // namespace vantage
