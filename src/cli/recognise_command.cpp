@@ -142,11 +142,11 @@ void print_result(const Json& result) {
 ExitCode recognise_command(const RecogniseArguments& arguments) {
   check(arguments);
   const RecogniseOptions options = options_of(arguments);
-  const PairSetting setting{.elevation_rad = arguments.elevation_deg * kDegree_rad,
-                            .max_depth_m = arguments.max_depth_m};
+  PairSetting setting;
+  setting.max_depth_m = arguments.max_depth_m;
   std::vector<ObjectView> views;
   for (std::size_t i = 0; i < arguments.files.size(); i += 2) {
-    views.push_back(load_image_pair(arguments.files[i], arguments.files[i + 1], setting));
+    views.push_back(load_image_pair(arguments.files[i], arguments.files[i + 1], setting).view);
   }
   const Recogniser recogniser = load_recogniser(arguments.model, options.recogniser, 1);
   Recognition known = begin_recognition(recogniser);
