@@ -155,12 +155,14 @@ const std::map<std::string, Rooms> kAllowed{
     {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"cli/hints", {"core", "study"}},
+    {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
+                            Rooms{"belief/objects", "planners/objects"}},
     {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                           Rooms{"belief/objects", "cli/hints", "dataset", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                Rooms{"cli/hints", "cli/pictures", "cli/reference", "cli/sweep", "dataset",
+                Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep", "dataset",
                       "models/catalogue/database", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",

@@ -197,6 +197,13 @@ std::optional<double> yaw_beside(const fs::path& colour) {
   return yaw_rad < 0.0 ? yaw_rad + 2.0 * std::numbers::pi : yaw_rad;
 }
 
+std::string view_name_beside(const fs::path& colour) {
+  const auto notes = notes_beside(colour);
+  const auto yaw_rad = yaw_beside(colour);
+  if (!notes || notes->views.empty() || !yaw_rad) return {};
+  return notes->views[static_cast<std::size_t>(yaw_bin(*yaw_rad, notes->bins))];
+}
+
 std::optional<LabelledView> load_view(const ViewEntry& entry, std::vector<SkippedView>& skipped) {
   try {
     return load_view(entry);

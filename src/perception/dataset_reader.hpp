@@ -61,4 +61,8 @@ ImagePair load_image_pair(const std::filesystem::path& colour, const std::filesy
 /// @throws InputError naming the file if it holds no number.
 std::optional<double> yaw_beside(const std::filesystem::path& colour);
 
+/// The name of the view in an imported dataset; empty if it has none, or lies in no such dataset.
+/// @throws InputError, ConfigError if the files beside are damaged.
+std::string view_name_beside(const std::filesystem::path& colour);
+
 }  // namespace vantage
