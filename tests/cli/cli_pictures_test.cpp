@@ -3,6 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <map>
+#include <sstream>
+
 #include "tests/cli/command_line.hpp"
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/room_pictures.hpp"
@@ -91,6 +94,24 @@ TEST_F(OwnPictures, AreImportedCheckedTrainedOnAndRecognised) {
   EXPECT_EQ(known["objects"][0]["object"], "thingb_1");
   EXPECT_EQ(known["categories"][0]["category"], "thingb");
   EXPECT_TRUE(known["next"]["view"].is_string());
+}
+
+TEST_F(OwnPictures, TheTutorialsCommandsWork) {
+  for (const char* view : {"front", "left"}) {
+    const auto picture = support::room_picture(support::made_up_object("thinga", 7),
+                                               view[0] == 'f' ? 0.0 : 4.71, {.seed = 3});
+    support::put_picture(folder_, view, picture, DepthFormat::png_mm);
+  }
+  std::istringstream page(
+      read_file(fs::path(VANTAGE_SOURCE_DIR) / "docs/tutorials/own-pictures.md"));
+  int commands = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("vantage ")) continue;
+    const Result result = vantage(line.substr(8) + " -q");
+    EXPECT_EQ(result.exit_code, 0) << line << "\n" << result.output;
+    ++commands;
+  }
+  EXPECT_EQ(commands, 6);
 }
 
 TEST_F(OwnPictures, SeveralViewsNeedNoPoses) {
