@@ -147,18 +147,23 @@ std::vector<ObjectViewAction> DatasetCamera::actions() const {
   constexpr double kNear = 0.26;  // of a bin
   const double bin_rad = recogniser_->states.bin_rad();
   std::vector<ObjectViewAction> actions;
-  std::vector<std::size_t> strayed;
-  for (int turn = 1; turn < recogniser_->states.bins; ++turn) {
-    double turn_rad = turn * bin_rad;
-    const std::size_t view = view_after(turn_rad);
-    const double off_rad = std::remainder(turn_to(view) - turn_rad, 2.0 * std::numbers::pi);
-    if (std::abs(off_rad) > kNear * bin_rad) {  // no view near there: the nearest, as far as it is
-      if (view == view_ || std::ranges::find(strayed, view) != strayed.end()) continue;
-      strayed.push_back(view);
-      turn_rad = turn_to(view);
-    }
+  std::vector<std::size_t> offered{view_};
+  const auto offer = [&](std::size_t view, double turn_rad) {
     const bool visited = std::ranges::find(seen_, view) != seen_.end();
     actions.push_back({.yaw_rad = turn_rad, .visited = visited});
+    offered.push_back(view);
+  };
+  for (const bool near : {true, false}) {
+    for (int turn = 1; turn < recogniser_->states.bins; ++turn) {
+      const double turn_rad = turn * bin_rad;
+      const std::size_t view = view_after(turn_rad);
+      const double off_rad = std::remainder(turn_to(view) - turn_rad, 2.0 * std::numbers::pi);
+      const bool is_near = std::abs(off_rad) <= kNear * bin_rad;
+      if (near && is_near) offer(view, turn_rad);
+      // No view near there: the nearest, as far as it is.
+      const bool is_new = std::ranges::find(offered, view) == offered.end();
+      if (!near && !is_near && is_new) offer(view, turn_to(view));
+    }
   }
   return actions;
 }
