@@ -57,8 +57,8 @@ Rooms operator+(Rooms a, const Rooms& b) {
 }
 
 const Rooms kGround{"core", "geometry", "information"};
-const Rooms kPerception{"perception", "perception/clouds", "perception/images", "perception/features",
-                        "perception/features/kit"};
+const Rooms kPerception{"perception", "perception/clouds", "perception/images",
+                        "perception/features", "perception/features/kit"};
 const Rooms kBelief{"belief/map", "belief/objects"};
 const Rooms kPlanners{"planners",
                       "planners/gains",
@@ -155,15 +155,15 @@ const std::map<std::string, Rooms> kAllowed{
     {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"cli/hints", {"core", "study"}},
-    {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
-                            Rooms{"belief/objects", "planners/objects"}},
+    {"cli/recognition",
+     kGround + kPerception + kRecognition + kRuntime + Rooms{"belief/objects", "planners/objects"}},
     {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                           Rooms{"belief/objects", "cli/hints", "dataset", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep", "dataset",
-                      "models/catalogue/database", "report", "tasks", "view"}},
+                Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep",
+                      "dataset", "models/catalogue/database", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",
