@@ -57,8 +57,8 @@ Rooms operator+(Rooms a, const Rooms& b) {
 }
 
 const Rooms kGround{"core", "geometry", "information"};
-const Rooms kPerception{"perception", "perception/clouds", "perception/features",
-                        "perception/features/kit"};
+const Rooms kPerception{"perception", "perception/clouds", "perception/images",
+                        "perception/features", "perception/features/kit"};
 const Rooms kBelief{"belief/map", "belief/objects"};
 const Rooms kPlanners{"planners",
                       "planners/gains",
@@ -89,7 +89,8 @@ const std::map<std::string, Rooms> kAllowed{
     {"information", {"core"}},
     {"control", {"core", "geometry"}},
     {"perception/clouds", {"core", "geometry"}},
-    {"perception", kGround + Rooms{"perception/clouds"}},
+    {"perception/images", {"core"}},
+    {"perception", kGround + Rooms{"perception/clouds", "perception/images"}},
     {"perception/features/kit", kGround + Rooms{"perception", "perception/clouds"}},
     {"perception/features/patches",
      kGround + Rooms{"perception", "perception/clouds", "perception/features/kit"}},
@@ -133,6 +134,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"dataset",
      {"core", "geometry", "perception", "models/catalogue/shapes", "models/catalogue/database",
       "sim/render", "sim/sensors"}},
+    {"dataset/pictures", {"core", "geometry", "perception", "perception/images", "dataset"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
@@ -155,12 +157,15 @@ const std::map<std::string, Rooms> kAllowed{
     {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"cli/hints", {"core", "study"}},
+    {"cli/recognition",
+     kGround + kPerception + kRecognition + kRuntime + Rooms{"belief/objects", "planners/objects"}},
+    {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                           Rooms{"belief/objects", "cli/hints", "dataset", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                Rooms{"cli/hints", "cli/reference", "cli/sweep", "dataset",
-                      "models/catalogue/database", "report", "tasks", "view"}},
+                Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep",
+                      "dataset", "models/catalogue/database", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",

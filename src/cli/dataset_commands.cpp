@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/pictures/picture_commands.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
@@ -223,6 +224,19 @@ std::function<ExitCode()> declare_contact_sheet(CLI::App& app) {
   };
 }
 
+std::function<ExitCode()> declare_own_import(CLI::App& app) {
+  auto flags = std::make_shared<PictureFlags>();
+  add_overwrite(app, flags->overwrite);
+  add_json(app, flags->json);
+  return declare_import(app, flags);
+}
+
+std::function<ExitCode()> declare_own_check(CLI::App& app) {
+  auto flags = std::make_shared<PictureFlags>();
+  add_json(app, flags->json);
+  return declare_check(app, flags);
+}
+
 struct Part {
   const char* name;
   const char* help;
@@ -232,6 +246,9 @@ struct Part {
 constexpr std::array kParts{
     Part{"render", "render objects on a turntable as the RGB-D Object Dataset has them",
          declare_render},
+    Part{"import", "take in RGB-D pictures of your own", declare_own_import},
+    Part{"check", "what is wrong with a dataset, or may be, before it is trained on",
+         declare_own_check},
     Part{"info", "how many objects and views a dataset has, and what is wrong with it",
          declare_info},
     Part{"contact-sheet", "an image of every object", declare_contact_sheet},

@@ -8,23 +8,24 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
-#include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/recognise_options.hpp"
+#include "vantage/cli/recognition/recognise_result.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/perception/dataset_reader.hpp"
+#include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/recognition.hpp"
 #include "vantage/runtime/json.hpp"
 
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
@@ -32,8 +33,12 @@ struct RecogniseArguments {
   fs::path model;
   std::vector<fs::path> files;
   std::vector<double> motion_deg;
+  std::vector<std::string> view_names;
   std::vector<std::string> overrides;
-  double elevation_deg = 45.0;
+  std::optional<double> elevation_deg;
+  std::optional<double> focal_px;
+  double depth_unit_m = 0.0;
+  std::string cut = "auto";
   double max_depth_m = 0.0;
   int top = 5;
   bool json = false;
@@ -47,18 +52,47 @@ RecogniseOptions options_of(const RecogniseArguments& arguments) {
   return options;
 }
 
-/// Turn of the camera before view `index`, from what was given or from the poses beside the files.
-double motion_before(const RecogniseArguments& arguments, std::size_t index) {
+/// Where the view is in the circle of those that the model knows by name; nothing if it has no name
+/// that the model knows.
+std::optional<double> named_yaw_rad(const RecogniseArguments& arguments,
+                                    const std::optional<PictureNotes>& notes, std::size_t index) {
+  if (!notes) return std::nullopt;
+  const bool given = !arguments.view_names.empty();
+  const std::string name =
+      given ? arguments.view_names[index] : view_name_beside(arguments.files[2 * index]);
+  const auto bin = bin_of_view(*notes, name);
+  if (given && !bin) {
+    throw ConfigError(fmt::format("--view-names: the model has no view '{}'; known: {}", name,
+                                  fmt::join(notes->views, ", ")));
+  }
+  if (!bin) return std::nullopt;
+  return *bin * 2.0 * std::numbers::pi / notes->bins;
+}
+
+/// Turn of the camera before view `index`, from what was given, the names of the views or the
+/// poses beside the files; nothing if it is not known.
+std::optional<double> motion_before(const RecogniseArguments& arguments,
+                                    const std::optional<PictureNotes>& notes, std::size_t index) {
   const std::vector<double>& given = arguments.motion_deg;
   if (given.size() == 1) return given.front() * kDegree_rad;
   if (!given.empty()) return given[index - 1] * kDegree_rad;
-  const auto before = yaw_beside(arguments.files[2 * index - 2]);
-  const auto now = yaw_beside(arguments.files[2 * index]);
-  if (!before || !now) {
-    throw ConfigError(fmt::format("--motion-deg: how far the camera turned before {} is not known",
-                                  arguments.files[2 * index].string()));
+  auto before = named_yaw_rad(arguments, notes, index - 1);
+  auto now = named_yaw_rad(arguments, notes, index);
+  if ((!before || !now) && (!notes || notes->degrees)) {
+    before = yaw_beside(arguments.files[2 * index - 2]);
+    now = yaw_beside(arguments.files[2 * index]);
   }
+  if (!before || !now) return std::nullopt;
   return std::remainder(*before - *now, 2.0 * std::numbers::pi);
+}
+
+/// The camera moved, nobody knows how far: the object stays, its yaw may be any.
+void forget_yaw(const ObjectStates& states, ObjectBelief& belief) {
+  const Eigen::VectorXd log_object = p_object(states, belief).array().log();
+  for (int k = 0; k < states.object_count(); ++k) {
+    belief.log_p.segment(states.state(k, 0), states.bins)
+        .setConstant(log_object[k] - std::log(states.bins));
+  }
 }
 
 void check(const RecogniseArguments& arguments) {
@@ -67,112 +101,96 @@ void check(const RecogniseArguments& arguments) {
   }
   const std::size_t turns = arguments.files.size() / 2 - 1;
   const std::size_t given = arguments.motion_deg.size();
+  for (const double turn : arguments.motion_deg) {
+    if (!std::isfinite(turn)) throw ConfigError(fmt::format("--motion-deg: {} is no angle", turn));
+  }
+  if (!arguments.view_names.empty() && arguments.view_names.size() != turns + 1) {
+    throw ConfigError(fmt::format("--view-names: {} names given, there are {} views",
+                                  arguments.view_names.size(), turns + 1));
+  }
   if (given > 1 && given != turns) {
     throw ConfigError(fmt::format("--motion-deg: {} turns given, there are {}", given, turns));
   }
 }
 
-Json views_json(const Recognition& known) {
-  Json views = Json::array();
-  for (const ViewReport& view : known.views) {
-    Json skipped = Json::array();
-    for (const SkippedFeature& s : view.skipped) {
-      skipped.push_back({{"feature", s.feature}, {"reason", s.reason}});
+/// The views, cut as the model's were.
+std::vector<ObjectView> read_views(const RecogniseArguments& arguments, ObjectCut cut) {
+  PairSetting setting;
+  if (arguments.elevation_deg) setting.elevation_rad = *arguments.elevation_deg * kDegree_rad;
+  setting.max_depth_m = arguments.max_depth_m;
+  setting.focal_px = arguments.focal_px;
+  setting.depth_unit_m = arguments.depth_unit_m;
+  // Told how far the object reaches, all that is nearer is the object.
+  const bool by_distance = arguments.max_depth_m > 0.0 && cut == ObjectCut::mask;
+  setting.cut = arguments.cut != "auto" ? std::optional(object_cut_of(arguments.cut, "--cut"))
+                : by_distance           ? std::nullopt
+                                        : std::optional(cut);
+  std::vector<ObjectView> views;
+  for (std::size_t i = 0; i < arguments.files.size(); i += 2) {
+    ImagePair pair = load_image_pair(arguments.files[i], arguments.files[i + 1], setting);
+    const std::string file = arguments.files[i].string();
+    constexpr int kLeast_px = 8;
+    if (std::min(pair.view.width_px, pair.view.height_px) < kLeast_px) {
+      throw InputError(fmt::format("{}: the object is {} x {} px; at least {} x {} are needed",
+                                   file, pair.view.width_px, pair.view.height_px, kLeast_px,
+                                   kLeast_px));
     }
-    views.push_back({{"view_rad", view.view_rad},
-                     {"features", view.features},
-                     {"skipped", skipped},
-                     {"entropy_bits", view.entropy_bits},
-                     {"feature_time_s", view.feature_time_s},
-                     {"selection_time_s", view.selection_time_s},
-                     {"view_time_s", view.view_time_s}});
+    if (pair.cut != cut && !by_distance) {
+      log_warning(
+          fmt::format("{}: cut by {}, the model learnt from pictures cut by {}: it will be "
+                      "wrong more often",
+                      file, to_string(pair.cut), to_string(cut)));
+    }
+    views.push_back(std::move(pair.view));
   }
   return views;
 }
 
-Json objects_json(const ObjectStates& states, const ObjectBelief& belief, int top) {
-  const Eigen::VectorXd p = p_object(states, belief);
-  std::vector<int> order(static_cast<std::size_t>(p.size()));
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::greater{}, [&](int k) { return p[k]; });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(top)));
-  Json objects = Json::array();
-  for (const int k : order) {
-    const auto index = static_cast<std::size_t>(k);
-    const auto category = static_cast<std::size_t>(states.category_of[index]);
-    objects.push_back({{"object", states.objects[index]},
-                       {"category", states.categories[category]},
-                       {"probability", p[k]},
-                       {"yaw_deg", mean_yaw_rad(states, belief, k) / kDegree_rad}});
+void take_views(const RecogniseArguments& arguments, const RecogniseOptions& options,
+                const Recogniser& recogniser, const std::optional<PictureNotes>& notes,
+                const std::vector<ObjectView>& views, Recognition& known, Rng& rng) {
+  double bearing_rad = 0.0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto motion = i == 0 ? std::optional(0.0) : motion_before(arguments, notes, i);
+    if (motion) {
+      predict_motion(recogniser, options.recognition, *motion, known);
+      bearing_rad += *motion;
+    } else {
+      forget_yaw(recogniser.states, known.belief);
+      log_info(
+          fmt::format("{}: how far the camera turned before is not known; --motion-deg or "
+                      "--view-names tells",
+                      arguments.files[2 * i].string()));
+    }
+    update_with_view(recogniser, options.recognition, extract_from(recogniser, views[i]),
+                     bearing_rad, known, rng);
+    const ViewReport& report = known.views.back();
+    for (const SkippedFeature& s : report.skipped) {
+      log_warning(fmt::format("{}: {}: {}", arguments.files[2 * i].string(), s.feature, s.reason));
+    }
+    if (report.features.empty() && !report.skipped.empty()) {
+      throw InputError(fmt::format("{}: no feature can be extracted: {}",
+                                   arguments.files[2 * i].string(), report.skipped.front().reason));
+    }
   }
-  return objects;
-}
-
-/// Where to look next, of the turns by whole bins.
-Json next_json(const Recogniser& recogniser, const RecognitionOptions& options,
-               const Recognition& known, Rng& rng) {
-  std::vector<ObjectViewAction> actions;
-  for (int turn = 1; turn < recogniser.states.bins; ++turn) {
-    actions.push_back({.yaw_rad = turn * recogniser.states.bin_rad()});
-  }
-  const NextView next = next_view(recogniser, options, known, actions, rng);
-  const std::size_t best = next.decision.action;
-  return {{"turn_deg", actions[best].yaw_rad / kDegree_rad},
-          {"gain_bits", next.decision.scores[best].gain.bits},
-          {"view_time_s", next.time_s}};
-}
-
-void print_result(const Json& result) {
-  for (const Json& object : result["objects"]) {
-    fmt::print("{:6.2f} %  {} ({}), yaw {:.0f} deg\n", 100.0 * object["probability"].get<double>(),
-               object["object"].get<std::string>(), object["category"].get<std::string>(),
-               object["yaw_deg"].get<double>());
-  }
-  for (const Json& view : result["views"]) {
-    fmt::print("view at {:.0f} deg: {}; entropy {:.3f} bits\n",
-               view["view_rad"].get<double>() / kDegree_rad,
-               fmt::join(view["features"].get<std::vector<std::string>>(), ", "),
-               view["entropy_bits"].get<double>());
-  }
-  fmt::print("{}; look next after a turn by {:.0f} deg\n",
-             result["sure"].get<bool>() ? "sure" : "not sure",
-             result["next"]["turn_deg"].get<double>());
 }
 
 ExitCode recognise_command(const RecogniseArguments& arguments) {
   check(arguments);
   const RecogniseOptions options = options_of(arguments);
-  const PairSetting setting{.elevation_rad = arguments.elevation_deg * kDegree_rad,
-                            .max_depth_m = arguments.max_depth_m};
-  std::vector<ObjectView> views;
-  for (std::size_t i = 0; i < arguments.files.size(); i += 2) {
-    views.push_back(load_image_pair(arguments.files[i], arguments.files[i + 1], setting));
-  }
+  const RecognitionModel model = read_recognition_model(arguments.model);
+  const std::optional<PictureNotes> notes = notes_of(model);
+  const std::vector<ObjectView> views = read_views(arguments, cut_of(model));
   const Recogniser recogniser = load_recogniser(arguments.model, options.recogniser, 1);
   Recognition known = begin_recognition(recogniser);
   Rng rng = Rng::stream(options.seed, "recognise");
-  double bearing_rad = 0.0;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const double motion_rad = i == 0 ? 0.0 : motion_before(arguments, i);
-    predict_motion(recogniser, options.recognition, motion_rad, known);
-    bearing_rad += motion_rad;
-    update_with_view(recogniser, options.recognition, extract_from(recogniser, views[i]),
-                     bearing_rad, known, rng);
-    for (const SkippedFeature& s : known.views.back().skipped) {
-      log_warning(fmt::format("{}: {}: {}", arguments.files[2 * i].string(), s.feature, s.reason));
-    }
-  }
-  const Json result{
-      {"objects", objects_json(recogniser.states, known.belief, arguments.top)},
-      {"entropy_bits", known.views.back().entropy_bits},
-      {"sure", seen_enough(options.recognition.enough, recogniser.states, p_state(known.belief))
-                   .has_value()},
-      {"views", views_json(known)},
-      {"next", next_json(recogniser, options.recognition, known, rng)}};
+  take_views(arguments, options, recogniser, notes, views, known, rng);
+  const auto result =
+      recognition_json(recogniser, options.recognition, notes, known, arguments.top, rng);
   if (arguments.json) {
     fmt::print("{}", json_text(result));
   } else {
-    print_result(result);
+    print_recognition(result);
   }
   return ExitCode::done;
 }
@@ -192,12 +210,30 @@ std::function<ExitCode()> declare_recognise(CLI::App& app) {
       ->delimiter(',')
       ->type_size(1)
       ->allow_extra_args(false);
+  app.add_option("--view-names", arguments->view_names,
+                 "names of the views, of a model that knows them by name: front,left,...")
+      ->delimiter(',')
+      ->type_size(1)
+      ->allow_extra_args(false);
   app.add_option("--elevation-deg", arguments->elevation_deg,
-                 "of the camera, where the file's name does not tell")
-      ->check(CLI::Range(0.0, 90.0))
+                 "how far the camera looks down; default: from the files beside, else from the "
+                 "table that the picture shows, else 45")
+      ->check(CLI::Range(-90.0, 90.0));
+  app.add_option("--focal-px", arguments->focal_px,
+                 "focal length of the camera; default: of the dataset beside, else 570.3")
+      ->check(CLI::Range(10.0, 1e5));
+  app.add_option("--depth-unit-m", arguments->depth_unit_m,
+                 "what 1 in a depth file stands for; 0: integers are mm, floats by their size")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option(
+         "--cut", arguments->cut,
+         "how the object is told from its surroundings: mask, depth, whole; auto: as in the "
+         "model's own pictures, by depth where a mask is missing")
+      ->check(CLI::IsMember({"auto", "mask", "depth", "whole"}))
       ->capture_default_str();
   app.add_option("--farthest-m", arguments->max_depth_m,
-                 "without a mask, the object is what is nearer; 0: everything")
+                 "what is farther is not the object; 0: nothing is")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--top", arguments->top, "objects to print")

@@ -11,7 +11,8 @@ namespace vantage {
 struct RecogniseOptions {
   std::uint64_t seed = 1;
   RecogniserOptions recogniser;
-  RecognitionOptions recognition;
+  /// The views are there: nothing is won by leaving out what they show.
+  RecognitionOptions recognition{.features = {}, .all_features = true, .views = {}, .enough = {}};
   void fields(auto&& f) {
     f("seed", seed, "seed of the measures of information that sample");
     f("recogniser", recogniser,

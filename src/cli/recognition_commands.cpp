@@ -30,6 +30,7 @@ int all_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_con
 /// What both commands take.
 struct Arguments {
   std::vector<fs::path> datasets;
+  std::vector<fs::path> training;
   fs::path model;
   fs::path out;
   fs::path config;
@@ -75,9 +76,9 @@ void declare_common(CLI::App& app, Arguments& arguments) {
 }
 
 /// Of all datasets together: recordings of the same objects, or others.
-DatasetIndex index_of(const Arguments& arguments) {
+DatasetIndex index_of(const std::vector<fs::path>& datasets, const Arguments& arguments) {
   DatasetIndex all;
-  for (const fs::path& dataset : arguments.datasets) {
+  for (const fs::path& dataset : datasets) {
     const DatasetIndex index =
         index_dataset(dataset, arguments.skip_bad ? OnBadView::skip : OnBadView::fail);
     for (const SkippedView& skipped : index.skipped) log_warning(skipped.reason);
@@ -124,10 +125,10 @@ ExitCode train_command(const Arguments& arguments) {
   catch_interrupts();
   RecognitionModel model;
   if (arguments.model.empty()) {
-    model = train_recognition(index_of(arguments), options, arguments.how());
+    model = train_recognition(index_of(arguments.datasets, arguments), options, arguments.how());
   } else {
     model = read_recognition_model(arguments.model);
-    extend_recognition(model, index_of(arguments), options, arguments.how());
+    extend_recognition(model, index_of(arguments.datasets, arguments), options, arguments.how());
   }
   write_recognition_model(model, arguments.out);
   const Json summary = model_json(arguments.out, model);
@@ -144,7 +145,8 @@ ExitCode evaluate_command(const Arguments& arguments) {
   prepare_recognition_study(arguments.out, arguments.overwrite);
   catch_interrupts();
   const RecognitionStudy study = run_recognition_study(
-      read_recognition_model(arguments.model), index_of(arguments), options, arguments.how());
+      read_recognition_model(arguments.model), index_of(arguments.datasets, arguments), options,
+      arguments.how(), index_of(arguments.training, arguments));
   write_recognition_study(study, arguments.out);
   fmt::print("{}", arguments.json ? read_file(arguments.out / "summary.json")
                                   : read_file(arguments.out / "recognition.md"));
@@ -167,7 +169,13 @@ std::function<ExitCode()> declare_train(CLI::App& app) {
 
 std::function<ExitCode()> declare_evaluate(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  app.add_option("dataset", arguments->datasets, "folder of views")->required()->expected(1);
+  app.add_option(
+         "dataset", arguments->datasets,
+         "folders of views; objects that the model does not know count for their category alone")
+      ->required();
+  app.add_option("--training", arguments->training,
+                 "folders of views that `baselines` are trained on; default: what the dataset has "
+                 "beside the views that are tested");
   declare_common<RecognitionStudyOptions>(app, *arguments);
   app.add_option("--model", arguments->model, "trained model")->required();
   app.add_option("--out", arguments->out, "folder for results and tables")->required();

@@ -168,7 +168,11 @@ void set_value(ConfigNode& root, const std::string& key, ConfigNode value) {
     node = const_cast<ConfigNode*>(node->find(name));
     begin = dot + 1;
   }
-  node->set(key.substr(begin), std::move(value));
+  const std::string last = key.substr(begin);
+  // Another strategy has other options: those of the one before go with it.
+  const ConfigNode* name = begin > 0 && last == "name" ? node->find("name") : nullptr;
+  if (name != nullptr && to_yaml(*name) != to_yaml(value)) node->entries.clear();
+  node->set(last, std::move(value));
 }
 
 /// What an assignment says of `key`: its own value, a part of it, or the name that it stands for.
@@ -225,8 +229,10 @@ KeyValue parse_override(const std::string& assignment) {
 }
 
 void set_values(ConfigNode& root, std::vector<KeyValue> values) {
-  std::ranges::stable_sort(
-      values, {}, [](const KeyValue& value) { return std::ranges::count(value.first, '.'); });
+  std::ranges::stable_sort(values, {}, [](const KeyValue& value) {
+    const bool name = value.first.ends_with(".name");  // comes before the options of its strategy
+    return std::pair(std::ranges::count(value.first, '.'), name ? 0 : 1);
+  });
   for (auto value = values.begin(); value != values.end(); ++value) {
     for (auto before = values.begin(); before != value; ++before) {
       const ConfigNode* said = said_of(*before, value->first);

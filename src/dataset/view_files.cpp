@@ -61,8 +61,23 @@ void write_view(const ObjectView& view, const ViewEntry& entry) {
   const cv::Mat mask = 255 * look_at(view, CV_8UC1, view.mask);
   write_image(entry.file("maskcrop.png"), mask, {cv::IMWRITE_PNG_BILEVEL, 1});
   write_text(entry.file("loc.txt"), fmt::format("{},{}\n", view.left_px, view.top_px));
-  write_text(entry.file("pose.txt"),
-             fmt::format("{:.4f}\n", entry.yaw_rad * 180.0 / std::numbers::pi));
+  write_pose(entry);
+}
+
+void write_pose(const ViewEntry& entry) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  std::string text = fmt::format("{:.4f}", entry.yaw_rad * kDegrees);
+  if (entry.given_elevation_rad) {
+    text += fmt::format(" {:.4f}", *entry.given_elevation_rad * kDegrees);
+  }
+  write_text(entry.file("pose.txt"), text + "\n");
+}
+
+void remove_view(const ViewEntry& entry) {
+  std::error_code ignored;
+  for (const char* file : {"crop.png", "depthcrop.png", "maskcrop.png", "loc.txt", "pose.txt"}) {
+    std::filesystem::remove(entry.file(file), ignored);
+  }
 }
 
 }  // namespace vantage

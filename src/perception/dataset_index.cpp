@@ -48,25 +48,49 @@ std::vector<fs::path> sorted_folders(const fs::path& folder) {
   return found;
 }
 
-double read_yaw_rad(const fs::path& file) {
+struct Pose {
+  double yaw_rad = 0.0;
+  std::optional<double> elevation_rad;
+};
+
+/// "yaw" or "yaw elevation", degrees.
+Pose read_pose(const fs::path& file) {
   const std::string text = read_file(file);
-  const auto first = text.find_first_not_of(" \t\r\n");
-  const char* begin = text.data() + std::min(first, text.size());
+  const char* at = text.data();
   const char* end = text.data() + text.size();
-  double degrees = 0.0;
-  const auto [stop, error] = std::from_chars(begin, end, degrees);
-  const bool rest_blank = std::all_of(stop, end, [](char c) { return std::isspace(c) != 0; });
-  if (error != std::errc{} || !rest_blank || !std::isfinite(degrees)) {
-    throw InputError(fmt::format("{}: expected the pose in degrees, one number", file.string()));
+  std::vector<double> degrees;
+  while (true) {
+    at = std::find_if_not(at, end, [](char c) { return std::isspace(c) != 0; });
+    double number = 0.0;
+    const auto [stop, error] = std::from_chars(at, end, number);
+    if (error != std::errc{}) break;
+    degrees.push_back(number);
+    at = stop;
   }
-  const double turns = degrees / 360.0;
+  const bool finite = std::ranges::all_of(degrees, [](double d) { return std::isfinite(d); });
+  if (at != end || !finite || degrees.empty() || degrees.size() > 2) {
+    throw InputError(fmt::format(
+        "{}: expected the pose in degrees, one number, or two with the camera's elevation",
+        file.string()));
+  }
+  if (degrees.size() == 2 && std::abs(degrees[1]) > 90.0) {
+    throw InputError(
+        fmt::format("{}: an elevation of {} deg is beyond 90", file.string(), degrees[1]));
+  }
+  const double turns = degrees[0] / 360.0;
   const double yaw_rad = 2.0 * std::numbers::pi * (turns - std::floor(turns));
-  return yaw_rad < 2.0 * std::numbers::pi ? yaw_rad : 0.0;
+  Pose pose{.yaw_rad = yaw_rad < 2.0 * std::numbers::pi ? yaw_rad : 0.0, .elevation_rad = {}};
+  if (degrees.size() == 2) pose.elevation_rad = degrees[1] * kRadiansPerDegree;
+  return pose;
 }
 
 class Indexer {
  public:
-  explicit Indexer(OnBadView on_bad) : on_bad_(on_bad) {}
+  Indexer(const fs::path& root, OnBadView on_bad) : on_bad_(on_bad) {
+    if (auto notes = read_picture_notes(root)) {
+      notes_ = std::make_shared<const PictureNotes>(std::move(*notes));
+    }
+  }
 
   void add_object(const fs::path& folder) {
     std::set<std::string> names;
@@ -87,7 +111,7 @@ class Indexer {
     std::map<std::string, int> views_of;
     for (const ViewEntry& view : index_.views) ++views_of[view.name.category];
     std::erase_if(index_.views, [&](const ViewEntry& view) {
-      if (views_of[view.name.category] > 1) return false;
+      if (notes_ || views_of[view.name.category] > 1) return false;
       reject(view.file("crop.png"), "the only view of its category");
       return true;
     });
@@ -99,20 +123,25 @@ class Indexer {
 
  private:
   void add_view(const fs::path& folder, const ViewName& name, const std::set<std::string>& files) {
-    ViewEntry view{name, folder, 0.0};
+    ViewEntry view{name, folder, 0.0, {}, notes_, {}};
     for (const std::string_view suffix : kBeside) {
       const fs::path file = view.file(suffix);
       if (!files.contains(file.filename().string())) return reject(file, "is missing");
     }
-    if (!video_elevation_rad(name.video)) {
-      return reject(view.file("crop.png"), fmt::format("video {} is none of 1, 2, 4", name.video));
-    }
     try {
-      view.yaw_rad = read_yaw_rad(view.file("pose.txt"));
+      const Pose pose = read_pose(view.file("pose.txt"));
+      view.yaw_rad = pose.yaw_rad;
+      view.given_elevation_rad = pose.elevation_rad;
     } catch (const InputError& error) {
       if (on_bad_ == OnBadView::fail) throw;
       index_.skipped.push_back({view.file("pose.txt"), error.what()});
       return;
+    }
+    if (!view.given_elevation_rad && !video_elevation_rad(name.video)) {
+      return reject(view.file("crop.png"),
+                    fmt::format("video {} is none of 1, 2, 4, and pose.txt holds no elevation "
+                                "after the yaw",
+                                name.video));
     }
     index_.views.push_back(std::move(view));
   }
@@ -124,6 +153,7 @@ class Indexer {
   }
 
   OnBadView on_bad_;
+  std::shared_ptr<const PictureNotes> notes_;
   DatasetIndex index_;
 };
 
@@ -162,6 +192,19 @@ int yaw_bin(double yaw_rad, int bins) {
   return bin % bins;
 }
 
+double ViewEntry::elevation_rad() const {
+  if (given_elevation_rad) return *given_elevation_rad;
+  const auto of_video = video_elevation_rad(name.video);
+  if (!of_video) {
+    throw InputError(fmt::format("{}: its video is none of 1, 2, 4", file("crop.png").string()));
+  }
+  return *of_video;
+}
+
+ObjectCut ViewEntry::mask_from() const {
+  return notes ? object_cut_of(notes->cut, kPictureNotes) : ObjectCut::mask;
+}
+
 fs::path ViewEntry::file(std::string_view suffix) const {
   return folder / fmt::format("{}_{}", to_string(name), suffix);
 }
@@ -171,7 +214,7 @@ DatasetIndex index_dataset(const fs::path& root, OnBadView on_bad) {
   if (!fs::is_directory(root, error)) {
     throw InputError(fmt::format("{}: no such folder of a dataset", root.string()));
   }
-  Indexer indexer(on_bad);
+  Indexer indexer(root, on_bad);
   for (const fs::path& category : sorted_folders(root)) {
     for (const fs::path& object : sorted_folders(category)) indexer.add_object(object);
   }

@@ -4,10 +4,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "vantage/perception/object_cut.hpp"
+#include "vantage/perception/picture_notes.hpp"
 
 namespace vantage {
 
@@ -15,7 +19,7 @@ namespace vantage {
 struct ViewName {
   std::string category;  ///< "coffee_mug"
   std::string object;    ///< "coffee_mug_3"
-  int video = 0;         ///< 1, 2 or 4
+  int video = 0;         ///< 1, 2 or 4; of imported pictures the recording, from 1
   int frame = 0;         ///< from 1
   bool operator==(const ViewName&) const = default;
 };
@@ -32,9 +36,17 @@ int yaw_bin(double yaw_rad, int bins = 8);
 
 struct ViewEntry {
   ViewName name;
-  std::filesystem::path folder;  ///< of the object
-  double yaw_rad = 0.0;          ///< of the object on the turntable, [0, 2 pi)
+  std::filesystem::path folder;                    ///< of the object
+  double yaw_rad = 0.0;                            ///< of the object on the turntable, [0, 2 pi)
+  std::optional<double> given_elevation_rad = {};  ///< in its pose; nothing: that of its video
+  /// Of the dataset it was imported into; null: none, as of a rendered dataset.
+  std::shared_ptr<const PictureNotes> notes = {};
+  /// How it is to be cut when it is loaded, whatever its mask; nothing: by its mask.
+  std::optional<ObjectCut> cut = {};
 
+  [[nodiscard]] double elevation_rad() const;  ///< of the camera above the object's support
+  /// How its mask was made; `mask` unless its dataset says otherwise.
+  [[nodiscard]] ObjectCut mask_from() const;
   /// One of the view's files; `suffix` is "crop.png", "loc.txt", ...
   [[nodiscard]] std::filesystem::path file(std::string_view suffix) const;
 };
@@ -51,9 +63,10 @@ struct DatasetIndex {
   std::vector<SkippedView> skipped;  ///< empty with OnBadView::fail
 };
 
-/// Lists the views and reads their yaw; no image is opened. A view is bad if one of its files is
-/// missing, its pose is no number, its video is unknown or its category has no other view. Files of
-/// other names are left alone.
+/// Lists the views and reads their pose, `yaw` or `yaw elevation` in degrees; no image is opened. A
+/// view is bad if one of its files is missing, its pose is no such numbers, or its elevation is
+/// neither in its pose nor that of its video; in a dataset without notes also if its category has
+/// no other view. Files of other names are left alone.
 /// @throws InputError naming the file of the first bad view (OnBadView::fail), or the root if it is
 /// no folder or holds no view.
 DatasetIndex index_dataset(const std::filesystem::path& root, OnBadView on_bad = OnBadView::fail);

@@ -1,53 +1,31 @@
 #include "vantage/perception/dataset_reader.hpp"
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/perception/images/image_files.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr float kMetresPerMillimetre = 0.001F;
+constexpr double kMillimetre = 0.001;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& why) {
   throw InputError(fmt::format("{}: {}", file.string(), why));
 }
 
-/// OpenCV returns what it has of a truncated PNG; the chunk that ends a whole one tells.
-bool is_whole_png(const std::string& bytes) {
-  constexpr std::string_view kEnd("IEND\xae\x42\x60\x82", 8);
-  return bytes.size() > kEnd.size() && bytes.starts_with("\x89PNG") && bytes.ends_with(kEnd);
-}
-
-cv::Mat read_image(const fs::path& file, int type, std::string_view kind) {
-  const std::string bytes = read_file(file);
-  if (!is_whole_png(bytes)) fail(file, "is no whole PNG");
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                        const_cast<char*>(bytes.data()));
-  cv::Mat image;
-  try {
-    image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-  }
-  if (image.empty()) fail(file, "cannot be decoded");
-  if (image.type() != type) fail(file, fmt::format("expected a PNG of {}", kind));
-  return image.isContinuous() ? image : image.clone();
-}
-
-void require_same_size(const fs::path& file, const cv::Mat& image, const ObjectView& view) {
-  if (image.cols == view.width_px && image.rows == view.height_px) return;
-  fail(file, fmt::format("is {} x {} px, the colour crop {} x {}", image.cols, image.rows,
+void require_same_size(const fs::path& file, int width_px, int height_px, const ObjectView& view) {
+  if (width_px == view.width_px && height_px == view.height_px) return;
+  fail(file, fmt::format("is {} x {} px, the colour crop {} x {}", width_px, height_px,
                          view.width_px, view.height_px));
 }
 
@@ -63,20 +41,23 @@ std::pair<int, int> read_location(const fs::path& file) {
 }
 
 void read_colour(const fs::path& file, ObjectView& view) {
-  const cv::Mat image = read_image(file, CV_8UC3, "8-bit colour");
-  view.width_px = image.cols;
-  view.height_px = image.rows;
-  view.rgb.assign(image.datastart, image.dataend);
-  for (std::size_t i = 0; i < view.rgb.size(); i += 3) std::swap(view.rgb[i], view.rgb[i + 2]);
+  ColourImage image = read_colour_image(file);
+  view.width_px = image.width_px;
+  view.height_px = image.height_px;
+  view.rgb = std::move(image.rgb);
 }
 
-void read_depth(const fs::path& file, ObjectView& view) {
-  const cv::Mat image = read_image(file, CV_16UC1, "16-bit depth");
-  require_same_size(file, image, view);
-  view.depth_m.reserve(image.total());
-  std::transform(
-      image.begin<std::uint16_t>(), image.end<std::uint16_t>(), std::back_inserter(view.depth_m),
-      [](std::uint16_t depth_mm) { return kMetresPerMillimetre * static_cast<float>(depth_mm); });
+void read_depth(const fs::path& file, double unit_m, ObjectView& view) {
+  DepthImage image = read_depth_image(file, unit_m);
+  require_same_size(file, image.width_px, image.height_px, view);
+  view.depth_m = std::move(image.depth_m);
+}
+
+void read_mask(const fs::path& file, ObjectView& view) {
+  MaskImage image = read_mask_image(file);
+  require_same_size(file, image.width_px, image.height_px, view);
+  view.mask = std::move(image.mask);
+  if (std::ranges::find(view.mask, 1) == view.mask.end()) fail(file, "the mask is empty");
 }
 
 /// The file beside `<stem>_crop.png` with another ending; nothing if it is not there.
@@ -90,32 +71,63 @@ std::optional<fs::path> file_beside(const fs::path& colour, std::string_view end
   return file;
 }
 
-/// Of the video in the file's name, if it has that form.
-std::optional<double> elevation_in_name(const fs::path& colour) {
+/// Of the dataset that `<root>/<category>/<object>/<stem>_crop.png` lies in.
+std::optional<PictureNotes> notes_beside(const fs::path& colour) {
+  if (!colour.filename().string().ends_with("_crop.png")) return std::nullopt;
+  return read_picture_notes(fs::absolute(colour).parent_path().parent_path().parent_path());
+}
+
+/// The numbers in the pose beside, degrees.
+std::vector<double> pose_beside(const fs::path& colour) {
+  const auto file = file_beside(colour, "pose.txt");
+  if (!file) return {};
+  const std::string text = read_file(*file);
+  const char* at = text.data();
+  const char* end = at + text.size();
+  std::vector<double> degrees;
+  for (;;) {
+    at = std::find_if_not(at, end, [](char c) { return std::isspace(c) != 0; });
+    double number = 0.0;
+    const auto read = std::from_chars(at, end, number);
+    if (read.ec != std::errc{} || !std::isfinite(number)) break;
+    degrees.push_back(number);
+    at = read.ptr;
+  }
+  if (degrees.empty()) fail(*file, "expected a yaw in degrees");
+  return degrees;
+}
+
+/// From the pose beside, or of the video in the file's name.
+std::optional<double> elevation_beside(const fs::path& colour) {
+  const std::vector<double> pose = pose_beside(colour);
+  if (pose.size() > 1) return pose[1] * std::numbers::pi / 180.0;
   const std::string name = colour.filename().string();
   const auto view = parse_view_name(name.substr(0, name.rfind('_')));
   return view ? video_elevation_rad(view->video) : std::nullopt;
 }
 
-/// What is measured and no farther than `max_depth_m`; everything if that is 0.
-void mask_by_depth(const fs::path& file, double max_depth_m, ObjectView& view) {
-  for (const float depth_m : view.depth_m) {
+void take_far_away(const fs::path& file, double max_depth_m, ObjectView& view) {
+  if (max_depth_m <= 0.0) return;
+  for (std::size_t i = 0; i < view.mask.size(); ++i) {
+    const float depth_m = view.depth_m[i];
     const bool near = depth_m > 0.0F && static_cast<double>(depth_m) <= max_depth_m;
-    view.mask.push_back(static_cast<std::uint8_t>(max_depth_m <= 0.0 || near));
+    if (!near) view.mask[i] = 0;
   }
   if (std::ranges::find(view.mask, 1) == view.mask.end()) {
     fail(file, fmt::format("nothing is nearer than {} m", max_depth_m));
   }
 }
 
-void read_mask(const fs::path& file, ObjectView& view) {
-  const cv::Mat image = read_image(file, CV_8UC1, "1 or 8 bits of grey");
-  require_same_size(file, image, view);
-  view.mask.reserve(image.total());
-  std::transform(image.begin<std::uint8_t>(), image.end<std::uint8_t>(),
-                 std::back_inserter(view.mask),
-                 [](std::uint8_t value) { return static_cast<std::uint8_t>(value != 0); });
-  if (std::ranges::find(view.mask, 1) == view.mask.end()) fail(file, "the mask is empty");
+/// By depth or not at all; `up` from the support surface if it is not `known`.
+void cut_as(ObjectCut cut, const fs::path& depth, bool elevation_known, ObjectView& view) {
+  if (cut == ObjectCut::whole) {
+    view = cut_nothing(std::move(view));
+    return;
+  }
+  CutObject found = cut_by_depth(view);
+  if (!found.view) fail(depth, found.reason);
+  view = std::move(*found.view);
+  if (!elevation_known && found.elevation_rad) view.up = up_in_camera(*found.elevation_rad);
 }
 
 }  // namespace
@@ -128,44 +140,68 @@ LabelledView load_view(const ViewEntry& entry) {
   LabelledView labelled{{}, entry.name, entry.yaw_rad, yaw_bin(entry.yaw_rad)};
   ObjectView& view = labelled.view;
   read_colour(entry.file("crop.png"), view);
-  read_depth(entry.file("depthcrop.png"), view);
-  read_mask(entry.file("maskcrop.png"), view);
+  read_depth(entry.file("depthcrop.png"), kMillimetre, view);
   std::tie(view.left_px, view.top_px) = read_location(entry.file("loc.txt"));
-  const auto elevation_rad = video_elevation_rad(entry.name.video);
-  if (!elevation_rad) fail(entry.file("crop.png"), "its video is none of 1, 2, 4");
-  view.up = up_in_camera(*elevation_rad);
+  if (entry.notes) {
+    view.focal_px = entry.notes->focal_px;
+    view.centre_px = {entry.notes->centre_px[0], entry.notes->centre_px[1]};
+  }
+  view.up = up_in_camera(entry.elevation_rad());
+  const ObjectCut cut = entry.cut.value_or(entry.mask_from());
+  if (cut == entry.mask_from()) {
+    read_mask(entry.file("maskcrop.png"), view);
+  } else {
+    cut_as(cut, entry.file("depthcrop.png"), true, view);
+  }
   return labelled;
 }
 
-ObjectView load_image_pair(const fs::path& colour, const fs::path& depth,
-                           const PairSetting& setting) {
-  ObjectView view;
+ImagePair load_image_pair(const fs::path& colour, const fs::path& depth,
+                          const PairSetting& setting) {
+  ImagePair pair;
+  ObjectView& view = pair.view;
   read_colour(colour, view);
-  read_depth(depth, view);
-  if (const auto mask = file_beside(colour, "maskcrop.png")) {
-    read_mask(*mask, view);
-  } else {
-    mask_by_depth(depth, setting.max_depth_m, view);
+  read_depth(depth, setting.depth_unit_m, view);
+  const auto notes = notes_beside(colour);
+  if (notes) {
+    view.focal_px = notes->focal_px;
+    view.centre_px = {notes->centre_px[0], notes->centre_px[1]};
   }
+  if (setting.focal_px) view.focal_px = *setting.focal_px;
   if (const auto place = file_beside(colour, "loc.txt")) {
     std::tie(view.left_px, view.top_px) = read_location(*place);
   } else {
     view.left_px = static_cast<int>(view.centre_px.x()) - view.width_px / 2;
     view.top_px = static_cast<int>(view.centre_px.y()) - view.height_px / 2;
   }
-  view.up = up_in_camera(elevation_in_name(colour).value_or(setting.elevation_rad));
-  return view;
+  const auto elevation = setting.elevation_rad ? setting.elevation_rad : elevation_beside(colour);
+  view.up = up_in_camera(elevation.value_or(kUsualElevation_rad));
+  const auto mask = file_beside(colour, "maskcrop.png");
+  const ObjectCut mask_from = notes ? object_cut_of(notes->cut, kPictureNotes) : ObjectCut::mask;
+  const ObjectCut wanted = setting.cut.value_or(mask ? mask_from : ObjectCut::whole);
+  if (mask && wanted == mask_from) {
+    read_mask(*mask, view);
+    pair.cut = wanted;
+  } else {
+    pair.cut = wanted == ObjectCut::whole ? ObjectCut::whole : ObjectCut::depth;
+    cut_as(pair.cut, depth, elevation.has_value(), view);
+  }
+  take_far_away(depth, setting.max_depth_m, view);
+  return pair;
 }
 
 std::optional<double> yaw_beside(const fs::path& colour) {
-  const auto file = file_beside(colour, "pose.txt");
-  if (!file) return std::nullopt;
-  const std::string text = read_file(*file);
-  double yaw_deg = 0.0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), yaw_deg);
-  if (read.ec != std::errc{} || !std::isfinite(yaw_deg)) fail(*file, "expected a yaw in degrees");
-  const double yaw_rad = std::remainder(yaw_deg * std::numbers::pi / 180.0, 2.0 * std::numbers::pi);
+  const std::vector<double> pose = pose_beside(colour);
+  if (pose.empty()) return std::nullopt;
+  const double yaw_rad = std::remainder(pose[0] * std::numbers::pi / 180.0, 2.0 * std::numbers::pi);
   return yaw_rad < 0.0 ? yaw_rad + 2.0 * std::numbers::pi : yaw_rad;
+}
+
+std::string view_name_beside(const fs::path& colour) {
+  const auto notes = notes_beside(colour);
+  const auto yaw_rad = yaw_beside(colour);
+  if (!notes || notes->views.empty() || !yaw_rad) return {};
+  return notes->views[static_cast<std::size_t>(yaw_bin(*yaw_rad, notes->bins))];
 }
 
 std::optional<LabelledView> load_view(const ViewEntry& entry, std::vector<SkippedView>& skipped) {

@@ -21,9 +21,11 @@ struct LabelledView {
 /// Against gravity in the frame of a camera that looks down by `elevation_rad`.
 Eigen::Vector3d up_in_camera(double elevation_rad);
 
-/// Opens the images of a view. `up` follows from the elevation of its video.
+/// Opens the images of a view. `up` follows from its elevation; intrinsics are those of its
+/// dataset's notes. It is cut as `entry.cut` says.
 /// @throws InputError naming the file if an image is missing, damaged or of another kind (8-bit
-/// colour, 16-bit depth, mask), sizes differ, the mask is empty or loc.txt is not `x,y`.
+/// colour, 16-bit depth, mask), sizes differ, the mask is empty, loc.txt is not `x,y`, or nothing
+/// is left by the cut.
 LabelledView load_view(const ViewEntry& entry);
 
 /// The same, but a bad view is recorded and nothing returned.
@@ -31,20 +33,36 @@ std::optional<LabelledView> load_view(const ViewEntry& entry, std::vector<Skippe
 
 /// What two images do not say of themselves.
 struct PairSetting {
-  double elevation_rad = 0.785;  ///< of the camera above the object's table
-  double max_depth_m = 0.0;      ///< what is beyond is not the object; 0: everything is
+  /// Of the camera above the object's support; nothing: from the files beside, else as the picture
+  /// shows its support surface, else kUsualElevation_rad.
+  std::optional<double> elevation_rad = {};
+  double max_depth_m = 0.0;  ///< what is beyond is not the object; 0: nothing is
+  /// As the model's pictures were cut; nothing: by the mask beside, or not at all.
+  std::optional<ObjectCut> cut = {};
+  std::optional<double> focal_px = {};  ///< nothing: of the notes beside, else ObjectView's
+  double depth_unit_m = 0.0;            ///< what 1 in the depth file stands for; 0: found out
+};
+inline constexpr double kUsualElevation_rad = 0.785;
+
+struct ImagePair {
+  ObjectView view;
+  ObjectCut cut = ObjectCut::mask;  ///< how it was done
 };
 
-/// A view from an image and its depth, of the same size. Files of the dataset's form that lie
-/// beside `<stem>_crop.png` are used: the mask, the place in the image, and the video's elevation.
-/// Without a mask what is nearer than `max_depth_m` is the object; without a place the images are
-/// the middle of the full image.
+/// A view from an image and its depth of the same size, of the formats of image_files.hpp. Of
+/// `<stem>_crop.png` in a dataset the files beside count: mask, place in the image, elevation,
+/// intrinsics. Asked to cut by a mask where there is none, it cuts by depth. What is beyond
+/// `max_depth_m` is never the object. Without a place the images are the middle of the full image.
 /// @throws InputError as load_view, also if nothing is near enough.
-ObjectView load_image_pair(const std::filesystem::path& colour, const std::filesystem::path& depth,
-                           const PairSetting& setting);
+ImagePair load_image_pair(const std::filesystem::path& colour, const std::filesystem::path& depth,
+                          const PairSetting& setting);
 
 /// Yaw in the `_pose.txt` beside `<stem>_crop.png`, [0, 2 pi); nothing if there is no such file.
 /// @throws InputError naming the file if it holds no number.
 std::optional<double> yaw_beside(const std::filesystem::path& colour);
+
+/// The name of the view in an imported dataset; empty if it has none, or lies in no such dataset.
+/// @throws InputError, ConfigError if the files beside are damaged.
+std::string view_name_beside(const std::filesystem::path& colour);
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/transition_training.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
 
@@ -14,16 +15,21 @@ namespace {
 
 constexpr auto kModel = "recognition model";
 
+constexpr double kImpossible = -1e9;  // of a log density; psi times it is still finite
+
 /// Tables of divergences, or none.
 enum class Tables { made, none };
 
 /// Bhattacharyya distances only: the default measure asks for no other.
-RecogniserFeature ready(FeaturePair pair, int threads, Tables tables) {
+/// @param impossible states that no view can be of
+RecogniserFeature ready(FeaturePair pair, int threads, Tables tables,
+                        const std::vector<int>& impossible) {
   RecogniserFeature feature{.extractor = std::move(pair.extractor),
                             .observation = std::move(pair.observation),
                             .prepared = {},
                             .tables = {}};
   feature.prepared = prepare(feature.observation);
+  for (const int state : impossible) feature.prepared.log_at_mean[state] = kImpossible;
   if (tables == Tables::none) return feature;
   feature.tables.bhattacharyya_nats =
       divergence_table(Divergence::bhattacharyya, feature.observation, threads);
@@ -53,7 +59,7 @@ std::vector<const FeatureModel*> wanted_features(const RecognitionModel& model,
 }
 
 Recogniser assembled(ObjectStates states, std::vector<FeaturePair> features, int threads,
-                     Tables tables) {
+                     Tables tables, const std::vector<int>& impossible = {}) {
   expects(!features.empty(), "a recogniser has features");
   Recogniser recogniser{
       .states = std::move(states), .features = {}, .tables = {}, .transition = {}};
@@ -62,7 +68,7 @@ Recogniser assembled(ObjectStates states, std::vector<FeaturePair> features, int
   if (tables == Tables::made) sum.setZero(count, count);
   for (FeaturePair& pair : features) {
     expects(pair.observation.states() == count, "a feature models every state");
-    recogniser.features.push_back(ready(std::move(pair), threads, tables));
+    recogniser.features.push_back(ready(std::move(pair), threads, tables, impossible));
     if (tables == Tables::made) sum += recogniser.features.back().tables.bhattacharyya_nats;
   }
   return recogniser;
@@ -74,13 +80,15 @@ Recogniser make_named_recogniser(const RecognitionModel& model, const Recogniser
   check_options(options);
   std::vector<FeaturePair> pairs;
   for (const FeatureModel* feature : wanted_features(model, options.features)) {
-    pairs.push_back({extractor_of(*feature, source),
-                     make_observation_model(*feature, model.states.bins, options.variance)});
+    pairs.push_back(
+        {extractor_of(*feature, source),
+         make_observation_model(*feature, model.states.bins, floored(model, options.variance))});
   }
   if (pairs.empty() || model.states.size() == 0) {
     throw InputError(source + ": holds no features or no objects");
   }
-  Recogniser recogniser = assembled(model.states, std::move(pairs), threads, tables);
+  Recogniser recogniser =
+      assembled(model.states, std::move(pairs), threads, tables, unseen_states(model));
   recogniser.transition = transition_of(model);
   return recogniser;
 }

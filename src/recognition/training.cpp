@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -11,6 +13,8 @@
 
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/perception/features/kit/k_means.hpp"
+#include "vantage/recognition/dataset/few_views.hpp"
+#include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/dataset/transition_training.hpp"
 #include "vantage/recognition/recogniser.hpp"
@@ -20,10 +24,28 @@ namespace {
 
 std::string name_of(const ViewFeatures& view) { return to_string(view.name); }
 
-std::vector<ViewEntry> training_views(const DatasetIndex& dataset, const TrainingOptions& options) {
-  std::vector<ViewEntry> views = views_of_videos(dataset, options.videos);
-  if (views.empty()) throw InputError("videos: the dataset has no views of those to train on");
+constexpr int kUsualBins = 8;
+constexpr std::size_t kManyViewsOfState = 6;
+
+std::vector<ViewEntry> training_views(const DatasetIndex& dataset, const TrainingOptions& options,
+                                      const std::optional<PictureNotes>& notes) {
+  std::vector<ViewEntry> views = chosen_views(dataset, options.videos, options.recordings);
+  fit_to(notes, views);
+  drop_copies(views);
   return views;
+}
+
+/// What `auto` stands for.
+HeldOut held_out_of(const TrainingOptions& options, std::span<const ViewFeatures> views,
+                    bool imported) {
+  const auto* by_itself = std::get_if<HeldOutAuto>(&options.held_out);
+  if (by_itself == nullptr) return options.held_out;
+  std::set<std::pair<std::filesystem::path, int>> recordings;
+  for (const ViewFeatures& view : views) {
+    recordings.emplace(view.folder.parent_path().parent_path(), view.name.video);
+  }
+  if (imported && recordings.size() > 1) return HeldOutRecordings{};
+  return HeldOutShare{.share = by_itself->share};
 }
 
 std::vector<ObjectView> views_to_learn_from(std::span<const ViewEntry> views,
@@ -74,12 +96,49 @@ void require_features(std::span<const ViewFeatures> views, std::span<const Featu
   }
 }
 
-std::vector<double> calibrated_psi(std::span<const ViewFeatures> views, std::span<const int> shown,
-                                   const RecognitionModel& model, const TrainingOptions& options,
-                                   const LongWork& how) {
-  const Calibration calibration =
-      hold_out(views, shown, model, {options.held_out, options.variance, options.seed}, how);
-  return choose_psi(options.psi, {.models = calibration.models, .held_out = calibration.held_out});
+struct Calibrated {
+  std::vector<double> psi;
+  double variance_floor = 0.0;  ///< 0: that of the options
+};
+
+/// The highest of some floors whose held-out views are as likely as those of the best, within a
+/// standard error: of few pictures, single dimensions look more reliable than they are.
+/// [HastieTibshiraniFriedman2009, 7.10]
+Calibrated calibrated_on_few(std::span<const ViewFeatures> views, std::span<const int> shown,
+                             const RecognitionModel& model, const TrainingOptions& options,
+                             HoldOutOptions hold, const LongWork& how) {
+  const auto shrunk = std::get<ShrunkVariance>(options.variance);
+  Calibrated chosen;
+  double least = -std::numeric_limits<double>::infinity();
+  std::vector<std::pair<Calibrated, LogObject>> tried;
+  for (const double floor : {0.0, 0.1, 0.3, 1.0, 3.0}) {
+    hold.variance = ShrunkVariance{.nu0 = shrunk.nu0, .floor = std::max(shrunk.floor, floor)};
+    Calibration calibration = hold_out(views, shown, model, hold, how);
+    const std::size_t real = calibration.held_out.state.size();
+    add_a_mistake(calibration.held_out);
+    const std::vector<double> psi =
+        choose_psi(options.psi, {.models = calibration.models, .held_out = calibration.held_out});
+    tried.emplace_back(Calibrated{psi, floor}, log_object(calibration.held_out, psi, real));
+    least = std::max(least, tried.back().second.mean - tried.back().second.standard_error);
+  }
+  for (const auto& [calibrated, log] : tried) {
+    if (log.mean >= least) chosen = calibrated;
+  }
+  return chosen;
+}
+
+Calibrated calibrated(std::span<const ViewFeatures> views, std::span<const int> shown,
+                      const RecognitionModel& model, const TrainingOptions& options, bool imported,
+                      const LongWork& how) {
+  const HoldOutOptions hold{held_out_of(options, views, imported), options.variance, options.seed,
+                            imported};
+  const bool few = imported && std::holds_alternative<ShrunkVariance>(options.variance) &&
+                   std::holds_alternative<CalibratedPsi>(options.psi) &&
+                   views.size() < kManyViewsOfState * static_cast<std::size_t>(model.states.size());
+  if (few) return calibrated_on_few(views, shown, model, options, hold, how);
+  const Calibration calibration = hold_out(views, shown, model, hold, how);
+  return {.psi = choose_psi(options.psi,
+                            {.models = calibration.models, .held_out = calibration.held_out})};
 }
 
 }  // namespace
@@ -101,6 +160,7 @@ void TrainingOptions::check() const {
   if (videos.empty() || std::set(videos.begin(), videos.end()).size() != videos.size()) {
     throw ConfigError("videos: some are needed, each once");
   }
+  if (bins == 1) throw ConfigError("bins: 1 tells no poses apart; 0 takes what the pictures have");
   if (std::holds_alternative<HeldOutVideos>(held_out) && videos.size() < 2) {
     throw ConfigError("held_out videos: needs two videos or more to train on");
   }
@@ -109,23 +169,27 @@ void TrainingOptions::check() const {
 RecognitionModel train_recognition(const DatasetIndex& dataset, const TrainingOptions& options,
                                    const LongWork& how) {
   check_options(options);
-  const std::vector<ViewEntry> entries = training_views(dataset, options);
+  const std::optional<PictureNotes> notes =
+      common_notes(chosen_views(dataset, options.videos, options.recordings), options.bins);
+  const std::vector<ViewEntry> entries = training_views(dataset, options, notes);
+  const int bins = options.bins > 0 ? options.bins : notes ? notes->bins : kUsualBins;
   const std::vector<TrainedFeature> extractors = learn_features(entries, options, how);
   const std::vector<ViewFeatures> views =
       extract_features(entries, extractors, how, "extracting features");
-  RecognitionModel model{.states = states_of(entries, options.bins),
-                         .features = empty_models(extractors),
-                         .transitions = {}};
+  RecognitionModel model{
+      .states = states_of(entries, bins), .features = empty_models(extractors), .transitions = {}};
   require_features(views, model.features);
   const std::vector<int> shown = states_shown(views, model.states);
-  const std::vector<double> psi = calibrated_psi(views, shown, model, options, how);
+  const auto [psi, variance_floor] =
+      calibrated(views, shown, model, options, notes.has_value(), how);
+  if (notes) keep_notes(*notes, variance_floor, model);
   for (std::size_t f = 0; f < model.features.size(); ++f) {
     model.features[f].psi = psi[f];
     add_states(model.features[f].statistics, model.states.size());
     add_views(model.features[f].statistics, views, shown, f);
   }
   if (options.transition_prior_moves > 0.0) {
-    model.transitions = learn_transition(views, model, options.variance,
+    model.transitions = learn_transition(views, model, floored(model, options.variance),
                                          options.transition_prior_moves, options.seed);
   }
   return model;
@@ -138,7 +202,7 @@ void extend_recognition(RecognitionModel& model, const DatasetIndex& dataset,
   for (const FeatureModel& feature : model.features) {
     extractors.push_back(extractor_of(feature, "recognition model"));
   }
-  const std::vector<ViewEntry> entries = training_views(dataset, options);
+  const std::vector<ViewEntry> entries = training_views(dataset, options, notes_of(model));
   const ObjectStates added = states_of(entries, model.states.bins);
   add_objects(model.states, added);
   const std::vector<ViewFeatures> views =

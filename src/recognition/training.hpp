@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "vantage/belief/objects/psi_rule.hpp"
@@ -15,9 +16,10 @@ struct TrainingOptions {
   std::uint64_t seed = 1;
   std::vector<Feature> features{Colour{}, BoundingBox{}, Sift{}, Vfh{}};
   std::vector<int> videos{1, 4};
-  int bins = 8;
+  std::vector<std::string> recordings;
+  int bins = 0;
   int feature_views = 1000;
-  HeldOut held_out = HeldOutShare{};
+  HeldOut held_out = HeldOutAuto{};
   VarianceEstimate variance = ShrunkVariance{};
   PsiRule psi = CalibratedPsi{};
   /// The transition is learnt from walks round the training views.
@@ -26,12 +28,15 @@ struct TrainingOptions {
     f("seed", seed, "seed of every random stream; the same seed gives the same model");
     f("features", features, "features to learn, each a name or a name with options");
     f("videos", videos,
-      "videos of the dataset to train on: 1, 2 and 4 are recorded from 30, 45 and 60 deg of "
-      "elevation",
+      "videos of a turntable dataset to train on: 1, 2 and 4 are recorded from 30, 45 and 60 deg "
+      "of elevation; of imported pictures see `recordings`",
       between(1, 4));
+    f("recordings", recordings,
+      "names of the recordings of imported pictures to train on; empty: all");
     f("bins", bins,
-      "number of yaw bins of an object; more tell poses apart better, with fewer views each",
-      between(2, 3600));
+      "number of yaw bins of an object; more tell poses apart better, with fewer views each; 0: as "
+      "the pictures were imported, else 8",
+      between(0, 3600));
     f("feature_views", feature_views,
       "number of views, drawn at random, that features are learnt from; higher is slower",
       at_least(2));

@@ -113,7 +113,7 @@ TEST_F(RecognitionCommands, AModelOrATableIsNotReplacedUnasked) {
 }
 
 TEST_F(RecognitionCommands, TrainsOnSeveralRecordingsOfTheSameObjects) {
-  put({"mug", "mug_1", 0}, "again");
+  put({"mug", "mug_1", 3}, "again");  // in other light: copies would count once
   put({"can", "can_3", 90}, "again");
   const json model = parsed("train data again --out model -q --json --set 'features=[colour]'");
   EXPECT_EQ(model["objects"], 4);

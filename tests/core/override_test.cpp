@@ -38,6 +38,14 @@ TEST(Override, RefinesAStrategyWrittenAsItsName) {
   EXPECT_EQ(result("gain:\n  name: adaptive\n  prior: 0.1\n", "gain=simple"), "gain: simple\n");
 }
 
+TEST(Override, AnotherNameTakesTheOptionsOfTheOneBeforeAway) {
+  ConfigNode root = parse_yaml("gain: {name: adaptive, a: 1, b: 2}", "file");
+  apply_overrides(root, {"gain.c=3", "gain.name=simple"});
+  EXPECT_EQ(to_yaml(root), to_yaml(parse_yaml("gain: {name: simple, c: 3}", "file")));
+  apply_overrides(root, {"gain.name=simple"});
+  EXPECT_EQ(to_yaml(root), to_yaml(parse_yaml("gain: {name: simple, c: 3}", "file")));
+}
+
 TEST(Override, TheValueIsYaml) {
   EXPECT_EQ(result("", "a=[1, 2]"), "a: [1, 2]\n");
   EXPECT_EQ(result("", "a={b: 1}"), "a:\n  b: 1\n");

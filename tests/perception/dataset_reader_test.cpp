@@ -99,7 +99,7 @@ TEST_F(Reader, NamesSizesThatDiffer) {
 
 TEST_F(Reader, NamesAPictureOfAnotherKind) {
   cv::imwrite(entry_.file("depthcrop.png").string(), cv::Mat(4, 5, CV_8UC1, cv::Scalar(90)));
-  expect_bad("depthcrop.png", "expected a PNG of 16-bit depth");
+  expect_bad("depthcrop.png", "expected 16-bit depth");
 }
 
 TEST_F(Reader, NamesAnEmptyMask) {
@@ -114,7 +114,7 @@ TEST_F(Reader, NamesABadLocation) {
 
 TEST_F(Reader, APairOfPicturesIsTheViewWithTheFilesBesideThem) {
   const auto colour = entry_.file("crop.png");
-  const ObjectView pair = load_image_pair(colour, entry_.file("depthcrop.png"), {});
+  const ObjectView pair = load_image_pair(colour, entry_.file("depthcrop.png"), {}).view;
   const ObjectView whole = load_view(entry_).view;
   EXPECT_EQ(pair.rgb, whole.rgb);
   EXPECT_EQ(pair.depth_m, whole.depth_m);
@@ -131,13 +131,13 @@ TEST_F(Reader, APairByItselfIsMaskedByDepthAndInTheMiddle) {
   std::filesystem::copy(entry_.file("depthcrop.png"), depth);
   EXPECT_FALSE(yaw_beside(colour).has_value());
   const ObjectView near =
-      load_image_pair(colour, depth, {.elevation_rad = 0.0, .max_depth_m = 1.0015});
+      load_image_pair(colour, depth, {.elevation_rad = 0.0, .max_depth_m = 1.0015}).view;
   EXPECT_THAT(near.mask,
               testing::ElementsAre(0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0));
   EXPECT_EQ(near.left_px, 318);
   EXPECT_EQ(near.top_px, 238);
   EXPECT_EQ(near.up, Eigen::Vector3d(0.0, -1.0, -0.0));
-  EXPECT_THAT(load_image_pair(colour, depth, {}).mask, testing::Each(1));
+  EXPECT_THAT(load_image_pair(colour, depth, {}).view.mask, testing::Each(1));
   try {
     load_image_pair(colour, depth, {.max_depth_m = 0.5});
     ADD_FAILURE() << "no error";

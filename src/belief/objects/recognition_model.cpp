@@ -161,6 +161,7 @@ void write_recognition_model(const RecognitionModel& model, const std::filesyste
     expects(feature.statistics.states() == model.states.size(), "statistics of every state");
     put_feature(payload, feature);
   }
+  if (!model.pictures.empty()) put_text(payload, model.pictures);
   std::string bytes(kMagic);
   put(bytes, kVersion);
   put(bytes, static_cast<std::uint64_t>(payload.size()));
@@ -182,6 +183,7 @@ RecognitionModel read_recognition_model(const std::filesystem::path& path) {
     const std::string& name = model.features.back().name;
     reader.require(known.insert(name).second, repeated("feature", name));
   }
+  if (reader.left() > 0) model.pictures = reader.text("the notes on pictures");
   reader.finish();
   return model;
 }

@@ -27,6 +27,8 @@ struct RecognitionModel {
   ObjectStates states;
   std::vector<FeatureModel> features;  ///< of different names
   TransitionCounts transitions;        ///< empty: none was learnt
+  /// What is to be known of the pictures it was trained on (PictureNotes), if they were imported.
+  std::string pictures = {};
 };
 
 /// With the feature's name, psi and cost.

@@ -55,6 +55,11 @@ std::uint64_t view_hash(const ViewEntry& view) {
   constexpr std::array kFiles{"crop.png", "depthcrop.png", "maskcrop.png", "loc.txt"};
   std::uint64_t hash = hash_bytes(fmt::format("video {}", view.name.video));
   for (const char* file : kFiles) hash = hash_bytes(read_file(view.file(file)), hash);
+  if (view.notes) hash = hash_bytes(to_text(*view.notes), hash);
+  if (view.cut) hash = hash_bytes(to_string(*view.cut), hash);
+  if (view.given_elevation_rad) {
+    hash = hash_bytes(fmt::format("elevation {}", *view.given_elevation_rad), hash);
+  }
   return hash;
 }
 

@@ -36,14 +36,39 @@ struct HeldOutVideos {
   void fields(auto&&) {}
 };
 
-using HeldOut = std::variant<HeldOutShare, HeldOutVideos>;
+struct HeldOutRecordings {
+  static constexpr std::string_view name = "recordings";
+  static constexpr StrategyText text{
+      .summary =
+          "Holds out each recording in turn, that is each video of each folder, and trains on the "
+          "others: other rooms and light. Needs two recordings or more."};
+  void fields(auto&&) {}
+};
+
+struct HeldOutAuto {
+  static constexpr std::string_view name = "auto";
+  static constexpr StrategyText text{
+      .summary =
+          "By recordings, as `recordings` has it, if pictures were imported from two or more; else "
+          "by share, as `share` has it."};
+  double share = 0.2;
+  void fields(auto&& f) {
+    f("share", share,
+      "share of the training views that is held out where it is not by recordings; higher "
+      "calibrates better, but for a poorer model",
+      between(0.01, 0.9));
+  }
+};
+
+using HeldOut = std::variant<HeldOutShare, HeldOutVideos, HeldOutRecordings, HeldOutAuto>;
 template <>
 inline constexpr std::string_view strategy_family<HeldOut> = "held out";
 
 struct HoldOutOptions {
-  HeldOut held_out;
+  HeldOut held_out;  ///< not `auto`
   VarianceEstimate variance;
   std::uint64_t seed = 1;
+  bool only_seen = false;  ///< states without a view are impossible, as unseen_states() has it
 };
 
 /// What a psi rule may look at.

@@ -43,7 +43,8 @@ void add_objects(ObjectStates& states, const ObjectStates& added) {
   }
 }
 
-std::vector<int> states_shown(std::span<const ViewFeatures> views, const ObjectStates& states) {
+std::vector<int> states_shown_if_known(std::span<const ViewFeatures> views,
+                                       const ObjectStates& states) {
   std::map<std::string, int> index;
   for (int k = 0; k < states.object_count(); ++k) {
     index.emplace(states.objects[static_cast<std::size_t>(k)], k);
@@ -51,10 +52,18 @@ std::vector<int> states_shown(std::span<const ViewFeatures> views, const ObjectS
   std::vector<int> shown;
   for (const ViewFeatures& view : views) {
     const auto found = index.find(view.name.object);
-    if (found == index.end()) {
-      throw InputError(fmt::format("the model does not know object '{}'", view.name.object));
-    }
-    shown.push_back(states.state(found->second, yaw_bin(view.yaw_rad, states.bins)));
+    const bool known = found != index.end();
+    shown.push_back(known ? states.state(found->second, yaw_bin(view.yaw_rad, states.bins)) : -1);
+  }
+  return shown;
+}
+
+std::vector<int> states_shown(std::span<const ViewFeatures> views, const ObjectStates& states) {
+  std::vector<int> shown = states_shown_if_known(views, states);
+  const auto unknown = std::ranges::find(shown, -1);
+  if (unknown != shown.end()) {
+    const auto view = static_cast<std::size_t>(unknown - shown.begin());
+    throw InputError(fmt::format("the model does not know object '{}'", views[view].name.object));
   }
   return shown;
 }

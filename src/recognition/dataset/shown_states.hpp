@@ -21,6 +21,10 @@ void add_objects(ObjectStates& states, const ObjectStates& added);
 /// @throws InputError naming an object that `states` has not.
 std::vector<int> states_shown(std::span<const ViewFeatures> views, const ObjectStates& states);
 
+/// The same; -1 of objects that `states` has not.
+std::vector<int> states_shown_if_known(std::span<const ViewFeatures> views,
+                                       const ObjectStates& states);
+
 /// Trains on one feature of the views; those that lack it are left out.
 /// @param shown the state of each view
 void add_views(GaussianStatistics& statistics, std::span<const ViewFeatures> views,

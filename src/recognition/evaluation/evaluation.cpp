@@ -4,46 +4,67 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
+#include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 
 namespace vantage {
 namespace {
 
-Trial trial_of(const Recogniser& recogniser, const Recognition& known, int shown) {
+Trial trial_of(const Recogniser& recogniser, const Recognition& known, const TestViews& test,
+               std::size_t view) {
   const ObjectStates& states = recogniser.states;
-  Trial trial{.object = states.object_of(shown),
-              .estimate = most_probable_object(states, known.belief),
-              .observations = static_cast<int>(known.views.size()),
-              .entropy_bits = known.views.back().entropy_bits};
-  const auto category = [&](int object) {
-    return states.category_of[static_cast<std::size_t>(object)];
-  };
-  trial.correct = trial.estimate == trial.object;
-  trial.category_correct = category(trial.estimate) == category(trial.object);
-  trial.bin_error = bin_error(states, expected_state(states, known.belief), shown);
-  for (const ViewReport& view : known.views) {
-    trial.features += static_cast<int>(view.features.size());
-    trial.feature_time_s += view.feature_time_s;
-    trial.selection_time_s += view.selection_time_s;
-    trial.view_time_s += view.view_time_s;
+  const int shown = test.shown[view];
+  Trial trial = judged(states, test, view, most_probable_object(states, known.belief));
+  trial.observations = static_cast<int>(known.views.size());
+  trial.entropy_bits = known.views.back().entropy_bits;
+  if (shown >= 0) trial.bin_error = bin_error(states, expected_state(states, known.belief), shown);
+  for (const ViewReport& report : known.views) {
+    trial.features += static_cast<int>(report.features.size());
+    trial.feature_time_s += report.feature_time_s;
+    trial.selection_time_s += report.selection_time_s;
+    trial.view_time_s += report.view_time_s;
   }
   return trial;
 }
 
+int index_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
 }  // namespace
 
+Trial judged(const ObjectStates& states, const TestViews& test, std::size_t view, int estimate) {
+  Trial trial{.object = is_known(test, view) ? states.object_of(test.shown[view]) : -1,
+              .estimate = estimate,
+              .name = test.views[view].name.object,
+              .category = test.views[view].name.category,
+              .observations = 1};
+  trial.correct = trial.object == estimate;
+  trial.category_correct =
+      states.category_of[static_cast<std::size_t>(estimate)] == test.category[view];
+  return trial;
+}
+
+bool is_known(const TestViews& test, std::size_t view) { return test.shown[view] >= 0; }
+
 TestViews read_test_views(const DatasetIndex& dataset, const RecognitionModel& model, int video,
-                          const LongWork& how) {
-  const std::vector<ViewEntry> entries = views_of_videos(dataset, {{video}});
-  if (entries.empty()) throw InputError(fmt::format("the dataset has no views of video {}", video));
+                          const LongWork& how, std::span<const std::string> recordings) {
+  std::vector<ViewEntry> entries = chosen_views(dataset, {{video}}, recordings);
+  fit_to(notes_of(model), entries);
   std::vector<TrainedFeature> extractors;
   for (const FeatureModel& feature : model.features) {
     extractors.push_back(extractor_of(feature, "recognition model"));
   }
   TestViews test;
   test.views = extract_features(entries, extractors, how, "extracting features of test views");
-  test.shown = states_shown(test.views, model.states);
+  test.shown = states_shown_if_known(test.views, model.states);
+  for (const ViewFeatures& view : test.views) {
+    test.category.push_back(index_of(model.states.categories, view.name.category));
+  }
   test.turntables = turntables_of(test.views);
   return test;
 }
@@ -116,12 +137,33 @@ std::size_t DatasetCamera::view_after(double turn_rad) const {
                       test_->views[view_].yaw_rad - turn_rad);
 }
 
+double DatasetCamera::turn_to(std::size_t view) const {
+  const double turn_rad = test_->views[view_].yaw_rad - test_->views[view].yaw_rad;
+  const double whole_rad = 2.0 * std::numbers::pi;
+  return turn_rad - whole_rad * std::floor(turn_rad / whole_rad);
+}
+
 std::vector<ObjectViewAction> DatasetCamera::actions() const {
+  constexpr double kNear = 0.26;  // of a bin
+  const double bin_rad = recogniser_->states.bin_rad();
   std::vector<ObjectViewAction> actions;
-  for (int turn = 1; turn < recogniser_->states.bins; ++turn) {
-    const double turn_rad = turn * recogniser_->states.bin_rad();
-    const bool visited = std::ranges::find(seen_, view_after(turn_rad)) != seen_.end();
+  std::vector<std::size_t> offered{view_};
+  const auto offer = [&](std::size_t view, double turn_rad) {
+    const bool visited = std::ranges::find(seen_, view) != seen_.end();
     actions.push_back({.yaw_rad = turn_rad, .visited = visited});
+    offered.push_back(view);
+  };
+  for (const bool near : {true, false}) {
+    for (int turn = 1; turn < recogniser_->states.bins; ++turn) {
+      const double turn_rad = turn * bin_rad;
+      const std::size_t view = view_after(turn_rad);
+      const double off_rad = std::remainder(turn_to(view) - turn_rad, 2.0 * std::numbers::pi);
+      const bool is_near = std::abs(off_rad) <= kNear * bin_rad;
+      if (near && is_near) offer(view, turn_rad);
+      // No view near there: the nearest, as far as it is.
+      const bool is_new = std::ranges::find(offered, view) == offered.end();
+      if (!near && !is_near && is_new) offer(view, turn_to(view));
+    }
   }
   return actions;
 }
@@ -159,7 +201,7 @@ std::vector<Trial> run_trials(const Recogniser& recogniser, const TestViews& tes
     Rng rng = Rng::stream(seed, fmt::format("trial {}", i));
     DatasetCamera camera(recogniser, test, log_likelihood, starts[i]);
     const Recognition known = recognise(recogniser, method.options, camera.as_object_camera(), rng);
-    trials[i] = trial_of(recogniser, known, test.shown[camera.view()]);
+    trials[i] = trial_of(recogniser, known, test, camera.view());
   });
   return trials;
 }

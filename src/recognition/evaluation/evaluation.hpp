@@ -17,14 +17,21 @@ namespace vantage {
 /// What is leafed through: features are extracted once, whoever asks.
 struct TestViews {
   std::vector<ViewFeatures> views;
-  std::vector<int> shown;                  ///< state of each view
+  std::vector<int> shown;                  ///< state of each view; -1: of an unknown object
+  std::vector<int> category;               ///< of each view; -1: unknown too
   std::vector<TurntableViews> turntables;  ///< of each object
 };
 
-/// @param model for its states and extractors
-/// @throws InputError if the dataset has no view of `video`, a bad one, or an unknown object.
+/// Views of imported pictures are fitted to the model: cut as its own were, views by name in its
+/// order.
+/// @param model for its states, extractors and notes
+/// @param recordings of imported pictures; empty: all
+/// @throws InputError if the dataset has no view of `video`, or a bad one.
 TestViews read_test_views(const DatasetIndex& dataset, const RecognitionModel& model, int video,
-                          const LongWork& how);
+                          const LongWork& how, std::span<const std::string> recordings = {});
+
+/// Whether a view shows what the model was trained on.
+bool is_known(const TestViews& test, std::size_t view);
 
 /// Where the camera is at first.
 struct Start {
@@ -37,18 +44,23 @@ std::vector<Start> draw_starts(const TestViews& test, int count, std::uint64_t s
 
 /// How a method did from one start.
 struct Trial {
-  int object = 0;  ///< what it was, and what it was held for
-  int estimate = 0;
+  int object = 0;         ///< what it was; -1: nothing that the model was trained on
+  int estimate = 0;       ///< what it was held for
+  std::string name = {};  ///< of the object
+  std::string category = {};
   bool correct = false;
   bool category_correct = false;
   int observations = 0;
-  int bin_error = 0;  ///< of the expected yaw at the last view, whatever the object
+  int bin_error = 0;  ///< of the expected yaw at the last view, whatever the object; 0 if unknown
   int features = 0;   ///< extracted, over all views
   double entropy_bits = 0.0;
   double feature_time_s = 0.0;  ///< the features' measured costs
   double selection_time_s = 0.0;
   double view_time_s = 0.0;
 };
+
+/// Of a view of the test that is held for `estimate`.
+Trial judged(const ObjectStates& states, const TestViews& test, std::size_t view, int estimate);
 
 struct Method {
   std::string name;
@@ -59,8 +71,8 @@ struct Method {
 /// ones, by each choice of views. What they have in common is as in `common`.
 std::vector<Method> published_methods(const RecognitionOptions& common);
 
-/// A camera turned about an object of the dataset: it can be turned by whole bins, and sees the
-/// view nearest to where that leads.
+/// A camera turned about an object of the dataset, by whole bins, to the view nearest to where that
+/// leads. Where no view is near, as of objects seen from few sides, by as much as leads to one.
 class DatasetCamera {
  public:
   /// @param log_likelihood of each feature, states x views, psi included
@@ -73,6 +85,8 @@ class DatasetCamera {
   [[nodiscard]] ExtractedFeature extract(std::size_t feature) const;
   [[nodiscard]] std::vector<ObjectViewAction> actions() const;
   [[nodiscard]] std::size_t view_after(double turn_rad) const;
+  /// From the present view, of the object.
+  [[nodiscard]] double turn_to(std::size_t view) const;
   void turn(const ObjectViewAction& action);
 
   const Recogniser* recogniser_;

@@ -24,23 +24,23 @@ std::vector<Trial> combination_trials(const Recogniser& recogniser, const TestVi
                                       std::span<const Start> starts,
                                       const FeatureCombination& features) {
   const ObjectStates& states = recogniser.states;
-  const auto category = [&](int object) {
-    return states.category_of[static_cast<std::size_t>(object)];
-  };
   std::vector<Trial> trials;
   for (const Start& start : starts) {
     ObjectBelief belief = uniform_belief(states);
-    Trial trial{.object = states.object_of(test.shown[start.view]), .observations = 1};
+    double feature_time_s = 0.0;
+    int used = 0;
     for (const std::size_t f : features) {
-      trial.feature_time_s += recogniser.features[f].observation.cost_s;
+      feature_time_s += recogniser.features[f].observation.cost_s;
       if (!test.views[start.view].features[f].extracted()) continue;
       const auto view = static_cast<Eigen::Index>(start.view);
-      if (update(belief, log_likelihood[f].col(view).cast<double>()).used()) ++trial.features;
+      if (update(belief, log_likelihood[f].col(view).cast<double>()).used()) ++used;
     }
-    trial.estimate = most_probable_object(states, belief);
-    trial.correct = trial.estimate == trial.object;
-    trial.category_correct = category(trial.estimate) == category(trial.object);
-    trial.bin_error = bin_error(states, expected_state(states, belief), test.shown[start.view]);
+    Trial trial = judged(states, test, start.view, most_probable_object(states, belief));
+    trial.features = used;
+    trial.feature_time_s = feature_time_s;
+    if (trial.object >= 0) {
+      trial.bin_error = bin_error(states, expected_state(states, belief), test.shown[start.view]);
+    }
     trial.entropy_bits = state_entropy_bits(belief);
     trials.push_back(trial);
   }

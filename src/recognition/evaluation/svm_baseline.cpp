@@ -1,9 +1,14 @@
 #include "vantage/recognition/evaluation/svm_baseline.hpp"
 
+#include <fmt/format.h>
 #include <opencv2/ml.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
+
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -28,7 +33,10 @@ Scaling scaling_of(std::span<const ViewFeatures> views) {
       squares += x.squaredNorm();
       count += 1.0;
     }
-    expects(count > 0.0, "a view that has the feature");
+    if (count == 0.0) {
+      throw InputError(
+          fmt::format("baselines: none of {} views to train on has feature {}", views.size(), f));
+    }
     sum /= count;
     const double spread = squares / count - sum.squaredNorm();
     scaling.mean.push_back(sum.cast<float>());
@@ -67,10 +75,35 @@ void set_up(cv::ml::SVM& machine, const KernelSvm& svm, std::size_t features) {
 
 }  // namespace
 
+std::vector<int> nearest_predictions(const LabelledFeatures& training,
+                                     std::span<const ViewFeatures> test) {
+  expects(!training.views.empty() && training.views.size() == training.label.size(),
+          "training views with a label each");
+  const Scaling scaling = scaling_of(training.views);
+  const cv::Mat known = rows_of(training.views, scaling);
+  const cv::Mat asked = rows_of(test, scaling);
+  std::vector<int> result;
+  for (int i = 0; i < asked.rows; ++i) {
+    int nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < known.rows; ++k) {
+      const double distance = cv::norm(asked.row(i), known.row(k), cv::NORM_L2SQR);
+      if (distance >= least) continue;
+      least = distance;
+      nearest = k;
+    }
+    result.push_back(training.label[static_cast<std::size_t>(nearest)]);
+  }
+  return result;
+}
+
 std::vector<int> svm_predictions(const Svm& svm, const LabelledFeatures& training,
                                  std::span<const ViewFeatures> test) {
   expects(!training.views.empty() && training.views.size() == training.label.size(),
           "training views with a label each");
+  if (std::ranges::adjacent_find(training.label, std::not_equal_to{}) == training.label.end()) {
+    throw InputError("baselines: support vector machines need two objects or more to train on");
+  }
   const Scaling scaling = scaling_of(training.views);
   const auto machine = cv::ml::SVM::create();
   machine->setType(cv::ml::SVM::C_SVC);

@@ -59,4 +59,9 @@ struct LabelledFeatures {
 std::vector<int> svm_predictions(const Svm& svm, const LabelledFeatures& training,
                                  std::span<const ViewFeatures> test);
 
+/// The label of the training view nearest to each test view, all features together, each centred
+/// and scaled as for the machines: the plainest way there is.
+std::vector<int> nearest_predictions(const LabelledFeatures& training,
+                                     std::span<const ViewFeatures> test);
+
 }  // namespace vantage

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <set>
+#include <string>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/yaml.hpp"
@@ -35,6 +38,7 @@ Json json_of(const MethodSummary& summary) {
   Json json{{"method", summary.method},
             {"accuracy_percent", json_of(summary.accuracy_percent)},
             {"category_percent", summary.category_percent},
+            {"category_interval", {summary.category_interval.low, summary.category_interval.high}},
             {"observations", json_of(summary.observations)},
             {"bin_error", summary.bin_error ? json_of(*summary.bin_error) : Json(nullptr)},
             {"features", json_of(summary.features)},
@@ -92,7 +96,7 @@ std::string trials_csv(const RecognitionStudy& study) {
   for (const MethodTrials& method : study.methods) {
     for (std::size_t i = 0; i < method.trials.size(); ++i) {
       const Trial& t = method.trials[i];
-      csv += fmt::format("\"{}\",{},{},{},{:d},{:d},{},", method.method, i, name(t.object),
+      csv += fmt::format("\"{}\",{},{},{},{:d},{:d},{},", method.method, i, t.name,
                          name(t.estimate), t.correct, t.category_correct, t.observations);
       csv += method.label_only
                  ? ",,,,,\n"
@@ -147,6 +151,19 @@ std::string difference_table(const std::vector<MethodSummary>& all) {
   return text;
 }
 
+/// Nothing if all objects are known.
+std::string unseen_text(const RecognitionStudy& study) {
+  std::set<std::string> unseen, seen;
+  for (const Trial& trial : study.methods.front().trials) {
+    (trial.object < 0 ? unseen : seen).insert(trial.name);
+  }
+  if (unseen.empty()) return {};
+  return fmt::format(
+      "{} of {} objects are not in the model: accuracy is that of the others, category that of all "
+      "({}).\n\n",
+      unseen.size(), unseen.size() + seen.size(), fmt::join(unseen, ", "));
+}
+
 /// Changes that the model does not tell from none are counted, and counted apart.
 std::string change_table(const RecognitionStudy& study) {
   std::string text =
@@ -171,9 +188,11 @@ std::string recognition_tables(const RecognitionStudy& study) {
   const std::vector<MethodSummary> all = summaries(study);
   std::string text = fmt::format(
       "# Recognition of {} objects in {} categories\n\n{} starts, the same for every method; means "
-      "with 95 % bootstrap intervals. Features are counted at their measured cost.\n\n",
+      "with 95 % bootstrap intervals, over objects. Features are counted at their measured "
+      "cost.\n\n",
       study.states.objects.size(), study.states.categories.size(), study.options.starts);
-  text += method_table(all) + "\n## Paired differences\n\n" + difference_table(all);
+  text += unseen_text(study) + method_table(all) + "\n## Paired differences\n\n" +
+          difference_table(all);
   if (!study.changes.empty()) text += "\n## Change detection\n\n" + change_table(study);
   return text;
 }

@@ -4,19 +4,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <set>
 #include <utility>
 
 #include "vantage/belief/objects/psi_rule.hpp"
+#include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/evaluation/feature_combinations.hpp"
 #include "vantage/recognition/evaluation/svm_baseline.hpp"
 
 namespace vantage {
+namespace fs = std::filesystem;
 namespace {
-
-constexpr auto kSingleView = "single view, all features";
-constexpr auto kRandom = "random";
-constexpr auto kRandomAll = "random, all features";
 
 /// What the trials of one recogniser need.
 struct Trials {
@@ -43,7 +44,10 @@ std::vector<double> published_psi(const RecognitionModel& model) {
 RecognitionModel with_features(const RecognitionModel& model,
                                const std::vector<std::string>& names) {
   if (names.empty()) return model;
-  RecognitionModel used{.states = model.states, .features = {}, .transitions = model.transitions};
+  RecognitionModel used{.states = model.states,
+                        .features = {},
+                        .transitions = model.transitions,
+                        .pictures = model.pictures};
   for (const std::string& name : names) {
     const auto found = std::ranges::find(model.features, name, &FeatureModel::name);
     if (found != model.features.end()) used.features.push_back(*found);
@@ -104,107 +108,87 @@ void add_combinations(RecognitionStudy& study, const Recogniser& recogniser,
   }
 }
 
-/// Predicts for the views that trials start from, each once.
-MethodTrials svm_trials(const Svm& svm, const ObjectStates& states,
-                        const std::vector<ViewFeatures>& training, const Trials& trials) {
-  std::vector<int> label;
-  for (const int state : states_shown(training, states)) label.push_back(states.object_of(state));
-  const std::vector<int> predicted =
-      svm_predictions(svm, {.views = training, .label = label}, trials.test.views);
-  MethodTrials result{
-      .method = std::string(strategy_name_of(svm)), .trials = {}, .label_only = true};
+MethodTrials label_trials(std::string name, const std::vector<int>& predicted,
+                          const ObjectStates& states, const Trials& trials) {
+  MethodTrials result{.method = std::move(name), .trials = {}, .label_only = true};
   for (const Start& start : trials.starts) {
-    const int object = states.object_of(trials.test.shown[start.view]);
-    const int estimate = predicted[start.view];
-    const auto category = [&](int k) { return states.category_of[static_cast<std::size_t>(k)]; };
-    result.trials.push_back({.object = object,
-                             .estimate = estimate,
-                             .correct = object == estimate,
-                             .category_correct = category(object) == category(estimate),
-                             .observations = 1});
+    result.trials.push_back(judged(states, trials.test, start.view, predicted[start.view]));
   }
   return result;
 }
 
+/// What baselines may learn from: what was given, or what is not tested.
+std::vector<ViewEntry> baseline_views(const DatasetIndex& dataset, const DatasetIndex& training,
+                                      const RecognitionModel& model, const Trials& trials) {
+  const RecognitionStudyOptions& options = trials.options;
+  std::vector<ViewEntry> views;
+  if (!training.views.empty()) {
+    views = chosen_views(training, std::vector{1, 2, 4}, {});
+  } else {
+    const std::vector<ViewEntry> tested =
+        chosen_views(dataset, {{options.video}}, options.recordings);
+    std::set<fs::path> files;
+    for (const ViewEntry& view : tested) files.insert(view.file("crop.png"));
+    std::ranges::copy_if(dataset.views, std::back_inserter(views), [&](const ViewEntry& view) {
+      return !files.contains(view.file("crop.png"));
+    });
+  }
+  std::erase_if(views, [&](const ViewEntry& view) {
+    return std::ranges::find(model.states.objects, view.name.object) == model.states.objects.end();
+  });
+  if (views.empty()) {
+    throw ConfigError(
+        "baselines: the dataset has no views of known objects beside those that are tested; "
+        "--training DIR gives others");
+  }
+  fit_to(notes_of(model), views);
+  return views;
+}
+
 void add_baselines(RecognitionStudy& study, const RecognitionModel& model,
-                   const DatasetIndex& dataset, const Trials& trials) {
+                   const std::vector<ViewEntry>& views, const Trials& trials) {
   std::vector<TrainedFeature> extractors;
   for (const FeatureModel& feature : model.features) {
     extractors.push_back(extractor_of(feature, "recognition model"));
   }
-  std::vector<int> videos{1, 2, 4};
-  std::erase(videos, trials.options.video);
-  const std::vector<ViewFeatures> training = extract_features(
-      views_of_videos(dataset, videos), extractors, trials.how, "features for the baselines");
+  const std::vector<ViewFeatures> training =
+      extract_features(views, extractors, trials.how, "features for the baselines");
+  std::vector<int> label;
+  for (const int state : states_shown(training, model.states)) {
+    label.push_back(model.states.object_of(state));
+  }
+  const LabelledFeatures labelled{.views = training, .label = label};
+  study.methods.push_back(label_trials(
+      "nearest neighbour", nearest_predictions(labelled, trials.test.views), model.states, trials));
   for (const Svm& svm : {Svm(LinearSvm{}), Svm(KernelSvm{})}) {
-    study.methods.push_back(svm_trials(svm, model.states, training, trials));
+    study.methods.push_back(label_trials(std::string(strategy_name_of(svm)),
+                                         svm_predictions(svm, labelled, trials.test.views),
+                                         model.states, trials));
   }
 }
 
-Estimate estimate_of(std::span<const double> values, std::uint64_t seed, const std::string& what) {
-  Rng rng = Rng::stream(seed, what);
-  return {.mean = mean(values),
-          .interval = bootstrap_mean(values, rng, {.resamples = 2000, .confidence = 0.95})};
-}
-
-std::vector<double> values_of(const MethodTrials& method, auto&& value) {
-  std::vector<double> values;
-  for (const Trial& trial : method.trials) values.push_back(static_cast<double>(value(trial)));
-  return values;
-}
-
-double percent_correct(const Trial& trial) { return trial.correct ? 100.0 : 0.0; }
-
-PairedEstimate paired(const MethodTrials& method, const MethodTrials& reference,
-                      std::uint64_t seed) {
-  const auto differences = [&](auto&& value) {
-    std::vector<double> values = values_of(method, value);
-    const std::vector<double> others = values_of(reference, value);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] -= others[i];
-    return values;
-  };
-  const std::string what = method.method + " - " + reference.method;
-  const std::vector<double> accuracy = differences(percent_correct);
-  Rng rng = Rng::stream(seed, "p " + what);
-  return {.reference = reference.method,
-          .accuracy_percent = estimate_of(accuracy, seed, "accuracy " + what),
-          .observations = estimate_of(differences([](const Trial& t) { return t.observations; }),
-                                      seed, "observations " + what),
-          .p_value = sign_flip_p_value(accuracy, rng, 2000)};
-}
-
-MethodSummary summary_of(const MethodTrials& method, std::uint64_t seed) {
-  const auto mean_of = [&](auto&& value) { return mean(values_of(method, value)); };
-  MethodSummary summary{
-      .method = method.method,
-      .accuracy_percent =
-          estimate_of(values_of(method, percent_correct), seed, "accuracy " + method.method),
-      .category_percent = mean_of([](const Trial& t) { return t.category_correct ? 100.0 : 0.0; }),
-      .observations = estimate_of(values_of(method, [](const Trial& t) { return t.observations; }),
-                                  seed, "observations " + method.method)};
-  if (method.label_only) return summary;
-  summary.bin_error = estimate_of(values_of(method, [](const Trial& t) { return t.bin_error; }),
-                                  seed, "bin error " + method.method);
-  summary.features = mean_of([](const Trial& t) { return t.features; });
-  summary.feature_time_s = mean_of([](const Trial& t) { return t.feature_time_s; });
-  summary.selection_time_s = mean_of([](const Trial& t) { return t.selection_time_s; });
-  summary.view_time_s = mean_of([](const Trial& t) { return t.view_time_s; });
-  return summary;
+/// Of objects that a change can be told of.
+std::vector<Start> known_starts(const TestViews& test, std::vector<Start> starts) {
+  std::erase_if(starts, [&](const Start& start) { return !is_known(test, start.view); });
+  return starts;
 }
 
 }  // namespace
 
 RecognitionStudy run_recognition_study(const RecognitionModel& model, const DatasetIndex& dataset,
-                                       const RecognitionStudyOptions& options,
-                                       const LongWork& how) {
+                                       const RecognitionStudyOptions& options, const LongWork& how,
+                                       const DatasetIndex& training) {
   check_options(options);
   const std::vector<Method> methods = wanted_methods(options);
   const Recogniser recogniser = make_recogniser(model, options.recogniser, how.threads);
   const RecognitionModel used = with_features(model, options.recogniser.features);
-  const TestViews test = read_test_views(dataset, used, options.video, how);
+  const TestViews test = read_test_views(dataset, used, options.video, how, options.recordings);
   const std::vector<Start> starts = draw_starts(test, options.starts, options.seed);
   const std::vector<Eigen::MatrixXf> likelihoods = log_likelihoods(recogniser, test, how);
   const Trials trials{test, starts, options, how};
+  const std::vector<ViewEntry> of_baselines = options.baselines
+                                                  ? baseline_views(dataset, training, used, trials)
+                                                  : std::vector<ViewEntry>{};
   RecognitionStudy study{.options = options, .states = used.states, .methods = {}, .changes = {}};
   for (const Method& method : methods) {
     study.methods.push_back(
@@ -213,27 +197,18 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
   }
   if (options.combinations) add_combinations(study, recogniser, likelihoods, trials);
   if (options.literal) add_literal_settings(study, used, trials);
-  if (options.baselines) add_baselines(study, used, dataset, trials);
+  if (options.baselines) add_baselines(study, used, of_baselines, trials);
   if (options.change_starts > 0) {
     const ChangeOptions change{.recognition = for_changes(options.recognition)};
-    const std::vector<Start> change_starts = draw_starts(test, options.change_starts, options.seed);
+    const std::vector<Start> change_starts =
+        known_starts(test, draw_starts(test, options.change_starts, options.seed));
+    if (change_starts.empty() || used.states.object_count() < 2) {
+      throw ConfigError("change_starts: needs two objects or more that the model knows");
+    }
     study.changes =
         evaluate_changes(recogniser, test, likelihoods, change_starts, change, options.seed, how);
   }
   return study;
-}
-
-std::vector<MethodSummary> summaries(const RecognitionStudy& study) {
-  std::vector<MethodSummary> all;
-  for (const MethodTrials& method : study.methods) {
-    MethodSummary& summary = all.emplace_back(summary_of(method, study.options.seed));
-    for (const auto& name : {kSingleView, kRandom, kRandomAll}) {
-      const auto reference = std::ranges::find(study.methods, name, &MethodTrials::method);
-      if (reference == study.methods.end() || method.method == name) continue;
-      summary.differences.push_back(paired(method, *reference, study.options.seed));
-    }
-  }
-  return all;
 }
 
 }  // namespace vantage

@@ -18,6 +18,7 @@ struct RecognitionStudyOptions {
   std::uint64_t seed = 1;
   int starts = 2000;
   int video = 2;
+  std::vector<std::string> recordings;
   RecogniserOptions recogniser;
   RecognitionOptions recognition;
   std::vector<std::string> methods;
@@ -30,9 +31,11 @@ struct RecognitionStudyOptions {
     f("starts", starts, "number of trials of each method; more make confidence intervals narrower",
       at_least(1));
     f("video", video,
-      "video of the dataset to test on: 1, 2 and 4 are recorded from 30, 45 and 60 deg of "
-      "elevation",
+      "video of a turntable dataset to test on: 1, 2 and 4 are recorded from 30, 45 and 60 deg of "
+      "elevation; of imported pictures see `recordings`",
       between(1, 4));
+    f("recordings", recordings,
+      "names of the recordings of imported pictures to test on; empty: all");
     f("recogniser", recogniser,
       "which features of the model are used, and how its variances are estimated");
     f("recognition", recognition, "options of recognition that all methods share");
@@ -41,7 +44,8 @@ struct RecognitionStudyOptions {
       "true: also a single view with maximum-likelihood variances, by psi 1 and by psi as "
       "published");
     f("combinations", combinations, "true: also a single view by every combination of features");
-    f("baselines", baselines, "true: also support vector machines, which take long to train");
+    f("baselines", baselines,
+      "true: also the nearest neighbour and support vector machines, which take long to train");
     f("change_starts", change_starts,
       "number of trials of change detection for each scenario and method; 0: none", at_least(0));
   }
@@ -62,12 +66,15 @@ struct RecognitionStudy {
 };
 
 /// @throws ConfigError if `options` are out of range; InputError as read_test_views().
+/// @param training what the baselines are trained on; empty: what the dataset has beside the views
+/// that are tested
 RecognitionStudy run_recognition_study(const RecognitionModel& model, const DatasetIndex& dataset,
-                                       const RecognitionStudyOptions& options, const LongWork& how);
+                                       const RecognitionStudyOptions& options, const LongWork& how,
+                                       const DatasetIndex& training = {});
 
 struct Estimate {
   double mean = 0.0;
-  Interval interval;  ///< 95 % bootstrap
+  Interval interval;  ///< 95 %, resampling whole objects
 };
 
 /// To another method, from the same starts.
@@ -80,8 +87,9 @@ struct PairedEstimate {
 
 struct MethodSummary {
   std::string method;
-  Estimate accuracy_percent;
+  Estimate accuracy_percent;  ///< of objects that the model knows
   double category_percent = 0.0;
+  Interval category_interval = {};
   Estimate observations;
   // Nothing of a method that tells labels only:
   std::optional<Estimate> bin_error = {};

@@ -107,6 +107,35 @@ TEST_F(Evaluation, ACameraTurnedByABinSeesTheYawLessABin) {
   EXPECT_FALSE(as_camera.actions()[0].visited);
 }
 
+/// Three views at 0, 40 and 80 deg: nothing is to be seen from the back, and a turn leads as far as
+/// there is a view.
+TEST(SparseTurntable, TheCameraIsOfferedWhatItCanSee) {
+  const double degree = std::numbers::pi / 180.0;
+  TestViews test;
+  test.turntables.emplace_back();
+  for (const double yaw_deg : {0.0, 40.0, 80.0}) {
+    test.turntables[0].views.push_back(test.views.size());
+    test.views.emplace_back().yaw_rad = yaw_deg * degree;
+  }
+  const Recogniser recogniser{
+      .states = {.objects = {"cup_1"}, .categories = {"cup"}, .category_of = {0}},
+      .features = {},
+      .tables = {}};
+  DatasetCamera camera(recogniser, test, {}, {.turntable = 0, .view = 2});
+  const auto actions = camera.as_object_camera().actions();
+  std::vector<double> turns_deg;
+  for (const ObjectViewAction& action : actions) turns_deg.push_back(action.yaw_rad / degree);
+  // 45 leads to the view at 40 within a quarter of a bin, 90 to that at 0.
+  EXPECT_THAT(turns_deg, ::testing::ElementsAre(::testing::DoubleNear(45.0, 1e-6),
+                                                ::testing::DoubleNear(90.0, 1e-6)));
+  camera = DatasetCamera(recogniser, test, {}, {.turntable = 0, .view = 0});
+  test.views[1].yaw_rad = 65.0 * degree;  // beside a whole bin: as far as it is
+  test.views[2].yaw_rad = 65.0 * degree;
+  const auto strayed = camera.as_object_camera().actions();
+  ASSERT_EQ(strayed.size(), 1U);
+  EXPECT_NEAR(strayed[0].yaw_rad, 295.0 * degree, 1e-6);
+}
+
 TEST_F(Evaluation, StartsAreDrawnFromEveryObject) {
   std::vector<int> counts(3, 0);
   for (const Start& start : draw_starts(*test_, 300, 4)) {

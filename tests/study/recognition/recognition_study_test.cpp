@@ -18,6 +18,7 @@ MethodTrials method(const std::string& name, int right, int views) {
   for (int i = 0; i < 4; ++i) {
     method.trials.push_back({.object = 0,
                              .estimate = i < right ? 0 : 1,
+                             .name = "cup_" + std::to_string(i + 1),
                              .correct = i < right,
                              .category_correct = true,
                              .observations = views,
@@ -60,6 +61,38 @@ TEST(RecognitionStudy, SummariesAreMeansAndPairedDifferences) {
   ASSERT_EQ(all[0].differences.size(), 1U);
 }
 
+/// Of two objects one is always recognised: a thousand starts say no more than two.
+TEST(RecognitionStudy, IntervalsAreOfObjectsNotOfStarts) {
+  RecognitionStudy study = small_study();
+  study.methods.resize(1);
+  study.methods[0].trials.clear();
+  for (int i = 0; i < 1000; ++i) {
+    const bool first = i % 2 == 0;
+    study.methods[0].trials.push_back({.object = first ? 0 : 1,
+                                       .estimate = 0,
+                                       .name = first ? "cup_1" : "cup_2",
+                                       .correct = first,
+                                       .category_correct = true,
+                                       .observations = 1});
+  }
+  const Estimate accuracy = summaries(study)[0].accuracy_percent;
+  EXPECT_DOUBLE_EQ(accuracy.mean, 50.0);
+  EXPECT_DOUBLE_EQ(accuracy.interval.low, 0.0);
+  EXPECT_DOUBLE_EQ(accuracy.interval.high, 100.0);
+}
+
+TEST(RecognitionStudy, ObjectsThatTheModelDoesNotKnowCountForTheirCategory) {
+  RecognitionStudy study = small_study();
+  study.methods.resize(1);
+  study.methods[0].trials[3].object = -1;
+  study.methods[0].trials[3].name = "cup_9";
+  study.methods[0].trials[2].category_correct = false;
+  const MethodSummary summary = summaries(study)[0];
+  EXPECT_NEAR(summary.accuracy_percent.mean, 200.0 / 3.0, 1e-9);
+  EXPECT_DOUBLE_EQ(summary.category_percent, 75.0);
+  EXPECT_THAT(recognition_tables(study), HasSubstr("1 of 4 objects are not in the model"));
+}
+
 TEST(RecognitionStudy, ChangesCountWhatWasSeenAndWhatItWas) {
   const RecognitionStudy study = small_study();
   EXPECT_DOUBLE_EQ(study.changes[0].accuracy(), 0.75);
@@ -90,7 +123,7 @@ TEST(RecognitionStudy, FilesHoldARowATrialAndATable) {
   write_recognition_study(small_study(), folder.path() / "out");
   const std::string csv = read_file(folder.path() / "out" / "results.csv");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 13);
-  EXPECT_THAT(csv, HasSubstr("\"random\",3,cup_1,cup_2,0,1,3,1,3,"));
+  EXPECT_THAT(csv, HasSubstr("\"random\",3,cup_4,cup_2,0,1,3,1,3,"));
   EXPECT_EQ(std::ranges::count(read_file(folder.path() / "out" / "changes.csv"), '\n'), 5);
   const auto summary = nlohmann::json::parse(read_file(folder.path() / "out" / "summary.json"));
   EXPECT_EQ(summary["methods"][2]["method"], "mutual_information");

@@ -1,0 +1,22 @@
+/// A picture on its way into a dataset.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "vantage/dataset/pictures/picture_layout.hpp"
+#include "vantage/perception/dataset_index.hpp"
+
+namespace vantage {
+
+struct ImportedPicture {
+  FoundPicture picture;
+  ViewEntry entry;
+  std::optional<double> elevation_deg;  ///< that is known
+  std::optional<double> measured_deg;   ///< over the table it shows
+  double unit_m = 0.001;
+  int width_px = 0;
+  std::string bad;  ///< why it cannot be used
+};
+
+}  // namespace vantage

@@ -1,0 +1,130 @@
+#include "vantage/perception/images/npy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <regex>
+#include <string>
+#include <string_view>
+
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::int64_t kMaxSide = 20000;
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
+  throw InputError(fmt::format("{}: {}", file.string(), why));
+}
+
+struct Header {
+  std::string text;
+  std::size_t end = 0;  ///< where the numbers begin
+};
+
+Header header_of(const std::string& bytes, const std::filesystem::path& file) {
+  if (bytes.size() < 12 || !bytes.starts_with(kMagic)) fail(file, "is no NPY file");
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const bool small = byte(6) == 1;
+  const std::size_t start = small ? 10 : 12;
+  std::size_t length = byte(8) + 256UL * byte(9);
+  if (!small) length += 65536UL * byte(10) + 16777216UL * byte(11);
+  if (bytes.size() < start + length) fail(file, "is cut short");
+  return {bytes.substr(start, length), start + length};
+}
+
+std::string entry(const std::string& header, const char* pattern,
+                  const std::filesystem::path& file) {
+  std::smatch match;
+  if (!std::regex_search(header, match, std::regex(pattern))) {
+    fail(file, "its header is not that of an array");
+  }
+  return match[1];
+}
+
+std::vector<std::int64_t> shape_of(const std::string& header, const std::filesystem::path& file) {
+  const std::string text = entry(header, R"('shape':\s*\(([0-9,\s]*)\))", file);
+  std::vector<std::int64_t> shape;
+  const std::regex number("[0-9]{1,9}");
+  for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it) {
+    if (const std::int64_t side = std::stoll(it->str()); side != 1) shape.push_back(side);
+  }
+  while (shape.size() < 2) shape.push_back(1);
+  const bool sane = shape.size() == 2 && shape[0] > 0 && shape[1] > 0 && shape[0] <= kMaxSide &&
+                    shape[1] <= kMaxSide;
+  if (!sane) fail(file, fmt::format("has shape ({}), expected (rows, columns)", text));
+  return shape;
+}
+
+template <class T>
+double value_at(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
+
+/// IEEE 754 binary16.
+double half_at(const char* bytes) {
+  std::uint16_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  const int exponent = bits >> 10 & 31;
+  const int fraction = bits & 1023;
+  double value =
+      exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+  if (exponent == 31) value = fraction == 0 ? INFINITY : NAN;
+  return (bits & 0x8000) != 0 ? -value : value;
+}
+
+using Reader = double (*)(const char*);
+
+Reader reader_of(std::string_view type) {
+  const std::string_view kind = type.substr(std::min<std::size_t>(1, type.size()));
+  if (kind == "u1" || kind == "b1") return value_at<std::uint8_t>;
+  if (kind == "i1") return value_at<std::int8_t>;
+  if (type.starts_with('>')) return nullptr;
+  if (kind == "u2") return value_at<std::uint16_t>;
+  if (kind == "i2") return value_at<std::int16_t>;
+  if (kind == "u4") return value_at<std::uint32_t>;
+  if (kind == "i4") return value_at<std::int32_t>;
+  if (kind == "u8") return value_at<std::uint64_t>;
+  if (kind == "i8") return value_at<std::int64_t>;
+  if (kind == "f2") return half_at;
+  if (kind == "f4") return value_at<float>;
+  if (kind == "f8") return value_at<double>;
+  return nullptr;
+}
+
+}  // namespace
+
+NpyMatrix read_npy(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  const Header header = header_of(bytes, file);
+  const std::string type = entry(header.text, R"('descr':\s*'([^']*)')", file);
+  const bool by_columns = entry(header.text, R"('fortran_order':\s*(True|False))", file) == "True";
+  const std::vector<std::int64_t> shape = shape_of(header.text, file);
+  const Reader read = reader_of(type);
+  if (read == nullptr)
+    fail(file, fmt::format("holds numbers of type '{}', expected <u2 or <f4", type));
+  const auto size = static_cast<std::size_t>(type.back() - '0');
+  const auto count = static_cast<std::size_t>(shape[0] * shape[1]);
+  if (bytes.size() - header.end < count * size) fail(file, "is cut short");
+  NpyMatrix matrix{.rows = static_cast<int>(shape[0]),
+                   .columns = static_cast<int>(shape[1]),
+                   .integers = type.find('f') == std::string::npos,
+                   .values = std::vector<double>(count)};
+  const auto rows = static_cast<std::size_t>(matrix.rows);
+  const auto columns = static_cast<std::size_t>(matrix.columns);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t place = by_columns ? i % rows * columns + i / rows : i;
+    matrix.values[place] = read(bytes.data() + header.end + i * size);
+  }
+  return matrix;
+}
+
+}  // namespace vantage

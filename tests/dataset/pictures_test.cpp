@@ -1,0 +1,169 @@
+// How a folder of pictures is read, without commands: cli_pictures_test.cpp has those.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <map>
+#include <set>
+
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/dataset/pictures/intrinsics_file.hpp"
+#include "vantage/dataset/pictures/layout_pattern.hpp"
+#include "vantage/dataset/pictures/picture_layout.hpp"
+#include "vantage/dataset/pictures/pose_file.hpp"
+#include "vantage/dataset/pictures/view_directions.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Layout : public testing::Test {
+ protected:
+  void put(const std::string& colour, const std::string& depth) const {
+    for (const auto& [file, type] : {std::pair{colour, CV_8UC3}, {depth, CV_16UC1}}) {
+      const auto path = folder_.path() / file;
+      std::filesystem::create_directories(path.parent_path());
+      cv::imwrite(path.string(), cv::Mat(2, 2, type, cv::Scalar::all(200)));
+    }
+  }
+  /// "recording|object|view" of each picture.
+  std::set<std::string> found(const std::string& layout = "") const {
+    std::set<std::string> texts;
+    for (const FoundPicture& p : find_pictures(folder_.path(), layout).pictures) {
+      texts.insert(p.recording + "|" + p.object + "|" + p.view +
+                   (p.yaw_deg ? "@" + std::to_string(static_cast<int>(*p.yaw_deg)) : ""));
+    }
+    return texts;
+  }
+  support::TemporaryDirectory folder_;
+};
+
+TEST_F(Layout, FoldersOfObjects) {
+  put("drill/front_rgb.png", "drill/front_depth.png");
+  put("mug_2/back-left_1_color.png", "mug_2/back-left_1_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|front", "|mug_2|back_left"));
+}
+
+TEST_F(Layout, FoldersOfKindsAndViews) {
+  put("rgb/drill/front.png", "depth/drill/front.png");
+  put("rgb/mug/left.png", "depth/mug/left.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|front", "|mug_1|left"));
+}
+
+TEST_F(Layout, AFolderAView) {
+  put("drill/front/rgb.png", "drill/front/depth.png");
+  put("mug/top/rgb.png", "mug/top/depth.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|front", "|mug_1|top"));
+}
+
+TEST_F(Layout, RoomsAndObjectsInEitherOrder) {
+  for (const char* object : {"drill", "mug", "can"}) {
+    for (const char* room : {"kitchen", "office"}) {
+      const std::string a = std::string(room) + "/" + object + "/front_";
+      put(a + "rgb.png", a + "depth.png");
+    }
+  }
+  const auto first = found();
+  EXPECT_EQ(first.size(), 6U);
+  EXPECT_TRUE(first.contains("office|can_1|front"));
+  std::filesystem::rename(folder_.path() / "kitchen", folder_.path() / "x");
+  EXPECT_TRUE(found().contains("x|mug_1|front"));
+}
+
+TEST_F(Layout, CategoriesHoldTheirInstances) {
+  put("mug/mug_1/front_rgb.png", "mug/mug_1/front_depth.png");
+  put("mug/mug_2/front_rgb.png", "mug/mug_2/front_depth.png");
+  put("can/can_1/front_rgb.png", "can/can_1/front_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|can_1|front", "|mug_1|front", "|mug_2|front"));
+}
+
+TEST_F(Layout, AllInOneFolder) {
+  put("power_drill_front_rgb.png", "power_drill_front_depth.png");
+  put("mug_left_rgb.png", "mug_left_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|mug_1|left", "|power_drill_1|front"));
+}
+
+TEST_F(Layout, ViewsOfTheirOwnNamesAndAngles) {
+  put("drill/view0_rgb.png", "drill/view0_depth.png");
+  put("mug/45deg_rgb.png", "mug/45deg_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|view0", "|mug_1|@45"));
+}
+
+TEST_F(Layout, APatternDecides) {
+  put("a/x_30_rgb.png", "a/x_30_depth.png");
+  EXPECT_THAT(found("{recording}/{object}_{yaw}_{kind}"), ElementsAre("a|x_1|@30"));
+  EXPECT_THROW(LayoutPattern("{object}/{object}"), ConfigError);
+  EXPECT_THROW(LayoutPattern("{view}_{kind}"), ConfigError);
+  EXPECT_THROW((void)found("{object}/nowhere"), InputError);
+}
+
+TEST_F(Layout, WhatIsNotClearAsksForALayout) {
+  for (const char* a : {"p", "q"}) {
+    for (const char* b : {"r", "s"}) {
+      const std::string stem = std::string(a) + "/" + b + "/front_";
+      put(stem + "rgb.png", stem + "depth.png");
+    }
+  }
+  try {
+    (void)found();
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("--layout"));
+  }
+}
+
+TEST_F(Layout, ColourWithoutDepthIsLeftOutAndTold) {
+  put("drill/front_rgb.png", "drill/front_depth.png");
+  put("drill/left_rgb.png", "drill/other_depth.png");
+  EXPECT_EQ(find_pictures(folder_.path(), "").left_out.size(), 2U);
+}
+
+TEST(Directions, NamesHaveAngles) {
+  EXPECT_EQ(named_direction("Front")->yaw_deg, 0.0);
+  EXPECT_EQ(named_direction("left_side")->yaw_deg, 270.0);
+  EXPECT_EQ(named_direction("back-right")->yaw_deg, 135.0);
+  EXPECT_EQ(named_direction("top")->elevation_deg, 90.0);
+  EXPECT_FALSE(named_direction("drill").has_value());
+  const Directions seven = directions_of_names(
+      {"front", "left", "back", "right", "front_left", "back_left", "back_right"});
+  EXPECT_TRUE(seven.degrees);
+  EXPECT_EQ(seven.bins, 8);
+  const Directions top = directions_of_names({"front", "top", "back"});
+  EXPECT_FALSE(top.degrees);
+  EXPECT_THAT(top.names, ElementsAre("front", "back", "top"));
+}
+
+TEST(Directions, FewAnglesGetABinEach) {
+  EXPECT_EQ(bins_for({0, 90, 180, 270}), 4);
+  EXPECT_EQ(bins_for({-60, -40, -20, 0, 20, 40, 60}), 18);
+  EXPECT_EQ(bins_for({0, 51.43, 102.86, 154.29, 205.71, 257.14, 308.57}), 7);
+  EXPECT_EQ(bins_for({0, 17, 23, 91}), 8);
+}
+
+TEST(PictureFiles, IntrinsicsAndPoses) {
+  const support::TemporaryDirectory folder;
+  const auto file = folder.path() / "camera";
+  write_file(file, "fx: 525.0\nfy: 526.0\ncx: 319.5\ncy: 239.5\n");
+  EXPECT_EQ(read_intrinsics(file).focal_px, 525.5);
+  write_file(file, "{\"fx\": 500, \"fy\": 500, \"cx\": 320, \"cy\": 240}");
+  EXPECT_EQ(read_intrinsics(file).centre_px[1], 240.0);
+  write_file(file, "[[570, 0, 320], [0, 572, 241], [0, 0, 1]]");
+  EXPECT_EQ(read_intrinsics(file).focal_px, 571.0);
+  write_file(file, "570 0 320");
+  EXPECT_THROW((void)read_intrinsics(file), InputError);
+  write_file(file, "30 45\n");
+  EXPECT_EQ(read_picture_pose(file).elevation_deg, 45.0);
+  // A camera 1 m before the front, 1 m up, that looks down by 45 deg.
+  write_file(file, "0 0.7071 -0.7071 1  1 0 0 0  0 -0.7071 -0.7071 1  0 0 0 1");
+  EXPECT_NEAR(read_picture_pose(file).yaw_deg, 0.0, 1e-9);
+  EXPECT_NEAR(*read_picture_pose(file).elevation_deg, 45.0, 0.1);
+  write_file(file, "north");
+  EXPECT_THROW((void)read_picture_pose(file), InputError);
+}
+
+}  // namespace
+}  // namespace vantage

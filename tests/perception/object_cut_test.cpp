@@ -1,0 +1,101 @@
+#include "vantage/perception/object_cut.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/support/room_pictures.hpp"
+#include "vantage/perception/dataset_reader.hpp"
+
+namespace vantage {
+namespace {
+
+ObjectView view_of(const support::RoomPicture& picture) {
+  ObjectView view;
+  view.width_px = picture.bgr.cols;
+  view.height_px = picture.bgr.rows;
+  view.focal_px = support::kRoomFocal_px;
+  view.centre_px = {0.5 * view.width_px, 0.5 * view.height_px};
+  for (const auto& bgr : picture.bgr) view.rgb.insert(view.rgb.end(), {bgr[2], bgr[1], bgr[0]});
+  view.depth_m.assign(picture.depth_m.begin(), picture.depth_m.end());
+  view.mask.assign(view.depth_m.size(), 1);
+  return view;
+}
+
+struct Overlap {
+  double found = 0.0;  ///< of the object's pixels, in the mask
+  double right = 0.0;  ///< of the mask's pixels, on the object
+};
+
+Overlap overlap(const CutObject& cut, const ObjectView& picture, const cv::Mat1b& truth) {
+  double object = cv::countNonZero(truth), mask = 0.0, both = 0.0;
+  for (int row = 0; row < cut.view->height_px; ++row) {
+    for (int column = 0; column < cut.view->width_px; ++column) {
+      if (cut.view->mask[cut.view->index(row, column)] == 0) continue;
+      mask += 1.0;
+      both += truth(row + cut.view->top_px - picture.top_px,
+                    column + cut.view->left_px - picture.left_px) != 0
+                  ? 1.0
+                  : 0.0;
+    }
+  }
+  return {both / object, both / mask};
+}
+
+/// Worst and mean over objects, views and rooms.
+void expect_overlap(const support::Room& like, double mean_found, double mean_right, double worst) {
+  double found = 0.0, right = 0.0;
+  int count = 0;
+  for (int k = 0; k < 5; ++k) {
+    const auto object = support::made_up_object(std::string(1, static_cast<char>('a' + k)), 7);
+    for (std::size_t v = 0; v < 7; v += 2) {
+      support::Room room = like;
+      room.seed = 10 + static_cast<std::uint64_t>(k);
+      const auto picture = support::room_picture(object, support::yaw_of_named_view(v), room);
+      const ObjectView view = view_of(picture);
+      const CutObject cut = cut_by_depth(view);
+      ASSERT_TRUE(cut.view.has_value()) << object.name << " " << v << ": " << cut.reason;
+      const Overlap o = overlap(cut, view, picture.mask);
+      EXPECT_GT(std::min(o.found, o.right), worst) << object.name << " view " << v;
+      found += o.found;
+      right += o.right;
+      ++count;
+    }
+  }
+  EXPECT_GT(found / count, mean_found);
+  EXPECT_GT(right / count, mean_right);
+  fmt::print("found {:.3f} right {:.3f}\n", found / count, right / count);
+}
+
+TEST(ObjectCut, FindsTheObjectInACrop) { expect_overlap({}, 0.9, 0.9, 0.7); }
+
+TEST(ObjectCut, WithManyHoles) { expect_overlap({.holes = 0.4}, 0.8, 0.85, 0.5); }
+
+TEST(ObjectCut, InAWholePicture) { expect_overlap({.margin = -1.0}, 0.85, 0.85, 0.6); }
+
+TEST(ObjectCut, FromFlatAndFromSteep) {
+  expect_overlap({.elevation_rad = 0.35}, 0.85, 0.85, 0.6);
+  expect_overlap({.elevation_rad = 1.1}, 0.85, 0.85, 0.6);
+}
+
+TEST(ObjectCut, TellsTheElevationOverTheTable) {
+  const auto object = support::made_up_object("a", 7);
+  for (const double elevation_rad : {0.5, 0.9}) {
+    const auto picture = support::room_picture(
+        object, 0.0, {.elevation_rad = elevation_rad, .holes = 0.1, .margin = -1.0});
+    const CutObject cut = cut_by_depth(view_of(picture));
+    ASSERT_TRUE(cut.elevation_rad.has_value());
+    EXPECT_NEAR(*cut.elevation_rad, elevation_rad, 0.06);
+  }
+}
+
+TEST(ObjectCut, APictureWithoutDepthHasNoObject) {
+  auto picture = support::room_picture(support::made_up_object("a", 7), 0.0, {});
+  picture.depth_m = 0.0F;
+  const CutObject cut = cut_by_depth(view_of(picture));
+  EXPECT_FALSE(cut.view.has_value());
+  EXPECT_FALSE(cut.reason.empty());
+}
+
+}  // namespace
+}  // namespace vantage
