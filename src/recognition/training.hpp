@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "vantage/belief/objects/psi_rule.hpp"
@@ -14,6 +15,7 @@ namespace vantage {
 struct TrainingOptions {
   std::uint64_t seed = 1;
   std::vector<Feature> features{Colour{}, BoundingBox{}, Sift{}, Vfh{}};
+  std::vector<double> costs_s = {};
   std::vector<int> videos{1, 4};
   int bins = 8;
   int feature_views = 1000;
@@ -25,6 +27,10 @@ struct TrainingOptions {
   void fields(auto&& f) {
     f("seed", seed, "seed of every random stream; the same seed gives the same model");
     f("features", features, "features to learn, each a name or a name with options");
+    f("costs_s", costs_s,
+      "time to extract each of `features` from a view, in their order, that views and features are "
+      "chosen by where cost counts; empty: as measured in training, never twice the same",
+      above(0.0));
     f("videos", videos,
       "videos of the dataset to train on: 1, 2 and 4 are recorded from 30, 45 and 60 deg of "
       "elevation",
@@ -43,8 +49,11 @@ struct TrainingOptions {
       "training; higher learns more slowly; 0: none is learnt",
       at_least(0.0));
   }
-  void check() const;  ///< features and videos: some, of different names and numbers
+  void check() const;  ///< features and videos: some, of different names and numbers; all costs
 };
+
+/// The part of training that takes longest, as LongWork tells it.
+inline constexpr std::string_view kExtractingFeatures = "extracting features";
 
 /// What is held out to choose psi is trained on as well once psi is chosen. The same for any number
 /// of threads, but for the features' measured cost.
