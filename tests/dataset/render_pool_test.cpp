@@ -66,7 +66,7 @@ TEST_F(RenderPool, WhatAProcessDiedOfIsRenderedByAnother) {
   render("whole", 3, 1, kWorker);
   const std::string part = (out_ / "parts/mug/.mug_1.part").string();
   const Program dies_once = script(
-      fmt::format("if mkdir {} 2>/dev/null; then mkdir -p {}; echo half > {}/mug_1_1_1_crop.png; "
+      fmt::format("if mkdir {} 2>/dev/null; then mkdir -p {}; echo half > {}/mug_1_9_1_crop.png; "
                   "kill -SEGV $$; fi; exec {} render-worker",
                   (out_ / "died").string(), part, part, VANTAGE_BINARY));
   EXPECT_EQ(render("parts", 3, 2, dies_once).rendered, 3);

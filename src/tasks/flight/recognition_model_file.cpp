@@ -25,7 +25,8 @@ std::filesystem::path find_recognition_model(const std::string& model) {
     return find_input(model, {}, "model");
   } catch (const InputError& error) {
     throw InputError(fmt::format(
-        "{}; vantage train --recipe assets/models/flight.yaml --out FILE makes one", error.what()));
+        "{}; `vantage train --recipe FILE.yaml --out {}` makes one, recipes are in assets/models",
+        error.what(), model));
   }
 }
 
