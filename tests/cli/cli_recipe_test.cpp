@@ -34,7 +34,7 @@ TEST_F(Recipe, MakesTheSameModelWithAnyNumberOfJobs) {
   ASSERT_EQ(first.exit_code, 0) << first.output;
   EXPECT_THAT(first.output, HasSubstr("6 objects"));
   ASSERT_EQ(make("three.model", "--cache three --jobs 3 -q").exit_code, 0);
-  EXPECT_EQ(bytes("one.model"), bytes("three.model"));
+  EXPECT_TRUE(bytes("one.model") == bytes("three.model"));
 }
 
 TEST_F(Recipe, GoesOnWhereItWasInterrupted) {
@@ -49,7 +49,7 @@ TEST_F(Recipe, GoesOnWhereItWasInterrupted) {
   const Result resumed = make("parts.model", "--cache parts --jobs 3 -q");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
   EXPECT_EQ(fs::last_write_time(first.path() / "mug" / "mug_1"), made) << "was rendered again";
-  EXPECT_EQ(bytes("whole.model"), bytes("parts.model"));
+  EXPECT_TRUE(bytes("whole.model") == bytes("parts.model"));
 }
 
 TEST_F(Recipe, TellsHowFarItIsAndWhere) {
