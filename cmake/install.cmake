@@ -66,6 +66,6 @@ if(VANTAGE_BUILD_SIM)
   install(TARGETS vantage RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT application)
   install(DIRECTORY models/robots models/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/vantage/models
           COMPONENT application)
-  install(DIRECTORY assets/episodes assets/sensors assets/studies assets/views
+  install(DIRECTORY assets/episodes assets/models assets/sensors assets/studies assets/views
           DESTINATION ${CMAKE_INSTALL_DATADIR}/vantage/assets COMPONENT application)
 endif()

@@ -135,6 +135,8 @@ const std::map<std::string, Rooms> kAllowed{
      {"core", "geometry", "perception", "models/catalogue/shapes", "models/catalogue/database",
       "sim/render", "sim/sensors"}},
     {"dataset/pictures", {"core", "geometry", "perception", "perception/images", "dataset"}},
+    {"recipe", kGround + Rooms{"belief/objects", "perception", "recognition", "recognition/dataset",
+                               "dataset", "sim/render"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
@@ -162,10 +164,10 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                          Rooms{"belief/objects", "cli/hints", "dataset", "tasks"}},
+                          Rooms{"belief/objects", "cli/hints", "dataset", "recipe", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                 Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep",
-                      "dataset", "models/catalogue/database", "report", "tasks", "view"}},
+                      "dataset", "models/catalogue/database", "recipe", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",

@@ -18,10 +18,11 @@ int id_of(const mjModel& model, mjtObj kind, std::string_view name) {
 
 }  // namespace
 
-PosedScene::PosedScene(ModelPtr model, int width_px, int height_px)
+PosedScene::PosedScene(ModelPtr model, int width_px, int height_px,
+                       std::shared_ptr<OffscreenContext> context)
     : model_(std::move(model)),
       data_(mj_makeData(model_.get())),
-      renderer_(make_offscreen_renderer(*model_, width_px, height_px)) {}
+      renderer_(make_offscreen_renderer(*model_, width_px, height_px, std::move(context))) {}
 
 void PosedScene::set_pose(std::string_view body, const Pose& T_world_body) {
   const int mocap = model_->body_mocapid[id_of(*model_, mjOBJ_BODY, body)];

@@ -13,8 +13,10 @@ namespace vantage {
 /// A model with its state and renderer. Use it from the thread that made it.
 class PosedScene {
  public:
-  /// @throws RendererError if there is no OpenGL context to be had.
-  PosedScene(ModelPtr model, int width_px, int height_px);
+  /// @param context of no other renderer that is still there
+  /// @throws RendererError if OpenGL fails.
+  PosedScene(ModelPtr model, int width_px, int height_px,
+             std::shared_ptr<OffscreenContext> context = make_offscreen_context());
 
   /// Moves a body that the model declares as mocap.
   void set_pose(std::string_view body, const Pose& T_world_body);

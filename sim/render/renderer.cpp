@@ -2,8 +2,12 @@
 
 #include <GL/osmesa.h>
 #include <dlfcn.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "vantage/core/error.hpp"
 #include "vantage/sim/render/gl_scene.hpp"
@@ -15,35 +19,30 @@ struct DestroyContext {
   void operator()(OSMesaContext context) const { OSMesaDestroyContext(context); }
 };
 
+}  // namespace
+
 /// An OSMesa context with the memory it draws into.
-class OsmesaContext {
+class OffscreenContext {
  public:
-  OsmesaContext(int width_px, int height_px)
-      : width_px_(width_px),
-        height_px_(height_px),
-        pixels_(4 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)),
-        context_(OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, nullptr)) {
+  OffscreenContext() : context_(OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, nullptr)) {
     if (!context_) throw RendererError("OSMesa: no OpenGL context");
-    make_current();
   }
 
-  void make_current() {
-    if (!OSMesaMakeCurrent(context_.get(), pixels_.data(), GL_UNSIGNED_BYTE, width_px_,
-                           height_px_)) {
-      throw RendererError("OSMesa: context cannot be made current, " + std::to_string(width_px_) +
-                          " x " + std::to_string(height_px_) + " pixels");
+  void make_current(int width_px, int height_px) {
+    const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
+    pixels_.resize(std::max(pixels_.size(), 4 * pixels));
+    if (!OSMesaMakeCurrent(context_.get(), pixels_.data(), GL_UNSIGNED_BYTE, width_px, height_px)) {
+      throw RendererError(fmt::format("OSMesa: context cannot be made current, {} x {} pixels",
+                                      width_px, height_px));
     }
   }
 
-  [[nodiscard]] int width_px() const { return width_px_; }
-  [[nodiscard]] int height_px() const { return height_px_; }
-
  private:
-  int width_px_;
-  int height_px_;
   std::vector<unsigned char> pixels_;
   std::unique_ptr<std::remove_pointer_t<OSMesaContext>, DestroyContext> context_;
 };
+
+namespace {
 
 /// MuJoCo takes OpenGL's entry points from the first of EGL, OSMesa, GLX whose lookup function it
 /// finds in the process; EGL's would draw nowhere here.
@@ -57,24 +56,30 @@ void require_osmesa_first() {
 
 class OffscreenRenderer : public Renderer {
  public:
-  OffscreenRenderer(const mjModel& model, int width_px, int height_px)
-      : context_(width_px, height_px), scene_(std::make_unique<GlScene>(model)) {}
+  OffscreenRenderer(const mjModel& model, int width_px, int height_px,
+                    std::shared_ptr<OffscreenContext> context)
+      : width_px_(width_px), height_px_(height_px), context_(std::move(context)) {
+    context_->make_current(width_px, height_px);
+    scene_ = std::make_unique<GlScene>(model);
+  }
   ~OffscreenRenderer() override {
-    context_.make_current();
+    context_->make_current(width_px_, height_px_);
     scene_.reset();
   }
 
-  [[nodiscard]] int width_px() const override { return context_.width_px(); }
-  [[nodiscard]] int height_px() const override { return context_.height_px(); }
+  [[nodiscard]] int width_px() const override { return width_px_; }
+  [[nodiscard]] int height_px() const override { return height_px_; }
   void render(const mjModel& model, const mjData& data, const CameraView& view,
               const RenderRequest& request, RenderedImages& out) override {
     expects(&model == &scene_->model(), "the model the renderer was made for");
-    context_.make_current();
+    context_->make_current(width_px_, height_px_);
     scene_->render(data, view, request, width_px(), height_px(), out);
   }
 
  private:
-  OsmesaContext context_;
+  int width_px_;
+  int height_px_;
+  std::shared_ptr<OffscreenContext> context_;
   std::unique_ptr<GlScene> scene_;
 };
 
@@ -82,13 +87,24 @@ class OffscreenRenderer : public Renderer {
 
 std::unique_ptr<Renderer> make_offscreen_renderer(const mjModel& model, int width_px,
                                                   int height_px) {
-  expects(width_px > 0 && height_px > 0, "image size above 0");
+  return make_offscreen_renderer(model, width_px, height_px, make_offscreen_context());
+}
+
+std::shared_ptr<OffscreenContext> make_offscreen_context() {
   require_osmesa_first();
-  return std::make_unique<OffscreenRenderer>(model, width_px, height_px);
+  return std::make_shared<OffscreenContext>();
+}
+
+std::unique_ptr<Renderer> make_offscreen_renderer(const mjModel& model, int width_px, int height_px,
+                                                  std::shared_ptr<OffscreenContext> context) {
+  expects(width_px > 0 && height_px > 0, "image size above 0");
+  expects(context != nullptr, "a context to draw in");
+  return std::make_unique<OffscreenRenderer>(model, width_px, height_px, std::move(context));
 }
 
 std::string renderer_name() {
-  OsmesaContext context(16, 16);
+  OffscreenContext context;
+  context.make_current(16, 16);
   using GetString = const GLubyte* (*)(GLenum);
   const auto get_string = reinterpret_cast<GetString>(OSMesaGetProcAddress("glGetString"));
   if (get_string == nullptr) throw RendererError("OSMesa: no glGetString");

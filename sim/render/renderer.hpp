@@ -102,6 +102,16 @@ class Renderer {
 std::unique_ptr<Renderer> make_offscreen_renderer(const mjModel& model, int width_px,
                                                   int height_px);
 
+/// An OpenGL context that one renderer after the other draws in: shaders are compiled once, which
+/// takes longer than a few images. What is drawn is the same as in a context of its own. Use it
+/// from the thread that made it.
+class OffscreenContext;
+/// @throws RendererError if there is no OpenGL context to be had.
+std::shared_ptr<OffscreenContext> make_offscreen_context();
+/// @param context of no other renderer that is still there
+std::unique_ptr<Renderer> make_offscreen_renderer(const mjModel& model, int width_px, int height_px,
+                                                  std::shared_ptr<OffscreenContext> context);
+
 /// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 (Compatibility Profile) Mesa 22.3.6".
 /// @throws RendererError if there is no OpenGL context to be had.
 std::string renderer_name();

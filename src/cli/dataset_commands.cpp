@@ -34,7 +34,8 @@ struct RenderArguments {
   std::vector<std::string> overrides;
   std::string objects, step_deg, seed, models;
   DatasetRun run{.root = {},
-                 .jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
+                 .jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency())),
+                 .worker = own_render_worker()};
   bool json = false;
 };
 
@@ -89,7 +90,7 @@ std::function<ExitCode()> declare_render(CLI::App& app) {
   app.add_option("--models", arguments->models,
                  "folder of scanned objects, <name>/{model.obj, texture.png}, instead of our own")
       ->check(not_empty);
-  app.add_option("--jobs", arguments->run.jobs, "threads")
+  app.add_option("--jobs", arguments->run.jobs, "objects rendered at a time, each in a process")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--set", arguments->overrides, "key=value of the keys below")
@@ -255,6 +256,10 @@ constexpr std::array kParts{
 };
 
 }  // namespace
+
+std::vector<std::string> own_render_worker() {
+  return {"/proc/self/exe", std::string(kRenderWorker)};
+}
 
 std::function<ExitCode()> declare_dataset(CLI::App& app) {
   app.require_subcommand(1);

@@ -1,14 +1,18 @@
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <string_view>
 
 #include "vantage/cli/commands.hpp"
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/hints/suggestion.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/dataset/render_worker.hpp"
 #include "vantage/runtime/manifest.hpp"
 
 namespace {
@@ -60,6 +64,11 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is a write error like any other
   vantage::remember_command_line(argc, argv);
   try {
+    // What `vantage dataset render` and `vantage train --recipe` start to render by; not for
+    // people.
+    if (argc == 2 && std::string_view(argv[1]) == vantage::kRenderWorker) {
+      return exit_code(vantage::serve_rendering(STDIN_FILENO));
+    }
     return run_command_line(argc, argv);
   } catch (const vantage::Error& error) {
     return fail(error.code(), error.what());

@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -12,9 +14,12 @@
 #include <vector>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/dataset_commands.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/dataset/render_dataset.hpp"
+#include "vantage/recipe/make_model.hpp"
 #include "vantage/recognition/training.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/json.hpp"
@@ -34,6 +39,7 @@ struct Arguments {
   fs::path model;
   fs::path out;
   fs::path config;
+  fs::path recipe;
   std::vector<std::string> overrides;
   fs::path cache;
   int jobs = all_cores();
@@ -59,11 +65,12 @@ Options options_of(const Arguments& arguments) {
 
 template <class Options>
 void declare_common(CLI::App& app, Arguments& arguments) {
-  app.add_option("--jobs", arguments.jobs, "threads")
+  app.add_option("--jobs", arguments.jobs, "threads; of a recipe, processes that render too")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--cache", arguments.cache,
-                 "folder where the views' features are kept for the next command");
+                 "folder where the views' features are kept for the next command; of a recipe, its "
+                 "recordings too");
   app.add_option("--config", arguments.config, "YAML file of the keys below; --set comes after it");
   app.add_option("--set", arguments.overrides, "key=value of the keys below")
       ->type_size(1)
@@ -75,10 +82,32 @@ void declare_common(CLI::App& app, Arguments& arguments) {
       [] { return "Keys of --set with their defaults:\n\n" + to_yaml(write_node(Options{})); });
 }
 
+/// A recording that was broken off is no recording to learn from.
+/// @throws InputError naming what is missing, unless bad views are left out.
+void require_whole(const fs::path& dataset, bool skip_bad) {
+  constexpr std::size_t kMostNamed = 5;
+  const std::vector<std::string> missing = missing_objects(dataset);
+  if (missing.empty()) return;
+  const std::vector<std::string> named(
+      missing.begin(),
+      missing.begin() + static_cast<std::ptrdiff_t>(std::min(missing.size(), kMostNamed)));
+  const std::string what = fmt::format(
+      "{}: rendering was broken off, {} missing: {}{}", dataset.string(),
+      missing.size() == 1 ? "an object is" : fmt::format("{} objects are", missing.size()),
+      fmt::join(named, ", "), missing.size() > kMostNamed ? ", ..." : "");
+  if (!skip_bad) {
+    throw InputError(what +
+                     "; `vantage dataset render` with the same options renders the rest, "
+                     "--skip-bad does without");
+  }
+  log_warning(what);
+}
+
 /// Of all datasets together: recordings of the same objects, or others.
 DatasetIndex index_of(const std::vector<fs::path>& datasets, const Arguments& arguments) {
   DatasetIndex all;
   for (const fs::path& dataset : datasets) {
+    require_whole(dataset, arguments.skip_bad);
     const DatasetIndex index =
         index_dataset(dataset, arguments.skip_bad ? OnBadView::skip : OnBadView::fail);
     for (const SkippedView& skipped : index.skipped) log_warning(skipped.reason);
@@ -118,18 +147,60 @@ void print_model(const Json& model) {
   }
 }
 
-ExitCode train_command(const Arguments& arguments) {
+/// Of the user: $XDG_CACHE_HOME/vantage or ~/.cache/vantage; beside the model for who has none.
+fs::path default_cache(const fs::path& out) {
+  const auto set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return fs::path(value != nullptr ? value : "");
+  };
+  if (const fs::path cache = set("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "vantage";
+  if (const fs::path home = set("HOME"); home.is_absolute()) return home / ".cache" / "vantage";
+  return out.string() + ".cache";
+}
+
+RecognitionModel model_of_recipe(const Arguments& arguments) {
+  const ModelRecipe recipe = read_model_recipe(arguments.recipe, arguments.overrides);
+  const fs::path cache = arguments.cache.empty() ? default_cache(arguments.out) : arguments.cache;
+  log_info(fmt::format("recordings are kept in {}", (cache / "recordings").string()));
+  return make_model(recipe, {.cache = cache,
+                             .jobs = arguments.jobs,
+                             .worker = own_render_worker(),
+                             .stop = [] { return interrupt_signal() != 0; },
+                             .poll = throw_if_interrupted});
+}
+
+RecognitionModel model_of_datasets(const Arguments& arguments) {
   const auto options = options_of<TrainingOptions>(arguments);
+  if (arguments.model.empty()) {
+    return train_recognition(index_of(arguments.datasets, arguments), options, arguments.how());
+  }
+  RecognitionModel model = read_recognition_model(arguments.model);
+  extend_recognition(model, index_of(arguments.datasets, arguments), options, arguments.how());
+  return model;
+}
+
+/// @throws ConfigError if the command line asks for neither or both ways of training.
+void require_one_way(const Arguments& arguments) {
+  if (arguments.recipe.empty()) {
+    if (arguments.datasets.empty()) throw ConfigError("train: a dataset or --recipe is required");
+    return;
+  }
+  for (const auto& [given, name] : {std::pair(!arguments.datasets.empty(), "datasets"),
+                                    {!arguments.model.empty(), "--add-to"},
+                                    {!arguments.config.empty(), "--config"},
+                                    {arguments.skip_bad, "--skip-bad"}}) {
+    if (given)
+      throw ConfigError(fmt::format("--recipe says what is trained on; no {} with it", name));
+  }
+}
+
+ExitCode train_command(const Arguments& arguments) {
+  require_one_way(arguments);
   require_absent(arguments.out, arguments.overwrite);
   make_writable_directory(fs::absolute(arguments.out).parent_path());
   catch_interrupts();
-  RecognitionModel model;
-  if (arguments.model.empty()) {
-    model = train_recognition(index_of(arguments.datasets, arguments), options, arguments.how());
-  } else {
-    model = read_recognition_model(arguments.model);
-    extend_recognition(model, index_of(arguments.datasets, arguments), options, arguments.how());
-  }
+  const RecognitionModel model =
+      arguments.recipe.empty() ? model_of_datasets(arguments) : model_of_recipe(arguments);
   write_recognition_model(model, arguments.out);
   const Json summary = model_json(arguments.out, model);
   if (arguments.json) {
@@ -158,9 +229,12 @@ ExitCode evaluate_command(const Arguments& arguments) {
 std::function<ExitCode()> declare_train(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   app.add_option("dataset", arguments->datasets,
-                 "folders of views; of the same objects: more recordings of them")
-      ->required();
+                 "folders of views; of the same objects: more recordings of them");
   declare_common<TrainingOptions>(app, *arguments);
+  app.add_option("--recipe", arguments->recipe,
+                 "instead of folders: a YAML file that says what to render and how to train; what "
+                 "is there of it is not rendered again. Keys of --set are then those of the file, "
+                 "--cache by default the user's");
   app.add_option("--out", arguments->out, "model file to write")->required();
   app.add_option("--add-to", arguments->model,
                  "model to add the dataset's objects to; those it knows are not trained again");

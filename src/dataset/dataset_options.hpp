@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "vantage/core/fields.hpp"
 
@@ -13,6 +14,7 @@ struct DatasetOptions {
   int session = 1;
   int objects = 326;
   double step_deg = 20.0;
+  std::vector<int> videos{1, 2, 4};
   std::string models = {};
   double distance_m = 0.85;
   double placement_m = 0.01;
@@ -39,6 +41,10 @@ struct DatasetOptions {
       between(1, 100000));
     f("step_deg", step_deg, "step of the turntable between views; lower gives more views",
       between(0.1, 360.0));
+    f("videos", videos,
+      "videos to record: 1, 2 and 4 are seen from 30, 45 and 60 deg of elevation; a video is the "
+      "same whichever others there are",
+      between(1, 4));
     f("models", models,
       "folder of objects `<name>/{model.obj, texture.png}` to use instead of the catalogue; empty: "
       "the catalogue");
@@ -68,7 +74,7 @@ struct DatasetOptions {
     f("supersampling", supersampling,
       "rays per pixel along each image axis, odd; higher is smoother and slower", between(1, 7));
   }
-  void check() const;  ///< @throws ConfigError if supersampling is even
+  void check() const;  ///< @throws ConfigError: an odd supersampling, known videos, each once
   /// Whole steps of the turntable in a turn.
   [[nodiscard]] int frames() const;
 };

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/models/catalogue/database/object_database.hpp"
 #include "vantage/models/catalogue/shapes/obj.hpp"
+#include "vantage/perception/dataset_index.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
@@ -75,6 +77,14 @@ TurntableObject read_scanned(const fs::path& folder) {
 
 void DatasetOptions::check() const {
   if (supersampling % 2 == 0) throw ConfigError("supersampling must be odd");
+  for (const int video : videos) {
+    if (!video_elevation_rad(video)) {
+      throw ConfigError(fmt::format("videos: {} is none of 1, 2, 4", video));
+    }
+  }
+  if (videos.empty() || std::set(videos.begin(), videos.end()).size() != videos.size()) {
+    throw ConfigError("videos: some are needed, each once");
+  }
 }
 
 int DatasetOptions::frames() const {

@@ -1,32 +1,24 @@
 #include "vantage/dataset/render_dataset.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
-#include <array>
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <numbers>
-#include <thread>
-#include <vector>
+#include <cerrno>
+#include <optional>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
-#include "vantage/dataset/object_source.hpp"
-#include "vantage/dataset/sensing.hpp"
-#include "vantage/dataset/turntable.hpp"
-#include "vantage/dataset/view_files.hpp"
+#include "vantage/dataset/object_renderer.hpp"
+#include "vantage/dataset/render_pool.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array kVideos{1, 2, 4};
 constexpr auto kOptionsFile = "dataset.yaml";
-
-/// Ends the work on an object that shall not be finished.
-struct Stopped {};
 
 std::string options_text(DatasetOptions options) { return to_yaml(write_node(options)); }
 
@@ -35,14 +27,6 @@ void remove_folder(const fs::path& folder) {
   fs::remove_all(folder, error);
   if (error) {
     throw OutputError(fmt::format("{}: cannot remove: {}", folder.string(), error.message()));
-  }
-}
-
-void rename_folder(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) {
-    throw OutputError(fmt::format("{}: cannot write: {}", to.string(), error.message()));
   }
 }
 
@@ -69,102 +53,82 @@ void prepare_root(const DatasetOptions& options, const DatasetRun& run) {
   write_file(file, options_text(options));
 }
 
-/// @return the number of views.
-int render_video(const TurntableObject& object, const ObjectName& name, int video,
-                 const fs::path& folder, const DatasetOptions& options, const DatasetRun& run) {
-  const std::string stream = fmt::format("{}/{}", name.object, video);
-  Rng rng = Rng::stream(options.seed, options.session == 1
-                                          ? stream
-                                          : fmt::format("{}/session {}", stream, options.session));
-  const Session session = draw_session(options, *video_elevation_rad(video), rng);
-  Turntable turntable(object, session, options, name.object);
-  RenderedImages drawn;
-  int views = 0;
-  for (int i = 0; i < options.frames(); ++i) {
-    if (run.stop()) throw Stopped{};
-    const double yaw_rad = session.first_yaw_rad + i * options.step_deg * std::numbers::pi / 180.0;
-    turntable.draw(yaw_rad, drawn);
-    const ObjectView view = sense(drawn, turntable.object_geom(), session, options, rng);
-    if (view.width_px == 0 && options.cut_by_depth) continue;  // too flat for so far away
-    if (view.width_px == 0) throw InputError(fmt::format("{}: cannot be seen", name.object));
-    write_view(view, {{name.category, name.object, video, i + 1}, folder, yaw_rad});
-    ++views;
-  }
-  return views;
-}
-
-/// Renders into a folder beside the final one and renames it when all is there.
-int render_object(const ObjectName& name, const fs::path& folder, const DatasetOptions& options,
-                  const DatasetRun& run) {
-  const fs::path part = folder.parent_path() / fmt::format(".{}.part", name.object);
-  remove_folder(part);
-  make_writable_directory(part);
-  const TurntableObject object = make_turntable_object(options, name);
-  int views = 0;
-  try {
-    for (const int video : kVideos) views += render_video(object, name, video, part, options, run);
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(part, ignored);
-    throw;
-  }
-  rename_folder(part, folder);
-  return views;
-}
-
-/// Threads that take one object after the other until all are done or one failed.
-class Workers {
+/// A dataset's folder while one process renders into it.
+class RenderLock {
  public:
-  Workers(const DatasetOptions& options, const DatasetRun& run)
-      : options_(options),
-        run_(run),
-        names_(object_names(options)),
-        progress_("rendering", static_cast<double>(names_.size())) {}
+  /// @throws OutputError if another process has it.
+  explicit RenderLock(const fs::path& root)
+      : folder_(::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (folder_ < 0 || ::flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    ::close(folder_);
+    throw OutputError(fmt::format("{}: another process renders into it", root.string()));
+  }
+  RenderLock(const RenderLock&) = delete;
+  RenderLock& operator=(const RenderLock&) = delete;
+  ~RenderLock() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+
+ private:
+  int folder_;
+};
+
+/// What one call does, as it goes on.
+class Rendering {
+ public:
+  Rendering(const DatasetOptions& options, const DatasetRun& run)
+      : options_(options), run_(run), names_(object_names(options)) {
+    if (!run.tell) bar_.emplace("rendering", static_cast<double>(names_.size()));
+  }
 
   DatasetOutcome work() {
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < run_.jobs; ++i) threads.emplace_back([this] { take_objects(); });
-    take_objects();
-    threads.clear();
-    if (failure_) std::rethrow_exception(failure_);
+    std::vector<ObjectName> open;
+    for (const ObjectName& name : names_) {
+      if (fs::exists(object_folder(run_.root, name))) {
+        complete(name);
+      } else {
+        open.push_back(name);
+      }
+    }
+    outcome_.stopped = !(run_.worker.empty() ? render_here(open) : render_by_workers(open));
     return outcome_;
   }
 
  private:
-  void take_objects() {
-    try {
-      for (std::size_t i = next_++; i < names_.size() && !over_; i = next_++) take(names_[i]);
-    } catch (const Stopped&) {
-      over_ = true;
-      const std::lock_guard lock(mutex_);
-      outcome_.stopped = true;
-    } catch (...) {
-      over_ = true;
-      const std::lock_guard lock(mutex_);
-      if (!failure_) failure_ = std::current_exception();
+  /// @returns false if it was stopped.
+  bool render_here(const std::vector<ObjectName>& open) {
+    if (open.empty()) return true;
+    ObjectRenderer renderer(options_, run_.root);
+    for (const ObjectName& name : open) {
+      const auto views = renderer.render(name, run_.stop);
+      if (!views) return false;
+      complete(name, *views);
     }
+    return true;
   }
 
-  void take(const ObjectName& name) {
-    const fs::path folder = run_.root / name.category / name.object;
-    const bool done = fs::exists(folder);
-    const int views = done ? 0 : render_object(name, folder, options_, run_);
-    const std::lock_guard lock(mutex_);
+  bool render_by_workers(const std::vector<ObjectName>& open) {
+    return render_in_processes(
+        options_, run_, open, [this](const ObjectName& name, int views) { complete(name, views); });
+  }
+
+  /// @param views rendered just now; nothing: it was there
+  void complete(const ObjectName& name, std::optional<int> views = {}) {
     ++outcome_.objects;
-    outcome_.rendered += done ? 0 : 1;
-    outcome_.views += views;
-    progress_.update(outcome_.objects, name.object);
+    outcome_.rendered += views ? 1 : 0;
+    outcome_.views += views.value_or(0);
+    if (run_.tell) {
+      run_.tell(outcome_.objects, static_cast<int>(names_.size()), name.object);
+    } else {
+      bar_->update(outcome_.objects, name.object);
+    }
   }
 
   const DatasetOptions& options_;
   const DatasetRun& run_;
   std::vector<ObjectName> names_;
-  std::atomic<std::size_t> next_ = 0;
-  std::atomic<bool> over_ = false;
-  std::mutex mutex_;  ///< of what follows
-  Progress progress_;
+  std::optional<Progress> bar_;
   DatasetOutcome outcome_;
-  std::exception_ptr failure_;
 };
 
 }  // namespace
@@ -172,13 +136,26 @@ class Workers {
 DatasetOutcome render_dataset(const DatasetOptions& options, const DatasetRun& run) {
   check_options(options);
   if (run.jobs < 1) throw ConfigError(fmt::format("jobs {}: must be at least 1", run.jobs));
-  Workers workers(options, run);
+  Rendering rendering(options, run);
   prepare_root(options, run);
-  return workers.work();
+  const RenderLock lock(run.root);
+  return rendering.work();
 }
 
 std::string dataset_options_text(const fs::path& root) {
   return fs::exists(root / kOptionsFile) ? read_file(root / kOptionsFile) : std::string{};
+}
+
+std::vector<std::string> missing_objects(const fs::path& root) {
+  std::vector<std::string> missing;
+  if (!fs::exists(root / kOptionsFile)) return missing;
+  DatasetOptions options;
+  read_into(read_yaml(root / kOptionsFile), options, {});
+  if (!options.models.empty() && !fs::is_directory(options.models)) return missing;  // moved since
+  for (const ObjectName& name : object_names(options)) {
+    if (!fs::exists(object_folder(root, name))) missing.push_back(name.object);
+  }
+  return missing;
 }
 
 }  // namespace vantage

@@ -115,11 +115,12 @@ int window_radius_px(const TurntableObject& object, const Session& session,
 }
 
 Turntable::Turntable(const TurntableObject& object, const Session& session,
-                     const DatasetOptions& options, const std::string& name)
+                     const DatasetOptions& options, const std::string& name,
+                     std::shared_ptr<OffscreenContext> context)
     : radius_px_(window_radius_px(object, session, name)),
       scene_(compile(object, turntable_mjcf(object, session, radius_px_), name),
              (2 * radius_px_ + 1) * options.supersampling,
-             (2 * radius_px_ + 1) * options.supersampling) {}
+             (2 * radius_px_ + 1) * options.supersampling, std::move(context)) {}
 
 void Turntable::draw(double yaw_rad, RenderedImages& out) {
   scene_.set_pose("object", make_pose(Vector3d::Zero(), yaw_rad));

@@ -1,6 +1,7 @@
 /// An object on a turntable before a camera: what one video of the dataset is taken of.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "vantage/core/rng.hpp"
@@ -38,7 +39,7 @@ class Turntable {
  public:
   /// @throws InputError if MuJoCo cannot use the mesh, RendererError without OpenGL.
   Turntable(const TurntableObject& object, const Session& session, const DatasetOptions& options,
-            const std::string& name);
+            const std::string& name, std::shared_ptr<OffscreenContext> context);
 
   /// Supersampled images of the object turned by `yaw_rad` about the axis.
   void draw(double yaw_rad, RenderedImages& out);

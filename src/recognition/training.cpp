@@ -68,6 +68,7 @@ std::vector<TrainedFeature> learn_features(std::span<const ViewEntry> views,
     const Feature& feature = options.features[f];
     Rng rng = Rng::stream(options.seed, strategy_name_of(feature));
     learnt[f] = train_feature(feature, examples, rng);
+    if (!options.costs_s.empty()) learnt[f] = learnt[f]->with_cost_s(options.costs_s[f]);
   });
   std::vector<TrainedFeature> features;
   for (auto& feature : learnt) features.push_back(std::move(*feature));
@@ -152,6 +153,10 @@ void TrainingOptions::check() const {
     }
   }
   if (features.empty()) throw ConfigError("features: at least one is needed");
+  if (!costs_s.empty() && costs_s.size() != features.size()) {
+    throw ConfigError(
+        fmt::format("costs_s: {} of them for {} features", costs_s.size(), features.size()));
+  }
   for (const int video : videos) {
     if (!video_elevation_rad(video)) {
       throw ConfigError(fmt::format("videos: {} is none of 1, 2, 4", video));
@@ -175,7 +180,7 @@ RecognitionModel train_recognition(const DatasetIndex& dataset, const TrainingOp
   const int bins = options.bins > 0 ? options.bins : notes ? notes->bins : kUsualBins;
   const std::vector<TrainedFeature> extractors = learn_features(entries, options, how);
   const std::vector<ViewFeatures> views =
-      extract_features(entries, extractors, how, "extracting features");
+      extract_features(entries, extractors, how, std::string(kExtractingFeatures));
   RecognitionModel model{
       .states = states_of(entries, bins), .features = empty_models(extractors), .transitions = {}};
   require_features(views, model.features);
@@ -206,7 +211,7 @@ void extend_recognition(RecognitionModel& model, const DatasetIndex& dataset,
   const ObjectStates added = states_of(entries, model.states.bins);
   add_objects(model.states, added);
   const std::vector<ViewFeatures> views =
-      extract_features(entries, extractors, how, "extracting features");
+      extract_features(entries, extractors, how, std::string(kExtractingFeatures));
   const std::vector<int> shown = states_shown(views, model.states);
   for (std::size_t f = 0; f < model.features.size(); ++f) {
     add_states(model.features[f].statistics, added.size());

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/belief/objects/psi_rule.hpp"
@@ -15,6 +16,7 @@ namespace vantage {
 struct TrainingOptions {
   std::uint64_t seed = 1;
   std::vector<Feature> features{Colour{}, BoundingBox{}, Sift{}, Vfh{}};
+  std::vector<double> costs_s = {};
   std::vector<int> videos{1, 4};
   std::vector<std::string> recordings;
   int bins = 0;
@@ -27,6 +29,10 @@ struct TrainingOptions {
   void fields(auto&& f) {
     f("seed", seed, "seed of every random stream; the same seed gives the same model");
     f("features", features, "features to learn, each a name or a name with options");
+    f("costs_s", costs_s,
+      "time to extract each of `features` from a view, in their order, that views and features are "
+      "chosen by where cost counts; empty: as measured in training, never twice the same",
+      above(0.0));
     f("videos", videos,
       "videos of a turntable dataset to train on: 1, 2 and 4 are recorded from 30, 45 and 60 deg "
       "of elevation; of imported pictures see `recordings`",
@@ -48,8 +54,11 @@ struct TrainingOptions {
       "training; higher learns more slowly; 0: none is learnt",
       at_least(0.0));
   }
-  void check() const;  ///< features and videos: some, of different names and numbers
+  void check() const;  ///< features and videos: some, of different names and numbers; all costs
 };
+
+/// The part of training that takes longest, as LongWork tells it.
+inline constexpr std::string_view kExtractingFeatures = "extracting features";
 
 /// What is held out to choose psi is trained on as well once psi is chosen. The same for any number
 /// of threads, but for the features' measured cost.

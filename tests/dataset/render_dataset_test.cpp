@@ -109,19 +109,28 @@ TEST(RenderDataset, AnotherSessionShowsTheSameObjectsInOtherLight) {
   EXPECT_NE(contents(out / "first"), contents(out / "second"));
 }
 
-TEST(RenderDataset, FilesDoNotDependOnThreads) {
+TEST(RenderDataset, AVideoIsTheSameWhicheverOthersThereAre) {
   const support::TemporaryDirectory out;
-  render_dataset(few(5), {.root = out / "one", .jobs = 1});
-  render_dataset(few(5), {.root = out / "three", .jobs = 3});
-  EXPECT_EQ(contents(out / "one"), contents(out / "three"));
+  render_dataset(few(1), {.root = out / "all"});
+  DatasetOptions options = few(1);
+  options.videos = {2};
+  EXPECT_EQ(render_dataset(options, {.root = out / "second"}).views, 3);
+  const auto all = contents(out / "all");
+  for (const auto& [name, content] : contents(out / "second")) {
+    if (name == "dataset.yaml") continue;
+    EXPECT_THAT(name, testing::HasSubstr("mug_1_2_"));
+    EXPECT_EQ(all.at(name), content) << name;
+  }
+  options.videos = {3};
+  EXPECT_THROW(render_dataset(options, {.root = out / "third"}), ConfigError);
 }
 
 TEST(RenderDataset, GoesOnWhereItWasStopped) {
   const support::TemporaryDirectory out;
   render_dataset(few(4), {.root = out / "whole"});
   std::atomic<int> views = 0;
-  const DatasetOutcome stopped = render_dataset(
-      few(4), {.root = out / "parts", .jobs = 2, .stop = [&] { return ++views > 22; }});
+  const DatasetOutcome stopped =
+      render_dataset(few(4), {.root = out / "parts", .stop = [&] { return ++views > 22; }});
   EXPECT_TRUE(stopped.stopped);
   EXPECT_LT(stopped.objects, 4);
   fs::create_directories(out / "parts" / "mug" / ".mug_2.part");  // as a kill leaves it
@@ -131,7 +140,7 @@ TEST(RenderDataset, GoesOnWhereItWasStopped) {
   EXPECT_EQ(resumed.objects, 4);
   EXPECT_EQ(resumed.rendered + stopped.rendered, 4);
   fs::remove_all(out / "parts" / "mug" / ".mug_2.part");
-  EXPECT_EQ(contents(out / "whole"), contents(out / "parts"));
+  EXPECT_TRUE(contents(out / "whole") == contents(out / "parts"));
 }
 
 TEST(RenderDataset, OtherOptionsNeedOverwrite) {
@@ -152,12 +161,38 @@ TEST(RenderDataset, AnotherFolderIsLeftAlone) {
   EXPECT_TRUE(fs::exists(out / "precious.txt"));
 }
 
-TEST(RenderDataset, FailsAsAWorkerDoes) {
+TEST(RenderDataset, AnObjectTooLargeForTheImageIsNamed) {
   const support::TemporaryDirectory out;
   DatasetOptions options = few(4);
   options.distance_m = 0.3;
   options.placement_m = 0.1;
-  EXPECT_THROW(render_dataset(options, {.root = out / "d", .jobs = 2}), InputError);
+  EXPECT_THROW(render_dataset(options, {.root = out / "d"}), InputError);
+}
+
+TEST(RenderDataset, TellsWhatIsMissing) {
+  const support::TemporaryDirectory out;
+  render_dataset(few(3), {.root = out / "d"});
+  EXPECT_THAT(missing_objects(out / "d"), testing::IsEmpty());
+  fs::remove_all(out / "d" / "mug" / "mug_2");
+  EXPECT_THAT(missing_objects(out / "d"), testing::ElementsAre("mug_2"));
+  fs::remove(out / "d" / "dataset.yaml");  // as of another's pictures
+  EXPECT_THAT(missing_objects(out / "d"), testing::IsEmpty());
+}
+
+TEST(RenderDataset, OneProcessAtATimeRendersIntoAFolder) {
+  const support::TemporaryDirectory out;
+  int refused = 0;
+  const auto another = [&] {
+    try {
+      render_dataset(few(1), {.root = out / "d"});
+    } catch (const OutputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("another process"));
+      ++refused;
+    }
+    return false;
+  };
+  render_dataset(few(1), {.root = out / "d", .stop = another});
+  EXPECT_EQ(refused, 9);
 }
 
 }  // namespace

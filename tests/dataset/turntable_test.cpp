@@ -38,7 +38,7 @@ class Cube : public testing::Test {
   }
   DatasetOptions options_{.supersampling = 1};
   Turntable table_{support::coloured_cube(), support::plain_session(kElevation_rad), options_,
-                   "cube"};
+                   "cube", make_offscreen_context()};
 };
 
 TEST_F(Cube, ShowsItsXSideAtYawZeroAndTurnsCounterClockwise) {

@@ -8,6 +8,7 @@
 
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/dataset/transition_training.hpp"
@@ -176,6 +177,18 @@ TEST_F(Training, EndsWhereItIsPolled) {
                        if (++calls > 20) throw Stop{};
                      }};
   EXPECT_THROW(train_recognition(index_dataset(folder_.path()), options_, how), Stop);
+}
+
+TEST_F(Training, StatedCostsMakeTheSameModelEachTime) {
+  options_.costs_s = {0.5, 0.25};
+  const RecognitionModel model = train(1);
+  EXPECT_EQ(model.features[0].cost_s, 0.5);
+  EXPECT_EQ(model.features[1].cost_s, 0.25);
+  write_recognition_model(model, folder_ / "first");
+  write_recognition_model(train(3), folder_ / "second");
+  EXPECT_TRUE(read_file(folder_ / "first") == read_file(folder_ / "second"));
+  options_.costs_s = {0.5};
+  expect_error("costs_s: 1 of them for 2 features");
 }
 
 }  // namespace

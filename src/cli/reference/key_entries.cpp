@@ -5,6 +5,7 @@
 
 #include "vantage/cli/reference/entry.hpp"
 #include "vantage/dataset/dataset_options.hpp"
+#include "vantage/recipe/model_recipe.hpp"
 #include "vantage/recognition/training.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
 #include "vantage/study/recognition/recognition_study.hpp"
@@ -68,6 +69,13 @@ std::vector<ReferenceEntry> robot_entries() {
   return entries_of(keys, "robot.yaml");
 }
 
+/// Keys below its sections are those of `dataset render` and `train`.
+std::vector<ReferenceEntry> recipe_entries() {
+  std::vector<KeyDescription> keys = describe_fields(ModelRecipe{});
+  std::erase_if(keys, [](const KeyDescription& key) { return key.key.find('.') != key.key.npos; });
+  return entries_of(keys, "recipe");
+}
+
 }  // namespace
 
 std::vector<ReferenceEntry> key_entries() {
@@ -79,6 +87,7 @@ std::vector<ReferenceEntry> key_entries() {
   add(robot_entries());
   add(entries_of(describe_fields(DatasetOptions{}), "dataset render"));
   add(entries_of(describe_fields(TrainingOptions{}), "train"));
+  add(recipe_entries());
   add(entries_of(describe_fields(RecognitionStudyOptions{}), "evaluate"));
   return entries;
 }

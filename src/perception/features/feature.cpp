@@ -72,6 +72,12 @@ FeatureResult TrainedFeature::extract(const ObjectView& view) const {
   return result;
 }
 
+TrainedFeature TrainedFeature::with_cost_s(double cost_s) const {
+  TrainedFeature other = *this;
+  other.cost_s_ = cost_s;
+  return other;
+}
+
 std::uint64_t TrainedFeature::state_hash() const {
   std::string bytes(name());
   std::visit([&](const auto& state) { state.put_state(bytes); }, *state_);

@@ -48,6 +48,9 @@ class TrainedFeature {
   [[nodiscard]] double cost_s() const { return cost_s_; }  ///< as measured when it was trained
   [[nodiscard]] FeatureResult extract(const ObjectView& view) const;
 
+  /// The same with another cost.
+  [[nodiscard]] TrainedFeature with_cost_s(double cost_s) const;
+
   /// Of all that decides what it extracts: the cost is not among it.
   [[nodiscard]] std::uint64_t state_hash() const;
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "vantage/core/log.hpp"
@@ -21,13 +22,16 @@ struct LongWork {
   /// Where extracted features are kept for the next time, see FeatureCache; empty: nowhere. Results
   /// do not depend on it.
   std::filesystem::path feature_cache = {};
+  /// Told how far a part of the work is, one call at a time; empty: each part has a bar of its own.
+  std::function<void(const std::string& part, std::size_t done, std::size_t of)> tell = {};
 };
 
 /// Calls work(0) ... work(count - 1), each once, in any order. Of what they throw, one is rethrown
 /// when all threads have ended.
 template <class Work>
 void work_through(std::size_t count, const LongWork& how, const std::string& label, Work&& work) {
-  Progress progress(label, static_cast<double>(count));
+  std::optional<Progress> bar;
+  if (!how.tell) bar.emplace(label, static_cast<double>(count));
   std::mutex mutex;
   std::exception_ptr failure;
   std::atomic<bool> over = false;
@@ -38,7 +42,9 @@ void work_through(std::size_t count, const LongWork& how, const std::string& lab
       how.poll();
       work(i);
       const std::lock_guard lock(mutex);
-      progress.update(static_cast<double>(++done));
+      ++done;
+      if (how.tell) how.tell(label, done, count);
+      if (bar) bar->update(static_cast<double>(done));
     } catch (...) {
       over = true;
       const std::lock_guard lock(mutex);

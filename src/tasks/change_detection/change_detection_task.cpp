@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 /// if it does not know what is or what is expected there.
 Recogniser load_recogniser(const ChangeDetectionTask& task, const ObjectOnTable& truth,
                            const ObjectOnTable& expected) {
-  const auto path = find_recognition_model(task.model, ChangeDetectionTask::name);
+  const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   require_known(recogniser, path, truth.object, "stands on the table");
   require_known(recogniser, path, expected.object, "is expected there");

@@ -20,12 +20,13 @@ std::string found_model_name(const std::string& model, const std::filesystem::pa
 
 InputFile model_input(const std::string& model) { return {"model", data_root() / model}; }
 
-std::filesystem::path find_recognition_model(const std::string& model, std::string_view task) {
+std::filesystem::path find_recognition_model(const std::string& model) {
   try {
     return find_input(model, {}, "model");
   } catch (const InputError& error) {
-    throw InputError(
-        fmt::format("{}; assets/episodes/{}.yaml says how to make one", error.what(), task));
+    throw InputError(fmt::format(
+        "{}; `vantage train --recipe FILE.yaml --out {}` makes one, recipes are in assets/models",
+        error.what(), model));
   }
 }
 

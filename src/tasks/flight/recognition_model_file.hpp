@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "vantage/recognition/recogniser.hpp"
 #include "vantage/runtime/episode_run.hpp"
@@ -17,9 +16,8 @@ std::string found_model_name(const std::string& model, const std::filesystem::pa
 /// The model as an input of an episode.
 InputFile model_input(const std::string& model);
 
-/// @param task whose episode file tells how to make one
-/// @throws InputError if there is none, naming that file.
-std::filesystem::path find_recognition_model(const std::string& model, std::string_view task);
+/// @throws InputError if there is none, with the command that makes one.
+std::filesystem::path find_recognition_model(const std::string& model);
 
 /// @param role of the object, "stands on the table"
 /// @throws ConfigError if the recogniser, read from `path`, does not know the object.

@@ -22,7 +22,7 @@ namespace vantage {
 /// Places to look from: level circle round the table's middle, camera on it. The keys of
 /// RecognitionOptions stand beside these.
 struct ObjectFlight {
-  std::string model = "out/recognition.model";
+  std::string model = "assets/models/flight.model";
   RecogniserOptions recogniser;
   RecognitionOptions decision;
   std::string object;

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 /// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
 /// if it does not know the object on the table.
 Recogniser load_recogniser(const RecognitionTask& task, const ObjectOnTable& object) {
-  const auto path = find_recognition_model(task.model, RecognitionTask::name);
+  const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   require_known(recogniser, path, object.object, "stands on the table");
   return recogniser;

@@ -17,7 +17,7 @@ namespace {
 /// if it does not know an object of the scene.
 Recogniser load_recogniser(const TrajectoryFlight& task,
                            const std::vector<ObjectOnSupport>& objects) {
-  const auto path = find_recognition_model(task.model, TrajectoryFlight::name);
+  const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   for (const ObjectOnSupport& object : objects) {
     require_known(recogniser, path, object.object, "stands in the room");

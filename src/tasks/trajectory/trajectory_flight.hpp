@@ -36,7 +36,7 @@ struct TrajectoryFlight {
           "replans in flight so as to recognise them.",
       .source = "Potthast2016, chapter 5"};
 
-  std::string model = "out/trajectory.model";
+  std::string model = "assets/models/flight.model";
   RecogniserOptions recogniser{.features = {"colour", "bounding_box", "sift"}};
   TransitionModel transition = RigidTransition{};
   ObjectDatabaseOptions database;

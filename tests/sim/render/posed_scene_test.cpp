@@ -50,6 +50,21 @@ TEST(PosedScene, DrawsAModelFromMemoryWhereItWasPut) {
   EXPECT_EQ(images.segmentation[50 * 101 + 50], scene.geom_id("wedge"));
 }
 
+TEST(PosedScene, OneContextDrawsOneSceneAfterAnotherAsContextsOfTheirOwn) {
+  const auto context = make_offscreen_context();
+  for (const int side_px : {101, 51, 151}) {
+    PosedScene shared(model(), side_px, side_px, context);
+    PosedScene alone(model(), side_px, side_px);
+    RenderedImages a;
+    RenderedImages b;
+    shared.render("above", {}, a);
+    alone.render("above", {}, b);
+    EXPECT_EQ(a.rgb, b.rgb);
+    EXPECT_EQ(a.depth_m, b.depth_m);
+    EXPECT_EQ(a.segmentation, b.segmentation);
+  }
+}
+
 TEST(PosedScene, HalfATurnMirrorsThePicture) {
   PosedScene scene(model(), 101, 101);
   RenderedImages before;

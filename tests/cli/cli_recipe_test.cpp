@@ -1,0 +1,102 @@
+// `vantage train --recipe`: from a file that says how a model is made to its bytes.
+#include "tests/cli/command_line.hpp"
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+
+/// Two recordings of six objects in few and small views.
+constexpr auto kRecipe = R"(render: {objects: 6, step_deg: 45, videos: [1, 2], supersampling: 1}
+recordings:
+  - {session: 1, distance_m: 0.85}
+  - {session: 2, distance_m: 1.1}
+train:
+  videos: [1, 2]
+  features: [soft_colour, sift]
+  costs_s: [0.001, 0.002]
+  feature_views: 20
+)";
+
+class Recipe : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    file("recipe.yaml", kRecipe);
+  }
+  Result make(const std::string& model, const std::string& more) {
+    return vantage("train --recipe recipe.yaml --out " + model + " " + more);
+  }
+  std::string bytes(const std::string& model) { return read_file(folder_ / model); }
+};
+
+TEST_F(Recipe, MakesTheSameModelWithAnyNumberOfJobs) {
+  const Result first = make("one.model", "--cache one --jobs 1 -q");
+  ASSERT_EQ(first.exit_code, 0) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("6 objects"));
+  ASSERT_EQ(make("three.model", "--cache three --jobs 3 -q").exit_code, 0);
+  EXPECT_TRUE(bytes("one.model") == bytes("three.model"));
+}
+
+TEST_F(Recipe, GoesOnWhereItWasInterrupted) {
+  ASSERT_EQ(make("whole.model", "--cache whole --jobs 2 -q").exit_code, 0);
+  const Result stopped =
+      interrupted("train --recipe recipe.yaml --out parts.model --cache parts --jobs 2 -q",
+                  "ls -d parts/recordings/*/mug/mug_1 2>/dev/null", "INT");
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
+  EXPECT_FALSE(fs::exists(folder_ / "parts.model"));
+  const auto first = *fs::recursive_directory_iterator(folder_ / "parts" / "recordings");
+  const auto made = fs::last_write_time(first.path() / "mug" / "mug_1");
+  const Result resumed = make("parts.model", "--cache parts --jobs 3 -q");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.output;
+  EXPECT_EQ(fs::last_write_time(first.path() / "mug" / "mug_1"), made) << "was rendered again";
+  EXPECT_TRUE(bytes("whole.model") == bytes("parts.model"));
+}
+
+TEST_F(Recipe, TellsHowFarItIsAndWhere) {
+  const Result result = make("told.model", "--cache told --set render.objects=2");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("told/recordings"));
+}
+
+TEST_F(Recipe, TheUsersCacheIsTheDefault) {
+  const Result result = shell("cd '" + folder_.string() +
+                              "' && XDG_CACHE_HOME=$PWD/mine " VANTAGE_BINARY
+                              " train --recipe recipe.yaml --out model -q --set render.objects=2");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+  EXPECT_TRUE(fs::exists(folder_ / "mine/vantage/recordings"));
+}
+
+TEST_F(Recipe, WhatIsWrongIsNamed) {
+  const auto with = [&](const std::string& set) {
+    return make("model", "--cache none -q --set '" + set + "'");
+  };
+  expect_error(with("render.objcts=2"), 2, {"--set", "objcts", "objects"});
+  expect_error(with("train.costs_s=[1]"), 2, {"costs_s", "1", "2"});
+  expect_error(with("render.videos=[1]"), 2, {"train.videos", "2", "session 1"});
+  expect_error(with("recordings=[{session: 1}, {session: 1}]"), 2, {"recordings", "session 1"});
+  expect_error(with("recordings=[]"), 2, {"recordings"});
+  expect_error(with("render.models=nowhere"), 3, {"models", "nowhere"});
+  file("recipe.yaml", "recordings:\n  - {session: 1, distance_m: 9}\n");
+  expect_error(make("model", "-q"), 2, {"recipe.yaml:2", "distance_m", "9"});
+  expect_error(vantage("train --out model -q"), 2, {"--recipe"});
+  expect_error(vantage("train data --recipe recipe.yaml --out model -q"), 2, {"--recipe"});
+  expect_error(vantage("train --recipe none.yaml --out model -q"), 3, {"none.yaml"});
+  EXPECT_FALSE(fs::exists(folder_ / "model"));
+}
+
+TEST_F(Recipe, AnIncompleteRecordingIsNoRecording) {
+  const std::string render = "dataset render d -q --set objects=4 step_deg=60 supersampling=1";
+  ASSERT_EQ(vantage(render).exit_code, 0);
+  fs::remove_all(folder_ / "d" / "mug" / "mug_2");
+  const std::string train = "train d --out model -q --set 'features=[soft_colour]' ";
+  expect_error(vantage(train), 3, {"d: ", "mug_2", "dataset render", "--skip-bad"});
+  EXPECT_FALSE(fs::exists(folder_ / "model"));
+  const Result without = vantage(train + "--skip-bad");
+  EXPECT_EQ(without.exit_code, 0) << without.output;
+  EXPECT_THAT(without.output, HasSubstr("mug_2"));
+  ASSERT_EQ(vantage(render).exit_code, 0);
+  EXPECT_EQ(vantage(train + "--overwrite").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,125 @@
+// Objects rendered by processes of their own: the same files, whatever becomes of the processes.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/support/shell.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/dataset/render_dataset.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+using Program = std::vector<std::string>;
+const Program kWorker{VANTAGE_BINARY, "render-worker"};
+Program script(const std::string& text) { return {"/bin/sh", "-c", text}; }
+
+/// Few and small views.
+DatasetOptions few(int objects) {
+  return {.objects = objects, .step_deg = 120.0, .supersampling = 1};
+}
+
+class RenderPool : public testing::Test {
+ protected:
+  std::map<std::string, std::string> contents(const std::string& dataset) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(out_ / dataset)) {
+      const std::string name = fs::relative(entry.path(), out_ / dataset).string();
+      files[name] = entry.is_regular_file() ? read_file(entry.path()) : "folder";
+    }
+    return files;
+  }
+  DatasetOutcome render(const std::string& dataset, int objects, int jobs, const Program& worker) {
+    return render_dataset(few(objects), {.root = out_ / dataset, .jobs = jobs, .worker = worker});
+  }
+  /// Code and text of what it throws.
+  std::pair<ExitCode, std::string> error_of(const DatasetOptions& options, const Program& worker) {
+    try {
+      render_dataset(options, {.root = out_ / "failed", .jobs = 2, .worker = worker});
+    } catch (const Error& error) {
+      return {error.code(), error.what()};
+    }
+    return {ExitCode::done, "no error"};
+  }
+
+  support::TemporaryDirectory out_;
+};
+
+TEST_F(RenderPool, FilesDoNotDependOnTheNumberOfProcesses) {
+  render("here", 5, 1, {});
+  const DatasetOutcome one = render("one", 5, 1, kWorker);
+  EXPECT_EQ(one.rendered, 5);
+  EXPECT_EQ(one.views, 5 * 9);
+  render("three", 5, 3, kWorker);
+  EXPECT_TRUE(contents("here") == contents("one"));
+  EXPECT_TRUE(contents("here") == contents("three"));
+}
+
+TEST_F(RenderPool, WhatAProcessDiedOfIsRenderedByAnother) {
+  render("whole", 3, 1, kWorker);
+  const std::string part = (out_ / "parts/mug/.mug_1.part").string();
+  const Program dies_once = script(
+      fmt::format("if mkdir {} 2>/dev/null; then mkdir -p {}; echo half > {}/mug_1_9_1_crop.png; "
+                  "kill -SEGV $$; fi; exec {} render-worker",
+                  (out_ / "died").string(), part, part, VANTAGE_BINARY));
+  EXPECT_EQ(render("parts", 3, 2, dies_once).rendered, 3);
+  EXPECT_TRUE(fs::exists(out_ / "died"));
+  EXPECT_TRUE(contents("whole") == contents("parts"));
+}
+
+TEST_F(RenderPool, AnObjectThatEveryProcessDiesOfIsNamed) {
+  const auto [code, text] = error_of(few(1), script("kill -SEGV $$"));
+  EXPECT_EQ(code, ExitCode::no_renderer);
+  EXPECT_THAT(text, AllOf(HasSubstr("mug_1"), HasSubstr("signal 11")));
+  EXPECT_THAT(error_of(few(1), {"/nowhere/vantage"}).second, HasSubstr("exit code 127"));
+}
+
+TEST_F(RenderPool, WhatAProcessSaysItFailedByComesThrough) {
+  DatasetOptions options = few(4);
+  options.distance_m = 0.3;
+  options.placement_m = 0.1;
+  const auto [code, text] = error_of(options, kWorker);
+  EXPECT_EQ(code, ExitCode::bad_input);
+  EXPECT_THAT(text, HasSubstr("too far for the image"));
+}
+
+TEST_F(RenderPool, StoppedItLeavesWholeObjectsAlone) {
+  render("whole", 6, 2, kWorker);
+  int complete = 0;
+  const DatasetOutcome stopped = render_dataset(
+      few(6), {.root = out_ / "parts",
+               .jobs = 2,
+               .worker = kWorker,
+               .stop = [&] { return complete > 0; },
+               .tell = [&](int objects, int, const std::string&) { complete = objects; }});
+  EXPECT_TRUE(stopped.stopped);
+  EXPECT_LT(stopped.objects, 6);
+  for (const auto& [name, content] : contents("parts")) {
+    EXPECT_THAT(name, testing::Not(HasSubstr(".part")));
+  }
+  EXPECT_LE(render("parts", 6, 3, kWorker).rendered, 6 - stopped.objects);
+  EXPECT_TRUE(contents("whole") == contents("parts"));
+}
+
+TEST_F(RenderPool, NoProcessOutlivesTheOneThatStartedIt) {
+  const support::ShellResult result = support::shell(
+      "cd '" + out_.path().string() +
+      "'; " VANTAGE_BINARY
+      " dataset render d --jobs 2 -q & pid=$!;"
+      "children() { cat /proc/$pid/task/*/children; };"
+      "until [ $(children | wc -w) = 2 ]; do kill -0 $pid || exit 3; sleep .02; done;"
+      "workers=$(children); kill -9 $pid; wait $pid;"
+      "for p in $workers; do i=0; while readlink /proc/$p/exe; do sleep .1; i=$((i + 1));"
+      "[ $i -lt 300 ] || exit 4; done; done");
+  EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
+}  // namespace
+}  // namespace vantage
