@@ -15,7 +15,7 @@ TEST_F(CommandLine, AMistypedCommandSuggestsTheNearest) {
   for (const auto& [typed, meant] : {std::pair("rnu", "did you mean run?"),
                                      {"sweep rn x.yaml", "did you mean run?"},
                                      {"sweep -q colect", "did you mean collect?"},
-                                     {"dataset contact", "known: render, info"},
+                                     {"dataset contact", "known: render, import, check, info"},
                                      {"valdiate x.yaml", "did you mean validate?"}}) {
     const Result result = vantage(typed);
     EXPECT_EQ(result.exit_code, 2) << typed;

@@ -195,7 +195,7 @@ TEST_F(Sweep, StatesAreKeptOnDemandAndALeanEpisodeSaysHow) {
 TEST_F(Sweep, ResultsHaveTheColumnsOfTheTasksThatOccur) {
   const std::string header = reference().substr(0, reference().find('\n'));
   EXPECT_THAT(header, HasSubstr(",observed_share,"));
-  for (const char* of_another : {"accuracy", "entropy_bits", "bin_error", "energy_j"}) {
+  for (const char* of_another : {"accuracy", "entropy_bits", "bin_error", "flight_time_s"}) {
     EXPECT_THAT(header, Not(HasSubstr(of_another)));
   }
 }

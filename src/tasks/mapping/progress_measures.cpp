@@ -37,6 +37,8 @@ double area_over_time_s(std::span<const ScanRecord> scans, std::size_t observabl
 /// The share left as it steps down along another quantity of the scans, sampled evenly.
 Curve sampled(const MeasuredEpisode& episode, const char* along, double step) {
   const Curve cells_left = step_values(episode, "scans", "observable_unobserved_cells");
+  const auto& scans = episode.metrics.at("scans");
+  if (scans.empty() || !scans.front().contains(along)) return {};
   const Curve at = step_values(episode, "scans", along);
   const double all = episode.metrics.at("observable_cells").get<double>();
   Curve shares;
@@ -66,7 +68,13 @@ void add_progress(std::span<const ScanRecord> scans, std::size_t observable_cell
   metrics["area_over_time"] = area_over_time_s(scans, observable_cells);
 }
 
+std::optional<double> progress_of(const MeasuredEpisode& episode, const char* key) {
+  if (!episode.metrics.contains(key)) return {};
+  return number_of(episode, key);
+}
+
 std::optional<double> reached_95(const MeasuredEpisode& episode) {
+  if (!episode.metrics.contains("time_to_95_s")) return {};
   return episode.metrics.at("time_to_95_s").is_null() ? 0.0 : 1.0;
 }
 
