@@ -188,7 +188,7 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      [](const MeasuredEpisode& e) { return number_of(e, "late_plans"); }},
     {{"missed_deadlines", "replans that came after the next waypoint", Better::lower},
      [](const MeasuredEpisode& e) { return number_of(e, "missed_deadlines"); }},
-    {{"energy_j", "energy of the rotors, J", Better::lower},
+    {{"energy_j", "energy used, J", Better::lower},
      [](const MeasuredEpisode& e) { return number_of(e, "energy_j"); }},
 });
 
