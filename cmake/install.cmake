@@ -23,7 +23,7 @@ vantage_component(core TARGETS core PACKAGES fmt spdlog yaml-cpp)
 vantage_component(geometry TARGETS geometry ON core PACKAGES "Eigen3 3.4")
 vantage_component(information TARGETS information ON core PACKAGES "Eigen3 3.4" fmt)
 vantage_component(control TARGETS control ON geometry PACKAGES fmt)
-vantage_component(belief TARGETS belief_map belief_objects belief ON information geometry
+vantage_component(belief TARGETS belief_map belief_objects belief_tracking belief ON information geometry
                   PACKAGES fmt octomap Threads)
 vantage_component(trajectory TARGETS trajectory_optimisers trajectory ON belief control PACKAGES fmt)
 vantage_component(planners

@@ -59,7 +59,7 @@ Rooms operator+(Rooms a, const Rooms& b) {
 const Rooms kGround{"core", "geometry", "information"};
 const Rooms kPerception{"perception", "perception/clouds", "perception/images",
                         "perception/features", "perception/features/kit"};
-const Rooms kBelief{"belief/map", "belief/objects"};
+const Rooms kBelief{"belief/map", "belief/objects", "belief/tracking"};
 const Rooms kPlanners{"planners",
                       "planners/gains",
                       "planners/visibility",
@@ -72,7 +72,8 @@ const Rooms kPlanners{"planners",
                       "planners/trajectory/optimisers"};
 const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
 const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing"};
-const Rooms kRecognition{"recognition", "recognition/dataset", "recognition/evaluation"};
+const Rooms kRecognition{"recognition", "recognition/calibration", "recognition/dataset",
+                         "recognition/evaluation"};
 const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/kit",   "study/recognition", "study/sweep",
                    "study/tables"};
@@ -99,6 +100,7 @@ const std::map<std::string, Rooms> kAllowed{
                      "perception/features/patches"}},
     {"belief/map", kGround},
     {"belief/objects", kGround},
+    {"belief/tracking", kGround},
     {"planners/visibility", kGround + Rooms{"belief/map"}},
     {"planners/gains", kGround + Rooms{"belief/map", "planners/visibility"}},
     {"planners/tours", {"core", "geometry"}},
@@ -113,9 +115,11 @@ const std::map<std::string, Rooms> kAllowed{
     {"planners/trajectory",
      kGround + Rooms{"belief/map", "control", "planners/trajectory/optimisers"}},
     {"recognition/dataset", kGround + kPerception + Rooms{"belief/objects"}},
-    {"recognition",
-     kGround + kPerception +
-         Rooms{"belief/objects", "planners/objects", "planners/trajectory", "recognition/dataset"}},
+    {"recognition/calibration",
+     kGround + kPerception + Rooms{"belief/objects", "planners/objects", "recognition/dataset"}},
+    {"recognition", kGround + kPerception +
+                        Rooms{"belief/objects", "planners/objects", "planners/trajectory",
+                              "recognition/calibration", "recognition/dataset"}},
     {"recognition/evaluation", kGround + Rooms{"recognition", "recognition/dataset"}},
     {"sim/world", {"core", "geometry"}},
     {"sim/render", {"core", "geometry", "sim/world"}},
@@ -149,7 +153,8 @@ const std::map<std::string, Rooms> kAllowed{
     {"tasks/object_flight", kTask},
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
     {"study/figures", {"core", "geometry", "information", "report"}},
-    {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
+    {"study/recognition",
+     kGround + kRecognition + kRuntime + Rooms{"belief/objects", "study/figures"}},
     {"study/kit", kGround + kRuntime + Rooms{"tasks"}},
     {"study/cluster", {"core"}},
     {"study/tables", {"core", "information", "report", "runtime", "study/figures"}},

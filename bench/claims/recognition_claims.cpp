@@ -137,7 +137,75 @@ Finding changes(const Json& study, const char* key, const char* which, const std
       });
 }
 
+/// What was measured of unknown objects.
+/// @throws NotRun
+const Json& unknown_of(const Json& study, std::string_view method) {
+  const Json& of = method_of(study, method);
+  if (!of.contains("unknown") || of.at("unknown").is_null()) {
+    throw NotRun("the study of unknown objects");
+  }
+  return of.at("unknown");
+}
+
+/// @throws NotRun
+double calibration_error(const Json& study, std::string_view method) {
+  const Json& of = method_of(study, method);
+  if (!of.contains("reliability") || of.at("reliability").is_null()) {
+    throw NotRun("the study of unknown objects");
+  }
+  return of.at("reliability").at("expected_calibration_error").get<double>();
+}
+
 }  // namespace
+
+std::vector<Finding> unknown_findings(const Json& study, const std::string& which) {
+  const auto figure = [&](std::string_view method, const char* key) {
+    return unknown_of(study, method).at(key).get<double>();
+  };
+  const auto end = [&](const char* key, std::size_t at) {
+    return unknown_of(study, kInformed).at(key).at(at).get<double>();
+  };
+  const auto area = [&]() -> Measured {
+    const double value = figure(kInformed, "area_under_curve");
+    return {
+        fmt::format("{:.4f} [{:.4f}, {:.4f}], a single view {:.4f}", value, end("area_interval", 0),
+                    end("area_interval", 1), figure(kSingle, "area_under_curve")),
+        value >= 0.95};
+  };
+  const auto alarms = [&]() -> Measured {
+    const char* key = "false_alarms_at_90_percent_found";
+    const double percent = 100.0 * figure(kInformed, key);
+    return {fmt::format("{:.2f} % [{:.2f}, {:.2f}], a single view {:.2f} %", percent,
+                        100.0 * end("false_alarms_interval", 0),
+                        100.0 * end("false_alarms_interval", 1), 100.0 * figure(kSingle, key)),
+            percent <= 5.0};
+  };
+  return {held("goal",
+               fmt::format("{} are told from known objects after views by information: area under "
+                           "the curve at least 0.95",
+                           which),
+               area),
+          held("goal",
+               fmt::format("at most 5 % of known objects are held for unknown where 90 % of the {} "
+                           "are found",
+                           which),
+               alarms)};
+}
+
+std::vector<Finding> reliability_findings(const Json& study) {
+  return {held("goal",
+               "expected calibration error of P(object) at most 0.05, a single view and several",
+               [&]() -> Measured {
+                 const double single = calibration_error(study, kSingle);
+                 const double several = calibration_error(study, kInformed);
+                 const auto published = [&](const char* method) {
+                   return calibration_error(study, fmt::format("{}; psi as published", method));
+                 };
+                 return {fmt::format("{:.3f} and {:.3f}; by the published psi {:.3f} and {:.3f}",
+                                     single, several, published(kSingle), published(kInformed)),
+                         single <= 0.05 && several <= 0.05};
+               })};
+}
 
 std::vector<Finding> recognition_findings(const Json& study) {
   return {single_view(study),

@@ -131,8 +131,14 @@ std::string write_recognition_page(const fs::path& directory) {
   for (const auto& [part, title] : {Part{"simple", "Simple features:"},
                                     {"changes", "Changes:"},
                                     {"kernel", "Kernel descriptors:"},
-                                    {"simple_same_objects", "Simple features, same objects:"}}) {
-    if (fs::exists(folder / part)) text += evaluation_tables(folder / part, title);
+                                    {"simple_same_objects", "Simple features, same objects:"},
+                                    {"unknown", "Families left out are unknown:"},
+                                    {"unknown_scanned", "Scanned objects are unknown:"}}) {
+    if (!fs::exists(folder / part)) continue;
+    text += evaluation_tables(folder / part, title);
+    if (fs::exists(folder / part / "reliability.svg")) {
+      text += fmt::format("\n![Reliability of P(object)]({}/reliability.svg)\n", part);
+    }
   }
   fs::create_directories(folder);
   write_file(folder / "tables.md", text);

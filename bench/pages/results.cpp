@@ -143,6 +143,11 @@ Json json_or_nothing(const fs::path& file) {
   return fs::exists(file) ? read_json(file) : Json::object();
 }
 
+std::string reliability_picture(const fs::path& folder) {
+  if (!fs::exists(folder / "unknown" / "reliability.svg")) return "";
+  return "\n![Reliability of P(object)](results/recognition/unknown/reliability.svg)\n";
+}
+
 /// Of what `vantage evaluate` wrote of recognition, with simple features and kernel descriptors.
 std::string recognition_claims(const fs::path& folder) {
   std::vector<Finding> findings;
@@ -159,9 +164,12 @@ std::string recognition_claims(const fs::path& folder) {
   add(recognition_findings(summary("simple")));
   add(change_findings(summary("changes")));
   add(kernel_findings(summary("kernel"), summary("simple_same_objects")));
+  add(unknown_findings(summary("unknown"), "families left out"));
+  add(unknown_findings(summary("unknown_scanned"), "scanned objects"));
+  add(reliability_findings(summary("unknown")));
   return "`bench/studies recognition`; of " +
          commits_text(commits, folder / "simple" / "summary.json") + ".\n\n" +
-         findings_table(findings);
+         findings_table(findings) + reliability_picture(folder);
 }
 
 struct Benchmarks {

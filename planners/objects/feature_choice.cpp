@@ -33,8 +33,10 @@ double score_of(const FeatureChoice& choice, const ObservationModel& model, doub
 std::vector<FeatureScore> scores_of(const FeatureChoice& choice, const FeatureSituation& situation,
                                     Rng& rng) {
   const ObservationModel* model = nullptr;
-  InformationQuery query{.likely = likely_states(situation.belief, choice.states),
-                         .features = {&model, 1}};
+  InformationQuery query{
+      .likely = likely_states(situation.database, situation.belief, choice.states),
+      .features = {&model, 1},
+      .weight = situation.weight};
   if (choice.about_object) query.group = objects_of(situation.database, query.likely.states);
   const Rng common(rng.next());
   std::vector<FeatureScore> scores;

@@ -84,6 +84,7 @@ struct FeatureSituation {
   const Eigen::VectorXd& belief;  ///< a probability per state
   std::span<const FeatureOption> features;
   std::optional<double> last_score = {};  ///< of the feature chosen before at this view, if any
+  double weight = 1.0;                    ///< as InformationQuery::weight
 };
 
 struct FeatureScore {

@@ -29,7 +29,7 @@ InformationEstimate MeanFeatureInformation::operator()(const InformationQuery& q
                                                        Rng& /*rng*/) const {
   const auto& b = query.likely.belief;
   const Eigen::MatrixXd log_p =
-      log_likelihoods_at_means(query.features, query.likely.states).cast<double>();
+      query.weight * log_likelihoods_at_means(query.features, query.likely.states).cast<double>();
   double nats = 0.0;
   for (std::size_t i = 0; i < b.size(); ++i) {
     std::vector<double> own;  // ln p(mean_i, j) of the states that count as i's

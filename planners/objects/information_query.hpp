@@ -15,12 +15,14 @@ struct InformationQuery {
   FeatureModels features;
   const DivergenceTables* tables = nullptr;  ///< of these features together; null: none
   std::vector<int> group = {};               ///< object of each likely state; empty: the state
+  double weight = 1.0;  ///< exponent on what is measured, beside psi: view_weight()
 
   [[nodiscard]] Eigen::MatrixXf divergences(Divergence divergence) const {
-    if (tables == nullptr || tables->of(divergence).size() == 0) {
-      return state_divergences(divergence, features, likely.states);
-    }
-    return rows_and_columns(tables->of(divergence), likely.states);
+    const bool made = tables != nullptr && tables->of(divergence).size() > 0;
+    Eigen::MatrixXf nats = made ? rows_and_columns(tables->of(divergence), likely.states)
+                                : state_divergences(divergence, features, likely.states);
+    if (weight != 1.0) nats *= static_cast<float>(weight);
+    return nats;
   }
 };
 

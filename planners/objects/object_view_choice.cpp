@@ -46,9 +46,11 @@ scores_by(const Measure& measure, const ObjectViewOptions& options,
   const Rng common(rng.next());
   std::vector<ObjectViewScore> scores;
   for (std::size_t i = 0; i < situation.actions.size(); ++i) {
-    InformationQuery query{.likely = likely_states(situation.predicted_belief[i], options.states),
-                           .features = situation.features,
-                           .tables = situation.tables};
+    InformationQuery query{
+        .likely = likely_states(situation.database, situation.predicted_belief[i], options.states),
+        .features = situation.features,
+        .tables = situation.tables,
+        .weight = situation.weight};
     if (options.about_object) query.group = objects_of(situation.database, query.likely.states);
     Rng draws = common;
     const InformationEstimate gain = measure(query, draws);
@@ -93,9 +95,13 @@ ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
 std::optional<EnoughReason> seen_enough(const EnoughViews& enough, const ObjectStates& database,
                                         const Eigen::VectorXd& belief) {
   expects(belief.size() == database.size(), "a belief holds a probability for each state");
-  const Eigen::VectorXd objects =
-      belief.reshaped(database.bins, database.object_count()).colwise().sum();
-  const double most = std::min(objects.maxCoeff(), 1.0);  // sums round to a little above
+  const Eigen::VectorXd objects = belief.head(database.known_size())
+                                      .reshaped(database.bins, database.object_count())
+                                      .colwise()
+                                      .sum();
+  const double unknown = belief.tail(database.unknown_size()).sum();
+  const double most =
+      std::min(std::max(objects.maxCoeff(), unknown), 1.0);  // sums round to a little above
   if (most > enough.object_probability) return EnoughReason::probability;
   const double entropy = entropy_bits({belief.data(), static_cast<std::size_t>(belief.size())});
   if (entropy < enough.entropy_bits) return EnoughReason::entropy;

@@ -94,6 +94,7 @@ struct ObjectViewSituation {
   std::span<const ObjectViewAction> actions;  ///< at least one
   std::span<const Eigen::VectorXd>
       predicted_belief;  ///< after each action, a probability per state
+  double weight = 1.0;   ///< as InformationQuery::weight
 };
 
 struct ObjectViewScore {
@@ -118,8 +119,9 @@ struct EnoughViews {
   double entropy_bits = 0.1;
   void fields(auto&& f) {
     f("object_probability", object_probability,
-      "probability of an object, whatever its yaw, above which no further view is taken; higher "
-      "takes more views",
+      "probability of an object, whatever its yaw, or of an unknown one, above which no further "
+      "view "
+      "is taken; higher takes more views",
       Range{0.0, 1.0, true});
     f("entropy_bits", entropy_bits,
       "entropy of the state, object and yaw bin, below which no further view is taken; lower takes "
@@ -131,6 +133,7 @@ struct EnoughViews {
 enum class EnoughReason { probability, entropy };
 
 /// An object is more probable, or the state less uncertain, than `enough` asks for; none: look on.
+/// That it is unknown is an answer like any object.
 /// @param belief a probability per state
 std::optional<EnoughReason> seen_enough(const EnoughViews& enough, const ObjectStates& database,
                                         const Eigen::VectorXd& belief);

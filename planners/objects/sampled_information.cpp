@@ -16,18 +16,24 @@ struct SampledFeature {
   Eigen::ArrayXXf mean;  ///< times sqrt(psi)
   Eigen::ArrayXXf variance;
   Eigen::ArrayXXf precision;
-  Eigen::ArrayXd half_log_variance;  ///< of each state, summed over dimensions, times psi
+  /// Of each state, summed over dimensions, less its log_factor; times psi.
+  Eigen::ArrayXd half_log_variance;
   float psi = 1.0F;
 };
 
-SampledFeature sampled_feature(const ObservationModel& model, std::span<const int> states) {
+SampledFeature sampled_feature(const ObservationModel& model, std::span<const int> states,
+                               double weight) {
   SampledFeature feature;
-  feature.psi = static_cast<float>(model.psi);
+  const double psi = weight * model.psi;
+  feature.psi = static_cast<float>(psi);
   feature.mean = model.mean(Eigen::all, states).array() * std::sqrt(feature.psi);
   feature.variance = model.variance(Eigen::all, states).array();
   feature.precision = feature.variance.inverse();
   feature.half_log_variance =
-      0.5 * model.psi * feature.variance.log().colwise().sum().transpose().cast<double>();
+      0.5 * psi * feature.variance.log().colwise().sum().transpose().cast<double>();
+  if (model.log_factor.size() > 0) {
+    feature.half_log_variance -= psi * model.log_factor(states).array();
+  }
   return feature;
 }
 
@@ -89,7 +95,9 @@ InformationEstimate sampled_information(const InformationQuery& query, int sampl
   const std::span<const double> belief = query.likely.belief;
   std::vector<SampledFeature> features;
   for (const ObservationModel* model : query.features) {
-    if (model->psi > 0.0) features.push_back(sampled_feature(*model, query.likely.states));
+    if (model->psi > 0.0) {
+      features.push_back(sampled_feature(*model, query.likely.states, query.weight));
+    }
   }
   const double before_bits = entropy_of_target_bits(query, belief);
   const double offset = rng.uniform();
@@ -113,7 +121,7 @@ InformationEstimate sampled_information(const InformationQuery& query, int sampl
 double information_at_means_bits(const InformationQuery& query) {
   const std::span<const double> belief = query.likely.belief;
   const Eigen::MatrixXd log_p =
-      log_likelihoods_at_means(query.features, query.likely.states).cast<double>();
+      query.weight * log_likelihoods_at_means(query.features, query.likely.states).cast<double>();
   std::vector<double> updated(belief.size());
   double bits = entropy_of_target_bits(query, belief);
   for (std::size_t i = 0; i < belief.size(); ++i) {

@@ -159,7 +159,13 @@ Eigen::MatrixXf rows_and_columns(const Eigen::MatrixXf& table, std::span<const i
 }
 
 Eigen::MatrixXf log_likelihoods_at_means(FeatureModels features, std::span<const int> states) {
-  return -summed(SurpriseAtMeanTerm{}, features, states, 1);
+  Eigen::MatrixXf log_p = -summed(SurpriseAtMeanTerm{}, features, states, 1);
+  for (const ObservationModel* model : features) {
+    if (model->psi == 0.0 || model->log_factor.size() == 0) continue;
+    const Eigen::VectorXd factor = model->psi * model->log_factor(states);
+    log_p.rowwise() += factor.transpose().cast<float>();
+  }
+  return log_p;
 }
 
 }  // namespace vantage

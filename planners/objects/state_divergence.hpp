@@ -48,8 +48,9 @@ struct DivergenceTables {
 /// The rows and columns of `table` that belong to `states`.
 Eigen::MatrixXf rows_and_columns(const Eigen::MatrixXf& table, std::span<const int> states);
 
-/// psi ln N(mean_i; mean_j, variance_j) of every two of `states`, summed over the features, up to a
-/// constant: row i holds the log likelihoods of all states where state i measures its mean.
+/// psi (ln N(mean_i; mean_j, variance_j) + log_factor_j) of every two of `states`, summed over the
+/// features, up to a constant: row i holds the log likelihoods of all states where state i measures
+/// its mean.
 Eigen::MatrixXf log_likelihoods_at_means(FeatureModels features, std::span<const int> states);
 
 }  // namespace vantage

@@ -86,7 +86,8 @@ std::optional<double> motion_before(const RecogniseArguments& arguments,
   return std::remainder(*before - *now, 2.0 * std::numbers::pi);
 }
 
-/// The camera moved, nobody knows how far: the object stays, its yaw may be any.
+/// The camera moved, nobody knows how far: the object stays, its yaw may be any. What is unknown
+/// has none.
 void forget_yaw(const ObjectStates& states, ObjectBelief& belief) {
   const Eigen::VectorXd log_object = p_object(states, belief).array().log();
   for (int k = 0; k < states.object_count(); ++k) {

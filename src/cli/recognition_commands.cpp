@@ -122,7 +122,8 @@ Json model_json(const fs::path& path, const RecognitionModel& model) {
     features.push_back({{"name", feature.name},
                         {"dimensions", feature.statistics.dimensions()},
                         {"psi", feature.psi},
-                        {"cost_s", feature.cost_s}});
+                        {"cost_s", feature.cost_s},
+                        {"unknown", feature.unknown.has_value()}});
   }
   std::size_t views = 0;
   for (const int count : model.features.front().statistics.count) {
@@ -133,6 +134,7 @@ Json model_json(const fs::path& path, const RecognitionModel& model) {
           {"categories", model.states.categories.size()},
           {"states", model.states.size()},
           {"views", views},
+          {"view_correlation", model.view_correlation},
           {"features", features}};
 }
 
@@ -145,6 +147,11 @@ void print_model(const Json& model) {
                feature["dimensions"].get<int>(), feature["psi"].get<double>(),
                1e3 * feature["cost_s"].get<double>());
   }
+  const bool unknown = std::ranges::all_of(
+      model["features"], [](const Json& feature) { return feature["unknown"].get<bool>(); });
+  fmt::print("{}; views of one object repeat each other: correlation {:.2f}\n",
+             unknown ? "knows what is unknown" : "takes every object for one of these",
+             model["view_correlation"].get<double>());
 }
 
 /// Of the user: $XDG_CACHE_HOME/vantage or ~/.cache/vantage; beside the model for who has none.
@@ -243,9 +250,9 @@ std::function<ExitCode()> declare_train(CLI::App& app) {
 
 std::function<ExitCode()> declare_evaluate(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  app.add_option(
-         "dataset", arguments->datasets,
-         "folders of views; objects that the model does not know count for their category alone")
+  app.add_option("dataset", arguments->datasets,
+                 "folders of views; objects that the model does not know count for their category, "
+                 "and with `unknown_starts` as unknown ones")
       ->required();
   app.add_option("--training", arguments->training,
                  "folders of views that `baselines` are trained on; default: what the dataset has "

@@ -12,15 +12,22 @@ namespace {
 
 constexpr double kNegInf = -std::numeric_limits<double>::infinity();
 
-ChangeHypotheses hypotheses(const ObjectStates& states, const ChangeOptions& options,
+ChangeHypotheses hypotheses(const Recogniser& recogniser, const ChangeOptions& options,
                             int expected) {
+  const ObjectStates& states = recogniser.states;
   const int object = states.object_of(expected);
   const double turned = options.prior_pose / std::max(states.bins - 1, 1);
-  const double other = options.prior_object / std::max(states.size() - states.bins, 1);
+  const double known = options.prior_object * (1.0 - recogniser.unknown_prior);
+  const double other = known / std::max(states.known_size() - states.bins, 1);
   ChangeHypotheses h;
   h.expected.log_p = Eigen::VectorXd::Constant(states.size(), kNegInf);
   h.expected.log_p[expected] = 0.0;
   h.changed.log_p = Eigen::VectorXd::Constant(states.size(), std::log(other));
+  if (states.unknown_size() > 0) {
+    h.changed.log_p.tail(states.unknown_size()) =
+        prior_belief(states, recogniser.unknown_prior).log_p.tail(states.unknown_size()).array() +
+        std::log(options.prior_object);
+  }
   h.changed.log_p.segment(states.state(object, 0), states.bins).setConstant(std::log(turned));
   h.changed.log_p[expected] = kNegInf;
   h.log_p_expected = std::log(1.0 - options.prior_pose - options.prior_object);
@@ -106,9 +113,9 @@ ObjectBelief ChangeHypotheses::mixture() const {
 ChangeSearch begin_change_search(const Recogniser& recogniser, const ChangeOptions& options,
                                  int expected_state) {
   check_options(options);
-  expects(expected_state >= 0 && expected_state < recogniser.states.size(), "a state");
+  expects(expected_state >= 0 && expected_state < recogniser.states.known_size(), "a state");
   ChangeSearch search{.expected_object = recogniser.states.object_of(expected_state),
-                      .hypotheses = hypotheses(recogniser.states, options, expected_state),
+                      .hypotheses = hypotheses(recogniser, options, expected_state),
                       .recognition = {}};
   search.recognition.belief = search.hypotheses.mixture();
   return search;
@@ -118,12 +125,14 @@ void update_with_view(const Recogniser& recogniser, const ChangeOptions& options
                       const ExtractFeature& extract, double view_rad, ChangeSearch& search,
                       Rng& rng) {
   Witness witness(recogniser, extract);
+  const double weight = next_view_weight(recogniser, search.recognition);
   update_with_view(recogniser, options.recognition, std::ref(witness), view_rad, search.recognition,
                    rng);
   ChangeHypotheses& h = search.hypotheses;
   for (const Eigen::VectorXd& log_likelihood : witness.measured()) {
-    weigh(h.expected, h.log_p_expected, log_likelihood);
-    weigh(h.changed, h.log_p_changed, log_likelihood);
+    const Eigen::VectorXd counted = weighted(log_likelihood, weight);
+    weigh(h.expected, h.log_p_expected, counted);
+    weigh(h.changed, h.log_p_changed, counted);
   }
   search.recognition.belief = h.mixture();
   if (witness.measured().empty()) ++search.empty_views;

@@ -91,6 +91,7 @@ const ObjectObservation& ObjectObservations::take(int id, const ObjectDetection&
   }
   update_with_view(recogniser_, recognition_, extract_from(recogniser_, view), bearing_rad,
                    object.recognition, rng);
+  const ObjectEstimate now = estimate(object);
   const Eigen::Vector3d up = T_world_camera.translation() - detection.p_world_object_m;
   ObjectObservation observation{.time_s = time_s,
                                 .bearing_rad = bearing_rad,
@@ -100,8 +101,9 @@ const ObjectObservation& ObjectObservations::take(int id, const ObjectDetection&
                                 .pixels = detection.pixels,
                                 .report = object.recognition.views.back(),
                                 .entropy_nats = entropy_nats(object),
-                                .estimate = estimate(object),
-                                .map_probability = map_probability(object),
+                                .estimate = now.object,
+                                .map_probability = now.probability,
+                                .unknown_probability = unknown_probability(object),
                                 .T_world_camera = T_world_camera};
   object.used[static_cast<std::size_t>(observation.direction)] = true;
   object.observations.push_back(std::move(observation));
@@ -134,13 +136,18 @@ bool ObjectObservations::known(const RecognisedObject& object) const {
   return entropy_nats(object) < options_.known_below_nats;
 }
 
-const std::string& ObjectObservations::estimate(const RecognisedObject& object) const {
-  const int best = most_probable_object(recogniser_.states, object.recognition.belief);
-  return recogniser_.states.objects[static_cast<std::size_t>(best)];
+ObjectEstimate ObjectObservations::estimate(const RecognisedObject& object) const {
+  return estimate_of(recogniser_.states, object.recognition.belief);
 }
 
-double ObjectObservations::map_probability(const RecognisedObject& object) const {
-  return p_object(recogniser_.states, object.recognition.belief).maxCoeff();
+double ObjectObservations::unknown_probability(const RecognisedObject& object) const {
+  return p_unknown(recogniser_.states, object.recognition.belief);
+}
+
+double ObjectObservations::prior_entropy_nats() const {
+  const ObjectStates& states = recogniser_.states;
+  if (states.unknown_size() == 0) return std::log(static_cast<double>(states.object_count()));
+  return std::numbers::ln2 * object_entropy_bits(states, begin_recognition(recogniser_).belief);
 }
 
 }  // namespace vantage

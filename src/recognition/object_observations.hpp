@@ -68,8 +68,9 @@ struct ObjectObservation {
   int pixels = 0;              ///< that show the object
   ViewReport report;
   double entropy_nats = 0.0;  ///< of the object, after it
-  std::string estimate;       ///< the most probable object, after it
+  std::string estimate;       ///< ObjectEstimate::object, after it
   double map_probability = 0.0;
+  double unknown_probability = 0.0;
   Pose T_world_camera = Pose::Identity();  ///< as estimated
 };
 
@@ -110,9 +111,10 @@ class ObjectObservations {
   [[nodiscard]] bool known(const RecognisedObject& object) const;
   [[nodiscard]] int total() const { return total_; }  ///< observations, of forgotten ones too
   [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
-  /// The most probable object.
-  [[nodiscard]] const std::string& estimate(const RecognisedObject& object) const;
-  [[nodiscard]] double map_probability(const RecognisedObject& object) const;
+  [[nodiscard]] ObjectEstimate estimate(const RecognisedObject& object) const;
+  [[nodiscard]] double unknown_probability(const RecognisedObject& object) const;
+  /// Of an object that was never observed.
+  [[nodiscard]] double prior_entropy_nats() const;
 
  private:
   [[nodiscard]] RecognisedObject& of(int id);

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
+#include "vantage/core/log.hpp"
 #include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/transition_training.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
@@ -58,6 +60,21 @@ std::vector<const FeatureModel*> wanted_features(const RecognitionModel& model,
   return wanted;
 }
 
+/// Whether all of them have learnt what they are of unknown objects.
+bool knows_unknown(const ObjectStates& states, std::span<const FeatureModel* const> features,
+                   const std::string& source) {
+  const bool learnt =
+      states.object_count() >= 2 && std::ranges::all_of(features, [](const FeatureModel* feature) {
+        return feature->unknown.has_value();
+      });
+  if (!learnt && source != kModel) {
+    log_info(source +
+             ": was trained without unknown objects: each is held to be one of the model's; "
+             "train it anew to recognise what is unknown");
+  }
+  return learnt;
+}
+
 Recogniser assembled(ObjectStates states, std::vector<FeaturePair> features, int threads,
                      Tables tables, const std::vector<int>& impossible = {}) {
   expects(!features.empty(), "a recogniser has features");
@@ -78,18 +95,27 @@ Recogniser make_named_recogniser(const RecognitionModel& model, const Recogniser
                                  int threads, const std::string& source,
                                  Tables tables = Tables::made) {
   check_options(options);
+  const std::vector<const FeatureModel*> wanted = wanted_features(model, options.features);
+  const bool unknown = options.unknown_prior > 0.0 && knows_unknown(model.states, wanted, source);
   std::vector<FeaturePair> pairs;
-  for (const FeatureModel* feature : wanted_features(model, options.features)) {
-    pairs.push_back(
-        {extractor_of(*feature, source),
-         make_observation_model(*feature, model.states.bins, floored(model, options.variance))});
+  for (const FeatureModel* feature : wanted) {
+    ObservationModel observation =
+        make_observation_model(*feature, model.states.bins, floored(model, options.variance));
+    if (unknown) {
+      observation = with_unknown(std::move(observation), model.states, *feature->unknown);
+    }
+    pairs.push_back({extractor_of(*feature, source), std::move(observation)});
   }
   if (pairs.empty() || model.states.size() == 0) {
     throw InputError(source + ": holds no features or no objects");
   }
+  ObjectStates states = model.states;
+  if (unknown) states.unknown_category = unknown_hypotheses(states);
   Recogniser recogniser =
-      assembled(model.states, std::move(pairs), threads, tables, unseen_states(model));
+      assembled(std::move(states), std::move(pairs), threads, tables, unseen_states(model));
   recogniser.transition = transition_of(model);
+  recogniser.unknown_prior = unknown ? options.unknown_prior : 0.0;
+  recogniser.view_correlation = options.repeated_views ? model.view_correlation : 0.0;
   return recogniser;
 }
 

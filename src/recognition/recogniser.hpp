@@ -31,15 +31,27 @@ struct Recogniser {
   DivergenceTables tables;  ///< of all features together
   /// As the model learnt it; RecognitionOptions::transition `learned` without slips means this.
   LearnedTransition transition = {};
+  double unknown_prior = 0.0;     ///< of the hypotheses of unknown objects, if there are any
+  double view_correlation = 0.0;  ///< see view_weight()
 };
 
 struct RecogniserOptions {
   VarianceEstimate variance = ShrunkVariance{};
   std::vector<std::string> features;
+  double unknown_prior = 0.1;
+  bool repeated_views = true;
   void fields(auto&& f) {
     f("variance", variance,
       "how the variances of the observation model are estimated from the training views");
     f("features", features, "names of the model's features that are used; empty: all");
+    f("unknown_prior", unknown_prior,
+      "probability, before anything is seen, that an object is none of the model's; higher says "
+      "`unknown` more readily; 0: never, every object is held to be one of the model's",
+      between(0.0, 0.999));
+    f("repeated_views", repeated_views,
+      "true: further views of an object count for less, as far as training found that views repeat "
+      "each other; false: each counts as if it were the first, which is too sure of itself after "
+      "several");
   }
 };
 

@@ -1,5 +1,6 @@
 #include "vantage/recognition/recognition.hpp"
 
+#include "vantage/belief/objects/view_weight.hpp"
 #include "vantage/core/log.hpp"
 
 namespace vantage {
@@ -32,12 +33,14 @@ FeatureDecision next_feature(const Recogniser& recogniser, const RecognitionOpti
                         {.database = recogniser.states,
                          .belief = belief,
                          .features = features,
-                         .last_score = last_score},
+                         .last_score = last_score,
+                         .weight = next_view_weight(recogniser, recognition)},
                         rng);
 }
 
 /// Bayes' rule with what was extracted.
-void apply(const RecogniserFeature& feature, const ExtractedFeature& extracted,
+/// @param weight of the view, see view_weight()
+void apply(const RecogniserFeature& feature, const ExtractedFeature& extracted, double weight,
            ObjectBelief& belief, ViewReport& report) {
   const std::string& name = feature.observation.feature;
   report.feature_time_s += extracted.time_s;
@@ -47,8 +50,9 @@ void apply(const RecogniserFeature& feature, const ExtractedFeature& extracted,
   }
   const bool known = extracted.log_likelihood.size() > 0;
   const EvidenceResult evidence =
-      update(belief, known ? extracted.log_likelihood
-                           : log_likelihood(feature.prepared, extracted.result.vector));
+      update(belief, weighted(known ? extracted.log_likelihood
+                                    : log_likelihood(feature.prepared, extracted.result.vector),
+                              weight));
   if (evidence.used()) {
     report.features.push_back(name);
   } else {
@@ -75,7 +79,16 @@ ExtractFeature extract_from(const Recogniser& recogniser, const ObjectView& view
 }
 
 Recognition begin_recognition(const Recogniser& recogniser) {
-  return {.belief = uniform_belief(recogniser.states), .views = {}};
+  return {.belief = prior_belief(recogniser.states, recogniser.unknown_prior), .views = {}};
+}
+
+double next_view_weight(const Recogniser& recogniser, const Recognition& recognition) {
+  return view_weight(static_cast<int>(recognition.views.size()), recogniser.view_correlation);
+}
+
+Eigen::VectorXd weighted(Eigen::VectorXd log_likelihood, double weight) {
+  if (weight != 1.0) log_likelihood *= weight;
+  return log_likelihood;
 }
 
 void update_with_view(const Recogniser& recogniser, const RecognitionOptions& options,
@@ -84,6 +97,7 @@ void update_with_view(const Recogniser& recogniser, const RecognitionOptions& op
   ViewReport report{.view_rad = view_rad, .features = {}, .skipped = {}};
   std::vector<FeatureOption> features = feature_options(recogniser);
   std::optional<double> last_score;
+  const double weight = next_view_weight(recogniser, recognition);
   for (;;) {
     const double start_s = wall_s();
     const FeatureDecision decision =
@@ -91,7 +105,7 @@ void update_with_view(const Recogniser& recogniser, const RecognitionOptions& op
     report.selection_time_s += wall_s() - start_s;
     if (!decision.feature) break;
     const std::size_t chosen = *decision.feature;
-    apply(recogniser.features[chosen], extract(chosen), recognition.belief, report);
+    apply(recogniser.features[chosen], extract(chosen), weight, recognition.belief, report);
     features[chosen].extracted = true;
     last_score = decision.score;
   }
@@ -121,13 +135,15 @@ NextView next_view(const Recogniser& recogniser, const RecognitionOptions& optio
     predicted.push_back(p_state(there.belief));
   }
   const std::vector<const ObservationModel*> models = models_of(recogniser);
-  ObjectViewDecision decision = choose_object_view(options.views,
-                                                   {.database = recogniser.states,
-                                                    .features = models,
-                                                    .tables = &recogniser.tables,
-                                                    .actions = actions,
-                                                    .predicted_belief = predicted},
-                                                   rng);
+  ObjectViewDecision decision =
+      choose_object_view(options.views,
+                         {.database = recogniser.states,
+                          .features = models,
+                          .tables = &recogniser.tables,
+                          .actions = actions,
+                          .predicted_belief = predicted,
+                          .weight = next_view_weight(recogniser, recognition)},
+                         rng);
   return {.decision = std::move(decision), .time_s = wall_s() - start_s};
 }
 

@@ -76,6 +76,12 @@ struct Recognition {
 
 Recognition begin_recognition(const Recogniser& recogniser);
 
+/// What the next view counts: views repeat each other.
+double next_view_weight(const Recogniser& recogniser, const Recognition& recognition);
+/// To the power of `weight`; 0 * -inf, which only a weight of 0 gives, is NaN and left out by
+/// update().
+Eigen::VectorXd weighted(Eigen::VectorXd log_likelihood, double weight);
+
 /// Measurement update with a view from where the camera is: chooses features, extracts and applies
 /// them, and appends a report to `recognition.views`. A feature that cannot be extracted, or that
 /// the belief cannot be reconciled with, is reported as skipped and not tried again at this view.

@@ -13,6 +13,8 @@
 
 #include "vantage/perception/dataset_reader.hpp"
 #include "vantage/perception/features/kit/k_means.hpp"
+#include "vantage/recognition/calibration/unknown_training.hpp"
+#include "vantage/recognition/calibration/view_correlation.hpp"
 #include "vantage/recognition/dataset/few_views.hpp"
 #include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
@@ -30,6 +32,12 @@ constexpr std::size_t kManyViewsOfState = 6;
 std::vector<ViewEntry> training_views(const DatasetIndex& dataset, const TrainingOptions& options,
                                       const std::optional<PictureNotes>& notes) {
   std::vector<ViewEntry> views = chosen_views(dataset, options.videos, options.recordings);
+  for (const std::string& name : options.leave_out) {
+    if (std::erase_if(views, [&](const ViewEntry& v) { return v.name.object == name; }) == 0) {
+      throw InputError(fmt::format("leave_out: the dataset has no object '{}' to train on", name));
+    }
+  }
+  if (views.empty()) throw InputError("leave_out: leaves no object to train on");
   fit_to(notes, views);
   drop_copies(views);
   return views;
@@ -100,6 +108,7 @@ void require_features(std::span<const ViewFeatures> views, std::span<const Featu
 struct Calibrated {
   std::vector<double> psi;
   double variance_floor = 0.0;  ///< 0: that of the options
+  Calibration by = {};          ///< what it was chosen on
 };
 
 /// The highest of some floors whose held-out views are as likely as those of the best, within a
@@ -109,21 +118,22 @@ Calibrated calibrated_on_few(std::span<const ViewFeatures> views, std::span<cons
                              const RecognitionModel& model, const TrainingOptions& options,
                              HoldOutOptions hold, const LongWork& how) {
   const auto shrunk = std::get<ShrunkVariance>(options.variance);
-  Calibrated chosen;
   double least = -std::numeric_limits<double>::infinity();
   std::vector<std::pair<Calibrated, LogObject>> tried;
   for (const double floor : {0.0, 0.1, 0.3, 1.0, 3.0}) {
     hold.variance = ShrunkVariance{.nu0 = shrunk.nu0, .floor = std::max(shrunk.floor, floor)};
     Calibration calibration = hold_out(views, shown, model, hold, how);
-    const std::size_t real = calibration.held_out.state.size();
-    add_a_mistake(calibration.held_out);
-    const std::vector<double> psi =
-        choose_psi(options.psi, {.models = calibration.models, .held_out = calibration.held_out});
-    tried.emplace_back(Calibrated{psi, floor}, log_object(calibration.held_out, psi, real));
-    least = std::max(least, tried.back().second.mean - tried.back().second.standard_error);
+    HeldOutViews with_a_mistake = calibration.held_out;
+    add_a_mistake(with_a_mistake);
+    const std::vector<double> psi = choose_psi(
+        options.psi, {.models = calibration.folds.front().models, .held_out = with_a_mistake});
+    const LogObject log = log_object(with_a_mistake, psi, calibration.held_out.state.size());
+    tried.emplace_back(Calibrated{psi, floor, std::move(calibration)}, log);
+    least = std::max(least, log.mean - log.standard_error);
   }
-  for (const auto& [calibrated, log] : tried) {
-    if (log.mean >= least) chosen = calibrated;
+  Calibrated chosen;
+  for (auto& [calibrated, log] : tried) {
+    if (log.mean >= least) chosen = std::move(calibrated);
   }
   return chosen;
 }
@@ -137,9 +147,22 @@ Calibrated calibrated(std::span<const ViewFeatures> views, std::span<const int> 
                    std::holds_alternative<CalibratedPsi>(options.psi) &&
                    views.size() < kManyViewsOfState * static_cast<std::size_t>(model.states.size());
   if (few) return calibrated_on_few(views, shown, model, options, hold, how);
-  const Calibration calibration = hold_out(views, shown, model, hold, how);
-  return {.psi = choose_psi(options.psi,
-                            {.models = calibration.models, .held_out = calibration.held_out})};
+  Calibrated calibrated;
+  calibrated.by = hold_out(views, shown, model, hold, how);
+  calibrated.psi = choose_psi(options.psi, {.models = calibrated.by.folds.front().models,
+                                            .held_out = calibrated.by.held_out});
+  return calibrated;
+}
+
+/// Of objects that are none of the model's, and of views of one object that are alike.
+/// @param model with psi
+void learn_unknown(std::span<const ViewFeatures> views, std::span<const int> shown,
+                   const Calibrated& calibrated, RecognitionModel& model,
+                   const TrainingOptions& options, const LongWork& how) {
+  const auto unknown = calibrate_unknown(calibrated.by, views, model.states, calibrated.psi, how);
+  for (std::size_t f = 0; f < unknown.size(); ++f) model.features[f].unknown = unknown[f];
+  model.view_correlation = learn_view_correlation(
+      views, shown, model, floored(model, options.variance), options.seed, how);
 }
 
 }  // namespace
@@ -185,11 +208,11 @@ RecognitionModel train_recognition(const DatasetIndex& dataset, const TrainingOp
       .states = states_of(entries, bins), .features = empty_models(extractors), .transitions = {}};
   require_features(views, model.features);
   const std::vector<int> shown = states_shown(views, model.states);
-  const auto [psi, variance_floor] =
-      calibrated(views, shown, model, options, notes.has_value(), how);
-  if (notes) keep_notes(*notes, variance_floor, model);
+  const Calibrated by = calibrated(views, shown, model, options, notes.has_value(), how);
+  if (notes) keep_notes(*notes, by.variance_floor, model);
+  for (std::size_t f = 0; f < model.features.size(); ++f) model.features[f].psi = by.psi[f];
+  if (options.unknown) learn_unknown(views, shown, by, model, options, how);
   for (std::size_t f = 0; f < model.features.size(); ++f) {
-    model.features[f].psi = psi[f];
     add_states(model.features[f].statistics, model.states.size());
     add_views(model.features[f].statistics, views, shown, f);
   }

@@ -26,6 +26,8 @@ struct TrainingOptions {
   PsiRule psi = CalibratedPsi{};
   /// The transition is learnt from walks round the training views.
   double transition_prior_moves = 100.0;
+  bool unknown = true;
+  std::vector<std::string> leave_out;
   void fields(auto&& f) {
     f("seed", seed, "seed of every random stream; the same seed gives the same model");
     f("features", features, "features to learn, each a name or a name with options");
@@ -53,6 +55,13 @@ struct TrainingOptions {
       "number of moves that the initial transition, `rigid`, is worth when one is learnt in "
       "training; higher learns more slowly; 0: none is learnt",
       at_least(0.0));
+    f("unknown", unknown,
+      "true: also learnt is what objects look like that are none of these, and how far views of "
+      "one "
+      "object repeat each other; false: every object is held to be one of the model's");
+    f("leave_out", leave_out,
+      "names of objects of the dataset that are not learnt, so that `evaluate` can show them as "
+      "unknown ones");
   }
   void check() const;  ///< features and videos: some, of different names and numbers; all costs
 };

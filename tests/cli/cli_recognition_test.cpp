@@ -49,7 +49,8 @@ class RecognitionCommands : public CommandLine {
 
 /// Every probability of a result is one.
 void expect_finite(const json& result) {
-  double sum = 0.0;
+  ASSERT_TRUE(result["unknown_probability"].is_number()) << result;
+  double sum = result["unknown_probability"].get<double>();
   for (const json& object : result["objects"]) {
     ASSERT_TRUE(object["probability"].is_number()) << result;  // NaN is null in JSON
     sum += object["probability"].get<double>();

@@ -6,10 +6,12 @@
 #include <atomic>
 #include <numeric>
 
+#include "tests/recognition/made_up.hpp"
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/perception/dataset_reader.hpp"
+#include "vantage/recognition/change_detection.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/dataset/transition_training.hpp"
 #include "vantage/recognition/recognition.hpp"
@@ -189,6 +191,130 @@ TEST_F(Training, StatedCostsMakeTheSameModelEachTime) {
   EXPECT_TRUE(read_file(folder_ / "first") == read_file(folder_ / "second"));
   options_.costs_s = {0.5};
   expect_error("costs_s: 1 of them for 2 features");
+}
+
+/// Two objects of each of three categories, and one of a hue that none of them has.
+class UnknownObjects : public ::testing::Test {
+ protected:
+  UnknownObjects() {
+    int hue = 0;
+    for (const std::string category : {"cup", "hat", "pen"}) {
+      for (const char* number : {"_1", "_2"}) {
+        testing::put_painted_object(folder_.path(), {category, category + number, hue}, 16);
+        hue += 20;
+      }
+    }
+    testing::put_painted_object(folder_.path(), {"lamp", "lamp_1", 145}, 16);
+    options_.features = {Colour{}};
+    options_.leave_out = {"lamp_1"};
+    options_.transition_prior_moves = 0.0;
+  }
+  [[nodiscard]] RecognitionModel train() const {
+    return train_recognition(index_dataset(folder_.path()), options_, {.threads = 2});
+  }
+
+  support::TemporaryDirectory folder_;
+  TrainingOptions options_;
+};
+
+TEST_F(UnknownObjects, AreFoundAndKnownOnesAreNot) {
+  const RecognitionModel model = train();
+  EXPECT_EQ(model.states.object_count(), 6);
+  const Recogniser recogniser = make_recogniser(model, {}, 1);
+  EXPECT_EQ(recogniser.states.unknown_size(), 4);
+  RecognitionOptions options;
+  options.all_features = true;
+  Rng rng(1);
+  int found = 0;
+  int alarms = 0;
+  for (const ViewEntry& entry : index_dataset(folder_.path()).views) {
+    if (entry.name.video != 2) continue;
+    const LabelledView view = load_view(entry);
+    Recognition known = begin_recognition(recogniser);
+    update_with_view(recogniser, options, extract_from(recogniser, view.view), 0.0, known, rng);
+    const bool unknown = estimate_of(recogniser.states, known.belief).object == kUnknown;
+    (entry.name.object == "lamp_1" ? found : alarms) += unknown ? 1 : 0;
+  }
+  EXPECT_GE(found, 15) << "of 16";
+  EXPECT_LE(alarms, 5) << "of 96";
+}
+
+TEST_F(UnknownObjects, PutInThePlaceOfAKnownOneAreAChange) {
+  const Recogniser recogniser = make_recogniser(train(), {}, 1);
+  Rng rng(1);
+  for (const ViewEntry& entry : index_dataset(folder_.path()).views) {
+    if (entry.name.video != 2 || entry.name.object != "lamp_1" || entry.name.frame > 4) continue;
+    const LabelledView view = load_view(entry);
+    const ChangeOptions options;
+    ChangeSearch search = begin_change_search(recogniser, options, 0);
+    update_with_view(recogniser, options, extract_from(recogniser, view.view), 0.0, search, rng);
+    EXPECT_EQ(verdict(recogniser, options, search), Change::object);
+    EXPECT_TRUE(is_unknown(recogniser.states, search.hypotheses.changed));
+  }
+}
+
+// To the bit what it is without the hypothesis.
+TEST_F(UnknownObjects, AreSwitchedOffByAPriorOfZero) {
+  RecognitionModel model = train();
+  RecogniserOptions switched_off;
+  switched_off.unknown_prior = 0.0;
+  switched_off.repeated_views = false;
+  const Recogniser off = make_recogniser(model, switched_off, 1);
+  for (FeatureModel& feature : model.features) feature.unknown.reset();
+  model.view_correlation = 0.0;
+  const Recogniser without = make_recogniser(model, {}, 1);
+  EXPECT_EQ(off.states.unknown_size(), 0);
+  EXPECT_EQ(off.tables.bhattacharyya_nats, without.tables.bhattacharyya_nats);
+  const LabelledView view = load_view(index_dataset(folder_.path()).views.front());
+  Rng rng(1);
+  RecognitionOptions options;
+  const auto seen_by = [&](const Recogniser& recogniser) {
+    Recognition known = begin_recognition(recogniser);
+    for (int i = 0; i < 2; ++i) {
+      predict_motion(recogniser, options, 0.3 * i, known);
+      update_with_view(recogniser, options, extract_from(recogniser, view.view), 0.0, known, rng);
+    }
+    return known.belief.log_p;
+  };
+  EXPECT_EQ(seen_by(off), seen_by(without));
+}
+
+TEST_F(UnknownObjects, AreNotLearntWhereNotAskedFor) {
+  options_.unknown = false;
+  const RecognitionModel model = train();
+  EXPECT_FALSE(model.features[0].unknown);
+  EXPECT_EQ(model.view_correlation, 0.0);
+  EXPECT_EQ(make_recogniser(model, {}, 1).states.unknown_size(), 0);
+}
+
+TEST_F(UnknownObjects, LeftOutMustBeThere) {
+  options_.leave_out = {"lamp_9"};
+  EXPECT_THROW(train(), InputError);
+}
+
+TEST(RepeatedViews, CountForLess) {
+  Rng rng(3);
+  Recogniser recogniser = testing::made_up_recogniser(6, {2.0}, {}, rng);
+  RecognitionOptions options;
+  options.all_features = true;
+  const auto p_after = [&](double correlation) {
+    recogniser.view_correlation = correlation;
+    Recognition known = begin_recognition(recogniser);
+    for (int i = 0; i < 3; ++i) {
+      const auto extract = [&](std::size_t) {
+        Eigen::VectorXd log_likelihood = Eigen::VectorXd::Zero(recogniser.states.size());
+        log_likelihood.head(8).setConstant(1.0);
+        return ExtractedFeature{.result = {Eigen::VectorXf::Zero(1), {}},
+                                .log_likelihood = log_likelihood};
+      };
+      update_with_view(recogniser, options, extract, 0.0, known, rng);
+    }
+    return p_object(recogniser.states, known.belief)[0];
+  };
+  const auto p_of = [](double views) { return std::exp(views) / (std::exp(views) + 5.0); };
+  EXPECT_NEAR(p_after(0.0), p_of(3.0), 1e-9);
+  EXPECT_NEAR(p_after(0.5), p_of(3.0 / (1.0 + 2.0 * 0.5)), 1e-9);
+  EXPECT_NEAR(p_after(1.0), p_of(1.0), 1e-9);
 }
 
 }  // namespace

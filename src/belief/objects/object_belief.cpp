@@ -36,6 +36,22 @@ ObjectBelief uniform_belief(const ObjectStates& states) {
   return {Eigen::VectorXd::Constant(states.size(), -std::log(states.size()))};
 }
 
+ObjectBelief prior_belief(const ObjectStates& states, double p_unknown) {
+  if (states.unknown_category.empty()) return uniform_belief(states);
+  expects(states.known_size() >= 1 && p_unknown >= 0.0 && p_unknown < 1.0, "a probability");
+  const auto of_none = std::ranges::count(states.unknown_category, kNoCategory);
+  const auto of_some = std::ssize(states.unknown_category) - of_none;
+  const double share = of_none > 0 && of_some > 0 ? 0.5 : 1.0;
+  ObjectBelief prior{Eigen::VectorXd::Constant(
+      states.size(), std::log1p(-p_unknown) - std::log(states.known_size()))};
+  for (int u = 0; u < states.unknown_size(); ++u) {
+    const bool none = states.unknown_category[static_cast<std::size_t>(u)] == kNoCategory;
+    prior.log_p[states.known_size() + u] =
+        std::log(p_unknown * share / static_cast<double>(none ? of_none : of_some));
+  }
+  return prior;
+}
+
 void predict(ObjectBelief& belief, const ObjectStates& states, const TransitionModel& transition,
              double motion_rad) {
   if (motion_rad == 0.0) return;
@@ -68,7 +84,11 @@ Eigen::VectorXd p_state(const ObjectBelief& belief) {
 
 Eigen::VectorXd p_object(const ObjectStates& states, const ObjectBelief& belief) {
   const Eigen::VectorXd p = p_state(belief);
-  return p.reshaped(states.bins, states.object_count()).colwise().sum().transpose();
+  return p.head(states.known_size())
+      .reshaped(states.bins, states.object_count())
+      .colwise()
+      .sum()
+      .transpose();
 }
 
 Eigen::VectorXd p_category(const ObjectStates& states, const ObjectBelief& belief) {
@@ -77,7 +97,45 @@ Eigen::VectorXd p_category(const ObjectStates& states, const ObjectBelief& belie
   for (int k = 0; k < states.object_count(); ++k) {
     p[states.category_of[static_cast<std::size_t>(k)]] += of_objects[k];
   }
+  for (int u = 0; u < states.unknown_size(); ++u) {
+    const int category = states.unknown_category[static_cast<std::size_t>(u)];
+    if (category != kNoCategory) p[category] += std::exp(belief.log_p[states.known_size() + u]);
+  }
   return p;
+}
+
+double p_unknown(const ObjectStates& states, const ObjectBelief& belief) {
+  if (states.unknown_category.empty()) return 0.0;
+  return belief.log_p.tail(states.unknown_size()).array().exp().sum();
+}
+
+bool is_unknown(const ObjectStates& states, const ObjectBelief& belief) {
+  return p_unknown(states, belief) > 0.5;
+}
+
+int unknown_category(const ObjectStates& states, const ObjectBelief& belief) {
+  expects(states.unknown_size() > 0, "a hypothesis of unknown objects");
+  const int best = index_of_largest(belief.log_p.tail(states.unknown_size()));
+  return states.unknown_category[static_cast<std::size_t>(best)];
+}
+
+ObjectEstimate estimate_of(const ObjectStates& states, const ObjectBelief& belief) {
+  const auto category_name = [&](int category) {
+    return category == kNoCategory ? std::string(kUnknown)
+                                   : states.categories[static_cast<std::size_t>(category)];
+  };
+  // Sums of probabilities round to a little above 1.
+  if (is_unknown(states, belief)) {
+    return {.object = kUnknown,
+            .category = category_name(unknown_category(states, belief)),
+            .probability = std::min(1.0, p_unknown(states, belief))};
+  }
+  const Eigen::VectorXd p = p_object(states, belief);
+  const int best = index_of_largest(p);
+  const auto object = static_cast<std::size_t>(best);
+  return {.object = states.objects[object],
+          .category = category_name(states.category_of[object]),
+          .probability = std::min(1.0, p[best])};
 }
 
 double state_entropy_bits(const ObjectBelief& belief) {
@@ -85,7 +143,12 @@ double state_entropy_bits(const ObjectBelief& belief) {
 }
 
 double object_entropy_bits(const ObjectStates& states, const ObjectBelief& belief) {
-  return entropy_bits(entries(p_object(states, belief)));
+  Eigen::VectorXd p = p_object(states, belief);
+  if (states.unknown_size() > 0) {
+    p.conservativeResize(p.size() + 1);
+    p[p.size() - 1] = p_unknown(states, belief);
+  }
+  return entropy_bits(entries(p));
 }
 
 int most_probable_state(const ObjectBelief& belief) { return index_of_largest(belief.log_p); }

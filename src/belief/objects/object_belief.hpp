@@ -26,7 +26,14 @@ struct EvidenceResult {
 /// Every state alike. @param states at least one
 ObjectBelief uniform_belief(const ObjectStates& states);
 
-/// After a motion: ln p(j) <- LSE_i [ln p(i) + ln A_ij(motion)]. No motion changes nothing.
+/// Every object as probable as the other, in every yaw bin, and together 1 - `p_unknown`; of what
+/// is unknown half is of no category, half of any of those that have a hypothesis, each alike.
+/// Uniform if there is no hypothesis of unknown objects, whatever `p_unknown` is.
+/// @param p_unknown in [0, 1)
+ObjectBelief prior_belief(const ObjectStates& states, double p_unknown);
+
+/// After a motion: ln p(j) <- LSE_i [ln p(i) + ln A_ij(motion)]. No motion changes nothing. What is
+/// unknown has no yaw and remains unknown.
 void predict(ObjectBelief& belief, const ObjectStates& states, const TransitionModel& transition,
              double motion_rad);
 
@@ -38,17 +45,32 @@ EvidenceResult update(ObjectBelief& belief,
 
 /// p(state).
 Eigen::VectorXd p_state(const ObjectBelief& belief);
-/// p(object), summed over its bins.
+/// p(object) of every object of the database, summed over its bins; 1 - p_unknown() together.
 Eigen::VectorXd p_object(const ObjectStates& states, const ObjectBelief& belief);
-/// p(category), summed over its objects.
+/// p(category), summed over its objects and the unknown ones that are of it.
 Eigen::VectorXd p_category(const ObjectStates& states, const ObjectBelief& belief);
+/// That it is none of the objects; 0 without such a hypothesis.
+double p_unknown(const ObjectStates& states, const ObjectBelief& belief);
+/// More probable than not.
+bool is_unknown(const ObjectStates& states, const ObjectBelief& belief);
+/// Of an unknown object, the most probable category or kNoCategory.
+int unknown_category(const ObjectStates& states, const ObjectBelief& belief);
+/// What it is held to be.
+struct ObjectEstimate {
+  std::string object;        ///< the most probable one of the database, or kUnknown if is_unknown()
+  std::string category;      ///< of that; of an unknown object the most probable one, or kUnknown
+  double probability = 0.0;  ///< of that object, whatever its yaw, or of all that is unknown
+};
+ObjectEstimate estimate_of(const ObjectStates& states, const ObjectBelief& belief);
 
 double state_entropy_bits(const ObjectBelief& belief);
+/// What is unknown counts as one more object.
 double object_entropy_bits(const ObjectStates& states, const ObjectBelief& belief);
 
 /// The maximum a posteriori; of equal ones the first.
 int most_probable_state(const ObjectBelief& belief);
 /// Of the marginal, so not always the object of the most probable state; of equal ones the first.
+/// One of the database, however probable it is that it is unknown.
 int most_probable_object(const ObjectStates& states, const ObjectBelief& belief);
 
 /// Direction of the mean of the unit vectors to an object's bins, weighted by p(bin | object), in

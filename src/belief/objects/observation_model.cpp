@@ -46,6 +46,7 @@ Eigen::VectorXd log_density(const ObservationModel& model, const Feature& featur
     });
     result[j] = -0.5 * (sum + log_two_pi(feature.size()));
   }
+  if (model.log_factor.size() > 0) result += model.log_factor;
   return result;
 }
 
@@ -63,6 +64,7 @@ PreparedObservationModel prepare(const ObservationModel& model) {
     const auto variance = model.variance.col(j).cast<double>().array();
     prepared.log_at_mean[j] = -0.5 * (variance.log().sum() + log_two_pi(variance.size()));
   }
+  if (model.log_factor.size() > 0) prepared.log_at_mean += model.log_factor;
   return prepared;
 }
 

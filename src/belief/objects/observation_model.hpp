@@ -14,18 +14,20 @@ struct ObservationModel {
   Eigen::MatrixXf mean;      ///< dimensions x states
   Eigen::MatrixXf variance;  ///< dimensions x states, > 0, after shrinkage
   double psi = 1.0;          ///< exponent on the whole density, >= 0; calibrated
-  double cost_s = 0.0;       ///< measured time to extract the feature from one view
+  /// ln of a factor on the density of each state, within the exponent; empty: none
+  Eigen::VectorXd log_factor = {};
+  double cost_s = 0.0;  ///< measured time to extract the feature from one view
 
   [[nodiscard]] int dimensions() const { return static_cast<int>(mean.rows()); }
   [[nodiscard]] int states() const { return static_cast<int>(mean.cols()); }
 };
 
-/// psi ln N(feature; mean_j, variance_j) for every state j; zeros if psi is 0.
+/// psi (ln N(feature; mean_j, variance_j) + log_factor_j) for every state j; zeros if psi is 0.
 /// @param feature of `dimensions()` finite numbers
 Eigen::VectorXd log_likelihood(const ObservationModel& model,
                                const Eigen::Ref<const Eigen::VectorXf>& feature);
 
-/// ln N(feature; mean_j, variance_j) for every state j, whatever psi is.
+/// ln N(feature; mean_j, variance_j) + log_factor_j for every state j, whatever psi is.
 /// @param feature of `dimensions()` finite numbers
 Eigen::VectorXd log_density(const ObservationModel& model,
                             const Eigen::Ref<const Eigen::VectorXf>& feature);
@@ -35,7 +37,7 @@ Eigen::VectorXd log_density(const ObservationModel& model,
 struct PreparedObservationModel {
   Eigen::MatrixXf mean;         ///< dimensions x states
   Eigen::MatrixXf precision;    ///< dimensions x states, 1 / variance
-  Eigen::VectorXd log_at_mean;  ///< of each state, ln N(mean_j; mean_j, variance_j)
+  Eigen::VectorXd log_at_mean;  ///< of each state, ln N(mean_j; mean_j, variance_j) + log_factor_j
   double psi = 1.0;             ///< as in ObservationModel
 };
 

@@ -14,7 +14,8 @@ namespace vantage {
 namespace {
 
 constexpr std::string_view kMagic = "vantage recognition model\n";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersionWithoutUnknown = 1;
 constexpr int kMaxBins = 3600;
 constexpr std::size_t kMaxStates = 10'000'000;
 
@@ -71,6 +72,11 @@ void put_feature(std::string& bytes, const FeatureModel& feature) {
   put_text(bytes, feature.name);
   put(bytes, feature.psi);
   put(bytes, feature.cost_s);
+  put(bytes, static_cast<std::uint8_t>(feature.unknown ? 1 : 0));
+  if (feature.unknown) {
+    put(bytes, feature.unknown->instance);
+    put(bytes, feature.unknown->category);
+  }
   put(bytes, static_cast<std::uint32_t>(feature.blobs.size()));
   for (const auto& [name, blob] : feature.blobs) {
     put_text(bytes, name);
@@ -86,11 +92,32 @@ double take_non_negative(ByteReader& reader, std::string_view what) {
   return value;
 }
 
-FeatureModel take_feature(ByteReader& reader, int states) {
+std::optional<UnknownFactors> take_unknown(ByteReader& reader, const std::string& feature) {
+  const std::string what = "what is unknown of feature " + feature;
+  const auto learnt = reader.number<std::uint8_t>(what);
+  reader.require(learnt <= 1, fmt::format("{} is marked {}, must be 0 or 1", what, learnt));
+  if (learnt == 0) return std::nullopt;
+  UnknownFactors factors;
+  for (double* factor : {&factors.instance, &factors.category}) {
+    *factor = reader.number<double>(what);
+    reader.require(std::isfinite(*factor), what + " is not finite");
+  }
+  return factors;
+}
+
+double take_view_correlation(ByteReader& reader) {
+  const auto value = reader.number<double>("the correlation of views");
+  reader.require(value >= 0.0 && value <= 1.0,
+                 fmt::format("the correlation of views is {}, must be in [0, 1]", value));
+  return value;
+}
+
+FeatureModel take_feature(ByteReader& reader, int states, std::uint32_t version) {
   FeatureModel feature;
   feature.name = reader.text("a feature's name");
   feature.psi = take_non_negative(reader, "psi of feature " + feature.name);
   feature.cost_s = take_non_negative(reader, "cost_s of feature " + feature.name);
+  if (version > kVersionWithoutUnknown) feature.unknown = take_unknown(reader, feature.name);
   const std::size_t blobs = reader.count(2 * sizeof(std::uint32_t), "a feature's blobs");
   for (std::size_t i = 0; i < blobs; ++i) {
     const std::string name = reader.text("a blob's name");
@@ -124,21 +151,27 @@ TransitionCounts take_transitions(ByteReader& reader, int bins) {
   return counts;
 }
 
+struct Payload {
+  std::uint32_t version = kVersion;
+  std::string_view bytes;
+};
+
 /// What follows the header, once it is known to be what was written.
-std::string_view checked_payload(ByteReader& reader) {
+Payload checked_payload(ByteReader& reader) {
   reader.require(reader.left() > 0, "is empty");
   const bool ours = reader.left() >= kMagic.size() && reader.block(kMagic.size(), "") == kMagic;
   reader.require(ours, "is not a recognition model");
   const auto version = reader.number<std::uint32_t>("the header");
-  reader.require(version == kVersion,
-                 fmt::format("is of version {}, this program reads {}", version, kVersion));
+  reader.require(version == kVersion || version == kVersionWithoutUnknown,
+                 fmt::format("is of version {}, this program reads {} and {}", version,
+                             kVersionWithoutUnknown, kVersion));
   const auto size = reader.number<std::uint64_t>("the header");
   const auto hash = reader.number<std::uint64_t>("the header");
   reader.require(size == reader.left(),
                  fmt::format("holds {} bytes after its header, should be {}", reader.left(), size));
   const std::string_view payload = reader.block(reader.left(), "");
   reader.require(hash_bytes(payload) == hash, "is damaged: its hash is not the one written");
-  return payload;
+  return {version, payload};
 }
 
 }  // namespace
@@ -156,6 +189,7 @@ void write_recognition_model(const RecognitionModel& model, const std::filesyste
   std::string payload;
   put_states(payload, model.states);
   put_transitions(payload, model.transitions);
+  put(payload, model.view_correlation);
   put(payload, static_cast<std::uint32_t>(model.features.size()));
   for (const FeatureModel& feature : model.features) {
     expects(feature.statistics.states() == model.states.size(), "statistics of every state");
@@ -172,14 +206,18 @@ void write_recognition_model(const RecognitionModel& model, const std::filesyste
 RecognitionModel read_recognition_model(const std::filesystem::path& path) {
   const std::string bytes = read_file(path);
   ByteReader whole(bytes, path.string());
-  ByteReader reader(checked_payload(whole), path.string());
+  const Payload payload = checked_payload(whole);
+  ByteReader reader(payload.bytes, path.string());
   RecognitionModel model;
   model.states = take_states(reader);
   model.transitions = take_transitions(reader, model.states.bins);
+  if (payload.version > kVersionWithoutUnknown) {
+    model.view_correlation = take_view_correlation(reader);
+  }
   std::set<std::string> known;
   const std::size_t features = reader.count(sizeof(std::uint32_t), "the features");
   for (std::size_t f = 0; f < features; ++f) {
-    model.features.push_back(take_feature(reader, model.states.size()));
+    model.features.push_back(take_feature(reader, model.states.size(), payload.version));
     const std::string& name = model.features.back().name;
     reader.require(known.insert(name).second, repeated("feature", name));
   }

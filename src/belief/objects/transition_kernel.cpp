@@ -153,7 +153,7 @@ LogVector transition_forward(const ObjectStates& states, const TransitionKernel&
   const GroupSums sums = group_sums(states, log_p);
   const LogVector from_others = log_sums_of_others(sums.category + weights.other_category);
   const LogVector log_change = kernel.bin_change.array().log();
-  LogVector moved(log_p.size());
+  LogVector moved = log_p;  // what is unknown stays
   for (int k = 0; k < states.object_count(); ++k) {
     const int c = category_of(states, k);
     const double elsewhere =
@@ -174,7 +174,7 @@ LogVector transition_backward(const ObjectStates& states, const TransitionKernel
   const GroupSums sums = group_sums(states, log_x);
   const LogVector of_others = log_sums_of_others(sums.category);
   const LogVector log_change = kernel.bin_change.array().log();
-  LogVector ahead(log_x.size());
+  LogVector ahead = log_x;  // what is unknown stays
   for (int k = 0; k < states.object_count(); ++k) {
     const int c = category_of(states, k);
     const double elsewhere = log_add(weights.other_instance[c] + sums.other_instances[k],
@@ -191,6 +191,7 @@ LogVector transition_backward(const ObjectStates& states, const TransitionKernel
 ExpectedMoves expected_moves(const ObjectStates& states, const TransitionKernel& kernel,
                              const Logs& log_p, const Logs& log_x) {
   require_sizes(states, kernel, log_p);
+  expects(states.unknown_size() == 0, "moves of known objects");
   const double total = log_sum(log_p + transition_backward(states, kernel, log_x));
   expects(std::isfinite(total), "some move is possible");
   const CategoryWeights weights = weights_of(states, kernel);

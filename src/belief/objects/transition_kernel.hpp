@@ -10,7 +10,8 @@ namespace vantage {
 /// Where the mass of a state goes: the same object, another instance of its category, or another
 /// category; evenly over the states of the last two. A group that is empty (an only instance, an
 /// only category) leaves its mass with the object. All transitions of ours have this form; it is
-/// applied with sums over groups, in O(states * bins), and never written out as a matrix.
+/// applied with sums over groups, in O(states * bins), and never written out as a matrix. Unknown
+/// objects have no yaw and are apart: no mass goes to them or comes from them.
 struct TransitionKernel {
   /// p(bin after - bin before = d, modulo bins | same object), for d = 0 .. bins - 1; sums to one.
   Eigen::VectorXd bin_change;
@@ -39,6 +40,7 @@ struct ExpectedMoves {
 
 /// Expectation of one motion given all evidence: of the moves i -> j, each with probability
 /// proportional to p_i A_ij x_j.  [Rabiner1989, (37)]
+/// @param states without hypotheses of unknown objects
 /// @param log_p belief before the motion, from the evidence up to there
 /// @param log_x likelihood of the evidence from the motion on; some p_i A_ij x_j > 0
 ExpectedMoves expected_moves(const ObjectStates& states, const TransitionKernel& kernel,

@@ -56,6 +56,14 @@ Json objects_json(const ObjectStates& states, const ObjectBelief& belief, int to
   return objects;
 }
 
+/// What it is held for.
+Json estimate_json(const ObjectStates& states, const ObjectBelief& belief) {
+  const ObjectEstimate estimate = estimate_of(states, belief);
+  return {{"object", estimate.object},
+          {"category", estimate.category},
+          {"probability", estimate.probability}};
+}
+
 Json categories_json(const ObjectStates& states, const ObjectBelief& belief, int top) {
   const Eigen::VectorXd p = p_category(states, belief);
   std::vector<std::size_t> order(static_cast<std::size_t>(p.size()));
@@ -112,6 +120,8 @@ Json recognition_json(const Recogniser& recogniser, const RecognitionOptions& op
                       const std::optional<PictureNotes>& notes, const Recognition& known, int top,
                       Rng& rng) {
   return {
+      {"estimate", estimate_json(recogniser.states, known.belief)},
+      {"unknown_probability", p_unknown(recogniser.states, known.belief)},
       {"objects", objects_json(recogniser.states, known.belief, top)},
       {"categories", categories_json(recogniser.states, known.belief, top)},
       {"entropy_bits", known.views.back().entropy_bits},
@@ -121,6 +131,10 @@ Json recognition_json(const Recogniser& recogniser, const RecognitionOptions& op
 }
 
 void print_recognition(const Json& result) {
+  const Json& estimate = result["estimate"];
+  fmt::print("{} ({}), {:.2f} %; unknown {:.2f} %\n", estimate["object"].get<std::string>(),
+             estimate["category"].get<std::string>(), 100.0 * estimate["probability"].get<double>(),
+             100.0 * result["unknown_probability"].get<double>());
   for (const Json& object : result["objects"]) {
     fmt::print("{:6.2f} %  {} ({}), yaw {:.0f} deg\n", 100.0 * object["probability"].get<double>(),
                object["object"].get<std::string>(), object["category"].get<std::string>(),

@@ -226,14 +226,20 @@ Calibration hold_out(std::span<const ViewFeatures> views, std::span<const int> s
   calibration.held_out.log_density.resize(model.features.size());
   for (Split& split : splits) {
     limit(split, kMaxViews / static_cast<Eigen::Index>(splits.size()), options.seed);
-    for (const std::size_t i : split.held_out) calibration.held_out.state.push_back(shown[i]);
+    calibration.folds.push_back(
+        {.models = {}, .first = std::ssize(calibration.view), .count = std::ssize(split.held_out)});
+    for (const std::size_t i : split.held_out) {
+      calibration.held_out.state.push_back(shown[i]);
+      calibration.view.push_back(i);
+    }
   }
   for (std::size_t f = 0; f < model.features.size(); ++f) {
-    for (const Split& split : splits) {
+    for (std::size_t s = 0; s < splits.size(); ++s) {
+      const Split& split = splits[s];
       ObservationModel trained = model_of(views, shown, model, f, split, options.variance);
       append_densities(calibration.held_out.log_density[f], trained, views, f, split, how);
       if (options.only_seen) rule_out_unseen(split, shown, calibration.held_out.log_density[f]);
-      if (calibration.models.size() == f) calibration.models.push_back(std::move(trained));
+      calibration.folds[s].models.push_back(std::move(trained));
     }
   }
   return calibration;

@@ -71,10 +71,18 @@ struct HoldOutOptions {
   bool only_seen = false;  ///< states without a view are impossible, as unseen_states() has it
 };
 
-/// What a psi rule may look at.
+/// Views held out of the same models.
+struct CalibrationFold {
+  std::vector<ObservationModel> models;  ///< one a feature, of the views that are not held out
+  Eigen::Index first = 0;                ///< of HeldOutViews, and how many
+  Eigen::Index count = 0;
+};
+
+/// What psi rules and the calibration of unknown objects may look at.
 struct Calibration {
-  std::vector<ObservationModel> models;  ///< one a feature
-  HeldOutViews held_out;                 ///< at most 4000 views, drawn at random
+  std::vector<CalibrationFold> folds;  ///< at least one
+  HeldOutViews held_out;               ///< at most 4000 views, drawn at random
+  std::vector<std::size_t> view;       ///< of each view held out, its index
 };
 
 /// @param shown the state of each view

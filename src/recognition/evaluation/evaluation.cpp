@@ -13,14 +13,23 @@
 namespace vantage {
 namespace {
 
+/// Of the object that it is held for, or that an unknown one is held to be of; where the model has
+/// the true one, the most probable of its categories.
+int estimated_category(const ObjectStates& states, const ObjectBelief& belief, int truth) {
+  if (truth == kNoCategory && is_unknown(states, belief)) return unknown_category(states, belief);
+  if (truth == kNoCategory || states.unknown_size() == 0) {
+    return states.category_of[static_cast<std::size_t>(most_probable_object(states, belief))];
+  }
+  Eigen::Index best = 0;
+  p_category(states, belief).maxCoeff(&best);
+  return static_cast<int>(best);
+}
+
 Trial trial_of(const Recogniser& recogniser, const Recognition& known, const TestViews& test,
                std::size_t view) {
-  const ObjectStates& states = recogniser.states;
-  const int shown = test.shown[view];
-  Trial trial = judged(states, test, view, most_probable_object(states, known.belief));
+  Trial trial = judged(recogniser.states, test, view, known.belief);
   trial.observations = static_cast<int>(known.views.size());
   trial.entropy_bits = known.views.back().entropy_bits;
-  if (shown >= 0) trial.bin_error = bin_error(states, expected_state(states, known.belief), shown);
   for (const ViewReport& report : known.views) {
     trial.features += static_cast<int>(report.features.size());
     trial.feature_time_s += report.feature_time_s;
@@ -44,8 +53,26 @@ Trial judged(const ObjectStates& states, const TestViews& test, std::size_t view
               .category = test.views[view].name.category,
               .observations = 1};
   trial.correct = trial.object == estimate;
+  if (estimate < states.object_count()) {
+    trial.category_correct =
+        states.category_of[static_cast<std::size_t>(estimate)] == test.category[view];
+  }
+  return trial;
+}
+
+Trial judged(const ObjectStates& states, const TestViews& test, std::size_t view,
+             const ObjectBelief& belief) {
+  const bool unknown = is_unknown(states, belief);
+  Trial trial = judged(states, test, view,
+                       unknown ? states.object_count() : most_probable_object(states, belief));
+  const int shown = test.shown[view];
+  trial.correct = trial.correct || (unknown && shown < 0);
   trial.category_correct =
-      states.category_of[static_cast<std::size_t>(estimate)] == test.category[view];
+      estimated_category(states, belief, test.category[view]) == test.category[view];
+  trial.probability = estimate_of(states, belief).probability;
+  trial.unknown_probability = p_unknown(states, belief);
+  trial.entropy_bits = state_entropy_bits(belief);
+  if (shown >= 0) trial.bin_error = bin_error(states, expected_state(states, belief), shown);
   return trial;
 }
 

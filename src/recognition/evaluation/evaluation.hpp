@@ -18,7 +18,7 @@ namespace vantage {
 struct TestViews {
   std::vector<ViewFeatures> views;
   std::vector<int> shown;                  ///< state of each view; -1: of an unknown object
-  std::vector<int> category;               ///< of each view; -1: unknown too
+  std::vector<int> category;               ///< of each view; kNoCategory: none of the model's
   std::vector<TurntableViews> turntables;  ///< of each object
 };
 
@@ -45,22 +45,28 @@ std::vector<Start> draw_starts(const TestViews& test, int count, std::uint64_t s
 /// How a method did from one start.
 struct Trial {
   int object = 0;         ///< what it was; -1: nothing that the model was trained on
-  int estimate = 0;       ///< what it was held for
+  int estimate = 0;       ///< what it was held for; object_count() of the states: unknown
   std::string name = {};  ///< of the object
   std::string category = {};
   bool correct = false;
-  bool category_correct = false;
+  bool category_correct = false;  ///< of an unknown object, that it is of none of the model's too
   int observations = 0;
   int bin_error = 0;  ///< of the expected yaw at the last view, whatever the object; 0 if unknown
   int features = 0;   ///< extracted, over all views
   double entropy_bits = 0.0;
-  double feature_time_s = 0.0;  ///< the features' measured costs
+  double probability = 0.0;          ///< of the estimate
+  double unknown_probability = 0.0;  ///< that it is none of the model's objects
+  double feature_time_s = 0.0;       ///< the features' measured costs
   double selection_time_s = 0.0;
   double view_time_s = 0.0;
 };
 
-/// Of a view of the test that is held for `estimate`.
+/// Of a view of the test that is held for `estimate`, one of the objects or object_count().
 Trial judged(const ObjectStates& states, const TestViews& test, std::size_t view, int estimate);
+/// Of a view of the test after which that is believed. The category is right if it is the most
+/// probable one, or if an object of none of the model's is held to be of none.
+Trial judged(const ObjectStates& states, const TestViews& test, std::size_t view,
+             const ObjectBelief& belief);
 
 struct Method {
   std::string name;

@@ -26,7 +26,7 @@ std::vector<Trial> combination_trials(const Recogniser& recogniser, const TestVi
   const ObjectStates& states = recogniser.states;
   std::vector<Trial> trials;
   for (const Start& start : starts) {
-    ObjectBelief belief = uniform_belief(states);
+    ObjectBelief belief = prior_belief(states, recogniser.unknown_prior);
     double feature_time_s = 0.0;
     int used = 0;
     for (const std::size_t f : features) {
@@ -35,13 +35,9 @@ std::vector<Trial> combination_trials(const Recogniser& recogniser, const TestVi
       const auto view = static_cast<Eigen::Index>(start.view);
       if (update(belief, log_likelihood[f].col(view).cast<double>()).used()) ++used;
     }
-    Trial trial = judged(states, test, start.view, most_probable_object(states, belief));
+    Trial trial = judged(states, test, start.view, belief);
     trial.features = used;
     trial.feature_time_s = feature_time_s;
-    if (trial.object >= 0) {
-      trial.bin_error = bin_error(states, expected_state(states, belief), test.shown[start.view]);
-    }
-    trial.entropy_bits = state_entropy_bits(belief);
     trials.push_back(trial);
   }
   return trials;

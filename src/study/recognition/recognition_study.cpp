@@ -14,18 +14,14 @@
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/evaluation/feature_combinations.hpp"
 #include "vantage/recognition/evaluation/svm_baseline.hpp"
+#include "vantage/study/recognition/study_trials.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
 namespace {
 
-/// What the trials of one recogniser need.
-struct Trials {
-  const TestViews& test;
-  const std::vector<Start>& starts;
-  const RecognitionStudyOptions& options;
-  const LongWork& how;
-};
+constexpr auto kSingleView = "single view, all features";
+constexpr auto kInformed = "mutual_information, all features";
 
 RecognitionModel with_psi(RecognitionModel model, const std::vector<double>& psi) {
   for (std::size_t f = 0; f < psi.size(); ++f) model.features[f].psi = psi[f];
@@ -47,7 +43,8 @@ RecognitionModel with_features(const RecognitionModel& model,
   RecognitionModel used{.states = model.states,
                         .features = {},
                         .transitions = model.transitions,
-                        .pictures = model.pictures};
+                        .pictures = model.pictures,
+                        .view_correlation = model.view_correlation};
   for (const std::string& name : names) {
     const auto found = std::ranges::find(model.features, name, &FeatureModel::name);
     if (found != model.features.end()) used.features.push_back(*found);
@@ -73,10 +70,45 @@ std::vector<Method> wanted_methods(const RecognitionStudyOptions& options) {
   return methods;
 }
 
+/// The two methods whose probabilities are drawn.
+std::vector<Method> drawn_methods(const RecognitionStudyOptions& options) {
+  std::vector<Method> methods = published_methods(options.recognition);
+  std::erase_if(methods, [](const Method& method) {
+    return method.name != kSingleView && method.name != kInformed;
+  });
+  return methods;
+}
+
+/// Probabilities as they would be otherwise: by psi as published, and with views counted whole.
+/// Every object is one of the model's here: of unknown ones the published psi says nothing.
+void add_reliability(RecognitionStudy& study, const RecognitionModel& model, const Trials& trials) {
+  RecogniserOptions whole = trials.options.recogniser;
+  whole.unknown_prior = 0.0;
+  whole.repeated_views = false;
+  RecogniserOptions known = trials.options.recogniser;
+  known.unknown_prior = 0.0;
+  const auto add = [&](const char* as, const RecognitionModel& by, const RecogniserOptions& how) {
+    const Recogniser recogniser = make_recogniser(by, how, trials.how.threads);
+    const auto likelihoods = log_likelihoods(recogniser, trials.test, trials.how);
+    for (Method method : drawn_methods(trials.options)) {
+      const bool several = method.name == kInformed;
+      method.name = fmt::format("{}; {}", method.name, as);
+      MethodTrials& added =
+          study.methods.emplace_back(trials_of(recogniser, method, likelihoods, {}, trials));
+      added.drawn_as = as;
+      added.several_views = several;
+    }
+  };
+  add("psi calibrated", model, known);
+  add("psi calibrated, views counted whole", model, whole);
+  add("psi as published", with_psi(model, published_psi(model)), whole);
+}
+
 /// A single view, all features, maximum-likelihood variances.
 MethodTrials literal_trials(const RecognitionModel& model, std::string name, const Trials& trials) {
   RecogniserOptions literal = trials.options.recogniser;
   literal.variance = LiteralVariance{};
+  literal.unknown_prior = 0.0;  // learnt for other variances
   const Recogniser recogniser = make_recogniser(model, literal, trials.how.threads);
   RecognitionOptions options = trials.options.recognition;
   options.all_features = true;
@@ -181,20 +213,28 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
   check_options(options);
   const std::vector<Method> methods = wanted_methods(options);
   const Recogniser recogniser = make_recogniser(model, options.recogniser, how.threads);
+  if (options.unknown_starts > 0 && recogniser.states.unknown_size() == 0) {
+    throw ConfigError(
+        "unknown_starts: the model was trained without unknown objects, or "
+        "recogniser.unknown_prior is 0");
+  }
   const RecognitionModel used = with_features(model, options.recogniser.features);
-  const TestViews test = read_test_views(dataset, used, options.video, how, options.recordings);
+  const PartedViews parts =
+      options.unknown_starts > 0 ? parted(dataset, model.states) : PartedViews{dataset, {}};
+  const TestViews test = read_test_views(parts.known, used, options.video, how, options.recordings);
   const std::vector<Start> starts = draw_starts(test, options.starts, options.seed);
+  const UnknownViews unknown = unknown_views(parts.unknown, used, options, how);
+  const Trials trials{test, starts, unknown, options, how};
   const std::vector<Eigen::MatrixXf> likelihoods = log_likelihoods(recogniser, test, how);
-  const Trials trials{test, starts, options, how};
   const std::vector<ViewEntry> of_baselines = options.baselines
                                                   ? baseline_views(dataset, training, used, trials)
                                                   : std::vector<ViewEntry>{};
+  const std::vector<Eigen::MatrixXf> of_unknown = unknown_likelihoods(recogniser, trials);
   RecognitionStudy study{.options = options, .states = used.states, .methods = {}, .changes = {}};
   for (const Method& method : methods) {
-    study.methods.push_back(
-        {.method = method.name,
-         .trials = run_trials(recogniser, test, likelihoods, starts, method, options.seed, how)});
+    study.methods.push_back(trials_of(recogniser, method, likelihoods, of_unknown, trials));
   }
+  if (options.reliability) add_reliability(study, used, trials);
   if (options.combinations) add_combinations(study, recogniser, likelihoods, trials);
   if (options.literal) add_literal_settings(study, used, trials);
   if (options.baselines) add_baselines(study, used, of_baselines, trials);

@@ -11,6 +11,8 @@
 #include "vantage/information/resampling.hpp"
 #include "vantage/recognition/evaluation/change_evaluation.hpp"
 #include "vantage/recognition/evaluation/evaluation.hpp"
+#include "vantage/study/recognition/reliability.hpp"
+#include "vantage/study/recognition/unknown_detection.hpp"
 
 namespace vantage {
 
@@ -26,6 +28,10 @@ struct RecognitionStudyOptions {
   bool combinations = false;
   bool baselines = false;
   int change_starts = 0;
+  bool reliability = false;
+  int unknown_starts = 0;
+  bool unknown_of_dataset = true;
+  std::vector<std::string> unknown_datasets;
   void fields(auto&& f) {
     f("seed", seed, "seed of starts, choices and confidence intervals");
     f("starts", starts, "number of trials of each method; more make confidence intervals narrower",
@@ -48,6 +54,18 @@ struct RecognitionStudyOptions {
       "true: also the nearest neighbour and support vector machines, which take long to train");
     f("change_starts", change_starts,
       "number of trials of change detection for each scenario and method; 0: none", at_least(0));
+    f("reliability", reliability,
+      "true: also a single view and several, by psi as published, and with every view counted "
+      "whole, beside which the probabilities of the model's own are drawn");
+    f("unknown_starts", unknown_starts,
+      "number of trials of each method that show objects that the model does not know; 0: none, "
+      "and the dataset must not have any",
+      at_least(0));
+    f("unknown_of_dataset", unknown_of_dataset,
+      "true: objects of the dataset that the model was not trained on are shown as unknown ones; "
+      "false: they are left out");
+    f("unknown_datasets", unknown_datasets,
+      "folders of views of further objects that the model does not know");
   }
 };
 
@@ -56,6 +74,10 @@ struct MethodTrials {
   std::vector<Trial> trials;  ///< one a start
   /// A classifier tells an object and nothing else: no pose, no entropy, no cost.
   bool label_only = false;
+  UnknownTrials unknown = {};  ///< of objects that the model does not know; none: not asked for
+  /// In the figure of reliability, and by several views or one; none: it is not drawn.
+  std::optional<std::string> drawn_as = {};
+  bool several_views = false;
 };
 
 struct RecognitionStudy {
@@ -98,6 +120,8 @@ struct MethodSummary {
   std::optional<double> selection_time_s = {};
   std::optional<double> view_time_s = {};
   std::vector<PairedEstimate> differences = {};  ///< to random views and the single view
+  std::optional<Reliability> reliability = {};
+  std::optional<UnknownDetection> unknown = {};
 };
 std::vector<MethodSummary> summaries(const RecognitionStudy& study);
 
@@ -105,7 +129,8 @@ std::vector<MethodSummary> summaries(const RecognitionStudy& study);
 /// @throws ConfigError if it holds one and `overwrite` is not set, OutputError
 void prepare_recognition_study(const std::filesystem::path& directory, bool overwrite);
 
-/// config.yaml, results.csv (a row a trial), changes.csv, summary.json, recognition.md.
+/// config.yaml, results.csv (a row a trial), changes.csv, summary.json, recognition.md, and with
+/// `reliability` reliability.svg and reliability.csv.
 /// @throws OutputError
 void write_recognition_study(const RecognitionStudy& study, const std::filesystem::path& directory);
 

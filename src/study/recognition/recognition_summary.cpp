@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 #include <string>
 
 #include "vantage/study/recognition/recognition_study.hpp"
@@ -10,16 +9,6 @@ namespace {
 constexpr auto kSingleView = "single view, all features";
 constexpr auto kRandom = "random";
 constexpr auto kRandomAll = "random, all features";
-
-/// Trials of one object are alike, those of one view the same: whole objects are resampled.
-Clusters objects_of(const std::vector<Trial>& trials) {
-  std::map<std::string, std::size_t> index;
-  std::vector<std::size_t> marks;
-  for (const Trial& trial : trials) {
-    marks.push_back(index.emplace(trial.name, index.size()).first->second);
-  }
-  return clusters_of(marks);
-}
 
 Estimate estimate_of(std::span<const double> values, const Clusters& clusters, std::uint64_t seed,
                      const std::string& what) {
@@ -49,7 +38,7 @@ PairedEstimate paired(const MethodTrials& all, const MethodTrials& all_of_refere
                       std::uint64_t seed) {
   const MethodTrials method = known_of(all);
   const MethodTrials reference = known_of(all_of_reference);
-  const Clusters clusters = objects_of(method.trials);
+  const Clusters clusters = clusters_of_objects(method.trials);
   const auto differences = [&](auto&& value) {
     std::vector<double> values = values_of(method, value);
     const std::vector<double> others = values_of(reference, value);
@@ -70,8 +59,8 @@ PairedEstimate paired(const MethodTrials& all, const MethodTrials& all_of_refere
 
 MethodSummary summary_of(const MethodTrials& method, std::uint64_t seed) {
   const MethodTrials known = known_of(method);
-  const Clusters of_all = objects_of(method.trials);
-  const Clusters of_known = objects_of(known.trials);
+  const Clusters of_all = clusters_of_objects(method.trials);
+  const Clusters of_known = clusters_of_objects(known.trials);
   const auto mean_of = [&](auto&& value) { return mean(values_of(method, value)); };
   const Estimate category = estimate_of(
       values_of(method, [](const Trial& t) { return t.category_correct ? 100.0 : 0.0; }), of_all,
@@ -91,6 +80,10 @@ MethodSummary summary_of(const MethodTrials& method, std::uint64_t seed) {
   summary.feature_time_s = mean_of([](const Trial& t) { return t.feature_time_s; });
   summary.selection_time_s = mean_of([](const Trial& t) { return t.selection_time_s; });
   summary.view_time_s = mean_of([](const Trial& t) { return t.view_time_s; });
+  summary.reliability = reliability_of(method.trials, seed);
+  if (!method.unknown.trials.empty() && !known.trials.empty()) {
+    summary.unknown = detection_of(known.trials, method.unknown, seed);
+  }
   return summary;
 }
 

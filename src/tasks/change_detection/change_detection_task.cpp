@@ -25,7 +25,7 @@ Recogniser load_recogniser(const ChangeDetectionTask& task, const ObjectOnTable&
                            const ObjectOnTable& expected) {
   const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
-  require_known(recogniser, path, truth.object, "stands on the table");
+  require_answer(recogniser, path, truth.object, "stands on the table");
   require_known(recogniser, path, expected.object, "is expected there");
   return recogniser;
 }

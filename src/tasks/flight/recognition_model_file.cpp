@@ -6,6 +6,7 @@
 
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
 
 namespace vantage {
 
@@ -38,6 +39,18 @@ void require_known(const Recogniser& recogniser, const std::filesystem::path& pa
       "model: {}: knows {} objects, but not '{}', which {}; database is not what it was "
       "trained on",
       path.string(), known.size(), object, role));
+}
+
+void require_answer(const Recogniser& recogniser, const std::filesystem::path& path,
+                    const std::string& object, const char* role) {
+  if (recogniser.states.unknown_size() == 0) {
+    require_known(recogniser, path, object, role);
+    return;
+  }
+  const auto& known = recogniser.states.objects;
+  if (object.empty() || std::ranges::find(known, object) != known.end()) return;
+  log_warning(fmt::format("{}: does not know '{}', which {}: the right answer is '{}'",
+                          path.string(), object, role, kUnknown));
 }
 
 }  // namespace vantage

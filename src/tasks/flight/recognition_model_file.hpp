@@ -24,4 +24,9 @@ std::filesystem::path find_recognition_model(const std::string& model);
 void require_known(const Recogniser& recogniser, const std::filesystem::path& path,
                    const std::string& object, const char* role);
 
+/// The same for an object that may be called unknown, if the recogniser has that hypothesis: then
+/// it is only told that this is the right answer.
+void require_answer(const Recogniser& recogniser, const std::filesystem::path& path,
+                    const std::string& object, const char* role);
+
 }  // namespace vantage

@@ -30,6 +30,7 @@ Json observation_json(const ObservationRecord& record, int bins) {
                {"gain_bits", record.gain_bits},
                {"estimate", record.estimate},
                {"map_probability", record.map_probability},
+               {"unknown_probability", record.unknown_probability},
                {"object_px", record.object_px},
                {"position_error_m", record.position_error_m},
                {"angle_error_rad", record.angle_error_rad},
@@ -73,14 +74,19 @@ void add_estimate(const ObjectOnTable& truth, const ObjectFlightParts& run, Json
   metrics["truth"] = truth.object.empty() ? Json(nullptr) : Json(truth.object);
   metrics["true_yaw_rad"] = truth.object.empty() ? Json(nullptr) : Json(truth.yaw_rad);
   if (run.records().empty()) {  // ended before the first view
-    for (const char* key : {"estimate", "map_probability", "bin_error"}) metrics[key] = nullptr;
+    for (const char* key : {"estimate", "estimated_category", "map_probability",
+                            "unknown_probability", "bin_error"}) {
+      metrics[key] = nullptr;
+    }
     metrics["entropy_bits"] = state_entropy_bits(run.recognition().belief);
     return;
   }
   const ObservationRecord& last = run.records().back();
   metrics["estimate"] = last.estimate;
+  metrics["estimated_category"] = last.category;
   metrics["entropy_bits"] = last.report.entropy_bits;
   metrics["map_probability"] = last.map_probability;
+  metrics["unknown_probability"] = last.unknown_probability;
   metrics["bin_error"] = truth.object.empty() ? Json(nullptr) : Json(last.bin_error);
 }
 

@@ -64,12 +64,13 @@ void ObjectFlightParts::conclude() {
   if (inquiry_.of_change()) current_.change = {inquiry_.p_changed(), inquiry_.verdict()};
   current_.not_segmented = seen_.reason;
   current_.object_px = seen_.view ? static_cast<int>(std::ranges::count(seen_.view->mask, 1)) : 0;
-  current_.estimate = states.objects[static_cast<std::size_t>(object)];
-  current_.map_probability = std::min(1.0, p_object(states, belief)[object]);
+  const ObjectEstimate estimate = estimate_of(states, belief);
+  current_.estimate = estimate.object;
+  current_.category = estimate.category;
+  current_.map_probability = estimate.probability;
+  current_.unknown_probability = p_unknown(states, belief);
   const int state = expected_state(states, belief);
   current_.estimated_bin = states.bin_of(state);
-  current_.category = states.categories[static_cast<std::size_t>(
-      states.category_of[static_cast<std::size_t>(object)])];
   evaluator_.measure(states, object, state, current_);
 }
 
@@ -170,6 +171,11 @@ RecognitionPanelInput ObjectFlightParts::panel() const {
   input.cut = seen_.view ? &*seen_.view : nullptr;
   input.objects = recogniser_.states.objects;
   input.p_object = p_object(recogniser_.states, recognition().belief);
+  if (recogniser_.states.unknown_size() > 0) {
+    input.objects.emplace_back(kUnknown);
+    input.p_object.conservativeResize(input.p_object.size() + 1);
+    input.p_object[input.p_object.size() - 1] = p_unknown(recogniser_.states, recognition().belief);
+  }
   input.expected = expectation_.object;
   input.threshold = expectation_.threshold;
   input.method = task_.method_name();

@@ -37,11 +37,9 @@ std::string recognition_text(RecognitionEnd end, const Recogniser& recogniser,
     return fmt::format("sure: entropy {:.3g} bits, below enough.entropy_bits {:g}",
                        known.views.back().entropy_bits, options.enough.entropy_bits);
   }
-  const int object = most_probable_object(states, known.belief);
+  const ObjectEstimate estimate = estimate_of(states, known.belief);
   return fmt::format("sure: {} with probability {:.3g}, above enough.object_probability {:g}",
-                     states.objects[static_cast<std::size_t>(object)],
-                     std::min(1.0, p_object(states, known.belief)[object]),
-                     options.enough.object_probability);
+                     estimate.object, estimate.probability, options.enough.object_probability);
 }
 
 std::string change_text(ChangeEnd end, const ChangeOptions& options, const ChangeSearch& search) {

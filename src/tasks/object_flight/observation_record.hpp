@@ -31,9 +31,10 @@ struct ObservationRecord {
   std::optional<FlightResult> flight;     ///< that led here; none: the episode began here
   int object_px = 0;                      ///< in the mask
   std::string not_segmented;              ///< why there is no mask; empty: there is one
-  std::string estimate;                   ///< the most probable object
+  std::string estimate;                   ///< ObjectEstimate::object
   std::string category;                   ///< of that
-  double map_probability = 0.0;           ///< of that object, summed over its poses
+  double map_probability = 0.0;           ///< of that
+  double unknown_probability = 0.0;       ///< that it is none of the model's objects
   int estimated_bin = 0;                  ///< its yaw as the camera sees it
   std::optional<SuspectedChange> change;  ///< none where none is looked for
   // Truth:

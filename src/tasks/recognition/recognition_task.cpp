@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 
 #include "vantage/recognition/lean_recogniser.hpp"
@@ -18,12 +19,25 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
-/// if it does not know the object on the table.
+/// if it neither knows the object on the table nor can call it unknown.
 Recogniser load_recogniser(const RecognitionTask& task, const ObjectOnTable& object) {
   const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
-  require_known(recogniser, path, object.object, "stands on the table");
+  require_answer(recogniser, path, object.object, "stands on the table");
   return recogniser;
+}
+
+/// What it is to be held for.
+struct RightAnswer {
+  std::string object;
+  std::string category;
+};
+
+RightAnswer right_answer(const ObjectStates& states, const ObjectOnTable& truth) {
+  const auto or_unknown = [](const std::vector<std::string>& known, const std::string& name) {
+    return std::ranges::find(known, name) != known.end() ? name : std::string(kUnknown);
+  };
+  return {or_unknown(states.objects, truth.object), or_unknown(states.categories, truth.category)};
 }
 
 void add_metrics(const RecognitionTask& task, const ObjectOnTable& truth,
@@ -31,8 +45,9 @@ void add_metrics(const RecognitionTask& task, const ObjectOnTable& truth,
   add_estimate(truth, run, metrics);
   metrics["correct"] = metrics["category_correct"] = false;
   if (!run.records().empty()) {
-    metrics["correct"] = run.records().back().estimate == truth.object;
-    metrics["category_correct"] = run.records().back().category == truth.category;
+    const RightAnswer right = right_answer(run.recogniser().states, truth);
+    metrics["correct"] = run.records().back().estimate == right.object;
+    metrics["category_correct"] = run.records().back().category == right.category;
   }
   add_observations(task, run, metrics);
 }

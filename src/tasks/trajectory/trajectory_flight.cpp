@@ -14,13 +14,13 @@ namespace vantage {
 namespace {
 
 /// @throws InputError if the model file is missing, saying how to make one, or damaged; ConfigError
-/// if it does not know an object of the scene.
+/// if it neither knows an object of the scene nor can call it unknown.
 Recogniser load_recogniser(const TrajectoryFlight& task,
                            const std::vector<ObjectOnSupport>& objects) {
   const auto path = find_recognition_model(task.model);
   Recogniser recogniser = load_lean_recogniser(path, task.recogniser);
   for (const ObjectOnSupport& object : objects) {
-    require_known(recogniser, path, object.object, "stands in the room");
+    require_answer(recogniser, path, object.object, "stands in the room");
   }
   return recogniser;
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "vantage/belief/map/flight_map.hpp"
-#include "vantage/belief/objects/object_tracker.hpp"
 #include "vantage/belief/objects/transition.hpp"
+#include "vantage/belief/tracking/object_tracker.hpp"
 #include "vantage/control/tracking_options.hpp"
 #include "vantage/core/fields.hpp"
 #include "vantage/perception/object_search.hpp"

@@ -54,6 +54,7 @@ Json observation_json(const ObjectObservation& observation) {
           {"entropy_nats", observation.entropy_nats},
           {"estimate", observation.estimate},
           {"map_probability", observation.map_probability},
+          {"unknown_probability", observation.unknown_probability},
           {"view", view_json(observation.T_world_camera)}};
 }
 
@@ -61,14 +62,17 @@ Json observation_json(const ObjectObservation& observation) {
 Json object_json(const ObjectOnSupport& truth, const RecognisedObject* found,
                  const TrajectoryParts& run) {
   const ObjectObservations& observations = run.observations();
-  const double prior_nats =
-      std::log(static_cast<double>(observations.recogniser().states.object_count()));
+  const auto& known = observations.recogniser().states.objects;
+  const bool is_known = std::ranges::find(known, truth.object) != known.end();
   const bool seen = found != nullptr && !found->observations.empty();
-  const std::string estimate = seen ? observations.estimate(*found) : "";
+  const std::string estimate = seen ? observations.estimate(*found).object : "";
   Json json = {{"truth", truth.object},
                {"estimate", seen ? Json(estimate) : Json(nullptr)},
-               {"correct", seen && estimate == truth.object},
-               {"entropy_nats", seen ? observations.entropy_nats(*found) : prior_nats},
+               {"correct", seen && estimate == (is_known ? truth.object : kUnknown)},
+               {"unknown_probability",
+                seen ? Json(observations.unknown_probability(*found)) : Json(nullptr)},
+               {"entropy_nats",
+                seen ? observations.entropy_nats(*found) : observations.prior_entropy_nats()},
                {"observations", found == nullptr ? 0 : found->observations.size()},
                {"found", found != nullptr},
                {"x_m", truth.p_world_m.x()},
@@ -87,12 +91,14 @@ Json object_json(const ObjectOnSupport& truth, const RecognisedObject* found,
 Json found_json(const RecognisedObject& found, const TrajectoryParts& run) {
   const ObjectObservations& observations = run.observations();
   const bool seen = !found.observations.empty();
-  return {{"x_m", found.p_world_m.x()},
-          {"y_m", found.p_world_m.y()},
-          {"z_m", found.p_world_m.z()},
-          {"estimate", seen ? Json(observations.estimate(found)) : Json(nullptr)},
-          {"entropy_nats", observations.entropy_nats(found)},
-          {"object", nullptr}};
+  return {
+      {"x_m", found.p_world_m.x()},
+      {"y_m", found.p_world_m.y()},
+      {"z_m", found.p_world_m.z()},
+      {"estimate", seen ? Json(observations.estimate(found).object) : Json(nullptr)},
+      {"unknown_probability", seen ? Json(observations.unknown_probability(found)) : Json(nullptr)},
+      {"entropy_nats", observations.entropy_nats(found)},
+      {"object", nullptr}};
 }
 
 /// An object never observed has the prior's entropy, which would drown that of the others: so the

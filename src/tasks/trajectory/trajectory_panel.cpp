@@ -129,7 +129,7 @@ void draw_objects(cv::Mat& image, const Layout& layout, const cv::Rect& place,
     const double left = place.x + layout.px(10);
     const bool seen = !object.observations.empty();
     const std::string estimate =
-        seen ? input.observations.estimate(object) : "not seen closely yet";
+        seen ? input.observations.estimate(object).object : "not seen closely yet";
     text(image, layout, fmt::format("{}  {}", object.id, estimate), {left, y}, 10,
          seen ? panel::kText : panel::kDim);
     text(image, layout,

@@ -149,7 +149,7 @@ std::string TrajectoryParts::finished() const {
 }
 
 std::vector<PlannableObject> TrajectoryParts::plannable() const {
-  const double at_first_nats = std::log(observations_.recogniser().states.object_count());
+  const double at_first_nats = observations_.prior_entropy_nats();
   std::vector<PlannableObject> objects;
   for (const RecognisedObject& object : observations_.objects()) {
     PlannableObject& plannable = objects.emplace_back();

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vantage/belief/map/flight_map.hpp"
-#include "vantage/belief/objects/object_tracker.hpp"
+#include "vantage/belief/tracking/object_tracker.hpp"
 #include "vantage/planners/trajectory/flight_planner.hpp"
 #include "vantage/recognition/observation_buffer.hpp"
 #include "vantage/tasks/trajectory/trajectory_evaluator.hpp"

@@ -211,5 +211,68 @@ TEST(BinError, IsTheShortWayRound) {
   EXPECT_EQ(bin_error(states, states.state(0, 3), states.state(0, 3)), 0);
 }
 
+/// Two objects of a category, one of another, and unknown ones of the first, or of none.
+ObjectStates states_with_unknown(int bins) {
+  ObjectStates states = make_states({0, 0, 1}, bins);
+  states.unknown_category = {0, kNoCategory};
+  return states;
+}
+
+TEST(PriorBelief, SharesWhatIsUnknown) {
+  const ObjectStates states = states_with_unknown(2);
+  const ObjectBelief prior = prior_belief(states, 0.2);
+  EXPECT_NEAR(p_state(prior).sum(), 1.0, kTolerance);
+  EXPECT_NEAR(p_unknown(states, prior), 0.2, kTolerance);
+  EXPECT_TRUE(p_object(states, prior).isApprox(Eigen::Vector3d::Constant(0.8 / 3.0), kTolerance));
+  EXPECT_TRUE(p_category(states, prior)
+                  .isApprox(Eigen::Vector2d(2.0 * 0.8 / 3.0 + 0.1, 0.8 / 3.0), kTolerance));
+  const ObjectStates known = make_states({0, 0, 1}, 2);
+  EXPECT_EQ(prior_belief(known, 0.2).log_p, uniform_belief(known).log_p);
+}
+
+// Over all paths of states, by the definition.
+TEST(ObjectBelief, WithUnknownObjectsIsBayesOverAllPaths) {
+  const ObjectStates states = states_with_unknown(3);
+  const ObjectStates known = make_states({0, 0, 1}, 3);
+  const TransitionModel transition = TableTransition{};
+  Rng rng(5);
+  ObjectBelief belief = prior_belief(states, 0.3);
+  Eigen::VectorXd p = p_state(belief);
+  for (const double motion_rad : {0.0, 1.3, 4.0}) {
+    if (motion_rad != 0.0) {
+      Eigen::MatrixXd a = Eigen::MatrixXd::Identity(states.size(), states.size());
+      a.topLeftCorner(known.size(), known.size()) =
+          testing::dense(known, kernel_of(transition, motion_rad, 3));
+      p = a.transpose() * p;
+    }
+    const Eigen::VectorXd likelihood =
+        Eigen::VectorXd::NullaryExpr(states.size(), [&] { return rng.uniform(0.1, 2.0); });
+    p = p.cwiseProduct(likelihood) / p.dot(likelihood);
+    predict(belief, states, transition, motion_rad);
+    EXPECT_TRUE(update(belief, likelihood.array().log().matrix()).used());
+    EXPECT_TRUE(p_state(belief).isApprox(p, 1e-12));
+  }
+  EXPECT_NEAR(p_unknown(states, belief), p.tail(2).sum(), 1e-12);
+}
+
+TEST(EstimateOf, IsUnknownWhenThatIsMoreProbableThanNot) {
+  const ObjectStates states = states_with_unknown(1);
+  const auto estimate = [&](std::initializer_list<double> p) {
+    return estimate_of(states, belief_of(p));
+  };
+  EXPECT_EQ(estimate({0.2, 0.3, 0.1, 0.3, 0.1}).object, "object_1");
+  EXPECT_NEAR(estimate({0.2, 0.3, 0.1, 0.3, 0.1}).probability, 0.3, 1e-12);
+  const ObjectEstimate instance = estimate({0.2, 0.1, 0.1, 0.5, 0.1});
+  EXPECT_EQ(instance.object, kUnknown);
+  EXPECT_EQ(instance.category, "category_0");
+  EXPECT_NEAR(instance.probability, 0.6, 1e-12);
+  EXPECT_EQ(estimate({0.2, 0.1, 0.1, 0.1, 0.5}).category, kUnknown);
+}
+
+TEST(ObjectEntropy, CountsWhatIsUnknownAsOneObject) {
+  const ObjectStates states = states_with_unknown(1);
+  EXPECT_NEAR(object_entropy_bits(states, belief_of({0.25, 0.25, 0.25, 0.125, 0.125})), 2.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -124,7 +124,7 @@ TEST_F(RecognitionFile, SaysWhatIsWrong) {
               HasSubstr("is not a recognition model"));
   std::string newer = whole_;
   newer[kVersionAt] = 9;
-  EXPECT_THAT(error_of(newer), HasSubstr("is of version 9, this program reads 1"));
+  EXPECT_THAT(error_of(newer), HasSubstr("is of version 9, this program reads 1 and 2"));
   std::string damaged = whole_;
   damaged[kHeader + 50] ^= 1;
   EXPECT_THAT(error_of(damaged), HasSubstr("is damaged"));
@@ -175,6 +175,53 @@ TEST_F(RecognitionFile, SurvivesDamageThatItsHashDoesNotShow) {
     if (!error_of(sealed(bytes)).empty()) ++refused;
   }
   EXPECT_GT(refused, 500);
+}
+
+TEST_F(RecognitionFile, KeepsWhatWasLearntOfUnknownObjects) {
+  RecognitionModel model = small_model();
+  model.view_correlation = 0.35;
+  model.features[1].unknown = UnknownFactors{.instance = -3.5, .category = 12.25};
+  write_recognition_model(model, path_);
+  const RecognitionModel read = read_recognition_model(path_);
+  EXPECT_EQ(read.view_correlation, 0.35);
+  EXPECT_FALSE(read.features[0].unknown);
+  ASSERT_TRUE(read.features[1].unknown);
+  EXPECT_EQ(read.features[1].unknown->instance, -3.5);
+  EXPECT_EQ(read.features[1].unknown->category, 12.25);
+}
+
+/// What version 1 had not: the correlation behind the transitions, and a mark behind each cost.
+std::string as_version_1(std::string bytes, const RecognitionModel& model) {
+  const auto erase_behind = [&](std::size_t at, std::size_t count) { bytes.erase(at, count); };
+  for (std::size_t f = model.features.size(); f-- > 0;) {
+    std::string head;
+    put_text(head, model.features[f].name);
+    put(head, model.features[f].psi);
+    put(head, model.features[f].cost_s);
+    erase_behind(bytes.find(head) + head.size(), 1);
+  }
+  std::string first;
+  put_text(first, model.features[0].name);
+  const std::size_t count_at = bytes.find(first) - sizeof(std::uint32_t);
+  erase_behind(count_at - sizeof(double), sizeof(double));
+  bytes[kVersionAt] = 1;
+  return sealed(bytes);
+}
+
+TEST_F(RecognitionFile, OfVersionOneKnowsNothingOfUnknownObjects) {
+  EXPECT_EQ(error_of(as_version_1(whole_, small_model())), "");
+  const RecognitionModel read = read_recognition_model(path_);
+  EXPECT_EQ(read.view_correlation, 0.0);
+  EXPECT_FALSE(read.features[0].unknown);
+  EXPECT_EQ(read.features[1].blobs, small_model().features[1].blobs);
+  EXPECT_EQ(read.features[1].statistics.count, small_model().features[1].statistics.count);
+}
+
+TEST_F(RecognitionFile, OfImpossibleCorrelationIsRefused) {
+  RecognitionModel model = small_model();
+  model.view_correlation = 1.5;
+  write_recognition_model(model, path_);
+  EXPECT_THAT(error_of(read_file(path_)), HasSubstr("correlation of views is 1.5"));
 }
 
 }  // namespace

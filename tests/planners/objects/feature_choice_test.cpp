@@ -157,5 +157,27 @@ TEST_F(FeatureChoiceTest, GainPerCostNeedsCosts) {
   EXPECT_DEATH(choose({.per_cost = true}), "the cost of every feature");
 }
 
+// Each of them is more probable than any known state, and nothing tells them apart.
+TEST(FeatureChoice, IsNotBlindedByManyKindsOfUnknownObjects) {
+  constexpr int kKnown = 400;
+  constexpr int kUnknown = 60;
+  ObjectStates states;
+  states.bins = 1;
+  states.objects.resize(kKnown);
+  states.unknown_category.assign(kUnknown, kNoCategory);
+  ObservationModel model{.feature = "hue",
+                         .mean = Eigen::MatrixXf::Zero(1, kKnown + kUnknown),
+                         .variance = Eigen::MatrixXf::Ones(1, kKnown + kUnknown)};
+  for (int k = 0; k < kKnown; ++k) model.mean(0, k) = static_cast<float>(10 * k);
+  model.variance.rightCols(kUnknown).setConstant(1e6F);
+  const std::vector<FeatureOption> features{{.model = &model, .tables = nullptr}};
+  Eigen::VectorXd belief = Eigen::VectorXd::Constant(kKnown + kUnknown, 0.7 / kKnown);
+  belief.tail(kUnknown).setConstant(0.3 / kUnknown);
+  Rng rng(1);
+  const FeatureDecision decision =
+      choose_feature({}, {.database = states, .belief = belief, .features = features}, rng);
+  EXPECT_EQ(decision.feature, 0U);
+}
+
 }  // namespace
 }  // namespace vantage

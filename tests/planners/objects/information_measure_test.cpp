@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -268,6 +269,93 @@ TEST_F(NearDuplicates, TheBoundRanksAsMonteCarloDoes) {
 
 TEST_F(NearDuplicates, TheApproximationAboutObjectsRanksAsMonteCarloDoes) {
   EXPECT_GE(correlation_with_monte_carlo(MutualInformation{}, true), 0.95);
+}
+
+/// Two objects of two poses each, and two kinds of unknown ones, wider.
+ObservationModel model_with_unknown() {
+  ObservationModel model = testing::scalar_model({-1.0F, -0.5F, 1.5F, 2.0F, 0.0F, 0.5F});
+  model.variance << 0.2F, 0.3F, 0.25F, 0.2F, 4.0F, 9.0F;
+  return model;
+}
+
+/// I(object; feature) by the integral over one dimension.
+double information_by_enumeration(const ObservationModel& model, const std::vector<double>& b,
+                                  const std::vector<int>& object) {
+  const auto entropy = [&](const Eigen::VectorXd& p) {
+    std::map<int, double> mass;
+    for (std::size_t i = 0; i < object.size(); ++i) {
+      mass[object[i]] += p[static_cast<Eigen::Index>(i)];
+    }
+    double bits = 0.0;
+    for (const auto& [k, m] : mass) bits -= m > 0.0 ? m * std::log2(m) : 0.0;
+    return bits;
+  };
+  const Eigen::VectorXd prior = Eigen::Map<const Eigen::VectorXd>(b.data(), std::ssize(b));
+  double bits = entropy(prior);
+  constexpr double kStep = 0.005;
+  for (double x = -40.0; x < 40.0; x += kStep) {
+    const Eigen::VectorXf feature = Eigen::VectorXf::Constant(1, static_cast<float>(x));
+    const Eigen::VectorXd joint =
+        prior.cwiseProduct(log_density(model, feature).array().exp().matrix());
+    bits -= kStep * joint.sum() * entropy(joint / joint.sum());
+  }
+  return bits;
+}
+
+TEST(InformationWithUnknown, IsWhatEnumerationSays) {
+  const ObservationModel model = model_with_unknown();
+  const ObservationModel* feature = &model;
+  ObjectStates states;
+  states.bins = 2;
+  states.objects = {"cup", "mug"};
+  states.unknown_category = {0, kNoCategory};
+  const std::vector<double> b{0.2, 0.15, 0.25, 0.1, 0.1, 0.2};
+  const std::vector<int> object = objects_of(states, std::vector<int>{0, 1, 2, 3, 4, 5});
+  EXPECT_EQ(object, (std::vector<int>{0, 0, 1, 1, 2, 2}));
+  const double exact = information_by_enumeration(model, b, object);
+  const InformationQuery query = about({&feature, 1}, b, object);
+  Rng rng(3);
+  const InformationEstimate sampled = MonteCarloInformation{.samples = 40000}(query, rng);
+  EXPECT_NEAR(sampled.bits, exact, 4.0 * sampled.standard_error_bits);
+  EXPECT_LT(sampled.standard_error_bits, 0.01);
+  EXPECT_NEAR(bits_of(MutualInformation{}, query), exact, 0.35 * exact);
+  EXPECT_GE(bits_of(InformationUpperBound{}, query), exact);
+}
+
+// A factor on what is unknown is believed by the measures that look at what would be believed.
+TEST(InformationWithUnknown, SamplesUseTheFactors) {
+  ObservationModel model = model_with_unknown();
+  const ObservationModel* feature = &model;
+  const std::vector<double> b{0.0, 0.0, 0.5, 0.0, 0.0, 0.5};
+  InformationQuery query = about({&feature, 1}, b, {0, 0, 1, 1, 2, 2});
+  const double before = bits_of(MonteCarloInformation{}, query);
+  const double at_means = bits_of(LossOfEntropy{.at_mean = true}, query);
+  model.log_factor = Eigen::VectorXd::Zero(6);
+  model.log_factor[5] = -200.0;  // whatever is measured, it is known
+  EXPECT_GT(before, 0.1);
+  EXPECT_NEAR(bits_of(MonteCarloInformation{}, query), 1.0, 1e-9) << "and believed at once";
+  EXPECT_GT(at_means, 0.1);
+  EXPECT_NEAR(bits_of(LossOfEntropy{.at_mean = true}, query), 1.0, 1e-9);
+}
+
+TEST(EveryInformationMeasure, OfAViewThatCountsForLessIsAsOfASmallerPsi) {
+  Rng rng(2);
+  const auto families = testing::near_duplicate_families(4);
+  auto model = testing::near_duplicate_model(families, 20, 2.0, {}, rng);
+  const ObservationModel* feature = &model;
+  Eigen::VectorXd belief = Eigen::VectorXd::LinSpaced(32, 1.0, 9.0);
+  belief /= belief.sum();
+  InformationQuery query{.likely = likely_states(belief, 12), .features = {&feature, 1}};
+  const double psi = model.psi;
+  for (const auto& measure : every_measure()) {
+    model.psi = 0.4 * psi;
+    query.weight = 1.0;
+    const double bits = bits_of(measure, query);
+    model.psi = psi;
+    query.weight = 0.4;
+    EXPECT_NEAR(bits_of(measure, query), bits, kTolerance * (1.0 + std::abs(bits)))
+        << strategy_name_of(measure);
+  }
 }
 
 }  // namespace

@@ -32,5 +32,43 @@ TEST(LikelyStatesDeathTest, NeedABelief) {
   EXPECT_DEATH(likely_states(belief({1.0}), 0), "room for a state");
 }
 
+/// Fifty known objects and thirty kinds of unknown ones, each of them more probable than any known.
+ObjectStates many_unknown() {
+  ObjectStates states;
+  states.bins = 1;
+  states.objects.resize(50);
+  states.unknown_category.assign(30, kNoCategory);
+  return states;
+}
+
+TEST(LikelyStates, OfUnknownObjectsLeaveRoomForKnownOnes) {
+  const ObjectStates states = many_unknown();
+  Eigen::VectorXd belief(80);
+  belief.head(50).setConstant(0.4 / 50.0);
+  belief.tail(30).setConstant(0.6 / 30.0);
+  belief[7] += 0.004;
+  belief[8] -= 0.004;
+  const LikelyStates likely = likely_states(states, belief, 16);
+  ASSERT_EQ(likely.states.size(), 16U);
+  EXPECT_EQ(likely.states[0], 7);
+  EXPECT_EQ(likely.states[13], 14) << "of equal ones the lower number; 8 is less probable";
+  EXPECT_EQ(likely.states[14], 50);
+  EXPECT_EQ(likely.states[15], 51);
+  double known = 0.0;
+  for (std::size_t i = 0; i < 14; ++i) known += likely.belief[i];
+  EXPECT_NEAR(known, 0.4, 1e-12);
+  EXPECT_NEAR(likely.belief[14] + likely.belief[15], 0.6, 1e-12);
+  EXPECT_NEAR(likely.mass, 14.0 * 0.4 / 50.0 + 0.004 + 2.0 * 0.02, 1e-12);
+}
+
+TEST(LikelyStates, MayAllBeUnknown) {
+  const ObjectStates states = many_unknown();
+  Eigen::VectorXd belief = Eigen::VectorXd::Zero(80);
+  belief[60] = 1.0;
+  const LikelyStates likely = likely_states(states, belief, 16);
+  EXPECT_EQ(likely.states, std::vector<int>{60});
+  EXPECT_NEAR(likely.belief[0], 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -218,5 +218,13 @@ TEST_F(EnoughViewsTest, OrLooksAtTheEntropyOfTheState) {
   EXPECT_EQ(enough(never, 0.0, 0.0, 1.0, 0.0), EnoughReason::entropy);
 }
 
+TEST_F(EnoughViewsTest, TakesUnknownForAnAnswer) {
+  states_.bins = 1;
+  states_.categories = {"vessel"};
+  states_.unknown_category = {0, kNoCategory};
+  EXPECT_EQ(enough({}, 0.03, 0.02, 0.5, 0.45), EnoughReason::probability);
+  EXPECT_EQ(enough({}, 0.3, 0.3, 0.2, 0.2), std::nullopt);
+}
+
 }  // namespace
 }  // namespace vantage

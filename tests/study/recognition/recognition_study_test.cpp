@@ -110,7 +110,7 @@ TEST(RecognitionStudy, AClassifierHasNoFiguresOfPoseAndCost) {
   const support::TemporaryDirectory folder;
   write_recognition_study(study, folder.path() / "out");
   const std::string csv = read_file(folder.path() / "out" / "results.csv");
-  EXPECT_THAT(csv, HasSubstr("\"linear_svm\",0,cup_1,cup_1,1,1,1,,,,,,\n"));
+  EXPECT_THAT(csv, HasSubstr("\"linear_svm\",0,cup_1,cup_1,1,1,1,,,,,,,,\n"));
   const auto summary =
       nlohmann::json::parse(read_file(folder.path() / "out" / "summary.json"))["methods"];
   EXPECT_TRUE(summary[3]["bin_error"].is_null());

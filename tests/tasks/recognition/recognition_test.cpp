@@ -170,9 +170,12 @@ TEST_F(RecognitionEpisode, AMissingModelSaysHowToMakeOne) {
   EXPECT_EQ(found.code, ExitCode::bad_input);
 }
 
-TEST_F(RecognitionEpisode, AForeignModelIsRefused) {
-  const Validation found =
-      validate_episode(kRecognition, overrides({"database.objects=326", "object=lamp_2"}));
+TEST_F(RecognitionEpisode, AnObjectThatTheModelDoesNotKnowNeedsTheUnknown) {
+  const std::vector<std::string> foreign{"database.objects=326", "object=lamp_2"};
+  EXPECT_TRUE(validate_episode(kRecognition, overrides(foreign)).problems.empty());
+  std::vector<std::string> certain = foreign;
+  certain.push_back("recogniser.unknown_prior=0");
+  const Validation found = validate_episode(kRecognition, overrides(certain));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0], testing::HasSubstr("lamp_2"));
   EXPECT_EQ(found.code, ExitCode::usage);

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "vantage/belief/map/flight_map.hpp"
-#include "vantage/belief/objects/object_tracker.hpp"
+#include "vantage/belief/tracking/object_tracker.hpp"
 #include "vantage/perception/object_search.hpp"
 #include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/sim/sensors/camera.hpp"

@@ -1,4 +1,4 @@
-#include "vantage/belief/objects/object_tracker.hpp"
+#include "vantage/belief/tracking/object_tracker.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,188 @@
+// What objects look like that nothing was learnt of.
+#include "vantage/recognition/calibration/unknown_training.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "vantage/information/log_space.hpp"
+#include "vantage/recognition/calibration/near_duplicates.hpp"
+
+namespace vantage {
+namespace {
+
+using ::testing::ElementsAre;
+using Kind = ShownView::Kind;
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+
+double mean_log_posterior(const std::vector<ShownView>& views, double instance, double category) {
+  std::array<double, 3> sum{};
+  std::array<double, 3> count{};
+  for (const ShownView& view : views) {
+    const std::array log_p{std::log(0.5) + view.known, std::log(0.25) + view.instance + instance,
+                           std::log(0.25) + view.category + category};
+    const auto kind = static_cast<std::size_t>(view.kind);
+    sum[kind] += log_p[kind] - log_sum_exp(log_p);
+    count[kind] += 1.0;
+  }
+  return 0.5 * sum[0] / count[0] + 0.25 * sum[1] / count[1] + 0.25 * sum[2] / count[2];
+}
+
+TEST(MostLikelyFactors, AreTheBestOfAGrid) {
+  Rng rng(4);
+  std::vector<ShownView> views;
+  for (int i = 0; i < 300; ++i) {
+    const auto kind = static_cast<Kind>(i % 3);
+    const auto own = [&](Kind k) { return kind == k ? 2.0 : 0.0; };
+    views.push_back({.kind = kind,
+                     .known = 10.0 + own(Kind::known) + 3.0 * rng.normal(),
+                     .instance = 40.0 + own(Kind::instance) + 3.0 * rng.normal(),
+                     .category = -25.0 + own(Kind::category) + 3.0 * rng.normal()});
+  }
+  const UnknownFactors found = most_likely_factors(views);
+  const double best = mean_log_posterior(views, found.instance, found.category);
+  for (const double a : {-0.2, 0.0, 0.2}) {
+    for (const double b : {-0.2, 0.0, 0.2}) {
+      if (a == 0.0 && b == 0.0) continue;
+      EXPECT_GT(best, mean_log_posterior(views, found.instance + a, found.category + b));
+    }
+  }
+  EXPECT_NEAR(found.instance, -30.0, 2.0);
+  EXPECT_NEAR(found.category, 35.0, 2.0);
+}
+
+TEST(MostLikelyFactors, WithoutInstancesAreOne) {
+  std::vector<ShownView> views;
+  for (int i = 0; i < 100; ++i) {
+    views.push_back({.kind = Kind::known, .known = 5.0, .instance = kImpossible, .category = 0.0});
+    views.push_back(
+        {.kind = Kind::category, .known = -5.0, .instance = kImpossible, .category = 0.0});
+  }
+  const UnknownFactors found = most_likely_factors(views);
+  EXPECT_EQ(found.instance, found.category);
+  EXPECT_NEAR(found.category, 0.0, 1e-6) << "half way between the two";
+}
+
+/// Objects are points of a plane, the same from all sides: in each category the first two within a
+/// hair, the third apart. Recordings are told from each other by nothing.
+struct PointWorld {
+  static constexpr int kCategories = 12;
+  static constexpr double kNoise = 0.1;
+  ObjectStates states;
+  std::vector<Eigen::Vector2d> point;
+
+  explicit PointWorld(Rng& rng) {
+    states.bins = 1;
+    for (int c = 0; c < kCategories; ++c) {
+      states.categories.push_back(fmt::format("c{}", c));
+      const Eigen::Vector2d middle(rng.normal(0.0, 8.0), rng.normal(0.0, 8.0));
+      const Eigen::Vector2d first = middle + Eigen::Vector2d(rng.normal(), rng.normal());
+      add(c, first);
+      add(c, first + Eigen::Vector2d(0.05, 0.0));
+      add(c, middle + Eigen::Vector2d(rng.normal(), rng.normal()));
+    }
+  }
+  void add(int category, const Eigen::Vector2d& at) {
+    states.objects.push_back(fmt::format("o{}", point.size()));
+    states.category_of.push_back(category);
+    point.push_back(at);
+  }
+  static Eigen::VectorXf seen(const Eigen::Vector2d& at, Rng& rng) {
+    return (at + kNoise * Eigen::Vector2d(rng.normal(), rng.normal())).cast<float>();
+  }
+};
+
+struct Learnt {
+  std::vector<ObservationModel> models;
+  std::vector<std::optional<UnknownFactors>> factors;
+};
+
+Learnt learn(const PointWorld& world, int views_each, Rng& rng) {
+  RecognitionModel model;
+  model.states = world.states;
+  model.features.push_back(
+      {.name = "point", .statistics = empty_statistics(2, world.states.size()), .blobs = {}});
+  std::vector<ViewFeatures> views;
+  std::vector<int> shown;
+  for (int k = 0; k < world.states.object_count(); ++k) {
+    for (int i = 0; i < views_each; ++i) {
+      ViewFeatures& view = views.emplace_back();
+      const auto object = static_cast<std::size_t>(k);
+      view.name = {.category = "c", .object = world.states.objects[object], .video = 1, .frame = i};
+      view.yaw_rad = i * 2.0 * std::numbers::pi / views_each;  // no burst of one direction
+      view.features.push_back({PointWorld::seen(world.point[object], rng), {}});
+      shown.push_back(k);
+    }
+  }
+  const Calibration calibration =
+      hold_out(views, shown, model, {HeldOutShare{.share = 0.3}, ShrunkVariance{}, 1}, {});
+  const std::vector<double> psi{1.0};
+  return {calibration.folds.front().models,
+          calibrate_unknown(calibration, views, world.states, psi, {})};
+}
+
+TEST(NearDuplicates, AreThoseThatOneViewTakesForEachOther) {
+  Rng rng(8);
+  PointWorld world(rng);
+  const Learnt learnt = learn(world, 60, rng);
+  const std::vector<int> group = near_duplicate_groups(learnt.models, world.states, 1);
+  for (std::size_t k = 0; k < group.size(); k += 3) {
+    EXPECT_EQ(group[k], group[k + 1]);
+    EXPECT_NE(group[k], group[k + 2]);
+  }
+}
+
+// Of objects drawn as known, as another one of a category, and as one of none, in the shares that
+// the prior says, what is held for unknown with probability p is unknown in p of the cases.
+TEST(CalibrateUnknown, MakesTheProbabilityOfUnknownHonest) {
+  Rng rng(9);
+  double error = 0.0;
+  double found = 0.0;
+  double alarms = 0.0;
+  constexpr int kWorlds = 12;
+  for (int w = 0; w < kWorlds; ++w) {
+    PointWorld world(rng);
+    const Learnt learnt = learn(world, 20, rng);
+    ASSERT_TRUE(learnt.factors[0]);
+    ObjectStates states = world.states;
+    states.unknown_category = unknown_hypotheses(states);
+    const ObservationModel model = with_unknown(learnt.models[0], world.states, *learnt.factors[0]);
+    double sum_p = 0.0;
+    double sum_true = 0.0;
+    constexpr int kDraws = 400;
+    for (int i = 0; i < kDraws; ++i) {
+      const bool unknown = i % 2 == 1;
+      const auto k = rng.uniform_index(world.point.size());
+      Eigen::Vector2d at = world.point[k];
+      if (unknown) at += Eigen::Vector2d(rng.normal(0.0, 1.4), rng.normal(0.0, 1.4));
+      if (i % 4 == 3) at = {rng.normal(0.0, 8.0), rng.normal(0.0, 8.0)};
+      ObjectBelief belief = prior_belief(states, 0.5);
+      update(belief, log_likelihood(model, PointWorld::seen(at, rng)));
+      const double p = p_unknown(states, belief);
+      sum_p += p / kDraws;
+      sum_true += unknown ? 1.0 / kDraws : 0.0;
+      (unknown ? found : alarms) += p > 0.5 ? 2.0 / kDraws / kWorlds : 0.0;
+    }
+    error += (sum_p - sum_true) / kWorlds;
+  }
+  EXPECT_NEAR(error, 0.0, 0.04);
+  EXPECT_GT(found, 0.9);
+  EXPECT_LT(alarms, 0.08);
+}
+
+TEST(CalibrateUnknown, NeedsThreeObjects) {
+  Rng rng(9);
+  PointWorld world(rng);
+  world.states.objects.resize(2);
+  world.states.category_of.resize(2);
+  world.point.resize(2);
+  EXPECT_FALSE(learn(world, 20, rng).factors[0]);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,62 @@
+#include "vantage/study/recognition/unknown_detection.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace vantage {
+namespace {
+
+TEST(AreaUnderCurve, IsTheShareOfPairsInOrder) {
+  Rng rng(1);
+  std::vector<double> high;
+  std::vector<double> low;
+  for (int i = 0; i < 57; ++i) high.push_back(std::floor(10.0 * rng.uniform(0.2, 1.0)));
+  for (int i = 0; i < 83; ++i) low.push_back(std::floor(10.0 * rng.uniform()));
+  double pairs = 0.0;
+  for (const double h : high) {
+    for (const double l : low) pairs += h > l ? 1.0 : h == l ? 0.5 : 0.0;
+  }
+  EXPECT_NEAR(area_under_curve(high, low), pairs / (57.0 * 83.0), 1e-12);
+  EXPECT_EQ(area_under_curve(std::vector{1.0}, std::vector{0.0}), 1.0);
+  EXPECT_EQ(area_under_curve(std::vector{1.0}, std::vector{1.0}), 0.5);
+}
+
+TEST(FoundAbove, IsTheLowestOfTheShare) {
+  const std::vector<double> values{0.1, 0.9, 0.5, 0.7, 0.3, 0.2, 0.8, 0.6, 0.4, 1.0};
+  EXPECT_EQ(found_above(values, 0.9), 0.2);
+  EXPECT_EQ(found_above(values, 1.0), 0.1);
+  EXPECT_EQ(found_above({0.3}, 0.9), 0.3);
+}
+
+TEST(UnknownDetection, CountsAlarmsAndWhatIsFound) {
+  std::vector<Trial> known;
+  for (int i = 0; i < 20; ++i) {
+    known.push_back({.object = i % 5,
+                     .name = fmt::format("known_{}", i % 5),
+                     .unknown_probability = i < 2 ? 0.8 : 0.01 * i});
+  }
+  UnknownTrials unknown;
+  for (int i = 0; i < 10; ++i) {
+    const bool found = i < 9;
+    unknown.trials.push_back({.object = -1,
+                              .name = fmt::format("unknown_{}", i % 3),
+                              .correct = found,
+                              .category_correct = i % 2 == 0,
+                              .unknown_probability = found ? 0.7 + 0.01 * i : 0.1});
+    unknown.category_known.push_back(i < 4);
+  }
+  const UnknownDetection detection = detection_of(known, unknown, 1);
+  EXPECT_EQ(detection.threshold, 0.7);
+  EXPECT_DOUBLE_EQ(detection.false_alarms, 0.1);
+  EXPECT_DOUBLE_EQ(detection.found, 0.9);
+  EXPECT_DOUBLE_EQ(detection.known_missed, 0.1);
+  EXPECT_DOUBLE_EQ(detection.category_known_right, 0.5);
+  EXPECT_DOUBLE_EQ(detection.category_unknown_right, 0.6);
+  EXPECT_GE(detection.area, detection.area_interval.low);
+  EXPECT_LE(detection.area, detection.area_interval.high);
+}
+
+}  // namespace
+}  // namespace vantage
