@@ -46,9 +46,12 @@ void apply(const RecogniserFeature& feature, const ExtractedFeature& extracted,
     return;
   }
   const bool known = extracted.log_likelihood.size() > 0;
+  const FeatureResult& result = extracted.result;
   const EvidenceResult evidence =
-      update(belief, known ? extracted.log_likelihood
-                           : log_likelihood(feature.prepared, extracted.result.vector));
+      update(belief,
+             known ? extracted.log_likelihood
+                   : Eigen::VectorXd(result.weight * log_likelihood(feature.prepared, result.vector,
+                                                                    result.readings)));
   if (evidence.used()) {
     report.features.push_back(name);
   } else {
