@@ -78,7 +78,7 @@ const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/tables"};
 /// What several tasks share; they never include each other.
 const Rooms kSharedByTasks{"tasks/mapping", "tasks/mapping/driving", "tasks/mapping/simulated",
-                           "tasks/flight", "tasks/object_flight"};
+                           "tasks/flight", "tasks/object_flight", "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
                     kSharedByTasks + Rooms{"control", "dataset", "report"};
 
@@ -145,6 +145,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"tasks/mapping/simulated", kTask},
     {"tasks/flight", kTask},
     {"tasks/object_flight", kTask},
+    {"tasks/table_map", kTask},
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
     {"study/figures", {"core", "geometry", "information", "report"}},
     {"study/recognition", kGround + kRecognition + kRuntime + Rooms{"belief/objects"}},
