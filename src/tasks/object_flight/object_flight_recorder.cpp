@@ -18,8 +18,8 @@ constexpr std::string_view kStepsHeader =
     "map_probability,gain_bits,"
     "feature_time_s,selection_time_s,view_time_s,flight,flight_time_s,path_length_m,leg_length_m,"
     "energy_j,"
-    "object_px,position_error_m,angle_error_rad,bin_error,collisions,target,expected_visible,"
-    "seen_share";
+    "object_px,target,expected_visible,seen_share,position_error_m,angle_error_rad,bin_error,"
+    "collisions";
 
 constexpr std::string_view kChangeHeader = ",change_probability,decision";
 
@@ -64,8 +64,8 @@ std::string steps_row(const ObservationRecord& record, std::size_t number) {
       record.map_probability, record.gain_bits, report.feature_time_s, report.selection_time_s,
       report.view_time_s, record.flight ? to_string(flight.status) : "", flight.duration_s,
       record.path_length_m, record.leg_length_m, flight.energy_J, record.object_px,
-      record.position_error_m, record.angle_error_rad, record.bin_error, record.collisions,
-      record.target + 1, record.expected_visible, record.seen_share, change_columns(record));
+      record.target + 1, record.expected_visible, record.seen_share, record.position_error_m,
+      record.angle_error_rad, record.bin_error, record.collisions, change_columns(record));
 }
 
 }  // namespace

@@ -69,6 +69,13 @@ Esdf TableMap::distances() const {
   return {grid().frame, closed, options_.clearance_m + kBeyond_m};
 }
 
+/// At least: what is outside of the map is no nearer to anything in it than this.
+double TableMap::distance_m(const Eigen::Vector3d& p_world_m) const {
+  const Eigen::AlignedBox3d box = grid().frame.box();
+  const Eigen::Vector3d at_m = p_world_m.cwiseMax(box.min()).cwiseMin(box.max());
+  return std::hypot(std::max(0.0, distances_.distance_m(at_m)), (p_world_m - at_m).norm());
+}
+
 bool TableMap::is_clear(std::span<const Eigen::Vector3d> path_m) const {
   constexpr double kStep_m = 0.03;
   for (std::size_t i = 0; i < path_m.size(); ++i) {
@@ -77,7 +84,7 @@ bool TableMap::is_clear(std::span<const Eigen::Vector3d> path_m) const {
     const int steps = std::max(1, static_cast<int>(std::ceil(way_m.norm() / kStep_m)));
     for (int k = 1; k <= steps; ++k) {
       const Eigen::Vector3d p_m = from_m + static_cast<double>(k) / steps * way_m;
-      if (distances_.distance_m(p_m) < options_.clearance_m) return false;
+      if (distance_m(p_m) < options_.clearance_m) return false;
     }
   }
   return true;

@@ -85,6 +85,7 @@ class TableMap {
  private:
   void refresh();
   [[nodiscard]] Esdf distances() const;
+  [[nodiscard]] double distance_m(const Eigen::Vector3d& p_world_m) const;
 
   TableMapOptions options_;
   Eigen::Vector3d p_table_m_;

@@ -99,6 +99,17 @@ TEST(TableMap, FlightsKeepClearOfWhatWasNotSeenOverTheTable) {
   EXPECT_FALSE(map_after({}).is_clear(low));
 }
 
+/// However much of it was not seen: it ends at the table's edge.
+TEST(TableMap, BesideATableThatWasNotSeenFlightsAreClear) {
+  const TableMap map = map_after({});
+  const auto beside = [&](double off_m) {
+    return std::vector<Eigen::Vector3d>{kTable_m + Eigen::Vector3d(-0.9, 0.5 + off_m, 0.3),
+                                        kTable_m + Eigen::Vector3d(0.9, 0.5 + off_m, 0.3)};
+  };
+  EXPECT_TRUE(map.is_clear(beside(0.37)));
+  EXPECT_FALSE(map.is_clear(beside(0.33)));
+}
+
 TEST(TableMapLog, KeepsSinceWhenWhatStandsThere) {
   const support::TemporaryDirectory folder;
   TableMapLog log;
