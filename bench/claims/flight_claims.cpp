@@ -70,14 +70,14 @@ std::vector<Finding> flight_recognition_findings(const StudyTables& study) {
 std::vector<Finding> clutter_findings(const StudyTables& study) {
   constexpr auto kByVisibility = "by_visibility";
   const auto is_ahead = [&]() -> Measured {
-    const Difference points = study.difference("correct", kAllPanels, kByVisibility);
+    const Difference points = study.difference("targets_correct", kAllPanels, kByVisibility);
     const double time = study.ratio("simulated_time_s", kAllPanels, kByVisibility);
     const bool gains = points.mean >= 0.08 && points.interval.low > 0.0 && time <= 1.0;
     const bool saves = points.mean >= 0.0 && time <= 0.75;
     return {
         fmt::format("{:+.1f} points [{:+.1f}, {:+.1f}] in {:.2f} x the time", 100.0 * points.mean,
                     100.0 * points.interval.low, 100.0 * points.interval.high, time),
-        gains || saves, "see `correct` and `hidden_views` of all methods"};
+        gains || saves, "see `targets_correct` and `hidden_views` of all methods"};
   };
   const auto sees_more = [&]() -> Measured {
     const Difference hidden = study.difference("hidden_views", kAllPanels, kByVisibility);
