@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "vantage/perception/table_extraction.hpp"
+#include "vantage/planners/views/target_visibility.hpp"
 #include "vantage/planners/visibility/attenuated_ray.hpp"
-#include "vantage/planners/visibility/target_visibility.hpp"
 
 namespace vantage {
 namespace {

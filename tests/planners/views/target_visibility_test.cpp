@@ -1,5 +1,5 @@
 // What a map says will be seen of a thing, where the answer is known.
-#include "vantage/planners/visibility/target_visibility.hpp"
+#include "vantage/planners/views/target_visibility.hpp"
 
 #include <gtest/gtest.h>
 

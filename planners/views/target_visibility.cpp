@@ -1,4 +1,4 @@
-#include "vantage/planners/visibility/target_visibility.hpp"
+#include "vantage/planners/views/target_visibility.hpp"
 
 #include <algorithm>
 
