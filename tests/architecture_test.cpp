@@ -57,8 +57,8 @@ Rooms operator+(Rooms a, const Rooms& b) {
 }
 
 const Rooms kGround{"core", "geometry", "information"};
-const Rooms kPerception{"perception", "perception/clouds", "perception/images",
-                        "perception/features", "perception/features/kit"};
+const Rooms kPerception{"perception",        "perception/clouds",   "perception/clutter",
+                        "perception/images", "perception/features", "perception/features/kit"};
 const Rooms kBelief{"belief/map", "belief/objects"};
 const Rooms kPlanners{"planners",
                       "planners/gains",
@@ -78,7 +78,7 @@ const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/tables"};
 /// What several tasks share; they never include each other.
 const Rooms kSharedByTasks{"tasks/mapping", "tasks/mapping/driving", "tasks/mapping/simulated",
-                           "tasks/flight", "tasks/object_flight", "tasks/table_map"};
+                           "tasks/flight",  "tasks/object_flight",   "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
                     kSharedByTasks + Rooms{"control", "dataset", "report"};
 
@@ -91,6 +91,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"perception/clouds", {"core", "geometry"}},
     {"perception/images", {"core"}},
     {"perception", kGround + Rooms{"perception/clouds", "perception/images"}},
+    {"perception/clutter", kGround + Rooms{"perception"}},
     {"perception/features/kit", kGround + Rooms{"perception", "perception/clouds"}},
     {"perception/features/patches",
      kGround + Rooms{"perception", "perception/clouds", "perception/features/kit"}},

@@ -1,5 +1,5 @@
 // An object among others, against images of boxes on a table, drawn ray by ray.
-#include "vantage/perception/object_among_others.hpp"
+#include "vantage/perception/clutter/object_among_others.hpp"
 
 #include <gmock/gmock.h>
 

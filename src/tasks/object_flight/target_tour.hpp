@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vantage/geometry/upright_cylinder.hpp"
-#include "vantage/perception/object_among_others.hpp"
+#include "vantage/perception/clutter/object_among_others.hpp"
 #include "vantage/tasks/object_flight/object_inquiry.hpp"
 #include "vantage/tasks/object_flight/observation_record.hpp"
 #include "vantage/tasks/table_map/table_map.hpp"

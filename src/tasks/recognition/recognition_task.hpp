@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-#include "vantage/perception/object_among_others.hpp"
+#include "vantage/perception/clutter/object_among_others.hpp"
 #include "vantage/runtime/measure.hpp"
 #include "vantage/runtime/record_text.hpp"
 #include "vantage/sim/world/model_source.hpp"

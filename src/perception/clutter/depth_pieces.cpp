@@ -1,4 +1,4 @@
-#include "vantage/perception/depth_pieces.hpp"
+#include "vantage/perception/clutter/depth_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "vantage/perception/object_among_others.hpp"
+#include "vantage/perception/clutter/object_among_others.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "vantage/information/quantile.hpp"
-#include "vantage/perception/depth_pieces.hpp"
+#include "vantage/perception/clutter/depth_pieces.hpp"
 
 namespace vantage {
 namespace {
