@@ -31,7 +31,7 @@ vantage_component(planners
                   ON trajectory PACKAGES fmt Threads)
 if(VANTAGE_BUILD_PERCEPTION)
   vantage_component(perception
-                    TARGETS clouds images perception feature_kit patch_features features ON information geometry
+                    TARGETS clouds images perception perception_clutter feature_kit patch_features features ON information geometry
                     PACKAGES fmt nanoflann "OpenCV COMPONENTS core imgproc imgcodecs features2d dnn")
 endif()
 

@@ -57,8 +57,8 @@ Rooms operator+(Rooms a, const Rooms& b) {
 }
 
 const Rooms kGround{"core", "geometry", "information"};
-const Rooms kPerception{"perception", "perception/clouds", "perception/images",
-                        "perception/features", "perception/features/kit"};
+const Rooms kPerception{"perception",        "perception/clouds",   "perception/clutter",
+                        "perception/images", "perception/features", "perception/features/kit"};
 const Rooms kBelief{"belief/map", "belief/objects", "belief/tracking"};
 const Rooms kPlanners{"planners",
                       "planners/gains",
@@ -79,7 +79,7 @@ const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/tables"};
 /// What several tasks share; they never include each other.
 const Rooms kSharedByTasks{"tasks/mapping", "tasks/mapping/driving", "tasks/mapping/simulated",
-                           "tasks/flight", "tasks/object_flight"};
+                           "tasks/flight",  "tasks/object_flight",   "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
                     kSharedByTasks + Rooms{"control", "dataset", "report"};
 
@@ -92,6 +92,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"perception/clouds", {"core", "geometry"}},
     {"perception/images", {"core"}},
     {"perception", kGround + Rooms{"perception/clouds", "perception/images"}},
+    {"perception/clutter", kGround + Rooms{"perception"}},
     {"perception/features/kit", kGround + Rooms{"perception", "perception/clouds"}},
     {"perception/features/patches",
      kGround + Rooms{"perception", "perception/clouds", "perception/features/kit"}},
@@ -151,6 +152,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"tasks/mapping/simulated", kTask},
     {"tasks/flight", kTask},
     {"tasks/object_flight", kTask},
+    {"tasks/table_map", kTask},
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
     {"study/figures", {"core", "geometry", "information", "report"}},
     {"study/recognition",

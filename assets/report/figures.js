@@ -56,6 +56,12 @@ function observationPlots(parent) {
   chart("Probability of the estimate", "summed over its poses", "probability", "", [
     { name: "most probable object", colour: seriesColour(2), strong: true, points: seen("map_probability") },
   ]);
+  if (METRICS.others?.length || METRICS.targets?.length > 1) {
+    chart("How much of the object was seen", "of the surface that faces the camera", "share", "", [
+      { name: "as the map said", colour: seriesColour(1), dashed: true, points: seen("expected_visible") },
+      { name: "as the image shows", colour: seriesColour(0), strong: true, points: seen("seen_share") },
+    ]);
+  }
   chart("Where the images were taken", "camera against where it was meant to be", "position error in mm", "mm", [
     { name: "position", colour: seriesColour(1), strong: true, points: seen("position_error_m", 1000) },
   ]);
@@ -122,6 +128,13 @@ function viewsCard() {
 }
 
 function recognitionCards() {
+  if (METRICS.targets?.length > 1) {
+    for (const target of METRICS.targets) {
+      card(`Object ${METRICS.targets.indexOf(target) + 1}`, String(target.estimate ?? "–"), { sub: `truth: ${target.truth}; ${target.views} views`, kind: target.correct ? "good" : "bad" });
+    }
+    viewsCard();
+    return;
+  }
   card("Estimate", String(METRICS.estimate ?? "–"), { sub: `truth: ${METRICS.truth}`, kind: METRICS.correct ? "good" : "bad" });
   viewsCard();
 }

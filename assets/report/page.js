@@ -109,7 +109,7 @@ function pairs(table, object, prefix = "") {
 function fillDetails() {
   pairs(at("manifest"), DATA.manifest);
   at("config").textContent = DATA.config;
-  const { scans, observations, candidates, objects, path, plan, ...rest } = METRICS;
+  const { scans, observations, candidates, objects, targets, others, path, plan, ...rest } = METRICS;
   pairs(at("other"), rest);
 }
 

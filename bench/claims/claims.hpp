@@ -39,8 +39,9 @@ using Figures = std::map<std::string, Json>;
 std::vector<Finding> speed_findings(const Figures& figures);
 std::vector<Finding> tabletop_findings(const StudyTables& study);
 std::vector<Finding> prediction_findings(const StudyTables& study);
-/// Of recognition and of change detection on the quadrotor.
+/// Of recognition, alone and among others, and of change detection on the quadrotor.
 std::vector<Finding> flight_recognition_findings(const StudyTables& study);
+std::vector<Finding> clutter_findings(const StudyTables& study);
 std::vector<Finding> flight_change_findings(const StudyTables& study);
 /// Scans that the dissertation's best method takes.
 struct ScansClaimed {

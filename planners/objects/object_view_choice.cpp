@@ -39,6 +39,19 @@ std::vector<ObjectViewScore> scores_by(const StarView& /*choice*/,
   return scores;
 }
 
+/// Free views score above 0, the sooner the higher; the others below.
+std::vector<ObjectViewScore> scores_by(const NearestFreeView& choice,
+                                       const ObjectViewOptions& /*options*/,
+                                       const ObjectViewSituation& situation, Rng& /*rng*/) {
+  std::vector<ObjectViewScore> scores;
+  for (const ObjectViewAction& action : situation.actions) {
+    const bool free = action.visible >= choice.min_visible;
+    const double score = free ? 1.0 / (1.0 + action.time_s) : action.visible - 1.0;
+    scores.push_back({.gain = {}, .cost = 1.0, .score = score});
+  }
+  return scores;
+}
+
 template <class Measure>
 requires std::constructible_from<InformationMeasure, Measure> std::vector<ObjectViewScore>
 scores_by(const Measure& measure, const ObjectViewOptions& options,
@@ -53,7 +66,8 @@ scores_by(const Measure& measure, const ObjectViewOptions& options,
         .weight = situation.weight};
     if (options.about_object) query.group = objects_of(situation.database, query.likely.states);
     Rng draws = common;
-    const InformationEstimate gain = measure(query, draws);
+    InformationEstimate gain = measure(query, draws);
+    if (options.by_visibility) gain.bits *= situation.actions[i].visible;
     const double cost = cost_of(options, situation.actions[i]);
     scores.push_back({.gain = gain, .cost = cost, .score = gain.bits / cost});
   }

@@ -36,10 +36,26 @@ struct StarView {
   void fields(auto&&) {}
 };
 
+struct NearestFreeView {
+  static constexpr std::string_view name = "nearest_free";
+  static constexpr StrategyText text{
+      .summary =
+          "Takes the view that is flown to soonest among those from which enough of the object is "
+          "expected to be seen; if there is none, the one that sees most of it."};
+  double min_visible = 0.5;
+  void fields(auto&& f) {
+    f("min_visible", min_visible,
+      "share of the object's surface that is expected to be seen, from which a view counts as "
+      "free; higher flies farther for a better sight",
+      between(0.0, 1.0));
+  }
+};
+
 /// A measure of information chooses the view that it rates highest.
-using ObjectViewChoice = std::variant<MutualInformation, InformationUpperBound,
-                                      MeanFeatureInformation, MonteCarloInformation, LossOfEntropy,
-                                      JeffreysDivergence, RandomObjectView, StarView>;
+using ObjectViewChoice =
+    std::variant<MutualInformation, InformationUpperBound, MeanFeatureInformation,
+                 MonteCarloInformation, LossOfEntropy, JeffreysDivergence, RandomObjectView,
+                 StarView, NearestFreeView>;
 template <>
 inline constexpr std::string_view strategy_family<ObjectViewChoice> = "object view choice";
 
@@ -47,6 +63,7 @@ struct ObjectViewOptions {
   ObjectViewChoice choice = MutualInformation{};
   int states = 48;
   bool about_object = true;
+  bool by_visibility = true;
   double weight_per_s = 0.0;
   double weight_per_m = 0.0;
   double weight_per_j = 0.0;
@@ -60,6 +77,9 @@ struct ObjectViewOptions {
       between(1, 100'000));
     f("about_object", about_object,
       "true: only information about the object counts; false: about its yaw as well");
+    f("by_visibility", by_visibility,
+      "true: information counts times the share of the object that the map says will be seen; "
+      "where nothing is mapped, all of it; false: whatever stands in the way");
     f("weight_per_s", weight_per_s,
       "weight of a motion's time in the cost that gains are divided by; higher prefers quick "
       "motions; all weights 0: gains as they are",
@@ -85,6 +105,7 @@ struct ObjectViewAction {
   double path_m = 0.0;
   double energy_j = 0.0;
   bool visited = false;  ///< the view it leads to was taken before
+  double visible = 1.0;  ///< share of the object's surface that is expected to be seen there
 };
 
 struct ObjectViewSituation {

@@ -37,4 +37,26 @@ std::vector<Pose> orbit_arc(const Orbit& orbit, double from_bearing_rad, double 
   return places;
 }
 
+std::vector<Pose> orbit_way(const Orbit& from, double from_bearing_rad, const Orbit& to,
+                            double to_bearing_rad, double step_rad, const OrbitWay& how) {
+  if (from.centre_m == to.centre_m && !how.long_way && how.rise_m == 0.0) {
+    return orbit_arc(to, from_bearing_rad, to_bearing_rad, step_rad);
+  }
+  expects(step_rad > 0.0, "a step along a way is above 0");
+  double turn_rad = wrap_angle(to_bearing_rad - from_bearing_rad);
+  if (how.long_way) turn_rad -= std::copysign(2.0 * std::numbers::pi, turn_rad);
+  const double shift_m = (to.centre_m - from.centre_m).norm();
+  const double steps = std::max(std::abs(turn_rad) / step_rad, shift_m / (to.radius_m * step_rad));
+  const int count = std::max(how.rise_m > 0.0 ? 2 : 1, static_cast<int>(std::ceil(steps - 1e-9)));
+  std::vector<Pose> places;
+  for (int i = 1; i <= count; ++i) {
+    const double t = static_cast<double>(i) / count;
+    Orbit at = to;
+    at.centre_m = from.centre_m + t * (to.centre_m - from.centre_m);
+    at.height_m += how.rise_m * std::sin(std::numbers::pi * t);
+    places.push_back(at.place(i == count ? to_bearing_rad : from_bearing_rad + t * turn_rad));
+  }
+  return places;
+}
+
 }  // namespace vantage

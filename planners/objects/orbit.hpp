@@ -29,4 +29,16 @@ struct Orbit {
 std::vector<Pose> orbit_arc(const Orbit& orbit, double from_bearing_rad, double to_bearing_rad,
                             double step_rad);
 
+/// How to get from one place to another.
+struct OrbitWay {
+  bool long_way = false;  ///< round the other side
+  double rise_m = 0.0;    ///< by how much it rises over both ends in between
+};
+
+/// The same from an orbit to another: the centre moves evenly from that of the one to that of the
+/// other, while the bearing turns, so that the way keeps as far from what lies between as both do.
+/// From an orbit to itself, the short way and level, it is orbit_arc().
+std::vector<Pose> orbit_way(const Orbit& from, double from_bearing_rad, const Orbit& to,
+                            double to_bearing_rad, double step_rad, const OrbitWay& how = {});
+
 }  // namespace vantage

@@ -27,7 +27,7 @@ std::vector<ObjectName> scanned_names(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (!fs::exists(entry.path() / kMesh) || !fs::exists(entry.path() / kTexture)) continue;
     const std::string name = entry.path().filename().string();
-    names.push_back({name, name + "_1"});
+    names.push_back({name, name + "_1", name});
   }
   if (names.empty()) {
     throw InputError(
@@ -97,7 +97,7 @@ std::vector<ObjectName> object_names(const DatasetOptions& options) {
     names = scanned_names(options.models);
   } else {
     for (const DatabaseObject& object : object_database(options.seed)) {
-      names.push_back({object.category, object.name});
+      names.push_back({object.category, object.name, object.family});
     }
   }
   names.resize(std::min(names.size(), static_cast<std::size_t>(options.objects)));

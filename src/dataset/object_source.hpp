@@ -20,7 +20,8 @@ struct TurntableObject {
 
 struct ObjectName {
   std::string category;
-  std::string object;  ///< "<category>_<instance>"
+  std::string object;       ///< "<category>_<instance>"
+  std::string family = {};  ///< of near-duplicates; of scanned objects, the object itself
 };
 
 /// The objects of a dataset, in order.

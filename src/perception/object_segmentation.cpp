@@ -3,109 +3,11 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include "vantage/perception/column_cut.hpp"
 #include "vantage/perception/table_segmentation.hpp"
 
 namespace vantage {
 namespace {
-
-/// Part of an image that shows a column, and what was measured there without lone outliers.
-struct Patch {
-  cv::Rect place;
-  cv::Mat1f depth_m;
-};
-
-/// Where the image may show something in the column over the table; all of it if the camera is in
-/// the column's way.
-cv::Rect place_of_column(const CameraImages& images, const Pose& T_world_camera,
-                         const Eigen::Vector3d& p_world_table_m,
-                         const ObjectSegmentationOptions& options) {
-  constexpr double kBelow_m = 0.05;
-  constexpr double kNearest_m = 0.1;
-  constexpr int kMargin_px = 8;
-  const cv::Rect all(0, 0, images.width_px, images.height_px);
-  const Pose T_camera_world = T_world_camera.inverse();
-  const Eigen::Array2d centre(0.5 * (images.width_px - 1), 0.5 * (images.height_px - 1));
-  Eigen::AlignedBox2d bounds;
-  for (int corner = 0; corner < 8; ++corner) {
-    const double r = options.radius_m;
-    const Eigen::Vector3d off((corner & 1) != 0 ? r : -r, (corner & 2) != 0 ? r : -r,
-                              (corner & 4) != 0 ? options.max_height_m : -kBelow_m);
-    const Eigen::Vector3d p = T_camera_world * Eigen::Vector3d(p_world_table_m + off);
-    if (p.z() < kNearest_m) return all;
-    bounds.extend((p.head<2>() / p.z() * images.focal_px).array().matrix() + centre.matrix());
-  }
-  const double far = 1e6;
-  const Eigen::Array2i low = bounds.min().array().max(-far).floor().cast<int>() - kMargin_px;
-  const Eigen::Array2i high = bounds.max().array().min(far).ceil().cast<int>() + kMargin_px + 1;
-  return cv::Rect(cv::Point(low.x(), low.y()), cv::Point(high.x(), high.y())) & all;
-}
-
-Patch patch_of(const CameraImages& images, const cv::Rect& place) {
-  cv::Mat1f depth(place.size());
-  for (int row = 0; row < place.height; ++row) {
-    for (int column = 0; column < place.width; ++column) {
-      depth(row, column) = images.depth_at(place.y + row, place.x + column);
-    }
-  }
-  Patch patch{place, {}};
-  cv::medianBlur(depth, patch.depth_m, 3);
-  return patch;
-}
-
-TableSearch find_table_top(const CameraImages& images, const Pose& T_world_camera,
-                           const Eigen::Vector3d& p_world_table_m,
-                           const ObjectSegmentationOptions& options, Rng& rng) {
-  constexpr int kStride_px = 2;
-  TableOptions table;
-  table.region_centre_m = {p_world_table_m.x(), p_world_table_m.y()};
-  table.region_size_m = {4.0 * options.radius_m, 4.0 * options.radius_m};
-  table.min_height_m = p_world_table_m.z() - options.table_tolerance_m;
-  table.max_height_m = p_world_table_m.z() + options.table_tolerance_m;
-  table.inlier_distance_m = 0.008;
-  return find_table(transform(to_cloud(images, kStride_px), T_world_camera), table, rng);
-}
-
-constexpr float kOutside = -1.0F;
-/// Of the least height of an object: what is lower than that is table even beside an object.
-constexpr double kLow = 1.0 / 3.0;
-
-/// Above the table, m, where a pixel shows something in the column over its middle; else kOutside.
-cv::Mat1f heights_over(const Patch& patch, const CameraImages& images, const Pose& T_world_camera,
-                       const TablePlane& table, const Eigen::Vector3d& p_world_table_m,
-                       const ObjectSegmentationOptions& options) {
-  cv::Mat1f heights_m(patch.place.size(), kOutside);
-  for (int row = 0; row < heights_m.rows; ++row) {
-    for (int column = 0; column < heights_m.cols; ++column) {
-      const float z_m = patch.depth_m(row, column);
-      if (!(z_m > 0.0F) || !std::isfinite(z_m)) continue;
-      const Eigen::Vector3d p =
-          T_world_camera * (z_m * images.ray(patch.place.y + row, patch.place.x + column));
-      const double height_m = table.height_above(p);
-      const double off_m = (p - p_world_table_m).head<2>().norm();
-      if (off_m > options.radius_m || height_m > options.max_height_m) continue;
-      heights_m(row, column) = static_cast<float>(height_m);
-    }
-  }
-  return heights_m;
-}
-
-/// Of holes, those that show no table: a bowl's bottom is thinner than what is told from noise
-/// pixel by pixel, but not on average.
-void fill_holes(cv::Mat1b& mask, const cv::Mat1f& heights_m, double min_height_m) {
-  const cv::Mat1b beside = mask == 0;
-  cv::Mat labels, statistics, centres;
-  const int count = cv::connectedComponentsWithStats(beside, labels, statistics, centres, 4);
-  for (int label = 1; label < count; ++label) {
-    const cv::Rect box(statistics.at<int>(label, cv::CC_STAT_LEFT),
-                       statistics.at<int>(label, cv::CC_STAT_TOP),
-                       statistics.at<int>(label, cv::CC_STAT_WIDTH),
-                       statistics.at<int>(label, cv::CC_STAT_HEIGHT));
-    const bool enclosed =
-        box.x > 0 && box.y > 0 && box.br().x < mask.cols && box.br().y < mask.rows;
-    const cv::Mat hole = labels(box) == label;
-    if (enclosed && cv::mean(heights_m(box), hole)[0] > min_height_m) mask(box).setTo(255, hole);
-  }
-}
 
 /// The largest patch; returns its pixels.
 int keep_largest(cv::Mat1b& mask) {
@@ -119,52 +21,6 @@ int keep_largest(cv::Mat1b& mask) {
   }
   mask = most > 0 ? cv::Mat1b(labels == best) : mask;
   return most;
-}
-
-/// The object's foot, lower than what tells an object from noise: what is a little above the table
-/// and no farther below the mask than the foot is high.
-void add_foot(cv::Mat1b& mask, const cv::Mat1f& heights_m, const CameraImages& images,
-              double distance_m, double min_height_m) {
-  const cv::Mat1b low = heights_m >= kLow * min_height_m;
-  const int reach_px =
-      static_cast<int>(std::ceil(min_height_m * images.focal_px / std::max(distance_m, 0.1)));
-  for (int i = 0; i < reach_px; ++i) {
-    cv::Mat1b wider;
-    cv::dilate(mask, wider, cv::getStructuringElement(cv::MORPH_CROSS, {3, 3}));
-    mask |= wider & low;
-  }
-}
-
-cv::Mat box(int half_px) {
-  return cv::getStructuringElement(cv::MORPH_RECT, {2 * half_px + 1, 2 * half_px + 1});
-}
-
-/// @param mask of the part of the image that begins at `corner`
-ObjectView cut(const CameraImages& images, const cv::Mat1b& mask, const cv::Point& corner,
-               int margin_px) {
-  cv::Rect place = cv::boundingRect(mask) + corner;
-  place -= cv::Point(margin_px, margin_px);
-  place += cv::Size(2 * margin_px, 2 * margin_px);
-  place &= cv::Rect(0, 0, images.width_px, images.height_px);
-  const cv::Rect known(corner, mask.size());
-  ObjectView view;
-  view.width_px = place.width;
-  view.height_px = place.height;
-  view.left_px = place.x;
-  view.top_px = place.y;
-  view.focal_px = images.focal_px;
-  view.centre_px = {0.5 * (images.width_px - 1), 0.5 * (images.height_px - 1)};
-  for (int row = place.y; row < place.y + place.height; ++row) {
-    for (int column = place.x; column < place.x + place.width; ++column) {
-      const auto pixel = static_cast<std::size_t>(row * images.width_px + column);
-      const float depth_m = images.depth_m[pixel];
-      view.depth_m.push_back(std::isfinite(depth_m) ? depth_m : 0.0F);
-      const cv::Point at(column, row);
-      view.mask.push_back(known.contains(at) && mask(at - corner) != 0 ? 1 : 0);
-    }
-  }
-  if (!images.rgb.empty()) take_colour(images, view);
-  return view;
 }
 
 }  // namespace
@@ -194,8 +50,8 @@ SegmentedObject segment_on_table(const CameraImages& images, const Pose& T_world
   const cv::Mat1f heights_m = heights_over(patch_of(images, place), images, T_world_camera, table,
                                            p_world_table_m, options);
   cv::Mat1b mask = heights_m >= options.min_height_m;
-  cv::morphologyEx(mask, mask, cv::MORPH_OPEN, box(1));
-  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, box(2));
+  cv::morphologyEx(mask, mask, cv::MORPH_OPEN, square(1));
+  cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, square(2));
   const int pixels = keep_largest(mask);
   if (pixels < options.min_pixels) {
     return {std::nullopt, fmt::format("{} pixels rise from the table, an object has at least {}",
@@ -204,7 +60,7 @@ SegmentedObject segment_on_table(const CameraImages& images, const Pose& T_world
   const double distance_m = (T_world_camera.translation() - p_world_table_m).norm();
   add_foot(mask, heights_m, images, distance_m, options.min_height_m);
   fill_holes(mask, heights_m, kLow * options.min_height_m);
-  if (options.mask_growth_px > 0) cv::dilate(mask, mask, box(options.mask_growth_px));
+  if (options.mask_growth_px > 0) cv::dilate(mask, mask, square(options.mask_growth_px));
   SegmentedObject object{cut(images, mask, place.tl(), options.margin_px), {}};
   object.view->up = T_world_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
   return object;

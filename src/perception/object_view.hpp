@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace vantage {
@@ -21,6 +22,13 @@ struct ObjectView {
   Eigen::Vector2d centre_px{320.0, 240.0};  ///< principal point in the full image
   /// Against gravity, in the camera frame (x right, y down, z forward), unit length.
   Eigen::Vector3d up{0.0, -1.0, 0.0};
+  // Of an object among others, which may stand in front of it:
+  /// 1 on the object's edge where something nearer, or the image's border, cuts it off; empty:
+  /// nowhere.
+  std::vector<std::uint8_t> cut_off = {};
+  double seen_share = 1.0;  ///< of the surface that faces the camera, as far as can be told
+  /// Of what it stands on, along `up` from the camera; none: seen beside it.
+  std::optional<double> support_m = {};
 
   [[nodiscard]] std::size_t index(int row, int column) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_px) +

@@ -49,10 +49,12 @@ void apply(const RecogniserFeature& feature, const ExtractedFeature& extracted, 
     return;
   }
   const bool known = extracted.log_likelihood.size() > 0;
+  const FeatureResult& result = extracted.result;
   const EvidenceResult evidence =
       update(belief, weighted(known ? extracted.log_likelihood
-                                    : log_likelihood(feature.prepared, extracted.result.vector),
-                              weight));
+                                    : log_likelihood(feature.prepared, result.vector,
+                                                     result.readings),
+                              weight * (known ? 1.0 : result.weight)));
   if (evidence.used()) {
     report.features.push_back(name);
   } else {

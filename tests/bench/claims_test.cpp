@@ -168,6 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Studies, Claims,
                                                 return office_findings(s, "Fig. 3.16", {60, 70});
                                               }},
                                          Case{"recognition_flight", flight_recognition_findings},
+                                         Case{"recognition_clutter", clutter_findings},
                                          Case{"change_flight", flight_change_findings},
                                          Case{"trajectory", trajectory_findings}),
                          [](const auto& info) { return std::string(info.param.study); });

@@ -5,9 +5,9 @@
 double what_it_learns([[maybe_unused]] const vantage::ObjectFlightEvaluator& evaluator,
                       vantage::ObservationRecord& record, const vantage::ObjectStates& states) {
 #ifdef USE_TRUTH
-  return evaluator.truth_.yaw_rad;
+  return evaluator.truth_.front().yaw_rad;
 #else
-  evaluator.measure(states, 0, 0, record);
+  evaluator.measure(states, 0, 0, 0, record);
   return record.time_s;
 #endif
 }

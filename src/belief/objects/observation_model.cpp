@@ -83,4 +83,21 @@ Eigen::VectorXd log_likelihood(const PreparedObservationModel& model, const Feat
   return result;
 }
 
+Eigen::VectorXd log_likelihood(const PreparedObservationModel& model, const Feature& feature,
+                               std::span<const Reading> readings) {
+  if (readings.empty()) return log_likelihood(model, feature);
+  require_feature(model.mean.rows(), feature);
+  expects(std::ssize(readings) == feature.size(), "a reading for each number");
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(model.mean.cols());
+  if (model.psi == 0.0) return result;
+  for (Eigen::Index j = 0; j < result.size(); ++j) {
+    for (Eigen::Index d = 0; d < feature.size(); ++d) {
+      result[j] += model.psi * log_likelihood(readings[static_cast<std::size_t>(d)], feature[d],
+                                              model.mean(d, j),
+                                              1.0 / static_cast<double>(model.precision(d, j)));
+    }
+  }
+  return result;
+}
+
 }  // namespace vantage

@@ -4,7 +4,10 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <string>
+
+#include "vantage/information/censored_gaussian.hpp"
 
 namespace vantage {
 
@@ -46,5 +49,12 @@ PreparedObservationModel prepare(const ObservationModel& model);
 /// As of the model it was prepared from, up to rounding.
 Eigen::VectorXd log_likelihood(const PreparedObservationModel& model,
                                const Eigen::Ref<const Eigen::VectorXf>& feature);
+
+/// The same of a feature some of whose numbers are lower bounds, or tell nothing: of these the mass
+/// above them counts instead of the density, or nothing does.
+/// @param readings of each number; empty: all are exact
+Eigen::VectorXd log_likelihood(const PreparedObservationModel& model,
+                               const Eigen::Ref<const Eigen::VectorXf>& feature,
+                               std::span<const Reading> readings);
 
 }  // namespace vantage

@@ -69,6 +69,8 @@ FeatureResult TrainedFeature::extract(const ObjectView& view) const {
   if (result.extracted() && !result.vector.allFinite()) {
     return FeatureResult::skip("the vector has entries that are not finite");
   }
+  // Readings tell by themselves what a part of the object leaves open.
+  if (result.readings.empty()) result.weight = view.seen_share;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/information/quantile.hpp"
+#include "vantage/perception/features/kit/cut_off_extents.hpp"
 #include "vantage/perception/features/kit/object_pixels.hpp"
 #include "vantage/perception/features/kit/object_surface.hpp"
 #include "vantage/perception/features/kit/upright_extents.hpp"
@@ -49,15 +50,23 @@ FeatureResult StandingBox::extract(const ObjectView& view) const {
   const Eigen::Vector3d up = view.up.normalized();
   const UprightExtents box =
       upright_extents(object_points(view, pixels), up, low_quantile, high_quantile);
-  const std::vector<double> stand_m =
-      level_beside(view, up, box.bottom_m - stand_below_m, box.bottom_m + kAbove_m);
-  if (std::ssize(stand_m) < min_pixels) {
-    return FeatureResult::skip(
-        fmt::format("{} pixels beside the object show its support surface, fewer than {}",
-                    stand_m.size(), min_pixels));
+  double stand_m = 0.0;
+  if (view.support_m) {
+    stand_m = *view.support_m;
+  } else {
+    const std::vector<double> level_m =
+        level_beside(view, up, box.bottom_m - stand_below_m, box.bottom_m + kAbove_m);
+    if (std::ssize(level_m) < min_pixels) {
+      return FeatureResult::skip(
+          fmt::format("{} pixels beside the object show its support surface, fewer than {}",
+                      level_m.size(), min_pixels));
+    }
+    stand_m = quantile(level_m, 0.5);
   }
-  const double height_m = box.top_m - quantile(stand_m, 0.5);
-  return {Eigen::Vector3d(height_m, box.greater_m, box.smaller_m).cast<float>(), {}};
+  const double height_m = box.top_m - stand_m;
+  return {.vector = Eigen::Vector3d(height_m, box.greater_m, box.smaller_m).cast<float>(),
+          .skipped = {},
+          .readings = extent_readings(view, box, up, Foot::of_support)};
 }
 
 }  // namespace vantage

@@ -153,7 +153,7 @@ std::string ChangeDetectionTask::outcome(const Json& metrics) {
 void ChangeDetectionTask::require_start(const EpisodeSetup& setup) const {
   const std::uint64_t seed = setup.options.seed;
   const ObjectOnTable truth = draw_object(*this, seed);
-  const SimulatedOrbitRobot robot(setup, model_source(setup), *this, truth.yaw_rad);
+  const SimulatedOrbitRobot robot(setup, model_source(setup), *this, {&truth, 1});
   load_recogniser(*this, truth, draw_expected_object(*this, seed));
 }
 
@@ -161,17 +161,18 @@ RunOutcome ChangeDetectionTask::run(const RunRequest& request) const {
   const EpisodeOptions& episode = request.setup.options;
   const ObjectOnTable truth = draw_object(*this, episode.seed);
   const ObjectOnTable expected = draw_expected_object(*this, episode.seed);
-  SimulatedOrbitRobot robot(request.setup, model_source(request.setup), *this, truth.yaw_rad);
+  SimulatedOrbitRobot robot(request.setup, model_source(request.setup), *this, {&truth, 1});
   const Recogniser recogniser = load_recogniser(*this, truth, expected);
   EpisodeRun run(request);
   ObjectFlightRecorder recorder(run, recorded(robot), decision.max_views, true);
-  const ObjectFlightEvaluator evaluator(robot, truth);
+  const ObjectFlightEvaluator evaluator(robot, {truth});
   const double first_rad =
       first_bearing_rad(expected.yaw_rad, robot.start_bearing_rad(), recogniser.states.bin_rad());
   ChangeOptions options = change;
   options.recognition = decision;
   ObjectFlightParts parts(
       {episode, *this, recogniser, robot, evaluator, recorder},
+      {.p_world_m = {p_world_table_m()}, .among_others = {}},
       ObjectInquiry(recogniser, options, expected.object, expected.yaw_rad - first_rad), first_rad,
       {expected.object, change.threshold});
   return run_object_flight(run, robot, recorder, parts, [&](Json& metrics) {

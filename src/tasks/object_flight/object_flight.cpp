@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-Orbit ObjectFlight::orbit() const {
-  const Eigen::Vector3d aim_m = p_world_table_m() + Eigen::Vector3d(0.0, 0.0, aim_height_m);
+Orbit ObjectFlight::orbit_round(const Eigen::Vector3d& p_world_place_m) const {
+  const Eigen::Vector3d aim_m = p_world_place_m + Eigen::Vector3d(0.0, 0.0, aim_height_m);
   return Orbit::at_elevation(aim_m, distance_m, elevation_rad);
 }
 

@@ -85,7 +85,9 @@ struct ObjectFlight {
     return {table_m[0], table_m[1], table_m[2]};
   }
   /// The camera, from all bearings.
-  [[nodiscard]] Orbit orbit() const;
+  [[nodiscard]] Orbit orbit() const { return orbit_round(p_world_table_m()); }
+  /// The same round what stands at a place on the table.
+  [[nodiscard]] Orbit orbit_round(const Eigen::Vector3d& p_world_place_m) const;
 
   // What both tasks answer alike, see task.hpp.
   [[nodiscard]] std::string method_name() const;

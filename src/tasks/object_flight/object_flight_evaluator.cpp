@@ -16,8 +16,8 @@ int bin_of(double yaw_rad, int bins) {
 }  // namespace
 
 void ObjectFlightEvaluator::measure(const ObjectStates& states, int object, int state,
-                                    ObservationRecord& record) const {
-  const OrbitGroundTruth truth = robot_.ground_truth();
+                                    std::size_t target, ObservationRecord& record) const {
+  const OrbitGroundTruth truth = robot_.ground_truth(target);
   record.position_error_m = truth.position_error_m;
   record.angle_error_rad = truth.angle_error_rad;
   record.true_yaw_rad = truth.object_angle_rad;

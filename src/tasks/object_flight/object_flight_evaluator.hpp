@@ -2,6 +2,7 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "vantage/belief/objects/object_states.hpp"
 #include "vantage/tasks/object_flight/object_on_table.hpp"
@@ -14,18 +15,20 @@ class SimulatedOrbitRobot;
 /// Whoever decides may hand it a record to fill in, and learns nothing by that.
 class ObjectFlightEvaluator {
  public:
-  /// `robot` must outlive it.
-  ObjectFlightEvaluator(const SimulatedOrbitRobot& robot, ObjectOnTable truth)
+  /// `robot` must outlive it. @param truth of what the robot looks at
+  ObjectFlightEvaluator(const SimulatedOrbitRobot& robot, std::vector<ObjectOnTable> truth)
       : robot_(robot), truth_(std::move(truth)) {}
 
   /// Fills in what the record says of the pose and of the object, held against the truth.
   /// @param object the most probable one
   /// @param state that is estimated
-  void measure(const ObjectStates& states, int object, int state, ObservationRecord& record) const;
+  /// @param target that was looked at, of several
+  void measure(const ObjectStates& states, int object, int state, std::size_t target,
+               ObservationRecord& record) const;
 
  private:
   const SimulatedOrbitRobot& robot_;
-  ObjectOnTable truth_;
+  std::vector<ObjectOnTable> truth_;
 };
 
 }  // namespace vantage

@@ -32,6 +32,10 @@ Json observation_json(const ObservationRecord& record, int bins) {
                {"map_probability", record.map_probability},
                {"unknown_probability", record.unknown_probability},
                {"object_px", record.object_px},
+               {"target", record.target + 1},
+               {"expected_visible", record.expected_visible},
+               {"seen_share", record.seen_share},
+               {"not_segmented", record.not_segmented},
                {"position_error_m", record.position_error_m},
                {"angle_error_rad", record.angle_error_rad},
                {"true_yaw_rad", record.true_yaw_rad},
@@ -70,18 +74,28 @@ Eigen::AlignedBox3d object_column(const ObjectFlight& task) {
 
 }  // namespace
 
+const ObservationRecord* last_view_of(const ObjectFlightParts& run, std::size_t target) {
+  const ObservationRecord* last = nullptr;
+  for (const ObservationRecord& record : run.records()) {
+    if (record.target == target) last = &record;
+  }
+  return last;
+}
+
 void add_estimate(const ObjectOnTable& truth, const ObjectFlightParts& run, Json& metrics) {
   metrics["truth"] = truth.object.empty() ? Json(nullptr) : Json(truth.object);
   metrics["true_yaw_rad"] = truth.object.empty() ? Json(nullptr) : Json(truth.yaw_rad);
-  if (run.records().empty()) {  // ended before the first view
+  const ObservationRecord* view = last_view_of(run, 0);
+  if (view == nullptr) {  // ended before the first view
     for (const char* key : {"estimate", "estimated_category", "map_probability",
                             "unknown_probability", "bin_error"}) {
       metrics[key] = nullptr;
     }
-    metrics["entropy_bits"] = state_entropy_bits(run.recognition().belief);
+    metrics["entropy_bits"] =
+        state_entropy_bits(run.tour().targets().front().inquiry.recognition().belief);
     return;
   }
-  const ObservationRecord& last = run.records().back();
+  const ObservationRecord& last = *view;
   metrics["estimate"] = last.estimate;
   metrics["estimated_category"] = last.category;
   metrics["entropy_bits"] = last.report.entropy_bits;
@@ -133,6 +147,13 @@ const ScalarMeasure kViewPositionError{
 const ScalarMeasure kViewAngleError{
     {"view_angle_error_rad", "mean angle error of a view, rad", Better::lower},
     [](const MeasuredEpisode& episode) { return mean_of_views(episode, "angle_error_rad"); }};
+const ScalarMeasure kSeenShare{
+    {"seen_share", "mean share of the target that a view shows", Better::higher},
+    [](const MeasuredEpisode& episode) -> std::optional<double> {
+      const Json& views = episode.metrics.at("observations");
+      if (views.empty() || !views.front().contains("seen_share")) return std::nullopt;
+      return mean_of_views(episode, "seen_share");
+    }};
 const CurveMeasure kViewEntropy{{"view_entropy_bits", "entropy of the state, bits", Better::lower},
                                 [](const MeasuredEpisode& episode) {
                                   return step_values(episode, "observations", "entropy_bits");

@@ -11,7 +11,10 @@
 
 namespace vantage {
 
-/// What is there and what it was taken for at the end.
+/// The last view of a target; null: it was never looked at.
+const ObservationRecord* last_view_of(const ObjectFlightParts& run, std::size_t target);
+
+/// What the first target is and what it was taken for at the end.
 void add_estimate(const ObjectOnTable& truth, const ObjectFlightParts& run,
                   nlohmann::ordered_json& metrics);
 void add_observations(const ObjectFlight& task, const ObjectFlightParts& run,
@@ -28,6 +31,7 @@ extern const ScalarMeasure kMapProbability;
 extern const ScalarMeasure kBinError;
 extern const ScalarMeasure kViewPositionError;
 extern const ScalarMeasure kViewAngleError;
+extern const ScalarMeasure kSeenShare;  ///< of what stands among others
 extern const CurveMeasure kViewEntropy;
 
 }  // namespace vantage

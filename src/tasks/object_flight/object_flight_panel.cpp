@@ -113,6 +113,29 @@ void draw_progress(cv::Mat& image, const Layout& layout, const cv::Rect& place,
             [](const ObservationRecord& s) { return s.change->probability; });
 }
 
+/// Where something stands, and where nothing is known of, over all heights.
+void draw_map(cv::Mat& image, const OccupancyGrid& grid, double scale,
+              const std::function<cv::Point2d(const Eigen::Vector3d&)>& at) {
+  const GridFrame& frame = grid.frame;
+  const auto layer =
+      static_cast<std::size_t>(frame.cells.x()) * static_cast<std::size_t>(frame.cells.y());
+  const auto pixels = [&](double cell_m) { return static_cast<int>(std::ceil(scale * cell_m)); };
+  const cv::Size size(pixels(frame.cell_size_m.x()), pixels(frame.cell_size_m.y()));
+  for (std::size_t column = 0; column < layer; ++column) {
+    bool occupied = false;
+    bool free = false;
+    for (std::size_t cell = column; cell < grid.size(); cell += layer) {
+      occupied = occupied || grid.state(cell) == CellState::occupied;
+      free = free || grid.state(cell) == CellState::free;
+    }
+    if (free && !occupied) continue;
+    const cv::Point2d p = at(frame.centre(frame.cell(column)));
+    const cv::Point corner(cvRound(p.x - 0.5 * size.width), cvRound(p.y - 0.5 * size.height));
+    cv::rectangle(image, cv::Rect(corner, size), occupied ? panel::kDim : panel::kFaint,
+                  cv::FILLED);
+  }
+}
+
 void draw_places(cv::Mat& image, const Layout& layout, const cv::Rect& place,
                  const RecognitionPanelInput& input) {
   card(image, layout, place, "from above");
@@ -126,10 +149,18 @@ void draw_places(cv::Mat& image, const Layout& layout, const cv::Rect& place,
     cv::circle(image, p, std::max(1, static_cast<int>(layout.px(radius))), colour, thickness,
                cv::LINE_AA);
   };
+  if (input.map != nullptr) draw_map(image, *input.map, scale, at);
   dot(middle, scale * input.orbit.radius_m / layout.px(1), panel::kFaint, layout.stroke(1));
+  for (const Eigen::Vector3d& target_m : input.targets_m) {
+    dot(at(target_m), 5, panel::kText, layout.stroke(1));
+  }
   dot(middle, 5, panel::kText, cv::FILLED);
-  for (const double bearing_rad : input.bearings_rad) {
-    dot(at(input.orbit.place(bearing_rad).translation()), 4, panel::kDim, layout.stroke(1));
+  for (std::size_t i = 0; i < input.bearings_rad.size(); ++i) {
+    const auto p = at(input.orbit.place(input.bearings_rad[i]).translation());
+    dot(p, 4, panel::kDim, layout.stroke(1));
+    if (i >= input.visible.size()) continue;
+    const double shown = 4.0 * std::sqrt(input.visible[i]);  // the area is the share that is seen
+    dot(p, shown, panel::kText, cv::FILLED);
   }
   for (std::size_t i = 0; i < input.observation_records.size(); ++i) {
     const auto p =
@@ -169,7 +200,11 @@ cv::Mat draw_recognition_panel(const RecognitionPanelInput& input, cv::Size size
   const std::string heading =
       input.expected.empty() ? input.method : fmt::format("is it {} still?", input.expected);
   text(image, layout, heading, {layout.px(14), layout.px(24)}, 14, panel::kText, Align::left, true);
-  text(image, layout, fmt::format("{} views", input.observation_records.size()),
+  const std::string of_several =
+      input.targets_m.size() > 1
+          ? fmt::format("object {} of {}, ", input.target + 1, input.targets_m.size())
+          : "";
+  text(image, layout, fmt::format("{}{} views", of_several, input.observation_records.size()),
        {layout.px(626), layout.px(24)}, 12, panel::kDim, Align::right);
   const double top = 36;
   const double upper = 0.56 * (height - top);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/geometry/range_scan.hpp"
 #include "vantage/perception/object_view.hpp"
 #include "vantage/planners/objects/orbit.hpp"
@@ -28,6 +29,10 @@ struct RecognitionPanelInput {
   std::string expected = {};  ///< what the map says is there; empty: it says nothing
   double threshold = 0.0;     ///< of P(u), above which it is changed
   std::string method = {};
+  std::vector<Eigen::Vector3d> targets_m = {};  ///< on the table, as the robot is told
+  std::size_t target = 0;                       ///< that is looked at
+  const OccupancyGrid* map = nullptr;           ///< of the table; null: none is kept
+  std::vector<double> visible = {};  ///< of each bearing, share of the target; empty: no map
 };
 
 /// A dark panel of `size`: image with the object's outline, most probable objects, entropy over

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -21,35 +24,69 @@ ExtractFeature extract_nothing(const std::string& reason) {
 
 }  // namespace
 
-ObjectFlightParts::ObjectFlightParts(const ObjectFlightContext& context, ObjectInquiry inquiry,
-                                     double first_rad, Expectation expectation)
+ObjectFlightParts::ObjectFlightParts(const ObjectFlightContext& context, const FlightGoal& goal,
+                                     const ObjectInquiry& inquiry, double first_rad,
+                                     Expectation expectation)
     : task_(context.task),
+      goal_(goal),
       recogniser_(context.recogniser),
       robot_(context.robot),
       evaluator_(context.evaluator),
       recorder_(context.recorder),
-      inquiry_(std::move(inquiry)),
+      tour_(goal, inquiry),
       first_rad_(first_rad),
+      at_orbit_(orbit(0)),
+      at_rad_(robot_.start_bearing_rad()),
       expectation_(std::move(expectation)),
       choice_rng_(Rng::stream(context.options.seed, "recognition")),
       segmentation_rng_(Rng::stream(context.options.seed, "segmentation")) {
+  if (goal_.among_others) map_.emplace(task_.p_world_table_m(), goal_.among_others->map);
   recorder_.set_panel([this] { return panel(); });
 }
 
 FlightObservation ObjectFlightParts::observe() {
-  if (records_.empty() && robot_.bearing_rad() != first_rad_) {
-    current_.flight = robot_.fly_to(first_rad_);
+  if (records_.empty() && at_rad_ != first_rad_) {
+    current_.flight = robot_.fly_along(orbit_arc(at_orbit_, at_rad_, first_rad_, task_.arc_rad));
+    at_rad_ = first_rad_;
   }
   return robot_.observe();
 }
 
+/// Cuts the target out of the image; among others, the map takes the image in too.
+void ObjectFlightParts::look_at(const FlightObservation& observation) {
+  TourTarget& target = tour_.current();
+  if (!map_) {
+    seen_ = segment_object(observation.images, observation.T_world_camera, target.p_world_m,
+                           task_.segmentation, segmentation_rng_);
+    return;
+  }
+  ObjectAmongOthers found = find_among_others(
+      observation.images, observation.T_world_camera, target.p_world_m, task_.segmentation,
+      goal_.among_others->separation, target.shape, segmentation_rng_);
+  seen_ = std::move(found.object);
+  target.shape = found.shape;
+  current_.seen_share = found.seen_share;
+  // The table is where it is: an error of the estimated height.
+  const double off_m = target.p_world_m.z() - found.table_height_m.value_or(target.p_world_m.z());
+  Pose T_world_camera = observation.T_world_camera;
+  T_world_camera.translation().z() += off_m;
+  map_->insert(observation.images, T_world_camera);
+  if (found.outline.size() < 3) return;
+  target.outline.insert(target.outline.end(), found.outline.begin(), found.outline.end());
+  target.outline = convex_hull(std::move(target.outline));
+  target.own_cells = map_->cells_over(target.outline, target.expected_shape().height_m);
+}
+
 void ObjectFlightParts::update(const FlightObservation& observation) {
-  seen_ = segment_object(observation.images, observation.T_world_camera, task_.p_world_table_m(),
-                         task_.segmentation, segmentation_rng_);
+  look_at(observation);
   camera_image_ = observation.images;
+  TourTarget& target = tour_.current();
   const ExtractFeature extract =
       seen_.view ? extract_from(recogniser_, *seen_.view) : extract_nothing(seen_.reason);
-  inquiry_.observe(extract, observation.bearing_rad, next_.time_s, choice_rng_);
+  target.inquiry.observe(extract, at_rad_, next_.time_s, choice_rng_);
+  target.bearing_ids.push_back(current_.bearing_id);
+  target.bearing_rad = at_rad_;
+  current_.target = tour_.current_id();
   current_.T_world_camera = observation.T_world_camera;
   conclude();
 }
@@ -61,7 +98,8 @@ void ObjectFlightParts::conclude() {
   const int object = most_probable_object(states, belief);
   current_.time_s = robot_.time_s();
   current_.report = recognition().views.back();
-  if (inquiry_.of_change()) current_.change = {inquiry_.p_changed(), inquiry_.verdict()};
+  const ObjectInquiry& inquiry = tour_.current().inquiry;
+  if (inquiry.of_change()) current_.change = {inquiry.p_changed(), inquiry.verdict()};
   current_.not_segmented = seen_.reason;
   current_.object_px = seen_.view ? static_cast<int>(std::ranges::count(seen_.view->mask, 1)) : 0;
   const ObjectEstimate estimate = estimate_of(states, belief);
@@ -71,7 +109,7 @@ void ObjectFlightParts::conclude() {
   current_.unknown_probability = p_unknown(states, belief);
   const int state = expected_state(states, belief);
   current_.estimated_bin = states.bin_of(state);
-  evaluator_.measure(states, object, state, current_);
+  evaluator_.measure(states, object, state, current_.target, current_);
 }
 
 void ObjectFlightParts::record() {
@@ -84,33 +122,97 @@ void ObjectFlightParts::record() {
     log_warning(fmt::format("view {}: {}", records_.size(), record.not_segmented));
   }
   recorder_.observation(record, records_.size(), camera_image_, seen_.view);
+  if (map_) recorder_.map(map_->grid());
 }
 
-std::vector<BearingOption> ObjectFlightParts::propose() {
+std::string ObjectFlightParts::finished() {
+  for (;;) {
+    const std::vector<std::size_t> open = tour_.open();
+    if (open.empty()) return tour_.reason();
+    options_.clear();
+    // To that whose nearest view is reached soonest, or to any.
+    double soonest_s = std::numeric_limits<double>::infinity();
+    for (const std::size_t target : open) {
+      std::vector<BearingOption> options = options_of(target);
+      if (options.empty()) {
+        tour_.give_up(target, why_unreachable());
+        continue;
+      }
+      if (goal_.all_at_once) {
+        std::ranges::move(options, std::back_inserter(options_));
+        continue;
+      }
+      const auto nearest = std::ranges::min_element(
+          options, {}, [](const BearingOption& option) { return option.action.time_s; });
+      if (nearest->action.time_s >= soonest_s) continue;
+      soonest_s = nearest->action.time_s;
+      options_ = std::move(options);
+    }
+    if (!options_.empty()) return "";
+  }
+}
+
+std::string ObjectFlightParts::why_unreachable() const {
+  if (goal_.time_limit_s == 0.0) return "no view is reached clear of obstacles";
+  return fmt::format("no view is reached within time_limit_s = {:g}", goal_.time_limit_s);
+}
+
+std::vector<BearingOption> ObjectFlightParts::options_of(std::size_t target) const {
   std::vector<BearingOption> options;
   for (int id = 0; id < task_.bearings; ++id) {
-    if (id == records_.back().bearing_id) continue;
-    BearingOption option{.id = id, .bearing_rad = bearing_rad(id), .action = {}};
-    const FlightPlan plan = robot_.plan(option.bearing_rad);
-    option.action = {.yaw_rad = wrap_angle(option.bearing_rad - robot_.bearing_rad()),
-                     .time_s = plan.duration_s,
-                     .path_m = plan.path_m,
-                     .energy_j = plan.energy_j,
-                     .visited = visited(id)};
-    options.push_back(option);
+    const bool is_here =
+        !records_.empty() && records_.back().target == target && id == records_.back().bearing_id;
+    if (is_here) continue;
+    if (auto found = option(target, id)) options.push_back(std::move(*found));
   }
   return options;
 }
 
+/// By the first way that is clear; nothing if none is, or takes too long.
+std::optional<BearingOption> ObjectFlightParts::option(std::size_t target, int id) const {
+  constexpr double kRise_m = 0.35;
+  static constexpr std::array<OrbitWay, 5> kWays{
+      {{}, {true, 0.0}, {false, kRise_m}, {true, kRise_m}, {false, 2.0 * kRise_m}}};
+  const TourTarget& looked_at = tour_.targets()[target];
+  BearingOption option{.id = id, .bearing_rad = bearing_rad(id), .action = {}, .target = target};
+  const Orbit there = orbit(target);
+  const double settle_s = map_ ? task_.settle_s : 0.0;
+  for (const OrbitWay& way : kWays) {
+    option.T_world_way =
+        orbit_way(at_orbit_, at_rad_, there, option.bearing_rad, task_.arc_rad, way);
+    const FlightPlan plan = robot_.plan(option.T_world_way);
+    if (map_ && !is_clear(plan)) continue;
+    const double from_rad = looked_at.looked_at() ? looked_at.bearing_rad : at_rad_;
+    option.action = {.yaw_rad = wrap_angle(option.bearing_rad - from_rad),
+                     .time_s = plan.duration_s + settle_s,
+                     .path_m = plan.path_m,
+                     .energy_j = plan.energy_j,
+                     .visited = looked_at.visited(id)};
+    if (map_) {
+      option.action.visible = map_->visible_share(looked_at.expected_shape(), looked_at.own_cells,
+                                                  there.place(option.bearing_rad).translation());
+    }
+    const bool in_time =
+        goal_.time_limit_s == 0.0 || robot_.time_s() + option.action.time_s <= goal_.time_limit_s;
+    if (in_time) return option;
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool ObjectFlightParts::is_clear(const FlightPlan& plan) const {
+  std::vector<Eigen::Vector3d> path_m{robot_.estimated_body().translation()};
+  for (const FlightWaypoint& waypoint : plan.waypoints) path_m.push_back(waypoint.p_world_m);
+  return map_->is_clear(path_m);
+}
+
 void ObjectFlightParts::score(std::vector<BearingOption>& options) {
-  std::vector<ObjectViewAction> actions;
-  for (const BearingOption& option : options) actions.push_back(option.action);
-  next_ = next_view(recogniser_, task_.decision, recognition(), actions, choice_rng_);
+  next_ = next_view(tour_, recogniser_, task_.decision, options, choice_rng_);
 }
 
 std::size_t ObjectFlightParts::choose(const std::vector<BearingOption>& options) {
   const std::size_t chosen = next_.decision.action;
-  recorder_.decision(options, next_.decision, task_.orbit());
+  recorder_.decision(options, next_.decision, orbit(options[chosen].target));
   current_.gain_bits = next_.decision.scores[chosen].gain.bits;
   tell_decision(options, chosen);
   return chosen;
@@ -123,49 +225,55 @@ void ObjectFlightParts::tell_decision(const std::vector<BearingOption>& options,
   for (std::size_t i = 0; i < options.size(); ++i) {
     Candidate& place = decision.candidates.emplace_back();
     place.id = static_cast<int>(i);
-    place.T_world_sensor = task_.orbit().place(options[i].bearing_rad);
+    place.T_world_sensor = orbit(options[i].target).place(options[i].bearing_rad);
     place.gain_bits = next_.decision.scores[i].gain.bits;
   }
   PlannedFlight way;
-  for (const FlightWaypoint& waypoint : robot_.plan(options[chosen].bearing_rad).waypoints) {
+  for (const FlightWaypoint& waypoint : robot_.plan(options[chosen].T_world_way).waypoints) {
     way.path_m.push_back(waypoint.p_world_m);
   }
   recorder_.show(std::move(decision), std::move(way));
 }
 
 void ObjectFlightParts::act(const BearingOption& option) {
+  tour_.go_to(option.target);
   current_.bearing_id = option.id;
-  current_.flight = robot_.fly_to(option.bearing_rad);
-  inquiry_.turned(option.action.yaw_rad);
+  current_.expected_visible = option.action.visible;
+  current_.flight = robot_.fly_along(option.T_world_way);
+  at_orbit_ = orbit(option.target);
+  at_rad_ = option.bearing_rad;
+  tour_.current().inquiry.turned(option.action.yaw_rad);
   if (current_.flight->status == FlightStatus::arrived) return;
   log_warning(fmt::format("bearing {}: {} on the way there", option.id,
                           to_string(current_.flight->status)));
+}
+
+Orbit ObjectFlightParts::orbit(std::size_t target) const {
+  return task_.orbit_round(tour_.targets()[target].p_world_m);
 }
 
 double ObjectFlightParts::bearing_rad(int id) const {
   return std::fmod(first_rad_ + id * kTurn_rad / task_.bearings, kTurn_rad);
 }
 
-bool ObjectFlightParts::visited(int id) const {
-  return std::ranges::find(records_, id, &ObservationRecord::bearing_id) != records_.end();
-}
-
 std::vector<Candidate> ObjectFlightParts::places() const {
   std::vector<Candidate> places;
-  for (int id = 0; id < task_.bearings; ++id) {
-    Candidate& place = places.emplace_back();
-    place.id = id;
-    place.T_world_sensor = task_.orbit().place(bearing_rad(id));
+  for (std::size_t target = 0; target < tour_.targets().size(); ++target) {
+    for (int id = 0; id < task_.bearings; ++id) {
+      Candidate& place = places.emplace_back();
+      place.id = static_cast<int>(places.size()) - 1;
+      place.T_world_sensor = orbit(target).place(bearing_rad(id));
+    }
   }
   return places;
 }
 
 RecognitionPanelInput ObjectFlightParts::panel() const {
-  RecognitionPanelInput input{.observation_records = records_, .orbit = task_.orbit()};
+  RecognitionPanelInput input{.observation_records = records_, .orbit = at_orbit_};
   for (int id = 0; id < task_.bearings; ++id) {
     input.bearings_rad.push_back(bearing_rad(id));
   }
-  input.goal_rad = robot_.bearing_rad();
+  input.goal_rad = at_rad_;
   input.T_world_body = robot_.estimated_body();
   input.camera_image = &camera_image_;
   input.cut = seen_.view ? &*seen_.view : nullptr;
@@ -179,6 +287,15 @@ RecognitionPanelInput ObjectFlightParts::panel() const {
   input.expected = expectation_.object;
   input.threshold = expectation_.threshold;
   input.method = task_.method_name();
+  for (const TourTarget& target : tour_.targets()) input.targets_m.push_back(target.p_world_m);
+  input.target = tour_.current_id();
+  if (!map_) return input;
+  input.map = &map_->grid();
+  for (const double bearing_rad : input.bearings_rad) {
+    input.visible.push_back(map_->visible_share(tour_.current().expected_shape(),
+                                                tour_.current().own_cells,
+                                                at_orbit_.place(bearing_rad).translation()));
+  }
   return input;
 }
 

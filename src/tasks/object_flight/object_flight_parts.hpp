@@ -1,7 +1,8 @@
-/// The parts of the loop for a quadrotor that recognises one object, or tells whether it has
-/// changed.  [Potthast2016, 4.5.7, 4.5.8]
+/// The parts of the loop for a quadrotor that recognises objects on a table, or tells whether one
+/// has changed.  [Potthast2016, 4.5.7, 4.5.8]
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 #include "vantage/tasks/object_flight/object_flight.hpp"
 #include "vantage/tasks/object_flight/object_flight_evaluator.hpp"
 #include "vantage/tasks/object_flight/object_flight_recorder.hpp"
-#include "vantage/tasks/object_flight/object_inquiry.hpp"
 #include "vantage/tasks/object_flight/orbit_robot_interface.hpp"
+#include "vantage/tasks/object_flight/target_tour.hpp"
 
 namespace vantage {
 
@@ -33,42 +34,58 @@ struct Expectation {
 
 class ObjectFlightParts {
  public:
+  /// @param inquiry about each target, before any view
   /// @param first_rad bearing of the first view, from which all others count
-  ObjectFlightParts(const ObjectFlightContext& context, ObjectInquiry inquiry, double first_rad,
-                    Expectation expectation = {});
+  ObjectFlightParts(const ObjectFlightContext& context, const FlightGoal& goal,
+                    const ObjectInquiry& inquiry, double first_rad, Expectation expectation = {});
 
   FlightObservation observe();
   void update(const FlightObservation& observation);
   void record();
-  [[nodiscard]] std::string finished() const { return inquiry_.over(); }
-  std::vector<BearingOption> propose();
+  /// If there is a next view, finds out what it may be.
+  std::string finished();
+  std::vector<BearingOption> propose() { return std::move(options_); }
   void score(std::vector<BearingOption>& options);
   std::size_t choose(const std::vector<BearingOption>& options);
   void act(const BearingOption& option);
 
   [[nodiscard]] const std::vector<ObservationRecord>& records() const { return records_; }
   [[nodiscard]] const Recogniser& recogniser() const { return recogniser_; }
-  [[nodiscard]] const Recognition& recognition() const { return inquiry_.recognition(); }
+  /// Of the target that is looked at.
+  [[nodiscard]] const Recognition& recognition() const {
+    return tour_.current().inquiry.recognition();
+  }
+  [[nodiscard]] const TargetTour& tour() const { return tour_; }
   /// All places to look from.
   [[nodiscard]] std::vector<Candidate> places() const;
 
  private:
+  void look_at(const FlightObservation& observation);
   [[nodiscard]] double bearing_rad(int id) const;
-  [[nodiscard]] bool visited(int id) const;
+  [[nodiscard]] Orbit orbit(std::size_t target) const;
+  [[nodiscard]] std::vector<BearingOption> options_of(std::size_t target) const;
+  [[nodiscard]] std::optional<BearingOption> option(std::size_t target, int id) const;
+  [[nodiscard]] std::string why_unreachable() const;
+  [[nodiscard]] bool is_clear(const FlightPlan& plan) const;
   void conclude();
   void tell_decision(const std::vector<BearingOption>& options, std::size_t chosen);
   [[nodiscard]] RecognitionPanelInput panel() const;
 
   ObjectFlight task_;
+  FlightGoal goal_;
   const Recogniser& recogniser_;
   OrbitRobotInterface& robot_;
   const ObjectFlightEvaluator& evaluator_;
   ObjectFlightRecorder& recorder_;
-  ObjectInquiry inquiry_;
+  TargetTour tour_;
+  std::optional<TableMap> map_;
   double first_rad_;
+  Orbit at_orbit_;  ///< where the camera was flown to last
+  double at_rad_;   ///< on it
   Expectation expectation_;
   Rng choice_rng_;
   Rng segmentation_rng_;
+  std::vector<BearingOption> options_;
   NextView next_;
   ObservationRecord current_;  ///< filled in from the decision to the end of its view
   SegmentedObject seen_;

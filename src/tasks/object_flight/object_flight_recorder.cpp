@@ -18,7 +18,8 @@ constexpr std::string_view kStepsHeader =
     "map_probability,gain_bits,"
     "feature_time_s,selection_time_s,view_time_s,flight,flight_time_s,path_length_m,leg_length_m,"
     "energy_j,"
-    "object_px,position_error_m,angle_error_rad,bin_error,collisions";
+    "object_px,target,expected_visible,seen_share,position_error_m,angle_error_rad,bin_error,"
+    "collisions";
 
 constexpr std::string_view kChangeHeader = ",change_probability,decision";
 
@@ -44,25 +45,26 @@ Pose forward_pose(const Pose& T_world_camera) {
 
 CandidateRow candidate_row(const BearingOption& option, const ObjectViewScore& score,
                            const Orbit& orbit) {
-  Pose T_world_view = orbit.place(option.bearing_rad);
+  Pose T_world_view = option.T_world_way.back();
   T_world_view.rotate(
       Eigen::AngleAxisd(std::atan2(orbit.height_m, orbit.radius_m), Eigen::Vector3d::UnitY()));
   const ObjectViewAction& action = option.action;
   const ViewOption view{T_world_view, score.gain.bits, "bits", {}, action.path_m};
-  return {option.id, fmt::format("{},{},{},{}", view_columns(view), action.time_s, action.energy_j,
-                                 score.cost)};
+  return {option.id, fmt::format("{},{},{},{},{},{}", view_columns(view), action.time_s,
+                                 action.energy_j, score.cost, action.visible, option.target + 1)};
 }
 
 std::string steps_row(const ObservationRecord& record, std::size_t number) {
   const ViewReport& report = record.report;
   const FlightResult flight = record.flight.value_or(FlightResult{});
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}", record.time_s,
-      number, record.bearing_id, pose_columns(forward_pose(record.T_world_camera)), report.view_rad,
-      fmt::join(report.features, " "), report.entropy_bits, record.estimate, record.map_probability,
-      record.gain_bits, report.feature_time_s, report.selection_time_s, report.view_time_s,
-      record.flight ? to_string(flight.status) : "", flight.duration_s, record.path_length_m,
-      record.leg_length_m, flight.energy_J, record.object_px, record.position_error_m,
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}{}",
+      record.time_s, number, record.bearing_id, pose_columns(forward_pose(record.T_world_camera)),
+      report.view_rad, fmt::join(report.features, " "), report.entropy_bits, record.estimate,
+      record.map_probability, record.gain_bits, report.feature_time_s, report.selection_time_s,
+      report.view_time_s, record.flight ? to_string(flight.status) : "", flight.duration_s,
+      record.path_length_m, record.leg_length_m, flight.energy_J, record.object_px,
+      record.target + 1, record.expected_visible, record.seen_share, record.position_error_m,
       record.angle_error_rad, record.bin_error, record.collisions, change_columns(record));
 }
 
@@ -71,7 +73,8 @@ std::string steps_row(const ObservationRecord& record, std::size_t number) {
 ObjectFlightRecorder::ObjectFlightRecorder(const EpisodeRun& run, RecordedRobot robot,
                                            int max_views, bool of_change)
     : EpisodeRecorder(run, robot, std::string(kStepsHeader).append(of_change ? kChangeHeader : ""),
-                      max_views, std::string(kViewColumns) + ",flight_time_s,energy_j,cost"),
+                      max_views,
+                      std::string(kViewColumns) + ",flight_time_s,energy_j,cost,visible,target"),
       world_(robot.world),
       max_views_(max_views) {
   if (lean()) return;
@@ -90,10 +93,16 @@ void ObjectFlightRecorder::show(Decision decision, PlannedFlight way) {
   tell({0, std::move(way)});
 }
 
+void ObjectFlightRecorder::map(const OccupancyGrid& grid) {
+  if (!event_log_ && !log().watched()) return;
+  tell({0, map_log_.change(grid, views_++)});
+}
+
 void ObjectFlightRecorder::commit() {
   EpisodeRecorder::commit();
   if (lean()) return;
   event_log_->commit();
+  map_log_.commit(directory());
   write_scene_file(world_, directory());
 }
 

@@ -10,6 +10,7 @@
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/tasks/object_flight/object_flight_panel.hpp"
 #include "vantage/tasks/object_flight/observation_record.hpp"
+#include "vantage/tasks/table_map/table_map_log.hpp"
 
 namespace vantage {
 
@@ -30,6 +31,8 @@ class ObjectFlightRecorder : public EpisodeRecorder {
                 const Orbit& orbit);
   /// The same for the window, with the way there.
   void show(Decision decision, PlannedFlight way);
+  /// The map after the last observation.
+  void map(const OccupancyGrid& grid);
   void commit() override;
 
  private:
@@ -37,6 +40,8 @@ class ObjectFlightRecorder : public EpisodeRecorder {
 
   const World& world_;
   int max_views_;
+  TableMapLog map_log_;
+  int views_ = 0;
   std::optional<EventLog> event_log_;
 };
 

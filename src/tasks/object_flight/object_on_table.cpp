@@ -52,14 +52,28 @@ double wrap_turn(double angle_rad) {
 
 std::vector<MemoryFile> object_files(const ObjectFlight& task, const ObjectOnTable& object) {
   if (object.object.empty()) return {{"object.xml", std::string(kNothing)}};
-  const TurntableObject made =
-      make_turntable_object(dataset_of(task.database), {object.category, object.object});
-  const Eigen::Vector3d p_world_m =
-      task.p_world_table_m() + Eigen::Vector3d(object.offset_m.x(), object.offset_m.y(), 0.0);
-  const ObjectMjcf mjcf = object_mjcf("object", made, {p_world_m, object.yaw_rad});
-  return {{"object.xml", mjcf_file(mjcf.assets, mjcf.body)},
-          {"object.obj", made.obj},
-          {"object.png", made.png}};
+  const NamedObject named{"object", object};
+  return object_files(task, {&named, 1}, "");
+}
+
+std::vector<MemoryFile> object_files(const ObjectFlight& task, std::span<const NamedObject> objects,
+                                     const std::string& more_bodies) {
+  std::vector<MemoryFile> files(1);
+  std::string assets;
+  std::string bodies;
+  for (const auto& [name, object] : objects) {
+    const TurntableObject made =
+        make_turntable_object(dataset_of(task.database), {object.category, object.object});
+    const Eigen::Vector3d p_world_m =
+        task.p_world_table_m() + Eigen::Vector3d(object.offset_m.x(), object.offset_m.y(), 0.0);
+    const ObjectMjcf mjcf = object_mjcf(name, made, {p_world_m, object.yaw_rad});
+    assets += mjcf.assets;
+    bodies += mjcf.body;
+    files.push_back({name + ".obj", made.obj});
+    files.push_back({name + ".png", made.png});
+  }
+  files.front() = {"object.xml", mjcf_file(assets, bodies + more_bodies)};
+  return files;
 }
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct ObjectOnTable {
   std::string category;  ///< "mug"
   double yaw_rad = 0.0;  ///< counter-clockwise seen from above, world, [0, 2 pi)
   Eigen::Vector2d offset_m = Eigen::Vector2d::Zero();  ///< from the table's middle
+  Eigen::Vector2d told_m = Eigen::Vector2d::Zero();    ///< the same, as the robot is told
 };
 
 /// The objects of the database. @throws InputError as object_names()
@@ -32,8 +34,18 @@ double drawn_yaw_rad(std::uint64_t seed, const char* stream);
 Eigen::Vector2d drawn_offset_m(std::uint64_t seed, double placement_m);
 double wrap_turn(double angle_rad);  ///< to [0, 2 pi)
 
+/// An object under the name of its body and geom.
+struct NamedObject {
+  std::string name;
+  ObjectOnTable object;
+};
+
 /// The files that put it there: object.xml, which the scene includes, with its mesh and texture.
 /// @throws InputError as make_turntable_object()
 std::vector<MemoryFile> object_files(const ObjectFlight& task, const ObjectOnTable& object);
+/// The same for several.
+/// @param more_bodies MJCF, put beside them
+std::vector<MemoryFile> object_files(const ObjectFlight& task, std::span<const NamedObject> objects,
+                                     const std::string& more_bodies);
 
 }  // namespace vantage

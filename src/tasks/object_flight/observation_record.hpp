@@ -15,6 +15,8 @@ struct BearingOption {
   int id = 0;                ///< bearings count from the one where the episode began
   double bearing_rad = 0.0;  ///< [0, 2 pi), world
   ObjectViewAction action;
+  std::size_t target = 0;              ///< that it looks at, of several
+  std::vector<Pose> T_world_way = {};  ///< of the camera, to there
 };
 
 /// What is believed of a change, after a view.
@@ -26,6 +28,9 @@ struct SuspectedChange {
 struct ObservationRecord {
   double time_s = 0.0;  ///< simulated, of the image
   int bearing_id = 0;
+  std::size_t target = 0;         ///< that it looked at, of several
+  double expected_visible = 1.0;  ///< share of the target, when the view was chosen
+  double seen_share = 1.0;        ///< of it that is seen, as told from the image
   ViewReport report;
   double gain_bits = 0.0;  ///< expected of the view; 0 of the first and of blind choices
   std::optional<FlightResult> flight;     ///< that led here; none: the episode began here

@@ -1,7 +1,7 @@
-/// Robot interface of a quadrotor that flies to bearings round the table's centre and takes images
-/// there.
+/// Robot interface of a quadrotor that flies to places round a table and takes images there.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "vantage/control/tracking_options.hpp"
@@ -11,12 +11,11 @@ namespace vantage {
 
 /// What the robot observes with one image.
 struct FlightObservation {
-  CameraImages images;       ///< colour and depth
-  Pose T_world_camera;       ///< as estimated, OpenCV's axes
-  double bearing_rad = 0.0;  ///< where it was meant to be taken from
+  CameraImages images;  ///< colour and depth
+  Pose T_world_camera;  ///< as estimated, OpenCV's axes
 };
 
-/// A flight to a bearing before it is flown.
+/// A flight before it is flown.
 struct FlightPlan {
   std::vector<FlightWaypoint> waypoints;
   double duration_s = 0.0;
@@ -35,11 +34,12 @@ class OrbitRobotInterface {
   /// Comes to rest and takes an image.
   /// @throws Interrupted, RendererError, EpisodeFailed if it touches anything
   virtual FlightObservation observe() = 0;
-  /// Along the circle, the short way. @throws Interrupted, EpisodeFailed if it touches anything
-  virtual FlightResult fly_to(double bearing_rad) = 0;
-  [[nodiscard]] virtual FlightPlan plan(double bearing_rad) const = 0;
+  /// The camera through places, to rest at the last; at least one, see Orbit::place().
+  /// @throws Interrupted, EpisodeFailed if it touches anything
+  virtual FlightResult fly_along(std::span<const Pose> T_world_places) = 0;
+  [[nodiscard]] virtual FlightPlan plan(std::span<const Pose> T_world_places) const = 0;
+  /// Round the first object.
   [[nodiscard]] virtual double start_bearing_rad() const = 0;
-  [[nodiscard]] virtual double bearing_rad() const = 0;  ///< flown to last
   [[nodiscard]] virtual Pose estimated_body() const = 0;
 };
 

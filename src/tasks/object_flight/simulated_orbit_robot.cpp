@@ -36,30 +36,40 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 }  // namespace
 
 SimulatedOrbitRobot::SimulatedOrbitRobot(const EpisodeSetup& setup, const ModelSource& source,
-                                         const ObjectFlight& task, double object_yaw_rad)
+                                         const ObjectFlight& task,
+                                         std::span<const ObjectOnTable> objects)
     : task_(task),
-      orbit_(task.orbit()),
+      objects_(objects_of(task, objects)),
       start_bearing_rad_(Rng::stream(setup.options.seed, "start bearing").uniform(0.0, kTurn_rad)),
-      bearing_rad_(start_bearing_rad_),
-      quadrotor_(
-          setup.options, source, task.tracking, {task.camera, task.exposure, task.colour_noise},
-          [&](World& world) {
-            return placed(world, setup.robot, orbit_.place(bearing_rad_), task.elevation_rad);
-          }),
-      object_yaw_rad_(object_yaw_rad),
+      T_world_place_(objects_.front().orbit.place(start_bearing_rad_)),
+      quadrotor_(setup.options, source, task.tracking,
+                 {task.camera, task.exposure, task.colour_noise},
+                 [&](World& world) {
+                   return placed(world, setup.robot, T_world_place_, task.elevation_rad);
+                 }),
       camera_noise_(Rng::stream(setup.options.seed, "camera")) {}
+
+std::vector<SimulatedOrbitRobot::Object> SimulatedOrbitRobot::objects_of(
+    const ObjectFlight& task, std::span<const ObjectOnTable> objects) {
+  expects(!objects.empty(), "a place to look at");
+  std::vector<Object> result;
+  for (const ObjectOnTable& object : objects) {
+    const Eigen::Vector3d told_m(object.told_m.x(), object.told_m.y(), 0.0);
+    result.push_back({task.orbit_round(task.p_world_table_m() + told_m), object.yaw_rad});
+  }
+  return result;
+}
 
 FlightObservation SimulatedOrbitRobot::observe() {
   throw_if_interrupted();
   require_untouched(quadrotor_.tracking().hold(task_.settle_s));
   return {.images = quadrotor_.colour_image(camera_noise_),
-          .T_world_camera = estimated_body() * quadrotor_.T_body_camera(),
-          .bearing_rad = bearing_rad_};
+          .T_world_camera = estimated_body() * quadrotor_.T_body_camera()};
 }
 
-FlightResult SimulatedOrbitRobot::fly_to(double bearing_rad) {
-  const FlightPlan planned = plan(bearing_rad);
-  bearing_rad_ = bearing_rad;
+FlightResult SimulatedOrbitRobot::fly_along(std::span<const Pose> T_world_places) {
+  const FlightPlan planned = plan(T_world_places);
+  T_world_place_ = T_world_places.back();
   const FlightResult flight =
       quadrotor_.tracking().fly_to(planned.waypoints, [](const TrajectoryTrackingController&) {
         throw_if_interrupted();
@@ -76,11 +86,12 @@ void SimulatedOrbitRobot::require_untouched(const FlightResult& flight) const {
       fmt::format("the quadrotor touched {} at {:.2f} s", quadrotor_.touched(), time_s()));
 }
 
-FlightPlan SimulatedOrbitRobot::plan(double bearing_rad) const {
+FlightPlan SimulatedOrbitRobot::plan(std::span<const Pose> T_world_places) const {
+  expects(!T_world_places.empty(), "a place to fly to");
   FlightPlan plan;
   const FlightReference& reference = quadrotor_.tracking().reference();
   Eigen::Vector3d at_m = reference.p_world_m;
-  for (const Pose& place : orbit_arc(orbit_, bearing_rad_, bearing_rad, task_.arc_rad)) {
+  for (const Pose& place : T_world_places) {
     plan.waypoints.push_back(waypoint(place));
     plan.path_m += (plan.waypoints.back().p_world_m - at_m).norm();
     at_m = plan.waypoints.back().p_world_m;
@@ -101,15 +112,16 @@ FlightWaypoint SimulatedOrbitRobot::waypoint(const Pose& T_world_place) const {
   return {.p_world_m = T_world_body.translation(), .yaw_rad = yaw_rad};
 }
 
-OrbitGroundTruth SimulatedOrbitRobot::ground_truth() const {
+OrbitGroundTruth SimulatedOrbitRobot::ground_truth(std::size_t object) const {
   const Quadrotor& vehicle = quadrotor_.vehicle();
   const World& world = quadrotor_.world();
-  const FlightWaypoint meant = waypoint(orbit_.place(bearing_rad_));
+  const FlightWaypoint meant = waypoint(T_world_place_);
   const Pose T_world_meant =
       make_pose(meant.p_world_m, meant.yaw_rad) * vehicle.T_body_camera(task_.elevation_rad);
   const Pose T_world_camera =
       vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
-  const double seen_rad = object_yaw_rad_ - orbit_.bearing_rad(T_world_camera.translation());
+  const double seen_rad =
+      objects_[object].yaw_rad - objects_[object].orbit.bearing_rad(T_world_camera.translation());
   return {.collisions = quadrotor_.collisions(),
           .position_error_m = (T_world_camera.translation() - T_world_meant.translation()).norm(),
           .angle_error_rad = angle_between(T_world_camera.linear(), T_world_meant.linear()),

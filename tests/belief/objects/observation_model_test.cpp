@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "vantage/core/rng.hpp"
 
@@ -83,6 +84,49 @@ TEST(LogDensityDeathTest, RefusesFeaturesThatAreNone) {
   const ObservationModel model = random_model(2, 2, rng);
   EXPECT_DEATH(log_density(model, Eigen::VectorXf::Zero(3)), "as many dimensions");
   EXPECT_DEATH(log_density(model, Eigen::VectorXf::Constant(2, NAN)), "finite");
+}
+
+/// Dimension by dimension: the density, the mass above, or nothing.
+TEST(LogLikelihood, OfBoundsIsTheMassAboveThem) {
+  Rng rng(5);
+  ObservationModel model = random_model(3, 6, rng);
+  model.psi = 0.7;
+  const Eigen::VectorXf x = random_feature(3, rng);
+  const std::vector<Reading> readings{Reading::at_least, Reading::exact, Reading::none};
+  const Eigen::VectorXd got = log_likelihood(prepare(model), x, readings);
+  for (int j = 0; j < 6; ++j) {
+    const double z = (x[0] - model.mean(0, j)) / std::sqrt(model.variance(0, j));
+    const double above = std::log(0.5 * std::erfc(z / std::numbers::sqrt2));
+    const double expected =
+        0.7 * (above + log_normal(x[1], model.mean(1, j), model.variance(1, j)));
+    EXPECT_NEAR(got[j], expected, 1e-5 * std::abs(expected) + 1e-6) << j;
+  }
+}
+
+TEST(LogLikelihood, OfExactReadingsIsThatWithoutReadings) {
+  Rng rng(6);
+  const ObservationModel model = random_model(3, 6, rng);
+  const Eigen::VectorXf x = random_feature(3, rng);
+  const PreparedObservationModel prepared = prepare(model);
+  EXPECT_EQ(log_likelihood(prepared, x, {}), log_likelihood(prepared, x));
+  const std::vector<Reading> exact(3, Reading::exact);
+  EXPECT_TRUE(log_likelihood(prepared, x, exact).isApprox(log_likelihood(prepared, x), 1e-5));
+}
+
+/// Half of a box was seen: it may be the large one, and is not the small one.
+TEST(LogLikelihood, ABoundLeavesTheLargerOnesOpen) {
+  ObservationModel model{.feature = "height",
+                         .mean = Eigen::MatrixXf(1, 3),
+                         .variance = Eigen::MatrixXf::Constant(1, 3, 1e-4F)};
+  model.mean << 0.05F, 0.10F, 0.30F;
+  const Eigen::VectorXf seen = Eigen::VectorXf::Constant(1, 0.10F);
+  const PreparedObservationModel prepared = prepare(model);
+  const std::vector<Reading> bound{Reading::at_least};
+  const Eigen::VectorXd whole = log_likelihood(prepared, seen);
+  const Eigen::VectorXd part = log_likelihood(prepared, seen, bound);
+  EXPECT_GT(whole[1] - whole[2], 100.0) << "taken for the whole it cannot be the large one";
+  EXPECT_NEAR(part[1] - part[2], std::log(0.5), 1e-5) << "half of the mass is above the mean";
+  EXPECT_LT(part[0], part[1] - 10.0);
 }
 
 }  // namespace

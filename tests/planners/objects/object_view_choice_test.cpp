@@ -64,7 +64,8 @@ std::vector<ObjectViewChoice> every_choice() {
 TEST_F(ObjectViewChoiceTest, EveryMeasureOfInformationLooksAtTheDecal) {
   for (const auto& choice : every_choice()) {
     const auto name = strategy_name_of(choice);
-    if (name == "random" || name == "star" || name == "jeffreys") continue;
+    if (name == "random" || name == "star" || name == "nearest_free" || name == "jeffreys")
+      continue;
     EXPECT_EQ(choose({.choice = choice}).action, 2U) << name;
   }
 }
@@ -224,6 +225,35 @@ TEST_F(EnoughViewsTest, TakesUnknownForAnAnswer) {
   states_.unknown_category = {0, kNoCategory};
   EXPECT_EQ(enough({}, 0.03, 0.02, 0.5, 0.45), EnoughReason::probability);
   EXPECT_EQ(enough({}, 0.3, 0.3, 0.2, 0.2), std::nullopt);
+}
+
+TEST_F(ObjectViewChoiceTest, InformationCountsByWhatIsVisible) {
+  actions_[2].visible = 0.25;
+  const ObjectViewDecision by_visibility = choose({});
+  const ObjectViewDecision without = choose({.by_visibility = false});
+  EXPECT_EQ(without.action, 2U);
+  EXPECT_NEAR(by_visibility.scores[2].gain.bits, 0.25 * without.scores[2].gain.bits, 1e-12);
+  EXPECT_NEAR(by_visibility.scores[2].score, 0.25 * without.scores[2].score, 1e-12);
+  EXPECT_EQ(by_visibility.scores[0].gain.bits, without.scores[0].gain.bits) << "all of it is seen";
+}
+
+TEST_F(ObjectViewChoiceTest, AHiddenViewIsNotTakenHoweverMuchItWouldTell) {
+  actions_[2].visible = 0.0;
+  EXPECT_NE(choose({}).action, 2U);
+}
+
+TEST_F(ObjectViewChoiceTest, TheNearestFreeViewIsTheSoonestThatSeesEnough) {
+  for (std::size_t i = 0; i < actions_.size(); ++i) {
+    actions_[i].time_s = 1.0 + static_cast<double>(i);
+    actions_[i].visible = i < 3 ? 0.1 * static_cast<double>(i) : 0.9;
+  }
+  EXPECT_EQ(choose({.choice = NearestFreeView{}}).action, 3U);
+  actions_[3].visited = true;
+  EXPECT_EQ(choose({.choice = NearestFreeView{}}).action, 4U);
+  EXPECT_EQ(choose({.choice = NearestFreeView{.min_visible = 0.2}}).action, 2U);
+  for (ObjectViewAction& action : actions_) action.visible *= 0.5;  // none is free
+  actions_[3].visited = false;
+  EXPECT_EQ(choose({.choice = NearestFreeView{}}).action, 3U) << "the one that sees most";
 }
 
 }  // namespace

@@ -45,5 +45,42 @@ TEST(OrbitArc, EndsEvenWhereItBegins) {
   EXPECT_TRUE(arc[0].isApprox(kOrbit.place(0.5), 1e-12));
 }
 
+TEST(OrbitWay, OnOneOrbitIsItsArc) {
+  const std::vector<Pose> way = orbit_way(kOrbit, 0.3, kOrbit, 1.4, 0.2);
+  const std::vector<Pose> arc = orbit_arc(kOrbit, 0.3, 1.4, 0.2);
+  ASSERT_EQ(way.size(), arc.size());
+  for (std::size_t i = 0; i < way.size(); ++i) EXPECT_EQ(way[i].matrix(), arc[i].matrix());
+}
+
+TEST(OrbitWay, TheLongWayGoesRoundTheOtherSide) {
+  const std::vector<Pose> way = orbit_way(kOrbit, 0.3, kOrbit, 1.3, 0.2, {.long_way = true});
+  EXPECT_EQ(way.size(), 27U) << "5.28 rad";
+  EXPECT_NEAR(kOrbit.bearing_rad(way.front().translation()), 0.3 - (2.0 * kPi - 1.0) / 27.0, 1e-9);
+  EXPECT_TRUE(way.back().isApprox(kOrbit.place(1.3), 1e-9));
+  for (const Pose& place : way) {
+    const double bearing = kOrbit.bearing_rad(place.translation());
+    EXPECT_FALSE(bearing > 0.31 && bearing < 1.29) << bearing;
+  }
+}
+
+TEST(OrbitWay, RisesInBetweenAndEndsLevel) {
+  const std::vector<Pose> way = orbit_way(kOrbit, 0.0, kOrbit, 0.4, 0.1, {.rise_m = 0.5});
+  EXPECT_NEAR(way[1].translation().z(), kOrbit.place(0.0).translation().z() + 0.5, 1e-9);
+  EXPECT_NEAR(way.back().translation().z(), kOrbit.place(0.0).translation().z(), 1e-9);
+}
+
+/// Keeps its distance from both centres and from what lies between them.
+TEST(OrbitWay, FromOneOrbitToAnotherKeepsItsDistance) {
+  Orbit to = kOrbit;
+  to.centre_m += Eigen::Vector3d(0.6, -0.2, 0.0);
+  const std::vector<Pose> way = orbit_way(kOrbit, 2.0, to, -1.5, 0.1);
+  EXPECT_TRUE(way.back().isApprox(to.place(-1.5), 1e-9));
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    const double t = static_cast<double>(i + 1) / static_cast<double>(way.size());
+    const Eigen::Vector3d centre = (1.0 - t) * kOrbit.centre_m + t * to.centre_m;
+    EXPECT_NEAR((way[i].translation() - centre).head<2>().norm(), 1.5, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -32,8 +32,24 @@ ObjectOnTable object_of(const ResolvedEpisode& resolved) {
 /// The robot of the episode in its world.
 struct OrbitingRobot : SimulatedOrbitRobot {
   explicit OrbitingRobot(const ResolvedEpisode& resolved)
+      : OrbitingRobot(resolved, object_of(resolved)) {}
+  OrbitingRobot(const ResolvedEpisode& resolved, const ObjectOnTable& object)
       : SimulatedOrbitRobot(resolved.setup, model_source(resolved), task_of(resolved),
-                            object_of(resolved).yaw_rad) {}
+                            {&object, 1}),
+        orbit(task_of(resolved).orbit()),
+        bearing_rad(start_bearing_rad()) {}
+
+  [[nodiscard]] std::vector<Pose> way_to(double to_rad) const {
+    return orbit_arc(orbit, bearing_rad, to_rad, 0.2);
+  }
+  FlightResult fly_to(double to_rad) {
+    const std::vector<Pose> way = way_to(to_rad);
+    bearing_rad = to_rad;
+    return fly_along(way);
+  }
+
+  Orbit orbit;
+  double bearing_rad;  ///< flown to last
 };
 
 /// Intersection over union of the cut's mask with where the object truly is in the image.
@@ -80,12 +96,12 @@ TEST_P(OrbitRobotObject, IsCutOutOfPicturesFromSeveralBearings) {
   OrbitingRobot robot(resolved);
   for (int i = 0; i < 3; ++i) {
     if (i > 0) {
-      const FlightResult flight = robot.fly_to(robot.bearing_rad() + 1.7);
+      const FlightResult flight = robot.fly_to(robot.bearing_rad + 1.7);
       EXPECT_EQ(flight.status, FlightStatus::arrived);
     }
     const FlightObservation observation = robot.observe();
     EXPECT_GT(overlap_with_truth(robot, observation, task_of(resolved)), 0.85)
-        << GetParam() << " at bearing " << robot.bearing_rad();
+        << GetParam() << " at bearing " << robot.bearing_rad;
     EXPECT_LT(robot.ground_truth().position_error_m, 0.05);
     EXPECT_LT(robot.ground_truth().angle_error_rad, 3.0 * std::numbers::pi / 180.0);
   }
@@ -98,15 +114,15 @@ INSTANTIATE_TEST_SUITE_P(Several, OrbitRobotObject,
 TEST(OrbitRobotInterface, SeesTheObjectTurnAgainstIt) {
   OrbitingRobot robot(episode());
   const double before_rad = robot.ground_truth().object_angle_rad;
-  const double bearing_rad = robot.bearing_rad();
+  const double bearing_rad = robot.bearing_rad;
   EXPECT_EQ(robot.fly_to(bearing_rad + 0.8).status, FlightStatus::arrived);
   EXPECT_NEAR(wrap_angle(robot.ground_truth().object_angle_rad - before_rad), -0.8, 0.06);
 }
 
 TEST(OrbitRobotInterface, PlansWhatItFlies) {
   OrbitingRobot robot(episode());
-  const double to_rad = robot.bearing_rad() - 1.2;
-  const FlightPlan plan = robot.plan(to_rad);
+  const double to_rad = robot.bearing_rad - 1.2;
+  const FlightPlan plan = robot.plan(robot.way_to(to_rad));
   const FlightResult flight = robot.fly_to(to_rad);
   EXPECT_NEAR(flight.path_length_m, plan.path_m, 0.1 * plan.path_m + 0.05);
   EXPECT_GT(flight.duration_s, plan.duration_s);

@@ -167,6 +167,7 @@ ObjectView resized(const ObjectView& view, int width_px, int height_px) {
   result.top_px = static_cast<int>(std::lround(view.top_px * scale));
   result.focal_px = view.focal_px * scale;
   result.centre_px = view.centre_px * scale;
+  result.cut_off.clear();  // a line of pixels, of which resizing leaves some
   return result;
 }
 

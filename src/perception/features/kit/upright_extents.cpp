@@ -27,14 +27,13 @@ UprightExtents upright_extents(const Eigen::Matrix3Xd& points, const Eigen::Vect
     const double lower_m = quantile(values, low);
     return {lower_m, quantile(std::move(values), high)};
   };
-  const auto extent_m = [&](const Eigen::Vector3d& axis) {
-    const Eigen::Vector2d ends = ends_m(axis);
-    return ends.y() - ends.x();
-  };
-  const double a = extent_m(axes.col(0));
-  const double b = extent_m(axes.col(1));
+  const auto extent = [&](const Eigen::Vector3d& axis) { return LevelExtent{axis, ends_m(axis)}; };
+  const auto length_m = [](const LevelExtent& e) { return e.ends_m.y() - e.ends_m.x(); };
+  LevelExtent a = extent(axes.col(0));
+  LevelExtent b = extent(axes.col(1));
+  if (length_m(a) < length_m(b)) std::swap(a, b);
   const Eigen::Vector2d heights_m = ends_m(up);
-  return {heights_m.x(), heights_m.y(), std::max(a, b), std::min(a, b)};
+  return {heights_m.x(), heights_m.y(), length_m(a), length_m(b), a, b};
 }
 
 }  // namespace vantage

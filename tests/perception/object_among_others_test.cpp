@@ -1,0 +1,122 @@
+// An object among others, against images of boxes on a table, drawn ray by ray.
+#include "vantage/perception/clutter/object_among_others.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tests/perception/drawn_boxes.hpp"
+
+namespace vantage {
+namespace {
+
+using namespace test;
+
+const ObjectSegmentationOptions kExact{.min_pixels = 60, .mask_growth_px = 0, .margin_px = 2};
+/// Where the first box stands, and in front of it as camera_at(0) sees it: towards +x.
+const Box kTarget = box_at(0.0, 0.0, {0.08, 0.10, 0.15});
+
+ObjectAmongOthers found(const Drawn& drawn, const Pose& T_world_camera,
+                        const std::optional<UprightCylinder>& known = {},
+                        const ObjectSegmentationOptions& options = kExact) {
+  Rng rng(1);
+  return find_among_others(drawn.images, T_world_camera, kTable_m, options, {}, known, rng);
+}
+
+std::ptrdiff_t cut_off_pixels(const ObjectView& view) {
+  return std::ranges::count(view.cut_off, 1);
+}
+
+TEST(ObjectAmongOthers, AloneItIsCutOutAsAWhole) {
+  for (int i = 0; i < 6; ++i) {
+    const Pose T_world_camera = camera_at(i * std::numbers::pi / 3.0 + 0.1);
+    const Drawn drawn = draw({{kTarget}}, T_world_camera, 0.002);
+    const ObjectAmongOthers object = found(drawn, T_world_camera);
+    ASSERT_TRUE(object.object.view) << object.object.reason;
+    EXPECT_GT(overlap(drawn, *object.object.view), 0.93) << "side " << i;
+    EXPECT_TRUE(object.object.view->cut_off.empty());
+    EXPECT_GT(object.seen_share, 0.97);
+    EXPECT_NEAR(object.shape->height_m, 0.15, 0.01);
+    EXPECT_NEAR(object.shape->radius_m, 0.064, 0.012) << "half its diagonal";
+    EXPECT_NEAR(*object.table_height_m, kTable_m.z(), 0.003);
+  }
+}
+
+/// The foot's height over the camera, along gravity.
+TEST(ObjectAmongOthers, SaysWhereItsSupportIs) {
+  const Pose T_world_camera = camera_at(0.4);
+  const ObjectAmongOthers object = found(draw({{kTarget}}, T_world_camera, 0.002), T_world_camera);
+  ASSERT_TRUE(object.object.view && object.object.view->support_m);
+  EXPECT_NEAR(*object.object.view->support_m, kTable_m.z() - T_world_camera.translation().z(),
+              0.004);
+}
+
+TEST(ObjectAmongOthers, NeighboursAreNotTakenForPartsOfIt) {
+  Scene scene{{kTarget}};
+  scene.boxes.push_back(box_at(0.14, 0.02, {0.08, 0.08, 0.05}));  // before it
+  scene.boxes.push_back(box_at(-0.14, 0.03, {0.1, 0.08, 0.3}));   // behind it, higher
+  scene.boxes.push_back(box_at(0.0, 0.15, {0.1, 0.1, 0.2}));      // beside it, larger
+  scene.boxes.push_back(box_at(0.02, -0.14, {0.06, 0.08, 0.12}));
+  for (const double bearing : {0.0, 0.4, -0.5}) {
+    const Pose T_world_camera = camera_at(bearing);
+    const Drawn drawn = draw(scene, T_world_camera, 0.002);
+    const ObjectAmongOthers object = found(drawn, T_world_camera);
+    ASSERT_TRUE(object.object.view) << object.object.reason;
+    EXPECT_GT(overlap(drawn, *object.object.view), 0.88) << bearing;
+  }
+}
+
+TEST(ObjectAmongOthers, WhatHidesItIsNotInTheMaskAndMarksItsEdge) {
+  const Pose T_world_camera = camera_at(0.0);
+  Scene scene{{kTarget, box_at(0.14, -0.05, {0.04, 0.10, 0.25})}};  // hides about half
+  const Drawn drawn = draw(scene, T_world_camera, 0.002);
+  const ObjectAmongOthers object = found(drawn, T_world_camera);
+  ASSERT_TRUE(object.object.view) << object.object.reason;
+  EXPECT_GT(overlap(drawn, *object.object.view), 0.88);
+  EXPECT_GT(cut_off_pixels(*object.object.view), 10);
+  EXPECT_LT(object.seen_share, 0.8);
+  EXPECT_GT(object.seen_share, 0.3);
+  EXPECT_EQ(object.object.view->seen_share, object.seen_share);
+}
+
+TEST(ObjectAmongOthers, TheShareIsOfWhatEarlierViewsHaveSeen) {
+  const Pose T_world_camera = camera_at(0.0);
+  Scene scene{{kTarget, box_at(0.12, -0.06, {0.04, 0.10, 0.25})}};
+  const Drawn drawn = draw(scene, T_world_camera, 0.002);
+  const double by_itself = found(drawn, T_world_camera).seen_share;
+  const UprightCylinder wide{kTable_m, 0.064, 0.15};
+  const double by_shape = found(drawn, T_world_camera, wide).seen_share;
+  EXPECT_LE(by_shape, by_itself + 1e-9);
+}
+
+/// Never what stands in front of it.
+TEST(ObjectAmongOthers, AHiddenObjectIsNotFound) {
+  const Pose T_world_camera = camera_at(0.0);
+  Scene scene{{kTarget, box_at(0.16, 0.0, {0.06, 0.24, 0.40})}};
+  const ObjectAmongOthers object = found(draw(scene, T_world_camera, 0.002), T_world_camera);
+  EXPECT_FALSE(object.object.view);
+  EXPECT_THAT(object.object.reason, testing::HasSubstr("hidden"));
+  EXPECT_EQ(object.seen_share, 0.0);
+}
+
+TEST(ObjectAmongOthers, TooLittleOfItIsToldAndNotUsed) {
+  const Pose T_world_camera = camera_at(0.0);
+  Scene scene{{kTarget, box_at(0.14, -0.02, {0.04, 0.14, 0.3})}};
+  const UprightCylinder known{kTable_m, 0.064, 0.15};
+  const ObjectAmongOthers object = found(draw(scene, T_world_camera, 0.002), T_world_camera, known);
+  EXPECT_FALSE(object.object.view);
+  EXPECT_THAT(object.object.reason, testing::HasSubstr("hidden"));
+}
+
+TEST(ObjectAmongOthers, TheImagesBorderCutsItOffToo) {
+  Pose T_world_camera = camera_at(0.0);
+  T_world_camera.translation() += Vector3d(0.0, 0.51, 0.0);  // it is at the image's side
+  const Drawn drawn = draw({{kTarget}, 1.0}, T_world_camera, 0.002);
+  const ObjectAmongOthers object = found(drawn, T_world_camera);
+  ASSERT_TRUE(object.object.view) << object.object.reason;
+  EXPECT_GT(cut_off_pixels(*object.object.view), 5);
+}
+
+}  // namespace
+}  // namespace vantage

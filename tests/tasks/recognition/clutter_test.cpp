@@ -1,0 +1,147 @@
+// What stands on the table: drawn by the seed, apart, and physically possible.
+#include <gmock/gmock.h>
+
+#include <numbers>
+#include <set>
+
+#include "tests/support/overrides.hpp"
+#include "vantage/tasks/episode.hpp"
+#include "vantage/tasks/flight/object_mjcf.hpp"
+#include "vantage/tasks/recognition/recognition_ground_truth.hpp"
+#include "vantage/tasks/recognition/standing_room.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPi = std::numbers::pi;
+
+RecognitionTask task_with(std::vector<std::string> overrides) {
+  const fs::path episode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml";
+  return std::get<RecognitionTask>(load_episode(episode, overrides).task);
+}
+
+TEST(Outlines, GapsAreThoseOfSquares) {
+  const Outline square{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
+  EXPECT_NEAR(gap_m(square, placed(square, 0.0, {3.0, 0.0})), 1.0, 1e-12);
+  EXPECT_NEAR(gap_m(square, placed(square, 0.0, {5.0, 6.0})), 5.0, 1e-12) << "corner to corner";
+  EXPECT_NEAR(gap_m(square, placed(square, kPi / 4.0, {3.0, 0.0})), 2.0 - std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(gap_m(square, placed(square, 0.3, {0.2, 0.1})), 0.0);
+  EXPECT_EQ(gap_m(square, placed(square, 0.0, {0.0, 0.0})), 0.0) << "one in the other";
+}
+
+/// Long things that cross, no corner of one in the other.
+TEST(Outlines, ACrossHasNoGap) {
+  const Outline bar{{-2.0, -0.1}, {2.0, -0.1}, {2.0, 0.1}, {-2.0, 0.1}};
+  EXPECT_EQ(gap_m(bar, placed(bar, kPi / 2.0, {0.0, 0.0})), 0.0);
+}
+
+TEST(StandingRoom, PlacesAreApartAndOnTheTable) {
+  const std::vector<Eigen::Vector2d> middle{Eigen::Vector2d::Zero()};
+  StandingRoom room({middle, 0.3, 0.05, {1.0, 1.0}});
+  Rng rng(3);
+  const Outline bar{{-0.1, -0.03}, {0.1, -0.03}, {0.1, 0.03}, {-0.1, 0.03}};
+  std::vector<Outline> standing;
+  StandingRoom::Place place;
+  while (standing.size() < 12 && room.place(bar, rng, place)) {
+    standing.push_back(placed(bar, place.yaw_rad, place.p_m));
+  }
+  ASSERT_EQ(standing.size(), 12U);
+  for (std::size_t i = 0; i < standing.size(); ++i) {
+    for (const Eigen::Vector2d& p : standing[i]) EXPECT_LT(p.cwiseAbs().maxCoeff(), 0.5);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GE(gap_m(standing[i], standing[j]), 0.05);
+  }
+}
+
+TEST(StandingRoom, AFullTableHasNone) {
+  const std::vector<Eigen::Vector2d> middle{Eigen::Vector2d::Zero()};
+  StandingRoom room({middle, 0.3, 0.05, {0.3, 0.3}});
+  Rng rng(3);
+  StandingRoom::Place place;
+  room.take(round_outline(0.12));
+  EXPECT_FALSE(room.place(round_outline(0.12), rng, place));
+}
+
+TEST(TableGroundTruth, WithoutClutterIsTheObjectAlone) {
+  const RecognitionTask task = task_with({});
+  const TableGroundTruth table = draw_table(task, 3);
+  const ObjectOnTable alone = draw_object(task, 3);
+  ASSERT_EQ(table.targets.size(), 1U);
+  EXPECT_TRUE(table.others.empty());
+  EXPECT_EQ(table.targets[0].object, alone.object);
+  EXPECT_EQ(table.targets[0].offset_m, alone.offset_m);
+  EXPECT_EQ(table.targets[0].yaw_rad, alone.yaw_rad);
+}
+
+TEST(TableGroundTruth, ClutterLeavesTheTargetWhereItWas) {
+  const RecognitionTask task = task_with({"clutter={objects: 9, near_duplicates: 2, tall: 3}"});
+  const TableGroundTruth table = draw_table(task, 5);
+  const ObjectOnTable alone = draw_object(task, 5);
+  EXPECT_EQ(table.targets[0].object, alone.object);
+  EXPECT_EQ(table.targets[0].offset_m, alone.offset_m);
+  ASSERT_EQ(table.others.size(), 9U);
+  const TableGroundTruth again = draw_table(task, 5);
+  const TableGroundTruth other = draw_table(task, 6);
+  EXPECT_EQ(again.others[4].offset_m, table.others[4].offset_m);
+  EXPECT_NE(other.others[4].offset_m, table.others[4].offset_m);
+}
+
+TEST(TableGroundTruth, NearDuplicatesAndTallOnesAreAmongThem) {
+  const RecognitionTask task =
+      task_with({"object=mug_1", "clutter={objects: 8, near_duplicates: 2, tall: 3, tall_m: 0.2}"});
+  const TableGroundTruth table = draw_table(task, 2);
+  EXPECT_EQ(table.others[0].category, "mug");
+  EXPECT_EQ(table.others[1].category, "mug");
+  std::set<std::string> all{"mug_1"};
+  int tall = 0;
+  for (const ObjectOnTable& object : table.others) {
+    EXPECT_TRUE(all.insert(object.object).second) << object.object << " stands there twice";
+    const auto made =
+        make_turntable_object(dataset_of(task.database), {object.category, object.object});
+    tall += made.box_m.sizes().z() >= 0.2 ? 1 : 0;
+  }
+  EXPECT_GE(tall, 3);
+}
+
+/// Of all things on the table, every two, as their meshes are.
+TEST(TableGroundTruth, NothingTouches) {
+  const RecognitionTask task =
+      task_with({"clutter={objects: 12, posts: 2, spacing_m: 0.04}", "targets=2"});
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const TableGroundTruth table = draw_table(task, seed);
+    std::vector<Outline> standing;
+    const auto add = [&](const ObjectOnTable& o) {
+      const auto made = make_turntable_object(dataset_of(task.database), {o.category, o.object});
+      standing.push_back(placed(outline_of(made), o.yaw_rad, o.offset_m));
+    };
+    for (const ObjectOnTable& target : table.targets) add(target);
+    for (const ObjectOnTable& other : table.others) add(other);
+    for (const Post& post : table.posts) {
+      standing.push_back(placed(round_outline(post.radius_m), 0.0, post.offset_m));
+      EXPECT_LE(post.height_m, task.map.height_m);
+    }
+    for (std::size_t i = 2; i < standing.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) EXPECT_GE(gap_m(standing[i], standing[j]), 0.0399);
+    }
+    EXPECT_GT(gap_m(standing[0], standing[1]), 0.0) << "targets stand apart";
+  }
+}
+
+TEST(TableGroundTruth, TooMuchForTheTableIsAnError) {
+  const RecognitionTask task = task_with({"clutter={objects: 40, spacing_m: 0.2}"});
+  try {
+    draw_table(task, 1);
+    FAIL() << "there is no room";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("clutter.objects"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("spacing_m"));
+  }
+}
+
+TEST(TableGroundTruth, MoreThanTheDatabaseHasIsAnError) {
+  EXPECT_THROW(draw_table(task_with({"database.objects=5", "clutter.objects=6"}), 1), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,136 @@
+// The map that a robot keeps of a table, from images drawn ray by ray.
+#include "vantage/tasks/table_map/table_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tests/perception/drawn_boxes.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/report/report_data.hpp"
+#include "vantage/tasks/table_map/table_map_log.hpp"
+
+namespace vantage {
+namespace {
+
+using namespace test;
+
+/// A target in the middle of the table, a wide box before it as the camera at bearing 0 sees it.
+const Box kTarget = box_at(0.0, 0.0, {0.08, 0.08, 0.15});
+const Box kScreen = box_at(0.18, 0.0, {0.04, 0.30, 0.30});
+const UprightCylinder kShape{kTable_m, 0.055, 0.15};
+
+TableMap map_after(const std::vector<double>& bearings_rad, const TableMapOptions& options = {}) {
+  TableMap map(kTable_m, options);
+  for (const double bearing_rad : bearings_rad) {
+    const Pose T_world_camera = camera_at(bearing_rad);
+    map.insert(draw({{kTarget, kScreen}}, T_world_camera, 0.002).images, T_world_camera);
+  }
+  return map;
+}
+
+Eigen::Vector3d eye(double bearing_rad) { return camera_at(bearing_rad).translation(); }
+
+TEST(TableMap, BeforeAnyImageAllViewsAreAlike) {
+  const TableMap map = map_after({});
+  const double seen = map.visible_share(kShape, {}, eye(0.0));
+  EXPECT_GT(seen, 0.5) << "the prior hazard is low";
+  EXPECT_LT(seen, 1.0);
+  EXPECT_NEAR(map.visible_share(kShape, {}, eye(std::numbers::pi)), seen, 0.05);
+}
+
+TEST(TableMap, AScreenHidesFromItsSideAndNotFromOthers) {
+  const TableMap map = map_after({1.2, -1.2, 2.8});  // from beside and behind
+  EXPECT_LT(map.visible_share(kShape, {}, eye(0.0)), 0.35);
+  EXPECT_GT(map.visible_share(kShape, {}, eye(std::numbers::pi)), 0.85);
+  EXPECT_GT(map.visible_share(kShape, {}, eye(1.57)), 0.8);
+}
+
+/// The robot that has only seen the screen expects to see the target from elsewhere.
+TEST(TableMap, FromTheScreensSideOtherViewsPromiseMore) {
+  const TableMap map = map_after({0.0});
+  EXPECT_LT(map.visible_share(kShape, {}, eye(0.0)), 0.3);
+  EXPECT_GT(map.visible_share(kShape, {}, eye(1.57)),
+            map.visible_share(kShape, {}, eye(0.2)) + 0.2);
+}
+
+TEST(TableMap, KnowsTheCellsOverAnOutline) {
+  TableMapOptions options;
+  options.margin_m = 0.0;
+  const TableMap map = map_after({}, options);
+  const Eigen::Vector2d middle = kTable_m.head<2>();
+  const std::vector<Eigen::Vector2d> outline{
+      middle + Eigen::Vector2d(-0.1, -0.05), middle + Eigen::Vector2d(0.1, -0.05),
+      middle + Eigen::Vector2d(0.1, 0.05), middle + Eigen::Vector2d(-0.1, 0.05)};
+  const std::vector<std::uint8_t> over = map.cells_over(outline, 0.15);
+  // 0.2 x 0.1 m of cells of 2 cm, in six layers from 3 cm above the table up.
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(over, 1)), 10 * 5 * 6, 40);
+  const GridFrame& frame = map.grid().frame;
+  EXPECT_EQ(over[frame.index(frame.cell_at(kTable_m + Eigen::Vector3d(0.08, 0.03, 0.1)))], 1);
+  EXPECT_EQ(over[frame.index(frame.cell_at(kTable_m + Eigen::Vector3d(0.08, 0.09, 0.1)))], 0);
+  EXPECT_EQ(over[frame.index(frame.cell_at(kTable_m + Eigen::Vector3d(0.08, 0.03, 0.3)))], 0);
+}
+
+TEST(TableMap, LearnsItsHazardFromWhatItMeets) {
+  EXPECT_NE(map_after({0.0, 1.5}).hazard(), map_after({}).hazard());
+}
+
+TEST(TableMap, FlightsKeepClearOfWhatStandsThere) {
+  TableMapOptions options;
+  options.height_m = 0.5;
+  const TableMap map = map_after({0.0, 1.0, 2.0, 3.0, 4.0, 5.0}, options);
+  const Eigen::Vector3d over = kTable_m + Eigen::Vector3d(0.18, 0.0, 0.0);
+  const auto across = [&](double height_m) {
+    const Eigen::Vector3d up(0.0, 0.0, height_m);
+    const Eigen::Vector3d aside(0.0, 0.9, 0.0);
+    return std::vector<Eigen::Vector3d>{over - aside + up, over + aside + up};
+  };
+  EXPECT_FALSE(map.is_clear(across(0.4))) << "0.1 m over the screen";
+  EXPECT_TRUE(map.is_clear(across(1.0)));
+  const std::vector<Eigen::Vector3d> beside{kTable_m + Eigen::Vector3d(-1.0, 0.95, 0.4),
+                                            kTable_m + Eigen::Vector3d(1.0, 0.95, 0.4)};
+  EXPECT_TRUE(map.is_clear(beside)) << "nothing stands beside the table";
+}
+
+TEST(TableMap, FlightsKeepClearOfWhatWasNotSeenOverTheTable) {
+  const std::vector<Eigen::Vector3d> low{kTable_m + Eigen::Vector3d(-0.3, 0.0, 0.5),
+                                         kTable_m + Eigen::Vector3d(-0.3, 0.3, 0.5)};
+  EXPECT_FALSE(map_after({}).is_clear(low));
+}
+
+/// However much of it was not seen: it ends at the table's edge.
+TEST(TableMap, BesideATableThatWasNotSeenFlightsAreClear) {
+  const TableMap map = map_after({});
+  const auto beside = [&](double off_m) {
+    return std::vector<Eigen::Vector3d>{kTable_m + Eigen::Vector3d(-0.9, 0.5 + off_m, 0.3),
+                                        kTable_m + Eigen::Vector3d(0.9, 0.5 + off_m, 0.3)};
+  };
+  EXPECT_TRUE(map.is_clear(beside(0.37)));
+  EXPECT_FALSE(map.is_clear(beside(0.33)));
+}
+
+TEST(TableMapLog, KeepsSinceWhenWhatStandsThere) {
+  const support::TemporaryDirectory folder;
+  TableMapLog log;
+  TableMap map(kTable_m, {});
+  for (int view = 0; view < 2; ++view) {
+    const Pose T_world_camera = camera_at(2.0 * view);
+    map.insert(draw({{kTarget, kScreen}}, T_world_camera, 0.002).images, T_world_camera);
+    EXPECT_FALSE(log.change(map.grid(), view).runs.empty());
+  }
+  log.commit(folder.path());
+  const VoxelMap voxels = read_voxels(folder / "voxels.bin");
+  std::array<int, 2> occupied{};
+  int unobserved = 0;
+  for (const VoxelRecord& voxel : voxels.voxels) {
+    if (voxel.kind == kVoxelOccupied) ++occupied.at(voxel.step);
+    if (voxel.kind == kVoxelUnobserved) ++unobserved;
+  }
+  EXPECT_GT(occupied[0], 50);
+  EXPECT_GT(occupied[1], 20);
+  EXPECT_GT(unobserved, 100);
+}
+
+}  // namespace
+}  // namespace vantage
