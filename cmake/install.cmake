@@ -23,7 +23,7 @@ vantage_component(core TARGETS core PACKAGES fmt spdlog yaml-cpp)
 vantage_component(geometry TARGETS geometry ON core PACKAGES "Eigen3 3.4")
 vantage_component(information TARGETS information ON core PACKAGES "Eigen3 3.4" fmt)
 vantage_component(control TARGETS control ON geometry PACKAGES fmt)
-vantage_component(belief TARGETS belief_map belief_objects belief_tracking belief ON information geometry
+vantage_component(belief TARGETS belief_map belief_observation belief_objects belief_tracking belief ON information geometry
                   PACKAGES fmt octomap Threads)
 vantage_component(trajectory TARGETS trajectory_optimisers trajectory ON belief control PACKAGES fmt)
 vantage_component(planners
@@ -31,7 +31,7 @@ vantage_component(planners
                   ON trajectory PACKAGES fmt Threads)
 if(VANTAGE_BUILD_PERCEPTION)
   vantage_component(perception
-                    TARGETS clouds images perception perception_clutter feature_kit patch_features features ON information geometry
+                    TARGETS clouds images perception perception_search perception_clutter feature_kit patch_features features ON information geometry
                     PACKAGES fmt nanoflann "OpenCV COMPONENTS core imgproc imgcodecs features2d dnn")
 endif()
 
@@ -46,9 +46,11 @@ set(installed_folders core geometry information control belief)
 if(VANTAGE_BUILD_PERCEPTION)
   list(APPEND installed_folders perception)
 endif()
+# Headers with images of OpenCV are for the sources of perception alone.
 foreach(folder IN LISTS installed_folders)
   install(DIRECTORY src/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vantage
-          COMPONENT library FILES_MATCHING PATTERN "*.hpp")
+          COMPONENT library FILES_MATCHING PATTERN "*.hpp"
+          REGEX "/(column_cut|depth_pieces)\\.hpp$" EXCLUDE)
 endforeach()
 install(DIRECTORY planners DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vantage
         COMPONENT library FILES_MATCHING PATTERN "*.hpp")

@@ -57,9 +57,10 @@ Rooms operator+(Rooms a, const Rooms& b) {
 }
 
 const Rooms kGround{"core", "geometry", "information"};
-const Rooms kPerception{"perception",        "perception/clouds",   "perception/clutter",
-                        "perception/images", "perception/features", "perception/features/kit"};
-const Rooms kBelief{"belief/map", "belief/objects", "belief/tracking"};
+const Rooms kPerception{
+    "perception",        "perception/search",   "perception/clouds",      "perception/clutter",
+    "perception/images", "perception/features", "perception/features/kit"};
+const Rooms kBelief{"belief/map", "belief/objects", "belief/observation", "belief/tracking"};
 const Rooms kPlanners{"planners",
                       "planners/gains",
                       "planners/visibility",
@@ -93,6 +94,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"perception/images", {"core"}},
     {"perception", kGround + Rooms{"perception/clouds", "perception/images"}},
     {"perception/clutter", kGround + Rooms{"perception"}},
+    {"perception/search", kGround + Rooms{"perception"}},
     {"perception/features/kit", kGround + Rooms{"perception", "perception/clouds"}},
     {"perception/features/patches",
      kGround + Rooms{"perception", "perception/clouds", "perception/features/kit"}},
@@ -100,7 +102,8 @@ const std::map<std::string, Rooms> kAllowed{
      kGround + Rooms{"perception", "perception/clouds", "perception/features/kit",
                      "perception/features/patches"}},
     {"belief/map", kGround},
-    {"belief/objects", kGround},
+    {"belief/observation", kGround},
+    {"belief/objects", kGround + Rooms{"belief/observation"}},
     {"belief/tracking", kGround},
     {"planners/visibility", kGround + Rooms{"belief/map"}},
     {"planners/gains", kGround + Rooms{"belief/map", "planners/visibility"}},
@@ -111,16 +114,18 @@ const std::map<std::string, Rooms> kAllowed{
     {"planners/choice", kGround + Rooms{"belief/map", "planners", "planners/navigation",
                                         "planners/tours", "planners/visibility"}},
     {"planners/navigation", kGround + Rooms{"belief/map"}},
-    {"planners/objects", kGround + Rooms{"belief/objects"}},
+    {"planners/objects", kGround + Rooms{"belief/objects", "belief/observation"}},
     {"planners/trajectory/optimisers", {"core", "geometry"}},
     {"planners/trajectory",
      kGround + Rooms{"belief/map", "control", "planners/trajectory/optimisers"}},
-    {"recognition/dataset", kGround + kPerception + Rooms{"belief/objects"}},
+    {"recognition/dataset", kGround + kPerception + Rooms{"belief/objects", "belief/observation"}},
     {"recognition/calibration",
-     kGround + kPerception + Rooms{"belief/objects", "planners/objects", "recognition/dataset"}},
-    {"recognition", kGround + kPerception +
-                        Rooms{"belief/objects", "planners/objects", "planners/trajectory",
-                              "recognition/calibration", "recognition/dataset"}},
+     kGround + kPerception +
+         Rooms{"belief/objects", "belief/observation", "planners/objects", "recognition/dataset"}},
+    {"recognition",
+     kGround + kPerception +
+         Rooms{"belief/objects", "belief/observation", "planners/objects", "planners/trajectory",
+               "recognition/calibration", "recognition/dataset"}},
     {"recognition/evaluation", kGround + Rooms{"recognition", "recognition/dataset"}},
     {"sim/world", {"core", "geometry"}},
     {"sim/render", {"core", "geometry", "sim/world"}},
@@ -137,11 +142,11 @@ const std::map<std::string, Rooms> kAllowed{
     {"models/catalogue",
      {"core", "models/catalogue/table", "models/catalogue/office", "models/catalogue/flight"}},
     {"dataset",
-     {"core", "geometry", "perception", "models/catalogue/shapes", "models/catalogue/database",
-      "sim/render", "sim/sensors"}},
+     {"core", "geometry", "perception", "perception/search", "models/catalogue/shapes",
+      "models/catalogue/database", "sim/render", "sim/sensors"}},
     {"dataset/pictures", {"core", "geometry", "perception", "perception/images", "dataset"}},
-    {"recipe", kGround + Rooms{"belief/objects", "perception", "recognition", "recognition/dataset",
-                               "dataset", "sim/render"}},
+    {"recipe", kGround + Rooms{"belief/objects", "belief/observation", "perception", "recognition",
+                               "recognition/dataset", "dataset", "sim/render"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
@@ -155,8 +160,8 @@ const std::map<std::string, Rooms> kAllowed{
     {"tasks/table_map", kTask},
     {"tasks", kGround + kSim + kRuntime + Rooms{"belief/map", "report", "tasks/*"}},
     {"study/figures", {"core", "geometry", "information", "report"}},
-    {"study/recognition",
-     kGround + kRecognition + kRuntime + Rooms{"belief/objects", "study/figures"}},
+    {"study/recognition", kGround + kRecognition + kRuntime +
+                              Rooms{"belief/objects", "belief/observation", "study/figures"}},
     {"study/kit", kGround + kRuntime + Rooms{"tasks"}},
     {"study/cluster", {"core"}},
     {"study/tables", {"core", "information", "report", "runtime", "study/figures"}},
@@ -166,12 +171,13 @@ const std::map<std::string, Rooms> kAllowed{
     {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"cli/hints", {"core", "study"}},
-    {"cli/recognition",
-     kGround + kPerception + kRecognition + kRuntime + Rooms{"belief/objects", "planners/objects"}},
+    {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
+                            Rooms{"belief/objects", "belief/observation", "planners/objects"}},
     {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
-    {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                          Rooms{"belief/objects", "cli/hints", "dataset", "recipe", "tasks"}},
+    {"cli/reference",
+     kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+         Rooms{"belief/objects", "belief/observation", "cli/hints", "dataset", "recipe", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                 Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep",
                       "dataset", "models/catalogue/database", "recipe", "report", "tasks", "view"}},

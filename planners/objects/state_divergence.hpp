@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/belief/observation/observation_model.hpp"
 
 namespace vantage {
 

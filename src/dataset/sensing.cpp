@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "vantage/perception/dataset_reader.hpp"
-#include "vantage/perception/object_search.hpp"
+#include "vantage/perception/search/object_search.hpp"
 #include "vantage/perception/table_segmentation.hpp"
 #include "vantage/sim/sensors/camera.hpp"
 

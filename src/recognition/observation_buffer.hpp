@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "vantage/perception/object_search.hpp"
+#include "vantage/perception/search/object_search.hpp"
 #include "vantage/recognition/object_observations.hpp"
 
 namespace vantage {

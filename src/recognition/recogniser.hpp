@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "vantage/belief/objects/gaussian_statistics.hpp"
 #include "vantage/belief/objects/object_states.hpp"
 #include "vantage/belief/objects/recognition_model.hpp"
 #include "vantage/belief/objects/transition.hpp"
+#include "vantage/belief/observation/gaussian_statistics.hpp"
 #include "vantage/perception/features/feature.hpp"
 #include "vantage/planners/objects/state_divergence.hpp"
 

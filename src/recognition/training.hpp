@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "vantage/belief/objects/psi_rule.hpp"
 #include "vantage/belief/objects/recognition_model.hpp"
+#include "vantage/belief/observation/psi_rule.hpp"
 #include "vantage/recognition/dataset/held_out.hpp"
 #include "vantage/recognition/dataset/view_features.hpp"
 

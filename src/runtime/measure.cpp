@@ -42,6 +42,11 @@ std::optional<double> number_of(const MeasuredEpisode& episode, const char* key)
   return value.is_boolean() ? (value.get<bool>() ? 1.0 : 0.0) : value.get<double>();
 }
 
+std::optional<double> number_if_measured(const MeasuredEpisode& episode, const char* key) {
+  if (!episode.metrics.contains(key)) return {};
+  return number_of(episode, key);
+}
+
 Curve step_values(const MeasuredEpisode& episode, const char* list, const char* key) {
   Curve values;
   for (const auto& step : episode.metrics.at(list)) values.push_back(step.at(key).get<double>());

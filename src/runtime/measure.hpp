@@ -63,6 +63,8 @@ extern const ScalarMeasure kSimulatedTime;
 std::optional<double> mean_of(const Curve& values);  ///< none of none
 /// A number or truth value; none if it is null.
 std::optional<double> number_of(const MeasuredEpisode& episode, const char* key);
+/// Of a run of an earlier version, which has no such key, none.
+std::optional<double> number_if_measured(const MeasuredEpisode& episode, const char* key);
 /// One value a step of a list in the metrics.
 Curve step_values(const MeasuredEpisode& episode, const char* list, const char* key);
 

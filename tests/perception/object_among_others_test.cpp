@@ -52,6 +52,32 @@ TEST(ObjectAmongOthers, SaysWhereItsSupportIs) {
               0.004);
 }
 
+/// Three walls round the place, the fourth side open: their hull is over the place, they are not.
+TEST(ObjectAmongOthers, AScreenRoundItIsNotTakenForIt) {
+  const Box low = box_at(0.0, 0.0, {0.06, 0.06, 0.05});
+  const Scene scene{{low, box_at(-0.1, 0.0, {0.01, 0.2, 0.25}), box_at(0.0, 0.1, {0.2, 0.01, 0.25}),
+                     box_at(0.0, -0.1, {0.2, 0.01, 0.25})}};
+  const Pose T_world_behind = camera_at(std::numbers::pi);
+  const ObjectAmongOthers hidden = found(draw(scene, T_world_behind, 0.002), T_world_behind);
+  EXPECT_FALSE(hidden.object.view);
+  EXPECT_THAT(hidden.object.reason, testing::HasSubstr("hidden"));
+  const Pose T_world_front = camera_at(0.0);
+  const Drawn drawn = draw(scene, T_world_front, 0.002);
+  const ObjectAmongOthers seen = found(drawn, T_world_front);
+  ASSERT_TRUE(seen.object.view) << seen.object.reason;
+  EXPECT_GT(overlap(drawn, *seen.object.view), 0.9);
+}
+
+/// A rim is all that rises of a plate.
+TEST(ObjectAmongOthers, WhatIsFlatInItsMiddleIsFound) {
+  const Scene scene{{box_at(-0.1, 0.0, {0.02, 0.22, 0.02}), box_at(0.0, 0.1, {0.22, 0.02, 0.02}),
+                     box_at(0.0, -0.1, {0.22, 0.02, 0.02}), box_at(0.1, 0.0, {0.02, 0.22, 0.02})}};
+  const Pose T_world_camera = camera_at(0.2);
+  const ObjectAmongOthers object = found(draw(scene, T_world_camera, 0.002), T_world_camera);
+  ASSERT_TRUE(object.object.view) << object.object.reason;
+  EXPECT_NEAR(object.shape->radius_m, 0.13, 0.03);
+}
+
 TEST(ObjectAmongOthers, NeighboursAreNotTakenForPartsOfIt) {
   Scene scene{{kTarget}};
   scene.boxes.push_back(box_at(0.14, 0.02, {0.08, 0.08, 0.05}));  // before it

@@ -1,5 +1,5 @@
 // Against images of stands, objects, columns and walls, drawn ray by ray.
-#include "vantage/perception/object_search.hpp"
+#include "vantage/perception/search/object_search.hpp"
 
 #include <gmock/gmock.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "vantage/belief/objects/object_states.hpp"
-#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/belief/observation/observation_model.hpp"
 #include "vantage/core/rng.hpp"
 
 namespace vantage::testing {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "vantage/belief/objects/packed_statistics.hpp"
+#include "vantage/belief/observation/packed_statistics.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "vantage/belief/objects/baum_welch.hpp"
-#include "vantage/belief/objects/gaussian_statistics.hpp"
 #include "vantage/belief/objects/object_states.hpp"
 #include "vantage/belief/objects/unknown_objects.hpp"
+#include "vantage/belief/observation/gaussian_statistics.hpp"
 
 namespace vantage {
 

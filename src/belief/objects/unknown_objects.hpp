@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "vantage/belief/objects/object_states.hpp"
-#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/belief/observation/observation_model.hpp"
 
 namespace vantage {
 

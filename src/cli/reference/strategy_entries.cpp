@@ -1,6 +1,6 @@
-#include "vantage/belief/objects/gaussian_statistics.hpp"
-#include "vantage/belief/objects/psi_rule.hpp"
 #include "vantage/belief/objects/transition.hpp"
+#include "vantage/belief/observation/gaussian_statistics.hpp"
+#include "vantage/belief/observation/psi_rule.hpp"
 #include "vantage/cli/reference/entry.hpp"
 #include "vantage/perception/features/feature.hpp"
 #include "vantage/planners/choice/view_choice.hpp"

@@ -14,6 +14,14 @@ constexpr double kPart_m = 0.015;
 
 }  // namespace
 
+double DepthPiece::nearest_m(const Eigen::Vector2d& p_world_m) const {
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& p : points) {
+    least_m2 = std::min(least_m2, (p - p_world_m).squaredNorm());
+  }
+  return std::sqrt(least_m2);
+}
+
 double DepthPiece::distance_m(const Eigen::Vector2d& p_world_m) const {
   if (inside_hull(hull, p_world_m)) return 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -43,6 +51,16 @@ bool DepthPieces::nearer(const cv::Point& other, const cv::Point& at) const {
          static_cast<double>(column_.patch.depth_m(at) - z_m) > step_.at_m(z_m);
 }
 
+bool DepthPieces::is_bare(const Eigen::Vector3d& p_world_m, double reach_m) const {
+  const Eigen::Vector3d p = T_.inverse() * p_world_m;
+  const Eigen::Array2d centre(0.5 * (images_.width_px - 1), 0.5 * (images_.height_px - 1));
+  const Eigen::Array2i px =
+      (p.head<2>().array() / p.z() * images_.focal_px + centre).round().cast<int>();
+  const cv::Point at = cv::Point(px.x(), px.y()) - column_.patch.place.tl();
+  return inside(at) && column_.rises(at) == 0 && column_.heights_m(at) != kOutside &&
+         (p_world(at) - p_world_m).head<2>().norm() <= reach_m;
+}
+
 std::vector<DepthPiece> DepthPieces::all() const {
   std::vector<DepthPiece> found;
   cv::Mat1b left = column_.rises.clone();
@@ -51,11 +69,8 @@ std::vector<DepthPiece> DepthPieces::all() const {
       if (left(row, x) == 0) continue;
       DepthPiece piece = piece_from({x, row}, left);
       if (std::ssize(piece.pixels) < kLeastPixels) continue;
-      std::vector<Eigen::Vector2d> points;
-      for (const cv::Point& at : piece.pixels) points.emplace_back(p_world(at).head<2>());
-      for (const Eigen::Vector2d& p : points) piece.middle_m += p;
-      piece.middle_m /= static_cast<double>(points.size());
-      piece.hull = convex_hull(std::move(points));
+      for (const cv::Point& at : piece.pixels) piece.points.emplace_back(p_world(at).head<2>());
+      piece.hull = convex_hull(piece.points);
       found.push_back(std::move(piece));
     }
   }
@@ -80,17 +95,31 @@ DepthPiece DepthPieces::piece_from(const cv::Point& seed, cv::Mat1b& left) const
   return piece;
 }
 
+namespace {
+
+/// Whether most of it is over what is seen of the other.
+bool is_over(const DepthPiece& piece, const DepthPiece& other) {
+  const auto over = std::ranges::count_if(
+      piece.points, [&](const Eigen::Vector2d& p) { return other.distance_m(p) <= kPart_m; });
+  return 2 * over > std::ssize(piece.points);
+}
+
+}  // namespace
+
 std::vector<const DepthPiece*> round_place(const std::vector<DepthPiece>& pieces,
-                                           const Eigen::Vector2d& p_world_m, double reach_m) {
+                                           const Eigen::Vector2d& p_world_m, double reach_m,
+                                           bool is_bare) {
+  const auto to_points_m = [&](const DepthPiece& piece) { return piece.nearest_m(p_world_m); };
+  const auto to_hull_m = [&](const DepthPiece& piece) { return piece.distance_m(p_world_m); };
   std::vector<const DepthPiece*> own;
-  const auto away_m = [&](const DepthPiece& piece) { return piece.distance_m(p_world_m); };
-  const auto nearest = std::ranges::min_element(pieces, {}, away_m);
-  if (nearest == pieces.end() || away_m(*nearest) > reach_m) return own;
+  if (pieces.empty()) return own;
+  auto nearest = std::ranges::min_element(pieces, {}, to_points_m);
+  const bool round_it = to_points_m(*nearest) > reach_m;
+  if (round_it) nearest = std::ranges::min_element(pieces, {}, to_hull_m);
+  if (round_it && (!is_bare || to_hull_m(*nearest) > reach_m)) return own;
   for (const DepthPiece& piece : pieces) {
-    const bool at_place = away_m(piece) <= 0.5 * reach_m;
-    if (&piece == &*nearest || at_place || nearest->distance_m(piece.middle_m) <= kPart_m) {
-      own.push_back(&piece);
-    }
+    const bool at_place = to_points_m(piece) <= 0.5 * reach_m;
+    if (&piece == &*nearest || at_place || is_over(piece, *nearest)) own.push_back(&piece);
   }
   return own;
 }

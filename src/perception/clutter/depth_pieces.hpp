@@ -27,10 +27,12 @@ struct RisingColumn {
 };
 
 struct DepthPiece {
-  std::vector<cv::Point> pixels;      ///< of the patch
-  std::vector<Eigen::Vector2d> hull;  ///< of its points seen from above, world
-  Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
+  std::vector<cv::Point> pixels;        ///< of the patch
+  std::vector<Eigen::Vector2d> points;  ///< of each pixel, seen from above, world
+  std::vector<Eigen::Vector2d> hull;    ///< of them
 
+  /// From a place to the nearest point: what stands round a place, as a screen does, is not there.
+  [[nodiscard]] double nearest_m(const Eigen::Vector2d& p_world_m) const;
   /// From a place to the hull; 0 inside.
   [[nodiscard]] double distance_m(const Eigen::Vector2d& p_world_m) const;
 };
@@ -47,6 +49,8 @@ class DepthPieces {
   [[nodiscard]] bool inside(const cv::Point& at) const;
   /// Whether there is depth at `other` that is nearer than at `at`, by a step.
   [[nodiscard]] bool nearer(const cv::Point& other, const cv::Point& at) const;
+  /// Whether the image shows that nothing rises at a place on the table itself.
+  [[nodiscard]] bool is_bare(const Eigen::Vector3d& p_world_m, double reach_m) const;
   /// Those that are large enough to tell whose they are, by their first pixels, row by row.
   [[nodiscard]] std::vector<DepthPiece> all() const;
 
@@ -61,7 +65,10 @@ class DepthPieces {
 
 /// The pieces that stand round a place: the nearest to it, unless it is farther than `reach_m`, and
 /// those over what is seen of that, such as a bowl's inside and outside.
+/// @param is_bare the place itself shows nothing that rises, as a plate's middle: then what
+/// encloses it counts as there
 std::vector<const DepthPiece*> round_place(const std::vector<DepthPiece>& pieces,
-                                           const Eigen::Vector2d& p_world_m, double reach_m);
+                                           const Eigen::Vector2d& p_world_m, double reach_m,
+                                           bool is_bare);
 
 }  // namespace vantage

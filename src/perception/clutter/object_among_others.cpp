@@ -173,7 +173,8 @@ ObjectAmongOthers find_among_others(const CameraImages& images, const Pose& T_wo
                           column_over(images, T_world_camera, *table.table, p_m, place, options),
                           step);
   const std::vector<DepthPiece> pieces = scene.all();
-  const auto own = round_place(pieces, p_m.head<2>(), separation.reach_m);
+  const auto own = round_place(pieces, p_m.head<2>(), separation.reach_m,
+                               scene.is_bare(p_m, separation.reach_m));
   cv::Mat1b mask = mask_of(own, place.size());
   if (const int pixels = cv::countNonZero(mask); pixels < options.min_pixels) {
     return nothing(result, fmt::format("hidden: {} pixels rise from the table where it stands, an "

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "vantage/belief/objects/psi_rule.hpp"
+#include "vantage/belief/observation/psi_rule.hpp"
 
 namespace vantage {
 

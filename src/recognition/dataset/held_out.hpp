@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include "vantage/belief/objects/psi_rule.hpp"
 #include "vantage/belief/objects/recognition_model.hpp"
+#include "vantage/belief/observation/psi_rule.hpp"
 #include "vantage/recognition/dataset/view_features.hpp"
 
 namespace vantage {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "vantage/belief/objects/gaussian_statistics.hpp"
 #include "vantage/belief/objects/object_states.hpp"
+#include "vantage/belief/observation/gaussian_statistics.hpp"
 #include "vantage/recognition/dataset/view_features.hpp"
 
 namespace vantage {

@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "vantage/belief/objects/psi_rule.hpp"
+#include "vantage/belief/observation/psi_rule.hpp"
 #include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/dataset/shown_states.hpp"
 #include "vantage/recognition/evaluation/feature_combinations.hpp"

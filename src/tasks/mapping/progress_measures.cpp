@@ -68,11 +68,6 @@ void add_progress(std::span<const ScanRecord> scans, std::size_t observable_cell
   metrics["area_over_time"] = area_over_time_s(scans, observable_cells);
 }
 
-std::optional<double> progress_of(const MeasuredEpisode& episode, const char* key) {
-  if (!episode.metrics.contains(key)) return {};
-  return number_of(episode, key);
-}
-
 std::optional<double> reached_95(const MeasuredEpisode& episode) {
   if (!episode.metrics.contains("time_to_95_s")) return {};
   return episode.metrics.at("time_to_95_s").is_null() ? 0.0 : 1.0;

@@ -46,8 +46,6 @@ inline constexpr auto kProgressTexts =
     });
 
 /// What a study reads of them.
-/// Of a run of an earlier version, which has no such key, none.
-std::optional<double> progress_of(const MeasuredEpisode& episode, const char* key);
 std::optional<double> reached_95(const MeasuredEpisode& episode);
 /// The share left at the times 0, 20, 40, ... s, up to the end of the run.
 Curve share_left_over_time(const MeasuredEpisode& episode);

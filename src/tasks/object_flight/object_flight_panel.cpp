@@ -178,6 +178,15 @@ void draw_places(cv::Mat& image, const Layout& layout, const cv::Rect& place,
 
 }  // namespace
 
+void RecognitionPanelInput::set_belief(const ObjectStates& states, const ObjectBelief& belief) {
+  objects = states.objects;
+  p_object = vantage::p_object(states, belief);
+  if (states.unknown_size() == 0) return;
+  objects.emplace_back(kUnknown);
+  p_object.conservativeResize(p_object.size() + 1);
+  p_object[p_object.size() - 1] = p_unknown(states, belief);
+}
+
 cv::Mat outlined(const CameraImages& camera_image, const ObjectView* cut) {
   const cv::Mat rgb(camera_image.height_px, camera_image.width_px, CV_8UC3,
                     const_cast<std::uint8_t*>(camera_image.rgb.data()));

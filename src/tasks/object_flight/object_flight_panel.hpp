@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/belief/objects/object_belief.hpp"
 #include "vantage/geometry/range_scan.hpp"
 #include "vantage/perception/object_view.hpp"
 #include "vantage/planners/objects/orbit.hpp"
@@ -24,7 +25,7 @@ struct RecognitionPanelInput {
   Pose T_world_body = Pose::Identity();        ///< as estimated
   const CameraImages* camera_image = nullptr;  ///< the last one; null or empty: none yet
   const ObjectView* cut = nullptr;             ///< the object in it; null: not found
-  std::vector<std::string> objects = {};       ///< of the database
+  std::vector<std::string> objects = {};       ///< of the model, and unknown if it tells that
   Eigen::VectorXd p_object = {};               ///< of each
   std::string expected = {};  ///< what the map says is there; empty: it says nothing
   double threshold = 0.0;     ///< of P(u), above which it is changed
@@ -33,6 +34,8 @@ struct RecognitionPanelInput {
   std::size_t target = 0;                       ///< that is looked at
   const OccupancyGrid* map = nullptr;           ///< of the table; null: none is kept
   std::vector<double> visible = {};  ///< of each bearing, share of the target; empty: no map
+
+  void set_belief(const ObjectStates& states, const ObjectBelief& belief);
 };
 
 /// A dark panel of `size`: image with the object's outline, most probable objects, entropy over

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "vantage/core/log.hpp"
+#include "vantage/perception/search/object_search.hpp"
 
 namespace vantage {
 namespace {
@@ -55,22 +56,25 @@ FlightObservation ObjectFlightParts::observe() {
 /// Cuts the target out of the image; among others, the map takes the image in too.
 void ObjectFlightParts::look_at(const FlightObservation& observation) {
   TourTarget& target = tour_.current();
+  const Pose& T_world_camera = observation.T_world_camera;
+  const double distance_m = (target.p_world_m - T_world_camera.translation()).norm();
+  const ObjectSegmentationOptions cut = cut_at({.cut = task_.segmentation}, distance_m);
   if (!map_) {
-    seen_ = segment_object(observation.images, observation.T_world_camera, target.p_world_m,
-                           task_.segmentation, segmentation_rng_);
+    seen_ = segment_object(observation.images, T_world_camera, target.p_world_m, cut,
+                           segmentation_rng_);
     return;
   }
-  ObjectAmongOthers found = find_among_others(
-      observation.images, observation.T_world_camera, target.p_world_m, task_.segmentation,
-      goal_.among_others->separation, target.shape, segmentation_rng_);
+  ObjectAmongOthers found =
+      find_among_others(observation.images, T_world_camera, target.p_world_m, cut,
+                        goal_.among_others->separation, target.shape, segmentation_rng_);
   seen_ = std::move(found.object);
   target.shape = found.shape;
   current_.seen_share = found.seen_share;
   // The table is where it is: an error of the estimated height.
   const double off_m = target.p_world_m.z() - found.table_height_m.value_or(target.p_world_m.z());
-  Pose T_world_camera = observation.T_world_camera;
-  T_world_camera.translation().z() += off_m;
-  map_->insert(observation.images, T_world_camera);
+  Pose T_world_levelled = T_world_camera;
+  T_world_levelled.translation().z() += off_m;
+  map_->insert(observation.images, T_world_levelled);
   if (found.outline.size() < 3) return;
   target.outline.insert(target.outline.end(), found.outline.begin(), found.outline.end());
   target.outline = convex_hull(std::move(target.outline));
@@ -277,13 +281,7 @@ RecognitionPanelInput ObjectFlightParts::panel() const {
   input.T_world_body = robot_.estimated_body();
   input.camera_image = &camera_image_;
   input.cut = seen_.view ? &*seen_.view : nullptr;
-  input.objects = recogniser_.states.objects;
-  input.p_object = p_object(recogniser_.states, recognition().belief);
-  if (recogniser_.states.unknown_size() > 0) {
-    input.objects.emplace_back(kUnknown);
-    input.p_object.conservativeResize(input.p_object.size() + 1);
-    input.p_object[input.p_object.size() - 1] = p_unknown(recogniser_.states, recognition().belief);
-  }
+  input.set_belief(recogniser_.states, recognition().belief);
   input.expected = expectation_.object;
   input.threshold = expectation_.threshold;
   input.method = task_.method_name();

@@ -52,23 +52,54 @@ Eigen::Vector2d table_size_m(const RecognitionTask& task) {
   return {task.map.size_m[0], task.map.size_m[1]};
 }
 
-/// Each at a place of its own, away from the table's edge and apart from the others.
-void put_apart(const RecognitionTask& task, Rng rng, const Stock& stock,
-               std::vector<ObjectOnTable>& targets) {
+/// Of the first targets, each turned at random; where it stands is where its target does.
+std::vector<Screen> draw_screens(const RecognitionTask& task, std::uint64_t seed,
+                                 const Stock& stock, std::span<const ObjectOnTable> targets) {
+  if (task.clutter.screens > std::ssize(targets)) {
+    throw ConfigError(fmt::format("clutter.screens: {} of them, but targets is {}",
+                                  task.clutter.screens, task.targets));
+  }
+  Rng rng = Rng::stream(seed, "screens");
+  std::vector<Screen> screens;
+  for (const ObjectOnTable& target :
+       targets.first(static_cast<std::size_t>(task.clutter.screens))) {
+    const Outline object = outline_of(stock.make({target.category, target.object}));
+    screens.push_back(screen_round(object, task.clutter.spacing_m, task.clutter.screen_m));
+    screens.back().yaw_rad = rng.uniform(0.0, kTurn_rad);
+  }
+  return screens;
+}
+
+/// What a target takes of the table round its middle, with its screen if it has one.
+std::vector<Outline> footprints(const Stock& stock, std::span<const ObjectOnTable> targets,
+                                std::span<const Screen> screens) {
+  std::vector<Outline> taken;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const ObjectName name{targets[i].category, targets[i].object};
+    taken.push_back(i < screens.size()
+                        ? outline_of(screens[i])
+                        : placed(outline_of(stock.make(name)), targets[i].yaw_rad, {0.0, 0.0}));
+  }
+  return taken;
+}
+
+/// Draws where the targets stand, away from the table's edge, one after the other.
+/// @return false if one finds no room beside the former ones
+bool find_places(const RecognitionTask& task, Rng& rng, std::span<const Outline> footprints,
+                 std::span<ObjectOnTable> targets) {
   constexpr double kApart_m = 0.25;  // room for something in between
   constexpr double kFromEdge_m = 0.2;
   constexpr int kAttempts = 2000;
   const Eigen::Vector2d half_m = (0.5 * table_size_m(task).array() - kFromEdge_m).max(0.0).matrix();
   std::vector<Outline> standing;
-  std::vector<ObjectOnTable> put;
-  for (ObjectOnTable target : targets) {
-    const Outline outline = outline_of(stock.make({target.category, target.object}));
+  for (ObjectOnTable& target : targets) {
     const Eigen::Vector2d off_m = target.offset_m;
+    const std::span<const ObjectOnTable> put = targets.first(standing.size());
     bool found = false;
     for (int i = 0; i < kAttempts && !found; ++i) {
       target.told_m = {rng.uniform(-half_m.x(), half_m.x()), rng.uniform(-half_m.y(), half_m.y())};
       target.offset_m = off_m + target.told_m;
-      const Outline there = placed(outline, target.yaw_rad, target.offset_m);
+      const Outline there = placed(footprints[put.size()], 0.0, target.offset_m);
       found = std::ranges::all_of(put, [&](const ObjectOnTable& other) {
         return (other.told_m - target.told_m).norm() >= kApart_m;
       });
@@ -77,20 +108,29 @@ void put_apart(const RecognitionTask& task, Rng rng, const Stock& stock,
               });
       if (found) standing.push_back(there);
     }
-    if (!found) {
-      throw ConfigError(fmt::format("targets: no room for {} of them on a table of {} x {} m",
-                                    task.targets, task.map.size_m[0], task.map.size_m[1]));
-    }
-    put.push_back(target);
+    if (!found) return false;
   }
-  targets = std::move(put);
+  return true;
+}
+
+/// Each at a place of its own.
+void put_apart(const RecognitionTask& task, Rng rng, std::span<const Outline> footprints,
+               std::vector<ObjectOnTable>& targets) {
+  constexpr int kTries = 20;
+  for (int i = 0; i < kTries; ++i) {
+    std::vector<ObjectOnTable> put = targets;
+    if (!find_places(task, rng, footprints, put)) continue;
+    targets = std::move(put);
+    return;
+  }
+  throw ConfigError(fmt::format("targets: no room for {} of them on a table of {} x {} m",
+                                task.targets, task.map.size_m[0], task.map.size_m[1]));
 }
 
 std::vector<ObjectOnTable> draw_targets(const RecognitionTask& task, std::uint64_t seed,
                                         Stock& stock) {
   std::vector<ObjectOnTable> targets{draw_object(task, seed)};
   stock.take(targets.front().object);
-  if (task.targets == 1) return targets;
   Rng rng = Rng::stream(seed, "targets");
   for (int i = 1; i < task.targets; ++i) {
     const auto name = stock.draw(rng, [](const ObjectName&) { return true; });
@@ -101,7 +141,6 @@ std::vector<ObjectOnTable> draw_targets(const RecognitionTask& task, std::uint64
     targets.push_back({name->object, name->category, rng.uniform(0.0, kTurn_rad),
                        drawn_offset_m(rng.next(), task.placement_m)});
   }
-  put_apart(task, Rng::stream(seed, "target places"), stock, targets);
   return targets;
 }
 
@@ -137,6 +176,21 @@ ConfigError no_room(const char* key, int count) {
       key, count));
 }
 
+void put_posts(const RecognitionTask& task, std::uint64_t seed, StandingRoom& room,
+               TableGroundTruth& table) {
+  Rng rng = Rng::stream(seed, "posts");
+  StandingRoom::Place place;
+  for (int i = 0; i < task.clutter.posts; ++i) {
+    Post post{.radius_m = rng.uniform(0.02, 0.035),
+              .height_m = rng.uniform(0.8, 1.0) * task.map.height_m};
+    if (!room.place(round_outline(post.radius_m), rng, place)) {
+      throw no_room("clutter.posts", task.clutter.posts);
+    }
+    post.offset_m = place.p_m;
+    table.posts.push_back(post);
+  }
+}
+
 /// What finds no room is put back, and another one drawn.
 void put_others(const RecognitionTask& task, std::uint64_t seed, Stock& stock, StandingRoom& room,
                 TableGroundTruth& table) {
@@ -160,17 +214,6 @@ void put_others(const RecognitionTask& task, std::uint64_t seed, Stock& stock, S
   }
 }
 
-std::string post_mjcf(const RecognitionTask& task, const Post& post, std::size_t number) {
-  const Eigen::Vector3d p_m = task.p_world_table_m();
-  return fmt::format(
-      R"(    <body name="post_{0}" pos="{1} {2} {3}">
-      <geom name="post_{0}" type="cylinder" pos="0 0 {4}" size="{5} {4}" rgba="0.25 0.26 0.3 1"/>
-    </body>
-)",
-      number, p_m.x() + post.offset_m.x(), p_m.y() + post.offset_m.y(), p_m.z(),
-      0.5 * post.height_m, post.radius_m);
-}
-
 }  // namespace
 
 ObjectOnTable draw_object(const RecognitionTask& task, std::uint64_t seed) {
@@ -182,27 +225,18 @@ ObjectOnTable draw_object(const RecognitionTask& task, std::uint64_t seed) {
 }
 
 TableGroundTruth draw_table(const RecognitionTask& task, std::uint64_t seed) {
-  if (!task.among_others()) return {{draw_object(task, seed)}, {}, {}};
+  if (!task.among_others()) return {{draw_object(task, seed)}, {}, {}, {}};
   Stock stock(task);
-  TableGroundTruth table{draw_targets(task, seed, stock), {}, {}};
+  TableGroundTruth table{draw_targets(task, seed, stock), {}, {}, {}};
+  table.screens = draw_screens(task, seed, stock, table.targets);
+  const std::vector<Outline> taken = footprints(stock, table.targets, table.screens);
+  if (task.targets > 1) put_apart(task, Rng::stream(seed, "target places"), taken, table.targets);
   std::vector<Eigen::Vector2d> round_m;
   for (const ObjectOnTable& target : table.targets) round_m.push_back(target.offset_m);
   StandingRoom room({round_m, task.clutter.reach_m, task.clutter.spacing_m, table_size_m(task)});
-  for (const ObjectOnTable& target : table.targets) {
-    const Outline outline = outline_of(stock.make({target.category, target.object}));
-    room.take(placed(outline, target.yaw_rad, target.offset_m));
-  }
-  StandingRoom::Place place;
-  Rng posts = Rng::stream(seed, "posts");
-  for (int i = 0; i < task.clutter.posts; ++i) {
-    Post post{.radius_m = posts.uniform(0.02, 0.035),
-              .height_m = posts.uniform(0.8, 1.0) * task.map.height_m};
-    if (!room.place(round_outline(post.radius_m), posts, place)) {
-      throw no_room("clutter.posts", task.clutter.posts);
-    }
-    post.offset_m = place.p_m;
-    table.posts.push_back(post);
-  }
+  for (std::size_t i = 0; i < taken.size(); ++i) room.take(placed(taken[i], 0.0, round_m[i]));
+  for (std::size_t i = 0; i < table.screens.size(); ++i) table.screens[i].offset_m = round_m[i];
+  put_posts(task, seed, room, table);
   put_others(task, seed, stock, room, table);
   return table;
 }
@@ -215,9 +249,15 @@ std::vector<MemoryFile> table_files(const RecognitionTask& task, const TableGrou
   for (std::size_t i = 0; i < table.others.size(); ++i) {
     objects.push_back({fmt::format("other_{}", i), table.others[i]});
   }
-  std::string posts;
-  for (std::size_t i = 0; i < table.posts.size(); ++i) posts += post_mjcf(task, table.posts[i], i);
-  return object_files(task, objects, posts);
+  const Eigen::Vector3d p_m = task.p_world_table_m();
+  std::string obstacles;
+  for (std::size_t i = 0; i < table.posts.size(); ++i) {
+    obstacles += mjcf_of(table.posts[i], fmt::format("post_{}", i), p_m);
+  }
+  for (std::size_t i = 0; i < table.screens.size(); ++i) {
+    obstacles += mjcf_of(table.screens[i], fmt::format("screen_{}", i), p_m);
+  }
+  return object_files(task, objects, obstacles);
 }
 
 }  // namespace vantage

@@ -6,6 +6,7 @@
 
 #include "vantage/tasks/object_flight/object_on_table.hpp"
 #include "vantage/tasks/recognition/recognition_task.hpp"
+#include "vantage/tasks/recognition/table_obstacles.hpp"
 
 namespace vantage {
 
@@ -13,17 +14,11 @@ namespace vantage {
 /// @throws ConfigError if `object` is none of the database's, InputError as known_objects().
 ObjectOnTable draw_object(const RecognitionTask& task, std::uint64_t seed);
 
-/// A thin upright cylinder.
-struct Post {
-  Eigen::Vector2d offset_m = Eigen::Vector2d::Zero();  ///< from the table's middle
-  double radius_m = 0.0;
-  double height_m = 0.0;
-};
-
 struct TableGroundTruth {
   std::vector<ObjectOnTable> targets;  ///< the first is that of draw_object(), but for its place
   std::vector<ObjectOnTable> others;   ///< that stand round them
   std::vector<Post> posts;
+  std::vector<Screen> screens;  ///< of the first targets, in their order
 };
 
 /// All of them, no two nearer than `clutter.spacing_m`. What stands round the targets is drawn from

@@ -119,7 +119,7 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     {{"category_correct", "recognised the category, share", Better::higher},
      [](const MeasuredEpisode& e) { return number_of(e, "category_correct"); }},
     {{"targets_correct", "recognised, share of the targets", Better::higher},
-     [](const MeasuredEpisode& e) { return number_of(e, "targets_correct"); }},
+     [](const MeasuredEpisode& e) { return number_if_measured(e, "targets_correct"); }},
     {{"hidden_views", "views in which the target was hidden", Better::lower},
      [](const MeasuredEpisode& e) -> std::optional<double> { return hidden_views(e); }},
     kViews,

@@ -14,7 +14,7 @@
 #include "vantage/belief/tracking/object_tracker.hpp"
 #include "vantage/control/tracking_options.hpp"
 #include "vantage/core/fields.hpp"
-#include "vantage/perception/object_search.hpp"
+#include "vantage/perception/search/object_search.hpp"
 #include "vantage/planners/trajectory/trajectory_method.hpp"
 #include "vantage/recognition/object_observations.hpp"
 #include "vantage/recognition/recogniser.hpp"

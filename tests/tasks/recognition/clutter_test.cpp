@@ -128,6 +128,46 @@ TEST(TableGroundTruth, NothingTouches) {
   }
 }
 
+/// The walls stand round the first targets, spacing_m away, and nothing else in between.
+TEST(TableGroundTruth, ScreensStandRoundTargets) {
+  const RecognitionTask task =
+      task_with({"clutter={objects: 6, screens: 2, screen_m: 0.27, spacing_m: 0.04}", "targets=3"});
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const TableGroundTruth table = draw_table(task, seed);
+    ASSERT_EQ(table.screens.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Screen& screen = table.screens[i];
+      const ObjectOnTable& target = table.targets[i];
+      EXPECT_EQ(screen.height_m, 0.27);
+      const auto made =
+          make_turntable_object(dataset_of(task.database), {target.category, target.object});
+      for (const Eigen::Vector2d& p :
+           placed(outline_of(made), target.yaw_rad, target.offset_m - screen.offset_m)) {
+        const Eigen::Vector2d in_screen = Eigen::Rotation2Dd(-screen.yaw_rad) * p;
+        EXPECT_LE(in_screen.cwiseAbs().maxCoeff(), screen.half_m - 0.0399);
+      }
+      for (const ObjectOnTable& other : table.others) {
+        EXPECT_GT((other.offset_m - screen.offset_m).norm(), screen.half_m);
+      }
+      EXPECT_GE(gap_m(outline_of(screen), outline_of(table.screens[1 - i])), 0.0399);
+    }
+  }
+}
+
+TEST(TableGroundTruth, AScreenForEveryTargetAndNoMore) {
+  EXPECT_THROW(draw_table(task_with({"clutter.screens=2"}), 1), ConfigError);
+  EXPECT_EQ(draw_table(task_with({"clutter.screens=1"}), 1).screens.size(), 1U);
+}
+
+TEST(TableObstacles, AScreenIsOpenAlongItsYaw) {
+  const std::string mjcf =
+      mjcf_of(Screen{.offset_m = {0.1, 0.2}, .yaw_rad = 0.5, .half_m = 0.095, .height_m = 0.3},
+              "screen_0", {1.0, 2.0, 0.7});
+  EXPECT_THAT(mjcf, testing::HasSubstr(R"(pos="1.1 2.2 0.7" euler="0 0 0.5")"));
+  EXPECT_THAT(mjcf, testing::HasSubstr(R"(back" type="box" pos="-0.1 0 0.15")"));
+  EXPECT_THAT(mjcf, testing::Not(testing::HasSubstr(R"(pos="0.1 0)"))) << "no wall at its front";
+}
+
 TEST(TableGroundTruth, TooMuchForTheTableIsAnError) {
   const RecognitionTask task = task_with({"clutter={objects: 40, spacing_m: 0.2}"});
   try {

@@ -8,7 +8,7 @@
 
 #include "vantage/belief/map/flight_map.hpp"
 #include "vantage/belief/tracking/object_tracker.hpp"
-#include "vantage/perception/object_search.hpp"
+#include "vantage/perception/search/object_search.hpp"
 #include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/sim/sensors/camera.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"

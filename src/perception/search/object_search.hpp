@@ -6,7 +6,7 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/object_detection.hpp"
 #include "vantage/perception/object_segmentation.hpp"
-#include "vantage/perception/support_search.hpp"
+#include "vantage/perception/search/support_search.hpp"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "vantage/belief/objects/psi_rule.hpp"
+#include "vantage/belief/observation/psi_rule.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "vantage/belief/objects/gaussian_statistics.hpp"
+#include "vantage/belief/observation/gaussian_statistics.hpp"
 #include "vantage/core/bytes.hpp"
 
 namespace vantage {

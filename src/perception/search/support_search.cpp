@@ -1,4 +1,4 @@
-#include "vantage/perception/support_search.hpp"
+#include "vantage/perception/search/support_search.hpp"
 
 #include <Eigen/Dense>
 #include <opencv2/imgproc.hpp>

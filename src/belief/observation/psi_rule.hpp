@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/belief/observation/observation_model.hpp"
 #include "vantage/core/fields.hpp"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "vantage/perception/object_search.hpp"
+#include "vantage/perception/search/object_search.hpp"
 
 #include <opencv2/imgproc.hpp>
 

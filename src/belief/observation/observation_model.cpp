@@ -1,4 +1,4 @@
-#include "vantage/belief/objects/observation_model.hpp"
+#include "vantage/belief/observation/observation_model.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "vantage/belief/objects/gaussian_statistics.hpp"
+#include "vantage/belief/observation/gaussian_statistics.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,4 +1,4 @@
-#include "vantage/belief/objects/packed_statistics.hpp"
+#include "vantage/belief/observation/packed_statistics.hpp"
 
 #include <cmath>
 #include <limits>
