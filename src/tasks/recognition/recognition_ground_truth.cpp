@@ -194,7 +194,7 @@ void put_posts(const RecognitionTask& task, std::uint64_t seed, StandingRoom& ro
 /// What finds no room is put back, and another one drawn.
 void put_others(const RecognitionTask& task, std::uint64_t seed, Stock& stock, StandingRoom& room,
                 TableGroundTruth& table) {
-  constexpr int kPutBack = 5;
+  constexpr int kPutBack = 30;
   Rng which = Rng::stream(seed, "clutter");
   Rng places = Rng::stream(seed, "clutter places");
   StandingRoom::Place place;
