@@ -119,6 +119,29 @@ void fill_holes(cv::Mat1b& mask, const cv::Mat1f& heights_m, double min_height_m
   }
 }
 
+void add_unmeasured(cv::Mat1b& mask, const cv::Mat1f& depth_m) {
+  cv::Mat1b unmeasured(depth_m.size());
+  std::ranges::transform(depth_m, unmeasured.begin(), [](float z_m) {
+    return static_cast<std::uint8_t>(z_m > 0.0F && std::isfinite(z_m) ? 0 : 255);
+  });
+  cv::Mat labels, statistics, centres;
+  const int count = cv::connectedComponentsWithStats(unmeasured, labels, statistics, centres, 8);
+  for (int label = 1; label < count; ++label) {
+    const cv::Rect box(statistics.at<int>(label, cv::CC_STAT_LEFT) - 1,
+                       statistics.at<int>(label, cv::CC_STAT_TOP) - 1,
+                       statistics.at<int>(label, cv::CC_STAT_WIDTH) + 2,
+                       statistics.at<int>(label, cv::CC_STAT_HEIGHT) + 2);
+    // What goes on beyond the patch is background that is too far.
+    if ((box & cv::Rect(0, 0, mask.cols, mask.rows)) != box) continue;
+    const cv::Mat1b hole = labels(box) == label;
+    cv::Mat1b edge;
+    cv::dilate(hole, edge, square(1));
+    edge -= hole;
+    const cv::Mat1b of_object = edge & mask(box);
+    if (2 * cv::countNonZero(of_object) > cv::countNonZero(edge)) mask(box) |= hole;
+  }
+}
+
 void add_foot(cv::Mat1b& mask, const cv::Mat1f& heights_m, const CameraImages& images,
               double distance_m, double min_height_m) {
   const cv::Mat1b low = heights_m >= kLow * min_height_m;

@@ -40,6 +40,11 @@ cv::Mat1f heights_over(const Patch& patch, const CameraImages& images, const Pos
 /// pixel by pixel, but not on average.
 void fill_holes(cv::Mat1b& mask, const cv::Mat1f& heights_m, double min_height_m);
 
+/// What gave no depth and has the object on most of its edge is the object's: a camera measures
+/// nothing that is too near to it, and a box's front and top may have only that between them.
+/// @param depth_m of the same pixels; not above 0 where nothing was measured
+void add_unmeasured(cv::Mat1b& mask, const cv::Mat1f& depth_m);
+
 /// The object's foot, lower than what tells an object from noise: what is a little above the table
 /// and no farther below the mask than the foot is high.
 void add_foot(cv::Mat1b& mask, const cv::Mat1f& heights_m, const CameraImages& images,

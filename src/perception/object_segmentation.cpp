@@ -47,10 +47,12 @@ SegmentedObject segment_on_table(const CameraImages& images, const Pose& T_world
                                  const ObjectSegmentationOptions& options) {
   const cv::Rect place = place_of_column(images, T_world_camera, p_world_table_m, options);
   if (place.empty()) return {std::nullopt, "the image does not show the place"};
-  const cv::Mat1f heights_m = heights_over(patch_of(images, place), images, T_world_camera, table,
-                                           p_world_table_m, options);
+  const Patch patch = patch_of(images, place);
+  const cv::Mat1f heights_m =
+      heights_over(patch, images, T_world_camera, table, p_world_table_m, options);
   cv::Mat1b mask = heights_m >= options.min_height_m;
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN, square(1));
+  add_unmeasured(mask, patch.depth_m);
   cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, square(2));
   const int pixels = keep_largest(mask);
   if (pixels < options.min_pixels) {

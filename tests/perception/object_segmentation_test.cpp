@@ -129,6 +129,22 @@ TEST(ObjectSegmentation, FillsABottomTooThinToTellButNotAHoleInTheTable) {
   EXPECT_GT(pixels(0.004), pixels(0.0001) + bottom / 2);
 }
 
+/// A camera measures nothing nearer than its range: between front and top of a tall box.
+TEST(ObjectSegmentation, WhatIsTooNearToMeasurePartsNoObject) {
+  const Pose T_world_camera = camera_at(0.0);
+  Drawn drawn = draw({{box_at(0.0, 0.0, {0.2, 0.06, 0.25})}}, T_world_camera, 0.001);
+  float nearest_m = 10.0F;
+  for (std::size_t i = 0; i < drawn.first_box.size(); ++i) {
+    if (drawn.first_box[i] != 0) nearest_m = std::min(nearest_m, drawn.images.depth_m[i]);
+  }
+  for (float& z_m : drawn.images.depth_m) {
+    if (z_m < nearest_m + 0.02F) z_m = 0.0F;
+  }
+  const SegmentedObject found = segmented(drawn, T_world_camera);
+  ASSERT_TRUE(found.view) << found.reason;
+  EXPECT_GT(overlap(drawn, *found.view), 0.93);
+}
+
 TEST(ObjectSegmentation, SaysWhatIsMissing) {
   const Pose T_world_camera = camera_at(0.0);
   EXPECT_THAT(segmented(draw({}, T_world_camera, 0.002), T_world_camera).reason,
