@@ -150,7 +150,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"report", {"core", "geometry", "perception/clouds"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
-    {"runtime", kGround + Rooms{"belief/map", "planners", "report", "runtime/log", "sim/world",
+    {"runtime", kGround + Rooms{"belief/map", "planners", "planners/choice", "report", "runtime/log", "sim/world",
                                 "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
     {"tasks/mapping/driving", kTask},

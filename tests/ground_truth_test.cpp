@@ -34,8 +34,9 @@ const std::vector<std::string> kDecidingFolders{"planners/",        "src/belief/
 /// Those of a task that do: beginnings and ends of file names.
 const std::vector<std::string> kDecidingEnds{"_parts.hpp", "_parts.cpp", "_belief.hpp",
                                              "_belief.cpp", "_robot_interface.hpp"};
-const std::vector<std::string> kDecidingNames{"navigator.", "object_inquiry.", "table_map.",
-                                              "target_tour.", "visited_places."};
+const std::vector<std::string> kDecidingNames{
+    "navigator.",      "object_inquiry.",   "table_map.",       "target_tour.",
+    "visited_places.", "mapping_decision.", "outside_decision."};
 
 bool decides(const std::string& path) {
   const auto begins = [&](const std::string& folder) { return path.starts_with(folder); };

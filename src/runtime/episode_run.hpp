@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "vantage/planners/choice/outside_choice.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/runtime/log/spectator.hpp"
@@ -24,6 +26,8 @@ struct RunOptions {
   std::vector<std::string> command;  ///< as typed, for the manifest
   bool lean = false;  ///< metrics, steps, trajectories, configuration, manifest and nothing else
   Spectator spectator = {};
+  std::optional<OutsideChoice> outside =
+      {};  ///< of a task that chooses views: chooses in its place
 };
 
 struct RunOutcome {

@@ -1,21 +1,47 @@
 #include "vantage/tasks/run.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <concepts>
 
 #include "vantage/core/log.hpp"
 #include "vantage/report/report.hpp"
 
 namespace vantage {
 
+namespace {
+
+/// Whether a task is of those that take the next of some views, and may be told which.
+template <class Task>
+constexpr bool kChoosesViews = std::derived_from<Task, MappingOptions>;
+
+/// @throws ConfigError if nobody can choose in place of the task
+template <class Task>
+void require_choice(const Task& task, const OutsideChoice& outside) {
+  if constexpr (kChoosesViews<Task>) {
+    if (!knows_truth(task.choice)) return;
+    throw ConfigError(fmt::format("choice: {} asks ground truth, which {} must not learn of",
+                                  strategy_name_of(task.choice), outside.name));
+  } else {
+    throw ConfigError(fmt::format("task: {} does not choose among views; {} has nothing to choose",
+                                  Task::name, outside.name));
+  }
+}
+
+}  // namespace
+
 RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& options) {
   const RunOutcome outcome = std::visit(
       [&](const auto& task) {
-        const RunRequest request{.setup = resolved.setup,
-                                 .task = std::string(task.metrics_task()),
-                                 .method = task.method_name(),
-                                 .config = episode_yaml(resolved),
-                                 .inputs = task.inputs(),
-                                 .options = options};
+        if (options.outside) require_choice(task, *options.outside);
+        const RunRequest request{
+            .setup = resolved.setup,
+            .task = std::string(task.metrics_task()),
+            .method = options.outside ? options.outside->name : task.method_name(),
+            .config = episode_yaml(resolved),
+            .inputs = task.inputs(),
+            .options = options};
         return task.run(request);
       },
       resolved.task);

@@ -29,7 +29,8 @@ struct ExplorationSession {
   const ExplorationMapEvaluator evaluator{task, episode.threads, truth, robot.view_field(),
                                           robot.T_base_sweep()};
   ExplorationBelief belief{episode, task};
-  Parts parts{MappingContext{episode, robot, evaluator, recorder}, task, robot, belief};
+  Parts parts{MappingContext{episode, robot, evaluator, recorder, outside_choice(run)}, task, robot,
+              belief};
 };
 
 }  // namespace vantage

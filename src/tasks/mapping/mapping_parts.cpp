@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "vantage/core/log.hpp"
 #include "vantage/core/names.hpp"
@@ -37,6 +36,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
               navigator_),
       options_(options),
       evaluator_(context.evaluator),
+      outside_(context.outside),
       belief_(belief),
       predictors_(std::move(predictors)),
       calibration_(options.forecast),
@@ -177,58 +177,6 @@ std::vector<double> MappingParts::gains_bits(const Gain& gain, std::span<const C
   const BlockField of_unobserved = transmission();
   return view_gains_bits(gain, {belief_.filled_grid(), &of_unobserved}, views, robot_.view_field(),
                          threads);
-}
-
-void MappingParts::score(std::vector<Candidate>& candidates) {
-  budget_.leave_affordable(candidates);
-  if (!views_have_gains_ && (weighs_gain(options_.choice) || recorder_.logs_events())) {
-    const auto gains = gains_bits(options_.gain, candidates, episode_.threads);
-    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
-  }
-  tell_truth(candidates);
-}
-
-/// What each view will really show, for the choices that are meant to know.
-void MappingParts::tell_truth(std::vector<Candidate>& candidates) const {
-  const OccupancyGrid& grid = belief_.grid();
-  if (std::holds_alternative<OracleView>(options_.choice)) {
-    for (Candidate& view : candidates) {
-      view.true_new_cells =
-          static_cast<double>(evaluator_.true_new_cells(grid, view.T_world_sensor));
-    }
-  } else if (knows_truth(options_.choice)) {
-    for (Candidate& view : candidates) {
-      view.true_new_cell_set =
-          std::make_shared<CellSet>(evaluator_.true_new_cell_set(grid, view.T_world_sensor));
-    }
-  }
-}
-
-std::size_t MappingParts::choose(const std::vector<Candidate>& candidates) {
-  const int scans_left = std::max(1, options_.scans - static_cast<int>(scans_.size()));
-  const ViewChoice choice = within_scans_left(options_.choice, scans_left);
-  const std::size_t chosen =
-      plans_views(choice) ? next_of_plan(candidates) : choose_view(choice, candidates, choice_rng_);
-  current_.candidates = candidates.size();
-  current_.plan_time_s = wall_s() - decision_start_s_;
-  recorder_.decision(candidates, chosen, options_.gain);
-  return chosen;
-}
-
-/// Where no view can be planned for, the nearest one: navigation goes as near as it can.
-std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates) {
-  const BlockField of_unobserved = transmission();
-  const PathField paths = navigator_.plan();
-  plan_ = plan_ahead(options_, candidates,
-                     {.belief = belief_,
-                      .transmission = of_unobserved,
-                      .robot = robot_,
-                      .paths = paths,
-                      .budget = budget_,
-                      .threads = episode_.threads},
-                     choice_rng_);
-  if (!plan_.empty()) return plan_.front();
-  return choose_view(NearestFrontier{}, candidates, choice_rng_);
 }
 
 Approach MappingParts::approach(const Candidate& view,

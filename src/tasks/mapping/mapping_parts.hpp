@@ -10,6 +10,7 @@
 
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/choice/outside_choice.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/tasks/mapping/driving/navigator.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
@@ -25,6 +26,7 @@ struct MappingContext {
   MobileRobotInterface& robot;
   const GroundTruthMapEvaluator& evaluator;  ///< asked when recording, and by the oracles
   MappingRecorder& recorder;
+  const OutsideChoice* outside = nullptr;  ///< chooses in place of the task's own choice
 };
 
 class MappingParts {
@@ -33,11 +35,13 @@ class MappingParts {
   MappingParts& operator=(const MappingParts&) = delete;
 
   void score(std::vector<Candidate>& candidates);
-  std::size_t choose(const std::vector<Candidate>& candidates);
+  /// A choice from outside may add a candidate of its own.
+  std::size_t choose(std::vector<Candidate>& candidates);
 
   [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
-  /// After the last scan: drives back to the start if that is asked for.
-  void end() { budget_.come_home(); }
+  /// After the last scan: tells a choice from outside, and drives back to the start if that is
+  /// asked for.
+  void end();
   [[nodiscard]] const BudgetKeeper& budget() const { return budget_; }
   /// Why the map is not to be trusted, by what the robot knows of its own pose; empty if it is.
   [[nodiscard]] std::string distrust() const;
@@ -103,6 +107,9 @@ class MappingParts {
     double at_half_cells = 0.0;  ///< with half the hazard
   };
 
+  [[nodiscard]] int scans_left() const;
+  std::size_t own_choice(const std::vector<Candidate>& candidates);
+  std::size_t chosen_outside(std::vector<Candidate>& candidates);
   std::size_t next_of_plan(const std::vector<Candidate>& candidates);
   void tell_truth(std::vector<Candidate>& candidates) const;
   [[nodiscard]] MapPanelInput panel() const;
@@ -115,6 +122,7 @@ class MappingParts {
 
   const MappingOptions options_;
   const GroundTruthMapEvaluator& evaluator_;
+  const OutsideChoice* outside_;
   const MapBelief& belief_;
   std::vector<Predictor> predictors_;
   ForecastCalibration calibration_;

@@ -21,6 +21,12 @@ RecordedRobot recorded(Robot& robot) {
           [&robot] { return to_se3(robot.estimated_base()); }};
 }
 
+/// That the run was asked for; null: none, the task chooses itself.
+inline const OutsideChoice* outside_choice(const EpisodeRun& run) {
+  const auto& outside = run.request().options.outside;
+  return outside ? &*outside : nullptr;
+}
+
 template <class Robot, class Belief, class Parts>
 RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& robot,
                        MappingRecorder& recorder, const GroundTruthMapEvaluator& evaluator,

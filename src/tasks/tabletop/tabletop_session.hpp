@@ -34,7 +34,8 @@ struct TabletopSession {
   const GroundTruthMapEvaluator evaluator =
       tabletop_evaluator(task, episode.threads, truth, robot.view_field());
   TabletopBelief belief{episode, task};
-  Parts parts{MappingContext{episode, robot, evaluator, recorder}, task, robot, belief};
+  Parts parts{MappingContext{episode, robot, evaluator, recorder, outside_choice(run)}, task, robot,
+              belief};
 };
 
 }  // namespace vantage

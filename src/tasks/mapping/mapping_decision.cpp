@@ -1,0 +1,94 @@
+// Decisions of the parts that all mapping tasks share: what views are worth, and which is taken.
+#include <algorithm>
+#include <memory>
+
+#include "vantage/core/log.hpp"
+#include "vantage/planners/swept_gain.hpp"
+#include "vantage/tasks/mapping/mapping_parts.hpp"
+#include "vantage/tasks/mapping/outside_decision.hpp"
+
+namespace vantage {
+
+void MappingParts::score(std::vector<Candidate>& candidates) {
+  budget_.leave_affordable(candidates);
+  if (!views_have_gains_ &&
+      (weighs_gain(options_.choice) || outside_ != nullptr || recorder_.logs_events())) {
+    const auto gains = gains_bits(options_.gain, candidates, episode_.threads);
+    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
+  }
+  tell_truth(candidates);
+}
+
+/// What each view will really show, for the choices that are meant to know.
+void MappingParts::tell_truth(std::vector<Candidate>& candidates) const {
+  const OccupancyGrid& grid = belief_.grid();
+  if (std::holds_alternative<OracleView>(options_.choice)) {
+    for (Candidate& view : candidates) {
+      view.true_new_cells =
+          static_cast<double>(evaluator_.true_new_cells(grid, view.T_world_sensor));
+    }
+  } else if (knows_truth(options_.choice)) {
+    for (Candidate& view : candidates) {
+      view.true_new_cell_set =
+          std::make_shared<CellSet>(evaluator_.true_new_cell_set(grid, view.T_world_sensor));
+    }
+  }
+}
+
+std::size_t MappingParts::choose(std::vector<Candidate>& candidates) {
+  const std::size_t chosen =
+      outside_ != nullptr ? chosen_outside(candidates) : own_choice(candidates);
+  current_.candidates = candidates.size();
+  current_.plan_time_s = wall_s() - decision_start_s_;
+  recorder_.decision(candidates, chosen, options_.gain);
+  return chosen;
+}
+
+int MappingParts::scans_left() const {
+  return std::max(0, options_.scans - static_cast<int>(scans_.size()));
+}
+
+std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
+  const ViewChoice choice = within_scans_left(options_.choice, std::max(1, scans_left()));
+  return plans_views(choice) ? next_of_plan(candidates)
+                             : choose_view(choice, candidates, choice_rng_);
+}
+
+/// A pose that is no candidate is one from now on.
+std::size_t MappingParts::chosen_outside(std::vector<Candidate>& candidates) {
+  const BlockField of_unobserved = transmission();
+  const std::size_t chosen = decide_outside(
+      *outside_, {belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()},
+      navigator_.plan(), options_.gain, [&] { return own_choice(candidates); }, candidates);
+  for (std::size_t i = views_.size(); i < candidates.size(); ++i) views_.push_back(candidates[i]);
+  return chosen;
+}
+
+void MappingParts::end() {
+  if (outside_ != nullptr && outside_->ended) {
+    const BlockField of_unobserved = transmission();
+    const bool at_limit = !views_.empty() && !limit_reached(views_).empty();
+    outside_->ended(
+        map_situation({belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()}),
+        at_limit);
+  }
+  budget_.come_home();
+}
+
+/// Where no view can be planned for, the nearest one: navigation goes as near as it can.
+std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates) {
+  const BlockField of_unobserved = transmission();
+  const PathField paths = navigator_.plan();
+  plan_ = plan_ahead(options_, candidates,
+                     {.belief = belief_,
+                      .transmission = of_unobserved,
+                      .robot = robot_,
+                      .paths = paths,
+                      .budget = budget_,
+                      .threads = episode_.threads},
+                     choice_rng_);
+  if (!plan_.empty()) return plan_.front();
+  return choose_view(NearestFrontier{}, candidates, choice_rng_);
+}
+
+}  // namespace vantage
