@@ -4,7 +4,8 @@ packages=(build-essential ca-certificates cmake git ninja-build
   liboctomap-dev libopencv-core-dev libopencv-dnn-dev libopencv-features2d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-videoio-dev libopencv-dev
   libosmesa6-dev libpng-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev
-  libgl1-mesa-dri libx11-dev xvfb)
+  libgl1-mesa-dri libx11-dev xvfb
+  pybind11-dev python3-dev python3-matplotlib python3-numpy python3-pip python3-setuptools)
 
 install_dependencies() {
   local missing=() package

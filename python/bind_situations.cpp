@@ -1,0 +1,7 @@
+#include "python/bindings.hpp"
+
+namespace vantage::python {
+
+void bind_situations(py::module_&) {}
+
+}  // namespace vantage::python

@@ -1,0 +1,92 @@
+#include "python/options.hpp"
+
+#include <charconv>
+
+namespace vantage::python {
+namespace {
+
+constexpr int kDeepest = 32;
+
+/// Whole numbers and reals of Python and numpy; empty: neither.
+std::string number_text(py::handle value) {
+  if (PyIndex_Check(value.ptr()) != 0) {
+    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!whole) throw py::error_already_set();
+    return py::str(whole);
+  }
+  const bool real = PyFloat_Check(value.ptr()) != 0 ||
+                    (PyNumber_Check(value.ptr()) != 0 && !py::hasattr(value, "__len__"));
+  if (!real) return {};
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
+  if (!number) throw py::error_already_set();
+  return py::repr(number);
+}
+
+ConfigNode made_of(py::handle value, const std::string& key, int depth) {
+  if (depth > kDeepest) throw ConfigError(key + ": nested too deeply");
+  ConfigNode node;
+  if (value.is_none()) {
+    node = ConfigNode{};
+  } else if (py::isinstance<py::bool_>(value)) {
+    node = ConfigNode::make_scalar(value.cast<bool>() ? "true" : "false");
+  } else if (py::isinstance<py::str>(value)) {
+    node = ConfigNode::make_scalar(value.cast<std::string>(), true);
+  } else if (py::isinstance<py::dict>(value)) {
+    node = ConfigNode::make_map();
+    for (const auto& [name, entry] : py::reinterpret_borrow<py::dict>(value)) {
+      if (!py::isinstance<py::str>(name)) throw ConfigError(key + ": keys are text");
+      const auto text = name.cast<std::string>();
+      node.set(text, made_of(entry, key.empty() ? text : key + "." + text, depth + 1));
+    }
+  } else if (std::string number = number_text(value); !number.empty()) {
+    node = ConfigNode::make_scalar(std::move(number));
+  } else if (py::hasattr(value, "tolist")) {
+    return made_of(value.attr("tolist")(), key, depth + 1);
+  } else if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    node = ConfigNode::make_list();
+    for (const py::handle item : value) node.items.push_back(made_of(item, key, depth + 1));
+  } else if (py::hasattr(value, "__fspath__")) {
+    node = ConfigNode::make_scalar(value.attr("__fspath__")().cast<std::string>(), true);
+  } else {
+    throw ConfigError(key + ": a " + std::string(py::str(py::type::of(value).attr("__name__"))) +
+                      " is no option; options are None, numbers, text, lists and dicts");
+  }
+  node.key = key;
+  return node;
+}
+
+py::object scalar_of(const ConfigNode& node) {
+  const std::string& text = node.scalar;
+  if (node.quoted) return py::str(text);
+  if (text == "true" || text == "false") return py::bool_(text == "true");
+  const char* end = text.data() + text.size();
+  if (long long whole = 0; std::from_chars(text.data(), end, whole).ptr == end) {
+    return py::int_(whole);
+  }
+  if (double real = 0.0; std::from_chars(text.data(), end, real).ptr == end) {
+    return py::float_(real);
+  }
+  return py::str(text);
+}
+
+}  // namespace
+
+ConfigNode node_of(py::handle value, const std::string& name) { return made_of(value, name, 0); }
+
+py::object object_of(const ConfigNode& node) {
+  switch (node.kind) {
+    case ConfigNode::Kind::null: return py::none();
+    case ConfigNode::Kind::scalar: return scalar_of(node);
+    case ConfigNode::Kind::list: {
+      py::list list;
+      for (const ConfigNode& item : node.items) list.append(object_of(item));
+      return list;
+    }
+    case ConfigNode::Kind::map: break;
+  }
+  py::dict dict;
+  for (const auto& [name, entry] : node.entries) dict[py::str(name)] = object_of(entry);
+  return dict;
+}
+
+}  // namespace vantage::python
