@@ -64,10 +64,11 @@ std::vector<float> cells_of(const Cells& cells, const GridFrame& frame, const ch
 /// A number for all cells, or an array of blocks of them.
 std::optional<BlockField> transmission_of(const py::object& given, const Eigen::Array3i& cells) {
   if (given.is_none()) return std::nullopt;
-  const auto values = py::cast<Cells>(given);
+  const auto values =
+      py::cast<py::array_t<double, py::array::f_style | py::array::forcecast>>(given);
   BlockField field;
   if (values.ndim() == 0) {
-    field = uniform_field(cells, static_cast<double>(values.data()[0]));
+    field = uniform_field(cells, values.data()[0]);
   } else {
     if (values.ndim() != 3) refuse("transmission", "neither a number nor an array (bx, by, bz)");
     field.layout.cells = cells;

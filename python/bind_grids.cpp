@@ -11,6 +11,7 @@
 #include "python/bindings.hpp"
 #include "python/calls.hpp"
 #include "python/grids.hpp"
+#include "vantage/belief/map/block_field.hpp"
 #include "vantage/belief/map/octomap_file.hpp"
 #include "vantage/belief/map/octomap_io.hpp"
 
@@ -149,6 +150,22 @@ void require_cells(const OccupancyGrid& grid, const std::string& argument) {
   }
 }
 
+py::array_t<float> shares(const OccupancyGrid& grid, const std::array<int, 3>& blocks) {
+  const BlockLayout layout{grid.frame.cells, {blocks[0], blocks[1], blocks[2]}};
+  if ((layout.blocks < 1).any() || (layout.blocks > layout.cells).any()) {
+    refuse("blocks", "at least one, and at most one for each cell along each axis");
+  }
+  std::vector<float> counts(3 * layout.size(), 0.0F);
+  std::vector<float> cells(layout.size(), 0.0F);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const std::size_t block = layout.index_of_cell(grid.frame.cell(i));
+    counts[3 * block + static_cast<std::size_t>(grid.state(i))] += 1.0F;
+    cells[block] += 1.0F;
+  }
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] /= cells[i / 3];
+  return array_of(std::move(counts), {3, blocks[0], blocks[1], blocks[2]}, true);
+}
+
 void bind_grids(py::module_& module) {
   using Grid = OccupancyGrid;
   const std::array<double, 3> kOrigin{0.0, 0.0, 0.0};
@@ -191,6 +208,10 @@ void bind_grids(py::module_& module) {
             return grid.count(static_cast<CellState>(state));
           },
           py::arg("state"), "Cells of that state.")
+      .def("shares", &shares, py::arg("blocks"),
+           "(3, bx, by, bz) float32: the shares of free, unobserved and occupied cells in each "
+           "block "
+           "when the grid is divided into (bx, by, bz) of them.")
       .def_property_readonly(
           "shape",
           [](const Grid& g) {

@@ -134,7 +134,7 @@ PlanningProblem problem_on_map(const OccupancyGrid& grid, const Doubles& rows,
 
 std::vector<std::size_t> planned(const PlanningProblem& problem, const std::string& name,
                                  std::uint64_t seed, const py::kwargs& options) {
-  const auto choice = strategy_of<ViewChoice>(name, options, "");
+  const auto choice = strategy_of<ViewChoice>(name, options, "choice");
   if (!plans_views(choice)) refuse("choice", name + " does not plan ahead");
   if (std::holds_alternative<Rollout>(choice) && !problem.draw) {
     refuse("choice", "rollout draws maps, which this problem has none of");

@@ -82,7 +82,7 @@ py::dict optimised(const Doubles& path, const py::object& cost, const std::strin
   if (!(horizon.before.cwiseAbs().maxCoeff() < 1e6 && horizon.after.cwiseAbs().maxCoeff() < 1e6)) {
     refuse("before, after", "not finite");
   }
-  const auto optimiser = strategy_of<TrajectoryOptimiser>(method, options, "");
+  const auto optimiser = strategy_of<TrajectoryOptimiser>(method, options, "method");
   Rng rng = Rng::stream(seed, "optimise_trajectory");
   SignalPoll poll(64);
   PathCost evaluate;

@@ -30,7 +30,7 @@ ConfigNode made_of(py::handle value, const std::string& key, int depth) {
   } else if (py::isinstance<py::bool_>(value)) {
     node = ConfigNode::make_scalar(value.cast<bool>() ? "true" : "false");
   } else if (py::isinstance<py::str>(value)) {
-    node = ConfigNode::make_scalar(value.cast<std::string>(), true);
+    node = detail::write_value(value.cast<std::string>());
   } else if (py::isinstance<py::dict>(value)) {
     node = ConfigNode::make_map();
     for (const auto& [name, entry] : py::reinterpret_borrow<py::dict>(value)) {

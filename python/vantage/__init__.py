@@ -1,1 +1,60 @@
-from ._core import *  # noqa
+"""Information-theoretic action selection for robots: maps, views, what they are worth, and what to look at next.
+
+Lengths are in metres, angles in radians, times in seconds. World frame: z up; sensor frame: x forward, z up.
+A pose on the floor is (x, y, yaw); a sensor pose is (x, y, z, yaw, pitch), pitch looks down. Cells of a grid
+are indexed [x, y, z].
+"""
+
+from ._core import (
+    FREE,
+    OCCUPIED,
+    UNOBSERVED,
+    BadDecision,
+    ConfigError,
+    DistanceField,
+    DistributionError,
+    DivergedError,
+    Episode,
+    Error,
+    FlightCost,
+    Grid,
+    InputError,
+    OctoMap,
+    OutputError,
+    RendererError,
+    Request,
+    Situation,
+    ViewProblem,
+    Ways,
+    binary_entropy_bits,
+    conditional_entropy_bits,
+    data_root,
+    entropy_bits,
+    find_frontiers,
+    gains,
+    gaussian_bhattacharyya_distance_bits,
+    gaussian_jeffreys_divergence_bits,
+    gaussian_kl_divergence_bits,
+    jeffreys_divergence_bits,
+    joint_entropy_bits,
+    kl_divergence_bits,
+    map_gains,
+    mutual_information_bits,
+    optimise_trajectory,
+    own_gains,
+    pairwise_information_bits,
+    plan_views,
+    ring_of_views,
+    sample_views,
+    set_verbosity,
+    shortest_route,
+    strategies,
+    version,
+)
+from .env import Env
+from .episodes import Run, load, run
+from .ranking import rank_views
+from .vector import VectorEnv
+
+__version__ = version().split()[0]
+__all__ = sorted(name for name in globals() if not name.startswith("_") and name not in ("env", "episodes", "ranking", "vector", "spaces"))
