@@ -150,8 +150,8 @@ const std::map<std::string, Rooms> kAllowed{
     {"report", {"core", "geometry", "perception/clouds"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
-    {"runtime", kGround + Rooms{"belief/map", "planners", "planners/choice", "report", "runtime/log", "sim/world",
-                                "sim/render", "sim/robots"}},
+    {"runtime", kGround + Rooms{"belief/map", "planners", "planners/choice", "report",
+                                "runtime/log", "sim/world", "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
     {"tasks/mapping/driving", kTask},
     {"tasks/mapping/simulated", kTask},
@@ -186,7 +186,13 @@ const std::map<std::string, Rooms> kAllowed{
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",
       "bench/claims"}},
     {"bench", kTask + kStudy + Rooms{"bench/claims", "tasks", "tasks/*", "tests/support"}},
-    {"python", kTask + kStudy + Rooms{"tasks", "tasks/*"}},
+    {"python/kit", kGround + Rooms{"planners", "planners/views"}},
+    {"python/planning", kGround + kBelief + kPlanners + Rooms{"python", "python/kit"}},
+    {"python/recognition",
+     kGround + kPerception + kBelief + kPlanners + kRecognition + Rooms{"python", "python/kit"}},
+    {"python/episodes", kGround + kBelief + kPlanners + kRuntime +
+                            Rooms{"tasks", "python", "python/kit", "python/planning"}},
+    {"python", kGround + kPlanners + kRuntime + Rooms{"tasks", "python/kit"}},
 };
 
 /// What a room may include; none if it is not in the table. A folder of src/tasks is a task.

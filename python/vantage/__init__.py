@@ -21,6 +21,7 @@ from ._core import (
     InputError,
     OctoMap,
     OutputError,
+    Recogniser,
     RendererError,
     Request,
     Situation,
@@ -49,6 +50,7 @@ from ._core import (
     set_verbosity,
     shortest_route,
     strategies,
+    train,
     version,
 )
 from .env import Env

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/calls.hpp"
-#include "python/grids.hpp"
-#include "python/options.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/calls.hpp"
+#include "python/kit/options.hpp"
+#include "python/planning/grids.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/planners/trajectory/esdf.hpp"

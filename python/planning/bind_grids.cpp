@@ -7,10 +7,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/calls.hpp"
-#include "python/grids.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/calls.hpp"
+#include "python/planning/grids.hpp"
 #include "vantage/belief/map/block_field.hpp"
 #include "vantage/belief/map/octomap_file.hpp"
 #include "vantage/belief/map/octomap_io.hpp"

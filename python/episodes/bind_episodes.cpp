@@ -7,11 +7,11 @@
 #include <csignal>
 #include <filesystem>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/calls.hpp"
-#include "python/options.hpp"
-#include "python/situations.hpp"
+#include "python/episodes/situations.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/calls.hpp"
+#include "python/kit/options.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"

@@ -1,8 +1,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
+#include "python/kit/arrays.hpp"
 #include "vantage/information/discrete.hpp"
 #include "vantage/information/gaussian.hpp"
 #include "vantage/information/mixture_bounds.hpp"

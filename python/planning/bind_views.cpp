@@ -2,11 +2,11 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/calls.hpp"
-#include "python/grids.hpp"
-#include "python/options.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/calls.hpp"
+#include "python/kit/options.hpp"
+#include "python/planning/grids.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/views/frontiers.hpp"
 #include "vantage/planners/views/sampled_views.hpp"

@@ -1,9 +1,8 @@
-#include "python/calls.hpp"
-
 #include <string>
 
 #include "python/bindings.hpp"
-#include "python/options.hpp"
+#include "python/kit/calls.hpp"
+#include "python/kit/options.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
@@ -118,11 +117,6 @@ py::dict strategies(const std::string& family) {
 }
 
 }  // namespace
-
-void throw_if_signalled() {
-  const py::gil_scoped_acquire locked;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
 
 void bind_calls(py::module_& module) {
   add_errors(module);

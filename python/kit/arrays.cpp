@@ -1,4 +1,4 @@
-#include "python/arrays.hpp"
+#include "python/kit/arrays.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

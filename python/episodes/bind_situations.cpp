@@ -1,11 +1,11 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/grids.hpp"
-#include "python/options.hpp"
-#include "python/situations.hpp"
+#include "python/episodes/situations.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/options.hpp"
+#include "python/planning/grids.hpp"
 
 namespace vantage::python {
 namespace {

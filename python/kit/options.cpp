@@ -1,4 +1,4 @@
-#include "python/options.hpp"
+#include "python/kit/options.hpp"
 
 #include <charconv>
 

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/calls.hpp"
-#include "python/options.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/calls.hpp"
+#include "python/kit/options.hpp"
 #include "vantage/planners/trajectory/flight_cost.hpp"
 #include "vantage/planners/trajectory/optimisers/trajectory_optimiser.hpp"
 

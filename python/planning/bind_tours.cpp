@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/calls.hpp"
-#include "python/grids.hpp"
-#include "python/options.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/calls.hpp"
+#include "python/kit/options.hpp"
+#include "python/planning/grids.hpp"
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/choice/view_problem.hpp"
 #include "vantage/planners/tours/route.hpp"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "python/arrays.hpp"
 #include "python/bindings.hpp"
-#include "python/calls.hpp"
-#include "python/grids.hpp"
-#include "python/options.hpp"
+#include "python/kit/arrays.hpp"
+#include "python/kit/calls.hpp"
+#include "python/kit/options.hpp"
+#include "python/planning/grids.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/views/score_views.hpp"
 
