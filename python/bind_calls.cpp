@@ -83,6 +83,9 @@ void translate(std::exception_ptr thrown) {
     }
   } catch (const DistributionError& error) {
     PyErr_SetString(g_errors.distribution, error.what());
+  } catch (const py::cast_error&) {
+    PyErr_SetString(PyExc_TypeError,
+                    "an argument, or a part of it, is of another type than needed");
   }
 }
 

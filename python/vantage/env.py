@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from . import _core, episodes, spaces
 
 try:
-    from gymnasium import Env as _Base  # type: ignore[import-not-found]
+    from gymnasium import Env as _Base  # type: ignore[import]
 except ImportError:
-    _Base = object  # type: ignore[assignment,misc]
+    _Base = object
 
 Observation = dict[str, NDArray[Any]]
 
@@ -23,7 +23,7 @@ Observation = dict[str, NDArray[Any]]
 COLUMNS = ("gain", "travel_s", "path_length_m", "x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "open")
 
 
-class Env(_Base):  # type: ignore[misc,valid-type]
+class Env(_Base):  # type: ignore[misc]
     """A robot that maps; an action is the view that it scans from next.
 
     Observation, a dict of float32 arrays:
@@ -154,7 +154,8 @@ class Env(_Base):  # type: ignore[misc,valid-type]
         colours = np.array([[245, 245, 240], [150, 150, 155], [200, 60, 30]], dtype=np.float32)
         image = (share @ colours) / np.maximum(share.sum(axis=-1, keepdims=True), 1e-6)
         image = np.kron(np.swapaxes(image, 0, 1)[::-1], np.ones((16, 16, 1), np.float32))
-        return np.clip(image, 0, 255).astype(np.uint8)
+        picture: NDArray[np.uint8] = np.clip(image, 0, 255).astype(np.uint8)
+        return picture
 
     def close(self) -> None:
         """Ends what is under way. The environment may be reset again."""
@@ -163,9 +164,8 @@ class Env(_Base):  # type: ignore[misc,valid-type]
     def __enter__(self) -> Env:
         return self
 
-    def __exit__(self, *_: object) -> bool:
+    def __exit__(self, *_: object) -> None:
         self.close()
-        return False
 
     def _stop(self) -> None:
         self._stepped = None
@@ -248,7 +248,7 @@ def _most_candidates(options: dict[str, Any]) -> int:
 def register() -> bool:
     """Makes the environments known to Gymnasium as vantage/tabletop-v0, ...; False where it is not installed."""
     try:
-        import gymnasium  # type: ignore[import-not-found]
+        import gymnasium
     except ImportError:
         return False
     for name in ("tabletop", "office_small", "office_large"):

@@ -15,5 +15,5 @@ def rank_views(map: Grid | OctoMap, views: ArrayLike, **options: Any) -> tuple[N
 
     `map` is a Grid or an OctoMap; options are those of gains() and map_gains().
     """
-    worth = (map_gains if isinstance(map, OctoMap) else gains)(map, views, **options)
+    worth = map_gains(map, views, **options) if isinstance(map, OctoMap) else gains(map, views, **options)
     return np.argsort(-worth, kind="stable"), worth

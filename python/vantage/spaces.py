@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = ["Box", "Dict", "Discrete", "MultiDiscrete"]
+
 try:  # the real ones where there are any, so that other tools know them
-    from gymnasium.spaces import Box, Dict, Discrete, MultiDiscrete  # type: ignore[import-not-found]
+    from gymnasium.spaces import Box, Dict, Discrete, MultiDiscrete  # type: ignore[import]
 except ImportError:
 
     class Space:
@@ -71,7 +73,8 @@ except ImportError:
             super().__init__(self.nvec.shape, dtype, seed)
 
         def sample(self, mask: Any = None) -> NDArray[Any]:
-            return (self.np_random.random(self.nvec.shape) * self.nvec).astype(self.dtype)
+            drawn: NDArray[Any] = (self.np_random.random(self.nvec.shape) * self.nvec).astype(self.dtype)
+            return drawn
 
         def contains(self, x: Any) -> bool:
             x = np.asarray(x)

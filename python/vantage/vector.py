@@ -49,7 +49,7 @@ class VectorEnv:
     def __init__(self, makers: Sequence[Callable[[], Env]], context: str = "spawn") -> None:
         if not makers:
             raise _core.ConfigError("makers: none")
-        processes = multiprocessing.get_context(context)
+        processes: Any = multiprocessing.get_context(context)
         self.num_envs = len(makers)
         self._pipes: list[Any] = []
         self._processes: list[Any] = []
@@ -76,8 +76,11 @@ class VectorEnv:
     def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
               ) -> tuple[Observation, dict[str, list[Any]]]:
         """Begins an episode in each: with one seed given, environment i has seed + i."""
-        seeds = [None] * self.num_envs if seed is None else (
-            [seed + i for i in range(self.num_envs)] if isinstance(seed, (int, np.integer)) else list(seed))
+        seeds: list[int | None] = [None] * self.num_envs
+        if isinstance(seed, (int, np.integer)):
+            seeds = [int(seed) + i for i in range(self.num_envs)]
+        elif seed is not None:
+            seeds = list(seed)
         if len(seeds) != self.num_envs:
             raise _core.ConfigError(f"seed: {len(seeds)} of {self.num_envs} environments")
         for pipe, one in zip(self._pipes, seeds):
