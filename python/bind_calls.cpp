@@ -134,6 +134,9 @@ void bind_calls(py::module_& module) {
   module.def(
       "data_root", [] { return data_root().string(); },
       "Folder with the models, scenes and episodes that come with Vantage.");
+  module.def(
+      "_set_data_root", [](const std::string& root) { set_data_root(root); }, py::arg("root"),
+      "Where the package has its data.");
   module.def("strategies", &strategies, py::arg("family"),
              "What there is to choose from, by name: a dict of {'summary': str, 'options': dict of "
              "defaults}. `family` is 'gains', 'choices', 'optimisers' or 'measures'.");

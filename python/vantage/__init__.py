@@ -5,6 +5,9 @@ A pose on the floor is (x, y, yaw); a sensor pose is (x, y, z, yaw, pitch), pitc
 are indexed [x, y, z].
 """
 
+from pathlib import Path as _Path
+
+from . import _core as _core
 from ._core import (
     FREE,
     OCCUPIED,
@@ -53,7 +56,13 @@ from ._core import (
     train,
     version,
 )
-from .env import Env
+# The data of the package: beside it as pip installs it, in <prefix>/share/vantage otherwise.
+_here = _Path(__file__).resolve().parent
+for _folder in [_here / "share", *(parent / "share/vantage" for parent in _here.parents[3:4])]:
+    if (_folder / "models").is_dir():
+        _core._set_data_root(str(_folder))
+
+from .env import Env  # noqa: E402
 from .episodes import Run, load, run
 from .ranking import rank_views
 from .vector import VectorEnv

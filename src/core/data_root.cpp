@@ -3,14 +3,26 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
+namespace {
+
+fs::path& told_root() {
+  static fs::path root;
+  return root;
+}
+
+}  // namespace
+
+void set_data_root(fs::path root) { told_root() = std::move(root); }
 
 fs::path data_root() {
   if (const char* set = std::getenv("VANTAGE_DATA"); set != nullptr && *set != '\0') return set;
+  if (!told_root().empty()) return told_root();
   std::error_code error;
   const fs::path binary = fs::read_symlink("/proc/self/exe", error);
   const fs::path installed = binary.parent_path().parent_path() / "share" / "vantage";

@@ -6,9 +6,13 @@
 
 namespace vantage {
 
-/// $VANTAGE_DATA if set, else <prefix>/share/vantage beside an installed binary, else the source
+/// $VANTAGE_DATA if set, else what set_data_root() said, else <prefix>/share/vantage beside an installed binary, else the source
 /// tree.
 std::filesystem::path data_root();
+
+/// Data lies there unless $VANTAGE_DATA is set: for programs that bring it with them. Once, before
+/// anything is looked for.
+void set_data_root(std::filesystem::path root);
 
 /// `name` as it stands if absolute; else the first that exists of `base`/name, name in the working
 /// directory, and data_root()/name.
