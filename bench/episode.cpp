@@ -1,5 +1,6 @@
 // How fast episodes run, and what takes the time.
 #include <filesystem>
+#include <string_view>
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
@@ -56,8 +57,9 @@ class Timed : public Parts {
 /// @tparam Session of Timed parts
 template <class Session, class Task>
 void measure(const std::string& task, const char* file, const fs::path& directory,
-             std::vector<std::pair<std::string, double>>& figures) {
-  const auto resolved = load_episode(file, {"scans=6"});
+             std::vector<std::pair<std::string, double>>& figures,
+             const std::vector<std::string>& overrides = {"scans=6"}) {
+  const auto resolved = load_episode(file, overrides);
   const RunRequest request = lean_request(resolved, directory);
   Session session(request, std::get<Task>(resolved.task));
   const auto& episode = session.parts;
@@ -76,12 +78,21 @@ void measure(const std::string& task, const char* file, const fs::path& director
   add("driving_share", episode.driving_s / all_s);
 }
 
-void run_benchmark() {
+/// @param small the small map that environments are measured by, on one thread, and nothing else
+void run_benchmark(bool small) {
   const fs::path directory = fs::temp_directory_path() / "vantage_bench_episode";
   fs::create_directories(directory);
   std::vector<std::pair<std::string, double>> figures;
-  measure<TabletopSession<Timed<TabletopParts>>, Tabletop>(
-      "tabletop", "assets/episodes/tabletop.yaml", directory, figures);
+  using TabletopTimed = TabletopSession<Timed<TabletopParts>>;
+  if (small) {
+    measure<TabletopTimed, Tabletop>(
+        "small", "assets/episodes/tabletop.yaml", directory, figures,
+        {"scans=10", "threads=1", "map.cells=[49,49,25]", "laser.scan_duration_s=3"});
+    fs::remove_all(directory);
+    print_figures("episode_small", 1, figures);
+    return;
+  }
+  measure<TabletopTimed, Tabletop>("tabletop", "assets/episodes/tabletop.yaml", directory, figures);
   measure<ExplorationSession<Timed<ExplorationParts>>, Exploration>(
       "office", "assets/episodes/office_small.yaml", directory, figures);
   fs::remove_all(directory);
@@ -91,4 +102,7 @@ void run_benchmark() {
 }  // namespace
 }  // namespace vantage::bench
 
-int main() { return vantage::bench::run_main(vantage::bench::run_benchmark); }
+int main(int argc, char** argv) {
+  const bool small = argc > 1 && std::string_view(argv[1]) == "small";
+  return vantage::bench::run_main([&] { vantage::bench::run_benchmark(small); });
+}

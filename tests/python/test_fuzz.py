@@ -111,7 +111,7 @@ def argument_names(function):
 
 class Fuzz(unittest.TestCase):
     def setUp(self):
-        faulthandler.dump_traceback_later(800, exit=True)
+        faulthandler.dump_traceback_later(800 + 3 * RESETS, exit=True)
         self.addCleanup(faulthandler.cancel_dump_traceback_later)
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -179,6 +179,8 @@ class Fuzz(unittest.TestCase):
                     env.step(i % 30)
                 gc.collect()
                 at_kb.append(resident_kb())
+                if (i + 1) % 100 == 0:
+                    print(f"{i + 1} resets: {at_kb[-1]} kB", flush=True)
         third = RESETS // 3
         growth_kb = np.mean(at_kb[-third:]) - np.mean(at_kb[third:2 * third])
         self.assertLess(growth_kb, 8_000 + 4 * RESETS, f"{at_kb[::max(1, RESETS // 10)]}")
