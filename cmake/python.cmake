@@ -1,5 +1,5 @@
 # The Python package, where there is Python to build it for: the system's, unless Python3_EXECUTABLE
-# names another.
+# names another. The presets of the sanitizers leave it out: Python itself is not built with them.
 set(VANTAGE_WITH_PYTHON OFF)
 if(VANTAGE_BUILD_PYTHON AND VANTAGE_BUILD_SIM)
   if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)

@@ -1,5 +1,7 @@
 #include "python/kit/options.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 namespace vantage::python {
@@ -36,7 +38,8 @@ ConfigNode made_of(py::handle value, const std::string& key, int depth) {
     for (const auto& [name, entry] : py::reinterpret_borrow<py::dict>(value)) {
       if (!py::isinstance<py::str>(name)) throw ConfigError(key + ": keys are text");
       const auto text = name.cast<std::string>();
-      node.set(text, made_of(entry, key.empty() ? text : key + "." + text, depth + 1));
+      node.set(text,
+               made_of(entry, key.empty() ? text : fmt::format("{}.{}", key, text), depth + 1));
     }
   } else if (std::string number = number_text(value); !number.empty()) {
     node = ConfigNode::make_scalar(std::move(number));
