@@ -39,16 +39,36 @@ struct ChangeClaim {
   double goal;
 };
 
+std::string change_measured(const StudyTables& study, const char* scenario) {
+  return fmt::format("{:.1f} % in {:.2f} views; which change it was: {:.1f} %",
+                     100.0 * mean_of(study, "changed_correct", scenario),
+                     mean_of(study, "views", scenario),
+                     100.0 * mean_of(study, "correct", scenario));
+}
+
 Finding change_told(const StudyTables& study, const ChangeClaim& claim) {
   return held("Table 4.16",
               fmt::format("change `{}`, simple features: {}; the goal is {:.0f} %", claim.scenario,
                           claim.published, 100.0 * claim.goal),
               [&]() -> Measured {
-                const double correct = mean_of(study, "changed_correct", claim.scenario);
-                return {fmt::format("{:.1f} % in {:.2f} views; which change it was: {:.1f} %",
-                                    100.0 * correct, mean_of(study, "views", claim.scenario),
-                                    100.0 * mean_of(study, "correct", claim.scenario)),
-                        correct >= claim.goal, "see `change_probability`"};
+                return {change_measured(study, claim.scenario),
+                        mean_of(study, "changed_correct", claim.scenario) >= claim.goal,
+                        "see `change_probability`"};
+              });
+}
+
+/// Of a ball that is turned no view tells.
+Finding turn_told(const StudyTables& study) {
+  return held("Table 4.16",
+              "change `pose`, simple features: 99.4 % in 1.3 views; the goal is 95 % of the turns "
+              "that the model can tell",
+              [&]() -> Measured {
+                const double detectable = mean_of(study, "detectable", "pose");
+                const double told = mean_of(study, "detectable_correct", "pose");
+                return {fmt::format("{:.1f} % of the {:.1f} % that can be told; of all turns {}",
+                                    100.0 * told / detectable, 100.0 * detectable,
+                                    change_measured(study, "pose")),
+                        detectable > 0.0 && told >= 0.95 * detectable, "see `change_probability`"};
               });
 }
 
@@ -102,7 +122,9 @@ std::vector<Finding> clutter_findings(const StudyTables& study) {
 std::vector<Finding> flight_change_findings(const StudyTables& study) {
   return {change_told(study, {"none", "98.3 % in 1.2 views", 0.95}),
           change_told(study, {"object", "92.4 % in 1.9 views", 0.85}),
-          change_told(study, {"pose", "99.4 % in 1.3 views", 0.95}), no_contact(study),
+          turn_told(study),
+          change_told(study, {"removed", "not in the table", 0.95}),
+          no_contact(study),
           accurate_views(study)};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/information/log_space.hpp"
+#include "vantage/planners/objects/state_divergence.hpp"
 
 namespace vantage {
 namespace {
@@ -196,15 +197,21 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
 
 bool distinguishable(const Recogniser& recogniser, int state, int other, double max_error) {
   const ObjectStates& states = recogniser.states;
-  const auto turned = [&](int which, int turn) {
-    return states.state(states.object_of(which), (states.bin_of(which) + turn) % states.bins);
-  };
-  double nats = 0.0;
-  for (int turn = 0; turn < states.bins; ++turn) {
-    nats += static_cast<double>(
-        recogniser.tables.bhattacharyya_nats(turned(state, turn), turned(other, turn)));
+  std::vector<int> seen;  // the one from every bearing, then the other
+  for (const int which : {state, other}) {
+    for (int turn = 0; turn < states.bins; ++turn) {
+      const int bin = (states.bin_of(which) + turn) % states.bins;
+      seen.push_back(states.state(states.object_of(which), bin));
+    }
   }
-  return 0.5 * std::exp(-nats) <= max_error;
+  std::vector<const ObservationModel*> models;
+  for (const RecogniserFeature& feature : recogniser.features) {
+    models.push_back(&feature.observation);
+  }
+  const Eigen::MatrixXf nats = state_divergences(Divergence::bhattacharyya, models, seen);
+  const double apart_nats =
+      static_cast<double>(nats.topRightCorner(states.bins, states.bins).trace());
+  return 0.5 * std::exp(-apart_nats) <= max_error;
 }
 
 }  // namespace vantage

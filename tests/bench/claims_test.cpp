@@ -54,6 +54,8 @@ bool is_asked_for(const std::string& column) {
                                "correct",
                                "category_correct",
                                "changed_correct",
+                               "detectable",
+                               "detectable_correct",
                                "views",
                                "view_position_error_m",
                                "view_angle_error_rad",

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/recognition/made_up.hpp"
 
 namespace vantage {
@@ -135,6 +137,19 @@ TEST(TellsApart, IsAQuestionOfAllBearings) {
   EXPECT_FALSE(distinguishable(recogniser, 0, 2));  // 1/2 exp(-2): from one of them
   EXPECT_TRUE(distinguishable(recogniser, 0, 2, 0.07));
   EXPECT_FALSE(distinguishable(recogniser, 1, 3, 0.06));
+}
+
+TEST(StateSeen, IsTheObjectInTheBinOfItsYaw) {
+  ObjectStates states;
+  states.objects = {"a_1", "b_1"};
+  states.bins = 8;
+  constexpr double kBin_rad = std::numbers::pi / 4.0;
+  EXPECT_EQ(state_seen(states, "a_1", 0.0), 0);
+  EXPECT_EQ(state_seen(states, "b_1", 0.49 * kBin_rad), 8);
+  EXPECT_EQ(state_seen(states, "b_1", 0.51 * kBin_rad), 9);
+  EXPECT_EQ(state_seen(states, "b_1", -0.49 * kBin_rad), 8);
+  EXPECT_EQ(state_seen(states, "b_1", -0.51 * kBin_rad), 15);
+  EXPECT_EQ(state_seen(states, "b_1", 7.6 * kBin_rad), 8) << "a whole turn is none";
 }
 
 TEST_F(ChangeDetection, TheThresholdLiesBetweenTheBounds) {

@@ -36,6 +36,11 @@ struct ObjectStates {
   /// 0 of what is unknown.
   [[nodiscard]] int bin_of(int state) const { return is_unknown(state) ? 0 : state % bins; }
   [[nodiscard]] double bin_rad() const { return 2.0 * std::numbers::pi / bins; }
+  /// The bin that a yaw of any turn lies in.
+  [[nodiscard]] int bin_of_yaw(double yaw_rad) const;
 };
+
+/// The state of an object that is known, by its name and its yaw as the camera sees it.
+int state_seen(const ObjectStates& states, const std::string& object, double seen_yaw_rad);
 
 }  // namespace vantage

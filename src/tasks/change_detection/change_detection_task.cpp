@@ -36,8 +36,21 @@ double first_bearing_rad(double expected_yaw_rad, double start_rad, double bin_r
   return wrap_turn(start_rad + std::remainder(expected_yaw_rad - start_rad, bin_rad));
 }
 
+/// Whether the model can tell what is there from what is expected. A table that is as expected, or
+/// empty, can be told from any.
+bool is_detectable(const Recogniser& recogniser, const ObjectOnTable& truth,
+                   const ObjectOnTable& expected, double first_rad) {
+  if (truth.object.empty()) return true;
+  const auto seen_at_first = [&](const ObjectOnTable& object) {
+    return state_seen(recogniser.states, object.object, object.yaw_rad - first_rad);
+  };
+  const int there = seen_at_first(truth);
+  const int in_map = seen_at_first(expected);
+  return there == in_map || distinguishable(recogniser, there, in_map);
+}
+
 /// What was decided of the change, beside what has changed.
-void add_change(const ChangeDetectionTask& task, const ObjectOnTable& expected,
+void add_change(const ChangeDetectionTask& task, const ObjectOnTable& expected, bool detectable,
                 const ObjectFlightParts& run, Json& metrics) {
   metrics["scenario"] = task.scenario;
   metrics["decision"] = metrics["change_probability"] = nullptr;
@@ -50,6 +63,8 @@ void add_change(const ChangeDetectionTask& task, const ObjectOnTable& expected,
         (change.verdict == Change::none) == (task.scenario == to_string(Change::none));
     metrics["change_probability"] = change.probability;
   }
+  metrics["detectable"] = detectable;
+  metrics["detectable_correct"] = detectable && metrics["changed_correct"].get<bool>();
   metrics["expected"] = {{"object", expected.object}, {"yaw_rad", expected.yaw_rad}};
 }
 
@@ -57,6 +72,10 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     kCorrect,
     {{"changed_correct", "told changed from unchanged, share", Better::higher},
      [](const MeasuredEpisode& e) { return number_of(e, "changed_correct"); }},
+    {{"detectable", "the model can tell it, share"},
+     [](const MeasuredEpisode& e) { return number_of(e, "detectable"); }},
+    {{"detectable_correct", "told what the model can tell, share of all", Better::higher},
+     [](const MeasuredEpisode& e) { return number_of(e, "detectable_correct"); }},
     {{"change_probability", "probability of a change at the end"},
      [](const MeasuredEpisode& e) { return number_of(e, "change_probability"); }},
     kViews,
@@ -131,6 +150,10 @@ RecordTexts ChangeDetectionTask::records() {
       {"metrics.json", "decision", "what was decided at the end; null: no view was taken"},
       {"metrics.json", "change_probability", "that something has changed, at the end"},
       {"metrics.json", "changed_correct", "changed was told from unchanged"},
+      {"metrics.json", "detectable",
+       "by the model alone at most 5 % of decisions between what is there and what is expected "
+       "would be wrong, of views from all sides; true if both are the same or nothing is there"},
+      {"metrics.json", "detectable_correct", "detectable, and changed was told from unchanged"},
       {"metrics.json", "expected.object", "what the robot was told stands there"},
       {"metrics.json", "expected.yaw_rad", "the yaw that it was told"},
   });
@@ -168,6 +191,7 @@ RunOutcome ChangeDetectionTask::run(const RunRequest& request) const {
   const ObjectFlightEvaluator evaluator(robot, {truth});
   const double first_rad =
       first_bearing_rad(expected.yaw_rad, robot.start_bearing_rad(), recogniser.states.bin_rad());
+  const bool detectable = is_detectable(recogniser, truth, expected, first_rad);
   ChangeOptions options = change;
   options.recognition = decision;
   ObjectFlightParts parts(
@@ -176,7 +200,7 @@ RunOutcome ChangeDetectionTask::run(const RunRequest& request) const {
       ObjectInquiry(recogniser, options, expected.object, expected.yaw_rad - first_rad), first_rad,
       {expected.object, change.threshold});
   return run_object_flight(run, robot, recorder, parts, [&](Json& metrics) {
-    add_change(*this, expected, parts, metrics);
+    add_change(*this, expected, detectable, parts, metrics);
     add_estimate(truth, parts, metrics);
     add_observations(*this, parts, metrics);
   });

@@ -1,19 +1,9 @@
 #include "vantage/tasks/object_flight/object_flight_evaluator.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "vantage/belief/objects/object_belief.hpp"
 #include "vantage/tasks/object_flight/simulated_orbit_robot.hpp"
 
 namespace vantage {
-namespace {
-
-int bin_of(double yaw_rad, int bins) {
-  return static_cast<int>(std::lround(yaw_rad / (2.0 * std::numbers::pi) * bins)) % bins;
-}
-
-}  // namespace
 
 void ObjectFlightEvaluator::measure(const ObjectStates& states, int object, int state,
                                     std::size_t target, ObservationRecord& record) const {
@@ -21,7 +11,7 @@ void ObjectFlightEvaluator::measure(const ObjectStates& states, int object, int 
   record.position_error_m = truth.position_error_m;
   record.angle_error_rad = truth.angle_error_rad;
   record.true_yaw_rad = truth.object_angle_rad;
-  const int true_bin = bin_of(truth.object_angle_rad, states.bins);
+  const int true_bin = states.bin_of_yaw(truth.object_angle_rad);
   record.bin_error = bin_error(states, state, states.state(object, true_bin));
   record.collisions = truth.collisions;
 }

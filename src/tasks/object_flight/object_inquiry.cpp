@@ -2,24 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 namespace vantage {
 namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-
-/// What the map says, as the camera would see it.
-int expected_state(const Recogniser& recogniser, const std::string& object, double seen_yaw_rad) {
-  const ObjectStates& states = recogniser.states;
-  const auto found = std::ranges::find(states.objects, object);
-  expects(found != states.objects.end(), "the recogniser knows what is expected");
-  const auto bin = std::lround(seen_yaw_rad / kTurn_rad * states.bins);
-  return states.state(static_cast<int>(found - states.objects.begin()),
-                      static_cast<int>((bin % states.bins + states.bins) % states.bins));
-}
 
 ChangeOptions only_recognition(const RecognitionOptions& options) {
   ChangeOptions both;
@@ -71,7 +55,7 @@ ObjectInquiry::ObjectInquiry(const Recogniser& recogniser, const ChangeOptions& 
     : recogniser_(recogniser),
       options_(options),
       known_(begin_change_search(recogniser_, options_,
-                                 expected_state(recogniser_, object, seen_yaw_rad))) {}
+                                 state_seen(recogniser_.states, object, seen_yaw_rad))) {}
 
 void ObjectInquiry::observe(const ExtractFeature& extract, double view_rad, double view_time_s,
                             Rng& rng) {

@@ -66,6 +66,8 @@ TEST_F(ChangeEpisode, NothingHasChanged) {
   EXPECT_EQ(metrics["expected"]["object"], "cereal_box_1");
   EXPECT_EQ(metrics["expected"]["yaw_rad"], metrics["true_yaw_rad"]);
   EXPECT_LE(metrics["change_probability"], 0.6);
+  EXPECT_EQ(metrics["detectable"], true);
+  EXPECT_EQ(metrics["detectable_correct"], true);
   ASSERT_THAT(metrics["observations"], testing::Not(testing::IsEmpty()));
   const double seen_rad = metrics["expected"]["yaw_rad"].get<double>() -
                           metrics["observations"][0]["view_rad"].get<double>();
