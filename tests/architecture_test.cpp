@@ -79,8 +79,9 @@ const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/kit",   "study/recognition", "study/sweep",
                    "study/tables"};
 /// What several tasks share; they never include each other.
-const Rooms kSharedByTasks{"tasks/mapping", "tasks/mapping/driving", "tasks/mapping/simulated",
-                           "tasks/flight",  "tasks/object_flight",   "tasks/table_map"};
+const Rooms kSharedByTasks{
+    "tasks/mapping", "tasks/mapping/driving", "tasks/mapping/measures", "tasks/mapping/simulated",
+    "tasks/flight",  "tasks/object_flight",   "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
                     kSharedByTasks + Rooms{"control", "dataset", "report"};
 
@@ -154,6 +155,7 @@ const std::map<std::string, Rooms> kAllowed{
                                 "runtime/log", "sim/world", "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
     {"tasks/mapping/driving", kTask},
+    {"tasks/mapping/measures", kTask},
     {"tasks/mapping/simulated", kTask},
     {"tasks/flight", kTask},
     {"tasks/object_flight", kTask},

@@ -101,6 +101,10 @@ TEST(Measures, ScansToNinetyFivePercent) {
   EXPECT_DOUBLE_EQ(*scalar(measure(json, planned_scans(7)), "scans_to_95"), 7.0) << "never there";
   json["scans"][1]["observable_unobserved_cells"] = 5.0;
   EXPECT_DOUBLE_EQ(*scalar(measure(json, planned_scans(7)), "scans_to_95"), 2.0);
+  json["scans"][1]["observable_unobserved_cells"] = 15.0;
+  json["scans"][2]["observable_unobserved_cells"] = 15.0;
+  EXPECT_DOUBLE_EQ(*scalar(measure(json, planned_scans(7)), "scans_to_80"), 2.0);
+  EXPECT_DOUBLE_EQ(*scalar(measure(json, planned_scans(7)), "scans_to_90"), 7.0);
 }
 
 TEST(Measures, PredictionErrorsBeginWithTheFirstChoice) {

@@ -6,6 +6,7 @@
 #include "vantage/tasks/exploration/exploration_session.hpp"
 #include "vantage/tasks/mapping/mapping_metrics.hpp"
 #include "vantage/tasks/mapping/mapping_recorder.hpp"
+#include "vantage/tasks/mapping/measures/mapping_measures.hpp"
 
 namespace vantage {
 

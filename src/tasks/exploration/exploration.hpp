@@ -8,6 +8,7 @@
 
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/planners/views/frontiers.hpp"
+#include "vantage/planners/views/left_forecast.hpp"
 #include "vantage/runtime/episode_run.hpp"
 #include "vantage/runtime/measure.hpp"
 #include "vantage/runtime/record_text.hpp"
@@ -55,6 +56,7 @@ struct Exploration : MappingOptions {
   double poor_m = 1.0;
   int poor_cells = 2000;
   EnoughOptions enough;
+  StopOptions stop;
   double keyframe_m = 0.5;
   double reference_novelty_m = 0.05;
   int stride_px = 3;
@@ -88,6 +90,9 @@ struct Exploration : MappingOptions {
       "number of new cells below which a scan showed too little; higher gives up on a place sooner",
       at_least(0));
     f("enough", enough, "stopping criterion: when the best view promises too little to go on");
+    f("stop", stop,
+      "stopping criterion by what is held for unseen: when enough of all that can be seen has been "
+      "seen; `enough` goes on beside it");
     f("keyframe_m", keyframe_m,
       "distance driven between scans that are added to the reference map of walls; lower adds more "
       "of them",

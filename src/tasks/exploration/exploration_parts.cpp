@@ -85,9 +85,24 @@ void ExplorationParts::record() {
   visited_.add(place_of(scan.T_world_sensor),
                poor ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
   start_decision();
-  views_ = find_views();
+  views_ = find_views(plans_views(task_.choice));
   views_have_gains_ = false;
   if (task_.enough.scans > 0 && !views_.empty()) update_stopping_criterion();
+  if (task_.stop.share > 0.0) judge_what_is_left();
+}
+
+/// By all candidates there are, whatever the choice looks at.
+void ExplorationParts::judge_what_is_left() {
+  const double start_s = wall_s();
+  ScanRecord& scan = scans_.back();
+  const auto known = static_cast<double>(belief_.grid().size() - scan.unobserved_cells);
+  const auto views = find_views(true);
+  LeftRecord left;
+  if (!views.empty()) left.expected_cells = expected_left_cells(views);
+  left.share = left_share(left.expected_cells, known);
+  left.confidence = confidence_of_left(left.share, 1.0 - task_.stop.share);
+  scan.left = left;
+  decision_start_s_ += wall_s() - start_s;  // the method itself does not need it
 }
 
 /// Counts how often in a row the best view promised less than a share of what is known. Not asked
@@ -119,6 +134,11 @@ bool ExplorationParts::is_enough() const {
 
 std::string ExplorationParts::finished() const {
   if (views_.empty()) return "no frontier is left that can be looked at from a new place in reach";
+  const auto& left = scans_.back().left;
+  if (left && left->confidence >= task_.stop.confidence) {
+    return fmt::format("explored: {:.0f} % of what can be seen has been seen, {:.1f} % sure (stop)",
+                       100.0 * task_.stop.share, 100.0 * left->confidence);
+  }
   if (!is_enough()) return limit_reached(views_);
   return fmt::format(
       "explored: {} in a row, no view promised more than {:g} % of what is known (enough.share)",
@@ -128,11 +148,10 @@ std::string ExplorationParts::finished() const {
 /// The place nearest to each frontier where the robot can stand, the largest frontiers first. A
 /// choice that plans ahead knows of all of them: those beyond max_candidates that are not near one
 /// of these, where they come into sight, are candidates too.
-std::vector<Candidate> ExplorationParts::find_views() {
+std::vector<Candidate> ExplorationParts::find_views(bool all) {
   const PathField paths = navigator_.plan();
   VisitedPlaces proposed;
   VisitedPlaces near_proposed;
-  const bool all = plans_views(task_.choice);
   std::vector<Candidate> views;
   for (const Frontier& frontier : find_frontiers(belief_.filled_grid(), task_.frontiers)) {
     const bool full = static_cast<int>(views.size()) >= task_.max_candidates;

@@ -30,7 +30,9 @@ class ExplorationParts : public MappingParts {
 
  private:
   void block_floor();
-  std::vector<Candidate> find_views();
+  /// @param all those of all frontiers, not only of the largest
+  std::vector<Candidate> find_views(bool all);
+  void judge_what_is_left();
   void update_stopping_criterion();
   [[nodiscard]] bool is_enough() const;
 

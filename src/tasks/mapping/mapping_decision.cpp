@@ -1,9 +1,11 @@
 // Decisions of the parts that all mapping tasks share: what views are worth, and which is taken.
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include "vantage/core/log.hpp"
 #include "vantage/planners/swept_gain.hpp"
+#include "vantage/planners/tours/joint_gain.hpp"
 #include "vantage/tasks/mapping/mapping_parts.hpp"
 #include "vantage/tasks/mapping/outside_decision.hpp"
 
@@ -73,6 +75,23 @@ void MappingParts::end() {
         at_limit);
   }
   budget_.come_home();
+}
+
+double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
+  const BlockField of_unobserved = transmission();
+  const PathField paths = navigator_.plan();
+  MappingOptions options = options_;
+  options.choice = TourChoice{};
+  const PlanningProblem problem = planning_problem(options, AdaptiveGain{}, views,
+                                                   {.belief = belief_,
+                                                    .transmission = of_unobserved,
+                                                    .robot = robot_,
+                                                    .paths = paths,
+                                                    .budget = budget_,
+                                                    .threads = episode_.threads});
+  std::vector<std::size_t> all(problem.views());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return joint_gain(problem, all);
 }
 
 /// Where no view can be planned for, the nearest one: navigation goes as near as it can.

@@ -1,5 +1,5 @@
-/// What mapping tasks measure: metrics.json as the contract has it, the line of its outcome, and
-/// what studies read of it.
+/// What mapping tasks measure: metrics.json as the contract has it, and the line of its
+/// outcome.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,6 @@
 
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/planners/candidate.hpp"
-#include "vantage/runtime/measure.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 
@@ -28,7 +27,5 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
                          nlohmann::ordered_json& metrics);
 
 std::string mapping_outcome(const nlohmann::ordered_json& metrics);
-
-Measures mapping_measures();
 
 }  // namespace vantage

@@ -19,6 +19,7 @@
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
+#include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/sim/robots/odometry.hpp"
 #include "vantage/sim/sensors/laser_options.hpp"
 #include "vantage/tasks/mapping/driving/budget.hpp"
@@ -117,6 +118,7 @@ struct MappingOptions {
   HoleFilling hole_filling;
   ClutterHazardOptions clutter_hazard;
   ForecastCalibrationOptions forecast;
+  ForecastIntervalOptions intervals;
   Gain gain = AdaptiveGain{};
   ViewChoice choice = GreedyGain{};
   ViewPlanningOptions planning;
@@ -143,6 +145,7 @@ struct MappingOptions {
     f("clutter_hazard", clutter_hazard,
       "how the probability that an unobserved cell stops a beam is learnt on the run");
     f("forecast", forecast, "how the learnt hazard is corrected by the robot's own forecasts");
+    f("intervals", intervals, "how sure the robot is of what it forecasts a scan to show");
     f("gain", gain, "what a view is worth: how much that is new it is expected to show");
     f("choice", choice, "which of the candidate views is taken next");
     f("budget", budget, "what the episode may spend, planned for and kept by every choice");

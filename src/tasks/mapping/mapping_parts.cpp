@@ -40,6 +40,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
       belief_(belief),
       predictors_(std::move(predictors)),
       calibration_(options.forecast),
+      interval_(options.intervals),
       choice_rng_(choice_stream(options.choice, context.options.seed)) {
   recorder_.set_panel([this] { return panel(); });
   navigator_.on_plan = [this](const PlannedPath& path) { recorder_.route(path.waypoints); };
@@ -161,13 +162,18 @@ void MappingParts::hold_forecast_against(const OccupancyGrid& before) {
   for (const PredictionBand& band : current_.by_distance) {
     current_.actual_new_cells += static_cast<double>(band.actual_cells);
   }
-  if (scans_.empty()) return;
+  if (scans_.empty()) {
+    interval_.start(std::max(current_.actual_new_cells, 1.0));
+    return;
+  }
   double predicted_cells = 0.0;
   double inside_cells = 0.0;
   for (const PredictionBand& band : current_.by_distance) {
     predicted_cells += band.predicted_cells;
     inside_cells += static_cast<double>(band.actual_cells - band.outside_cells);
   }
+  current_.forecast = {predicted_cells, interval_.of(predicted_cells)};
+  interval_.observe(predicted_cells, current_.actual_new_cells);
   calibration_.observe(predicted_cells, at_half_cells_, inside_cells);
   current_.hazard_scale = calibration_.scale();
 }

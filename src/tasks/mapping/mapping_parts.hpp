@@ -12,6 +12,7 @@
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/choice/outside_choice.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
+#include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/tasks/mapping/driving/navigator.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
@@ -84,6 +85,8 @@ class MappingParts {
   Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
   void warn_out_of_reach(const Candidate& view) const;
   void start_decision();
+  /// Cells that these views are expected to show together, by `adaptive`.
+  [[nodiscard]] double expected_left_cells(const std::vector<Candidate>& views);
   /// Why no further scan is taken once there are as many as were asked for, or none of these views
   /// can be paid; else empty.
   [[nodiscard]] std::string limit_reached(const std::vector<Candidate>& views) const;
@@ -126,6 +129,7 @@ class MappingParts {
   const MapBelief& belief_;
   std::vector<Predictor> predictors_;
   ForecastCalibration calibration_;
+  ForecastInterval interval_;
   double at_half_cells_ = 0.0;                 ///< of the scan to come, with half the hazard
   Pose T_world_predicted_ = Pose::Identity();  ///< of the sensor, for the scan to come
   Rng choice_rng_;

@@ -8,7 +8,7 @@
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/perception/clouds/ply.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
-#include "vantage/tasks/mapping/progress_measures.hpp"
+#include "vantage/tasks/mapping/measures/progress_measures.hpp"
 
 namespace vantage {
 namespace {
@@ -204,6 +204,16 @@ RecordTexts mapping_records() {
       {kMetrics, "scans[].by_distance[].actual_cells", "unobserved cells that it has observed"},
       {kMetrics, "scans[].by_distance[].outside_cells",
        "those of them outside the field of view that gains predict for"},
+      {kMetrics, "scans[].forecast",
+       "what adaptive said the scan would newly observe; null: first"},
+      {kMetrics, "scans[].forecast.cells", "cells"},
+      {kMetrics, "scans[].forecast.low_cells", "least of the interval (intervals.confidence)"},
+      {kMetrics, "scans[].forecast.high_cells", "greatest of it"},
+      {kMetrics, "scans[].left",
+       "what the robot held for unseen after the scan; null: not asked (stop.share)"},
+      {kMetrics, "scans[].left.expected_cells", "cells that all candidates show together"},
+      {kMetrics, "scans[].left.share", "the same of all that can be seen"},
+      {kMetrics, "scans[].left.confidence", "that stop.share of it has been seen"},
       {kMetrics, "scans[].hazard_scale",
        "factor on the learnt hazard by the forecasts so far (forecast.calibrate)"},
       {kMetrics, "scans[].candidates", "number of views that were chosen from"},

@@ -2,19 +2,18 @@
 
 namespace vantage {
 
-std::vector<std::size_t> plan_ahead(const MappingOptions& options,
-                                    const std::vector<Candidate>& candidates,
-                                    const PlanningSituation& situation, Rng& rng) {
-  const std::vector<std::size_t> open = open_candidates(candidates);
+PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain,
+                                 const std::vector<Candidate>& candidates,
+                                 const PlanningSituation& situation) {
   std::vector<Candidate> views;
   std::vector<Eigen::Vector2d> places_m;
-  for (const std::size_t i : open) {
+  for (const std::size_t i : open_candidates(candidates)) {
     views.push_back(candidates[i]);
     const Pose2 base = situation.robot.base_for_sensor(candidates[i].T_world_sensor);
     places_m.emplace_back(base.x_m, base.y_m);
   }
   const ViewPlanningInput input{.map = {situation.belief.filled_grid(), &situation.transmission},
-                                .gain = options.gain,
+                                .gain = gain,
                                 .candidates = views,
                                 .places_m = places_m,
                                 .field_of_view = situation.robot.view_field(),
@@ -23,12 +22,20 @@ std::vector<std::size_t> plan_ahead(const MappingOptions& options,
                                 .scan_s = situation.budget.rates().scan_s(),
                                 .threads = situation.threads};
   PlanningProblem problem = knows_truth(options.choice)
-                                      ? make_true_view_problem(input, options.planning)
-                                      : make_view_problem(input, options.planning);
+                                ? make_true_view_problem(input, options.planning)
+                                : make_view_problem(input, options.planning);
   problem.left = situation.budget.left();
   problem.home_s = situation.budget.home_s(places_m);
   problem.driving_w = situation.budget.rates().driving_w();
   problem.scanning_w = situation.budget.rates().scanning_w();
+  return problem;
+}
+
+std::vector<std::size_t> plan_ahead(const MappingOptions& options,
+                                    const std::vector<Candidate>& candidates,
+                                    const PlanningSituation& situation, Rng& rng) {
+  const PlanningProblem problem = planning_problem(options, options.gain, candidates, situation);
+  const std::vector<std::size_t> open = open_candidates(candidates);
   std::vector<std::size_t> order = plan_views(options.choice, problem, rng).order;
   for (std::size_t& view : order) view = open[view];
   return order;

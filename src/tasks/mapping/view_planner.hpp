@@ -8,9 +8,9 @@
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/choice/view_problem.hpp"
 #include "vantage/tasks/mapping/driving/budget_keeper.hpp"
+#include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
-#include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 
 namespace vantage {
 
@@ -22,6 +22,12 @@ struct PlanningSituation {
   const BudgetKeeper& budget;
   int threads;
 };
+
+/// What each candidate shows, exhausted ones left out, and the ways between them.
+/// @param gain what they are expected to show; with a choice that knows the truth, what they do
+PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain,
+                                 const std::vector<Candidate>& candidates,
+                                 const PlanningSituation& situation);
 
 /// Indices of candidates, exhausted ones left out, the next one first; empty if none can be taken.
 /// @param options whose choice plans_views()

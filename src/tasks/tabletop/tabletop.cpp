@@ -7,6 +7,7 @@
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/mapping/mapping_metrics.hpp"
 #include "vantage/tasks/mapping/mapping_recorder.hpp"
+#include "vantage/tasks/mapping/measures/mapping_measures.hpp"
 #include "vantage/tasks/tabletop/start_check.hpp"
 #include "vantage/tasks/tabletop/table_region.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"

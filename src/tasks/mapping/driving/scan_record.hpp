@@ -1,14 +1,29 @@
 /// What is recorded at every scan.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/prediction_bands.hpp"
+#include "vantage/planners/views/forecast_interval.hpp"
 
 namespace vantage {
+
+/// Cells that `adaptive` said the scan would show, and within what they were to be.
+struct ForecastRecord {
+  double cells = 0.0;
+  CellInterval interval;
+};
+
+/// What the robot held for unseen after the scan.
+struct LeftRecord {
+  double expected_cells = 0.0;  ///< that its candidates show together
+  double share = 0.0;           ///< of all that can be seen
+  double confidence = 0.0;      ///< that as much has been seen as was asked for
+};
 
 struct ScanRecord {
   double time_s = 0.0;  ///< simulated, at the end of the scan
@@ -17,6 +32,8 @@ struct ScanRecord {
   std::vector<std::pair<std::string, double>> predicted_cells;  ///< per gain, for the view taken
   double actual_new_cells = 0.0;
   std::vector<PredictionBand> by_distance;  ///< the same of `adaptive`, from the pose predicted for
+  std::optional<ForecastRecord> forecast;   ///< none of the first scan
+  std::optional<LeftRecord> left;           ///< where it was asked whether exploring is done
   double hazard_scale = 1.0;                ///< of the forecasts after this scan
   int chosen_view = -1;                     ///< candidate id; -1: the scan at the start
   std::size_t candidates = 0;

@@ -1,4 +1,4 @@
-#include "vantage/tasks/mapping/progress_measures.hpp"
+#include "vantage/tasks/mapping/measures/progress_measures.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kShares_percent{80, 90, 95, 97};
+constexpr std::array kShares_percent{80, 90, 95, 97, 98};
 constexpr double kTimeStep_s = 20.0;
 constexpr double kPathStep_m = 1.0;
 
@@ -56,7 +56,7 @@ Curve sampled(const MeasuredEpisode& episode, const char* along, double step) {
 
 void add_progress(std::span<const ScanRecord> scans, std::size_t observable_cells, Json& metrics) {
   for (const int percent : kShares_percent) {
-    const double left = 1.0 - 0.01 * percent;
+    const double left = 0.01 * (100 - percent);
     const auto there = std::ranges::find_if(
         scans, [&](const ScanRecord& scan) { return share_left(scan, observable_cells) <= left; });
     const bool reached = there != scans.end();

@@ -1,4 +1,4 @@
-#include "vantage/tasks/mapping/forecast_measures.hpp"
+#include "vantage/tasks/mapping/measures/forecast_measures.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -52,6 +52,22 @@ Curve forecast_ratios(const MeasuredEpisode& episode) {
     ratios.push_back((predicted + 1.0) / (actual + 1.0));
   }
   return ratios;
+}
+
+std::optional<double> interval_coverage(const MeasuredEpisode& episode) {
+  double asked = 0.0;
+  double within = 0.0;
+  for (const Json& scan : episode.metrics.at("scans")) {
+    const Json forecast = scan.value("forecast", Json());
+    if (forecast.is_null()) continue;
+    const double actual = scan.at("actual_new_cells").get<double>();
+    ++asked;
+    if (forecast.at("low_cells").get<double>() <= actual &&
+        actual <= forecast.at("high_cells").get<double>()) {
+      ++within;
+    }
+  }
+  return ratio_of({within, asked});
 }
 
 std::optional<double> outside_share(const MeasuredEpisode& episode) {

@@ -15,6 +15,8 @@ std::optional<double> forecast_ratio(const MeasuredEpisode& episode, double from
                                      double to_m = std::numeric_limits<double>::infinity());
 /// Scan by scan; a cell is added to either side, so that scans that show nothing have a ratio.
 Curve forecast_ratios(const MeasuredEpisode& episode);
+/// Of the scans with an interval, those whose new cells were within it.
+std::optional<double> interval_coverage(const MeasuredEpisode& episode);
 /// Of the cells newly seen, those outside the field of view that was forecast for.
 std::optional<double> outside_share(const MeasuredEpisode& episode);
 

@@ -14,9 +14,9 @@
 
 namespace vantage {
 
-/// Adds `time_to_80_s`, `path_to_80_m`, `scans_to_80`, the same for 90, 95 and 97 %, all null where
-/// never reached, and `area_over_time`: the share of observable cells left, integrated over the
-/// simulated time of the run, s. A share holds from one scan to the next.
+/// Adds `time_to_80_s`, `path_to_80_m`, `scans_to_80`, the same for 90, 95, 97 and 98 %, all null
+/// where never reached, and `area_over_time`: the share of observable cells left, integrated over
+/// the simulated time of the run, s. A share holds from one scan to the next.
 void add_progress(std::span<const ScanRecord> scans, std::size_t observable_cells,
                   nlohmann::ordered_json& metrics);
 
@@ -39,6 +39,10 @@ inline constexpr auto kProgressTexts =
          "simulated time until 97 % of the observable cells were observed; null: never"},
         {"path_to_97_m", "way driven until then"},
         {"scans_to_97", "scans taken until then"},
+        {"time_to_98_s",
+         "simulated time until 98 % of the observable cells were observed; null: never"},
+        {"path_to_98_m", "way driven until then"},
+        {"scans_to_98", "scans taken until then"},
         {"area_over_time",
          "share of the observable cells left, integrated over the simulated time, s; a share holds "
          "from "

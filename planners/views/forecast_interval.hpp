@@ -1,0 +1,63 @@
+/// How far off a forecast of new cells may be: an interval that the truth is in with a stated
+/// confidence, whatever the errors are like.  [Gibbs2021]
+#pragma once
+
+#include <vector>
+
+#include "vantage/core/fields.hpp"
+
+namespace vantage {
+
+struct ForecastIntervalOptions {
+  double confidence = 0.9;
+  double rate = 0.03;
+  void fields(auto&& f) {
+    f("confidence", confidence,
+      "share of scans whose new cells are to be within the interval; higher makes it wider",
+      between(0.01, 0.99));
+    f("rate", rate,
+      "how fast the interval widens after a scan outside of it, and narrows after others; higher "
+      "follows sooner and varies more; 0: it only learns from the errors",
+      between(0.0, 1.0));
+  }
+};
+
+struct CellInterval {
+  double low = 0.0;
+  double high = 0.0;
+  [[nodiscard]] bool contains(double cells) const { return low <= cells && cells <= high; }
+};
+
+/// Adaptive conformal inference on ln (actual / forecast), with its mean and spread as they were in
+/// training scenes, by what the forecast is of the first view. The quantile is that of the errors
+/// of training scenes and of the run so far, at a level that moves with each scan, by
+/// a <- a + rate (1 - confidence - [the truth was outside]).  [Gibbs2021, (2)]
+class ForecastInterval {
+ public:
+  /// @throws ConfigError if `options` are out of range.
+  explicit ForecastInterval(const ForecastIntervalOptions& options);
+
+  /// @param first_view_cells that the first scan has shown, > 0: what a view can show at all
+  void start(double first_view_cells);
+  /// Of so many cells forecast. Known from the first scan on.
+  [[nodiscard]] CellInterval of(double forecast_cells) const;
+  /// Takes in what came of it.
+  void observe(double forecast_cells, double actual_cells);
+
+ private:
+  struct Law {
+    double mean;
+    double spread;
+  };
+  [[nodiscard]] Law law(double forecast_cells) const;
+  /// Of ln (actual / forecast), in which a few cells are as good as none.
+  [[nodiscard]] double log_ratio(double forecast_cells, double actual_cells) const;
+  [[nodiscard]] double width() const;  ///< in spreads
+
+  ForecastIntervalOptions options_;
+  double first_view_cells_ = 0.0;
+  double miss_;                 ///< share outside that is aimed at with the next scan
+  std::vector<double> scores_;  ///< |errors| in spreads, ascending
+};
+
+}  // namespace vantage
