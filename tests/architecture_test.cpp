@@ -178,9 +178,13 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli/reference",
      kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
          Rooms{"belief/objects", "belief/observation", "cli/hints", "dataset", "recipe", "tasks"}},
+    {"cli/manual", {"core"}},
+    {"cli/schema", kGround + kPerception + kSim + kRuntime + kRecognition + kStudy +
+                       Rooms{"dataset", "recipe", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep",
-                      "dataset", "models/catalogue/database", "recipe", "report", "tasks", "view"}},
+                Rooms{"cli/hints", "cli/manual", "cli/pictures", "cli/recognition", "cli/reference",
+                      "cli/schema", "cli/sweep", "dataset", "models/catalogue/database", "recipe",
+                      "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",

@@ -17,6 +17,7 @@
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
+#include "vantage/cli/schema/schema_command.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
 #include "vantage/cli/view_command.hpp"
@@ -254,21 +255,6 @@ std::function<ExitCode()> declare_list(CLI::App& app) {
   };
 }
 
-std::function<ExitCode()> declare_doctor(CLI::App& app) {
-  auto json = std::make_shared<bool>(false);
-  add_json(app, *json);
-  return [json] {
-    const DoctorReport report = examine();
-    nlohmann::ordered_json found;
-    for (const auto& [what, text] : report.lines) {
-      found[what] = text;
-      if (!*json) fmt::print("{:<10} {}\n", what, text);
-    }
-    if (*json) fmt::print("{}", json_text(found));
-    return report.renderer_works ? ExitCode::done : ExitCode::no_renderer;
-  };
-}
-
 }  // namespace
 
 void remember_command_line(int argc, char** argv) { g_command_line.assign(argv, argv + argc); }
@@ -292,6 +278,7 @@ const std::vector<Command>& commands() {
        declare_evaluate},
       {"list", "what there is to choose from", declare_list},
       {"explain", "what a key, a strategy, a column or a file means", declare_explain},
+      {"schema", "JSON schema of a kind of file, for editors", declare_schema},
       {"doctor", "versions, renderer, codecs; what would not work and why", declare_doctor},
   };
   return table;
