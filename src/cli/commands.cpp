@@ -13,6 +13,7 @@
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/explain_command.hpp"
+#include "vantage/cli/export/export_command.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/listing.hpp"
@@ -269,6 +270,7 @@ const std::vector<Command>& commands() {
       {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
       {"view", "an episode in a window, as it runs or from its run folder", declare_view},
+      {"export", "a run for other programs: an MCAP file", declare_export},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
       {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
       {"dataset", "render, inspect and show databases of objects", declare_dataset},
