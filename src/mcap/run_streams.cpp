@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "vantage/mcap/messages.hpp"
 #include "vantage/report/report_data.hpp"
@@ -79,12 +80,13 @@ double RecordedRun::time_s(const EpisodeEvent& event) const {
 
 void add_transforms(RecordedRun& run, Timeline& timeline) {
   const std::size_t stream = timeline.add_stream("/tf", "FrameTransforms");
-  const auto bodies = robot_bodies(run.world().model());
+  const auto bodies =
+      std::make_shared<const std::vector<RobotBody>>(robot_bodies(run.world().model()));
   for (const std::size_t state : run.states_every(kTransformPeriod_s)) {
     timeline.add(stream, run.time_s(state), [&run, bodies, state] {
       const World& world = run.world_at(state);
       std::vector<NamedPose> frames;
-      for (const RobotBody& body : bodies) {
+      for (const RobotBody& body : *bodies) {
         frames.push_back({body.name, body_pose(world, body.id)});
       }
       return frame_transforms(run.time_s(state), frames).dump();

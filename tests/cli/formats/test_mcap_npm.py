@@ -3,7 +3,6 @@ skipped where there is no node, no npm or no network."""
 
 import json
 import os
-import shutil
 import subprocess
 import tempfile
 import unittest
@@ -14,9 +13,9 @@ try:
 except ImportError as missing:
     raise SystemExit(f"SKIPPED: {missing}; apt-get install python3-jsonschema")
 
-SOURCE = Path(os.environ["VANTAGE_SOURCE"])
+from npm import install
+
 BINARY = os.environ["VANTAGE_BINARY"]
-PACKAGES = ["@mcap/core@2", "@mcap/nodejs@1", "@foxglove/schemas@1", "fzstd@0.1"]
 READ = """
 const { McapIndexedReader, McapStreamReader } = require("@mcap/core");
 const { FileHandleReadable } = require("@mcap/nodejs");
@@ -71,19 +70,6 @@ class Npm(unittest.TestCase):
             validator = jsonschema.Draft7Validator(schema)
             for message in found["messages"]:
                 self.assertEqual([error.message for error in validator.iter_errors(message)], [], topic)
-
-
-def install(folder):
-    for tool in ("node", "npm"):
-        if shutil.which(tool) is None:
-            raise unittest.SkipTest(f"no {tool}")
-    try:
-        done = subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", *PACKAGES], cwd=folder,
-                              capture_output=True, text=True, timeout=120)
-    except subprocess.TimeoutExpired:
-        raise unittest.SkipTest("npm does not answer") from None
-    if done.returncode != 0:
-        raise unittest.SkipTest(f"npm: {done.stderr.strip().splitlines()[-1:]}")
 
 
 if __name__ == "__main__":
