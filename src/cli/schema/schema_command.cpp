@@ -13,10 +13,15 @@
 namespace vantage {
 
 std::function<ExitCode()> declare_schema(CLI::App& app) {
-  auto kind = std::make_shared<std::string>();
-  app.add_option("kind", *kind, "of file, one of: " + schema_kinds_text())->required();
-  return [kind] {
-    fmt::print("{}", json_text(file_schema(*kind)));
+  struct Arguments {
+    std::string kind;
+    bool json = false;  ///< it is JSON in any case
+  };
+  auto arguments = std::make_shared<Arguments>();
+  app.add_option("kind", arguments->kind, "of file, one of: " + schema_kinds_text())->required();
+  app.add_flag("--json", arguments->json, "print one JSON object");
+  return [arguments] {
+    fmt::print("{}", json_text(file_schema(arguments->kind)));
     return ExitCode::done;
   };
 }

@@ -46,9 +46,9 @@ Json seeds_schema() {
              {"uniqueItems", true}}}}};
 }
 
-Json levels_list(bool may_be_empty = false) {
+Json levels_list() {
   Json schema{{"type", "array"}, {"items", {{"type", {"string", "number", "boolean"}}}}};
-  if (!may_be_empty) schema["minItems"] = 1;
+  schema["minItems"] = 1;
   return schema;
 }
 
