@@ -2,10 +2,10 @@
 packages=(build-essential ca-certificates cmake git ninja-build
   libcli11-dev libeigen3-dev libembree-dev libfmt-dev libglfw3-dev libmujoco-dev libnanoflann-dev
   liboctomap-dev libopencv-core-dev libopencv-dnn-dev libopencv-features2d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-videoio-dev libopencv-dev
-  libosmesa6-dev libpng-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev
+  libosmesa6-dev libpng-dev libspdlog-dev libyaml-cpp-dev libzstd-dev nlohmann-json3-dev zlib1g-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev
   libgl1-mesa-dri libx11-dev xvfb
-  pybind11-dev python3-dev python3-matplotlib python3-numpy python3-pip python3-setuptools)
+  pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-pip python3-setuptools python3-yaml zstd)
 
 install_dependencies() {
   local missing=() package

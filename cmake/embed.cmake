@@ -24,6 +24,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
 #include \"vantage/core/error.hpp\"
 
 namespace vantage {
+inline namespace ${NAME} {
 namespace {
 constexpr std::pair<std::string_view, std::string_view> kAssets[] = {
 ${entries}};
@@ -37,6 +38,7 @@ std::string_view embedded_asset(std::string_view name) {
   return {};
 }
 
+}  // namespace ${NAME}
 }  // namespace vantage
 ")
   return()
@@ -56,10 +58,12 @@ function(vantage_embed target name)
 #include <string_view>
 
 namespace vantage {
+inline namespace ${name} {  // so that several of a program are not taken for one
 
 /// The text of a file that was compiled in.
 std::string_view embedded_asset(std::string_view name);
 
+}  // namespace ${name}
 }  // namespace vantage
 " @ONLY)
   add_custom_command(

@@ -172,6 +172,9 @@ const std::map<std::string, Rooms> kAllowed{
          Rooms{"report", "study/cluster", "study/figures", "study/kit", "study/tables", "tasks"}},
     {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
+    {"mcap", kGround + kRuntime + kSim +
+                 Rooms{"belief/map", "perception/clouds", "planners", "report", "tasks"}},
+    {"cli/export", {"core", "cli/hints", "mcap", "runtime"}},
     {"cli/hints", {"core", "study"}},
     {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
                             Rooms{"belief/objects", "belief/observation", "planners/objects"}},
@@ -180,9 +183,13 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli/reference",
      kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
          Rooms{"belief/objects", "belief/observation", "cli/hints", "dataset", "recipe", "tasks"}},
+    {"cli/manual", {"core"}},
+    {"cli/schema", kGround + kPerception + kSim + kRuntime + kRecognition + kStudy +
+                       Rooms{"dataset", "recipe", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-                Rooms{"cli/hints", "cli/pictures", "cli/recognition", "cli/reference", "cli/sweep",
-                      "dataset", "models/catalogue/database", "recipe", "report", "tasks", "view"}},
+                Rooms{"cli/export", "cli/hints", "cli/manual", "cli/pictures", "cli/recognition",
+                      "cli/reference", "cli/schema", "cli/sweep", "dataset",
+                      "models/catalogue/database", "recipe", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",
@@ -224,15 +231,17 @@ const std::vector<LibraryRule> kLibraries{
     {"embree", {"sim/sensors"}},
     {"octomap/", {"belief/map", "bench"}, true},
     {"opencv2/",
-     {"perception", "recognition", "dataset", "runtime", "tasks", "view", "cli", "bench"}},
+     {"perception", "recognition", "dataset", "runtime", "tasks", "view", "mcap", "cli", "bench"}},
     {"nanoflann", {"perception/clouds"}},
     {"yaml-cpp/", {"core"}, true},
     {"spdlog/", {"core"}, true},
     {"nlohmann/json_fwd.hpp",
-     {"core", "runtime", "tasks", "report", "study", "cli", "bench"}},  // declarations only
-    {"nlohmann/", {"core", "runtime", "tasks", "report", "study", "cli", "bench"}, true},
+     {"core", "runtime", "tasks", "report", "study", "mcap", "cli", "bench"}},  // declarations only
+    {"nlohmann/", {"core", "runtime", "tasks", "report", "study", "mcap", "cli", "bench"}, true},
     {"png", {"models/catalogue/shapes"}},
     {"CLI/", {"cli"}, true},
+    {"zlib", {"mcap"}, true},
+    {"zstd", {"mcap"}, true},
 };
 
 /// The includes of a source text; those in comments do not count.

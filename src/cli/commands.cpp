@@ -13,10 +13,12 @@
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/explain_command.hpp"
+#include "vantage/cli/export/export_command.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
+#include "vantage/cli/schema/schema_command.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
 #include "vantage/cli/view_command.hpp"
@@ -254,21 +256,6 @@ std::function<ExitCode()> declare_list(CLI::App& app) {
   };
 }
 
-std::function<ExitCode()> declare_doctor(CLI::App& app) {
-  auto json = std::make_shared<bool>(false);
-  add_json(app, *json);
-  return [json] {
-    const DoctorReport report = examine();
-    nlohmann::ordered_json found;
-    for (const auto& [what, text] : report.lines) {
-      found[what] = text;
-      if (!*json) fmt::print("{:<10} {}\n", what, text);
-    }
-    if (*json) fmt::print("{}", json_text(found));
-    return report.renderer_works ? ExitCode::done : ExitCode::no_renderer;
-  };
-}
-
 }  // namespace
 
 void remember_command_line(int argc, char** argv) { g_command_line.assign(argv, argv + argc); }
@@ -283,6 +270,7 @@ const std::vector<Command>& commands() {
       {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
       {"view", "an episode in a window, as it runs or from its run folder", declare_view},
+      {"export", "a run for other programs: an MCAP file", declare_export},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
       {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
       {"dataset", "render, inspect and show databases of objects", declare_dataset},
@@ -292,6 +280,7 @@ const std::vector<Command>& commands() {
        declare_evaluate},
       {"list", "what there is to choose from", declare_list},
       {"explain", "what a key, a strategy, a column or a file means", declare_explain},
+      {"schema", "JSON schema of a kind of file, for editors", declare_schema},
       {"doctor", "versions, renderer, codecs; what would not work and why", declare_doctor},
   };
   return table;

@@ -92,7 +92,7 @@ std::function<ExitCode()> declare_render(CLI::App& app) {
       ->check(not_empty);
   app.add_option("--jobs", arguments->run.jobs, "objects rendered at a time, each in a process")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+      ->default_str("all cores");
   app.add_option("--set", arguments->overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);

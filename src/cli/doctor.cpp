@@ -1,13 +1,18 @@
 #include "vantage/cli/doctor.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <opencv2/core/version.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <thread>
 
+#include "vantage/cli/common_flags.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/runtime/log/video.hpp"
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/sim/render/renderer.hpp"
@@ -52,6 +57,21 @@ DoctorReport examine() {
            : fmt::format("does NOT work: no models in {}; set VANTAGE_DATA", data_root().string()));
   line("threads", fmt::format("{}", std::thread::hardware_concurrency()));
   return report;
+}
+
+std::function<ExitCode()> declare_doctor(CLI::App& app) {
+  auto json = std::make_shared<bool>(false);
+  add_json(app, *json);
+  return [json] {
+    const DoctorReport report = examine();
+    nlohmann::ordered_json found;
+    for (const auto& [what, text] : report.lines) {
+      found[what] = text;
+      if (!*json) fmt::print("{:<10} {}\n", what, text);
+    }
+    if (*json) fmt::print("{}", json_text(found));
+    return report.renderer_works ? ExitCode::done : ExitCode::no_renderer;
+  };
 }
 
 }  // namespace vantage

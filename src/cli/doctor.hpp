@@ -1,9 +1,16 @@
 /// `vantage doctor`: what this machine can do.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "vantage/core/error.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace vantage {
 
@@ -13,5 +20,7 @@ struct DoctorReport {
 };
 
 DoctorReport examine();
+
+std::function<ExitCode()> declare_doctor(CLI::App& app);
 
 }  // namespace vantage

@@ -10,15 +10,23 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <sstream>
 
 #include "vantage/cli/commands.hpp"
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/listing.hpp"
+#include "vantage/cli/manual/command_text.hpp"
+#include "vantage/cli/manual/completion.hpp"
+#include "vantage/cli/manual/man_page.hpp"
 #include "vantage/cli/recognise_options.hpp"
 #include "vantage/cli/reference/entry.hpp"
 #include "vantage/cli/reference/pages.hpp"
+#include "vantage/cli/schema/file_schemas.hpp"
 #include "vantage/cli/view_scoring.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/json.hpp"
+#include "vantage/runtime/manifest.hpp"
 
 namespace vantage {
 namespace {
@@ -28,6 +36,8 @@ constexpr std::size_t kMostNames = 20;  ///< of those that begin alike
 struct Arguments {
   std::vector<std::string> names;
   std::filesystem::path pages;
+  std::filesystem::path manual;
+  std::filesystem::path completion;
   bool json = false;
 };
 
@@ -44,28 +54,34 @@ std::vector<ReferenceEntry> all_keys() {
 }
 
 /// A command and its options; those below it follow.
-void add_command(std::vector<ReferenceEntry>& entries, const std::string& name, CLI::App& app) {
-  ReferenceEntry entry{.name = name, .place = "command", .text = app.get_description()};
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_name() == "--help") continue;
-    entry.parameters.push_back({.key = option->get_name(), .text = option->get_description()});
+void add_command(std::vector<ReferenceEntry>& entries, const CommandText& command) {
+  ReferenceEntry entry{.name = command.name, .place = "command", .text = command.text};
+  for (const OptionText& option : command.options) {
+    if (option.names.back() == "--help") continue;
+    entry.parameters.push_back({.key = option.names.back(), .text = option.text});
   }
-  const auto subcommands = app.get_subcommands({});
-  for (const CLI::App* sub : subcommands) {
-    entry.parameters.push_back({.key = sub->get_name(), .text = sub->get_description()});
+  for (const CommandText& part : command.parts) {
+    entry.parameters.push_back(
+        {.key = part.name.substr(command.name.size() + 1), .text = part.text});
   }
   entries.push_back(std::move(entry));
-  for (CLI::App* sub : subcommands) add_command(entries, name + " " + sub->get_name(), *sub);
+  for (const CommandText& part : command.parts) add_command(entries, part);
 }
 
-std::vector<ReferenceEntry> command_entries() {
-  std::vector<ReferenceEntry> entries;
+std::vector<CommandText> command_texts() {
+  std::vector<CommandText> texts;
   for (const Command& command : commands()) {
     CLI::App app{std::string(command.help)};
     const auto action = command.declare(app);  // keeps what the options are written to
     add_common_flags(app);
-    add_command(entries, std::string(command.name), app);
+    texts.push_back(command_text(std::string(command.name), app));
   }
+  return texts;
+}
+
+std::vector<ReferenceEntry> command_entries() {
+  std::vector<ReferenceEntry> entries;
+  for (const CommandText& command : command_texts()) add_command(entries, command);
   return entries;
 }
 
@@ -91,11 +107,52 @@ std::string unknown_text(const std::vector<ReferenceEntry>& all, const std::stri
                                   : fmt::format("near it: {}", fmt::join(near, ", ")));
 }
 
-ExitCode explain(const Arguments& arguments) {
-  if (!arguments.pages.empty()) {
-    write_reference_pages(all_keys(), arguments.pages);
-    return ExitCode::done;
+ManualFrame manual_frame() {
+  ManualFrame frame{.version = version_text(),
+                    .summary = "robots that choose their next action by how much they learn"};
+  for (const ReferenceEntry& entry : record_entries()) {
+    if (entry.place == "exit codes") frame.exit_status.emplace_back(entry.name, entry.text);
   }
+  return frame;
+}
+
+/// "a, b" as words.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) {
+    if (word.ends_with(',')) word.pop_back();
+    words.push_back(word);
+  }
+  return words;
+}
+
+void write_completion(const std::filesystem::path& file) {
+  const auto names = strategy_names<Gain>();
+  const std::vector<Completions> words{
+      {.command = "list", .words = words_of(listing_topics_text())},
+      {.command = "schema", .words = words_of(schema_kinds_text())},
+      {.command = "view", .option = "--camera", .words = {"overview", "follow", "robot"}},
+      {.option = "--gain", .words = {names.begin(), names.end()}}};
+  std::vector<KeyDescription> keys;
+  for (const ReferenceEntry& entry : all_keys()) {
+    keys.push_back({.key = entry.name, .type = entry.type});
+  }
+  write_file(file, bash_completion(command_texts(), words, keys));
+}
+
+/// Whether files were asked for, which are written then.
+bool write_files(const Arguments& arguments) {
+  if (!arguments.pages.empty()) write_reference_pages(all_keys(), arguments.pages);
+  if (!arguments.manual.empty()) {
+    write_manual(command_texts(), manual_frame(), arguments.manual);
+  }
+  if (!arguments.completion.empty()) write_completion(arguments.completion);
+  return !arguments.pages.empty() || !arguments.manual.empty() || !arguments.completion.empty();
+}
+
+ExitCode explain(const Arguments& arguments) {
+  if (write_files(arguments)) return ExitCode::done;
   const auto all = all_entries();
   if (arguments.names.empty()) throw ConfigError("explain: say what, as in: explain gain.a");
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -126,6 +183,9 @@ std::function<ExitCode()> declare_explain(CLI::App& app) {
       "keys (gain.a), gains, features ..., columns, files, commands, exit codes; or how one "
       "begins, if nothing else begins so");
   app.add_option("--pages", arguments->pages, "write the whole reference there, as Markdown");
+  app.add_option("--manual", arguments->manual, "write the pages of the manual (man) there");
+  app.add_option("--completion", arguments->completion,
+                 "write a script there that completes the command line, for bash to source");
   add_json(app, arguments->json);
   return [arguments] { return explain(*arguments); };
 }

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "vantage/cli/feature_listing.hpp"
 #include "vantage/cli/reference/entry.hpp"
+#include "vantage/cli/reference/feature_listing.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/models/catalogue/database/object_database.hpp"
 #include "vantage/perception/features/feature.hpp"

@@ -67,7 +67,7 @@ template <class Options>
 void declare_common(CLI::App& app, Arguments& arguments) {
   app.add_option("--jobs", arguments.jobs, "threads; of a recipe, processes that render too")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+      ->default_str("all cores");
   app.add_option("--cache", arguments.cache,
                  "folder where the views' features are kept for the next command; of a recipe, its "
                  "recordings too");

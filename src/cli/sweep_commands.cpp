@@ -42,7 +42,7 @@ void add_keep_states(CLI::App& app, SweepArguments& arguments) {
 void add_jobs(CLI::App& app, SweepArguments& arguments) {
   app.add_option("--jobs", arguments.jobs, "episodes at a time")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+      ->default_str("all cores");
 }
 
 void add_submission(CLI::App& app, SweepArguments& arguments) {

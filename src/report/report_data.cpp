@@ -63,7 +63,8 @@ std::vector<TrajectorySample> read_tum(const std::filesystem::path& path) {
     const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
     if (q.norm() < 1e-6) malformed(path, number, "the quaternion is zero");
     const Eigen::Vector3d heading = q.normalized() * Eigen::Vector3d::UnitX();
-    samples.push_back({v[0], {v[1], v[2], v[3]}, std::atan2(heading.y(), heading.x())});
+    samples.push_back(
+        {v[0], {v[1], v[2], v[3]}, std::atan2(heading.y(), heading.x()), q.normalized()});
   }
   return samples;
 }

@@ -54,11 +54,13 @@ struct PackedVoxels {
 /// occupied ones. Deterministic.
 PackedVoxels pack_voxels(const VoxelMap& map, std::size_t limit);
 
-/// One line of a `.tum` file: time, position and heading of the body's x axis in the world.
+/// One line of a `.tum` file: time, and pose of the body in the world with the heading of its x
+/// axis.
 struct TrajectorySample {
   double time_s = 0.0;
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
   double yaw_rad = 0.0;
+  Eigen::Quaterniond q_world_body = Eigen::Quaterniond::Identity();
 };
 /// @throws InputError naming file and line.
 std::vector<TrajectorySample> read_tum(const std::filesystem::path& path);

@@ -1,4 +1,4 @@
-#include "vantage/cli/feature_listing.hpp"
+#include "vantage/cli/reference/feature_listing.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,0 +1,115 @@
+// Pages of the manual and completion say what --help says: every command, every flag.
+#include <fmt/format.h>
+
+#include <regex>
+#include <set>
+
+#include "tests/cli/command_line.hpp"
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+
+std::vector<std::string> matches(const std::string& text, const char* pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex); it != std::sregex_iterator();
+       ++it) {
+    found.push_back((*it)[1]);
+  }
+  return found;
+}
+
+/// The names that the section of a help text lists.
+std::vector<std::string> listed(const std::string& help, const std::string& section) {
+  const auto begin = help.find("\n" + section + ":\n");
+  if (begin == std::string::npos) return {};
+  const auto end = std::min(help.find("\n\n", begin + 1), help.size());
+  return matches(help.substr(begin, end - begin), R"(\n  ([a-z][a-z-]*))");
+}
+
+std::string plain(std::string roff) {
+  for (auto at = roff.find("\\-"); at != std::string::npos; at = roff.find("\\-", at)) {
+    roff.erase(at, 1);
+  }
+  return roff;
+}
+
+class Manual : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    const Result made = vantage("explain --manual pages --completion completion");
+    ASSERT_EQ(made.exit_code, 0) << made.output;
+  }
+  std::string page(const std::string& command) {
+    return plain(read_file(folder_ / "pages" / ("vantage-" + command + ".1")));
+  }
+  /// What bash offers for the last of the words.
+  std::set<std::string> offered(const std::string& words) {
+    const Result told =
+        shell("cd '" + folder_.string() + "' && bash -c '. ./completion; COMP_WORDS=(" + words +
+              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _vantage; "
+              "printf \"%s\\n\" \"${COMPREPLY[@]}\"'");
+    const auto names = matches(told.output, "([^\n]+)\n");
+    return {names.begin(), names.end()};
+  }
+  std::string help(const std::string& command) { return vantage(command + " --help").output; }
+};
+
+TEST_F(Manual, HasEveryCommandAndFlag) {
+  const auto commands = listed(help(""), "Subcommands");
+  ASSERT_GT(commands.size(), 14U);
+  const std::string program = plain(read_file(folder_ / "pages/vantage.1"));
+  std::size_t flags = 0;
+  for (const std::string& command : commands) {
+    EXPECT_THAT(program, HasSubstr("\\fB" + command + "\\fR"));
+    EXPECT_TRUE(offered("vantage \"\"").contains(command)) << command;
+    std::vector<std::string> paths{command};
+    for (const auto& part : listed(help(command), "Subcommands"))
+      paths.push_back(command + " " + part);
+    for (const std::string& path : paths) {
+      const std::string last = path.substr(path.rfind(' ') + 1);
+      if (path != command) {
+        EXPECT_TRUE(offered(fmt::format("vantage {} \"\"", command)).contains(last)) << path;
+      }
+      const auto offers = offered("vantage " + path + " -");
+      for (const std::string& flag : matches(help(path), R"(\n  (?:-[a-z],)?(--[a-z-]+))")) {
+        EXPECT_THAT(page(command), testing::ContainsRegex(flag + "[ \\\\]")) << path;
+        EXPECT_TRUE(offers.contains(flag)) << path << " " << flag;
+        ++flags;
+      }
+    }
+  }
+  EXPECT_GT(flags, 150U);
+}
+
+TEST_F(Manual, PagesAreWellFormed) {
+  if (shell("command -v groff").exit_code != 0) GTEST_SKIP() << "without groff";
+  const Result told = shell("cd '" + folder_.string() + "/pages' && groff -man -ww -z -Tutf8 *.1");
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_EQ(told.output, "");
+}
+
+TEST_F(Manual, PagesShowWhatIsTyped) {
+  if (shell("command -v groff").exit_code != 0) GTEST_SKIP() << "without groff";
+  const Result told =
+      shell("cd '" + folder_.string() + "/pages' && groff -man -Tascii -P-cbu vantage-run.1");
+  EXPECT_THAT(told.output, testing::AllOf(HasSubstr("vantage run [OPTIONS] [episode]"),
+                                          HasSubstr("--set key=value"), HasSubstr("EXIT STATUS"),
+                                          HasSubstr("(default: assets/episodes/tabletop.yaml)")));
+}
+
+TEST_F(Manual, CompletesValues) {
+  EXPECT_THAT(offered("vantage run --set gain.a_"), IsEmpty());
+  EXPECT_TRUE(offered("vantage run --set gain.").contains("gain.a="));
+  EXPECT_TRUE(offered("vantage sweep run --set choice = gre").contains("greedy"));
+  EXPECT_TRUE(offered("vantage run --set gain =").contains("beer_lambert"));
+  EXPECT_TRUE(offered("vantage list ch").contains("choices"));
+  EXPECT_TRUE(offered("vantage schema \"\"").contains("study"));
+  EXPECT_EQ(offered("vantage view --camera f"), std::set<std::string>{"follow"});
+  EXPECT_THAT(offered("vantage run --out \"\""), IsEmpty());  // a file: left to bash
+}
+
+}  // namespace
+}  // namespace vantage
