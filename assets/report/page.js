@@ -231,7 +231,7 @@ function attachTheme() {
 }
 
 function fillNavigation() {
-  const names = { map3d: "Map", topdown: "Path", media: "Recording", plots: "Figures", steps: "Steps", details: "Details" };
+  const names = { map3d: "Map", topdown: "Path", media: "Recording", plots: "Figures", hindsight: "In hindsight", steps: "Steps", details: "Details" };
   for (const [id, name] of Object.entries(names)) {
     if (!at(`section-${id}`).hidden) append(at("sections"), "a", { href: `#section-${id}` }, name);
   }
@@ -243,6 +243,7 @@ function main() {
   fillHead();
   fillCards();
   fillPlots();
+  fillHindsight();
   fillSteps();
   fillDetails();
   fillMedia();

@@ -60,6 +60,9 @@ struct OutsideChoice {
   /// After the last scan, if anybody wants to know what came of it; may be empty.
   /// @param at_limit scans or budget were used up, there was more to be seen
   std::function<void(const MapSituation&, bool at_limit)> ended;
+  /// It looks at nothing: it takes what own_choice() says, or a candidate by its number. It alone
+  /// may stand in the place of a choice that knows ground truth.
+  bool blind = false;
 };
 
 /// An answer that cannot be carried out.

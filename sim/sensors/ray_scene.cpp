@@ -78,6 +78,15 @@ Eigen::AlignedBox3d world_box(const SolidGeom& geom) {
           centre + half + Eigen::Vector3d::Constant(pad)};
 }
 
+/// One for all scenes, which keep it. One thread builds: the same tree on every run. Embree would
+/// wake another one for a second device, and a process that has threads cannot be forked.
+EmbreeDevice shared_device() {
+  static const EmbreeDevice device(rtcNewDevice("threads=1"));
+  if (!device) throw Error(ExitCode::internal, "Embree: no device for ray casting");
+  rtcRetainDevice(device.get());
+  return EmbreeDevice(device.get());
+}
+
 }  // namespace
 
 class RayScene::Impl {
@@ -100,10 +109,8 @@ class RayScene::Impl {
   EmbreeScene scene_;
 };
 
-// One thread builds: the same tree on every run.
 RayScene::Impl::Impl(const mjModel& model, const mjData& data, const GeomFilter& filter)
-    : device_(rtcNewDevice("threads=1")) {
-  if (!device_) throw Error(ExitCode::internal, "Embree: no device for ray casting");
+    : device_(shared_device()) {
   scene_.reset(rtcNewScene(device_.get()));
   for (const int geom_id : solid_geoms(model, filter)) add(model, data, geom_id);
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);

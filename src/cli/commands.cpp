@@ -14,6 +14,7 @@
 #include "vantage/cli/doctor.hpp"
 #include "vantage/cli/explain_command.hpp"
 #include "vantage/cli/export/export_command.hpp"
+#include "vantage/cli/hindsight/hindsight_commands.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/listing.hpp"
@@ -22,14 +23,11 @@
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
 #include "vantage/cli/view_command.hpp"
-#include "vantage/core/hash.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/json.hpp"
 #include "vantage/runtime/manifest.hpp"
-#include "vantage/runtime/replay.hpp"
-#include "vantage/sim/world/world.hpp"
 #include "vantage/study/study.hpp"
 #include "vantage/study/study_page.hpp"
 #include "vantage/tasks/run.hpp"
@@ -158,49 +156,6 @@ std::function<ExitCode()> declare_report(CLI::App& app) {
   };
 }
 
-nlohmann::ordered_json replay_json(const fs::path& directory, const ReplayResult& result) {
-  nlohmann::ordered_json difference = nullptr;
-  if (result.first_difference) {
-    difference = {
-        {"step", *result.first_difference}, {"time_s", result.time_s}, {"what", result.what}};
-  }
-  return {{"directory", directory.string()},
-          {"steps", result.ticks},
-          {"state_hash", hash_text(result.state_hash)},
-          {"first_difference", difference},
-          {"changed_files", result.changed_files}};
-}
-
-std::function<ExitCode()> declare_replay(CLI::App& app) {
-  auto arguments = std::make_shared<FolderArguments>();
-  app.add_option("dir", arguments->directory, "run folder")->required();
-  add_json(app, arguments->json);
-  return [arguments] {
-    const fs::path& directory = arguments->directory;
-    require_run_folder(directory);
-    const ResolvedEpisode resolved = load_recorded(directory);
-    World world(model_source(resolved), resolved.setup.options.simulation);
-    const ReplayResult result =
-        replay(directory, world, asset_hashes(resolved.setup, inputs(resolved.task)));
-    if (!result.changed_files.empty()) {
-      log_warning(
-          fmt::format("changed since the recording: {}", fmt::join(result.changed_files, ", ")));
-    }
-    if (arguments->json) {
-      fmt::print("{}", json_text(replay_json(directory, result)));
-      return result.first_difference ? ExitCode::goal_failed : ExitCode::done;
-    }
-    if (result.first_difference) {
-      fmt::print("{}: differs first at step {} ({:.3f} s): {}\n", directory.string(),
-                 *result.first_difference, result.time_s, result.what);
-      return ExitCode::goal_failed;
-    }
-    fmt::print("{}: {} steps, every state the same, state hash {}\n", directory.string(),
-               result.ticks, hash_text(result.state_hash));
-    return ExitCode::done;
-  };
-}
-
 Validation validate(const fs::path& file, const std::vector<std::string>& overrides) {
   if (!is_study(file)) return validate_file(file, overrides);
   if (overrides.empty()) return validate_study(file);
@@ -269,6 +224,9 @@ const std::vector<Command>& commands() {
       {"report", "write the report page of a run or a study", declare_report},
       {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
+      {"bound", "what any policy would have needed at least, beside what a run took",
+       declare_bound},
+      {"branch", "what another choice at a decision of a run would have brought", declare_branch},
       {"view", "an episode in a window, as it runs or from its run folder", declare_view},
       {"export", "a run for other programs: an MCAP file", declare_export},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},

@@ -100,7 +100,7 @@ Json step_schema(const CsvTable& steps) {
 
 }  // namespace
 
-void add_decisions(const RecordedRun& run, Timeline& timeline) {
+void add_decisions(const RunToExport& run, Timeline& timeline) {
   const std::size_t views = timeline.add_stream("/views", "SceneUpdate");
   const std::size_t plan = timeline.add_stream("/plan", "SceneUpdate");
   for (const EpisodeEvent& event : run.events()) {
@@ -118,7 +118,7 @@ void add_decisions(const RecordedRun& run, Timeline& timeline) {
   }
 }
 
-void add_map(const RecordedRun& run, Timeline& timeline) {
+void add_map(const RunToExport& run, Timeline& timeline) {
   if (!run.map()) return;
   const std::size_t stream = timeline.add_stream("/map/occupied", "PointCloud");
   const auto map = std::make_shared<EventReplay>(*run.map());
@@ -132,7 +132,7 @@ void add_map(const RecordedRun& run, Timeline& timeline) {
   }
 }
 
-void add_cloud(const RecordedRun& run, Timeline& timeline) {
+void add_cloud(const RunToExport& run, Timeline& timeline) {
   const fs::path file = run.directory() / "cloud.ply";
   if (!fs::exists(file)) return;
   const std::size_t stream = timeline.add_stream("/cloud", "PointCloud");
@@ -141,7 +141,7 @@ void add_cloud(const RecordedRun& run, Timeline& timeline) {
   });
 }
 
-void add_steps(const RecordedRun& run, Timeline& timeline) {
+void add_steps(const RunToExport& run, Timeline& timeline) {
   const fs::path file = run.directory() / "steps.csv";
   if (!fs::exists(file)) return;
   const auto steps = std::make_shared<const CsvTable>(read_csv(file));

@@ -37,7 +37,7 @@ std::map<std::string, std::string> manifest_entries(const fs::path& run_dir) {
 
 ExportedRun export_run(const fs::path& run_dir, const fs::path& file,
                        const ExportOptions& options) {
-  RecordedRun run(run_dir);
+  RunToExport run(run_dir);
   Timeline timeline;
   add_transforms(run, timeline);
   add_poses(run, timeline);

@@ -18,7 +18,7 @@ constexpr const char* kCameraFrame = "camera";
 /// Draws one view of the run; keeps the last image, of which there are several messages.
 class Shots {
  public:
-  Shots(RecordedRun& run, std::shared_ptr<Renderer> renderer, CameraView view, bool for_people)
+  Shots(RunToExport& run, std::shared_ptr<Renderer> renderer, CameraView view, bool for_people)
       : run_(run),
         renderer_(std::move(renderer)),
         view_(std::move(view)),
@@ -45,7 +45,7 @@ class Shots {
   }
 
  private:
-  RecordedRun& run_;
+  RunToExport& run_;
   std::shared_ptr<Renderer> renderer_;
   CameraView view_;
   bool for_people_;
@@ -53,7 +53,7 @@ class Shots {
   std::optional<std::size_t> drawn_;
 };
 
-void add_shots(const RecordedRun& run, double period_s, const std::string& topic,
+void add_shots(const RunToExport& run, double period_s, const std::string& topic,
                const std::string& frame, const std::shared_ptr<Shots>& shots, Timeline& timeline) {
   const std::size_t images = timeline.add_stream(topic, "CompressedImage");
   for (const std::size_t state : run.states_every(period_s)) {
@@ -64,7 +64,7 @@ void add_shots(const RecordedRun& run, double period_s, const std::string& topic
 }
 
 /// Where the camera is and how it projects, beside its images.
-void add_geometry(const RecordedRun& run, double period_s, const std::shared_ptr<Shots>& shots,
+void add_geometry(const RunToExport& run, double period_s, const std::shared_ptr<Shots>& shots,
                   Timeline& timeline) {
   const std::size_t transforms = timeline.add_stream("/camera/tf", "FrameTransforms");
   const std::size_t calibration = timeline.add_stream("/camera/calibration", "CameraCalibration");
@@ -84,7 +84,7 @@ void add_geometry(const RecordedRun& run, double period_s, const std::shared_ptr
 
 }  // namespace
 
-void add_images(RecordedRun& run, double period_s, int height_px, Timeline& timeline) {
+void add_images(RunToExport& run, double period_s, int height_px, Timeline& timeline) {
   const mjModel& model = run.world().model();
   const std::shared_ptr<Renderer> renderer =
       make_offscreen_renderer(model, height_px * 4 / 3, height_px);

@@ -47,7 +47,7 @@ void add_trajectory(const fs::path& file, const std::string& topic, Timeline& ti
 
 }  // namespace
 
-RecordedRun::RecordedRun(const fs::path& run_dir)
+RunToExport::RunToExport(const fs::path& run_dir)
     : directory_(run_dir),
       resolved_(load_recorded(run_dir)),
       world_(vantage::model_source(resolved_), resolved_.setup.options.simulation),
@@ -57,13 +57,13 @@ RecordedRun::RecordedRun(const fs::path& run_dir)
   if (fs::exists(story)) events_ = read_event_log(story, map_ ? map_->size() : 0);
 }
 
-const World& RecordedRun::world_at(std::size_t state) {
+const World& RunToExport::world_at(std::size_t state) {
   if (shown_ != state) world_.set_state(states_.state(state));
   shown_ = state;
   return world_;
 }
 
-std::vector<std::size_t> RecordedRun::states_every(double period_s) const {
+std::vector<std::size_t> RunToExport::states_every(double period_s) const {
   std::vector<std::size_t> found;
   double next_s = 0.0;
   for (std::size_t i = 0; i < states_.count(); ++i) {
@@ -74,11 +74,11 @@ std::vector<std::size_t> RecordedRun::states_every(double period_s) const {
   return found;
 }
 
-double RecordedRun::time_s(const EpisodeEvent& event) const {
+double RunToExport::time_s(const EpisodeEvent& event) const {
   return time_s(std::min<std::size_t>(event.tick, states_.count() - 1));
 }
 
-void add_transforms(RecordedRun& run, Timeline& timeline) {
+void add_transforms(RunToExport& run, Timeline& timeline) {
   const std::size_t stream = timeline.add_stream("/tf", "FrameTransforms");
   const auto bodies =
       std::make_shared<const std::vector<RobotBody>>(robot_bodies(run.world().model()));
@@ -94,7 +94,7 @@ void add_transforms(RecordedRun& run, Timeline& timeline) {
   }
 }
 
-void add_poses(const RecordedRun& run, Timeline& timeline) {
+void add_poses(const RunToExport& run, Timeline& timeline) {
   add_trajectory(run.directory() / "trajectory.tum", "/pose", timeline);
   add_trajectory(run.directory() / "trajectory_estimated.tum", "/pose_estimated", timeline);
 }

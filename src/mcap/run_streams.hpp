@@ -15,10 +15,10 @@
 namespace vantage {
 
 /// A run folder read back, with the world that its states are of.
-class RecordedRun {
+class RunToExport {
  public:
   /// @throws InputError
-  explicit RecordedRun(const std::filesystem::path& run_dir);
+  explicit RunToExport(const std::filesystem::path& run_dir);
 
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
   [[nodiscard]] double time_s(std::size_t state) const { return states_.state(state)[0]; }
@@ -45,14 +45,14 @@ class RecordedRun {
 };
 
 // Each adds its streams. What they add refers to `run`.
-void add_transforms(RecordedRun& run, Timeline& timeline);   ///< /tf: bodies of the robot
-void add_poses(const RecordedRun& run, Timeline& timeline);  ///< /pose, /pose_estimated
+void add_transforms(RunToExport& run, Timeline& timeline);   ///< /tf: bodies of the robot
+void add_poses(const RunToExport& run, Timeline& timeline);  ///< /pose, /pose_estimated
 /// /views: what was weighed, what was chosen; /plan: the way there.
-void add_decisions(const RecordedRun& run, Timeline& timeline);
-void add_map(const RecordedRun& run, Timeline& timeline);    ///< /map/occupied: centres of cells
-void add_cloud(const RecordedRun& run, Timeline& timeline);  ///< /cloud: points of all scans
-void add_steps(const RecordedRun& run, Timeline& timeline);  ///< /steps: rows of steps.csv
+void add_decisions(const RunToExport& run, Timeline& timeline);
+void add_map(const RunToExport& run, Timeline& timeline);    ///< /map/occupied: centres of cells
+void add_cloud(const RunToExport& run, Timeline& timeline);  ///< /cloud: points of all scans
+void add_steps(const RunToExport& run, Timeline& timeline);  ///< /steps: rows of steps.csv
 /// /camera: what the robot's camera sees, with its calibration and frame; /overview.
-void add_images(RecordedRun& run, double period_s, int height_px, Timeline& timeline);
+void add_images(RunToExport& run, double period_s, int height_px, Timeline& timeline);
 
 }  // namespace vantage

@@ -126,6 +126,15 @@ CsvTable read_steps(const fs::path& path) {
   return steps;
 }
 
+/// What was found out of the run afterwards; null: nobody has asked.
+json hindsight_json(const fs::path& run_dir) {
+  const auto found = [&](const char* name) {
+    const fs::path path = run_dir / name;
+    return fs::exists(path) ? read_json_object(path) : json(nullptr);
+  };
+  return {{"bound", found("bound.json")}, {"branches", found("branches.json")}};
+}
+
 json media_json(const fs::path& run_dir) {
   const bool video = fs::exists(run_dir / "video.mp4");
   json media = {{"frame", frame_of(run_dir / "frames", video)}};
@@ -176,6 +185,7 @@ json run_json(const fs::path& run_dir, const ReportSections& sections) {
   const fs::path cloud = run_dir / "cloud.ply";
   run["cloud"] = fs::exists(cloud) ? cloud_json(cloud) : json(nullptr);
   run["media"] = media_json(run_dir);
+  run["hindsight"] = sections.map ? hindsight_json(run_dir) : json(nullptr);
   return run;
 }
 
@@ -213,7 +223,7 @@ void write_report(const fs::path& run_dir, const ReportSections& sections) {
       {"title", html_escaped(page_title(run["metrics"]))},
       {"data", script_safe(run)},
       {"script", scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "surfaces.js",
-                          "viewer.js", "figures.js", "flight.js", "page.js"})}};
+                          "viewer.js", "figures.js", "flight.js", "hindsight.js", "page.js"})}};
   write_file(run_dir / "report.html", filled_page("page.html", replacements));
 }
 

@@ -34,6 +34,8 @@ constexpr auto kRunFiles = std::to_array<std::string_view>({"manifest.json",
                                                             "video.mp4",
                                                             "report.html",
                                                             "log.txt",
+                                                            "bound.json",
+                                                            "branches.json",
                                                             "frames",
                                                             "views"});
 

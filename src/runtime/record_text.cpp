@@ -46,6 +46,12 @@ RecordTexts run_records() {
       {kRunFolder, "views", "flights: pictures of what was looked at"},
       {kRunFolder, "video.mp4", "with --video"},
       {kRunFolder, "frames", "with --video: stills"},
+      {kRunFolder, "bound.json",
+       "by vantage bound: what any policy needs at least for 80, 90, 95 and 97 % of the observable "
+       "cells, beside what the run took"},
+      {kRunFolder, "branches.json",
+       "by vantage branch --all: what each view of a decision would have brought, and the regret "
+       "of the chosen one"},
       {kRunFolder, "report.html", "the page of the run"},
       {kRunFolder, "log.txt", "what was told on stderr, debug messages included"},
       {"metrics.json", "task", "of the episode; both mapping tasks are next_best_view"},

@@ -8,6 +8,8 @@ EpisodeRecorder::EpisodeRecorder(const EpisodeRun& run, RecordedRobot robot,
                                  const std::string& steps_header, double extent,
                                  std::string_view candidate_columns)
     : directory_(run.directory()),
+      steps_header_(steps_header),
+      on_step_(run.request().options.spectator.on_step),
       lean_(run.request().options.lean),
       log_(std::move(robot), run.request().setup.options.recording, directory_,
            run.request().options.video, lean_, run.request().options.spectator),
@@ -24,6 +26,7 @@ void EpisodeRecorder::step(const std::string& row, std::size_t number, double pr
   steps_.write("\n");
   progress_.update(progress, text);
   log_.save_still(number);
+  if (on_step_) on_step_(steps_header_, row);
 }
 
 void EpisodeRecorder::add_candidates(std::span<const CandidateRow> rows, std::size_t chosen) {

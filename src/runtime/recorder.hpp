@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +53,8 @@ class EpisodeRecorder {
 
  private:
   std::filesystem::path directory_;
+  std::string steps_header_;
+  std::function<void(std::string_view, std::string_view)> on_step_;  ///< of the spectator
   bool lean_;
   RunLog log_;
   GrowingFile steps_;

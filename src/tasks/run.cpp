@@ -20,7 +20,7 @@ constexpr bool kChoosesViews = std::derived_from<Task, MappingOptions>;
 template <class Task>
 void require_choice(const Task& task, const OutsideChoice& outside) {
   if constexpr (kChoosesViews<Task>) {
-    if (!knows_truth(task.choice)) return;
+    if (outside.blind || !knows_truth(task.choice)) return;
     throw ConfigError(fmt::format("choice: {} asks ground truth, which {} must not learn of",
                                   strategy_name_of(task.choice), outside.name));
   } else {

@@ -11,7 +11,8 @@ SteppedEpisode::SteppedEpisode(ResolvedEpisode resolved, std::string name, RunOp
   options.outside = {
       .name = std::move(name),
       .decide = [this](const DecisionRequest& request) { return ask(request); },
-      .ended = [this](const MapSituation& situation, bool limit) { say_ended(situation, limit); }};
+      .ended = [this](const MapSituation& situation, bool limit) { say_ended(situation, limit); },
+      .blind = false};
   options.spectator.on_tick = [this, before = options.spectator.on_tick](const World& world) {
     if (interrupted_) throw Interrupted(SIGINT);
     if (before) before(world);

@@ -1,34 +1,13 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <cstdlib>
 
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/scratch_folder.hpp"
 #include "vantage/view/session.hpp"
 
 namespace vantage {
 namespace {
-namespace fs = std::filesystem;
-
-/// For a run of which nothing is kept.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "vantage-view-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw OutputError(name + ": cannot be made");
-    path_ = name;
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Shows every tick of an episode up to the still one, and lets it wait at the gate.
 struct LivePlayer {

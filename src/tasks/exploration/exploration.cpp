@@ -44,4 +44,24 @@ RunOutcome Exploration::run(const RunRequest& request) const {
   return session.run_to_end();
 }
 
+ViewCoverage Exploration::coverage(const EpisodeSetup& setup,
+                                   const std::vector<Pose2>& T_world_bases) const {
+  const SimulatedExplorationRobot robot(setup, *this);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const ExplorationMapEvaluator evaluator(*this, setup.options.threads, truth, robot.view_field(),
+                                          robot.T_base_sweep());
+  ScanPlaces places;
+  for (const Pose2& base : T_world_bases) {
+    places.T_world_sensors.push_back(to_se3(base) * robot.T_base_sweep());
+    places.base_m.emplace_back(base.x_m, base.y_m);
+  }
+  for (const Pose& T_world_sweep : evaluator.T_world_sweeps()) {
+    const Pose2 base = robot.base_for_sensor(T_world_sweep);
+    places.T_world_sensors.push_back(T_world_sweep);
+    places.base_m.emplace_back(base.x_m, base.y_m);
+  }
+  return view_coverage(evaluator, places, {evaluator.floor(), robot.inscribed_radius_m()},
+                       setup.options.threads);
+}
+
 }  // namespace vantage

@@ -15,6 +15,7 @@
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/exploration/head_sweep.hpp"
+#include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 
 namespace vantage {
@@ -134,6 +135,8 @@ struct Exploration : MappingOptions {
   /// @throws ConfigError if its camera cannot be at frontiers.height_m
   void check_robot(const World& alone, const RobotFolder& robot) const;
   RunOutcome run(const RunRequest& request) const;
+  /// Of the poses that observability is defined by, behind the base's own poses given.
+  ViewCoverage coverage(const EpisodeSetup& setup, const std::vector<Pose2>& T_world_bases) const;
 };
 
 }  // namespace vantage

@@ -8,6 +8,7 @@
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/planners/navigation/path_field.hpp"
 #include "vantage/tasks/exploration/exploration.hpp"
+#include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
 #include "vantage/tasks/mapping/mobile_ground_truth.hpp"
 
 namespace vantage {
@@ -20,8 +21,7 @@ FloorMap true_floor(const Exploration& task, const GridFrame& frame,
   for (std::size_t cell = 0; cell < solid.size(); ++cell) {
     solid.log_odds[cell] = surface[cell] != 0 ? 1.0F : -1.0F;
   }
-  FloorMap floor = make_floor_map(task.floor_map);
-  std::ranges::fill(floor.log_odds, -1.0F);
+  FloorMap floor = free_floor(task.floor_map);
   const std::vector<std::uint8_t> nowhere(floor.size(), 0);
   block_columns(floor, solid, nowhere, task.headroom);
   return floor;
@@ -58,8 +58,8 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
     : GroundTruthMapEvaluator(truth, task.map.frame(), view_field, threads) {
   const GridFrame frame = task.map.frame();
   const Pose2 start = truth.T_world_base();
-  const FloorMap floor = true_floor(task, frame, surface());
-  const PathField field = make_path_field(floor, start, task.navigation);
+  floor_ = true_floor(task, frame, surface());
+  const PathField field = make_path_field(floor_, start, task.navigation);
   poses_.push_back(to_se3(start) * T_base_sweep);
   for (const auto& p : reachable_places(field, frame, task.metrics.pose_spacing_m)) {
     poses_.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "vantage/belief/map/floor_map.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 
 namespace vantage {
@@ -18,9 +19,14 @@ class ExplorationMapEvaluator : public GroundTruthMapEvaluator {
                           const FieldOfView& view_field, const Pose& T_base_sweep);
 
   [[nodiscard]] std::size_t poses() const { return poses_.size(); }
+  /// Those places, as the sweep is there.
+  [[nodiscard]] const std::vector<Pose>& T_world_sweeps() const { return poses_; }
+  /// What stands or hangs in the robot's way, as it really is.
+  [[nodiscard]] const FloorMap& floor() const { return floor_; }
 
  private:
   std::vector<Pose> poses_;  ///< T_world_sweep
+  FloorMap floor_;
 };
 
 }  // namespace vantage

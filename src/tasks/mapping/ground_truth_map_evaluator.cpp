@@ -67,12 +67,17 @@ void GroundTruthMapEvaluator::add_observable(std::span<const Pose> T_world_senso
 }
 
 void GroundTruthMapEvaluator::remember_visible(std::span<const Pose> T_world_sensors) {
-  const std::vector<std::uint8_t> nothing(frame_.size(), 0);
   for (const Pose& pose : T_world_sensors) {
     throw_if_interrupted();
-    remembered_.push_back({pose, visible_unless(nothing, pose)});
+    remembered_.push_back({pose, visible_set(pose)});
   }
 }
+
+CellSet GroundTruthMapEvaluator::visible_set(const Pose& T_world_sensor) const {
+  return visible_unless(std::vector<std::uint8_t>(frame_.size(), 0), T_world_sensor);
+}
+
+CellSet GroundTruthMapEvaluator::observable_set() const { return set_of(observable_); }
 
 CellSet GroundTruthMapEvaluator::visible_unless(const std::vector<std::uint8_t>& known,
                                                 const Pose& T_world_sensor) const {

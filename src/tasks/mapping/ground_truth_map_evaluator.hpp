@@ -43,6 +43,9 @@ class GroundTruthMapEvaluator {
   /// The same, cell by cell.
   [[nodiscard]] CellSet true_new_cell_set(const OccupancyGrid& grid,
                                           const Pose& T_world_sensor) const;
+  /// All cells that a noise-free sensor sees from there.
+  [[nodiscard]] CellSet visible_set(const Pose& T_world_sensor) const;
+  [[nodiscard]] CellSet observable_set() const;
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
   [[nodiscard]] std::size_t observable_unobserved(const OccupancyGrid& grid) const;
   [[nodiscard]] MapScore score(const OccupancyGrid& grid, int tolerance_cells) const;

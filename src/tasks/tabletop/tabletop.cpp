@@ -92,4 +92,28 @@ RunOutcome Tabletop::run(const RunRequest& request) const {
   return session.run_to_end();
 }
 
+ViewCoverage Tabletop::coverage(const EpisodeSetup& setup,
+                                const std::vector<Pose2>& T_world_bases) const {
+  const SimulatedTabletopRobot robot(setup, *this);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const GroundTruthMapEvaluator evaluator =
+      tabletop_evaluator(*this, setup.options.threads, truth, robot.view_field());
+  const Pose T_base_sensor = to_se3(robot.estimated_base()).inverse() * robot.estimated_sensor();
+  ScanPlaces places;
+  for (const Pose2& base : T_world_bases) {
+    places.T_world_sensors.push_back(to_se3(base) * T_base_sensor);
+    places.base_m.emplace_back(base.x_m, base.y_m);
+  }
+  for (const Candidate& view : tabletop_views(*this)) {
+    const Pose2 base = robot.base_for_sensor(view.T_world_sensor);
+    places.T_world_sensors.push_back(view.T_world_sensor);
+    places.base_m.emplace_back(base.x_m, base.y_m);
+  }
+  OpenFloor floor{free_floor(floor_map), robot.inscribed_radius_m()};
+  const Eigen::AlignedBox3d region =
+      map.frame().box();  // kept free of the robot, see TabletopParts
+  block_box(floor.map, {region.min().head<2>(), region.max().head<2>()});
+  return view_coverage(evaluator, places, floor, setup.options.threads);
+}
+
 }  // namespace vantage

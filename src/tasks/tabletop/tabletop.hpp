@@ -13,6 +13,7 @@
 #include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/world/model_source.hpp"
+#include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 
 namespace vantage {
@@ -58,6 +59,8 @@ struct Tabletop : MappingOptions {
   /// Of a robot with a tilting laser, alone in its world. @throws ConfigError as check_reach()
   void check_robot(const World& alone, const RobotFolder& robot) const;
   RunOutcome run(const RunRequest& request) const;
+  /// Of the ring's views, which observability is defined by, behind the base's own poses given.
+  ViewCoverage coverage(const EpisodeSetup& setup, const std::vector<Pose2>& T_world_bases) const;
 };
 
 }  // namespace vantage

@@ -1,0 +1,77 @@
+// `vantage bound` and `vantage branch` as a user meets them.
+#include "tests/cli/command_line.hpp"
+
+namespace vantage {
+namespace {
+
+class HindsightCommands : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    const Result run = vantage(
+        "run --set scans=3 --set laser.scan_duration_s=2 --set 'map.cells=[33,33,17]' -q --out "
+        "run");
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+  }
+  void replace(const std::string& name, const std::string& by) {
+    shell("cd '" + folder_.string() + "/run' && sed -i '" + by + "' " + name);
+  }
+};
+
+TEST_F(HindsightCommands, BoundIsKeptAndOnThePage) {
+  EXPECT_THAT(shell("cat '" + folder_.string() + "/run/report.html'").output,
+              HasSubstr("\"bound\":null"));
+  const Result bound = vantage("bound run --json -q");
+  EXPECT_EQ(bound.exit_code, 0) << bound.output;
+  EXPECT_THAT(bound.output, HasSubstr("\"run_over_least\""));
+  EXPECT_EQ(shell("cat '" + folder_.string() + "/run/bound.json'").output, bound.output);
+  EXPECT_THAT(shell("cat '" + folder_.string() + "/run/report.html'").output,
+              HasSubstr("\"run_over_least\""));
+}
+
+TEST_F(HindsightCommands, BranchAsChosenHasTheRecordedHash) {
+  const Result as_chosen = vantage("branch run --scan 1 -q");
+  EXPECT_EQ(as_chosen.exit_code, 0) << as_chosen.output;
+  EXPECT_THAT(as_chosen.output, HasSubstr("as recorded"));
+  const Result other = vantage("branch run --scan 1 --view 14 --json -q --out other");
+  EXPECT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("\"same_bits\": false"));
+  EXPECT_EQ(shell("test -f '" + folder_.string() + "/other/report.html'").exit_code, 0);
+  const Result all = vantage("branch run --scan 2 --all -q");
+  EXPECT_EQ(all.exit_code, 0) << all.output;
+  EXPECT_THAT(all.output, HasSubstr("regret: "));
+  EXPECT_THAT(shell("cat '" + folder_.string() + "/run/branches.json'").output,
+              HasSubstr("\"scan\": 2"));
+}
+
+TEST_F(HindsightCommands, WhatCannotBeIsOneClearLine) {
+  expect_error(vantage("branch run"), 2, {"--scan", "missing"});
+  expect_error(vantage("branch run --scan 0"), 2, {"--scan: 0", "after scan 1 to 2"});
+  expect_error(vantage("branch run --scan 3"), 2, {"--scan: 3", "3 scans", "after scan 1 to 2"});
+  expect_error(vantage("branch run --scan 1 --view 30 -q"), 2, {"--view: 30", "views 0 to 29"});
+  expect_error(vantage("branch run --scan 1 --then 0 --view 30 -q"), 2, {"--view: 30"});
+  expect_error(vantage("branch run --scan 1 --scan 2"), 2, {"--scan", "several"});
+  expect_error(vantage("branch run --scan 1 --all --out x"), 2, {"--out"});
+  expect_error(vantage("bound nowhere"), 3, {"nowhere", "no such folder"});
+  expect_error(vantage("branch . --scan 1"), 3, {"not a run folder"});
+  shell("mv '" + folder_.string() + "/run/trajectory.tum' '" + folder_.string() + "'");
+  expect_error(vantage("bound run -q"), 3, {"trajectory.tum"});
+  shell("mv '" + folder_.string() + "/run/metrics.json' '" + folder_.string() + "'");
+  expect_error(vantage("bound run -q"), 3, {"metrics.json"});
+  expect_error(vantage("branch run --scan 1 -q"), 3, {"metrics.json"});
+}
+
+TEST_F(HindsightCommands, ARunOfAnotherVersionIsOneClearLine) {
+  replace("manifest.json", "s/\"vantage\": \".*\"/\"vantage\": \"0.0.1 (then)\"/");
+  replace("metrics.json", "0,/\"time_s\": [0-9.]*/s//\"time_s\": 1.5/");
+  expect_error(vantage("branch run --scan 1 -q"), 1, {"scan 1", "recorded 1.5", "0.0.1 (then)"});
+  expect_error(vantage("branch run --scan 1 --all -q"), 1, {"scan 1", "recorded 1.5"});
+  replace("metrics.json", "s/\"scan_time_s\"/\"scan_s\"/");
+  expect_error(vantage("bound run -q"), 3, {"scans[0]", "scan_time_s", "another", "0.0.1 (then)"});
+  replace("config.yaml", "s/^scans:/shots:/");
+  expect_error(vantage("bound run -q"), 3, {"config.yaml", "shots", "not a configuration of this"});
+  expect_error(vantage("branch run --scan 1 -q"), 3, {"config.yaml", "shots"});
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,157 @@
+// Branches of a recorded run: the recorded bits where the choice is as recorded, other runs where
+// it is not, and forked or repeated the same.
+#include "vantage/hindsight/branching.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "tests/hindsight/short_run.hpp"
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+
+using Json = nlohmann::json;
+
+class Branches : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { draw_without_threads(); }
+  RecordedRun recorded(const std::vector<std::string>& more = {}) {
+    return support::short_run(folder.path() / "run", more);
+  }
+  RunOptions lean(const char* name) {
+    RunOptions options;
+    options.directory = folder.path() / name;
+    options.lean = true;
+    return options;
+  }
+  support::TemporaryDirectory folder;
+};
+
+TEST_F(Branches, AsChosenHaveTheRecordedBits) {
+  for (const char* choice : {"greedy", "random", "tour", "oracle_tour"}) {
+    const RecordedRun run =
+        support::short_run(folder.path() / choice, {std::string("choice=") + choice});
+    RunOptions options = lean("again");
+    options.overwrite = true;
+    const auto again = Json::parse(run_branch(run, 2, std::nullopt, options).metrics);
+    EXPECT_EQ(again["state_hash"], run.state_hash) << choice;
+    const auto named = Json::parse(run_branch(run, 2, run.scans[2].chosen_view, options).metrics);
+    EXPECT_EQ(named["state_hash"], run.state_hash) << choice;
+  }
+}
+
+TEST_F(Branches, AreTheSameUpToTheDecisionAndNotAfterIt) {
+  const RecordedRun run = recorded();
+  const int other = (run.scans[2].chosen_view + 15) % 30;
+  const auto metrics = Json::parse(run_branch(run, 2, other, lean("other")).metrics);
+  const Json& scans = metrics["scans"];
+  ASSERT_EQ(scans.size(), 5U);
+  EXPECT_EQ(scans[1]["time_s"], run.scans[1].time_s);
+  EXPECT_EQ(scans[2]["chosen_view"], other);
+  EXPECT_NE(metrics["state_hash"], run.state_hash);
+  EXPECT_NE(metrics["method"], run.method);
+}
+
+/// The chosen one brought what was recorded, and any other what a run of its own brings.
+TEST_F(Branches, OfAllViewsAreWhatRunsBring) {
+  const RecordedRun run = recorded();
+  const auto decisions = branch_views(run, {.scans = {2, 3}, .all = true, .then = 1});
+  ASSERT_EQ(decisions.size(), 2U);
+  for (const BranchedDecision& decision : decisions) {
+    ASSERT_EQ(decision.branches.size(), 30U);
+    const auto chosen = std::ranges::find_if(decision.branches, &Branch::chosen);
+    ASSERT_NE(chosen, decision.branches.end());
+    const RecordedScan& before = run.scans[decision.scan - 1];
+    const RecordedScan& after = run.scans[decision.scan];
+    EXPECT_EQ(chosen->view, after.chosen_view);
+    EXPECT_EQ(chosen->cells, static_cast<long long>(before.cells_left - after.cells_left));
+    EXPECT_EQ(chosen->seconds, after.time_s - before.time_s);
+    EXPECT_EQ(chosen->way_m, after.path_length_m - before.path_length_m);
+    EXPECT_EQ(chosen->seconds_then, run.scans[decision.scan + 1].time_s - before.time_s);
+    EXPECT_GE(regret_of(decision)->cells, 0.0);
+    EXPECT_GE(regret_of(decision)->cells_per_s, 0.0);
+  }
+  const Branch& other = decisions[0].branches[17];
+  const Json scans = Json::parse(run_branch(run, 2, 17, lean("other")).metrics)["scans"];
+  EXPECT_EQ(other.seconds, scans[2]["time_s"].get<double>() - run.scans[1].time_s);
+  EXPECT_EQ(*other.cells, static_cast<long long>(run.scans[1].cells_left) -
+                              scans[2]["observable_unobserved_cells"].get<long long>());
+  EXPECT_EQ(other.seconds_then, scans[3]["time_s"].get<double>() - run.scans[1].time_s);
+}
+
+TEST_F(Branches, OfAProcessThatHasThreadsAreTheSame) {
+  const RecordedRun run = recorded({"scans=3"});
+  const BranchRequest request{.scans = {1}, .all = false, .view = 9};
+  const auto forked = branch_views(run, request);
+  std::atomic<bool> over = false;
+  std::jthread other([&] { over.wait(false); });
+  const auto repeated = branch_views(run, request);
+  over = true;
+  over.notify_all();
+  EXPECT_EQ(branched_json(forked[0]), branched_json(repeated[0]));
+  EXPECT_TRUE(repeated[0].branches[0].cells);
+}
+
+TEST_F(Branches, OfARunThatIsNotRepeatedSayWhere) {
+  RecordedRun run = recorded({"scans=3"});
+  run.scans[1].cells_left += 1;
+  run.version = "0.0.1 (elsewhere)";
+  try {
+    run_branch(run, 2, std::nullopt, lean("again"));
+    FAIL() << "it was repeated";
+  } catch (const ReplayDiffers& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("scan 2"), std::string::npos) << what;
+    EXPECT_NE(what.find("0.0.1 (elsewhere)"), std::string::npos) << what;
+  }
+}
+
+TEST_F(Branches, ThatCannotBeAreRefused) {
+  const RecordedRun run = recorded({"scans=3"});
+  for (const std::size_t scan : {0U, 3U, 99U}) {
+    EXPECT_THROW(branch_views(run, {.scans = {scan}}), ConfigError) << scan;
+  }
+  EXPECT_THROW(branch_views(run, {.scans = {1}, .all = false, .view = 30}), ConfigError);
+  EXPECT_THROW(run_branch(run, 1, -1, lean("again")), ConfigError);
+}
+
+TEST_F(Branches, AreKeptDecisionByDecision) {
+  Branch chosen;
+  chosen.chosen = true;
+  chosen.cells = 40;
+  chosen.seconds = 10.0;
+  Branch more;
+  more.view = 1;
+  more.cells = 50;
+  more.seconds = 25.0;
+  Branch faster;
+  faster.view = 2;
+  faster.cells = 30;
+  faster.seconds = 5.0;
+  BranchedDecision decision;
+  decision.branches = {chosen, more, faster};
+  const auto regret = regret_of(decision);
+  ASSERT_TRUE(regret);
+  EXPECT_EQ(regret->best_view, 1);
+  EXPECT_EQ(regret->cells, 10.0);
+  EXPECT_EQ(regret->fastest_view, 2);
+  EXPECT_EQ(regret->cells_per_s, 2.0);
+  for (const std::size_t scan : {3U, 1U, 3U}) {
+    decision.scan = scan;
+    keep_branches(folder.path(), {decision});
+  }
+  const auto kept = Json::parse(read_file(folder.path() / "branches.json"))["decisions"];
+  ASSERT_EQ(kept.size(), 2U);
+  EXPECT_EQ(kept[0]["scan"], 1);
+  EXPECT_EQ(kept[1]["regret"]["best_view"], 1);
+  decision.branches[0].cells.reset();
+  EXPECT_FALSE(regret_of(decision));
+}
+
+}  // namespace
+}  // namespace vantage

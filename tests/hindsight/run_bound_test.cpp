@@ -1,0 +1,89 @@
+// No run comes below the bound of what any policy needs.
+#include "vantage/hindsight/run_bound.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+#include "tests/hindsight/short_run.hpp"
+#include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
+
+namespace vantage {
+namespace {
+
+class RunBounds : public testing::Test {
+ protected:
+  support::TemporaryDirectory folder;
+};
+
+TEST_F(RunBounds, AreBelowEveryRunOfAnyChoice) {
+  for (const char* choice : {"greedy", "random", "tour", "oracle_tour", "information_rate"}) {
+    const RecordedRun run = support::short_run(
+        folder.path() / choice, {std::string("choice=") + choice, "scans=8", "robot.start_view=3"});
+    const RunBound bound = bound_of_run(run);
+    ASSERT_EQ(bound.shares.size(), 4U);
+    int reached = 0;
+    std::size_t scans = 0;
+    for (const ShareBound& share : bound.shares) {
+      ASSERT_TRUE(share.least) << choice;
+      EXPECT_GE(share.least->scans, scans) << choice;
+      scans = share.least->scans;
+      EXPECT_GE(share.least->time_s, bound.first_scan.time_s);
+      if (!share.run) continue;
+      ++reached;
+      EXPECT_LE(share.least->scans, share.run->scans) << choice << ' ' << share.percent;
+      EXPECT_LE(share.least->way_m, share.run->way_m + 1e-9) << choice << ' ' << share.percent;
+      EXPECT_LE(share.least->time_s, share.run->time_s + 1e-9) << choice << ' ' << share.percent;
+      EXPECT_LT(static_cast<double>(share.given_cells),
+                0.02 * static_cast<double>(run.observable_cells));
+    }
+    EXPECT_GE(reached, 1) << choice;
+    // And it says something: all of them need more than the scan at the start.
+    EXPECT_GE(bound.shares[3].least->scans, 4U) << choice;
+  }
+}
+
+TEST_F(RunBounds, TellTheShareAsMetricsDo) {
+  const RecordedRun run = support::short_run(folder.path() / "run", {"scans=8"});
+  RunBound bound = bound_of_run(run);
+  const auto metrics = nlohmann::json::parse(std::ifstream(run.directory / "metrics.json"));
+  for (const ShareBound& share : bound.shares) {
+    const auto recorded = metrics["time_to_" + std::to_string(share.percent) + "_s"];
+    EXPECT_EQ(recorded.is_null(), !share.run.has_value());
+    if (share.run) {
+      EXPECT_EQ(recorded, share.run->time_s);
+    }
+  }
+  add_oracle_tour(run, bound);
+  EXPECT_TRUE(bound.has_oracle_tour);
+  EXPECT_TRUE(bound.shares[0].oracle_tour);
+}
+
+TEST_F(RunBounds, AreRefusedWhereTheSceneIsAnother) {
+  RecordedRun run = support::short_run(folder.path() / "run", {"scans=2"});
+  run.observable_cells += 1;
+  EXPECT_THROW(bound_of_run(run), InputError);
+}
+
+/// A wall with a gap: no way between its sides is shorter than that round its end, and none is told
+/// longer.
+TEST(LeastWays, AreNeverLongerThanTheShortestWay) {
+  FloorMapOptions options;
+  options.half_size_m = 6.0;
+  OpenFloor floor{free_floor(options), 0.33};
+  block_box(floor.map, {Eigen::Vector2d(-0.1, -6.0), Eigen::Vector2d(0.1, 3.0)});
+  const std::vector<Eigen::Vector2d> places{{-2.0, 0.0}, {2.0, 0.0}, {-2.0, 4.5}, {-2.0, -3.0}};
+  const Eigen::MatrixXd ways_m = least_ways_m(floor, places, 1);
+  const double radius_m = 0.33;
+  const double corner_m = std::hypot(1.9, 3.0);    // to the corner of the wall
+  const double shortest_m = 2.0 * corner_m + 0.2;  // a point's; a disc's is longer
+  EXPECT_LT(ways_m(0, 1), shortest_m + 2.0 * radius_m);
+  EXPECT_GT(ways_m(0, 1), 0.85 * shortest_m);  // not the straight line of 4 m
+  EXPECT_LE(ways_m(0, 2), 4.5 + 1e-9);
+  EXPECT_NEAR(ways_m(0, 3), 3.0, 1e-9);
+  EXPECT_EQ(ways_m(0, 1), ways_m(1, 0));
+}
+
+}  // namespace
+}  // namespace vantage
