@@ -151,6 +151,7 @@ const std::map<std::string, Rooms> kAllowed{
                                "recognition/dataset", "dataset", "sim/render"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"bound", {"core", "geometry"}},
+    {"building", {"core", "geometry", "planners/navigation"}},
     {"hindsight", kTask + Rooms{"bound", "tasks", "tasks/*"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
@@ -185,6 +186,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
                             Rooms{"belief/objects", "belief/observation", "planners/objects"}},
     {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
+    {"cli/scene", {"core", "geometry", "building", "runtime"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference",
      kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
@@ -195,7 +197,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli",
      kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
          Rooms{"cli/export", "cli/hindsight", "cli/hints", "cli/manual", "cli/pictures",
-               "cli/recognition", "cli/reference", "cli/schema", "cli/sweep", "dataset",
+               "cli/recognition", "cli/reference", "cli/scene", "cli/schema", "cli/sweep", "dataset",
                "hindsight", "models/catalogue/database", "recipe", "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
@@ -251,6 +253,7 @@ const std::vector<LibraryRule> kLibraries{
     {"png", {"models/catalogue/shapes"}},
     {"CLI/", {"cli"}, true},
     {"Clp", {"bound"}, true},
+    {"assimp/", {"building"}, true},
     {"zlib", {"mcap"}, true},
     {"zstd", {"mcap"}, true},
 };
