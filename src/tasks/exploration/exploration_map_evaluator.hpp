@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vantage/belief/map/floor_map.hpp"
+#include "vantage/planners/navigation/path_field.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
 
 namespace vantage {
@@ -14,7 +15,8 @@ struct Exploration;
 class ExplorationMapEvaluator : public GroundTruthMapEvaluator {
  public:
   /// Observable cells: those that a noise-free sweep sees from at least one place that the robot
-  /// can reach; one such place in every square of metrics.pose_spacing_m. `truth` must outlive it.
+  /// can reach; one such place in every square of metrics.pose_spacing_m. Left out is what is seen
+  /// from rooms that it cannot get to. `truth` must outlive it.
   ExplorationMapEvaluator(const Exploration& task, int threads, const MobileGroundTruth& truth,
                           const FieldOfView& view_field, const Pose& T_base_sweep);
 
@@ -25,6 +27,8 @@ class ExplorationMapEvaluator : public GroundTruthMapEvaluator {
   [[nodiscard]] const FloorMap& floor() const { return floor_; }
 
  private:
+  [[nodiscard]] PathField true_ways(const Exploration& task, const MobileGroundTruth& truth) const;
+
   std::vector<Pose> poses_;  ///< T_world_sweep
   FloorMap floor_;
 };

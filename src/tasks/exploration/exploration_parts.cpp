@@ -49,12 +49,23 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
       task_(task),
       exploring_robot_(robot),
       belief_(belief),
-      traversed_(navigator_.floor().size(), 0) {}
+      traversed_(navigator_.floor().size(), 0) {
+  navigator_.use_passages(task_.passages, task_.floor_detail);
+  if (const FloorMap* detail = navigator_.detail()) traversed_detail_.assign(detail->size(), 0);
+}
+
+/// The robot has been there.
+void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
+  mark_disc(navigator_.floor(), p_m, radius_m, traversed_);
+  if (const FloorMap* detail = navigator_.detail()) {
+    mark_disc(*detail, p_m, radius_m, traversed_detail_);
+  }
+}
 
 ExplorationObservation ExplorationParts::observe() {
   if (scans_.empty()) {
     const Pose2 start = robot_.estimated_base();
-    mark_disc(navigator_.floor(), {start.x_m, start.y_m}, task_.start_room_m, traversed_);
+    traverse({start.x_m, start.y_m}, task_.start_room_m);
     look_round_at_start();
   }
   return observed([this] { return exploring_robot_.observe(); });
@@ -74,9 +85,14 @@ void ExplorationParts::update(const ExplorationObservation& observation) {
 void ExplorationParts::block_floor() {
   const auto& path_m = navigator_.path_m();
   for (; path_traversed_ < path_m.size(); ++path_traversed_) {
-    mark_disc(navigator_.floor(), path_m[path_traversed_], robot_.inscribed_radius_m(), traversed_);
+    traverse(path_m[path_traversed_], robot_.inscribed_radius_m());
   }
-  block_columns(navigator_.floor(), belief_.grid(), traversed_, task_.headroom);
+  if (FloorMap* detail = navigator_.detail()) {
+    block_columns({navigator_.floor(), traversed_}, {*detail, traversed_detail_}, belief_.grid(),
+                  task_.headroom, robot_.base_scan_height_m());
+  } else {
+    block_columns(navigator_.floor(), belief_.grid(), traversed_, task_.headroom);
+  }
 }
 
 void ExplorationParts::record() {
@@ -161,7 +177,9 @@ std::vector<Candidate> ExplorationParts::find_views(bool all) {
     if (!cell) break;
     const Eigen::Vector2d place = paths.map.centre(paths.map.cell(*cell));
     const Pose2 from = robot_.estimated_base();
-    const Pose2 base{place.x(), place.y(), std::atan2(place.y() - from.y_m, place.x() - from.x_m)};
+    const double yaw_rad =
+        paths.heading_rad(*cell).value_or(std::atan2(place.y() - from.y_m, place.x() - from.x_m));
+    const Pose2 base{place.x(), place.y(), yaw_rad};
     Candidate view;
     view.id = static_cast<int>(views.size());
     view.T_world_sensor = to_se3(base) * exploring_robot_.T_base_sweep();

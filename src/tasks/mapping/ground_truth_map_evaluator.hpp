@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct ScanPoses {
   Pose2 dead_reckoned;  ///< by the wheels alone since the scan before
   Pose2 tracked;        ///< what registration of the scan starts from
   Pose2 kept;           ///< what the scan was taken into the map at
+};
+
+/// What could be seen from where the robot might stand, if it could get there.
+struct LeftOut {
+  int rooms = 0;          ///< open places that no way leads to
+  std::size_t cells = 0;  ///< that a noise-free sensor sees from there alone
 };
 
 /// The only one who holds a map against the truth. Whoever decides may hand it a record to fill in,
@@ -47,6 +54,8 @@ class GroundTruthMapEvaluator {
   [[nodiscard]] CellSet visible_set(const Pose& T_world_sensor) const;
   [[nodiscard]] CellSet observable_set() const;
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
+  /// None where it is not asked which places can be reached.
+  [[nodiscard]] const std::optional<LeftOut>& left_out() const { return left_out_; }
   [[nodiscard]] std::size_t observable_unobserved(const OccupancyGrid& grid) const;
   [[nodiscard]] MapScore score(const OccupancyGrid& grid, int tolerance_cells) const;
   /// Fills in what the record says of the map, held against the truth.
@@ -55,6 +64,8 @@ class GroundTruthMapEvaluator {
   void measure_pose(const ScanPoses& poses, ScanRecord& record) const;
 
  protected:
+  /// @param T_world_sensors in `rooms` that no way leads to; after add_observable()
+  void set_left_out(int rooms, std::span<const Pose> T_world_sensors);
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
 
  private:
@@ -73,6 +84,7 @@ class GroundTruthMapEvaluator {
   std::vector<std::uint8_t> surface_;
   std::vector<Remembered> remembered_;
   std::size_t observable_count_ = 0;
+  std::optional<LeftOut> left_out_;
 };
 
 }  // namespace vantage
