@@ -15,8 +15,8 @@ namespace vantage {
 namespace {
 
 /// All floor is free but where something stands or hangs at the robot's height.
-FloorMap true_floor(const Exploration& task, const GridFrame& frame,
-                    const std::vector<std::uint8_t>& surface) {
+FloorMap floor_of_truth(const Exploration& task, const GridFrame& frame,
+                        const std::vector<std::uint8_t>& surface) {
   OccupancyGrid solid(frame);
   for (std::size_t cell = 0; cell < solid.size(); ++cell) {
     solid.log_odds[cell] = surface[cell] != 0 ? 1.0F : -1.0F;
@@ -58,13 +58,15 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
     : GroundTruthMapEvaluator(truth, task.map.frame(), view_field, threads) {
   const GridFrame frame = task.map.frame();
   const Pose2 start = truth.T_world_base();
-  floor_ = true_floor(task, frame, surface());
-  const PathField field = make_path_field(floor_, start, task.navigation);
-  poses_.push_back(to_se3(start) * T_base_sweep);
+  const FloorMap floor = floor_of_truth(task, frame, surface());
+  const PathField field = make_path_field(floor, start, task.navigation);
+  std::vector<Pose> T_world_sweeps{to_se3(start) * T_base_sweep};
   for (const auto& p : reachable_places(field, frame, task.metrics.pose_spacing_m)) {
-    poses_.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);
+    T_world_sweeps.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);
   }
-  add_observable(poses_);
+  add_observable(T_world_sweeps);
+  if (std::holds_alternative<OracleTour>(task.choice)) remember_visible(T_world_sweeps);
+  set_true_floor(floor);
 }
 
 }  // namespace vantage
