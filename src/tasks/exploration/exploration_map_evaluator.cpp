@@ -18,8 +18,8 @@ namespace vantage {
 namespace {
 
 /// All floor is free but where something stands or hangs at the robot's height.
-FloorMap true_floor(const Exploration& task, const GridFrame& frame,
-                    const std::vector<std::uint8_t>& surface) {
+FloorMap floor_of_truth(const Exploration& task, const GridFrame& frame,
+                        const std::vector<std::uint8_t>& surface) {
   OccupancyGrid solid(frame);
   for (std::size_t cell = 0; cell < solid.size(); ++cell) {
     solid.log_odds[cell] = surface[cell] != 0 ? 1.0F : -1.0F;
@@ -141,21 +141,23 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
     : GroundTruthMapEvaluator(truth, task.map.frame(), view_field, threads) {
   const GridFrame frame = task.map.frame();
   const Pose2 start = truth.T_world_base();
-  floor_ = true_floor(task, frame, surface());
-  const PathField field = true_ways(task, truth);
-  poses_.push_back(to_se3(start) * T_base_sweep);
+  const FloorMap floor = floor_of_truth(task, frame, surface());
+  const PathField field = true_ways(task, truth, floor);
+  std::vector<Pose> T_world_sweeps{to_se3(start) * T_base_sweep};
   const double spacing_m = task.metrics.pose_spacing_m;
-  for (const auto& p : spread_places(floor_, frame, spacing_m,
+  for (const auto& p : spread_places(floor, frame, spacing_m,
                                      [&](std::size_t cell) { return field.reachable(cell); })) {
-    const double yaw_rad = field.heading_rad(floor_.index(floor_.cell_at(p))).value_or(0.0);
-    poses_.push_back(to_se3({p.x(), p.y(), yaw_rad}) * T_base_sweep);
+    const double yaw_rad = field.heading_rad(floor.index(floor.cell_at(p))).value_or(0.0);
+    T_world_sweeps.push_back(to_se3({p.x(), p.y(), yaw_rad}) * T_base_sweep);
   }
-  add_observable(poses_);
+  add_observable(T_world_sweeps);
+  if (std::holds_alternative<OracleTour>(task.choice)) remember_visible(T_world_sweeps);
+  set_true_floor(floor);
 
   const UnreachedRooms rooms =
       unreached_rooms(field, floor_region(frame), task.passages.least_area_m2);
   std::vector<Pose> shut;
-  for (const auto& p : spread_places(floor_, frame, spacing_m,
+  for (const auto& p : spread_places(floor, frame, spacing_m,
                                      [&](std::size_t cell) { return rooms.cells[cell] != 0; })) {
     shut.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);
   }
@@ -164,9 +166,10 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
 
 /// By the rule that the robot plans by. Where a disc gets everywhere, outlines are not asked.
 PathField ExplorationMapEvaluator::true_ways(const Exploration& task,
-                                             const MobileGroundTruth& truth) const {
+                                             const MobileGroundTruth& truth,
+                                             const FloorMap& floor) const {
   const Pose2 start = truth.T_world_base();
-  PathField field = make_path_field(floor_, start, task.navigation);
+  PathField field = make_path_field(floor, start, task.navigation);
   const RobotOutline robot = truth.outline();
   if (!task.passages.use ||
       !leaves_something_out(field, floor_region(task.map.frame()),
@@ -174,8 +177,8 @@ PathField ExplorationMapEvaluator::true_ways(const Exploration& task,
     return field;
   }
   const auto space = std::make_shared<const FootprintSpace>(
-      true_detail(task, truth, floor_), task.floor_detail.parts, robot, task.passages);
-  return make_path_field(floor_, start, task.navigation, space);
+      true_detail(task, truth, floor), task.floor_detail.parts, robot, task.passages);
+  return make_path_field(floor, start, task.navigation, space);
 }
 
 }  // namespace vantage

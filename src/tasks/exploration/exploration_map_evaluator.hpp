@@ -2,8 +2,6 @@
 /// bound alone.
 #pragma once
 
-#include <vector>
-
 #include "vantage/belief/map/floor_map.hpp"
 #include "vantage/planners/navigation/path_field.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
@@ -20,17 +18,12 @@ class ExplorationMapEvaluator : public GroundTruthMapEvaluator {
   ExplorationMapEvaluator(const Exploration& task, int threads, const MobileGroundTruth& truth,
                           const FieldOfView& view_field, const Pose& T_base_sweep);
 
-  [[nodiscard]] std::size_t poses() const { return poses_.size(); }
-  /// Those places, as the sweep is there.
-  [[nodiscard]] const std::vector<Pose>& T_world_sweeps() const { return poses_; }
-  /// What stands or hangs in the robot's way, as it really is.
-  [[nodiscard]] const FloorMap& floor() const { return floor_; }
+  /// `oracle_tour` may scan from any of them, and knows what it would see.
+  [[nodiscard]] std::size_t poses() const { return observing_poses().size(); }
 
  private:
-  [[nodiscard]] PathField true_ways(const Exploration& task, const MobileGroundTruth& truth) const;
-
-  std::vector<Pose> poses_;  ///< T_world_sweep
-  FloorMap floor_;
+  [[nodiscard]] PathField true_ways(const Exploration& task, const MobileGroundTruth& truth,
+                                    const FloorMap& floor) const;
 };
 
 }  // namespace vantage

@@ -62,6 +62,7 @@ void GroundTruthMapEvaluator::add_observable(std::span<const Pose> T_world_senso
   for (const Pose& pose : T_world_sensors) {
     throw_if_interrupted();  // minutes, of an office
     add_visible_cells(truth_.geometry(), frame_, pose, field_of_view_, observable_, -1, threads_);
+    observing_poses_.push_back(pose);
   }
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));
 }
