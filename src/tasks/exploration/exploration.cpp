@@ -27,6 +27,7 @@ std::string Exploration::outcome(const nlohmann::ordered_json& metrics) {
 }
 
 std::vector<std::string> Exploration::require_start(const EpisodeSetup& setup) const {
+  require_planner(choice);
   return SimulatedExplorationRobot(setup, *this).start_notes();
 }
 

@@ -70,6 +70,9 @@ int MappingParts::scans_left() const {
 }
 
 std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
+  if (asks_outside(options_.choice)) {
+    throw ConfigError("choice: external is a program that is not asked here");
+  }
   const ViewChoice choice = within_scans_left(options_.choice, std::max(1, scans_left()));
   return plans_views(choice) ? next_of_plan(candidates)
                              : choose_view(choice, candidates, choice_rng_);
@@ -79,7 +82,7 @@ std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
 std::size_t MappingParts::chosen_outside(std::vector<Candidate>& candidates) {
   const BlockField of_unobserved = transmission();
   const std::size_t chosen = decide_outside(
-      *outside_, {belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()},
+      *outside_, {belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left(), &interval_},
       navigator_.plan(), options_.gain, [&] { return own_choice(candidates); }, candidates);
   for (std::size_t i = views_.size(); i < candidates.size(); ++i) views_.push_back(candidates[i]);
   return chosen;
