@@ -71,7 +71,7 @@ const Rooms kPlanners{"planners",
                       "planners/objects",
                       "planners/trajectory",
                       "planners/trajectory/optimisers"};
-const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
+const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots", "sim/faults"};
 const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing", "runtime/process"};
 const Rooms kRecognition{"recognition", "recognition/calibration", "recognition/dataset",
                          "recognition/evaluation"};
@@ -134,6 +134,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"sim/render", {"core", "geometry", "sim/world"}},
     {"sim/sensors", {"core", "geometry", "sim/world", "sim/render"}},
     {"sim/robots", {"core", "geometry", "control", "sim/world"}},
+    {"sim/faults", {"core", "geometry", "sim/world"}},
     {"models/catalogue/shapes", {"core", "geometry"}},
     {"models/catalogue/objects", {"core", "geometry", "models/catalogue/shapes"}},
     {"models/catalogue/database",
@@ -157,8 +158,9 @@ const std::map<std::string, Rooms> kAllowed{
     {"runtime/process", {"core"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
-    {"runtime", kGround + Rooms{"belief/map", "planners", "planners/choice", "report",
-                                "runtime/log", "sim/world", "sim/render", "sim/robots"}},
+    {"runtime",
+     kGround + Rooms{"belief/map", "planners", "planners/choice", "report", "runtime/log",
+                     "sim/faults", "sim/world", "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
     {"tasks/mapping/driving", kTask},
     {"tasks/mapping/external", kTask},

@@ -10,6 +10,7 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/runtime/log/recording_options.hpp"
+#include "vantage/sim/faults/fault_options.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
 #include "vantage/sim/world/world_options.hpp"
 
@@ -48,6 +49,7 @@ struct EpisodeOptions {
   int threads = 2;
   RobotOptions robot;
   WorldOptions simulation;
+  FaultOptions faults;
   RecordingOptions recording;
   void fields(auto&& f) {
     f("scene", scene, "MJCF file of the scene, which the robot is added to");
@@ -56,6 +58,7 @@ struct EpisodeOptions {
       between(1, 256));
     f("robot", robot, "the robot and where it starts");
     f("simulation", simulation, "physics step and control period of the simulation");
+    f("faults", faults, "what goes wrong with sensors, actuators and the world; all of it is off");
     f("recording", recording, "speed, frame rate and size of the video");
   }
 };

@@ -5,6 +5,8 @@
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/runtime/manifest.hpp"
+#include "vantage/sim/faults/outside_faults.hpp"
+#include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/tasks/former_keys.hpp"
 #include "vantage/tasks/robot_defaults.hpp"
 
@@ -206,6 +208,19 @@ std::string method_name(const Task& task) {
 ModelSource model_source(const ResolvedEpisode& resolved) {
   return std::visit([&](const auto& task) { return task.model_source(resolved.setup); },
                     resolved.task);
+}
+
+void add_outside_effects(const ResolvedEpisode& resolved, World& world) {
+  const EpisodeSetup& setup = resolved.setup;
+  add_outside_faults(world, setup.options.faults, setup.options.seed);
+  std::visit(
+      [&](const auto& task) {
+        if constexpr (requires { task.tracking.gusts; }) {
+          const std::string& base = quadrotor_of(setup.robot, "robot.model").base;
+          add_gusts(world, model_id(world.model(), ModelObject::body, base), task.tracking.gusts);
+        }
+      },
+      resolved.task);
 }
 
 std::vector<InputFile> inputs(const Task& task) {

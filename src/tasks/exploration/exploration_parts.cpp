@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "vantage/core/log.hpp"
+#include "vantage/perception/clouds/usable_readings.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/tasks/exploration/frontier_views.hpp"
 
@@ -28,6 +29,24 @@ void mark_disc(const FloorMap& floor, const Eigen::Vector2d& p_m, double radius_
       if ((floor.centre({x, y}) - p_m).norm() <= radius_m) flags[floor.index({x, y})] = 1;
     }
   }
+}
+
+/// Discards what says nothing: stale images, readings that are none. @return whether anything is
+/// left
+/// @param last of the observation before, then of this one
+bool keep_usable(ExplorationObservation& observation, CameraImages& last) {
+  discard_unusable(observation.base_scan);
+  std::vector<DepthImage> views;
+  for (DepthImage& view : observation.views) {
+    discard_unusable(view.image);
+    if (is_repeated(last, view.image)) continue;
+    last.depth_m = view.image.depth_m;
+    views.push_back(std::move(view));
+  }
+  observation.views = std::move(views);
+  return std::ranges::any_of(observation.views, [](const DepthImage& view) {
+    return std::ranges::any_of(view.image.depth_m, [](float depth_m) { return depth_m > 0.0F; });
+  });
 }
 
 }  // namespace
@@ -66,7 +85,12 @@ ExplorationObservation ExplorationParts::observe() {
     traverse({start.x_m, start.y_m}, task_.start_room_m);
     look_round_at_start();
   }
-  return observed([this] { return exploring_robot_.observe(); });
+  return observed([this] {
+    return first_usable<ExplorationObservation>([this](ExplorationObservation& observation) {
+      observation = exploring_robot_.observe();
+      return keep_usable(observation, last_image_);
+    });
+  });
 }
 
 void ExplorationParts::update(const ExplorationObservation& observation) {

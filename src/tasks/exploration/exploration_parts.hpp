@@ -44,7 +44,8 @@ class ExplorationParts : public MappingParts {
   std::vector<std::uint8_t> traversed_detail_;  ///< the same of the finer map
   std::size_t path_traversed_ = 0;              ///< points of the path so far
   VisitedPlaces visited_;
-  int poor_promises_ = 0;  ///< scans in a row after which no view was worth one more
+  CameraImages last_image_;  ///< that came
+  int poor_promises_ = 0;    ///< scans in a row after which no view was worth one more
 };
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "vantage/perception/clouds/usable_readings.hpp"
 #include "vantage/planners/navigation/narrow_path.hpp"
 
 namespace vantage {
@@ -29,6 +30,12 @@ Navigator::Navigator(const FloorMapOptions& floor, const NavigationOptions& navi
       reference_map_(std::move(reference_map)),
       uncertainty_(odometry, robot.estimated_base()),
       keyframe_m_(keyframe_m) {}
+
+PlanarScan Navigator::read_scanner() {
+  PlanarScan scan = robot_.read_base_scanner();
+  discard_unusable(scan);
+  return scan;
+}
 
 void Navigator::use_passages(const PassageOptions& options, const FloorDetailOptions& detail) {
   if (!options.use) return;
@@ -59,7 +66,7 @@ void Navigator::turn_in_place() {
   const Pose2 start = robot_.estimated_base();
   clear_footprint(floor_, start, options_.inflation_m() + floor_.cell_m);
   if (passages_) clear_footprint(*detail(), start, options_.inflation_m() + floor_.cell_m);
-  const PlanarScan scan = robot_.read_base_scanner();
+  const PlanarScan scan = read_scanner();
   extend_reference_map(scan, start);
   if (!reference_map_.walls_fix_pose(scan, robot_.base_scan_height_m())) {
     if (!reference_map_.posts_fix_pose(scan)) {
@@ -72,7 +79,7 @@ void Navigator::turn_in_place() {
     const double yaw_rad = start.yaw_rad + 2.0 / 3.0 * std::numbers::pi * third;
     drive_open({{start.x_m, start.y_m, wrap_angle(yaw_rad)}});
     const bool located = localise();
-    const PlanarScan seen = robot_.read_base_scanner();
+    const PlanarScan seen = read_scanner();
     if (located) extend_reference_map(seen, robot_.estimated_base());
   }
 }
@@ -90,7 +97,7 @@ void Navigator::extend_reference_map(const PlanarScan& scan, const Pose2& T_worl
 
 /// Corrects dead reckoning by the planar scanner and adds the scan to the floor map.
 bool Navigator::localise() {
-  const PlanarScan scan = robot_.read_base_scanner();
+  const PlanarScan scan = read_scanner();
   const auto located = reference_map_.locate(scan, robot_.base_scan_height_m(),
                                              robot_.estimated_base(), plausible_correction());
   const Pose2& pose = located.T_world_base;

@@ -76,6 +76,8 @@ class Navigator {
   [[nodiscard]] const std::vector<Eigen::Vector2d>& path_m() const { return path_m_; }
 
  private:
+  /// What the planar scanner says, as far as that says anything.
+  PlanarScan read_scanner();
   bool localise();
   void add_scan(const PlanarScan& scan, const Pose2& T_world_base);
   void extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base);

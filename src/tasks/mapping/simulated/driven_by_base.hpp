@@ -28,6 +28,7 @@ class DrivenByBase : public Interface {
 
   [[nodiscard]] MobileGroundTruth ground_truth() const { return base_.ground_truth(); }
   World& world() { return base_.world(); }
+  [[nodiscard]] const RobotFaults& faults() const { return base_.faults(); }
 
  protected:
   template <class... Arguments>

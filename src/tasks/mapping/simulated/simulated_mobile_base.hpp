@@ -9,6 +9,7 @@
 
 #include "vantage/core/rng.hpp"
 #include "vantage/runtime/episode_setup.hpp"
+#include "vantage/sim/faults/robot_faults.hpp"
 #include "vantage/sim/robots/drive.hpp"
 #include "vantage/sim/robots/mobile_base.hpp"
 #include "vantage/sim/robots/odometry.hpp"
@@ -68,6 +69,8 @@ class SimulatedMobileBase {
   World& world() { return world_; }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const MobileBase& robot() const { return robot_; }
+  [[nodiscard]] RobotFaults& faults() { return faults_; }
+  [[nodiscard]] const RobotFaults& faults() const { return faults_; }
 
  private:
   void report_touch() const;
@@ -83,6 +86,7 @@ class SimulatedMobileBase {
   Pose2 T_world_corrected_;      ///< the pose that correction set
   CollisionCounter collisions_;
   Rng scanner_noise_;
+  RobotFaults faults_;
   double energy_used_j_ = 0.0;
 };
 
