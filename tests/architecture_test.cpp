@@ -71,7 +71,7 @@ const Rooms kPlanners{"planners",
                       "planners/objects",
                       "planners/trajectory",
                       "planners/trajectory/optimisers"};
-const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
+const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots", "sim/faults"};
 const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing", "runtime/process"};
 const Rooms kRecognition{"recognition", "recognition/calibration", "recognition/dataset",
                          "recognition/evaluation"};
@@ -134,6 +134,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"sim/render", {"core", "geometry", "sim/world"}},
     {"sim/sensors", {"core", "geometry", "sim/world", "sim/render"}},
     {"sim/robots", {"core", "geometry", "control", "sim/world"}},
+    {"sim/faults", {"core", "geometry", "sim/world"}},
     {"models/catalogue/shapes", {"core", "geometry"}},
     {"models/catalogue/objects", {"core", "geometry", "models/catalogue/shapes"}},
     {"models/catalogue/database",
@@ -152,12 +153,14 @@ const std::map<std::string, Rooms> kAllowed{
                                "recognition/dataset", "dataset", "sim/render"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"bound", {"core", "geometry"}},
+    {"building", {"core", "geometry", "planners/navigation"}},
     {"hindsight", kTask + Rooms{"bound", "tasks", "tasks/*"}},
     {"runtime/process", {"core"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
-    {"runtime", kGround + Rooms{"belief/map", "planners", "planners/choice", "report",
-                                "runtime/log", "sim/world", "sim/render", "sim/robots"}},
+    {"runtime",
+     kGround + Rooms{"belief/map", "planners", "planners/choice", "report", "runtime/log",
+                     "sim/faults", "sim/world", "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
     {"tasks/mapping/driving", kTask},
     {"tasks/mapping/external", kTask},
@@ -190,6 +193,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
                             Rooms{"belief/objects", "belief/observation", "planners/objects"}},
     {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
+    {"cli/scene", {"core", "geometry", "building", "runtime"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference",
      kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
@@ -199,9 +203,9 @@ const std::map<std::string, Rooms> kAllowed{
                        Rooms{"dataset", "recipe", "tasks"}},
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                 Rooms{"cli/arena", "cli/export", "cli/hindsight", "cli/hints", "cli/manual",
-                      "cli/pictures", "cli/recognition", "cli/reference", "cli/schema", "cli/sweep",
-                      "dataset", "hindsight", "models/catalogue/database", "recipe", "report",
-                      "tasks", "view"}},
+                      "cli/pictures", "cli/recognition", "cli/reference", "cli/scene", "cli/schema",
+                      "cli/sweep", "dataset", "hindsight", "models/catalogue/database", "recipe",
+                      "report", "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",
@@ -256,6 +260,7 @@ const std::vector<LibraryRule> kLibraries{
     {"png", {"models/catalogue/shapes"}},
     {"CLI/", {"cli"}, true},
     {"Clp", {"bound"}, true},
+    {"assimp/", {"building"}, true},
     {"zlib", {"mcap"}, true},
     {"zstd", {"mcap"}, true},
 };

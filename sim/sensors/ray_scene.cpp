@@ -20,7 +20,6 @@ struct SolidGeom {
   int geom_id = -1;
   int body_id = -1;
   int type = mjGEOM_NONE;
-  bool moving = false;
   Eigen::Vector3d size_m;
   Eigen::AlignedBox3d box_m;         ///< in the geom's frame; unused for planes
   const EmbreeMesh* mesh = nullptr;  ///< of meshes and height fields
@@ -129,7 +128,6 @@ void RayScene::Impl::add(const mjModel& model, const mjData& data, int geom_id) 
   geom.geom_id = geom_id;
   geom.body_id = model.geom_bodyid[geom_id];
   geom.type = model.geom_type[geom_id];
-  geom.moving = is_moving_geom(model, geom_id);
   geom.size_m = Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom_id);
   place(geom, data);
   if (geom.type == mjGEOM_PLANE) {
@@ -163,9 +161,7 @@ void RayScene::Impl::commit() {
 
 void RayScene::Impl::update(const mjData& data) {
   for (auto* geoms : {&planes_, &bounded_}) {
-    for (SolidGeom& geom : *geoms) {
-      if (geom.moving) place(geom, data);
-    }
+    for (SolidGeom& geom : *geoms) place(geom, data);  // what stands fixed may be moved too
   }
   commit();
 }

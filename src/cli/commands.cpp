@@ -20,6 +20,7 @@
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
+#include "vantage/cli/scene_commands.hpp"
 #include "vantage/cli/schema/schema_command.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
@@ -232,6 +233,7 @@ const std::vector<Command>& commands() {
       {"view", "an episode in a window, as it runs or from its run folder", declare_view},
       {"export", "a run for other programs: an MCAP file", declare_export},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
+      {"scene", "scenes from what others drew", declare_scene},
       {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
       {"dataset", "render, inspect and show databases of objects", declare_dataset},
       {"train", "learn to recognise the objects of a dataset", declare_train},

@@ -35,6 +35,7 @@ GroundTruthMapEvaluator tabletop_evaluator(const Tabletop& task, int threads,
 }
 
 void Tabletop::check_with(const EpisodeOptions& episode) const {
+  require_possible(episode.faults, {.laser = true, .wheels = true});
   const double period_s = episode.simulation.control_period_s;
   if (std::abs(laser.line_rate_hz * period_s - 1.0) > 1e-9) {
     throw ConfigError(fmt::format(
