@@ -129,7 +129,8 @@ const std::map<std::string, Rooms> kAllowed{
          Rooms{"belief/objects", "belief/observation", "planners/objects", "planners/trajectory",
                "recognition/calibration", "recognition/dataset"}},
     {"recognition/evaluation", kGround + Rooms{"recognition", "recognition/dataset"}},
-    {"sim/world", {"core", "geometry"}},
+    {"sim/stepping", {"core", "geometry"}},
+    {"sim/world", {"core", "geometry", "sim/stepping"}},
     {"sim/render", {"core", "geometry", "sim/world"}},
     {"sim/sensors", {"core", "geometry", "sim/world", "sim/render"}},
     {"sim/robots", {"core", "geometry", "control", "sim/world"}},
@@ -194,11 +195,11 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli/manual", {"core"}},
     {"cli/schema", kGround + kPerception + kSim + kRuntime + kRecognition + kStudy +
                        Rooms{"dataset", "recipe", "tasks"}},
-    {"cli",
-     kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-         Rooms{"cli/export", "cli/hindsight", "cli/hints", "cli/manual", "cli/pictures",
-               "cli/recognition", "cli/reference", "cli/scene", "cli/schema", "cli/sweep", "dataset",
-               "hindsight", "models/catalogue/database", "recipe", "report", "tasks", "view"}},
+    {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+                Rooms{"cli/export", "cli/hindsight", "cli/hints", "cli/manual", "cli/pictures",
+                      "cli/recognition", "cli/reference", "cli/scene", "cli/schema", "cli/sweep",
+                      "dataset", "hindsight", "models/catalogue/database", "recipe", "report",
+                      "tasks", "view"}},
     {"bench/claims", {"core", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",

@@ -9,9 +9,9 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/sim/world/model_part.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
-#include "vantage/sim/world/near_geoms.hpp"
 
 namespace vantage {
 namespace {
@@ -146,11 +146,7 @@ void World::advance_tick() {
 }
 
 void World::look_for_near_geoms() {
-  if (positions_jumped_) {
-    near_geoms_->start(snapshot());
-  } else {
-    near_geoms_->follow(*data_);
-  }
+  positions_jumped_ ? near_geoms_->start(snapshot()) : near_geoms_->follow(*data_);
   positions_jumped_ = false;
 }
 

@@ -1,4 +1,4 @@
-#include "vantage/sim/world/model_part.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
 
 #include <mujoco/mjxmacro.h>
 

@@ -1,7 +1,7 @@
 // Leaving out what is far changes no bit: bodies of every shape fall and roll about in a room,
 // beside the same model stepped by MuJoCo alone.
 
-#include "vantage/sim/world/near_geoms.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "tests/sim/test_world.hpp"
-#include "vantage/sim/world/model_part.hpp"
-#include "vantage/sim/world/near_pairs.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
+#include "vantage/sim/stepping/near_pairs.hpp"
 
 namespace vantage {
 namespace {
