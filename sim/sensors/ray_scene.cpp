@@ -20,17 +20,21 @@ struct SolidGeom {
   int geom_id = -1;
   int body_id = -1;
   int type = mjGEOM_NONE;
-  bool moving = false;
   Eigen::Vector3d size_m;
   Eigen::AlignedBox3d box_m;         ///< in the geom's frame; unused for planes
   const EmbreeMesh* mesh = nullptr;  ///< of meshes and height fields
-  Eigen::Vector3d p_world_m;
-  RowMajor3d R_world;
+  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
+  RowMajor3d R_world = RowMajor3d::Zero();
 };
 
-void place(SolidGeom& geom, const mjData& data) {
-  geom.p_world_m = Eigen::Map<const Eigen::Vector3d>(data.geom_xpos + 3 * geom.geom_id);
-  geom.R_world = Eigen::Map<const RowMajor3d>(data.geom_xmat + 9 * geom.geom_id);
+/// @return whether it was elsewhere
+bool place(SolidGeom& geom, const mjData& data) {
+  const Eigen::Map<const Eigen::Vector3d> p_world_m(data.geom_xpos + 3 * geom.geom_id);
+  const Eigen::Map<const RowMajor3d> R_world(data.geom_xmat + 9 * geom.geom_id);
+  const bool changed = p_world_m != geom.p_world_m || R_world != geom.R_world;
+  geom.p_world_m = p_world_m;
+  geom.R_world = R_world;
+  return changed;
 }
 
 /// Distance along the ray, infinity if it is not below `range_max_m`.
@@ -142,7 +146,6 @@ void RayScene::Impl::add(const mjModel& model, const mjData& data, int geom_id) 
   geom.geom_id = geom_id;
   geom.body_id = model.geom_bodyid[geom_id];
   geom.type = model.geom_type[geom_id];
-  geom.moving = is_moving_geom(model, geom_id);
   geom.size_m = Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom_id);
   place(geom, data);
   if (geom.type == mjGEOM_PLANE) {
@@ -156,7 +159,7 @@ void RayScene::Impl::add(const mjModel& model, const mjData& data, int geom_id) 
     const Eigen::Vector3d half = primitive_half_extent(model, geom_id);
     geom.box_m = {-half, half};
   }
-  (geom.moving ? moving_ : still_).geoms.push_back(geom);
+  (is_moving_geom(model, geom_id) ? moving_ : still_).geoms.push_back(geom);
 }
 
 const EmbreeMesh* RayScene::Impl::mesh_of(const mjModel& model, int geom_id) {
@@ -174,13 +177,14 @@ void RayScene::Impl::commit(const Tree& tree) {
   rtcCommitScene(tree.scene.get());
 }
 
+/// What hangs on no joint may be put elsewhere too, but seldom is.
 void RayScene::Impl::update(const mjData& data) {
-  for (auto* geoms : {&planes_, &moving_.geoms}) {
-    for (SolidGeom& geom : *geoms) {
-      if (geom.moving) place(geom, data);
-    }
-  }
+  for (SolidGeom& plane : planes_) place(plane, data);
+  for (SolidGeom& geom : moving_.geoms) place(geom, data);
   commit(moving_);
+  bool changed = false;
+  for (SolidGeom& geom : still_.geoms) changed = place(geom, data) || changed;
+  if (changed) commit(still_);
 }
 
 void RayScene::Impl::bounds(const RTCBoundsFunctionArguments* arguments) {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "vantage/cli/arena/arena_command.hpp"
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
@@ -222,6 +223,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       {"run", "run an episode and write its run folder", declare_run},
       {"sweep", "run a study: an episode varied by factors", declare_sweep},
+      {"arena", "planners side by side, yours among them", declare_arena},
       {"report", "write the report page of a run or a study", declare_report},
       {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},

@@ -176,6 +176,24 @@ TEST(NearGeoms, ASnapshotHasAllPoses) {
   EXPECT_TRUE(same(now.cam_xpos, whole->cam_xpos, 3 * model.ncam));
 }
 
+TEST(NearGeoms, WhatIsPutElsewhereIsThere) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><geom type='plane' size='9 9 .1'/>"
+      "<body name='shelf' pos='5 0 .5'><body pos='0 0 .1'><geom name='board' type='box' "
+      "size='.4 .4 .1'/></body></body>"
+      "<body pos='0 0 1.2'><freejoint name='ball'/><geom size='.1'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.advance_tick();
+  const int shelf = model_id(world.model(), ModelObject::body, "shelf");
+  const int board = model_id(world.model(), ModelObject::geom, "board");
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * board], 5.0);
+  world.put_fixed_body(shelf, {0.1, 0.0, 0.3});
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * board], 0.1);
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * board + 2], 0.4);
+  while (world.time_s() < 2.0) world.advance_tick();
+  EXPECT_NEAR(world.data().qpos[2], 0.6, 0.02) << "it fell onto the board";
+}
+
 /// Constraints between bodies name them: then all is stepped, as MuJoCo does.
 TEST(NearGeoms, ConstraintsBetweenBodiesHold) {
   const test::SceneFolder folder(
