@@ -35,7 +35,9 @@ class TourSearch {
   TourSearch(const PlanningProblem& problem, const TourObjective& objective)
       : problem_(problem), objective_(objective), gain_(problem), adds_(problem.views(), 0.0) {
     for (std::size_t view = 0; view < problem.views(); ++view) gain_.add(view);
-    all_ = std::max(gain_.total(), std::numeric_limits<double>::min());
+    all_ = gain_.total();
+    for (std::size_t view = 0; view < problem.views(); ++view) all_ += problem.beyond_of(view);
+    all_ = std::max(all_, std::numeric_limits<double>::min());
   }
 
   Tour run(std::size_t rounds, std::optional<std::size_t> first) {
@@ -69,14 +71,19 @@ class TourSearch {
     double shown = 0.0;
     std::size_t at = problem_.here();
     for (const std::size_t view : order) {
+      const double beyond = problem_.beyond_of(view);
+      const double dwell_s = problem_.dwell_s(view);
       time_s += problem_.leg_s(at, view) + problem_.scan_s;
-      weighted += adds_[view] * time_s;
-      shown += adds_[view];
+      weighted += adds_[view] * time_s + beyond * (time_s + 0.5 * dwell_s);
+      time_s += dwell_s;
+      shown += adds_[view] + beyond;
       at = view;
     }
     const double unseen = std::max(all_ - shown, 0.0);
-    const double mean_s = (weighted + unseen * (time_s + objective_.worth_s)) / all_;
-    return (1.0 - objective_.finish_weight) * mean_s + objective_.finish_weight * time_s;
+    const double mean_s = (weighted + unseen * time_s) / all_;
+    const double left_out_s = objective_.worth_s * unseen / (problem_.seen + all_);
+    return (1.0 - objective_.finish_weight) * mean_s + objective_.finish_weight * time_s +
+           left_out_s;
   }
 
  private:
@@ -204,7 +211,7 @@ class TourSearch {
   const TourObjective& objective_;
   JointGain gain_;            ///< of the order
   std::vector<double> adds_;  ///< per view, what it adds in the order
-  double all_ = 0.0;          ///< what all views show together
+  double all_ = 0.0;          ///< what all views show together, and what lies beyond them
   std::size_t fixed_ = 0;     ///< views at the start of the tour that stay there
   Order order_;
   Tour tour_;  ///< the same with its exact cost
@@ -240,11 +247,16 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
   }
   std::ranges::sort(firsts);
   std::vector<Tour> tours{free};
+  const auto is_intended = [&](std::size_t view) { return view == problem.intended; };
+  std::ranges::stable_partition(firsts, is_intended, &std::pair<double, std::size_t>::second);
   for (const auto& [cost_s, view] : firsts) {
-    if (tours.size() >= options.first_moves) break;
+    if (tours.size() >= std::max<std::size_t>(options.first_moves, is_intended(view) ? 2 : 1))
+      break;
     tours.push_back(search_tour(problem, objective, options, view));
   }
-  std::ranges::stable_sort(tours, {}, &Tour::cost_s);
+  std::ranges::stable_sort(tours, {}, [&](const Tour& tour) {
+    return tour.cost_s - (is_intended(tour.order.front()) ? options.keep_s : 0.0);
+  });
   return tours;
 }
 

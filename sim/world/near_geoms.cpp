@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "vantage/sim/world/model_part.hpp"
 #include "vantage/sim/world/near_pairs.hpp"
 
 namespace vantage {
@@ -49,15 +50,18 @@ bool is_slow(const mjModel& model, const mjData& at) {
 
 }  // namespace
 
+NearGeoms::~NearGeoms() = default;
+
 NearGeoms::NearGeoms(const mjModel& model)
     : model_(model),
+      stepped_(std::make_unique<ModelPart>(model)),
       started_(static_cast<std::size_t>(model.ngeom)),
       near_(static_cast<std::size_t>(model.ngeom), 1) {
   for (int geom = 0; geom < model.ngeom; ++geom) {
     const int body = model.geom_bodyid[geom];
     if (!collides(model, geom)) continue;
     if (model.body_weldid[body] == 0) {
-      fixed_.push_back(geom);
+      fixed_.push_back({.geom = geom, .bounded = stays_in_box(model, geom)});
     } else {
       trees_[model.body_rootid[body]].geoms.push_back(geom);
     }
@@ -72,27 +76,25 @@ Eigen::AlignedBox3d NearGeoms::reach_of(int geom) const {
 }
 
 /// Of a fixed geom without a box that it stays in.
-bool NearGeoms::meets_unbounded(int moving, int fixed, const mjData& at) const {
-  if (model_.geom_type[fixed] != mjGEOM_PLANE || follows_mocap(model_, fixed)) return true;
-  const Rotation R_world_plane(at.geom_xmat + 9 * fixed);
-  const Eigen::Vector3d p_plane = started_[static_cast<std::size_t>(moving)] - place_of(at, fixed);
-  return R_world_plane.col(2).dot(p_plane) < model_.geom_rbound[moving] + kReach_m;
+bool NearGeoms::meets_unbounded(int moving, const Fixed& fixed) const {
+  if (model_.geom_type[fixed.geom] != mjGEOM_PLANE || follows_mocap(model_, fixed.geom))
+    return true;
+  const Eigen::Vector3d p_plane = started_[static_cast<std::size_t>(moving)] - fixed.p_world_m;
+  return fixed.normal.dot(p_plane) < model_.geom_rbound[moving] + kReach_m;
 }
 
 void NearGeoms::mark_pair(int geom, int other) {
   near_[static_cast<std::size_t>(geom)] = near_[static_cast<std::size_t>(other)] = 1;
 }
 
-void NearGeoms::mark_beside_fixed(const Tree& tree, const mjData& at) {
-  for (const int fixed : fixed_) {
-    const bool bounded = stays_in_box(model_, fixed);
-    const Eigen::AlignedBox3d box = bounded ? box_of(model_, at, fixed) : Eigen::AlignedBox3d();
-    if (bounded && !tree.reach.intersects(box)) continue;
+void NearGeoms::mark_beside_fixed(const Tree& tree) {
+  for (const Fixed& fixed : fixed_) {
+    if (fixed.bounded && !tree.reach.intersects(fixed.box_m)) continue;
     const auto meets = [&](int geom) {
-      return bounded ? reach_of(geom).intersects(box) : meets_unbounded(geom, fixed, at);
+      return fixed.bounded ? reach_of(geom).intersects(fixed.box_m) : meets_unbounded(geom, fixed);
     };
     for (const int geom : tree.geoms) {
-      if (masks_match(model_, geom, fixed) && meets(geom)) mark_pair(geom, fixed);
+      if (masks_match(model_, geom, fixed.geom) && meets(geom)) mark_pair(geom, fixed.geom);
     }
   }
 }
@@ -109,9 +111,22 @@ void NearGeoms::mark_beside_moving(const Tree& tree, const Tree& other) {
   }
 }
 
-void NearGeoms::start(mjModel& stepping, const mjData& at) {
+void NearGeoms::place_fixed(const mjData& at) {
+  for (Fixed& fixed : fixed_) {
+    if (fixed.bounded) fixed.box_m = box_of(model_, at, fixed.geom);
+    fixed.p_world_m = place_of(at, fixed.geom);
+    fixed.normal = Rotation(at.geom_xmat + 9 * fixed.geom).col(2);
+  }
+}
+
+void NearGeoms::start(const mjData& at) {
+  place_fixed(at);
+  look_anew(at);
+}
+
+void NearGeoms::look_anew(const mjData& at) {
   const bool slow = is_slow(model_, at);
-  for (const int geom : fixed_) near_[static_cast<std::size_t>(geom)] = slow ? 0 : 1;
+  for (const Fixed& fixed : fixed_) near_[static_cast<std::size_t>(fixed.geom)] = slow ? 0 : 1;
   for (auto& [root, tree] : trees_) {
     tree.reach.setEmpty();
     for (const int geom : tree.geoms) {
@@ -122,19 +137,16 @@ void NearGeoms::start(mjModel& stepping, const mjData& at) {
   }
   if (slow) {
     for (auto tree = trees_.begin(); tree != trees_.end(); ++tree) {
-      mark_beside_fixed(tree->second, at);
+      mark_beside_fixed(tree->second);
       for (auto other = tree; other != trees_.end(); ++other) {
         mark_beside_moving(tree->second, other->second);
       }
     }
   }
-  for (int geom = 0; geom < model_.ngeom; ++geom) {
-    stepping.geom_contype[geom] = is_near(geom) ? model_.geom_contype[geom] : 0;
-    stepping.geom_conaffinity[geom] = is_near(geom) ? model_.geom_conaffinity[geom] : 0;
-  }
+  stepped_->list(near_);
 }
 
-void NearGeoms::follow(mjModel& stepping, const mjData& at) {
+void NearGeoms::follow(const mjData& at) {
   const auto moved = [&](int geom) {  // by half, since `at` lags
     const Eigen::Vector3d gone = place_of(at, geom) - started_[static_cast<std::size_t>(geom)];
     return gone.cwiseAbs().maxCoeff() > 0.5 * kReach_m;
@@ -142,7 +154,16 @@ void NearGeoms::follow(mjModel& stepping, const mjData& at) {
   const bool go_on = is_slow(model_, at) && std::ranges::none_of(trees_, [&](const auto& tree) {
                        return std::ranges::any_of(tree.second.geoms, moved);
                      });
-  if (!go_on) start(stepping, at);
+  if (!go_on) look_anew(at);
+}
+
+void NearGeoms::step(mjData& data) {
+  stepped_->run(data, [](const mjModel& model, mjData& seen) { mj_step(&model, &seen); });
+  for (int i = 0; i < data.ncon; ++i) {
+    mjContact& contact = data.contact[i];
+    contact.geom1 = stepped_->geom_id(contact.geom1);
+    contact.geom2 = stepped_->geom_id(contact.geom2);
+  }
 }
 
 }  // namespace vantage

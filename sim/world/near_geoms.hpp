@@ -5,6 +5,8 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
+#include <span>
 #include <vector>
 
 struct mjModel_;
@@ -14,21 +16,26 @@ using mjData = mjData_;
 
 namespace vantage {
 
-/// Takes geoms with nothing near out of MuJoCo's search for contacts, which else sorts all of a
-/// building and asks each part of a robot for the floor in every step. Contacts are the same to the
-/// bit.
+class ModelPart;
+
+/// Takes geoms with nothing near out of MuJoCo's steps, which else place all of a building, sort
+/// it, and ask each part of a robot for the floor, every time. Steps are the same to the bit.
 class NearGeoms {
  public:
   /// @param model outlives this
   explicit NearGeoms(const mjModel& model);
+  ~NearGeoms();
 
-  /// Sets the masks of `stepping`, a copy of the model. To be called when positions jump; `at`
-  /// holds the present poses of geoms.
-  void start(mjModel& stepping, const mjData& at);
-  /// Before each step. `at` may lag by one.
-  void follow(mjModel& stepping, const mjData& at);
+  /// To be called before the first step and when positions jump; `at` holds the present poses of
+  /// geoms.
+  void start(const mjData& at);
+  /// Sees whether others are near by now. `at` may lag by a step.
+  void follow(const mjData& at);
+  /// One step of MuJoCo. Poses of what stands still and is not near are left as they were.
+  void step(mjData& data);
 
   [[nodiscard]] bool is_near(int geom) const { return near_[static_cast<std::size_t>(geom)] != 0; }
+  [[nodiscard]] const ModelPart& stepped() const { return *stepped_; }
 
  private:
   /// A body on joints with all that it carries.
@@ -37,14 +44,26 @@ class NearGeoms {
     Eigen::AlignedBox3d reach;  ///< world, of all of them
   };
 
+  /// A geom without a joint.
+  struct Fixed {
+    int geom;
+    bool bounded;                                         ///< stays in its box
+    Eigen::AlignedBox3d box_m = {};                       ///< world
+    Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();  ///< of planes, with the normal
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  };
+
   [[nodiscard]] Eigen::AlignedBox3d reach_of(int geom) const;
-  [[nodiscard]] bool meets_unbounded(int moving, int fixed, const mjData& at) const;
+  [[nodiscard]] bool meets_unbounded(int moving, const Fixed& fixed) const;
+  void place_fixed(const mjData& at);
+  void look_anew(const mjData& at);
   void mark_pair(int geom, int other);
-  void mark_beside_fixed(const Tree& tree, const mjData& at);
+  void mark_beside_fixed(const Tree& tree);
   void mark_beside_moving(const Tree& tree, const Tree& other);
 
   const mjModel& model_;
-  std::vector<int> fixed_;
+  std::unique_ptr<ModelPart> stepped_;
+  std::vector<Fixed> fixed_;
   std::map<int, Tree> trees_;             ///< by the body that they hang on
   std::vector<Eigen::Vector3d> started_;  ///< where geoms were then, world
   std::vector<char> near_;                ///< of each geom

@@ -9,7 +9,9 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/sim/world/model_part.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
+#include "vantage/sim/world/near_geoms.hpp"
 
 namespace vantage {
 namespace {
@@ -50,6 +52,12 @@ Pose make_world_pose(const mjtNum* position, const mjtNum* row_major_rotation) {
   return pose;
 }
 
+void find_poses(const mjModel& model, mjData& data) {
+  mj_kinematics(&model, &data);
+  mj_comPos(&model, &data);
+  mj_camlight(&model, &data);
+}
+
 template <class Visit>
 void visit_state(const mjModel& model, mjData& data, Visit&& visit) {
   visit(&data.time, 1);
@@ -83,14 +91,14 @@ World::World(const ModelSource& source, const WorldOptions& options, LoadedModel
     : source_(source),
       options_(options),
       warnings_(std::move(loaded.warnings)),
-      model_(std::move(loaded.model)),
-      near_geoms_(*model_) {
+      model_(std::move(loaded.model)) {
   check_options(options_, "world");
   model_->opt.timestep = options_.timestep_s;
-  stepping_.reset(mj_copyModel(nullptr, model_.get()));
-  if (!stepping_) throw InputError("the model is too large for the memory of this machine");
+  near_geoms_ = std::make_unique<NearGeoms>(*model_);
+  moving_ = std::make_unique<ModelPart>(*model_);
   data_ = make_data(*model_);
   snapshot_ = make_data(*model_);
+  find_poses(*model_, *snapshot_);
 }
 
 World::~World() = default;
@@ -101,9 +109,7 @@ const mjData& World::snapshot() const {
   std::copy_n(data_->qpos, model_->nq, view.qpos);
   std::copy_n(data_->mocap_pos, 3 * model_->nmocap, view.mocap_pos);
   std::copy_n(data_->mocap_quat, 4 * model_->nmocap, view.mocap_quat);
-  mj_kinematics(model_.get(), &view);
-  mj_comPos(model_.get(), &view);
-  mj_camlight(model_.get(), &view);
+  moving_->run(view, find_poses);
   return view;
 }
 
@@ -161,9 +167,9 @@ void World::put_fixed_body(int body_id, const Eigen::Vector3d& p_parent_body_m) 
 
 void World::look_for_near_geoms() {
   if (positions_jumped_) {
-    near_geoms_.start(*stepping_, snapshot());
+    near_geoms_->start(snapshot());
   } else {
-    near_geoms_.follow(*stepping_, *data_);
+    near_geoms_->follow(*data_);
   }
   positions_jumped_ = false;
 }
@@ -174,7 +180,7 @@ void World::step() {
   std::vector<std::string> messages;
   try {
     const WarningCollector collector(messages);
-    mj_step(stepping_.get(), data_.get());
+    near_geoms_->step(*data_);
   } catch (const MujocoError& error) {
     diverged_ = true;
     throw DivergedError(

@@ -14,7 +14,6 @@
 
 #include "vantage/geometry/pose.hpp"
 #include "vantage/sim/world/model_names.hpp"
-#include "vantage/sim/world/near_geoms.hpp"
 #include "vantage/sim/world/scene.hpp"
 #include "vantage/sim/world/world_options.hpp"
 
@@ -22,6 +21,9 @@ struct mjData_;
 using mjData = mjData_;
 
 namespace vantage {
+
+class ModelPart;
+class NearGeoms;
 
 struct DataDeleter {
   void operator()(mjData* data) const;
@@ -51,7 +53,8 @@ class World {
   [[nodiscard]] mjData& data() { return *data_; }
   [[nodiscard]] const mjData& data() const { return *data_; }
   /// Poses of bodies, geoms, sites, cameras and lights at the present positions. (In `data()` they
-  /// lag by one step.) For sensors and rendering; valid until the next step or call.
+  /// lag by one step, and most of what stands still has none.) For sensors and rendering; valid
+  /// until the next step or call.
   [[nodiscard]] const mjData& snapshot() const;
   [[nodiscard]] DataPtr copy_data() const;
 
@@ -104,10 +107,10 @@ class World {
   WorldOptions options_;
   std::vector<std::string> warnings_;
   ModelPtr model_;
-  ModelPtr stepping_;  ///< the same but for masks of what is far from all that moves
   DataPtr data_;
   mutable DataPtr snapshot_;
-  NearGeoms near_geoms_;
+  std::unique_ptr<NearGeoms> near_geoms_;
+  std::unique_ptr<ModelPart> moving_;  ///< what a snapshot looks for anew
   std::vector<OutsideForce> forces_;
   bool positions_jumped_ = true;
   std::uint64_t ticks_ = 0;

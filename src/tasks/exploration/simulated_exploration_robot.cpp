@@ -46,9 +46,7 @@ double camera_ahead_m(const World& world, const MobileBase& robot) {
 /// @throws ConfigError naming the scene's sites if it has none of that name.
 Pose2 start_pose(const World& world, const EpisodeSetup& setup) {
   const RobotOptions& robot = setup.options.robot;
-  if (robot.start_site.empty()) {
-    return {robot.start_pose[0], robot.start_pose[1], wrap_angle(robot.start_pose[2])};
-  }
+  if (robot.start_site.empty()) return robot.posed_start();
   if (const auto site = find_model_id(world.model(), ModelObject::site, robot.start_site)) {
     return project_to_se2(site_pose(world, *site));
   }

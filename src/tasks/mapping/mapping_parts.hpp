@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <future>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -97,6 +98,9 @@ class MappingParts {
   Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
   void warn_out_of_reach(const Candidate& view) const;
   void start_decision();
+  /// The views that `oracle_tour` alone may take: of all places where a robot could stand those
+  /// that are in reach now, or those that are not yet. None of another choice, or at a table.
+  [[nodiscard]] std::vector<Candidate> views_of_truth(const PathField& paths, bool in_reach) const;
   /// Cells that these views are expected to show together, by `adaptive`.
   [[nodiscard]] double expected_left_cells(const std::vector<Candidate>& views);
   /// Why no further scan is taken once there are as many as were asked for, or none of these views
@@ -111,6 +115,8 @@ class MappingParts {
   std::vector<Candidate> views_;
   bool views_have_gains_ = false;
   std::vector<std::size_t> plan_;  ///< candidates that a choice that plans ahead wants to take
+  std::optional<Eigen::Vector2d>
+      intended_m_;                 ///< where the plan wants to scan after its first view
   double decision_start_s_ = 0.0;  ///< wall
   ScanRecord current_;             ///< filled in from the decision to the end of its scan
   std::vector<ScanRecord> scans_;
@@ -129,6 +135,7 @@ class MappingParts {
   std::size_t chosen_outside(std::vector<Candidate>& candidates);
   std::size_t next_of_plan(const std::vector<Candidate>& candidates);
   void tell_truth(std::vector<Candidate>& candidates) const;
+  [[nodiscard]] std::span<const Pose> poses_of_truth() const;
   [[nodiscard]] MapPanelInput panel() const;
   [[nodiscard]] double map_sigma_m() const;
   [[nodiscard]] BlockField transmission() const;

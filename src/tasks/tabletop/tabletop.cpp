@@ -78,6 +78,7 @@ std::string Tabletop::outcome(const nlohmann::ordered_json& metrics) {
 }
 
 std::vector<std::string> Tabletop::require_start(const EpisodeSetup& setup) const {
+  require_planner(choice);
   return SimulatedTabletopRobot(setup, *this).start_notes();
 }
 

@@ -118,9 +118,11 @@ void SimulatedMobileBase::note_localisation(const RegistrationOptions& registrat
                       : "odometry will drift between scans"));
 }
 
-DriveResult SimulatedMobileBase::drive_along(std::span<const Pose2> path,
+DriveResult SimulatedMobileBase::drive_along(std::span<const Pose2> path, double max_speed_m_s,
                                              const std::function<bool()>& go_on) {
-  return drive(world_, robot_, odometry_, path, drive_, [&](World&, const Pose2&) {
+  DriveOptions options = drive_;
+  options.controller.speed_m_s = std::min(options.controller.speed_m_s, max_speed_m_s);
+  return drive(world_, robot_, odometry_, path, options, [&](World&, const Pose2&) {
     throw_if_interrupted();
     return go_on();
   });

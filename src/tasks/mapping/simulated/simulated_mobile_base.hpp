@@ -37,8 +37,10 @@ class SimulatedMobileBase {
 
   /// One scan of the planar scanner, from the present pose.
   PlanarScan read_base_scanner();
-  /// `go_on` is asked every tick; truth is not passed on. @throws Interrupted
-  DriveResult drive_along(std::span<const Pose2> path, const std::function<bool()>& go_on);
+  /// No faster than `max_speed_m_s`; `go_on` is asked every tick; truth is not passed on.
+  /// @throws Interrupted
+  DriveResult drive_along(std::span<const Pose2> path, double max_speed_m_s,
+                          const std::function<bool()>& go_on);
   /// Adds a note if the planar scanner shows nothing here that fixes the pose. Draws from no stream
   /// of the run.
   void note_localisation(const RegistrationOptions& registration, std::uint64_t seed,
@@ -52,6 +54,9 @@ class SimulatedMobileBase {
   [[nodiscard]] double base_scan_height_m() const { return robot_.base_scan_height_m(); }
   /// The disc that the robot covers at any heading: what it stands on is free.
   [[nodiscard]] double inscribed_radius_m() const { return robot_.footprint().inscribed_radius_m; }
+  [[nodiscard]] RobotOutline outline() const {
+    return {robot_.outline(), robot_.is_holonomic(), drive_.controller.speed_m_s};
+  }
   [[nodiscard]] Pose2 estimated_base() const { return odometry_.estimate(); }
 
   void tick();  ///< @throws Interrupted
