@@ -16,7 +16,7 @@ struct MujocoError : std::runtime_error {
 /// function. MuJoCo's own wait for a key on stdin, write MUJOCO_LOG.TXT and end the process. Ours
 /// throw MujocoError out of the failing call (reset or discard the mjData it worked on) and hand
 /// warnings to this thread's collector, or else to the log. Pairs of geoms that are far apart are
-/// left out (near_pairs.hpp).
+/// left out (near_geoms.hpp).
 void install_mujoco_handlers();
 
 /// Collects the warnings that MuJoCo raises on this thread while it lives. May be nested.

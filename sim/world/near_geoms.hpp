@@ -1,6 +1,8 @@
-/// Which geoms can touch another in the next steps.
+/// Which geoms can touch another in the next steps, and which pairs of them MuJoCo has to look at
+/// closely.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cstddef>
@@ -17,6 +19,20 @@ using mjData = mjData_;
 namespace vantage {
 
 class ModelPart;
+
+/// Whether MuJoCo looks for contacts between such geoms.
+bool masks_match(const mjModel& model, int geom, int other);
+/// Planes and height fields have none.
+bool has_box(const mjModel& model, int geom);
+/// Half edges of a box round the geom, in its frame.
+Eigen::Array3d half_box_m(const mjModel& model, int geom);
+
+/// MuJoCo's tests by body and by masks, which a filter replaces, then one that its bounding spheres
+/// leave out: a long thin geom, a wall say, is near all of a room by its sphere, and near little of
+/// it by its box. For `mjcb_contactfilter`: contacts are the same to the bit, and most of a step in
+/// a room is saved.
+/// @return 1 to discard the pair, 0 to look at it closely
+int discard_far_pair(const mjModel* model, mjData* data, int geom, int other);
 
 /// Takes geoms with nothing near out of MuJoCo's steps, which else place all of a building, sort
 /// it, and ask each part of a robot for the floor, every time. Steps are the same to the bit.

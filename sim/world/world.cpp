@@ -161,7 +161,8 @@ void World::put_fixed_body(int body_id, const Eigen::Vector3d& p_parent_body_m) 
   Eigen::Map<Eigen::Vector3d> place(model_->body_pos + 3 * body_id);
   if (place == p_parent_body_m) return;
   place = p_parent_body_m;
-  std::copy(place.begin(), place.end(), stepping_->body_pos + 3 * body_id);
+  find_poses(*model_, *snapshot_);
+  moving_ = std::make_unique<ModelPart>(*model_);
   positions_jumped_ = true;
 }
 

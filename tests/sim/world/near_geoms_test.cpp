@@ -14,7 +14,6 @@
 
 #include "tests/sim/test_world.hpp"
 #include "vantage/sim/world/model_part.hpp"
-#include "vantage/sim/world/near_pairs.hpp"
 
 namespace vantage {
 namespace {
