@@ -5,7 +5,8 @@ namespace vantage {
 RecordTexts run_records() {
   return {
       {kRunFolder, "manifest.json",
-       "command, versions, CPU, seed, hashes of configuration, scene and every asset, times"},
+       "command, versions, CPU, seed, hashes of configuration, scene and every asset, times; of "
+       "choice external, planner: its command, name and isolation"},
       {kRunFolder, "config.yaml", "the configuration as resolved, defaults included"},
       {kRunFolder, "steps.csv", "a row a scan, view or waypoint"},
       {kRunFolder, "candidates.csv", "a row a candidate of every decision; not with --lean"},

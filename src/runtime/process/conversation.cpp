@@ -83,7 +83,11 @@ std::string Conversation::ask(std::string_view line, double timeout_s) {
           fmt::format("no answer within {:g} s{}", timeout_s,
                       unsent_.empty() ? "" : ", it does not read what it is asked"));
     }
+    // A process that it started may hold its output open after it.
+    const bool has_ended = process_.wait_for_end(0.0).has_value();
+    const std::size_t heard = heard_.waiting();
     exchange_for(std::min(left_s, kSlice_s));
+    if (has_ended && heard_.waiting() == heard) fail_ended();
     on_wait_();
   }
 }
