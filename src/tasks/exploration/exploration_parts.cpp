@@ -165,7 +165,8 @@ std::string ExplorationParts::finished() const {
 /// choice that plans ahead knows of all of them: those beyond max_candidates that are not near one
 /// of these, where they come into sight, are candidates too.
 std::vector<Candidate> ExplorationParts::find_views(bool all) {
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   VisitedPlaces proposed;
   VisitedPlaces near_proposed;
   std::vector<Candidate> views;
