@@ -56,6 +56,8 @@ FootprintSpace::FootprintSpace(const FloorMap& detail, int parts, const RobotOut
     const Pose2 turned{0.0, 0.0, heading_rad(heading)};
     masks_.push_back(mask_of(moved(wide, turned)));
     tight_masks_.push_back(mask_of(moved(tight, turned)));
+    common_.push_back(common_of(masks_.back()));
+    tight_common_.push_back(common_of(tight_masks_.back()));
   }
   disc_ = mask_of(disc(inscribed_radius_m(robot_.outline)));
 }
@@ -80,6 +82,24 @@ FootprintSpace::Mask FootprintSpace::mask_of(const FloorOutline& outline) const 
     mask.push_back({row, first, last});
   });
   return mask;
+}
+
+FootprintSpace::Mask FootprintSpace::common_of(const Mask& mask) const {
+  const int reach = parts_ / 2;
+  Mask common;
+  for (std::size_t i = static_cast<std::size_t>(reach);
+       i + static_cast<std::size_t>(reach) < mask.size(); ++i) {
+    Row row = mask[i];
+    for (std::size_t k = i - static_cast<std::size_t>(reach);
+         k <= i + static_cast<std::size_t>(reach); ++k) {
+      row.first = std::max(row.first, mask[k].first);
+      row.last = std::min(row.last, mask[k].last);
+    }
+    row.first += reach;
+    row.last -= reach;
+    if (row.first <= row.last) common.push_back(row);
+  }
+  return common;
 }
 
 bool FootprintSpace::is_clear(int row, int first, int last) const {
@@ -114,6 +134,11 @@ bool FootprintSpace::fits(std::span<const Eigen::Vector2d> outline,
 
 bool FootprintSpace::fits(const Eigen::Array2i& cell, int heading, bool tight) const {
   const auto& masks = tight ? tight_masks_ : masks_;
+  return is_clear(masks[static_cast<std::size_t>(heading)], cell);
+}
+
+bool FootprintSpace::may_fit(const Eigen::Array2i& cell, int heading, bool tight) const {
+  const auto& masks = tight ? tight_common_ : common_;
   return is_clear(masks[static_cast<std::size_t>(heading)], cell);
 }
 

@@ -15,7 +15,7 @@ namespace vantage {
 struct PassageOptions {
   bool use = true;
   double margin_m = 0.02;
-  int headings = 64;
+  int headings = 48;
   double speed_m_s = 0.2;
   double least_area_m2 = 0.2;
   void fields(auto&& f) {
@@ -61,6 +61,8 @@ class FootprintSpace {
   /// The same at the centre of a cell of `detail`, with the margin of the options (or a tight one),
   /// at one of the headings; fast.
   [[nodiscard]] bool fits(const Eigen::Array2i& cell, int heading, bool tight = false) const;
+  /// Whether it might so at that heading at a centre up to half of `parts` off, along either axis.
+  [[nodiscard]] bool may_fit(const Eigen::Array2i& cell, int heading, bool tight = false) const;
   /// Whether the robot might stand there at some heading: its inscribed disc fits.
   [[nodiscard]] bool may_stand(const Eigen::Array2i& cell) const;
 
@@ -88,6 +90,7 @@ class FootprintSpace {
   using Mask = std::vector<Row>;  ///< about a cell's centre
 
   [[nodiscard]] Mask mask_of(const FloorOutline& outline) const;
+  [[nodiscard]] Mask common_of(const Mask& mask) const;
   [[nodiscard]] bool is_clear(const Mask& mask, const Eigen::Array2i& cell) const;
   [[nodiscard]] bool is_clear(int row, int first, int last) const;
 
@@ -103,6 +106,8 @@ class FootprintSpace {
   std::vector<std::uint64_t> bits_;  ///< 1: a point
   std::vector<Mask> masks_;          ///< of each heading
   std::vector<Mask> tight_masks_;
+  std::vector<Mask> common_;  ///< of a heading's mask wherever in the cell it is put
+  std::vector<Mask> tight_common_;
   Mask disc_;
 };
 

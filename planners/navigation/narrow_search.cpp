@@ -21,7 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAlong_rad = 0.48;
 /// A quarter of a turn makes hardly a difference to a nearly square robot. It faces where it goes.
 constexpr double kSquare_m = 0.02;
-constexpr double kFacing_rad = 0.9;
+constexpr double kFacing_rad = 0.5;
 
 double facing_limit_rad(const RobotOutline& robot) {
   if (!robot.goes_sideways) return kAlong_rad;
@@ -132,6 +132,7 @@ class PassageSearch {
     std::uint32_t& node = node_at_[slot(cell, heading)];
     if (node != kUnknown) return node;
     node = kBlocked;
+    if (!space_.may_fit(middle(cell), heading, tight_)) return node;
     const int reach = space_.parts() / 2;
     double nearest = kInfinity;
     Eigen::Array2i best = Eigen::Array2i::Zero();

@@ -14,7 +14,7 @@ namespace vantage {
 /// Options of every choice that searches tours.
 struct TourOptions {
   double finish_weight = 0.5;
-  double worth_s = 6000.0;
+  double worth_s = 3000.0;
   int first_moves = 8;
   double keep_s = 10.0;
   void fields(auto&& f) {

@@ -40,7 +40,8 @@ class TourSearch {
     all_ = std::max(all_, std::numeric_limits<double>::min());
   }
 
-  Tour run(std::size_t rounds, std::optional<std::size_t> first) {
+  /// Without any view if none is worth its time.
+  Tour run_as_worth(std::size_t rounds, std::optional<std::size_t> first) {
     fixed_ = first ? 1 : 0;
     order_ = first ? Order{*first} : Order{};
     work_out_gains();
@@ -51,6 +52,11 @@ class TourSearch {
       leave_out();
       if (!is_cheaper(tour_.cost_s, before_s)) break;
     }
+    return tour_;
+  }
+
+  Tour run(std::size_t rounds, std::optional<std::size_t> first) {
+    run_as_worth(rounds, first);
     if (order_.empty()) take_in_one();
     return tour_;
   }
@@ -217,6 +223,19 @@ class TourSearch {
   Tour tour_;  ///< the same with its exact cost
 };
 
+/// Of the worth at which a view is worth its time: what is left has become dearer than was thought.
+TourObjective raised(const PlanningProblem& problem, TourObjective objective,
+                     const TourSearchOptions& options) {
+  constexpr double kStep = 1.5;
+  constexpr int kMaxSteps = 30;
+  for (int step = 0; step < kMaxSteps && objective.worth_s > 0.0; ++step) {
+    TourSearch search(problem, objective);
+    if (!search.run_as_worth(options.rounds, std::nullopt).order.empty()) break;
+    objective.worth_s *= kStep;
+  }
+  return objective;
+}
+
 }  // namespace
 
 double tour_cost_s(const PlanningProblem& problem, const TourObjective& objective,
@@ -230,9 +249,11 @@ Tour search_tour(const PlanningProblem& problem, const TourObjective& objective,
   return TourSearch(problem, objective).run(options.rounds, first);
 }
 
-std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& objective,
+std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& wanted,
                                const TourSearchOptions& options) {
   problem.check();
+  if (affordable_views(problem).empty()) return {};
+  const TourObjective objective = raised(problem, wanted, options);
   const Tour free = search_tour(problem, objective, options);
   if (free.order.empty()) return {};
   // How good a first view is, is told by the free tour with that view in front.

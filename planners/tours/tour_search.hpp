@@ -15,7 +15,7 @@ namespace vantage {
 /// it leaves unseen.
 struct TourObjective {
   double finish_weight = 0.5;  ///< of the tour's end against that mean, [0, 1]
-  double worth_s = 6000.0;     ///< of time that all there is to be seen is worth
+  double worth_s = 3000.0;     ///< of time that all there is to be seen is worth
 };
 
 /// (1 - b) [sum_k dE_k t_k + B_k (t_k + d_k / 2) + U t_end] / (E + B) + b t_end + w U / (S + E +
@@ -38,12 +38,13 @@ struct Tour {
 };
 
 /// The cheapest affordable tour found: insertion, then Or-opt, 2-opt, leaving out and taking in.
-/// Never empty where a view is affordable.
+/// Never empty where a view is affordable: where none is worth its time the one that comes nearest.
 /// @param first the tour begins there, if given
 Tour search_tour(const PlanningProblem& problem, const TourObjective& objective,
                  const TourSearchOptions& options, std::optional<std::size_t> first = std::nullopt);
 
-/// That for each of the most promising first views and for the one intended, cheapest first; the
+/// That for each of the most promising first views and for the one intended, cheapest first, with
+/// the worth raised until at least one view is worth its time; the
 /// tour that begins where it was intended counts as `keep_s` cheaper.
 std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& objective,
                                const TourSearchOptions& options);

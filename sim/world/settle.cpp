@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
-#include "vantage/sim/world/near_geoms.hpp"
 
 namespace vantage {
 namespace {

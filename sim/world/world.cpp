@@ -9,9 +9,9 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
-#include "vantage/sim/world/model_part.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
-#include "vantage/sim/world/near_geoms.hpp"
 
 namespace vantage {
 namespace {
@@ -161,16 +161,13 @@ void World::put_fixed_body(int body_id, const Eigen::Vector3d& p_parent_body_m) 
   Eigen::Map<Eigen::Vector3d> place(model_->body_pos + 3 * body_id);
   if (place == p_parent_body_m) return;
   place = p_parent_body_m;
-  std::copy(place.begin(), place.end(), stepping_->body_pos + 3 * body_id);
+  find_poses(*model_, *snapshot_);
+  moving_->list_moving();
   positions_jumped_ = true;
 }
 
 void World::look_for_near_geoms() {
-  if (positions_jumped_) {
-    near_geoms_->start(snapshot());
-  } else {
-    near_geoms_->follow(*data_);
-  }
+  positions_jumped_ ? near_geoms_->start(snapshot()) : near_geoms_->follow(*data_);
   positions_jumped_ = false;
 }
 

@@ -14,7 +14,7 @@ using Triangle = std::array<int, 3>;  ///< indices of vertices
 struct BuildingMesh {
   std::vector<Eigen::Vector3d> vertices_m;
   std::vector<Triangle> triangles;
-  std::vector<Eigen::Vector3f> colours;  ///< rgb, 0 to 1, of each triangle
+  std::vector<Eigen::Vector3f> colours;  ///< rgb, 0 to 1, of each triangle; below 0: none
   std::vector<int> objects;              ///< of the file, which each triangle belongs to
 
   [[nodiscard]] const Eigen::Vector3d& corner(const Triangle& triangle, std::size_t which) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "vantage/building/box_cover.hpp"
@@ -63,19 +64,35 @@ bool is_within(const Eigen::AlignedBox3d& part_m, const BuildingOptions& options
   return part_m.max().z() > -kBelowFloor_m && part_m.min().z() < options.height_m;
 }
 
+/// Of a part that the file gives none: by what it is, and of furniture in turn, so that people can
+/// tell one from another.
+Eigen::Vector3f colour_of(const MeshPart& part, const Eigen::AlignedBox3d& extent_m,
+                          std::size_t number) {
+  constexpr double kFurniture_m = 2.05;
+  constexpr std::array<std::array<float, 3>, 4> kTints{
+      {{0.63F, 0.47F, 0.33F}, {0.42F, 0.50F, 0.56F}, {0.55F, 0.58F, 0.45F}, {0.72F, 0.62F, 0.50F}}};
+  if (part.colour.minCoeff() >= 0.0F) return part.colour;
+  if (extent_m.max().z() < 0.01) return kFloorColour;
+  if (extent_m.max().z() > kFurniture_m) return kWallColour;
+  return Eigen::Vector3f(kTints[number % kTints.size()].data());
+}
+
 /// Sorts the parts into those that are their own shape and the triangles of the rest.
 std::vector<Triangle> take_convex(const BuildingMesh& mesh, const std::vector<MeshPart>& parts,
                                   const BuildingOptions& options, BuildingScene& scene) {
   std::vector<Triangle> rest;
   for (const MeshPart& part : parts) {
-    if (!is_within(extent_of(mesh, part.triangles), options)) continue;
+    const Eigen::AlignedBox3d extent_m = extent_of(mesh, part.triangles);
+    if (!is_within(extent_m, options)) continue;
+    const Eigen::Vector3f colour =
+        colour_of(part, extent_m, scene.boxes.size() + scene.hulls.size());
     OrientedBox box;
     if (!is_convex(mesh, part)) {
       rest.insert(rest.end(), part.triangles.begin(), part.triangles.end());
     } else if (is_box(mesh, part, box)) {
-      scene.boxes.push_back({box, part.colour});
+      scene.boxes.push_back({box, colour});
     } else {
-      scene.hulls.push_back({corners_of(mesh, part), part.colour});
+      scene.hulls.push_back({corners_of(mesh, part), colour});
     }
   }
   return rest;

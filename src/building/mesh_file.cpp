@@ -55,10 +55,15 @@ Eigen::Affine3d transform_of(const aiMatrix4x4& m) {
   return T;
 }
 
+/// Files without materials get a grey one from Assimp, which says nothing.
 Eigen::Vector3f colour_of(const aiScene& scene, const aiMesh& mesh) {
-  aiColor4D colour(0.8F, 0.8F, 0.8F, 1.0F);
+  aiColor4D colour(-1.0F, -1.0F, -1.0F, 1.0F);
   if (mesh.mMaterialIndex < scene.mNumMaterials) {
-    scene.mMaterials[mesh.mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+    const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
+    aiString name;
+    material.Get(AI_MATKEY_NAME, name);
+    const bool own = name != aiString(AI_DEFAULT_MATERIAL_NAME) && name.length > 0;
+    if (own) material.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
   }
   return {colour.r, colour.g, colour.b};
 }

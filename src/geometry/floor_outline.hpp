@@ -52,6 +52,7 @@ void for_each_row_inside(std::span<const Eigen::Vector2d> outline, const Eigen::
       left_m = std::min({left_m, x_m, a.y() == b.y() ? b.x() : x_m});
       right_m = std::max({right_m, x_m, a.y() == b.y() ? b.x() : x_m});
     }
+    if (left_m > right_m) continue;  // rounded off the outline
     const int first = static_cast<int>(std::ceil((left_m - origin_m.x()) / spacing_m));
     const int last = static_cast<int>(std::floor((right_m - origin_m.x()) / spacing_m));
     if (first <= last) visit(row, first, last);

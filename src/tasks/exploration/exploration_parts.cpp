@@ -184,7 +184,8 @@ std::string ExplorationParts::finished() const {
 }
 
 std::vector<Candidate> ExplorationParts::find_views(bool all) {
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   std::vector<Candidate> of_truth = views_of_truth(paths, true);
   std::erase_if(of_truth, [&](const Candidate& view) {
     return visited_.covers(place_of(view.T_world_sensor));

@@ -73,7 +73,8 @@ std::vector<Candidate> TabletopParts::propose() {
 
 std::vector<Candidate> TabletopParts::reachable_views() {
   std::vector<Candidate> candidates = views_;
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   for (Candidate& candidate : candidates) {
     candidate.path_length_m =
         path_length_m(paths, robot_.base_for_sensor(candidate.T_world_sensor));

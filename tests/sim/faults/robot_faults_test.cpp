@@ -254,6 +254,31 @@ TEST(RobotFaults, GustsPushTheVehicleAndAreCounted) {
   EXPECT_EQ(faults.record().struck(Fault::gust), 4);
 }
 
+TEST(Gusts, AreOneInEveryIntervalAndNoStrongerThanTheyMayBe) {
+  const Gusts gusts(1, 8.0, 2.0, 0.5);
+  double strongest_N = 0.0;
+  double weakest_N = 8.0;
+  Eigen::Vector3d sum_N = Eigen::Vector3d::Zero();
+  for (int interval = 0; interval < 500; ++interval) {
+    int blowing = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Vector3d force_N = gusts.force_world_N(2.0 * interval + 0.02 * i);
+      if (force_N.isZero(0.0)) continue;
+      ++blowing;
+      strongest_N = std::max(strongest_N, force_N.norm());
+      weakest_N = std::min(weakest_N, force_N.norm());
+      sum_N += force_N;
+    }
+    EXPECT_NEAR(blowing, 25, 1) << interval;
+  }
+  EXPECT_LE(strongest_N, 8.0 + 1e-12);
+  EXPECT_GT(strongest_N, 7.9);
+  EXPECT_GE(weakest_N, 4.0 - 1e-12);
+  EXPECT_LT(weakest_N, 4.1);
+  EXPECT_LT(sum_N.norm() / (500 * 25), 1.0) << "from all sides";
+  EXPECT_TRUE(Gusts(1, 0.0, 2.0, 0.5).force_world_N(1.0).isZero(0.0));
+}
+
 TEST(RobotFaults, SwitchedOffTheyLeaveTheStateAsItIs) {
   test::FlightWorld with;
   test::FlightWorld without;
@@ -326,9 +351,10 @@ TEST(MovedObject, IsSomethingSmallThatStandsFixed) {
 
 /// Contacts are with what is there now.
 TEST(MovedObject, MayBePutInTheRobotsWay) {
-  test::RobotWorld scene(kThings);
-  EXPECT_EQ(scene.robot.contacts(scene.world), 0);
+  test::RobotWorld scene(
+      "<body name='cup' pos='5 0 .15'><geom type='box' size='.1 .1 .1'/></body>");
   scene.run(0.1);
+  EXPECT_EQ(scene.robot.contacts(scene.world), 0);
   const int cup = model_id(scene.world.model(), ModelObject::body, "cup");
   scene.world.put_fixed_body(cup, {0.36, 0.0, 0.15});
   scene.run(0.05);

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "tests/support/mjcf.hpp"
 #include "vantage/sim/sensors/camera.hpp"
@@ -62,15 +63,16 @@ TEST(Sight, NothingThatIsInTheImageIsLeftOut) {
   }
 }
 
-test::MjcfModel crowded_room(const std::string& extra = "") {
+/// @param mirror whether a board that no camera sees reflects: nothing is left out then
+test::MjcfModel crowded_room(bool mirror = false) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::string text =
       "<mujoco><statistic extent='1' center='0 0 0'/><visual><map znear='.05' zfar='40'/>"
       "</visual><asset><material name='glass' rgba='.2 .9 .4 .5'/>"
       "<material name='mirror' reflectance='.6'/></asset><worldbody>"
-      "<light pos='1 1 4' dir='-.2 -.1 -1'/><geom type='plane' size='9 9 .1'/>" +
-      extra;
+      "<light pos='1 1 4' dir='-.2 -.1 -1'/><geom type='plane' size='9 9 .1'/>"
+      "<geom type='box' size='1 1 .01' pos='0 0 -30' material='mirror'/>";
   const char* const types[] = {"box", "sphere", "capsule", "cylinder", "ellipsoid"};
   for (int i = 0; i < 300; ++i) {
     text += fmt::format(
@@ -79,38 +81,39 @@ test::MjcfModel crowded_room(const std::string& extra = "") {
         90.0 * unit(random), 90.0 * unit(random),
         i % 9 == 0 ? "material='glass'" : fmt::format("rgba='.{} .5 .{} 1'", i % 10, i % 7));
   }
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 4; ++i) {
     text += fmt::format("<camera name='c{}' pos='{} {} 1' euler='90 0 {}'/>", i, 2.0 * unit(random),
-                        2.0 * unit(random), 60 * i);
+                        2.0 * unit(random), 90 * i);
   }
-  return test::compile_mjcf(text + extra + "</worldbody></mujoco>");
+  test::MjcfModel scene = test::compile_mjcf(text + "</worldbody></mujoco>");
+  if (!mirror) scene.model->mat_reflectance[1] = 0.0F;
+  return scene;
 }
 
-/// Where there is a mirror nothing is left out; this one is seen by no camera.
-constexpr auto kMirrorFarOff = "<geom type='box' size='1 1 .01' pos='0 0 -30' material='mirror'/>";
-
-RenderedImages drawn(const test::MjcfModel& scene, int camera, const RenderRequest& request = {}) {
-  RenderedImages images;
-  make_offscreen_renderer(*scene.model, 160, 121)
-      ->render(*scene.model, *scene.data, FixedCamera{camera}, request, images);
+/// What each camera of the scene sees.
+std::vector<RenderedImages> drawn(const test::MjcfModel& scene, const RenderRequest& request = {}) {
+  const auto renderer = make_offscreen_renderer(*scene.model, 160, 121);
+  std::vector<RenderedImages> images(static_cast<std::size_t>(scene.model->ncam));
+  for (int camera = 0; camera < scene.model->ncam; ++camera) {
+    renderer->render(*scene.model, *scene.data, FixedCamera{camera}, request,
+                     images[static_cast<std::size_t>(camera)]);
+  }
   return images;
 }
 
 TEST(Sight, ImagesAreTheSameWithoutWhatIsUnseen) {
-  const auto lean = crowded_room();
-  const auto whole = crowded_room(kMirrorFarOff);
-  for (int camera = 0; camera < lean.model->ncam; ++camera) {
-    const RenderedImages all = drawn(whole, camera);
-    const RenderedImages seen = drawn(lean, camera);
-    EXPECT_EQ(all.rgb, seen.rgb);
-    EXPECT_EQ(all.depth_m, seen.depth_m);
-    EXPECT_EQ(all.segmentation, seen.segmentation);
+  const auto all = drawn(crowded_room(true));
+  const auto seen = drawn(crowded_room());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(all[i].rgb, seen[i].rgb);
+    EXPECT_EQ(all[i].depth_m, seen[i].depth_m);
+    EXPECT_EQ(all[i].segmentation, seen[i].segmentation);
   }
 }
 
 TEST(Sight, MostOfARoomIsUnseen) {
   for (const bool mirror : {false, true}) {
-    const auto room = crowded_room(mirror ? kMirrorFarOff : "");
+    const auto room = crowded_room(mirror);
     mjvScene scene;
     mjv_defaultScene(&scene);
     mjv_makeScene(room.model.get(), &scene, 1000);
@@ -131,22 +134,21 @@ TEST(Sight, MostOfARoomIsUnseen) {
 }
 
 TEST(Sight, WithinRangeDepthIsTheSame) {
-  const auto scene = crowded_room();
   RenderRequest near{.rgb = false};
   near.range_m = 3.0;
-  for (int camera = 0; camera < scene.model->ncam; ++camera) {
-    const RenderedImages all = drawn(scene, camera, {.rgb = false});
-    const RenderedImages seen = drawn(scene, camera, near);
-    std::size_t left_out = 0;
-    for (std::size_t i = 0; i < all.depth_m.size(); ++i) {
-      const float depth_m = all.depth_m[i];
+  const auto all = drawn(crowded_room(), {.rgb = false});
+  const auto seen = drawn(crowded_room(), near);
+  std::size_t left_out = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t pixel = 0; pixel < all[i].depth_m.size(); ++pixel) {
+      const float depth_m = all[i].depth_m[pixel];
       if (depth_m > 0.0F && depth_m <= 3.0F) {
-        ASSERT_EQ(seen.depth_m[i], depth_m);
+        ASSERT_EQ(seen[i].depth_m[pixel], depth_m);
       }
-      if (seen.depth_m[i] != depth_m) ++left_out;
+      if (seen[i].depth_m[pixel] != depth_m) ++left_out;
     }
-    EXPECT_GT(left_out, 0U) << "camera " << camera;
   }
+  EXPECT_GT(left_out, 100U);
 }
 
 /// What the camera measures is the same to the bit, its random numbers too.

@@ -119,9 +119,15 @@ void Navigator::correct_pose(const Pose2& T_world_base, const Eigen::Matrix3d& i
   robot_.correct_pose(T_world_base);
 }
 
-PathField Navigator::plan() {
-  clear_footprint(floor_, robot_.estimated_base(), robot_.inscribed_radius_m());
-  return ways_from(robot_.estimated_base());
+std::shared_ptr<const PathField> Navigator::plan() {
+  const Pose2 base = robot_.estimated_base();
+  clear_footprint(floor_, base, robot_.inscribed_radius_m());
+  const bool known = planned_ && planned_->start.x_m == base.x_m &&
+                     planned_->start.y_m == base.y_m && planned_->start.yaw_rad == base.yaw_rad &&
+                     planned_->space == space() && planned_->map.log_odds == floor_.log_odds &&
+                     planned_->map.blocked == floor_.blocked;
+  if (!known) planned_ = std::make_shared<const PathField>(ways_from(base));
+  return planned_;
 }
 
 PathField Navigator::ways_from(const Pose2& T_world_base) const {
@@ -174,8 +180,8 @@ Approach Navigator::approach(const Pose2& goal, const std::optional<Eigen::Vecto
   Approach result;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < kMaxPlans; ++attempt) {
-    const PathField field = plan();
-    const PlannedPath path = centred(field, plan_path(field, goal, look_at_m));
+    const auto field = plan();
+    const PlannedPath path = centred(*field, plan_path(*field, goal, look_at_m));
     const double remaining_m = std::hypot(path.end.x_m - goal.x_m, path.end.y_m - goal.y_m);
     if (!path.reaches_goal && remaining_m > nearest_m - kProgress_m) return result;
     nearest_m = remaining_m;

@@ -52,8 +52,8 @@ class Navigator {
   void correct_pose(const Pose2& T_world_base, const Eigen::Matrix3d& information);
   /// The most that odometry may have drifted since the last correction.
   Correction plausible_correction();
-  /// The ways from where the robot is.
-  PathField plan();
+  /// The ways from where the robot is; worked out once as long as nothing changes.
+  std::shared_ptr<const PathField> plan();
   /// The ways from some other place.
   [[nodiscard]] PathField ways_from(const Pose2& T_world_base) const;
   /// Drives to the goal, or as near as the known free floor allows; plans again as the floor map
@@ -97,6 +97,7 @@ class Navigator {
   mutable std::shared_ptr<const FootprintSpace> space_;  ///< of them as they are; null: to be made
   ReferenceMap reference_map_;
   PoseUncertainty uncertainty_;
+  std::shared_ptr<const PathField> planned_;  ///< by the last plan()
   double keyframe_m_;
   bool turned_back_ = false;  ///< on the last drive, since it might not go on
   Eigen::Vector2d last_keyframe_m_ = Eigen::Vector2d::Zero();

@@ -1,7 +1,7 @@
 // Leaving out what is far changes no bit: bodies of every shape fall and roll about in a room,
 // beside the same model stepped by MuJoCo alone.
 
-#include "vantage/sim/world/near_geoms.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "tests/sim/test_world.hpp"
-#include "vantage/sim/world/model_part.hpp"
-#include "vantage/sim/world/near_pairs.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
+#include "vantage/sim/stepping/near_pairs.hpp"
 
 namespace vantage {
 namespace {
@@ -174,6 +174,24 @@ TEST(NearGeoms, ASnapshotHasAllPoses) {
   EXPECT_TRUE(same(now.xpos, whole->xpos, 3 * model.nbody));
   EXPECT_TRUE(same(now.site_xpos, whole->site_xpos, 3 * model.nsite));
   EXPECT_TRUE(same(now.cam_xpos, whole->cam_xpos, 3 * model.ncam));
+}
+
+TEST(NearGeoms, WhatIsPutElsewhereIsThere) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><geom type='plane' size='9 9 .1'/>"
+      "<body name='shelf' pos='5 0 .5'><body pos='0 0 .1'><geom name='board' type='box' "
+      "size='.4 .4 .1'/></body></body>"
+      "<body pos='0 0 1.2'><freejoint name='ball'/><geom size='.1'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.advance_tick();
+  const int shelf = model_id(world.model(), ModelObject::body, "shelf");
+  const int board = model_id(world.model(), ModelObject::geom, "board");
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * board], 5.0);
+  world.put_fixed_body(shelf, {0.1, 0.0, 0.3});
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * board], 0.1);
+  EXPECT_DOUBLE_EQ(world.snapshot().geom_xpos[3 * board + 2], 0.4);
+  while (world.time_s() < 2.0) world.advance_tick();
+  EXPECT_NEAR(world.data().qpos[2], 0.6, 0.02) << "it fell onto the board";
 }
 
 /// Constraints between bodies name them: then all is stepped, as MuJoCo does.

@@ -1,4 +1,4 @@
-#include "vantage/sim/world/near_pairs.hpp"
+#include "vantage/sim/stepping/near_pairs.hpp"
 
 #include <Eigen/Core>
 #include <mujoco/mujoco.h>

@@ -15,13 +15,15 @@ namespace vantage {
 /// still, which no motion depends on.
 class ModelPart {
  public:
-  /// Lists no static geom yet. @param model outlives this
+  /// Lists no static geom yet. @param model outlives this; what changes in it is seen when listed
   explicit ModelPart(const mjModel& model);
   ModelPart(const ModelPart&) = delete;
   ModelPart& operator=(const ModelPart&) = delete;
 
   /// Lists static geoms whose flag is set; what moves and has none keeps out of contacts.
   void list(std::span<const char> flags);
+  /// Lists no static geom.
+  void list_moving();
 
   /// Calls `f` with this model and data of the whole model, of which it sees what is listed.
   template <class F>

@@ -1,4 +1,4 @@
-#include "vantage/sim/world/model_part.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
 
 #include <mujoco/mjxmacro.h>
 
@@ -113,7 +113,11 @@ ModelPart::ModelPart(const mjModel& model)
   }
   excludes_.assign(model.exclude_signature, model.exclude_signature + model.nexclude);
   find_always_listed();
-  list(std::vector<char>(static_cast<std::size_t>(model.ngeom), 0));
+  list_moving();
+}
+
+void ModelPart::list_moving() {
+  list(std::vector<char>(static_cast<std::size_t>(model_.ngeom), 0));
 }
 
 void ModelPart::find_always_listed() {

@@ -1,4 +1,4 @@
-#include "vantage/sim/world/near_geoms.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 
 #include <mujoco/mujoco.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <span>
 
-#include "vantage/sim/world/model_part.hpp"
-#include "vantage/sim/world/near_pairs.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
+#include "vantage/sim/stepping/near_pairs.hpp"
 
 namespace vantage {
 namespace {
