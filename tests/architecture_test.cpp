@@ -84,7 +84,7 @@ const Rooms kSharedByTasks{"tasks/mapping",           "tasks/mapping/driving",
                            "tasks/mapping/simulated", "tasks/flight",
                            "tasks/object_flight",     "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
-                    kSharedByTasks + Rooms{"control", "dataset", "report"};
+                    kSharedByTasks + Rooms{"control", "dataset", "localisation", "report"};
 
 /// Which rooms each room may include besides itself.
 const std::map<std::string, Rooms> kAllowed{
@@ -149,6 +149,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"dataset/pictures", {"core", "geometry", "perception", "perception/images", "dataset"}},
     {"recipe", kGround + Rooms{"belief/objects", "belief/observation", "perception", "recognition",
                                "recognition/dataset", "dataset", "sim/render"}},
+    {"localisation", {"core", "geometry", "perception/clouds"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"bound", {"core", "geometry"}},
     {"hindsight", kTask + Rooms{"bound", "tasks", "tasks/*"}},
@@ -251,6 +252,7 @@ const std::vector<LibraryRule> kLibraries{
     {"png", {"models/catalogue/shapes"}},
     {"CLI/", {"cli"}, true},
     {"Clp", {"bound"}, true},
+    {"ceres/", {"localisation"}, true},
     {"zlib", {"mcap"}, true},
     {"zstd", {"mcap"}, true},
 };

@@ -62,8 +62,7 @@ struct Layout {
   ClearanceMap clearance;
 };
 
-Layout empty_layout(const OfficeOptions& options) {
-  const FloorPlan plan = options.large ? large_office() : small_office();
+Layout empty_layout(const OfficeOptions& options, const FloorPlan& plan) {
   const AlignedBox2d area(-0.5 * plan.size_m, 0.5 * plan.size_m);
   Layout layout{{options.name, options.seed, options.clutter, plan, {}},
                 building(plan),
@@ -180,8 +179,12 @@ void hang(Layout& layout, const Room& room, Rng& rng) {
 }  // namespace
 
 OfficeScene make_office_scene(const OfficeOptions& options) {
+  return furnished(options, options.large ? large_office() : small_office());
+}
+
+OfficeScene furnished(const OfficeOptions& options, const FloorPlan& plan) {
   check_options(options, options.name);
-  Layout layout = empty_layout(options);
+  Layout layout = empty_layout(options, plan);
   const std::vector<Room> rooms = layout.scene.plan.rooms;
   for (std::size_t r = 0; r < rooms.size(); ++r) {
     Rng rng = Rng::stream(options.seed, fmt::format("room {} walls", r));

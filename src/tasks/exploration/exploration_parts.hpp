@@ -30,6 +30,9 @@ class ExplorationParts : public MappingParts {
 
  private:
   void block_floor();
+  void mark_start();
+  void correct_map(const PoseCorrection& correction);
+  void visit(const Eigen::Vector2d& p_m, double radius_m);
   /// @param all those of all frontiers, not only of the largest
   std::vector<Candidate> find_views(bool all);
   void judge_what_is_left();
@@ -40,9 +43,11 @@ class ExplorationParts : public MappingParts {
   ExplorationRobotInterface& exploring_robot_;
   ExplorationBelief& belief_;
   std::vector<std::uint8_t> traversed_;  ///< per floor cell: the robot has traversed it
-  std::size_t path_traversed_ = 0;       ///< points of the path so far
+  Eigen::Vector2d p_start_m_ = Eigen::Vector2d::Zero();
+  std::size_t path_traversed_ = 0;  ///< points of the path so far
   VisitedPlaces visited_;
-  int poor_promises_ = 0;  ///< scans in a row after which no view was worth one more
+  std::vector<std::size_t> visited_at_;  ///< keyframe of each
+  int poor_promises_ = 0;                ///< scans in a row after which no view was worth one more
 };
 
 }  // namespace vantage
