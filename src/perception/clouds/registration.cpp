@@ -90,9 +90,9 @@ double pair_variance_m2(const RegistrationOptions& options, const PosePrior* pri
   return sigma_m * sigma_m;
 }
 
-/// What a direction of that strength says, beyond what the noise of normals says of any: to be held
-/// against a prior.
-double net_strength(double strength, double noise) { return std::max(0.0, strength - noise); }
+/// Share of a direction's strength that the noise of normals alone says; the prior decides where
+/// there is no more.
+constexpr double kNoiseShare = 0.003;
 
 /// To the maximum of the posterior: the step that surfaces want, and the way back to the prior.
 Eigen::Vector3d posterior_step(const Eigen::Matrix3d& information, const Eigen::Vector3d& wanted,
@@ -131,8 +131,10 @@ Step gauss_newton_step(const std::vector<Correspondence>& correspondences, doubl
   }
   // Per unit weight: a bad start makes all weights small, which is no lack of constraint.
   const double min_share =
-      std::max(options.min_constraint, options.min_constraint_correspondences /
-                                           static_cast<double>(correspondences.size()));
+      prior != nullptr
+          ? kNoiseShare
+          : std::max(options.min_constraint, options.min_constraint_correspondences /
+                                                 static_cast<double>(correspondences.size()));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal_matrix);
   Eigen::Vector3d solution = Eigen::Vector3d::Zero();
   Step step;
@@ -141,7 +143,7 @@ Step gauss_newton_step(const std::vector<Correspondence>& correspondences, doubl
     if (!(strength > min_share * weights)) continue;
     const Eigen::Vector3d direction = solver.eigenvectors().col(i);
     solution -= direction * (direction.dot(gradient) / strength);
-    const double said = prior == nullptr ? strength : net_strength(strength, min_share * weights);
+    const double said = prior == nullptr ? strength : strength - min_share * weights;
     step.strength += said * direction * direction.transpose();
     --step.unconstrained;
   }

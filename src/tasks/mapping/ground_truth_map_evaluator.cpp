@@ -62,8 +62,19 @@ void GroundTruthMapEvaluator::add_observable(std::span<const Pose> T_world_senso
   for (const Pose& pose : T_world_sensors) {
     throw_if_interrupted();  // minutes, of an office
     add_visible_cells(truth_.geometry(), frame_, pose, field_of_view_, observable_, -1, threads_);
+    observing_poses_.push_back(pose);
   }
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));
+}
+
+void GroundTruthMapEvaluator::set_left_out(int rooms, std::span<const Pose> T_world_sensors) {
+  std::vector<std::uint8_t> seen = observable_;
+  for (const Pose& pose : T_world_sensors) {
+    throw_if_interrupted();
+    add_visible_cells(truth_.geometry(), frame_, pose, field_of_view_, seen, -1, threads_);
+  }
+  const auto all = static_cast<std::size_t>(std::ranges::count(seen, std::uint8_t{1}));
+  left_out_ = LeftOut{rooms, all - observable_count_};
 }
 
 void GroundTruthMapEvaluator::remember_visible(std::span<const Pose> T_world_sensors) {
