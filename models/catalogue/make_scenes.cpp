@@ -32,6 +32,10 @@ int main(int argc, char** argv) {
       vantage::write_scene(vantage::make_office_scene(options), scenes / options.name);
       fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
     }
+    for (const auto& options : vantage::door_scenes()) {
+      vantage::write_scene(vantage::make_office_scene(options), scenes / options.name);
+      fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
+    }
     for (const auto& scene : vantage::flight_scenes()) {
       vantage::write_scene(scene, scenes / scene.name);
       fmt::print("{}\n", (scenes / scene.name / "scene.xml").string());

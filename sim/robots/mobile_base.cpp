@@ -9,6 +9,7 @@
 #include <set>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/robots/robot_outline.hpp"
 
 namespace vantage {
 namespace {
@@ -33,6 +34,13 @@ DrivenJoint find_driven(const RobotNames& names, std::string_view key, const std
   const DrivenJoint found = names.driven(key, joint);
   names.require_axis(key, found.joint, base, axis);
   return found;
+}
+
+FloorOutline find_outline(const mjModel& model, const Footprint& footprint, int base_body) {
+  if (footprint.outline_m.empty()) return outline_of_geoms(model, base_body);
+  std::vector<Eigen::Vector2d> corners;
+  for (const auto& [x_m, y_m] : footprint.outline_m) corners.emplace_back(x_m, y_m);
+  return convex_outline(std::move(corners));
 }
 
 /// Every name in a robot starts with robot/.
@@ -126,6 +134,7 @@ MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& descri
       idle_power_w_(description.idle_power_w),
       actuators_(actuators_of_robot(model)),
       base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
+      outline_(find_outline(model, description.footprint, base_body_)),
       drive_(find_drive(RobotNames(model, where), model, description.drive, base_body_)) {
   const RobotNames names(model, where);
   if (const auto* wheels = std::get_if<Wheels>(&drive_)) {

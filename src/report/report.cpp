@@ -58,6 +58,7 @@ constexpr KeyType kMetricsTypes[] = {
     {"path_length_m", is_number, "a number"},
     {"collisions", is_number, "a number"},
     {"observable_cells", is_number, "a number"},
+    {"unreachable", is_object, "an object"},
     {"map", is_object, "an object"},
     {"region", is_object, "an object"},
     {"scans", is_objects, "a list of objects"},

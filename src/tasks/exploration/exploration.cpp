@@ -10,7 +10,10 @@
 
 namespace vantage {
 
-void Exploration::check_with(const EpisodeOptions&) const { swept_field(sweep, camera, 0.0); }
+void Exploration::check_with(const EpisodeOptions& episode) const {
+  require_possible(episode.faults, {.laser = true, .wheels = true});
+  swept_field(sweep, camera, 0.0);
+}
 
 ModelSource Exploration::model_source(const EpisodeSetup& setup) const {
   return {setup.scene, setup.robot.mjcf};
@@ -27,6 +30,7 @@ std::string Exploration::outcome(const nlohmann::ordered_json& metrics) {
 }
 
 std::vector<std::string> Exploration::require_start(const EpisodeSetup& setup) const {
+  require_planner(choice);
   return SimulatedExplorationRobot(setup, *this).start_notes();
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "vantage/core/log.hpp"
+#include "vantage/perception/clouds/usable_readings.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/tasks/exploration/frontier_views.hpp"
 
@@ -30,6 +31,24 @@ void mark_disc(const FloorMap& floor, const Eigen::Vector2d& p_m, double radius_
   }
 }
 
+/// Discards what says nothing: stale images, readings that are none. @return whether anything is
+/// left
+/// @param last of the observation before, then of this one
+bool keep_usable(ExplorationObservation& observation, CameraImages& last) {
+  discard_unusable(observation.base_scan);
+  std::vector<DepthImage> views;
+  for (DepthImage& view : observation.views) {
+    discard_unusable(view.image);
+    if (is_repeated(last, view.image)) continue;
+    last.depth_m = view.image.depth_m;
+    views.push_back(std::move(view));
+  }
+  observation.views = std::move(views);
+  return std::ranges::any_of(observation.views, [](const DepthImage& view) {
+    return std::ranges::any_of(view.image.depth_m, [](float depth_m) { return depth_m > 0.0F; });
+  });
+}
+
 }  // namespace
 
 std::vector<Predictor> exploration_predictors(const Exploration& task) {
@@ -47,15 +66,31 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
       task_(task),
       exploring_robot_(robot),
       belief_(belief),
-      traversed_(navigator_.floor().size(), 0) {}
+      traversed_(navigator_.floor().size(), 0) {
+  navigator_.use_passages(task_.passages, task_.floor_detail);
+  if (const FloorMap* detail = navigator_.detail()) traversed_detail_.assign(detail->size(), 0);
+}
+
+/// The robot has been there.
+void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
+  mark_disc(navigator_.floor(), p_m, radius_m, traversed_);
+  if (const FloorMap* detail = navigator_.detail()) {
+    mark_disc(*detail, p_m, radius_m, traversed_detail_);
+  }
+}
 
 ExplorationObservation ExplorationParts::observe() {
   if (scans_.empty()) {
     const Pose2 start = robot_.estimated_base();
-    mark_disc(navigator_.floor(), {start.x_m, start.y_m}, task_.start_room_m, traversed_);
+    traverse({start.x_m, start.y_m}, task_.start_room_m);
     look_round_at_start();
   }
-  return observed([this] { return exploring_robot_.observe(); });
+  return observed([this] {
+    return first_usable<ExplorationObservation>([this](ExplorationObservation& observation) {
+      observation = exploring_robot_.observe();
+      return keep_usable(observation, last_image_);
+    });
+  });
 }
 
 void ExplorationParts::update(const ExplorationObservation& observation) {
@@ -72,9 +107,14 @@ void ExplorationParts::update(const ExplorationObservation& observation) {
 void ExplorationParts::block_floor() {
   const auto& path_m = navigator_.path_m();
   for (; path_traversed_ < path_m.size(); ++path_traversed_) {
-    mark_disc(navigator_.floor(), path_m[path_traversed_], robot_.inscribed_radius_m(), traversed_);
+    traverse(path_m[path_traversed_], robot_.inscribed_radius_m());
   }
-  block_columns(navigator_.floor(), belief_.grid(), traversed_, task_.headroom);
+  if (FloorMap* detail = navigator_.detail()) {
+    block_columns({navigator_.floor(), traversed_}, {*detail, traversed_detail_}, belief_.grid(),
+                  task_.headroom, robot_.base_scan_height_m());
+  } else {
+    block_columns(navigator_.floor(), belief_.grid(), traversed_, task_.headroom);
+  }
 }
 
 void ExplorationParts::record() {
@@ -144,7 +184,8 @@ std::string ExplorationParts::finished() const {
 }
 
 std::vector<Candidate> ExplorationParts::find_views(bool all) {
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   std::vector<Candidate> of_truth = views_of_truth(paths, true);
   std::erase_if(of_truth, [&](const Candidate& view) {
     return visited_.covers(place_of(view.T_world_sensor));

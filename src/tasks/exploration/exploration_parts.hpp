@@ -29,6 +29,7 @@ class ExplorationParts : public MappingParts {
   void act(const Candidate& candidate);
 
  private:
+  void traverse(const Eigen::Vector2d& p_m, double radius_m);
   void block_floor();
   /// @param all those of all frontiers, not only of the largest
   std::vector<Candidate> find_views(bool all);
@@ -39,10 +40,12 @@ class ExplorationParts : public MappingParts {
   const Exploration task_;
   ExplorationRobotInterface& exploring_robot_;
   ExplorationBelief& belief_;
-  std::vector<std::uint8_t> traversed_;  ///< per floor cell: the robot has traversed it
-  std::size_t path_traversed_ = 0;       ///< points of the path so far
+  std::vector<std::uint8_t> traversed_;         ///< per floor cell: the robot has traversed it
+  std::vector<std::uint8_t> traversed_detail_;  ///< the same of the finer map
+  std::size_t path_traversed_ = 0;              ///< points of the path so far
   VisitedPlaces visited_;
-  int poor_promises_ = 0;  ///< scans in a row after which no view was worth one more
+  CameraImages last_image_;  ///< that came
+  int poor_promises_ = 0;    ///< scans in a row after which no view was worth one more
 };
 
 }  // namespace vantage

@@ -27,7 +27,9 @@ std::vector<Candidate> frontier_views(const Exploration& task, const FrontierVie
     if (!cell) break;
     const Eigen::Vector2d place = paths.map.centre(paths.map.cell(*cell));
     const Pose2& from = paths.start;
-    const Pose2 base{place.x(), place.y(), std::atan2(place.y() - from.y_m, place.x() - from.x_m)};
+    const double yaw_rad =
+        paths.heading_rad(*cell).value_or(std::atan2(place.y() - from.y_m, place.x() - from.x_m));
+    const Pose2 base{place.x(), place.y(), yaw_rad};
     Candidate view;
     view.id = static_cast<int>(views.size());
     view.T_world_sensor = to_se3(base) * input.T_base_sweep;

@@ -67,6 +67,16 @@ void GroundTruthMapEvaluator::add_observable(std::span<const Pose> T_world_senso
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));
 }
 
+void GroundTruthMapEvaluator::set_left_out(int rooms, std::span<const Pose> T_world_sensors) {
+  std::vector<std::uint8_t> seen = observable_;
+  for (const Pose& pose : T_world_sensors) {
+    throw_if_interrupted();
+    add_visible_cells(truth_.geometry(), frame_, pose, field_of_view_, seen, -1, threads_);
+  }
+  const auto all = static_cast<std::size_t>(std::ranges::count(seen, std::uint8_t{1}));
+  left_out_ = LeftOut{rooms, all - observable_count_};
+}
+
 void GroundTruthMapEvaluator::remember_visible(std::span<const Pose> T_world_sensors) {
   for (const Pose& pose : T_world_sensors) {
     throw_if_interrupted();

@@ -26,6 +26,12 @@ struct ScanPoses {
   Pose2 kept;           ///< what the scan was taken into the map at
 };
 
+/// What could be seen from where the robot might stand, if it could get there.
+struct LeftOut {
+  int rooms = 0;          ///< open places that no way leads to
+  std::size_t cells = 0;  ///< that a noise-free sensor sees from there alone
+};
+
 /// The only one who holds a map against the truth. Whoever decides may hand it a record to fill in,
 /// and learns nothing by that; the choices `oracle`, `oracle_lookahead` and `oracle_tour` ask it,
 /// and say so.
@@ -55,6 +61,8 @@ class GroundTruthMapEvaluator {
   /// What stands or hangs in the robot's way, as it really is; null if nobody needs to know.
   [[nodiscard]] const FloorMap* true_floor() const { return true_floor_ ? &*true_floor_ : nullptr; }
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
+  /// None where it is not asked which places can be reached.
+  [[nodiscard]] const std::optional<LeftOut>& left_out() const { return left_out_; }
   [[nodiscard]] std::size_t observable_unobserved(const OccupancyGrid& grid) const;
   [[nodiscard]] MapScore score(const OccupancyGrid& grid, int tolerance_cells) const;
   /// Fills in what the record says of the map, held against the truth.
@@ -63,6 +71,8 @@ class GroundTruthMapEvaluator {
   void measure_pose(const ScanPoses& poses, ScanRecord& record) const;
 
  protected:
+  /// @param T_world_sensors in `rooms` that no way leads to; after add_observable()
+  void set_left_out(int rooms, std::span<const Pose> T_world_sensors);
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
   void set_true_floor(FloorMap floor) { true_floor_ = std::move(floor); }
 
@@ -84,6 +94,7 @@ class GroundTruthMapEvaluator {
   std::vector<Pose> observing_poses_;
   std::optional<FloorMap> true_floor_;
   std::size_t observable_count_ = 0;
+  std::optional<LeftOut> left_out_;
 };
 
 }  // namespace vantage

@@ -70,6 +70,9 @@ int MappingParts::scans_left() const {
 }
 
 std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
+  if (asks_outside(options_.choice)) {
+    throw ConfigError("choice: external is a program that is not asked here");
+  }
   const ViewChoice choice = within_scans_left(options_.choice, std::max(1, scans_left()));
   return plans_views(choice) ? next_of_plan(candidates)
                              : choose_view(choice, candidates, choice_rng_);
@@ -79,8 +82,8 @@ std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
 std::size_t MappingParts::chosen_outside(std::vector<Candidate>& candidates) {
   const BlockField of_unobserved = transmission();
   const std::size_t chosen = decide_outside(
-      *outside_, {belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()},
-      navigator_.plan(), options_.gain, [&] { return own_choice(candidates); }, candidates);
+      *outside_, {belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left(), &interval_},
+      *navigator_.plan(), options_.gain, [&] { return own_choice(candidates); }, candidates);
   for (std::size_t i = views_.size(); i < candidates.size(); ++i) views_.push_back(candidates[i]);
   return chosen;
 }
@@ -98,7 +101,8 @@ void MappingParts::end() {
 
 double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
   const BlockField of_unobserved = transmission();
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   MappingOptions options = options_;
   options.choice = TourChoice{};
   const PlanningProblem problem = planning_problem(options, AdaptiveGain{}, views,
@@ -116,7 +120,8 @@ double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
 /// Where no view can be planned for, the nearest one: navigation goes as near as it can.
 std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates) {
   const BlockField of_unobserved = transmission();
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   PlanningSituation situation{.belief = belief_,
                               .transmission = of_unobserved,
                               .robot = robot_,

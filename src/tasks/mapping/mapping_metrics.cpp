@@ -97,12 +97,30 @@ Json observability(const MappingOptions& options, const ClutterHazard& hazard) {
   return assumed ? Json(*assumed) : Json();
 }
 
+/// A line, where there is something.
+std::string left_out_text(const Json& metrics) {
+  const auto found = metrics.find("unreachable");
+  if (found == metrics.end() || (*found)["rooms"] == 0) return {};
+  const int rooms = (*found)["rooms"].get<int>();
+  return fmt::format(
+      "not counted: {} room{} that the robot cannot get to, {:.1f} % of all that "
+      "could be seen\n",
+      rooms, rooms == 1 ? "" : "s", 100.0 * (*found)["share"].get<double>());
+}
+
 }  // namespace
 
 void add_mapping_metrics(const MappingOptions& options, const MappingResult& run, Json& metrics) {
   const int tolerance_cells = options.metrics.tolerance_cells;
   const MapScore map = run.evaluator.score(run.grid, tolerance_cells);
   metrics["observable_cells"] = run.evaluator.observable_cells();
+  if (const auto& left_out = run.evaluator.left_out()) {
+    const std::size_t all = run.evaluator.observable_cells() + left_out->cells;
+    metrics["unreachable"] = {
+        {"rooms", left_out->rooms},
+        {"cells", left_out->cells},
+        {"share", all > 0 ? static_cast<double>(left_out->cells) / static_cast<double>(all) : 0.0}};
+  }
   metrics["scans"] = Json::array();
   for (const ScanRecord& scan : run.scans) metrics["scans"].push_back(scan_json(scan));
   add_progress(run.scans, run.evaluator.observable_cells(), metrics);
@@ -127,12 +145,13 @@ std::string mapping_outcome(const Json& metrics) {
     return value.is_null() ? std::string("unknown") : fmt::format("{:.3f}", value.get<double>());
   };
   return fmt::format(
-      "{}: {} after {} scans, {:.1f} % of the observable cells observed\n"
-      "path {:.2f} m, {} collisions, map precision {}, recall {}, {:.1f} x real time\n",
-      metrics["method"].get<std::string>(), metrics["status"].get<std::string>(), scans.size(),
-      total > 0.0 ? 100.0 * (1.0 - left / total) : 0.0, metrics["path_length_m"].get<double>(),
-      metrics["collisions"].get<int>(), score("precision"), score("recall"),
-      metrics["real_time_factor"].get<double>());
+             "{}: {} after {} scans, {:.1f} % of the observable cells observed\n"
+             "path {:.2f} m, {} collisions, map precision {}, recall {}, {:.1f} x real time\n",
+             metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
+             scans.size(), total > 0.0 ? 100.0 * (1.0 - left / total) : 0.0,
+             metrics["path_length_m"].get<double>(), metrics["collisions"].get<int>(),
+             score("precision"), score("recall"), metrics["real_time_factor"].get<double>()) +
+         left_out_text(metrics);
 }
 
 }  // namespace vantage

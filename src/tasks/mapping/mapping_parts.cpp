@@ -11,6 +11,7 @@
 #include "vantage/core/names.hpp"
 #include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/swept_gain.hpp"
+#include "vantage/runtime/episode_loop.hpp"
 
 namespace vantage {
 namespace {
@@ -32,8 +33,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
       robot_(context.robot),
       recorder_(context.recorder),
       navigator_(std::move(navigator)),
-      budget_(options.budget, options.navigation, options.drive.controller.speed_m_s, robot_,
-              navigator_),
+      budget_(options.budget, options.drive.controller.speed_m_s, robot_, navigator_),
       options_(options),
       evaluator_(context.evaluator),
       outside_(context.outside),
@@ -49,6 +49,17 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
 void MappingParts::look_round_at_start() {
   navigator_.turn_in_place();
   predict(robot_.estimated_sensor());
+}
+
+void MappingParts::note_useless(int attempt) const {
+  constexpr int kAttempts = 4;
+  const std::string what = fmt::format(
+      "scan {} shows nothing at {:.2f} s: its frames were lost, stale or without "
+      "readings",
+      scans_.size() + 1, robot_.time_s());
+  if (attempt >= kAttempts)
+    throw EpisodeFailed(fmt::format("{}, {} times in a row", what, attempt));
+  log_warning(what + ": it is taken again");
 }
 
 MappingParts::Before MappingParts::before_update() {

@@ -2,6 +2,7 @@
 /// drive. Tasks differ in how they propose views and act.  [Potthast2016, chapter 3]
 #pragma once
 
+#include <functional>
 #include <future>
 #include <optional>
 #include <span>
@@ -74,6 +75,17 @@ class MappingParts {
     current_.scan_energy_j = robot_.energy_used_j() - start_j;
     return observation;
   }
+  /// The first observation that shows something: one that does not is made again, a few times.
+  /// @param take makes an observation, says only what it is sure of and whether that is anything
+  /// @throws EpisodeFailed
+  template <class Observation>
+  Observation first_usable(const std::function<bool(Observation&)>& take) {
+    for (int attempt = 1;; ++attempt) {
+      Observation observation;
+      if (take(observation)) return observation;
+      note_useless(attempt);
+    }
+  }
   [[nodiscard]] Before before_update();
   void correct_pose(const BeliefUpdate& update);
   void measure(const Before& before, const BeliefUpdate& update, const Pose& T_world_sensor);
@@ -116,6 +128,8 @@ class MappingParts {
     double at_half_cells = 0.0;  ///< with half the hazard
   };
 
+  /// @throws EpisodeFailed after the last attempt
+  void note_useless(int attempt) const;
   [[nodiscard]] int scans_left() const;
   std::size_t own_choice(const std::vector<Candidate>& candidates);
   std::size_t chosen_outside(std::vector<Candidate>& candidates);

@@ -18,7 +18,7 @@ namespace vantage {
 template <class Robot>
 RecordedRobot recorded(Robot& robot) {
   return {robot.world(), [&robot] { return to_se3(robot.ground_truth().T_world_base()); },
-          [&robot] { return to_se3(robot.estimated_base()); }};
+          [&robot] { return to_se3(robot.estimated_base()); }, &robot.faults()};
 }
 
 /// That the run was asked for; null: none, the task chooses itself.
