@@ -61,8 +61,11 @@ void add_means(const std::vector<const EpisodeScore*>& scores, Standing& standin
 }
 
 void add_comparison(const Comparison& comparison, Standing& standing) {
-  for (const ComparisonRow& row : comparison.rows) {
-    if (row.panel != "all" || row.level != standing.planner) continue;
+  // Of one panel alone there are no rows of all of them.
+  const auto& rows = comparison.rows;
+  const bool several = std::ranges::count(rows, "all", &ComparisonRow::panel) > 0;
+  for (const ComparisonRow& row : rows) {
+    if (row.level != standing.planner || (several && row.panel != "all")) continue;
     standing.score = row.mean;
     if (has_interval(row.clusters)) standing.interval = row.interval;
     standing.difference = row.difference;

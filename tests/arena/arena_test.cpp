@@ -146,6 +146,16 @@ TEST_F(Arena, ShowsWhatThereIs) {
   EXPECT_THAT(page, Not(HasSubstr("{{")));
 }
 
+TEST_F(Arena, OfOneSceneHasScoresToo) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  put("a/mine/1", EpisodeState::completed, 0.4);
+  const Leaderboard board = leaderboard_of(results);
+  EXPECT_DOUBLE_EQ(board.standings[0].score, 0.3);
+  EXPECT_DOUBLE_EQ(board.standings[1].score, 0.2);
+  ASSERT_TRUE(board.standings[1].difference);
+  EXPECT_NEAR(board.standings[1].difference->mean, -0.1, 1e-12);
+}
+
 TEST_F(Arena, WallTimeIsOnThePageAlone) {
   put("a/greedy/1", EpisodeState::completed, 0.6);
   const std::string before = leaderboard_csv(leaderboard_of(results));

@@ -27,7 +27,8 @@ class Arena(InFolder):
 
     def test_from_run_to_page(self):
         self.script("small.yaml", STUDY)
-        told = json.loads(self.vantage("arena", "run", "small.yaml", "--out", "arena", "--jobs", 2, "-q", "--json"))
+        told = self.vantage("arena", "run", "small.yaml", "--out", "arena", "--jobs", 2, "-q", "--json")
+        told = json.loads(told[told.index("{"):told.rindex("}") + 1])
         self.assertEqual((told["episodes"], told["completed"]), (4, 4))
         self.vantage("arena", "run", "small.yaml", "--out", "again", "--jobs", 1, "-q")
         for file in "results.csv", "leaderboard.csv", "summary.json":

@@ -60,6 +60,9 @@ for line in sys.stdin:
         planner.unlink()
         self.vantage("replay", "run", "-q")
         self.vantage("branch", "run", "--scan", "1", "--view", "2", "--then", "1", code=2)
+        self.vantage("branch", "run", "--scan", "1", "--view", "2", code=2)
+        told = self.vantage("branch", "run", "--scan", "1", "--view", "2", "--then", "0", "-q")
+        self.assertIn("decision after scan 1", told)
 
     def test_a_program_that_is_not_there_is_told_before_anything_runs(self):
         for command in ["choice=external"], external("no_such_program_zz"):
