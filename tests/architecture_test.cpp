@@ -85,7 +85,7 @@ const Rooms kSharedByTasks{"tasks/mapping",          "tasks/mapping/driving",
                            "tasks/flight",           "tasks/object_flight",
                            "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
-                    kSharedByTasks + Rooms{"control", "dataset", "report"};
+                    kSharedByTasks + Rooms{"control", "dataset", "localisation", "report"};
 
 /// Which rooms each room may include besides itself.
 const std::map<std::string, Rooms> kAllowed{
@@ -152,6 +152,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"dataset/pictures", {"core", "geometry", "perception", "perception/images", "dataset"}},
     {"recipe", kGround + Rooms{"belief/objects", "belief/observation", "perception", "recognition",
                                "recognition/dataset", "dataset", "sim/render"}},
+    {"localisation", {"core", "geometry", "perception/clouds"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"bound", {"core", "geometry"}},
     {"building", {"core", "geometry", "planners/navigation"}},
@@ -261,6 +262,7 @@ const std::vector<LibraryRule> kLibraries{
     {"png", {"models/catalogue/shapes"}},
     {"CLI/", {"cli"}, true},
     {"Clp", {"bound"}, true},
+    {"ceres/", {"localisation"}, true},
     {"assimp/", {"building"}, true},
     {"zlib", {"mcap"}, true},
     {"zstd", {"mcap"}, true},

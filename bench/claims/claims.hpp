@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/study_tables.hpp"
+#include "bench/claims/study_tables.hpp"
 
 namespace vantage::bench {
 

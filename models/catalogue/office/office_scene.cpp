@@ -65,8 +65,7 @@ struct Layout {
   bool has_narrow_doors = false;
 };
 
-Layout empty_layout(const OfficeOptions& options) {
-  const FloorPlan plan = floor_plan(options);
+Layout empty_layout(const OfficeOptions& options, const FloorPlan& plan) {
   const AlignedBox2d area(-0.5 * plan.size_m, 0.5 * plan.size_m);
   Layout layout{{options.name, options.seed, options.clutter, plan, {}},
                 building(plan),
@@ -218,8 +217,12 @@ FloorPlan floor_plan(const OfficeOptions& options) {
 }
 
 OfficeScene make_office_scene(const OfficeOptions& options) {
+  return furnished(options, floor_plan(options));
+}
+
+OfficeScene furnished(const OfficeOptions& options, const FloorPlan& plan) {
   check_options(options, options.name);
-  Layout layout = empty_layout(options);
+  Layout layout = empty_layout(options, plan);
   const std::vector<Room> rooms = layout.scene.plan.rooms;
   for (std::size_t r = 0; r < rooms.size(); ++r) {
     Rng rng = Rng::stream(options.seed, fmt::format("room {} walls", r));

@@ -55,6 +55,8 @@ struct OfficeScene {
 /// kStartClearance_m. Chairs may stand partly under tables.
 /// @throws ConfigError if an option is out of range.
 OfficeScene make_office_scene(const OfficeOptions& options);
+/// The same in walls of one's own; `options.large` is not asked.
+OfficeScene furnished(const OfficeOptions& options, const FloorPlan& plan);
 
 /// What bounds the robot's way: walls, pillars, door posts, furniture.
 std::vector<Outline> obstacles(const OfficeScene& scene);

@@ -69,6 +69,9 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
       traversed_(navigator_.floor().size(), 0) {
   navigator_.use_passages(task_.passages, task_.floor_detail);
   if (const FloorMap* detail = navigator_.detail()) traversed_detail_.assign(detail->size(), 0);
+  if (task.localisation.loops.close) {
+    navigator_.close_loops(task.localisation.loops, task.registration, task.odometry);
+  }
 }
 
 /// The robot has been there.
@@ -82,7 +85,8 @@ void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
 ExplorationObservation ExplorationParts::observe() {
   if (scans_.empty()) {
     const Pose2 start = robot_.estimated_base();
-    traverse({start.x_m, start.y_m}, task_.start_room_m);
+    p_start_m_ = {start.x_m, start.y_m};
+    traverse(p_start_m_, task_.start_room_m);
     look_round_at_start();
   }
   return observed([this] {
@@ -101,6 +105,28 @@ void ExplorationParts::update(const ExplorationObservation& observation) {
   navigator_.remember(observation.base_scan, update.T_world_base);
   block_floor();
   measure(before, update, to_se3(update.T_world_base) * exploring_robot_.T_base_sweep());
+  if (navigator_.loops() == nullptr) return;
+  belief_.keep(observation, current_.keyframe);
+  if (const auto correction = navigator_.correct_over_loops()) correct_map(*correction);
+}
+
+void ExplorationParts::correct_map(const PoseCorrection& correction) {
+  belief_.reintegrate(correction.T_world_after);
+  for (std::size_t i = 0; i < visited_.size(); ++i) {
+    visited_.move(i, correction.moved(visited_.place(i), visited_at_[i]));
+  }
+  std::ranges::fill(traversed_, std::uint8_t{0});
+  std::ranges::fill(traversed_detail_, std::uint8_t{0});
+  traverse(p_start_m_, task_.start_room_m);
+  path_traversed_ = 0;
+  block_floor();
+  correct_records(correction, exploring_robot_.T_base_sweep());
+}
+
+void ExplorationParts::visit(const Eigen::Vector2d& p_m, double radius_m) {
+  visited_.add(p_m, radius_m);
+  const LoopClosing* loops = navigator_.loops();
+  visited_at_.push_back(loops == nullptr ? 0 : loops->remembered().size() - 1);
 }
 
 /// What the camera saw of the room over the floor is in the robot's way too.
@@ -120,8 +146,8 @@ void ExplorationParts::block_floor() {
 void ExplorationParts::record() {
   const ScanRecord& scan = record_scan();
   const bool poor = scan.actual_new_cells < task_.poor_cells;
-  visited_.add(place_of(scan.T_world_sensor),
-               poor ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
+  visit(place_of(scan.T_world_sensor),
+        poor ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
   start_decision();
   views_ = find_views(plans_views(task_.choice));
   views_have_gains_ = false;
@@ -202,7 +228,7 @@ std::vector<Candidate> ExplorationParts::find_views(bool all) {
 
 void ExplorationParts::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
-  visited_.add(place_of(candidate.T_world_sensor), task_.taken_m);
+  visit(place_of(candidate.T_world_sensor), task_.taken_m);
   const bool reached = approach(candidate, std::nullopt).reached;
   current_.fallback = !candidate.reachable || !reached;
   if (reached) {

@@ -69,6 +69,8 @@ class GroundTruthMapEvaluator {
   void measure(const OccupancyGrid& grid, int tolerance_cells, ScanRecord& record) const;
   /// Fills in what the record says of the pose, held against the truth.
   void measure_pose(const ScanPoses& poses, ScanRecord& record) const;
+  /// The same of a scan before, which is in the map at `T_world_base` now.
+  static void measure_moved_pose(const Pose2& T_world_base, ScanRecord& record);
 
  protected:
   /// @param T_world_sensors in `rooms` that no way leads to; after add_observable()

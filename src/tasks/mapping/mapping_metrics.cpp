@@ -65,7 +65,9 @@ Json scan_json(const ScanRecord& scan) {
           {"pose_error_m", scan.pose_error_m},
           {"pose_error_before_registration_m", scan.pose_error_before_registration_m},
           {"pose_error_tracked_m", scan.pose_error_tracked_m},
+          {"pose_error_at_scan_m", scan.pose_error_at_scan_m},
           {"yaw_error_rad", scan.yaw_error_rad},
+          {"pose_sigma_m", scan.pose_sigma_m},
           {"map_sigma_m", scan.map_sigma_m},
           {"registered", scan.registered},
           {"unconstrained", scan.unconstrained},
@@ -76,7 +78,8 @@ Json scan_json(const ScanRecord& scan) {
           {"view", view_json(scan.T_world_sensor)}};
 }
 
-Json localisation_json(const MappingOptions& options, std::span<const ScanRecord> scans) {
+Json localisation_json(const MappingOptions& options, std::span<const ScanRecord> scans,
+                       const LocalisationSummary& summary) {
   double sigma_m = 0.0;
   int registered = 0;
   for (const ScanRecord& scan : scans) {
@@ -87,7 +90,15 @@ Json localisation_json(const MappingOptions& options, std::span<const ScanRecord
   return {{"map_sigma_m", sigma_m},
           {"tolerance_m", tolerance_m},
           {"trusted", sigma_m <= tolerance_m},
-          {"registered_scans", registered}};
+          {"registered_scans", registered},
+          {"pose_sigma_m", summary.pose_sigma_m},
+          {"loops", summary.loops},
+          {"loops_refused", summary.loops_refused},
+          {"corrections", summary.corrections},
+          {"contradicted_share",
+           summary.contradicted_share ? Json(*summary.contradicted_share) : Json()},
+          {"map_in_doubt", sigma_m > tolerance_m || !summary.doubt.empty()},
+          {"doubt", summary.doubt.empty() ? Json() : Json(summary.doubt)}};
 }
 
 /// The transmission that the gain in use assumes for an unobserved cell; null if it assumes none.
@@ -130,7 +141,7 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
                     {"tolerance_cells", tolerance_cells}};
   metrics["observability"] = observability(options, run.hazard);
   metrics["observability_per_slice"] = run.hazard.transmission_per_slice();
-  metrics["localisation"] = localisation_json(options, run.scans);
+  metrics["localisation"] = localisation_json(options, run.scans, run.localisation);
   metrics["region"] = box_json(run.grid.frame.box());
   metrics["candidates"] = candidates_json(run.views);
 }

@@ -90,6 +90,11 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   current_.map_sigma_m = map_sigma_m();
   evaluator_.measure_pose({before.dead_reckoned, before.tracked, update.T_world_base}, current_);
   current_.T_world_sensor = T_world_sensor;
+  current_.T_world_base = update.T_world_base;
+  if (const LoopClosing* loops = navigator_.loops()) {
+    current_.keyframe = loops->remembered().size() - 1;
+    note_pose_sigmas(std::array{&current_});
+  }
   if (!update.registered) {
     log_warning(fmt::format("scan {}: not registered, {}: the pose tracked on the way is kept",
                             scans_.size() + 1, update.registration_note));

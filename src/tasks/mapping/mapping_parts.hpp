@@ -17,6 +17,7 @@
 #include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/tasks/mapping/driving/navigator.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
+#include "vantage/tasks/mapping/localisation_summary.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
 #include "vantage/tasks/mapping/mapping_recorder.hpp"
 #include "vantage/tasks/mapping/view_planner.hpp"
@@ -48,6 +49,8 @@ class MappingParts {
   [[nodiscard]] const BudgetKeeper& budget() const { return budget_; }
   /// Why the map is not to be trusted, by what the robot knows of its own pose; empty if it is.
   [[nodiscard]] std::string distrust() const;
+  /// How the scans fit together, and why that leaves the map in doubt.
+  LocalisationSummary localisation();
   /// Those of the next decision, and after it those it was made among.
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
@@ -89,6 +92,8 @@ class MappingParts {
   [[nodiscard]] Before before_update();
   void correct_pose(const BeliefUpdate& update);
   void measure(const Before& before, const BeliefUpdate& update, const Pose& T_world_sensor);
+  /// Loops have moved what was mapped: so have all records, and the map of the last is another.
+  void correct_records(const PoseCorrection& correction, const Pose& T_base_sensor);
   const ScanRecord& record_scan();
   /// What the scan to come will show, seen from there.
   void predict(const Pose& T_world_sensor);
@@ -138,6 +143,7 @@ class MappingParts {
   [[nodiscard]] std::span<const Pose> poses_of_truth() const;
   [[nodiscard]] MapPanelInput panel() const;
   [[nodiscard]] double map_sigma_m() const;
+  void note_pose_sigmas(std::span<ScanRecord* const> records) const;
   [[nodiscard]] BlockField transmission() const;
   [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
   [[nodiscard]] Prediction predicted() const;

@@ -82,6 +82,18 @@ TEST(SearchTour, TakesRegionsByWhatTheyShowPerTime) {
   }
 }
 
+/// Neither is worth its time; what shows most per second comes nearest to it, not what is nearest.
+TEST(SearchTours, RaiseTheWorthUntilAViewIsWorthItsTime) {
+  PlanningProblem problem = two_views();
+  problem.cells = {1.0F, 30.0F};
+  problem.travel_s << 0.0, 20.0,  //
+      20.0, 0.0,                  //
+      1.0, 20.0;
+  const TourObjective objective{.finish_weight = 1.0, .worth_s = 1.0};
+  EXPECT_EQ(search_tour(problem, objective, {}).order, test::Order{0});
+  EXPECT_EQ(search_tours(problem, objective, {}).front().order.front(), 1U);
+}
+
 /// Left and right of the robot, the right one a second nearer.
 TEST(SearchTours, KeepToTheIntendedUnlessAnotherIsBetterByEnough) {
   PlanningProblem problem = two_views();

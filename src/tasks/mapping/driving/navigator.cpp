@@ -1,5 +1,6 @@
 #include "vantage/tasks/mapping/driving/navigator.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -29,7 +30,45 @@ Navigator::Navigator(const FloorMapOptions& floor, const NavigationOptions& navi
       floor_(make_floor_map(floor)),
       reference_map_(std::move(reference_map)),
       uncertainty_(odometry, robot.estimated_base()),
-      keyframe_m_(keyframe_m) {}
+      keyframe_m_(keyframe_m),
+      empty_reference_map_(reference_map_) {}
+
+void Navigator::close_loops(const LoopOptions& loops, const RegistrationOptions& registration,
+                            const OdometryOptions& odometry) {
+  loops_.emplace(loops, registration, odometry, robot_.estimated_base());
+}
+
+std::optional<PoseCorrection> Navigator::correct_over_loops() {
+  if (!loops_ || !loops_->wants_correction()) return std::nullopt;
+  PoseCorrection correction = loops_->correct();
+  const std::size_t last = loops_->remembered().size() - 1;
+  const Pose2 base = correction.moved(robot_.estimated_base(), last);
+  loops_->moved_to(robot_.estimated_base(), base);
+  robot_.correct_pose(base);
+  for (std::size_t i = 0; i < path_m_.size(); ++i) {
+    path_m_[i] = correction.moved(path_m_[i], keyframe_of_path_[i]);
+  }
+  const bool by_posts = reference_map_.goes_by_posts();
+  reference_map_ = empty_reference_map_;
+  if (by_posts) reference_map_.go_by_posts();
+  clear_floor(loops_->remembered().front().T_world_base);
+  for (const auto& seen : loops_->remembered()) {
+    reference_map_.remember(seen.scan, seen.scanner_height_m, seen.T_world_base);
+    add_scan(seen.scan, seen.T_world_base);
+  }
+  last_keyframe_m_ = {base.x_m, base.y_m};
+  uncertainty_.assume(base, loops_->graph().covariances(std::array{last}).front());
+  return correction;
+}
+
+/// Nothing is known of it but that the robot stood at its start.
+void Navigator::clear_floor(const Pose2& start) {
+  floor_ = make_floor_map(floor_options_);
+  clear_footprint(floor_, start, options_.inflation_m() + floor_.cell_m);
+  if (!passages_) return;
+  *detail() = make_floor_detail(floor_, passages_->detail_options);
+  clear_footprint(*detail(), start, options_.inflation_m() + floor_.cell_m);
+}
 
 PlanarScan Navigator::read_scanner() {
   PlanarScan scan = robot_.read_base_scanner();
@@ -92,6 +131,10 @@ void Navigator::remember(const PlanarScan& scan, const Pose2& T_world_base) {
 void Navigator::extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base) {
   reference_map_.remember(scan, robot_.base_scan_height_m(), T_world_base);
   uncertainty_.remember();
+  if (loops_) {
+    loops_->moved_to(robot_.estimated_base(), robot_.estimated_base());
+    loops_->remember(scan, robot_.base_scan_height_m(), T_world_base);
+  }
   last_keyframe_m_ = {T_world_base.x_m, T_world_base.y_m};
 }
 
@@ -116,6 +159,7 @@ Correction Navigator::plausible_correction() {
 void Navigator::correct_pose(const Pose2& T_world_base, const Eigen::Matrix3d& information) {
   uncertainty_.move_to(robot_.estimated_base());
   uncertainty_.correct(T_world_base, information);
+  if (loops_) loops_->moved_to(robot_.estimated_base(), T_world_base);
   robot_.correct_pose(T_world_base);
 }
 
@@ -130,6 +174,12 @@ std::shared_ptr<const PathField> Navigator::plan() {
   return planned_;
 }
 
+void Navigator::note_path_point() {
+  path_m_.emplace_back(robot_.estimated_base().x_m, robot_.estimated_base().y_m);
+  const std::size_t remembered = loops_ ? loops_->remembered().size() : 0;
+  keyframe_of_path_.push_back(remembered > 0 ? remembered - 1 : 0);
+}
+
 PathField Navigator::ways_from(const Pose2& T_world_base) const {
   return make_path_field(floor_, T_world_base, options_, space());
 }
@@ -141,7 +191,7 @@ DriveResult Navigator::drive_and_map(std::span<const Pose2> waypoints, double ma
   return robot_.drive_along(waypoints, max_speed_m_s, [&] {
     if (++tick % kTicksPerFloorScan != 0) return true;
     localise();
-    path_m_.emplace_back(robot_.estimated_base().x_m, robot_.estimated_base().y_m);
+    note_path_point();
     turned_back_ = may_go_on && !may_go_on();
     return !turned_back_ && !is_blocked();
   });

@@ -12,6 +12,7 @@
 #include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/sim/robots/pose_uncertainty.hpp"
+#include "vantage/tasks/mapping/driving/loop_closing.hpp"
 #include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 
 namespace vantage {
@@ -50,6 +51,15 @@ class Navigator {
   void remember(const PlanarScan& scan, const Pose2& T_world_base);
   /// A registration has put the base there. @param information of it, zero if it has failed
   void correct_pose(const Pose2& T_world_base, const Eigen::Matrix3d& information);
+  /// From now on looks for places that it is back at. Before the first scan.
+  void close_loops(const LoopOptions& loops, const RegistrationOptions& registration,
+                   const OdometryOptions& odometry);
+  /// Where loops were found that move what is remembered: the walls, the floor, the way so far and
+  /// the robot are where they belong then. What blocks the floor besides is for the caller to say
+  /// again.
+  std::optional<PoseCorrection> correct_over_loops();
+  /// Null: it was not told to look for loops.
+  [[nodiscard]] const LoopClosing* loops() const { return loops_ ? &*loops_ : nullptr; }
   /// The most that odometry may have drifted since the last correction.
   Correction plausible_correction();
   /// The ways from where the robot is; worked out once as long as nothing changes.
@@ -81,6 +91,8 @@ class Navigator {
   bool localise();
   void add_scan(const PlanarScan& scan, const Pose2& T_world_base);
   void extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base);
+  void clear_floor(const Pose2& start);
+  void note_path_point();
   DriveResult drive_and_map(std::span<const Pose2> waypoints, double max_speed_m_s,
                             const std::function<bool()>& is_blocked);
   DriveResult drive_open(const std::vector<Pose2>& waypoints);
@@ -102,6 +114,9 @@ class Navigator {
   bool turned_back_ = false;  ///< on the last drive, since it might not go on
   Eigen::Vector2d last_keyframe_m_ = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> path_m_;
+  std::vector<std::size_t> keyframe_of_path_;  ///< the last one, at each point
+  std::optional<LoopClosing> loops_;
+  ReferenceMap empty_reference_map_;  ///< to begin again with
 };
 
 }  // namespace vantage

@@ -1,4 +1,4 @@
-#include "bench/study_tables.hpp"
+#include "bench/claims/study_tables.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
