@@ -9,7 +9,7 @@
 #include <queue>
 #include <utility>
 
-#include "vantage/planners/navigation/narrow_places.hpp"
+#include "vantage/planners/navigation/narrow_poses.hpp"
 
 namespace vantage {
 namespace {
@@ -46,21 +46,16 @@ class PassageSearch {
   PassageSearch(PathField& field, std::vector<Leeway> leeway)
       : field_(field),
         space_(*field.space),
-        leeway_(std::move(leeway)),
+        poses_(field, std::move(leeway)),
         fixed_(field.map.size(), 0),
-        row_of_(field.map.size(), kNone),
         facing_rad_(facing_limit_rad(space_.robot())) {
-    const auto headings = static_cast<std::size_t>(space_.headings());
-    std::uint32_t rows = 0;
-    for (std::size_t cell = 0; cell < leeway_.size(); ++cell) {
-      if (is_narrow(cell)) row_of_[cell] = rows++;
+    for (std::size_t cell = 0; cell < fixed_.size(); ++cell) {
       fixed_[cell] = field.reachable(cell) ? 1 : 0;
     }
-    node_at_.assign(rows * headings, kUnknown);
   }
 
   void from_open_places() {
-    for (std::size_t cell = 0; cell < leeway_.size(); ++cell) {
+    for (std::size_t cell = 0; cell < fixed_.size(); ++cell) {
       if (fixed_[cell] == 0 || !field_.traversable(cell) || !is_beside_passage(cell)) continue;
       queue_.emplace(field_.cost[cell], cell);
     }
@@ -69,25 +64,13 @@ class PassageSearch {
 
   /// The robot stands in a passage.
   void from_start() {
-    const int heading = space_.nearest_heading(field_.start.yaw_rad);
-    const Eigen::Array2i fine = middle(field_.start_cell);
-    tight_ = !space_.fits(fine, heading);
-    field_.narrow.push_back(
-        {.pose = field_.start, .cell = field_.start_cell, .cost = 0.0, .parent = PathField::kNone});
-    placed_.push_back({fine, heading});
-    node_at_[slot(field_.start_cell, heading)] = 0;
-    queue_.emplace(0.0, field_.map.size());
+    const std::uint32_t start = poses_.add_start();
+    field_.narrow[start].cost = 0.0;
+    queue_.emplace(0.0, field_.map.size() + start);
     run();
   }
 
  private:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t kUnknown = kNone;
-  static constexpr std::uint32_t kBlocked = kNone - 1;
-  struct Place {
-    Eigen::Array2i fine;  ///< cell of the finer map
-    int heading;
-  };
   struct Step {
     int dx, dy;
     double cells, direction_rad;
@@ -104,56 +87,16 @@ class PassageSearch {
     return made;
   }
 
-  [[nodiscard]] bool is_narrow(std::size_t cell) const {
-    return leeway_[cell] == Leeway::passage || leeway_[cell] == Leeway::nook;
-  }
   [[nodiscard]] bool is_node(std::size_t id) const { return id >= field_.map.size(); }
-  [[nodiscard]] std::size_t slot(std::size_t cell, int heading) const {
-    return row_of_[cell] * static_cast<std::size_t>(space_.headings()) +
-           static_cast<std::size_t>(heading);
-  }
-  [[nodiscard]] Eigen::Array2i middle(std::size_t cell) const {
-    return field_.map.cell(cell) * space_.parts() + space_.parts() / 2;
-  }
   [[nodiscard]] bool is_beside_passage(std::size_t cell) const {
     const Eigen::Array2i at = field_.map.cell(cell);
     return std::ranges::any_of(kSteps, [&](const Step& step) {
       const Eigen::Array2i to = at + Eigen::Array2i(step.dx, step.dy);
-      return field_.map.contains(to) && is_narrow(field_.map.index(to));
+      return field_.map.contains(to) && poses_.is_narrow(field_.map.index(to));
     });
   }
   [[nodiscard]] bool faces(const Step& step, int heading) const {
     return std::abs(wrap_angle(step.direction_rad - space_.heading_rad(heading))) <= facing_rad_;
-  }
-
-  /// The node of a cell at that heading, put where in the cell it fits, nearest to the middle; none
-  /// if it fits nowhere.
-  std::uint32_t node_at(std::size_t cell, int heading) {
-    std::uint32_t& node = node_at_[slot(cell, heading)];
-    if (node != kUnknown) return node;
-    node = kBlocked;
-    if (!space_.may_fit(middle(cell), heading, tight_)) return node;
-    const int reach = space_.parts() / 2;
-    double nearest = kInfinity;
-    Eigen::Array2i best = Eigen::Array2i::Zero();
-    for (int dy = -reach; dy <= reach; ++dy) {
-      for (int dx = -reach; dx <= reach; ++dx) {
-        const double off = std::hypot(dx, dy);
-        const Eigen::Array2i fine = middle(cell) + Eigen::Array2i(dx, dy);
-        if (off >= nearest || !space_.fits(fine, heading, tight_)) continue;
-        nearest = off;
-        best = fine;
-      }
-    }
-    if (nearest == kInfinity) return node;
-    node = static_cast<std::uint32_t>(field_.narrow.size());
-    const Eigen::Vector2d p_m = space_.centre(best);
-    field_.narrow.push_back({.pose = {p_m.x(), p_m.y(), space_.heading_rad(heading)},
-                             .cell = cell,
-                             .cost = kInfinity,
-                             .parent = PathField::kNone});
-    placed_.push_back({best, heading});
-    return node;
   }
 
   [[nodiscard]] double cost_of(std::size_t id) const {
@@ -186,10 +129,6 @@ class PassageSearch {
     relax(from, to, length_m * (1.0 + field_.options.clearance_weight), length_m);
   }
 
-  [[nodiscard]] bool fits_between(const Eigen::Array2i& a, const Eigen::Array2i& b, int heading) {
-    return space_.fits((a + b) / 2, heading, tight_);
-  }
-
   void step_from_open(std::size_t cell) {
     const Eigen::Array2i at = field_.map.cell(cell);
     const auto is_open = [&](int dx, int dy) {
@@ -200,7 +139,7 @@ class PassageSearch {
       const Eigen::Array2i to = at + Eigen::Array2i(step.dx, step.dy);
       if (!field_.map.contains(to)) continue;
       const std::size_t neighbour = field_.map.index(to);
-      if (is_narrow(neighbour)) {
+      if (poses_.is_narrow(neighbour)) {
         enter(cell, neighbour, step);
       } else if (fixed_[cell] == 0 && is_open(step.dx, step.dy)) {
         if (step.dx != 0 && step.dy != 0 && !(is_open(step.dx, 0) && is_open(0, step.dy))) continue;
@@ -219,8 +158,10 @@ class PassageSearch {
   void enter(std::size_t cell, std::size_t narrow_cell, const Step& step) {
     for (int heading = 0; heading < space_.headings(); ++heading) {
       if (!faces(step, heading)) continue;
-      const std::uint32_t node = node_at(narrow_cell, heading);
-      if (node == kBlocked || !fits_between(middle(cell), placed_[node].fine, heading)) continue;
+      const std::uint32_t node = poses_.at(narrow_cell, heading);
+      if (node == NarrowPoses::kNone ||
+          !poses_.fits_between(poses_.middle(cell), poses_.place(node).fine, heading))
+        continue;
       relax_narrow(cell, field_.map.size() + node, 0.0);
     }
   }
@@ -228,19 +169,20 @@ class PassageSearch {
   void step_from_passage(std::size_t id) {
     const std::size_t index = id - field_.map.size();
     const std::size_t cell = field_.narrow[index].cell;
-    const Place place = placed_[index];
+    const NarrowPoses::Place place = poses_.place(index);
     const Eigen::Array2i at = field_.map.cell(cell);
     for (const Step& step : kSteps) {
       const Eigen::Array2i to = at + Eigen::Array2i(step.dx, step.dy);
       if (!field_.map.contains(to) || !faces(step, place.heading)) continue;
       const std::size_t neighbour = field_.map.index(to);
       if (field_.traversable(neighbour)) {
-        if (fits_between(place.fine, middle(neighbour), place.heading)) {
+        if (poses_.fits_between(place.fine, poses_.middle(neighbour), place.heading)) {
           relax_narrow(id, neighbour, 0.0);
         }
-      } else if (is_narrow(neighbour)) {
-        const std::uint32_t node = node_at(neighbour, place.heading);
-        if (node != kBlocked && fits_between(place.fine, placed_[node].fine, place.heading)) {
+      } else if (poses_.is_narrow(neighbour)) {
+        const std::uint32_t node = poses_.at(neighbour, place.heading);
+        if (node != NarrowPoses::kNone &&
+            poses_.fits_between(place.fine, poses_.place(node).fine, place.heading)) {
           relax_narrow(id, field_.map.size() + node, 0.0);
         }
       }
@@ -252,8 +194,8 @@ class PassageSearch {
     const double turned_m = 2.0 * std::numbers::pi / space_.headings() * space_.circumscribed_m();
     for (const int way : {1, -1}) {
       const int turned = (heading + way + space_.headings()) % space_.headings();
-      const std::uint32_t node = node_at(cell, turned);
-      if (node != kBlocked) relax_narrow(id, field_.map.size() + node, turned_m);
+      const std::uint32_t node = poses_.at(cell, turned);
+      if (node != NarrowPoses::kNone) relax_narrow(id, field_.map.size() + node, turned_m);
     }
   }
 
@@ -277,7 +219,7 @@ class PassageSearch {
     if (!space_.robot().goes_sideways && !space_.turns_anywhere()) return;
     for (std::size_t i = 0; i < field_.narrow.size(); ++i) {
       const NarrowPose& node = field_.narrow[i];
-      if (leeway_[node.cell] != Leeway::nook || node.cost >= field_.cost[node.cell]) continue;
+      if (!poses_.is_nook(node.cell) || node.cost >= field_.cost[node.cell]) continue;
       if (field_.traversable(node.cell)) continue;
       field_.cost[node.cell] = node.cost;
       field_.parent[node.cell] = field_.map.size() + i;
@@ -288,13 +230,9 @@ class PassageSearch {
 
   PathField& field_;
   const FootprintSpace& space_;
-  std::vector<Leeway> leeway_;
-  std::vector<std::uint8_t> fixed_;     ///< reached before
-  std::vector<std::uint32_t> row_of_;   ///< of narrow cells in node_at_
-  std::vector<std::uint32_t> node_at_;  ///< per narrow cell and heading
-  std::vector<Place> placed_;           ///< of each node
+  NarrowPoses poses_;
+  std::vector<std::uint8_t> fixed_;  ///< reached before
   double facing_rad_;
-  bool tight_ = false;  ///< the robot stands nearer to something than a passage allows
   using Entry = std::pair<double, std::size_t>;  // ties by index: the same tree every time
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };

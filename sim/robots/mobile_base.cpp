@@ -36,13 +36,6 @@ DrivenJoint find_driven(const RobotNames& names, std::string_view key, const std
   return found;
 }
 
-FloorOutline find_outline(const mjModel& model, const Footprint& footprint, int base_body) {
-  if (footprint.outline_m.empty()) return outline_of_geoms(model, base_body);
-  std::vector<Eigen::Vector2d> corners;
-  for (const auto& [x_m, y_m] : footprint.outline_m) corners.emplace_back(x_m, y_m);
-  return convex_outline(std::move(corners));
-}
-
 /// Every name in a robot starts with robot/.
 std::vector<int> actuators_of_robot(const mjModel& model) {
   std::vector<int> actuators;
@@ -134,7 +127,7 @@ MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& descri
       idle_power_w_(description.idle_power_w),
       actuators_(actuators_of_robot(model)),
       base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
-      outline_(find_outline(model, description.footprint, base_body_)),
+      outline_(robot_outline(model, base_body_, description.footprint.outline_m)),
       drive_(find_drive(RobotNames(model, where), model, description.drive, base_body_)) {
   const RobotNames names(model, where);
   if (const auto* wheels = std::get_if<Wheels>(&drive_)) {
@@ -280,10 +273,7 @@ void MobileBase::turn(mjData& data, double angle_rad) const {
   mjtNum* q = data.qpos + std::get<Wheels>(drive_).qpos + 3;
   const Eigen::Quaterniond turned = Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()) *
                                     Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-  q[0] = turned.w();
-  q[1] = turned.x();
-  q[2] = turned.y();
-  q[3] = turned.z();
+  Eigen::Map<Eigen::Vector4d>(q, 4) << turned.w(), turned.x(), turned.y(), turned.z();
 }
 
 std::vector<int> MobileBase::touched_by_turning(const World& world) const {

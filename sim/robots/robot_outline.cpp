@@ -97,4 +97,12 @@ FloorOutline outline_of_geoms(const mjModel& model, int base_body) {
   return convex_outline(std::move(corners));
 }
 
+FloorOutline robot_outline(const mjModel& model, int base_body,
+                           std::span<const std::array<double, 2>> corners_m) {
+  if (corners_m.empty()) return outline_of_geoms(model, base_body);
+  std::vector<Eigen::Vector2d> corners;
+  for (const auto& [x_m, y_m] : corners_m) corners.emplace_back(x_m, y_m);
+  return convex_outline(std::move(corners));
+}
+
 }  // namespace vantage

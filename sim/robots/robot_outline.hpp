@@ -1,6 +1,7 @@
 /// The outline of a robot on the floor, from its geoms.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 
@@ -13,5 +14,9 @@ namespace vantage {
 /// under the base, all joints at 0: 64 straight lines about it, each of them touched.
 /// @throws InputError if nothing of it can touch anything
 FloorOutline outline_of_geoms(const mjModel& model, int base_body);
+
+/// That of the corners, or if there are none of the geoms.
+FloorOutline robot_outline(const mjModel& model, int base_body,
+                           std::span<const std::array<double, 2>> corners_m);
 
 }  // namespace vantage
