@@ -37,6 +37,8 @@ class LoopClosing {
   /// What was seen from there is remembered; looks for a loop.
   void remember(const PlanarScan& scan, double scanner_height_m, const Pose2& T_world_base);
 
+  /// By the wheels, since the last that was remembered.
+  [[nodiscard]] double turned_rad() const { return turned_rad_; }
   /// There are new loops, and they move some pose by more than `correct_m`.
   [[nodiscard]] bool wants_correction() const;
   /// From now on what was remembered was seen from there.

@@ -17,6 +17,8 @@ constexpr int kTicksPerFloorScan = 10;
 /// Plans towards one view before it counts as out of reach: the floor map grows on the way.
 constexpr int kMaxPlans = 12;
 constexpr double kProgress_m = 0.05;
+/// Wheels tell turns worst: scans are tied to each other as often.
+constexpr double kTurnPerKeyframe_rad = 0.5;
 
 }  // namespace
 
@@ -147,7 +149,11 @@ bool Navigator::localise() {
   correct_pose(pose, located.information);
   add_scan(scan, pose);
   const double gone_m = (Eigen::Vector2d(pose.x_m, pose.y_m) - last_keyframe_m_).norm();
-  if (located.converged && gone_m >= keyframe_m_) extend_reference_map(scan, pose);
+  if (located.converged && gone_m >= keyframe_m_) {
+    extend_reference_map(scan, pose);
+  } else if (located.converged && loops_ && loops_->turned_rad() > kTurnPerKeyframe_rad) {
+    loops_->remember(scan, robot_.base_scan_height_m(), pose);
+  }
   return located.converged;
 }
 
