@@ -265,6 +265,21 @@ TEST(BuildingScene, MuJoCoReadsIt) {
   for (int geom = 0; geom < model.ngeom; ++geom) EXPECT_EQ(model.geom_contype[geom], 1);
 }
 
+/// Round hulls have no axes of their own: MuJoCo turns their frames as rounding has it.
+TEST(BuildingScene, ARobotJoinsRoundThings) {
+  test::DrawnBuilding building = test::room_with_door(0.85, 0.3);
+  test::Outline round_m;
+  for (int i = 0; i < 16; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / 16.0;
+    round_m.emplace_back(1.0 + 0.2 * std::cos(angle_rad), 0.2 * std::sin(angle_rad));
+  }
+  building.prism(round_m, 0.0, 2.3);
+  const support::TemporaryDirectory folder;
+  write_file(folder / "room.xml", to_mjcf(scene_of(building), "room", "by a test"));
+  const auto robot = std::filesystem::path(VANTAGE_SOURCE_DIR) / "models/robots/pr2/pr2.xml";
+  EXPECT_NO_THROW(load_model({folder / "room.xml", robot}));
+}
+
 TEST(BuildingScene, TheMapHoldsTheBuilding) {
   const BuildingScene scene = scene_of(test::room_with_door(0.85));
   const BuildingMap map = map_of(scene);
