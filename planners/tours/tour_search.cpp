@@ -77,6 +77,7 @@ class TourSearch {
     double shown = 0.0;
     std::size_t at = problem_.here();
     for (const std::size_t view : order) {
+      // Without ways between them, regions are best taken by falling cells per time. [Smith1956]
       const double beyond = problem_.beyond_of(view);
       const double dwell_s = problem_.dwell_s(view);
       time_s += problem_.leg_s(at, view) + problem_.scan_s;

@@ -78,7 +78,7 @@ TEST(SpaceBeyond, EndsWhereTheWayIsTooLong) {
 
 TEST(SpaceBeyond, ExpectsOfTheUnknownWhatWasSeenOfTheOpen) {
   Rooms rooms;
-  // A quarter of the cells of every open column stays unseen, as below tables.
+  // Three cells in ten of every open column stay unseen, as below tables.
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 19; ++x) {
       for (int z = 0; z < 10; z += 4) rooms.grid.log_odds[rooms.grid.frame.index({x, y, z})] = 0.0F;
