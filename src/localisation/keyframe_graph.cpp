@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kVoxel_m = 0.05;
+constexpr double kVoxel_m = 0.03;
 constexpr double kLocalWay_m = 5.0;    ///< the way that a scan is registered with
 constexpr double kPlaceWay_m = 3.0;    ///< before and after a place of long ago
 constexpr double kTryEvery_m = 1.0;    ///< driven
@@ -71,6 +71,9 @@ KeyframeGraph::KeyframeGraph(const LoopOptions& options, const RegistrationOptio
     : options_(options), registration_(registration) {
   check_options(options_, "localisation.loops");
   registration_.voxel_m = kVoxel_m;
+  // Few points may swing between two sets of pairs by less than what they are off.
+  registration_.tolerance_m = std::max(registration_.tolerance_m, 5e-4);
+  registration_.tolerance_rad = std::max(registration_.tolerance_rad, 2e-4);
 }
 
 void KeyframeGraph::begin(const PointCloud& scan_base, const Pose2& T_world_base) {
@@ -85,9 +88,14 @@ void KeyframeGraph::add(const PointCloud& scan_base, const WheelStep& step) {
   const std::size_t previous = poses_.size() - 1;
   PoseEdge edge{previous, previous + 1, step.T_previous_now, step.covariance.inverse()};
   scans_.push_back(voxel_downsample(scan_base, kVoxel_m));
-  const auto found =
-      register_with_prior(scans_.back(), seen(back_from(previous, kLocalWay_m), previous, previous),
-                          {step.T_previous_now, edge.information}, registration_, {});
+  const PointCloud around = seen(back_from(previous, kLocalWay_m), previous, previous);
+  const PosePrior prior{step.T_previous_now, edge.information};
+  auto found = register_with_prior(scans_.back(), around, prior, registration_, {});
+  if (!found.converged) {  // a turn on the spot moves what is far away farther
+    RegistrationOptions wide = registration_;
+    wide.max_correspondence_m *= 2.0;
+    found = register_with_prior(scans_.back(), around, prior, wide, {});
+  }
   if (found.converged) {
     edge.T_from_to = found.T_world_base;
     edge.information += limited(found.information, kLeastSigma);

@@ -10,6 +10,9 @@ namespace {
 
 /// At that distance a heading moves what is seen.
 constexpr double kSight_m = 3.0;
+/// Poses of loops are taken where beams go through walls by so much less than at the tracked ones:
+/// where tracking was good, it is better than what loops say.
+constexpr double kMuchBetter = 0.6;
 /// Encoders and time stamps are no better.
 const Eigen::Vector3d kLeastSigma(0.001, 0.001, 0.0005);
 
@@ -89,7 +92,10 @@ double LoopClosing::disagreement_m() const {
 }
 
 bool LoopClosing::wants_correction() const {
-  return graph_.loops() > loops_corrected_ && disagreement_m() > options_.correct_m;
+  if (graph_.loops() <= loops_corrected_ || disagreement_m() <= options_.correct_m) return false;
+  std::vector<Pose2> tracked;
+  for (const Remembered& seen : remembered_) tracked.push_back(seen.T_world_base);
+  return contradicted_at(graph_.T_world_bases()) < kMuchBetter * contradicted_at(tracked);
 }
 
 PoseCorrection LoopClosing::correct() {
@@ -105,6 +111,12 @@ PoseCorrection LoopClosing::correct() {
 }
 
 double LoopClosing::contradicted_share() const {
+  std::vector<Pose2> poses;
+  for (const Remembered& seen : remembered_) poses.push_back(seen.T_world_base);
+  return contradicted_at(poses);
+}
+
+double LoopClosing::contradicted_at(std::span<const Pose2> poses) const {
   std::vector<PointCloud> clouds;
   for (const Remembered& seen : remembered_) {
     clouds.push_back(prepare_scan(
@@ -114,7 +126,7 @@ double LoopClosing::contradicted_share() const {
   std::vector<SeenFrom> scans;
   for (std::size_t i = 0; i < remembered_.size(); ++i) {
     const Pose2& sensor = remembered_[i].scan.T_base_sensor;
-    scans.push_back({clouds[i], {sensor.x_m, sensor.y_m}, remembered_[i].T_world_base});
+    scans.push_back({clouds[i], {sensor.x_m, sensor.y_m}, poses[i]});
   }
   return vantage::contradicted_share(scans);
 }

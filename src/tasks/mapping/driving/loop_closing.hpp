@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "vantage/geometry/range_scan.hpp"
@@ -39,7 +40,8 @@ class LoopClosing {
 
   /// By the wheels, since the last that was remembered.
   [[nodiscard]] double turned_rad() const { return turned_rad_; }
-  /// There are new loops, and they move some pose by more than `correct_m`.
+  /// There are new loops, and they move some pose by more than `correct_m`, to where what was
+  /// seen fits together much better.
   [[nodiscard]] bool wants_correction() const;
   /// From now on what was remembered was seen from there.
   PoseCorrection correct();
@@ -58,6 +60,8 @@ class LoopClosing {
   [[nodiscard]] double contradicted_share() const;
 
  private:
+  [[nodiscard]] double contradicted_at(std::span<const Pose2> T_world_bases) const;
+
   LoopOptions options_;
   RegistrationOptions registration_;
   OdometryOptions odometry_;
