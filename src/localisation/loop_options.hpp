@@ -6,7 +6,7 @@
 namespace vantage {
 
 struct LoopOptions {
-  bool close = true;
+  bool close = false;
   double min_way_m = 12.0;
   double search_m = 2.5;
   double min_agreement = 0.75;
