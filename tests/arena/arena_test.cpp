@@ -147,6 +147,10 @@ TEST_F(Arena, ShowsWhatThereIs) {
 }
 
 TEST_F(Arena, OfOneSceneHasScoresToo) {
+  results.study.factors.front().levels.pop_back();
+  results.plan = plan_study(results.study);
+  results.states.resize(results.plan.size());
+  results.measures.resize(results.plan.size());
   put("a/greedy/1", EpisodeState::completed, 0.6);
   put("a/mine/1", EpisodeState::completed, 0.4);
   const Leaderboard board = leaderboard_of(results);

@@ -23,7 +23,8 @@ report: {{compare: planner, reference: greedy, panels: scene}}
 
 class Arena(InFolder):
     def board(self):
-        return {row["planner"]: row for row in csv.DictReader((self.folder / "arena/leaderboard.csv").open())}
+        rows = (self.folder / "arena/leaderboard.csv").read_text().splitlines()
+        return {row["planner"]: row for row in csv.DictReader(rows)}
 
     def test_from_run_to_page(self):
         self.script("small.yaml", STUDY)
