@@ -1,6 +1,6 @@
 # Sourced by ./run and ./test: installs what is missing, from Debian alone.
 packages=(build-essential ca-certificates cmake git ninja-build
-  coinor-libclp-dev libassimp-dev libceres-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev libglfw3-dev libmujoco-dev libnanoflann-dev
+  coinor-libclp-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev libglfw3-dev libmujoco-dev libnanoflann-dev
   liboctomap-dev libopencv-core-dev libopencv-dnn-dev libopencv-features2d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-videoio-dev libopencv-dev
   libosmesa6-dev libpng-dev libspdlog-dev libyaml-cpp-dev libzstd-dev nlohmann-json3-dev zlib1g-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev
@@ -23,15 +23,10 @@ install_dependencies() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build PRESET [--target NAME...]: configures once, then builds what changed; what ccache, where it is
-# installed, has compiled in any checkout is not compiled again.
+# build PRESET [--target NAME...]: configures once, then builds what changed.
 build() {
   local preset=$1
   shift
-  if command -v ccache >/dev/null; then
-    export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
-    export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-  fi
   [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" "$@"
 }

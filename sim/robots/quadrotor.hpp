@@ -1,8 +1,6 @@
 /// A quadrotor, as its robot.yaml describes it: thrusts in, state and frames out.
 #pragma once
 
-#include <array>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -41,7 +39,6 @@ class Quadrotor {
   /// As compiled: mass, inertia and centre of mass of all its bodies.
   [[nodiscard]] const Airframe& airframe() const { return airframe_; }
   [[nodiscard]] double rotor_radius_m() const { return rotor_radius_m_; }
-  [[nodiscard]] std::span<const int> rotor_actuators() const { return actuators_; }
 
   /// Truth: for metrics, and as the input of an estimate.
   [[nodiscard]] FlightState state(const World& world) const;

@@ -1,7 +1,6 @@
 /// Laser scanners by ray casting: a tilting one that looks at the scene, a planar one for driving.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -20,11 +19,9 @@ class ScanBuilder {
 
   /// Measures one line. `T_world_laser`: x along the middle beam, z normal to the scan plane, thus
   /// turned by the true tilt; `measured_tilt_rad` is what the joint's encoder says. `sensor_body`
-  /// carries the sensor and is not seen. `spoil` says what arrives of the ranges that were
-  /// measured, in place; may be empty.
+  /// carries the sensor and is not seen.
   void add_line(const RayScene& scene, const Pose& T_world_laser, double measured_tilt_rad,
-                int sensor_body, Rng& rng,
-                const std::function<void(std::vector<float>&)>& spoil = {});
+                int sensor_body, Rng& rng);
 
   /// The scan so far, lines by ascending tilt; of lines closer together than a microradian (the
   /// joint stood still) only the first. Leaves the builder empty.

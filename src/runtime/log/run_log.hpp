@@ -16,7 +16,6 @@
 
 namespace vantage {
 
-class RobotFaults;
 class VideoRecorder;
 class World;
 
@@ -24,7 +23,6 @@ struct RecordedRobot {
   World& world;
   std::function<Pose()> T_world_body;       ///< truth
   std::function<Pose()> T_world_estimated;  ///< the body, as the robot believes it
-  const RobotFaults* faults = nullptr;      ///< null: it has none
 };
 
 class RunLog {
@@ -49,7 +47,6 @@ class RunLog {
 
   [[nodiscard]] std::uint64_t state_hash() const { return states_.hash(); }
   [[nodiscard]] double path_length_m() const { return path_length_m_; }
-  [[nodiscard]] const RobotFaults* faults() const { return robot_.faults; }
 
  private:
   void tick();

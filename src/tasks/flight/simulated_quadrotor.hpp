@@ -7,7 +7,6 @@
 
 #include "vantage/geometry/range_scan.hpp"
 #include "vantage/runtime/episode_setup.hpp"
-#include "vantage/sim/faults/robot_faults.hpp"
 #include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/sim/sensors/camera_options.hpp"
@@ -32,8 +31,7 @@ class SimulatedQuadrotor {
 
   /// Depth as measured, without colour.
   CameraImages depth_image(Rng& rng);
-  /// Colour with the blur and the noise of an exposure that ends now, and measured depth. In the
-  /// dark there is nothing but the noise.
+  /// Colour with the blur and the noise of an exposure that ends now, and measured depth.
   CameraImages colour_image(Rng& rng);
 
   [[nodiscard]] Pose estimated_body() const { return tracking_.estimate().T_world_body; }
@@ -44,7 +42,6 @@ class SimulatedQuadrotor {
   [[nodiscard]] int collisions() const { return tracking_.collisions(); }
   [[nodiscard]] std::string touched() const;  ///< names of what it touches
 
-  [[nodiscard]] RobotFaults& faults() { return faults_; }
   TrajectoryTrackingController& tracking() { return tracking_; }
   [[nodiscard]] const TrajectoryTrackingController& tracking() const { return tracking_; }
   [[nodiscard]] const Quadrotor& vehicle() const { return vehicle_; }
@@ -57,7 +54,6 @@ class SimulatedQuadrotor {
   Quadrotor vehicle_;
   TrajectoryTrackingController tracking_;
   std::unique_ptr<Renderer> renderer_;
-  RobotFaults faults_;
 };
 
 }  // namespace vantage

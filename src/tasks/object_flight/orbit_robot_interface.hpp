@@ -11,7 +11,6 @@ namespace vantage {
 
 /// What the robot observes with one image.
 struct FlightObservation {
-  bool arrived = true;  ///< false: the image was taken, and lost
   CameraImages images;  ///< colour and depth
   Pose T_world_camera;  ///< as estimated, OpenCV's axes
 };

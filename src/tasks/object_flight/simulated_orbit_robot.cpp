@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/interrupt.hpp"
@@ -64,10 +63,7 @@ std::vector<SimulatedOrbitRobot::Object> SimulatedOrbitRobot::objects_of(
 FlightObservation SimulatedOrbitRobot::observe() {
   throw_if_interrupted();
   require_untouched(quadrotor_.tracking().hold(task_.settle_s));
-  auto images = quadrotor_.faults().arriving(quadrotor_.colour_image(camera_noise_), time_s());
-  const bool arrived = images.has_value();
-  return {.arrived = arrived,
-          .images = arrived ? std::move(*images) : CameraImages{},
+  return {.images = quadrotor_.colour_image(camera_noise_),
           .T_world_camera = estimated_body() * quadrotor_.T_body_camera()};
 }
 

@@ -34,7 +34,6 @@ class TabletopParts : public MappingParts {
   const Tabletop task_;
   TabletopRobotInterface& tabletop_robot_;
   TabletopBelief& belief_;
-  std::vector<float> last_line_;  ///< of the scan before, as it came
 };
 
 }  // namespace vantage
