@@ -23,10 +23,15 @@ install_dependencies() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# build PRESET [--target NAME...]: configures once, then builds what changed.
+# build PRESET [--target NAME...]: configures once, then builds what changed; what ccache, where it is
+# installed, has compiled in any checkout is not compiled again.
 build() {
   local preset=$1
   shift
+  if command -v ccache >/dev/null; then
+    export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
+  fi
   [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" "$@"
 }
