@@ -54,13 +54,18 @@ class PlainYamlOnly : public YAML::EventHandler {
 
 /// yaml-cpp closes an open quote at the end of a file itself, unless the file ends without a
 /// newline: a forgotten quote would swallow the keys behind it unseen.
-void inspect(std::string_view text, const std::string& name) {
+/// @return whether there is a document. A second is an error, and the last that is looked for: of
+/// what begins no document, as a comma, yaml-cpp makes empty ones without end.
+bool inspect(std::string_view text, const std::string& name) {
   const auto last = text.find_last_not_of(" \t\r\n");
   std::istringstream stream{std::string(text.substr(0, last == text.npos ? 0 : last + 1))};
   YAML::Parser parser(stream);
   PlainYamlOnly inspector(name);
-  while (parser.HandleNextDocument(inspector)) {
+  if (!parser.HandleNextDocument(inspector)) return false;
+  if (parser.HandleNextDocument(inspector)) {
+    throw ConfigError(name + ": more than one YAML document");
   }
+  return true;
 }
 
 std::string join_key(const std::string& parent, const std::string& child) {
@@ -192,16 +197,12 @@ ConfigNode read_yaml(const std::filesystem::path& path) {
 }
 
 ConfigNode parse_yaml(std::string_view text, const std::string& name) {
-  std::vector<YAML::Node> documents;
   try {
-    inspect(text, name);
-    documents = YAML::LoadAll(std::string(text));
+    if (inspect(text, name)) return convert(YAML::Load(std::string(text)), name, "");
   } catch (const YAML::Exception& error) {
     throw ConfigError(
         fmt::format("{}: not valid YAML: {}", origin_of(name, error.mark), error.msg));
   }
-  if (documents.size() > 1) throw ConfigError(name + ": more than one YAML document");
-  if (!documents.empty()) return convert(documents.front(), name, "");
   ConfigNode empty;
   empty.origin = name;
   return empty;
