@@ -130,6 +130,30 @@ std::vector<std::size_t> places_of(const CoverProblem& problem, double within_m)
   return group;
 }
 
+std::vector<double> ways_through_sets_m(const Eigen::MatrixXd& way_m) {
+  const auto n = static_cast<std::size_t>(way_m.cols() - 1);
+  const auto leg_m = [&](std::size_t a, std::size_t b) {
+    return way_m(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  };
+  std::vector<double> to_last_m((std::size_t{1} << n) * n, kInfinity);
+  std::vector<double> through_m(std::size_t{1} << n, kInfinity);
+  through_m[0] = 0.0;
+  for (std::size_t set = 1; set < through_m.size(); ++set) {
+    for (std::size_t last = 0; last < n; ++last) {
+      if ((set >> last & 1U) == 0) continue;
+      const std::size_t before = set & ~(std::size_t{1} << last);
+      double best_m = before == 0 ? leg_m(0, last + 1) : kInfinity;
+      for (std::size_t from = 0; from < n; ++from) {
+        if ((before >> from & 1U) == 0) continue;
+        best_m = std::min(best_m, to_last_m[before * n + from] + leg_m(from + 1, last + 1));
+      }
+      to_last_m[set * n + last] = best_m;
+      through_m[set] = std::min(through_m[set], best_m);
+    }
+  }
+  return through_m;
+}
+
 double shortest_way_m(const CoverProblem& problem, std::span<const std::size_t> views) {
   if (views.empty()) return 0.0;
   return views.size() <= kMaxExactWay ? held_karp_m(problem, views)

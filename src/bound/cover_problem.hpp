@@ -52,4 +52,9 @@ std::vector<std::size_t> places_of(const CoverProblem& problem, double within_m)
 double shortest_way_m(const CoverProblem& problem, std::span<const std::size_t> views);
 inline constexpr std::size_t kMaxExactWay = 12;
 
+/// Length of the shortest way from place 0 through each set of the others, ending anywhere; bit i
+/// of a set is place i + 1. [HeldKarp1962]
+/// @param way_m symmetric, between all places
+std::vector<double> ways_through_sets_m(const Eigen::MatrixXd& way_m);
+
 }  // namespace vantage

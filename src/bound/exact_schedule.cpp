@@ -15,29 +15,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Shortest ways from view 0 through each set of the others, ending anywhere. [HeldKarp1962]
-std::vector<double> ways_through_sets_m(const CoverProblem& problem) {
-  const std::size_t n = problem.views() - 1;
-  std::vector<double> to_last_m((std::size_t{1} << n) * n, kInfinity);
-  std::vector<double> way_m(std::size_t{1} << n, kInfinity);
-  way_m[0] = 0.0;
-  for (std::size_t set = 1; set < way_m.size(); ++set) {
-    for (std::size_t last = 0; last < n; ++last) {
-      if ((set >> last & 1U) == 0) continue;
-      const std::size_t before = set & ~(std::size_t{1} << last);
-      double best_m = before == 0 ? problem.between_m(0, last + 1) : kInfinity;
-      for (std::size_t from = 0; from < n; ++from) {
-        if ((before >> from & 1U) == 0) continue;
-        best_m =
-            std::min(best_m, to_last_m[before * n + from] + problem.between_m(from + 1, last + 1));
-      }
-      to_last_m[set * n + last] = best_m;
-      way_m[set] = std::min(way_m[set], best_m);
-    }
-  }
-  return way_m;
-}
-
 /// Calls visit(set) for every set of the views besides view 0 that shows enough with it.
 void for_each_cover(const CoverProblem& problem, const std::function<void(std::size_t)>& visit) {
   const std::size_t n = problem.views() - 1;
@@ -134,7 +111,7 @@ class SetSearch {
 std::optional<LeastSchedule> least_schedule(const CoverProblem& problem) {
   problem.check();
   expects(problem.views() <= kMaxEnumeratedViews + 1, "few views");
-  const std::vector<double> way_m = ways_through_sets_m(problem);
+  const std::vector<double> way_m = ways_through_sets_m(problem.way_m);
   std::optional<LeastSchedule> least;
   for_each_cover(problem, [&](std::size_t set) {
     const auto scans = static_cast<std::size_t>(std::popcount(set));

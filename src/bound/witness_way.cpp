@@ -109,37 +109,12 @@ Eigen::MatrixXd between_groups_m(const CoverProblem& problem, const std::vector<
   return way_m;
 }
 
-/// Shortest way to each set of groups, in the best order; per set.
-std::vector<double> ways_to_sets_m(const Eigen::MatrixXd& between_m) {
-  const auto n = static_cast<std::size_t>(between_m.cols() - 1);
-  const auto leg_m = [&](std::size_t a, std::size_t b) {
-    return between_m(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
-  };
-  std::vector<double> to_last_m((std::size_t{1} << n) * n, kInfinity);
-  std::vector<double> way_m(std::size_t{1} << n, kInfinity);
-  way_m[0] = 0.0;
-  for (std::size_t set = 1; set < way_m.size(); ++set) {
-    for (std::size_t last = 0; last < n; ++last) {
-      if ((set >> last & 1U) == 0) continue;
-      const std::size_t before = set & ~(std::size_t{1} << last);
-      double best_m = before == 0 ? leg_m(0, last + 1) : kInfinity;
-      for (std::size_t from = 0; from < n; ++from) {
-        if ((before >> from & 1U) == 0) continue;
-        best_m = std::min(best_m, to_last_m[before * n + from] + leg_m(from + 1, last + 1));
-      }
-      to_last_m[set * n + last] = best_m;
-      way_m[set] = std::min(way_m[set], best_m);
-    }
-  }
-  return way_m;
-}
-
 /// The shortest way that leaves out no more than `spare` cells. Where groups are near each other
 /// between two far ones, a way to more groups may seem shorter than one to fewer: whoever comes to
 /// the more has come to the fewer too.
 double way_to_most_m(const CoverProblem& problem, const std::vector<Witness>& groups,
                      std::size_t spare) {
-  std::vector<double> way_m = ways_to_sets_m(between_groups_m(problem, groups));
+  std::vector<double> way_m = ways_through_sets_m(between_groups_m(problem, groups));
   double least_m = kInfinity;
   for (std::size_t set = 0; set < way_m.size(); ++set) {
     std::size_t left_out = 0;
