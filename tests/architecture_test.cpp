@@ -71,20 +71,21 @@ const Rooms kPlanners{"planners",
                       "planners/objects",
                       "planners/trajectory",
                       "planners/trajectory/optimisers"};
-const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots"};
-const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing"};
+const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots", "sim/faults"};
+const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing", "runtime/process"};
 const Rooms kRecognition{"recognition", "recognition/calibration", "recognition/dataset",
                          "recognition/evaluation"};
 const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/kit",   "study/recognition", "study/sweep",
                    "study/tables"};
 /// What several tasks share; they never include each other.
-const Rooms kSharedByTasks{"tasks/mapping",           "tasks/mapping/driving",
-                           "tasks/mapping/hindsight", "tasks/mapping/measures",
-                           "tasks/mapping/simulated", "tasks/flight",
-                           "tasks/object_flight",     "tasks/table_map"};
+const Rooms kSharedByTasks{"tasks/mapping",          "tasks/mapping/driving",
+                           "tasks/mapping/external", "tasks/mapping/hindsight",
+                           "tasks/mapping/measures", "tasks/mapping/simulated",
+                           "tasks/flight",           "tasks/object_flight",
+                           "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
-                    kSharedByTasks + Rooms{"control", "dataset", "report"};
+                    kSharedByTasks + Rooms{"control", "dataset", "localisation", "report"};
 
 /// Which rooms each room may include besides itself.
 const std::map<std::string, Rooms> kAllowed{
@@ -103,7 +104,8 @@ const std::map<std::string, Rooms> kAllowed{
     {"perception/features",
      kGround + Rooms{"perception", "perception/clouds", "perception/features/kit",
                      "perception/features/patches"}},
-    {"belief/map", kGround},
+    {"belief/map/octomap", {"core"}},
+    {"belief/map", kGround + Rooms{"belief/map/octomap"}},
     {"belief/observation", kGround},
     {"belief/objects", kGround + Rooms{"belief/observation"}},
     {"belief/tracking", kGround},
@@ -114,7 +116,7 @@ const std::map<std::string, Rooms> kAllowed{
      kGround + Rooms{"belief/map", "planners/visibility", "planners/gains", "planners/tours"}},
     {"planners/views", kGround + Rooms{"belief/map", "planners"}},
     {"planners/choice", kGround + Rooms{"belief/map", "planners", "planners/navigation",
-                                        "planners/tours", "planners/visibility"}},
+                                        "planners/views", "planners/tours", "planners/visibility"}},
     {"planners/navigation", kGround + Rooms{"belief/map"}},
     {"planners/objects", kGround + Rooms{"belief/objects", "belief/observation"}},
     {"planners/trajectory/optimisers", {"core", "geometry"}},
@@ -129,10 +131,12 @@ const std::map<std::string, Rooms> kAllowed{
          Rooms{"belief/objects", "belief/observation", "planners/objects", "planners/trajectory",
                "recognition/calibration", "recognition/dataset"}},
     {"recognition/evaluation", kGround + Rooms{"recognition", "recognition/dataset"}},
-    {"sim/world", {"core", "geometry"}},
+    {"sim/stepping", {"core", "geometry"}},
+    {"sim/world", {"core", "geometry", "sim/stepping"}},
     {"sim/render", {"core", "geometry", "sim/world"}},
     {"sim/sensors", {"core", "geometry", "sim/world", "sim/render"}},
     {"sim/robots", {"core", "geometry", "control", "sim/world"}},
+    {"sim/faults", {"core", "geometry", "sim/world"}},
     {"models/catalogue/shapes", {"core", "geometry"}},
     {"models/catalogue/objects", {"core", "geometry", "models/catalogue/shapes"}},
     {"models/catalogue/database",
@@ -149,15 +153,20 @@ const std::map<std::string, Rooms> kAllowed{
     {"dataset/pictures", {"core", "geometry", "perception", "perception/images", "dataset"}},
     {"recipe", kGround + Rooms{"belief/objects", "belief/observation", "perception", "recognition",
                                "recognition/dataset", "dataset", "sim/render"}},
+    {"localisation", {"core", "geometry", "perception/clouds"}},
     {"report", {"core", "geometry", "perception/clouds"}},
     {"bound", {"core", "geometry"}},
+    {"building", {"core", "geometry", "planners/navigation"}},
     {"hindsight", kTask + Rooms{"bound", "tasks", "tasks/*"}},
+    {"runtime/process", {"core"}},
     {"runtime/drawing", {"core", "geometry", "belief/map"}},
     {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
-    {"runtime", kGround + Rooms{"belief/map", "planners", "planners/choice", "report",
-                                "runtime/log", "sim/world", "sim/render", "sim/robots"}},
+    {"runtime",
+     kGround + Rooms{"belief/map", "planners", "planners/choice", "report", "runtime/log",
+                     "sim/faults", "sim/world", "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
     {"tasks/mapping/driving", kTask},
+    {"tasks/mapping/external", kTask},
     {"tasks/mapping/hindsight", kTask},
     {"tasks/mapping/measures", kTask},
     {"tasks/mapping/simulated", kTask},
@@ -175,16 +184,19 @@ const std::map<std::string, Rooms> kAllowed{
      kGround + kRuntime +
          Rooms{"report", "study/cluster", "study/figures", "study/kit", "study/tables", "tasks"}},
     {"study/sweep", kGround + kRuntime + Rooms{"study", "study/cluster", "tasks"}},
+    {"arena", kGround + kRuntime + kStudy + Rooms{"report", "tasks"}},
     {"view", kGround + kRuntime + kSim + Rooms{"tasks"}},
     {"mcap", kGround + kRuntime + kSim +
                  Rooms{"belief/map", "perception/clouds", "planners", "report", "tasks"}},
     {"cli/export", {"core", "cli/hints", "mcap", "runtime"}},
+    {"cli/arena", kGround + kRuntime + kStudy + Rooms{"arena", "cli/hints", "hindsight", "tasks"}},
     {"cli/hints", {"core", "study"}},
     {"cli/hindsight",
      kGround + kRuntime + Rooms{"sim/world", "cli/hints", "hindsight", "report", "tasks"}},
     {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
                             Rooms{"belief/objects", "belief/observation", "planners/objects"}},
     {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
+    {"cli/scene", {"core", "geometry", "building", "runtime"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference",
      kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
@@ -192,12 +204,12 @@ const std::map<std::string, Rooms> kAllowed{
     {"cli/manual", {"core"}},
     {"cli/schema", kGround + kPerception + kSim + kRuntime + kRecognition + kStudy +
                        Rooms{"dataset", "recipe", "tasks"}},
-    {"cli",
-     kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-         Rooms{"cli/export", "cli/hindsight", "cli/hints", "cli/manual", "cli/pictures",
-               "cli/recognition", "cli/reference", "cli/schema", "cli/sweep", "dataset",
-               "hindsight", "models/catalogue/database", "recipe", "report", "tasks", "view"}},
-    {"bench/claims", {"core", "bench"}},
+    {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+                Rooms{"cli/arena", "cli/export", "cli/hindsight", "cli/hints", "cli/manual",
+                      "cli/pictures", "cli/recognition", "cli/reference", "cli/scene", "cli/schema",
+                      "cli/sweep", "dataset", "hindsight", "models/catalogue/database", "recipe",
+                      "report", "tasks", "view"}},
+    {"bench/claims", {"core", "report", "study", "study/tables", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",
       "bench/claims"}},
@@ -243,14 +255,16 @@ const std::vector<LibraryRule> kLibraries{
     {"yaml-cpp/", {"core"}, true},
     {"spdlog/", {"core"}, true},
     {"nlohmann/json_fwd.hpp",
-     {"core", "runtime", "tasks", "report", "study", "hindsight", "mcap", "cli",
+     {"core", "runtime", "tasks", "report", "study", "arena", "hindsight", "mcap", "cli",
       "bench"}},  // declarations only
     {"nlohmann/",
-     {"core", "runtime", "tasks", "report", "study", "hindsight", "mcap", "cli", "bench"},
+     {"core", "runtime", "tasks", "report", "study", "arena", "hindsight", "mcap", "cli", "bench"},
      true},
     {"png", {"models/catalogue/shapes"}},
     {"CLI/", {"cli"}, true},
     {"Clp", {"bound"}, true},
+    {"ceres/", {"localisation"}, true},
+    {"assimp/", {"building"}, true},
     {"zlib", {"mcap"}, true},
     {"zstd", {"mcap"}, true},
 };

@@ -120,6 +120,11 @@ function mappingCards() {
   const fallbacks = STEPS.filter((s) => s.fallback).length;
   card("Scans", String(STEPS.length), { sub: fallbacks ? `${fallbacks} of them fallbacks` : "no fallback" });
   const { precision, recall } = METRICS.map ?? {};
+  const shut = METRICS.unreachable;
+  if (shut?.rooms > 0) {
+    const rooms = shut.rooms === 1 ? "1 room" : `${shut.rooms} rooms`;
+    card("Out of reach", rooms, { sub: `with ${percent(shut.share)} % of all that could be seen; not counted` });
+  }
   card("Precision / recall", `${percent(precision)} / ${percent(recall)}`, { unit: "%", sub: "of occupied cells, against the true scene" });
 }
 

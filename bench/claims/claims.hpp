@@ -3,10 +3,11 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/study_tables.hpp"
+#include "bench/claims/study_tables.hpp"
 
 namespace vantage::bench {
 
@@ -50,6 +51,11 @@ struct ScansClaimed {
 };
 std::vector<Finding> office_findings(const StudyTables& study, const std::string& figure,
                                      const ScansClaimed& claimed);
+/// Of an office. @param time_limit of the time to 95 % in terms of the reference's, `path_limit` of
+/// the way
+std::vector<Finding> planning_office_findings(const StudyTables& study, double time_limit,
+                                              std::optional<double> path_limit);
+std::vector<Finding> planning_tabletop_findings(const StudyTables& study);
 std::vector<Finding> trajectory_findings(const StudyTables& study);
 
 }  // namespace vantage::bench

@@ -20,6 +20,7 @@ std::vector<std::string> code_with(const std::vector<std::string>& more) {
 /// The program that printed a benchmark of that name.
 std::string program_of(const std::string& benchmark) {
   if (benchmark == "scaling") return "decision";
+  if (benchmark.starts_with("planning_")) return "planning";
   return benchmark == "office_views" ? "office" : benchmark;
 }
 

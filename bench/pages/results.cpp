@@ -44,6 +44,9 @@ const std::vector<StudyPart>& study_parts() {
       "area",           "area_from_scan_2", "scans_to_95", "scans",
       "observed_share", "path_length_m",    "collisions",  "prediction_error_cells",
       "forecast_ratio", "predictors"};
+  static const std::vector<std::string> planning_tables = {
+      "time_to_80_s", "time_to_90_s", "time_to_95_s",   "time_to_97_s",   "path_to_95_m",
+      "scans_to_95",  "reached_95",   "area_over_time", "observed_share", "collisions"};
   static const std::vector<StudyPart> parts = {
       {"tabletop", "Worktops (Fig. 3.10)", tables, tabletop_findings},
       {"tabletop_predictors",
@@ -58,6 +61,17 @@ const std::vector<StudyPart>& study_parts() {
        [](const StudyTables& study) {
          return office_findings(study, "Fig. 3.16", {60, 70});
        }},
+      {"planning_tabletop",
+       "Planning ahead round worktops",
+       {"time_to_98_s", "path_to_98_m", "scans_to_98", "area_over_time", "observed_share",
+        "collisions"},
+       planning_tabletop_findings},
+      {"planning_office_small", "Planning ahead in a small office", planning_tables,
+       [](const StudyTables& study) {
+         return planning_office_findings(study, 0.92, std::nullopt);
+       }},
+      {"planning_office_large", "Planning ahead in a large office", planning_tables,
+       [](const StudyTables& study) { return planning_office_findings(study, 0.80, 0.65); }},
       {"recognition_flight",
        "Recognition on the quadrotor (4.5.7): it measures flying, not choices of views",
        {"correct", "category_correct", "views", "bin_error", "path_length_m", "collisions"},

@@ -8,6 +8,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/flight/flight_mjcf.hpp"
+#include "vantage/models/catalogue/office/corridor_plan.hpp"
 #include "vantage/models/catalogue/office/office_mjcf.hpp"
 #include "vantage/models/catalogue/table/clutter_scene.hpp"
 #include "vantage/models/catalogue/table/scene_mjcf.hpp"
@@ -29,6 +30,14 @@ int main(int argc, char** argv) {
       fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
     }
     for (const auto& options : vantage::office_scenes()) {
+      vantage::write_scene(vantage::make_office_scene(options), scenes / options.name);
+      fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
+    }
+    for (const auto& options : vantage::corridor_scenes()) {
+      vantage::write_scene(vantage::make_corridor_scene(options), scenes / options.name);
+      fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
+    }
+    for (const auto& options : vantage::door_scenes()) {
       vantage::write_scene(vantage::make_office_scene(options), scenes / options.name);
       fmt::print("{}\n", (scenes / options.name / "scene.xml").string());
     }

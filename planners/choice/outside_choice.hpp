@@ -3,10 +3,12 @@
 /// asks does not know which.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -45,14 +47,20 @@ struct DecisionRequest {
   std::span<const Candidate> candidates;
   std::vector<double> travel_s;  ///< of each candidate, by the robot's drives so far; infinite
                                  ///< where out of reach
-  const Gain& gain;              ///< that the candidates were scored by
-  const PathField& paths;        ///< the floor as it is known, and the ways over it from here
+  /// Low and high end of what the robot holds each candidate's gain for, by its forecasts so far;
+  /// empty where the gain forecasts nothing that scans tell.
+  std::vector<std::array<double, 2>> interval_cells = {};
+  const Gain& gain;        ///< that the candidates were scored by
+  const PathField& paths;  ///< the floor as it is known, and the ways over it from here
   /// What the episode's own choice would take. Asked at most once; it may draw random numbers.
   std::function<std::size_t()> own_choice;
 };
 
 /// Index of a candidate, or where the base shall stand and look from.
 using OutsideDecision = std::variant<std::size_t, Pose2>;
+
+/// What is known of whoever answers, name and value, for the manifest.
+using PlannerFacts = std::vector<std::pair<std::string, std::string>>;
 
 struct OutsideChoice {
   std::string name;  ///< of the method, for metrics and tables
@@ -63,6 +71,7 @@ struct OutsideChoice {
   /// It looks at nothing: it takes what own_choice() says, or a candidate by its number. It alone
   /// may stand in the place of a choice that knows ground truth.
   bool blind = false;
+  std::function<PlannerFacts()> facts = {};  ///< may be empty
 };
 
 /// An answer that cannot be carried out.

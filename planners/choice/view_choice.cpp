@@ -84,7 +84,7 @@ std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> can
   return std::visit(
       [&]<class C>(const C& c) -> std::size_t {
         if constexpr (ChoosesView<C>) return choose_view(c, candidates, rng);
-        expects(false, "a choice that plans ahead chooses by plan_views");
+        expects(false, "a choice that is a function of candidates");
         return 0;
       },
       choice);

@@ -18,6 +18,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/core/strategy.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/choice/external_choice.hpp"
 #include "vantage/planners/choice/oracle_lookahead.hpp"
 #include "vantage/planners/tours/frontier_tour.hpp"
 #include "vantage/planners/tours/information_rate.hpp"
@@ -102,9 +103,10 @@ struct GainOverDistance {
   std::size_t operator()(std::span<const Candidate> candidates, Rng& rng) const;
 };
 
-using ViewChoice = std::variant<RandomView, GreedyGain, OracleView, OracleLookahead,
-                                NearestFrontier, GainOverDistance, InformationRate, RecedingHorizon,
-                                FrontierTour, TwoLevelTour, TourChoice, Rollout, OracleTour>;
+using ViewChoice =
+    std::variant<RandomView, GreedyGain, OracleView, OracleLookahead, NearestFrontier,
+                 GainOverDistance, InformationRate, RecedingHorizon, FrontierTour, TwoLevelTour,
+                 TourChoice, Rollout, OracleTour, ExternalChoice>;
 template <>
 inline constexpr std::string_view strategy_family<ViewChoice> = "view choice";
 
@@ -118,6 +120,11 @@ inline bool knows_truth(const ViewChoice& choice) {
   return std::holds_alternative<OracleView>(choice) ||
          std::holds_alternative<OracleLookahead>(choice) ||
          std::holds_alternative<OracleTour>(choice);
+}
+
+/// Whether a program of the user's makes it: neither choose_view() nor plan_views() can.
+inline bool asks_outside(const ViewChoice& choice) {
+  return std::holds_alternative<ExternalChoice>(choice);
 }
 
 /// What plans several views ahead, with the times of everything.
@@ -157,7 +164,7 @@ std::size_t choose_view(const C& choice, std::span<const Candidate> candidates, 
   return open[choice(std::span<const Candidate>(views), rng)];
 }
 
-/// The same by whichever was chosen, which must not be one that plans_views().
+/// The same by whichever was chosen, which must not be one that plans_views() or asks_outside().
 std::size_t choose_view(const ViewChoice& choice, std::span<const Candidate> candidates, Rng& rng);
 
 }  // namespace vantage

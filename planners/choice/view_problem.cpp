@@ -1,6 +1,7 @@
 #include "vantage/planners/choice/view_problem.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/swept_blocks.hpp"
 #include "vantage/planners/swept_gain.hpp"
+#include "vantage/planners/views/space_beyond.hpp"
 
 namespace vantage {
 namespace {
@@ -31,9 +33,55 @@ Eigen::MatrixXd travel_times_s(const ViewPlanningInput& input) {
   return lengths_m.unaryExpr([&](double length_m) { return input.travel_time.of_m(length_m); });
 }
 
-PlanningProblem with_ways(const ViewPlanningInput& input, ShownBlocks shown) {
+/// Per block, the share that no view is expected to show.
+std::vector<float> unshown_shares(const ShownBlocks& shown) {
+  std::vector<float> unshown(shown.cells.size(), 1.0F);
+  for (const ShownShares& view : shown.shows) {
+    for (std::size_t i = 0; i < view.block.size(); ++i) {
+      unshown[view.block[i]] *= 1.0F - view.share[i];
+    }
+  }
+  return unshown;
+}
+
+/// Per view, the cells of unknown space that it leads to and no view shows, as far as such cells
+/// are seen at all.
+std::vector<double> beyond_views(const ViewPlanningInput& input, const CellBlocks& blocks,
+                                 const std::vector<float>& unshown, double reach_m) {
+  const OccupancyGrid& grid = input.map.grid;
+  const SpaceBeyond space = space_beyond(grid, input.places_m, reach_m);
+  std::vector<double> beyond(input.candidates.size(), 0.0);
+  const std::size_t columns = space.place_of.size();
+  for (std::size_t column = 0; column < columns; ++column) {
+    if (space.place_of[column] == SpaceBeyond::kNone) continue;
+    double cells = 0.0;
+    for (std::size_t cell = column; cell < grid.size(); cell += columns) {
+      if (grid.state(cell) != CellState::unobserved) continue;
+      cells += static_cast<double>(unshown[blocks.index_of_cell(grid.frame.cell(cell))]);
+    }
+    beyond[static_cast<std::size_t>(space.place_of[column])] += space.seen_share * cells;
+  }
+  return beyond;
+}
+
+/// What is seen already, how fast, and what is still beyond all views.
+void add_whole(const ViewPlanningInput& input, const ViewPlanningOptions& options,
+               const ShownBlocks& shown, PlanningProblem& problem) {
+  const OccupancyGrid& grid = input.map.grid;
+  problem.seen = static_cast<double>(grid.size() - grid.count(CellState::unobserved));
+  if (input.elapsed_s <= 0.0 || options.beyond_m <= 0.0) return;
+  const CellBlocks blocks = blocks_of(grid.frame, options.block_m);
+  const bool by_blocks = shown.cells.size() == blocks.size();
+  if (!by_blocks) return;
+  problem.pace_per_s = problem.seen / input.elapsed_s;
+  problem.beyond = beyond_views(input, blocks, unshown_shares(shown), options.beyond_m);
+}
+
+PlanningProblem with_ways(const ViewPlanningInput& input, const ViewPlanningOptions& options,
+                          ShownBlocks shown) {
   expects(input.places_m.size() == input.candidates.size(), "a place of each candidate");
   PlanningProblem problem;
+  add_whole(input, options, shown, problem);
   problem.cells = std::move(shown.cells);
   problem.shows = std::move(shown.shows);
   problem.place_m.assign(input.places_m.begin(), input.places_m.end());
@@ -64,9 +112,10 @@ ShownBlocks truly_shown(const ViewPlanningInput& input, const CellBlocks& blocks
   for (const Candidate& view : input.candidates) {
     expects(view.true_new_cell_set != nullptr, "what each candidate really shows");
     std::vector<float> seen(blocks.size(), 0.0F);
-    for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-      const bool shown = ((*view.true_new_cell_set)[cell / 64] >> (cell % 64) & 1U) != 0;
-      if (shown) seen[block_of[cell]] += 1.0F;
+    for (std::size_t i = 0; i < view.true_new_cell_set->size(); ++i) {
+      for (std::uint64_t left = (*view.true_new_cell_set)[i]; left != 0; left &= left - 1) {
+        seen[block_of[64 * i + static_cast<std::size_t>(std::countr_zero(left))]] += 1.0F;
+      }
     }
     result.shows.push_back(shares_of_blocks(seen, result.cells));
   }
@@ -77,7 +126,7 @@ ShownBlocks truly_shown(const ViewPlanningInput& input, const CellBlocks& blocks
 
 PlanningProblem make_view_problem(const ViewPlanningInput& input,
                                   const ViewPlanningOptions& options) {
-  PlanningProblem problem = with_ways(input, shown_by(input, options));
+  PlanningProblem problem = with_ways(input, options, shown_by(input, options));
   if (input.map.transmission == nullptr) return problem;
   // What is drawn anew is only what the views show; the ways stay.
   auto belief = std::make_shared<const DrawableMap>(input.map, options.drawn_cells);
@@ -98,7 +147,9 @@ PlanningProblem make_view_problem(const ViewPlanningInput& input,
 
 PlanningProblem make_true_view_problem(const ViewPlanningInput& input,
                                        const ViewPlanningOptions& options) {
-  return with_ways(input, truly_shown(input, blocks_of(input.map.grid.frame, options.block_m)));
+  // Nothing is beyond what all views show where they are all there are.
+  const ViewPlanningOptions here{.block_m = options.block_m, .beyond_m = 0.0};
+  return with_ways(input, here, truly_shown(input, blocks_of(input.map.grid.frame, here.block_m)));
 }
 
 }  // namespace vantage

@@ -18,6 +18,7 @@ namespace vantage {
 struct ViewPlanningOptions {
   double block_m = 0.4;
   int drawn_cells = 3;
+  double beyond_m = 8.0;
   void fields(auto&& f) {
     f("block_m", block_m,
       "edge of the blocks of cells by which planning ahead knows what views share; higher is "
@@ -27,6 +28,10 @@ struct ViewPlanningOptions {
       "edge, in cells, of the blocks that a map drawn for `rollout` has in place of cells; higher "
       "is faster and coarser",
       between(1, 100));
+    f("beyond_m", beyond_m,
+      "length of the way from a view up to which unknown space behind what it shows counts for it; "
+      "higher knows of larger rooms, or of what is outside the building; 0: none counts",
+      at_least(0.0));
   }
 };
 
@@ -40,6 +45,8 @@ struct ViewPlanningInput {
   const PathField& paths;  ///< from where the robot is
   TravelTime travel_time;
   double scan_s = 0.0;
+  double elapsed_s =
+      0.0;  ///< since the start, for the pace at which cells are observed; 0: unknown
   int threads = 1;
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "vantage/planners/navigation/distance_field.hpp"
+#include "vantage/planners/navigation/narrow_search.hpp"
 
 namespace vantage {
 namespace {
@@ -101,6 +102,33 @@ std::size_t find_entry(const FloorMap& map, PathField& field) {
   return entry != PathField::kNone ? entry : find_way_out(map, 0.0F, field);
 }
 
+void search_open_places(PathField& field) {
+  const FloorMap& map = field.map;
+  const std::size_t entry = find_entry(map, field);
+  if (entry == PathField::kNone) return;
+  SearchTree tree = empty_tree(map.size());
+  tree.parent = field.parent;
+  search(
+      map, entry, entry == field.start_cell ? 0.0 : field.cost[entry],
+      [&](std::size_t cell) { return field.traversable(cell); },
+      [&](std::size_t from, std::size_t to) {
+        return 0.5 * (field.cost_per_metre(from) + field.cost_per_metre(to));
+      },
+      [](std::size_t, double) { return false; }, tree);
+  field.cost = std::move(tree.cost);
+  field.parent = std::move(tree.parent);
+}
+
+/// So near to something that it cannot turn: a way out of there keeps its heading in mind.
+bool stands_narrow(const PathField& field) {
+  return !field.traversable(field.start_cell) &&
+         static_cast<double>(field.clearance_m[field.start_cell]) < field.space->circumscribed_m();
+}
+
+bool is_anything_reached(const PathField& field) {
+  return std::ranges::any_of(field.cost, [](double cost) { return cost < kInfinity; });
+}
+
 }  // namespace
 
 bool PathField::traversable(std::size_t cell) const {
@@ -119,32 +147,41 @@ double PathField::cost_per_metre(std::size_t cell) const {
   return 1.0 + options.clearance_weight * std::clamp(1.0 - spare_m / options.comfort_m, 0.0, 1.0);
 }
 
+std::optional<double> PathField::heading_rad(std::size_t cell) const {
+  if (!reachable(cell) || parent[cell] == kNone || parent[cell] < map.size()) return std::nullopt;
+  const NarrowPose& pose = narrow[parent[cell] - map.size()];
+  return pose.cell == cell ? std::optional(pose.pose.yaw_rad) : std::nullopt;
+}
+
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options) {
+  return make_path_field(map, T_world_base, options, nullptr);
+}
+
+PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
+                          const NavigationOptions& options,
+                          std::shared_ptr<const FootprintSpace> space) {
   check_options(options, "navigation");
   PathField field;
   field.map = map;
   field.options = options;
   field.start = T_world_base;
   field.clearance_m = clearances_m(map);
-  SearchTree tree = empty_tree(map.size());
+  field.space = std::move(space);
+  const SearchTree tree = empty_tree(map.size());
   field.cost = tree.cost;
   field.parent = tree.parent;
   const Eigen::Array2i start = map.cell_at({T_world_base.x_m, T_world_base.y_m});
   if (!map.contains(start)) return field;
   field.start_cell = map.index(start);
-  const std::size_t entry = find_entry(map, field);
-  if (entry == PathField::kNone) return field;
-  tree.parent = field.parent;
-  search(
-      map, entry, entry == field.start_cell ? 0.0 : field.cost[entry],
-      [&](std::size_t cell) { return field.traversable(cell); },
-      [&](std::size_t from, std::size_t to) {
-        return 0.5 * (field.cost_per_metre(from) + field.cost_per_metre(to));
-      },
-      [](std::size_t, double) { return false; }, tree);
-  field.cost = std::move(tree.cost);
-  field.parent = std::move(tree.parent);
+  const bool narrow = field.space != nullptr && stands_narrow(field);
+  if (narrow) search_passages(field);
+  if (!narrow || !is_anything_reached(field)) {
+    field.narrow.clear();
+    field.narrow_edges.clear();
+    search_open_places(field);
+    if (field.space != nullptr) search_passages(field);
+  }
   return field;
 }
 

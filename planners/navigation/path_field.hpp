@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "vantage/belief/map/floor_map.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/planners/navigation/footprint_space.hpp"
 
 namespace vantage {
 
@@ -45,6 +47,21 @@ struct NavigationOptions {
   [[nodiscard]] double inflation_m() const { return footprint_radius_m + margin_m; }
 };
 
+/// A pose in a passage, where the heading matters.
+struct NarrowPose {
+  Pose2 pose;
+  std::size_t cell;    ///< of the map
+  double cost;         ///< as PathField::cost
+  std::size_t parent;  ///< as PathField::parent
+};
+
+/// Between two cells or poses of passages, numbered as PathField::parent does; either way.
+struct NarrowEdge {
+  std::size_t from, to;
+  double cost;
+  double length_m;  ///< a metre counts for as many as it takes the time of
+};
+
 /// One search from the robot's pose over the known free cells that keep the footprint and margin
 /// from everything else; answers any goal. It holds a copy of the map: after a new scan, make a new
 /// one.
@@ -56,12 +73,18 @@ struct PathField {
   Pose2 start;                      ///< T_world_base the search started from
   std::vector<float> clearance_m;   ///< per cell, see clearances_m()
   std::vector<double> cost;         ///< length weighted by clearance; infinity where unreachable
-  std::vector<std::size_t> parent;  ///< the cell before, towards the start; kNone at its cell
+  std::vector<std::size_t> parent;  ///< the cell before, towards the start; kNone at its cell.
+                                    ///< From map.size() on they are poses in passages, `narrow`
   std::size_t start_cell = kNone;
+  std::shared_ptr<const FootprintSpace> space;  ///< of the robot's outline; none: only a disc
+  std::vector<NarrowPose> narrow;
+  std::vector<NarrowEdge> narrow_edges;
 
   [[nodiscard]] bool traversable(std::size_t cell) const;
   [[nodiscard]] bool reachable(std::size_t cell) const;
   [[nodiscard]] bool reachable(const Eigen::Vector2d& p_world) const;
+  /// At which the robot stands there, if it cannot turn.
+  [[nodiscard]] std::optional<double> heading_rad(std::size_t cell) const;
   /// Cost of a metre driven in `cell`, 1 to 1 + clearance_weight.
   [[nodiscard]] double cost_per_metre(std::size_t cell) const;
 };
@@ -72,6 +95,12 @@ struct PathField {
 /// comes no nearer to anything; if there is none, nothing is reachable.
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options);
+
+/// The same, and on through passages that the robot's outline fits through at some heading. What a
+/// disc reaches is reached as without them.
+PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
+                          const NavigationOptions& options,
+                          std::shared_ptr<const FootprintSpace> space);
 
 /// The reachable cell whose centre is nearest to `p_world`, the cheaper one of equals; none if
 /// nothing is reachable.

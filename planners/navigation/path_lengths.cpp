@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The reachable cells of a field as a graph of their own.
+/// The reachable cells of a field as a graph of their own, and its poses in passages.
 struct FloorGraph {
   struct Edge {
     std::uint32_t to;
@@ -33,6 +33,9 @@ struct FloorGraph {
 bool is_node(const PathField& field, std::size_t cell) {
   return field.reachable(cell) && field.traversable(cell);
 }
+
+/// Edges through passages, a list per node.
+using MoreEdges = std::vector<std::vector<FloorGraph::Edge>>;
 
 void add_edges(const PathField& field, std::size_t cell, FloorGraph& graph) {
   const Eigen::Array2i at = field.map.cell(cell);
@@ -57,19 +60,47 @@ void add_edges(const PathField& field, std::size_t cell, FloorGraph& graph) {
   }
 }
 
+/// Poses in passages come after the cells.
+void add_passages(const PathField& field, std::uint32_t cells, const FloorGraph& graph,
+                  MoreEdges& more) {
+  const auto node_of = [&](std::size_t id) {
+    return id < field.map.size() ? graph.node_of[id]
+                                 : cells + static_cast<std::uint32_t>(id - field.map.size());
+  };
+  for (const NarrowEdge& edge : field.narrow_edges) {
+    const std::uint32_t from = node_of(edge.from);
+    const std::uint32_t to = node_of(edge.to);
+    if (from == FloorGraph::kNone || to == FloorGraph::kNone) continue;
+    const auto cost = static_cast<float>(edge.cost);
+    const auto length_m = static_cast<float>(edge.length_m);
+    more[from].push_back({to, cost, length_m});
+    more[to].push_back({from, cost, length_m});
+  }
+}
+
 FloorGraph make_graph(const PathField& field) {
   FloorGraph graph;
   graph.node_of.assign(field.map.size(), FloorGraph::kNone);
-  std::uint32_t nodes = 0;
+  std::vector<std::size_t> cells;
   for (std::size_t cell = 0; cell < field.map.size(); ++cell) {
-    if (is_node(field, cell)) graph.node_of[cell] = nodes++;
+    if (!is_node(field, cell)) continue;
+    graph.node_of[cell] = static_cast<std::uint32_t>(cells.size());
+    cells.push_back(cell);
   }
-  for (std::size_t cell = 0; cell < field.map.size(); ++cell) {
-    if (graph.node_of[cell] == FloorGraph::kNone) continue;
+  MoreEdges more(cells.size() + field.narrow.size());
+  add_passages(field, static_cast<std::uint32_t>(cells.size()), graph, more);
+  for (std::size_t node = 0; node < more.size(); ++node) {
     graph.first_edge.push_back(static_cast<std::uint32_t>(graph.edges.size()));
-    add_edges(field, cell, graph);
+    if (node < cells.size()) add_edges(field, cells[node], graph);
+    graph.edges.insert(graph.edges.end(), more[node].begin(), more[node].end());
   }
   graph.first_edge.push_back(static_cast<std::uint32_t>(graph.edges.size()));
+  // A nook stands for the pose that it is gone to at.
+  for (std::size_t cell = 0; cell < field.map.size(); ++cell) {
+    if (!field.heading_rad(cell)) continue;
+    graph.node_of[cell] =
+        static_cast<std::uint32_t>(cells.size() + field.parent[cell] - field.map.size());
+  }
   return graph;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "vantage/planners/navigation/narrow_path.hpp"
+
 namespace vantage {
 namespace {
 
@@ -30,35 +32,31 @@ double straight_cost(const PathField& field, const Eigen::Vector2d& from,
   return length_m * mean;
 }
 
-/// From the start pose through the centres of the search tree's cells to `p_end` in `last_cell`.
-Points trace_back(const PathField& field, std::size_t last_cell, const Eigen::Vector2d& p_end) {
-  Points points{p_end};
-  for (std::size_t cell = last_cell; cell != field.start_cell; cell = field.parent[cell]) {
-    if (cell != last_cell) points.push_back(field.map.centre(field.map.cell(cell)));
+/// From the start pose through the search tree to `p_end` in `last_cell`.
+std::vector<PathStep> trace_back(const PathField& field, std::size_t last_cell,
+                                 const Eigen::Vector2d& p_end) {
+  std::vector<PathStep> steps;
+  std::size_t at = last_cell;
+  if (const auto heading_rad = field.heading_rad(last_cell)) {
+    at = field.parent[last_cell];  // the robot stands where it fits, not where it was asked to
+  } else {
+    steps.push_back({p_end, std::nullopt});
+    at = last_cell == field.start_cell ? PathField::kNone : field.parent[last_cell];
   }
-  points.push_back(position(field.start));
-  std::ranges::reverse(points);
-  return points;
-}
-
-/// Pulls the path straight wherever the straight way is open and costs no more than what it
-/// replaces, so that clearance bought by a detour is kept.
-Points pull_straight(const PathField& field, const Points& points) {
-  Points pulled{points.front()};
-  for (std::size_t anchor = 0; anchor + 1 < points.size();) {
-    std::size_t next = anchor + 1;
-    double replaced = straight_cost(field, points[anchor], points[next]);
-    while (next + 1 < points.size()) {
-      replaced += straight_cost(field, points[next], points[next + 1]);
-      // The slack forgives the sampling of the two costs.
-      if (!(straight_cost(field, points[anchor], points[next + 1]) <= 1.01 * replaced)) break;
-      if (!std::isfinite(replaced)) break;
-      ++next;
+  while (at != PathField::kNone && at != field.start_cell) {
+    if (at < field.map.size()) {
+      steps.push_back({field.map.centre(field.map.cell(at)), std::nullopt});
+      at = field.parent[at];
+    } else {
+      const NarrowPose& narrow = field.narrow[at - field.map.size()];
+      steps.push_back({position(narrow.pose), narrow.pose.yaw_rad});
+      at = narrow.parent;
     }
-    pulled.push_back(points[next]);
-    anchor = next;
   }
-  return pulled;
+  const bool from_passage = !steps.empty() && steps.back().yaw_rad && at == PathField::kNone;
+  if (!from_passage) steps.push_back({position(field.start), std::nullopt});
+  std::ranges::reverse(steps);
+  return steps;
 }
 
 PlannedPath with_headings(const PathField& field, const Points& points, double final_yaw_rad) {
@@ -103,6 +101,24 @@ Points way_ahead(std::span<const Pose2> waypoints, const Eigen::Vector2d& p_m, d
 
 }  // namespace
 
+Points pull_straight(const PathField& field, const Points& points) {
+  Points pulled{points.front()};
+  for (std::size_t anchor = 0; anchor + 1 < points.size();) {
+    std::size_t next = anchor + 1;
+    double replaced = straight_cost(field, points[anchor], points[next]);
+    while (next + 1 < points.size()) {
+      replaced += straight_cost(field, points[next], points[next + 1]);
+      // The slack forgives the sampling of the two costs.
+      if (!(straight_cost(field, points[anchor], points[next + 1]) <= 1.01 * replaced)) break;
+      if (!std::isfinite(replaced)) break;
+      ++next;
+    }
+    pulled.push_back(points[next]);
+    anchor = next;
+  }
+  return pulled;
+}
+
 bool is_way_blocked(const FloorMap& map, std::span<const Pose2> waypoints,
                     const Pose2& T_world_base, const NavigationOptions& options) {
   const Eigen::Vector2d p_base = position(T_world_base);
@@ -133,15 +149,22 @@ PlannedPath plan_path(const PathField& field, const Pose2& goal,
   const bool reaches_goal = field.reachable(position(goal));
   const std::optional<std::size_t> last =
       reaches_goal ? field.map.index(goal_cell) : nearest_reachable(field, position(goal));
-  if (!last) return {.waypoints = {field.start}, .end = field.start};
+  if (!last) return {.waypoints = {field.start}, .legs = {}, .end = field.start};
   Eigen::Vector2d p_end = position(goal);
   double final_yaw_rad = goal.yaw_rad;
   if (!reaches_goal) {
     p_end = field.map.centre(field.map.cell(*last));
     if (look_at_m) final_yaw_rad = heading_towards(p_end, *look_at_m);
   }
-  const Points points = pull_straight(field, trace_back(field, *last, p_end));
-  PlannedPath path = with_headings(field, points, final_yaw_rad);
+  const std::vector<PathStep> steps = trace_back(field, *last, p_end);
+  PlannedPath path;
+  if (std::ranges::any_of(steps, [](const PathStep& step) { return step.yaw_rad.has_value(); })) {
+    path = path_through_passages(field, steps, final_yaw_rad);
+  } else {
+    Points points;
+    for (const PathStep& step : steps) points.push_back(step.p_m);
+    path = with_headings(field, pull_straight(field, points), final_yaw_rad);
+  }
   path.reaches_goal = reaches_goal;
   return path;
 }

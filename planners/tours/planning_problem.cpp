@@ -11,12 +11,27 @@ void PlanningProblem::check() const {
   const auto n = static_cast<Eigen::Index>(views());
   expects(travel_s.rows() == n + 1 && travel_s.cols() == n, "a travel time from and to each view");
   expects(place_m.size() == views(), "a place of each view");
+  expects(beyond.empty() || beyond.size() == views(), "what lies beyond each view");
+  expects(!intended || *intended < views(), "a view of the problem is intended");
   expects(home_s.empty() || home_s.size() == views() + 1,
           "a way home from each view and from here");
   for (const ShownShares& shown : shows) {
     expects(shown.block.size() == shown.share.size(), "a share of each block");
     expects(shown.block.empty() || shown.block.back() < cells.size(), "blocks of the problem");
   }
+}
+
+std::optional<std::size_t> view_near(const PlanningProblem& problem, const Eigen::Vector2d& place_m,
+                                     double within_m) {
+  std::optional<std::size_t> nearest;
+  double nearest_m = within_m;
+  for (std::size_t view = 0; view < problem.views(); ++view) {
+    const double off_m = (problem.place_m[view] - place_m).norm();
+    if (off_m > nearest_m || (nearest && off_m == nearest_m)) continue;
+    nearest = view;
+    nearest_m = off_m;
+  }
+  return nearest;
 }
 
 double gain_of(const PlanningProblem& problem, std::size_t view) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,12 +34,19 @@ struct PlanningProblem {
   std::vector<float> cells;        ///< per block: the unobserved cells, in the unit of the gain
   std::vector<ShownShares> shows;  ///< per view
   std::vector<Eigen::Vector2d> place_m;  ///< per view, on the floor, world
+  /// Per view: what lies behind what all views show, that this one leads to, in the unit of the
+  /// gain. Only views that nobody can propose yet will show it. Empty: nothing is known of it.
+  std::vector<double> beyond;
+  double seen = 0.0;           ///< what is observed already, in the unit of the gain
+  double pace_per_s = 0.0;     ///< at which it was observed; 0: unknown, nothing beyond counts
   Eigen::MatrixXd travel_s;    ///< (n + 1) x n, from row to column; row n is where the robot stands
   std::vector<double> home_s;  ///< per view, and last from here: the way home; empty: none is kept
   double scan_s = 0.0;
   double driving_w = 0.0;   ///< power while driving
   double scanning_w = 0.0;  ///< power while scanning
   Allowance left;
+  /// The view that the plan before wanted next, if it is still among these.
+  std::optional<std::size_t> intended;
   /// Another map that the belief allows, drawn from it: the same views, with what they would show
   /// there. Empty where nothing can be drawn.
   std::function<PlanningProblem(Rng&)> draw;
@@ -49,11 +57,23 @@ struct PlanningProblem {
   [[nodiscard]] double leg_s(std::size_t from, std::size_t to) const {
     return travel_s(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(to));
   }
+  [[nodiscard]] double beyond_of(std::size_t view) const {
+    return beyond.empty() || pace_per_s <= 0.0 ? 0.0 : beyond[view];
+  }
+  /// Time until what lies beyond the view is observed, once the robot is there.
+  [[nodiscard]] double dwell_s(std::size_t view) const {
+    const double cells = beyond_of(view);
+    return cells > 0.0 ? cells / pace_per_s : 0.0;
+  }
   [[nodiscard]] double energy_j(double driven_s, double scanned_s) const {
     return driving_w * driven_s + scanning_w * scanned_s;
   }
   void check() const;  ///< asserts that the sizes fit
 };
+
+/// The view nearest to `place_m` if it is no farther than `within_m`.
+std::optional<std::size_t> view_near(const PlanningProblem& problem, const Eigen::Vector2d& place_m,
+                                     double within_m);
 
 /// Cells that one view alone is expected to show.
 double gain_of(const PlanningProblem& problem, std::size_t view);

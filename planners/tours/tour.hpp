@@ -14,25 +14,30 @@ namespace vantage {
 /// Options of every choice that searches tours.
 struct TourOptions {
   double finish_weight = 0.5;
-  double worth_s = 1800.0;
+  double worth_s = 3000.0;
   int first_moves = 8;
+  double keep_s = 10.0;
   void fields(auto&& f) {
     f("finish_weight", finish_weight,
       "weight of the time at which the tour ends against the mean time until what it shows is "
       "seen; higher ends earlier and sees less at first",
       between(0.0, 1.0));
     f("worth_s", worth_s,
-      "time, beyond its end, at which what a tour leaves out counts as seen; higher takes in views "
-      "that show less",
+      "time that it is worth to see all there is to be seen; a view is taken if what it adds is "
+      "worth its detour and its scan; higher takes in views that show less",
       at_least(0.0));
     f("first_moves", first_moves,
       "number of views that are tried as the first one; higher plans better and takes time in "
       "proportion",
       between(1, 1000));
+    f("keep_s", keep_s,
+      "time by which another tour must be better than one that goes on as was planned at the scan "
+      "before; higher changes its mind less",
+      at_least(0.0));
   }
   [[nodiscard]] TourObjective objective() const { return {finish_weight, worth_s}; }
   [[nodiscard]] TourSearchOptions search() const {
-    return {.first_moves = static_cast<std::size_t>(first_moves)};
+    return {.first_moves = static_cast<std::size_t>(first_moves), .keep_s = keep_s};
   }
 };
 

@@ -35,10 +35,13 @@ class TourSearch {
   TourSearch(const PlanningProblem& problem, const TourObjective& objective)
       : problem_(problem), objective_(objective), gain_(problem), adds_(problem.views(), 0.0) {
     for (std::size_t view = 0; view < problem.views(); ++view) gain_.add(view);
-    all_ = std::max(gain_.total(), std::numeric_limits<double>::min());
+    all_ = gain_.total();
+    for (std::size_t view = 0; view < problem.views(); ++view) all_ += problem.beyond_of(view);
+    all_ = std::max(all_, std::numeric_limits<double>::min());
   }
 
-  Tour run(std::size_t rounds, std::optional<std::size_t> first) {
+  /// Without any view if none is worth its time.
+  Tour run_as_worth(std::size_t rounds, std::optional<std::size_t> first) {
     fixed_ = first ? 1 : 0;
     order_ = first ? Order{*first} : Order{};
     work_out_gains();
@@ -49,6 +52,11 @@ class TourSearch {
       leave_out();
       if (!is_cheaper(tour_.cost_s, before_s)) break;
     }
+    return tour_;
+  }
+
+  Tour run(std::size_t rounds, std::optional<std::size_t> first) {
+    run_as_worth(rounds, first);
     if (order_.empty()) take_in_one();
     return tour_;
   }
@@ -69,14 +77,20 @@ class TourSearch {
     double shown = 0.0;
     std::size_t at = problem_.here();
     for (const std::size_t view : order) {
+      // Without ways between them, regions are best taken by falling cells per time. [Smith1956]
+      const double beyond = problem_.beyond_of(view);
+      const double dwell_s = problem_.dwell_s(view);
       time_s += problem_.leg_s(at, view) + problem_.scan_s;
-      weighted += adds_[view] * time_s;
-      shown += adds_[view];
+      weighted += adds_[view] * time_s + beyond * (time_s + 0.5 * dwell_s);
+      time_s += dwell_s;
+      shown += adds_[view] + beyond;
       at = view;
     }
     const double unseen = std::max(all_ - shown, 0.0);
-    const double mean_s = (weighted + unseen * (time_s + objective_.worth_s)) / all_;
-    return (1.0 - objective_.finish_weight) * mean_s + objective_.finish_weight * time_s;
+    const double mean_s = (weighted + unseen * time_s) / all_;
+    const double left_out_s = objective_.worth_s * unseen / (problem_.seen + all_);
+    return (1.0 - objective_.finish_weight) * mean_s + objective_.finish_weight * time_s +
+           left_out_s;
   }
 
  private:
@@ -204,11 +218,24 @@ class TourSearch {
   const TourObjective& objective_;
   JointGain gain_;            ///< of the order
   std::vector<double> adds_;  ///< per view, what it adds in the order
-  double all_ = 0.0;          ///< what all views show together
+  double all_ = 0.0;          ///< what all views show together, and what lies beyond them
   std::size_t fixed_ = 0;     ///< views at the start of the tour that stay there
   Order order_;
   Tour tour_;  ///< the same with its exact cost
 };
+
+/// Of the worth at which a view is worth its time: what is left has become dearer than was thought.
+TourObjective raised(const PlanningProblem& problem, TourObjective objective,
+                     const TourSearchOptions& options) {
+  constexpr double kStep = 1.5;
+  constexpr int kMaxSteps = 30;
+  for (int step = 0; step < kMaxSteps && objective.worth_s > 0.0; ++step) {
+    TourSearch search(problem, objective);
+    if (!search.run_as_worth(options.rounds, std::nullopt).order.empty()) break;
+    objective.worth_s *= kStep;
+  }
+  return objective;
+}
 
 }  // namespace
 
@@ -223,9 +250,11 @@ Tour search_tour(const PlanningProblem& problem, const TourObjective& objective,
   return TourSearch(problem, objective).run(options.rounds, first);
 }
 
-std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& objective,
+std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& wanted,
                                const TourSearchOptions& options) {
   problem.check();
+  if (affordable_views(problem).empty()) return {};
+  const TourObjective objective = raised(problem, wanted, options);
   const Tour free = search_tour(problem, objective, options);
   if (free.order.empty()) return {};
   // How good a first view is, is told by the free tour with that view in front.
@@ -240,11 +269,16 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
   }
   std::ranges::sort(firsts);
   std::vector<Tour> tours{free};
+  const auto is_intended = [&](std::size_t view) { return view == problem.intended; };
+  std::ranges::stable_partition(firsts, is_intended, &std::pair<double, std::size_t>::second);
   for (const auto& [cost_s, view] : firsts) {
-    if (tours.size() >= options.first_moves) break;
+    if (tours.size() >= std::max<std::size_t>(options.first_moves, is_intended(view) ? 2 : 1))
+      break;
     tours.push_back(search_tour(problem, objective, options, view));
   }
-  std::ranges::stable_sort(tours, {}, &Tour::cost_s);
+  std::ranges::stable_sort(tours, {}, [&](const Tour& tour) {
+    return tour.cost_s - (is_intended(tour.order.front()) ? options.keep_s : 0.0);
+  });
   return tours;
 }
 

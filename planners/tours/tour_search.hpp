@@ -11,21 +11,25 @@
 
 namespace vantage {
 
-/// What a tour costs, in seconds: the mean time until what the views show is seen, and its end.
+/// What a tour costs, in seconds: the mean time until what is to be seen is seen, its end, and what
+/// it leaves unseen.
 struct TourObjective {
   double finish_weight = 0.5;  ///< of the tour's end against that mean, [0, 1]
-  double worth_s = 1800.0;     ///< added to the tour's end for what it leaves unseen
+  double worth_s = 3000.0;     ///< of time that all there is to be seen is worth
 };
 
-/// (1 - b) [sum_k dE_k t_k + (E - E_k) (t_end + worth)] / E + b t_end, with b the finish weight,
-/// dE_k the cells that the k-th view adds, t_k when its scan ends, and E what all views show
-/// together.
+/// (1 - b) [sum_k dE_k t_k + B_k (t_k + d_k / 2) + U t_end] / (E + B) + b t_end + w U / (S + E +
+/// B), with b the finish weight, w the worth, dE_k the cells that the k-th view adds, t_k when its
+/// scan ends, B_k what lies beyond it and d_k = B_k / pace the time that takes, during which the
+/// robot stays there; E is what all views show together, B what lies beyond them, U what of both
+/// the tour leaves out, and S what is seen already.
 double tour_cost_s(const PlanningProblem& problem, const TourObjective& objective,
                    std::span<const std::size_t> order);
 
 struct TourSearchOptions {
   std::size_t first_moves = 8;  ///< so many views are tried as the first one
   std::size_t rounds = 6;       ///< of local search at most, each with the gains worked out anew
+  double keep_s = 0.0;          ///< so much cheaper another tour must be than the one intended
 };
 
 struct Tour {
@@ -34,12 +38,14 @@ struct Tour {
 };
 
 /// The cheapest affordable tour found: insertion, then Or-opt, 2-opt, leaving out and taking in.
-/// Never empty where a view is affordable.
+/// Never empty where a view is affordable: where none is worth its time the one that comes nearest.
 /// @param first the tour begins there, if given
 Tour search_tour(const PlanningProblem& problem, const TourObjective& objective,
                  const TourSearchOptions& options, std::optional<std::size_t> first = std::nullopt);
 
-/// That for each of the most promising first views, cheapest first.
+/// That for each of the most promising first views and for the one intended, cheapest first, with
+/// the worth raised until at least one view is worth its time; the
+/// tour that begins where it was intended counts as `keep_s` cheaper.
 std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& objective,
                                const TourSearchOptions& options);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/render/sight.hpp"
 #include "vantage/sim/world/mesh_surface.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
 
@@ -193,9 +194,7 @@ void GlScene::leave_out_walls() {
   };
   mjvGeom* const end = std::remove_if(scene_.geoms, scene_.geoms + scene_.ngeom, is_hidden);
   scene_.ngeom = static_cast<int>(end - scene_.geoms);
-  for (int i = 0; i < scene_.ngeom; ++i) {
-    if (scene_.geoms[i].segid >= 0) scene_.geoms[i].segid = i;  // as readers of the image expect
-  }
+  number_anew(scene_);
 }
 
 void GlScene::add_markers(const std::vector<Marker>& markers) {
@@ -220,6 +219,10 @@ void GlScene::render(const mjData& data, const CameraView& view, const RenderReq
   out.segmentation.clear();
   mjr_setBuffer(mjFB_WINDOW, &context_);
   update(data, view, request);
+  if (!request.shadows) {  // which fall into the image from outside
+    const mjvGLCamera camera = mjv_averageCamera(&scene_.camera[0], &scene_.camera[1]);
+    leave_out_unseen(*model_, Sight(camera, width_px, height_px, request.range_m), scene_);
+  }
   describe_camera(scene_, out);
   scene_.flags[mjRND_SHADOW] = request.shadows ? 1 : 0;
   if (request.rgb) {

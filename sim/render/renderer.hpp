@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,6 +68,8 @@ struct RenderRequest {
   /// camera outside of them would look at, and lit where it has no light. Sensors never ask for it.
   bool for_people = false;
   std::vector<Marker> markers = {};  ///< at most kMaxMarkers; seen in rgb only
+  /// What lies wholly farther along the optical axis need not be drawn.
+  double range_m = std::numeric_limits<double>::infinity();
 };
 
 /// Row-major, top row first. What was not requested is empty.

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/robots/robot_outline.hpp"
 
 namespace vantage {
 namespace {
@@ -126,6 +127,7 @@ MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& descri
       idle_power_w_(description.idle_power_w),
       actuators_(actuators_of_robot(model)),
       base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
+      outline_(robot_outline(model, base_body_, description.footprint.outline_m)),
       drive_(find_drive(RobotNames(model, where), model, description.drive, base_body_)) {
   const RobotNames names(model, where);
   if (const auto* wheels = std::get_if<Wheels>(&drive_)) {
@@ -271,10 +273,7 @@ void MobileBase::turn(mjData& data, double angle_rad) const {
   mjtNum* q = data.qpos + std::get<Wheels>(drive_).qpos + 3;
   const Eigen::Quaterniond turned = Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()) *
                                     Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-  q[0] = turned.w();
-  q[1] = turned.x();
-  q[2] = turned.y();
-  q[3] = turned.z();
+  Eigen::Map<Eigen::Vector4d>(q, 4) << turned.w(), turned.x(), turned.y(), turned.z();
 }
 
 std::vector<int> MobileBase::touched_by_turning(const World& world) const {

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "vantage/geometry/floor_outline.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/geometry/twist.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
@@ -57,6 +58,8 @@ class MobileBase {
   [[nodiscard]] double power_w(const World& world) const;
 
   [[nodiscard]] const Footprint& footprint() const { return footprint_; }
+  /// In the base's frame: footprint.outline_m, or that of its geoms.
+  [[nodiscard]] const FloorOutline& outline() const { return outline_; }
   /// Whether it moves in any direction at any heading.
   [[nodiscard]] bool is_holonomic() const { return std::holds_alternative<Slides>(drive_); }
 
@@ -130,6 +133,7 @@ class MobileBase {
   double idle_power_w_ = 0.0;
   std::vector<int> actuators_;
   int base_body_ = 0;
+  FloorOutline outline_;
   std::variant<Slides, Wheels> drive_;
   std::vector<int> on_floor_;  ///< geoms
   std::optional<DrivenJoint> lift_;

@@ -64,7 +64,8 @@ Odometry::Odometry(const OdometryOptions& options, Rng rng, const Pose2& T_world
 Pose2 Odometry::update(const Pose2& T_world_base_true) {
   const Pose2 T_previous_now = compose(inverse(T_world_base_true_), T_world_base_true);
   T_world_base_true_ = T_world_base_true;
-  const Pose2 measured = measure_increment(T_previous_now, bias_, options_, rng_);
+  Pose2 measured = measure_increment(T_previous_now, bias_, options_, rng_);
+  if (on_increment) measured = on_increment(measured);
   T_world_base_ = compose(T_world_base_, measured);
   return measured;
 }

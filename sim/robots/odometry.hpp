@@ -1,6 +1,8 @@
 /// Dead reckoning as the wheels give it: good over a metre, adrift over a room.
 #pragma once
 
+#include <functional>
+
 #include "vantage/core/fields.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/geometry/pose.hpp"
@@ -64,6 +66,8 @@ class Odometry {
   /// Replaces the estimate, after a registration.
   void correct(const Pose2& T_world_base) { T_world_base_ = T_world_base; }
   [[nodiscard]] const OdometryBias& bias() const { return bias_; }
+  /// What wheels report that fail, for the increment that they would have measured; may be empty.
+  std::function<Pose2(const Pose2&)> on_increment;
 
  private:
   OdometryOptions options_;

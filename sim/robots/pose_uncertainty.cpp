@@ -78,6 +78,12 @@ void PoseUncertainty::correct(const Pose2& T_world_base, const Eigen::Matrix3d& 
   covariance_ = axes * left.asDiagonal() * axes.transpose();
 }
 
+void PoseUncertainty::assume(const Pose2& T_world_base, const Eigen::Matrix3d& covariance) {
+  T_world_base_ = T_world_base;
+  covariance_ = reference_ = covariance;
+  since_correction_m_ = 0.0;
+}
+
 void PoseUncertainty::remember() {
   ++remembered_;
   reference_ += (covariance_ - reference_) / remembered_;

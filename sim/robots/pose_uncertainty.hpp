@@ -20,6 +20,8 @@ class PoseUncertainty {
   /// Registration says that it is there. Repeating it makes no surer: its errors are those of what
   /// is remembered, over and over. @param information of (x, y, yaw); zero where it says nothing
   void correct(const Pose2& T_world_base, const Eigen::Matrix3d& information);
+  /// All that is remembered was put where it belongs, which left the base there, as sure as that.
+  void assume(const Pose2& T_world_base, const Eigen::Matrix3d& covariance);
   /// What was seen from here is what later registrations go by.
   void remember();
 

@@ -1,6 +1,8 @@
 /// A quadrotor, as its robot.yaml describes it: thrusts in, state and frames out.
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,7 @@ class Quadrotor {
   /// As compiled: mass, inertia and centre of mass of all its bodies.
   [[nodiscard]] const Airframe& airframe() const { return airframe_; }
   [[nodiscard]] double rotor_radius_m() const { return rotor_radius_m_; }
+  [[nodiscard]] std::span<const int> rotor_actuators() const { return actuators_; }
 
   /// Truth: for metrics, and as the input of an estimate.
   [[nodiscard]] FlightState state(const World& world) const;

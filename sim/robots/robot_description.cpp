@@ -69,6 +69,9 @@ const Description& kind_of(const RobotFolder& robot, const std::string& key) {
 void Footprint::check() const {
   require_size("inscribed_radius_m", inscribed_radius_m);
   require_size("circumscribed_radius_m", circumscribed_radius_m);
+  if (!outline_m.empty() && outline_m.size() < 3) {
+    throw ConfigError(fmt::format("outline_m: {} corners enclose nothing", outline_m.size()));
+  }
   if (inscribed_radius_m <= circumscribed_radius_m) return;
   throw ConfigError(fmt::format("inscribed_radius_m: {} is above circumscribed_radius_m {}",
                                 inscribed_radius_m, circumscribed_radius_m));

@@ -6,6 +6,7 @@
 /// docs/tutorials/own-robot.md is the recipe.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,10 +18,11 @@
 
 namespace vantage {
 
-/// Two circles about the base's origin, on the floor.
+/// Two circles about the base's origin, on the floor, and what lies between them.
 struct Footprint {
   double inscribed_radius_m = 0.0;
   double circumscribed_radius_m = 0.0;
+  std::vector<std::array<double, 2>> outline_m;
   void fields(auto&& f) {
     f("inscribed_radius_m", inscribed_radius_m,
       "radius of the circle about the base's origin that the robot covers at any heading",
@@ -29,8 +31,12 @@ struct Footprint {
       "radius of the circle about the base's origin that covers the robot at any heading; higher "
       "keeps farther away from obstacles",
       Range{0.0, 5.0, true});
+    f("outline_m", outline_m,
+      "corners (x, y) of a convex outline of the robot in the base's frame, which it goes through "
+      "narrow passages with; empty: that of all its geoms that can touch something",
+      between(-5.0, 5.0));
   }
-  void check() const;  ///< the inscribed circle within the circumscribed one
+  void check() const;  ///< the inscribed circle within the circumscribed one, an outline of corners
 };
 
 struct OmnidirectionalDrive {

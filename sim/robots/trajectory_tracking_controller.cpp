@@ -1,7 +1,5 @@
 #include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 
-#include <mujoco/mujoco.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +13,13 @@ FlightReference standing_at(const FlightReference& reference) {
 }
 
 }  // namespace
+
+void add_gusts(World& world, int body_id, const std::vector<Gust>& gusts) {
+  for (const Gust& gust : gusts) {
+    world.add_outside_force(
+        {body_id, [gust](double time_s) { return gust.force_world_N(time_s); }});
+  }
+}
 
 std::string_view to_string(FlightStatus status) {
   switch (status) {
@@ -39,6 +44,7 @@ TrajectoryTrackingController::TrajectoryTrackingController(World& world, const Q
   const Pose T_world_body = vehicle_.state(world_).T_world_body;
   reference_.p_world_m = T_world_body.translation();
   reference_.yaw_rad = project_to_se2(T_world_body).yaw_rad;
+  add_gusts(world_, vehicle_.base_body_id(), options_.gusts);
 }
 
 FlightState TrajectoryTrackingController::estimate() const {
@@ -99,18 +105,10 @@ void TrajectoryTrackingController::tick(const FlightReference& reference) {
   const Allocation given = control_flight(estimate_.of(before), reference, vehicle_.airframe(),
                                           period_s, options_.controller, memory_);
   vehicle_.command_thrusts(world_, given.thrust_N);
-  apply_gusts();
   world_.advance_tick();
   estimate_.update(period_s);
   collisions_.update(vehicle_, world_);
   log_tick(before, vehicle_.state(world_));
-}
-
-void TrajectoryTrackingController::apply_gusts() {
-  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
-  for (const Gust& gust : options_.gusts) force_N += gust.force_world_N(world_.time_s());
-  std::copy(force_N.begin(), force_N.end(),
-            world_.data().xfrc_applied + 6 * vehicle_.base_body_id());
 }
 
 void TrajectoryTrackingController::begin() {

@@ -13,6 +13,9 @@ class TrajectoryTrackingController;
 /// Asked every period; false stops the flight, which then has to be held or led on.
 using KeepFlying = std::function<bool(const TrajectoryTrackingController&)>;
 
+/// Gusts push that body from now on.
+void add_gusts(World& world, int body_id, const std::vector<Gust>& gusts);
+
 /// Steps the world while the vehicle follows references, from its estimated pose. Nothing but
 /// rotor thrust (and the gusts) acts on it. A flight ends at the first contact with anything.
 class TrajectoryTrackingController {
@@ -54,7 +57,6 @@ class TrajectoryTrackingController {
   [[nodiscard]] FlightResult result_since(FlightStatus status) const;
   [[nodiscard]] bool is_at(const FlightWaypoint& goal) const;
   void begin();
-  void apply_gusts();
   void log_tick(const FlightState& before, const FlightState& after);
 
   World& world_;

@@ -83,6 +83,7 @@ CameraImages exact_depth_image(Renderer& renderer, const mjModel& model, const m
                                int camera_id, const RgbdOptions& options) {
   RenderRequest request;
   request.rgb = false;
+  request.range_m = options.range_max_m;
   return drawn_by(renderer, model, data, camera_id, request, options);
 }
 

@@ -25,7 +25,7 @@ CameraImages depth_image(Renderer& renderer, const mjModel& model, const mjData&
                          int camera_id, const RgbdOptions& options, Rng& rng);
 
 /// depth_image in two: what is drawn, in the renderer's thread, then what the camera measures of
-/// it, in any.
+/// it, in any. What is beyond options.range_max_m may be left out: it measures as nothing does.
 CameraImages exact_depth_image(Renderer& renderer, const mjModel& model, const mjData& data,
                                int camera_id, const RgbdOptions& options);
 void measure_depth(CameraImages& images, const RgbdOptions& options, Rng& rng);

@@ -89,10 +89,12 @@ ScanBuilder::ScanBuilder(const LaserOptions& options) : options_(options) {
 }
 
 void ScanBuilder::add_line(const RayScene& scene, const Pose& T_world_laser,
-                           double measured_tilt_rad, int sensor_body, Rng& rng) {
+                           double measured_tilt_rad, int sensor_body, Rng& rng,
+                           const std::function<void(std::vector<float>&)>& spoil) {
   const RangeLimits limits{options_.range_min_m, options_.range_max_m, options_.noise_sigma_m};
   lines_.push_back({measured_tilt_rad,
                     measure_line(scene, T_world_laser, azimuth_rad_, sensor_body, limits, rng)});
+  if (spoil) spoil(lines_.back().range_m);
 }
 
 RangeScan ScanBuilder::finish() {

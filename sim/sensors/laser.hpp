@@ -1,6 +1,7 @@
 /// Laser scanners by ray casting: a tilting one that looks at the scene, a planar one for driving.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -19,9 +20,11 @@ class ScanBuilder {
 
   /// Measures one line. `T_world_laser`: x along the middle beam, z normal to the scan plane, thus
   /// turned by the true tilt; `measured_tilt_rad` is what the joint's encoder says. `sensor_body`
-  /// carries the sensor and is not seen.
+  /// carries the sensor and is not seen. `spoil` says what arrives of the ranges that were
+  /// measured, in place; may be empty.
   void add_line(const RayScene& scene, const Pose& T_world_laser, double measured_tilt_rad,
-                int sensor_body, Rng& rng);
+                int sensor_body, Rng& rng,
+                const std::function<void(std::vector<float>&)>& spoil = {});
 
   /// The scan so far, lines by ascending tilt; of lines closer together than a microradian (the
   /// joint stood still) only the first. Leaves the builder empty.

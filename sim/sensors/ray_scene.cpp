@@ -20,17 +20,21 @@ struct SolidGeom {
   int geom_id = -1;
   int body_id = -1;
   int type = mjGEOM_NONE;
-  bool moving = false;
   Eigen::Vector3d size_m;
   Eigen::AlignedBox3d box_m;         ///< in the geom's frame; unused for planes
   const EmbreeMesh* mesh = nullptr;  ///< of meshes and height fields
-  Eigen::Vector3d p_world_m;
-  RowMajor3d R_world;
+  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
+  RowMajor3d R_world = RowMajor3d::Zero();
 };
 
-void place(SolidGeom& geom, const mjData& data) {
-  geom.p_world_m = Eigen::Map<const Eigen::Vector3d>(data.geom_xpos + 3 * geom.geom_id);
-  geom.R_world = Eigen::Map<const RowMajor3d>(data.geom_xmat + 9 * geom.geom_id);
+/// @return whether it was elsewhere
+bool place(SolidGeom& geom, const mjData& data) {
+  const Eigen::Map<const Eigen::Vector3d> p_world_m(data.geom_xpos + 3 * geom.geom_id);
+  const Eigen::Map<const RowMajor3d> R_world(data.geom_xmat + 9 * geom.geom_id);
+  const bool changed = p_world_m != geom.p_world_m || R_world != geom.R_world;
+  geom.p_world_m = p_world_m;
+  geom.R_world = R_world;
+  return changed;
 }
 
 /// Distance along the ray, infinity if it is not below `range_max_m`.
@@ -96,32 +100,45 @@ class RayScene::Impl {
   [[nodiscard]] RayHit cast(RayQuery& query) const;
 
  private:
+  /// Geoms in a tree of their own.
+  struct Tree {
+    std::vector<SolidGeom> geoms;
+    EmbreeScene scene;
+  };
+
   void add(const mjModel& model, const mjData& data, int geom_id);
   const EmbreeMesh* mesh_of(const mjModel& model, int geom_id);
-  void commit();
+  void plant(Tree& tree);
+  static void commit(const Tree& tree);
   static void bounds(const RTCBoundsFunctionArguments* arguments);
   static void intersect(const RTCIntersectFunctionNArguments* arguments);
 
   EmbreeDevice device_;
   std::map<std::pair<int, int>, std::unique_ptr<EmbreeMesh>> meshes_;  ///< by geom type and asset
   std::vector<SolidGeom> planes_;  ///< unbounded and few: tested one by one
-  std::vector<SolidGeom> bounded_;
-  EmbreeScene scene_;
+  Tree still_;                     ///< built once, however large
+  Tree moving_;
 };
 
 RayScene::Impl::Impl(const mjModel& model, const mjData& data, const GeomFilter& filter)
     : device_(shared_device()) {
-  scene_.reset(rtcNewScene(device_.get()));
   for (const int geom_id : solid_geoms(model, filter)) add(model, data, geom_id);
+  plant(still_);
+  plant(moving_);
+}
+
+/// Once all its geoms are there.
+void RayScene::Impl::plant(Tree& tree) {
+  tree.scene.reset(rtcNewScene(device_.get()));
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(bounded_.size()));
-  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(tree.geoms.size()));
+  rtcSetGeometryUserData(geometry, &tree);
   rtcSetGeometryBoundsFunction(geometry, &Impl::bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry, &Impl::intersect);
-  rtcAttachGeometryByID(scene_.get(), geometry, 0);
+  rtcAttachGeometryByID(tree.scene.get(), geometry, 0);
   rtcReleaseGeometry(geometry);
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
-  commit();
+  rtcSetSceneFlags(tree.scene.get(), RTC_SCENE_FLAG_ROBUST);
+  commit(tree);
 }
 
 void RayScene::Impl::add(const mjModel& model, const mjData& data, int geom_id) {
@@ -129,7 +146,6 @@ void RayScene::Impl::add(const mjModel& model, const mjData& data, int geom_id) 
   geom.geom_id = geom_id;
   geom.body_id = model.geom_bodyid[geom_id];
   geom.type = model.geom_type[geom_id];
-  geom.moving = is_moving_geom(model, geom_id);
   geom.size_m = Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom_id);
   place(geom, data);
   if (geom.type == mjGEOM_PLANE) {
@@ -143,7 +159,7 @@ void RayScene::Impl::add(const mjModel& model, const mjData& data, int geom_id) 
     const Eigen::Vector3d half = primitive_half_extent(model, geom_id);
     geom.box_m = {-half, half};
   }
-  bounded_.push_back(geom);
+  (is_moving_geom(model, geom_id) ? moving_ : still_).geoms.push_back(geom);
 }
 
 const EmbreeMesh* RayScene::Impl::mesh_of(const mjModel& model, int geom_id) {
@@ -156,23 +172,24 @@ const EmbreeMesh* RayScene::Impl::mesh_of(const mjModel& model, int geom_id) {
   return mesh.get();
 }
 
-void RayScene::Impl::commit() {
-  rtcCommitGeometry(rtcGetGeometry(scene_.get(), 0));
-  rtcCommitScene(scene_.get());
+void RayScene::Impl::commit(const Tree& tree) {
+  rtcCommitGeometry(rtcGetGeometry(tree.scene.get(), 0));
+  rtcCommitScene(tree.scene.get());
 }
 
+/// What hangs on no joint may be put elsewhere too, but seldom is.
 void RayScene::Impl::update(const mjData& data) {
-  for (auto* geoms : {&planes_, &bounded_}) {
-    for (SolidGeom& geom : *geoms) {
-      if (geom.moving) place(geom, data);
-    }
-  }
-  commit();
+  for (SolidGeom& plane : planes_) place(plane, data);
+  for (SolidGeom& geom : moving_.geoms) place(geom, data);
+  commit(moving_);
+  bool changed = false;
+  for (SolidGeom& geom : still_.geoms) changed = place(geom, data) || changed;
+  if (changed) commit(still_);
 }
 
 void RayScene::Impl::bounds(const RTCBoundsFunctionArguments* arguments) {
-  const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-  const Eigen::AlignedBox3d box = world_box(self.bounded_[arguments->primID]);
+  const auto& tree = *static_cast<const Tree*>(arguments->geometryUserPtr);
+  const Eigen::AlignedBox3d box = world_box(tree.geoms[arguments->primID]);
   const Eigen::Vector3f low = box.min().cast<float>();
   const Eigen::Vector3f high = box.max().cast<float>();
   *arguments->bounds_o = {low.x(), low.y(), low.z(), 0.0F, high.x(), high.y(), high.z(), 0.0F};
@@ -180,9 +197,9 @@ void RayScene::Impl::bounds(const RTCBoundsFunctionArguments* arguments) {
 
 void RayScene::Impl::intersect(const RTCIntersectFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
-  const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+  const auto& tree = *static_cast<const Tree*>(arguments->geometryUserPtr);
   auto& query = *static_cast<RayQuery*>(arguments->context);
-  if (!query.meet(self.bounded_[arguments->primID])) return;
+  if (!query.meet(tree.geoms[arguments->primID])) return;
   RTCRayN* ray = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
   RTCRayN_tfar(ray, arguments->N, 0) = search_limit(query.best.distance_m);
 }
@@ -192,21 +209,24 @@ RayHit RayScene::Impl::cast(RayQuery& query) const {
   for (const SolidGeom& plane : planes_) query.meet(plane);
   const Eigen::Vector3f origin = query.p_world_m.cast<float>();
   const Eigen::Vector3f direction = query.direction.cast<float>();
-  RTCRayHit ray{};
-  ray.ray = {origin.x(),
-             origin.y(),
-             origin.z(),
-             0.0F,
-             direction.x(),
-             direction.y(),
-             direction.z(),
-             0.0F,
-             search_limit(query.best.distance_m),
-             0xFFFFFFFFU,
-             0,
-             0};
-  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene_.get(), &query, &ray);
+  for (const Tree* tree : {&still_, &moving_}) {
+    if (tree->geoms.empty()) continue;
+    RTCRayHit ray{};
+    ray.ray = {origin.x(),
+               origin.y(),
+               origin.z(),
+               0.0F,
+               direction.x(),
+               direction.y(),
+               direction.z(),
+               0.0F,
+               search_limit(query.best.distance_m),
+               0xFFFFFFFFU,
+               0,
+               0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(tree->scene.get(), &query, &ray);
+  }
   return query.best.hit() && query.best.distance_m <= range_max_m ? query.best : RayHit{};
 }
 

@@ -4,6 +4,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string_view>
@@ -93,9 +94,20 @@ bool same(double a, double b) {
   return std::abs(a - b) <= std::max(1e-6, kRounding * std::max(std::abs(a), std::abs(b)));
 }
 
+bool is_mesh(const mjModel& model, int geom) {
+  return model.geom_type[geom] == mjGEOM_MESH && model.geom_dataid[geom] >= 0;
+}
+
+/// Of a mesh MuJoCo's own frame is compared by where it puts the vertices: its axes are those of
+/// inertia, and round meshes have none that rounding would not turn.
+bool is_frame_of_mesh(const mjModel& model, const ModelArray& array, int i) {
+  return array.kind == mjOBJ_GEOM && array.what != "friction" && is_mesh(model, i / array.width);
+}
+
 void check_same(const mjModel& model, const ModelArray& alone, const ModelArray& together,
                 const std::string& file) {
   for (int i = 0; i < alone.objects * alone.width; ++i) {
+    if (is_frame_of_mesh(model, alone, i)) continue;
     if (same(alone.numbers[i], together.numbers[i])) continue;
     throw InputError(fmt::format(
         "{}: cannot stand beside a robot: {} of {} would change from {:.6g} to {:.6g}. Compiler "
@@ -103,6 +115,30 @@ void check_same(const mjModel& model, const ModelArray& alone, const ModelArray&
         file, alone.what, object_text(model, alone.kind, i / alone.width), alone.numbers[i],
         together.numbers[i]));
   }
+}
+
+/// A vertex of a geom's mesh in the frame of its body.
+std::array<mjtNum, 3> placed_vertex(const mjModel& model, int geom, int vertex) {
+  const float* p = model.mesh_vert + 3 * (model.mesh_vertadr[model.geom_dataid[geom]] + vertex);
+  const std::array<mjtNum, 3> p_mesh{p[0], p[1], p[2]};
+  std::array<mjtNum, 3> p_body{};
+  mju_rotVecQuat(p_body.data(), p_mesh.data(), model.geom_quat + 4 * geom);
+  mju_addTo3(p_body.data(), model.geom_pos + 3 * geom);
+  return p_body;
+}
+
+void check_same_mesh(const mjModel& scene, const mjModel& both, int geom, const std::string& file) {
+  constexpr double kSame_m = 1e-3;
+  const int vertices = scene.mesh_vertnum[scene.geom_dataid[geom]];
+  bool same_mesh = is_mesh(both, geom) && both.mesh_vertnum[both.geom_dataid[geom]] == vertices;
+  for (int i = 0; same_mesh && i < vertices; ++i) {
+    const auto alone = placed_vertex(scene, geom, i);
+    const auto together = placed_vertex(both, geom, i);
+    same_mesh = mju_dist3(alone.data(), together.data()) <= kSame_m;
+  }
+  if (same_mesh) return;
+  throw InputError(fmt::format("{}: cannot stand beside a robot: the mesh of {} would change", file,
+                               object_text(scene, mjOBJ_GEOM, geom)));
 }
 
 }  // namespace
@@ -156,6 +192,9 @@ void check_same_scene(const mjModel& scene, const mjModel& both, const std::stri
                                    mju_type2Str(alone[i].kind)));
     }
     check_same(scene, alone[i], together[i], file);
+  }
+  for (int geom = 0; geom < scene.ngeom; ++geom) {
+    if (is_mesh(scene, geom)) check_same_mesh(scene, both, geom, file);
   }
 }
 

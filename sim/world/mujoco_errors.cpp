@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "vantage/core/log.hpp"
-#include "vantage/sim/world/near_pairs.hpp"
+#include "vantage/sim/stepping/near_pairs.hpp"
 
 namespace vantage {
 namespace {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdlib>
 #include <cstring>
+#include <initializer_list>
 #include <mutex>
 #include <string_view>
 
@@ -104,14 +105,42 @@ ModelPtr compile(const std::filesystem::path& path, const mjVFS* vfs, const std:
   return model;
 }
 
+constexpr auto kMain = "vantage_main.xml";
+
+/// A main file of these parts.
+std::string including(std::initializer_list<std::string_view> files, std::string_view size) {
+  std::string text = "<mujoco>\n";
+  for (const std::string_view file : files) text += fmt::format("<include file=\"{}\"/>\n", file);
+  return text + fmt::format("<size {}/>\n</mujoco>\n", size);
+}
+
+/// MuJoCo's own choice is too small for thousands of bodies, each against each; memory that is not
+/// touched costs nothing.
+constexpr std::string_view kLargeStack = " nstack=\"16000000\"";
+
+/// Calls `compile_sized` with no wish for the stack's size and, if that is too small, with a large
+/// one.
+ModelPtr with_stack(auto&& compile_sized) {
+  try {
+    return compile_sized(std::string_view());
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).find("Stack overflow") == std::string_view::npos) throw;
+  }
+  return compile_sized(kLargeStack);
+}
+
 ModelPtr compile_file(const std::filesystem::path& path, std::span<const MemoryFile> files,
                       std::vector<std::string>& warnings) {
   if (!std::filesystem::is_regular_file(path)) {
     throw InputError(fmt::format("{}: no such file", path.string()));
   }
-  if (files.empty()) return compile(path, nullptr, path.string(), warnings);
-  const VfsPtr vfs = make_vfs(files);
-  return compile(path, vfs.get(), path.string(), warnings);
+  return with_stack([&](std::string_view stack) {
+    if (files.empty() && stack.empty()) return compile(path, nullptr, path.string(), warnings);
+    const VfsPtr vfs = make_vfs(files);
+    if (stack.empty()) return compile(path, vfs.get(), path.string(), warnings);
+    add_file(*vfs, kMain, including({path.filename().string()}, stack));
+    return compile(path.parent_path() / kMain, vfs.get(), path.string(), warnings);
+  });
 }
 
 /// Erases the first `begin` up to and with the next `end`, if there are such.
@@ -146,18 +175,18 @@ std::string canonical_text(const mjModel& scene) {
 ModelPtr compile_both(const ModelSource& source, const std::string& scene_text,
                       const mjModel& scene, const mjModel& robot,
                       std::vector<std::string>& warnings) {
-  constexpr auto kMain = "vantage_main.xml";
   constexpr auto kScene = "vantage_scene.xml";
   constexpr auto kRobot = "vantage_robot.xml";
-  const VfsPtr vfs = make_vfs(source.files);
-  add_file(*vfs, kScene, scene_text);
-  add_file(*vfs, kRobot, read_file(source.robot));
-  add_file(*vfs, kMain,
-           fmt::format("<mujoco>\n<include file=\"{}\"/>\n<include file=\"{}\"/>\n"
-                       "<size njmax=\"{}\" nconmax=\"{}\"/>\n</mujoco>\n",
-                       kScene, kRobot, scene.njmax + robot.njmax, scene.nconmax + robot.nconmax));
-  ModelPtr both = compile(source.scene.parent_path() / kMain, vfs.get(),
-                          source.scene.string() + " with " + source.robot.string(), warnings);
+  const std::string sizes = fmt::format("njmax=\"{}\" nconmax=\"{}\"", scene.njmax + robot.njmax,
+                                        scene.nconmax + robot.nconmax);
+  ModelPtr both = with_stack([&](std::string_view stack) {
+    const VfsPtr vfs = make_vfs(source.files);
+    add_file(*vfs, kScene, scene_text);
+    add_file(*vfs, kRobot, read_file(source.robot));
+    add_file(*vfs, kMain, including({kScene, kRobot}, sizes + std::string(stack)));
+    return compile(source.scene.parent_path() / kMain, vfs.get(),
+                   source.scene.string() + " with " + source.robot.string(), warnings);
+  });
   check_same_scene(scene, *both, source.scene.string());
   return both;
 }
@@ -186,7 +215,6 @@ LoadedModel load_model(const ModelSource& source) {
 
 LoadedModel load_model(std::string_view mjcf, std::span<const MemoryFile> files,
                        const std::string& name) {
-  constexpr auto kMain = "vantage_main.xml";
   const std::lock_guard lock(one_at_a_time);
   install_mujoco_handlers();
   const VfsPtr vfs = make_vfs(files);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
 
 namespace vantage {
@@ -48,12 +49,15 @@ std::string body_text(const mjModel& model, int joint) {
   return name.empty() ? fmt::format("number {}", body) : fmt::format("'{}'", name);
 }
 
-void simulate(const mjModel& model, mjData& data, double duration_s) {
+void simulate(const mjModel& model, NearGeoms& near, mjData& data, double duration_s) {
   const double end_s = data.time + duration_s - 0.5 * model.opt.timestep;
   std::vector<std::string> messages;
   try {
     const WarningCollector collector(messages);
-    while (data.time < end_s && messages.empty()) mj_step(&model, &data);
+    while (data.time < end_s && messages.empty()) {
+      near.step(data);
+      near.follow(data);
+    }
   } catch (const MujocoError& error) {
     messages.emplace_back(error.what());
   }
@@ -69,12 +73,12 @@ void simulate(const mjModel& model, mjData& data, double duration_s) {
 }
 
 /// Steps `data` until nothing moves.
-void wait_for_rest(const mjModel& model, mjData& data, const std::vector<int>& joints,
-                   const SettleLimits& limits) {
+void wait_for_rest(const mjModel& model, NearGeoms& near, mjData& data,
+                   const std::vector<int>& joints, const SettleLimits& limits) {
   std::vector<FreePose> last = poses_of(model, data, joints);
   int quiet = 0;
   while (quiet < 2) {
-    simulate(model, data, limits.window_s);
+    simulate(model, near, data, limits.window_s);
     const std::vector<FreePose> now = poses_of(model, data, joints);
     std::size_t fastest = 0;
     std::vector<double> moved_m;
@@ -99,7 +103,9 @@ std::vector<std::string> settle_free_bodies(World& world, const SettleLimits& li
   if (joints.empty()) return {};
   const DataPtr trial = world.copy_data();
   const std::vector<FreePose> start = poses_of(model, *trial, joints);
-  wait_for_rest(model, *trial, joints, limits);
+  NearGeoms near(model);
+  near.start(world.snapshot());
+  wait_for_rest(model, near, *trial, joints, limits);
   const std::vector<FreePose> end = poses_of(model, *trial, joints);
   std::vector<std::string> moved;
   for (std::size_t i = 0; i < joints.size(); ++i) {

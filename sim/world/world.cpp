@@ -9,6 +9,8 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/sim/stepping/model_part.hpp"
+#include "vantage/sim/stepping/near_geoms.hpp"
 #include "vantage/sim/world/mujoco_errors.hpp"
 
 namespace vantage {
@@ -42,24 +44,18 @@ std::string advice(int warning) {
   return "";
 }
 
-int mujoco_kind(ModelObject kind) {
-  switch (kind) {
-    case ModelObject::body: return mjOBJ_BODY;
-    case ModelObject::joint: return mjOBJ_JOINT;
-    case ModelObject::geom: return mjOBJ_GEOM;
-    case ModelObject::site: return mjOBJ_SITE;
-    case ModelObject::camera: return mjOBJ_CAMERA;
-    case ModelObject::actuator: return mjOBJ_ACTUATOR;
-  }
-  return mjOBJ_UNKNOWN;
-}
-
 Pose make_world_pose(const mjtNum* position, const mjtNum* row_major_rotation) {
   Pose pose = Pose::Identity();
   pose.translation() = Eigen::Map<const Eigen::Vector3d>(position);
   pose.linear() =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(row_major_rotation);
   return pose;
+}
+
+void find_poses(const mjModel& model, mjData& data) {
+  mj_kinematics(&model, &data);
+  mj_comPos(&model, &data);
+  mj_camlight(&model, &data);
 }
 
 template <class Visit>
@@ -95,14 +91,14 @@ World::World(const ModelSource& source, const WorldOptions& options, LoadedModel
     : source_(source),
       options_(options),
       warnings_(std::move(loaded.warnings)),
-      model_(std::move(loaded.model)),
-      near_geoms_(*model_) {
+      model_(std::move(loaded.model)) {
   check_options(options_, "world");
   model_->opt.timestep = options_.timestep_s;
-  stepping_.reset(mj_copyModel(nullptr, model_.get()));
-  if (!stepping_) throw InputError("the model is too large for the memory of this machine");
+  near_geoms_ = std::make_unique<NearGeoms>(*model_);
+  moving_ = std::make_unique<ModelPart>(*model_);
   data_ = make_data(*model_);
   snapshot_ = make_data(*model_);
+  find_poses(*model_, *snapshot_);
 }
 
 World::~World() = default;
@@ -113,9 +109,7 @@ const mjData& World::snapshot() const {
   std::copy_n(data_->qpos, model_->nq, view.qpos);
   std::copy_n(data_->mocap_pos, 3 * model_->nmocap, view.mocap_pos);
   std::copy_n(data_->mocap_quat, 4 * model_->nmocap, view.mocap_quat);
-  mj_kinematics(model_.get(), &view);
-  mj_comPos(model_.get(), &view);
-  mj_camlight(model_.get(), &view);
+  moving_->run(view, find_poses);
   return view;
 }
 
@@ -129,6 +123,19 @@ double World::time_s() const { return data_->time; }
 
 void World::advance_tick() {
   expects(!diverged_, "a diverged world is not stepped before set_state()");
+  if (on_clock) on_clock(*this);
+  push();
+  if (!on_command) {
+    step_for_a_tick();
+    return;
+  }
+  const std::vector<double> commanded(controls().begin(), controls().end());
+  on_command({data_->ctrl, commanded.size()});
+  step_for_a_tick();
+  set_controls(commanded);
+}
+
+void World::step_for_a_tick() {
   const double start_s = wall_s();
   for (int i = 0; i < options_.steps_per_tick(); ++i) {
     step();
@@ -139,12 +146,28 @@ void World::advance_tick() {
   if (on_tick) on_tick(*this);
 }
 
-void World::look_for_near_geoms() {
-  if (positions_jumped_) {
-    near_geoms_.start(*stepping_, snapshot());
-  } else {
-    near_geoms_.follow(*stepping_, *data_);
+void World::push() {
+  for (const OutsideForce& force : forces_) {
+    std::fill_n(data_->xfrc_applied + 6 * force.body_id, 3, 0.0);
   }
+  for (const OutsideForce& force : forces_) {
+    Eigen::Map<Eigen::Vector3d>(data_->xfrc_applied + 6 * force.body_id) +=
+        force.force_world_N(data_->time);
+  }
+}
+
+void World::put_fixed_body(int body_id, const Eigen::Vector3d& p_parent_body_m) {
+  expects(model_->body_weldid[body_id] == 0, "a body that hangs on no joint");
+  Eigen::Map<Eigen::Vector3d> place(model_->body_pos + 3 * body_id);
+  if (place == p_parent_body_m) return;
+  place = p_parent_body_m;
+  find_poses(*model_, *snapshot_);
+  moving_->list_moving();
+  positions_jumped_ = true;
+}
+
+void World::look_for_near_geoms() {
+  positions_jumped_ ? near_geoms_->start(snapshot()) : near_geoms_->follow(*data_);
   positions_jumped_ = false;
 }
 
@@ -154,7 +177,7 @@ void World::step() {
   std::vector<std::string> messages;
   try {
     const WarningCollector collector(messages);
-    mj_step(stepping_.get(), data_.get());
+    near_geoms_->step(*data_);
   } catch (const MujocoError& error) {
     diverged_ = true;
     throw DivergedError(
@@ -203,6 +226,7 @@ void World::set_state(std::span<const double> state) {
   ticks_ = static_cast<std::uint64_t>(std::llround(data_->time / options_.control_period_s));
   diverged_ = false;
   positions_jumped_ = true;
+  if (on_clock) on_clock(*this);
 }
 
 std::span<const double> World::controls() const {
@@ -247,41 +271,6 @@ void World::set_initial_pose(const std::string& free_joint, const Pose& T_world_
 }
 
 std::string mujoco_version() { return mj_versionString(); }
-
-std::optional<int> find_model_id(const mjModel& model, ModelObject kind, const std::string& name) {
-  const int id = mj_name2id(&model, mujoco_kind(kind), name.c_str());
-  return id < 0 ? std::nullopt : std::optional(id);
-}
-
-int model_id(const mjModel& model, ModelObject kind, const std::string& name) {
-  if (const auto id = find_model_id(model, kind, name)) return *id;
-  throw InputError(
-      fmt::format("the model has no {} called '{}'", mju_type2Str(mujoco_kind(kind)), name));
-}
-
-std::string model_name(const mjModel& model, ModelObject kind, int id) {
-  const char* name = mj_id2name(&model, mujoco_kind(kind), id);
-  return name == nullptr ? "" : name;
-}
-
-std::vector<std::string> model_names(const mjModel& model, ModelObject kind) {
-  const auto count = [&] {
-    switch (kind) {
-      case ModelObject::body: return model.nbody;
-      case ModelObject::joint: return model.njnt;
-      case ModelObject::geom: return model.ngeom;
-      case ModelObject::site: return model.nsite;
-      case ModelObject::camera: return model.ncam;
-      case ModelObject::actuator: return model.nu;
-    }
-    return 0;
-  };
-  std::vector<std::string> names;
-  for (int id = 0; id < count(); ++id) {
-    if (auto name = model_name(model, kind, id); !name.empty()) names.push_back(std::move(name));
-  }
-  return names;
-}
 
 Pose body_pose(const World& world, int body_id) {
   const mjData& now = world.snapshot();

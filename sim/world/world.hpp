@@ -9,10 +9,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vantage/geometry/pose.hpp"
-#include "vantage/sim/world/near_geoms.hpp"
+#include "vantage/sim/world/model_names.hpp"
 #include "vantage/sim/world/scene.hpp"
 #include "vantage/sim/world/world_options.hpp"
 
@@ -21,10 +22,20 @@ using mjData = mjData_;
 
 namespace vantage {
 
+class ModelPart;
+class NearGeoms;
+
 struct DataDeleter {
   void operator()(mjData* data) const;
 };
 using DataPtr = std::unique_ptr<mjData, DataDeleter>;
+
+/// What pushes a body at its centre of mass, wind say, by the clock alone: world frame, of each
+/// tick as it begins.
+struct OutsideForce {
+  int body_id = 0;
+  std::function<Eigen::Vector3d(double time_s)> force_world_N;
+};
 
 /// Deterministic: the same model, options, initial state and commands give the same bits in any
 /// thread and process of one machine. Not shareable between threads while one of them steps it.
@@ -42,7 +53,8 @@ class World {
   [[nodiscard]] mjData& data() { return *data_; }
   [[nodiscard]] const mjData& data() const { return *data_; }
   /// Poses of bodies, geoms, sites, cameras and lights at the present positions. (In `data()` they
-  /// lag by one step.) For sensors and rendering; valid until the next step or call.
+  /// lag by one step, and most of what stands still has none.) For sensors and rendering; valid
+  /// until the next step or call.
   [[nodiscard]] const mjData& snapshot() const;
   [[nodiscard]] DataPtr copy_data() const;
 
@@ -52,7 +64,8 @@ class World {
   /// MuJoCo's warnings while compiling the model.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// One control period of physics, then `on_tick`.
+  /// One control period of physics, then `on_tick`. What actuators get is `controls()` after
+  /// `on_command`; when the tick is over they are what was commanded again.
   /// @throws DivergedError naming the time, MuJoCo's warning and the body; the world is unusable
   /// then until set_state().
   void advance_tick();
@@ -61,6 +74,13 @@ class World {
   [[nodiscard]] double stepping_wall_s() const { return stepping_wall_s_; }
   std::function<void(World&)> on_tick;        ///< recording, video; may be empty
   std::function<void(const World&)> on_step;  ///< after each physics step; may be empty
+  /// What becomes of the commands on their way to the actuators; may be empty.
+  std::function<void(std::span<double> controls)> on_command;
+  /// Before each tick and after set_state(): what changes in the world by the clock; may be empty.
+  std::function<void(World&)> on_clock;
+  void add_outside_force(OutsideForce force) { forces_.push_back(std::move(force)); }
+  /// Puts a body that hangs on no joint elsewhere in its parent's frame. No part of the state.
+  void put_fixed_body(int body_id, const Eigen::Vector3d& p_parent_body_m);
 
   /// Everything the future depends on besides commands, applied forces and mocap poses: time, qpos,
   /// qvel, act, qacc_warmstart.
@@ -80,31 +100,23 @@ class World {
  private:
   World(const ModelSource& source, const WorldOptions& options, LoadedModel&& loaded);
   void step();
+  void step_for_a_tick();
+  void push();
   void look_for_near_geoms();
   ModelSource source_;
   WorldOptions options_;
   std::vector<std::string> warnings_;
   ModelPtr model_;
-  ModelPtr stepping_;  ///< the same but for masks of what is far from all that moves
   DataPtr data_;
   mutable DataPtr snapshot_;
-  NearGeoms near_geoms_;
+  std::unique_ptr<NearGeoms> near_geoms_;
+  std::unique_ptr<ModelPart> moving_;  ///< what a snapshot looks for anew
+  std::vector<OutsideForce> forces_;
   bool positions_jumped_ = true;
   std::uint64_t ticks_ = 0;
   double stepping_wall_s_ = 0.0;
   bool diverged_ = false;
 };
-
-enum class ModelObject { body, joint, geom, site, camera, actuator };
-
-/// @throws InputError naming the kind of object and the name if the model has none.
-int model_id(const mjModel& model, ModelObject kind, const std::string& name);
-std::optional<int> find_model_id(const mjModel& model, ModelObject kind, const std::string& name);
-/// Empty for objects without a name.
-std::string model_name(const mjModel& model, ModelObject kind, int id);
-
-/// Of all objects of that kind that have a name, in the model's order.
-std::vector<std::string> model_names(const mjModel& model, ModelObject kind);
 
 std::string mujoco_version();
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "vantage/cli/arena/arena_command.hpp"
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/dataset_commands.hpp"
 #include "vantage/cli/doctor.hpp"
@@ -19,6 +20,7 @@
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
+#include "vantage/cli/scene_commands.hpp"
 #include "vantage/cli/schema/schema_command.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
@@ -221,6 +223,7 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> table = {
       {"run", "run an episode and write its run folder", declare_run},
       {"sweep", "run a study: an episode varied by factors", declare_sweep},
+      {"arena", "planners side by side, yours among them", declare_arena},
       {"report", "write the report page of a run or a study", declare_report},
       {"compare", "metrics of two runs or two studies side by side", declare_compare},
       {"replay", "run the recorded commands again and compare every state", declare_replay},
@@ -230,6 +233,7 @@ const std::vector<Command>& commands() {
       {"view", "an episode in a window, as it runs or from its run folder", declare_view},
       {"export", "a run for other programs: an MCAP file", declare_export},
       {"validate", "everything wrong with a file; nothing is run", declare_validate},
+      {"scene", "scenes from what others drew", declare_scene},
       {"score-views", "rank views on an OctoMap of your own robot", declare_score_views},
       {"dataset", "render, inspect and show databases of objects", declare_dataset},
       {"train", "learn to recognise the objects of a dataset", declare_train},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <concepts>
 #include <string>
 
 #include "vantage/runtime/manifest.hpp"
@@ -36,7 +37,29 @@ std::string branch_name(const RecordedRun& run, std::size_t scan, std::optional<
   return fmt::format("{}, view {} after scan {}", run.method, *view, scan);
 }
 
+/// The view of a program that is not asked again.
+std::size_t recorded_view(const RecordedRun& run, const DecisionRequest& request) {
+  const std::size_t scans = request.situation.scans;
+  const int recorded = scans < run.scans.size() ? run.scans[scans].chosen_view : -1;
+  const auto found = std::ranges::find(request.candidates, recorded, &Candidate::id);
+  if (found == request.candidates.end()) {
+    throw ConfigError(
+        fmt::format("{}: scan {} was taken from a pose of the planner's own, which cannot be taken "
+                    "again",
+                    run.directory.string(), scans + 1));
+  }
+  return static_cast<std::size_t>(found - request.candidates.begin());
+}
+
 }  // namespace
+
+bool was_chosen_outside(const RecordedRun& run) {
+  const auto of_task = []<class T>(const T& task) {
+    if constexpr (std::derived_from<T, MappingOptions>) return asks_outside(task.choice);
+    return false;
+  };
+  return std::visit(of_task, run.episode.task);
+}
 
 StepRow read_step(std::string_view columns, std::string_view row) {
   const auto names = fields_of(columns);
@@ -62,6 +85,7 @@ void RecordedDecisions::differs(std::size_t scan, const std::string& how) const 
 }
 
 std::size_t RecordedDecisions::repeated(const DecisionRequest& request) const {
+  if (was_chosen_outside(run_)) return recorded_view(run_, request);
   const std::size_t chosen = request.own_choice();
   const std::size_t scans = request.situation.scans;
   if (scans >= run_.scans.size()) return chosen;
@@ -81,6 +105,13 @@ void RecordedDecisions::check(const StepRow& step) const {
     differs(step.scan,
             fmt::format("{} cells are left, recorded {}", step.cells_left, recorded.cells_left));
   }
+}
+
+void refuse_to_go_on(const RecordedRun& run) {
+  throw ConfigError(fmt::format(
+      "{}: its views were chosen by a program (choice: external), which does not go on from a "
+      "branch; --all without --then says what each view would have shown",
+      run.directory.string()));
 }
 
 void require_decision(const RecordedRun& run, std::size_t scan) {
@@ -111,6 +142,7 @@ std::size_t takeable(const DecisionRequest& request, int view) {
 
 RunOutcome run_branch(const RecordedRun& run, std::size_t scan, std::optional<int> view,
                       RunOptions options) {
+  if (view && was_chosen_outside(run)) refuse_to_go_on(run);
   const RecordedDecisions recorded(run);
   const auto decide = [&](const DecisionRequest& request) -> OutsideDecision {
     const std::size_t scans = request.situation.scans;

@@ -46,6 +46,11 @@ class RecordedDecisions {
   const RecordedRun& run_;
 };
 
+/// Whether its views were chosen by a program of the user's, which is not asked again.
+bool was_chosen_outside(const RecordedRun& run);
+/// @throws ConfigError that says so
+[[noreturn]] void refuse_to_go_on(const RecordedRun& run);
+
 /// @throws ConfigError unless a decision was taken after that scan
 void require_decision(const RecordedRun& run, std::size_t scan);
 

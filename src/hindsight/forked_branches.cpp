@@ -261,6 +261,7 @@ void draw_without_threads() {
 
 std::vector<BranchedDecision> branch_views(const RecordedRun& run, const BranchRequest& request) {
   for (const std::size_t scan : request.scans) require_decision(run, scan);
+  if (request.then > 0 && was_chosen_outside(run)) refuse_to_go_on(run);
   draw_without_threads();
   ResolvedEpisode alone = load_episode(run.directory / "config.yaml", {"threads=1"});
   return Branching(run, request, std::move(alone)).all();

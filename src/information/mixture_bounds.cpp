@@ -54,7 +54,7 @@ Eigen::MatrixXd overlaps(const Divergences& D) { return (-D.cast<double>().array
 std::vector<Eigen::Index> dense(std::span<const int> group) {
   std::vector<int> known(group.begin(), group.end());
   std::ranges::sort(known);
-  known.erase(std::ranges::unique(known).begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
   std::vector<Eigen::Index> numbers;
   for (const int g : group) numbers.push_back(std::ranges::lower_bound(known, g) - known.begin());
   return numbers;

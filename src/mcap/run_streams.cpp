@@ -53,6 +53,7 @@ RunToExport::RunToExport(const fs::path& run_dir)
       world_(vantage::model_source(resolved_), resolved_.setup.options.simulation),
       states_(load_states(run_dir, world_)),
       map_(window(resolved_).map) {
+  add_outside_effects(resolved_, world_);
   const fs::path story = run_dir / "story.bin";
   if (fs::exists(story)) events_ = read_event_log(story, map_ ? map_->size() : 0);
 }

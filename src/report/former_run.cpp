@@ -33,17 +33,27 @@ void count_from_one(CsvTable& steps, std::size_t column) {
   }
 }
 
+/// Whether these are the objects of a flight along a path.
+template <class Json>
+bool are_observed_objects(const Json& objects) {
+  return objects.is_array() && std::ranges::all_of(objects, [](const Json& object) {
+           return object.is_object() && object.contains("observations") &&
+                  object["observations"].is_number() && object.contains("entropy_nats") &&
+                  object["entropy_nats"].is_number();
+         });
+}
+
 /// A flight along a path whose metrics hold the mean entropy of all objects alone.
 template <class Json>
 void tell_unseen_objects_apart(Json& metrics) {
   if (!metrics.contains("mean_entropy_nats") || !metrics.contains("objects") ||
-      metrics.contains("objects_unseen")) {
+      metrics.contains("objects_unseen") || !are_observed_objects(metrics["objects"])) {
     return;
   }
   double observed = 0.0;
   double sum_nats = 0.0;
   for (const Json& object : metrics["objects"]) {
-    if (object.at("observations").template get<int>() == 0) continue;
+    if (object.at("observations").template get<double>() == 0.0) continue;
     observed += 1.0;
     sum_nats += object.at("entropy_nats").template get<double>();
   }

@@ -15,6 +15,7 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/report/former_run.hpp"
+#include "vantage/report/json_file.hpp"
 #include "vantage/report/page.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/report/report_embed.hpp"
@@ -25,13 +26,7 @@ using nlohmann::json;
 namespace {
 
 json read_json_object(const fs::path& path) {
-  const std::string text = read_file(path);
-  json value;
-  try {
-    value = json::parse(text);
-  } catch (const json::exception& error) {
-    throw InputError(fmt::format("{}: not valid JSON: {}", path.string(), error.what()));
-  }
+  json value = parsed_json<json>(read_file(path), path.string());
   if (!value.is_object()) throw InputError(path.string() + ": expected a JSON object");
   return value;
 }
@@ -58,6 +53,7 @@ constexpr KeyType kMetricsTypes[] = {
     {"path_length_m", is_number, "a number"},
     {"collisions", is_number, "a number"},
     {"observable_cells", is_number, "a number"},
+    {"unreachable", is_object, "an object"},
     {"map", is_object, "an object"},
     {"region", is_object, "an object"},
     {"scans", is_objects, "a list of objects"},

@@ -31,6 +31,7 @@ constexpr auto kRunFiles = std::to_array<std::string_view>({"manifest.json",
                                                             "scene.bin",
                                                             "story.bin",
                                                             "looks.csv",
+                                                            "faults.csv",
                                                             "video.mp4",
                                                             "report.html",
                                                             "log.txt",
@@ -99,6 +100,8 @@ RunOutcome EpisodeRun::finish(const Ending& ending, const RunTotals& totals,
   recorder.commit();  // what cannot be made again comes first
   nlohmann::ordered_json metrics =
       summary_json({request_.task, options.seed, options.scene, request_.method}, summary);
+  metrics["faults"] = nlohmann::ordered_json::object();
+  for (const auto& [fault, times] : recorder.faults()) metrics["faults"][fault] = times;
   add_metrics(metrics);
   RunOutcome outcome{directory_, ending.code, json_text(metrics)};
   write_file(directory_ / "config.yaml", request_.config);

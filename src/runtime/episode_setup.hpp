@@ -4,10 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "vantage/core/fields.hpp"
+#include "vantage/geometry/pose.hpp"
 #include "vantage/runtime/log/recording_options.hpp"
+#include "vantage/sim/faults/fault_options.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
 #include "vantage/sim/world/world_options.hpp"
 
@@ -18,7 +21,7 @@ struct RobotOptions {
   int start_view = 0;
   double start_behind_m = 0.0;
   std::string start_site;
-  std::array<double, 3> start_pose{0.0, 0.0, 0.0};
+  std::optional<std::array<double, 3>> start_pose;
   void fields(auto&& f) {
     f("model", model,
       "folder of the robot, with an MJCF file and `robot.yaml`; or another MJCF file in such a "
@@ -31,8 +34,12 @@ struct RobotOptions {
     f("start_site", start_site,
       "exploration: site of the scene where the robot starts; empty: at `start_pose`");
     f("start_pose", start_pose,
-      "exploration: x (m), y (m) and yaw (rad) in the world frame where the robot starts, unless "
-      "`start_site` is set");
+      "exploration: x (m), y (m) and yaw (rad) in the world frame where the robot starts, in place "
+      "of `start_site`; null: at the site, or if there is none at 0, 0, 0");
+  }
+  [[nodiscard]] Pose2 posed_start() const {
+    const auto [x_m, y_m, yaw_rad] = start_pose.value_or(std::array{0.0, 0.0, 0.0});
+    return {x_m, y_m, wrap_angle(yaw_rad)};
   }
 };
 
@@ -42,6 +49,7 @@ struct EpisodeOptions {
   int threads = 2;
   RobotOptions robot;
   WorldOptions simulation;
+  FaultOptions faults;
   RecordingOptions recording;
   void fields(auto&& f) {
     f("scene", scene, "MJCF file of the scene, which the robot is added to");
@@ -50,6 +58,7 @@ struct EpisodeOptions {
       between(1, 256));
     f("robot", robot, "the robot and where it starts");
     f("simulation", simulation, "physics step and control period of the simulation");
+    f("faults", faults, "what goes wrong with sensors, actuators and the world; all of it is off");
     f("recording", recording, "speed, frame rate and size of the video");
   }
 };

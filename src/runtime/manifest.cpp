@@ -90,7 +90,7 @@ std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
 
 std::string manifest_json(const RunRequest& request, const RunSummary& summary) {
   const EpisodeSetup& setup = request.setup;
-  const Json json = {
+  Json json = {
       {"command", request.options.command},
       {"versions",
        {{"vantage", version_text()},
@@ -108,6 +108,10 @@ std::string manifest_json(const RunRequest& request, const RunSummary& summary) 
       {"wall_time_s", summary.wall_time_s},
       {"simulated_time_s", summary.simulated_time_s},
   };
+  const auto& outside = request.options.outside;
+  if (outside && outside->facts) {
+    for (const auto& [name, value] : outside->facts()) json["planner"][name] = value;
+  }
   return json_text(json);
 }
 

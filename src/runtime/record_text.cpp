@@ -5,7 +5,8 @@ namespace vantage {
 RecordTexts run_records() {
   return {
       {kRunFolder, "manifest.json",
-       "command, versions, CPU, seed, hashes of configuration, scene and every asset, times"},
+       "command, versions, CPU, seed, hashes of configuration, scene and every asset, times; of "
+       "choice external, planner: its command, name and isolation"},
       {kRunFolder, "config.yaml", "the configuration as resolved, defaults included"},
       {kRunFolder, "steps.csv", "a row a scan, view or waypoint"},
       {kRunFolder, "candidates.csv", "a row a candidate of every decision; not with --lean"},
@@ -43,6 +44,8 @@ RecordTexts run_records() {
       {kRunFolder, "map.ot", "occupancy map, OctoMap with log odds"},
       {kRunFolder, "cloud.ply", "points of all scans, world frame"},
       {kRunFolder, "looks.csv", "flights along a path: a row an observation of an object"},
+      {kRunFolder, "faults.csv",
+       "with faults: time_s and fault, a row whenever one strikes that has not for a second"},
       {kRunFolder, "views", "flights: pictures of what was looked at"},
       {kRunFolder, "video.mp4", "with --video"},
       {kRunFolder, "frames", "with --video: stills"},
@@ -66,6 +69,12 @@ RecordTexts run_records() {
       {"metrics.json", "path_length_m", "way of the body, from the start"},
       {"metrics.json", "collisions", "contacts of the robot with something, counted as they begin"},
       {"metrics.json", "state_hash", "of every state and command; the same for the same episode"},
+      {"metrics.json", "faults",
+       "of the faults that are on (faults), how often each has struck: frames dropped or frozen; "
+       "readings spoilt; lines of a laser with a bias; increments out of scale; stretches of slip; "
+       "ticks of late commands or of a weak rotor; gusts; images in the dark; objects moved"},
+      {"faults.csv", "time_s", "simulated, when the fault began to strike"},
+      {"faults.csv", "fault", "as metrics.json calls it"},
   };
 }
 

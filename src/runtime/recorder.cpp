@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "vantage/sim/faults/robot_faults.hpp"
+
 namespace vantage {
 
 EpisodeRecorder::EpisodeRecorder(const EpisodeRun& run, RecordedRobot robot,
@@ -37,6 +39,20 @@ void EpisodeRecorder::commit() {
   log_.commit();
   steps_.commit();
   if (candidates_) candidates_->commit();
+  const RobotFaults* faults = log_.faults();
+  if (faults == nullptr || !any_fault(faults->options())) return;
+  write_file(directory_ / "faults.csv", faults->record().csv());
+}
+
+std::vector<std::pair<std::string, std::int64_t>> EpisodeRecorder::faults() const {
+  std::vector<std::pair<std::string, std::int64_t>> struck;
+  const RobotFaults* faults = log_.faults();
+  for (std::size_t i = 0; faults != nullptr && i < kFaults; ++i) {
+    const auto fault = static_cast<Fault>(i);
+    if (amount_of(faults->options(), fault) == 0.0) continue;
+    struck.emplace_back(name_of(fault), faults->record().struck(fault));
+  }
+  return struck;
 }
 
 }  // namespace vantage

@@ -1,12 +1,15 @@
 /// Writes the run folder of an episode while it runs: what the recorders of all tasks share.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
@@ -28,6 +31,8 @@ class EpisodeRecorder {
 
   [[nodiscard]] std::uint64_t state_hash() const { return log_.state_hash(); }
   [[nodiscard]] double path_length_m() const { return log_.path_length_m(); }
+  /// Of the faults that are on, how often each has struck.
+  [[nodiscard]] std::vector<std::pair<std::string, std::int64_t>> faults() const;
 
  protected:
   /// Hooks itself to the world's ticks. With `lean` options neither states nor images are kept.

@@ -5,6 +5,8 @@
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/runtime/manifest.hpp"
+#include "vantage/sim/faults/outside_faults.hpp"
+#include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/tasks/former_keys.hpp"
 #include "vantage/tasks/robot_defaults.hpp"
 
@@ -37,6 +39,37 @@ ConfigNode with_open_map(const ConfigNode& root) {
   std::erase_if(left.entries, [](const auto& entry) { return is_auto(entry.second); });
   open.set("map", std::move(left));
   return open;
+}
+
+/// "episode.yaml" of "episode.yaml:12"
+std::string_view file_of(std::string_view origin) { return origin.substr(0, origin.rfind(':')); }
+
+/// A start that is set over an episode's file takes the place of the one that the file says,
+/// whichever of the two keys says it.
+/// @throws ConfigError if one place says both
+ConfigNode with_one_start(const ConfigNode& root) {
+  const ConfigNode* robot = root.find("robot");
+  const ConfigNode* site = robot == nullptr ? nullptr : robot->find("start_site");
+  const ConfigNode* pose = robot == nullptr ? nullptr : robot->find("start_pose");
+  if (site == nullptr || site->kind != ConfigNode::Kind::scalar || site->scalar.empty())
+    return root;
+  if (pose == nullptr || pose->kind == ConfigNode::Kind::null) return root;
+  if (file_of(site->origin) == file_of(pose->origin)) {
+    throw ConfigError(
+        fmt::format("{}: the robot starts at robot.start_site '{}' already; one of the "
+                    "two",
+                    pose->where(), site->scalar));
+  }
+  const bool by_pose =
+      pose->origin == kOverrideOrigin ||
+      (site->origin != kOverrideOrigin && file_of(site->origin) == file_of(root.origin));
+  ConfigNode left = *robot;
+  std::erase_if(left.entries, [&](const auto& entry) {
+    return entry.first == (by_pose ? "start_site" : "start_pose");
+  });
+  ConfigNode one = root;
+  one.set("robot", std::move(left));
+  return one;
 }
 
 /// What concerns the task and the rest of the episode.
@@ -72,7 +105,7 @@ void call_open_map_auto(std::vector<KeyDescription>& keys) {
 }  // namespace
 
 void read_episode(const ConfigNode& said, EpisodeOptions& options, Task& task) {
-  const ConfigNode root = with_open_map(said);
+  const ConfigNode root = with_one_start(with_open_map(said));
   if (root.kind != ConfigNode::Kind::null) detail::require_kind(root, ConfigNode::Kind::map);
   reject_former_keys(root);
   task = named_task(root);
@@ -175,6 +208,19 @@ std::string method_name(const Task& task) {
 ModelSource model_source(const ResolvedEpisode& resolved) {
   return std::visit([&](const auto& task) { return task.model_source(resolved.setup); },
                     resolved.task);
+}
+
+void add_outside_effects(const ResolvedEpisode& resolved, World& world) {
+  const EpisodeSetup& setup = resolved.setup;
+  add_outside_faults(world, setup.options.faults, setup.options.seed);
+  std::visit(
+      [&](const auto& task) {
+        if constexpr (requires { task.tracking.gusts; }) {
+          const std::string& base = quadrotor_of(setup.robot, "robot.model").base;
+          add_gusts(world, model_id(world.model(), ModelObject::body, base), task.tracking.gusts);
+        }
+      },
+      resolved.task);
 }
 
 std::vector<InputFile> inputs(const Task& task) {

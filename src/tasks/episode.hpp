@@ -14,6 +14,8 @@
 
 namespace vantage {
 
+class World;
+
 /// An episode as it will run: defaults filled in, overrides applied, files found.
 struct ResolvedEpisode {
   EpisodeSetup setup;
@@ -46,6 +48,9 @@ std::vector<KeyDescription> describe_episode(const Task& task);
 std::string method_name(const Task& task);
 /// What the world of the episode is compiled from. @throws InputError, ConfigError
 ModelSource model_source(const ResolvedEpisode& resolved);
+/// Wind and moved objects of an episode, which act on a world whatever the robot does there.
+/// @throws ConfigError if the scene has no such object
+void add_outside_effects(const ResolvedEpisode& resolved, World& world);
 std::vector<InputFile> inputs(const Task& task);
 TaskExtent extent(const ResolvedEpisode& resolved);
 /// @throws InputError if the scene publishes no path where the task needs one.

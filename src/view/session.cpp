@@ -181,6 +181,7 @@ ExitCode show(const ViewSubject& subject, const ViewOptions& options, const Play
   std::optional<Window> window;
   if (!still) window.emplace(subject.title, options.size);
   World world(model_source(resolved), resolved.setup.options.simulation);
+  add_outside_effects(resolved, world);
   const ExitCode code = look(window, world, subject, options, player);
   return still && code == ExitCode::interrupted ? ExitCode::done : code;
 }

@@ -50,6 +50,11 @@ bool is_asked_for(const std::string& column) {
                                "scans_to_95",
                                "observed_share",
                                "path_length_m",
+                               "time_to_95_s",
+                               "time_to_98_s",
+                               "path_to_95_m",
+                               "path_to_98_m",
+                               "scans_to_98",
                                "collisions",
                                "correct",
                                "category_correct",
@@ -169,6 +174,11 @@ INSTANTIATE_TEST_SUITE_P(Studies, Claims,
                                               [](const StudyTables& s) {
                                                 return office_findings(s, "Fig. 3.16", {60, 70});
                                               }},
+                                         Case{"planning_tabletop", planning_tabletop_findings},
+                                         Case{"planning_office_large",
+                                              [](const StudyTables& s) {
+                                                return planning_office_findings(s, 0.80, 0.65);
+                                              }},
                                          Case{"recognition_flight", flight_recognition_findings},
                                          Case{"recognition_clutter", clutter_findings},
                                          Case{"change_flight", flight_change_findings},
@@ -226,6 +236,10 @@ TEST(SpeedClaims, AMissingFigureIsNotRun) {
     figures.emplace(benchmark.at("name").get<std::string>(), benchmark.at("figures"));
   }
   figures["decision"]["castray_threads"] = 2;  // of former versions 1
+  // Measured where nothing else runs, if at all.
+  for (const char* name : {"planning_tabletop", "planning_office_large"}) {
+    figures.try_emplace(name, Json{{"decision_ms", 40.0}});
+  }
   const Findings before = speed_findings(figures);
   for (const Finding& finding : before)
     EXPECT_NE(finding.verdict, Verdict::not_run) << finding.claim;

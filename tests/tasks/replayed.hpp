@@ -13,6 +13,7 @@ namespace vantage::support {
 inline ReplayResult replayed(const std::filesystem::path& run_dir) {
   const ResolvedEpisode recorded = load_recorded(run_dir);
   World world(model_source(recorded), recorded.setup.options.simulation);
+  add_outside_effects(recorded, world);
   return replay(run_dir, world, asset_hashes(recorded.setup, inputs(recorded.task)));
 }
 

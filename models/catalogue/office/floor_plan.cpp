@@ -128,6 +128,34 @@ FloorPlan large_office() {
   return plan;
 }
 
+FloorPlan door_office(double door_m) {
+  using enum RoomUse;
+  FloorPlan plan{
+      .size_m = {13.0, 9.6}, .rooms = {}, .walls = {}, .pillars = {}, .T_world_starts = {}};
+  add_outer_walls(plan);
+  const double x = 6.45;
+  const double y = 4.75;
+  const double side = 0.95;  // walls of the corridor
+  plan.rooms = {
+      room(hallway, -x, -side, x, side),     room(small_office, -x, side, -2.2, y),
+      room(meeting, -2.2, side, 2.2, y),     room(small_office, 2.2, side, x, y),
+      room(open_plan, -x, -y, -0.7, -side),  room(lounge, -0.7, -y, 3.1, -side),
+      room(small_office, 3.1, -y, x, -side),
+  };
+  plan.walls.insert(plan.walls.end(),
+                    {
+                        {{-x, side}, {x, side}, {{-4.9, door_m}, {-0.8, door_m}, {4.8, door_m}}},
+                        {{-x, -side}, {x, -side}, {{-4.1, door_m}, {1.4, door_m}, {5.2, door_m}}},
+                        {{-2.2, side}, {-2.2, y}, {}},
+                        {{2.2, side}, {2.2, y}, {}},
+                        {{-0.7, -y}, {-0.7, -side}, {{-2.9, door_m}}},
+                        {{3.1, -y}, {3.1, -side}, {}},
+                    });
+  plan.T_world_starts = {
+      {-5.4, 0.0, 0.0}, {5.2, 0.0, 3.1}, {-4.6, -2.9, 0.6}, {0.0, 2.9, -1.2}, {0.1, 0.0, 0.0}};
+  return plan;
+}
+
 std::vector<AlignedBox2d> wall_pieces(const Wall& wall) {
   const int axis = along_x(wall) ? 0 : 1;
   std::vector<AlignedBox2d> pieces;
@@ -149,6 +177,17 @@ std::vector<AlignedBox2d> door_posts(const Wall& wall) {
     posts.push_back(beside(wall, right - 0.005, right + kPost_m, kHalf_m + kPostRelief_m));
   }
   return posts;
+}
+
+std::vector<Vector2d> thresholds(const Wall& wall, double off_m) {
+  std::vector<Vector2d> places;
+  for (const Opening& opening : wall.openings) {
+    for (const double side_m : {-off_m, off_m}) {
+      places.push_back(along_x(wall) ? Vector2d(opening.at_m, wall.from_m.y() + side_m)
+                                     : Vector2d(wall.from_m.x() + side_m, opening.at_m));
+    }
+  }
+  return places;
 }
 
 std::vector<AlignedBox2d> door_ways(const Wall& wall, double depth_m) {

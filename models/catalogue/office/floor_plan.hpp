@@ -14,7 +14,7 @@ namespace vantage {
 inline constexpr double kWallThickness_m = 0.1;
 inline constexpr double kWallHeight_m = 2.0;
 
-enum class RoomUse { open_plan, small_office, meeting, lounge, hallway };
+enum class RoomUse { open_plan, small_office, meeting, lounge, hallway, corridor };
 
 struct Room {
   RoomUse use = RoomUse::open_plan;
@@ -52,10 +52,15 @@ FloorPlan small_office();
 /// 20 x 25 m: four hallways, large and small rooms.
 FloorPlan large_office();
 
+/// 13 x 9.6 m: six rooms off a corridor, with doors of that width, two of them joined by one more.
+FloorPlan door_office(double door_m);
+
 /// The solid parts of a wall between its openings.
 std::vector<Eigen::AlignedBox2d> wall_pieces(const Wall& wall);
 /// Posts on both sides of each opening, a little thicker than the wall.
 std::vector<Eigen::AlignedBox2d> door_posts(const Wall& wall);
+/// Middles of the floor `off_m` in front of each opening, on both sides.
+std::vector<Eigen::Vector2d> thresholds(const Wall& wall, double off_m);
 /// Where nothing may stand: each opening and `depth_m` in front of it on both sides.
 std::vector<Eigen::AlignedBox2d> door_ways(const Wall& wall, double depth_m);
 

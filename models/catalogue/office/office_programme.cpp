@@ -105,6 +105,7 @@ Wishes wishes(RoomUse use, int level) {
     case RoomUse::meeting: return meeting[i];
     case RoomUse::lounge: return lounge[i];
     case RoomUse::hallway: return hallway[i];
+    case RoomUse::corridor: return {};
   }
   return {};
 }

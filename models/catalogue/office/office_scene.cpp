@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -26,6 +27,7 @@ constexpr double kDoorDepth_m = 1.0;
 constexpr double kStartRadius_m = kStartClearance_m + 0.1;
 constexpr double kGap_m = 0.04;          // between pieces of different groups
 constexpr double kReachedPart = 0.15;    // of each room's floor, at least
+constexpr double kThreshold_m = 0.85;    // in front of a narrow door, where a disc gets to
 constexpr double kHangingPitch_m = 2.6;  // along a wall
 
 Outline item_outline(const PlacedItem& placed) {
@@ -60,14 +62,15 @@ struct Layout {
   OfficeScene scene;
   std::vector<Outline> taken;  ///< also door ways and starts, where nothing may stand
   ClearanceMap clearance;
+  bool has_narrow_doors = false;
 };
 
-Layout empty_layout(const OfficeOptions& options) {
-  const FloorPlan plan = options.large ? large_office() : small_office();
+Layout empty_layout(const OfficeOptions& options, const FloorPlan& plan) {
   const AlignedBox2d area(-0.5 * plan.size_m, 0.5 * plan.size_m);
   Layout layout{{options.name, options.seed, options.clutter, plan, {}},
                 building(plan),
-                ClearanceMap(area, kCell_m, kCellClearance_m + 2 * kCell_m)};
+                ClearanceMap(area, kCell_m, kCellClearance_m + 2 * kCell_m),
+                options.doors_m > 0.0};
   for (const Outline& outline : layout.taken) layout.clearance.add(outline);
   for (const Wall& wall : plan.walls) {
     for (const AlignedBox2d& way : door_ways(wall, kDoorDepth_m)) {
@@ -78,6 +81,33 @@ Layout empty_layout(const OfficeOptions& options) {
     layout.taken.push_back(disc(place_of(start), kStartRadius_m));
   }
   return layout;
+}
+
+/// With narrow doors a disc has to get about in each room alone, between its doors and the starts
+/// in it.
+bool rooms_within_reach(const FloorPlan& plan, const ClearanceMap& clearance) {
+  std::vector<Vector2d> wanted;
+  for (const Pose2& start : plan.T_world_starts) wanted.push_back(place_of(start));
+  for (const Wall& wall : plan.walls) {
+    const auto places = thresholds(wall, kThreshold_m);
+    wanted.insert(wanted.end(), places.begin(), places.end());
+  }
+  return std::ranges::all_of(plan.rooms, [&](const Room& room) {
+    std::vector<Vector2d> within;
+    std::ranges::copy_if(wanted, std::back_inserter(within),
+                         [&](const Vector2d& p) { return room.area_m.contains(p); });
+    if (within.empty()) return true;
+    const std::vector<bool> reached = clearance.reachable(within.front(), kCellClearance_m);
+    double floor_m2 = 0.0;
+    for (std::size_t cell = 0; cell < reached.size(); ++cell) {
+      if (reached[cell] && room.area_m.contains(clearance.centre_m(cell))) {
+        floor_m2 += kCell_m * kCell_m;
+      }
+    }
+    return floor_m2 >= kReachedPart * room.area_m.volume() &&
+           std::ranges::all_of(within,
+                               [&](const Vector2d& p) { return reached[clearance.cell_at(p)]; });
+  });
 }
 
 bool all_within_reach(const FloorPlan& plan, const ClearanceMap& clearance) {
@@ -147,7 +177,9 @@ void place(Layout& layout, const Room& room, OfficeGroup group, Rng& rng) {
     if (!fits(layout, room.area_m, outlines)) continue;
     ClearanceMap clearance = layout.clearance;
     for (const Outline& outline : outlines) clearance.add(outline);
-    if (!all_within_reach(layout.scene.plan, clearance)) continue;
+    const bool good = layout.has_narrow_doors ? rooms_within_reach(layout.scene.plan, clearance)
+                                              : all_within_reach(layout.scene.plan, clearance);
+    if (!good) continue;
     layout.clearance = std::move(clearance);
     layout.taken.insert(layout.taken.end(), outlines.begin(), outlines.end());
     layout.scene.furniture.insert(layout.scene.furniture.end(), items.begin(), items.end());
@@ -179,9 +211,18 @@ void hang(Layout& layout, const Room& room, Rng& rng) {
 
 }  // namespace
 
+FloorPlan floor_plan(const OfficeOptions& options) {
+  if (options.doors_m > 0.0) return door_office(options.doors_m);
+  return options.large ? large_office() : small_office();
+}
+
 OfficeScene make_office_scene(const OfficeOptions& options) {
+  return furnished(options, floor_plan(options));
+}
+
+OfficeScene furnished(const OfficeOptions& options, const FloorPlan& plan) {
   check_options(options, options.name);
-  Layout layout = empty_layout(options);
+  Layout layout = empty_layout(options, plan);
   const std::vector<Room> rooms = layout.scene.plan.rooms;
   for (std::size_t r = 0; r < rooms.size(); ++r) {
     Rng rng = Rng::stream(options.seed, fmt::format("room {} walls", r));
@@ -223,6 +264,15 @@ std::vector<OfficeOptions> office_scenes() {
     }
   }
   return scenes;
+}
+
+std::vector<OfficeOptions> door_scenes() {
+  const auto doors = [](const char* name, std::uint64_t seed, double doors_m) {
+    return OfficeOptions{.name = name, .seed = seed, .clutter = 1, .doors_m = doors_m};
+  };
+  return {doors("office_doors_1", 851, 0.85), doors("office_doors_80_1", 801, 0.80),
+          doors("office_doors_a_1", 852, 0.85), doors("office_doors_b_1", 853, 0.85),
+          doors("office_doors_80_a_1", 802, 0.80)};
 }
 
 }  // namespace vantage

@@ -21,12 +21,16 @@ struct OfficeOptions {
   std::uint64_t seed = 1;
   bool large = false;
   int clutter = 1;
+  double doors_m = 0.0;
   void fields(auto&& f) {
     f("name", name, "name of the scene");
     f("seed", seed, "seed of which furniture stands where; the walls are fixed");
     f("large", large, "true: the floor plan of 20 x 25 m; false: that of 15 x 10 m");
     f("clutter", clutter, "level of clutter; each level has everything of those below it and more",
       between(1, kClutterLevels));
+    f("doors_m", doors_m,
+      "width of the doors of six rooms off a corridor, 13 x 9.6 m; 0: the plan that `large` says",
+      between(0.0, 1.2));
   }
 };
 
@@ -36,6 +40,8 @@ struct PlacedItem {
   Pose2 T_world_item;
 };
 
+FloorPlan floor_plan(const OfficeOptions& options);
+
 struct OfficeScene {
   std::string name;
   std::uint64_t seed = 0;
@@ -44,10 +50,13 @@ struct OfficeScene {
   std::vector<PlacedItem> furniture;
 };
 
-/// Furniture keeps the doors free, every room stays within reach of every start for a disc of
-/// kDriveRadius_m, and the starts keep kStartClearance_m. Chairs may stand partly under tables.
+/// Furniture keeps the doors free. Every room stays within reach of every start for a disc of
+/// kDriveRadius_m (with narrow doors, each room from its doors), and the starts keep
+/// kStartClearance_m. Chairs may stand partly under tables.
 /// @throws ConfigError if an option is out of range.
 OfficeScene make_office_scene(const OfficeOptions& options);
+/// The same in walls of one's own; `options.large` is not asked.
+OfficeScene furnished(const OfficeOptions& options, const FloorPlan& plan);
 
 /// What bounds the robot's way: walls, pillars, door posts, furniture.
 std::vector<Outline> obstacles(const OfficeScene& scene);
@@ -55,5 +64,8 @@ std::vector<Outline> obstacles(const OfficeScene& scene);
 /// The scenes checked in under models/scenes: office_{small,large}_{1..4}, which options are chosen
 /// on, and office_{small,large}_{a,b}_{1..4}, furnished afresh, which results are reported on.
 std::vector<OfficeOptions> office_scenes();
+/// And office_doors_1 and _80_1, which options are chosen on, and office_doors_{a,b}_1 and _80_a_1,
+/// which results are reported on: doors of 0.85 m and 0.80 m.
+std::vector<OfficeOptions> door_scenes();
 
 }  // namespace vantage

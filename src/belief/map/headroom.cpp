@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace vantage {
 namespace {
 
-enum class Column { open, unseen, obstructed };
+enum class Column { open, unseen, obstructed, wall };
 
 struct Slices {
   int begin = 0;
@@ -27,7 +28,9 @@ Slices slices_between(const GridFrame& frame, double low_m, double high_m) {
 /// What there is above each place of the floor; x runs fastest.
 class Columns {
  public:
-  Columns(const OccupancyGrid& grid, const HeadroomOptions& options)
+  /// @param scanner_m height at which walls are told from other obstacles; none: never
+  Columns(const OccupancyGrid& grid, const HeadroomOptions& options,
+          std::optional<double> scanner_m)
       : nx_(grid.frame.cells.x()), ny_(grid.frame.cells.y()) {
     const Slices body = slices_between(grid.frame, options.low_m, options.high_m);
     const Slices seen = slices_between(grid.frame, options.seen_low_m, options.high_m);
@@ -35,9 +38,12 @@ class Columns {
     columns_.reserve(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_));
     for (int y = 0; y < ny_; ++y) {
       for (int x = 0; x < nx_; ++x) {
-        const bool obstructed = count(grid, x, y, body, CellState::occupied) > 0;
+        const int occupied = count(grid, x, y, body, CellState::occupied);
         const int unseen = count(grid, x, y, seen, CellState::unobserved);
-        columns_.push_back(obstructed            ? Column::obstructed
+        const bool wall = scanner_m && 2 * occupied >= body.end - body.begin &&
+                          is_occupied_at(grid, x, y, *scanner_m);
+        columns_.push_back(wall                  ? Column::wall
+                           : occupied > 0        ? Column::obstructed
                            : unseen > max_unseen ? Column::unseen
                                                  : Column::open);
       }
@@ -83,7 +89,9 @@ class Columns {
   /// Whether all eight round it are in the grid and none obstructed.
   [[nodiscard]] bool is_clear_of_things(const Eigen::Array2i& column) const {
     int clear = 0;
-    for_each_beside(column, [&](int x, int y) { clear += at(x, y) != Column::obstructed ? 1 : 0; });
+    for_each_beside(column, [&](int x, int y) {
+      clear += at(x, y) != Column::obstructed && at(x, y) != Column::wall ? 1 : 0;
+    });
     return clear == 8;
   }
 
@@ -109,10 +117,40 @@ class Columns {
     return cells;
   }
 
+  static bool is_occupied_at(const OccupancyGrid& grid, int x, int y, double height_m) {
+    const Eigen::Vector3d foot = grid.frame.centre({x, y, 0});
+    const Eigen::Array3i cell = grid.frame.cell_at({foot.x(), foot.y(), height_m});
+    return grid.frame.contains(cell) && grid.state(grid.frame.index(cell)) == CellState::occupied;
+  }
+
   int nx_;
   int ny_;
   std::vector<Column> columns_;
 };
+
+void block(FloorMap& floor, const GridFrame& frame, std::span<const std::uint8_t> traversed,
+           const Columns& columns, bool walls) {
+  expects(traversed.size() == floor.size(), "a flag per cell of the floor map");
+  std::ranges::fill(floor.blocked, std::uint8_t{0});
+  const Eigen::Vector2d half = 0.5 * frame.cell_size_m.head<2>();
+  constexpr double kTouching = 1e-9;
+  for (int y = 0; y < frame.cells.y(); ++y) {
+    for (int x = 0; x < frame.cells.x(); ++x) {
+      const Column column = columns.at(x, y);
+      if (column == Column::open || (column == Column::wall && !walls)) continue;
+      const Eigen::Vector2d centre = frame.centre({x, y, 0}).head<2>();
+      const Eigen::Array2i low = floor.cell_at((centre - half).array() + kTouching).max(0);
+      const Eigen::Array2i high = floor.cell_at((centre + half).array() - kTouching)
+                                      .min(Eigen::Array2i(floor.nx - 1, floor.ny - 1));
+      for (int v = low.y(); v <= high.y(); ++v) {
+        for (int u = low.x(); u <= high.x(); ++u) {
+          const std::size_t cell = floor.index({u, v});
+          if (column != Column::unseen || traversed[cell] == 0) floor.blocked[cell] = 1;
+        }
+      }
+    }
+  }
+}
 
 }  // namespace
 
@@ -126,28 +164,15 @@ void HeadroomOptions::check() const {
 void block_columns(FloorMap& floor, const OccupancyGrid& grid,
                    std::span<const std::uint8_t> traversed, const HeadroomOptions& options) {
   check_options(options, "headroom");
-  expects(traversed.size() == floor.size(), "a flag per cell of the floor map");
-  const GridFrame& frame = grid.frame;
-  const Columns columns(grid, options);
-  std::ranges::fill(floor.blocked, std::uint8_t{0});
-  const Eigen::Vector2d half = 0.5 * frame.cell_size_m.head<2>();
-  constexpr double kTouching = 1e-9;
-  for (int y = 0; y < frame.cells.y(); ++y) {
-    for (int x = 0; x < frame.cells.x(); ++x) {
-      const Column column = columns.at(x, y);
-      if (column == Column::open) continue;
-      const Eigen::Vector2d centre = frame.centre({x, y, 0}).head<2>();
-      const Eigen::Array2i low = floor.cell_at((centre - half).array() + kTouching).max(0);
-      const Eigen::Array2i high = floor.cell_at((centre + half).array() - kTouching)
-                                      .min(Eigen::Array2i(floor.nx - 1, floor.ny - 1));
-      for (int v = low.y(); v <= high.y(); ++v) {
-        for (int u = low.x(); u <= high.x(); ++u) {
-          const std::size_t cell = floor.index({u, v});
-          if (column == Column::obstructed || traversed[cell] == 0) floor.blocked[cell] = 1;
-        }
-      }
-    }
-  }
+  block(floor, grid.frame, traversed, Columns(grid, options, std::nullopt), true);
+}
+
+void block_columns(const TraversedFloor& floor, const TraversedFloor& detail,
+                   const OccupancyGrid& grid, const HeadroomOptions& options, double scanner_m) {
+  check_options(options, "headroom");
+  const Columns columns(grid, options, scanner_m);
+  block(floor.map, grid.frame, floor.traversed, columns, true);
+  block(detail.map, grid.frame, detail.traversed, columns, false);
 }
 
 }  // namespace vantage

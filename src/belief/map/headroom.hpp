@@ -38,4 +38,17 @@ struct HeadroomOptions {
 void block_columns(FloorMap& floor, const OccupancyGrid& grid,
                    std::span<const std::uint8_t> traversed, const HeadroomOptions& options);
 
+/// A map of the floor, and of each of its cells whether the robot has been there.
+struct TraversedFloor {
+  FloorMap& map;
+  std::span<const std::uint8_t> traversed;
+};
+
+/// The same of `floor`, and of the finer `detail` but for walls and posts there: columns that are
+/// occupied at half of the robot's height, at that of the planar scanner too, whose faces the
+/// scanner has measured within the cell.
+/// @param scanner_m world z of the planar scanner
+void block_columns(const TraversedFloor& floor, const TraversedFloor& detail,
+                   const OccupancyGrid& grid, const HeadroomOptions& options, double scanner_m);
+
 }  // namespace vantage

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "vantage/belief/map/occupancy_grid.hpp"
-#include "vantage/belief/map/octomap_format.hpp"
+#include "vantage/belief/map/octomap/octomap_format.hpp"
 
 namespace vantage {
 

@@ -49,6 +49,7 @@ std::function<ExitCode()> declare_replay(CLI::App& app) {
     require_run_folder(directory);
     const ResolvedEpisode resolved = load_recorded(directory);
     World world(model_source(resolved), resolved.setup.options.simulation);
+    add_outside_effects(resolved, world);
     const ReplayResult result =
         replay(directory, world, asset_hashes(resolved.setup, inputs(resolved.task)));
     if (!result.changed_files.empty()) {

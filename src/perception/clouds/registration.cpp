@@ -83,11 +83,34 @@ double robust_weight(double residual_m, double scale_m) {
   return w * w;
 }
 
+/// How far a pair may be off, squared. A step of a walk from scan to scan shares few errors with
+/// the next one, and a prior would pull each of them; a map shares all of its own.
+double pair_variance_m2(const RegistrationOptions& options, const PosePrior* prior) {
+  const double sigma_m = prior == nullptr ? options.voxel_m : options.kernel_scale_m;
+  return sigma_m * sigma_m;
+}
+
+/// Share of a direction's strength that the noise of normals alone says; the prior decides where
+/// there is no more.
+constexpr double kNoiseShare = 0.003;
+
+/// To the maximum of the posterior: the step that surfaces want, and the way back to the prior.
+Eigen::Vector3d posterior_step(const Eigen::Matrix3d& information, const Eigen::Vector3d& wanted,
+                               const Pose2& pose, const PosePrior& prior) {
+  const Pose2& mean = prior.T_world_base;
+  const Eigen::Vector3d back(mean.x_m - pose.x_m, mean.y_m - pose.y_m,
+                             wrap_angle(mean.yaw_rad - pose.yaw_rad));
+  return (information + prior.information)
+      .ldlt()
+      .solve(information * wanted + prior.information * back);
+}
+
 /// One Gauss-Newton step on  sum_i w_i (r_i + n_i . (d + theta z x l_i))^2  [ChenMedioni1992, (4)].
 /// The turn is scaled by the mean lever so that all three unknowns are metres; eigenvectors of the
 /// normal matrix that hardly any surface constrains are left out [ZhangKaessSingh2016, (16)].
 Step gauss_newton_step(const std::vector<Correspondence>& correspondences, double kernel_m,
-                       const RegistrationOptions& options) {
+                       const RegistrationOptions& options, const Pose2& pose,
+                       const PosePrior* prior) {
   double lever2 = 0.0;
   for (const Correspondence& correspondence : correspondences)
     lever2 += correspondence.lever.head<2>().squaredNorm();
@@ -108,8 +131,10 @@ Step gauss_newton_step(const std::vector<Correspondence>& correspondences, doubl
   }
   // Per unit weight: a bad start makes all weights small, which is no lack of constraint.
   const double min_share =
-      std::max(options.min_constraint, options.min_constraint_correspondences /
-                                           static_cast<double>(correspondences.size()));
+      prior != nullptr
+          ? kNoiseShare
+          : std::max(options.min_constraint, options.min_constraint_correspondences /
+                                                 static_cast<double>(correspondences.size()));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normal_matrix);
   Eigen::Vector3d solution = Eigen::Vector3d::Zero();
   Step step;
@@ -118,11 +143,18 @@ Step gauss_newton_step(const std::vector<Correspondence>& correspondences, doubl
     if (!(strength > min_share * weights)) continue;
     const Eigen::Vector3d direction = solver.eigenvectors().col(i);
     solution -= direction * (direction.dot(gradient) / strength);
-    step.strength += strength * direction * direction.transpose();
+    const double said = prior == nullptr ? strength : strength - min_share * weights;
+    step.strength += said * direction * direction.transpose();
     --step.unconstrained;
   }
   const Eigen::Vector3d scale(1.0, 1.0, arm_m);
   step.strength = scale.asDiagonal() * step.strength * scale.asDiagonal();
+  if (prior != nullptr) {
+    const Eigen::Vector3d wanted(solution.x(), solution.y(), solution.z() / arm_m);
+    const double per_m2 = 1.0 / pair_variance_m2(options, prior);
+    solution = posterior_step(per_m2 * step.strength, wanted, pose, *prior);
+    solution.z() *= arm_m;
+  }
   step.shift_m = solution.head<2>();
   step.turn_rad = solution.z() / arm_m;
   return step;
@@ -137,7 +169,7 @@ double rms_residual(const std::vector<Correspondence>& correspondences) {
 
 /// Iterates until a step at the smallest search radius is negligible. `result.reason` says why not.
 void iterate(const PointCloud& scan_base, const UprightMap& map, const RegistrationOptions& options,
-             RegistrationResult& result) {
+             const PosePrior* prior, RegistrationResult& result) {
   double radius_m = options.max_correspondence_m;
   while (result.iterations < options.max_iterations) {
     ++result.iterations;
@@ -153,9 +185,10 @@ void iterate(const PointCloud& scan_base, const UprightMap& map, const Registrat
     trim(correspondences, options.trim_fraction);
     result.rmse_m = rms_residual(correspondences);
     const double kernel_m = std::max(options.kernel_scale_m, radius_m / 3.0);
-    const Step step = gauss_newton_step(correspondences, kernel_m, options);
+    const Step step =
+        gauss_newton_step(correspondences, kernel_m, options, result.T_world_base, prior);
     result.unconstrained = step.unconstrained;
-    result.information = step.strength / (options.voxel_m * options.voxel_m);
+    result.information = step.strength / pair_variance_m2(options, prior);
     if (step.unconstrained == 3) {
       result.reason = "no surface constrains the pose";
       return;
@@ -194,6 +227,33 @@ std::string rejection_reason(const RegistrationResult& result, const Pose2& gues
   return {};
 }
 
+RegistrationResult register_from(const PointCloud& scan_base, const PointCloud& map_world,
+                                 const Pose2& T_world_base_guess, const PosePrior* prior,
+                                 const RegistrationOptions& options, const Correction& plausible) {
+  expects(map_world.empty() || map_world.has_normals(), "the map's cloud needs normals");
+  RegistrationResult result;
+  result.T_world_base = T_world_base_guess;
+  PointCloud upright_map = upright_part(map_world, options.max_normal_z);
+  const PointCloud scan =
+      upright_part(voxel_downsample(scan_base, options.voxel_m), options.max_normal_z);
+  if (upright_map.empty() || scan.empty()) {
+    result.reason =
+        upright_map.empty() ? "the map has no upright surface" : "the scan has no upright surface";
+    return result;
+  }
+  const UprightMap map{std::move(upright_map.normals), KdTree(std::move(upright_map.points))};
+  iterate(scan, map, options, prior, result);
+  if (result.reason.empty()) {
+    result.reason = rejection_reason(result, T_world_base_guess, options, plausible);
+  }
+  result.converged = result.reason.empty();
+  if (!result.converged) {
+    result.T_world_base = T_world_base_guess;
+    result.information.setZero();
+  }
+  return result;
+}
+
 }  // namespace
 
 void RegistrationOptions::check() const {
@@ -212,28 +272,13 @@ PointCloud prepare_scan(const PointCloud& cloud, const Eigen::Vector3d& p_viewpo
 RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& map_world,
                                  const Pose2& T_world_base_guess,
                                  const RegistrationOptions& options, const Correction& plausible) {
-  expects(map_world.empty() || map_world.has_normals(), "the map's cloud needs normals");
-  RegistrationResult result;
-  result.T_world_base = T_world_base_guess;
-  PointCloud upright_map = upright_part(map_world, options.max_normal_z);
-  const PointCloud scan =
-      upright_part(voxel_downsample(scan_base, options.voxel_m), options.max_normal_z);
-  if (upright_map.empty() || scan.empty()) {
-    result.reason =
-        upright_map.empty() ? "the map has no upright surface" : "the scan has no upright surface";
-    return result;
-  }
-  const UprightMap map{std::move(upright_map.normals), KdTree(std::move(upright_map.points))};
-  iterate(scan, map, options, result);
-  if (result.reason.empty()) {
-    result.reason = rejection_reason(result, T_world_base_guess, options, plausible);
-  }
-  result.converged = result.reason.empty();
-  if (!result.converged) {
-    result.T_world_base = T_world_base_guess;
-    result.information.setZero();
-  }
-  return result;
+  return register_from(scan_base, map_world, T_world_base_guess, nullptr, options, plausible);
+}
+
+RegistrationResult register_with_prior(const PointCloud& scan_base, const PointCloud& map_world,
+                                       const PosePrior& prior, const RegistrationOptions& options,
+                                       const Correction& plausible) {
+  return register_from(scan_base, map_world, prior.T_world_base, &prior, options, plausible);
 }
 
 }  // namespace vantage

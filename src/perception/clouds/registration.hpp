@@ -101,6 +101,12 @@ struct Correction {
   double turn_rad = std::numeric_limits<double>::infinity();
 };
 
+/// What is known of a pose before its scan is registered.
+struct PosePrior {
+  Pose2 T_world_base;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< inverse covariance of (x, y, yaw)
+};
+
 struct RegistrationResult {
   Pose2 T_world_base;  ///< the guess itself unless converged
   bool converged = false;
@@ -129,5 +135,13 @@ RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& 
                                  const Pose2& T_world_base_guess,
                                  const RegistrationOptions& options,
                                  const Correction& plausible = {});
+
+/// The same as a maximum of the posterior: nothing is left out or taken whole, each direction
+/// weighs what the surfaces say of it, above what noise of their normals alone would say, against
+/// the prior, each pair good to `kernel_scale_m`. The prior is the initial guess. Its information
+/// is not in the result's.
+RegistrationResult register_with_prior(const PointCloud& scan_base, const PointCloud& map_world,
+                                       const PosePrior& prior, const RegistrationOptions& options,
+                                       const Correction& plausible = {});
 
 }  // namespace vantage

@@ -1,14 +1,17 @@
 #include "vantage/perception/features/feature.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "vantage/core/hash.hpp"
 #include "vantage/information/quantile.hpp"
+#include "vantage/perception/features/kit/darkness.hpp"
 
 namespace vantage {
 namespace {
@@ -23,6 +26,20 @@ std::string_view name_of(const State& state) {
   } else {
     return State::name;
   }
+}
+
+/// Whether it goes by depth alone, and so in any light.
+template <class State>
+bool goes_by_depth(const State&) {
+  return std::is_same_v<State, BoundingBox> || std::is_same_v<State, StandingBox> ||
+         std::is_same_v<State, Vfh>;
+}
+
+bool goes_by_depth(const TrainedKernelDescriptor& state) {
+  constexpr auto kByDepth = std::to_array(
+      {PatchKind::depth_gradient, PatchKind::depth_lbp, PatchKind::normal_spin, PatchKind::size});
+  return std::ranges::any_of(
+      kByDepth, [&](PatchKind kind) { return row_of(kind).name == state.feature_name(); });
 }
 
 double median_cost_s(const TrainedFeature& feature, std::span<const ObjectView> views) {
@@ -64,8 +81,13 @@ int TrainedFeature::dimension() const {
 }
 
 FeatureResult TrainedFeature::extract(const ObjectView& view) const {
-  FeatureResult result =
-      std::visit([&](const auto& state) { return state.extract(view); }, *state_);
+  FeatureResult result = std::visit(
+      [&](const auto& state) {
+        if (goes_by_depth(state)) return state.extract(view);
+        std::string dark = lacks_light(view);
+        return dark.empty() ? state.extract(view) : FeatureResult::skip(std::move(dark));
+      },
+      *state_);
   if (result.extracted() && !result.vector.allFinite()) {
     return FeatureResult::skip("the vector has entries that are not finite");
   }

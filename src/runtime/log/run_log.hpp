@@ -16,6 +16,7 @@
 
 namespace vantage {
 
+class RobotFaults;
 class VideoRecorder;
 class World;
 
@@ -23,6 +24,7 @@ struct RecordedRobot {
   World& world;
   std::function<Pose()> T_world_body;       ///< truth
   std::function<Pose()> T_world_estimated;  ///< the body, as the robot believes it
+  const RobotFaults* faults = nullptr;      ///< null: it has none
 };
 
 class RunLog {
@@ -47,6 +49,7 @@ class RunLog {
 
   [[nodiscard]] std::uint64_t state_hash() const { return states_.hash(); }
   [[nodiscard]] double path_length_m() const { return path_length_m_; }
+  [[nodiscard]] const RobotFaults* faults() const { return robot_.faults; }
 
  private:
   void tick();

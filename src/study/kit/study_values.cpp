@@ -10,6 +10,7 @@
 
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/runtime/process/command_files.hpp"
 
 namespace vantage {
 namespace {
@@ -23,6 +24,20 @@ struct FileKey {
 };
 constexpr auto kFileKeys = std::to_array<FileKey>(
     {{"scene", false}, {"robot.model", false}, {"model", true}, {"database.models", true}});
+
+/// A program of the user's, of whose arguments some name files.
+constexpr std::string_view kCommandKey = "choice.command";
+
+void settle_command(ConfigNode& list, const std::filesystem::path& base) {
+  std::vector<std::string> command;
+  for (const ConfigNode& item : list.items) command.push_back(item.scalar);
+  command = settled_command(std::move(command), base);
+  for (std::size_t i = 0; i < list.items.size(); ++i) {
+    if (list.items[i].scalar == command[i]) continue;
+    list.items[i].scalar = command[i];
+    list.items[i].quoted = true;
+  }
+}
 
 [[noreturn]] void wrong_seeds(const ConfigNode& node, std::string_view given) {
   throw ConfigError(fmt::format("{}: '{}' are no seeds; write 1..20, or a list as [1, 2, 5] or [7]",
@@ -53,6 +68,7 @@ void settle(ConfigNode& node, const std::string& key, const std::filesystem::pat
   for (auto& [name, child] : node.entries) {
     settle(child, key.empty() ? name : key + "." + name, base);
   }
+  if (key == kCommandKey && node.kind == ConfigNode::Kind::list) settle_command(node, base);
   const auto found = std::ranges::find(kFileKeys, key, &FileKey::key);
   if (found == kFileKeys.end() || node.kind != ConfigNode::Kind::scalar || node.scalar.empty()) {
     return;

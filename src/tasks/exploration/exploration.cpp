@@ -10,7 +10,10 @@
 
 namespace vantage {
 
-void Exploration::check_with(const EpisodeOptions&) const { swept_field(sweep, camera, 0.0); }
+void Exploration::check_with(const EpisodeOptions& episode) const {
+  require_possible(episode.faults, {.laser = true, .wheels = true});
+  swept_field(sweep, camera, 0.0);
+}
 
 ModelSource Exploration::model_source(const EpisodeSetup& setup) const {
   return {setup.scene, setup.robot.mjcf};
@@ -27,6 +30,7 @@ std::string Exploration::outcome(const nlohmann::ordered_json& metrics) {
 }
 
 std::vector<std::string> Exploration::require_start(const EpisodeSetup& setup) const {
+  require_planner(choice);
   return SimulatedExplorationRobot(setup, *this).start_notes();
 }
 
@@ -55,12 +59,12 @@ ViewCoverage Exploration::coverage(const EpisodeSetup& setup,
     places.T_world_sensors.push_back(to_se3(base) * robot.T_base_sweep());
     places.base_m.emplace_back(base.x_m, base.y_m);
   }
-  for (const Pose& T_world_sweep : evaluator.T_world_sweeps()) {
+  for (const Pose& T_world_sweep : evaluator.observing_poses()) {
     const Pose2 base = robot.base_for_sensor(T_world_sweep);
     places.T_world_sensors.push_back(T_world_sweep);
     places.base_m.emplace_back(base.x_m, base.y_m);
   }
-  return view_coverage(evaluator, places, {evaluator.floor(), robot.inscribed_radius_m()},
+  return view_coverage(evaluator, places, {*evaluator.true_floor(), robot.inscribed_radius_m()},
                        setup.options.threads);
 }
 

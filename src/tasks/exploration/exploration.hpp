@@ -6,6 +6,7 @@
 
 #include <string_view>
 
+#include "vantage/belief/map/floor_detail.hpp"
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/planners/views/frontiers.hpp"
 #include "vantage/planners/views/left_forecast.hpp"
@@ -15,6 +16,7 @@
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/world/model_source.hpp"
 #include "vantage/tasks/exploration/head_sweep.hpp"
+#include "vantage/tasks/mapping/external/planner_files.hpp"
 #include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 
@@ -50,6 +52,8 @@ struct Exploration : MappingOptions {
   RgbdOptions camera{.tells_far = true};
   FrontierOptions frontiers{.min_cells = 60, .height_m = 1.47, .height_band_m = {{0.2, 1.7}}};
   HeadroomOptions headroom;
+  PassageOptions passages;
+  FloorDetailOptions floor_detail;
   double start_room_m = 0.75;
   int max_candidates = 30;
   double reach_m = 1.0;
@@ -69,6 +73,8 @@ struct Exploration : MappingOptions {
     f("camera", camera, "RGB-D camera on the robot's head");
     f("frontiers", frontiers, "how frontiers are found and clustered into candidate views");
     f("headroom", headroom, "which places on the floor are blocked by what is above them");
+    f("passages", passages, "how the robot goes through passages that are narrow for it");
+    f("floor_detail", floor_detail, "finer map of the floor, which narrow passages are planned on");
     f("start_room_m", start_room_m,
       "radius round the start that is known to be free floor for the robot", at_least(0.0));
     f("max_candidates", max_candidates,
@@ -117,9 +123,9 @@ struct Exploration : MappingOptions {
   /// What concerns the task and the rest of the episode. @throws ConfigError
   void check_with(const EpisodeOptions& episode) const;
 
-  void find_files(const std::filesystem::path&) {}
+  void find_files(const std::filesystem::path& base) { find_planner(choice, base); }
   void resolve(const EpisodeSetup&) { map.fill_in(); }
-  [[nodiscard]] std::vector<InputFile> inputs() const { return {}; }
+  [[nodiscard]] std::vector<InputFile> inputs() const { return planner_files(choice); }
   [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
   [[nodiscard]] TaskExtent extent(const EpisodeSetup& setup) const;
   [[nodiscard]] WindowContent window() const;

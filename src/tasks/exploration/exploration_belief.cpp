@@ -1,5 +1,6 @@
 #include "vantage/tasks/exploration/exploration_belief.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -13,10 +14,10 @@ namespace {
 
 /// Returns of an image in the world. One that is no higher above the floor than its error is of the
 /// floor: elsewhere a few centimetres are an obstacle.
-PointCloud surfaces_of(const PosedImage& posed, const Exploration& options) {
+PointCloud surfaces_of(const PosedImage& posed, const Exploration& options, int stride_px) {
   constexpr double kSigmas = 5.0;  // of some hundred thousand returns hardly one is farther off
   const auto& [image, T_world_camera] = posed;
-  PointCloud points = transform(to_cloud(image, options.stride_px), T_world_camera);
+  PointCloud points = transform(to_cloud(image, stride_px), T_world_camera);
   const double camera_m = T_world_camera.translation().z();
   const Pose T_camera_world = T_world_camera.inverse();
   for (Eigen::Vector3f& p : points.points) {
@@ -29,6 +30,32 @@ PointCloud surfaces_of(const PosedImage& posed, const Exploration& options) {
 }
 
 }  // namespace
+
+std::vector<DepthImage> thinned(const std::vector<DepthImage>& views, int stride_px) {
+  std::vector<DepthImage> thin;
+  for (const DepthImage& view : views) {
+    const CameraImages& image = view.image;
+    const int rows = (image.height_px - 1) / stride_px + 1;
+    const int columns = (image.width_px - 1) / stride_px + 1;
+    const int first_row = (image.height_px - 1 - (rows - 1) * stride_px) / 2;
+    const int first_column = (image.width_px - 1 - (columns - 1) * stride_px) / 2;
+    CameraImages kept{.width_px = columns,
+                      .height_px = rows,
+                      .focal_px = image.focal_px / stride_px,
+                      .range_max_m = image.range_max_m,
+                      .rgb = {},
+                      .depth_m = {}};
+    kept.depth_m.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column) {
+        kept.depth_m.push_back(
+            image.depth_at(first_row + row * stride_px, first_column + column * stride_px));
+      }
+    }
+    thin.push_back({std::move(kept), view.T_base_camera});
+  }
+  return thin;
+}
 
 ExplorationBelief::ExplorationBelief(const EpisodeOptions& episode, const Exploration& task)
     : MapBelief(task), threads_(episode.threads), task_(task) {}
@@ -43,20 +70,41 @@ BeliefUpdate ExplorationBelief::update(const ExplorationObservation& observation
                       .registration_note = located.reason,
                       .information = located.information,
                       .unconstrained = located.converged ? located.unconstrained : 3};
-  const Pose T_world_base = to_se3(report.T_world_base);
-
-  std::vector<PosedImage> images;
-  for (const DepthImage& view : observation.views) {
-    images.push_back({view.image, T_world_base * view.T_base_camera});
-  }
-  hazard_.observe(grid_, images, task_.hazard_stride_px, task_.hazard_floor_m, threads_);
-  PointCloud points;
-  for (const PosedImage& posed : images) append(points, surfaces_of(posed, task_));
-  add_measurements(grid_, points.points, task_.sensor_model, threads_);
-  report.freed_cells = carve_free_space(grid_, images, task_.free_space, threads_);
-  append(cloud_, voxel_downsample(points, grid_.frame.cell_size_m.maxCoeff()));
+  report.freed_cells =
+      integrate(observation.views, report.T_world_base, task_.stride_px, task_.hazard_stride_px);
   report.filled_cells = fill(task_.hole_filling);
   return report;
+}
+
+void ExplorationBelief::keep(const ExplorationObservation& observation, std::size_t keyframe) {
+  kept_.push_back({thinned(observation.views, task_.stride_px), keyframe});
+}
+
+void ExplorationBelief::reintegrate(std::span<const Pose2> T_world_bases) {
+  grid_ = OccupancyGrid(task_.map.frame());
+  hazard_ = ClutterHazard(task_.clutter_hazard, grid_.frame.cells);
+  cloud_ = {};
+  const int hazard_stride_px = std::max(1, task_.hazard_stride_px / task_.stride_px);
+  for (const KeptSweep& sweep : kept_) {
+    integrate(sweep.views, T_world_bases[sweep.keyframe], 1, hazard_stride_px);
+  }
+  fill(task_.hole_filling);
+}
+
+std::size_t ExplorationBelief::integrate(const std::vector<DepthImage>& views, const Pose2& base,
+                                         int stride_px, int hazard_stride_px) {
+  const Pose T_world_base = to_se3(base);
+  std::vector<PosedImage> images;
+  for (const DepthImage& view : views) {
+    images.push_back({view.image, T_world_base * view.T_base_camera});
+  }
+  hazard_.observe(grid_, images, hazard_stride_px, task_.hazard_floor_m, threads_);
+  PointCloud points;
+  for (const PosedImage& posed : images) append(points, surfaces_of(posed, task_, stride_px));
+  add_measurements(grid_, points.points, task_.sensor_model, threads_);
+  const std::size_t freed_cells = carve_free_space(grid_, images, task_.free_space, threads_);
+  append(cloud_, voxel_downsample(points, grid_.frame.cell_size_m.maxCoeff()));
+  return freed_cells;
 }
 
 }  // namespace vantage

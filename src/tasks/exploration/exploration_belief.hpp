@@ -1,6 +1,9 @@
 /// What the robot believes about the rooms it explores: pose, map, clutter.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/tasks/exploration/exploration.hpp"
@@ -8,6 +11,16 @@
 #include "vantage/tasks/mapping/map_belief.hpp"
 
 namespace vantage {
+
+/// A sweep as it is kept to be taken into a map again: every `stride_px`-th pixel of every so many
+/// rows, the middle ones where they do not come out even.
+struct KeptSweep {
+  std::vector<DepthImage> views;
+  std::size_t keyframe = 0;  ///< of the navigator's, at which it was taken
+};
+
+/// @param stride_px as far apart as the pixels that mark surfaces
+std::vector<DepthImage> thinned(const std::vector<DepthImage>& views, int stride_px);
 
 /// Its cloud holds a point or less a cell.
 class ExplorationBelief : public MapBelief {
@@ -18,9 +31,21 @@ class ExplorationBelief : public MapBelief {
   BeliefUpdate update(const ExplorationObservation& observation, const ReferenceMap& reference_map,
                       const Correction& plausible);
 
+  /// Keeps what `observation` saw, for reintegrate().
+  void keep(const ExplorationObservation& observation, std::size_t keyframe);
+  /// Forgets map, clutter and cloud, and takes all that was kept into them from where it was seen.
+  /// @param T_world_bases of each keyframe
+  void reintegrate(std::span<const Pose2> T_world_bases);
+  [[nodiscard]] const std::vector<KeptSweep>& kept() const { return kept_; }
+
  private:
+  /// What the images of one sweep say. @return cells freed
+  std::size_t integrate(const std::vector<DepthImage>& views, const Pose2& base, int stride_px,
+                        int hazard_stride_px);
+
   int threads_;
   Exploration task_;
+  std::vector<KeptSweep> kept_;
 };
 
 }  // namespace vantage

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "vantage/belief/map/headroom.hpp"
+#include "vantage/planners/navigation/distance_field.hpp"
 #include "vantage/planners/navigation/path_field.hpp"
+#include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/exploration/exploration.hpp"
 #include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
 #include "vantage/tasks/mapping/mobile_ground_truth.hpp"
@@ -15,8 +18,8 @@ namespace vantage {
 namespace {
 
 /// All floor is free but where something stands or hangs at the robot's height.
-FloorMap true_floor(const Exploration& task, const GridFrame& frame,
-                    const std::vector<std::uint8_t>& surface) {
+FloorMap floor_of_truth(const Exploration& task, const GridFrame& frame,
+                        const std::vector<std::uint8_t>& surface) {
   OccupancyGrid solid(frame);
   for (std::size_t cell = 0; cell < solid.size(); ++cell) {
     solid.log_odds[cell] = surface[cell] != 0 ? 1.0F : -1.0F;
@@ -27,14 +30,22 @@ FloorMap true_floor(const Exploration& task, const GridFrame& frame,
   return floor;
 }
 
-/// In every square of a lattice, the reachable place nearest to its middle.
-std::vector<Eigen::Vector2d> reachable_places(const PathField& field, const GridFrame& frame,
-                                              double spacing_m) {
+Eigen::AlignedBox2d floor_region(const GridFrame& frame) {
+  const Eigen::AlignedBox3d box = frame.box();
+  const Eigen::Vector3d low = box.min();
+  const Eigen::Vector3d high = box.max();
+  return {low.head<2>(), high.head<2>()};
+}
+
+/// In every square of a lattice, the place nearest to its middle.
+/// @param wanted of each cell, whether it may be one of them
+std::vector<Eigen::Vector2d> spread_places(const FloorMap& floor, const GridFrame& frame,
+                                           double spacing_m, auto&& wanted) {
   std::map<std::pair<int, int>, std::pair<double, std::size_t>> nearest;
   const Eigen::AlignedBox3d box = frame.box();
-  for (std::size_t cell = 0; cell < field.map.size(); ++cell) {
-    if (!field.reachable(cell)) continue;
-    const Eigen::Vector2d p = field.map.centre(field.map.cell(cell));
+  for (std::size_t cell = 0; cell < floor.size(); ++cell) {
+    if (!wanted(cell)) continue;
+    const Eigen::Vector2d p = floor.centre(floor.cell(cell));
     const Eigen::Vector2d square = (p - box.min().head<2>()) / spacing_m;
     const Eigen::Vector2d corner = square.array().floor();
     const std::pair rank((square - corner - Eigen::Vector2d(0.5, 0.5)).norm(), cell);
@@ -44,9 +55,81 @@ std::vector<Eigen::Vector2d> reachable_places(const PathField& field, const Grid
   }
   std::vector<Eigen::Vector2d> places;
   for (const auto& [key, rank] : nearest) {
-    places.push_back(field.map.centre(field.map.cell(rank.second)));
+    places.push_back(floor.centre(floor.cell(rank.second)));
   }
   return places;
+}
+
+/// Where the robot's outline touches nothing, on cells of the finer map.
+FloorMap true_detail(const Exploration& task, const MobileGroundTruth& truth,
+                     const FloorMap& floor) {
+  FloorMap detail = make_floor_detail(floor, task.floor_detail);
+  std::ranges::fill(detail.log_odds, -1.0F);
+  GridFrame frame = detail.frame();
+  frame.min_corner_m.z() = task.headroom.low_m;
+  frame.cell_size_m.z() = task.headroom.high_m - task.headroom.low_m;
+  detail.blocked =
+      surface_cells(truth.world().model(), truth.world().snapshot(), frame, kWithoutRobot);
+  return detail;
+}
+
+/// Whether there is floor that the field has not come near to, though something might get there.
+bool leaves_something_out(const PathField& field, const Eigen::AlignedBox2d& region_m,
+                          double inscribed_m, double least_area_m2) {
+  constexpr double kBlocks_m = 0.1;  // that cells take from a gap on either side
+  constexpr double kNear_m = 0.6;
+  std::vector<std::uint8_t> reached(field.map.size(), 0);
+  for (std::size_t cell = 0; cell < reached.size(); ++cell) {
+    reached[cell] = field.reachable(cell) ? 1 : 0;
+  }
+  const std::vector<double> off = squared_distances_cells(reached, field.map.nx, field.map.ny);
+  const double near = std::pow(kNear_m / field.map.cell_m, 2);
+  double left_m2 = 0.0;
+  for (std::size_t cell = 0; cell < reached.size(); ++cell) {
+    const bool might = static_cast<double>(field.clearance_m[cell]) >= inscribed_m - kBlocks_m;
+    if (!might || off[cell] <= near) continue;
+    if (!region_m.contains(field.map.centre(field.map.cell(cell)))) continue;
+    left_m2 += field.map.cell_m * field.map.cell_m;
+  }
+  return left_m2 >= least_area_m2;
+}
+
+/// Open cells in parts that are not reached, wholly inside the region: what reaches beyond it is
+/// outdoors.
+struct UnreachedRooms {
+  int count = 0;
+  std::vector<std::uint8_t> cells;
+};
+
+UnreachedRooms unreached_rooms(const PathField& field, const Eigen::AlignedBox2d& region_m,
+                               double least_area_m2) {
+  const FloorMap& floor = field.map;
+  UnreachedRooms rooms{0, std::vector<std::uint8_t>(floor.size(), 0)};
+  std::vector<std::uint8_t> asked(floor.size(), 0);
+  const auto take = [&](std::size_t cell, std::vector<std::size_t>& part) {
+    if (asked[cell] != 0 || !field.traversable(cell) || field.reachable(cell)) return;
+    asked[cell] = 1;
+    part.push_back(cell);
+  };
+  for (std::size_t first = 0; first < floor.size(); ++first) {
+    std::vector<std::size_t> part;
+    take(first, part);
+    bool inside = true;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Eigen::Array2i at = floor.cell(part[i]);
+      inside = inside && region_m.contains(floor.centre(at));
+      for (const auto& [dx, dy] :
+           {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
+        const Eigen::Array2i to = at + Eigen::Array2i(dx, dy);
+        if (floor.contains(to)) take(floor.index(to), part);
+      }
+    }
+    const double area_m2 = static_cast<double>(part.size()) * floor.cell_m * floor.cell_m;
+    if (part.empty() || !inside || area_m2 < least_area_m2) continue;
+    ++rooms.count;
+    for (const std::size_t cell : part) rooms.cells[cell] = 1;
+  }
+  return rooms;
 }
 
 }  // namespace
@@ -58,13 +141,44 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
     : GroundTruthMapEvaluator(truth, task.map.frame(), view_field, threads) {
   const GridFrame frame = task.map.frame();
   const Pose2 start = truth.T_world_base();
-  floor_ = true_floor(task, frame, surface());
-  const PathField field = make_path_field(floor_, start, task.navigation);
-  poses_.push_back(to_se3(start) * T_base_sweep);
-  for (const auto& p : reachable_places(field, frame, task.metrics.pose_spacing_m)) {
-    poses_.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);
+  const FloorMap floor = floor_of_truth(task, frame, surface());
+  const PathField field = true_ways(task, truth, floor);
+  std::vector<Pose> T_world_sweeps{to_se3(start) * T_base_sweep};
+  const double spacing_m = task.metrics.pose_spacing_m;
+  for (const auto& p : spread_places(floor, frame, spacing_m,
+                                     [&](std::size_t cell) { return field.reachable(cell); })) {
+    const double yaw_rad = field.heading_rad(floor.index(floor.cell_at(p))).value_or(0.0);
+    T_world_sweeps.push_back(to_se3({p.x(), p.y(), yaw_rad}) * T_base_sweep);
   }
-  add_observable(poses_);
+  add_observable(T_world_sweeps);
+  if (std::holds_alternative<OracleTour>(task.choice)) remember_visible(T_world_sweeps);
+  set_true_floor(floor);
+
+  const UnreachedRooms rooms =
+      unreached_rooms(field, floor_region(frame), task.passages.least_area_m2);
+  std::vector<Pose> shut;
+  for (const auto& p : spread_places(floor, frame, spacing_m,
+                                     [&](std::size_t cell) { return rooms.cells[cell] != 0; })) {
+    shut.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);
+  }
+  set_left_out(rooms.count, shut);
+}
+
+/// By the rule that the robot plans by. Where a disc gets everywhere, outlines are not asked.
+PathField ExplorationMapEvaluator::true_ways(const Exploration& task,
+                                             const MobileGroundTruth& truth,
+                                             const FloorMap& floor) const {
+  const Pose2 start = truth.T_world_base();
+  PathField field = make_path_field(floor, start, task.navigation);
+  const RobotOutline robot = truth.outline();
+  if (!task.passages.use ||
+      !leaves_something_out(field, floor_region(task.map.frame()),
+                            inscribed_radius_m(robot.outline), task.passages.least_area_m2)) {
+    return field;
+  }
+  const auto space = std::make_shared<const FootprintSpace>(
+      true_detail(task, truth, floor), task.floor_detail.parts, robot, task.passages);
+  return make_path_field(floor, start, task.navigation, space);
 }
 
 }  // namespace vantage

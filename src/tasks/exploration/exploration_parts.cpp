@@ -7,13 +7,12 @@
 #include <limits>
 
 #include "vantage/core/log.hpp"
+#include "vantage/perception/clouds/usable_readings.hpp"
 #include "vantage/planners/swept_gain.hpp"
+#include "vantage/tasks/exploration/frontier_views.hpp"
 
 namespace vantage {
 namespace {
-
-/// A frontier so near to a candidate comes into sight from there.
-constexpr double kNear_m = 1.5;
 
 Eigen::Vector2d place_of(const Pose& T_world_sweep) {
   return T_world_sweep.translation().head<2>();
@@ -30,6 +29,24 @@ void mark_disc(const FloorMap& floor, const Eigen::Vector2d& p_m, double radius_
       if ((floor.centre({x, y}) - p_m).norm() <= radius_m) flags[floor.index({x, y})] = 1;
     }
   }
+}
+
+/// Discards what says nothing: stale images, readings that are none. @return whether anything is
+/// left
+/// @param last of the observation before, then of this one
+bool keep_usable(ExplorationObservation& observation, CameraImages& last) {
+  discard_unusable(observation.base_scan);
+  std::vector<DepthImage> views;
+  for (DepthImage& view : observation.views) {
+    discard_unusable(view.image);
+    if (is_repeated(last, view.image)) continue;
+    last.depth_m = view.image.depth_m;
+    views.push_back(std::move(view));
+  }
+  observation.views = std::move(views);
+  return std::ranges::any_of(observation.views, [](const DepthImage& view) {
+    return std::ranges::any_of(view.image.depth_m, [](float depth_m) { return depth_m > 0.0F; });
+  });
 }
 
 }  // namespace
@@ -49,15 +66,35 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
       task_(task),
       exploring_robot_(robot),
       belief_(belief),
-      traversed_(navigator_.floor().size(), 0) {}
+      traversed_(navigator_.floor().size(), 0) {
+  navigator_.use_passages(task_.passages, task_.floor_detail);
+  if (const FloorMap* detail = navigator_.detail()) traversed_detail_.assign(detail->size(), 0);
+  if (task.localisation.loops.close) {
+    navigator_.close_loops(task.localisation.loops, task.registration, task.odometry);
+  }
+}
+
+/// The robot has been there.
+void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
+  mark_disc(navigator_.floor(), p_m, radius_m, traversed_);
+  if (const FloorMap* detail = navigator_.detail()) {
+    mark_disc(*detail, p_m, radius_m, traversed_detail_);
+  }
+}
 
 ExplorationObservation ExplorationParts::observe() {
   if (scans_.empty()) {
     const Pose2 start = robot_.estimated_base();
-    mark_disc(navigator_.floor(), {start.x_m, start.y_m}, task_.start_room_m, traversed_);
+    p_start_m_ = {start.x_m, start.y_m};
+    traverse(p_start_m_, task_.start_room_m);
     look_round_at_start();
   }
-  return observed([this] { return exploring_robot_.observe(); });
+  return observed([this] {
+    return first_usable<ExplorationObservation>([this](ExplorationObservation& observation) {
+      observation = exploring_robot_.observe();
+      return keep_usable(observation, last_image_);
+    });
+  });
 }
 
 void ExplorationParts::update(const ExplorationObservation& observation) {
@@ -68,22 +105,49 @@ void ExplorationParts::update(const ExplorationObservation& observation) {
   navigator_.remember(observation.base_scan, update.T_world_base);
   block_floor();
   measure(before, update, to_se3(update.T_world_base) * exploring_robot_.T_base_sweep());
+  if (navigator_.loops() == nullptr) return;
+  belief_.keep(observation, current_.keyframe);
+  if (const auto correction = navigator_.correct_over_loops()) correct_map(*correction);
+}
+
+void ExplorationParts::correct_map(const PoseCorrection& correction) {
+  belief_.reintegrate(correction.T_world_after);
+  for (std::size_t i = 0; i < visited_.size(); ++i) {
+    visited_.move(i, correction.moved(visited_.place(i), visited_at_[i]));
+  }
+  std::ranges::fill(traversed_, std::uint8_t{0});
+  std::ranges::fill(traversed_detail_, std::uint8_t{0});
+  traverse(p_start_m_, task_.start_room_m);
+  path_traversed_ = 0;
+  block_floor();
+  correct_records(correction, exploring_robot_.T_base_sweep());
+}
+
+void ExplorationParts::visit(const Eigen::Vector2d& p_m, double radius_m) {
+  visited_.add(p_m, radius_m);
+  const LoopClosing* loops = navigator_.loops();
+  visited_at_.push_back(loops == nullptr ? 0 : loops->remembered().size() - 1);
 }
 
 /// What the camera saw of the room over the floor is in the robot's way too.
 void ExplorationParts::block_floor() {
   const auto& path_m = navigator_.path_m();
   for (; path_traversed_ < path_m.size(); ++path_traversed_) {
-    mark_disc(navigator_.floor(), path_m[path_traversed_], robot_.inscribed_radius_m(), traversed_);
+    traverse(path_m[path_traversed_], robot_.inscribed_radius_m());
   }
-  block_columns(navigator_.floor(), belief_.grid(), traversed_, task_.headroom);
+  if (FloorMap* detail = navigator_.detail()) {
+    block_columns({navigator_.floor(), traversed_}, {*detail, traversed_detail_}, belief_.grid(),
+                  task_.headroom, robot_.base_scan_height_m());
+  } else {
+    block_columns(navigator_.floor(), belief_.grid(), traversed_, task_.headroom);
+  }
 }
 
 void ExplorationParts::record() {
   const ScanRecord& scan = record_scan();
   const bool poor = scan.actual_new_cells < task_.poor_cells;
-  visited_.add(place_of(scan.T_world_sensor),
-               poor ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
+  visit(place_of(scan.T_world_sensor),
+        poor ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
   start_decision();
   views_ = find_views(plans_views(task_.choice));
   views_have_gains_ = false;
@@ -145,42 +209,26 @@ std::string ExplorationParts::finished() const {
       task_.enough.scans, 100.0 * task_.enough.share);
 }
 
-/// The place nearest to each frontier where the robot can stand, the largest frontiers first. A
-/// choice that plans ahead knows of all of them: those beyond max_candidates that are not near one
-/// of these, where they come into sight, are candidates too.
 std::vector<Candidate> ExplorationParts::find_views(bool all) {
-  const PathField paths = navigator_.plan();
-  VisitedPlaces proposed;
-  VisitedPlaces near_proposed;
-  std::vector<Candidate> views;
-  for (const Frontier& frontier : find_frontiers(belief_.filled_grid(), task_.frontiers)) {
-    const bool full = static_cast<int>(views.size()) >= task_.max_candidates;
-    if (full && !all) break;
-    const Eigen::Vector2d wanted = frontier.p_m.head<2>();
-    const auto cell = nearest_reachable(paths, wanted);
-    if (!cell) break;
-    const Eigen::Vector2d place = paths.map.centre(paths.map.cell(*cell));
-    const Pose2 from = robot_.estimated_base();
-    const Pose2 base{place.x(), place.y(), std::atan2(place.y() - from.y_m, place.x() - from.x_m)};
-    Candidate view;
-    view.id = static_cast<int>(views.size());
-    view.T_world_sensor = to_se3(base) * exploring_robot_.T_base_sweep();
-    const Eigen::Vector2d p_sweep = place_of(view.T_world_sensor);
-    if (visited_.covers(p_sweep) || proposed.covers(p_sweep)) continue;
-    if (full && near_proposed.covers(p_sweep)) continue;
-    view.reachable = (place - wanted).norm() <= task_.reach_m;
-    view.path_length_m =
-        view.reachable ? path_length_m(paths, base) : std::numeric_limits<double>::infinity();
-    proposed.add(p_sweep, task_.taken_m);
-    near_proposed.add(p_sweep, kNear_m);
-    views.push_back(view);
-  }
-  return views;
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
+  std::vector<Candidate> of_truth = views_of_truth(paths, true);
+  std::erase_if(of_truth, [&](const Candidate& view) {
+    return visited_.covers(place_of(view.T_world_sensor));
+  });
+  for (std::size_t i = 0; i < of_truth.size(); ++i) of_truth[i].id = static_cast<int>(i);
+  if (!of_truth.empty()) return of_truth;
+  return frontier_views(task_,
+                        {.grid = belief_.filled_grid(),
+                         .paths = paths,
+                         .T_base_sweep = exploring_robot_.T_base_sweep(),
+                         .visited = visited_},
+                        all);
 }
 
 void ExplorationParts::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
-  visited_.add(place_of(candidate.T_world_sensor), task_.taken_m);
+  visit(place_of(candidate.T_world_sensor), task_.taken_m);
   const bool reached = approach(candidate, std::nullopt).reached;
   current_.fallback = !candidate.reachable || !reached;
   if (reached) {

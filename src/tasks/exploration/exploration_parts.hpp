@@ -29,7 +29,10 @@ class ExplorationParts : public MappingParts {
   void act(const Candidate& candidate);
 
  private:
+  void traverse(const Eigen::Vector2d& p_m, double radius_m);
   void block_floor();
+  void correct_map(const PoseCorrection& correction);
+  void visit(const Eigen::Vector2d& p_m, double radius_m);
   /// @param all those of all frontiers, not only of the largest
   std::vector<Candidate> find_views(bool all);
   void judge_what_is_left();
@@ -39,10 +42,14 @@ class ExplorationParts : public MappingParts {
   const Exploration task_;
   ExplorationRobotInterface& exploring_robot_;
   ExplorationBelief& belief_;
-  std::vector<std::uint8_t> traversed_;  ///< per floor cell: the robot has traversed it
-  std::size_t path_traversed_ = 0;       ///< points of the path so far
+  std::vector<std::uint8_t> traversed_;         ///< per floor cell: the robot has traversed it
+  std::vector<std::uint8_t> traversed_detail_;  ///< the same of the finer map
+  Eigen::Vector2d p_start_m_ = Eigen::Vector2d::Zero();
+  std::size_t path_traversed_ = 0;  ///< points of the path so far
   VisitedPlaces visited_;
-  int poor_promises_ = 0;  ///< scans in a row after which no view was worth one more
+  std::vector<std::size_t> visited_at_;  ///< keyframe of each
+  CameraImages last_image_;              ///< that came
+  int poor_promises_ = 0;                ///< scans in a row after which no view was worth one more
 };
 
 }  // namespace vantage

@@ -46,9 +46,7 @@ double camera_ahead_m(const World& world, const MobileBase& robot) {
 /// @throws ConfigError naming the scene's sites if it has none of that name.
 Pose2 start_pose(const World& world, const EpisodeSetup& setup) {
   const RobotOptions& robot = setup.options.robot;
-  if (robot.start_site.empty()) {
-    return {robot.start_pose[0], robot.start_pose[1], wrap_angle(robot.start_pose[2])};
-  }
+  if (robot.start_site.empty()) return robot.posed_start();
   if (const auto site = find_model_id(world.model(), ModelObject::site, robot.start_site)) {
     return project_to_se2(site_pose(world, *site));
   }
@@ -114,6 +112,7 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
 ExplorationObservation SimulatedExplorationRobot::observe() {
   base_.robot().command_twist(base_.world(), {});
   ExplorationObservation observation;
+  std::vector<double> taken_s;
   std::vector<double> pans_rad = pan_angles_rad(sweep_);
   observation.views.reserve(pans_rad.size() * sweep_.tilts_rad.size());
   std::future<void> measuring;  // of an image, while the head turns to the next
@@ -121,6 +120,7 @@ ExplorationObservation SimulatedExplorationRobot::observe() {
     for (const double pan_rad : pans_rad) {
       turn_head(pan_rad, tilt_rad);
       observation.views.push_back(draw_image());
+      taken_s.push_back(base_.world().time_s());
       if (measuring.valid()) measuring.get();
       measuring = std::async(measuring_, [this, &drawn = observation.views.back().image] {
         measure_depth(drawn, camera_, camera_noise_);
@@ -129,11 +129,23 @@ ExplorationObservation SimulatedExplorationRobot::observe() {
     std::ranges::reverse(pans_rad);  // the next row begins where this one ends
   }
   measuring.get();
+  observation.views = arriving(std::move(observation.views), taken_s);
   base_.robot().command_head(base_.world(), 0.0, 0.0);
   observation.base_scan = read_base_scanner();
   observation.base_scan_height_m = base_scan_height_m();
   observation.T_world_base_odometry = estimated_base();
   return observation;
+}
+
+/// Of those that were taken at these times.
+std::vector<DepthImage> SimulatedExplorationRobot::arriving(std::vector<DepthImage> taken,
+                                                            std::span<const double> taken_s) {
+  std::vector<DepthImage> views;
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    auto image = base_.faults().arriving(std::move(taken[i].image), taken_s[i]);
+    if (image) views.push_back({std::move(*image), taken[i].T_base_camera});
+  }
+  return views;
 }
 
 void SimulatedExplorationRobot::turn_head(double pan_rad, double tilt_rad) {

@@ -3,6 +3,9 @@
 
 #include <future>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "vantage/runtime/episode_setup.hpp"
 #include "vantage/sim/render/renderer.hpp"
@@ -29,6 +32,7 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
  private:
   void turn_head(double pan_rad, double tilt_rad);
   DepthImage draw_image();
+  std::vector<DepthImage> arriving(std::vector<DepthImage> taken, std::span<const double> taken_s);
 
   HeadSweep sweep_;
   RgbdOptions camera_;

@@ -60,7 +60,8 @@ void require_floor(const RayScene& geometry, const Eigen::Vector2d& from_m,
 
 std::string start_text(const RobotOptions& robot) {
   if (!robot.start_site.empty()) return fmt::format("robot.start_site '{}'", robot.start_site);
-  return fmt::format("robot.start_pose {}", fmt::join(robot.start_pose, ", "));
+  const auto pose = robot.start_pose.value_or(std::array{0.0, 0.0, 0.0});
+  return fmt::format("robot.start_pose {}", fmt::join(pose, ", "));
 }
 
 void check_exploration_start(const World& world, const MobileBase& robot, const RayScene& geometry,

@@ -31,8 +31,11 @@ SimulatedQuadrotor::SimulatedQuadrotor(const EpisodeOptions& episode, const Mode
       world_(source, episode.simulation),
       vehicle_(place(world_)),
       tracking_(world_, vehicle_, tracking, Rng::stream(episode.seed, "pose")),
-      renderer_(make_offscreen_renderer(world_.model(), camera.camera.width_px,
-                                        camera.camera.height_px)) {}
+      renderer_(
+          make_offscreen_renderer(world_.model(), camera.camera.width_px, camera.camera.height_px)),
+      faults_(episode.faults, episode.seed) {
+  faults_.attach(world_, vehicle_.rotor_actuators());
+}
 
 CameraImages SimulatedQuadrotor::depth_image(Rng& rng) {
   return vantage::depth_image(*renderer_, world_.model(), world_.snapshot(), vehicle_.camera_id(),
@@ -42,6 +45,7 @@ CameraImages SimulatedQuadrotor::depth_image(Rng& rng) {
 CameraImages SimulatedQuadrotor::colour_image(Rng& rng) {
   CameraImages images = rgbd_exposed(*renderer_, world_, vehicle_.camera_id(), options_.camera,
                                      options_.exposure, rng);
+  if (faults_.in_the_dark(world_.time_s())) std::ranges::fill(images.rgb, std::uint8_t{0});
   add_colour_noise(images, options_.colour_noise, rng);
   return images;
 }

@@ -7,6 +7,7 @@
 
 #include "vantage/geometry/range_scan.hpp"
 #include "vantage/runtime/episode_setup.hpp"
+#include "vantage/sim/faults/robot_faults.hpp"
 #include "vantage/sim/render/renderer.hpp"
 #include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/sim/sensors/camera_options.hpp"
@@ -31,7 +32,8 @@ class SimulatedQuadrotor {
 
   /// Depth as measured, without colour.
   CameraImages depth_image(Rng& rng);
-  /// Colour with the blur and the noise of an exposure that ends now, and measured depth.
+  /// Colour with the blur and the noise of an exposure that ends now, and measured depth. In the
+  /// dark there is nothing but the noise.
   CameraImages colour_image(Rng& rng);
 
   [[nodiscard]] Pose estimated_body() const { return tracking_.estimate().T_world_body; }
@@ -42,6 +44,7 @@ class SimulatedQuadrotor {
   [[nodiscard]] int collisions() const { return tracking_.collisions(); }
   [[nodiscard]] std::string touched() const;  ///< names of what it touches
 
+  [[nodiscard]] RobotFaults& faults() { return faults_; }
   TrajectoryTrackingController& tracking() { return tracking_; }
   [[nodiscard]] const TrajectoryTrackingController& tracking() const { return tracking_; }
   [[nodiscard]] const Quadrotor& vehicle() const { return vehicle_; }
@@ -54,6 +57,7 @@ class SimulatedQuadrotor {
   Quadrotor vehicle_;
   TrajectoryTrackingController tracking_;
   std::unique_ptr<Renderer> renderer_;
+  RobotFaults faults_;
 };
 
 }  // namespace vantage

@@ -62,8 +62,19 @@ void GroundTruthMapEvaluator::add_observable(std::span<const Pose> T_world_senso
   for (const Pose& pose : T_world_sensors) {
     throw_if_interrupted();  // minutes, of an office
     add_visible_cells(truth_.geometry(), frame_, pose, field_of_view_, observable_, -1, threads_);
+    observing_poses_.push_back(pose);
   }
   observable_count_ = static_cast<std::size_t>(std::ranges::count(observable_, std::uint8_t{1}));
+}
+
+void GroundTruthMapEvaluator::set_left_out(int rooms, std::span<const Pose> T_world_sensors) {
+  std::vector<std::uint8_t> seen = observable_;
+  for (const Pose& pose : T_world_sensors) {
+    throw_if_interrupted();
+    add_visible_cells(truth_.geometry(), frame_, pose, field_of_view_, seen, -1, threads_);
+  }
+  const auto all = static_cast<std::size_t>(std::ranges::count(seen, std::uint8_t{1}));
+  left_out_ = LeftOut{rooms, all - observable_count_};
 }
 
 void GroundTruthMapEvaluator::remember_visible(std::span<const Pose> T_world_sensors) {
@@ -133,9 +144,18 @@ void GroundTruthMapEvaluator::measure_pose(const ScanPoses& poses, ScanRecord& r
   };
   record.pose_error_before_registration_m = error_m(poses.dead_reckoned);
   record.pose_error_tracked_m = error_m(poses.tracked);
-  record.pose_error_m = error_m(poses.kept);
+  record.pose_error_at_scan_m = record.pose_error_m = error_m(poses.kept);
   record.yaw_error_rad = wrap_angle(poses.kept.yaw_rad - T_world_true.yaw_rad);
+  record.T_true_kept = compose(inverse(T_world_true), poses.kept);
   record.collisions = truth_.collisions();
+}
+
+void GroundTruthMapEvaluator::measure_moved_pose(const Pose2& T_world_base, ScanRecord& record) {
+  const Pose2 T_world_true = compose(record.T_world_base, inverse(record.T_true_kept));
+  record.T_true_kept = compose(inverse(T_world_true), T_world_base);
+  record.pose_error_m = std::hypot(record.T_true_kept.x_m, record.T_true_kept.y_m);
+  record.yaw_error_rad = wrap_angle(record.T_true_kept.yaw_rad);
+  record.T_world_base = T_world_base;
 }
 
 }  // namespace vantage

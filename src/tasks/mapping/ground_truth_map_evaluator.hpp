@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "vantage/belief/map/floor_map.hpp"
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/pose.hpp"
@@ -23,8 +26,15 @@ struct ScanPoses {
   Pose2 kept;           ///< what the scan was taken into the map at
 };
 
+/// What could be seen from where the robot might stand, if it could get there.
+struct LeftOut {
+  int rooms = 0;          ///< open places that no way leads to
+  std::size_t cells = 0;  ///< that a noise-free sensor sees from there alone
+};
+
 /// The only one who holds a map against the truth. Whoever decides may hand it a record to fill in,
-/// and learns nothing by that; the choices `oracle` and `oracle_lookahead` ask it, and say so.
+/// and learns nothing by that; the choices `oracle`, `oracle_lookahead` and `oracle_tour` ask it,
+/// and say so.
 class GroundTruthMapEvaluator {
  public:
   /// Nothing is observable yet. `truth` must outlive it.
@@ -46,16 +56,27 @@ class GroundTruthMapEvaluator {
   /// All cells that a noise-free sensor sees from there.
   [[nodiscard]] CellSet visible_set(const Pose& T_world_sensor) const;
   [[nodiscard]] CellSet observable_set() const;
+  /// The poses that observability is defined by.
+  [[nodiscard]] const std::vector<Pose>& observing_poses() const { return observing_poses_; }
+  /// What stands or hangs in the robot's way, as it really is; null if nobody needs to know.
+  [[nodiscard]] const FloorMap* true_floor() const { return true_floor_ ? &*true_floor_ : nullptr; }
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
+  /// None where it is not asked which places can be reached.
+  [[nodiscard]] const std::optional<LeftOut>& left_out() const { return left_out_; }
   [[nodiscard]] std::size_t observable_unobserved(const OccupancyGrid& grid) const;
   [[nodiscard]] MapScore score(const OccupancyGrid& grid, int tolerance_cells) const;
   /// Fills in what the record says of the map, held against the truth.
   void measure(const OccupancyGrid& grid, int tolerance_cells, ScanRecord& record) const;
   /// Fills in what the record says of the pose, held against the truth.
   void measure_pose(const ScanPoses& poses, ScanRecord& record) const;
+  /// The same of a scan before, which is in the map at `T_world_base` now.
+  static void measure_moved_pose(const Pose2& T_world_base, ScanRecord& record);
 
  protected:
+  /// @param T_world_sensors in `rooms` that no way leads to; after add_observable()
+  void set_left_out(int rooms, std::span<const Pose> T_world_sensors);
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
+  void set_true_floor(FloorMap floor) { true_floor_ = std::move(floor); }
 
  private:
   struct Remembered {
@@ -72,7 +93,10 @@ class GroundTruthMapEvaluator {
   std::vector<std::uint8_t> observable_;
   std::vector<std::uint8_t> surface_;
   std::vector<Remembered> remembered_;
+  std::vector<Pose> observing_poses_;
+  std::optional<FloorMap> true_floor_;
   std::size_t observable_count_ = 0;
+  std::optional<LeftOut> left_out_;
 };
 
 }  // namespace vantage

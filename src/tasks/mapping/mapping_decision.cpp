@@ -1,5 +1,6 @@
 // Decisions of the parts that all mapping tasks share: what views are worth, and which is taken.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 
@@ -37,6 +38,24 @@ void MappingParts::tell_truth(std::vector<Candidate>& candidates) const {
   }
 }
 
+/// Where `oracle_tour` may scan from; none of another choice.
+std::span<const Pose> MappingParts::poses_of_truth() const {
+  if (!std::holds_alternative<OracleTour>(options_.choice)) return {};
+  return evaluator_.observing_poses();
+}
+
+std::vector<Candidate> MappingParts::views_of_truth(const PathField& paths, bool in_reach) const {
+  std::vector<Candidate> views;
+  for (const Pose& T_world_sensor : poses_of_truth()) {
+    Candidate view;
+    view.id = static_cast<int>(views.size());
+    view.T_world_sensor = T_world_sensor;
+    view.path_length_m = path_length_m(paths, robot_.base_for_sensor(T_world_sensor));
+    if (std::isfinite(view.path_length_m) == in_reach) views.push_back(view);
+  }
+  return views;
+}
+
 std::size_t MappingParts::choose(std::vector<Candidate>& candidates) {
   const std::size_t chosen =
       outside_ != nullptr ? chosen_outside(candidates) : own_choice(candidates);
@@ -51,6 +70,9 @@ int MappingParts::scans_left() const {
 }
 
 std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
+  if (asks_outside(options_.choice)) {
+    throw ConfigError("choice: external is a program that is not asked here");
+  }
   const ViewChoice choice = within_scans_left(options_.choice, std::max(1, scans_left()));
   return plans_views(choice) ? next_of_plan(candidates)
                              : choose_view(choice, candidates, choice_rng_);
@@ -60,8 +82,8 @@ std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
 std::size_t MappingParts::chosen_outside(std::vector<Candidate>& candidates) {
   const BlockField of_unobserved = transmission();
   const std::size_t chosen = decide_outside(
-      *outside_, {belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()},
-      navigator_.plan(), options_.gain, [&] { return own_choice(candidates); }, candidates);
+      *outside_, {belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left(), &interval_},
+      *navigator_.plan(), options_.gain, [&] { return own_choice(candidates); }, candidates);
   for (std::size_t i = views_.size(); i < candidates.size(); ++i) views_.push_back(candidates[i]);
   return chosen;
 }
@@ -79,7 +101,8 @@ void MappingParts::end() {
 
 double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
   const BlockField of_unobserved = transmission();
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   MappingOptions options = options_;
   options.choice = TourChoice{};
   const PlanningProblem problem = planning_problem(options, AdaptiveGain{}, views,
@@ -97,15 +120,30 @@ double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
 /// Where no view can be planned for, the nearest one: navigation goes as near as it can.
 std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates) {
   const BlockField of_unobserved = transmission();
-  const PathField paths = navigator_.plan();
-  plan_ = plan_ahead(options_, candidates,
-                     {.belief = belief_,
-                      .transmission = of_unobserved,
-                      .robot = robot_,
-                      .paths = paths,
-                      .budget = budget_,
-                      .threads = episode_.threads},
-                     choice_rng_);
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
+  PlanningSituation situation{.belief = belief_,
+                              .transmission = of_unobserved,
+                              .robot = robot_,
+                              .paths = paths,
+                              .budget = budget_,
+                              .threads = episode_.threads,
+                              .intended_m = intended_m_};
+  std::vector<Candidate> later;
+  PathField true_paths;
+  if (!poses_of_truth().empty() && evaluator_.true_floor() != nullptr) {
+    later = views_of_truth(paths, false);
+    tell_truth(later);
+    true_paths = make_path_field(*evaluator_.true_floor(), paths.start, options_.navigation);
+    situation.later = later;
+    situation.true_paths = &true_paths;
+  }
+  plan_ = plan_ahead(options_, candidates, situation, choice_rng_);
+  intended_m_.reset();
+  if (plan_.size() > 1) {
+    const Pose2 next = robot_.base_for_sensor(candidates[plan_[1]].T_world_sensor);
+    intended_m_ = Eigen::Vector2d(next.x_m, next.y_m);
+  }
   if (!plan_.empty()) return plan_.front();
   return choose_view(NearestFrontier{}, candidates, choice_rng_);
 }

@@ -65,7 +65,9 @@ Json scan_json(const ScanRecord& scan) {
           {"pose_error_m", scan.pose_error_m},
           {"pose_error_before_registration_m", scan.pose_error_before_registration_m},
           {"pose_error_tracked_m", scan.pose_error_tracked_m},
+          {"pose_error_at_scan_m", scan.pose_error_at_scan_m},
           {"yaw_error_rad", scan.yaw_error_rad},
+          {"pose_sigma_m", scan.pose_sigma_m},
           {"map_sigma_m", scan.map_sigma_m},
           {"registered", scan.registered},
           {"unconstrained", scan.unconstrained},
@@ -76,7 +78,8 @@ Json scan_json(const ScanRecord& scan) {
           {"view", view_json(scan.T_world_sensor)}};
 }
 
-Json localisation_json(const MappingOptions& options, std::span<const ScanRecord> scans) {
+Json localisation_json(const MappingOptions& options, std::span<const ScanRecord> scans,
+                       const LocalisationSummary& summary) {
   double sigma_m = 0.0;
   int registered = 0;
   for (const ScanRecord& scan : scans) {
@@ -87,7 +90,15 @@ Json localisation_json(const MappingOptions& options, std::span<const ScanRecord
   return {{"map_sigma_m", sigma_m},
           {"tolerance_m", tolerance_m},
           {"trusted", sigma_m <= tolerance_m},
-          {"registered_scans", registered}};
+          {"registered_scans", registered},
+          {"pose_sigma_m", summary.pose_sigma_m},
+          {"loops", summary.loops},
+          {"loops_refused", summary.loops_refused},
+          {"corrections", summary.corrections},
+          {"contradicted_share",
+           summary.contradicted_share ? Json(*summary.contradicted_share) : Json()},
+          {"map_in_doubt", sigma_m > tolerance_m || !summary.doubt.empty()},
+          {"doubt", summary.doubt.empty() ? Json() : Json(summary.doubt)}};
 }
 
 /// The transmission that the gain in use assumes for an unobserved cell; null if it assumes none.
@@ -97,12 +108,30 @@ Json observability(const MappingOptions& options, const ClutterHazard& hazard) {
   return assumed ? Json(*assumed) : Json();
 }
 
+/// A line, where there is something.
+std::string left_out_text(const Json& metrics) {
+  const auto found = metrics.find("unreachable");
+  if (found == metrics.end() || (*found)["rooms"] == 0) return {};
+  const int rooms = (*found)["rooms"].get<int>();
+  return fmt::format(
+      "not counted: {} room{} that the robot cannot get to, {:.1f} % of all that "
+      "could be seen\n",
+      rooms, rooms == 1 ? "" : "s", 100.0 * (*found)["share"].get<double>());
+}
+
 }  // namespace
 
 void add_mapping_metrics(const MappingOptions& options, const MappingResult& run, Json& metrics) {
   const int tolerance_cells = options.metrics.tolerance_cells;
   const MapScore map = run.evaluator.score(run.grid, tolerance_cells);
   metrics["observable_cells"] = run.evaluator.observable_cells();
+  if (const auto& left_out = run.evaluator.left_out()) {
+    const std::size_t all = run.evaluator.observable_cells() + left_out->cells;
+    metrics["unreachable"] = {
+        {"rooms", left_out->rooms},
+        {"cells", left_out->cells},
+        {"share", all > 0 ? static_cast<double>(left_out->cells) / static_cast<double>(all) : 0.0}};
+  }
   metrics["scans"] = Json::array();
   for (const ScanRecord& scan : run.scans) metrics["scans"].push_back(scan_json(scan));
   add_progress(run.scans, run.evaluator.observable_cells(), metrics);
@@ -112,7 +141,7 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
                     {"tolerance_cells", tolerance_cells}};
   metrics["observability"] = observability(options, run.hazard);
   metrics["observability_per_slice"] = run.hazard.transmission_per_slice();
-  metrics["localisation"] = localisation_json(options, run.scans);
+  metrics["localisation"] = localisation_json(options, run.scans, run.localisation);
   metrics["region"] = box_json(run.grid.frame.box());
   metrics["candidates"] = candidates_json(run.views);
 }
@@ -127,12 +156,13 @@ std::string mapping_outcome(const Json& metrics) {
     return value.is_null() ? std::string("unknown") : fmt::format("{:.3f}", value.get<double>());
   };
   return fmt::format(
-      "{}: {} after {} scans, {:.1f} % of the observable cells observed\n"
-      "path {:.2f} m, {} collisions, map precision {}, recall {}, {:.1f} x real time\n",
-      metrics["method"].get<std::string>(), metrics["status"].get<std::string>(), scans.size(),
-      total > 0.0 ? 100.0 * (1.0 - left / total) : 0.0, metrics["path_length_m"].get<double>(),
-      metrics["collisions"].get<int>(), score("precision"), score("recall"),
-      metrics["real_time_factor"].get<double>());
+             "{}: {} after {} scans, {:.1f} % of the observable cells observed\n"
+             "path {:.2f} m, {} collisions, map precision {}, recall {}, {:.1f} x real time\n",
+             metrics["method"].get<std::string>(), metrics["status"].get<std::string>(),
+             scans.size(), total > 0.0 ? 100.0 * (1.0 - left / total) : 0.0,
+             metrics["path_length_m"].get<double>(), metrics["collisions"].get<int>(),
+             score("precision"), score("recall"), metrics["real_time_factor"].get<double>()) +
+         left_out_text(metrics);
 }
 
 }  // namespace vantage

@@ -10,6 +10,7 @@
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
+#include "vantage/tasks/mapping/localisation_summary.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 
 namespace vantage {
@@ -21,6 +22,7 @@ struct MappingResult {
   const GroundTruthMapEvaluator& evaluator;
   std::span<const ScanRecord> scans;
   std::span<const Candidate> views;
+  const LocalisationSummary& localisation;
 };
 
 void add_mapping_metrics(const MappingOptions& options, const MappingResult& run,

@@ -13,6 +13,7 @@
 #include "vantage/belief/map/sensor_model.hpp"
 #include "vantage/control/drive_options.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/localisation/loop_options.hpp"
 #include "vantage/perception/clouds/registration.hpp"
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/choice/view_problem.hpp"
@@ -95,6 +96,8 @@ struct MetricsOptions {
 struct LocalisationOptions {
   double tolerance_cells = 4.0;
   bool accept_drift = false;
+  LoopOptions loops;
+  double max_contradicted = 0.03;
   void fields(auto&& f) {
     f("tolerance_cells", tolerance_cells,
       "how far off its place, RMS, the robot may believe what it maps to be, in the longest edge "
@@ -103,6 +106,12 @@ struct LocalisationOptions {
     f("accept_drift", accept_drift,
       "true: a map that is not to be trusted is a completed run all the same, with the reason; "
       "false: a failed one");
+    f("loops", loops, "exploration: coming back to places of long ago, and what is made of it");
+    f("max_contradicted", max_contradicted,
+      "exploration: share of the planar scanner's returns whose beams go through a wall of the "
+      "map, "
+      "above which the map is in doubt; higher says so later",
+      between(0.0, 1.0));
   }
 };
 

@@ -11,6 +11,7 @@
 #include "vantage/core/names.hpp"
 #include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/swept_gain.hpp"
+#include "vantage/runtime/episode_loop.hpp"
 
 namespace vantage {
 namespace {
@@ -32,8 +33,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
       robot_(context.robot),
       recorder_(context.recorder),
       navigator_(std::move(navigator)),
-      budget_(options.budget, options.navigation, options.drive.controller.speed_m_s, robot_,
-              navigator_),
+      budget_(options.budget, options.drive.controller.speed_m_s, robot_, navigator_),
       options_(options),
       evaluator_(context.evaluator),
       outside_(context.outside),
@@ -49,6 +49,17 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
 void MappingParts::look_round_at_start() {
   navigator_.turn_in_place();
   predict(robot_.estimated_sensor());
+}
+
+void MappingParts::note_useless(int attempt) const {
+  constexpr int kAttempts = 4;
+  const std::string what = fmt::format(
+      "scan {} shows nothing at {:.2f} s: its frames were lost, stale or without "
+      "readings",
+      scans_.size() + 1, robot_.time_s());
+  if (attempt >= kAttempts)
+    throw EpisodeFailed(fmt::format("{}, {} times in a row", what, attempt));
+  log_warning(what + ": it is taken again");
 }
 
 MappingParts::Before MappingParts::before_update() {
@@ -79,6 +90,11 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   current_.map_sigma_m = map_sigma_m();
   evaluator_.measure_pose({before.dead_reckoned, before.tracked, update.T_world_base}, current_);
   current_.T_world_sensor = T_world_sensor;
+  current_.T_world_base = update.T_world_base;
+  if (const LoopClosing* loops = navigator_.loops()) {
+    current_.keyframe = loops->remembered().size() - 1;
+    note_pose_sigmas(std::array{&current_});
+  }
   if (!update.registered) {
     log_warning(fmt::format("scan {}: not registered, {}: the pose tracked on the way is kept",
                             scans_.size() + 1, update.registration_note));

@@ -2,7 +2,9 @@
 /// drive. Tasks differ in how they propose views and act.  [Potthast2016, chapter 3]
 #pragma once
 
+#include <functional>
 #include <future>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +17,7 @@
 #include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/tasks/mapping/driving/navigator.hpp"
 #include "vantage/tasks/mapping/ground_truth_map_evaluator.hpp"
+#include "vantage/tasks/mapping/localisation_summary.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
 #include "vantage/tasks/mapping/mapping_recorder.hpp"
 #include "vantage/tasks/mapping/view_planner.hpp"
@@ -46,6 +49,8 @@ class MappingParts {
   [[nodiscard]] const BudgetKeeper& budget() const { return budget_; }
   /// Why the map is not to be trusted, by what the robot knows of its own pose; empty if it is.
   [[nodiscard]] std::string distrust() const;
+  /// How the scans fit together, and why that leaves the map in doubt.
+  LocalisationSummary localisation();
   /// Those of the next decision, and after it those it was made among.
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
@@ -73,9 +78,22 @@ class MappingParts {
     current_.scan_energy_j = robot_.energy_used_j() - start_j;
     return observation;
   }
+  /// The first observation that shows something: one that does not is made again, a few times.
+  /// @param take makes an observation, says only what it is sure of and whether that is anything
+  /// @throws EpisodeFailed
+  template <class Observation>
+  Observation first_usable(const std::function<bool(Observation&)>& take) {
+    for (int attempt = 1;; ++attempt) {
+      Observation observation;
+      if (take(observation)) return observation;
+      note_useless(attempt);
+    }
+  }
   [[nodiscard]] Before before_update();
   void correct_pose(const BeliefUpdate& update);
   void measure(const Before& before, const BeliefUpdate& update, const Pose& T_world_sensor);
+  /// Loops have moved what was mapped: so have all records, and the map of the last is another.
+  void correct_records(const PoseCorrection& correction, const Pose& T_base_sensor);
   const ScanRecord& record_scan();
   /// What the scan to come will show, seen from there.
   void predict(const Pose& T_world_sensor);
@@ -85,6 +103,9 @@ class MappingParts {
   Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
   void warn_out_of_reach(const Candidate& view) const;
   void start_decision();
+  /// The views that `oracle_tour` alone may take: of all places where a robot could stand those
+  /// that are in reach now, or those that are not yet. None of another choice, or at a table.
+  [[nodiscard]] std::vector<Candidate> views_of_truth(const PathField& paths, bool in_reach) const;
   /// Cells that these views are expected to show together, by `adaptive`.
   [[nodiscard]] double expected_left_cells(const std::vector<Candidate>& views);
   /// Why no further scan is taken once there are as many as were asked for, or none of these views
@@ -99,6 +120,8 @@ class MappingParts {
   std::vector<Candidate> views_;
   bool views_have_gains_ = false;
   std::vector<std::size_t> plan_;  ///< candidates that a choice that plans ahead wants to take
+  std::optional<Eigen::Vector2d>
+      intended_m_;                 ///< where the plan wants to scan after its first view
   double decision_start_s_ = 0.0;  ///< wall
   ScanRecord current_;             ///< filled in from the decision to the end of its scan
   std::vector<ScanRecord> scans_;
@@ -110,13 +133,17 @@ class MappingParts {
     double at_half_cells = 0.0;  ///< with half the hazard
   };
 
+  /// @throws EpisodeFailed after the last attempt
+  void note_useless(int attempt) const;
   [[nodiscard]] int scans_left() const;
   std::size_t own_choice(const std::vector<Candidate>& candidates);
   std::size_t chosen_outside(std::vector<Candidate>& candidates);
   std::size_t next_of_plan(const std::vector<Candidate>& candidates);
   void tell_truth(std::vector<Candidate>& candidates) const;
+  [[nodiscard]] std::span<const Pose> poses_of_truth() const;
   [[nodiscard]] MapPanelInput panel() const;
   [[nodiscard]] double map_sigma_m() const;
+  void note_pose_sigmas(std::span<ScanRecord* const> records) const;
   [[nodiscard]] BlockField transmission() const;
   [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
   [[nodiscard]] Prediction predicted() const;

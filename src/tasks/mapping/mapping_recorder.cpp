@@ -19,8 +19,9 @@ constexpr std::string_view kMetrics = "metrics.json";
 
 // Of columns of steps.csv and keys of metrics.json alike.
 constexpr std::string_view kPoseError =
-    "of the position that the scan was taken into the map at, by ground truth: the registered one, "
-    "or the tracked one where the scan was not registered";
+    "of the position that the scan is in the map at, by ground truth: the registered one, or the "
+    "tracked one where the scan was not registered; in metrics.json after what later loops have "
+    "corrected";
 constexpr std::string_view kBefore =
     "of the position that the wheels alone give since the scan before, without any registration";
 constexpr std::string_view kTracked =
@@ -43,19 +44,20 @@ std::string steps_header(const std::vector<Predictor>& predictors) {
          "path_length_m,leg_length_m,plan_time_s,map_time_s,scan_time_s,pose_error_m,"
          "pose_error_before_registration_m,pose_error_tracked_m,yaw_error_rad,registered,"
          "unconstrained,"
-         "collisions,precision,recall";
+         "collisions,precision,recall,pose_sigma_m";
 }
 
 std::string steps_row(const ScanRecord& scan, std::size_t number) {
   std::string gains;
   for (const auto& [name, cells] : scan.predicted_cells) gains += fmt::format("{},", cells);
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{}{},{},{},{},{},{},{},{},{},{},{},{},{},{}", scan.time_s, number,
+      "{},{},{},{},{},{},{},{},{}{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", scan.time_s, number,
       scan.chosen_view, scan.fallback, pose_columns(scan.T_world_sensor), scan.unobserved_cells,
       scan.observable_unobserved_cells, scan.actual_new_cells, gains, scan.path_length_m,
       scan.leg_length_m, scan.plan_time_s, scan.map_time_s, scan.scan_time_s, scan.pose_error_m,
       scan.pose_error_before_registration_m, scan.pose_error_tracked_m, scan.yaw_error_rad,
-      scan.registered, scan.unconstrained, scan.collisions, scan.precision, scan.recall);
+      scan.registered, scan.unconstrained, scan.collisions, scan.precision, scan.recall,
+      scan.pose_sigma_m);
 }
 
 std::vector<CandidateRow> candidate_rows(const std::vector<Candidate>& candidates,
@@ -94,6 +96,9 @@ constexpr auto kScanTexts = std::to_array<std::pair<std::string_view, std::strin
     {"scans[].precision",
      "of occupied cells, share that is occupied within metrics.tolerance_cells"},
     {"scans[].recall", "of observed surface cells, share that the map holds as occupied"},
+    {"scans[].pose_sigma_m",
+     "of the position that the scan is in the map at, by what all scans say of each other: grows "
+     "along plain walls, shrinks with loops; 0: the task closes none"},
 });
 
 }  // namespace
@@ -193,6 +198,11 @@ RecordTexts mapping_records() {
       {kCandidates, "way_m", "length of the planned path to it; empty: out of reach"},
       {kCandidates, "chosen", "1: it was taken"},
       {kMetrics, "observable_cells", "cells that can be observed at all, by ground truth"},
+      {kMetrics, "unreachable.rooms",
+       "exploration: open places that no way leads to, by ground truth"},
+      {kMetrics, "unreachable.cells",
+       "exploration: cells that can be observed from there alone; not among observable_cells"},
+      {kMetrics, "unreachable.share", "of them and observable_cells together"},
       {kMetrics, "scans", "one entry a scan"},
       {kMetrics, "scans[].predicted", "what each gain said the scan would newly observe"},
       {kMetrics, "scans[].predicted.<gain>", "cells"},
@@ -219,6 +229,7 @@ RecordTexts mapping_records() {
       {kMetrics, "scans[].candidates", "number of views that were chosen from"},
       {kMetrics, "scans[].map_sigma_m",
        "how far off its place the robot believes what it maps to be, RMS"},
+      {kMetrics, "scans[].pose_error_at_scan_m", "pose_error_m before later loops corrected it"},
       {kMetrics, "scans[].view", "pose of the sensor, as the robot believes it"},
       {kMetrics, "map.precision",
        "of the map at the end: of occupied cells, share that is occupied within the tolerance; "
@@ -237,6 +248,20 @@ RecordTexts mapping_records() {
        "how far off it may believe its map to be, from localisation.tolerance_cells"},
       {kMetrics, "localisation.trusted", "map_sigma_m is within it"},
       {kMetrics, "localisation.registered_scans", "scans whose registration was taken"},
+      {kMetrics, "localisation.pose_sigma_m", "greatest pose_sigma_m of the scans"},
+      {kMetrics, "localisation.loops", "times the robot was found to be back at a place"},
+      {kMetrics, "localisation.loops_refused",
+       "loops that were found, and that no other confirmed or that the others contradict"},
+      {kMetrics, "localisation.corrections",
+       "times loops have moved the poses, and the map was made anew"},
+      {kMetrics, "localisation.contradicted_share",
+       "of the planar scanner's returns, share whose beams go through walls of the map: walls "
+       "drawn "
+       "twice; null: the task closes no loops"},
+      {kMetrics, "localisation.map_in_doubt",
+       "map_sigma_m, pose_sigma_m or contradicted_share is "
+       "too large"},
+      {kMetrics, "localisation.doubt", "why, in words; null: not in doubt, or not trusted"},
       {kMetrics, "region", "box of the map, world: min_m, max_m"},
       {kMetrics, "candidates", "views of the last decision"},
   };

@@ -18,7 +18,7 @@ namespace vantage {
 template <class Robot>
 RecordedRobot recorded(Robot& robot) {
   return {robot.world(), [&robot] { return to_se3(robot.ground_truth().T_world_base()); },
-          [&robot] { return to_se3(robot.estimated_base()); }};
+          [&robot] { return to_se3(robot.estimated_base()); }, &robot.faults()};
 }
 
 /// That the run was asked for; null: none, the task chooses itself.
@@ -39,15 +39,21 @@ RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& ro
     if (!remark.empty() && !options.localisation.accept_drift) throw EpisodeFailed(remark);
     return reason;
   });
+  const LocalisationSummary localisation = parts.localisation();
+  if (!localisation.doubt.empty()) {
+    if (!remark.empty()) remark += "; ";
+    remark += localisation.doubt;
+  }
   if (ending.status == EpisodeStatus::completed && !remark.empty()) {
     log_warning(remark);
     ending.reason += "; " + remark;
   }
   const RunTotals totals{robot.time_s(), robot.ground_truth().collisions()};
   RunOutcome outcome = run.finish(ending, totals, recorder, [&](nlohmann::ordered_json& metrics) {
-    add_mapping_metrics(options,
-                        {belief.grid(), belief.hazard(), evaluator, parts.scans(), parts.views()},
-                        metrics);
+    add_mapping_metrics(
+        options,
+        {belief.grid(), belief.hazard(), evaluator, parts.scans(), parts.views(), localisation},
+        metrics);
     parts.budget().add_metrics(metrics);
   });
   if (!run.request().options.lean) recorder.write_map(belief.grid(), belief.cloud());

@@ -20,6 +20,18 @@ std::vector<double> travel_times_s(const TravelTime& time, const std::vector<Can
   return travel_s;
 }
 
+/// Of cells: `adaptive` alone is held against what scans show.
+std::vector<std::array<double, 2>> intervals_of(const ForecastInterval* forecast, const Gain& gain,
+                                                const std::vector<Candidate>& views) {
+  std::vector<std::array<double, 2>> intervals;
+  if (forecast == nullptr || !std::holds_alternative<AdaptiveGain>(gain)) return intervals;
+  for (const Candidate& view : views) {
+    const CellInterval cells = forecast->of(view.gain_bits);
+    intervals.push_back({cells.low, cells.high});
+  }
+  return intervals;
+}
+
 /// The view from where the base stands there, as the sensor is mounted.
 Candidate view_from(const Pose2& base, std::size_t id, const MobileRobotInterface& robot,
                     const PathField& paths) {
@@ -54,6 +66,7 @@ std::size_t decide_outside(const OutsideChoice& outside, const OutsideSituation&
       .situation = map_situation(situation),
       .candidates = candidates,
       .travel_s = travel_times_s(situation.budget.rates().travel_time(), candidates),
+      .interval_cells = intervals_of(situation.interval, gain, candidates),
       .gain = gain,
       .paths = paths,
       .own_choice = own_choice};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/planners/choice/outside_choice.hpp"
+#include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/tasks/mapping/driving/budget_keeper.hpp"
 #include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
@@ -20,6 +21,7 @@ struct OutsideSituation {
   const BudgetKeeper& budget;
   std::size_t scans = 0;
   int scans_left = 0;
+  const ForecastInterval* interval = nullptr;  ///< of what `adaptive` forecasts
 };
 
 MapSituation map_situation(const OutsideSituation& situation);

@@ -1,29 +1,41 @@
 #include "vantage/tasks/mapping/view_planner.hpp"
 
+#include <algorithm>
+
 namespace vantage {
+namespace {
+
+/// A view so near to where one was intended looks at what that one would have.
+constexpr double kSame_m = 1.5;
+
+}  // namespace
 
 PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain,
                                  const std::vector<Candidate>& candidates,
                                  const PlanningSituation& situation) {
   std::vector<Candidate> views;
   std::vector<Eigen::Vector2d> places_m;
-  for (const std::size_t i : open_candidates(candidates)) {
-    views.push_back(candidates[i]);
-    const Pose2 base = situation.robot.base_for_sensor(candidates[i].T_world_sensor);
+  for (const std::size_t i : open_candidates(candidates)) views.push_back(candidates[i]);
+  views.insert(views.end(), situation.later.begin(), situation.later.end());
+  for (const Candidate& view : views) {
+    const Pose2 base = situation.robot.base_for_sensor(view.T_world_sensor);
     places_m.emplace_back(base.x_m, base.y_m);
   }
-  const ViewPlanningInput input{.map = {situation.belief.filled_grid(), &situation.transmission},
-                                .gain = gain,
-                                .candidates = views,
-                                .places_m = places_m,
-                                .field_of_view = situation.robot.view_field(),
-                                .paths = situation.paths,
-                                .travel_time = situation.budget.rates().travel_time(),
-                                .scan_s = situation.budget.rates().scan_s(),
-                                .threads = situation.threads};
+  const ViewPlanningInput input{
+      .map = {situation.belief.filled_grid(), &situation.transmission},
+      .gain = gain,
+      .candidates = views,
+      .places_m = places_m,
+      .field_of_view = situation.robot.view_field(),
+      .paths = situation.true_paths != nullptr ? *situation.true_paths : situation.paths,
+      .travel_time = situation.budget.rates().travel_time(),
+      .scan_s = situation.budget.rates().scan_s(),
+      .elapsed_s = situation.robot.time_s(),
+      .threads = situation.threads};
   PlanningProblem problem = knows_truth(options.choice)
                                 ? make_true_view_problem(input, options.planning)
                                 : make_view_problem(input, options.planning);
+  if (situation.intended_m) problem.intended = view_near(problem, *situation.intended_m, kSame_m);
   problem.left = situation.budget.left();
   problem.home_s = situation.budget.home_s(places_m);
   problem.driving_w = situation.budget.rates().driving_w();
@@ -37,6 +49,8 @@ std::vector<std::size_t> plan_ahead(const MappingOptions& options,
   const PlanningProblem problem = planning_problem(options, options.gain, candidates, situation);
   const std::vector<std::size_t> open = open_candidates(candidates);
   std::vector<std::size_t> order = plan_views(options.choice, problem, rng).order;
+  const auto later = std::ranges::find_if(order, [&](std::size_t v) { return v >= open.size(); });
+  order.erase(later, order.end());
   for (std::size_t& view : order) view = open[view];
   return order;
 }

@@ -1,7 +1,11 @@
 /// Planning several views ahead in an episode: what the choice needs to know, and what it plans.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -21,15 +25,22 @@ struct PlanningSituation {
   const PathField& paths;
   const BudgetKeeper& budget;
   int threads;
+  /// Of a choice that knows the truth: views that cannot be reached yet, and the ways as they
+  /// really are.
+  std::span<const Candidate> later = {};
+  const PathField* true_paths = nullptr;
+  std::optional<Eigen::Vector2d> intended_m = {};  ///< where the last plan wanted to scan next
 };
 
-/// What each candidate shows, exhausted ones left out, and the ways between them.
+/// What each candidate shows, exhausted ones left out, and the ways between them; behind them those
+/// of `situation.later`.
 /// @param gain what they are expected to show; with a choice that knows the truth, what they do
 PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain,
                                  const std::vector<Candidate>& candidates,
                                  const PlanningSituation& situation);
 
-/// Indices of candidates, exhausted ones left out, the next one first; empty if none can be taken.
+/// Indices of candidates, exhausted ones left out, the next one first, up to the first that cannot
+/// be reached yet; empty if none can be taken.
 /// @param options whose choice plans_views()
 std::vector<std::size_t> plan_ahead(const MappingOptions& options,
                                     const std::vector<Candidate>& candidates,

@@ -14,6 +14,7 @@ Orbit ObjectFlight::orbit_round(const Eigen::Vector3d& p_world_place_m) const {
 std::string ObjectFlight::method_name() const { return strategy_label(decision.views.choice); }
 
 void ObjectFlight::check_with(const EpisodeOptions& episode) const {
+  require_possible(episode.faults, {.colour = true, .rotors = true});
   require_flight_world(episode.simulation);
 }
 

@@ -50,7 +50,7 @@ FlightObservation ObjectFlightParts::observe() {
     current_.flight = robot_.fly_along(orbit_arc(at_orbit_, at_rad_, first_rad_, task_.arc_rad));
     at_rad_ = first_rad_;
   }
-  return robot_.observe();
+  return gate_.first_admitted([this] { return robot_.observe(); });
 }
 
 /// Cuts the target out of the image; among others, the map takes the image in too.

@@ -8,6 +8,7 @@
 
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/tasks/flight/image_gate.hpp"
 #include "vantage/tasks/object_flight/object_flight.hpp"
 #include "vantage/tasks/object_flight/object_flight_evaluator.hpp"
 #include "vantage/tasks/object_flight/object_flight_recorder.hpp"
@@ -89,6 +90,7 @@ class ObjectFlightParts {
   NextView next_;
   ObservationRecord current_;  ///< filled in from the decision to the end of its view
   SegmentedObject seen_;
+  ImageGate gate_{4};
   CameraImages camera_image_;
   std::vector<ObservationRecord> records_;
 };

@@ -5,7 +5,7 @@ namespace vantage {
 RecordedRobot recorded(SimulatedOrbitRobot& robot) {
   SimulatedQuadrotor& quadrotor = robot.quadrotor();
   return {quadrotor.world(), [&quadrotor] { return quadrotor.true_body(); },
-          [&quadrotor] { return quadrotor.estimated_body(); }};
+          [&quadrotor] { return quadrotor.estimated_body(); }, &quadrotor.faults()};
 }
 
 RunOutcome run_object_flight(EpisodeRun& run, SimulatedOrbitRobot& robot,

@@ -11,6 +11,7 @@ namespace vantage {
 
 /// What the robot observes with one image.
 struct FlightObservation {
+  bool arrived = true;  ///< false: the image was taken, and lost
   CameraImages images;  ///< colour and depth
   Pose T_world_camera;  ///< as estimated, OpenCV's axes
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/interrupt.hpp"
@@ -63,7 +64,10 @@ std::vector<SimulatedOrbitRobot::Object> SimulatedOrbitRobot::objects_of(
 FlightObservation SimulatedOrbitRobot::observe() {
   throw_if_interrupted();
   require_untouched(quadrotor_.tracking().hold(task_.settle_s));
-  return {.images = quadrotor_.colour_image(camera_noise_),
+  auto images = quadrotor_.faults().arriving(quadrotor_.colour_image(camera_noise_), time_s());
+  const bool arrived = images.has_value();
+  return {.arrived = arrived,
+          .images = arrived ? std::move(*images) : CameraImages{},
           .T_world_camera = estimated_body() * quadrotor_.T_body_camera()};
 }
 

@@ -69,12 +69,15 @@ TabletopObservation SimulatedTabletopRobot::observe() {
   const double rate = (laser_.tilt_max_rad - laser_.tilt_min_rad) / laser_.scan_duration_s;
   const double period_s = world.options().control_period_s;
   const int ticks = static_cast<int>(std::ceil(laser_.scan_duration_s / period_s));
+  const auto spoil = [&](std::vector<float>& range_m) {
+    base_.faults().spoil_line(range_m, laser_.range_max_m, world.time_s());
+  };
   for (int i = 0; i <= ticks; ++i) {
     const double target = laser_.tilt_min_rad + rate * period_s * static_cast<double>(i);
     robot.command_laser_tilt(world, std::min(target, laser_.tilt_max_rad));
     base_.tick();
     builder.add_line(base_.seen_geometry(), robot.T_world_laser(world), robot.laser_tilt_rad(world),
-                     robot.laser_body_id(), laser_noise_);
+                     robot.laser_body_id(), laser_noise_, spoil);
   }
   return {builder.finish(), robot.T_base_laser_mount(world), read_base_scanner(),
           base_scan_height_m(), estimated_base()};

@@ -35,6 +35,7 @@ GroundTruthMapEvaluator tabletop_evaluator(const Tabletop& task, int threads,
 }
 
 void Tabletop::check_with(const EpisodeOptions& episode) const {
+  require_possible(episode.faults, {.laser = true, .wheels = true});
   const double period_s = episode.simulation.control_period_s;
   if (std::abs(laser.line_rate_hz * period_s - 1.0) > 1e-9) {
     throw ConfigError(fmt::format(
@@ -77,6 +78,7 @@ std::string Tabletop::outcome(const nlohmann::ordered_json& metrics) {
 }
 
 std::vector<std::string> Tabletop::require_start(const EpisodeSetup& setup) const {
+  require_planner(choice);
   return SimulatedTabletopRobot(setup, *this).start_notes();
 }
 

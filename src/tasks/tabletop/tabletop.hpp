@@ -13,6 +13,7 @@
 #include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/task_answers.hpp"
 #include "vantage/sim/world/model_source.hpp"
+#include "vantage/tasks/mapping/external/planner_files.hpp"
 #include "vantage/tasks/mapping/hindsight/view_coverage.hpp"
 #include "vantage/tasks/mapping/mapping_options.hpp"
 
@@ -41,10 +42,10 @@ struct Tabletop : MappingOptions {
   /// What concerns the task and the rest of the episode. @throws ConfigError
   void check_with(const EpisodeOptions& episode) const;
 
-  void find_files(const std::filesystem::path&) {}
+  void find_files(const std::filesystem::path& base) { find_planner(choice, base); }
   /// The map follows the table of the scene where it is left open. @throws InputError
   void resolve(const EpisodeSetup& setup);
-  [[nodiscard]] std::vector<InputFile> inputs() const { return {}; }
+  [[nodiscard]] std::vector<InputFile> inputs() const { return planner_files(choice); }
   [[nodiscard]] ModelSource model_source(const EpisodeSetup& setup) const;
   [[nodiscard]] TaskExtent extent(const EpisodeSetup& setup) const;
   [[nodiscard]] WindowContent window() const;

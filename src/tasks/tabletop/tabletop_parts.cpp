@@ -1,8 +1,29 @@
 #include "vantage/tasks/tabletop/tabletop_parts.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "vantage/perception/clouds/usable_readings.hpp"
 
 namespace vantage {
+namespace {
+
+/// Discards what says nothing. @return whether enough is left
+/// @param last_line of the scan before, then of this one
+bool keep_usable(TabletopObservation& observation, std::vector<float>& last_line) {
+  constexpr double kLeastLines = 0.1;  // of a scan
+  RangeScan& scan = observation.scan;
+  discard_unusable(observation.base_scan);
+  discard_unusable(scan);
+  const auto first = scan.range_m.size() - std::min(scan.beams(), scan.range_m.size());
+  const std::vector<float> before = std::exchange(
+      last_line, {scan.range_m.begin() + static_cast<std::ptrdiff_t>(first), scan.range_m.end()});
+  discard_repeated_lines(scan, before);
+  return share_of_valid_lines(scan) >= kLeastLines;
+}
+
+}  // namespace
 
 std::vector<Candidate> tabletop_views(const Tabletop& task) {
   return ring_of_views(task.candidates, task.map.centre());
@@ -23,7 +44,12 @@ TabletopParts::TabletopParts(const MappingContext& context, const Tabletop& task
 
 TabletopObservation TabletopParts::observe() {
   if (scans_.empty()) look_round_at_start();
-  return observed([this] { return tabletop_robot_.observe(); });
+  return observed([this] {
+    return first_usable<TabletopObservation>([this](TabletopObservation& observation) {
+      observation = tabletop_robot_.observe();
+      return keep_usable(observation, last_line_);
+    });
+  });
 }
 
 void TabletopParts::update(const TabletopObservation& observation) {
@@ -47,7 +73,8 @@ std::vector<Candidate> TabletopParts::propose() {
 
 std::vector<Candidate> TabletopParts::reachable_views() {
   std::vector<Candidate> candidates = views_;
-  const PathField paths = navigator_.plan();
+  const auto planned = navigator_.plan();
+  const PathField& paths = *planned;
   for (Candidate& candidate : candidates) {
     candidate.path_length_m =
         path_length_m(paths, robot_.base_for_sensor(candidate.T_world_sensor));

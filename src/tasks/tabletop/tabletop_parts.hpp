@@ -34,6 +34,7 @@ class TabletopParts : public MappingParts {
   const Tabletop task_;
   TabletopRobotInterface& tabletop_robot_;
   TabletopBelief& belief_;
+  std::vector<float> last_line_;  ///< of the scan before, as it came
 };
 
 }  // namespace vantage

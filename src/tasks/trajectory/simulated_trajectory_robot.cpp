@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/interrupt.hpp"
@@ -113,7 +114,9 @@ void SimulatedTrajectoryRobot::capture_now(const ImageCallback& on_image) {
   next_image_s_ = time_s() + image_period_s_;
   FlightImage image;
   image.time_s = time_s();
-  image.depth = quadrotor_.depth_image(depth_noise_);
+  auto depth = quadrotor_.faults().arriving(quadrotor_.depth_image(depth_noise_), time_s());
+  image.arrived = depth.has_value();
+  if (depth) image.depth = std::move(*depth);
   image.T_world_camera = estimated_body() * T_body_camera();
   image.with_colour = [&] {
     CameraImages images = quadrotor_.colour_image(colour_noise_);

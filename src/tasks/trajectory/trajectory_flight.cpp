@@ -32,6 +32,7 @@ std::string TrajectoryFlight::method_name() const {
 }
 
 void TrajectoryFlight::check_with(const EpisodeOptions& episode) const {
+  require_possible(episode.faults, {.colour = true, .rotors = true});
   require_flight_world(episode.simulation);
 }
 

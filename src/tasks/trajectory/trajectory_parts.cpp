@@ -67,7 +67,9 @@ WaypointReached TrajectoryParts::observe() {
   return {.waypoint = ++at_, .time_s = robot_.time_s(), .T_world_body = robot_.estimated_body()};
 }
 
-void TrajectoryParts::process_image(const FlightImage& image) {
+void TrajectoryParts::process_image(const FlightImage& taken) {
+  FlightImage image = taken;
+  if (!gate_.admit(image.arrived, image.depth)) return;
   map_.insert(image.depth, image.T_world_camera);
   const std::vector<SeenObject> seen =
       find_objects(image.depth, image.T_world_camera, task_.search);

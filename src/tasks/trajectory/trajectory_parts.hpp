@@ -9,6 +9,7 @@
 #include "vantage/belief/tracking/object_tracker.hpp"
 #include "vantage/planners/trajectory/flight_planner.hpp"
 #include "vantage/recognition/observation_buffer.hpp"
+#include "vantage/tasks/flight/image_gate.hpp"
 #include "vantage/tasks/trajectory/trajectory_evaluator.hpp"
 #include "vantage/tasks/trajectory/trajectory_flight.hpp"
 #include "vantage/tasks/trajectory/trajectory_recorder.hpp"
@@ -54,7 +55,7 @@ class TrajectoryParts {
   [[nodiscard]] const FlightMap& map() const { return map_; }
 
  private:
-  void process_image(const FlightImage& image);
+  void process_image(const FlightImage& taken);
   void buffer_observations(const FlightImage& image, const std::vector<int>& ids,
                            const std::vector<SeenObject>& seen);
   void apply_observations(const std::vector<BufferedObservation>& due);
@@ -78,6 +79,7 @@ class TrajectoryParts {
   FlightPlanner planner_;
   Rng observation_rng_;
   ObservationBuffer buffer_;
+  ImageGate gate_{20};             ///< two seconds among obstacles, at the default rate
   int at_ = -1;                    ///< the waypoint reached last
   double planning_since_s_ = 0.0;  ///< wall
   WaypointRecord current_;         ///< filled in from the decision to the end of its segment

@@ -78,7 +78,7 @@ TrajectoryRecorder::TrajectoryRecorder(const EpisodeRun& run, SimulatedQuadrotor
                                        const RgbdOptions& camera)
     : EpisodeRecorder(run,
                       {quadrotor.world(), [&quadrotor] { return quadrotor.true_body(); },
-                       [&quadrotor] { return quadrotor.estimated_body(); }},
+                       [&quadrotor] { return quadrotor.estimated_body(); }, &quadrotor.faults()},
                       std::string(kStepsHeader), 1.0, kPlanColumns),
       quadrotor_(quadrotor),
       flight_(log(), directory(), !lean()),

@@ -14,6 +14,7 @@ namespace vantage {
 /// An image taken in flight.
 struct FlightImage {
   double time_s = 0.0;  ///< simulated
+  bool arrived = true;  ///< false: the image was taken, and lost
   CameraImages depth;   ///< measured depth, neither colour nor truth
   Pose T_world_camera;  ///< as estimated, OpenCV's axes
   /// The same image with its colour. A camera gives both at once; it is drawn when asked for, and

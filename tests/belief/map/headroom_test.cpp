@@ -56,6 +56,20 @@ TEST(Headroom, ATableTopBlocksTheFloorBelowIt) {
   EXPECT_EQ(floor.state_at({-0.35, 0.05}), CellState::occupied);
 }
 
+/// The scanner has measured the face of a wall; it has not seen what hangs above it.
+TEST(Headroom, WallsDoNotBlockTheFinerMap) {
+  OccupancyGrid grid = free_row();
+  for (int z = 0; z < 8; ++z) set(grid, 2, z, kOccupied);  // a wall
+  set(grid, 4, 3, kOccupied);                              // a table top
+  for (int z = 3; z < 8; ++z) set(grid, 6, z, kOccupied);  // a cupboard that hangs
+  set(grid, 8, 1, kOccupied);                              // a low box
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
+  EXPECT_EQ(row(floor), "....xx..xx..xx..xx..");
+  EXPECT_EQ(row(detail), "........xx..xx..xx..");
+}
+
 TEST(Headroom, TheFloorItselfAndWhatIsAboveTheRobotDoNot) {
   OccupancyGrid grid = free_row();
   set(grid, 2, 0, kOccupied);

@@ -1,4 +1,4 @@
-#include "vantage/belief/map/octomap_format.hpp"
+#include "vantage/belief/map/octomap/octomap_format.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -79,6 +79,25 @@ TEST(ViewProblem, KnowsThatTwoViewsOfOnePlaceShareTheirCells) {
   EXPECT_GT(joint_gain(problem, apart), 1.25 * one);
 }
 
+/// What all views show together and what is beyond them is all there is, where no wall is known.
+TEST(ViewProblem, KnowsWhatLiesBeyondAllViews) {
+  const Room room;
+  ViewPlanningInput input = room.input(AdaptiveGain{});
+  input.elapsed_s = 16.0;
+  const PlanningProblem problem = make_view_problem(input, {});
+  const std::vector<std::size_t> all{0, 1, 2};
+  double beyond = 0.0;
+  for (const std::size_t view : all) beyond += problem.beyond_of(view);
+  EXPECT_NEAR(joint_gain(problem, all) + beyond, 8000.0, 80.0);
+  EXPECT_GT(problem.beyond_of(0), 2.0 * problem.beyond_of(1));  // its neighbours share theirs
+  EXPECT_EQ(problem.seen, 8000.0);
+  EXPECT_NEAR(problem.pace_per_s, 500.0, 1e-9);
+  EXPECT_NEAR(problem.dwell_s(0), problem.beyond_of(0) / 500.0, 1e-9);
+  // Nothing counts where that is not wanted, or time has not passed.
+  EXPECT_EQ(make_view_problem(input, {.beyond_m = 0.0}).beyond_of(0), 0.0);
+  EXPECT_EQ(make_view_problem(room.input(AdaptiveGain{}), {}).beyond_of(0), 0.0);
+}
+
 TEST(ViewProblem, OfAViewOutOfReachIsInfinitelyFar) {
   Room room;
   room.views[0].reachable = false;

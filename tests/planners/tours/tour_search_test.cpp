@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/planners/tours/small_problem.hpp"
 #include "vantage/planners/tours/joint_gain.hpp"
 
@@ -29,14 +31,117 @@ TEST(TourCost, IsTheMeanTimeUntilSeenAndTheEnd) {
               1e-9);
   EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0}, both), 9.0, 1e-9);
   EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 0.25}, both), 0.75 * 4.5 + 0.25 * 9.0, 1e-9);
-  // What is left out counts as seen 100 s after the end.
+  // What is left out counts as seen at the end, and costs what it is worth.
   EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 0.0, .worth_s = 100.0}, test::Order{1}),
-              (30.0 * 3.0 + 10.0 * 103.0) / 40.0, 1e-9);
+              (30.0 * 3.0 + 10.0 * 3.0) / 40.0 + 100.0 * 10.0 / 40.0, 1e-9);
+}
+
+TEST(TourCost, HoldsWhatIsLeftOutAgainstAllThereIs) {
+  PlanningProblem problem = two_views();
+  problem.seen = 160.0;  // of 200
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0, .worth_s = 100.0}, test::Order{1}),
+              3.0 + 100.0 * 10.0 / 200.0, 1e-9);
+}
+
+TEST(TourCost, HasTheTimeThatWhatLiesBeyondTakes) {
+  PlanningProblem problem = two_views();
+  problem.beyond = {60.0, 0.0};
+  problem.pace_per_s = 3.0;      // 20 s behind view 0
+  const test::Order both{0, 1};  // at 7 s and 7 + 20 + 4 + 2 s
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 0.0}, both),
+              (10.0 * 7.0 + 60.0 * 17.0 + 30.0 * 33.0) / 100.0, 1e-6);
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0}, both), 33.0, 1e-6);
+  // Left out with its view.
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0, .worth_s = 50.0}, test::Order{1}),
+              3.0 + 50.0 * 70.0 / 100.0, 1e-6);
+  // Where no pace is known it does not count.
+  problem.pace_per_s = 0.0;
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0}, both), 13.0, 1e-9);
+}
+
+/// Jobs without ways between them: the mean time is least by falling weight per time. [Smith1956]
+TEST(SearchTour, TakesRegionsByWhatTheyShowPerTime) {
+  Rng rng(31);
+  for (int k = 0; k < 20; ++k) {
+    PlanningProblem problem;
+    problem.scan_s = 2.0;
+    problem.pace_per_s = 4.0;
+    problem.travel_s = Eigen::MatrixXd::Zero(7, 6);
+    std::vector<double> rate;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      problem.cells.push_back(static_cast<float>(rng.uniform(1.0, 50.0)));
+      problem.shows.push_back({{i}, {1.0F}});
+      problem.place_m.emplace_back(0.0, 0.0);
+      problem.beyond.push_back(rng.uniform(0.0, 100.0));
+      rate.push_back((static_cast<double>(problem.cells[i]) + problem.beyond[i]) /
+                     (problem.scan_s + problem.dwell_s(i)));
+    }
+    test::Order by_rate{0, 1, 2, 3, 4, 5};
+    std::ranges::sort(by_rate, std::greater<>(), [&](std::size_t i) { return rate[i]; });
+    EXPECT_EQ(search_tour(problem, {.finish_weight = 0.0, .worth_s = 1e6}, {}).order, by_rate);
+  }
+}
+
+/// Neither is worth its time; what shows most per second comes nearest to it, not what is nearest.
+TEST(SearchTours, RaiseTheWorthUntilAViewIsWorthItsTime) {
+  PlanningProblem problem = two_views();
+  problem.cells = {1.0F, 30.0F};
+  problem.travel_s << 0.0, 20.0,  //
+      20.0, 0.0,                  //
+      1.0, 20.0;
+  const TourObjective objective{.finish_weight = 1.0, .worth_s = 1.0};
+  EXPECT_EQ(search_tour(problem, objective, {}).order, test::Order{0});
+  EXPECT_EQ(search_tours(problem, objective, {}).front().order.front(), 1U);
+}
+
+/// Left and right of the robot, the right one a second nearer.
+TEST(SearchTours, KeepToTheIntendedUnlessAnotherIsBetterByEnough) {
+  PlanningProblem problem = two_views();
+  problem.cells = {10.0F, 10.0F};
+  problem.travel_s << 0.0, 20.0,  //
+      20.0, 0.0,                  //
+      5.0, 4.0;
+  const TourObjective objective{.finish_weight = 1.0};
+  const auto first = [&](double keep_s, std::size_t first_moves) {
+    return search_tours(problem, objective, {.first_moves = first_moves, .keep_s = keep_s})
+        .front()
+        .order.front();
+  };
+  EXPECT_EQ(first(5.0, 8), 1U);
+  problem.intended = 0;
+  EXPECT_EQ(first(0.0, 8), 1U);
+  EXPECT_EQ(first(0.5, 8), 1U);
+  EXPECT_EQ(first(1.5, 8), 0U);
+  EXPECT_EQ(first(1.5, 1), 0U);  // it is tried though it does not promise most
+  problem.intended = 1;
+  EXPECT_EQ(first(1.5, 8), 1U);
+}
+
+TEST(ViewNear, IsTheNearestWithinReach) {
+  PlanningProblem problem = two_views();
+  problem.place_m = {{0.0, 0.0}, {2.0, 0.0}};
+  EXPECT_EQ(view_near(problem, {0.8, 0.0}, 1.5), 0U);
+  EXPECT_EQ(view_near(problem, {1.2, 0.0}, 1.5), 1U);
+  EXPECT_EQ(view_near(problem, {1.0, 0.0}, 1.5), 0U);  // of equals the first
+  EXPECT_EQ(view_near(problem, {4.0, 0.0}, 1.5), std::nullopt);
+}
+
+/// A small view that leads to a room goes before a larger one that leads nowhere.
+TEST(SearchTour, GoesWhereMoreLiesBeyond) {
+  PlanningProblem problem = two_views();
+  problem.travel_s << 0.0, 4.0,  //
+      4.0, 0.0,                  //
+      3.0, 3.0;
+  const TourObjective objective{.finish_weight = 0.0, .worth_s = 1e6};
+  EXPECT_EQ(search_tour(problem, objective, {}).order, (test::Order{1, 0}));
+  problem.beyond = {500.0, 0.0};
+  problem.pace_per_s = 100.0;
+  EXPECT_EQ(search_tour(problem, objective, {}).order, (test::Order{0, 1}));
 }
 
 TEST(SearchTour, IsSeldomMuchDearerThanTheBestOfAllTours) {
   Rng rng(21);
-  const TourObjective objective{.finish_weight = 0.5, .worth_s = 40.0};
+  const TourObjective objective{.finish_weight = 0.5, .worth_s = 80.0};
   int best = 0;
   double sum = 0.0;
   constexpr int kProblems = 60;

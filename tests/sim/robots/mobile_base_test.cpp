@@ -24,6 +24,26 @@ TEST(MobileBase, NeedsARobotInTheModel) {
   EXPECT_THROW(test::pr2(world), InputError);
 }
 
+TEST(MobileBase, ItsOutlineIsThatOfItsGeoms) {
+  const RobotWorld scene;
+  const FloorOutline& outline = scene.robot.outline();
+  EXPECT_NEAR(inscribed_radius_m(outline), 0.334, 1e-3);
+  EXPECT_GT(circumscribed_radius_m(outline), 0.274 * std::sqrt(2.0) + 0.06);
+  EXPECT_LE(circumscribed_radius_m(outline), scene.robot.footprint().circumscribed_radius_m);
+
+  MobileBaseDescription said = mobile_base_of(test::robot_folder("pr2"), "robot");
+  said.footprint.outline_m = {{-0.4, -0.3}, {0.4, -0.3}, {0.4, 0.3}, {-0.4, 0.3}};
+  const MobileBase other(scene.world.model(), said, "robot");
+  EXPECT_NEAR(inscribed_radius_m(other.outline()), 0.3, 1e-12);
+  EXPECT_NEAR(circumscribed_radius_m(other.outline()), 0.5, 1e-12);
+
+  const test::SceneFolder folder(test::scene_mjcf(""));
+  const World world({folder.path(), test::robot_folder("rover").mjcf});
+  const MobileBase rover = test::mobile_base(world, test::robot_folder("rover"));
+  EXPECT_NEAR(inscribed_radius_m(rover.outline()), 0.175, 1e-3);
+  EXPECT_NEAR(circumscribed_radius_m(rover.outline()), 0.175, 2e-3);
+}
+
 TEST(MobileBase, MassAndFootprint) {
   const RobotWorld scene;
   const mjModel& m = scene.world.model();

@@ -12,6 +12,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/undescribed.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/perception/clouds/reference_map.hpp"
@@ -186,6 +187,31 @@ TEST(Exploration, TheOracleKnowsWhatAViewShows) {
   EXPECT_GT(metrics["scans"][1]["actual_new_cells"], 1000);
 }
 
+/// The episode says start_site.
+TEST(Exploration, AStartThatIsSetTakesThePlaceOfTheEpisodes) {
+  const auto start = [](const std::vector<std::string>& overrides) {
+    const auto file =
+        std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml";
+    return load_episode(file, overrides).setup.options.robot;
+  };
+  EXPECT_EQ(start({}).start_site, "start_0");
+  EXPECT_FALSE(start({}).start_pose);
+  EXPECT_EQ(start({"robot.start_pose=[1,2,0.5]"}).start_site, "");
+  EXPECT_DOUBLE_EQ(start({"robot.start_pose=[1,2,0.5]"}).posed_start().y_m, 2.0);
+  EXPECT_EQ(start({"robot.start_site=start_1"}).start_site, "start_1");
+  EXPECT_EQ(start({"robot.start_pose=null"}).start_site, "start_0");
+  EXPECT_EQ(start({"robot.start_site=", "robot.start_pose=[1,2,0.5]"}).start_site, "");
+  EXPECT_THROW(start({"robot.start_site=start_1", "robot.start_pose=[1,2,0.5]"}), ConfigError);
+  const support::TemporaryDirectory folder;
+  write_file(folder.path() / "both.yaml",
+             "task: exploration\nrobot: {start_site: start_1, start_pose: [1, 2, 0]}\n");
+  EXPECT_THROW(load_episode(folder.path() / "both.yaml", {}), ConfigError);
+  write_file(folder.path() / "posed.yaml", "task: exploration\nrobot: {start_pose: [1, 2, 0]}\n");
+  EXPECT_EQ(load_episode(folder.path() / "posed.yaml", {"robot.start_site=start_3"})
+                .setup.options.robot.start_site,
+            "start_3");
+}
+
 TEST(Exploration, NamesTheSitesItCouldStartFrom) {
   const support::TemporaryDirectory folder;
   try {
@@ -197,8 +223,7 @@ TEST(Exploration, NamesTheSitesItCouldStartFrom) {
       EXPECT_NE(what.find(part), std::string::npos) << what;
     }
   }
-  EXPECT_THROW(explore(folder.path() / "run", {"robot.start_site=", "robot.start_pose=[0.6,2,0]"}),
-               ConfigError)
+  EXPECT_THROW(explore(folder.path() / "run", {"robot.start_pose=[0.6,2,0]"}), ConfigError)
       << "inside a wall";
   EXPECT_THROW(explore(folder.path() / "run", {"frontiers.height_m=3"}), ConfigError);
 }

@@ -19,10 +19,9 @@ Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 
 }  // namespace
 
-BudgetKeeper::BudgetKeeper(const BudgetOptions& options, const NavigationOptions& navigation,
-                           double speed_m_s, MobileRobotInterface& robot, Navigator& navigator)
+BudgetKeeper::BudgetKeeper(const BudgetOptions& options, double speed_m_s,
+                           MobileRobotInterface& robot, Navigator& navigator)
     : budget_(options),
-      navigation_(navigation),
       robot_(robot),
       navigator_(navigator),
       home_(robot.estimated_base()),
@@ -30,9 +29,7 @@ BudgetKeeper::BudgetKeeper(const BudgetOptions& options, const NavigationOptions
   if (keeps_way_home()) navigator_.may_go_on = [this] { return may_go_on(); };
 }
 
-PathField BudgetKeeper::ways_from_home() const {
-  return make_path_field(navigator_.floor(), home_, navigation_);
-}
+PathField BudgetKeeper::ways_from_home() const { return navigator_.ways_from(home_); }
 
 /// Of a place that is not reachable, infinite: no view is taken from which there is no way back.
 double BudgetKeeper::way_home_m(const PathField& from_home, const Eigen::Vector2d& p_m) const {

@@ -19,8 +19,8 @@ class BudgetKeeper {
  public:
   /// Home is where the robot is now. Robot and navigator outlive this; the navigator asks it on
   /// every way whether to go on.
-  BudgetKeeper(const BudgetOptions& options, const NavigationOptions& navigation, double speed_m_s,
-               MobileRobotInterface& robot, Navigator& navigator);
+  BudgetKeeper(const BudgetOptions& options, double speed_m_s, MobileRobotInterface& robot,
+               Navigator& navigator);
   BudgetKeeper(const BudgetKeeper&) = delete;
   BudgetKeeper& operator=(const BudgetKeeper&) = delete;
 
@@ -50,7 +50,6 @@ class BudgetKeeper {
   [[nodiscard]] bool may_go_on();
 
   Budget budget_;
-  NavigationOptions navigation_;
   MobileRobotInterface& robot_;
   Navigator& navigator_;
   Pose2 home_;

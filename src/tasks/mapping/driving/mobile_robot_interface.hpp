@@ -9,6 +9,7 @@
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/geometry/range_scan.hpp"
+#include "vantage/planners/navigation/footprint_space.hpp"
 
 namespace vantage {
 
@@ -27,8 +28,8 @@ class MobileRobotInterface {
 
   /// One scan of the planar scanner, from the present pose.
   virtual PlanarScan read_base_scanner() = 0;
-  /// `go_on` is asked every tick. @throws Interrupted
-  virtual DriveResult drive_along(std::span<const Pose2> path,
+  /// No faster than `max_speed_m_s`; `go_on` is asked every tick. @throws Interrupted
+  virtual DriveResult drive_along(std::span<const Pose2> path, double max_speed_m_s,
                                   const std::function<bool()>& go_on) = 0;
   virtual void correct_pose(const Pose2& T_world_base) = 0;
   /// What the wheels alone say, without the corrections since restart_dead_reckoning().
@@ -38,6 +39,8 @@ class MobileRobotInterface {
   [[nodiscard]] virtual double base_scan_height_m() const = 0;
   /// Radius of the largest disc round the base's origin that the footprint covers.
   [[nodiscard]] virtual double inscribed_radius_m() const = 0;
+  /// What it takes through narrow passages.
+  [[nodiscard]] virtual RobotOutline outline() const = 0;
 
   /// Where the mapping sensor is, as the robot believes: x forward, z up.
   [[nodiscard]] virtual Pose estimated_sensor() const = 0;

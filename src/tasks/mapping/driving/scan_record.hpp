@@ -48,13 +48,18 @@ struct ScanRecord {
   double pose_error_before_registration_m = 0.0;  ///< of the wheels alone since the scan before
   double pose_error_tracked_m = 0.0;  ///< of the pose that registration of the scan started from
   double yaw_error_rad = 0.0;
-  double map_sigma_m = 0.0;  ///< how far off the robot believes what it maps to be, RMS
+  double pose_error_at_scan_m = 0.0;  ///< before what later loops have corrected
+  Pose2 T_true_kept;                  ///< error of the pose that the scan is in the map at
+  double pose_sigma_m = 0.0;          ///< of its position, by what all scans say of each other
+  std::size_t keyframe = 0;           ///< of the navigator's, at the scan
+  double map_sigma_m = 0.0;           ///< how far off the robot believes what it maps to be, RMS
   bool registered = true;
   int unconstrained = 0;  ///< directions of (x, y, yaw) in which the tracked pose was kept
   bool fallback = false;
   int collisions = 0;  ///< up to here
   double precision = 0.0;
   double recall = 0.0;
+  Pose2 T_world_base;                      ///< as the robot believes it
   Pose T_world_sensor = Pose::Identity();  ///< as the robot believes it
 };
 

@@ -58,8 +58,13 @@ SimulatedMobileBase::SimulatedMobileBase(const EpisodeOptions& episode,
       geometry_without_robot_(world_.model(), world_.snapshot(), kWithoutRobot),
       odometry_(options.odometry, Rng::stream(episode.seed, "odometry"),
                 robot_.T_world_base(world_)),
-      scanner_noise_(Rng::stream(episode.seed, "base scanner")) {
+      scanner_noise_(Rng::stream(episode.seed, "base scanner")),
+      faults_(episode.faults, episode.seed) {
   restart_dead_reckoning();
+  faults_.attach(world_);
+  odometry_.on_increment = [this](const Pose2& increment) {
+    return faults_.reported(increment, world_.time_s());
+  };
   world_.on_step = [this](const World& world) {
     if (collisions_.update(robot_, world) > 0) report_touch();
   };
@@ -89,8 +94,11 @@ const RayScene& SimulatedMobileBase::seen_geometry() {
 }
 
 PlanarScan SimulatedMobileBase::read_base_scanner() {
-  return planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
-                     robot_.base_body_id(), scanner_, scanner_noise_);
+  PlanarScan scan =
+      planar_scan(seen_geometry(), robot_.T_world_base_scan(world_), robot_.T_base_base_scan(),
+                  robot_.base_body_id(), scanner_, scanner_noise_);
+  faults_.spoil_planar(scan, world_.time_s());
+  return scan;
 }
 
 void SimulatedMobileBase::note_localisation(const RegistrationOptions& registration,
@@ -110,9 +118,11 @@ void SimulatedMobileBase::note_localisation(const RegistrationOptions& registrat
                       : "odometry will drift between scans"));
 }
 
-DriveResult SimulatedMobileBase::drive_along(std::span<const Pose2> path,
+DriveResult SimulatedMobileBase::drive_along(std::span<const Pose2> path, double max_speed_m_s,
                                              const std::function<bool()>& go_on) {
-  return drive(world_, robot_, odometry_, path, drive_, [&](World&, const Pose2&) {
+  DriveOptions options = drive_;
+  options.controller.speed_m_s = std::min(options.controller.speed_m_s, max_speed_m_s);
+  return drive(world_, robot_, odometry_, path, options, [&](World&, const Pose2&) {
     throw_if_interrupted();
     return go_on();
   });

@@ -9,6 +9,7 @@
 
 #include "vantage/core/rng.hpp"
 #include "vantage/runtime/episode_setup.hpp"
+#include "vantage/sim/faults/robot_faults.hpp"
 #include "vantage/sim/robots/drive.hpp"
 #include "vantage/sim/robots/mobile_base.hpp"
 #include "vantage/sim/robots/odometry.hpp"
@@ -36,8 +37,10 @@ class SimulatedMobileBase {
 
   /// One scan of the planar scanner, from the present pose.
   PlanarScan read_base_scanner();
-  /// `go_on` is asked every tick; truth is not passed on. @throws Interrupted
-  DriveResult drive_along(std::span<const Pose2> path, const std::function<bool()>& go_on);
+  /// No faster than `max_speed_m_s`; `go_on` is asked every tick; truth is not passed on.
+  /// @throws Interrupted
+  DriveResult drive_along(std::span<const Pose2> path, double max_speed_m_s,
+                          const std::function<bool()>& go_on);
   /// Adds a note if the planar scanner shows nothing here that fixes the pose. Draws from no stream
   /// of the run.
   void note_localisation(const RegistrationOptions& registration, std::uint64_t seed,
@@ -51,6 +54,9 @@ class SimulatedMobileBase {
   [[nodiscard]] double base_scan_height_m() const { return robot_.base_scan_height_m(); }
   /// The disc that the robot covers at any heading: what it stands on is free.
   [[nodiscard]] double inscribed_radius_m() const { return robot_.footprint().inscribed_radius_m; }
+  [[nodiscard]] RobotOutline outline() const {
+    return {robot_.outline(), robot_.is_holonomic(), drive_.controller.speed_m_s};
+  }
   [[nodiscard]] Pose2 estimated_base() const { return odometry_.estimate(); }
 
   void tick();  ///< @throws Interrupted
@@ -63,6 +69,8 @@ class SimulatedMobileBase {
   World& world() { return world_; }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const MobileBase& robot() const { return robot_; }
+  [[nodiscard]] RobotFaults& faults() { return faults_; }
+  [[nodiscard]] const RobotFaults& faults() const { return faults_; }
 
  private:
   void report_touch() const;
@@ -78,6 +86,7 @@ class SimulatedMobileBase {
   Pose2 T_world_corrected_;      ///< the pose that correction set
   CollisionCounter collisions_;
   Rng scanner_noise_;
+  RobotFaults faults_;
   double energy_used_j_ = 0.0;
 };
 

@@ -63,7 +63,7 @@ TEST_P(OfficeFolder, LoadsWithFurnitureWhereItWasPut) {
 }
 
 TEST_P(OfficeFolder, HasStartsAndCameras) {
-  const FloorPlan plan = GetParam().large ? large_office() : small_office();
+  const FloorPlan plan = floor_plan(GetParam());
   const support::Model model = support::load_mjcf(folder() / "scene.xml");
   ASSERT_NE(model, nullptr);
   ASSERT_EQ(model->nsite, 5);
@@ -82,7 +82,13 @@ TEST_P(OfficeFolder, HasStartsAndCameras) {
   EXPECT_GE(mj_name2id(model.get(), mjOBJ_CAMERA, "top"), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, OfficeFolder, testing::ValuesIn(office_scenes()),
+std::vector<OfficeOptions> all_offices() {
+  std::vector<OfficeOptions> all = office_scenes();
+  for (const OfficeOptions& options : door_scenes()) all.push_back(options);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, OfficeFolder, testing::ValuesIn(all_offices()),
                          [](const auto& info) { return info.param.name; });
 
 /// MuJoCo refuses meshes whose parts share an edge the wrong way round.

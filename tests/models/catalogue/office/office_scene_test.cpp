@@ -107,6 +107,34 @@ TEST_P(Office, HasWhatTheLevelBelowHasAndMore) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Office, testing::ValuesIn(office_scenes()),
                          [](const auto& info) { return info.param.name; });
 
+/// A disc gets about in each room, from its doors on; between rooms it does not.
+TEST(DoorScenes, EveryRoomIsReachableFromItsDoorsAlone) {
+  for (const OfficeOptions& options : door_scenes()) {
+    SCOPED_TRACE(options.name);
+    const OfficeScene scene = make_office_scene(options);
+    const Eigen::AlignedBox2d area(-0.5 * scene.plan.size_m, 0.5 * scene.plan.size_m);
+    ClearanceMap clearance(area, 0.05, 1.0);
+    for (const Outline& outline : obstacles(scene)) clearance.add(outline);
+    int doors = 0;
+    for (const Wall& wall : scene.plan.walls) {
+      for (const Opening& opening : wall.openings) EXPECT_EQ(opening.width_m, options.doors_m);
+      const auto places = thresholds(wall, 0.85);
+      for (std::size_t i = 0; i + 1 < places.size(); i += 2, ++doors) {
+        const auto reached = clearance.reachable(places[i], kDriveRadius_m);
+        EXPECT_TRUE(reached[clearance.cell_at(places[i])]);
+        EXPECT_FALSE(reached[clearance.cell_at(places[i + 1])]);
+        const auto room = std::ranges::find_if(
+            scene.plan.rooms, [&](const Room& r) { return r.area_m.contains(places[i]); });
+        ASSERT_NE(room, scene.plan.rooms.end());
+        EXPECT_GT(0.05 * 0.05 * static_cast<double>(std::ranges::count(reached, true)),
+                  0.14 * room->area_m.volume());
+      }
+    }
+    EXPECT_EQ(doors, 7);
+    EXPECT_GT(scene.furniture.size(), 20U);
+  }
+}
+
 TEST(OfficeScene, TheDensestHasEveryKindOfFurniture) {
   std::map<OfficeItem, int> count;
   for (const PlacedItem& placed :

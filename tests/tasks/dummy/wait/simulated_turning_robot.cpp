@@ -13,7 +13,7 @@ SimulatedTurningRobot::SimulatedTurningRobot(const EpisodeSetup& setup, const Wa
       robot_(world_.model(), mobile_base_of(setup.robot, "robot.model"), setup.options.robot.model),
       geometry_(world_.model(), world_.snapshot()),
       scanner_noise_(Rng::stream(setup.options.seed, "base scanner")) {
-  const auto [x_m, y_m, yaw_rad] = setup.options.robot.start_pose;
+  const auto [x_m, y_m, yaw_rad] = setup.options.robot.posed_start();
   estimated_base_ = {x_m, y_m, yaw_rad};
   robot_.place(world_, estimated_base_);
   world_.on_step = [this](const World& world) { collisions_.update(robot_, world); };

@@ -1,0 +1,147 @@
+#include "vantage/planners/navigation/footprint_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vantage/belief/map/floor_detail.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kTight_m = 0.005;
+
+FloorOutline disc(double radius_m) {
+  constexpr int kCorners = 32;
+  FloorOutline outline;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / kCorners;
+    outline.emplace_back(radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  return outline;
+}
+
+/// What goes along its heading goes the same way back after half a turn.
+FloorOutline both_ways(FloorOutline outline) {
+  const std::size_t corners = outline.size();
+  for (std::size_t i = 0; i < corners; ++i) outline.emplace_back(-outline[i]);
+  return convex_outline(std::move(outline));
+}
+
+}  // namespace
+
+FootprintSpace::FootprintSpace(const FloorMap& detail, int parts, const RobotOutline& robot,
+                               const PassageOptions& options)
+    : parts_(parts),
+      robot_(robot),
+      options_(options),
+      circumscribed_m_(circumscribed_radius_m(robot.outline)),
+      first_centre_m_(detail.centre({0, 0})),
+      cell_m_(detail.cell_m),
+      nx_(detail.nx),
+      ny_(detail.ny),
+      words_((static_cast<std::size_t>(detail.nx) + 63) / 64),
+      bits_(words_ * static_cast<std::size_t>(detail.ny), 0) {
+  check_options(options, "passages");
+  if (!robot_.goes_sideways) robot_.outline = both_ways(std::move(robot_.outline));
+  for (std::size_t cell = 0; cell < detail.size(); ++cell) {
+    if (is_free(detail, cell)) continue;
+    const Eigen::Array2i at = detail.cell(cell);
+    const auto x = static_cast<std::size_t>(at.x());
+    bits_[static_cast<std::size_t>(at.y()) * words_ + x / 64] |= std::uint64_t{1} << (x % 64);
+  }
+  const FloorOutline wide = grown(robot_.outline, options_.margin_m);
+  const FloorOutline tight = grown(robot_.outline, std::min(kTight_m, options_.margin_m));
+  for (int heading = 0; heading < headings(); ++heading) {
+    const Pose2 turned{0.0, 0.0, heading_rad(heading)};
+    masks_.push_back(mask_of(moved(wide, turned)));
+    tight_masks_.push_back(mask_of(moved(tight, turned)));
+    common_.push_back(common_of(masks_.back()));
+    tight_common_.push_back(common_of(tight_masks_.back()));
+  }
+  disc_ = mask_of(disc(inscribed_radius_m(robot_.outline)));
+}
+
+double FootprintSpace::heading_rad(int heading) const {
+  return wrap_angle(2.0 * std::numbers::pi * heading / headings());
+}
+
+int FootprintSpace::nearest_heading(double yaw_rad) const {
+  const int heading =
+      static_cast<int>(std::lround(yaw_rad * headings() / (2.0 * std::numbers::pi)));
+  return (heading % headings() + headings()) % headings();
+}
+
+Eigen::Vector2d FootprintSpace::centre(const Eigen::Array2i& cell) const {
+  return first_centre_m_ + cell_m_ * cell.cast<double>().matrix();
+}
+
+FootprintSpace::Mask FootprintSpace::mask_of(const FloorOutline& outline) const {
+  Mask mask;
+  for_each_row_inside(outline, Eigen::Vector2d::Zero(), cell_m_, [&](int row, int first, int last) {
+    mask.push_back({row, first, last});
+  });
+  return mask;
+}
+
+FootprintSpace::Mask FootprintSpace::common_of(const Mask& mask) const {
+  const int reach = parts_ / 2;
+  Mask common;
+  for (std::size_t i = static_cast<std::size_t>(reach);
+       i + static_cast<std::size_t>(reach) < mask.size(); ++i) {
+    Row row = mask[i];
+    for (std::size_t k = i - static_cast<std::size_t>(reach);
+         k <= i + static_cast<std::size_t>(reach); ++k) {
+      row.first = std::max(row.first, mask[k].first);
+      row.last = std::min(row.last, mask[k].last);
+    }
+    row.first += reach;
+    row.last -= reach;
+    if (row.first <= row.last) common.push_back(row);
+  }
+  return common;
+}
+
+bool FootprintSpace::is_clear(int row, int first, int last) const {
+  if (row < 0 || row >= ny_ || first < 0 || last >= nx_) return false;
+  const auto begin = static_cast<std::size_t>(first);
+  const auto end = static_cast<std::size_t>(last);
+  const std::uint64_t* words = &bits_[static_cast<std::size_t>(row) * words_];
+  const std::uint64_t low = ~std::uint64_t{0} << (begin % 64);
+  const std::uint64_t high = ~std::uint64_t{0} >> (63 - end % 64);
+  if (begin / 64 == end / 64) return (words[begin / 64] & low & high) == 0;
+  if ((words[begin / 64] & low) != 0 || (words[end / 64] & high) != 0) return false;
+  for (std::size_t word = begin / 64 + 1; word < end / 64; ++word) {
+    if (words[word] != 0) return false;
+  }
+  return true;
+}
+
+bool FootprintSpace::is_clear(const Mask& mask, const Eigen::Array2i& cell) const {
+  return std::ranges::all_of(mask, [&](const Row& row) {
+    return is_clear(cell.y() + row.row, cell.x() + row.first, cell.x() + row.last);
+  });
+}
+
+bool FootprintSpace::fits(std::span<const Eigen::Vector2d> outline,
+                          const Pose2& T_world_base) const {
+  bool clear = true;
+  for_each_row_inside(
+      moved(outline, T_world_base), first_centre_m_, cell_m_,
+      [&](int row, int first, int last) { clear = clear && is_clear(row, first, last); });
+  return clear;
+}
+
+bool FootprintSpace::fits(const Eigen::Array2i& cell, int heading, bool tight) const {
+  const auto& masks = tight ? tight_masks_ : masks_;
+  return is_clear(masks[static_cast<std::size_t>(heading)], cell);
+}
+
+bool FootprintSpace::may_fit(const Eigen::Array2i& cell, int heading, bool tight) const {
+  const auto& masks = tight ? tight_common_ : common_;
+  return is_clear(masks[static_cast<std::size_t>(heading)], cell);
+}
+
+bool FootprintSpace::may_stand(const Eigen::Array2i& cell) const { return is_clear(disc_, cell); }
+
+}  // namespace vantage

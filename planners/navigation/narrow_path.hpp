@@ -1,0 +1,33 @@
+/// Paths that lead through passages.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "vantage/planners/navigation/path_planning.hpp"
+
+namespace vantage {
+
+/// A point of the search tree on the way from the start.
+struct PathStep {
+  Eigen::Vector2d p_m;
+  std::optional<double> yaw_rad;  ///< in a passage
+};
+
+/// In open places as plan_path(), arriving before each passage at the heading it is entered with;
+/// in passages in legs at one heading, and turns in place between them.
+/// @param steps the start first; at least one is in a passage
+PlannedPath path_through_passages(const PathField& field, const std::vector<PathStep>& steps,
+                                  double final_yaw_rad);
+
+/// Straight legs through passages moved to where the outline keeps the most clearance, by up to
+/// 4 cm and half a heading; for the path that is driven.
+PlannedPath centred(const PathField& field, PlannedPath path);
+
+/// Whether something occupied is in the outline's way on a leg through a passage, from its point
+/// nearest to the robot on.
+bool is_passage_blocked(const FloorMap& detail, const PathLeg& leg, const Pose2& T_world_base,
+                        const RobotOutline& robot);
+
+}  // namespace vantage

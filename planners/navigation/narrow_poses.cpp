@@ -1,0 +1,81 @@
+#include "vantage/planners/navigation/narrow_poses.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace vantage {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+NarrowPoses::NarrowPoses(PathField& field, std::vector<Leeway> leeway)
+    : field_(field),
+      space_(*field.space),
+      leeway_(std::move(leeway)),
+      row_of_(field.map.size(), kNone) {
+  std::uint32_t rows = 0;
+  for (std::size_t cell = 0; cell < leeway_.size(); ++cell) {
+    if (is_narrow(cell)) row_of_[cell] = rows++;
+  }
+  pose_at_.assign(rows * static_cast<std::size_t>(space_.headings()), kUnknown);
+}
+
+std::size_t NarrowPoses::slot(std::size_t cell, int heading) const {
+  return row_of_[cell] * static_cast<std::size_t>(space_.headings()) +
+         static_cast<std::size_t>(heading);
+}
+
+Eigen::Array2i NarrowPoses::middle(std::size_t cell) const {
+  return field_.map.cell(cell) * space_.parts() + space_.parts() / 2;
+}
+
+std::uint32_t NarrowPoses::at(std::size_t cell, int heading) {
+  std::uint32_t& pose = pose_at_[slot(cell, heading)];
+  if (pose != kUnknown) return pose;
+  pose = kNone;
+  if (!space_.may_fit(middle(cell), heading, tight_)) return pose;
+  const int reach = space_.parts() / 2;
+  double nearest = kInfinity;
+  Eigen::Array2i best = Eigen::Array2i::Zero();
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double off = std::hypot(dx, dy);
+      const Eigen::Array2i fine = middle(cell) + Eigen::Array2i(dx, dy);
+      if (off >= nearest || !space_.fits(fine, heading, tight_)) continue;
+      nearest = off;
+      best = fine;
+    }
+  }
+  if (nearest == kInfinity) return pose;
+  pose = static_cast<std::uint32_t>(field_.narrow.size());
+  const Eigen::Vector2d p_m = space_.centre(best);
+  field_.narrow.push_back({.pose = {p_m.x(), p_m.y(), space_.heading_rad(heading)},
+                           .cell = cell,
+                           .cost = kInfinity,
+                           .parent = PathField::kNone});
+  placed_.push_back({best, heading});
+  return pose;
+}
+
+std::uint32_t NarrowPoses::add_start() {
+  const int heading = space_.nearest_heading(field_.start.yaw_rad);
+  const Eigen::Array2i fine = middle(field_.start_cell);
+  tight_ = !space_.fits(fine, heading);
+  const auto pose = static_cast<std::uint32_t>(field_.narrow.size());
+  field_.narrow.push_back({.pose = field_.start,
+                           .cell = field_.start_cell,
+                           .cost = kInfinity,
+                           .parent = PathField::kNone});
+  placed_.push_back({fine, heading});
+  pose_at_[slot(field_.start_cell, heading)] = pose;
+  return pose;
+}
+
+bool NarrowPoses::fits_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
+                               int heading) const {
+  return space_.fits((a + b) / 2, heading, tight_);
+}
+
+}  // namespace vantage

@@ -1,0 +1,52 @@
+/// Poses in the passages of a floor: at each cell and heading one, put where in the cell it fits.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "vantage/planners/navigation/narrow_places.hpp"
+#include "vantage/planners/navigation/path_field.hpp"
+
+namespace vantage {
+
+/// Makes the poses of a field as a search comes to them.
+class NarrowPoses {
+ public:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  struct Place {
+    Eigen::Array2i fine;  ///< cell of the finer map
+    int heading;
+  };
+
+  /// @param field outlives this; poses are added to it, not reached yet
+  NarrowPoses(PathField& field, std::vector<Leeway> leeway);
+
+  [[nodiscard]] bool is_narrow(std::size_t cell) const {
+    return leeway_[cell] == Leeway::passage || leeway_[cell] == Leeway::nook;
+  }
+  [[nodiscard]] bool is_nook(std::size_t cell) const { return leeway_[cell] == Leeway::nook; }
+  /// Cell of the finer map.
+  [[nodiscard]] Eigen::Array2i middle(std::size_t cell) const;
+  /// The pose of a narrow cell at that heading, nearest to the middle; kNone if it fits nowhere.
+  std::uint32_t at(std::size_t cell, int heading);
+  [[nodiscard]] const Place& place(std::size_t pose) const { return placed_[pose]; }
+  /// Adds the robot's own, which need not fit: if it does not, the others keep a tight margin.
+  std::uint32_t add_start();
+  [[nodiscard]] bool fits_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
+                                  int heading) const;
+
+ private:
+  static constexpr std::uint32_t kUnknown = kNone - 1;
+  [[nodiscard]] std::size_t slot(std::size_t cell, int heading) const;
+
+  PathField& field_;
+  const FootprintSpace& space_;
+  std::vector<Leeway> leeway_;
+  std::vector<std::uint32_t> row_of_;   ///< of narrow cells in pose_at_
+  std::vector<std::uint32_t> pose_at_;  ///< per narrow cell and heading
+  std::vector<Place> placed_;           ///< of each pose
+  bool tight_ = false;
+};
+
+}  // namespace vantage

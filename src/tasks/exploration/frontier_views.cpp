@@ -1,0 +1,49 @@
+#include "vantage/tasks/exploration/frontier_views.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "vantage/planners/navigation/path_planning.hpp"
+
+namespace vantage {
+namespace {
+
+/// A frontier so near to a candidate comes into sight from there.
+constexpr double kNear_m = 1.5;
+
+}  // namespace
+
+std::vector<Candidate> frontier_views(const Exploration& task, const FrontierViewInput& input,
+                                      bool all) {
+  const PathField& paths = input.paths;
+  VisitedPlaces proposed;
+  VisitedPlaces near_proposed;
+  std::vector<Candidate> views;
+  for (const Frontier& frontier : find_frontiers(input.grid, task.frontiers)) {
+    const bool full = static_cast<int>(views.size()) >= task.max_candidates;
+    if (full && !all) break;
+    const Eigen::Vector2d wanted = frontier.p_m.head<2>();
+    const auto cell = nearest_reachable(paths, wanted);
+    if (!cell) break;
+    const Eigen::Vector2d place = paths.map.centre(paths.map.cell(*cell));
+    const Pose2& from = paths.start;
+    const double yaw_rad =
+        paths.heading_rad(*cell).value_or(std::atan2(place.y() - from.y_m, place.x() - from.x_m));
+    const Pose2 base{place.x(), place.y(), yaw_rad};
+    Candidate view;
+    view.id = static_cast<int>(views.size());
+    view.T_world_sensor = to_se3(base) * input.T_base_sweep;
+    const Eigen::Vector2d p_sweep = view.T_world_sensor.translation().head<2>();
+    if (input.visited.covers(p_sweep) || proposed.covers(p_sweep)) continue;
+    if (full && near_proposed.covers(p_sweep)) continue;
+    view.reachable = all || (place - wanted).norm() <= task.reach_m;
+    view.path_length_m =
+        view.reachable ? path_length_m(paths, base) : std::numeric_limits<double>::infinity();
+    proposed.add(p_sweep, task.taken_m);
+    near_proposed.add(p_sweep, kNear_m);
+    views.push_back(view);
+  }
+  return views;
+}
+
+}  // namespace vantage

@@ -1,0 +1,75 @@
+// What mapping parts make of the navigator's loops: records that have moved, how sure poses are,
+// and whether the map is in doubt.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/mapping/mapping_parts.hpp"
+
+namespace vantage {
+
+void MappingParts::correct_records(const PoseCorrection& correction, const Pose& T_base_sensor) {
+  std::vector<ScanRecord*> records{&current_};
+  for (ScanRecord& scan : scans_) records.push_back(&scan);
+  double most_m = 0.0;
+  for (ScanRecord* record : records) {
+    const Pose2 before = record->T_world_base;
+    const Pose2 base = correction.moved(before, record->keyframe);
+    most_m = std::max(most_m, std::hypot(base.x_m - before.x_m, base.y_m - before.y_m));
+    GroundTruthMapEvaluator::measure_moved_pose(base, *record);
+    record->T_world_sensor = to_se3(base) * T_base_sensor;
+  }
+  note_pose_sigmas(records);
+  robot_.restart_dead_reckoning();
+  current_.map_sigma_m = map_sigma_m();
+  evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
+  log_info(
+      fmt::format("scan {}: back at a place of before: poses corrected by up to {:.3f} m, map "
+                  "made anew",
+                  scans_.size() + 1, most_m));
+}
+
+void MappingParts::note_pose_sigmas(std::span<ScanRecord* const> records) const {
+  const LoopClosing* loops = navigator_.loops();
+  if (loops == nullptr) return;
+  std::vector<std::size_t> keyframes;
+  for (const ScanRecord* record : records) keyframes.push_back(record->keyframe);
+  const auto covariances = loops->graph().covariances(keyframes);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i]->pose_sigma_m = std::sqrt(covariances[i].topLeftCorner<2, 2>().trace());
+  }
+}
+
+LocalisationSummary MappingParts::localisation() {
+  LocalisationSummary summary;
+  std::vector<ScanRecord*> records;
+  for (ScanRecord& scan : scans_) records.push_back(&scan);
+  note_pose_sigmas(records);
+  for (const ScanRecord& scan : scans_) {
+    summary.pose_sigma_m = std::max(summary.pose_sigma_m, scan.pose_sigma_m);
+  }
+  const LoopClosing* loops = navigator_.loops();
+  if (loops == nullptr) return summary;
+  summary.loops = loops->graph().loops();
+  summary.loops_refused = loops->graph().refused();
+  summary.corrections = loops->corrections();
+  summary.contradicted_share = loops->contradicted_share();
+  const double tolerance_m = map_tolerance_m(options_);
+  if (*summary.contradicted_share > options_.localisation.max_contradicted) {
+    summary.doubt = fmt::format(
+        "the map is in doubt: {:.1f} % of the beams go through walls of it, walls may be drawn "
+        "twice (localisation.max_contradicted)",
+        100.0 * *summary.contradicted_share);
+  } else if (summary.pose_sigma_m > tolerance_m) {
+    summary.doubt = fmt::format(
+        "the map is in doubt: by what the scans say of each other a pose is known to {:.2f} m, and "
+        "no loop says better (localisation.tolerance_cells)",
+        summary.pose_sigma_m);
+  }
+  return summary;
+}
+
+}  // namespace vantage

@@ -1,0 +1,217 @@
+// The leader board of episodes whose results are written by hand.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/arena/arena_page.hpp"
+#include "vantage/arena/foreign_planner.hpp"
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+
+TEST(ShareSeen, IsTheMeanOverTheBudget) {
+  const std::vector<SeenFrom> steps{{10.0, 0.5}, {60.0, 0.8}, {100.0, 1.0}};
+  // 0 for 10 s, 0.5 for 50 s, 0.8 for 40 s; the last scan ends too late.
+  EXPECT_DOUBLE_EQ(mean_share_seen(steps, 100.0), 0.57);
+  EXPECT_DOUBLE_EQ(mean_share_seen(steps, 200.0), (25.0 + 32.0 + 100.0) / 200.0);
+  EXPECT_EQ(mean_share_seen({}, 100.0), 0.0);
+  EXPECT_EQ(mean_share_seen(steps, 5.0), 0.0);
+  EXPECT_EQ(sampled_share_seen(steps, 100.0, 6),
+            (std::vector<double>{0.0, 0.5, 0.5, 0.8, 0.8, 1.0}));
+}
+
+class Arena : public testing::Test {
+ protected:
+  void SetUp() override {
+    write_file(folder / "study.yaml", R"(title: Hand-made
+episode: assets/episodes/tabletop.yaml
+set: {budget.time_s: 100}
+factors:
+  scene:
+    a: {scene: models/scenes/tabletop_4/scene.xml}
+    b: {scene: models/scenes/tabletop_8/scene.xml}
+  planner:
+    greedy: {choice: greedy}
+    oracle: {choice: oracle}
+    mine: {choice: {name: external, command: [sh, -c, "exit 1"]}}
+seeds: [1, 2]
+report: {compare: planner, reference: greedy, panels: scene, cluster: scene}
+)");
+    results.study = read_study(folder / "study.yaml");
+    results.directory = folder.path();
+    results.plan = plan_study(results.study);
+    results.states.assign(results.plan.size(), EpisodeState::missing);
+    results.measures.resize(results.plan.size());
+  }
+
+  /// The share is seen from 50 s on.
+  void put(const std::string& name, EpisodeState state, double share, const Json& more = {}) {
+    for (std::size_t i = 0; i < results.plan.size(); ++i) {
+      if (results.plan[i].name != name) continue;
+      results.states[i] = state;
+      if (state != EpisodeState::crashed) results.measures[i].emplace();
+      Json metrics = {{"observable_cells", 1000},
+                      {"reason", "the <reason>"},
+                      {"path_length_m", 4.0},
+                      {"collisions", 1},
+                      {"scans",
+                       {{{"time_s", 10.0}, {"observable_unobserved_cells", 1000}},
+                        {{"time_s", 50.0},
+                         {"observable_unobserved_cells", 1000.0 * (1.0 - share)},
+                         {"plan_time_s", 0.25}}}}};
+      if (more.is_object()) metrics.update(more);
+      write_file(make_folder(episode_folder(folder.path(), results.plan[i])) / "metrics.json",
+                 metrics.dump());
+      return;
+    }
+    FAIL() << name;
+  }
+  static std::filesystem::path make_folder(const std::filesystem::path& path) {
+    std::filesystem::create_directories(path);
+    return path;
+  }
+
+  support::TemporaryDirectory folder;
+  StudyResults results;
+};
+
+TEST_F(Arena, RanksPlannersByWhatTheySee) {
+  for (const char* scene : {"a", "b"}) {
+    for (const char* seed : {"1", "2"}) {
+      const auto name = [&](const char* planner) {
+        return std::string(scene) + "/" + planner + "/" + seed;
+      };
+      put(name("greedy"), EpisodeState::completed, 0.6);
+      put(name("oracle"), EpisodeState::completed, 1.0);
+      put(name("mine"), EpisodeState::completed, scene[0] == 'a' ? 0.7 : 0.9);
+    }
+  }
+  put("b/mine/2", EpisodeState::failed, 0.5);
+  const Leaderboard board = leaderboard_of(results);
+  ASSERT_EQ(board.standings.size(), 3U);
+  const auto& [oracle, mine, greedy] =
+      std::tie(board.standings[0], board.standings[1], board.standings[2]);
+  EXPECT_EQ(oracle.planner, "oracle");
+  EXPECT_EQ(oracle.kind, PlannerKind::reference);
+  EXPECT_FALSE(oracle.rank);
+  EXPECT_DOUBLE_EQ(oracle.score, 0.5);
+  EXPECT_EQ(mine.planner, "mine");
+  EXPECT_EQ(mine.kind, PlannerKind::foreign);
+  EXPECT_EQ(mine.rank, 1);
+  EXPECT_EQ(mine.failed, 1U);
+  EXPECT_EQ(mine.episodes, 4U);
+  EXPECT_DOUBLE_EQ(mine.score, (0.35 + 0.35 + 0.45 + 0.25) / 4.0);
+  ASSERT_TRUE(mine.interval);  // of two scenes, of means 0.35 and 0.35
+  EXPECT_NEAR(mine.interval->low, 0.35, 1e-12);
+  ASSERT_TRUE(mine.difference);
+  EXPECT_NEAR(mine.difference->mean, 0.05, 1e-12);
+  EXPECT_EQ(greedy.rank, 2);
+  EXPECT_FALSE(greedy.difference && greedy.difference->pairs > 0);
+  EXPECT_EQ(greedy.decision_s, 0.25);
+  EXPECT_EQ(greedy.collisions, 1.0);
+}
+
+TEST_F(Arena, ShowsWhatThereIs) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  put("a/mine/1", EpisodeState::failed, 0.2);
+  put("a/mine/2", EpisodeState::crashed, 0.9);  // of which nothing is known
+  write_file(folder / "episodes/a/greedy/1/bound.json",
+             R"({"shares": [{"percent": 80, "run_over_least": {"time_s": 9}},
+                            {"percent": 90, "run_over_least": {"time_s": 1.5}}]})");
+  write_file(folder / "episodes/a/greedy/1/branches.json",
+             R"({"decisions": [{"regret": {"cells": 20}, "branches": [{"new_cells": 80},
+                {"new_cells": 100}, {"new_cells": null}]}, {"regret": null, "branches": []}]})");
+  const Leaderboard board = leaderboard_of(results);
+  EXPECT_EQ(board.standings[0].planner, "greedy");
+  EXPECT_FALSE(board.standings[0].interval);  // of one scene there is none
+  EXPECT_EQ(board.standings[0].time_over_bound_90, 1.5);
+  EXPECT_EQ(board.standings[0].bounded, 1U);
+  EXPECT_DOUBLE_EQ(*board.standings[0].regret_share, 0.2);
+  EXPECT_EQ(board.standings[1].failed, 2U);
+  EXPECT_DOUBLE_EQ(board.standings[1].score, 0.05);
+  write_arena_page(results, board);
+  EXPECT_EQ(read_file(folder / "leaderboard.csv").substr(0, 5), "rank,");
+  const std::string page = read_file(folder / "arena.html");
+  EXPECT_THAT(page, HasSubstr("9 of 12 episodes missing"));
+  EXPECT_THAT(page, HasSubstr("the &lt;reason&gt;"));
+  EXPECT_THAT(page, HasSubstr("100 s in a"));
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, Not(HasSubstr("{{")));
+}
+
+TEST_F(Arena, OfOneSceneHasScoresToo) {
+  results.study.factors.front().levels.pop_back();
+  results.plan = plan_study(results.study);
+  results.states.resize(results.plan.size());
+  results.measures.resize(results.plan.size());
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  put("a/mine/1", EpisodeState::completed, 0.4);
+  const Leaderboard board = leaderboard_of(results);
+  EXPECT_DOUBLE_EQ(board.standings[0].score, 0.3);
+  EXPECT_DOUBLE_EQ(board.standings[1].score, 0.2);
+  ASSERT_TRUE(board.standings[1].difference);
+  EXPECT_NEAR(board.standings[1].difference->mean, -0.1, 1e-12);
+}
+
+TEST_F(Arena, WallTimeIsOnThePageAlone) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  const std::string before = leaderboard_csv(leaderboard_of(results));
+  put("a/greedy/1", EpisodeState::completed, 0.6, {{"wall_time_s", 123.0}});
+  EXPECT_EQ(leaderboard_csv(leaderboard_of(results)), before);
+  EXPECT_EQ(std::ranges::count(before.substr(0, before.find('\n')), ','), 16);
+  EXPECT_EQ(std::ranges::count(before, ','), 16 * 4);
+}
+
+TEST_F(Arena, TakesAPlannerMore) {
+  const ForeignPlanner planner{"theirs", {"sh", "-c", "exit 0"}, 2.5};
+  const Study study = study_with(folder.path(), planner, false);
+  const Factor& planners = study.factors[factor_index(study, "planner")];
+  ASSERT_EQ(planners.levels.size(), 4U);
+  EXPECT_EQ(planners.levels.back().name, "theirs");
+  std::size_t theirs = 0;
+  for (const PlannedEpisode& episode : plan_study(study)) {
+    if (episode.name.find("/theirs/") == std::string::npos) continue;
+    ++theirs;
+    const auto& choice = std::get<Tabletop>(episode.resolved.task).choice;
+    EXPECT_EQ(std::get<ExternalChoice>(choice).command, planner.command);
+    EXPECT_EQ(std::get<ExternalChoice>(choice).timeout_s, 2.5);
+  }
+  EXPECT_EQ(theirs, 4U);
+  EXPECT_THROW(study_with(folder.path(), {"mine", {"sh"}}, false), ConfigError);  // taken
+  EXPECT_EQ(study_with(folder.path(), {"mine", {"sh"}}, true).factors[1].levels.size(), 3U);
+  EXPECT_THROW(study_with(folder.path(), {"a/b", {"sh"}}, false), ConfigError);
+  EXPECT_THROW(study_with(folder.path(), {"new", {"no_such_program_zz"}}, false), ConfigError);
+}
+
+TEST_F(Arena, ForgetsWhatAPlannerHasDone) {
+  put("a/mine/1", EpisodeState::completed, 0.5);
+  put("a/greedy/1", EpisodeState::completed, 0.5);
+  forget_episodes(folder.path(), results.study, "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder / "episodes/a/mine/1"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "episodes/a/greedy/1"));
+}
+
+TEST(StandardArena, HasEveryChoiceInEachScene) {
+  const Study study = read_study(VANTAGE_SOURCE_DIR "/assets/studies/arena.yaml");
+  const Factor& planners = study.factors[factor_index(study, "planner")];
+  std::vector<std::string> levels;
+  for (const Level& level : planners.levels) levels.push_back(level.name);
+  for (const std::string_view choice : strategy_names<ViewChoice>()) {
+    if (choice == ExternalChoice::name) continue;
+    EXPECT_THAT(levels, testing::Contains(std::string(choice)));
+  }
+  for (const char* split : {"development", "report", "six"}) {
+    const Study part = read_study(VANTAGE_SOURCE_DIR "/assets/studies/arena.yaml", {}, split);
+    EXPECT_EQ(part.factors[factor_index(part, "scene")].levels.size(), 6U) << split;
+  }
+}
+
+}  // namespace
+}  // namespace vantage

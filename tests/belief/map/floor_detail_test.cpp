@@ -1,0 +1,76 @@
+#include "vantage/belief/map/floor_detail.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+FloorMap floor_of_20cm() { return make_floor_map({.cell_m = 0.2, .half_size_m = 3.0}); }
+
+/// Of a wall across x, as seen from the origin.
+PlanarScan wall_at(double x_m, double sigma_m, Rng& rng) {
+  PlanarScan scan{.T_base_sensor = {}, .azimuth_rad = {}, .range_m = {}, .range_max_m = 10.0};
+  for (double azimuth = -0.6; azimuth <= 0.6; azimuth += 0.004) {
+    scan.azimuth_rad.push_back(azimuth);
+    scan.range_m.push_back(static_cast<float>(x_m / std::cos(azimuth) + sigma_m * rng.normal()));
+  }
+  return scan;
+}
+
+TEST(FloorDetail, PartsOfACellAreExactlyInIt) {
+  const FloorMap floor = floor_of_20cm();
+  const FloorMap detail = make_floor_detail(floor, {.parts = 5});
+  EXPECT_EQ(detail.nx, 5 * floor.nx);
+  EXPECT_NEAR(detail.cell_m, 0.04, 1e-12);
+  const Eigen::Array2i cell(7, 12);
+  EXPECT_NEAR((detail.centre(cell * 5 + 2) - floor.centre(cell)).norm(), 0.0, 1e-12);
+  EXPECT_THROW(make_floor_detail(floor, {.parts = 4}), ConfigError);
+}
+
+/// Noise of the beams makes no obstacle of what is before the wall.
+TEST(FloorDetail, AFaceIsMeasuredToACell) {
+  FloorMap detail = make_floor_detail(floor_of_20cm(), {.parts = 15});
+  Rng rng(4);
+  for (int i = 0; i < 10; ++i) add_beams(detail, wall_at(1.5, 0.01, rng), {}, {.parts = 15});
+  int off = 0;
+  for (double y_m = -0.6; y_m <= 0.6; y_m += 0.01) {
+    double face_m = 0.0;
+    while (detail.state_at({face_m, y_m}) != CellState::occupied && face_m < 2.0) face_m += 0.002;
+    off += std::abs(face_m - 1.5) > 0.02 ? 1 : 0;
+    EXPECT_EQ(detail.state_at({1.4, y_m}), CellState::free);
+    EXPECT_EQ(detail.state_at({1.6, y_m}), CellState::unobserved);
+  }
+  EXPECT_LE(off, 3);
+}
+
+TEST(FloorDetail, KnowsNothingBeyondItsRange) {
+  FloorMap detail = make_floor_detail(floor_of_20cm(), {});
+  Rng rng(4);
+  const FloorDetailOptions options{.range_m = 1.0};
+  for (int i = 0; i < 3; ++i) add_beams(detail, wall_at(1.5, 0.0, rng), {}, options);
+  EXPECT_EQ(detail.state_at({0.9, 0.0}), CellState::free);
+  EXPECT_EQ(detail.state_at({1.2, 0.0}), CellState::unobserved);
+  EXPECT_EQ(detail.state_at({1.5, 0.0}), CellState::unobserved);
+}
+
+TEST(FloorDetail, WhatTheRobotStandsOnIsFree) {
+  FloorMap detail = make_floor_detail(floor_of_20cm(), {});
+  detail.blocked[detail.index(detail.cell_at({0.5, 0.5}))] = 1;
+  const FloorOutline square{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
+  clear_outline(detail, square);
+  EXPECT_EQ(detail.state_at({0.1, 0.9}), CellState::free);
+  EXPECT_EQ(detail.state_at({0.5, 0.5}), CellState::occupied);
+  EXPECT_EQ(detail.state_at({-0.2, 0.5}), CellState::unobserved);
+  for (std::size_t cell = 0; cell < detail.size(); ++cell) {
+    EXPECT_EQ(is_free(detail, cell), detail.state(cell) == CellState::free);
+    EXPECT_EQ(is_occupied(detail, cell), detail.state(cell) == CellState::occupied);
+  }
+}
+
+}  // namespace
+}  // namespace vantage

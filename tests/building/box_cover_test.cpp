@@ -1,0 +1,92 @@
+// Boxes of cells hold what is solid and nothing else; lines of a grid lie in the faces of a mesh.
+#include "vantage/building/box_cover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+FittedGrid even_grid(int nx, int ny, int nz) {
+  FittedGrid grid;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int n = axis == 0 ? nx : axis == 1 ? ny : nz;
+    for (int i = 0; i <= n; ++i) grid.lines_m[static_cast<std::size_t>(axis)].push_back(0.1 * i);
+  }
+  return grid;
+}
+
+/// How many boxes hold each cell.
+std::vector<int> times_held(const FittedGrid& grid, const std::vector<CellBox>& boxes) {
+  std::vector<int> held(grid.size(), 0);
+  for (const CellBox& box : boxes) {
+    for (int z = box.first[2]; z < box.end[2]; ++z) {
+      for (int y = box.first[1]; y < box.end[1]; ++y) {
+        for (int x = box.first[0]; x < box.end[0]; ++x) ++held[grid.index(x, y, z)];
+      }
+    }
+  }
+  return held;
+}
+
+TEST(BoxCover, HoldsEverySolidCellAndNoOther) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 50; ++round) {
+    const FittedGrid grid = even_grid(9, 7, 5);
+    std::vector<std::uint8_t> solid(grid.size());
+    std::bernoulli_distribution full(0.02 * (round % 50));
+    for (auto& cell : solid) cell = full(random) ? 1 : 0;
+    const std::vector<int> held = times_held(grid, cover_with_boxes(grid, solid));
+    for (std::size_t i = 0; i < solid.size(); ++i) ASSERT_EQ(held[i] > 0, solid[i] != 0);
+  }
+}
+
+TEST(BoxCover, ARoomIsFourWallsAndAFloor) {
+  const FittedGrid grid = even_grid(20, 30, 12);
+  std::vector<std::uint8_t> solid(grid.size(), 0);
+  for (int z = 0; z < 12; ++z) {
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        const bool wall = x == 0 || y == 0 || x == 19 || y == 29;
+        if (wall || z == 0) solid[grid.index(x, y, z)] = 1;
+      }
+    }
+  }
+  EXPECT_EQ(cover_with_boxes(grid, solid).size(), 5U);
+}
+
+BuildingMesh square(double x_m, double size_m) {
+  BuildingMesh mesh;
+  mesh.vertices_m = {{x_m, 0, 0}, {x_m, size_m, 0}, {x_m, size_m, size_m}, {x_m, 0, size_m}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.colours.resize(2);
+  mesh.objects.resize(2);
+  return mesh;
+}
+
+TEST(FittedGrid, HasALineInEveryLargeFace) {
+  const BuildingMesh mesh = square(0.4321, 1.0);
+  const FittedGrid grid =
+      fit_grid(mesh, {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1)}, 0.05);
+  const auto& x = grid.lines_m[0];
+  EXPECT_NE(std::ranges::find(x, 0.4321), x.end());
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    EXPECT_LE(x[i] - x[i - 1], 0.05 + 1e-9);
+    EXPECT_GT(x[i], x[i - 1]);
+  }
+  EXPECT_LE(x.front(), -0.05);
+  EXPECT_GE(x.back(), 1.05);
+  EXPECT_NE(std::ranges::find(grid.lines_m[2], 0.0), grid.lines_m[2].end());
+  EXPECT_EQ(grid.cell_at(0, 0.4321), std::ranges::find(x, 0.4321) - x.begin());
+}
+
+TEST(FittedGrid, TooManyCellsAreRefused) {
+  const Eigen::AlignedBox3d box_m(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(300, 300, 3));
+  EXPECT_THROW(fit_grid(square(1.0, 1.0), box_m, 0.01), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,140 @@
+// The same box from every kind of file, and files that are none.
+#include "vantage/building/mesh_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/building/drawn_building.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr auto kPly = R"(ply
+format ascii 1.0
+element vertex 4
+property float x
+property float y
+property float z
+element face 4
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 2 0
+0 0 3
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+)";
+
+constexpr auto kStl = R"(solid s
+facet normal 0 0 -1
+outer loop
+vertex 0 0 0
+vertex 0 2 0
+vertex 1 0 0
+endloop
+endfacet
+facet normal 0 -1 0
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 0 3
+endloop
+endfacet
+facet normal -1 0 0
+outer loop
+vertex 0 0 0
+vertex 0 0 3
+vertex 0 2 0
+endloop
+endfacet
+facet normal 1 1 1
+outer loop
+vertex 1 0 0
+vertex 0 2 0
+vertex 0 0 3
+endloop
+endfacet
+endsolid s
+)";
+
+/// A triangle (0, 0, 0), (1, 0, 0), (0, 0, -2), which is level where y points up.
+constexpr auto kGltf = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0,"translation":[0,5,0]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAADA"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,-2],"max":[1,0,0]}]})";
+
+class MeshFile : public testing::Test {
+ protected:
+  BuildingMesh read(const std::string& name, const std::string& text,
+                    const MeshReading& reading = {}) {
+    write_file(folder_ / name, text);
+    return read_building_mesh(folder_ / name, reading);
+  }
+  std::string refusal(const std::string& name, const std::string& text) {
+    try {
+      read(name, text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  support::TemporaryDirectory folder_;
+};
+
+Eigen::AlignedBox3d extent_of(const BuildingMesh& mesh) {
+  Eigen::AlignedBox3d extent_m;
+  for (const auto& p_m : mesh.vertices_m) extent_m.extend(p_m);
+  return extent_m;
+}
+
+TEST_F(MeshFile, PlyAndStlAreTheSame) {
+  for (const BuildingMesh& mesh : {read("m.ply", kPly), read("m.stl", kStl)}) {
+    EXPECT_EQ(mesh.vertices_m.size(), 4U);
+    EXPECT_EQ(mesh.triangles.size(), 4U);
+    EXPECT_EQ(mesh.colours.size(), 4U);
+    EXPECT_TRUE(extent_of(mesh).max().isApprox(Eigen::Vector3d(1, 2, 3)));
+  }
+}
+
+TEST_F(MeshFile, GltfHasItsOwnAxesAndNodes) {
+  EXPECT_EQ(usual_up_axis("a/House.GLB"), UpAxis::y);
+  EXPECT_EQ(usual_up_axis("house.obj"), UpAxis::z);
+  const BuildingMesh mesh = read("m.gltf", kGltf, {.up = UpAxis::y});
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  const Eigen::AlignedBox3d extent_m = extent_of(mesh);
+  EXPECT_TRUE(extent_m.min().isApprox(Eigen::Vector3d(0, 0, 5)));
+  EXPECT_TRUE(extent_m.max().isApprox(Eigen::Vector3d(1, 2, 5)));
+  EXPECT_GT(mesh.normal(mesh.triangles[0]).z(), 0.0);
+}
+
+TEST_F(MeshFile, UnitsAreScaled) {
+  test::DrawnBuilding building;
+  building.box({0, 0, 0}, {1000, 2000, 2500});
+  const BuildingMesh mesh = read("m.obj", building.obj(), {.scale = 0.001});
+  EXPECT_TRUE(extent_of(mesh).max().isApprox(Eigen::Vector3d(1, 2, 2.5)));
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+}
+
+TEST_F(MeshFile, WhatIsNoMeshIsRefused) {
+  EXPECT_THAT(refusal("a.obj", "this is no mesh\n"), HasSubstr("a.obj: "));
+  EXPECT_THAT(refusal("a.stl", "nothing"), HasSubstr("a.stl: not a mesh that can be read"));
+  EXPECT_THAT(refusal("a.docx", "nothing"), HasSubstr("a.docx: not a mesh that can be read"));
+  EXPECT_THAT(refusal("far.obj", "v 90000 0 0\nv 90001 0 0\nv 90000 1 0\nf 1 2 3\n"),
+              HasSubstr("too large"));
+  try {
+    read_building_mesh(folder_ / "absent.obj", {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("absent.obj: no such file"));
+  }
+}
+
+}  // namespace
+}  // namespace vantage

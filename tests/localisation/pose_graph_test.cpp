@@ -1,0 +1,133 @@
+// Poses from relative measurements: known answers, and how sure they are.
+#include "vantage/localisation/pose_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Four sides of 10 m with a quarter turn each, back to the first pose.
+struct Square {
+  std::vector<Pose2> truth{{0, 0, 0}, {10, 0, kPi / 2}, {10, 10, kPi}, {0, 10, -kPi / 2}};
+  std::vector<PoseEdge> way;
+  PoseEdge back;
+
+  /// @param error of the last side, which brings the robot back to the start
+  explicit Square(const Pose2& error) {
+    const Eigen::Matrix3d sure = Eigen::Vector3d(100.0, 100.0, 1e8).asDiagonal();
+    for (std::size_t i = 0; i < 3; ++i) {
+      way.push_back({i, i + 1, compose(inverse(truth[i]), truth[i + 1]), sure});
+    }
+    back = {3, 0, compose(compose(inverse(truth[3]), truth[0]), error), sure};
+  }
+  [[nodiscard]] std::vector<PoseEdge> edges() const {
+    std::vector<PoseEdge> all = way;
+    all.push_back(back);
+    return all;
+  }
+};
+
+TEST(PoseGraph, ASquareThatClosesStaysAsItIs) {
+  const Square square({});
+  std::vector<Pose2> poses = square.truth;
+  ASSERT_TRUE(optimise_pose_graph(poses, square.edges()));
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(poses[i].x_m, square.truth[i].x_m, 1e-9);
+    EXPECT_NEAR(poses[i].y_m, square.truth[i].y_m, 1e-9);
+  }
+}
+
+/// Headings are as good as known, positions alike: the gap of (0.4, 0) in the world is shared by
+/// the four sides, a quarter each.
+TEST(PoseGraph, ADriftIsSharedByTheSidesOfALoop) {
+  // The last pose heads along -y: its y axis is the world's x.
+  const Square square({});
+  PoseEdge back = square.back;
+  back.T_from_to.y_m += 0.4;
+  std::vector<PoseEdge> edges = square.way;
+  edges.push_back(back);
+  std::vector<Pose2> poses = square.truth;
+  ASSERT_TRUE(optimise_pose_graph(poses, edges));
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_NEAR(poses[i].x_m - square.truth[i].x_m, -0.1 * static_cast<double>(i), 2e-3) << i;
+    EXPECT_NEAR(poses[i].y_m - square.truth[i].y_m, 0.0, 2e-3) << i;
+  }
+}
+
+TEST(PoseGraph, WhatAnEdgeDoesNotTellIsLeftToTheOthers) {
+  std::vector<Pose2> poses{{0, 0, 0}, {0, 0, 0}};
+  const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
+  across(1, 1) = 1e6;  // of y alone
+  const std::vector<PoseEdge> edges{{0, 1, {1.0, 0.2, 0.1}, all}, {0, 1, {5.0, 0.0, 1.0}, across}};
+  ASSERT_TRUE(optimise_pose_graph(poses, edges));
+  EXPECT_NEAR(poses[1].x_m, 1.0, 1e-6);
+  EXPECT_NEAR(poses[1].y_m, 0.0, 1e-5);
+  EXPECT_NEAR(poses[1].yaw_rad, 0.1, 1e-6);
+}
+
+/// Of a straight chain: variances add up, and a heading counts by its lever.
+TEST(PoseGraph, CovariancesOfAChainAddUp) {
+  const Eigen::Vector3d variance(1e-4, 4e-4, 1e-6);
+  const Eigen::Matrix3d information = variance.cwiseInverse().asDiagonal();
+  std::vector<Pose2> poses;
+  std::vector<PoseEdge> edges;
+  for (std::size_t i = 0; i < 5; ++i) {
+    poses.push_back({static_cast<double>(i), 0.0, 0.0});
+    if (i > 0) edges.push_back({i - 1, i, {1.0, 0.0, 0.0}, information});
+  }
+  const auto covariance = pose_covariances(poses, edges, std::array<std::size_t, 2>{0, 4});
+  EXPECT_TRUE(covariance[0].isZero());
+  EXPECT_NEAR(covariance[1](0, 0), 4e-4, 1e-10);
+  EXPECT_NEAR(covariance[1](1, 1), 4 * 4e-4 + 1e-6 * (9 + 4 + 1), 1e-9);
+  EXPECT_NEAR(covariance[1](2, 2), 4e-6, 1e-12);
+}
+
+TEST(PoseGraph, ALoopMakesSurer) {
+  const Square square({});
+  const std::array<std::size_t, 1> third{2};
+  const double open = pose_covariances(square.truth, square.way, third).front().trace();
+  const double closed = pose_covariances(square.truth, square.edges(), third).front().trace();
+  EXPECT_NEAR(closed / open, 0.5, 0.05) << "two ways there, as good as each other";
+}
+
+TEST(PoseGraph, WhatNothingTiesDownIsUnsure) {
+  const std::vector<Pose2> poses{{0, 0, 0}, {1, 0, 0}};
+  Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
+  across(1, 1) = 1.0;
+  const std::vector<PoseEdge> edges{{0, 1, {1, 0, 0}, across}};
+  const auto covariance = pose_covariances(poses, edges, std::array<std::size_t, 1>{1});
+  EXPECT_TRUE(std::isinf(covariance.front()(0, 0)));
+}
+
+TEST(PoseGraph, RepeatsToTheBit) {
+  Rng rng(3);
+  std::vector<Pose2> truth{{0, 0, 0}};
+  std::vector<PoseEdge> edges;
+  for (std::size_t i = 1; i < 60; ++i) {
+    const Pose2 step{0.5 + 0.01 * rng.normal(), 0.01 * rng.normal(), 0.1};
+    truth.push_back(compose(truth.back(), step));
+    edges.push_back({i - 1, i, step, Eigen::Matrix3d::Identity() * 1e4});
+  }
+  edges.push_back({0, 59, {0.1, 0.2, -0.3}, Eigen::Matrix3d::Identity() * 1e4});
+  std::vector<Pose2> one = truth;
+  std::vector<Pose2> other = truth;
+  optimise_pose_graph(one, edges);
+  optimise_pose_graph(other, edges);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_EQ(one[i].x_m, other[i].x_m);
+    EXPECT_EQ(one[i].yaw_rad, other[i].yaw_rad);
+  }
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,16 @@
+# The planner of examples/arena in C++, built against the installed package, chooses the views of an episode.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+set(build ${WORK_DIR}/map_greedy)
+set_configure(${SOURCE_DIR}/examples/arena/map_greedy ${build} WITHOUT ${foreign_to_planners})
+run(${configure})
+run(${CMAKE_COMMAND} --build ${build})
+foreach(episode tabletop office_small)
+  set(settings scans=3 metrics.predictors=[adaptive])
+  if(episode STREQUAL tabletop)
+    list(APPEND settings map.cells=[33,33,17] laser.scan_duration_s=2)
+  else()
+    list(APPEND settings map.cells=[76,51,17] metrics.pose_spacing_m=4)
+  endif()
+  run(${VANTAGE} run ${SOURCE_DIR}/assets/episodes/${episode}.yaml --out ${WORK_DIR}/map_greedy_${episode} --overwrite --lean -q
+      --set choice=external choice.command=[${build}/map_greedy] ${settings})
+endforeach()

@@ -1,0 +1,99 @@
+#include "vantage/planners/views/space_beyond.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vantage {
+namespace {
+
+/// Two rooms of 2 x 2 m side by side along x, in cells of 0.1 m; the one on the left is seen, the
+/// other not, and a wall of two columns between them is seen on its left.
+struct Rooms {
+  OccupancyGrid grid{make_grid_frame({2.0, 1.0, 0.5}, {4.0, 2.0, 1.0}, {40, 20, 10})};
+
+  Rooms() {
+    fill({0, 0}, {20, 20}, -3.0F);
+    fill({19, 0}, {20, 20}, 3.0F);
+  }
+  void fill(const Eigen::Array2i& low, const Eigen::Array2i& high, float log_odds) {
+    for (int z = 0; z < 10; ++z) {
+      for (int y = low.y(); y < high.y(); ++y) {
+        for (int x = low.x(); x < high.x(); ++x)
+          grid.log_odds[grid.frame.index({x, y, z})] = log_odds;
+      }
+    }
+  }
+  /// From y = 0.7 to 1.3 m.
+  void open_door() { fill({19, 7}, {20, 13}, -3.0F); }
+  [[nodiscard]] int columns_of(const SpaceBeyond& space, std::int32_t place) const {
+    return static_cast<int>(std::ranges::count(space.place_of, place));
+  }
+};
+
+TEST(ColumnStates, TellWallsFromWhatIsUnknown) {
+  Rooms rooms;
+  rooms.fill({5, 5}, {6, 6}, 0.0F);                               // one that nothing was seen of
+  rooms.grid.log_odds[rooms.grid.frame.index({3, 3, 0})] = 3.0F;  // something low
+  const auto states = column_states(rooms.grid);
+  const auto at = [&](int x, int y) { return states[static_cast<std::size_t>(40 * y + x)]; };
+  EXPECT_EQ(at(3, 3), ColumnState::open);
+  EXPECT_EQ(at(5, 5), ColumnState::unknown);
+  EXPECT_EQ(at(19, 3), ColumnState::wall);
+  EXPECT_EQ(at(30, 3), ColumnState::unknown);
+}
+
+TEST(SpaceBeyond, NothingLeadsThroughAWall) {
+  const Rooms rooms;
+  const std::vector<Eigen::Vector2d> places{{1.0, 1.0}};
+  EXPECT_EQ(rooms.columns_of(space_beyond(rooms.grid, places, 100.0), 0), 0);
+}
+
+TEST(SpaceBeyond, AllOfARoomIsBehindItsDoor) {
+  Rooms rooms;
+  rooms.open_door();
+  const std::vector<Eigen::Vector2d> places{{1.0, 1.0}};
+  // Of 20 x 20 columns those beside what was seen of the wall are closed: 7 + 7 of its 20 rows.
+  EXPECT_EQ(rooms.columns_of(space_beyond(rooms.grid, places, 100.0), 0), 400 - 14);
+}
+
+TEST(SpaceBeyond, BelongsToTheNearerPlace) {
+  Rooms rooms;
+  rooms.open_door();
+  // Both places see the door; the second stands in it.
+  const std::vector<Eigen::Vector2d> places{{0.5, 1.0}, {1.95, 1.05}};
+  const SpaceBeyond space = space_beyond(rooms.grid, places, 100.0);
+  EXPECT_EQ(rooms.columns_of(space, 0), 0);
+  EXPECT_EQ(rooms.columns_of(space, 1), 400 - 14);
+}
+
+TEST(SpaceBeyond, EndsWhereTheWayIsTooLong) {
+  Rooms rooms;
+  rooms.open_door();
+  const std::vector<Eigen::Vector2d> places{{1.95, 1.05}};
+  // Columns of the other room up to 0.3 m away along x and y: 6 rows of the door at most.
+  const SpaceBeyond space = space_beyond(rooms.grid, places, 0.31);
+  EXPECT_EQ(rooms.columns_of(space, 0), 5 + 3 + 1);
+}
+
+TEST(SpaceBeyond, ExpectsOfTheUnknownWhatWasSeenOfTheOpen) {
+  Rooms rooms;
+  // Three cells in ten of every open column stay unseen, as below tables.
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 19; ++x) {
+      for (int z = 0; z < 10; z += 4) rooms.grid.log_odds[rooms.grid.frame.index({x, y, z})] = 0.0F;
+    }
+  }
+  const std::vector<Eigen::Vector2d> places{{1.0, 1.0}};
+  EXPECT_NEAR(space_beyond(rooms.grid, places, 1.0).seen_share, 0.7, 1e-9);
+}
+
+TEST(SpaceBeyond, APlaceOutsideTheGridLeadsNowhere) {
+  Rooms rooms;
+  const std::vector<Eigen::Vector2d> places{{-1.0, 1.0}, {9.0, 1.0}};
+  const SpaceBeyond space = space_beyond(rooms.grid, places, 100.0);
+  EXPECT_EQ(rooms.columns_of(space, SpaceBeyond::kNone), 800);
+}
+
+}  // namespace
+}  // namespace vantage

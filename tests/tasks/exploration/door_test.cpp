@@ -1,0 +1,95 @@
+// A robot of 0.67 m, which plans as a disc of 1.04 m, and a door of 0.85 m between two rooms.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/overrides.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/run.hpp"
+
+namespace vantage {
+namespace {
+
+std::string box(double x0, double y0, double x1, double y1) {
+  return fmt::format(
+      "<geom type=\"box\" pos=\"{} {} 1\" size=\"{} {} 1\" rgba=\"0.8 0.8 0.75 1\"/>\n",
+      0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.5 * (x1 - x0), 0.5 * (y1 - y0));
+}
+
+/// Two rooms of 3 x 3.2 m, x from -3.1 to 3.1, and in each a block to localise by.
+std::string two_rooms(double door_m) {
+  const double half = 0.5 * door_m;
+  return "<mujoco model=\"rooms\"><worldbody>\n"
+         "<light directional=\"true\" pos=\"0 0 3\" dir=\"-0.4 0.3 -1\"/>\n"
+         "<geom type=\"plane\" size=\"4 3 0.1\"/>\n" +
+         box(-3.1, -1.7, 3.1, -1.6) + box(-3.1, 1.6, 3.1, 1.7) + box(-3.1, -1.6, -3.0, 1.6) +
+         box(3.0, -1.6, 3.1, 1.6) + box(-0.05, -1.6, 0.05, -half) + box(-0.05, half, 0.05, 1.6) +
+         box(-2.9, 1.2, -2.5, 1.5) + box(2.4, -1.5, 2.9, -1.3) +
+         "<site name=\"start\" pos=\"-1.6 0.1 0\"/>\n</worldbody></mujoco>\n";
+}
+
+nlohmann::json explore(const std::filesystem::path& folder, double door_m,
+                       const std::vector<std::string>& more) {
+  set_verbosity(Verbosity::quiet);
+  write_file(folder / "rooms.xml", two_rooms(door_m));
+  std::vector<std::string> overrides = {"scene=" + (folder / "rooms.xml").string(),
+                                        "robot.start_site=start",
+                                        "scans=5",
+                                        "map.size_m=[6.2,3.4,2]",
+                                        "map.cells=[104,57,34]",
+                                        "floor_map.half_size_m=4",
+                                        "camera.width_px=160",
+                                        "camera.height_px=120",
+                                        "stride_px=1",
+                                        "frontiers.min_cells=20",
+                                        "enough.scans=0"};
+  overrides = support::overridden(std::move(overrides), more);
+  const auto episode =
+      std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml";
+  return nlohmann::json::parse(
+      run(load_episode(episode, overrides), {folder / "run", true, false, {}}).metrics);
+}
+
+double farthest_m(const nlohmann::json& metrics) {
+  double x_m = -10.0;
+  for (const auto& scan : metrics["scans"]) {
+    x_m = std::max(x_m, scan["view"]["x_m"].get<double>());
+  }
+  return x_m;
+}
+
+TEST(NarrowDoor, IsGoneThroughWithoutAContact) {
+  const support::TemporaryDirectory folder;
+  const auto metrics = explore(folder.path(), 0.85, {});
+  EXPECT_EQ(metrics["status"], "completed") << metrics["reason"];
+  EXPECT_EQ(metrics["collisions"], 0);
+  EXPECT_GT(farthest_m(metrics), 0.6) << "it has scanned in the other room";
+  EXPECT_EQ(metrics["unreachable"]["rooms"], 0);
+  const double observable = metrics["observable_cells"];
+  EXPECT_LT(metrics["scans"].back()["observable_unobserved_cells"].get<double>(),
+            0.05 * observable);
+}
+
+TEST(NarrowDoor, IsShutToADisc) {
+  const support::TemporaryDirectory folder;
+  const auto metrics = explore(folder.path(), 0.85, {"passages.use=false", "scans=2"});
+  EXPECT_LT(farthest_m(metrics), 0.0);
+  EXPECT_EQ(metrics["unreachable"]["rooms"], 1);
+  EXPECT_GT(metrics["unreachable"]["share"], 0.05);
+  EXPECT_LT(metrics["unreachable"]["share"], 0.6);
+}
+
+TEST(NarrowDoor, IsShutToTheRobotIfItIsNarrower) {
+  const support::TemporaryDirectory folder;
+  const auto metrics = explore(folder.path(), 0.68, {"scans=2"});
+  EXPECT_EQ(metrics["unreachable"]["rooms"], 1);
+  EXPECT_EQ(metrics["collisions"], 0);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,123 @@
+// A map that is made anew from where loops say that it was seen.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "vantage/tasks/exploration/exploration_belief.hpp"
+#include "vantage/tasks/mapping/driving/loop_closing.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr int kWidth_px = 64;
+constexpr int kHeight_px = 49;
+
+/// Ahead and to the left, a wavy wall in either image.
+ExplorationObservation sweep_at(const Pose2& T_world_base, double distance_m) {
+  ExplorationObservation observation;
+  observation.T_world_base_odometry = T_world_base;
+  for (const double pan_rad : {0.0, 1.5}) {
+    CameraImages image{.width_px = kWidth_px,
+                       .height_px = kHeight_px,
+                       .focal_px = 55.0,
+                       .range_max_m = 3.5,
+                       .rgb = {},
+                       .depth_m = {}};
+    for (int i = 0; i < kWidth_px * kHeight_px; ++i) {
+      image.depth_m.push_back(static_cast<float>(distance_m + 0.1 * std::sin(0.01 * i + pan_rad)));
+    }
+    Eigen::Matrix3d of_camera;  // from OpenCV's axes to x forward, z up
+    of_camera << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    Pose T_base_camera = make_pose({0.0, 0.0, 1.2}, pan_rad);
+    T_base_camera.rotate(of_camera);
+    observation.views.push_back({std::move(image), T_base_camera});
+  }
+  return observation;
+}
+
+struct Rooms {
+  Exploration task;
+  EpisodeOptions episode;
+  ReferenceMap no_walls{RegistrationOptions{}};
+
+  explicit Rooms(int threads) {
+    task.map.centre_m = {0.0, 0.0, 1.0};
+    task.map.size_m = {8.0, 8.0, 2.0};
+    task.map.cells = {64, 64, 20};
+    episode.threads = threads;
+  }
+};
+
+const std::vector<Pose2> kBelieved{{0.0, 0.0, 0.0}, {1.0, 0.2, 0.3}};
+const std::vector<Pose2> kCorrected{{0.0, 0.0, 0.0}, {0.8, -0.1, 0.2}};
+
+/// Driven as believed, then made anew.
+OccupancyGrid made_anew(int threads, double* hazard = nullptr) {
+  const Rooms rooms(threads);
+  ExplorationBelief belief(rooms.episode, rooms.task);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto seen = sweep_at(kBelieved[i], 2.0 + 0.4 * static_cast<double>(i));
+    belief.update(seen, rooms.no_walls, {});
+    belief.keep(seen, i);
+  }
+  belief.reintegrate(kCorrected);
+  if (hazard != nullptr) *hazard = belief.hazard().global_hazard();
+  return belief.grid();
+}
+
+TEST(Reintegration, IsAsIfAllHadBeenSeenFromThereAtFirst) {
+  Rooms rooms(1);
+  const int stride_px = rooms.task.stride_px;
+  rooms.task.hazard_stride_px /= stride_px;
+  rooms.task.stride_px = 1;
+  ExplorationBelief fresh(rooms.episode, rooms.task);
+  for (std::size_t i = 0; i < 2; ++i) {
+    auto seen = sweep_at(kCorrected[i], 2.0 + 0.4 * static_cast<double>(i));
+    seen.views = thinned(seen.views, stride_px);
+    fresh.update(seen, rooms.no_walls, {});
+  }
+  double hazard = 0.0;
+  EXPECT_EQ(made_anew(1, &hazard).log_odds, fresh.grid().log_odds);
+  EXPECT_EQ(hazard, fresh.hazard().global_hazard());
+  EXPECT_GT(fresh.grid().count(CellState::occupied), 100U);
+}
+
+TEST(Reintegration, DoesNotDependOnThreads) {
+  EXPECT_EQ(made_anew(1).log_odds, made_anew(3).log_odds);
+}
+
+/// Three columns of four, of which the first and the last are kept; rows alike.
+TEST(Reintegration, ThinnedImagesSeeTheSameDirections) {
+  const auto seen = sweep_at({}, 2.0).views;
+  const auto kept = thinned(seen, 3);
+  ASSERT_EQ(kept.front().image.width_px, 22);
+  ASSERT_EQ(kept.front().image.height_px, 17);
+  EXPECT_TRUE(kept.front().image.ray(2, 4).isApprox(seen.front().image.ray(6, 12), 1e-12));
+  EXPECT_EQ(kept.front().image.depth_at(2, 4), seen.front().image.depth_at(6, 12));
+}
+
+TEST(PoseCorrection, MovesWhatWasSeenFromAKeyframeAlong) {
+  const PoseCorrection correction{kBelieved, kCorrected};
+  const Pose2 same = correction.moved(kBelieved[1], 1);
+  EXPECT_NEAR(same.x_m, kCorrected[1].x_m, 1e-12);
+  EXPECT_NEAR(same.yaw_rad, kCorrected[1].yaw_rad, 1e-12);
+  const Pose2 ahead = compose(kBelieved[1], {2.0, 0.0, 0.0});
+  const Eigen::Vector2d moved = correction.moved(Eigen::Vector2d(ahead.x_m, ahead.y_m), 1);
+  EXPECT_NEAR(moved.x(), 0.8 + 2.0 * std::cos(0.2), 1e-12);
+  EXPECT_NEAR(moved.y(), -0.1 + 2.0 * std::sin(0.2), 1e-12);
+}
+
+TEST(WheelCovariance, GrowsWithTheWayAndTheTurn) {
+  const OdometryOptions odometry;
+  const Eigen::Matrix3d rest = wheel_covariance(odometry, 0.0, 0.0);
+  const Eigen::Matrix3d driven = wheel_covariance(odometry, 2.0, 0.0);
+  const Eigen::Matrix3d turned = wheel_covariance(odometry, 0.0, 1.0);
+  // In the long run a bias of 1 % over 5 m is a walk of variance 2 * 5 m * (1 %)^2 a metre.
+  EXPECT_NEAR(driven(0, 0) - rest(0, 0), 2.0 * (1e-4 + 10.0 * 1e-4), 1e-12);
+  EXPECT_NEAR(turned(2, 2) - rest(2, 2), 0.02 * 0.02, 1e-12);
+  EXPECT_GT(driven(1, 1), driven(0, 0)) << "a heading that is lost moves the end aside";
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,232 @@
+// Whatever a program of a user's does, the episode goes on with its answer or ends with the reason,
+// in time, and nothing of the program is left.
+#include "vantage/tasks/mapping/external/external_planner.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/mapping/external/asked_planner.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/episode_loop.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using support::kHello;
+using support::sh;
+using testing::HasSubstr;
+
+/// Which the tests below leave no time to reach.
+constexpr double kLong_s = 30.0;
+
+OutsideDecision first_decision(const ExternalChoice& choice) {
+  const support::AskedSituation situation;
+  ExternalPlanner planner(choice, {.task = "tabletop"});
+  return planner.decide(situation.request());
+}
+
+std::string failure(const ExternalChoice& choice) {
+  try {
+    first_decision(choice);
+  } catch (const EpisodeFailed& error) {
+    EXPECT_EQ(error.code(), ExitCode::goal_failed);
+    return error.what();
+  }
+  return "none";
+}
+
+/// Of a program that never ends by itself, which waits as long as `sleeper`.
+bool runs(const std::string& sleeper) {
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream file(entry.path() / "cmdline");
+    std::string command((std::istreambuf_iterator<char>(file)), {});
+    if (command.find(sleeper) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// What is killed is gone from the list of processes a moment later.
+bool is_gone(const std::string& sleeper) {
+  for (int i = 0; i < 200 && runs(sleeper); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return !runs(sleeper);
+}
+
+std::string answering(const std::string& answer) {
+  return kHello + "read request; echo '" + answer + "'; read end";
+}
+
+TEST(ExternalPlanner, AnswersWithAViewOrAPose) {
+  EXPECT_EQ(std::get<std::size_t>(first_decision(sh(answering(R"({"view": 1})")))), 1U);
+  const auto pose =
+      std::get<Pose2>(first_decision(sh(answering(R"({"pose": [0.3, -0.2, 1.5], "why": "x"})"))));
+  EXPECT_EQ(pose.x_m, 0.3);
+  EXPECT_EQ(pose.y_m, -0.2);
+  EXPECT_EQ(pose.yaw_rad, 1.5);
+}
+
+TEST(ExternalPlanner, IsAskedAgainAndAgainByOneProcess) {
+  const support::AskedSituation situation;
+  ExternalPlanner planner(
+      sh(kHello + R"(n=0; while read request; do echo "{\"view\": $n}"; n=$((1 - n)); done)"),
+      {.task = "tabletop"});
+  for (const std::size_t view : {0U, 1U, 0U}) {
+    EXPECT_EQ(std::get<std::size_t>(planner.decide(situation.request())), view);
+  }
+  planner.part();
+}
+
+TEST(ExternalPlanner, FailsTheEpisodeByWhatItSays) {
+  EXPECT_THAT(failure(sh("echo hello; read end", kLong_s)), HasSubstr("expected one JSON object"));
+  EXPECT_THAT(failure(sh("echo '{}'; read end", kLong_s)), HasSubstr("its first line is not"));
+  EXPECT_THAT(failure(sh(R"(echo '{"protocol": "vantage-planner", "version": 2}'; read end)")),
+              HasSubstr("speaks version 2 of the protocol, this is version 1"));
+  EXPECT_THAT(failure(sh(answering("garbage \x01\xff"))), HasSubstr("garbage \\x01\\xff"));
+  EXPECT_THAT(failure(sh(answering(R"({"view": 7})"))),
+              HasSubstr("view 7 was chosen, there are 3"));
+  EXPECT_THAT(failure(sh(answering(R"({"view": -1})"))), HasSubstr("no whole number"));
+  EXPECT_THAT(failure(sh(answering(R"({"view": 1.0})"))), HasSubstr("no whole number"));
+  EXPECT_THAT(failure(sh(answering(R"({"view": 2})"))), HasSubstr("exhausted"));
+  EXPECT_THAT(failure(sh(answering(R"({"pose": [1.1, 0, 0]})"))),
+              HasSubstr("not on known free floor"));
+  EXPECT_THAT(failure(sh(answering(R"({"pose": [1.7, 0, 0]})"))),
+              HasSubstr("not on known free floor"));  // beyond the wall
+  EXPECT_THAT(failure(sh(answering(R"({"pose": [1, 0]})"))), HasSubstr("not [x, y, yaw]"));
+  EXPECT_THAT(failure(sh(answering(R"({"view": 0, "pose": [0, 0, 0]})"))),
+              HasSubstr("expected either"));
+  EXPECT_THAT(failure(sh(answering("{\"view\": 0}\n{\"view\": 0}"))),
+              HasSubstr("more than one line"));
+}
+
+TEST(ExternalPlanner, FailsTheEpisodeByWhatItDoes) {
+  EXPECT_THAT(failure(sh("exit 3", kLong_s)), HasSubstr("it ended: exit code 3"));
+  EXPECT_THAT(failure(sh(kHello + "kill -9 $$", kLong_s)), HasSubstr("it ended: signal 9"));
+  EXPECT_THAT(failure(sh(kHello + "read request; printf '{\"view\": 0'", kLong_s)),
+              HasSubstr("it ended in the middle of a line: exit code 0"));
+  EXPECT_THAT(failure(sh(kHello + "read request; exec >&-; sleep 100", kLong_s)),
+              HasSubstr("it closed its output"));
+  EXPECT_THAT(failure(sh(kHello + "read request; yes | tr -d '\\n'", kLong_s)),
+              HasSubstr("it floods its output: more than 65536 bytes"));
+  EXPECT_THAT(failure(sh(kHello + "read request; yes", kLong_s)), HasSubstr("more than one line"));
+  EXPECT_THAT(failure(sh("python3=none; exec /no/such/program", kLong_s)), HasSubstr("it ended"));
+}
+
+TEST(ExternalPlanner, IsGivenNoMoreTimeThanItHas) {
+  EXPECT_THAT(failure(sh("sleep 100", 0.1)), HasSubstr("no answer within 0.1 s"));
+  EXPECT_THAT(failure(sh(kHello + "read request; sleep 100", 0.3)),
+              HasSubstr("no answer within 0.3 s"));
+  EXPECT_THAT(failure(sh(kHello + "read request; printf '{\"view\": 0}'; sleep 100", 0.3)),
+              HasSubstr("no answer within 0.3 s"));
+}
+
+TEST(ExternalPlanner, MayLeaveWhatItIsAskedUnread) {
+  support::AskedSituation situation;
+  situation.candidates.resize(5000, situation.candidates[0]);  // more than a pipe holds
+  DecisionRequest request = situation.request();
+  request.travel_s.resize(5000);
+  ExternalPlanner planner(sh(kHello + "sleep 100", 0.3), {.task = "tabletop"});
+  try {
+    planner.decide(request);
+    FAIL() << "no error";
+  } catch (const EpisodeFailed& error) {
+    EXPECT_THAT(error.what(), HasSubstr("it does not read what it is asked"));
+  }
+  ExternalPlanner deaf(sh(kHello + "exec <&-; sleep 100", 0.3), {.task = "tabletop"});
+  EXPECT_THROW(deaf.decide(request), EpisodeFailed);
+}
+
+TEST(ExternalPlanner, LeavesNoProcessBehind) {
+  // In the background, in a session of its own, deaf to what can be ignored.
+  const std::string sleeper = "86399.25";
+  const std::string start =
+      "trap '' TERM INT HUP; (setsid sleep " + sleeper + " &) ; sleep " + sleeper + " & ";
+  EXPECT_THAT(failure(sh(kHello + start + "exit 1", kLong_s)), HasSubstr("exit code 1"));
+  EXPECT_TRUE(is_gone(sleeper));
+  EXPECT_THAT(failure(sh(kHello + start + "read request; sleep " + sleeper, 0.3)),
+              HasSubstr("no answer"));
+  EXPECT_TRUE(is_gone(sleeper));
+  {
+    const support::AskedSituation situation;
+    ExternalPlanner planner(
+        sh(kHello + start + "read request; echo '{\"view\": 0}'; while :; do sleep 1; done"),
+        {.task = "tabletop"});
+    planner.decide(situation.request());
+    EXPECT_TRUE(runs(sleeper));
+  }
+  EXPECT_TRUE(is_gone(sleeper));
+}
+
+TEST(ExternalPlanner, MayEndByItself) {
+  const support::TemporaryDirectory folder;
+  const std::string file = (folder / "ended").string();
+  const support::AskedSituation situation;
+  ExternalPlanner planner(
+      sh(kHello + "read request; echo '{\"view\": 0}'; read end; echo \"$end\" > " + file),
+      {.task = "tabletop"});
+  planner.decide(situation.request());
+  planner.part();
+  std::ifstream written(file);
+  std::string line;
+  std::getline(written, line);
+  EXPECT_EQ(line, R"({"type":"end"})");
+}
+
+TEST(ExternalPlanner, RunsApartFromUs) {
+  const support::TemporaryDirectory folder;
+  const std::string file = (folder / "told").string();
+  ::setenv("VANTAGE_TEST_SECRET", "secret", 1);
+  first_decision(sh(kHello +
+                    "read request; { pwd; env; ls /proc/self/fd; ls; cat /proc/net/dev; } > " +
+                    file + "; echo '{\"view\": 0}'; read end"));
+  ::unsetenv("VANTAGE_TEST_SECRET");
+  std::ifstream stream(file);
+  const std::string told((std::istreambuf_iterator<char>(stream)), {});
+  EXPECT_THAT(told, HasSubstr("vantage-"));  // a folder of its own
+  EXPECT_THAT(told, Not(HasSubstr("secret")));
+  EXPECT_THAT(told, HasSubstr("\noccupancy.raw\n"));
+  EXPECT_THAT(told, HasSubstr("TMPDIR=" + told.substr(0, told.find('\n'))));
+  EXPECT_FALSE(fs::exists(told.substr(0, told.find('\n'))));  // gone with it
+}
+
+TEST(ExternalPlanner, HasNoNetworkWhereTheSystemAllowsThat) {
+  const support::TemporaryDirectory folder;
+  const std::string file = (folder / "interfaces").string();
+  const support::AskedSituation situation;
+  ExternalPlanner planner(sh(kHello + "read request; grep -c : /proc/self/net/dev > " + file +
+                             "; echo '{\"view\": 0}'; read end"),
+                          {.task = "tabletop"});
+  planner.decide(situation.request());
+  const PlannerFacts facts = planner.facts();
+  ASSERT_EQ(facts.size(), 3U);
+  EXPECT_EQ(facts[1].first, "isolation");
+  EXPECT_EQ(facts[2], (std::pair<std::string, std::string>{"name", "test"}));
+  if (facts[1].second.starts_with("none")) GTEST_SKIP() << "SKIPPED: " << facts[1].second;
+  int interfaces = 0;
+  std::ifstream(file) >> interfaces;
+  EXPECT_EQ(interfaces, 1);  // the loopback
+}
+
+TEST(ExternalPlanner, MayTalkToItsErrorsAtLength) {
+  EXPECT_EQ(std::get<std::size_t>(first_decision(
+                sh(kHello + "read request; yes | head -c 3000000 >&2; echo '{\"view\": 0}'"
+                            "; read end",
+                   kLong_s))),
+            0U);
+}
+
+TEST(ExternalPlanner, ThatIsNoProgramIsAnErrorOfTheConfiguration) {
+  EXPECT_THROW(ExternalPlanner({.command = {"no_such_program_zz"}}, {}), ConfigError);
+  EXPECT_THROW(ExternalPlanner({.command = {"/etc/passwd"}}, {}), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,216 @@
+// Lines of the protocol: what is told, and that no answer, however it is made, does harm.
+#include "vantage/tasks/mapping/external/planner_protocol.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/mapping/external/asked_planner.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/tasks/mapping/external/planner_grids.hpp"
+
+namespace vantage {
+namespace {
+using Json = nlohmann::ordered_json;
+
+template <class T>
+std::vector<T> read_as(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  return values;
+}
+
+TEST(PlannerProtocol, TellsWhatTheRobotKnows) {
+  const support::AskedSituation situation;
+  const std::string line = request_line(situation.request(), 7, {{"occupancy", "here"}});
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const Json json = Json::parse(line);
+  EXPECT_EQ(json["type"], "decide");
+  EXPECT_EQ(json["decision"], 7);
+  EXPECT_EQ(json["scans_left"], 4);
+  EXPECT_EQ(json["time_s"], 12.5);
+  EXPECT_TRUE(json["time_left_s"].is_null());  // no budget
+  EXPECT_EQ(json["pose"], (Json{0.0, 0.0, 0.25}));
+  EXPECT_EQ(json["grids"]["occupancy"], "here");
+  ASSERT_EQ(json["candidates"].size(), 3U);
+  const Json& view = json["candidates"][1];
+  EXPECT_EQ(view["view"], 1);
+  EXPECT_EQ(view["gain"], 10.0);
+  EXPECT_EQ(view["interval"], (Json{5.0, 20.0}));
+  EXPECT_TRUE(view["path_length_m"].is_null());
+  EXPECT_TRUE(view["travel_s"].is_null());
+  EXPECT_EQ(view["sensor"].size(), 5U);
+  EXPECT_TRUE(json["candidates"][2]["exhausted"].get<bool>());
+}
+
+TEST(PlannerProtocol, SensorsLookWhereTheyLook) {
+  support::AskedSituation situation;
+  situation.candidates[0].T_world_sensor =
+      Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()) *
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());  // 0.3 rad down
+  const Json json = Json::parse(request_line(situation.request(), 1, {}));
+  const Json& sensor = json["candidates"][0]["sensor"];
+  EXPECT_EQ(sensor[1], 2.0);
+  EXPECT_NEAR(sensor[3].get<double>(), 0.7, 1e-12);
+  EXPECT_NEAR(sensor[4].get<double>(), 0.3, 1e-12);
+}
+
+TEST(PlannerGrids, HoldWhatTheirHeadersSay) {
+  const support::TemporaryDirectory folder;
+  support::AskedSituation situation;
+  for (std::size_t i = 0; i < situation.grid.size(); ++i) {
+    situation.grid.log_odds[i] = 0.5F * static_cast<float>(i);
+  }
+  const Json grids = write_planner_grids(situation.request(), folder.path());
+  EXPECT_EQ(grids["occupancy"]["shape"], (Json{4, 3, 2}));
+  EXPECT_EQ(grids["occupancy"]["min_corner_m"], (Json{-0.5, -0.5, 0.0}));
+  EXPECT_EQ(grids["occupancy"]["cell_m"][2], 0.5);
+  EXPECT_EQ(read_as<float>(folder / grids["occupancy"]["file"]), situation.grid.log_odds);
+  const auto floor = read_as<std::uint8_t>(folder / grids["floor"]["file"]);
+  const auto ways = read_as<double>(folder / grids["ways"]["file"]);
+  const FloorMap& map = situation.paths.map;
+  ASSERT_EQ(floor.size(), map.size());
+  const auto at = [&](double x_m, double y_m) { return map.index(map.cell_at({x_m, y_m})); };
+  EXPECT_EQ(floor[at(0.0, 0.0)], 0);
+  EXPECT_EQ(floor[at(1.1, 0.0)], 2);
+  EXPECT_EQ(ways, situation.paths.cost);
+  EXPECT_TRUE(std::isinf(ways[at(1.7, 0.0)]));
+  // The next decision's are in the same files.
+  situation.grid.log_odds[5] = -3.0F;
+  write_planner_grids(situation.request(), folder.path());
+  EXPECT_EQ(read_as<float>(folder / "occupancy.raw")[5], -3.0F);
+}
+
+TEST(PlannerGrids, AreNotWrittenThroughALinkOfThePlanners) {
+  const support::TemporaryDirectory folder;
+  std::ofstream(folder / "precious") << "kept";
+  std::filesystem::create_symlink(folder / "precious", folder / "occupancy.raw");
+  const support::AskedSituation situation;
+  EXPECT_THROW(write_planner_grids(situation.request(), folder.path()), OutputError);
+  EXPECT_EQ(std::filesystem::file_size(folder / "precious"), 4U);
+}
+
+TEST(LineBuffer, PutsPiecesTogetherAndKeepsItsBound) {
+  LineBuffer buffer(8);
+  EXPECT_TRUE(buffer.add("ab"));
+  EXPECT_FALSE(buffer.take());
+  EXPECT_TRUE(buffer.add("c\nd\n"));
+  EXPECT_EQ(buffer.take(), "abc");
+  EXPECT_EQ(buffer.take(), "d");
+  EXPECT_FALSE(buffer.take());
+  EXPECT_TRUE(buffer.add("12345678"));
+  EXPECT_FALSE(buffer.add("9"));
+  EXPECT_EQ(buffer.waiting(), 8U);
+}
+
+TEST(LineBuffer, ShowsWhatIsNoText) {
+  EXPECT_EQ(printable("a\tb\xc3\xa4"), "a\\x09b\\xc3\\xa4");
+  EXPECT_EQ(printable("abcdef", 3), "abc ...");
+}
+
+/// Answers that are almost right: pieces of good ones, put together at random, and bytes of any
+/// kind among them.
+std::string made_up_answer(Rng& rng) {
+  static const std::vector<std::string> pieces{"{",
+                                               "}",
+                                               "[",
+                                               "]",
+                                               ":",
+                                               ",",
+                                               "\"view\"",
+                                               "\"pose\"",
+                                               "\"protocol\"",
+                                               "\"version\"",
+                                               "\"vantage-planner\"",
+                                               "1",
+                                               "0",
+                                               "2",
+                                               "-1",
+                                               "1e999",
+                                               "0.5",
+                                               "-0.25",
+                                               "1e-320",
+                                               "null",
+                                               "true",
+                                               "NaN",
+                                               "18446744073709551616",
+                                               "\"",
+                                               "\\u0000",
+                                               "\\ud800",
+                                               " ",
+                                               "\r",
+                                               "\n",
+                                               "\n\n",
+                                               "{\"view\": 1}\n",
+                                               "{\"pose\": [0.1, 0.2, 0.3]}\n",
+                                               "[[[[[[[[",
+                                               "\xff\xfe",
+                                               "\xe2\x82"};
+  std::string text;
+  const std::size_t count = 1 + rng.uniform_index(12);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (rng.uniform() < 0.1) {
+      text += static_cast<char>(rng.uniform_index(256));
+    } else if (rng.uniform() < 0.005) {
+      text += std::string(rng.uniform_index(5000), rng.uniform() < 0.5 ? '[' : '{');
+    } else {
+      text += pieces[rng.uniform_index(pieces.size())];
+    }
+  }
+  return text;
+}
+
+/// @return whether it was a decision that can be carried out
+bool hold_against(const std::string& line, const DecisionRequest& request) {
+  try {
+    const OutsideDecision decision = read_answer(line);
+    check_decision(decision, request);
+    if (const auto* view = std::get_if<std::size_t>(&decision)) {
+      EXPECT_LT(*view, 2U);
+    }
+    return true;
+  } catch (const BadDecision& error) {
+    EXPECT_LT(std::strlen(error.what()), 400U);
+    for (const char* c = error.what(); *c != 0; ++c) EXPECT_TRUE(*c >= 0x20 && *c < 0x7f);
+    return false;
+  }
+}
+
+TEST(PlannerProtocol, ReadsAnythingWithoutHarm) {
+  const support::AskedSituation situation;
+  const DecisionRequest request = situation.request();
+  Rng rng(24);
+  LineBuffer buffer(4096);
+  std::size_t lines = 0;
+  std::size_t good = 0;
+  std::size_t floods = 0;
+  for (int message = 0; message < 100'000; ++message) {
+    if (!buffer.add(made_up_answer(rng))) {
+      ++floods;
+      buffer = LineBuffer(4096);
+    }
+    while (const auto line = buffer.take()) {
+      ++lines;
+      good += hold_against(*line, request) ? 1U : 0U;
+      if (rng.uniform() < 0.1) {
+        try {
+          read_introduction(*line);
+        } catch (const BadDecision&) {
+        }
+      }
+    }
+  }
+  EXPECT_GT(lines, 50'000U);
+  EXPECT_GT(good, 100U);  // it comes to what is right as well
+  EXPECT_LT(good, lines);
+  EXPECT_GT(floods, 10U);
+}
+
+}  // namespace
+}  // namespace vantage
