@@ -39,8 +39,12 @@ TEST(FloorOutline, GrownHoldsAllThatIsSoNear) {
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Vector2d p(rng.uniform(-2.5, 2.5), rng.uniform(-2.5, 2.5));
     const double off_m = distance_m(outline, p);
-    if (off_m <= 0.25) EXPECT_EQ(distance_m(wide, p), 0.0) << p.transpose();
-    if (off_m > 0.25 * 1.02) EXPECT_GT(distance_m(wide, p), 0.0) << p.transpose();
+    if (off_m <= 0.25) {
+      EXPECT_EQ(distance_m(wide, p), 0.0) << p.transpose();
+    }
+    if (off_m > 0.25 * 1.02) {
+      EXPECT_GT(distance_m(wide, p), 0.0) << p.transpose();
+    }
     near += off_m > 0.0 && off_m <= 0.25 ? 1 : 0;
   }
   EXPECT_GT(near, 50);
