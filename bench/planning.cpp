@@ -53,7 +53,8 @@ class Timed : public Parts {
  private:
   void time_parts(const std::vector<Candidate>& candidates) {
     const BlockField transmission = belief_.hazard().transmission();
-    const PathField paths = this->navigator_.plan();
+    const auto planned = this->navigator_.plan();
+    const PathField& paths = *planned;
     auto start = std::chrono::steady_clock::now();
     const PlanningProblem problem = planning_problem(options_, options_.gain, candidates,
                                                      {.belief = belief_,

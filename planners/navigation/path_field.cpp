@@ -125,8 +125,19 @@ bool stands_narrow(const PathField& field) {
          static_cast<double>(field.clearance_m[field.start_cell]) < field.space->circumscribed_m();
 }
 
-bool is_anything_reached(const PathField& field) {
-  return std::ranges::any_of(field.cost, [](double cost) { return cost < kInfinity; });
+bool is_open_place_reached(const PathField& field) {
+  for (std::size_t cell = 0; cell < field.cost.size(); ++cell) {
+    if (field.reachable(cell) && field.traversable(cell)) return true;
+  }
+  return false;
+}
+
+void forget_ways(PathField& field) {
+  SearchTree tree = empty_tree(field.map.size());
+  field.cost = std::move(tree.cost);
+  field.parent = std::move(tree.parent);
+  field.narrow.clear();
+  field.narrow_edges.clear();
 }
 
 }  // namespace
@@ -168,17 +179,14 @@ PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
   field.start = T_world_base;
   field.clearance_m = clearances_m(map);
   field.space = std::move(space);
-  const SearchTree tree = empty_tree(map.size());
-  field.cost = tree.cost;
-  field.parent = tree.parent;
+  forget_ways(field);
   const Eigen::Array2i start = map.cell_at({T_world_base.x_m, T_world_base.y_m});
   if (!map.contains(start)) return field;
   field.start_cell = map.index(start);
   const bool narrow = field.space != nullptr && stands_narrow(field);
   if (narrow) search_passages(field);
-  if (!narrow || !is_anything_reached(field)) {
-    field.narrow.clear();
-    field.narrow_edges.clear();
+  if (!narrow || !is_open_place_reached(field)) {
+    forget_ways(field);
     search_open_places(field);
     if (field.space != nullptr) search_passages(field);
   }

@@ -285,6 +285,38 @@ TEST(Passages, LeadOutOfADoorAtTheHeadingTheRobotHas) {
   }
 }
 
+/// Wherever it has got to: what is measured about it may leave its outline no way out.
+TEST(Passages, ARobotGetsOutWhereverADiscDoes) {
+  Rng rng(11);
+  const FloorOutline outline = rectangle(kWidth_m, kWidth_m);
+  int squeezed = 0;
+  for (int i = 0; i < 80; ++i) {
+    const DrawnRooms rooms = random_room(rng, 9);
+    const Pose2 start{rng.uniform(0.2, 2.8), rng.uniform(0.2, 2.8), rng.uniform(-kPi, kPi)};
+    const FloorMap& floor = rooms.floor;
+    if (!is_free(floor, floor.index(floor.cell_at({start.x_m, start.y_m})))) continue;
+    const PathField disc = make_path_field(floor, start, disc_of(outline));
+    const PathField field =
+        make_path_field(floor, start, disc_of(outline), rooms.space({.outline = outline}, {}));
+    const auto opens = [&](const PathField& paths) {
+      for (std::size_t cell = 0; cell < floor.size(); ++cell) {
+        if (paths.reachable(cell) && paths.traversable(cell)) return true;
+      }
+      return false;
+    };
+    if (opens(disc)) {
+      EXPECT_TRUE(opens(field)) << "room " << i;
+      squeezed += disc.traversable(disc.start_cell) ? 0 : 1;
+    }
+    for (std::size_t cell = 0; cell < floor.size(); ++cell) {
+      if (!field.reachable(cell)) continue;
+      const Eigen::Vector2d place = floor.centre(floor.cell(cell));
+      EXPECT_TRUE(plan_path(field, {place.x(), place.y(), 0.0}).reaches_goal) << "room " << i;
+    }
+  }
+  EXPECT_GT(squeezed, 20);
+}
+
 TEST(Passages, SomethingNewInTheDoorIsSeen) {
   const FloorOutline outline = rectangle(kWidth_m, kWidth_m);
   DrawnRooms rooms = rooms_with_door(0.75);
