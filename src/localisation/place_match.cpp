@@ -14,10 +14,14 @@ namespace {
 constexpr double kCell_m = 0.05;
 constexpr double kTurnStep_rad = 0.0125;  // a cell at 4 m
 /// Of the score, for a pose at the edge of the window: decides between poses that fit alike.
-constexpr double kPull = 0.03;
+constexpr double kPull = 0.06;
 constexpr std::uint8_t kHit = 3;
 constexpr std::uint8_t kBeside = 2;
 constexpr std::size_t kMaxPoints = 300;
+constexpr int kPieceSteps = 4;  // 0.2 m to both sides
+
+/// Sparse points have no normal.
+bool knows_surface(const PointCloud& cloud, std::size_t i) { return !cloud.normals[i].isZero(); }
 
 /// The place from above: how well a point falls on a surface.
 class Picture {
@@ -28,7 +32,9 @@ class Picture {
     low_m_ = box.min() - Eigen::Vector2d::Constant(margin_m);
     cells_ = ((box.sizes().array() + 2.0 * margin_m) / kCell_m).ceil().cast<int>() + 1;
     worth_.assign(static_cast<std::size_t>(cells_.x()) * static_cast<std::size_t>(cells_.y()), 0);
-    for (const Eigen::Vector3f& p : place.points) draw(cell_of(p.head<2>().cast<double>()));
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (knows_surface(place, i)) draw_piece(place, i);
+    }
   }
 
   [[nodiscard]] Eigen::Array2i cell_of(const Eigen::Vector2d& p_m) const {
@@ -46,6 +52,16 @@ class Picture {
     return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(cells_.x()) +
            static_cast<std::size_t>(cell.x());
   }
+  /// A point stands for a piece of a surface: far from the scanner they are sparse, and which way
+  /// they lie along a wall tells where the scanner was, not where the wall is.
+  void draw_piece(const PointCloud& place, std::size_t i) {
+    const Eigen::Vector2d p = place.points[i].head<2>().cast<double>();
+    const Eigen::Vector2d normal = place.normals[i].head<2>().cast<double>();
+    const Eigen::Vector2d along(-normal.y(), normal.x());
+    for (int step = -kPieceSteps; step <= kPieceSteps; ++step) {
+      draw(cell_of(p + step * kCell_m * along));
+    }
+  }
   void draw(const Eigen::Array2i& at) {
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) {
@@ -62,14 +78,18 @@ class Picture {
   std::vector<std::uint8_t> worth_;
 };
 
-/// Every so many points that there are at most kMaxPoints, turned.
+/// At most kMaxPoints of the surfaces, turned.
 std::vector<Eigen::Vector2d> turned(const PointCloud& scan, double yaw_rad) {
-  const std::size_t stride = (scan.size() + kMaxPoints - 1) / kMaxPoints;
-  const Eigen::Rotation2Dd rotation(yaw_rad);
   std::vector<Eigen::Vector2d> points;
-  for (std::size_t i = 0; i < scan.size(); i += stride) {
-    points.push_back(rotation * scan.points[i].head<2>().cast<double>());
+  const Eigen::Rotation2Dd rotation(yaw_rad);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!knows_surface(scan, i)) continue;
+    points.emplace_back(rotation * scan.points[i].head<2>().cast<double>());
   }
+  const std::size_t stride = (points.size() + kMaxPoints - 1) / kMaxPoints;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); i += stride) points[kept++] = points[i];
+  points.resize(kept);
   return points;
 }
 
@@ -77,7 +97,8 @@ std::vector<Eigen::Vector2d> turned(const PointCloud& scan, double yaw_rad) {
 
 Pose2 search_pose(const PointCloud& scan, const PointCloud& place, const Pose2& guess,
                   const SearchWindow& window) {
-  if (scan.empty() || place.empty()) return guess;
+  expects(scan.has_normals() && place.has_normals(), "clouds with normals");
+  if (turned(scan, 0.0).empty() || place.empty()) return guess;
   const Picture picture(place, kCell_m);
   const int shifts = static_cast<int>(std::ceil(window.shift_m / kCell_m));
   const int turns = static_cast<int>(std::ceil(window.turn_rad / kTurnStep_rad));
@@ -116,11 +137,12 @@ Agreement agreement(const PointCloud& scan, const PointCloud& place, const Pose2
   std::size_t on = 0;
   for (std::size_t i = 0; i < there.size(); ++i) {
     const auto found = tree.nearest(there.points[i], kNear_m);
-    if (!found) continue;
+    if (!found || !knows_surface(there, i) || !knows_surface(place, found->index)) continue;
     ++result.near;
-    const bool faces =
-        static_cast<double>(there.normals[i].dot(place.normals[found->index])) > kMinCosine;
-    on += faces && static_cast<double>(found->distance2_m2) < kOn_m * kOn_m ? 1 : 0;
+    const Eigen::Vector3f& normal = place.normals[found->index];
+    const bool faces = static_cast<double>(there.normals[i].dot(normal)) > kMinCosine;
+    const Eigen::Vector3f off = there.points[i] - place.points[found->index];
+    on += faces && std::abs(static_cast<double>(off.dot(normal))) < kOn_m ? 1 : 0;
   }
   if (result.near > 0) result.share = static_cast<double>(on) / static_cast<double>(result.near);
   return result;

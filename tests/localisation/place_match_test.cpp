@@ -30,11 +30,12 @@ TEST(PlaceMatch, FindsACornerFromFarOff) {
   EXPECT_NEAR(found.x_m, T_place_now.x_m, 0.1);
   EXPECT_NEAR(found.y_m, T_place_now.y_m, 0.1);
   EXPECT_NEAR(found.yaw_rad, T_place_now.yaw_rad, 0.025);
-  EXPECT_GT(agreement(now, place, T_place_now).share, 0.9);
-  EXPECT_LT(agreement(now, place, off).share, 0.5);
+  EXPECT_GT(agreement(now, place, T_place_now).share, 0.95);
+  EXPECT_LT(agreement(now, place, off).share, 0.1);
 }
 
-/// Between plain walls all places along them fit alike: none is better than the guess.
+/// Between plain walls all places along them fit alike, but for the ends of what is known of them:
+/// none is much better than the guess.
 TEST(PlaceMatch, AlongPlainWallsTheGuessStays) {
   Rng rng(2);
   std::vector<Segment> walls;
@@ -42,7 +43,7 @@ TEST(PlaceMatch, AlongPlainWallsTheGuessStays) {
   const PointCloud place = scan(walls, {0.0, 0.0, 0.0}, 0.01, rng, options());
   const PointCloud now = scan(walls, {0.0, 0.0, 0.0}, 0.01, rng, options());
   const Pose2 found = search_pose(now, place, {0.4, 0.3, 0.0}, {0.6, 0.05});
-  EXPECT_NEAR(found.x_m, 0.4, 0.11) << "along";
+  EXPECT_NEAR(found.x_m, 0.4, 0.21) << "along";
   EXPECT_NEAR(found.y_m, 0.0, 0.06) << "across";
 }
 
@@ -52,7 +53,7 @@ TEST(PlaceMatch, AnotherPlaceDoesNotAgree) {
   const PointCloud corner = scan(walls, {-6.5, -12.6, 0.0}, 0.01, rng, options());
   const PointCloud other = scan(walls, {6.5, -12.6, 0.0}, 0.01, rng, options());
   const Pose2 best = search_pose(other, corner, {}, {1.0, 0.1});
-  EXPECT_LT(agreement(other, corner, best).share, 0.75);
+  EXPECT_LT(agreement(other, corner, best).share, 0.72);
 }
 
 }  // namespace
