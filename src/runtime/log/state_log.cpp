@@ -80,7 +80,8 @@ StateLog::StateLog(const std::filesystem::path& run_dir,
 }
 
 void StateLog::add(std::span<const double> controls, std::span<const double> state) {
-  if (actions_ && !std::ranges::equal(controls, last_controls_)) {
+  // By its bytes: the hash tells -0 from 0.
+  if (actions_ && bytes_of(controls) != bytes_of(last_controls_)) {
     actions_->write(action_row(ticks_, controls));
     last_controls_.assign(controls.begin(), controls.end());
   }
