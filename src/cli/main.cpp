@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <new>
 #include <string_view>
 
 #include "vantage/cli/commands.hpp"
@@ -72,6 +73,8 @@ int main(int argc, char** argv) {
     return run_command_line(argc, argv);
   } catch (const vantage::Error& error) {
     return fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(vantage::ExitCode::internal, "not enough memory");
   } catch (const std::exception& error) {
     return fail(vantage::ExitCode::internal, std::string("internal error: ") + error.what());
   }

@@ -21,7 +21,7 @@ constexpr auto kExitCodes = std::to_array<RecordText>({
     {"exit codes", "4", "the simulation diverged; what there is has been written"},
     {"exit codes", "5", "output could not be written"},
     {"exit codes", "6", "no OpenGL context could be made; vantage doctor says why"},
-    {"exit codes", "70", "internal error: a bug of ours"},
+    {"exit codes", "70", "internal error: a bug of ours; or not enough memory"},
     {"exit codes", "130", "interrupted (SIGINT); results so far are written"},
     {"exit codes", "143", "terminated (SIGTERM); results so far are written"},
 });
