@@ -2,7 +2,7 @@
 /// episode that it stands for, or there is none.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <map>

@@ -28,7 +28,7 @@ ObjectView view_of_colour(int colour) {
                                                                     {255, 0, 255},
                                                                     {255, 255, 255},
                                                                     {128, 128, 128},
-                                                                    {0, 0, 0}}};
+                                                                    {80, 0, 0}}};
   ObjectView view;
   view.width_px = view.height_px = 12;
   view.depth_m.assign(144, 1.0F);

@@ -212,7 +212,7 @@ TEST(ChoicesThatWeighPaths, TakeAnUnreachableViewOnlyWhereNoOtherIsLeft) {
 
 TEST(ViewChoiceDeathTest, OfAPlanNeedsAProblem) {
   Rng rng(1);
-  EXPECT_DEATH(choose_view(ViewChoice(TourChoice{}), five_views(), rng), "plan_views");
+  EXPECT_DEATH(choose_view(ViewChoice(TourChoice{}), five_views(), rng), "a function of candidates");
 }
 
 TEST(ViewChoiceDeathTest, NeedsACandidate) {
