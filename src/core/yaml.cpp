@@ -54,12 +54,15 @@ class PlainYamlOnly : public YAML::EventHandler {
 
 /// yaml-cpp closes an open quote at the end of a file itself, unless the file ends without a
 /// newline: a forgotten quote would swallow the keys behind it unseen.
+/// A second document is an error, and the last that is looked for: of what begins none, as a comma,
+/// yaml-cpp makes empty ones without end.
 void inspect(std::string_view text, const std::string& name) {
   const auto last = text.find_last_not_of(" \t\r\n");
   std::istringstream stream{std::string(text.substr(0, last == text.npos ? 0 : last + 1))};
   YAML::Parser parser(stream);
   PlainYamlOnly inspector(name);
-  while (parser.HandleNextDocument(inspector)) {
+  if (parser.HandleNextDocument(inspector) && parser.HandleNextDocument(inspector)) {
+    throw ConfigError(name + ": more than one YAML document");
   }
 }
 
@@ -192,16 +195,14 @@ ConfigNode read_yaml(const std::filesystem::path& path) {
 }
 
 ConfigNode parse_yaml(std::string_view text, const std::string& name) {
-  std::vector<YAML::Node> documents;
   try {
     inspect(text, name);
-    documents = YAML::LoadAll(std::string(text));
+    const YAML::Node root = YAML::Load(std::string(text));
+    if (!root.IsNull()) return convert(root, name, "");
   } catch (const YAML::Exception& error) {
     throw ConfigError(
         fmt::format("{}: not valid YAML: {}", origin_of(name, error.mark), error.msg));
   }
-  if (documents.size() > 1) throw ConfigError(name + ": more than one YAML document");
-  if (!documents.empty()) return convert(documents.front(), name, "");
   ConfigNode empty;
   empty.origin = name;
   return empty;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/report/json_file.hpp"
 #include "vantage/runtime/json.hpp"
 
 namespace vantage {
@@ -81,22 +82,32 @@ std::string branched_text(const BranchedDecision& decision) {
   return text;
 }
 
+namespace {
+
+/// Of a decision in the file; 0 if it is of another kind.
+std::uint64_t scan_of(const Json& decision) {
+  const bool told = decision.is_object() && decision.contains("scan");
+  return told && decision["scan"].is_number_unsigned() ? decision["scan"].get<std::uint64_t>() : 0;
+}
+
+}  // namespace
+
 void keep_branches(const std::filesystem::path& run_dir,
                    const std::vector<BranchedDecision>& decisions) {
   const auto path = run_dir / "branches.json";
   Json kept = Json::object();
-  if (std::filesystem::exists(path)) kept = Json::parse(read_file(path), nullptr, false);
+  if (std::filesystem::exists(path)) kept = json_object_or_null<Json>(read_file(path));
   if (!kept.is_object() || !kept.contains("decisions") || !kept["decisions"].is_array()) {
     kept = {{"decisions", Json::array()}};
   }
   std::vector<Json> all;
   for (const Json& known : kept["decisions"]) {
     const bool replaced = std::ranges::any_of(
-        decisions, [&](const BranchedDecision& d) { return known.value("scan", 0U) == d.scan; });
+        decisions, [&](const BranchedDecision& d) { return scan_of(known) == d.scan; });
     if (!replaced) all.push_back(known);
   }
   for (const BranchedDecision& decision : decisions) all.push_back(branched_json(decision));
-  std::ranges::stable_sort(all, {}, [](const Json& d) { return d.value("scan", 0U); });
+  std::ranges::stable_sort(all, {}, scan_of);
   kept["decisions"] = all;
   write_file(path, json_text(kept));
 }

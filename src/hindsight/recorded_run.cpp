@@ -5,6 +5,7 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/report/json_file.hpp"
 #include "vantage/runtime/manifest.hpp"
 
 namespace vantage {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json read_object(const fs::path& path) {
-  Json json = Json::parse(read_file(path), nullptr, false);
+  Json json = json_object_or_null<Json>(read_file(path));
   if (!json.is_object()) throw InputError(path.string() + ": not a JSON object");
   return json;
 }
@@ -21,7 +22,9 @@ Json read_object(const fs::path& path) {
 std::string recorded_version(const fs::path& directory) {
   const Json manifest = read_object(directory / "manifest.json");
   const Json versions = manifest.value("versions", Json::object());
-  return versions.is_object() ? versions.value("vantage", std::string("unknown")) : "unknown";
+  const bool told = versions.is_object() && versions.contains("vantage");
+  return told && versions["vantage"].is_string() ? versions["vantage"].get<std::string>()
+                                                 : "unknown";
 }
 
 /// Values of an object of metrics.json.

@@ -13,6 +13,7 @@
 #include "vantage/mcap/mcap_writer.hpp"
 #include "vantage/mcap/run_streams.hpp"
 #include "vantage/mcap/timeline.hpp"
+#include "vantage/report/json_file.hpp"
 #include "vantage/runtime/interrupt.hpp"
 
 namespace vantage {
@@ -24,7 +25,7 @@ using Json = nlohmann::ordered_json;
 /// What manifest.json says in single values.
 std::map<std::string, std::string> manifest_entries(const fs::path& run_dir) {
   std::map<std::string, std::string> entries;
-  const auto manifest = Json::parse(read_file(run_dir / "manifest.json"), nullptr, false);
+  const auto manifest = json_object_or_null<Json>(read_file(run_dir / "manifest.json"));
   if (!manifest.is_object()) return entries;
   for (const auto& [key, value] : manifest.items()) {
     if (value.is_string()) entries[key] = value.get<std::string>();

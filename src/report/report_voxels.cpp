@@ -18,7 +18,7 @@ constexpr std::string_view kMagic = "VTGVOX01";
 constexpr std::size_t kHeaderBytes = 8 + 9 * sizeof(double) + sizeof(std::uint64_t);
 constexpr std::size_t kRecordBytes = 16;
 constexpr int kMaxCellsPerAxis = 65535;
-constexpr std::size_t kMaxCells = 256U << 20;
+constexpr std::size_t kMaxCells = 64U << 20;
 
 GridFrame frame_of(const VoxelMap& map) {
   GridFrame frame;
@@ -51,8 +51,10 @@ class Fill {
   Fill(const GridFrame& frame, const std::vector<VoxelRecord>& voxels, std::uint8_t kind)
       : frame_(frame), step_(frame.size(), kNever) {
     for (const VoxelRecord& voxel : voxels) {
-      const Eigen::Array3i cell = frame.cell_at({voxel.x, voxel.y, voxel.z});
-      if (voxel.kind != kind || !frame.contains(cell)) continue;
+      const Eigen::Vector3d p(voxel.x, voxel.y, voxel.z);
+      if (voxel.kind != kind || is_far(p)) continue;
+      const Eigen::Array3i cell = frame.cell_at(p);
+      if (!frame.contains(cell)) continue;
       std::uint16_t& step = step_[frame.index(cell)];
       step = std::min(step, kind == kVoxelOccupied ? voxel.step : std::uint16_t{0});
     }
@@ -75,6 +77,12 @@ class Fill {
   }
 
  private:
+  /// Beyond the grid, maybe farther than cells have numbers.
+  [[nodiscard]] bool is_far(const Eigen::Vector3d& p) const {
+    const Eigen::Array3d cells = (p - frame_.min_corner_m).array() / frame_.cell_size_m.array();
+    return (cells < -1.0).any() || (cells > frame_.cells.cast<double>() + 1.0).any();
+  }
+
   const GridFrame& frame_;
   std::vector<std::uint16_t> step_;
 };

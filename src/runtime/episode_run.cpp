@@ -1,8 +1,14 @@
 #include "vantage/runtime/episode_run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <map>
+#include <mutex>
 #include <string_view>
 
 #include "vantage/core/atomic_file.hpp"
@@ -40,6 +46,42 @@ constexpr auto kRunFiles = std::to_array<std::string_view>({"manifest.json",
                                                             "frames",
                                                             "views"});
 
+/// Folders that this process runs into, so that no other does: its files would end up under the
+/// names of ours. From the beginning of an episode until its results are written; of one that
+/// throws, until the folder is run into again or the process ends.
+class ClaimedFolders {
+ public:
+  /// @throws OutputError if another process runs into it.
+  void claim(const fs::path& directory) {
+    const std::scoped_lock lock(mutex_);
+    const std::string name = fs::weakly_canonical(directory).string();
+    if (descriptors_.contains(name)) return;
+    const int folder = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;  // writing into it will say why
+    if (::flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(folder);
+      throw OutputError(fmt::format("{}: another process runs into it", directory.string()));
+    }
+    descriptors_[name] = folder;
+  }
+  void release(const fs::path& directory) {
+    const std::scoped_lock lock(mutex_);
+    const auto found = descriptors_.find(fs::weakly_canonical(directory).string());
+    if (found == descriptors_.end()) return;
+    ::close(found->second);
+    descriptors_.erase(found);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, int> descriptors_;
+};
+
+ClaimedFolders& claimed_folders() {
+  static ClaimedFolders folders;
+  return folders;
+}
+
 /// What an old run wrote is removed, and only that: the folder may hold other things.
 void prepare_directory(const fs::path& directory, bool overwrite) {
   for (const std::string_view name : kRunFiles) {
@@ -48,6 +90,7 @@ void prepare_directory(const fs::path& directory, bool overwrite) {
                       fmt::format("holds {} already", name));
   }
   make_writable_directory(directory);
+  claimed_folders().claim(directory);
   for (const std::string_view name : kRunFiles) {
     std::error_code error;
     fs::remove_all(directory / name, error);
@@ -108,6 +151,7 @@ RunOutcome EpisodeRun::finish(const Ending& ending, const RunTotals& totals,
   write_file(directory_ / "manifest.json", manifest_json(request_, summary));
   write_file(directory_ / "metrics.json", outcome.metrics);
   recorder.finish_video();
+  claimed_folders().release(directory_);
   return outcome;
 }
 

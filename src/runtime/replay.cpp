@@ -7,6 +7,7 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/report/json_file.hpp"
 #include "vantage/runtime/log/recording.hpp"
 #include "vantage/runtime/log/state_log.hpp"
 #include "vantage/sim/world/world.hpp"
@@ -22,7 +23,7 @@ std::optional<std::string> state_difference(std::span<const double> expected,
 }
 
 nlohmann::json read_manifest(const std::filesystem::path& run_dir) {
-  auto manifest = nlohmann::json::parse(read_file(run_dir / "manifest.json"), nullptr, false);
+  auto manifest = json_object_or_null<nlohmann::json>(read_file(run_dir / "manifest.json"));
   if (manifest.is_object()) return manifest;
   throw InputError((run_dir / "manifest.json").string() + ": not a JSON object");
 }
@@ -78,8 +79,9 @@ ReplayResult replay(const std::filesystem::path& run_dir, World& world,
     result.state_hash = hash_doubles(state, hash_doubles(world.controls(), result.state_hash));
     result.ticks = tick + 1;
   }
-  const auto metrics = nlohmann::json::parse(read_file(run_dir / "metrics.json"), nullptr, false);
-  if (!metrics.is_object() || metrics.value("state_hash", "") != hash_text(result.state_hash)) {
+  const auto metrics = json_object_or_null<nlohmann::json>(read_file(run_dir / "metrics.json"));
+  if (!metrics.is_object() || !metrics.contains("state_hash") ||
+      metrics["state_hash"] != hash_text(result.state_hash)) {
     result.first_difference = result.ticks;
     result.what = "metrics.json has another state_hash";
   }

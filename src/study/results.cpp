@@ -10,6 +10,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/report/json_file.hpp"
 
 namespace vantage {
 namespace {
@@ -95,8 +96,7 @@ fs::path episode_folder(const fs::path& study_dir, const PlannedEpisode& episode
 Json read_json_or_null(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return nullptr;
-  Json json = Json::parse(read_file(file), nullptr, false);
-  return json.is_object() ? json : Json(nullptr);
+  return json_object_or_null<Json>(read_file(file));
 }
 
 std::string ResultCheck::scene_hash(const fs::path& scene) {

@@ -70,6 +70,19 @@ Json manifest_of(const StudyResults& results, std::size_t i) {
   return manifest.is_object() ? manifest : Json::object();
 }
 
+/// @throws InputError naming the episode whose files hold something of another kind than they
+/// should
+std::string of_episode(const StudyResults& results, std::size_t i,
+                       const std::function<std::string()>& text) {
+  try {
+    return text();
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("{}: metrics.json or manifest.json: {}",
+                                 episode_folder(results.directory, results.plan[i]).string(),
+                                 error.what()));
+  }
+}
+
 /// State hash, and of what configuration and code the episode is.
 std::string origin_of(const StudyResults& results, std::size_t i) {
   if (!results.measures[i]) return ",,,";
@@ -77,6 +90,27 @@ std::string origin_of(const StudyResults& results, std::size_t i) {
   return fmt::format(",{},{},{}", episode_metrics(results, i).value("state_hash", ""),
                      config_hash(results.plan[i].resolved),
                      versions.is_object() ? versions.value("vantage", "") : "");
+}
+
+/// Wall times of an episode, and on what machine.
+std::string timings_of(const StudyResults& results, std::size_t i,
+                       const std::vector<std::size_t>& columns) {
+  const Json metrics = episode_metrics(results, i);
+  double plan_s = 0.0;
+  double map_s = 0.0;
+  for (const Json& scan : metrics.value("scans", Json::array())) {
+    plan_s += scan.value("plan_time_s", 0.0);
+    map_s += scan.value("map_time_s", 0.0);
+  }
+  std::string text =
+      fmt::format("{},{},{},{},{}", csv_start(results, i), metrics.value("wall_time_s", 0.0),
+                  metrics.value("real_time_factor", 0.0), plan_s, map_s);
+  for (const std::size_t s : columns) {
+    const auto& value = results.measures[i]->scalars[s];
+    text += value ? fmt::format(",{}", *value) : ",";
+  }
+  const Json manifest = manifest_of(results, i);
+  return text + fmt::format(",{},{}\n", manifest.value("threads", 0), manifest.value("cpu", ""));
 }
 
 }  // namespace
@@ -96,7 +130,7 @@ std::string results_csv(const StudyResults& results) {
       text += value ? fmt::format(",{}", *value) : ",";
     }
     for (const std::string& name : predictors) text += "," + prediction_error(results, i, name);
-    text += origin_of(results, i) + "\n";
+    text += of_episode(results, i, [&] { return origin_of(results, i); }) + "\n";
   }
   return text;
 }
@@ -108,21 +142,7 @@ std::string timings_csv(const StudyResults& results) {
   text += ",threads,cpu\n";
   for (std::size_t i = 0; i < results.plan.size(); ++i) {
     if (!results.measures[i]) continue;
-    const Json metrics = episode_metrics(results, i);
-    double plan_s = 0.0;
-    double map_s = 0.0;
-    for (const Json& scan : metrics.value("scans", Json::array())) {
-      plan_s += scan.value("plan_time_s", 0.0);
-      map_s += scan.value("map_time_s", 0.0);
-    }
-    text += fmt::format("{},{},{},{},{}", csv_start(results, i), metrics.value("wall_time_s", 0.0),
-                        metrics.value("real_time_factor", 0.0), plan_s, map_s);
-    for (const std::size_t s : columns) {
-      const auto& value = results.measures[i]->scalars[s];
-      text += value ? fmt::format(",{}", *value) : ",";
-    }
-    const Json manifest = manifest_of(results, i);
-    text += fmt::format(",{},{}\n", manifest.value("threads", 0), manifest.value("cpu", ""));
+    text += of_episode(results, i, [&] { return timings_of(results, i, columns); });
   }
   return text;
 }

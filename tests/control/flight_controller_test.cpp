@@ -99,6 +99,28 @@ TEST(ControlFlight, PushesTowardsTheReference) {
   EXPECT_GT(torque({0.0, 0.0, 0.0}, 0.2).torque_Nm.z(), 0.01);
 }
 
+/// Level, at the wanted heading and yaw rate r, but rolling at p: J (-k_p p, p r, 0) + w x J w.
+TEST(ControlFlight, TurnsWithTheReferenceThatTurns) {
+  const Airframe frame = airframe();
+  const double p = 0.3;
+  const double r = 0.8;
+  FlightState state;
+  state.w_body_rad_s = {p, 0.0, r};
+  const Eigen::Vector3d arm = frame.p_body_com_m;
+  const FlightReference reference{.yaw_rate_rad_s = r};
+  FlightControllerOptions options;
+  options.torque_per_s = 0.0;
+  options.position_per_s2 = 1e-9;  // its position and velocity ask for nothing
+  options.velocity_per_s = 1e-9;
+  FlightMemory memory;
+  const Allocation given = control_flight(state, reference, frame, kPeriod_s, options, memory);
+  const Eigen::Vector3d w = state.w_body_rad_s;
+  const Eigen::Vector3d turn(-options.rate_per_s * p, p * r, 0.0);
+  const Eigen::Vector3d expected = frame.inertia_kg_m2 * turn + w.cross(frame.inertia_kg_m2 * w);
+  EXPECT_GT(arm.norm(), 0.0);
+  EXPECT_LT((wrench_of(frame, given.thrust_N).torque_Nm - expected).norm(), 1e-6);
+}
+
 TEST(ControlFlight, NeverAsksForMoreTiltThanAllowed) {
   // Level is as far as it may tilt if the allowed tilt is next to nothing: no torque, however far
   // off it is.

@@ -155,6 +155,10 @@ TEST(PictureFiles, IntrinsicsAndPoses) {
   EXPECT_EQ(read_intrinsics(file).focal_px, 571.0);
   write_file(file, "570 0 320");
   EXPECT_THROW((void)read_intrinsics(file), InputError);
+  write_file(file, "fx: 1e999\nfy: 1\ncx: 1\ncy: 1\n");
+  EXPECT_THROW((void)read_intrinsics(file), InputError) << "beyond every number";
+  write_file(file, "fx: " + std::string(2'000'000, '5'));
+  EXPECT_THROW((void)read_intrinsics(file), InputError) << "no level for each digit";
   write_file(file, "30 45\n");
   EXPECT_EQ(read_picture_pose(file).elevation_deg, 45.0);
   // A camera 1 m before the front, 1 m up, that looks down by 45 deg.

@@ -74,6 +74,12 @@ TEST_F(ImageFiles, WhatIsNoDepthSaysWhy) {
   expect_error([&] { read_depth_image(path("short.npy")); }, "short.npy: is cut short");
   put_npy("text.npy", "<U4", "2, 2", "");
   expect_error([&] { read_depth_image(path("text.npy")); }, "'<U4'");
+  std::string wide = "{'descr': '<u2', 'fortran_order': False, 'shape': (2," +
+                     std::string(1 << 20, ' ') + "2), }";
+  const auto size = static_cast<std::uint32_t>(wide.size());
+  wide.insert(0, bytes_of<std::uint32_t>({size}));
+  write_file(path("wide.npy"), std::string("\x93NUMPY\x02\x00", 8) + wide);
+  expect_error([&] { read_depth_image(path("wide.npy")); }, "wide.npy: is cut short");
   write_file(path("no.npy"), "hello, this is not an array");
   expect_error([&] { read_depth_image(path("no.npy")); }, "is no NPY file");
   cv::imwrite(path("eight.png").string(), cv::Mat(2, 2, CV_8UC1, cv::Scalar(9)));

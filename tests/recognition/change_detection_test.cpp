@@ -106,6 +106,45 @@ TEST(ChangeDetectionInClosedForm, WeighsTheHypothesesByBayesRule) {
   EXPECT_NEAR(p_state(report.recognition.belief)[1], b / (a + b), 1e-6);
 }
 
+/// Three objects of three bins: the priors are shared out evenly among the other bins of the
+/// object, and among all bins of the others.
+TEST(ChangeDetectionInClosedForm, SharesThePriorsOutEvenly) {
+  ObjectStates states;
+  states.objects = {"a_1", "b_1", "c_1"};
+  states.categories = {"a", "b", "c"};
+  states.category_of = {0, 1, 2};
+  states.bins = 3;
+  ObservationModel model{
+      .feature = "colour", .mean = Eigen::MatrixXf(1, 9), .variance = Eigen::MatrixXf::Ones(1, 9)};
+  model.mean << 0.0F, 0.7F, 1.1F, 0.4F, 1.6F, 0.9F, 0.2F, 1.3F, 0.5F;
+  const Recogniser recogniser =
+      make_recogniser(states, {{TrainedFeature(Colour{}, 0.0), model}}, 1);
+  ChangeOptions options;
+  options.recognition.all_features = true;
+  options.recognition.max_views = 1;
+  options.prior_pose = 0.1;
+  options.prior_object = 0.3;
+  const float x = 0.8F;
+  const ObjectCamera camera{
+      .extract =
+          [&](std::size_t) {
+            return ExtractedFeature{.result = {Eigen::VectorXf::Constant(1, x), {}}};
+          },
+      .bearing_rad = [] { return 0.0; },
+      .actions = [] { return std::vector<ObjectViewAction>{}; },
+      .turn = [](const ObjectViewAction&) {}};
+  Rng rng(1);
+  const ChangeReport report = detect_change(recogniser, options, 0, camera, rng);
+  const auto likelihood = [&](int state) {
+    const double d = x - static_cast<double>(model.mean(0, state));
+    return std::exp(-0.5 * d * d);
+  };
+  double changed = 0.1 / 2.0 * (likelihood(1) + likelihood(2));
+  for (int state = 3; state < 9; ++state) changed += 0.3 / 6.0 * likelihood(state);
+  const double same = 0.6 * likelihood(0);
+  EXPECT_NEAR(report.p_changed, changed / (changed + same), 1e-6);
+}
+
 TEST_F(ChangeDetection, LooksAgainWhileItIsUncertain) {
   double bold = 0.0;
   double careful = 0.0;

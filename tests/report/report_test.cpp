@@ -114,6 +114,20 @@ TEST(Report, BringsARunOfAFormerVersionUpToDate) {
   EXPECT_EQ(data["steps"]["rows"][2], json({"3", "3", "2.0"}));
 }
 
+/// Flights told the mean entropy of all objects alone once; what is no flight's is left as it is.
+TEST(Report, ObjectsOfAnotherKindAreNoFormerFlight) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  for (const char* object :
+       {"{}", R"({"observations": "many"})", R"({"observations": 1, "entropy_nats": null})"}) {
+    json odd = support::sample_metrics();
+    odd["mean_entropy_nats"] = 1.0;
+    odd["objects"] = json::array({json::parse(object)});
+    write_file(run / "metrics.json", odd.dump());
+    EXPECT_FALSE(embedded_data(page_of(run))["metrics"].contains("objects_unseen")) << object;
+  }
+}
+
 TEST(Report, IsTheSameFileForTheSameRun) {
   const TemporaryDirectory run;
   support::write_sample_run(run.path());
@@ -307,6 +321,8 @@ TEST(Report, MissingFilesAreNamed) {
 }
 
 TEST(Report, MalformedFilesAreNamed) {
+  const std::string kDeep =
+      R"({"a":)" + std::string(200'000, '[') + std::string(200'000, ']') + "}";
   const std::pair<const char*, const char*> broken[] = {
       {"metrics.json", "{"},
       {"metrics.json", "[1]"},
@@ -315,6 +331,7 @@ TEST(Report, MalformedFilesAreNamed) {
       {"metrics.json", R"({"task": "t", "status": "completed", "path_length_m": "far"})"},
       {"metrics.json", R"({"task": "t", "status": "completed", "scans": [{"chosen_view": []}]})"},
       {"manifest.json", "nonsense"},
+      {"manifest.json", kDeep.c_str()},
       {"config.yaml", "\"open"},
       {"config.yaml", "garbage"},
       {"steps.csv", "garbage\n"},
@@ -379,6 +396,15 @@ TEST(Voxels, OnlyTheSurfaceIsKept) {
 }
 
 // A core cell found before its neighbours was to be seen then, and stays.
+/// Found by ./fuzz: a cell's number there is none that an int can hold.
+TEST(Voxels, FarBeyondTheGridAreLeftOut) {
+  VoxelMap map;
+  map.cell_size_m = {0.1, 0.1, 0.1};
+  map.box_m = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()};
+  map.voxels = {{0.55F, 0.55F, 0.55F}, {1e30F, 0.5F, 0.5F}, {0.5F, -1e30F, 0.5F}};
+  EXPECT_EQ(pack_voxels(map, 10).voxels.size(), 1U);
+}
+
 TEST(Voxels, CellsHiddenOnlyLaterAreKept) {
   VoxelMap map = block(3, 5);
   map.voxels[13].step = 2;

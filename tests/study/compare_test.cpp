@@ -133,6 +133,19 @@ TEST_F(Compare, MissingValuesCount) {
   EXPECT_EQ(json["values"]["scans[0].unobserved_cells"]["first"], 100);
 }
 
+/// Numbers where there should be texts or lists, and the other way round.
+TEST_F(Compare, ValuesOfAnotherKindAreDifferencesAndNoErrors) {
+  const auto first = run("a", {});
+  const auto odd = run(
+      "b",
+      {{"task", 5}, {"mean_entropy_nats", 1.0}, {"objects", {1, "x", {{"observations", "many"}}}}});
+  EXPECT_GT(compare_folders(first, odd, 0.0).beyond, 0U);
+  EXPECT_EQ(compare_folders(odd, odd, 0.0).beyond, 0U);
+  std::ofstream(folder_ / "study.yaml") << "x";
+  std::ofstream(folder_ / "summary.json") << R"({"completed": "all", "tables": 3})";
+  EXPECT_EQ(compare_folders(folder_.path(), folder_.path(), 0.0).beyond, 0U);
+}
+
 TEST_F(Compare, FoldersMustBeOfOneKind) {
   const auto first = run("a", {});
   EXPECT_THROW(compare_folders(first, folder_.path() / "nowhere", 0.0), InputError);

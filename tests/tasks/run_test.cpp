@@ -1,9 +1,11 @@
 // Whole short episodes: the same seed gives the same bytes, and replay proves it.
 #include "vantage/tasks/run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -143,6 +145,25 @@ TEST_F(Run, WritesTheWholeFolder) {
   for (const auto& entry : fs::directory_iterator(folder_ / "first")) {
     EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
   }
+}
+
+TEST_F(Run, ItsFolderIsNoOtherProcessesFolderMeanwhile) {
+  const fs::path shared = folder_ / "shared";
+  fs::create_directories(shared);
+  const int other = ::open(shared.c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(other, LOCK_EX | LOCK_NB), 0);
+  try {
+    short_run("shared", {"scans=1"});
+    ADD_FAILURE() << "it ran into the folder";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("another process runs into it"), std::string::npos);
+  }
+  EXPECT_TRUE(fs::is_empty(shared));
+  ::close(other);
+  EXPECT_EQ(short_run("shared", {"scans=1"})["status"], "completed");
+  const int again = ::open(shared.c_str(), O_RDONLY | O_DIRECTORY);
+  EXPECT_EQ(::flock(again, LOCK_EX | LOCK_NB), 0) << "it is given back";
+  ::close(again);
 }
 
 TEST_F(Run, WhatItWritesIsDescribed) {

@@ -41,7 +41,7 @@ std::vector<std::size_t> scans_of(const Arguments& arguments, const RecordedRun&
   if (scans.empty()) require_decision(run, 1);
   for (std::size_t k = 1; arguments.scans.empty() && k < run.scans.size(); ++k) scans.push_back(k);
   std::ranges::sort(scans);
-  scans.erase(std::ranges::unique(scans).begin(), scans.end());
+  scans.erase(std::unique(scans.begin(), scans.end()), scans.end());
   return scans;
 }
 

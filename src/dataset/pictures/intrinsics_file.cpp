@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <optional>
-#include <regex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/core/atomic_file.hpp"
@@ -14,20 +17,46 @@
 namespace vantage {
 namespace {
 
-constexpr auto kNumber = R"(([-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?))";
+bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-std::optional<double> value_of(const std::string& text, const std::string& key) {
-  std::smatch match;
-  const std::regex form("\\b" + key + R"(\b["']?\s*[:=]\s*)" + kNumber);
-  if (!std::regex_search(text, match, form)) return std::nullopt;
-  return std::stod(match[1]);
+/// The number that `text` begins with, which is taken off it; nothing if it begins with none, or
+/// with one beyond every number, which is taken off too. No regular expressions: those of the
+/// standard library go down a level for each character.
+std::optional<double> take_number(std::string_view& text) {
+  std::string_view digits = text;
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(digits.begin(), digits.end(), number);
+  if (error == std::errc::invalid_argument) return std::nullopt;
+  text = digits.substr(static_cast<std::size_t>(end - digits.begin()));
+  if (error != std::errc{} || !std::isfinite(number)) return std::nullopt;
+  return number;
 }
 
-std::vector<double> numbers_in(const std::string& text) {
+/// After the key as a whole word, maybe in quotes, and a colon or equals sign.
+std::optional<double> value_of(std::string_view text, std::string_view key) {
+  for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
+    if (at > 0 && is_of_word(text[at - 1])) continue;
+    std::string_view rest = text.substr(at + key.size());
+    if (rest.starts_with('"') || rest.starts_with('\'')) rest.remove_prefix(1);
+    const auto skip_blanks = [&] {
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n"), rest.size()));
+    };
+    skip_blanks();
+    if (!rest.starts_with(':') && !rest.starts_with('=')) continue;
+    rest.remove_prefix(1);
+    skip_blanks();
+    if (const auto number = take_number(rest)) return number;
+  }
+  return std::nullopt;
+}
+
+std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> numbers;
-  const std::regex number(kNumber);
-  for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it) {
-    numbers.push_back(std::stod(it->str()));
+  while (!text.empty()) {
+    const std::size_t left = text.size();
+    if (const auto number = take_number(text)) numbers.push_back(*number);
+    if (text.size() == left) text.remove_prefix(1);
   }
   return numbers;
 }

@@ -77,7 +77,7 @@ std::vector<SlurmTask> parse_slurm_tasks(const std::string& text) {
 
 SlurmQueue ask_slurm(std::vector<std::string> jobs) {
   std::ranges::sort(jobs);
-  jobs.erase(std::ranges::unique(jobs).begin(), jobs.end());
+  jobs.erase(std::unique(jobs.begin(), jobs.end()), jobs.end());
   SlurmQueue queue{std::move(jobs), {}, {}};
   if (queue.jobs.empty()) return queue;
   const auto end = run_program({"squeue", "--noheader", "--array", "--states=all",

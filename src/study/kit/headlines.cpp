@@ -16,8 +16,9 @@ using Json = nlohmann::ordered_json;
 /// Of the task that metrics.json is of; of none if there is no such task.
 Measures measures_of(const Json& metrics) {
   Measures found;
+  const Json name = metrics.value("task", Json());
   for_each_task([&](const auto& task) {
-    if (metrics.value("task", "") == task.metrics_task()) found = task.measures();
+    if (name == task.metrics_task()) found = task.measures();
   });
   return found;
 }
@@ -85,8 +86,11 @@ std::vector<Headline> study_headlines(const Json& first, const Json& second, dou
     const Json* value = entry(level, "mean");
     return value != nullptr && value->is_number() ? value->get<double>() : std::optional<double>{};
   };
-  std::vector<Headline> rows{headline("completed", first.value("completed", 0.0),
-                                      second.value("completed", 0.0), tolerance)};
+  const auto completed = [](const Json& summary) {
+    const Json* value = entry(&summary, "completed");
+    return value != nullptr && value->is_number() ? value->get<double>() : 0.0;
+  };
+  std::vector<Headline> rows{headline("completed", completed(first), completed(second), tolerance)};
   const Json tables = first.value("tables", Json::object());
   for (const auto& [name, panels] : tables.items()) {
     const Json* ours = whole_table(first, name);

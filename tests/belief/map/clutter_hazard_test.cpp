@@ -186,6 +186,27 @@ TEST(ClutterHazard, CountsTheBeamsOfAnImage) {
   EXPECT_EQ(some.crossings(0), 4.0 + 2.0);
 }
 
+/// The range is along the ray, not along the axis: at the rim of a wide image it reaches less far
+/// ahead.
+TEST(ClutterHazard, ABeamOfAnImageWithoutReturnGoesAsFarAsTheRange) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {10.0, 20.0, 1.0}, {10, 1, 1}));
+  CameraImages image;
+  image.width_px = 3;
+  image.height_px = 1;
+  image.focal_px = 1.0;
+  image.range_max_m = 7.5;
+  image.depth_m = {std::numeric_limits<float>::infinity(), 0.0F, 0.0F};
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(-5.0, 0.0, 0.0);
+  T_world_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  const std::vector<PosedImage> images{{image, T_world_camera}};
+  ASSERT_GT(image.ray(0, 0).norm(), 1.2);
+  ClutterHazard hazard({.layers = 1}, grid.frame.cells);
+  hazard.observe(grid, images, 1, -1.0);
+  EXPECT_EQ(hazard.crossings(0), std::ceil(7.5 / image.ray(0, 0).norm()));
+  EXPECT_EQ(hazard.hits(0), 0.0);
+}
+
 /// A beam that comes down at 45 degrees from 4.5 m to the floor, in cells of 1 m.
 TEST(ClutterHazard, TheFloorIsNoClutter) {
   OccupancyGrid grid(make_grid_frame({5.0, 0.0, 5.0}, {10.0, 1.0, 10.0}, {10, 1, 10}));

@@ -236,6 +236,57 @@ TEST(Registration, TellsWhatItKnowsAndWhatNot) {
   EXPECT_TRUE(register_scan({}, corridor, {}, RegistrationOptions{}).information.isZero());
 }
 
+/// A wall across the way, and a scan of it most of which stands 1 cm before it, the rest 4 cm; one
+/// step in closed form.
+class OneStep : public testing::Test {
+ protected:
+  OneStep() {
+    for (int i = -30; i <= 30; ++i) {
+      const auto y = static_cast<float>(0.05 * i);
+      wall_.points.emplace_back(2.0F, y, 0.5F);
+      wall_.normals.emplace_back(-1.0F, 0.0F, 0.0F);
+      const bool odd = i % 10 == 0;
+      scan_.points.emplace_back(odd ? 1.96F : 1.99F, y, 0.5F);
+      ++(odd ? far_ : near_);
+    }
+    options_.min_correspondence_m = options_.max_correspondence_m = 0.06;
+    options_.tolerance_m = options_.tolerance_rad = 1.0;  // at rest after any step
+    options_.trim_fraction = 1.0;
+  }
+  [[nodiscard]] RegistrationResult step() const {
+    return register_scan(scan_, wall_, {}, options_);
+  }
+
+  PointCloud wall_;
+  PointCloud scan_;
+  int near_ = 0;
+  int far_ = 0;
+  RegistrationOptions options_;
+};
+
+TEST_F(OneStep, WeighsPairsByTheKernelOfGemanAndMcClure) {
+  options_.kernel_scale_m = 0.03;
+  const auto weight = [](double residual_m) {
+    const double ratio = residual_m / 0.03;
+    return 1.0 / std::pow(1.0 + ratio * ratio, 2);
+  };
+  const double near = near_ * weight(0.01);
+  const double far = far_ * weight(0.04);
+  const auto result = step();
+  ASSERT_TRUE(result.converged) << result.reason;
+  EXPECT_EQ(result.iterations, 1);
+  EXPECT_NEAR(result.T_world_base.x_m, (0.01 * near + 0.04 * far) / (near + far), 1e-5);
+  EXPECT_NEAR(result.T_world_base.yaw_rad, 0.0, 1e-6);
+}
+
+TEST_F(OneStep, LeavesTheWorstPairsOut) {
+  options_.kernel_scale_m = 100.0;
+  const double all_m = (0.01 * near_ + 0.04 * far_) / (near_ + far_);
+  EXPECT_NEAR(step().T_world_base.x_m, all_m, 1e-5);
+  options_.trim_fraction = 0.85;  // there are 54 and 7
+  EXPECT_NEAR(step().T_world_base.x_m, 0.01, 1e-5);
+}
+
 TEST_F(TableRoom, KeepsTheGuessWhereOdometryCannotHaveDriftedSoFar) {
   const PointCloud map = map_from(0.0);
   const Pose2 truth = view_of_table(0.0);

@@ -58,6 +58,28 @@ TEST(SampledInformation, AgreesWithTheIntegral) {
   EXPECT_LT(sampled.standard_error_bits, 0.01);
 }
 
+/// The error of the mean of n samples of H(b) - H(b | f), whose variance is an integral too.
+TEST(SampledInformation, KnowsItsStandardError) {
+  const auto model = testing::scalar_model({0.0F, 1.5F});
+  const std::vector<double> b{0.5, 0.5};
+  double mean = 0.0;
+  double square = 0.0;
+  constexpr double kStep = 1e-3;
+  for (double x = -12.0; x < 13.0; x += kStep) {
+    const double p = 0.5 * std::exp(-0.5 * x * x) / std::sqrt(2.0 * M_PI);
+    const double q = 0.5 * std::exp(-0.5 * (x - 1.5) * (x - 1.5)) / std::sqrt(2.0 * M_PI);
+    const std::vector<double> posterior{p / (p + q), q / (p + q)};
+    const double lost_bits = 1.0 - entropy_bits(posterior);
+    mean += kStep * (p + q) * lost_bits;
+    square += kStep * (p + q) * lost_bits * lost_bits;
+  }
+  const ObservationModel* feature = &model;
+  Rng rng(4);
+  const auto sampled = sampled_information(about({&feature, 1}, b), 20'001, rng);
+  const double expected = std::sqrt((square - mean * mean) / 20'000.0);
+  EXPECT_NEAR(sampled.standard_error_bits, expected, 0.03 * expected);
+}
+
 TEST(SampledInformation, OfARepeatedFeatureIsThatOfItsParts) {
   auto model = testing::scalar_model({0.0F, 1.0F, 3.0F});
   model.variance << 1.0F, 0.8F, 1.3F;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/object_views.hpp"
 #include "vantage/perception/features/patches/cloud_patches.hpp"
@@ -119,6 +120,65 @@ TEST(AttributeImage, ColourIsNormalisedByItsSurroundings) {
   const AttributeImage flat = normalised_rgb_image(view, object_pixels(view));
   EXPECT_LT(flat.attributes.cwiseAbs().maxCoeff(), 1e-5F);
   EXPECT_NEAR(flat.weights[210], std::sqrt(0.001), 1e-5);
+}
+
+/// One pixel of another colour: every window round it has the same mean.
+TEST(AttributeImage, ColourIsTheFormulaOfTheHeader) {
+  ObjectView view = blank_view(20, 20);
+  std::ranges::fill(view.mask, 1);
+  std::ranges::fill(view.rgb, 128);
+  const std::size_t at = view.index(10, 10);
+  const std::array<double, 3> colour{1.0, 0.0, 128.0 / 255.0};
+  view.rgb[3 * at] = 255;
+  view.rgb[3 * at + 1] = 0;
+  const double grey = 128.0 / 255.0;
+  const double mean = (73.0 * grey + colour[0] + colour[1]) / 75.0;
+  double squares = 24.0 * 3.0 * (grey - mean) * (grey - mean);
+  for (const double c : colour) squares += (c - mean) * (c - mean);
+  const double deviation = std::sqrt(squares / 25.0 + 0.001);
+  const AttributeImage image = normalised_rgb_image(view, object_pixels(view));
+  const auto pixel = static_cast<Eigen::Index>(at);
+  EXPECT_NEAR(image.weights[pixel], deviation, 1e-5);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const double expected = (colour[static_cast<std::size_t>(c)] - mean) / deviation / 4.0;
+    EXPECT_NEAR(image.attributes(c, pixel), expected, 1e-5) << c;
+  }
+}
+
+struct AxisOfABasis {
+  Eigen::Index points;
+  double low;
+  double high;
+  double gamma;
+};
+
+void expect_axes(PatchKind kind, const std::vector<AxisOfABasis>& expected) {
+  const auto axes = basis_axes(kind);
+  ASSERT_EQ(axes.size(), expected.size()) << row_of(kind).name;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    EXPECT_EQ(axes[i].points.size(), expected[i].points) << row_of(kind).name << i;
+    EXPECT_EQ(axes[i].points.minCoeff(), expected[i].low) << row_of(kind).name << i;
+    EXPECT_NEAR(axes[i].points.maxCoeff(), expected[i].high, 1e-12) << row_of(kind).name << i;
+    EXPECT_EQ(axes[i].gamma, expected[i].gamma) << row_of(kind).name << i;
+  }
+}
+
+/// Their kernels are what the descriptors are: a trained model knows them by no other name.
+TEST(KernelDescriptor, BasesAreThoseThatModelsWereTrainedWith) {
+  const AxisOfABasis position{5, 0.0, 1.0, 3.0};
+  const AxisOfABasis component{10, -1.0, 1.0, 5.0};
+  const AxisOfABasis pattern{256, 0.0, 255.0, 3.0};
+  const AxisOfABasis channel{5, 0.0, 1.0, 5.0};
+  for (const PatchKind kind : {PatchKind::rgb_gradient, PatchKind::depth_gradient}) {
+    expect_axes(kind, {component, component, position, position});
+  }
+  for (const PatchKind kind : {PatchKind::lbp, PatchKind::depth_lbp}) {
+    expect_axes(kind, {pattern, position, position});
+  }
+  expect_axes(PatchKind::normalised_rgb, {channel, channel, channel, position, position});
+  expect_axes(PatchKind::normal_spin,
+              {{50, 0.0, std::numbers::pi, 3.0}, {10, -0.05, 0.05, 300.0}, {5, 0.0, 0.05, 300.0}});
+  expect_axes(PatchKind::size, {{100, 0.0, 1.0, 30.0}});
 }
 
 TEST(Spins, AreMeansOverTheirNeighbours) {

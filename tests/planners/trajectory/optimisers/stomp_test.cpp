@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "tests/planners/trajectory/straight_flight.hpp"
+#include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 
 namespace vantage {
 namespace {
@@ -43,6 +45,50 @@ TEST(Stomp, StaysWhereAllPathsCostTheSame) {
   const auto result = Stomp{}(horizon, nothing, rng);
   EXPECT_EQ(result.points, horizon.points);
   EXPECT_EQ(result.cost, result.initial_cost);
+}
+
+/// The update of one round, written out: each point moves by the probable part of the noise at that
+/// very point, smoothed by M. The last path that is tried is the mean.
+TEST(Stomp, MovesEachPointByTheNoiseThatIsCheapThere) {
+  std::vector<Horizon> tried;
+  const auto cost = [&](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> of_point) {
+    tried.push_back(horizon);
+    for (Eigen::Index i = 0; i < horizon.count(); ++i) {
+      of_point[i] += static_cast<double>(i) * std::abs(horizon.points(1, i) - 0.3);
+    }
+  };
+  const Horizon horizon = testing::straight_flight(7);
+  const Stomp stomp{.rollouts = 6, .iterations = 1};
+  Rng rng(3);
+  stomp(horizon, cost, rng);
+  ASSERT_EQ(tried.size(), 7U);
+
+  const Eigen::Index n = horizon.free_points();
+  Eigen::MatrixXd cost_of(7, 6);
+  const std::vector<Horizon> paths(tried.begin(), tried.end() - 1);
+  for (Eigen::Index u = 0; u < 6; ++u) {
+    Eigen::VectorXd of_point = Eigen::VectorXd::Zero(7);
+    cost(paths[static_cast<std::size_t>(u)], of_point);
+    add_control_cost(paths[static_cast<std::size_t>(u)], of_point);
+    cost_of.col(u) = of_point;
+  }
+  Eigen::Matrix4Xd step = Eigen::Matrix4Xd::Zero(4, n);
+  for (Eigen::Index t = 0; t < n; ++t) {
+    const auto at = cost_of.row(t + 1);
+    const double span = at.maxCoeff() - at.minCoeff();
+    Eigen::VectorXd p(6);
+    for (Eigen::Index u = 0; u < 6; ++u) {
+      p[u] = std::exp(-stomp.inverse_temperature * (at[u] - at.minCoeff()) / span);
+    }
+    p /= p.sum();
+    for (Eigen::Index u = 0; u < 6; ++u) {
+      step.col(t) += p[u] * (paths[static_cast<std::size_t>(u)].points - horizon.points).col(t + 1);
+    }
+  }
+  const Eigen::Matrix4Xd expected =
+      horizon.points.middleCols(1, n) + step * Smoothness(n).M().transpose();
+  EXPECT_LT((tried[6].points.middleCols(1, n) - expected).norm(), 1e-12);
+  EXPECT_GT((expected - horizon.points.middleCols(1, n)).norm(), 0.01);
 }
 
 TEST(Stomp, StraightensABentFlight) {

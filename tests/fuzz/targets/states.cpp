@@ -1,0 +1,12 @@
+// states.bin of a run.
+#include "tests/fuzz/fuzz_target.hpp"
+#include "vantage/runtime/log/state_log.hpp"
+
+namespace vantage::fuzz {
+
+void read_input(std::string_view bytes, const InputFolder& folder) {
+  const RecordedStates states = read_states(folder.put("states.bin", bytes));
+  if (states.count() > 0) states.controls(states.count() - 1);
+}
+
+}  // namespace vantage::fuzz
