@@ -1,5 +1,6 @@
 // Of a quadrotor that looks at objects: chapter 4.5.7 and 4.5.8, and the goals of this project.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <numbers>
 

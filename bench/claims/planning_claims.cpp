@@ -1,6 +1,7 @@
 // Of choices that plan several views ahead, with the time that everything takes.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 

@@ -1,6 +1,7 @@
 #include "bench/claims/recognition_claims.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>

@@ -1,5 +1,6 @@
 // What benchmarks measured, held against the goals.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bench/claims/claims.hpp"
 

@@ -1,6 +1,7 @@
 // Of flights along a path: chapter 5, and the goals of this project.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <functional>
 

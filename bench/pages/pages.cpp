@@ -1,6 +1,7 @@
 #include "bench/pages/pages.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
