@@ -44,13 +44,24 @@ ConfigNode with_open_map(const ConfigNode& root) {
 /// "episode.yaml" of "episode.yaml:12"
 std::string_view file_of(std::string_view origin) { return origin.substr(0, origin.rfind(':')); }
 
+ConfigNode without_start(const ConfigNode& root, std::string_view key) {
+  ConfigNode left = *root.find("robot");
+  std::erase_if(left.entries, [&](const auto& entry) { return entry.first == key; });
+  ConfigNode without = root;
+  without.set("robot", std::move(left));
+  return without;
+}
+
 /// A start that is set over an episode's file takes the place of the one that the file says,
-/// whichever of the two keys says it.
+/// whichever of the two keys says it. A site that is set to nothing is none.
 /// @throws ConfigError if one place says both
 ConfigNode with_one_start(const ConfigNode& root) {
   const ConfigNode* robot = root.find("robot");
   const ConfigNode* site = robot == nullptr ? nullptr : robot->find("start_site");
   const ConfigNode* pose = robot == nullptr ? nullptr : robot->find("start_pose");
+  if (site != nullptr && site->kind == ConfigNode::Kind::null) {
+    return without_start(root, "start_site");
+  }
   if (site == nullptr || site->kind != ConfigNode::Kind::scalar || site->scalar.empty())
     return root;
   if (pose == nullptr || pose->kind == ConfigNode::Kind::null) return root;
@@ -63,13 +74,7 @@ ConfigNode with_one_start(const ConfigNode& root) {
   const bool by_pose =
       pose->origin == kOverrideOrigin ||
       (site->origin != kOverrideOrigin && file_of(site->origin) == file_of(root.origin));
-  ConfigNode left = *robot;
-  std::erase_if(left.entries, [&](const auto& entry) {
-    return entry.first == (by_pose ? "start_site" : "start_pose");
-  });
-  ConfigNode one = root;
-  one.set("robot", std::move(left));
-  return one;
+  return without_start(root, by_pose ? "start_site" : "start_pose");
 }
 
 /// What concerns the task and the rest of the episode.
