@@ -78,13 +78,11 @@ class Picture {
   std::vector<std::uint8_t> worth_;
 };
 
-/// At most kMaxPoints of the surfaces, turned.
-std::vector<Eigen::Vector2d> turned(const PointCloud& scan, double yaw_rad) {
+/// At most kMaxPoints of the surfaces.
+std::vector<Eigen::Vector2d> surface_points(const PointCloud& scan) {
   std::vector<Eigen::Vector2d> points;
-  const Eigen::Rotation2Dd rotation(yaw_rad);
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!knows_surface(scan, i)) continue;
-    points.emplace_back(rotation * scan.points[i].head<2>().cast<double>());
+    if (knows_surface(scan, i)) points.emplace_back(scan.points[i].head<2>().cast<double>());
   }
   const std::size_t stride = (points.size() + kMaxPoints - 1) / kMaxPoints;
   std::size_t kept = 0;
@@ -98,7 +96,8 @@ std::vector<Eigen::Vector2d> turned(const PointCloud& scan, double yaw_rad) {
 Pose2 search_pose(const PointCloud& scan, const PointCloud& place, const Pose2& guess,
                   const SearchWindow& window) {
   expects(scan.has_normals() && place.has_normals(), "clouds with normals");
-  if (turned(scan, 0.0).empty() || place.empty()) return guess;
+  const std::vector<Eigen::Vector2d> points = surface_points(scan);
+  if (points.empty() || place.empty()) return guess;
   const Picture picture(place, kCell_m);
   const int shifts = static_cast<int>(std::ceil(window.shift_m / kCell_m));
   const int turns = static_cast<int>(std::ceil(window.turn_rad / kTurnStep_rad));
@@ -107,8 +106,9 @@ Pose2 search_pose(const PointCloud& scan, const PointCloud& place, const Pose2& 
   for (int t = -turns; t <= turns; ++t) {
     const double yaw_rad = guess.yaw_rad + t * kTurnStep_rad;
     std::vector<Eigen::Array2i> cells;
-    for (const Eigen::Vector2d& p : turned(scan, yaw_rad)) {
-      cells.push_back(picture.cell_of(p + Eigen::Vector2d(guess.x_m, guess.y_m)));
+    const Eigen::Rotation2Dd rotation(yaw_rad);
+    for (const Eigen::Vector2d& p : points) {
+      cells.push_back(picture.cell_of(rotation * p + Eigen::Vector2d(guess.x_m, guess.y_m)));
     }
     for (int y = -shifts; y <= shifts; ++y) {
       for (int x = -shifts; x <= shifts; ++x) {
