@@ -1,6 +1,8 @@
 /// The flags that are the same for every command.
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -15,5 +17,8 @@ void add_json(CLI::App& app, bool& json);
 
 /// --overwrite, for a command that writes a result: see require_absent().
 void add_overwrite(CLI::App& app, bool& overwrite);
+
+/// A check of an option's value: what is wrong with it, or nothing.
+std::string not_empty(const std::string& text);
 
 }  // namespace vantage

@@ -39,8 +39,6 @@ struct RenderArguments {
   bool json = false;
 };
 
-std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
-
 DatasetOptions render_options(const RenderArguments& arguments) {
   ConfigNode node = write_node(DatasetOptions{});
   std::vector<std::string> overrides = arguments.overrides;

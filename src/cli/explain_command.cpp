@@ -33,7 +33,7 @@ namespace {
 
 constexpr std::size_t kMostNames = 20;  ///< of those that begin alike
 
-struct Arguments {
+struct ExplainArguments {
   std::vector<std::string> names;
   std::filesystem::path pages;
   std::filesystem::path manual;
@@ -142,7 +142,7 @@ void write_completion(const std::filesystem::path& file) {
 }
 
 /// Whether files were asked for, which are written then.
-bool write_files(const Arguments& arguments) {
+bool write_files(const ExplainArguments& arguments) {
   if (!arguments.pages.empty()) write_reference_pages(all_keys(), arguments.pages);
   if (!arguments.manual.empty()) {
     write_manual(command_texts(), manual_frame(), arguments.manual);
@@ -151,7 +151,7 @@ bool write_files(const Arguments& arguments) {
   return !arguments.pages.empty() || !arguments.manual.empty() || !arguments.completion.empty();
 }
 
-ExitCode explain(const Arguments& arguments) {
+ExitCode explain(const ExplainArguments& arguments) {
   if (write_files(arguments)) return ExitCode::done;
   const auto all = all_entries();
   if (arguments.names.empty()) throw ConfigError("explain: say what, as in: explain gain.a");
@@ -177,7 +177,7 @@ ExitCode explain(const Arguments& arguments) {
 }  // namespace
 
 std::function<ExitCode()> declare_explain(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExplainArguments>();
   app.add_option(
       "names", arguments->names,
       "keys (gain.a), gains, features ..., columns, files, commands, exit codes; or how one "

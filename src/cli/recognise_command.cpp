@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,8 +25,6 @@
 namespace vantage {
 namespace {
 namespace fs = std::filesystem;
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 struct RecogniseArguments {
   fs::path model;

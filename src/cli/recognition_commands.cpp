@@ -33,7 +33,7 @@ using Json = nlohmann::ordered_json;
 int all_cores() { return static_cast<int>(std::max(1U, std::thread::hardware_concurrency())); }
 
 /// What both commands take.
-struct Arguments {
+struct RecognitionArguments {
   std::vector<fs::path> datasets;
   std::vector<fs::path> training;
   fs::path model;
@@ -53,7 +53,7 @@ struct Arguments {
 };
 
 template <class Options>
-Options options_of(const Arguments& arguments) {
+Options options_from(const RecognitionArguments& arguments) {
   Options from_file;
   if (!arguments.config.empty()) read_into(read_yaml(arguments.config), from_file, {});
   ConfigNode node = write_node(from_file);
@@ -64,7 +64,7 @@ Options options_of(const Arguments& arguments) {
 }
 
 template <class Options>
-void declare_common(CLI::App& app, Arguments& arguments) {
+void declare_common(CLI::App& app, RecognitionArguments& arguments) {
   app.add_option("--jobs", arguments.jobs, "threads; of a recipe, processes that render too")
       ->check(CLI::Range(1, 1024))
       ->default_str("all cores");
@@ -104,7 +104,8 @@ void require_whole(const fs::path& dataset, bool skip_bad) {
 }
 
 /// Of all datasets together: recordings of the same objects, or others.
-DatasetIndex index_of(const std::vector<fs::path>& datasets, const Arguments& arguments) {
+DatasetIndex index_of(const std::vector<fs::path>& datasets,
+                      const RecognitionArguments& arguments) {
   DatasetIndex all;
   for (const fs::path& dataset : datasets) {
     require_whole(dataset, arguments.skip_bad);
@@ -165,7 +166,7 @@ fs::path default_cache(const fs::path& out) {
   return out.string() + ".cache";
 }
 
-RecognitionModel model_of_recipe(const Arguments& arguments) {
+RecognitionModel model_of_recipe(const RecognitionArguments& arguments) {
   const ModelRecipe recipe = read_model_recipe(arguments.recipe, arguments.overrides);
   const fs::path cache = arguments.cache.empty() ? default_cache(arguments.out) : arguments.cache;
   log_info(fmt::format("recordings are kept in {}", (cache / "recordings").string()));
@@ -176,8 +177,8 @@ RecognitionModel model_of_recipe(const Arguments& arguments) {
                              .poll = throw_if_interrupted});
 }
 
-RecognitionModel model_of_datasets(const Arguments& arguments) {
-  const auto options = options_of<TrainingOptions>(arguments);
+RecognitionModel model_of_datasets(const RecognitionArguments& arguments) {
+  const auto options = options_from<TrainingOptions>(arguments);
   if (arguments.model.empty()) {
     return train_recognition(index_of(arguments.datasets, arguments), options, arguments.how());
   }
@@ -187,7 +188,7 @@ RecognitionModel model_of_datasets(const Arguments& arguments) {
 }
 
 /// @throws ConfigError if the command line asks for neither or both ways of training.
-void require_one_way(const Arguments& arguments) {
+void require_one_way(const RecognitionArguments& arguments) {
   if (arguments.recipe.empty()) {
     if (arguments.datasets.empty()) throw ConfigError("train: a dataset or --recipe is required");
     return;
@@ -201,7 +202,7 @@ void require_one_way(const Arguments& arguments) {
   }
 }
 
-ExitCode train_command(const Arguments& arguments) {
+ExitCode train_command(const RecognitionArguments& arguments) {
   require_one_way(arguments);
   require_absent(arguments.out, arguments.overwrite);
   make_writable_directory(fs::absolute(arguments.out).parent_path());
@@ -218,8 +219,8 @@ ExitCode train_command(const Arguments& arguments) {
   return ExitCode::done;
 }
 
-ExitCode evaluate_command(const Arguments& arguments) {
-  const auto options = options_of<RecognitionStudyOptions>(arguments);
+ExitCode evaluate_command(const RecognitionArguments& arguments) {
+  const auto options = options_from<RecognitionStudyOptions>(arguments);
   prepare_recognition_study(arguments.out, arguments.overwrite);
   catch_interrupts();
   const RecognitionStudy study = run_recognition_study(
@@ -234,7 +235,7 @@ ExitCode evaluate_command(const Arguments& arguments) {
 }  // namespace
 
 std::function<ExitCode()> declare_train(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RecognitionArguments>();
   app.add_option("dataset", arguments->datasets,
                  "folders of views; of the same objects: more recordings of them");
   declare_common<TrainingOptions>(app, *arguments);
@@ -249,7 +250,7 @@ std::function<ExitCode()> declare_train(CLI::App& app) {
 }
 
 std::function<ExitCode()> declare_evaluate(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RecognitionArguments>();
   app.add_option("dataset", arguments->datasets,
                  "folders of views; objects that the model does not know count for their category, "
                  "and with `unknown_starts` as unknown ones")

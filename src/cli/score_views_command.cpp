@@ -20,14 +20,12 @@
 namespace vantage {
 namespace {
 
-struct Arguments {
+struct ScoreViewsArguments {
   ScoreArguments score;
   std::filesystem::path write_views;
   bool overwrite = false;
   bool json = false;
 };
-
-std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
 
 std::string footer() {
   return "Outside the region (by default the box of the map's known cells) nothing counts. Cells\n"
@@ -39,7 +37,7 @@ std::string footer() {
          to_yaml(write_node(ViewScoring{}));
 }
 
-ExitCode score_views_command(const Arguments& arguments) {
+ExitCode score_views_command(const ScoreViewsArguments& arguments) {
   require_absent(arguments.write_views, arguments.overwrite, "--write-views");
   const ScoredViews scored = run_view_scoring(arguments.score);
   if (scored.views.front().gain_bits <= 0.0) {
@@ -57,7 +55,7 @@ ExitCode score_views_command(const Arguments& arguments) {
 }  // namespace
 
 std::function<ExitCode()> declare_score_views(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ScoreViewsArguments>();
   ScoreArguments& score = arguments->score;
   app.add_option("--map", score.map, "OctoMap of your robot, .bt or .ot")->required();
   app.add_option("--views", score.views,

@@ -22,7 +22,7 @@ constexpr const char* kFooter =
     "In the window: space pauses, . steps, + - set the pace, c changes the camera, m shows the "
     "map,\ng the gains, s takes a screenshot, h lists everything else, q closes.";
 
-struct Arguments {
+struct ViewArguments {
   std::string target = "assets/episodes/tabletop.yaml";
   std::vector<std::string> overrides;
   std::string seed;
@@ -55,7 +55,7 @@ ExitCode told(ExitCode code, const ViewOptions& view) {
   return code;
 }
 
-ExitCode view_command(const CLI::App& app, Arguments arguments) {
+ExitCode view_command(const CLI::App& app, ViewArguments arguments) {
   ViewOptions& view = arguments.view;
   view.size = parse_size(arguments.size);
   if (arguments.camera == "follow") view.camera = ViewCamera::follow;
@@ -80,7 +80,7 @@ ExitCode view_command(const CLI::App& app, Arguments arguments) {
 }  // namespace
 
 std::function<ExitCode()> declare_view(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ViewArguments>();
   const auto not_empty = [](const std::string& text) { return text.empty() ? "is empty" : ""; };
   app.add_option("episode", arguments->target, "episode file, or a run folder")
       ->capture_default_str();

@@ -11,6 +11,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/perception/background_planes.hpp"
+#include "vantage/perception/column_cut.hpp"
 
 namespace vantage {
 namespace {
@@ -22,10 +23,6 @@ constexpr float kStep_m = 0.025F;     ///< in depth, that parts one surface from
 constexpr float kStepShare = 0.01F;   ///< of the depth, likewise
 constexpr float kSamePart_m = 0.06F;  ///< in depth, of an object's parts with a hole between them
 constexpr std::array<std::string_view, 3> kNames{"mask", "depth", "whole"};
-
-cv::Mat square(int half_px) {
-  return cv::getStructuringElement(cv::MORPH_RECT, {2 * half_px + 1, 2 * half_px + 1});
-}
 
 /// How far a hole may be bridged.
 int reach_px(const ObjectView& view) {

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::string_view kMagic = "VTGSCN01";
+constexpr std::string_view kSceneMagic = "VTGSCN01";
 constexpr std::size_t kVertexBytes = 16;
 constexpr std::size_t kTriangleBytes = 12;
 
@@ -25,7 +25,7 @@ DrawnScene::Triangle take_triangle(ByteReader& reader, std::size_t vertices) {
 }  // namespace
 
 void write_drawn_scene(const std::filesystem::path& path, const DrawnScene& scene) {
-  std::string bytes(kMagic);
+  std::string bytes(kSceneMagic);
   for (const Eigen::Vector3f& corner : {scene.extent_m.min(), scene.extent_m.max()}) {
     for (int axis = 0; axis < 3; ++axis) put(bytes, corner[axis]);
   }
@@ -47,8 +47,8 @@ void write_drawn_scene(const std::filesystem::path& path, const DrawnScene& scen
 DrawnScene read_drawn_scene(const std::filesystem::path& path) {
   const std::string content = read_file(path);
   ByteReader reader(content, path.string() + ": not the scene of a run");
-  reader.require(content.starts_with(kMagic), "bad header");
-  reader.block(kMagic.size(), "the header");
+  reader.require(content.starts_with(kSceneMagic), "bad header");
+  reader.block(kSceneMagic.size(), "the header");
   DrawnScene scene;
   for (Eigen::Vector3f* corner : {&scene.extent_m.min(), &scene.extent_m.max()}) {
     for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = reader.number<float>("the extent");

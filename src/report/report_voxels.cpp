@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::string_view kMagic = "VTGVOX01";
+constexpr std::string_view kVoxelsMagic = "VTGVOX01";
 constexpr std::size_t kHeaderBytes = 8 + 9 * sizeof(double) + sizeof(std::uint64_t);
 constexpr std::size_t kRecordBytes = 16;
 constexpr int kMaxCellsPerAxis = 65535;
@@ -113,7 +113,7 @@ std::vector<PackedVoxel> thinned(const std::vector<PackedVoxel>& items, std::siz
 
 void write_voxels(const std::filesystem::path& path, const VoxelMap& map) {
   expects(header_problem(map).empty(), "a voxel map has finite, positive cells in a box");
-  std::string bytes(kMagic);
+  std::string bytes(kVoxelsMagic);
   bytes.reserve(kHeaderBytes + kRecordBytes * map.voxels.size());
   for (const Eigen::Vector3d& v :
        {map.cell_size_m, Eigen::Vector3d(map.box_m.min()), Eigen::Vector3d(map.box_m.max())}) {
@@ -134,8 +134,8 @@ void write_voxels(const std::filesystem::path& path, const VoxelMap& map) {
 VoxelMap read_voxels(const std::filesystem::path& path) {
   const std::string content = read_file(path);
   ByteReader reader(content, path.string() + ": not a voxel file");
-  reader.require(content.size() >= kHeaderBytes && content.starts_with(kMagic), "bad header");
-  reader.block(kMagic.size(), "the header");
+  reader.require(content.size() >= kHeaderBytes && content.starts_with(kVoxelsMagic), "bad header");
+  reader.block(kVoxelsMagic.size(), "the header");
   VoxelMap map;
   for (Eigen::Vector3d* v : {&map.cell_size_m, &map.box_m.min(), &map.box_m.max()}) {
     reader.numbers(std::span(v->data(), 3), "the header");

@@ -18,7 +18,7 @@ struct MeasureList {
   }
 };
 
-std::vector<std::string> texts_of(const std::vector<MeasureName>& names) {
+std::vector<std::string> names_of(const std::vector<MeasureName>& names) {
   std::vector<std::string> texts;
   texts.reserve(names.size());
   for (const MeasureName& name : names) texts.emplace_back(name.name);
@@ -51,8 +51,8 @@ const std::vector<MeasureName>& curve_measures() {
   return names;
 }
 
-std::vector<std::string> scalar_names() { return texts_of(scalar_measures()); }
-std::vector<std::string> curve_names() { return texts_of(curve_measures()); }
+std::vector<std::string> scalar_names() { return names_of(scalar_measures()); }
+std::vector<std::string> curve_names() { return names_of(curve_measures()); }
 std::optional<std::size_t> find_scalar(std::string_view name) {
   return find(scalar_measures(), name);
 }

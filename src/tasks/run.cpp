@@ -10,7 +10,7 @@
 #include "vantage/core/names.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/report/report.hpp"
-#include "vantage/tasks/mapping/external/external_planner.hpp"
+#include "vantage/tasks/episode_planner.hpp"
 
 namespace vantage {
 
@@ -33,39 +33,11 @@ void require_choice(const Task& task, const OutsideChoice& outside) {
   }
 }
 
-/// Of the choice `external`, the program that makes it; null: another choice, or one from outside
-/// is in its place.
-template <class Task>
-std::unique_ptr<ExternalPlanner> external_planner(const Task& task, std::uint64_t seed,
-                                                  const RunOptions& options) {
-  if constexpr (kChoosesViews<Task>) {
-    const auto* choice = std::get_if<ExternalChoice>(&task.choice);
-    if (choice == nullptr || options.outside) return nullptr;
-    require_planner(task.choice);
-    PlannerIntroduction introduction{
-        .task = std::string(Task::name),
-        .seed = static_cast<std::uint32_t>(Rng::stream(seed, "external planner").next() >> 32U),
-        .scans = task.scans,
-        .gain = strategy_label(task.gain),
-        .gain_unit = std::string(unit_of(task.gain)),
-        .budget = {}};
-    if (task.budget.time_s) introduction.budget.time_s = *task.budget.time_s;
-    if (task.budget.energy_j) introduction.budget.energy_j = *task.budget.energy_j;
-    return std::make_unique<ExternalPlanner>(*choice, std::move(introduction));
-  } else {
-    return nullptr;
-  }
-}
-
 }  // namespace
 
 RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& given) {
   RunOptions options = given;
-  const auto planner = std::visit(
-      [&](const auto& task) {
-        return external_planner(task, resolved.setup.options.seed, options);
-      },
-      resolved.task);
+  const auto planner = options.outside ? nullptr : external_planner(resolved);
   if (planner) options.outside = planner->as_outside_choice(method_name(resolved.task));
   const RunOutcome outcome = std::visit(
       [&](const auto& task) {

@@ -239,9 +239,9 @@ class Questions : public Pictures {
  protected:
   void SetUp() override {
     Pictures::SetUp();
-    testing::put_painted_object(folder_ / "data", {"mug", "mug_1", 0}, 16);
-    testing::put_painted_object(folder_ / "data", {"mug", "mug_2", 60}, 16);
-    testing::put_painted_object(folder_ / "data", {"can", "can_1", 120}, 16);
+    test::put_painted_object(folder_ / "data", {"mug", "mug_1", 0}, 16);
+    test::put_painted_object(folder_ / "data", {"mug", "mug_2", 60}, 16);
+    test::put_painted_object(folder_ / "data", {"can", "can_1", 120}, 16);
     ASSERT_EQ(vantage("train data --out model -q --set 'features=[colour,bounding_box]'").exit_code,
               0);
   }
@@ -270,7 +270,7 @@ TEST_F(Questions, APictureOfOnePixelIsRefused) {
 }
 
 TEST_F(Questions, AnElevationThatIsGivenCounts) {
-  testing::put_painted_object(folder_ / "flat", {"mug", "mug_1", 0}, 4);
+  test::put_painted_object(folder_ / "flat", {"mug", "mug_1", 0}, 4);
   const std::string question =
       "recognise --model model --set recogniser.features=[bounding_box]" + view(3);
   EXPECT_NE(parsed(question)["objects"], parsed(question + " --elevation-deg 5")["objects"]);
@@ -305,7 +305,7 @@ TEST_F(Questions, BaselinesOnASmallModelWorkOrSayWhatTheyNeed) {
       }
     }
   }
-  testing::put_painted_object(folder_ / "few2", {"mug", "mug_1", 0}, 3);
+  test::put_painted_object(folder_ / "few2", {"mug", "mug_1", 0}, 3);
   const Result none = vantage(
       "evaluate few2 --model model --training few2 --out t2 -q --set literal=false --set starts=4 "
       "--set baselines=true --set 'methods=[random]'");
@@ -313,7 +313,7 @@ TEST_F(Questions, BaselinesOnASmallModelWorkOrSayWhatTheyNeed) {
 }
 
 TEST_F(Questions, EvaluateTakesSeveralFoldersAndDrawsOnObjects) {
-  testing::put_painted_object(folder_ / "more", {"can", "can_2", 120}, 8);
+  test::put_painted_object(folder_ / "more", {"can", "can_2", 120}, 8);
   const json study = parsed(
       "evaluate data more --model model --out tables -q --set literal=false --set starts=3000 "
       "--set 'methods=[\"single view, all features\"]'");

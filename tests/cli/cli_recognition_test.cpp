@@ -24,8 +24,8 @@ class RecognitionCommands : public CommandLine {
     put({"mug", "mug_2", 60});
     put({"can", "can_1", 120});
   }
-  void put(const testing::PaintedObject& object, const char* dataset = "data", int frames = 16) {
-    testing::put_painted_object(folder_ / dataset, object, frames);
+  void put(const test::PaintedObject& object, const char* dataset = "data", int frames = 16) {
+    test::put_painted_object(folder_ / dataset, object, frames);
   }
   fs::path view(const std::string& suffix) const {
     return folder_ / "data/mug/mug_1" / ("mug_1_2_3_" + suffix);
@@ -163,7 +163,7 @@ TEST_F(RecognitionCommands, AMissingDepthIsNamedOrLeftOut) {
 
 TEST_F(RecognitionCommands, ACategoryWithOneViewIsNoCategory) {
   Rng rng(1);
-  testing::put_painted_view(folder_ / "data", {"pen", "pen_1", 30}, 1, 1, 0.0, rng);
+  test::put_painted_view(folder_ / "data", {"pen", "pen_1", 30}, 1, 1, 0.0, rng);
   expect_error(vantage(kTrain), 3, {"pen_1_1_1"});
 }
 

@@ -9,12 +9,11 @@ namespace vantage {
 namespace {
 
 constexpr double kPeriod_s = 0.025;
-constexpr double kPi = std::numbers::pi;
 
 /// An L:   2----3     1 m each
 ///         |          (the corner is a right angle)
 ///         1
-const std::vector<Pose2> kCorner = {{0.0, 1.0, 0.0}, {1.0, 1.0, kPi / 2.0}};
+const std::vector<Pose2> kCorner = {{0.0, 1.0, 0.0}, {1.0, 1.0, std::numbers::pi / 2.0}};
 
 /// Drives a base that does what it is told.
 struct IdealRun {
@@ -51,11 +50,11 @@ IdealRun run(const Pose2& start, const std::vector<Pose2>& waypoints,
 TEST(DrivePath, KnowsLengthPointsAndHeadings) {
   const DrivePath path({0.0, 0.0, 0.0}, kCorner);
   EXPECT_NEAR(path.length_m(), 2.0, 1e-12);
-  EXPECT_NEAR(path.turn_rad(), kPi / 2.0, 1e-12);
+  EXPECT_NEAR(path.turn_rad(), std::numbers::pi / 2.0, 1e-12);
   EXPECT_TRUE(path.point(0.5).isApprox(Eigen::Vector2d(0.0, 0.5)));
   EXPECT_TRUE(path.point(1.25).isApprox(Eigen::Vector2d(0.25, 1.0)));
   EXPECT_TRUE(path.point(9.0).isApprox(Eigen::Vector2d(1.0, 1.0)));
-  EXPECT_NEAR(path.yaw(1.0), kPi / 4.0, 1e-12);
+  EXPECT_NEAR(path.yaw(1.0), std::numbers::pi / 4.0, 1e-12);
   EXPECT_NEAR(path.project({0.2, 0.5}, 0.0, 2.0), 0.5, 1e-12);
   EXPECT_NEAR(path.project({0.5, 1.1}, 0.0, 2.0), 1.5, 1e-12);
   EXPECT_NEAR(path.project({0.5, 1.1}, 0.0, 0.4), 0.4, 1e-12) << "only where it was asked";
@@ -89,7 +88,7 @@ TEST(FollowPath, ArrivesWithinItsLimits) {
   const IdealRun result = run({0.0, 0.0, 0.0}, kCorner);
   EXPECT_NEAR(result.end.x_m, 1.0, 0.003);
   EXPECT_NEAR(result.end.y_m, 1.0, 0.003);
-  EXPECT_NEAR(result.end.yaw_rad, kPi / 2.0, 0.003);
+  EXPECT_NEAR(result.end.yaw_rad, std::numbers::pi / 2.0, 0.003);
   EXPECT_LE(result.fastest_m_s, options.speed_m_s + 1e-12);
   EXPECT_LE(result.sharpest_m_s2, options.acceleration_m_s2 + 1e-9);
   EXPECT_LT(result.max_off_m, 0.05);
@@ -100,7 +99,7 @@ TEST(FollowPath, TheHeadingTurnsTheShortWay) {
   const IdealRun result = run({0.0, 0.0, 3.0}, {{1.0, 0.0, -3.0}});
   EXPECT_NEAR(wrap_angle(result.end.yaw_rad + 3.0), 0.0, 0.003);
   const DrivePath path({0.0, 0.0, 3.0}, std::vector<Pose2>{{1.0, 0.0, -3.0}});
-  EXPECT_NEAR(path.turn_rad(), 2.0 * kPi - 6.0, 1e-9);
+  EXPECT_NEAR(path.turn_rad(), 2.0 * std::numbers::pi - 6.0, 1e-9);
 }
 
 TEST(FollowPath, TurnsInPlace) {

@@ -10,8 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kPeriod_s = 0.025;
+constexpr double kDrivePeriod_s = 0.025;
 
 /// Exact motion of a unicycle at constant speed and turning rate.
 Pose2 moved(const Pose2& pose, double v_m_s, double wz_rad_s, double time_s) {
@@ -35,10 +34,10 @@ Ride ride(const Pose2& start, const std::vector<Pose2>& waypoints,
   DifferentialFollowing following;
   Ride ride{.end = start};
   for (int tick = 0; tick < 4000; ++tick) {
-    const Twist2 twist = follow_path(path, ride.end, kPeriod_s, options, following);
+    const Twist2 twist = follow_path(path, ride.end, kDrivePeriod_s, options, following);
     EXPECT_EQ(twist.vy_m_s, 0.0);
-    ride.end = moved(ride.end, twist.vx_m_s, twist.wz_rad_s, kPeriod_s);
-    ride.duration_s += kPeriod_s;
+    ride.end = moved(ride.end, twist.vx_m_s, twist.wz_rad_s, kDrivePeriod_s);
+    ride.duration_s += kDrivePeriod_s;
     ride.fastest_turn_rad_s = std::max(ride.fastest_turn_rad_s, std::abs(twist.wz_rad_s));
     const Eigen::Vector2d p(ride.end.x_m, ride.end.y_m);
     ride.farthest_m =
@@ -71,7 +70,7 @@ TEST(DifferentialController, CruisesStraightAlongAStraightPath) {
   const DrivePath path({}, std::vector<Pose2>{{5.0, 0.0, 0.0}});
   DifferentialFollowing following{.arc_m = 1.0, .v_m_s = 0.6};
   const BaseControllerOptions options;
-  const Twist2 twist = follow_path(path, {1.0, 0.0, 0.0}, kPeriod_s, options, following);
+  const Twist2 twist = follow_path(path, {1.0, 0.0, 0.0}, kDrivePeriod_s, options, following);
   EXPECT_DOUBLE_EQ(twist.vx_m_s, options.speed_m_s);
   EXPECT_DOUBLE_EQ(twist.wz_rad_s, 0.0);
 }
@@ -82,7 +81,7 @@ TEST(DifferentialController, BesideThePathItTakesTheArcToThePointAhead) {
       .speed_m_s = 0.3, .turn_acceleration_rad_s2 = 5.0, .lookahead_m = 0.4};
   constexpr double kBeside_m = 0.02;
   DifferentialFollowing following{.arc_m = 1.0, .v_m_s = options.speed_m_s};
-  const Twist2 twist = follow_path(path, {1.0, kBeside_m, 0.0}, kPeriod_s, options, following);
+  const Twist2 twist = follow_path(path, {1.0, kBeside_m, 0.0}, kDrivePeriod_s, options, following);
   EXPECT_NEAR(twist.wz_rad_s, -0.3 * 2.0 * kBeside_m / (0.4 * 0.4 + kBeside_m * kBeside_m), 1e-12);
 }
 
@@ -90,10 +89,10 @@ TEST(DifferentialController, LooksFartherAheadTheFasterItGoesButNotPastACorner) 
   const std::vector<Pose2> bent = {{2.0, 0.0, 0.0}, {2.0, 2.0, 0.0}};
   const DrivePath path({}, bent);
   DifferentialFollowing following{.arc_m = 1.7, .v_m_s = 0.6};
-  EXPECT_EQ(follow_path(path, {1.7, 0.0, 0.0}, kPeriod_s, {}, following).wz_rad_s, 0.0)
+  EXPECT_EQ(follow_path(path, {1.7, 0.0, 0.0}, kDrivePeriod_s, {}, following).wz_rad_s, 0.0)
       << "the corner is 0.3 m ahead, the point as well";
   following = {.arc_m = 1.95, .v_m_s = 0.1};
-  EXPECT_GT(follow_path(path, {1.95, 0.0, 0.0}, kPeriod_s, {}, following).wz_rad_s, 0.0)
+  EXPECT_GT(follow_path(path, {1.95, 0.0, 0.0}, kDrivePeriod_s, {}, following).wz_rad_s, 0.0)
       << "within lookahead_m it looks round it";
 }
 
@@ -104,21 +103,21 @@ TEST(DifferentialController, DoesNotWeaveAtSpeed) {
 }
 
 TEST(DifferentialController, TurnsInPlaceBeforeItSetsOut) {
-  const DrivePath path({}, std::vector<Pose2>{{-2.0, 0.0, kPi}});
+  const DrivePath path({}, std::vector<Pose2>{{-2.0, 0.0, std::numbers::pi}});
   DifferentialFollowing following;
   Pose2 pose;
   double turned_rad = 0.0;
-  while (turned_rad < kPi - 0.1) {
-    const Twist2 twist = follow_path(path, pose, kPeriod_s, {}, following);
+  while (turned_rad < std::numbers::pi - 0.1) {
+    const Twist2 twist = follow_path(path, pose, kDrivePeriod_s, {}, following);
     ASSERT_EQ(twist.vx_m_s, 0.0) << "at " << turned_rad;
-    turned_rad += std::abs(twist.wz_rad_s) * kPeriod_s;
-    pose = moved(pose, 0.0, twist.wz_rad_s, kPeriod_s);
+    turned_rad += std::abs(twist.wz_rad_s) * kDrivePeriod_s;
+    pose = moved(pose, 0.0, twist.wz_rad_s, kDrivePeriod_s);
   }
 }
 
 TEST(DifferentialController, GoesRoundASquareWithoutLeavingItFar) {
   const std::vector<Pose2> square = {
-      {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, kPi / 2.0}};
+      {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, std::numbers::pi / 2.0}};
   const Ride round = ride({}, square);
   expect_at(round.end, square.back());
   EXPECT_LT(round.farthest_m, 0.04) << "the planner's margin";

@@ -11,8 +11,7 @@ namespace vantage {
 namespace {
 
 using test::airframe;
-constexpr double kPi = std::numbers::pi;
-constexpr double kPeriod_s = 0.002;
+constexpr double kFlightPeriod_s = 0.002;
 
 Eigen::Matrix3d turned(double angle_rad, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(angle_rad, axis.normalized()).toRotationMatrix();
@@ -22,16 +21,16 @@ TEST(AttitudeError, OfKnownTurns) {
   const Eigen::Matrix3d desired = turned(0.7, {0.2, 0.1, 1.0});
   for (const Eigen::Vector3d& axis :
        {Eigen::Vector3d(0.6, -0.8, 0.0), Eigen::Vector3d(0.0, 0.0, 1.0)}) {
-    for (const double angle : {0.01, 0.5, 1.5, 3.0, kPi}) {
+    for (const double angle : {0.01, 0.5, 1.5, 3.0, std::numbers::pi}) {
       const Eigen::Vector3d error = attitude_error(desired * turned(angle, axis), desired);
       const Eigen::Vector3d expected = 2.0 * std::sin(angle / 2.0) * axis;
       EXPECT_TRUE(error.isApprox(expected, 1e-9) ||
-                  (angle == kPi && error.isApprox(-expected, 1e-9)))
+                  (angle == std::numbers::pi && error.isApprox(-expected, 1e-9)))
           << angle;
     }
     // Beyond half a turn the short way is the other way.
     EXPECT_TRUE(attitude_error(desired * turned(4.0, axis), desired)
-                    .isApprox(-2.0 * std::sin((2.0 * kPi - 4.0) / 2.0) * axis, 1e-9));
+                    .isApprox(-2.0 * std::sin((2.0 * std::numbers::pi - 4.0) / 2.0) * axis, 1e-9));
   }
   EXPECT_LT(attitude_error(desired, desired).norm(), 1e-12);
 }
@@ -79,7 +78,7 @@ TEST(AttitudeAlong, TurnsAsTheForceChanges) {
 TEST(ControlFlight, HoverCarriesTheWeight) {
   const Airframe frame = airframe();
   FlightMemory memory;
-  const Allocation given = control_flight({}, {}, frame, kPeriod_s, {}, memory);
+  const Allocation given = control_flight({}, {}, frame, kFlightPeriod_s, {}, memory);
   const Wrench got = wrench_of(frame, given.thrust_N);
   EXPECT_NEAR(got.collective_N, 1.24 * 9.81, 1e-9);
   EXPECT_LT(got.torque_Nm.norm(), 1e-9);
@@ -90,7 +89,7 @@ TEST(ControlFlight, PushesTowardsTheReference) {
   const auto torque = [&](const Eigen::Vector3d& p_m, double yaw_rad) {
     FlightMemory memory;
     const FlightReference reference{.p_world_m = p_m, .yaw_rad = yaw_rad};
-    const Allocation given = control_flight({}, reference, frame, kPeriod_s, {}, memory);
+    const Allocation given = control_flight({}, reference, frame, kFlightPeriod_s, {}, memory);
     return wrench_of(frame, given.thrust_N);
   };
   EXPECT_GT(torque({0.3, 0.0, 0.0}, 0.0).torque_Nm.y(), 0.1) << "forward: nose down";
@@ -113,7 +112,8 @@ TEST(ControlFlight, TurnsWithTheReferenceThatTurns) {
   options.position_per_s2 = 1e-9;  // its position and velocity ask for nothing
   options.velocity_per_s = 1e-9;
   FlightMemory memory;
-  const Allocation given = control_flight(state, reference, frame, kPeriod_s, options, memory);
+  const Allocation given =
+      control_flight(state, reference, frame, kFlightPeriod_s, options, memory);
   const Eigen::Vector3d w = state.w_body_rad_s;
   const Eigen::Vector3d turn(-options.rate_per_s * p, p * r, 0.0);
   const Eigen::Vector3d expected = frame.inertia_kg_m2 * turn + w.cross(frame.inertia_kg_m2 * w);
@@ -129,7 +129,7 @@ TEST(ControlFlight, NeverAsksForMoreTiltThanAllowed) {
   options.tilt_max_rad = 1e-6;
   FlightMemory memory;
   const FlightReference far{.p_world_m = {50.0, 0.0, 0.0}};
-  const Allocation given = control_flight({}, far, frame, kPeriod_s, options, memory);
+  const Allocation given = control_flight({}, far, frame, kFlightPeriod_s, options, memory);
   EXPECT_LT(wrench_of(frame, given.thrust_N).torque_Nm.norm(), 1e-3);
 }
 
@@ -138,7 +138,7 @@ TEST(ControlFlight, UpsideDownTurnsWithoutPushingDown) {
   FlightState state;
   state.T_world_body.linear() = turned(2.8, {1.0, 0.0, 0.0});
   FlightMemory memory;
-  const Allocation given = control_flight(state, {}, frame, kPeriod_s, {}, memory);
+  const Allocation given = control_flight(state, {}, frame, kFlightPeriod_s, {}, memory);
   const Wrench got = wrench_of(frame, given.thrust_N);
   EXPECT_LT(got.torque_Nm.x(), -0.5);
   // No more force than the torque needs: one rotor at least is at rest.
@@ -153,11 +153,12 @@ struct Hover {
   FlightState state;
 
   void step(const FlightReference& reference, const Eigen::Vector3d& disturbance_m_s2) {
-    const Allocation given = control_flight(state, reference, frame, kPeriod_s, options, memory);
+    const Allocation given =
+        control_flight(state, reference, frame, kFlightPeriod_s, options, memory);
     Eigen::Vector3d a = disturbance_m_s2;
     a.z() += given.collective_N / frame.mass_kg - frame.gravity_m_s2;
-    state.v_world_m_s += kPeriod_s * a;
-    state.T_world_body.translation() += kPeriod_s * state.v_world_m_s;
+    state.v_world_m_s += kFlightPeriod_s * a;
+    state.T_world_body.translation() += kFlightPeriod_s * state.v_world_m_s;
   }
 };
 

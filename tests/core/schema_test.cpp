@@ -25,7 +25,7 @@ struct Fading {
 
 using Way = std::variant<Plain, Fading>;
 
-struct Inner {
+struct Part {
   std::array<double, 3> size_m{1.0, 2.0, 3.0};
   bool all = true;
   void fields(auto&& f) {
@@ -34,12 +34,12 @@ struct Inner {
   }
 };
 
-struct Options {
+struct Whole {
   int scans = 10;
   std::optional<double> limit_s;
   Way way = Fading{.a = 0.25};
   std::vector<Way> others;
-  Inner inner;
+  Part inner;
   void fields(auto&& f) {
     f("scans", scans, "at most", at_least(1));
     f("limit_s", limit_s, "of the time");
@@ -55,13 +55,13 @@ const KeyDescription& of(const std::vector<KeyDescription>& keys, std::string_vi
 
 TEST(Schema, EveryKeyInOrder) {
   std::vector<std::string> names;
-  for (const auto& key : describe_fields(Options{})) names.push_back(key.key);
+  for (const auto& key : describe_fields(Whole{})) names.push_back(key.key);
   EXPECT_THAT(names, testing::ElementsAre("scans", "limit_s", "way", "way.a", "others",
                                           "others[].a", "inner", "inner.size_m", "inner.all"));
 }
 
 TEST(Schema, TypeUnitDefaultRangeText) {
-  const auto keys = describe_fields(Options{});
+  const auto keys = describe_fields(Whole{});
   EXPECT_EQ(of(keys, "scans"), (KeyDescription{.key = "scans",
                                                .type = "whole number",
                                                .default_value = "10",
@@ -80,7 +80,7 @@ TEST(Schema, TypeUnitDefaultRangeText) {
 }
 
 TEST(Schema, AStrategyNamesItsAlternativesAndTheyTheirs) {
-  const auto keys = describe_fields(Options{});
+  const auto keys = describe_fields(Whole{});
   EXPECT_EQ(of(keys, "way").type, "one of plain, fading");
   EXPECT_EQ(of(keys, "way").default_value, "fading");
   EXPECT_EQ(of(keys, "way.a").default_value, "0.25");
@@ -120,9 +120,9 @@ TEST(Schema, StrategiesSayWhatTheyAre) {
 }
 
 TEST(Schema, CommentsStandAboveTheirKeys) {
-  Options options;
+  Whole options;
   options.others = {Fading{}};
-  EXPECT_EQ(commented_yaml(write_node(options), describe_fields(Options{})),
+  EXPECT_EQ(commented_yaml(write_node(options), describe_fields(Whole{})),
             "# at most (>= 1)\n"
             "scans: 10\n"
             "# of the time (s)\n"
@@ -145,10 +145,10 @@ TEST(Schema, CommentsStandAboveTheirKeys) {
 }
 
 TEST(Schema, CommentedYamlReadsAsTheSame) {
-  Options options;
+  Whole options;
   options.way = Plain{};
   const ConfigNode node = write_node(options);
-  const std::string text = commented_yaml(node, describe_fields(Options{}));
+  const std::string text = commented_yaml(node, describe_fields(Whole{}));
   EXPECT_EQ(to_yaml(parse_yaml(text, "e.yaml")), to_yaml(node));
   EXPECT_EQ(text.find("what is left"), text.npos);  // plain has no a
 }

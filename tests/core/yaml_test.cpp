@@ -14,7 +14,7 @@ namespace {
 
 ConfigNode parse(const std::string& text) { return parse_yaml(text, "e.yaml"); }
 
-std::string error_of(const std::string& text) {
+std::string yaml_error_of(const std::string& text) {
   try {
     (void)parse(text);
   } catch (const ConfigError& error) {
@@ -47,50 +47,50 @@ TEST(Yaml, NothingIsNull) {
 }
 
 TEST(Yaml, DuplicateKeys) {
-  EXPECT_EQ(error_of("a: 1\nb: 2\na: 3\n"), "e.yaml:3: a: duplicate key");
-  EXPECT_EQ(error_of("m:\n  x: 1\n  x: 1\n"), "e.yaml:3: m.x: duplicate key");
-  EXPECT_EQ(error_of("a: 1\n\"a\": 3\n"), "e.yaml:2: a: duplicate key");
-  EXPECT_EQ(error_of("m: {x: 1, y: 2, x: 1}\n"), "e.yaml:1: m.x: duplicate key");
-  EXPECT_EQ(error_of("m: [{x: 1}, {x: 1}]\n"), "");
+  EXPECT_EQ(yaml_error_of("a: 1\nb: 2\na: 3\n"), "e.yaml:3: a: duplicate key");
+  EXPECT_EQ(yaml_error_of("m:\n  x: 1\n  x: 1\n"), "e.yaml:3: m.x: duplicate key");
+  EXPECT_EQ(yaml_error_of("a: 1\n\"a\": 3\n"), "e.yaml:2: a: duplicate key");
+  EXPECT_EQ(yaml_error_of("m: {x: 1, y: 2, x: 1}\n"), "e.yaml:1: m.x: duplicate key");
+  EXPECT_EQ(yaml_error_of("m: [{x: 1}, {x: 1}]\n"), "");
 }
 
 TEST(Yaml, AnchorsAliasesAndTags) {
-  EXPECT_EQ(error_of("a: 1\nb: &x 1\n"), "e.yaml:2: an anchor (&) is not accepted here");
-  EXPECT_NE(error_of("a: &x [1]\nb: *x\n"), "");
-  EXPECT_NE(error_of("a: &x [*x]\n"), "");  // holds itself
-  EXPECT_NE(error_of("a: &x {b: 1}\nc:\n  <<: *x\n"), "");
-  EXPECT_NE(error_of("a: &x\n"), "");
-  EXPECT_EQ(error_of("a: !!int \"1\"\n"),
+  EXPECT_EQ(yaml_error_of("a: 1\nb: &x 1\n"), "e.yaml:2: an anchor (&) is not accepted here");
+  EXPECT_NE(yaml_error_of("a: &x [1]\nb: *x\n"), "");
+  EXPECT_NE(yaml_error_of("a: &x [*x]\n"), "");  // holds itself
+  EXPECT_NE(yaml_error_of("a: &x {b: 1}\nc:\n  <<: *x\n"), "");
+  EXPECT_NE(yaml_error_of("a: &x\n"), "");
+  EXPECT_EQ(yaml_error_of("a: !!int \"1\"\n"),
             "e.yaml:1: the tag 'tag:yaml.org,2002:int' is not accepted here");
-  EXPECT_NE(error_of("a: !python/object {}\n"), "");
-  EXPECT_NE(error_of("a: !mine [1]\n"), "");
+  EXPECT_NE(yaml_error_of("a: !python/object {}\n"), "");
+  EXPECT_NE(yaml_error_of("a: !mine [1]\n"), "");
 }
 
 TEST(Yaml, OneDocumentOnly) {
-  EXPECT_EQ(error_of("---\na: 1\n"), "");
-  EXPECT_EQ(error_of("a: 1\n---\nb: 1\n"), "e.yaml: more than one YAML document");
+  EXPECT_EQ(yaml_error_of("---\na: 1\n"), "");
+  EXPECT_EQ(yaml_error_of("a: 1\n---\nb: 1\n"), "e.yaml: more than one YAML document");
   // Found by ./fuzz: yaml-cpp makes empty documents of it without end.
-  EXPECT_EQ(error_of(","), "e.yaml: more than one YAML document");
+  EXPECT_EQ(yaml_error_of(","), "e.yaml: more than one YAML document");
 }
 
 TEST(Yaml, KeysThatAreNotText) {
-  EXPECT_NE(error_of("[1, 2]: 3\n").find("e.yaml:1: a key under '' is not plain text"),
+  EXPECT_NE(yaml_error_of("[1, 2]: 3\n").find("e.yaml:1: a key under '' is not plain text"),
             std::string::npos);
-  EXPECT_NE(error_of("m:\n  ~: 3\n").find("e.yaml:2: a key under 'm' is not plain text"),
+  EXPECT_NE(yaml_error_of("m:\n  ~: 3\n").find("e.yaml:2: a key under 'm' is not plain text"),
             std::string::npos);
 }
 
 TEST(Yaml, SyntaxErrorsNameTheLine) {
-  EXPECT_EQ(error_of("a: 1\nb: [1, 2\n").find("e.yaml:"), 0U);
-  EXPECT_EQ(error_of("a: 1\n b: 2\n").find("e.yaml:2: not valid YAML"), 0U);
-  EXPECT_NE(error_of("a: \"open\nb: 1\n"), "");
-  EXPECT_NE(error_of("a: 'open\n\n# comment\n\n"), "");
-  EXPECT_NE(error_of("a: *nowhere\n"), "");
+  EXPECT_EQ(yaml_error_of("a: 1\nb: [1, 2\n").find("e.yaml:"), 0U);
+  EXPECT_EQ(yaml_error_of("a: 1\n b: 2\n").find("e.yaml:2: not valid YAML"), 0U);
+  EXPECT_NE(yaml_error_of("a: \"open\nb: 1\n"), "");
+  EXPECT_NE(yaml_error_of("a: 'open\n\n# comment\n\n"), "");
+  EXPECT_NE(yaml_error_of("a: *nowhere\n"), "");
 }
 
 TEST(Yaml, DeepNestingIsAnErrorAndNoCrash) {
-  EXPECT_NE(error_of(std::string(100000, '[')), "");
-  EXPECT_NE(error_of("a: " + std::string(100000, '{')), "");
+  EXPECT_NE(yaml_error_of(std::string(100000, '[')), "");
+  EXPECT_NE(yaml_error_of("a: " + std::string(100000, '{')), "");
 }
 
 TEST(Yaml, ReadsFiles) {

@@ -22,7 +22,7 @@ const Program kWorker{VANTAGE_BINARY, "render-worker"};
 Program script(const std::string& text) { return {"/bin/sh", "-c", text}; }
 
 /// Few and small views.
-DatasetOptions few(int objects) {
+DatasetOptions few_on_a_pool(int objects) {
   return {.objects = objects, .step_deg = 120.0, .supersampling = 1};
 }
 
@@ -37,7 +37,8 @@ class RenderPool : public testing::Test {
     return files;
   }
   DatasetOutcome render(const std::string& dataset, int objects, int jobs, const Program& worker) {
-    return render_dataset(few(objects), {.root = out_ / dataset, .jobs = jobs, .worker = worker});
+    return render_dataset(few_on_a_pool(objects),
+                          {.root = out_ / dataset, .jobs = jobs, .worker = worker});
   }
   /// Code and text of what it throws.
   std::pair<ExitCode, std::string> error_of(const DatasetOptions& options, const Program& worker) {
@@ -75,14 +76,14 @@ TEST_F(RenderPool, WhatAProcessDiedOfIsRenderedByAnother) {
 }
 
 TEST_F(RenderPool, AnObjectThatEveryProcessDiesOfIsNamed) {
-  const auto [code, text] = error_of(few(1), script("kill -SEGV $$"));
+  const auto [code, text] = error_of(few_on_a_pool(1), script("kill -SEGV $$"));
   EXPECT_EQ(code, ExitCode::no_renderer);
   EXPECT_THAT(text, AllOf(HasSubstr("mug_1"), HasSubstr("signal 11")));
-  EXPECT_THAT(error_of(few(1), {"/nowhere/vantage"}).second, HasSubstr("exit code 127"));
+  EXPECT_THAT(error_of(few_on_a_pool(1), {"/nowhere/vantage"}).second, HasSubstr("exit code 127"));
 }
 
 TEST_F(RenderPool, WhatAProcessSaysItFailedByComesThrough) {
-  DatasetOptions options = few(4);
+  DatasetOptions options = few_on_a_pool(4);
   options.distance_m = 0.3;
   options.placement_m = 0.1;
   const auto [code, text] = error_of(options, kWorker);
@@ -93,12 +94,13 @@ TEST_F(RenderPool, WhatAProcessSaysItFailedByComesThrough) {
 TEST_F(RenderPool, StoppedItLeavesWholeObjectsAlone) {
   render("whole", 6, 2, kWorker);
   int complete = 0;
-  const DatasetOutcome stopped = render_dataset(
-      few(6), {.root = out_ / "parts",
-               .jobs = 2,
-               .worker = kWorker,
-               .stop = [&] { return complete > 0; },
-               .tell = [&](int objects, int, const std::string&) { complete = objects; }});
+  const DatasetOutcome stopped =
+      render_dataset(few_on_a_pool(6),
+                     {.root = out_ / "parts",
+                      .jobs = 2,
+                      .worker = kWorker,
+                      .stop = [&] { return complete > 0; },
+                      .tell = [&](int objects, int, const std::string&) { complete = objects; }});
   EXPECT_TRUE(stopped.stopped);
   EXPECT_LT(stopped.objects, 6);
   for (const auto& [name, content] : contents("parts")) {

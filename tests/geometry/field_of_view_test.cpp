@@ -12,11 +12,9 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(BeamDirection, AxesAndSigns) {
   EXPECT_TRUE(beam_direction({0, 0}).isApprox(Eigen::Vector3d::UnitX()));
-  EXPECT_TRUE(beam_direction({kPi / 2, 0.3}).isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(beam_direction({std::numbers::pi / 2, 0.3}).isApprox(Eigen::Vector3d::UnitY()));
   EXPECT_GT(beam_direction({0.2, 0}).y(), 0.0);   // left
   EXPECT_LT(beam_direction({0, 0.2}).z(), 0.0);   // down
   EXPECT_GT(beam_direction({0, -0.2}).z(), 0.0);  // up
@@ -24,7 +22,8 @@ TEST(BeamDirection, AxesAndSigns) {
 
 RC_GTEST_PROP(BeamDirection, IsAUnitVectorAndInvertible, (std::uint64_t seed)) {
   Rng rng(seed);
-  const BeamAngles angles{rng.uniform(-kPi / 2, kPi / 2), rng.uniform(-kPi, kPi)};
+  const BeamAngles angles{rng.uniform(-std::numbers::pi / 2, std::numbers::pi / 2),
+                          rng.uniform(-std::numbers::pi, std::numbers::pi)};
   const Eigen::Vector3d direction = beam_direction(angles);
   RC_ASSERT(std::abs(direction.norm() - 1.0) < 1e-12);
   const BeamAngles back = beam_angles(rng.uniform(0.1, 10.0) * direction);
@@ -35,7 +34,7 @@ RC_GTEST_PROP(BeamDirection, IsAUnitVectorAndInvertible, (std::uint64_t seed)) {
 
 RC_GTEST_PROP(TurnedOver, IsTheSameDirection, (std::uint64_t seed)) {
   Rng rng(seed);
-  const BeamAngles angles{rng.uniform(-kPi, kPi), rng.uniform(-1, 1)};
+  const BeamAngles angles{rng.uniform(-std::numbers::pi, std::numbers::pi), rng.uniform(-1, 1)};
   const BeamAngles other = turned_over(angles);
   RC_ASSERT((beam_direction(other) - beam_direction(angles)).norm() < 1e-12);
   RC_ASSERT(std::abs(wrap_angle(other.tilt_rad - angles.tilt_rad)) > 3.0);
@@ -64,8 +63,9 @@ TEST(FieldOfView, NarrowSectorDoesNotSeeBehind) {
 }
 
 TEST(FieldOfView, FullTurnSeesAllRound) {
-  const FieldOfView view{.half_width_rad = kPi, .tilt_min_rad = -0.3, .tilt_max_rad = 0.3};
-  for (double azimuth = -kPi; azimuth <= kPi; azimuth += 0.1) {
+  const FieldOfView view{
+      .half_width_rad = std::numbers::pi, .tilt_min_rad = -0.3, .tilt_max_rad = 0.3};
+  for (double azimuth = -std::numbers::pi; azimuth <= std::numbers::pi; azimuth += 0.1) {
     EXPECT_TRUE(view.contains(2.0 * beam_direction({azimuth, 0.1}))) << azimuth;
   }
   EXPECT_FALSE(view.contains({0.1, 0, 2}));
@@ -81,7 +81,7 @@ TEST(FieldOfView, OptionsAreChecked) {
 RC_GTEST_PROP(FieldOfView, PanoramaIsBoundedByTheAngleBelowTheHorizon, (std::uint64_t seed)) {
   Rng rng(seed);
   const FieldOfView view{.tilt_min_rad = -0.4, .tilt_max_rad = 1.1, .panorama = true};
-  const double azimuth = rng.uniform(-kPi, kPi);
+  const double azimuth = rng.uniform(-std::numbers::pi, std::numbers::pi);
   const double tilt = rng.uniform(-1.5, 1.5);
   const Eigen::Vector3d p = make_pose(Eigen::Vector3d::Zero(), azimuth) *
                             Eigen::Vector3d(2.0 * std::cos(tilt), 0.0, -2.0 * std::sin(tilt));

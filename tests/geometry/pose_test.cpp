@@ -11,10 +11,9 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Pose2 random_pose2(Rng& rng) {
-  return {rng.uniform(-10, 10), rng.uniform(-10, 10), rng.uniform(-kPi, kPi)};
+  return {rng.uniform(-10, 10), rng.uniform(-10, 10),
+          rng.uniform(-std::numbers::pi, std::numbers::pi)};
 }
 
 bool near(const Pose2& a, const Pose2& b) {
@@ -26,18 +25,18 @@ RC_GTEST_PROP(WrapAngle, IsTheSameDirectionInRange, (std::uint64_t seed)) {
   Rng rng(seed);
   const double angle = rng.uniform(-100, 100);
   const double wrapped = wrap_angle(angle);
-  RC_ASSERT(wrapped > -kPi);
-  RC_ASSERT(wrapped <= kPi);
+  RC_ASSERT(wrapped > -std::numbers::pi);
+  RC_ASSERT(wrapped <= std::numbers::pi);
   RC_ASSERT(std::abs(std::sin(wrapped) - std::sin(angle)) < 1e-12);
   RC_ASSERT(std::abs(std::cos(wrapped) - std::cos(angle)) < 1e-12);
   RC_ASSERT(wrap_angle(wrapped) == wrapped);
 }
 
 TEST(WrapAngle, HalfTurnsArePositive) {
-  EXPECT_EQ(wrap_angle(kPi), kPi);
-  EXPECT_EQ(wrap_angle(-kPi), kPi);
+  EXPECT_EQ(wrap_angle(std::numbers::pi), std::numbers::pi);
+  EXPECT_EQ(wrap_angle(-std::numbers::pi), std::numbers::pi);
   EXPECT_EQ(wrap_angle(0.0), 0.0);
-  EXPECT_NEAR(wrap_angle(2.0 * kPi + 0.25), 0.25, 1e-15);
+  EXPECT_NEAR(wrap_angle(2.0 * std::numbers::pi + 0.25), 0.25, 1e-15);
 }
 
 RC_GTEST_PROP(Pose2, GroupLaws, (std::uint64_t seed)) {
@@ -61,23 +60,25 @@ RC_GTEST_PROP(Pose2, AgreesWithThePoseInSpace, (std::uint64_t seed)) {
   RC_ASSERT(near(project_to_se2(to_se3(a).inverse()), inverse(a)));
 }
 
-TEST(Pose2, InverseOfAHalfTurnStaysInRange) { EXPECT_EQ(inverse({0.0, 0.0, kPi}).yaw_rad, kPi); }
+TEST(Pose2, InverseOfAHalfTurnStaysInRange) {
+  EXPECT_EQ(inverse({0.0, 0.0, std::numbers::pi}).yaw_rad, std::numbers::pi);
+}
 
 //        y
 //        ^  b's origin at (1, 2), facing +y: its x axis is the world's y axis
 TEST(Pose2, KnownTransform) {
-  const Pose p = to_se3({1.0, 2.0, kPi / 2.0}, 0.5);
+  const Pose p = to_se3({1.0, 2.0, std::numbers::pi / 2.0}, 0.5);
   EXPECT_TRUE((p * Eigen::Vector3d(3, 0, 0)).isApprox(Eigen::Vector3d(1, 5, 0.5)));
   EXPECT_TRUE((p * Eigen::Vector3d(0, 3, 0)).isApprox(Eigen::Vector3d(-2, 2, 0.5)));
 }
 
 TEST(MakePose, PositivePitchLooksDown) {
-  const Pose pose = make_pose({0, 0, 1}, kPi / 2.0, 0.3);
+  const Pose pose = make_pose({0, 0, 1}, std::numbers::pi / 2.0, 0.3);
   const Eigen::Vector3d forward = pose.linear().col(0);
   EXPECT_NEAR(forward.x(), 0.0, 1e-12);
   EXPECT_NEAR(forward.y(), std::cos(0.3), 1e-12);
   EXPECT_NEAR(forward.z(), -std::sin(0.3), 1e-12);
-  EXPECT_NEAR(project_to_se2(pose).yaw_rad, kPi / 2.0, 1e-12);
+  EXPECT_NEAR(project_to_se2(pose).yaw_rad, std::numbers::pi / 2.0, 1e-12);
 }
 
 }  // namespace

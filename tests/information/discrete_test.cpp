@@ -11,10 +11,10 @@
 namespace vantage {
 namespace {
 
-using testing::flat;
+using test::flat;
+using test::random_distribution;
+using test::random_joint;
 using ::testing::HasSubstr;
-using testing::random_distribution;
-using testing::random_joint;
 using Vector = std::vector<double>;
 
 constexpr double kTolerance = 1e-9;

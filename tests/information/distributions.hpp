@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace vantage::testing {
+namespace vantage::test {
 
 /// Some outcomes have probability exactly zero, some are tiny.
 inline std::vector<double> random_distribution(std::size_t size) {
@@ -35,4 +35,4 @@ inline std::vector<double> flat(const Eigen::MatrixXd& matrix) {
   return {matrix.data(), matrix.data() + matrix.size()};
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kTolerance = 1e-9;
+constexpr double kGaussianTolerance = 1e-9;
 
 DiagonalGaussian gaussian(std::initializer_list<double> mean,
                           std::initializer_list<double> variance) {
@@ -34,7 +34,9 @@ DiagonalGaussian random_gaussian(int size) {
   return g;
 }
 
-bool same(double a, double b) { return std::abs(a - b) <= kTolerance * (1.0 + std::abs(a)); }
+bool same(double a, double b) {
+  return std::abs(a - b) <= kGaussianTolerance * (1.0 + std::abs(a));
+}
 
 /// Of one dimension.
 double log_density(const DiagonalGaussian& g, double x) {
@@ -55,14 +57,15 @@ double numeric_kl_nats(const DiagonalGaussian& p, const DiagonalGaussian& q) {
 
 TEST(GaussianKl, KnownAnswers) {
   const auto standard = gaussian({0.0}, {1.0});
-  EXPECT_NEAR(gaussian_kl_divergence_nats(gaussian({1.0}, {1.0}), standard), 0.5, kTolerance);
+  EXPECT_NEAR(gaussian_kl_divergence_nats(gaussian({1.0}, {1.0}), standard), 0.5,
+              kGaussianTolerance);
   EXPECT_NEAR(gaussian_kl_divergence_nats(gaussian({0.0}, {4.0}), standard),
-              0.5 * (3.0 - std::log(4.0)), kTolerance);
+              0.5 * (3.0 - std::log(4.0)), kGaussianTolerance);
   EXPECT_NEAR(gaussian_kl_divergence_bits(gaussian({1.0}, {1.0}), standard), 0.5 / std::log(2.0),
-              kTolerance);
+              kGaussianTolerance);
   EXPECT_NEAR(gaussian_jeffreys_divergence_nats(gaussian({1.0, 0.0}, {1.0, 4.0}),
                                                 gaussian({0.0, 0.0}, {1.0, 1.0})),
-              1.0 + 0.5 * (4.0 + 0.25 - 2.0), kTolerance);
+              1.0 + 0.5 * (4.0 + 0.25 - 2.0), kGaussianTolerance);
 }
 
 TEST(GaussianKl, AgreesWithTheIntegral) {
@@ -82,11 +85,11 @@ TEST(GaussianJeffreys, AgreesWithTheIntegral) {
 TEST(GaussianBhattacharyya, KnownAnswers) {
   const auto standard = gaussian({0.0, 0.0}, {1.0, 1.0});
   EXPECT_NEAR(gaussian_bhattacharyya_distance_nats(gaussian({2.0, 0.0}, {1.0, 1.0}), standard), 0.5,
-              kTolerance);
+              kGaussianTolerance);
   EXPECT_NEAR(gaussian_bhattacharyya_distance_nats(gaussian({0.0, 0.0}, {1.0, 4.0}), standard),
-              0.5 * std::log(1.25), kTolerance);
+              0.5 * std::log(1.25), kGaussianTolerance);
   EXPECT_NEAR(gaussian_bhattacharyya_distance_bits(gaussian({2.0, 0.0}, {1.0, 1.0}), standard),
-              0.5 / std::log(2.0), kTolerance);
+              0.5 / std::log(2.0), kGaussianTolerance);
 }
 
 TEST(GaussianBhattacharyya, AgreesWithTheIntegral) {
@@ -139,7 +142,7 @@ RC_GTEST_PROP(GaussianProperty, BhattacharyyaIsSymmetricAndAtMostAQuarterOfJeffr
   const double d = gaussian_bhattacharyya_distance_nats(p, q);
   RC_ASSERT(d >= 0.0);
   RC_ASSERT(same(d, gaussian_bhattacharyya_distance_nats(q, p)));
-  RC_ASSERT(d <= 0.25 * gaussian_jeffreys_divergence_nats(p, q) + kTolerance);
+  RC_ASSERT(d <= 0.25 * gaussian_jeffreys_divergence_nats(p, q) + kGaussianTolerance);
   RC_ASSERT(gaussian_bhattacharyya_distance_nats(p, p) == 0.0);
 }
 

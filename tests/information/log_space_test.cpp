@@ -14,14 +14,14 @@
 namespace vantage {
 namespace {
 
+using test::random_distribution;
+using test::random_joint;
 using ::testing::HasSubstr;
-using testing::random_distribution;
-using testing::random_joint;
 using Vector = std::vector<double>;
 
-constexpr double kTolerance = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLogTolerance = 1e-9;
+constexpr double kLogInfinity = std::numeric_limits<double>::infinity();
+constexpr double kLogNan = std::numeric_limits<double>::quiet_NaN();
 
 Vector log_of(const Vector& p) {
   Vector logs;
@@ -29,21 +29,21 @@ Vector log_of(const Vector& p) {
   return logs;
 }
 
-bool same(double a, double b) { return a == b || std::abs(a - b) < kTolerance; }
+bool nearly(double a, double b) { return a == b || std::abs(a - b) < kLogTolerance; }
 
 TEST(LogSumExp, SurvivesWhereTheLinearSumWouldNot) {
   EXPECT_NEAR(log_sum_exp(Vector{3200.0, 3200.0}), 3200.0 + std::numbers::ln2, 1e-9);
   EXPECT_NEAR(log_sum_exp(Vector{-5000.0, -5000.0}), -5000.0 + std::numbers::ln2, 1e-9);
-  EXPECT_DOUBLE_EQ(log_sum_exp(Vector{-kInfinity, 2.5}), 2.5);
-  EXPECT_EQ(log_sum_exp(Vector{-kInfinity, -kInfinity}), -kInfinity);
+  EXPECT_DOUBLE_EQ(log_sum_exp(Vector{-kLogInfinity, 2.5}), 2.5);
+  EXPECT_EQ(log_sum_exp(Vector{-kLogInfinity, -kLogInfinity}), -kLogInfinity);
 }
 
 TEST(NormaliseLog, MakesADistributionAndReturnsTheNormaliser) {
-  Vector logs{3200.0, 3200.0 + std::log(3.0), -kInfinity};
+  Vector logs{3200.0, 3200.0 + std::log(3.0), -kLogInfinity};
   EXPECT_NEAR(normalise_log(logs), 3200.0 + std::log(4.0), 1e-9);
   EXPECT_NEAR(std::exp(logs[0]), 0.25, 1e-9);
   EXPECT_NEAR(std::exp(logs[1]), 0.75, 1e-9);
-  EXPECT_EQ(logs[2], -kInfinity);
+  EXPECT_EQ(logs[2], -kLogInfinity);
 }
 
 TEST(LogSpaceEntropy, CountsOutcomesTooRareForTheLinearSpace) {
@@ -57,7 +57,7 @@ TEST(LogSpaceDivergence, StaysFiniteWhereTheLinearQWouldUnderflow) {
   const Vector log_q{0.0, -1000.0};
   const double expected = -1.0 + 500.0 * std::numbers::log2e;
   EXPECT_NEAR(kl_divergence_bits_from_log(log_p, log_q), expected, 1e-9);
-  EXPECT_EQ(kl_divergence_bits_from_log(log_p, Vector{0.0, -kInfinity}), kInfinity);
+  EXPECT_EQ(kl_divergence_bits_from_log(log_p, Vector{0.0, -kLogInfinity}), kLogInfinity);
 }
 
 TEST(LogSpaceValidation, NamesTheOffendingValue) {
@@ -70,17 +70,17 @@ TEST(LogSpaceValidation, NamesTheOffendingValue) {
     }
   };
   expect_message([] { log_sum_exp(Vector{}); }, "empty");
-  expect_message([] { log_sum_exp(Vector{0.0, kNan}); }, "entry 1 = nan");
-  expect_message([] { log_sum_exp(Vector{kInfinity}); }, "entry 0 = inf");
+  expect_message([] { log_sum_exp(Vector{0.0, kLogNan}); }, "entry 1 = nan");
+  expect_message([] { log_sum_exp(Vector{kLogInfinity}); }, "entry 0 = inf");
   expect_message([] { entropy_bits_from_log(Vector{0.0, 0.0}); }, "sum to 2");
-  expect_message([] { entropy_bits_from_log(Vector{-kInfinity}); }, "sum to 0");
+  expect_message([] { entropy_bits_from_log(Vector{-kLogInfinity}); }, "sum to 0");
   expect_message(
       [] {
-        kl_divergence_bits_from_log(Vector{0.0}, Vector{0.0, -kInfinity});
+        kl_divergence_bits_from_log(Vector{0.0}, Vector{0.0, -kLogInfinity});
       },
       "p has 1 entries, q has 2");
   expect_message([] { mutual_information_bits_from_log(Eigen::MatrixXd::Zero(2, 2)); }, "sum to 4");
-  Vector nothing{-kInfinity, -kInfinity};
+  Vector nothing{-kLogInfinity, -kLogInfinity};
   expect_message([&] { normalise_log(nothing); }, "every entry is -inf");
 }
 
@@ -89,17 +89,18 @@ RC_GTEST_PROP(LogSpaceProperty, VectorMeasuresEqualTheLinearOnes, ()) {
   const Vector q = random_distribution(p.size());
   const Vector log_p = log_of(p);
   const Vector log_q = log_of(q);
-  RC_ASSERT(same(entropy_bits_from_log(log_p), entropy_bits(p)));
-  RC_ASSERT(same(kl_divergence_bits_from_log(log_p, log_q), kl_divergence_bits(p, q)));
-  RC_ASSERT(same(jeffreys_divergence_bits_from_log(log_p, log_q), jeffreys_divergence_bits(p, q)));
+  RC_ASSERT(nearly(entropy_bits_from_log(log_p), entropy_bits(p)));
+  RC_ASSERT(nearly(kl_divergence_bits_from_log(log_p, log_q), kl_divergence_bits(p, q)));
+  RC_ASSERT(
+      nearly(jeffreys_divergence_bits_from_log(log_p, log_q), jeffreys_divergence_bits(p, q)));
 }
 
 RC_GTEST_PROP(LogSpaceProperty, JointMeasuresEqualTheLinearOnes, ()) {
   const Eigen::MatrixXd p = random_joint();
   const Eigen::MatrixXd logs = p.array().log();
-  RC_ASSERT(same(joint_entropy_bits_from_log(logs), joint_entropy_bits(p)));
-  RC_ASSERT(same(conditional_entropy_bits_from_log(logs), conditional_entropy_bits(p)));
-  RC_ASSERT(same(mutual_information_bits_from_log(logs), mutual_information_bits(p)));
+  RC_ASSERT(nearly(joint_entropy_bits_from_log(logs), joint_entropy_bits(p)));
+  RC_ASSERT(nearly(conditional_entropy_bits_from_log(logs), conditional_entropy_bits(p)));
+  RC_ASSERT(nearly(mutual_information_bits_from_log(logs), mutual_information_bits(p)));
 }
 
 RC_GTEST_PROP(LogSpaceProperty, NormalisingTakesAwayAnyOffset, (int offset)) {
@@ -107,7 +108,7 @@ RC_GTEST_PROP(LogSpaceProperty, NormalisingTakesAwayAnyOffset, (int offset)) {
   const Vector expected = logs;
   for (double& entry : logs) entry += offset % 5000;
   normalise_log(logs);
-  for (std::size_t i = 0; i < logs.size(); ++i) RC_ASSERT(same(logs[i], expected[i]));
+  for (std::size_t i = 0; i < logs.size(); ++i) RC_ASSERT(nearly(logs[i], expected[i]));
 }
 
 }  // namespace

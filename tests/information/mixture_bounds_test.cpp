@@ -17,8 +17,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kTolerance = 1e-6;  // divergences are single precision
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kBoundTolerance = 1e-6;  // divergences are single precision
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 Eigen::MatrixXf all_apart(int size, float nats) {
   Eigen::MatrixXf D = Eigen::MatrixXf::Constant(size, size, nats);
@@ -53,20 +53,20 @@ TEST(PairwiseInformation, OfComponentsThatAreAlikeIsNothing) {
 }
 
 TEST(PairwiseInformation, OfComponentsFarApartIsTheirEntropy) {
-  EXPECT_EQ(pairwise_information_bits(std::vector{0.5, 0.5}, all_apart(2, kInfinity)), 1.0);
+  EXPECT_EQ(pairwise_information_bits(std::vector{0.5, 0.5}, all_apart(2, kFloatInfinity)), 1.0);
   EXPECT_NEAR(pairwise_information_bits(std::vector{0.5, 0.25, 0.25}, all_apart(3, 100.0F)), 1.5,
-              kTolerance);
+              kBoundTolerance);
 }
 
 TEST(PairwiseInformation, IsTheFormula) {
   EXPECT_NEAR(pairwise_information_bits(std::vector{0.5, 0.5}, all_apart(2, std::log(2.0F))),
-              -std::log2(0.75), kTolerance);
+              -std::log2(0.75), kBoundTolerance);
 }
 
 TEST(PairwiseInformation, ImpossibleComponentsCountForNothing) {
   const double two = pairwise_information_bits(std::vector{0.5, 0.5}, all_apart(2, 0.7F));
   EXPECT_NEAR(pairwise_information_bits(std::vector{0.5, 0.0, 0.5}, all_apart(3, 0.7F)), two,
-              kTolerance);
+              kBoundTolerance);
 }
 
 TEST(PairwiseInformation, NamesWhatIsWrong) {
@@ -96,44 +96,44 @@ TEST(GroupInformation, OfTwoTwinsThatDifferFromOneSide) {
   // Two objects in two poses; only their second poses differ, and poses are told apart for sure.
   const std::vector b{0.25, 0.25, 0.25, 0.25};
   const std::vector group{0, 0, 1, 1};
-  Eigen::MatrixXf D = all_apart(4, kInfinity);
+  Eigen::MatrixXf D = all_apart(4, kFloatInfinity);
   D(0, 2) = D(2, 0) = 0.0F;
-  EXPECT_NEAR(pairwise_group_information_bits(b, group, D), 0.5, kTolerance);
-  EXPECT_GE(group_information_upper_bound_bits(b, group, D), 0.5 - kTolerance);
+  EXPECT_NEAR(pairwise_group_information_bits(b, group, D), 0.5, kBoundTolerance);
+  EXPECT_GE(group_information_upper_bound_bits(b, group, D), 0.5 - kBoundTolerance);
 }
 
 RC_GTEST_PROP(PairwiseInformationProperty, LiesBetweenNothingAndTheEntropy, ()) {
-  const auto b = testing::random_distribution();
+  const auto b = test::random_distribution();
   const auto D = random_divergences(b.size());
   const double bits = pairwise_information_bits(b, D);
   RC_ASSERT(bits >= 0.0);
-  RC_ASSERT(bits <= entropy_bits(b) + kTolerance);
-  RC_ASSERT(pairwise_information_bits(b, 2.0F * D) >= bits - kTolerance);
+  RC_ASSERT(bits <= entropy_bits(b) + kBoundTolerance);
+  RC_ASSERT(pairwise_information_bits(b, 2.0F * D) >= bits - kBoundTolerance);
 }
 
 RC_GTEST_PROP(GroupInformationProperty, LiesBetweenNothingAndTheEntropyOfTheGroups, ()) {
-  const auto b = testing::random_distribution();
+  const auto b = test::random_distribution();
   const auto D = random_divergences(b.size());
   const auto group = random_groups(b.size());
   const double bits = pairwise_group_information_bits(b, group, D);
   const double upper = group_information_upper_bound_bits(b, group, D);
   RC_ASSERT(bits >= 0.0);
-  RC_ASSERT(bits <= pairwise_information_bits(b, D) + kTolerance);
+  RC_ASSERT(bits <= pairwise_information_bits(b, D) + kBoundTolerance);
   RC_ASSERT(upper >= 0.0);
-  RC_ASSERT(upper <= group_entropy_bits(b, group) + kTolerance);
+  RC_ASSERT(upper <= group_entropy_bits(b, group) + kBoundTolerance);
 }
 
 RC_GTEST_PROP(GroupInformationProperty, OfGroupsOfOneIsThatOfComponents, ()) {
-  const auto b = testing::random_distribution();
+  const auto b = test::random_distribution();
   const auto D = random_divergences(b.size());
   std::vector<int> own(b.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = static_cast<int>(3 * (own.size() - i));
   const double bits = pairwise_information_bits(b, D);
-  RC_ASSERT(std::abs(pairwise_group_information_bits(b, own, D) - bits) < kTolerance);
-  RC_ASSERT(std::abs(group_information_upper_bound_bits(b, own, D) - bits) < kTolerance);
+  RC_ASSERT(std::abs(pairwise_group_information_bits(b, own, D) - bits) < kBoundTolerance);
+  RC_ASSERT(std::abs(group_information_upper_bound_bits(b, own, D) - bits) < kBoundTolerance);
   const std::vector<int> one(b.size(), 7);
-  RC_ASSERT(pairwise_group_information_bits(b, one, D) < kTolerance);
-  RC_ASSERT(group_information_upper_bound_bits(b, one, D) < kTolerance);
+  RC_ASSERT(pairwise_group_information_bits(b, one, D) < kBoundTolerance);
+  RC_ASSERT(group_information_upper_bound_bits(b, one, D) < kBoundTolerance);
 }
 
 }  // namespace

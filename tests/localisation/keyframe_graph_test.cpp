@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-using namespace testing_plan;
+using namespace test_plan;
 
 RegistrationOptions registration() {
   RegistrationOptions options;

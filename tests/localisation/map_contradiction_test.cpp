@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-using namespace testing_plan;
+using namespace test_plan;
 
 /// Round the ring once and a quarter more; what is seen after `from` is moved by `off`.
 double contradicted(const Pose2& off, std::size_t from) {

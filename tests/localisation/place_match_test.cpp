@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-using namespace testing_plan;
+using namespace test_plan;
 
 RegistrationOptions options() {
   RegistrationOptions registration;

@@ -13,7 +13,7 @@
 #include "vantage/localisation/keyframe_graph.hpp"
 #include "vantage/perception/clouds/registration.hpp"
 
-namespace vantage::testing_plan {
+namespace vantage::test_plan {
 
 using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
@@ -108,4 +108,4 @@ inline double worst_m(const std::vector<Pose2>& found, const std::vector<Pose2>&
   return worst;
 }
 
-}  // namespace vantage::testing_plan
+}  // namespace vantage::test_plan

@@ -13,11 +13,12 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Four sides of 10 m with a quarter turn each, back to the first pose.
 struct Square {
-  std::vector<Pose2> truth{{0, 0, 0}, {10, 0, kPi / 2}, {10, 10, kPi}, {0, 10, -kPi / 2}};
+  std::vector<Pose2> truth{{0, 0, 0},
+                           {10, 0, std::numbers::pi / 2},
+                           {10, 10, std::numbers::pi},
+                           {0, 10, -std::numbers::pi / 2}};
   std::vector<PoseEdge> way;
   PoseEdge back;
 

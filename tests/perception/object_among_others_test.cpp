@@ -13,13 +13,14 @@ namespace {
 
 using namespace test;
 
-const ObjectSegmentationOptions kExact{.min_pixels = 60, .mask_growth_px = 0, .margin_px = 2};
+const ObjectSegmentationOptions kExactAmongOthers{
+    .min_pixels = 60, .mask_growth_px = 0, .margin_px = 2};
 /// Where the first box stands, and in front of it as camera_at(0) sees it: towards +x.
 const Box kTarget = box_at(0.0, 0.0, {0.08, 0.10, 0.15});
 
 ObjectAmongOthers found(const Drawn& drawn, const Pose& T_world_camera,
                         const std::optional<UprightCylinder>& known = {},
-                        const ObjectSegmentationOptions& options = kExact) {
+                        const ObjectSegmentationOptions& options = kExactAmongOthers) {
   Rng rng(1);
   return find_among_others(drawn.images, T_world_camera, kTable_m, options, {}, known, rng);
 }

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-OccupancyGrid cluttered_grid() {
+OccupancyGrid small_cluttered_grid() {
   OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.2}, {1.0, 1.0, 0.5}, {15, 16, 7}));
   Rng rng(5);
   for (float& cell : grid.log_odds) {
@@ -27,7 +27,7 @@ FieldOfView wide_sector() {
 }
 
 TEST(ExactGains, AreTheSameBitsForEveryNumberOfThreads) {
-  const OccupancyGrid grid = cluttered_grid();
+  const OccupancyGrid grid = small_cluttered_grid();
   const BlockField even = uniform_field(grid.frame.cells, 0.9);
   const auto views = ring_of_views(low_ring(), Eigen::Vector3d::Zero());
   for (const auto name : strategy_names<Gain>()) {
@@ -41,7 +41,7 @@ TEST(ExactGains, AreTheSameBitsForEveryNumberOfThreads) {
 
 // The definition, cell by cell, without culling and with the walk of src/geometry.
 TEST(ExactGain, OfTheSimpleKindCountsCellsInLineOfSight) {
-  const OccupancyGrid grid = cluttered_grid();
+  const OccupancyGrid grid = small_cluttered_grid();
   for (const Candidate& view : ring_of_views(low_ring(), Eigen::Vector3d(0.013, 0.007, 0.0))) {
     const Eigen::Vector3d p_sensor = view.T_world_sensor.translation();
     double expected = 0.0;
@@ -59,13 +59,13 @@ TEST(ExactGain, OfTheSimpleKindCountsCellsInLineOfSight) {
 }
 
 TEST(ExactGain, OfAViewAwayFromTheMapIsZero) {
-  const OccupancyGrid grid = cluttered_grid();
+  const OccupancyGrid grid = small_cluttered_grid();
   const Pose away = make_pose({2.0, 0.0, 0.4}, 0.0);
   EXPECT_EQ(exact_gain_bits(SimpleGain{}, {grid}, away, wide_sector()), 0.0);
 }
 
 TEST(ExactGains, OfNoCandidatesAreNone) {
-  const OccupancyGrid grid = cluttered_grid();
+  const OccupancyGrid grid = small_cluttered_grid();
   EXPECT_TRUE(exact_gains_bits(SimpleGain{}, {grid}, {}, wide_sector(), 2).empty());
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 GridFrame room() { return make_grid_frame({0.0, 0.0, 1.0}, {6.0, 5.0, 2.0}, {60, 50, 20}); }
 
-FieldOfView all_round(double range_m) {
+FieldOfView all_round_within(double range_m) {
   return {.tilt_min_rad = -0.6,
           .tilt_max_rad = 0.8,
           .range_min_m = 0.0,
@@ -37,7 +37,7 @@ TEST(PredictionBands, AddUpToTheGainOfTheView) {
   const OccupancyGrid grid = cluttered(rng);
   const Attenuation attenuation{.transmission = uniform_field(grid.frame.cells, 0.97)};
   const Pose T_world_sensor = make_pose({0.3, -0.2, 1.1}, 0.4);
-  const FieldOfView field = all_round(2.2);
+  const FieldOfView field = all_round_within(2.2);
   const auto bands = predict_by_distance(attenuation, grid, T_world_sensor, field, 0.5, 2);
   Candidate view;
   view.T_world_sensor = T_world_sensor;
@@ -55,7 +55,7 @@ TEST(PredictionBands, OfAnEmptyRoomAreItsCells) {
   const OccupancyGrid grid(room());
   const Attenuation attenuation{.transmission = uniform_field(grid.frame.cells, 1.0)};
   const Pose T_world_sensor = make_pose({0.02, 0.01, 1.03}, 0.0);
-  const FieldOfView field = all_round(2.0);
+  const FieldOfView field = all_round_within(2.0);
   auto bands = predict_by_distance(attenuation, grid, T_world_sensor, field, 1.0, 1);
   OccupancyGrid after = grid;
   for (float& log_odds : after.log_odds) log_odds = -1.0F;
@@ -85,7 +85,7 @@ TEST(PredictionBands, CountOnlyWhatIsNew) {
   know(after, {1.55, 0.05, 1.05});  // in the second
   know(after, {2.55, 0.05, 1.05});  // beyond
   know(after, {0.05, 0.05, 1.95});  // above the field of view
-  count_new_cells(before, after, T_world_sensor, all_round(2.0), bands);
+  count_new_cells(before, after, T_world_sensor, all_round_within(2.0), bands);
   ASSERT_EQ(bands.size(), 3U);
   EXPECT_EQ(bands[0].actual_cells, 2U);
   EXPECT_EQ(bands[0].outside_cells, 1U);

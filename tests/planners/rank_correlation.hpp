@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace vantage::testing {
+namespace vantage::test {
 
 /// Of values without ties.
 inline std::vector<double> ranks(std::span<const double> values) {
@@ -34,4 +34,4 @@ inline double rank_correlation(std::span<const double> a, std::span<const double
   return ab / std::sqrt(aa * bb);
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 /// A box of 2.4 m, one third unobserved, a tenth occupied, in no order.
-OccupancyGrid cluttered_grid(std::uint64_t seed) {
+OccupancyGrid clutter_of_a_seed(std::uint64_t seed) {
   Rng rng(seed);
   OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {2.4, 2.4, 1.2}, {24, 23, 13}));
   for (float& log_odds : grid.log_odds) {
@@ -32,7 +32,7 @@ std::vector<Candidate> some_views() {
   return views;
 }
 
-FieldOfView all_round() {
+FieldOfView panorama() {
   FieldOfView field;
   field.range_max_m = 1.5;
   field.panorama = true;
@@ -40,7 +40,7 @@ FieldOfView all_round() {
 }
 
 FieldOfView ahead() {
-  FieldOfView field = all_round();
+  FieldOfView field = panorama();
   field.panorama = false;
   field.half_width_rad = 0.5;
   return field;
@@ -49,7 +49,7 @@ FieldOfView ahead() {
 class SweptBlocks : public testing::TestWithParam<FieldOfView> {};
 
 TEST_P(SweptBlocks, SumToTheSweptGain) {
-  const OccupancyGrid grid = cluttered_grid(1);
+  const OccupancyGrid grid = clutter_of_a_seed(1);
   const GainContext context{grid, nullptr};
   const Gain gain = BeerLambertGain{.a = 0.95};
   const auto views = some_views();
@@ -74,16 +74,16 @@ TEST_P(SweptBlocks, SumToTheSweptGain) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Fields, SweptBlocks, testing::Values(all_round(), ahead()));
+INSTANTIATE_TEST_SUITE_P(Fields, SweptBlocks, testing::Values(panorama(), ahead()));
 
 TEST(SweptBlocks, DoNotDependOnThreads) {
-  const OccupancyGrid grid = cluttered_grid(2);
+  const OccupancyGrid grid = clutter_of_a_seed(2);
   const GainContext context{grid, nullptr};
   const CellBlocks blocks{grid.frame.cells, {4, 4, 4}};
   const auto one = swept_blocks(attenuation_of(SimpleGain{}, context), grid, some_views(),
-                                all_round(), blocks, 1);
+                                panorama(), blocks, 1);
   const auto three = swept_blocks(attenuation_of(SimpleGain{}, context), grid, some_views(),
-                                  all_round(), blocks, 3);
+                                  panorama(), blocks, 3);
   for (std::size_t i = 0; i < one.shows.size(); ++i) {
     EXPECT_EQ(one.shows[i].block, three.shows[i].block);
     EXPECT_EQ(one.shows[i].share, three.shows[i].share);
@@ -103,7 +103,7 @@ TEST(SweptBlocks, OfViewsOnTwoSidesOfAWallShareNothing) {
   views[1].T_world_sensor = Pose(Eigen::Translation3d(0.55, 0.05, 0.05));
   const CellBlocks blocks{grid.frame.cells, {10, 5, 5}};
   const auto shown = swept_blocks(attenuation_of(SimpleGain{}, {grid, nullptr}), grid, views,
-                                  all_round(), blocks, 2);
+                                  panorama(), blocks, 2);
   for (const std::uint32_t block : shown.shows[0].block) EXPECT_EQ(block % 2, 0U);
   for (const std::uint32_t block : shown.shows[1].block) EXPECT_EQ(block % 2, 1U);
   EXPECT_EQ(shown.shows[0].block.size(), 8U);

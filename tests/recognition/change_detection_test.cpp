@@ -10,8 +10,8 @@
 namespace vantage {
 namespace {
 
+using test::MadeUpCamera;
 using ::testing::HasSubstr;
-using testing::MadeUpCamera;
 
 constexpr int kObjects = 12;
 
@@ -21,7 +21,7 @@ class ChangeDetection : public ::testing::Test {
 
   static Recogniser make() {
     Rng rng(2);
-    return testing::made_up_recogniser(kObjects, {6.0, 10.0}, {.near_duplicate = 0.8}, rng);
+    return test::made_up_recogniser(kObjects, {6.0, 10.0}, {.near_duplicate = 0.8}, rng);
   }
 
   ChangeReport detect(int object, int bin, int expected_object, int expected_bin,

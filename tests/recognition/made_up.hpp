@@ -10,7 +10,7 @@
 #include "tests/support/near_duplicate_families.hpp"
 #include "vantage/recognition/recognition.hpp"
 
-namespace vantage::testing {
+namespace vantage::test {
 
 /// Features of these effective dimensions, of 10 times as many dimensions each.
 inline Recogniser made_up_recogniser(int objects, const std::vector<double>& effective,
@@ -70,4 +70,4 @@ inline ObjectCamera object_camera(MadeUpCamera& camera) {
           .turn = [&](const ObjectViewAction& action) { camera.turn(action); }};
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

@@ -14,8 +14,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 constexpr int kColours = 9;
 
 /// All of one colour.
@@ -73,7 +71,7 @@ class ObservationsOfAnObject : public ::testing::Test {
   const ObjectDetection kGood{
       .p_world_object_m = {1.0, 2.0, 0.9}, .distance_m = 1.4, .whole = true};
   Rng made_{1};
-  Recogniser recogniser_ = testing::made_up_recogniser(3, {2.0}, {}, made_);
+  Recogniser recogniser_ = test::made_up_recogniser(3, {2.0}, {}, made_);
   ObjectObservations observations_{recogniser_, {}, RigidTransition{}};
   ObjectView view_;  // of nothing: looks change little
   Rng rng_{1};
@@ -87,7 +85,7 @@ TEST_F(ObservationsOfAnObject, CountWholeWithinRangeAndOnceADirection) {
   EXPECT_EQ(take(0.1).direction, 0);
   EXPECT_FALSE(wants(-0.3, kGood)) << "the same sector";
   EXPECT_TRUE(wants(0.5, kGood)) << "the next one begins at 22.5 deg";
-  EXPECT_EQ(take(-kPi).direction, 4);
+  EXPECT_EQ(take(-std::numbers::pi).direction, 4);
   EXPECT_EQ(observations_.total(), 2);
 }
 

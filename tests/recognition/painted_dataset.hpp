@@ -13,7 +13,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/rng.hpp"
 
-namespace vantage::testing {
+namespace vantage::test {
 
 struct PaintedObject {
   std::string category;
@@ -56,4 +56,4 @@ inline void put_painted_object(const std::filesystem::path& root, const PaintedO
   }
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

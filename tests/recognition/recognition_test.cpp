@@ -8,10 +8,10 @@
 namespace vantage {
 namespace {
 
+using test::MadeUpCamera;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::MadeUpCamera;
 using ::testing::SizeIs;
 
 constexpr double kTurn_rad = std::numbers::pi / 4.0;
@@ -128,7 +128,7 @@ TEST_F(NearDuplicateMugs, ItEndsWhenSureOrAfterSoManyViews) {
 
 TEST(Recognition, TheYawThatACameraSeesFallsAsItsBearingRises) {
   Rng rng(3);
-  const Recogniser recogniser = testing::made_up_recogniser(2, {2.0}, {}, rng);
+  const Recogniser recogniser = test::made_up_recogniser(2, {2.0}, {}, rng);
   RecognitionOptions options;
   options.transition = RigidTransition{.slip = 0.0};
   Recognition recognition = begin_recognition(recogniser);
@@ -141,7 +141,7 @@ TEST(Recognition, TheYawThatACameraSeesFallsAsItsBearingRises) {
 
 TEST(Recognition, TheLoopFindsTheObjectAndKnowsItsPose) {
   Rng rng(7);
-  const Recogniser recogniser = testing::made_up_recogniser(12, {6.0, 12.0}, {}, rng);
+  const Recogniser recogniser = test::made_up_recogniser(12, {6.0, 12.0}, {}, rng);
   RecognitionOptions options;
   options.enough = {.object_probability = 0.99, .entropy_bits = 0.05};
   int right = 0;
@@ -162,7 +162,7 @@ TEST(Recognition, TheLoopFindsTheObjectAndKnowsItsPose) {
 
 TEST(Recognition, ChosenViewsNeedFewerThanRandomOnes) {
   Rng made(11);
-  const Recogniser recogniser = testing::made_up_recogniser(16, {4.0}, {.decal = 2.5}, made);
+  const Recogniser recogniser = test::made_up_recogniser(16, {4.0}, {.decal = 2.5}, made);
   const auto mean_views = [&](const ObjectViewChoice& choice) {
     RecognitionOptions options;
     options.views.choice = choice;
@@ -182,7 +182,7 @@ TEST(Recognition, ChosenViewsNeedFewerThanRandomOnes) {
 
 TEST(Recognition, OptionsOutOfRangeAreNamed) {
   Rng rng(1);
-  const Recogniser recogniser = testing::made_up_recogniser(2, {2.0}, {}, rng);
+  const Recogniser recogniser = test::made_up_recogniser(2, {2.0}, {}, rng);
   MadeUpCamera camera{.recogniser = recogniser, .rng = rng};
   RecognitionOptions options;
   options.max_views = 0;

@@ -33,7 +33,7 @@ class Training : public ::testing::Test {
   }
 
   void put(const std::string& category, const std::string& object, int hue) {
-    testing::put_painted_object(folder_.path(), {category, object, hue}, 16);
+    test::put_painted_object(folder_.path(), {category, object, hue}, 16);
   }
   [[nodiscard]] RecognitionModel train(int threads = 2) const {
     return train_recognition(index_dataset(folder_.path()), options_, {.threads = threads});
@@ -96,8 +96,8 @@ TEST_F(Training, EveryTrainingViewCounts) {
 
 TEST_F(Training, WithoutViewsHeldOutPsiIsForRulesThatNeedNone) {
   const support::TemporaryDirectory few;
-  testing::put_painted_object(few.path(), {"cup", "cup_1", 0}, 8);
-  testing::put_painted_object(few.path(), {"hat", "hat_1", 80}, 8);
+  test::put_painted_object(few.path(), {"cup", "cup_1", 0}, 8);
+  test::put_painted_object(few.path(), {"hat", "hat_1", 80}, 8);
   options_.held_out = HeldOutShare{.share = 0.01};
   options_.seed = 3;
   const auto train_few = [&] {
@@ -118,8 +118,8 @@ TEST_F(Training, ObjectsAddedLaterAreAsIfTheyHadBeenThere) {
   RecognitionModel model = train();
   const double psi = model.features[0].psi;
   const support::TemporaryDirectory more;
-  testing::put_painted_object(more.path(), {"hat", "hat_2", 120}, 16);
-  testing::put_painted_object(more.path(), {"shoe", "shoe_1", 150}, 16);
+  test::put_painted_object(more.path(), {"hat", "hat_2", 120}, 16);
+  test::put_painted_object(more.path(), {"shoe", "shoe_1", 150}, 16);
   extend_recognition(model, index_dataset(more.path()), options_, {.threads = 2});
   EXPECT_THAT(model.states.categories, ElementsAre("cup", "hat", "shoe"));
   EXPECT_THAT(model.states.category_of, ElementsAre(0, 0, 1, 1, 2));
@@ -200,11 +200,11 @@ class UnknownObjects : public ::testing::Test {
     int hue = 0;
     for (const std::string category : {"cup", "hat", "pen"}) {
       for (const char* number : {"_1", "_2"}) {
-        testing::put_painted_object(folder_.path(), {category, category + number, hue}, 16);
+        test::put_painted_object(folder_.path(), {category, category + number, hue}, 16);
         hue += 20;
       }
     }
-    testing::put_painted_object(folder_.path(), {"lamp", "lamp_1", 145}, 16);
+    test::put_painted_object(folder_.path(), {"lamp", "lamp_1", 145}, 16);
     options_.features = {Colour{}};
     options_.leave_out = {"lamp_1"};
     options_.transition_prior_moves = 0.0;
@@ -294,7 +294,7 @@ TEST_F(UnknownObjects, LeftOutMustBeThere) {
 
 TEST(RepeatedViews, CountForLess) {
   Rng rng(3);
-  Recogniser recogniser = testing::made_up_recogniser(6, {2.0}, {}, rng);
+  Recogniser recogniser = test::made_up_recogniser(6, {2.0}, {}, rng);
   RecognitionOptions options;
   options.all_features = true;
   const auto p_after = [&](double correlation) {

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* kStudy = R"(episode: assets/episodes/tabletop.yaml
+constexpr const char* kSmallStudy = R"(episode: assets/episodes/tabletop.yaml
 set: {scans: 3}
 factors:
   start:
@@ -59,12 +59,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 TEST_F(StudyFile, TheLastFactorIsFastest) {
-  EXPECT_THAT(names(plan(kStudy)),
+  EXPECT_THAT(names(plan(kSmallStudy)),
               ElementsAre("near/random", "near/sparse", "far/random", "far/sparse"));
 }
 
 TEST_F(StudyFile, OverridesReachTheEpisode) {
-  const auto episodes = plan(kStudy);
+  const auto episodes = plan(kSmallStudy);
   const auto& last = std::get<Tabletop>(episodes[3].resolved.task);
   EXPECT_EQ(last.scans, 3);
   EXPECT_EQ(episodes[3].resolved.setup.options.robot.start_view, 5);
@@ -77,7 +77,7 @@ TEST_F(StudyFile, OverridesReachTheEpisode) {
 }
 
 TEST_F(StudyFile, SetFromTheCommandLineReachesEveryEpisode) {
-  for (const auto& episode : plan_study(read(kStudy, {"scans=7", "map.cells=[9,9,9]"}))) {
+  for (const auto& episode : plan_study(read(kSmallStudy, {"scans=7", "map.cells=[9,9,9]"}))) {
     const auto& task = std::get<Tabletop>(episode.resolved.task);
     EXPECT_EQ(task.scans, 7);
     EXPECT_EQ(task.map.frame().cells.z(), 9);
@@ -85,7 +85,7 @@ TEST_F(StudyFile, SetFromTheCommandLineReachesEveryEpisode) {
 }
 
 TEST_F(StudyFile, ItsOwnTextIsTheSameStudy) {
-  const Study first = read(kStudy, {"seed=5"});
+  const Study first = read(kSmallStudy, {"seed=5"});
   const Study second = read(first.yaml);
   EXPECT_EQ(first.yaml, second.yaml);
   const auto a = plan_study(first);
@@ -99,7 +99,7 @@ TEST_F(StudyFile, ItsOwnTextIsTheSameStudy) {
 TEST_F(StudyFile, FilesAreFoundBesideIt) {
   fs::create_directory(folder_ / "mine");
   std::ofstream(folder_ / "mine/scene.xml") << "<mujoco/>";
-  const auto text = replaced(kStudy, "{choice: random}", "{scene: mine/scene.xml}");
+  const auto text = replaced(kSmallStudy, "{choice: random}", "{scene: mine/scene.xml}");
   EXPECT_EQ(plan(text)[0].resolved.setup.scene, folder_ / "mine/scene.xml");
   EXPECT_THROW(read(replaced(text, "mine/scene.xml", "no.xml")), InputError);
 }
@@ -119,40 +119,41 @@ TEST_F(StudyFile, EveryFileOfAnEpisodeIsFoundBesideIt) {
 }
 
 TEST_F(StudyFile, WithoutATitleItIsCalledAsItsFileOrItsFolder) {
-  const Study first = read(kStudy);
+  const Study first = read(kSmallStudy);
   EXPECT_EQ(first.title, "s");
-  EXPECT_EQ(read("title: ''\n" + std::string(kStudy)).title, "s");
-  EXPECT_EQ(read("title: Two gains?\n" + std::string(kStudy)).title, "Two gains?");
+  EXPECT_EQ(read("title: ''\n" + std::string(kSmallStudy)).title, "s");
+  EXPECT_EQ(read("title: Two gains?\n" + std::string(kSmallStudy)).title, "Two gains?");
   fs::create_directory(folder_ / "results");
   const auto in_results = [&](const std::string& text) {
     std::ofstream(folder_ / "results/study.yaml") << text;
     return read_study(folder_ / "results/study.yaml").title;
   };
   EXPECT_EQ(in_results(first.yaml), "s");
-  EXPECT_EQ(in_results(kStudy), "results");
+  EXPECT_EQ(in_results(kSmallStudy), "results");
 }
 
 TEST_F(StudyFile, SeedsAreAFactor) {
-  const auto episodes = plan(std::string(kStudy) + "seeds: 3..5\n");
+  const auto episodes = plan(std::string(kSmallStudy) + "seeds: 3..5\n");
   ASSERT_EQ(episodes.size(), 4U * 3U);
   EXPECT_EQ(episodes[0].name, "near/random/3");
   EXPECT_EQ(episodes[2].resolved.setup.options.seed, 5U);
   EXPECT_EQ(episodes[3].name, "near/sparse/3");
-  EXPECT_EQ(read(read(std::string(kStudy) + "seeds: 3..5\n").yaml).factors.back().levels.size(),
-            3U);
+  EXPECT_EQ(
+      read(read(std::string(kSmallStudy) + "seeds: 3..5\n").yaml).factors.back().levels.size(), 3U);
   const std::string alone = "episode: assets/episodes/tabletop.yaml\nseeds: ";
   EXPECT_THAT(names(plan(alone + "[4, 2, 9]\n")), ElementsAre("4", "2", "9"));
   EXPECT_THAT(names(plan(alone + "[7]\n")), ElementsAre("7"));
   EXPECT_EQ(read(alone + "1..20\n").report.compare, "seed");
   EXPECT_TRUE(is_study(folder_ / "s.yaml"));
-  EXPECT_THAT(names(plan(replaced(kStudy, "  start:", "  seeds: 1..2\n  start:"))).front(),
+  EXPECT_THAT(names(plan(replaced(kSmallStudy, "  start:", "  seeds: 1..2\n  start:"))).front(),
               HasSubstr("1/near/random"));
   for (const char* wrong :
        {"10", "5..3", "1..", "a..b", "-1..2", "[]", "[1, 1]", "[1, x]", "{a: 1}"}) {
     expect_problem(alone + wrong + "\n", {"s.yaml:2", "seed"});
   }
-  expect_problem(std::string(kStudy) + "seeds: 1..2\nset: {seed: 4}\n", {"duplicate"});
-  expect_problem(replaced(kStudy, "set: {scans: 3}", "set: {seed: 4}") + "seeds: 1..2\n", {"seed"});
+  expect_problem(std::string(kSmallStudy) + "seeds: 1..2\nset: {seed: 4}\n", {"duplicate"});
+  expect_problem(replaced(kSmallStudy, "set: {scans: 3}", "set: {seed: 4}") + "seeds: 1..2\n",
+                 {"seed"});
 }
 
 TEST_F(StudyFile, WithoutAMethodTheFirstFactorIsCompared) {
@@ -183,40 +184,40 @@ report: {compare: metod, panels: strat, curves: [aera], tables: [area, path]}
                            "no/such.xml", "metod", "strat", "aera", "'path'"}) {
     EXPECT_THAT(found.problems, testing::Contains(HasSubstr(part)));
   }
-  std::ofstream(folder_ / "s.yaml") << replaced(kStudy, "choice: random", "scene: no.xml");
+  std::ofstream(folder_ / "s.yaml") << replaced(kSmallStudy, "choice: random", "scene: no.xml");
   EXPECT_EQ(validate_study(folder_ / "s.yaml").code, ExitCode::bad_input);
 }
 
 TEST_F(StudyFile, UnknownKeysAreNamedWithTheirPlace) {
-  expect_problem(std::string(kStudy) + "factor: {}\n", {"s.yaml:10", "factor", "factors"});
-  expect_problem(replaced(kStudy, "choice: random", "chioce: random"), {"s.yaml:8", "chioce"});
-  expect_problem(replaced(kStudy, "gain.a: 0.999", "gain.b: 1"), {"s.yaml:9", "gain.b", "a"});
-  expect_problem(replaced(kStudy, "scans: 3", "scnas: 3"), {"s.yaml:2", "scnas"});
+  expect_problem(std::string(kSmallStudy) + "factor: {}\n", {"s.yaml:10", "factor", "factors"});
+  expect_problem(replaced(kSmallStudy, "choice: random", "chioce: random"), {"s.yaml:8", "chioce"});
+  expect_problem(replaced(kSmallStudy, "gain.a: 0.999", "gain.b: 1"), {"s.yaml:9", "gain.b", "a"});
+  expect_problem(replaced(kSmallStudy, "scans: 3", "scnas: 3"), {"s.yaml:2", "scnas"});
 }
 
 TEST_F(StudyFile, DuplicatesAndWrongTypes) {
-  expect_problem(replaced(kStudy, "    far:", "    near:"), {"s.yaml:6", "near", "duplicate"});
-  expect_problem(replaced(kStudy, "start_view: 5", "start_view: five"),
+  expect_problem(replaced(kSmallStudy, "    far:", "    near:"), {"s.yaml:6", "near", "duplicate"});
+  expect_problem(replaced(kSmallStudy, "start_view: 5", "start_view: five"),
                  {"s.yaml:6", "robot.start_view", "five"});
-  expect_problem(replaced(kStudy, "{choice: random}", "random"), {"s.yaml:8", "random"});
+  expect_problem(replaced(kSmallStudy, "{choice: random}", "random"), {"s.yaml:8", "random"});
   expect_problem("episode: assets/episodes/tabletop.yaml\n", {"factors"});
   expect_problem("factors: {a: {b: {}}}\n", {"episode"});
 }
 
 TEST_F(StudyFile, AKeyHasOneMaster) {
-  expect_problem(replaced(kStudy, "set: {scans: 3}", "set: {choice: random}"),
+  expect_problem(replaced(kSmallStudy, "set: {scans: 3}", "set: {choice: random}"),
                  {"s.yaml:8", "choice"});
-  EXPECT_THROW(read(kStudy, {"choice=oracle"}), ConfigError);
+  EXPECT_THROW(read(kSmallStudy, {"choice=oracle"}), ConfigError);
 }
 
 TEST_F(StudyFile, NamesThatMakeNoFolderOrColumn) {
-  expect_problem(replaced(kStudy, "    near:", "    ../near:"), {"s.yaml:5", "../near"});
-  expect_problem(replaced(kStudy, "    near:", "    .near:"), {"s.yaml:5", ".near"});
-  expect_problem(replaced(kStudy, "  start:", "  area:"), {"s.yaml:4", "area"});
+  expect_problem(replaced(kSmallStudy, "    near:", "    ../near:"), {"s.yaml:5", "../near"});
+  expect_problem(replaced(kSmallStudy, "    near:", "    .near:"), {"s.yaml:5", ".near"});
+  expect_problem(replaced(kSmallStudy, "  start:", "  area:"), {"s.yaml:4", "area"});
 }
 
 TEST_F(StudyFile, TheReportNamesWhatThereIs) {
-  const std::string text = std::string(kStudy) + "report: ";
+  const std::string text = std::string(kSmallStudy) + "report: ";
   expect_problem(text + "{compare: metod}\n", {"s.yaml:10", "metod", "start, method"});
   expect_problem(text + "{reference: simple}\n", {"s.yaml:10", "simple", "random, sparse"});
   expect_problem(text + "{panels: method}\n", {"s.yaml:10", "panels"});
@@ -230,7 +231,7 @@ TEST_F(StudyFile, TheReportNamesWhatThereIs) {
 }
 
 TEST_F(StudyFile, IsToldFromAnEpisode) {
-  read(kStudy);
+  read(kSmallStudy);
   EXPECT_TRUE(is_study(folder_ / "s.yaml"));
   EXPECT_FALSE(is_study(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml"));
   EXPECT_FALSE(is_study(folder_ / "missing.yaml"));
@@ -250,7 +251,7 @@ constexpr const char* kSplits = R"(splits:
 )";
 
 TEST_F(StudyFile, ASplitIsSomeOfTheLevels) {
-  const std::string text = std::string(kStudy) + kSplits;
+  const std::string text = std::string(kSmallStudy) + kSplits;
   EXPECT_THAT(names(plan(text)), ElementsAre("near/random", "near/sparse")) << "the first";
   read(text);
   const Study report = read_study(folder_ / "s.yaml", {}, "report");
@@ -261,7 +262,7 @@ TEST_F(StudyFile, ASplitIsSomeOfTheLevels) {
 }
 
 TEST_F(StudyFile, WrongSplitsAreTold) {
-  const std::string text = kStudy;
+  const std::string text = kSmallStudy;
   expect_problem(text + "splits: {a: {begin: [near]}}\n", {"s.yaml:10", "no factor 'begin'"});
   expect_problem(text + "splits: {a: {start: [nearby]}}\n", {"no level 'nearby'", "near, far"});
   expect_problem(text + "splits: {a: {start: []}}\n", {"needs a level"});
@@ -271,7 +272,7 @@ TEST_F(StudyFile, WrongSplitsAreTold) {
 
 TEST_F(StudyFile, LevelsOfAGroupGoByOneName) {
   const std::string report = "report: {groups: {any: [near, far]}, panels: start}\n";
-  const Study study = read(kStudy + report);
+  const Study study = read(kSmallStudy + report);
   const StudyLayout layout(study);
   EXPECT_THAT(layout.panels(), ElementsAre("any"));
   EXPECT_THAT(layout.levels(), ElementsAre("random", "sparse"));
@@ -280,26 +281,26 @@ TEST_F(StudyFile, LevelsOfAGroupGoByOneName) {
   EXPECT_EQ(layout.place({1, 1}).panel, 0U);
   EXPECT_EQ(layout.place({1, 1}).level, 1U);
   EXPECT_THAT(names(plan(study.yaml)), testing::SizeIs(4));
-  const std::string text = kStudy;
+  const std::string text = kSmallStudy;
   expect_problem(text + "report: {groups: {any: [near, sparse]}}\n", {"of one factor"});
   expect_problem(text + "report: {groups: {any: [here]}}\n", {"no factor has a level 'here'"});
   expect_problem(text + "report: {groups: {a: [near], b: [near]}}\n", {"'near' is of two groups"});
 }
 
 TEST_F(StudyFile, AClusterIsAFactorThatIsNotCompared) {
-  const StudyLayout layout(read(std::string(kStudy) + "report: {cluster: start}\n"));
+  const StudyLayout layout(read(std::string(kSmallStudy) + "report: {cluster: start}\n"));
   EXPECT_EQ(layout.place({1, 0}).cluster, layout.place({1, 1}).cluster);
   EXPECT_NE(layout.place({1, 0}).cluster, layout.place({0, 0}).cluster);
-  const std::string text = kStudy;
+  const std::string text = kSmallStudy;
   expect_problem(text + "report: {cluster: begin}\n", {"unknown factor 'begin'"});
   expect_problem(text + "report: {cluster: method}\n", {"report.cluster", "alike"});
 }
 
 TEST_F(StudyFile, ShardsAreAPartition) {
-  const auto all = names(plan(kStudy));
+  const auto all = names(plan(kSmallStudy));
   std::vector<std::string> merged;
   for (const char* part : {"1/3", "2/3", "3/3"}) {
-    for (const auto& name : names(shard_of(plan(kStudy), parse_shard(part)))) {
+    for (const auto& name : names(shard_of(plan(kSmallStudy), parse_shard(part)))) {
       merged.push_back(name);
     }
   }

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr const char* kStudy = VANTAGE_SOURCE_DIR "/assets/studies/smoke.yaml";
+constexpr const char* kSmokeStudy = VANTAGE_SOURCE_DIR "/assets/studies/smoke.yaml";
 
 class Submit : public testing::Test {
  protected:
@@ -49,7 +49,7 @@ class Submit : public testing::Test {
                  "':/usr/bin:/bin " + environment + " " VANTAGE_BINARY " sweep " + arguments);
   }
   ShellResult submit(const std::string& options = {}) {
-    return vantage(std::string("submit ") + kStudy + " --out dir " + options);
+    return vantage(std::string("submit ") + kSmokeStudy + " --out dir " + options);
   }
   std::string calls() {
     const fs::path file = folder_ / "calls";
@@ -86,7 +86,7 @@ TEST_F(Submit, NoMoreTasksThanEpisodes) {
 
 TEST_F(Submit, NamesOfFoldersAreTakenAsTheyAre) {
   const ShellResult result =
-      vantage(std::string("submit ") + kStudy + " --out \"it's 5% done\" --keep-states");
+      vantage(std::string("submit ") + kSmokeStudy + " --out \"it's 5% done\" --keep-states");
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_THAT(calls(), HasSubstr("/it's 5%% done/slurm/%A_%a.txt"));
   const fs::path script = folder_ / "it's 5% done/slurm/work.sh";
@@ -133,13 +133,13 @@ TEST_F(Submit, ErrorsOfUse) {
   expect(submit("--partition nowhere"), 2, "invalid partition specified: nowhere");
   expect(vantage("cancel dir"), 2, "dir: nothing was submitted from it");
   expect(vantage("cancel nowhere"), 3, "nowhere");
-  expect(vantage(std::string("cancel ") + kStudy), 2, "expected the folder of a study");
+  expect(vantage(std::string("cancel ") + kSmokeStudy), 2, "expected the folder of a study");
   write("dir/study.yaml", "title: another\n");
   expect(submit(), 2, "--out dir: holds another study");
   fs::remove(folder_ / "sbatch");
   const ShellResult without =
       shell("PATH=" + folder_.path().string() + " " VANTAGE_BINARY " sweep submit " +
-            std::string(kStudy) + " --out " + (folder_ / "other").string());
+            std::string(kSmokeStudy) + " --out " + (folder_ / "other").string());
   expect(without, 2, "sbatch: no such program");
   EXPECT_THAT(without.output, HasSubstr("apt-get install slurm-client"));
   EXPECT_FALSE(fs::exists(folder_ / "other"));

@@ -12,7 +12,7 @@
 #include "vantage/belief/observation/observation_model.hpp"
 #include "vantage/core/rng.hpp"
 
-namespace vantage::testing {
+namespace vantage::test {
 
 struct NearDuplicateFamilies {
   ObjectStates states;
@@ -142,4 +142,4 @@ inline Eigen::VectorXd spread_out(const NearDuplicateFamilies& families,
   return predicted;
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

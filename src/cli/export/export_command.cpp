@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-struct Arguments {
+struct ExportArguments {
   std::filesystem::path directory;
   std::filesystem::path file;
   ExportOptions options;
@@ -24,7 +24,7 @@ struct Arguments {
   bool json = false;
 };
 
-ExitCode export_command(const Arguments& arguments) {
+ExitCode export_command(const ExportArguments& arguments) {
   require_run_folder(arguments.directory);
   require_absent(arguments.file, arguments.overwrite, "--mcap");
   catch_interrupts();
@@ -46,7 +46,7 @@ ExitCode export_command(const Arguments& arguments) {
 }  // namespace
 
 std::function<ExitCode()> declare_export(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExportArguments>();
   app.add_option("dir", arguments->directory, "run folder")->required();
   app.add_option("--mcap", arguments->file, "MCAP file to write, for Foxglove and the like")
       ->required();

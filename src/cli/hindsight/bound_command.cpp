@@ -17,13 +17,13 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct BoundArguments {
   fs::path directory;
   bool oracle_tour = false;
   bool json = false;
 };
 
-ExitCode bound_command(const Arguments& arguments) {
+ExitCode bound_command(const BoundArguments& arguments) {
   require_run_folder(arguments.directory);
   catch_interrupts();
   const RecordedRun run = read_recorded_run(arguments.directory);
@@ -41,7 +41,7 @@ ExitCode bound_command(const Arguments& arguments) {
 }  // namespace
 
 std::function<ExitCode()> declare_bound(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BoundArguments>();
   app.add_option("dir", arguments->directory, "run folder of a mapping task")->required();
   app.add_flag("--oracle-tour", arguments->oracle_tour,
                "run the episode with the choice oracle_tour too, and compare");

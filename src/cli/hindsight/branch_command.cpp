@@ -20,7 +20,7 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct BranchArguments {
   fs::path directory;
   std::vector<long long> scans;
   std::optional<int> view;
@@ -32,7 +32,7 @@ struct Arguments {
 };
 
 /// The decisions that are asked for; without any, all that were taken.
-std::vector<std::size_t> scans_of(const Arguments& arguments, const RecordedRun& run) {
+std::vector<std::size_t> scans_of(const BranchArguments& arguments, const RecordedRun& run) {
   std::vector<std::size_t> scans;
   for (const long long scan : arguments.scans) {
     scans.push_back(static_cast<std::size_t>(std::max(0LL, scan)));
@@ -45,7 +45,7 @@ std::vector<std::size_t> scans_of(const Arguments& arguments, const RecordedRun&
   return scans;
 }
 
-ExitCode print_branches(const Arguments& arguments, const RecordedRun& run) {
+ExitCode print_branches(const BranchArguments& arguments, const RecordedRun& run) {
   const BranchRequest request{.scans = scans_of(arguments, run),
                               .all = arguments.all,
                               .view = arguments.view,
@@ -69,7 +69,7 @@ ExitCode print_branches(const Arguments& arguments, const RecordedRun& run) {
 }
 
 /// For the manifest.
-std::vector<std::string> command_of(const Arguments& arguments) {
+std::vector<std::string> command_of(const BranchArguments& arguments) {
   std::vector<std::string> command{"vantage", "branch", arguments.directory.string(), "--scan",
                                    std::to_string(arguments.scans.front())};
   if (arguments.view) command.insert(command.end(), {"--view", std::to_string(*arguments.view)});
@@ -77,7 +77,7 @@ std::vector<std::string> command_of(const Arguments& arguments) {
 }
 
 /// One decision taken otherwise, or as it was, and the episode to its end.
-ExitCode run_to_the_end(const Arguments& arguments, const RecordedRun& run) {
+ExitCode run_to_the_end(const BranchArguments& arguments, const RecordedRun& run) {
   const std::size_t scan = scans_of(arguments, run).front();
   std::optional<ScratchFolder> scratch;
   RunOptions options{.directory = arguments.out,
@@ -110,7 +110,7 @@ ExitCode run_to_the_end(const Arguments& arguments, const RecordedRun& run) {
   return as_chosen && !same ? ExitCode::goal_failed : ExitCode::done;
 }
 
-ExitCode branch_command(const Arguments& arguments) {
+ExitCode branch_command(const BranchArguments& arguments) {
   require_run_folder(arguments.directory);
   if (!arguments.all && arguments.scans.empty()) {
     throw ConfigError("--scan: missing; it says which decision is taken otherwise");
@@ -130,7 +130,7 @@ ExitCode branch_command(const Arguments& arguments) {
 }  // namespace
 
 std::function<ExitCode()> declare_branch(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BranchArguments>();
   app.add_option("dir", arguments->directory, "run folder of a mapping task")->required();
   app.add_option("--scan", arguments->scans,
                  "number of the scan after which the decision was taken, as in steps.csv; with "

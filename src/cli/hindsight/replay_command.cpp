@@ -20,7 +20,7 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ReplayArguments {
   fs::path directory;
   bool json = false;
 };
@@ -41,7 +41,7 @@ nlohmann::ordered_json replay_json(const fs::path& directory, const ReplayResult
 }  // namespace
 
 std::function<ExitCode()> declare_replay(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReplayArguments>();
   app.add_option("dir", arguments->directory, "run folder")->required();
   app.add_flag("--json", arguments->json, "print one JSON object");
   return [arguments] {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 Json views_json(const Recognition& known) {
   Json views = Json::array();

@@ -3,12 +3,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <numbers>
 #include <optional>
 
 #include "vantage/perception/picture_notes.hpp"
 #include "vantage/recognition/recognition.hpp"
 
 namespace vantage {
+
+inline constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 /// Objects, categories, entropy, views, and where to look next.
 /// @param notes of the model's pictures: names of views

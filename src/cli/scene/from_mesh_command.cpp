@@ -22,7 +22,7 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct FromMeshArguments {
   fs::path mesh;
   fs::path out;
   double scale = 1.0;
@@ -49,7 +49,7 @@ class Steps {
   int done_ = 0;
 };
 
-BuildingScene make_scene(const Arguments& arguments) {
+BuildingScene make_scene(const FromMeshArguments& arguments) {
   Steps steps;
   steps("reading");
   const UpAxis up = arguments.up == "auto" ? usual_up_axis(arguments.mesh)
@@ -70,7 +70,7 @@ nlohmann::ordered_json numbers_json(const auto& values) {
   return array;
 }
 
-nlohmann::ordered_json scene_json(const BuildingScene& scene, const Arguments& arguments) {
+nlohmann::ordered_json scene_json(const BuildingScene& scene, const FromMeshArguments& arguments) {
   const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> T = scene.T_scene_mesh.matrix();
   const Pose2& start = scene.floor.start;
   nlohmann::ordered_json json{
@@ -91,7 +91,7 @@ nlohmann::ordered_json scene_json(const BuildingScene& scene, const Arguments& a
   return json;
 }
 
-std::string scene_report(const BuildingScene& scene, const Arguments& arguments) {
+std::string scene_report(const BuildingScene& scene, const FromMeshArguments& arguments) {
   const Eigen::Vector2d size_m = scene.extent_m.sizes();
   const Pose2& start = scene.floor.start;
   std::string text = fmt::format(
@@ -113,7 +113,7 @@ std::string scene_report(const BuildingScene& scene, const Arguments& arguments)
                      arguments.out.string(), sets);
 }
 
-ExitCode from_mesh_command(const Arguments& arguments, const SceneFlags& flags) {
+ExitCode from_mesh_command(const FromMeshArguments& arguments, const SceneFlags& flags) {
   require_absent(arguments.out, flags.overwrite);
   if (arguments.episode) require_absent(episode_file(arguments.out), flags.overwrite, "--episode");
   catch_interrupts();
@@ -133,7 +133,7 @@ ExitCode from_mesh_command(const Arguments& arguments, const SceneFlags& flags) 
 
 std::function<ExitCode()> declare_from_mesh(CLI::App& app,
                                             std::shared_ptr<const SceneFlags> flags) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<FromMeshArguments>();
   BuildingOptions& options = arguments->options;
   app.add_option("mesh", arguments->mesh, "mesh of a building: OBJ, PLY, STL, glTF")->required();
   app.add_option("--out", arguments->out, "MJCF file to write, SCENE.xml")

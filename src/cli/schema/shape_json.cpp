@@ -14,27 +14,27 @@ namespace vantage {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = ValueShape::Kind;
+using ShapeKind = ValueShape::Kind;
 
-const char* type_name(Kind kind) {
+const char* type_name(ShapeKind kind) {
   switch (kind) {
-    case Kind::boolean: return "boolean";
-    case Kind::whole:
-    case Kind::natural: return "integer";
-    case Kind::number: return "number";
-    case Kind::list: return "array";
-    case Kind::section: return "object";
-    case Kind::text:
-    case Kind::strategy: break;
+    case ShapeKind::boolean: return "boolean";
+    case ShapeKind::whole:
+    case ShapeKind::natural: return "integer";
+    case ShapeKind::number: return "number";
+    case ShapeKind::list: return "array";
+    case ShapeKind::section: return "object";
+    case ShapeKind::text:
+    case ShapeKind::strategy: break;
   }
   return "string";
 }
 
 /// What a number of this kind may be at all.
-Range limits(Kind kind) {
+Range limits(ShapeKind kind) {
   using Int = std::numeric_limits<int>;
-  if (kind == Kind::whole) return between(Int::min(), Int::max());
-  return kind == Kind::natural ? at_least(0.0) : Range{};
+  if (kind == ShapeKind::whole) return between(Int::min(), Int::max());
+  return kind == ShapeKind::natural ? at_least(0.0) : Range{};
 }
 
 void add_range(Json& schema, const ValueShape& shape) {
@@ -129,13 +129,13 @@ void collect(const Json& schema, const std::string& pointer, const std::string& 
 
 Json shape_schema(const ValueShape& shape) {
   Json schema;
-  if (shape.kind == Kind::section) {
+  if (shape.kind == ShapeKind::section) {
     schema = map_schema(properties_of(shape));
-  } else if (shape.kind == Kind::strategy) {
+  } else if (shape.kind == ShapeKind::strategy) {
     schema = strategy_schema(shape);
-  } else if (shape.kind == Kind::list) {
+  } else if (shape.kind == ShapeKind::list) {
     schema = list_schema(shape);
-  } else if (shape.kind == Kind::text) {
+  } else if (shape.kind == ShapeKind::text) {
     schema["type"] = {"string", "number", "boolean"};
   } else {
     schema["type"] = type_name(shape.kind);

@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kFigureSeed = 1;
 
 struct ValuesAtStep {
   std::vector<double> values;
@@ -40,7 +40,7 @@ FigureSeries mean_series(const Figure& figure, const std::string& panel, const s
   for (std::size_t k = 0; k < length; ++k) {
     const auto [values, marks] = values_at(episodes, k, carry_last);
     const Clusters clusters = clusters_of(marks);
-    Rng rng = Rng::stream(kSeed, fmt::format("{}/{}/{}/{}", figure.name, panel, name, k));
+    Rng rng = Rng::stream(kFigureSeed, fmt::format("{}/{}/{}/{}", figure.name, panel, name, k));
     series.points.push_back({static_cast<double>(first_x) + static_cast<double>(k), values.size(),
                              clusters.size(), mean(values), bootstrap_mean(values, clusters, rng)});
   }

@@ -62,9 +62,9 @@ Eigen::AlignedBox2d extent_of(const Json& metrics, const std::vector<FloorOutlin
 }
 
 /// From metres to pixels, the same along both axes.
-class Frame {
+class RoomFrame {
  public:
-  explicit Frame(const Eigen::AlignedBox2d& extent)
+  explicit RoomFrame(const Eigen::AlignedBox2d& extent)
       : box(extent), px_per_m_(kPlot_px / extent.sizes().maxCoeff()) {}
   [[nodiscard]] double x(double x_m) const { return kLeft_px + px(x_m - box.min().x()); }
   [[nodiscard]] double y(double y_m) const { return kTop_px + px(box.max().y() - y_m); }
@@ -104,7 +104,7 @@ int tick_step_m(double size_m) {
   }
 }
 
-std::string axes_svg(const Frame& frame) {
+std::string axes_svg(const RoomFrame& frame) {
   constexpr std::string_view kGrid = "stroke=\"#eef1f5\"";
   constexpr std::string_view kTick = "stroke=\"#566375\"";
   const int step = tick_step_m(frame.box.sizes().maxCoeff());
@@ -138,7 +138,7 @@ std::string axes_svg(const Frame& frame) {
 }
 
 /// A metre, below the right end of the axis.
-std::string scale_svg(const Frame& frame) {
+std::string scale_svg(const RoomFrame& frame) {
   constexpr std::string_view kBar = "stroke=\"#16202e\" stroke-width=\"3\"";
   const double x = frame.right() - frame.px(1.0);
   const double y = frame.bottom() + 32.0;
@@ -146,7 +146,7 @@ std::string scale_svg(const Frame& frame) {
          text_at(x - 7.0, y + 4.0, "text-anchor=\"end\" fill=\"#16202e\"", "1 m");
 }
 
-std::string room_svg(const Frame& frame, const std::vector<FloorOutline>& room) {
+std::string room_svg(const RoomFrame& frame, const std::vector<FloorOutline>& room) {
   std::string svg;
   for (const FloorOutline& outline : room) {
     std::string points;
@@ -158,7 +158,7 @@ std::string room_svg(const Frame& frame, const std::vector<FloorOutline>& room) 
   return svg;
 }
 
-std::string polyline(const Frame& frame, const Json& path, std::string_view style) {
+std::string polyline(const RoomFrame& frame, const Json& path, std::string_view style) {
   std::string points;
   for (const Json& q : path) {
     points += fmt::format("{:.1f},{:.1f} ", frame.x(place(q).x()), frame.y(place(q).y()));
@@ -167,7 +167,7 @@ std::string polyline(const Frame& frame, const Json& path, std::string_view styl
 }
 
 /// A spoke for each direction, bold where the object was seen from.
-std::string object_svg(const Frame& frame, const Json& object, std::size_t number) {
+std::string object_svg(const RoomFrame& frame, const Json& object, std::size_t number) {
   const Eigen::Vector2d p = named_place(object);
   std::set<int> seen;
   std::string svg;
@@ -240,7 +240,7 @@ Drawing legend_svg(double top, double width) {
 
 std::string flight_svg(const Json& metrics, const std::string& title,
                        const std::vector<FloorOutline>& room) {
-  const Frame frame(extent_of(metrics, room));
+  const RoomFrame frame(extent_of(metrics, room));
   const double width = frame.right() + kRight_px;
   const Drawing legend = legend_svg(frame.bottom() + kBelow_px, width);
   const double height = frame.bottom() + kBelow_px + legend.height_px + 8.0;

@@ -20,7 +20,6 @@ namespace vantage {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr auto kSingleView = "single view, all features";
 constexpr auto kInformed = "mutual_information, all features";
 
 RecognitionModel with_psi(RecognitionModel model, const std::vector<double>& psi) {

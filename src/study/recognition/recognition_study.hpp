@@ -16,6 +16,9 @@
 
 namespace vantage {
 
+/// One view, with every feature.
+inline constexpr auto kSingleView = "single view, all features";
+
 struct RecognitionStudyOptions {
   std::uint64_t seed = 1;
   int starts = 2000;

@@ -6,7 +6,6 @@
 namespace vantage {
 namespace {
 
-constexpr auto kSingleView = "single view, all features";
 constexpr auto kRandom = "random";
 constexpr auto kRandomAll = "random, all features";
 

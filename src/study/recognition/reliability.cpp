@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr int kResamples = 1000;
+constexpr int kReliabilityResamples = 1000;
 
 std::size_t bin_of(double probability) {
   const int bin = static_cast<int>(probability * kReliabilityBins);
@@ -81,7 +81,7 @@ Reliability reliability_of(std::span<const Trial> trials, std::uint64_t seed) {
   Rng rng = Rng::stream(seed, "reliability");
   std::vector<double> errors;
   std::array<std::vector<double>, kReliabilityBins> accuracies;
-  for (int r = 0; r < kResamples; ++r) {
+  for (int r = 0; r < kReliabilityResamples; ++r) {
     BinSums drawn;
     for (std::size_t i = 0; i < objects.size(); ++i) {
       add(drawn, objects[rng.uniform_index(objects.size())]);

@@ -7,16 +7,14 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "vantage/core/log.hpp"
 #include "vantage/perception/search/object_search.hpp"
+#include "vantage/tasks/flight/full_turn.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 /// Of a view without an object in it.
 ExtractFeature extract_nothing(const std::string& reason) {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "vantage/tasks/flight/full_turn.hpp"
 #include "vantage/tasks/flight/object_mjcf.hpp"
 
 namespace vantage {
@@ -17,8 +17,6 @@ constexpr std::string_view kNothing = R"(<mujoco>
   </worldbody>
 </mujoco>
 )";
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 }  // namespace
 

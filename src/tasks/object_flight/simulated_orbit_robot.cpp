@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/sim/sensors/camera.hpp"
+#include "vantage/tasks/flight/full_turn.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 /// Hovering with the camera at `T_world_place`, rotors carrying it.
 Quadrotor placed(World& world, const RobotFolder& robot, const Pose& T_world_place,

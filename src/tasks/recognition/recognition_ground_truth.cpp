@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <set>
 
+#include "vantage/tasks/flight/full_turn.hpp"
 #include "vantage/tasks/flight/object_mjcf.hpp"
 #include "vantage/tasks/recognition/standing_room.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 /// The objects that are not on the table yet.
 class Stock {

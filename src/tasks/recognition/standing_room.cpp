@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 
 #include "vantage/perception/table_extraction.hpp"
+#include "vantage/tasks/flight/full_turn.hpp"
 
 namespace vantage {
 namespace {
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 /// From the table's edge.
 constexpr double kEdge_m = 0.01;
 

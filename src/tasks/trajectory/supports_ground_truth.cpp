@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "vantage/planners/views/view_list.hpp"
+#include "vantage/tasks/flight/full_turn.hpp"
 #include "vantage/tasks/flight/object_mjcf.hpp"
 #include "vantage/tasks/trajectory/trajectory_flight.hpp"
 
@@ -28,7 +28,6 @@ std::vector<ObjectOnSupport> draw_objects(const ObjectDatabaseOptions& database,
     throw ConfigError(fmt::format("database.objects: {} objects for {} support surfaces",
                                   names.size(), supports_m.size()));
   }
-  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
   Rng which = Rng::stream(seed, "objects");
   Rng yaw = Rng::stream(seed, "object yaws");
   Rng place = Rng::stream(seed, "object places");

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-using testing::parse;
+using test::parse;
 
 constexpr float kNoReturn = std::numeric_limits<float>::infinity();
 
@@ -153,7 +153,7 @@ TEST(ClutterHazard, RecoversAKnownHazardPerLayer) {
       truth.log_odds[i] = rng.uniform() < (frame.cell(i).z() < slices / 2 ? low : high) ? 2 : -1;
     }
     const Pose T_world_sensor = make_pose({-40.0, 0.1, 0.0}, 0.0);
-    const RangeScan scan = testing::scan_of(truth, T_world_sensor, view, 30, 60);
+    const RangeScan scan = test::scan_of(truth, T_world_sensor, view, 30, 60);
     hazard.observe(OccupancyGrid(frame), scan, T_world_sensor);
     shared.observe(OccupancyGrid(frame), scan, T_world_sensor, 3);
   }

@@ -10,10 +10,10 @@
 namespace vantage {
 namespace {
 
-using testing::Drawing;
-using testing::parse;
-using testing::random_grid;
-using testing::scan_of;
+using test::Drawing;
+using test::parse;
+using test::random_grid;
+using test::scan_of;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -33,7 +33,7 @@ Drawing carved(const Drawing& truth, const Drawing& known, const FieldOfView& vi
   const Pose T_world_sensor = sensor_at(0.0, 0.5 * static_cast<double>(truth.size()));
   OccupancyGrid map = parse(known);
   carve_free_space(map, scan_of(scene, T_world_sensor, view, 3, 401), T_world_sensor, {});
-  return testing::draw(map);
+  return test::draw(map);
 }
 
 TEST(FreeSpace, FreesTheSectorUpToTheWallAndNothingBehindIt) {
@@ -124,8 +124,8 @@ Verdict judge(const OccupancyGrid& grid, const RangeScan& scan, const Pose& T_wo
   Verdict verdict = Verdict::free;
   for (std::size_t other = 0; other < grid.size(); ++other) {
     if (grid.p_occupied(other) < 0.6) continue;
-    const SegmentClip clip = clip_segment(testing::box_of_cell(grid.frame, other),
-                                          T_world_sensor.translation(), p_world);
+    const SegmentClip clip =
+        clip_segment(test::box_of_cell(grid.frame, other), T_world_sensor.translation(), p_world);
     const double length = clip.leave - clip.enter;
     if (length > 1e-9) return Verdict::keep;
     if (length > -1e-9) verdict = Verdict::touching;
@@ -222,8 +222,8 @@ CameraImages image_of(const OccupancyGrid& truth, const Pose& T_world_camera, do
       float depth_m = kInfinity;
       walk_ray(truth.frame, T_world_camera.translation(), p_end, [&](std::size_t cell) {
         if (truth.state(cell) != CellState::occupied) return true;
-        const SegmentClip clip = clip_segment(testing::box_of_cell(truth.frame, cell),
-                                              T_world_camera.translation(), p_end);
+        const SegmentClip clip =
+            clip_segment(test::box_of_cell(truth.frame, cell), T_world_camera.translation(), p_end);
         depth_m = static_cast<float>(0.5 * (clip.enter + clip.leave) * range_max_m);
         return false;
       });
@@ -276,8 +276,8 @@ Verdict judge(const OccupancyGrid& grid, const CameraImages& image, const Pose& 
   Verdict verdict = Verdict::free;
   for (std::size_t other = 0; other < grid.size(); ++other) {
     if (grid.state(other) != CellState::occupied) continue;
-    const SegmentClip clip = clip_segment(testing::box_of_cell(grid.frame, other),
-                                          T_world_camera.translation(), p_world);
+    const SegmentClip clip =
+        clip_segment(test::box_of_cell(grid.frame, other), T_world_camera.translation(), p_world);
     const double length = clip.leave - clip.enter;
     if (length > 1e-9) return Verdict::keep;
     if (length > -1e-9) verdict = Verdict::touching;

@@ -8,10 +8,10 @@
 namespace vantage {
 namespace {
 
-using testing::draw;
-using testing::Drawing;
-using testing::parse;
-using testing::random_grid;
+using test::draw;
+using test::Drawing;
+using test::parse;
+using test::random_grid;
 
 /// E(S, O) as printed, over ordered pairs of neighbours, from the states of two grids.
 double energy(const OccupancyGrid& hidden, const OccupancyGrid& observed,
@@ -105,17 +105,17 @@ TEST(HoleFilling, RejectsOptionsOutOfRange) {
   EXPECT_THROW(fill_holes(parse({"??"}), options), ConfigError);
 }
 
-struct RandomCase {
+struct RandomHoles {
   OccupancyGrid grid;
   HoleFilling options;
 };
-RandomCase random_case(std::uint64_t seed) {
+RandomHoles random_case(std::uint64_t seed) {
   Rng rng(seed);
   GridFrame frame;
   frame.cells = {1 + static_cast<int>(rng.uniform_index(5)),
                  1 + static_cast<int>(rng.uniform_index(5)),
                  1 + static_cast<int>(rng.uniform_index(5))};
-  RandomCase c{random_grid(frame, rng.uniform(0.1, 0.6), rng.uniform(0.0, 0.4), rng), {}};
+  RandomHoles c{random_grid(frame, rng.uniform(0.1, 0.6), rng.uniform(0.0, 0.4), rng), {}};
   c.options.data_weight = rng.uniform(0.0, 3.0);
   c.options.smoothness_weight = rng.uniform(0.0, 3.0);
   return c;

@@ -89,7 +89,7 @@ TEST_F(OctomapFiles, CellsInABoxAreThoseItReachesInto) {
 TEST_F(OctomapFiles, GridsAreTheSameWhicheverWriterAndFormat) {
   Rng rng(8);
   const GridFrame frame = make_grid_frame({-0.4, 0.2, 0.4}, {1.6, 1.2, 0.8}, {16, 12, 8});
-  const OccupancyGrid grid = testing::random_grid(frame, 0.2, 0.4, rng);
+  const OccupancyGrid grid = test::random_grid(frame, 0.2, 0.4, rng);
   for (const char* name : {"map.ot", "map.bt"}) {
     write_octomap(grid, directory_ / name);
     const OctomapFile map(directory_ / name);
@@ -110,7 +110,7 @@ TEST_F(OctomapFiles, CoarseCells) {
   const OccupancyGrid coarse = fine.grid_of(fine.known(), 2);
   EXPECT_TRUE(coarse.frame.min_corner_m.isApprox(Eigen::Vector3d(-0.2, 0.0, 0.0)));
   EXPECT_TRUE(coarse.frame.cell_size_m.isApprox(Eigen::Vector3d::Constant(0.2)));
-  EXPECT_EQ(testing::draw(coarse), (std::vector<std::string>{"..#?"}));
+  EXPECT_EQ(test::draw(coarse), (std::vector<std::string>{"..#?"}));
 }
 
 TEST_F(OctomapFiles, CoarseBlocksHoldTheFineOnes) {

@@ -21,7 +21,7 @@ class FuzzedOctomap : public ::testing::Test {
   void SetUp() override {
     Rng rng(5);
     const GridFrame frame = make_grid_frame({0.1, 0.2, 0.3}, {0.4, 0.4, 0.4}, {4, 4, 4});
-    const OccupancyGrid grid = testing::random_grid(frame, 0.3, 0.3, rng);
+    const OccupancyGrid grid = test::random_grid(frame, 0.3, 0.3, rng);
     for (const char* name : {"whole.bt", "whole.ot"}) {
       write_octomap(grid, directory_ / name);
       whole_.push_back(read_file(directory_ / name));

@@ -54,7 +54,7 @@ void expect_same_cells(const OccupancyGrid& grid, const OctomapContent& content)
 TEST_F(OctomapIo, KeepsEveryCell) {
   Rng rng(3);
   for (const char* extension : {".bt", ".ot"}) {
-    const OccupancyGrid grid = testing::random_grid(table_frame(), 0.05, 0.5, rng);
+    const OccupancyGrid grid = test::random_grid(table_frame(), 0.05, 0.5, rng);
     const fs::path path = directory_ / ("map" + std::string(extension));
     write_octomap(grid, path);
     const OctomapContent content = read_octomap(path);
@@ -66,7 +66,7 @@ TEST_F(OctomapIo, KeepsEveryCell) {
 TEST_F(OctomapIo, KeepsEveryCellOfAGridThatIsNotCubic) {
   Rng rng(4);
   const GridFrame frame = make_grid_frame({-3.3, 12.1, 0.4}, {3.0, 1.7, 1.1}, {20, 17, 8});
-  const OccupancyGrid grid = testing::random_grid(frame, 0.1, 0.4, rng);
+  const OccupancyGrid grid = test::random_grid(frame, 0.1, 0.4, rng);
   write_octomap(grid, directory_ / "map.bt");
   expect_same_cells(grid, read_octomap(directory_ / "map.bt"));
 }
@@ -106,17 +106,17 @@ TEST_F(OctomapIo, UnobservedCellsAreNotStored) {
 }
 
 TEST_F(OctomapIo, GridComesBackWithItsLogOdds) {
-  const OccupancyGrid grid = testing::parse({".#?.", "???#", "#..?"});
+  const OccupancyGrid grid = test::parse({".#?.", "???#", "#..?"});
   write_octomap(grid, directory_ / "map.ot");
   const OccupancyGrid back = read_octomap_grid(directory_ / "map.ot");
-  EXPECT_EQ(testing::draw(back), testing::draw(grid));
+  EXPECT_EQ(test::draw(back), test::draw(grid));
   EXPECT_EQ(back.log_odds, grid.log_odds);
   write_octomap(grid, directory_ / "map.bt");
-  EXPECT_EQ(testing::draw(read_octomap_grid(directory_ / "map.bt")), testing::draw(grid));
+  EXPECT_EQ(test::draw(read_octomap_grid(directory_ / "map.bt")), test::draw(grid));
 }
 
 TEST_F(OctomapIo, RefusesWhatItCannotWrite) {
-  const OccupancyGrid grid = testing::parse({".#"});
+  const OccupancyGrid grid = test::parse({".#"});
   EXPECT_THROW(write_octomap(grid, directory_ / "map.pcd"), OutputError);
   EXPECT_THROW(write_octomap(grid, directory_ / "missing" / "map.bt"), OutputError);
   OccupancyGrid far_away = grid;

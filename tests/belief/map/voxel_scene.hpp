@@ -10,7 +10,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/geometry/range_scan.hpp"
 
-namespace vantage::testing {
+namespace vantage::test {
 
 using Drawing = std::vector<std::string>;
 
@@ -103,4 +103,4 @@ inline RangeScan scan_of(const OccupancyGrid& truth, const Pose& T_world_sensor,
   return scan;
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kTolerance = 1e-9;
+constexpr double kFitTolerance = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Sequences = std::vector<std::vector<ViewStep>>;
@@ -41,8 +41,7 @@ Sequences draw_sequences(const ObjectStates& states, const TransitionModel& trut
                          Rng& rng) {
   std::vector<Eigen::MatrixXd> matrices;
   for (const double bins : motions) {
-    matrices.push_back(
-        testing::dense(states, kernel_of(truth, bins * states.bin_rad(), states.bins)));
+    matrices.push_back(test::dense(states, kernel_of(truth, bins * states.bin_rad(), states.bins)));
   }
   Sequences sequences(count);
   for (auto& sequence : sequences) {
@@ -81,7 +80,7 @@ TEST(AsLearned, SaysTheSameForWholeBins) {
       const double motion_rad = command * 2.0 * std::numbers::pi / 8.0;
       const TransitionKernel expected = kernel_of(model, motion_rad, 8);
       const TransitionKernel kernel = learned.kernel(motion_rad, 8);
-      EXPECT_TRUE(kernel.bin_change.isApprox(expected.bin_change, kTolerance)) << name;
+      EXPECT_TRUE(kernel.bin_change.isApprox(expected.bin_change, kFitTolerance)) << name;
       EXPECT_EQ(kernel.same_object, expected.same_object);
       EXPECT_EQ(kernel.other_category, expected.other_category);
     }
@@ -92,31 +91,32 @@ TEST(PriorCounts, AreTheTransitionTheyCameFrom) {
   const TransitionCounts counts = prior_counts(TableTransition{}, 8, 17.0);
   const LearnedTransition learned = learned_from(counts, as_learned(RigidTransition{}, 8));
   const LearnedTransition expected = as_learned(TableTransition{}, 8);
-  for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(learned.slip[i], expected.slip[i], kTolerance);
-  EXPECT_NEAR(learned.other_instance, 0.1, kTolerance);
+  for (std::size_t i = 0; i < 64; ++i)
+    EXPECT_NEAR(learned.slip[i], expected.slip[i], kFitTolerance);
+  EXPECT_NEAR(learned.other_instance, 0.1, kFitTolerance);
 }
 
 RC_GTEST_PROP(BaumWelch, NeverLosesLikelihood, ()) {
-  const ObjectStates states = testing::random_states();
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::random_states();
+  Rng rng = test::random_generator();
   Sequences sequences(3);
   for (auto& sequence : sequences) {
     sequence.resize(4);
     for (ViewStep& step : sequence) {
       if (rng.uniform() < 0.8) step.motion_rad = rng.uniform(-7.0, 7.0);
-      step.log_likelihood = testing::random_logs(states.size(), rng);
+      step.log_likelihood = test::random_logs(states.size(), rng);
     }
   }
   const BaumWelchResult result =
       baum_welch(states, TableTransition{}, sequences, {.max_iterations = 15});
   check_options(result.transition);
   for (std::size_t i = 1; i < result.log_likelihood.size(); ++i) {
-    RC_ASSERT(result.log_likelihood[i] >= result.log_likelihood[i - 1] - kTolerance);
+    RC_ASSERT(result.log_likelihood[i] >= result.log_likelihood[i - 1] - kFitTolerance);
   }
 }
 
 TEST(BaumWelch, FindsTheSlipOfEachCommand) {
-  const ObjectStates states = testing::make_states({0, 0, 1}, 8);
+  const ObjectStates states = test::make_states({0, 0, 1}, 8);
   Rng rng(21);
   const Sequences sequences = draw_sequences(states, slipping(8), {1.0, 2.0}, 150, 0.8, rng);
   const BaumWelchResult result =
@@ -128,13 +128,13 @@ TEST(BaumWelch, FindsTheSlipOfEachCommand) {
   EXPECT_NEAR(slip_of(learned, 1, +1, 8), 0.3, 0.05);
   EXPECT_NEAR(slip_of(learned, 1, -1, 8), 0.1, 0.05);
   EXPECT_NEAR(slip_of(learned, 2, 0, 8), 1.0, 0.05);
-  EXPECT_NEAR(slip_of(learned, 5, 0, 8), 0.9, kTolerance);  // never commanded: as it was
-  EXPECT_EQ(learned.same_object, 1.0);                      // as rigid holds for certain
+  EXPECT_NEAR(slip_of(learned, 5, 0, 8), 0.9, kFitTolerance);  // never commanded: as it was
+  EXPECT_EQ(learned.same_object, 1.0);                         // as rigid holds for certain
   EXPECT_EQ(slip_of(learned, 1, 4, 8), 0.0);
 }
 
 TEST(BaumWelch, FindsTheSlipFromMotionsBetweenBins) {
-  const ObjectStates states = testing::make_states({0, 0}, 8);
+  const ObjectStates states = test::make_states({0, 0}, 8);
   Rng rng(22);
   const Sequences sequences = draw_sequences(states, slipping(8), {1.25, 0.75}, 300, 0.9, rng);
   const LearnedTransition learned =
@@ -144,7 +144,7 @@ TEST(BaumWelch, FindsTheSlipFromMotionsBetweenBins) {
 }
 
 TEST(BaumWelch, FindsHowOftenObjectsChange) {
-  const ObjectStates states = testing::make_states({0, 0, 0, 1, 1, 2}, 3);
+  const ObjectStates states = test::make_states({0, 0, 0, 1, 1, 2}, 3);
   LearnedTransition truth = as_learned(RigidTransition{}, 3);
   truth.same_object = 0.7;
   truth.other_instance = 0.2;
@@ -159,7 +159,7 @@ TEST(BaumWelch, FindsHowOftenObjectsChange) {
 }
 
 TEST(BaumWelch, LeavesOutWhatTheStartHoldsForImpossible) {
-  const ObjectStates states = testing::make_states({0, 0}, 4);
+  const ObjectStates states = test::make_states({0, 0}, 4);
   Eigen::VectorXd only_first = Eigen::VectorXd::Constant(8, -kInfinity);
   only_first.head(4).setZero();
   const Eigen::VectorXd only_second = only_first.reverse();
@@ -167,11 +167,11 @@ TEST(BaumWelch, LeavesOutWhatTheStartHoldsForImpossible) {
                             {{0.0, only_first}, {states.bin_rad(), only_first}}};
   const BaumWelchResult result = baum_welch(states, RigidTransition{}, sequences, {});
   EXPECT_EQ(result.unexplained, 1);
-  EXPECT_NEAR(result.log_likelihood.back(), std::log(0.5), kTolerance);
+  EXPECT_NEAR(result.log_likelihood.back(), std::log(0.5), kFitTolerance);
 }
 
 TEST(BaumWelch, PriorMovesHoldItBack) {
-  const ObjectStates states = testing::make_states({0, 0}, 8);
+  const ObjectStates states = test::make_states({0, 0}, 8);
   Rng rng(24);
   const Sequences sequences = draw_sequences(states, slipping(8), {1.0}, 20, 0.9, rng);
   const BaumWelchResult free = baum_welch(states, RigidTransition{}, sequences, {});
@@ -184,7 +184,7 @@ TEST(BaumWelch, PriorMovesHoldItBack) {
 }
 
 TEST(LearnSequence, OneByOneIsAllAtOnceWhereStatesAreCertain) {
-  const ObjectStates states = testing::make_states({0, 0, 1, 1}, 4);
+  const ObjectStates states = test::make_states({0, 0, 1, 1}, 4);
   Rng rng(25);
   const Sequences sequences = draw_sequences(states, slipping(4), {1.0, 2.0}, 30, 1.0, rng);
   const BaumWelchOptions once{.prior_moves = 5.0, .max_iterations = 1};
@@ -194,13 +194,13 @@ TEST(LearnSequence, OneByOneIsAllAtOnceWhereStatesAreCertain) {
   for (auto sequence = sequences.rbegin(); sequence != sequences.rend(); ++sequence) {
     learned = learn_sequence(states, *sequence, counts);
   }
-  for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(learned.slip[i], batch.slip[i], kTolerance);
-  EXPECT_NEAR(learned.same_object, batch.same_object, kTolerance);
+  for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(learned.slip[i], batch.slip[i], kFitTolerance);
+  EXPECT_NEAR(learned.same_object, batch.same_object, kFitTolerance);
   EXPECT_GT(learned.same_object, 0.9);
 }
 
 TEST(LearnSequence, ApproachesTheTruthAsSequencesComeIn) {
-  const ObjectStates states = testing::make_states({0, 0, 1}, 8);
+  const ObjectStates states = test::make_states({0, 0, 1}, 8);
   Rng rng(26);
   TransitionCounts counts = prior_counts(TableTransition{}, 8, 10.0);
   LearnedTransition learned;

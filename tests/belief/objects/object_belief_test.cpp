@@ -12,9 +12,9 @@
 namespace vantage {
 namespace {
 
-using testing::exp_of;
+using test::exp_of;
+using test::make_states;
 using ::testing::HasSubstr;
-using testing::make_states;
 
 constexpr double kTolerance = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -28,7 +28,7 @@ ObjectBelief belief_of(std::initializer_list<double> p) {
 
 ObjectBelief random_belief(const ObjectStates& states, Rng& rng) {
   ObjectBelief belief = uniform_belief(states);
-  Eigen::VectorXd likelihood = testing::random_logs(states.size(), rng);
+  Eigen::VectorXd likelihood = test::random_logs(states.size(), rng);
   likelihood[0] = 0.0;
   update(belief, likelihood);
   return belief;
@@ -73,25 +73,25 @@ TEST(Update, NamesTheStateWhoseLikelihoodIsNone) {
 }
 
 RC_GTEST_PROP(ObjectBelief, SumsToOneWhateverHappens, ()) {
-  const ObjectStates states = testing::random_states();
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::random_states();
+  Rng rng = test::random_generator();
   ObjectBelief belief = uniform_belief(states);
   for (int step = 0; step < 6; ++step) {
     for (const std::string_view name : strategy_names<TransitionModel>()) {
       predict(belief, states, make_strategy<TransitionModel>(name), rng.uniform(-7.0, 7.0));
       RC_ASSERT(std::abs(p_state(belief).sum() - 1.0) < kTolerance);
-      update(belief, 100.0 * testing::random_logs(states.size(), rng));
+      update(belief, 100.0 * test::random_logs(states.size(), rng));
       RC_ASSERT(std::abs(p_state(belief).sum() - 1.0) < kTolerance);
     }
   }
 }
 
 RC_GTEST_PROP(ObjectBelief, DoesNotCareForTheOrderOfFeatures, ()) {
-  const ObjectStates states = testing::random_states();
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::random_states();
+  Rng rng = test::random_generator();
   std::vector<Eigen::VectorXd> features;
   for (int f = 0; f < 4; ++f) {
-    features.push_back(testing::random_logs(states.size(), rng));
+    features.push_back(test::random_logs(states.size(), rng));
     features.back()[0] = 0.0;
   }
   ObjectBelief forth = uniform_belief(states);
@@ -108,8 +108,8 @@ RC_GTEST_PROP(ObjectBelief, DoesNotCareForTheOrderOfFeatures, ()) {
 }
 
 RC_GTEST_PROP(Predict, LeaksNothingWithoutMotion, ()) {
-  const ObjectStates states = testing::random_states();
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::random_states();
+  Rng rng = test::random_generator();
   const ObjectBelief before = random_belief(states, rng);
   for (const std::string_view name : strategy_names<TransitionModel>()) {
     ObjectBelief belief = before;
@@ -119,8 +119,8 @@ RC_GTEST_PROP(Predict, LeaksNothingWithoutMotion, ()) {
 }
 
 RC_GTEST_PROP(Predict, RigidlyRoundAFullTurnComesBack, ()) {
-  const ObjectStates states = testing::random_states();
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::random_states();
+  Rng rng = test::random_generator();
   const ObjectBelief before = random_belief(states, rng);
   ObjectBelief belief = before;
   for (int step = 0; step < states.bins; ++step) {
@@ -130,8 +130,8 @@ RC_GTEST_PROP(Predict, RigidlyRoundAFullTurnComesBack, ()) {
 }
 
 RC_GTEST_PROP(Predict, RigidlyKeepsWhatIsBelievedOfObjects, ()) {
-  const ObjectStates states = testing::random_states();
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::random_states();
+  Rng rng = test::random_generator();
   ObjectBelief belief = random_belief(states, rng);
   const Eigen::VectorXd before = p_object(states, belief);
   predict(belief, states, RigidTransition{.slip = 0.3}, rng.uniform(0.1, 6.0));
@@ -242,7 +242,7 @@ TEST(ObjectBelief, WithUnknownObjectsIsBayesOverAllPaths) {
     if (motion_rad != 0.0) {
       Eigen::MatrixXd a = Eigen::MatrixXd::Identity(states.size(), states.size());
       a.topLeftCorner(known.size(), known.size()) =
-          testing::dense(known, kernel_of(transition, motion_rad, 3));
+          test::dense(known, kernel_of(transition, motion_rad, 3));
       p = a.transpose() * p;
     }
     const Eigen::VectorXd likelihood =

@@ -25,7 +25,7 @@ constexpr std::size_t kHeader = kHashAt + 8;
 
 RecognitionModel small_model() {
   RecognitionModel model;
-  model.states = testing::make_states({0, 0, 1}, 4);
+  model.states = test::make_states({0, 0, 1}, 4);
   model.transitions = prior_counts(TableTransition{}, 4, 3.0);
   Rng rng(31);
   for (const std::string name : {"colour", "sift"}) {

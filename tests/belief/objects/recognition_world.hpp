@@ -12,7 +12,7 @@
 #include "vantage/belief/objects/transition.hpp"
 #include "vantage/core/rng.hpp"
 
-namespace vantage::testing {
+namespace vantage::test {
 
 /// Object k is of category `category_of[k]`.
 inline ObjectStates make_states(const std::vector<int>& category_of, int bins) {
@@ -90,4 +90,4 @@ inline Eigen::VectorXd exp_of(const Eigen::VectorXd& logs) {
   return logs.unaryExpr([](double log) { return std::exp(log); });
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

@@ -9,10 +9,10 @@
 namespace vantage {
 namespace {
 
-using testing::exp_of;
+using test::exp_of;
 using ::testing::HasSubstr;
 
-constexpr double kTolerance = 1e-9;
+constexpr double kSmootherTolerance = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Sums over every path of states there is.
@@ -30,7 +30,7 @@ class PathSum {
       matrices_.push_back(
           step.motion_rad == 0.0
               ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(size_, size_))
-              : testing::dense(states, kernel_of(transition, step.motion_rad, states.bins)));
+              : test::dense(states, kernel_of(transition, step.motion_rad, states.bins)));
     }
     paths_.smoothed.assign(steps.size(), Eigen::VectorXd::Zero(size_));
   }
@@ -73,14 +73,14 @@ std::vector<ViewStep> random_steps(const ObjectStates& states, std::size_t count
   std::vector<ViewStep> steps(count);
   for (ViewStep& step : steps) {
     if (rng.uniform() < 0.7) step.motion_rad = rng.uniform(-7.0, 7.0);
-    if (rng.uniform() < 0.8) step.log_likelihood = testing::random_logs(states.size(), rng);
+    if (rng.uniform() < 0.8) step.log_likelihood = test::random_logs(states.size(), rng);
   }
   return steps;
 }
 
 RC_GTEST_PROP(Smooth, IsTheSumOverAllPaths, ()) {
-  const ObjectStates states = testing::make_states({0, 0, 1}, *rc::gen::inRange(1, 3));
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::make_states({0, 0, 1}, *rc::gen::inRange(1, 3));
+  Rng rng = test::random_generator();
   const TransitionModel transition = random_transition(rng);
   const std::vector<ViewStep> steps = random_steps(states, 3, rng);
   const ObjectBelief prior = uniform_belief(states);
@@ -88,28 +88,29 @@ RC_GTEST_PROP(Smooth, IsTheSumOverAllPaths, ()) {
   const SmoothedSequence smoothed = smooth(states, prior, transition, steps);
   RC_ASSERT((paths.total > 0.0) == smoothed.reason.empty());
   if (paths.total == 0.0) return;
-  RC_ASSERT(std::abs(smoothed.log_likelihood - std::log(paths.total)) < kTolerance);
+  RC_ASSERT(std::abs(smoothed.log_likelihood - std::log(paths.total)) < kSmootherTolerance);
   for (std::size_t t = 0; t < steps.size(); ++t) {
-    RC_ASSERT(
-        exp_of(smoothed.log_smoothed[t]).isApprox(paths.smoothed[t] / paths.total, kTolerance));
+    RC_ASSERT(exp_of(smoothed.log_smoothed[t])
+                  .isApprox(paths.smoothed[t] / paths.total, kSmootherTolerance));
   }
 }
 
 RC_GTEST_PROP(Smooth, FiltersAsIfItEndedThere, ()) {
-  const ObjectStates states = testing::make_states({0, 1}, 3);
-  Rng rng = testing::random_generator();
+  const ObjectStates states = test::make_states({0, 1}, 3);
+  Rng rng = test::random_generator();
   const TransitionModel transition = random_transition(rng);
   const std::vector<ViewStep> steps = random_steps(states, 4, rng);
   const ObjectBelief prior = uniform_belief(states);
   const SmoothedSequence all = smooth(states, prior, transition, steps);
   for (std::size_t t = 0; t < all.log_filtered.size(); ++t) {
     const SmoothedSequence part = smooth(states, prior, transition, {steps.data(), t + 1});
-    RC_ASSERT(exp_of(all.log_filtered[t]).isApprox(exp_of(part.log_smoothed[t]), kTolerance));
+    RC_ASSERT(
+        exp_of(all.log_filtered[t]).isApprox(exp_of(part.log_smoothed[t]), kSmootherTolerance));
   }
 }
 
 TEST(Smooth, LearnsFromLaterViewsWhatTheFirstOneLeftOpen) {
-  const ObjectStates states = testing::make_states({0, 0}, 4);  // near-duplicates but for bin 1
+  const ObjectStates states = test::make_states({0, 0}, 4);  // near-duplicates but for bin 1
   Eigen::VectorXd front = Eigen::VectorXd::Constant(8, -kInfinity);
   front[states.state(0, 0)] = front[states.state(1, 0)] = 0.0;
   Eigen::VectorXd side = Eigen::VectorXd::Constant(8, -kInfinity);
@@ -117,12 +118,12 @@ TEST(Smooth, LearnsFromLaterViewsWhatTheFirstOneLeftOpen) {
   const std::vector<ViewStep> steps{{0.0, front}, {states.bin_rad(), side}};
   const SmoothedSequence smoothed =
       smooth(states, uniform_belief(states), RigidTransition{.slip = 0.0}, steps);
-  EXPECT_NEAR(std::exp(smoothed.log_filtered[0][states.state(0, 0)]), 0.5, kTolerance);
-  EXPECT_NEAR(std::exp(smoothed.log_smoothed[0][states.state(1, 0)]), 1.0, kTolerance);
+  EXPECT_NEAR(std::exp(smoothed.log_filtered[0][states.state(0, 0)]), 0.5, kSmootherTolerance);
+  EXPECT_NEAR(std::exp(smoothed.log_smoothed[0][states.state(1, 0)]), 1.0, kSmootherTolerance);
 }
 
 TEST(Smooth, NamesTheStepThatIsImpossible) {
-  const ObjectStates states = testing::make_states({0, 0}, 2);
+  const ObjectStates states = test::make_states({0, 0}, 2);
   const Eigen::VectorXd none = Eigen::VectorXd::Constant(4, -kInfinity);
   const std::vector<ViewStep> steps{{}, {.motion_rad = 1.0, .log_likelihood = none}, {}};
   const SmoothedSequence smoothed =
@@ -134,7 +135,7 @@ TEST(Smooth, NamesTheStepThatIsImpossible) {
 }
 
 TEST(Smooth, OfNoStepsIsNothing) {
-  const ObjectStates states = testing::make_states({0}, 2);
+  const ObjectStates states = test::make_states({0}, 2);
   const SmoothedSequence smoothed = smooth(states, uniform_belief(states), RigidTransition{}, {});
   EXPECT_TRUE(smoothed.reason.empty());
   EXPECT_TRUE(smoothed.log_smoothed.empty());

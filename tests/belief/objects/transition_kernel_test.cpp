@@ -8,10 +8,10 @@
 namespace vantage {
 namespace {
 
-using testing::dense;
-using testing::exp_of;
+using test::dense;
+using test::exp_of;
 
-constexpr double kTolerance = 1e-12;
+constexpr double kKernelTolerance = 1e-12;
 
 struct Case {
   ObjectStates states;
@@ -21,16 +21,16 @@ struct Case {
 };
 
 Case random_case() {
-  Case made{.states = testing::random_states(), .kernel = {}, .log_p = {}, .log_x = {}};
-  Rng rng = testing::random_generator();
-  made.kernel = testing::random_kernel(made.states.bins, rng);
-  made.log_p = testing::random_logs(made.states.size(), rng);
-  made.log_x = testing::random_logs(made.states.size(), rng);
+  Case made{.states = test::random_states(), .kernel = {}, .log_p = {}, .log_x = {}};
+  Rng rng = test::random_generator();
+  made.kernel = test::random_kernel(made.states.bins, rng);
+  made.log_p = test::random_logs(made.states.size(), rng);
+  made.log_x = test::random_logs(made.states.size(), rng);
   return made;
 }
 
 bool close(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return ((a - b).array().abs() <= kTolerance * (1.0 + b.array().abs())).all();
+  return ((a - b).array().abs() <= kKernelTolerance * (1.0 + b.array().abs())).all();
 }
 
 RC_GTEST_PROP(TransitionForward, IsTheProductWithTheMatrix, ()) {
@@ -49,11 +49,11 @@ RC_GTEST_PROP(TransitionForward, KeepsTheSum, ()) {
   const Case c = random_case();
   const Eigen::VectorXd moved = transition_forward(c.states, c.kernel, c.log_p);
   const double before = exp_of(c.log_p).sum();
-  RC_ASSERT(std::abs(exp_of(moved).sum() - before) <= kTolerance * (1.0 + before));
+  RC_ASSERT(std::abs(exp_of(moved).sum() - before) <= kKernelTolerance * (1.0 + before));
 }
 
 TEST(TransitionForward, LosesNoStateHoweverUnlikely) {
-  const ObjectStates states = testing::make_states({0, 0}, 4);
+  const ObjectStates states = test::make_states({0, 0}, 4);
   TransitionKernel kernel{.bin_change = Eigen::VectorXd::Zero(4)};
   kernel.bin_change[1] = 1.0;
   Eigen::VectorXd log_p = Eigen::VectorXd::LinSpaced(8, 0.0, -70000.0);
@@ -85,24 +85,24 @@ RC_GTEST_PROP(ExpectedMoves, AreThePosteriorsOfAllPairs, ()) {
   }
   const ExpectedMoves moves = expected_moves(c.states, c.kernel, c.log_p, c.log_x);
   RC_ASSERT(close(moves.bin_change, change));
-  RC_ASSERT(moves.other_instance >= instance - kTolerance);
-  RC_ASSERT(moves.other_category >= other - kTolerance);
+  RC_ASSERT(moves.other_instance >= instance - kKernelTolerance);
+  RC_ASSERT(moves.other_category >= other - kKernelTolerance);
   const double draws = moves.same_object + moves.other_instance + moves.other_category;
-  RC_ASSERT(std::abs(draws - 1.0) <= kTolerance);
+  RC_ASSERT(std::abs(draws - 1.0) <= kKernelTolerance);
 }
 
 TEST(ExpectedMoves, CountTheDrawsOfEmptyGroups) {
-  const ObjectStates states = testing::make_states({0, 1}, 1);  // no other instances
+  const ObjectStates states = test::make_states({0, 1}, 1);  // no other instances
   const TransitionKernel kernel{.bin_change = Eigen::VectorXd::Ones(1),
                                 .same_object = 0.5,
                                 .other_instance = 0.25,
                                 .other_category = 0.25};
   const Eigen::VectorXd zeros = Eigen::VectorXd::Zero(2);
   const ExpectedMoves moves = expected_moves(states, kernel, zeros, zeros);
-  EXPECT_NEAR(moves.same_object, 0.5, kTolerance);
-  EXPECT_NEAR(moves.other_instance, 0.25, kTolerance);
-  EXPECT_NEAR(moves.other_category, 0.25, kTolerance);
-  EXPECT_NEAR(moves.bin_change[0], 0.75, kTolerance);
+  EXPECT_NEAR(moves.same_object, 0.5, kKernelTolerance);
+  EXPECT_NEAR(moves.other_instance, 0.25, kKernelTolerance);
+  EXPECT_NEAR(moves.other_category, 0.25, kKernelTolerance);
+  EXPECT_NEAR(moves.bin_change[0], 0.75, kKernelTolerance);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kTolerance = 1e-12;
+constexpr double kTransitionTolerance = 1e-12;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 TEST(MotionBins, AreTheTwoNextToTheMotion) {
@@ -21,7 +21,7 @@ TEST(MotionBins, AreTheTwoNextToTheMotion) {
   const MotionBins between = motion_bins(-0.25 * kTurn / 8.0, 8);
   EXPECT_EQ(between.lower, 7);
   EXPECT_EQ(between.upper, 0);
-  EXPECT_NEAR(between.upper_share, 0.75, kTolerance);
+  EXPECT_NEAR(between.upper_share, 0.75, kTransitionTolerance);
 }
 
 RC_GTEST_PROP(MotionBins, OfAMultipleAreTheMultipleHoweverComputed, ()) {
@@ -36,15 +36,15 @@ RC_GTEST_PROP(MotionBins, OfAMultipleAreTheMultipleHoweverComputed, ()) {
 }
 
 TEST(TableTransition, HasThePublishedMassesOfItsGroups) {
-  const ObjectStates states = testing::make_states({0, 0, 0, 1, 1}, 8);
-  const Eigen::MatrixXd a = testing::dense(states, TableTransition{}.kernel(kTurn / 4.0, 8));
+  const ObjectStates states = test::make_states({0, 0, 0, 1, 1}, 8);
+  const Eigen::MatrixXd a = test::dense(states, TableTransition{}.kernel(kTurn / 4.0, 8));
   const Eigen::RowVectorXd row = a.row(states.state(1, 3));
-  EXPECT_NEAR(row[states.state(1, 5)], 0.4, kTolerance);
-  EXPECT_NEAR(row.segment(states.state(1, 0), 8).sum(), 0.7, kTolerance);
-  EXPECT_NEAR(row.segment(states.state(0, 0), 8).sum(), 0.05, kTolerance);
-  EXPECT_NEAR(row.segment(states.state(2, 0), 8).sum(), 0.05, kTolerance);
-  EXPECT_NEAR(row.tail(16).sum(), 0.2, kTolerance);
-  EXPECT_NEAR(row[states.state(1, 3)], 0.3 / 7.0, kTolerance);
+  EXPECT_NEAR(row[states.state(1, 5)], 0.4, kTransitionTolerance);
+  EXPECT_NEAR(row.segment(states.state(1, 0), 8).sum(), 0.7, kTransitionTolerance);
+  EXPECT_NEAR(row.segment(states.state(0, 0), 8).sum(), 0.05, kTransitionTolerance);
+  EXPECT_NEAR(row.segment(states.state(2, 0), 8).sum(), 0.05, kTransitionTolerance);
+  EXPECT_NEAR(row.tail(16).sum(), 0.2, kTransitionTolerance);
+  EXPECT_NEAR(row[states.state(1, 3)], 0.3 / 7.0, kTransitionTolerance);
 }
 
 TEST(TableTransition, RoundsTheMotion) {
@@ -59,24 +59,24 @@ TEST(TableTransition, RoundsTheMotion) {
 }
 
 TEST(TableTransition, OfASingleBinKeepsTheObject) {
-  const ObjectStates states = testing::make_states({0, 0, 1}, 1);
-  const Eigen::MatrixXd a = testing::dense(states, TableTransition{}.kernel(1.0, 1));
-  EXPECT_NEAR(a(0, 0), 0.7, kTolerance);
-  EXPECT_NEAR(a(2, 2), 0.8, kTolerance);
+  const ObjectStates states = test::make_states({0, 0, 1}, 1);
+  const Eigen::MatrixXd a = test::dense(states, TableTransition{}.kernel(1.0, 1));
+  EXPECT_NEAR(a(0, 0), 0.7, kTransitionTolerance);
+  EXPECT_NEAR(a(2, 2), 0.8, kTransitionTolerance);
 }
 
 TEST(RigidTransition, MovesByTheCommandWithSlipToBothSides) {
   const TransitionKernel kernel = RigidTransition{.slip = 0.2}.kernel(-kTurn / 8.0, 8);
-  EXPECT_NEAR(kernel.bin_change[7], 0.8, kTolerance);
-  EXPECT_NEAR(kernel.bin_change[6], 0.1, kTolerance);
-  EXPECT_NEAR(kernel.bin_change[0], 0.1, kTolerance);
+  EXPECT_NEAR(kernel.bin_change[7], 0.8, kTransitionTolerance);
+  EXPECT_NEAR(kernel.bin_change[6], 0.1, kTransitionTolerance);
+  EXPECT_NEAR(kernel.bin_change[0], 0.1, kTransitionTolerance);
   EXPECT_EQ(kernel.same_object, 1.0);
 }
 
 TEST(RigidTransition, SharesAMotionBetweenBins) {
   const TransitionKernel kernel = RigidTransition{.slip = 0.0}.kernel(2.25 * kTurn / 8.0, 8);
-  EXPECT_NEAR(kernel.bin_change[2], 0.75, kTolerance);
-  EXPECT_NEAR(kernel.bin_change[3], 0.25, kTolerance);
+  EXPECT_NEAR(kernel.bin_change[2], 0.75, kTransitionTolerance);
+  EXPECT_NEAR(kernel.bin_change[3], 0.25, kTransitionTolerance);
 }
 
 TEST(LearnedTransition, IsRigidBeforeItLearns) {
@@ -91,11 +91,11 @@ TEST(LearnedTransition, HasASlipForEachCommand) {
                   0.6, 0.4, 0.0,   // by one bin: 0.4 a bin too far
                   0.5, 0.0, 0.5};  // by two: 0.5 a bin short
   const TransitionKernel by_one = learned.kernel(kTurn / 3.0, 3);
-  EXPECT_TRUE(by_one.bin_change.isApprox(Eigen::Vector3d(0.0, 0.6, 0.4), kTolerance));
+  EXPECT_TRUE(by_one.bin_change.isApprox(Eigen::Vector3d(0.0, 0.6, 0.4), kTransitionTolerance));
   const TransitionKernel by_two = learned.kernel(2.0 * kTurn / 3.0, 3);
-  EXPECT_TRUE(by_two.bin_change.isApprox(Eigen::Vector3d(0.0, 0.5, 0.5), kTolerance));
+  EXPECT_TRUE(by_two.bin_change.isApprox(Eigen::Vector3d(0.0, 0.5, 0.5), kTransitionTolerance));
   const TransitionKernel between = learned.kernel(1.5 * kTurn / 3.0, 3);
-  EXPECT_TRUE(between.bin_change.isApprox(Eigen::Vector3d(0.0, 0.55, 0.45), kTolerance));
+  EXPECT_TRUE(between.bin_change.isApprox(Eigen::Vector3d(0.0, 0.55, 0.45), kTransitionTolerance));
   EXPECT_THROW(learned.kernel(kTurn / 3.0, 8), ConfigError);
 }
 
@@ -105,10 +105,10 @@ RC_GTEST_PROP(TransitionModel, EveryKernelSumsToOne, ()) {
   for (const std::string_view name : strategy_names<TransitionModel>()) {
     const TransitionKernel kernel =
         kernel_of(make_strategy<TransitionModel>(name), motion_rad, bins);
-    RC_ASSERT(std::abs(kernel.bin_change.sum() - 1.0) < kTolerance);
+    RC_ASSERT(std::abs(kernel.bin_change.sum() - 1.0) < kTransitionTolerance);
     RC_ASSERT(kernel.bin_change.minCoeff() >= 0.0);
     RC_ASSERT(std::abs(kernel.same_object + kernel.other_instance + kernel.other_category - 1.0) <
-              kTolerance);
+              kTransitionTolerance);
   }
 }
 

@@ -34,14 +34,13 @@ std::vector<int> all(int objects) {
 }
 
 TEST(UnknownHypotheses, AreEachCategoryAndNone) {
-  EXPECT_THAT(unknown_hypotheses(testing::make_states({0, 0, 1}, 2)),
-              ElementsAre(0, 1, kNoCategory));
-  EXPECT_THAT(unknown_hypotheses(testing::make_states({0, 1, 2}, 2)), ElementsAre(kNoCategory));
-  EXPECT_THAT(unknown_hypotheses(testing::make_states({0}, 2)), IsEmpty());
+  EXPECT_THAT(unknown_hypotheses(test::make_states({0, 0, 1}, 2)), ElementsAre(0, 1, kNoCategory));
+  EXPECT_THAT(unknown_hypotheses(test::make_states({0, 1, 2}, 2)), ElementsAre(kNoCategory));
+  EXPECT_THAT(unknown_hypotheses(test::make_states({0}, 2)), IsEmpty());
 }
 
 TEST(BackgroundDensities, AreOfTheMomentsOfWhatIsKnown) {
-  const ObjectStates states = testing::make_states({0, 0, 1}, 2);
+  const ObjectStates states = test::make_states({0, 0, 1}, 2);
   const ObservationModel model = model_of({1.0F, 3.0F, 8.0F}, 0.5F, 0.25F);
   const BackgroundDensities background =
       background_densities(object_moments(model, states), states, all(3));
@@ -57,10 +56,10 @@ TEST(BackgroundDensities, AreOfTheMomentsOfWhatIsKnown) {
 }
 
 TEST(BackgroundDensities, AreOfTheObjectsKeptAlone) {
-  const ObjectStates states = testing::make_states({0, 0, 1, 0}, 2);
+  const ObjectStates states = test::make_states({0, 0, 1, 0}, 2);
   const ObservationModel model = model_of({1.0F, 3.0F, 8.0F, 50.0F}, 0.5F, 0.25F);
   const ObservationModel of_three = model_of({1.0F, 3.0F, 8.0F}, 0.5F, 0.25F);
-  const ObjectStates three = testing::make_states({0, 0, 1}, 2);
+  const ObjectStates three = test::make_states({0, 0, 1}, 2);
   const auto kept = background_densities(object_moments(model, states), states, all(3));
   const auto without = background_densities(object_moments(of_three, three), three, all(3));
   EXPECT_EQ(kept.gaussians.mean, without.gaussians.mean);
@@ -69,7 +68,7 @@ TEST(BackgroundDensities, AreOfTheObjectsKeptAlone) {
 
 // What an object that was drawn like the known ones measures has the variance that is foretold.
 TEST(BackgroundDensities, ForetellOneMoreObject) {
-  const ObjectStates states = testing::make_states({0, 0, 0, 0}, 1);
+  const ObjectStates states = test::make_states({0, 0, 0, 0}, 1);
   Rng rng(7);
   double foretold = 0.0;
   double found = 0.0;
@@ -89,20 +88,20 @@ TEST(BackgroundDensities, ForetellOneMoreObject) {
 }
 
 TEST(BackgroundDensities, IntegrateToOne) {
-  const ObjectStates states = testing::make_states({0, 0, 1}, 2);
+  const ObjectStates states = test::make_states({0, 0, 1}, 2);
   const ObservationModel model =
       with_unknown(model_of({1.0F, 3.0F, 8.0F}, 0.5F, 0.25F), states, {});
   Eigen::VectorXd integral = Eigen::VectorXd::Zero(model.states());
   constexpr double kStep = 0.01;
   for (double x = -60.0; x < 60.0; x += kStep) {
     const Eigen::VectorXf feature = Eigen::VectorXf::Constant(1, static_cast<float>(x));
-    integral += kStep * testing::exp_of(log_density(model, feature));
+    integral += kStep * test::exp_of(log_density(model, feature));
   }
   EXPECT_TRUE(integral.isApprox(Eigen::VectorXd::Ones(9), 1e-4)) << integral;
 }
 
 TEST(WithUnknown, LeavesKnownStatesAndTempersTheFactors) {
-  const ObjectStates states = testing::make_states({0, 0, 1}, 2);
+  const ObjectStates states = test::make_states({0, 0, 1}, 2);
   ObservationModel known = model_of({1.0F, 3.0F, 8.0F}, 0.5F, 0.25F);
   known.psi = 0.5;
   const ObservationModel plain = with_unknown(known, states, {});

@@ -59,7 +59,7 @@ void expect_batch(const GaussianStatistics& statistics, const std::vector<View>&
 }
 
 RC_GTEST_PROP(GaussianStatistics, OneViewAtATimeIsAllAtOnce, ()) {
-  Rng rng = testing::random_generator();
+  Rng rng = test::random_generator();
   std::vector<View> views = random_views(*rc::gen::inRange(0, 40), 3, rng);
   expect_batch(train(views, 3), views);
   std::ranges::reverse(views);
@@ -67,7 +67,7 @@ RC_GTEST_PROP(GaussianStatistics, OneViewAtATimeIsAllAtOnce, ()) {
 }
 
 RC_GTEST_PROP(GaussianStatistics, MergedPartsAreTheWhole, ()) {
-  Rng rng = testing::random_generator();
+  Rng rng = test::random_generator();
   const std::vector<View> views = random_views(*rc::gen::inRange(0, 40), 3, rng);
   const auto cut = views.begin() + *rc::gen::inRange<std::ptrdiff_t>(0, std::ssize(views) + 1);
   GaussianStatistics merged = train({views.begin(), cut}, 3);

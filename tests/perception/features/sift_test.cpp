@@ -7,12 +7,12 @@
 namespace vantage {
 namespace {
 
-const Sift kSmall{.words = 20, .samples_per_word = 20, .iterations = 5};
+const Sift kSmallSift{.words = 20, .samples_per_word = 20, .iterations = 5};
 
 TEST(DenseSift, DescriptorsAreOfUnitLengthOnAGrid) {
   Rng rng(1);
   const ObjectView view = ball_view(100, {.radius_m = 0.07}, rng);
-  const DenseSift sift = dense_root_sift(view, kSmall);
+  const DenseSift sift = dense_root_sift(view, kSmallSift);
   ASSERT_EQ(sift.descriptors.rows(), 128);
   EXPECT_NEAR(static_cast<double>(sift.descriptors.cols()), 75.0, 15.0);  // pi (38 / 8)^2
   for (Eigen::Index i = 0; i < sift.descriptors.cols(); ++i) {
@@ -24,7 +24,7 @@ TEST(DenseSift, DescriptorsAreOfUnitLengthOnAGrid) {
 
 TEST(DenseSift, CropsAreBroughtToASizeBetweenTheLimits) {
   Rng rng(1);
-  Sift same = kSmall;
+  Sift same = kSmallSift;
   same.min_side_px = same.max_side_px = 100;
   const auto count = [&](int side_px) {
     const BallLook look{.radius_m = 0.0007 * side_px};
@@ -36,7 +36,7 @@ TEST(DenseSift, CropsAreBroughtToASizeBetweenTheLimits) {
 TEST(Sift, TheWholeCountsAsMuchAsItsQuarters) {
   Rng rng(1);
   const auto views = ball_views(6, 60, rng);
-  const TrainedSift sift = kSmall.train(views, rng);
+  const TrainedSift sift = kSmallSift.train(views, rng);
   ASSERT_EQ(sift.dimension(), 100);
   const FeatureResult result = sift.extract(views[0]);
   ASSERT_TRUE(result.extracted());
@@ -52,8 +52,8 @@ TEST(Sift, TheWholeCountsAsMuchAsItsQuarters) {
 TEST(Sift, CannotLearnFromNothing) {
   Rng rng(1);
   const std::vector<ObjectView> views{blank_view(50, 50), blank_view(0, 0)};
-  EXPECT_THROW((void)kSmall.train(views, rng), InputError);
-  EXPECT_THROW((void)kSmall.train({}, rng), InputError);
+  EXPECT_THROW((void)kSmallSift.train(views, rng), InputError);
+  EXPECT_THROW((void)kSmallSift.train({}, rng), InputError);
 }
 
 }  // namespace

@@ -5,11 +5,16 @@
 #include <vector>
 
 #include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/information/discrete.hpp"
 
 namespace vantage {
 
 inline constexpr double kFreeCell = 0.02;
 inline constexpr double kOccupiedCell = 1.0 - 1e-6;
+
+/// Of those two.
+inline const double kFreeBits = binary_entropy_bits(kFreeCell);
+inline const double kOccupiedBits = binary_entropy_bits(kOccupiedCell);
 
 inline double p_occupied_of(char cell) {
   return cell == '#' ? kOccupiedCell : (cell == '.' ? kFreeCell : 0.5);

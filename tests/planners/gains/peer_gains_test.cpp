@@ -11,10 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kTolerance = 1e-4;  // tables are single precision
-
-const double kFreeBits = binary_entropy_bits(kFreeCell);
-const double kOccupiedBits = binary_entropy_bits(kOccupiedCell);
+constexpr double kPeerTolerance = 1e-4;  // tables are single precision
 
 /// p(free) of a free cell, its evidence taken from another prior than 0.5.
 double clear_from(double opacity_unobserved) {
@@ -27,15 +24,15 @@ double geometric(double ratio, int terms) { return (1.0 - std::pow(ratio, terms)
 
 TEST(OcclusionAwareGain, IsAGeometricSeriesInUnobservedSpace) {
   EXPECT_NEAR(along(OcclusionAwareGain{.opacity_unobserved = 0.25}, "??????"), geometric(0.75, 6),
-              kTolerance);
-  EXPECT_NEAR(along(OcclusionAwareGain{.opacity_unobserved = 0.0}, "??????"), 6.0, kTolerance);
+              kPeerTolerance);
+  EXPECT_NEAR(along(OcclusionAwareGain{.opacity_unobserved = 0.0}, "??????"), 6.0, kPeerTolerance);
 }
 
 TEST(OcclusionAwareGain, CountsKnownCellsTooAndFreeSpaceIsNearlyClear) {
   for (const double q : {0.0, kOpacityUnobserved, 0.25, 0.5}) {
     const double clear = clear_from(q);
     EXPECT_NEAR(along(OcclusionAwareGain{.opacity_unobserved = q}, "..??"),
-                kFreeBits * (1.0 + clear) + clear * clear * (1.0 + (1.0 - q)), kTolerance);
+                kFreeBits * (1.0 + clear) + clear * clear * (1.0 + (1.0 - q)), kPeerTolerance);
   }
 }
 
@@ -51,13 +48,13 @@ TEST(UnobservedVoxelGain, SeesThroughFreeSpaceOfLittleEvidence) {
 
 TEST(OcclusionAwareGain, EndsInTheFirstOccupiedCell) {
   EXPECT_NEAR(along(OcclusionAwareGain{.opacity_unobserved = 0.25}, "?#??##"),
-              1.0 + 0.75 * kOccupiedBits, kTolerance);
+              1.0 + 0.75 * kOccupiedBits, kPeerTolerance);
 }
 
 TEST(UnobservedVoxelGain, LeavesKnownCellsOut) {
   const double clear = clear_from(0.25);
   EXPECT_NEAR(along(UnobservedVoxelGain{.opacity_unobserved = 0.25}, ".?.?#?"),
-              clear + clear * clear * 0.75, kTolerance);
+              clear + clear * clear * 0.75, kPeerTolerance);
   EXPECT_EQ(along(UnobservedVoxelGain{}, "....#"), 0.0);
 }
 
@@ -72,8 +69,8 @@ TEST(RearSideVoxelGain, CountsBeamsThatMeetASurfaceOutOfTheUnknown) {
 TEST(RearSideEntropyGain, SumsTheRunInFrontOfTheSurfaceAlone) {
   const RearSideEntropyGain gain{.opacity_unobserved = 0.25};
   const double clear = clear_from(0.25);
-  EXPECT_NEAR(along(gain, "???#"), geometric(0.75, 3), kTolerance);
-  EXPECT_NEAR(along(gain, "?.??#??#"), 0.75 * clear * geometric(0.75, 2), kTolerance);
+  EXPECT_NEAR(along(gain, "???#"), geometric(0.75, 3), kPeerTolerance);
+  EXPECT_NEAR(along(gain, "?.??#??#"), 0.75 * clear * geometric(0.75, 2), kPeerTolerance);
   EXPECT_EQ(along(gain, "???.#"), 0.0);
   EXPECT_EQ(along(gain, "???"), 0.0);
 }
@@ -102,7 +99,7 @@ TEST(FsmiGain, AveragesOverTheCellTheBeamMayEndIn) {
   const FsmiGain gain{.opacity_unobserved = 0.5, .d_occ = 4.0, .d_emp = 0.25};
   const double hit = odds_update_bits(4.0, 1.0);
   const double pass = odds_update_bits(0.25, 1.0);
-  EXPECT_NEAR(along(gain, "??"), 0.5 * hit + 0.25 * (hit + pass), kTolerance);
+  EXPECT_NEAR(along(gain, "??"), 0.5 * hit + 0.25 * (hit + pass), kPeerTolerance);
 }
 
 // Full updates, d_occ -> inf and d_emp -> 0, teach all there is: H of the first cell, and that of
@@ -116,7 +113,7 @@ TEST(FsmiGain, OfAPerfectSensorIsTheEntropyOfTheCellsItReaches) {
 TEST(FsmiGain, InFrontOfAWallIsWorthAPassPerCell) {
   const FsmiGain gain{.opacity_unobserved = 0.0};
   const double pass = odds_update_bits(gain.d_emp, 1.0);
-  EXPECT_NEAR(along(gain, "?????#"), 5.0 * pass, kTolerance);
+  EXPECT_NEAR(along(gain, "?????#"), 5.0 * pass, kPeerTolerance);
   EXPECT_EQ(along(gain, "?????"), 0.0);
 }
 
@@ -151,14 +148,14 @@ TYPED_TEST(EveryPeerGain, LosesNothingOfNoteToFreeSpaceInFront) {
     const std::string row = any_row();
     const std::string free(*rc::gen::inRange<std::size_t>(1, 10), '.');
     const double clear = std::pow(clear_from(kOpacityUnobserved), free.size());
-    RC_ASSERT(along(TypeParam{}, free + row) >= clear * along(TypeParam{}, row) - kTolerance);
+    RC_ASSERT(along(TypeParam{}, free + row) >= clear * along(TypeParam{}, row) - kPeerTolerance);
   }));
 }
 
 TYPED_TEST(EveryPeerGain, SeesNothingBehindAWall) {
   EXPECT_TRUE(rc::check([] {
     const std::string row = any_row();
-    RC_ASSERT(std::abs(along(TypeParam{}, "#" + row) - along(TypeParam{}, "#")) < kTolerance);
+    RC_ASSERT(std::abs(along(TypeParam{}, "#" + row) - along(TypeParam{}, "#")) < kPeerTolerance);
   }));
 }
 

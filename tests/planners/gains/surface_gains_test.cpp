@@ -13,10 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kTolerance = 1e-5;  // tables are single precision
-
-const double kFreeBits = binary_entropy_bits(kFreeCell);
-const double kOccupiedBits = binary_entropy_bits(kOccupiedCell);
+constexpr double kSurfaceTolerance = 1e-5;  // tables are single precision
 
 TEST(ProximityCountGain, CountsDownFromTheSurface) {
   const ProximityCountGain gain{.d_max_cells = 4};
@@ -37,7 +34,7 @@ TEST(StepsFromSurface, GoThroughUnobservedCellsAlone) {
 
 TEST(AverageEntropyGain, IsAMeanOverBeamsThatEndOccupied) {
   EXPECT_NEAR(along(AverageEntropyGain{}, "..???#??"),
-              (2.0 * kFreeBits + 3.0 + kOccupiedBits) / 6.0, kTolerance);
+              (2.0 * kFreeBits + 3.0 + kOccupiedBits) / 6.0, kSurfaceTolerance);
   EXPECT_EQ(along(AverageEntropyGain{}, "..????"), 0.0);
 }
 
@@ -59,8 +56,9 @@ double of_two_rows(const Gain& gain, const std::string& left, const std::string&
 TEST(AverageEntropyGain, WeighsCellsAlikeNotBeams) {
   AverageEntropyGain gain;
   gain.fan.step_rad = 0.05;
-  EXPECT_NEAR(of_two_rows(gain, "???#", "#..."), (3.0 + 2.0 * kOccupiedBits) / 5.0, kTolerance);
-  EXPECT_NEAR(of_two_rows(gain, "???#", "????"), (3.0 + kOccupiedBits) / 4.0, kTolerance);
+  EXPECT_NEAR(of_two_rows(gain, "???#", "#..."), (3.0 + 2.0 * kOccupiedBits) / 5.0,
+              kSurfaceTolerance);
+  EXPECT_NEAR(of_two_rows(gain, "???#", "????"), (3.0 + kOccupiedBits) / 4.0, kSurfaceTolerance);
 }
 
 TEST(AreaFactor, IsSmoothFromNothingAtTheEndsToOneAtTheTarget) {
@@ -78,12 +76,13 @@ TEST(AreaFactorGain, SortsBeamsByTheFirstCellThatIsNotFree) {
   AreaFactorGain gain{.target_occupied = 0.5, .target_occplane = 0.25};
   gain.fan.step_rad = 0.05;
   const double half = area_factor(0.5, 0.25);
-  EXPECT_NEAR(of_two_rows(gain, "..#?", "..?#"), 1.0 + half, kTolerance);
-  EXPECT_NEAR(of_two_rows(gain, "..#?", "...."), 1.0, kTolerance);
-  EXPECT_NEAR(of_two_rows(gain, "..?.", "????"), half, kTolerance);
-  EXPECT_NEAR(of_two_rows(gain, "??.?", "...."), half, kTolerance) << "out of the unknown, and in";
-  EXPECT_NEAR(of_two_rows(gain, "??.#", "????"), 1.0, kTolerance);
-  EXPECT_NEAR(of_two_rows(gain, "..##", "..#."), 0.0, kTolerance) << "all occupied";
+  EXPECT_NEAR(of_two_rows(gain, "..#?", "..?#"), 1.0 + half, kSurfaceTolerance);
+  EXPECT_NEAR(of_two_rows(gain, "..#?", "...."), 1.0, kSurfaceTolerance);
+  EXPECT_NEAR(of_two_rows(gain, "..?.", "????"), half, kSurfaceTolerance);
+  EXPECT_NEAR(of_two_rows(gain, "??.?", "...."), half, kSurfaceTolerance)
+      << "out of the unknown, and in";
+  EXPECT_NEAR(of_two_rows(gain, "??.#", "????"), 1.0, kSurfaceTolerance);
+  EXPECT_NEAR(of_two_rows(gain, "..##", "..#."), 0.0, kSurfaceTolerance) << "all occupied";
 }
 
 TEST(FrontierCellsGain, CountsThoseWithNothingButFreeSpaceInFront) {
@@ -196,7 +195,8 @@ TEST(ProximityCountGain, IsThatOfBruteForce) {
     for (const auto& beam : view.beams(kFan)) {
       for (const std::size_t cell : beam) expected += std::max(0, 3 - steps[cell]);
     }
-    EXPECT_NEAR(view.gain(ProximityCountGain{.fan = kFan, .d_max_cells = 3}), expected, kTolerance);
+    EXPECT_NEAR(view.gain(ProximityCountGain{.fan = kFan, .d_max_cells = 3}), expected,
+                kSurfaceTolerance);
     sum += expected;
   }
   EXPECT_GT(sum, 100.0);
@@ -214,7 +214,7 @@ TEST(AverageEntropyGain, IsThatOfBruteForce) {
       cells += static_cast<double>(beam.size());
     }
     const double expected = cells > 0.0 ? bits / cells : 0.0;
-    EXPECT_NEAR(view.gain(AverageEntropyGain{.fan = kFan}), expected, kTolerance) << seed;
+    EXPECT_NEAR(view.gain(AverageEntropyGain{.fan = kFan}), expected, kSurfaceTolerance) << seed;
     sum += expected;
   }
   EXPECT_GT(sum, 3.0);
@@ -238,7 +238,7 @@ TEST(AreaFactorGain, IsThatOfBruteForce) {
       (states[end] == '#' ? occupied : occplane) += 1.0 / static_cast<double>(beams.size());
     }
     const double expected = area_factor(occupied, 0.2) + area_factor(occplane, 0.8);
-    EXPECT_NEAR(view.gain(AreaFactorGain{.fan = kFan}), expected, kTolerance) << seed;
+    EXPECT_NEAR(view.gain(AreaFactorGain{.fan = kFan}), expected, kSurfaceTolerance) << seed;
     sum += expected;
   }
   EXPECT_GT(sum, 6.0);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/belief/map/floor_map.hpp"
+#include "vantage/planners/navigation/path_field.hpp"
 
 namespace vantage {
 
@@ -34,6 +35,15 @@ inline Pose2 place_of(const Drawing& rows, char mark, double yaw_rad = 0.0) {
   }
   expects(false, "the mark is not in the drawing");
   return {};
+}
+
+/// A robot that fits wherever its centre's cell is free.
+inline NavigationOptions point_robot() {
+  NavigationOptions options;
+  options.footprint_radius_m = 0.9;
+  options.margin_m = 0.0;
+  options.clearance_weight = 0.0;
+  return options;
 }
 
 }  // namespace vantage

@@ -15,7 +15,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kWidth_m = 0.6;
 
 NavigationOptions disc_of(const FloorOutline& outline) {
@@ -67,7 +66,8 @@ TEST(FootprintSpace, AgreesWithEveryPointOfTheFloor) {
     const FloorOutline outline = rectangle(0.8, 0.5);
     const auto space = rooms.space({.outline = outline}, {.margin_m = 0.03});
     for (int i = 0; i < 60; ++i) {
-      const Pose2 pose{rng.uniform(0.6, 2.4), rng.uniform(0.6, 2.4), rng.uniform(-kPi, kPi)};
+      const Pose2 pose{rng.uniform(0.6, 2.4), rng.uniform(0.6, 2.4),
+                       rng.uniform(-std::numbers::pi, std::numbers::pi)};
       EXPECT_EQ(space->fits(outline, pose), !covers_something(rooms.detail, moved(outline, pose)));
       const Eigen::Array2i cell = rooms.detail.cell_at({pose.x_m, pose.y_m});
       const int heading = space->nearest_heading(pose.yaw_rad);
@@ -123,7 +123,7 @@ TEST_P(Door, IsGoneThroughSquarely) {
   EXPECT_LT(through.front().x_m, 2.5);
   EXPECT_GT(through.back().x_m, 2.6);
   for (const Pose2& pose : through) {
-    EXPECT_NEAR(std::remainder(pose.yaw_rad, kPi / 2.0), 0.0, 1e-6);
+    EXPECT_NEAR(std::remainder(pose.yaw_rad, std::numbers::pi / 2.0), 0.0, 1e-6);
     EXPECT_NEAR(pose.y_m, 1.5, 0.02);
   }
   EXPECT_NEAR(path.legs[0].waypoints.back().yaw_rad, through.front().yaw_rad, 1e-9);
@@ -169,7 +169,7 @@ TEST(Passages, ARobotCannotTurnRoundInANarrowCorridor) {
     farthest_m = std::max(farthest_m, std::abs(node.pose.x_m - 2.0));
   }
   EXPECT_GT(farthest_m, 1.3);
-  const PlannedPath path = plan_path(field, {0.7, 1.0, kPi});
+  const PlannedPath path = plan_path(field, {0.7, 1.0, std::numbers::pi});
   EXPECT_TRUE(path.reaches_goal);
   EXPECT_LT(std::abs(path.end.yaw_rad), 0.5) << "it backs out";
 }
@@ -232,10 +232,11 @@ TEST(Passages, PathsNeverOverlapAnything) {
       }
     }
     const PathField field =
-        make_path_field(rooms.floor, {0.8, 1.5, rng.uniform(-kPi, kPi)}, disc_of(outline),
-                        rooms.space({.outline = outline}, {}));
+        make_path_field(rooms.floor, {0.8, 1.5, rng.uniform(-std::numbers::pi, std::numbers::pi)},
+                        disc_of(outline), rooms.space({.outline = outline}, {}));
     for (int i = 0; i < 4; ++i) {
-      const Pose2 goal{rng.uniform(3.2, 4.5), rng.uniform(0.6, 2.4), rng.uniform(-kPi, kPi)};
+      const Pose2 goal{rng.uniform(3.2, 4.5), rng.uniform(0.6, 2.4),
+                       rng.uniform(-std::numbers::pi, std::numbers::pi)};
       const PlannedPath path = plan_path(field, goal);
       if (!path.reaches_goal || path.legs.empty()) continue;
       ++passages;
@@ -292,7 +293,8 @@ TEST(Passages, ARobotGetsOutWhereverADiscDoes) {
   int squeezed = 0;
   for (int i = 0; i < 80; ++i) {
     const DrawnRooms rooms = random_room(rng, 9);
-    const Pose2 start{rng.uniform(0.2, 2.8), rng.uniform(0.2, 2.8), rng.uniform(-kPi, kPi)};
+    const Pose2 start{rng.uniform(0.2, 2.8), rng.uniform(0.2, 2.8),
+                      rng.uniform(-std::numbers::pi, std::numbers::pi)};
     const FloorMap& floor = rooms.floor;
     if (!is_free(floor, floor.index(floor.cell_at({start.x_m, start.y_m})))) continue;
     const PathField disc = make_path_field(floor, start, disc_of(outline));

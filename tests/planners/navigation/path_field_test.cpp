@@ -11,12 +11,8 @@
 namespace vantage {
 namespace {
 
-/// A robot that fits wherever its centre's cell is free.
-NavigationOptions point_robot() {
-  NavigationOptions options;
-  options.footprint_radius_m = 0.9;
-  options.margin_m = 0.0;
-  options.clearance_weight = 0.0;
+NavigationOptions comfortable_point_robot() {
+  NavigationOptions options = point_robot();
   options.comfort_m = 2.0;
   return options;
 }
@@ -47,7 +43,7 @@ RC_GTEST_PROP(PathField, ReachesWhatAFloodReaches, ()) {
   for (float& cell : map.log_odds) cell = *rc::gen::inRange(0, one_in) == 0 ? 0.0F : -3.0F;
   const auto start = static_cast<std::size_t>(*rc::gen::inRange(0, nx * ny));
   map.log_odds[start] = -3.0F;
-  NavigationOptions options = point_robot();
+  NavigationOptions options = comfortable_point_robot();
   options.footprint_radius_m = *rc::gen::element(0.4, 0.6, 0.9);
   options.clearance_weight = *rc::gen::element(0.0, 2.0);
 
@@ -66,7 +62,8 @@ TEST(PathField, CostsTheOctileDistanceWhereClearanceDoesNotMatter) {
       "......",  //
       "S.....",  //
   };
-  const PathField field = make_path_field(floor_of(rows), place_of(rows, 'S'), point_robot());
+  const PathField field =
+      make_path_field(floor_of(rows), place_of(rows, 'S'), comfortable_point_robot());
   EXPECT_NEAR(field.cost[field.map.index({5, 0})], 5.0, 1e-12);
   EXPECT_NEAR(field.cost[field.map.index({5, 2})], 3.0 + 2.0 * std::sqrt(2.0), 1e-12);
 }
@@ -78,7 +75,7 @@ TEST(PathField, DoesNotCutCorners) {
       "...",  //
   };
   const FloorMap map = floor_of(rows);
-  const PathField field = make_path_field(map, place_of(rows, 'S'), point_robot());
+  const PathField field = make_path_field(map, place_of(rows, 'S'), comfortable_point_robot());
   EXPECT_TRUE(field.reachable(map.index({1, 1})));
   EXPECT_FALSE(field.reachable(map.index({2, 2})));
 }
@@ -93,7 +90,7 @@ TEST(PathField, KeepsTheFootprintOutOfNarrowPlaces) {
   };
   const FloorMap map = floor_of(rows);
   const Pose2 goal = place_of(rows, 'G');
-  NavigationOptions options = point_robot();
+  NavigationOptions options = comfortable_point_robot();
   const auto reaches = [&] {
     const PathField field = make_path_field(map, place_of(rows, 'S'), options);
     return field.reachable(Eigen::Vector2d(goal.x_m, goal.y_m));
@@ -112,7 +109,7 @@ TEST(PathField, LeavesAPlaceTooNearAnObstacle) {
       "#.......#",  //
       "#########",  //
   };
-  NavigationOptions options = point_robot();
+  NavigationOptions options = comfortable_point_robot();
   options.footprint_radius_m = 2.0;
   options.escape_radius_m = 1.5;
   const FloorMap map = floor_of(rows);
@@ -138,7 +135,7 @@ TEST(PathField, EscapesAwayFromWhatItStandsBeside) {
       "...............",  //
       "...............",  //
   };
-  NavigationOptions options = point_robot();
+  NavigationOptions options = comfortable_point_robot();
   options.footprint_radius_m = 2.0;
   options.escape_radius_m = 3.0;
   const FloorMap map = floor_of(rows);
@@ -156,7 +153,7 @@ TEST(PathField, DoesNotEscapeThroughAWall) {
       "?S?#......",  //
       "???#......",  //
   };
-  NavigationOptions options = point_robot();
+  NavigationOptions options = comfortable_point_robot();
   options.footprint_radius_m = 1.5;
   options.escape_radius_m = 9.0;
   const PathField field = make_path_field(floor_of(rows), place_of(rows, 'S'), options);
@@ -165,7 +162,7 @@ TEST(PathField, DoesNotEscapeThroughAWall) {
 
 TEST(PathField, OfARobotOutsideTheMapReachesNothing) {
   const FloorMap map = floor_of({"...", "...", "..."});
-  const PathField field = make_path_field(map, {-5.0, 0.0, 0.0}, point_robot());
+  const PathField field = make_path_field(map, {-5.0, 0.0, 0.0}, comfortable_point_robot());
   EXPECT_FALSE(nearest_reachable(field, {1.5, 1.5}).has_value());
 }
 

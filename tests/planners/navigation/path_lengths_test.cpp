@@ -10,14 +10,6 @@
 namespace vantage {
 namespace {
 
-NavigationOptions point_robot() {
-  NavigationOptions options;
-  options.footprint_radius_m = 0.9;
-  options.margin_m = 0.0;
-  options.clearance_weight = 0.0;
-  return options;
-}
-
 const Drawing kRooms{
     "A.....#....B",  //
     "......#.....",  //

@@ -13,14 +13,6 @@
 namespace vantage {
 namespace {
 
-NavigationOptions point_robot() {
-  NavigationOptions options;
-  options.footprint_radius_m = 0.9;
-  options.margin_m = 0.0;
-  options.clearance_weight = 0.0;
-  return options;
-}
-
 /// Every cell the path passes is traversable.
 void expect_clear(const PathField& field, const PlannedPath& path) {
   const auto& points = path.waypoints;

@@ -20,9 +20,9 @@ class FeatureChoiceTest : public ::testing::Test {
   FeatureChoiceTest() {
     states_.bins = 2;
     states_.objects = {"cup", "mug"};
-    weak_ = testing::scalar_model({0.0F, 0.5F, 1.0F, 1.5F});
-    object_ = testing::scalar_model({0.0F, 0.0F, 3.0F, 3.0F});
-    pose_ = testing::scalar_model({0.0F, 9.0F, 0.0F, 9.0F});
+    weak_ = test::scalar_model({0.0F, 0.5F, 1.0F, 1.5F});
+    object_ = test::scalar_model({0.0F, 0.0F, 3.0F, 3.0F});
+    pose_ = test::scalar_model({0.0F, 9.0F, 0.0F, 9.0F});
     weak_.feature = "weak";
     object_.feature = "object";
     pose_.feature = "pose";

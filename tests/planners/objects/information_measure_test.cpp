@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-using testing::about;
+using test::about;
 
 constexpr double kTolerance = 1e-4;  // divergences are single precision
 
@@ -44,7 +44,7 @@ std::vector<InformationMeasure> every_measure_but_jeffreys() {
 }
 
 TEST(EveryInformationMeasure, OfStatesThatAreAlikeIsNothing) {
-  const auto model = testing::scalar_model({1.0F, 1.0F});
+  const auto model = test::scalar_model({1.0F, 1.0F});
   const ObservationModel* feature = &model;
   for (const auto& measure : every_measure()) {
     EXPECT_NEAR(bits_of(measure, about({&feature, 1}, {0.5, 0.5})), 0.0, 1e-12)
@@ -53,7 +53,7 @@ TEST(EveryInformationMeasure, OfStatesThatAreAlikeIsNothing) {
 }
 
 TEST(EveryInformationMeasure, OfTwoStatesFarApartIsABit) {
-  const auto model = testing::scalar_model({-50.0F, 50.0F});
+  const auto model = test::scalar_model({-50.0F, 50.0F});
   const ObservationModel* feature = &model;
   for (const auto& measure : every_measure_but_jeffreys()) {
     EXPECT_NEAR(bits_of(measure, about({&feature, 1}, {0.5, 0.5})), 1.0, 1e-9)
@@ -62,7 +62,7 @@ TEST(EveryInformationMeasure, OfTwoStatesFarApartIsABit) {
 }
 
 TEST(EveryInformationMeasure, OfAFeatureThatIsIgnoredIsNothing) {
-  auto model = testing::scalar_model({-50.0F, 50.0F});
+  auto model = test::scalar_model({-50.0F, 50.0F});
   model.psi = 0.0;
   const ObservationModel* feature = &model;
   for (const auto& measure : every_measure()) {
@@ -72,7 +72,7 @@ TEST(EveryInformationMeasure, OfAFeatureThatIsIgnoredIsNothing) {
 }
 
 TEST(EveryInformationMeasure, OfACertainStateIsNothingAndNotMinusNothing) {
-  const auto model = testing::scalar_model({-50.0F});
+  const auto model = test::scalar_model({-50.0F});
   const ObservationModel* feature = &model;
   for (const auto& measure : every_measure()) {
     for (const std::vector<int>& group : {std::vector<int>{}, std::vector<int>{3}}) {
@@ -84,7 +84,7 @@ TEST(EveryInformationMeasure, OfACertainStateIsNothingAndNotMinusNothing) {
 }
 
 TEST(EveryInformationMeasure, AboutOneObjectIsNothing) {
-  const auto model = testing::scalar_model({-5.0F, 5.0F});
+  const auto model = test::scalar_model({-5.0F, 5.0F});
   const ObservationModel* feature = &model;
   for (const auto& measure : every_measure()) {
     EXPECT_NEAR(bits_of(measure, about({&feature, 1}, {0.5, 0.5}, {2, 2})), 0.0, 1e-12)
@@ -94,8 +94,8 @@ TEST(EveryInformationMeasure, AboutOneObjectIsNothing) {
 
 TEST(EveryInformationMeasure, IsTheSameFromTables) {
   Rng rng(2);
-  const auto families = testing::near_duplicate_families(4);
-  const auto model = testing::near_duplicate_model(families, 20, 2.0, {}, rng);
+  const auto families = test::near_duplicate_families(4);
+  const auto model = test::near_duplicate_model(families, 20, 2.0, {}, rng);
   const ObservationModel* feature = &model;
   const DivergenceTables tables{
       .bhattacharyya_nats = divergence_table(Divergence::bhattacharyya, model, 1),
@@ -116,9 +116,9 @@ TEST(EveryInformationMeasure, IsTheSameFromTables) {
 RC_GTEST_PROP(InformationBounds, BracketMonteCarlo, ()) {
   const int states = *rc::gen::inRange(2, 7);
   const bool equal_variances = *rc::gen::arbitrary<bool>();
-  auto model = testing::random_model(states, equal_variances);
+  auto model = test::random_model(states, equal_variances);
   if (equal_variances) model.psi = *rc::gen::element(0.1, 0.5, 1.0, 2.0);
-  const auto b = testing::random_weights(states);
+  const auto b = test::random_weights(states);
   const auto group = *rc::gen::element(
       std::vector<int>{}, *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(states),
                                                                 rc::gen::inRange(0, 3)));
@@ -132,17 +132,17 @@ RC_GTEST_PROP(InformationBounds, BracketMonteCarlo, ()) {
 }
 
 RC_GTEST_PROP(JeffreysDivergence, IsTheSumOverPairs, ()) {
-  auto model = testing::random_model(4, false);
+  auto model = test::random_model(4, false);
   model.psi = *rc::gen::element(0.25, 1.0);
-  const auto b = testing::random_weights(4);
+  const auto b = test::random_weights(4);
   double of_states = 0.0;
   double of_objects = 0.0;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
       const double bits = model.psi * b[static_cast<std::size_t>(i)] *
                           b[static_cast<std::size_t>(j)] *
-                          gaussian_jeffreys_divergence_bits(testing::gaussian_of(model, i),
-                                                            testing::gaussian_of(model, j));
+                          gaussian_jeffreys_divergence_bits(test::gaussian_of(model, i),
+                                                            test::gaussian_of(model, j));
       of_states += bits;
       if (i / 2 != j / 2) of_objects += bits;
     }
@@ -156,16 +156,16 @@ RC_GTEST_PROP(JeffreysDivergence, IsTheSumOverPairs, ()) {
 }
 
 RC_GTEST_PROP(MeanFeatureInformation, IsTheFormula, ()) {
-  const auto model = testing::random_model(4, false);
-  const auto b = testing::random_weights(4);
+  const auto model = test::random_model(4, false);
+  const auto b = test::random_weights(4);
   double of_states = 0.0;
   double of_objects = 0.0;
   for (int i = 0; i < 4; ++i) {
     double own = 0.0;
     double all = 0.0;
     for (int j = 0; j < 4; ++j) {
-      const double relative = testing::log_likelihood_at_mean(model, i, j) -
-                              testing::log_likelihood_at_mean(model, i, i);
+      const double relative =
+          test::log_likelihood_at_mean(model, i, j) - test::log_likelihood_at_mean(model, i, i);
       const double p = b[static_cast<std::size_t>(j)] * std::exp(relative);
       all += p;
       if (i / 2 == j / 2) own += p;
@@ -193,11 +193,11 @@ TEST(MeanFeatureInformation, IsFarBelowNothingWhereANarrowStateLiesAtTheMeanOfAW
 
 TEST(LossOfEntropy, AgreesWithMonteCarloWithinStandardErrors) {
   Rng rng(3);
-  const auto families = testing::near_duplicate_families(6);
+  const auto families = test::near_duplicate_families(6);
   for (int trial = 0; trial < 20; ++trial) {
-    const auto model = testing::near_duplicate_model(families, 15, 3.0, {}, rng);
+    const auto model = test::near_duplicate_model(families, 15, 3.0, {}, rng);
     const ObservationModel* feature = &model;
-    Eigen::VectorXd belief = testing::normals(48, 1.5, rng).array().exp();
+    Eigen::VectorXd belief = test::normals(48, 1.5, rng).array().exp();
     belief /= belief.sum();
     const InformationQuery query{.likely = likely_states(belief, 48), .features = {&feature, 1}};
     const auto few = LossOfEntropy{}(query, rng);
@@ -223,7 +223,7 @@ class NearDuplicates : public ::testing::Test {
       const std::vector<const ObservationModel*> features{&models[0], &models[1]};
       const Eigen::VectorXd belief = after_first_view(models, rng);
       for (const int turn : {1, 3, 5}) {
-        const Eigen::VectorXd predicted = testing::turned(families().states, belief, turn);
+        const Eigen::VectorXd predicted = test::turned(families().states, belief, turn);
         InformationQuery query{.likely = likely_states(predicted, 320), .features = features};
         if (about_object) query.group = objects_of(families().states, query.likely.states);
         reference.push_back(MonteCarloInformation{.samples = 500}(query, rng).bits);
@@ -232,23 +232,23 @@ class NearDuplicates : public ::testing::Test {
         values.push_back(expected_information(measure, query, rng).bits);
       }
     }
-    return testing::rank_correlation(values, reference);
+    return test::rank_correlation(values, reference);
   }
 
  private:
   using Models = std::array<ObservationModel, 2>;
 
-  static const testing::NearDuplicateFamilies& families() {
-    static const auto families = testing::near_duplicate_families(40);
+  static const test::NearDuplicateFamilies& families() {
+    static const auto families = test::near_duplicate_families(40);
     return families;
   }
 
   static Models random_models(Rng& rng) {
     const double unlikeness = rng.uniform(0.5, 1.5);
-    const testing::NearDuplicateSpread spread{.near_duplicate = 0.4 * unlikeness,
-                                              .decal = 1.2 * unlikeness};
-    auto first = testing::near_duplicate_model(families(), 20, rng.uniform(2.0, 5.0), spread, rng);
-    auto second = testing::near_duplicate_model(families(), 8, rng.uniform(1.0, 3.0), spread, rng);
+    const test::NearDuplicateSpread spread{.near_duplicate = 0.4 * unlikeness,
+                                           .decal = 1.2 * unlikeness};
+    auto first = test::near_duplicate_model(families(), 20, rng.uniform(2.0, 5.0), spread, rng);
+    auto second = test::near_duplicate_model(families(), 8, rng.uniform(1.0, 3.0), spread, rng);
     return {std::move(first), std::move(second)};
   }
 
@@ -257,7 +257,7 @@ class NearDuplicates : public ::testing::Test {
     const auto truth = static_cast<int>(rng.uniform_index(static_cast<std::size_t>(states)));
     Eigen::VectorXd belief = Eigen::VectorXd::Constant(states, 1.0 / states);
     for (const ObservationModel& model : models) {
-      belief = testing::updated(belief, testing::measured_log_likelihoods(model, truth, rng));
+      belief = test::updated(belief, test::measured_log_likelihoods(model, truth, rng));
     }
     return belief;
   }
@@ -273,7 +273,7 @@ TEST_F(NearDuplicates, TheApproximationAboutObjectsRanksAsMonteCarloDoes) {
 
 /// Two objects of two poses each, and two kinds of unknown ones, wider.
 ObservationModel model_with_unknown() {
-  ObservationModel model = testing::scalar_model({-1.0F, -0.5F, 1.5F, 2.0F, 0.0F, 0.5F});
+  ObservationModel model = test::scalar_model({-1.0F, -0.5F, 1.5F, 2.0F, 0.0F, 0.5F});
   model.variance << 0.2F, 0.3F, 0.25F, 0.2F, 4.0F, 9.0F;
   return model;
 }
@@ -340,8 +340,8 @@ TEST(InformationWithUnknown, SamplesUseTheFactors) {
 
 TEST(EveryInformationMeasure, OfAViewThatCountsForLessIsAsOfASmallerPsi) {
   Rng rng(2);
-  const auto families = testing::near_duplicate_families(4);
-  auto model = testing::near_duplicate_model(families, 20, 2.0, {}, rng);
+  const auto families = test::near_duplicate_families(4);
+  auto model = test::near_duplicate_model(families, 20, 2.0, {}, rng);
   const ObservationModel* feature = &model;
   Eigen::VectorXd belief = Eigen::VectorXd::LinSpaced(32, 1.0, 9.0);
   belief /= belief.sum();

@@ -15,8 +15,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Near-duplicates in eight poses that differ where a decal is: in bin 3. The pose shows in every
 /// view. The one at hand is either, seen in bin 0.
 class ObjectViewChoiceTest : public ::testing::Test {
@@ -32,7 +30,7 @@ class ObjectViewChoiceTest : public ::testing::Test {
     belief[states_.state(0, 0)] = belief[states_.state(1, 0)] = 0.5;
     for (int turn = 1; turn < 8; ++turn) {
       actions_.push_back({.yaw_rad = turn * states_.bin_rad(), .time_s = 1.0});
-      beliefs_.push_back(testing::turned(states_, belief, turn));
+      beliefs_.push_back(test::turned(states_, belief, turn));
     }
   }
 
@@ -109,7 +107,7 @@ TEST_F(ObjectViewChoiceTest, RandomTakesEveryActionAboutAsOften) {
 
 TEST_F(ObjectViewChoiceTest, StarGoesToTheOppositeSide) {
   EXPECT_EQ(choose({.choice = StarView{}}).action, 3U);
-  for (auto& action : actions_) action.yaw_rad -= 4.0 * kPi;
+  for (auto& action : actions_) action.yaw_rad -= 4.0 * std::numbers::pi;
   EXPECT_EQ(choose({.choice = StarView{}}).action, 3U);
 }
 

@@ -8,11 +8,10 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const Orbit kOrbit{.centre_m = {1.0, 2.0, 0.7}, .radius_m = 1.5, .height_m = 0.9};
 
 TEST(Orbit, PlacesLookAtTheAxis) {
-  for (const double bearing : {-3.0, -0.4, 0.0, 1.0, kPi}) {
+  for (const double bearing : {-3.0, -0.4, 0.0, 1.0, std::numbers::pi}) {
     const Pose place = kOrbit.place(bearing);
     const Eigen::Vector3d to_centre = kOrbit.centre_m - place.translation();
     EXPECT_NEAR(to_centre.head<2>().norm(), 1.5, 1e-12);
@@ -24,7 +23,7 @@ TEST(Orbit, PlacesLookAtTheAxis) {
 }
 
 TEST(Orbit, AtAnElevation) {
-  const Orbit orbit = Orbit::at_elevation({0.0, 0.0, 1.0}, 2.0, kPi / 6.0);
+  const Orbit orbit = Orbit::at_elevation({0.0, 0.0, 1.0}, 2.0, std::numbers::pi / 6.0);
   EXPECT_NEAR(orbit.radius_m, std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(orbit.height_m, 1.0, 1e-12);
 }
@@ -32,7 +31,7 @@ TEST(Orbit, AtAnElevation) {
 TEST(OrbitArc, GoesTheShortWayInEvenSteps) {
   const std::vector<Pose> arc = orbit_arc(kOrbit, 3.0, -3.0, 0.1);  // 0.283 rad, across pi
   ASSERT_EQ(arc.size(), 3U);
-  const double step_rad = (2.0 * kPi - 6.0) / 3.0;
+  const double step_rad = (2.0 * std::numbers::pi - 6.0) / 3.0;
   for (std::size_t i = 0; i < arc.size(); ++i) {
     const double bearing = 3.0 + step_rad * static_cast<double>(i + 1);
     EXPECT_TRUE(arc[i].isApprox(kOrbit.place(bearing), 1e-9)) << i;
@@ -55,7 +54,8 @@ TEST(OrbitWay, OnOneOrbitIsItsArc) {
 TEST(OrbitWay, TheLongWayGoesRoundTheOtherSide) {
   const std::vector<Pose> way = orbit_way(kOrbit, 0.3, kOrbit, 1.3, 0.2, {.long_way = true});
   EXPECT_EQ(way.size(), 27U) << "5.28 rad";
-  EXPECT_NEAR(kOrbit.bearing_rad(way.front().translation()), 0.3 - (2.0 * kPi - 1.0) / 27.0, 1e-9);
+  EXPECT_NEAR(kOrbit.bearing_rad(way.front().translation()),
+              0.3 - (2.0 * std::numbers::pi - 1.0) / 27.0, 1e-9);
   EXPECT_TRUE(way.back().isApprox(kOrbit.place(1.3), 1e-9));
   for (const Pose& place : way) {
     const double bearing = kOrbit.bearing_rad(place.translation());

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-using testing::about;
+using test::about;
 
 /// I(state; f) of a feature of one dimension, by the trapezium rule.
 double integrated_information_bits(const ObservationModel& model, const std::vector<double>& b) {
@@ -47,7 +47,7 @@ ObservationModel repeated(const ObservationModel& model, int times) {
 }
 
 TEST(SampledInformation, AgreesWithTheIntegral) {
-  auto model = testing::scalar_model({0.0F, 1.0F, 3.0F});
+  auto model = test::scalar_model({0.0F, 1.0F, 3.0F});
   model.variance << 1.0F, 0.25F, 4.0F;
   const std::vector<double> b{0.5, 0.2, 0.3};
   const ObservationModel* feature = &model;
@@ -60,7 +60,7 @@ TEST(SampledInformation, AgreesWithTheIntegral) {
 
 /// The error of the mean of n samples of H(b) - H(b | f), whose variance is an integral too.
 TEST(SampledInformation, KnowsItsStandardError) {
-  const auto model = testing::scalar_model({0.0F, 1.5F});
+  const auto model = test::scalar_model({0.0F, 1.5F});
   const std::vector<double> b{0.5, 0.5};
   double mean = 0.0;
   double square = 0.0;
@@ -81,7 +81,7 @@ TEST(SampledInformation, KnowsItsStandardError) {
 }
 
 TEST(SampledInformation, OfARepeatedFeatureIsThatOfItsParts) {
-  auto model = testing::scalar_model({0.0F, 1.0F, 3.0F});
+  auto model = test::scalar_model({0.0F, 1.0F, 3.0F});
   model.variance << 1.0F, 0.8F, 1.3F;
   const std::vector<double> b{0.5, 0.2, 0.3};
   const ObservationModel* feature = &model;
@@ -101,21 +101,20 @@ TEST(SampledInformation, OfARepeatedFeatureIsThatOfItsParts) {
 }
 
 TEST(SampledInformation, OfEqualVariancesIsThatOfAWiderGaussian) {
-  auto model = testing::scalar_model({0.0F, 3.0F}, 1.0F);
+  auto model = test::scalar_model({0.0F, 3.0F}, 1.0F);
   model.psi = 0.25;
   const ObservationModel* feature = &model;
   const std::vector<double> b{0.5, 0.5};
   Rng rng(3);
   const auto sampled = sampled_information(about({&feature, 1}, b), 20'000, rng);
-  EXPECT_NEAR(sampled.bits,
-              integrated_information_bits(testing::scalar_model({0.0F, 3.0F}, 4.0F), b),
+  EXPECT_NEAR(sampled.bits, integrated_information_bits(test::scalar_model({0.0F, 3.0F}, 4.0F), b),
               4.0 * sampled.standard_error_bits);
 }
 
 TEST(SampledInformation, IsWhatAFilterLosesOnMeasurements) {
-  const auto families = testing::near_duplicate_families(3, 4, 3);
+  const auto families = test::near_duplicate_families(3, 4, 3);
   Rng rng(5);
-  const auto model = testing::near_duplicate_model(families, 30, 2.0, {}, rng);
+  const auto model = test::near_duplicate_model(families, 30, 2.0, {}, rng);
   const int states = families.states.size();
   const Eigen::VectorXd prior = Eigen::VectorXd::Constant(states, 1.0 / states);
   const auto entropy = [](const Eigen::VectorXd& b) {
@@ -124,8 +123,8 @@ TEST(SampledInformation, IsWhatAFilterLosesOnMeasurements) {
   double lost_bits = 0.0;
   constexpr int kMeasurements = 4800;
   for (int s = 0; s < kMeasurements; ++s) {
-    const auto log_p = testing::measured_log_likelihoods(model, s % states, rng);
-    lost_bits += (entropy(prior) - entropy(testing::updated(prior, log_p))) / kMeasurements;
+    const auto log_p = test::measured_log_likelihoods(model, s % states, rng);
+    lost_bits += (entropy(prior) - entropy(test::updated(prior, log_p))) / kMeasurements;
   }
   const ObservationModel* feature = &model;
   const std::vector<double> b(prior.begin(), prior.end());
@@ -134,7 +133,7 @@ TEST(SampledInformation, IsWhatAFilterLosesOnMeasurements) {
 }
 
 TEST(SampledInformation, IsTheSameForTheSameSeed) {
-  const auto model = testing::scalar_model({0.0F, 1.0F});
+  const auto model = test::scalar_model({0.0F, 1.0F});
   const ObservationModel* feature = &model;
   const auto query = about({&feature, 1}, {0.5, 0.5});
   Rng first(9);
@@ -147,7 +146,7 @@ TEST(SampledInformation, IsTheSameForTheSameSeed) {
 
 TEST(SampledInformation, AboutGroupsLeavesOutWhatTellsTheirMembersApart) {
   // Poses are far apart; the objects differ in their second poses only.
-  const auto model = testing::scalar_model({0.0F, 100.0F, 0.0F, 200.0F});
+  const auto model = test::scalar_model({0.0F, 100.0F, 0.0F, 200.0F});
   const ObservationModel* feature = &model;
   Rng rng(1);
   const std::vector<double> b(4, 0.25);
@@ -156,16 +155,16 @@ TEST(SampledInformation, AboutGroupsLeavesOutWhatTellsTheirMembersApart) {
 }
 
 RC_GTEST_PROP(InformationAtMeans, IsTheFormula, ()) {
-  auto model = testing::random_model(4, false);
+  auto model = test::random_model(4, false);
   model.psi = *rc::gen::element(0.5, 1.0);
-  const auto b = testing::random_weights(4);
+  const auto b = test::random_weights(4);
   double bits = entropy_bits(b);
   for (int i = 0; i < 4; ++i) {
     std::vector<double> posterior;
     double sum = 0.0;
     for (int j = 0; j < 4; ++j) {
-      const double relative = testing::log_likelihood_at_mean(model, i, j) -
-                              testing::log_likelihood_at_mean(model, i, i);
+      const double relative =
+          test::log_likelihood_at_mean(model, i, j) - test::log_likelihood_at_mean(model, i, i);
       sum += posterior.emplace_back(b[static_cast<std::size_t>(j)] * std::exp(relative));
     }
     for (double& p : posterior) p /= sum;

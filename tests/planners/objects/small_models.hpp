@@ -12,7 +12,7 @@
 #include "vantage/information/gaussian.hpp"
 #include "vantage/planners/objects/information_query.hpp"
 
-namespace vantage::testing {
+namespace vantage::test {
 
 /// One dimension, a state per mean.
 inline ObservationModel scalar_model(std::initializer_list<float> means, float variance = 1.0F) {
@@ -71,4 +71,4 @@ inline double log_likelihood_at_mean(const ObservationModel& model, int i, int j
              .sum();
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-using testing::gaussian_of;
+using test::gaussian_of;
 
 constexpr double kRelative = 1e-4;  // single precision
 
@@ -44,7 +44,7 @@ void expect_formula(Divergence divergence, const ObservationModel& model,
 ObservationModel near_duplicates(int dimensions, double psi) {
   Rng rng(4);
   auto model =
-      testing::near_duplicate_model(testing::near_duplicate_families(5), dimensions, 1.0, {}, rng);
+      test::near_duplicate_model(test::near_duplicate_families(5), dimensions, 1.0, {}, rng);
   model.psi = psi;
   return model;
 }
@@ -59,7 +59,7 @@ TEST(StateDivergences, AreTheFormulasOfGaussians) {
 }
 
 TEST(StateDivergences, HoldOfVariancesFarApart) {
-  auto model = testing::scalar_model({0.0F, 1.0F, 2.0F});
+  auto model = test::scalar_model({0.0F, 1.0F, 2.0F});
   model.variance << 1e-4F, 1.0F, 1e4F;
   for (const auto divergence : {Divergence::bhattacharyya, Divergence::kullback_leibler}) {
     expect_formula(divergence, model, divergence_table(divergence, model, 1));
@@ -116,14 +116,14 @@ TEST(StateDivergences, AreNeverNegativeOfStatesThatAreAlike) {
 }
 
 RC_GTEST_PROP(LogLikelihoodsAtMeans, AreTheFormulaUpToAConstantOfEachRow, ()) {
-  auto model = testing::random_model(4, false);
+  auto model = test::random_model(4, false);
   model.psi = *rc::gen::inRange(0, 20) / 10.0;
   const ObservationModel* feature = &model;
   const Eigen::MatrixXf log_p = log_likelihoods_at_means({&feature, 1}, all_states(model));
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
-      const double expected = testing::log_likelihood_at_mean(model, i, j) -
-                              testing::log_likelihood_at_mean(model, i, i);
+      const double expected =
+          test::log_likelihood_at_mean(model, i, j) - test::log_likelihood_at_mean(model, i, i);
       const auto actual = static_cast<double>(log_p(i, j) - log_p(i, i));
       RC_ASSERT(std::abs(actual - expected) < kRelative * (1.0 + std::abs(expected)));
     }
@@ -131,7 +131,7 @@ RC_GTEST_PROP(LogLikelihoodsAtMeans, AreTheFormulaUpToAConstantOfEachRow, ()) {
 }
 
 TEST(StateDivergencesDeathTest, StatesMustBeOnesTheModelHas) {
-  const auto model = testing::scalar_model({0.0F, 1.0F});
+  const auto model = test::scalar_model({0.0F, 1.0F});
   const ObservationModel* feature = &model;
   EXPECT_DEATH(state_divergences(Divergence::bhattacharyya, {&feature, 1}, std::vector{0, 2}),
                "a state the observation model has not");

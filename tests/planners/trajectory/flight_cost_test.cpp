@@ -10,8 +10,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(ObstacleCost, IsWhatIsMissingTimesSpeed) {
   const FlightCostOptions options;  // epsilon and r_b 0.5 m each
   EXPECT_EQ(obstacle_cost(options, 1.0, 2.0), 0.0);
@@ -37,10 +35,11 @@ TEST(InFrame, IsOneAtItsEdges) {
 
 TEST(InFrame, FollowsYawPitchAndPlaceOfTheCamera) {
   FlightCamera camera;
-  camera.T_body_camera = camera_ahead(kPi / 6.0, {0.2, 0.0, -0.1});
-  const Eigen::Vector4d waypoint(0.0, 0.0, 1.0, kPi / 2.0);  // heads for +y
+  camera.T_body_camera = camera_ahead(std::numbers::pi / 6.0, {0.2, 0.0, -0.1});
+  const Eigen::Vector4d waypoint(0.0, 0.0, 1.0, std::numbers::pi / 2.0);  // heads for +y
   // 1 m along the axis of a camera at (0, 0.2, 0.9) that looks 30 deg down.
-  const Eigen::Vector3d on_axis(0.0, 0.2 + std::cos(kPi / 6.0), 0.9 - std::sin(kPi / 6.0));
+  const Eigen::Vector3d on_axis(0.0, 0.2 + std::cos(std::numbers::pi / 6.0),
+                                0.9 - std::sin(std::numbers::pi / 6.0));
   EXPECT_LT(in_frame(camera, waypoint, on_axis)->norm(), 1e-12);
 }
 
@@ -62,7 +61,7 @@ TEST(CentreCost, TheBearingLeadsOutOfThePlateau) {
   EXPECT_NEAR(centre_cost(options, camera, waypoint, {0.0, 2.0, 1.0}), 1.25, 1e-12);
   EXPECT_NEAR(centre_cost(options, camera, waypoint, {-2.0, 0.0, 1.0}), 1.5, 1e-12);
   double before = 2.0;
-  for (double yaw = 0.05; yaw < kPi; yaw += 0.1) {  // turning towards what was behind
+  for (double yaw = 0.05; yaw < std::numbers::pi; yaw += 0.1) {  // turning towards what was behind
     const double cost = centre_cost(options, camera, {0.0, 0.0, 1.0, yaw}, {-2.0, 0.0, 1.0});
     EXPECT_LT(cost, before);
     before = cost;
@@ -78,9 +77,9 @@ TEST(CentreCost, AsPrintedIsAlwaysOne) {
 
 TEST(HeadingCost, TakesNoAccountOfHeightOrPitch) {
   FlightCamera camera;
-  camera.T_body_camera = camera_ahead(kPi / 4.0, {0.12, 0.0, 0.0});
+  camera.T_body_camera = camera_ahead(std::numbers::pi / 4.0, {0.12, 0.0, 0.0});
   const FlightCostOptions options{.bearing_weight = 0.0};
-  const Eigen::Vector4d waypoint(0.0, 0.0, 1.0, kPi / 2.0);
+  const Eigen::Vector4d waypoint(0.0, 0.0, 1.0, std::numbers::pi / 2.0);
   EXPECT_NEAR(heading_cost(options, camera, waypoint, {0.0, 0.5, 3.0}), 0.0, 1e-12);
   const double across = std::tan(0.5 * camera.horizontal_fov_rad);
   EXPECT_NEAR(heading_cost(options, camera, waypoint, {0.5 * across, 1.0, 1.0}), 0.25, 1e-12);
@@ -119,7 +118,7 @@ TEST(InformationCost, EndsBelowTau) {
 
 /// Costs of the ten points of a straight flight, 0.5 m and 1 s apart.
 Eigen::VectorXd costs(const FlightCostOptions& options, const FlightSurroundings& scene,
-                      const Horizon& horizon = testing::straight_flight()) {
+                      const Horizon& horizon = test::straight_flight()) {
   Eigen::VectorXd cost(horizon.count());
   flight_cost(options, {}, scene)(horizon, cost);
   return cost;
@@ -131,7 +130,7 @@ TEST(FlightCost, OfAFlightInTheOpenIsZero) {
 
 TEST(FlightCost, OfAColumnBesideThePath) {
   // The surface of the column is 0.7 m from the path where it passes, at the fourth point.
-  const Esdf surface = testing::columns({{1.5, 0.9}});
+  const Esdf surface = test::columns({{1.5, 0.9}});
   const double here_m = surface.distance_m({1.5, 0.0, 1.2});
   EXPECT_NEAR(here_m, 0.7, 0.05);
   FlightSurroundings scene{.surface = &surface, .target = {}};
@@ -144,7 +143,7 @@ TEST(FlightCost, OfAColumnBesideThePath) {
 }
 
 TEST(FlightCost, LooksBetweenWaypointsToo) {
-  const Esdf surface = testing::columns({{1.75, 0.0}});  // between the 4th and the 5th
+  const Esdf surface = test::columns({{1.75, 0.0}});  // between the 4th and the 5th
   FlightSurroundings scene{.surface = &surface, .target = {}};
   FlightCostOptions options{.clearance_weight = 0.0};
   const auto with = costs(options, scene);
@@ -156,8 +155,8 @@ TEST(FlightCost, LooksBetweenWaypointsToo) {
 }
 
 TEST(FlightCost, StandingInAnObstacleIsNotFree) {
-  const Esdf surface = testing::columns({{1.5, 0.0}});
-  Horizon standing = testing::straight_flight();
+  const Esdf surface = test::columns({{1.5, 0.0}});
+  Horizon standing = test::straight_flight();
   standing.points.colwise() = Eigen::Vector4d(1.5, 0.0, 1.2, 0.0);
   FlightSurroundings scene{.surface = &surface, .target = {}};
   const FlightCostOptions options{.obstacle_weight = 1.0, .clearance_weight = 0.0};
@@ -169,7 +168,7 @@ TEST(FlightCost, AddsTheTermsOfTheTarget) {
   const ObservationTarget target{{2.0, 1.3, 1.2}, {2.0, 0.0, 1.2}, 1.0};
   const FlightCostOptions options{.centre_weight = 2.0, .recognition_weight = 0.5};
   const auto cost = costs(options, {.surface = nullptr, .target = target});
-  const Horizon flight = testing::straight_flight();
+  const Horizon flight = test::straight_flight();
   for (Eigen::Index i = 0; i < 10; ++i) {
     const double centre = centre_cost(options, {}, flight.points.col(i), target.p_world_object_m);
     const double view = recognition_cost(options, target, flight.points.col(i).head<3>());

@@ -17,8 +17,8 @@ namespace {
 /// Least distance of waypoints from the axis of an object beside the path, 0.2 m in radius.
 double nearest_to_object_m(bool literal, double lateral_m, std::uint64_t seed) {
   const ObservationRing ring{.p_world_object_m = {2.25, lateral_m, 1.2}, .height_m = 1.2};
-  const Esdf surface = testing::columns({ring.p_world_object_m.head<2>()});
-  const Horizon horizon = testing::straight_flight();
+  const Esdf surface = test::columns({ring.p_world_object_m.head<2>()});
+  const Horizon horizon = test::straight_flight();
   const ObservedObject object{.ring = ring, .used = {}, .entropy_nats = 3.0};
   FlightSurroundings scene{.surface = &surface, .target = {}, .p_world_obstacles_m = {}};
   scene.target = observation_target({&object, 1}, horizon.points.col(0).head<3>(), horizon.points,

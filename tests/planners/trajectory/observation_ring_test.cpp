@@ -11,8 +11,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(ObservationRing, HasEightPlacesRoundTheObjectAtTheHeightFlown) {
   const ObservationRing ring{.p_world_object_m = {1.0, 2.0, 0.4}, .radius_m = 1.3, .height_m = 1.2};
   EXPECT_LT((ring.view_m(0) - Eigen::Vector3d(2.3, 2.0, 1.2)).norm(), 1e-12);
@@ -26,8 +24,8 @@ TEST(ObservationRing, PlacesFallIntoDirectionsByTheirBearing) {
     const ObservationRing ring{.p_world_object_m = {1.0, 2.0, 0.4}, .first_bearing_rad = first};
     for (int d = 0; d < kObservationDirections; ++d) {
       EXPECT_EQ(ring.direction_of(ring.view_m(d)), d);
-      for (const double off_rad : {-0.49 * kPi / 4.0, 0.49 * kPi / 4.0}) {
-        const double bearing = first + d * kPi / 4.0 + off_rad;
+      for (const double off_rad : {-0.49 * std::numbers::pi / 4.0, 0.49 * std::numbers::pi / 4.0}) {
+        const double bearing = first + d * std::numbers::pi / 4.0 + off_rad;
         const Eigen::Vector3d place(1.0 + 3.0 * std::cos(bearing), 2.0 + 3.0 * std::sin(bearing),
                                     7.0);
         EXPECT_EQ(ring.direction_of(place), d);
@@ -36,15 +34,16 @@ TEST(ObservationRing, PlacesFallIntoDirectionsByTheirBearing) {
   }
 }
 
-ObservedObject object_at(double x, double y, double entropy_nats = 2.0) {
+ObservedObject half_metre_object_at(double x, double y, double entropy_nats = 2.0) {
   return {.ring = {.p_world_object_m = {x, y, 0.5}, .height_m = 1.2},
           .used = {},
           .entropy_nats = entropy_nats};
 }
 
 TEST(ActiveObject, IsTheNearestThatIsNotKnown) {
-  std::vector<ObservedObject> objects{object_at(3.0, 0.0), object_at(1.0, 0.0, 0.05),
-                                      object_at(2.0, 0.0, 0.1)};
+  std::vector<ObservedObject> objects{half_metre_object_at(3.0, 0.0),
+                                      half_metre_object_at(1.0, 0.0, 0.05),
+                                      half_metre_object_at(2.0, 0.0, 0.1)};
   EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1), 2U);
   EXPECT_EQ(active_object(objects, {3.1, 0.0, 1.2}, 0.1), 0U);
   EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.01), 1U);
@@ -55,8 +54,8 @@ TEST(ActiveObject, IsTheNearestThatIsNotKnown) {
 }
 
 TEST(ActiveDirection, IsTheUnusedOneNearestTheRemainingPath) {
-  ObservedObject object = object_at(2.0, 1.5);
-  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  ObservedObject object = half_metre_object_at(2.0, 1.5);
+  const Eigen::Matrix4Xd path = test::straight_flight().points;
   EXPECT_EQ(active_direction(object, path), 6);  // straight below the object
   object.used[6] = true;
   EXPECT_EQ(active_direction(object, path), 5);  // as near as 7, and the path comes by it first
@@ -66,8 +65,9 @@ TEST(ActiveDirection, IsTheUnusedOneNearestTheRemainingPath) {
 }
 
 TEST(ObservationTarget, IsTheActiveDirectionOfTheActiveObject) {
-  const std::vector<ObservedObject> objects{object_at(9.0, 1.5), object_at(2.0, 1.5, 0.7)};
-  const Horizon flight = testing::straight_flight();
+  const std::vector<ObservedObject> objects{half_metre_object_at(9.0, 1.5),
+                                            half_metre_object_at(2.0, 1.5, 0.7)};
+  const Horizon flight = test::straight_flight();
   const auto target = observation_target(objects, {0.0, 0.0, 1.2}, flight.points, 0.1);
   ASSERT_TRUE(target);
   EXPECT_EQ(target->p_world_object_m, Eigen::Vector3d(2.0, 1.5, 0.5));
@@ -77,8 +77,8 @@ TEST(ObservationTarget, IsTheActiveDirectionOfTheActiveObject) {
 }
 
 TEST(BlockedDirections, AreLeftOut) {
-  ObservedObject object = object_at(2.0, 1.0);
-  const Esdf surface = testing::columns({{2.0, 1.0}, {3.4, 1.0}});
+  ObservedObject object = half_metre_object_at(2.0, 1.0);
+  const Esdf surface = test::columns({{2.0, 1.0}, {3.4, 1.0}});
   leave_out_blocked(object, surface, 0.6);
   EXPECT_TRUE(object.used[0]);  // 0.1 m from the other column's axis
   EXPECT_FALSE(object.used[2]);
@@ -86,7 +86,7 @@ TEST(BlockedDirections, AreLeftOut) {
 }
 
 TEST(NearestOnPath, IsOnTheSegmentsNotAtTheWaypointsAlone) {
-  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  const Eigen::Matrix4Xd path = test::straight_flight().points;
   const OnPath beside = nearest_on_path(path, {0.7, 0.3, 1.2});
   EXPECT_NEAR(beside.distance_m, 0.3, 1e-12);
   EXPECT_NEAR(beside.at, 1.4, 1e-12);

@@ -13,14 +13,14 @@ namespace vantage {
 namespace {
 
 TEST(Smoothest, IsTheStraightFlightBetweenItsEnds) {
-  Horizon bent = testing::straight_flight();
+  Horizon bent = test::straight_flight();
   for (Eigen::Index i = 1; i < 9; ++i) bent.points.col(i) << 0.3, 7.0, -2.0, 0.5;
   const Horizon smooth = smoothest(bent);
-  EXPECT_LT((smooth.points - testing::straight_flight().points).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((smooth.points - test::straight_flight().points).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(Smoothest, CostsLeastControl) {
-  Horizon turn = testing::straight_flight();
+  Horizon turn = test::straight_flight();
   turn.points.col(9) << 2.0, 3.0, 1.5, 3.0;
   turn.after << 2.0, 3.5, 1.5, -3.0;  // the short way on
   const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
@@ -46,7 +46,7 @@ class ReplanTest : public ::testing::Test {
     return replan(Stomp{}, plan, nominal_, turned, flight_cost({}, {}, scene), rng);
   }
 
-  Horizon flight_ = testing::straight_flight();
+  Horizon flight_ = test::straight_flight();
   Eigen::Matrix4Xd nominal_ = flight_.points;
 };
 
@@ -87,7 +87,7 @@ TEST_F(ReplanTest, KeepsAPlanThatIsBetterThanAnyOtherStart) {
 }
 
 TEST_F(ReplanTest, TakesTheLastTwoWaypoints) {
-  flight_ = testing::straight_flight(2);
+  flight_ = test::straight_flight(2);
   nominal_ = flight_.points;
   EXPECT_EQ(run(flight_, {}).points, nominal_);
 }

@@ -22,7 +22,7 @@ double bearing_rad(const Eigen::Vector4d& from, const Eigen::Vector3d& to) {
 }
 
 TEST(InitialYaw, HeadsForTheNearestUnknownObjectInRange) {
-  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  const Eigen::Matrix4Xd path = test::straight_flight().points;
   const std::vector<ObservedObject> objects{object_at(1.0, 1.0), object_at(4.0, -1.5),
                                             object_at(2.0, 0.5, 0.01)};
   const auto turned = initial_yaw(path, objects, {.range_m = 2.0});
@@ -36,14 +36,14 @@ TEST(InitialYaw, HeadsForTheNearestUnknownObjectInRange) {
 }
 
 TEST(InitialYaw, KeepsTheHeadingElsewhere) {
-  const Eigen::Matrix4Xd path = testing::straight_flight().points;
+  const Eigen::Matrix4Xd path = test::straight_flight().points;
   EXPECT_EQ(initial_yaw(path, {}), path);
   const std::vector<ObservedObject> objects{object_at(1.0, 1.0, 0.05), object_at(1.0, 5.0)};
   EXPECT_EQ(initial_yaw(path, objects), path);
 }
 
 TEST(GreedyDetour, TakesTheNearestUnusedViewsInPlaceOfWaypoints) {
-  const Horizon flight = testing::straight_flight();
+  const Horizon flight = test::straight_flight();
   std::vector<ObservedObject> objects{object_at(2.0, 2.0)};
   objects[0].used[6] = true;  // the one at (2.0, 0.7)
   const auto detour = greedy_detour(flight, objects);
@@ -58,7 +58,7 @@ TEST(GreedyDetour, TakesTheNearestUnusedViewsInPlaceOfWaypoints) {
 }
 
 TEST(GreedyDetour, ViewsAtTheSameWaypointFollowEachOther) {
-  const Horizon flight = testing::straight_flight();
+  const Horizon flight = test::straight_flight();
   std::vector<ObservedObject> objects{object_at(2.01, 0.1)};
   for (const int direction : {0, 1, 3, 4, 5, 7}) {
     objects[0].used[static_cast<std::size_t>(direction)] = true;
@@ -69,7 +69,7 @@ TEST(GreedyDetour, ViewsAtTheSameWaypointFollowEachOther) {
 }
 
 TEST(GreedyDetour, DoesNotTurnBackNorCutShort) {
-  const Horizon flight = testing::straight_flight();
+  const Horizon flight = test::straight_flight();
   for (const double x_m : {-1.5, 6.0}) {
     const std::vector<ObservedObject> objects{object_at(x_m, 0.5)};
     const auto detour = greedy_detour(flight, objects, {.range_m = 8.0});
@@ -78,14 +78,14 @@ TEST(GreedyDetour, DoesNotTurnBackNorCutShort) {
 }
 
 TEST(GreedyDetour, KeepsToThePathWhereNothingIsLeftToSee) {
-  const Horizon flight = testing::straight_flight();
+  const Horizon flight = test::straight_flight();
   EXPECT_EQ(greedy_detour(flight, {}), flight.points);
   const std::vector<ObservedObject> objects{object_at(2.0, 2.0, 0.05), object_at(40.0, 1.0)};
   EXPECT_EQ(greedy_detour(flight, objects), flight.points);
 }
 
 TEST(GreedyDetour, TakesAViewWhereTheVehicleIs) {
-  const Horizon flight = testing::straight_flight();
+  const Horizon flight = test::straight_flight();
   const std::vector<ObservedObject> objects{object_at(0.0, 1.3)};
   EXPECT_TRUE(greedy_detour(flight, objects).allFinite());
 }

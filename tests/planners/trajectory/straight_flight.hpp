@@ -7,7 +7,7 @@
 
 #include "vantage/planners/trajectory/flight_cost.hpp"
 
-namespace vantage::testing {
+namespace vantage::test {
 
 /// `count` points along x, 0.5 m apart from the origin on, 1.2 m high, heading ahead.
 inline Horizon straight_flight(Eigen::Index count = 10) {
@@ -46,4 +46,4 @@ inline double clearance_m(const Esdf& surface, const Horizon& horizon) {
   return min_m;
 }
 
-}  // namespace vantage::testing
+}  // namespace vantage::test

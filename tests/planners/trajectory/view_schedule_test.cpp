@@ -17,7 +17,7 @@ Eigen::Matrix4Xd along_x(int count) {
   return points;
 }
 
-ObservedObject object_at(double x, double y, double entropy_nats = 2.0) {
+ObservedObject object_to_see_at(double x, double y, double entropy_nats = 2.0) {
   ObservedObject object;
   object.ring = {.p_world_object_m = {x, y, 0.9}, .radius_m = 1.0, .height_m = 1.5};
   object.entropy_nats = entropy_nats;
@@ -36,7 +36,7 @@ class Schedule : public testing::Test {
 };
 
 TEST_F(Schedule, TakesAsManyViewsAsTellWhatItIs) {
-  objects_ = {object_at(4.0, 1.0)};
+  objects_ = {object_to_see_at(4.0, 1.0)};
   EXPECT_EQ(views().size(), 2U) << "0.6 of what is unknown each";
   objects_[0].gain_nats.fill(2.0);
   ASSERT_EQ(views().size(), 1U);
@@ -47,7 +47,7 @@ TEST_F(Schedule, TakesAsManyViewsAsTellWhatItIs) {
 }
 
 TEST_F(Schedule, PrefersTheDirectionThatTells) {
-  objects_ = {object_at(4.0, 1.0)};
+  objects_ = {object_to_see_at(4.0, 1.0)};
   objects_[0].gain_nats.fill(0.1);
   objects_[0].gain_nats[5] = 2.0;  // before the path comes by
   ASSERT_EQ(views().size(), 1U);
@@ -58,7 +58,7 @@ TEST_F(Schedule, PrefersTheDirectionThatTells) {
 
 // The path may sink on the way to where a view is taken.
 TEST_F(Schedule, ReachIsMeasuredAside) {
-  objects_ = {object_at(4.0, 1.0 + 0.9 * options_.reach_m)};
+  objects_ = {object_to_see_at(4.0, 1.0 + 0.9 * options_.reach_m)};
   const std::vector<ScheduledView> at_one_height = views();
   ASSERT_FALSE(at_one_height.empty());
   for (Eigen::Index i = 0; i < path_.cols(); ++i) path_(2, i) -= 0.15 * static_cast<double>(i);
@@ -69,14 +69,14 @@ TEST_F(Schedule, ReachIsMeasuredAside) {
 }
 
 TEST_F(Schedule, PassesByWhatIsOutOfReach) {
-  objects_ = {object_at(4.0, 1.0 + options_.reach_m + 0.1)};
+  objects_ = {object_to_see_at(4.0, 1.0 + options_.reach_m + 0.1)};
   for (const ScheduledView& view : views()) EXPECT_EQ(view.direction, 6);
-  objects_ = {object_at(4.0, 3.0)};
+  objects_ = {object_to_see_at(4.0, 3.0)};
   EXPECT_TRUE(views().empty());
 }
 
 TEST_F(Schedule, IsInTheOrderOfThePathAndApart) {
-  objects_ = {object_at(6.0, -1.0), object_at(3.0, 1.0), object_at(3.2, -1.0)};
+  objects_ = {object_to_see_at(6.0, -1.0), object_to_see_at(3.0, 1.0), object_to_see_at(3.2, -1.0)};
   const auto all = views();
   ASSERT_GE(all.size(), 3U);
   for (std::size_t i = 1; i < all.size(); ++i) {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 class FeatureCaching : public ::testing::Test {
  protected:
-  FeatureCaching() { testing::put_painted_object(folder_.path() / "data", {"cup", "cup_1", 0}, 8); }
+  FeatureCaching() { test::put_painted_object(folder_.path() / "data", {"cup", "cup_1", 0}, 8); }
 
   [[nodiscard]] std::vector<ViewFeatures> extract(const fs::path& cache,
                                                   const Colour& colour = {}) const {

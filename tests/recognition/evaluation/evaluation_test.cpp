@@ -20,9 +20,9 @@ class Evaluation : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     const support::TemporaryDirectory folder;
-    testing::put_painted_object(folder.path(), {"cup", "cup_1", 0, 60}, 16);
-    testing::put_painted_object(folder.path(), {"cup", "cup_2", 0, 90}, 16);
-    testing::put_painted_object(folder.path(), {"hat", "hat_1", 140}, 16);
+    test::put_painted_object(folder.path(), {"cup", "cup_1", 0, 60}, 16);
+    test::put_painted_object(folder.path(), {"cup", "cup_2", 0, 90}, 16);
+    test::put_painted_object(folder.path(), {"hat", "hat_1", 140}, 16);
     index_ = new DatasetIndex(index_dataset(folder.path()));
     TrainingOptions training;
     training.features = {Colour{}, BoundingBox{}};

@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kPeopleWidth = 160;
+constexpr int kPeopleHeight = 120;
 const fs::path kScenes = fs::path(VANTAGE_SOURCE_DIR) / "models/scenes";
 
 RenderedImages draw(const mjModel& model, const mjData& data, const CameraView& view,
@@ -29,7 +29,8 @@ RenderedImages draw(const mjModel& model, const mjData& data, const CameraView& 
   RenderRequest request;
   request.for_people = for_people;
   RenderedImages images;
-  make_offscreen_renderer(model, kWidth, kHeight)->render(model, data, view, request, images);
+  make_offscreen_renderer(model, kPeopleWidth, kPeopleHeight)
+      ->render(model, data, view, request, images);
   return images;
 }
 

@@ -12,13 +12,11 @@ namespace {
 
 using test::RobotWorld;
 
-constexpr double kPi = std::numbers::pi;
-
 /// 3---2
 /// |   |   1.5 m a side, counterclockwise, heading home at the end
 /// 0---1
 const std::vector<Pose2> kSquare = {
-    {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, kPi / 2.0}};
+    {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, std::numbers::pi / 2.0}};
 
 struct Error {
   double distance_m;

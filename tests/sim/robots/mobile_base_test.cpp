@@ -15,7 +15,6 @@ namespace {
 
 using test::RobotWorld;
 
-constexpr double kPi = std::numbers::pi;
 const std::string kWall = "<geom name='wall' type='box' size='0.1 3 1' pos='2.1 0 1'/>";
 
 TEST(MobileBase, NeedsARobotInTheModel) {
@@ -135,7 +134,8 @@ TEST(MobileBase, NothingOfItsOwnIsInTheLasersView) {
     for (double tilt_rad = -0.45; tilt_rad <= 0.9; tilt_rad += 0.05) {
       for (double azimuth_deg = -60.0; azimuth_deg <= 60.0; azimuth_deg += 1.0) {
         const Eigen::Vector3d direction =
-            T_world_laser.linear() * beam_direction({azimuth_deg * kPi / 180.0, tilt_rad});
+            T_world_laser.linear() *
+            beam_direction({azimuth_deg * std::numbers::pi / 180.0, tilt_rad});
         ASSERT_EQ(blocked_by(scene.world.model(), now, T_world_laser.translation(), direction,
                              scene.robot.laser_body_id()),
                   "")
@@ -151,7 +151,7 @@ TEST(MobileBase, BaseScannerSees270Degrees) {
   const Pose T_world_scan = scene.robot.T_world_base_scan(scene.world);
   for (double azimuth_deg = -135.0; azimuth_deg <= 135.0; azimuth_deg += 1.0) {
     const Eigen::Vector3d direction =
-        T_world_scan.linear() * beam_direction({azimuth_deg * kPi / 180.0, 0.0});
+        T_world_scan.linear() * beam_direction({azimuth_deg * std::numbers::pi / 180.0, 0.0});
     // From outside the scanner's own case, so that no body has to be left out.
     const Eigen::Vector3d p = T_world_scan.translation() + 0.035 * direction;
     ASSERT_EQ(blocked_by(scene.world.model(), now, p, direction, -1), "") << azimuth_deg;

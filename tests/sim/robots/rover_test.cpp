@@ -17,8 +17,7 @@ namespace {
 
 using test::RoverWorld;
 
-constexpr double kPi = std::numbers::pi;
-const std::string kWall = "<geom name='wall' type='box' size='0.1 3 1' pos='1.1 0 1'/>";
+const std::string kNearWall = "<geom name='wall' type='box' size='0.1 3 1' pos='1.1 0 1'/>";
 
 Odometry perfect(const RoverWorld& scene) {
   return {OdometryOptions::perfect(), Rng(1), scene.robot.T_world_base(scene.world)};
@@ -152,7 +151,8 @@ TEST(Rover, ItsScannersSeePastIt) {
   RoverWorld scene;
   const RayScene geometry(scene.world.model(), scene.world.snapshot());
   const Pose T_world_scan = scene.robot.T_world_base_scan(scene.world);
-  for (double azimuth_rad = -0.75 * kPi; azimuth_rad <= 0.75 * kPi; azimuth_rad += 0.01) {
+  for (double azimuth_rad = -0.75 * std::numbers::pi; azimuth_rad <= 0.75 * std::numbers::pi;
+       azimuth_rad += 0.01) {
     const Eigen::Vector3d d(std::cos(azimuth_rad), std::sin(azimuth_rad), 0.0);
     // From outside its own case.
     ASSERT_FALSE(geometry.cast(T_world_scan.translation() + 0.04 * d, d, 2.0).hit()) << azimuth_rad;
@@ -169,7 +169,7 @@ TEST(Rover, ItsScannersSeePastIt) {
 
 TEST(Rover, DrivesRoundASquareAndComesToRest) {
   const std::vector<Pose2> square = {
-      {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, kPi / 2.0}};
+      {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, std::numbers::pi / 2.0}};
   for (const double timestep_s : {0.0025, 0.005}) {
     RoverWorld scene("", {}, {.timestep_s = timestep_s});
     Odometry odometry = perfect(scene);
@@ -193,7 +193,7 @@ TEST(Rover, DrivesRoundASquareAndComesToRest) {
 }
 
 TEST(Rover, AWallStopsItAndIsACollision) {
-  RoverWorld scene(kWall);
+  RoverWorld scene(kNearWall);
   Odometry odometry = perfect(scene);
   CollisionCounter counter;
   scene.world.on_step = [&](const World& world) { counter.update(scene.robot, world); };

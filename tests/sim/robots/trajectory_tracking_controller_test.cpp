@@ -15,7 +15,6 @@ namespace {
 
 using test::exact_tracking;
 using test::FlightWorld;
-constexpr double kPi = std::numbers::pi;
 constexpr double kPeriod_s = 0.002;
 
 /// How far off a place the vehicle is while it holds there.
@@ -72,7 +71,7 @@ TEST(TrajectoryTrackingController, CirclesAtOneMetrePerSecond) {
   constexpr double kRadius_m = 2.0;
   constexpr double kRamp_s = 3.0;
   constexpr double kRate_rad_s = 0.5;
-  FlightWorld scene(exact_tracking(), make_pose({kRadius_m, 0.0, 2.0}, kPi));
+  FlightWorld scene(exact_tracking(), make_pose({kRadius_m, 0.0, 2.0}, std::numbers::pi));
   double sum_m2 = 0.0;
   int count = 0;
   for (int i = 1; i <= 7500; ++i) {
@@ -88,7 +87,7 @@ TEST(TrajectoryTrackingController, CirclesAtOneMetrePerSecond) {
         .v_world_m_s = kRadius_m * w * along,
         .a_world_m_s2 = kRadius_m * (gain * along - w * w * out),
         .j_world_m_s3 = -kRadius_m * w * (w * w * along + 3.0 * gain * out),
-        .yaw_rad = angle + kPi,
+        .yaw_rad = angle + std::numbers::pi,
         .yaw_rate_rad_s = w};
     scene.tracking.tick(reference);
     if (t < 5.0) continue;
@@ -123,7 +122,7 @@ TEST(TrajectoryTrackingController, RecoversFromASteadyPush) {
 }
 
 TEST(TrajectoryTrackingController, TurnsOverFromAnyAttitude) {
-  for (const double angle : {1.5, 2.5, kPi}) {
+  for (const double angle : {1.5, 2.5, std::numbers::pi}) {
     const Pose start = Eigen::Translation3d(0.0, 0.0, 5.0) *
                        Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, 0.3, 0.0).normalized());
     FlightWorld scene(exact_tracking(), start);

@@ -22,12 +22,10 @@
 namespace vantage {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 TEST(HeadSweep, PansEvenlyAllRound) {
   const auto pans_rad = pan_angles_rad({.pans = 4});
   ASSERT_EQ(pans_rad.size(), 4U);
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(pans_rad[i], (i - 1.5) * kPi / 2.0, 1e-12);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(pans_rad[i], (i - 1.5) * std::numbers::pi / 2.0, 1e-12);
 }
 
 /// Whether an image of the sweep, taken from the pan axis, shows that direction.
@@ -53,7 +51,7 @@ RC_GTEST_PROP(HeadSweep, ShowsWhateverIsInItsField, (std::uint64_t seed)) {
   const FieldOfView field = swept_field(options.sweep, options.camera, 0.0);
   RC_ASSERT(field.panorama);
   for (int i = 0; i < 100; ++i) {
-    const double azimuth = rng.uniform(-kPi, kPi);
+    const double azimuth = rng.uniform(-std::numbers::pi, std::numbers::pi);
     const double tilt = rng.uniform(field.tilt_min_rad, field.tilt_max_rad);
     const Eigen::Vector3d d(std::cos(tilt) * std::cos(azimuth), std::cos(tilt) * std::sin(azimuth),
                             -std::sin(tilt));
@@ -90,7 +88,8 @@ TEST(VisitedPlaces, RunOut) {
     ++chosen;
   }
   EXPECT_GT(chosen, 50);
-  EXPECT_LE(chosen, 3.3 * 3.3 / (kPi * 0.15 * 0.15)) << "half discs round them do not overlap";
+  EXPECT_LE(chosen, 3.3 * 3.3 / (std::numbers::pi * 0.15 * 0.15))
+      << "half discs round them do not overlap";
 }
 
 PlanarScan wall_ahead(double distance_m) {

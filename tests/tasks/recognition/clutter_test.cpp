@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPi = std::numbers::pi;
-
 RecognitionTask task_with(std::vector<std::string> overrides) {
   const fs::path episode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml";
   return std::get<RecognitionTask>(load_episode(episode, overrides).task);
@@ -26,7 +24,8 @@ TEST(Outlines, GapsAreThoseOfSquares) {
   const Outline square{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
   EXPECT_NEAR(gap_m(square, placed(square, 0.0, {3.0, 0.0})), 1.0, 1e-12);
   EXPECT_NEAR(gap_m(square, placed(square, 0.0, {5.0, 6.0})), 5.0, 1e-12) << "corner to corner";
-  EXPECT_NEAR(gap_m(square, placed(square, kPi / 4.0, {3.0, 0.0})), 2.0 - std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(gap_m(square, placed(square, std::numbers::pi / 4.0, {3.0, 0.0})),
+              2.0 - std::sqrt(2.0), 1e-12);
   EXPECT_EQ(gap_m(square, placed(square, 0.3, {0.2, 0.1})), 0.0);
   EXPECT_EQ(gap_m(square, placed(square, 0.0, {0.0, 0.0})), 0.0) << "one in the other";
 }
@@ -34,7 +33,7 @@ TEST(Outlines, GapsAreThoseOfSquares) {
 /// Long things that cross, no corner of one in the other.
 TEST(Outlines, ACrossHasNoGap) {
   const Outline bar{{-2.0, -0.1}, {2.0, -0.1}, {2.0, 0.1}, {-2.0, 0.1}};
-  EXPECT_EQ(gap_m(bar, placed(bar, kPi / 2.0, {0.0, 0.0})), 0.0);
+  EXPECT_EQ(gap_m(bar, placed(bar, std::numbers::pi / 2.0, {0.0, 0.0})), 0.0);
 }
 
 TEST(StandingRoom, PlacesAreApartAndOnTheTable) {

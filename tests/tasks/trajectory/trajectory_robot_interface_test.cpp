@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSource = VANTAGE_SOURCE_DIR;
+const fs::path kSourceTree = VANTAGE_SOURCE_DIR;
 
 FlightWaypoint at(double x_m, double y_m, double yaw_rad) {
   return {.p_world_m = {x_m, y_m, 1.8}, .yaw_rad = yaw_rad};
@@ -28,8 +28,8 @@ const ImageCallback kNothing = [](const FlightImage&) {};
 class Interface : public testing::Test {
  protected:
   const ResolvedEpisode episode_ = load_episode(
-      kSource / "assets/episodes/trajectory.yaml",
-      {fmt::format("scene={}", (kSource / "models/scenes/trajectory_4/scene.xml").string()),
+      kSourceTree / "assets/episodes/trajectory.yaml",
+      {fmt::format("scene={}", (kSourceTree / "models/scenes/trajectory_4/scene.xml").string()),
        "camera={width_px: 32, height_px: 24}"});
 };
 

@@ -46,8 +46,28 @@ ExternalPlanner::ExternalPlanner(const ExternalChoice& choice, PlannerIntroducti
 
 void ExternalPlanner::fail(const std::string& why) {
   conversation_.reset();
-  throw EpisodeFailed(fmt::format("planner {}, decision {}: {}",
-                                  printable(facts_.front().second, 200), decisions_, why));
+  const std::string when = decisions_ > 0 ? fmt::format(", decision {}", decisions_) : "";
+  throw EpisodeFailed(
+      fmt::format("planner {}{}: {}", printable(facts_.front().second, 200), when, why));
+}
+
+template <class Work>
+auto ExternalPlanner::or_fail(Work&& work) {
+  try {
+    return work();
+  } catch (const ConversationFailed& error) {
+    fail(error.what());
+  } catch (const BadDecision& error) {
+    fail(error.what());
+  } catch (const OutputError& error) {
+    fail(error.what());
+  }
+}
+
+void ExternalPlanner::greet() {
+  or_fail([&] {
+    if (!conversation_) start();
+  });
 }
 
 void ExternalPlanner::start() {
@@ -75,20 +95,14 @@ void ExternalPlanner::start() {
 
 OutsideDecision ExternalPlanner::decide(const DecisionRequest& request) {
   ++decisions_;
-  try {
+  return or_fail([&] {
     if (!conversation_) start();
     const auto grids = write_planner_grids(request, scratch_.path());
     const OutsideDecision decision = read_answer(
         conversation_->ask(request_line(request, decisions_, grids), choice_.timeout_s));
     check_decision(decision, request);
     return decision;
-  } catch (const ConversationFailed& error) {
-    fail(error.what());
-  } catch (const BadDecision& error) {
-    fail(error.what());
-  } catch (const OutputError& error) {
-    fail(error.what());
-  }
+  });
 }
 
 void ExternalPlanner::part() {

@@ -22,6 +22,9 @@ class ExternalPlanner {
   ExternalPlanner(const ExternalPlanner&) = delete;
   ExternalPlanner& operator=(const ExternalPlanner&) = delete;
 
+  /// Starts it and hears its first line; decide() does so if nobody has.
+  /// @throws EpisodeFailed with the reason, Interrupted
+  void greet();
   /// @throws EpisodeFailed with the reason, Interrupted
   OutsideDecision decide(const DecisionRequest& request);
   /// Nothing more is asked: it may end by itself.
@@ -34,6 +37,8 @@ class ExternalPlanner {
 
  private:
   void start();
+  template <class Work>
+  auto or_fail(Work&& work);
   [[noreturn]] void fail(const std::string& why);
 
   ExternalChoice choice_;

@@ -40,7 +40,7 @@ class CemRounds : public ::testing::Test {
     cem(horizon_, cost(), rng);
   }
 
-  Horizon horizon_ = testing::straight_flight(7);
+  Horizon horizon_ = test::straight_flight(7);
   Eigen::Index n_ = horizon_.free_points();
   std::vector<Eigen::Matrix4Xd> tried_;
 };

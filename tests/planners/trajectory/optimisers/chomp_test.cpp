@@ -17,7 +17,7 @@ void made_up_cost(const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_po
 }
 
 TEST(PathGradient, AgreesWithOneCoordinateAtATime) {
-  Horizon horizon = testing::straight_flight(7);
+  Horizon horizon = test::straight_flight(7);
   Rng rng(2);
   for (double& value : horizon.points.reshaped()) value += 0.2 * rng.normal();
   const PathCost cost = made_up_cost;
@@ -38,7 +38,7 @@ TEST(PathGradient, AgreesWithOneCoordinateAtATime) {
 TEST(Chomp, ReachesTheMinimumOfAQuadratic) {
   // Its gradient vanishes there.
   const PathCost cost = made_up_cost;
-  const Horizon horizon = testing::straight_flight(7);
+  const Horizon horizon = test::straight_flight(7);
   Rng rng(1);
   const auto result = Chomp{.difference = 1e-6}(horizon, cost, rng);
   Horizon best = horizon;

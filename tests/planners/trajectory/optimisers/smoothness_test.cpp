@@ -67,7 +67,7 @@ TEST(Smoothness, NoiseHasTheCovarianceOfSmoothPaths) {
 
 TEST(ControlCost, OfAStraightFlightOfConstantSpeedIsZero) {
   for (const Eigen::Index count : {10, 20, 100}) {
-    Horizon horizon = testing::straight_flight(count);
+    Horizon horizon = test::straight_flight(count);
     horizon.points.row(3).setLinSpaced(1.0, 1.0 + 0.1 * static_cast<double>(count - 1));
     horizon.before[3] = 0.9;
     horizon.after[3] = 1.0 + 0.1 * static_cast<double>(count);
@@ -78,7 +78,7 @@ TEST(ControlCost, OfAStraightFlightOfConstantSpeedIsZero) {
 }
 
 TEST(ControlCost, IsHalfTheSquareOfAQPlusB) {
-  Horizon horizon = testing::straight_flight(6);
+  Horizon horizon = test::straight_flight(6);
   Rng rng(3);
   for (auto& value : horizon.points.reshaped()) value += rng.normal();
   const Eigen::MatrixXd A = second_differences(4);
@@ -98,7 +98,7 @@ TEST(ControlCost, IsHalfTheSquareOfAQPlusB) {
 }
 
 TEST(ControlCost, OfAStepOfOnePoint) {
-  Horizon horizon = testing::straight_flight(5);
+  Horizon horizon = test::straight_flight(5);
   horizon.points(1, 2) = 0.3;
   Eigen::VectorXd cost = Eigen::VectorXd::Zero(5);
   add_control_cost(horizon, cost);
@@ -107,7 +107,7 @@ TEST(ControlCost, OfAStepOfOnePoint) {
 }
 
 TEST(UnwrappedHorizon, GoesTheShortWayRound) {
-  Horizon horizon = testing::straight_flight(3);
+  Horizon horizon = test::straight_flight(3);
   horizon.before[3] = 3.0;
   horizon.points.row(3) << -3.1, 3.1, -2.9;
   horizon.after[3] = 0.0;

@@ -40,7 +40,7 @@ TEST(RolloutProbabilities, AreEqualWhereCostsAre) {
 TEST(Stomp, StaysWhereAllPathsCostTheSame) {
   // Only control counts, and a straight flight of constant speed has none.
   const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
-  const Horizon horizon = testing::straight_flight();
+  const Horizon horizon = test::straight_flight();
   Rng rng(1);
   const auto result = Stomp{}(horizon, nothing, rng);
   EXPECT_EQ(result.points, horizon.points);
@@ -57,7 +57,7 @@ TEST(Stomp, MovesEachPointByTheNoiseThatIsCheapThere) {
       of_point[i] += static_cast<double>(i) * std::abs(horizon.points(1, i) - 0.3);
     }
   };
-  const Horizon horizon = testing::straight_flight(7);
+  const Horizon horizon = test::straight_flight(7);
   const Stomp stomp{.rollouts = 6, .iterations = 1};
   Rng rng(3);
   stomp(horizon, cost, rng);
@@ -93,7 +93,7 @@ TEST(Stomp, MovesEachPointByTheNoiseThatIsCheapThere) {
 
 TEST(Stomp, StraightensABentFlight) {
   const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
-  Horizon horizon = testing::straight_flight();
+  Horizon horizon = test::straight_flight();
   for (Eigen::Index i = 1; i < 9; ++i)
     horizon.points(1, i) = std::sin(M_PI * static_cast<double>(i) / 9.0);
   Rng rng(1);

@@ -32,10 +32,10 @@ class EveryOptimiser : public ::testing::TestWithParam<std::string_view> {
     return optimise(make_strategy<TrajectoryOptimiser>(GetParam()), horizon, cost, rng);
   }
 
-  Esdf surface_ = testing::columns({{3.0, -0.25}, {1.5, 2.1}});
+  Esdf surface_ = test::columns({{3.0, -0.25}, {1.5, 2.1}});
   FlightCamera camera_;
   FlightSurroundings scene_;
-  Horizon horizon_ = testing::straight_flight();
+  Horizon horizon_ = test::straight_flight();
 };
 
 TEST_P(EveryOptimiser, GoesRoundTheObstacleAndLooksAtTheTarget) {
@@ -43,8 +43,8 @@ TEST_P(EveryOptimiser, GoesRoundTheObstacleAndLooksAtTheTarget) {
     const auto result = run(horizon_, cost(), seed);
     EXPECT_LT(result.cost, 0.3 * result.initial_cost);
     const Horizon best{horizon_.before, result.points, horizon_.after};
-    EXPECT_LT(testing::clearance_m(surface_, horizon_), 0.2);
-    EXPECT_GT(testing::clearance_m(surface_, best), 0.6);
+    EXPECT_LT(test::clearance_m(surface_, horizon_), 0.2);
+    EXPECT_GT(test::clearance_m(surface_, best), 0.6);
     const Eigen::Vector3d view = scene_.target->p_world_view_m;
     double nearest_m = std::numeric_limits<double>::infinity();
     bool seen = false;
@@ -123,7 +123,7 @@ TEST_P(EveryOptimiser, TurnsTheShortWay) {
 }
 
 TEST_P(EveryOptimiser, LeavesAHorizonWithoutFreePoints) {
-  const Horizon two = testing::straight_flight(2);
+  const Horizon two = test::straight_flight(2);
   const auto result = run(two, cost());
   EXPECT_EQ(result.points, two.points);
   EXPECT_EQ(result.evaluations, 1);
@@ -132,7 +132,7 @@ TEST_P(EveryOptimiser, LeavesAHorizonWithoutFreePoints) {
 
 TEST_P(EveryOptimiser, TakesShortAndLongHorizons) {
   for (const Eigen::Index count : {3, 4, 5, 25}) {
-    const auto result = run(testing::straight_flight(count), cost());
+    const auto result = run(test::straight_flight(count), cost());
     EXPECT_LE(result.cost, result.initial_cost);
     EXPECT_EQ(result.points.cols(), count);
     EXPECT_TRUE(result.points.allFinite());
