@@ -34,7 +34,7 @@ if(VANTAGE_BUILD_SIM)
 endif()
 if(VANTAGE_WITH_PYTHON)
   install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-vantage COMPONENT python
-          FILES_MATCHING PATTERN "*.py" PATTERN "README.md")
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.js" PATTERN "*.cpp" PATTERN "CMakeLists.txt" PATTERN "README.md")
 endif()
 
 set(CPACK_GENERATOR DEB)

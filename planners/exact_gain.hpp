@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vantage/core/parallel_for.hpp"
+#include "vantage/core/work/stop_poll.hpp"
 #include "vantage/geometry/view_cone.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/gain.hpp"
@@ -24,6 +25,8 @@ double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& g
           "a gain of unobserved cells alone tells their state");
   typename G::Ray ray = gain.ray(tables);
   double sum_bits = 0.0;
+  constexpr std::size_t kRaysBetweenPolls = 1 << 14;
+  std::size_t rays = 0;
   const auto wanted = [&](std::size_t cell) {
     if constexpr (requires { gain.counts(tables, cell); }) {
       if (!gain.counts(tables, cell)) return false;
@@ -31,6 +34,7 @@ double sum_over_view(const G& gain, const CellTables& tables, const GridFrame& g
     return !G::unobserved_only || tables.state[cell] == CellState::unobserved;
   };
   for_each_cell_in_view(grid, cone, wanted, [&](const Eigen::Array3i& target, std::size_t index) {
+    if (++rays % kRaysBetweenPolls == 0) poll_stop();
     ray.start();
     const auto pass = [&](std::size_t cell) { return ray.pass(cell); };
     if (walk_to_cell(grid, cone.apex_m(), target, pass)) sum_bits += ray.utility(index);
@@ -50,6 +54,7 @@ std::vector<double> exact_gains_bits(const G& gain, const GainContext& context,
   parallel_for(candidates.size(), threads, [&](std::size_t i) {
     gains_bits[i] = sum_over_view(gain, tables, context.grid.frame, candidates[i].T_world_sensor,
                                   field_of_view);
+    poll_stop();
   });
   return gains_bits;
 }

@@ -5,6 +5,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel_for.hpp"
+#include "vantage/core/work/stop_poll.hpp"
 #include "vantage/planners/visibility/visibility_sweep.hpp"
 
 namespace vantage {
@@ -51,6 +52,7 @@ ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& gr
         SweptView{ViewCone(candidates[i].T_world_sensor, field_of_view), kNoRays, &seen}};
     for (const Pyramid& pyramid : kPyramids) sweep_pyramid(tables, view, pyramid);
     result.shows[i] = shares_of_blocks(seen.sums(), result.cells);
+    poll_stop();
   });
   return result;
 }

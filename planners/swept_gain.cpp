@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "vantage/core/parallel_for.hpp"
+#include "vantage/core/work/stop_poll.hpp"
 
 namespace vantage {
 namespace {
@@ -17,13 +19,16 @@ struct Station {
 std::vector<Station> stations_of(std::span<const Candidate> candidates, const FieldOfView& field,
                                  const SweepOptions& options) {
   std::vector<Station> stations;
+  std::map<std::array<double, 3>, std::size_t> station_at;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ViewCone view(candidates[i].T_world_sensor, field);
-    auto station = std::ranges::find_if(
-        stations, [&](const Station& s) { return s.views.front().cone.apex_m() == view.apex_m(); });
-    if (station == stations.end()) station = stations.emplace(stations.end());
-    station->views.push_back({view, options, nullptr});
-    station->candidates.push_back(i);
+    const Eigen::Vector3d& p_m = view.apex_m();
+    const auto [known, is_new] =
+        station_at.try_emplace({p_m.x(), p_m.y(), p_m.z()}, stations.size());
+    if (is_new) stations.emplace_back();
+    Station& station = stations[known->second];
+    station.views.push_back({view, options, nullptr});
+    station.candidates.push_back(i);
   }
   return stations;
 }
@@ -35,6 +40,7 @@ std::vector<SampledSum> sum_views(const SweepTables& tables, std::span<const Sta
   parallel_for(parts.size(), threads, [&](std::size_t i) {
     parts[i] = sweep_pyramid(tables, stations[i / kPyramids.size()].views,
                              kPyramids[i % kPyramids.size()]);
+    poll_stop();
   });
   std::vector<SampledSum> sums(count);
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "vantage/core/work/stop_poll.hpp"
+
 namespace vantage {
 namespace {
 
@@ -70,8 +72,14 @@ std::vector<double> squared_distances_cells(std::span<const std::uint8_t> source
   std::vector<double> squared(source.size());
   for (std::size_t i = 0; i < source.size(); ++i) squared[i] = source[i] != 0 ? 0.0 : kInfinity;
   Envelope envelope(std::max(width, height));
-  for (std::size_t x = 0; x < width; ++x) envelope.transform(&squared[x], height, width);
-  for (std::size_t y = 0; y < height; ++y) envelope.transform(&squared[y * width], width, 1);
+  for (std::size_t x = 0; x < width; ++x) {
+    envelope.transform(&squared[x], height, width);
+    poll_stop();
+  }
+  for (std::size_t y = 0; y < height; ++y) {
+    envelope.transform(&squared[y * width], width, 1);
+    poll_stop();
+  }
   return squared;
 }
 

@@ -9,6 +9,7 @@
 #include <queue>
 #include <utility>
 
+#include "vantage/core/work/stop_poll.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
 #include "vantage/planners/navigation/narrow_search.hpp"
 
@@ -16,6 +17,7 @@ namespace vantage {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kNodesBetweenPolls = 1 << 15;
 constexpr std::array<std::pair<int, int>, 8> kSteps{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
@@ -50,10 +52,11 @@ std::size_t search(const FloorMap& map, std::size_t source, double source_cost, 
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   tree.cost[source] = source_cost;
   queue.emplace(source_cost, source);
-  while (!queue.empty()) {
+  for (std::size_t settled = 1; !queue.empty();) {
     const auto [cost, cell] = queue.top();
     queue.pop();
     if (cost > tree.cost[cell]) continue;
+    if (settled++ % kNodesBetweenPolls == 0) poll_stop();
     if (done(cell, cost)) return cell;
     for_each_step(map, cell, open, [&, from = cell, base = cost](std::size_t to, double cells) {
       const double through = base + cells * map.cell_m * step_cost(from, to);

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "vantage/core/parallel_for.hpp"
+#include "vantage/core/work/stop_poll.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t kNodesBetweenPolls = 1 << 15;
 
 /// The reachable cells of a field as a graph of their own, and its poses in passages.
 struct FloorGraph {
@@ -121,10 +123,11 @@ std::vector<float> lengths_from(const FloorGraph& graph, std::uint32_t source,
   cost[source] = 0.0F;
   length_m[source] = 0.0F;
   queue.emplace(0.0F, source);
-  while (!queue.empty() && left > 0) {
+  for (std::size_t settled = 1; !queue.empty() && left > 0;) {
     const auto [so_far, node] = queue.top();
     queue.pop();
     if (so_far > cost[node]) continue;
+    if (settled++ % kNodesBetweenPolls == 0) poll_stop();
     left -= std::exchange(wanted[node], std::uint8_t{0});
     for (std::uint32_t e = graph.first_edge[node]; e < graph.first_edge[node + 1]; ++e) {
       const FloorGraph::Edge& edge = graph.edges[e];
@@ -162,6 +165,7 @@ Eigen::MatrixXd path_lengths_m(const PathField& field, std::span<const Eigen::Ve
     if (nodes[i] == FloorGraph::kNone) return;
     const auto later = std::span(nodes).subspan(i + 1);
     const std::vector<float> found_m = lengths_from(graph, nodes[i], later);
+    poll_stop();
     for (std::size_t k = 0; k < found_m.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(i + 1 + k);
       lengths_m(row, column) = lengths_m(column, row) = static_cast<double>(found_m[k]);

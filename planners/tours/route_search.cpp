@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "vantage/core/work/stop_poll.hpp"
+
 namespace vantage {
 namespace {
 
@@ -49,6 +51,7 @@ class RouteSearch {
     std::size_t chosen = 0;
     std::size_t position = 0;
     for (std::size_t i = 0; i < left.size(); ++i) {
+      poll_stop();
       for (std::size_t k = 0; k <= movable(); ++k) {
         const double more = cost_of_inserting(left[i], k);
         if (more >= cheapest) continue;
@@ -80,6 +83,7 @@ class RouteSearch {
     bool any = false;
     for (std::size_t length = 1; length <= kLongestMoved; ++length) {
       for (std::size_t from = 0; from + length <= movable(); ++from) {
+        poll_stop();
         for (std::size_t to = 0; to + length <= movable(); ++to) {
           if (to != from && improve(moved(from, length, to))) any = true;
         }
@@ -101,6 +105,7 @@ class RouteSearch {
   bool reverse_segments() {
     bool any = false;
     for (std::size_t begin = 0; begin < movable(); ++begin) {
+      poll_stop();
       for (std::size_t end = begin + 2; end <= movable(); ++end) {
         Order order = order_;
         std::reverse(order.begin() + static_cast<std::ptrdiff_t>(begin),

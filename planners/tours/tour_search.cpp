@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "vantage/core/error.hpp"
+#include "vantage/core/work/stop_poll.hpp"
 #include "vantage/planners/tours/joint_gain.hpp"
 
 namespace vantage {
@@ -133,6 +134,7 @@ class TourSearch {
     Change best;
     for (std::size_t view = 0; view < problem_.views(); ++view) {
       if (std::ranges::find(order_, view) != order_.end()) continue;
+      poll_stop();
       adds_[view] = gain_.of_adding(view);
       for (std::size_t position = fixed_; position <= order_.size(); ++position) {
         Order order = with(order_, position, view);
@@ -178,6 +180,7 @@ class TourSearch {
   void move_segments(const Order& order, Offer&& offer) const {
     for (std::size_t length = 1; length <= kLongestMoved; ++length) {
       for (std::size_t from = fixed_; from + length <= order.size(); ++from) {
+        poll_stop();
         const auto first = order.begin() + static_cast<std::ptrdiff_t>(from);
         const Order segment(first, first + static_cast<std::ptrdiff_t>(length));
         Order rest = order;
@@ -197,6 +200,7 @@ class TourSearch {
   template <class Offer>
   void reverse_segments(const Order& order, Offer&& offer) const {
     for (std::size_t begin = fixed_; begin < order.size(); ++begin) {
+      poll_stop();
       for (std::size_t end = begin + 2; end <= order.size(); ++end) {
         Order reversed = order;
         std::reverse(reversed.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -210,6 +214,7 @@ class TourSearch {
   void leave_out() {
     for (std::size_t position = order_.size(); position-- > fixed_;) {
       if (order_.size() == 1) return;
+      poll_stop();
       accept(without(order_, position));
     }
   }
@@ -266,6 +271,7 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
     std::ranges::copy_if(free.order, std::back_inserter(order),
                          [&](std::size_t other) { return other != view; });
     firsts.emplace_back(search.exact_cost_s(order), view);
+    poll_stop();
   }
   std::ranges::sort(firsts);
   std::vector<Tour> tours{free};

@@ -9,6 +9,8 @@
 #include "vantage/runtime/process/command_files.hpp"
 #include "vantage/runtime/scratch_folder.hpp"
 #include "vantage/study/results.hpp"
+#include "vantage/study/study_reading.hpp"
+#include "vantage/tasks/episode_planner.hpp"
 
 namespace vantage {
 namespace {
@@ -48,6 +50,9 @@ void add_to_split(ConfigNode& root, const Study& study, const std::string& name)
 }  // namespace
 
 Study study_with(const fs::path& arena, const ForeignPlanner& planner, bool replace) {
+  if (!is_study_name(planner.name)) {
+    throw ConfigError(fmt::format("NAME: '{}' {}", planner.name, kStudyNameRule));
+  }
   runnable_command(planner.command);
   const fs::path file = arena / "study.yaml";
   const Study before = read_study(file);
@@ -70,6 +75,19 @@ Study study_with(const fs::path& arena, const ForeignPlanner& planner, bool repl
   const fs::path made = scratch.path() / "study.yaml";
   write_file(made, to_yaml(root));
   return read_study(made);
+}
+
+void try_planner(const std::vector<PlannedEpisode>& plan, const Study& study,
+                 const std::string& planner) {
+  const std::size_t factor = factor_index(study, study.report.compare);
+  const auto is_of = [&](const PlannedEpisode& episode) {
+    return study.factors[factor].levels[episode.levels[factor]].name == planner;
+  };
+  const auto first = std::ranges::find_if(plan, is_of);
+  if (first == plan.end()) return;
+  const auto program = external_planner(first->resolved);
+  program->greet();
+  program->part();
 }
 
 void forget_episodes(const fs::path& arena, const Study& study, const std::string& planner) {

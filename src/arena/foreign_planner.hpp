@@ -21,6 +21,11 @@ struct ForeignPlanner {
 /// @throws ConfigError if the name cannot be used or is taken, or there is no such program
 Study study_with(const std::filesystem::path& arena, const ForeignPlanner& planner, bool replace);
 
+/// Starts the planner of that name as its first episode does and hears its first line.
+/// @throws EpisodeFailed with the reason why it does not get there
+void try_planner(const std::vector<PlannedEpisode>& plan, const Study& study,
+                 const std::string& planner);
+
 /// Removes what is there of a planner's episodes: its program may have changed.
 void forget_episodes(const std::filesystem::path& arena, const Study& study,
                      const std::string& planner);

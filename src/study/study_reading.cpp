@@ -20,15 +20,9 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kStudyFile = "study";  ///< in the folder of its results
 
-/// Names become folders and columns.
 void require_name(const ConfigNode& node, const std::string& name, const char* what) {
-  const auto good = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-' || c == '+';
-  };
-  if (name.empty() || name.front() == '.' || !std::ranges::all_of(name, good)) {
-    throw ConfigError(fmt::format("{}: {} '{}' may hold letters, digits and _ . - + only",
-                                  node.where(), what, name));
-  }
+  if (is_study_name(name)) return;
+  throw ConfigError(fmt::format("{}: {} '{}' {}", node.where(), what, name, kStudyNameRule));
 }
 
 ConfigNode& entry(ConfigNode& root, const std::string& name) {
@@ -249,6 +243,13 @@ std::string title_of(const fs::path& file) {
 }
 
 }  // namespace
+
+bool is_study_name(std::string_view name) {
+  const auto good = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '-' || c == '+';
+  };
+  return !name.empty() && name.front() != '.' && std::ranges::all_of(name, good);
+}
 
 StudyReading read_study_file(const fs::path& file, const std::vector<std::string>& overrides,
                              const std::string& split) {

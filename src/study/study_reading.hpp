@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vantage/study/kit/problems.hpp"
@@ -14,6 +15,10 @@ struct StudyReading {
   Study study;  ///< without what is wrong; `episode` is empty if there is none
   Problems problems;
 };
+
+/// Whether a factor or level may be called so: names become folders and columns.
+bool is_study_name(std::string_view name);
+inline constexpr std::string_view kStudyNameRule = "may hold letters, digits and _ . - + only";
 
 /// @param overrides as of --set, of every episode
 /// @param split the one to run, of those that the file has; empty: as the file says

@@ -1,4 +1,5 @@
 // The leader board of episodes whose results are written by hand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "vantage/arena/arena_page.hpp"
 #include "vantage/arena/foreign_planner.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/runtime/episode_loop.hpp"
 
 namespace vantage {
 namespace {
@@ -186,8 +188,34 @@ TEST_F(Arena, TakesAPlannerMore) {
   EXPECT_EQ(theirs, 4U);
   EXPECT_THROW(study_with(folder.path(), {"mine", {"sh"}}, false), ConfigError);  // taken
   EXPECT_EQ(study_with(folder.path(), {"mine", {"sh"}}, true).factors[1].levels.size(), 3U);
-  EXPECT_THROW(study_with(folder.path(), {"a/b", {"sh"}}, false), ConfigError);
   EXPECT_THROW(study_with(folder.path(), {"new", {"no_such_program_zz"}}, false), ConfigError);
+}
+
+TEST_F(Arena, NamesANameThatCannotBe) {
+  for (const char* name : {"a/b", "", ".hidden", "two words"}) {
+    try {
+      study_with(folder.path(), {name, {"sh"}}, false);
+      FAIL() << name;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.what(),
+                fmt::format("NAME: '{}' may hold letters, digits and _ . - + only", name));
+    }
+  }
+}
+
+TEST_F(Arena, TriesAPlannerBeforeItEnters) {
+  const auto tried = [&](const char* script) {
+    const Study study = study_with(folder.path(), {"theirs", {"sh", "-c", script}}, false);
+    try_planner(plan_study(study), study, "theirs");
+  };
+  tried(R"(read hello; echo '{"protocol": "vantage-planner", "version": 1}'; read end)");
+  try {
+    tried("echo 'no such file' >&2; exit 2");
+    FAIL() << "no error";
+  } catch (const EpisodeFailed& error) {
+    EXPECT_THAT(error.what(), HasSubstr("it ended: exit code 2, after it said: no such file"));
+  }
+  EXPECT_THROW(tried("echo hello"), EpisodeFailed);
 }
 
 TEST_F(Arena, ForgetsWhatAPlannerHasDone) {

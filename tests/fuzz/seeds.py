@@ -10,6 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 VANTAGE = Path(os.environ.get("VANTAGE_BINARY", ROOT / "build" / "release" / "vantage"))
 LARGEST = 65536  # bytes; of longer files the beginning
+HELLO = b'{"protocol": "vantage-planner", "version": 1, "name": "mine"}\n'
 SMALL_RUN = ["scans=2", "threads=1", "laser.scan_duration_s=1", "map.cells=[9, 9, 5]"]
 SMALL_RECORDING = ["objects=2", "step_deg=90", "videos=[1]", "supersampling=1"]
 SMALL_TRAINING = ["videos=[1]", "features=[soft_colour, standing_box, sift]", "feature_views=8"]
@@ -111,6 +112,8 @@ def of_targets(made):
         "states": [states[:2048], states[:9000]], "actions": [run / "actions.csv", b"tick,robot/x,robot/y,robot/yaw\n0,1,2,3\n"],
         "tables": [run / "steps.csv", run / "trajectory.tum"],
         "manifest": json[:1], "metrics": json[1:], "report_page": [parts(json[0], b"{}", b"{}", json[1])],
+        "planner_answer": [parts(HELLO, b'{"view": 1}\n'), parts(HELLO + b'{"pose": [0.1,', b' 0.2, 0.3]}\n{"view": 0, "why": "x"}\n'),
+                           parts(b"", b'{"protocol": "vantage-planner", "version": 2}\n')],
         "worker_message": [parts(b"code: 0\n", b""), b"\x04\0\0\0\0\0\0\0abcd"],
     }
 

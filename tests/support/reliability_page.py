@@ -1,4 +1,4 @@
-"""Rows of the tables of docs/reliability.md. ./fuzz, ./mutate and ./faults write them, nobody else.
+"""Rows of the tables of docs/reliability.md. ./fuzz, ./mutate, ./faults and ./check resets write them, nobody else.
 
 A table stands below a line `<!-- rows: NAME -->`; a row is known by its first cell.
 """

@@ -64,9 +64,14 @@ ExitCode write_all(const fs::path& arena, bool json) {
   return results.complete() ? ExitCode::done : ExitCode::goal_failed;
 }
 
-ExitCode run_study(const Study& study, const ArenaArguments& arguments, bool overwrite) {
-  const auto plan = plan_study(study);
-  require_mapping(plan, arguments.study);
+std::vector<PlannedEpisode> plan_arena(const Study& study, const std::string& name) {
+  auto plan = plan_study(study);
+  require_mapping(plan, name);
+  return plan;
+}
+
+ExitCode run_plan(const Study& study, const std::vector<PlannedEpisode>& plan,
+                  const ArenaArguments& arguments, bool overwrite) {
   const StudySweepOptions options{.directory = arguments.directory,
                                   .jobs = arguments.jobs,
                                   .overwrite = overwrite,
@@ -75,7 +80,6 @@ ExitCode run_study(const Study& study, const ArenaArguments& arguments, bool ove
   if (overwrite && !arguments.name.empty()) {
     forget_episodes(arguments.directory, study, arguments.name);
   }
-  catch_interrupts();
   run_sweep(plan, options);
   if (arguments.bounds) add_bounds(arguments.directory, plan);
   if (interrupt_signal() != 0) return static_cast<ExitCode>(128 + interrupt_signal());
@@ -102,7 +106,9 @@ ExitCode run_arena(const ArenaArguments& given) {
     arguments.directory =
         fs::path("out") / (study.name + (study.split.empty() ? "" : "_" + study.split));
   }
-  return run_study(study, arguments, arguments.overwrite);
+  const auto plan = plan_arena(study, arguments.study);
+  catch_interrupts();
+  return run_plan(study, plan, arguments, arguments.overwrite);
 }
 
 ExitCode add_to_arena(const ArenaArguments& arguments) {
@@ -110,7 +116,10 @@ ExitCode add_to_arena(const ArenaArguments& arguments) {
   const Study study =
       study_with(arguments.directory, {arguments.name, arguments.command, arguments.timeout_s},
                  arguments.overwrite);
-  return run_study(study, arguments, true);
+  const auto plan = plan_arena(study, arguments.directory.string());
+  catch_interrupts();
+  try_planner(plan, study, arguments.name);
+  return run_plan(study, plan, arguments, true);
 }
 
 ExitCode write_arena(const ArenaArguments& arguments) {

@@ -17,6 +17,8 @@ namespace vantage {
 namespace {
 
 constexpr double kSlice_s = 0.05;
+constexpr std::size_t kRememberedErrorBytes = 4096;
+constexpr std::size_t kToldErrorLetters = 200;
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -62,11 +64,15 @@ bool read_some(int from, std::string_view& bytes, std::array<char, 4096>& room) 
 Conversation::Conversation(const ProgramToRun& program,
                            std::function<void(std::string_view)> on_error,
                            std::function<void()> on_wait)
-    : process_(program), on_error_(std::move(on_error)), on_wait_(std::move(on_wait)) {}
+    : working_directory_(program.working_directory.string()),
+      process_(program),
+      on_error_(std::move(on_error)),
+      on_wait_(std::move(on_wait)) {}
 
 std::string Conversation::ask(std::string_view line, double timeout_s) {
   exchange_for(0.0);
-  if (heard_.waiting() > 0) {
+  // Who says his first line at once may have said it already.
+  if (std::exchange(was_asked_, true) && heard_.waiting() > 0) {
     throw ConversationFailed("it said more than one line, or spoke before it was asked");
   }
   unsent_ = std::string(line) + "\n";
@@ -110,8 +116,33 @@ void Conversation::fail_ended() {
   const auto end = process_.wait_for_end(kSoon_s);
   hear_errors();
   const char* midway = heard_.waiting() > 0 ? " in the middle of a line" : "";
-  throw ConversationFailed(end ? fmt::format("it ended{}: {}", midway, *end)
-                               : fmt::format("it closed its output{}", midway));
+  const std::string how = end ? fmt::format("it ended{}: {}", midway, *end)
+                              : fmt::format("it closed its output{}", midway);
+  const std::string said = last_error();
+  throw ConversationFailed(said.empty() ? how : how + ", after it said: " + said);
+}
+
+void Conversation::remember_error(std::string_view bytes) {
+  last_errors_ += bytes;
+  if (last_errors_.size() > kRememberedErrorBytes) {
+    last_errors_.erase(0, last_errors_.size() - kRememberedErrorBytes);
+  }
+}
+
+/// Its last line that is not empty, for people. The working directory, another one each time, is
+/// its `.`; empty: it said nothing.
+std::string Conversation::last_error() const {
+  const auto end = last_errors_.find_last_not_of(" \t\r\n");
+  if (end == std::string::npos) return {};
+  const auto before = last_errors_.find_last_of("\r\n", end);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  std::string line = last_errors_.substr(begin, end + 1 - begin);
+  const std::string& folder = working_directory_;
+  for (auto at = line.find(folder); !folder.empty() && at != std::string::npos;
+       at = line.find(folder, at + 1)) {
+    line.replace(at, folder.size(), ".");
+  }
+  return printable(line, kToldErrorLetters);
 }
 
 /// Moves what there is in either direction, or waits for it.
@@ -154,6 +185,7 @@ void Conversation::hear_errors() {
     std::string_view bytes;
     hears_errors_ = read_some(process_.errors(), bytes, room);
     if (bytes.empty() && hears_errors_) break;
+    remember_error(bytes);
     if (errors_told_ > kMaxErrorBytes) continue;
     const bool all = errors_.add(bytes);
     if (!hears_errors_ && errors_.waiting() > 0) errors_.add("\n");

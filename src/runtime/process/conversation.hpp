@@ -29,8 +29,8 @@ class Conversation {
   Conversation(const ProgramToRun& program, std::function<void(std::string_view)> on_error,
                std::function<void()> on_wait);
 
-  /// The line that it answers, without its end. @throws ConversationFailed with the reason; what
-  /// on_wait throws
+  /// The line that it answers, without its end. @throws ConversationFailed with the reason, of a
+  /// program that has ended with the last line of its standard error; what on_wait throws
   std::string ask(std::string_view line, double timeout_s);
   /// Tells it a last line and gives it that long to end by itself. It need not listen.
   void part(std::string_view line, double grace_s);
@@ -42,16 +42,21 @@ class Conversation {
   void send();
   void hear();
   void hear_errors();
+  void remember_error(std::string_view bytes);
+  [[nodiscard]] std::string last_error() const;
   void exchange_for(double at_most_s);
 
+  std::string working_directory_;
   IsolatedProcess process_;
   std::function<void(std::string_view)> on_error_;
   std::function<void()> on_wait_;
   std::string unsent_;
   LineBuffer heard_{kMaxAnswerBytes};
   LineBuffer errors_{kMaxErrorBytes};
+  bool was_asked_ = false;
   std::size_t errors_told_ = 0;
-  bool hears_ = true;  ///< its output is open
+  std::string last_errors_;  ///< the end of its standard error, however much there was
+  bool hears_ = true;        ///< its output is open
   bool hears_errors_ = true;
 };
 

@@ -20,11 +20,18 @@ seeds: [1, 2]
 report: {{compare: planner, reference: greedy, panels: scene}}
 """
 
+HELLO = "read hello; echo '{\"protocol\": \"vantage-planner\", \"version\": 1}'; "
+
 
 class Arena(InFolder):
     def board(self):
         rows = (self.folder / "arena/leaderboard.csv").read_text().splitlines()
         return {row["planner"]: row for row in csv.DictReader(rows)}
+
+    def files(self):
+        """{name: content} of the arena's folder."""
+        return {path.relative_to(self.folder): path.read_bytes()
+                for path in (self.folder / "arena").rglob("*") if path.is_file()}
 
     def test_from_run_to_page(self):
         self.script("small.yaml", STUDY)
@@ -43,7 +50,7 @@ class Arena(InFolder):
             self.assertEqual(board["copy"][key], board["greedy"][key], key)
         self.vantage("arena", "add", "arena", "copy", "--", "python3", HERE / "greedy.py", code=2)
 
-        broken = self.script("broken.sh", "exit 9")
+        broken = self.script("broken.sh", HELLO + "read request; exit 9")
         told = self.vantage("arena", "add", "arena", "broken", "-q", "--", "sh", broken, code=1)
         self.assertIn("exit code 9", told)
         self.assertEqual(self.board()["broken"]["failed"], "2")
@@ -56,6 +63,24 @@ class Arena(InFolder):
         (self.folder / "arena/arena.html").unlink()
         self.vantage("arena", "page", "arena", "-q")
         self.assertIn("broken", (self.folder / "arena/arena.html").read_text())
+
+    def test_what_cannot_begin_does_not_enter(self):
+        self.script("small.yaml", STUDY.replace("seeds: [1, 2]", "seeds: [1]"))
+        self.vantage("arena", "run", "small.yaml", "--out", "arena", "-q")
+        mine = self.script("mine.sh", HELLO + "read request; exit 9")
+        self.vantage("arena", "add", "arena", "mine", "-q", "--", "sh", mine, code=1)
+        before = self.files()
+        told = self.vantage("arena", "add", "arena", "absent", "-q", "--", "python3", "nofile.py", code=1)
+        self.assertIn("planner python3 nofile.py: it ended: exit code 2, after it said: ", told)
+        self.assertIn("can't open file './nofile.py'", told)
+        told = self.vantage("arena", "add", "arena", "other", "-q", "--", "echo", "hello", code=1)
+        self.assertIn("expected one JSON object in a line, got 'hello'", told)
+        # Nor in the place of one that could.
+        self.vantage("arena", "add", "arena", "mine", "-q", "--overwrite", "--", "false", code=1)
+        told = self.vantage("arena", "add", "arena", "a/b", "-q", "--", "sh", mine, code=2)
+        self.assertIn("NAME: 'a/b' may hold letters, digits and _ . - + only", told)
+        self.assertNotIn("/tmp", told)
+        self.assertEqual(self.files(), before)
 
     def test_what_it_does_not_take(self):
         self.script("flight.yaml", STUDY.replace("tabletop.yaml", "trajectory.yaml").replace(

@@ -49,7 +49,7 @@ for line in sys.stdin:
         planner = self.script("planner.sh", HELLO + "read request; echo '{\"view\": 5}'; echo oops >&2; read request; exit 7")
         metrics = self.run_episode("run", "tabletop", TABLETOP + external("sh", planner), code=1)
         self.assertEqual(metrics["status"], "failed")
-        self.assertIn("decision 2: it ended: exit code 7", metrics["reason"])
+        self.assertTrue(metrics["reason"].endswith("decision 2: it ended: exit code 7, after it said: oops"), metrics["reason"])
         self.assertEqual(len(metrics["scans"]), 2)
         self.assertIn("planner: oops", (self.folder / "run/log.txt").read_text())
         manifest = json.loads((self.folder / "run/manifest.json").read_text())

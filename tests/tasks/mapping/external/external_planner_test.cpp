@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using support::kHello;
 using support::sh;
+using testing::EndsWith;
 using testing::HasSubstr;
 
 /// Which the tests below leave no time to reach.
@@ -118,6 +119,48 @@ TEST(ExternalPlanner, FailsTheEpisodeByWhatItDoes) {
               HasSubstr("it floods its output: more than 65536 bytes"));
   EXPECT_THAT(failure(sh(kHello + "read request; yes", kLong_s)), HasSubstr("more than one line"));
   EXPECT_THAT(failure(sh("python3=none; exec /no/such/program", kLong_s)), HasSubstr("it ended"));
+}
+
+TEST(ExternalPlanner, IsQuotedWhenItEnds) {
+  // As programs end that cannot go on: the reason is what they said last.
+  EXPECT_THAT(failure(sh("echo first >&2; echo 'no module named \xc3\xa4' >&2; echo >&2; exit 3")),
+              EndsWith("it ended: exit code 3, after it said: no module named \\xc3\\xa4"));
+  EXPECT_THAT(failure(sh("printf 'no end' >&2; kill -9 $$")),
+              EndsWith("it ended: signal 9 (Killed), after it said: no end"));
+  EXPECT_THAT(failure(sh("echo gone >&2; exec >&-; sleep 100")),
+              EndsWith("it closed its output, after it said: gone"));
+  // However much that was, and of a folder of its own, which is another one each time, no name.
+  EXPECT_THAT(
+      failure(sh("yes | head -c 300000 >&2; echo \"$PWD/x and $PWD/y\" >&2; exit 1", kLong_s)),
+      EndsWith("after it said: ./x and ./y"));
+  EXPECT_THAT(failure(sh("exit 3")), EndsWith("it ended: exit code 3"));
+  EXPECT_LT(failure(sh("yes | head -c 3000 | tr -d '\\n' >&2; exit 3")).size(), 400U);
+}
+
+TEST(ExternalPlanner, MayBeGreetedAlone) {
+  const support::TemporaryDirectory folder;
+  const std::string file = (folder / "starts").string();
+  const support::AskedSituation situation;
+  ExternalPlanner planner(sh("echo x >> " + file + "; " + answering(R"({"view": 1})")), {});
+  planner.greet();
+  EXPECT_EQ(planner.facts().back(), (std::pair<std::string, std::string>{"name", "test"}));
+  EXPECT_EQ(std::get<std::size_t>(planner.decide(situation.request())), 1U);
+  EXPECT_EQ(fs::file_size(file), 2U);  // one process, of all
+  ExternalPlanner broken(sh("exit 3"), {});
+  try {
+    broken.greet();
+    FAIL() << "no error";
+  } catch (const EpisodeFailed& error) {
+    EXPECT_THAT(error.what(), HasSubstr("planner sh -c exit 3: it ended: exit code 3"));
+  }
+}
+
+TEST(ExternalPlanner, MaySayItsFirstLineAtOnce) {
+  const std::string hello = kHello.substr(kHello.find("echo"));
+  const std::string late = "read hello; read request; echo '{\"view\": 1}'; read end";
+  for (int i = 0; i < 10; ++i) {  // before it is asked or after
+    EXPECT_EQ(std::get<std::size_t>(first_decision(sh(hello + late))), 1U);
+  }
 }
 
 TEST(ExternalPlanner, IsGivenNoMoreTimeThanItHas) {

@@ -10,12 +10,14 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/mapping/external/asked_planner.hpp"
+#include "tests/tasks/mapping/external/made_up_answer.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/tasks/mapping/external/planner_grids.hpp"
 
 namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
+using support::made_up_answer;
 
 template <class T>
 std::vector<T> read_as(const std::filesystem::path& path) {
@@ -112,58 +114,6 @@ TEST(LineBuffer, PutsPiecesTogetherAndKeepsItsBound) {
 TEST(LineBuffer, ShowsWhatIsNoText) {
   EXPECT_EQ(printable("a\tb\xc3\xa4"), "a\\x09b\\xc3\\xa4");
   EXPECT_EQ(printable("abcdef", 3), "abc ...");
-}
-
-/// Answers that are almost right: pieces of good ones, put together at random, and bytes of any
-/// kind among them.
-std::string made_up_answer(Rng& rng) {
-  static const std::vector<std::string> pieces{"{",
-                                               "}",
-                                               "[",
-                                               "]",
-                                               ":",
-                                               ",",
-                                               "\"view\"",
-                                               "\"pose\"",
-                                               "\"protocol\"",
-                                               "\"version\"",
-                                               "\"vantage-planner\"",
-                                               "1",
-                                               "0",
-                                               "2",
-                                               "-1",
-                                               "1e999",
-                                               "0.5",
-                                               "-0.25",
-                                               "1e-320",
-                                               "null",
-                                               "true",
-                                               "NaN",
-                                               "18446744073709551616",
-                                               "\"",
-                                               "\\u0000",
-                                               "\\ud800",
-                                               " ",
-                                               "\r",
-                                               "\n",
-                                               "\n\n",
-                                               "{\"view\": 1}\n",
-                                               "{\"pose\": [0.1, 0.2, 0.3]}\n",
-                                               "[[[[[[[[",
-                                               "\xff\xfe",
-                                               "\xe2\x82"};
-  std::string text;
-  const std::size_t count = 1 + rng.uniform_index(12);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (rng.uniform() < 0.1) {
-      text += static_cast<char>(rng.uniform_index(256));
-    } else if (rng.uniform() < 0.005) {
-      text += std::string(rng.uniform_index(5000), rng.uniform() < 0.5 ? '[' : '{');
-    } else {
-      text += pieces[rng.uniform_index(pieces.size())];
-    }
-  }
-  return text;
 }
 
 /// @return whether it was a decision that can be carried out
