@@ -1,9 +1,11 @@
 """How fast environments step, and what Python costs a sweep: one line of JSON, as every benchmark prints.
 
-The small map is the table top at 49 x 49 x 25 cells with a sweep of 3 s; one environment on one core.
+The small map is the table top at 49 x 49 x 25 cells with a sweep of 3 s; one environment on one core, then as many
+side by side as VECTOR says.
 """
 
 import csv
+import functools
 import json
 import statistics
 import subprocess
@@ -16,7 +18,7 @@ import numpy as np
 import vantage
 
 SMALL = {"scans": 10, "threads": 1, "map": {"cells": [49, 49, 25]}, "laser": {"scan_duration_s": 3}}
-PROGRAMS = Path(sys.argv[1])
+VECTOR = 2  # environments, each in its process
 
 
 def median_ms(work, repeats):
@@ -49,13 +51,32 @@ def env_figures():
             "simulated_s_per_decision": simulated_s / decisions, "real_time_factor": simulated_s / stepping_s}
 
 
-def profile():
+def vector_figures():
+    """Decisions of all environments over the time of the steps in which none is reset."""
+    rng = np.random.default_rng(2)
+    decisions, stepping_s = 0, 0.0
+    with vantage.VectorEnv([functools.partial(vantage.Env, "tabletop", **SMALL)] * VECTOR) as environments:
+        _, infos = environments.reset(seed=11)
+        ended = np.zeros(VECTOR, bool)
+        while decisions < 27 * VECTOR:
+            views = [0 if over else int(rng.choice(np.flatnonzero(mask)))
+                     for mask, over in zip(infos["action_mask"], ended)]
+            start = time.perf_counter()
+            *_, terminated, truncated, infos = environments.step(views)
+            if not ended.any():
+                decisions += VECTOR
+                stepping_s += time.perf_counter() - start
+            ended = terminated | truncated
+    return {"vector_processes": VECTOR, "vector_decisions_per_s": decisions / stepping_s}
+
+
+def profile(programs):
     """Shares of the time of such an episode, by part."""
-    told = json.loads(subprocess.run([PROGRAMS / "bench_episode", "small"], check=True, capture_output=True).stdout)
+    told = json.loads(subprocess.run([programs / "bench_episode", "small"], check=True, capture_output=True).stdout)
     return {name.removeprefix("small_"): value for name, value in told["figures"].items() if name.endswith("_share")}
 
 
-def sweep_figures():
+def sweep_figures(programs):
     """The same sweep from numpy, grid made anew each time, and in C++."""
     with tempfile.TemporaryDirectory() as work:
         run = vantage.run("tabletop", out=Path(work) / "run", scans=2)
@@ -67,7 +88,7 @@ def sweep_figures():
             rows.writerow(["x_m", "y_m", "z_m", "yaw_rad", "pitch_rad"])
             rows.writerows([[repr(float(v)) for v in row] for row in views])
         odds = np.array(grid.log_odds)
-        program = [PROGRAMS / "bench_swept", Path(work) / "map.ot", Path(work) / "views.csv", "15"]
+        program = [programs / "bench_swept", Path(work) / "map.ot", Path(work) / "views.csv", "15"]
 
         def from_numpy():
             made = vantage.Grid(odds, grid.min_corner_m, grid.cell_size_m)
@@ -85,8 +106,15 @@ def sweep_figures():
 FIELD = {"half_width_rad": 0.1309, "tilt_min_rad": -0.3, "tilt_max_rad": 0.75, "range_min_m": 0.08,
          "range_max_m": 10.0}
 
-figures = {**env_figures(), **profile(), **sweep_figures()}
-with open("/proc/cpuinfo", encoding="utf-8") as file:
-    cpu = next((line.split(":", 1)[1].strip() for line in file if line.startswith("model name")), "unknown")
-commit = vantage.version().split("(")[-1].rstrip(")")
-print(json.dumps({"name": "env", "commit": commit, "cpu": cpu, "threads": 1, "figures": figures}, separators=(",", ":")))
+
+def main(programs):
+    figures = {**env_figures(), **vector_figures(), **profile(programs), **sweep_figures(programs)}
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        cpu = next((line.split(":", 1)[1].strip() for line in file if line.startswith("model name")), "unknown")
+    commit = vantage.version().split("(")[-1].rstrip(")")
+    print(json.dumps({"name": "env", "commit": commit, "cpu": cpu, "threads": 1, "figures": figures},
+                     separators=(",", ":")))
+
+
+if __name__ == "__main__":  # processes of the vector environment import this file
+    main(Path(sys.argv[1]))

@@ -5,7 +5,8 @@ packages=(build-essential ca-certificates cmake git ninja-build
   libosmesa6-dev libpng-dev libspdlog-dev libyaml-cpp-dev libzstd-dev nlohmann-json3-dev zlib1g-dev
   libbenchmark-dev libgmock-dev libgtest-dev librapidcheck-dev
   libgl1-mesa-dri libx11-dev xvfb
-  pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-pip python3-setuptools python3-yaml zstd)
+  pybind11-dev python3-dev python3-jsonschema python3-matplotlib python3-numpy python3-pip python3-setuptools python3-venv
+  python3-yaml zstd)
 
 install_dependencies() {
   local missing=() package

@@ -21,13 +21,15 @@ def gain_per_second(request):
 
 figure, axes = plt.subplots(figsize=(7, 4.5))
 with tempfile.TemporaryDirectory() as runs:
-    for label, options in {"gain_per_second (ours)": {"planner": gain_per_second}, "greedy": {},
-                           "random": {"choice": "random"}}.items():
+    for label, line, options in (("gain_per_second (ours)", {"marker": "o", "lw": 4, "ms": 10, "alpha": 0.5},
+                                  {"planner": gain_per_second}),
+                                 ("greedy", {"marker": "s", "ls": "--", "ms": 5}, {}),
+                                 ("random", {"marker": "^", "ls": ":"}, {"choice": "random"})):
         run = vantage.run("tabletop", out=Path(runs) / label.split()[0], lean=True, **episode, **options)
         steps = run.steps
         observable = run.metrics["observable_cells"]
         seen = 1 - steps["observable_unobserved_cells"] / observable
-        axes.plot(steps["time_s"], 100 * seen, marker="o", label=label)
+        axes.plot(steps["time_s"], 100 * seen, label=label, **line)
         print(f"{label:24} {100 * seen[-1]:5.1f} % seen after {steps['time_s'][-1]:5.1f} s, "
               f"{run.metrics['collisions']} collisions")
 axes.set(xlabel="simulated time, s", ylabel="observable cells seen, %", title="One table, three planners")

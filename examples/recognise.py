@@ -13,7 +13,11 @@ import vantage
 from common import folder, save
 
 out = folder(__doc__)
-program = os.environ.get("VANTAGE_BINARY") or shutil.which("vantage") or "build/release/vantage"
+built = Path(__file__).resolve().parents[1] / "build/release/vantage"
+program = os.environ.get("VANTAGE_BINARY") or shutil.which("vantage") or built
+if not os.access(program, os.X_OK):
+    raise SystemExit(f"{program}: not there. The program `vantage` renders the objects: build it by ./run, install the "
+                     "Debian package, or name it in VANTAGE_BINARY.")
 
 
 def picture(stem):

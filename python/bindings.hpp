@@ -13,6 +13,7 @@ void bind_gains(py::module_& module);
 void bind_views(py::module_& module);
 void bind_distances(py::module_& module);
 void bind_tours(py::module_& module);
+void bind_intervals(py::module_& module);
 void bind_trajectory(py::module_& module);
 void bind_information(py::module_& module);
 void bind_recognition(py::module_& module);

@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   python::bind_gains(module);
   python::bind_distances(module);
   python::bind_tours(module);
+  python::bind_intervals(module);
   python::bind_trajectory(module);
   python::bind_information(module);
   python::bind_recognition(module);

@@ -47,10 +47,28 @@ std::shared_ptr<ResolvedEpisode> load(const std::string& name, const py::dict& o
   return std::make_shared<ResolvedEpisode>(resolve_episode(root, path));
 }
 
+bool knows_truth(const ResolvedEpisode& episode) {
+  return std::visit(
+      [](const auto& task) {
+        if constexpr (std::derived_from<std::decay_t<decltype(task)>, MappingOptions>) {
+          return vantage::knows_truth(task.choice);
+        } else {
+          return false;
+        }
+      },
+      episode.task);
+}
+
+/// An index below 0.
+struct NoSuchView : BadDecision {
+  using BadDecision::BadDecision;
+};
+
 OutsideDecision decision_of(const py::object& answer) {
   if (PyIndex_Check(answer.ptr()) != 0) {
-    const auto index = answer.cast<long long>();
-    if (index < 0) throw BadDecision(fmt::format("view {} was chosen", index));
+    const Py_ssize_t index = PyNumber_AsSsize_t(answer.ptr(), nullptr);  // cut, if too large
+    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    if (index < 0) throw NoSuchView(fmt::format("view {} was chosen", index));
     return static_cast<std::size_t>(index);
   }
   const auto pose = Doubles::ensure(answer);
@@ -77,7 +95,8 @@ struct Raised {
 };
 
 /// The planner, asked with the lock held. What it is asked ends with the call.
-OutsideDecision ask(const py::function& planner, const DecisionRequest& request, Raised& raised) {
+OutsideDecision ask(const py::function& planner, const std::string& name,
+                    const DecisionRequest& request, Raised& raised) {
   const py::gil_scoped_acquire locked;
   const auto lent = std::make_shared<LentRequest>(LentRequest{&request});
   const struct TakeBack {
@@ -86,6 +105,9 @@ OutsideDecision ask(const py::function& planner, const DecisionRequest& request,
   } at_end{*lent};
   try {
     return decision_of(planner(lent));
+  } catch (const NoSuchView& error) {  // as an index above all: a result, not raised again
+    throw EpisodeFailed(
+        fmt::format("{}: {}, there are {}", name, error.what(), request.candidates.size()));
   } catch (...) {
     raised.error = std::current_exception();
   }
@@ -102,7 +124,7 @@ py::tuple run_episode(const ResolvedEpisode& episode, const std::optional<fs::pa
   options.lean = lean;
   options.command = {"python", "vantage.run"};
   Raised raised;
-  SignalPoll poll(20);
+  SignalPoll poll;
   options.spectator.on_tick = [&](const World&) {
     try {
       poll();
@@ -114,9 +136,10 @@ py::tuple run_episode(const ResolvedEpisode& episode, const std::optional<fs::pa
   py::function function;
   if (!planner.is_none()) {
     function = py::cast<py::function>(planner);
-    options.outside = {.name = name,
-                       .decide = [&](const DecisionRequest& r) { return ask(function, r, raised); },
-                       .ended = {}};
+    options.outside = {
+        .name = name,
+        .decide = [&](const DecisionRequest& r) { return ask(function, name, r, raised); },
+        .ended = {}};
   }
   const RunOutcome outcome = without_lock([&] { return run(episode, options); });
   if (raised.error) std::rethrow_exception(raised.error);
@@ -226,6 +249,9 @@ void bind_episodes(py::module_& module) {
       .def_property_readonly(
           "options", [](const ResolvedEpisode& e) { return object_of(episode_node(e)); },
           "Every key with its value, defaults included, as nested dicts.")
+      .def_property_readonly("knows_truth", &knows_truth,
+                             "Whether its own choice asks ground truth: then no planner may take "
+                             "its place.")
       .def_property_readonly(
           "name", [](const ResolvedEpisode& e) { return e.setup.name; }, "Of the file.");
   module.def("run_episode", &run_episode, py::arg("episode"), py::arg("directory"),

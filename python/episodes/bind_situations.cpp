@@ -1,6 +1,9 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "python/bindings.hpp"
 #include "python/episodes/situations.hpp"
 #include "python/kit/arrays.hpp"
@@ -28,6 +31,15 @@ py::array_t<Value> of_views(const LentRequest& lent, Value (*value)(const Candid
   for (std::size_t i = 0; i < candidates.size(); ++i)
     values.mutable_data()[i] = value(candidates[i]);
   return values;
+}
+
+/// Low and high end of each; NaN where the gain has no interval.
+py::array_t<double> interval(const LentRequest& lent) {
+  const DecisionRequest& request = of(lent);
+  std::vector<double> ends(2 * request.candidates.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < request.interval_cells.size(); ++i)
+    std::ranges::copy(request.interval_cells[i], &ends[2 * i]);
+  return array_of(std::move(ends), {static_cast<py::ssize_t>(request.candidates.size()), 2});
 }
 
 py::array_t<double> transmission(const MapSituation& now) {
@@ -114,6 +126,11 @@ void bind_situations(py::module_& module) {
       .def_property_readonly(
           "gain_unit", [](const LentRequest& r) { return std::string(unit_of(of(r).gain)); },
           "bits, or the gain's own.")
+      .def_property_readonly(
+          "interval", &interval,
+          "(n, 2): low and high end of what the robot holds the truth of each gain to be, in "
+          "`gain_unit`, by its forecasts so far (see ForecastInterval). NaN where the episode's "
+          "gain forecasts nothing that scans tell: all but `adaptive`.")
       .def_property_readonly(
           "path_length_m",
           [](const LentRequest& r) {

@@ -7,4 +7,11 @@ void throw_if_signalled() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+void SignalPoll::operator()() {
+  const auto now = Clock::now();
+  if (now < next_) return;
+  next_ = now + kBetween;
+  throw_if_signalled();
+}
+
 }  // namespace vantage::python

@@ -4,8 +4,10 @@
 
 #include <pybind11/pybind11.h>
 
-#include <cstddef>
+#include <chrono>
 #include <utility>
+
+#include "vantage/core/work/stop_poll.hpp"
 
 namespace vantage::python {
 
@@ -22,17 +24,22 @@ auto without_lock(Work&& work) {
 /// Any thread may call it, with or without the lock; Python handles signals in its main thread.
 void throw_if_signalled();
 
-/// Signals are looked for every so many calls of this.
+/// Called as often as you like, looks for signals twenty times a second.
 class SignalPoll {
  public:
-  explicit SignalPoll(int every) : every_(every) {}
-  void operator()() {
-    if (++calls_ % every_ == 0) throw_if_signalled();
-  }
+  void operator()();
 
  private:
-  int every_;
-  int calls_ = 0;
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kBetween{50};
+  Clock::time_point next_ = Clock::now() + kBetween;
 };
+
+/// The result of `work` as by without_lock(), ended by a signal where it asks poll_stop().
+template <class Work>
+auto interruptibly(Work&& work) {
+  const StopPoll poll{SignalPoll()};
+  return without_lock(std::forward<Work>(work));
+}
 
 }  // namespace vantage::python

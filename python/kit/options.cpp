@@ -11,17 +11,15 @@ constexpr int kDeepest = 32;
 
 /// Whole numbers and reals of Python and numpy; empty: neither.
 std::string number_text(py::handle value) {
-  if (PyIndex_Check(value.ptr()) != 0) {
-    const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-    if (!whole) throw py::error_already_set();
-    return py::str(whole);
+  if (PyNumber_Check(value.ptr()) == 0 || py::hasattr(value, "__len__")) return {};  // arrays
+  const bool whole = PyIndex_Check(value.ptr()) != 0;
+  const auto number = py::reinterpret_steal<py::object>(whole ? PyNumber_Index(value.ptr())
+                                                              : PyNumber_Float(value.ptr()));
+  if (!number) {  // complex ones
+    PyErr_Clear();
+    return {};
   }
-  const bool real = PyFloat_Check(value.ptr()) != 0 ||
-                    (PyNumber_Check(value.ptr()) != 0 && !py::hasattr(value, "__len__"));
-  if (!real) return {};
-  const auto number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
-  if (!number) throw py::error_already_set();
-  return py::repr(number);
+  return whole ? py::str(number) : py::repr(number);
 }
 
 ConfigNode made_of(py::handle value, const std::string& key, int depth) {

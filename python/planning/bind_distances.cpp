@@ -60,7 +60,7 @@ PathField ways_of(const FloorCells& states, const Doubles& pose, const Eigen::Ve
   }
   const auto navigation = options_of<NavigationOptions>(options, "");
   const Pose2 start = pose2_of(pose, "pose");
-  return without_lock([&] { return make_path_field(floor, start, navigation); });
+  return interruptibly([&] { return make_path_field(floor, start, navigation); });
 }
 
 /// (nx, ny)
@@ -101,7 +101,7 @@ Eigen::MatrixXd lengths_between(const PathField& ways, const Doubles& places, in
   const Eigen::MatrixXd rows = rows_of(places, 2, "places");
   std::vector<Eigen::Vector2d> places_m;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) places_m.emplace_back(rows(i, 0), rows(i, 1));
-  return without_lock([&] { return path_lengths_m(ways, places_m, threads); });
+  return interruptibly([&] { return path_lengths_m(ways, places_m, threads); });
 }
 
 }  // namespace

@@ -22,9 +22,6 @@ constexpr FieldOfView kCamera{.half_width_rad = 0.5044,
                               .range_min_m = 0.8,
                               .range_max_m = 3.5};
 
-/// So many views between two looks for signals.
-constexpr std::size_t kViewsAtOnce = 512;
-
 /// Of cells that each have a transmission and a utility of their own, given by the caller.
 struct GivenCells {
   static constexpr bool unobserved_only = false;
@@ -92,25 +89,6 @@ std::optional<BlockField> transmission_of(const py::object& given, const Eigen::
 
 Gain gain_of(const py::object& given) { return options_of<Gain>(given, "gain", BeerLambertGain{}); }
 
-/// What `gains` finds of the views, some of them at a time. With the views of one place together,
-/// which share a sweep.
-template <class Gains>
-std::vector<double> in_parts(std::span<const Candidate> views, const Gains& gains) {
-  std::vector<double> all;
-  for (std::size_t begin = 0; begin < views.size();) {
-    std::size_t end = std::min(views.size(), begin + kViewsAtOnce);
-    while (end < views.size() &&
-           views[end].T_world_sensor.translation() == views[end - 1].T_world_sensor.translation()) {
-      ++end;
-    }
-    const auto part = without_lock([&] { return gains(views.subspan(begin, end - begin)); });
-    all.insert(all.end(), part.begin(), part.end());
-    begin = end;
-    throw_if_signalled();
-  }
-  return all;
-}
-
 py::array_t<double> gains(const OccupancyGrid& grid, const Doubles& rows, const py::object& sensor,
                           const py::object& given, const py::object& transmission,
                           const std::string& method, int threads) {
@@ -130,9 +108,9 @@ py::array_t<double> gains(const OccupancyGrid& grid, const Doubles& rows, const 
     refuse("method", fmt::format("the gain {} cannot be swept", strategy_name_of(gain)));
   }
   const GainContext context{grid, learnt ? &*learnt : nullptr};
-  return array_of(in_parts(views, [&](std::span<const Candidate> part) {
-    return method == "exact" ? exact_gains_bits(gain, context, part, field, threads)
-                             : view_gains_bits(gain, context, part, field, threads);
+  return array_of(interruptibly([&] {
+    return method == "exact" ? exact_gains_bits(gain, context, views, field, threads)
+                             : view_gains_bits(gain, context, views, field, threads);
   }));
 }
 
@@ -143,9 +121,8 @@ py::array_t<double> own_gains(const OccupancyGrid& grid, const Doubles& rows, co
   const FieldOfView field = options_of<FieldOfView>(sensor, "sensor", kCamera);
   const GivenCells gain{cells_of(utility, grid.frame, "utility", 1e30F),
                         cells_of(transmission, grid.frame, "transmission", 1.0F)};
-  return array_of(in_parts(views, [&](std::span<const Candidate> part) {
-    return exact_gains_bits(gain, {grid}, part, field, threads);
-  }));
+  return array_of(
+      interruptibly([&] { return exact_gains_bits(gain, {grid}, views, field, threads); }));
 }
 
 py::array_t<double> map_gains(const OctomapFile& map, const Doubles& rows, const py::object& sensor,
@@ -162,7 +139,7 @@ py::array_t<double> map_gains(const OctomapFile& map, const Doubles& rows, const
   }
   if (part.cells(map).empty()) refuse("region", "no cell of the map lies in it");
   return array_of(
-      without_lock([&] { return score_views(map, part, gain, views, field, threads); }));
+      interruptibly([&] { return score_views(map, part, gain, views, field, threads); }));
 }
 
 constexpr auto kGainsText = R"(What each view is worth on a grid.

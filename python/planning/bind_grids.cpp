@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -153,7 +154,9 @@ void require_cells(const OccupancyGrid& grid, const std::string& argument) {
 py::array_t<float> shares(const OccupancyGrid& grid, const std::array<int, 3>& blocks) {
   const BlockLayout layout{grid.frame.cells, {blocks[0], blocks[1], blocks[2]}};
   if ((layout.blocks < 1).any() || (layout.blocks > layout.cells).any()) {
-    refuse("blocks", "at least one, and at most one for each cell along each axis");
+    refuse("blocks", fmt::format("({}) is not from 1 to the ({}) cells of the map along each axis",
+                                 fmt::join(blocks, ", "),
+                                 fmt::join(std::span(layout.cells.data(), 3), ", ")));
   }
   std::vector<float> counts(3 * layout.size(), 0.0F);
   std::vector<float> cells(layout.size(), 0.0F);

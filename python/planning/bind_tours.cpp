@@ -126,7 +126,7 @@ PlanningProblem problem_on_map(const OccupancyGrid& grid, const Doubles& rows,
                                 .threads = threads};
   ViewPlanningOptions options{.block_m = block_m};
   check_options(options);
-  PlanningProblem problem = without_lock([&] { return make_view_problem(input, options); });
+  PlanningProblem problem = interruptibly([&] { return make_view_problem(input, options); });
   problem.draw = nullptr;  // it would refer to the grid
   problem.left.time_s = at_least_0(time_left_s, "time_left_s");
   return problem;
@@ -140,7 +140,7 @@ std::vector<std::size_t> planned(const PlanningProblem& problem, const std::stri
     refuse("choice", "rollout draws maps, which this problem has none of");
   }
   Rng rng = choice_stream(choice, seed);
-  return without_lock([&] { return plan_views(choice, problem, rng).order; });
+  return interruptibly([&] { return plan_views(choice, problem, rng).order; });
 }
 
 }  // namespace
@@ -188,7 +188,7 @@ void bind_tours(py::module_& module) {
         const RouteCosts route{times_of(costs, "costs")};
         if (!route.cost.allFinite()) refuse("costs", "not finite");
         if (last && *last >= route.places()) refuse("last", "no place");
-        return without_lock([&] { return vantage::shortest_route(route, last); });
+        return interruptibly([&] { return vantage::shortest_route(route, last); });
       },
       py::arg("costs"), py::arg("last") = py::none(),
       "The shortest way through all places: indices in order. `costs` (n + 1, n), from row to "

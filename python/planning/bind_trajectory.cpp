@@ -84,7 +84,7 @@ py::dict optimised(const Doubles& path, const py::object& cost, const std::strin
   }
   const auto optimiser = strategy_of<TrajectoryOptimiser>(method, options, "method");
   Rng rng = Rng::stream(seed, "optimise_trajectory");
-  SignalPoll poll(64);
+  SignalPoll poll;
   PathCost evaluate;
   py::function function;
   if (py::isinstance<FlightCost>(cost)) {

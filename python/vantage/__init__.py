@@ -20,6 +20,7 @@ from ._core import (
     Episode,
     Error,
     FlightCost,
+    ForecastInterval,
     Grid,
     InputError,
     OctoMap,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, episodes, spaces
+from . import _checks, _core, episodes, spaces
 
 try:
     from gymnasium import Env as _Base  # type: ignore[import]
@@ -20,7 +20,8 @@ except ImportError:
 Observation = dict[str, NDArray[Any]]
 
 #: Columns of the table of candidates.
-COLUMNS = ("gain", "travel_s", "path_length_m", "x_m", "y_m", "z_m", "yaw_rad", "pitch_rad", "open")
+COLUMNS = ("gain", "interval_low", "interval_high", "travel_s", "path_length_m", "x_m", "y_m", "z_m", "yaw_rad",
+           "pitch_rad", "open")
 
 
 class Env(_Base):  # type: ignore[misc]
@@ -29,9 +30,10 @@ class Env(_Base):  # type: ignore[misc]
     Observation, a dict of float32 arrays:
 
     - `map` (3, bx, by, bz): shares of free, unobserved and occupied cells in coarse blocks of the map;
-    - `candidates` (n, 9): a row a view, columns as in COLUMNS: gain (share of the map's cells, or bits), travel
-      time (s) and way (m; both -1 where out of reach), sensor pose (m, rad, world), open (1: may be taken);
-      rows beyond the candidates that there are hold 0;
+    - `candidates` (n, 11): a row a view, columns as in COLUMNS: gain (share of the map's cells, or bits), the
+      interval that the robot holds the truth of it to be in (low and high end as the gain; both -1 where the gain
+      has none), travel time (s) and way (m; both -1 where out of reach), sensor pose (m, rad, world), open (1: may
+      be taken); rows beyond the candidates that there are hold 0;
     - `state` (7,): x, y (m), yaw (rad) as believed, scans taken, scans left, time (s), time left (s; -1: no limit).
 
     Action: Discrete(n), the row of a view. An action whose row is not open changes nothing: reward 0,
@@ -48,36 +50,33 @@ class Env(_Base):  # type: ignore[misc]
     Parameters
     ----------
     name, overrides
-        As in vantage.run().
+        As in vantage.run(). The choice of the episode is not asked; one that knows ground truth is refused.
     blocks : (bx, by, bz)
         Of `map`; at most the cells of the map.
     max_candidates : int
         Rows of `candidates`; default: the views of the ring on a table top, else the key max_candidates.
     time_cost_per_s : float
+    max_invalid : int
     render_mode : None or "rgb_array"
         The map from above as an image (h, w, 3) uint8.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 1}
-    reward_range = (-np.inf, np.inf)
     spec = None
 
     def __init__(self, name: str | PathLike[str] = "tabletop", *, blocks: tuple[int, int, int] = (16, 16, 8),
                  max_candidates: int | None = None, time_cost_per_s: float = 0.0, max_invalid: int = 20,
                  render_mode: str | None = None, **overrides: Any) -> None:
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            raise _core.ConfigError(f"render_mode: {render_mode!r} is none of {self.metadata['render_modes']}")
-        self._name, self._overrides = name, overrides
-        options = episodes.episode(name, **overrides).options
-        if "choice" not in options:
-            raise _core.ConfigError(f"{name}: the task {options['task']} does not choose among views")
-        self.blocks = tuple(int(n) for n in blocks)
+        modes = self.metadata["render_modes"]
+        if render_mode is not None and not (isinstance(render_mode, str) and render_mode in modes):
+            _checks.refuse("render_mode", render_mode, f"is none of {modes}")
+        self._name, self._overrides = _checks.path("name", name), overrides
+        _, options = _mapping(self._name, overrides)
+        self.blocks = _checks.blocks("blocks", blocks, options["map"]["cells"])
         self.render_mode = render_mode
-        self.time_cost_per_s = float(time_cost_per_s)
-        self.max_invalid = int(max_invalid)
-        n = int(max_candidates) if max_candidates is not None else _most_candidates(options)
-        if n < 1 or self.max_invalid < 1 or len(self.blocks) != 3:
-            raise _core.ConfigError("max_candidates, max_invalid: at least 1; blocks: three numbers")
+        self.time_cost_per_s = _checks.finite("time_cost_per_s", time_cost_per_s)
+        self.max_invalid = _checks.whole("max_invalid", max_invalid, 1)
+        n = _most_candidates(options) if max_candidates is None else _checks.whole("max_candidates", max_candidates, 1)
         self.max_candidates = n
         self.action_space = spaces.Discrete(n)
         self.observation_space = spaces.Dict({
@@ -85,9 +84,10 @@ class Env(_Base):  # type: ignore[misc]
             "candidates": spaces.Box(-np.inf, np.inf, (n, len(COLUMNS)), np.float32),
             "state": spaces.Box(-np.inf, np.inf, (7,), np.float32),
         })
-        self._cells = int(np.prod(options["map"]["cells"])) if options["map"]["cells"] else 0
+        self._cells = int(np.prod(options["map"]["cells"]))
         self._next_seed = int(options["seed"])
-        self._rng: np.random.Generator | None = None
+        self._np_random: np.random.Generator | None = None
+        self._np_random_seed: int | None = None
         self._folder: tempfile.TemporaryDirectory[str] | None = None
         self._stepped: _core.SteppedEpisode | None = None
         self._last: Observation | None = None
@@ -102,10 +102,26 @@ class Env(_Base):  # type: ignore[misc]
 
     @property
     def np_random(self) -> np.random.Generator:
-        """Of the environment's own; the episode draws from its seed alone."""
-        if self._rng is None:
-            self._rng = np.random.default_rng(self._next_seed)
-        return self._rng
+        """Of the environment's own; the episode draws from its seed alone. One that is set has the seed -1."""
+        if self._np_random is None:
+            self._seed_own()
+        assert self._np_random is not None
+        return self._np_random
+
+    @np_random.setter
+    def np_random(self, value: np.random.Generator) -> None:
+        self._np_random, self._np_random_seed = value, -1
+
+    @property
+    def np_random_seed(self) -> int:
+        """That np_random began from."""
+        if self._np_random_seed is None:
+            self._seed_own()
+        assert self._np_random_seed is not None
+        return self._np_random_seed
+
+    def _seed_own(self) -> None:
+        self._np_random, self._np_random_seed = np.random.default_rng(self._next_seed), self._next_seed
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None
               ) -> tuple[Observation, dict[str, Any]]:
@@ -113,17 +129,18 @@ class Env(_Base):  # type: ignore[misc]
 
         The same seed gives the same observations, step by step.
         """
+        keys = _checks.keys("options", options)
         if seed is not None:
-            if int(seed) < 0:
-                raise _core.ConfigError(f"seed: {seed} is below 0")
-            self._next_seed = int(seed)
-            self._rng = np.random.default_rng(self._next_seed)
+            self._next_seed = _checks.whole("seed", seed, 0)
+            self._seed_own()
         self._stop()
-        episode = episodes.episode(self._name, **{**self._overrides, **(options or {}), "seed": self._next_seed})
+        episode, now = _mapping(self._name, {**self._overrides, **keys, "seed": self._next_seed})
+        _checks.blocks("blocks", self.blocks, now["map"]["cells"])
+        self._cells = int(np.prod(now["map"]["cells"]))
         self._next_seed += 1
         self._folder = tempfile.TemporaryDirectory(prefix="vantage-env-")
         self._stepped = _core.SteppedEpisode(episode, "env", self._folder.name)
-        self._invalid, self._unobserved, self._time_s, self._done = 0, 1.0, 0.0, False
+        self._invalid, self._unobserved, self._time_s, self._last = 0, 1.0, 0.0, None
         observation, _, terminated, truncated, info = self._arrive()
         self._done = terminated or truncated
         return observation, info
@@ -215,11 +232,12 @@ class Env(_Base):  # type: ignore[misc]
         n = min(len(request), self.max_candidates)
         unit = float(self._cells) if request.gain_unit == "bits" and self._cells else 1.0
         rows[:n, 0] = request.gain[:n] / unit
-        for column, values in ((1, request.travel_s), (2, request.path_length_m)):
+        low, high = request.interval.T / unit
+        for column, values in enumerate((low, high, request.travel_s, request.path_length_m), 1):
             rows[:n, column] = np.where(np.isfinite(values), values, -1.0)[:n]
-        rows[:n, 3:8] = request.views[:n]
+        rows[:n, 5:10] = request.views[:n]
         open_rows = ~request.exhausted
-        rows[:n, 8] = (open_rows if open_rows.any() else np.ones_like(open_rows))[:n]
+        rows[:n, 10] = (open_rows if open_rows.any() else np.ones_like(open_rows))[:n]
 
     def _result(self, terminated: bool, truncated: bool) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         assert self._last is not None
@@ -236,6 +254,18 @@ class Env(_Base):  # type: ignore[misc]
             "unobserved_share": self._unobserved,
             "invalid_action": False,
         }
+
+
+def _mapping(name: str, keys: dict[str, Any]) -> tuple[_core.Episode, dict[str, Any]]:
+    """The episode, and every key of it; refused unless it chooses among views by what the robot believes."""
+    episode = episodes.episode(name, **keys)
+    options = episode.options
+    if "choice" not in options:
+        raise _core.ConfigError(f"{name}: the task {options['task']} does not choose among views")
+    if episode.knows_truth:
+        raise _core.ConfigError(f"choice: {options['choice']['name']} asks ground truth, which an environment must "
+                                "not learn of")
+    return episode, options
 
 
 def _most_candidates(options: dict[str, Any]) -> int:

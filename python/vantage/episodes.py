@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
+from . import _checks, _core
 
 Planner = Callable[[_core.Request], "int | ArrayLike"]
 
 
 def episode(name: str | PathLike[str], **overrides: Any) -> _core.Episode:
     """The episode of that name ("tabletop", "office_small") or file, with keys set as in run()."""
-    text = str(name)
+    text = _checks.path("name", name)
     if not text.endswith((".yaml", ".yml")) and "/" not in text:
         text = f"assets/episodes/{text}.yaml"
     return _core.Episode(text, overrides)
@@ -52,6 +52,11 @@ class Run:
         return read_table(self.directory / "steps.csv")
 
     @property
+    def candidates(self) -> dict[str, NDArray[Any]]:
+        """candidates.csv, a row a view of every decision, as `steps`; of runs that are not lean. Raises InputError."""
+        return read_table(self.directory / "candidates.csv")
+
+    @property
     def trajectory(self) -> NDArray[np.float64]:
         """True poses of the body, (n, 8): time (s), x, y, z (m), quaternion x, y, z, w."""
         return np.atleast_2d(np.loadtxt(self.directory / "trajectory.tum"))
@@ -63,12 +68,16 @@ class Run:
 
     @property
     def map(self) -> _core.Grid:
-        """The map that was made, with its log odds; of runs that are not lean. Raises InputError."""
+        """The map that was made, with its log odds; of runs that are not lean. Raises InputError.
+
+        Of the box of cells that were measured, not of all of the episode's map; OctoMap(directory / "map.ot")
+        gives any other box of it.
+        """
         return _core.Grid.read(self.directory / "map.ot")
 
     @property
     def frames(self) -> list[Path]:
-        """The still pictures of a run with video, in order."""
+        """The still pictures of a run with video, in order: paths of PNG files, not arrays."""
         return sorted((self.directory / "frames").glob("*.png"))
 
     def _json(self, name: str) -> dict[str, Any]:
@@ -122,15 +131,23 @@ def run(
 
     `planner(request)` is asked at each decision of a mapping episode in place of its own choice. It returns the
     index of a view, or a pose (x, y, yaw) on known free floor to look from. It is told what the robot believes,
-    no ground truth: see Request. An answer that cannot be carried out ends the episode as `failed` with the
-    reason; an exception of the planner does too, and is raised again here once the folder is written. So is
-    KeyboardInterrupt, with status `interrupted`.
+    no ground truth: see Request. An index that no view has, or a pose that cannot be stood at, ends the episode as
+    `failed` with the reason. An exception of the planner does too, and is raised again here once the folder is
+    written; what is neither index nor pose is a BadDecision, raised as one. So is KeyboardInterrupt, with status
+    `interrupted`.
 
     A failed or diverged episode is a result: look at run(...).metrics["status"]. Raises ConfigError, InputError,
     OutputError if it cannot begin or be written.
     """
+    if planner is not None and not callable(planner):
+        _checks.refuse("planner", planner, "is not a function of a request")
     label = getattr(planner, "__name__", type(planner).__name__) if planner is not None else ""
     resolved = episode(name, **overrides)
-    directory = None if out is None else Path(out)
-    _, folder, _ = _core.run_episode(resolved, directory, overwrite, video, lean, planner, label)
+    directory = None if out is None else Path(_checks.path("out", out))
+    try:
+        _, folder, _ = _core.run_episode(resolved, directory, overwrite, video, lean, planner, label)
+    except _core.ConfigError as error:  # as the command line says it
+        if "; --overwrite replaces it" not in str(error):
+            raise
+        raise _core.ConfigError(str(error).replace("--overwrite", "overwrite=True")) from None
     return Run(folder)

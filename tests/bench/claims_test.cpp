@@ -241,6 +241,7 @@ TEST(SpeedClaims, AMissingFigureIsNotRun) {
   for (const char* name : {"planning_tabletop", "planning_office_large"}) {
     figures.try_emplace(name, Json{{"decision_ms", 40.0}});
   }
+  figures.try_emplace("env", Json{{"decisions_per_s", 5.0}, {"swept_numpy_over_cpp", 1.0}});
   const Findings before = speed_findings(figures);
   for (const Finding& finding : before)
     EXPECT_NE(finding.verdict, Verdict::not_run) << finding.claim;

@@ -1,6 +1,7 @@
 """What the tests share."""
 
 import os
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -15,6 +16,11 @@ BINARY = os.environ["VANTAGE_BINARY"]
 #: A table-top episode of seconds.
 SMALL = {"scans": 4, "map": {"cells": [33, 33, 17]}, "laser": {"scan_duration_s": 1}}
 SMALL_FLAGS = ["--set", "scans=4", "--set", "map.cells=[33,33,17]", "--set", "laser.scan_duration_s=1"]
+
+
+def blocks(page):
+    """(language, code) of each fenced block of a page."""
+    return re.findall(r"^```(\w*)\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
 def room(shape=(40, 40, 20)):

@@ -1,13 +1,37 @@
-"""Environments: what Gymnasium documents of them, seeds, endings, several at once."""
+"""Environments: what Gymnasium documents of them, seeds, endings."""
 
 import functools
+import subprocess
+import sys
+import tempfile
 import unittest
+from copy import deepcopy
 
 import numpy as np
 import vantage
 from support import SMALL
 
 make = functools.partial(vantage.Env, "tabletop", **SMALL)
+COLUMN = {name: i for i, name in enumerate(vantage.env.COLUMNS)}
+
+#: With a stand-in for Gymnasium 1.x: that it is used, and what check_env asserts of the seeds.
+AS_GYMNASIUM = """
+import sys, types
+
+class Base:
+    metadata, render_mode, spec = {"render_modes": []}, None, None
+    _np_random = _np_random_seed = None
+
+gymnasium = types.ModuleType("gymnasium")
+gymnasium.Env, gymnasium.made = Base, {}
+gymnasium.register = lambda id, **how: gymnasium.made.update({id: how})
+sys.modules["gymnasium"] = gymnasium
+import vantage
+assert "vantage/tabletop-v0" in gymnasium.made and issubclass(vantage.Env, Base)
+with vantage.Env("tabletop", scans=2, map={"cells": [33, 33, 17]}, laser={"scan_duration_s": 1}) as env:
+    env.reset(seed=123)
+    assert env.unwrapped._np_random is not None
+"""
 
 
 def assert_equal(case, one, other):
@@ -45,9 +69,31 @@ class Environments(unittest.TestCase):
             picture = env.render()
             self.assertEqual((picture.dtype, picture.ndim, picture.shape[2]), (np.uint8, 3, 3))
             self.assertGreater(picture.std(), 5)
+            self.assertFalse(hasattr(env, "reward_range"))  # of Gymnasium before 1.0
             for wrong in (-1, 30, 1.5, "x", None):
                 with self.assertRaises(vantage.BadDecision):
                     env.step(wrong)
+
+    def test_seed_their_generator_as_gymnasium_checks(self):
+        with make() as env:
+            env.reset(seed=123)
+            self.assertEqual(env.unwrapped._np_random_seed, 123)
+            before = deepcopy(env.unwrapped._np_random)
+            self.assertIsNotNone(before)
+            env.reset(seed=123)
+            self.assertEqual(env.unwrapped._np_random.bit_generator.state, before.bit_generator.state)
+            env.reset(seed=456)
+            self.assertNotEqual(env.unwrapped._np_random.bit_generator.state, before.bit_generator.state)
+            self.assertEqual(env.np_random_seed, 456)
+            own = np.random.default_rng(7)
+            env.np_random = own
+            env.reset()  # draws on
+            self.assertIs(env.np_random, own)
+            self.assertEqual(env.np_random_seed, -1)
+        self.assertEqual(make(seed=5).np_random_seed, 5)
+
+    def test_are_of_gymnasium_where_it_is(self):
+        subprocess.run([sys.executable, "-W", "error", "-c", AS_GYMNASIUM], check=True)
 
     def test_one_seed_gives_one_episode_step_by_step(self):
         rng = np.random.default_rng(0)
@@ -68,7 +114,7 @@ class Environments(unittest.TestCase):
     def test_rewards_add_up_to_what_is_seen(self):
         with make(time_cost_per_s=0.001) as env:
             first, begun = env.reset(seed=1)
-            steps = play(env, 1, lambda step: int(np.argmax(step[0]["candidates"][:, 0])))
+            steps = play(env, 1, lambda step: int(np.argmax(step[0]["candidates"][:, COLUMN["gain"]])))
         seen = begun["unobserved_share"] - steps[-1][4]["unobserved_share"]
         took_s = steps[-1][4]["time_s"] - begun["time_s"]
         self.assertAlmostEqual(sum(step[1] for step in steps[1:]), seen - 0.001 * took_s, places=9)
@@ -83,7 +129,7 @@ class Environments(unittest.TestCase):
                 env.step(0)
             env.reset(options={"budget": {"time_s": 40}, "scans": 30})
             *_, terminated, truncated, info = play(env, 2, lambda step: int(
-                np.argmax(step[0]["candidates"][:, 0] * step[0]["candidates"][:, 8])))[-1]
+                np.argmax(np.prod(step[0]["candidates"][:, [COLUMN["gain"], COLUMN["open"]]], axis=1))))[-1]
             self.assertTrue(truncated)
 
     def test_seeds_count_up_without_one(self):
@@ -103,19 +149,85 @@ class Environments(unittest.TestCase):
                 self.assertTrue(info["invalid_action"])
                 assert_equal(self, before, after)
 
-    def test_what_cannot_be_is_told(self):
-        for keys in ({"render_mode": "human"}, {"max_candidates": 0}, {"scans": 0}):
-            with self.assertRaises(vantage.ConfigError):
+    def test_candidates_carry_the_interval_of_their_gain(self):
+        asked = []
+
+        def look(request):
+            asked.append((request.gain, request.interval, request.travel_s))
+            return 3
+
+        cells = np.prod(SMALL["map"]["cells"])
+        with tempfile.TemporaryDirectory() as folder:
+            vantage.run("tabletop", planner=look, out=folder, overwrite=True, lean=True, seed=3, **SMALL)
+        with make() as env:
+            for (observation, *_), (gain, interval, travel_s) in zip(play(env, 3, lambda step: 3), asked):
+                table = observation["candidates"]
+                np.testing.assert_allclose(table[:, COLUMN["gain"]], gain / cells, rtol=1e-6)
+                np.testing.assert_allclose(table[:, COLUMN["interval_low"]], interval[:, 0] / cells, rtol=1e-6)
+                np.testing.assert_allclose(table[:, COLUMN["interval_high"]], interval[:, 1] / cells, rtol=1e-6)
+                np.testing.assert_allclose(table[:, COLUMN["travel_s"]],
+                                           np.where(np.isfinite(travel_s), travel_s, -1), rtol=1e-6)
+        with make(gain="simple", scans=2) as env:  # forecasts nothing
+            table = env.reset(seed=3)[0]["candidates"]
+            self.assertTrue((table[:, [COLUMN["interval_low"], COLUMN["interval_high"]]] == -1).all())
+            self.assertTrue((table[:, COLUMN["gain"]] > 0).any())
+
+    def test_a_wrong_argument_is_named_with_its_value(self):
+        for message, keys in {
+            "render_mode: 'human'": {"render_mode": "human"},
+            "max_candidates: 0 is below 1": {"max_candidates": 0},
+            "max_candidates: 'x' is not a whole": {"max_candidates": "x"},
+            "max_invalid: 0 is below 1": {"max_invalid": 0},
+            "max_invalid: 1.5 is not a whole": {"max_invalid": 1.5},
+            r"blocks: \(2, 2\) is not three": {"blocks": (2, 2)},
+            "blocks: 3 is not three": {"blocks": 3},
+            r"blocks: \(4, 0, 4\) is not three whole numbers, each at least 1": {"blocks": (4, 0, 4)},
+            r"blocks: \(34, 4, 4\) is more than the map's \(33, 33, 17\)": {"blocks": (34, 4, 4)},
+            "time_cost_per_s: nan is not a finite": {"time_cost_per_s": np.nan},
+            "time_cost_per_s: 'x' is not a finite": {"time_cost_per_s": "x"},
+            "choice: oracle asks ground truth": {"choice": "oracle"},
+            "scans: 0": {"scans": 0},
+            "unknown key 'scanz'": {"scanz": 1},
+        }.items():
+            with self.assertRaisesRegex(vantage.ConfigError, message):
                 make(**keys)
+        with self.assertRaisesRegex(vantage.ConfigError, "name: 3 is not a name"):
+            vantage.Env(3)
+        with make() as env:
+            for message, keys in {
+                "seed: 1.5 is not a whole": {"seed": 1.5},
+                "seed: 'x' is not a whole": {"seed": "x"},
+                "seed: -1 is below 0": {"seed": -1},
+                r"options: \[1\] is not a dict": {"options": [1]},
+                "choice: oracle asks ground truth": {"options": {"choice": "oracle"}},
+                r"blocks: \(16, 16, 8\) is more than the map's \(9, 9, 9\)": {"options": {"map": {"cells": [9, 9, 9]}}},
+            }.items():
+                with self.assertRaisesRegex(vantage.ConfigError, message):
+                    env.reset(**keys)
+
+    def test_gains_are_shares_of_the_map_that_is_reset(self):
+        with make() as env:
+            small, _ = env.reset(seed=1)
+            large, _ = env.reset(seed=1, options={"map": {"cells": [66, 66, 34]}})
+        ratio = large["candidates"][:, COLUMN["gain"]].max() / small["candidates"][:, COLUMN["gain"]].max()
+        self.assertLess(abs(np.log(ratio)), np.log(2))  # and not 8
+
+    def test_a_reset_that_fails_shows_nothing_of_the_episode_before(self):
+        with make() as env:
+            env.reset(seed=1)
+            with self.assertRaisesRegex(vantage.Error, "before its first decision: scan 1 shows nothing"):
+                env.reset(seed=2, options={"faults": {"dropped_frames": 1}})
+            with self.assertRaisesRegex(vantage.Error, "reset"):
+                env.step(0)
+
+    def test_what_cannot_be_is_told(self):
         with self.assertRaisesRegex(vantage.ConfigError, "does not choose among views"):
             vantage.Env("trajectory")
         with make() as env:
             with self.assertRaisesRegex(vantage.Error, "reset"):
                 env.step(0)
             with self.assertRaises(vantage.ConfigError):
-                env.reset(seed=-1)
-            with self.assertRaisesRegex(vantage.ConfigError, "ground truth"):
-                env.reset(options={"choice": "oracle"})
+                env.reset(options={"scans": 0})
             env.reset(seed=1)  # and goes on
 
     def test_exploration_ends_when_there_is_no_more(self):
@@ -124,32 +236,6 @@ class Environments(unittest.TestCase):
             self.assertTrue(env.observation_space.contains(observation))
             *_, terminated, truncated, info = env.step(env.action_space.sample(info["action_mask"]))
             self.assertTrue(truncated)
-
-
-class Vectors(unittest.TestCase):
-    def test_are_the_environments_side_by_side(self):
-        with vantage.VectorEnv([make, make]) as both, make() as alone:
-            observations, infos = both.reset(seed=3)
-            self.assertTrue(both.observation_space.contains(observations))
-            first, _ = alone.reset(seed=4)
-            for name, values in first.items():
-                np.testing.assert_array_equal(observations[name][1], values)
-            for _ in range(3):
-                observations, rewards, terminated, truncated, infos = both.step([1, 2])
-                self.assertEqual(rewards.shape, (2,))
-                first, reward, *_ = alone.step(2)
-                np.testing.assert_array_equal(observations["map"][1], first["map"])
-                self.assertEqual(rewards[1], reward)
-            self.assertTrue(truncated.all())
-            observations, rewards, terminated, truncated, infos = both.step([0, 0])  # the next episodes begin
-            self.assertFalse(truncated.any() or rewards.any())
-            self.assertTrue((observations["state"][:, 3] == 1).all())
-
-    def test_tell_what_goes_wrong_in_one(self):
-        with self.assertRaisesRegex(vantage.Error, "unknown key"):
-            vantage.VectorEnv([functools.partial(vantage.Env, "tabletop", scanz=1)])
-        with self.assertRaises(vantage.ConfigError):
-            vantage.VectorEnv([])
 
 
 if __name__ == "__main__":

@@ -58,6 +58,25 @@ class Runs(InFolder):
         with self.assertRaisesRegex(vantage.Error, "has gone on"):
             self.kept.views
 
+    def test_planners_are_told_how_sure_the_gains_are(self):
+        seen = []
+
+        def look(request):
+            seen.append((request.gain, request.interval, request.gain_unit))
+            return 5
+
+        run = self.run_small("sure", planner=look)
+        first = vantage.ForecastInterval()  # the options' defaults are those of the episode's key `intervals`
+        first.start(run.steps["actual_new_cells"][0])
+        gain, interval, unit = seen[0]
+        self.assertEqual((interval.shape, unit), ((30, 2), "bits"))
+        np.testing.assert_allclose(interval, first.of(gain), rtol=1e-9)
+        self.assertTrue((interval[:, 1] > interval[:, 0]).all())
+        seen.clear()
+        self.run_small("unsure", planner=look, gain="simple", scans=2, lean=True)
+        self.assertEqual(seen[0][1].shape, (30, 2))
+        self.assertTrue(np.isnan(seen[0][1]).all())
+
     def test_planners_may_name_a_pose(self):
         def aside(request):
             x, y, yaw = request.pose
@@ -72,11 +91,12 @@ class Runs(InFolder):
             self.run_small("raises", planner=lambda request: {}["why"])
         metrics = vantage.load(self.folder / "raises").metrics
         self.assertEqual((metrics["status"], metrics["reason"]), ("failed", "the planner raised: KeyError: 'why'"))
-        for name, answer, reason in (("far", 99, "view 99 was chosen"), ("nowhere", (0, 0, 0), "free floor")):
+        for name, answer, reason in (("far", 99, "view 99 was chosen"), ("below", -1, "view -1 was chosen, there are 30"),
+                                     ("huge", 2**70, "was chosen"), ("nowhere", (0, 0, 0), "free floor")):
             metrics = self.run_small(name, planner=lambda request: answer).metrics
             self.assertEqual(metrics["status"], "failed")
             self.assertIn(reason, metrics["reason"])
-        for answer in (None, "x", -1, (1, 2), [[1, 2, 3]]):
+        for answer in (None, "x", (1, 2), [[1, 2, 3]]):
             with self.assertRaises(vantage.BadDecision):
                 self.run_small("odd", planner=lambda request: answer, overwrite=True)
 
@@ -102,19 +122,30 @@ class Runs(InFolder):
         self.assertEqual(len(steps["time_s"]), 4)
         self.assertEqual(steps["registered"].dtype, bool)
         self.assertEqual(steps["unobserved_cells"][-1], back.metrics["scans"][-1]["unobserved_cells"])
+        table = back.candidates
+        self.assertEqual(len(table["decision"]), 3 * 30)
+        first = table["decision"] == 1
+        self.assertEqual(table["candidate"][first][table["chosen"][first] == 1], steps["chosen_view"][1])
         self.assertEqual(back.trajectory.shape[1], 8)
         self.assertGreater(back.map.count(vantage.OCCUPIED), 10)
         self.assertTrue(back.frames)
         with self.assertRaisesRegex(vantage.InputError, "no run folder"):
             vantage.load(self.folder)
-        with self.assertRaisesRegex(vantage.ConfigError, "holds"):
+        with self.assertRaisesRegex(vantage.ConfigError, "holds.*; overwrite=True replaces it"):
             self.run_small("whole")
+        self.run_small("whole", lean=True, overwrite=True)
+        with self.assertRaisesRegex(vantage.InputError, "candidates.csv"):
+            back.candidates
 
     def test_keys_that_are_wrong_are_told(self):
         for message, keys in {"unknown key 'scanz'": {"scanz": 1}, "map.cells": {"map": {"cells": [1, 2]}},
                               "gain": {"gain": {"name": "simple", "b": 1}}, "scans: 0": {"scans": 0}}.items():
             with self.assertRaisesRegex(vantage.ConfigError, message):
                 vantage.run("tabletop", out=self.folder / "bad", **keys)
+        for message, arguments in {"planner: 3 is not": {"planner": 3}, "name: 3 is not": {"name": 3},
+                                   "out: 3 is not": {"out": 3}}.items():
+            with self.assertRaisesRegex(vantage.ConfigError, message):
+                vantage.run(**{"out": self.folder / "bad", **arguments})
         with self.assertRaisesRegex(vantage.InputError, "no_such"):
             vantage.run("no_such")
         self.assertFalse((self.folder / "bad").exists())

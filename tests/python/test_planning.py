@@ -48,6 +48,8 @@ class Grids(InFolder):
         self.assertEqual(shares.shape, (3, 5, 4, 3))
         np.testing.assert_allclose(shares.sum(axis=0), 1.0, atol=1e-6)
         whole = room().shares((1, 1, 1)).ravel() * 32000
+        with self.assertRaisesRegex(vantage.ConfigError, r"blocks: \(41, 1, 1\) is not from 1 to the \(40, 40, 20\)"):
+            room().shares((41, 1, 1))
         np.testing.assert_allclose(whole, [room().count(i) for i in range(3)], rtol=1e-5)
 
     def test_bad_grids_are_refused(self):
@@ -119,6 +121,10 @@ class Gains(unittest.TestCase):
             "views: nan": lambda: vantage.gains(self.grid, [[np.nan, 0, 0, 0]]),
             "threads: 0": lambda: vantage.gains(self.grid, self.views, threads=0),
             "transmission": lambda: vantage.gains(self.grid, self.views, gain="adaptive"),
+            "gain.a: expected a number, got a list": lambda: vantage.gains(
+                self.grid, self.views, gain={"name": "beer_lambert", "a": np.ones(3)}),
+            "gain.a: a complex is no option": lambda: vantage.gains(
+                self.grid, self.views, gain={"name": "beer_lambert", "a": 1j}),
             "cannot be swept": lambda: vantage.gains(self.grid, self.views, gain="average_entropy", method="swept"),
         }.items():
             with self.assertRaisesRegex(vantage.ConfigError, message):
@@ -207,6 +213,39 @@ class Tours(unittest.TestCase):
 
         best = min(itertools.permutations(range(6)), key=length)
         self.assertEqual(vantage.shortest_route(costs), list(best))
+
+    def test_intervals_of_forecasts(self):
+        # At 0.0517 of the first view ln(actual / forecast) has mean 0.106 and spread 0.190; of the 20 errors in
+        # training the ceil(0.9 * 21) = 19th is 2.21 spreads. A few cells (0.001 of the first view) are as good as none.
+        interval = vantage.ForecastInterval(confidence=0.9, rate=0.03)
+        interval.start(100_000)
+        wanted = 5270 * np.exp([0.106 - 2.21 * 0.190, 0.106 + 2.21 * 0.190]) - 100
+        np.testing.assert_allclose(interval.of(5170), wanted, rtol=1e-12)
+        several = interval.of([[0, 5170, 1e5], [1, 2, 3]])
+        self.assertEqual(several.shape, (2, 3, 2))
+        np.testing.assert_allclose(several[0, 1], wanted, rtol=1e-12)
+        self.assertTrue((several[..., 0] <= several[..., 1]).all())
+        # Far outside: the level moves to 0.927, the 21st of 21 errors is that one itself, and its truth the end.
+        interval.observe(5170, 90_000)
+        np.testing.assert_allclose(interval.of(5170)[1], 90_000, rtol=1e-9)
+        np.testing.assert_allclose(interval.of(5170)[0], 5270 * np.exp(2 * 0.106) * 5270 / 90_100 - 100, rtol=1e-9)
+
+    def test_intervals_refuse_what_cannot_be(self):
+        with self.assertRaisesRegex(vantage.Error, "start"):
+            vantage.ForecastInterval().of(1)
+        with self.assertRaisesRegex(vantage.Error, "start"):
+            vantage.ForecastInterval().observe(1, 1)
+        interval = vantage.ForecastInterval()
+        interval.start(1000)
+        for message, call in {"confidence": lambda: vantage.ForecastInterval(confidence=2),
+                              "unknown key 'x'": lambda: vantage.ForecastInterval(x=2),
+                              "first_view_cells: 0": lambda: interval.start(0),
+                              "first_view_cells: nan": lambda: interval.start(np.nan),
+                              "forecast_cells: -1": lambda: interval.of([1, -1]),
+                              "forecast_cells: inf": lambda: interval.observe(np.inf, 1),
+                              "actual_cells: nan": lambda: interval.observe(1, np.nan)}.items():
+            with self.assertRaisesRegex(vantage.ConfigError, message):
+                call()
 
     def test_problems_on_maps(self):
         ways = vantage.Ways(np.zeros((120, 120), np.uint8), (-2.2, -2.2, 0), (-3, -3), footprint_radius_m=0.2)

@@ -1,5 +1,5 @@
-"""The stubs say what the compiled module has: every name, every argument, which have defaults; and every name
-has a docstring."""
+"""The stubs say what the compiled module has: every name, every argument with its type, which have defaults, what comes
+back; and every name has a docstring."""
 
 import ast
 import inspect
@@ -46,6 +46,43 @@ def bound_arguments(function):
     return [row for row in rows if row[0] != "self"]
 
 
+def bound_types(function):
+    """{name: type}, and what comes back as 'return', of a bound function or of a property's getter."""
+    first = function.__doc__.strip().splitlines()[0].replace("->", "=>")
+    inside, back = re.match(r"\w*\((.*)\) => (.*)", first).groups()
+    types = dict(part.split(" = ")[0].split(": ", 1) for part in split_arguments(inside) if ": " in part)
+    return {name: text.replace("=>", "->") for name, text in {**types, "return": back}.items()}
+
+
+def stub_types(function):
+    """The same of a stub's."""
+    given = function.args
+    types = {arg.arg: ast.unparse(arg.annotation) for arg in given.args + given.kwonlyargs if arg.annotation}
+    return {**types, "return": ast.unparse(function.returns)}
+
+
+def array_agrees(element, stub, given):
+    exact = {"float64": "_Floats", "bool": "NDArray[np.bool_]"}.get(element, f"NDArray[np.{element}]")
+    return stub == exact or (given and stub == "ArrayLike") or (element is None and stub.startswith("NDArray["))
+
+
+def agrees(bound, stub, given):
+    """Whether the stub's type says what pybind11 takes (given) or hands back."""
+    if optional := re.fullmatch(r"Optional\[(.*)\]", bound):
+        return stub.endswith(" | None") and agrees(optional[1], stub.removesuffix(" | None"), given)
+    if bound.startswith("vantage._core."):
+        return (stub.removesuffix(" | None") if given else stub) == bound.removeprefix("vantage._core.")
+    if array := re.match(r"numpy\.ndarray(?:\[(?:numpy\.)?(\w+).*\])?$", bound):
+        return array_agrees(array[1], stub, given)
+    if several := re.fullmatch(r"List\[(\w+)(\[3\])?\]", bound):
+        return stub in ([f"Sequence[{several[1]}]", "ArrayLike"] if given else [f"list[{several[1]}]"])
+    if bound in ("dict", "list", "tuple"):
+        return stub.startswith((f"{bound}[", "Mapping[") if given else f"{bound}[")
+    if bound == "str":
+        return stub == "str" or stub.startswith("Literal[")
+    return bound == "object" or stub == {"os.PathLike": "_Path"}.get(bound, bound)  # objects are looked at in C++
+
+
 def stub_members(node):
     return {item.name: item for item in node.body if isinstance(item, ast.FunctionDef)}
 
@@ -58,6 +95,12 @@ class Stubs(unittest.TestCase):
         self.functions = {node.name: node for node in tree.body
                           if isinstance(node, ast.FunctionDef) and not node.name.startswith("_")}
         self.classes = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
+
+    def assert_types(self, node, function):
+        bound = bound_types(function)
+        for name, stub in stub_types(node).items():
+            if name in bound:  # keywords of ** have none
+                self.assertTrue(agrees(bound[name], stub, name != "return"), f"{name}: {bound[name]}, the stub: {stub}")
 
     def test_name_what_there_is(self):
         here = {name: value for name, value in vars(_core).items() if not name.startswith("_")}
@@ -72,6 +115,7 @@ class Stubs(unittest.TestCase):
                 continue
             with self.subTest(name):
                 self.assertEqual(stub_arguments(node), bound_arguments(getattr(_core, name)))
+                self.assert_types(node, getattr(_core, name))
 
     def test_classes_have_what_they_say(self):
         for name, node in self.classes.items():
@@ -86,6 +130,8 @@ class Stubs(unittest.TestCase):
             for member, item in members.items():
                 value = inspect.getattr_static(bound, member)
                 with self.subTest(f"{name}.{member}"):
+                    if member != "__len__":
+                        self.assert_types(item, value.fget if isinstance(value, property) else getattr(bound, member))
                     is_property = any(isinstance(d, ast.Name) and d.id == "property" for d in item.decorator_list)
                     self.assertEqual(isinstance(value, property), is_property)
                     if not is_property and member != "__len__":
