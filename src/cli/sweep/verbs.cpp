@@ -89,11 +89,12 @@ ExitCode run_study(const SweepArguments& arguments) {
                                   .keep_states = arguments.keep_states};
   prepare_study_folder(opened.study, options);
   catch_interrupts();
-  const SweepEnd end = run_sweep(plan, options);
+  run_sweep(plan, options);
   if (interrupt_signal() == 0) collect(arguments, opened.directory);
-  print_status(arguments, opened.directory, plan, end.states);
+  const auto states = episode_states(opened.directory, plan);  // others may have ended theirs
+  print_status(arguments, opened.directory, plan, states);
   if (interrupt_signal() != 0) return static_cast<ExitCode>(128 + interrupt_signal());
-  return code_of(end.states);
+  return code_of(states);
 }
 
 ExitCode print_study_plan(const SweepArguments& arguments) {
