@@ -114,7 +114,7 @@ TEST_F(Sweep, ShardsMayBeginTogether) {
 }
 
 // What another had begun when it was looked at may be done by the end. It depends on the clock
-// whether the two meet so: about once in eight.
+// whether the two meet so; ./faults together tries it more often.
 TEST_F(Sweep, OfTwoOnOneFolderTheLastToEndHasAll) {
   const auto study = file("two.yaml", R"(episode: assets/episodes/tabletop.yaml
 set: {scans: 1, laser.scan_duration_s: 1, map.cells: [9, 9, 5]}
