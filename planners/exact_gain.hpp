@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/parallel_for.hpp"
-#include "vantage/core/work/stop_poll.hpp"
 #include "vantage/geometry/view_cone.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/gain.hpp"

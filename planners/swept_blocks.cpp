@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/parallel_for.hpp"
-#include "vantage/core/work/stop_poll.hpp"
 #include "vantage/planners/visibility/visibility_sweep.hpp"
 
 namespace vantage {

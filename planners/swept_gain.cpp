@@ -4,8 +4,8 @@
 #include <array>
 #include <map>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/parallel_for.hpp"
-#include "vantage/core/work/stop_poll.hpp"
 
 namespace vantage {
 namespace {

@@ -56,7 +56,7 @@ Rooms operator+(Rooms a, const Rooms& b) {
   return a;
 }
 
-const Rooms kGround{"core", "core/work", "geometry", "information"};
+const Rooms kGround{"core", "core/cancellation", "geometry", "information"};
 const Rooms kPerception{
     "perception",        "perception/search",   "perception/clouds",      "perception/clutter",
     "perception/images", "perception/features", "perception/features/kit"};
@@ -90,7 +90,7 @@ const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntim
 /// Which rooms each room may include besides itself.
 const std::map<std::string, Rooms> kAllowed{
     {"core", {}},
-    {"core/work", {}},
+    {"core/cancellation", {}},
     {"geometry", {"core"}},
     {"information", {"core"}},
     {"control", {"core", "geometry"}},
@@ -112,7 +112,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"belief/tracking", kGround},
     {"planners/visibility", kGround + Rooms{"belief/map"}},
     {"planners/gains", kGround + Rooms{"belief/map", "planners/visibility"}},
-    {"planners/tours", {"core", "core/work", "geometry"}},
+    {"planners/tours", {"core", "core/cancellation", "geometry"}},
     {"planners",
      kGround + Rooms{"belief/map", "planners/visibility", "planners/gains", "planners/tours"}},
     {"planners/views", kGround + Rooms{"belief/map", "planners"}},

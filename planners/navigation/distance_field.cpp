@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "vantage/core/work/stop_poll.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include <queue>
 #include <utility>
 
-#include "vantage/core/work/stop_poll.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
 #include "vantage/planners/navigation/narrow_search.hpp"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/parallel_for.hpp"
-#include "vantage/core/work/stop_poll.hpp"
 
 namespace vantage {
 namespace {

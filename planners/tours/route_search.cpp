@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "vantage/core/work/stop_poll.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 
 namespace vantage {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/error.hpp"
-#include "vantage/core/work/stop_poll.hpp"
 #include "vantage/planners/tours/joint_gain.hpp"
 
 namespace vantage {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-#include "vantage/core/work/stop_poll.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 
 namespace vantage::python {
 

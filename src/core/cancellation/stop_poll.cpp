@@ -1,4 +1,4 @@
-#include "vantage/core/work/stop_poll.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 
 #include <utility>
 
