@@ -144,7 +144,7 @@ def main():
                         help="N mutants that count (300), drawn in the files below PATH (src planners sim)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--named", action="store_true", help="those of tests/mutation/named.yaml; all must be killed")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     if arguments.named:
         mutants = named()
         counts, survivors = try_all(mutants, len(mutants), Record(OUT / "named.jsonl", state_of_tree()))

@@ -1,5 +1,6 @@
 """The changes that ./mutate makes, by known answers; what somebody has named stands in the sources."""
 
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -62,6 +63,14 @@ class Draws(unittest.TestCase):
             line = (mutate.ROOT / mutant.file).read_text(encoding="utf-8").split("\n")[mutant.line - 1]
             self.assertEqual(line, mutant.old)
             self.assertNotEqual(line, mutant.new)
+
+
+class CommandLine(unittest.TestCase):
+    def test_paths_may_follow_the_seed(self):
+        done = subprocess.run([sys.executable, Path(mutate.__file__), "5", "--seed", "2", "nowhere"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nowhere: no sources", done.stderr)
 
 
 class Named(unittest.TestCase):

@@ -168,7 +168,7 @@ TEST(Exploration, LearnsTheOfficeWithoutTouchingIt) {
     EXPECT_LT(scan["observable_unobserved_cells"].get<double>(), left - 0.03 * observable);
     EXPECT_LT(scan["pose_error_m"], 0.02);
     EXPECT_NEAR(scan["predicted"]["simple"].get<double>(), scan["actual_new_cells"].get<double>(),
-                0.5 * scan["actual_new_cells"].get<double>());
+                0.08 * scan["actual_new_cells"].get<double>());
     left = scan["observable_unobserved_cells"];
   }
   EXPECT_GT(metrics["path_length_m"], 1.0);
@@ -183,7 +183,10 @@ TEST(Exploration, TheOracleKnowsWhatAViewShows) {
   const support::TemporaryDirectory folder;
   const auto metrics = explore(folder.path() / "run", {"choice=oracle", "scans=2", "threads=1"});
   EXPECT_EQ(metrics["method"], "oracle");
-  EXPECT_GT(metrics["scans"][1]["actual_new_cells"], 1000);
+  const auto of_forecast = explore(folder.path() / "greedy", {"choice=greedy", "scans=2"});
+  EXPECT_GE(metrics["scans"][1]["actual_new_cells"].get<double>(),
+            0.98 * of_forecast["scans"][1]["actual_new_cells"].get<double>())
+      << "from one and the same first scan, but for noise";
 }
 
 /// The episode says start_site.

@@ -1,4 +1,4 @@
-// A map that is made anew from where loops say that it was seen.
+// What sweeps leave in the belief; a map that is made anew from where loops say that it was seen.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,6 +85,29 @@ TEST(Reintegration, IsAsIfAllHadBeenSeenFromThereAtFirst) {
 
 TEST(Reintegration, DoesNotDependOnThreads) {
   EXPECT_EQ(made_anew(1).log_odds, made_anew(3).log_odds);
+}
+
+/// A beam tells of clutter by what was unknown before its scan, not after.
+TEST(ExplorationBelief, LearnsTheClutterOfItsSweepsOnTheMapBeforeThem) {
+  const Rooms rooms(2);
+  ExplorationBelief belief(rooms.episode, rooms.task);
+  const auto seen = sweep_at(kBelieved[1], 2.0);
+  belief.update(seen, rooms.no_walls, {});
+
+  std::vector<PosedImage> images;
+  for (const DepthImage& view : seen.views) {
+    images.push_back({view.image, to_se3(kBelieved[1]) * view.T_base_camera});
+  }
+  const OccupancyGrid nothing_known(rooms.task.map.frame());
+  ClutterHazard expected(rooms.task.clutter_hazard, nothing_known.frame.cells);
+  expected.observe(nothing_known, images, rooms.task.hazard_stride_px, rooms.task.hazard_floor_m);
+  EXPECT_EQ(belief.hazard().global_hazard(), expected.global_hazard());
+  EXPECT_EQ(belief.hazard().transmission_per_slice(), expected.transmission_per_slice());
+  EXPECT_GT(std::abs(expected.global_hazard() / rooms.task.clutter_hazard.prior_hazard - 1.0), 0.1);
+
+  expected.observe(belief.grid(), images, rooms.task.hazard_stride_px, rooms.task.hazard_floor_m);
+  belief.update(seen, rooms.no_walls, {});
+  EXPECT_EQ(belief.hazard().global_hazard(), expected.global_hazard());
 }
 
 /// Three columns of four, of which the first and the last are kept; rows alike.
