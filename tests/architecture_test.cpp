@@ -79,11 +79,11 @@ const Rooms kStudy{"study",       "study/cluster",     "study/figures",
                    "study/kit",   "study/recognition", "study/sweep",
                    "study/tables"};
 /// What several tasks share; they never include each other.
-const Rooms kSharedByTasks{"tasks/mapping",          "tasks/mapping/driving",
-                           "tasks/mapping/external", "tasks/mapping/hindsight",
-                           "tasks/mapping/measures", "tasks/mapping/simulated",
-                           "tasks/flight",           "tasks/object_flight",
-                           "tasks/table_map"};
+const Rooms kSharedByTasks{
+    "tasks/mapping",          "tasks/mapping/drawing",   "tasks/mapping/driving",
+    "tasks/mapping/external", "tasks/mapping/hindsight", "tasks/mapping/measures",
+    "tasks/mapping/plans",    "tasks/mapping/simulated", "tasks/flight",
+    "tasks/object_flight",    "tasks/table_map"};
 const Rooms kTask = kGround + kPerception + kBelief + kPlanners + kSim + kRuntime + kRecognition +
                     kSharedByTasks + Rooms{"control", "dataset", "localisation", "report"};
 
@@ -155,21 +155,24 @@ const std::map<std::string, Rooms> kAllowed{
     {"recipe", kGround + Rooms{"belief/objects", "belief/observation", "perception", "recognition",
                                "recognition/dataset", "dataset", "sim/render"}},
     {"localisation", {"core", "geometry", "perception/clouds"}},
-    {"report", {"core", "geometry", "perception/clouds"}},
+    {"report", {"core", "geometry", "perception/clouds", "planners/tours"}},
     {"bound", {"core", "geometry"}},
     {"building", {"core", "geometry", "planners/navigation"}},
     {"hindsight", kTask + Rooms{"bound", "tasks", "tasks/*"}},
     {"runtime/process", {"core"}},
-    {"runtime/drawing", {"core", "geometry", "belief/map"}},
-    {"runtime/log", {"core", "geometry", "belief/map", "planners", "sim/world", "sim/render"}},
+    {"runtime/drawing", {"core", "geometry", "belief/map", "planners/tours"}},
+    {"runtime/log",
+     {"core", "geometry", "belief/map", "planners", "planners/tours", "sim/world", "sim/render"}},
     {"runtime",
      kGround + Rooms{"belief/map", "planners", "planners/choice", "report", "runtime/log",
                      "sim/faults", "sim/world", "sim/render", "sim/robots"}},
     {"tasks/mapping", kTask},
+    {"tasks/mapping/drawing", kTask},
     {"tasks/mapping/driving", kTask},
     {"tasks/mapping/external", kTask},
     {"tasks/mapping/hindsight", kTask},
     {"tasks/mapping/measures", kTask},
+    {"tasks/mapping/plans", kTask},
     {"tasks/mapping/simulated", kTask},
     {"tasks/flight", kTask},
     {"tasks/object_flight", kTask},

@@ -18,13 +18,14 @@ function topDownMap(parent, run) {
   onWidth(holder, (width) => drawMap(holder, run, backdrop, width));
 }
 
-// Highest occupied cell of each column as an image, for orientation; the lowest layers may be floor.
-function backdropImage(voxels, floorLayers) {
+// Highest occupied cell of each column as an image, for orientation; the lowest layers may be floor. Of the first so
+// many steps.
+function backdropImage(voxels, floorLayers, steps = Infinity) {
   const [nx, ny, nz] = voxels.cells;
   if (nx * ny > 4e6) return null;
   const top = new Int32Array(nx * ny).fill(-1);
   for (let i = 0; i < voxels.packed.length; i += 4) {
-    if (voxels.packed[i + 3] & 0x8000 || voxels.packed[i + 2] < floorLayers) continue;
+    if (voxels.packed[i + 3] & 0x8000 || voxels.packed[i + 2] < floorLayers || voxels.packed[i + 3] >= steps) continue;
     const column = voxels.packed[i + 1] * nx + voxels.packed[i];
     top[column] = Math.max(top[column], voxels.packed[i + 2]);
   }
@@ -67,7 +68,7 @@ function wedgePath(px, py, view, radius_px, half_rad) {
 }
 
 function drawMap(holder, run, backdrop, width) {
-  const bounds = mapBounds(run);
+  const bounds = run.bounds ?? mapBounds(run);
   holder.replaceChildren();
   if (!bounds) { append(holder, "p", { class: "empty" }, "No poses were recorded."); return; }
   const left = 46, right = 8, top = 8, bottom = 40;
@@ -96,6 +97,7 @@ function drawMap(holder, run, backdrop, width) {
   if (run.truth.length) append(svg, "path", { class: "truth", d: route(run.truth) });
   if (run.estimated.length) append(svg, "path", { class: "estimated", d: route(run.estimated) });
   drawChosen(svg, run, px, py);
+  if (run.tour) drawTour(svg, run.tour, run.tourFrom, px, py);
   if (run.flight) drawFlight(svg, run.flight, px, py, scale);
 }
 

@@ -231,7 +231,7 @@ function attachTheme() {
 }
 
 function fillNavigation() {
-  const names = { map3d: "Map", topdown: "Path", media: "Recording", plots: "Figures", hindsight: "In hindsight", steps: "Steps", details: "Details" };
+  const names = { map3d: "Map", topdown: "Path", plans: "Plans", media: "Recording", plots: "Figures", hindsight: "In hindsight", steps: "Steps", details: "Details" };
   for (const [id, name] of Object.entries(names)) {
     if (!at(`section-${id}`).hidden) append(at("sections"), "a", { href: `#section-${id}` }, name);
   }
@@ -248,6 +248,7 @@ function main() {
   fillDetails();
   fillMedia();
   topDownMap(at("topdown"), scene);
+  fillPlans(scene);
   const viewer = startViewer(scene);
   if (viewer) new MutationObserver(() => viewer.retheme()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
   fillNavigation();

@@ -10,7 +10,7 @@ PlannedViews InformationRate::operator()(const PlanningProblem& problem, Rng& /*
   const auto rate = [&](std::size_t view) {
     return gain_of(problem, view) / (problem.leg_s(problem.here(), view) + problem.scan_s);
   };
-  return {{*std::ranges::max_element(views, {}, rate)}};  // of equals the first
+  return {.order = {*std::ranges::max_element(views, {}, rate)}};  // of equals the first
 }
 
 }  // namespace vantage

@@ -84,10 +84,18 @@ bool is_affordable(const PlanningProblem& problem, std::span<const std::size_t> 
 /// The views that can be reached and that are affordable as the next one, ascending.
 std::vector<std::size_t> affordable_views(const PlanningProblem& problem);
 
+/// Of tours as a whole, as the choice weighs them, in s.
+struct PlanCosts {
+  double taken_s = 0.0;
+  /// The best tour found that begins with the view that was intended next, if there is one.
+  std::optional<double> intended_s = {};
+};
+
 /// What a choice that plans ahead wants to do: the views in order, the first one next. Empty if no
 /// view is affordable.
 struct PlannedViews {
   std::vector<std::size_t> order;
+  std::optional<PlanCosts> costs = {};  ///< of a choice that weighs whole tours
 };
 
 }  // namespace vantage

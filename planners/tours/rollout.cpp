@@ -19,7 +19,11 @@ PlannedViews Rollout::operator()(const PlanningProblem& problem, Rng& rng) const
     }
   }
   const auto best = std::ranges::min_element(sum_s);  // of equals the better tour
-  return {tours[static_cast<std::size_t>(best - sum_s.begin())].order};
+  PlanCosts costs{.taken_s = *best / draws};
+  for (std::size_t i = 0; i < tours.size(); ++i) {
+    if (tours[i].order.front() == problem.intended) costs.intended_s = sum_s[i] / draws;
+  }
+  return {tours[static_cast<std::size_t>(best - sum_s.begin())].order, costs};
 }
 
 }  // namespace vantage

@@ -6,7 +6,11 @@ namespace {
 PlannedViews best_plan(const PlanningProblem& problem, const TourOptions& options) {
   const auto tours = search_tours(problem, options.objective(), options.search());
   if (tours.empty()) return {};
-  return {tours.front().order};
+  PlanCosts costs{.taken_s = tours.front().cost_s};
+  for (const Tour& tour : tours) {
+    if (tour.order.front() == problem.intended) costs.intended_s = tour.cost_s;
+  }
+  return {tours.front().order, costs};
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "vantage/report/page.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/report/report_embed.hpp"
+#include "vantage/report/run_plans.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
@@ -181,6 +182,8 @@ json run_json(const fs::path& run_dir, const ReportSections& sections) {
   const fs::path cloud = run_dir / "cloud.ply";
   run["cloud"] = fs::exists(cloud) ? cloud_json(cloud) : json(nullptr);
   run["media"] = media_json(run_dir);
+  const fs::path plans = run_dir / "plans.csv";
+  run["plans"] = sections.map && fs::exists(plans) ? plans_json(plans) : json(nullptr);
   run["hindsight"] = sections.map ? hindsight_json(run_dir) : json(nullptr);
   return run;
 }
@@ -218,8 +221,9 @@ void write_report(const fs::path& run_dir, const ReportSections& sections) {
   const Replacement replacements[] = {
       {"title", html_escaped(page_title(run["metrics"]))},
       {"data", script_safe(run)},
-      {"script", scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "surfaces.js",
-                          "viewer.js", "figures.js", "flight.js", "hindsight.js", "page.js"})}};
+      {"script",
+       scripts({"plots.js", "mesh.js", "map.js", "shaders.js", "orbit.js", "surfaces.js",
+                "viewer.js", "figures.js", "flight.js", "plans.js", "hindsight.js", "page.js"})}};
   write_file(run_dir / "report.html", filled_page("page.html", replacements));
 }
 

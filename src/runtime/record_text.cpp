@@ -27,10 +27,14 @@ RecordTexts run_records() {
        "row of tick k is held from row k of states.bin on"},
       {kRunFolder, "story.bin",
        "events for the window; little-endian: \"VANTAGE STORY 1\\n\", then per event tick (u64), "
-       "kind (u32: 0 map, 1 decision, 2 way, 3 flight), count (u32), chosen (u64) and count "
+       "kind (u32: 0 map, 1 decision, 2 way, 3 flight, 4 tour), count (u32), chosen (u64) and "
+       "count "
        "entries: of a map first (u32), count (u32), state (u32: 0 free, 1 unobserved, 2 occupied); "
        "of a decision the upper three rows of T_world_sensor, gain, reachable (14 x f64); of a way "
-       "x, y (2 x f64); of a flight x, y, z (3 x f64)"},
+       "x, y (2 x f64); of a flight x, y, z (3 x f64); of a tour, whose chosen is why it changed "
+       "(0 first, 1 ended, 2 kept, 3 gone, 4 exhausted, 5 unreachable, 6 unaffordable, 7 cheaper, "
+       "8 replanned), what it saves in s (f64), then id, x, y, yaw, arrival s, departure s, gain, "
+       "beyond of each stop (8 x f64), as in plans.csv"},
       {kRunFolder, "voxels.bin",
        "cells for the report; little-endian: \"VTGVOX01\", cell size (3 x f64), box minimum and "
        "maximum (6 x f64), count (u64), then per voxel, 16 bytes, the centre of its cell x, y, z m "

@@ -10,6 +10,7 @@
 
 #include "vantage/runtime/drawing/frustum.hpp"
 #include "vantage/runtime/drawing/panel_style.hpp"
+#include "vantage/runtime/drawing/tour_drawing.hpp"
 
 namespace vantage {
 namespace {
@@ -66,15 +67,19 @@ int text_width(const Layout& layout, const std::string& words, double size) {
       .width;
 }
 
-/// A line of text on a dark ground at the upper edge.
-void headline(cv::Mat& image, const std::string& words, bool right) {
+constexpr double kHeadline = 34.0;
+
+/// A line of text on a dark ground at the upper edge, or below that.
+void headline(cv::Mat& image, const std::string& words, bool right, int row = 0,
+              const cv::Scalar& colour = kText) {
   if (words.empty()) return;
   const Layout layout = layout_of(image);
   const int width = text_width(layout, words, 15.0);
   const int pad = layout.stroke(12.0);
   const int x = right ? image.cols - width - 2 * pad : 0;
-  darken(image, {x, 0, width + 2 * pad, layout.stroke(34.0)});
-  text(image, layout, words, cv::Point2d(x + pad, layout.px(23.0)), 15.0, kText);
+  const int y = row * layout.stroke(kHeadline);
+  darken(image, {x, y, width + 2 * pad, layout.stroke(kHeadline)});
+  text(image, layout, words, cv::Point2d(x + pad, y + layout.px(23.0)), 15.0, colour);
 }
 
 /// Cells in whole numbers, bits and nats with the digits that tell them apart.
@@ -121,7 +126,7 @@ constexpr std::array<std::pair<const char*, const char*>, 14> kHelp{
      {"right or middle drag", "move"},
      {"c", "camera: overview, follow, the robot's own"},
      {"m", "map: occupied cells, coloured by height"},
-     {"g", "gains of the views, the chosen one, the way"},
+     {"g", "gains of the views, the chosen one, the way, the plan"},
      {"space", "pause"},
      {". or right", "one control tick"},
      {"+ - or up, down", "faster, slower"},
@@ -183,11 +188,14 @@ void lay_views(MapCanvas& canvas, const MapCamera& camera, const EventReplay& kn
   if (decision.chosen == decision.candidates.size()) return;
   draw_frustum(canvas, camera, decision.candidates[decision.chosen].T_world_sensor, 1.6 * length_m,
                {kChosen, 3.5 * unit, 1.0, 0.5});
+  draw_tour(canvas, camera, known.tour(),
+            {.z_m = kWayHeight_m, .number = known.scans() + 1, .unit = unit});
 }
 
 void lay_captions(cv::Mat& bgr, const ViewCaptions& captions) {
   const double foot_px = captions.progress ? timeline_height_px(bgr.rows) : 0.0;
   headline(bgr, captions.scene, false);
+  headline(bgr, captions.plan, false, 1, kPlan);
   headline(bgr, captions.playback, true);
   if (captions.decision) legend(bgr, *captions.decision, captions.gain_unit, foot_px);
   if (captions.progress) timeline(bgr, *captions.progress);

@@ -17,11 +17,12 @@ namespace vantage {
 void lay_map(MapCanvas& canvas, const MapCamera& camera, const OccupancyGrid& grid);
 
 /// Views as pyramids, coloured by their gain from the lowest to the highest; unreachable ones grey,
-/// the chosen one white and larger; the way there.
+/// the chosen one white and larger; the way there; the tour that is planned from there on.
 void lay_views(MapCanvas& canvas, const MapCamera& camera, const EventReplay& known);
 
 struct ViewCaptions {
   std::string scene;     ///< top left
+  std::string plan;      ///< below it; empty: nothing is planned ahead
   std::string playback;  ///< top right
   std::string gain_unit;
   std::optional<Decision> decision;  ///< whose gains want a legend

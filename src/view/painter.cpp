@@ -134,7 +134,10 @@ ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time
   }
   captions.playback = controls.playback;
   captions.gain_unit = scene_.content.gain_unit;
-  if (controls.gains) captions.decision = known_.decision();
+  if (controls.gains) {
+    captions.decision = known_.decision();
+    captions.plan = plan_text(known_.tour());
+  }
   if (controls.duration_s) captions.progress = time_s / *controls.duration_s;
   captions.help = controls.help;
   return captions;

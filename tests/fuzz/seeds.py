@@ -77,6 +77,19 @@ def drawn_scene():
     return b"VTGSCN01" + struct.pack("<6f7Q", 0, 0, 0, 1, 1, 1, 3, 1, 0, 0, 0, 0, 0) + corners + struct.pack("<3I", 0, 1, 2)
 
 
+def plans():
+    """A tour of three stops and one of one, as a choice that plans ahead leaves them."""
+    head = b"scan,time_s,change,saved_s,stop,candidate,x_m,y_m,yaw_rad,arrival_s,departure_s,gain,beyond,gain_unit\n"
+    return head + b"2,14.5,first,,1,7,1,2,0.5,3,13,900,0,cells\n2,14.5,first,,2,,4,5,0.25,20,31,80,12.5,cells\n" \
+        b"2,14.5,first,,3,1,-4,5e-1,-0.25,40,50.5,8,0,cells\n3,60,cheaper,14.25,1,9,1,2,0,3,13,900,0,bits\n"
+
+
+def story_of_plan():
+    """A decision without candidates, and its tour."""
+    tour = struct.pack("<QIIQd", 40, 4, 1, 7, 14.25) + struct.pack("<8d", 3, 1, 2, 0.5, 10, 20, 900, 0)
+    return b"VANTAGE STORY 1\n" + struct.pack("<QIIQ", 40, 1, 0, 0) + tour
+
+
 def view_of(recording):
     crop = sorted(recording.rglob("*_crop.png"))[0]
     beside = lambda ending: Path(str(crop).replace("crop.png", ending)).read_bytes()
@@ -108,9 +121,9 @@ def of_targets(made):
         "picture_notes": [b"cut: mask\nbins: 2\nviews: [front, back]\nrecordings: [a, b]\ndegrees: false\n"],
         "camera_files": [b"fx: 570\nfy: 570\ncx: 320\ncy: 240\n", b'{"fx": 1, "fy": 1, "cx": 0, "cy": 0}', b"90 30\n",
                          b"570 0 320\n0 570 240\n0 0 1\n", b"1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1\n"],
-        "voxels": [run / "voxels.bin"], "scene_bin": [drawn_scene()], "story": [run / "story.bin"],
+        "voxels": [run / "voxels.bin"], "scene_bin": [drawn_scene()], "story": [run / "story.bin", story_of_plan()],
         "states": [states[:2048], states[:9000]], "actions": [run / "actions.csv", b"tick,robot/x,robot/y,robot/yaw\n0,1,2,3\n"],
-        "tables": [run / "steps.csv", run / "trajectory.tum"],
+        "tables": [run / "steps.csv", run / "trajectory.tum"], "plans_csv": [plans()],
         "manifest": json[:1], "metrics": json[1:], "report_page": [parts(json[0], b"{}", b"{}", json[1])],
         "planner_answer": [parts(HELLO, b'{"view": 1}\n'), parts(HELLO + b'{"pose": [0.1,', b' 0.2, 0.3]}\n{"view": 0, "why": "x"}\n'),
                            parts(b"", b'{"protocol": "vantage-planner", "version": 2}\n')],

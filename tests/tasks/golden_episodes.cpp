@@ -17,7 +17,7 @@
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/exact_gain.hpp"
 #include "vantage/planners/views/view_candidates.hpp"
-#include "vantage/tasks/mapping/map_panel.hpp"
+#include "vantage/tasks/mapping/drawing/map_panel.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {

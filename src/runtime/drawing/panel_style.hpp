@@ -19,6 +19,7 @@ inline const cv::Scalar kFaint(104, 86, 72);
 inline const cv::Scalar kAccent(60, 190, 255);
 inline const cv::Scalar kVisited(200, 170, 90);
 inline const cv::Scalar kRobot(150, 230, 120);
+inline const cv::Scalar kPlan(225, 140, 240);
 
 /// Everything that scales with the panel: lengths are given as on a panel 640 px wide.
 struct Layout {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "vantage/core/bytes.hpp"
@@ -13,8 +14,8 @@ namespace vantage {
 namespace {
 
 constexpr std::string_view kMagic = "VANTAGE STORY 1\n";
-constexpr std::array<std::size_t, 4> kEntryBytes{12, 14 * sizeof(double), 2 * sizeof(double),
-                                                 3 * sizeof(double)};
+constexpr std::array<std::size_t, 5> kEntryBytes{12, 14 * sizeof(double), 2 * sizeof(double),
+                                                 3 * sizeof(double), 8 * sizeof(double)};
 
 struct PutEntries {
   std::string& bytes;
@@ -57,6 +58,17 @@ struct PutEntries {
       for (const double value : p) put(bytes, value);
     }
   }
+  void operator()(const PlannedTour& tour) const {
+    header(4, tour.stops.size(), static_cast<std::size_t>(tour.reason.change));
+    put(bytes, tour.reason.saved_s);
+    for (const PlannedStop& stop : tour.stops) {
+      for (const double value :
+           {static_cast<double>(stop.id), stop.place_m.x(), stop.place_m.y(), stop.yaw_rad,
+            stop.arrival_s, stop.departure_s, stop.gain, stop.beyond}) {
+        put(bytes, value);
+      }
+    }
+  }
 };
 
 Candidate take_candidate(ByteReader& reader, int id, std::string_view what) {
@@ -85,6 +97,29 @@ Eigen::Vector2d take_point(ByteReader& reader, std::string_view what) {
   return {x_m, reader.number<double>(what)};
 }
 
+PlannedStop take_stop(ByteReader& reader, std::string_view what) {
+  constexpr double kMaxId = 1e9;
+  PlannedStop stop;
+  const auto id = reader.number<double>(what);
+  reader.require(id >= -1.0 && id <= kMaxId, fmt::format("{} has a stop of id {}", what, id));
+  stop.id = static_cast<int>(id);
+  stop.place_m = take_point(reader, what);
+  for (double* value :
+       {&stop.yaw_rad, &stop.arrival_s, &stop.departure_s, &stop.gain, &stop.beyond}) {
+    *value = reader.number<double>(what);
+  }
+  return stop;
+}
+
+PlannedTour take_tour(ByteReader& reader, std::size_t stops, std::uint64_t change,
+                      std::string_view what) {
+  reader.require(change < kPlanChanges, fmt::format("{} has a change {}", what, change));
+  PlannedTour tour;
+  tour.reason = {static_cast<PlanChange>(change), reader.number<double>(what)};
+  for (std::size_t i = 0; i < stops; ++i) tour.stops.push_back(take_stop(reader, what));
+  return tour;
+}
+
 EpisodeEvent take_event(ByteReader& reader, std::string_view what) {
   EpisodeEvent event{reader.number<std::uint64_t>(what), {}};
   const auto kind = reader.number<std::uint32_t>(what);
@@ -106,6 +141,8 @@ EpisodeEvent take_event(ByteReader& reader, std::string_view what) {
     PlannedRoute route;
     for (std::uint32_t i = 0; i < count; ++i) route.path_m.push_back(take_point(reader, what));
     event.what = std::move(route);
+  } else if (kind == 4) {
+    event.what = take_tour(reader, count, chosen, what);
   } else {
     PlannedFlight flight;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -133,6 +170,12 @@ struct Plausible {
   }
   bool operator()(const PlannedRoute& route) const { return all_finite(route.path_m); }
   bool operator()(const PlannedFlight& flight) const { return all_finite(flight.path_m); }
+  bool operator()(const PlannedTour& tour) const {
+    return std::ranges::all_of(tour.stops, [](const PlannedStop& stop) {
+      return stop.place_m.allFinite() && std::isfinite(stop.yaw_rad) &&
+             std::isfinite(stop.arrival_s) && std::isfinite(stop.departure_s);
+    });
+  }
   static bool all_finite(const auto& path_m) {
     return std::ranges::all_of(path_m, [](const auto& p) { return p.allFinite(); });
   }
@@ -204,11 +247,13 @@ void EventReplay::apply(const MapChange& change) {
   for (const CellRun& run : change.runs) {
     std::fill_n(grid_.log_odds.begin() + run.first, run.count, log_odds_in(run.state));
   }
+  tour_ = {};
   ++scans_;
 }
 
 void EventReplay::apply(const Decision& decision) {
   decision_ = decision;
+  tour_ = {};
   path_m_.clear();
 }
 

@@ -11,6 +11,7 @@
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/tours/planned_tour.hpp"
 
 namespace vantage {
 
@@ -41,7 +42,8 @@ struct PlannedFlight {
 
 struct EpisodeEvent {
   std::uint64_t tick = 0;  ///< it came after this state of states.bin, before the next
-  std::variant<MapChange, Decision, PlannedRoute, PlannedFlight> what;
+  /// A planned tour follows the decision that begins it.
+  std::variant<MapChange, Decision, PlannedRoute, PlannedFlight, PlannedTour> what;
 };
 
 /// Cells whose state in `grid` is not the one in `known`, which becomes that of `grid`. An empty
@@ -49,10 +51,12 @@ struct EpisodeEvent {
 MapChange map_change(std::vector<CellState>& known, const OccupancyGrid& grid);
 
 /// Writes story.bin as the episode goes. Little-endian: "VANTAGE STORY 1\n", then per event tick
-/// (u64), kind (u32: 0 map, 1 decision, 2 way, 3 flight), count (u32), chosen (u64, 0 but for
-/// decisions) and count entries: of a map first (u32), count (u32), state (u32: 0 free, 1
-/// unobserved, 2 occupied); of a decision the upper three rows of T_world_sensor row by row, gain,
-/// reachable (14 x f64); of a way x, y (2 x f64); of a flight x, y, z (3 x f64).
+/// (u64), kind (u32: 0 map, 1 decision, 2 way, 3 flight, 4 tour), count (u32), chosen (u64, of a
+/// tour its PlanChange, else 0 but for decisions) and count entries: of a map first (u32), count
+/// (u32), state (u32: 0 free, 1 unobserved, 2 occupied); of a decision the upper three rows of
+/// T_world_sensor row by row, gain, reachable (14 x f64); of a way x, y (2 x f64); of a flight x,
+/// y, z (3 x f64); of a tour, after the time that it saves (f64, NaN but for `cheaper`), id, x, y,
+/// yaw, arrival, departure, gain, beyond (8 x f64).
 class EventLog {
  public:
   explicit EventLog(const std::filesystem::path& run_dir);
@@ -78,6 +82,8 @@ class EventReplay {
   /// Log odds tell no more than the cells' states.
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
   [[nodiscard]] const std::optional<Decision>& decision() const { return decision_; }
+  /// Of the decision, until its scan is in the map; without stops if it was not planned ahead.
+  [[nodiscard]] const PlannedTour& tour() const { return tour_; }
   /// Of a way over the floor z is 0.
   [[nodiscard]] const std::vector<Eigen::Vector3d>& path_m() const { return path_m_; }
   [[nodiscard]] std::size_t scans() const { return scans_; }
@@ -87,9 +93,11 @@ class EventReplay {
   void apply(const Decision& decision);
   void apply(const PlannedRoute& route);
   void apply(const PlannedFlight& flight);
+  void apply(const PlannedTour& tour) { tour_ = tour; }
 
   OccupancyGrid grid_;
   std::optional<Decision> decision_;
+  PlannedTour tour_;
   std::vector<Eigen::Vector3d> path_m_;
   std::size_t scans_ = 0;
   std::size_t applied_ = 0;

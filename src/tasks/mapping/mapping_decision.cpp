@@ -57,11 +57,17 @@ std::vector<Candidate> MappingParts::views_of_truth(const PathField& paths, bool
 }
 
 std::size_t MappingParts::choose(std::vector<Candidate>& candidates) {
+  tour_ = {};
   const std::size_t chosen =
       outside_ != nullptr ? chosen_outside(candidates) : own_choice(candidates);
   current_.candidates = candidates.size();
   current_.plan_time_s = wall_s() - decision_start_s_;
   recorder_.decision(candidates, chosen, options_.gain);
+  // A choice from outside may have asked for a plan and not taken it.
+  if (!tour_.stops.empty() && tour_.stops.front().id != candidates[chosen].id) tour_ = {};
+  const bool in_cells = knows_truth(options_.choice) || predicts_cells(options_.gain);
+  recorder_.plan(tour_,
+                 {scans_.size() + 1, robot_.time_s(), in_cells ? "cells" : unit_of(options_.gain)});
   return chosen;
 }
 
@@ -128,6 +134,7 @@ std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates)
                               .paths = paths,
                               .budget = budget_,
                               .threads = episode_.threads,
+                              .former = former_,
                               .intended_m = intended_m_};
   std::vector<Candidate> later;
   PathField true_paths;
@@ -138,13 +145,16 @@ std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates)
     situation.later = later;
     situation.true_paths = &true_paths;
   }
-  plan_ = plan_ahead(options_, candidates, situation, choice_rng_);
+  ViewPlan plan = plan_ahead(options_, candidates, situation, choice_rng_);
+  former_ = FormerPlan::ended;
   intended_m_.reset();
-  if (plan_.size() > 1) {
-    const Pose2 next = robot_.base_for_sensor(candidates[plan_[1]].T_world_sensor);
+  if (plan.order.size() > 1) {
+    const Pose2 next = robot_.base_for_sensor(candidates[plan.order[1]].T_world_sensor);
+    former_ = FormerPlan::goes_on;
     intended_m_ = Eigen::Vector2d(next.x_m, next.y_m);
   }
-  if (!plan_.empty()) return plan_.front();
+  tour_ = std::move(plan.tour);
+  if (!plan.order.empty()) return plan.order.front();
   return choose_view(NearestFrontier{}, candidates, choice_rng_);
 }
 

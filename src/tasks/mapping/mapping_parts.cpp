@@ -255,6 +255,7 @@ MapPanelInput MappingParts::panel() const {
   if (current_.chosen_view >= 0) {
     const auto goal = static_cast<std::size_t>(current_.chosen_view);
     input.T_world_chosen.push_back(views_[goal].T_world_sensor);
+    input.tour = tour_;
   }
   input.T_world_base = robot_.estimated_base();
   input.path_m = navigator_.path_m();

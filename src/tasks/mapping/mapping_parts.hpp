@@ -119,7 +119,8 @@ class MappingParts {
   BudgetKeeper budget_;
   std::vector<Candidate> views_;
   bool views_have_gains_ = false;
-  std::vector<std::size_t> plan_;  ///< candidates that a choice that plans ahead wants to take
+  PlannedTour tour_;  ///< of the last decision, if its choice planned ahead
+  FormerPlan former_ = FormerPlan::none;
   std::optional<Eigen::Vector2d>
       intended_m_;                 ///< where the plan wants to scan after its first view
   double decision_start_s_ = 0.0;  ///< wall

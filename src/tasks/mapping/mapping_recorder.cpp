@@ -126,6 +126,13 @@ void MappingRecorder::decision(const std::vector<Candidate>& candidates, std::si
   if (logs_events()) tell({0, Decision{candidates, chosen}});
 }
 
+void MappingRecorder::plan(const PlannedTour& tour, const PlanMoment& moment) {
+  if (tour.stops.empty()) return;
+  if (!lean() && !plans_) plans_.emplace(directory());
+  if (plans_) plans_->add(tour, moment);
+  if (logs_events()) tell({0, tour});
+}
+
 void MappingRecorder::route(const std::vector<Pose2>& waypoints) {
   if (!logs_events()) return;
   PlannedRoute route;
@@ -160,6 +167,7 @@ void MappingRecorder::add_voxel(const OccupancyGrid& grid, std::size_t cell, std
 void MappingRecorder::commit() {
   EpisodeRecorder::commit();
   if (event_log_) event_log_->commit();
+  if (plans_) plans_->commit();
 }
 
 void MappingRecorder::write_map(const OccupancyGrid& grid, const PointCloud& cloud) {
@@ -283,7 +291,7 @@ RecordTexts mapping_records() {
   };
   texts.insert(texts.end(), of_budget.begin(), of_budget.end());
   for (const auto& [name, text] : kProgressTexts) texts.push_back({kMetrics, name, text});
-  return texts;
+  return joined(std::move(texts), plan_records());
 }
 
 }  // namespace vantage

@@ -11,8 +11,9 @@
 #include "vantage/report/report_data.hpp"
 #include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/recorder.hpp"
+#include "vantage/tasks/mapping/drawing/map_panel.hpp"
 #include "vantage/tasks/mapping/driving/scan_record.hpp"
-#include "vantage/tasks/mapping/map_panel.hpp"
+#include "vantage/tasks/mapping/plans/plan_table.hpp"
 
 namespace vantage {
 
@@ -34,6 +35,8 @@ class MappingRecorder : public EpisodeRecorder {
   [[nodiscard]] bool logs_events() const { return event_log_ || log().watched(); }
   /// What was chosen among, weighed by `gain`, and the route that was planned to it.
   void decision(const std::vector<Candidate>& candidates, std::size_t chosen, const Gain& gain);
+  /// The tour that the decision begins; none of a choice that does not plan ahead.
+  void plan(const PlannedTour& tour, const PlanMoment& moment);
   void route(const std::vector<Pose2>& waypoints);
   void commit() override;
   void write_map(const OccupancyGrid& grid, const PointCloud& cloud);
@@ -45,6 +48,7 @@ class MappingRecorder : public EpisodeRecorder {
 
   int planned_scans_;
   std::optional<EventLog> event_log_;
+  std::optional<PlanTable> plans_;  ///< from the first plan on
   std::vector<VoxelRecord> voxels_;
   std::vector<std::uint8_t> was_occupied_;
   std::vector<CellState> known_;  ///< of the map, as far as the history goes

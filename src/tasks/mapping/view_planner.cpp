@@ -1,12 +1,26 @@
 #include "vantage/tasks/mapping/view_planner.hpp"
 
-#include <algorithm>
-
 namespace vantage {
 namespace {
 
 /// A view so near to where one was intended looks at what that one would have.
 constexpr double kSame_m = 1.5;
+
+/// Stops are views of the problem: the open candidates, and behind them those of later.
+PlannedTour tour_of(const PlanningProblem& problem, const PlannedViews& plan,
+                    const std::vector<Candidate>& candidates, const std::vector<std::size_t>& open,
+                    const PlanningSituation& situation) {
+  PlannedTour tour = planned_tour(problem, situation.former, plan);
+  for (std::size_t i = 0; i < tour.stops.size(); ++i) {
+    const std::size_t i_view = plan.order[i];
+    const bool later = i_view >= open.size();
+    const Candidate& view =
+        later ? situation.later[i_view - open.size()] : candidates[open[i_view]];
+    if (!later) tour.stops[i].id = view.id;
+    tour.stops[i].yaw_rad = situation.robot.base_for_sensor(view.T_world_sensor).yaw_rad;
+  }
+  return tour;
+}
 
 }  // namespace
 
@@ -43,16 +57,18 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
   return problem;
 }
 
-std::vector<std::size_t> plan_ahead(const MappingOptions& options,
-                                    const std::vector<Candidate>& candidates,
-                                    const PlanningSituation& situation, Rng& rng) {
+ViewPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
+                    const PlanningSituation& situation, Rng& rng) {
   const PlanningProblem problem = planning_problem(options, options.gain, candidates, situation);
   const std::vector<std::size_t> open = open_candidates(candidates);
-  std::vector<std::size_t> order = plan_views(options.choice, problem, rng).order;
-  const auto later = std::ranges::find_if(order, [&](std::size_t v) { return v >= open.size(); });
-  order.erase(later, order.end());
-  for (std::size_t& view : order) view = open[view];
-  return order;
+  const PlannedViews planned = plan_views(options.choice, problem, rng);
+  ViewPlan plan;
+  for (const std::size_t view : planned.order) {
+    if (view >= open.size()) break;
+    plan.order.push_back(open[view]);
+  }
+  if (!plan.order.empty()) plan.tour = tour_of(problem, planned, candidates, open, situation);
+  return plan;
 }
 
 }  // namespace vantage

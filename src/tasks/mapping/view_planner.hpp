@@ -11,6 +11,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/choice/view_problem.hpp"
+#include "vantage/planners/tours/planned_tour.hpp"
 #include "vantage/tasks/mapping/driving/budget_keeper.hpp"
 #include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
@@ -29,6 +30,7 @@ struct PlanningSituation {
   /// really are.
   std::span<const Candidate> later = {};
   const PathField* true_paths = nullptr;
+  FormerPlan former = FormerPlan::none;
   std::optional<Eigen::Vector2d> intended_m = {};  ///< where the last plan wanted to scan next
 };
 
@@ -39,11 +41,14 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
                                  const std::vector<Candidate>& candidates,
                                  const PlanningSituation& situation);
 
-/// Indices of candidates, exhausted ones left out, the next one first, up to the first that cannot
-/// be reached yet; empty if none can be taken.
+struct ViewPlan {
+  /// Indices of candidates, exhausted ones left out, the next one first, up to the first that
+  /// cannot be reached yet; empty if none can be taken.
+  std::vector<std::size_t> order;
+  PlannedTour tour;  ///< the same with times, and with what cannot be reached yet
+};
 /// @param options whose choice plans_views()
-std::vector<std::size_t> plan_ahead(const MappingOptions& options,
-                                    const std::vector<Candidate>& candidates,
-                                    const PlanningSituation& situation, Rng& rng);
+ViewPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
+                    const PlanningSituation& situation, Rng& rng);
 
 }  // namespace vantage

@@ -112,6 +112,63 @@ TEST(EventLogFile, AFlightHasAHeightAndADecisionMayWantNothing) {
   EXPECT_EQ(moment.path_m().back().z(), 1.7);
 }
 
+std::vector<EpisodeEvent> planned_event_log() {
+  PlannedTour tour;
+  tour.reason = {PlanChange::cheaper, 1.0 / 3.0};
+  tour.stops.push_back({7, {1.0, -1.0 / 7.0}, 0.3, 12.0, 20.0, 900.0, 0.0});
+  tour.stops.push_back({-1, {2.0, 0.5}, -0.3, 30.0, 44.5, 80.25, 1e4});
+  return {{40, Decision{}}, {40, tour}, {95, MapChange{}}};
+}
+
+TEST(EventLogFile, ATourIsThatOfItsDecisionUntilItsScan) {
+  const support::TemporaryDirectory folder;
+  EventLog log(folder.path());
+  for (const EpisodeEvent& event : planned_event_log()) log.add(event);
+  log.commit();
+  const auto read = read_event_log(folder / "story.bin", small_frame().size());
+  ASSERT_EQ(read.size(), 3U);
+  EventReplay moment(small_frame());
+  moment.go_to(read, 1);
+  EXPECT_TRUE(moment.tour().stops.empty());
+  moment.go_to(read, 2);
+  const PlannedTour& tour = moment.tour();
+  EXPECT_EQ(tour.reason.change, PlanChange::cheaper);
+  EXPECT_EQ(tour.reason.saved_s, 1.0 / 3.0);
+  ASSERT_EQ(tour.stops.size(), 2U);
+  EXPECT_EQ(tour.stops[0].id, 7);
+  EXPECT_EQ(tour.stops[0].place_m, Eigen::Vector2d(1.0, -1.0 / 7.0));
+  EXPECT_EQ(tour.stops[1].id, -1);
+  EXPECT_EQ(tour.stops[1].yaw_rad, -0.3);
+  EXPECT_EQ(tour.stops[1].arrival_s, 30.0);
+  EXPECT_EQ(tour.stops[1].departure_s, 44.5);
+  EXPECT_EQ(tour.stops[1].gain, 80.25);
+  EXPECT_EQ(tour.stops[1].beyond, 1e4);
+  moment.go_to(read, 3);
+  EXPECT_TRUE(moment.tour().stops.empty()) << "there is no plan until the next decision";
+}
+
+TEST(EventLogFile, RefusesADamagedTour) {
+  const support::TemporaryDirectory folder;
+  const std::size_t cells = small_frame().size();
+  EventLog log(folder.path());
+  for (const EpisodeEvent& event : planned_event_log()) log.add(event);
+  log.commit();
+  const std::string good = read_file(folder / "story.bin");
+  const std::size_t tour = 16 + 24;  // behind the decision; its head, what it saves, then 64 a stop
+  std::string bad = good;
+  bad[tour + 16] = '\x09';
+  write_file(folder / "story.bin", bad);
+  EXPECT_THROW(read_event_log(folder / "story.bin", cells), InputError) << "no such change";
+  for (const std::size_t value : {0U, 1U, 3U}) {  // id, x, yaw
+    bad = good;
+    const std::size_t high = tour + 24 + 8 + 8 * value + 6;  // an exponent of ones: infinite
+    bad[high] = '\xf0';
+    bad[high + 1] = '\x7f';
+    write_file(folder / "story.bin", bad);
+    EXPECT_THROW(read_event_log(folder / "story.bin", cells), InputError) << value;
+  }
+}
+
 TEST(EventLogFile, EveryDecisionBeginsWithoutAWay) {
   auto event_log = sample_event_log();
   event_log.push_back(event_log[1]);

@@ -1,10 +1,12 @@
-#include "vantage/tasks/mapping/map_panel.hpp"
+#include "vantage/tasks/mapping/drawing/map_panel.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/report/sample_run.hpp"
 #include "vantage/runtime/drawing/map_view.hpp"
+#include "vantage/runtime/drawing/panel_style.hpp"
+#include "vantage/runtime/drawing/tour_drawing.hpp"
 #include "vantage/runtime/log/video_recorder.hpp"
 
 namespace vantage {
@@ -139,6 +141,90 @@ TEST(MapPanel, ShowsTheRobotWhereItIs) {
   const cv::Mat here = draw_map_panel(input, {640, 720});
   input.T_world_base.y_m += 0.5;
   EXPECT_FALSE(same(here, draw_map_panel(input, {640, 720})));
+}
+
+/// So many pixels of exactly that colour, and near `at_px`.
+int pixels_near(const cv::Mat& image, const cv::Scalar& bgr, const Eigen::Vector2d& at_px,
+                int reach_px) {
+  const cv::Rect around(static_cast<int>(at_px.x()) - reach_px,
+                        static_cast<int>(at_px.y()) - reach_px, 2 * reach_px, 2 * reach_px);
+  cv::Mat found;
+  cv::inRange(image(around & cv::Rect({}, image.size())), bgr - cv::Scalar::all(12),
+              bgr + cv::Scalar::all(12), found);
+  return cv::countNonZero(found);
+}
+
+PlannedTour tour_through(const std::vector<Eigen::Vector2d>& places_m) {
+  PlannedTour tour;
+  for (const Eigen::Vector2d& place_m : places_m) tour.stops.push_back({.place_m = place_m});
+  return tour;
+}
+
+TEST(TourDrawing, IsSolidToTheNextStopAndDashedBeyond) {
+  const MapCamera camera = unit_camera(0.0, 1.5);  // from above
+  MapCanvas canvas = make_canvas({200, 200});
+  draw_tour(canvas, camera, tour_through({{0.5, 0.1}, {0.5, 0.9}}),
+            {.from_m = Eigen::Vector2d(0.95, 0.1)});
+  const auto at = [&](double x, double y) {
+    return Eigen::Vector2d(camera.project({x, y, 0.0}).head<2>());
+  };
+  // The disc of the next stop is full, the ring of the one behind it is not.
+  const int disc = pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.1), 6);
+  const int ring = pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.9), 6);
+  EXPECT_GT(disc, 60);
+  EXPECT_LT(ring, 60);
+  EXPECT_GT(pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.9), 12), 30);
+  const auto drawn_share = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    int drawn = 0;
+    for (int i = 0; i < 100; ++i) {
+      drawn += pixels_near(canvas.bgr, panel::kPlan, from + 0.01 * i * (to - from), 2) > 0 ? 1 : 0;
+    }
+    return drawn;
+  };
+  EXPECT_EQ(drawn_share(at(0.92, 0.1), at(0.62, 0.1)), 100);
+  const int dashed = drawn_share(at(0.5, 0.25), at(0.5, 0.75));
+  EXPECT_GT(dashed, 30);
+  EXPECT_LT(dashed, 95);
+}
+
+TEST(TourDrawing, LeavesTheFirstWayOutAndNumbersNoStopThatIsCovered) {
+  const MapCamera camera = unit_camera(0.0, 1.5);
+  const auto drawn = [&](const PlannedTour& tour, const TourDrawing& how) {
+    MapCanvas canvas = make_canvas({200, 200});
+    draw_tour(canvas, camera, tour, how);
+    return canvas.bgr;
+  };
+  EXPECT_EQ(cv::countNonZero(drawn({}, {}).reshape(1)), 0);
+  const cv::Mat one = drawn(tour_through({{0.5, 0.5}}), {.marks_next = false});
+  EXPECT_EQ(cv::countNonZero(one.reshape(1)), 0);
+  const cv::Mat two = drawn(tour_through({{0.5, 0.5}, {0.5, 0.52}}), {});
+  const cv::Mat again = drawn(tour_through({{0.5, 0.5}, {0.5, 0.52}}), {.number = 7});
+  EXPECT_FALSE(same(two, again)) << "numbers go on from the first one";
+}
+
+TEST(TourDrawing, IsToldInWords) {
+  EXPECT_EQ(plan_text({}), "");
+  PlannedTour tour = tour_through({{0.0, 0.0}});
+  tour.stops.back().departure_s = 181.7;
+  EXPECT_EQ(plan_text(tour), "plan: 1 view, 182 s; the first plan");
+  tour.stops.push_back({.departure_s = 300.0});
+  tour.reason = {PlanChange::cheaper, 14.25};
+  EXPECT_EQ(plan_text(tour),
+            "plan: 2 views, 300 s; another tour costs 14.2 s less than the best that goes on as "
+            "intended");
+}
+
+TEST(MapPanel, ShowsThePlan) {
+  const OccupancyGrid grid(support::sample_frame());
+  MapPanelInput input = sample_input(grid);
+  const cv::Mat none = draw_map_panel(input, {640, 720});
+  input.tour = tour_through({{0.3, -0.3}, {-0.3, -0.3}, {-0.3, 0.3}});
+  const cv::Mat planned = draw_map_panel(input, {640, 720});
+  cv::Mat changed;
+  cv::absdiff(none, planned, changed);
+  EXPECT_GT(cv::countNonZero(changed(cv::Rect(0, 66, 640, 440)).clone().reshape(1)), 500);
+  EXPECT_GT(cv::countNonZero(changed(cv::Rect(0, 44, 640, 20)).clone().reshape(1)), 100)
+      << "and why";
 }
 
 TEST(SideBySide, TurnsTheLeftHalfFromRgb) {

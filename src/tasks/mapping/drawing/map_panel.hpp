@@ -10,6 +10,7 @@
 
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/planners/tours/planned_tour.hpp"
 
 namespace vantage {
 
@@ -19,6 +20,7 @@ struct MapPanelInput {
   std::vector<Pose> T_world_chosen;      ///< sensor poses in order; the last is the current goal
   Pose2 T_world_base;                    ///< where the robot is
   std::vector<Eigen::Vector2d> path_m;   ///< world, where it was
+  PlannedTour tour;                      ///< from the goal on; without stops: nothing is planned
   std::vector<double> observable_unobserved_cells;  ///< after each scan so far; may hold NaN
   int scans_planned = 0;                            ///< 0: not known in advance
   std::string method;

@@ -1,4 +1,4 @@
-#include "vantage/tasks/mapping/map_panel.hpp"
+#include "vantage/tasks/mapping/drawing/map_panel.hpp"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -11,6 +11,7 @@
 #include "vantage/runtime/drawing/frustum.hpp"
 #include "vantage/runtime/drawing/map_view.hpp"
 #include "vantage/runtime/drawing/panel_style.hpp"
+#include "vantage/runtime/drawing/tour_drawing.hpp"
 
 namespace vantage {
 namespace {
@@ -116,6 +117,12 @@ void draw_order_numbers(cv::Mat& image, const Layout& layout, const MapCamera& c
   }
 }
 
+/// Where a tour is drawn: among the views, that of a table beside the map and not below it.
+double z_of_views(const MapPanelInput& input) {
+  const auto& chosen = input.T_world_chosen;
+  return chosen.empty() ? input.grid->frame.box().min().z() : chosen.back().translation().z();
+}
+
 void draw_map(cv::Mat& image, const Layout& layout, const MapPanelInput& input,
               const cv::Rect& viewport) {
   const Eigen::AlignedBox3d box = input.grid->frame.box();
@@ -140,6 +147,12 @@ void draw_map(cv::Mat& image, const Layout& layout, const MapPanelInput& input,
                           0.3};
     draw_frustum(canvas, camera, input.T_world_chosen[i], frustum_m * (current ? 1.6 : 1.0), style);
   }
+  draw_tour(canvas, camera, input.tour,
+            {.from_m = Eigen::Vector2d(input.T_world_base.x_m, input.T_world_base.y_m),
+             .z_m = z_of_views(input),
+             .number = input.T_world_chosen.size(),
+             .marks_next = false,
+             .unit = layout.unit});
   draw_order_numbers(image, layout, camera, input.T_world_chosen);
 }
 
@@ -228,6 +241,7 @@ void draw_header(cv::Mat& image, const Layout& layout, const MapPanelInput& inpu
   text(image, layout, "Map", {layout.px(24), layout.px(36)}, 20.0, kText, Align::left, true);
   text(image, layout, input.method, {layout.px(88), layout.px(36)}, 15.0, kAccent);
   text(image, layout, scan, {layout.px(616), layout.px(36)}, 16.0, kText, Align::right);
+  text(image, layout, plan_text(input.tour), {layout.px(24), layout.px(57)}, 12.0, kPlan);
 }
 
 }  // namespace

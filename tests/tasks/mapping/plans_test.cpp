@@ -1,0 +1,164 @@
+// plans.csv and the event log of an episode whose choice plans ahead.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/undescribed.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/report/report_data.hpp"
+#include "vantage/report/run_plans.hpp"
+#include "vantage/runtime/log/event_log.hpp"
+#include "vantage/tasks/run.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A table-top episode of four scans.
+void run_episode(const fs::path& folder, const std::string& choice, bool lean = false) {
+  set_verbosity(Verbosity::quiet);
+  run(load_episode(VANTAGE_SOURCE_DIR "/assets/episodes/tabletop.yaml",
+                   {"scans=4", "map.cells=[49,49,25]", "laser.scan_duration_s=3", choice}),
+      {folder, false, false, {}, lean});
+}
+
+class Plans : public testing::Test {
+ protected:
+  /// The run folder of one whose choice is `tour`.
+  static fs::path tour_run() {
+    static const support::TemporaryDirectory folder;
+    static const bool made = [] {
+      run_episode(folder / "run", "choice=tour");
+      return true;
+    }();
+    return made ? folder / "run" : fs::path();
+  }
+  static std::string field(const CsvTable& table, std::size_t row, std::string_view name) {
+    const auto column = std::ranges::find(table.columns, name) - table.columns.begin();
+    return table.rows.at(row).at(static_cast<std::size_t>(column));
+  }
+
+  support::TemporaryDirectory folder_;
+};
+
+TEST_F(Plans, BeginWithTheViewThatIsTaken) {
+  const auto plans = read_plans(tour_run() / "plans.csv");
+  const CsvTable steps = read_csv(tour_run() / "steps.csv");
+  ASSERT_EQ(plans.size(), 3U);
+  ASSERT_EQ(steps.rows.size(), 4U);
+  std::size_t stops = 0;
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const RecordedPlan& plan = plans[i];
+    EXPECT_EQ(plan.scan, i + 2);
+    EXPECT_EQ(plan.gain_unit, "cells");
+    EXPECT_EQ(std::to_string(plan.tour.stops.front().id), field(steps, i + 1, "chosen_view"));
+    const Eigen::Vector2d taken_m(std::stod(field(steps, i + 1, "x_m")),
+                                  std::stod(field(steps, i + 1, "y_m")));
+    EXPECT_LT((plan.tour.stops.front().place_m - taken_m).norm(), 0.5) << "of base and sensor";
+    EXPECT_GE(plan.time_s, std::stod(field(steps, i, "time_s")));
+    EXPECT_LT(plan.time_s, std::stod(field(steps, i + 1, "time_s")));
+    EXPECT_EQ(plan.tour.reason.change == PlanChange::first, i == 0);
+    stops += plan.tour.stops.size();
+    for (std::size_t k = 1; k < plan.tour.stops.size(); ++k) {
+      EXPECT_GE(plan.tour.stops[k].arrival_s, plan.tour.stops[k - 1].departure_s);
+    }
+  }
+  EXPECT_GT(stops, plans.size()) << "it looks beyond the next view";
+  EXPECT_TRUE(test::undescribed(tour_run(), Tabletop::records()).empty());
+}
+
+/// A plan that is kept goes to where the plan before wanted to go.
+TEST_F(Plans, AreKeptWhereTheyGoOn) {
+  const auto plans = read_plans(tour_run() / "plans.csv");
+  for (std::size_t i = 1; i < plans.size(); ++i) {
+    const auto& before = plans[i - 1].tour.stops;
+    const bool goes_on = before.size() > 1;
+    EXPECT_EQ(plans[i].tour.reason.change == PlanChange::ended, !goes_on);
+    if (!goes_on) continue;
+    const double off_m = (before[1].place_m - plans[i].tour.stops[0].place_m).norm();
+    if (plans[i].tour.reason.change == PlanChange::kept) {
+      EXPECT_LE(off_m, 1.5);
+    } else {
+      EXPECT_GT(off_m, 0.0);
+    }
+  }
+}
+
+TEST_F(Plans, AreToldToWhoeverWatches) {
+  const auto plans = read_plans(tour_run() / "plans.csv");
+  const auto options = std::get<Tabletop>(load_recorded(tour_run()).task);
+  const auto events = read_event_log(tour_run() / "story.bin", options.map.frame().size());
+  std::vector<PlannedTour> told;
+  for (const EpisodeEvent& event : events) {
+    if (const auto* tour = std::get_if<PlannedTour>(&event.what)) told.push_back(*tour);
+  }
+  ASSERT_EQ(told.size(), plans.size());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    ASSERT_EQ(told[i].stops.size(), plans[i].tour.stops.size());
+    EXPECT_EQ(told[i].reason.change, plans[i].tour.reason.change);
+    EXPECT_EQ(told[i].stops.back().place_m, plans[i].tour.stops.back().place_m);
+    EXPECT_EQ(told[i].ends_s(), plans[i].tour.ends_s());
+  }
+}
+
+TEST_F(Plans, AreNoneOfAChoiceThatDoesNotPlanAheadNorOfALeanRun) {
+  run_episode(folder_ / "greedy", "choice=greedy");
+  run_episode(folder_ / "lean", "choice=tour", true);
+  EXPECT_FALSE(fs::exists(folder_ / "greedy" / "plans.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "lean" / "plans.csv"));
+}
+
+// The reader.
+
+constexpr const char* kHeader =
+    "scan,time_s,change,saved_s,stop,candidate,x_m,y_m,yaw_rad,arrival_s,departure_s,gain,beyond,"
+    "gain_unit\n";
+
+TEST_F(Plans, AreReadAsTheyAreWritten) {
+  write_file(folder_ / "plans.csv", std::string(kHeader) +
+                                        "2,14.5,first,,1,7,1,2,0.5,3,13,900,0,cells\n" +
+                                        "2,14.5,first,,2,,4,5,0.25,20,31,80,12.5,cells\n" +
+                                        "3,60,cheaper,14.25,1,9,1,2,0,3,13,900,0,cells\n");
+  const auto plans = read_plans(folder_ / "plans.csv");
+  ASSERT_EQ(plans.size(), 2U);
+  ASSERT_EQ(plans[0].tour.stops.size(), 2U);
+  EXPECT_EQ(plans[0].tour.stops[1].id, -1);
+  EXPECT_EQ(plans[0].tour.stops[1].place_m, Eigen::Vector2d(4.0, 5.0));
+  EXPECT_EQ(plans[0].tour.stops[1].beyond, 12.5);
+  EXPECT_TRUE(std::isnan(plans[0].tour.reason.saved_s));
+  EXPECT_EQ(plans[1].tour.reason.saved_s, 14.25);
+  const auto page = plans_json(folder_ / "plans.csv");
+  EXPECT_EQ(page[0]["ends_s"], 31.0);
+  EXPECT_EQ(page[0]["why"], "the first plan");
+  EXPECT_EQ(page[1]["change"], "cheaper");
+}
+
+TEST_F(Plans, AreNotBelievedDamaged) {
+  const std::string first = "2,14.5,first,,1,7,1,2,0.5,3,13,900,0,cells\n";
+  for (const std::string& rows : std::vector<std::string>{
+           "2,14.5,guessed,,1,7,1,2,0.5,3,13,900,0,cells\n",
+           "2,14.5,first,,2,7,1,2,0.5,3,13,900,0,cells\n",
+           "2,14.5,first,,1,7,nan,2,0.5,3,13,900,0,cells\n",
+           "2,14.5,first,,1,7.5,1,2,0.5,3,13,900,0,cells\n",
+           "0,14.5,first,,1,7,1,2,0.5,3,13,900,0,cells\n", "2,14.5,first,,1,7,1,2\n", first + first,
+           first + "3,14.5,first,,2,7,1,2,0.5,3,13,900,0,cells\n"}) {
+    write_file(folder_ / "plans.csv", kHeader + rows);
+    try {
+      read_plans(folder_ / "plans.csv");
+      ADD_FAILURE() << rows;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("plans.csv:"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vantage
