@@ -27,7 +27,7 @@ function stopRows(plan, stop) {
   rows.push({ name: "heading", value: `${formatNumber((stop.yaw * 180) / Math.PI, 3)}°` });
   rows.push({ name: "there after", value: `${formatNumber(stop.arrival_s, 4)} s` });
   rows.push({ name: "adds", value: `${formatNumber(Math.round(stop.gain))} ${plan.unit}` });
-  if (stop.beyond > 0) rows.push({ name: "leads to", value: `${formatNumber(Math.round(stop.beyond))} ${plan.unit}` });
+  if (stop.beyond >= 0.5) rows.push({ name: "leads to", value: `${formatNumber(Math.round(stop.beyond))} ${plan.unit}` });
   return rows;
 }
 

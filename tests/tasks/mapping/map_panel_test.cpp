@@ -164,24 +164,23 @@ TEST(TourDrawing, IsSolidToTheNextStopAndDashedBeyond) {
   const MapCamera camera = unit_camera(0.0, 1.5);  // from above
   MapCanvas canvas = make_canvas({200, 200});
   draw_tour(canvas, camera, tour_through({{0.5, 0.1}, {0.5, 0.9}}),
-            {.from_m = Eigen::Vector2d(0.95, 0.1)});
+            {.from_m = Eigen::Vector2d(0.95, 0.1), .unit = 2.0});
   const auto at = [&](double x, double y) {
     return Eigen::Vector2d(camera.project({x, y, 0.0}).head<2>());
   };
-  // The disc of the next stop is full, the ring of the one behind it is not.
-  const int disc = pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.1), 6);
-  const int ring = pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.9), 6);
-  EXPECT_GT(disc, 60);
-  EXPECT_LT(ring, 60);
-  EXPECT_GT(pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.9), 12), 30);
+  // The disc of the next stop is full beside its number, the ring of the one behind it is not.
+  const Eigen::Vector2d beside_px(0.0, 12.0);
+  EXPECT_EQ(pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.1) + beside_px, 1), 4);
+  EXPECT_EQ(pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.9) + beside_px, 1), 0);
+  EXPECT_GT(pixels_near(canvas.bgr, panel::kPlan, at(0.5, 0.9), 20), 60);
   const auto drawn_share = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     int drawn = 0;
     for (int i = 0; i < 100; ++i) {
-      drawn += pixels_near(canvas.bgr, panel::kPlan, from + 0.01 * i * (to - from), 2) > 0 ? 1 : 0;
+      drawn += pixels_near(canvas.bgr, panel::kPlan, from + 0.01 * i * (to - from), 1) > 0 ? 1 : 0;
     }
     return drawn;
   };
-  EXPECT_EQ(drawn_share(at(0.92, 0.1), at(0.62, 0.1)), 100);
+  EXPECT_EQ(drawn_share(at(0.92, 0.1), at(0.68, 0.1)), 100);
   const int dashed = drawn_share(at(0.5, 0.25), at(0.5, 0.75));
   EXPECT_GT(dashed, 30);
   EXPECT_LT(dashed, 95);
