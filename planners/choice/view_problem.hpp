@@ -18,7 +18,7 @@ namespace vantage {
 struct ViewPlanningOptions {
   double block_m = 0.4;
   int drawn_cells = 3;
-  double beyond_m = 8.0;
+  double beyond_m = 0.0;
   void fields(auto&& f) {
     f("block_m", block_m,
       "edge of the blocks of cells by which planning ahead knows what views share; higher is "

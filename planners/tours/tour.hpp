@@ -15,6 +15,7 @@ namespace vantage {
 struct TourOptions {
   double finish_weight = 0.5;
   double worth_s = 3000.0;
+  double scan_weight = 1.5;
   int first_moves = 8;
   double keep_s = 10.0;
   void fields(auto&& f) {
@@ -26,6 +27,10 @@ struct TourOptions {
       "time that it is worth to see all there is to be seen; a view is taken if what it adds is "
       "worth its detour and its scan; higher takes in views that show less",
       at_least(0.0));
+    f("scan_weight", scan_weight,
+      "times its own time that a scan counts for in a plan, since views that nobody can propose "
+      "yet will show part of the same; higher plans with fewer views that show more each",
+      between(1.0, 100.0));
     f("first_moves", first_moves,
       "number of views that are tried as the first one; higher plans better and takes time in "
       "proportion",
@@ -35,7 +40,7 @@ struct TourOptions {
       "before; higher changes its mind less",
       at_least(0.0));
   }
-  [[nodiscard]] TourObjective objective() const { return {finish_weight, worth_s}; }
+  [[nodiscard]] TourObjective objective() const { return {finish_weight, worth_s, scan_weight}; }
   [[nodiscard]] TourSearchOptions search() const {
     return {.first_moves = static_cast<std::size_t>(first_moves), .keep_s = keep_s};
   }
@@ -51,7 +56,7 @@ struct TourChoice : TourOptions {
           "Leaves a room when it is done with, not when another view promises more.",
       .formula =
           "argmin over tours of (1 - b) sum_k dE_k t_k / E + b t_end, E = sum_c [1 - prod_i (1 - "
-          "p_i(c))]"};
+          "p_i(c))], a scan counts as scan_weight scans in t"};
   static constexpr bool weighs_gain = true;
   PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
@@ -65,6 +70,8 @@ struct OracleTour : TourOptions {
           "the building would do. In practice no choice without that knowledge does better; it is "
           "no proven bound, see `vantage bound`."};
   static constexpr bool weighs_gain = false;
+  /// It knows all views there will be.
+  OracleTour() { scan_weight = 1.0; }
   PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };
 

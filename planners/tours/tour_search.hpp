@@ -16,13 +16,15 @@ namespace vantage {
 struct TourObjective {
   double finish_weight = 0.5;  ///< of the tour's end against that mean, [0, 1]
   double worth_s = 3000.0;     ///< of time that all there is to be seen is worth
+  double scan_weight = 1.0;    ///< times its own time that a scan counts for, at least 1
 };
 
 /// (1 - b) [sum_k dE_k t_k + B_k (t_k + d_k / 2) + U t_end] / (E + B) + b t_end + w U / (S + E +
 /// B), with b the finish weight, w the worth, dE_k the cells that the k-th view adds, t_k when its
-/// scan ends, B_k what lies beyond it and d_k = B_k / pace the time that takes, during which the
-/// robot stays there; E is what all views show together, B what lies beyond them, U what of both
-/// the tour leaves out, and S what is seen already.
+/// scan ends where each scan takes scan_weight times its time, B_k what lies beyond it and d_k =
+/// B_k / pace the time that takes, during which the robot stays there; E is what all views show
+/// together, B what lies beyond them, U what of both the tour leaves out, and S what is seen
+/// already.
 double tour_cost_s(const PlanningProblem& problem, const TourObjective& objective,
                    std::span<const std::size_t> order);
 

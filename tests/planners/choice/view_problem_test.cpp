@@ -84,7 +84,7 @@ TEST(ViewProblem, KnowsWhatLiesBeyondAllViews) {
   const Room room;
   ViewPlanningInput input = room.input(AdaptiveGain{});
   input.elapsed_s = 16.0;
-  const PlanningProblem problem = make_view_problem(input, {});
+  const PlanningProblem problem = make_view_problem(input, {.beyond_m = 8.0});
   const std::vector<std::size_t> all{0, 1, 2};
   double beyond = 0.0;
   for (const std::size_t view : all) beyond += problem.beyond_of(view);
@@ -94,8 +94,8 @@ TEST(ViewProblem, KnowsWhatLiesBeyondAllViews) {
   EXPECT_NEAR(problem.pace_per_s, 500.0, 1e-9);
   EXPECT_NEAR(problem.dwell_s(0), problem.beyond_of(0) / 500.0, 1e-9);
   // Nothing counts where that is not wanted, or time has not passed.
-  EXPECT_EQ(make_view_problem(input, {.beyond_m = 0.0}).beyond_of(0), 0.0);
-  EXPECT_EQ(make_view_problem(room.input(AdaptiveGain{}), {}).beyond_of(0), 0.0);
+  EXPECT_EQ(make_view_problem(input, {}).beyond_of(0), 0.0);
+  EXPECT_EQ(make_view_problem(room.input(AdaptiveGain{}), {.beyond_m = 8.0}).beyond_of(0), 0.0);
 }
 
 TEST(ViewProblem, OfAViewOutOfReachIsInfinitelyFar) {

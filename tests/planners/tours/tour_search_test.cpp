@@ -59,6 +59,27 @@ TEST(TourCost, HasTheTimeThatWhatLiesBeyondTakes) {
   EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0}, both), 13.0, 1e-9);
 }
 
+TEST(TourCost, CountsAScanForAsManyAsItIsToldTo) {
+  PlanningProblem problem = two_views();
+  const test::Order both{1, 0};
+  const TourObjective thrice{.finish_weight = 1.0, .scan_weight = 3.0};
+  EXPECT_NEAR(tour_cost_s(problem, thrice, both), 1.0 + 6.0 + 4.0 + 6.0, 1e-9);
+  problem.left.time_s = 9.0;  // what they take in truth
+  EXPECT_NEAR(tour_cost_s(problem, thrice, both), 17.0, 1e-9);
+}
+
+/// A quarter of all is worth 7 s; the way there takes 4 s, the scan 2 s.
+TEST(SearchTour, LeavesOutAViewThatIsNotWorthAScanOfThatWeight) {
+  const PlanningProblem problem = two_views();
+  const auto order = [&](double scan_weight) {
+    return search_tour(problem, {.finish_weight = 1.0, .worth_s = 28.0, .scan_weight = scan_weight},
+                       {})
+        .order;
+  };
+  EXPECT_EQ(order(1.0), (test::Order{1, 0}));
+  EXPECT_EQ(order(2.0), test::Order{1});
+}
+
 /// Jobs without ways between them: the mean time is least by falling weight per time. [Smith1956]
 TEST(SearchTour, TakesRegionsByWhatTheyShowPerTime) {
   Rng rng(31);
