@@ -189,7 +189,7 @@ void lay_views(MapCanvas& canvas, const MapCamera& camera, const EventReplay& kn
   draw_frustum(canvas, camera, decision.candidates[decision.chosen].T_world_sensor, 1.6 * length_m,
                {kChosen, 3.5 * unit, 1.0, 0.5});
   draw_tour(canvas, camera, known.tour(),
-            {.z_m = kWayHeight_m, .number = known.scans() + 1, .unit = 1.8 * unit});
+            {.z_m = kWayHeight_m, .number = known.scans() + 1, .unit = 1.3 * unit});
 }
 
 void lay_captions(cv::Mat& bgr, const ViewCaptions& captions) {

@@ -44,10 +44,10 @@ void draw_stop(cv::Mat& image, const Eigen::Vector2d& at_px, std::size_t number,
   const Layout layout{unit, image.size()};
   const int radius = layout.stroke(kRadius);
   cv::circle(image, to_pixel(at_px), radius, next ? kPlan : kBottom, cv::FILLED, cv::LINE_AA);
-  cv::circle(image, to_pixel(at_px), radius, next ? kBottom : kPlan, layout.stroke(1.6),
+  cv::circle(image, to_pixel(at_px), radius, next ? kBottom : kPlan, layout.stroke(1.2),
              cv::LINE_AA);
   text(image, layout, std::to_string(number), {at_px.x(), at_px.y() + layout.px(3.8)}, 11.0,
-       next ? kBottom : kPlan, Align::centre, true);
+       next ? kBottom : kPlan, Align::centre);
 }
 
 void draw_stops(cv::Mat& image, const MapCamera& camera, const PlannedTour& tour,

@@ -256,6 +256,11 @@ MapPanelInput MappingParts::panel() const {
     const auto goal = static_cast<std::size_t>(current_.chosen_view);
     input.T_world_chosen.push_back(views_[goal].T_world_sensor);
     input.tour = tour_;
+    for (PlannedStop& stop : input.tour.stops) {
+      if (stop.id < 0) continue;
+      const Candidate& view = views_[static_cast<std::size_t>(stop.id)];
+      stop.place_m = view.T_world_sensor.translation().head<2>();
+    }
   }
   input.T_world_base = robot_.estimated_base();
   input.path_m = navigator_.path_m();

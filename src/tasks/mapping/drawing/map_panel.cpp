@@ -117,7 +117,7 @@ void draw_order_numbers(cv::Mat& image, const Layout& layout, const MapCamera& c
   }
 }
 
-/// Where a tour is drawn: among the views, that of a table beside the map and not below it.
+/// Where a tour is drawn: among the views, which of a table stand beside the map.
 double z_of_views(const MapPanelInput& input) {
   const auto& chosen = input.T_world_chosen;
   return chosen.empty() ? input.grid->frame.box().min().z() : chosen.back().translation().z();

@@ -20,7 +20,8 @@ struct MapPanelInput {
   std::vector<Pose> T_world_chosen;      ///< sensor poses in order; the last is the current goal
   Pose2 T_world_base;                    ///< where the robot is
   std::vector<Eigen::Vector2d> path_m;   ///< world, where it was
-  PlannedTour tour;                      ///< from the goal on; without stops: nothing is planned
+  /// From the goal on, its stops where the sensor is to be; without stops nothing is planned.
+  PlannedTour tour;
   std::vector<double> observable_unobserved_cells;  ///< after each scan so far; may hold NaN
   int scans_planned = 0;                            ///< 0: not known in advance
   std::string method;
