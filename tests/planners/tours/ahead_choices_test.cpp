@@ -86,6 +86,12 @@ TEST(RecedingHorizon, IsTheSameForTheSameRandomNumbers) {
   EXPECT_EQ(order_of(RecedingHorizon{}, problem, 7), order_of(RecedingHorizon{}, problem, 7));
 }
 
+/// The oracle knows every view there will be; the others do not.
+TEST(OracleTour, CountsAScanOnce) {
+  EXPECT_EQ(OracleTour{}.objective().scan_weight, 1.0);
+  EXPECT_GT(TourChoice{}.objective().scan_weight, 1.0);
+}
+
 /// In the map as expected the left is worth more; in every map that is drawn, the right.
 TEST(Rollout, TakesWhatIsBestInTheMapsDrawn) {
   PlanningProblem problem = on_a_line({5.0, -5.0}, {10.0F, 30.0F});
