@@ -145,7 +145,7 @@ std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates)
     situation.later = later;
     situation.true_paths = &true_paths;
   }
-  ViewPlan plan = plan_ahead(options_, candidates, situation, choice_rng_);
+  MappingPlan plan = plan_ahead(options_, candidates, situation, choice_rng_);
   former_ = FormerPlan::ended;
   intended_m_.reset();
   if (plan.order.size() > 1) {

@@ -57,12 +57,12 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
   return problem;
 }
 
-ViewPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
+MappingPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
                     const PlanningSituation& situation, Rng& rng) {
   const PlanningProblem problem = planning_problem(options, options.gain, candidates, situation);
   const std::vector<std::size_t> open = open_candidates(candidates);
   const PlannedViews planned = plan_views(options.choice, problem, rng);
-  ViewPlan plan;
+  MappingPlan plan;
   for (const std::size_t view : planned.order) {
     if (view >= open.size()) break;
     plan.order.push_back(open[view]);

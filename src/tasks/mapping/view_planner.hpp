@@ -41,14 +41,14 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
                                  const std::vector<Candidate>& candidates,
                                  const PlanningSituation& situation);
 
-struct ViewPlan {
+struct MappingPlan {
   /// Indices of candidates, exhausted ones left out, the next one first, up to the first that
   /// cannot be reached yet; empty if none can be taken.
   std::vector<std::size_t> order;
   PlannedTour tour;  ///< the same with times, and with what cannot be reached yet
 };
 /// @param options whose choice plans_views()
-ViewPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
+MappingPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
                     const PlanningSituation& situation, Rng& rng);
 
 }  // namespace vantage
