@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "vantage/runtime/drawing/panel_style.hpp"
@@ -52,22 +53,24 @@ void draw_stop(cv::Mat& image, const Eigen::Vector2d& at_px, std::size_t number,
 
 void draw_stops(cv::Mat& image, const MapCamera& camera, const PlannedTour& tour,
                 const TourDrawing& how) {
-  std::vector<Eigen::Vector2d> numbered;
+  std::vector<std::pair<std::size_t, Eigen::Vector2d>> numbered;
   for (std::size_t i = how.marks_next ? 0 : 1; i < tour.stops.size(); ++i) {
     const Eigen::Vector2d& place_m = tour.stops[i].place_m;
     const Eigen::Vector3d p = camera.project({place_m.x(), place_m.y(), how.z_m});
     if (p.z() <= 0.0) continue;
     const Eigen::Vector2d at_px = p.head<2>();
-    const bool covered = std::ranges::any_of(numbered, [&](const Eigen::Vector2d& other) {
-      return (other - at_px).norm() < 2.0 * kRadius * how.unit;
+    const bool covered = std::ranges::any_of(numbered, [&](const auto& other) {
+      return (other.second - at_px).norm() < 2.0 * kRadius * how.unit;
     });
     if (covered) {
       cv::circle(image, to_pixel(at_px), static_cast<int>(std::lround(kDot * how.unit)), kPlan,
                  cv::FILLED, cv::LINE_AA);
-      continue;
+    } else {
+      numbered.emplace_back(i, at_px);
     }
+  }
+  for (const auto& [i, at_px] : numbered) {
     draw_stop(image, at_px, how.number + i, i == 0, how.unit);
-    numbered.push_back(at_px);
   }
 }
 

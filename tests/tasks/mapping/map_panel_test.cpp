@@ -199,6 +199,9 @@ TEST(TourDrawing, LeavesTheFirstWayOutAndNumbersNoStopThatIsCovered) {
   const cv::Mat two = drawn(tour_through({{0.5, 0.5}, {0.5, 0.52}}), {});
   const cv::Mat again = drawn(tour_through({{0.5, 0.5}, {0.5, 0.52}}), {.number = 7});
   EXPECT_FALSE(same(two, again)) << "numbers go on from the first one";
+  EXPECT_TRUE(same(drawn(tour_through({{0.5, 0.5}, {0.5, 0.5}}), {}),
+                   drawn(tour_through({{0.5, 0.5}}), {})))
+      << "a dot covers no number";
 }
 
 TEST(TourDrawing, IsToldInWords) {
