@@ -88,6 +88,20 @@ TEST(Report, EmbedsTheMeasurements) {
   EXPECT_EQ(data["voxels"]["cells"], json({129, 129, 65}));
   EXPECT_TRUE(data["cloud"].is_null());
   EXPECT_TRUE(data["media"]["frame"].is_null());
+  EXPECT_TRUE(data["plans"].is_null());
+}
+
+TEST(Report, HoldsThePlansWhereThereAreSome) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  write_file(run / "plans.csv",
+             "scan,time_s,change,saved_s,stop,candidate,x_m,y_m,yaw_rad,arrival_s,departure_s,gain,"
+             "beyond,gain_unit\n2,14.5,first,,1,7,1,2,0.5,3,13,900,0,cells\n");
+  const json plans = embedded_data(page_of(run))["plans"];
+  ASSERT_EQ(plans.size(), 1U);
+  EXPECT_EQ(plans[0]["why"], "the first plan");
+  EXPECT_EQ(plans[0]["stops"][0]["x"], 1.0);
+  EXPECT_TRUE(embedded_data(page_of(run, RecognitionTask::report()))["plans"].is_null());
 }
 
 /// Then `path_length_m` of a scan was the length of its leg, and scans counted from 0.
@@ -342,6 +356,7 @@ TEST(Report, MalformedFilesAreNamed) {
       {"trajectory.tum", "0 0 0 0 0 0 0 0\n"},
       {"trajectory_estimated.tum", "0 x 0 0 0 0 0 1\n"},
       {"voxels.bin", "VTGVOX01"},
+      {"plans.csv", "scan,stop\n2,1\n"},
       {"cloud.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"},
       {"cloud.ply", "solid\n"}};
   for (const auto& [name, content] : broken) {
