@@ -21,31 +21,14 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr auto kRunFiles = std::to_array<std::string_view>({"manifest.json",
-                                                            "config.yaml",
-                                                            "steps.csv",
-                                                            "candidates.csv",
-                                                            "plans.csv",
-                                                            "metrics.json",
-                                                            "trajectory.tum",
-                                                            "trajectory_estimated.tum",
-                                                            "states.bin",
-                                                            "actions.csv",
-                                                            "map.bt",
-                                                            "map.ot",
-                                                            "cloud.ply",
-                                                            "voxels.bin",
-                                                            "scene.bin",
-                                                            "story.bin",
-                                                            "looks.csv",
-                                                            "faults.csv",
-                                                            "video.mp4",
-                                                            "report.html",
-                                                            "log.txt",
-                                                            "bound.json",
-                                                            "branches.json",
-                                                            "frames",
-                                                            "views"});
+constexpr auto kRunFiles = std::to_array<std::string_view>(
+    {"manifest.json", "config.yaml",  "steps.csv",      "candidates.csv",
+     "plans.csv",     "metrics.json", "trajectory.tum", "trajectory_estimated.tum",
+     "states.bin",    "actions.csv",  "map.bt",         "map.ot",
+     "cloud.ply",     "voxels.bin",   "scene.bin",      "story.bin",
+     "looks.csv",     "faults.csv",   "video.mp4",      "report.html",
+     "log.txt",       "bound.json",   "branches.json",  "frames",
+     "views"});
 
 /// Folders that this process runs into, so that no other does: its files would end up under the
 /// names of ours. From the beginning of an episode until its results are written; of one that

@@ -58,7 +58,7 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
 }
 
 MappingPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
-                    const PlanningSituation& situation, Rng& rng) {
+                       const PlanningSituation& situation, Rng& rng) {
   const PlanningProblem problem = planning_problem(options, options.gain, candidates, situation);
   const std::vector<std::size_t> open = open_candidates(candidates);
   const PlannedViews planned = plan_views(options.choice, problem, rng);

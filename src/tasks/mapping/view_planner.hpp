@@ -49,6 +49,6 @@ struct MappingPlan {
 };
 /// @param options whose choice plans_views()
 MappingPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,
-                    const PlanningSituation& situation, Rng& rng);
+                       const PlanningSituation& situation, Rng& rng);
 
 }  // namespace vantage
