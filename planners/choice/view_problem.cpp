@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "vantage/core/error.hpp"
@@ -128,16 +129,17 @@ PlanningProblem make_view_problem(const ViewPlanningInput& input,
                                   const ViewPlanningOptions& options) {
   PlanningProblem problem = with_ways(input, options, shown_by(input, options));
   if (input.map.transmission == nullptr) return problem;
-  // What is drawn anew is only what the views show; the ways stay.
-  auto belief = std::make_shared<const DrawableMap>(input.map, options.drawn_cells);
+  // What is drawn anew is only what the views show; the ways stay. Most choices draw nothing.
+  auto belief = std::make_shared<std::optional<const DrawableMap>>();
   auto known = std::make_shared<const PlanningProblem>(problem);
   std::vector<Candidate> views(input.candidates.begin(), input.candidates.end());
-  problem.draw = [=, field = input.field_of_view, threads = input.threads,
-                  block_m = options.block_m](Rng& rng) {
+  problem.draw = [=, map = input.map, field = input.field_of_view,
+                  threads = input.threads](Rng& rng) {
+    if (!*belief) belief->emplace(map, options.drawn_cells);
+    const OccupancyGrid& grid = (*belief)->grid();
     PlanningProblem drawn = *known;
-    const CellBlocks blocks = blocks_of(belief->grid().frame, block_m);
-    ShownBlocks shown =
-        swept_blocks(belief->draw(rng), belief->grid(), views, field, blocks, threads);
+    const CellBlocks blocks = blocks_of(grid.frame, options.block_m);
+    ShownBlocks shown = swept_blocks((*belief)->draw(rng), grid, views, field, blocks, threads);
     drawn.cells = std::move(shown.cells);
     drawn.shows = std::move(shown.shows);
     return drawn;

@@ -12,9 +12,14 @@
 
 namespace vantage {
 
+/// Whether the plan of several views works out gains of all of them anyway.
+bool MappingParts::plan_has_gains() const {
+  return outside_ == nullptr && plans_views(options_.choice) && !knows_truth(options_.choice);
+}
+
 void MappingParts::score(std::vector<Candidate>& candidates) {
   budget_.leave_affordable(candidates);
-  if (!views_have_gains_ &&
+  if (!views_have_gains_ && !plan_has_gains() &&
       (weighs_gain(options_.choice) || outside_ != nullptr || recorder_.logs_events())) {
     const auto gains = gains_bits(options_.gain, candidates, episode_.threads);
     for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = gains[i];
@@ -75,7 +80,7 @@ int MappingParts::scans_left() const {
   return std::max(0, options_.scans - static_cast<int>(scans_.size()));
 }
 
-std::size_t MappingParts::own_choice(const std::vector<Candidate>& candidates) {
+std::size_t MappingParts::own_choice(std::vector<Candidate>& candidates) {
   if (asks_outside(options_.choice)) {
     throw ConfigError("choice: external is a program that is not asked here");
   }
@@ -124,7 +129,7 @@ double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
 }
 
 /// Where no view can be planned for, the nearest one: navigation goes as near as it can.
-std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates) {
+std::size_t MappingParts::next_of_plan(std::vector<Candidate>& candidates) {
   const BlockField of_unobserved = transmission();
   const auto planned = navigator_.plan();
   const PathField& paths = *planned;
@@ -154,6 +159,9 @@ std::size_t MappingParts::next_of_plan(const std::vector<Candidate>& candidates)
     intended_m_ = Eigen::Vector2d(next.x_m, next.y_m);
   }
   tour_ = std::move(plan.tour);
+  if (plan_has_gains()) {
+    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].gain_bits = plan.gains[i];
+  }
   if (!plan.order.empty()) return plan.order.front();
   return choose_view(NearestFrontier{}, candidates, choice_rng_);
 }

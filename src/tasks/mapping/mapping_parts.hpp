@@ -137,9 +137,10 @@ class MappingParts {
   /// @throws EpisodeFailed after the last attempt
   void note_useless(int attempt) const;
   [[nodiscard]] int scans_left() const;
-  std::size_t own_choice(const std::vector<Candidate>& candidates);
+  [[nodiscard]] bool plan_has_gains() const;
+  std::size_t own_choice(std::vector<Candidate>& candidates);
   std::size_t chosen_outside(std::vector<Candidate>& candidates);
-  std::size_t next_of_plan(const std::vector<Candidate>& candidates);
+  std::size_t next_of_plan(std::vector<Candidate>& candidates);
   void tell_truth(std::vector<Candidate>& candidates) const;
   [[nodiscard]] std::span<const Pose> poses_of_truth() const;
   [[nodiscard]] MapPanelInput panel() const;

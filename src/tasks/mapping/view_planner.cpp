@@ -63,6 +63,8 @@ MappingPlan plan_ahead(const MappingOptions& options, const std::vector<Candidat
   const std::vector<std::size_t> open = open_candidates(candidates);
   const PlannedViews planned = plan_views(options.choice, problem, rng);
   MappingPlan plan;
+  plan.gains.resize(candidates.size(), 0.0);
+  for (std::size_t i = 0; i < open.size(); ++i) plan.gains[open[i]] = gain_of(problem, i);
   for (const std::size_t view : planned.order) {
     if (view >= open.size()) break;
     plan.order.push_back(open[view]);

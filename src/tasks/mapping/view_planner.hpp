@@ -46,6 +46,9 @@ struct MappingPlan {
   /// cannot be reached yet; empty if none can be taken.
   std::vector<std::size_t> order;
   PlannedTour tour;  ///< the same with times, and with what cannot be reached yet
+  /// Per candidate, what it alone is expected to show, in the unit of the gain; 0 of exhausted
+  /// ones.
+  std::vector<double> gains;
 };
 /// @param options whose choice plans_views()
 MappingPlan plan_ahead(const MappingOptions& options, const std::vector<Candidate>& candidates,

@@ -109,6 +109,26 @@ TEST_F(Plans, AreToldToWhoeverWatches) {
   }
 }
 
+/// One sweep is enough: what the candidates are said to show is what the plan weighed.
+TEST_F(Plans, GiveTheCandidatesTheirGains) {
+  const auto plans = read_plans(tour_run() / "plans.csv");
+  const auto options = std::get<Tabletop>(load_recorded(tour_run()).task);
+  std::size_t i = 0;
+  for (const EpisodeEvent& event :
+       read_event_log(tour_run() / "story.bin", options.map.frame().size())) {
+    const auto* decision = std::get_if<Decision>(&event.what);
+    if (decision == nullptr) continue;
+    ASSERT_LT(i, plans.size());
+    const PlannedStop& first = plans[i++].tour.stops.front();
+    EXPECT_EQ(decision->candidates[decision->chosen].id, first.id);
+    EXPECT_NEAR(decision->candidates[decision->chosen].gain_bits, first.gain, 1e-3 * first.gain);
+    EXPECT_GT(std::ranges::count_if(decision->candidates,
+                                    [](const Candidate& view) { return view.gain_bits > 0.0; }),
+              20);
+  }
+  EXPECT_EQ(i, plans.size());
+}
+
 TEST_F(Plans, AreNoneOfAChoiceThatDoesNotPlanAheadNorOfALeanRun) {
   run_episode(folder_ / "greedy", "choice=greedy");
   run_episode(folder_ / "lean", "choice=tour", true);
