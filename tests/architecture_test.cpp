@@ -217,6 +217,7 @@ const std::map<std::string, Rooms> kAllowed{
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",
       "bench/claims"}},
+    {"bench/model", kTask + Rooms{"bench", "tasks", "tasks/*"}},
     {"bench", kTask + kStudy + Rooms{"bench/claims", "tasks", "tasks/*", "tests/support"}},
     {"python/kit", kGround + Rooms{"planners", "planners/views"}},
     {"python/planning", kGround + kBelief + kPlanners + Rooms{"python", "python/kit"}},
