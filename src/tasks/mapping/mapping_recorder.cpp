@@ -199,7 +199,7 @@ RecordTexts mapping_records() {
       {kCandidates, "z_m", "of the sensor, world"},
       {kCandidates, "yaw_rad", "heading of the sensor, world"},
       {kCandidates, "pitch_rad", "of the sensor; positive looks down"},
-      {kCandidates, "gain", "what the gain in use says of the view"},
+      {kCandidates, "gain", "what the gain in use says of the view, as the choice weighed it"},
       {kCandidates, "gain_unit", "what it counts"},
       {kCandidates, "predicted_cells",
        "cells that it would newly show; empty: the gain counts no cells"},
