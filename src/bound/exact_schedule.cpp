@@ -47,6 +47,7 @@ class SetSearch {
     if (sets_ > most_sets_ || best_ == kInfinity) return std::nullopt;
     return best_;
   }
+  [[nodiscard]] std::size_t scans_of_best() const { return scans_of_best_; }
 
  private:
   struct Gain {
@@ -78,7 +79,11 @@ class SetSearch {
     if (++sets_ > most_sets_) return;
     const std::size_t seen = count_cells(shown);
     if (seen >= problem_.needed) {
-      best_ = std::min(best_, cost_(taken_.size(), taken_));
+      const double cost = cost_(taken_.size(), taken_);
+      if (cost < best_) {
+        best_ = cost;
+        scans_of_best_ = taken_.size();
+      }
       return;
     }
     const std::size_t lacking = problem_.needed - seen;
@@ -103,6 +108,7 @@ class SetSearch {
   Cost cost_;
   std::size_t sets_ = 0;
   double best_ = kInfinity;
+  std::size_t scans_of_best_ = 0;
   std::vector<std::size_t> taken_;
 };
 
@@ -133,12 +139,13 @@ std::optional<std::size_t> fewest_scans_exactly(const CoverProblem& problem,
   return static_cast<std::size_t>(*scans);
 }
 
-std::optional<double> least_time_exactly(const CoverProblem& problem, std::size_t most_sets) {
-  return SetSearch(problem, most_sets,
-                   [&](std::size_t count, std::span<const std::size_t> taken) {
-                     return problem.time_s(shortest_way_m(problem, taken), count);
-                   })
-      .least();
+std::optional<LeastTime> least_time_exactly(const CoverProblem& problem, std::size_t most_sets) {
+  SetSearch search(problem, most_sets, [&](std::size_t count, std::span<const std::size_t> taken) {
+    return problem.time_s(shortest_way_m(problem, taken), count);
+  });
+  const auto time_s = search.least();
+  if (!time_s) return std::nullopt;
+  return LeastTime{*time_s, search.scans_of_best() <= kMaxExactWay};
 }
 
 }  // namespace vantage

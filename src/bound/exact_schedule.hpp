@@ -22,9 +22,16 @@ inline constexpr std::size_t kMaxEnumeratedViews = 14;
 /// @pre at most kMaxEnumeratedViews besides view 0
 std::optional<LeastSchedule> least_schedule(const CoverProblem& problem);
 
+struct LeastTime {
+  double time_s = 0.0;
+  /// By some schedule. Else none comes below: the way through more than kMaxExactWay views is not
+  /// known exactly.
+  bool reached = false;
+};
+
 /// Fewest scans, or least time, by branch and bound over sets of views; none if it takes more than
 /// that many sets, or cannot be done.
 std::optional<std::size_t> fewest_scans_exactly(const CoverProblem& problem, std::size_t most_sets);
-std::optional<double> least_time_exactly(const CoverProblem& problem, std::size_t most_sets);
+std::optional<LeastTime> least_time_exactly(const CoverProblem& problem, std::size_t most_sets);
 
 }  // namespace vantage

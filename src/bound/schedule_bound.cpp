@@ -25,18 +25,27 @@ void sharpen(const CoverProblem& problem, std::size_t sets, ScheduleBound& bound
   }
   bound.least.time_s = problem.time_s(bound.least.way_m, bound.least.scans);
   if (!bound.exact_scans) return;
-  if (const auto time_s = least_time_exactly(problem, sets)) {
-    bound.least.time_s = *time_s;
-    bound.exact_time = true;
+  if (const auto least = least_time_exactly(problem, sets)) {
+    bound.least.time_s = least->time_s;
+    bound.exact_time = least->reached;
   }
 }
 
+/// Whether the views of each group are all at one point, so that no way is lost by merging them.
+bool are_points(const CoverProblem& problem, std::span<const std::size_t> group) {
+  for (std::size_t view = 0; view < problem.views(); ++view) {
+    const auto first = std::ranges::find(group, group[view]) - group.begin();
+    if (problem.between_m(static_cast<std::size_t>(first), view) > 0.0) return false;
+  }
+  return true;
+}
+
 /// The way alone, between places that are few.
-void sharpen_way(const CoverProblem& places, ScheduleBound& bound) {
+void sharpen_way(const CoverProblem& places, bool exact, ScheduleBound& bound) {
   if (places.views() > kMaxEnumeratedViews + 1) return;
   if (const auto least = least_schedule(places)) {
     bound.least.way_m = std::max(bound.least.way_m, least->way_m);
-    bound.exact_way = true;
+    bound.exact_way = exact;
   }
 }
 
@@ -73,12 +82,14 @@ std::vector<std::optional<ScheduleBound>> schedule_bounds(const CoverProblem& pr
     return bounds;
   }
   const std::vector<Witness> witnesses = find_witnesses(problem);
-  CoverProblem places = merged(problem, places_of(problem, options.place_m));
+  const std::vector<std::size_t> group = places_of(problem, options.place_m);
+  const bool points = are_points(problem, group);
+  CoverProblem places = merged(problem, group);
   for (const std::size_t cells : needed) {
     one.needed = places.needed = cells;
     bounds.push_back(relaxed(one, witnesses));
     if (!bounds.back()) continue;
-    sharpen_way(places, *bounds.back());
+    sharpen_way(places, points, *bounds.back());
     sharpen(one, most_sets(one, options.work), *bounds.back());
     ScheduleBound& bound = *bounds.back();
     bound.least.time_s =

@@ -95,7 +95,9 @@ TEST(ScheduleBound, EqualsBruteForceOn200RandomProblemsOfUpTo10Views) {
     EXPECT_NEAR(bound->least.time_s, best.time_s, 1e-9) << trial;
     EXPECT_TRUE(bound->exact_scans && bound->exact_way && bound->exact_time);
     EXPECT_EQ(fewest_scans_exactly(problem, 100000), best.scans) << trial;
-    EXPECT_NEAR(least_time_exactly(problem, 100000).value_or(-1.0), best.time_s, 1e-9) << trial;
+    const auto least_time = least_time_exactly(problem, 100000);
+    ASSERT_TRUE(least_time && least_time->reached) << trial;
+    EXPECT_NEAR(least_time->time_s, best.time_s, 1e-9) << trial;
   }
 }
 
@@ -154,6 +156,49 @@ TEST(ScheduleBound, OfManyViewsIsExactAsFarAsItSays) {
     EXPECT_NEAR(bound->least.way_m, exact->way_m, 1e-9);
     EXPECT_NEAR(bound->least.time_s, exact->time_s, 1e-9);
   }
+}
+
+/// Views on a line at those x, the k-th of which shows cell k; cell 0 is seen at the start.
+CoverProblem on_a_line(const std::vector<double>& x_m) {
+  CoverProblem problem;
+  problem.speed_m_s = 1.0;
+  problem.scan_s = 1.0;
+  const auto n = static_cast<Eigen::Index>(x_m.size());
+  problem.way_m = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t i = 0; i < x_m.size(); ++i) {
+    problem.shows.push_back({std::uint64_t{1} << i});
+    for (std::size_t j = 0; j < x_m.size(); ++j) {
+      problem.way_m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          std::abs(x_m[i] - x_m[j]);
+    }
+  }
+  return problem;
+}
+
+/// 1.04 m are needed; by views 4 cm apart taken for one place 1 m is no more than a bound.
+TEST(ScheduleBound, OfPlacesThatAreNoPointsIsNoExactWay) {
+  std::vector<double> x_m{0.0, 1.0, 1.04};
+  for (int k = 0; k < 14; ++k) x_m.push_back(0.0);
+  CoverProblem problem = on_a_line(x_m);
+  for (std::size_t view = 3; view < problem.views(); ++view) problem.shows[view] = {1};
+  const auto bound = schedule_bounds(problem, std::vector<std::size_t>{3}).front();
+  ASSERT_TRUE(bound);
+  EXPECT_NEAR(bound->least.way_m, 1.0, 0.04 + 1e-9);
+  EXPECT_FALSE(bound->exact_way);
+  EXPECT_TRUE(bound->exact_scans && bound->exact_time);
+  EXPECT_NEAR(bound->least.time_s, 1.04 + 2.0, 1e-9);
+}
+
+TEST(ScheduleBound, ThroughManyViewsIsNoExactTime) {
+  std::vector<double> x_m;
+  for (int k = 0; k < 16; ++k) x_m.push_back(0.5 * k);
+  const CoverProblem problem = on_a_line(x_m);
+  const auto bounds = schedule_bounds(problem, std::vector<std::size_t>{13, 14});
+  ASSERT_TRUE(bounds[0] && bounds[1]);
+  EXPECT_TRUE(bounds[0]->exact_time) << "twelve scans after the first";
+  EXPECT_NEAR(bounds[0]->least.time_s, 6.0 + 12.0, 1e-9);
+  EXPECT_FALSE(bounds[1]->exact_time) << "thirteen";
+  EXPECT_LE(bounds[1]->least.time_s, 6.5 + 13.0 + 1e-9);
 }
 
 TEST(ScheduleBound, IsNoneWhereNothingSuffices) {
