@@ -114,8 +114,8 @@ void refuse_to_go_on(const RecordedRun& run) {
       run.directory.string()));
 }
 
-void require_decision(const RecordedRun& run, std::size_t scan) {
-  const std::size_t decisions = run.scans.size() - 1;
+void require_decision(const RecordedRun& run, long long scan) {
+  const long long decisions = std::ssize(run.scans) - 1;
   if (scan >= 1 && scan <= decisions) return;
   if (decisions == 0) {
     throw ConfigError(fmt::format("--scan: {}: {} has one scan, after which nothing was decided",

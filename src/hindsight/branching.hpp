@@ -52,7 +52,7 @@ bool was_chosen_outside(const RecordedRun& run);
 [[noreturn]] void refuse_to_go_on(const RecordedRun& run);
 
 /// @throws ConfigError unless a decision was taken after that scan
-void require_decision(const RecordedRun& run, std::size_t scan);
+void require_decision(const RecordedRun& run, long long scan);
 
 /// Index of the view of that number. @throws ConfigError if it cannot be taken
 std::size_t takeable(const DecisionRequest& request, int view);

@@ -72,8 +72,11 @@ void write_steps(const fs::path& path, const Steps& steps) {
 }
 
 Steps read_steps(const fs::path& path) {
+  if (!fs::exists(path)) {
+    throw OutputError(path.filename().string() +
+                      ": its process ended before it told what came of it");
+  }
   Steps steps;
-  if (!fs::exists(path)) return steps;  // the branch has come to nothing
   for (const auto& row : nlohmann::json::parse(read_file(path))) {
     steps.push_back({row[0], row[1], row[2], row[3], row[4], row[5]});
   }
@@ -260,7 +263,9 @@ void draw_without_threads() {
 }
 
 std::vector<BranchedDecision> branch_views(const RecordedRun& run, const BranchRequest& request) {
-  for (const std::size_t scan : request.scans) require_decision(run, scan);
+  for (const std::size_t scan : request.scans) {
+    require_decision(run, static_cast<long long>(scan));
+  }
   if (request.then > 0 && was_chosen_outside(run)) refuse_to_go_on(run);
   draw_without_threads();
   ResolvedEpisode alone = load_episode(run.directory / "config.yaml", {"threads=1"});

@@ -40,12 +40,17 @@ std::string row(std::string_view what, const std::optional<ShareReached>& progre
                      progress->time_s);
 }
 
+/// Of nothing there is none.
+std::string quotient_text(double of, double to) {
+  return to > 0.0 ? fmt::format("{:.2f}", of / to) : "-";
+}
+
 std::string ratio_row(std::string_view what, const std::optional<ShareReached>& of,
                       const std::optional<ShareReached>& to) {
   if (!of || !to) return {};
-  return fmt::format("  {:<12} {:>6.2f} {:>9.2f} {:>9.2f}\n", what,
-                     static_cast<double>(of->scans) / static_cast<double>(to->scans),
-                     of->way_m / to->way_m, of->time_s / to->time_s);
+  return fmt::format("  {:<12} {:>6} {:>9} {:>9}\n", what,
+                     quotient_text(static_cast<double>(of->scans), static_cast<double>(to->scans)),
+                     quotient_text(of->way_m, to->way_m), quotient_text(of->time_s, to->time_s));
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ struct BranchArguments {
 std::vector<std::size_t> scans_of(const BranchArguments& arguments, const RecordedRun& run) {
   std::vector<std::size_t> scans;
   for (const long long scan : arguments.scans) {
-    scans.push_back(static_cast<std::size_t>(std::max(0LL, scan)));
-    require_decision(run, scans.back());
+    require_decision(run, scan);
+    scans.push_back(static_cast<std::size_t>(scan));
   }
   if (scans.empty()) require_decision(run, 1);
   for (std::size_t k = 1; arguments.scans.empty() && k < run.scans.size(); ++k) scans.push_back(k);
