@@ -160,9 +160,10 @@ Eigen::Matrix3d KeyframeGraph::drift_since(std::size_t before) const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   const Pose2& now = poses_.back();
   for (std::size_t i = before; i + 1 < poses_.size(); ++i) {
+    // The edge's own length is in its covariance.
     Eigen::Matrix3d lever = Eigen::Matrix3d::Identity();
-    lever(0, 2) = poses_[i].y_m - now.y_m;
-    lever(1, 2) = now.x_m - poses_[i].x_m;
+    lever(0, 2) = poses_[i + 1].y_m - now.y_m;
+    lever(1, 2) = now.x_m - poses_[i + 1].x_m;
     const Eigen::Matrix3d of_edge = turned(way_[i].information.inverse(), poses_[i].yaw_rad);
     covariance += lever * of_edge * lever.transpose();
   }

@@ -84,7 +84,9 @@ void ExplorationBelief::reintegrate(std::span<const Pose2> T_world_bases) {
   grid_ = OccupancyGrid(task_.map.frame());
   hazard_ = ClutterHazard(task_.clutter_hazard, grid_.frame.cells);
   cloud_ = {};
-  const int hazard_stride_px = std::max(1, task_.hazard_stride_px / task_.stride_px);
+  // Of what is kept, so many as come nearest to those that were counted at first.
+  const int hazard_stride_px =
+      std::max(1, (task_.hazard_stride_px + task_.stride_px / 2) / task_.stride_px);
   for (const KeptSweep& sweep : kept_) {
     integrate(sweep.views, T_world_bases[sweep.keyframe], 1, hazard_stride_px);
   }

@@ -69,7 +69,8 @@ OccupancyGrid made_anew(int threads, double* hazard = nullptr) {
 TEST(Reintegration, IsAsIfAllHadBeenSeenFromThereAtFirst) {
   Rooms rooms(1);
   const int stride_px = rooms.task.stride_px;
-  rooms.task.hazard_stride_px /= stride_px;
+  rooms.task.hazard_stride_px = static_cast<int>(
+      std::lround(static_cast<double>(rooms.task.hazard_stride_px) / stride_px));
   rooms.task.stride_px = 1;
   ExplorationBelief fresh(rooms.episode, rooms.task);
   for (std::size_t i = 0; i < 2; ++i) {
