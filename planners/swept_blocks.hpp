@@ -13,11 +13,6 @@
 
 namespace vantage {
 
-struct ShownBlocks {
-  std::vector<float> cells;        ///< per block, its unobserved cells in the unit of the gain
-  std::vector<ShownShares> shows;  ///< per view
-};
-
 /// By one sweep a view, without rays. A view's shares times the cells sum to its swept gain, up to
 /// what rays would correct. Blocks of which nothing is unobserved are in no view's list. The result
 /// does not depend on `threads`.

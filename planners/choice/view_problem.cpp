@@ -115,7 +115,9 @@ ShownBlocks truly_shown(const ViewPlanningInput& input, const CellBlocks& blocks
     std::vector<float> seen(blocks.size(), 0.0F);
     for (std::size_t i = 0; i < view.true_new_cell_set->size(); ++i) {
       for (std::uint64_t left = (*view.true_new_cell_set)[i]; left != 0; left &= left - 1) {
-        seen[block_of[64 * i + static_cast<std::size_t>(std::countr_zero(left))]] += 1.0F;
+        const std::size_t cell = 64 * i + static_cast<std::size_t>(std::countr_zero(left));
+        // Holes that were filled are known without being seen.
+        if (grid.state(cell) == CellState::unobserved) seen[block_of[cell]] += 1.0F;
       }
     }
     result.shows.push_back(shares_of_blocks(seen, result.cells));
@@ -129,20 +131,15 @@ PlanningProblem make_view_problem(const ViewPlanningInput& input,
                                   const ViewPlanningOptions& options) {
   PlanningProblem problem = with_ways(input, options, shown_by(input, options));
   if (input.map.transmission == nullptr) return problem;
-  // What is drawn anew is only what the views show; the ways stay. Most choices draw nothing.
+  // Most choices draw nothing.
   auto belief = std::make_shared<std::optional<const DrawableMap>>();
-  auto known = std::make_shared<const PlanningProblem>(problem);
   std::vector<Candidate> views(input.candidates.begin(), input.candidates.end());
   problem.draw = [=, map = input.map, field = input.field_of_view,
                   threads = input.threads](Rng& rng) {
     if (!*belief) belief->emplace(map, options.drawn_cells);
     const OccupancyGrid& grid = (*belief)->grid();
-    PlanningProblem drawn = *known;
     const CellBlocks blocks = blocks_of(grid.frame, options.block_m);
-    ShownBlocks shown = swept_blocks((*belief)->draw(rng), grid, views, field, blocks, threads);
-    drawn.cells = std::move(shown.cells);
-    drawn.shows = std::move(shown.shows);
-    return drawn;
+    return swept_blocks((*belief)->draw(rng), grid, views, field, blocks, threads);
   };
   return problem;
 }

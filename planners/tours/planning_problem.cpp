@@ -44,6 +44,7 @@ double gain_of(const PlanningProblem& problem, std::size_t view) {
 }
 
 bool is_affordable(const PlanningProblem& problem, std::span<const std::size_t> order) {
+  if (order.size() > problem.left.scans) return false;
   double driven_s = 0.0;
   std::size_t at = problem.here();
   for (const std::size_t view : order) {

@@ -23,8 +23,14 @@ struct ShownShares {
   std::vector<float> share;          ///< of the block's cells, (0, 1]
 };
 
+struct ShownBlocks {
+  std::vector<float> cells;        ///< per block, its unobserved cells in the unit of the gain
+  std::vector<ShownShares> shows;  ///< per view
+};
+
 /// What is left to spend. The way home is kept affordable where there is a home.
 struct Allowance {
+  std::size_t scans = std::numeric_limits<std::size_t>::max();
   double time_s = std::numeric_limits<double>::infinity();
   double energy_j = std::numeric_limits<double>::infinity();
 };
@@ -47,9 +53,9 @@ struct PlanningProblem {
   Allowance left;
   /// The view that the plan before wanted next, if it is still among these.
   std::optional<std::size_t> intended;
-  /// Another map that the belief allows, drawn from it: the same views, with what they would show
-  /// there. Empty where nothing can be drawn.
-  std::function<PlanningProblem(Rng&)> draw;
+  /// What the same views would show on another map that the belief allows, drawn from it. Empty
+  /// where nothing can be drawn.
+  std::function<ShownBlocks(Rng&)> draw;
 
   [[nodiscard]] std::size_t views() const { return shows.size(); }
   /// Stands for the robot's place in `travel_s` and `home_s`.

@@ -12,18 +12,26 @@ PlannedViews Rollout::operator()(const PlanningProblem& problem, Rng& rng) const
   const std::vector<Tour> tours = search_tours(problem, objective(), search());
   if (tours.empty()) return {};
   std::vector<double> sum_s(tours.size(), 0.0);
+  PlanningProblem drawn = problem;
   for (int k = 0; k < draws; ++k) {
-    const PlanningProblem drawn = problem.draw(rng);
+    ShownBlocks shown = problem.draw(rng);
+    drawn.cells = std::move(shown.cells);
+    drawn.shows = std::move(shown.shows);
     for (std::size_t i = 0; i < tours.size(); ++i) {
       sum_s[i] += search_tour(drawn, objective(), search(), tours[i].order.front()).cost_s;
     }
   }
-  const auto best = std::ranges::min_element(sum_s);  // of equals the better tour
-  PlanCosts costs{.taken_s = *best / draws};
+  std::vector<double> weighed_s = sum_s;  // one that goes on as was planned counts as cheaper
+  for (std::size_t i = 0; i < tours.size(); ++i) {
+    if (tours[i].order.front() == problem.intended) weighed_s[i] -= draws * keep_s;
+  }
+  const auto best = static_cast<std::size_t>(  // of equals the better tour
+      std::ranges::min_element(weighed_s) - weighed_s.begin());
+  PlanCosts costs{.taken_s = sum_s[best] / draws};
   for (std::size_t i = 0; i < tours.size(); ++i) {
     if (tours[i].order.front() == problem.intended) costs.intended_s = sum_s[i] / draws;
   }
-  return {tours[static_cast<std::size_t>(best - sum_s.begin())].order, costs};
+  return {tours[best].order, costs};
 }
 
 }  // namespace vantage

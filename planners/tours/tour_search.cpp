@@ -270,6 +270,7 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
     Order order{view};
     std::ranges::copy_if(free.order, std::back_inserter(order),
                          [&](std::size_t other) { return other != view; });
+    if (order.size() > problem.left.scans) order.pop_back();
     firsts.emplace_back(search.exact_cost_s(order), view);
     poll_stop();
   }

@@ -59,7 +59,9 @@ PlannedViews TwoLevelTour::operator()(const PlanningProblem& problem, Rng& /*rng
   for (const std::size_t view : affordable_views(problem)) {
     (problem.leg_s(problem.here(), view) <= horizon_s ? near : far).push_back(view);
   }
-  near = covering(problem, near, cover);
+  Views shown_near = covering(problem, near, cover);
+  // Where no view is expected to show anything, one is taken all the same.
+  if (!shown_near.empty() || !far.empty()) near = std::move(shown_near);
   const Views regions = route_through(problem, of_regions(problem, far, region_m));
   if (regions.empty()) return {affordable_part(problem, route_through(problem, near))};
   Views order = joined_route(problem, near, regions.front());

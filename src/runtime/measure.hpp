@@ -27,7 +27,7 @@ struct MeasureName {
 /// Its title and which direction is better.
 std::string measure_text(const MeasureName& measure);
 
-using Curve = std::vector<double>;  ///< a value a step
+using Curve = std::vector<double>;  ///< a value a step, or along a CurveAxis
 
 /// What every measure is taken of.
 struct MeasuredEpisode {
@@ -39,9 +39,16 @@ struct ScalarMeasure {
   MeasureName name;
   std::optional<double> (*of)(const MeasuredEpisode& episode);  ///< none: does not apply
 };
+/// Along what a curve has its values.
+struct CurveAxis {
+  std::string_view label = {};  ///< with unit; empty: the steps of the task
+  double first = 1.0;
+  double step = 1.0;
+};
 struct CurveMeasure {
   MeasureName name;
   Curve (*of)(const MeasuredEpisode& episode);
+  CurveAxis along = {};
 };
 
 /// |predicted - actual new cells| of each gain, for every scan after the first.

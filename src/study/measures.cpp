@@ -51,6 +51,19 @@ const std::vector<MeasureName>& curve_measures() {
   return names;
 }
 
+const CurveAxis& curve_axis(std::size_t curve) {
+  static const std::vector<CurveAxis> axes = [] {
+    std::vector<CurveAxis> found(curve_measures().size());
+    for_each_task([&](const auto& task) {
+      for (const CurveMeasure& measure : task.measures().curves) {
+        found[find_curve(measure.name.name).value()] = measure.along;
+      }
+    });
+    return found;
+  }();
+  return axes[curve];
+}
+
 std::vector<std::string> scalar_names() { return names_of(scalar_measures()); }
 std::vector<std::string> curve_names() { return names_of(curve_measures()); }
 std::optional<std::size_t> find_scalar(std::string_view name) {

@@ -15,8 +15,9 @@ namespace vantage {
 
 /// Numbers of an episode, in the order of the columns of results.csv.
 const std::vector<MeasureName>& scalar_measures();
-/// Curves against steps.
 const std::vector<MeasureName>& curve_measures();
+/// Along what the one of that index has its values.
+const CurveAxis& curve_axis(std::size_t curve);
 
 std::vector<std::string> scalar_names();
 std::vector<std::string> curve_names();

@@ -126,6 +126,21 @@ TEST(Measures, Curves) {
   EXPECT_DOUBLE_EQ(*scalar(measures, "fallbacks"), 1.0);
 }
 
+/// 0, 20, 40 s: the share left after the scans of 10 s and of 39 s, the last one too.
+TEST(Measures, CurvesOverTimeEndAfterTheLastScan) {
+  Json timed = metrics("adaptive");
+  timed["scans"].erase(2);
+  timed["scans"][0]["time_s"] = 10.0;
+  timed["scans"][1]["time_s"] = 39.0;
+  const auto curve = *find_curve("share_left_over_time");
+  EXPECT_EQ(measure(timed, planned_scans(3)).curves[curve], (Curve{1.0, 0.6, 0.3}));
+  EXPECT_EQ(curve_axis(curve).first, 0.0);
+  EXPECT_EQ(curve_axis(curve).step, 20.0);
+  const auto path = *find_curve("share_left_over_path");
+  EXPECT_EQ(measure(timed, planned_scans(3)).curves[path], (Curve{0.6, 0.6, 0.3}));
+  EXPECT_TRUE(curve_axis(*find_curve("share_left")).label.empty());
+}
+
 TEST(Measures, NothingToObserveIsNoDivisionByZero) {
   Json json = metrics("simple");
   json["observable_cells"] = 0;

@@ -229,13 +229,13 @@ std::vector<Candidate> ExplorationParts::find_views(bool all) {
 void ExplorationParts::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
   visit(place_of(candidate.T_world_sensor), task_.taken_m);
-  const bool reached = approach(candidate, std::nullopt).reached;
-  current_.fallback = !candidate.reachable || !reached;
-  if (reached) {
+  const Approach approached = approach(candidate, std::nullopt);
+  current_.fallback = !candidate.reachable || !approached.reached;
+  if (approached.reached) {
     predict(candidate.T_world_sensor);
     return;
   }
-  warn_out_of_reach(candidate);
+  warn_not_reached(candidate, approached);
   predict(robot_.estimated_sensor());  // of the place the scan will be taken from
 }
 

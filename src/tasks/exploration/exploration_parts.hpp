@@ -27,6 +27,7 @@ class ExplorationParts : public MappingParts {
   [[nodiscard]] std::string finished() const;
   std::vector<Candidate> propose() { return views_; }
   void act(const Candidate& candidate);
+  void end() { MappingParts::end(views_); }
 
  private:
   void traverse(const Eigen::Vector2d& p_m, double radius_m);

@@ -99,10 +99,10 @@ std::size_t MappingParts::chosen_outside(std::vector<Candidate>& candidates) {
   return chosen;
 }
 
-void MappingParts::end() {
+void MappingParts::end(const std::vector<Candidate>& views) {
   if (outside_ != nullptr && outside_->ended) {
     const BlockField of_unobserved = transmission();
-    const bool at_limit = !views_.empty() && !limit_reached(views_).empty();
+    const bool at_limit = !views.empty() && !limit_reached(views).empty();
     outside_->ended(
         map_situation({belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()}),
         at_limit);
@@ -139,6 +139,7 @@ std::size_t MappingParts::next_of_plan(std::vector<Candidate>& candidates) {
                               .paths = paths,
                               .budget = budget_,
                               .threads = episode_.threads,
+                              .scans_left = static_cast<std::size_t>(std::max(1, scans_left())),
                               .former = former_,
                               .intended_m = intended_m_};
   std::vector<Candidate> later;
@@ -153,10 +154,9 @@ std::size_t MappingParts::next_of_plan(std::vector<Candidate>& candidates) {
   MappingPlan plan = plan_ahead(options_, candidates, situation, choice_rng_);
   former_ = FormerPlan::ended;
   intended_m_.reset();
-  if (plan.order.size() > 1) {
-    const Pose2 next = robot_.base_for_sensor(candidates[plan.order[1]].T_world_sensor);
+  if (plan.tour.stops.size() > 1) {
     former_ = FormerPlan::goes_on;
-    intended_m_ = Eigen::Vector2d(next.x_m, next.y_m);
+    intended_m_ = plan.tour.stops[1].place_m;
   }
   tour_ = std::move(plan.tour);
   if (plan_has_gains()) {

@@ -203,11 +203,14 @@ std::vector<double> MappingParts::gains_bits(const Gain& gain, std::span<const C
 
 Approach MappingParts::approach(const Candidate& view,
                                 const std::optional<Eigen::Vector2d>& look_at_m) {
+  current_.planned_way_m = view.path_length_m;
   return navigator_.approach(robot_.base_for_sensor(view.T_world_sensor), look_at_m);
 }
 
-void MappingParts::warn_out_of_reach(const Candidate& view) const {
-  log_warning(fmt::format("view {} is out of reach: scanning from as near as possible", view.id));
+void MappingParts::warn_not_reached(const Candidate& view, const Approach& approach) const {
+  log_warning(fmt::format(
+      "view {} is {}: scanning from as near as possible", view.id,
+      approach.turned_back ? "given up, since the budget must pay the way home" : "out of reach"));
 }
 
 /// The belief stays as it is until its next update: until then there is time.

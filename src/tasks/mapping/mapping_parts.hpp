@@ -43,9 +43,6 @@ class MappingParts {
   std::size_t choose(std::vector<Candidate>& candidates);
 
   [[nodiscard]] const std::vector<ScanRecord>& scans() const { return scans_; }
-  /// After the last scan: tells a choice from outside, and drives back to the start if that is
-  /// asked for.
-  void end();
   [[nodiscard]] const BudgetKeeper& budget() const { return budget_; }
   /// Why the map is not to be trusted, by what the robot knows of its own pose; empty if it is.
   [[nodiscard]] std::string distrust() const;
@@ -101,7 +98,7 @@ class MappingParts {
                                                int threads) const;
   /// Drives to a view, or as near as possible; see Navigator::approach().
   Approach approach(const Candidate& view, const std::optional<Eigen::Vector2d>& look_at_m);
-  void warn_out_of_reach(const Candidate& view) const;
+  void warn_not_reached(const Candidate& view, const Approach& approach) const;
   void start_decision();
   /// The views that `oracle_tour` alone may take: of all places where a robot could stand those
   /// that are in reach now, or those that are not yet. None of another choice, or at a table.
@@ -111,6 +108,9 @@ class MappingParts {
   /// Why no further scan is taken once there are as many as were asked for, or none of these views
   /// can be paid; else empty.
   [[nodiscard]] std::string limit_reached(const std::vector<Candidate>& views) const;
+  /// After the last scan: tells a choice from outside, and drives back to the start if that is
+  /// asked for. @param views that are left
+  void end(const std::vector<Candidate>& views);
 
   const EpisodeOptions& episode_;
   MobileRobotInterface& robot_;

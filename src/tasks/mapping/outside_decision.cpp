@@ -79,6 +79,11 @@ std::size_t decide_outside(const OutsideChoice& outside, const OutsideSituation&
   if (const auto* index = std::get_if<std::size_t>(&decision)) return *index;
   std::array<Candidate, 1> own{
       view_from(std::get<Pose2>(decision), candidates.size(), situation.robot, paths)};
+  std::vector<Candidate> paid(own.begin(), own.end());
+  situation.budget.leave_affordable(paid);
+  if (paid.front().exhausted) {
+    throw EpisodeFailed(outside.name + ": the budget does not allow the pose that was chosen");
+  }
   own[0].gain_bits = view_gains_bits(gain, {request.situation.grid, &situation.transmission}, own,
                                      request.situation.field_of_view, 1)
                          .front();

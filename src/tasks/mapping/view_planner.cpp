@@ -51,6 +51,7 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
                                 : make_view_problem(input, options.planning);
   if (situation.intended_m) problem.intended = view_near(problem, *situation.intended_m, kSame_m);
   problem.left = situation.budget.left();
+  problem.left.scans = situation.scans_left;
   problem.home_s = situation.budget.home_s(places_m);
   problem.driving_w = situation.budget.rates().driving_w();
   problem.scanning_w = situation.budget.rates().scanning_w();

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,6 +27,7 @@ struct PlanningSituation {
   const PathField& paths;
   const BudgetKeeper& budget;
   int threads;
+  std::size_t scans_left = std::numeric_limits<std::size_t>::max();
   /// Of a choice that knows the truth: views that cannot be reached yet, and the ways as they
   /// really are.
   std::span<const Candidate> later = {};

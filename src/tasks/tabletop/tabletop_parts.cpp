@@ -86,10 +86,11 @@ std::vector<Candidate> TabletopParts::reachable_views() {
 void TabletopParts::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
   predict(candidate.T_world_sensor);
-  current_.fallback = !approach(candidate, Eigen::Vector2d(task_.map.centre().head<2>())).reached;
+  const Approach approached = approach(candidate, Eigen::Vector2d(task_.map.centre().head<2>()));
+  current_.fallback = !approached.reached;
   if (!current_.fallback) return;
-  warn_out_of_reach(candidate);
-  views_[static_cast<std::size_t>(candidate.id)].exhausted = true;
+  warn_not_reached(candidate, approached);
+  if (!approached.turned_back) views_[static_cast<std::size_t>(candidate.id)].exhausted = true;
   predict(robot_.estimated_sensor());  // of the place the scan will be taken from
 }
 

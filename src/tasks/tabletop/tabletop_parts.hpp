@@ -25,6 +25,7 @@ class TabletopParts : public MappingParts {
   [[nodiscard]] std::string finished();
   std::vector<Candidate> propose();
   void act(const Candidate& candidate);
+  void end() { MappingParts::end(reachable_views()); }
 
  private:
   /// The views with the ways to them from here.

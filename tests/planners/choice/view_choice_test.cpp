@@ -212,7 +212,8 @@ TEST(ChoicesThatWeighPaths, TakeAnUnreachableViewOnlyWhereNoOtherIsLeft) {
 
 TEST(ViewChoiceDeathTest, OfAPlanNeedsAProblem) {
   Rng rng(1);
-  EXPECT_DEATH(choose_view(ViewChoice(TourChoice{}), five_views(), rng), "a function of candidates");
+  EXPECT_DEATH(choose_view(ViewChoice(TourChoice{}), five_views(), rng),
+               "a function of candidates");
 }
 
 TEST(ViewChoiceDeathTest, NeedsACandidate) {

@@ -92,10 +92,12 @@ TEST(OracleTour, CountsAScanOnce) {
   EXPECT_GT(TourChoice{}.objective().scan_weight, 1.0);
 }
 
+ShownBlocks shown_by(const PlanningProblem& problem) { return {problem.cells, problem.shows}; }
+
 /// In the map as expected the left is worth more; in every map that is drawn, the right.
 TEST(Rollout, TakesWhatIsBestInTheMapsDrawn) {
   PlanningProblem problem = on_a_line({5.0, -5.0}, {10.0F, 30.0F});
-  problem.draw = [](Rng&) { return on_a_line({5.0, -5.0}, {30.0F, 1.0F}); };
+  problem.draw = [](Rng&) { return shown_by(on_a_line({5.0, -5.0}, {30.0F, 1.0F})); };
   EXPECT_EQ(order_of(TourChoice{}, problem).front(), 1U);
   EXPECT_EQ(order_of(Rollout{}, problem).front(), 0U);
 }
@@ -104,9 +106,49 @@ TEST(Rollout, IsTheTourWhereTheMapIsCertain) {
   Rng rng(6);
   for (int k = 0; k < 10; ++k) {
     PlanningProblem problem = test::random_problem(8, 25, rng);
-    problem.draw = [&problem](Rng&) { return problem; };
+    problem.draw = [&problem](Rng&) { return shown_by(problem); };
     EXPECT_EQ(order_of(Rollout{}, problem), order_of(TourChoice{}, problem));
   }
+}
+
+/// The way past the poor view on to the rich one cannot be paid, on no map.
+TEST(Rollout, HasTheBudgetInTheMapsDrawnToo) {
+  PlanningProblem problem = on_a_line({15.0, -15.0, 75.0}, {10.0F, 100.0F, 1000.0F});
+  problem.scan_s = 10.0;
+  problem.left.time_s = 40.0;
+  problem.draw = [&problem](Rng&) { return shown_by(problem); };
+  EXPECT_EQ(order_of(TourChoice{}, problem), (test::Order{1}));
+  EXPECT_EQ(order_of(Rollout{}, problem), (test::Order{1}));
+}
+
+TEST(Rollout, KeepsAPlanUnlessAnotherIsBetterByEnough) {
+  PlanningProblem problem = on_a_line({5.0, -5.0}, {10.0F, 11.0F});
+  problem.intended = 0;
+  problem.draw = [&problem](Rng&) { return shown_by(problem); };
+  Rollout rollout;
+  rollout.keep_s = 0.0;
+  EXPECT_EQ(order_of(rollout, problem).front(), 1U);
+  rollout.keep_s = 1e6;
+  EXPECT_EQ(order_of(rollout, problem).front(), 0U);
+}
+
+/// With one scan left, what shows most for its time; with two, the near one on the way.
+TEST(AheadChoices, PlanNoMoreScansThanAreLeft) {
+  PlanningProblem problem = on_a_line({2.0, 12.0}, {100.0F, 500.0F});
+  problem.draw = [&problem](Rng&) { return shown_by(problem); };
+  for (const std::size_t scans : {1U, 2U}) {
+    problem.left.scans = scans;
+    const test::Order wanted = scans == 1 ? test::Order{1} : test::Order{0, 1};
+    EXPECT_EQ(order_of(TourChoice{}, problem), wanted);
+    EXPECT_EQ(order_of(OracleTour{}, problem), wanted);
+    EXPECT_EQ(order_of(Rollout{}, problem), wanted);
+  }
+}
+
+/// A plan is empty only where nothing can be paid.
+TEST(TwoLevelTour, TakesANearViewThoughNoneShowsAnything) {
+  const PlanningProblem problem = on_a_line({2.0, -3.0}, {0.0F, 0.0F});
+  EXPECT_FALSE(order_of(TwoLevelTour{}, problem).empty());
 }
 
 TEST(AheadChoices, TakeNothingThatCannotBePaid) {
@@ -118,7 +160,7 @@ TEST(AheadChoices, TakeNothingThatCannotBePaid) {
     for (std::size_t i = 0; i < 10; ++i) {
       problem.home_s[i] = (problem.place_m[i] - Eigen::Vector2d(5.0, 5.0)).norm();
     }
-    problem.draw = [&problem](Rng&) { return problem; };
+    problem.draw = [&problem](Rng&) { return shown_by(problem); };
     const bool any = !affordable_views(problem).empty();
     const auto expect_paid = [&](const auto& choice) {
       const test::Order order = order_of(choice, problem);

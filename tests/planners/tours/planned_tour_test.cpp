@@ -88,7 +88,7 @@ TEST(WhyPlanned, IsToldInWords) {
 /// Of the choice itself: what it took against the best that goes on as intended.
 TEST(WhyPlanned, AChoiceThatWeighsToursKnowsTheDifference) {
   PlanningProblem problem = three_views();
-  problem.draw = [&problem](Rng&) { return problem; };
+  problem.draw = [&problem](Rng&) { return ShownBlocks{problem.cells, problem.shows}; };
   problem.intended = 2;
   Rng rng(1);
   TourChoice choice;

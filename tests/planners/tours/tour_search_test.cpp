@@ -211,7 +211,8 @@ TEST(SearchTour, NeverSpendsMoreThanIsLeft) {
     PlanningProblem problem = test::random_problem(9, 25, rng);
     problem.driving_w = 100.0;
     problem.scanning_w = 50.0;
-    problem.left = {rng.uniform(2.0, 40.0), rng.uniform(300.0, 4000.0)};
+    problem.left.time_s = rng.uniform(2.0, 40.0);
+    problem.left.energy_j = rng.uniform(300.0, 4000.0);
     problem.home_s.assign(10, 0.0);
     for (double& home_s : problem.home_s) home_s = rng.uniform(0.0, 8.0);
     for (const Tour& tour : search_tours(problem, {.worth_s = 1000.0}, {})) {

@@ -18,8 +18,9 @@ SpendingRates known_rates() {
   rates.observe(before, nullptr);
   for (int k = 0; k < 2000; ++k) {
     ScanRecord scan = before;
-    scan.leg_length_m = 1.0 + k % 10;
-    const double drive_s = 3.0 + 2.0 * scan.leg_length_m;
+    scan.planned_way_m = 1.0 + k % 10;
+    scan.leg_length_m = 2.0 * scan.planned_way_m;  // what was truly driven is not for planning
+    const double drive_s = 3.0 + 2.0 * scan.planned_way_m;
     scan.time_s += drive_s + scan.scan_time_s;
     scan.energy_j += 400.0 * drive_s + scan.scan_energy_j;
     rates.observe(scan, &before);
@@ -42,7 +43,7 @@ TEST(SpendingRates, TakeNoDriveThatEndedShortOfItsGoal) {
   ScanRecord first;
   ScanRecord scan;
   scan.time_s = 500.0;
-  scan.leg_length_m = 0.1;
+  scan.planned_way_m = 0.1;
   scan.fallback = true;
   rates.observe(scan, &first);
   EXPECT_EQ(rates.travel_time().of_m(5.0), before_s);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vantage {
 namespace {
@@ -24,7 +25,8 @@ void SpendingRates::observe(const ScanRecord& scan, const ScanRecord* before) {
   driven_s_ += drive_s;
   driven_j_ += scan.energy_j - scan.scan_energy_j - since_j;
   // The turn at the start is no drive, nor is one that ended short of its goal.
-  if (before != nullptr && !scan.fallback) travel_time_.observe(scan.leg_length_m, drive_s);
+  if (before == nullptr || scan.fallback || !std::isfinite(scan.planned_way_m)) return;
+  travel_time_.observe(scan.planned_way_m, drive_s);
 }
 
 Allowance Budget::left(const Spent& spent) const {

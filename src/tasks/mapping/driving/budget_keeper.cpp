@@ -40,11 +40,14 @@ void BudgetKeeper::leave_affordable(std::vector<Candidate>& views) const {
   if (!budget_.options().is_limited()) return;
   const bool home = keeps_way_home();
   const PathField from_home = home ? ways_from_home() : PathField{};
+  const auto from_here = navigator_.plan();
   for (Candidate& view : views) {
-    const Eigen::Vector2d place_m = position(robot_.base_for_sensor(view.T_world_sensor));
-    const double back_m = home ? way_home_m(from_home, place_m) : 0.0;
+    const Pose2 base = robot_.base_for_sensor(view.T_world_sensor);
+    const double back_m = home ? way_home_m(from_home, position(base)) : 0.0;
+    // One that is too far from what it is to look at may be taken for want of a better one.
+    const double way_m = view.reachable ? view.path_length_m : path_length_m(*from_here, base);
     const bool affordable =
-        view.reachable && budget_.affords_view(rates_, spent(), view.path_length_m, back_m);
+        std::isfinite(way_m) && budget_.affords_view(rates_, spent(), way_m, back_m);
     view.exhausted = view.exhausted || !affordable;
   }
 }

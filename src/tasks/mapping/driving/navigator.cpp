@@ -245,6 +245,7 @@ Approach Navigator::approach(const Pose2& goal, const std::optional<Eigen::Vecto
     const DriveResult driven = drive(path);
     result.path_length_m += driven.path_length_m;
     result.reached = driven.status == DriveStatus::arrived && path.reaches_goal;
+    result.turned_back = turned_back_;
     if (result.reached || turned_back_ || driven.status == DriveStatus::stuck) return result;
   }
   return result;

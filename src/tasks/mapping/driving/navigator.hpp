@@ -20,6 +20,7 @@ namespace vantage {
 /// How far the robot got towards a goal.
 struct Approach {
   bool reached = false;
+  bool turned_back = false;  ///< Navigator::may_go_on said no
   double path_length_m = 0.0;
 };
 

@@ -44,6 +44,7 @@ struct ScanRecord {
   double scan_energy_j = 0.0;  ///< of that, by the scan itself
   double path_length_m = 0.0;  ///< truly travelled up to here
   double leg_length_m = 0.0;   ///< of that, since the scan before
+  double planned_way_m = 0.0;  ///< to the view, as planned when it was chosen; infinite: none
   double pose_error_m = 0.0;
   double pose_error_before_registration_m = 0.0;  ///< of the wheels alone since the scan before
   double pose_error_tracked_m = 0.0;  ///< of the pose that registration of the scan started from

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <numbers>
 
 #include "vantage/runtime/process/line_buffer.hpp"
 
@@ -27,7 +28,8 @@ Json sensor_json(const Pose& T_world_sensor) {
 }
 
 Json field_json(const FieldOfView& field) {
-  return {{"half_width_rad", field.half_width_rad},
+  return {{"panorama", field.panorama},
+          {"half_width_rad", field.panorama ? std::numbers::pi : field.half_width_rad},
           {"tilt_min_rad", field.tilt_min_rad},
           {"tilt_max_rad", field.tilt_max_rad},
           {"range_min_m", field.range_min_m},

@@ -13,8 +13,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array kShares_percent{80, 90, 95, 97, 98};
-constexpr double kTimeStep_s = 20.0;
-constexpr double kPathStep_m = 1.0;
 
 double share_left(const ScanRecord& scan, std::size_t observable_cells) {
   if (observable_cells == 0) return 0.0;
@@ -43,7 +41,7 @@ Curve sampled(const MeasuredEpisode& episode, const char* along, double step) {
   const double all = episode.metrics.at("observable_cells").get<double>();
   Curve shares;
   if (at.empty() || all <= 0.0) return shares;
-  const auto samples = static_cast<std::size_t>(std::floor(at.back() / step)) + 1;
+  const auto samples = static_cast<std::size_t>(std::ceil(at.back() / step)) + 1;
   std::size_t done = 0;
   for (std::size_t k = 0; k < samples; ++k) {
     while (done < at.size() && at[done] <= static_cast<double>(k) * step) ++done;
@@ -74,11 +72,11 @@ std::optional<double> reached_95(const MeasuredEpisode& episode) {
 }
 
 Curve share_left_over_time(const MeasuredEpisode& episode) {
-  return sampled(episode, "time_s", kTimeStep_s);
+  return sampled(episode, "time_s", kAlongTime.step);
 }
 
 Curve share_left_over_path(const MeasuredEpisode& episode) {
-  return sampled(episode, "path_length_m", kPathStep_m);
+  return sampled(episode, "path_length_m", kAlongPath.step);
 }
 
 }  // namespace vantage

@@ -51,9 +51,11 @@ inline constexpr auto kProgressTexts =
 
 /// What a study reads of them.
 std::optional<double> reached_95(const MeasuredEpisode& episode);
-/// The share left at the times 0, 20, 40, ... s, up to the end of the run.
+inline constexpr CurveAxis kAlongTime{"simulated time, s", 0.0, 20.0};
+inline constexpr CurveAxis kAlongPath{"distance travelled, m", 0.0, 1.0};
+/// The share left at the steps of kAlongTime, up to the first from the last scan on.
 Curve share_left_over_time(const MeasuredEpisode& episode);
-/// At each metre of the way.
+/// At those of kAlongPath.
 Curve share_left_over_path(const MeasuredEpisode& episode);
 
 }  // namespace vantage
