@@ -69,7 +69,7 @@ Finding never_touches(const StudyTables& study) {
     for (const std::string& level : study.levels()) {
       collisions += study.mean("collisions", kAllPanels, level);
     }
-    return {fmt::format("{:.2f} an episode, over all choices",
+    return {fmt::format("{:.3g} an episode, over all choices",
                         collisions / static_cast<double>(study.levels().size())),
             collisions == 0.0, "see `collisions` by episode"};
   });

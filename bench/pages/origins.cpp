@@ -17,22 +17,24 @@ std::vector<std::string> code_with(const std::vector<std::string>& more) {
   return code;
 }
 
-/// The program that printed a benchmark of that name.
-std::string program_of(const std::string& benchmark) {
-  if (benchmark == "scaling") return "decision";
-  if (benchmark.starts_with("planning_")) return "planning";
-  return benchmark == "office_views" ? "office" : benchmark;
+/// The sources of the program that printed a benchmark of that name.
+std::vector<std::string> sources_of(const std::string& benchmark) {
+  if (benchmark == "env") return {"bench/env.py", "bench/swept.cpp", "bench/episode.cpp", "python"};
+  if (benchmark == "scaling") return {"bench/decision.cpp"};
+  if (benchmark.starts_with("planning_")) return {"bench/planning.cpp"};
+  return {fmt::format("bench/{}.cpp", benchmark == "office_views" ? "office" : benchmark)};
 }
 
 }  // namespace
 
 std::string marked_commit(const std::string& benchmark, const std::string& commit,
                           const std::filesystem::path& file) {
-  const Freshness freshness = freshness_of(
-      {.commits = {commit},
-       .file = file,
-       .code = code_with({"bench/" + program_of(benchmark) + ".cpp", "bench/situation.cpp",
-                          "bench/castray.cpp", "bench/measures.cpp"})});
+  std::vector<std::string> sources = sources_of(benchmark);
+  for (const char* shared : {"bench/situation.cpp", "bench/castray.cpp", "bench/measures.cpp"}) {
+    sources.emplace_back(shared);
+  }
+  const Freshness freshness =
+      freshness_of({.commits = {commit}, .file = file, .code = code_with(sources)});
   return commit + mark(freshness);
 }
 

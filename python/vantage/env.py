@@ -42,10 +42,10 @@ class Env(_Base):  # type: ignore[misc]
 
     Reward: share of the map's cells that the scan newly shows the robot, less `time_cost_per_s` times the
     simulated time it took. Terminated: there is no more to be seen, or the robot failed. Truncated: scans or
-    budget are used up.
+    budget are used up, or `max_invalid` rows in a row were not open.
 
     All of an observation is what the robot believes. When an episode has ended info["metrics"] has what it came
-    to, measured by ground truth.
+    to, measured by ground truth; one that `max_invalid` truncates has come to nothing, and has none.
 
     Parameters
     ----------

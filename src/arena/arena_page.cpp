@@ -38,10 +38,9 @@ Sampled sampled(const StudyResults& results, const Leaderboard& board, Take&& ta
 /// @param end of x, at the last sample
 FigureSeries series_of(const Figure& figure, const std::string& panel, const Standing& standing,
                        const Sampled& sampled, double end) {
-  FigureSeries series = mean_series(figure, panel, standing.planner, standing.level,
-                                    {sampled.curves, sampled.clusters}, 0, true);
-  for (FigurePoint& point : series.points) point.x *= end / static_cast<double>(kSamples - 1);
-  return series;
+  const CurveSteps steps{0.0, end / static_cast<double>(kSamples - 1)};
+  return mean_series(figure, panel, standing.planner, standing.level,
+                     {sampled.curves, sampled.clusters}, steps, true);
 }
 
 double horizon_of(const StudyResults& results, const Leaderboard& board, std::size_t panel) {

@@ -12,6 +12,7 @@
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/cli/sweep/cluster_verbs.hpp"
 #include "vantage/cli/sweep/verbs.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/study/compare.hpp"
 
 namespace vantage {
@@ -144,9 +145,8 @@ std::function<ExitCode()> declare_compare(CLI::App& app) {
     }
     const FolderComparison comparison =
         compare_folders(arguments->first, arguments->second, arguments->tolerance);
-    fmt::print("{}", arguments->json
-                         ? comparison_json(comparison, arguments->tolerance).dump(2) + "\n"
-                         : comparison_text(comparison, arguments->all));
+    fmt::print("{}", arguments->json ? json_text(comparison_json(comparison, arguments->tolerance))
+                                     : comparison_text(comparison, arguments->all));
     return comparison.beyond == 0 ? ExitCode::done : ExitCode::goal_failed;
   };
 }

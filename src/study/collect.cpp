@@ -8,6 +8,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/runtime/scene_file.hpp"
 #include "vantage/study/cluster/worker.hpp"
 #include "vantage/study/figures/flight_figure.hpp"
@@ -120,7 +121,7 @@ void write_into(const fs::path& directory, const StudyResults& results,
   }
   write_flights(results, directory);
   write_file(directory / "summary.md", study_summary(results, evaluation));
-  write_file(directory / "summary.json", summary_json(results, evaluation).dump(2) + "\n");
+  write_file(directory / "summary.json", json_text(summary_json(results, evaluation)));
 }
 
 }  // namespace

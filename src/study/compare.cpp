@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 /// What depends on the machine and its load.
 constexpr auto kWallTimes = std::to_array<std::string_view>(
     {"wall_time_s", "real_time_factor", "plan_time_s", "map_time_s", "feature_time_s",
-     "selection_time_s", "late_plans", "replan_time_s", "replan_time_p95_s"});
+     "selection_time_s", "view_time_s", "late_plans", "replan_time_s", "replan_time_p95_s"});
 /// Texts that must agree under any tolerance.
 constexpr auto kBinding = std::to_array<std::string_view>({"task", "status", "title"});
 

@@ -52,7 +52,7 @@ Comparison scalar_comparison(const StudyResults& results, const Layout& layout,
 /// @param curve_of (episode, index of the name) -> pointer to its curve, or null
 template <class CurveOf>
 void add_panels(Figure& figure, const StudyResults& results, const Layout& layout,
-                const std::vector<std::string>& names, int first_x, bool carry_last,
+                const std::vector<std::string>& names, const CurveSteps& steps, bool carry_last,
                 CurveOf&& curve_of) {
   const auto& panels = layout.panels();
   for (std::size_t p = 0; p < panels.size(); ++p) {
@@ -69,7 +69,7 @@ void add_panels(Figure& figure, const StudyResults& results, const Layout& layou
       }
       if (curves.empty()) continue;
       panel.series.push_back(
-          mean_series(figure, panels[p], names[s], s, {curves, clusters}, first_x, carry_last));
+          mean_series(figure, panels[p], names[s], s, {curves, clusters}, steps, carry_last));
     }
     figure.panels.push_back(std::move(panel));
   }
@@ -89,14 +89,15 @@ void note_cluster(Figure& figure, const std::string& cluster) {
 Figure curve_figure(const StudyResults& results, const Layout& layout, const std::string& name) {
   const std::size_t curve = *find_curve(name);
   const MeasureName& measure = curve_measures()[curve];
+  const CurveAxis& along = curve_axis(curve);
   Figure figure{.name = name,
                 .title = results.study.title,
                 .subtitle = measure_text(measure),
-                .x_label = steps_of(results),
+                .x_label = along.label.empty() ? steps_of(results) : std::string(along.label),
                 .y_label = std::string(measure.title),
                 .panels = {}};
   note_cluster(figure, results.study.report.cluster);
-  add_panels(figure, results, layout, layout.levels(), 1, true,
+  add_panels(figure, results, layout, layout.levels(), {along.first, along.step}, true,
              [&](std::size_t episode, std::size_t level) -> const Curve* {
                if (layout.level(episode) != level) return nullptr;
                return &results.measures[episode]->curves[curve];
@@ -154,7 +155,7 @@ void add_predictors(Evaluation& evaluation, const StudyResults& results, const L
                 .y_label = title,
                 .panels = {}};
   note_cluster(figure, report.cluster);
-  add_panels(figure, results, layout, predictors, 2, false, error_of);
+  add_panels(figure, results, layout, predictors, {.first_x = 2.0}, false, error_of);
   evaluation.figures.push_back(std::move(figure));
 }
 

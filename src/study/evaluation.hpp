@@ -37,7 +37,7 @@ struct Evaluation {
   std::vector<Comparison> comparisons;  ///< StudyReport::tables, then the predictors
   std::vector<Figure> figures;          ///< StudyReport::curves, then the predictors
 };
-/// Of the completed episodes.
+/// Of the episodes that completed or failed.
 Evaluation evaluate(const StudyResults& results);
 
 }  // namespace vantage

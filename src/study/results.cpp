@@ -8,9 +8,9 @@
 #include <array>
 
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/core/hash.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/report/json_file.hpp"
+#include "vantage/runtime/manifest.hpp"
 
 namespace vantage {
 namespace {
@@ -49,7 +49,8 @@ std::string reason(const fs::path& folder, EpisodeState state) {
     return text(read_json_or_null(folder / "failure.json"), "reason");
   }
   if (is_result(state)) return text(read_json_or_null(folder / "metrics.json"), "reason");
-  if (state == EpisodeState::stale) return "the configuration or the scene has changed since";
+  if (state == EpisodeState::stale)
+    return "the configuration, or a file of scene, robot or model, has changed since";
   return {};
 }
 
@@ -99,9 +100,15 @@ Json read_json_or_null(const fs::path& file) {
   return json_object_or_null<Json>(read_file(file));
 }
 
-std::string ResultCheck::scene_hash(const fs::path& scene) {
-  auto [entry, is_new] = scene_hashes_.try_emplace(scene);
-  if (is_new) entry->second = hash_text(hash_file(scene));
+/// Hashed once for all episodes that have the same.
+const ResultCheck::Hashes& ResultCheck::assets(const ResolvedEpisode& resolved) {
+  const std::vector<InputFile> read = inputs(resolved.task);
+  const RobotFolder& robot = resolved.setup.robot;
+  std::string names = fmt::format("{}\n{}\n{}", resolved.setup.scene.string(),
+                                  robot.description.string(), robot.mjcf.string());
+  for (const InputFile& input : read) names += "\n" + input.path.string();
+  auto [entry, is_new] = assets_.try_emplace(names);
+  if (is_new) entry->second = asset_hashes(resolved.setup, read);
   return entry->second;
 }
 
@@ -117,8 +124,8 @@ EpisodeState ResultCheck::in_folder(const fs::path& folder, const PlannedEpisode
                                                       : EpisodeState::missing;
   }
   const Json manifest = read_json_or_null(folder / "manifest.json");
-  if (!same_configuration(folder, episode.resolved) ||
-      text(manifest, "scene_hash") != scene_hash(episode.resolved.setup.scene)) {
+  if (!same_configuration(folder, episode.resolved) || !manifest.is_object() ||
+      manifest.value("assets", Json()) != Json(assets(episode.resolved))) {
     return EpisodeState::stale;
   }
   for (const EpisodeState state : {EpisodeState::interrupted, EpisodeState::failed,

@@ -17,7 +17,7 @@ namespace vantage {
 
 enum class EpisodeState {
   missing,      ///< not run yet
-  stale,        ///< run with another configuration or scene
+  stale,        ///< run with another configuration, or with other files
   interrupted,  ///< ended by the user
   crashed,      ///< run, and no result came of it
   failed,       ///< a result: the task was not done
@@ -33,7 +33,7 @@ std::filesystem::path episode_folder(const std::filesystem::path& study_dir,
                                      const PlannedEpisode& episode);
 
 /// Whether a result fits what would run now: a whole metrics.json, the same configuration (but for
-/// `threads`, which changes no result) and the same scene file.
+/// `threads`, which changes no result) and the same files of scene, robot and model.
 class ResultCheck {
  public:
   EpisodeState operator()(const std::filesystem::path& study_dir, const PlannedEpisode& episode);
@@ -41,8 +41,9 @@ class ResultCheck {
   EpisodeState in_folder(const std::filesystem::path& folder, const PlannedEpisode& episode);
 
  private:
-  std::string scene_hash(const std::filesystem::path& scene);
-  std::map<std::filesystem::path, std::string> scene_hashes_;
+  using Hashes = std::map<std::string, std::string>;
+  const Hashes& assets(const ResolvedEpisode& resolved);
+  std::map<std::string, Hashes> assets_;  ///< by the names of scene, robot and inputs
 };
 
 /// metrics.json, manifest.json or failure.json; null if it is missing or not whole.

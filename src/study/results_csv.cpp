@@ -7,6 +7,8 @@
 #include <set>
 
 #include "vantage/core/hash.hpp"
+#include "vantage/report/report_data.hpp"
+
 namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
@@ -110,7 +112,8 @@ std::string timings_of(const StudyResults& results, std::size_t i,
     text += value ? fmt::format(",{}", *value) : ",";
   }
   const Json manifest = manifest_of(results, i);
-  return text + fmt::format(",{},{}\n", manifest.value("threads", 0), manifest.value("cpu", ""));
+  return text + fmt::format(",{},{}\n", manifest.value("threads", 0),
+                            csv_field(manifest.value("cpu", "")));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <set>
 
@@ -88,12 +89,17 @@ Factor seed_factor(const ConfigNode& node) {
   return factor;
 }
 
+/// Of results.csv and timings.csv, whatever is measured.
+constexpr auto kColumns = std::to_array<std::string_view>(
+    {"episode", "status", "state_hash", "config_hash", "commit", "wall_time_s", "real_time_factor",
+     "plan_time_s", "map_time_s", "threads", "cpu"});
+
 Factor factor_of(const std::string& name, ConfigNode& node, const fs::path& base,
                  Problems& problems) {
   require_name(node, name, "factor");
   detail::require_kind(node, ConfigNode::Kind::map);
   if (node.entries.empty()) throw ConfigError(node.where() + ": a factor needs a level");
-  if (name == "episode" || name == "status" || name == "state_hash" || find_scalar(name)) {
+  if (std::ranges::find(kColumns, name) != kColumns.end() || find_scalar(name)) {
     throw ConfigError(
         fmt::format("{}: the results have a column '{}' already", node.where(), name));
   }
@@ -209,7 +215,14 @@ void complete_report(const ConfigNode& root, const fs::path& file, StudyReading&
     report.compare = compared_by_default(factors);
   }
   if (!report.panels.empty()) {
-    problems.attempt([&] { require_known(where("panels"), "factor", report.panels, factors); });
+    problems.attempt([&] {
+      require_known(where("panels"), "factor", report.panels, factors);
+      const auto& levels = study.factors[factor_index(study, report.panels)].levels;
+      if (levels.size() > 1 && std::ranges::find(levels, "all", &Level::name) != levels.end()) {
+        throw ConfigError(where("panels") +
+                          ": the level 'all' has the name of all panels together");
+      }
+    });
   }
   if (!report.cluster.empty()) {
     problems.attempt([&] { require_known(where("cluster"), "factor", report.cluster, factors); });

@@ -459,6 +459,14 @@ TEST(ReportData, CsvQuotes) {
   EXPECT_EQ(table.rows.at(0), (std::vector<std::string>{"x \"y\"", ""}));
 }
 
+TEST(ReportData, CsvFieldsComeBackAsTheyWere) {
+  const TemporaryDirectory folder;
+  for (const std::string field : {"plain", "a, b", "say \"x\"", "\"", ""}) {
+    write_file(folder / "t.csv", "a,b\n" + csv_field(field) + "," + csv_field("1") + "\n");
+    EXPECT_EQ(read_csv(folder / "t.csv").rows.at(0), (std::vector<std::string>{field, "1"}));
+  }
+}
+
 // The test vectors of RFC 4648.
 TEST(ReportData, Base64) {
   EXPECT_EQ(base64(""), "");

@@ -6,9 +6,9 @@
 
 #include <fstream>
 
+#include "tests/study/manifest_of_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
-#include "vantage/core/hash.hpp"
 
 namespace vantage {
 namespace {
@@ -31,8 +31,7 @@ class Attempts : public testing::Test {
   void complete(const fs::path& folder, const std::string& mark) {
     fs::create_directories(folder);
     std::ofstream(folder / "config.yaml") << episode_yaml(episode_.resolved);
-    std::ofstream(folder / "manifest.json") << fmt::format(
-        R"({{"scene_hash": "{}"}})", hash_text(hash_file(episode_.resolved.setup.scene)));
+    std::ofstream(folder / "manifest.json") << manifest_of_files(episode_.resolved);
     std::ofstream(folder / "metrics.json") << R"({"status": "completed"})";
     std::ofstream(folder / "mark") << mark;
   }

@@ -7,8 +7,8 @@
 
 #include <fstream>
 
+#include "tests/study/manifest_of_files.hpp"
 #include "tests/support/temporary_directory.hpp"
-#include "vantage/core/hash.hpp"
 
 namespace vantage {
 namespace {
@@ -22,8 +22,7 @@ class Results : public testing::Test {
     folder_ = episode_folder(study_.path(), episode_);
     fs::create_directories(folder_);
     write("config.yaml", episode_yaml(episode_.resolved));
-    write("manifest.json", fmt::format(R"({{"scene_hash": "{}"}})",
-                                       hash_text(hash_file(episode_.resolved.setup.scene))));
+    write("manifest.json", manifest_of_files(episode_.resolved));
     write("metrics.json", R"({"status": "completed"})");
   }
   void write(const std::string& name, const std::string& text) {
@@ -54,14 +53,25 @@ TEST_F(Results, AnotherTaskIsStale) {
   episode_.resolved.task = task;
   EXPECT_EQ(state(), EpisodeState::stale);
   write("config.yaml", episode_yaml(episode_.resolved));
+  write("manifest.json", manifest_of_files(episode_.resolved));
   EXPECT_EQ(state(), EpisodeState::completed);
   std::get<RecognitionTask>(episode_.resolved.task).decision.max_views = 4;
   EXPECT_EQ(state(), EpisodeState::stale);
 }
 
-TEST_F(Results, AnotherSceneIsStale) {
-  write("manifest.json", R"({"scene_hash": "0"})");
+TEST_F(Results, AnotherFileOfSceneOrRobotIsStale) {
+  const std::string whole = manifest_of_files(episode_.resolved);
+  for (const std::string file : {"scene.xml", "robot.yaml", "pr2.xml"}) {
+    nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(whole);
+    ASSERT_TRUE(manifest["assets"].contains(file)) << whole;
+    manifest["assets"][file] = "0";
+    write("manifest.json", manifest.dump());
+    EXPECT_EQ(state(), EpisodeState::stale) << file;
+  }
+  write("manifest.json", "{}");
   EXPECT_EQ(state(), EpisodeState::stale);
+  write("manifest.json", whole);
+  EXPECT_EQ(state(), EpisodeState::completed);
 }
 
 TEST_F(Results, HalfWrittenFoldersAreNoResult) {

@@ -216,6 +216,17 @@ TEST_F(StudyFile, NamesThatMakeNoFolderOrColumn) {
   expect_problem(replaced(kSmallStudy, "  start:", "  area:"), {"s.yaml:4", "area"});
 }
 
+/// Of the tables of results, and of all panels together.
+TEST_F(StudyFile, NamesThatAreTaken) {
+  for (const char* name : {"episode", "config_hash", "commit", "threads", "cpu", "wall_time_s"}) {
+    expect_problem(replaced(kSmallStudy, "  start:", std::string("  ") + name + ":"),
+                   {"a column", name});
+  }
+  const std::string all = replaced(kSmallStudy, "    near:", "    all:");
+  expect_problem(all + "report: {panels: start}\n", {"panels", "'all'"});
+  read(all);
+}
+
 TEST_F(StudyFile, TheReportNamesWhatThereIs) {
   const std::string text = std::string(kSmallStudy) + "report: ";
   expect_problem(text + "{compare: metod}\n", {"s.yaml:10", "metod", "start, method"});

@@ -56,7 +56,7 @@ ExitCode write_all(const fs::path& arena, bool json) {
   if (json) {
     auto told = status_json(arena, results.plan, results.states);
     told["page"] = page;
-    fmt::print("{}\n", told.dump(2));
+    fmt::print("{}", json_text(told));
   } else {
     fmt::print("{}\n{}: {}page {}\n", leaderboard_text(board), arena.string(),
                status_text(arena, results.plan, results.states), page);

@@ -11,6 +11,7 @@
 
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/study/sweep/submission.hpp"
 #include "vantage/study/sweep/sweep.hpp"
 
@@ -48,12 +49,11 @@ std::size_t open_episodes(const fs::path& directory, const Study& study) {
 void print_submission(const SweepArguments& arguments, const fs::path& directory,
                       const Submission& submission, std::size_t episodes) {
   if (arguments.json) {
-    fmt::print("{}\n", nlohmann::ordered_json({{"directory", directory.string()},
-                                               {"episodes", episodes},
-                                               {"tasks", submission.tasks},
-                                               {"array", submission.array},
-                                               {"collect", submission.collect}})
-                           .dump(2));
+    fmt::print("{}", json_text({{"directory", directory.string()},
+                                {"episodes", episodes},
+                                {"tasks", submission.tasks},
+                                {"array", submission.array},
+                                {"collect", submission.collect}}));
     return;
   }
   if (submission.tasks == 0) {
@@ -136,7 +136,7 @@ ExitCode cancel_study(const SweepArguments& arguments) {
   }
   if (!jobs.empty()) cancel_jobs(jobs);
   if (arguments.json) {
-    fmt::print("{}\n", nlohmann::ordered_json({{"cancelled", jobs}}).dump(2));
+    fmt::print("{}", json_text({{"cancelled", jobs}}));
   } else if (jobs.empty()) {
     fmt::print("{}: nothing is queued or running\n", directory.string());
   } else {

@@ -8,6 +8,7 @@
 #include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/study/collect.hpp"
 #include "vantage/study/sweep/submission.hpp"
 #include "vantage/study/sweep/sweep.hpp"
@@ -77,7 +78,7 @@ void print_status(const SweepArguments& arguments, const fs::path& directory,
   }
   auto json = status_json(directory, plan, states, activities);
   if (!submissions.empty()) json["slurm"] = submissions_json(submissions, queue);
-  fmt::print("{}\n", json.dump(2));
+  fmt::print("{}", json_text(json));
 }
 
 ExitCode run_study(const SweepArguments& arguments) {
@@ -107,7 +108,7 @@ ExitCode print_study_plan(const SweepArguments& arguments) {
     if (!is_result(states[i])) names.push_back(plan[i].name);
   }
   if (arguments.json) {
-    fmt::print("{}\n", nlohmann::ordered_json({{"episodes", names}}).dump(2));
+    fmt::print("{}", json_text({{"episodes", names}}));
   } else {
     for (const std::string& name : names) fmt::print("{}\n", name);
   }

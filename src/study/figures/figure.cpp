@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "vantage/report/report_data.hpp"
+
 namespace vantage {
 namespace {
 
@@ -32,7 +34,7 @@ std::string interval_csv(const Interval& interval, std::size_t values) {
 }
 
 FigureSeries mean_series(const Figure& figure, const std::string& panel, const std::string& name,
-                         std::size_t style, const MarkedCurves& episodes, int first_x,
+                         std::size_t style, const MarkedCurves& episodes, const CurveSteps& steps,
                          bool carry_last) {
   std::size_t length = 0;
   for (const auto& curve : episodes.curves) length = std::max(length, curve.size());
@@ -41,8 +43,9 @@ FigureSeries mean_series(const Figure& figure, const std::string& panel, const s
     const auto [values, marks] = values_at(episodes, k, carry_last);
     const Clusters clusters = clusters_of(marks);
     Rng rng = Rng::stream(kFigureSeed, fmt::format("{}/{}/{}/{}", figure.name, panel, name, k));
-    series.points.push_back({static_cast<double>(first_x) + static_cast<double>(k), values.size(),
-                             clusters.size(), mean(values), bootstrap_mean(values, clusters, rng)});
+    const double x = steps.first_x + static_cast<double>(k) * steps.step;
+    series.points.push_back(
+        {x, values.size(), clusters.size(), mean(values), bootstrap_mean(values, clusters, rng)});
   }
   return series;
 }
@@ -54,12 +57,14 @@ std::string full_title(const Figure& figure) {
 }
 
 std::string figure_csv(const Figure& figure) {
-  std::string text = fmt::format("panel,series,{},episodes,mean,low,high\n", figure.x_label);
+  std::string text =
+      fmt::format("panel,series,{},episodes,mean,low,high\n", csv_field(figure.x_label));
   for (const FigurePanel& panel : figure.panels) {
     for (const FigureSeries& series : panel.series) {
       for (const FigurePoint& point : series.points) {
-        text += fmt::format("{},{},{},{},{},{}\n", panel.title, series.name, point.x, point.count,
-                            point.mean, interval_csv(point.interval, point.clusters));
+        text += fmt::format("{},{},{},{},{},{}\n", csv_field(panel.title), csv_field(series.name),
+                            point.x, point.count, point.mean,
+                            interval_csv(point.interval, point.clusters));
       }
     }
   }

@@ -49,10 +49,16 @@ struct MarkedCurves {
   const std::vector<std::size_t>& clusters;
 };
 
-/// Adds the mean and its interval at each x = first_x, first_x + 1, ... of curves that may differ
-/// in length; `carry_last`: a curve that has ended keeps its last value.
+/// Where the values of a curve stand.
+struct CurveSteps {
+  double first_x = 1.0;
+  double step = 1.0;
+};
+
+/// Adds the mean and its interval at each step of curves that may differ in length; `carry_last`: a
+/// curve that has ended keeps its last value.
 FigureSeries mean_series(const Figure& figure, const std::string& panel, const std::string& name,
-                         std::size_t style, const MarkedCurves& episodes, int first_x,
+                         std::size_t style, const MarkedCurves& episodes, const CurveSteps& steps,
                          bool carry_last);
 
 /// Title and subtitle in one line.

@@ -9,6 +9,7 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/study/sweep/attempt.hpp"
 
 namespace vantage {
@@ -110,7 +111,7 @@ Submission submit(const SubmitOptions& options) {
   const auto record = [&] {
     const Json json = {
         {"array", submission.array}, {"collect", submission.collect}, {"tasks", submission.tasks}};
-    write_file(folder / (submission.array + ".json"), json.dump(2) + "\n");
+    write_file(folder / (submission.array + ".json"), json_text(json));
   };
   record();  // at once: cancel can end what is queued
   try {

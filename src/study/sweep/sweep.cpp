@@ -15,6 +15,7 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/json.hpp"
 #include "vantage/study/sweep/child_process.hpp"
 #include "vantage/study/sweep/work_list.hpp"
 
@@ -144,7 +145,7 @@ class Sweep {
   static void record_failure(const fs::path& folder, int exit_code) {
     const nlohmann::ordered_json failure = {{"exit_code", exit_code},
                                             {"reason", last_line(folder / "output.txt")}};
-    write_file(folder / "failure.json", failure.dump(2) + "\n");
+    write_file(folder / "failure.json", json_text(failure));
   }
 
   void report(const PlannedEpisode& episode) {

@@ -18,7 +18,7 @@ const std::vector<std::size_t> kApart{0, 1};
 
 TEST(MeanSeries, EndedCurvesKeepTheirLastValue) {
   const std::vector<std::vector<double>> curves{{4.0, 2.0}, {8.0, 6.0, 4.0}};
-  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, kApart}, 1, true);
+  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, kApart}, {}, true);
   ASSERT_EQ(series.points.size(), 3U);
   EXPECT_EQ(series.points[0].x, 1.0);
   EXPECT_DOUBLE_EQ(series.points[0].mean, 6.0);
@@ -28,8 +28,8 @@ TEST(MeanSeries, EndedCurvesKeepTheirLastValue) {
 
 TEST(MeanSeries, OrAreLeftOut) {
   const std::vector<std::vector<double>> curves{{4.0, 2.0}, {8.0, 6.0, 4.0}};
-  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, kApart}, 2, false);
-  EXPECT_EQ(series.points[2].x, 4.0);
+  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, kApart}, {2.0, 0.5}, false);
+  EXPECT_EQ(series.points[2].x, 3.0);
   EXPECT_DOUBLE_EQ(series.points[2].mean, 4.0);
   EXPECT_EQ(series.points[2].count, 1U);
 }
@@ -38,7 +38,7 @@ TEST(MeanSeries, OrAreLeftOut) {
 TEST(MeanSeries, BandsAreOfClusters) {
   const std::vector<std::vector<double>> curves{{4.0}, {8.0}};
   const std::vector<std::size_t> alike{3, 3};
-  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, alike}, 1, true);
+  const FigureSeries series = mean_series({}, "p", "s", 0, {curves, alike}, {}, true);
   EXPECT_EQ(series.points[0].count, 2U);
   EXPECT_EQ(series.points[0].clusters, 1U);
   EXPECT_DOUBLE_EQ(series.points[0].interval.low, 6.0);
