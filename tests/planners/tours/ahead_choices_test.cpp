@@ -113,12 +113,14 @@ TEST(Rollout, IsTheTourWhereTheMapIsCertain) {
 
 /// The way past the poor view on to the rich one cannot be paid, on no map.
 TEST(Rollout, HasTheBudgetInTheMapsDrawnToo) {
-  PlanningProblem problem = on_a_line({15.0, -15.0, 75.0}, {10.0F, 100.0F, 1000.0F});
+  PlanningProblem problem = on_a_line({15.0, -28.0, 75.0}, {10.0F, 100.0F, 1000.0F});
   problem.scan_s = 10.0;
-  problem.left.time_s = 40.0;
   problem.draw = [&problem](Rng&) { return shown_by(problem); };
-  EXPECT_EQ(order_of(TourChoice{}, problem), (test::Order{1}));
-  EXPECT_EQ(order_of(Rollout{}, problem), (test::Order{1}));
+  Rollout rollout;
+  rollout.worth_s = 500.0;
+  EXPECT_EQ(order_of(rollout, problem).front(), 2U);
+  problem.left.time_s = 40.0;
+  EXPECT_EQ(order_of(rollout, problem), test::Order{1});
 }
 
 TEST(Rollout, KeepsAPlanUnlessAnotherIsBetterByEnough) {
