@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,16 +14,6 @@
 
 namespace vantage::bench {
 namespace {
-
-std::vector<std::string> words(const std::string& text) {
-  std::vector<std::string> result;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    if (end > at) result.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return result;
-}
 
 void print_row(const std::string& settings, std::span<const ReachedShare> levels) {
   fmt::print("{:40}", settings);
@@ -56,7 +47,8 @@ void explore(std::span<char*> arguments) {
   const ModelledBuilding building(load_episode(file, common));
   for (const std::string settings : arguments.subspan(4)) {
     std::vector<std::string> sets = common;
-    for (std::string& set : words(settings)) sets.push_back(std::move(set));
+    std::istringstream words(settings);
+    for (std::string set; words >> set;) sets.push_back(set);
     const ResolvedEpisode resolved = load_episode(file, sets);
     const auto& task = std::get<Exploration>(resolved.task);
     print_row(settings, ModelledExploration(building, task).run({0.5, 0.8, 0.9, 0.95}));

@@ -22,15 +22,12 @@ PlannedViews Rollout::operator()(const PlanningProblem& problem, Rng& rng) const
     }
   }
   std::vector<double> weighed_s = sum_s;  // one that goes on as was planned counts as cheaper
-  for (std::size_t i = 0; i < tours.size(); ++i) {
-    if (tours[i].order.front() == problem.intended) weighed_s[i] -= draws * keep_s;
-  }
+  const auto intended = intended_tour(problem, tours);
+  if (intended) weighed_s[*intended] -= draws * keep_s;
   const auto best = static_cast<std::size_t>(  // of equals the better tour
       std::ranges::min_element(weighed_s) - weighed_s.begin());
   PlanCosts costs{.taken_s = sum_s[best] / draws};
-  for (std::size_t i = 0; i < tours.size(); ++i) {
-    if (tours[i].order.front() == problem.intended) costs.intended_s = sum_s[i] / draws;
-  }
+  if (intended) costs.intended_s = sum_s[*intended] / draws;
   return {tours[best].order, costs};
 }
 

@@ -7,9 +7,7 @@ PlannedViews best_plan(const PlanningProblem& problem, const TourOptions& option
   const auto tours = search_tours(problem, options.objective(), options.search());
   if (tours.empty()) return {};
   PlanCosts costs{.taken_s = tours.front().cost_s};
-  for (const Tour& tour : tours) {
-    if (tour.order.front() == problem.intended) costs.intended_s = tour.cost_s;
-  }
+  if (const auto i = intended_tour(problem, tours)) costs.intended_s = tours[*i].cost_s;
   return {tours.front().order, costs};
 }
 

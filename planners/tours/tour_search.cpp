@@ -289,4 +289,12 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
   return tours;
 }
 
+std::optional<std::size_t> intended_tour(const PlanningProblem& problem,
+                                         std::span<const Tour> tours) {
+  for (std::size_t i = 0; i < tours.size(); ++i) {
+    if (tours[i].order.front() == problem.intended) return i;
+  }
+  return std::nullopt;
+}
+
 }  // namespace vantage

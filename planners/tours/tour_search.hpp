@@ -51,4 +51,8 @@ Tour search_tour(const PlanningProblem& problem, const TourObjective& objective,
 std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& objective,
                                const TourSearchOptions& options);
 
+/// Index of the tour that begins where it was intended, if one does.
+std::optional<std::size_t> intended_tour(const PlanningProblem& problem,
+                                         std::span<const Tour> tours);
+
 }  // namespace vantage
