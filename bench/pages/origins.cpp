@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "bench/pages/freshness.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -28,13 +29,22 @@ std::vector<std::string> sources_of(const std::string& benchmark) {
 }  // namespace
 
 std::string marked_commit(const std::string& benchmark, const std::string& commit,
-                          const std::filesystem::path& file) {
+                          const std::filesystem::path& file,
+                          const std::filesystem::path& repository) {
   std::vector<std::string> sources = sources_of(benchmark);
   for (const char* shared : {"bench/situation.cpp", "bench/castray.cpp", "bench/measures.cpp"}) {
     sources.emplace_back(shared);
   }
+  const std::vector<std::string> code = code_with(sources);
+  for (const std::string& source : code) {
+    if (std::filesystem::exists(repository / source)) continue;
+    throw InputError(
+        fmt::format("{}: benchmark {}: there is no {}, which it is of; name its "
+                    "sources in bench/pages/origins.cpp",
+                    file.string(), benchmark, source));
+  }
   const Freshness freshness =
-      freshness_of({.commits = {commit}, .file = file, .code = code_with(sources)});
+      freshness_of({.commits = {commit}, .file = file, .code = code}, repository);
   return commit + mark(freshness);
 }
 

@@ -20,8 +20,11 @@ struct BenchmarkOrigin {
 using Origins = std::map<std::string, BenchmarkOrigin>;
 
 /// The commit with a mark where the code that the benchmark depends on has changed since.
+/// @throws InputError if a path of that code is not there: what it became is not known to be the
+/// same
 std::string marked_commit(const std::string& benchmark, const std::string& commit,
-                          const std::filesystem::path& file);
+                          const std::filesystem::path& file,
+                          const std::filesystem::path& repository = ".");
 
 /// The different entries of a column, "" left out; none if there is no such file or column.
 std::set<std::string> entries_of(const std::filesystem::path& csv, const std::string& column);

@@ -1,10 +1,13 @@
 #include "vantage/planners/objects/object_view_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "vantage/information/discrete.hpp"
 
@@ -81,6 +84,17 @@ std::size_t best_of(const std::vector<ObjectViewScore>& scores) {
 }
 
 }  // namespace
+
+void require_no_weights(const ObjectViewOptions& options, std::string_view where) {
+  for (const auto& [key, weight] : {std::pair("weight_per_s", options.weight_per_s),
+                                    {"weight_per_m", options.weight_per_m},
+                                    {"weight_per_j", options.weight_per_j}}) {
+    if (weight == 0.0) continue;
+    throw ConfigError(
+        fmt::format("{}.{}: {} weighs what motions cost, and here they cost nothing; must be 0",
+                    where, key, weight));
+  }
+}
 
 ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
                                       const ObjectViewSituation& situation, Rng& rng) {

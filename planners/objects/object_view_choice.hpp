@@ -99,6 +99,11 @@ struct ObjectViewOptions {
   }
 };
 
+/// For actions that cost nothing: a gain cannot be divided by that.
+/// @param where `options` are, "recognition.views"
+/// @throws ConfigError naming the key of a weight that is not 0
+void require_no_weights(const ObjectViewOptions& options, std::string_view where);
+
 struct ObjectViewAction {
   double yaw_rad = 0.0;  ///< turn about the object from where the sensor is
   double time_s = 0.0;

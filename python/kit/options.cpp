@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdint>
+#include <optional>
+#include <system_error>
 
 namespace vantage::python {
 namespace {
@@ -56,17 +59,22 @@ ConfigNode made_of(py::handle value, const std::string& key, int depth) {
   return node;
 }
 
+/// None: the text is no such number, or one that does not fit.
+template <class Number>
+std::optional<Number> parsed(const std::string& text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && stopped == end ? std::optional(number) : std::nullopt;
+}
+
 py::object scalar_of(const ConfigNode& node) {
   const std::string& text = node.scalar;
   if (node.quoted) return py::str(text);
   if (text == "true" || text == "false") return py::bool_(text == "true");
-  const char* end = text.data() + text.size();
-  if (long long whole = 0; std::from_chars(text.data(), end, whole).ptr == end) {
-    return py::int_(whole);
-  }
-  if (double real = 0.0; std::from_chars(text.data(), end, real).ptr == end) {
-    return py::float_(real);
-  }
+  if (const auto whole = parsed<long long>(text)) return py::int_(*whole);
+  if (const auto whole = parsed<std::uint64_t>(text)) return py::int_(*whole);
+  if (const auto real = parsed<double>(text)) return py::float_(*real);
   return py::str(text);
 }
 

@@ -86,6 +86,7 @@ ActiveRecogniser::ActiveRecogniser(const std::filesystem::path& model, std::uint
                                    const py::object& recogniser, const py::object& recognition)
     : options_(options_of<RecognitionOptions>(recognition, "recognition", every_feature())),
       rng_(Rng::stream(seed, "recognise")) {
+  require_no_weights(options_.views, "recognition.views");
   const auto wanted = options_of<RecogniserOptions>(recogniser, "recogniser");
   recogniser_ = without_lock([&] { return load_lean_recogniser(model, wanted); });
   known_ = begin_recognition(recogniser_);

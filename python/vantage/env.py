@@ -33,7 +33,8 @@ class Env(_Base):  # type: ignore[misc]
     - `candidates` (n, 11): a row a view, columns as in COLUMNS: gain (share of the map's cells, or bits), the
       interval that the robot holds the truth of it to be in (low and high end as the gain; both -1 where the gain
       has none), travel time (s) and way (m; both -1 where out of reach), sensor pose (m, rad, world), open (1: may
-      be taken); rows beyond the candidates that there are hold 0;
+      be taken; where none may, all are: the robot goes as near as it can); rows beyond the candidates that there are
+      hold 0;
     - `state` (7,): x, y (m), yaw (rad) as believed, scans taken, scans left, time (s), time left (s; -1: no limit).
 
     Action: Discrete(n), the row of a view. An action whose row is not open changes nothing: reward 0,
@@ -54,7 +55,8 @@ class Env(_Base):  # type: ignore[misc]
     blocks : (bx, by, bz)
         Of `map`; at most the cells of the map.
     max_candidates : int
-        Rows of `candidates`; default: the views of the ring on a table top, else the key max_candidates.
+        Rows of `candidates`; default: the views of the ring on a table top, else the key max_candidates. Where
+        there are more views than rows, those that are not open are left out first.
     time_cost_per_s : float
     max_invalid : int
     render_mode : None or "rgb_array"
@@ -91,6 +93,7 @@ class Env(_Base):  # type: ignore[misc]
         self._folder: tempfile.TemporaryDirectory[str] | None = None
         self._stepped: _core.SteppedEpisode | None = None
         self._last: Observation | None = None
+        self._shown: NDArray[np.intp] = np.zeros(0, np.intp)  # of the request's views, those with a row
         self._unobserved = 1.0
         self._time_s = 0.0
         self._invalid = 0
@@ -157,7 +160,7 @@ class Env(_Base):  # type: ignore[misc]
             self._done = self._invalid >= self.max_invalid
             return self._last, 0.0, False, self._done, {**self._info(), "invalid_action": True}
         self._invalid = 0
-        self._stepped.answer(int(action))
+        self._stepped.answer(int(self._shown[int(action)]))
         observation, reward, terminated, truncated, info = self._arrive()
         self._done = terminated or truncated
         return observation, reward, terminated, truncated, info
@@ -229,15 +232,18 @@ class Env(_Base):  # type: ignore[misc]
         self._unobserved, self._time_s = now.unobserved_share, now.time_s
 
     def _fill(self, rows: NDArray[np.float32], request: _core.Request) -> None:
-        n = min(len(request), self.max_candidates)
+        open_views = ~request.exhausted
+        if not open_views.any():
+            open_views = np.ones_like(open_views)
+        self._shown = np.sort(np.argsort(~open_views, kind="stable")[:self.max_candidates])
+        shown, n = self._shown, len(self._shown)
         unit = float(self._cells) if request.gain_unit == "bits" and self._cells else 1.0
-        rows[:n, 0] = request.gain[:n] / unit
+        rows[:n, 0] = request.gain[shown] / unit
         low, high = request.interval.T / unit
         for column, values in enumerate((low, high, request.travel_s, request.path_length_m), 1):
-            rows[:n, column] = np.where(np.isfinite(values), values, -1.0)[:n]
-        rows[:n, 5:10] = request.views[:n]
-        open_rows = ~request.exhausted
-        rows[:n, 10] = (open_rows if open_rows.any() else np.ones_like(open_rows))[:n]
+            rows[:n, column] = np.where(np.isfinite(values), values, -1.0)[shown]
+        rows[:n, 5:10] = request.views[shown]
+        rows[:n, 10] = open_views[shown]
 
     def _result(self, terminated: bool, truncated: bool) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         assert self._last is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
@@ -78,7 +79,7 @@ class Run:
     @property
     def frames(self) -> list[Path]:
         """The still pictures of a run with video, in order: paths of PNG files, not arrays."""
-        return sorted((self.directory / "frames").glob("*.png"))
+        return sorted((self.directory / "frames").glob("*.png"), key=_place_in_order)
 
     def _json(self, name: str) -> dict[str, Any]:
         try:
@@ -86,6 +87,12 @@ class Run:
         except (OSError, ValueError) as error:
             raise _core.InputError(f"{self.directory / name}: {error}") from None
         return content
+
+
+def _place_in_order(picture: Path) -> tuple[int, str]:
+    """By the number in its name: scan_100 comes after scan_99."""
+    number = re.search(r"\d+", picture.name)
+    return (int(number[0]) if number else 0, picture.name)
 
 
 def read_table(path: str | PathLike[str]) -> dict[str, NDArray[Any]]:

@@ -127,7 +127,7 @@ MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& descri
       idle_power_w_(description.idle_power_w),
       actuators_(actuators_of_robot(model)),
       base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
-      outline_(robot_outline(model, base_body_, description.footprint.outline_m)),
+      outline_(robot_outline(model, base_body_, description.footprint.outline_m, where)),
       drive_(find_drive(RobotNames(model, where), model, description.drive, base_body_)) {
   const RobotNames names(model, where);
   if (const auto* wheels = std::get_if<Wheels>(&drive_)) {

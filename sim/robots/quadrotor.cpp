@@ -25,8 +25,8 @@ Eigen::Matrix3d point_inertia(double mass_kg, const Eigen::Vector3d& r_m) {
   return mass_kg * (r_m.squaredNorm() * Eigen::Matrix3d::Identity() - r_m * r_m.transpose());
 }
 
-/// Mass, centre and inertia of the tree of bodies under `root`, whose joints are at their reference
-/// and whose bodies are not turned against it there.
+/// Mass, centre and inertia of the tree of bodies under `root`, whose joints are at their
+/// reference.
 void add_bodies(const mjModel& model, int root, Airframe& airframe) {
   struct Part {
     double mass_kg;
@@ -37,8 +37,12 @@ void add_bodies(const mjModel& model, int root, Airframe& airframe) {
   for (int body = root; body < model.nbody; ++body) {
     if (model.body_rootid[body] != root) continue;
     Eigen::Vector3d p_m = vector_at(model.body_ipos, body);
-    for (int b = body; b != root; b = model.body_parentid[b]) p_m += vector_at(model.body_pos, b);
-    const Eigen::Matrix3d R = quaternion_at(model.body_iquat + 4 * body).toRotationMatrix();
+    Eigen::Matrix3d R = quaternion_at(model.body_iquat + 4 * body).toRotationMatrix();
+    for (int b = body; b != root; b = model.body_parentid[b]) {
+      const Eigen::Matrix3d R_parent_b = quaternion_at(model.body_quat + 4 * b).toRotationMatrix();
+      p_m = R_parent_b * p_m + vector_at(model.body_pos, b);
+      R = R_parent_b * R;
+    }
     const Eigen::Vector3d principal = vector_at(model.body_inertia, body);
     parts.push_back({model.body_mass[body], p_m, R * principal.asDiagonal() * R.transpose()});
     airframe.mass_kg += parts.back().mass_kg;
@@ -51,11 +55,12 @@ void add_bodies(const mjModel& model, int root, Airframe& airframe) {
   }
 }
 
-double downward_gravity(const mjModel& model) {
+double downward_gravity(const mjModel& model, const std::string& scene) {
   const Eigen::Vector3d gravity = vector_at(model.opt.gravity, 0);
   if (gravity.head<2>().norm() > 0.0 || !(gravity.z() < 0.0)) {
-    throw InputError(fmt::format("a quadrotor flies where gravity points down, not along {} {} {}",
-                                 gravity.x(), gravity.y(), gravity.z()));
+    throw InputError(fmt::format(
+        "{}: option gravity: a quadrotor flies where it points down, not along {} {} {}", scene,
+        gravity.x(), gravity.y(), gravity.z()));
   }
   return -gravity.z();
 }
@@ -83,6 +88,22 @@ bool is_thrust(const mjtNum* gear) {
   return gear[0] == 0.0 && gear[1] == 0.0 && gear[2] == 1.0 && gear[3] == 0.0 && gear[4] == 0.0;
 }
 
+/// The greatest thrust, which the rotors have in common.
+double common_thrust_max_N(const RobotNames& names, const mjModel& model,
+                           std::span<const int> rotors) {
+  const double max_N = model.actuator_ctrlrange[2 * rotors.front() + 1];
+  for (const int rotor : rotors) {
+    const mjtNum* range = model.actuator_ctrlrange + 2 * rotor;
+    if (range[0] == 0.0 && range[1] == max_N) continue;
+    names.fail(
+        "rotors",
+        fmt::format("actuator '{}' has the ctrlrange {} {}; all rotors need one from 0, and "
+                    "the same, 0 {}",
+                    model_name(model, ModelObject::actuator, rotor), range[0], range[1], max_N));
+  }
+  return max_N;
+}
+
 /// Four thrusts must give any small torque beside the weight.
 void require_flight(const RobotNames& names, const Airframe& airframe) {
   const Eigen::FullPivLU<Eigen::Matrix4d> mixing(mixing_matrix(airframe));
@@ -100,7 +121,7 @@ void require_flight(const RobotNames& names, const Airframe& airframe) {
 }  // namespace
 
 Quadrotor::Quadrotor(const mjModel& model, const QuadrotorDescription& description,
-                     const std::string& where)
+                     const std::string& where, const std::string& scene)
     : free_joint_(description.free_joint),
       tilt_joint_(description.camera_tilt),
       base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
@@ -110,7 +131,7 @@ Quadrotor::Quadrotor(const mjModel& model, const QuadrotorDescription& descripti
   qpos_ = model.jnt_qposadr[joint];
   dof_ = model.jnt_dofadr[joint];
   find_camera(names, model, description);
-  airframe_.gravity_m_s2 = downward_gravity(model);
+  airframe_.gravity_m_s2 = downward_gravity(model, scene);
   add_bodies(model, base_body_, airframe_);
   find_rotors(names, model, description);
 }
@@ -159,8 +180,8 @@ void Quadrotor::find_rotors(const RobotNames& names, const mjModel& model,
                                   description.rotors[i]));
     }
     airframe_.rotors[i] = {.p_body_m = T_base_rotor.translation(), .torque_per_thrust_m = gear[5]};
-    airframe_.thrust_max_N = model.actuator_ctrlrange[2 * actuator + 1];
   }
+  airframe_.thrust_max_N = common_thrust_max_N(names, model, actuators_);
   require_flight(names, airframe_);
 }
 

@@ -22,11 +22,12 @@ inline constexpr WorldOptions kFlightWorld{.timestep_s = 0.002, .control_period_
 /// alone. Commands hold until the next one and are clipped to what the actuators take.
 class Quadrotor {
  public:
-  /// @param where the robot's folder, for messages
+  /// @param where the robot's folder, and @param scene the MJCF file whose gravity it is, for
+  /// messages
   /// @throws InputError naming key and name if the model lacks what robot.yaml names, or has it
   /// otherwise than the controller takes it to be; or if gravity does not point down.
-  Quadrotor(const mjModel& model, const QuadrotorDescription& description,
-            const std::string& where);
+  Quadrotor(const mjModel& model, const QuadrotorDescription& description, const std::string& where,
+            const std::string& scene);
 
   /// Where it hovers when the episode begins, rotors carrying its weight, camera looking
   /// `camera_pitch_rad` below the horizon of the body. Only before the first tick.

@@ -15,7 +15,7 @@ void check_robot(const RobotFolder& robot) {
   if (const auto* base = std::get_if<MobileBaseDescription>(&robot.kind)) {
     MobileBase(*alone.model, *base, where);
   } else {
-    Quadrotor(*alone.model, std::get<QuadrotorDescription>(robot.kind), where);
+    Quadrotor(*alone.model, std::get<QuadrotorDescription>(robot.kind), where, robot.mjcf.string());
   }
 }
 

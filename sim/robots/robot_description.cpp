@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "vantage/core/yaml.hpp"
+#include "vantage/sim/robots/robot_outline.hpp"
 
 namespace vantage {
 namespace {
@@ -69,7 +70,7 @@ const Description& kind_of(const RobotFolder& robot, const std::string& key) {
 void Footprint::check() const {
   require_size("inscribed_radius_m", inscribed_radius_m);
   require_size("circumscribed_radius_m", circumscribed_radius_m);
-  if (!outline_m.empty() && outline_m.size() < 3) {
+  if (!outline_m.empty() && outline_of_corners(outline_m).size() < 3) {
     throw ConfigError(fmt::format("outline_m: {} corners enclose nothing", outline_m.size()));
   }
   if (inscribed_radius_m <= circumscribed_radius_m) return;

@@ -36,7 +36,7 @@ struct Footprint {
       "narrow passages with; empty: that of all its geoms that can touch something",
       between(-5.0, 5.0));
   }
-  void check() const;  ///< the inscribed circle within the circumscribed one, an outline of corners
+  void check() const;  ///< the inscribed circle within the other one, an outline with an area
 };
 
 struct OmnidirectionalDrive {

@@ -1,5 +1,6 @@
 #include "vantage/sim/robots/robot_outline.hpp"
 
+#include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
 #include <cmath>
@@ -77,7 +78,7 @@ std::vector<double> reaches_of(const mjModel& model, int base_body,
 
 }  // namespace
 
-FloorOutline outline_of_geoms(const mjModel& model, int base_body) {
+FloorOutline outline_of_geoms(const mjModel& model, int base_body, const std::string& where) {
   std::vector<Eigen::Vector3d> directions;
   for (int i = 0; i < kLines; ++i) {
     const double angle_rad = 2.0 * std::numbers::pi * i / kLines;
@@ -85,7 +86,8 @@ FloorOutline outline_of_geoms(const mjModel& model, int base_body) {
   }
   const std::vector<double> reaches = reaches_of(model, base_body, directions);
   if (!std::isfinite(reaches.front())) {
-    throw InputError("robot: none of its geoms can touch anything");
+    throw InputError(fmt::format("{}: none of the geoms of body '{}' can touch anything", where,
+                                 model_name(model, ModelObject::body, base_body)));
   }
   std::vector<Eigen::Vector2d> corners;
   for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -97,12 +99,17 @@ FloorOutline outline_of_geoms(const mjModel& model, int base_body) {
   return convex_outline(std::move(corners));
 }
 
-FloorOutline robot_outline(const mjModel& model, int base_body,
-                           std::span<const std::array<double, 2>> corners_m) {
-  if (corners_m.empty()) return outline_of_geoms(model, base_body);
+FloorOutline outline_of_corners(std::span<const std::array<double, 2>> corners_m) {
   std::vector<Eigen::Vector2d> corners;
   for (const auto& [x_m, y_m] : corners_m) corners.emplace_back(x_m, y_m);
   return convex_outline(std::move(corners));
+}
+
+FloorOutline robot_outline(const mjModel& model, int base_body,
+                           std::span<const std::array<double, 2>> corners_m,
+                           const std::string& where) {
+  return corners_m.empty() ? outline_of_geoms(model, base_body, where)
+                           : outline_of_corners(corners_m);
 }
 
 }  // namespace vantage

@@ -12,11 +12,15 @@ namespace vantage {
 
 /// Convex outline, in the frame of the base, of all that can touch something of the tree of bodies
 /// under the base, all joints at 0: 64 straight lines about it, each of them touched.
-/// @throws InputError if nothing of it can touch anything
-FloorOutline outline_of_geoms(const mjModel& model, int base_body);
+/// @throws InputError, starting with `where`, if nothing of it can touch anything
+FloorOutline outline_of_geoms(const mjModel& model, int base_body, const std::string& where);
+
+/// Their convex hull, which has less than three corners if they enclose nothing.
+FloorOutline outline_of_corners(std::span<const std::array<double, 2>> corners_m);
 
 /// That of the corners, or if there are none of the geoms.
 FloorOutline robot_outline(const mjModel& model, int base_body,
-                           std::span<const std::array<double, 2>> corners_m);
+                           std::span<const std::array<double, 2>> corners_m,
+                           const std::string& where);
 
 }  // namespace vantage

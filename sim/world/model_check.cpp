@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/world/mjcf_files.hpp"
 
 namespace vantage {
 namespace {
@@ -173,14 +174,13 @@ void check_no_robot_names(const mjModel& model, const std::string& file) {
 }
 
 void check_no_files(std::string_view mjcf, const std::string& file) {
-  constexpr std::string_view attribute = " file=\"";
-  const std::size_t at = mjcf.find(attribute);
-  if (at == std::string_view::npos) return;
-  const std::string_view rest = mjcf.substr(at + attribute.size());
-  throw InputError(
-      fmt::format("{}: refers to '{}'; a robot is one MJCF file of primitives, without meshes, "
-                  "textures and includes",
-                  file, rest.substr(0, rest.find('"'))));
+  for (const MjcfAttribute& attribute : mjcf_attributes(mjcf)) {
+    if (!attribute.names_file()) continue;
+    throw InputError(
+        fmt::format("{}: refers to '{}'; a robot is one MJCF file of primitives, without meshes, "
+                    "textures and includes",
+                    file, attribute.value));
+  }
 }
 
 void check_same_scene(const mjModel& scene, const mjModel& both, const std::string& file) {

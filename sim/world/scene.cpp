@@ -24,7 +24,7 @@ namespace {
 class TemporaryFile {
  public:
   TemporaryFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "vantage-XXXXXX").string();
+    std::string name = (temporary_place() / "vantage-XXXXXX").string();
     const int descriptor = mkstemp(name.data());
     if (descriptor < 0) {
       throw OutputError(
@@ -131,7 +131,8 @@ ModelPtr with_stack(auto&& compile_sized) {
 
 ModelPtr compile_file(const std::filesystem::path& path, std::span<const MemoryFile> files,
                       std::vector<std::string>& warnings) {
-  if (!std::filesystem::is_regular_file(path)) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
     throw InputError(fmt::format("{}: no such file", path.string()));
   }
   return with_stack([&](std::string_view stack) {

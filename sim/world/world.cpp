@@ -215,7 +215,9 @@ void World::set_state(std::span<const double> state) {
                                  size, state.size()));
   }
   for (const double number : state) {
-    if (!std::isfinite(number)) throw InputError("a state holds a number that is not finite");
+    if (std::isfinite(number)) continue;
+    throw InputError(
+        fmt::format("a state of {} holds a number that is not finite", source_.scene.string()));
   }
   mj_resetData(model_.get(), data_.get());
   const double* next = state.data();

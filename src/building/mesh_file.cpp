@@ -133,7 +133,8 @@ UpAxis usual_up_axis(const fs::path& file) {
 }
 
 BuildingMesh read_building_mesh(const fs::path& file, const MeshReading& reading) {
-  if (!fs::is_regular_file(file)) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
     throw InputError(fmt::format("{}: no such file", file.string()));
   }
   Assimp::Importer importer;

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
+
+#include "vantage/core/fields.hpp"
+#include "vantage/core/yaml.hpp"
 
 namespace vantage {
 namespace {
@@ -37,6 +41,30 @@ std::string number(double value) {
 
 std::string numbers(const Eigen::Vector3d& p) {
   return number(p.x()) + " " + number(p.y()) + " " + number(p.z());
+}
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  for (auto at = text.find(what); at != text.npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+/// As the value of an attribute.
+std::string xml_escaped(const std::string& text) {
+  std::string escaped = replaced(replaced(text, "&", "&amp;"), "<", "&lt;");
+  return replaced(replaced(std::move(escaped), ">", "&gt;"), "\"", "&quot;");
+}
+
+/// In a comment, which ends at two hyphens.
+std::string xml_comment(const std::string& text) {
+  return fmt::format("<!-- {} -->", replaced(replaced(text, "--", "- -"), "--", "- -"));
+}
+
+std::string yaml_text(const std::string& text) {
+  std::string yaml = to_yaml(detail::write_value(text));
+  yaml.pop_back();  // the end of its line
+  return yaml;
 }
 
 std::string colour(const Eigen::Vector3f& c) {
@@ -90,8 +118,9 @@ BuildingMap map_of(const BuildingScene& scene) {
 std::string to_mjcf(const BuildingScene& scene, const std::string& name,
                     const std::string& made_by) {
   const Pose2& start = scene.floor.start;
-  std::string text = fmt::format("<!-- {} -->\n<mujoco model=\"{}\">\n{}{}  <worldbody>\n{}",
-                                 made_by, name, kHead, hull_assets(scene), kLights);
+  std::string text =
+      fmt::format("{}\n<mujoco model=\"{}\">\n{}{}  <worldbody>\n{}", xml_comment(made_by),
+                  xml_escaped(name), kHead, hull_assets(scene), kLights);
   text += fmt::format(
       "    <site name=\"start_0\" pos=\"{} {} 0\" euler=\"0 0 {}\" size=\"0.05\" group=\"4\"/>\n",
       number(start.x_m), number(start.y_m), number(start.yaw_rad));
@@ -135,7 +164,7 @@ forecast: {{calibrate: true}}
 gain: adaptive
 choice: greedy
 )",
-      scene_file, scans, number(map.size_m.x()), number(map.size_m.y()), map.cells.x(),
+      yaml_text(scene_file), scans, number(map.size_m.x()), number(map.size_m.y()), map.cells.x(),
       map.cells.y(), map.cells.z(), number(map.half_size_m));
 }
 

@@ -178,7 +178,8 @@ std::function<ExitCode()> declare_validate(CLI::App& app) {
   };
   auto arguments = std::make_shared<Arguments>();
   app.add_option("files", arguments->files,
-                 "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot), folders of robots")
+                 "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot), models of "
+                 "recognition (.model), folders of robots")
       ->required();
   add_set(app, arguments->overrides, "key=value, as run has it; for episodes and scenes");
   add_json(app, arguments->json);

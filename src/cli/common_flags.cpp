@@ -2,9 +2,21 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
+
 #include "vantage/core/log.hpp"
 
 namespace vantage {
+namespace {
+
+/// NaN is within every range.
+std::string finite_number(const std::string& text) {
+  double number = 0.0;
+  const bool good = !CLI::detail::lexical_cast(text, number) || std::isfinite(number);
+  return good ? "" : text + " is not a finite number";
+}
+
+}  // namespace
 
 void add_common_flags(CLI::App& app) {
   auto* quiet = app.add_flag_callback(
@@ -16,6 +28,7 @@ void add_common_flags(CLI::App& app) {
       ->excludes(quiet);
   for (CLI::Option* option : app.get_options()) {
     if (option->get_items_expected_max() == 0) option->disable_flag_override();
+    if (option->get_type_name().starts_with("FLOAT")) option->check(finite_number);
   }
   for (CLI::App* part : app.get_subcommands({})) add_common_flags(*part);
 }

@@ -9,7 +9,8 @@ class App;
 
 namespace vantage {
 
-/// -q and -v for the command and its subcommands. No flag of theirs takes a value.
+/// -q and -v for the command and its subcommands. No flag of theirs takes a value, and no option
+/// of theirs a number that is not finite.
 void add_common_flags(CLI::App& app);
 
 /// --json, for a command that prints a result.

@@ -113,7 +113,8 @@ struct InfoArguments {
 std::uintmax_t bytes_below(const fs::path& root) {
   std::uintmax_t bytes = 0;
   std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+  constexpr auto kReadable = fs::directory_options::skip_permission_denied;
+  for (const auto& entry : fs::recursive_directory_iterator(root, kReadable)) {
     if (entry.is_regular_file(error)) bytes += entry.file_size(error);
   }
   return bytes;

@@ -3,9 +3,11 @@
 
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "vantage/cli/commands.hpp"
 #include "vantage/cli/common_flags.hpp"
@@ -19,6 +21,14 @@
 namespace {
 
 int exit_code(vantage::ExitCode code) { return static_cast<int>(code); }
+
+/// What is printed is in a buffer until here. @throws OutputError
+int printed(int code) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw vantage::OutputError("stdout: cannot write");
+  }
+  return code;
+}
 
 int run_command_line(int argc, char** argv) {
   CLI::App app{"Vantage: robots that choose their next action by how much they will learn from it"};
@@ -36,7 +46,7 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
+    if (error.get_exit_code() == 0) return printed(app.exit(error));
     const auto unknown = vantage::unknown_command(app, words);
     std::fprintf(stderr, "error: %s\nvantage --help shows how it is used\n",
                  unknown ? unknown->c_str() : error.what());
@@ -46,17 +56,17 @@ int run_command_line(int argc, char** argv) {
     std::fputs(app.help().c_str(), stderr);
     return exit_code(vantage::ExitCode::usage);
   }
-  const vantage::ExitCode code = chosen();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw vantage::OutputError("stdout: cannot write");
-  }
-  return exit_code(code);
+  return printed(exit_code(chosen()));
 }
 
 int fail(vantage::ExitCode code, const std::string& message) {
   vantage::log_error(message);
   vantage::log_to_file({});
   return exit_code(code);
+}
+
+int fail_internally(const std::exception& error) {
+  return fail(vantage::ExitCode::internal, std::string("internal error: ") + error.what());
 }
 
 }  // namespace
@@ -75,7 +85,15 @@ int main(int argc, char** argv) {
     return fail(error.code(), error.what());
   } catch (const std::bad_alloc&) {
     return fail(vantage::ExitCode::internal, "not enough memory");
+  } catch (const std::filesystem::filesystem_error& error) {
+    // Files that are read throw InputError by themselves: what is left are places for output.
+    const std::string path = error.path1().string();
+    return fail(vantage::ExitCode::output,
+                path.empty() ? error.what() : path + ": " + error.code().message());
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) == 0) return fail_internally(error);
+    return fail(vantage::ExitCode::output, "stdout: cannot write: " + error.code().message());
   } catch (const std::exception& error) {
-    return fail(vantage::ExitCode::internal, std::string("internal error: ") + error.what());
+    return fail_internally(error);
   }
 }

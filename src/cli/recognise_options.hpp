@@ -20,6 +20,7 @@ struct RecogniseOptions {
     f("recognition", recognition,
       "how features and views are chosen, and when the object is known well enough");
   }
+  void check() const { require_no_weights(recognition.views, "recognition.views"); }
 };
 
 }  // namespace vantage

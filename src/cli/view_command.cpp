@@ -62,7 +62,8 @@ ExitCode view_command(const CLI::App& app, ViewArguments arguments) {
   if (arguments.camera == "robot") view.camera = ViewCamera::robot;
   if (app.count("--at") > 0) view.at_s = arguments.at_s;
   require_absent(view.screenshot, arguments.run.overwrite, "--screenshot");
-  if (std::filesystem::is_directory(arguments.target)) {
+  std::error_code ignored;  // what cannot be looked into is no episode either
+  if (std::filesystem::is_directory(arguments.target, ignored)) {
     for (const char* option : {"--set", "--seed", "--out"}) {
       if (app.count(option) == 0) continue;
       throw ConfigError(

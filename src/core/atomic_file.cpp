@@ -81,6 +81,15 @@ void write_file_with(const fs::path& path, const std::function<bool(const fs::pa
   publish(part, path);
 }
 
+fs::path temporary_place() {
+  try {
+    return fs::temp_directory_path();
+  } catch (const fs::filesystem_error& error) {
+    throw OutputError(
+        fmt::format("TMPDIR: {}: {}", error.path1().string(), error.code().message()));
+  }
+}
+
 void make_writable_directory(const fs::path& directory) {
   std::error_code error;
   fs::create_directories(directory, error);

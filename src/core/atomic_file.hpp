@@ -25,6 +25,9 @@ std::filesystem::path part_name(const std::filesystem::path& path);
 void write_file_with(const std::filesystem::path& path,
                      const std::function<bool(const std::filesystem::path&)>& write);
 
+/// The system's folder for what is thrown away soon, TMPDIR. @throws OutputError if there is none.
+std::filesystem::path temporary_place();
+
 /// @throws OutputError naming the directory if it cannot be made or written into.
 void make_writable_directory(const std::filesystem::path& directory);
 

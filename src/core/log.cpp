@@ -27,6 +27,12 @@ constexpr double kLineEvery_s = 2.0;
 double g_progress_s = -std::numeric_limits<double>::infinity();  ///< when any was shown last
 bool g_bar_shown = false;                                        ///< in the terminal's last line
 
+/// As no-color.org has it.
+bool no_colour() {
+  const char* wish = std::getenv("NO_COLOR");
+  return wish != nullptr && *wish != '\0';
+}
+
 spdlog::level::level_enum console_level() {
   switch (g_verbosity) {
     case Verbosity::quiet: return spdlog::level::warn;
@@ -38,8 +44,7 @@ spdlog::level::level_enum console_level() {
 
 spdlog::logger& logger() {
   static spdlog::logger instance = [] {
-    const auto colour = std::getenv("NO_COLOR") != nullptr ? spdlog::color_mode::never
-                                                           : spdlog::color_mode::automatic;
+    const auto colour = no_colour() ? spdlog::color_mode::never : spdlog::color_mode::automatic;
     auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(colour);
     console->set_pattern("%^%l%$: %v");
     console->set_level(console_level());
@@ -65,13 +70,16 @@ std::size_t terminal_columns() {
   return size.ws_col;
 }
 
+/// fmt::print throws where stderr is full, which is no reason to end the work.
+void tell(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 /// In the line where it was shown before, which it must not outgrow.
 void show_bar(const std::string& label, double fraction, std::string_view note) {
   const auto filled = static_cast<std::size_t>(fraction * 30.0);
   std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} % {}", label, "", filled, "",
                                  30 - filled, 100.0 * fraction, note);
   line.resize(std::min(line.size(), terminal_columns() - 1));
-  fmt::print(stderr, "\r{}\x1b[K", line);
+  tell(fmt::format("\r{}\x1b[K", line));
   std::fflush(stderr);
   g_bar_shown = true;
 }
@@ -123,16 +131,16 @@ void Progress::update(double done, std::string_view note) {
   if (g_verbosity == Verbosity::quiet || finished_) return;
   finished_ = done >= total_;
   const double fraction = std::clamp(total_ > 0.0 ? done / total_ : 1.0, 0.0, 1.0);
-  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  const bool with_bar = ::isatty(STDERR_FILENO) == 1 && !no_colour();
   const double now_s = wall_s();
-  const bool due = now_s - g_progress_s >= (terminal ? kBarEvery_s : kLineEvery_s);
+  const bool due = now_s - g_progress_s >= (with_bar ? kBarEvery_s : kLineEvery_s);
   if (!due && !(finished_ && shown_)) return;
   shown_ = true;
   g_progress_s = now_s;
-  if (terminal) {
+  if (with_bar) {
     show_bar(label_, fraction, note);
   } else {
-    fmt::print(stderr, "{}: {:.0f} % {}\n", label_, 100.0 * fraction, note);
+    tell(fmt::format("{}: {:.0f} % {}\n", label_, 100.0 * fraction, note));
   }
 }
 

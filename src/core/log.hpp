@@ -23,8 +23,9 @@ void log_error(std::string_view message);
 /// Wall time from some fixed moment on.
 double wall_s();
 
-/// Progress of long work: on a terminal a bar in one line, else a line every two seconds at most,
-/// whatever makes progress, and the end of what was told of. Honours NO_COLOR and -q.
+/// Progress of long work: on a terminal, if NO_COLOR is unset or empty, a bar in one line, else a
+/// line every two seconds at most, whatever makes progress, and the end of what was told of.
+/// Nothing with -q.
 class Progress {
  public:
   Progress(std::string label, double total);

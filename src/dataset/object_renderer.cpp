@@ -86,8 +86,8 @@ std::optional<int> ObjectRenderer::render(const ObjectName& name,
                                           const std::function<bool()>& stop) {
   const fs::path part = unfinished_folder(root_, name);
   remove_unfinished(root_, name);
-  make_writable_directory(part);
   const TurntableObject object = make_turntable_object(options_, name);
+  make_writable_directory(part);
   int views = 0;
   try {
     for (const int video : options_.videos) {

@@ -22,25 +22,28 @@ constexpr auto kOptionsFile = "dataset.yaml";
 
 std::string options_text(DatasetOptions options) { return to_yaml(write_node(options)); }
 
-void remove_folder(const fs::path& folder) {
+/// What a dataset of ours holds but its options: the folder stays, since it is what is locked.
+void remove_objects(const fs::path& root) {
   std::error_code error;
-  fs::remove_all(folder, error);
+  fs::directory_iterator entry(root, error);
+  while (!error && entry != fs::directory_iterator{}) {
+    if (entry->path().filename() != kOptionsFile) fs::remove_all(entry->path(), error);
+    if (!error) entry.increment(error);
+  }
   if (error) {
-    throw OutputError(fmt::format("{}: cannot remove: {}", folder.string(), error.message()));
+    throw OutputError(fmt::format("{}: cannot remove: {}", root.string(), error.message()));
   }
 }
 
 /// @throws ConfigError if the folder cannot become or remain a dataset of these options.
 void prepare_root(const DatasetOptions& options, const DatasetRun& run) {
-  make_writable_directory(run.root);
   const fs::path file = run.root / kOptionsFile;
   if (!fs::exists(file)) {
     if (!fs::is_empty(run.root)) {
       throw ConfigError(fmt::format("{}: is not empty, and no dataset of ours", run.root.string()));
     }
   } else if (run.overwrite) {
-    remove_folder(run.root);
-    make_writable_directory(run.root);
+    remove_objects(run.root);
   } else {
     DatasetOptions before;
     read_into(read_yaml(file), before, {});
@@ -137,8 +140,9 @@ DatasetOutcome render_dataset(const DatasetOptions& options, const DatasetRun& r
   check_options(options);
   if (run.jobs < 1) throw ConfigError(fmt::format("jobs {}: must be at least 1", run.jobs));
   Rendering rendering(options, run);
-  prepare_root(options, run);
+  make_writable_directory(run.root);
   const RenderLock lock(run.root);
+  prepare_root(options, run);
   return rendering.work();
 }
 

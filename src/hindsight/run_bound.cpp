@@ -12,6 +12,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/scratch_folder.hpp"
 #include "vantage/tasks/run.hpp"
 
@@ -164,7 +165,11 @@ void add_oracle_tour(const RecordedRun& run, RunBound& bound) {
   RunOptions options;
   options.directory = folder;
   options.lean = true;
-  vantage::run(episode, options);
+  const RunOutcome outcome = vantage::run(episode, options);
+  throw_if_interrupted();
+  if (outcome.code != ExitCode::done) {
+    throw Error(outcome.code, run.directory.string() + ": --oracle-tour: its run did not complete");
+  }
   bound.has_oracle_tour = true;
   const RecordedRun oracle = read_recorded_run(folder);
   for (ShareBound& share : bound.shares) share.oracle_tour = progress_to(oracle, share.percent);

@@ -54,6 +54,7 @@ struct RunBound {
 RunBound bound_of_run(const RecordedRun& run);
 
 /// Runs the same episode with the choice `oracle_tour`, keeping nothing, and notes how it did.
+/// @throws Interrupted; Error with the run's code if it does not complete
 void add_oracle_tour(const RecordedRun& run, RunBound& bound);
 
 nlohmann::ordered_json run_bound_json(const RunBound& bound);

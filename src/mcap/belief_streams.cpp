@@ -12,6 +12,7 @@
 #include "vantage/mcap/run_streams.hpp"
 #include "vantage/perception/clouds/ply.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/runtime/json.hpp"
 
 namespace vantage {
 namespace {
@@ -59,8 +60,8 @@ std::vector<Eigen::Vector3d> path_of(const PlannedFlight& flight) { return fligh
 void add_path(std::size_t stream, double time_s, std::vector<Eigen::Vector3d> path_m,
               Timeline& timeline) {
   timeline.add(stream, time_s, [time_s, path_m = std::move(path_m)] {
-    if (path_m.empty()) return scene_update(time_s, {}, {"plan"}).dump();
-    return scene_update(time_s, {{.id = "plan", .path_m = path_m, .path_colour = kPlan}}).dump();
+    if (path_m.empty()) return scene_update(time_s, {}, {"plan"});
+    return scene_update(time_s, {{.id = "plan", .path_m = path_m, .path_colour = kPlan}});
   });
 }
 
@@ -107,7 +108,7 @@ void add_decisions(const RunToExport& run, Timeline& timeline) {
     const double time_s = run.time_s(event);
     if (const auto* decision = std::get_if<Decision>(&event.what)) {
       timeline.add(views, time_s, [time_s, decision] {
-        return scene_update(time_s, decision_entities(*decision)).dump();
+        return scene_update(time_s, decision_entities(*decision));
       });
       add_path(plan, time_s, {}, timeline);
     } else if (const auto* route = std::get_if<PlannedRoute>(&event.what)) {
@@ -127,7 +128,7 @@ void add_map(const RunToExport& run, Timeline& timeline) {
     const double time_s = run.time_s(run.events()[i]);
     timeline.add(stream, time_s, [&run, map, i, time_s] {
       map->go_to(run.events(), i + 1);
-      return point_cloud(time_s, occupied_centres(map->grid())).dump();
+      return point_cloud(time_s, occupied_centres(map->grid()));
     });
   }
 }
@@ -137,7 +138,7 @@ void add_cloud(const RunToExport& run, Timeline& timeline) {
   if (!fs::exists(file)) return;
   const std::size_t stream = timeline.add_stream("/cloud", "PointCloud");
   timeline.add(stream, run.end_s(), [file, time_s = run.end_s()] {
-    return point_cloud(time_s, read_ply(file).cloud.points).dump();
+    return point_cloud(time_s, read_ply(file).cloud.points);
   });
 }
 
@@ -148,14 +149,14 @@ void add_steps(const RunToExport& run, Timeline& timeline) {
   const auto time = std::ranges::find(steps->columns, "time_s");
   if (time == steps->columns.end()) return;
   const auto column = static_cast<std::size_t>(time - steps->columns.begin());
-  timeline.streams.push_back({"/steps", "vantage.Step", step_schema(*steps).dump()});
+  timeline.streams.push_back({"/steps", "vantage.Step", json_line(step_schema(*steps))});
   for (const auto& row : steps->rows) {
     const Json at = value_json(row[column]);
     if (!at.is_number()) continue;
     timeline.add(timeline.streams.size() - 1, at.get<double>(), [steps, &row] {
       Json step = Json::object();
       for (std::size_t i = 0; i < row.size(); ++i) step[steps->columns[i]] = value_json(row[i]);
-      return step.dump();
+      return step;
     });
   }
 }

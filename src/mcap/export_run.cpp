@@ -15,6 +15,7 @@
 #include "vantage/mcap/timeline.hpp"
 #include "vantage/report/json_file.hpp"
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/runtime/json.hpp"
 
 namespace vantage {
 namespace {
@@ -58,7 +59,7 @@ ExportedRun export_run(const fs::path& run_dir, const fs::path& file,
   for (const TimedMessage& message : timeline.messages) {
     throw_if_interrupted();
     writer.add_message(static_cast<std::uint16_t>(message.stream + 1), message.time_ns,
-                       message.make());
+                       json_line(message.make()));
     progress.update(1e-9 * static_cast<double>(message.time_ns));
   }
   writer.add_metadata("vantage", manifest_entries(run_dir));

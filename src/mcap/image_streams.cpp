@@ -59,7 +59,7 @@ void add_shots(const RunToExport& run, double period_s, const std::string& topic
   for (const std::size_t state : run.states_every(period_s)) {
     const double time_s = run.time_s(state);
     timeline.add(images, time_s,
-                 [=] { return compressed_image(time_s, frame, shots->png(state)).dump(); });
+                 [=] { return compressed_image(time_s, frame, shots->png(state)); });
   }
 }
 
@@ -71,13 +71,12 @@ void add_geometry(const RunToExport& run, double period_s, const std::shared_ptr
   for (const std::size_t state : run.states_every(period_s)) {
     const double time_s = run.time_s(state);
     timeline.add(transforms, time_s, [=] {
-      return frame_transforms(time_s, {{kCameraFrame, shots->at(state).T_world_camera}}).dump();
+      return frame_transforms(time_s, {{kCameraFrame, shots->at(state).T_world_camera}});
     });
     timeline.add(calibration, time_s, [=] {
       const RenderedImages& images = shots->at(state);
       return camera_calibration(time_s, kCameraFrame, images.width_px, images.height_px,
-                                images.focal_px)
-          .dump();
+                                images.focal_px);
     });
   }
 }

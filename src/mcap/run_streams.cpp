@@ -40,7 +40,7 @@ void add_trajectory(const fs::path& file, const std::string& topic, Timeline& ti
     Pose T_world_body = Pose::Identity();
     T_world_body.translate(sample.p_world_m).rotate(sample.q_world_body);
     timeline.add(stream, sample.time_s, [time_s = sample.time_s, T_world_body] {
-      return pose_in_frame(time_s, T_world_body).dump();
+      return pose_in_frame(time_s, T_world_body);
     });
   }
 }
@@ -59,7 +59,7 @@ RunToExport::RunToExport(const fs::path& run_dir)
 }
 
 const World& RunToExport::world_at(std::size_t state) {
-  if (shown_ != state) world_.set_state(states_.state(state));
+  if (shown_ != state) world_.set_state(states_.finite_state(state));
   shown_ = state;
   return world_;
 }
@@ -90,7 +90,7 @@ void add_transforms(RunToExport& run, Timeline& timeline) {
       for (const RobotBody& body : *bodies) {
         frames.push_back({body.name, body_pose(world, body.id)});
       }
-      return frame_transforms(run.time_s(state), frames).dump();
+      return frame_transforms(run.time_s(state), frames);
     });
   }
 }

@@ -13,7 +13,8 @@ std::size_t Timeline::add_stream(const std::string& topic, const std::string& fo
   return streams.size() - 1;
 }
 
-void Timeline::add(std::size_t stream, double time_s, std::function<std::string()> make) {
+void Timeline::add(std::size_t stream, double time_s,
+                   std::function<nlohmann::ordered_json()> make) {
   messages.push_back({nanoseconds(time_s), stream, std::move(make)});
 }
 

@@ -1,6 +1,8 @@
 /// Messages of several streams, made when their turn comes.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -17,7 +19,7 @@ struct Stream {
 struct TimedMessage {
   std::uint64_t time_ns = 0;
   std::size_t stream = 0;
-  std::function<std::string()> make;  ///< the message as JSON; called in the order of times
+  std::function<nlohmann::ordered_json()> make;  ///< called in the order of times
 };
 
 struct Timeline {
@@ -26,7 +28,7 @@ struct Timeline {
 
   /// One of Foxglove's schemas. @return its index
   std::size_t add_stream(const std::string& topic, const std::string& foxglove_name);
-  void add(std::size_t stream, double time_s, std::function<std::string()> make);
+  void add(std::size_t stream, double time_s, std::function<nlohmann::ordered_json()> make);
   void sort();  ///< by time; of the same time as they were added
 };
 

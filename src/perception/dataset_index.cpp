@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -103,7 +104,13 @@ class Indexer {
       if (!name.ends_with(kCrop)) continue;
       const auto parsed =
           parse_view_name(std::string_view(name).substr(0, name.size() - kCrop.size()));
-      if (parsed) add_view(folder, *parsed, names);
+      if (parsed) {
+        add_view(folder, *parsed, names);
+      } else {
+        reject(folder / name, fmt::format("is not called <category>_<instance>_<video>_<frame>{}, "
+                                          "with numbers up to {}",
+                                          kCrop, std::numeric_limits<int>::max()));
+      }
     }
   }
 

@@ -24,7 +24,7 @@ struct PictureNotes {
     f("focal_px", focal_px, "focal length of the camera", above(0.0));
     f("centre_px", centre_px, "principal point of the camera in its whole image, x and y");
     f("recordings", recordings, "names of the recordings; in file names they are numbers from 1");
-    f("bins", bins, "number of viewing directions of an object", between(1, 3600));
+    f("bins", bins, "number of viewing directions of an object", between(2, 3600));
     f("views", views,
       "names of the viewing directions, one a bin; empty where a bin has none; empty list: no "
       "names");

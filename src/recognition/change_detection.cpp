@@ -136,7 +136,7 @@ void update_with_view(const Recogniser& recogniser, const ChangeOptions& options
     weigh(h.changed, h.log_p_changed, counted);
   }
   search.recognition.belief = h.mixture();
-  if (witness.measured().empty()) ++search.empty_views;
+  search.empty_views = witness.measured().empty() ? search.empty_views + 1 : 0;
 }
 
 void predict_motion(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,

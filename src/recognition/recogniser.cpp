@@ -17,7 +17,7 @@ namespace {
 
 constexpr auto kModel = "recognition model";
 
-constexpr double kImpossible = -1e9;  // of a log density; psi times it is still finite
+constexpr double kImpossible = -1e9;  // of a log factor; psi times it is still finite
 
 /// Tables of divergences, or none.
 enum class Tables { made, none };
@@ -31,7 +31,9 @@ RecogniserFeature ready(FeaturePair pair, int threads, Tables tables,
                             .prepared = {},
                             .tables = {}};
   feature.prepared = prepare(feature.observation);
-  for (const int state : impossible) feature.prepared.log_at_mean[state] = kImpossible;
+  for (const int state : impossible) {
+    feature.prepared.log_at_mean[state] = feature.prepared.log_factor[state] = kImpossible;
+  }
   if (tables == Tables::none) return feature;
   feature.tables.bhattacharyya_nats =
       divergence_table(Divergence::bhattacharyya, feature.observation, threads);

@@ -1,5 +1,7 @@
 #include "vantage/recognition/recognition.hpp"
 
+#include <algorithm>
+
 #include "vantage/belief/objects/view_weight.hpp"
 #include "vantage/core/log.hpp"
 
@@ -50,11 +52,10 @@ void apply(const RecogniserFeature& feature, const ExtractedFeature& extracted, 
   }
   const bool known = extracted.log_likelihood.size() > 0;
   const FeatureResult& result = extracted.result;
-  const EvidenceResult evidence =
-      update(belief, weighted(known ? extracted.log_likelihood
-                                    : log_likelihood(feature.prepared, result.vector,
-                                                     result.readings),
-                              weight * (known ? 1.0 : result.weight)));
+  const EvidenceResult evidence = update(
+      belief, weighted(known ? extracted.log_likelihood
+                             : log_likelihood(feature.prepared, result.vector, result.readings),
+                       weight * (known ? 1.0 : result.weight)));
   if (evidence.used()) {
     report.features.push_back(name);
   } else {
@@ -85,7 +86,9 @@ Recognition begin_recognition(const Recogniser& recogniser) {
 }
 
 double next_view_weight(const Recogniser& recogniser, const Recognition& recognition) {
-  return view_weight(static_cast<int>(recognition.views.size()), recogniser.view_correlation);
+  const auto told = std::ranges::count_if(
+      recognition.views, [](const ViewReport& view) { return !view.features.empty(); });
+  return view_weight(static_cast<int>(told), recogniser.view_correlation);
 }
 
 Eigen::VectorXd weighted(Eigen::VectorXd log_likelihood, double weight) {

@@ -76,7 +76,7 @@ struct Recognition {
 
 Recognition begin_recognition(const Recogniser& recogniser);
 
-/// What the next view counts: views repeat each other.
+/// What the next view counts: views repeat each other, but for those that told nothing.
 double next_view_weight(const Recogniser& recogniser, const Recognition& recognition);
 /// To the power of `weight`; 0 * -inf, which only a weight of 0 gives, is NaN and left out by
 /// update().

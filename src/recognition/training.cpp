@@ -199,6 +199,7 @@ RecognitionModel train_recognition(const DatasetIndex& dataset, const TrainingOp
   check_options(options);
   const std::optional<PictureNotes> notes =
       common_notes(chosen_views(dataset, options.videos, options.recordings), options.bins);
+  if (notes) check_options(*notes, kPictureNotes);
   const std::vector<ViewEntry> entries = training_views(dataset, options, notes);
   const int bins = options.bins > 0 ? options.bins : notes ? notes->bins : kUsualBins;
   const std::vector<TrainedFeature> extractors = learn_features(entries, options, how);

@@ -77,7 +77,7 @@ RecognitionModel train_recognition(const DatasetIndex& dataset, const TrainingOp
                                    const LongWork& how);
 
 /// Adds the objects of another dataset; features, psi and the objects known before stay as they
-/// are. Of `options`, only `videos` counts.
+/// are. Of `options`, `videos`, `recordings` and `leave_out` count.
 /// @throws InputError also if an object of that name is known already.
 void extend_recognition(RecognitionModel& model, const DatasetIndex& dataset,
                         const TrainingOptions& options, const LongWork& how);

@@ -3,7 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/perception/clouds/ply.hpp"
@@ -25,6 +28,15 @@ json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 template <class T>
 std::string base64_of(const std::vector<T>& values) {
   return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+/// By the number in its name: scan_100 comes after scan_99.
+std::pair<std::uint64_t, fs::path> place_in_order(const fs::path& image) {
+  const std::string name = image.filename().string();
+  const std::size_t digits = std::min(name.find_first_of("0123456789"), name.size());
+  std::uint64_t number = 0;
+  std::from_chars(name.data() + digits, name.data() + name.size(), number);
+  return {number, image};
 }
 
 }  // namespace
@@ -120,7 +132,8 @@ json frame_of(const fs::path& folder, bool first) {
     const bool image = extension == ".png" || extension == ".jpg";
     const bool part = entry.path().stem().extension() == ".part";
     if (!image || part) continue;
-    if (kept.empty() || (entry.path() < kept) == first) kept = entry.path();
+    const bool earlier = place_in_order(entry.path()) < place_in_order(kept);
+    if (kept.empty() || earlier == first) kept = entry.path();
   }
   if (kept.empty()) return nullptr;
   const std::string type = kept.extension() == ".png" ? "png" : "jpeg";

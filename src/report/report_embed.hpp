@@ -15,7 +15,7 @@ nlohmann::json voxels_json(const std::filesystem::path& path);
 nlohmann::json cloud_json(const std::filesystem::path& path);
 /// Positions of 16 bits inside their box, colours, and the triangles of all parts in a row.
 nlohmann::json scene_json(const std::filesystem::path& path);
-/// The first or the last image of `frames/` by name, as a data URI; null if there is none.
+/// The first or the last image of `frames/` by number, as a data URI; null if there is none.
 nlohmann::json frame_of(const std::filesystem::path& folder, bool first);
 
 }  // namespace vantage

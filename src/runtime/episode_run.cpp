@@ -66,15 +66,17 @@ ClaimedFolders& claimed_folders() {
   return folders;
 }
 
-/// What an old run wrote is removed, and only that: the folder may hold other things.
-void prepare_directory(const fs::path& directory, bool overwrite) {
+void require_no_run(const fs::path& directory) {
   for (const std::string_view name : kRunFiles) {
-    if (overwrite || name == "log.txt" || !fs::exists(directory / name)) continue;
+    std::error_code ignored;  // what cannot be looked into cannot be written into
+    if (name == "log.txt" || !fs::exists(directory / name, ignored)) continue;
     refuse_to_replace(fmt::format("--out {}", directory.string()),
                       fmt::format("holds {} already", name));
   }
-  make_writable_directory(directory);
-  claimed_folders().claim(directory);
+}
+
+/// And only that: the folder may hold other things.
+void remove_former_run(const fs::path& directory) {
   for (const std::string_view name : kRunFiles) {
     std::error_code error;
     fs::remove_all(directory / name, error);
@@ -108,14 +110,23 @@ fs::path run_directory(const EpisodeSetup& setup, const RunOptions& options) {
 
 EpisodeRun::EpisodeRun(const RunRequest& request)
     : request_(request), directory_(run_directory(request.setup, request.options)) {
-  prepare_directory(directory_, request.options.overwrite);
-  log_to_file(directory_ / "log.txt");
+  if (!request.options.overwrite) require_no_run(directory_);
+  make_writable_directory(directory_);
+  claimed_folders().claim(directory_);
   start_s_ = wall_s();
+}
+
+void EpisodeRun::begin() {
+  remove_former_run(directory_);
+  log_to_file(directory_ / "log.txt");
+  begun_ = true;
 }
 
 RunOutcome EpisodeRun::finish(const Ending& ending, const RunTotals& totals,
                               EpisodeRecorder& recorder,
-                              const std::function<void(nlohmann::ordered_json&)>& add_metrics) {
+                              const std::function<void(nlohmann::ordered_json&)>& add_metrics,
+                              const std::function<void()>& write_more) {
+  expects(begun_, "begin() comes before finish()");
   const EpisodeOptions& options = request_.setup.options;
   const RunSummary summary{.status = ending.status,
                            .reason = ending.reason,
@@ -134,9 +145,11 @@ RunOutcome EpisodeRun::finish(const Ending& ending, const RunTotals& totals,
   write_file(directory_ / "config.yaml", request_.config);
   write_file(directory_ / "manifest.json", manifest_json(request_, summary));
   write_file(directory_ / "metrics.json", outcome.metrics);
-  recorder.finish_video();
-  claimed_folders().release(directory_);
+  if (write_more) write_more();
+  recorder.finish_video();  // which fails easily, and costs nothing else then
   return outcome;
 }
+
+void release_run_directory(const fs::path& directory) { claimed_folders().release(directory); }
 
 }  // namespace vantage

@@ -71,22 +71,33 @@ Ending ending_of(const std::function<std::string()>& run);
 
 class EpisodeRun {
  public:
-  /// Makes the run folder. After this an old run in it is gone: what may fail comes before.
+  /// Makes the run folder, which no other process runs into until release_run_directory().
   /// @throws ConfigError if the folder holds a run that is not to be replaced, OutputError
   explicit EpisodeRun(const RunRequest& request);
+
+  /// After this a former run in the folder is gone: what may fail or takes long comes before.
+  /// @throws OutputError
+  void begin();
 
   [[nodiscard]] const RunRequest& request() const { return request_; }
   [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
 
-  /// Writes what every run folder has. @param add_metrics adds what the task measured
+  /// Writes what every run folder has, the video last.
+  /// @param add_metrics adds what the task measured
+  /// @param write_more writes what the task has beside
   RunOutcome finish(const Ending& ending, const RunTotals& totals, EpisodeRecorder& recorder,
-                    const std::function<void(nlohmann::ordered_json&)>& add_metrics);
+                    const std::function<void(nlohmann::ordered_json&)>& add_metrics,
+                    const std::function<void()>& write_more = {});
 
  private:
   const RunRequest& request_;
   std::filesystem::path directory_;
   double start_s_;  ///< wall
+  bool begun_ = false;
 };
+
+/// Other processes may run into it again: all results are written.
+void release_run_directory(const std::filesystem::path& directory);
 
 /// out/<episode>-<seed>, unless the options say otherwise.
 std::filesystem::path run_directory(const EpisodeSetup& setup, const RunOptions& options);

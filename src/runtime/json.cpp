@@ -11,8 +11,14 @@ std::string json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string json_line(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 Json config_json(const ConfigNode& node) {
   Json json;
+  if (node.kind == ConfigNode::Kind::list) json = Json::array();
+  if (node.kind == ConfigNode::Kind::map) json = Json::object();
   for (const auto& item : node.items) json.push_back(config_json(item));
   for (const auto& [name, child] : node.entries) json[name] = config_json(child);
   if (node.kind != ConfigNode::Kind::scalar) return json;

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/runtime/json.hpp"
 #include "vantage/sim/render/renderer.hpp"
+#include "vantage/sim/world/mjcf_files.hpp"
 #include "vantage/sim/world/world.hpp"
 
 namespace vantage {
@@ -35,31 +35,16 @@ std::string renderer_text() {
   }
 }
 
-/// The texts of every attribute of that name, name="text", in an XML file.
-std::vector<std::string> attributes(const std::string& xml, const std::string& name) {
-  std::vector<std::string> found;
-  for (const char quote : {'"', '\''}) {
-    const std::string opening = name + "=" + quote;
-    for (auto at = xml.find(opening); at != std::string::npos; at = xml.find(opening, at + 1)) {
-      const auto begin = at + opening.size();
-      found.push_back(xml.substr(begin, xml.find(quote, begin) - begin));
-    }
-  }
-  return found;
-}
+using Hashes = std::map<std::string, std::string>;
 
-void collect_files(const fs::path& file, std::set<fs::path>& found) {
-  if (!fs::is_regular_file(file) || !found.insert(file).second) return;
-  if (file.extension() != ".xml") return;
-  const std::string xml = read_file(file);
-  std::vector<std::string> folders = {""};
-  for (const char* kind : {"meshdir", "texturedir", "assetdir"}) {
-    for (auto& folder : attributes(xml, kind)) folders.push_back(std::move(folder));
-  }
-  for (const std::string& name : attributes(xml, "file")) {
-    for (const std::string& folder : folders) {
-      collect_files((file.parent_path() / folder / name).lexically_normal(), found);
-    }
+/// By their names beside `root`.
+void add_hashes(const fs::path& root, Hashes& hashes) {
+  const fs::path folder = fs::absolute(root).parent_path();
+  for (const fs::path& file : mjcf_files(root)) {
+    const std::string name = fs::relative(file, folder).string();
+    const std::string hash = hash_text(hash_file(file));
+    const auto [of_name, is_new] = hashes.try_emplace(name, hash);
+    if (!is_new && of_name->second != hash) hashes["robot:" + name] = hash;
   }
 }
 
@@ -67,20 +52,11 @@ void collect_files(const fs::path& file, std::set<fs::path>& found) {
 
 std::string version_text() { return VANTAGE_VERSION " (" VANTAGE_GIT_COMMIT ")"; }
 
-std::vector<fs::path> scene_files(const fs::path& scene) {
-  std::set<fs::path> found;
-  collect_files(scene.lexically_normal(), found);
-  return {found.begin(), found.end()};
-}
-
 std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
                                                 const std::vector<InputFile>& inputs) {
-  std::map<std::string, std::string> hashes;
+  Hashes hashes;
   for (const fs::path& root : {setup.scene, setup.robot.mjcf, setup.robot.description}) {
-    const fs::path folder = fs::absolute(root).parent_path();
-    for (const fs::path& file : scene_files(root)) {
-      hashes[fs::relative(file, folder).string()] = hash_text(hash_file(file));
-    }
+    add_hashes(root, hashes);
   }
   for (const InputFile& input : inputs) {
     if (fs::exists(input.path)) hashes[input.key] = hash_text(hash_file(input.path));

@@ -13,11 +13,9 @@ namespace vantage {
 /// The version control state of the build, "0.1.0 (abc1234)".
 std::string version_text();
 
-/// Every file the MJCF at `scene` refers to, itself and its includes among them, in a fixed order.
-std::vector<std::filesystem::path> scene_files(const std::filesystem::path& scene);
-
-/// Hash of each file that the scene and the robot are made of, by its name beside them; and of each
-/// input that is there, by its key.
+/// Hash of each file that the scene and the robot are made of, by its name beside them, or
+/// "robot:name" of the robot's where the scene has another file of that name; and of each input
+/// that is there, by its key.
 std::map<std::string, std::string> asset_hashes(const EpisodeSetup& setup,
                                                 const std::vector<InputFile>& inputs);
 

@@ -48,7 +48,7 @@ ReplayResult replay(const std::filesystem::path& run_dir, World& world,
   const RecordedStates recorded = load_states(run_dir, world);
   const auto names = actuator_names(world);
   const auto actions = read_actions(run_dir / "actions.csv", names);
-  world.set_state(recorded.state(0));
+  world.set_state(recorded.finite_state(0));
   ReplayResult result;
   result.changed_files = changed_files(read_manifest(run_dir), assets);
   result.state_hash = hash_doubles(recorded.state(0));

@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -15,7 +16,7 @@ class ScratchFolder {
  public:
   /// Below the system's folder for such. @throws OutputError
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "vantage-XXXXXX").string();
+    std::string name = (temporary_place() / "vantage-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) throw OutputError(name + ": cannot be made");
     path_ = name;
   }

@@ -6,6 +6,7 @@
 #include "vantage/core/yaml.hpp"
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/sim/faults/outside_faults.hpp"
+#include "vantage/sim/robots/robot_names.hpp"
 #include "vantage/sim/robots/trajectory_tracking_controller.hpp"
 #include "vantage/tasks/former_keys.hpp"
 #include "vantage/tasks/robot_defaults.hpp"
@@ -174,15 +175,17 @@ ModelSource model_source(const ResolvedEpisode& resolved) {
 
 void add_outside_effects(const ResolvedEpisode& resolved, World& world) {
   const EpisodeSetup& setup = resolved.setup;
-  add_outside_faults(world, setup.options.faults, setup.options.seed);
+  // Gusts of the task come first, as when it is flown: forces are added up in order.
   std::visit(
       [&](const auto& task) {
         if constexpr (requires { task.tracking.gusts; }) {
           const std::string& base = quadrotor_of(setup.robot, "robot.model").base;
-          add_gusts(world, model_id(world.model(), ModelObject::body, base), task.tracking.gusts);
+          const RobotNames names(world.model(), setup.robot.description.string());
+          add_gusts(world, names.find(ModelObject::body, "base", base), task.tracking.gusts);
         }
       },
       resolved.task);
+  add_outside_faults(world, setup.options.faults, setup.options.seed);
 }
 
 std::vector<InputFile> inputs(const Task& task) {

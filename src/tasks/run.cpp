@@ -54,6 +54,7 @@ RunOutcome run(const ResolvedEpisode& resolved, const RunOptions& given) {
       resolved.task);
   if (!options.lean) write_report(outcome.directory, report_sections(resolved.task));
   log_to_file({});
+  release_run_directory(outcome.directory);
   return outcome;
 }
 

@@ -15,6 +15,7 @@
 #include "vantage/sim/world/level_surfaces.hpp"
 #include "vantage/sim/world/settle.hpp"
 #include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/flight/recognition_model_file.hpp"
 #include "vantage/tasks/robot_defaults.hpp"
 #include "vantage/tasks/tabletop/table_region.hpp"
 
@@ -123,6 +124,11 @@ Validation validate_map(const fs::path& file) {
   return {};
 }
 
+Validation validate_model(const fs::path& file) {
+  check_recognition_model(file);
+  return {};
+}
+
 }  // namespace
 
 Validation validation_of(const std::function<Validation()>& check) {
@@ -180,8 +186,10 @@ Validation validate_file(const fs::path& file, const std::vector<std::string>& o
     if (is_episode) return validate_episode(file, overrides);
     if (is_scene) return validate_scene(file, overrides);
     if (type == ".bt" || type == ".ot") return validate_map(file);
-    throw InputError(fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot",
-                                 file.string(), type));
+    if (type == ".model") return validate_model(file);
+    throw InputError(
+        fmt::format("{}: unknown kind of file '{}'; known: .yaml, .xml, .bt, .ot, .model",
+                    file.string(), type));
   });
 }
 

@@ -30,7 +30,8 @@ Validation validate_episode(const std::filesystem::path& file,
                             const std::vector<std::string>& overrides = {});
 
 /// @param overrides of an episode, or of the table-top episode that a scene is tried in
-/// @return a problem if the file is neither and there are any
+/// @return a problem if the file is neither and there are any, or of no known kind: an episode, a
+/// scene, a map, a robot, a model of recognition
 Validation validate_file(const std::filesystem::path& file,
                          const std::vector<std::string>& overrides = {});
 

@@ -40,7 +40,7 @@ struct RecordedPlayer {
   void play(ViewLink& link, PlaybackGate& gate, std::size_t position, bool still) const {
     for (const EpisodeEvent& event : event_log) link.tell(event);
     while (true) {
-      const auto state = states.state(state_at(position));
+      const auto state = states.finite_state(state_at(position));
       if (still || position == end()) gate.pause();
       link.show({state.begin(), state.end()}, events_at(position), still);
       if (!gate.wait(tick_s)) return;

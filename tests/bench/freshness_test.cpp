@@ -5,8 +5,10 @@
 
 #include <cstdlib>
 
+#include "bench/pages/origins.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -77,6 +79,30 @@ TEST_F(FreshnessOf, AnotherHistoryIsUnknown) {
   const support::TemporaryDirectory elsewhere;
   EXPECT_EQ(freshness_of({.commits = {first_}, .code = {"src"}}, elsewhere.path()),
             Freshness::unknown);
+}
+
+TEST(MarkedCommit, IsRefusedWhereASourceOfTheBenchmarkIsNotThere) {
+  const support::TemporaryDirectory repository;
+  for (const char* folder : {"src", "planners", "sim", "models", "assets"}) {
+    std::filesystem::create_directory(repository / folder);
+  }
+  std::filesystem::create_directory(repository / "bench");
+  for (const char* file : {"situation.cpp", "castray.cpp", "measures.cpp", "hmm.cpp"}) {
+    write_file(repository.path() / "bench" / file, "");
+  }
+  const auto marked = [&](const std::string& benchmark) {
+    return marked_commit(benchmark, "0123456", "results.json", repository.path());
+  };
+  EXPECT_EQ(marked("hmm"), "0123456 ?");
+  try {
+    marked("gone");
+    ADD_FAILURE() << "it can never be stale";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what())
+                  .find("results.json: benchmark gone: there is no "
+                        "bench/gone.cpp"),
+              0U);
+  }
 }
 
 TEST(FreshnessMark, SaysNothingOfWhatIsFresh) {

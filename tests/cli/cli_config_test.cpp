@@ -152,6 +152,9 @@ TEST_F(CommandLine, JsonIsJson) {
   ASSERT_TRUE(parsed.is_object()) << config.output;
   EXPECT_EQ(parsed["scans"], 4);
   EXPECT_EQ(parsed["gain"]["name"], "adaptive");
+  const auto flight = nlohmann::json::parse(
+      vantage("run assets/episodes/recognition.yaml --print-config --json").output, nullptr, false);
+  EXPECT_EQ(flight["tracking"]["gusts"], nlohmann::json::array());
   const auto plan = nlohmann::json::parse(vantage("run --dry-run --json").output, nullptr, false);
   ASSERT_TRUE(plan.is_object());
   EXPECT_EQ(plan["method"], "adaptive");
@@ -164,6 +167,10 @@ TEST_F(CommandLine, ValidateKnowsWhatCannotRun) {
   const auto reserved = file("reserved.xml", "<mujoco><worldbody>" + floor +
                                                  "<body name='robot/x'/></worldbody></mujoco>");
   expect_error(vantage("validate " + reserved), 3, {"reserved.xml", "robot/x"});
+  expect_error(vantage("validate " + file("half.model", "vantage recog")), 3, {"half.model"});
+  EXPECT_THAT(vantage("validate '" VANTAGE_SOURCE_DIR "/assets/models/flight.model'").output,
+              HasSubstr("flight.model: good"));
+  expect_error(vantage("validate " + file("a.txt", "x")), 3, {"unknown kind", ".ot, .model"});
   const auto bare = file("bare.xml", "<mujoco><worldbody>" + floor + "</worldbody></mujoco>");
   const Result good = vantage("validate " + bare);
   EXPECT_EQ(good.exit_code, 0);

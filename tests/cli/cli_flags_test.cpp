@@ -65,6 +65,18 @@ TEST_F(CommonFlags, TakeNoValueAndExcludeEachOther) {
   EXPECT_EQ(vantage("list gains --json=false").exit_code, 2);
 }
 
+TEST_F(CommonFlags, GoWithNumbersThatAreFinite) {
+  for (const char* command :
+       {"compare a b --tolerance", "export a --mcap a.mcap --image-period",
+        "view --screenshot a.png --at", "scene from-mesh a.obj --out a.xml --floor",
+        "scene from-mesh a.obj --out a.xml --cell", "recognise a b --model m --depth-unit-m",
+        "dataset contact-sheet a --out a.png --yaw-deg"}) {
+    const Result result = vantage(command + std::string(" nan"));
+    EXPECT_EQ(result.exit_code, 2) << command;
+    EXPECT_THAT(result.output, HasSubstr("nan is not a finite number")) << command;
+  }
+}
+
 TEST_F(CommonFlags, QuietLeavesWarningsAndErrors) {
   expect_error(vantage("validate -q nowhere.yaml"), 3, {"nowhere.yaml"});
   EXPECT_THAT(vantage(std::string("run ") + kShort + "--out run").output, Not(HasSubstr("info")));

@@ -29,6 +29,18 @@ TEST_F(HindsightCommands, BoundIsKeptAndOnThePage) {
               HasSubstr("\"run_over_least\""));
 }
 
+TEST_F(HindsightCommands, AnInterruptedTourIsNoComparison) {
+  replace("config.yaml", "s/scan_duration_s: 2$/scan_duration_s: 3600/");  // hours of scanning
+  const fs::path before = fs::temp_directory_path();
+  fs::create_directory(folder_ / "scratch");
+  ::setenv("TMPDIR", (folder_ / "scratch").c_str(), 1);
+  const Result result = interrupted("bound run --oracle-tour -q",
+                                    "ls scratch/*/oracle_tour/steps.part.csv >listed 2>&1", "INT");
+  ::setenv("TMPDIR", before.c_str(), 1);
+  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_FALSE(fs::exists(folder_ / "run/bound.json"));
+}
+
 TEST_F(HindsightCommands, BranchAsChosenHasTheRecordedHash) {
   const Result as_chosen = vantage("branch run --scan 1 -q");
   EXPECT_EQ(as_chosen.exit_code, 0) << as_chosen.output;

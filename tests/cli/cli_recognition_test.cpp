@@ -113,6 +113,17 @@ TEST_F(RecognitionCommands, AModelOrATableIsNotReplacedUnasked) {
   EXPECT_NE(read_file(folder_ / "tables/summary.json"), "{}");
 }
 
+TEST_F(RecognitionCommands, WeightsOfWhatMotionsCostAreRefused) {
+  train();
+  for (const std::string key : {"weight_per_s", "weight_per_m", "weight_per_j"}) {
+    const std::string set = " -q --set recognition.views." + key + "=0.5";
+    const std::vector<std::string> parts{"recognition.views." + key + ": 0.5", "must be 0"};
+    expect_error(vantage(std::string("recognise --model model ") + kRed + set), 2, parts);
+    expect_error(vantage("evaluate data --model model --out tables" + set), 2, parts);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "tables"));
+}
+
 TEST_F(RecognitionCommands, TrainsOnSeveralRecordingsOfTheSameObjects) {
   put({"mug", "mug_1", 3}, "again");  // in other light: copies would count once
   put({"can", "can_3", 90}, "again");

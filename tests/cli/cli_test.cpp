@@ -101,14 +101,43 @@ TEST_F(CommandLine, TerminatedRunEndsIn143) {
 }
 
 TEST_F(CommandLine, FullStdoutIsAnOutputError) {
-  EXPECT_EQ(vantage("list gains >/dev/full").exit_code, 5);
+  // Of more than a buffer's size, too: it fails while it is printed.
+  for (const char* command :
+       {"list gains", "schema episode", "--help", "run --help", "--version"}) {
+    expect_error(vantage(command + std::string(" >/dev/full")), 5, {"stdout: cannot write"});
+  }
+}
+
+TEST_F(CommandLine, FullStderrCostsNoRun) {
+  std::string run = std::string("run ") + kShort;
+  run.replace(run.find("-q"), 2, "2>/dev/full");
+  EXPECT_EQ(vantage(run).exit_code, 0);
+}
+
+TEST_F(CommandLine, APlaceThatCannotBeIsOneClearLine) {
+  const std::string long_name(300, 'x');
+  const std::string run = std::string("run ") + kShort;
+  expect_error(vantage(run + "--out " + long_name), 5, {long_name, "File name too long"});
+  expect_error(vantage("view -q " + long_name), 3, {long_name});
+  expect_error(vantage("scene from-mesh " + long_name + ".obj --out a.xml -q"), 3, {long_name});
+  const std::string here = "cd '" + folder_.string() + "' && ";
+  expect_error(shell(here + "TMPDIR=/no/such " VANTAGE_BINARY " " + run), 5, {"TMPDIR: /no/such"});
+  EXPECT_THAT(shell(here + "TMPDIR=/no/such " VANTAGE_BINARY " doctor").output,
+              HasSubstr("does NOT work: TMPDIR"));
+  expect_error(shell(here + "mkdir gone && cd gone && rmdir ../gone && " VANTAGE_BINARY
+                            " train data --out model -q"),
+               5, {"model: No such file or directory"});
 }
 
 TEST_F(CommandLine, FailedOverwriteKeepsTheOldRun) {
   const std::string run = std::string("run ") + kShort;
   ASSERT_EQ(vantage(run).exit_code, 0);
   EXPECT_EQ(vantage(run + "--overwrite --set scene=no.xml").exit_code, 3);
-  EXPECT_THAT(written(), testing::Contains("metrics.json"));
+  const auto before = written();
+  fs::create_directory(folder_ / "out/tabletop-1/steps.part.csv");
+  expect_error(vantage(run + "--overwrite"), 5, {"steps.csv: cannot write"});
+  EXPECT_THAT(written(), testing::UnorderedElementsAreArray(before));
+  EXPECT_THAT(before, testing::IsSupersetOf({"metrics.json", "log.txt"}));
 }
 
 TEST_F(CommandLine, SceneBesideTheEpisodeIsReplayed) {

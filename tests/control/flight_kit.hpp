@@ -11,7 +11,8 @@ inline std::filesystem::path quadrotor_file(const std::string& name = "quadrotor
 }
 inline Quadrotor quadrotor(const World& world, const std::string& name = "quadrotor") {
   const RobotFolder robot = robot_folder(name);
-  return {world.model(), quadrotor_of(robot, "robot"), robot.description.string()};
+  return {world.model(), quadrotor_of(robot, "robot"), robot.description.string(),
+          world.source().scene.string()};
 }
 
 /// What models/robots/quadrotor is meant to be.

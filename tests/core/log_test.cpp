@@ -1,7 +1,13 @@
 #include "vantage/core/log.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -75,6 +81,39 @@ TEST_F(Log, ProgressOfManyThingsIsNotManyLines) {
   }
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 2) << text;
+}
+
+/// What progress shows on a terminal.
+std::string shown_on_terminal() {
+  const int screen = ::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  ::grantpt(screen);
+  ::unlockpt(screen);
+  const int terminal = ::open(::ptsname(screen), O_RDWR | O_NOCTTY);
+  const int before = ::dup(STDERR_FILENO);
+  ::dup2(terminal, STDERR_FILENO);
+  {
+    Progress progress("scan", 1000.0);
+    pollfd shown{screen, POLLIN, 0};
+    for (int i = 1; i < 1000 && ::poll(&shown, 1, 10) == 0; ++i) progress.update(i);
+  }
+  ::dup2(before, STDERR_FILENO);
+  std::array<char, 256> text{};
+  const auto size = std::max<ssize_t>(0, ::read(screen, text.data(), text.size()));
+  for (const int file : {before, terminal, screen}) ::close(file);
+  return {text.data(), static_cast<std::size_t>(size)};
+}
+
+TEST_F(Log, ProgressOnATerminalIsABarUnlessNoColorIsSet) {
+  constexpr auto kErase = "\x1b[K";
+  ::unsetenv("NO_COLOR");
+  EXPECT_NE(shown_on_terminal().find(kErase), std::string::npos);
+  ::setenv("NO_COLOR", "", 1);
+  EXPECT_NE(shown_on_terminal().find(kErase), std::string::npos);
+  ::setenv("NO_COLOR", "1", 1);
+  const std::string text = shown_on_terminal();
+  EXPECT_EQ(text.find('\x1b'), std::string::npos) << text;
+  EXPECT_EQ(text.rfind("scan: ", 0), 0U) << text;
+  ::unsetenv("NO_COLOR");
 }
 
 TEST_F(Log, ProgressIsSilentWhenQuiet) {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include <map>
 #include <set>
+#include <tuple>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -14,6 +14,7 @@
 #include "vantage/dataset/pictures/picture_layout.hpp"
 #include "vantage/dataset/pictures/pose_file.hpp"
 #include "vantage/dataset/pictures/view_directions.hpp"
+#include "vantage/perception/dataset_index.hpp"
 
 namespace vantage {
 namespace {
@@ -120,6 +121,33 @@ TEST_F(Layout, ColourWithoutDepthIsLeftOutAndTold) {
   put("drill/front_rgb.png", "drill/front_depth.png");
   put("drill/left_rgb.png", "drill/other_depth.png");
   EXPECT_EQ(find_pictures(folder_.path(), "").left_out.size(), 2U);
+}
+
+TEST_F(Layout, ObjectsThatWouldBeCalledAlikeAreNamed) {
+  int set = 0;
+  for (const auto& [a, b, name] : {std::tuple("drill", "drill_1", "drill_1"),
+                                   {"mug2", "mug_2", "mug_2"},
+                                   {"mug-2", "mug 2", "mug_2"}}) {
+    const std::string root = std::to_string(++set) + "/";
+    for (const std::string object : {a, b}) {
+      put(root + object + "/front_rgb.png", root + object + "/front_depth.png");
+    }
+    try {
+      (void)find_pictures(folder_.path() / root, "");
+      ADD_FAILURE() << "no error of " << a;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(std::string("'") + a + "'"));
+      EXPECT_THAT(error.what(), HasSubstr(std::string("'") + b + "'"));
+      EXPECT_THAT(error.what(), HasSubstr(std::string("'") + name + "'; rename"));
+    }
+  }
+}
+
+TEST_F(Layout, ANumberBeyondEveryIntIsPartOfTheName) {
+  put("coke_5449000000996/front_rgb.png", "coke_5449000000996/front_depth.png");
+  put("coke_999999999/front_rgb.png", "coke_999999999/front_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|coke_5449000000996_1|front", "|coke_999999999|front"));
+  EXPECT_TRUE(parse_view_name("coke_5449000000996_1_1_1").has_value());
 }
 
 TEST(Directions, NamesHaveAngles) {

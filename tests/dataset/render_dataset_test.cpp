@@ -6,6 +6,7 @@
 #include <atomic>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -169,6 +170,17 @@ TEST(RenderDataset, AnObjectTooLargeForTheImageIsNamed) {
   EXPECT_THROW(render_dataset(options, {.root = out / "d"}), InputError);
 }
 
+TEST(RenderDataset, OfADamagedModelNothingIsBegun) {
+  const support::TemporaryDirectory out;
+  fs::create_directories(out / "models/duck");
+  write_file(out / "models/duck/model.obj", "v 1 2\n");
+  write_file(out / "models/duck/texture.png", "is not read");
+  DatasetOptions options = few(1);
+  options.models = (out / "models").string();
+  EXPECT_THROW(render_dataset(options, {.root = out / "d"}), InputError);
+  EXPECT_FALSE(fs::exists(out / "d/duck"));
+}
+
 TEST(RenderDataset, TellsWhatIsMissing) {
   const support::TemporaryDirectory out;
   render_dataset(few(3), {.root = out / "d"});
@@ -193,6 +205,32 @@ TEST(RenderDataset, OneProcessAtATimeRendersIntoAFolder) {
   };
   render_dataset(few(1), {.root = out / "d", .stop = another});
   EXPECT_EQ(refused, 9);
+}
+
+TEST(RenderDataset, WhatIsRenderedIsNotReplacedMeanwhile) {
+  const support::TemporaryDirectory out;
+  DatasetOptions other = few(1);
+  other.seed = 9;
+  bool begun = false;
+  const auto replace = [&] {
+    const bool first = !std::exchange(begun, true);
+    if (first) {
+      EXPECT_THROW(render_dataset(other, {.root = out / "d", .overwrite = true}), OutputError);
+    }
+    return false;
+  };
+  EXPECT_EQ(render_dataset(few(1), {.root = out / "d", .stop = replace}).rendered, 1);
+  EXPECT_EQ(dataset_options_text(out / "d").find("seed: 9"), std::string::npos);
+}
+
+TEST(RenderDataset, OverwritingLeavesNothingOfTheOldOne) {
+  const support::TemporaryDirectory out;
+  render_dataset(few(2), {.root = out / "d"});
+  DatasetOptions other = few(1);
+  other.seed = 9;
+  render_dataset(other, {.root = out / "d", .overwrite = true});
+  render_dataset(other, {.root = out / "new"});
+  EXPECT_TRUE(contents(out / "d") == contents(out / "new"));
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ class Index : public testing::Test {
 };
 
 TEST_F(Index, IsSortedByNumberAndHasYaws) {
-  write_file(root_.path() / "mug" / "mug_1" / "notes_crop.png", "of no view");
+  write_file(root_.path() / "mug" / "mug_1" / "notes.png", "of no view");
   std::filesystem::create_directories(root_.path() / "mug" / ".mug_2.part");
   const DatasetIndex index = index_dataset(root_.path());
   ASSERT_EQ(index.views.size(), 4U);
@@ -90,6 +90,15 @@ TEST_F(Index, NamesAMissingFile) {
   EXPECT_EQ(index_dataset(root_.path(), OnBadView::skip).views.size(), 4U);
 }
 
+TEST_F(Index, NamesAViewWhoseNameCannotBeRead) {
+  write_file(of_mug("mug_99999999999_2_1_crop.png"), "of an instance beyond every int");
+  expect_bad("mug_99999999999_2_1_crop.png", "numbers up to 2147483647");
+  std::filesystem::remove(of_mug("mug_99999999999_2_1_crop.png"));
+  write_file(of_mug("left_crop.png"), "of no number");
+  expect_bad("left_crop.png", "<category>_<instance>_<video>_<frame>_crop.png");
+  EXPECT_EQ(index_dataset(root_.path(), OnBadView::skip).views.size(), 4U);
+}
+
 TEST_F(Index, NamesABadPose) {
   support::put_view(root_.path(), "mug", "mug_1", 2, 11, "north");
   expect_bad("mug_1_2_11_pose.txt", "expected the pose in degrees");
@@ -106,6 +115,17 @@ TEST_F(Index, NamesACategoryOfOneView) {
   support::put_view(root_.path(), "bowl", "bowl_1", 1, 1, "0");
   expect_bad("bowl_1_1_1_crop.png", "the only view of its category");
   EXPECT_EQ(index_dataset(root_.path(), OnBadView::skip).views.size(), 4U);
+}
+
+TEST_F(Index, NamesNotesOfOneDirection) {
+  write_file(root_.path() / "pictures.yaml", "bins: 1\n");
+  try {
+    index_dataset(root_.path());
+    ADD_FAILURE() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("pictures.yaml"));
+    EXPECT_THAT(error.what(), HasSubstr("bins"));
+  }
 }
 
 TEST(EmptyIndex, IsAnError) {

@@ -74,8 +74,8 @@ TEST_F(ImageFiles, WhatIsNoDepthSaysWhy) {
   expect_error([&] { read_depth_image(path("short.npy")); }, "short.npy: is cut short");
   put_npy("text.npy", "<U4", "2, 2", "");
   expect_error([&] { read_depth_image(path("text.npy")); }, "'<U4'");
-  std::string wide = "{'descr': '<u2', 'fortran_order': False, 'shape': (2," +
-                     std::string(1 << 20, ' ') + "2), }";
+  std::string wide =
+      "{'descr': '<u2', 'fortran_order': False, 'shape': (2," + std::string(1 << 20, ' ') + "2), }";
   const auto size = static_cast<std::uint32_t>(wide.size());
   wide.insert(0, bytes_of<std::uint32_t>({size}));
   write_file(path("wide.npy"), std::string("\x93NUMPY\x02\x00", 8) + wide);
@@ -87,7 +87,8 @@ TEST_F(ImageFiles, WhatIsNoDepthSaysWhy) {
   cv::imwrite(path("full.png").string(), cv::Mat(2, 2, CV_16UC1, cv::Scalar(65535)));
   expect_error([&] { read_depth_image(path("full.png")); }, "65535");
   cv::imwrite(path("near.png").string(), cv::Mat(2, 2, CV_16UC1, cv::Scalar(8)));
-  expect_error([&] { read_depth_image(path("near.png")); }, "--depth-unit");
+  expect_error([&] { read_depth_image(path("near.png")); }, "--depth-unit of");
+  expect_error([&] { read_depth_image(path("near.png")); }, "--depth-unit-m of `recognise`");
 }
 
 TEST_F(ImageFiles, ColourMayHaveAlphaOrNone) {

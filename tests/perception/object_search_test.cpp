@@ -170,6 +170,10 @@ TEST(ObjectSearch, RejectsOptionsOutOfRange) {
   options = {};
   options.support.max_height_m = options.support.min_height_m;
   EXPECT_THROW(find_objects(draw_room({}, kCamera), kCamera, options), ConfigError);
+  options.support = {.max_height_m = 200.0};
+  EXPECT_THROW(find_objects(draw_room({}, kCamera), kCamera, options), ConfigError);
+  options.support = {.min_height_m = -1e9};
+  EXPECT_THROW(find_objects(draw_room({}, kCamera), kCamera, options), ConfigError);
 }
 
 }  // namespace

@@ -149,6 +149,42 @@ class Environments(unittest.TestCase):
                 self.assertTrue(info["invalid_action"])
                 assert_equal(self, before, after)
 
+    def test_open_views_are_kept_where_there_are_more_than_rows(self):
+        class Request:
+            gain, interval = np.arange(5.0), np.zeros((5, 2))
+            gain_unit, views = "bits", np.zeros((5, 5))
+            travel_s = path_length_m = np.full(5, np.inf)
+
+            def __init__(self, *open_views):
+                self.exhausted = ~np.isin(np.arange(5), open_views)
+
+            def __len__(self):
+                return 5
+
+        env = make(max_candidates=2)
+        for open_views, gains, mask in (((1, 4), (1, 4), (1, 1)), ((3,), (0, 3), (0, 1)), ((), (0, 1), (1, 1)),
+                                        (range(5), (0, 1), (1, 1))):
+            rows = np.zeros((2, len(COLUMN)), np.float32)
+            request = Request(*open_views)
+            env._fill(rows, request)
+            np.testing.assert_array_equal(env._shown, gains)
+            np.testing.assert_array_equal(rows[:, COLUMN["open"]], mask)
+            shares = rows[:, COLUMN["gain"]]
+            np.testing.assert_allclose(shares / shares.max(), np.divide(gains, max(gains)))
+
+    def test_an_action_is_the_view_of_its_row(self):
+        class Stepped:
+            def answer(self, view):
+                self.view = view
+                raise InterruptedError
+
+        with make(max_candidates=2) as env:
+            env.reset(seed=1)
+            env._shown, env._stepped = np.array([3, 9]), Stepped()
+            with self.assertRaises(InterruptedError):
+                env.step(1)
+            self.assertEqual(env._stepped.view, 9)
+
     def test_candidates_carry_the_interval_of_their_gain(self):
         asked = []
 

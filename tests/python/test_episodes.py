@@ -27,6 +27,11 @@ class Runs(InFolder):
                                    overwrite=True)
             self.assertEqual(asked.metrics["state_hash"], wanted)
 
+    def test_options_are_what_was_set(self):
+        for seed in (0, 7, 2**63 - 1, 2**63, 2**64 - 1):
+            read = vantage.episodes.episode("tabletop", seed=seed).options["seed"]
+            self.assertEqual((read, type(read)), (seed, int))
+
     def test_a_copy_of_greedy_is_greedy(self):
         def greedy(request):
             open_views = np.flatnonzero(~request.exhausted)
@@ -128,7 +133,10 @@ class Runs(InFolder):
         self.assertEqual(table["candidate"][first][table["chosen"][first] == 1], steps["chosen_view"][1])
         self.assertEqual(back.trajectory.shape[1], 8)
         self.assertGreater(back.map.count(vantage.OCCUPIED), 10)
-        self.assertTrue(back.frames)
+        for number in (100, 99):
+            (run.directory / f"frames/scan_{number}.png").touch()
+        self.assertEqual([picture.name for picture in back.frames],
+                         [f"scan_{number}.png" for number in ("01", "02", "03", "04", "99", "100")])
         with self.assertRaisesRegex(vantage.InputError, "no run folder"):
             vantage.load(self.folder)
         with self.assertRaisesRegex(vantage.ConfigError, "holds.*; overwrite=True replaces it"):

@@ -124,6 +124,8 @@ class Recognition(InFolder):
             "turned_rad": lambda: recogniser.update(rgb, depth, mask, turned_rad=np.nan),
             "turns_rad": lambda: recogniser.next_view([]),
             "unknown key": lambda: vantage.Recogniser(self.model, recognition={"x": 1}),
+            "recognition.views.weight_per_s: 1":
+                lambda: vantage.Recogniser(self.model, recognition={"views": {"weight_per_s": 1}}),
         }.items():
             with self.assertRaisesRegex(vantage.ConfigError, message):
                 call()

@@ -71,6 +71,26 @@ TEST_F(ChangeDetection, NothingWhereSomethingWasExpectedIsRemoved) {
   EXPECT_EQ(report.recognition.views.size(), 3U);
 }
 
+/// Hidden, seen, hidden: it is there.
+TEST_F(ChangeDetection, WhatIsSeenBetweenEmptyViewsIsNotRemoved) {
+  ChangeSearch search = begin_change_search(recogniser_, options_, 0);
+  Rng rng(1);
+  const auto hidden = [](std::size_t) {
+    return ExtractedFeature{.result = FeatureResult::skip("hidden")};
+  };
+  const auto seen = [&](std::size_t feature) {
+    return ExtractedFeature{.result = {recogniser_.features[feature].observation.mean.col(0), {}}};
+  };
+  update_with_view(recogniser_, options_, hidden, 0.0, search, rng);
+  EXPECT_EQ(verdict(recogniser_, options_, search), Change::removed);
+  update_with_view(recogniser_, options_, seen, 0.0, search, rng);
+  update_with_view(recogniser_, options_, hidden, 0.0, search, rng);
+  EXPECT_NE(verdict(recogniser_, options_, search), Change::removed);
+  EXPECT_NE(change_end(options_, search), ChangeEnd::nothing_seen);
+  update_with_view(recogniser_, options_, hidden, 0.0, search, rng);
+  EXPECT_EQ(change_end(options_, search), ChangeEnd::nothing_seen);
+}
+
 /// Two states and one feature: P(u) in closed form.
 TEST(ChangeDetectionInClosedForm, WeighsTheHypothesesByBayesRule) {
   ObjectStates states;

@@ -90,6 +90,18 @@ TEST_F(NearDuplicateMugs, ASkippedFeatureIsReportedAndNotTriedAgain) {
   EXPECT_NEAR(recognition.views[0].entropy_bits, 2.0, 1e-9);
 }
 
+TEST_F(NearDuplicateMugs, AViewThatToldNothingTakesNothingFromTheNext) {
+  recogniser_.view_correlation = 0.5;
+  Recognition recognition = begin_recognition(recogniser_);
+  const auto hidden = [](std::size_t) {
+    return ExtractedFeature{.result = FeatureResult::skip("hidden")};
+  };
+  update_with_view(recogniser_, options_, hidden, 0.0, recognition, rng_);
+  EXPECT_EQ(next_view_weight(recogniser_, recognition), 1.0);
+  update_with_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);
+  EXPECT_LT(next_view_weight(recogniser_, recognition), 1.0);
+}
+
 TEST_F(NearDuplicateMugs, AFeatureThatFitsNoStateIsSkippedWithTheReason) {
   const ExtractFeature impossible = [&](std::size_t) {
     return ExtractedFeature{

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <memory>
 #include <numeric>
 
 #include "tests/recognition/made_up.hpp"
@@ -165,6 +166,14 @@ TEST_F(Training, SaysWhatIsWrongWithItsOptions) {
   expect_error("'colour' appears twice");
   options_.features = {};
   expect_error("at least one");
+}
+
+TEST_F(Training, NotesOfOneDirectionTellNoPosesApart) {
+  DatasetIndex dataset = index_dataset(folder_.path());
+  const auto notes = std::make_shared<PictureNotes>();
+  notes->bins = 1;
+  for (ViewEntry& view : dataset.views) view.notes = notes;
+  EXPECT_THROW((void)train_recognition(dataset, options_, {}), ConfigError);
 }
 
 TEST_F(Training, ABadViewIsAnErrorOfItsFile) {

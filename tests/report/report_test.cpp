@@ -159,9 +159,9 @@ TEST(Report, EmbedsTheLastFrameWithoutVideo) {
   const TemporaryDirectory run;
   support::write_sample_run(run.path());
   std::filesystem::create_directory(run / "frames");
-  write_file(run / "frames" / "scan_00.png", "a");
-  write_file(run / "frames" / "scan_01.png", "bc");
-  write_file(run / "frames" / "scan_02.part.png", "unfinished");
+  write_file(run / "frames" / "scan_99.png", "a");
+  write_file(run / "frames" / "scan_100.png", "bc");
+  write_file(run / "frames" / "scan_101.part.png", "unfinished");
   EXPECT_EQ(embedded_data(page_of(run))["media"]["frame"], "data:image/png;base64,YmM=");
 }
 

@@ -19,6 +19,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/runtime/log/video.hpp"
 
 namespace vantage {
 namespace {
@@ -42,12 +43,14 @@ class Run : public testing::Test {
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
-  static nlohmann::json short_run(const std::string& name, std::vector<std::string> more) {
+  static ResolvedEpisode short_episode(const std::vector<std::string>& more) {
     std::vector<std::string> overrides = {"scans=2", "map.cells=[49,49,25]",
                                           "laser.scan_duration_s=3"};
     overrides = support::overridden(std::move(overrides), more);
-    const auto episode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
-    const auto outcome = run(load_episode(episode, overrides), {folder_ / name, false, false, {}});
+    return load_episode(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml", overrides);
+  }
+  static nlohmann::json short_run(const std::string& name, const std::vector<std::string>& more) {
+    const auto outcome = run(short_episode(more), {folder_ / name, false, false, {}});
     return nlohmann::json::parse(outcome.metrics);
   }
   static fs::path copy_of_first(const std::string& name) {
@@ -164,6 +167,30 @@ TEST_F(Run, ItsFolderIsNoOtherProcessesFolderMeanwhile) {
   const int again = ::open(shared.c_str(), O_RDONLY | O_DIRECTORY);
   EXPECT_EQ(::flock(again, LOCK_EX | LOCK_NB), 0) << "it is given back";
   ::close(again);
+}
+
+TEST_F(Run, KeepsItsFolderUntilTheReportIsWritten) {
+  const fs::path held = folder_ / "held";
+  fs::create_directories(held / "report.part.html");  // in the report's way
+  EXPECT_THROW(short_run("held", {"scans=1"}), OutputError);
+  EXPECT_TRUE(fs::exists(held / "map.bt"));
+  const int other = ::open(held.c_str(), O_RDONLY | O_DIRECTORY);
+  EXPECT_NE(::flock(other, LOCK_EX | LOCK_NB), 0);
+  ::close(other);
+}
+
+TEST_F(Run, AVideoThatFailsCostsNothingElse) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  RunOptions options;
+  options.directory = folder_ / "unfilmed";
+  options.video = true;
+  options.spectator.on_step = [&](std::string_view, std::string_view) {
+    fs::create_directories(options.directory / "video.mp4");  // in the video's way
+  };
+  EXPECT_THROW(run(short_episode({"scans=1", "recording.height_px=240"}), options), OutputError);
+  for (const char* name : {"metrics.json", "map.bt", "map.ot", "cloud.ply", "voxels.bin"}) {
+    EXPECT_TRUE(fs::exists(options.directory / name)) << name;
+  }
 }
 
 TEST_F(Run, WhatItWritesIsDescribed) {

@@ -16,6 +16,7 @@ namespace {
 constexpr std::string_view kMagic = "vantage recognition model\n";
 constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kVersionWithoutUnknown = 1;
+constexpr int kMinBins = 2;  ///< fewer leave no turn that shows another side
 constexpr int kMaxBins = 3600;
 constexpr std::size_t kMaxStates = 10'000'000;
 
@@ -48,8 +49,8 @@ std::vector<std::string> take_categories(ByteReader& reader) {
 ObjectStates take_states(ByteReader& reader) {
   ObjectStates states;
   states.bins = reader.number<std::int32_t>("the number of bins");
-  reader.require(states.bins >= 1 && states.bins <= kMaxBins,
-                 fmt::format("{} yaw bins, must be in [1, {}]", states.bins, kMaxBins));
+  reader.require(states.bins >= kMinBins && states.bins <= kMaxBins,
+                 fmt::format("{} yaw bins, must be in [{}, {}]", states.bins, kMinBins, kMaxBins));
   states.categories = take_categories(reader);
   const std::size_t objects = reader.count(2 * sizeof(std::uint32_t), "the objects");
   reader.require(objects * static_cast<std::size_t>(states.bins) <= kMaxStates,

@@ -59,12 +59,14 @@ PreparedObservationModel prepare(const ObservationModel& model) {
   PreparedObservationModel prepared{.mean = model.mean,
                                     .precision = model.variance.cwiseInverse(),
                                     .log_at_mean = Eigen::VectorXd(model.states()),
+                                    .log_factor = Eigen::VectorXd::Zero(model.states()),
                                     .psi = model.psi};
   for (Eigen::Index j = 0; j < prepared.log_at_mean.size(); ++j) {
     const auto variance = model.variance.col(j).cast<double>().array();
     prepared.log_at_mean[j] = -0.5 * (variance.log().sum() + log_two_pi(variance.size()));
   }
-  if (model.log_factor.size() > 0) prepared.log_at_mean += model.log_factor;
+  if (model.log_factor.size() > 0) prepared.log_factor = model.log_factor;
+  prepared.log_at_mean += prepared.log_factor;
   return prepared;
 }
 
@@ -88,8 +90,9 @@ Eigen::VectorXd log_likelihood(const PreparedObservationModel& model, const Feat
   if (readings.empty()) return log_likelihood(model, feature);
   require_feature(model.mean.rows(), feature);
   expects(std::ssize(readings) == feature.size(), "a reading for each number");
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(model.mean.cols());
-  if (model.psi == 0.0) return result;
+  const bool tells = std::ranges::any_of(readings, [](Reading r) { return r != Reading::none; });
+  if (model.psi == 0.0 || !tells) return Eigen::VectorXd::Zero(model.mean.cols());
+  Eigen::VectorXd result = model.psi * model.log_factor;
   for (Eigen::Index j = 0; j < result.size(); ++j) {
     for (Eigen::Index d = 0; d < feature.size(); ++d) {
       result[j] += model.psi * log_likelihood(readings[static_cast<std::size_t>(d)], feature[d],

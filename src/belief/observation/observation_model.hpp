@@ -41,6 +41,7 @@ struct PreparedObservationModel {
   Eigen::MatrixXf mean;         ///< dimensions x states
   Eigen::MatrixXf precision;    ///< dimensions x states, 1 / variance
   Eigen::VectorXd log_at_mean;  ///< of each state, ln N(mean_j; mean_j, variance_j) + log_factor_j
+  Eigen::VectorXd log_factor;   ///< of each state, as in ObservationModel; zeros: none
   double psi = 1.0;             ///< as in ObservationModel
 };
 
@@ -51,7 +52,7 @@ Eigen::VectorXd log_likelihood(const PreparedObservationModel& model,
                                const Eigen::Ref<const Eigen::VectorXf>& feature);
 
 /// The same of a feature some of whose numbers are lower bounds, or tell nothing: of these the mass
-/// above them counts instead of the density, or nothing does.
+/// above them counts instead of the density, or nothing does. Zeros where none tells anything.
 /// @param readings of each number; empty: all are exact
 Eigen::VectorXd log_likelihood(const PreparedObservationModel& model,
                                const Eigen::Ref<const Eigen::VectorXf>& feature,

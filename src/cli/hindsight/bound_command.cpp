@@ -28,7 +28,9 @@ ExitCode bound_command(const BoundArguments& arguments) {
   catch_interrupts();
   const RecordedRun run = read_recorded_run(arguments.directory);
   RunBound bound = bound_of_run(run);
+  throw_if_interrupted();
   if (arguments.oracle_tour) add_oracle_tour(run, bound);
+  throw_if_interrupted();
   const std::string text = json_text(run_bound_json(bound));
   write_file(run.directory / "bound.json", text);
   if (fs::exists(run.directory / "report.html")) {

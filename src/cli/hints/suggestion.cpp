@@ -31,8 +31,10 @@ bool is_assignment(std::string_view word) {
 
 std::vector<std::string> with_every_set(const std::vector<std::string>& words) {
   std::vector<std::string> all;
+  bool ours = true;
   for (const std::string& word : words) {
-    const bool follows = all.size() > 1 && all[all.size() - 2] == "--set";
+    ours = ours && word != "--";
+    const bool follows = ours && all.size() > 1 && all[all.size() - 2] == "--set";
     if (follows && is_assignment(word)) all.emplace_back("--set");
     all.push_back(word);
   }

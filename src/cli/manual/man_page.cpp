@@ -165,7 +165,9 @@ std::string program_page(const std::vector<CommandText>& commands, const ManualF
          section(
              "ENVIRONMENT",
              item("VANTAGE_DATA", "folder of models and assets, in place of the installed one") +
-                 item("NO_COLOR", "no colours and no progress bar on a terminal")) +
+                 item(
+                     "NO_COLOR",
+                     "unless empty: no colours and no progress bar on a terminal, lines instead")) +
          section("FILES", item("/usr/share/vantage",
                                "scenes, robots, episodes and studies; they are found from any "
                                "folder by their names below it")) +

@@ -146,14 +146,15 @@ std::function<ExitCode()> declare_import(CLI::App& app, std::shared_ptr<const Pi
   app.add_option("--focal-px", options.focal_px, "focal length of the camera; default 570.3")
       ->check(CLI::Range(10.0, 1e5));
   app.add_option("--intrinsics", arguments->intrinsics,
-                 "file with fx, fy, cx, cy or a 3 x 3 matrix, instead of --focal-px");
+                 "file with fx, fy, cx, cy or a 3 x 3 matrix, instead of --focal-px; pictures with "
+                 "that point far from their middle are taken for crops of the image's middle");
   app.add_option("--elevation-deg", options.elevation_deg,
                  "how far the camera looks down, where no pose tells; default: from the table that "
                  "pictures show, else 45")
       ->check(CLI::Range(-90.0, 90.0));
   app.add_option("--view-yaw", arguments->view_yaws,
-                 "NAME=DEG: yaw of the object in views of that name; front is 0, the camera at its "
-                 "left 270")
+                 "NAME=DEG: yaw of the object in views of that name, beside or instead of the "
+                 "usual ones; front is 0, the camera at its left 270")
       ->type_size(1)
       ->allow_extra_args(false);
   app.add_option("--bins", options.bins,

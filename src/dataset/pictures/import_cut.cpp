@@ -17,6 +17,22 @@ namespace {
 using Item = ImportedPicture;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+/// Whether a camera with that principal point took the picture as it is: it is about in the middle.
+bool is_whole(const ObjectView& picture) {
+  constexpr double kOffMiddle = 0.1;  // of the picture's size
+  const Eigen::Array2d size_px(picture.width_px, picture.height_px);
+  return ((picture.centre_px.array() - 0.5 * size_px).abs() <= kOffMiddle * size_px).all();
+}
+
+/// Where in the camera's image a crop was is not known: in its middle. Without a principal point
+/// given, that of a picture is in its middle too.
+void place(const ImportOptions& options, Item& item, ObjectView& picture) {
+  if (options.centre_px && is_whole(picture)) return;
+  item.cropped = options.centre_px.has_value();
+  picture.left_px = static_cast<int>(picture.centre_px.x()) - picture.width_px / 2;
+  picture.top_px = static_cast<int>(picture.centre_px.y()) - picture.height_px / 2;
+}
+
 ObjectView picture_view(Item& item, const ImportOptions& options, const PictureNotes& notes) {
   ColourImage colour = read_colour_image(item.picture.colour);
   DepthImage depth = read_depth_image(item.picture.depth, options.depth_unit_m);
@@ -41,9 +57,7 @@ ObjectView picture_view(Item& item, const ImportOptions& options, const PictureN
   view.depth_m = std::move(depth.depth_m);
   view.focal_px = notes.focal_px;
   view.centre_px = {notes.centre_px[0], notes.centre_px[1]};
-  // Where in the whole image a crop was is not known: its middle.
-  view.left_px = static_cast<int>(view.centre_px.x()) - view.width_px / 2;
-  view.top_px = static_cast<int>(view.centre_px.y()) - view.height_px / 2;
+  place(options, item, view);
   return view;
 }
 

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
-#include <utility>
+#include <tuple>
 
 #include "vantage/core/error.hpp"
 #include "vantage/dataset/pictures/pose_file.hpp"
@@ -26,14 +28,49 @@ bool all_numbers(const std::vector<std::string>& names) {
   });
 }
 
-Directions even_turn(const std::vector<std::string>& names) {
-  std::vector<std::pair<long, std::string>> order;
-  for (const std::string& name : names) order.emplace_back(std::stol(name), name);
-  std::ranges::sort(order);
+/// Sorts numbers of any length by their value, then by how they are written.
+auto by_value(const std::string& digits) {
+  const std::size_t zeros = std::min(digits.find_first_not_of('0'), digits.size());
+  return std::tuple(digits.size() - zeros, digits.substr(zeros), digits);
+}
+
+Directions even_turn(std::vector<std::string> names) {
+  std::ranges::sort(names, {}, by_value);
   Directions directions;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    directions.yaw_deg[order[i].second] =
-        360.0 * static_cast<double>(i) / static_cast<double>(order.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    directions.yaw_deg[names[i]] =
+        360.0 * static_cast<double>(i) / static_cast<double>(names.size());
+  }
+  return directions;
+}
+
+/// Of views of which some have a given angle, the others the usual one of their name.
+Directions given_directions(const std::map<std::string, double>& given,
+                            const std::vector<std::string>& views) {
+  Directions directions;
+  std::vector<std::string> without;
+  for (const std::string& view : views) {
+    const auto yaw_deg = given.find(view);
+    const auto named = named_direction(view);
+    if (yaw_deg != given.end()) {
+      directions.yaw_deg[view] = yaw_deg->second;
+    } else if (named && named->yaw_deg) {
+      directions.yaw_deg[view] = *named->yaw_deg;
+    } else {
+      without.push_back(view);
+    }
+  }
+  if (!without.empty()) {
+    throw ConfigError(
+        fmt::format("--view-yaw: gives angles to some views and none to '{}'; give all of them one",
+                    fmt::join(without, "', '")));
+  }
+  std::vector<double> yaws;
+  for (const auto& [view, yaw_deg] : directions.yaw_deg) yaws.push_back(yaw_deg);
+  directions.bins = bins_for(yaws);
+  directions.names.resize(static_cast<std::size_t>(directions.bins));
+  for (const auto& [view, yaw_deg] : directions.yaw_deg) {
+    directions.names[static_cast<std::size_t>(yaw_bin(yaw_deg * kDegree, directions.bins))] = view;
   }
   return directions;
 }
@@ -47,27 +84,17 @@ Directions named_directions(const ImportOptions& options, const std::vector<Item
     if (!item.picture.yaw_deg) names.insert(item.picture.view);
   }
   outcome.views.assign(names.begin(), names.end());
+  const bool given = std::ranges::any_of(
+      outcome.views, [&](const std::string& name) { return options.yaw_deg.contains(name); });
+  if (given) return given_directions(options.yaw_deg, outcome.views);
   if (outcome.views.size() >= kManyNumbers && all_numbers(outcome.views)) {
     outcome.notices.push_back(fmt::format(
-        "{} views by number and no angle: taken for one turn in even steps; poses or {{yaw}} in "
-        "--layout tell otherwise",
+        "{} views by number and no angle: taken for one turn in even steps; poses, --view-yaw or "
+        "{{yaw}} in --layout tell otherwise",
         outcome.views.size()));
     return even_turn(outcome.views);
   }
-  const bool all_given = std::ranges::all_of(
-      outcome.views, [&](const std::string& name) { return options.yaw_deg.contains(name); });
-  if (!all_given || outcome.views.empty()) return directions_of_names(outcome.views);
-  Directions given;
-  std::vector<double> yaws;
-  for (const std::string& name : outcome.views) yaws.push_back(options.yaw_deg.at(name));
-  given.bins = bins_for(yaws);
-  given.names.resize(static_cast<std::size_t>(given.bins));
-  for (std::size_t i = 0; i < yaws.size(); ++i) {
-    given.yaw_deg[outcome.views[i]] = yaws[i];
-    given.names[static_cast<std::size_t>(yaw_bin(yaws[i] * kDegree, given.bins))] =
-        outcome.views[i];
-  }
-  return given;
+  return directions_of_names(outcome.views);
 }
 
 }  // namespace
@@ -91,6 +118,8 @@ void direct_views(const ImportOptions& options, std::vector<Item>& items, Import
         std::ranges::any_of(items, [&](const Item& i) { return i.picture.view == name; });
     if (!used)
       throw ConfigError(fmt::format("--view-yaw {}={}: no picture is called that", name, yaw_deg));
+    if (!std::isfinite(yaw_deg))
+      throw ConfigError(fmt::format("--view-yaw {}={}: is no angle", name, yaw_deg));
   }
   const Directions directions = named_directions(options, items, outcome);
   std::vector<double> yaws;

@@ -13,8 +13,8 @@ namespace vantage {
 void read_poses(std::vector<ImportedPicture>& pictures);
 
 /// Sets the yaw of every picture, and the bins of the outcome's notes.
-/// @throws ConfigError if options name views that are not there; InputError if some pictures have
-/// angles and others names without one.
+/// @throws ConfigError if options name views that are not there, or give angles to some and leave
+/// others without; InputError if some pictures have angles and others names without one.
 void direct_views(const ImportOptions& options, std::vector<ImportedPicture>& pictures,
                   ImportOutcome& outcome);
 

@@ -16,6 +16,7 @@
 #include "vantage/dataset/pictures/import_cut.hpp"
 #include "vantage/dataset/pictures/import_directions.hpp"
 #include "vantage/dataset/pictures/imported_picture.hpp"
+#include "vantage/dataset/pictures/replace_folder.hpp"
 #include "vantage/dataset/view_files.hpp"
 #include "vantage/perception/object_cut.hpp"
 
@@ -202,6 +203,12 @@ void note_sizes(const ImportOptions& options, const std::vector<Item>& items,
     outcome.notices.push_back(fmt::format(
         "a picture is {} px wide, so it is not from a camera of that focal length", widest_px));
   }
+  if (const auto cropped = std::ranges::count_if(items, &Item::cropped); cropped > 0) {
+    outcome.notices.push_back(fmt::format(
+        "of {} pictures the principal point is not about their middle: they are taken for crops of "
+        "the middle of the camera's image",
+        cropped));
+  }
   if (outcome.units.size() > 1) {
     outcome.notices.emplace_back("depth is in millimetres in some files and in metres in others");
   }
@@ -211,10 +218,11 @@ void note_sizes(const ImportOptions& options, const std::vector<Item>& items,
 
 ImportOutcome import_pictures(const ImportOptions& options, const ImportRun& run) {
   std::error_code ignored;
-  const bool ours = fs::exists(run.root / kPictureNotes, ignored);
-  if (fs::exists(run.root, ignored) && !fs::is_empty(run.root, ignored)) {
+  const fs::path root = fs::absolute(run.root / ".").lexically_normal().parent_path();
+  const bool ours = fs::exists(root / kPictureNotes, ignored);
+  if (fs::exists(root, ignored) && !fs::is_empty(root, ignored)) {
     if (!ours) throw ConfigError(fmt::format("--out {}: holds something else", run.root.string()));
-    require_absent(run.root / kPictureNotes, run.overwrite);
+    require_absent(root / kPictureNotes, run.overwrite);
   }
   ImportOutcome outcome;
   std::vector<Item> items = items_of(options, run, outcome);
@@ -222,7 +230,7 @@ ImportOutcome import_pictures(const ImportOptions& options, const ImportRun& run
   set_intrinsics(options, outcome);
   outcome.notes.cut = to_string(chosen_cut(options, items, outcome));
   direct_views(options, items, outcome);
-  const fs::path part = part_name(fs::absolute(run.root / ".").parent_path());
+  const fs::path part = part_name(root);
   fs::remove_all(part, ignored);
   try {
     number_views(part, items, outcome.notes);
@@ -231,8 +239,7 @@ ImportOutcome import_pictures(const ImportOptions& options, const ImportRun& run
     write_poses(options, items, outcome);
     note_sizes(options, items, outcome);
     write_file(part / kPictureNotes, to_text(outcome.notes));
-    fs::remove_all(run.root, ignored);
-    fs::rename(part, run.root);
+    replace_folder(part, root);
   } catch (...) {
     fs::remove_all(part, ignored);
     throw;

@@ -18,6 +18,8 @@ struct ImportOptions {
   std::string cut = "auto";   ///< `mask`, `depth`, `whole`; auto: masks if all have one
   double depth_unit_m = 0.0;  ///< what 1 in a depth file stands for; 0: found out
   std::optional<double> focal_px;
+  /// Principal point of the camera's whole image; nothing: the middle of each picture. A picture
+  /// that does not have it about its middle is taken for a crop of the image's middle.
   std::optional<std::array<double, 2>> centre_px;
   std::optional<double> elevation_deg;    ///< of the camera, where no pose tells
   std::map<std::string, double> yaw_deg;  ///< of views by name, beside or instead of the usual ones

@@ -16,7 +16,8 @@ struct ImportedPicture {
   std::optional<double> measured_deg;   ///< over the table it shows
   double unit_m = 0.001;
   int width_px = 0;
-  std::string bad;  ///< why it cannot be used
+  bool cropped = false;  ///< out of the image that the intrinsics are of
+  std::string bad;       ///< why it cannot be used
 };
 
 }  // namespace vantage

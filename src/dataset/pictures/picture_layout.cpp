@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "vantage/core/error.hpp"
 #include "vantage/dataset/pictures/layout_pattern.hpp"
@@ -232,15 +234,17 @@ void read_by_itself(const fs::path& root, const std::vector<Group>& groups, Foun
       "{view}_{kind}";
 }
 
-/// "mug_2" is the second of its category, "drill" the first.
+/// "mug_2" is the second of its category, "drill" the first, "coke_5449000000996" of its own.
 void name_object(FoundPicture& picture) {
+  constexpr std::size_t kMostDigits = 9;
   Words words = words_of(picture.object);
   std::string number = "1";
   if (!words.empty()) {
     std::string& last = words.back();
     const auto digits = last.find_last_not_of("0123456789");
     const std::size_t start = digits == std::string::npos ? 0 : digits + 1;
-    if (start < last.size() && (start > 0 || words.size() > 1)) {
+    const std::size_t count = last.size() - start;
+    if (count > 0 && count <= kMostDigits && (start > 0 || words.size() > 1)) {
       number = last.substr(start);
       last.resize(start);
       std::erase(words, "");
@@ -255,6 +259,21 @@ void name_object(FoundPicture& picture) {
                        : fmt::format("{}_{}_{}", picture.category, stem, number);
 }
 
+/// @throws InputError naming pictures of two objects that would get one name.
+void name_objects(std::vector<FoundPicture>& pictures) {
+  std::map<std::string, std::pair<std::string, fs::path>> sources;
+  for (FoundPicture& picture : pictures) {
+    const std::string source = (fs::path(picture.category) / picture.object).string();
+    name_object(picture);
+    const auto& [first, colour] =
+        sources.try_emplace(picture.object, source, picture.colour).first->second;
+    if (first == source) continue;
+    throw InputError(fmt::format(
+        "{} is of the object '{}', {} of '{}', and both would be called '{}'; rename one of them",
+        colour.string(), first, picture.colour.string(), source, picture.object));
+  }
+}
+
 }  // namespace
 
 FoundPictures find_pictures(const fs::path& root, const std::string& layout) {
@@ -266,7 +285,7 @@ FoundPictures find_pictures(const fs::path& root, const std::string& layout) {
     read_by_pattern(LayoutPattern(layout), groups, found);
     found.layout = layout;
   }
-  for (FoundPicture& picture : found.pictures) name_object(picture);
+  name_objects(found.pictures);
   const bool nameless =
       std::ranges::any_of(found.pictures, [](const FoundPicture& p) { return p.category.empty(); });
   if (found.pictures.empty() || nameless) {

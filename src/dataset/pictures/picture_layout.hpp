@@ -33,7 +33,7 @@ struct FoundPictures {
 /// content tells.
 /// @param layout pattern of paths below `root` (LayoutPattern); empty: found out
 /// @throws InputError naming the folder and what to say if there are no pictures, or it is not
-/// clear what their paths mean.
+/// clear what their paths mean; naming two objects that would be called alike.
 FoundPictures find_pictures(const std::filesystem::path& root, const std::string& layout);
 
 }  // namespace vantage

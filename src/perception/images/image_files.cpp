@@ -126,7 +126,8 @@ double unit_of(const fs::path& file, const RawDepth& raw) {
   if (!raw.integers && median < kMetresBelow) return 1.0;
   if (median >= kNearest_mm && median <= 1000.0 * kMetresBelow) return 0.001;
   fail(file, fmt::format("its depth is {:.4g} in the middle, neither millimetres nor metres; say "
-                         "what 1 stands for with --depth-unit",
+                         "what 1 stands for, with --depth-unit of an import, --depth-unit-m of "
+                         "`recognise`",
                          median));
 }
 

@@ -18,8 +18,10 @@ struct SupportSearchOptions {
   double max_tilt_rad = 0.08;
   void fields(auto&& f) {
     f("min_height_m", min_height_m,
-      "least height of a support surface in the world frame; lower ones are floor");
-    f("max_height_m", max_height_m, "greatest height of a support surface in the world frame");
+      "least height of a support surface in the world frame; lower ones are floor",
+      between(-10.0, 100.0));
+    f("max_height_m", max_height_m, "greatest height of a support surface in the world frame",
+      between(-10.0, 100.0));
     f("columns", columns,
       "number of image columns that are used; higher resolves finer and is slower",
       between(16, 4096));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "vantage/core/bytes.hpp"
 #include "vantage/core/error.hpp"
@@ -110,9 +111,15 @@ RecordedStates read_states(const std::filesystem::path& path) {
   const bool whole = plausible && reader.left() % ((sizes[0] + sizes[1]) * sizeof(double)) == 0;
   reader.require(whole, fmt::format("cut short: {} bytes are not whole records of {} numbers",
                                     reader.left(), sizes[0] + sizes[1]));
-  RecordedStates states{sizes[0], sizes[1], std::vector<double>(numbers)};
+  RecordedStates states{sizes[0], sizes[1], std::vector<double>(numbers), path.string()};
   reader.numbers(std::span(states.values), "the states");
   return states;
+}
+
+std::span<const double> RecordedStates::finite_state(std::size_t i) const {
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  if (std::ranges::all_of(state(i), is_finite)) return state(i);
+  throw InputError(fmt::format("{}: state {} holds a number that is not finite", file, i));
 }
 
 std::vector<RecordedAction> read_actions(const std::filesystem::path& path,

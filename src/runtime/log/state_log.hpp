@@ -42,11 +42,14 @@ struct RecordedStates {
   std::size_t state_size = 0;
   std::size_t actuators = 0;
   std::vector<double> values;
+  std::string file = {};
   [[nodiscard]] std::size_t record_size() const { return state_size + actuators; }
   [[nodiscard]] std::size_t count() const { return values.size() / record_size(); }
   [[nodiscard]] std::span<const double> state(std::size_t i) const {
     return {values.data() + i * record_size(), state_size};
   }
+  /// As state(i). @throws InputError if it holds a number that is not finite
+  [[nodiscard]] std::span<const double> finite_state(std::size_t i) const;
   /// Held during the tick that led to state(i).
   [[nodiscard]] std::span<const double> controls(std::size_t i) const {
     return {values.data() + i * record_size() + state_size, actuators};

@@ -122,8 +122,10 @@ void VideoWriter::verify() const {
 
 std::string missing_video_codec() {
   silence_codec_chatter();
-  const fs::path probe =
-      fs::temp_directory_path() / fmt::format("vantage-codec-{}.mp4", static_cast<int>(::getpid()));
+  std::error_code error;
+  const fs::path place = fs::temp_directory_path(error);
+  if (error) return fmt::format("TMPDIR: no place to try: {}", error.message());
+  const fs::path probe = place / fmt::format("vantage-codec-{}.mp4", static_cast<int>(::getpid()));
   cv::VideoWriter encoder;
   const bool opened = open_encoder(encoder, probe, {64, 64}, 25.0);
   encoder.release();

@@ -34,18 +34,23 @@ VideoRecorder::VideoRecorder(const World& world, const RecordingOptions& options
       half_(half_of(options.height_px)),
       renderer_(make_offscreen_renderer(world.model(), half_.width, half_.height)),
       video_(directory_ / "video.mp4", {2 * half_.width, half_.height}, options.video_fps),
-      camera_(overview_camera(world.model())) {
-  std::filesystem::create_directories(directory_ / "frames");
-}
+      camera_(overview_camera(world.model())),
+      next_frame_s_(world.time_s()) {}
 
 void VideoRecorder::tick(const World& world) {
   if (world.time_s() < next_frame_s_) return;
-  next_frame_s_ += options_.video_speed / options_.video_fps;
-  video_.write(draw(world));
+  const cv::Mat frame = draw(world);
+  const double period_s = options_.video_speed / options_.video_fps;
+  for (; next_frame_s_ <= world.time_s(); next_frame_s_ += period_s) video_.write(frame);
+}
+
+void VideoRecorder::finish() {
+  if (video_.frames() > 0) video_.finish();
 }
 
 void VideoRecorder::save_still(const World& world, std::size_t number) {
   const cv::Mat frame = draw(world);
+  make_writable_directory(directory_ / "frames");
   write_file_with(directory_ / "frames" / fmt::format("scan_{:02}.png", number),
                   [&](const auto& part) { return cv::imwrite(part.string(), frame); });
 }

@@ -20,16 +20,18 @@ cv::Mat side_by_side(const cv::Mat& left_rgb, const cv::Mat& right_bgr);
 
 class VideoRecorder {
  public:
-  /// Makes `directory`/video.mp4 and `directory`/frames. @throws RendererError, OutputError
+  /// Makes `directory`/video.mp4; stills go to `directory`/frames. @throws RendererError,
+  /// OutputError
   VideoRecorder(const World& world, const RecordingOptions& options,
                 std::filesystem::path directory);
 
   void set_panel(PanelPainter panel) { panel_ = std::move(panel); }
-  /// Adds a frame if one is due at the world's time.
+  /// Adds the frames that are due at the world's time.
   void tick(const World& world);
   /// Keeps the present view as frames/scan_<number>.png.
   void save_still(const World& world, std::size_t number);
-  void finish() { video_.finish(); }
+  /// An episode that ended before its first tick has no video. @throws OutputError
+  void finish();
 
  private:
   cv::Mat draw(const World& world);
@@ -42,7 +44,7 @@ class VideoRecorder {
   CameraView camera_;
   RenderedImages overview_;
   PanelPainter panel_;
-  double next_frame_s_ = 0.0;
+  double next_frame_s_;
 };
 
 }  // namespace vantage

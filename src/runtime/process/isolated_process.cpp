@@ -167,11 +167,12 @@ std::optional<int> exec_error(int told) {
   return got == sizeof error ? std::optional(error) : std::nullopt;
 }
 
-/// The first process of a namespace tells a signal as shells do.
+/// The first process of a namespace tells a signal as shells do. Greater exit codes are a program's
+/// own.
 std::string end_text(const siginfo_t& info) {
   const bool exited = info.si_code == CLD_EXITED;
-  if (exited && info.si_status <= 128) return fmt::format("exit code {}", info.si_status);
   const int signal = exited ? info.si_status - 128 : info.si_status;
+  if (signal < 1 || signal > SIGRTMAX) return fmt::format("exit code {}", info.si_status);
   return fmt::format("signal {} ({})", signal, ::strsignal(signal));
 }
 

@@ -206,6 +206,10 @@ std::vector<Start> known_starts(const TestViews& test, std::vector<Start> starts
 
 }  // namespace
 
+void RecognitionStudyOptions::check() const {
+  require_no_weights(recognition.views, "recognition.views");
+}
+
 RecognitionStudy run_recognition_study(const RecognitionModel& model, const DatasetIndex& dataset,
                                        const RecognitionStudyOptions& options, const LongWork& how,
                                        const DatasetIndex& training) {

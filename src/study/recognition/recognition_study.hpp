@@ -62,7 +62,7 @@ struct RecognitionStudyOptions {
       "whole, beside which the probabilities of the model's own are drawn");
     f("unknown_starts", unknown_starts,
       "number of trials of each method that show objects that the model does not know; 0: none, "
-      "and the dataset must not have any",
+      "and such objects of the dataset count for their category alone",
       at_least(0));
     f("unknown_of_dataset", unknown_of_dataset,
       "true: objects of the dataset that the model was not trained on are shown as unknown ones; "
@@ -70,6 +70,7 @@ struct RecognitionStudyOptions {
     f("unknown_datasets", unknown_datasets,
       "folders of views of further objects that the model does not know");
   }
+  void check() const;  ///< no weight of what motions cost: those in a dataset cost nothing
 };
 
 struct MethodTrials {

@@ -6,7 +6,7 @@
 namespace vantage {
 namespace {
 
-/// Somehow else by more than half a yaw bin, as a map would tell it.
+/// Somehow else by more than half an eighth of a turn, as a map would tell it.
 double turned_yaw_rad(const ChangeDetectionTask& task, std::uint64_t seed, double expected_rad) {
   constexpr double kMin_rad = std::numbers::pi / 8.0;
   Rng turn = Rng::stream(seed, "object turned");

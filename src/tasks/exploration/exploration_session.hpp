@@ -14,7 +14,9 @@ struct ExplorationSession {
   /// @throws ConfigError, InputError if the episode cannot begin; ConfigError if the run folder
   /// holds a run already; OutputError, RendererError
   ExplorationSession(const RunRequest& request, const Exploration& options)
-      : task(options), robot(request.setup, task), run(request) {}
+      : task(options), robot(request.setup, task), run(request) {
+    run.begin();  // now that every part is there
+  }
 
   RunOutcome run_to_end() {
     return run_mapping(run, task, robot, recorder, evaluator, belief, parts);

@@ -7,6 +7,7 @@
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/recognition/lean_recogniser.hpp"
 
 namespace vantage {
 
@@ -30,6 +31,8 @@ std::filesystem::path find_recognition_model(const std::string& model) {
         error.what(), model));
   }
 }
+
+void check_recognition_model(const std::filesystem::path& file) { load_lean_recogniser(file, {}); }
 
 void require_known(const Recogniser& recogniser, const std::filesystem::path& path,
                    const std::string& object, const char* role) {

@@ -19,6 +19,9 @@ InputFile model_input(const std::string& model);
 /// @throws InputError if there is none, with the command that makes one.
 std::filesystem::path find_recognition_model(const std::string& model);
 
+/// Reads it as flights do. @throws InputError if it is damaged
+void check_recognition_model(const std::filesystem::path& file);
+
 /// @param role of the object, "stands on the table"
 /// @throws ConfigError if the recogniser, read from `path`, does not know the object.
 void require_known(const Recogniser& recogniser, const std::filesystem::path& path,

@@ -49,15 +49,16 @@ RunOutcome run_mapping(EpisodeRun& run, const MappingOptions& options, Robot& ro
     ending.reason += "; " + remark;
   }
   const RunTotals totals{robot.time_s(), robot.ground_truth().collisions()};
-  RunOutcome outcome = run.finish(ending, totals, recorder, [&](nlohmann::ordered_json& metrics) {
+  const auto add_metrics = [&](nlohmann::ordered_json& metrics) {
     add_mapping_metrics(
         options,
         {belief.grid(), belief.hazard(), evaluator, parts.scans(), parts.views(), localisation},
         metrics);
     parts.budget().add_metrics(metrics);
+  };
+  return run.finish(ending, totals, recorder, add_metrics, [&] {
+    if (!run.request().options.lean) recorder.write_map(belief.grid(), belief.cloud());
   });
-  if (!run.request().options.lean) recorder.write_map(belief.grid(), belief.cloud());
-  return outcome;
 }
 
 /// What a window shows of a task that maps.

@@ -178,7 +178,6 @@ std::optional<BearingOption> ObjectFlightParts::option(std::size_t target, int i
   const TourTarget& looked_at = tour_.targets()[target];
   BearingOption option{.id = id, .bearing_rad = bearing_rad(id), .action = {}, .target = target};
   const Orbit there = orbit(target);
-  const double settle_s = map_ ? task_.settle_s : 0.0;
   for (const OrbitWay& way : kWays) {
     option.T_world_way =
         orbit_way(at_orbit_, at_rad_, there, option.bearing_rad, task_.arc_rad, way);
@@ -186,7 +185,7 @@ std::optional<BearingOption> ObjectFlightParts::option(std::size_t target, int i
     if (map_ && !is_clear(plan)) continue;
     const double from_rad = looked_at.looked_at() ? looked_at.bearing_rad : at_rad_;
     option.action = {.yaw_rad = wrap_angle(option.bearing_rad - from_rad),
-                     .time_s = plan.duration_s + settle_s,
+                     .time_s = plan.duration_s + task_.settle_s,
                      .path_m = plan.path_m,
                      .energy_j = plan.energy_j,
                      .visited = looked_at.visited(id)};

@@ -77,9 +77,7 @@ ObjectFlightRecorder::ObjectFlightRecorder(const EpisodeRun& run, RecordedRobot 
                       std::string(kViewColumns) + ",flight_time_s,energy_j,cost,visible,target"),
       world_(robot.world),
       max_views_(max_views) {
-  if (lean()) return;
-  make_writable_directory(directory() / "views");
-  event_log_.emplace(directory());
+  if (!lean()) event_log_.emplace(directory());
 }
 
 void ObjectFlightRecorder::tell(EpisodeEvent event) {
@@ -119,6 +117,7 @@ void ObjectFlightRecorder::observation(const ObservationRecord& record, std::siz
                    belief_text(record), record.time_s));
   if (lean()) return;
   const cv::Mat drawn = outlined(image, cut ? &*cut : nullptr);
+  make_writable_directory(directory() / "views");
   write_file_with(directory() / "views" / fmt::format("view_{:02}.png", number),
                   [&](const auto& part) { return cv::imwrite(part.string(), drawn); });
 }

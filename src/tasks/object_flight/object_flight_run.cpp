@@ -11,6 +11,7 @@ RecordedRobot recorded(SimulatedOrbitRobot& robot) {
 RunOutcome run_object_flight(EpisodeRun& run, SimulatedOrbitRobot& robot,
                              ObjectFlightRecorder& recorder, ObjectFlightParts& parts,
                              const std::function<void(nlohmann::ordered_json&)>& add_metrics) {
+  run.begin();
   const Ending ending = ending_of([&] { return run_episode(parts); });
   const RunTotals totals{robot.time_s(), robot.ground_truth().collisions};
   return run.finish(ending, totals, recorder, add_metrics);

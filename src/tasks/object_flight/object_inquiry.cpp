@@ -30,7 +30,7 @@ std::string change_text(ChangeEnd end, const ChangeOptions& options, const Chang
   const double p = search.hypotheses.p_changed();
   switch (end) {
     case ChangeEnd::nothing_seen:
-      return fmt::format("{} views without the object (empty_views)", search.empty_views);
+      return fmt::format("{} views in a row without the object (empty_views)", search.empty_views);
     case ChangeEnd::max_views:
       return fmt::format("limit of {} views, still in doubt", options.recognition.max_views);
     case ChangeEnd::changed:

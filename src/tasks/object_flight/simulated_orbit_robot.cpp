@@ -21,7 +21,8 @@ Quadrotor placed(World& world, const RobotFolder& robot, const Pose& T_world_pla
         "{}: has no body 'object'; a scene of recognition has <include file=\"object.xml\"/>",
         world.source().scene.string()));
   }
-  Quadrotor vehicle(world.model(), quadrotor_of(robot, "robot.model"), robot.description.string());
+  Quadrotor vehicle(world.model(), quadrotor_of(robot, "robot.model"), robot.description.string(),
+                    world.source().scene.string());
   const Pose T_world_body = vehicle.body_for_camera(
       T_world_place.translation(), project_to_se2(T_world_place).yaw_rad, camera_pitch_rad);
   vehicle.place(world, T_world_body, camera_pitch_rad);
@@ -53,8 +54,11 @@ std::vector<SimulatedOrbitRobot::Object> SimulatedOrbitRobot::objects_of(
   expects(!objects.empty(), "a place to look at");
   std::vector<Object> result;
   for (const ObjectOnTable& object : objects) {
-    const Eigen::Vector3d told_m(object.told_m.x(), object.told_m.y(), 0.0);
-    result.push_back({task.orbit_round(task.p_world_table_m() + told_m), object.yaw_rad});
+    const auto on_table = [&](const Eigen::Vector2d& p_m) -> Eigen::Vector3d {
+      return task.p_world_table_m() + Eigen::Vector3d(p_m.x(), p_m.y(), 0.0);
+    };
+    result.push_back(
+        {task.orbit_round(on_table(object.told_m)), on_table(object.offset_m), object.yaw_rad});
   }
   return result;
 }
@@ -122,8 +126,9 @@ OrbitGroundTruth SimulatedOrbitRobot::ground_truth(std::size_t object) const {
       make_pose(meant.p_world_m, meant.yaw_rad) * vehicle.T_body_camera(task_.elevation_rad);
   const Pose T_world_camera =
       vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
-  const double seen_rad =
-      objects_[object].yaw_rad - objects_[object].orbit.bearing_rad(T_world_camera.translation());
+  const auto& [orbit, p_world_object_m, yaw_rad] = objects_[object];
+  const Eigen::Vector3d from_object_m = T_world_camera.translation() - p_world_object_m;
+  const double seen_rad = yaw_rad - std::atan2(from_object_m.y(), from_object_m.x());
   return {.collisions = quadrotor_.collisions(),
           .position_error_m = (T_world_camera.translation() - T_world_meant.translation()).norm(),
           .angle_error_rad = angle_between(T_world_camera.linear(), T_world_meant.linear()),

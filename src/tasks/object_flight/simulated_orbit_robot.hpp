@@ -34,8 +34,10 @@ class SimulatedOrbitRobot : public OrbitRobotInterface {
   [[nodiscard]] FlightWaypoint waypoint(const Pose& T_world_place) const;
 
   struct Object {
-    Orbit orbit;           ///< of the camera
-    double yaw_rad = 0.0;  ///< truth
+    Orbit orbit;  ///< of the camera, round where it is told to be
+    // Truth:
+    Eigen::Vector3d p_world_m;
+    double yaw_rad = 0.0;
   };
   static std::vector<Object> objects_of(const ObjectFlight& task,
                                         std::span<const ObjectOnTable> objects);

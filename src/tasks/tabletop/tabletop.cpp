@@ -28,9 +28,6 @@ GroundTruthMapEvaluator tabletop_evaluator(const Tabletop& task, int threads,
   for (const Candidate& view : tabletop_views(task)) T_world_views.push_back(view.T_world_sensor);
   evaluator.add_observable(T_world_views);
   if (knows_truth(task.choice)) evaluator.remember_visible(T_world_views);
-  if (evaluator.observable_cells() == 0) {
-    log_warning("map: none of the views sees any of its cells");
-  }
   return evaluator;
 }
 
@@ -91,6 +88,9 @@ void Tabletop::check_robot(const World& alone, const RobotFolder& robot) const {
 RunOutcome Tabletop::run(const RunRequest& request) const {
   TabletopSession<> session(request, *this);
   for (const std::string& note : session.robot.start_notes()) log_warning(note);
+  if (session.evaluator.observable_cells() == 0) {
+    log_warning("map: none of the views sees any of its cells");
+  }
   return session.run_to_end();
 }
 

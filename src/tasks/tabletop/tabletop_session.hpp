@@ -18,7 +18,9 @@ struct TabletopSession {
   /// @throws ConfigError, InputError if the episode cannot begin; ConfigError if the run folder
   /// holds a run already; OutputError, RendererError
   TabletopSession(const RunRequest& request, const Tabletop& options)
-      : task(options), robot(request.setup, task), run(request) {}
+      : task(options), robot(request.setup, task), run(request) {
+    run.begin();  // now that every part is there
+  }
 
   RunOutcome run_to_end() {
     return run_mapping(run, task, robot, recorder, evaluator, belief, parts);

@@ -24,14 +24,16 @@ Pose looking_at(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& object_m) {
 }  // namespace
 
 Decision view_decision(const std::vector<PlannableObject>& objects, const Pose& T_body_camera,
-                       double distance_m, const std::optional<ViewTarget>& target) {
+                       double distance_m, double highest_m,
+                       const std::optional<ViewTarget>& target) {
   const Eigen::Vector3d in_body_m = T_body_camera * Eigen::Vector3d(0.0, 0.0, distance_m);
   Decision decision;
   std::optional<std::size_t> chosen;
   for (const PlannableObject& object : objects) {
-    const ObservationRing ring{.p_world_object_m = object.p_world_m,
-                               .radius_m = in_body_m.head<2>().norm(),
-                               .height_m = object.p_world_m.z() - in_body_m.z()};
+    const ObservationRing ring{
+        .p_world_object_m = object.p_world_m,
+        .radius_m = in_body_m.head<2>().norm(),
+        .height_m = std::min(highest_m, object.p_world_m.z() - in_body_m.z())};
     for (int d = 0; d < kObservationDirections; ++d) {
       const bool wanted = target && target->object == object.id && target->direction == d;
       if (wanted) chosen = decision.candidates.size();

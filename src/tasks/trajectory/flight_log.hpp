@@ -14,8 +14,10 @@ namespace vantage {
 
 /// The ring of places that an object would be looked at from, with what each is expected to tell;
 /// the one that is flown to is where the planner wants it.
+/// @param highest_m where the path is, which no ring is above
 Decision view_decision(const std::vector<PlannableObject>& objects, const Pose& T_body_camera,
-                       double distance_m, const std::optional<ViewTarget>& target);
+                       double distance_m, double highest_m,
+                       const std::optional<ViewTarget>& target);
 
 class FlightLog {
  public:

@@ -19,7 +19,8 @@ constexpr double kSameMoment_s = 1e-9;
 
 Quadrotor hovering(World& world, const RobotFolder& robot, const FlightWaypoint& start,
                    double camera_pitch_rad) {
-  Quadrotor vehicle(world.model(), quadrotor_of(robot, "robot.model"), robot.description.string());
+  Quadrotor vehicle(world.model(), quadrotor_of(robot, "robot.model"), robot.description.string(),
+                    world.source().scene.string());
   vehicle.place(world, make_pose(start.p_world_m, start.yaw_rad), camera_pitch_rad);
   return vehicle;
 }

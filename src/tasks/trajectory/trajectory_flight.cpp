@@ -98,6 +98,7 @@ RunOutcome TrajectoryFlight::run(const RunRequest& request) const {
   TrajectoryRecorder recorder(run, robot.quadrotor(), camera);
   const TrajectoryEvaluator evaluator(robot);
   TrajectoryParts parts({setup.options, *this, recogniser, robot, evaluator, recorder}, path);
+  run.begin();
   const Ending ending = ending_of([&] { return run_episode(parts); });
   const TrajectoryGroundTruth truth = robot.ground_truth();
   return run.finish(ending, {robot.time_s(), truth.collisions}, recorder,

@@ -199,8 +199,9 @@ std::size_t TrajectoryParts::choose(const std::vector<CandidatePlan>& candidates
   current_.plan_time_s = wall_s() - planning_since_s_;
   current_.target = planner_.target();
   if (recorder_.flight().wanted()) {
+    const double highest_m = nominal_[static_cast<std::size_t>(at_)].z();
     recorder_.flight().decision(view_decision(plannable(), robot_.T_body_camera(),
-                                              task_.planner.observation_distance_m,
+                                              task_.planner.observation_distance_m, highest_m,
                                               planner_.target()));
   }
   return chosen;

@@ -85,7 +85,6 @@ TrajectoryRecorder::TrajectoryRecorder(const EpisodeRun& run, SimulatedQuadrotor
       observations_(directory() / "looks.csv"),
       camera_(camera) {
   observations_.write(kObservationHeader);
-  if (!lean()) make_writable_directory(directory() / "views");
   if (run.request().options.video) {
     onboard_ = make_offscreen_renderer(quadrotor_.world().model(),
                                        kOnboardHeight_px * camera_.width_px / camera_.height_px,
@@ -137,6 +136,7 @@ void TrajectoryRecorder::observation(int object, const ObjectObservation& observ
   observations_.write(observation_row(object, observation, number));
   if (lean()) return;
   const cv::Mat crop = crop_of(view);
+  make_writable_directory(directory() / "views");
   write_file_with(directory() / "views" / fmt::format("look_{:03}_object_{}.png", number, object),
                   [&](const auto& part) { return cv::imwrite(part.string(), crop); });
 }

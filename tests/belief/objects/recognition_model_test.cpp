@@ -150,6 +150,7 @@ TEST_F(RecognitionFile, NamesTheNumberThatMakesNoSense) {
     return error_of(sealed(bytes));
   };
   EXPECT_THAT(with(kHeader, std::int32_t{0}), HasSubstr("0 yaw bins"));
+  EXPECT_THAT(with(kHeader, std::int32_t{1}), HasSubstr("1 yaw bins, must be in [2, 3600]"));
   EXPECT_THAT(with(kHeader, std::int32_t{1 << 30}), HasSubstr("yaw bins, must be in"));
   EXPECT_THAT(with(kHeader + 4, std::uint32_t{0xffffffff}),
               HasSubstr("ends within the categories"));

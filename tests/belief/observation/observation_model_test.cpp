@@ -105,12 +105,22 @@ TEST(LogLikelihood, OfBoundsIsTheMassAboveThem) {
 
 TEST(LogLikelihood, OfExactReadingsIsThatWithoutReadings) {
   Rng rng(6);
-  const ObservationModel model = random_model(3, 6, rng);
+  ObservationModel model = random_model(3, 6, rng);
+  model.psi = 0.7;
+  model.log_factor = Eigen::VectorXd::LinSpaced(6, -4.0, 6.0);
   const Eigen::VectorXf x = random_feature(3, rng);
   const PreparedObservationModel prepared = prepare(model);
   EXPECT_EQ(log_likelihood(prepared, x, {}), log_likelihood(prepared, x));
   const std::vector<Reading> exact(3, Reading::exact);
   EXPECT_TRUE(log_likelihood(prepared, x, exact).isApprox(log_likelihood(prepared, x), 1e-5));
+}
+
+TEST(LogLikelihood, OfReadingsThatTellNothingIsTheSameOfAllStates) {
+  Rng rng(7);
+  ObservationModel model = random_model(2, 6, rng);
+  model.log_factor = Eigen::VectorXd::LinSpaced(6, -4.0, 6.0);
+  const std::vector<Reading> none(2, Reading::none);
+  EXPECT_TRUE(log_likelihood(prepare(model), random_feature(2, rng), none).isZero(0.0));
 }
 
 /// Half of a box was seen: it may be the large one, and is not the small one.

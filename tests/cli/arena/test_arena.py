@@ -70,8 +70,9 @@ class Arena(InFolder):
         mine = self.script("mine.sh", HELLO + "read request; exit 9")
         self.vantage("arena", "add", "arena", "mine", "-q", "--", "sh", mine, code=1)
         before = self.files()
-        told = self.vantage("arena", "add", "arena", "absent", "-q", "--", "python3", "nofile.py", code=1)
-        self.assertIn("planner python3 nofile.py: it ended: exit code 2, after it said: ", told)
+        told = self.vantage("arena", "add", "arena", "absent", "-q", "--", "python3", "nofile.py", "--set", "a=1",
+                            "b=2", code=1)
+        self.assertIn("planner python3 nofile.py --set a=1 b=2: it ended: exit code 2, after it said: ", told)
         self.assertIn("can't open file './nofile.py'", told)
         told = self.vantage("arena", "add", "arena", "other", "-q", "--", "echo", "hello", code=1)
         self.assertIn("expected one JSON object in a line, got 'hello'", told)

@@ -4,6 +4,7 @@ import base64
 import csv
 import json
 import os
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -168,6 +169,16 @@ class Mcap(unittest.TestCase):
                     self.assertEqual(step[key], float(field))
                 else:
                     self.assertEqual(step[key], field)
+
+    def test_bytes_that_are_no_text_are_replaced(self):
+        latin = self.folder / "latin"
+        shutil.copytree(self.run_dir, latin)
+        lines = (latin / "steps.csv").read_bytes().splitlines()
+        (latin / "steps.csv").write_bytes(b"".join(line + b",caf\xe9\n" for line in lines))
+        told = vantage("export", latin, "--mcap", self.folder / "latin.mcap", "--image-period", 0)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        for _, step in Exported(self.folder / "latin.mcap").topics["/steps"]:
+            self.assertEqual(step["caf\N{REPLACEMENT CHARACTER}"], "caf\N{REPLACEMENT CHARACTER}")
 
     def test_views_are_the_candidates(self):
         decisions = {}

@@ -182,6 +182,13 @@ TEST_F(ObjectViewChoiceTest, GainPerCostNeedsCosts) {
   EXPECT_DEATH(choose({.weight_per_s = 1.0}), "the cost of every action");
 }
 
+TEST(ObjectViewOptions, HaveNoWeightsWhereMotionsCostNothing) {
+  EXPECT_NO_THROW(require_no_weights({}, "views"));
+  EXPECT_THROW(require_no_weights({.weight_per_s = 1.0}, "views"), ConfigError);
+  EXPECT_THROW(require_no_weights({.weight_per_m = 1.0}, "views"), ConfigError);
+  EXPECT_THROW(require_no_weights({.weight_per_j = 1.0}, "views"), ConfigError);
+}
+
 TEST(ObjectViewOptions, AreChecked) {
   EXPECT_THROW(check_options(ObjectViewOptions{.states = 0}), ConfigError);
   EXPECT_THROW(check_options(ObjectViewOptions{.visited_weight = 1.5}), ConfigError);

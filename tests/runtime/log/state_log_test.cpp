@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -26,6 +27,22 @@ TEST(StateLog, RecordsEachCommandThatIsNotTheSameToTheBit) {
   EXPECT_TRUE(std::signbit(actions[1].controls.front()));
   EXPECT_EQ(actions[2].tick, 3U);
   for (const RecordedAction& action : actions) EXPECT_TRUE(action.canonical);
+}
+
+TEST(StateLog, NamesTheStateThatHoldsNoNumber) {
+  const support::TemporaryDirectory folder;
+  StateLog log(folder.path(), kNames, std::array{0.0, 1.0});
+  log.add(std::array{0.5}, std::array{1.0, std::nan("")});
+  log.commit();
+  const RecordedStates states = read_states(folder / "states.bin");
+  EXPECT_EQ(states.finite_state(0)[1], 1.0);
+  try {
+    static_cast<void>(states.finite_state(1));
+    ADD_FAILURE() << "it is not finite";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(),
+              (folder / "states.bin").string() + ": state 1 holds a number that is not finite");
+  }
 }
 
 }  // namespace

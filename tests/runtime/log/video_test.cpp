@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/sim/test_world.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/runtime/log/video_recorder.hpp"
 
 namespace vantage {
 namespace {
@@ -17,6 +19,9 @@ cv::Mat frame(cv::Size size, int index) {
   image.colRange(4 * index, 4 * index + 16).setTo(cv::Scalar::all(255));
   return image;
 }
+
+const std::string kBall =
+    test::scene_mjcf("<body pos='0 0 1'><freejoint/><geom size='.1'/></body>");
 
 class Video : public ::testing::Test {
  protected:
@@ -88,6 +93,33 @@ TEST_F(Video, KeepsAnEarlierFileUntilTheNewOneIsWhole) {
 
 TEST_F(Video, UnusableFolderIsAnOutputError) {
   EXPECT_THROW(VideoWriter(folder / "missing" / "video.mp4", {64, 64}, 25.0), OutputError);
+}
+
+TEST_F(Video, OfAWorldTakesItsTimeWhateverTheRate) {
+  const test::SceneFolder scene(kBall);
+  World world(scene.alone());
+  for (const int rate : {10, 60}) {  // a tick is 25 ms
+    VideoRecorder recorder(world, {.video_speed = 1.0, .video_fps = rate, .height_px = 120},
+                           folder.path());
+    recorder.set_panel([](cv::Size size) { return cv::Mat(size, CV_8UC3, cv::Scalar::all(9)); });
+    for (int tick = 0; tick < 40; ++tick) {
+      world.advance_tick();
+      recorder.tick(world);
+    }
+    recorder.finish();
+    cv::VideoCapture reader((folder / "video.mp4").string(), cv::CAP_FFMPEG);
+    EXPECT_NEAR(reader.get(cv::CAP_PROP_FRAME_COUNT), rate, 1.0);
+  }
+}
+
+TEST_F(Video, OfNoTimeIsNoneWithoutAnError) {
+  {
+    const test::SceneFolder scene(kBall);
+    const World world(scene.alone());
+    VideoRecorder recorder(world, {.height_px = 120}, folder.path());
+    EXPECT_NO_THROW(recorder.finish());
+  }
+  EXPECT_TRUE(folder.is_empty());
 }
 
 TEST_F(Video, NothingReachesStderr) {

@@ -130,6 +130,13 @@ TEST(RobotDescription, UnknownKindsAndKeysAreErrors) {
               AllOf(HasSubstr("tracked"), HasSubstr("omnidirectional, differential")));
   EXPECT_THAT(complaint(with(kRover, "inscribed_radius_m: 0.17", "inscribed_radius_m: 0.2")),
               HasSubstr("above circumscribed_radius_m"));
+  for (const char* corners : {"[[0, 0], [1, 0]]", "[[0, 0], [1, 0], [2, 0]]",
+                              "[[0, 0], [0.1, 0.1], [0.3, 0.3], [0.1, 0.1]]"}) {
+    const std::string outline = std::string("footprint: {outline_m: ") + corners + ", ";
+    EXPECT_THAT(complaint(with(kRover, "footprint: {", outline)),
+                AllOf(HasSubstr("footprint"), HasSubstr("outline_m"), HasSubstr("enclose nothing")))
+        << corners;
+  }
 }
 
 TEST(RobotDescription, TheKindMustSuitTheTask) {
@@ -163,7 +170,7 @@ std::string flight_complaint(const std::string& what, const std::string& instead
     const RobotFolder robot = read_robot(folder.path());
     const test::SceneFolder scene(test::scene_mjcf(""));
     const World world({scene.path(), robot.mjcf}, kFlightWorld);
-    Quadrotor(world.model(), quadrotor_of(robot, "robot"), "mini");
+    Quadrotor(world.model(), quadrotor_of(robot, "robot"), "mini", scene.path().string());
   });
 }
 
@@ -174,6 +181,14 @@ TEST(RobotDescription, AQuadrotorMustBeAbleToFly) {
   EXPECT_THAT(flight_complaint("gear=\"0 0 1 0 0 -0.012\"/>\n    <general name=\"robot/rotor_1\"",
                                "gear=\"0 0 1 0 0 0.012\"/>\n    <general name=\"robot/rotor_1\""),
               AllOf(HasSubstr("rotors"), HasSubstr("two of which turn each way")));
+  for (const char* range : {"0 4.5", "0.1 4", "-4 4"}) {
+    const std::string own = std::string("ctrlrange=\"") + range + "\" ";
+    EXPECT_THAT(flight_complaint("<general name=\"robot/rotor_2\" ",
+                                 "<general name=\"robot/rotor_2\" " + own),
+                AllOf(HasSubstr("mini: rotors: actuator 'robot/rotor_2' has the ctrlrange"),
+                      HasSubstr("0 4")))
+        << range;
+  }
   EXPECT_THAT(flight_complaint("xyaxes=\"0 -1 0 0 0 1\"", "xyaxes=\"1 0 0 0 0 1\""),
               AllOf(HasSubstr("camera"), HasSubstr("look along")));
 }

@@ -67,6 +67,21 @@ TEST(ModelCheck, FindsNamesThatBelongToTheRobot) {
               AllOf(StartsWith("a.xml: "), HasSubstr("'robot/laser'"), HasSubstr("rename")));
 }
 
+TEST(ModelCheck, ARobotNamesNoFilesHoweverItIsWritten) {
+  const auto named = [](const std::string& mjcf) {
+    return message_of<InputError>([&] { check_no_files(mjcf, "r.xml"); });
+  };
+  for (const char* mesh :
+       {"<mesh file=\"a.stl\"/>", "<mesh name='m' file='a.stl'/>", "<mesh\n file = \"a.stl\"/>",
+        "<mesh\tfile= 'a.stl'/>", "<mesh name='m'file='a.stl'/>", "<texture fileright='a.stl'/>"}) {
+    EXPECT_THAT(named(std::string("<mujoco><asset>") + mesh + "</asset></mujoco>"),
+                StartsWith("r.xml: refers to 'a.stl'; "))
+        << mesh;
+  }
+  EXPECT_EQ(named("<mujoco><!-- <mesh file=\"a.stl\"/> --><geom name='x file=\"a\"'/></mujoco>"),
+            "");
+}
+
 TEST(ModelCheck, FindsWhatChangedBesideTheRobot) {
   const test::MjcfModel alone = ball();
   const test::MjcfModel both = ball();

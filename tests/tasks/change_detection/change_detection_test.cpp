@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 #include "tests/support/overrides.hpp"
@@ -104,6 +105,32 @@ TEST_F(ChangeEpisode, ATurnedObjectIsFound) {
   EXPECT_NEAR(std::abs(wrap_angle(metrics["true_yaw_rad"].get<double>() -
                                   metrics["expected"]["yaw_rad"].get<double>())),
               0.5 * std::numbers::pi, 1e-9);
+}
+
+TEST_F(ChangeEpisode, ATurnWithinAYawBinCannotBeTold) {
+  const json metrics = metrics_of("pose", {"turned_rad=0.1"});
+  EXPECT_EQ(metrics["detectable"], false);
+  EXPECT_EQ(metrics["detectable_correct"], false);
+}
+
+TEST_F(ChangeEpisode, WhatTheModelDoesNotKnowCanBeTold) {
+  ChangeDetectionTask task;
+  const auto names_of_first = [&](int objects) {
+    task.database.objects = objects;
+    std::vector<std::string> names;
+    for (const ObjectName& name : known_objects(task)) names.push_back(name.object);
+    return names;
+  };
+  const std::vector<std::string> known = names_of_first(support::kSmallObjects);
+  std::vector<std::string> unknown = names_of_first(support::kSmallObjects + 1);
+  std::erase_if(unknown,
+                [&](const auto& name) { return std::ranges::find(known, name) != known.end(); });
+  ASSERT_EQ(unknown.size(), 1U);
+  const json metrics =
+      metrics_of("object", {fmt::format("database.objects={}", support::kSmallObjects + 1),
+                            "object=" + unknown.front()});
+  EXPECT_EQ(metrics["truth"], unknown.front());
+  EXPECT_EQ(metrics["detectable"], true);
 }
 
 TEST_F(ChangeEpisode, AnEmptyTableIsLookedAtTwice) {

@@ -187,6 +187,22 @@ TEST(Replay, MeetsTheGustsOfTheTask) {
   EXPECT_FALSE(replay.first_difference) << replay.what;
 }
 
+/// (50 - 50) + f is f, (f + 50) - 50 is not: forces that add up in another order are others.
+TEST(Replay, MeetsAllGustsInTheirOrder) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  RunOptions options;
+  options.directory = folder / "run";
+  run(load_episode(kEpisodes / "recognition.yaml",
+                   {"max_views=1", "object=mug_1", "camera={width_px: 320, height_px: 240}",
+                    "faults={gust_N: 4, gust_every_s: 0.5, gust_duration_s: 0.2}",
+                    "tracking.gusts=[{force_N: 50, duration_s: 60}, "
+                    "{force_N: 50, direction: [0, -1, 0], duration_s: 60}]"}),
+      options);
+  const ReplayResult replay = support::replayed(folder / "run");
+  EXPECT_FALSE(replay.first_difference) << replay.what;
+}
+
 TEST(FaultKeys, ThatMakeNoSenseAreErrorsOfTheConfiguration) {
   const auto refused = [](const char* episode, const std::string& override) -> std::string {
     try {

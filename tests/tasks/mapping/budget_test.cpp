@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+
+#include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/mapping/driving/budget_keeper.hpp"
 
 namespace vantage {
 namespace {
@@ -85,6 +89,60 @@ TEST(Budget, TurnsBackWhileAScanAndTheWayHomeAreStillAffordable) {
   // 26 s home, a scan of 20 s where it stands, 6 s of reserve.
   EXPECT_TRUE(budget.affords_way_home(rates, {47.9, 0.0}, 10.0));
   EXPECT_FALSE(budget.affords_way_home(rates, {48.1, 0.0}, 10.0));
+}
+
+/// Knows no floor but what it stands on.
+class StandingRobot : public MobileRobotInterface {
+ public:
+  double now_s = 0.0;
+  [[nodiscard]] double time_s() const override { return now_s; }
+  [[nodiscard]] double energy_used_j() const override { return 0.0; }
+  PlanarScan read_base_scanner() override { return {}; }
+  DriveResult drive_along(std::span<const Pose2> /*path*/, double /*max_speed_m_s*/,
+                          const std::function<bool()>& /*go_on*/) override {
+    return {};
+  }
+  void correct_pose(const Pose2& /*T_world_base*/) override {}
+  [[nodiscard]] Pose2 dead_reckoned_base() const override { return {}; }
+  void restart_dead_reckoning() override {}
+  [[nodiscard]] Pose2 estimated_base() const override { return {}; }
+  [[nodiscard]] double base_scan_height_m() const override { return 0.3; }
+  [[nodiscard]] double inscribed_radius_m() const override { return 0.2; }
+  [[nodiscard]] RobotOutline outline() const override { return {}; }
+  [[nodiscard]] Pose estimated_sensor() const override { return Pose::Identity(); }
+  [[nodiscard]] Pose2 base_for_sensor(const Pose& T_world_sensor) const override {
+    return project_to_se2(T_world_sensor);
+  }
+  [[nodiscard]] FieldOfView view_field() const override { return {}; }
+};
+
+/// Why no view is taken, of one at 3 m that is in reach or not.
+std::string reason(const BudgetOptions& options, bool in_reach, double now_s = 50.0,
+                   std::size_t scans = 3) {
+  StandingRobot robot;
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+  const BudgetKeeper keeper(options, 0.6, robot, navigator);
+  robot.now_s = now_s;
+  Candidate view;
+  view.T_world_sensor = make_pose({3.0, 0.0, 1.0}, 0.0);
+  view.reachable = in_reach;
+  view.path_length_m = in_reach ? 3.0 : std::numeric_limits<double>::infinity();
+  return keeper.used_up({view}, scans);
+}
+
+TEST(BudgetKeeper, BlamesTheBudgetForWhatItDoesNotAffordAlone) {
+  EXPECT_EQ(reason({.time_s = 1000.0}, true), "");
+  EXPECT_EQ(reason({.time_s = 1000.0}, true, 999.0), "budget.time_s 1000 allows no further view");
+  EXPECT_EQ(reason({.time_s = 1000.0}, false), "no view is left in reach");
+  EXPECT_EQ(reason({.time_s = 1000.0}, false, 999.0), "no view is left in reach");
+  EXPECT_EQ(reason({.time_s = 1000.0, .return_to_start = true}, true),
+            "no view is left in reach that has a way back");
+  EXPECT_EQ(reason({}, false), "");
+}
+
+TEST(BudgetKeeper, FailsTheEpisodeThatComesToNothing) {
+  EXPECT_THROW(reason({.time_s = 1000.0}, false, 50.0, 1), EpisodeFailed);
+  EXPECT_THROW(reason({.time_s = 1000.0}, true, 999.0, 1), EpisodeFailed);
 }
 
 TEST(BudgetText, NamesWhatIsLimited) {

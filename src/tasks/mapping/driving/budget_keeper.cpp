@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,26 +35,47 @@ double BudgetKeeper::way_home_m(const PathField& from_home, const Eigen::Vector2
   return path_length_m(from_home, {p_m.x(), p_m.y(), 0.0});
 }
 
-void BudgetKeeper::leave_affordable(std::vector<Candidate>& views) const {
-  if (!budget_.options().is_limited()) return;
+std::vector<BudgetKeeper::Trip> BudgetKeeper::trips_to(const std::vector<Candidate>& views) const {
   const bool home = keeps_way_home();
   const PathField from_home = home ? ways_from_home() : PathField{};
   const auto from_here = navigator_.plan();
-  for (Candidate& view : views) {
+  std::vector<Trip> trips;
+  for (const Candidate& view : views) {
     const Pose2 base = robot_.base_for_sensor(view.T_world_sensor);
     const double back_m = home ? way_home_m(from_home, position(base)) : 0.0;
     // One that is too far from what it is to look at may be taken for want of a better one.
     const double way_m = view.reachable ? view.path_length_m : path_length_m(*from_here, base);
-    const bool affordable =
-        std::isfinite(way_m) && budget_.affords_view(rates_, spent(), way_m, back_m);
-    view.exhausted = view.exhausted || !affordable;
+    const bool has_ways = std::isfinite(way_m) && std::isfinite(back_m);
+    trips.push_back({has_ways, has_ways && budget_.affords_view(rates_, spent(), way_m, back_m)});
+  }
+  return trips;
+}
+
+void BudgetKeeper::leave_affordable(std::vector<Candidate>& views) const {
+  if (!budget_.options().is_limited()) return;
+  const std::vector<Trip> trips = trips_to(views);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i].exhausted = views[i].exhausted || !trips[i].is_affordable;
   }
 }
 
-std::string BudgetKeeper::used_up(std::vector<Candidate> views, std::size_t scans) const {
+std::string BudgetKeeper::used_up(const std::vector<Candidate>& views, std::size_t scans) const {
   if (!budget_.options().is_limited()) return {};
-  leave_affordable(views);
-  if (std::ranges::any_of(views, [](const Candidate& view) { return !view.exhausted; })) return {};
+  const std::vector<Trip> trips = trips_to(views);
+  bool is_in_reach = false;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].exhausted) continue;
+    if (trips[i].is_affordable) return {};
+    is_in_reach = is_in_reach || trips[i].has_ways;
+  }
+  if (is_in_reach) return too_small(scans);
+  const std::string reason =
+      std::string("no view is left in reach") + (keeps_way_home() ? " that has a way back" : "");
+  if (scans <= 1) throw EpisodeFailed(reason);
+  return reason;
+}
+
+std::string BudgetKeeper::too_small(std::size_t scans) const {
   const std::string limit = budget_text(budget_.options());
   if (scans <= 1) {
     throw EpisodeFailed(limit + ": too small to go anywhere and scan again" +

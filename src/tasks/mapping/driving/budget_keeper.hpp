@@ -27,9 +27,9 @@ class BudgetKeeper {
   void observe(const ScanRecord& scan, const ScanRecord* before) { rates_.observe(scan, before); }
   /// Marks views that cannot be paid as exhausted. Nothing without a limit.
   void leave_affordable(std::vector<Candidate>& views) const;
-  /// Why no view can be taken any more; empty if one can, or without a limit.
-  /// @throws EpisodeFailed if that is so after the first scan
-  [[nodiscard]] std::string used_up(std::vector<Candidate> views, std::size_t scans) const;
+  /// Why no view can be taken any more: none is in reach, or none of those is affordable; empty if
+  /// one can, or without a limit. @throws EpisodeFailed if that is so after the first scan
+  [[nodiscard]] std::string used_up(const std::vector<Candidate>& views, std::size_t scans) const;
   /// Drives home if that is asked for.
   void come_home();
 
@@ -41,6 +41,13 @@ class BudgetKeeper {
   void add_metrics(nlohmann::ordered_json& metrics) const;
 
  private:
+  /// To a view, and home if a way home is kept.
+  struct Trip {
+    bool has_ways = false;
+    bool is_affordable = false;
+  };
+  [[nodiscard]] std::vector<Trip> trips_to(const std::vector<Candidate>& views) const;
+  [[nodiscard]] std::string too_small(std::size_t scans) const;
   [[nodiscard]] bool keeps_way_home() const {
     return budget_.options().is_limited() && budget_.options().return_to_start;
   }

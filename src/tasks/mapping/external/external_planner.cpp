@@ -59,7 +59,7 @@ auto ExternalPlanner::or_fail(Work&& work) {
     fail(error.what());
   } catch (const BadDecision& error) {
     fail(error.what());
-  } catch (const OutputError& error) {
+  } catch (const SpoiltFolder& error) {
     fail(error.what());
   }
 }
@@ -74,10 +74,14 @@ void ExternalPlanner::start() {
   const ProgramToRun program{.command = command_,
                              .working_directory = scratch_.path(),
                              .environment = environment_in(scratch_.path())};
-  conversation_.emplace(
-      program,
-      [](std::string_view line) { log_debug(fmt::format("planner: {}", printable(line, 1000))); },
-      throw_if_interrupted);
+  try {
+    conversation_.emplace(
+        program,
+        [](std::string_view line) { log_debug(fmt::format("planner: {}", printable(line, 1000))); },
+        throw_if_interrupted);
+  } catch (const OutputError& error) {
+    fail(error.what());
+  }
   const IsolatedProcess& process = conversation_->process();
   facts_.emplace_back("isolation",
                       process.is_isolated()

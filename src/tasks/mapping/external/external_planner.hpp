@@ -25,7 +25,7 @@ class ExternalPlanner {
   /// Starts it and hears its first line; decide() does so if nobody has.
   /// @throws EpisodeFailed with the reason, Interrupted
   void greet();
-  /// @throws EpisodeFailed with the reason, Interrupted
+  /// @throws EpisodeFailed with the reason, Interrupted; OutputError if the disk refuses the grids
   OutsideDecision decide(const DecisionRequest& request);
   /// Nothing more is asked: it may end by itself.
   void part();

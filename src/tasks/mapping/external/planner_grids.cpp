@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstdint>
@@ -33,14 +35,21 @@ int write_bytes(int file, std::span<const std::byte> bytes) {
   return ::ftruncate(file, static_cast<off_t>(bytes.size())) == 0 ? 0 : errno;
 }
 
+/// The folder is the planner's, and it may do to it what these errors say.
+bool is_planners_doing(int error) {
+  constexpr auto kErrors = std::to_array({ELOOP, EISDIR, ENOTDIR, ENOENT, EACCES, EPERM});
+  return std::ranges::find(kErrors, error) != kErrors.end();
+}
+
 /// A link that the planner has put there is not followed.
 void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
   const int error = file < 0 ? errno : write_bytes(file, bytes);
   if (file >= 0) ::close(file);
-  if (error != 0) {
-    throw OutputError(fmt::format("{}: cannot write: {}", path.string(), std::strerror(error)));
-  }
+  if (error == 0) return;
+  const std::string why = fmt::format("{}: cannot write: {}", path.string(), std::strerror(error));
+  if (is_planners_doing(error)) throw SpoiltFolder(why);
+  throw OutputError(why);
 }
 
 template <class T>

@@ -74,6 +74,7 @@ RunOutcome Wait::run(const RunRequest& request) const {
   EpisodeRun run(request);
   WaitRecorder recorder(run, robot.recorded(), scans);
   WaitParts parts(*this, request.setup.options.seed, robot, recorder);
+  run.begin();
   const Ending ending = ending_of([&] { return run_episode(parts); });
   return run.finish(ending, {robot.time_s(), robot.collisions()}, recorder,
                     [&](Json& metrics) { add_metrics(parts, metrics); });

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <signal.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <filesystem>
@@ -110,6 +111,7 @@ TEST(ExternalPlanner, FailsTheEpisodeByWhatItSays) {
 
 TEST(ExternalPlanner, FailsTheEpisodeByWhatItDoes) {
   EXPECT_THAT(failure(sh("exit 3", kLong_s)), HasSubstr("it ended: exit code 3"));
+  EXPECT_THAT(failure(sh("exit 255", kLong_s)), HasSubstr("it ended: exit code 255"));
   EXPECT_THAT(failure(sh(kHello + "kill -9 $$", kLong_s)), HasSubstr("it ended: signal 9"));
   EXPECT_THAT(failure(sh(kHello + "read request; printf '{\"view\": 0'", kLong_s)),
               HasSubstr("it ended in the middle of a line: exit code 0"));
@@ -119,6 +121,25 @@ TEST(ExternalPlanner, FailsTheEpisodeByWhatItDoes) {
               HasSubstr("it floods its output: more than 65536 bytes"));
   EXPECT_THAT(failure(sh(kHello + "read request; yes", kLong_s)), HasSubstr("more than one line"));
   EXPECT_THAT(failure(sh("python3=none; exec /no/such/program", kLong_s)), HasSubstr("it ended"));
+}
+
+TEST(ExternalPlanner, FailsTheEpisodeByWhatItDoesToItsFolder) {
+  EXPECT_THAT(failure(sh("ln -s /etc/passwd floor.raw; " + answering(R"({"view": 1})"))),
+              HasSubstr("floor.raw: cannot write"));
+  EXPECT_THAT(failure(sh("mkdir floor.raw; " + answering(R"({"view": 1})"))),
+              HasSubstr("floor.raw: cannot write"));
+}
+
+TEST(ExternalPlanner, HasNoPartInAFullDisk) {
+  // A file size limit fails the write as a full disk does.
+  const auto before = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit small{16, limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(first_decision(sh(answering(R"({"view": 1})"))), OutputError);
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  ::signal(SIGXFSZ, before);
 }
 
 TEST(ExternalPlanner, IsQuotedWhenItEnds) {

@@ -1,0 +1,162 @@
+// What is made of a user's pictures, without commands: cli_pictures_test.cpp has those.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/dataset/pictures/import_pictures.hpp"
+#include "vantage/dataset/pictures/replace_folder.hpp"
+#include "vantage/perception/dataset_reader.hpp"
+
+namespace vantage {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+std::ptrdiff_t entries_of(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), {});
+}
+
+ImportOptions with_camera(double focal_px, std::optional<std::array<double, 2>> centre_px = {}) {
+  ImportOptions options;
+  options.focal_px = focal_px;
+  options.centre_px = centre_px;
+  return options;
+}
+
+ImportOptions with_angles(const std::map<std::string, double>& yaw_deg) {
+  ImportOptions options;
+  options.yaw_deg = yaw_deg;
+  return options;
+}
+
+class Import : public testing::Test {
+ protected:
+  /// Of a drill, 40 x 30 px.
+  void put(const std::string& view) const {
+    fs::create_directories(folder_ / "mine/drill");
+    const std::string stem = (folder_ / "mine/drill" / view).string();
+    cv::imwrite(stem + "_rgb.png", cv::Mat(30, 40, CV_8UC3, cv::Scalar::all(90)));
+    cv::imwrite(stem + "_depth.png", cv::Mat(30, 40, CV_16UC1, cv::Scalar(900)));
+  }
+  ImportOutcome imported(ImportOptions options, const std::string& out = "out") const {
+    options.cut = "whole";
+    return import_pictures(options,
+                           {.from = {folder_ / "mine"}, .root = folder_ / out, .overwrite = true});
+  }
+  void expect_without_angle(const ImportOptions& options, const std::string& view) const {
+    try {
+      imported(options);
+      ADD_FAILURE() << "no error";
+    } catch (const ConfigError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("--view-yaw"));
+      EXPECT_THAT(error.what(), HasSubstr("'" + view + "'"));
+    }
+  }
+  [[nodiscard]] std::vector<ViewEntry> views() const {
+    return index_dataset(folder_ / "out").views;
+  }
+  support::TemporaryDirectory folder_;
+};
+
+TEST_F(Import, TheGivenPrincipalPointOfAWholePictureCounts) {
+  put("front");
+  imported(with_camera(35.0, {{18.0, 16.0}}));
+  const ObjectView view = load_view(views().front()).view;
+  EXPECT_EQ(view.ray(16, 18), Eigen::Vector3d(0.0, 0.0, 1.0));
+  EXPECT_EQ(view.left_px, 0);
+}
+
+TEST_F(Import, ACropFromSomewhereIsTakenForTheMiddle) {
+  put("front");
+  const ImportOutcome crop = imported(with_camera(570.0, {{310.0, 240.0}}));
+  const ObjectView view = load_view(views().front()).view;
+  EXPECT_EQ(view.left_px, 290);
+  EXPECT_EQ(view.top_px, 225);
+  EXPECT_THAT(crop.notices, Contains(HasSubstr("of 1 pictures the principal point")));
+  const ImportOutcome unknown = imported(with_camera(35.0));
+  EXPECT_EQ(load_view(views().front()).view.ray(15, 20), Eigen::Vector3d(0.0, 0.0, 1.0));
+  EXPECT_THAT(unknown.notices, Not(Contains(HasSubstr("principal point"))));
+}
+
+TEST_F(Import, GivenAnglesGoWithThoseOfNames) {
+  for (const char* view : {"front", "left", "handle"}) put(view);
+  const ImportOutcome beside = imported(with_angles({{"handle", 45.0}}));
+  EXPECT_TRUE(beside.notes.degrees);
+  EXPECT_THAT(beside.notes.views, ElementsAre("front", "handle", "", "", "", "", "left", ""));
+  const ImportOutcome instead = imported(with_angles({{"handle", 180.0}, {"left", 90.0}}));
+  EXPECT_THAT(instead.notes.views, ElementsAre("front", "left", "handle", ""));
+  put("top");
+  expect_without_angle(with_angles({{"handle", 45.0}}), "top");
+  EXPECT_THROW(imported(with_angles({{"handle", std::nan("")}})), ConfigError);
+}
+
+TEST_F(Import, GivenAnglesOfManyNumbersCount) {
+  ImportOptions options;
+  for (int i = 0; i < 14; ++i) {
+    put(std::to_string(i));
+    options.yaw_deg[std::to_string(i)] = 10.0 * i;
+  }
+  imported(options);
+  const auto all = views();
+  EXPECT_NEAR(std::ranges::max(all, {}, &ViewEntry::yaw_rad).yaw_rad,
+              130.0 * std::numbers::pi / 180.0, 1e-6);
+  options.yaw_deg.erase("7");
+  expect_without_angle(options, "7");
+}
+
+TEST_F(Import, NumbersOfAnyLengthMakeATurn) {
+  for (int i = 10; i < 22; ++i) put(fmt::format("170000000000000000{}", i));
+  put("99");  // the last by name, the first by number
+  imported({});
+  const auto all = views();
+  ASSERT_EQ(all.size(), 13U);
+  EXPECT_EQ(all.back().yaw_rad, 0.0);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_NEAR(all[static_cast<std::size_t>(i)].yaw_rad, 2.0 * std::numbers::pi * (i + 1) / 13.0,
+                1e-5);
+  }
+}
+
+TEST_F(Import, AFolderIsReplacedByWhateverName) {
+  put("front");
+  imported({});
+  put("left");
+  EXPECT_EQ(imported({}, "out/.").pictures, 2);
+  EXPECT_EQ(views().size(), 2U);
+  EXPECT_EQ(entries_of(folder_.path()), 2) << "mine and out";
+}
+
+TEST(ReplaceFolder, KeepsWhatWasThereIfItFails) {
+  const support::TemporaryDirectory folder;
+  fs::create_directories(folder / "data");
+  write_file(folder / "data/notes", "old");
+  EXPECT_THROW(replace_folder(folder / "data.part", folder / "data"), OutputError);
+  EXPECT_EQ(read_file(folder / "data/notes"), "old");
+  fs::create_directories(folder / "data.part");
+  write_file(folder / "data.part/notes", "new");
+  replace_folder(folder / "data.part", folder / "data");
+  EXPECT_EQ(read_file(folder / "data/notes"), "new");
+  EXPECT_EQ(entries_of(folder.path()), 1);
+}
+
+}  // namespace
+}  // namespace vantage
