@@ -99,9 +99,6 @@ void check(const RecogniseArguments& arguments) {
   }
   const std::size_t turns = arguments.files.size() / 2 - 1;
   const std::size_t given = arguments.motion_deg.size();
-  for (const double turn : arguments.motion_deg) {
-    if (!std::isfinite(turn)) throw ConfigError(fmt::format("--motion-deg: {} is no angle", turn));
-  }
   if (!arguments.view_names.empty() && arguments.view_names.size() != turns + 1) {
     throw ConfigError(fmt::format("--view-names: {} names given, there are {} views",
                                   arguments.view_names.size(), turns + 1));

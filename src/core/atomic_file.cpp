@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
 
@@ -82,12 +83,12 @@ void write_file_with(const fs::path& path, const std::function<bool(const fs::pa
 }
 
 fs::path temporary_place() {
-  try {
-    return fs::temp_directory_path();
-  } catch (const fs::filesystem_error& error) {
-    throw OutputError(
-        fmt::format("TMPDIR: {}: {}", error.path1().string(), error.code().message()));
-  }
+  std::error_code error;
+  fs::path place = fs::temp_directory_path(error);
+  if (!error) return place;
+  const char* wanted = std::getenv("TMPDIR");
+  throw OutputError(
+      fmt::format("TMPDIR: {}: {}", wanted != nullptr ? wanted : "/tmp", error.message()));
 }
 
 void make_writable_directory(const fs::path& directory) {

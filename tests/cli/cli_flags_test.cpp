@@ -70,7 +70,7 @@ TEST_F(CommonFlags, GoWithNumbersThatAreFinite) {
        {"compare a b --tolerance", "export a --mcap a.mcap --image-period",
         "view --screenshot a.png --at", "scene from-mesh a.obj --out a.xml --floor",
         "scene from-mesh a.obj --out a.xml --cell", "recognise a b --model m --depth-unit-m",
-        "dataset contact-sheet a --out a.png --yaw-deg"}) {
+        "recognise a b --model m --motion-deg", "dataset contact-sheet a --out a.png --yaw-deg"}) {
     const Result result = vantage(command + std::string(" nan"));
     EXPECT_EQ(result.exit_code, 2) << command;
     EXPECT_THAT(result.output, HasSubstr("nan is not a finite number")) << command;

@@ -251,11 +251,6 @@ class Questions : public Pictures {
   }
 };
 
-TEST_F(Questions, ATurnThatIsNoAngleIsRefused) {
-  expect_error(vantage("recognise --model model --motion-deg nan" + view(1) + view(2)), 2,
-               {"--motion-deg"});
-}
-
 TEST_F(Questions, APictureWithoutMeasurementsIsRefused) {
   cv::imwrite((folder_ / "depth.png").string(), cv::Mat(24, 30, CV_16UC1, cv::Scalar(65535)));
   expect_error(vantage("recognise --model model -q data/mug/mug_1/mug_1_2_3_crop.png depth.png"), 3,
