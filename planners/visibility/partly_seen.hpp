@@ -39,9 +39,9 @@ class PartlySeen {
     phase_ = (phase_ + 0x9E3779B9U) & 0xFFFFFFFFU;  // the golden ratio of 2^32
     const std::size_t start = phase_ >> 12U;
     for (std::size_t i = -start & (stride_ - 1); i < static_cast<std::size_t>(count);
-         i += stride_) {
+         i += stride_ - ((start + i) & (stride_ - 1))) {  // also where thin() came between
       Cell cell = take(static_cast<int>(i));
-      if (cell.weight <= 0.0F || !divides(stride_, start + i)) continue;
+      if (cell.weight <= 0.0F) continue;
       cell.order = start + i;
       cells_.push_back(cell);
       if (cells_.size() > max_cells_) thin();

@@ -102,6 +102,23 @@ TEST(SampledSum, OfEveryTermIsExact) {
   EXPECT_DOUBLE_EQ(sum.estimate, 20 * 0.75 - 40 * 0.25);
 }
 
+/// Rows are counted whole, though the sample is full in the middle of some.
+TEST(SampledSum, OfAThinnedSampleIsUnbiased) {
+  constexpr std::size_t kTrials = 1000;
+  double sum = 0.0;
+  for (std::size_t trial = 0; trial < kTrials; ++trial) {
+    PartlySeen sample(64, 1);
+    for (std::size_t row = 0; row < trial; ++row) sample.offer(0, no_cell);
+    for (int row = 0; row < 20; ++row) {
+      sample.offer(50, [](int i) {
+        return PartlySeen::Cell{.cell = {i, 0, 0}, .visible = 1.0F, .weight = 1.0F};
+      });
+    }
+    sum += sample.sum_errors(1e9, [](const PartlySeen::Cell&) { return 1.0; }).estimate;
+  }
+  EXPECT_NEAR(sum / kTrials, 1000.0, 1.0);
+}
+
 /// A sample that met no error says nothing of the cells it left out.
 TEST(SampledSum, OfAFewCellsIsNotSettled) {
   PartlySeen sample(100);
