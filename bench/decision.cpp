@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bench/castray.hpp"
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
 #include "vantage/core/log.hpp"
@@ -15,10 +16,11 @@ namespace vantage::bench {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr const char* kEpisode = "assets/episodes/tabletop.yaml";
+
 std::vector<Situation> situations_of_scene(int objects, const fs::path& directory) {
   const auto resolved =
-      load_episode("assets/episodes/tabletop.yaml",
-                   {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
+      load_episode(kEpisode, {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
   const RunRequest request = lean_request(resolved, directory);
   TabletopSession<Watched<TabletopParts>> session(request, std::get<Tabletop>(resolved.task));
   run_episode(session.parts);
@@ -81,9 +83,9 @@ void run_benchmark() {
   }
   fs::remove_all(directory);
   const Situation& first = timed.front();
-  const double castray =
-      castray_ms(first, 2.0 * first.field.half_width_rad / 640.0,
-                 (first.field.tilt_max_rad - first.field.tilt_min_rad) / 480.0, 5);
+  const Task task = load_episode(kEpisode, {}).task;
+  const auto beams = laser_beams(std::get<Tabletop>(task).laser);
+  const double castray = castray_ms(first, beams, first.views.size());
   print_decision("decision", time_both(AdaptiveGain{}, first), castray, agreement);
   print_scaling(first);
 }

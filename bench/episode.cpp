@@ -25,11 +25,17 @@ class Timed : public Parts {
   void update(const auto& observation) {
     timed(belief_s, [&] { Parts::update(observation); });
   }
+  void record() {
+    timed(planning_s, [&] { Parts::record(); });
+  }
   auto propose() {
     return timed(planning_s, [&] { return Parts::propose(); });
   }
   void score(std::vector<Candidate>& candidates) {
     timed(planning_s, [&] { Parts::score(candidates); });
+  }
+  std::size_t choose(std::vector<Candidate>& candidates) {
+    return timed(planning_s, [&] { return Parts::choose(candidates); });
   }
   void act(const Candidate& candidate) {
     timed(driving_s, [&] { Parts::act(candidate); });
@@ -37,8 +43,8 @@ class Timed : public Parts {
 
   double rendering_s = 0.0;
   double belief_s = 0.0;
-  double planning_s = 0.0;
-  double driving_s = 0.0;  ///< prediction, path planning and control
+  double planning_s = 0.0;  ///< records too: explorations find their views where they record
+  double driving_s = 0.0;   ///< prediction, path planning and control
 
  private:
   auto timed(double& sum_s, auto&& work) {

@@ -2,6 +2,7 @@
 // an episode in each of two offices builds.
 #include <filesystem>
 
+#include "bench/castray.hpp"
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
 #include "vantage/core/log.hpp"
@@ -11,6 +12,8 @@ namespace vantage::bench {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr const char* kSmall = "assets/episodes/office_small.yaml";
+constexpr const char* kLarge = "assets/episodes/office_large.yaml";
 /// Every `kEvery`-th decision is held against exact rays: each of those takes a while.
 constexpr std::size_t kEvery = 4;
 
@@ -33,10 +36,8 @@ void run_benchmark() {
   fs::create_directories(directory);
   Agreement agreement;
   const Situation* most = nullptr;
-  const std::vector<Situation> small =
-      situations_of("assets/episodes/office_small.yaml", directory);
-  const std::vector<Situation> large =
-      situations_of("assets/episodes/office_large.yaml", directory);
+  const std::vector<Situation> small = situations_of(kSmall, directory);
+  const std::vector<Situation> large = situations_of(kLarge, directory);
   for (const auto* situations : {&small, &large}) {
     for (const Situation& situation : *situations) {
       agreement.compare(SimpleGain{}, situation);
@@ -45,9 +46,9 @@ void run_benchmark() {
     }
   }
   fs::remove_all(directory);
-  const RgbdOptions camera;
-  const double pixel_rad = camera.fovy_rad / 480.0;
-  const double castray = castray_ms(*most, pixel_rad, pixel_rad, most->views.size());
+  const Task task = load_episode(kSmall, {}).task;
+  const auto beams = image_beams(std::get<Exploration>(task).camera, most->field);
+  const double castray = castray_ms(*most, beams, kThreads);  // a view is millions of rays
   print_decision("office", time_both(AdaptiveGain{}, *most), castray, agreement);
   print_figures("office_views", kThreads, {{"views", static_cast<double>(most->views.size())}});
 }

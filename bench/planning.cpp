@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
+#include <optional>
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"
+#include "vantage/planners/swept_blocks.hpp"
+#include "vantage/planners/swept_gain.hpp"
+#include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
 #include "vantage/tasks/mapping/view_planner.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"
@@ -17,11 +20,6 @@ namespace vantage::bench {
 namespace {
 namespace fs = std::filesystem;
 
-double ms_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
 double median(std::vector<double> values) {
   expects(!values.empty(), "a decision was timed");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -29,7 +27,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The parts of an episode that time their decisions, and again the work that is in each.
+/// The parts of an episode that, after each decision, time some of its work again.
 template <class Parts>
 class Timed : public Parts {
  public:
@@ -40,38 +38,56 @@ class Timed : public Parts {
         threads_(context.options.threads) {}
 
   std::size_t choose(std::vector<Candidate>& candidates) {
+    const auto intended_m = this->intended_m_;  // the choice sets the next
     const std::size_t chosen = Parts::choose(candidates);
-    if (this->scans_.size() > 1) time_parts(candidates);
+    if (this->scans_.size() > 1) time_parts(candidates, intended_m);
     return chosen;
   }
 
   struct Parts_ms {
-    std::vector<double> problem, travel, tour, views;
+    std::vector<double> sweep, travel, tour, views;
   };
   Parts_ms parts_ms;
 
  private:
-  void time_parts(const std::vector<Candidate>& candidates) {
-    const BlockField transmission = belief_.hazard().transmission();
+  /// Of the problem that the choice had.
+  void time_parts(const std::vector<Candidate>& candidates,
+                  const std::optional<Eigen::Vector2d>& intended_m) {
+    const BlockField transmission =
+        ForecastCalibration(options_.forecast)
+            .transmission(belief_.hazard().transmission(), this->scans_.back().hazard_scale);
     const auto planned = this->navigator_.plan();
     const PathField& paths = *planned;
-    auto start = std::chrono::steady_clock::now();
-    const PlanningProblem problem = planning_problem(options_, options_.gain, candidates,
-                                                     {.belief = belief_,
-                                                      .transmission = transmission,
-                                                      .robot = this->robot_,
-                                                      .paths = paths,
-                                                      .budget = this->budget_,
-                                                      .threads = threads_});
-    parts_ms.problem.push_back(ms_since(start));
-    start = std::chrono::steady_clock::now();
-    path_lengths_m(paths, problem.place_m, threads_);
-    parts_ms.travel.push_back(ms_since(start));
+    const int scans_left = options_.scans - static_cast<int>(this->scans_.size());
+    const PlanningProblem problem =
+        planning_problem(options_, options_.gain, candidates,
+                         {.belief = belief_,
+                          .transmission = transmission,
+                          .robot = this->robot_,
+                          .paths = paths,
+                          .budget = this->budget_,
+                          .threads = threads_,
+                          .scans_left = static_cast<std::size_t>(std::max(1, scans_left)),
+                          .intended_m = intended_m});
+    parts_ms.sweep.push_back(median_ms(1, [&] { sweep(candidates, transmission); }));
+    parts_ms.travel.push_back(
+        median_ms(1, [&] { path_lengths_m(paths, problem.place_m, threads_); }));
     Rng rng(1);
-    start = std::chrono::steady_clock::now();
-    plan_views(options_.choice, problem, rng);
-    parts_ms.tour.push_back(ms_since(start));
+    parts_ms.tour.push_back(median_ms(1, [&] { plan_views(options_.choice, problem, rng); }));
     parts_ms.views.push_back(static_cast<double>(problem.views()));
+  }
+
+  /// What the views of the problem show.
+  void sweep(const std::vector<Candidate>& candidates, const BlockField& transmission) const {
+    std::vector<Candidate> views;
+    for (const std::size_t i : open_candidates(candidates)) views.push_back(candidates[i]);
+    const GainContext map{belief_.filled_grid(), &transmission};
+    const GridFrame& frame = map.grid.frame;
+    const CellBlocks blocks{
+        frame.cells,
+        (options_.planning.block_m / frame.cell_size_m.array()).round().cast<int>().max(1)};
+    swept_blocks(attenuation_of(options_.gain, map), map.grid, views, this->robot_.view_field(),
+                 blocks, threads_);
   }
 
   const MappingOptions options_;
@@ -87,16 +103,13 @@ void print_planning(const std::string& name, Session& session) {
     decision_ms.push_back(1e3 * session.parts.scans()[i].plan_time_s);
   }
   const auto& parts = session.parts.parts_ms;
-  const double problem = median(parts.problem);
-  const double travel = median(parts.travel);
-  const double tour = median(parts.tour);
   const double all = median(decision_ms);
   print_figures(name, kThreads,
                 {{"decision_ms", all},
                  {"decision_ms_max", *std::ranges::max_element(decision_ms)},
-                 {"sweep_share", (problem - travel) / all},
-                 {"travel_share", travel / all},
-                 {"tour_share", tour / all},
+                 {"sweep_share", median(parts.sweep) / all},
+                 {"travel_share", median(parts.travel) / all},
+                 {"tour_share", median(parts.tour) / all},
                  {"views", median(parts.views)}});
 }
 

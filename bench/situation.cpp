@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "bench/castray.hpp"
 #include "bench/measures.hpp"
@@ -41,28 +42,39 @@ void Agreement::compare(const Gain& gain, const Situation& s) {
 }
 
 Timings time_both(const Gain& gain, const Situation& s) {
-  constexpr int kRepeats = 9;
+  const auto warm_median_ms = [](int repeats, const auto& work) {
+    work();
+    return median_ms(repeats, work);
+  };
   std::vector<double> gains;
   Timings timings;
-  timings.sweep_ms = median_ms(
-      kRepeats, [&] { gains = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
-  timings.exact_ms = median_ms(
-      1, [&] { gains = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
+  timings.sweep_ms = warm_median_ms(
+      9, [&] { gains = swept_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
+  timings.exact_ms = warm_median_ms(
+      3, [&] { gains = exact_gains_bits(gain, s.context(), s.views, s.field, kThreads); });
   return timings;
 }
 
-double castray_ms(const Situation& s, double pixel_width_rad, double pixel_height_rad,
-                  std::size_t every) {
+double castray_ms(const Situation& s, std::span<const Eigen::Vector3d> beams,
+                  std::size_t timed_views) {
+  expects(timed_views > 0 && timed_views % static_cast<std::size_t>(kThreads) == 0 &&
+              timed_views <= s.views.size(),
+          "a multiple of the threads is timed, of the views there are");
   const CastrayGain castray(s.grid);
-  std::vector<double> gains((s.views.size() + every - 1) / every);
-  const double taken_ms = median_ms(1, [&] {
-    parallel_for(gains.size(), kThreads, [&](std::size_t i) {
-      gains[i] = castray.of_view(s.views[i * every].T_world_sensor, s.field, pixel_width_rad,
-                                 pixel_height_rad);
-    });
+  const auto gain_of = [&](const Candidate& view) {
+    return castray.of_view(view.T_world_sensor, beams, s.field.range_max_m);
+  };
+  gain_of(s.views.back());  // not timed
+  std::vector<double> gains(timed_views);
+  std::vector<double> times_ms(timed_views);
+  parallel_for(timed_views, kThreads, [&](std::size_t i) {
+    const Candidate& view = s.views[i * s.views.size() / timed_views];
+    times_ms[i] = median_ms(1, [&] { gains[i] = gain_of(view); });
   });
   expects(std::ranges::max(gains) > 0.0, "the views see unobserved cells");
-  return taken_ms * static_cast<double>(s.views.size()) / static_cast<double>(gains.size());
+  const double mean_ms =
+      std::accumulate(times_ms.begin(), times_ms.end(), 0.0) / static_cast<double>(timed_views);
+  return mean_ms * static_cast<double>(s.views.size()) / kThreads;
 }
 
 void print_decision(const std::string& name, const Timings& timings, double castray_ms,

@@ -55,18 +55,20 @@ struct Agreement {
   void compare(const Gain& gain, const Situation& situation);
 };
 
+/// Medians of several.
 struct Timings {
-  double sweep_ms = 0.0;  ///< median of several
+  double sweep_ms = 0.0;
   double exact_ms = 0.0;
 };
-/// Of all views of a decision.
+/// Of all views of a decision, each after a run that is not timed.
 Timings time_both(const Gain& gain, const Situation& situation);
 
-/// castRay as peers use it: a ray for each pixel of the images that a view is made of. Every
-/// `every`-th view is timed, and multiplied for all of them. On kThreads threads, as the sweep is:
-/// timed views should be a multiple of them.
-double castray_ms(const Situation& situation, double pixel_width_rad, double pixel_height_rad,
-                  std::size_t every);
+/// castRay as peers use it, a ray for each of the sensor's `beams`. `timed_views` of the decision's
+/// views, spread over them, are timed once each, kThreads at a time, after one that is not timed.
+/// The decision takes their mean for each of its views, shared evenly by kThreads.
+/// @param timed_views a multiple of kThreads
+double castray_ms(const Situation& situation, std::span<const Eigen::Vector3d> beams,
+                  std::size_t timed_views);
 
 /// One line of JSON with the figures of the contract.
 void print_decision(const std::string& name, const Timings& timings, double castray_ms,

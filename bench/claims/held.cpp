@@ -1,9 +1,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 #include "bench/claims/claims.hpp"
 
 namespace vantage::bench {
+
+double quotient(double above, double below) {
+  const double value = above / below;
+  if (!std::isfinite(value)) throw NotRun(fmt::format("{} / {}", above, below));
+  return value;
+}
 
 Finding held(std::string source, std::string claim, const std::function<Measured()>& measure) {
   Finding finding{std::move(source), std::move(claim), {}, Verdict::not_run, {}};

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "bench/claims/claims.hpp"
+#include "bench/claims/race.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -15,24 +16,25 @@ constexpr const char* kPanel = "adaptive";
 constexpr const char* kTour = "tour";
 
 Finding against_greedy(const StudyTables& study, const std::string& table, double limit) {
-  return held("goal",
-              fmt::format("`{}` of `tour` at most {} x that of `{}`, p < 0.05", table, limit,
-                          study.reference()),
-              [&]() -> Measured {
-                const double p = study.difference(table, kPanel, kTour).p_value;
-                return {fmt::format("{}, p {:.3f}", study.ratio_text(table, kPanel, kTour), p),
-                        study.ratio(table, kPanel, kTour) <= limit && p < 0.05,
-                        fmt::format("`oracle_tour`, which knows what every view shows, has {}",
-                                    study.ratio_text(table, kPanel, "oracle_tour"))};
-              });
+  return held(
+      "goal",
+      fmt::format("`{}` of `tour` at most {} x that of `{}`, p < 0.05", table, limit,
+                  study.reference()),
+      [&]() -> Measured {
+        const Race against = bench::race(study, table, kPanel, kTour, study.reference());
+        const Race oracle = bench::race(study, table, kPanel, "oracle_tour", study.reference());
+        return {
+            against.text(),
+            against.is_won_by(limit) && against.pairs && against.pairs->p_value < 0.05,
+            fmt::format("`oracle_tour`, which knows what every view shows, has {}", oracle.text())};
+      });
 }
 
 Finding near_oracle(const StudyTables& study, const std::string& table) {
   return held("goal", fmt::format("`{}` of `tour` at most 1.25 x that of `oracle_tour`", table),
               [&]() -> Measured {
-                const double ratio = quotient(study.mean(table, kPanel, kTour),
-                                              study.mean(table, kPanel, "oracle_tour"));
-                return {fmt::format("{:.2f}", ratio), ratio <= 1.25,
+                const Race against = bench::race(study, table, kPanel, kTour, "oracle_tour");
+                return {against.text(), against.is_won_by(1.25),
                         "the oracle knows the rooms that nobody has seen yet"};
               });
 }
@@ -42,12 +44,11 @@ Finding ahead_of_peers(const StudyTables& study, const std::string& table) {
     std::vector<std::string> parts;
     bool ahead = true;
     for (const char* peer : {"receding_horizon", "frontier_tour", "two_level_tour"}) {
-      const double ratio =
-          quotient(study.mean(table, kPanel, kTour), study.mean(table, kPanel, peer));
-      ahead = ratio < 1.0 && ahead;
-      parts.push_back(fmt::format("{:.2f} of `{}`'s", ratio, peer));
+      const Race against = bench::race(study, table, kPanel, kTour, peer);
+      ahead = against.is_won_by(1.0) && ahead;
+      parts.push_back(fmt::format("`{}`: {}", peer, against.text()));
     }
-    return {fmt::format("{}", fmt::join(parts, ", ")), ahead,
+    return {fmt::format("{}", fmt::join(parts, "<br>")), ahead,
             "see the paired differences in the table"};
   });
 }

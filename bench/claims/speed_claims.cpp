@@ -58,7 +58,10 @@ Finding faster_than_castray(const Figures& figures) {
               fmt::format("threads: castRay {:.0f}, the sweep {:.0f}", of_castray, threads));
         }
         const double ratio = figure(figures, "decision", "castray_over_sweep");
-        return {fmt::format("{:.4g} on {:.0f} threads each", ratio, threads), ratio >= 1000.0};
+        return {
+            fmt::format("{:.4g} on {:.0f} threads each", ratio, threads), ratio >= 1000.0,
+            "a beam of the laser is a ray: a scan has 61 x 601 of them, 8.4 times fewer than an "
+            "image of 640 x 480 has pixels"};
       });
 }
 
@@ -99,6 +102,9 @@ std::vector<Finding> speed_findings(const Figures& figures) {
       "timed on the first map with 30 views: from 111 to 170 ms, by the episode that builds it";
   constexpr const char* kPlanning =
       "a sweep a view: an office has up to twice the views that a greedy choice looks at";
+  constexpr const char* kPlanningAtTable =
+      "mostly sweeps, see `sweep_share`: one for each of the 30 views, where a greedy choice has "
+      "one for the three views of each of 10 places";
   constexpr const char* kPace =
       "a scan is 18 depth images of 640 x 480 pixels and 4.3 million cells: what is left is spread "
       "over belief, rendering, physics and driving, see the shares";
@@ -117,7 +123,7 @@ std::vector<Finding> speed_findings(const Figures& figures) {
           faster_than_octomap(figures),
           at_most(figures, "office", "sweep_ms", 150.0, kOffice),
           at_most(figures, "planning_office_large", "decision_ms", 500.0, kPlanning),
-          at_most(figures, "planning_tabletop", "decision_ms", 60.0, kPlanning),
+          at_most(figures, "planning_tabletop", "decision_ms", 60.0, kPlanningAtTable),
           at_least(figures, "office", "spearman_min", 0.99),
           at_most(figures, "office", "regret_max", 0.02),
           at_most(figures, "selection", "mi_ms", 1.0),

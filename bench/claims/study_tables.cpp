@@ -60,12 +60,6 @@ Json read_json(const std::filesystem::path& file) {
   return json;
 }
 
-double quotient(double above, double below) {
-  const double value = above / below;
-  if (!std::isfinite(value)) throw NotRun(fmt::format("{} / {}", above, below));
-  return value;
-}
-
 StudyTables::StudyTables(const std::filesystem::path& study_file, CsvTable results)
     : study_(read_plan(study_file)), layout_(study_), results_(std::move(results)) {
   plan_episodes();
@@ -152,12 +146,14 @@ const StudyTables::Table& StudyTables::table(const std::string& name) const {
       .first->second;
 }
 
+bool StudyTables::is_of(const Episode& episode, const std::string& panel, std::size_t level) const {
+  return episode.place.level == level &&
+         (panel == kAllPanels || panels().at(episode.place.panel) == panel);
+}
+
 std::size_t StudyTables::planned(const std::string& panel, std::size_t level) const {
-  const auto names = panels();
-  return static_cast<std::size_t>(std::ranges::count_if(episodes_, [&](const Episode& episode) {
-    return episode.place.level == level &&
-           (panel == kAllPanels || names.at(episode.place.panel) == panel);
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      episodes_, [&](const Episode& episode) { return is_of(episode, panel, level); }));
 }
 
 /// Whose episodes it is about.
@@ -168,9 +164,8 @@ std::size_t StudyTables::level_of(const std::string& table, const std::string& l
   return place;
 }
 
-std::vector<Sample> StudyTables::whole_samples(const std::string& name, const std::string& panel,
-                                               const std::string& level) const {
-  const std::size_t count = planned(panel, level_of(name, level));
+std::vector<Sample> StudyTables::samples(const std::string& name, const std::string& panel,
+                                         const std::string& level) const {
   const Table& of = table(name);
   const std::size_t wanted = place_of(of.levels, level);
   const auto groups = panels();
@@ -179,11 +174,27 @@ std::vector<Sample> StudyTables::whole_samples(const std::string& name, const st
     const bool here = panel == kAllPanels || groups.at(sample.panel) == panel;
     if (here && sample.level == wanted) found.push_back(sample);
   }
+  return found;
+}
+
+std::vector<Sample> StudyTables::whole_samples(const std::string& name, const std::string& panel,
+                                               const std::string& level) const {
+  const std::size_t count = planned(panel, level_of(name, level));
+  std::vector<Sample> found = samples(name, panel, level);
   if (count == 0 || found.size() < count) {
     throw NotRun(fmt::format("`{}` of `{}` in {}: {} of {} episodes", name, level, panel,
                              found.size(), count));
   }
   return found;
+}
+
+std::vector<Sample> StudyTables::arrivals(const std::string& name, const std::string& panel,
+                                          const std::string& level) const {
+  for (const Episode& e : episodes_) {
+    if (e.row != nullptr || !is_of(e, panel, level_of(name, level))) continue;
+    throw NotRun(fmt::format("`{}` of `{}`: {} is not run", name, level, e.name));
+  }
+  return samples(name, panel, level);
 }
 
 double StudyTables::mean(const std::string& name, const std::string& panel,

@@ -56,6 +56,15 @@ class StudyTables {
   [[nodiscard]] std::string ratio_text(const std::string& table, const std::string& panel,
                                        const std::string& level) const;
 
+  /// Of a table of what it takes to get somewhere, where not every episode gets: of those that do.
+  /// @throws NotRun unless every episode was run
+  [[nodiscard]] std::vector<Sample> arrivals(const std::string& table, const std::string& panel,
+                                             const std::string& level) const;
+  /// Episodes of the level, as planned.
+  [[nodiscard]] std::size_t planned(const std::string& panel, const std::string& level) const {
+    return planned(panel, level_of({}, level));
+  }
+
   /// As planned.
   [[nodiscard]] std::vector<std::string> panels() const;
   [[nodiscard]] std::vector<std::string> levels() const { return layout_.levels(); }
@@ -86,7 +95,12 @@ class StudyTables {
   [[nodiscard]] const Table& table(const std::string& name) const;
   [[nodiscard]] Table scalar_table(const std::string& name) const;
   [[nodiscard]] Table predictor_table() const;
+  [[nodiscard]] bool is_of(const Episode& episode, const std::string& panel,
+                           std::size_t level) const;
   [[nodiscard]] std::size_t planned(const std::string& panel, std::size_t level) const;
+  /// As many as there are.
+  [[nodiscard]] std::vector<Sample> samples(const std::string& table, const std::string& panel,
+                                            const std::string& level) const;
   /// @throws NotRun if one is missing
   [[nodiscard]] std::vector<Sample> whole_samples(const std::string& table,
                                                   const std::string& panel,

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <set>
+#include <string>
 
 #include "bench/claims/recognition_claims.hpp"
 #include "vantage/core/hash.hpp"
@@ -229,7 +231,7 @@ TEST(RecognitionClaims, AMissingScenarioIsNotRun) {
   }
 }
 
-TEST(SpeedClaims, AMissingFigureIsNotRun) {
+Figures figures_on_two_threads() {
   Figures figures;
   for (const auto& entry : fs::directory_iterator(kRoot / "bench/results")) {
     if (entry.path().extension() != ".json") continue;
@@ -242,6 +244,11 @@ TEST(SpeedClaims, AMissingFigureIsNotRun) {
     figures.try_emplace(name, Json{{"decision_ms", 40.0}});
   }
   figures.try_emplace("env", Json{{"decisions_per_s", 5.0}, {"swept_numpy_over_cpp", 1.0}});
+  return figures;
+}
+
+TEST(SpeedClaims, AMissingFigureIsNotRun) {
+  Figures figures = figures_on_two_threads();
   const Findings before = speed_findings(figures);
   for (const Finding& finding : before)
     EXPECT_NE(finding.verdict, Verdict::not_run) << finding.claim;
@@ -255,6 +262,21 @@ TEST(SpeedClaims, AMissingFigureIsNotRun) {
     expect_same_or_not_run(before, speed_findings(less));
   }
   for (const Finding& finding : speed_findings({})) EXPECT_EQ(finding.verdict, Verdict::not_run);
+}
+
+TEST(SpeedClaims, AMissHasAReasonOfItsOwn) {
+  Figures figures = figures_on_two_threads();
+  figures["decision"]["castray_over_sweep"] = 100.0;
+  for (const char* name : {"planning_tabletop", "planning_office_large"}) {
+    figures[name]["decision_ms"] = 1e4;
+  }
+  const Findings findings = speed_findings(figures);
+  EXPECT_FALSE(findings[3].why.empty()) << findings[3].claim;
+  std::set<std::string> reasons;
+  for (const Finding& finding : findings) {
+    if (finding.why.empty()) continue;
+    EXPECT_TRUE(reasons.insert(finding.why).second) << finding.claim << ": " << finding.why;
+  }
 }
 
 TEST(Findings, SayWhatHolds) {

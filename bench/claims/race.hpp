@@ -1,0 +1,27 @@
+/// Of two levels of a study, who gets somewhere in more episodes, and who sooner where both do.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/claims/study_tables.hpp"
+
+namespace vantage::bench {
+
+struct Race {
+  std::size_t arrived = 0;
+  std::size_t other_arrived = 0;
+  std::size_t episodes = 0;         ///< of each
+  std::optional<Difference> pairs;  ///< of those that both got there in; none: no such
+
+  /// It gets there no less often, and in at most `limit` times what the other takes.
+  [[nodiscard]] bool is_won_by(double limit) const;
+  /// "0.54 [0.42, 0.66], 5 pairs, p 0.031; 5 and 6 of 10 get there"
+  [[nodiscard]] std::string text() const;
+};
+
+/// @throws NotRun unless every episode of both levels was run, and some got there
+Race race(const StudyTables& study, const std::string& table, const std::string& panel,
+          const std::string& level, const std::string& against);
+
+}  // namespace vantage::bench

@@ -1,0 +1,76 @@
+// Who gets somewhere more often, and who sooner: of episodes that were run, arrived or not.
+#include "bench/claims/race.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "vantage/study/study_reading.hpp"
+
+namespace vantage::bench {
+namespace {
+
+const std::filesystem::path kStudy =
+    std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/studies/planning_tabletop.yaml";
+
+/// The time of an episode by its name; empty: it does not get there.
+using TimeOf = std::function<std::string(const std::string&)>;
+
+StudyTables study_of(const TimeOf& time) {
+  CsvTable table{{"episode", "status", "time_to_98_s"}, {}};
+  for (const auto& [name, levels] : episode_levels(read_study_file(kStudy, {}, "report").study)) {
+    table.rows.push_back({name, "completed", time(name)});
+  }
+  return {kStudy, table};
+}
+
+Race race_of(const StudyTables& study) {
+  return race(study, "time_to_98_s", "adaptive", "tour", "greedy");
+}
+
+bool is_by(const std::string& episode, const char* choice) {
+  return episode.ends_with(std::string("/adaptive/") + choice);
+}
+
+TEST(Race, IsOfThePairsThatBothArrive) {
+  const Race got = race_of(study_of([](const std::string& name) -> std::string {
+    if (name.starts_with("report_40/")) return is_by(name, "greedy") ? "" : "1000";
+    return is_by(name, "tour") ? "60" : "100";
+  }));
+  EXPECT_EQ(got.arrived, 10U);
+  EXPECT_EQ(got.other_arrived, 9U);
+  ASSERT_TRUE(got.pairs && got.pairs->ratio);
+  EXPECT_EQ(got.pairs->pairs, 9U);
+  EXPECT_DOUBLE_EQ(*got.pairs->ratio, 0.6);
+  EXPECT_TRUE(got.is_won_by(0.6));
+  EXPECT_FALSE(got.is_won_by(0.59));
+  EXPECT_THAT(got.text(), testing::HasSubstr("10 and 9 of 10 get there"));
+}
+
+TEST(Race, IsNotWonByWhoArrivesLessOften) {
+  const Race got = race_of(study_of([](const std::string& name) -> std::string {
+    if (!is_by(name, "tour")) return "100";
+    return name.starts_with("report_40/") ? "" : "10";
+  }));
+  EXPECT_FALSE(got.is_won_by(1.0));
+}
+
+TEST(Race, IsWonByWhoArrivesAlone) {
+  const Race got =
+      race_of(study_of([](const std::string& name) { return is_by(name, "greedy") ? "" : "100"; }));
+  EXPECT_FALSE(got.pairs.has_value());
+  EXPECT_TRUE(got.is_won_by(0.1));
+}
+
+TEST(Race, IsNotRunWhereNobodyArrivesOrOneIsMissing) {
+  EXPECT_THROW(race_of(study_of([](const std::string&) { return ""; })), NotRun);
+  CsvTable table{{"episode", "status", "time_to_98_s"}, {}};
+  for (const auto& [name, levels] : episode_levels(read_study_file(kStudy, {}, "report").study)) {
+    if (name != "report_4/start_1/adaptive/tour") table.rows.push_back({name, "completed", "1"});
+  }
+  EXPECT_THROW(race_of({kStudy, table}), NotRun);
+}
+
+}  // namespace
+}  // namespace vantage::bench
