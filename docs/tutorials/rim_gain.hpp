@@ -30,6 +30,7 @@ struct RimGain {
 
   static constexpr bool unobserved_only = true;
   using Ray = AttenuatedRay;
+  static constexpr int halo_cells() { return 1; }
 
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
     const GridFrame& frame = context.grid.frame;

@@ -76,7 +76,9 @@ struct OracleView {
 struct NearestFrontier {
   static constexpr std::string_view name = "nearest_frontier";
   static constexpr StrategyText text{
-      .summary = "Takes the view with the shortest path, whatever there is to be seen.",
+      .summary =
+          "Takes the view with the shortest path, whatever there is to be seen; round a "
+          "table, of the views that it has not taken yet.",
       .formula = "argmin of the path length",
       .source = "Yamauchi1997"};
   static constexpr bool weighs_gain = false;
@@ -120,6 +122,13 @@ inline bool knows_truth(const ViewChoice& choice) {
   return std::holds_alternative<OracleView>(choice) ||
          std::holds_alternative<OracleLookahead>(choice) ||
          std::holds_alternative<OracleTour>(choice);
+}
+
+/// Whether it goes from frontier to frontier by the ways alone. A view that it has taken is no
+/// frontier any more, which a fixed set of views does not tell by itself.
+inline bool goes_by_ways(const ViewChoice& choice) {
+  return std::holds_alternative<NearestFrontier>(choice) ||
+         std::holds_alternative<FrontierTour>(choice);
 }
 
 /// Whether a program of the user's makes it: neither choose_view() nor plan_views() can.

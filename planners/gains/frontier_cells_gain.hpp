@@ -25,6 +25,7 @@ struct FrontierCellsGain {
 
   static constexpr bool unobserved_only = false;
   using Ray = AttenuatedRay;
+  static constexpr int halo_cells() { return 1; }
 
   [[nodiscard]] CellTables prepare(const GainContext& context) const {
     const OccupancyGrid& grid = context.grid;

@@ -5,6 +5,7 @@
 namespace vantage {
 
 double odds_update_bits(double d, double odds) {
+  if (std::isinf(odds)) return 0.0;  // the limit: what is certain, no update changes
   return std::log2((odds + 1.0) / (odds + 1.0 / d)) - std::log2(d) / (odds * d + 1.0);
 }
 

@@ -9,7 +9,7 @@
 namespace vantage {
 
 /// What an update of a cell's odds from r to d r teaches, KL(updated || before) in bits:
-/// f(d, r) = log2((r + 1) / (r + 1 / d)) - log2(d) / (r d + 1).  [Zhang2020]
+/// f(d, r) = log2((r + 1) / (r + 1 / d)) - log2(d) / (r d + 1); r may be infinite.  [Zhang2020]
 double odds_update_bits(double d, double odds);
 
 /// The sum is over the cells j that a beam may be the first to hit; one that hits nothing teaches

@@ -40,6 +40,8 @@ struct ProximityCountGain {
       "deeper into what surfaces hide",
       between(2, 1000));
   }
+  /// Farther from a surface a cell is worth nothing.
+  [[nodiscard]] int halo_cells() const { return d_max_cells - 1; }
 
   class Beam {
    public:

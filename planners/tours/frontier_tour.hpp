@@ -14,7 +14,8 @@ struct FrontierTour {
   static constexpr StrategyText text{
       .summary =
           "Plans the shortest route through the views of all frontiers and takes its first view: "
-          "asks how long the way is, not how much a view shows.",
+          "asks how long the way is, not how much a view shows. Round a table, the views are "
+          "those that it has not taken yet.",
       .formula = "first place of the shortest open route through all views",
       .source = "Zhou2021"};
   static constexpr bool weighs_gain = false;

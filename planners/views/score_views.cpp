@@ -14,38 +14,46 @@ struct Batch {
   std::vector<std::size_t> places;  ///< of the views in the list
 };
 
-CellBlock reach_of(const OctomapFile& map, const CellBlock& region, const Candidate& view,
-                   const FieldOfView& sensor) {
-  const Eigen::Vector3d p_sensor = view.T_world_sensor.translation();
-  const Eigen::Vector3d range_m = Eigen::Vector3d::Constant(sensor.range_max_m);
-  return map.cells_in({p_sensor - range_m, p_sensor + range_m}).cut(region);
-}
+/// What is read of a map for views: cells of the grid, whole but where the region cuts them.
+struct Reach {
+  const OctomapFile& map;
+  const ScoredRegion& region;
+  const FieldOfView& sensor;
+  int halo_cells;
+  CellBlock inside = region.cells(map);
 
-bool fits(const CellBlock& reach, const ScoredRegion& region) {
-  return reach.coarsened(region.coarsen).count() <= kMaxScoredCells;
-}
-
-void require_fit(const OctomapFile& map, const CellBlock& reach, const ScoredRegion& region,
-                 const Candidate& view) {
-  if (fits(reach, region)) return;
-  const CellBlock coarse = reach.coarsened(region.coarsen);
-  const Eigen::Array3i cells = coarse.end - coarse.begin;
-  throw InputError(fmt::format(
-      "{}: view {} reaches over {} x {} x {} cells of {} m, more than 2^25: lower "
-      "sensor.range_max_m, narrow region.min_m and region.max_m, or raise region.coarsen",
-      map.name(), view.id, cells.x(), cells.y(), cells.z(), region.cell_m(map)));
-}
+  [[nodiscard]] CellBlock of(const Candidate& view) const {
+    const Eigen::Vector3d p_sensor = view.T_world_sensor.translation();
+    const Eigen::Vector3d range_m = Eigen::Vector3d::Constant(sensor.range_max_m);
+    const CellBlock seen =
+        map.cells_in({p_sensor - range_m, p_sensor + range_m}).coarsened(region.coarsen);
+    return CellBlock{(seen.begin - halo_cells) * region.coarsen,
+                     (seen.end + halo_cells) * region.coarsen}
+        .cut(inside);
+  }
+  [[nodiscard]] bool fits(const CellBlock& reach) const {
+    return reach.coarsened(region.coarsen).count() <= kMaxScoredCells;
+  }
+  void require_fit(const CellBlock& reach, const Candidate& view) const {
+    if (fits(reach)) return;
+    const CellBlock coarse = reach.coarsened(region.coarsen);
+    const Eigen::Array3i cells = coarse.end - coarse.begin;
+    throw InputError(fmt::format(
+        "{}: view {} reaches over {} x {} x {} cells of {} m{}, more than 2^25: lower "
+        "sensor.range_max_m, narrow region.min_m and region.max_m, or raise region.coarsen",
+        map.name(), view.id, cells.x(), cells.y(), cells.z(), region.cell_m(map),
+        halo_cells > 1 ? fmt::format(", {} on each side for the gain alone", halo_cells) : ""));
+  }
+};
 
 /// As few batches as fit, so that views that overlap share their tables.
-std::vector<Batch> batches_of(const OctomapFile& map, const ScoredRegion& region,
-                              std::span<const Candidate> views, const FieldOfView& sensor) {
-  const CellBlock wanted = region.cells(map);
+std::vector<Batch> batches_of(const Reach& reach_of, std::span<const Candidate> views) {
   std::vector<Batch> batches;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const CellBlock reach = reach_of(map, wanted, views[i], sensor);
+    const CellBlock reach = reach_of.of(views[i]);
     if (reach.empty()) continue;
-    require_fit(map, reach, region, views[i]);
-    if (batches.empty() || !fits(batches.back().reach.joined(reach), region)) {
+    reach_of.require_fit(reach, views[i]);
+    if (batches.empty() || !reach_of.fits(batches.back().reach.joined(reach))) {
       batches.emplace_back();
     }
     Batch& batch = batches.back();
@@ -67,11 +75,11 @@ CellBlock ScoredRegion::cells(const OctomapFile& map) const {
 
 std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& region,
                                 const GridGains& gains_on, std::span<const Candidate> views,
-                                const FieldOfView& sensor) {
+                                const FieldOfView& sensor, int halo_cells) {
   check_options(sensor, "sensor");
   check_options(region, "region");
   std::vector<double> gains(views.size(), 0.0);
-  for (const Batch& batch : batches_of(map, region, views, sensor)) {
+  for (const Batch& batch : batches_of({map, region, sensor, halo_cells}, views)) {
     const auto found = gains_on(map.grid_of(batch.reach, region.coarsen), batch.views);
     for (std::size_t i = 0; i < found.size(); ++i) gains[batch.places[i]] = found[i];
   }

@@ -44,15 +44,17 @@ inline constexpr double kMaxScoredCells = 33554432.0;
 using GridGains =
     std::function<std::vector<double>(const OccupancyGrid& grid, std::span<const Candidate> views)>;
 
-/// What `gains_on` finds of each view; 0 if it reaches no cell of the region.
+/// What `gains_on` finds of each view; 0 if it reaches no cell of the region. Its grids reach
+/// `halo_cells` of their cells beyond the sensor's range.
 /// @throws ConfigError if the sensor or the region is out of range, InputError if a single view
 /// reaches over more than kMaxScoredCells.
 std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& region,
                                 const GridGains& gains_on, std::span<const Candidate> views,
-                                const FieldOfView& sensor);
+                                const FieldOfView& sensor, int halo_cells = 0);
 
 /// Gain of each view, in bits or the unit the gain names; `gain` is one of planners/gain.hpp or of
-/// your own. The result does not depend on `threads` (at least 1).
+/// your own. It is that on a grid of the whole region, whichever views are listed beside it. The
+/// result does not depend on `threads` (at least 1).
 template <ViewGain G>
 std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& region, const G& gain,
                                 std::span<const Candidate> views, const FieldOfView& sensor,
@@ -60,7 +62,7 @@ std::vector<double> score_views(const OctomapFile& map, const ScoredRegion& regi
   const auto gains_on = [&](const OccupancyGrid& grid, std::span<const Candidate> on_grid) {
     return view_gains_bits(gain, {grid}, on_grid, sensor, threads);
   };
-  return score_views(map, region, gains_on, views, sensor);
+  return score_views(map, region, gains_on, views, sensor, halo_cells(gain));
 }
 
 /// Of whichever gain was chosen, but for `adaptive`: a map tells nothing of the beams that were

@@ -255,10 +255,12 @@ void bind_grids(py::module_& module) {
           },
           "Box of the known cells, world, (2, 3) m: lowest corner, highest corner. None if none "
           "is.")
-      .def("grid", &part_of, py::arg("min_m") = py::none(), py::arg("max_m") = py::none(),
-           py::arg("coarsen") = 1,
-           "The cells between two corners (world, m; default: the known ones) as a Grid; of "
-           "`coarsen` cells along each axis one is made.");
+      .def(
+          "grid", &part_of, py::arg("min_m") = py::none(), py::arg("max_m") = py::none(),
+          py::arg("coarsen") = 1,
+          "The cells between two corners (world, m; default: the known ones) as a Grid; of "
+          "`coarsen` cells along each axis one is made, known if at least half of its part between "
+          "the corners is.");
 }
 
 }  // namespace vantage::python

@@ -58,9 +58,10 @@ void require_pair(std::span<const double> log_p, std::span<const double> log_q,
   require_distribution(log_q, function);
 }
 
-/// p (ln p - ln q) in nats; also handles q = 0 (ln q = -inf) and p = 0.
+/// p (ln p - ln q) in nats; infinite where q = 0 and p > 0, however small p is.
 double relative_term(double log_p, double log_q) {
-  return log_p == kMinusInfinity ? 0.0 : std::exp(log_p) * (log_p - log_q);
+  if (log_p == kMinusInfinity) return 0.0;
+  return log_q == kMinusInfinity ? -kMinusInfinity : std::exp(log_p) * (log_p - log_q);
 }
 
 double bits_of(double nats) { return std::max(nats * kBitsPerNat, 0.0); }

@@ -211,6 +211,9 @@ TEST_F(CommandLine, RefusesWhatNoMemoryHolds) {
   const std::pair<const char*, std::vector<std::string>> cases[] = {
       {"floor_map.cell_m=1e-6", {"floor_map", "cell_m", "half_size_m", "2^26"}},
       {"floor_map.half_size_m=1e300", {"floor_map", "cell_m", "half_size_m", "2^26"}},
+      {"floor_map.half_size_m=1e-12", {"floor_map", "cell_m", "half_size_m 1e-12", "not one"}},
+      {"task=exploration floor_map.half_size_m=200 floor_detail.parts=15",
+       {"floor_map.half_size_m 200", "floor_detail.parts 15", "1.44e+10 cells", "2^26"}},
       {"laser.step_rad=1e-9", {"laser", "step_rad", "10^7"}},
       {"base_scanner.step_rad=1e-9", {"base_scanner", "step_rad", "10^7"}},
       {"map.cells=[4096,4096,4096]", {"map", "cells", "2^26"}},

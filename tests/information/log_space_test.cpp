@@ -60,6 +60,15 @@ TEST(LogSpaceDivergence, StaysFiniteWhereTheLinearQWouldUnderflow) {
   EXPECT_EQ(kl_divergence_bits_from_log(log_p, Vector{0.0, -kLogInfinity}), kLogInfinity);
 }
 
+TEST(LogSpaceDivergence, IsInfiniteHoweverRareTheOutcomeThatQRulesOut) {
+  const Vector log_p{0.0, -800.0};  // exp(-800) underflows
+  const Vector log_q{0.0, -kLogInfinity};
+  EXPECT_EQ(kl_divergence_bits_from_log(log_p, log_q), kLogInfinity);
+  EXPECT_EQ(kl_divergence_bits_from_log(log_q, log_p), 0.0);
+  EXPECT_EQ(jeffreys_divergence_bits_from_log(log_p, log_q), kLogInfinity);
+  EXPECT_EQ(jeffreys_divergence_bits_from_log(log_q, log_p), kLogInfinity);
+}
+
 TEST(LogSpaceValidation, NamesTheOffendingValue) {
   const auto expect_message = [](auto call, const std::string& part) {
     try {

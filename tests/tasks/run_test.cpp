@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "tests/support/overrides.hpp"
 #include "tests/tasks/replayed.hpp"
@@ -120,6 +121,14 @@ TEST_F(Run, KeepsWhatEachDecisionWasMadeAmong) {
 }
 
 TEST_F(Run, SaysWhichLimitEndedIt) { EXPECT_EQ(first_["reason"], "limit of 2 scans"); }
+
+TEST_F(Run, GoingByWaysAloneTakesNoViewTwice) {
+  const auto run = short_run("by_ways", {"choice=nearest_frontier", "scans=5"});
+  std::set<int> taken;
+  for (const auto& scan : run["scans"]) taken.insert(scan["chosen_view"].get<int>());
+  EXPECT_EQ(taken.size(), 5U);
+  EXPECT_GT(run["path_length_m"], 0.5) << "it leaves where it stands";
+}
 
 TEST_F(Run, AnotherSeedAnotherEpisode) {
   const auto other = short_run("other", {"seed=2"});

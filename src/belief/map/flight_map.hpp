@@ -23,7 +23,10 @@ struct FlightMapOptions {
     f("cell_m", cell_m,
       "edge of a cell; lower resolves finer, at the inverse cube of it in time and memory",
       Range{0.01, 1.0});
-    f("columns", columns, "number of image columns that are used; higher maps finer and is slower",
+    f("columns", columns,
+      "number of image columns whose points are marked, at least: every n-th column and row is, n "
+      "the image's width over this, rounded down; freeing looks at every pixel; higher maps finer "
+      "and is slower",
       between(8, 4096));
     f("noise_m", noise_m,
       "standard deviation of a point by errors of depth and estimated pose; higher weights a hit "

@@ -21,6 +21,15 @@ void FloorDetailOptions::check() const {
   if (parts % 2 == 0) throw ConfigError(fmt::format("parts: {} is even", parts));
 }
 
+void check_floor_detail(const FloorMapOptions& floor, const FloorDetailOptions& detail) {
+  const double cells = std::pow(floor.edge_cells() * detail.parts, 2);
+  if (cells <= kMaxFloorCells) return;
+  throw ConfigError(
+      fmt::format("floor_detail.parts {}, floor_map.half_size_m {} and floor_map.cell_m {} make "
+                  "{:.3g} cells, more than 2^26",
+                  detail.parts, floor.half_size_m, floor.cell_m, cells));
+}
+
 FloorMap make_floor_detail(const FloorMap& floor, const FloorDetailOptions& options) {
   check_options(options, "detail");
   return {floor.min_corner_m, floor.cell_m / options.parts, floor.nx * options.parts,

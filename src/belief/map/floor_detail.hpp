@@ -25,6 +25,9 @@ struct FloorDetailOptions {
   void check() const;  ///< parts is odd: the middle of a cell is that of a finer one
 };
 
+/// @throws ConfigError if the finer map of such a floor has more than kMaxFloorCells cells.
+void check_floor_detail(const FloorMapOptions& floor, const FloorDetailOptions& detail);
+
 /// Nothing known yet; each cell of `floor` is parts x parts of these.
 FloorMap make_floor_detail(const FloorMap& floor, const FloorDetailOptions& options);
 

@@ -11,7 +11,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kMaxFloorCells = 67108864.0;
 constexpr float kStandingLogOdds = -2.0F;
 
 enum class Touched : std::uint8_t { no, passed, hit };
@@ -44,11 +43,13 @@ class ScanTrace {
 
 }  // namespace
 
+double FloorMapOptions::edge_cells() const { return std::ceil(2.0 * half_size_m / cell_m - 1e-9); }
+
 void FloorMapOptions::check() const {
-  const double edge_cells = std::ceil(2.0 * half_size_m / cell_m);
-  if (edge_cells * edge_cells > kMaxFloorCells) {
-    throw ConfigError(fmt::format("half_size_m {} and cell_m {} make {:.3g} cells, more than 2^26",
-                                  half_size_m, cell_m, edge_cells * edge_cells));
+  const double cells = std::pow(edge_cells(), 2);
+  if (!(cells >= 1.0 && cells <= kMaxFloorCells)) {
+    throw ConfigError(fmt::format("half_size_m {} and cell_m {} make {:.3g} cells, {}", half_size_m,
+                                  cell_m, cells, cells < 1.0 ? "not one" : "more than 2^26"));
   }
   const double decisive = log_odds_of(kOccupiedAbove);
   if (std::min({log_odds_hit, log_odds_miss, log_odds_limit}) <= decisive) {
@@ -88,7 +89,7 @@ GridFrame FloorMap::frame() const {
 
 FloorMap make_floor_map(const FloorMapOptions& options) {
   check_options(options, "floor_map");
-  const int cells = static_cast<int>(std::ceil(2.0 * options.half_size_m / options.cell_m - 1e-9));
+  const int cells = static_cast<int>(options.edge_cells());
   const double half_m = 0.5 * cells * options.cell_m;
   return {Eigen::Vector2d::Constant(-half_m), options.cell_m, cells, cells};
 }

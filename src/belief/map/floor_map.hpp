@@ -14,6 +14,9 @@
 
 namespace vantage {
 
+/// Of a floor map, and of a finer one.
+inline constexpr double kMaxFloorCells = 67108864.0;  // 2^26
+
 struct FloorMapOptions {
   double cell_m = 0.05;
   double half_size_m = 6.0;
@@ -35,7 +38,9 @@ struct FloorMapOptions {
       "greatest magnitude of a cell's log odds; higher takes longer to change its mind",
       above(0.0));
   }
-  /// One hit or miss must be able to decide a cell's state; at most 2^26 cells.
+  /// Cells along an edge of the map; a whole number.
+  [[nodiscard]] double edge_cells() const;
+  /// One hit or miss must be able to decide a cell's state; 1 to kMaxFloorCells cells.
   void check() const;
 };
 

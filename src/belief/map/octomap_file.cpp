@@ -1,6 +1,7 @@
 #include "vantage/belief/map/octomap_file.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "vantage/core/atomic_file.hpp"
@@ -57,28 +58,32 @@ CellBlock OctomapFile::cells_in(const Eigen::AlignedBox3d& box_m) const {
 }
 
 OccupancyGrid OctomapFile::grid_of(const CellBlock& block, int coarsen) const {
-  expects(!block.empty() && coarsen >= 1, "a block with cells");
+  expects(!block.empty() && coarsen >= 1 && coarsen <= 1024, "a block with cells");
   const CellBlock coarse = block.coarsened(coarsen);
   const double cell_m = resolution_m() * coarsen;
   OccupancyGrid grid(GridFrame{.min_corner_m = coarse.begin.cast<double>().matrix() * cell_m,
                                .cell_size_m = Eigen::Vector3d::Constant(cell_m),
                                .cells = coarse.end - coarse.begin});
-  std::vector<float> known(grid.size(), 0.0F);  // share of each cell
-  const double max_known = static_cast<double>(coarsen) * coarsen * coarsen;
+  const auto cells_of = [coarsen](const CellBlock& part, const Eigen::Array3i& cell) {
+    const CellBlock whole{cell * coarsen, (cell + 1) * coarsen};
+    return static_cast<std::uint32_t>(part.cut(whole).count());
+  };
+  std::vector<std::uint32_t> known(grid.size(), 0);  // of the cells that make each
   for_each_leaf([&](const OctomapLeaf& leaf) {
-    const CellBlock part = leaf.block().cut({coarse.begin * coarsen, coarse.end * coarsen});
+    const CellBlock part = leaf.block().cut(block);
     if (part.empty()) return;
     part.coarsened(coarsen).for_each_cell([&](const Eigen::Array3i& cell) {
       const std::size_t i = grid.frame.index(cell - coarse.begin);
       float& log_odds = grid.log_odds[i];
-      log_odds = known[i] > 0.0F ? std::max(log_odds, leaf.log_odds) : leaf.log_odds;
-      const CellBlock whole{cell * coarsen, (cell + 1) * coarsen};
-      known[i] += static_cast<float>(part.cut(whole).count() / max_known);
+      log_odds = known[i] > 0 ? std::max(log_odds, leaf.log_odds) : leaf.log_odds;
+      known[i] += cells_of(part, cell);
     });
   });
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    if (known[i] < 0.5F && grid.state(i) != CellState::occupied) grid.log_odds[i] = 0.0F;
-  }
+  coarse.for_each_cell([&](const Eigen::Array3i& cell) {
+    const std::size_t i = grid.frame.index(cell - coarse.begin);
+    if (known[i] == 0 || grid.state(i) == CellState::occupied) return;
+    if (2 * known[i] < cells_of(block, cell)) grid.log_odds[i] = 0.0F;
+  });
   return grid;
 }
 

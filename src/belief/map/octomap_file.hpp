@@ -34,7 +34,8 @@ class OctomapFile {
   [[nodiscard]] CellBlock cells_in(const Eigen::AlignedBox3d& box_m) const;
   /// Those cells as a grid; where the map has none, p(o) is 0.5. Of `coarsen`^3 cells, counted
   /// from the world's origin, one is made: as the most occupied of them if that is occupied or if
-  /// at least half of them are known, else unobserved. The caller bounds the block.
+  /// at least half of them are known, else unobserved. Of those at the rim the part inside the
+  /// block stands for the whole. `coarsen` is at most 1024; the caller bounds the block.
   [[nodiscard]] OccupancyGrid grid_of(const CellBlock& block, int coarsen = 1) const;
 
  private:

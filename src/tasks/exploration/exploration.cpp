@@ -13,6 +13,7 @@ namespace vantage {
 void Exploration::check_with(const EpisodeOptions& episode) const {
   require_possible(episode.faults, {.laser = true, .wheels = true});
   swept_field(sweep, camera, 0.0);
+  check_floor_detail(floor_map, floor_detail);
 }
 
 ModelSource Exploration::model_source(const EpisodeSetup& setup) const {

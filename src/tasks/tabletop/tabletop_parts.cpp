@@ -60,6 +60,20 @@ void TabletopParts::update(const TabletopObservation& observation) {
   block_table();
   navigator_.remember(observation.base_scan, update.T_world_base);
   measure(before, update, to_se3(update.T_world_base) * observation.T_base_laser);
+  if (goes_by_ways(task_.choice)) leave_view(update.T_world_base);
+}
+
+/// The one that was taken from there is no frontier any more.
+void TabletopParts::leave_view(const Pose2& T_world_base) {
+  constexpr double kSame_m = 0.1;
+  constexpr double kSame_rad = 0.1;
+  for (Candidate& view : views_) {
+    const Pose2 base = robot_.base_for_sensor(view.T_world_sensor);
+    const double off_m = std::hypot(base.x_m - T_world_base.x_m, base.y_m - T_world_base.y_m);
+    const double turned_rad = std::abs(wrap_angle(base.yaw_rad - T_world_base.yaw_rad));
+    const bool taken = off_m < kSame_m && turned_rad < kSame_rad;
+    view.exhausted = view.exhausted || taken;
+  }
 }
 
 std::string TabletopParts::finished() {

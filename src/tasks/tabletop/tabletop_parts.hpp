@@ -31,6 +31,7 @@ class TabletopParts : public MappingParts {
   /// The views with the ways to them from here.
   std::vector<Candidate> reachable_views();
   void block_table();
+  void leave_view(const Pose2& T_world_base);
 
   const Tabletop task_;
   TabletopRobotInterface& tabletop_robot_;

@@ -32,6 +32,13 @@ TEST(FloorDetail, PartsOfACellAreExactlyInIt) {
   EXPECT_THROW(make_floor_detail(floor, {.parts = 4}), ConfigError);
 }
 
+TEST(FloorDetail, HasNoMoreCellsThanAFloorMay) {
+  const FloorMapOptions floor{.half_size_m = 200.0};
+  EXPECT_NO_THROW(floor.check());
+  EXPECT_NO_THROW(check_floor_detail(floor, {.parts = 1}));
+  EXPECT_THROW(check_floor_detail(floor, {.parts = 15}), ConfigError);
+}
+
 /// Noise of the beams makes no obstacle of what is before the wall.
 TEST(FloorDetail, AFaceIsMeasuredToACell) {
   FloorMap detail = make_floor_detail(floor_of_20cm(), {.parts = 15});

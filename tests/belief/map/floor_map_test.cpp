@@ -133,5 +133,12 @@ TEST(FloorMapOptions, RejectWeightsThatNeverDecide) {
   EXPECT_THROW(make_floor_map({.cell_m = 0.0}), ConfigError);
 }
 
+TEST(FloorMapOptions, MakeACellAtLeastAndNoMoreThanMemoryHolds) {
+  EXPECT_THROW(make_floor_map({.half_size_m = 1e-12}), ConfigError);
+  EXPECT_EQ(make_floor_map({.half_size_m = 1e-3}).size(), 1U);
+  EXPECT_NO_THROW(FloorMapOptions({.half_size_m = 204.8}).check());
+  EXPECT_THROW(FloorMapOptions({.half_size_m = 205.0}).check(), ConfigError);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -113,6 +113,25 @@ TEST_F(OctomapFiles, CoarseCells) {
   EXPECT_EQ(test::draw(coarse), (std::vector<std::string>{"..#?"}));
 }
 
+TEST_F(OctomapFiles, CoarseCellsAtTheRimAreJudgedByTheirPartInside) {
+  std::vector<support::MapCube> cubes{{{0, 0, 0}, 8, false}, {{9, 0, 0}, 1, true}};
+  const CellBlock block{{0, 0, 0}, {9, 9, 9}};
+  block.for_each_cell([&](const Eigen::Array3i& cell) {
+    if ((cell == 8).any()) cubes.push_back({cell, 1, false});
+  });
+  EXPECT_EQ(map(cubes, 0.1).grid_of(block, 4).count(CellState::free), 27U);
+}
+
+TEST_F(OctomapFiles, HalfOfACoarseCellIsHalfHoweverManyLeavesItTakes) {
+  std::vector<support::MapCube> cubes;
+  const CellBlock half{{0, 0, 0}, {10, 10, 5}};
+  half.for_each_cell([&](const Eigen::Array3i& cell) { cubes.push_back({cell, 1, false}); });
+  const CellBlock whole{{0, 0, 0}, {10, 10, 10}};
+  EXPECT_EQ(map(cubes, 0.1).grid_of(whole, 10).count(CellState::free), 1U);
+  cubes.pop_back();
+  EXPECT_EQ(map(cubes, 0.1).grid_of(whole, 10).count(CellState::unobserved), 1U);
+}
+
 TEST_F(OctomapFiles, CoarseBlocksHoldTheFineOnes) {
   const CellBlock block{{-3, -1, 4}, {5, 1, 8}};
   const CellBlock coarse = block.coarsened(4);

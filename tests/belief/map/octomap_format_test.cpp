@@ -62,6 +62,17 @@ TEST(OctomapFormat, ReadsTheHeaderItWrites) {
   }
 }
 
+TEST(OctomapFormat, RefusesWhatComesBehindTheTree) {
+  const std::string binary = bt("id OcTree\nsize 17\nres 1\n", binary_chain(16));
+  const std::string full = ot("id OcTree\nsize 1\nres 1\n", full_record(1.0F, 0));
+  const std::string none = ot("id OcTree\nsize 0\nres 1\n", "");
+  for (const std::string& bytes : {binary, full, none}) {
+    EXPECT_EQ(error_of(bytes), "accepted");
+    EXPECT_THAT(error_of(bytes + "\n"), HasSubstr("map.bt: damaged: the data go on behind"));
+    EXPECT_THAT(error_of(bytes + bytes), HasSubstr("damaged")) << "two files in one";
+  }
+}
+
 TEST(OctomapFormat, AcceptsTheFullDepthAndNoMore) {
   EXPECT_EQ(error_of(bt("id OcTree\nsize 17\nres 1\n", binary_chain(16))), "accepted");
   EXPECT_THAT(error_of(bt("id OcTree\nsize 18\nres 1\n", binary_chain(17))),

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "tests/planners/gains/gain_along.hpp"
 #include "vantage/information/discrete.hpp"
@@ -115,6 +117,20 @@ TEST(FsmiGain, InFrontOfAWallIsWorthAPassPerCell) {
   const double pass = odds_update_bits(gain.d_emp, 1.0);
   EXPECT_NEAR(along(gain, "?????#"), 5.0 * pass, kPeerTolerance);
   EXPECT_EQ(along(gain, "?????"), 0.0);
+}
+
+// exp() of such log odds is infinite, or 0.
+TEST(FsmiGain, HoldsHoweverCertainTheMapIs) {
+  OccupancyGrid row = row_of_cells(".?.?#");
+  std::vector<double> bits;
+  for (const float log_odds : {60.0F, 709.0F, 710.0F, 1e38F}) {
+    row.log_odds[0] = row.log_odds[2] = -log_odds;
+    row.log_odds[4] = log_odds;
+    bits.push_back(along(FsmiGain{}, row));
+    EXPECT_GT(bits.back(), 0.1);
+    EXPECT_NEAR(bits.back(), bits.front(), kPeerTolerance) << log_odds;
+  }
+  EXPECT_EQ(odds_update_bits(4.0, std::numeric_limits<double>::infinity()), 0.0);
 }
 
 TEST(FsmiGain, LearnsNothingFromMeasurementsThatChangeNothing) {

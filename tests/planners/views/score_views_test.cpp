@@ -7,12 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <string_view>
 
 #include "tests/support/octomap_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/core/rng.hpp"
-#include "vantage/planners/exact_gain.hpp"
+#include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/views/sampled_views.hpp"
 
 namespace vantage {
@@ -39,8 +40,37 @@ Candidate view_at(int id, const Eigen::Vector3d& p_m, double yaw_rad = 0.0) {
   return view;
 }
 
+/// All but `adaptive`, with their defaults.
+std::vector<Gain> gains_of_maps() {
+  std::vector<Gain> gains;
+  for (const std::string_view name : strategy_names<Gain>()) {
+    if (name != AdaptiveGain::name) gains.push_back(make_strategy<Gain>(name));
+  }
+  return gains;
+}
+
+std::vector<Candidate> views_in_the_map(Rng& rng) {
+  std::vector<Candidate> views;
+  for (int i = 0; i < 8; ++i) {
+    views.push_back(
+        view_at(i, {rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(0.2, 1.4)}, i));
+  }
+  return views;
+}
+
 class ScoreViews : public ::testing::Test {
  protected:
+  /// 32 x 32 x 16 cells of 10 cm; those in two corners are known, so that all are its region.
+  OctomapFile random_map(double p_free, Rng& rng) {
+    OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.8}, {3.2, 3.2, 1.6}, {32, 32, 16}));
+    for (float& log_odds : grid.log_odds) {
+      const double u = rng.uniform();
+      log_odds = u < 0.01 ? 3.0F : (u < 0.01 + p_free ? -2.0F : 0.0F);
+    }
+    grid.log_odds.front() = grid.log_odds.back() = -2.0F;
+    write_octomap(grid, directory_ / "map.ot");
+    return OctomapFile(directory_ / "map.ot");
+  }
   OctomapFile map(const std::vector<support::MapCube>& cubes, double resolution_m) {
     std::ofstream(directory_ / "map.bt", std::ios::binary)
         << support::octomap_bytes(cubes, resolution_m);
@@ -80,30 +110,39 @@ TEST(ScoreViewsOfAMeasuredMap, NoViewIsWorthLessThanNothing) {
   EXPECT_THAT(gains, Contains(Gt(1000.0)));
 }
 
-TEST_F(ScoreViews, SameAsOnTheWholeGrid) {
-  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.8}, {3.2, 3.2, 1.6}, {32, 32, 16}));
+TEST_F(ScoreViews, SameAsOnTheWholeGridWhicheverViewsAreListed) {
+  struct Case {
+    double p_free;
+    int coarsen;
+  };
   Rng rng(4);
-  for (float& log_odds : grid.log_odds) {
-    const double u = rng.uniform();
-    log_odds = u < 0.02 ? 3.0F : (u < 0.5 ? -2.0F : 0.0F);
-  }
-  grid.log_odds.front() = grid.log_odds.back() = -2.0F;  // the box of the known cells is the grid
-  write_octomap(grid, directory_ / "map.ot");
-  const OctomapFile file(directory_ / "map.ot");
-  std::vector<Candidate> views;
-  views.reserve(12);
-  for (int i = 0; i < 12; ++i) {
-    views.push_back(
-        view_at(i, {rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5), rng.uniform(0.2, 1.4)}, i));
-  }
-  const FieldOfView sensor = camera(1.2);  // its reach is less than the grid
-  for (const Gain& gain : {Gain(UnobservedVoxelGain{}), Gain(PosteriorChainGain{})}) {
-    const auto whole = exact_gains_bits(gain, {grid}, views, sensor, 1);
-    const auto scored = score_views(file, {}, gain, views, sensor, 2);
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      EXPECT_NEAR(scored[i], whole[i], 1e-6 * whole[i] + 1e-9) << i;
+  for (const auto& [p_free, coarsen] : {Case{0.48, 1}, Case{0.9, 1}, Case{0.48, 3}}) {
+    const OctomapFile file = random_map(p_free, rng);
+    const ScoredRegion region{.coarsen = coarsen};
+    const OccupancyGrid whole = file.grid_of(region.cells(file), coarsen);
+    const auto views = views_in_the_map(rng);
+    const FieldOfView sensor = camera(1.2);  // its reach is less than the map
+    for (const Gain& gain : gains_of_maps()) {
+      const auto expected = view_gains_bits(gain, {whole}, views, sensor, 1);
+      const auto together = score_views(file, region, gain, views, sensor, 2);
+      for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto alone = score_views(file, region, gain, {&views[i], 1}, sensor, 1).front();
+        const double rounding = (can_sweep(gain) ? 1e-4 : 1e-6) * std::abs(expected[i]) + 1e-9;
+        EXPECT_NEAR(alone, expected[i], rounding) << strategy_name_of(gain) << i << p_free;
+        EXPECT_NEAR(together[i], expected[i], rounding) << strategy_name_of(gain) << i << p_free;
+      }
     }
   }
+}
+
+TEST_F(ScoreViews, ReadsBeyondTheReachWhatTheGainLooksAt) {
+  const ScoredRegion region{.min_m = {{0.0, 0.0, 0.0}}, .max_m = {{3.2, 1.6, 1.6}}};
+  const std::vector<Candidate> views{view_at(0, {0.35, 0.85, 0.85})};
+  const FieldOfView sensor = camera(1.22);  // up to cell 15
+  const auto free = map({{{0, 0, 0}, 16, false}}, 0.1);
+  EXPECT_EQ(score_views(free, region, FrontierCellsGain{}, views, sensor, 1).front(), 13.0);
+  const auto wall = map({{{16, 0, 0}, 16, true}}, 0.1);
+  EXPECT_GT(score_views(wall, region, ProximityCountGain{}, views, sensor, 1).front(), 0.0);
 }
 
 TEST_F(ScoreViews, ViewsKilometresApartOnAMapThatNoGridHolds) {

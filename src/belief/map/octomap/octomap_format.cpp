@@ -83,6 +83,10 @@ class RecordWalk {
     binary ? walk_binary(root) : walk_full(root);
     return nodes_;
   }
+  /// OctoMap writes nothing behind the tree.
+  void require_end() const {
+    if (at_ < data_.size()) damaged("the data go on behind the tree");
+  }
 
  private:
   /// Two bits a child: 00 none, 01 free, 10 occupied, 11 an inner node with a record of its own.
@@ -163,13 +167,13 @@ std::string octomap_header(const OctomapHeader& header) {
 OctomapHeader parse_octomap(std::string_view bytes, const std::string& name,
                             const OctomapLeafVisitor& visit) {
   const OctomapHeader header = parse_header(bytes, name);
-  if (header.nodes == 0) return header;
-  const std::size_t found =
-      RecordWalk(bytes.substr(header.data_offset), name, visit).run(header.binary);
+  RecordWalk walk(bytes.substr(header.data_offset), name, visit);
+  const std::size_t found = header.nodes == 0 ? 0 : walk.run(header.binary);
   if (found != header.nodes) {
     throw InputError(fmt::format("{}: damaged: header key 'size' is {}, the data hold {} nodes",
                                  name, header.nodes, found));
   }
+  walk.require_end();
   return header;
 }
 

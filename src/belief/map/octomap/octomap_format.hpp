@@ -77,8 +77,8 @@ std::string octomap_header(const OctomapHeader& header);
 
 /// Calls `visit` with each leaf of an OcTree file, in the tree's order, and returns its header.
 /// What was visited is good only if it returns. `name` stands for the file in messages.
-/// @throws InputError if `bytes` are empty, no OctoMap file, another kind of tree, cut short, or
-/// hold a number of nodes other than the header says.
+/// @throws InputError if `bytes` are empty, no OctoMap file, another kind of tree, cut short, go on
+/// behind the tree, or hold a number of nodes other than the header says.
 OctomapHeader parse_octomap(std::string_view bytes, const std::string& name,
                             const OctomapLeafVisitor& visit);
 
