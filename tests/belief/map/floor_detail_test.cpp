@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "vantage/core/rng.hpp"
 
@@ -77,6 +78,42 @@ TEST(FloorDetail, WhatTheRobotStandsOnIsFree) {
     EXPECT_EQ(is_free(detail, cell), detail.state(cell) == CellState::free);
     EXPECT_EQ(is_occupied(detail, cell), detail.state(cell) == CellState::occupied);
   }
+}
+
+/// Log odds of 0.7 for a beam that ends, -0.3 for one that goes on, up to 6: occupied from three
+/// ends in ten on.
+TEST(FloorDetail, CountsEachBeam) {
+  FloorMap detail =
+      make_floor_detail(make_floor_map({.cell_m = 1.0, .half_size_m = 4.0}), {.parts = 1});
+  const FloorDetailOptions options{.parts = 1, .range_m = 3.0};
+  const auto beams_to = [&](float range_m, int count) {
+    const PlanarScan scan{.T_base_sensor = {},
+                          .azimuth_rad = std::vector<double>(static_cast<std::size_t>(count), 0.0),
+                          .range_m = std::vector<float>(static_cast<std::size_t>(count), range_m),
+                          .range_max_m = 10.0};
+    add_beams(detail, scan, {0.5, 0.5, 0.0}, options);
+  };
+  const auto log_odds = [&](double x_m) {
+    return detail.log_odds[detail.index(detail.cell_at({x_m, 0.5}))];
+  };
+  beams_to(1.0F, 1);
+  EXPECT_NEAR(log_odds(0.5), -0.3, 1e-6);
+  EXPECT_NEAR(log_odds(1.5), 0.7, 1e-6);
+  EXPECT_EQ(log_odds(2.5), 0.0F);
+  beams_to(2.0F, 2);
+  EXPECT_NEAR(log_odds(1.5), 0.7 - 0.6, 1e-6) << "one in three";
+  EXPECT_NEAR(log_odds(2.5), 1.4, 1e-6);
+  beams_to(3.0F, 1);
+  EXPECT_NEAR(log_odds(3.5), 0.7, 1e-6) << "just at the range";
+  beams_to(3.5F, 1);
+  EXPECT_NEAR(log_odds(3.5), 0.4, 1e-6) << "beyond it";
+  beams_to(1.0F, 20);
+  EXPECT_EQ(log_odds(1.5), 6.0F);
+  EXPECT_EQ(log_odds(0.5), -6.0F);
+  const FloorOutline round{{1.0, 0.0}, {2.0, 0.0}, {2.0, 1.0}, {1.0, 1.0}};
+  clear_outline(detail, round);
+  EXPECT_EQ(log_odds(1.5), -2.0F);
+  EXPECT_EQ(log_odds(0.5), -6.0F);
 }
 
 }  // namespace

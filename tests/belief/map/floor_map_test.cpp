@@ -140,5 +140,29 @@ TEST(FloorMapOptions, MakeACellAtLeastAndNoMoreThanMemoryHolds) {
   EXPECT_THROW(FloorMapOptions({.half_size_m = 205.0}).check(), ConfigError);
 }
 
+/// By default a return adds 1.5, a passing beam takes 0.5, and neither goes beyond 3.
+TEST(AddPlanarScan, AddsAndTakesWhatItIsSaidTo) {
+  FloorMap map = make_floor_map(metre_cells());
+  const Pose2 base{-0.5, 0.5, 0.0};
+  const auto log_odds = [&](double x_m) {
+    return map.log_odds[map.index(map.cell_at({x_m, 0.5}))];
+  };
+  add_planar_scan(map, one_beam(2.0F), base, metre_cells());
+  EXPECT_EQ(log_odds(1.5), 1.5F);
+  EXPECT_EQ(log_odds(0.5), -0.5F);
+  EXPECT_EQ(log_odds(-0.5), -0.5F) << "the robot's own cell";
+  EXPECT_EQ(log_odds(2.5), 0.0F);
+  for (int i = 0; i < 9; ++i) add_planar_scan(map, one_beam(2.0F), base, metre_cells());
+  EXPECT_EQ(log_odds(1.5), 3.0F);
+  EXPECT_EQ(log_odds(0.5), -3.0F);
+  add_planar_scan(map, one_beam(4.0F), base, metre_cells());
+  EXPECT_EQ(log_odds(3.5), 1.5F) << "a return at the greatest range is one";
+  EXPECT_EQ(log_odds(1.5), 2.5F);
+  clear_footprint(map, {1.5, 0.5, 0.0}, 1.0);
+  EXPECT_EQ(log_odds(1.5), -2.0F);
+  EXPECT_EQ(log_odds(2.5), -2.0F) << "just within the radius";
+  EXPECT_EQ(log_odds(0.5), -3.0F) << "it was surer than that";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -184,6 +185,57 @@ TEST(SensorModel, NoisySurfaceIsAsThickAsItsPointsAndNoThicker) {
   }
   for (std::size_t i = 0; i < grid.size(); ++i) {
     EXPECT_EQ(grid.state(i) == CellState::occupied, has_point[i]) << i;
+  }
+}
+
+/// Cell by cell, the rules as the header has them.
+double log_odds_by_the_rules(const OccupancyGrid& before, std::size_t cell,
+                             const std::vector<Eigen::Vector3f>& points,
+                             const InverseSensorModel& model) {
+  const GridFrame& frame = before.frame;
+  const Eigen::Array3d sigma_m = (0.65 * frame.cell_size_m.array()).max(model.sigma_m);
+  double least = std::numeric_limits<double>::infinity();
+  bool hit = false;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3d p = point.cast<double>();
+    const Eigen::Array3d off = (frame.centre(frame.cell(cell)) - p).array() / sigma_m;
+    const double d2 = off.square().sum();
+    const bool inside = (frame.cell_at(p) == frame.cell(cell)).all();
+    hit = hit || inside;
+    if (inside || d2 <= model.spread_sigmas * model.spread_sigmas) least = std::min(least, d2);
+  }
+  const double was = static_cast<double>(before.log_odds[cell]);
+  if (std::isinf(least)) return was;
+  if (!hit && before.state(cell) == CellState::free) return was;
+  const double p = 0.5 + (model.p_occupied_peak - 0.5) * std::exp(-0.5 * least);
+  const bool spread = !hit && before.state(cell) == CellState::unobserved;
+  const double limit = spread ? std::log(0.59 / 0.41) : model.max_abs_log_odds;
+  return std::max(was, std::min(was + log_odds_of(p), limit));
+}
+
+TEST(SensorModel, IsTheRulesOfTheHeaderCellByCell) {
+  Rng rng(12);
+  for (const double sigma_m : {0.001, 0.012}) {
+    for (const double spread : {0.0, 1.3, 3.0}) {
+      OccupancyGrid grid(small_frame({0.008, 0.013, 0.006}));
+      for (float& cell : grid.log_odds) cell = static_cast<float>(rng.uniform(-1.0, 1.0));
+      auto points = random_points(grid.frame, 25, rng);
+      for (int i = 0; i < 12; ++i) {  // some just outside
+        points.push_back(
+            1.1F * (points[static_cast<std::size_t>(i)] - grid.frame.box().center().cast<float>()) +
+            grid.frame.box().center().cast<float>());
+      }
+      const InverseSensorModel model{.sigma_m = sigma_m, .spread_sigmas = spread};
+      OccupancyGrid after = grid;
+      add_measurements(after, points, model);
+      std::size_t changed = 0;
+      for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+        EXPECT_NEAR(after.log_odds[cell], log_odds_by_the_rules(grid, cell, points, model), 2e-5)
+            << sigma_m << " " << spread << " " << cell;
+        changed += after.log_odds[cell] != grid.log_odds[cell] ? 1 : 0;
+      }
+      EXPECT_GE(changed, spread == 0.0 ? 10U : 20U);
+    }
   }
 }
 

@@ -225,5 +225,25 @@ TEST_F(RecognitionFile, OfImpossibleCorrelationIsRefused) {
   EXPECT_THAT(error_of(read_file(path_)), HasSubstr("correlation of views is 1.5"));
 }
 
+TEST_F(RecognitionFile, KeepsNotesCountsAndMoments) {
+  RecognitionModel model = small_model();
+  model.pictures = "cut out of their background";
+  model.transitions.same_object = 7.25;
+  model.transitions.other_instance = 0.5;
+  model.transitions.other_category = 1.75;
+  write_recognition_model(model, path_);
+  const RecognitionModel read = read_recognition_model(path_);
+  EXPECT_EQ(read.pictures, "cut out of their background");
+  EXPECT_EQ(read.transitions.same_object, 7.25);
+  EXPECT_EQ(read.transitions.other_instance, 0.5);
+  EXPECT_EQ(read.transitions.other_category, 1.75);
+  for (std::size_t f = 0; f < 2; ++f) {
+    const GaussianStatistics& before = model.features[f].statistics;
+    const GaussianStatistics& after = read.features[f].statistics;
+    EXPECT_LT((after.mean - before.mean).cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_LT((after.squared_deviation - before.squared_deviation).cwiseAbs().maxCoeff(), 1e-2);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

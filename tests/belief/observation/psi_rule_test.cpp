@@ -185,5 +185,12 @@ TEST(MeanLogPosterior, WithoutFeaturesThatCountIsAGuess) {
   EXPECT_NEAR(mean_log_posterior(world.held_out, std::vector{0.0}), -std::log(kStates), 1e-6);
 }
 
+TEST(CalibratedPsi, EndsAtItsBounds) {
+  World world = make_world({1}, {0.01}, 50);
+  EXPECT_EQ(CalibratedPsi{}(world.context())[0], 10.0) << "it is never mistaken";
+  world.held_out.log_density[0] = -world.held_out.log_density[0];
+  EXPECT_EQ(CalibratedPsi{}(world.context())[0], 1e-7) << "it always is";
+}
+
 }  // namespace
 }  // namespace vantage

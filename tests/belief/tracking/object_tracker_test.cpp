@@ -100,5 +100,40 @@ TEST(ObjectTracker, RejectsOptionsOutOfRange) {
   EXPECT_THROW(ObjectTracker({.min_detections = 0}), ConfigError);
 }
 
+/// Weights 1 and 1 / 2^4: what is nearer than a metre counts as if it were a metre away.
+TEST(ObjectTracker, EverySizeIsAWeightedMean) {
+  ObjectTracker found;
+  ObjectDetection near = at(1.0, 0.0, 0.5);
+  ObjectDetection far = at(1.17, 0.17, 2.0);
+  far.p_world_object_m.z() = 1.02;
+  far.support_z_m = 0.97;
+  far.radius_m = 0.22;
+  far.height_m = 0.27;
+  found.update(std::vector{near});
+  EXPECT_NEAR(found.objects()[0].weight, 1.0, 1e-12);
+  found.update(std::vector{far});
+  ASSERT_EQ(found.objects().size(), 1U);
+  const TrackedObject& object = found.objects()[0];
+  EXPECT_NEAR(object.weight, 1.0 + 1.0 / 16.0, 1e-12);
+  EXPECT_NEAR(object.p_world_object_m.x(), 1.0 + 0.17 / 17.0, 1e-12);
+  EXPECT_NEAR(object.p_world_object_m.y(), 0.17 / 17.0, 1e-12);
+  EXPECT_NEAR(object.p_world_object_m.z(), 0.85 + 0.17 / 17.0, 1e-12);
+  EXPECT_NEAR(object.support_z_m, 0.8 + 0.17 / 17.0, 1e-12);
+  EXPECT_NEAR(object.radius_m, 0.05 + 0.17 / 17.0, 1e-12);
+  EXPECT_NEAR(object.height_m, 0.1 + 0.17 / 17.0, 1e-12);
+  EXPECT_FALSE(object.confirmed);
+}
+
+/// Heights do not part objects, and just at the gate they are two.
+TEST(ObjectTracker, TakesTheNearestWithinTheGateLevel) {
+  ObjectTracker found({.gate_m = 0.5});
+  ObjectDetection above = at(0.2, 0.0);
+  above.p_world_object_m.z() = 3.0;
+  found.update(std::vector{at(0.0, 0.0), at(1.0, 0.0)});
+  EXPECT_EQ(found.update(std::vector{above}), std::vector<int>{0});
+  EXPECT_EQ(found.update(std::vector{at(0.0, 0.75)}), std::vector<int>{2});
+  EXPECT_EQ(found.update(std::vector{at(1.0, 0.5)}), std::vector<int>{3}) << "0.5 m from 1";
+}
+
 }  // namespace
 }  // namespace vantage

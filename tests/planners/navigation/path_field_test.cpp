@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <deque>
+#include <numbers>
 
 #include "tests/planners/navigation/ascii_floor.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
@@ -158,6 +159,66 @@ TEST(PathField, DoesNotEscapeThroughAWall) {
   options.escape_radius_m = 9.0;
   const PathField field = make_path_field(floor_of(rows), place_of(rows, 'S'), options);
   EXPECT_FALSE(nearest_reachable(field, {8.5, 1.5}).has_value());
+}
+
+/// At the centre of a cell 1, 2 and 3 m from what is outside, where the inflation is 1 m.
+TEST(PathField, AMetreCostsByTheClearanceItHas) {
+  const FloorMap map = floor_of(Drawing(9, "........."));
+  NavigationOptions options;
+  options.footprint_radius_m = 0.5;
+  options.margin_m = 0.5;
+  options.clearance_weight = 3.0;
+  options.comfort_m = 2.0;
+  const PathField field = make_path_field(map, {2.5, 4.5, 0.0}, options);
+  EXPECT_DOUBLE_EQ(field.cost_per_metre(map.index({0, 4})), 4.0);
+  EXPECT_DOUBLE_EQ(field.cost_per_metre(map.index({1, 4})), 2.5);
+  EXPECT_DOUBLE_EQ(field.cost_per_metre(map.index({2, 4})), 1.0);
+  EXPECT_DOUBLE_EQ(field.cost_per_metre(map.index({4, 4})), 1.0);
+  EXPECT_DOUBLE_EQ(field.cost[map.index({1, 4})], 1.75) << "half of either cell";
+  EXPECT_DOUBLE_EQ(field.cost[map.index({0, 4})], 1.75 + 3.25) << "just traversable";
+  EXPECT_DOUBLE_EQ(field.cost[field.start_cell], 0.0);
+  EXPECT_EQ(field.parent[map.index({0, 4})], map.index({1, 4}));
+}
+
+/// It is dear all the way, and as long as the radius.
+TEST(PathField, TheWayOutOfATightPlaceCostsToo) {
+  const Drawing rows{
+      "#########",  //
+      "#S......#",  //
+      "#.......#",  //
+      "#.......#",  //
+      "#.......#",  //
+      "#########",  //
+  };
+  NavigationOptions options = comfortable_point_robot();
+  options.footprint_radius_m = 2.0;
+  options.clearance_weight = 2.0;
+  options.escape_radius_m = std::numbers::sqrt2;
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), options);
+  ASSERT_TRUE(field.reachable(map.index({2, 3})));
+  EXPECT_DOUBLE_EQ(field.cost[map.index({2, 3})], 3.0 * std::numbers::sqrt2);
+  EXPECT_DOUBLE_EQ(field.cost[map.index({3, 3})], 3.0 * std::numbers::sqrt2 + 3.0);
+  EXPECT_EQ(field.parent[map.index({2, 3})], field.start_cell);
+  EXPECT_EQ(field.parent[field.start_cell], PathField::kNone);
+  EXPECT_FALSE(field.reachable(field.start_cell));
+  options.escape_radius_m = 1.41;
+  EXPECT_FALSE(make_path_field(map, place_of(rows, 'S'), options).reachable(map.index({2, 3})));
+}
+
+TEST(NearestReachable, OfEquallyNearCellsIsTheCheapest) {
+  const Drawing rows{
+      ".....",  //
+      "S.#..",  //
+      ".....",  //
+  };
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), point_robot());
+  EXPECT_EQ(nearest_reachable(field, {2.5, 1.5}), map.index({1, 1}));
+  EXPECT_EQ(nearest_reachable(field, {2.5, 1.6}), map.index({2, 2}));
+  EXPECT_TRUE(field.reachable(Eigen::Vector2d(4.9, 2.9)));
+  EXPECT_FALSE(field.reachable(Eigen::Vector2d(5.1, 2.9))) << "off the map";
+  EXPECT_FALSE(field.reachable(Eigen::Vector2d(2.5, 1.5)));
 }
 
 TEST(PathField, OfARobotOutsideTheMapReachesNothing) {

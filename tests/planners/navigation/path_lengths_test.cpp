@@ -92,5 +92,28 @@ TEST(PathLengths, PayForClearanceAsPathsDo) {
   EXPECT_GT(path_lengths_m(field, places, 1)(0, 1), 10.5);
 }
 
+/// With more room the cheapest way goes two rows up and down again.
+TEST(PathLengths, AreThoseOfTheCheapestWayNotOfTheShortest) {
+  const Drawing rows{
+      "...........",  //
+      "...........",  //
+      "...........",  //
+      "...........",  //
+      "...........",  //
+      "A.........B",  //
+      "###########",  //
+  };
+  NavigationOptions options = point_robot();
+  options.comfort_m = 2.0;
+  const Pose2 a = place_of(rows, 'A');
+  const Pose2 b = place_of(rows, 'B');
+  const std::vector<Eigen::Vector2d> places{{b.x_m, b.y_m}, {a.x_m, a.y_m}};
+  for (const double weight : {2.0, 5.0, 8.0}) {
+    options.clearance_weight = weight;
+    const PathField field = make_path_field(floor_of(rows), a, options);
+    EXPECT_NEAR(path_lengths_m(field, places, 2)(1, 0), 6.0 + 4.0 * std::sqrt(2.0), 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

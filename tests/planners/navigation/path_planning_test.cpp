@@ -144,6 +144,25 @@ TEST(WayBlocked, ByWhatWasNotThereWhenItWasPlanned) {
   EXPECT_FALSE(blocked_by(4, 2, way.front()));
 }
 
+/// It must be able to go out of a tight place: what it is no nearer to on the way does not stop it,
+/// give or take half a cell.
+TEST(WayBlocked, OnlyByWhatComesNearerThanItIsNow) {
+  const FloorMap map = floor_of(Drawing(5, "........."));
+  NavigationOptions options = point_robot();
+  options.footprint_radius_m = 3.0;
+  options.watch_m = 4.0;
+  const Pose2 base{0.5, 2.5, 0.0};
+  const std::vector<Pose2> way{base, {8.5, 2.5, 0.0}};
+  const auto blocked_by = [&](int x, int y) {
+    FloorMap changed = map;
+    changed.log_odds[map.index({x, y})] = 3.0F;
+    return is_way_blocked(changed, way, base, options);
+  };
+  EXPECT_FALSE(blocked_by(1, 3)) << "0.4 m nearer than now";
+  EXPECT_TRUE(blocked_by(2, 4)) << "0.8 m nearer";
+  EXPECT_FALSE(blocked_by(0, 2)) << "beneath it";
+}
+
 TEST(PlanPath, StaysWhereItIsIfThereIsNoWay) {
   const FloorMap map = floor_of({"?????", "??.??", "?????"});
   NavigationOptions options = point_robot();

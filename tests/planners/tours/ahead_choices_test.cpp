@@ -180,5 +180,86 @@ TEST(AheadChoices, TakeNothingThatCannotBePaid) {
   }
 }
 
+/// In each square of the floor one far view stands for the others; squares go on below zero.
+TEST(TwoLevelTour, ALevelIsAsWideAsItIsSaidToBe) {
+  const TwoLevelTour choice{.horizon_s = 5.0, .cover = 1.0, .region_m = 20.0};
+  EXPECT_EQ(order_of(choice, on_a_line({5.0, 6.0}, {1.0F, 2.0F})), (test::Order{0, 1}))
+      << "just near, and far";
+  EXPECT_EQ(order_of(choice, on_a_line({6.0, 7.0}, {1.0F, 2.0F})), test::Order{1}) << "both far";
+  EXPECT_EQ(order_of(choice, on_a_line({-19.0, 19.5}, {1.0F, 2.0F})), (test::Order{0, 1}));
+  PlanningProblem aside = on_a_line({6.0, 7.0}, {1.0F, 2.0F});
+  aside.place_m[1].y() = -1.0;
+  EXPECT_EQ(order_of(choice, aside), (test::Order{0, 1})) << "across the floor too";
+}
+
+TEST(TwoLevelTour, NearViewsCoverTheShareThatIsAskedFor) {
+  const PlanningProblem problem = on_a_line({3.0, 2.0, 1.0}, {50.0F, 30.0F, 20.0F});
+  const auto covering = [&](double cover) {
+    return order_of(TwoLevelTour{.horizon_s = 5.0, .cover = cover}, problem);
+  };
+  EXPECT_EQ(covering(0.5), test::Order{0}) << "just half of it";
+  EXPECT_EQ(covering(0.51), (test::Order{1, 0}));
+  EXPECT_EQ(covering(0.81), (test::Order{2, 1, 0}));
+}
+
+/// 10 e^(-10 lambda) = 7 e^(-5 lambda) at lambda = ln(10 / 7) / 5 = 0.0713.
+TEST(RecedingHorizon, DiscountsAGainByTheWayThere) {
+  const PlanningProblem problem = on_a_line({10.0, -5.0}, {10.0F, 7.0F});
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    EXPECT_EQ(order_of(RecedingHorizon{.lambda_per_s = 0.07}, problem, seed), test::Order{0});
+    EXPECT_EQ(order_of(RecedingHorizon{.lambda_per_s = 0.073}, problem, seed), test::Order{1});
+  }
+}
+
+/// The views on the right add up along their branch, by the way through each other.
+TEST(RecedingHorizon, SumsTheGainsOfABranchAlongItsWay) {
+  const PlanningProblem problem = on_a_line({5.0, 6.0, -4.0}, {10.0F, 10.0F, 10.0F});
+  int nearer_first = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const test::Order order = order_of(RecedingHorizon{.lambda_per_s = 0.05}, problem, seed);
+    EXPECT_EQ(order.size(), 2U);
+    EXPECT_NE(order.front(), 2U);
+    nearer_first += order == test::Order{0, 1} ? 1 : 0;
+    EXPECT_EQ(order_of(RecedingHorizon{.lambda_per_s = 1.0}, problem, seed), test::Order{2});
+  }
+  EXPECT_GT(nearer_first, 2);
+  EXPECT_LT(nearer_first, 18);
+}
+
+TEST(RecedingHorizon, DrawsEveryViewAsOften) {
+  const PlanningProblem problem = on_a_line({5.0, 6.0, 7.0}, {10.0F, 10.0F, 10.0F});
+  std::vector<int> drawn(3, 0);
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    const test::Order order = order_of(RecedingHorizon{.nodes = 1}, problem, seed);
+    ASSERT_EQ(order.size(), 1U);
+    ++drawn[order.front()];
+  }
+  for (const int count : drawn) EXPECT_NEAR(count, 200, 60);
+}
+
+/// The map is certain: what is kept to is worth so much a map.
+TEST(Rollout, KeepsAPlanThatIsDearerByLessThanThat) {
+  PlanningProblem problem = on_a_line({5.0, -5.0}, {10.0F, 11.0F});
+  problem.draw = [&problem](Rng&) { return shown_by(problem); };
+  Rollout rollout;
+  const auto cost_s = [&](std::size_t first) {
+    return search_tour(problem, rollout.objective(), rollout.search(), first).cost_s;
+  };
+  const double dearer_s = cost_s(0) - cost_s(1);
+  ASSERT_GT(dearer_s, 0.0);
+  problem.intended = 0;
+  for (const int draws : {1, 5}) {
+    rollout.draws = draws;
+    rollout.keep_s = 0.9 * dearer_s;
+    EXPECT_EQ(order_of(rollout, problem).front(), 1U);
+    rollout.keep_s = 1.1 * dearer_s;
+    Rng rng(1);
+    const PlannedViews plan = rollout(problem, rng);
+    EXPECT_EQ(plan.order.front(), 0U);
+    EXPECT_NEAR(plan.costs->taken_s, cost_s(0), 1e-9);
+    EXPECT_NEAR(plan.costs->intended_s.value(), cost_s(0), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

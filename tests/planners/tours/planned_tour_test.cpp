@@ -132,5 +132,38 @@ TEST(PlannedTour, HasTimesAndWhatEachStopAdds) {
   EXPECT_EQ(PlannedTour{}.ends_s(), 0.0);
 }
 
+/// Down to the last second, joule and scan, with the way home where there is one.
+TEST(IsAffordable, CountsDrivesScansAndTheWayHome) {
+  PlanningProblem problem = three_views();
+  problem.driving_w = 100.0;
+  problem.scanning_w = 40.0;
+  const std::vector<std::size_t> order{0, 2};  // 10 + 15 s of driving, 10 s of scanning
+  EXPECT_TRUE(is_affordable(problem, order));
+  problem.left.energy_j = 2500.0 + 400.0;
+  EXPECT_TRUE(is_affordable(problem, order));
+  problem.left.energy_j = 2899.9;
+  EXPECT_FALSE(is_affordable(problem, order));
+  problem.home_s = {10.0, 20.0, 25.0, 0.0};
+  problem.left = {.scans = 2, .time_s = 60.0, .energy_j = 5400.0};
+  EXPECT_TRUE(is_affordable(problem, order));
+  problem.left.energy_j = 5399.9;
+  EXPECT_FALSE(is_affordable(problem, order));
+  problem.left = {.scans = 2, .time_s = 59.9};
+  EXPECT_FALSE(is_affordable(problem, order));
+  problem.left = {.scans = 1};
+  EXPECT_FALSE(is_affordable(problem, order));
+  EXPECT_TRUE(is_affordable(problem, std::vector<std::size_t>{2}));
+  problem.left = {.scans = 0};
+  EXPECT_FALSE(is_affordable(problem, std::vector<std::size_t>{2}));
+  EXPECT_TRUE(affordable_views(problem).empty());
+}
+
+/// Cells of its own, and half of those that the first view shows too.
+TEST(GainOf, IsTheShareOfEachBlock) {
+  const PlanningProblem problem = three_views();
+  EXPECT_EQ(gain_of(problem, 0), 8.0);
+  EXPECT_EQ(gain_of(problem, 1), 12.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -230,5 +230,56 @@ TEST_F(Planner, TellsTheClearanceOfASpline) {
   EXPECT_TRUE(given.clear(clearance_m(given, candidates.front())));
 }
 
+/// Eight of ten points are off: the first is flown to already, the last is that of the given path.
+TEST_F(Planner, LeavingThePathCostsByWhatIsBeyondTheTolerance) {
+  objects_.clear();
+  const auto cost_of = [&](const Eigen::Vector4d& off, double weight) {
+    std::vector<Eigen::Vector4d> plan = path_;
+    for (std::size_t i = 2; i < plan.size(); ++i) plan[i] += off;
+    planning_.options.path_deviation_weight = weight;
+    FlightPlanner chomp = planner(Chomp{.evaluations = 20});
+    const auto candidates =
+        chomp.propose({.at = 0, .nominal = path_, .plan = plan}, objects_, map_);
+    EXPECT_EQ(candidates[1].planner, "as before");
+    return candidates[1].cost;
+  };
+  const auto missing_m = [&](const Eigen::Vector4d& off) {
+    return cost_of(off, 3.0) - cost_of(off, 2.0);
+  };
+  EXPECT_NEAR(missing_m({0.0, 1.5, 0.0, 0.0}), 8.0 * (1.5 - 1.2), 1e-6);
+  EXPECT_NEAR(missing_m({0.0, -1.2, 0.0, 0.0}), 0.0, 1e-6);
+  EXPECT_NEAR(missing_m({0.0, 0.0, 0.4, 0.0}), 8.0 * (4.0 * 0.4 - 1.2), 1e-6) << "up counts more";
+  EXPECT_NEAR(missing_m({0.0, 0.0, -0.4, 0.0}), 8.0 * (4.0 * 0.4 - 1.2), 1e-6) << "and down";
+}
+
+/// Over a floor 1.8 m below; what is farther than 1.5 m is that far.
+TEST_F(Planner, ClearanceIsToSurfacesAndToTheEndOfWhatWasLookedAt) {
+  objects_.clear();
+  FlightPlanner given = planner(GivenPath{});
+  propose(given);
+  const auto clearance = [&](double y_m, double until_share) {
+    const std::vector<FlightWaypoint> aside{{.p_world_m = {2.0, y_m, 1.8}, .yaw_rad = 0.0}};
+    const MinimumJerkTrajectory path({.p_world_m = {2.0, 0.0, 1.8}}, aside);
+    return given.clearance_m(path, until_share * path.duration_s());
+  };
+  EXPECT_NEAR(clearance(0.1, 1.0), 1.5, 0.02);
+  EXPECT_NEAR(clearance(2.3, 1.0), 2.5 - 2.3, 0.02) << "two and a half metres beside the path";
+  EXPECT_NEAR(clearance(-2.3, 1.0), 2.5 - 2.3, 0.02);
+  EXPECT_GT(clearance(2.3, 0.3), 1.0) << "until then";
+}
+
+TEST(SafestOfBest, IsTheFirstThatIsClearElseWhatKeepsOffFarthest) {
+  std::vector<CandidatePlan> plans(3);
+  for (CandidatePlan& plan : plans) plan.clear = false;
+  plans[0].clearance_m = 0.1;
+  plans[1].clearance_m = 0.4;
+  plans[2].clearance_m = 0.2;
+  EXPECT_EQ(safest_of_best(plans), 1U);
+  plans[2].clear = true;
+  EXPECT_EQ(safest_of_best(plans), 2U);
+  plans[0].clear = true;
+  EXPECT_EQ(safest_of_best(plans), 0U);
+}
+
 }  // namespace
 }  // namespace vantage

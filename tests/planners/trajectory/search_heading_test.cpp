@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace vantage {
 namespace {
 
@@ -74,6 +77,46 @@ TEST_F(Search, TurnsForEnoughAlone) {
   EXPECT_FALSE(heading());
   options_ = {.turn_rad = 0.0};
   EXPECT_FALSE(heading()) << "it may not";
+}
+
+constexpr double kBetweenRays_rad = M_PI / 36.0;
+
+/// Nothing was seen of a strip 1.7 to 2.4 m away that one ray alone crosses: it turns no farther
+/// than to have that at the rim of the image, eleven rays wide.
+class Strip : public Search {
+ protected:
+  void leave_unseen(int ray) {
+    const double bearing_rad = ray * kBetweenRays_rad;
+    for (const double away_m : {1.7, 1.8, 1.9, 2.0, 2.1, 2.2, 2.3, 2.4}) {
+      const Eigen::Vector3d p(away_m * std::cos(bearing_rad), away_m * std::sin(bearing_rad), 0.9);
+      grid_.log_odds[grid_.frame.index(grid_.frame.cell_at(p))] = 0.0F;
+    }
+  }
+  [[nodiscard]] double turned_by(double min_area_m2) const {
+    return search_heading({.turn_rad = 1.0, .min_area_m2 = min_area_m2}, grid_, {0.0, 0.0, 1.8},
+                          0.0, kFov_rad)
+        .value_or(0.0);
+  }
+};
+
+TEST_F(Strip, TheLeastTurnThatShowsItIsTaken) {
+  leave_unseen(10);
+  EXPECT_NEAR(turned_by(0.05), 5.0 * kBetweenRays_rad, 1e-9);
+  // The lengths of the arcs between rays, 0.1 m deep, less for the turn.
+  const double area_m2 = 16.4 * kBetweenRays_rad * 0.1;
+  const double utility_m2 = area_m2 * std::cos(2.5 * kBetweenRays_rad);
+  EXPECT_NEAR(turned_by(utility_m2 - 1e-6), 5.0 * kBetweenRays_rad, 1e-9);
+  EXPECT_EQ(turned_by(utility_m2 + 1e-6), 0.0);
+}
+
+TEST_F(Strip, ItTurnsToEitherSideAsFarAsItMay) {
+  leave_unseen(16);
+  EXPECT_NEAR(turned_by(0.05), 11.0 * kBetweenRays_rad, 1e-9) << "just less than a radian";
+  std::ranges::fill(grid_.log_odds, -2.0F);
+  leave_unseen(17);
+  EXPECT_EQ(turned_by(0.05), 0.0);
+  leave_unseen(-10);
+  EXPECT_NEAR(turned_by(0.05), -5.0 * kBetweenRays_rad, 1e-9);
 }
 
 }  // namespace

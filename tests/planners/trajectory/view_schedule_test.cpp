@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vantage {
 namespace {
@@ -102,6 +103,36 @@ TEST_F(Schedule, LooksAheadBetweenViews) {
   EXPECT_EQ(of_point[6], 1U);
   EXPECT_EQ(of_point[7], 1U);
   EXPECT_FALSE(of_point[8]);
+}
+
+/// Of what is unknown, and half as much half a metre from the path.
+TEST_F(Schedule, AViewIsWorthWhatItTellsLessForItsDistance) {
+  objects_ = {object_to_see_at(4.0, 1.2)};
+  objects_[0].used.fill(true);
+  objects_[0].used[6] = false;  // at (4.0, 0.2)
+  objects_[0].gain_nats.fill(1.5);
+  ASSERT_EQ(views().size(), 1U);
+  EXPECT_NEAR(views()[0].utility, 1.5 * std::exp2(-0.4), 1e-9);
+  objects_[0].gain_nats.fill(5.0);
+  EXPECT_NEAR(views()[0].utility, 2.0 * std::exp2(-0.4), 1e-9) << "no more than is unknown";
+  objects_[0].used[6] = true;
+  objects_[0].used[5] = false;
+  ASSERT_EQ(views().size(), 1U);
+  EXPECT_NEAR(views()[0].at_m, 4.0 - std::sqrt(0.5), 1e-9) << "in metres along the path";
+  path_.row(0) *= 2.0;
+  EXPECT_NEAR(views()[0].at_m, 4.0 - std::sqrt(0.5), 1e-9) << "whatever waypoints are apart";
+}
+
+TEST_F(Schedule, LooksAtAViewForSoLongBeforeAndAfter) {
+  const std::vector<ScheduledView> one{{.object = 0, .at_m = 4.0}};
+  options_.before_m = 2.0;
+  options_.after_m = 1.0;
+  const auto of_point = views_of_points(options_, one, path_);
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(of_point[i].has_value(), i >= 2 && i <= 5) << i;
+  const std::vector<ScheduledView> two{{.object = 0, .at_m = 4.0}, {.object = 1, .at_m = 6.0}};
+  const auto nearer = views_of_points(options_, two, path_);
+  EXPECT_EQ(nearer[4], 0U);
+  EXPECT_EQ(nearer[5], 1U) << "half of the way before the one, all of that after the other";
 }
 
 }  // namespace

@@ -48,5 +48,38 @@ TEST(ForecastCalibration, LeavesTheHazardAloneWhereNothingIsSaid) {
   EXPECT_EQ(on.transmission(uniform_field({2, 2, 2}, 0.3)).per_block[0], 0.3);
 }
 
+/// One scan, of 1000 cells forecast and so many with half the hazard, and a prior worth as much.
+double scale_after(double at_half_cells, double actual_cells, double forecast_cells = 1000.0) {
+  ForecastCalibration calibration({.calibrate = true, .prior_scans = 1.0});
+  calibration.observe(forecast_cells, at_half_cells, actual_cells);
+  return calibration.scale();
+}
+
+TEST(ForecastCalibration, ScansAreWeighedByTheirCellsAndTheSquareOfTheirSlope) {
+  ForecastCalibration calibration({.calibrate = true, .prior_scans = 3.0});
+  calibration.observe(1000.0, 2000.0, 2000.0);  // slope -1
+  EXPECT_NEAR(std::log(calibration.scale()), -std::log(2.0) / 4.0, 1e-12);
+  calibration.observe(1000.0, 1000.0 * std::sqrt(2.0), 500.0);  // slope -0.5
+  const double second = -std::log(2.0) / 4.0 + std::log(2.0) / 0.5;
+  const double mean = (2000.0 * -std::log(2.0) + 125.0 * second) / 2125.0;
+  EXPECT_NEAR(std::log(calibration.scale()), mean / (1.0 + 3.0 / 2.0), 1e-12)
+      << "the prior is worth three scans of two";
+}
+
+TEST(ForecastCalibration, OneScanClaimsNoMoreThanTwoInTheLogarithm) {
+  EXPECT_NEAR(scale_after(2000.0, 1000.0 * std::exp(5.0)), std::exp(-1.0), 1e-12);
+  EXPECT_NEAR(scale_after(2000.0, 1000.0 * std::exp(-5.0)), std::exp(1.0), 1e-12);
+  EXPECT_NEAR(scale_after(2000.0, 1000.0 * std::exp(1.9)), std::exp(-0.95), 1e-12);
+}
+
+TEST(ForecastCalibration, NeedsACellAndASlope) {
+  EXPECT_NEAR(scale_after(2.0, 2.0, 1.0), std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(scale_after(4.0, 1.0, 2.0), std::sqrt(2.0), 1e-12);
+  EXPECT_EQ(scale_after(1.98, 2.0, 0.99), 1.0);
+  EXPECT_EQ(scale_after(4.0, 0.99, 2.0), 1.0);
+  EXPECT_NEAR(scale_after(1000.0 * std::exp2(0.0015), 2000.0), std::exp(-1.0), 1e-9);
+  EXPECT_EQ(scale_after(1000.0 * std::exp2(0.0007), 2000.0), 1.0);
+}
+
 }  // namespace
 }  // namespace vantage

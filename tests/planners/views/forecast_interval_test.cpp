@@ -84,5 +84,76 @@ TEST(ForecastInterval, RefusesOptionsOutOfRange) {
   EXPECT_THROW(ForecastInterval({.rate = -0.1}), ConfigError);
 }
 
+/// Both ends of an interval in ln (cells / forecast), in which a thousandth of the first view is as
+/// good as none.
+struct LogEnds {
+  double low;
+  double high;
+};
+LogEnds log_ends(const ForecastInterval& interval, double forecast_cells) {
+  constexpr double kNone = 1e-3 * kFirstView;
+  const CellInterval of = interval.of(forecast_cells);
+  return {std::log((of.low + kNone) / (forecast_cells + kNone)),
+          std::log((of.high + kNone) / (forecast_cells + kNone))};
+}
+
+ForecastInterval started(const ForecastIntervalOptions& options) {
+  ForecastInterval interval(options);
+  interval.start(kFirstView);
+  return interval;
+}
+
+/// 18.9 of 21 parts of the errors in training are within 2.21 spreads.
+constexpr double kNineInTen = 2.21;
+
+TEST(ForecastInterval, IsAsWideAsForecastsOfThatSizeWereOffInTraining) {
+  struct Trained {
+    double share, mean, spread;
+  };
+  const ForecastInterval interval = started({});
+  for (const auto& [share, mean, spread] :
+       {Trained{0.0015, 0.439, 0.278}, Trained{0.006, 0.325, 0.230}, Trained{0.0167, 0.243, 0.252},
+        Trained{0.0517, 0.106, 0.190}, Trained{0.1754, -0.035, 0.148}, Trained{0.96, -0.014, 0.162},
+        Trained{3.0, -0.014, 0.162}, Trained{std::sqrt(0.006 * 0.0167), 0.284, 0.241}}) {
+    const auto [low, high] = log_ends(interval, share * kFirstView);
+    EXPECT_NEAR(0.5 * (low + high), mean, 1e-9) << share;
+    EXPECT_NEAR(0.5 * (high - low), kNineInTen * spread, 1e-9) << share;
+  }
+  EXPECT_NEAR(log_ends(interval, 0.0).high, 0.439 + kNineInTen * 0.278, 1e-9);
+  EXPECT_EQ(interval.of(0.0).low, 0.0);
+}
+
+double width_in_spreads(const ForecastInterval& interval) {
+  const auto [low, high] = log_ends(interval, 0.96 * kFirstView);
+  return 0.5 * (high - low) / 0.162;
+}
+
+TEST(ForecastInterval, HoldsTheShareOfErrorsThatItSays) {
+  int rank = 0;
+  for (const double within : {0.03, 0.09, 0.14, 0.21, 0.27, 0.31, 0.38, 0.45, 0.52, 0.61,
+                              0.69, 0.77, 0.84, 0.93, 1.06, 1.21, 1.39, 1.68, 2.21, 3.47}) {
+    const double confidence = (++rank - 0.5) / 21.0;
+    EXPECT_NEAR(width_in_spreads(started({.confidence = confidence})), within, 1e-9) << rank;
+  }
+  EXPECT_NEAR(width_in_spreads(started({.confidence = 0.98})), 1.5 * 3.47, 1e-9)
+      << "beyond all errors so far";
+}
+
+/// At a rate of a fifth: from 0.5 to 0.4 of 22 parts after a hit, to 0.6 after a miss.
+TEST(ForecastInterval, MovesItsLevelAndLearnsTheError) {
+  const double forecast = 0.96 * kFirstView;
+  const auto actual = [&](double spreads) {
+    constexpr double kNone = 1e-3 * kFirstView;
+    return (forecast + kNone) * std::exp(-0.014 + 0.162 * spreads) - kNone;
+  };
+  ForecastInterval hit = started({.confidence = 0.5, .rate = 0.2});
+  EXPECT_NEAR(width_in_spreads(hit), 0.69, 1e-9);
+  hit.observe(forecast, actual(0.0));
+  EXPECT_NEAR(width_in_spreads(hit), 0.45, 1e-9) << "the ninth of 21 with the new one, 0";
+  ForecastInterval missed = started({.confidence = 0.5, .rate = 0.2});
+  missed.observe(forecast, actual(-0.75));
+  EXPECT_NEAR(width_in_spreads(missed), 0.84, 1e-9) << "the 14th with the new one, 0.75";
+}
+
 }  // namespace
 }  // namespace vantage

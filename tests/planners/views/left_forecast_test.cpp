@@ -35,5 +35,18 @@ TEST(ConfidenceOfLeft, IsContinuousInTheRatio) {
   }
 }
 
+/// At 5, 15, ... 95 % of the decisions in training the true share was so many times the expected.
+TEST(ConfidenceOfLeft, IsTheShareOfDecisionsInTraining) {
+  constexpr double kExpected = 0.02;
+  double share = 0.05;
+  for (const double times : {0.94, 1.08, 1.18, 1.27, 1.41, 1.62, 1.78, 2.04, 2.62, 3.33}) {
+    EXPECT_NEAR(confidence_of_left(kExpected, times * kExpected), share, 1e-9) << times;
+    share += 0.1;
+  }
+  EXPECT_NEAR(confidence_of_left(kExpected, 1.01 * kExpected), 0.1, 1e-9) << "half way between";
+  EXPECT_NEAR(confidence_of_left(kExpected, 0.47 * kExpected), 0.025, 1e-9) << "half of the least";
+  EXPECT_NEAR(confidence_of_left(kExpected, 6.66 * kExpected), 0.975, 1e-9) << "twice the most";
+}
+
 }  // namespace
 }  // namespace vantage

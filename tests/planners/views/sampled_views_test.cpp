@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "tests/support/octomap_bytes.hpp"
@@ -103,6 +105,41 @@ TEST_F(SampledViewsOnAMap, SayWhyThereIsNone) {
   EXPECT_THAT(error_of({.clearance_m = 2.0}, room), HasSubstr("views.clearance_m = 2"));
   EXPECT_THAT(error_of({.height_m = 5.0}, room), HasSubstr("views.height_m = 5"));
   EXPECT_THROW(sample({.positions = 0}, room), ConfigError);
+}
+
+TEST_F(SampledViewsOnAMap, LookRoundEvenlyFromAnyBearing) {
+  const std::vector<support::MapCube> cubes{{{0, 0, 0}, 64, false}};
+  const auto views = sample({.positions = 12, .headings = 5}, map(cubes));
+  ASSERT_EQ(views.size(), 60U);
+  std::set<int> first_bearings;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Pose& first = views[i - i % 5].T_world_sensor;
+    EXPECT_EQ(views[i].T_world_sensor.translation(), first.translation());
+    const double turned_rad = 2.0 * std::numbers::pi * static_cast<double>(i % 5) / 5.0;
+    const double off_rad = project_to_se2(views[i].T_world_sensor).yaw_rad -
+                           project_to_se2(first).yaw_rad - turned_rad;
+    EXPECT_NEAR(wrap_angle(off_rad), 0.0, 1e-9) << i;
+    first_bearings.insert(static_cast<int>(project_to_se2(first).yaw_rad * 1e6));
+  }
+  EXPECT_EQ(first_bearings.size(), 12U);
+}
+
+/// Free on either side of a wall along x = 0 to 3.2 m.
+TEST_F(SampledViewsOnAMap, KeepTheClearanceOnBothSidesAndNoMore) {
+  const std::vector<support::MapCube> cubes{
+      {{-32, 0, 0}, 32, false}, {{0, 0, 0}, 32, true}, {{32, 0, 0}, 32, false}};
+  double left_m = -10.0;
+  double right_m = 10.0;
+  for (const auto& view :
+       sample({.positions = 200, .headings = 1, .clearance_m = 0.5}, map(cubes))) {
+    const double x_m = view.T_world_sensor.translation().x();
+    if (x_m < 1.6) left_m = std::max(left_m, x_m);
+    if (x_m > 1.6) right_m = std::min(right_m, x_m);
+  }
+  EXPECT_LE(left_m, -0.5);
+  EXPECT_GT(left_m, -0.75);
+  EXPECT_GE(right_m, 3.7);
+  EXPECT_LT(right_m, 3.95);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace vantage {
@@ -93,6 +94,51 @@ TEST(SpaceBeyond, APlaceOutsideTheGridLeadsNowhere) {
   const std::vector<Eigen::Vector2d> places{{-1.0, 1.0}, {9.0, 1.0}};
   const SpaceBeyond space = space_beyond(rooms.grid, places, 100.0);
   EXPECT_EQ(rooms.columns_of(space, SpaceBeyond::kNone), 800);
+}
+
+/// Ten cells high: three occupied make a wall, whatever the rest is, and five unobserved the
+/// unknown.
+TEST(ColumnStates, GoByThreeInTenAndByHalf) {
+  OccupancyGrid grid(make_grid_frame({0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}, {3, 2, 10}));
+  const auto set = [&](int x, int y, int occupied, int unobserved) {
+    for (int z = 0; z < 10; ++z) {
+      grid.log_odds[grid.frame.index({x, y, z})] =
+          z < occupied ? 3.0F : (z < occupied + unobserved ? 0.0F : -3.0F);
+    }
+  };
+  set(0, 0, 3, 0);
+  set(1, 0, 2, 0);
+  set(2, 0, 3, 7);
+  set(0, 1, 0, 5);
+  set(1, 1, 0, 4);
+  set(2, 1, 2, 8);
+  EXPECT_EQ(column_states(grid),
+            (std::vector{ColumnState::wall, ColumnState::open, ColumnState::wall,
+                         ColumnState::unknown, ColumnState::open, ColumnState::unknown}));
+}
+
+/// Nothing is known of columns of 0.125 x 0.25 m; the way is along x and y.
+TEST(SpaceBeyond, MeasuresTheWayAlongEitherAxis) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {0.875, 1.25, 1.0}, {7, 5, 2}));
+  const std::vector<Eigen::Vector2d> places{{0.0, 0.0}};
+  const SpaceBeyond space = space_beyond(grid, places, 0.25);
+  EXPECT_EQ(std::ranges::count(space.place_of, 0), 1 + 4 + 2) << "just at the reach, too";
+  EXPECT_EQ(space.place_of[7 * 2 + 1], 0);
+  EXPECT_EQ(space.place_of[7 * 1 + 3], 0);
+  EXPECT_EQ(space.place_of[7 * 1 + 2], SpaceBeyond::kNone);
+  EXPECT_EQ(space.seen_share, 1.0) << "no column is open";
+  EXPECT_EQ(std::ranges::count(space_beyond(grid, places, 100.0).place_of, 0), 35);
+}
+
+TEST(SpaceBeyond, OfEquallyNearPlacesBelongsToTheFirst) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {5.0, 1.0, 1.0}, {5, 1, 2}));
+  for (const double first_m : {-2.0, 2.0}) {
+    const std::vector<Eigen::Vector2d> places{{first_m, 0.0}, {-first_m, 0.0}};
+    const auto place_of = space_beyond(grid, places, 9.0).place_of;
+    EXPECT_EQ(place_of[2], 0);
+    EXPECT_EQ(place_of[first_m < 0.0 ? 1 : 3], 0);
+    EXPECT_EQ(place_of[first_m < 0.0 ? 3 : 1], 1);
+  }
 }
 
 }  // namespace

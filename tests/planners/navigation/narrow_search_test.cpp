@@ -1,0 +1,83 @@
+// What ways through passages cost, where the answer is known.
+#include "vantage/planners/navigation/narrow_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/planners/navigation/drawn_rooms.hpp"
+#include "vantage/planners/navigation/path_planning.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kHeadingStep_rad = 2.0 * std::numbers::pi / 48.0;
+
+/// The middle of a robot of 0.9 x 0.5 m in a closed corridor of 0.7 m: it goes along it, at no more
+/// than one heading beside its own. It stands in the middle of a cell.
+class Corridor : public testing::Test {
+ protected:
+  [[nodiscard]] PathField field(const RobotOutline& robot, const PassageOptions& passages) const {
+    NavigationOptions options;
+    options.footprint_radius_m = std::hypot(0.45, 0.25);
+    options.clearance_weight = 1.5;
+    return make_path_field(rooms_.floor, start_, options, rooms_.space(robot, passages));
+  }
+  /// Cost of the pose of that heading in a cell; infinite if there is none.
+  static double cost_at(const PathField& field, const Eigen::Array2i& cell, double yaw_rad) {
+    for (const NarrowPose& node : field.narrow) {
+      if (node.cell == field.map.index(cell) && std::abs(node.pose.yaw_rad - yaw_rad) < 1e-6) {
+        return node.cost;
+      }
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+  DrawnRooms rooms_{4.0, 2.0, {wall(0.0, 0.0, 4.0, 0.67), wall(0.0, 1.38, 4.0, 2.0)}};
+  Pose2 start_{2.025, 1.025, 0.0};
+  Eigen::Array2i start_cell_{40, 20};
+  RobotOutline robot_{.outline = rectangle(0.9, 0.5), .speed_m_s = 0.6};
+};
+
+/// At a third of the speed a metre counts for three, and as one that touches the margin all along.
+TEST_F(Corridor, AStepCostsItsTimeAndATurnThatOfTheOutermostPoint) {
+  const PathField narrow = field(robot_, {.speed_m_s = 0.2});
+  EXPECT_EQ(cost_at(narrow, start_cell_, 0.0), 0.0);
+  EXPECT_NEAR(cost_at(narrow, start_cell_ + Eigen::Array2i(10, 0), 0.0), 0.5 * 3.0 * 2.5, 1e-9);
+  EXPECT_NEAR(cost_at(narrow, start_cell_ - Eigen::Array2i(4, 0), 0.0), 0.2 * 3.0 * 2.5, 1e-9);
+  const double turn_m = kHeadingStep_rad * std::hypot(0.45, 0.25);
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_NEAR(cost_at(narrow, start_cell_, side * kHeadingStep_rad), turn_m * 3.0 * 2.5, 1e-9);
+    EXPECT_TRUE(std::isinf(cost_at(narrow, start_cell_, 2.0 * side * kHeadingStep_rad)));
+  }
+  const PathField as_fast = field(robot_, {.speed_m_s = 0.9});
+  EXPECT_NEAR(cost_at(as_fast, start_cell_ + Eigen::Array2i(10, 0), 0.0), 0.5 * 2.5, 1e-9)
+      << "it never counts for less than a metre";
+}
+
+TEST_F(Corridor, APathIsAsLongAsItTakesTheTimeOf) {
+  const PathField narrow = field(robot_, {.speed_m_s = 0.2});
+  const PlannedPath path = plan_path(narrow, {2.525, 1.025, 2.0});
+  ASSERT_TRUE(path.reaches_goal);
+  EXPECT_NEAR(path.length_m, 3.0 * 0.5, 1e-6);
+  EXPECT_NEAR(path.end.yaw_rad, 0.0, 1e-9) << "it cannot turn there";
+  EXPECT_NEAR(path.end.x_m, 2.525, 1e-9);
+}
+
+/// Steps that lead more than about half a right angle off its heading are none.
+TEST_F(Corridor, WhatGoesAlongItsHeadingStaysInItsRow) {
+  robot_.goes_sideways = false;
+  const PathField narrow = field(robot_, {});
+  EXPECT_FALSE(std::isinf(cost_at(narrow, start_cell_ + Eigen::Array2i(10, 0), 0.0)));
+  EXPECT_TRUE(std::isinf(cost_at(narrow, start_cell_ - Eigen::Array2i(1, 0), 0.0))) << "backwards";
+  for (const NarrowPose& node : narrow.narrow) {
+    if (std::isinf(node.cost)) continue;
+    EXPECT_EQ(narrow.map.cell(node.cell).y(), start_cell_.y());
+  }
+  EXPECT_FALSE(narrow.reachable(Eigen::Vector2d(2.525, 1.025))) << "nor could it turn round there";
+}
+
+}  // namespace
+}  // namespace vantage
