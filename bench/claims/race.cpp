@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/claims/paired_difference.hpp"
+
 namespace vantage::bench {
 
 bool Race::is_won_by(double limit) const {
@@ -21,22 +23,16 @@ std::string Race::text() const {
 
 Race race(const StudyTables& study, const std::string& table, const std::string& panel,
           const std::string& level, const std::string& against) {
-  std::vector<Sample> samples = study.arrivals(table, panel, against);
-  const std::vector<Sample> own = study.arrivals(table, panel, level);
-  Race result{own.size(), samples.size(), study.planned(panel, level), {}};
-  if (own.empty() && samples.empty()) {
+  const LevelSamples other{against, study.arrivals(table, panel, against)};
+  const LevelSamples own{level, study.arrivals(table, panel, level)};
+  Race result{own.samples.size(), other.samples.size(), study.planned(panel, level), {}};
+  if (result.arrived + result.other_arrived == 0) {
     throw NotRun(
         fmt::format("`{}` in {}: neither `{}` nor `{}` gets there", table, panel, level, against));
   }
-  if (own.empty() || samples.empty()) return result;
-  for (Sample& sample : samples) sample.level = 0;
-  for (Sample sample : own) {
-    sample.level = 1;
-    samples.push_back(sample);
+  if (result.arrived > 0 && result.other_arrived > 0) {
+    result.pairs = paired_difference(table, panel, other, own);
   }
-  for (Sample& sample : samples) sample.panel = 0;
-  result.pairs =
-      compare_levels(table, table, {panel}, {against, level}, 0, samples).rows.back().difference;
   return result;
 }
 

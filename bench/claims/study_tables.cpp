@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "bench/claims/paired_difference.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/yaml.hpp"
@@ -215,17 +216,10 @@ Difference StudyTables::difference(const std::string& name, const std::string& p
   if (of.levels.empty() || level == of.levels[of.reference]) {
     throw NotRun(fmt::format("`{}` of `{}`: nothing to hold it against", name, level));
   }
-  const std::vector<std::string> pair{of.levels[of.reference], level};
-  std::vector<Sample> samples;
-  for (std::size_t i = 0; i < pair.size(); ++i) {
-    for (Sample sample : whole_samples(name, panel, pair[i])) {
-      sample.panel = 0;
-      sample.level = i;
-      samples.push_back(sample);
-    }
-  }
-  const Comparison compared = compare_levels(name, name, {panel}, pair, 0, samples);
-  const auto& difference = compared.rows.back().difference;
+  const std::string& reference = of.levels[of.reference];
+  const LevelSamples other{reference, whole_samples(name, panel, reference)};
+  const LevelSamples own{level, whole_samples(name, panel, level)};
+  const auto difference = paired_difference(name, panel, other, own);
   if (difference) return *difference;
   throw NotRun(fmt::format("`{}` of `{}`: no pairs", name, level));
 }

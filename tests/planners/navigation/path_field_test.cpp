@@ -101,17 +101,25 @@ TEST(PathField, KeepsTheFootprintOutOfNarrowPlaces) {
   EXPECT_FALSE(reaches());
 }
 
-TEST(PathField, LeavesAPlaceTooNearAnObstacle) {
-  const Drawing rows{
-      "#########",  //
-      "#S......#",  //
-      "#.......#",  //
-      "#.......#",  //
-      "#.......#",  //
-      "#########",  //
-  };
+const Drawing kTightCorner{
+    "#########",  //
+    "#S......#",  //
+    "#.......#",  //
+    "#.......#",  //
+    "#.......#",  //
+    "#########",  //
+};
+
+/// Too large for the corner that it stands in.
+NavigationOptions large_robot() {
   NavigationOptions options = comfortable_point_robot();
   options.footprint_radius_m = 2.0;
+  return options;
+}
+
+TEST(PathField, LeavesAPlaceTooNearAnObstacle) {
+  const Drawing& rows = kTightCorner;
+  NavigationOptions options = large_robot();
   options.escape_radius_m = 1.5;
   const FloorMap map = floor_of(rows);
   const PathField field = make_path_field(map, place_of(rows, 'S'), options);
@@ -182,16 +190,8 @@ TEST(PathField, AMetreCostsByTheClearanceItHas) {
 
 /// It is dear all the way, and as long as the radius.
 TEST(PathField, TheWayOutOfATightPlaceCostsToo) {
-  const Drawing rows{
-      "#########",  //
-      "#S......#",  //
-      "#.......#",  //
-      "#.......#",  //
-      "#.......#",  //
-      "#########",  //
-  };
-  NavigationOptions options = comfortable_point_robot();
-  options.footprint_radius_m = 2.0;
+  const Drawing& rows = kTightCorner;
+  NavigationOptions options = large_robot();
   options.clearance_weight = 2.0;
   options.escape_radius_m = std::numbers::sqrt2;
   const FloorMap map = floor_of(rows);
