@@ -19,16 +19,16 @@ DATA = ["models/robots", "models/scenes", "assets/episodes", "assets/models", "a
 class CMakeBuild(build_ext):
     def build_extension(self, ext):
         build = Path(os.environ.get("VANTAGE_BUILD_DIR") or SOURCE / "build/pip").resolve()
-        if not (build / "CMakeCache.txt").is_file():
+        if "VANTAGE_BUILD_DIR" not in os.environ or not (build / "build.ninja").is_file():
             subprocess.run(["cmake", "-S", str(SOURCE), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                             "-DVANTAGE_BUILD_TESTS=OFF", f"-DPython3_EXECUTABLE={sys.executable}"], check=True)
         subprocess.run(["cmake", "--build", str(build), "--target", "vantage_python"], check=True)
         module = Path(self.get_ext_fullpath(ext.name))
         module.parent.mkdir(parents=True, exist_ok=True)
-        built = list((build / "python/vantage").glob("_core*.so"))
-        if len(built) != 1:
-            raise SystemExit(f"{build}/python/vantage: no module was built; are python3-dev and pybind11-dev there?")
-        shutil.copy2(built[0], module)
+        built = build / "python/vantage" / module.name
+        if not built.is_file():
+            raise SystemExit(f"{built}: was not built; are python3-dev and pybind11-dev there, and is {build} of this Python?")
+        shutil.copy2(built, module)
         for folder in DATA:
             shutil.copytree(SOURCE / folder, module.parent / "share" / folder, dirs_exist_ok=True)
 

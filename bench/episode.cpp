@@ -1,11 +1,15 @@
 // How fast episodes run, and what takes the time.
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
+#include "vantage/tasks/run.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"
 
 namespace vantage::bench {
@@ -84,6 +88,17 @@ void measure(const std::string& task, const char* file, const fs::path& director
   add("driving_share", episode.driving_s / all_s);
 }
 
+/// A flight has few parts to tell apart: nearly all of it is physics and pictures.
+double flight_real_time_factor(const char* file, const fs::path& directory) {
+  const auto resolved = load_episode(file, {});
+  RunOptions options;
+  options.directory = directory;
+  options.overwrite = true;
+  options.lean = true;
+  const RunOutcome outcome = run(resolved, options);
+  return nlohmann::json::parse(outcome.metrics).at("real_time_factor");
+}
+
 /// @param small the small map that environments are measured by, on one thread, and nothing else
 void run_benchmark(bool small) {
   const fs::path directory = fs::temp_directory_path() / "vantage_bench_episode";
@@ -101,6 +116,11 @@ void run_benchmark(bool small) {
   measure<TabletopTimed, Tabletop>("tabletop", "assets/episodes/tabletop.yaml", directory, figures);
   measure<ExplorationSession<Timed<ExplorationParts>>, Exploration>(
       "office", "assets/episodes/office_small.yaml", directory, figures);
+  for (const std::string task : {"recognition", "change_detection", "trajectory"}) {
+    const std::string file = "assets/episodes/" + task + ".yaml";
+    figures.emplace_back(task + "_real_time_factor",
+                         flight_real_time_factor(file.c_str(), directory));
+  }
   fs::remove_all(directory);
   print_figures("episode", 2, figures);
 }

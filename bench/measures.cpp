@@ -1,6 +1,7 @@
 #include "bench/measures.hpp"
 
 #include <fmt/format.h>
+#include <vantage_commit.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>

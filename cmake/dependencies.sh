@@ -1,5 +1,5 @@
 # Sourced by ./run and ./test: installs what is missing, from Debian alone.
-packages=(build-essential ca-certificates cmake git ninja-build
+packages=(build-essential ca-certificates cmake file git ninja-build
   coinor-libclp-dev libassimp-dev libceres-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev libglfw3-dev libmujoco-dev libnanoflann-dev
   liboctomap-dev libopencv-core-dev libopencv-dnn-dev libopencv-features2d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-videoio-dev libopencv-dev
   libosmesa6-dev libpng-dev libspdlog-dev libyaml-cpp-dev libzstd-dev nlohmann-json3-dev zlib1g-dev

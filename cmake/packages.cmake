@@ -12,7 +12,14 @@ set(name_of_application vantage)
 set(name_of_library libvantage-dev)
 set(name_of_python python3-vantage)
 
-# The changelog that Debian asks for names the version and the commit's date.
+# The changelog that Debian asks for names the version, the commit and its date: a new commit
+# configures again.
+execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} rev-parse --path-format=absolute --git-path logs/HEAD
+                OUTPUT_VARIABLE head_log OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(head_log AND EXISTS ${head_log})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${head_log})
+endif()
+vantage_commit(VANTAGE_GIT_COMMIT)
 execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} log -1 --format=%aD OUTPUT_VARIABLE VANTAGE_COMMIT_DATE
                 OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT VANTAGE_COMMIT_DATE)

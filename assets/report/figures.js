@@ -30,7 +30,7 @@ function predictionPlots(parent) {
   const own = (name) => name === METRICS.method;
   const styled = (name, i, points, note) => ({ name: words(name), colour: seriesColour(i), strong: own(name), points, note });
   lineChart(parent, {
-    title: "Predicted and actual new cells", subtitle: "every gain's prediction for the view taken; the run's own method drawn bold",
+    title: "Predicted and actual new cells", subtitle: "predictions for the view taken by each gain that predicts cells; the run's own method drawn bold",
     x: "scan", y: "new cells", unit: "cells", integerX: true,
     series: [
       ...names.map((name, i) => styled(name, i, perScan(predictions(name)))),

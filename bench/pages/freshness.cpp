@@ -36,6 +36,7 @@ Freshness since(const std::string& commit, const Origin& origin,
   if (!is_commit(commit)) return Freshness::unknown;
   std::vector<std::string> arguments{"diff", "--quiet", commit, "HEAD", "--"};
   arguments.insert(arguments.end(), origin.code.begin(), origin.code.end());
+  for (const std::string& path : origin.but) arguments.push_back(":!" + path);
   const int exit_code = ask_git(repository, arguments).exit_code;
   if (exit_code == 0) return Freshness::fresh;
   return exit_code == 1 ? Freshness::stale : Freshness::unknown;

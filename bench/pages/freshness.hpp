@@ -19,6 +19,7 @@ struct Origin {
   std::set<std::string> commits = {};
   std::filesystem::path file = {};     ///< of the results, below the repository
   std::vector<std::string> code = {};  ///< files and folders that they depend on, below it
+  std::vector<std::string> but = {};   ///< of those, what they do not depend on
 };
 
 /// Stale if any of the code differs between a commit and HEAD. Results without a recorded commit

@@ -18,6 +18,16 @@ std::vector<std::string> code_with(const std::vector<std::string>& more) {
   return code;
 }
 
+/// What only shows or passes on; what makes the scenes that lie in models/scenes.
+const std::vector<std::string> kWithoutEffect{"src/view",
+                                              "src/mcap",
+                                              "src/report",
+                                              "src/arena",
+                                              "assets/report",
+                                              "models/catalogue/office",
+                                              "models/catalogue/table",
+                                              "models/catalogue/flight"};
+
 /// The sources of the program that printed a benchmark of that name.
 std::vector<std::string> sources_of(const std::string& benchmark) {
   if (benchmark == "env") return {"bench/env.py", "bench/swept.cpp", "bench/episode.cpp", "python"};
@@ -43,8 +53,8 @@ std::string marked_commit(const std::string& benchmark, const std::string& commi
                     "sources in bench/pages/origins.cpp",
                     file.string(), benchmark, source));
   }
-  const Freshness freshness =
-      freshness_of({.commits = {commit}, .file = file, .code = code}, repository);
+  const Freshness freshness = freshness_of(
+      {.commits = {commit}, .file = file, .code = code, .but = kWithoutEffect}, repository);
   return commit + mark(freshness);
 }
 
@@ -60,8 +70,30 @@ std::set<std::string> entries_of(const std::filesystem::path& csv, const std::st
   return entries;
 }
 
-std::string commits_text(const std::set<std::string>& commits, const std::filesystem::path& file) {
-  const std::string marked = mark(freshness_of({commits, file, code_with({})}));
+const std::vector<std::string>& mapping_code() {
+  static const std::vector<std::string> code{
+      "src/core",    "src/geometry",     "src/information", "src/control",     "src/perception",
+      "src/belief",  "src/localisation", "src/runtime",     "src/tasks",       "planners",
+      "sim",         "models/robots",    "models/scenes",   "assets/episodes", "assets/studies",
+      "assets/views"};
+  return code;
+}
+
+const std::vector<std::string>& mapping_does_without() {
+  static const std::vector<std::string> without{
+      "src/belief/objects",      "src/belief/observation",     "src/belief/tracking",
+      "src/perception/clutter",  "src/perception/features",    "src/perception/images",
+      "src/perception/search",   "src/tasks/change_detection", "src/tasks/flight",
+      "src/tasks/object_flight", "src/tasks/recognition",      "src/tasks/table_map",
+      "src/tasks/trajectory",    "planners/objects",           "planners/trajectory"};
+  return without;
+}
+
+std::string commits_text(const std::set<std::string>& commits, const std::filesystem::path& file,
+                         bool mapping) {
+  const std::string marked =
+      mark(freshness_of({commits, file, mapping ? mapping_code() : code_with({}),
+                         mapping ? mapping_does_without() : kWithoutEffect}));
   return (commits.empty() ? "a commit not recorded" : fmt::format("{}", fmt::join(commits, ", "))) +
          marked;
 }

@@ -29,7 +29,15 @@ std::string marked_commit(const std::string& benchmark, const std::string& commi
 /// The different entries of a column, "" left out; none if there is no such file or column.
 std::set<std::string> entries_of(const std::filesystem::path& csv, const std::string& column);
 
-/// "b100039, c29a3d1 \*", or that it is not recorded. @param file whose history tells it then
-std::string commits_text(const std::set<std::string>& commits, const std::filesystem::path& file);
+/// What the episodes of table tops and explorations depend on: files and folders, and of those what
+/// they do without, as recognition.
+const std::vector<std::string>& mapping_code();
+const std::vector<std::string>& mapping_does_without();
+
+/// "b100039, c29a3d1 \*", or that it is not recorded.
+/// @param file whose history tells it then
+/// @param mapping of episodes of mapping tasks alone
+std::string commits_text(const std::set<std::string>& commits, const std::filesystem::path& file,
+                         bool mapping = false);
 
 }  // namespace vantage::bench

@@ -10,8 +10,10 @@
 #include "bench/claims/claims.hpp"
 #include "bench/claims/recognition_claims.hpp"
 #include "bench/measures.hpp"
+#include "bench/pages/origins.hpp"
 #include "bench/pages/pages.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/data_root.hpp"
 #include "vantage/core/yaml.hpp"
 
 namespace vantage::bench {
@@ -122,6 +124,14 @@ std::string verified_text(const fs::path& file) {
   return fmt::format("{} of {} on {}", row[2], row[1], row[0]);
 }
 
+bool is_of_a_mapping_task(const fs::path& file, const ConfigNode& study) {
+  const ConfigNode* episode = study.find("episode");
+  if (episode == nullptr) return false;
+  const ConfigNode root = read_yaml(find_input(episode->scalar, file.parent_path(), "episode"));
+  const ConfigNode* task = root.find("task");
+  return task == nullptr || task->scalar == "tabletop" || task->scalar == "exploration";
+}
+
 /// A study with what it came to.
 struct StudyResult {
   const StudyPart& part;
@@ -150,7 +160,9 @@ std::string splits_table(const fs::path& directory, const std::vector<StudyResul
     const bool run = fs::exists(results);
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} {} |\n", part.name,
                         split_text(file, "development"), split_text(file, "report"), study.extent(),
-                        run ? commits_text(entries_of(results, "commit"), results) : "not run",
+                        run ? commits_text(entries_of(results, "commit"), results,
+                                           is_of_a_mapping_task(study_file(part.name), file))
+                            : "not run",
                         verified_text(directory / part.name / "verified.csv"),
                         fmt::join(entries_of(timings, "threads"), ", "),
                         fmt::join(entries_of(timings, "cpu"), ", "));
@@ -175,10 +187,15 @@ std::string recognition_claims(const fs::path& folder) {
     findings.insert(findings.end(), more.begin(), more.end());
   };
   std::set<std::string> commits;
+  bool dated = true;
   const auto summary = [&](const char* part) {
     Json json = json_or_nothing(folder / part / "summary.json");
     const Json commit = json.value("commit", Json());
-    if (commit.is_string()) commits.insert(commit.get<std::string>());
+    if (commit.is_string()) {
+      commits.insert(commit.get<std::string>());
+    } else if (!json.empty()) {
+      dated = false;
+    }
     return json;
   };
   add(recognition_findings(summary("simple")));
@@ -188,7 +205,8 @@ std::string recognition_claims(const fs::path& folder) {
   add(unknown_findings(summary("unknown_scanned"), "scanned objects"));
   add(reliability_findings(summary("unknown")));
   return "`bench/studies recognition`; of " +
-         commits_text(commits, folder / "simple" / "summary.json") + ".\n\n" +
+         commits_text(commits, folder / "simple" / "summary.json") +
+         (dated || commits.empty() ? "" : ", and a commit not recorded") + ".\n\n" +
          findings_table(findings) + reliability_picture(folder);
 }
 

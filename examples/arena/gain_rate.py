@@ -35,10 +35,14 @@ def rate(view, request):
     return promise(view) / max(needed_s, 1e-3)
 
 
+def way_m(view):
+    return math.inf if view["path_length_m"] is None else view["path_length_m"]
+
+
 def decide(request):
     views = request["candidates"]
     views = [view for view in views if not view["exhausted"]] or views
-    return max(views, key=lambda view: (rate(view, request), -(view["path_length_m"] or math.inf), -view["view"]))
+    return max(views, key=lambda view: (rate(view, request), -way_m(view), -view["view"]))
 
 
 def main():

@@ -9,18 +9,12 @@
 #include "python/kit/calls.hpp"
 #include "python/kit/options.hpp"
 #include "python/planning/grids.hpp"
+#include "vantage/geometry/rgbd_camera.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/views/score_views.hpp"
 
 namespace vantage::python {
 namespace {
-
-/// A Kinect-like RGB-D camera, 57.8 x 45 deg.
-constexpr FieldOfView kCamera{.half_width_rad = 0.5044,
-                              .tilt_min_rad = -0.3927,
-                              .tilt_max_rad = 0.3927,
-                              .range_min_m = 0.8,
-                              .range_max_m = 3.5};
 
 /// Of cells that each have a transmission and a utility of their own, given by the caller.
 struct GivenCells {
@@ -95,7 +89,7 @@ py::array_t<double> gains(const OccupancyGrid& grid, const Doubles& rows, const 
   require_threads(threads);
   require_cells(grid, "grid");
   const auto views = views_of(rows);
-  const FieldOfView field = options_of<FieldOfView>(sensor, "sensor", kCamera);
+  const FieldOfView field = options_of<FieldOfView>(sensor, "sensor", kRgbdCamera);
   const Gain gain = gain_of(given);
   const auto learnt = transmission_of(transmission, grid.frame.cells);
   if (std::holds_alternative<AdaptiveGain>(gain) && !learnt) {
@@ -118,7 +112,7 @@ py::array_t<double> own_gains(const OccupancyGrid& grid, const Doubles& rows, co
                               const Cells& transmission, const py::object& sensor, int threads) {
   require_threads(threads);
   const auto views = views_of(rows);
-  const FieldOfView field = options_of<FieldOfView>(sensor, "sensor", kCamera);
+  const FieldOfView field = options_of<FieldOfView>(sensor, "sensor", kRgbdCamera);
   const GivenCells gain{cells_of(utility, grid.frame, "utility", 1e30F),
                         cells_of(transmission, grid.frame, "transmission", 1.0F)};
   return array_of(
@@ -129,7 +123,7 @@ py::array_t<double> map_gains(const OctomapFile& map, const Doubles& rows, const
                               const py::object& given, const py::object& region, int threads) {
   require_threads(threads);
   const auto views = views_of(rows);
-  const FieldOfView field = options_of<FieldOfView>(sensor, "sensor", kCamera);
+  const FieldOfView field = options_of<FieldOfView>(sensor, "sensor", kRgbdCamera);
   const Gain gain = gain_of(given);
   const auto part = options_of<ScoredRegion>(region, "region");
   if (std::holds_alternative<AdaptiveGain>(gain)) {

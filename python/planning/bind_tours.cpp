@@ -10,6 +10,7 @@
 #include "python/kit/calls.hpp"
 #include "python/kit/options.hpp"
 #include "python/planning/grids.hpp"
+#include "vantage/geometry/rgbd_camera.hpp"
 #include "vantage/planners/choice/view_choice.hpp"
 #include "vantage/planners/choice/view_problem.hpp"
 #include "vantage/planners/tours/route.hpp"
@@ -115,15 +116,16 @@ PlanningProblem problem_on_map(const OccupancyGrid& grid, const Doubles& rows,
   const Gain wanted = options_of<Gain>(gain, "gain", BeerLambertGain{});
   if (std::holds_alternative<AdaptiveGain>(wanted))
     refuse("gain", "adaptive learns on a run; take beer_lambert");
-  const ViewPlanningInput input{.map = {grid},
-                                .gain = wanted,
-                                .candidates = views,
-                                .places_m = places_m,
-                                .field_of_view = options_of<FieldOfView>(sensor, "sensor"),
-                                .paths = ways,
-                                .travel_time = TravelTime(speed_m_s),
-                                .scan_s = at_least_0(scan_s, "scan_s"),
-                                .threads = threads};
+  const ViewPlanningInput input{
+      .map = {grid},
+      .gain = wanted,
+      .candidates = views,
+      .places_m = places_m,
+      .field_of_view = options_of<FieldOfView>(sensor, "sensor", kRgbdCamera),
+      .paths = ways,
+      .travel_time = TravelTime(speed_m_s),
+      .scan_s = at_least_0(scan_s, "scan_s"),
+      .threads = threads};
   ViewPlanningOptions options{.block_m = block_m};
   check_options(options);
   PlanningProblem problem = interruptibly([&] { return make_view_problem(input, options); });
@@ -159,13 +161,14 @@ void bind_tours(py::module_& module) {
       .def(py::init(&problem_of), py::arg("cells"), py::arg("shows"), py::arg("places"),
            py::arg("travel_s"), py::arg("scan_s") = 0.0, py::arg("time_left_s") = kInfinity,
            py::arg("home_s") = py::none())
-      .def_static(
-          "on_map", &problem_on_map, py::arg("grid"), py::arg("views"), py::arg("ways"),
-          py::arg("places") = py::none(), py::arg("sensor") = py::none(),
-          py::arg("gain") = "beer_lambert", py::arg("speed_m_s") = 0.5, py::arg("scan_s") = 10.0,
-          py::arg("time_left_s") = kInfinity, py::arg("block_m") = 0.4, py::arg("threads") = 1,
-          "Of views (as in gains()) on a grid, with the ways of a Ways. `places` (n, 2): where "
-          "the base stands for each; default: under the sensor.")
+      .def_static("on_map", &problem_on_map, py::arg("grid"), py::arg("views"), py::arg("ways"),
+                  py::arg("places") = py::none(), py::arg("sensor") = py::none(),
+                  py::arg("gain") = "beer_lambert", py::arg("speed_m_s") = 0.5,
+                  py::arg("scan_s") = 10.0, py::arg("time_left_s") = kInfinity,
+                  py::arg("block_m") = 0.4, py::arg("threads") = 1,
+                  "Of views and a sensor (as in gains()) on a grid, with the ways of a Ways. "
+                  "`places` (n, 2): where "
+                  "the base stands for each; default: under the sensor.")
       .def_property_readonly("views", &PlanningProblem::views, "How many views there are.")
       .def_property_readonly(
           "travel_s", [](const PlanningProblem& p) { return p.travel_s; }, "(n + 1, n) s.")

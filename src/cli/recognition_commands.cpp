@@ -65,12 +65,13 @@ Options options_from(const RecognitionArguments& arguments) {
 
 template <class Options>
 void declare_common(CLI::App& app, RecognitionArguments& arguments) {
-  app.add_option("--jobs", arguments.jobs, "threads; of a recipe, processes that render too")
+  app.add_option("--jobs", arguments.jobs, "threads; where a recipe renders, processes too")
       ->check(CLI::Range(1, 1024))
       ->default_str("all cores");
-  app.add_option("--cache", arguments.cache,
-                 "folder where the views' features are kept for the next command; of a recipe, its "
-                 "recordings too");
+  app.add_option(
+      "--cache", arguments.cache,
+      "folder where the views' features are kept for the next command, with the recordings "
+      "of a recipe");
   app.add_option("--config", arguments.config, "YAML file of the keys below; --set comes after it");
   app.add_option("--set", arguments.overrides, "key=value of the keys below")
       ->type_size(1)

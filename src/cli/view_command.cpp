@@ -55,12 +55,19 @@ ExitCode told(ExitCode code, const ViewOptions& view) {
   return code;
 }
 
+void require_png(const std::filesystem::path& screenshot) {
+  if (screenshot.empty() || screenshot.extension() == ".png") return;
+  throw ConfigError(
+      fmt::format("--screenshot: {}: expected a file name that ends in .png", screenshot.string()));
+}
+
 ExitCode view_command(const CLI::App& app, ViewArguments arguments) {
   ViewOptions& view = arguments.view;
   view.size = parse_size(arguments.size);
   if (arguments.camera == "follow") view.camera = ViewCamera::follow;
   if (arguments.camera == "robot") view.camera = ViewCamera::robot;
   if (app.count("--at") > 0) view.at_s = arguments.at_s;
+  require_png(view.screenshot);
   require_absent(view.screenshot, arguments.run.overwrite, "--screenshot");
   std::error_code ignored;  // what cannot be looked into is no episode either
   if (std::filesystem::is_directory(arguments.target, ignored)) {

@@ -12,6 +12,7 @@
 #include "vantage/core/fields.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/gain.hpp"
+#include "vantage/geometry/rgbd_camera.hpp"
 #include "vantage/planners/views/sampled_views.hpp"
 #include "vantage/planners/views/score_views.hpp"
 
@@ -21,12 +22,7 @@ namespace vantage {
 struct ViewScoring {
   std::uint64_t seed = 1;
   int threads = 2;
-  /// A Kinect-like RGB-D camera, 57.8 x 45 deg.
-  FieldOfView sensor{.half_width_rad = 0.5044,
-                     .tilt_min_rad = -0.3927,
-                     .tilt_max_rad = 0.3927,
-                     .range_min_m = 0.8,
-                     .range_max_m = 3.5};
+  FieldOfView sensor = kRgbdCamera;
   Gain gain = BeerLambertGain{};
   /// `beer_lambert` takes gain.a = transmission_per_m^(cell edge / m) from it.
   std::optional<double> transmission_per_m = {};

@@ -14,9 +14,9 @@ double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 }  // namespace
 
 FloorOutline convex_outline(std::vector<Vector2d> points) {
-  std::ranges::sort(points, [](const Vector2d& a, const Vector2d& b) {
-    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-  });
+  // Of an edge along y rounding must not decide which end comes first.
+  const auto place = [](const Vector2d& p) { return std::pair(std::round(1e9 * p.x()), p.y()); };
+  std::ranges::sort(points, {}, place);
   FloorOutline hull;
   const auto add = [&](const Vector2d& p, std::size_t keep) {
     while (hull.size() >= keep + 2 &&

@@ -124,8 +124,8 @@ Json compressed_image(double time_s, std::string_view frame, std::string_view pn
 
 Json camera_calibration(double time_s, std::string_view frame, int width_px, int height_px,
                         double focal_px) {
-  const double u = 0.5 * width_px;
-  const double v = 0.5 * height_px;
+  const double u = 0.5 * (width_px - 1);
+  const double v = 0.5 * (height_px - 1);
   return {{"timestamp", time_json(time_s)},
           {"frame_id", frame},
           {"width", width_px},

@@ -133,13 +133,30 @@ class ModelMaker {
 
 }  // namespace
 
+namespace {
+
+/// Names and bytes of the scanned objects; nothing of generated ones, which the options name.
+std::uint64_t hash_of_scans(const DatasetOptions& options) {
+  std::uint64_t hash = kHashSeed;
+  if (options.models.empty()) return hash;
+  for (const ObjectName& name : object_names(options)) {
+    const TurntableObject object = make_turntable_object(options, name);
+    for (const std::string* part : {&name.object, &object.obj, &object.png}) {
+      hash = hash_bytes(*part, hash_bytes(std::to_string(part->size()), hash));
+    }
+  }
+  return hash;
+}
+
+}  // namespace
+
 fs::path recording_folder(const fs::path& cache, const DatasetOptions& options) {
   // Another OpenGL draws other images.
   static const std::string renderer = renderer_name();
   const std::string made_with =
       fmt::format("version {}, {}\n{}", kRenderingVersion, renderer, to_yaml(write_node(options)));
-  return cache / "recordings" /
-         fmt::format("session_{}-{}", options.session, hash_text(hash_bytes(made_with)));
+  const std::uint64_t hash = hash_bytes(made_with, hash_of_scans(options));
+  return cache / "recordings" / fmt::format("session_{}-{}", options.session, hash_text(hash));
 }
 
 RecognitionModel make_model(const ModelRecipe& recipe, const ModelMaking& how) {

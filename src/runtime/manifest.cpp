@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core/version.hpp>
+#include <vantage_commit.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -18,14 +19,6 @@ namespace vantage {
 namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string cpu_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
 
 std::string renderer_text() {
   try {
@@ -49,6 +42,14 @@ void add_hashes(const fs::path& root, Hashes& hashes) {
 }
 
 }  // namespace
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
 
 std::string version_text() { return VANTAGE_VERSION " (" VANTAGE_GIT_COMMIT ")"; }
 

@@ -13,6 +13,9 @@ namespace vantage {
 /// The version control state of the build, "0.1.0 (abc1234)".
 std::string version_text();
 
+/// Its model, "unknown" if the system does not tell.
+std::string cpu_name();
+
 /// Hash of each file that the scene and the robot are made of, by its name beside them, or
 /// "robot:name" of the robot's where the scene has another file of that name; and of each input
 /// that is there, by its key.

@@ -11,6 +11,7 @@
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/sim/robots/quadrotor.hpp"
 #include "vantage/sim/robots/robot_check.hpp"
 #include "vantage/sim/world/level_surfaces.hpp"
 #include "vantage/sim/world/settle.hpp"
@@ -61,6 +62,9 @@ Validation validate_scene(const fs::path& file, const std::vector<std::string>& 
 Task task_of(const RobotFolder& robot, std::string_view name) {
   ConfigNode root = ConfigNode::make_map();
   root.set("task", ConfigNode::make_scalar(std::string(name)));
+  if (std::holds_alternative<QuadrotorDescription>(robot.kind)) {
+    root.set("simulation", write_node(kFlightWorld));
+  }
   ResolvedEpisode resolved;
   read_episode(root, resolved.setup.options, resolved.task);
   read_episode(with_robot_defaults(root, episode_node(resolved), robot, name),

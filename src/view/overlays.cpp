@@ -114,7 +114,8 @@ void legend(cv::Mat& image, const Decision& decision, const std::string& unit, d
 
 void timeline(cv::Mat& image, double share) {
   const int height = static_cast<int>(timeline_height_px(image.rows));
-  const cv::Rect area(0, image.rows - height, image.cols, height);
+  const cv::Rect area =
+      cv::Rect(0, image.rows - height, image.cols, height) & cv::Rect({0, 0}, image.size());
   darken(image, area);
   const int done = static_cast<int>(std::clamp(share, 0.0, 1.0) * image.cols);
   image(cv::Rect(0, area.y + height / 4, done, height - height / 2)).setTo(kAccent);

@@ -138,7 +138,9 @@ ViewCaptions ViewPainter::captions_for(const ViewControls& controls, double time
     captions.decision = known_.decision();
     captions.plan = plan_text(known_.tour());
   }
-  if (controls.duration_s) captions.progress = time_s / *controls.duration_s;
+  if (controls.duration_s) {
+    captions.progress = *controls.duration_s > 0.0 ? time_s / *controls.duration_s : 1.0;
+  }
   captions.help = controls.help;
   return captions;
 }

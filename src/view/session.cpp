@@ -32,10 +32,23 @@ void write_png(const std::filesystem::path& path, RenderedImages image) {
   write_file_with(path, [&](const auto& part) { return cv::imwrite(part.string(), bgr); });
 }
 
+/// A live episode goes on if the folder takes no picture.
+void keep_picture(const std::filesystem::path& path, RenderedImages image) {
+  try {
+    write_png(path, std::move(image));
+    log_info("written: " + path.string());
+  } catch (const OutputError& e) {
+    log_warning(e.what());
+  }
+}
+
 /// The painter's and the player's threads, which end with it.
 class Crew {
  public:
-  Crew(const ViewScene& scene, World& world, const Player& player, double speed) : gate(speed) {
+  Crew(const ViewScene& scene, World& world, const Player& player, double speed,
+       const ViewControls& controls)
+      : gate(speed) {
+    link.set_controls(controls);  // the first frame is drawn with them
     painter_ = std::thread([&, scene] { guarded([&] { paint(world, scene); }); });
     player_ = std::thread([&] {
       guarded([&] { code_ = player(link, gate); });
@@ -109,8 +122,7 @@ std::string playback_text(const Crew& crew, bool recorded) {
 }
 
 /// The image of the still moment, drawn in memory: no window has a part in it.
-void take_still(Crew& crew, const ViewControls& controls, const std::filesystem::path& file) {
-  crew.link.set_controls(controls);
+void take_still(Crew& crew, const std::filesystem::path& file) {
   while (interrupt_signal() == 0) {
     crew.link.rethrow();
     const auto frame = crew.link.take_frame();
@@ -144,9 +156,8 @@ void keep_open(Window& window, Crew& crew, ViewControls controls, const ViewSubj
       window.show(shown);
     }
     if (!std::exchange(input.screenshot, false) || shown.rgb.empty()) continue;
-    const auto file = fmt::format("vantage-view-{:.2f}s.png", input.shown_s);
-    write_png(file, window.show_and_read(shown));
-    log_info("written: " + file);
+    keep_picture(fmt::format("vantage-view-{:.2f}s.png", input.shown_s),
+                 window.show_and_read(shown));
   }
 }
 
@@ -156,11 +167,11 @@ ExitCode look(std::optional<Window>& window, World& world, const ViewSubject& su
   const ResolvedEpisode& resolved = subject.resolved;
   const ViewScene scene{method_name(resolved.task), vantage::window(resolved)};
   const ViewControls controls = first_controls(world, subject, options);
-  Crew crew(scene, world, player, window ? 1.0 : std::numeric_limits<double>::infinity());
+  Crew crew(scene, world, player, window ? 1.0 : std::numeric_limits<double>::infinity(), controls);
   if (window) {
     keep_open(*window, crew, controls, subject);
   } else {
-    take_still(crew, controls, options.screenshot);
+    take_still(crew, options.screenshot);
   }
   window.reset();  // an episode may take a moment to write what there is
   return crew.finish();

@@ -37,7 +37,10 @@ class FreshnessOf : public testing::Test {
     return name;
   }
   [[nodiscard]] Freshness of(const std::set<std::string>& commits) const {
-    return freshness_of({.commits = commits, .file = "results.csv", .code = {"src", "bench/x.cpp"}},
+    return freshness_of({.commits = commits,
+                         .file = "results.csv",
+                         .code = {"src", "bench/x.cpp"},
+                         .but = {"src/view"}},
                         folder_.path());
   }
   [[nodiscard]] std::filesystem::path log() const { return logs_.path() / "log"; }
@@ -53,6 +56,8 @@ TEST_F(FreshnessOf, ResultsIsThatOfTheirCode) {
   commit("docs/page.md", "of no consequence");
   EXPECT_EQ(of({first_}), Freshness::fresh);
   EXPECT_EQ(of({fmt::format("0.1.0 ({})", first_)}), Freshness::fresh);
+  commit("src/view/window.cpp", "only shows");
+  EXPECT_EQ(of({first_}), Freshness::fresh);
   const std::string second = commit("src/a.cpp", "2");
   EXPECT_EQ(of({first_}), Freshness::stale);
   EXPECT_EQ(of({second}), Freshness::fresh);

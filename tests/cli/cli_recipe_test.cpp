@@ -1,6 +1,7 @@
 // `vantage train --recipe`: from a file that says how a model is made to its bytes.
 #include "tests/cli/command_line.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/recipe/make_model.hpp"
 
 namespace vantage {
 namespace {
@@ -64,6 +65,27 @@ TEST_F(Recipe, TheUsersCacheIsTheDefault) {
                               " train --recipe recipe.yaml --out model -q --set render.objects=2");
   EXPECT_EQ(result.exit_code, 0) << result.output;
   EXPECT_TRUE(fs::exists(folder_ / "mine/vantage/recordings"));
+}
+
+/// Recordings are named by what they show, not by where it lies.
+TEST_F(Recipe, OtherScansAreOtherRecordings) {
+  DatasetOptions options;
+  options.models = (folder_ / "scans").string();
+  const auto scan = [&](const std::string& name, const std::string& texture) {
+    fs::create_directories(folder_ / "scans" / name);
+    write_file(folder_ / "scans" / name / "model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 2\nf 1 2 3\n");
+    write_file(folder_ / "scans" / name / "texture.png", texture);
+  };
+  scan("duck", "yellow");
+  const fs::path yellow = recording_folder("cache", options);
+  EXPECT_EQ(recording_folder("cache", options), yellow);
+  scan("duck", "green");
+  const fs::path green = recording_folder("cache", options);
+  EXPECT_NE(green, yellow);
+  scan("mug", "green");
+  EXPECT_NE(recording_folder("cache", options), green);
+  fs::remove_all(folder_ / "scans" / "mug");
+  EXPECT_EQ(recording_folder("cache", options), green);
 }
 
 TEST_F(Recipe, WhatIsWrongIsNamed) {

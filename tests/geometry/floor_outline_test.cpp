@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "vantage/core/rng.hpp"
 
@@ -23,6 +25,66 @@ double distance_m(const FloorOutline& outline, const Eigen::Vector2d& p) {
     inside_m = std::min(inside_m, (edge.x() * (p - a).y() - edge.y() * (p - a).x()) / edge.norm());
   }
   return inside_m >= 0.0 ? 0.0 : nearest_m;
+}
+
+TEST(ConvexOutline, HasTheCornersCounterClockwiseAndNothingElse) {
+  const std::vector<Eigen::Vector2d> points{{1.0, 1.0}, {3.0, 0.0}, {0.0, 1.0}, {2.0, 1.0},
+                                            {4.0, 3.0}, {1.5, 0.5}, {2.0, 2.0}, {1.0, 4.0},
+                                            {3.5, 1.5}, {0.5, 2.5}, {0.0, 1.0}};
+  const FloorOutline expected{{0.0, 1.0}, {3.0, 0.0}, {4.0, 3.0}, {1.0, 4.0}};
+  EXPECT_EQ(convex_outline(points), expected) << "neither within nor on an edge nor twice";
+}
+
+TEST(ConvexOutline, RoundingTakesNoCornerAway) {
+  Rng rng(7);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<Eigen::Vector2d> points;
+    for (int copy = 0; copy < 5; ++copy) {
+      for (const Eigen::Vector2d& p : kSquare) {
+        points.emplace_back(0.3 * p.x() + rng.uniform(-1e-15, 1e-15),
+                            0.2 * p.y() + rng.uniform(-1e-15, 1e-15));
+      }
+    }
+    const FloorOutline outline = convex_outline(points);
+    ASSERT_EQ(outline.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(outline[i].x(), 0.3 * kSquare[i].x(), 1e-12);
+      EXPECT_NEAR(outline[i].y(), 0.2 * kSquare[i].y(), 1e-12);
+    }
+  }
+}
+
+TEST(FloorOutline, TurnsAboutTheOriginAndThenMoves) {
+  const FloorOutline outline{{1.0, 0.5}, {-2.0, 3.0}};
+  const FloorOutline turned = moved(outline, {10.0, 20.0, std::numbers::pi / 2.0});
+  ASSERT_EQ(turned.size(), 2U);
+  EXPECT_TRUE(turned[0].isApprox(Eigen::Vector2d(9.5, 21.0)));
+  EXPECT_TRUE(turned[1].isApprox(Eigen::Vector2d(7.0, 18.0)));
+}
+
+TEST(FloorOutline, TheNearestEdgeAndTheFarthestCornerCount) {
+  const FloorOutline oblong{{-0.7, -0.4}, {1.1, -0.4}, {1.1, 0.3}, {-0.7, 0.3}};
+  EXPECT_NEAR(inscribed_radius_m(oblong), 0.3, 1e-12);
+  EXPECT_NEAR(circumscribed_radius_m(oblong), std::hypot(1.1, 0.4), 1e-12);
+  EXPECT_NEAR(inscribed_radius_m(moved(oblong, {0.0, 0.9, 0.0})), -0.5, 1e-12);
+}
+
+/// Points on the edge are of the outline, those a step further are not.
+TEST(FloorOutline, RowsEndOnTheEdge) {
+  const FloorOutline oblong{{-1.0, -0.5}, {2.0, -0.5}, {2.0, 1.0}, {-1.0, 1.0}};
+  std::vector<std::array<int, 3>> rows;
+  for_each_row_inside(oblong, {-0.5, 0.5}, 0.5, [&](int row, int first, int last) {
+    rows.push_back({row, first, last});
+  });
+  const std::vector<std::array<int, 3>> expected{{-2, -1, 5}, {-1, -1, 5}, {0, -1, 5}, {1, -1, 5}};
+  EXPECT_EQ(rows, expected);
+}
+
+TEST(FloorOutline, RowsBetweenPointsAreNone) {
+  const FloorOutline narrow{{0.1, 0.0}, {0.4, 0.0}, {0.4, 2.0}, {0.1, 2.0}};
+  int rows = 0;
+  for_each_row_inside(narrow, {0.0, 0.0}, 0.5, [&](int, int, int) { ++rows; });
+  EXPECT_EQ(rows, 0);
 }
 
 TEST(FloorOutline, HasADiscInsideAndOneAround) {

@@ -1,6 +1,7 @@
 """Breaks a line at a time in a copy of the tree and sees whether the tests of its folder notice. See ./mutate."""
 
 import argparse
+import fcntl
 import hashlib
 import json
 import subprocess
@@ -92,17 +93,30 @@ class Record:
             file.write_text(json.dumps(sources) + "\n", encoding="utf-8")
 
     def add(self, mutant, result):
-        self.known[mutant.key()] = result
+        self.known[mutant.place()] = result
         with open(self.file, "a", encoding="utf-8") as file:
-            file.write(json.dumps([mutant.key(), result]) + "\n")
+            file.write(json.dumps([mutant.place(), result]) + "\n")
 
 
 def state_of_tree():
-    files = source_files([*PATHS, "tests", "cmake", "models"])
+    """Of all that a verdict may depend on."""
+    paths = [*PATHS, "tests", "cmake", "models", "assets", "CMakeLists.txt", "CMakePresets.json"]
+    listed = subprocess.run(["git", "ls-files", "-z", "--", *paths], cwd=ROOT, capture_output=True, text=True, check=True)
     digest = hashlib.sha256()
-    for file in files:
+    for file in sorted(name for name in listed.stdout.split("\0") if (ROOT / name).is_file()):
         digest.update(file.encode() + (ROOT / file).read_bytes())
     return digest.hexdigest()
+
+
+def alone():
+    """Holds the copy of the tree until the program ends: two would break each other's lines."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    lock = open(OUT / "lock", "w", encoding="utf-8")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        sys.exit(f"{OUT}: another ./mutate is at work there")
+    return lock
 
 
 def try_all(mutants, wanted, record):
@@ -113,7 +127,7 @@ def try_all(mutants, wanted, record):
     for mutant in mutants:
         if counts.get("killed", 0) + counts.get("survived", 0) >= wanted:
             break
-        result = "equivalent" if mutant.key() in by_hand else record.known.get(mutant.key())
+        result = "equivalent" if mutant.key() in by_hand else record.known.get(mutant.place())
         if result is None:
             result = verdict(copy, mutant)
             record.add(mutant, result)
@@ -145,6 +159,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--named", action="store_true", help="those of tests/mutation/named.yaml; all must be killed")
     arguments = parser.parse_intermixed_args()
+    lock = alone()  # noqa: F841: held
     if arguments.named:
         mutants = named()
         counts, survivors = try_all(mutants, len(mutants), Record(OUT / "named.jsonl", state_of_tree()))

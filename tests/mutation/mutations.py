@@ -38,6 +38,10 @@ class Mutant:
     def key(self):
         return f"{self.file}\n{self.old.strip()}\n{self.new.strip()}"
 
+    def place(self):
+        """The key, and which of lines that are alike."""
+        return f"{self.key()}\n{self.line}"
+
     def diff(self):
         return f"{self.file}:{self.line}\n  - {self.old.strip()}\n  + {self.new.strip()}"
 

@@ -254,6 +254,10 @@ class Tours(unittest.TestCase):
         self.assertEqual(problem.views, 15)
         self.assertEqual(problem.travel_s.shape, (16, 15))
         self.assertGreater(len(vantage.plan_views(problem)), 1)
+        camera = {"half_width_rad": 0.5044, "tilt_min_rad": -0.3927, "tilt_max_rad": 0.3927,
+                  "range_min_m": 0.8, "range_max_m": 3.5}
+        np.testing.assert_array_equal(vantage.ViewProblem.on_map(room(), views, ways).gains,
+                                      vantage.ViewProblem.on_map(room(), views, ways, sensor=camera).gains)
         for choice in ("rollout", "greedy", "no_such"):
             with self.assertRaises(vantage.ConfigError):
                 vantage.plan_views(problem, choice)

@@ -12,9 +12,10 @@ PAGE = ROOT / "docs" / "reliability.md"
 
 
 def commit():
-    """The commit at hand; -dirty if sources differ from it."""
+    """The commit at hand; -dirty if the program or its tests differ from it; empty without git. As CMakeLists.txt has it."""
     say = lambda *arguments: subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True).stdout.strip()
-    dirty = say("status", "--porcelain", "--untracked-files=no", "--", ".", ":!docs/reliability.md")
+    dirty = say("status", "--porcelain", "--untracked-files=no", "--", ".", ":!bench/results", ":!bench/RESULTS.md",
+                ":!docs/reliability.md")
     return say("rev-parse", "--short", "HEAD") + ("-dirty" if dirty else "")
 
 

@@ -176,6 +176,8 @@ TEST_F(View, WhatCannotBeShown) {
   EXPECT_EQ(vantage("view --size 12").exit_code, 2);
   EXPECT_EQ(vantage("view --at 3").exit_code, 2);
   EXPECT_EQ(vantage("view --camera front").exit_code, 2);
+  expect_error(vantage("view --screenshot shot"), 2, {"--screenshot", "shot", ".png"});
+  expect_error(vantage("view --screenshot shot.jpg"), 2, {"--screenshot", "shot.jpg", ".png"});
   const auto scene = file(
       "bare.xml", "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
   const Result bare = vantage(std::string("view --screenshot x.png ") + kTwoScans + kSmall +

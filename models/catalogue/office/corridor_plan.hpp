@@ -1,5 +1,5 @@
-/// Corridor loops: buildings in which a robot comes back, after a long way past plain walls, to
-/// where it has been.
+/// Corridor loops: buildings in which a robot comes back, after a long way past walls that look
+/// alike, to where it has been.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@ struct CorridorOptions {
 /// door of 1.5 m, alternate with closed shafts; few piers stand before the walls.
 FloorPlan corridor_loop(const CorridorOptions& options);
 
-/// With furniture in the rooms; the corridor is bare.
+/// With furniture in the rooms. In the corridor stands nothing; windows and pictures are on its
+/// walls.
 /// @throws ConfigError if an option is out of range.
 OfficeScene make_corridor_scene(const CorridorOptions& options);
 

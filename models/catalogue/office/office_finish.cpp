@@ -63,7 +63,9 @@ void paint_spines(Image& image, const UvRect& rect, int count, double label, Rng
   for (int i = 0; i < count; ++i) {
     const double top = rng.uniform(0.75, 0.98);
     const UvRect spine = part_of(rect, (i + 0.06) / count, 0.0, (i + 0.94) / count, top);
-    const RgbColour cover = hsv(rng.uniform(), rng.uniform(0.15, 0.7), rng.uniform(0.25, 0.85));
+    const double light = rng.uniform(0.25, 0.85);
+    const double saturation = rng.uniform(0.15, 0.7);
+    const RgbColour cover = hsv(rng.uniform(), saturation, light);
     paint(image, spine, cover);
     paint(image, part_of(spine, 0.2, 0.55, 0.8, 0.55 + label), mix(cover, RgbColour::Ones(), 0.75));
   }
@@ -86,7 +88,8 @@ void paint_view(Image& image, const UvRect& rect, Rng& rng) {
   for (int i = 0; i < 7; ++i) {
     const double s = i / 7.0;
     const double top = rng.uniform(0.2, 0.65);
-    const RgbColour stone = hsv(0.08, rng.uniform(0.05, 0.25), rng.uniform(0.45, 0.75));
+    const double light = rng.uniform(0.45, 0.75);
+    const RgbColour stone = hsv(0.08, rng.uniform(0.05, 0.25), light);
     paint(image, part_of(rect, s, 0.0, s + 1.0 / 7.0, top),
           checks(stone, 0.75 * stone, 6, static_cast<int>(30 * top)));
   }

@@ -147,7 +147,8 @@ TriangleMesh plant(int variant) {
     const double share = static_cast<double>(i) / leaves;
     const double z = height + 0.02 + 0.42 * share;
     const double length = (0.62 - 0.12 * share) * rng.uniform(0.8, 1.0);
-    add_leaf(mesh, {0, 0, z}, 2.4 * i + rng.uniform(-0.3, 0.3), length, rng.uniform(0.07, 0.11));
+    const double width = rng.uniform(0.07, 0.11);
+    add_leaf(mesh, {0, 0, z}, 2.4 * i + rng.uniform(-0.3, 0.3), length, width);
   }
   return mesh;
 }

@@ -52,8 +52,12 @@ std::vector<PlacedObject> choose_objects(const ClutterSceneOptions& options) {
       if (i == 0 || placed.object.height_m > kTall_m) objects.push_back(std::move(placed));
     }
   }
+  if (std::ssize(objects) < options.objects) {
+    throw ConfigError(fmt::format("objects: {} is more than the {} that seed {} makes",
+                                  options.objects, objects.size(), options.seed));
+  }
   shuffle(objects, rng);
-  objects.resize(std::min(objects.size(), static_cast<std::size_t>(options.objects)));
+  objects.resize(static_cast<std::size_t>(options.objects));
   return objects;
 }
 

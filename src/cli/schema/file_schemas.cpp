@@ -11,7 +11,7 @@
 #include "vantage/cli/schema/shape_json.hpp"
 #include "vantage/cli/schema/study_schema.hpp"
 #include "vantage/dataset/dataset_options.hpp"
-#include "vantage/geometry/field_of_view.hpp"
+#include "vantage/geometry/rgbd_camera.hpp"
 #include "vantage/recipe/model_recipe.hpp"
 #include "vantage/recognition/training.hpp"
 #include "vantage/sim/robots/robot_description.hpp"
@@ -112,7 +112,7 @@ const auto kKinds = std::to_array<Kind>({
     {"episode", "Vantage episode", episode_schema},
     {"study", "Vantage study", [] { return study_schema(task_schemas()); }},
     {"robot", "robot.yaml of Vantage", robot_schema},
-    {"sensor", "Sensor of vantage score-views", options_schema<FieldOfView>},
+    {"sensor", "Sensor of vantage score-views", [] { return shape_schema(shape_of(kRgbdCamera)); }},
     {"recipe", "Recipe of a recognition model of Vantage", options_schema<ModelRecipe>},
     {"dataset", "Keys of vantage dataset render", options_schema<DatasetOptions>},
     {"train", "Keys of vantage train", options_schema<TrainingOptions>},

@@ -95,9 +95,12 @@ std::vector<Piece> pieces_below(const fs::path& root) {
     throw InputError(fmt::format("{}: no such folder of pictures", root.string()));
   }
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(root, error)) {
-    if (entry.is_regular_file(error) && is_candidate(entry.path())) files.push_back(entry.path());
+  std::error_code failed;
+  for (fs::recursive_directory_iterator it(root, failed), end; !failed && it != end;
+       it.increment(failed)) {
+    if (it->is_regular_file(error) && is_candidate(it->path())) files.push_back(it->path());
   }
+  if (failed) throw InputError(fmt::format("{}: {}", root.string(), failed.message()));
   std::ranges::sort(files);
   std::vector<Piece> pieces;
   for (const fs::path& file : files) {

@@ -22,7 +22,7 @@ namespace {
 using Kind = PictureFileKind;
 using Group = PictureFiles;
 
-/// Of several files of a kind the first: a mask may be there as PNG and NPY.
+/// Of several files of a kind the first, as of a mask in PNG and NPY.
 FoundPicture picture_of(const Group& group) {
   FoundPicture picture;
   picture.colour = group.files.at(Kind::colour).front();
@@ -185,8 +185,7 @@ void drop_common_words(std::vector<Words>& names) {
       return word == (front ? first.front() : first.back()) && !is_number(word);
     });
   };
-  while (common(true))
-    std::ranges::for_each(names, [](Words& words) { words.erase(words.begin()); });
+  while (common(true)) std::ranges::for_each(names, [](Words& w) { w.erase(w.begin()); });
   while (common(false)) std::ranges::for_each(names, [](Words& words) { words.pop_back(); });
 }
 
@@ -220,7 +219,8 @@ void read_by_itself(const fs::path& root, const std::vector<Group>& groups, Foun
     FoundPicture& picture = found.pictures[i];
     const bool told = !picture.view.empty() || picture.yaw_deg || picture.pose;
     if (picture.object.empty()) {
-      if (told && rest[i].size() > 1 && is_number(rest[i].back())) rest[i].pop_back();  // a frame
+      // A number behind the view is a frame's, one before it the instance's.
+      if (told && rest[i].size() > 1 && is_number(groups[i].leaf.back())) rest[i].pop_back();
       picture.object = fmt::format("{}", fmt::join(rest[i], "_"));
     } else if (!told) {
       picture.view = fmt::format("{}", fmt::join(rest[i], "_"));

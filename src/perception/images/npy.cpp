@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -80,7 +81,12 @@ std::vector<std::int64_t> shape_of(std::string_view header, const std::filesyste
     std::int64_t side = 0;
     const auto [end, error] = std::from_chars(side_text.begin(), side_text.end(), side);
     if (error != std::errc{}) fail(file, "its header is not that of an array");
-    if (side != 1) shape.push_back(side);
+    shape.push_back(side);
+  }
+  while (shape.size() > 2) {  // channels of one
+    const auto one = std::ranges::find(shape.rbegin(), shape.rend(), 1);
+    if (one == shape.rend()) break;
+    shape.erase(std::next(one).base());
   }
   while (shape.size() < 2) shape.push_back(1);
   const bool sane = shape.size() == 2 && shape[0] > 0 && shape[1] > 0 && shape[0] <= kMaxSide &&

@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-/// Numbers of groups, one an object, from 0 in order of appearance. Two objects are near-duplicates
+/// Labels of groups, one an object. Two objects are near-duplicates
 /// if a view of all features, averaged over yaw bins at the turn where they are most alike, leaves
 /// more than 1 of 100 decisions between them wrong: by Bhattacharyya's bound, 1/2 exp(-D), with D
 /// tempered by psi. A group is what such pairs hold together.

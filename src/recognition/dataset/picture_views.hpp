@@ -16,8 +16,8 @@ namespace vantage {
 std::vector<ViewEntry> chosen_views(const DatasetIndex& dataset, std::span<const int> videos,
                                     std::span<const std::string> recordings);
 
-/// Notes of imported views that are trained on together: those of the first, with as many bins as
-/// the one that has most; nothing if none is imported.
+/// Notes of imported views that are trained on together: those of the first one with most bins;
+/// nothing if none is imported.
 /// @param bins asked for; 0: as imported
 /// @throws InputError if they were cut in different ways; ConfigError if views that are told by
 /// name are asked for in other bins.

@@ -110,7 +110,8 @@ std::string axes_svg(const RoomFrame& frame) {
   const int step = tick_step_m(frame.box.sizes().maxCoeff());
   const auto ticks = [&](int axis, auto&& draw) {
     const double last = std::floor(frame.box.max()[axis] / step);
-    for (double i = std::ceil(frame.box.min()[axis] / step); i <= last; i += 1.0) draw(i * step);
+    const double first = std::ceil(frame.box.min()[axis] / step) + 0.0;  // never -0
+    for (double i = first; i <= last; i += 1.0) draw(i * step);
   };
   std::string svg;
   ticks(0, [&](double m) {

@@ -57,7 +57,7 @@ const Json* whole_table(const Json& summary, const std::string& name) {
 
 std::string number(const std::optional<double>& value) {
   if (!value) return "-";
-  return std::abs(*value) >= 1e4 ? fmt::format("{:.0f}", *value) : fmt::format("{:.4g}", *value);
+  return std::abs(*value) >= 9999.5 ? fmt::format("{:.0f}", *value) : fmt::format("{:.4g}", *value);
 }
 
 std::string difference_of(const Headline& row) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/hash.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/runtime/json.hpp"
 #include "vantage/runtime/manifest.hpp"
@@ -87,6 +88,9 @@ Json summary_json(const RecognitionStudy& study) {
             {"unknown_starts", study.options.unknown_starts},
             {"seed", study.options.seed},
             {"commit", version_text()},
+            {"config_hash", hash_text(hash_bytes(to_yaml(write_node(study.options))))},
+            {"cpu", cpu_name()},
+            {"threads", study.threads},
             {"methods", Json::array()},
             {"changes", Json::array()}};
   for (const MethodSummary& summary : summaries(study)) json["methods"].push_back(json_of(summary));

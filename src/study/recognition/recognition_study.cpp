@@ -233,7 +233,11 @@ RecognitionStudy run_recognition_study(const RecognitionModel& model, const Data
                                                   ? baseline_views(dataset, training, used, trials)
                                                   : std::vector<ViewEntry>{};
   const std::vector<Eigen::MatrixXf> of_unknown = unknown_likelihoods(recogniser, trials);
-  RecognitionStudy study{.options = options, .states = used.states, .methods = {}, .changes = {}};
+  RecognitionStudy study{.options = options,
+                         .states = used.states,
+                         .methods = {},
+                         .changes = {},
+                         .threads = how.threads};
   for (const Method& method : methods) {
     study.methods.push_back(trials_of(recogniser, method, likelihoods, of_unknown, trials));
   }

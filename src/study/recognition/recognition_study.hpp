@@ -89,6 +89,7 @@ struct RecognitionStudy {
   ObjectStates states;
   std::vector<MethodTrials> methods;
   std::vector<ChangeTrials> changes;
+  int threads = 1;  ///< it ran on; times depend on them, nothing else
 };
 
 /// @throws ConfigError if `options` are out of range; InputError as read_test_views().

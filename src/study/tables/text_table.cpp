@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 std::string number(double value) {
-  return std::abs(value) >= 1e4 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+  return std::abs(value) >= 9999.5 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
 std::string with_interval(double value, const Interval& interval, std::size_t values) {

@@ -211,6 +211,7 @@ class Mcap(unittest.TestCase):
         calibration = self.made.topics["/camera/calibration"][0][1]
         self.assertEqual((calibration["width"], calibration["height"]), (320, 240))
         self.assertGreater(calibration["K"][0], 100)
+        self.assertEqual((calibration["K"][2], calibration["K"][5]), (159.5, 119.5))  # between the middle pixels
         image, frame = self.made.topics["/camera"][1][1], self.made.topics["/camera/tf"][1][1]["transforms"][0]
         self.assertEqual(image["frame_id"], frame["child_frame_id"])
         ahead = axes(frame["rotation"])[2]  # the optical axis

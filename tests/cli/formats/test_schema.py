@@ -94,6 +94,11 @@ class Schema(unittest.TestCase):
             jsonschema.Draft7Validator.check_schema(made)
             self.assertIn("title", made, kind)
 
+    def test_defaults_of_a_sensor_are_those_that_views_are_scored_with(self):
+        self.assertEqual({key: of["default"] for key, of in self.schemas["sensor"]["properties"].items()},
+                         {"half_width_rad": 0.5044, "tilt_min_rad": -0.3927, "tilt_max_rad": 0.3927,
+                          "range_min_m": 0.8, "range_max_m": 3.5, "panorama": False})
+
     def test_every_shipped_file_is_valid(self):
         files = shipped()
         self.assertGreater(len(files), 35)

@@ -37,13 +37,15 @@ int write_bytes(int file, std::span<const std::byte> bytes) {
 
 /// The folder is the planner's, and it may do to it what these errors say.
 bool is_planners_doing(int error) {
-  constexpr auto kErrors = std::to_array({ELOOP, EISDIR, ENOTDIR, ENOENT, EACCES, EPERM});
+  constexpr auto kErrors =
+      std::to_array({ELOOP, EISDIR, ENOTDIR, ENOENT, EACCES, EPERM, ENXIO, ESPIPE});
   return std::ranges::find(kErrors, error) != kErrors.end();
 }
 
-/// A link that the planner has put there is not followed.
+/// A link that the planner has put there is not followed, a pipe not waited for.
 void write_in_place(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+  const int file =
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
   const int error = file < 0 ? errno : write_bytes(file, bytes);
   if (file >= 0) ::close(file);
   if (error == 0) return;
