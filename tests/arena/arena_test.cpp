@@ -226,6 +226,55 @@ TEST_F(Arena, ForgetsWhatAPlannerHasDone) {
   EXPECT_TRUE(std::filesystem::exists(folder / "episodes/a/greedy/1"));
 }
 
+TEST_F(Arena, WithoutABudgetTheLongestOfItsSceneAndSeedCounts) {
+  for (PlannedEpisode& planned : results.plan) {
+    std::get<Tabletop>(planned.resolved.task).budget.time_s.reset();
+  }
+  const Json late = {{{"time_s", 20.0}, {"observable_unobserved_cells", 1000}},
+                     {{"time_s", 80.0}, {"observable_unobserved_cells", 400}}};
+  put("a/greedy/1", EpisodeState::completed, 0.6, {{"scans", late}});
+  put("a/mine/1", EpisodeState::completed, 0.5);
+  put("a/mine/2", EpisodeState::completed, 0.5);
+  const std::vector<EpisodeScore> scores = episode_scores(results);
+  ASSERT_EQ(scores.size(), 3U);
+  EXPECT_EQ(scores[0].horizon_s, 80.0);
+  EXPECT_EQ(scores[0].score, 0.0);
+  EXPECT_DOUBLE_EQ(scores[0].seen_share, 0.6);
+  EXPECT_EQ(scores[1].horizon_s, 80.0);
+  EXPECT_DOUBLE_EQ(scores[1].score, 0.5 * 30.0 / 80.0);
+  EXPECT_EQ(scores[2].horizon_s, 50.0);
+  EXPECT_EQ(scores[2].score, 0.0);
+}
+
+TEST_F(Arena, ItsFiguresAndItsPageAgree) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  put("a/mine/1", EpisodeState::completed, 0.4);
+  const Leaderboard board = leaderboard_of(results);
+  const Figure overall = overall_figure(results, board);
+  ASSERT_EQ(overall.panels[0].series.size(), 2U);
+  const auto& points = overall.panels[0].series[0].points;
+  ASSERT_EQ(points.size(), 41U);
+  EXPECT_EQ(points[0].x, 0.0);
+  EXPECT_DOUBLE_EQ(points[40].x, 100.0);
+  EXPECT_EQ(points[19].mean, 0.0);
+  EXPECT_DOUBLE_EQ(points[20].mean, 0.6);
+  const Figure scenes = scene_figure(results, board);
+  ASSERT_EQ(scenes.panels.size(), 2U);
+  ASSERT_EQ(scenes.panels[0].series.size(), 2U);
+  EXPECT_TRUE(scenes.panels[1].series.empty());
+  EXPECT_EQ(scenes.panels[0].series[1].name, "mine");
+  EXPECT_EQ(scenes.panels[0].series[1].style, 2U);
+  write_arena_page(results, board);
+  const std::string page = read_file(folder / "arena.html");
+  for (const char* part :
+       {"2 scenes", "3 planners", "2 seeds", "--shade:60%\" class=\"best\">0.300<",
+        "--shade:0%\">0.200<", "<i style=\"width:30.00%\">", "1 pairs\">-0.100<",
+        "<td class=\"dim\">reference</td>", "<td>60.0</td><td>4.0</td><td>1.00</td>",
+        "<td>0/1</td><td>250.0</td>", "10 of 12 episodes missing"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+}
+
 TEST(StandardArena, HasEveryChoiceInEachScene) {
   const Study study = read_study(VANTAGE_SOURCE_DIR "/assets/studies/arena.yaml");
   const Factor& planners = study.factors[factor_index(study, "planner")];

@@ -112,5 +112,58 @@ TEST(Airframe, InducedPowerOfHover) {
   EXPECT_EQ(induced_power_W(Eigen::Vector4d::Zero(), 0.1), 0.0);
 }
 
+/// Arms of 10 cm, the centre of mass amid them, 8 N a rotor; yaw by 2 cm a newton.
+Airframe even_frame() {
+  Airframe frame;
+  frame.mass_kg = 1.0;
+  frame.rotors = {Rotor{{0.1, 0.1, 0.0}, -0.02}, Rotor{{-0.1, 0.1, 0.0}, 0.02},
+                  Rotor{{-0.1, -0.1, 0.0}, -0.02}, Rotor{{0.1, -0.1, 0.0}, 0.02}};
+  frame.thrust_max_N = 8.0;
+  return frame;
+}
+
+TEST(Airframe, WrenchesAreAboutTheCentreOfMass) {
+  Airframe frame = even_frame();
+  frame.p_body_com_m = {0.02, 0.03, 0.5};
+  const Wrench wrench = wrench_of(frame, {1.0, 2.0, 3.0, 5.0});
+  EXPECT_NEAR(wrench.collective_N, 11.0, 1e-12);
+  EXPECT_NEAR(wrench.torque_Nm.x(), 0.07 * 1.0 + 0.07 * 2.0 - 0.13 * 3.0 - 0.13 * 5.0, 1e-12);
+  EXPECT_NEAR(wrench.torque_Nm.y(), -0.08 * 1.0 + 0.12 * 2.0 + 0.12 * 3.0 - 0.08 * 5.0, 1e-12);
+  EXPECT_NEAR(wrench.torque_Nm.z(), 0.02 * (-1.0 + 2.0 - 3.0 + 5.0), 1e-12);
+}
+
+/// A torque of 3.2 N m about x takes 8 N from one side to the other, of which half can be had.
+TEST(Airframe, TiltIsCutWhereNoForceMakesRoomForIt) {
+  const Allocation given =
+      allocate(even_frame(), {.collective_N = 10.0, .torque_Nm = {3.2, 0.0, 0.4}});
+  EXPECT_NEAR(given.tilt_share, 0.5, 1e-12);
+  EXPECT_NEAR(given.collective_N, 16.0, 1e-9);
+  EXPECT_NEAR(given.yaw_share, 0.0, 1e-9);
+  const Eigen::Vector4d thrust_N(8.0, 8.0, 0.0, 0.0);
+  EXPECT_LT((given.thrust_N - thrust_N).norm(), 1e-9);
+}
+
+TEST(Airframe, ForceMakesRoomForTilt) {
+  const auto collective_N = [](double wanted_N) {
+    return allocate(even_frame(), {.collective_N = wanted_N, .torque_Nm = {0.8, 0.0, 0.0}})
+        .collective_N;
+  };
+  EXPECT_NEAR(collective_N(30.0), 24.0, 1e-9);
+  EXPECT_NEAR(collective_N(20.0), 20.0, 1e-9);
+  EXPECT_NEAR(collective_N(2.0), 8.0, 1e-9);
+}
+
+TEST(Airframe, YawTakesTheRoomThatIsLeft) {
+  const auto yaw_share = [](double collective_N, double torque_Nm) {
+    return allocate(even_frame(),
+                    {.collective_N = collective_N, .torque_Nm = {0.0, 0.0, torque_Nm}})
+        .yaw_share;
+  };
+  EXPECT_NEAR(yaw_share(16.0, 0.64), 0.5, 1e-9) << "4 N of 8";
+  EXPECT_NEAR(yaw_share(24.0, 0.64), 0.25, 1e-9) << "2 N up";
+  EXPECT_NEAR(yaw_share(8.0, -0.64), 0.25, 1e-9) << "2 N down";
+  EXPECT_EQ(yaw_share(16.0, 0.3), 1.0);
+}
+
 }  // namespace
 }  // namespace vantage

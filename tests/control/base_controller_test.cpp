@@ -115,5 +115,84 @@ TEST(FollowPath, TurnsBackOnItself) {
   EXPECT_LT(result.time_s, 15.0);
 }
 
+TEST(ApproachSpeed, IsProportionalNearTheStopAndBrakesEvenlyBefore) {
+  // 0.35 m/s^2 of braking: proportional up to 0.0875 m.
+  EXPECT_NEAR(approach_speed(0.05, 0.5, 2.0), 0.1, 1e-12);
+  EXPECT_NEAR(approach_speed(0.0875, 0.5, 2.0), 0.175, 1e-12);
+  EXPECT_NEAR(approach_speed(0.3, 0.5, 2.0), std::sqrt(0.7 * (0.3 - 0.04375)), 1e-12);
+  EXPECT_EQ(approach_speed(0.0, 0.5, 2.0), 0.0);
+}
+
+/// Turns of 90 degrees to the left after 2 m and of 45 degrees to the right after 3 m.
+TEST(DrivePath, KnowsItsNextCorner) {
+  const DrivePath path({}, std::vector<Pose2>{{2, 0, 0}, {2, 1, 0}, {3, 2, 0}});
+  EXPECT_NEAR(path.length_m(), 3.0 + std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(path.next_corner(0.0, 0.3), 2.0, 1e-12);
+  EXPECT_NEAR(path.next_corner(2.0, 0.3), 2.0, 1e-12);
+  EXPECT_NEAR(path.next_corner(2.1, 0.3), 3.0, 1e-12);
+  EXPECT_NEAR(path.next_corner(2.1, 0.78), 3.0, 1e-12);
+  EXPECT_NEAR(path.next_corner(2.1, 0.79), path.length_m(), 1e-12);
+  EXPECT_NEAR(path.next_corner(0.0, 1.58), path.length_m(), 1e-12);
+  EXPECT_NEAR(path.next_corner(3.1, 0.3), path.length_m(), 1e-12);
+}
+
+TEST(DrivePath, LimitsItsSpeedByWhatIsAhead) {
+  const BaseControllerOptions options;
+  const DrivePath square({}, std::vector<Pose2>{{5, 0, 0}, {5, 5, 0}});
+  EXPECT_NEAR(square.speed_limit(4.7, options), 0.4, 1e-9) << "0.2 m before the curve";
+  EXPECT_NEAR(square.speed_limit(4.95, options), std::sqrt(0.02), 1e-9);
+  EXPECT_EQ(square.speed_limit(5.01, options), 0.6);
+  EXPECT_NEAR(square.speed_limit(9.95, options), 0.1, 1e-9);
+  const DrivePath half({}, std::vector<Pose2>{{5, 0, 0}, {9, 4, 0}});
+  const double radius_m = 0.1 / std::tan(std::numbers::pi / 8.0);
+  EXPECT_NEAR(half.speed_limit(5.0, options), std::sqrt(0.4 * 0.5 * radius_m), 1e-9);
+  const DrivePath back({}, std::vector<Pose2>{{5, 0, 0}, {2, 0, 0}});
+  EXPECT_NEAR(back.speed_limit(5.0, options), std::sqrt(0.4 * 0.5 * 0.1 / std::tan(1.4)), 1e-9);
+}
+
+TEST(DrivePath, TurnsEvenlyAlongItsWay) {
+  const DrivePath path({0.0, 0.0, 0.5}, std::vector<Pose2>{{4, 0, 1.5}});
+  EXPECT_NEAR(path.yaw(1.0), 0.75, 1e-12);
+  EXPECT_NEAR(path.yaw(-1.0), 0.5, 1e-12);
+  EXPECT_NEAR(path.yaw(9.0), 1.5, 1e-12);
+  EXPECT_TRUE(path.point(-1.0).isApprox(Eigen::Vector2d(0.0, 0.0)));
+  EXPECT_NEAR(path.project({2.0, 1.0}, 0.5, 3.0), 2.0, 1e-12);
+  EXPECT_NEAR(path.project({-2.0, 1.0}, 0.5, 3.0), 0.5, 1e-12);
+  EXPECT_NEAR(path.project({9.0, 1.0}, 0.5, 3.0), 3.0, 1e-12);
+}
+
+/// 6 cm beside a straight path it steers for the point 10 cm ahead, and changes its velocity by
+/// 0.5 m/s^2 in a period of 25 ms.
+TEST(FollowPath, SteersForThePointAhead) {
+  const DrivePath path({}, std::vector<Pose2>{{5, 0, 1.0}});
+  PathFollowing following{.arc_m = 0.95, .v_world_m_s = {0.3, 0.0}, .wz_rad_s = 0.01};
+  const Twist2 twist = follow_path(path, {1.0, 0.06, 0.2}, kPeriod_s, {}, following);
+  const Eigen::Vector2d wanted = 0.6 * Eigen::Vector2d(0.1, -0.06).normalized();
+  const Eigen::Vector2d change = wanted - Eigen::Vector2d(0.3, 0.0);
+  const Eigen::Vector2d v = Eigen::Vector2d(0.3, 0.0) + 0.0125 * change.normalized();
+  EXPECT_NEAR(following.arc_m, 1.0, 1e-12);
+  EXPECT_LT((following.v_world_m_s - v).norm(), 1e-12);
+  EXPECT_NEAR(twist.vx_m_s, std::cos(0.2) * v.x() + std::sin(0.2) * v.y(), 1e-12);
+  EXPECT_NEAR(twist.vy_m_s, std::cos(0.2) * v.y() - std::sin(0.2) * v.x(), 1e-12);
+  // Of 1 rad along 5 m it is to have turned by 0.22 rad at the point ahead: 0.02 rad are left.
+  EXPECT_NEAR(twist.wz_rad_s, 0.04, 1e-12) << "as 0.03 more are allowed";
+  following.wz_rad_s = 0.0;
+  EXPECT_NEAR(follow_path(path, {1.0, 0.06, 0.2}, kPeriod_s, {}, following).wz_rad_s, 0.03, 1e-12);
+  following.wz_rad_s = -0.5;
+  EXPECT_NEAR(follow_path(path, {1.0, 0.06, 0.2}, kPeriod_s, {}, following).wz_rad_s, -0.47, 1e-12);
+  following.wz_rad_s = -0.79;
+  EXPECT_NEAR(follow_path(path, {1.0, 0.06, 2.2}, kPeriod_s, {}, following).wz_rad_s, -0.8, 1e-12)
+      << "no faster turn than allowed";
+}
+
+TEST(FollowPath, ComesToRestAtTheEndWhereverItIsBesideIt) {
+  const DrivePath path({}, std::vector<Pose2>{{1, 0, 0}});
+  PathFollowing following{.arc_m = 0.95, .v_world_m_s = {0.06, -0.04}, .wz_rad_s = 0.0};
+  const Twist2 twist = follow_path(path, {0.97, 0.02, 0.0}, kPeriod_s, {}, following);
+  EXPECT_NEAR(twist.vx_m_s, 0.06, 1e-12);
+  EXPECT_NEAR(twist.vy_m_s, -0.04, 1e-12);
+  EXPECT_EQ(twist.wz_rad_s, 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

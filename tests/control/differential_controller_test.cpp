@@ -147,5 +147,82 @@ RC_GTEST_PROP(DifferentialController, ArrivesFromAnywhere, ()) {
   RC_ASSERT(std::abs(left.yaw_rad) < 0.006);
 }
 
+/// One tick on a straight path along x, from `pose` on.
+Twist2 one_tick(const Pose2& pose, DifferentialFollowing& following, double length_m = 5.0) {
+  const DrivePath path({}, std::vector<Pose2>{{length_m, 0.0, 0.0}});
+  return follow_path(path, pose, kDrivePeriod_s, {}, following);
+}
+
+TEST(DifferentialController, LooksAheadByItsSpeedAndTurnsNoFasterThanItCanEnd) {
+  DifferentialFollowing following{.arc_m = 1.0, .v_m_s = 0.5, .wz_rad_s = -0.12};
+  const Twist2 twist = one_tick({1.0, 0.02, 0.0}, following);
+  EXPECT_NEAR(twist.vx_m_s, 0.5125, 1e-12);
+  // The point is 0.6 s ahead; the arc there would ask for 0.227 rad/s.
+  EXPECT_NEAR(twist.wz_rad_s, -2.0 * std::atan2(0.02, 0.3), 1e-12);
+  following = {.arc_m = 1.0, .v_m_s = 0.5, .wz_rad_s = 0.0};
+  EXPECT_NEAR(one_tick({1.0, 0.02, 0.0}, following).wz_rad_s, -0.03, 1e-12) << "in one period";
+}
+
+TEST(DifferentialController, SlowsForTightArcs) {
+  DifferentialFollowing following{.arc_m = 1.0, .v_m_s = 0.07};
+  EXPECT_NEAR(one_tick({1.0, 0.0, -0.6}, following).vx_m_s, 0.8 * 0.1 / (2.0 * std::sin(0.6)),
+              1e-12);
+}
+
+TEST(DifferentialController, BeginsToTurnInPlaceLaterThanItEnds) {
+  const auto turns = [](double bearing_rad, bool turning) {
+    DifferentialFollowing following{.arc_m = 1.0, .turning = turning};
+    const Twist2 twist = one_tick({1.0, 0.0, -bearing_rad}, following);
+    EXPECT_EQ(twist.vx_m_s == 0.0, following.turning);
+    return following.turning;
+  };
+  EXPECT_FALSE(turns(0.69, false));
+  EXPECT_TRUE(turns(0.71, false));
+  EXPECT_TRUE(turns(0.051, true));
+  EXPECT_FALSE(turns(0.049, true));
+  EXPECT_TRUE(turns(-0.71, false));
+}
+
+TEST(DifferentialController, LeavesTheGoalsHeadingFartherOffThanItTakesIt) {
+  const auto aligns = [](double off_m, bool aligning) {
+    DifferentialFollowing following{.arc_m = 1.0, .aligning = aligning};
+    one_tick({1.0, off_m, 0.3}, following, 1.0);
+    return following.aligning;
+  };
+  EXPECT_TRUE(aligns(0.0029, false));
+  EXPECT_FALSE(aligns(0.0031, false));
+  EXPECT_TRUE(aligns(0.0044, true));
+  EXPECT_FALSE(aligns(0.0046, true));
+  EXPECT_TRUE(aligns(-0.0029, false));
+}
+
+TEST(DifferentialController, AlignsBrakingAsItTurns) {
+  const DrivePath path({}, std::vector<Pose2>{{1.0, 0.0, 0.5}});
+  DifferentialFollowing following{.arc_m = 1.0, .v_m_s = 0.2, .wz_rad_s = 0.79};
+  const Twist2 twist = follow_path(path, {1.0, 0.0, 0.0}, kDrivePeriod_s, {}, following);
+  EXPECT_NEAR(twist.vx_m_s, 0.2 - 0.0125, 1e-12);
+  EXPECT_NEAR(twist.wz_rad_s, 0.8, 1e-12);
+  following = {.arc_m = 1.0, .wz_rad_s = 0.18};
+  EXPECT_NEAR(follow_path(path, {1.0, 0.0, 0.4}, kDrivePeriod_s, {}, following).wz_rad_s, 0.2,
+              1e-12);
+}
+
+TEST(DifferentialController, DrivesBackToAGoalThatIsNear) {
+  DifferentialFollowing following{.arc_m = 1.0};
+  EXPECT_NEAR(one_tick({1.14, 0.0, 0.0}, following, 1.0).vx_m_s, -0.0125, 1e-12);
+  following = {.arc_m = 1.0};
+  EXPECT_EQ(one_tick({1.16, 0.0, 0.0}, following, 1.0).vx_m_s, 0.0);
+  EXPECT_TRUE(following.turning);
+  // Within reach of its speed at so near a goal: 0.1 m/s for 0.05 m.
+  following = {.arc_m = 1.0, .v_m_s = -0.1};
+  EXPECT_NEAR(one_tick({1.05, 0.0, 0.0}, following, 1.0).vx_m_s, -0.1, 1e-12);
+}
+
+TEST(PursuitCurvature, OfKnownArcs) {
+  EXPECT_NEAR(pursuit_curvature({0.3, 0.1}), 2.0, 1e-12);
+  EXPECT_NEAR(pursuit_curvature({0.0, -0.5}), -4.0, 1e-12);
+  EXPECT_EQ(pursuit_curvature({0.0, 0.0}), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

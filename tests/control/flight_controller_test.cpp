@@ -180,5 +180,98 @@ TEST(ControlFlight, StepsOfTheReferenceTeachNoPush) {
   EXPECT_GT(hover.state.T_world_body.translation().z(), 4.0);
 }
 
+/// The same airframe with its centre of mass amid the rotors: nothing tilts it by itself.
+Airframe centred() {
+  Airframe frame = airframe();
+  frame.p_body_com_m.setZero();
+  return frame;
+}
+
+TEST(AttitudeAlong, TurnsAboutTheAxesOfTheBody) {
+  const double quarter_rad = 0.5 * std::numbers::pi;
+  const auto w = [](const Eigen::Vector3d& force, const Eigen::Vector3d& rate, double yaw_rad,
+                    double yaw_rate) {
+    return attitude_along(force, rate, yaw_rad, yaw_rate).w_body_rad_s;
+  };
+  EXPECT_LT((w({0, 0, 10}, {2, 0, 5}, 0.0, 0.7) - Eigen::Vector3d(0.0, 0.2, 0.7)).norm(), 1e-12);
+  EXPECT_LT((w({0, 0, 10}, {2, 0, 5}, quarter_rad, 0.0) - Eigen::Vector3d(0.2, 0.0, 0.0)).norm(),
+            1e-12);
+  EXPECT_LT((w({0, 0, 10}, {0, 2, 0}, 0.0, 0.0) - Eigen::Vector3d(-0.2, 0.0, 0.0)).norm(), 1e-12);
+  EXPECT_NEAR(w({3, 0, 4}, {0, 0, 0}, 0.0, 2.0).z(), 1.6, 1e-12);
+}
+
+TEST(ControlFlight, LiftsByItsGains) {
+  const auto lift_N = [](const FlightState& state, const FlightReference& reference,
+                         const FlightControllerOptions& options = {}) {
+    FlightMemory memory;
+    const Allocation given =
+        control_flight(state, reference, centred(), kFlightPeriod_s, options, memory);
+    EXPECT_NEAR(memory.a_given_m_s2.z(), given.collective_N / 1.24 - 9.81, 1e-9);
+    return given.collective_N;
+  };
+  FlightState rising;
+  rising.v_world_m_s = {0.0, 0.0, 0.05};
+  EXPECT_NEAR(lift_N(rising, {.p_world_m = {0.0, 0.0, 0.1}}), 1.24 * (9.81 + 1.6 - 0.325), 1e-9);
+  EXPECT_NEAR(lift_N({}, {.v_world_m_s = {0.0, 0.0, 0.2}, .a_world_m_s2 = {0.0, 0.0, 0.5}}),
+              1.24 * (9.81 + 1.3 + 0.5), 1e-9);
+  FlightControllerOptions near;
+  near.position_error_max_m = 0.5;
+  EXPECT_NEAR(lift_N({}, {.p_world_m = {0.0, 0.0, 5.0}}, near), 1.24 * (9.81 + 8.0), 1e-9);
+  EXPECT_NEAR(lift_N({}, {.p_world_m = {0.0, 0.0, -5.0}}), 0.2 * 1.24 * 9.81, 1e-9)
+      << "it never pushes down";
+  EXPECT_NEAR(lift_N({}, {.p_world_m = {0.0, 0.0, 5.0}}), 32.0, 1e-9) << "all there is";
+}
+
+TEST(ControlFlight, EstimatesAPushByWhatTheThrustDoesNotExplain) {
+  const auto learnt = [](const Eigen::Vector3d& v_m_s, FlightMemory memory) {
+    memory.started = true;
+    FlightState state;
+    state.v_world_m_s = v_m_s;
+    control_flight(state, {}, centred(), 0.1, {}, memory);
+    EXPECT_LT((memory.v_world_m_s - v_m_s).norm(), 1e-12);
+    return memory.disturbance_m_s2;
+  };
+  FlightMemory memory;
+  EXPECT_LT((learnt({0.1, -0.2, 0.0}, memory) - Eigen::Vector3d(0.7, -1.4, 0.0)).norm(), 1e-12);
+  memory.v_world_m_s = {0.05, 0.0, 0.0};
+  memory.a_given_m_s2 = {0.2, 0.0, 0.0};
+  memory.disturbance_m_s2 = {0.1, 0.0, 0.0};
+  // 0.05 m/s gained, of which 0.1 s times 0.3 m/s^2 are explained.
+  EXPECT_NEAR(learnt({0.1, 0.0, 0.0}, memory).x(), 0.1 + 7.0 * 0.02, 1e-12);
+  EXPECT_LT((learnt({9.0, -9.0, 0.0}, {}) - Eigen::Vector3d(4.0, -4.0, 0.0)).norm(), 1e-12);
+  FlightMemory fresh;
+  control_flight({}, {}, centred(), 0.1, {}, fresh);
+  EXPECT_TRUE(fresh.started);
+  EXPECT_TRUE(fresh.disturbance_m_s2.isZero(0.0));
+}
+
+TEST(ControlFlight, LiftsAgainstAPushThatItKnows) {
+  FlightMemory memory;
+  memory.disturbance_m_s2 = {0.0, 0.0, -1.5};
+  EXPECT_NEAR(control_flight({}, {}, centred(), kFlightPeriod_s, {}, memory).collective_N,
+              1.24 * (9.81 + 1.5), 1e-9);
+}
+
+TEST(ControlFlight, TurnsItsHeadingByItsGains) {
+  const auto torque_Nm = [](const FlightState& state, double yaw_rad, FlightMemory& memory) {
+    const Allocation given =
+        control_flight(state, {.yaw_rad = yaw_rad}, centred(), kFlightPeriod_s, {}, memory);
+    return wrench_of(centred(), given.thrust_N).torque_Nm;
+  };
+  FlightMemory memory;
+  const double pull = -25.0 * 2.0 * std::sin(0.1);
+  // What it learns in this period already counts.
+  EXPECT_LT((torque_Nm({}, 0.2, memory) - Eigen::Vector3d(0.0, 0.0, -0.0126 * 1.002 * pull)).norm(),
+            1e-9);
+  EXPECT_NEAR(memory.torque_rad_s2.z(), 0.002 * pull, 1e-12);
+  FlightState spinning;
+  spinning.w_body_rad_s = {0.0, 0.0, 0.1};
+  memory = {};
+  EXPECT_NEAR(torque_Nm(spinning, 0.0, memory).z(), -0.0126 * 1.002 * 0.9, 1e-9);
+  memory = {};
+  memory.torque_rad_s2 = {0.0, 0.0, 0.5};
+  EXPECT_NEAR(torque_Nm({}, 0.0, memory).z(), -0.0126 * 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

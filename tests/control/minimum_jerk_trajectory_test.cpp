@@ -143,5 +143,65 @@ TEST(MinimumJerkTrajectory, RefusesLimitsOutOfRange) {
   EXPECT_THROW(MinimumJerkTrajectory({}, std::span(&goal, 1), {.speed_m_s = 0.0}), ConfigError);
 }
 
+/// When it passes its knots, as shares of its duration: stretching does not change them.
+std::vector<double> shares_of(const MinimumJerkTrajectory& path) {
+  std::vector<double> shares;
+  for (const double knot_s : path.knots_s()) shares.push_back(knot_s / path.duration_s());
+  return shares;
+}
+
+std::vector<FlightWaypoint> along_x(const std::vector<double>& places_m) {
+  std::vector<FlightWaypoint> waypoints;
+  for (const double x_m : places_m) waypoints.push_back({.p_world_m = {x_m, 0.0, 0.0}});
+  return waypoints;
+}
+
+/// 1.4 m/s^2 up to 1 m/s and down to rest: reached after 0.357 m.
+TEST(MinimumJerkTrajectory, TimesItsKnotsByATrapezoidOfSpeed) {
+  const double a = 1.4;
+  const double up_m = 0.5 / a;
+  const double total_s = 2.0 / a + (4.0 - 2.0 * up_m);
+  const auto shares = shares_of(MinimumJerkTrajectory({}, along_x({0.2, 2.0, 3.9, 4.0})));
+  EXPECT_NEAR(shares[1], std::sqrt(2.0 * 0.2 / a) / total_s, 1e-9);
+  EXPECT_NEAR(shares[2], (1.0 / a + 2.0 - up_m) / total_s, 1e-9);
+  EXPECT_NEAR(shares[3], 1.0 - std::sqrt(2.0 * 0.1 / a) / total_s, 1e-9);
+}
+
+TEST(MinimumJerkTrajectory, TimesAStartInMotionByItsSpeed) {
+  const double a = 1.4;
+  const double up_m = 0.75 / (2.0 * a);
+  const double total_s = 1.5 / a + (4.0 - up_m - 0.5 / a);
+  const FlightReference start{.v_world_m_s = {0.5, 0.0, 0.0}};
+  const auto shares = shares_of(MinimumJerkTrajectory(start, along_x({0.2, 2.0, 4.0})));
+  EXPECT_NEAR(shares[1], (0.9 - 0.5) / a / total_s, 1e-9) << "0.9 m/s after 0.2 m";
+  EXPECT_NEAR(shares[2], (0.5 / a + 2.0 - up_m) / total_s, 1e-9);
+}
+
+TEST(MinimumJerkTrajectory, TimesAShortPathWithoutACruise) {
+  const auto shares = shares_of(MinimumJerkTrajectory({}, along_x({0.125, 0.5})));
+  EXPECT_NEAR(shares[1], 0.5 * std::sqrt(0.5), 1e-8);
+}
+
+TEST(MinimumJerkTrajectory, TurningCountsAsTheWayFlownInItsTime) {
+  const std::vector<FlightWaypoint> waypoints{{.yaw_rad = -1.0},
+                                              {.p_world_m = {2.0, 0.0, 0.0}, .yaw_rad = -1.0}};
+  const auto shares = shares_of(MinimumJerkTrajectory({}, waypoints, {.yaw_rate_rad_s = 0.5}));
+  EXPECT_NEAR(shares[1], 0.5, 1e-9) << "1 rad is as long as 2 m";
+}
+
+TEST(MinimumJerkTrajectory, TakesATenthOfASecondAtLeast) {
+  const MinimumJerkTrajectory path({}, along_x({0.0, 0.0}));
+  EXPECT_NEAR(path.knots_s()[1], 0.1, 1e-12);
+  EXPECT_NEAR(path.duration_s(), 0.2, 1e-12);
+}
+
+TEST(MinimumJerkTrajectory, KnowsItsGoal) {
+  const std::vector<FlightWaypoint> waypoints{{.p_world_m = {1.0, 2.0, 3.0}, .yaw_rad = 3.0},
+                                              {.p_world_m = {2.0, 2.5, 3.5}, .yaw_rad = -3.0}};
+  const FlightWaypoint goal = MinimumJerkTrajectory({}, waypoints).goal();
+  EXPECT_EQ(goal.p_world_m, Eigen::Vector3d(2.0, 2.5, 3.5));
+  EXPECT_NEAR(goal.yaw_rad, -3.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

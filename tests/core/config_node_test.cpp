@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/core/yaml.hpp"
+
 namespace vantage {
 namespace {
 
@@ -33,6 +35,17 @@ TEST(ConfigNode, KindsHaveNames) {
   EXPECT_EQ(kind_name(ConfigNode::make_scalar("x").kind), "a scalar");
   EXPECT_EQ(kind_name(ConfigNode::make_list().kind), "a list");
   EXPECT_EQ(kind_name(ConfigNode::make_map().kind), "a map");
+}
+
+TEST(ConfigNode, IsFoundByItsDottedKey) {
+  const ConfigNode root = parse_yaml("a: {b: {c: 1}, d: 2}\ne: 3\n", "e.yaml");
+  EXPECT_EQ(find_value(root, "")->kind, ConfigNode::Kind::map);
+  EXPECT_EQ(find_value(root, "e")->scalar, "3");
+  EXPECT_EQ(find_value(root, "a.d")->scalar, "2");
+  EXPECT_EQ(find_value(root, "a.b.c")->scalar, "1");
+  EXPECT_EQ(find_value(root, "a.b.x"), nullptr);
+  EXPECT_EQ(find_value(root, "x.b.c"), nullptr);
+  EXPECT_EQ(find_value(root, "e.f"), nullptr);
 }
 
 }  // namespace

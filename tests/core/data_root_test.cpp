@@ -62,5 +62,41 @@ TEST_F(DataRoot, MissingFilesNameTheKeyAndTheFile) {
   }
 }
 
+TEST_F(DataRoot, AFileHasANameThatLasts) {
+  make("data/scenes/a.xml");
+  const auto own = make("mine/b.xml");
+  EXPECT_EQ(lasting_name(directory / "data/scenes/a.xml"), "scenes/a.xml");
+  EXPECT_EQ(lasting_name(directory / "data/robots/../scenes/a.xml"), "scenes/a.xml");
+  EXPECT_EQ(lasting_name(own), own.string());
+}
+
+TEST_F(DataRoot, TheVariableCountsUnlessItIsEmpty) {
+  set_data_root(directory / "told");
+  EXPECT_EQ(data_root(), directory / "data");
+  ::setenv("VANTAGE_DATA", "", 1);
+  EXPECT_EQ(data_root(), directory / "told");
+  set_data_root({});
+  EXPECT_NE(data_root(), directory / "told");
+}
+
+TEST_F(DataRoot, WhatIsNotThereIsToldWithTheKey) {
+  const auto refusal = [&](const std::string& name, const std::filesystem::path& base) {
+    try {
+      return find_input(name, base, "scene").string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string data = (directory / "data").string();
+  EXPECT_EQ(refusal("", {}), "scene: no file named");
+  EXPECT_EQ(refusal("/none/a.xml", {}), "scene: /none/a.xml: no such file");
+  EXPECT_EQ(
+      refusal("none/a.xml", "/base"),
+      "scene: none/a.xml: no such file (looked in /base, the working directory and " + data + ")");
+  EXPECT_EQ(
+      refusal("none/a.xml", {}),
+      "scene: none/a.xml: no such file (looked in ., the working directory and " + data + ")");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -20,5 +20,24 @@ TEST(ErrorDeathTest, BrokenExpectationNamesWhatAndWhere) {
   EXPECT_DEATH(expects(false, "a grid needs cells"), "a grid needs cells .*error_test.cpp");
 }
 
+TEST(Error, OfSeveralProblemsSaysHowManyMoreThereAre) {
+  const ConfigError error(std::vector<std::string>{"first", "second", "third"});
+  EXPECT_STREQ(error.what(), "first (and 2 more)");
+  EXPECT_EQ(error.code(), ExitCode::usage);
+  EXPECT_EQ(error.problems(), (std::vector<std::string>{"first", "second", "third"}));
+  const ConfigError one(std::vector<std::string>{"alone"});
+  EXPECT_STREQ(one.what(), "alone");
+  EXPECT_EQ(ConfigError("plain").problems(), std::vector<std::string>{"plain"});
+}
+
+TEST(Error, ExitCodesAreThoseOfTheManual) {
+  EXPECT_EQ(static_cast<int>(ExitCode::done), 0);
+  EXPECT_EQ(static_cast<int>(ExitCode::goal_failed), 1);
+  EXPECT_EQ(static_cast<int>(ExitCode::internal), 70);
+  EXPECT_EQ(static_cast<int>(ExitCode::interrupted), 130);
+  EXPECT_EQ(static_cast<int>(ExitCode::terminated), 143);
+  EXPECT_EXIT(expects(false, "a way"), testing::ExitedWithCode(70), "internal error: a way");
+}
+
 }  // namespace
 }  // namespace vantage

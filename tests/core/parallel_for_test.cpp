@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 namespace vantage {
 namespace {
@@ -26,6 +29,34 @@ TEST(ParallelFor, ThrowsHereWhatAnyThreadThrew) {
                  std::runtime_error);
     EXPECT_LE(begun, threads);
   }
+}
+
+TEST(ParallelFor, HasNoMoreThreadsThanItIsGiven) {
+  for (const int threads : {1, 2, 4}) {
+    std::atomic<int> busy{0};
+    std::atomic<int> most{0};
+    parallel_for(200, threads, [&](std::size_t) {
+      const int now = ++busy;
+      int before = most;
+      while (before < now && !most.compare_exchange_weak(before, now)) {
+      }
+      std::this_thread::yield();
+      --busy;
+    });
+    EXPECT_LE(most, threads);
+  }
+  parallel_for(0, 3, [](std::size_t) { ADD_FAILURE() << "there is nothing to do"; });
+}
+
+TEST(ParallelFor, RunsTwoAtOnceOnTwoThreads) {
+  std::atomic<int> met{0};
+  parallel_for(2, 2, [&](std::size_t) {
+    ++met;
+    for (int i = 0; i < 20000 && met < 2; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(met, 2) << "each waits for the other";
+  });
 }
 
 }  // namespace

@@ -159,5 +159,38 @@ TEST(Schema, TextIsBrokenAtSpaces) {
   EXPECT_THAT(wrapped("", 4), testing::IsEmpty());
 }
 
+TEST(Schema, EveryUnitIsKnown) {
+  const std::vector<std::pair<std::string_view, std::string_view>> units{
+      {"slope_m_per_m", "m/m"}, {"gain_per_s2", "1/s^2"}, {"a_rad_s2", "rad/s^2"},
+      {"w_rad_s", "rad/s"},     {"a_m_s2", "m/s^2"},      {"gain_per_s", "1/s"},
+      {"gain_per_j", "1/J"},    {"i_kg_m2", "kg m^2"},    {"volume_m3", "m^3"},
+      {"turn_deg", "deg"},      {"wall_ms", "ms"},        {"time_s", "s"},
+      {"rate_hz", "Hz"},        {"height_px", "px"},      {"gain_bits", "bits"},
+      {"gain_nats", "nats"},    {"mass_kg", "kg"},        {"torque_nm", "N m"},
+      {"force_n", "N"},         {"energy_j", "J"},        {"power_w", "W"},
+      {"memory_mb", "MB"}};
+  for (const auto& [name, unit] : units) EXPECT_EQ(unit_in_name(name), unit) << name;
+  EXPECT_EQ(unit_in_name("_m"), "") << "a unit alone is a name";
+  EXPECT_EQ(unit_in_name("x_m"), "m");
+}
+
+TEST(Schema, ValuesAreToldInOneLine) {
+  EXPECT_EQ(detail::value_text(
+                parse_yaml("a: [1, \"2\", ~]\nb: {name: x}\nc: {name: x, d: 1}\n", "e.yaml")),
+            "{a: [1, \"2\", null], b: x, c: {name: x, d: 1}}");
+  EXPECT_EQ(detail::value_text(parse_yaml("{d: 1}", "e.yaml")), "{d: 1}");
+  EXPECT_EQ(detail::list_type("number", 0), "list of numbers");
+  EXPECT_EQ(detail::list_type("whole number", 2), "list of 2 whole numbers");
+  EXPECT_EQ(detail::list_type("text", 1), "list of 1 text");
+}
+
+TEST(Schema, LongTextsAreBrokenWhereTheyFit) {
+  EXPECT_THAT(wrapped("aaaa bbbb", 4), testing::ElementsAre("aaaa", "bbbb"));
+  EXPECT_THAT(wrapped("aaaa bbbb", 9), testing::ElementsAre("aaaa bbbb"));
+  EXPECT_THAT(wrapped("aaaa bbbb", 8), testing::ElementsAre("aaaa", "bbbb"));
+  EXPECT_THAT(wrapped("aa bb cc", 5), testing::ElementsAre("aa bb", "cc"));
+  EXPECT_THAT(wrapped("a bcdefg", 3), testing::ElementsAre("a", "bcdefg"));
+}
+
 }  // namespace
 }  // namespace vantage

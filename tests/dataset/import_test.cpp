@@ -145,6 +145,63 @@ TEST_F(Import, AFolderIsReplacedByWhateverName) {
   EXPECT_EQ(entries_of(folder_.path()), 2) << "mine and out";
 }
 
+/// Degrees in the pose of a view.
+double elevation_deg(const ViewEntry& view) {
+  return view.given_elevation_rad.value_or(-1.0) * 180.0 / std::numbers::pi;
+}
+
+TEST_F(Import, PosesGiveAnglesAndElevations) {
+  put("a");
+  put("b");
+  write_file(folder_ / "mine/drill/a_pose.txt", "90 30\n");
+  write_file(folder_ / "mine/drill/b_pose.txt", "180\n");
+  ImportOptions options;
+  options.elevation_deg = 20.0;
+  const ImportOutcome outcome = imported(options);
+  EXPECT_EQ(outcome.objects, 1);
+  EXPECT_EQ(outcome.pictures, 2);
+  EXPECT_TRUE(outcome.notes.degrees);
+  EXPECT_EQ(outcome.notes.bins, 4);
+  EXPECT_TRUE(outcome.notes.views.empty());
+  const auto all = views();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NEAR(all[0].yaw_rad, 0.5 * std::numbers::pi, 1e-6);
+  EXPECT_NEAR(all[1].yaw_rad, std::numbers::pi, 1e-6);
+  EXPECT_NEAR(elevation_deg(all[0]), 30.0, 1e-3);
+  EXPECT_NEAR(elevation_deg(all[1]), 20.0, 1e-3) << "where no pose tells";
+}
+
+TEST_F(Import, WhatNobodyTellsIsAssumedAndSaid) {
+  put("front");
+  put("top");
+  const ImportOutcome outcome = imported({});
+  const auto all = views();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NEAR(elevation_deg(all[0]), 45.0, 1e-3);
+  EXPECT_NEAR(elevation_deg(all[1]), 90.0, 1e-3) << "a name tells";
+  EXPECT_THAT(outcome.notices, Contains(HasSubstr("is not known of 1 pictures: 45 deg")));
+  EXPECT_THAT(outcome.notices, Contains(HasSubstr("focal length not given: 570.3 px")));
+  EXPECT_THAT(outcome.notices, Contains(HasSubstr("views front, top are told by name")));
+  EXPECT_FALSE(outcome.notes.degrees);
+  EXPECT_EQ(outcome.notes.bins, 2);
+  EXPECT_THAT(outcome.notes.recordings, ElementsAre("pictures"));
+}
+
+TEST_F(Import, BinsAreThoseAskedFor) {
+  put("front");
+  put("left");
+  ImportOptions options;
+  EXPECT_THAT(imported(options).notes.views, ElementsAre("front", "", "", "left"));
+  options.bins = 12;
+  const ImportOutcome outcome = imported(options);
+  EXPECT_EQ(outcome.notes.bins, 12);
+  EXPECT_TRUE(outcome.notes.views.empty()) << "names are of four";
+  put("handle");
+  EXPECT_THROW(imported(options), ConfigError);
+  options.bins = 3;
+  EXPECT_EQ(imported(options).notes.bins, 3);
+}
+
 TEST(ReplaceFolder, KeepsWhatWasThereIfItFails) {
   const support::TemporaryDirectory folder;
   fs::create_directories(folder / "data");

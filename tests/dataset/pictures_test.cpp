@@ -88,6 +88,14 @@ TEST_F(Layout, AllInOneFolder) {
   EXPECT_THAT(found(), ElementsAre("|mug_1|left", "|power_drill_1|front"));
 }
 
+TEST_F(Layout, ANumberBeforeTheViewIsTheInstanceAndOneBehindItTheFrame) {
+  put("mug_1_front_rgb.png", "mug_1_front_depth.png");
+  put("mug_2_front_rgb.png", "mug_2_front_depth.png");
+  put("can_left_003_rgb.png", "can_left_003_depth.png");
+  put("can_2_45deg_rgb.png", "can_2_45deg_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|can_1|left", "|can_2|@45", "|mug_1|front", "|mug_2|front"));
+}
+
 TEST_F(Layout, ViewsOfTheirOwnNamesAndAngles) {
   put("drill/view0_rgb.png", "drill/view0_depth.png");
   put("mug/45deg_rgb.png", "mug/45deg_depth.png");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -172,6 +173,77 @@ TEST(Sessions, ChangeOnlyWhatTheOptionsLet) {
     EXPECT_LT(session.first_yaw_rad, pi / 6.0);
     EXPECT_LT((session.gain - Eigen::Vector3d::Ones()).cwiseAbs().maxCoeff(), 0.13);
   }
+}
+
+/// The sphere's radius in the image, rounded up, and 8 px.
+TEST(Window, IsAsWideAsItsSphere) {
+  TurntableObject object = support::coloured_cube();
+  object.box_m =
+      Eigen::AlignedBox3d(Eigen::Vector3d(-0.05, -0.05, 0.0), Eigen::Vector3d(0.05, 0.05, 0.1));
+  Session session = support::plain_session(kElevation_rad);
+  EXPECT_EQ(window_radius_px(object, session, "cube"), 63 + 8);
+  session.offset_m = Eigen::Vector2d(0.03, -0.04);
+  EXPECT_EQ(window_radius_px(object, session, "cube"), 95 + 8);
+  object.box_m =
+      Eigen::AlignedBox3d(Eigen::Vector3d(-0.01, 0.02, 0.3), Eigen::Vector3d(0.05, 0.1, 0.7));
+  EXPECT_EQ(window_radius_px(object, session, "pole"), 167 + 8);
+  session.distance_m = 0.6;
+  EXPECT_EQ(window_radius_px(object, session, "pole"), 230 + 8);
+  session.distance_m = 0.595;
+  EXPECT_THROW(window_radius_px(object, session, "pole"), InputError);
+}
+
+/// Of many draws the least and the greatest are near the ends of their range.
+TEST(Sessions, VaryAsMuchAsTheirOptionsSay) {
+  Rng rng(3);
+  const DatasetOptions options{
+      .step_deg = 30.0, .distance_m = 2.0, .placement_m = 0.05, .lighting = 1.0};
+  std::map<std::string, std::vector<double>> drawn;
+  for (int i = 0; i < 4000; ++i) {
+    const Session session = draw_session(options, 0.5, rng);
+    ASSERT_EQ(session.elevation_rad, 0.5);
+    drawn["distance"].push_back(session.distance_m);
+    drawn["offset x"].push_back(session.offset_m.x());
+    drawn["offset y"].push_back(session.offset_m.y());
+    drawn["yaw"].push_back(session.first_yaw_rad);
+    drawn["heading"].push_back(session.lamp_heading_rad);
+    drawn["elevation"].push_back(session.lamp_elevation_rad);
+    drawn["ambient"].push_back(session.ambient);
+    drawn["table"].push_back(session.table);
+    drawn["white balance"].push_back(session.gain.x() / session.gain.z());
+  }
+  const auto expect_range = [&](const char* what, double least, double most) {
+    const auto [low, high] = std::ranges::minmax(drawn[what]);
+    const double slack = 0.02 * (most - least);
+    EXPECT_GE(low, least - 1e-12) << what;
+    EXPECT_LT(low, least + slack) << what;
+    EXPECT_LE(high, most + 1e-12) << what;
+    EXPECT_GT(high, most - slack) << what;
+  };
+  expect_range("distance", 1.94, 2.06);
+  expect_range("offset x", -0.05, 0.05);
+  expect_range("offset y", -0.05, 0.05);
+  expect_range("yaw", 0.0, pi / 6.0);
+  expect_range("heading", -0.6, 1.8);
+  expect_range("elevation", 0.75, 1.25);
+  expect_range("ambient", 0.36, 0.48);
+  expect_range("table", 0.5, 0.74);
+  const auto [low, high] = std::ranges::minmax(drawn["white balance"]);
+  EXPECT_GE(low, 0.97 / 1.03 - 1e-12);
+  EXPECT_LT(low, 0.96);
+  EXPECT_LE(high, 1.03 / 0.97 + 1e-12);
+  EXPECT_GT(high, 1.04);
+}
+
+/// Offsets are as likely everywhere in a circle: half of them within 0.707 of its radius.
+TEST(Sessions, OffsetsFillTheirCircle) {
+  Rng rng(4);
+  int within = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Session session = draw_session({.placement_m = 0.05}, 0.5, rng);
+    within += session.offset_m.norm() < 0.05 * std::numbers::sqrt2 / 2.0 ? 1 : 0;
+  }
+  EXPECT_NEAR(within / 4000.0, 0.5, 0.05);
 }
 
 }  // namespace

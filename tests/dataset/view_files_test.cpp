@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <iterator>
+
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/perception/dataset_reader.hpp"
@@ -50,6 +54,48 @@ TEST(ViewFiles, AFolderThatIsNotThereIsNamed) {
   Rng rng(1);
   const ViewEntry entry{{"cup", "cup_1", 2, 1}, "/nonexistent/cup_1", 0.0};
   EXPECT_THROW(write_view(random_view(rng), entry), OutputError);
+}
+
+TEST(ViewFiles, DepthIsInWholeMillimetres) {
+  const support::TemporaryDirectory folder;
+  Rng rng(1);
+  ObjectView view = random_view(rng);
+  view.width_px = 5;
+  view.height_px = 1;
+  view.rgb.assign(15, 7);
+  view.mask.assign(5, 1);
+  view.depth_m = {0.0014F, 0.0016F, -1.0F, 65.0F, 70.0F};
+  const ViewEntry entry{{"cup", "cup_1", 2, 1}, folder.path(), 0.0};
+  write_view(view, entry);
+  const std::vector<float> read = load_view(entry).view.depth_m;
+  ASSERT_EQ(read.size(), 5U);
+  EXPECT_FLOAT_EQ(read[0], 0.001F);
+  EXPECT_FLOAT_EQ(read[1], 0.002F);
+  EXPECT_EQ(read[2], 0.0F);
+  EXPECT_FLOAT_EQ(read[3], 65.0F);
+  EXPECT_EQ(read[4], 0.0F);
+}
+
+TEST(ViewFiles, APoseHasAnElevationWhereItIsGiven) {
+  const support::TemporaryDirectory folder;
+  ViewEntry entry{{"cup", "cup_1", 2, 1}, folder.path(), 0.5};
+  write_pose(entry);
+  EXPECT_EQ(read_file(entry.file("pose.txt")), "28.6479\n");
+  entry.given_elevation_rad = 0.25;
+  write_pose(entry);
+  EXPECT_EQ(read_file(entry.file("pose.txt")), "28.6479 14.3239\n");
+}
+
+TEST(ViewFiles, OfAViewAreTakenAwayTogether) {
+  const support::TemporaryDirectory folder;
+  Rng rng(1);
+  const ViewEntry first{{"cup", "cup_1", 2, 1}, folder.path(), 0.0};
+  const ViewEntry second{{"cup", "cup_1", 2, 2}, folder.path(), 0.0};
+  write_view(random_view(rng), first);
+  write_view(random_view(rng), second);
+  remove_view(first);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 5);
+  EXPECT_TRUE(std::filesystem::exists(second.file("pose.txt")));
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/option_numbers.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/geometry/rgbd_camera.hpp"
 
 namespace vantage {
 namespace {
@@ -87,6 +89,65 @@ RC_GTEST_PROP(FieldOfView, PanoramaIsBoundedByTheAngleBelowTheHorizon, (std::uin
                             Eigen::Vector3d(2.0 * std::cos(tilt), 0.0, -2.0 * std::sin(tilt));
   RC_ASSERT(std::abs(depression_rad(p) - tilt) < 1e-9);
   RC_ASSERT(view.contains(p) == (tilt >= -0.4 && tilt <= 1.1));
+}
+
+TEST(FieldOfView, HasTheseDefaultsAndRanges) {
+  support::expect_numbers(FieldOfView{}, {{"half_width_rad", 0.1309, {0.0, 3.1416, true}},
+                                          {"tilt_min_rad", -0.30, between(-1.5, 1.5)},
+                                          {"tilt_max_rad", 0.75, between(-1.5, 1.5)},
+                                          {"range_min_m", 0.08, at_least(0.0)},
+                                          {"range_max_m", 10.0, above(0.0)},
+                                          {"panorama", 0.0}});
+}
+
+TEST(FieldOfView, MinimaMustBeBelowMaxima) {
+  EXPECT_THROW(check_options(FieldOfView{.tilt_min_rad = 0.5, .tilt_max_rad = 0.5}), ConfigError);
+  EXPECT_NO_THROW(check_options(FieldOfView{.tilt_min_rad = 0.4, .tilt_max_rad = 0.5}));
+  EXPECT_THROW(check_options(FieldOfView{.range_min_m = 2.0, .range_max_m = 2.0}), ConfigError);
+  EXPECT_NO_THROW(check_options(FieldOfView{.range_min_m = 1.9, .range_max_m = 2.0}));
+}
+
+TEST(FieldOfView, ItsRimBelongsToIt) {
+  constexpr double kEighth = std::numbers::pi / 4.0;  // atan2 of equal numbers is this, to the bit
+  FieldOfView view{.half_width_rad = kEighth,
+                   .tilt_min_rad = -kEighth,
+                   .tilt_max_rad = kEighth,
+                   .range_min_m = 0.5,
+                   .range_max_m = 2.0};
+  EXPECT_TRUE(view.contains({0.5, 0, 0}));
+  EXPECT_FALSE(view.contains({0.49, 0, 0}));
+  EXPECT_TRUE(view.contains({2.0, 0, 0}));
+  EXPECT_FALSE(view.contains({2.01, 0, 0}));
+  EXPECT_TRUE(view.contains({1, 1, 0}));
+  EXPECT_TRUE(view.contains({1, -1, 0}));
+  EXPECT_FALSE(view.contains({1, 1.01, 0}));
+  EXPECT_TRUE(view.contains({1, 0, 1}));
+  EXPECT_FALSE(view.contains({1, 0, 1.01}));
+  EXPECT_TRUE(view.contains({1, 0, -1}));
+  EXPECT_FALSE(view.contains({1, 0, -1.01}));
+  view.panorama = true;
+  EXPECT_TRUE(view.contains({0, -1, 1}));
+  EXPECT_FALSE(view.contains({0, -1, 1.01}));
+  EXPECT_TRUE(view.contains({0, 1, -1}));
+  EXPECT_FALSE(view.contains({0, 1, -1.01}));
+}
+
+TEST(FieldOfView, WiderThanHalfATurnSeesBehindItselfOnItsSides) {
+  const FieldOfView view{.half_width_rad = 2.0, .tilt_min_rad = -0.3, .tilt_max_rad = 0.3};
+  EXPECT_TRUE(view.contains(2.0 * beam_direction({1.9, 0.1})));
+  EXPECT_TRUE(view.contains(2.0 * beam_direction({-1.9, -0.2})));
+  EXPECT_FALSE(view.contains(2.0 * beam_direction({2.1, 0.1})));
+  EXPECT_FALSE(view.contains(2.0 * beam_direction({1.9, 0.4})));
+}
+
+TEST(RgbdCamera, SeesAsWideAndAsFarAsAKinect) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  EXPECT_NEAR(2.0 * kRgbdCamera.half_width_rad, 57.8 * kDegree, 1e-4);
+  EXPECT_NEAR(kRgbdCamera.tilt_max_rad - kRgbdCamera.tilt_min_rad, 45.0 * kDegree, 1e-4);
+  EXPECT_EQ(kRgbdCamera.tilt_min_rad, -kRgbdCamera.tilt_max_rad);
+  EXPECT_EQ(kRgbdCamera.range_min_m, 0.8);
+  EXPECT_EQ(kRgbdCamera.range_max_m, 3.5);
+  EXPECT_FALSE(kRgbdCamera.panorama);
 }
 
 }  // namespace

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <set>
+#include <utility>
+
 #include "vantage/core/rng.hpp"
+#include "vantage/geometry/face_neighbours.hpp"
 
 namespace vantage {
 namespace {
@@ -77,6 +81,59 @@ TEST(ClipSegment, Misses) {
   EXPECT_TRUE(clip_segment(kUnit, {-1, 0.5, 0.5}, {0.5, 2.5, 0.5}).empty());    // past a corner
   EXPECT_TRUE(clip_segment(kUnit, {2, 2, 2}, {2, 2, 2}).empty());               // a point
   EXPECT_FALSE(clip_segment(kUnit, {0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}).empty());  // a point inside
+}
+
+TEST(ClipSegment, AFaceBelongsToTheBox) {
+  for (const double y : {0.0, 1.0}) {
+    const auto along = clip_segment(kUnit, {-1, y, 0.25}, {3, y, 0.25});
+    EXPECT_DOUBLE_EQ(along.enter, 0.25);
+    EXPECT_DOUBLE_EQ(along.leave, 0.5);
+    EXPECT_FALSE(along.empty());
+  }
+  EXPECT_FALSE(clip_segment(kUnit, {-1, 0.5, 0.25}, {0, 0.5, 0.25}).empty()) << "it ends on one";
+  EXPECT_TRUE(clip_segment(kUnit, {-1, -1e-9, 0.25}, {3, -1e-9, 0.25}).empty());
+  EXPECT_TRUE(clip_segment(kUnit, {-1, 1.0 + 1e-9, 0.25}, {3, 1.0 + 1e-9, 0.25}).empty());
+}
+
+TEST(GridFrame, IsOneCellOfOneMetreAtFirst) {
+  EXPECT_EQ(GridFrame{}.size(), 1U);
+  EXPECT_TRUE(GridFrame{}.box().max().isApprox(Eigen::Vector3d::Ones()));
+  EXPECT_EQ(GridFrame{}.min_corner_m, Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(GridFrame, ContainsItsCellsAndNoOthers) {
+  const GridFrame frame = make_grid_frame({0, 0, 0}, {3, 4, 5}, {3, 4, 5});
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Array3i cell(1, 1, 1);
+    for (const auto& [at, expected] :
+         {std::pair{-1, false}, {0, true}, {axis + 2, true}, {axis + 3, false}}) {
+      cell[axis] = at;
+      EXPECT_EQ(frame.contains(cell), expected) << axis << " " << at;
+    }
+  }
+}
+
+TEST(AnyFaceNeighbour, AsksThoseThatShareAFaceAndNoOthers) {
+  const GridFrame frame = make_grid_frame({0, 0, 0}, {3, 4, 5}, {3, 4, 5});
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    std::set<std::size_t> expected;
+    for (std::size_t k = 0; k < frame.size(); ++k) {
+      if ((frame.cell(i) - frame.cell(k)).abs().sum() == 1) expected.insert(k);
+    }
+    std::set<std::size_t> asked;
+    std::size_t times = 0;
+    EXPECT_FALSE(any_face_neighbour(frame, frame.cell(i), [&](std::size_t k) {
+      asked.insert(k);
+      ++times;
+      return false;
+    }));
+    EXPECT_EQ(asked, expected) << i;
+    EXPECT_EQ(times, expected.size()) << i;
+    for (const std::size_t one : expected) {
+      EXPECT_TRUE(
+          any_face_neighbour(frame, frame.cell(i), [&](std::size_t k) { return k == one; }));
+    }
+  }
 }
 
 RC_GTEST_PROP(ClipSegment, PartInsideIsInside, (std::uint64_t seed)) {

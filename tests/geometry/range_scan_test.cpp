@@ -69,6 +69,19 @@ TEST(SweptRange, AScanAllRoundAnswersForWhatIsBehind) {
   }
 }
 
+/// Beams to one side only, past its y axis.
+TEST(SweptRange, OneSideIsEnoughToLookBehind) {
+  for (const double side : {1.0, -1.0}) {
+    RangeScan scan;
+    scan.tilt_rad = {-0.1, 0.1};
+    scan.azimuth_rad = {side * 1.5 - 1.0, side * 1.5, side * 1.5 + 1.0};
+    scan.range_m = {3, 3, 3, 3, 3, 3};
+    EXPECT_EQ(scan.swept_range(beam_angles(beam_direction({side * 2.2, 0.05}))), 3.0F);
+    EXPECT_TRUE(std::isnan(scan.swept_range(beam_angles(beam_direction({side * 2.6, 0.05})))));
+    EXPECT_TRUE(std::isnan(scan.swept_range(beam_angles(beam_direction({side * 2.2, 0.2})))));
+  }
+}
+
 /// Four by three pixels, 90 degrees wide: pixel (row, column) looks along ((c - 1.5) / 2,
 /// (r - 1) / 2, 1).
 CameraImages small_image() {
@@ -84,6 +97,40 @@ CameraImages small_image() {
 TEST(CameraImages, RayOfAPixel) {
   EXPECT_TRUE(small_image().ray(1, 3).isApprox(Eigen::Vector3d(0.75, 0.0, 1.0)));
   EXPECT_EQ(small_image().depth_at(2, 3), 4.0F);
+}
+
+TEST(CameraImages, PixelsAreInRows) {
+  CameraImages image = small_image();
+  for (int i = 0; i < 12; ++i) image.depth_m[static_cast<std::size_t>(i)] = static_cast<float>(i);
+  EXPECT_EQ(image.depth_at(0, 3), 3.0F);
+  EXPECT_EQ(image.depth_at(1, 2), 6.0F);
+  EXPECT_EQ(image.depth_at(2, 1), 9.0F);
+  EXPECT_TRUE(image.ray(0, 1).isApprox(Eigen::Vector3d(-0.25, -0.5, 1.0)));
+  EXPECT_TRUE(image.ray(2, 2).isApprox(Eigen::Vector3d(0.25, 0.5, 1.0)));
+}
+
+/// A quarter of a pixel beside the middle of one, at two metres.
+TEST(CameraImages, SweptDepthCountsEachPixelRound) {
+  const Eigen::Vector3d p(2.0 * (-0.25 + 0.125), 2.0 * 0.125, 2.0);  // columns 1, 2; rows 1, 2
+  for (const std::size_t near : {5U, 6U, 9U, 10U}) {
+    CameraImages image = small_image();
+    std::ranges::fill(image.depth_m, 4.0F);
+    image.depth_m[near] = 1.5F;
+    EXPECT_EQ(image.swept_depth_m(p), 1.5) << near;
+  }
+  for (const std::size_t other : {0U, 1U, 2U, 4U, 7U, 8U, 11U}) {
+    CameraImages image = small_image();
+    std::ranges::fill(image.depth_m, 4.0F);
+    image.depth_m[other] = 1.5F;
+    EXPECT_EQ(image.swept_depth_m(p), 4.0) << other;
+  }
+}
+
+TEST(CameraImages, TheOutermostPixelsAreOfTheImage) {
+  const CameraImages image = small_image();
+  EXPECT_EQ(image.swept_depth_m(image.ray(0, 0)), 1.0);
+  EXPECT_EQ(image.swept_depth_m(image.ray(0, 3)), 4.0);
+  EXPECT_EQ(image.swept_depth_m(image.ray(2, 0)), 3.0);
 }
 
 TEST(CameraImages, SweptDepthIsTheLeastOfThePixelsRound) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -81,6 +83,55 @@ TEST(ForEachCellInView, MissesNoCellAndVisitsInOrder) {
     found += visited.size();
   }
   EXPECT_GT(found, 1000U);
+}
+
+TEST(ForEachCellInView, LooksAtTheSlicesAskedFor) {
+  const GridFrame grid = make_grid_frame({0.8, 0.0, 0.0}, {1.5, 1.2, 1.0}, {15, 13, 9});
+  FieldOfView fov;
+  fov.half_width_rad = 0.6;
+  fov.tilt_min_rad = -0.5;
+  fov.tilt_max_rad = 0.7;
+  const ViewCone cone(make_pose({-0.1, 0.1, 0.2}, 0.2), fov);
+  const auto all = [](std::size_t) { return true; };
+  std::vector<std::size_t> expected;
+  for_each_cell_in_view(grid, cone, all, [&](const Eigen::Array3i& cell, std::size_t index) {
+    if (cell.z() >= 2 && cell.z() < 5) expected.push_back(index);
+  });
+  std::vector<std::size_t> visited;
+  for_each_cell_in_view(grid, cone, 2, 5, all, [&](const Eigen::Array3i&, std::size_t index) {
+    visited.push_back(index);
+  });
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(visited, expected);
+}
+
+TEST(ViewCone, RangesBelongToIt) {
+  FieldOfView fov;
+  fov.range_min_m = 0.5;
+  fov.range_max_m = 2.0;
+  for (const bool panorama : {false, true}) {
+    fov.panorama = panorama;
+    const ViewCone cone(make_pose({1.0, 2.0, 3.0}, 0.0), fov);
+    EXPECT_TRUE(cone.contains({1.5, 2.0, 3.0}));
+    EXPECT_FALSE(cone.contains({1.4375, 2.0, 3.0}));
+    EXPECT_TRUE(cone.contains({3.0, 2.0, 3.0}));
+    EXPECT_FALSE(cone.contains({3.0625, 2.0, 3.0}));
+    EXPECT_EQ(cone.range2_min_m2(), 0.25);
+    EXPECT_EQ(cone.range2_max_m2(), 4.0);
+    EXPECT_EQ(cone.apex_m(), Eigen::Vector3d(1.0, 2.0, 3.0));
+    EXPECT_EQ(cone.normals().size(), panorama ? 0U : 5U);
+  }
+}
+
+TEST(ViewCone, KnowsWhatLiesAcrossItsSector) {
+  FieldOfView fov;
+  fov.half_width_rad = 0.4;
+  const ViewCone cone(make_pose({0.0, 0.0, 1.0}, 0.3, 0.2), fov);
+  EXPECT_TRUE(cone.across().isApprox(Eigen::Vector3d(-std::sin(0.3), std::cos(0.3), 0.0)));
+  EXPECT_NEAR(cone.sin2_half_width(), std::sin(0.4) * std::sin(0.4), 1e-15);
+  fov.half_width_rad = std::numbers::pi;
+  EXPECT_EQ(ViewCone(Pose::Identity(), fov).sin2_half_width(), 0.0);
+  EXPECT_TRUE(ViewCone(Pose::Identity(), fov).normals().empty());
 }
 
 TEST(RowBounds, ExactRunsHoldWhatTheConeContainsButForRoundingAtTheRim) {

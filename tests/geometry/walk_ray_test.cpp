@@ -116,6 +116,23 @@ TEST(WalkRay, StopsWhenAsked) {
   EXPECT_EQ(visits, 3);
 }
 
+TEST(WalkRay, TellsTheCellAsWellAsItsIndex) {
+  const GridFrame grid = oblong_frame();
+  for (const double up : {1.0, -1.0}) {
+    const Eigen::Vector3d middle(1.5, 2.0, 0.375);
+    const Eigen::Vector3d d(1.4, up * 1.8, -0.33);
+    std::vector<std::size_t> cells;
+    EXPECT_TRUE(
+        walk_ray(grid, middle - d, middle + d, [&](std::size_t index, const Eigen::Array3i& cell) {
+          EXPECT_EQ(index, grid.index(cell));
+          cells.push_back(index);
+          return true;
+        }));
+    EXPECT_EQ(cells, walk(grid, middle - d, middle + d));
+    EXPECT_EQ(cells.size(), 1U + 5U + 3U + 2U);
+  }
+}
+
 RC_GTEST_PROP(WalkRay, ConnectedAndAsLongAsTheManhattanDistance, (std::uint64_t seed)) {
   Rng rng(seed);
   const GridFrame grid = oblong_frame();

@@ -49,6 +49,11 @@ TEST(CensoredGaussian, ALowerBoundHasTheMassAboveIt) {
   }
 }
 
+TEST(CensoredGaussian, IsTheDensityOrTheMassAboveIt) {
+  EXPECT_NEAR(log_likelihood(Reading::exact, 1.9, 1.5, 0.25), -0.5457913526447274, 1e-9);
+  EXPECT_NEAR(log_likelihood(Reading::at_least, 1.9, 1.5, 0.25), -1.5518513191877765, 1e-9);
+}
+
 TEST(CensoredGaussian, ABoundRulesOutWhatIsSmallerAndNothingElse) {
   constexpr double kVariance = 0.01 * 0.01;
   const auto of = [&](double mean) {

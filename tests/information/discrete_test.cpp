@@ -112,6 +112,27 @@ TEST(Validation, CoversJoints) {
   }
 }
 
+TEST(Validation, SumsMayBeOffByAMillionth) {
+  for (const double off : {-0.9e-6, 0.9e-6}) {
+    EXPECT_NO_THROW(entropy_bits(Vector{0.25, 0.75 + off}));
+  }
+  for (const double off : {-1.5e-6, 1.5e-6}) {
+    EXPECT_THAT(message_of([&] {
+                  entropy_bits(Vector{0.25, 0.75 + off});
+                }),
+                HasSubstr("entropy_bits: p sums to"));
+  }
+}
+
+TEST(JointMeasures, OfRowsAndColumnsThatDiffer) {
+  Eigen::MatrixXd p(2, 3);
+  p << 0.05, 0.1, 0.15,  //
+      0.2, 0.3, 0.2;
+  EXPECT_NEAR(joint_entropy_bits(p), 2.408694969562842, kTolerance);
+  EXPECT_NEAR(conditional_entropy_bits(p), 1.5274040703321494, kTolerance);
+  EXPECT_NEAR(mutual_information_bits(p), 0.0314677781132109, kTolerance);
+}
+
 RC_GTEST_PROP(EntropyProperty, LiesBetweenZeroAndLog2N, ()) {
   const Vector p = random_distribution();
   RC_ASSERT(entropy_bits(p) >= 0.0);

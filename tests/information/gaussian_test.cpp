@@ -121,6 +121,24 @@ TEST(GaussianValidation, NamesTheOffendingValue) {
   EXPECT_THAT(message(gaussian({}, {}), gaussian({}, {})), HasSubstr("0 means"));
 }
 
+TEST(GaussianDivergences, AddUpOverDimensions) {
+  const auto p = gaussian({0.3, -0.8}, {0.7, 2.5});
+  const auto q = gaussian({-0.4, 0.5}, {2.1, 0.9});
+  EXPECT_NEAR(gaussian_kl_divergence_nats(p, q), 1.6495916316791757, kGaussianTolerance);
+  EXPECT_NEAR(gaussian_bhattacharyya_distance_nats(p, q), 0.30251679547230115, kGaussianTolerance);
+}
+
+TEST(GaussianValidation, TakesFiniteNumbersOnly) {
+  const auto good = gaussian({0.0, 1.0}, {1.0, 2.0});
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(gaussian_jeffreys_divergence_nats(good, gaussian({0.0, infinity}, {1.0, 2.0})),
+               DistributionError);
+  EXPECT_THROW(gaussian_bhattacharyya_distance_nats(gaussian({0.0, 1.0}, {1.0, infinity}), good),
+               DistributionError);
+  EXPECT_THROW(gaussian_kl_divergence_nats(gaussian({0.0, 1.0}, {1.0, 0.0}), good),
+               DistributionError);
+}
+
 RC_GTEST_PROP(GaussianProperty, JeffreysIsTheSymmetricSumOfKl, ()) {
   const int size = *rc::gen::inRange(1, 6);
   const auto p = random_gaussian(size);

@@ -93,6 +93,19 @@ TEST(LogSpaceValidation, NamesTheOffendingValue) {
   expect_message([&] { normalise_log(nothing); }, "every entry is -inf");
 }
 
+TEST(LogSpaceValidation, SumsMayBeOffByAMillionth) {
+  for (const double off : {-0.9e-6, 0.9e-6}) {
+    EXPECT_NO_THROW(entropy_bits_from_log(log_of({0.25, 0.75 + off})));
+  }
+  for (const double off : {-1.5e-6, 1.5e-6}) {
+    EXPECT_THROW(entropy_bits_from_log(log_of({0.25, 0.75 + off})), DistributionError);
+  }
+}
+
+TEST(LogSumExp, CountsEachEntry) {
+  EXPECT_NEAR(log_sum_exp(Vector{-1.0, 0.5, 2.0}), 2.241311296657157, 1e-9);
+}
+
 RC_GTEST_PROP(LogSpaceProperty, VectorMeasuresEqualTheLinearOnes, ()) {
   const Vector p = random_distribution();
   const Vector q = random_distribution(p.size());

@@ -102,6 +102,56 @@ TEST(GroupInformation, OfTwoTwinsThatDifferFromOneSide) {
   EXPECT_GE(group_information_upper_bound_bits(b, group, D), 0.5 - kBoundTolerance);
 }
 
+/// Four components that nothing is symmetrical about, the first and third in one group.
+struct OddMixture {
+  std::vector<double> b{0.3, 0.2, 0.4, 0.1};
+  std::vector<int> group{5, 2, 5, 2};
+  Eigen::MatrixXf D{{0.0F, 0.7F, 1.1F, 0.4F},
+                    {0.9F, 0.0F, 0.3F, 1.6F},
+                    {0.2F, 1.3F, 0.0F, 0.8F},
+                    {2.1F, 0.6F, 0.5F, 0.0F}};
+};
+
+TEST(PairwiseInformation, TakesDivergencesFromRowToColumn) {
+  const OddMixture odd;
+  EXPECT_NEAR(pairwise_information_bits(odd.b, odd.D), 0.6239123343824355, kBoundTolerance);
+}
+
+TEST(GroupInformation, IsTheFormula) {
+  const OddMixture odd;
+  EXPECT_NEAR(pairwise_group_information_bits(odd.b, odd.group, odd.D), 0.22863189853897517,
+              kBoundTolerance);
+  EXPECT_NEAR(group_information_upper_bound_bits(odd.b, odd.group, odd.D), 0.3716949848819051,
+              kBoundTolerance);
+}
+
+TEST(GroupInformation, ComponentsAndGroupsWithoutMassCountForNothing) {
+  const OddMixture odd;
+  const std::vector<double> b{0.3, 0.0, 0.2, 0.4, 0.1, 0.0};
+  const std::vector<int> group{5, 5, 2, 5, 2, 9};
+  const std::vector<int> kept{0, 2, 3, 4};
+  Eigen::MatrixXf D = Eigen::MatrixXf::Constant(6, 6, 0.15F);
+  D(kept, kept) = odd.D;
+  EXPECT_NEAR(pairwise_group_information_bits(b, group, D), 0.22863189853897517, kBoundTolerance);
+  EXPECT_NEAR(group_information_upper_bound_bits(b, group, D), 0.3716949848819051, kBoundTolerance);
+}
+
+TEST(GroupInformation, TakesNoDivergencesOfAnotherShape) {
+  const std::vector b{0.5, 0.5};
+  const std::vector group{0, 1};
+  EXPECT_THROW(pairwise_information_bits(b, Eigen::MatrixXf::Zero(2, 3)), DistributionError);
+  EXPECT_THROW(pairwise_information_bits(b, Eigen::MatrixXf::Zero(3, 2)), DistributionError);
+  EXPECT_THROW(pairwise_group_information_bits(b, group, Eigen::MatrixXf::Zero(2, 3)),
+               DistributionError);
+  EXPECT_THROW(group_information_upper_bound_bits(b, group, Eigen::MatrixXf::Zero(3, 2)),
+               DistributionError);
+  EXPECT_THROW(
+      group_information_upper_bound_bits(b, std::vector{0, 1, 1}, Eigen::MatrixXf::Zero(2, 2)),
+      DistributionError);
+  EXPECT_THROW(pairwise_group_information_bits(b, std::vector{-1, 0}, Eigen::MatrixXf::Zero(2, 2)),
+               DistributionError);
+}
+
 RC_GTEST_PROP(PairwiseInformationProperty, LiesBetweenNothingAndTheEntropy, ()) {
   const auto b = test::random_distribution();
   const auto D = random_divergences(b.size());

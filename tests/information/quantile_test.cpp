@@ -19,5 +19,13 @@ TEST(Quantile, OfTwoTheMedianIsTheGreater) {
   EXPECT_EQ(quantile({7.0}, 0.5), 7.0);
 }
 
+TEST(Quantile, RanksAreRoundedToTheNearest) {
+  const std::vector<double> values{40.0, 10.0, 30.0, 20.0};
+  EXPECT_EQ(quantile(values, 0.16), 10.0);
+  EXPECT_EQ(quantile(values, 0.17), 20.0);
+  EXPECT_EQ(quantile(values, 0.49), 20.0);
+  EXPECT_EQ(quantile(values, 0.84), 40.0);
+}
+
 }  // namespace
 }  // namespace vantage

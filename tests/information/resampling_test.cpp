@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -133,6 +134,52 @@ TEST(BootstrapRatio, OfNothingIsInfinite) {
   const std::array above{1.0, 2.0};
   const std::array below{0.0, 0.0};
   EXPECT_TRUE(std::isinf(bootstrap_ratio(above, below, rng).low));
+}
+
+/// Four resamples, drawn here by the same numbers: the ends of the interval lie between them.
+TEST(Bootstrap, EndsLieBetweenTheResamplesNextToThem) {
+  const std::vector<double> values{1.0, 10.0, 100.0, 1000.0, 10000.0};
+  Rng same(12);
+  std::vector<double> means(4, 0.0);
+  for (double& mean_of_one : means) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      mean_of_one += values[same.uniform_index(values.size())] / 5.0;
+    }
+  }
+  std::ranges::sort(means);
+  Rng rng(12);
+  const Interval interval = bootstrap_mean(values, rng, {.resamples = 4, .confidence = 0.8});
+  EXPECT_NEAR(interval.low, 0.7 * means[0] + 0.3 * means[1], 1e-6);
+  EXPECT_NEAR(interval.high, 0.3 * means[2] + 0.7 * means[3], 1e-6);
+}
+
+TEST(Bootstrap, OfOneResampleIsThatResample) {
+  Rng rng(13);
+  const std::array values{1.0, 2.0, 4.0};
+  const Interval interval = bootstrap_mean(values, rng, {.resamples = 1});
+  EXPECT_EQ(interval.low, interval.high);
+}
+
+TEST(Bootstrap, TakesTenThousandResamplesForNinetyFivePerCent) {
+  EXPECT_EQ(BootstrapOptions{}.resamples, 10000);
+  EXPECT_EQ(BootstrapOptions{}.confidence, 0.95);
+}
+
+TEST(Mean, IsTheSumSharedOut) { EXPECT_DOUBLE_EQ(mean(std::vector{1.0, 2.5, 7.0}), 3.5); }
+
+TEST(SignFlip, AllPatternsOfSixteenAreTriedAndOfMoreSomeAreDrawn) {
+  Rng rng(14);
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(std::vector<double>(16, 1.0), rng), 2.0 / 65536.0);
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(std::vector<double>(17, 1.0), rng, 9), 0.1);
+}
+
+TEST(SignFlip, EachOfManyDifferencesCounts) {
+  for (const std::size_t at : {0U, 1U, 63U, 64U, 65U, 127U, 128U, 129U}) {
+    std::vector<double> differences(130, 0.0);
+    differences[at] = 1.0;
+    Rng rng(15);
+    EXPECT_DOUBLE_EQ(sign_flip_p_value(differences, rng, 19), 1.0) << at;
+  }
 }
 
 TEST(SignFlip, KnownAnswers) {

@@ -134,5 +134,69 @@ TEST(EmptyIndex, IsAnError) {
   EXPECT_THROW(index_dataset(root.path() / "none"), InputError);
 }
 
+TEST(YawBins, BeginHalfABinBeforeTheirMiddle) {
+  EXPECT_EQ(yaw_bin(pi / 3.0 - 1e-9, 3), 0);
+  EXPECT_EQ(yaw_bin(pi / 3.0 + 1e-9, 3), 1);
+  EXPECT_EQ(yaw_bin(pi - 1e-9, 3), 1);
+  EXPECT_EQ(yaw_bin(pi + 1e-9, 3), 2);
+  EXPECT_EQ(yaw_bin(5.0 * pi / 3.0 + 1e-9, 3), 0);
+  EXPECT_EQ(yaw_bin(4.0, 1), 0);
+}
+
+TEST(Videos, AreTakenFromThreeElevations) {
+  EXPECT_NEAR(video_elevation_rad(1).value(), pi / 6.0, 1e-12);
+  EXPECT_NEAR(video_elevation_rad(2).value(), pi / 4.0, 1e-12);
+  EXPECT_NEAR(video_elevation_rad(4).value(), pi / 3.0, 1e-12);
+  for (const int video : {0, 3, 5}) EXPECT_FALSE(video_elevation_rad(video)) << video;
+}
+
+TEST(ViewNames, NumbersMayBeZeroAndAreWholeWords) {
+  EXPECT_EQ(parse_view_name("mug_0_0_0"), (ViewName{"mug", "mug_0", 0, 0}));
+  EXPECT_EQ(parse_view_name("mug_1_2_2147483647")->frame, 2147483647);
+  for (const char* bad :
+       {"mug_1_2_2147483648", "mug_1_2_3x", "mug_1x_2_3", "mug_1_x2_3", "1_2_3"}) {
+    EXPECT_FALSE(parse_view_name(bad)) << bad;
+  }
+}
+
+TEST_F(Index, ElevationsOfPosesGoBeforeThoseOfVideos) {
+  support::put_view(root_.path(), "mug", "mug_1", 2, 10, "-30 90\n");
+  support::put_view(root_.path(), "mug", "mug_1", 7, 1, "450 -12.5");
+  const DatasetIndex index = index_dataset(root_.path());
+  ASSERT_EQ(index.views.size(), 5U);
+  EXPECT_FALSE(index.views[2].given_elevation_rad);
+  EXPECT_NEAR(index.views[2].elevation_rad(), pi / 4.0, 1e-12);
+  EXPECT_NEAR(index.views[3].yaw_rad, 11.0 * pi / 6.0, 1e-12);
+  EXPECT_NEAR(index.views[3].elevation_rad(), pi / 2.0, 1e-12);
+  EXPECT_NEAR(index.views[4].yaw_rad, pi / 2.0, 1e-12);
+  EXPECT_NEAR(index.views[4].elevation_rad(), -12.5 * pi / 180.0, 1e-12);
+  EXPECT_EQ(index.views[4].mask_from(), ObjectCut::mask);
+  ViewEntry of_no_video = index.views[4];
+  of_no_video.given_elevation_rad.reset();
+  EXPECT_THROW((void)of_no_video.elevation_rad(), InputError);
+}
+
+TEST_F(Index, NamesPosesOfTooManyNumbersOrBeyondTheZenith) {
+  for (const char* pose : {"", "1 2 3", "10 20x", "inf"}) {
+    support::put_view(root_.path(), "mug", "mug_1", 2, 11, pose);
+    expect_bad("mug_1_2_11_pose.txt", "expected the pose in degrees");
+  }
+  for (const char* pose : {"10 90.5", "10 -90.5"}) {
+    support::put_view(root_.path(), "mug", "mug_1", 2, 11, pose);
+    expect_bad("mug_1_2_11_pose.txt", "is beyond 90");
+  }
+  EXPECT_EQ(index_dataset(root_.path(), OnBadView::skip).views.size(), 4U);
+}
+
+TEST_F(Index, NotesAllowACategoryOfOneViewAndSayHowMasksWereMade) {
+  write_file(root_.path() / "pictures.yaml", "cut: depth\n");
+  support::put_view(root_.path(), "bowl", "bowl_1", 1, 1, "0");
+  const DatasetIndex index = index_dataset(root_.path());
+  ASSERT_EQ(index.views.size(), 5U);
+  EXPECT_EQ(to_string(index.views[0].name), "bowl_1_1_1");
+  EXPECT_EQ(index.views[0].mask_from(), ObjectCut::depth);
+  EXPECT_FALSE(index.views[0].cut);
+}
+
 }  // namespace
 }  // namespace vantage

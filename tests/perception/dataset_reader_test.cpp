@@ -151,5 +151,110 @@ TEST_F(Reader, APoseBesideAPictureMustBeANumber) {
   EXPECT_THROW(yaw_beside(entry_.file("crop.png")), InputError);
 }
 
+class PairBeside : public Reader {
+ protected:
+  void put_notes(const std::string& text) { write_file(root_.path() / "pictures.yaml", text); }
+  ImagePair pair(const PairSetting& setting = {}) {
+    return load_image_pair(entry_.file("crop.png"), entry_.file("depthcrop.png"), setting);
+  }
+};
+
+TEST_F(PairBeside, NotesGiveTheIntrinsics) {
+  put_notes("focal_px: 400.0\ncentre_px: [310.0, 230.0]\n");
+  const ObjectView view = pair().view;
+  EXPECT_EQ(view.focal_px, 400.0);
+  EXPECT_EQ(view.centre_px, Eigen::Vector2d(310.0, 230.0));
+  EXPECT_EQ(pair({.focal_px = 300.0}).view.focal_px, 300.0);
+  const ViewEntry entry = index_dataset(root_.path()).views.front();
+  EXPECT_EQ(load_view(entry).view.focal_px, 400.0);
+  EXPECT_EQ(load_view(entry).view.centre_px, Eigen::Vector2d(310.0, 230.0));
+}
+
+TEST_F(PairBeside, ElevationIsThatSaidElseOfThePoseElseOfTheVideo) {
+  EXPECT_LT((pair().view.up - up_in_camera(pi / 3.0)).norm(), 1e-12);
+  EXPECT_LT((pair({.elevation_rad = 0.2}).view.up - up_in_camera(0.2)).norm(), 1e-12);
+  write_file(entry_.file("pose.txt"), "-90 20");
+  EXPECT_LT((pair().view.up - up_in_camera(pi / 9.0)).norm(), 1e-12);
+  EXPECT_NEAR(yaw_beside(entry_.file("crop.png")).value(), 1.5 * pi, 1e-12);
+}
+
+TEST_F(PairBeside, CutsAsAsked) {
+  const ImagePair masked = pair();
+  EXPECT_EQ(masked.cut, ObjectCut::mask);
+  EXPECT_THAT(masked.view.mask,
+              testing::ElementsAre(0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0));
+  const ImagePair whole = pair({.cut = ObjectCut::whole});
+  EXPECT_EQ(whole.cut, ObjectCut::whole);
+  EXPECT_THAT(whole.view.mask, testing::Each(1));
+  put_notes("cut: whole\n");
+  EXPECT_EQ(pair().cut, ObjectCut::whole);
+  EXPECT_EQ(pair().view.mask, masked.view.mask) << "by the mask, which was made so";
+  std::filesystem::remove(entry_.file("maskcrop.png"));
+  EXPECT_EQ(pair().cut, ObjectCut::whole);
+  EXPECT_THAT(pair().view.mask, testing::Each(1));
+  EXPECT_THROW(pair({.cut = ObjectCut::mask}), InputError) << "by depth: 20 pixels are no object";
+}
+
+TEST_F(PairBeside, WhatIsAtTheGreatestDepthIsTheObject) {
+  std::filesystem::remove(entry_.file("maskcrop.png"));
+  const double third_m = static_cast<double>(0.001F * 1002.0F);
+  const auto mask = pair({.max_depth_m = third_m}).view.mask;
+  EXPECT_EQ(mask[0], 0) << "a hole";
+  EXPECT_EQ(mask[2], 1);
+  EXPECT_EQ(mask[3], 0);
+  EXPECT_EQ(pair({.max_depth_m = third_m - 1e-6}).view.mask[2], 0);
+}
+
+TEST_F(PairBeside, TheViewHasTheNameOfItsBin) {
+  const auto colour = entry_.file("crop.png");
+  EXPECT_EQ(view_name_beside(colour), "");
+  put_notes("bins: 4\n");
+  EXPECT_EQ(view_name_beside(colour), "");
+  put_notes("bins: 4\nviews: [front, left, back, right]\n");
+  EXPECT_EQ(view_name_beside(colour), "left") << "at 100 degrees";
+  write_file(entry_.file("pose.txt"), "-80");
+  EXPECT_EQ(view_name_beside(colour), "right");
+  std::filesystem::remove(entry_.file("pose.txt"));
+  EXPECT_EQ(view_name_beside(colour), "");
+  EXPECT_FALSE(yaw_beside(colour));
+}
+
+TEST_F(PairBeside, WithoutAPlaceItIsTheMiddleOfTheImage) {
+  std::filesystem::remove(entry_.file("loc.txt"));
+  EXPECT_EQ(pair().view.left_px, 318);
+  EXPECT_EQ(pair().view.top_px, 238);
+  put_notes("centre_px: [100.5, 60.0]\n");
+  EXPECT_EQ(pair().view.left_px, 98);
+  EXPECT_EQ(pair().view.top_px, 58);
+}
+
+TEST_F(Reader, PlacesMayBeNegativeButNotHalf) {
+  write_file(entry_.file("loc.txt"), "-3,12");
+  const ObjectView view = load_view(entry_).view;
+  EXPECT_EQ(view.left_px, -3);
+  EXPECT_EQ(view.top_px, 12);
+  for (const char* bad : {"300", "300,", ",200", "x,200", ""}) {
+    write_file(entry_.file("loc.txt"), bad);
+    expect_bad("loc.txt", "expected the crop's top left pixel");
+  }
+}
+
+TEST_F(Reader, CutsAViewAsItsEntrySays) {
+  entry_.cut = ObjectCut::whole;
+  EXPECT_THAT(load_view(entry_).view.mask, testing::Each(1));
+  entry_.cut = ObjectCut::mask;
+  EXPECT_EQ(load_view(entry_).view.mask[0], 0);
+  entry_.cut = ObjectCut::depth;
+  std::vector<SkippedView> skipped;
+  EXPECT_FALSE(load_view(entry_, skipped)) << "20 pixels are no object";
+  ASSERT_EQ(skipped.size(), 1U);
+  EXPECT_THAT(skipped[0].file.string(), HasSubstr("_crop.png"));
+}
+
+TEST_F(Reader, NamesAMaskOfAnotherSize) {
+  cv::imwrite(entry_.file("maskcrop.png").string(), cv::Mat(3, 5, CV_8UC1, cv::Scalar(255)));
+  expect_bad("maskcrop.png", "is 5 x 3 px, the colour crop 5 x 4");
+}
+
 }  // namespace
 }  // namespace vantage

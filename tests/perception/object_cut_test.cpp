@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "tests/support/room_pictures.hpp"
+#include "vantage/perception/background_planes.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 
 namespace vantage {
@@ -95,6 +97,104 @@ TEST(ObjectCut, APictureWithoutDepthHasNoObject) {
   const CutObject cut = cut_by_depth(view_of(picture));
   EXPECT_FALSE(cut.view.has_value());
   EXPECT_FALSE(cut.reason.empty());
+}
+
+/// 160 x 120 px from 0.6 m above a table, looking down by 0.7 rad, without noise.
+ObjectView leaning_table() {
+  ObjectView view;
+  view.width_px = 160;
+  view.height_px = 120;
+  view.focal_px = 150.0;
+  view.centre_px = {80.0, 60.0};
+  view.rgb.assign(std::size_t{3} * 160 * 120, 9);
+  const Eigen::Vector3d up = up_in_camera(0.7);
+  for (int row = 0; row < 120; ++row) {
+    for (int column = 0; column < 160; ++column) {
+      view.depth_m.push_back(static_cast<float>(-0.6 / up.dot(view.ray(row, column))));
+    }
+  }
+  return view;
+}
+
+/// A square of 30 px whose depth is 10 cm before the table's.
+void put_block(ObjectView& view, int top_px, int left_px) {
+  for (int row = top_px; row < top_px + 30; ++row) {
+    for (int column = left_px; column < left_px + 30; ++column) {
+      view.depth_m[view.index(row, column)] -= 0.1F;
+    }
+  }
+}
+
+void lose_depth(ObjectView& view, int first_column, int last_column) {
+  for (int row = 45; row < 75; ++row) {
+    for (int column = first_column; column <= last_column; ++column) {
+      view.depth_m[view.index(row, column)] = 0.0F;
+    }
+  }
+}
+
+TEST(BackgroundPlanes, ATableUnderABlockIsFoundExactly) {
+  ObjectView view = leaning_table();
+  put_block(view, 45, 65);
+  const auto planes = background_planes(view);
+  ASSERT_EQ(planes.size(), 1U);
+  EXPECT_LT((planes[0].normal - up_in_camera(0.7)).norm(), 1e-5);
+  EXPECT_NEAR(planes[0].offset_m, 0.6, 1e-5);
+  EXPECT_DOUBLE_EQ(planes[0].share, 1.0 - 900.0 / 19200.0);
+  EXPECT_NEAR(elevation_over(planes), 0.7, 1e-5);
+}
+
+TEST(BackgroundPlanes, APlaneWithNothingBeforeItIsNoBackground) {
+  EXPECT_TRUE(background_planes(leaning_table()).empty());
+}
+
+void expect_block(const ObjectView& picture) {
+  const CutObject cut = cut_by_depth(picture);
+  ASSERT_TRUE(cut.view) << cut.reason;
+  EXPECT_EQ(cut.view->left_px, 57);
+  EXPECT_EQ(cut.view->top_px, 37);
+  EXPECT_EQ(cut.view->width_px, 46);
+  EXPECT_EQ(cut.view->height_px, 46);
+  EXPECT_EQ(std::ranges::count(cut.view->mask, 1), 900);
+  ASSERT_TRUE(cut.elevation_rad);
+  EXPECT_NEAR(*cut.elevation_rad, 0.7, 1e-5);
+}
+
+TEST(ObjectCut, IsABlockToThePixel) {
+  ObjectView view = leaning_table();
+  put_block(view, 45, 65);
+  expect_block(view);
+}
+
+TEST(ObjectCut, FillsHolesAndJoinsWhatAHoleParts) {
+  ObjectView view = leaning_table();
+  put_block(view, 45, 65);
+  lose_depth(view, 77, 82);
+  expect_block(view);
+}
+
+TEST(ObjectCut, IsWhatIsInTheMiddle) {
+  ObjectView view = leaning_table();
+  put_block(view, 5, 5);
+  put_block(view, 45, 65);
+  expect_block(view);
+}
+
+/// Of the middle only a strip of the table is measured, and 36 px of the block.
+TEST(ObjectCut, SaysHowFewPixelsStandOut) {
+  ObjectView view = leaning_table();
+  put_block(view, 45, 65);
+  for (int row = 30; row < 65; ++row) {
+    for (int column = 40; column < 120; ++column) {
+      const bool kept = row >= 45 && row < 51 && column >= 65 && column < 71;
+      if (!kept) view.depth_m[view.index(row, column)] = 0.0F;
+    }
+  }
+  for (int row = 65; row < 75; ++row) {
+    for (int column = 65; column < 95; ++column) view.depth_m[view.index(row, column)] += 0.1F;
+  }
+  EXPECT_EQ(cut_by_depth(view).reason,
+            "36 pixels stand out from the background by depth, an object has at least 40");
 }
 
 }  // namespace

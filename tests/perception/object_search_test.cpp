@@ -176,5 +176,26 @@ TEST(ObjectSearch, RejectsOptionsOutOfRange) {
   EXPECT_THROW(find_objects(draw_room({}, kCamera), kCamera, options), ConfigError);
 }
 
+TEST(ObjectSearch, ObjectsAreSmallAndStandOutAsOptionsSay) {
+  const CameraImages images =
+      draw_room({pedestal(1.3, 0.1), box_on(0.8, 1.3, 0.1, {0.08, 0.1, 0.15})}, kCamera);
+  const auto seen = find_objects(images, kCamera);
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_TRUE(seen[0].detection.whole);
+  ObjectSearchOptions options;
+  options.cut.max_height_m = 0.1;
+  EXPECT_TRUE(find_objects(images, kCamera, options).empty());
+  options = {};
+  options.cut.radius_m = 0.03;
+  EXPECT_TRUE(find_objects(images, kCamera, options).empty());
+  options = {.noise_per_m = 0.1};
+  EXPECT_TRUE(find_objects(images, kCamera, options).empty());
+  options = {.nearest_m = 5.0};
+  const auto near = find_objects(images, kCamera, options);
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_FALSE(near[0].detection.whole);
+  EXPECT_EQ(near[0].detection.distance_m, seen[0].detection.distance_m);
+}
+
 }  // namespace
 }  // namespace vantage

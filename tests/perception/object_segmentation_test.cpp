@@ -9,6 +9,7 @@
 
 #include "tests/perception/drawn_boxes.hpp"
 #include "vantage/perception/column_cut.hpp"
+#include "vantage/perception/table_segmentation.hpp"
 
 namespace vantage {
 namespace {
@@ -151,6 +152,78 @@ TEST(ObjectSegmentation, SaysWhatIsMissing) {
               testing::HasSubstr("rise from the table"));
   const Drawn floor = draw({.boxes = {}, .half_table_m = 0.0}, T_world_camera);
   EXPECT_THAT(segmented(floor, T_world_camera).reason, testing::StartsWith("no table"));
+}
+
+/// 60 x 50 px from 2 m straight above a table at 0.5 m, with a block of 12 x 10 px on it.
+CameraImages block_from_above(float height_m) {
+  CameraImages images;
+  images.width_px = 60;
+  images.height_px = 50;
+  images.focal_px = 100.0;
+  images.depth_m.assign(3000, 2.0F);
+  for (int row = 20; row < 30; ++row) {
+    for (int column = 24; column < 36; ++column) {
+      images.depth_m[static_cast<std::size_t>(60 * row + column)] = 2.0F - height_m;
+    }
+  }
+  return images;
+}
+
+SegmentedObject segmented_from_above(const CameraImages& images,
+                                     const ObjectSegmentationOptions& options) {
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  TablePlane table;
+  table.centroid_m = {0.0, 0.0, 0.5};
+  table.height_m = 0.5;
+  return segment_on_table(images, T_world_camera, table, {0.0, 0.0, 0.5}, options);
+}
+
+/// The median takes a block's four corners off.
+TEST(SegmentOnTable, CutsOutWhatRisesToThePixel) {
+  const ObjectSegmentationOptions options{.min_pixels = 116, .mask_growth_px = 0, .margin_px = 2};
+  const SegmentedObject found = segmented_from_above(block_from_above(0.1F), options);
+  ASSERT_TRUE(found.view) << found.reason;
+  EXPECT_EQ(found.view->left_px, 22);
+  EXPECT_EQ(found.view->top_px, 18);
+  EXPECT_EQ(found.view->width_px, 16);
+  EXPECT_EQ(found.view->height_px, 14);
+  EXPECT_EQ(std::ranges::count(found.view->mask, 1), 116);
+  EXPECT_LT((found.view->up - Vector3d(0.0, 0.0, -1.0)).norm(), 1e-12);
+  ObjectSegmentationOptions other = options;
+  other.mask_growth_px = 1;
+  other.margin_px = 0;
+  const SegmentedObject grown = segmented_from_above(block_from_above(0.1F), other);
+  ASSERT_TRUE(grown.view) << grown.reason;
+  EXPECT_EQ(grown.view->width_px, 14);
+  EXPECT_EQ(std::ranges::count(grown.view->mask, 1), 14 * 12 - 4);
+  other.min_pixels = 117;
+  EXPECT_EQ(segmented_from_above(block_from_above(0.1F), other).reason,
+            "116 pixels rise from the table, an object has at least 117");
+}
+
+TEST(SegmentOnTable, KeepsTheLargestPatch) {
+  CameraImages images = block_from_above(0.1F);
+  for (int row = 21; row < 29; ++row) {
+    for (int column = 8; column < 16; ++column) {
+      images.depth_m[static_cast<std::size_t>(60 * row + column)] = 1.9F;
+    }
+  }
+  const SegmentedObject found =
+      segmented_from_above(images, {.radius_m = 0.6, .min_pixels = 50, .mask_growth_px = 0});
+  ASSERT_TRUE(found.view) << found.reason;
+  EXPECT_EQ(std::ranges::count(found.view->mask, 1), 116);
+}
+
+TEST(SegmentOnTable, HeightsHaveLimits) {
+  const auto reason = [](float height_m) {
+    return segmented_from_above(block_from_above(height_m), {.min_pixels = 100}).reason;
+  };
+  EXPECT_EQ(reason(0.007F), "");
+  EXPECT_EQ(reason(0.005F), "0 pixels rise from the table, an object has at least 100");
+  EXPECT_EQ(reason(0.49F), "");
+  EXPECT_EQ(reason(0.51F), "0 pixels rise from the table, an object has at least 100");
 }
 
 }  // namespace

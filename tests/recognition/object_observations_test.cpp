@@ -134,6 +134,103 @@ TEST_F(ObservationsOfAnObject, WhatTurnsOutToBeAnotherIsForgottenButWasLookedAt)
   EXPECT_EQ(observations_.total(), 1);
 }
 
+TEST_F(ObservationsOfAnObject, AreExpectedToTellThreeQuartersAtFirst) {
+  for (const double gain : observations_.objects().front().gain_nats) {
+    EXPECT_NEAR(gain, 0.75 * std::log(3.0), 1e-12);
+  }
+  ObjectObservations modest(recogniser_, {.min_gain_nats = 0.82}, RigidTransition{});
+  modest.found(7, {1.0, 2.0, 0.9});
+  EXPECT_TRUE(modest.wants(7, kGood, from(0.0)));
+  ObjectObservations demanding(recogniser_, {.min_gain_nats = 0.83}, RigidTransition{});
+  demanding.found(7, {1.0, 2.0, 0.9});
+  EXPECT_FALSE(demanding.wants(7, kGood, from(0.0)));
+}
+
+TEST_F(ObservationsOfAnObject, CountUpToTheRangeAndDownToTheEntropyThemselves) {
+  EXPECT_TRUE(wants(0.0, {.distance_m = 2.0, .whole = true}));
+  const double entropy = observations_.entropy_nats(observations_.objects().front());
+  ObjectObservations known(recogniser_, {.known_below_nats = entropy}, RigidTransition{});
+  known.found(7, {1.0, 2.0, 0.9});
+  EXPECT_FALSE(known.known(known.objects().front()));
+  EXPECT_TRUE(known.wants(7, kGood, from(0.0)));
+}
+
+TEST_F(ObservationsOfAnObject, AreApartTheShortWayRound) {
+  ObjectObservations observations(recogniser_, {.apart_rad = 1.0}, RigidTransition{});
+  observations.found(7, {1.0, 2.0, 0.9});
+  observations.take(7, kGood, view_, from(3.0), 0.0, rng_);
+  EXPECT_FALSE(observations.wants(7, kGood, from(-2.6))) << "0.68 from there, in direction 5";
+  EXPECT_TRUE(observations.wants(7, kGood, from(-2.0)));
+}
+
+TEST_F(ObservationsOfAnObject, FollowItsPlaceAndItAlone) {
+  observations_.found(9, {5.0, 5.0, 1.0});
+  observations_.found(7, {1.5, 2.5, 0.8});
+  ASSERT_EQ(observations_.objects().size(), 2U);
+  EXPECT_EQ(observations_.objects()[0].p_world_m, Eigen::Vector3d(1.5, 2.5, 0.8));
+  EXPECT_EQ(observations_.objects()[1].p_world_m, Eigen::Vector3d(5.0, 5.0, 1.0));
+  EXPECT_EQ(observations_.direction(7, make_pose({1.5, 4.0, 1.0}, 0.0)), 2);
+  observations_.forget(7);
+  ASSERT_EQ(observations_.objects().size(), 1U);
+  EXPECT_EQ(observations_.objects()[0].id, 9);
+}
+
+TEST_F(ObservationsOfAnObject, TellFromWhereTheyWere) {
+  const ObjectDetection detection{
+      .p_world_object_m = {1.0, 2.0, 0.7}, .distance_m = 1.75, .pixels = 123, .whole = true};
+  const Pose T_world_camera = make_pose({4.0, 6.0, 2.7}, 0.0);
+  const ObjectObservation& seen =
+      observations_.take(7, detection, view_, T_world_camera, 4.5, rng_);
+  EXPECT_EQ(seen.time_s, 4.5);
+  EXPECT_NEAR(seen.bearing_rad, std::atan2(4.0, 3.0), 1e-12);
+  EXPECT_EQ(seen.direction, 1);
+  EXPECT_EQ(seen.distance_m, 1.75);
+  EXPECT_NEAR(seen.elevation_rad, std::atan2(2.0, 5.0), 1e-12);
+  EXPECT_EQ(seen.pixels, 123);
+  EXPECT_NEAR(seen.report.view_rad, seen.bearing_rad, 1e-12);
+  EXPECT_EQ(seen.unknown_probability, 0.0);
+  EXPECT_TRUE(observations_.objects().front().used[1]);
+  EXPECT_EQ(seen.entropy_nats, observations_.entropy_nats(observations_.objects().front()));
+}
+
+TEST_F(ObservationsOfAnObject, StartFromThePriorOfUnknownOnes) {
+  EXPECT_NEAR(observations_.prior_entropy_nats(), std::log(3.0), 1e-12);
+  recogniser_.states.unknown_category = {kNoCategory};
+  recogniser_.unknown_prior = 0.2;
+  ObjectObservations observations(recogniser_, {}, RigidTransition{});
+  observations.found(7, {1.0, 2.0, 0.9});
+  const double expected = -0.2 * std::log(0.2) - 0.8 * std::log(0.8 / 3.0);
+  EXPECT_NEAR(observations.prior_entropy_nats(), expected, 1e-9);
+  EXPECT_NEAR(observations.entropy_nats(observations.objects().front()), expected, 1e-9);
+  EXPECT_NEAR(observations.unknown_probability(observations.objects().front()), 0.2, 1e-9);
+}
+
+/// Seen from a quarter turn, then from the side that differs, then from beside it.
+TEST(BeliefOfLooks, IsTurnedFromEachToTheNext) {
+  const Recogniser recogniser = near_duplicates(2);
+  ObjectObservations observations(recogniser, {}, RigidTransition{.slip = 0.0});
+  observations.found(7, {1.0, 2.0, 0.9});
+  Rng rng(1);
+  const auto take = [&](int eighths, int colour) {
+    const double bearing_rad = eighths * std::numbers::pi / 4.0;
+    const Pose T_world_camera =
+        make_pose({1.0 + std::cos(bearing_rad), 2.0 + std::sin(bearing_rad), 1.8}, 0.0);
+    observations.take(7, {.p_world_object_m = {1.0, 2.0, 0.9}, .distance_m = 1.4, .whole = true},
+                      view_of_colour(colour), T_world_camera, 0.0, rng);
+  };
+  const RecognisedObject& object = observations.objects().front();
+  take(2, 5);
+  for (std::size_t d = 0; d < object.gain_nats.size(); ++d) {
+    EXPECT_NEAR(object.gain_nats[d], d == 5 ? std::log(2.0) : 0.0, 0.02) << d;
+  }
+  take(5, 2);
+  EXPECT_EQ(object.observations.back().estimate, "mug_1");
+  EXPECT_GT(object.observations.back().map_probability, 0.99);
+  take(6, 1);
+  EXPECT_EQ(most_probable_state(object.recognition.belief), recogniser.states.state(0, 1));
+  EXPECT_EQ(observations.total(), 3);
+}
+
 TEST(WaysOn, TheFirstThatIsClearElseTheOneThatKeepsOffFarthest) {
   std::vector<CandidatePlan> candidates(3);
   candidates[0].clear = false;

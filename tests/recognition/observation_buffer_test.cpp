@@ -63,5 +63,60 @@ TEST_F(BufferOfObservations, WhatWasAnotherObjectIsForgotten) {
   ASSERT_EQ(buffer_.take_all().size(), 1U);
 }
 
+TEST_F(BufferOfObservations, ATenthOfAMetreNearerIsEnough) {
+  buffer_.keep(observation_of(1, 0, 1.9, 0.0));
+  EXPECT_FALSE(buffer_.improves(1, 0, 1.83));
+  EXPECT_TRUE(buffer_.improves(1, 0, 1.9 - 0.1));
+  EXPECT_TRUE(buffer_.improves(1, 0, 1.77));
+}
+
+TEST_F(BufferOfObservations, EachDirectionOfEachObjectHasItsOwn) {
+  buffer_.keep(observation_of(1, 0, 1.9, 0.0));
+  buffer_.keep(observation_of(1, 3, 1.4, 0.0));
+  buffer_.keep(observation_of(2, 0, 1.6, 0.0));
+  buffer_.keep(observation_of(1, 0, 1.5, 1.0));
+  const auto taken = buffer_.take_all();
+  ASSERT_EQ(taken.size(), 3U);
+  EXPECT_EQ(taken[0].direction, 3) << "the nearest first";
+  EXPECT_EQ(taken[1].time_s, 1.0);
+  EXPECT_EQ(taken[2].id, 2);
+  EXPECT_TRUE(buffer_.take_all().empty());
+}
+
+TEST_F(BufferOfObservations, WhatIsNotDueStays) {
+  buffer_.detected(1, 1.0);
+  buffer_.detected(2, 1.0);
+  buffer_.keep(observation_of(1, 0, 1.1, 1.0));
+  buffer_.keep(observation_of(2, 0, 1.2, 1.0));
+  const auto taken = buffer_.take_due(1.1, [](int id) { return id == 1 ? 0 : 5; });
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_EQ(taken[0].id, 2) << "its direction was left";
+  const auto rest = buffer_.take_all();
+  ASSERT_EQ(rest.size(), 1U);
+  EXPECT_EQ(rest[0].id, 1);
+}
+
+TEST_F(BufferOfObservations, AtTheNearDistanceOneIsNear) {
+  buffer_.detected(1, 1.0);
+  buffer_.keep(observation_of(1, 0, 1.3, 1.0));
+  EXPECT_EQ(due(1.1, 4).size(), 1U) << "its direction was left";
+  buffer_.keep(observation_of(1, 0, 1.301, 1.0));
+  EXPECT_TRUE(due(1.1, 4).empty()) << "the object was not";
+}
+
+TEST_F(BufferOfObservations, ForgettingForgetsThatObjectAndWhenItWasSeen) {
+  buffer_.detected(1, 10.0);
+  buffer_.detected(2, 10.0);
+  buffer_.keep(observation_of(1, 0, 1.8, 9.0));
+  buffer_.keep(observation_of(2, 0, 1.7, 9.0));
+  buffer_.forget(1);
+  EXPECT_TRUE(due(10.0, 0).empty()) << "the other one is in view";
+  buffer_.keep(observation_of(1, 0, 1.8, 10.0));
+  const auto taken = due(10.0, 0);
+  ASSERT_EQ(taken.size(), 1U);
+  EXPECT_EQ(taken[0].id, 1);
+  ASSERT_EQ(buffer_.take_all().size(), 1U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/recognition/dataset/picture_views.hpp"
+#include "vantage/recognition/lean_recogniser.hpp"
 
 namespace vantage {
 namespace {
@@ -89,6 +91,81 @@ TEST(Recogniser, ADamagedModelIsAnErrorOfItsFile) {
   write_recognition_model(model, path);
   expect_error([&] { load_recogniser(path, {}, 1); }, "nothing to extract");
   expect_error([&] { load_recogniser(directory.path() / "none", {}, 1); }, "none");
+}
+
+TEST(Recogniser, KnowsUnknownObjectsIfAllItsFeaturesDo) {
+  RecognitionModel model = small_model();
+  model.view_correlation = 0.3;
+  EXPECT_EQ(make_recogniser(model, {}, 1).states.unknown_size(), 0);
+  model.features[0].unknown = UnknownFactors{};
+  EXPECT_EQ(make_recogniser(model, {}, 1).states.unknown_size(), 0) << "one of two";
+  EXPECT_EQ(make_recogniser(model, {}, 1).unknown_prior, 0.0);
+  EXPECT_EQ(make_recogniser(model, {.features = {"bounding_box"}}, 1).states.unknown_size(), 3);
+  model.features[1].unknown = UnknownFactors{};
+  const Recogniser knowing = make_recogniser(model, {}, 1);
+  EXPECT_EQ(knowing.states.unknown_category, (std::vector<int>{0, 1, kNoCategory}));
+  EXPECT_EQ(knowing.unknown_prior, 0.1);
+  EXPECT_EQ(knowing.view_correlation, 0.3);
+  EXPECT_EQ(knowing.features[1].observation.states(), 9);
+  EXPECT_EQ(knowing.tables.bhattacharyya_nats.rows(), 9);
+  const Recogniser not_asked =
+      make_recogniser(model, {.features = {}, .unknown_prior = 0.0, .repeated_views = false}, 1);
+  EXPECT_EQ(not_asked.states.unknown_size(), 0);
+  EXPECT_EQ(not_asked.unknown_prior, 0.0);
+  EXPECT_EQ(not_asked.view_correlation, 0.0);
+}
+
+TEST(Recogniser, HoldsWhatNoPictureShowedForImpossible) {
+  RecognitionModel model = small_model();
+  for (FeatureModel& feature : model.features) {
+    feature.statistics.count[4] = 0;
+    feature.statistics.mean.col(4).setZero();
+    feature.statistics.squared_deviation.col(4).setZero();
+  }
+  EXPECT_EQ(make_recogniser(model, {}, 1).features[0].prepared.log_factor[4], 0.0);
+  keep_notes({}, 0.0, model);
+  const Recogniser of_pictures = make_recogniser(model, {}, 1);
+  for (const RecogniserFeature& feature : of_pictures.features) {
+    for (int state = 0; state < 6; ++state) {
+      EXPECT_EQ(feature.prepared.log_factor[state] < -1e8, state == 4) << state;
+      EXPECT_EQ(feature.prepared.log_at_mean[state] < -1e8, state == 4) << state;
+    }
+  }
+}
+
+TEST(Recogniser, TakesTheFloorOfVariancesFromTheModel) {
+  RecognitionModel model = small_model();
+  keep_notes({}, 100.0, model);
+  const Eigen::MatrixXf raised = make_recogniser(model, {}, 1).features[0].observation.variance;
+  EXPECT_LT(raised.maxCoeff() - raised.minCoeff(), 1e-6F * raised.maxCoeff());
+  keep_notes({}, 0.0, model);
+  const Eigen::MatrixXf plain = make_recogniser(model, {}, 1).features[0].observation.variance;
+  EXPECT_LT(plain.maxCoeff(), 0.5F * raised.minCoeff());
+}
+
+TEST(Recogniser, AtOnceReadyIsTheSameWithoutTables) {
+  const support::TemporaryDirectory directory;
+  write_recognition_model(small_model(), directory / "model.vrm");
+  const Recogniser whole = load_recogniser(directory / "model.vrm", {}, 1);
+  const Recogniser lean = load_lean_recogniser(directory / "model.vrm", {});
+  EXPECT_EQ(whole.tables.bhattacharyya_nats.rows(), 6);
+  EXPECT_EQ(whole.features[1].tables.bhattacharyya_nats.rows(), 6);
+  EXPECT_EQ(lean.tables.bhattacharyya_nats.size(), 0);
+  EXPECT_EQ(lean.features[1].tables.bhattacharyya_nats.size(), 0);
+  EXPECT_EQ(lean.features[1].prepared.log_at_mean, whole.features[1].prepared.log_at_mean);
+}
+
+TEST(Recogniser, ExtractsByTheNameAndSizeOfItsFeature) {
+  RecognitionModel model = small_model();
+  EXPECT_EQ(extractor_of(model.features[0], "here").name(), "bounding_box");
+  FeatureModel other_size = model.features[0];
+  other_size.statistics = empty_statistics(other_size.statistics.dimensions() + 1, 6);
+  expect_error([&] { extractor_of(other_size, "here"); }, "here: feature 'bounding_box' of 4");
+  FeatureModel other_name = model.features[0];
+  other_name.name = "colour";
+  expect_error([&] { extractor_of(other_name, "here"); }, "extracted as 'bounding_box' of 3");
+  model.features.clear();
+  expect_error([&] { make_recogniser(model, {}, 1); }, "no features");
 }
 
 TEST(Recogniser, AModelOfNothingIsAnError) {

@@ -114,6 +114,76 @@ TEST_F(NearDuplicateMugs, AFeatureThatFitsNoStateIsSkippedWithTheReason) {
   EXPECT_THAT(recognition.views[0].skipped[0].reason, HasSubstr("no state"));
 }
 
+/// Measures 0.51 of what is 0, 1, 0 and 2: ln odds of 1 for the second, none for the last.
+TEST_F(NearDuplicateMugs, APartThatWasSeenTellsAsMuchLess) {
+  options_.all_features = true;
+  for (const double weight : {1.0, 0.5}) {
+    const ExtractFeature extract = [&](std::size_t) {
+      return ExtractedFeature{.result = {.vector = Eigen::VectorXf::Constant(1, 0.51F),
+                                         .skipped = {},
+                                         .readings = {},
+                                         .weight = weight}};
+    };
+    Recognition recognition = begin_recognition(recogniser_);
+    update_with_view(recogniser_, options_, extract, 0.0, recognition, rng_);
+    const Eigen::VectorXd p = p_state(recognition.belief);
+    EXPECT_NEAR(p[1] / p[0], std::exp(weight), 1e-3);
+    EXPECT_NEAR(p[1], std::exp(weight) / (2.0 + std::exp(weight)), 1e-3);
+  }
+}
+
+TEST_F(NearDuplicateMugs, LikelihoodsThatAreKnownCountAsTheyAre) {
+  const ExtractFeature extract = [&](std::size_t) {
+    return ExtractedFeature{.result = {.vector = Eigen::VectorXf::Zero(1),
+                                       .skipped = {},
+                                       .readings = {},
+                                       .weight = 0.5},
+                            .log_likelihood = Eigen::Vector4d(0.0, 0.5, 1.0, 0.25)};
+  };
+  options_.all_features = true;
+  Recognition recognition = begin_recognition(recogniser_);
+  update_with_view(recogniser_, options_, extract, 0.0, recognition, rng_);
+  const Eigen::VectorXd p = p_state(recognition.belief);
+  EXPECT_NEAR(std::log(p[1] / p[0]), 1.0, 1e-9) << "two features";
+  EXPECT_NEAR(std::log(p[2] / p[0]), 2.0, 1e-9);
+  EXPECT_NEAR(std::log(p[3] / p[0]), 0.5, 1e-9);
+}
+
+TEST(Weighted, IsToThePowerOfTheWeight) {
+  EXPECT_EQ(weighted(Eigen::Vector2d(-3.0, 2.0), 1.0), Eigen::VectorXd(Eigen::Vector2d(-3.0, 2.0)));
+  EXPECT_EQ(weighted(Eigen::Vector2d(-3.0, 2.0), 0.5), Eigen::VectorXd(Eigen::Vector2d(-1.5, 1.0)));
+}
+
+TEST_F(NearDuplicateMugs, ALearnedTransitionWithoutSlipsIsTheModels) {
+  recogniser_.transition = as_learned(RigidTransition{.slip = 0.4}, 2);
+  const auto p_turned = [&] {
+    Recognition recognition = begin_recognition(recogniser_);
+    recognition.belief.log_p.setConstant(-std::numeric_limits<double>::infinity());
+    recognition.belief.log_p[2] = 0.0;
+    predict_motion(recogniser_, options_, std::numbers::pi, recognition);
+    return p_state(recognition.belief)[3];
+  };
+  options_.transition = LearnedTransition{};
+  EXPECT_NEAR(p_turned(), 0.6, 1e-9);
+  options_.transition = as_learned(RigidTransition{.slip = 0.3}, 2);
+  EXPECT_NEAR(p_turned(), 0.7, 1e-9);
+  options_.transition = RigidTransition{.slip = 0.2};
+  EXPECT_NEAR(p_turned(), 0.8, 1e-9);
+}
+
+TEST_F(NearDuplicateMugs, WhereThereIsNoOtherViewItEnds) {
+  int turns = 0;
+  const ObjectCamera camera{.extract = measuring(0),
+                            .bearing_rad = [] { return 0.75; },
+                            .actions = [] { return std::vector<ObjectViewAction>{}; },
+                            .turn = [&](const ObjectViewAction&) { ++turns; }};
+  const Recognition known = recognise(recogniser_, options_, camera, rng_);
+  ASSERT_THAT(known.views, SizeIs(1));
+  EXPECT_EQ(known.views[0].view_rad, 0.75);
+  EXPECT_EQ(known.views[0].view_time_s, 0.0);
+  EXPECT_EQ(turns, 0);
+}
+
 TEST_F(NearDuplicateMugs, TheNextViewIsWhereTheyDiffer) {
   Recognition recognition = begin_recognition(recogniser_);
   update_with_view(recogniser_, options_, measuring(0), 0.0, recognition, rng_);

@@ -100,5 +100,42 @@ TEST_F(Results, EveryEndOfAnEpisode) {
   EXPECT_FALSE(is_result(state()));
 }
 
+/// In the order from what is done to what is missing; what others are at comes second.
+TEST_F(Results, AStatusTellsWhatEachEpisodeThatIsNotCompletedIsAt) {
+  std::vector<PlannedEpisode> plan;
+  for (const char* name : {"a", "b", "c", "d"}) plan.push_back({name, {0, 0}, episode_.resolved});
+  const std::vector<EpisodeState> states{EpisodeState::missing, EpisodeState::completed,
+                                         EpisodeState::stale, EpisodeState::missing};
+  EXPECT_EQ(status_text(study_.path(), plan, states),
+            "1 completed, 1 stale, 2 missing of 4 episodes\nmissing     a\nstale       c: the "
+            "configuration, or a file of scene, robot or model, has changed since\nmissing     "
+            "d\n");
+  const std::vector<EpisodeActivity> activities{{"queued", ""}, {}, {"running", "on n1"}, {}};
+  EXPECT_EQ(status_text(study_.path(), plan, states, activities),
+            "1 completed, 1 running, 1 queued, 1 missing of 4 episodes\nqueued      a\n"
+            "running     c: on n1\nmissing     d\n");
+  const auto json = status_json(study_.path(), plan, states, activities);
+  EXPECT_EQ(json["directory"], study_.path().string());
+  EXPECT_EQ(json["episodes"], 4);
+  EXPECT_EQ(json["completed"], 1);
+  EXPECT_EQ(json["running"], 1);
+  EXPECT_EQ(json["queued"], 1);
+  EXPECT_EQ(json["missing"], 1);
+  EXPECT_EQ(json["stale"], 0);
+  ASSERT_EQ(json["not_completed"].size(), 3U);
+  EXPECT_EQ(json["not_completed"][1]["episode"], "c");
+  EXPECT_EQ(json["not_completed"][1]["state"], "running");
+  EXPECT_EQ(json["not_completed"][1]["reason"], "on n1");
+}
+
+TEST_F(Results, AStatusThatIsNoneIsStale) {
+  write("metrics.json", R"({"status": "dreaming"})");
+  EXPECT_EQ(state(), EpisodeState::stale);
+  write("metrics.json", R"({"status": "failed"})");
+  EXPECT_EQ(state(), EpisodeState::failed);
+  write("metrics.json", R"({"status": 5})");
+  EXPECT_EQ(state(), EpisodeState::missing);
+}
+
 }  // namespace
 }  // namespace vantage

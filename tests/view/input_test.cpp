@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <string>
+
 #include "vantage/view/painter.hpp"
 
 namespace vantage {
@@ -110,6 +113,60 @@ TEST_F(ViewInputTest, TheMouseMovesTheCameraInUse) {
   input(MouseDragged{MouseButton::left, {0, 0}, {60.0, 0.0}});
   EXPECT_EQ(controls.follow.distance_m, follow.distance_m);
   EXPECT_EQ(controls.follow.azimuth_rad, follow.azimuth_rad);
+}
+
+TEST_F(ViewInputTest, ArrowsAreThePaceAndTheSteps) {
+  input(KeyPressed{keys::up});
+  EXPECT_EQ(gate.speed(), 2.0);
+  type("=");
+  EXPECT_EQ(gate.speed(), 4.0);
+  input(KeyPressed{keys::down});
+  EXPECT_EQ(gate.speed(), 2.0);
+  type(std::string(40, '-'));
+  EXPECT_EQ(gate.speed(), 0.0625);
+  gate.toggle_pause();
+  input(KeyPressed{keys::right});
+  EXPECT_TRUE(gate.paused());
+  EXPECT_TRUE(gate.wait(0.025)) << "the one step";
+  input(KeyPressed{keys::escape});
+  EXPECT_TRUE(input.quit);
+}
+
+TEST_F(ViewInputTest, ATickBackPauses) {
+  controls.duration_s = 20.0;
+  gate.toggle_pause();
+  ASSERT_FALSE(gate.paused());
+  input(KeyPressed{keys::left});
+  EXPECT_TRUE(gate.paused());
+  EXPECT_EQ(seek(), 8.0 - 0.025);
+  input(KeyPressed{keys::home});
+  EXPECT_EQ(seek(), 0.0);
+}
+
+/// Of 900 x 600 px the timeline is the lowest 13.3 px; its ends are the first and the last column.
+TEST_F(ViewInputTest, TheTimelineIsAtTheFootOfTheImage) {
+  controls.duration_s = 20.0;
+  input(MousePressed{MouseButton::left, {899.0, 586.0}});
+  EXPECT_FALSE(seek());
+  input(MousePressed{MouseButton::right, {899.0, 599.0}});
+  EXPECT_FALSE(seek());
+  input(MousePressed{MouseButton::left, {899.0, 587.0}});
+  EXPECT_EQ(seek(), 20.0 + 0.025);
+  input(MousePressed{MouseButton::left, {0.25 * 899.0, 599.0}});
+  EXPECT_NEAR(*seek(), 0.25 * 20.025, 1e-9);
+  input(MouseDragged{MouseButton::left, {-50.0, 10.0}, {1.0, 0.0}});
+  EXPECT_EQ(seek(), 0.0);
+}
+
+/// A height of the image is half a turn, whatever its width.
+TEST_F(ViewInputTest, DragsAreInHeightsOfTheImage) {
+  const FreeCamera before = controls.overview;
+  input(MouseDragged{MouseButton::left, {0, 0}, {60.0, 30.0}});
+  EXPECT_NEAR(controls.overview.azimuth_rad, before.azimuth_rad - 0.1 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(controls.overview.elevation_rad, before.elevation_rad - 0.05 * std::numbers::pi,
+              1e-9);
+  input(WheelTurned{1.0});
+  EXPECT_NEAR(controls.overview.distance_m, 0.9 * before.distance_m, 1e-9);
 }
 
 }  // namespace

@@ -83,5 +83,21 @@ TEST(OrbitCamera, NotchesThereAndBackAreNone) {
   EXPECT_LT(zoomed(before, -1000.0).distance_m, 1000.0);
 }
 
+TEST(OrbitCamera, NeverOverTheTop) {
+  const FreeCamera before{.azimuth_rad = 0.2, .elevation_rad = -0.5};
+  EXPECT_NEAR(orbited(before, {0.0, 0.1}).elevation_rad, -0.5 - 0.1 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(orbited(before, {0.0, 0.1}).azimuth_rad, 0.2, 1e-12);
+  const double steepest_rad = 0.5 * std::numbers::pi - 0.01;
+  EXPECT_NEAR(orbited(before, {0.0, 5.0}).elevation_rad, -steepest_rad, 1e-12);
+  EXPECT_NEAR(orbited(before, {0.0, -5.0}).elevation_rad, steepest_rad, 1e-12);
+}
+
+TEST(OrbitCamera, StaysBetweenFiveCentimetresAndTwoHundredMetres) {
+  const FreeCamera before{.distance_m = 4.0};
+  EXPECT_NEAR(zoomed(before, 1000.0).distance_m, 0.05, 1e-12);
+  EXPECT_NEAR(zoomed(before, -1000.0).distance_m, 200.0, 1e-9);
+  EXPECT_NEAR(zoomed(before, 2.0).distance_m, 4.0 * 0.81, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

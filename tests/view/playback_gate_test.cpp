@@ -118,5 +118,28 @@ TEST(NextDue, MakesUpForLittle) {
   EXPECT_GT(next_due(now - 10s, now, 0.025, 1.0), now - 1s);
 }
 
+TEST(PlaybackGate, ResumedItForgetsTheStepsThatWereLeft) {
+  PlaybackGate gate;
+  gate.step();
+  gate.step();
+  EXPECT_TRUE(gate.wait(0.025));
+  gate.toggle_pause();  // goes on
+  gate.toggle_pause();  // pauses
+  EXPECT_TRUE(gate.paused());
+  gate.seek(1.0);
+  EXPECT_TRUE(gate.wait(0.025)) << "for the seek";
+  EXPECT_EQ(gate.take_seek(), 1.0);
+  gate.step();
+  Walker walker(gate);
+  walker.wait_for_pass(1);
+  EXPECT_EQ(walker.finish(), 1);
+}
+
+TEST(NextDue, IsATenthOfASecondBehindAtMost) {
+  const WallTime now{100s};
+  EXPECT_EQ(next_due(now - 10s, now, 0.025, 1.0), now - 100ms);
+  EXPECT_EQ(next_due(now - 120ms, now, 0.025, 1.0), now - 95ms);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -81,5 +81,32 @@ TEST(KdTree, SurvivesAMove) {
   EXPECT_EQ(moved.nearest({4, 0, 0}, 2.0)->index, 1U);
 }
 
+TEST(KdTree, ReachesToADistanceOrUpToARadius) {
+  const KdTree tree({{1, 0, 0}, {0, 2, 0}, {0, 0, -2}});
+  const auto at = tree.nearest({0, 0, 0}, 1.0);
+  ASSERT_TRUE(at.has_value());
+  EXPECT_EQ(at->index, 0U);
+  EXPECT_EQ(at->distance2_m2, 1.0F);
+  EXPECT_TRUE(tree.within({0, 0, 0}, 1.0).empty());
+  EXPECT_EQ(tree.within({0, 0, 0}, 2.0).size(), 1U);
+  const auto all = tree.within({0, 0, 0}, 2.1);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1].index, 1U) << "of equal distances the lower index";
+  EXPECT_EQ(all[2].distance2_m2, 4.0F);
+}
+
+TEST(KdTree, GivesAsManyAsAreAskedForAndThere) {
+  const KdTree tree({{3, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  EXPECT_EQ(tree.size(), 3U);
+  EXPECT_EQ(tree.points()[2], Eigen::Vector3f(2, 0, 0));
+  EXPECT_TRUE(tree.nearest_k({0, 0, 0}, 0).empty());
+  const auto two = tree.nearest_k({0, 0, 0}, 2);
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(two[0].index, 1U);
+  EXPECT_EQ(two[1].index, 2U);
+  EXPECT_EQ(two[1].distance2_m2, 4.0F);
+  EXPECT_EQ(tree.nearest_k({0, 0, 0}, 7).size(), 3U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -87,5 +87,53 @@ TEST(EstimateNormals, EmptyCloud) {
   EXPECT_TRUE(cloud.normals.empty());
 }
 
+/// A rectangle of four corners and its middle, all within 8 cm of each other.
+PointCloud few_points(double half_x_m, double half_y_m) {
+  PointCloud cloud;
+  for (const double x : {-half_x_m, half_x_m}) {
+    for (const double y : {-half_y_m, half_y_m}) cloud.points.emplace_back(x, y, 1.0);
+  }
+  cloud.points.emplace_back(0.0F, 0.0F, 1.0F);
+  return cloud;
+}
+
+TEST(EstimateNormals, FivePointsAreEnoughAndFourAreNot) {
+  PointCloud five = few_points(0.03, 0.02);
+  estimate_normals(five, {0, 0, 0});
+  for (const auto& n : five.normals) EXPECT_NEAR(n.z(), -1.0F, 1e-5F);
+  PointCloud four = five;
+  four.points.pop_back();
+  estimate_normals(four, {0, 0, 0});
+  for (const auto& n : four.normals) EXPECT_TRUE(n.isZero());
+}
+
+TEST(EstimateNormals, NeighboursAreNearerThanTheRadius) {
+  PointCloud cloud = few_points(0.039, 0.035);  // its diagonal is longer than 8 cm
+  estimate_normals(cloud, {0, 0, 0});
+  EXPECT_NEAR(cloud.normals[4].z(), -1.0F, 1e-5F) << "the middle has four";
+  EXPECT_TRUE(cloud.normals[0].isZero()) << "a corner does not reach the opposite one";
+}
+
+/// Of variances 16 to 1 along x and y; the ratio is 0.0625.
+TEST(EstimateNormals, ALineIsMuchLongerThanWide) {
+  PointCloud cloud = few_points(0.032, 0.008);
+  estimate_normals(cloud, {0, 0, 0}, {.line_ratio = 0.06});
+  EXPECT_NEAR(cloud.normals[4].z(), -1.0F, 1e-5F);
+  estimate_normals(cloud, {0, -1, 1}, {.line_ratio = 0.065});
+  EXPECT_NEAR(cloud.normals[4].y(), -1.0F, 1e-4F) << "across the line, and level";
+}
+
+TEST(EstimateNormals, ALineMayRiseByTenDegrees) {
+  for (const double sine : {0.16, 0.18}) {
+    PointCloud line;
+    for (int i = -10; i <= 10; ++i) {
+      line.points.emplace_back(0.01 * i * std::sqrt(1.0 - sine * sine), 2.0, 0.01 * i * sine);
+    }
+    estimate_normals(line, {0, 0, 0});
+    EXPECT_NEAR(line.normals[10].norm(), sine < 0.17 ? 1.0F : 0.0F, 1e-5F) << sine;
+    EXPECT_NEAR(line.normals[10].y(), sine < 0.17 ? -1.0F : 0.0F, 1e-3F) << sine;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,6 +5,8 @@
 
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -135,6 +137,62 @@ TEST(Ply, WriteFailureIsAnOutputErrorAndLeavesNothing) {
   const TemporaryDirectory directory;
   std::ofstream(directory / "file") << "x";
   EXPECT_THROW(write_ply(directory / "file" / "cloud.ply", PointCloud{}), OutputError);
+}
+
+/// A vertex of as many bytes as its types have, then x, y, z of 1, 2, 3.
+TEST(Ply, KnowsTheSizeOfEveryType) {
+  const std::vector<std::pair<std::string, std::size_t>> types{
+      {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
+      {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
+      {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+  const std::string position("\x00\x00\x80\x3f\x00\x00\x00\x40\x00\x00\x40\x40", 12);
+  for (const auto& [type, size] : types) {
+    const std::string header = replaced(kHeader, "property float x\n",
+                                        "property " + type + " other\nproperty float32 x\n");
+    const TemporaryDirectory directory;
+    write_file(directory / "cloud.ply", header + std::string(size, '\7') + position);
+    const ColouredCloud read = read_ply(directory / "cloud.ply");
+    ASSERT_EQ(read.cloud.size(), 1U) << type;
+    EXPECT_EQ(read.cloud.points[0], Eigen::Vector3f(1, 2, 3)) << type;
+    EXPECT_TRUE(read.cloud.normals.empty());
+    EXPECT_TRUE(read.rgb.empty());
+  }
+}
+
+TEST(Ply, ColoursMayBeUint8AndNormalsFloat32InAnyOrder) {
+  const TemporaryDirectory directory;
+  write_file(directory / "cloud.ply",
+             "ply\nformat binary_little_endian 1.0\nobj_info a scan\n\nelement vertex 2\n"
+             "property uint8 blue\nproperty uint8 red\nproperty uint8 green\n"
+             "property float32 nz\nproperty float32 nx\nproperty float32 ny\n"
+             "property float z\nproperty float y\nproperty float x\nend_header\n" +
+                 std::string("\1\2\xff"
+                             "\x00\x00\x40\x40\x00\x00\x80\x3f\x00\x00\x00\x40"
+                             "\x00\x00\x40\x40\x00\x00\x00\x40\x00\x00\x80\x3f",
+                             27) +
+                 std::string("\4\5\6", 3) + std::string(24, '\0'));
+  const ColouredCloud read = read_ply(directory / "cloud.ply");
+  ASSERT_EQ(read.cloud.size(), 2U);
+  EXPECT_EQ(read.cloud.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(read.cloud.normals[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(read.rgb[0], (Rgb{2, 255, 1}));
+  EXPECT_EQ(read.rgb[1], (Rgb{5, 6, 4}));
+  EXPECT_TRUE(read.cloud.points[1].isZero());
+}
+
+TEST(Ply, HeaderLinesHaveThreeWords) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    return error_of(replaced(kHeader, from, to) + kOnePoint);
+  };
+  EXPECT_TRUE(says(with("binary_little_endian 1.0", "binary_little_endian"), "expected binary"));
+  EXPECT_TRUE(says(with("element vertex 1", "element vertex"), "expected the one element"));
+  EXPECT_TRUE(says(with("element vertex 1\n", "element vertex 1\nelement vertex 1\n"),
+                   "expected the one element"));
+  EXPECT_TRUE(says(with("property float y", "property float"), "only scalar"));
+  EXPECT_TRUE(says(with("format binary_little_endian 1.0\n", ""), "is missing"));
+  EXPECT_TRUE(says(with("vertex 1\n", "vertex 1x\n"), "'1x' is not a number"));
+  const std::string no_vertex = "ply\nformat binary_little_endian 1.0\nend_header\n";
+  EXPECT_TRUE(says(error_of(no_vertex), "is missing"));
 }
 
 }  // namespace

@@ -149,5 +149,65 @@ TEST(ToCloud, KeepsEveryNthPixelOfAnImageThatReturned) {
   expect_near(cloud.points[1], {2.0, 2.0, 4.0}, 1e-6);
 }
 
+TEST(ToCloud, ReturnsAreAboveZero) {
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0, 0.1, 0.2};
+  scan.range_m = {-1.0F, 0.0F, 0.5F};
+  EXPECT_EQ(to_cloud(scan).size(), 1U);
+  PlanarScan planar;
+  planar.azimuth_rad = {0.0, 0.1, 0.2, 0.3};
+  planar.range_m = {-1.0F, 0.0F, 0.5F, kNan};
+  EXPECT_EQ(to_cloud(planar, 0.1).size(), 1U);
+}
+
+TEST(ToCloud, EveryPixelOfAnImageWithStrideOne) {
+  CameraImages image;
+  image.width_px = 3;
+  image.height_px = 2;
+  image.focal_px = 4.0;
+  image.depth_m = {1.0F, 2.0F, 3.0F, 4.0F, kNan, 6.0F};
+  const PointCloud cloud = to_cloud(image, 1);
+  ASSERT_EQ(cloud.size(), 5U);
+  expect_near(cloud.points[2], {0.75, -0.375, 3.0}, 1e-6);
+  expect_near(cloud.points[3], {-1.0, 0.5, 4.0}, 1e-6);
+}
+
+TEST(Select, TakesPointsAndNormalsInTheOrderOfTheIndices) {
+  PointCloud cloud;
+  cloud.points = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  cloud.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const PointCloud chosen = select(cloud, {2, 0});
+  ASSERT_EQ(chosen.size(), 2U);
+  EXPECT_EQ(chosen.points[0], Eigen::Vector3f(3, 0, 0));
+  EXPECT_EQ(chosen.normals[0], Eigen::Vector3f(0, 0, 1));
+  EXPECT_EQ(chosen.points[1], Eigen::Vector3f(1, 0, 0));
+  EXPECT_EQ(chosen.normals[1], Eigen::Vector3f(1, 0, 0));
+}
+
+TEST(Append, NothingBehindSomethingWithoutNormalsHasNone) {
+  PointCloud without;
+  without.points.emplace_back(2, 0, 0);
+  PointCloud with = without;
+  with.normals.emplace_back(0, 0, 1);
+  PointCloud both = without;
+  append(both, with);
+  EXPECT_EQ(both.size(), 2U);
+  EXPECT_TRUE(both.normals.empty());
+  EXPECT_FALSE(PointCloud{}.has_normals());
+}
+
+TEST(VoxelDownsample, CubesAreToldApartAlongEachAxis) {
+  PointCloud cloud;
+  cloud.points = {{0.1F, 0.1F, 0.1F},  {0.1F, 0.1F, 0.35F}, {0.1F, 0.35F, 0.1F},
+                  {0.35F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F},  {0.24F, 0.03F, 0.09F}};
+  const PointCloud down = voxel_downsample(cloud, 0.25);
+  ASSERT_EQ(down.size(), 4U);
+  expect_near(down.points[0], {0.18, 0.11, 0.13}, 1e-6);
+  EXPECT_EQ(down.points[1], cloud.points[1]);
+  EXPECT_EQ(down.points[3], cloud.points[3]);
+  EXPECT_FALSE(down.has_normals());
+}
+
 }  // namespace
 }  // namespace vantage

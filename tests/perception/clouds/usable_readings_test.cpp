@@ -71,5 +71,36 @@ TEST(RepeatedLines, AreDiscardedButTheFirst) {
   EXPECT_EQ(share_of_valid_lines({}), 0.0);
 }
 
+TEST(RepeatedLines, AreComparedWithTheLastLineOfTheScanBefore) {
+  const std::vector<float> before{2.0F, kNaN};
+  RangeScan scan = scan_of({2.0F, kNaN, 2.5F, 1.0F}, 2);
+  EXPECT_EQ(discard_repeated_lines(scan, before), 1U);
+  expect_same(scan.range_m, {kNaN, kNaN, 2.5F, 1.0F});
+  RangeScan other = scan_of({kNaN, 2.0F, 2.5F, 1.0F}, 2);
+  EXPECT_EQ(discard_repeated_lines(other, before), 0U);
+  RangeScan shorter = scan_of({2.0F, 3.0F}, 1);
+  EXPECT_EQ(discard_repeated_lines(shorter, before), 0U);
+}
+
+/// What is not above 0 is no measurement, however often it is repeated.
+TEST(RepeatedLines, MustHaveMeasuredSomething) {
+  RangeScan scan = scan_of({0.0F, kInfinity, 0.0F, kInfinity, -1.0F, 0.0F, -1.0F, 0.0F}, 2);
+  EXPECT_EQ(discard_repeated_lines(scan), 0U);
+}
+
+TEST(ValidLines, HaveAtLeastOneBeamThatIsANumber) {
+  EXPECT_DOUBLE_EQ(share_of_valid_lines(scan_of({kNaN, kNaN, kNaN, 1.0F, kInfinity, kNaN}, 2)),
+                   2.0 / 3.0);
+  EXPECT_EQ(share_of_valid_lines(scan_of({kNaN, kNaN}, 2)), 0.0);
+}
+
+TEST(UsableReadings, OfAnImageDoNotReachItsEnd) {
+  CameraImages images;
+  images.range_max_m = 2.0;
+  images.depth_m = {-kInfinity, 2.0F, std::nextafter(2.0F, 0.0F), 0.001F};
+  EXPECT_EQ(discard_unusable(images), 2U);
+  expect_same(images.depth_m, {0.0F, 0.0F, std::nextafter(2.0F, 0.0F), 0.001F});
+}
+
 }  // namespace
 }  // namespace vantage

@@ -73,5 +73,15 @@ TEST(StandingBox, TakesTheSupportThatIsKnown) {
   EXPECT_NE(seen_m, known_m);
 }
 
+/// What its readings leave open needs no weight beside.
+TEST(CutOffExtents, ReadingsWeighInFull) {
+  ObjectView view = hidden_columns(ball(), 80, 160);
+  view.seen_share = 0.4;
+  Rng rng(1);
+  const FeatureResult result = train_feature(StandingBox{}, {&view, 1}, rng).extract(view);
+  ASSERT_FALSE(result.readings.empty());
+  EXPECT_EQ(result.weight, 1.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <set>
+#include <string>
+#include <string_view>
 
 #include "tests/perception/features/onnx_bytes.hpp"
 #include "tests/support/object_views.hpp"
@@ -165,6 +168,46 @@ TEST(TrainFeature, WithoutViewsThereIsNothingToLearnOrTime) {
   Rng rng(1);
   EXPECT_EQ(train_feature(Colour{}, {}, rng).cost_s(), 0.0);
   EXPECT_THROW(train_feature(KernelDescriptor<PatchKind::lbp>{}, {}, rng), InputError);
+}
+
+TEST_P(EveryFeature, DarknessSilencesWhatDoesNotGoByDepth) {
+  const std::set<std::string_view> by_depth{"bounding_box", "standing_box", "vfh", "depth_gradient",
+                                            "depth_lbp",    "normal_spin",  "size"};
+  ObjectView dark = views[0];
+  std::ranges::fill(dark.rgb, 0);
+  const FeatureResult result = trained().extract(dark);
+  EXPECT_EQ(result.extracted(), by_depth.contains(GetParam())) << result.skipped;
+}
+
+TEST(TrainedFeature, ItsHashIsOfWhatItExtracts) {
+  const TrainedFeature colour(Colour{}, 0.5);
+  const TrainedFeature dear = colour.with_cost_s(2.0);
+  EXPECT_EQ(colour.cost_s(), 0.5);
+  EXPECT_EQ(dear.cost_s(), 2.0);
+  EXPECT_EQ(dear.state_hash(), colour.state_hash());
+  EXPECT_NE(TrainedFeature(Colour{.min_pixels = 17}, 0.5).state_hash(), colour.state_hash());
+  EXPECT_NE(TrainedFeature(SoftColour{}, 0.5).state_hash(), colour.state_hash());
+}
+
+std::string bytes_of_colour(std::string_view name, double cost_s) {
+  std::string bytes = "vantage feature 1\n";
+  put_text(bytes, name);
+  put(bytes, cost_s);
+  put(bytes, 23);
+  return bytes;
+}
+
+TEST(TrainedFeature, ItsBytesAreChecked) {
+  const auto read = [](const std::string& bytes) {
+    return TrainedFeature::from_bytes(bytes, "model");
+  };
+  EXPECT_EQ(read(bytes_of_colour("colour", 0.0)).cost_s(), 0.0);
+  EXPECT_EQ(read(bytes_of_colour("colour", 0.25)).to_bytes(), bytes_of_colour("colour", 0.25));
+  for (const double cost_s : {-0.001, std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(read(bytes_of_colour("colour", cost_s)), InputError) << cost_s;
+  }
+  EXPECT_THROW(read(bytes_of_colour("nose", 0.25)), InputError);
 }
 
 }  // namespace

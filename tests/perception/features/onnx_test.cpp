@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/perception/features/onnx_bytes.hpp"
@@ -91,6 +92,43 @@ TEST_F(OnnxFeature, NeedsTwoViews) {
   const auto views = ball_views(1, 40, rng);
   EXPECT_THAT([&] { (void)options.train(views, rng); },
               ThrowsMessage<InputError>(HasSubstr("1 training views can be used, fewer than 2")));
+}
+
+/// Means of an even colour, whatever share of the square it fills: its direction is known.
+TEST(TrainedOnnx, ColoursAreWhatNetworksOfImageNetExpect) {
+  const Pca as_it_is{Eigen::VectorXf::Zero(3), Eigen::MatrixXf::Identity(3, 3),
+                     Eigen::VectorXf::Ones(3)};
+  const TrainedOnnx trained(OnnxNetwork(averaging_network(), "mean.onnx"), as_it_is);
+  EXPECT_EQ(trained.dimension(), 3);
+  const Eigen::Vector3d value(200.0 / 255.0, 100.0 / 255.0, 50.0 / 255.0);
+  const Eigen::Vector3d mean(0.485, 0.456, 0.406);
+  const Eigen::Vector3d deviation(0.229, 0.224, 0.225);
+  const Eigen::Vector3d expected = ((value - mean).array() / deviation.array()).matrix();
+  for (const int height_px : {224, 112}) {
+    ObjectView view = blank_view(224, height_px);
+    std::ranges::fill(view.mask, 1);
+    for (std::size_t i = 0; i < view.mask.size(); ++i) {
+      view.rgb[3 * i] = 200;
+      view.rgb[3 * i + 1] = 100;
+      view.rgb[3 * i + 2] = 50;
+    }
+    const FeatureResult result = trained.extract(view);
+    ASSERT_TRUE(result.extracted()) << result.skipped;
+    EXPECT_LT((result.vector.cast<double>() - expected.normalized()).norm(), 3e-4) << height_px;
+  }
+}
+
+TEST(TrainedOnnx, NeedsSixteenPixels) {
+  const Pca as_it_is{Eigen::VectorXf::Zero(3), Eigen::MatrixXf::Identity(3, 3),
+                     Eigen::VectorXf::Ones(3)};
+  const TrainedOnnx trained(OnnxNetwork(averaging_network(), "mean.onnx"), as_it_is);
+  const auto skipped = [&](int width_px, int height_px) {
+    ObjectView view = blank_view(width_px, height_px);
+    std::ranges::fill(view.mask, 1);
+    return trained.extract(view).skipped;
+  };
+  EXPECT_EQ(skipped(4, 4), "");
+  EXPECT_EQ(skipped(5, 3), "the mask has 15 usable pixels, fewer than 16");
 }
 
 }  // namespace

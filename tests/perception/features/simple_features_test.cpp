@@ -1,7 +1,9 @@
 // Colour and bounding box against what can be worked out by hand.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <string>
 
 #include "tests/support/object_views.hpp"
 #include "vantage/perception/features/bounding_box.hpp"
@@ -222,6 +224,42 @@ TEST(StandingBox, SaysWhatIsMissing) {
   std::ranges::fill(view.depth_m, 0.0F);
   EXPECT_EQ(StandingBox{}.extract(view).skipped,
             "0 pixels of the object have depth, fewer than 16");
+}
+
+/// Of grey and of red; 85 and 170 of 255 are where a third ends.
+TEST(Colour, SaturationAndValueAreInThirds) {
+  const auto value_bin = [](int grey) {
+    return Eigen::Vector3f(Colour{}.extract(of_colour(grey, grey, grey)).vector.head<3>());
+  };
+  EXPECT_EQ(value_bin(85)[0], 1.0F);
+  EXPECT_EQ(value_bin(86)[1], 1.0F);
+  EXPECT_EQ(value_bin(170)[1], 1.0F);
+  EXPECT_EQ(value_bin(171)[2], 1.0F);
+  const auto saturation_bin = [](int saturation) {
+    const FeatureResult red = Colour{}.extract(of_colour(255, 255 - saturation, 255 - saturation));
+    return std::array{red.vector[2], red.vector[5], red.vector[8]};
+  };
+  EXPECT_EQ(saturation_bin(85)[0], 1.0F);
+  EXPECT_EQ(saturation_bin(86)[1], 1.0F);
+  EXPECT_EQ(saturation_bin(170)[1], 1.0F);
+  EXPECT_EQ(saturation_bin(171)[2], 1.0F);
+}
+
+TEST(SimpleFeatures, SixteenPixelsAreEnough) {
+  EXPECT_EQ(Colour{}.extract(filled(4, 4)).skipped, "");
+  EXPECT_EQ(SoftColour{}.extract(filled(4, 4)).skipped, "");
+  EXPECT_EQ(BoundingBox{}.extract(filled(4, 4)).skipped, "");
+  const std::string few = "the mask has 15 usable pixels, fewer than 16";
+  EXPECT_EQ(Colour{}.extract(filled(5, 3)).skipped, few);
+  EXPECT_EQ(SoftColour{}.extract(filled(5, 3)).skipped, few);
+  EXPECT_EQ(BoundingBox{}.extract(filled(5, 3)).skipped,
+            "15 pixels of the object have depth, fewer than 16");
+}
+
+TEST(BoundingBox, NeedsIntrinsics) {
+  ObjectView view = filled(20, 20);
+  view.focal_px = 0.0;
+  EXPECT_EQ(BoundingBox{}.extract(view).skipped, "the camera's intrinsics are not finite numbers");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/object_views.hpp"
@@ -170,6 +171,69 @@ TEST(Vfh, OfAView) {
   EXPECT_TRUE(result.vector.segment(kSizeBlock, 45).isZero());
   std::ranges::fill(view.depth_m, 0.0F);
   EXPECT_FALSE(Vfh{}.extract(view).extracted());
+}
+
+/// Two points with normals that lean by 0.5 rad, seen from the origin; 308 bins, those named
+/// filled.
+void expect_bins(const std::vector<Eigen::Vector3f>& points,
+                 const std::vector<Eigen::Vector3f>& normals,
+                 const std::vector<std::pair<int, double>>& filled_bins) {
+  PointCloud cloud;
+  cloud.points = points;
+  cloud.normals = normals;
+  Eigen::VectorXf expected = Eigen::VectorXf::Zero(308);
+  for (const auto& [bin, share] : filled_bins) expected[bin] += static_cast<float>(share);
+  const Eigen::VectorXf histogram =
+      viewpoint_feature_histogram(cloud, Eigen::Vector3d::Zero(), VfhSizes::metres);
+  for (int i = 0; i < 308; ++i) EXPECT_NEAR(histogram[i], expected[i], 1e-3F) << "bin " << i;
+}
+
+constexpr float kLeanSin = 0.479425539F;
+constexpr float kLeanCos = 0.877582562F;
+
+// Outwards: the angle to the mean normal is 0.5, that of the line to the normal has sine 0.479.
+TEST(Vfh, OfNormalsThatLeanOutwards) {
+  expect_bins({{0.1F, 0.0F, 1.0F}, {-0.1F, 0.0F, 1.0F}},
+              {{kLeanSin, 0.0F, -kLeanCos}, {-kLeanSin, 0.0F, -kLeanCos}},
+              {{26, 200.0},
+               {45 + 22, 200.0},
+               {90 + 19, 200.0},
+               {kSizeBlock + 10, 200.0},
+               {kViewBlock + 120, 100.0}});
+}
+
+// Aside: only the second angle is not in the middle.
+TEST(Vfh, OfNormalsThatLeanAside) {
+  expect_bins({{0.1F, 0.0F, 1.0F}, {-0.1F, 0.0F, 1.0F}},
+              {{0.0F, kLeanSin, -kLeanCos}, {0.0F, -kLeanSin, -kLeanCos}},
+              {{22, 200.0},
+               {45 + 25, 200.0},
+               {90 + 22, 200.0},
+               {kSizeBlock + 10, 200.0},
+               {kViewBlock + 120, 100.0}});
+}
+
+// The nearer point's line goes with its own normal best, the farther one's with the mean normal.
+TEST(Vfh, TheNormalNearerToTheLineComesFirst) {
+  expect_bins({{0.1F, 0.0F, 0.9F}, {-0.1F, 0.0F, 1.1F}},
+              {{kLeanSin, 0.0F, -kLeanCos}, {-kLeanSin, 0.0F, -kLeanCos}},
+              {{26, 200.0},
+               {45 + 22, 200.0},
+               {90 + 15, 100.0},
+               {90 + 18, 100.0},
+               {kSizeBlock + 14, 200.0},
+               {kViewBlock + 120, 100.0}});
+}
+
+TEST(Vfh, SaysHowManyPointsHaveANormal) {
+  ObjectView view = blank_view(40, 40);
+  for (int column = 0; column < 40; ++column) {
+    view.mask[view.index(20, column)] = 1;
+    view.depth_m[view.index(20, column)] = 1.0F;
+  }
+  EXPECT_EQ(Vfh{}.extract(view).skipped, "0 points have a normal, fewer than 32");
+  EXPECT_EQ((Vfh{.min_points = 41}.extract(view).skipped),
+            "40 pixels of the object have depth, fewer than 41");
 }
 
 }  // namespace

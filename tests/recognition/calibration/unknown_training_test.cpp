@@ -68,6 +68,37 @@ TEST(MostLikelyFactors, WithoutInstancesAreOne) {
   EXPECT_NEAR(found.category, 0.0, 1e-6) << "half way between the two";
 }
 
+/// Known views count half together, however many they are: half way between 5 and 1.
+TEST(MostLikelyFactors, DoNotDependOnHowManyViewsThereAreOfAKind) {
+  std::vector<ShownView> views(
+      30, {.kind = Kind::known, .known = 5.0, .instance = kImpossible, .category = 0.0});
+  views.insert(views.end(), 10,
+               {.kind = Kind::category, .known = 1.0, .instance = kImpossible, .category = 0.0});
+  EXPECT_NEAR(most_likely_factors(views).category, 3.0, 1e-5);
+}
+
+/// Views of each kind of unknown objects fit the other kind not at all, so that both factors are f,
+/// where s(f - 6) = s(2 + ln 2 - f), s the logistic function.
+TEST(MostLikelyFactors, OfBothKindsCountHalfTogether) {
+  std::vector<ShownView> views(
+      12, {.kind = Kind::known, .known = 6.0, .instance = 0.0, .category = 0.0});
+  views.insert(views.end(), 3,
+               {.kind = Kind::instance, .known = 2.0, .instance = 0.0, .category = -1000.0});
+  views.insert(views.end(), 7,
+               {.kind = Kind::category, .known = 2.0, .instance = -1000.0, .category = 0.0});
+  const UnknownFactors found = most_likely_factors(views);
+  EXPECT_NEAR(found.instance, 0.5 * (8.0 + std::numbers::ln2), 1e-5);
+  EXPECT_NEAR(found.category, 0.5 * (8.0 + std::numbers::ln2), 1e-5);
+}
+
+TEST(MostLikelyFactors, AreFoundFarAway) {
+  std::vector<ShownView> views(
+      4, {.kind = Kind::known, .known = 205.0, .instance = kImpossible, .category = 0.0});
+  views.insert(views.end(), 4,
+               {.kind = Kind::category, .known = 199.0, .instance = kImpossible, .category = 0.0});
+  EXPECT_NEAR(most_likely_factors(views).category, 202.0, 1e-4);
+}
+
 /// Objects are points of a plane, the same from all sides: in each category the first two within a
 /// hair, the third apart. Recordings are told from each other by nothing.
 struct PointWorld {
@@ -102,7 +133,7 @@ struct Learnt {
   std::vector<std::optional<UnknownFactors>> factors;
 };
 
-Learnt learn(const PointWorld& world, int views_each, Rng& rng) {
+Learnt learn(const PointWorld& world, int views_each, Rng& rng, double exponent = 1.0) {
   RecognitionModel model;
   model.states = world.states;
   model.features.push_back(
@@ -121,7 +152,7 @@ Learnt learn(const PointWorld& world, int views_each, Rng& rng) {
   }
   const Calibration calibration =
       hold_out(views, shown, model, {HeldOutShare{.share = 0.3}, ShrunkVariance{}, 1}, {});
-  const std::vector<double> psi{1.0};
+  const std::vector<double> psi{exponent};
   return {calibration.folds.front().models,
           calibrate_unknown(calibration, views, world.states, psi, {})};
 }
@@ -173,6 +204,15 @@ TEST(CalibrateUnknown, MakesTheProbabilityOfUnknownHonest) {
   EXPECT_NEAR(error, 0.0, 0.04);
   EXPECT_GT(found, 0.9);
   EXPECT_LT(alarms, 0.08);
+}
+
+TEST(CalibrateUnknown, OfAFeatureThatSaysNothingThereAreNoFactors) {
+  Rng rng(9);
+  const PointWorld world(rng);
+  const Learnt learnt = learn(world, 20, rng, 0.0);
+  ASSERT_TRUE(learnt.factors[0]);
+  EXPECT_EQ(learnt.factors[0]->instance, 0.0);
+  EXPECT_EQ(learnt.factors[0]->category, 0.0);
 }
 
 TEST(CalibrateUnknown, NeedsThreeObjects) {

@@ -15,8 +15,8 @@ constexpr int kBins = 4;
 constexpr int kRecordings = 3;
 
 /// Views whose noise is `shared` to this share of its variance among all of one object in one
-/// recording.
-double learnt(double shared, int recordings) {
+/// recording, which is a folder or a video.
+double learnt(double shared, int recordings, bool by_video = false) {
   RecognitionModel model;
   model.states.bins = kBins;
   model.states.categories = {"cup"};
@@ -41,7 +41,8 @@ double learnt(double shared, int recordings) {
         ViewFeatures& view = views.emplace_back();
         view.name = {
             .category = "cup", .object = model.states.objects[object], .video = 1, .frame = i};
-        view.folder = fmt::format("/data/{}/cup/{}", recording, view.name.object);
+        if (by_video) view.name.video += recording;
+        view.folder = fmt::format("/data/{}/cup/{}", by_video ? 0 : recording, view.name.object);
         view.yaw_rad = (i % kBins) * 2.0 * std::numbers::pi / kBins;
         const Eigen::Vector3d seen =
             at[object] + std::sqrt(shared) * common + std::sqrt(1.0 - shared) * noise();
@@ -60,6 +61,10 @@ TEST(ViewCorrelation, IsWhatTheViewsOfARecordingShare) {
   const double much = learnt(0.8, kRecordings);
   EXPECT_NEAR(little, 0.3, 0.15);
   EXPECT_GE(much, little + 0.2);
+}
+
+TEST(ViewCorrelation, OfOneFolderIsThatOfItsVideos) {
+  EXPECT_EQ(learnt(0.3, kRecordings, true), learnt(0.3, kRecordings));
 }
 
 TEST(ViewCorrelation, OfOneRecordingIsNotTold) { EXPECT_EQ(learnt(0.8, 1), 0.0); }

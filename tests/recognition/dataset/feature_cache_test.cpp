@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <memory>
+#include <set>
+
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -76,6 +80,57 @@ TEST_F(FeatureCaching, AnotherExtractorIsAnotherFolder) {
   const auto changed = extract(cache(), demanding);
   EXPECT_FALSE(changed[0].features[0].extracted());
   expect_equal(changed, extract({}, demanding));
+}
+
+TEST_F(FeatureCaching, AViewIsWhatItIsExtractedFrom) {
+  const ViewEntry plain = index_dataset(folder_.path() / "data").views.front();
+  std::vector<ViewEntry> views(7, plain);
+  views[1].name.video = 2;
+  for (const char* file : {"crop.png", "depthcrop.png", "maskcrop.png", "loc.txt"}) {
+    write_file(views[1].file(file), read_file(plain.file(file)));
+  }
+  views[2].notes = std::make_shared<const PictureNotes>();
+  PictureNotes nearer;
+  nearer.focal_px = 400.0;
+  views[3].notes = std::make_shared<const PictureNotes>(nearer);
+  views[4].cut = ObjectCut::depth;
+  views[5].cut = ObjectCut::whole;
+  views[6].given_elevation_rad = 0.25;
+  std::set<std::uint64_t> hashes;
+  for (const ViewEntry& view : views) hashes.insert(view_hash(view));
+  EXPECT_EQ(hashes.size(), views.size());
+  EXPECT_EQ(view_hash(plain), view_hash(views[0]));
+  for (const char* file : {"crop.png", "depthcrop.png", "maskcrop.png", "loc.txt"}) {
+    const std::uint64_t before = view_hash(plain);
+    write_file(plain.file(file), read_file(plain.file(file)) + " ");
+    EXPECT_NE(view_hash(plain), before) << file;
+  }
+}
+
+TEST_F(FeatureCaching, AFileIsWrittenForEvery256Views) {
+  const std::vector<TrainedFeature> extractors{TrainedFeature(Colour{}, 0.0)};
+  {
+    FeatureCache kept(cache(), extractors);
+    for (std::uint64_t i = 0; i < 255; ++i) kept.keep(0, i, FeatureResult::skip("hidden"));
+    EXPECT_FALSE(fs::exists(cache()));
+    kept.keep(0, 255, FeatureResult::skip("far"));
+    EXPECT_EQ(files().size(), 1U);
+  }
+  EXPECT_EQ(files().size(), 1U) << "nothing was left to write";
+  const FeatureCache again(cache(), extractors);
+  for (std::uint64_t i = 0; i < 256; ++i) {
+    ASSERT_TRUE(again.find(0, i)) << i;
+    EXPECT_EQ(again.find(0, i)->skipped, i < 255 ? "hidden" : "far");
+  }
+  EXPECT_FALSE(again.find(0, 256));
+}
+
+TEST_F(FeatureCaching, WithoutAFolderNothingIsKept) {
+  const std::vector<TrainedFeature> extractors{TrainedFeature(Colour{}, 0.0)};
+  FeatureCache none({}, extractors);
+  EXPECT_FALSE(none.active());
+  none.keep(0, 1, FeatureResult::skip("hidden"));
+  EXPECT_FALSE(none.find(0, 1));
 }
 
 TEST_F(FeatureCaching, DamagedFilesAreExtractedAgain) {

@@ -56,5 +56,61 @@ TEST(FewViews, OfOneObjectThereIsNoMistake) {
   EXPECT_EQ(held_out.state.size(), 1U);
 }
 
+/// Four states of two objects, three views, two features.
+HeldOutViews odd_views() {
+  HeldOutViews held_out{.state = {3, 0, 2}, .bins = 2, .log_density = {}};
+  held_out.log_density.push_back(Eigen::MatrixXf{
+      {0.2F, -1.0F, 0.4F}, {1.0F, 0.6F, -0.5F}, {-0.3F, 0.9F, 1.2F}, {0.7F, -0.2F, 0.1F}});
+  held_out.log_density.push_back(Eigen::MatrixXf{
+      {0.1F, 0.5F, -0.2F}, {-0.4F, 0.3F, 0.6F}, {0.8F, -0.6F, 0.2F}, {0.0F, 0.4F, -1.0F}});
+  return held_out;
+}
+
+TEST(FewViews, TheScoreIsOfAllFeaturesByTheirPsi) {
+  const LogObject log = log_object(odd_views(), std::vector{0.5, 2.0}, 2);
+  EXPECT_NEAR(log.mean, -0.3932574533686542, 1e-6);
+  EXPECT_NEAR(log.standard_error, 0.056536522066833406, 1e-6);
+  const LogObject none = log_object(odd_views(), std::vector{0.5, 2.0}, 0);
+  EXPECT_EQ(none.mean, 0.0);
+  EXPECT_EQ(none.standard_error, 0.0);
+}
+
+TEST(FewViews, TheScoreOfAnImpossibleObjectIsFinite) {
+  HeldOutViews held_out{.state = {0}, .bins = 1, .log_density = {Eigen::MatrixXf(2, 1)}};
+  held_out.log_density[0] << -500.0F, 0.0F;
+  EXPECT_NEAR(log_object(held_out, std::vector{1.0}, 1).mean, std::log(1e-12), 1e-9);
+}
+
+/// Three objects of two bins. The leads of the views are 5, 1 and 3.
+TEST(FewViews, TheMistakeIsTheViewOfMedianLeadForTheSecondObject) {
+  HeldOutViews held_out{.state = {2, 3, 2}, .bins = 2, .log_density = {Eigen::MatrixXf(6, 3)}};
+  held_out.log_density[0] << -9.0F, -9.0F, -6.0F,  //
+      -8.0F, -4.0F, -7.0F,                         //
+      -1.0F, -7.0F, -1.0F,                         //
+      -5.0F, -3.0F, -2.0F,                         //
+      -6.0F, -8.0F, -5.0F,                         //
+      -7.0F, -9.0F, -4.0F;
+  add_a_mistake(held_out);
+  EXPECT_EQ(held_out.state, (std::vector<int>{2, 3, 2, 5}));
+  ASSERT_EQ(held_out.log_density[0].cols(), 4);
+  EXPECT_TRUE(held_out.log_density[0].col(3) == held_out.log_density[0].col(2));
+  EXPECT_EQ(held_out.log_density[0](1, 1), -4.0F);
+}
+
+TEST(FewViews, LeadsOfAllFeaturesAddUpAndTheFirstFeatureTellsTheSecondObject) {
+  HeldOutViews held_out{
+      .state = {0, 0, 0}, .bins = 1, .log_density = {Eigen::MatrixXf(3, 3), Eigen::MatrixXf(3, 3)}};
+  held_out.log_density[0] << 0.0F, 0.0F, 0.0F,  //
+      -2.0F, -1.0F, -9.0F,                      //
+      -3.0F, -6.0F, -4.0F;
+  held_out.log_density[1] << 0.0F, 0.0F, 0.0F,  //
+      -9.0F, -1.0F, -8.0F,                      //
+      -3.0F, -7.0F, -2.0F;
+  add_a_mistake(held_out);  // leads of 2 + 3, 1 + 1 and 4 + 2
+  EXPECT_EQ(held_out.state.back(), 1);
+  EXPECT_TRUE(held_out.log_density[0].col(3) == held_out.log_density[0].col(0));
+  EXPECT_TRUE(held_out.log_density[1].col(3) == held_out.log_density[1].col(0));
+}
+
 }  // namespace
 }  // namespace vantage

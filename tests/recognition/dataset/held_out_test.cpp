@@ -8,6 +8,8 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
+#include <vector>
 
 namespace vantage {
 namespace {
@@ -84,6 +86,196 @@ TEST(HoldOut, PicturesOfABurstAreHeldOutTogether) {
   }
   EXPECT_THAT(held, testing::Each(testing::AnyOf(0, 5)));
   EXPECT_THAT(held, testing::Contains(5));
+}
+
+/// Views of objects of one bin by one number.
+struct NumberedViews {
+  RecognitionModel model;
+  std::vector<ViewFeatures> views;
+  std::vector<int> shown;
+
+  explicit NumberedViews(int objects, int features = 1) {
+    model.states.bins = 1;
+    model.states.categories = {"cup"};
+    for (int k = 0; k < objects; ++k) {
+      model.states.objects.push_back("cup_" + std::to_string(k));
+      model.states.category_of.push_back(0);
+    }
+    for (int f = 0; f < features; ++f) {
+      FeatureModel& feature = model.features.emplace_back();
+      feature.name = "feature_" + std::to_string(f);
+      feature.statistics = empty_statistics(1, objects);
+    }
+  }
+  ViewFeatures& add(int object, int video, float number, double yaw_rad = 0.0) {
+    ViewFeatures& view = views.emplace_back();
+    const std::string& name = model.states.objects[static_cast<std::size_t>(object)];
+    view.name = {
+        .category = "cup", .object = name, .video = video, .frame = static_cast<int>(views.size())};
+    view.folder = "/hall/cup/" + name;
+    view.yaw_rad = yaw_rad;
+    for (std::size_t f = 0; f < model.features.size(); ++f) {
+      view.features.push_back({Eigen::VectorXf::Constant(1, number), {}});
+    }
+    shown.push_back(object);
+    return view;
+  }
+  [[nodiscard]] Calibration hold_out_by(const HeldOut& held_out, bool only_seen = false) const {
+    return hold_out(views, shown, model, {held_out, ShrunkVariance{}, 1, only_seen}, {});
+  }
+};
+
+NumberedViews two_videos() {
+  NumberedViews made(2, 2);
+  made.add(0, 1, 1.0F);
+  made.add(0, 4, 5.0F);
+  made.add(1, 1, 10.0F);
+  made.add(1, 4, 20.0F);
+  made.add(0, 1, 3.0F);
+  made.add(0, 4, 9.0F);
+  made.add(1, 1, 14.0F);
+  made.add(1, 4, 22.0F);
+  return made;
+}
+
+TEST(HoldOutByVideo, TestsEachByAModelOfTheOthers) {
+  const NumberedViews made = two_videos();
+  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  EXPECT_THAT(by.view, testing::ElementsAre(0U, 2U, 4U, 6U, 1U, 3U, 5U, 7U));
+  EXPECT_THAT(by.held_out.state, testing::ElementsAre(0, 1, 0, 1, 0, 1, 0, 1));
+  EXPECT_EQ(by.held_out.bins, 1);
+  ASSERT_EQ(by.folds.size(), 2U);
+  ASSERT_EQ(by.held_out.log_density.size(), 2U);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const CalibrationFold& fold = by.folds[s];
+    EXPECT_EQ(fold.first, s == 0 ? 0 : 4);
+    EXPECT_EQ(fold.count, 4);
+    ASSERT_EQ(fold.models.size(), 2U);
+    EXPECT_NEAR(fold.models[1].mean(0, 0), s == 0 ? 7.0F : 2.0F, 1e-5F);
+    EXPECT_NEAR(fold.models[1].mean(0, 1), s == 0 ? 21.0F : 12.0F, 1e-5F);
+    for (Eigen::Index i = fold.first; i < fold.first + fold.count; ++i) {
+      const auto view = by.view[static_cast<std::size_t>(i)];
+      const Eigen::VectorXd expected =
+          log_density(fold.models[1], made.views[view].features[1].vector);
+      EXPECT_TRUE(by.held_out.log_density[1].col(i).isApprox(expected.cast<float>(), 1e-4F));
+    }
+  }
+}
+
+TEST(HoldOutByVideo, TestsViewsThatHaveAllFeaturesOnly) {
+  NumberedViews made = two_videos();
+  made.views[6].features[1] = FeatureResult::skip("hidden");
+  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  EXPECT_THAT(by.view, testing::ElementsAre(0U, 2U, 4U, 1U, 3U, 5U, 7U));
+  EXPECT_EQ(by.folds[0].count, 3);
+  EXPECT_EQ(by.folds[1].first, 3);
+  EXPECT_NEAR(by.folds[1].models[0].mean(0, 1), 12.0F, 1e-5F) << "but it is trained on";
+  EXPECT_NEAR(by.folds[1].models[1].mean(0, 1), 10.0F, 1e-5F);
+}
+
+TEST(HoldOutByRecording, IsByTheVideosOfEachFolder) {
+  NumberedViews made = two_videos();
+  for (const std::size_t i : {5U, 7U}) {
+    made.views[i].folder = "/attic/cup/" + made.views[i].name.object;
+  }
+  const Calibration by = made.hold_out_by(HeldOutRecordings{});
+  EXPECT_THAT(by.view, testing::ElementsAre(0U, 2U, 4U, 6U, 1U, 3U, 5U, 7U));
+  ASSERT_EQ(by.folds.size(), 3U);
+  EXPECT_EQ(by.folds[1].first, 4);
+  EXPECT_EQ(by.folds[1].count, 2);
+  EXPECT_EQ(by.folds[2].first, 6);
+}
+
+TEST(HoldOutByVideo, RulesOutWhatItWasNotTrainedOnIfAsked) {
+  NumberedViews made(2);
+  for (const float number : {1.0F, 3.0F}) {
+    made.add(0, 1, number);
+    made.add(1, 1, 10.0F + number);
+    made.add(0, 4, 4.0F + number);
+  }
+  for (const bool only_seen : {false, true}) {
+    const Eigen::MatrixXf log =
+        made.hold_out_by(HeldOutVideos{}, only_seen).held_out.log_density[0];
+    ASSERT_EQ(log.cols(), 6);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      EXPECT_GT(log(0, i), -1e8F);
+      EXPECT_EQ(log(1, i) < -1e8F, only_seen && i < 4) << "of video 4 there is no object 1";
+    }
+  }
+}
+
+/// With one view of each state to train on, how far they scatter is that of the other objects.
+TEST(HoldOutByVideo, TakesTheScatterOfTheOtherHalfOfTheObjects) {
+  NumberedViews made(4);
+  for (const auto& [first, second, video] : {std::tuple{1.0F, 30.0F, 1}, {2.0F, 31.0F, 4}}) {
+    const float odd = video == 1 ? 0.0F : 1.0F;
+    made.add(0, video, first);
+    made.add(1, video, 10.0F + 4.0F * odd);
+    made.add(2, video, second);
+    made.add(3, video, 50.0F + 2.0F * odd);
+  }
+  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  EXPECT_THAT(by.view, testing::ElementsAre(0U, 2U, 1U, 3U, 4U, 6U, 5U, 7U));
+  ASSERT_EQ(by.folds.size(), 4U);
+  for (std::size_t s = 0; s < 4; ++s) {
+    EXPECT_EQ(by.folds[s].first, static_cast<Eigen::Index>(2 * s));
+    EXPECT_EQ(by.folds[s].count, 2);
+    // (16 / 2 + 4 / 2) / 2 of objects 1 and 3, (1 / 2 + 1 / 2) / 2 of the others.
+    const float expected = s % 2 == 0 ? 5.0F : 0.5F;
+    for (int state = 0; state < 4; ++state) {
+      EXPECT_NEAR(by.folds[s].models[0].variance(0, state), expected, 1e-5F);
+    }
+  }
+}
+
+TEST(HoldOutByVideo, LimitsTheViewsOfAllFoldsTogether) {
+  NumberedViews made(1);
+  for (int i = 0; i < 2500; ++i) {
+    made.add(0, 1, 0.01F * static_cast<float>(i % 7));
+    made.add(0, 2, 0.01F * static_cast<float>(i % 5));
+  }
+  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  ASSERT_EQ(by.folds.size(), 2U);
+  EXPECT_EQ(by.folds[0].count, 2000);
+  EXPECT_EQ(by.folds[1].count, 2000);
+  EXPECT_EQ(by.view.size(), 4000U);
+  EXPECT_EQ(by.held_out.log_density[0].cols(), 4000);
+}
+
+/// Pairs of views at these yaws; those of which one is held out and the other is not.
+int parted_pairs(NumberedViews& made) {
+  const Calibration by = made.hold_out_by(HeldOutShare{.share = 0.5});
+  const std::set<std::size_t> held(by.view.begin(), by.view.end());
+  int parted = 0;
+  for (std::size_t i = 0; i < made.views.size(); i += 2) {
+    parted += held.contains(i) == held.contains(i + 1) ? 0 : 1;
+  }
+  return parted;
+}
+
+TEST(HoldOut, ADegreeApartIsTheSameDirection) {
+  for (const double apart_rad : {0.016, 0.019}) {
+    NumberedViews made(1);
+    for (int i = 0; i < 40; ++i) {
+      made.add(0, 1, static_cast<float>(i % 3), 0.15 * i);
+      made.add(0, 1, static_cast<float>(i % 4), 0.15 * i + apart_rad);
+    }
+    EXPECT_EQ(parted_pairs(made) > 0, apart_rad > 0.0175) << apart_rad;
+  }
+}
+
+TEST(HoldOut, TheSameDirectionIsSoAllTheWayRoundButOfOneObjectOnly) {
+  NumberedViews round(40);
+  NumberedViews two_objects(41);
+  for (int k = 0; k < 40; ++k) {
+    const auto number = static_cast<float>(k % 3);
+    round.add(k, 1, number, 2.0 * std::numbers::pi - 0.004);
+    round.add(k, 1, number + 1.0F, 0.004);
+    two_objects.add(k, 1, number, 1.0);
+    two_objects.add(k + 1, 2, number, 1.0);
+  }
+  EXPECT_EQ(parted_pairs(round), 0);
+  EXPECT_GT(parted_pairs(two_objects), 0);
 }
 
 }  // namespace

@@ -199,5 +199,26 @@ TEST(Renderer, SaysWhatCameraTookThePicture) {
   }
 }
 
+TEST(Renderer, TellsHundredsOfGeomsApart) {
+  const auto place = [](int i) {
+    return Eigen::Vector3d(0.5 * (i % 20) - 4.75, 0.5 * (i / 20) - 3.5, 0.0);
+  };
+  std::string geoms;
+  for (int i = 0; i < 300; ++i) {
+    geoms += "<geom type='box' size='.2 .2 .2' pos='" + std::to_string(place(i).x()) + " " +
+             std::to_string(place(i).y()) + " 0'/>";
+  }
+  const auto scene = test::compile_mjcf("<mujoco><worldbody>" + geoms +
+                                        "<camera pos='0 0 10'/></worldbody></mujoco>");
+  const RenderedImages images = draw(scene, FixedCamera{0}, {.rgb = false});
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector3d top(place(i).x(), place(i).y(), 0.2);
+    const Eigen::Vector3d p = images.T_world_camera.inverse() * top;
+    const double u = 0.5 * kWidth + images.focal_px * p.x() / p.z();
+    const double v = 0.5 * kHeight + images.focal_px * p.y() / p.z();
+    EXPECT_EQ(images.segmentation[at(static_cast<int>(v), static_cast<int>(u))], i);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

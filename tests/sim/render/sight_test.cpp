@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <random>
 #include <vector>
@@ -171,6 +172,42 @@ TEST(Sight, MeasuredDepthIsTheSame) {
       ASSERT_EQ(measured.depth_m[i], read);
     }
   }
+}
+
+/// Its image reaches from half as far to the left as ahead to one and a half times as far to the
+/// right, from a fifth below to a half above.
+TEST(Sight, ItsImageMayLieAside) {
+  mjvGLCamera camera = camera_along_x();
+  camera.frustum_center = 0.05F;
+  camera.frustum_bottom = -0.02F;
+  const Sight sight(camera, 20, 7);
+  const auto shows = [&](double left_m, double up_m) {
+    return sight.may_show({5.0, 2.0 + left_m, 3.0 + up_m}, 0.1);
+  };
+  EXPECT_TRUE(shows(1.9, 0.0));
+  EXPECT_FALSE(shows(2.3, 0.0));
+  EXPECT_TRUE(shows(-5.9, 0.0));
+  EXPECT_FALSE(shows(-6.4, 0.0));
+  EXPECT_TRUE(shows(0.0, 1.9));
+  EXPECT_FALSE(shows(0.0, 2.3));
+  EXPECT_TRUE(shows(0.0, -0.7));
+  EXPECT_FALSE(shows(0.0, -1.1));
+}
+
+TEST(Sight, GeomsThatAreToldApartGoByTheirPlace) {
+  std::array<mjvGeom, 4> geoms{};
+  geoms[0].segid = 5;
+  geoms[1].segid = -1;
+  geoms[2].segid = 0;
+  geoms[3].segid = 9;
+  mjvScene scene{};
+  scene.geoms = geoms.data();
+  scene.ngeom = 3;
+  number_anew(scene);
+  EXPECT_EQ(geoms[0].segid, 0);
+  EXPECT_EQ(geoms[1].segid, -1);
+  EXPECT_EQ(geoms[2].segid, 2);
+  EXPECT_EQ(geoms[3].segid, 9);
 }
 
 }  // namespace

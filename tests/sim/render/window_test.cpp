@@ -105,6 +105,26 @@ TEST(Window, TellsKeysAndMouse) {
   EXPECT_EQ(wheel->notches, 1.0);
 }
 
+TEST(Window, TellsItsButtonsApart) {
+  const VirtualDisplay display;
+  Window window("pressed", {400, 300});
+  DesktopUser user(display, "pressed");
+  user.drag(3, {50, 60}, {70, 90});
+  user.turn_wheel(false);
+  const auto events = events_of(window);
+  ASSERT_EQ(events.size(), 3U);
+  const auto* pressed = std::get_if<MousePressed>(&events[0]);
+  const auto* dragged = std::get_if<MouseDragged>(&events[1]);
+  const auto* wheel = std::get_if<WheelTurned>(&events[2]);
+  ASSERT_TRUE(pressed != nullptr && dragged != nullptr && wheel != nullptr);
+  EXPECT_EQ(pressed->button, MouseButton::right);
+  EXPECT_EQ(pressed->at_px, Eigen::Vector2d(50, 60));
+  EXPECT_EQ(dragged->button, MouseButton::right);
+  EXPECT_EQ(dragged->at_px, Eigen::Vector2d(70, 90));
+  EXPECT_EQ(dragged->by_px, Eigen::Vector2d(20, 30));
+  EXPECT_EQ(wheel->notches, -1.0);
+}
+
 TEST(Window, ClosesWhenAsked) {
   const VirtualDisplay display;
   Window window("closing", {200, 200});

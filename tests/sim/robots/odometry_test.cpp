@@ -126,5 +126,72 @@ TEST(Odometry, RejectsOptionsOutOfRange) {
   EXPECT_THROW(Odometry(options, Rng(1), {}), ConfigError);
 }
 
+TEST(Odometry, BiasesFadeWithTheDistanceAndMoveWhatIsMeasured) {
+  OdometryOptions options = OdometryOptions::perfect();
+  options.bias_length_m = 2.0;
+  OdometryBias bias{.x_m_per_m = 0.1, .y_m_per_m = -0.2, .yaw_rad_per_m = 0.3};
+  Rng rng(1);
+  const Pose2 measured = measure_increment({0.3, 0.4, -0.7}, bias, options, rng);
+  const double left = 0.7788007830714049;  // exp(-0.5 / 2)
+  EXPECT_NEAR(bias.x_m_per_m, 0.1 * left, 1e-12);
+  EXPECT_NEAR(bias.y_m_per_m, -0.2 * left, 1e-12);
+  EXPECT_NEAR(bias.yaw_rad_per_m, 0.3 * left, 1e-12);
+  EXPECT_NEAR(measured.x_m, 0.33894003915357024, 1e-12);
+  EXPECT_NEAR(measured.y_m, 0.3221199216928595, 1e-12);
+  EXPECT_NEAR(measured.yaw_rad, -0.5831798825392892, 1e-12);
+}
+
+/// What is added to an increment, with always the same random numbers.
+Pose2 error_of(const OdometryOptions& options, const Pose2& step) {
+  OdometryBias bias;
+  Rng rng(7);
+  const Pose2 measured = measure_increment(step, bias, options, rng);
+  return {measured.x_m - step.x_m, measured.y_m - step.y_m, measured.yaw_rad - step.yaw_rad};
+}
+
+TEST(Odometry, NoiseScalesWithItsSigmaAndTheRootOfTheWay) {
+  const Pose2 one = error_of(only_noise(), {0.6, 0.8, 0.0});
+  EXPECT_GT(std::abs(one.x_m), 1e-6);
+  EXPECT_GT(std::abs(one.y_m), 1e-6);
+  EXPECT_GT(std::abs(one.yaw_rad), 1e-6);
+  const Pose2 four = error_of(only_noise(), {-2.4, 3.2, 0.0});
+  EXPECT_NEAR(four.x_m, 2.0 * one.x_m, 1e-12);
+  EXPECT_NEAR(four.y_m, 2.0 * one.y_m, 1e-12);
+  EXPECT_NEAR(four.yaw_rad, 2.0 * one.yaw_rad, 1e-12);
+  OdometryOptions rough = only_noise();
+  rough.sigma_translation_m *= 3.0;
+  const Pose2 wide = error_of(rough, {0.6, 0.8, 0.0});
+  EXPECT_NEAR(wide.x_m, 3.0 * one.x_m, 1e-12);
+  EXPECT_NEAR(wide.y_m, 3.0 * one.y_m, 1e-12);
+  EXPECT_NEAR(wide.yaw_rad, one.yaw_rad, 1e-12);
+}
+
+TEST(Odometry, WayAndTurnAddTheirVariancesToTheHeading) {
+  OdometryOptions options = only_noise();  // 0.01 rad after a metre
+  options.sigma_turn_rad = 0.03;
+  const double metre_rad = error_of(options, {1.0, 0.0, 0.0}).yaw_rad;
+  for (const double turn_rad : {-0.5, 0.5}) {
+    EXPECT_NEAR(error_of(options, {0.0, 0.0, turn_rad}).yaw_rad, 3.0 * std::sqrt(0.5) * metre_rad,
+                1e-12);
+    EXPECT_NEAR(error_of(options, {1.0, 0.0, turn_rad}).yaw_rad, std::sqrt(5.5) * metre_rad, 1e-12);
+  }
+}
+
+TEST(Odometry, BiasesStartAsLargeAsTheirOptionsSay) {
+  const auto biases = [](double translation, double yaw) {
+    OdometryOptions options;
+    options.bias_translation_m_per_m = translation;
+    options.bias_yaw_rad_per_m = yaw;
+    return Odometry(options, Rng(5), {}).bias();
+  };
+  const OdometryBias one = biases(1.0, 1.0);
+  EXPECT_NE(one.x_m_per_m, one.y_m_per_m);
+  EXPECT_NE(one.x_m_per_m, one.yaw_rad_per_m);
+  const OdometryBias other = biases(0.25, 3.0);
+  EXPECT_NEAR(other.x_m_per_m, 0.25 * one.x_m_per_m, 1e-12);
+  EXPECT_NEAR(other.y_m_per_m, 0.25 * one.y_m_per_m, 1e-12);
+  EXPECT_NEAR(other.yaw_rad_per_m, 3.0 * one.yaw_rad_per_m, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace vantage {
 namespace {
@@ -89,6 +90,88 @@ TEST(PoseUncertainty, KnowsHowFarOdometryMayHaveDrifted) {
   uncertainty.move_to({0.0, 0.0, 3.0});
   EXPECT_NEAR(uncertainty.plausible_turn_rad(), 0.03 + 5.0 * 0.02 * std::sqrt(3.0), 1e-6);
   EXPECT_LT(uncertainty.plausible_shift_m(), 0.05) << "it only turned";
+}
+
+TEST(PoseUncertainty, ABiasAddsUpUntilItIsForgotten) {
+  PoseUncertainty uncertainty({}, {});
+  double before_m2 = 0.0;
+  for (const auto& [x_m, grown_m2] :
+       {std::pair(1.0, 2e-4), {2.0, 4e-4}, {6.0, 3.6e-3}, {7.0, 1.1e-3}}) {
+    uncertainty.move_to({x_m, 0.0, 0.0});
+    EXPECT_NEAR(uncertainty.covariance()(0, 0) - before_m2, grown_m2, 1e-12) << x_m;
+    before_m2 = uncertainty.covariance()(0, 0);
+  }
+}
+
+/// A wrong heading becomes a wrong place across the way that is driven next.
+PoseUncertainty after_two_ways() {
+  PoseUncertainty uncertainty({}, {});
+  uncertainty.move_to({1.0, 0.0, 0.0});
+  uncertainty.move_to({1.5, 2.0, 0.3});
+  return uncertainty;
+}
+
+TEST(PoseUncertainty, AWrongHeadingLeadsAstray) {
+  const Eigen::Matrix3d covariance = after_two_ways().covariance();
+  EXPECT_NEAR(covariance(0, 0), 0.0017434658438426494, 1e-12);
+  EXPECT_NEAR(covariance(1, 1), 0.0012747158438426495, 1e-12);
+  EXPECT_NEAR(covariance(2, 2), 0.0006604829219213247, 1e-12);
+  EXPECT_NEAR(covariance(0, 1), -1.25e-4, 1e-12);
+  EXPECT_NEAR(covariance(0, 2), -2.5e-4, 1e-12);
+  EXPECT_NEAR(covariance(1, 2), 6.25e-5, 1e-12);
+  EXPECT_TRUE(covariance.isApprox(covariance.transpose(), 1e-12));
+}
+
+TEST(PoseUncertainty, TellsHowFarOffAPointAndACorrectionMayBe) {
+  const PoseUncertainty uncertainty = after_two_ways();
+  EXPECT_NEAR(uncertainty.sigma_m({3.5, 1.0}), 0.0779140314532108, 1e-12);
+  EXPECT_NEAR(uncertainty.plausible_shift_m(), 0.3046899018750643, 1e-12);
+  EXPECT_NEAR(uncertainty.plausible_turn_rad(), 0.15849931146910134, 1e-12);
+}
+
+TEST(PoseUncertainty, ATurnGoesTheShortWay) {
+  PoseUncertainty uncertainty({}, {});
+  uncertainty.move_to({0.0, 0.0, 3.0});
+  uncertainty.move_to({0.0, 0.0, -3.0});
+  EXPECT_NEAR(uncertainty.covariance()(2, 2), 0.0013132741228718346, 1e-12);
+}
+
+TEST(PoseUncertainty, ADirectionKnownToTenMetresIsMeasured) {
+  for (const auto& [weakest, grown_m2] : {std::pair(0.015, 2e-4), std::pair(0.007, 6e-4)}) {
+    PoseUncertainty uncertainty({}, {});
+    uncertainty.move_to({2.0, 0.0, 0.0});
+    uncertainty.correct({2.0, 0.0, 0.0}, Eigen::Vector3d(1e4, 1e4, weakest).asDiagonal());
+    const double before_m2 = uncertainty.covariance()(0, 0);
+    uncertainty.move_to({3.0, 0.0, 0.0});
+    EXPECT_NEAR(uncertainty.covariance()(0, 0) - before_m2, grown_m2, 1e-12)
+        << "a bias is forgotten where all three are measured";
+  }
+}
+
+TEST(PoseUncertainty, GoesByTheMeanOfWhatItRemembers) {
+  PoseUncertainty uncertainty({}, {});
+  uncertainty.move_to({1.0, 0.0, 0.0});  // 2e-4 m2
+  uncertainty.remember();
+  uncertainty.move_to({9.0, 0.0, 0.0});  // 9e-3 m2
+  uncertainty.remember();
+  uncertainty.remember();
+  EXPECT_NEAR(uncertainty.covariance()(0, 0), 9e-3, 1e-12);
+  uncertainty.correct({9.0, 0.0, 0.0}, 1e9 * Eigen::Matrix3d::Identity());
+  EXPECT_NEAR(uncertainty.covariance()(0, 0), 1.82e-2 / 3.0, 1e-7);
+}
+
+TEST(PoseUncertainty, IsAsSureAsItIsToldToBe) {
+  PoseUncertainty uncertainty({}, {});
+  uncertainty.move_to({3.0, 0.0, 0.0});
+  const Eigen::Matrix3d told = Eigen::Vector3d(0.01, 0.02, 0.03).asDiagonal();
+  uncertainty.assume({4.0, 5.0, 0.0}, told);
+  EXPECT_TRUE(uncertainty.covariance() == told);
+  EXPECT_NEAR(uncertainty.sigma_m({4.0, 5.0}), std::sqrt(0.03), 1e-12);
+  uncertainty.correct({4.0, 5.0, 0.0}, 1e9 * Eigen::Matrix3d::Identity());
+  EXPECT_TRUE(uncertainty.covariance().isApprox(told, 1e-6)) << "so is what it goes by";
+  const double before_m2 = uncertainty.covariance()(0, 0);
+  uncertainty.move_to({5.0, 5.0, 0.0});
+  EXPECT_NEAR(uncertainty.covariance()(0, 0) - before_m2, 2e-4, 1e-12);
 }
 
 }  // namespace

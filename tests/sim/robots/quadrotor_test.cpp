@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "tests/control/flight_kit.hpp"
 #include "vantage/core/error.hpp"
@@ -214,6 +215,45 @@ TEST(Quadrotor, DoesNotSeeItself) {
                                           scene.vehicle.camera_id(), options.fovy_rad);
     ASSERT_EQ(ids.size(), 160U * 120U);
     for (const int body : ids) ASSERT_LE(body, 0) << pitch;
+  }
+}
+
+TEST(Quadrotor, CommandsAreClippedToWhatItTakes) {
+  FlightWorld scene;
+  scene.vehicle.command_thrusts(scene.world, {9.0, -1.0, 3.5, 8.0});
+  const std::span<const int> rotors = scene.vehicle.rotor_actuators();
+  const auto control = [&](int actuator) {
+    return scene.world.controls()[static_cast<std::size_t>(actuator)];
+  };
+  EXPECT_EQ(control(rotors[0]), 8.0);
+  EXPECT_EQ(control(rotors[1]), 0.0);
+  EXPECT_EQ(control(rotors[2]), 3.5);
+  EXPECT_EQ(control(rotors[3]), 8.0);
+  const int tilt = model_id(scene.world.model(), ModelObject::actuator, "robot/camera_tilt");
+  scene.vehicle.command_camera_pitch(scene.world, -0.3);
+  EXPECT_EQ(control(tilt), 0.0);
+  scene.vehicle.command_camera_pitch(scene.world, 0.4);
+  EXPECT_EQ(control(tilt), 0.4);
+  scene.vehicle.command_camera_pitch(scene.world, 9.0);
+  EXPECT_EQ(control(tilt), scene.vehicle.camera_pitch_max_rad());
+}
+
+TEST(Quadrotor, ItsCameraTiltsAsFarAsItsServo) {
+  FlightWorld scene;
+  const double most_rad = scene.vehicle.camera_pitch_max_rad();
+  EXPECT_NEAR(most_rad, 1.0472, 1e-12);
+  EXPECT_NO_THROW(scene.vehicle.place(scene.world, test::at_height(2.0), most_rad));
+  EXPECT_EQ(scene.vehicle.camera_pitch_rad(scene.world), most_rad);
+  EXPECT_THROW(scene.vehicle.place(scene.world, test::at_height(2.0), most_rad + 0.01),
+               ConfigError);
+}
+
+TEST(Quadrotor, NeedsGravityAndNoneAside) {
+  for (const char* gravity : {"0 0 0", "0 0 9.81", "0.1 0 -9.81", "0 -0.1 -9.81"}) {
+    const test::SceneFolder folder("<mujoco><option gravity='" + std::string(gravity) +
+                                   "'/><worldbody/></mujoco>");
+    const World world({folder.path(), test::quadrotor_file()}, kFlightWorld);
+    EXPECT_THROW(test::quadrotor(world), InputError) << gravity;
   }
 }
 

@@ -193,5 +193,32 @@ TEST(RobotDescription, AQuadrotorMustBeAbleToFly) {
               AllOf(HasSubstr("camera"), HasSubstr("look along")));
 }
 
+TEST(RobotDescription, ARotorPushesAlongItsSitesAxisAlone) {
+  const std::string next = "/>\n    <general name=\"robot/rotor_1\"";
+  for (const char* gear : {"1 0 1 0 0 -0.012", "0 1 1 0 0 -0.012", "0 0 2 0 0 -0.012",
+                           "0 0 1 1 0 -0.012", "0 0 1 0 1 -0.012"}) {
+    EXPECT_THAT(flight_complaint("gear=\"0 0 1 0 0 -0.012\"" + next,
+                                 std::string("gear=\"") + gear + "\"" + next),
+                HasSubstr("mini: rotors: actuator 'robot/rotor_0' must act at a site"))
+        << gear;
+  }
+  const std::string site = "<site name=\"robot/rotor_0\" ";
+  EXPECT_THAT(flight_complaint(site, site + "euler=\"0.1 0 0\" "),
+              HasSubstr("the site of actuator 'robot/rotor_0' must have its z axis up"));
+  EXPECT_EQ(flight_complaint(site, site + "euler=\"0 0.03 0\" "), "");
+}
+
+TEST(RobotDescription, ItsFileStandsForItsFolder) {
+  const Folder folder(std::string(kRover) + "episode_defaults: {exploration: {a: 1}}\n");
+  const RobotFolder robot = read_robot(folder.path() / "robot.yaml");
+  EXPECT_EQ(robot.mjcf, folder.path() / "robot.xml");
+  EXPECT_EQ(robot.description, folder.path() / "robot.yaml");
+  EXPECT_NE(robot.episode_defaults.find("exploration"), nullptr);
+  const support::TemporaryDirectory bare;
+  fs::copy_file(folder.path() / "robot.xml", bare.path() / "robot.xml");
+  EXPECT_THAT(test::message_of<InputError>([&] { read_robot(bare.path() / "robot.xml"); }),
+              HasSubstr("no robot.yaml beside it"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -236,5 +236,37 @@ TEST(TrajectoryTrackingController, SameBitsAgain) {
   EXPECT_NE(first, fly(2));
 }
 
+TEST(TrajectoryTrackingController, GivesUpSoLongAfterTheEndOfItsPath) {
+  TrajectoryTrackingOptions options = exact_tracking();
+  options.gusts = {{.force_N = 9.0, .direction = {-1.0, 0.0, 0.0}, .duration_s = 100.0}};
+  options.timeout_s = 0.5;
+  FlightWorld scene(options, test::at_height(8.0));
+  const FlightWaypoint goal{.p_world_m = {0.5, 0.0, 8.0}};
+  const MinimumJerkTrajectory path(scene.tracking.reference(), std::span(&goal, 1), options.limits);
+  const FlightResult result = scene.tracking.follow(path);
+  EXPECT_EQ(result.status, FlightStatus::timeout);
+  EXPECT_GT(result.duration_s, path.duration_s() + 0.499);
+  EXPECT_LT(result.duration_s, path.duration_s() + 0.505);
+}
+
+TEST(TrajectoryTrackingController, HasArrivedWhenItHasBeenThereForAWhile) {
+  TrajectoryTrackingOptions options = exact_tracking();
+  options.settle_time_s = 0.8;
+  FlightWorld scene(options);
+  const FlightWaypoint goal{.p_world_m = {0.6, -0.4, 3.2}, .yaw_rad = 0.3};
+  const MinimumJerkTrajectory path(scene.tracking.reference(), std::span(&goal, 1), options.limits);
+  const FlightResult result = scene.tracking.follow(path);
+  EXPECT_EQ(result.status, FlightStatus::arrived);
+  EXPECT_GT(result.duration_s, path.duration_s() + 0.79);
+  EXPECT_LT(result.duration_s, path.duration_s() + 1.5);
+}
+
+TEST(FlightStatuses, HaveNames) {
+  EXPECT_EQ(to_string(FlightStatus::arrived), "arrived");
+  EXPECT_EQ(to_string(FlightStatus::contact), "contact");
+  EXPECT_EQ(to_string(FlightStatus::stopped), "stopped");
+  EXPECT_EQ(to_string(FlightStatus::timeout), "timeout");
+}
+
 }  // namespace
 }  // namespace vantage

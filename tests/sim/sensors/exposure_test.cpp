@@ -73,5 +73,24 @@ TEST(Exposure, RefusesOptionsOutOfRange) {
   EXPECT_THROW(bar.take(0.0, {.samples = 0}), ConfigError);
 }
 
+TEST(Exposure, ShowsHowItWasFromItsBeginningToNow) {
+  MovingBar bar;
+  const CameraImages now = bar.take(6.0, {.samples = 1});
+  const CameraImages both = bar.take(6.0, {.exposure_s = 0.1, .samples = 2});
+  const auto shade = [](const CameraImages& images, std::size_t column) {
+    return static_cast<int>(images.rgb[3 * (60 * 160 + column)]);
+  };
+  const int white = shade(now, 80);
+  const int black = shade(now, 20);
+  ASSERT_GT(white, 235);
+  ASSERT_LT(black, 20);
+  const int grey = (white + black + 1) / 2;
+  // 0.6 m at 1.95 m, 145 px focal length: the bar, 30 px wide, was 45 px to the right.
+  for (std::size_t column = 70; column <= 90; ++column) EXPECT_EQ(shade(both, column), grey);
+  for (std::size_t column = 98; column <= 105; ++column) EXPECT_EQ(shade(both, column), black);
+  for (std::size_t column = 115; column <= 133; ++column) EXPECT_EQ(shade(both, column), grey);
+  for (std::size_t column = 20; column <= 60; ++column) EXPECT_EQ(shade(both, column), black);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -49,5 +49,31 @@ TEST(FloorPlan, LeavesRugsCeilingsAndTheRobotOut) {
                   .empty());
 }
 
+TEST(FloorPlan, ReachesFrom5CentimetresTo2Metres) {
+  const auto drawn = [](const char* half_height, const char* middle) {
+    return plan_of(std::string("<geom type='box' size='.3 .2 ") + half_height + "' pos='1 2 " +
+                   middle + "'/>")
+        .size();
+  };
+  EXPECT_EQ(drawn(".02", ".02"), 0U);
+  EXPECT_EQ(drawn(".03", ".03"), 1U);
+  EXPECT_EQ(drawn(".05", "1.95"), 1U);
+  EXPECT_EQ(drawn(".05", "2.15"), 0U);
+}
+
+TEST(FloorPlan, WhatEndsWhereTheBandBeginsIsDrawn) {
+  const auto made = test::compile_mjcf(
+      "<mujoco><worldbody><geom type='box' size='.25 .5 .125' pos='0 0 .125'/>"
+      "<geom type='box' size='.5 .25 .25' pos='0 0 1.75'/></worldbody></mujoco>");
+  EXPECT_EQ(floor_plan(*made.model, *made.data, {.low_m = 0.25, .high_m = 1.5}).size(), 2U);
+  EXPECT_EQ(floor_plan(*made.model, *made.data, {.low_m = 0.26, .high_m = 1.49}).size(), 0U);
+}
+
+TEST(FloorPlan, OfARoundThingHasCornersEvery5Centimetres) {
+  const auto plan = plan_of("<geom type='cylinder' size='.5 .4' pos='0 0 .4'/>");
+  ASSERT_EQ(plan.size(), 1U);
+  EXPECT_EQ(plan[0].size(), 63U);
+}
+
 }  // namespace
 }  // namespace vantage

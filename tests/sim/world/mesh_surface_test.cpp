@@ -89,5 +89,54 @@ TEST(MeshSurface, OnlyBodiesWithJointsMove) {
   }
 }
 
+SurfaceMesh surface_of(const std::string& geom, double max_edge_m) {
+  const auto scene =
+      test::compile_mjcf("<mujoco><worldbody><geom " + geom + "/></worldbody></mujoco>");
+  return geom_triangles(*scene.model, 0, max_edge_m);
+}
+
+TEST(MeshSurface, RoundThingsHaveAsManySegmentsAsTheirEdgesNeed) {
+  const SurfaceMesh cylinder = surface_of("type='cylinder' size='.5 .4'", 0.05);
+  EXPECT_EQ(cylinder.vertices_m.size(), 4U * 63U);
+  EXPECT_EQ(cylinder.triangles.size(), 3U * 63U * 2U);
+  EXPECT_EQ(surface_of("type='cylinder' size='.01 .4'", 0.1).vertices_m.size(), 4U * 16U);
+  EXPECT_EQ(surface_of("type='cylinder' size='100 .4'", 0.1).vertices_m.size(), 4U * 512U);
+  const SurfaceMesh ball = surface_of("type='sphere' size='.25'", 0.1);
+  EXPECT_EQ(ball.vertices_m.size(), 10U * 16U);
+  EXPECT_EQ(ball.triangles.size(), 9U * 16U * 2U);
+  EXPECT_EQ(surface_of("type='sphere' size='.5'", 0.1).vertices_m.size(), 18U * 32U);
+  EXPECT_EQ(surface_of("type='capsule' size='.5 .3'", 0.1).vertices_m.size(), 18U * 32U);
+  EXPECT_EQ(surface_of("type='ellipsoid' size='.1 .5 .2'", 0.1).vertices_m.size(), 18U * 32U);
+}
+
+TEST(MeshSurface, VerticesOfRoundThingsLieOnThem) {
+  for (const Eigen::Vector3d& p : surface_of("type='capsule' size='.2 .3'", 0.1).vertices_m) {
+    const Eigen::Vector3d middle(0.0, 0.0, std::clamp(p.z(), -0.3, 0.3));
+    EXPECT_NEAR((p - middle).norm(), 0.2, 1e-9);
+  }
+  for (const Eigen::Vector3d& p : surface_of("type='ellipsoid' size='.1 .5 .2'", 0.1).vertices_m) {
+    EXPECT_NEAR(p.cwiseQuotient(Eigen::Vector3d(0.1, 0.5, 0.2)).norm(), 1.0, 1e-9);
+  }
+}
+
+TEST(MeshSurface, AHeightFieldIsClosedBelow) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><asset><hfield name='h' nrow='3' ncol='4' size='.6 .4 .5 .1'/></asset>"
+      "<worldbody><geom type='hfield' hfield='h'/></worldbody></mujoco>");
+  std::fill_n(scene.model->hfield_data, 12, 0.5F);
+  const SurfaceMesh flat = geom_triangles(*scene.model, 0, 1.0);
+  EXPECT_EQ(flat.vertices_m.size(), 24U);
+  EXPECT_EQ(flat.triangles.size(), 34U);
+  EXPECT_NEAR(area(flat), 2.0 * (1.2 * 0.8) + 2.0 * (1.2 + 0.8) * 0.35, 1e-9);
+
+  for (int i = 0; i < 12; ++i) scene.model->hfield_data[i] = 0.0625F * static_cast<float>(i);
+  const SurfaceMesh slope = geom_triangles(*scene.model, 0, 1.0);
+  const auto vertex = [&](std::size_t i) { return slope.vertices_m[i]; };
+  EXPECT_LT((vertex(3) - Eigen::Vector3d(0.6, -0.4, 0.09375)).norm(), 1e-12);
+  EXPECT_LT((vertex(6) - Eigen::Vector3d(0.2, 0.0, 0.1875)).norm(), 1e-12);
+  EXPECT_LT((vertex(8) - Eigen::Vector3d(-0.6, 0.4, 0.25)).norm(), 1e-12);
+  EXPECT_LT((vertex(12 + 6) - Eigen::Vector3d(0.2, 0.0, -0.1)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

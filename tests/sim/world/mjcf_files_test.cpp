@@ -71,5 +71,28 @@ TEST(MjcfFiles, ThatIncludeEachOtherAreReadOnce) {
   EXPECT_TRUE(mjcf_files("nowhere/scene.xml").empty());
 }
 
+TEST(MjcfAttributes, AreNoneInWhatIsNoTag) {
+  EXPECT_TRUE(mjcf_attributes("a='b' <![CDATA[<mesh file='x'/>]]> <!-- <a b='c'/>").empty());
+  const std::string mjcf = "<![CDATA[ > ]]><mesh file='x'/>";
+  const auto read = mjcf_attributes(mjcf);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_TRUE(read[0].names_file());
+  EXPECT_FALSE((MjcfAttribute{"geom", "profile", "x"}.names_file()));
+}
+
+TEST(MjcfFiles, EntitiesAreReadOnce) {
+  EXPECT_THAT(found("<mujoco><asset><mesh file='a&amp;lt;b.obj'/>"
+                    "<mesh file='&apos;&quot;&lt;&gt;&amp;&amp;.obj'/></asset></mujoco>",
+                    {{"a&lt;b.obj", ""}, {"a<b.obj", ""}, {"'\"<>&&.obj", ""}}),
+              UnorderedElementsAre("scene.xml", "a&lt;b.obj", "'\"<>&&.obj"));
+}
+
+TEST(MjcfFiles, KeepTheirFoldersUnlessTheyAreStripped) {
+  EXPECT_THAT(found("<mujoco><compiler strippath='false' assetdir='things'/><asset>"
+                    "<mesh file='deep/m.obj'/></asset></mujoco>",
+                    {{"things/m.obj", ""}, {"things/deep/m.obj", ""}, {"deep/m.obj", ""}}),
+              UnorderedElementsAre("scene.xml", "things/deep/m.obj", "deep/m.obj"));
+}
+
 }  // namespace
 }  // namespace vantage

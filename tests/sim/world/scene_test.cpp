@@ -262,5 +262,13 @@ TEST(Scene, FilesInMemoryStandInForThoseItRefersTo) {
   }
 }
 
+TEST(Scene, SaysWhatIsWrongInOneLine) {
+  for (const char* geom : {"<geom size='x'/>", "<geom type='box'/>", "<geom nonsense='1'/>"}) {
+    const std::string said = complaint(test::scene_mjcf(geom));
+    EXPECT_NE(said, "") << geom;
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -69,5 +69,46 @@ TEST(Settle, WhatNeverRestsIsRefusedByName) {
               AllOf(HasSubstr("body 'marble'"), HasSubstr("within 3 s"), HasSubstr("m/s")));
 }
 
+TEST(Settle, ABodyWithoutANameGoesByItsNumber) {
+  const SceneFolder folder(test::scene_mjcf(
+      "<body pos='0 0 .2'><freejoint/><geom type='box' size='.05 .05 .05'/></body>"));
+  World world(folder.alone());
+  EXPECT_THAT(settle_free_bodies(world), ElementsAre("number 1"));
+}
+
+TEST(Settle, HowFarIsAMotionIsForTheCallerToSay) {
+  for (const auto& [moved_m, moves] : {std::pair(0.2, false), std::pair(0.05, true)}) {
+    const SceneFolder folder(cube_at(0.85));  // 8 cm over its place
+    World world(folder.alone());
+    const std::vector<double> before = world.state();
+    EXPECT_EQ(settle_free_bodies(world, {.moved_m = moved_m}).size(), moves ? 1U : 0U);
+    EXPECT_EQ(world.state() != before, moves);
+  }
+}
+
+TEST(Settle, GivesABodyTenSecondsAndSaysHowFastItIsThen) {
+  const SceneFolder rolls(
+      "<mujoco><worldbody><geom type='plane' size='9 9 .1' euler='0 10 0'/>"
+      "<body name='marble' pos='1 0 .2'><freejoint/><geom size='.05'/></body>"
+      "</worldbody></mujoco>");
+  World world(rolls.alone());
+  const std::string message = message_of<InputError>([&] { settle_free_bodies(world); });
+  EXPECT_THAT(message, HasSubstr("body 'marble' does not come to rest within 10 s"));
+  const std::string before = "moves at ";
+  ASSERT_NE(message.find(before), std::string::npos) << message;
+  const double speed_m_s = std::stod(message.substr(message.find(before) + before.size()));
+  EXPECT_GT(speed_m_s, 9.0) << "5/7 of the slope's part of gravity, for 10 s";
+  EXPECT_LT(speed_m_s, 20.0);
+}
+
+TEST(Settle, LimitsAreThoseThatMapsAreJudgedWith) {
+  const SettleLimits limits;
+  EXPECT_EQ(limits.max_s, 10.0);
+  EXPECT_EQ(limits.window_s, 0.25);
+  EXPECT_EQ(limits.at_rest_m, 3e-4);
+  EXPECT_EQ(limits.moved_m, 1e-3);
+  EXPECT_EQ(limits.arm_m, 0.1);
+}
+
 }  // namespace
 }  // namespace vantage

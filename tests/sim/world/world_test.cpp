@@ -4,9 +4,11 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "tests/sim/test_world.hpp"
+#include "tests/support/option_numbers.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage {
@@ -89,6 +91,18 @@ TEST(World, ContactsThatDoNotFitAreAnError) {
               HasSubstr("raise nconmax"));
 }
 
+TEST(World, ConstraintsThatDoNotFitAreAnError) {
+  const SceneFolder folder(
+      "<mujoco><size nconmax='100' njmax='2'/><worldbody><geom type='plane' size='1 1 1'/>"
+      "<body pos='0 0 .099'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody>"
+      "</mujoco>");
+  World world(folder.alone());
+  EXPECT_THAT(message_of<DivergedError>([&] {
+                for (int i = 0; i < 20; ++i) world.advance_tick();
+              }),
+              HasSubstr("; raise njmax in the scene's <size>"));
+}
+
 TEST(World, AnErrorInsideAStepIsReportedAndRecoverable) {
   const SceneFolder folder(kBall);
   World world(folder.alone());
@@ -138,6 +152,121 @@ TEST(World, StateAndControlsOfTheWrongShapeAreRejected) {
   state.pop_back();
   EXPECT_THROW(world.set_state(state), InputError);
   EXPECT_THROW(world.set_controls(state), InputError);
+}
+
+TEST(WorldOptions, DefaultsAndRanges) {
+  support::expect_numbers(WorldOptions{}, {{"timestep_s", 0.0025, between(1e-5, 0.02)},
+                                           {"control_period_s", 0.025, between(1e-5, 1.0)}});
+}
+
+TEST(World, TheJointOfANumberThatIsNotFiniteIsNamed) {
+  const SceneFolder folder(kBall);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto diverges_by = [&](const std::function<void(mjData&)>& spoil) {
+    World world(folder.alone());
+    spoil(world.data());
+    return message_of<DivergedError>([&] { world.advance_tick(); });
+  };
+  const std::string ball = "(joint 'flight' of body 'ball')";
+  const std::string cart = "(joint 'rail' of body 'cart')";
+  EXPECT_THAT(diverges_by([&](mjData& data) { data.qpos[0] = nan; }), HasSubstr(ball));
+  EXPECT_THAT(diverges_by([&](mjData& data) { data.qpos[6] = nan; }), HasSubstr(ball));
+  EXPECT_THAT(diverges_by([&](mjData& data) { data.qpos[7] = nan; }), HasSubstr(cart));
+  EXPECT_THAT(diverges_by([&](mjData& data) { data.qvel[0] = nan; }), HasSubstr(ball));
+  EXPECT_THAT(diverges_by([&](mjData& data) { data.qvel[5] = nan; }), HasSubstr(ball));
+  EXPECT_THAT(diverges_by([&](mjData& data) { data.qvel[6] = nan; }), HasSubstr(cart));
+}
+
+TEST(World, OutsideForcesOfATickAddUp) {
+  const SceneFolder folder(kBall);
+  World world(folder.alone());
+  const int ball = model_id(world.model(), ModelObject::body, "ball");
+  world.add_outside_force(
+      {ball, [](double time_s) { return Eigen::Vector3d(1.0, 2.0, 3.0 + time_s); }});
+  world.add_outside_force({ball, [](double) { return Eigen::Vector3d(0.25, 0.5, 0.75); }});
+  const mjtNum* applied = world.data().xfrc_applied + 6 * ball;
+  world.data().xfrc_applied[6 * ball + 3] = 0.125;
+  for (int i = 0; i < 3; ++i) {
+    const double begin_s = world.time_s();
+    world.advance_tick();
+    EXPECT_EQ(applied[0], 1.25);
+    EXPECT_EQ(applied[1], 2.5);
+    EXPECT_NEAR(applied[2], 3.75 + begin_s, 1e-12);
+    EXPECT_EQ(applied[3], 0.125) << "a torque is somebody else's";
+  }
+}
+
+TEST(World, TellsOfEveryStepAndOfEveryTick) {
+  const SceneFolder folder(kBall);
+  World world(folder.alone(), {.timestep_s = 0.005, .control_period_s = 0.02});
+  std::string calls;
+  world.on_clock = [&](World&) { calls += 'c'; };
+  world.on_step = [&](const World&) { calls += 's'; };
+  world.on_tick = [&](World&) { calls += 't'; };
+  world.advance_tick();
+  world.set_state(world.state());
+  world.advance_tick();
+  EXPECT_EQ(calls, "csssstccsssst");
+  EXPECT_EQ(world.ticks(), 2U);
+}
+
+const char* const kHands =
+    "<mujoco><worldbody><body name='left' mocap='true' pos='1 2 3'><geom size='.1'/></body>"
+    "<body name='right' mocap='true' pos='4 5 6'><geom size='.1'/><site name='tip' pos='1 0 0'/>"
+    "</body><body pos='9 0 0'><joint name='rail' type='slide' axis='1 0 0'/>"
+    "<joint name='lid' type='hinge' axis='0 0 1'/><geom size='.1'/></body></worldbody>"
+    "<actuator><motor joint='rail'/></actuator></mujoco>";
+
+TEST(World, SnapshotShowsWhatIsMovedByHand) {
+  const SceneFolder folder(kHands);
+  World world(folder.alone());
+  const std::vector<double> pose{-1.0, 0.5, 2.0};
+  std::copy(pose.begin(), pose.end(), world.data().mocap_pos + 3);
+  std::fill_n(world.data().mocap_quat + 4, 4, 0.5);  // x to y, y to z, z to x
+  const auto at = [&](const char* name) {
+    return body_pose(world, model_id(world.model(), ModelObject::body, name));
+  };
+  EXPECT_TRUE(at("left").translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0)));
+  EXPECT_TRUE(at("right").translation().isApprox(Eigen::Vector3d(-1.0, 0.5, 2.0)));
+  const Pose tip = site_pose(world, model_id(world.model(), ModelObject::site, "tip"));
+  EXPECT_TRUE(tip.translation().isApprox(Eigen::Vector3d(-1.0, 1.5, 2.0), 1e-12));
+  EXPECT_TRUE(tip.linear().col(0).isApprox(Eigen::Vector3d::UnitY(), 1e-12));
+  EXPECT_TRUE(tip.linear().col(1).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
+}
+
+TEST(World, AStatePutsCommandsForcesAndHandsBack) {
+  const SceneFolder folder(kHands);
+  World world(folder.alone());
+  const std::vector<double> start = world.state();
+  EXPECT_EQ(start.size(), 1U + 2U + 2U + 2U);
+  world.set_controls(std::vector<double>{0.75});
+  EXPECT_EQ(world.controls()[0], 0.75);
+  world.data().xfrc_applied[6 * 3] = 2.0;
+  world.data().mocap_pos[3] = 9.0;
+  for (int i = 0; i < 3; ++i) world.advance_tick();
+  world.set_state(start);
+  EXPECT_EQ(world.state(), start);
+  EXPECT_EQ(world.ticks(), 0U);
+  EXPECT_EQ(world.controls()[0], 0.0);
+  EXPECT_EQ(world.data().xfrc_applied[6 * 3], 0.0);
+  EXPECT_EQ(world.data().mocap_pos[3], 4.0);
+}
+
+TEST(World, HingesAndTurnedBodiesStartWhereTheyAreTold) {
+  const SceneFolder hands(kHands);
+  World lidded(hands.alone());
+  lidded.set_initial_joint("lid", 0.5);
+  EXPECT_EQ(lidded.data().qpos[1], 0.5);
+  const SceneFolder folder(kBall);
+  World world(folder.alone());
+  const Pose turned = Eigen::Translation3d(1.0, 2.0, 3.0) *
+                      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, 2.0, 3.0).normalized());
+  world.set_initial_pose("flight", turned);
+  EXPECT_TRUE(
+      body_pose(world, model_id(world.model(), ModelObject::body, "ball")).isApprox(turned, 1e-12));
+  Pose nowhere = turned;
+  nowhere.translation().y() = std::nan("");
+  EXPECT_THROW(world.set_initial_pose("flight", nowhere), InputError);
 }
 
 }  // namespace

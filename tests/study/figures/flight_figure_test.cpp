@@ -61,5 +61,76 @@ TEST(FlightFigure, SaysWhatItsMarksMeanAndTellsObjectsApart) {
   }
 }
 
+TEST(FlightFigure, AxesAndScaleStandAroundThePlot) {
+  const std::string svg = flight_svg(flight(), "a flight", kRoom);
+  for (const char* part :
+       {"width=\"666\" height=\"528\" viewBox=\"0 0 666 528\"",
+        "<text x=\"52.0\" y=\"21.0\" font-size=\"14\" font-weight=\"600\" "
+        "fill=\"#16202e\">a flight<",
+        "<rect x=\"52.0\" y=\"34.0\" width=\"600.0\" height=\"360.0\" fill=\"none\"",
+        "<path d=\"M472.0 34.0L472.0 394.0\" stroke=\"#eef1f5\"/>",
+        "<path d=\"M472.0 394.0L472.0 398.0\" stroke=\"#566375\"/>",
+        "<text x=\"472.0\" y=\"411.0\" text-anchor=\"middle\">2<",
+        "<path d=\"M52.0 154.0L652.0 154.0\" stroke=\"#eef1f5\"/>",
+        "<path d=\"M48.0 154.0L52.0 154.0\" stroke=\"#566375\"/>",
+        "<text x=\"44.0\" y=\"158.0\" text-anchor=\"end\">1<",
+        "<text x=\"352.0\" y=\"430.0\" text-anchor=\"middle\">x, m<",
+        "<text x=\"14.0\" y=\"214.0\" text-anchor=\"middle\" transform=\"rotate(-90 14 "
+        "214.0)\">y, m<",
+        "<path d=\"M592.0 426.0L652.0 426.0\" stroke=\"#16202e\" stroke-width=\"3\"/>",
+        "<text x=\"585.0\" y=\"430.0\" text-anchor=\"end\" fill=\"#16202e\">1 m<"}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+}
+
+/// From 0.18 m to 0.45 m off the object, eight directions counter-clockwise from +x.
+TEST(FlightFigure, SpokesShowFromWhereAnObjectWasSeen) {
+  const std::string svg = flight_svg(flight(), "a flight", kRoom);
+  const auto spoke = [](const char* line, const char* style) {
+    return fmt::format("<path d=\"{}\" {}/>", line, style);
+  };
+  constexpr auto kBold = "stroke=\"#d9480f\" stroke-width=\"3\"";
+  constexpr auto kThin = "stroke=\"#aab3bf\" stroke-width=\"1\"";
+  EXPECT_THAT(svg, HasSubstr(spoke("M362.8 214.0L379.0 214.0", kThin)));
+  EXPECT_THAT(svg, HasSubstr(spoke("M359.6 206.4L371.1 194.9", kThin)));
+  EXPECT_THAT(svg, HasSubstr(spoke("M352.0 203.2L352.0 187.0", kBold)));
+  EXPECT_THAT(svg, HasSubstr(spoke("M352.0 224.8L352.0 241.0", kThin)));
+  EXPECT_THAT(svg, HasSubstr("<circle cx=\"352.0\" cy=\"154.0\" r=\"2.6\" fill=\"#d9480f\"/>"));
+  EXPECT_THAT(svg, HasSubstr("<circle cx=\"292.0\" cy=\"214.0\" r=\"4.5\" fill=\"#ffffff\""));
+  for (const auto& [x, number] : {std::pair(352.0, 1), {382.0, 2}, {412.0, 3}}) {
+    EXPECT_THAT(svg, HasSubstr(fmt::format(
+                         "<text x=\"{:.1f}\" y=\"217.5\" fill=\"#ffffff\" font-size=\"10\" "
+                         "text-anchor=\"middle\">{}<",
+                         x, number)));
+  }
+}
+
+TEST(FlightFigure, TheLegendStandsInColumnsBelow) {
+  const std::string svg = flight_svg(flight(), "a flight", kRoom);
+  const auto place = [](double x, double y) {
+    return fmt::format("<g transform=\"translate({:.1f} {:.1f})\">", x, y);
+  };
+  EXPECT_THAT(svg, HasSubstr(place(26.0, 450.0) + "\n<path d=\"M-14.0 0.0L14.0 0.0\" fill"));
+  EXPECT_THAT(svg, HasSubstr(place(248.0, 470.0)));
+  EXPECT_THAT(svg, HasSubstr("<text x=\"270.0\" y=\"474.0\" fill=\"#16202e\">direction it was "
+                             "seen from<"));
+  EXPECT_THAT(svg, HasSubstr(place(26.0, 510.0)));
+}
+
+/// A metre apart up to 14 of them, then 2, 5, 10 m.
+TEST(FlightFigure, TicksAreNotTooMany) {
+  const auto labels = [](double length_m) {
+    const std::vector<FloorOutline> hall{{{0.0, 0.0}, {length_m, 0.0}, {length_m, 2.0}}};
+    return flight_svg(flight(), "a flight", hall);
+  };
+  const auto has = [](int metres) {
+    return HasSubstr(fmt::format("\"middle\">{}</text>", metres));
+  };
+  EXPECT_THAT(labels(11.0), has(7));
+  EXPECT_THAT(labels(24.0), testing::AllOf(has(14), Not(has(13))));
+  EXPECT_THAT(labels(40.0), testing::AllOf(has(35), Not(has(34)), Not(has(36))));
+  EXPECT_THAT(labels(100.0), testing::AllOf(has(70), Not(has(75))));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -6,6 +6,8 @@
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/hash.hpp"
 
 namespace vantage {
 namespace {
@@ -111,8 +113,12 @@ TEST(RecognitionStudy, AClassifierHasNoFiguresOfPoseAndCost) {
   write_recognition_study(study, folder.path() / "out");
   const std::string csv = read_file(folder.path() / "out" / "results.csv");
   EXPECT_THAT(csv, HasSubstr("\"linear_svm\",0,cup_1,cup_1,1,1,1,,,,,,,,\n"));
-  const auto summary =
-      nlohmann::json::parse(read_file(folder.path() / "out" / "summary.json"))["methods"];
+  const auto whole = nlohmann::json::parse(read_file(folder.path() / "out" / "summary.json"));
+  const auto config = read_file(folder.path() / "out" / "config.yaml");
+  EXPECT_EQ(whole["config_hash"], hash_text(hash_bytes(config)));
+  EXPECT_EQ(whole["threads"], study.threads);
+  EXPECT_FALSE(whole["cpu"].get<std::string>().empty());
+  const auto& summary = whole["methods"];
   EXPECT_TRUE(summary[3]["bin_error"].is_null());
   EXPECT_TRUE(summary[3]["feature_time_s"].is_null());
   EXPECT_TRUE(summary[2]["feature_time_s"].is_number());
@@ -132,6 +138,113 @@ TEST(RecognitionStudy, FilesHoldARowATrialAndATable) {
   const std::string tables = read_file(folder.path() / "out" / "recognition.md");
   EXPECT_THAT(tables, HasSubstr("| random | 75.00 ["));
   EXPECT_THAT(tables, HasSubstr("| pose | star | 75.00 | 50.00 | 50.0 | 50.00 | 2.00 |"));
+}
+
+/// Of trials that all say 0.8, of unknown objects that were found or not, and of what it cost.
+RecognitionStudy written_study() {
+  RecognitionStudy study = small_study();
+  study.methods = {method("random", 3, 3)};
+  for (Trial& trial : study.methods[0].trials) {
+    trial.probability = 0.8;
+    trial.unknown_probability = 0.25;
+    trial.entropy_bits = 1.5;
+    trial.bin_error = 2;
+    trial.selection_time_s = 0.25;
+    trial.view_time_s = 2.0;
+  }
+  study.options.unknown_starts = 2;
+  study.options.seed = 9;
+  study.methods[0].unknown.trials = {{.object = -1,
+                                      .estimate = 2,
+                                      .name = "jug_1",
+                                      .correct = true,
+                                      .category_correct = true,
+                                      .observations = 4,
+                                      .unknown_probability = 0.75},
+                                     {.object = -1,
+                                      .estimate = 1,
+                                      .name = "jug_1",
+                                      .correct = false,
+                                      .observations = 5,
+                                      .unknown_probability = 0.5}};
+  study.methods[0].unknown.category_known = {true, false};
+  study.changes[0].trials[0].time_s = 0.5;
+  study.changes[0].trials[2].p_changed = 0.125;
+  study.changes.push_back({.method = "random", .scenario = Change::none, .trials = {}});
+  study.changes[1].trials = {{.decision = Change::none, .observations = 2, .time_s = 0.25}};
+  return study;
+}
+
+TEST(RecognitionTables, SayWhatTrialsCameTo) {
+  const std::string text = recognition_tables(written_study());
+  for (const char* part :
+       {"# Recognition of 2 objects in 1 categories\n\n4 starts, the same for every method",
+        "| 100.00 | 3.00 [3.00, 3.00] | 2.00 [2.00, 2.00] | 3.00 | 0.5000 | 0.2500 | 2.0000 | "
+        "2.7500 |\n",
+        "in 15 bins of equal width", "| random | 75.00 | 80.00 | 5.00 [",
+        "; 2 starts of unknown ones;",
+        "| random | 1.0000 [1.0000, 1.0000] | 0.00 [0.00, 0.00] | 50.0 | 0.0 | 100.0 | - |\n",
+        "| pose | star | 75.00 | 50.00 | 50.0 | 50.00 | 2.00 | 0.1250 |\n",
+        "| none | random | 100.00 | - | - | 100.00 | 2.00 | 0.2500 |\n"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+}
+
+TEST(RecognitionTables, FilesHoldTheSame) {
+  const support::TemporaryDirectory folder;
+  write_recognition_study(written_study(), folder.path());
+  const auto lines_after_header = [&](const char* name) {
+    const std::string csv = read_file(folder / name);
+    return csv.substr(csv.find('\n') + 1);
+  };
+  EXPECT_THAT(lines_after_header("results.csv"),
+              testing::StartsWith("\"random\",0,cup_1,cup_1,1,1,3,2,3,1.5,0.8,0.25,0.5,0.25,2\n"));
+  EXPECT_EQ(lines_after_header("unknown.csv"),
+            "\"random\",0,jug_1,1,unknown,1,4,0.75\n\"random\",1,jug_1,0,cup_2,0,5,0.5\n");
+  EXPECT_THAT(lines_after_header("changes.csv"),
+              testing::StartsWith("pose,star,0,pose,1,0,1,0.5\npose,star,1,object,0,0,2,0\n"
+                                  "pose,star,2,none,1,0.125,3,0\n"));
+  const auto summary = nlohmann::json::parse(read_file(folder / "summary.json"));
+  EXPECT_EQ(summary["objects"], 2);
+  EXPECT_EQ(summary["categories"], 1);
+  EXPECT_EQ(summary["starts"], 4);
+  EXPECT_EQ(summary["unknown_starts"], 2);
+  EXPECT_EQ(summary["seed"], 9);
+  const auto& method = summary["methods"][0];
+  EXPECT_EQ(method["category_percent"], 100.0);
+  EXPECT_EQ(method["category_interval"], nlohmann::json({100.0, 100.0}));
+  EXPECT_EQ(method["observations"]["mean"], 3.0);
+  EXPECT_EQ(method["selection_time_s"], 0.25);
+  EXPECT_EQ(method["unknown"]["found"], 0.5);
+  EXPECT_EQ(method["unknown"]["threshold_at_90_percent_found"], 0.5);
+  EXPECT_TRUE(method["unknown"]["category_right_where_unknown"].is_null());
+  ASSERT_EQ(method["reliability"]["bins"].size(), 1U);
+  EXPECT_EQ(method["reliability"]["bins"][0]["trials"], 4);
+  EXPECT_EQ(method["reliability"]["bins"][0]["objects"], 4);
+  EXPECT_EQ(method["reliability"]["bins"][0]["accuracy"], 0.75);
+  EXPECT_EQ(summary["changes"][0]["time_s"], 0.125);
+}
+
+/// What a study does not have is removed of the one that it replaces.
+TEST(RecognitionTables, FilesOfAFormerStudyAreReplaced) {
+  const support::TemporaryDirectory folder;
+  RecognitionStudy study = written_study();
+  study.options.reliability = true;
+  study.methods[0].drawn_as = "as it is";
+  study.methods[0].several_views = true;
+  write_recognition_study(study, folder.path());
+  EXPECT_THAT(read_file(folder / "reliability.csv"),
+              HasSubstr("views by information,as it is,0.8,4,0.75,"));
+  EXPECT_NO_THROW(prepare_recognition_study(folder.path(), true));
+  EXPECT_THROW(prepare_recognition_study(folder.path(), false), ConfigError);
+  study.options.reliability = false;
+  study.methods[0].unknown = {};
+  study.changes.clear();
+  write_recognition_study(study, folder.path());
+  for (const char* name : {"reliability.csv", "reliability.svg", "unknown.csv", "changes.csv"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+  }
+  EXPECT_NO_THROW(prepare_recognition_study((folder / "new").string(), false));
 }
 
 }  // namespace

@@ -69,5 +69,75 @@ TEST(ReliabilityFigure, HasADiagonalAndALineAMethod) {
   EXPECT_NE(figure_svg(figure).find("<svg"), std::string::npos);
 }
 
+/// Fifteen of them.
+TEST(Reliability, BinsAreOfEqualWidth) {
+  const auto bin_of = [](double probability) {
+    const std::vector<Trial> one(1, Trial{.name = "a", .probability = probability});
+    const Reliability reliability = reliability_of(one, 1);
+    int found = -1;
+    for (int b = 0; b < kReliabilityBins; ++b) {
+      if (reliability.bins[static_cast<std::size_t>(b)].count > 0) found = b;
+    }
+    return found;
+  };
+  EXPECT_EQ(bin_of(0.0), 0);
+  EXPECT_EQ(bin_of(0.066), 0);
+  EXPECT_EQ(bin_of(0.067), 1);
+  EXPECT_EQ(bin_of(0.466), 6);
+  EXPECT_EQ(bin_of(0.467), 7);
+  EXPECT_EQ(bin_of(0.934), 14);
+  EXPECT_EQ(bin_of(0.932), 13);
+}
+
+/// Whole objects are drawn again: of two, one always right and one never, anything may come.
+TEST(Reliability, IntervalsAreOfObjects) {
+  std::vector<Trial> trials;
+  for (int i = 0; i < 6; ++i) {
+    trials.push_back({.name = i % 3 == 0 ? "a" : "b", .correct = i % 3 == 0, .probability = 0.5});
+  }
+  const Reliability reliability = reliability_of(trials, 1);
+  const ReliabilityBin& bin = reliability.bins[7];
+  EXPECT_EQ(bin.count, 6U);
+  EXPECT_EQ(bin.objects, 2U);
+  EXPECT_DOUBLE_EQ(bin.confidence, 0.5);
+  EXPECT_DOUBLE_EQ(bin.accuracy, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(bin.interval.low, 0.0);
+  EXPECT_DOUBLE_EQ(bin.interval.high, 1.0);
+  EXPECT_NEAR(reliability.error, 1.0 / 6.0, 1e-12);
+  EXPECT_NEAR(reliability.error_interval.high, 0.5, 1e-12);
+  EXPECT_EQ(reliability.bins[6].count, 0U);
+  EXPECT_EQ(reliability.bins[6].objects, 0U);
+}
+
+TEST(ReliabilityFigure, DrawsBinsAsTheyAre) {
+  std::vector<Trial> trials;
+  put(trials, 20, 0.95, 15);
+  const Reliability reliability = reliability_of(trials, 1);
+  const Figure figure =
+      reliability_figure({{"one", {{"ours", reliability}, {"theirs", reliability}}}, {"two", {}}});
+  EXPECT_EQ(figure.least_x_step, 0.1);
+  ASSERT_EQ(figure.panels.size(), 2U);
+  EXPECT_EQ(figure.panels[0].title, "one");
+  ASSERT_EQ(figure.panels[0].series.size(), 3U);
+  ASSERT_EQ(figure.panels[1].series.size(), 1U);
+  const FigureSeries& honest = figure.panels[0].series[0];
+  ASSERT_EQ(honest.points.size(), 2U);
+  EXPECT_EQ(honest.points[0].x, 0.0);
+  EXPECT_EQ(honest.points[0].mean, 0.0);
+  EXPECT_EQ(honest.points[1].x, 1.0);
+  EXPECT_EQ(honest.points[1].mean, 1.0);
+  EXPECT_EQ(honest.points[1].interval.low, 1.0);
+  EXPECT_EQ(honest.style, 0U);
+  EXPECT_EQ(figure.panels[0].series[1].style, 1U);
+  EXPECT_EQ(figure.panels[0].series[2].style, 2U);
+  EXPECT_EQ(figure.panels[0].series[2].name, "theirs");
+  const FigurePoint& point = figure.panels[0].series[1].points.at(0);
+  EXPECT_EQ(point.count, 20U);
+  EXPECT_EQ(point.clusters, 10U);
+  EXPECT_NEAR(point.mean, 0.75, 1e-12);
+  EXPECT_EQ(point.interval.low, reliability.bins[14].interval.low);
+  EXPECT_EQ(point.interval.high, reliability.bins[14].interval.high);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -58,5 +58,42 @@ TEST(UnknownDetection, CountsAlarmsAndWhatIsFound) {
   EXPECT_LE(detection.area, detection.area_interval.high);
 }
 
+TEST(UnknownDetection, OfWhatIsWellApartIsCertain) {
+  const std::vector<Trial> known(4, Trial{.name = "known", .unknown_probability = 0.2});
+  UnknownTrials unknown;
+  unknown.trials.assign(3, Trial{.object = -1, .name = "unknown", .unknown_probability = 0.9});
+  unknown.category_known.assign(3, true);
+  const UnknownDetection detection = detection_of(known, unknown, 1);
+  EXPECT_DOUBLE_EQ(detection.area, 1.0);
+  EXPECT_DOUBLE_EQ(detection.area_interval.low, 1.0);
+  EXPECT_DOUBLE_EQ(detection.area_interval.high, 1.0);
+  EXPECT_EQ(detection.threshold, 0.9);
+  EXPECT_EQ(detection.false_alarms, 0.0);
+  EXPECT_EQ(detection.false_alarms_interval.high, 0.0);
+  EXPECT_EQ(detection.found, 1.0);
+  EXPECT_EQ(detection.known_missed, 0.0);
+  EXPECT_TRUE(std::isnan(detection.category_known_right)) << "none is held for right";
+  EXPECT_TRUE(std::isnan(detection.category_unknown_right));
+}
+
+/// At the threshold is an alarm; at one half nothing is held for unknown.
+TEST(UnknownDetection, EndsOfItsThresholds) {
+  std::vector<Trial> known;
+  for (const double p : {0.5, 0.5, 0.8, 0.1}) {
+    known.push_back({.name = "known", .unknown_probability = p});
+  }
+  UnknownTrials unknown;
+  for (const double p : {0.8, 0.5}) {
+    unknown.trials.push_back({.object = -1, .name = "unknown", .unknown_probability = p});
+    unknown.category_known.push_back(false);
+  }
+  const UnknownDetection detection = detection_of(known, unknown, 1);
+  EXPECT_EQ(detection.threshold, 0.5);
+  EXPECT_DOUBLE_EQ(detection.false_alarms, 0.75);
+  EXPECT_DOUBLE_EQ(detection.found, 0.5);
+  EXPECT_DOUBLE_EQ(detection.known_missed, 0.25);
+  EXPECT_DOUBLE_EQ(detection.area, (3.5 + 1.0 + 1.0) / 8.0);
+}
+
 }  // namespace
 }  // namespace vantage

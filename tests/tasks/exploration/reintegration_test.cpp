@@ -69,8 +69,8 @@ OccupancyGrid made_anew(int threads, double* hazard = nullptr) {
 TEST(Reintegration, IsAsIfAllHadBeenSeenFromThereAtFirst) {
   Rooms rooms(1);
   const int stride_px = rooms.task.stride_px;
-  rooms.task.hazard_stride_px = static_cast<int>(
-      std::lround(static_cast<double>(rooms.task.hazard_stride_px) / stride_px));
+  rooms.task.hazard_stride_px =
+      static_cast<int>(std::lround(static_cast<double>(rooms.task.hazard_stride_px) / stride_px));
   rooms.task.stride_px = 1;
   ExplorationBelief fresh(rooms.episode, rooms.task);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -141,6 +141,36 @@ TEST(WheelCovariance, GrowsWithTheWayAndTheTurn) {
   EXPECT_NEAR(driven(0, 0) - rest(0, 0), 2.0 * (1e-4 + 10.0 * 1e-4), 1e-12);
   EXPECT_NEAR(turned(2, 2) - rest(2, 2), 0.02 * 0.02, 1e-12);
   EXPECT_GT(driven(1, 1), driven(0, 0)) << "a heading that is lost moves the end aside";
+}
+
+TEST(WheelCovariance, IsThatOfALineWhoseHeadingIsLostEvenly) {
+  OdometryOptions odometry;
+  odometry.sigma_translation_m = 0.03;
+  odometry.bias_translation_m_per_m = 0.02;
+  odometry.sigma_yaw_rad = 0.01;
+  odometry.bias_yaw_rad_per_m = 0.005;
+  odometry.sigma_turn_rad = 0.02;
+  odometry.bias_length_m = 4.0;
+  const Eigen::Matrix3d covariance = wheel_covariance(odometry, 1.5, 0.7);
+  EXPECT_NEAR(covariance(0, 0), 0.006151, 1e-12);
+  EXPECT_NEAR(covariance(1, 1), 0.0066985, 1e-12);
+  EXPECT_NEAR(covariance(2, 2), 0.00073025, 1e-12);
+  EXPECT_NEAR(covariance(1, 2), 0.0005475, 1e-12);
+  EXPECT_EQ(covariance(2, 1), covariance(1, 2));
+  EXPECT_EQ(covariance(0, 1), 0.0);
+  EXPECT_EQ(covariance(0, 2), 0.0);
+}
+
+/// By the wheels, from where the base was last put: what registration turns is no turn of theirs.
+TEST(LoopClosing, AddsUpTheTurnsOfTheWheels) {
+  LoopClosing loops({}, {}, {}, {0.0, 0.0, 0.1});
+  EXPECT_EQ(loops.turned_rad(), 0.0);
+  loops.moved_to({1.0, 0.0, 0.4}, {1.0, 0.0, 0.9});
+  EXPECT_NEAR(loops.turned_rad(), 0.3, 1e-12);
+  loops.moved_to({1.0, 0.5, 0.7}, {1.0, 0.5, 0.7});
+  EXPECT_NEAR(loops.turned_rad(), 0.5, 1e-12);
+  EXPECT_EQ(loops.corrections(), 0U);
+  EXPECT_FALSE(loops.wants_correction());
 }
 
 }  // namespace

@@ -1,15 +1,21 @@
 #include "vantage/tasks/mapping/driving/budget.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
+#include "tests/tasks/mapping/standing_robot.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/tasks/mapping/driving/budget_keeper.hpp"
 
 namespace vantage {
 namespace {
+
+using support::StandingRobot;
 
 /// 3 s to start, 2 s a metre; scans of 20 s at 100 W, driving at 400 W.
 SpendingRates known_rates() {
@@ -53,6 +59,31 @@ TEST(SpendingRates, TakeNoDriveThatEndedShortOfItsGoal) {
   EXPECT_EQ(rates.travel_time().of_m(5.0), before_s);
 }
 
+TEST(SpendingRates, TakeNoTurnAtTheStartAndNoWayThatWasNotPlanned) {
+  SpendingRates rates(0.6);
+  const double before_s = rates.travel_time().of_m(5.0);
+  EXPECT_EQ(rates.driving_w(), 0.0) << "nothing is known yet";
+  ScanRecord first;
+  first.time_s = 90.0;
+  first.scan_time_s = 20.0;
+  first.planned_way_m = 4.0;
+  rates.observe(first, nullptr);
+  ScanRecord scan = first;
+  scan.time_s = 500.0;
+  scan.planned_way_m = std::numeric_limits<double>::infinity();
+  rates.observe(scan, &first);
+  EXPECT_EQ(rates.travel_time().of_m(5.0), before_s);
+}
+
+/// 6 s are for what cannot be foreseen.
+TEST(Budget, LeavesWhatIsNotSpent) {
+  const Allowance all = Budget({}).left({100.0, 2000.0});
+  EXPECT_TRUE(std::isinf(all.time_s) && std::isinf(all.energy_j));
+  const Allowance left = Budget({.time_s = 1000.0, .energy_j = 50000.0}).left({100.0, 2000.0});
+  EXPECT_DOUBLE_EQ(left.time_s, 894.0);
+  EXPECT_DOUBLE_EQ(left.energy_j, 48000.0);
+}
+
 TEST(Budget, WithoutALimitAffordsEverything) {
   const Budget budget({});
   EXPECT_TRUE(budget.affords_view(known_rates(), {1e9, 1e12}, 1e6, 1e6));
@@ -91,32 +122,8 @@ TEST(Budget, TurnsBackWhileAScanAndTheWayHomeAreStillAffordable) {
   EXPECT_FALSE(budget.affords_way_home(rates, {48.1, 0.0}, 10.0));
 }
 
-/// Knows no floor but what it stands on.
-class StandingRobot : public MobileRobotInterface {
- public:
-  double now_s = 0.0;
-  [[nodiscard]] double time_s() const override { return now_s; }
-  [[nodiscard]] double energy_used_j() const override { return 0.0; }
-  PlanarScan read_base_scanner() override { return {}; }
-  DriveResult drive_along(std::span<const Pose2> /*path*/, double /*max_speed_m_s*/,
-                          const std::function<bool()>& /*go_on*/) override {
-    return {};
-  }
-  void correct_pose(const Pose2& /*T_world_base*/) override {}
-  [[nodiscard]] Pose2 dead_reckoned_base() const override { return {}; }
-  void restart_dead_reckoning() override {}
-  [[nodiscard]] Pose2 estimated_base() const override { return {}; }
-  [[nodiscard]] double base_scan_height_m() const override { return 0.3; }
-  [[nodiscard]] double inscribed_radius_m() const override { return 0.2; }
-  [[nodiscard]] RobotOutline outline() const override { return {}; }
-  [[nodiscard]] Pose estimated_sensor() const override { return Pose::Identity(); }
-  [[nodiscard]] Pose2 base_for_sensor(const Pose& T_world_sensor) const override {
-    return project_to_se2(T_world_sensor);
-  }
-  [[nodiscard]] FieldOfView view_field() const override { return {}; }
-};
-
-/// Why no view is taken, of one at 3 m that is in reach or not.
+/// Why no view is taken, of one at 3 m that is in reach or not; no floor is known but where the
+/// robot stands.
 std::string reason(const BudgetOptions& options, bool in_reach, double now_s = 50.0,
                    std::size_t scans = 3) {
   StandingRobot robot;
@@ -145,7 +152,109 @@ TEST(BudgetKeeper, FailsTheEpisodeThatComesToNothing) {
   EXPECT_THROW(reason({.time_s = 1000.0}, true, 999.0, 1), EpisodeFailed);
 }
 
+/// On open floor, home at the origin.
+struct OnOpenFloor {
+  explicit OnOpenFloor(const BudgetOptions& options) : keeper(options, 0.6, robot, navigator) {}
+
+  StandingRobot robot;
+  Navigator navigator = [this] {
+    Navigator on_floor({}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+    std::ranges::fill(on_floor.floor().log_odds, -2.0F);
+    return on_floor;
+  }();
+  BudgetKeeper keeper;
+};
+
+Candidate view_at(double x_m, double way_m) {
+  Candidate view;
+  view.T_world_sensor = make_pose({x_m, 0.0, 1.0}, 0.0);
+  view.path_length_m = way_m;
+  return view;
+}
+
+TEST(BudgetKeeper, NamesAllThatIsLimitedAndTheWayBack) {
+  OnOpenFloor open({.time_s = 100.0, .energy_j = 9000.0, .return_to_start = true});
+  const std::vector<Candidate> views{view_at(3.0, 3.0)};
+  EXPECT_EQ(open.keeper.used_up(views, 3), "");
+  open.robot.now_s = 99.0;
+  EXPECT_EQ(open.keeper.used_up(views, 3),
+            "budget.time_s 100 and budget.energy_j 9000 allow no further view and the way back");
+  try {
+    static_cast<void>(open.keeper.used_up(views, 1));
+    FAIL() << "it has come to nothing";
+  } catch (const EpisodeFailed& error) {
+    EXPECT_STREQ(error.what(),
+                 "budget.time_s 100 and budget.energy_j 9000: too small to go anywhere and scan "
+                 "again and come back");
+  }
+}
+
+TEST(BudgetKeeper, LeavesOutWhatCannotBePaid) {
+  OnOpenFloor open({.time_s = 100.0});
+  std::vector<Candidate> views{view_at(3.0, 3.0), view_at(2.0, 2.0), view_at(4.0, 400.0)};
+  views[1].exhausted = true;
+  open.keeper.leave_affordable(views);
+  EXPECT_FALSE(views[0].exhausted);
+  EXPECT_TRUE(views[1].exhausted) << "as it was before";
+  EXPECT_TRUE(views[2].exhausted);
+  OnOpenFloor unlimited({.return_to_start = true});
+  std::vector<Candidate> far{view_at(4.0, 1e9)};
+  unlimited.keeper.leave_affordable(far);
+  EXPECT_FALSE(far[0].exhausted);
+}
+
+/// 2.5 s to start and 1.1 s for each 0.6 m, before any drive.
+TEST(BudgetKeeper, KnowsTheTimesHome) {
+  OnOpenFloor open({.time_s = 100.0, .return_to_start = true});
+  open.robot.T_world_base = {-1.0, 0.0, 0.0};
+  const std::vector<Eigen::Vector2d> places{{3.0, 0.0}, {50.0, 0.0}};
+  const std::vector<double> home_s = open.keeper.home_s(places);
+  ASSERT_EQ(home_s.size(), 3U);
+  EXPECT_NEAR(home_s[0], 8.0, 0.2);
+  EXPECT_TRUE(std::isinf(home_s[1])) << "off the floor";
+  EXPECT_NEAR(home_s[2], 2.5 + 1.1 / 0.6, 0.2) << "from here";
+  EXPECT_TRUE(OnOpenFloor({.time_s = 100.0}).keeper.home_s(places).empty());
+  EXPECT_TRUE(OnOpenFloor({.return_to_start = true}).keeper.home_s(places).empty()) << "no limit";
+}
+
+TEST(BudgetKeeper, IsAskedOnTheWayWhereAWayHomeIsKept) {
+  EXPECT_TRUE(OnOpenFloor({.time_s = 100.0}).navigator.may_go_on == nullptr);
+  OnOpenFloor open({.time_s = 100.0, .return_to_start = true});
+  ASSERT_TRUE(open.navigator.may_go_on != nullptr);
+  open.robot.now_s = 93.9;
+  EXPECT_TRUE(open.navigator.may_go_on()) << "it is at home";
+  open.robot.now_s = 94.1;
+  EXPECT_FALSE(open.navigator.may_go_on());
+}
+
+nlohmann::ordered_json told(const BudgetOptions& options, double now_s, double used_j) {
+  OnOpenFloor open(options);
+  open.robot.now_s = now_s;
+  open.robot.used_j = used_j;
+  open.robot.T_world_base = {0.3, -0.4, 1.0};
+  nlohmann::ordered_json metrics;
+  open.keeper.add_metrics(metrics);
+  EXPECT_EQ(metrics["energy_j"], used_j);
+  return metrics;
+}
+
+TEST(BudgetKeeper, TellsWhetherItWasKept) {
+  EXPECT_FALSE(told({}, 10.0, 20.0).contains("budget"));
+  const BudgetOptions limits{.time_s = 100.0, .energy_j = 50.0};
+  EXPECT_EQ(told(limits, 100.0, 50.0)["budget"]["kept"], true);
+  EXPECT_EQ(told(limits, 100.5, 50.0)["budget"]["kept"], false);
+  EXPECT_EQ(told(limits, 100.0, 50.5)["budget"]["kept"], false);
+  const auto home = told({.time_s = 100.0, .return_to_start = true}, 10.0, 20.0)["budget"];
+  EXPECT_EQ(home["kept"], false) << "it has not returned";
+  EXPECT_EQ(home["returned"], false);
+  EXPECT_EQ(home["time_s"], 100.0);
+  EXPECT_TRUE(home["energy_j"].is_null());
+  EXPECT_NEAR(home["from_start_m"].get<double>(), 0.5, 1e-12);
+  EXPECT_TRUE(told({.return_to_start = true}, 10.0, 20.0).contains("budget"));
+}
+
 TEST(BudgetText, NamesWhatIsLimited) {
+  EXPECT_EQ(budget_text({.energy_j = 2500.0}), "budget.energy_j 2500");
   EXPECT_EQ(budget_text({.time_s = 600.0}), "budget.time_s 600");
   EXPECT_EQ(budget_text({.time_s = 600.0, .energy_j = 9e5}),
             "budget.time_s 600 and budget.energy_j 900000");

@@ -15,6 +15,7 @@
 #include "vantage/report/report_data.hpp"
 #include "vantage/report/run_plans.hpp"
 #include "vantage/runtime/log/event_log.hpp"
+#include "vantage/tasks/mapping/plans/plan_table.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {
@@ -134,6 +135,38 @@ TEST_F(Plans, AreNoneOfAChoiceThatDoesNotPlanAheadNorOfALeanRun) {
   run_episode(folder_ / "lean", "choice=tour", true);
   EXPECT_FALSE(fs::exists(folder_ / "greedy" / "plans.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "lean" / "plans.csv"));
+}
+
+TEST_F(Plans, AreWrittenStopByStop) {
+  PlanTable table(folder_.path());
+  PlannedTour tour;
+  tour.stops = {{.id = 7,
+                 .place_m = {1.5, -2.25},
+                 .yaw_rad = 0.75,
+                 .arrival_s = 3.5,
+                 .departure_s = 13.5,
+                 .gain = 900.5,
+                 .beyond = 12.25},
+                {.id = -1,
+                 .place_m = {4.5, 5.25},
+                 .yaw_rad = -0.5,
+                 .arrival_s = 20.5,
+                 .departure_s = 31.25,
+                 .gain = 80.5,
+                 .beyond = 0.125}};
+  tour.reason = {PlanChange::cheaper, 14.25};
+  table.add(tour, {.scan = 3, .time_s = 60.5, .gain_unit = "cells"});
+  tour.stops.resize(1);
+  tour.stops[0].id = 0;
+  tour.reason = {};
+  table.add(tour, {.scan = 4, .time_s = 70.5, .gain_unit = "bits"});
+  table.commit();
+  EXPECT_EQ(read_file(folder_ / "plans.csv"),
+            "scan,time_s,change,saved_s,stop,candidate,x_m,y_m,yaw_rad,arrival_s,departure_s,gain,"
+            "beyond,gain_unit\n"
+            "3,60.5,cheaper,14.25,1,7,1.5,-2.25,0.75,3.5,13.5,900.5,12.25,cells\n"
+            "3,60.5,cheaper,14.25,2,,4.5,5.25,-0.5,20.5,31.25,80.5,0.125,cells\n"
+            "4,70.5,first,,1,0,1.5,-2.25,0.75,3.5,13.5,900.5,12.25,bits\n");
 }
 
 // The reader.

@@ -62,6 +62,46 @@ TEST(StandingRoom, AFullTableHasNone) {
   EXPECT_FALSE(room.place(round_outline(0.12), rng, place));
 }
 
+/// At the table's middle, whichever way it is turned: 1 cm of the table's edge stays free.
+TEST(StandingRoom, KeepsOffTheEdgeOfTheTable) {
+  const std::vector<Eigen::Vector2d> middle{Eigen::Vector2d::Zero()};
+  const auto fits = [&](double table_m) {
+    StandingRoom room({middle, 0.0, 0.05, {table_m, table_m}});
+    Rng rng(3);
+    StandingRoom::Place place;
+    return room.place(round_outline(0.1), rng, place);
+  };
+  EXPECT_TRUE(fits(0.222));
+  EXPECT_FALSE(fits(0.214)) << "an outline of 16 corners is 0.098 m wide at least";
+}
+
+TEST(Outlines, OfARoundThingHasSixteenCorners) {
+  const Outline outline = round_outline(0.5);
+  ASSERT_EQ(outline.size(), 16U);
+  EXPECT_NEAR((outline[0] - Eigen::Vector2d(0.5, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((outline[2] - Eigen::Vector2d(0.5, 0.5) / std::sqrt(2.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((outline[4] - Eigen::Vector2d(0.0, 0.5)).norm(), 0.0, 1e-12);
+}
+
+TEST(Outlines, OfAnObjectIsRoundTheMiddleOfItsBox) {
+  TurntableObject object;
+  object.obj = "v 1 2 0\nv 3 2 0.5\nvn 9 9 9\nv 3 5 0\nv 1 5 1\nv 2 3 0\nf 1 2 3\n";
+  object.box_m = {Eigen::Vector3d(1.0, 2.0, 0.0), Eigen::Vector3d(3.0, 5.0, 1.0)};
+  const Outline outline = outline_of(object);
+  EXPECT_EQ(outline.size(), 4U);
+  for (const Eigen::Vector2d& p : outline) {
+    EXPECT_NEAR(std::abs(p.x()), 1.0, 1e-12);
+    EXPECT_NEAR(std::abs(p.y()), 1.5, 1e-12);
+  }
+}
+
+/// Turned by a right angle, then moved.
+TEST(Outlines, AreTurnedBeforeTheyAreMoved) {
+  const Outline there =
+      placed(Outline{Eigen::Vector2d(0.2, 0.1)}, std::numbers::pi / 2.0, {1.0, 2.0});
+  EXPECT_NEAR((there[0] - Eigen::Vector2d(0.9, 2.2)).norm(), 0.0, 1e-12);
+}
+
 TEST(TableGroundTruth, WithoutClutterIsTheObjectAlone) {
   const RecognitionTask task = task_with({});
   const TableGroundTruth table = draw_table(task, 3);
@@ -165,6 +205,32 @@ TEST(TableObstacles, AScreenIsOpenAlongItsYaw) {
   EXPECT_THAT(mjcf, testing::HasSubstr(R"(pos="1.1 2.2 0.7" euler="0 0 0.5")"));
   EXPECT_THAT(mjcf, testing::HasSubstr(R"(back" type="box" pos="-0.1 0 0.15")"));
   EXPECT_THAT(mjcf, testing::Not(testing::HasSubstr(R"(pos="0.1 0)"))) << "no wall at its front";
+}
+
+TEST(TableObstacles, AScreenLeavesRoomRoundItsObject) {
+  const Outline object{{-0.06, -0.08}, {0.06, -0.08}, {0.06, 0.04}, {-0.06, 0.04}};
+  const Screen screen = screen_round(object, 0.05, 0.27);
+  EXPECT_NEAR(screen.half_m, 0.1 + 0.03 + 0.05, 1e-12);
+  EXPECT_EQ(screen.height_m, 0.27);
+  const Outline round = outline_of(Screen{
+      .offset_m = {1.0, 2.0}, .yaw_rad = std::numbers::pi / 2.0, .half_m = 0.18, .height_m = 0.27});
+  ASSERT_EQ(round.size(), 4U);
+  EXPECT_NEAR((round[0] - Eigen::Vector2d(1.19, 1.81)).norm(), 0.0, 1e-12) << "walls of 1 cm";
+  EXPECT_NEAR((round[1] - Eigen::Vector2d(1.19, 2.19)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((round[2] - Eigen::Vector2d(0.81, 2.19)).norm(), 0.0, 1e-12);
+}
+
+TEST(TableObstacles, StandOnTheTable) {
+  const std::string post = mjcf_of(Post{.offset_m = {0.1, 0.25}, .radius_m = 0.03, .height_m = 0.5},
+                                   "post_0", {1.0, 2.0, 0.7});
+  EXPECT_THAT(post, testing::HasSubstr(R"(<body name="post_0" pos="1.1 2.25 0.7">)"));
+  EXPECT_THAT(post, testing::HasSubstr(R"(type="cylinder" pos="0 0 0.25" size="0.03 0.25")"));
+  const std::string screen =
+      mjcf_of(Screen{.half_m = 0.095, .height_m = 0.3}, "screen_0", {1.0, 2.0, 0.7});
+  EXPECT_THAT(screen, testing::HasSubstr(R"(pos="-0.1 0 0.15" size="0.005 0.105 0.15")"));
+  EXPECT_THAT(screen, testing::HasSubstr(R"(left" type="box" pos="0 0.1 0.15" size="0.095 0.005)"));
+  EXPECT_THAT(screen,
+              testing::HasSubstr(R"(right" type="box" pos="0 -0.1 0.15" size="0.095 0.00)"));
 }
 
 TEST(TableGroundTruth, TooMuchForTheTableIsAnError) {

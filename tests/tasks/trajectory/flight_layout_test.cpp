@@ -59,6 +59,13 @@ TEST(FlightLayout, TheRegionHoldsThePathWithRoomAroundIt) {
   EXPECT_NEAR((region.max() - Eigen::Vector3d(6.0, 4.0, 2.3)).norm(), 0.0, 1e-12);
 }
 
+TEST(FlightLayout, TheRegionIsWideAndNotMuchHigherThanThePath) {
+  const std::vector<FlightWaypoint> path{{{1.0, 2.0, 1.8}, 0.0}, {{4.0, -1.0, 1.6}, 0.0}};
+  const Eigen::AlignedBox3d region = flight_region(path);
+  EXPECT_NEAR((region.min() - Eigen::Vector3d(-2.0, -4.0, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((region.max() - Eigen::Vector3d(7.0, 5.0, 2.6)).norm(), 0.0, 1e-12);
+}
+
 const std::vector<Eigen::Vector3d> kSupports{{0.0, 0.0, 0.8}, {2.0, 0.0, 0.7}, {0.0, 2.0, 0.9}};
 
 TEST(ObjectsOnSupports, ADrawIsItsSeeds) {

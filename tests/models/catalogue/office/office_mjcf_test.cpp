@@ -8,6 +8,7 @@
 
 #include "tests/models/catalogue/scene_files.hpp"
 #include "tests/models/catalogue/shapes/mesh_checks.hpp"
+#include "vantage/models/catalogue/office/corridor_plan.hpp"
 #include "vantage/models/catalogue/shapes/obj.hpp"
 
 namespace vantage {
@@ -89,6 +90,17 @@ std::vector<OfficeOptions> all_offices() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, OfficeFolder, testing::ValuesIn(all_offices()),
+                         [](const auto& info) { return info.param.name; });
+
+class CorridorFolder : public testing::TestWithParam<CorridorOptions> {};
+
+TEST_P(CorridorFolder, IsWhatTheToolWrites) {
+  const support::TemporaryDirectory directory;
+  write_scene(make_corridor_scene(GetParam()), directory.path());
+  support::expect_same_files(directory.path(), support::kCheckedInScenes / GetParam().name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, CorridorFolder, testing::ValuesIn(corridor_scenes()),
                          [](const auto& info) { return info.param.name; });
 
 /// MuJoCo refuses meshes whose parts share an edge the wrong way round.

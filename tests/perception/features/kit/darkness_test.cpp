@@ -55,5 +55,18 @@ TEST(Darkness, SilencesWhatGoesByLightAndNothingElse) {
   }
 }
 
+/// 100 pixels, so many of them just bright enough in one channel.
+TEST(Darkness, IsLessThanATwentiethOfPixelsThatAreLit) {
+  const auto with = [](std::size_t lit, std::uint8_t value) {
+    ObjectView view = blank_view(10, 10);
+    for (std::size_t i = 0; i < lit; ++i) view.rgb[3 * i + i % 3] = value;
+    return lacks_light(view);
+  };
+  EXPECT_EQ(with(5, 24), "");
+  EXPECT_EQ(with(4, 24),
+            "too dark: 4 of 100 pixels, surroundings included, are brighter than 24 of 255");
+  EXPECT_THAT(with(100, 23), HasSubstr("too dark: 0 of 100 pixels"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,9 +2,14 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "vantage/core/error.hpp"
 #include "vantage/perception/features/kit/k_means.hpp"
 #include "vantage/perception/features/kit/pca.hpp"
+#include "vantage/perception/features/kit/training_views.hpp"
 
 namespace vantage {
 namespace {
@@ -114,6 +119,96 @@ TEST(SomeIndices, AreDrawnOnceAndEvenly) {
   }
   for (const int count : drawn) EXPECT_NEAR(count, 800, 110);  // 5 standard deviations
   EXPECT_EQ(some_indices(3, 9, rng).size(), 3U);
+}
+
+TEST(Words, SettleInTheMiddleOfTheirSamples) {
+  Eigen::MatrixXf samples(1, 5);
+  samples << 0.0F, 10.0F, 1.0F, 11.0F, 12.0F;
+  for (std::uint64_t seed = 1; seed < 9; ++seed) {
+    Rng rng(seed);
+    const Eigen::MatrixXf words = learn_words(samples, 2, 10, rng);
+    ASSERT_EQ(words.cols(), 2);
+    EXPECT_FLOAT_EQ(words.minCoeff(), 0.5F) << seed;
+    EXPECT_FLOAT_EQ(words.maxCoeff(), 11.0F) << seed;
+  }
+}
+
+TEST(Words, EqualDistancesGoToTheLowerIndex) {
+  Eigen::MatrixXf words(1, 3);
+  words << 4.0F, 0.0F, 2.0F;
+  Eigen::MatrixXf samples(1, 4);
+  samples << 1.0F, 3.0F, 2.1F, 0.4F;
+  EXPECT_EQ(nearest_words(words, samples), (std::vector<int>{1, 0, 2, 1}));
+}
+
+TEST(Words, EachOfManySamplesHasItsNearest) {
+  Eigen::MatrixXf words(1, 2);
+  words << 0.0F, 1.0F;
+  Eigen::MatrixXf samples(1, 5000);
+  for (Eigen::Index i = 0; i < 5000; ++i) samples(0, i) = i % 3 == 0 ? 0.9F : 0.2F;
+  const std::vector<int> nearest = nearest_words(words, samples);
+  ASSERT_EQ(nearest.size(), 5000U);
+  for (std::size_t i = 0; i < 5000; ++i) ASSERT_EQ(nearest[i], i % 3 == 0 ? 1 : 0) << i;
+}
+
+TEST(SomeColumns, KeepTheirOrder) {
+  Rng rng(2);
+  Eigen::MatrixXf matrix(1, 6);
+  matrix << 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F;
+  EXPECT_EQ(some_columns(matrix, 6, rng), matrix);
+  const Eigen::MatrixXf some = some_columns(matrix, 3, rng);
+  ASSERT_EQ(some.cols(), 3);
+  EXPECT_LT(some(0, 0), some(0, 1));
+  EXPECT_LT(some(0, 1), some(0, 2));
+}
+
+/// Views of 5, 2 and 4 columns that hold their own number.
+TEST(SampledColumns, AreAsManyOfEachView) {
+  Rng rng(3);
+  std::vector<ObjectView> views(3);
+  const std::vector<Eigen::Index> columns{5, 2, 4};
+  for (std::size_t i = 0; i < 3; ++i) views[i].width_px = static_cast<int>(i);
+  const auto columns_of = [&](const ObjectView& view) {
+    const auto i = static_cast<std::size_t>(view.width_px);
+    return Eigen::MatrixXf(Eigen::MatrixXf::Constant(2, columns[i], static_cast<float>(i)));
+  };
+  const Eigen::MatrixXf drawn = sampled_columns(views, 10, 7, rng, columns_of);
+  ASSERT_EQ(drawn.rows(), 2);
+  ASSERT_EQ(drawn.cols(), 3 + 2 + 3);
+  for (Eigen::Index c = 0; c < 8; ++c) {
+    EXPECT_EQ(drawn(1, c), c < 3 ? 0.0F : c < 5 ? 1.0F : 2.0F) << c;
+  }
+  EXPECT_EQ(sampled_columns(views, 10, 6, rng, columns_of).cols(), 2 + 2 + 2);
+  const Eigen::MatrixXf of_two = sampled_columns(views, 2, 100, rng, columns_of);
+  EXPECT_TRUE(of_two.cols() == 7 || of_two.cols() == 6 || of_two.cols() == 9) << of_two.cols();
+  EXPECT_EQ(sampled_columns({}, 2, 100, rng, columns_of).size(), 0);
+}
+
+/// Samples on a line through (3, 1, 2) along (2, -1, 2) / 3, with variance 9 x 14 / 3.
+TEST(Pca, OfALineIsItsDirection) {
+  const Eigen::Vector3f along(2.0F, -1.0F, 2.0F);
+  Eigen::MatrixXf samples(3, 4);
+  const std::array<float, 4> at{-2.0F, -1.0F, 0.0F, 3.0F};
+  for (std::size_t i = 0; i < 4; ++i) {
+    samples.col(static_cast<Eigen::Index>(i)) = Eigen::Vector3f(3.0F, 1.0F, 2.0F) + at[i] * along;
+  }
+  const Pca pca = learn_pca(samples, 3);
+  ASSERT_EQ(pca.axes.cols(), 1);
+  EXPECT_LT((pca.mean - Eigen::Vector3f(3.0F, 1.0F, 2.0F)).norm(), 1e-5F);
+  EXPECT_NEAR(std::abs(pca.axes.col(0).dot(along) / 3.0F), 1.0F, 1e-5F);
+  EXPECT_NEAR(pca.variance[0], 42.0F, 1e-3F);
+  EXPECT_NEAR(std::abs(pca.project(samples.col(3))[0]), 9.0F, 1e-4F);
+}
+
+TEST(FixSigns, TheLargestEntryOfEachColumnIsPositive) {
+  Eigen::Matrix<double, 2, 3> columns;
+  columns << 1.0, -3.0, 0.5,  //
+      -2.0, 1.0, 4.0;
+  fix_signs(columns);
+  Eigen::Matrix<double, 2, 3> expected;
+  expected << -1.0, 3.0, 0.5,  //
+      2.0, -1.0, 4.0;
+  EXPECT_EQ(columns, expected);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 namespace vantage {
 namespace {
@@ -61,6 +62,52 @@ TEST(StateBytes, AMatrixOfAnotherSizeOrNotFiniteIsRefused) {
       bytes_of(Eigen::MatrixXf::Constant(1, 1, std::numeric_limits<float>::infinity()));
   ByteReader other(infinite, "state");
   EXPECT_THAT([&] { (void)take_matrix(other); }, refuses("holds a number that is not finite"));
+}
+
+struct KnobsOfState {
+  double share = 0.25;
+  int count = 3;
+  bool is_on = false;
+  std::string file = "none";
+  void fields(auto&& f) {
+    f("share", share, "a share", between(0.0, 1.0));
+    f("count", count, "a number", at_least(1));
+    f("is_on", is_on, "a switch");
+    f("file", file, "a file");
+  }
+};
+
+TEST(StateBytes, OptionsComeBack) {
+  std::string bytes;
+  put_options(bytes, KnobsOfState{.share = 0.75, .count = 9, .is_on = true, .file = "a b"});
+  EXPECT_EQ(bytes.size(), 8U + 4U + 1U + 4U + 3U);
+  ByteReader reader(bytes, "state");
+  const auto back = take_options<KnobsOfState>(reader);
+  reader.finish();
+  EXPECT_EQ(back.share, 0.75);
+  EXPECT_EQ(back.count, 9);
+  EXPECT_TRUE(back.is_on);
+  EXPECT_EQ(back.file, "a b");
+}
+
+TEST(StateBytes, OptionsOutOfTheirRangeAreRefused) {
+  std::string bytes;
+  put_options(bytes, KnobsOfState{.share = 1.5});
+  ByteReader reader(bytes, "state");
+  EXPECT_THAT([&] { (void)take_options<KnobsOfState>(reader); }, refuses("share"));
+}
+
+TEST(StateBytes, AMatrixOfOtherRowsOrColumnsIsRefused) {
+  const std::string bytes = bytes_of(Eigen::MatrixXf::Ones(2, 3));
+  ByteReader rows(bytes, "state");
+  EXPECT_THAT([&] { (void)take_matrix(rows, 3, -1); }, refuses("holds a matrix of 2 x 3"));
+  ByteReader columns(bytes, "state");
+  EXPECT_THAT([&] { (void)take_matrix(columns, -1, 2); }, refuses("holds a matrix of 2 x 3"));
+  ByteReader any(bytes, "state");
+  EXPECT_EQ(take_matrix(any, -1, 3).size(), 6);
+  const std::string line = bytes_of(Eigen::MatrixXf::Ones(4, 1));
+  ByteReader vector(line, "state");
+  EXPECT_EQ(take_vector(vector, 4), Eigen::VectorXf::Ones(4));
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -51,6 +53,56 @@ TEST(PlannerProtocol, TellsWhatTheRobotKnows) {
   EXPECT_TRUE(json["candidates"][2]["exhausted"].get<bool>());
 }
 
+TEST(PlannerProtocol, IntroducesTheEpisode) {
+  const PlannerIntroduction introduction{.task = "tabletop",
+                                         .seed = 7,
+                                         .scans = 4,
+                                         .gain = "simple",
+                                         .gain_unit = "cells",
+                                         .budget = {.energy_j = 12.5}};
+  EXPECT_EQ(
+      introduction_line(introduction),
+      R"({"type":"hello","protocol":"vantage-planner","version":1,"task":"tabletop","seed":7,)"
+      R"("scans":4,"time_s":null,"energy_j":12.5,"gain":"simple","gain_unit":"cells"})");
+  EXPECT_EQ(end_line(), R"({"type":"end"})");
+}
+
+TEST(PlannerProtocol, TakesTheNameThatAPlannerGivesItself) {
+  const std::string speaks = R"({"protocol": "vantage-planner", "version": 1)";
+  EXPECT_EQ(read_introduction(speaks + R"(, "name": "mine"})"), "mine");
+  EXPECT_EQ(read_introduction(speaks + R"(, "name": 3})"), "");
+  EXPECT_EQ(read_introduction(speaks + "}"), "");
+  EXPECT_THROW(read_introduction(R"({"protocol": "vantage-planner", "version": "1"})"),
+               BadDecision);
+  EXPECT_THROW(read_introduction(R"({"protocol": "another", "version": 1})"), BadDecision);
+}
+
+TEST(PlannerProtocol, TellsWhatIsSpentAndWhatIsSeen) {
+  const support::AskedSituation situation;
+  DecisionRequest request = situation.request();
+  MapSituation& now = request.situation;
+  now.energy_j = 340.0;
+  now.left = {.time_s = 81.5, .energy_j = 660.0};
+  now.scan_s = 20.5;
+  now.field_of_view = {.half_width_rad = 0.5,
+                       .tilt_min_rad = -0.25,
+                       .tilt_max_rad = 0.75,
+                       .range_min_m = 0.125,
+                       .range_max_m = 8.0};
+  const Json json = Json::parse(request_line(request, 1, {}));
+  EXPECT_EQ(json["energy_j"], 340.0);
+  EXPECT_EQ(json["time_left_s"], 81.5);
+  EXPECT_EQ(json["energy_left_j"], 660.0);
+  EXPECT_EQ(json["scan_s"], 20.5);
+  EXPECT_EQ(json["scans"], 1);
+  EXPECT_EQ(json["field_of_view"]["half_width_rad"], 0.5);
+  EXPECT_EQ(json["field_of_view"]["tilt_min_rad"], -0.25);
+  EXPECT_EQ(json["field_of_view"]["range_max_m"], 8.0);
+  now.field_of_view.panorama = true;
+  const Json all_round = Json::parse(request_line(request, 1, {}));
+  EXPECT_NEAR(all_round["field_of_view"]["half_width_rad"].get<double>(), std::acos(-1.0), 1e-12);
+}
+
 TEST(PlannerProtocol, SensorsLookWhereTheyLook) {
   support::AskedSituation situation;
   situation.candidates[0].T_world_sensor =
@@ -96,6 +148,13 @@ TEST(PlannerGrids, AreNotWrittenThroughALinkOfThePlanners) {
   const support::AskedSituation situation;
   EXPECT_THROW(write_planner_grids(situation.request(), folder.path()), OutputError);
   EXPECT_EQ(std::filesystem::file_size(folder / "precious"), 4U);
+}
+
+TEST(PlannerGrids, DoNotWaitForAPipeOfThePlanners) {
+  const support::TemporaryDirectory folder;
+  ASSERT_EQ(::mkfifo((folder / "occupancy.raw").c_str(), 0600), 0);
+  const support::AskedSituation situation;
+  EXPECT_THROW(write_planner_grids(situation.request(), folder.path()), OutputError);
 }
 
 TEST(LineBuffer, PutsPiecesTogetherAndKeepsItsBound) {

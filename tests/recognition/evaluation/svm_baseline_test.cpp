@@ -1,0 +1,85 @@
+// Baselines on the features of single views.
+#include "vantage/recognition/evaluation/svm_baseline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+ViewFeatures view_of(float wide, float narrow) {
+  ViewFeatures view;
+  view.features.push_back({Eigen::VectorXf::Constant(1, wide), {}});
+  view.features.push_back({Eigen::VectorXf::Constant(1, narrow), {}});
+  return view;
+}
+
+/// A feature that spreads over a hundred, and one that spreads over one, far from zero.
+const std::vector<ViewFeatures> kSpreadViews{view_of(0.0F, 1000.0F), view_of(100.0F, 1001.0F),
+                                             view_of(20.0F, 1001.0F), view_of(100.0F, 1000.0F)};
+const std::vector<int> kSpreadLabels{5, 9, 2, 4};
+
+std::string error_of(const auto& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+TEST(NearestBaseline, CountsEachFeatureByItsSpread) {
+  const std::vector<ViewFeatures> asked{view_of(8.0F, 1000.9F), view_of(60.0F, 1000.3F),
+                                        view_of(70.0F, 1000.9F), view_of(5.0F, 1000.1F)};
+  EXPECT_THAT(nearest_predictions({kSpreadViews, kSpreadLabels}, asked), ElementsAre(2, 4, 9, 5));
+}
+
+TEST(NearestBaseline, TakesTheMeanForWhatIsMissing) {
+  std::vector<ViewFeatures> asked{view_of(0.0F, 1000.9F), view_of(0.0F, 1001.0F)};
+  asked[0].features[0] = FeatureResult::skip("hidden");
+  asked[1].features[1] = FeatureResult::skip("hidden");
+  EXPECT_THAT(nearest_predictions({kSpreadViews, kSpreadLabels}, asked), ElementsAre(2, 5));
+}
+
+TEST(NearestBaseline, OfEqualOnesTakesTheFirst) {
+  const std::vector<ViewFeatures> known{view_of(1.0F, 2.0F), view_of(3.0F, 1.0F),
+                                        view_of(3.0F, 1.0F)};
+  EXPECT_THAT(nearest_predictions({known, std::vector{4, 7, 8}}, std::vector{view_of(3.0F, 1.0F)}),
+              ElementsAre(7));
+}
+
+TEST(Baselines, NeedEachFeatureInSomeTrainingView) {
+  std::vector<ViewFeatures> known = kSpreadViews;
+  for (ViewFeatures& view : known) view.features[1] = FeatureResult::skip("hidden");
+  EXPECT_THAT(error_of([&] {
+                nearest_predictions({known, kSpreadLabels}, kSpreadViews);
+              }),
+              HasSubstr("none of 4 views to train on has feature 1"));
+  known[3] = kSpreadViews[3];
+  EXPECT_EQ(nearest_predictions({known, kSpreadLabels}, kSpreadViews).size(), 4U);
+}
+
+TEST(SvmBaseline, NeedsTwoLabelsAndOptionsInRange) {
+  EXPECT_THAT(error_of([&] {
+                svm_predictions(LinearSvm{}, {kSpreadViews, std::vector{3, 3, 3, 3}}, kSpreadViews);
+              }),
+              HasSubstr("need two objects or more"));
+  EXPECT_THAT(error_of([&] {
+                svm_predictions(LinearSvm{.c = 0.0}, {kSpreadViews, kSpreadLabels}, kSpreadViews);
+              }),
+              HasSubstr("linear_svm"));
+  EXPECT_THAT(
+      error_of([&] {
+        svm_predictions(KernelSvm{.gamma = 0.0}, {kSpreadViews, kSpreadLabels}, kSpreadViews);
+      }),
+      HasSubstr("gamma"));
+}
+
+}  // namespace
+}  // namespace vantage

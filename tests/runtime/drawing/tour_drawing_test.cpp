@@ -1,0 +1,168 @@
+#include "vantage/runtime/drawing/tour_drawing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "vantage/runtime/drawing/panel_style.hpp"
+
+namespace vantage {
+namespace {
+
+/// From above: the unit square of the floor in 200 x 200 px, x downwards and y to the right.
+MapCamera camera_above() {
+  MapCamera camera;
+  camera.T_camera_world.linear() << 0, 1, 0, 1, 0, 0, 0, 0, -1;
+  camera.T_camera_world.translation() << 0, 0, 10;
+  camera.focal_px = 2000.0;
+  return camera;
+}
+
+PlannedTour stops_at(const std::vector<Eigen::Vector2d>& places_m) {
+  PlannedTour tour;
+  for (const Eigen::Vector2d& place_m : places_m) tour.stops.push_back({.place_m = place_m});
+  return tour;
+}
+
+cv::Mat image_of(const PlannedTour& tour, const TourDrawing& how) {
+  MapCanvas canvas = make_canvas({200, 200});
+  draw_tour(canvas, camera_above(), tour, how);
+  return canvas.bgr;
+}
+
+bool is_near_colour(const cv::Mat& image, const Eigen::Vector2d& place_m, const cv::Scalar& bgr) {
+  const auto pixel = image.at<cv::Vec3b>(static_cast<int>(std::lround(200.0 * place_m.x())),
+                                         static_cast<int>(std::lround(200.0 * place_m.y())));
+  return cv::norm(cv::Scalar(pixel[0], pixel[1], pixel[2]) - bgr) < 25.0;
+}
+
+bool alike(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF) == 0.0; }
+
+TEST(TourDrawing, IsSolidToTheNextStop) {
+  const PlannedTour tour = stops_at({{0.5, 0.2}});
+  const cv::Mat image = image_of(tour, {.from_m = Eigen::Vector2d(0.5, 0.9)});
+  for (double y = 0.3; y < 0.88; y += 0.01) {
+    EXPECT_TRUE(is_near_colour(image, {0.5, y}, panel::kPlan)) << y;
+  }
+  const cv::Mat without = image_of(tour, {});
+  EXPECT_FALSE(is_near_colour(without, {0.5, 0.6}, panel::kPlan)) << "drawn by another";
+}
+
+/// 160 px are 13 dashes of 7 px and as many gaps of 5 px, stretched a little; the round ends of a
+/// stroke add 1 px on either side.
+TEST(TourDrawing, IsDashedBeyond) {
+  const cv::Mat image = image_of(stops_at({{0.1, 0.1}, {0.5, 0.1}, {0.5, 0.9}}), {});
+  int drawn = 0;
+  int dashes = 0;
+  bool before = false;
+  for (int x = 36; x < 166; ++x) {
+    const bool now = image.at<cv::Vec3b>(100, x)[0] > 112;
+    drawn += now ? 1 : 0;
+    dashes += now && !before ? 1 : 0;
+    before = now;
+  }
+  EXPECT_NEAR(dashes, 11, 1);
+  EXPECT_NEAR(drawn, 98, 5);
+}
+
+TEST(TourDrawing, TheNextStopIsADiscAndTheOthersAreRings) {
+  const cv::Mat image = image_of(stops_at({{0.2, 0.3}, {0.7, 0.6}}), {.unit = 2.0});
+  // Discs are 18 px large at two pixels a stroke; below their numbers they show themselves.
+  EXPECT_TRUE(is_near_colour(image, {0.2 + 14.0 / 200.0, 0.3}, panel::kPlan));
+  EXPECT_FALSE(is_near_colour(image, {0.2 + 22.0 / 200.0, 0.3}, panel::kPlan));
+  EXPECT_TRUE(is_near_colour(image, {0.7 + 14.0 / 200.0, 0.6}, panel::kBottom));
+  bool is_round = false;
+  for (int off = 16; off <= 20; ++off) {
+    is_round = is_round || is_near_colour(image, {0.7 + off / 200.0, 0.6}, panel::kPlan);
+  }
+  EXPECT_TRUE(is_round) << "a ring";
+}
+
+TEST(TourDrawing, NumbersGoOnFromTheNextStop) {
+  const PlannedTour tour = stops_at({{0.2, 0.3}, {0.7, 0.6}});
+  EXPECT_FALSE(alike(image_of(tour, {}), image_of(tour, {.number = 7})));
+  EXPECT_TRUE(alike(image_of(tour, {}), image_of(tour, {.number = 1})));
+}
+
+TEST(TourDrawing, MayLeaveTheNextStopUnmarked) {
+  EXPECT_EQ(cv::countNonZero(image_of({}, {}).reshape(1)), 0);
+  EXPECT_EQ(cv::countNonZero(image_of(stops_at({{0.5, 0.5}}), {.marks_next = false}).reshape(1)),
+            0);
+  EXPECT_GT(cv::countNonZero(image_of(stops_at({{0.5, 0.5}}), {}).reshape(1)), 100);
+}
+
+TEST(TourDrawing, StopsThatWouldCoverOthersAreDots) {
+  EXPECT_TRUE(
+      alike(image_of(stops_at({{0.5, 0.5}, {0.5, 0.5}}), {}), image_of(stops_at({{0.5, 0.5}}), {})))
+      << "a dot covers no number";
+  // Discs of 9 px cover each other up to 18 px: a ring shows its dark middle, a dot has none.
+  const cv::Mat dot = image_of(stops_at({{0.5, 0.5}, {0.5, 0.585}}), {.marks_next = true});
+  EXPECT_TRUE(is_near_colour(dot, {0.5 + 2.0 / 200.0, 0.585 + 2.0 / 200.0}, panel::kPlan));
+  const cv::Mat ring = image_of(stops_at({{0.5, 0.5}, {0.5, 0.595}}), {.marks_next = true});
+  EXPECT_TRUE(is_near_colour(ring, {0.5 + 6.0 / 200.0, 0.595}, panel::kBottom));
+}
+
+TEST(TourDrawing, IsToldInWords) {
+  EXPECT_EQ(plan_text({}), "");
+  PlannedTour tour = stops_at({{0.0, 0.0}});
+  tour.stops.back().departure_s = 181.7;
+  EXPECT_EQ(plan_text(tour), "plan: 1 view, 182 s; the first plan");
+  tour.stops.push_back({.departure_s = 300.0});
+  tour.reason = {PlanChange::cheaper, 14.25};
+  EXPECT_EQ(plan_text(tour),
+            "plan: 2 views, 300 s; another tour costs 14.2 s less than the best that goes on as "
+            "intended");
+}
+
+TEST(PanelLayout, ScalesWithTheUnit) {
+  const panel::Layout layout{2.0, {640, 480}};
+  EXPECT_EQ(layout.px(3.5), 7.0);
+  EXPECT_EQ(layout.stroke(0.1), 1) << "at least one pixel";
+  EXPECT_EQ(layout.stroke(1.3), 3);
+  EXPECT_EQ(layout.rect(1.2, 2.3, 3.4, 4.6), cv::Rect(2, 4, 6, 9));
+  EXPECT_EQ(layout.height(), 240.0);
+}
+
+TEST(PanelText, BeginsEndsOrHasItsMiddleWhereItIsAsked) {
+  const auto extent = [](panel::Align align) {
+    cv::Mat image(60, 300, CV_8UC3, cv::Scalar());
+    panel::text(image, {1.0, image.size()}, "HHHHHH", {150.0, 40.0}, 22.0, cv::Scalar::all(255),
+                align);
+    cv::Mat grey;
+    cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+    return cv::boundingRect(grey);
+  };
+  const cv::Rect left = extent(panel::Align::left);
+  const cv::Rect centre = extent(panel::Align::centre);
+  const cv::Rect right = extent(panel::Align::right);
+  EXPECT_GT(left.width, 60);
+  EXPECT_NEAR(left.x, 150, 6);
+  EXPECT_NEAR(centre.x + 0.5 * centre.width, 150.0, 6.0);
+  EXPECT_NEAR(right.x + right.width, 150, 6);
+}
+
+TEST(PanelNumbers, AreGroupedByThousands) {
+  EXPECT_EQ(panel::grouped(0.0), "0");
+  EXPECT_EQ(panel::grouped(999.0), "999");
+  EXPECT_EQ(panel::grouped(1000.0), "1 000");
+  EXPECT_EQ(panel::grouped(12345.4), "12 345");
+  EXPECT_EQ(panel::grouped(1234567.0), "1 234 567");
+  EXPECT_EQ(panel::grouped(-1234.0), "-1 234");
+  EXPECT_EQ(panel::grouped(-0.2), "0");
+  EXPECT_EQ(panel::grouped(std::numeric_limits<double>::quiet_NaN()), "-");
+  EXPECT_EQ(panel::grouped(std::numeric_limits<double>::infinity()), "-");
+}
+
+TEST(PanelNumbers, StepsAreRound) {
+  EXPECT_DOUBLE_EQ(panel::round_step(10.0, 10), 1.0);
+  EXPECT_DOUBLE_EQ(panel::round_step(15.0, 10), 2.0);
+  EXPECT_DOUBLE_EQ(panel::round_step(10.0, 4), 5.0);
+  EXPECT_DOUBLE_EQ(panel::round_step(70.0, 10), 10.0);
+  EXPECT_DOUBLE_EQ(panel::round_step(300.0, 10), 50.0);
+  EXPECT_DOUBLE_EQ(panel::round_step(0.3, 100), 0.005);
+}
+
+}  // namespace
+}  // namespace vantage

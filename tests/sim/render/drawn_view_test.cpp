@@ -1,0 +1,108 @@
+// From where a scene is drawn, and how large what is drawn into it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/mjcf.hpp"
+#include "vantage/sim/render/renderer.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr int kColumns = 160;
+constexpr int kRows = 121;
+
+RenderedImages seen(const test::MjcfModel& scene, const CameraView& view,
+                    const RenderRequest& request = {}) {
+  RenderedImages images;
+  make_offscreen_renderer(*scene.model, kColumns, kRows)
+      ->render(*scene.model, *scene.data, view, request, images);
+  return images;
+}
+
+/// A ball at the origin, and a camera that looks at it along y from 2 m.
+test::MjcfModel ball_ahead() {
+  return test::compile_mjcf(
+      "<mujoco><statistic extent='2'/><worldbody><light pos='0 0 4' dir='0 0 -1'/>"
+      "<geom name='ball' size='.05' rgba='0 0 1 1'/>"
+      "<camera name='front' pos='0 -2 0' xyaxes='1 0 0 0 0 1'/></worldbody></mujoco>");
+}
+
+TEST(DrawnView, AFreeCameraCirclesItsPoint) {
+  const FreeCamera camera{
+      .lookat_m = {1.0, 2.0, 3.0}, .distance_m = 4.0, .azimuth_rad = 0.5, .elevation_rad = -0.3};
+  const RenderedImages images = seen(ball_ahead(), camera);
+  const Eigen::Vector3d along(std::cos(0.3) * std::cos(0.5), std::cos(0.3) * std::sin(0.5),
+                              -std::sin(0.3));
+  const Eigen::Vector3d right(std::sin(0.5), -std::cos(0.5), 0.0);
+  const Pose& T = images.T_world_camera;
+  EXPECT_LT((T.translation() - (Eigen::Vector3d(1.0, 2.0, 3.0) - 4.0 * along)).norm(), 1e-5);
+  EXPECT_LT((T.linear().col(0) - right).norm(), 1e-5);
+  EXPECT_LT((T.linear().col(1) - along.cross(right)).norm(), 1e-5);
+  EXPECT_LT((T.linear().col(2) - along).norm(), 1e-5);
+}
+
+TEST(DrawnView, TheFieldOfViewIsTheModelsUnlessAsked) {
+  const auto scene = ball_ahead();
+  const auto focal_px = [&](const CameraView& view) { return seen(scene, view).focal_px; };
+  const double of_model_px = 0.5 * kRows / std::tan(std::numbers::pi / 8.0);
+  EXPECT_NEAR(focal_px(FixedCamera{0}), of_model_px, 1e-3);
+  EXPECT_NEAR(focal_px(FreeCamera{}), of_model_px, 1e-3);
+  EXPECT_NEAR(focal_px(FixedCamera{0, 0.6}), 0.5 * kRows / std::tan(0.3), 1e-3);
+  EXPECT_NEAR(focal_px(FreeCamera{.fovy_rad = 1.2}), 0.5 * kRows / std::tan(0.6), 1e-3);
+}
+
+TEST(DrawnView, SitesAreNotDrawn) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><statistic extent='2'/><worldbody><geom size='.05'/>"
+      "<site size='.2' pos='0 -1 0'/>"
+      "<camera pos='0 -2 0' xyaxes='1 0 0 0 0 1'/></worldbody></mujoco>");
+  const RenderedImages images = seen(scene, FixedCamera{0});
+  const std::size_t centre = kRows / 2 * kColumns + kColumns / 2;
+  EXPECT_EQ(images.segmentation[centre], 0);
+  EXPECT_NEAR(images.depth_m[centre], 1.95, 2e-3);
+}
+
+/// Columns and rows of the pixels that a marker changes.
+Eigen::Vector2i size_px(const Marker& marker) {
+  const auto scene = ball_ahead();
+  const RenderedImages plain = seen(scene, FixedCamera{0});
+  const RenderedImages marked = seen(scene, FixedCamera{0}, {.markers = {marker}});
+  Eigen::AlignedBox2i changed;
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const auto at = static_cast<std::size_t>(3 * (row * kColumns + column));
+      if (!std::equal(&plain.rgb[at], &plain.rgb[at] + 3, &marked.rgb[at])) {
+        changed.extend(Eigen::Vector2i(column, row));
+      }
+    }
+  }
+  EXPECT_FALSE(changed.isEmpty());
+  return changed.isEmpty() ? Eigen::Vector2i::Zero().eval()
+                           : Eigen::Vector2i(changed.sizes() + Eigen::Vector2i::Ones());
+}
+
+/// 1 m before the camera, whose focal length is 146 px.
+TEST(DrawnView, MarkersAreAsLargeAsTheySay) {
+  const Eigen::Vector3d ahead(0.0, -1.0, 0.0);
+  const Eigen::Vector2i sphere = size_px(SphereMarker{.p_world_m = ahead, .radius_m = 0.2});
+  EXPECT_NEAR(sphere.x(), 60, 3);
+  EXPECT_NEAR(sphere.y(), 60, 3);
+  // Its front is 0.98 m away; turned about y its height lies level.
+  BoxMarker box{.T_world_box = Eigen::Isometry3d::Identity(), .half_size_m = {0.25, 0.02, 0.1}};
+  box.T_world_box.translation() = ahead;
+  EXPECT_NEAR(size_px(box).x(), 75, 3);
+  EXPECT_NEAR(size_px(box).y(), 30, 3);
+  box.T_world_box.rotate(Eigen::AngleAxisd(std::numbers::pi / 2.0, Eigen::Vector3d::UnitY()));
+  EXPECT_NEAR(size_px(box).x(), 30, 3);
+  EXPECT_NEAR(size_px(box).y(), 75, 3);
+  const Eigen::Vector2i line = size_px(LineMarker{
+      .from_world_m = {-0.3, -1.0, 0.0}, .to_world_m = {0.3, -1.0, 0.0}, .width_m = 0.1});
+  EXPECT_NEAR(line.x(), 102, 4);
+  EXPECT_NEAR(line.y(), 15, 2);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,86 @@
+#include "vantage/sim/render/scene_surfaces.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/sim/sensors/sensor_scene.hpp"
+
+namespace vantage {
+namespace {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+SceneSurfaces drawn_of(const std::string& bodies, const std::string& assets = "") {
+  const auto scene = test::compile_mjcf("<mujoco><asset>" + assets + "</asset><worldbody>" +
+                                        bodies + "</worldbody></mujoco>");
+  return scene_surfaces(*scene.model, *scene.data);
+}
+
+TEST(SceneSurfacesOf, ShapesHaveTheirColourAndTheirPlace) {
+  const SceneSurfaces drawn = drawn_of(
+      "<geom type='box' size='.1 .2 .3' pos='5 0 0' rgba='1 0 0 1'/>"
+      "<geom type='box' size='.1 .2 .3' pos='1 2 3' rgba='.2 .6 .4 1'/>");
+  ASSERT_EQ(drawn.vertices_m.size(), 16U);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(drawn.colours[i], i < 8 ? (Colour{255, 0, 0}) : (Colour{51, 153, 102})) << i;
+    const Eigen::Vector3f middle =
+        i < 8 ? Eigen::Vector3f(5.0F, 0.0F, 0.0F) : Eigen::Vector3f(1.0F, 2.0F, 3.0F);
+    const Eigen::Vector3f off = (drawn.vertices_m[i] - middle).cwiseAbs();
+    EXPECT_LT((off - Eigen::Vector3f(0.1F, 0.2F, 0.3F)).norm(), 1e-5F) << i;
+  }
+  ASSERT_EQ(drawn.triangles[0].size(), 24U);
+  for (std::size_t i = 0; i < 24; ++i) {
+    for (const std::uint32_t vertex : drawn.triangles[0][i]) EXPECT_EQ(vertex < 8, i < 12) << i;
+  }
+}
+
+TEST(SceneSurfacesOf, PeopleSeeGroupsUpToTwoAndLooks) {
+  for (const int group : {0, 1, 2, 3, 4, 5}) {
+    const SceneSurfaces drawn =
+        drawn_of("<geom type='box' size='.1 .2 .3' group='" + std::to_string(group) + "'/>");
+    EXPECT_EQ(drawn.vertices_m.size(), group == 3 || group == 4 ? 0U : 8U) << group;
+  }
+  EXPECT_TRUE(drawn_of("<body name='robot/base'><geom type='box' size='.1 .2 .3'/></body>")
+                  .vertices_m.empty());
+}
+
+TEST(SceneSurfacesOf, PlanesEndSomewhere) {
+  const SceneSurfaces drawn =
+      drawn_of("<geom type='plane' size='2 3 .1' pos='0 0 1'/><geom type='plane' size='0 0 1'/>");
+  ASSERT_EQ(drawn.vertices_m.size(), 8U);
+  EXPECT_EQ(drawn.triangles[0].size(), 4U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Eigen::Vector3f half = drawn.vertices_m[i].cwiseAbs();
+    const Eigen::Vector3f expected =
+        i < 4 ? Eigen::Vector3f(2.0F, 3.0F, 1.0F) : Eigen::Vector3f(10.0F, 10.0F, 0.0F);
+    EXPECT_LT((half - expected).norm(), 1e-5F) << i;
+  }
+}
+
+TEST(SceneSurfacesOf, RoundThingsHaveCornersEvery12Centimetres) {
+  EXPECT_EQ(drawn_of("<geom type='cylinder' size='.5 .2'/>").vertices_m.size(), 4U * 27U);
+}
+
+TEST(SceneSurfacesOf, ATextureWithoutAMeshIsItsMeanTimesItsMaterial) {
+  const SceneSurfaces drawn = drawn_of(
+      "<geom type='plane' size='1 1 .1' material='tiles'/>",
+      "<texture name='tiles' type='2d' builtin='checker' rgb1='1 .2 0' rgb2='0 .6 1' width='8' "
+      "height='4'/><material name='tiles' texture='tiles' rgba='1 .5 .25 1'/>");
+  ASSERT_EQ(drawn.colours.size(), 4U);
+  EXPECT_NEAR(drawn.colours[0][0], 127.5, 1.5);
+  EXPECT_NEAR(drawn.colours[0][1], 51.0, 1.5);
+  EXPECT_NEAR(drawn.colours[0][2], 31.9, 1.5);
+}
+
+TEST(SceneSurfacesOf, MeshesOfMoreThan4000TrianglesAreCoarser) {
+  const auto triangles = [](int rings) {
+    return drawn_of("<geom type='mesh' mesh='bumpy'/>", test::bumpy_mesh(rings, 40))
+        .triangles[0]
+        .size();
+  };
+  EXPECT_EQ(triangles(50), 4000U);
+  EXPECT_LE(triangles(51), 4000U);
+  EXPECT_GT(triangles(51), 1000U);
+}
+
+}  // namespace
+}  // namespace vantage

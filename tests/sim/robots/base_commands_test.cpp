@@ -1,0 +1,204 @@
+// What a command to a base becomes at its actuators, and what it costs.
+#include <gmock/gmock.h>
+#include <mujoco/mujoco.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/sim/test_world.hpp"
+#include "tests/support/option_numbers.hpp"
+#include "vantage/sim/robots/drive.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// The command that the actuator of that name has now.
+double commanded(const World& world, const char* actuator) {
+  const int id = model_id(world.model(), ModelObject::actuator, actuator);
+  return world.controls()[static_cast<std::size_t>(id)];
+}
+
+TEST(BaseCommands, SlidesMoveInTheWorldWhatTheBaseIsTold) {
+  test::RobotWorld scene("", {1.0, 2.0, 0.5});
+  const double c = std::cos(0.5);
+  const double s = std::sin(0.5);
+  scene.robot.command_twist(scene.world, {0.3, 0.4, -0.2});
+  EXPECT_NEAR(commanded(scene.world, "robot/base_x"), 0.3 * c - 0.4 * s, 1e-12);
+  EXPECT_NEAR(commanded(scene.world, "robot/base_y"), 0.3 * s + 0.4 * c, 1e-12);
+  EXPECT_NEAR(commanded(scene.world, "robot/base_yaw"), -0.2, 1e-12);
+  scene.robot.command_twist(scene.world, {3.0, 4.0, 9.0});
+  EXPECT_NEAR(commanded(scene.world, "robot/base_x"), 0.6 * c - 0.8 * s, 1e-12);
+  EXPECT_NEAR(commanded(scene.world, "robot/base_y"), 0.6 * s + 0.8 * c, 1e-12);
+  EXPECT_NEAR(commanded(scene.world, "robot/base_yaw"), 1.5, 1e-12);
+}
+
+TEST(BaseCommands, WheelsTurnAsTheirTrackAndRadiusSay) {
+  test::RoverWorld scene;
+  const auto wheels = [&](const Twist2& twist) {
+    scene.robot.command_twist(scene.world, twist);
+    return std::vector<double>{commanded(scene.world, "robot/left_wheel"),
+                               commanded(scene.world, "robot/right_wheel")};
+  };
+  const auto are = [](double left, double right) {
+    return ElementsAre(testing::DoubleNear(left, 1e-9), testing::DoubleNear(right, 1e-9));
+  };
+  EXPECT_THAT(wheels({0.3, 0.7, 0.4}), are(4.92, 7.08));
+  EXPECT_THAT(wheels({-9.0, 0.0, 0.0}), are(-12.0, -12.0));
+  EXPECT_THAT(wheels({9.0, 0.0, 0.0}), are(12.0, 12.0));
+  EXPECT_THAT(wheels({0.0, 0.0, 9.0}), are(-4.05, 4.05));
+  EXPECT_THAT(wheels({0.0, 0.0, -9.0}), are(4.05, -4.05));
+}
+
+TEST(BaseCommands, AreClippedToWhatActuatorsTake) {
+  test::RobotWorld scene;
+  EXPECT_EQ(scene.robot.lift_max_m(), 0.33);
+  scene.robot.command_lift(scene.world, 9.0);
+  EXPECT_EQ(commanded(scene.world, "robot/torso_lift"), 0.33);
+  scene.robot.command_lift(scene.world, -1.0);
+  EXPECT_EQ(commanded(scene.world, "robot/torso_lift"), 0.0);
+  scene.robot.command_head(scene.world, 9.0, -9.0);
+  EXPECT_EQ(commanded(scene.world, "robot/head_pan"), 2.86);
+  EXPECT_EQ(commanded(scene.world, "robot/head_tilt"), -0.47);
+  const AngleRange tilts = scene.robot.laser_tilt_range();
+  EXPECT_EQ(tilts.min_rad, -0.785);
+  EXPECT_EQ(tilts.max_rad, 1.484);
+  scene.robot.command_laser_tilt(scene.world, 9.0);
+  EXPECT_EQ(commanded(scene.world, "robot/laser_tilt"), 1.484);
+}
+
+TEST(BaseCommands, ARobotIsPlacedWithinItsLift) {
+  const test::RobotWorld scene("", {1.0, -2.0, 4.0}, 9.0);
+  EXPECT_EQ(scene.robot.lift_m(scene.world), 0.33);
+  EXPECT_EQ(commanded(scene.world, "robot/torso_lift"), 0.33);
+  const Pose2 pose = scene.robot.T_world_base(scene.world);
+  EXPECT_NEAR(pose.x_m, 1.0, 1e-12);
+  EXPECT_NEAR(pose.y_m, -2.0, 1e-12);
+  EXPECT_NEAR(pose.yaw_rad, 4.0 - 2.0 * std::numbers::pi, 1e-12);
+}
+
+TEST(BaseCommands, PowerIsThatOfItsOwnActuatorsAndOfRest) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><geom type='plane' size='9 9 .1'/><body pos='5 0 1'>"
+      "<joint name='rail' type='slide'/><geom size='.1'/></body></worldbody>"
+      "<actuator><motor name='rail' joint='rail'/></actuator></mujoco>");
+  World world(folder.with_pr2());
+  const MobileBase robot = test::pr2(world);
+  EXPECT_EQ(robot.power_w(world), 300.0);
+  const auto work = [&](const char* actuator, double force, double velocity) {
+    const int id = model_id(world.model(), ModelObject::actuator, actuator);
+    world.data().actuator_force[id] = force;
+    world.data().actuator_velocity[id] = velocity;
+  };
+  work("rail", 100.0, 100.0);
+  work("robot/base_x", 2.0, 3.0);
+  work("robot/head_pan", -2.0, -5.0);
+  work("robot/torso_lift", -1.0, 4.0);
+  EXPECT_NEAR(robot.power_w(world), 316.0, 1e-12);
+}
+
+TEST(BaseCommands, TurningTouchesWhatItsCornersReach) {
+  for (const auto& [wall_x_m, touches] : {std::pair(0.5, true), std::pair(0.6, false)}) {
+    test::RobotWorld scene("<geom name='wall' type='box' size='.1 3 1' pos='" +
+                           std::to_string(wall_x_m) + " 0 1'/>");
+    scene.world.advance_tick();
+    EXPECT_EQ(scene.robot.contacts(scene.world), 0);
+    const std::vector<double> before = scene.world.state();
+    const std::vector<int> touched = scene.robot.touched_by_turning(scene.world);
+    if (touches) {
+      EXPECT_THAT(touched, ElementsAre(model_id(scene.world.model(), ModelObject::geom, "wall")));
+    } else {
+      EXPECT_THAT(touched, IsEmpty());
+    }
+    EXPECT_EQ(scene.world.state(), before);
+  }
+}
+
+Odometry exact_odometry() { return {OdometryOptions::perfect(), Rng(1), {}}; }
+
+TEST(DriveTimes, ADriveMayTakeAMultipleOfWhatItShouldAndTenSeconds) {
+  test::RobotWorld scene;
+  Odometry odometry = exact_odometry();
+  odometry.on_increment = [](const Pose2&) { return Pose2{}; };
+  const DriveResult result = drive(scene.world, scene.robot, odometry,
+                                   std::vector<Pose2>{{1.2, 0.0, -2.4}}, {.timeout_factor = 1.5});
+  EXPECT_EQ(result.status, DriveStatus::timeout);
+  // 2 s along the path at 0.6 m/s and 3 s of turning at 0.8 rad/s; then it brakes.
+  EXPECT_GE(result.duration_s, 17.5 - 1e-9);
+  EXPECT_LT(result.duration_s, 19.0);
+}
+
+TEST(DriveTimes, BrakingIsGivenUpAfterThreeSeconds) {
+  test::RobotWorld scene;
+  scene.world.add_outside_force(
+      {scene.robot.base_body_id(), [](double) { return Eigen::Vector3d(1000.0, 0.0, 0.0); }});
+  Odometry odometry = exact_odometry();
+  const DriveResult result =
+      drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{4.0, 0.0, 0.0}}, {},
+            [](World&, const Pose2&) { return false; });
+  EXPECT_EQ(result.status, DriveStatus::stopped);
+  EXPECT_GT(result.duration_s, 3.02);
+  EXPECT_LT(result.duration_s, 3.06);
+}
+
+TEST(DriveTimes, StandingStillTakesAsLongAsAsked) {
+  test::RobotWorld scene;
+  Odometry odometry = exact_odometry();
+  hold_still(scene.world, scene.robot, odometry, 0.5);
+  EXPECT_GT(scene.world.time_s(), 0.499);
+  EXPECT_LT(scene.world.time_s(), 0.53);
+}
+
+TEST(DriveTimes, StatusesHaveNames) {
+  EXPECT_EQ(to_string(DriveStatus::arrived), "arrived");
+  EXPECT_EQ(to_string(DriveStatus::stuck), "stuck");
+  EXPECT_EQ(to_string(DriveStatus::stopped), "stopped");
+  EXPECT_EQ(to_string(DriveStatus::timeout), "timeout");
+}
+
+TEST(RobotOptions, DefaultsAndRanges) {
+  support::expect_numbers(OdometryOptions{}, {{"sigma_translation_m", 0.01, at_least(0.0)},
+                                              {"sigma_yaw_rad", 0.01, at_least(0.0)},
+                                              {"sigma_turn_rad", 0.02, at_least(0.0)},
+                                              {"bias_translation_m_per_m", 0.01, at_least(0.0)},
+                                              {"bias_yaw_rad_per_m", 0.005, at_least(0.0)},
+                                              {"bias_length_m", 5.0, above(0.0)}});
+  support::expect_numbers(Footprint{}, {{"inscribed_radius_m", 0.0, Range{0.0, 5.0, true}},
+                                        {"circumscribed_radius_m", 0.0, Range{0.0, 5.0, true}}});
+  support::expect_numbers(OmnidirectionalDrive{}, {{"speed_max_m_s", 1.0, Range{0.0, 10.0, true}}});
+  support::expect_numbers(DifferentialDrive{},
+                          {{"wheel_radius_m", 0.0, Range{0.0, 1.0, true}},
+                           {"track_m", 0.0, Range{0.0, 5.0, true}},
+                           {"speed_max_m_s", 0.5, Range{0.0, 10.0, true}},
+                           {"turn_rate_max_rad_s", 1.5, Range{0.0, 10.0, true}}});
+  support::expect_numbers(QuadrotorDescription{}, {{"rotor_radius_m", 0.0, Range{0.0, 5.0, true}}});
+}
+
+TEST(RobotOptions, AFootprintMayBeACircle) {
+  Footprint footprint{.inscribed_radius_m = 0.2, .circumscribed_radius_m = 0.2, .outline_m = {}};
+  EXPECT_NO_THROW(footprint.check());
+  footprint.outline_m = {{0.0, 0.0}, {0.2, 0.0}, {0.0, 0.1}};
+  EXPECT_NO_THROW(footprint.check());
+  footprint.inscribed_radius_m = 0.21;
+  EXPECT_THROW(footprint.check(), ConfigError);
+}
+
+TEST(RobotOptions, AQuadrotorNamesFourRotors) {
+  QuadrotorDescription description{.base = "b",
+                                   .free_joint = "f",
+                                   .rotors = {"0", "1", "2"},
+                                   .rotor_radius_m = 0.1,
+                                   .camera = "c",
+                                   .camera_tilt = "t"};
+  EXPECT_EQ(test::message_of<ConfigError>([&] { description.check(); }),
+            "rotors: 3 actuators, a quadrotor has 4");
+  description.rotors.emplace_back("3");
+  EXPECT_NO_THROW(description.check());
+  description.rotors.emplace_back("4");
+  EXPECT_THROW(description.check(), ConfigError);
+}
+
+}  // namespace
+}  // namespace vantage

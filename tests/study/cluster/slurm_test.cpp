@@ -1,0 +1,197 @@
+// What is read of Slurm and said of it, without Slurm.
+#include "vantage/study/cluster/slurm.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/study/cluster/program.hpp"
+#include "vantage/study/cluster/worker.hpp"
+#include "vantage/study/sweep/submission.hpp"
+
+namespace vantage {
+namespace {
+using testing::HasSubstr;
+
+SlurmTask task_in(const std::string& state) { return {"12", "3", state, "", 0, "n7"}; }
+
+TEST(SlurmTasks, AreReadOfTheLinesOfSqueue) {
+  const std::vector<SlurmTask> tasks =
+      parse_slurm_tasks("12|3|RUNNING|None|2|n7|\nnothing\n\n13|N/A|PENDING|Priority|0||\n");
+  ASSERT_EQ(tasks.size(), 2U);
+  EXPECT_EQ(tasks[0].job, "12");
+  EXPECT_EQ(tasks[0].task, "3");
+  EXPECT_EQ(tasks[0].state, "RUNNING");
+  EXPECT_EQ(tasks[0].reason, "");
+  EXPECT_EQ(tasks[0].restart, 2);
+  EXPECT_EQ(tasks[0].node, "n7");
+  EXPECT_EQ(tasks[1].job, "13");
+  EXPECT_EQ(tasks[1].task, "");
+  EXPECT_EQ(tasks[1].state, "PENDING");
+  EXPECT_EQ(tasks[1].reason, "Priority");
+  EXPECT_EQ(tasks[1].restart, 0);
+  EXPECT_EQ(tasks[1].node, "");
+}
+
+TEST(SlurmTasks, AreAtWorkOrWaitOrAreLost) {
+  for (const char* state : {"RUNNING", "COMPLETING", "CONFIGURING", "SUSPENDED", "STOPPED",
+                            "SIGNALING", "STAGE_OUT", "RESIZING"}) {
+    EXPECT_TRUE(is_at_work(task_in(state))) << state;
+    EXPECT_TRUE(is_open(task_in(state))) << state;
+    EXPECT_FALSE(is_lost(task_in(state))) << state;
+  }
+  for (const char* state : {"PENDING", "REQUEUED", "REQUEUE_FED", "REQUEUE_HOLD", "SPECIAL_EXIT"}) {
+    EXPECT_FALSE(is_at_work(task_in(state))) << state;
+    EXPECT_TRUE(is_open(task_in(state))) << state;
+    EXPECT_FALSE(is_lost(task_in(state))) << state;
+  }
+  for (const char* state : {"FAILED", "TIMEOUT", "NODE_FAIL"}) {
+    EXPECT_FALSE(is_open(task_in(state))) << state;
+    EXPECT_TRUE(is_lost(task_in(state))) << state;
+  }
+  EXPECT_FALSE(is_open(task_in("COMPLETED")));
+  EXPECT_FALSE(is_lost(task_in("COMPLETED")));
+}
+
+TEST(SlurmPlaces, AreOfOneTaskWhateverItsRestarts) {
+  const SlurmPlace place{"c", "12", "3", 1};
+  EXPECT_EQ(place.id(), "12_3");
+  EXPECT_EQ((SlurmPlace{"c", "12", "", 1}.id()), "12");
+  EXPECT_TRUE(place.same_task({"c", "12", "3", 5}));
+  EXPECT_FALSE(place.same_task({"d", "12", "3", 1}));
+  EXPECT_FALSE(place.same_task({"c", "13", "3", 1}));
+  EXPECT_FALSE(place.same_task({"c", "12", "4", 1}));
+}
+
+TEST(Workers, AreReadBackAsTheyWereWritten) {
+  Worker worker{.host = "n7", .machine = "n7 boot", .pid = 4711, .started = "99", .slurm = {}};
+  const Worker bare = worker_of(worker_json(worker));
+  EXPECT_EQ(bare.host, "n7");
+  EXPECT_EQ(bare.machine, "n7 boot");
+  EXPECT_EQ(bare.pid, 4711);
+  EXPECT_EQ(bare.started, "99");
+  EXPECT_FALSE(bare.slurm);
+  worker.slurm = SlurmPlace{"c", "12", "3", 2};
+  const Worker in_slurm = worker_of(worker_json(worker));
+  ASSERT_TRUE(in_slurm.slurm);
+  EXPECT_TRUE(in_slurm.slurm->same_task(*worker.slurm));
+  EXPECT_EQ(in_slurm.slurm->restart, 2);
+  const Worker odd = worker_of({{"host", 5}, {"pid", "many"}, {"slurm", "no"}});
+  EXPECT_EQ(odd.host, "");
+  EXPECT_EQ(odd.pid, 0);
+  ASSERT_TRUE(odd.slurm);
+  EXPECT_EQ(odd.slurm->job, "");
+  EXPECT_FALSE(worker_of(nullptr).slurm);
+}
+
+TEST(Programs, EndWithTheirCodeAndWhatTheySaid) {
+  const auto end = run_program({"sh", "-c", "echo out; echo err >&2; exit 3"});
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->exit_code, 3);
+  EXPECT_EQ(end->output, "out\n");
+  EXPECT_EQ(end->errors, "err\n");
+  EXPECT_EQ(run_program({"sh", "-c", "kill -KILL $$"})->exit_code, 128 + 9);
+  EXPECT_EQ(run_program({"cat"})->output, "") << "its input is empty";
+  EXPECT_EQ(run_program({"sh", "-c", "head -c 10000 /dev/zero"})->output, std::string(10000, '\0'));
+  EXPECT_FALSE(run_program({"no_such_program_zz"}));
+}
+
+/// Of an array of five tasks, of its collection, and of an array that Slurm has forgotten.
+const std::vector<Submission> kSubmitted{{"12", "13", 5}, {"20", "", 2}};
+
+SlurmQueue queue_of_submitted() {
+  SlurmQueue queue;
+  queue.tasks = {{"12", "0", "RUNNING", "", 1, "n1"},
+                 {"12", "1", "PENDING", "Priority", 0, ""},
+                 {"12", "2", "PENDING", "BeginTime", 0, ""},
+                 {"12", "3", "TIMEOUT", "", 0, "n2"},
+                 {"99", "0", "RUNNING", "", 0, "n3"}};
+  return queue;
+}
+
+TEST(Submissions, AreToldALineAJob) {
+  EXPECT_EQ(submissions_text(kSubmitted, queue_of_submitted()),
+            "array 12: 1 running, 2 queued (1 BeginTime, 1 Priority), 1 timeout, 1 ended, "
+            "1 requeued before\ncollect 13: 1 ended\narray 20: 2 ended\n");
+  EXPECT_EQ(submissions_text({}, queue_of_submitted()), "");
+  SlurmQueue silent = queue_of_submitted();
+  silent.silence = "no route";
+  EXPECT_EQ(submissions_text(kSubmitted, silent), "Slurm does not answer: no route\n");
+}
+
+TEST(Submissions, AreToldAsJson) {
+  const auto json = submissions_json(kSubmitted, queue_of_submitted());
+  EXPECT_EQ(json["answers"], true);
+  ASSERT_EQ(json["submissions"].size(), 2U);
+  const auto& array = json["submissions"][0]["array"];
+  EXPECT_EQ(array["job"], "12");
+  EXPECT_EQ(array["tasks"], 5);
+  EXPECT_EQ(array["running"], 1);
+  EXPECT_EQ(array["queued"], 2);
+  EXPECT_EQ(array["ended"], 1);
+  EXPECT_EQ(array["lost"]["timeout"], 1);
+  EXPECT_EQ(array["requeued"], 1);
+  EXPECT_EQ(json["submissions"][0]["collect"]["ended"], 1);
+  EXPECT_FALSE(json["submissions"][1].contains("collect"));
+  SlurmQueue silent;
+  silent.silence = "no route";
+  EXPECT_EQ(submissions_json(kSubmitted, silent)["answers"], false);
+}
+
+TEST(Submissions, AreOpenWhileAJobOfThemIs) {
+  const auto open_with = [](const std::string& job, const std::string& state) {
+    SlurmQueue queue;
+    queue.tasks = {{job, "", state, "", 0, ""}};
+    return open_submissions(kSubmitted, queue).size();
+  };
+  EXPECT_EQ(open_with("12", "RUNNING"), 1U);
+  EXPECT_EQ(open_with("13", "PENDING"), 1U);
+  EXPECT_EQ(open_with("13", "COMPLETED"), 0U);
+  EXPECT_EQ(open_with("14", "RUNNING"), 0U);
+}
+
+TEST(Submissions, AreReadOldestFirst) {
+  const support::TemporaryDirectory study;
+  std::filesystem::create_directories(study / "slurm");
+  EXPECT_TRUE(read_submissions(study.path()).empty());
+  write_file(study / "slurm/10.json", R"({"array": "10", "collect": "11", "tasks": 3})");
+  write_file(study / "slurm/9.json", R"({"array": "9", "collect": "", "tasks": 4})");
+  write_file(study / "slurm/work.sh", "no record");
+  const std::vector<Submission> found = read_submissions(study.path());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].array, "9");
+  EXPECT_EQ(found[0].collect, "");
+  EXPECT_EQ(found[0].tasks, 4);
+  EXPECT_EQ(found[1].array, "10");
+  EXPECT_EQ(found[1].collect, "11");
+  for (const char* wrong :
+       {"[]", R"({"array": 9, "collect": "", "tasks": 4})", R"({"array": "9", "tasks": 4})",
+        R"({"array": "9", "collect": "", "tasks": 1.5})"}) {
+    write_file(study / "slurm/9.json", wrong);
+    EXPECT_THROW((void)read_submissions(study.path()), InputError) << wrong;
+  }
+}
+
+TEST(Submissions, ArgumentsOfSbatchAreOptionsThatSubmitDoesNotSet) {
+  for (const char* good : {"--mem=2G", "-Aus", "-A", "--array-name=x", "-p"}) {
+    EXPECT_NO_THROW(check_sbatch_arguments({good})) << good;
+  }
+  for (const char* wrong :
+       {"mem", "--array=3", "-a", "-a3", "-a=3", "-d1", "--wait", "-W", "-o", "-ox.txt",
+        "--output=x", "--wrap", "--parsable", "--open-mode=append"}) {
+    EXPECT_THROW(check_sbatch_arguments({"--mem=2G", wrong}), ConfigError) << wrong;
+  }
+  try {
+    check_sbatch_arguments({"--dependency=afterany:1"});
+    ADD_FAILURE() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--sbatch-arg --dependency=afterany:1: submit sets --dependency itself");
+  }
+}
+
+}  // namespace
+}  // namespace vantage

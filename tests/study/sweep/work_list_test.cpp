@@ -1,0 +1,112 @@
+// Which episode a worker takes next, of a study where others are at work.
+#include "vantage/study/sweep/work_list.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+class Work : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto base = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+    const ResolvedEpisode resolved = load_episode(base, {});
+    for (const char* name : {"a", "b", "c", "d", "e", "f"}) plan_.push_back({name, {0}, resolved});
+    states_.assign(plan_.size(), EpisodeState::missing);
+    options_.directory = study_.path();
+  }
+  void TearDown() override {
+    for (const char* name :
+         {"SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN"}) {
+      ::unsetenv(name);
+    }
+  }
+  /// Of everything that can be taken now, in order.
+  static std::vector<std::size_t> taken_from(WorkList& list) {
+    std::vector<std::size_t> episodes;
+    while (const auto taken = list.take()) episodes.push_back(taken->episode);
+    return episodes;
+  }
+  fs::path claims(std::size_t episode) { return claims_folder(study_.path(), plan_[episode]); }
+
+  support::TemporaryDirectory study_;
+  std::vector<PlannedEpisode> plan_;
+  std::vector<EpisodeState> states_;
+  StudySweepOptions options_;
+};
+
+TEST_F(Work, IsWhatHasNoResult) {
+  states_[1] = EpisodeState::completed;
+  states_[4] = EpisodeState::failed;
+  WorkList list(plan_, options_, states_);
+  EXPECT_EQ(list.open(), 4U);
+  EXPECT_THAT(taken_from(list), ElementsAre(0U, 2U, 3U, 5U));
+  EXPECT_EQ(list.open(), 0U);
+}
+
+/// The third of four tasks begins in the middle.
+TEST_F(Work, OfATaskOfAnArrayBeginsWhereOthersDoNot) {
+  ::setenv("SLURM_ARRAY_TASK_COUNT", "4", 1);
+  ::setenv("SLURM_ARRAY_TASK_ID", "7", 1);
+  ::setenv("SLURM_ARRAY_TASK_MIN", "5", 1);
+  WorkList list(plan_, options_, states_);
+  EXPECT_THAT(taken_from(list), ElementsAre(3U, 4U, 5U, 0U, 1U, 2U));
+}
+
+TEST_F(Work, ThatIsHeldByAnotherIsLeftToIt) {
+  Worker other = this_worker();
+  other.host = other.machine = "elsewhere";
+  ASSERT_TRUE(take_claim(claims(2), 1, other));
+  WorkList list(plan_, options_, states_);
+  EXPECT_THAT(taken_from(list), ElementsAre(0U, 1U, 3U, 4U, 5U));
+  EXPECT_THAT(list.held(), ElementsAre(2U));
+}
+
+TEST_F(Work, OfAHolderThatIsGoneIsTakenOver) {
+  Worker dead = this_worker();
+  dead.started = "0";
+  ASSERT_TRUE(take_claim(claims(2), 1, dead));
+  WorkList list(plan_, options_, states_);
+  std::vector<int> numbers;
+  std::vector<std::size_t> episodes;
+  while (const auto taken = list.take()) {
+    episodes.push_back(taken->episode);
+    numbers.push_back(taken->attempt.claim().number());
+  }
+  EXPECT_THAT(episodes, ElementsAre(0U, 1U, 3U, 4U, 5U, 2U));
+  EXPECT_THAT(numbers, ElementsAre(1, 1, 1, 1, 1, 2));
+  EXPECT_TRUE(list.held().empty());
+}
+
+TEST_F(Work, ThatCrashedIsTriedAgainOrStands) {
+  fs::create_directories(episode_folder(study_.path(), plan_[1]));
+  write_file(episode_folder(study_.path(), plan_[1]) / "failure.json", "{}");
+  options_.retry_crashed = false;
+  WorkList standing(plan_, options_, states_);
+  EXPECT_THAT(taken_from(standing), ElementsAre(0U, 2U, 3U, 4U, 5U));
+  EXPECT_EQ(states_[1], EpisodeState::crashed);
+  options_.retry_crashed = true;
+  states_.assign(plan_.size(), EpisodeState::completed);
+  states_[1] = EpisodeState::missing;
+  WorkList again(plan_, options_, states_);
+  EXPECT_THAT(taken_from(again), ElementsAre(1U));
+}
+
+TEST_F(Work, EndsWhenTheListIsClosed) {
+  WorkList list(plan_, options_, states_);
+  ASSERT_TRUE(list.take());
+  list.close();
+  EXPECT_EQ(list.open(), 0U);
+  EXPECT_FALSE(list.take());
+}
+
+}  // namespace
+}  // namespace vantage

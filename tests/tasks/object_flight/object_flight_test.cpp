@@ -1,0 +1,151 @@
+// Which objects a flight looks at, one after the other or all at once, and where they stand.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/tasks/flight/two_objects.hpp"
+#include "vantage/tasks/object_flight/object_on_table.hpp"
+#include "vantage/tasks/object_flight/target_tour.hpp"
+
+namespace vantage {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const Recogniser kRecogniser = support::recogniser_of_two();
+
+/// It is over at once.
+ObjectInquiry inquiry_without_views() {
+  RecognitionOptions options;
+  options.max_views = 0;
+  return {kRecogniser, options};
+}
+
+/// Of three objects, over once they were looked at.
+TargetTour tour_of_three(bool all_at_once) {
+  return {{.p_world_m = {{1.0, 0.0, 0.7}, {2.0, 0.0, 0.7}, {3.0, 0.0, 0.7}},
+           .among_others = {},
+           .all_at_once = all_at_once},
+          inquiry_without_views()};
+}
+
+TEST(TargetTour, LooksAtOneObjectUntilItIsOver) {
+  TargetTour tour = tour_of_three(false);
+  EXPECT_EQ(tour.current_id(), 0U);
+  EXPECT_THAT(tour.open(), ElementsAre(0U));
+  tour.go_to(1);
+  EXPECT_THAT(tour.open(), ElementsAre(1U));
+  EXPECT_EQ(tour.current().p_world_m.x(), 2.0);
+  tour.give_up(1, "no way");
+  EXPECT_THAT(tour.open(), ElementsAre(0U, 2U)) << "any of the others";
+  tour.give_up(0, "no way");
+  tour.give_up(2, "no way");
+  EXPECT_THAT(tour.open(), IsEmpty());
+}
+
+TEST(TargetTour, LooksAtAllThatAreNotOverAtOnce) {
+  TargetTour tour = tour_of_three(true);
+  EXPECT_THAT(tour.open(), ElementsAre(0U, 1U, 2U));
+  tour.give_up(1, "no way");
+  EXPECT_THAT(tour.open(), ElementsAre(0U, 2U));
+}
+
+TEST(TargetTour, SaysHowItHasEnded) {
+  TargetTour tour = tour_of_three(false);
+  tour.go_to(2);
+  tour.current().bearing_ids = {4};
+  tour.give_up(1, "no way");
+  EXPECT_EQ(tour.reason(), "3 targets: not over; no way; limit of 0 views, not sure");
+  tour.give_up(2, "no way");
+  EXPECT_EQ(tour.targets()[2].over(), "limit of 0 views, not sure") << "what is known comes first";
+  TargetTour one({.p_world_m = std::vector{Eigen::Vector3d(1.0, 0.0, 0.7)}, .among_others = {}},
+                 inquiry_without_views());
+  EXPECT_EQ(one.reason(), "");
+  one.give_up(0, "no way");
+  EXPECT_EQ(one.reason(), "no way");
+}
+
+TEST(TourTarget, IsTakenForAMiddlingThingUntilItIsSeen) {
+  TourTarget target{.p_world_m = {1.0, 2.0, 0.7},
+                    .inquiry = ObjectInquiry(kRecogniser, RecognitionOptions{})};
+  EXPECT_FALSE(target.looked_at());
+  EXPECT_EQ(target.expected_shape().p_foot_m, target.p_world_m);
+  EXPECT_EQ(target.expected_shape().radius_m, 0.05);
+  EXPECT_EQ(target.expected_shape().height_m, 0.14);
+  target.shape = UprightCylinder{{1.0, 2.0, 0.7}, 0.08, 0.3};
+  EXPECT_EQ(target.expected_shape().height_m, 0.3);
+  target.bearing_ids = {3, 5};
+  EXPECT_TRUE(target.looked_at());
+  EXPECT_TRUE(target.visited(5));
+  EXPECT_FALSE(target.visited(4));
+}
+
+TEST(ObjectFlight, LooksDownOnAPointAboveTheTable) {
+  ObjectFlight task;
+  task.table_m = {1.0, 2.0, 0.75};
+  task.aim_height_m = 0.25;
+  task.distance_m = 2.0;
+  task.elevation_rad = 0.5;
+  const Orbit orbit = task.orbit();
+  EXPECT_NEAR((orbit.centre_m - Eigen::Vector3d(1.0, 2.0, 1.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(orbit.radius_m, 2.0 * std::cos(0.5), 1e-12);
+  EXPECT_NEAR(orbit.height_m, 2.0 * std::sin(0.5), 1e-12);
+  task.decision.max_views = 6;
+  const TaskExtent extent = task.extent({});
+  EXPECT_EQ(extent.key, "max_views");
+  EXPECT_EQ(extent.text, "views at most");
+  EXPECT_EQ(extent.count, 6U);
+}
+
+TEST(WrapTurn, GoesFromNothingToAFullTurn) {
+  constexpr double kFull_rad = 2.0 * std::numbers::pi;
+  EXPECT_EQ(wrap_turn(0.0), 0.0);
+  EXPECT_NEAR(wrap_turn(-0.1), kFull_rad - 0.1, 1e-12);
+  EXPECT_NEAR(wrap_turn(0.3 + 3.0 * kFull_rad), 0.3, 1e-12);
+  EXPECT_NEAR(wrap_turn(0.3 - 2.0 * kFull_rad), 0.3, 1e-12);
+  EXPECT_EQ(wrap_turn(4.0), 4.0);
+}
+
+TEST(ObjectOnTable, IsNamedOrAnyOfThem) {
+  const std::vector<ObjectName> names{{"mug", "mug_1"}, {"mug", "mug_2"}, {"bowl", "bowl_1"}};
+  EXPECT_EQ(named_or_drawn(names, "mug_2", "object", Rng(1)).object, "mug_2");
+  std::set<std::string> drawn;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    drawn.insert(named_or_drawn(names, "", "object", Rng(seed)).object);
+  }
+  EXPECT_EQ(drawn.size(), 3U);
+  try {
+    named_or_drawn(names, "lamp_1", "expected_object", Rng(1));
+    FAIL() << "there is none";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("expected_object: 'lamp_1' is none of the 3 objects from "
+                                        "mug_1 to bowl_1"));
+  }
+}
+
+/// As likely on any part of the disc: half of the draws are within sqrt(1/2) of its radius.
+TEST(ObjectOnTable, StandsAnywhereOnTheDisc) {
+  constexpr int kDraws = 2000;
+  int inner = 0;
+  int right = 0;
+  for (std::uint64_t seed = 0; seed < kDraws; ++seed) {
+    const Eigen::Vector2d off_m = drawn_offset_m(seed, 0.02);
+    EXPECT_LE(off_m.norm(), 0.02);
+    inner += off_m.norm() < 0.02 * std::sqrt(0.5) ? 1 : 0;
+    right += off_m.x() > 0.0 ? 1 : 0;
+    const double yaw_rad = drawn_yaw_rad(seed, "object yaw");
+    EXPECT_GE(yaw_rad, 0.0);
+    EXPECT_LT(yaw_rad, 2.0 * std::numbers::pi);
+  }
+  EXPECT_NEAR(inner, kDraws / 2, 150);
+  EXPECT_NEAR(right, kDraws / 2, 150);
+}
+
+}  // namespace
+}  // namespace vantage
