@@ -66,7 +66,7 @@ double speed_m_s(const Task& task) {
 
 /// The most that may be left where that share is reached, as metrics.json decides it.
 std::size_t most_left(std::size_t observable_cells, int percent) {
-  const double share = 1.0 - 0.01 * percent;
+  const double share = 0.01 * (100 - percent);
   auto left = static_cast<std::size_t>(share * static_cast<double>(observable_cells)) + 1;
   while (left > 0 && static_cast<double>(left) / static_cast<double>(observable_cells) > share) {
     --left;
