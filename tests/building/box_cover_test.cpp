@@ -58,6 +58,28 @@ TEST(BoxCover, ARoomIsFourWallsAndAFloor) {
   EXPECT_EQ(cover_with_boxes(grid, solid).size(), 5U);
 }
 
+TEST(BoxCover, GrowsInTheOrderThatTakesInMost) {
+  // A bar along y crosses one along x; the first cell belongs to the shorter one.
+  const FittedGrid grid = even_grid(4, 9, 2);
+  std::vector<std::uint8_t> solid(grid.size(), 0);
+  for (int x = 0; x < 4; ++x) solid[grid.index(x, 0, 0)] = 1;
+  for (int y = 0; y < 9; ++y) solid[grid.index(0, y, 0)] = 1;
+  const auto boxes = cover_with_boxes(grid, solid);
+  ASSERT_EQ(boxes.size(), 2U);
+  EXPECT_EQ(boxes[0].first, (std::array{0, 0, 0}));
+  EXPECT_EQ(boxes[0].end, (std::array{1, 9, 1}));
+  EXPECT_EQ(boxes[1].first, (std::array{0, 0, 0})) << "they may overlap";
+  EXPECT_EQ(boxes[1].end, (std::array{4, 1, 1}));
+}
+
+TEST(BoxCover, BoxesHaveTheirExtentByTheLinesOfTheGrid) {
+  FittedGrid grid = even_grid(4, 5, 6);
+  grid.lines_m[1][3] = 0.33;
+  const Eigen::AlignedBox3d extent_m = box_m(grid, {{1, 0, 2}, {4, 3, 5}});
+  EXPECT_LT((extent_m.min() - Eigen::Vector3d(0.1, 0.0, 0.2)).norm(), 1e-12);
+  EXPECT_LT((extent_m.max() - Eigen::Vector3d(0.4, 0.33, 0.5)).norm(), 1e-12);
+}
+
 BuildingMesh square(double x_m, double size_m) {
   BuildingMesh mesh;
   mesh.vertices_m = {{x_m, 0, 0}, {x_m, size_m, 0}, {x_m, size_m, size_m}, {x_m, 0, size_m}};
@@ -86,6 +108,25 @@ TEST(FittedGrid, HasALineInEveryLargeFace) {
 TEST(FittedGrid, TooManyCellsAreRefused) {
   const Eigen::AlignedBox3d box_m(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(300, 300, 3));
   EXPECT_THROW(fit_grid(square(1.0, 1.0), box_m, 0.01), ConfigError);
+}
+
+TEST(FittedGrid, HoldsAHundredMillionCells) {
+  const BuildingMesh mesh = square(1.0, 1.0);
+  const Eigen::Vector3d low_m(0, 0, 0);
+  EXPECT_EQ(fit_grid(mesh, {low_m, Eigen::Vector3d(998, 998, 98)}, 1.0).cells(1), 1000);
+  EXPECT_THROW(fit_grid(mesh, {low_m, Eigen::Vector3d(999, 998, 98)}, 1.0), ConfigError);
+}
+
+TEST(FittedGrid, SaysWhichCellsWouldDo) {
+  const Eigen::AlignedBox3d box_m(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(300, 200, 3));
+  try {
+    fit_grid(square(1.0, 1.0), box_m, 0.01);
+    ADD_FAILURE() << "it has too many";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--cell 0.01: too many cells, 1.81e+11 of 300 x 200 x 3 m; 0.13 m would do, or is "
+                 "--scale wrong?");
+  }
 }
 
 }  // namespace

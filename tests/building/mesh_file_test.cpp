@@ -136,5 +136,64 @@ TEST_F(MeshFile, WhatIsNoMeshIsRefused) {
   }
 }
 
+/// Two triangles, whose first corners are that far apart along an axis.
+std::string two_triangles(int axis, double apart_m) {
+  Eigen::Vector3d other_m(1, 1, 1);
+  other_m[axis] += apart_m;
+  return fmt::format("v 1 1 1\nv 2 0 0\nv 0 2 0\nv {} {} {}\nv 3 0 0\nv 0 3 0\nf 1 2 3\nf 4 5 6\n",
+                     other_m.x(), other_m.y(), other_m.z());
+}
+
+TEST_F(MeshFile, VerticesAtOnePlaceAreOne) {
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(read("near.obj", two_triangles(axis, 0.00003)).vertices_m.size(), 5U) << axis;
+    EXPECT_EQ(read("far.obj", two_triangles(axis, 0.00008)).vertices_m.size(), 6U) << axis;
+  }
+}
+
+TEST_F(MeshFile, ReachesEightKilometresFromItsOrigin) {
+  EXPECT_EQ(read("a.obj", "v 0 7999 0\nv 1 7999 0\nv 0 7998 0\nf 1 2 3\n").triangles.size(), 1U);
+  EXPECT_THAT(refusal("a.obj", "v 0 0 -8001\nv 1 0 -8000\nv 0 1 -7999\nf 1 2 3\n"),
+              HasSubstr("a.obj: too large: a vertex is 8e+03 m from the origin"));
+}
+
+TEST_F(MeshFile, FacesOfNoAreaAreLeftOut) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\n";
+  EXPECT_EQ(read("a.obj", corners + "f 1 2 3\nf 1 2 4\n").triangles.size(), 1U);
+  EXPECT_THAT(refusal("a.obj", corners + "f 1 2 3\n"),
+              HasSubstr("a.obj: a mesh without triangles"));
+}
+
+TEST_F(MeshFile, MirroredNodesFaceAsTheyDid) {
+  std::string gltf = kGltf;
+  const std::string placed = R"("translation":[0,5,0])";
+  gltf.replace(gltf.find(placed), placed.size(), R"("scale":[-2,1,1])");
+  const BuildingMesh mesh = read("m.gltf", gltf, {.up = UpAxis::y});
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  EXPECT_TRUE(extent_of(mesh).min().isApprox(Eigen::Vector3d(-2, 0, 0)));
+  EXPECT_TRUE(extent_of(mesh).max().isApprox(Eigen::Vector3d(0, 2, 0)));
+  EXPECT_NEAR(mesh.normal(mesh.triangles[0]).z(), 4.0, 1e-6);
+}
+
+TEST_F(MeshFile, TellsObjectsAndColours) {
+  write_file(folder_ / "m.mtl", "newmtl red\nKd 0.75 0.125 0.25\n");
+  const std::string one = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const BuildingMesh plain =
+      read("a.obj", "o one\n" + one + "f 1 2 3\no other\nv 0 0 2\nv 1 0 2\nv 0 1 2\nf 4 5 6\n");
+  ASSERT_EQ(plain.objects.size(), 2U);
+  EXPECT_NE(plain.objects[0], plain.objects[1]);
+  EXPECT_LT(plain.colours[0].maxCoeff(), 0.0F) << "none";
+  const BuildingMesh red = read("b.obj", "mtllib m.mtl\n" + one + "usemtl red\nf 1 2 3\n");
+  ASSERT_EQ(red.colours.size(), 1U);
+  EXPECT_LT((red.colours[0] - Eigen::Vector3f(0.75F, 0.125F, 0.25F)).norm(), 1e-5F);
+}
+
+TEST(UpAxis, IsYInGltfAlone) {
+  EXPECT_EQ(usual_up_axis("a.gltf"), UpAxis::y);
+  EXPECT_EQ(usual_up_axis("a.glb"), UpAxis::y);
+  EXPECT_EQ(usual_up_axis("a.gltf.ply"), UpAxis::z);
+  EXPECT_EQ(usual_up_axis("a"), UpAxis::z);
+}
+
 }  // namespace
 }  // namespace vantage

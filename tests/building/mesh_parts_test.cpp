@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/building/drawn_building.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -107,6 +109,75 @@ TEST(MeshParts, AnOpenSheetIsNotSolid) {
   ASSERT_EQ(parts.size(), 1U);
   EXPECT_FALSE(parts[0].closed);
   EXPECT_FALSE(is_solid(parts[0]));
+}
+
+/// Of a box inside out, 0 if it is none.
+double inside_out_m3(double x_m, double y_m, double z_m) {
+  test::DrawnBuilding building;
+  building.box({0, 0, 0}, {x_m, y_m, z_m});
+  BuildingMesh mesh = mesh_of(building);
+  turn_inside_out(mesh);
+  const auto parts = mesh_parts(mesh);
+  return parts.size() == 1 ? parts[0].volume_m3 : 0.0;
+}
+
+TEST(MeshParts, ARoomIsOneAndAHalfMetresWideAndThick) {
+  EXPECT_NEAR(inside_out_m3(1.49, 4.0, 5.0), 29.8, 1e-3);
+  EXPECT_NEAR(inside_out_m3(1.51, 4.0, 5.0), -30.2, 1e-3);
+  EXPECT_NEAR(inside_out_m3(1.6, 1.6, 2.3), 5.888, 1e-3) << "0.594 m of volume for its area";
+  EXPECT_NEAR(inside_out_m3(1.6, 1.6, 2.5), -6.4, 1e-3) << "0.606 m";
+}
+
+MeshPart solid_of(std::vector<Triangle> triangles) {
+  MeshPart part;
+  part.triangles = std::move(triangles);
+  part.closed = true;
+  part.volume_m3 = 1.0;
+  return part;
+}
+
+TEST(MeshParts, AreSolidIfClosedRoundSomething) {
+  MeshPart part = solid_of({});
+  EXPECT_TRUE(is_solid(part));
+  part.volume_m3 = 0.0;
+  EXPECT_FALSE(is_solid(part));
+  part.volume_m3 = 1.0;
+  part.closed = false;
+  EXPECT_FALSE(is_solid(part));
+}
+
+/// A level face, and another that stands out of it.
+TEST(MeshParts, AreConvexWithinAMillimetre) {
+  for (const double out_m : {0.0009, 0.0011}) {
+    BuildingMesh mesh;
+    mesh.vertices_m = {{0, 0, 0},         {1, 0, 0},         {0, 1, 0},
+                       {0.2, 0.2, out_m}, {0.4, 0.2, out_m}, {0.2, 0.4, out_m}};
+    EXPECT_EQ(is_convex(mesh, solid_of({{0, 1, 2}, {3, 4, 5}})), out_m < 0.001) << out_m;
+  }
+}
+
+TEST(MeshParts, OfManyTrianglesAreNotTakenForConvex) {
+  BuildingMesh mesh;
+  mesh.vertices_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  EXPECT_TRUE(is_convex(mesh, solid_of(std::vector<Triangle>(512, {0, 1, 2}))));
+  EXPECT_FALSE(is_convex(mesh, solid_of(std::vector<Triangle>(513, {0, 1, 2}))));
+}
+
+/// Faces across x and y, and one across z but for a tilt.
+TEST(MeshParts, AreBoxesOfSquareFaces) {
+  for (const double tilt_rad : {0.0, 0.0009, 0.0011}) {
+    BuildingMesh mesh;
+    mesh.vertices_m = {{0, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                       {0, 0, 2}, {3, 0, 0}, {0, std::cos(tilt_rad), -std::sin(tilt_rad)}};
+    OrientedBox box;
+    EXPECT_FALSE(is_box(mesh, solid_of({{0, 1, 2}, {0, 3, 4}}), box)) << "two directions";
+    ASSERT_EQ(is_box(mesh, solid_of({{0, 1, 2}, {0, 3, 4}, {0, 4, 5}}), box), tilt_rad < 0.001)
+        << tilt_rad;
+    if (tilt_rad > 0.0) continue;
+    EXPECT_LT((box.half_m - Eigen::Vector3d(1.5, 0.5, 1.0)).norm(), 1e-12);
+    EXPECT_LT((box.T_mesh_box.translation() - Eigen::Vector3d(1.5, 0.5, 1.0)).norm(), 1e-12);
+    EXPECT_TRUE(box.T_mesh_box.linear().isIdentity(1e-12));
+  }
 }
 
 }  // namespace

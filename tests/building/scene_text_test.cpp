@@ -32,5 +32,76 @@ TEST(SceneText, MjcfIsXmlWhateverTheFilesAreCalled) {
   EXPECT_STREQ(load_model(mjcf, {}, "hall.xml").model->names, "a \"<b>\" & c");
 }
 
+using testing::HasSubstr;
+
+BuildingScene hall_of(double x_m, double y_m) {
+  BuildingScene scene;
+  const Eigen::Vector2d half_m(0.5 * x_m, 0.5 * y_m);
+  scene.extent_m = Eigen::AlignedBox2d(Eigen::Vector2d(-half_m), half_m);
+  return scene;
+}
+
+TEST(BuildingMap, IsLargeEnoughAndOfCellsThatAreFewEnough) {
+  const BuildingMap small = map_of(hall_of(8.0, 6.0));
+  EXPECT_NEAR(small.size_m.x(), 8.5, 1e-9);
+  EXPECT_NEAR(small.size_m.y(), 6.5, 1e-9);
+  EXPECT_EQ(small.cells.x(), 146);
+  EXPECT_EQ(small.cells.y(), 112);
+  EXPECT_EQ(small.cells.z(), 65);
+  EXPECT_NEAR(small.half_size_m, 4.5, 1e-9);
+  const BuildingMap large = map_of(hall_of(40.0, 30.0));
+  EXPECT_NEAR(large.size_m.x(), 40.5, 1e-9);
+  EXPECT_NEAR(large.size_m.y(), 30.5, 1e-9);
+  EXPECT_EQ(large.cells.x(), 305);
+  EXPECT_EQ(large.cells.y(), 230);
+  EXPECT_NEAR(large.half_size_m, 20.5, 1e-9);
+  const BuildingMap even = map_of(hall_of(7.75, 5.75));
+  EXPECT_NEAR(even.size_m.x(), 8.0, 1e-9) << "whole halves stay";
+  EXPECT_NEAR(even.size_m.y(), 6.0, 1e-9);
+  EXPECT_NEAR(even.half_size_m, 4.5, 1e-9);
+}
+
+TEST(SceneText, EpisodesHaveTheMapAndScansByArea) {
+  EXPECT_THAT(episode_overrides(hall_of(8.0, 6.0)),
+              testing::ElementsAre("map.size_m=[8.5, 6.5, 2]", "map.cells=[146, 112, 65]",
+                                   "floor_map.half_size_m=4.5"));
+  const std::string episode = to_episode(hall_of(8.0, 6.0), "hall.xml");
+  EXPECT_THAT(episode, HasSubstr("\nscans: 22\n"));
+  EXPECT_THAT(episode, HasSubstr("size_m: [8.5, 6.5, 2], cells: [146, 112, 65]"));
+  EXPECT_THAT(episode, HasSubstr("half_size_m: 4.5"));
+  EXPECT_THAT(to_episode(hall_of(4.0, 4.0), "hall.xml"), HasSubstr("\nscans: 20\n"));
+}
+
+TEST(SceneText, ShapesAreWrittenWithSixDigits) {
+  BuildingScene scene = hall_of(8.0, 6.0);
+  BoxShape box{{}, {0.1F, 0.25F, 0.5F}};
+  box.box.half_m = {0.5, 1.25, 2.0};
+  box.box.T_mesh_box.translation() = Eigen::Vector3d(1234.5678912, -2.5, -1e-9);
+  scene.boxes.push_back(box);
+  box.box.T_mesh_box.translation() = Eigen::Vector3d(1.0, 2.0, 3.0);
+  box.box.T_mesh_box.linear() = Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  scene.cell_boxes.push_back(box);
+  scene.hulls.push_back({{{0.0, 1.0, 2.0}, {3.25, 4.0, 5.0}}, {0.0F, 1.0F, 0.625F}});
+  scene.floor.start = {1.5, -0.25, 0.75};
+  const std::string mjcf = to_mjcf(scene, "hall", "by hand");
+  EXPECT_THAT(mjcf, HasSubstr("      <geom type=\"box\" pos=\"1234.568 -2.5 0\" "
+                              "size=\"0.5 1.25 2\" rgba=\"0.10 0.25 0.50 1\"/>\n"));
+  EXPECT_THAT(mjcf, HasSubstr("      <geom type=\"box\" pos=\"1 2 3\" size=\"0.5 1.25 2\" "
+                              "quat=\"0.955336 0 0 0.29552\" rgba=\"0.10 0.25 0.50 1\"/>\n"));
+  EXPECT_THAT(mjcf, HasSubstr("  <asset>\n    <mesh name=\"hull_0\" vertex=\"0 1 2  3.25 4 5  "
+                              "\"/>\n  </asset>\n"));
+  EXPECT_THAT(mjcf, HasSubstr("      <geom type=\"mesh\" mesh=\"hull_0\" rgba=\"0.00 1.00 "));
+  EXPECT_THAT(mjcf, HasSubstr("<site name=\"start_0\" pos=\"1.5 -0.25 0\" euler=\"0 0 0.75\""));
+  EXPECT_THAT(mjcf, testing::Not(HasSubstr("plane")));
+  EXPECT_EQ(scene.geoms(), 3U);
+}
+
+TEST(SceneText, AFloorThatIsLaidReachesBeyondTheBuilding) {
+  EXPECT_THAT(to_mjcf(empty_hall(), "hall", "by hand"),
+              HasSubstr("<geom type=\"plane\" size=\"10 8 0.1\""));
+  EXPECT_THAT(to_mjcf(empty_hall(), "hall", "by hand"), testing::Not(HasSubstr("<asset>")));
+  EXPECT_EQ(empty_hall().geoms(), 1U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -153,5 +153,82 @@ TEST_F(Branches, AreKeptDecisionByDecision) {
   EXPECT_FALSE(regret_of(decision));
 }
 
+/// Of three scans: after the second but one is left to take.
+TEST_F(Branches, EndWithTheEpisode) {
+  const RecordedRun run = recorded({"scans=3"});
+  const auto decisions = branch_views(run, {.scans = {1, 2}, .then = 5});
+  ASSERT_EQ(decisions.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(decisions[i].scan, i + 1);
+    EXPECT_EQ(decisions[i].then, 5U);
+    EXPECT_FALSE(decisions[i].gain_unit.empty());
+    ASSERT_EQ(decisions[i].branches.size(), 1U) << "the view that was chosen";
+    EXPECT_TRUE(decisions[i].branches[0].chosen);
+    EXPECT_EQ(decisions[i].branches[0].view, run.scans[i + 1].chosen_view);
+    EXPECT_EQ(decisions[i].branches[0].cells,
+              static_cast<long long>(run.scans[i].cells_left) -
+                  static_cast<long long>(run.scans[i + 1].cells_left));
+  }
+  const Branch& first = decisions[0].branches[0];
+  EXPECT_EQ(first.cells_then, static_cast<long long>(run.scans[0].cells_left) -
+                                  static_cast<long long>(run.scans[2].cells_left));
+  EXPECT_EQ(first.seconds_then, run.scans[2].time_s - run.scans[0].time_s);
+  EXPECT_TRUE(first.planned_m);
+  EXPECT_FALSE(decisions[1].branches[0].cells_then);
+  EXPECT_EQ(decisions[1].branches[0].seconds_then, 0.0);
+}
+
+TEST_F(Branches, OfOneViewAreNotTheChosenOne) {
+  const RecordedRun run = recorded({"scans=3"});
+  const int other = run.scans[1].chosen_view == 9 ? 10 : 9;
+  const auto decisions = branch_views(run, {.scans = {1}, .all = false, .view = other});
+  ASSERT_EQ(decisions.size(), 1U);
+  ASSERT_EQ(decisions[0].branches.size(), 1U);
+  const Branch& branch = decisions[0].branches[0];
+  EXPECT_EQ(branch.view, other);
+  EXPECT_FALSE(branch.chosen);
+  EXPECT_FALSE(branch.cells_then);
+  EXPECT_GT(branch.seconds, 0.0);
+}
+
+TEST_F(Branches, AreOfARunWhoseFolderTellsAllOfIt) {
+  const RecordedRun run = recorded({"scans=2"});
+  const auto file = run.directory / "metrics.json";
+  const Json whole = Json::parse(read_file(file));
+  EXPECT_EQ(whole["method"], run.method);
+  EXPECT_EQ(whole["status"], run.status);
+  ASSERT_EQ(run.scans.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(whole["scans"][k]["scan_time_s"], run.scans[k].scan_time_s);
+    EXPECT_EQ(whole["scans"][k]["path_length_m"], run.scans[k].path_length_m);
+  }
+  const auto begins = [&](const Json& metrics, const std::string& refusal) {
+    write_file(file, metrics.dump());
+    try {
+      read_recorded_run(run.directory);
+      ADD_FAILURE() << refusal;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find(file.string() + refusal), 0U) << error.what();
+    }
+  };
+  for (const char* key :
+       {"time_s", "path_length_m", "scan_time_s", "observable_unobserved_cells", "chosen_view"}) {
+    Json less = whole;
+    less["scans"][1].erase(key);
+    begins(less, ": scans[1]: " + std::string(key) + ": missing or of another kind");
+  }
+  for (const char* key : {"method", "state_hash", "status", "observable_cells"}) {
+    Json less = whole;
+    less.erase(key);
+    begins(less, ": " + std::string(key) + ": missing or of another kind");
+  }
+  Json none = whole;
+  none["scans"] = Json::array();
+  begins(none, ": scans: empty, the run took none");
+  none.erase("scans");
+  begins(none, ": scans: missing; task ");
+  begins(Json::array(), ": not a JSON object");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -43,5 +43,63 @@ TEST(MapContradiction, WallsDrawnTwiceAreSeen) {
   EXPECT_GT(contradicted({0.25, 0.25, 0.0}, 160), 0.03);
 }
 
+/// Of what a scanner at (2, 2.5) cm sees from one pose, scan by scan.
+double share_of(const std::vector<PointCloud>& clouds) {
+  std::vector<SeenFrom> scans;
+  for (const PointCloud& cloud : clouds) scans.push_back({cloud, {0.02, 0.025}, {}});
+  return contradicted_share(scans);
+}
+
+/// Points in its row of cells, that far along x, with that normal.
+PointCloud ahead(const std::vector<float>& x_m, const Eigen::Vector2f& normal = {-1.0F, 0.0F}) {
+  PointCloud cloud;
+  for (const float x : x_m) {
+    cloud.points.emplace_back(x, 0.025F, 0.25F);
+    cloud.normals.emplace_back(normal.x(), normal.y(), 0.0F);
+  }
+  return cloud;
+}
+
+TEST(MapContradiction, IsTheShareOfBeamsThroughWhatTwoScansSee) {
+  const PointCloud wall = ahead({2.025F});
+  const PointCloud beam = ahead({4.025F});
+  EXPECT_NEAR(share_of({wall, wall, beam}), 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(share_of({wall, wall, beam, beam}), 0.5, 1e-12);
+  EXPECT_EQ(share_of({wall, beam}), 0.0);
+  EXPECT_EQ(share_of({ahead({2.025F, 2.03F}), beam}), 0.0) << "twice in one scan is once";
+  EXPECT_EQ(share_of({}), 0.0);
+}
+
+TEST(MapContradiction, IsNoneWhereABeamEndsShortlyBehindASurface) {
+  const PointCloud wall = ahead({2.025F});
+  EXPECT_EQ(share_of({wall, wall, ahead({2.125F})}), 0.0);
+  EXPECT_NEAR(share_of({wall, wall, ahead({2.225F})}), 1.0 / 3.0, 1e-12);
+}
+
+TEST(MapContradiction, IsNoneWhereTheScannerStandsBeforeASurface) {
+  const PointCloud beam = ahead({4.025F});
+  EXPECT_EQ(share_of({ahead({0.125F}), ahead({0.125F}), beam}), 0.0);
+  EXPECT_EQ(share_of({ahead({0.175F}), ahead({0.175F}), beam}), 1.0) << "of the only one asked";
+}
+
+TEST(MapContradiction, IsOfSurfacesThatFaceTheScanner) {
+  const PointCloud beam = ahead({4.025F});
+  const auto through = [&](const Eigen::Vector2f& normal) {
+    return share_of({ahead({2.025F}, normal), ahead({2.025F}, normal), beam});
+  };
+  EXPECT_NEAR(through({-0.75F, 0.661F}), 1.0 / 3.0, 1e-12);
+  EXPECT_EQ(through({-0.65F, 0.76F}), 0.0);
+  EXPECT_EQ(through({1.0F, 0.0F}), 0.0);
+  EXPECT_EQ(through({0.0F, 0.0F}), 0.0);
+}
+
+TEST(MapContradiction, IsAskedOfEveryThirdPointThatIsFarEnough) {
+  const PointCloud wall = ahead({2.025F});
+  PointCloud four = ahead({4.025F, 4.025F, 4.025F, 1.0F});
+  EXPECT_NEAR(share_of({wall, wall, four}), 0.25, 1e-12);
+  EXPECT_NEAR(share_of({wall, wall, ahead({4.025F}), ahead({0.46F})}), 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(share_of({wall, wall, ahead({4.025F}), ahead({0.48F})}), 0.25, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

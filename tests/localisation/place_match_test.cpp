@@ -56,5 +56,107 @@ TEST(PlaceMatch, AnotherPlaceDoesNotAgree) {
   EXPECT_LT(agreement(other, corner, best).share, 0.72);
 }
 
+/// Points on walls along x, and two that are on none and say how far the place is known.
+struct Points {
+  PointCloud cloud;
+
+  void add(double x, double y, double normal_x = 0.0, double normal_y = 1.0) {
+    cloud.points.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.25F);
+    cloud.normals.emplace_back(static_cast<float>(normal_x), static_cast<float>(normal_y), 0.0F);
+  }
+  void add_times(int count, double x, double y) {
+    for (int i = 0; i < count; ++i) add(x, y);
+  }
+  static Points known_around() {
+    Points points;
+    points.add(-1.025, -1.025, 0.0, 0.0);
+    points.add(5.025, 1.025, 0.0, 0.0);
+    return points;
+  }
+};
+
+TEST(PlaceMatch, APointStandsForAWallToBothSides) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  Points now;
+  now.add(0.0, 0.0);
+  const auto found_x_m = [&](double guess_x_m) {
+    const Pose2 found = search_pose(now.cloud, place.cloud, {guess_x_m, 0.0, 0.0}, {0.05, 0.0});
+    EXPECT_NEAR(found.y_m, 0.0, 1e-9);
+    return found.x_m;
+  };
+  EXPECT_NEAR(found_x_m(0.2), 0.2, 1e-9);
+  EXPECT_NEAR(found_x_m(0.25), 0.2, 1e-9);
+  EXPECT_NEAR(found_x_m(-0.2), -0.2, 1e-9);
+  EXPECT_NEAR(found_x_m(-0.25), -0.2, 1e-9);
+}
+
+/// Of a hundred points so many would rather be 5 cm to the left, and no other minds: each wins a
+/// third of a hit.
+TEST(PlaceMatch, TheGuessIsLeftForWhatIsWorthIt) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  place.add(0.0, 0.5);
+  const auto found_x_m = [&](int rather, double window_m) {
+    Points now;
+    now.add_times(100 - rather, 0.0, 0.0);
+    now.add_times(rather, 0.25, 0.5);
+    return search_pose(now.cloud, place.cloud, {}, {window_m, 0.0}).x_m;
+  };
+  EXPECT_NEAR(found_x_m(17, 0.05), 0.0, 1e-9);
+  EXPECT_NEAR(found_x_m(19, 0.05), -0.05, 1e-9);
+  EXPECT_NEAR(found_x_m(4, 0.1), 0.0, 1e-9) << "a quarter of that, halfway to the edge";
+  EXPECT_NEAR(found_x_m(5, 0.1), -0.05, 1e-9);
+}
+
+TEST(PlaceMatch, TheGuessIsTurnedForWhatIsWorthIt) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  place.add(4.0, 0.0);
+  const auto found_rad = [&](int rather) {
+    Points now;
+    now.add_times(100 - rather, 0.0, 0.0);
+    now.add_times(rather, 4.0, -0.05);
+    return search_pose(now.cloud, place.cloud, {}, {0.0, 0.0125}).yaw_rad;
+  };
+  EXPECT_NEAR(found_rad(17), 0.0, 1e-9);
+  EXPECT_NEAR(found_rad(19), 0.0125, 1e-9);
+}
+
+/// Every second point would rather be to the left. Of more than 300 only the others are asked.
+TEST(PlaceMatch, ThreeHundredPointsAreEnough) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  place.add(0.0, 0.5);
+  for (const int count : {300, 301}) {
+    Points now;
+    for (int i = 0; i < count; ++i) now.add(i % 2 == 0 ? 0.0 : 0.25, i % 2 == 0 ? 0.0 : 0.5);
+    const Pose2 found = search_pose(now.cloud, place.cloud, {}, {0.05, 0.0});
+    EXPECT_NEAR(found.x_m, count == 300 ? -0.05 : 0.0, 1e-9) << count;
+  }
+}
+
+TEST(PlaceMatch, AgreementIsOfPointsOnTheSurfaceThatFaceAsItDoes) {
+  Points place;
+  place.add(0.0, 0.0);
+  place.add(3.0, 0.0, 0.0, 0.0);
+  Points there;
+  there.add(0.0, 0.07);
+  there.add(0.0, -0.07);
+  there.add(0.0, 0.09);   // off
+  there.add(0.0, -0.09);  // off
+  there.add(0.45, 0.0);
+  there.add(0.55, 0.0);  // too far to be told
+  there.add(0.0, 0.0, std::sqrt(1.0 - 0.75 * 0.75), 0.75);
+  there.add(0.0, 0.0, std::sqrt(1.0 - 0.65 * 0.65), 0.65);  // faces elsewhere
+  there.add(0.0, 0.0, 0.0, 0.0);                            // on no surface
+  there.add(3.0, 0.0);                                      // where none is known
+  const Pose2 T_place_scan{1.0, -2.0, 0.5};
+  const PointCloud now = transform(there.cloud, to_se3(inverse(T_place_scan)));
+  const Agreement agreed = agreement(now, place.cloud, T_place_scan);
+  EXPECT_EQ(agreed.near, 7U);
+  EXPECT_NEAR(agreed.share, 4.0 / 7.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

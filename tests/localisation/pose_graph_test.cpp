@@ -130,5 +130,78 @@ TEST(PoseGraph, RepeatsToTheBit) {
   }
 }
 
+TEST(PoseGraph, AnErrorIsWhatThePosesSayBeyondTheMeasurement) {
+  const std::vector<Pose2> poses{{9, 9, 9}, {1.0, 2.0, 0.3}, {4.0, -1.0, 2.9}};
+  const Eigen::Vector3d error =
+      edge_error({1, 2, {1.5, -0.5, -3.0}, Eigen::Matrix3d::Identity()}, poses);
+  EXPECT_NEAR(error.x(), 0.4794488473927996, 1e-12);
+  EXPECT_NEAR(error.y(), -3.2525700873608367, 1e-12);
+  EXPECT_NEAR(error.z(), 5.6 - 2.0 * std::numbers::pi, 1e-12);
+}
+
+/// J^T J by differences of the errors, of all poses but the first.
+Eigen::MatrixXd differenced(const std::vector<Pose2>& poses, const std::vector<PoseEdge>& edges) {
+  constexpr double kStep = 1e-5;
+  const auto unknowns = static_cast<Eigen::Index>(3 * (poses.size() - 1));
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  for (const PoseEdge& edge : edges) {
+    Eigen::MatrixXd jacobian(3, unknowns);
+    for (Eigen::Index i = 0; i < unknowns; ++i) {
+      const auto moved = [&](double by) {
+        std::vector<Pose2> there = poses;
+        Pose2& pose = there[static_cast<std::size_t>(i / 3 + 1)];
+        (i % 3 == 0 ? pose.x_m : i % 3 == 1 ? pose.y_m : pose.yaw_rad) += by;
+        return edge_error(edge, there);
+      };
+      jacobian.col(i) = (moved(kStep) - moved(-kStep)) / (2.0 * kStep);
+    }
+    normal += jacobian.transpose() * edge.information * jacobian;
+  }
+  return normal;
+}
+
+TEST(PoseGraph, CovariancesAreThoseOfTheErrorsLinearised) {
+  const std::vector<Pose2> poses{{0.5, -1, 0.2}, {1.5, 2, 0.7}, {4, 1, -0.9}, {3, -2, 2.1}};
+  Eigen::Matrix3d information;
+  information << 40, 7, -3, 7, 90, 11, -3, 11, 200;
+  const std::vector<PoseEdge> edges{
+      {0, 1, {1.1, 2.7, 0.4}, information},
+      {1, 2, {1.5, -2.3, -1.5}, 2.0 * information},
+      {2, 3, {1.6, -2.6, 3.1}, Eigen::Vector3d(30, 50, 70).asDiagonal()},
+      {3, 0, {1.9, 1.6, -1.8}, 0.5 * information}};
+  const Eigen::MatrixXd expected = differenced(poses, edges).inverse();
+  const auto found = pose_covariances(poses, edges, std::array<std::size_t, 4>{3, 0, 1, 2});
+  EXPECT_TRUE(found[1].isZero());
+  const std::array<Eigen::Index, 4> rows{6, -1, 0, 3};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (i == 1) continue;
+    const Eigen::Matrix3d block = expected.block<3, 3>(rows[i], rows[i]);
+    EXPECT_LT((found[i] - block).norm(), 1e-6 * block.norm()) << i;
+  }
+}
+
+TEST(PoseGraph, HeadingsAreWrappedAndTheFirstPoseStays) {
+  std::vector<Pose2> poses{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
+  const Pose2 step{0.6, -0.4, 0.5};
+  ASSERT_TRUE(optimise_pose_graph(
+      poses, std::vector<PoseEdge>{{0, 1, step, Eigen::Vector3d(9, 16, 25).asDiagonal()}}));
+  EXPECT_EQ(poses[0].x_m, 1.0);
+  EXPECT_EQ(poses[0].y_m, 2.0);
+  EXPECT_EQ(poses[0].yaw_rad, 3.0);
+  const Pose2 there = compose(poses[0], step);
+  EXPECT_NEAR(poses[1].x_m, there.x_m, 1e-6);
+  EXPECT_NEAR(poses[1].y_m, there.y_m, 1e-6);
+  EXPECT_NEAR(poses[1].yaw_rad, 3.5 - 2.0 * std::numbers::pi, 1e-6);
+}
+
+TEST(PoseGraph, OfOnePoseIsAtRest) {
+  std::vector<Pose2> one{{1.0, 2.0, 3.0}};
+  EXPECT_TRUE(optimise_pose_graph(one, {}));
+  EXPECT_EQ(one[0].yaw_rad, 3.0);
+  const auto covariances = pose_covariances(one, {}, std::array<std::size_t, 1>{0});
+  ASSERT_EQ(covariances.size(), 1U);
+  EXPECT_TRUE(covariances[0].isZero());
+}
+
 }  // namespace
 }  // namespace vantage

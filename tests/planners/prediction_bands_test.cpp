@@ -93,5 +93,50 @@ TEST(PredictionBands, CountOnlyWhatIsNew) {
   EXPECT_EQ(bands[2].actual_cells, 1U);
 }
 
+TEST(PredictionBands, EndWithTheRangeOrTheGridTheLastOneUpToHalfWiderOrNarrower) {
+  const OccupancyGrid grid(room());
+  const Attenuation attenuation{.transmission = uniform_field(grid.frame.cells, 0.9)};
+  const Pose T_world_sensor = make_pose({0.3, -0.2, 1.1}, 0.4);
+  const auto edges_m = [&](double range_m, double width_m) {
+    std::vector<double> edges;
+    const auto bands = predict_by_distance(attenuation, grid, T_world_sensor,
+                                           all_round_within(range_m), width_m, 1);
+    for (const PredictionBand& band : bands) edges.push_back(band.from_m);
+    edges.push_back(bands.back().to_m);
+    return edges;
+  };
+  EXPECT_EQ(edges_m(2.2, 0.5), (std::vector{0.0, 0.5, 1.0, 1.5, 2.2}));
+  EXPECT_EQ(edges_m(2.3, 0.5), (std::vector{0.0, 0.5, 1.0, 1.5, 2.0, 2.3}));
+  EXPECT_EQ(edges_m(0.375, 1.0), (std::vector{0.0, 0.375}));
+  const std::vector<double> to_the_corner = edges_m(50.0, 2.0);
+  ASSERT_EQ(to_the_corner.size(), 3U);
+  EXPECT_EQ(to_the_corner[1], 2.0);
+  EXPECT_NEAR(to_the_corner[2], std::sqrt(3.3 * 3.3 + 2.7 * 2.7 + 1.1 * 1.1), 1e-9);
+}
+
+/// The last band is wider than the others.
+TEST(PredictionBands, NewCellsAreCountedWhereTheyAre) {
+  const OccupancyGrid before(room());
+  OccupancyGrid after = before;
+  std::vector<PredictionBand> bands{
+      {0.0, 0.5, 0.0, 0, 0}, {0.5, 1.0, 0.0, 0, 0}, {1.0, 1.7, 0.0, 0, 0}};
+  for (const double x_m : {0.35, 0.45, 0.55, 1.25, 1.35, 1.55, 1.65, 1.75}) {
+    after.log_odds[after.frame.index(after.frame.cell_at({x_m, 0.05, 1.05}))] = 1.0F;
+  }
+  count_new_cells(before, after, make_pose({0.0, 0.0, 1.0}, 0.0), all_round_within(1.7), bands);
+  ASSERT_EQ(bands.size(), 4U);
+  EXPECT_EQ(bands[0].actual_cells, 2U);
+  EXPECT_EQ(bands[1].actual_cells, 1U);
+  EXPECT_EQ(bands[2].actual_cells, 4U) << "1.65 m ahead is 1.652 m away";
+  EXPECT_EQ(bands[3].actual_cells, 1U);
+  EXPECT_EQ(bands[3].outside_cells, 1U);
+  EXPECT_EQ(bands[2].outside_cells, 0U);
+  EXPECT_EQ(bands[3].from_m, 1.7);
+  EXPECT_EQ(bands[3].predicted_cells, 0.0);
+  std::vector<PredictionBand> none;
+  count_new_cells(before, after, make_pose({0.0, 0.0, 1.0}, 0.0), all_round_within(1.7), none);
+  EXPECT_TRUE(none.empty());
+}
+
 }  // namespace
 }  // namespace vantage

@@ -116,5 +116,27 @@ TEST(FloorDetail, CountsEachBeam) {
   EXPECT_EQ(log_odds(0.5), -6.0F);
 }
 
+TEST(FloorDetail, OfAFloorThatIsNotSquareIsNoneEither) {
+  const FloorMap floor(Eigen::Vector2d(-1.0, -2.0), 0.2, 7, 4);
+  const FloorMap detail = make_floor_detail(floor, {.parts = 5});
+  EXPECT_EQ(detail.nx, 35);
+  EXPECT_EQ(detail.ny, 20);
+  EXPECT_NEAR((detail.centre({32, 17}) - floor.centre({6, 3})).norm(), 0.0, 1e-12);
+}
+
+TEST(FloorDetail, MayHaveAsManyCellsAsAFloor) {
+  EXPECT_NO_THROW(check_floor_detail({.half_size_m = 204.8}, {.parts = 1}));
+  EXPECT_THROW(check_floor_detail({.half_size_m = 204.9}, {.parts = 1}), ConfigError);
+  EXPECT_NO_THROW(check_floor_detail({.half_size_m = 68.2}, {.parts = 3}));
+  try {
+    check_floor_detail({.half_size_m = 68.3}, {.parts = 3});
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "floor_detail.parts 3, floor_map.half_size_m 68.3 and floor_map.cell_m 0.05 make "
+                 "6.72e+07 cells, more than 2^26");
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -144,5 +144,20 @@ TEST(Headroom, RejectsOptionsOutOfRange) {
   EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.max_unseen = 1.5}), ConfigError);
 }
 
+TEST(Headroom, WhatIsBelowAColumnIsBlockedWhateverTheShapeOfTheFloor) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 1.0}, {2.0, 1.2, 2.0}, {10, 6, 10}));
+  std::ranges::fill(grid.log_odds, kFree);
+  grid.log_odds[grid.frame.index({7, 4, 5})] = kOccupied;
+  for (int z = 0; z < 10; ++z) grid.log_odds[grid.frame.index({2, 1, z})] = 0.0F;  // amid open ones
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  EXPECT_EQ(std::ranges::count(floor.blocked, std::uint8_t{1}), 4);
+  for (const double x_m : {0.45, 0.55}) {
+    for (const double y_m : {0.25, 0.35}) {
+      EXPECT_EQ(floor.blocked[floor.index(floor.cell_at({x_m, y_m}))], 1) << x_m << " " << y_m;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -107,5 +107,46 @@ TEST(OctomapFormat, NamesWhatIsWrong) {
               HasSubstr("without children"));
 }
 
+TEST(OctomapFormat, ReadsWholeNumbersAlone) {
+  for (const std::string size : {"1x", "1 2", "99999999999999999999999"}) {
+    EXPECT_THAT(error_of(ot("id OcTree\nsize " + size + "\nres 1\n", "")),
+                HasSubstr("'size' has value '" + size + "'"));
+  }
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 0\nres 0.5m\n", "")),
+              HasSubstr("'res' has value '0.5m'"));
+}
+
+TEST(OctomapFormat, CellsAreOfAMicrometreToAThousandKilometres) {
+  for (const std::string res : {"1e-6", "1e6"}) {
+    EXPECT_EQ(error_of(ot("id OcTree\nsize 0\nres " + res + "\n", "")), "accepted");
+  }
+  for (const std::string res : {"9e-7", "1.1e6"}) {
+    EXPECT_THAT(error_of(ot("id OcTree\nsize 0\nres " + res + "\n", "")), HasSubstr("'res' is "));
+  }
+}
+
+/// Of the root's eight children, x lowest: occupied on the x side, free on those of y and of z.
+TEST(OctomapFormat, ChildrenLieByTheBitsOfTheirNumber) {
+  std::vector<OctomapLeaf> leaves;
+  const auto take = [&](const OctomapLeaf& leaf) { leaves.push_back(leaf); };
+  const auto expect_leaf = [](const OctomapLeaf& leaf, const Eigen::Array3i& first,
+                              float log_odds) {
+    EXPECT_TRUE((leaf.first == first).all()) << leaf.first.transpose();
+    EXPECT_EQ(leaf.edge_cells, 32768);
+    EXPECT_EQ(leaf.log_odds, log_odds);
+  };
+  parse_octomap(bt("id OcTree\nsize 4\nres 1\n", std::string("\x18\x01", 2)), "map", take);
+  ASSERT_EQ(leaves.size(), 3U);
+  expect_leaf(leaves[0], {0, -32768, -32768}, 3.5F);
+  expect_leaf(leaves[1], {-32768, 0, -32768}, -2.0F);
+  expect_leaf(leaves[2], {-32768, -32768, 0}, -2.0F);
+  leaves.clear();
+  const std::string full = full_record(0.5F, 0x21) + full_record(1.25F, 0) + full_record(-0.75F, 0);
+  parse_octomap(ot("id OcTree\nsize 3\nres 1\n", full), "map", take);
+  ASSERT_EQ(leaves.size(), 2U);
+  expect_leaf(leaves[0], {-32768, -32768, -32768}, 1.25F);
+  expect_leaf(leaves[1], {0, -32768, 0}, -0.75F);
+}
+
 }  // namespace
 }  // namespace vantage

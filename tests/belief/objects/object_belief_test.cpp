@@ -274,5 +274,15 @@ TEST(ObjectEntropy, CountsWhatIsUnknownAsOneObject) {
   EXPECT_NEAR(object_entropy_bits(states, belief_of({0.25, 0.25, 0.25, 0.125, 0.125})), 2.0, 1e-12);
 }
 
+TEST(PriorBelief, GivesCategoriesTogetherAsMuchAsNone) {
+  ObjectStates states = make_states({0, 0, 1}, 2);
+  states.unknown_category = {0, 1, kNoCategory};
+  const Eigen::VectorXd p = p_state(prior_belief(states, 0.2));
+  EXPECT_TRUE(p.head(6).isApprox(Eigen::VectorXd::Constant(6, 0.8 / 6.0), kTolerance));
+  EXPECT_TRUE(p.tail(3).isApprox(Eigen::Vector3d(0.05, 0.05, 0.1), kTolerance));
+  states.unknown_category = {kNoCategory};
+  EXPECT_NEAR(p_state(prior_belief(states, 0.2))[6], 0.2, kTolerance);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -152,6 +152,9 @@ TEST_F(RecognitionFile, NamesTheNumberThatMakesNoSense) {
   EXPECT_THAT(with(kHeader, std::int32_t{0}), HasSubstr("0 yaw bins"));
   EXPECT_THAT(with(kHeader, std::int32_t{1}), HasSubstr("1 yaw bins, must be in [2, 3600]"));
   EXPECT_THAT(with(kHeader, std::int32_t{1 << 30}), HasSubstr("yaw bins, must be in"));
+  EXPECT_THAT(with(kHeader, std::int32_t{3601}), HasSubstr("3601 yaw bins"));
+  EXPECT_THAT(with(kHeader, std::int32_t{3600}), HasSubstr("16 counts of slips"));
+  EXPECT_THAT(with(kHeader, std::int32_t{2}), HasSubstr("16 counts of slips, 2 bins need 4"));
   EXPECT_THAT(with(kHeader + 4, std::uint32_t{0xffffffff}),
               HasSubstr("ends within the categories"));
   const std::size_t object = whole_.find("object_1");
@@ -223,6 +226,12 @@ TEST_F(RecognitionFile, OfImpossibleCorrelationIsRefused) {
   model.view_correlation = 1.5;
   write_recognition_model(model, path_);
   EXPECT_THAT(error_of(read_file(path_)), HasSubstr("correlation of views is 1.5"));
+  model.view_correlation = -0.25;
+  write_recognition_model(model, path_);
+  EXPECT_THAT(error_of(read_file(path_)), HasSubstr("is -0.25, must be in [0, 1]"));
+  model.view_correlation = 1.0;
+  write_recognition_model(model, path_);
+  EXPECT_EQ(error_of(read_file(path_)), "");
 }
 
 TEST_F(RecognitionFile, KeepsNotesCountsAndMoments) {

@@ -128,5 +128,14 @@ TEST(TransitionModel, ChecksThatMassesSumToOne) {
   EXPECT_THROW(check_options(learned), ConfigError);
 }
 
+TEST(TransitionModel, SumsToOneWithinAMillionth) {
+  for (const double off : {-9e-7, 9e-7}) {
+    EXPECT_NO_THROW(check_options(TableTransition{.right_angle = 0.4 + off}));
+  }
+  for (const double off : {-2e-6, 2e-6}) {
+    EXPECT_THROW(check_options(TableTransition{.right_angle = 0.4 + off}), ConfigError);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -131,6 +131,8 @@ TEST(OracleLookahead, OfEqualSequencesBeginsNear) {
   views[0].path_length_m = 2.0;
   views[1].path_length_m = 1.0;
   EXPECT_EQ((OracleLookahead{.width = 8, .depth = 2}.best_sequence(views)), (Sequence{1, 0}));
+  views[0].path_length_m = 1.0;
+  EXPECT_EQ((OracleLookahead{.width = 8, .depth = 2}.best_sequence(views)), (Sequence{0, 1}));
 }
 
 TEST(OracleLookahead, LooksNoFartherThanTheScansThatAreLeft) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -77,6 +78,47 @@ TEST_F(Corridor, WhatGoesAlongItsHeadingStaysInItsRow) {
     EXPECT_EQ(narrow.map.cell(node.cell).y(), start_cell_.y());
   }
   EXPECT_FALSE(narrow.reachable(Eigen::Vector2d(2.525, 1.025))) << "nor could it turn round there";
+}
+
+/// Beside the row of the start there is room for its middle, at its heading, in one row on either
+/// side.
+TEST_F(Corridor, AStepAsideCostsItsTimeToo) {
+  const PathField narrow = field(robot_, {.speed_m_s = 0.2});
+  for (const int side : {-1, 1}) {
+    EXPECT_NEAR(cost_at(narrow, start_cell_ + Eigen::Array2i(0, side), 0.0), 0.05 * 3.0 * 2.5,
+                1e-9);
+    EXPECT_NEAR(cost_at(narrow, start_cell_ + Eigen::Array2i(1, side), 0.0),
+                0.05 * std::sqrt(2.0) * 3.0 * 2.5, 1e-9);
+  }
+}
+
+/// The greatest angle between a step and the heading it is made at.
+double farthest_off_rad(const PathField& field) {
+  const std::size_t cells = field.map.size();
+  double farthest = 0.0;
+  for (const NarrowEdge& edge : field.narrow_edges) {
+    if (edge.from < cells || edge.to < cells) continue;
+    const NarrowPose& from = field.narrow[edge.from - cells];
+    const NarrowPose& to = field.narrow[edge.to - cells];
+    if (from.cell == to.cell) continue;
+    const Eigen::Array2i step = field.map.cell(to.cell) - field.map.cell(from.cell);
+    const double off_rad = std::atan2(step.y(), step.x()) - from.pose.yaw_rad;
+    farthest = std::max(farthest, std::abs(wrap_angle(off_rad)));
+  }
+  return farthest;
+}
+
+TEST_F(Corridor, ANearlySquareRobotFacesWhereItGoes) {
+  const auto off_rad = [&](const RobotOutline& robot) {
+    return farthest_off_rad(field(robot, {}));
+  };
+  EXPECT_LE(off_rad({.outline = rectangle(0.5, 0.5)}), 0.5 + 1e-9);
+  EXPECT_LE(off_rad({.outline = rectangle(0.5, 0.47)}), 0.5 + 1e-9) << "1.5 cm a side";
+  EXPECT_LE(off_rad({.outline = rectangle(0.47, 0.5)}), 0.5 + 1e-9);
+  EXPECT_GT(off_rad({.outline = rectangle(0.5, 0.44)}), 3.0) << "3 cm a side: backwards, too";
+  const FloorOutline ahead{{-0.2, -0.25}, {0.3, -0.25}, {0.3, 0.25}, {-0.2, 0.25}};
+  EXPECT_GT(off_rad({.outline = ahead}), 3.0) << "its middle is not";
+  EXPECT_LE(off_rad({.outline = rectangle(0.9, 0.5), .goes_sideways = false}), 0.48 + 1e-9);
 }
 
 }  // namespace

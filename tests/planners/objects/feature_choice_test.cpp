@@ -179,5 +179,43 @@ TEST(FeatureChoice, IsNotBlindedByManyKindsOfUnknownObjects) {
   EXPECT_EQ(decision.feature, 0U);
 }
 
+TEST_F(FeatureChoiceTest, AViewThatCountsForAQuarterIsAsOfAQuarterOfPsi) {
+  const auto gains = [&](double weight) {
+    Rng rng(1);
+    return choose_feature(
+               {.about_object = false},
+               {.database = states_, .belief = belief_, .features = features_, .weight = weight},
+               rng)
+        .scores;
+  };
+  const auto whole = gains(1.0);
+  const auto quarter = gains(0.25);
+  for (ObservationModel* model : {&weak_, &object_, &pose_}) model->psi = 0.25;
+  const auto of_quarter_psi = gains(1.0);
+  ASSERT_EQ(quarter.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(quarter[i].gain.bits, whole[i].gain.bits) << i;
+    EXPECT_NEAR(quarter[i].gain.bits, of_quarter_psi[i].gain.bits, 1e-6) << i;
+  }
+}
+
+TEST_F(FeatureChoiceTest, LooksUpWhatTablesSay) {
+  const DivergenceTables nothing{.bhattacharyya_nats = Eigen::MatrixXf::Zero(4, 4),
+                                 .kullback_leibler_nats = Eigen::MatrixXf::Zero(4, 4)};
+  const double of_object = choose({.about_object = false}).scores[1].gain.bits;
+  features_[2].tables = &nothing;
+  const auto decision = choose({.about_object = false});
+  EXPECT_EQ(decision.feature, 1U);
+  EXPECT_NEAR(decision.scores[2].gain.bits, 0.0, 1e-6);
+  EXPECT_EQ(decision.scores[1].gain.bits, of_object);
+}
+
+TEST(FeatureStop, IsBelowAndNotAt) {
+  EXPECT_FALSE(GainBelow{.threshold = 0.25}(0.25, std::nullopt));
+  EXPECT_TRUE(GainBelow{.threshold = 0.25}(0.2499, std::nullopt));
+  EXPECT_FALSE(GainDecreasing{}(0.25, 0.25));
+  EXPECT_TRUE(GainDecreasing{}(0.2499, 0.25));
+}
+
 }  // namespace
 }  // namespace vantage

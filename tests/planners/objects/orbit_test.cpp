@@ -82,5 +82,36 @@ TEST(OrbitWay, FromOneOrbitToAnotherKeepsItsDistance) {
   }
 }
 
+/// 0.4 - 0.1 is a little more than three times 0.1.
+TEST(OrbitArc, TakesNoStepForRounding) {
+  EXPECT_EQ(orbit_arc(kOrbit, 0.1, 0.4, 0.1).size(), 3U);
+  EXPECT_EQ(orbit_arc(kOrbit, 0.1, 0.401, 0.1).size(), 4U);
+  EXPECT_DEATH(orbit_arc(kOrbit, 0.1, 0.4, 0.0), "a step along an arc");
+}
+
+/// Three metres, which are 1.5 rad as seen from 2 m.
+TEST(OrbitWay, StepsAreNoLongerWhereTheCentreMoves) {
+  const Orbit to{.centre_m = kOrbit.centre_m + Eigen::Vector3d(1.8, -2.4, 0.0),
+                 .radius_m = 2.0,
+                 .height_m = 0.4};
+  const std::vector<Pose> way = orbit_way(kOrbit, 0.5, to, 0.5, 0.5);
+  ASSERT_EQ(way.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double share = static_cast<double>(i + 1) / 3.0;
+    Orbit at = to;
+    at.centre_m = kOrbit.centre_m + share * Eigen::Vector3d(1.8, -2.4, 0.0);
+    EXPECT_TRUE(way[i].isApprox(at.place(0.5), 1e-9)) << i;
+  }
+  EXPECT_EQ(orbit_way(kOrbit, 0.5, to, 0.5, 0.49).size(), 4U);
+  EXPECT_DEATH(orbit_way(kOrbit, 0.5, to, 0.5, 0.0), "a step along a way");
+}
+
+TEST(OrbitWay, RisesInTwoStepsWhereItStays) {
+  const std::vector<Pose> way = orbit_way(kOrbit, 0.5, kOrbit, 0.5, 0.1, {.rise_m = 0.4});
+  ASSERT_EQ(way.size(), 2U);
+  EXPECT_NEAR(way[0].translation().z(), 0.7 + 0.9 + 0.4, 1e-9);
+  EXPECT_TRUE(way[1].isApprox(kOrbit.place(0.5), 1e-9));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -165,5 +165,34 @@ TEST(GainOf, IsTheShareOfEachBlock) {
   EXPECT_EQ(gain_of(problem, 1), 12.0);
 }
 
+TEST(ViewNear, ReachesAsFarAsItIsSaidTo) {
+  const PlanningProblem problem = three_views();
+  EXPECT_EQ(view_near(problem, {26.5, 0.0}, 1.5), 2U);
+  EXPECT_EQ(view_near(problem, {26.51, 0.0}, 1.5), std::nullopt);
+  EXPECT_EQ(view_near(problem, {10.0, -1.5}, 1.5), 0U);
+  EXPECT_EQ(view_near(problem, {10.0, -1.51}, 1.5), std::nullopt);
+  EXPECT_EQ(view_near(problem, {20.9, 1.2}, 1.5), 1U);
+}
+
+TEST(PlanningProblemDeathTest, NamesWhatDoesNotFit) {
+  const auto check = [](const auto& change) {
+    PlanningProblem problem = three_views();
+    change(problem);
+    problem.check();
+  };
+  check([](PlanningProblem& p) { p.intended = 2; });
+  check([](PlanningProblem& p) { p.shows[1].block.back() = 2; });
+  check([](PlanningProblem& p) { p.home_s.resize(4); });
+  check([](PlanningProblem& p) { p.shows[1] = {}; });
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.travel_s.resize(3, 3); }), "a travel time");
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.travel_s.resize(4, 4); }), "a travel time");
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.place_m.pop_back(); }), "a place of each view");
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.beyond.resize(2); }), "what lies beyond");
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.intended = 3; }), "is intended");
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.home_s.resize(3); }), "a way home");
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.shows[1].share.pop_back(); }), "a share of each");
+  EXPECT_DEATH(check([](PlanningProblem& p) { p.shows[1].block.back() = 3; }), "blocks of the");
+}
+
 }  // namespace
 }  // namespace vantage

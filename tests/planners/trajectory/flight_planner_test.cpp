@@ -281,5 +281,19 @@ TEST(SafestOfBest, IsTheFirstThatIsClearElseWhatKeepsOffFarthest) {
   EXPECT_EQ(safest_of_best(plans), 0U);
 }
 
+TEST_F(Planner, WhatIsKnownIsThatOfThePlanning) {
+  for (const TrajectoryMethod& method :
+       {TrajectoryMethod(GivenPathYaw{}), TrajectoryMethod(DetourPath{})}) {
+    const auto turned_rad = [&](double entropy_nats, double known_below_nats) {
+      objects_[0].entropy_nats = entropy_nats;
+      planning_.known_below_nats = known_below_nats;
+      FlightPlanner rule = planner(method);
+      return propose(rule).front().points.row(3).maxCoeff();
+    };
+    EXPECT_EQ(turned_rad(2.0, 2.5), 0.0) << strategy_name_of(method);
+    EXPECT_GT(turned_rad(0.05, 0.01), 1.0) << strategy_name_of(method);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -201,5 +201,19 @@ TEST_F(ScoreViews, RefusesASensorOutOfRange) {
   EXPECT_THROW(score_views(one, {}, SimpleGain{}, {}, camera(-1.0), 1), ConfigError);
 }
 
+/// Eight cells of 0.25 m a side are known.
+TEST_F(ScoreViews, ARegionIsTheKnownCellsButForWhatIsGiven) {
+  const auto one = map({{{0, 0, 0}, 8, false}}, 0.25);
+  const auto expect_cells = [&](const ScoredRegion& region, const Eigen::Array3i& begin,
+                                const Eigen::Array3i& end) {
+    const CellBlock cells = region.cells(one);
+    EXPECT_TRUE((cells.begin == begin).all()) << cells.begin.transpose();
+    EXPECT_TRUE((cells.end == end).all()) << cells.end.transpose();
+  };
+  expect_cells({}, {0, 0, 0}, {8, 8, 8});
+  expect_cells({.min_m = {{0.5, 0.25, 1.0}}}, {2, 1, 4}, {8, 8, 8});
+  expect_cells({.max_m = {{1.25, 1.5, 0.75}}}, {0, 0, 0}, {5, 6, 3});
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,0 +1,111 @@
+#include "vantage/building/building_frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/building/made_mesh.hpp"
+
+namespace vantage {
+namespace {
+
+using test::MadeMesh;
+
+double heading_of(const std::vector<std::pair<double, double>>& walls) {
+  MadeMesh made;
+  for (const auto& [heading_rad, area_m2] : walls) {
+    made.wall({1.0, 2.0}, heading_rad, 0.5 * area_m2, 2.0);
+  }
+  return wall_heading_rad(made.mesh);
+}
+
+TEST(WallHeading, IsThatOfMostWallsUpToAQuarterTurn) {
+  constexpr double kQuarter = 0.5 * std::numbers::pi;
+  EXPECT_NEAR(heading_of({{0.3, 4.0}, {0.3 + kQuarter, 3.0}}), 0.3, 1e-9);
+  EXPECT_NEAR(heading_of({{-0.4, 4.0}, {-0.4 + kQuarter, 3.0}}), -0.4, 1e-9);
+  EXPECT_NEAR(heading_of({{0.8, 4.0}, {0.8 - kQuarter, 3.0}}), 0.8 - kQuarter, 1e-9);
+  EXPECT_NEAR(heading_of({{0.7, 4.0}, {0.7 + 2.0 * kQuarter, 3.0}, {0.2, 5.0}}), 0.7, 1e-9);
+}
+
+TEST(WallHeading, IsNoneWhereWallsHaveNoneInCommon) {
+  EXPECT_EQ(heading_of({{0.3, 4.0}, {0.6, 3.3}, {0.9, 3.3}, {1.2, 3.3}}), 0.0) << "29 %";
+  EXPECT_NEAR(heading_of({{0.3, 4.0}, {0.6, 3.0}, {0.9, 3.0}, {1.2, 3.0}}), 0.3, 1e-9) << "31 %";
+  EXPECT_EQ(heading_of({}), 0.0);
+  EXPECT_EQ(heading_of({{5e-6, 4.0}}), 0.0) << "as good as along the axes";
+  EXPECT_NEAR(heading_of({{5e-5, 4.0}}), 5e-5, 1e-9);
+}
+
+TEST(WallHeading, IsTheMeanOfThoseNearEachOther) {
+  EXPECT_NEAR(heading_of({{0.30, 3.0}, {0.31, 1.0}, {0.32, 0.9}}), 0.3025, 1e-9);
+}
+
+TEST(WallHeading, IsOfUprightFacesAlone) {
+  MadeMesh made;
+  made.wall({0.0, 0.0}, 0.3, 2.0, 2.0);
+  // A large roof whose normal leans by far more than that of a wall.
+  made.quad({0, 0, 3}, {9, 0, 3}, {9, 9, 12}, {0, 9, 12});
+  EXPECT_NEAR(wall_heading_rad(made.mesh), 0.3, 1e-9);
+}
+
+TEST(FloorHeight, IsTheLowestLargeLevelWithAirAboveIt) {
+  MadeMesh made;
+  made.level(0, 0, 4, 4, 0.2, true);
+  made.level(1, 1, 2, 2, 0.9, true);  // a table
+  made.level(0, 0, 4, 4, 2.9, true);  // a roof
+  EXPECT_NEAR(floor_height_m(made.mesh).value(), 0.2, 1e-9);
+}
+
+TEST(FloorHeight, HasAQuarterOfTheLargestLevel) {
+  for (const double width_m : {0.9, 1.0}) {
+    MadeMesh made;
+    made.level(0, 0, width_m, 4, 0.2, true);
+    made.level(0, 0, 4, 4, 2.9, true);
+    EXPECT_NEAR(floor_height_m(made.mesh).value(), width_m == 1.0 ? 0.2 : 2.9, 1e-9) << width_m;
+  }
+}
+
+TEST(FloorHeight, HasHeadroom) {
+  for (const double roof_m : {1.65, 1.75}) {
+    MadeMesh made;
+    made.level(0, 0, 4, 3, 0.2, true);
+    made.level(0, 0, 4, 3, roof_m, true);
+    EXPECT_NEAR(floor_height_m(made.mesh).value(), roof_m == 1.75 ? 0.2 : 1.65, 1e-9) << roof_m;
+  }
+}
+
+TEST(FloorHeight, IsOfFacesThatLookDownWhereNoneLooksUp) {
+  MadeMesh made;
+  made.level(0, 0, 4, 3, 0.2, false);
+  EXPECT_NEAR(floor_height_m(made.mesh).value(), 0.2, 1e-9);
+  made.level(0, 0, 4, 3, 1.0, true);
+  EXPECT_NEAR(floor_height_m(made.mesh).value(), 1.0, 1e-9);
+}
+
+TEST(FloorHeight, IsTheMiddleOfALevelThatIsNotEven) {
+  MadeMesh made;
+  made.level(0, 0, 1, 4, 0.20, true);
+  made.level(1, 0, 3, 4, 0.22, true);
+  made.level(3, 0, 4, 4, 0.24, true);
+  EXPECT_NEAR(floor_height_m(made.mesh).value(), 0.22, 1e-9);
+}
+
+TEST(FloorHeight, IsNoneWithoutLevelFaces) {
+  MadeMesh made;
+  made.wall_x(1.0, 0.0, 3.0, 2.0);
+  EXPECT_FALSE(floor_height_m(made.mesh));
+}
+
+TEST(BuildingMesh, IsMovedAsAWhole) {
+  MadeMesh made;
+  made.triangle({1, 0, 0}, {0, 2, 0}, {0, 0, 3});
+  Eigen::Isometry3d T(Eigen::Translation3d(1.0, 2.0, 3.0));
+  T.rotate(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  transform(made.mesh, T);
+  EXPECT_LT((made.mesh.vertices_m[0] - Eigen::Vector3d(1, 3, 3)).norm(), 1e-12);
+  EXPECT_LT((made.mesh.vertices_m[1] - Eigen::Vector3d(-1, 2, 3)).norm(), 1e-12);
+  EXPECT_LT((made.mesh.vertices_m[2] - Eigen::Vector3d(1, 2, 6)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace vantage

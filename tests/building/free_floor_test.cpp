@@ -1,0 +1,133 @@
+// Where a robot can begin in rooms of squares that can be counted.
+#include "vantage/building/free_floor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace vantage {
+namespace {
+
+/// A floor, walls of half a metre all round, and air; layers of z end at 0, 1, 1.7 and 2.5 m.
+struct WalledRoom {
+  FittedGrid grid;
+  std::vector<std::uint8_t> solid;
+
+  WalledRoom(const std::vector<double>& x_m, const std::vector<double>& y_m) {
+    grid.lines_m = {x_m, y_m, std::vector<double>{-0.1, 0.0, 1.0, 1.7, 2.5}};
+    solid.assign(grid.size(), 0);
+    for (int y = 0; y < grid.cells(1); ++y) {
+      for (int x = 0; x < grid.cells(0); ++x) {
+        solid[grid.index(x, y, 0)] = 1;
+        const bool wall = x == 0 || y == 0 || x == grid.cells(0) - 1 || y == grid.cells(1) - 1;
+        if (wall) fill(x, y, 1);
+      }
+    }
+  }
+  void fill(int x, int y, int z, bool full = true) { solid[grid.index(x, y, z)] = full ? 1 : 0; }
+};
+
+constexpr FreeFloorOptions kNarrow{.clearance_m = 0.58};
+
+/// 81 squares of 5 cm by 41: 57 by 17 of them are 12 squares off the walls.
+TEST(FreeFloor, BeginsInTheMiddleAlongTheRoom) {
+  const WalledRoom room({0.0, 0.5, 4.55, 5.05}, {0.0, 0.5, 2.55, 3.05});
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->area_m2, 57 * 17 * 0.0025, 1e-9);
+  EXPECT_NEAR(floor->clearance_m, 1.0, 1e-9);
+  EXPECT_NEAR(floor->start.x_m, 2.525, 1e-9);
+  EXPECT_NEAR(floor->start.y_m, 1.525, 1e-9);
+  EXPECT_EQ(floor->start.yaw_rad, 0.0);
+  const WalledRoom across({0.0, 0.5, 2.55, 3.05}, {0.0, 0.5, 4.55, 5.05});
+  const auto turned = find_free_floor(across.grid, across.solid, kNarrow);
+  ASSERT_TRUE(turned);
+  EXPECT_NEAR(turned->start.x_m, 1.525, 1e-9);
+  EXPECT_NEAR(turned->start.y_m, 2.525, 1e-9);
+  EXPECT_NEAR(turned->start.yaw_rad, 0.5 * std::numbers::pi, 1e-12);
+}
+
+TEST(FreeFloor, IsTheLargestOfSeveralAreas) {
+  // A wall from 1.95 to 2.45 m; the room beyond it is larger.
+  WalledRoom room({0.0, 0.5, 1.95, 2.45, 4.5, 5.0}, {0.0, 0.5, 2.5, 3.0});
+  room.fill(2, 1, 1);
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_GT(floor->start.x_m, 2.45 + 0.58);
+  EXPECT_LT(floor->start.x_m, 4.5 - 0.58);
+  // Squares 49 to 89 and 10 to 49, of which those 13 and more from the walls count: 17 by 16.
+  EXPECT_NEAR(floor->area_m2, 17 * 16 * 0.0025, 1e-9);
+}
+
+TEST(FreeFloor, IsUnderWhatHangsHighButNotUnderWhatHangsLow) {
+  const std::vector<double> x_m{0.0, 0.5, 2.5, 4.55, 5.05};
+  const std::vector<double> y_m{0.0, 0.5, 2.55, 3.05};
+  WalledRoom high(x_m, y_m);
+  high.fill(1, 1, 3);
+  EXPECT_NEAR(find_free_floor(high.grid, high.solid, kNarrow)->area_m2, 57 * 17 * 0.0025, 1e-9);
+  WalledRoom low(x_m, y_m);
+  low.fill(1, 1, 2);
+  const auto floor = find_free_floor(low.grid, low.solid, kNarrow);
+  EXPECT_LT(floor->area_m2, 0.5 * 57 * 17 * 0.0025);
+  EXPECT_GT(floor->start.x_m, 2.5 + 0.58);
+  EXPECT_LT(
+      find_free_floor(high.grid, high.solid, {.clearance_m = 0.58, .headroom_m = 1.75})->area_m2,
+      0.5 * 57 * 17 * 0.0025);
+}
+
+TEST(FreeFloor, IsNoneOverAHoleUnlessItIsLaid) {
+  WalledRoom room({0.0, 0.5, 2.5, 4.55, 5.05}, {0.0, 0.5, 2.55, 3.05});
+  room.fill(1, 1, 0, false);
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_GT(floor->start.x_m, 2.5 + 0.58);
+  const auto laid =
+      find_free_floor(room.grid, room.solid, {.clearance_m = 0.58, .floor_everywhere = true});
+  EXPECT_NEAR(laid->area_m2, 57 * 17 * 0.0025, 1e-9);
+  room.fill(2, 1, 0, false);
+  EXPECT_FALSE(find_free_floor(room.grid, room.solid, kNarrow)) << "no floor at all";
+}
+
+TEST(FreeFloor, MayHaveNoRoomForARobot) {
+  const WalledRoom room({0.0, 0.5, 4.55, 5.05}, {0.0, 0.5, 2.55, 3.05});
+  const auto floor = find_free_floor(room.grid, room.solid, {.clearance_m = 1.02});
+  ASSERT_TRUE(floor);
+  EXPECT_EQ(floor->area_m2, 0.0);
+  EXPECT_EQ(FreeFloorOptions{}.clearance_m, 0.6);
+  EXPECT_EQ(FreeFloorOptions{}.headroom_m, 1.6);
+}
+
+/// 161 squares by 61 without a corner, whose middle is beside the line that is farthest from the
+/// walls: 1.5 m are no better than 1.45 m.
+TEST(FreeFloor, MoreRoomThanPlentyIsNotSought) {
+  WalledRoom room({0.0, 0.5, 7.5, 8.55, 9.05}, {0.0, 0.5, 1.5, 3.55, 4.05});
+  room.fill(2, 1, 1);
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->area_m2, 4681 * 0.0025, 1e-9);
+  EXPECT_NEAR(floor->start.x_m, 4.275, 1e-9);
+  EXPECT_NEAR(floor->start.y_m, 2.075, 1e-9);
+  EXPECT_NEAR(floor->clearance_m, 1.45, 1e-9);
+  EXPECT_EQ(floor->start.yaw_rad, 0.0);
+}
+
+/// Three corridors one behind the other, 47, 51 and 55 squares wide, the first of which is long and
+/// has the middle: what is 1.2 m clear begins in the second.
+TEST(FreeFloor, SeeksPlentyOfRoomNearTheMiddle) {
+  WalledRoom room({0.0, 0.5, 10.5, 13.5, 16.5, 17.0}, {0.0, 0.5, 0.6, 0.7, 3.05, 3.15, 3.25, 3.75});
+  for (const int y : {1, 5}) {
+    room.fill(1, y, 1);
+    room.fill(2, y, 1);
+  }
+  for (const int y : {2, 4}) room.fill(1, y, 1);
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_GT(floor->start.x_m, 10.5);
+  EXPECT_LT(floor->start.x_m, 13.5);
+  EXPECT_GE(floor->clearance_m, 1.2 - 1e-9);
+  EXPECT_LE(floor->clearance_m, 1.25 + 1e-9);
+}
+
+}  // namespace
+}  // namespace vantage

@@ -1,0 +1,250 @@
+// When a place is one of long ago, which loops wait, are taken or refused: of a robot that stands
+// in a room whose points it sees without noise, while its wheels count as it is told.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/localisation/room_of_points.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/localisation/keyframe_graph.hpp"
+
+namespace vantage {
+namespace {
+
+constexpr double kSureWheels_m = 0.001;
+
+/// Keyframes in a room, the first of which is where nothing has been driven.
+class InARoom {
+ public:
+  explicit InARoom(const PointCloud& seen, const LoopOptions& loops = {.close = true})
+      : graph_(loops, {}) {
+    graph_.begin(seen, {1.5, -2.5, 0.4});
+  }
+  /// @return whether there are new loops
+  bool go(const PointCloud& seen, double driven_m, double forward_m = 0.0,
+          double sigma_m = kSureWheels_m) {
+    WheelStep step;
+    step.T_previous_now = {forward_m, 0.0, 0.0};
+    step.covariance = Eigen::Vector3d(sigma_m, sigma_m, 0.001).cwiseAbs2().asDiagonal();
+    step.driven_m = driven_m;
+    graph_.add(seen, step);
+    return graph_.close_loops();
+  }
+  bool stay(double driven_m) { return go(test_room::walls(), driven_m); }
+  [[nodiscard]] const KeyframeGraph& graph() const { return graph_; }
+  [[nodiscard]] double moved_m() const {
+    const Pose2 from = graph_.T_world_bases().front();
+    const Pose2 to = graph_.T_world_bases().back();
+    return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+  }
+
+ private:
+  KeyframeGraph graph_;
+};
+
+TEST(LoopClosing, WaitsForASecondLoopThatAgrees) {
+  InARoom room(test_room::walls());
+  EXPECT_FALSE(room.stay(12.0));
+  EXPECT_EQ(room.graph().loops(), 0U);
+  EXPECT_TRUE(room.stay(1.0));
+  EXPECT_EQ(room.graph().loops(), 2U);
+  EXPECT_EQ(room.graph().refused(), 0U);
+  EXPECT_EQ(room.graph().size(), 3U);
+  EXPECT_NEAR(room.moved_m(), 0.0, 1e-3);
+}
+
+TEST(LoopClosing, IsLeftToTheOptions) {
+  InARoom room(test_room::walls(), {.close = false});
+  EXPECT_FALSE(room.stay(12.0));
+  EXPECT_FALSE(room.stay(1.0));
+  EXPECT_EQ(room.graph().loops(), 0U);
+}
+
+TEST(LoopClosing, IsOfPlacesThatManyMetresWereDrivenSince) {
+  InARoom room(test_room::walls());
+  room.stay(11.875);
+  EXPECT_FALSE(room.stay(1.0)) << "the first that may be one";
+  EXPECT_TRUE(room.stay(1.0));
+  InARoom sooner(test_room::walls(), {.close = true, .min_way_m = 11.5});
+  sooner.stay(11.5);
+  EXPECT_TRUE(sooner.stay(1.0));
+}
+
+TEST(LoopClosing, IsTriedEveryMetre) {
+  InARoom room(test_room::walls());
+  room.stay(12.0);
+  EXPECT_FALSE(room.stay(0.875));
+  EXPECT_TRUE(room.stay(0.125));
+}
+
+TEST(LoopClosing, IsDoneOnceWithinThreeMetres) {
+  for (const double driven_m : {2.875, 3.0}) {
+    InARoom room(test_room::walls());
+    room.stay(12.0);
+    room.stay(1.0);
+    EXPECT_EQ(room.stay(driven_m), driven_m == 3.0) << driven_m;
+    EXPECT_EQ(room.graph().loops(), driven_m == 3.0 ? 3U : 2U);
+  }
+}
+
+/// Its second place is 1.5 m from the first one, by the way.
+TEST(LoopClosing, IsDoneOnceWithinThreeMetresOfBothWaysTogether) {
+  for (const double driven_m : {1.375, 1.5}) {
+    InARoom room(test_room::walls());
+    room.go(test_room::walls(0.3F), 1.5, 0.3);
+    room.go(test_room::walls(), 10.5, -0.3);
+    EXPECT_TRUE(room.stay(1.0));
+    EXPECT_EQ(room.go(test_room::walls(0.3F), driven_m, 0.3), driven_m == 1.5) << driven_m;
+    EXPECT_EQ(room.graph().loops(), driven_m == 1.5 ? 3U : 2U);
+  }
+}
+
+TEST(LoopClosing, NeedsNoSecondOneSoonAfterALoop) {
+  for (const double driven_m : {7.875, 8.0}) {
+    InARoom room(test_room::walls());
+    room.stay(12.0);
+    room.stay(1.0);
+    EXPECT_EQ(room.stay(driven_m), driven_m < 8.0);
+    EXPECT_EQ(room.graph().loops(), driven_m < 8.0 ? 3U : 2U);
+    EXPECT_EQ(room.graph().refused(), 0U);
+    if (driven_m < 8.0) continue;
+    EXPECT_TRUE(room.stay(1.0)) << "the next one agrees with it";
+    EXPECT_EQ(room.graph().loops(), 4U);
+  }
+}
+
+TEST(LoopClosing, IsOfPlacesWithinTheSearchDistance) {
+  for (const float away_m : {0.48F, 0.54F}) {
+    InARoom room(test_room::walls(), {.close = true, .search_m = 0.5});
+    room.go(test_room::walls(away_m), 12.0, static_cast<double>(away_m));
+    EXPECT_EQ(room.go(test_room::walls(away_m), 1.0), away_m < 0.5F) << away_m;
+  }
+}
+
+TEST(LoopClosing, IsOfAHundredPointsAtLeast) {
+  test_room::Room few;
+  few.across_x(2.985F, -1.0F, -12, 13);
+  few.across_x(-2.985F, 1.0F, -12, 13);
+  few.across_y(1.935F, -1.0F, -12, 13);
+  few.across_y(-1.935F, 1.0F, -12, 13);
+  ASSERT_EQ(few.seen.size(), 100U);
+  for (const bool enough : {true, false}) {
+    if (!enough) {
+      few.seen.points.pop_back();
+      few.seen.normals.pop_back();
+    }
+    InARoom room(few.seen);
+    room.go(few.seen, 12.0);
+    EXPECT_EQ(room.go(few.seen, 3.5), enough);
+  }
+}
+
+/// Of 120 points on the walls and some that are 30 cm before one.
+TEST(LoopClosing, IsOfPlacesThatEnoughPointsAgreeWith) {
+  for (const int more : {21, 22}) {
+    test_room::Room changed;
+    add_front(changed);
+    add_back(changed);
+    changed.across_x(2.685F, -1.0F, -12, more - 12);
+    InARoom room(test_room::walls());
+    room.go(changed.seen, 12.0);
+    EXPECT_EQ(room.go(changed.seen, 3.5), more == 21) << 120.0 / (120.0 + more);
+  }
+}
+
+/// Keyframes that see 60 points each, two walls or the others in turn.
+TEST(LoopClosing, GoesByWhatWasSeenOnThreeMetresOfTheWay) {
+  for (const double apart_m : {3.0, 3.125}) {
+    InARoom room(test_room::walls());
+    EXPECT_FALSE(room.go(test_room::front(), 12.0));
+    EXPECT_FALSE(room.go(test_room::back(), apart_m));
+    EXPECT_EQ(room.go(test_room::front(), apart_m), apart_m == 3.0) << apart_m;
+  }
+}
+
+TEST(LoopClosing, KnowsPlacesByThreeMetresOfTheWay) {
+  for (const double apart_m : {3.0, 3.125}) {
+    InARoom room(test_room::front());
+    room.go(test_room::back(), apart_m);
+    EXPECT_FALSE(room.stay(20.0));
+    EXPECT_EQ(room.stay(3.5), apart_m == 3.0) << apart_m;
+  }
+}
+
+/// The front of the room tells how far it went, the wheels that it did not.
+TEST(KeyframeGraph, RegistersWithFiveMetresOfTheWay) {
+  for (const double driven_m : {5.0, 5.125}) {
+    InARoom room(test_room::front());
+    room.go(test_room::back(), driven_m);
+    test_room::Room ahead{{}, 0.06F};
+    add_front(ahead);
+    room.go(ahead.seen, 1.0, 0.0, 0.05);
+    EXPECT_NEAR(room.moved_m(), driven_m == 5.0 ? 0.06 : 0.0, 0.005) << driven_m;
+  }
+}
+
+PointCloud room_and_pillar(float walls_from_x_m, float pillar_from_x_m) {
+  PointCloud seen = test_room::walls(walls_from_x_m);
+  append(seen, test_room::pillar(pillar_from_x_m));
+  return seen;
+}
+
+/// By the wheels alone it comes to the pillar, which is all that it sees then, good to 5 cm. What
+/// it sees of the room afterwards says that it went 21 cm, or 24.
+TEST(LoopClosing, IsOfNoPlaceFartherThanTheWayMayHaveDrifted) {
+  for (const float off_m : {0.21F, 0.24F}) {
+    InARoom room(test_room::walls());
+    room.go(test_room::pillar(off_m), 5.5, 0.0, 0.05);
+    room.go(room_and_pillar(off_m, off_m), 8.0);
+    const bool is_plausible = off_m < 0.225F;
+    EXPECT_EQ(room.go(room_and_pillar(off_m, off_m), 3.5), is_plausible) << off_m;
+    EXPECT_EQ(room.graph().loops(), is_plausible ? 2U : 0U);
+    EXPECT_EQ(room.graph().refused(), 0U);
+    EXPECT_NEAR(room.moved_m(), is_plausible ? 0.21 : 0.0, 0.01);
+  }
+}
+
+/// Between two loops the wheels say that it stood, and the places that it went 3 cm, or 9.
+TEST(LoopClosing, IsRefusedWhereTheNextOneDoesNotAgree) {
+  for (const float off_m : {0.03F, 0.09F}) {
+    InARoom room(test_room::walls());
+    room.stay(12.0);
+    room.go(test_room::pillar(), 5.5, 0.0, 0.05);
+    const bool agrees = off_m < 0.06F;
+    EXPECT_EQ(room.go(room_and_pillar(off_m, 0.0F), 5.5), agrees) << off_m;
+    EXPECT_EQ(room.graph().loops(), agrees ? 2U : 0U);
+    EXPECT_EQ(room.graph().refused(), agrees ? 0U : 1U);
+  }
+}
+
+TEST(LoopOptions, HaveTheirDefaults) {
+  const LoopOptions options;
+  EXPECT_FALSE(options.close);
+  EXPECT_EQ(options.min_way_m, 12.0);
+  EXPECT_EQ(options.search_m, 2.5);
+  EXPECT_EQ(options.min_agreement, 0.85);
+  EXPECT_EQ(options.agreement_m, 0.06);
+  EXPECT_EQ(options.agreement_rad, 0.02);
+  EXPECT_EQ(options.correct_m, 0.04);
+}
+
+TEST(LoopOptions, AreAboveZeroAndSharesAreNoMoreThanOne) {
+  for (double LoopOptions::*option :
+       {&LoopOptions::min_way_m, &LoopOptions::search_m, &LoopOptions::agreement_m,
+        &LoopOptions::agreement_rad, &LoopOptions::correct_m}) {
+    LoopOptions options;
+    options.*option = 0.0;
+    EXPECT_THROW(KeyframeGraph(options, {}), ConfigError);
+    options.*option = 1e-6;
+    EXPECT_NO_THROW(KeyframeGraph(options, {}));
+  }
+  for (const double share : {-1e-6, 1.000001}) {
+    EXPECT_THROW(KeyframeGraph({.min_agreement = share}, {}), ConfigError) << share;
+  }
+  for (const double share : {0.0, 1.0}) {
+    EXPECT_NO_THROW(KeyframeGraph({.min_agreement = share}, {})) << share;
+  }
+}
+
+}  // namespace
+}  // namespace vantage

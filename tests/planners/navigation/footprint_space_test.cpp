@@ -1,0 +1,178 @@
+// Where an outline fits in cells of 1 cm, to the cell.
+#include "vantage/planners/navigation/footprint_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "tests/planners/navigation/drawn_rooms.hpp"
+#include "vantage/core/rng.hpp"
+
+namespace vantage {
+namespace {
+
+const Eigen::Array2i kMiddleCell(100, 100);
+
+/// A room of 2 x 2 m, free but for one cell so many cells from that in its middle.
+std::shared_ptr<const FootprintSpace> space_with_a_post(const Eigen::Array2i& off,
+                                                        const RobotOutline& robot,
+                                                        const PassageOptions& options) {
+  DrawnRooms rooms(2.0, 2.0, {});
+  rooms.detail.log_odds[rooms.detail.index(kMiddleCell + off)] = 3.0F;
+  return rooms.space(robot, options);
+}
+
+/// 0.4075 m ahead and 0.25 m to the side.
+RobotOutline long_robot() { return {.outline = rectangle(0.815, 0.5)}; }
+
+TEST(FootprintSpace, ReachesAsFarAsTheOutlineAndItsMargin) {
+  const auto fits = [](const Eigen::Array2i& off, double margin_m, bool tight, int heading = 0) {
+    return space_with_a_post(off, long_robot(), {.margin_m = margin_m})
+        ->fits(kMiddleCell, heading, tight);
+  };
+  for (const int side : {-1, 1}) {
+    EXPECT_FALSE(fits({43 * side, 0}, 0.03, false));
+    EXPECT_TRUE(fits({44 * side, 0}, 0.03, false));
+    EXPECT_FALSE(fits({41 * side, 0}, 0.03, true)) << "half a centimetre is kept";
+    EXPECT_TRUE(fits({42 * side, 0}, 0.03, true));
+    EXPECT_FALSE(fits({0, 25 * side}, 0.03, true));
+    EXPECT_TRUE(fits({0, 26 * side}, 0.03, true));
+    for (const bool tight : {false, true}) {
+      EXPECT_FALSE(fits({40 * side, 0}, 0.002, tight));
+      EXPECT_TRUE(fits({41 * side, 0}, 0.002, tight)) << "or the margin, if it is less";
+    }
+    EXPECT_FALSE(fits({0, 43 * side}, 0.03, false, 12)) << "a quarter of a turn";
+    EXPECT_TRUE(fits({0, 44 * side}, 0.03, false, 12));
+    EXPECT_TRUE(fits({43 * side, 0}, 0.03, false, 12));
+  }
+}
+
+/// Wherever within two cells it is put, what is covered in any case must be free.
+TEST(FootprintSpace, MayFitUnlessWhatIsCoveredInAnyCaseIsNot) {
+  const auto may_fit = [](const Eigen::Array2i& off, bool tight) {
+    return space_with_a_post(off, long_robot(), {.margin_m = 0.03})->may_fit(kMiddleCell, 0, tight);
+  };
+  for (const int side : {-1, 1}) {
+    EXPECT_FALSE(may_fit({41 * side, 0}, false));
+    EXPECT_TRUE(may_fit({42 * side, 0}, false));
+    EXPECT_FALSE(may_fit({39 * side, 0}, true));
+    EXPECT_TRUE(may_fit({40 * side, 0}, true));
+    EXPECT_FALSE(may_fit({0, 23 * side}, true));
+    EXPECT_TRUE(may_fit({0, 24 * side}, true));
+  }
+}
+
+TEST(FootprintSpace, MayFitWhereAPlaceWithinTwoCellsFits) {
+  Rng rng(7);
+  int fitting = 0;
+  int ruled_out = 0;
+  for (int scene = 0; scene < 4; ++scene) {
+    std::vector<Eigen::AlignedBox2d> walls;
+    for (int i = 0; i < 6; ++i) {
+      const double x = rng.uniform(0.0, 2.0);
+      const double y = rng.uniform(0.0, 2.0);
+      walls.push_back(wall(x, y, x + rng.uniform(0.02, 0.3), y + rng.uniform(0.02, 0.3)));
+    }
+    const auto space =
+        DrawnRooms(2.0, 2.0, walls).space({.outline = rectangle(0.5, 0.3)}, {.headings = 12});
+    for (int place = 0; place < 400; ++place) {
+      const Eigen::Array2i middle(10 * (place % 20) + 2, 10 * (place / 20) + 2);
+      for (int heading = 0; heading < 12; ++heading) {
+        for (const bool tight : {false, true}) {
+          bool fits = false;
+          for (int k = 0; k < 25; ++k) {
+            fits =
+                fits || space->fits(middle + Eigen::Array2i(k % 5 - 2, k / 5 - 2), heading, tight);
+          }
+          const bool may_fit = space->may_fit(middle, heading, tight);
+          EXPECT_TRUE(may_fit || !fits) << middle.transpose() << " at " << heading;
+          fitting += fits ? 1 : 0;
+          ruled_out += may_fit ? 0 : 1;
+        }
+      }
+    }
+  }
+  EXPECT_GT(fitting, 100);
+  EXPECT_GT(ruled_out, 100);
+}
+
+/// After half a turn it comes back the way it went: what is ahead and to its left on one way is
+/// behind and to its right on the other.
+TEST(FootprintSpace, OfWhatGoesAlongItsHeadingIsForBothWays) {
+  const auto robot = [](bool goes_sideways) {
+    return RobotOutline{.outline = {{-0.2, -0.1}, {0.4, -0.1}, {0.4, 0.2}, {-0.2, 0.2}},
+                        .goes_sideways = goes_sideways};
+  };
+  const auto fits = [&](const Eigen::Array2i& off, bool goes_sideways) {
+    return space_with_a_post(off, robot(goes_sideways), {.margin_m = 0.001})->fits(kMiddleCell, 0);
+  };
+  for (const bool goes_sideways : {false, true}) {
+    EXPECT_FALSE(fits({30, 0}, goes_sideways));
+    EXPECT_FALSE(fits({30, 18}, goes_sideways));
+    EXPECT_EQ(fits({-30, 0}, goes_sideways), goes_sideways);
+    EXPECT_EQ(fits({30, -12}, goes_sideways), goes_sideways);
+    EXPECT_TRUE(fits({30, -18}, goes_sideways)) << "beside the corner between both";
+    const auto space = space_with_a_post({50, 50}, robot(goes_sideways), {});
+    EXPECT_NEAR(space->circumscribed_m(), std::hypot(0.4, 0.2), 1e-12);
+  }
+}
+
+TEST(FootprintSpace, ARobotMayStandWhereItsInscribedDiscDoes) {
+  const auto may_stand = [](const Eigen::Array2i& off, const RobotOutline& robot) {
+    return space_with_a_post(off, robot, {})->may_stand(kMiddleCell);
+  };
+  EXPECT_FALSE(may_stand({24, 0}, long_robot()));
+  EXPECT_TRUE(may_stand({26, 0}, long_robot()));
+  EXPECT_FALSE(may_stand({0, -24}, long_robot()));
+  EXPECT_TRUE(may_stand({0, -26}, long_robot()));
+  EXPECT_FALSE(may_stand({17, -17}, long_robot())) << "0.240 m";
+  EXPECT_TRUE(may_stand({18, -18}, long_robot())) << "0.255 m";
+  const RobotOutline uneven{.outline = {{-0.2, -0.1}, {0.4, -0.1}, {0.4, 0.2}, {-0.2, 0.2}}};
+  EXPECT_FALSE(may_stand({9, 0}, uneven));
+  EXPECT_TRUE(may_stand({12, 0}, uneven));
+}
+
+TEST(FootprintSpace, SeesAPostAnywhereUnderALongOutline) {
+  DrawnRooms rooms(3.0, 0.5, {});
+  const RobotOutline robot{.outline = rectangle(1.51, 0.2)};
+  for (int x = 0; x < 300; ++x) {
+    float& log_odds = rooms.detail.log_odds[rooms.detail.index({x, 20})];
+    log_odds = 3.0F;
+    const auto space = rooms.space(robot, {.margin_m = 0.001, .headings = 4});
+    EXPECT_EQ(space->fits({150, 25}, 0), std::abs(x - 150) > 75) << x;
+    log_odds = -3.0F;
+  }
+}
+
+TEST(FootprintSpace, EndsWithTheMapOnEverySide) {
+  const DrawnRooms rooms(2.0, 2.0, {});
+  const auto space = rooms.space(long_robot(), {.margin_m = 0.001});
+  EXPECT_TRUE(space->fits({40, 100}, 0));
+  EXPECT_FALSE(space->fits({39, 100}, 0));
+  EXPECT_TRUE(space->fits({159, 100}, 0));
+  EXPECT_FALSE(space->fits({160, 100}, 0));
+  EXPECT_TRUE(space->fits({100, 25}, 0));
+  EXPECT_FALSE(space->fits({100, 24}, 0));
+  EXPECT_TRUE(space->fits({100, 174}, 0));
+  EXPECT_FALSE(space->fits({100, 175}, 0));
+}
+
+TEST(FootprintSpace, HeadingsGoRound) {
+  const auto space = DrawnRooms(2.0, 2.0, {}).space(long_robot(), {});
+  EXPECT_EQ(space->headings(), 48);
+  EXPECT_NEAR(space->heading_rad(12), 0.5 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(space->heading_rad(36), -0.5 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(space->heading_rad(1), std::numbers::pi / 24.0, 1e-12);
+  EXPECT_EQ(space->nearest_heading(0.064), 0);
+  EXPECT_EQ(space->nearest_heading(0.067), 1);
+  EXPECT_EQ(space->nearest_heading(-0.064), 0);
+  EXPECT_EQ(space->nearest_heading(-0.067), 47);
+  EXPECT_EQ(space->nearest_heading(3.1), 24);
+  EXPECT_EQ(space->nearest_heading(-3.1), 24);
+  EXPECT_EQ(space->nearest_heading(7.0), 5);
+}
+
+}  // namespace
+}  // namespace vantage
