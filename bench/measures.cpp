@@ -1,8 +1,8 @@
 #include "bench/measures.hpp"
 
 #include <fmt/format.h>
-#include <vantage_commit.hpp>
 #include <nlohmann/json.hpp>
+#include <vantage_commit.hpp>
 
 #include <cmath>
 #include <fstream>

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "vantage/core/fields.hpp"
+#include "vantage/geometry/rgbd_camera.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/gain.hpp"
-#include "vantage/geometry/rgbd_camera.hpp"
 #include "vantage/planners/views/sampled_views.hpp"
 #include "vantage/planners/views/score_views.hpp"
 

@@ -66,10 +66,26 @@ class WholeProgress {
   double start_s_ = wall_s();
 };
 
+/// Names and bytes of the scanned objects; nothing of generated ones, which the options name.
+std::uint64_t hash_of_scans(const DatasetOptions& options) {
+  std::uint64_t hash = kHashSeed;
+  if (options.models.empty()) return hash;
+  for (const ObjectName& name : object_names(options)) {
+    const TurntableObject object = make_turntable_object(options, name);
+    for (const std::string* part : {&name.object, &object.obj, &object.png}) {
+      hash = hash_bytes(*part, hash_bytes(std::to_string(part->size()), hash));
+    }
+  }
+  return hash;
+}
+
 class ModelMaker {
  public:
   ModelMaker(const ModelRecipe& recipe, const ModelMaking& how)
-      : recipe_(recipe), how_(how), progress_(expected_s()) {}
+      : recipe_(recipe),
+        how_(how),
+        folders_(folders_of(recipe, how.cache)),
+        progress_(expected_s()) {}
 
   RecognitionModel make() {
     DatasetIndex index;
@@ -81,11 +97,19 @@ class ModelMaker {
   }
 
  private:
+  static std::vector<fs::path> folders_of(const ModelRecipe& recipe, const fs::path& cache) {
+    std::vector<fs::path> folders;
+    for (const DatasetOptions& options : recipe.recordings) {
+      folders.push_back(recording_folder(cache, options));
+    }
+    return folders;
+  }
+
   [[nodiscard]] double expected_s() const {
     double total_s = kTrainView_s * views_to_train_on(recipe_);
-    for (const DatasetOptions& options : recipe_.recordings) {
-      total_s += kRenderView_s * views_of_object(options) *
-                 open_objects(recording_folder(how_.cache, options), options);
+    for (std::size_t i = 0; i < folders_.size(); ++i) {
+      const DatasetOptions& options = recipe_.recordings[i];
+      total_s += kRenderView_s * views_of_object(options) * open_objects(folders_[i], options);
     }
     return total_s;
   }
@@ -93,7 +117,7 @@ class ModelMaker {
   /// Renders what is missing of a recording. @returns its folder
   fs::path record(std::size_t number) {
     const DatasetOptions& options = recipe_.recordings[number];
-    const fs::path root = recording_folder(how_.cache, options);
+    const fs::path& root = folders_[number];
     const double object_s = kRenderView_s * views_of_object(options);
     const double before_s = done_s_;
     const int open = open_objects(root, options);
@@ -127,26 +151,10 @@ class ModelMaker {
 
   const ModelRecipe& recipe_;
   const ModelMaking& how_;
+  std::vector<fs::path> folders_;  ///< of the recordings
   WholeProgress progress_;
   double done_s_ = 0.0;
 };
-
-}  // namespace
-
-namespace {
-
-/// Names and bytes of the scanned objects; nothing of generated ones, which the options name.
-std::uint64_t hash_of_scans(const DatasetOptions& options) {
-  std::uint64_t hash = kHashSeed;
-  if (options.models.empty()) return hash;
-  for (const ObjectName& name : object_names(options)) {
-    const TurntableObject object = make_turntable_object(options, name);
-    for (const std::string* part : {&name.object, &object.obj, &object.png}) {
-      hash = hash_bytes(*part, hash_bytes(std::to_string(part->size()), hash));
-    }
-  }
-  return hash;
-}
 
 }  // namespace
 

@@ -55,23 +55,24 @@ class NumberCollector {
   std::string prefix_;
 };
 
+inline void expect_same(const OptionNumber& found, const OptionNumber& wanted) {
+  EXPECT_EQ(found.key, wanted.key);
+  if (std::isnan(wanted.value)) {
+    EXPECT_TRUE(std::isnan(found.value)) << wanted.key;
+  } else {
+    EXPECT_DOUBLE_EQ(found.value, wanted.value) << wanted.key;
+  }
+  EXPECT_EQ(found.range.min, wanted.range.min) << wanted.key;
+  EXPECT_EQ(found.range.max, wanted.range.max) << wanted.key;
+  EXPECT_EQ(found.range.min_excluded, wanted.range.min_excluded) << wanted.key;
+}
+
 template <HasFields T>
 void expect_numbers(T options, std::initializer_list<OptionNumber> expected) {
   std::vector<OptionNumber> found;
   options.fields(NumberCollector(found));
   ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const OptionNumber& wanted = expected.begin()[i];
-    EXPECT_EQ(found[i].key, wanted.key);
-    if (std::isnan(wanted.value)) {
-      EXPECT_TRUE(std::isnan(found[i].value)) << wanted.key;
-    } else {
-      EXPECT_DOUBLE_EQ(found[i].value, wanted.value) << wanted.key;
-    }
-    EXPECT_EQ(found[i].range.min, wanted.range.min) << wanted.key;
-    EXPECT_EQ(found[i].range.max, wanted.range.max) << wanted.key;
-    EXPECT_EQ(found[i].range.min_excluded, wanted.range.min_excluded) << wanted.key;
-  }
+  for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], expected.begin()[i]);
 }
 
 }  // namespace vantage::support

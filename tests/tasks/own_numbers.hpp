@@ -29,14 +29,7 @@ void expect_own_numbers(T options, std::initializer_list<OptionNumber> expected)
   for (const OptionNumber& wanted : expected) {
     const auto number = std::ranges::find(found, wanted.key, &OptionNumber::key);
     ASSERT_NE(number, found.end()) << wanted.key;
-    if (std::isnan(wanted.value)) {
-      EXPECT_TRUE(std::isnan(number->value)) << wanted.key;
-    } else {
-      EXPECT_DOUBLE_EQ(number->value, wanted.value) << wanted.key;
-    }
-    EXPECT_EQ(number->range.min, wanted.range.min) << wanted.key;
-    EXPECT_EQ(number->range.max, wanted.range.max) << wanted.key;
-    EXPECT_EQ(number->range.min_excluded, wanted.range.min_excluded) << wanted.key;
+    expect_same(*number, wanted);
   }
 }
 

@@ -204,18 +204,6 @@ TEST(TourDrawing, LeavesTheFirstWayOutAndNumbersNoStopThatIsCovered) {
       << "a dot covers no number";
 }
 
-TEST(TourDrawing, IsToldInWords) {
-  EXPECT_EQ(plan_text({}), "");
-  PlannedTour tour = tour_through({{0.0, 0.0}});
-  tour.stops.back().departure_s = 181.7;
-  EXPECT_EQ(plan_text(tour), "plan: 1 view, 182 s; the first plan");
-  tour.stops.push_back({.departure_s = 300.0});
-  tour.reason = {PlanChange::cheaper, 14.25};
-  EXPECT_EQ(plan_text(tour),
-            "plan: 2 views, 300 s; another tour costs 14.2 s less than the best that goes on as "
-            "intended");
-}
-
 TEST(MapPanel, ShowsThePlan) {
   const OccupancyGrid grid(support::sample_frame());
   MapPanelInput input = sample_input(grid);
