@@ -36,9 +36,9 @@ function(vantage_library name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(vantage_${name} PUBLIC ${ARG_PUBLIC} PRIVATE fmt::fmt ${ARG_PRIVATE})
   vantage_compile_options(vantage_${name})
+  vantage_in_batches(vantage_${name})
   if(ARG_COLD)
     target_compile_options(vantage_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
-    vantage_in_batches(vantage_${name})
   else()
     target_precompile_headers(vantage_${name} REUSE_FROM vantage_library_base)
   endif()
@@ -78,7 +78,10 @@ endfunction()
 # Where what files include takes more time than what they say, a few are compiled as one:
 # VANTAGE_UNITY_BUILD.
 function(vantage_in_batches target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${VANTAGE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 4)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${VANTAGE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+  if(VANTAGE_UNITY_BUILD)    # what is of one file is of one program: nobody else includes it
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
 endfunction()
 
 # What every test program has: suites that cannot be set up fail, and what nearly every test
@@ -104,16 +107,16 @@ function(vantage_test_options target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# vantage_test(FOLDER SOURCES ... LINK ...): one GoogleTest program per folder, test_FOLDER.
+# vantage_test(FOLDER SOURCES ... LINK ... [TIMEOUT seconds]): one GoogleTest program per folder, test_FOLDER, and a
+# test of CTest for each of its suites; those that may take longest begin first.
 function(vantage_test folder)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
+    set(ARG_TIMEOUT 600)
   endif()
   add_executable(test_${folder} ${ARG_SOURCES} $<TARGET_OBJECTS:vantage_test_base>)
   target_link_libraries(test_${folder} PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
   vantage_test_options(test_${folder})
   target_precompile_headers(test_${folder} REUSE_FROM vantage_test_base)
-  gtest_discover_tests(test_${folder} TEST_PREFIX ${folder}. DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  vantage_discover_suites(test_${folder} ${folder} ${ARG_TIMEOUT})
 endfunction()

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "vantage/core/cancellation/stop_poll.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Lower envelope of the parabolas (x - q)^2 + height[q], in one dimension. Scratch is kept between
 /// calls.

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "vantage/belief/map/floor_map.hpp"
 
 namespace vantage {
+
+/// Distance, or cost, to what cannot be reached.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Squared Euclidean distance, in cells, from the centre of each of nx x ny cells (x fastest) to
 /// the nearest cell with source != 0; infinity if there is none. Exact, O(nx ny).

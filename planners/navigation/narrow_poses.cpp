@@ -3,12 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "vantage/planners/navigation/distance_field.hpp"
+
 namespace vantage {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 NarrowPoses::NarrowPoses(PathField& field, std::vector<Leeway> leeway)
     : field_(field),

@@ -4,17 +4,15 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <queue>
 #include <utility>
 
+#include "vantage/planners/navigation/distance_field.hpp"
 #include "vantage/planners/navigation/narrow_poses.hpp"
 
 namespace vantage {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// How far from its heading a base may go that cannot go sideways: what steps to the eight cells
 /// about it leave between them.

@@ -14,8 +14,8 @@
 namespace vantage {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kNodesBetweenPolls = 1 << 15;
+constexpr float kNoWay = std::numeric_limits<float>::infinity();
+constexpr std::size_t kNodesPerPoll = 1 << 15;
 
 /// The reachable cells of a field as a graph of their own, and its poses in passages.
 struct FloorGraph {
@@ -109,8 +109,8 @@ FloorGraph make_graph(const PathField& field) {
 /// Length of the cheapest way from `source` to each of `targets`.
 std::vector<float> lengths_from(const FloorGraph& graph, std::uint32_t source,
                                 std::span<const std::uint32_t> targets) {
-  std::vector<float> cost(graph.nodes(), kInfinity);
-  std::vector<float> length_m(graph.nodes(), kInfinity);
+  std::vector<float> cost(graph.nodes(), kNoWay);
+  std::vector<float> length_m(graph.nodes(), kNoWay);
   std::vector<std::uint8_t> wanted(graph.nodes(), 0);
   std::size_t left = 0;
   for (const std::uint32_t target : targets) {
@@ -127,7 +127,7 @@ std::vector<float> lengths_from(const FloorGraph& graph, std::uint32_t source,
     const auto [so_far, node] = queue.top();
     queue.pop();
     if (so_far > cost[node]) continue;
-    if (settled++ % kNodesBetweenPolls == 0) poll_stop();
+    if (settled++ % kNodesPerPoll == 0) poll_stop();
     left -= std::exchange(wanted[node], std::uint8_t{0});
     for (std::uint32_t e = graph.first_edge[node]; e < graph.first_edge[node + 1]; ++e) {
       const FloorGraph::Edge& edge = graph.edges[e];
@@ -140,7 +140,7 @@ std::vector<float> lengths_from(const FloorGraph& graph, std::uint32_t source,
   }
   std::vector<float> lengths_m;
   for (const std::uint32_t target : targets) {
-    lengths_m.push_back(target == FloorGraph::kNone ? kInfinity : length_m[target]);
+    lengths_m.push_back(target == FloorGraph::kNone ? kNoWay : length_m[target]);
   }
   return lengths_m;
 }

@@ -11,14 +11,14 @@
 namespace vantage {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Shortest ways from the start through every set of places to each of its members.
 /// [HeldKarp1962]
 class ExactRoutes {
  public:
   explicit ExactRoutes(const RouteCosts& costs)
-      : costs_(costs), n_(costs.places()), best_(n_ << n_, kInfinity), from_(n_ << n_, n_) {
+      : costs_(costs), n_(costs.places()), best_(n_ << n_, kUnbounded), from_(n_ << n_, n_) {
     for (std::size_t set = 1; set < std::size_t{1} << n_; ++set) {
       for (std::size_t last = 0; last < n_; ++last) {
         if ((set >> last & 1U) != 0) solve(set, last);

@@ -15,7 +15,7 @@ namespace {
 using Order = std::vector<std::size_t>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kLongestMoved = 3;
+constexpr std::size_t kLongestSegment = 3;
 /// A change must save more than rounding does.
 constexpr double kLeastSaved_s = 1e-9;
 
@@ -178,7 +178,7 @@ class TourSearch {
 
   template <class Offer>
   void move_segments(const Order& order, Offer&& offer) const {
-    for (std::size_t length = 1; length <= kLongestMoved; ++length) {
+    for (std::size_t length = 1; length <= kLongestSegment; ++length) {
       for (std::size_t from = fixed_; from + length <= order.size(); ++from) {
         poll_stop();
         const auto first = order.begin() + static_cast<std::ptrdiff_t>(from);

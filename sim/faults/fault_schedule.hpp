@@ -9,6 +9,9 @@
 
 namespace vantage {
 
+/// Times nearer than this are one moment.
+inline constexpr double kSameMoment_s = 1e-9;
+
 /// Time is cut into stretches of equal length; in some of them, drawn one by one, something is
 /// wrong.
 class Stretches {

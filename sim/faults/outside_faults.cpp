@@ -14,7 +14,6 @@ namespace vantage {
 namespace {
 
 constexpr double kReach_m = 0.5;
-constexpr double kSameMoment_s = 1e-9;
 
 /// The body that the robot's others hang on; 0: there is none.
 int robot_body(const mjModel& model) {

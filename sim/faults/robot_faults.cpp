@@ -13,7 +13,6 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBlock_px = 8;
-constexpr double kSameMoment_s = 1e-9;
 
 /// Calls `spoil` with the pixels of each block that is drawn. @return pixels
 std::int64_t spoil_blocks(CameraImages& images, double share, float value, Rng& rng) {

@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 constexpr int kShownGroup = 2;                ///< and those below, as renderers draw them
-constexpr double kEdge_m = 0.12;              ///< of round things
+constexpr double kFacet_m = 0.12;             ///< of round things
 constexpr std::size_t kMostTriangles = 4000;  ///< of a mesh
 constexpr double kInfinitePlane_m = 10.0;     ///< half of it
 
@@ -120,7 +120,7 @@ Tinted joined(const Tinted& fine, double cell_m) {
 
 Tinted tinted(const mjModel& model, int geom) {
   Tinted fine{model.geom_type[geom] == mjGEOM_PLANE ? plane(model, geom)
-                                                    : geom_triangles(model, geom, kEdge_m),
+                                                    : geom_triangles(model, geom, kFacet_m),
               {}};
   fine.colours = vertex_colours(model, geom, fine.mesh.vertices_m.size());
   Tinted shown = fine;

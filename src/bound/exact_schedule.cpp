@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 /// Calls visit(set) for every set of the views besides view 0 that shows enough with it.
 void for_each_cover(const CoverProblem& problem, const std::function<void(std::size_t)>& visit) {
@@ -44,7 +44,7 @@ class SetSearch {
     std::vector<std::size_t> all(problem_.views() - 1);
     std::iota(all.begin(), all.end(), std::size_t{1});
     extend(problem_.shows.front(), all);
-    if (sets_ > most_sets_ || best_ == kInfinity) return std::nullopt;
+    if (sets_ > most_sets_ || best_ == kNoLimit) return std::nullopt;
     return best_;
   }
   [[nodiscard]] std::size_t scans_of_best() const { return scans_of_best_; }
@@ -107,7 +107,7 @@ class SetSearch {
   std::size_t most_sets_;
   Cost cost_;
   std::size_t sets_ = 0;
-  double best_ = kInfinity;
+  double best_ = kNoLimit;
   std::size_t scans_of_best_ = 0;
   std::vector<std::size_t> taken_;
 };

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoWay_m = std::numeric_limits<double>::infinity();
 constexpr std::size_t kPlaces = 40;
 constexpr std::size_t kMaxOnWay = 12;
 constexpr double kSizes[] = {0.08, 0.14, 0.2, 0.3};  // radii, of the distance of the farthest view
@@ -73,7 +73,7 @@ double reach_m(const CoverProblem& problem) {
     unite(shown, problem.shows[view]);
     if (count_cells(shown) >= problem.needed) return problem.between_m(0, view);
   }
-  return kInfinity;
+  return kNoWay_m;
 }
 
 /// Witnesses without a common view, those with most cells first.
@@ -93,7 +93,7 @@ std::vector<Witness> apart(std::vector<Witness> witnesses, std::size_t views) {
 /// Ways between groups of views, from the nearest to the nearest; group 0 is view 0.
 Eigen::MatrixXd between_groups_m(const CoverProblem& problem, const std::vector<Witness>& groups) {
   const auto n = static_cast<Eigen::Index>(groups.size() + 1);
-  Eigen::MatrixXd way_m = Eigen::MatrixXd::Constant(n, n, kInfinity);
+  Eigen::MatrixXd way_m = Eigen::MatrixXd::Constant(n, n, kNoWay_m);
   const std::vector<std::size_t> start{0};
   const auto views = [&](Eigen::Index i) -> const std::vector<std::size_t>& {
     return i == 0 ? start : groups[static_cast<std::size_t>(i - 1)].views;
@@ -115,7 +115,7 @@ Eigen::MatrixXd between_groups_m(const CoverProblem& problem, const std::vector<
 double way_to_most_m(const CoverProblem& problem, const std::vector<Witness>& groups,
                      std::size_t spare) {
   std::vector<double> way_m = ways_through_sets_m(between_groups_m(problem, groups));
-  double least_m = kInfinity;
+  double least_m = kNoWay_m;
   for (std::size_t set = 0; set < way_m.size(); ++set) {
     std::size_t left_out = 0;
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -151,7 +151,7 @@ std::vector<Witness> find_witnesses(const CoverProblem& problem) {
 
 double least_way_m(const CoverProblem& problem, const std::vector<Witness>& witnesses) {
   const std::size_t all = count_cells(shown_by_all(problem));
-  if (all < problem.needed) return kInfinity;
+  if (all < problem.needed) return kNoWay_m;
   const std::vector<Witness> groups = apart(witnesses, problem.views());
   return std::max(reach_m(problem), way_to_most_m(problem, groups, all - problem.needed));
 }

@@ -68,7 +68,7 @@ struct SweepVerb {
   void (*options)(CLI::App&, SweepArguments&);
 };
 
-constexpr SweepVerb kVerbs[] = {
+constexpr SweepVerb kSweepVerbs[] = {
     {"run", "run the episodes that have no result yet, then collect", run_study,
      [](CLI::App& app, SweepArguments& arguments) {
        add_overrides(app, arguments);
@@ -112,7 +112,7 @@ std::function<ExitCode()> declare_sweep(CLI::App& app) {
   auto arguments = std::make_shared<SweepArguments>();
   auto chosen = std::make_shared<ExitCode (*)(const SweepArguments&)>(nullptr);
   app.require_subcommand(1);
-  for (const SweepVerb& verb : kVerbs) {
+  for (const SweepVerb& verb : kSweepVerbs) {
     CLI::App* sub = app.add_subcommand(verb.name, verb.help);
     sub->add_option("study", arguments->study, "study file, or folder of its results")->required();
     sub->add_option("--out", arguments->directory, "study folder; default out/<study>");

@@ -48,8 +48,8 @@ void require_distribution(std::span<const double> log_p, std::string_view functi
   }
 }
 
-void require_pair(std::span<const double> log_p, std::span<const double> log_q,
-                  std::string_view function) {
+void require_log_pair(std::span<const double> log_p, std::span<const double> log_q,
+                      std::string_view function) {
   if (log_p.size() != log_q.size()) {
     throw DistributionError(
         fmt::format("{}: p has {} entries, q has {}", function, log_p.size(), log_q.size()));
@@ -59,7 +59,7 @@ void require_pair(std::span<const double> log_p, std::span<const double> log_q,
 }
 
 /// p (ln p - ln q) in nats; infinite where q = 0 and p > 0, however small p is.
-double relative_term(double log_p, double log_q) {
+double log_relative_term(double log_p, double log_q) {
   if (log_p == kMinusInfinity) return 0.0;
   return log_q == kMinusInfinity ? -kMinusInfinity : std::exp(log_p) * (log_p - log_q);
 }
@@ -68,7 +68,7 @@ double bits_of(double nats) { return std::max(nats * kBitsPerNat, 0.0); }
 
 double entropy_nats(std::span<const double> log_p) {
   double nats = 0.0;
-  for (const double entry : log_p) nats -= relative_term(entry, 0.0);
+  for (const double entry : log_p) nats -= log_relative_term(entry, 0.0);
   return nats;
 }
 
@@ -116,7 +116,8 @@ double conditional_entropy_bits_from_log(const Joint& log_p_xy) {
   const Eigen::VectorXd log_p_x = log_row_sums(logs);
   double nats = 0.0;
   for (Eigen::Index y = 0; y < logs.cols(); ++y) {
-    for (Eigen::Index x = 0; x < logs.rows(); ++x) nats -= relative_term(logs(x, y), log_p_x[x]);
+    for (Eigen::Index x = 0; x < logs.rows(); ++x)
+      nats -= log_relative_term(logs(x, y), log_p_x[x]);
   }
   return bits_of(nats);
 }
@@ -129,25 +130,25 @@ double mutual_information_bits_from_log(const Joint& log_p_xy) {
   double nats = 0.0;
   for (Eigen::Index y = 0; y < logs.cols(); ++y) {
     for (Eigen::Index x = 0; x < logs.rows(); ++x) {
-      nats += relative_term(logs(x, y), log_p_x[x] + log_p_y[y]);
+      nats += log_relative_term(logs(x, y), log_p_x[x] + log_p_y[y]);
     }
   }
   return bits_of(nats);
 }
 
 double kl_divergence_bits_from_log(std::span<const double> log_p, std::span<const double> log_q) {
-  require_pair(log_p, log_q, "kl_divergence_bits_from_log");
+  require_log_pair(log_p, log_q, "kl_divergence_bits_from_log");
   double nats = 0.0;
-  for (std::size_t i = 0; i < log_p.size(); ++i) nats += relative_term(log_p[i], log_q[i]);
+  for (std::size_t i = 0; i < log_p.size(); ++i) nats += log_relative_term(log_p[i], log_q[i]);
   return bits_of(nats);
 }
 
 double jeffreys_divergence_bits_from_log(std::span<const double> log_p,
                                          std::span<const double> log_q) {
-  require_pair(log_p, log_q, "jeffreys_divergence_bits_from_log");
+  require_log_pair(log_p, log_q, "jeffreys_divergence_bits_from_log");
   double nats = 0.0;
   for (std::size_t i = 0; i < log_p.size(); ++i) {
-    nats += relative_term(log_p[i], log_q[i]) + relative_term(log_q[i], log_p[i]);
+    nats += log_relative_term(log_p[i], log_q[i]) + log_relative_term(log_q[i], log_p[i]);
   }
   return bits_of(nats);
 }

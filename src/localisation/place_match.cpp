@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kCell_m = 0.05;
+constexpr double kMatchCell_m = 0.05;
 constexpr double kTurnStep_rad = 0.0125;  // a cell at 4 m
 /// Of the score, for a pose at the edge of the window: decides between poses that fit alike.
 constexpr double kPull = 0.06;
@@ -30,7 +30,7 @@ class Picture {
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector3f& p : place.points) box.extend(p.head<2>().cast<double>());
     low_m_ = box.min() - Eigen::Vector2d::Constant(margin_m);
-    cells_ = ((box.sizes().array() + 2.0 * margin_m) / kCell_m).ceil().cast<int>() + 1;
+    cells_ = ((box.sizes().array() + 2.0 * margin_m) / kMatchCell_m).ceil().cast<int>() + 1;
     worth_.assign(static_cast<std::size_t>(cells_.x()) * static_cast<std::size_t>(cells_.y()), 0);
     for (std::size_t i = 0; i < place.size(); ++i) {
       if (knows_surface(place, i)) draw_piece(place, i);
@@ -38,7 +38,7 @@ class Picture {
   }
 
   [[nodiscard]] Eigen::Array2i cell_of(const Eigen::Vector2d& p_m) const {
-    return ((p_m - low_m_) / kCell_m).array().floor().cast<int>();
+    return ((p_m - low_m_) / kMatchCell_m).array().floor().cast<int>();
   }
   [[nodiscard]] int worth(const Eigen::Array2i& cell) const {
     return contains(cell) ? worth_[index(cell)] : 0;
@@ -59,7 +59,7 @@ class Picture {
     const Eigen::Vector2d normal = place.normals[i].head<2>().cast<double>();
     const Eigen::Vector2d along(-normal.y(), normal.x());
     for (int step = -kPieceSteps; step <= kPieceSteps; ++step) {
-      draw(cell_of(p + step * kCell_m * along));
+      draw(cell_of(p + step * kMatchCell_m * along));
     }
   }
   void draw(const Eigen::Array2i& at) {
@@ -98,8 +98,8 @@ Pose2 search_pose(const PointCloud& scan, const PointCloud& place, const Pose2& 
   expects(scan.has_normals() && place.has_normals(), "clouds with normals");
   const std::vector<Eigen::Vector2d> points = surface_points(scan);
   if (points.empty() || place.empty()) return guess;
-  const Picture picture(place, kCell_m);
-  const int shifts = static_cast<int>(std::ceil(window.shift_m / kCell_m));
+  const Picture picture(place, kMatchCell_m);
+  const int shifts = static_cast<int>(std::ceil(window.shift_m / kMatchCell_m));
   const int turns = static_cast<int>(std::ceil(window.turn_rad / kTurnStep_rad));
   Pose2 best = guess;
   double best_score = -1.0;
@@ -119,7 +119,7 @@ Pose2 search_pose(const PointCloud& scan, const PointCloud& place, const Pose2& 
         const double score = sum / (double{kHit} * static_cast<double>(cells.size())) - kPull * off;
         if (score <= best_score) continue;
         best_score = score;
-        best = {guess.x_m + x * kCell_m, guess.y_m + y * kCell_m, wrap_angle(yaw_rad)};
+        best = {guess.x_m + x * kMatchCell_m, guess.y_m + y * kMatchCell_m, wrap_angle(yaw_rad)};
       }
     }
   }

@@ -49,13 +49,13 @@ std::vector<fs::path> sorted_folders(const fs::path& folder) {
   return found;
 }
 
-struct Pose {
+struct TurntablePose {
   double yaw_rad = 0.0;
   std::optional<double> elevation_rad;
 };
 
 /// "yaw" or "yaw elevation", degrees.
-Pose read_pose(const fs::path& file) {
+TurntablePose read_pose(const fs::path& file) {
   const std::string text = read_file(file);
   const char* at = text.data();
   const char* end = text.data() + text.size();
@@ -80,7 +80,8 @@ Pose read_pose(const fs::path& file) {
   }
   const double turns = degrees[0] / 360.0;
   const double yaw_rad = 2.0 * std::numbers::pi * (turns - std::floor(turns));
-  Pose pose{.yaw_rad = yaw_rad < 2.0 * std::numbers::pi ? yaw_rad : 0.0, .elevation_rad = {}};
+  TurntablePose pose{.yaw_rad = yaw_rad < 2.0 * std::numbers::pi ? yaw_rad : 0.0,
+                     .elevation_rad = {}};
   if (degrees.size() == 2) pose.elevation_rad = degrees[1] * kRadiansPerDegree;
   return pose;
 }
@@ -136,7 +137,7 @@ class Indexer {
       if (!files.contains(file.filename().string())) return reject(file, "is missing");
     }
     try {
-      const Pose pose = read_pose(view.file("pose.txt"));
+      const TurntablePose pose = read_pose(view.file("pose.txt"));
       view.yaw_rad = pose.yaw_rad;
       view.given_elevation_rad = pose.elevation_rad;
     } catch (const InputError& error) {

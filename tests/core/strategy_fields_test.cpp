@@ -44,15 +44,15 @@ struct Planner {
   bool operator==(const Planner&) const = default;
 };
 
-Planner read(const std::string& yaml) {
+Planner read_planner(const std::string& yaml) {
   Planner planner;
   read_into(parse_yaml(yaml, "e.yaml"), planner);
   return planner;
 }
 
-std::string error_of(const std::string& yaml) {
+std::string planner_error(const std::string& yaml) {
   try {
-    (void)read(yaml);
+    (void)read_planner(yaml);
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -60,52 +60,57 @@ std::string error_of(const std::string& yaml) {
 }
 
 TEST(StrategyFields, ByNameWithItsOwnDefaults) {
-  EXPECT_EQ(read("").gain, Gain(Adaptive{.prior = 0.7}));
-  EXPECT_EQ(read("gain: simple\n").gain, Gain(Simple{}));
-  EXPECT_EQ(read("gain: adaptive\n").gain, Gain(Adaptive{}));
+  EXPECT_EQ(read_planner("").gain, Gain(Adaptive{.prior = 0.7}));
+  EXPECT_EQ(read_planner("gain: simple\n").gain, Gain(Simple{}));
+  EXPECT_EQ(read_planner("gain: adaptive\n").gain, Gain(Adaptive{}));
 }
 
 TEST(StrategyFields, AsAMap) {
-  EXPECT_EQ(read("gain: {name: adaptive, prior: 0.3}\n").gain, Gain(Adaptive{.prior = 0.3}));
-  EXPECT_EQ(read("gain:\n  prior: 0.3\n  name: adaptive\n").gain, Gain(Adaptive{.prior = 0.3}));
-  EXPECT_EQ(read("gain: {name: simple}\n").gain, Gain(Simple{}));
-  const auto also = read("also: [simple, {name: adaptive, prior: 1}]\n").also;
+  EXPECT_EQ(read_planner("gain: {name: adaptive, prior: 0.3}\n").gain,
+            Gain(Adaptive{.prior = 0.3}));
+  EXPECT_EQ(read_planner("gain:\n  prior: 0.3\n  name: adaptive\n").gain,
+            Gain(Adaptive{.prior = 0.3}));
+  EXPECT_EQ(read_planner("gain: {name: simple}\n").gain, Gain(Simple{}));
+  const auto also = read_planner("also: [simple, {name: adaptive, prior: 1}]\n").also;
   EXPECT_EQ(also, (std::vector<Gain>{Simple{}, Adaptive{.prior = 1.0}}));
 }
 
 TEST(StrategyFields, UnknownNamesListTheKnownOnes) {
   EXPECT_EQ(
-      error_of("gain: adaptiv\n"),
+      planner_error("gain: adaptiv\n"),
       "e.yaml:1: gain: unknown gain 'adaptiv'; did you mean adaptive? known: simple, adaptive");
-  EXPECT_EQ(error_of("gain:\n  name: adaptiv\n").find("e.yaml:1: gain: unknown gain 'adaptiv'"), 0U)
-      << error_of("gain:\n  name: adaptiv\n");
+  EXPECT_EQ(
+      planner_error("gain:\n  name: adaptiv\n").find("e.yaml:1: gain: unknown gain 'adaptiv'"), 0U)
+      << planner_error("gain:\n  name: adaptiv\n");
 }
 
 TEST(StrategyFields, OtherErrors) {
-  EXPECT_NE(error_of("gain: {prior: 0.3}\n").find("missing key 'name'"), std::string::npos);
-  EXPECT_NE(error_of("gain: [simple]\n").find("expected a name or a map with 'name'"),
+  EXPECT_NE(planner_error("gain: {prior: 0.3}\n").find("missing key 'name'"), std::string::npos);
+  EXPECT_NE(planner_error("gain: [simple]\n").find("expected a name or a map with 'name'"),
             std::string::npos);
-  EXPECT_NE(error_of("gain:\n").find("got nothing"), std::string::npos);
+  EXPECT_NE(planner_error("gain:\n").find("got nothing"), std::string::npos);
   EXPECT_EQ(
-      error_of("gain:\n  name: simple\n  prior: 0.3\n")
+      planner_error("gain:\n  name: simple\n  prior: 0.3\n")
           .find("e.yaml:3: gain.prior: gain simple has no key 'prior'; it has none; it belongs to "
                 "adaptive"),
       0U);
-  EXPECT_NE(error_of("gain: {name: adaptive, priro: 1}\n")
+  EXPECT_NE(planner_error("gain: {name: adaptive, priro: 1}\n")
                 .find("gain adaptive has no key 'priro'; did you mean prior? it has prior"),
             std::string::npos);
-  EXPECT_NE(error_of("gain: {name: simple, prior: 1}\n").find("; it belongs to adaptive"),
+  EXPECT_NE(planner_error("gain: {name: simple, prior: 1}\n").find("; it belongs to adaptive"),
             std::string::npos);
-  EXPECT_EQ(error_of("gain: [simple]\n").find("gain"), error_of("gain: [simple]\n").rfind("gain"));
-  EXPECT_NE(error_of("gain: {name: adaptive, prior: 3}\n").find("gain.prior: 3 is out of range"),
-            std::string::npos);
-  EXPECT_NE(error_of("gain: {name: [adaptive]}\n"), "");
-  EXPECT_NE(error_of("gain: {name: adaptive, name: simple}\n").find("duplicate"),
+  EXPECT_EQ(planner_error("gain: [simple]\n").find("gain"),
+            planner_error("gain: [simple]\n").rfind("gain"));
+  EXPECT_NE(
+      planner_error("gain: {name: adaptive, prior: 3}\n").find("gain.prior: 3 is out of range"),
+      std::string::npos);
+  EXPECT_NE(planner_error("gain: {name: [adaptive]}\n"), "");
+  EXPECT_NE(planner_error("gain: {name: adaptive, name: simple}\n").find("duplicate"),
             std::string::npos);
 }
 
 TEST(StrategyFields, TheStrategysOwnCheckRuns) {
-  EXPECT_EQ(error_of("gain: {name: adaptive, least: 0.5}\n"),
+  EXPECT_EQ(planner_error("gain: {name: adaptive, least: 0.5}\n"),
             "e.yaml:1: gain: least must not be above prior");
   EXPECT_THROW(check_options(Planner{.gain = Adaptive{.prior = 0.1, .least = 0.5}, .also = {}}),
                ConfigError);
@@ -135,7 +140,7 @@ TEST(StrategyFields, WrittenAndReadBackIsEqual) {
   const Planner planner{.gain = Adaptive{.prior = 0.25}, .also = {Simple{}, Adaptive{}}};
   const std::string yaml = to_yaml(write_node(planner));
   EXPECT_NE(yaml.find("name: adaptive"), std::string::npos);
-  EXPECT_EQ(read(yaml), planner);
+  EXPECT_EQ(read_planner(yaml), planner);
 }
 
 }  // namespace

@@ -184,7 +184,7 @@ class TwoDatasets : public testing::Test {
   /// "!" before what is a problem.
   std::vector<std::string> said() {
     std::vector<std::string> texts;
-    for (const Difference& found : differences(training_, test_)) {
+    for (const DatasetDifference& found : differences(training_, test_)) {
       texts.push_back((found.problem ? "!" : "") + found.text);
     }
     return texts;

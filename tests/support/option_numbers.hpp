@@ -38,10 +38,11 @@ class NumberCollector {
       value.fields(NumberCollector(found_, path + "."));
     } else if constexpr (std::is_arithmetic_v<T>) {
       found_.push_back({path, static_cast<double>(value), range});
-    } else if constexpr (detail::IsOptional<T>::value) {
+    } else if constexpr (vantage::detail::IsOptional<T>::value) {
       EXPECT_FALSE(value.has_value()) << path;
       found_.push_back({path, kNull, range});
-    } else if constexpr (detail::IsVector<T>::value || detail::IsArray<T>::value) {
+    } else if constexpr (vantage::detail::IsVector<T>::value ||
+                         vantage::detail::IsArray<T>::value) {
       if constexpr (std::is_arithmetic_v<typename T::value_type>) {
         for (std::size_t i = 0; i < value.size(); ++i) {
           found_.push_back({path + "[" + std::to_string(i) + "]", value[i], range});

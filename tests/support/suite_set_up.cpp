@@ -22,6 +22,9 @@ class SuiteSetUp : public testing::EmptyTestEventListener {
     std::_Exit(1);
   }
   void OnTestProgramEnd(const testing::UnitTest& tests) override {
+    if (tests.test_to_run_count() > 0 && tests.skipped_test_count() == tests.test_to_run_count()) {
+      std::puts("every test was skipped");  // what CTest looks for: see cmake/suites.cmake
+    }
     if (tests.Passed()) return;
     std::printf("RC_PARAMS=%s repeats what RapidCheck drew\n", std::getenv("RC_PARAMS"));
   }

@@ -9,8 +9,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-enum Face : std::size_t { right, left, back, front, top, bottom };
-
 const RgbColour kScreen{0.56, 0.64, 0.52};
 
 RgbColour housing(Rng& rng) {

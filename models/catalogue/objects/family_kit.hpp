@@ -17,6 +17,9 @@ using Profile = std::vector<Eigen::Vector2d>;  ///< (r, z), metres
 inline constexpr int kTexture_px = 256;
 inline constexpr int kAround = 28;  ///< sides of a surface of revolution
 
+/// Of a box, in the order of its BoxUv.
+enum Face : std::size_t { right, left, back, front, top, bottom };
+
 /// Texture layout of things turned on a lathe.
 inline constexpr UvRect kWall{0.0, 0.28, 1.0, 1.0};
 inline constexpr UvRect kInner{0.0, 0.0, 0.5, 0.27};

@@ -9,8 +9,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-enum Face : std::size_t { right, left, back, front, top, bottom };
-
 constexpr std::array<std::string_view, 6> kCereals{"OATS", "CRUNCH", "FLAKES",
                                                    "RICE", "HOOPS",  "MUESLI"};
 constexpr std::array<std::string_view, 4> kCartons{"MILK", "JUICE", "SOYA", "CREAM"};

@@ -8,13 +8,15 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-constexpr double kHalf_m = kWallThickness_m / 2;
+constexpr double kHalfWall_m = kWallThickness_m / 2;
 constexpr double kPost_m = 0.07;
 constexpr double kPostRelief_m = 0.01;  // thicker than the wall by that on each side
 
 /// A room between centre lines of walls.
 Room room(RoomUse use, double x0, double y0, double x1, double y1) {
-  return {use, {Vector2d(x0 + kHalf_m, y0 + kHalf_m), Vector2d(x1 - kHalf_m, y1 - kHalf_m)}};
+  return {
+      use,
+      {Vector2d(x0 + kHalfWall_m, y0 + kHalfWall_m), Vector2d(x1 - kHalfWall_m, y1 - kHalfWall_m)}};
 }
 
 AlignedBox2d box(double x0, double y0, double x1, double y1) {
@@ -22,9 +24,9 @@ AlignedBox2d box(double x0, double y0, double x1, double y1) {
 }
 
 void add_outer_walls(FloorPlan& plan) {
-  const double x = plan.size_m.x() / 2 - kHalf_m;
-  const double y = plan.size_m.y() / 2 - kHalf_m;
-  const double corner = x + kHalf_m;
+  const double x = plan.size_m.x() / 2 - kHalfWall_m;
+  const double y = plan.size_m.y() / 2 - kHalfWall_m;
+  const double corner = x + kHalfWall_m;
   plan.walls.push_back({{-corner, -y}, {corner, -y}, {}});
   plan.walls.push_back({{-corner, y}, {corner, y}, {}});
   plan.walls.push_back({{-x, -y}, {-x, y}, {}});
@@ -161,10 +163,10 @@ std::vector<AlignedBox2d> wall_pieces(const Wall& wall) {
   std::vector<AlignedBox2d> pieces;
   double begin = wall.from_m[axis];
   for (const Opening& opening : wall.openings) {
-    pieces.push_back(beside(wall, begin, opening.at_m - opening.width_m / 2, kHalf_m));
+    pieces.push_back(beside(wall, begin, opening.at_m - opening.width_m / 2, kHalfWall_m));
     begin = opening.at_m + opening.width_m / 2;
   }
-  pieces.push_back(beside(wall, begin, wall.to_m[axis], kHalf_m));
+  pieces.push_back(beside(wall, begin, wall.to_m[axis], kHalfWall_m));
   return pieces;
 }
 
@@ -173,8 +175,8 @@ std::vector<AlignedBox2d> door_posts(const Wall& wall) {
   for (const Opening& opening : wall.openings) {
     const double left = opening.at_m - opening.width_m / 2;
     const double right = opening.at_m + opening.width_m / 2;
-    posts.push_back(beside(wall, left - kPost_m, left + 0.005, kHalf_m + kPostRelief_m));
-    posts.push_back(beside(wall, right - 0.005, right + kPost_m, kHalf_m + kPostRelief_m));
+    posts.push_back(beside(wall, left - kPost_m, left + 0.005, kHalfWall_m + kPostRelief_m));
+    posts.push_back(beside(wall, right - 0.005, right + kPost_m, kHalfWall_m + kPostRelief_m));
   }
   return posts;
 }
@@ -194,7 +196,7 @@ std::vector<AlignedBox2d> door_ways(const Wall& wall, double depth_m) {
   std::vector<AlignedBox2d> ways;
   for (const Opening& opening : wall.openings) {
     ways.push_back(beside(wall, opening.at_m - opening.width_m / 2,
-                          opening.at_m + opening.width_m / 2, kHalf_m + depth_m));
+                          opening.at_m + opening.width_m / 2, kHalfWall_m + depth_m));
   }
   return ways;
 }

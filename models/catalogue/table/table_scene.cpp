@@ -15,10 +15,10 @@
 namespace vantage {
 namespace {
 
-constexpr int kInstances = 6;       // per category to choose from
-constexpr int kSceneAttempts = 40;  // each with another choice of objects
+constexpr int kInstances = 6;  // per category to choose from
+constexpr int kChoices = 40;   // each with another choice of objects
 constexpr int kPlaceAttempts = 600;
-constexpr double kMaxOverhang = 1.25;  // rider's footprint radius over its support's top radius
+constexpr double kWidestRider = 1.25;  // rider's footprint radius over its support's top radius
 
 template <class T>
 void shuffle(std::vector<T>& items, Rng& rng) {
@@ -41,7 +41,7 @@ std::vector<PlacedObject> choose_objects(const TableSceneOptions& options, Rng& 
 }
 
 bool can_carry(const GeneratedObject& support, const GeneratedObject& rider) {
-  return rider.stands && rider.footprint_radius_m <= kMaxOverhang * support.top_radius_m &&
+  return rider.stands && rider.footprint_radius_m <= kWidestRider * support.top_radius_m &&
          support.height_m + rider.height_m < kMaxHeight_m - 0.005;
 }
 
@@ -125,7 +125,7 @@ bool place_all(std::vector<PlacedObject>& objects, double clearance_m, Rng& rng)
 
 TableScene make_table_scene(const TableSceneOptions& options) {
   check_options(options, options.name);
-  for (int attempt = 0; attempt < kSceneAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kChoices; ++attempt) {
     Rng rng = Rng::stream(options.seed, fmt::format("{}/{}", options.name, attempt));
     TableScene scene{options.name, options.seed, choose_objects(options, rng), options.furniture};
     if (assign_supports(scene.objects, options.stacks) < options.stacks) continue;

@@ -13,7 +13,6 @@ namespace {
 constexpr float kEnds = 0.7F;
 constexpr float kPasses = 0.3F;
 constexpr float kLimit = 6.0F;
-constexpr float kStandingLogOdds = -2.0F;
 
 }  // namespace
 

@@ -11,8 +11,6 @@
 namespace vantage {
 namespace {
 
-constexpr float kStandingLogOdds = -2.0F;
-
 enum class Touched : std::uint8_t { no, passed, hit };
 
 /// What beams of a scan show of each cell.

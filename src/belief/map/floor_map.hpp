@@ -16,6 +16,8 @@ namespace vantage {
 
 /// Of a floor map, and of a finer one.
 inline constexpr double kMaxFloorCells = 67108864.0;  // 2^26
+/// At least so free is where the robot stands.
+inline constexpr float kStandingLogOdds = -2.0F;
 
 struct FloorMapOptions {
   double cell_m = 0.05;

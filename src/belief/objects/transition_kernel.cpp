@@ -101,14 +101,16 @@ int category_of(const ObjectStates& states, int object) {
   return states.category_of[static_cast<std::size_t>(object)];
 }
 
-int wrapped(int bin, int bins) { return bin < 0 ? bin + bins : bin >= bins ? bin - bins : bin; }
+int wrapped_once(int bin, int bins) {
+  return bin < 0 ? bin + bins : bin >= bins ? bin - bins : bin;
+}
 
 /// ln sum_d bin_change[d] exp(logs[bin + direction * d]) within one object.
 double log_bin_sum(const LogVector& log_change, const Logs& logs, int bin, int direction) {
   const int bins = static_cast<int>(log_change.size());
   LogVector terms(bins);
   for (int d = 0; d < bins; ++d) {
-    terms[d] = log_change[d] + logs[wrapped(bin + direction * d, bins)];
+    terms[d] = log_change[d] + logs[wrapped_once(bin + direction * d, bins)];
   }
   return log_sum(terms);
 }
@@ -119,7 +121,7 @@ LogVector log_pairs_by_change(const Logs& log_p, const Logs& log_x) {
   LogVector pairs(bins);
   LogVector terms(bins);
   for (int d = 0; d < bins; ++d) {
-    for (int q = 0; q < bins; ++q) terms[q] = log_p[q] + log_x[wrapped(q + d, bins)];
+    for (int q = 0; q < bins; ++q) terms[q] = log_p[q] + log_x[wrapped_once(q + d, bins)];
     pairs[d] = log_sum(terms);
   }
   return pairs;

@@ -29,7 +29,7 @@ struct Derivatives {
 };
 
 /// Of states with probabilities in proportion to exp(logit).
-struct Moments {
+struct RuleMoments {
   double log_sum = 0.0;
   double mean = 0.0;  ///< of the scores, as the variance
   double variance = 0.0;
@@ -37,7 +37,7 @@ struct Moments {
 
 using Entries = Eigen::Ref<const Eigen::ArrayXf>;
 
-Moments moments_of(const Entries& logit, const Entries& score) {
+RuleMoments moments_of(const Entries& logit, const Entries& score) {
   const float largest = logit.maxCoeff();
   Eigen::ArrayXf weight = (logit - largest).max(kNegligible).exp();
   const auto total = static_cast<double>(weight.sum());
@@ -56,8 +56,8 @@ Derivatives derivatives_at(const Regression& regression, double psi) {
     if (regression.base.size() > 0) logit += regression.base.col(v).array();
     const int truth = regression.state[static_cast<std::size_t>(v)];
     const Eigen::Index first = truth / regression.group * regression.group;
-    const Moments all = moments_of(logit, score);
-    const Moments own =
+    const RuleMoments all = moments_of(logit, score);
+    const RuleMoments own =
         moments_of(logit.segment(first, regression.group), score.segment(first, regression.group));
     sum.value += own.log_sum - all.log_sum;
     sum.first += own.mean - all.mean;

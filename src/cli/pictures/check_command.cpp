@@ -100,7 +100,7 @@ ExitCode check_command(const CheckArguments& arguments, const PictureFlags& flag
     result["test"] = check_json(test);
     result["differences"] = Json::array();
     if (!flags.json) print_check(test);
-    for (const Difference& difference : differences(training, test)) {
+    for (const DatasetDifference& difference : differences(training, test)) {
       problems = problems || difference.problem;
       result["differences"].push_back({{"text", difference.text}, {"problem", difference.problem}});
       if (!flags.json) {

@@ -204,8 +204,9 @@ CheckedDataset check_dataset(const fs::path& root, int bins, const std::function
   return checked;
 }
 
-std::vector<Difference> differences(const CheckedDataset& training, const CheckedDataset& test) {
-  std::vector<Difference> found;
+std::vector<DatasetDifference> differences(const CheckedDataset& training,
+                                           const CheckedDataset& test) {
+  std::vector<DatasetDifference> found;
   const std::string a = training.root.string(), b = test.root.string();
   if (training.cut != test.cut) {
     const bool mendable = training.cut != ObjectCut::mask;

@@ -52,10 +52,11 @@ CheckedDataset check_dataset(const std::filesystem::path& root, int bins,
 
 /// What differs between a dataset that is trained on and one that is tested on; empty: nothing.
 /// @return advice, problems marked by `problem`
-struct Difference {
+struct DatasetDifference {
   std::string text;
   bool problem = false;
 };
-std::vector<Difference> differences(const CheckedDataset& training, const CheckedDataset& test);
+std::vector<DatasetDifference> differences(const CheckedDataset& training,
+                                           const CheckedDataset& test);
 
 }  // namespace vantage

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "vantage/core/error.hpp"
@@ -15,7 +14,6 @@ namespace vantage {
 namespace {
 
 using Item = ImportedPicture;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Whether a camera with that principal point took the picture as it is: it is about in the middle.
 bool is_whole(const ObjectView& picture) {

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -19,7 +18,6 @@ namespace vantage {
 namespace {
 
 using Item = ImportedPicture;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 bool all_numbers(const std::vector<std::string>& names) {
   return std::ranges::all_of(names, [](const std::string& name) {

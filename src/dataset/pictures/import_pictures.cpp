@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -26,7 +25,6 @@ namespace {
 
 using Item = ImportedPicture;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kUsualElevation_deg = 45.0;
 constexpr int kUsualWidth_px = 640;
 

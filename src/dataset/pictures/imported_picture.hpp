@@ -1,6 +1,7 @@
 /// A picture on its way into a dataset.
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -8,6 +9,8 @@
 #include "vantage/perception/dataset_index.hpp"
 
 namespace vantage {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;  ///< rad
 
 struct ImportedPicture {
   FoundPicture picture;

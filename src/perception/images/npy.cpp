@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::int64_t kMaxSide = 20000;
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
+[[noreturn]] void wrong_file(const std::filesystem::path& file, const std::string& why) {
   throw InputError(fmt::format("{}: {}", file.string(), why));
 }
 
@@ -30,13 +30,13 @@ struct Header {
 };
 
 Header header_of(const std::string& bytes, const std::filesystem::path& file) {
-  if (bytes.size() < 12 || !bytes.starts_with(kMagic)) fail(file, "is no NPY file");
+  if (bytes.size() < 12 || !bytes.starts_with(kMagic)) wrong_file(file, "is no NPY file");
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
   const bool small = byte(6) == 1;
   const std::size_t start = small ? 10 : 12;
   std::size_t length = byte(8) + 256UL * byte(9);
   if (!small) length += 65536UL * byte(10) + 16777216UL * byte(11);
-  if (bytes.size() < start + length) fail(file, "is cut short");
+  if (bytes.size() < start + length) wrong_file(file, "is cut short");
   return {bytes.substr(start, length), start + length};
 }
 
@@ -45,7 +45,7 @@ Header header_of(const std::string& bytes, const std::filesystem::path& file) {
 std::string_view after_key(std::string_view header, std::string_view key,
                            const std::filesystem::path& file) {
   const std::size_t at = header.find(key);
-  if (at == std::string_view::npos) fail(file, "its header is not that of an array");
+  if (at == std::string_view::npos) wrong_file(file, "its header is not that of an array");
   const std::size_t value = header.find_first_not_of(" \t\n", at + key.size());
   return value == std::string_view::npos ? std::string_view() : header.substr(value);
 }
@@ -56,7 +56,7 @@ std::string_view entry(std::string_view header, std::string_view key, char open,
   const std::string_view value = after_key(header, key, file);
   const std::size_t end = value.find(close, 1);
   if (!value.starts_with(open) || end == std::string_view::npos) {
-    fail(file, "its header is not that of an array");
+    wrong_file(file, "its header is not that of an array");
   }
   return value.substr(1, end - 1);
 }
@@ -64,7 +64,7 @@ std::string_view entry(std::string_view header, std::string_view key, char open,
 bool is_by_columns(std::string_view header, const std::filesystem::path& file) {
   const std::string_view value = after_key(header, "'fortran_order':", file);
   if (!value.starts_with("True") && !value.starts_with("False")) {
-    fail(file, "its header is not that of an array");
+    wrong_file(file, "its header is not that of an array");
   }
   return value.starts_with("True");
 }
@@ -80,7 +80,7 @@ std::vector<std::int64_t> shape_of(std::string_view header, const std::filesyste
     if (side_text.empty()) continue;
     std::int64_t side = 0;
     const auto [end, error] = std::from_chars(side_text.begin(), side_text.end(), side);
-    if (error != std::errc{}) fail(file, "its header is not that of an array");
+    if (error != std::errc{}) wrong_file(file, "its header is not that of an array");
     shape.push_back(side);
   }
   while (shape.size() > 2) {  // channels of one
@@ -92,7 +92,7 @@ std::vector<std::int64_t> shape_of(std::string_view header, const std::filesyste
   const bool sane = shape.size() == 2 && shape[0] > 0 && shape[1] > 0 && shape[0] <= kMaxSide &&
                     shape[1] <= kMaxSide;
   if (!sane)
-    fail(file, fmt::format("has shape ({}), expected (rows, columns)", text.substr(0, 100)));
+    wrong_file(file, fmt::format("has shape ({}), expected (rows, columns)", text.substr(0, 100)));
   return shape;
 }
 
@@ -144,10 +144,10 @@ NpyMatrix read_npy(const std::filesystem::path& file) {
   const std::vector<std::int64_t> shape = shape_of(header.text, file);
   const Reader read = reader_of(type);
   if (read == nullptr)
-    fail(file, fmt::format("holds numbers of type '{}', expected <u2 or <f4", type));
+    wrong_file(file, fmt::format("holds numbers of type '{}', expected <u2 or <f4", type));
   const auto size = static_cast<std::size_t>(type.back() - '0');
   const auto count = static_cast<std::size_t>(shape[0] * shape[1]);
-  if (bytes.size() - header.end < count * size) fail(file, "is cut short");
+  if (bytes.size() - header.end < count * size) wrong_file(file, "is cut short");
   NpyMatrix matrix{.rows = static_cast<int>(shape[0]),
                    .columns = static_cast<int>(shape[1]),
                    .integers = type.find('f') == std::string::npos,

@@ -21,7 +21,7 @@ std::string environment(const char* name) {
   return value == nullptr ? std::string() : value;
 }
 
-int whole_number(const std::string& text) {
+int whole_or_zero(const std::string& text) {
   int number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
   return number;
@@ -69,7 +69,7 @@ std::optional<SlurmPlace> slurm_place() {
   }
   if (place.job.empty()) return std::nullopt;
   place.cluster = environment("SLURM_CLUSTER_NAME");
-  place.restart = whole_number(environment("SLURM_RESTART_COUNT"));  // not set in a first run
+  place.restart = whole_or_zero(environment("SLURM_RESTART_COUNT"));  // not set in a first run
   return place;
 }
 

@@ -15,7 +15,6 @@ namespace {
 
 /// Between measurements of the true clearance.
 constexpr double kClearanceEvery_s = 0.1;
-constexpr double kSameMoment_s = 1e-9;
 
 Quadrotor hovering(World& world, const RobotFolder& robot, const FlightWaypoint& start,
                    double camera_pitch_rad) {

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr float kNoReturn = std::numeric_limits<float>::infinity();
+constexpr float kNothing = std::numeric_limits<float>::infinity();
 
 /// Twelve cells of 1 m from x = -6, one row of them at y in [0, 1) drawn.
 FloorMapOptions metre_cells() { return {.cell_m = 1.0, .half_size_m = 6.0}; }
@@ -51,7 +51,7 @@ TEST(AddPlanarScan, FreesAlongTheBeamAndOccupiesItsEnd) {
 
 TEST(AddPlanarScan, FreesUpToTheRangeWithoutAReturn) {
   FloorMap map = make_floor_map(metre_cells());
-  add_planar_scan(map, one_beam(kNoReturn), {-0.5, 0.5, 0.0}, metre_cells());
+  add_planar_scan(map, one_beam(kNothing), {-0.5, 0.5, 0.0}, metre_cells());
   EXPECT_EQ(row(map, 0.5), "?????.....??");
 }
 
@@ -98,7 +98,7 @@ TEST(AddPlanarScan, DoesNotDependOnThreads) {
   fan.range_m.clear();
   for (int beam = 0; beam < 50; ++beam) {
     fan.azimuth_rad.push_back(-1.5 + 0.06 * beam);
-    fan.range_m.push_back(beam % 9 == 0 ? kNoReturn : 1.0F + 0.05F * static_cast<float>(beam));
+    fan.range_m.push_back(beam % 9 == 0 ? kNothing : 1.0F + 0.05F * static_cast<float>(beam));
   }
   add_planar_scan(one, fan, {-0.5, 0.5, 0.2}, metre_cells(), 1);
   add_planar_scan(three, fan, {-0.5, 0.5, 0.2}, metre_cells(), 3);
@@ -109,7 +109,7 @@ TEST(BlockBox, OverridesEverything) {
   FloorMap map = make_floor_map(metre_cells());
   block_box(map, {Eigen::Vector2d(0.2, 0.2), Eigen::Vector2d(1.2, 0.8)});
   for (int i = 0; i < 5; ++i) {
-    add_planar_scan(map, one_beam(kNoReturn), {-0.5, 0.5, 0.0}, metre_cells());
+    add_planar_scan(map, one_beam(kNothing), {-0.5, 0.5, 0.0}, metre_cells());
   }
   clear_footprint(map, {0.5, 0.5, 0.0}, 0.6);
   EXPECT_EQ(row(map, 0.5), "?????.##..??");

@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 constexpr double kFitTolerance = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 using Sequences = std::vector<std::vector<ViewStep>>;
 
@@ -160,7 +160,7 @@ TEST(BaumWelch, FindsHowOftenObjectsChange) {
 
 TEST(BaumWelch, LeavesOutWhatTheStartHoldsForImpossible) {
   const ObjectStates states = test::make_states({0, 0}, 4);
-  Eigen::VectorXd only_first = Eigen::VectorXd::Constant(8, -kInfinity);
+  Eigen::VectorXd only_first = Eigen::VectorXd::Constant(8, -kUnlimited);
   only_first.head(4).setZero();
   const Eigen::VectorXd only_second = only_first.reverse();
   const Sequences sequences{{{0.0, only_first}, {states.bin_rad(), only_second}},

@@ -17,7 +17,7 @@ using test::make_states;
 using ::testing::HasSubstr;
 
 constexpr double kTolerance = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBoundless = std::numeric_limits<double>::infinity();
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 ObjectBelief belief_of(std::initializer_list<double> p) {
@@ -44,7 +44,7 @@ TEST(Update, IsBayes) {
 
 TEST(Update, SurvivesDensitiesOfAnySize) {
   ObjectBelief belief = uniform_belief(make_states({0, 0}, 2));
-  update(belief, Eigen::Vector4d(3200.0, 3201.0, -1e6, -kInfinity));
+  update(belief, Eigen::Vector4d(3200.0, 3201.0, -1e6, -kBoundless));
   EXPECT_NEAR(std::exp(belief.log_p[1]), 1.0 / (1.0 + std::exp(-1.0)), kTolerance);
   update(belief, Eigen::Vector4d(-1e7, -1e7, 0.0, 0.0));
   EXPECT_NEAR(belief.log_p[2], 0.0, kTolerance);  // written off, and yet it comes back
@@ -53,8 +53,8 @@ TEST(Update, SurvivesDensitiesOfAnySize) {
 TEST(Update, LeavesTheBeliefWhereEvidenceIsImpossible) {
   const ObjectBelief before = belief_of({0.5, 0.5, 0.0, 0.0});
   for (const Eigen::Vector4d& impossible :
-       {Eigen::Vector4d(-kInfinity, -kInfinity, 0.0, 0.0),
-        Eigen::Vector4d(Eigen::Vector4d::Constant(-kInfinity))}) {
+       {Eigen::Vector4d(-kBoundless, -kBoundless, 0.0, 0.0),
+        Eigen::Vector4d(Eigen::Vector4d::Constant(-kBoundless))}) {
     ObjectBelief belief = before;
     const EvidenceResult result = update(belief, impossible);
     EXPECT_FALSE(result.used());
@@ -64,7 +64,7 @@ TEST(Update, LeavesTheBeliefWhereEvidenceIsImpossible) {
 }
 
 TEST(Update, NamesTheStateWhoseLikelihoodIsNone) {
-  for (const double bad : {kInfinity, std::nan("")}) {
+  for (const double bad : {kBoundless, std::nan("")}) {
     ObjectBelief belief = belief_of({0.5, 0.5});
     const EvidenceResult result = update(belief, Eigen::Vector2d(0.0, bad));
     EXPECT_THAT(result.reason, HasSubstr("state 1"));
@@ -186,13 +186,13 @@ TEST(MeanYaw, OfNoPreferenceIsZero) {
 TEST(ExpectedState, IsNearestToTheMeanYaw) {
   const ObjectStates states = make_states({0, 0}, 8);
   ObjectBelief belief = uniform_belief(states);
-  Eigen::VectorXd likelihood = Eigen::VectorXd::Constant(16, -kInfinity);
-  likelihood.segment(8, 8) << std::log(0.3), std::log(0.25), -kInfinity, -kInfinity, -kInfinity,
-      -kInfinity, -kInfinity, std::log(0.25);
+  Eigen::VectorXd likelihood = Eigen::VectorXd::Constant(16, -kBoundless);
+  likelihood.segment(8, 8) << std::log(0.3), std::log(0.25), -kBoundless, -kBoundless, -kBoundless,
+      -kBoundless, -kBoundless, std::log(0.25);
   update(belief, likelihood);
   EXPECT_EQ(expected_state(states, belief), states.state(1, 0));
-  likelihood.segment(8, 8) << std::log(0.3), std::log(0.29), std::log(0.29), -kInfinity, -kInfinity,
-      -kInfinity, -kInfinity, -kInfinity;
+  likelihood.segment(8, 8) << std::log(0.3), std::log(0.29), std::log(0.29), -kBoundless,
+      -kBoundless, -kBoundless, -kBoundless, -kBoundless;
   belief = uniform_belief(states);
   update(belief, likelihood);
   EXPECT_EQ(most_probable_state(belief), states.state(1, 0));

@@ -13,7 +13,7 @@ using test::exp_of;
 using ::testing::HasSubstr;
 
 constexpr double kSmootherTolerance = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 /// Sums over every path of states there is.
 struct AllPaths {
@@ -111,9 +111,9 @@ RC_GTEST_PROP(Smooth, FiltersAsIfItEndedThere, ()) {
 
 TEST(Smooth, LearnsFromLaterViewsWhatTheFirstOneLeftOpen) {
   const ObjectStates states = test::make_states({0, 0}, 4);  // near-duplicates but for bin 1
-  Eigen::VectorXd front = Eigen::VectorXd::Constant(8, -kInfinity);
+  Eigen::VectorXd front = Eigen::VectorXd::Constant(8, -kEndless);
   front[states.state(0, 0)] = front[states.state(1, 0)] = 0.0;
-  Eigen::VectorXd side = Eigen::VectorXd::Constant(8, -kInfinity);
+  Eigen::VectorXd side = Eigen::VectorXd::Constant(8, -kEndless);
   side[states.state(1, 1)] = 0.0;
   const std::vector<ViewStep> steps{{0.0, front}, {states.bin_rad(), side}};
   const SmoothedSequence smoothed =
@@ -124,14 +124,14 @@ TEST(Smooth, LearnsFromLaterViewsWhatTheFirstOneLeftOpen) {
 
 TEST(Smooth, NamesTheStepThatIsImpossible) {
   const ObjectStates states = test::make_states({0, 0}, 2);
-  const Eigen::VectorXd none = Eigen::VectorXd::Constant(4, -kInfinity);
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(4, -kEndless);
   const std::vector<ViewStep> steps{{}, {.motion_rad = 1.0, .log_likelihood = none}, {}};
   const SmoothedSequence smoothed =
       smooth(states, uniform_belief(states), TableTransition{}, steps);
   EXPECT_THAT(smoothed.reason, HasSubstr("step 1"));
   EXPECT_EQ(smoothed.log_filtered.size(), 1U);
   EXPECT_TRUE(smoothed.log_smoothed.empty());
-  EXPECT_EQ(smoothed.log_likelihood, -kInfinity);
+  EXPECT_EQ(smoothed.log_likelihood, -kEndless);
 }
 
 TEST(Smooth, OfNoStepsIsNothing) {

@@ -11,14 +11,14 @@ namespace vantage {
 namespace {
 
 constexpr double kTransitionTolerance = 1e-12;
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 TEST(MotionBins, AreTheTwoNextToTheMotion) {
-  EXPECT_EQ(motion_bins(kTurn / 8.0, 8).lower, 1);
-  EXPECT_EQ(motion_bins(kTurn / 8.0, 8).upper_share, 0.0);
-  EXPECT_EQ(motion_bins(-kTurn / 8.0, 8).lower, 7);
-  EXPECT_EQ(motion_bins(3.0 * kTurn, 8).lower, 0);
-  const MotionBins between = motion_bins(-0.25 * kTurn / 8.0, 8);
+  EXPECT_EQ(motion_bins(kFullTurn / 8.0, 8).lower, 1);
+  EXPECT_EQ(motion_bins(kFullTurn / 8.0, 8).upper_share, 0.0);
+  EXPECT_EQ(motion_bins(-kFullTurn / 8.0, 8).lower, 7);
+  EXPECT_EQ(motion_bins(3.0 * kFullTurn, 8).lower, 0);
+  const MotionBins between = motion_bins(-0.25 * kFullTurn / 8.0, 8);
   EXPECT_EQ(between.lower, 7);
   EXPECT_EQ(between.upper, 0);
   EXPECT_NEAR(between.upper_share, 0.75, kTransitionTolerance);
@@ -27,7 +27,7 @@ TEST(MotionBins, AreTheTwoNextToTheMotion) {
 RC_GTEST_PROP(MotionBins, OfAMultipleAreTheMultipleHoweverComputed, ()) {
   const int bins = *rc::gen::inRange(1, 37);
   const int multiple = *rc::gen::inRange(-200, 200);
-  const double step_rad = kTurn / bins;
+  const double step_rad = kFullTurn / bins;
   double motion_rad = 0.0;
   for (int i = 0; i < std::abs(multiple); ++i) motion_rad += multiple < 0 ? -step_rad : step_rad;
   const MotionBins motion = motion_bins(motion_rad, bins);
@@ -37,7 +37,7 @@ RC_GTEST_PROP(MotionBins, OfAMultipleAreTheMultipleHoweverComputed, ()) {
 
 TEST(TableTransition, HasThePublishedMassesOfItsGroups) {
   const ObjectStates states = test::make_states({0, 0, 0, 1, 1}, 8);
-  const Eigen::MatrixXd a = test::dense(states, TableTransition{}.kernel(kTurn / 4.0, 8));
+  const Eigen::MatrixXd a = test::dense(states, TableTransition{}.kernel(kFullTurn / 4.0, 8));
   const Eigen::RowVectorXd row = a.row(states.state(1, 3));
   EXPECT_NEAR(row[states.state(1, 5)], 0.4, kTransitionTolerance);
   EXPECT_NEAR(row.segment(states.state(1, 0), 8).sum(), 0.7, kTransitionTolerance);
@@ -50,7 +50,7 @@ TEST(TableTransition, HasThePublishedMassesOfItsGroups) {
 TEST(TableTransition, RoundsTheMotion) {
   const auto right = [](double bins) {
     Eigen::Index largest = 0;
-    TableTransition{}.kernel(bins * kTurn / 8.0, 8).bin_change.maxCoeff(&largest);
+    TableTransition{}.kernel(bins * kFullTurn / 8.0, 8).bin_change.maxCoeff(&largest);
     return largest;
   };
   EXPECT_EQ(right(2.4), 2);
@@ -66,7 +66,7 @@ TEST(TableTransition, OfASingleBinKeepsTheObject) {
 }
 
 TEST(RigidTransition, MovesByTheCommandWithSlipToBothSides) {
-  const TransitionKernel kernel = RigidTransition{.slip = 0.2}.kernel(-kTurn / 8.0, 8);
+  const TransitionKernel kernel = RigidTransition{.slip = 0.2}.kernel(-kFullTurn / 8.0, 8);
   EXPECT_NEAR(kernel.bin_change[7], 0.8, kTransitionTolerance);
   EXPECT_NEAR(kernel.bin_change[6], 0.1, kTransitionTolerance);
   EXPECT_NEAR(kernel.bin_change[0], 0.1, kTransitionTolerance);
@@ -74,7 +74,7 @@ TEST(RigidTransition, MovesByTheCommandWithSlipToBothSides) {
 }
 
 TEST(RigidTransition, SharesAMotionBetweenBins) {
-  const TransitionKernel kernel = RigidTransition{.slip = 0.0}.kernel(2.25 * kTurn / 8.0, 8);
+  const TransitionKernel kernel = RigidTransition{.slip = 0.0}.kernel(2.25 * kFullTurn / 8.0, 8);
   EXPECT_NEAR(kernel.bin_change[2], 0.75, kTransitionTolerance);
   EXPECT_NEAR(kernel.bin_change[3], 0.25, kTransitionTolerance);
 }
@@ -90,13 +90,13 @@ TEST(LearnedTransition, HasASlipForEachCommand) {
   learned.slip = {1.0, 0.0, 0.0,   // no motion
                   0.6, 0.4, 0.0,   // by one bin: 0.4 a bin too far
                   0.5, 0.0, 0.5};  // by two: 0.5 a bin short
-  const TransitionKernel by_one = learned.kernel(kTurn / 3.0, 3);
+  const TransitionKernel by_one = learned.kernel(kFullTurn / 3.0, 3);
   EXPECT_TRUE(by_one.bin_change.isApprox(Eigen::Vector3d(0.0, 0.6, 0.4), kTransitionTolerance));
-  const TransitionKernel by_two = learned.kernel(2.0 * kTurn / 3.0, 3);
+  const TransitionKernel by_two = learned.kernel(2.0 * kFullTurn / 3.0, 3);
   EXPECT_TRUE(by_two.bin_change.isApprox(Eigen::Vector3d(0.0, 0.5, 0.5), kTransitionTolerance));
-  const TransitionKernel between = learned.kernel(1.5 * kTurn / 3.0, 3);
+  const TransitionKernel between = learned.kernel(1.5 * kFullTurn / 3.0, 3);
   EXPECT_TRUE(between.bin_change.isApprox(Eigen::Vector3d(0.0, 0.55, 0.45), kTransitionTolerance));
-  EXPECT_THROW(learned.kernel(kTurn / 3.0, 8), ConfigError);
+  EXPECT_THROW(learned.kernel(kFullTurn / 3.0, 8), ConfigError);
 }
 
 RC_GTEST_PROP(TransitionModel, EveryKernelSumsToOne, ()) {

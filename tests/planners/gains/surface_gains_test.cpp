@@ -126,12 +126,12 @@ std::vector<std::size_t> cells_between(const GridFrame& grid, const Eigen::Vecto
   return cells;
 }
 
-struct RandomView {
+struct DrawnView {
   OccupancyGrid grid;
   Pose T_world_sensor;
   FieldOfView fov;
 
-  explicit RandomView(std::uint64_t seed) : grid(random_world(seed)) {
+  explicit DrawnView(std::uint64_t seed) : grid(random_world(seed)) {
     Rng rng(seed + 1000);
     const bool inside = seed % 2 == 0;
     const Eigen::Vector3d p_m(rng.uniform(-0.9, 0.9) - (inside ? 0.0 : 2.0), rng.uniform(-0.8, 0.8),
@@ -189,7 +189,7 @@ constexpr BeamFan kFan{.step_rad = 0.13};
 TEST(ProximityCountGain, IsThatOfBruteForce) {
   double sum = 0.0;
   for (std::uint64_t seed = 0; seed < kWorlds; ++seed) {
-    const RandomView view(seed);
+    const DrawnView view(seed);
     const auto steps = steps_by_relaxation(view.grid);
     double expected = 0.0;
     for (const auto& beam : view.beams(kFan)) {
@@ -205,7 +205,7 @@ TEST(ProximityCountGain, IsThatOfBruteForce) {
 TEST(AverageEntropyGain, IsThatOfBruteForce) {
   double sum = 0.0;
   for (std::uint64_t seed = 0; seed < kWorlds; ++seed) {
-    const RandomView view(seed);
+    const DrawnView view(seed);
     double bits = 0.0;
     double cells = 0.0;
     for (const auto& beam : view.beams(kFan)) {
@@ -223,7 +223,7 @@ TEST(AverageEntropyGain, IsThatOfBruteForce) {
 TEST(AreaFactorGain, IsThatOfBruteForce) {
   double sum = 0.0;
   for (std::uint64_t seed = 0; seed < kWorlds; ++seed) {
-    const RandomView view(seed);
+    const DrawnView view(seed);
     const auto beams = view.beams(kFan);
     double occupied = 0.0;
     double occplane = 0.0;
@@ -247,7 +247,7 @@ TEST(AreaFactorGain, IsThatOfBruteForce) {
 TEST(FrontierCellsGain, IsThatOfBruteForce) {
   double sum = 0.0;
   for (std::uint64_t seed = 0; seed < kWorlds; ++seed) {
-    const RandomView view(seed);
+    const DrawnView view(seed);
     const Eigen::Vector3d p = view.T_world_sensor.translation();
     double expected = 0.0;
     for (const std::size_t cell : frontier_cells(view.grid, {})) {

@@ -12,8 +12,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 std::vector<double> by_brute_force(const std::vector<std::uint8_t>& source, int nx, int ny) {
   std::vector<double> squared(source.size(), kInfinity);
   for (int i = 0; i < nx * ny; ++i) {

@@ -20,7 +20,7 @@ namespace {
 
 using test::about;
 
-constexpr double kTolerance = 1e-4;  // divergences are single precision
+constexpr double kMeasureTolerance = 1e-4;  // divergences are single precision
 
 double bits_of(const InformationMeasure& measure, const InformationQuery& query) {
   Rng rng(1);
@@ -107,7 +107,7 @@ TEST(EveryInformationMeasure, IsTheSameFromTables) {
     query.tables = nullptr;
     const double bits = bits_of(measure, query);
     query.tables = &tables;
-    EXPECT_NEAR(bits_of(measure, query), bits, kTolerance * (1.0 + bits));
+    EXPECT_NEAR(bits_of(measure, query), bits, kMeasureTolerance * (1.0 + bits));
   }
 }
 
@@ -126,7 +126,7 @@ RC_GTEST_PROP(InformationBounds, BracketMonteCarlo, ()) {
   const auto query = about({&feature, 1}, b, group);
   Rng rng(static_cast<std::uint64_t>(*rc::gen::inRange(0, 1'000'000)));
   const auto sampled = MonteCarloInformation{.samples = 2000}(query, rng);
-  const double margin = 5.0 * sampled.standard_error_bits + kTolerance;
+  const double margin = 5.0 * sampled.standard_error_bits + kMeasureTolerance;
   RC_ASSERT(bits_of(InformationUpperBound{}, query) >= sampled.bits - margin);
   RC_ASSERT(!group.empty() || bits_of(MutualInformation{}, query) <= sampled.bits + margin);
 }
@@ -150,9 +150,9 @@ RC_GTEST_PROP(JeffreysDivergence, IsTheSumOverPairs, ()) {
   const ObservationModel* feature = &model;
   const double scale = 1.0 + of_states;
   RC_ASSERT(std::abs(bits_of(JeffreysDivergence{}, about({&feature, 1}, b)) - of_states) <
-            kTolerance * scale);
+            kMeasureTolerance * scale);
   RC_ASSERT(std::abs(bits_of(JeffreysDivergence{}, about({&feature, 1}, b, {0, 0, 1, 1})) -
-                     of_objects) < kTolerance * scale);
+                     of_objects) < kMeasureTolerance * scale);
 }
 
 RC_GTEST_PROP(MeanFeatureInformation, IsTheFormula, ()) {
@@ -177,9 +177,9 @@ RC_GTEST_PROP(MeanFeatureInformation, IsTheFormula, ()) {
   }
   const ObservationModel* feature = &model;
   RC_ASSERT(std::abs(bits_of(MeanFeatureInformation{}, about({&feature, 1}, b)) - of_states) <
-            kTolerance * (1.0 + std::abs(of_states)));
+            kMeasureTolerance * (1.0 + std::abs(of_states)));
   RC_ASSERT(std::abs(bits_of(MeanFeatureInformation{}, about({&feature, 1}, b, {0, 0, 1, 1})) -
-                     of_objects) < kTolerance * (1.0 + std::abs(of_objects)));
+                     of_objects) < kMeasureTolerance * (1.0 + std::abs(of_objects)));
 }
 
 TEST(MeanFeatureInformation, IsFarBelowNothingWhereANarrowStateLiesAtTheMeanOfAWideOne) {
@@ -353,7 +353,7 @@ TEST(EveryInformationMeasure, OfAViewThatCountsForLessIsAsOfASmallerPsi) {
     const double bits = bits_of(measure, query);
     model.psi = psi;
     query.weight = 0.4;
-    EXPECT_NEAR(bits_of(measure, query), bits, kTolerance * (1.0 + std::abs(bits)))
+    EXPECT_NEAR(bits_of(measure, query), bits, kMeasureTolerance * (1.0 + std::abs(bits)))
         << strategy_name_of(measure);
   }
 }

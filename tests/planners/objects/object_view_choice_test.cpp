@@ -51,7 +51,7 @@ class ObjectViewChoiceTest : public ::testing::Test {
   std::vector<Eigen::VectorXd> beliefs_;
 };
 
-std::vector<ObjectViewChoice> every_choice() {
+std::vector<ObjectViewChoice> every_strategy() {
   std::vector<ObjectViewChoice> choices;
   for (const auto name : strategy_names<ObjectViewChoice>()) {
     choices.push_back(make_strategy<ObjectViewChoice>(name));
@@ -60,7 +60,7 @@ std::vector<ObjectViewChoice> every_choice() {
 }
 
 TEST_F(ObjectViewChoiceTest, EveryMeasureOfInformationLooksAtTheDecal) {
-  for (const auto& choice : every_choice()) {
+  for (const auto& choice : every_strategy()) {
     const auto name = strategy_name_of(choice);
     if (name == "random" || name == "star" || name == "nearest_free" || name == "jeffreys")
       continue;
@@ -85,7 +85,7 @@ TEST_F(ObjectViewChoiceTest, OnlyThePoseIsToldWhereThereIsNoDecal) {
 }
 
 TEST_F(ObjectViewChoiceTest, EveryChoiceIsTheSameForTheSameSeed) {
-  for (const auto& choice : every_choice()) {
+  for (const auto& choice : every_strategy()) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       const auto first = choose({.choice = choice}, seed);
       const auto second = choose({.choice = choice}, seed);
@@ -127,7 +127,7 @@ TEST_F(ObjectViewChoiceTest, StarVisitsEveryViewOnce) {
 TEST_F(ObjectViewChoiceTest, EveryChoiceLeavesVisitedViewsOut) {
   for (auto& action : actions_) action.visited = true;
   actions_[6].visited = false;
-  for (const auto& choice : every_choice()) {
+  for (const auto& choice : every_strategy()) {
     const auto decision = choose({.choice = choice});
     EXPECT_EQ(decision.action, 6U);
     EXPECT_EQ(decision.scores[2].score, -std::numeric_limits<double>::infinity());

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Views at 10, 20 and 25 m on a line, the robot at 0, a metre a second, scans of 5 s. Each shows 8
 /// cells of its own; the second shows half of the first one's too.
@@ -54,7 +54,7 @@ TEST(WhyPlanned, TellsWhyTheIntendedViewCannotBeTaken) {
   EXPECT_EQ(reason(problem, plan).change, PlanChange::replanned);
   problem.home_s = {10.0, 20.0, 25.0, 0.0};
   EXPECT_EQ(reason(problem, plan).change, PlanChange::unaffordable);
-  problem.travel_s(3, 2) = kInfinity;
+  problem.travel_s(3, 2) = kUnbounded;
   EXPECT_EQ(reason(problem, plan).change, PlanChange::unreachable);
 }
 

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr int kObjects = 40;
+constexpr int kSeries = 40;
 constexpr int kBins = 4;
 constexpr int kRecordings = 3;
 
@@ -22,19 +22,19 @@ double learnt(double shared, int recordings, bool by_video = false) {
   model.states.categories = {"cup"};
   FeatureModel& feature = model.features.emplace_back();
   feature.name = "colour";
-  feature.statistics = empty_statistics(3, kObjects * kBins);
+  feature.statistics = empty_statistics(3, kSeries * kBins);
   std::vector<ViewFeatures> views;
   std::vector<int> shown;
   Rng rng(1);
   const auto noise = [&] { return Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()); };
   std::vector<Eigen::Vector3d> at;
-  for (int k = 0; k < kObjects; ++k) {
+  for (int k = 0; k < kSeries; ++k) {
     model.states.objects.push_back(fmt::format("cup_{}", k));
     model.states.category_of.push_back(0);
     at.emplace_back(1.2 * noise());
   }
   for (int recording = 0; recording < recordings; ++recording) {
-    for (int k = 0; k < kObjects; ++k) {
+    for (int k = 0; k < kSeries; ++k) {
       const auto object = static_cast<std::size_t>(k);
       const Eigen::Vector3d common = noise();
       for (int i = 0; i < 4 * kBins; ++i) {

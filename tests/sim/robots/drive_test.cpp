@@ -18,11 +18,11 @@ using test::RobotWorld;
 const std::vector<Pose2> kSquare = {
     {1.5, 0.0, 0.0}, {1.5, 1.5, 0.0}, {0.0, 1.5, 0.0}, {0.0, 0.0, std::numbers::pi / 2.0}};
 
-struct Error {
+struct DriveError {
   double distance_m;
   double yaw_rad;
 };
-Error between(const Pose2& a, const Pose2& b) {
+DriveError error_between(const Pose2& a, const Pose2& b) {
   const Pose2 d = compose(inverse(a), b);
   return {std::hypot(d.x_m, d.y_m), std::abs(d.yaw_rad)};
 }
@@ -41,7 +41,7 @@ TEST(Drive, RoundASquare) {
   Odometry odometry = perfect(scene);
   const DriveResult result = drive(scene.world, scene.robot, odometry, kSquare);
   EXPECT_EQ(to_string(result.status), "arrived");
-  const Error error = between(scene.robot.T_world_base(scene.world), kSquare.back());
+  const DriveError error = error_between(scene.robot.T_world_base(scene.world), kSquare.back());
   EXPECT_LT(error.distance_m, 0.01);
   EXPECT_LT(error.yaw_rad, 0.0105);
   EXPECT_TRUE(is_at_rest(scene));
@@ -70,10 +70,10 @@ TEST(Drive, NoisyOdometryArrivesWhereItBelievesToBe) {
     Odometry odometry({}, Rng::stream(seed, "odometry"), {});
     const DriveResult result = drive(scene.world, scene.robot, odometry, kSquare);
     EXPECT_EQ(result.status, DriveStatus::arrived);
-    const Error believed = between(odometry.estimate(), kSquare.back());
+    const DriveError believed = error_between(odometry.estimate(), kSquare.back());
     EXPECT_LT(believed.distance_m, 0.01);
     EXPECT_LT(believed.yaw_rad, 0.0105);
-    const Error real = between(scene.robot.T_world_base(scene.world), kSquare.back());
+    const DriveError real = error_between(scene.robot.T_world_base(scene.world), kSquare.back());
     EXPECT_GT(real.distance_m, 0.005) << "dead reckoning drifts";
     EXPECT_LT(real.distance_m, 0.4);
     EXPECT_TRUE(is_at_rest(scene));
@@ -86,7 +86,7 @@ TEST(Drive, TurnsInPlaceAndGoesNowhere) {
   const std::vector<Pose2> turn = {{0.0, 0.0, 2.5}};
   const DriveResult result = drive(scene.world, scene.robot, odometry, turn);
   EXPECT_EQ(result.status, DriveStatus::arrived);
-  EXPECT_LT(between(scene.robot.T_world_base(scene.world), turn.back()).yaw_rad, 0.0105);
+  EXPECT_LT(error_between(scene.robot.T_world_base(scene.world), turn.back()).yaw_rad, 0.0105);
   EXPECT_LT(result.path_length_m, 0.05);
   EXPECT_EQ(drive(scene.world, scene.robot, odometry, {}).status, DriveStatus::arrived)
       << "an empty path";

@@ -15,7 +15,7 @@ namespace {
 
 using test::RobotWorld;
 
-const std::string kWall = "<geom name='wall' type='box' size='0.1 3 1' pos='2.1 0 1'/>";
+const std::string kWallAhead = "<geom name='wall' type='box' size='0.1 3 1' pos='2.1 0 1'/>";
 
 TEST(MobileBase, NeedsARobotInTheModel) {
   const test::SceneFolder folder(test::scene_mjcf(""));
@@ -241,7 +241,7 @@ TEST(MobileBase, AWallStopsItsFootprintWithoutMuchPenetration) {
   const std::vector<Twist2> ways = {{0.6, 0, 0}, {-0.6, 0, 0}, {0, 0.6, 0}, {0, -0.6, 0}};
   for (const Twist2& way : ways) {
     // Turned so that this side of the robot meets the wall.
-    RobotWorld scene(kWall, {1.0, 0.0, -std::atan2(way.vy_m_s, way.vx_m_s)});
+    RobotWorld scene(kWallAhead, {1.0, 0.0, -std::atan2(way.vy_m_s, way.vx_m_s)});
     double deepest_m = -1.0;
     for (int tick = 0; tick < 200; ++tick) {
       scene.robot.command_twist(scene.world, way);

@@ -46,7 +46,7 @@ constexpr FieldOfView kWide{.half_width_rad = 1.5,
                             .range_max_m = 5.0};
 
 /// A wall across the grid at x in [0.55, 0.95], a robot arm in front of it.
-constexpr const char* kWall = R"(
+constexpr const char* kRoomWall = R"(
   <mujoco><worldbody>
     <geom type="box" size="0.2 2 2" pos="0.75 0 0"/>
     <body name="robot/base"><joint type="slide"/><geom type="sphere" size="0.02"/>
@@ -55,7 +55,7 @@ constexpr const char* kWall = R"(
   </worldbody></mujoco>)";
 
 TEST(VisibleCells, FreeCellsAndTheSurfacesOwnNotThoseBehind) {
-  const auto scene = test::compile_mjcf(kWall);
+  const auto scene = test::compile_mjcf(kRoomWall);
   const RayScene rays(*scene.model, *scene.data, {.exclude_body_prefix = "robot/"});
   const GridFrame grid = layer(10, 5);
   const Pose T = make_pose({-1.0, 0.25, 0.05}, 0.0);
@@ -68,7 +68,7 @@ TEST(VisibleCells, FreeCellsAndTheSurfacesOwnNotThoseBehind) {
 }
 
 TEST(VisibleCells, TheRobotHidesCellsUnlessLeftOut) {
-  const auto scene = test::compile_mjcf(kWall);
+  const auto scene = test::compile_mjcf(kRoomWall);
   const RayScene rays(*scene.model, *scene.data);
   const GridFrame grid = layer(10, 5);
   const Pose T = make_pose({-1.0, 0.25, 0.05}, 0.0);
@@ -158,7 +158,7 @@ TEST(SurfaceCells, OutlineOfABox) {
 }
 
 TEST(SurfaceCells, LeavesOutTheRobot) {
-  const auto scene = test::compile_mjcf(kWall);
+  const auto scene = test::compile_mjcf(kRoomWall);
   const GridFrame grid = layer(6, 3);
   EXPECT_EQ(picture(grid, surface_cells(*scene.model, *scene.data, grid,
                                         {.exclude_body_prefix = "robot/"})),

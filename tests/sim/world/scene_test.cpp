@@ -20,43 +20,49 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-std::string complaint(const ModelSource& source) {
+std::string scene_complaint(const ModelSource& source) {
   return message_of<InputError>([&] { load_model(source); });
 }
-std::string complaint(const std::string& mjcf) { return complaint(SceneFolder(mjcf).with_pr2()); }
+std::string scene_complaint(const std::string& mjcf) {
+  return scene_complaint(SceneFolder(mjcf).with_pr2());
+}
 
 TEST(Scene, NamesAMissingFile) {
-  EXPECT_EQ(complaint(ModelSource{"nowhere/scene.xml", {}}), "nowhere/scene.xml: no such file");
+  EXPECT_EQ(scene_complaint(ModelSource{"nowhere/scene.xml", {}}),
+            "nowhere/scene.xml: no such file");
   const SceneFolder folder(test::scene_mjcf(""));
-  EXPECT_EQ(complaint(ModelSource{folder.path(), "r2d2.xml"}), "r2d2.xml: no such file");
+  EXPECT_EQ(scene_complaint(ModelSource{folder.path(), "r2d2.xml"}), "r2d2.xml: no such file");
 }
 
 TEST(Scene, MalformedMjcfNamesFileAndLine) {
   const SceneFolder wrong_value(test::scene_mjcf("<geom size='x'/>"));
-  EXPECT_THAT(complaint(wrong_value.with_pr2()), AllOf(StartsWith(wrong_value.path().string()),
-                                                       HasSubstr("size"), HasSubstr("line 4")));
+  EXPECT_THAT(
+      scene_complaint(wrong_value.with_pr2()),
+      AllOf(StartsWith(wrong_value.path().string()), HasSubstr("size"), HasSubstr("line 4")));
   const SceneFolder not_xml("<mujoco>\n<worldbody>\n<geom");
-  EXPECT_THAT(complaint(not_xml.alone()),
+  EXPECT_THAT(scene_complaint(not_xml.alone()),
               AllOf(StartsWith(not_xml.path().string()), HasSubstr("Line number=3")));
   const SceneFolder robot_wrong("<mujoco><nonsense/></mujoco>");
   const SceneFolder scene(test::scene_mjcf(""));
-  EXPECT_THAT(complaint(ModelSource{scene.path(), robot_wrong.path()}),
+  EXPECT_THAT(scene_complaint(ModelSource{scene.path(), robot_wrong.path()}),
               StartsWith(robot_wrong.path().string()));
 }
 
 TEST(Scene, RejectsNumbersThatAreNotFinite) {
-  EXPECT_NE(complaint(test::scene_mjcf("<geom size='.1' pos='nan 0 0'/>")), "");
-  EXPECT_NE(complaint(test::scene_mjcf("<body pos='0 0 nan'><freejoint/><geom size='.1'/></body>")),
-            "");
-  EXPECT_NE(complaint(test::scene_mjcf("<body><freejoint/><geom size='.1' mass='inf'/></body>")),
-            "");
-  EXPECT_NE(complaint(test::scene_mjcf("<body><freejoint/><geom size='inf'/></body>")), "");
+  EXPECT_NE(scene_complaint(test::scene_mjcf("<geom size='.1' pos='nan 0 0'/>")), "");
+  EXPECT_NE(
+      scene_complaint(test::scene_mjcf("<body pos='0 0 nan'><freejoint/><geom size='.1'/></body>")),
+      "");
+  EXPECT_NE(
+      scene_complaint(test::scene_mjcf("<body><freejoint/><geom size='.1' mass='inf'/></body>")),
+      "");
+  EXPECT_NE(scene_complaint(test::scene_mjcf("<body><freejoint/><geom size='inf'/></body>")), "");
 }
 
 TEST(Scene, RejectsTimeSteps) {
   for (const char* timestep : {"0", "-1", "1e10", "nan"}) {
-    EXPECT_NE(complaint("<mujoco><option timestep='" + std::string(timestep) +
-                        "'/><worldbody/></mujoco>"),
+    EXPECT_NE(scene_complaint("<mujoco><option timestep='" + std::string(timestep) +
+                              "'/><worldbody/></mujoco>"),
               "")
         << timestep;
   }
@@ -64,8 +70,8 @@ TEST(Scene, RejectsTimeSteps) {
 
 TEST(Scene, RejectsNamesOfTheRobot) {
   const std::string taken = test::scene_mjcf("<body name='robot/arm'><geom size='.1'/></body>");
-  EXPECT_THAT(complaint(taken), HasSubstr("'robot/arm'"));
-  EXPECT_EQ(complaint(SceneFolder(taken).alone()), "") << "without a robot the name is free";
+  EXPECT_THAT(scene_complaint(taken), HasSubstr("'robot/arm'"));
+  EXPECT_EQ(scene_complaint(SceneFolder(taken).alone()), "") << "without a robot the name is free";
 }
 
 /// A scene with every setting that could hurt the robot, or be lost on the way to it:
@@ -163,8 +169,9 @@ TEST(Scene, ARobotThatRefersToFilesIsAnError) {
   folder.add("robot.xml",
              "<mujoco><include file=\"part.xml\"/><worldbody><body name='robot/base'>"
              "<geom size='.1'/></body></worldbody></mujoco>");
-  EXPECT_THAT(complaint(ModelSource{folder.path(), folder.path().parent_path() / "robot.xml"}),
-              AllOf(HasSubstr("robot.xml: refers to 'part.xml'"), HasSubstr("primitives")));
+  EXPECT_THAT(
+      scene_complaint(ModelSource{folder.path(), folder.path().parent_path() / "robot.xml"}),
+      AllOf(HasSubstr("robot.xml: refers to 'part.xml'"), HasSubstr("primitives")));
 }
 
 TEST(Scene, TheRobotIsTheSameInAnyScene) {
@@ -210,8 +217,8 @@ TEST(Scene, BuffersHoldSceneAndRobot) {
 }
 
 TEST(Scene, RefusesWhatWouldChangeBesideTheRobot) {
-  EXPECT_THAT(complaint("<mujoco><compiler settotalmass='50'/><worldbody><body name='stone'>"
-                        "<freejoint/><geom size='.1'/></body></worldbody></mujoco>"),
+  EXPECT_THAT(scene_complaint("<mujoco><compiler settotalmass='50'/><worldbody><body name='stone'>"
+                              "<freejoint/><geom size='.1'/></body></worldbody></mujoco>"),
               AllOf(HasSubstr("mass of body 'stone'"), HasSubstr("settotalmass")));
 }
 
@@ -219,7 +226,7 @@ TEST(Scene, WorksFromARelativePath) {
   const DifficultScene folder;
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path().parent_path());
-  EXPECT_EQ(complaint(ModelSource{"scene.xml", test::pr2_file()}), "");
+  EXPECT_EQ(scene_complaint(ModelSource{"scene.xml", test::pr2_file()}), "");
   EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
   std::filesystem::current_path(before);
 }
@@ -264,7 +271,7 @@ TEST(Scene, FilesInMemoryStandInForThoseItRefersTo) {
 
 TEST(Scene, SaysWhatIsWrongInOneLine) {
   for (const char* geom : {"<geom size='x'/>", "<geom type='box'/>", "<geom nonsense='1'/>"}) {
-    const std::string said = complaint(test::scene_mjcf(geom));
+    const std::string said = scene_complaint(test::scene_mjcf(geom));
     EXPECT_NE(said, "") << geom;
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
   }

@@ -10,11 +10,11 @@
 namespace vantage {
 namespace {
 
-const RgbColour kRed(1, 0, 0);
+const RgbColour kPureRed(1, 0, 0);
 const RgbColour kBlue(0, 0, 1);
 
 TEST(Texture, HsvHitsThePrimaries) {
-  EXPECT_TRUE(hsv(0.0, 1.0, 1.0).isApprox(kRed, 1e-12));
+  EXPECT_TRUE(hsv(0.0, 1.0, 1.0).isApprox(kPureRed, 1e-12));
   EXPECT_TRUE(hsv(1.0 / 3.0, 1.0, 1.0).isApprox(RgbColour(0, 1, 0), 1e-12));
   EXPECT_TRUE(hsv(2.0 / 3.0, 1.0, 1.0).isApprox(kBlue, 1e-12));
   EXPECT_TRUE(hsv(-1.0 / 3.0, 1.0, 1.0).isApprox(kBlue, 1e-12));
@@ -27,11 +27,11 @@ TEST(Texture, PaintFillsTheRectangleOnly) {
   //       . . . .      the second row from the top
   //  v 0  . . . .
   Image image(4, 4, kBlue);
-  paint(image, UvRect{0.25, 0.5, 0.75, 0.75}, kRed);
+  paint(image, UvRect{0.25, 0.5, 0.75, 0.75}, kPureRed);
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 4; ++x) {
       const bool painted = y == 1 && (x == 1 || x == 2);
-      EXPECT_EQ(image.at(x, y), painted ? kRed : kBlue) << x << ", " << y;
+      EXPECT_EQ(image.at(x, y), painted ? kPureRed : kBlue) << x << ", " << y;
     }
   }
 }
