@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-using Json = nlohmann::json;
+using StepJson = nlohmann::json;
 
 ResolvedEpisode tabletop(const std::vector<std::string>& more) {
   set_verbosity(Verbosity::quiet);
@@ -33,10 +33,10 @@ class OutsideChoices : public testing::Test {
     options.lean = true;
     return options;
   }
-  Json asked(const ResolvedEpisode& episode, const auto& decide) {
+  StepJson asked(const ResolvedEpisode& episode, const auto& decide) {
     RunOptions with = options();
     with.outside = {.name = "mine", .decide = decide, .ended = {}};
-    return Json::parse(run(episode, with).metrics);
+    return StepJson::parse(run(episode, with).metrics);
   }
 
   support::TemporaryDirectory folder;
@@ -46,9 +46,9 @@ class OutsideChoices : public testing::Test {
 TEST_F(OutsideChoices, ThatAskTheEpisodesOwnGiveTheSameEpisode) {
   for (const char* choice : {"greedy", "random", "tour"}) {
     const ResolvedEpisode episode = tabletop({std::string("choice=") + choice});
-    const Json own = Json::parse(run(episode, options()).metrics);
+    const StepJson own = StepJson::parse(run(episode, options()).metrics);
     int decisions = 0;
-    const Json same = asked(episode, [&](const DecisionRequest& request) {
+    const StepJson same = asked(episode, [&](const DecisionRequest& request) {
       ++decisions;
       return OutsideDecision(request.own_choice());
     });
@@ -81,7 +81,7 @@ TEST_F(OutsideChoices, AreToldWhatTheRobotKnows) {
 }
 
 TEST_F(OutsideChoices, MayGoWhereNoCandidateIs) {
-  const Json metrics = asked(tabletop({"scans=3"}), [&](const DecisionRequest& request) {
+  const StepJson metrics = asked(tabletop({"scans=3"}), [&](const DecisionRequest& request) {
     if (request.situation.scans == 2) return OutsideDecision(request.candidates.size() - 1);
     Pose2 pose = request.situation.T_world_base;
     pose.x_m += 0.2;
@@ -89,7 +89,7 @@ TEST_F(OutsideChoices, MayGoWhereNoCandidateIs) {
     return OutsideDecision(pose);
   });
   EXPECT_EQ(metrics["status"], "completed");
-  const Json& scans = metrics["scans"];
+  const StepJson& scans = metrics["scans"];
   ASSERT_EQ(scans.size(), 3U);
   EXPECT_EQ(scans[1]["chosen_view"], 30);  // behind the ring's
   EXPECT_FALSE(scans[1]["fallback"].get<bool>());
@@ -100,7 +100,7 @@ TEST_F(OutsideChoices, MayGoWhereNoCandidateIs) {
 
 TEST_F(OutsideChoices, ThatCannotBeCarriedOutFailTheEpisodeWithTheReason) {
   const auto reason = [&](const OutsideDecision& decision) {
-    const Json metrics = asked(tabletop({}), [&](const DecisionRequest&) { return decision; });
+    const StepJson metrics = asked(tabletop({}), [&](const DecisionRequest&) { return decision; });
     EXPECT_EQ(metrics["status"], "failed");
     return metrics["reason"].get<std::string>();
   };
@@ -122,7 +122,7 @@ using SteppedEpisodes = OutsideChoices;
 
 TEST_F(SteppedEpisodes, StopAtEachDecision) {
   const ResolvedEpisode resolved = tabletop({});
-  const Json own = Json::parse(run(resolved, options()).metrics);
+  const StepJson own = StepJson::parse(run(resolved, options()).metrics);
   SteppedEpisode episode(resolved, "mine", options());
   int decisions = 0;
   while (episode.wait() == SteppedEpisode::State::asks) {
@@ -137,7 +137,7 @@ TEST_F(SteppedEpisodes, StopAtEachDecision) {
   EXPECT_EQ(episode.last_situation().scans_left, 0);
   episode.let_go();
   ASSERT_EQ(episode.wait(), SteppedEpisode::State::over);
-  EXPECT_EQ(Json::parse(episode.outcome().metrics)["state_hash"], own["state_hash"]);
+  EXPECT_EQ(StepJson::parse(episode.outcome().metrics)["state_hash"], own["state_hash"]);
 }
 
 TEST_F(SteppedEpisodes, MayBeLeftAtAnyTime) {
@@ -152,7 +152,7 @@ TEST_F(SteppedEpisodes, MayBeLeftAtAnyTime) {
   ASSERT_EQ(episode.wait(), SteppedEpisode::State::asks);
   episode.interrupt();
   ASSERT_EQ(episode.wait(), SteppedEpisode::State::over);
-  EXPECT_EQ(Json::parse(episode.outcome().metrics)["status"], "interrupted");
+  EXPECT_EQ(StepJson::parse(episode.outcome().metrics)["status"], "interrupted");
 }
 
 TEST_F(SteppedEpisodes, ThatCannotBeginSayWhy) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
 
-const fs::path kEpisodes = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes";
+const fs::path kShippedEpisodes = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes";
 
 struct FaultCase {
   std::string name;
@@ -67,7 +67,7 @@ class TabletopFaults : public testing::TestWithParam<FaultCase> {
 TEST_P(TabletopFaults, EndRecordedWithASaneBelief) {
   const support::TemporaryDirectory folder;
   const ResolvedEpisode resolved = load_episode(
-      kEpisodes / "tabletop.yaml",
+      kShippedEpisodes / "tabletop.yaml",
       support::overridden({"scans=2", "map.cells=[49,49,25]", "laser.scan_duration_s=3"},
                           GetParam().overrides));
   RunOptions options;
@@ -128,7 +128,7 @@ class FlightFaults : public testing::TestWithParam<FaultCase> {
 TEST_P(FlightFaults, EndRecordedWithASaneBelief) {
   const support::TemporaryDirectory folder;
   const ResolvedEpisode resolved = load_episode(
-      kEpisodes / "recognition.yaml",
+      kShippedEpisodes / "recognition.yaml",
       support::overridden({"max_views=2", "settle_s=0.1", "object=mug_1",
                            "enough={object_probability: 1, entropy_bits: 0}",
                            "camera={width_px: 320, height_px: 240}", "segmentation.min_pixels=40"},
@@ -179,7 +179,7 @@ TEST(Replay, MeetsTheGustsOfTheTask) {
   const support::TemporaryDirectory folder;
   RunOptions options;
   options.directory = folder / "run";
-  run(load_episode(kEpisodes / "recognition.yaml",
+  run(load_episode(kShippedEpisodes / "recognition.yaml",
                    {"max_views=1", "object=mug_1", "camera={width_px: 320, height_px: 240}",
                     "tracking.gusts=[{force_N: 3, start_s: 0.1}]"}),
       options);
@@ -193,7 +193,7 @@ TEST(Replay, MeetsAllGustsInTheirOrder) {
   const support::TemporaryDirectory folder;
   RunOptions options;
   options.directory = folder / "run";
-  run(load_episode(kEpisodes / "recognition.yaml",
+  run(load_episode(kShippedEpisodes / "recognition.yaml",
                    {"max_views=1", "object=mug_1", "camera={width_px: 320, height_px: 240}",
                     "faults={gust_N: 4, gust_every_s: 0.5, gust_duration_s: 0.2}",
                     "tracking.gusts=[{force_N: 50, duration_s: 60}, "
@@ -206,7 +206,7 @@ TEST(Replay, MeetsAllGustsInTheirOrder) {
 TEST(FaultKeys, ThatMakeNoSenseAreErrorsOfTheConfiguration) {
   const auto refused = [](const char* episode, const std::string& override) -> std::string {
     try {
-      load_episode(kEpisodes / episode, {override});
+      load_episode(kShippedEpisodes / episode, {override});
     } catch (const ConfigError& error) {
       return error.what();
     }

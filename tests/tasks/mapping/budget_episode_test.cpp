@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-nlohmann::json tabletop(const std::vector<std::string>& more) {
+nlohmann::json budgeted_tabletop(const std::vector<std::string>& more) {
   set_verbosity(Verbosity::quiet);
   const support::TemporaryDirectory folder;
   const std::vector<std::string> quick{"scans=10", "map.cells=[49,49,25]",
@@ -28,8 +28,8 @@ nlohmann::json tabletop(const std::vector<std::string>& more) {
 class Budgets : public testing::TestWithParam<const char*> {};
 
 TEST_P(Budgets, OfTimeAreKeptWithTheWayHome) {
-  const auto metrics = tabletop({std::string("choice=") + GetParam(), "budget.time_s=75",
-                                 "budget.return_to_start=true", "seed=4"});
+  const auto metrics = budgeted_tabletop({std::string("choice=") + GetParam(), "budget.time_s=75",
+                                          "budget.return_to_start=true", "seed=4"});
   EXPECT_EQ(metrics["status"], "completed");
   EXPECT_TRUE(metrics["budget"]["kept"].get<bool>());
   EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());
@@ -45,7 +45,7 @@ TEST_P(Budgets, OfTimeAreKeptWithTheWayHome) {
 INSTANTIATE_TEST_SUITE_P(Choices, Budgets, testing::Values("greedy", "tour", "information_rate"));
 
 TEST(Budgets, OfEnergyAreKept) {
-  const auto metrics = tabletop({"budget.energy_j=8000", "seed=5"});
+  const auto metrics = budgeted_tabletop({"budget.energy_j=8000", "seed=5"});
   EXPECT_EQ(metrics["status"], "completed");
   EXPECT_LE(metrics["energy_j"].get<double>(), 8000.0);
   EXPECT_GT(metrics["energy_j"].get<double>(), 5000.0);
@@ -54,14 +54,14 @@ TEST(Budgets, OfEnergyAreKept) {
 }
 
 TEST(Budgets, TooSmallToMoveAreAFailureThatSaysSo) {
-  const auto metrics = tabletop({"budget.time_s=10"});
+  const auto metrics = budgeted_tabletop({"budget.time_s=10"});
   EXPECT_EQ(metrics["status"], "failed");
   EXPECT_NE(metrics["reason"].get<std::string>().find("budget.time_s 10: too small to go anywhere"),
             std::string::npos);
 }
 
 TEST(Budgets, ComeHomeWithoutALimitToo) {
-  const auto metrics = tabletop({"scans=2", "budget.return_to_start=true"});
+  const auto metrics = budgeted_tabletop({"scans=2", "budget.return_to_start=true"});
   EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());
 }
 

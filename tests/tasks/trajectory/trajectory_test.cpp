@@ -31,9 +31,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const fs::path kSource = VANTAGE_SOURCE_DIR;
-const fs::path kEpisode = kSource / "assets/episodes/trajectory.yaml";
-const fs::path kArena = kSource / "models/scenes/trajectory_4";
+const fs::path kFlightSource = VANTAGE_SOURCE_DIR;
+const fs::path kFlightEpisode = kFlightSource / "assets/episodes/trajectory.yaml";
+const fs::path kArena = kFlightSource / "models/scenes/trajectory_4";
 constexpr int kObjects = 4;
 
 void make_small_model(const fs::path& dataset, const fs::path& model) {
@@ -87,7 +87,7 @@ class TrajectoryEpisode : public testing::Test {
     RunOptions options;
     options.directory = *folder_ / name;
     const RunOutcome outcome =
-        run(load_episode(kEpisode, overrides(scene, std::move(more))), options);
+        run(load_episode(kFlightEpisode, overrides(scene, std::move(more))), options);
     code_ = outcome.code;
     return json::parse(outcome.metrics);
   }
@@ -266,7 +266,7 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
   std::string rows;
   for (int i = 0; i < 12; ++i) rows += fmt::format("{:.2f},-1.9,1.8,0\n", -2.67 + 0.4 * i);
   const ResolvedEpisode episode =
-      load_episode(kEpisode, overrides(arena_with_path(*folder_ / "on", rows), {}));
+      load_episode(kFlightEpisode, overrides(arena_with_path(*folder_ / "on", rows), {}));
   const auto& task = std::get<TrajectoryFlight>(episode.task);
   const std::vector<FlightWaypoint> path = read_flight_path(episode.setup.scene);
   const Recogniser recogniser = load_lean_recogniser(task.model, task.recogniser);
@@ -307,7 +307,7 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
 
 TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
   const Validation found =
-      validate_episode(kEpisode, overrides(past_a_support_, {"model=nowhere"}));
+      validate_episode(kFlightEpisode, overrides(past_a_support_, {"model=nowhere"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("nowhere"),
@@ -315,7 +315,8 @@ TEST_F(TrajectoryEpisode, AMissingModelSaysHowToMakeOne) {
 }
 
 TEST_F(TrajectoryEpisode, AnUnknownMethodNamesThoseThereAre) {
-  const Validation found = validate_episode(kEpisode, overrides(past_a_support_, {"method=chomp"}));
+  const Validation found =
+      validate_episode(kFlightEpisode, overrides(past_a_support_, {"method=chomp"}));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("chomp"), testing::HasSubstr("greedy_detour"),
