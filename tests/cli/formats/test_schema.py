@@ -85,9 +85,10 @@ class Schema(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.schemas = {kind: schema(kind) for kind in KINDS}
+        cls.validators = {kind: jsonschema.Draft7Validator(of) for kind, of in cls.schemas.items()}
 
     def errors(self, kind, document):
-        return [error.message for error in jsonschema.Draft7Validator(self.schemas[kind]).iter_errors(document)]
+        return [error.message for error in self.validators[kind].iter_errors(document)]
 
     def test_is_a_schema(self):
         for kind, made in self.schemas.items():

@@ -68,7 +68,7 @@ Model loosened(const fs::path& folder, const TableScene& scene) {
     insert_after("<body name=\"" + placed.spec.name + "\"", "<freejoint/>");
   }
   insert_after("<mujoco model",
-               "<size njmax=\"8000\" nconmax=\"2000\"/>"
+               "<size njmax=\"3000\" nconmax=\"2000\"/>"
                "<option cone=\"elliptic\" impratio=\"10\" noslip_iterations=\"10\">"
                "<flag multiccd=\"enable\"/></option>"
                "<default><geom condim=\"6\" friction=\"1 0.01 0.002\"/></default>");
@@ -98,6 +98,8 @@ TEST_P(ClutterScene, StandsStably) {
   ASSERT_NE(model, nullptr);
   const Data data(mj_makeData(model.get()), &mj_deleteData);
   while (data->time < 2.0) mj_step(model.get(), data.get());
+  EXPECT_EQ(data->warning[mjWARN_CNSTRFULL].number, 0);
+  EXPECT_EQ(data->warning[mjWARN_CONTACTFULL].number, 0);
   for (const PlacedObject& placed : scene.objects) {
     const int body = mj_name2id(model.get(), mjOBJ_BODY, placed.spec.name.c_str());
     const mjtNum* at = data->xpos + 3 * body;
