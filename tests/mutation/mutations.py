@@ -20,6 +20,8 @@ WORDS = {
     "max_element": "min_element",
 }
 NUMBER = re.compile(r"(?<![\w.'\"])(\d+\.\d*(?:e-?\d+)?|\d+(?:e-?\d+)?)(?=[FfUuLl]*(?![\w.]))")
+# Whose arguments may stand in any order.
+COMMUTATIVE = {"min", "max"}
 PARAMETER = re.compile(r"(const )?[\w:<>]+[&*]* \w+( = .*)?$")  # of a declaration, not of a call
 STATEMENT = re.compile(r"(if|for) \(|[^ (]+\(|[^ =]+ [-+*/|&]?= |[-+]{2}|[^ ]+([-+]{2});")
 # Lines that decide nothing: what is left unchecked is asserted, said, or only named.
@@ -87,7 +89,9 @@ def arguments_of(code, opening, end):
 
 
 def swapped(line, code):
-    for match in re.finditer(r"\w\(", code):
+    for match in re.finditer(r"\b(\w*\w)\(", code):
+        if match.group(1) in COMMUTATIVE:
+            continue
         opening = match.end() - 1
         end = closing(code, opening)
         if end < 0:

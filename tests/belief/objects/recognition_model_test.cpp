@@ -165,6 +165,19 @@ TEST_F(RecognitionFile, NamesTheNumberThatMakesNoSense) {
   EXPECT_THAT(with(psi + 8, std::nan("")), HasSubstr("cost_s of feature colour is nan"));
 }
 
+TEST_F(RecognitionFile, HoldsTenMillionStatesAndNoMore) {
+  const std::size_t objects_at = whole_.find("object_0") - 8;
+  const auto of_objects = [&](std::uint32_t objects) {
+    std::string bytes = whole_.substr(0, objects_at);
+    const std::int32_t bins = 2500;
+    std::memcpy(bytes.data() + kHeader, &bins, sizeof bins);
+    put(bytes, objects);
+    return error_of(sealed(bytes + std::string(8 * objects, '\0')));
+  };
+  EXPECT_THAT(of_objects(4000), HasSubstr("object '' appears twice"));
+  EXPECT_THAT(of_objects(4001), HasSubstr("4001 objects of 2500 bins are too many"));
+}
+
 TEST_F(RecognitionFile, SurvivesDamageThatItsHashDoesNotShow) {
   Rng rng(32);
   int refused = 0;

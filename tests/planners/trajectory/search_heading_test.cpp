@@ -109,6 +109,23 @@ TEST_F(Strip, TheLeastTurnThatShowsItIsTaken) {
   EXPECT_EQ(turned_by(utility_m2 + 1e-6), 0.0);
 }
 
+TEST_F(Strip, RaysStepByTheShorterEdgeOfACell) {
+  grid_ = OccupancyGrid(GridFrame{{-3.0, -3.0, 0.8}, {0.1, 0.05, 0.2}, {60, 120, 1}});
+  std::ranges::fill(grid_.log_odds, -2.0F);
+  leave_unseen(10);
+  double area_m2 = 0.0;
+  const double bearing_rad = 10 * kBetweenRays_rad;
+  for (double away_m = 0.5; away_m < options_.range_m; away_m += 0.05) {
+    const Eigen::Vector3d p(away_m * std::cos(bearing_rad), away_m * std::sin(bearing_rad), 0.9);
+    const auto state = grid_.state(grid_.frame.index(grid_.frame.cell_at(p)));
+    if (state == CellState::unobserved) area_m2 += away_m * kBetweenRays_rad * 0.05;
+  }
+  ASSERT_GT(area_m2, 0.05);
+  const double utility_m2 = area_m2 * std::cos(2.5 * kBetweenRays_rad);
+  EXPECT_NEAR(turned_by(utility_m2 - 1e-6), 5.0 * kBetweenRays_rad, 1e-9);
+  EXPECT_EQ(turned_by(utility_m2 + 1e-6), 0.0);
+}
+
 TEST_F(Strip, ItTurnsToEitherSideAsFarAsItMay) {
   leave_unseen(16);
   EXPECT_NEAR(turned_by(0.05), 11.0 * kBetweenRays_rad, 1e-9) << "just less than a radian";
