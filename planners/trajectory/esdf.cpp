@@ -46,9 +46,7 @@ class Transform {
       squared[x] = away_m;
     }
     for (std::size_t x = nx_; x-- > 0;) {
-      away_m = squared[x] == 0.0F ? 0.0F : std::min(away_m + cell_m, reach_m);
-      if (x + 1 == nx_) away_m = squared[x];
-      away_m = std::min(away_m, squared[x]);
+      away_m = std::min(away_m + cell_m, squared[x]);
       squared[x] = std::min(away_m * away_m, far_);
     }
   }

@@ -67,7 +67,7 @@ Horizon FlightPlanner::horizon(const PlanState& state,
   horizon.points.col(0) = state.plan[static_cast<std::size_t>(first)];
   if (count > 1)
     horizon.points.col(count - 1) = state.nominal[static_cast<std::size_t>(first + count - 1)];
-  horizon.after = state.nominal[static_cast<std::size_t>(std::min(first + count, size - 1))];
+  horizon.after = state.nominal.at(static_cast<std::size_t>(std::min(first + count, size - 1)));
   return unwrapped(std::move(horizon));
 }
 

@@ -66,6 +66,18 @@ TEST(FloorDetail, KnowsNothingBeyondItsRange) {
   EXPECT_EQ(detail.state_at({1.5, 0.0}), CellState::unobserved);
 }
 
+TEST(FloorDetail, GoesByThePoseOfBaseAndSensor) {
+  FloorMap detail = make_floor_detail(floor_of_20cm(), {});
+  const PlanarScan scan{.T_base_sensor = {0.5, 0.0, 0.0},
+                        .azimuth_rad = {0.0},
+                        .range_m = {1.01F},
+                        .range_max_m = 10.0};
+  for (int i = 0; i < 3; ++i) add_beams(detail, scan, {1.01, -1.0, M_PI / 2.0}, {});
+  EXPECT_EQ(detail.state_at({1.01, 0.0}), CellState::free);
+  EXPECT_EQ(detail.state_at({1.01, 0.51}), CellState::occupied);
+  EXPECT_EQ(detail.state_at({1.01, -0.7}), CellState::unobserved) << "behind the sensor";
+}
+
 TEST(FloorDetail, WhatTheRobotStandsOnIsFree) {
   FloorMap detail = make_floor_detail(floor_of_20cm(), {});
   detail.blocked[detail.index(detail.cell_at({0.5, 0.5}))] = 1;

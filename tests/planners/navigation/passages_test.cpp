@@ -335,6 +335,19 @@ TEST(Passages, SomethingNewInTheDoorIsSeen) {
       << "under it: it cannot be there";
 }
 
+TEST(Passages, SomethingNewBesideATurnInPlaceIsSeen) {
+  DrawnRooms rooms = rooms_with_door(0.75);
+  const RobotOutline robot{.outline = rectangle(kWidth_m, kWidth_m)};
+  const PathLeg turn{.waypoints = {{2.0, 1.5, 0.0}, {2.0, 1.5, 0.6}}, .narrow = true};
+  EXPECT_FALSE(is_passage_blocked(rooms.detail, turn, {2.0, 1.5, 0.0}, robot));
+  const double corner_m = 0.93 * std::numbers::sqrt2 * 0.5 * kWidth_m;
+  const double bearing_rad = std::numbers::pi / 4.0 + 0.6;
+  const Eigen::Vector2d p_m(2.0 + corner_m * std::cos(bearing_rad),
+                            1.5 + corner_m * std::sin(bearing_rad));
+  rooms.detail.log_odds[rooms.detail.index(rooms.detail.cell_at(p_m))] = 3.0F;
+  EXPECT_TRUE(is_passage_blocked(rooms.detail, turn, {2.0, 1.5, 0.0}, robot));
+}
+
 /// A seam along every wall leads nowhere.
 TEST(NarrowPlaces, AreNoneInARoomWithoutADoor) {
   const DrawnRooms rooms(3.0, 3.0, {wall(1.4, 1.4, 1.6, 1.6)});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/planners/trajectory/straight_flight.hpp"
 
 namespace vantage {
@@ -47,6 +49,30 @@ TEST(Chomp, ReachesTheMinimumOfAQuadratic) {
   PathGradient gradient_at(5);
   EXPECT_LT(gradient_at(search, search.nominal(), 1e-6).cwiseAbs().maxCoeff(), 2e-3);
   EXPECT_LT(result.cost, result.initial_cost);
+}
+
+TEST(Chomp, DoesNotMoveAlongAnAxisWithoutAScale) {
+  const PathCost cost = [](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) {
+    for (Eigen::Index i = 0; i < horizon.count(); ++i) {
+      cost_of_point[i] =
+          (horizon.point(i).array() - Eigen::Array4d(3.0, 1.0, 2.5, 0.4)).square().sum();
+    }
+  };
+  const Horizon horizon = test::straight_flight(7);
+  for (const Eigen::Index still : {0, 1, 2, 3}) {
+    std::array<double, 4> scale{0.5, 0.4, 0.2, 0.5};
+    scale[static_cast<std::size_t>(still)] = 0.0;
+    Chomp chomp;
+    chomp.scale_m = {scale[0], scale[1], scale[2]};
+    chomp.scale_yaw_rad = scale[3];
+    Rng rng(1);
+    const Eigen::Matrix4Xd moved = chomp(horizon, cost, rng).points - horizon.points;
+    for (const Eigen::Index d : {0, 1, 2, 3}) {
+      const double most = moved.row(d).cwiseAbs().maxCoeff();
+      // What is best may be a path of the differences.
+      EXPECT_EQ(most <= 1.001 * chomp.difference, d == still) << d << " of " << still;
+    }
+  }
 }
 
 }  // namespace
