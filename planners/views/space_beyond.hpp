@@ -24,7 +24,7 @@ struct SpaceBeyond {
   std::vector<std::int32_t> place_of;  ///< per column, x fastest: index of a place, or kNone
   /// Of the cells of open columns, the share that is observed: what may be expected of unknown
   /// ones.
-  double seen_share = 1.0;
+  double seen_share;
 };
 
 /// Every unknown column goes to the place with the shortest way to it, through open and unknown

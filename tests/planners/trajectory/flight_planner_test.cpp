@@ -250,6 +250,9 @@ TEST_F(Planner, LeavingThePathCostsByWhatIsBeyondTheTolerance) {
   EXPECT_NEAR(missing_m({0.0, -1.2, 0.0, 0.0}), 0.0, 1e-6);
   EXPECT_NEAR(missing_m({0.0, 0.0, 0.4, 0.0}), 8.0 * (4.0 * 0.4 - 1.2), 1e-6) << "up counts more";
   EXPECT_NEAR(missing_m({0.0, 0.0, -0.4, 0.0}), 8.0 * (4.0 * 0.4 - 1.2), 1e-6) << "and down";
+  path_[1].z() = 1.4;  // so low it may be anywhere
+  EXPECT_NEAR(missing_m({0.0, 0.0, -0.38, 0.0}), 0.0, 1e-6);
+  EXPECT_NEAR(missing_m({0.0, 0.0, 0.38, 0.0}), 8.0 * (4.0 * 0.38 - 1.2), 1e-6);
 }
 
 /// Over a floor 1.8 m below; what is farther than 1.5 m is that far.
