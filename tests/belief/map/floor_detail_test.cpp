@@ -92,6 +92,15 @@ TEST(FloorDetail, WhatTheRobotStandsOnIsFree) {
   }
 }
 
+TEST(FloorDetail, WhatOfTheRobotIsOffTheMapIsLeftOut) {
+  FloorMap detail = make_floor_detail(floor_of_20cm(), {});  // 3 m to each side
+  clear_outline(detail, FloorOutline{{-3.4, -3.4}, {-2.5, -3.4}, {-2.5, 3.4}, {-3.4, 3.4}});
+  for (const double y_m : {-2.9, 0.0, 2.9}) {
+    EXPECT_EQ(detail.state_at({-2.9, y_m}), CellState::free);
+    EXPECT_EQ(detail.state_at({-2.3, y_m}), CellState::unobserved);
+  }
+}
+
 /// Log odds of 0.7 for a beam that ends, -0.3 for one that goes on, up to 6: occupied from three
 /// ends in ten on.
 TEST(FloorDetail, CountsEachBeam) {

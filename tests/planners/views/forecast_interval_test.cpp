@@ -79,6 +79,12 @@ TEST(ForecastInterval, ScalesWithTheFirstView) {
   }
 }
 
+TEST(ForecastInterval, BeginsWithAFirstViewThatShowsSomething) {
+  ForecastInterval interval({});
+  EXPECT_DEATH((void)interval.of(100.0), "a first view before the first interval");
+  EXPECT_DEATH(interval.start(0.0), "a first view that shows something");
+}
+
 TEST(ForecastInterval, RefusesOptionsOutOfRange) {
   EXPECT_THROW(ForecastInterval({.confidence = 1.0}), ConfigError);
   EXPECT_THROW(ForecastInterval({.rate = -0.1}), ConfigError);
