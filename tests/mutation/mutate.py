@@ -159,8 +159,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--named", action="store_true", help="those of tests/mutation/named.yaml; all must be killed")
     arguments = parser.parse_intermixed_args()
-    lock = alone()  # noqa: F841: held
     if arguments.named:
+        lock = alone()  # noqa: F841: held
         mutants = named()
         counts, survivors = try_all(mutants, len(mutants), Record(OUT / "named.jsonl", state_of_tree()))
         report("named", counts, survivors, "-")
@@ -172,6 +172,7 @@ def main():
     if not files:
         parser.error(f"{' '.join(paths)}: no sources of git's there")
     name = " ".join(paths)
+    lock = alone()  # noqa: F841: held
     record = Record(OUT / f"{name.replace('/', '_').replace(' ', '-')}-{arguments.seed}.jsonl", state_of_tree())
     counts, survivors = try_all(draws(ROOT, files, arguments.seed), number, record)
     return 0 if report(name, counts, survivors, arguments.seed) >= GOAL else 1

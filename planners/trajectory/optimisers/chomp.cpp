@@ -61,7 +61,7 @@ OptimisedHorizon Chomp::operator()(const Horizon& horizon, const PathCost& cost,
   PathGradient gradient_at(n);
   Eigen::Matrix4Xd mean = search.nominal();
   Eigen::Matrix4Xd trial = mean;
-  Eigen::Matrix4Xd downhill(4, n);
+  Eigen::Matrix4Xd downhill;
   double here = search.best_cost();
   double step = first_step;
   bool better = true;
