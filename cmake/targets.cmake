@@ -79,7 +79,7 @@ endfunction()
 # VANTAGE_UNITY_BUILD.
 function(vantage_in_batches target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${VANTAGE_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
-  if(VANTAGE_UNITY_BUILD)    # what is of one file is of one program: nobody else includes it
+  if(VANTAGE_UNITY_BUILD)    # to GCC the sources of a batch are headers
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endfunction()

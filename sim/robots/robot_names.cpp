@@ -25,15 +25,15 @@ std::string_view text(ModelObject kind) {
   return "object";
 }
 
-Eigen::Isometry3d pose_of(const mjtNum* p, const mjtNum* wxyz) {
+}  // namespace
+
+Eigen::Isometry3d pose_of(const double* p, const double* wxyz) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() = Eigen::Map<const Eigen::Vector3d>(p);
   T.linear() =
       Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized().toRotationMatrix();
   return T;
 }
-
-}  // namespace
 
 void RobotNames::fail(std::string_view key, const std::string& what) const {
   throw InputError(fmt::format("{}: {}: {}", where_, key, what));

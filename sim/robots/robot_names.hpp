@@ -57,6 +57,9 @@ class RobotNames {
 int robot_base(const mjModel& model);
 std::optional<int> robot_camera(const mjModel& model);
 
+/// Of a position and a quaternion (w, x, y, z, of any length) of MuJoCo.
+Eigen::Isometry3d pose_of(const double* p, const double* wxyz);
+
 /// Pose of a site in its body; of the camera, looking along -z, too.
 Eigen::Isometry3d site_in_body(const mjModel& model, int site);
 Eigen::Isometry3d camera_in_body(const mjModel& model, int camera);

@@ -9,25 +9,17 @@
 #include <vector>
 
 #include "vantage/core/error.hpp"
+#include "vantage/sim/robots/robot_names.hpp"
 
 namespace vantage {
 namespace {
 
 constexpr int kLines = 64;
 
-Pose pose_from(const mjtNum* position, const mjtNum* quaternion) {
-  Pose T = Pose::Identity();
-  T.linear() = Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3])
-                   .normalized()
-                   .toRotationMatrix();
-  T.translation() = Eigen::Vector3d(position[0], position[1], position[2]);
-  return T;
-}
-
 Pose pose_in_base(const mjModel& model, int base_body, int geom) {
-  Pose T = pose_from(model.geom_pos + 3 * geom, model.geom_quat + 4 * geom);
+  Pose T = pose_of(model.geom_pos + 3 * geom, model.geom_quat + 4 * geom);
   for (int at = model.geom_bodyid[geom]; at != base_body; at = model.body_parentid[at]) {
-    T = pose_from(model.body_pos + 3 * at, model.body_quat + 4 * at) * T;
+    T = pose_of(model.body_pos + 3 * at, model.body_quat + 4 * at) * T;
   }
   return T;
 }

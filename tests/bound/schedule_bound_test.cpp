@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "tests/bound/line_problem.hpp"
 #include "vantage/bound/fewest_scans.hpp"
 #include "vantage/bound/witness_way.hpp"
 #include "vantage/core/rng.hpp"
@@ -158,28 +159,11 @@ TEST(ScheduleBound, OfManyViewsIsExactAsFarAsItSays) {
   }
 }
 
-/// Views on a line at those x, the k-th of which shows cell k; cell 0 is seen at the start.
-CoverProblem on_a_line(const std::vector<double>& x_m) {
-  CoverProblem problem;
-  problem.speed_m_s = 1.0;
-  problem.scan_s = 1.0;
-  const auto n = static_cast<Eigen::Index>(x_m.size());
-  problem.way_m = Eigen::MatrixXd::Zero(n, n);
-  for (std::size_t i = 0; i < x_m.size(); ++i) {
-    problem.shows.push_back({std::uint64_t{1} << i});
-    for (std::size_t j = 0; j < x_m.size(); ++j) {
-      problem.way_m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          std::abs(x_m[i] - x_m[j]);
-    }
-  }
-  return problem;
-}
-
 /// 1.04 m are needed; by views 4 cm apart taken for one place 1 m is no more than a bound.
 TEST(ScheduleBound, OfPlacesThatAreNoPointsIsNoExactWay) {
   std::vector<double> x_m{0.0, 1.0, 1.04};
   for (int k = 0; k < 14; ++k) x_m.push_back(0.0);
-  CoverProblem problem = on_a_line(x_m);
+  CoverProblem problem = test::views_at(x_m);
   for (std::size_t view = 3; view < problem.views(); ++view) problem.shows[view] = {1};
   const auto bound = schedule_bounds(problem, std::vector<std::size_t>{3}).front();
   ASSERT_TRUE(bound);
@@ -192,7 +176,7 @@ TEST(ScheduleBound, OfPlacesThatAreNoPointsIsNoExactWay) {
 TEST(ScheduleBound, ThroughManyViewsIsNoExactTime) {
   std::vector<double> x_m;
   for (int k = 0; k < 16; ++k) x_m.push_back(0.5 * k);
-  const CoverProblem problem = on_a_line(x_m);
+  const CoverProblem problem = test::views_at(x_m);
   const auto bounds = schedule_bounds(problem, std::vector<std::size_t>{13, 14});
   ASSERT_TRUE(bounds[0] && bounds[1]);
   EXPECT_TRUE(bounds[0]->exact_time) << "twelve scans after the first";

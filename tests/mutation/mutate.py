@@ -119,8 +119,10 @@ def alone():
     return lock
 
 
-def try_all(mutants, wanted, record):
+def try_all(mutants, wanted, verdicts):
     """Counts by verdict, and the survivors; stops at `wanted` mutants that count."""
+    lock = alone()  # noqa: F841: held
+    record = Record(OUT / verdicts, state_of_tree())
     copy = WorkCopy(OUT / "tree")
     copy.update()
     by_hand, counts, survivors = equivalents(), {}, []
@@ -160,9 +162,8 @@ def main():
     parser.add_argument("--named", action="store_true", help="those of tests/mutation/named.yaml; all must be killed")
     arguments = parser.parse_intermixed_args()
     if arguments.named:
-        lock = alone()  # noqa: F841: held
         mutants = named()
-        counts, survivors = try_all(mutants, len(mutants), Record(OUT / "named.jsonl", state_of_tree()))
+        counts, survivors = try_all(mutants, len(mutants), "named.jsonl")
         report("named", counts, survivors, "-")
         return 0 if counts.get("killed", 0) == len(mutants) else 1  # one that does not compile shows nothing
     words = arguments.words
@@ -172,9 +173,8 @@ def main():
     if not files:
         parser.error(f"{' '.join(paths)}: no sources of git's there")
     name = " ".join(paths)
-    lock = alone()  # noqa: F841: held
-    record = Record(OUT / f"{name.replace('/', '_').replace(' ', '-')}-{arguments.seed}.jsonl", state_of_tree())
-    counts, survivors = try_all(draws(ROOT, files, arguments.seed), number, record)
+    verdicts = f"{name.replace('/', '_').replace(' ', '-')}-{arguments.seed}.jsonl"
+    counts, survivors = try_all(draws(ROOT, files, arguments.seed), number, verdicts)
     return 0 if report(name, counts, survivors, arguments.seed) >= GOAL else 1
 
 

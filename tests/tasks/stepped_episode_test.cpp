@@ -16,8 +16,6 @@
 namespace vantage {
 namespace {
 
-using StepJson = nlohmann::json;
-
 ResolvedEpisode tabletop(const std::vector<std::string>& more) {
   set_verbosity(Verbosity::quiet);
   return load_episode(
@@ -33,10 +31,10 @@ class OutsideChoices : public testing::Test {
     options.lean = true;
     return options;
   }
-  StepJson asked(const ResolvedEpisode& episode, const auto& decide) {
+  nlohmann::json asked(const ResolvedEpisode& episode, const auto& decide) {
     RunOptions with = options();
     with.outside = {.name = "mine", .decide = decide, .ended = {}};
-    return StepJson::parse(run(episode, with).metrics);
+    return nlohmann::json::parse(run(episode, with).metrics);
   }
 
   support::TemporaryDirectory folder;
@@ -46,9 +44,9 @@ class OutsideChoices : public testing::Test {
 TEST_F(OutsideChoices, ThatAskTheEpisodesOwnGiveTheSameEpisode) {
   for (const char* choice : {"greedy", "random", "tour"}) {
     const ResolvedEpisode episode = tabletop({std::string("choice=") + choice});
-    const StepJson own = StepJson::parse(run(episode, options()).metrics);
+    const nlohmann::json own = nlohmann::json::parse(run(episode, options()).metrics);
     int decisions = 0;
-    const StepJson same = asked(episode, [&](const DecisionRequest& request) {
+    const nlohmann::json same = asked(episode, [&](const DecisionRequest& request) {
       ++decisions;
       return OutsideDecision(request.own_choice());
     });
@@ -81,7 +79,7 @@ TEST_F(OutsideChoices, AreToldWhatTheRobotKnows) {
 }
 
 TEST_F(OutsideChoices, MayGoWhereNoCandidateIs) {
-  const StepJson metrics = asked(tabletop({"scans=3"}), [&](const DecisionRequest& request) {
+  const nlohmann::json metrics = asked(tabletop({"scans=3"}), [&](const DecisionRequest& request) {
     if (request.situation.scans == 2) return OutsideDecision(request.candidates.size() - 1);
     Pose2 pose = request.situation.T_world_base;
     pose.x_m += 0.2;
@@ -89,7 +87,7 @@ TEST_F(OutsideChoices, MayGoWhereNoCandidateIs) {
     return OutsideDecision(pose);
   });
   EXPECT_EQ(metrics["status"], "completed");
-  const StepJson& scans = metrics["scans"];
+  const nlohmann::json& scans = metrics["scans"];
   ASSERT_EQ(scans.size(), 3U);
   EXPECT_EQ(scans[1]["chosen_view"], 30);  // behind the ring's
   EXPECT_FALSE(scans[1]["fallback"].get<bool>());
@@ -100,7 +98,8 @@ TEST_F(OutsideChoices, MayGoWhereNoCandidateIs) {
 
 TEST_F(OutsideChoices, ThatCannotBeCarriedOutFailTheEpisodeWithTheReason) {
   const auto reason = [&](const OutsideDecision& decision) {
-    const StepJson metrics = asked(tabletop({}), [&](const DecisionRequest&) { return decision; });
+    const nlohmann::json metrics =
+        asked(tabletop({}), [&](const DecisionRequest&) { return decision; });
     EXPECT_EQ(metrics["status"], "failed");
     return metrics["reason"].get<std::string>();
   };
@@ -122,7 +121,7 @@ using SteppedEpisodes = OutsideChoices;
 
 TEST_F(SteppedEpisodes, StopAtEachDecision) {
   const ResolvedEpisode resolved = tabletop({});
-  const StepJson own = StepJson::parse(run(resolved, options()).metrics);
+  const nlohmann::json own = nlohmann::json::parse(run(resolved, options()).metrics);
   SteppedEpisode episode(resolved, "mine", options());
   int decisions = 0;
   while (episode.wait() == SteppedEpisode::State::asks) {
@@ -137,7 +136,7 @@ TEST_F(SteppedEpisodes, StopAtEachDecision) {
   EXPECT_EQ(episode.last_situation().scans_left, 0);
   episode.let_go();
   ASSERT_EQ(episode.wait(), SteppedEpisode::State::over);
-  EXPECT_EQ(StepJson::parse(episode.outcome().metrics)["state_hash"], own["state_hash"]);
+  EXPECT_EQ(nlohmann::json::parse(episode.outcome().metrics)["state_hash"], own["state_hash"]);
 }
 
 TEST_F(SteppedEpisodes, MayBeLeftAtAnyTime) {
@@ -152,7 +151,7 @@ TEST_F(SteppedEpisodes, MayBeLeftAtAnyTime) {
   ASSERT_EQ(episode.wait(), SteppedEpisode::State::asks);
   episode.interrupt();
   ASSERT_EQ(episode.wait(), SteppedEpisode::State::over);
-  EXPECT_EQ(StepJson::parse(episode.outcome().metrics)["status"], "interrupted");
+  EXPECT_EQ(nlohmann::json::parse(episode.outcome().metrics)["status"], "interrupted");
 }
 
 TEST_F(SteppedEpisodes, ThatCannotBeginSayWhy) {

@@ -12,7 +12,6 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-constexpr double kHalf_m = kWallThickness_m / 2;
 constexpr double kDoor_m = 1.5;
 constexpr double kClearOfCorner_m = 1.6;
 /// Rooms and shafts are about as long, along the corridor.
@@ -30,13 +29,13 @@ struct Ring {
 Ring draw_ring(const CorridorOptions& options, Rng& rng) {
   const double width_m = 0.1 * std::round(10.0 * rng.uniform(1.8, 2.4));
   const Vector2d outer =
-      0.5 * Vector2d(options.width_m, options.length_m) - Vector2d::Constant(kHalf_m);
+      0.5 * Vector2d(options.width_m, options.length_m) - Vector2d::Constant(kHalfWall_m);
   return {outer, outer - Vector2d::Constant(width_m + kWallThickness_m), width_m};
 }
 
 void add_ring(FloorPlan& plan, const Ring& ring) {
   const auto& [outer, inner, width_m] = ring;
-  const double corner = outer.x() + kHalf_m;
+  const double corner = outer.x() + kHalfWall_m;
   plan.walls.push_back({{-corner, -outer.y()}, {corner, -outer.y()}, {}});
   plan.walls.push_back({{-corner, outer.y()}, {corner, outer.y()}, {}});
   plan.walls.push_back({{-outer.x(), -outer.y()}, {-outer.x(), outer.y()}, {}});
@@ -44,7 +43,7 @@ void add_ring(FloorPlan& plan, const Ring& ring) {
   plan.walls.push_back({{-inner.x(), -inner.y()}, {inner.x(), -inner.y()}, {}});
   plan.walls.push_back({{-inner.x(), inner.y()}, {inner.x(), inner.y()}, {}});
   const auto room = [&](const Vector2d& a, const Vector2d& b) {
-    const Vector2d half = Vector2d::Constant(kHalf_m);
+    const Vector2d half = Vector2d::Constant(kHalfWall_m);
     plan.rooms.push_back({RoomUse::corridor, AlignedBox2d(a + half, b - half)});
   };
   room(-outer, {outer.x(), -inner.y()});
@@ -66,7 +65,7 @@ void add_rooms(FloorPlan& plan, const Ring& ring, Rng& rng) {
     const double to = last ? inner.y() : even + 0.1 * std::round(rng.uniform(-6.0, 6.0));
     if (!last) plan.walls.push_back({{-inner.x(), to}, {inner.x(), to}, {}});
     if (i % 2 == 0) {
-      const Vector2d half = Vector2d::Constant(kHalf_m);
+      const Vector2d half = Vector2d::Constant(kHalfWall_m);
       plan.rooms.push_back({RoomUse::meeting, AlignedBox2d(Vector2d(-inner.x(), from) + half,
                                                            Vector2d(inner.x(), to) - half)});
       const double spare = to - from - kDoor_m - 0.8;
@@ -81,7 +80,7 @@ void add_rooms(FloorPlan& plan, const Ring& ring, Rng& rng) {
 
 /// Before the outer walls, away from the corners.
 void add_piers(FloorPlan& plan, const Ring& ring, Rng& rng) {
-  const Vector2d face = ring.outer - Vector2d::Constant(kHalf_m);
+  const Vector2d face = ring.outer - Vector2d::Constant(kHalfWall_m);
   const double loop_m = 4.0 * (face.x() + face.y() - ring.width_m);
   const int count = static_cast<int>(std::lround(loop_m / kPierEvery_m));
   for (int i = 0; i < count; ++i) {

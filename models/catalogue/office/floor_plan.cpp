@@ -8,7 +8,6 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-constexpr double kHalfWall_m = kWallThickness_m / 2;
 constexpr double kPost_m = 0.07;
 constexpr double kPostRelief_m = 0.01;  // thicker than the wall by that on each side
 

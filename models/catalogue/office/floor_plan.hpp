@@ -12,6 +12,7 @@
 namespace vantage {
 
 inline constexpr double kWallThickness_m = 0.1;
+inline constexpr double kHalfWall_m = kWallThickness_m / 2;
 inline constexpr double kWallHeight_m = 2.0;
 
 enum class RoomUse { open_plan, small_office, meeting, lounge, hallway, corridor };

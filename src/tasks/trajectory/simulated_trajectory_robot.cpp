@@ -9,6 +9,7 @@
 
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/interrupt.hpp"
+#include "vantage/sim/faults/fault_schedule.hpp"
 
 namespace vantage {
 namespace {
