@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kSample_m = 0.03;
 
-Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
 Pose2 pose_at(const Eigen::Vector2d& p_m, double yaw_rad) { return {p_m.x(), p_m.y(), yaw_rad}; }
 
 bool same_heading(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)) < 1e-9; }

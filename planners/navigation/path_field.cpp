@@ -15,7 +15,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kNodesBetweenPolls = 1 << 15;
 constexpr std::array<std::pair<int, int>, 8> kSteps{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 

@@ -12,6 +12,9 @@
 
 namespace vantage {
 
+/// Nodes that a search settles between two calls of poll_stop().
+inline constexpr std::size_t kNodesBetweenPolls = 1 << 15;
+
 struct NavigationOptions {
   double footprint_radius_m = 0.48;
   double margin_m = 0.04;

@@ -15,7 +15,6 @@ namespace vantage {
 namespace {
 
 constexpr float kNoWay = std::numeric_limits<float>::infinity();
-constexpr std::size_t kNodesPerPoll = 1 << 15;
 
 /// The reachable cells of a field as a graph of their own, and its poses in passages.
 struct FloorGraph {
@@ -127,7 +126,7 @@ std::vector<float> lengths_from(const FloorGraph& graph, std::uint32_t source,
     const auto [so_far, node] = queue.top();
     queue.pop();
     if (so_far > cost[node]) continue;
-    if (settled++ % kNodesPerPoll == 0) poll_stop();
+    if (settled++ % kNodesBetweenPolls == 0) poll_stop();
     left -= std::exchange(wanted[node], std::uint8_t{0});
     for (std::uint32_t e = graph.first_edge[node]; e < graph.first_edge[node + 1]; ++e) {
       const FloorGraph::Edge& edge = graph.edges[e];

@@ -11,8 +11,6 @@ namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
-Eigen::Vector2d place_of(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 /// Cost of driving straight from `from` to `to`; infinity if that leaves the traversable cells.
 double straight_cost(const PathField& field, const Eigen::Vector2d& from,
                      const Eigen::Vector2d& to) {
@@ -49,12 +47,12 @@ std::vector<PathStep> trace_back(const PathField& field, std::size_t last_cell,
       at = field.parent[at];
     } else {
       const NarrowPose& narrow = field.narrow[at - field.map.size()];
-      steps.push_back({place_of(narrow.pose), narrow.pose.yaw_rad});
+      steps.push_back({position(narrow.pose), narrow.pose.yaw_rad});
       at = narrow.parent;
     }
   }
   const bool from_passage = !steps.empty() && steps.back().yaw_rad && at == PathField::kNone;
-  if (!from_passage) steps.push_back({place_of(field.start), std::nullopt});
+  if (!from_passage) steps.push_back({position(field.start), std::nullopt});
   std::ranges::reverse(steps);
   return steps;
 }
@@ -82,8 +80,8 @@ Points way_ahead(std::span<const Pose2> waypoints, const Eigen::Vector2d& p_m, d
   Points way;
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    const Eigen::Vector2d from = place_of(waypoints[i - 1]);
-    const Eigen::Vector2d leg = place_of(waypoints[i]) - from;
+    const Eigen::Vector2d from = position(waypoints[i - 1]);
+    const Eigen::Vector2d leg = position(waypoints[i]) - from;
     const int steps = 1 + static_cast<int>(leg.norm() / step_m);
     for (int k = 0; k <= steps; ++k) {
       way.emplace_back(from + static_cast<double>(k) / steps * leg);
@@ -121,7 +119,7 @@ Points pull_straight(const PathField& field, const Points& points) {
 
 bool is_way_blocked(const FloorMap& map, std::span<const Pose2> waypoints,
                     const Pose2& T_world_base, const NavigationOptions& options) {
-  const Eigen::Vector2d p_base = place_of(T_world_base);
+  const Eigen::Vector2d p_base = position(T_world_base);
   const Points way = way_ahead(waypoints, p_base, map.cell_m, options.watch_m);
   if (way.empty() || options.watch_m == 0.0) return false;
   Eigen::AlignedBox2d box;
@@ -145,12 +143,12 @@ bool is_way_blocked(const FloorMap& map, std::span<const Pose2> waypoints,
 
 PlannedPath plan_path(const PathField& field, const Pose2& goal,
                       const std::optional<Eigen::Vector2d>& look_at_m) {
-  const Eigen::Array2i goal_cell = field.map.cell_at(place_of(goal));
-  const bool reaches_goal = field.reachable(place_of(goal));
+  const Eigen::Array2i goal_cell = field.map.cell_at(position(goal));
+  const bool reaches_goal = field.reachable(position(goal));
   const std::optional<std::size_t> last =
-      reaches_goal ? field.map.index(goal_cell) : nearest_reachable(field, place_of(goal));
+      reaches_goal ? field.map.index(goal_cell) : nearest_reachable(field, position(goal));
   if (!last) return {.waypoints = {field.start}, .legs = {}, .end = field.start};
-  Eigen::Vector2d p_end = place_of(goal);
+  Eigen::Vector2d p_end = position(goal);
   double final_yaw_rad = goal.yaw_rad;
   if (!reaches_goal) {
     p_end = field.map.centre(field.map.cell(*last));
@@ -170,7 +168,7 @@ PlannedPath plan_path(const PathField& field, const Pose2& goal,
 }
 
 double path_length_m(const PathField& field, const Pose2& goal) {
-  if (!field.reachable(place_of(goal))) return std::numeric_limits<double>::infinity();
+  if (!field.reachable(position(goal))) return std::numeric_limits<double>::infinity();
   return plan_path(field, goal).length_m;
 }
 

@@ -15,8 +15,6 @@ constexpr double kSamePoint_m = 1e-6;
 constexpr double kBrakingShare = 0.7;
 constexpr double kCornerShare = 0.4;
 
-Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 /// tan of half the angle turned at `b`; finite for a turn back, too.
 double half_corner_tan(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                        const Eigen::Vector2d& c) {

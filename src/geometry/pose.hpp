@@ -15,6 +15,9 @@ struct Pose2 {
   double yaw_rad = 0.0;
 };
 
+/// Metres.
+inline Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
+
 double wrap_angle(double angle_rad);  ///< to (-pi, pi]
 
 Pose make_pose(const Eigen::Vector3d& p_m, double yaw_rad, double pitch_rad = 0.0);

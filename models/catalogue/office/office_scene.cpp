@@ -55,8 +55,6 @@ Outline disc(const Vector2d& centre_m, double radius_m) {
   return outline;
 }
 
-Vector2d place_of(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 /// The office while it is furnished.
 struct Layout {
   OfficeScene scene;
@@ -78,7 +76,7 @@ Layout empty_layout(const OfficeOptions& options, const FloorPlan& plan) {
     }
   }
   for (const Pose2& start : plan.T_world_starts) {
-    layout.taken.push_back(disc(place_of(start), kStartRadius_m));
+    layout.taken.push_back(disc(position(start), kStartRadius_m));
   }
   return layout;
 }
@@ -87,7 +85,7 @@ Layout empty_layout(const OfficeOptions& options, const FloorPlan& plan) {
 /// in it.
 bool rooms_within_reach(const FloorPlan& plan, const ClearanceMap& clearance) {
   std::vector<Vector2d> wanted;
-  for (const Pose2& start : plan.T_world_starts) wanted.push_back(place_of(start));
+  for (const Pose2& start : plan.T_world_starts) wanted.push_back(position(start));
   for (const Wall& wall : plan.walls) {
     const auto places = thresholds(wall, kThreshold_m);
     wanted.insert(wanted.end(), places.begin(), places.end());
@@ -112,7 +110,7 @@ bool rooms_within_reach(const FloorPlan& plan, const ClearanceMap& clearance) {
 
 bool all_within_reach(const FloorPlan& plan, const ClearanceMap& clearance) {
   const std::vector<bool> reached =
-      clearance.reachable(place_of(plan.T_world_starts.front()), kCellClearance_m);
+      clearance.reachable(position(plan.T_world_starts.front()), kCellClearance_m);
   std::vector<double> floor_m2(plan.rooms.size(), 0.0);
   for (std::size_t cell = 0; cell < reached.size(); ++cell) {
     if (!reached[cell]) continue;
@@ -126,7 +124,7 @@ bool all_within_reach(const FloorPlan& plan, const ClearanceMap& clearance) {
     if (floor_m2[r] < kReachedPart * plan.rooms[r].area_m.volume()) return false;
   }
   return std::ranges::all_of(plan.T_world_starts, [&](const Pose2& start) {
-    return reached[clearance.cell_at(place_of(start))];
+    return reached[clearance.cell_at(position(start))];
   });
 }
 

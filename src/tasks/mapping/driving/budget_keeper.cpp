@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Eigen::Vector2d position(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 }  // namespace
 
 BudgetKeeper::BudgetKeeper(const BudgetOptions& options, double speed_m_s,

@@ -13,8 +13,6 @@
 namespace vantage {
 namespace {
 
-Eigen::Vector2d place_of(const Pose2& pose) { return {pose.x_m, pose.y_m}; }
-
 bool same(const PlacedItem& a, const PlacedItem& b) {
   return a.item == b.item && a.variant == b.variant && a.T_world_item.x_m == b.T_world_item.x_m &&
          a.T_world_item.y_m == b.T_world_item.y_m &&
@@ -42,9 +40,9 @@ TEST_P(Office, EveryRoomIsReachableFromEveryStart) {
   ClearanceMap clearance(area, 0.05, 1.0);
   for (const Outline& outline : obstacles(scene)) clearance.add(outline);
   const auto reached =
-      clearance.reachable(place_of(scene.plan.T_world_starts.front()), kDriveRadius_m);
+      clearance.reachable(position(scene.plan.T_world_starts.front()), kDriveRadius_m);
   for (const Pose2& start : scene.plan.T_world_starts) {
-    EXPECT_TRUE(reached[clearance.cell_at(place_of(start))]) << start.x_m << " " << start.y_m;
+    EXPECT_TRUE(reached[clearance.cell_at(position(start))]) << start.x_m << " " << start.y_m;
   }
   for (const Room& room : scene.plan.rooms) {
     double reached_m2 = 0.0;
@@ -61,10 +59,10 @@ TEST_P(Office, FiveStartsAreClearAndApart) {
   ASSERT_EQ(starts.size(), 5U);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     for (const Outline& outline : obstacles(scene)) {
-      EXPECT_GE(distance_to(outline, place_of(starts[i])), kStartClearance_m) << "start " << i;
+      EXPECT_GE(distance_to(outline, position(starts[i])), kStartClearance_m) << "start " << i;
     }
     for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_GT((place_of(starts[i]) - place_of(starts[j])).norm(), 3.0) << i << " and " << j;
+      EXPECT_GT((position(starts[i]) - position(starts[j])).norm(), 3.0) << i << " and " << j;
     }
   }
 }
