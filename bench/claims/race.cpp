@@ -1,6 +1,11 @@
 #include "bench/claims/race.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <vector>
 
 #include "bench/claims/paired_difference.hpp"
 
@@ -8,17 +13,34 @@ namespace vantage::bench {
 
 bool Race::is_won_by(double limit) const {
   if (arrived == 0 || arrived < other_arrived) return false;
-  return !pairs || !pairs->ratio || *pairs->ratio <= limit;
+  if (other_arrived == 0) return true;
+  return pairs && pairs->ratio && *pairs->ratio <= limit;
+}
+
+bool Race::is_ahead() const {
+  return is_won_by(1.0) && (!pairs || pairs->ratio_interval->high < 1.0);
 }
 
 std::string Race::text() const {
-  const std::string both =
-      pairs && pairs->ratio ? fmt::format("{:.2f} [{:.2f}, {:.2f}], {} pairs, p {:.3f}",
-                                          *pairs->ratio, pairs->ratio_interval->low,
-                                          pairs->ratio_interval->high, pairs->pairs, pairs->p_value)
-                            : "no pairs";
+  const std::string both = pairs && pairs->ratio ? ratio_text(*pairs) : "no pairs";
   if (arrived == episodes && other_arrived == episodes) return both;
   return fmt::format("{}; {} and {} of {} get there", both, arrived, other_arrived, episodes);
+}
+
+std::string Race::why_lost(double limit) const {
+  std::vector<std::string> reasons;
+  if (arrived < other_arrived) {
+    reasons.push_back(
+        fmt::format("it gets there in {} episodes, the other in {}", arrived, other_arrived));
+  }
+  if (pairs && pairs->ratio && *pairs->ratio <= limit) {
+    const double least_p = std::exp2(1.0 - static_cast<double>(pairs->clusters));
+    if (least_p >= kSignificant) {
+      reasons.push_back(
+          fmt::format("{} pairs can have no p below {:.2g}", pairs->clusters, least_p));
+    }
+  }
+  return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 Race race(const StudyTables& study, const std::string& table, const std::string& panel,

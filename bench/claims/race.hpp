@@ -8,6 +8,9 @@
 
 namespace vantage::bench {
 
+/// Below which p a difference is held for one.
+inline constexpr double kSignificant = 0.05;
+
 struct Race {
   std::size_t arrived = 0;
   std::size_t other_arrived = 0;
@@ -16,8 +19,12 @@ struct Race {
 
   /// It gets there no less often, and in at most `limit` times what the other takes.
   [[nodiscard]] bool is_won_by(double limit) const;
+  /// It gets there no less often, and sooner beyond the interval.
+  [[nodiscard]] bool is_ahead() const;
   /// "0.54 [0.42, 0.66], 5 pairs, p 0.031; 5 and 6 of 10 get there"
   [[nodiscard]] std::string text() const;
+  /// What but the ratio stands against it: arrivals, or too few pairs. May be empty.
+  [[nodiscard]] std::string why_lost(double limit) const;
 };
 
 /// @throws NotRun unless every episode of both levels was run, and some got there

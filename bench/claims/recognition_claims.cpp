@@ -61,13 +61,14 @@ Finding single_view(const Json& study) {
 }
 
 Finding literal_settings(const Json& study) {
-  return held("goal", "the best of the literal settings is well below it", [&]() -> Measured {
-    const double one = accuracy(study, "literal, psi 1");
-    const double published = accuracy(study, "literal, published psi");
-    return {fmt::format("maximum-likelihood variances: psi 1 {:.1f} %, published psi {:.1f} %", one,
-                        published),
-            std::max(one, published) < accuracy(study, kSingle) - 5.0};
-  });
+  return held(
+      "goal", "the best of the literal settings is at least 5 points below it", [&]() -> Measured {
+        const double one = accuracy(study, "literal, psi 1");
+        const double published = accuracy(study, "literal, published psi");
+        return {fmt::format("maximum-likelihood variances: psi 1 {:.1f} %, published psi {:.1f} %",
+                            one, published),
+                std::max(one, published) < accuracy(study, kSingle) - 5.0};
+      });
 }
 
 Finding several_views(const Json& study) {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "bench/claims/paired_difference.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -20,12 +21,6 @@ namespace {
 constexpr std::string_view kPredictors = "predictors";
 constexpr std::string_view kPredictorFront = "prediction_error_";
 constexpr std::string_view kPredictorBack = "_cells";
-
-std::string number(double value) {
-  const double size = std::abs(value);
-  if (size >= 1000.0 || size == std::round(size)) return fmt::format("{:.0f}", value);
-  return size >= 10.0 ? fmt::format("{:.1f}", value) : fmt::format("{:.3f}", value);
-}
 
 std::optional<double> value_in(const std::vector<std::string>& row, std::size_t column) {
   double value = 0.0;
@@ -61,15 +56,33 @@ Json read_json(const std::filesystem::path& file) {
   return json;
 }
 
-StudyTables::StudyTables(const std::filesystem::path& study_file, CsvTable results)
-    : study_(read_plan(study_file)), layout_(study_), results_(std::move(results)) {
+std::string ratio_text(const Difference& paired) {
+  if (!paired.ratio) throw NotRun("a ratio to 0");
+  return fmt::format("{:.2f} [{:.2f}, {:.2f}], {} pairs, p {:.2g}", *paired.ratio,
+                     paired.ratio_interval->low, paired.ratio_interval->high, paired.pairs,
+                     paired.p_value);
+}
+
+StudyTables::StudyTables(Study study, CsvTable results)
+    : study_(std::move(study)), layout_(study_), results_(std::move(results)) {
   plan_episodes();
   find_rows();
 }
 
+StudyTables::StudyTables(const std::filesystem::path& study_file, CsvTable results)
+    : StudyTables(read_plan(study_file), std::move(results)) {}
+
 StudyTables::StudyTables(const std::filesystem::path& study_file,
                          const std::filesystem::path& results_csv)
     : StudyTables(study_file, read_results(results_csv)) {}
+
+StudyTables StudyTables::compared_by(const std::string& factor,
+                                     const std::string& reference) const {
+  Study study = study_;
+  study.report.panels = std::exchange(study.report.compare, factor);
+  study.report.reference = reference;
+  return {std::move(study), results_};
+}
 
 void StudyTables::plan_episodes() {
   for (const EpisodeLevels& levels : episode_levels(study_)) {
@@ -213,11 +226,16 @@ double StudyTables::least(const std::string& name, const std::string& panel,
 Difference StudyTables::difference(const std::string& name, const std::string& panel,
                                    const std::string& level) const {
   const Table& of = table(name);
-  if (of.levels.empty() || level == of.levels[of.reference]) {
+  if (of.levels.empty()) throw NotRun(fmt::format("`{}`: there is none", name));
+  return difference(name, panel, level, of.levels[of.reference]);
+}
+
+Difference StudyTables::difference(const std::string& name, const std::string& panel,
+                                   const std::string& level, const std::string& against) const {
+  if (level == against) {
     throw NotRun(fmt::format("`{}` of `{}`: nothing to hold it against", name, level));
   }
-  const std::string& reference = of.levels[of.reference];
-  const LevelSamples other{reference, whole_samples(name, panel, reference)};
+  const LevelSamples other{against, whole_samples(name, panel, against)};
   const LevelSamples own{level, whole_samples(name, panel, level)};
   const auto difference = paired_difference(name, panel, other, own);
   if (difference) return *difference;
@@ -233,59 +251,9 @@ double StudyTables::ratio(const std::string& name, const std::string& panel,
 
 std::string StudyTables::ratio_text(const std::string& name, const std::string& panel,
                                     const std::string& level) const {
-  const Difference paired = difference(name, panel, level);
-  if (!paired.ratio) throw NotRun(fmt::format("`{}` of `{}`: the reference is 0", name, level));
-  return fmt::format("{:.2f} [{:.2f}, {:.2f}], {} pairs", *paired.ratio, paired.ratio_interval->low,
-                     paired.ratio_interval->high, paired.pairs);
+  return bench::ratio_text(difference(name, panel, level));
 }
 
 bool StudyTables::has(const std::string& name) const { return !table(name).samples.empty(); }
-
-std::string StudyTables::markdown(const std::string& title) const {
-  const Table& of = table(title);
-  if (of.samples.empty()) return {};
-  const Comparison compared =
-      compare_levels(title, title, groups(), of.levels, of.reference, of.samples);
-  auto columns = groups();
-  if (columns.size() > 1) columns.emplace_back(kAllPanels);
-  std::vector<std::string> names;
-  std::map<std::pair<std::string, std::string>, const ComparisonRow*> cells;
-  for (const ComparisonRow& row : compared.rows) {
-    if (place_of(names, row.level) == names.size()) names.push_back(row.level);
-    cells[{row.level, row.panel}] = &row;
-  }
-  std::string text = fmt::format("| | {} |", fmt::join(columns, " | "));
-  text += "\n|---|";
-  for (std::size_t i = 0; i < columns.size(); ++i) text += "---|";
-  for (const std::string& name : names) {
-    text += fmt::format("\n| {} |", name);
-    for (const std::string& panel : columns) {
-      const auto cell = cells.find({name, panel});
-      if (cell == cells.end()) {
-        text += " |";
-        continue;
-      }
-      const ComparisonRow& row = *cell->second;
-      text += ' ' + number(row.mean);
-      if (row.clusters > 1) {
-        text += fmt::format(" [{}, {}]", number(row.interval.low), number(row.interval.high));
-      }
-      if (row.difference && row.difference->ratio) {
-        text +=
-            fmt::format(", x {:.2f}, p {:.2g}", *row.difference->ratio, row.difference->p_value);
-      }
-      const std::size_t count = planned(panel, level_of(title, name));
-      const std::size_t at = place_of(of.levels, name);
-      const std::size_t group = place_of(columns, panel);
-      const auto found =
-          static_cast<std::size_t>(std::ranges::count_if(of.samples, [&](const Sample& sample) {
-            return sample.level == at && (panel == kAllPanels || sample.panel == group);
-          }));
-      if (found < count) text += fmt::format(" ({} of {})", found, count);
-      text += " |";
-    }
-  }
-  return text + "\n";
-}
 
 }  // namespace vantage::bench

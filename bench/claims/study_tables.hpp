@@ -31,6 +31,9 @@ class NotRun : public std::runtime_error {
 /// `above` / `below`. @throws NotRun if that is no number
 double quotient(double above, double below);
 
+/// "1.04 [1.01, 1.07], 20 pairs, p 0.031": the ratio.
+std::string ratio_text(const Difference& paired);
+
 /// The panel that holds all others.
 inline constexpr const char* kAllPanels = "all";
 
@@ -41,6 +44,11 @@ class StudyTables {
   StudyTables(const std::filesystem::path& study_file, CsvTable results);
   StudyTables(const std::filesystem::path& study_file, const std::filesystem::path& results_csv);
 
+  /// The same episodes, levels of another factor compared: those that were compared are its panels.
+  /// @param reference a level of `factor`
+  [[nodiscard]] StudyTables compared_by(const std::string& factor,
+                                        const std::string& reference) const;
+
   // Of a table (a column of results.csv, or "predictors"), a panel and a level; each throws NotRun
   // unless every episode of the plan that it is about came to a value.
   [[nodiscard]] double mean(const std::string& table, const std::string& panel,
@@ -50,9 +58,12 @@ class StudyTables {
   /// To the reference level, of the same episodes but for the level; that has none to itself.
   [[nodiscard]] Difference difference(const std::string& table, const std::string& panel,
                                       const std::string& level) const;
+  /// To another level than the reference.
+  [[nodiscard]] Difference difference(const std::string& table, const std::string& panel,
+                                      const std::string& level, const std::string& against) const;
   [[nodiscard]] double ratio(const std::string& table, const std::string& panel,
                              const std::string& level) const;
-  /// "1.04 [1.01, 1.07], 20 pairs": ratio to the reference level.
+  /// Of the ratio to the reference level.
   [[nodiscard]] std::string ratio_text(const std::string& table, const std::string& panel,
                                        const std::string& level) const;
 
@@ -83,6 +94,7 @@ class StudyTables {
     EpisodePlace place;
     const std::vector<std::string>* row = nullptr;  ///< none: it came to no result
   };
+  StudyTables(Study study, CsvTable results);
   /// The panels, or one of all episodes.
   [[nodiscard]] std::vector<std::string> groups() const;
   void plan_episodes();

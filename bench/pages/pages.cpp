@@ -127,7 +127,9 @@ std::string write_recognition_page(const fs::path& directory) {
   const fs::path folder = directory / "recognition";
   std::string text =
       "# Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n`bench/studies recognition`, a "
-      "rendered database; trained at 30 and 60 deg, tested at 45 deg.\n" +
+      "rendered database; trained at 30 and 60 deg, tested at 45 deg; of unknown objects "
+      "`bench/studies "
+      "unknown`, trained on recordings 1 to 5, tested on 7 and 8.\n" +
       back_through("../../");
   for (const auto& [part, title] : {Part{"simple", "Simple features:"},
                                     {"changes", "Changes:"},

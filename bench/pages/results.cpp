@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "bench/claims/claims.hpp"
 #include "bench/claims/recognition_claims.hpp"
@@ -24,14 +26,16 @@ constexpr std::string_view kIntroduction =
     R"(# Results
 
 Written by `bench/run all` and `bench/studies`; not edited by hand. First what is claimed, and whether
-it holds; behind the links are the tables. Times are medians of one machine and say little by
-themselves; their ratios inside one run are what is claimed. Means carry 95 % bootstrap intervals over
-whole scenes, objects or draws, as what is of one is alike; differences are paired over the same scene
-and start, `p` is that of a sign-flip test, `x` the ratio of the means to the reference method. The
-dissertation is C. Potthast, *Information Theoretical Action Selection*, USC 2016.
+it holds; behind the links are the tables. Ratios of times are of one run on one machine. A goal that
+names a time, or a multiple of real time, is about the machine named on the page of tables alone: its
+times are medians, of `episode` of one run. Means carry 95 % bootstrap intervals over whole scenes,
+objects, starts or draws, as what is of one is alike; of two scenes it is the range of the two.
+Differences are paired over the same scene and start, `p` is that of a sign-flip test, `x` the ratio of
+the means to the reference method. `scans_to_N` of an episode that never gets there is all of its plan.
+The dissertation is C. Potthast, *Information Theoretical Action Selection*, USC 2016.
 
 `\*`: the code that it depends on has changed since the commit that it is of. `?`: whether it has is
-unknown. `bench/studies verify` runs episodes drawn at random again: how many came to the recorded
+unknown. `-dirty`: of that commit with changes that were not committed. `bench/studies verify` runs episodes drawn at random again: how many came to the recorded
 state hash, bit by bit, is told under "run again". A claim on numbers that are not all there is "not run".
 )";
 
@@ -180,34 +184,52 @@ std::string reliability_picture(const fs::path& folder) {
   return "\n![Reliability of P(object)](results/recognition/unknown/reliability.svg)\n";
 }
 
-/// Of what `vantage evaluate` wrote of recognition, with simple features and kernel descriptors.
+/// Summaries that `vantage evaluate` wrote, and of which code each is.
+class Evaluations {
+ public:
+  explicit Evaluations(fs::path folder) : folder_(std::move(folder)) {}
+
+  Json summary(const std::string& part) {
+    const fs::path file = folder_ / part / "summary.json";
+    Json json = json_or_nothing(file);
+    if (json.empty()) return json;
+    const Json commit = json.value("commit", Json());
+    const bool known = commit.is_string();
+    parts_[commits_text(known ? std::set{commit.get<std::string>()} : std::set<std::string>{},
+                        file)]
+        .push_back(known ? part : part + " (intervals are over single starts)");
+    return json;
+  }
+  /// "of 504fd34 \\*: unknown"
+  [[nodiscard]] std::string commits() const {
+    std::vector<std::string> texts;
+    for (const auto& [commit, parts] : parts_) {
+      texts.push_back(fmt::format("of {}: {}", commit, fmt::join(parts, ", ")));
+    }
+    return fmt::format("{}", fmt::join(texts, "; "));
+  }
+
+ private:
+  fs::path folder_;
+  std::map<std::string, std::vector<std::string>> parts_;
+};
+
+/// Of recognition, with simple features and kernel descriptors.
 std::string recognition_claims(const fs::path& folder) {
-  std::vector<Finding> findings;
+  Evaluations evaluations(folder);
+  const auto summary = [&](const char* part) { return evaluations.summary(part); };
+  std::vector<Finding> findings = recognition_findings(summary("simple"));
   const auto add = [&](const std::vector<Finding>& more) {
     findings.insert(findings.end(), more.begin(), more.end());
   };
-  std::set<std::string> commits;
-  bool dated = true;
-  const auto summary = [&](const char* part) {
-    Json json = json_or_nothing(folder / part / "summary.json");
-    const Json commit = json.value("commit", Json());
-    if (commit.is_string()) {
-      commits.insert(commit.get<std::string>());
-    } else if (!json.empty()) {
-      dated = false;
-    }
-    return json;
-  };
-  add(recognition_findings(summary("simple")));
   add(change_findings(summary("changes")));
   add(kernel_findings(summary("kernel"), summary("simple_same_objects")));
-  add(unknown_findings(summary("unknown"), "families left out"));
+  const Json unknown = summary("unknown");
+  add(unknown_findings(unknown, "families left out"));
   add(unknown_findings(summary("unknown_scanned"), "scanned objects"));
-  add(reliability_findings(summary("unknown")));
-  return "`bench/studies recognition`; of " +
-         commits_text(commits, folder / "simple" / "summary.json") +
-         (dated || commits.empty() ? "" : ", and a commit not recorded") + ".\n\n" +
-         findings_table(findings) + reliability_picture(folder);
+  add(reliability_findings(unknown));
+  return "`bench/studies recognition` and `bench/studies unknown`; " + evaluations.commits() +
+         ".\n\n" + findings_table(findings) + reliability_picture(folder);
 }
 
 struct Benchmarks {
@@ -230,13 +252,25 @@ Benchmarks read_benchmarks(const fs::path& directory) {
   return all;
 }
 
+/// "of 57e465af \\*: decision, office; of ..": which benchmark is of which commit.
+std::string commits_of(const Origins& origins) {
+  std::map<std::string, std::vector<std::string>> by_commit;
+  for (const auto& [name, origin] : origins) by_commit[origin.commit].push_back(name);
+  std::vector<std::string> parts;
+  for (const auto& [commit, names] : by_commit) {
+    parts.push_back(fmt::format("of {}: {}", commit, fmt::join(names, ", ")));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 std::string link(const std::string& page) { return fmt::format("\n[Tables](results/{}).\n", page); }
 
 void write_results(const fs::path& directory) {
   const auto [figures, origins] = read_benchmarks(directory);
   const std::vector<StudyResult> studies = read_studies(directory);
   std::string text = std::string(kIntroduction) + "\n" + splits_table(directory, studies);
-  text += "\n## Speed\n\n`bench/run all`\n\n" + findings_table(speed_findings(figures)) +
+  text += "\n## Speed\n\n`bench/run all`; " + commits_of(origins) + "\n\n" +
+          findings_table(speed_findings(figures)) +
           link(write_speed_page(directory, figures, origins));
   for (const auto& [part, study] : studies) {
     text += fmt::format("\n## {}\n\n`bench/studies {}`\n\n", part.title, part.name) +

@@ -63,6 +63,53 @@ TEST(Race, IsWonByWhoArrivesAlone) {
   EXPECT_TRUE(got.is_won_by(0.1));
 }
 
+TEST(Race, IsNotWonWhereTheTwoNeverMeet) {
+  const Race got = race_of(study_of([](const std::string& name) -> std::string {
+    if (is_by(name, "tour")) return name.starts_with("report_b_") ? "1" : "";
+    return name.starts_with("report_b_") ? "" : "100";
+  }));
+  EXPECT_EQ(got.arrived, 5U);
+  EXPECT_EQ(got.other_arrived, 5U);
+  EXPECT_FALSE(got.is_won_by(10.0));
+  EXPECT_FALSE(got.is_ahead());
+}
+
+/// Of two tables twice as fast, of all others as fast: a ratio below 1 whose interval holds 1.
+TEST(Race, IsAheadBeyondTheInterval) {
+  const auto tour_takes = [](const std::function<double(const std::string&)>& time) {
+    return race_of(study_of([&](const std::string& name) {
+      return is_by(name, "tour") ? std::to_string(time(name)) : "100";
+    }));
+  };
+  EXPECT_TRUE(tour_takes([](const auto&) { return 90.0; }).is_ahead());
+  const Race level = tour_takes(
+      [](const std::string& name) { return name.starts_with("report_4/") ? 50.0 : 100.0; });
+  EXPECT_TRUE(level.is_won_by(1.0));
+  EXPECT_FALSE(level.is_ahead());
+}
+
+TEST(Race, SaysWhatStandsAgainstIt) {
+  const Race fewer = race_of(study_of([](const std::string& name) -> std::string {
+    const bool first = name.starts_with("report_4/") || name.starts_with("report_8/");
+    if (is_by(name, "tour")) return first ? "50" : "";
+    return "100";
+  }));
+  EXPECT_EQ(fewer.why_lost(0.6),
+            "it gets there in 2 episodes, the other in 10; 2 pairs can have no p below 0.5");
+  EXPECT_EQ(fewer.why_lost(0.4), "it gets there in 2 episodes, the other in 10");
+}
+
+TEST(StudyTables, MayBeComparedByAnotherFactor) {
+  const StudyTables study = study_of([](const std::string& name) -> std::string {
+    return name.find("/adaptive/") != std::string::npos ? "60" : "120";
+  });
+  const Race got =
+      race(study.compared_by("gain", "simple"), "time_to_98_s", "tour", "adaptive", "simple");
+  ASSERT_TRUE(got.pairs && got.pairs->ratio);
+  EXPECT_EQ(got.pairs->pairs, 10U);
+  EXPECT_DOUBLE_EQ(*got.pairs->ratio, 0.5);
+}
+
 TEST(Race, IsNotRunWhereNobodyArrivesOrOneIsMissing) {
   EXPECT_THROW(race_of(study_of([](const std::string&) { return ""; })), NotRun);
   CsvTable table{{"episode", "status", "time_to_98_s"}, {}};
