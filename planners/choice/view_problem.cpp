@@ -66,23 +66,25 @@ std::vector<double> beyond_views(const ViewPlanningInput& input, const CellBlock
 }
 
 /// What is seen already, how fast, and what is still beyond all views.
+/// @param unit of a cell, in that of the gain
 void add_whole(const ViewPlanningInput& input, const ViewPlanningOptions& options,
-               const ShownBlocks& shown, PlanningProblem& problem) {
+               const ShownBlocks& shown, double unit, PlanningProblem& problem) {
   const OccupancyGrid& grid = input.map.grid;
-  problem.seen = static_cast<double>(grid.size() - grid.count(CellState::unobserved));
+  problem.seen = unit * static_cast<double>(grid.size() - grid.count(CellState::unobserved));
   if (input.elapsed_s <= 0.0 || options.beyond_m <= 0.0) return;
   const CellBlocks blocks = blocks_of(grid.frame, options.block_m);
   const bool by_blocks = shown.cells.size() == blocks.size();
   if (!by_blocks) return;
   problem.pace_per_s = problem.seen / input.elapsed_s;
   problem.beyond = beyond_views(input, blocks, unshown_shares(shown), options.beyond_m);
+  for (double& beyond : problem.beyond) beyond *= unit;
 }
 
 PlanningProblem with_ways(const ViewPlanningInput& input, const ViewPlanningOptions& options,
-                          ShownBlocks shown) {
+                          ShownBlocks shown, double unit = 1.0) {
   expects(input.places_m.size() == input.candidates.size(), "a place of each candidate");
   PlanningProblem problem;
-  add_whole(input, options, shown, problem);
+  add_whole(input, options, shown, unit, problem);
   problem.cells = std::move(shown.cells);
   problem.shows = std::move(shown.shows);
   problem.place_m.assign(input.places_m.begin(), input.places_m.end());
@@ -91,14 +93,21 @@ PlanningProblem with_ways(const ViewPlanningInput& input, const ViewPlanningOpti
   return problem;
 }
 
-ShownBlocks shown_by(const ViewPlanningInput& input, const ViewPlanningOptions& options) {
-  if (!can_sweep(input.gain)) {
+/// Of the gain, if it can be swept.
+std::optional<Attenuation> attenuation_of(const ViewPlanningInput& input) {
+  if (!can_sweep(input.gain)) return std::nullopt;
+  return attenuation_of(input.gain, input.map);
+}
+
+ShownBlocks shown_by(const ViewPlanningInput& input, const ViewPlanningOptions& options,
+                     const std::optional<Attenuation>& attenuation) {
+  if (!attenuation) {
     return separate_blocks(view_gains_bits(input.gain, input.map, input.candidates,
                                            input.field_of_view, input.threads));
   }
   const CellBlocks blocks = blocks_of(input.map.grid.frame, options.block_m);
-  return swept_blocks(attenuation_of(input.gain, input.map), input.map.grid, input.candidates,
-                      input.field_of_view, blocks, input.threads);
+  return swept_blocks(*attenuation, input.map.grid, input.candidates, input.field_of_view, blocks,
+                      input.threads);
 }
 
 /// Of each view, the share of each block's unobserved cells that it really shows.
@@ -129,7 +138,9 @@ ShownBlocks truly_shown(const ViewPlanningInput& input, const CellBlocks& blocks
 
 PlanningProblem make_view_problem(const ViewPlanningInput& input,
                                   const ViewPlanningOptions& options) {
-  PlanningProblem problem = with_ways(input, options, shown_by(input, options));
+  const std::optional<Attenuation> attenuation = attenuation_of(input);
+  const double unit = attenuation ? attenuation->utility : 1.0;
+  PlanningProblem problem = with_ways(input, options, shown_by(input, options, attenuation), unit);
   if (input.map.transmission == nullptr) return problem;
   // Most choices draw nothing.
   auto belief = std::make_shared<std::optional<const DrawableMap>>();
@@ -139,7 +150,9 @@ PlanningProblem make_view_problem(const ViewPlanningInput& input,
     if (!*belief) belief->emplace(map, options.drawn_cells);
     const OccupancyGrid& grid = (*belief)->grid();
     const CellBlocks blocks = blocks_of(grid.frame, options.block_m);
-    return swept_blocks((*belief)->draw(rng), grid, views, field, blocks, threads);
+    Attenuation drawn = (*belief)->draw(rng);
+    drawn.utility *= unit;
+    return swept_blocks(drawn, grid, views, field, blocks, threads);
   };
   return problem;
 }

@@ -9,7 +9,9 @@ namespace vantage {
 
 PlannedViews Rollout::operator()(const PlanningProblem& problem, Rng& rng) const {
   expects(static_cast<bool>(problem.draw), "rollout needs maps to draw");
-  const std::vector<Tour> tours = search_tours(problem, objective(), search());
+  // The first views are compared by the worth that they were proposed by.
+  const TourObjective worth = with_raised_worth(problem, objective(), search());
+  const std::vector<Tour> tours = search_tours(problem, worth, search());
   if (tours.empty()) return {};
   std::vector<double> sum_s(tours.size(), 0.0);
   PlanningProblem drawn = problem;
@@ -18,7 +20,7 @@ PlannedViews Rollout::operator()(const PlanningProblem& problem, Rng& rng) const
     drawn.cells = std::move(shown.cells);
     drawn.shows = std::move(shown.shows);
     for (std::size_t i = 0; i < tours.size(); ++i) {
-      sum_s[i] += search_tour(drawn, objective(), search(), tours[i].order.front()).cost_s;
+      sum_s[i] += search_tour(drawn, worth, search(), tours[i].order.front()).cost_s;
     }
   }
   std::vector<double> weighed_s = sum_s;  // one that goes on as was planned counts as cheaper

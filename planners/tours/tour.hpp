@@ -55,8 +55,10 @@ struct TourChoice : TourOptions {
           "they are expected to show together; takes the first, and plans anew after its scan. "
           "Leaves a room when it is done with, not when another view promises more.",
       .formula =
-          "argmin over tours of (1 - b) sum_k dE_k t_k / E + b t_end, E = sum_c [1 - prod_i (1 - "
-          "p_i(c))], a scan counts as scan_weight scans in t"};
+          "argmin over tours of (1 - b) (sum_k dE_k t_k + U t_end) / E + b t_end + w U / (S + E), "
+          "E "
+          "= sum_c [1 - prod_i (1 - p_i(c))], U what of it the tour leaves out, S what is seen, w "
+          "worth_s, b finish_weight; a scan counts as scan_weight scans in t"};
   static constexpr bool weighs_gain = true;
   PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };

@@ -229,9 +229,10 @@ class TourSearch {
   Tour tour_;  ///< the same with its exact cost
 };
 
-/// Of the worth at which a view is worth its time: what is left has become dearer than was thought.
-TourObjective raised(const PlanningProblem& problem, TourObjective objective,
-                     const TourSearchOptions& options) {
+}  // namespace
+
+TourObjective with_raised_worth(const PlanningProblem& problem, TourObjective objective,
+                                const TourSearchOptions& options) {
   constexpr double kStep = 1.5;
   constexpr int kMaxSteps = 30;
   for (int step = 0; step < kMaxSteps && objective.worth_s > 0.0; ++step) {
@@ -241,8 +242,6 @@ TourObjective raised(const PlanningProblem& problem, TourObjective objective,
   }
   return objective;
 }
-
-}  // namespace
 
 double tour_cost_s(const PlanningProblem& problem, const TourObjective& objective,
                    std::span<const std::size_t> order) {
@@ -259,7 +258,7 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
                                const TourSearchOptions& options) {
   problem.check();
   if (affordable_views(problem).empty()) return {};
-  const TourObjective objective = raised(problem, wanted, options);
+  const TourObjective objective = with_raised_worth(problem, wanted, options);
   const Tour free = search_tour(problem, objective, options);
   if (free.order.empty()) return {};
   // How good a first view is, is told by the free tour with that view in front.
@@ -270,7 +269,7 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
     Order order{view};
     std::ranges::copy_if(free.order, std::back_inserter(order),
                          [&](std::size_t other) { return other != view; });
-    if (order.size() > problem.left.scans) order.pop_back();
+    while (order.size() > 1 && !is_affordable(problem, order)) order.pop_back();
     firsts.emplace_back(search.exact_cost_s(order), view);
     poll_stop();
   }

@@ -45,9 +45,14 @@ struct Tour {
 Tour search_tour(const PlanningProblem& problem, const TourObjective& objective,
                  const TourSearchOptions& options, std::optional<std::size_t> first = std::nullopt);
 
-/// That for each of the most promising first views and for the one intended, cheapest first, with
-/// the worth raised until at least one view is worth its time; the
-/// tour that begins where it was intended counts as `keep_s` cheaper.
+/// Of a worth at which at least one view is worth its time: where none was, what is left has become
+/// dearer than was thought.
+TourObjective with_raised_worth(const PlanningProblem& problem, TourObjective objective,
+                                const TourSearchOptions& options);
+
+/// That for each of the most promising first views and for the one intended, by
+/// with_raised_worth(), cheapest first; the tour that begins where it was intended counts as
+/// `keep_s` cheaper.
 std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjective& objective,
                                const TourSearchOptions& options);
 

@@ -263,8 +263,8 @@ double FlightPlanner::clearance_m(const Eigen::Vector3d& p_world_m) const {
 }
 
 double FlightPlanner::clearance_m(const MinimumJerkTrajectory& path, double until_s) const {
-  double min_m = std::numeric_limits<double>::infinity();
-  for (double t_s = 0.0; t_s <= until_s; t_s += planning_.options.sample_s) {
+  double min_m = clearance_m(path.at(until_s).p_world_m);
+  for (double t_s = 0.0; t_s < until_s; t_s += planning_.options.sample_s) {
     min_m = std::min(min_m, clearance_m(path.at(t_s).p_world_m));
   }
   return min_m;

@@ -16,7 +16,10 @@ constexpr std::size_t kDrawsPerPlace = 10;
 std::optional<Eigen::AlignedBox3d> standing_room(const OctomapFile& map, const OctomapLeaf& leaf,
                                                  const Eigen::AlignedBox3d& within_m) {
   if (classify(leaf.log_odds) != CellState::free) return std::nullopt;
-  const Eigen::AlignedBox3d room = map.box_of(leaf.block()).intersection(within_m);
+  const Eigen::AlignedBox3d box_m = map.box_of(leaf.block());
+  const Eigen::AlignedBox3d room = box_m.intersection(within_m);
+  // A level at which one leaf ends and another begins is that of the upper one.
+  if (within_m.sizes().z() <= 0.0 && within_m.min().z() >= box_m.max().z()) return std::nullopt;
   if (room.isEmpty() || room.sizes().x() <= 0.0 || room.sizes().y() <= 0.0) return std::nullopt;
   return room;
 }

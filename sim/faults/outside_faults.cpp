@@ -23,7 +23,10 @@ int robot_body(const mjModel& model) {
   return 0;
 }
 
-bool stands_fixed(const mjModel& model, int body) { return model.body_weldid[body] == 0; }
+/// To the world, and by its own pose: that of a mocap body is set elsewhere.
+bool stands_fixed(const mjModel& model, int body) {
+  return model.body_weldid[body] == 0 && model.body_mocapid[model.body_rootid[body]] < 0;
+}
 
 /// It has a shape, and all of that is near its origin.
 bool is_small(const mjModel& model, int body) {
@@ -57,8 +60,10 @@ int named_object(const mjModel& model, const std::string& name) {
     throw ConfigError(fmt::format("faults.moved_object: the scene has no body '{}'", name));
   }
   if (!stands_fixed(model, *body)) {
-    throw ConfigError(fmt::format(
-        "faults.moved_object: '{}' hangs on joints: one that stands fixed is moved", name));
+    throw ConfigError(
+        fmt::format("faults.moved_object: '{}' hangs on joints or is a mocap body: one that stands "
+                    "fixed is moved",
+                    name));
   }
   return *body;
 }

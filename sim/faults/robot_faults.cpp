@@ -14,7 +14,7 @@ namespace {
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBlock_px = 8;
 
-/// Calls `spoil` with the pixels of each block that is drawn. @return pixels
+/// Sets the depth of each block that is drawn to `value`. @return pixels
 std::int64_t spoil_blocks(CameraImages& images, double share, float value, Rng& rng) {
   std::int64_t spoilt = 0;
   for (int top = 0; top < images.height_px; top += kBlock_px) {

@@ -126,7 +126,7 @@ MobileBase::MobileBase(const mjModel& model, const MobileBaseDescription& descri
       footprint_(description.footprint),
       idle_power_w_(description.idle_power_w),
       actuators_(actuators_of_robot(model)),
-      base_body_(RobotNames(model, where).find(ModelObject::body, "base", description.base)),
+      base_body_(RobotNames(model, where).find_root("base", description.base)),
       outline_(robot_outline(model, base_body_, description.footprint.outline_m, where)),
       drive_(find_drive(RobotNames(model, where), model, description.drive, base_body_)) {
   const RobotNames names(model, where);

@@ -48,6 +48,14 @@ int RobotNames::find(ModelObject kind, std::string_view key, const std::string& 
                                       : fmt::format("known: {}", fmt::join(known, ", "))));
 }
 
+int RobotNames::find_root(std::string_view key, const std::string& name) const {
+  const int body = find(ModelObject::body, key, name);
+  if (model_.body_rootid[body] == body) return body;
+  fail(key,
+       fmt::format("body '{}' stands in another one; the one that all others stand in is meant",
+                   name));
+}
+
 DrivenJoint RobotNames::driven(std::string_view key, const std::string& name) const {
   const int joint = find(ModelObject::joint, key, name);
   if (model_.jnt_type[joint] != mjJNT_SLIDE && model_.jnt_type[joint] != mjJNT_HINGE) {

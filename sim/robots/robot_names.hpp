@@ -29,6 +29,8 @@ class RobotNames {
 
   /// @throws InputError naming folder, key and name, and the names of that kind that there are.
   [[nodiscard]] int find(ModelObject kind, std::string_view key, const std::string& name) const;
+  /// A body that stands in no other. @throws InputError
+  [[nodiscard]] int find_root(std::string_view key, const std::string& name) const;
   /// @throws InputError also if the joint is neither slide nor hinge, or no one actuator with a
   /// control range drives it.
   [[nodiscard]] DrivenJoint driven(std::string_view key, const std::string& joint) const;

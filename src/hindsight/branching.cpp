@@ -8,6 +8,7 @@
 #include <string>
 
 #include "vantage/runtime/manifest.hpp"
+#include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {
@@ -58,7 +59,8 @@ bool was_chosen_outside(const RecordedRun& run) {
     if constexpr (std::derived_from<T, MappingOptions>) return asks_outside(task.choice);
     return false;
   };
-  return std::visit(of_task, run.episode.task);
+  // What another planner of the library's own interface chose, a branch say, goes by its name.
+  return std::visit(of_task, run.episode.task) || run.method != method_name(run.episode.task);
 }
 
 StepRow read_step(std::string_view columns, std::string_view row) {
@@ -109,8 +111,9 @@ void RecordedDecisions::check(const StepRow& step) const {
 
 void refuse_to_go_on(const RecordedRun& run) {
   throw ConfigError(fmt::format(
-      "{}: its views were chosen by a program (choice: external), which does not go on from a "
-      "branch; --all without --then says what each view would have shown",
+      "{}: its views were not chosen by the choice of its configuration but from outside, by a "
+      "program or another view of a branch, which does not go on from a branch; --all without "
+      "--then says what each view would have shown",
       run.directory.string()));
 }
 

@@ -29,7 +29,9 @@ struct ShareBound {
   std::optional<ShareReached> run;
   std::optional<ShareReached> oracle_tour;  ///< by a run of that choice, if there is one
   std::optional<ShareReached> least;        ///< each on its own; none: it cannot be reached
-  bool exact_scans = false;                 ///< the least is reached by some policy
+  /// The least is that of some schedule, not only below all; ways and times are themselves bounds
+  /// of what can be driven.
+  bool exact_scans = false;
   bool exact_way = false;
   bool exact_time = false;
   /// Cells that the map of the run had by then beyond what noise-free scans from its poses show:

@@ -29,7 +29,7 @@ Eigen::Vector3d edge_error(const PoseEdge& edge, std::span<const Pose2> T_world_
 bool optimise_pose_graph(std::vector<Pose2>& T_world_poses, std::span<const PoseEdge> edges);
 
 /// Covariance of (x, y, yaw) of each of `which`, given the first pose: that block of the inverse of
-/// J^T J. Poses that no measurement ties down have an infinite one.
+/// J^T J. Where any pose is tied down by no measurement, all but the first have an infinite one.
 std::vector<Eigen::Matrix3d> pose_covariances(std::span<const Pose2> T_world_poses,
                                               std::span<const PoseEdge> edges,
                                               std::span<const std::size_t> which);

@@ -34,7 +34,7 @@ std::optional<LabelledView> load_view(const ViewEntry& entry, std::vector<Skippe
 /// What two images do not say of themselves.
 struct PairSetting {
   /// Of the camera above the object's support; nothing: from the files beside, else as the picture
-  /// shows its support surface, else kUsualElevation_rad.
+  /// shows its support surface, where it is cut by that, else kUsualElevation_rad.
   std::optional<double> elevation_rad = {};
   double max_depth_m = 0.0;  ///< what is beyond is not the object; 0: nothing is
   /// As the model's pictures were cut; nothing: by the mask beside, or not at all.

@@ -53,8 +53,10 @@ class Witness {
     ExtractedFeature extracted = extract_(feature);
     if (!extracted.result.extracted()) return extracted;
     if (extracted.log_likelihood.size() == 0) {
-      extracted.log_likelihood =
-          log_likelihood(recogniser_.features[feature].prepared, extracted.result.vector);
+      const FeatureResult& result = extracted.result;
+      extracted.log_likelihood = weighted(
+          log_likelihood(recogniser_.features[feature].prepared, result.vector, result.readings),
+          result.weight);
     }
     if (extracted.log_likelihood.maxCoeff() > kNegInf) {
       measured_.push_back(extracted.log_likelihood);
@@ -190,8 +192,9 @@ ChangeReport detect_change(const Recogniser& recogniser, const ChangeOptions& op
     camera.turn(action);
     predict_motion(recogniser, options, action.yaw_rad, search);
   }
-  return {.change = verdict(recogniser, options, search),
-          .p_changed = search.hypotheses.p_changed(),
+  const Change change = verdict(recogniser, options, search);
+  return {.change = change,
+          .p_changed = change == Change::removed ? 1.0 : search.hypotheses.p_changed(),
           .recognition = std::move(search.recognition)};
 }
 

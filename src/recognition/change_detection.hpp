@@ -77,7 +77,7 @@ struct ChangeOptions {
 
 struct ChangeReport {
   Change change = Change::none;
-  double p_changed = 0.0;   ///< P(u)
+  double p_changed = 0.0;   ///< P(u); 1 where it is removed
   Recognition recognition;  ///< of what is there now: belief under both hypotheses, and the views
 };
 
@@ -125,7 +125,8 @@ std::optional<ChangeEnd> change_end(const ChangeOptions& options, const ChangeSe
 /// Whether another view would be worth it: fewer than the most were taken, and it is still open
 /// what has changed.
 bool in_doubt(const ChangeOptions& options, const ChangeSearch& search);
-/// What has changed, if it has to be said now: nothing unless P(u) is above tau.
+/// What has changed, if it has to be said now: removed where no view showed anything, else nothing
+/// unless P(u) is above tau.
 Change verdict(const Recogniser& recogniser, const ChangeOptions& options,
                const ChangeSearch& search);
 

@@ -67,6 +67,7 @@ TEST_F(ChangeDetection, NothingWhereSomethingWasExpectedIsRemoved) {
   options_.empty_views = 3;
   const ChangeReport report = detect_change(recogniser_, options_, 0, nothing, rng);
   EXPECT_EQ(report.change, Change::removed);
+  EXPECT_EQ(report.p_changed, 1.0);
   EXPECT_EQ(turns, 2);
   EXPECT_EQ(report.recognition.views.size(), 3U);
 }

@@ -90,9 +90,10 @@ inline constexpr std::string_view strategy_family<VarianceEstimate> = "variance 
 
 /// The model that the views so far amount to, with psi = 1 and no name or cost.
 ///
-/// A state without views is the Gaussian with the moments of its object's other bins, taken as a
-/// mixture of equal parts, or of all states if its object has no views at all. Where no state has
-/// two views, s_pool^2 is the variance between the states.
+/// A state without views is the Gaussian with the moments of a mixture of equal parts, each about
+/// the mean of one of its object's other bins with the variance s_pool^2; of all states if its
+/// object has no views at all. Where no state has two views, s_pool^2 is the variance between the
+/// states.
 /// @param bins consecutive states that are one object
 /// @throws ConfigError if `estimate` is out of range; InputError if no state has a view.
 ObservationModel make_observation_model(const GaussianStatistics& statistics, int bins,

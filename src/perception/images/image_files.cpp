@@ -37,15 +37,29 @@ std::string extension_of(const fs::path& file) {
   return extension;
 }
 
+/// Past the headers up to the first scan, which may hold a small picture with an end of its own,
+/// the first end that follows is the picture's: no scan contains one. What a camera puts behind it
+/// does not matter.
+bool is_whole_jpeg(std::string_view bytes) {
+  constexpr std::string_view kStart("\xff\xd8", 2);
+  constexpr std::string_view kEnd("\xff\xd9", 2);
+  constexpr auto kScan = static_cast<unsigned char>(0xda);
+  if (!bytes.starts_with(kStart)) return false;
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
+  std::size_t at = kStart.size();
+  while (at + 4 <= bytes.size() && byte(at) == 0xff) {
+    if (byte(at + 1) == kScan) return bytes.find(kEnd, at) != std::string_view::npos;
+    const bool is_fill = byte(at + 1) == 0xff;
+    at += is_fill ? 1 : 2 + std::size_t{256} * byte(at + 2) + byte(at + 3);
+  }
+  return false;
+}
+
 /// OpenCV returns what it has of a file that is cut short; what ends a whole one tells.
 bool is_whole(const std::string& bytes, const std::string& extension) {
   constexpr std::string_view kPngEnd("IEND\xae\x42\x60\x82", 8);
   if (extension == ".png") return bytes.starts_with("\x89PNG") && bytes.ends_with(kPngEnd);
-  if (extension == ".jpg" || extension == ".jpeg") {
-    const std::string_view tail =
-        std::string_view(bytes).substr(bytes.size() - std::min<std::size_t>(bytes.size(), 64));
-    return tail.find("\xff\xd9") != std::string_view::npos;
-  }
+  if (extension == ".jpg" || extension == ".jpeg") return is_whole_jpeg(bytes);
   return !bytes.empty();
 }
 

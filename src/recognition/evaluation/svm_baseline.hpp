@@ -37,7 +37,8 @@ struct KernelSvm {
   void fields(auto&& f) {
     f("c", c, "weight of training errors; higher fits the training views closer", above(0.0));
     f("gamma", gamma,
-      "gamma of the kernel exp(-gamma |x - y|^2), for vectors scaled to a mean square length of 1; "
+      "gamma of the kernel exp(-gamma |x - y|^2), for vectors scaled to a mean square distance of "
+      "1; "
       "higher is more local",
       above(0.0));
   }

@@ -98,6 +98,27 @@ const auto kCurves = std::to_array<CurveMeasure>({kViewEntropy});
 
 }  // namespace
 
+namespace {
+
+void require_end(const ChangeDetectionTask& task) {
+  const EnoughViews otherwise;
+  const EnoughViews& enough = task.decision.enough;
+  if (enough.object_probability != otherwise.object_probability ||
+      enough.entropy_bits != otherwise.entropy_bits) {
+    throw ConfigError(
+        "enough: ends a recognition; change detection ends by unchanged_below and changed_above");
+  }
+  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+  constexpr double kSameYaw_rad = 1e-6;
+  if (task.scenario == to_string(Change::pose) && task.turned_rad &&
+      std::abs(std::remainder(*task.turned_rad, kTurn_rad)) < kSameYaw_rad) {
+    throw ConfigError(fmt::format(
+        "turned_rad: {:g} turns nothing, so that scenario pose changes nothing", *task.turned_rad));
+  }
+}
+
+}  // namespace
+
 /// What stands on the table is what is expected there, unless it is another object.
 void ChangeDetectionTask::check_with(const EpisodeOptions& episode) const {
   ObjectFlight::check_with(episode);
@@ -106,6 +127,7 @@ void ChangeDetectionTask::check_with(const EpisodeOptions& episode) const {
         "scenario: unknown scenario '{}'; known: none, object, pose, removed", scenario));
   }
   change.check();
+  require_end(*this);
   if (object.empty()) return;
   if (scenario != to_string(Change::object)) {
     throw ConfigError(

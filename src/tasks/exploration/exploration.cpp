@@ -65,7 +65,10 @@ ViewCoverage Exploration::coverage(const EpisodeSetup& setup,
     places.T_world_sensors.push_back(T_world_sweep);
     places.base_m.emplace_back(base.x_m, base.y_m);
   }
-  return view_coverage(evaluator, places, {*evaluator.true_floor(), robot.inscribed_radius_m()},
+  // Whole columns of the map's cells block the floor: what stands there may be a cell narrower.
+  const double cell_m = map.frame().cell_size_m.head<2>().maxCoeff();
+  return view_coverage(evaluator, places,
+                       {*evaluator.true_floor(), robot.inscribed_radius_m() - cell_m},
                        setup.options.threads);
 }
 

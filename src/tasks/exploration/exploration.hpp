@@ -79,11 +79,11 @@ struct Exploration : MappingOptions {
       "radius round the start that is known to be free floor for the robot", at_least(0.0));
     f("max_candidates", max_candidates,
       "greatest number of candidate views, those of the largest frontiers; more take longer to "
-      "score",
+      "score; choices that plan ahead have more, one for every place that is 1.5 m from these",
       at_least(1));
     f("reach_m", reach_m,
       "distance from a frontier to the nearest place the robot can drive to, above which its view "
-      "counts as out of reach",
+      "counts as out of reach; without effect on choices that plan ahead",
       at_least(0.0));
     f("taken_m", taken_m,
       "distance from a place scanned from, or chosen before, within which no view is proposed; "

@@ -102,8 +102,11 @@ Json localisation_json(const MappingOptions& options, std::span<const ScanRecord
 }
 
 /// The transmission that the gain in use assumes for an unobserved cell; null if it assumes none.
-Json observability(const MappingOptions& options, const ClutterHazard& hazard) {
-  if (std::holds_alternative<AdaptiveGain>(options.gain)) return hazard.global_transmission();
+Json observability(const MappingOptions& options, const MappingResult& run) {
+  if (std::holds_alternative<AdaptiveGain>(options.gain)) {
+    const double scale = run.scans.empty() ? 1.0 : run.scans.back().hazard_scale;
+    return std::pow(run.hazard.global_transmission(), scale);
+  }
   const auto assumed = transmission_unobserved(options.gain);
   return assumed ? Json(*assumed) : Json();
 }
@@ -139,7 +142,7 @@ void add_mapping_metrics(const MappingOptions& options, const MappingResult& run
   metrics["map"] = {{"precision", score(map.precision)},
                     {"recall", score(map.recall)},
                     {"tolerance_cells", tolerance_cells}};
-  metrics["observability"] = observability(options, run.hazard);
+  metrics["observability"] = observability(options, run);
   metrics["observability_per_slice"] = run.hazard.transmission_per_slice();
   metrics["localisation"] = localisation_json(options, run.scans, run.localisation);
   metrics["region"] = box_json(run.grid.frame.box());

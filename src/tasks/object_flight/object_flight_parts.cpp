@@ -137,7 +137,7 @@ std::string ObjectFlightParts::finished() {
     for (const std::size_t target : open) {
       std::vector<BearingOption> options = options_of(target);
       if (options.empty()) {
-        tour_.give_up(target, why_unreachable());
+        tour_.give_up(target, why_unreachable(target));
         continue;
       }
       if (goal_.all_at_once) {
@@ -154,9 +154,13 @@ std::string ObjectFlightParts::finished() {
   }
 }
 
-std::string ObjectFlightParts::why_unreachable() const {
-  if (goal_.time_limit_s == 0.0) return "no view is reached clear of obstacles";
-  return fmt::format("no view is reached within time_limit_s = {:g}", goal_.time_limit_s);
+std::string ObjectFlightParts::why_unreachable(std::size_t target) const {
+  for (int id = 0; id < task_.bearings; ++id) {
+    if (clear_option(target, id)) {
+      return fmt::format("no view is reached within time_limit_s = {:g}", goal_.time_limit_s);
+    }
+  }
+  return "no view is reached clear of obstacles";
 }
 
 std::vector<BearingOption> ObjectFlightParts::options_of(std::size_t target) const {
@@ -165,13 +169,15 @@ std::vector<BearingOption> ObjectFlightParts::options_of(std::size_t target) con
     const bool is_here =
         !records_.empty() && records_.back().target == target && id == records_.back().bearing_id;
     if (is_here) continue;
-    if (auto found = option(target, id)) options.push_back(std::move(*found));
+    auto found = clear_option(target, id);
+    if (found && goal_.allows(robot_.time_s() + found->action.time_s))
+      options.push_back(std::move(*found));
   }
   return options;
 }
 
-/// By the first way that is clear; nothing if none is, or takes too long.
-std::optional<BearingOption> ObjectFlightParts::option(std::size_t target, int id) const {
+/// By the first way that is clear; nothing if none is.
+std::optional<BearingOption> ObjectFlightParts::clear_option(std::size_t target, int id) const {
   constexpr double kRise_m = 0.35;
   static constexpr std::array<OrbitWay, 5> kWays{
       {{}, {true, 0.0}, {false, kRise_m}, {true, kRise_m}, {false, 2.0 * kRise_m}}};
@@ -193,10 +199,7 @@ std::optional<BearingOption> ObjectFlightParts::option(std::size_t target, int i
       option.action.visible = map_->visible_share(looked_at.expected_shape(), looked_at.own_cells,
                                                   there.place(option.bearing_rad).translation());
     }
-    const bool in_time =
-        goal_.time_limit_s == 0.0 || robot_.time_s() + option.action.time_s <= goal_.time_limit_s;
-    if (in_time) return option;
-    return std::nullopt;
+    return option;
   }
   return std::nullopt;
 }

@@ -65,8 +65,8 @@ class ObjectFlightParts {
   [[nodiscard]] double bearing_rad(int id) const;
   [[nodiscard]] Orbit orbit(std::size_t target) const;
   [[nodiscard]] std::vector<BearingOption> options_of(std::size_t target) const;
-  [[nodiscard]] std::optional<BearingOption> option(std::size_t target, int id) const;
-  [[nodiscard]] std::string why_unreachable() const;
+  [[nodiscard]] std::optional<BearingOption> clear_option(std::size_t target, int id) const;
+  [[nodiscard]] std::string why_unreachable(std::size_t target) const;
   [[nodiscard]] bool is_clear(const FlightPlan& plan) const;
   void conclude();
   void tell_decision(const std::vector<BearingOption>& options, std::size_t chosen);

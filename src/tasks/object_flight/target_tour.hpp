@@ -26,6 +26,10 @@ struct FlightGoal {
   std::optional<AmongOthers> among_others;  ///< none: it stands alone
   double time_limit_s = 0.0;                ///< simulated; 0: none
   bool all_at_once = false;  ///< views of all of them compete; false: one object after the other
+
+  [[nodiscard]] bool allows(double until_s) const {
+    return time_limit_s == 0.0 || until_s <= time_limit_s;
+  }
 };
 
 /// One of the objects, and what is known of it.

@@ -189,17 +189,18 @@ void put_posts(const RecognitionTask& task, std::uint64_t seed, StandingRoom& ro
   }
 }
 
-/// What finds no room is put back, and another one drawn.
+/// What finds no room is laid aside, and another one drawn.
 void put_others(const RecognitionTask& task, std::uint64_t seed, Stock& stock, StandingRoom& room,
                 TableGroundTruth& table) {
-  constexpr int kPutBack = 30;
+  constexpr int kLaidAside = 30;
   Rng which = Rng::stream(seed, "clutter");
   Rng places = Rng::stream(seed, "clutter places");
   StandingRoom::Place place;
   for (int i = 0; i < task.clutter.objects; ++i) {
     bool stands = false;
-    for (int put_back = 0; put_back <= kPutBack && !stands; ++put_back) {
+    for (int laid_aside = 0; laid_aside <= kLaidAside && !stands; ++laid_aside) {
       const auto name = draw_other(task, table.targets, i, stock, which);
+      if (!name && laid_aside > 0) throw no_room("clutter.objects", task.clutter.objects);
       if (!name) {
         throw ConfigError(
             fmt::format("clutter.objects: {} objects and {} targets, but database.objects has {}",

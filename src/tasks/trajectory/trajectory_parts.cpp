@@ -195,8 +195,8 @@ void TrajectoryParts::score(std::vector<CandidatePlan>& candidates) {
 
 std::size_t TrajectoryParts::choose(const std::vector<CandidatePlan>& candidates) {
   const std::size_t chosen = safest_of_best(candidates);
-  recorder_.decision(candidates, chosen);
   current_.plan_time_s = wall_s() - planning_since_s_;
+  recorder_.decision(candidates, chosen);
   current_.target = planner_.target();
   if (recorder_.flight().wanted()) {
     const double highest_m = nominal_[static_cast<std::size_t>(at_)].z();

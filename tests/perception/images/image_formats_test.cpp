@@ -226,6 +226,25 @@ TEST_F(ImageFormats, ColourIsRedGreenBlueRowByRow) {
               ThrowsMessage<InputError>(HasSubstr("cannot be decoded")));
 }
 
+/// As cameras write it: a small picture in the headers, and more behind the end.
+TEST_F(ImageFormats, AJpegIsWholeUpToItsOwnEnd) {
+  const cv::Mat3b pixels(16, 24, cv::Vec3b(90, 60, 30));
+  const std::string bare = read_file(image("bare.jpg", pixels));
+  const std::string small = bare.substr(0, 2) + std::string("\xff\xe1\x00\x08", 4) +
+                            std::string("\xff\xd8\xff\xda\xff\xd9", 6) + bare.substr(2);
+  for (const std::string& whole : {small, small + std::string(1000, '\x7f')}) {
+    write_file(path("a.jpg"), whole);
+    EXPECT_EQ(read_colour_image(path("a.jpg")).width_px, 24);
+  }
+  for (const std::string& cut : {small.substr(0, small.size() - 2), small.substr(0, 20),
+                                 small.substr(0, 5), std::string("\xff")}) {
+    write_file(path("a.jpg"), cut);
+    EXPECT_THAT([&] { read_colour_image(path("a.jpg")); },
+                ThrowsMessage<InputError>(HasSubstr("is no whole image")))
+        << cut.size();
+  }
+}
+
 TEST_F(ImageFormats, AMaskIsWhatIsNotBlack) {
   cv::Mat3b colour(2, 2, cv::Vec3b(0, 0, 0));
   colour(0, 1) = {0, 0, 1};

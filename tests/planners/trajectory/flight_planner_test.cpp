@@ -271,6 +271,21 @@ TEST_F(Planner, ClearanceIsToSurfacesAndToTheEndOfWhatWasLookedAt) {
   EXPECT_GT(clearance(2.3, 0.3), 1.0) << "until then";
 }
 
+TEST_F(Planner, ClearanceIsAlsoThatOfTheEndBetweenTwoSamples) {
+  objects_.clear();
+  const std::vector<FlightWaypoint> aside{{.p_world_m = {2.0, 2.3, 1.8}, .yaw_rad = 0.0}};
+  const MinimumJerkTrajectory path({.p_world_m = {2.0, 0.0, 1.8}}, aside);
+  const auto clearance_m = [&](double sample_s, double until_s) {
+    planning_.options.sample_s = sample_s;
+    FlightPlanner given = planner(GivenPath{});
+    propose(given);
+    return given.clearance_m(path, until_s);
+  };
+  const double until_s = std::floor(path.duration_s()) - 0.05;
+  EXPECT_NEAR(clearance_m(1.0, until_s), clearance_m(0.01, until_s), 1e-6);
+  EXPECT_LT(clearance_m(1.0, until_s), clearance_m(1.0, std::floor(until_s)) - 0.01);
+}
+
 TEST(SafestOfBest, IsTheFirstThatIsClearElseWhatKeepsOffFarthest) {
   std::vector<CandidatePlan> plans(3);
   for (CandidatePlan& plan : plans) plan.clear = false;

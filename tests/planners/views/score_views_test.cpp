@@ -91,6 +91,16 @@ TEST_F(ScoreViews, ARegionAllInViewCountsItsUnobservedCells) {
   EXPECT_EQ(known[0], 0.0);  // by default, what lies round the known cells does not count
 }
 
+TEST_F(ScoreViews, AViewThatDoesNotReachTheRegionIsWorthNothing) {
+  const auto one = map({{{0, 0, 0}, 4, false}}, 0.1);
+  const ScoredRegion region{.min_m = {{0.0, 0.0, 0.0}}, .max_m = {{0.8, 0.4, 0.4}}};
+  const std::vector<Candidate> views{view_at(0, {-50.0, 0.2, 0.2}), view_at(1, {-1.0, 0.2, 0.2})};
+  const auto gains = score_views(one, region, SimpleGain{}, views, camera(2.0), 1);
+  EXPECT_EQ(gains[0], 0.0);
+  EXPECT_GT(gains[1], 20.0);
+  EXPECT_EQ(score_views(one, region, SimpleGain{}, {&views[0], 1}, camera(2.0), 1).front(), 0.0);
+}
+
 TEST(ScoreViewsOfAMeasuredMap, NoViewIsWorthLessThanNothing) {
   const std::filesystem::path path = "/usr/share/doc/liboctomap-dev/examples/data/geb079.bt";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;

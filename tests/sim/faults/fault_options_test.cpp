@@ -160,6 +160,7 @@ TEST(MovedObject, IsDrawnAmongBodiesThatReachHalfAMetreAtMost) {
       "<geom type='sphere' size='.15' pos='-.3 0 0'/></body>"
       "<body name='pair'><geom type='sphere' size='.1'/>"
       "<geom type='sphere' size='.15' pos='.4 0 0'/></body>"
+      "<body name='ghost' mocap='true'><geom type='sphere' size='.1'/></body>"
       "<body name='stand'><body name='twig'><geom type='sphere' size='.1'/></body></body>"));
   const World world(folder.alone());
   std::set<std::string> drawn;

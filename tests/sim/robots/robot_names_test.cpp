@@ -137,6 +137,15 @@ TEST(RobotNames, AnAxisMayBeAThousandthOff) {
   EXPECT_THAT(opposite, HasSubstr(") in the base, expected (1, "));
 }
 
+TEST(RobotNames, ABaseStandsInNoOtherBody) {
+  const Names arm;
+  EXPECT_EQ(arm.names.find_root("base", "robot/base"), arm.scene.body("robot/base"));
+  EXPECT_THAT(arm.refused([](const RobotNames& names) {
+    static_cast<void>(names.find_root("base", "robot/arm"));
+  }),
+              StartsWith("robots/x: base: body 'robot/arm' stands in another one"));
+}
+
 TEST(RobotNames, TheRobotIsFoundByItsPrefix) {
   const Names arm;
   EXPECT_EQ(robot_base(*arm.scene.model), arm.scene.body("robot/base"));

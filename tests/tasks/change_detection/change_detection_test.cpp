@@ -149,6 +149,13 @@ TEST_F(ChangeEpisode, WhatCannotBeIsRefused) {
   EXPECT_THROW(load_episode(kChange, overrides("stolen", {})), ConfigError);
   EXPECT_THROW(load_episode(kChange, overrides("none", {"object=mug_1"})), ConfigError);
   EXPECT_THROW(load_episode(kChange, overrides("object", {"object=cereal_box_1"})), ConfigError);
+  EXPECT_THROW(load_episode(kChange, overrides("pose", {"turned_rad=0"})), ConfigError);
+  EXPECT_THROW(load_episode(kChange, overrides("pose", {"turned_rad=-6.283185307179586"})),
+               ConfigError);
+  EXPECT_NO_THROW(load_episode(kChange, overrides("object", {"turned_rad=0"})));
+  EXPECT_THROW(load_episode(kChange, overrides("none", {"enough.object_probability=0.5"})),
+               ConfigError);
+  EXPECT_THROW(load_episode(kChange, overrides("none", {"enough.entropy_bits=0.5"})), ConfigError);
   const Validation found =
       validate_episode(kChange, overrides("pose", {"expected_object=spaceship_1"}));
   ASSERT_EQ(found.problems.size(), 1U);

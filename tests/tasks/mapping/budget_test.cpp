@@ -77,11 +77,14 @@ TEST(SpendingRates, TakeNoTurnAtTheStartAndNoWayThatWasNotPlanned) {
 
 /// 6 s are for what cannot be foreseen.
 TEST(Budget, LeavesWhatIsNotSpent) {
-  const Allowance all = Budget({}).left({100.0, 2000.0});
+  const Allowance all = Budget({}).left(known_rates(), {100.0, 2000.0});
   EXPECT_TRUE(std::isinf(all.time_s) && std::isinf(all.energy_j));
-  const Allowance left = Budget({.time_s = 1000.0, .energy_j = 50000.0}).left({100.0, 2000.0});
+  const SpendingRates rates = known_rates();
+  const Allowance left =
+      Budget({.time_s = 1000.0, .energy_j = 50000.0}).left(rates, {100.0, 2000.0});
   EXPECT_DOUBLE_EQ(left.time_s, 894.0);
-  EXPECT_DOUBLE_EQ(left.energy_j, 48000.0);
+  ASSERT_GT(rates.driving_w(), 0.0);
+  EXPECT_DOUBLE_EQ(left.energy_j, 48000.0 - 6.0 * rates.driving_w());
 }
 
 TEST(Budget, WithoutALimitAffordsEverything) {

@@ -121,7 +121,7 @@ Json at(double time_s, double path_m, int left) {
   return {{"time_s", time_s}, {"path_length_m", path_m}, {"observable_unobserved_cells", left}};
 }
 
-/// A band is where its middle is; one whose middle is at the limit is on both sides of it.
+/// A band is where its middle is; one whose middle is at the limit is beyond it.
 TEST(MappingMeasures, TellForecastsByDistance) {
   Json metrics = metrics_with({});
   metrics["scans"] =
@@ -130,7 +130,7 @@ TEST(MappingMeasures, TellForecastsByDistance) {
                         scan_with({band(1.0, 2.0, 5.0, 4, 0), band(2.0, 3.0, 7.0, 2, 0),
                                    band(3.0, nullptr, 9.0, 6, 5)})};
   EXPECT_DOUBLE_EQ(*scalar(metrics, "forecast_ratio"), 30.0 / 32.0);
-  EXPECT_DOUBLE_EQ(*scalar(metrics, "forecast_ratio_to_1_m"), 9.0 / 20.0);
+  EXPECT_DOUBLE_EQ(*scalar(metrics, "forecast_ratio_to_1_m"), 6.0 / 8.0);
   EXPECT_DOUBLE_EQ(*scalar(metrics, "forecast_ratio_to_2_m"), 8.0 / 16.0);
   EXPECT_DOUBLE_EQ(*scalar(metrics, "forecast_ratio_to_3_m"), 3.5);
   EXPECT_DOUBLE_EQ(*scalar(metrics, "forecast_ratio_beyond_3_m"), 1.5);

@@ -244,6 +244,18 @@ TEST(TableGroundTruth, TooMuchForTheTableIsAnError) {
   }
 }
 
+/// The last of the stock that finds no room was not one too few.
+TEST(TableGroundTruth, AStockThatIsTriedInVainHasNoRoom) {
+  const RecognitionTask task = task_with(
+      {"clutter={objects: 10, spacing_m: 0.5}", "map.size_m=[0.4, 0.4]", "database.objects=20"});
+  try {
+    draw_table(task, 1);
+    FAIL() << "there is no room";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("no room for 10"));
+  }
+}
+
 TEST(TableGroundTruth, MoreThanTheDatabaseHasIsAnError) {
   EXPECT_THROW(draw_table(task_with({"database.objects=5", "clutter.objects=6"}), 1), ConfigError);
 }

@@ -29,10 +29,11 @@ void SpendingRates::observe(const ScanRecord& scan, const ScanRecord* before) {
   travel_time_.observe(scan.planned_way_m, drive_s);
 }
 
-Allowance Budget::left(const Spent& spent) const {
+Allowance Budget::left(const SpendingRates& rates, const Spent& spent) const {
   Allowance left;
   if (options_.time_s) left.time_s = *options_.time_s - spent.time_s - kReserve_s;
-  if (options_.energy_j) left.energy_j = *options_.energy_j - spent.energy_j;
+  if (options_.energy_j)
+    left.energy_j = *options_.energy_j - spent.energy_j - rates.driving_w() * kReserve_s;
   return left;
 }
 
@@ -42,9 +43,8 @@ bool Budget::affords(const SpendingRates& rates, const Spent& spent, double driv
   const double driven_s =
       (1.0 + kWayReserve) * (travel.of_m(driven_m) - travel.of_m(0.0)) + drives * travel.of_m(0.0);
   const double scanned_s = scans * rates.scan_s();
-  const Allowance now = left(spent);
-  const double energy_j =
-      rates.driving_w() * (driven_s + kReserve_s) + rates.scanning_w() * scanned_s;
+  const Allowance now = left(rates, spent);
+  const double energy_j = rates.driving_w() * driven_s + rates.scanning_w() * scanned_s;
   return driven_s + scanned_s <= now.time_s && energy_j <= now.energy_j;
 }
 

@@ -64,7 +64,7 @@ class Budget {
  public:
   explicit Budget(const BudgetOptions& options) : options_(options) {}
 
-  [[nodiscard]] Allowance left(const Spent& spent) const;
+  [[nodiscard]] Allowance left(const SpendingRates& rates, const Spent& spent) const;
   /// Whether a view can be reached and scanned, and the way home driven after it.
   /// @param way_home_m 0 if no way home is kept
   [[nodiscard]] bool affords_view(const SpendingRates& rates, const Spent& spent, double way_m,

@@ -34,7 +34,7 @@ class BudgetKeeper {
   void come_home();
 
   [[nodiscard]] const SpendingRates& rates() const { return rates_; }
-  [[nodiscard]] Allowance left() const { return budget_.left(spent()); }
+  [[nodiscard]] Allowance left() const { return budget_.left(rates_, spent()); }
   /// Travel times home from those places and, last, from here; none if no way home is kept.
   [[nodiscard]] std::vector<double> home_s(std::span<const Eigen::Vector2d> places_m) const;
 

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace vantage {
@@ -20,7 +22,7 @@ std::pair<double, double> forecast_of(const Json& scan, double from_m, double to
         band.at("to_m").is_null()
             ? std::numeric_limits<double>::infinity()
             : 0.5 * (band.at("from_m").get<double>() + band.at("to_m").get<double>());
-    if (middle_m < from_m || middle_m > to_m) continue;
+    if (middle_m < from_m || (middle_m >= to_m && std::isfinite(to_m))) continue;
     cells.first += band.at("predicted_cells").get<double>();
     cells.second += band.at("actual_cells").get<double>();
   }

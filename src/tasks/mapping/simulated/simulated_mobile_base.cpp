@@ -66,6 +66,7 @@ SimulatedMobileBase::SimulatedMobileBase(const EpisodeOptions& episode,
     return faults_.reported(increment, world_.time_s());
   };
   world_.on_step = [this](const World& world) {
+    energy_used_j_ += robot_.power_w(world) * world.options().timestep_s;
     if (collisions_.update(robot_, world) > 0) report_touch();
   };
 }
@@ -85,7 +86,6 @@ void SimulatedMobileBase::tick() {
   throw_if_interrupted();
   world_.advance_tick();
   odometry_.update(robot_.T_world_base(world_));
-  energy_used_j_ += robot_.power_w(world_) * world_.options().control_period_s;
 }
 
 const RayScene& SimulatedMobileBase::seen_geometry() {
