@@ -106,18 +106,22 @@ ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
       .scores =
           std::visit([&](const auto& choice) { return scores_by(choice, options, situation, rng); },
                      options.choice)};
-  if (std::ranges::all_of(situation.actions, &ObjectViewAction::visited)) {
-    decision.action = best_of(decision.scores);
-    return decision;
-  }
-  for (std::size_t i = 0; i < situation.actions.size(); ++i) {
-    if (!situation.actions[i].visited) continue;
-    double& score = decision.scores[i].score;
-    score = options.visited_weight > 0.0 ? score - (1.0 - options.visited_weight) * std::abs(score)
-                                         : -std::numeric_limits<double>::infinity();
+  if (!std::ranges::all_of(situation.actions, &ObjectViewAction::visited)) {
+    discount_visited(options, situation.actions, decision.scores);
   }
   decision.action = best_of(decision.scores);
   return decision;
+}
+
+void discount_visited(const ObjectViewOptions& options, std::span<const ObjectViewAction> actions,
+                      std::span<ObjectViewScore> scores) {
+  expects(actions.size() == scores.size(), "a score of each action");
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    if (!actions[i].visited) continue;
+    double& score = scores[i].score;
+    score = options.visited_weight > 0.0 ? score - (1.0 - options.visited_weight) * std::abs(score)
+                                         : -std::numeric_limits<double>::infinity();
+  }
 }
 
 std::optional<EnoughReason> seen_enough(const EnoughViews& enough, const ObjectStates& database,

@@ -139,6 +139,12 @@ struct ObjectViewDecision {
 ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
                                       const ObjectViewSituation& situation, Rng& rng);
 
+/// Scores of views that were taken before, as `visited_weight` has them while others are left. The
+/// choice above does so among its own actions; where all of those were taken but there are others
+/// elsewhere, whoever compares them does.
+void discount_visited(const ObjectViewOptions& options, std::span<const ObjectViewAction> actions,
+                      std::span<ObjectViewScore> scores);
+
 /// When to look no further.
 struct EnoughViews {
   double object_probability = 0.9;

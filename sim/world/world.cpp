@@ -160,10 +160,18 @@ void World::put_fixed_body(int body_id, const Eigen::Vector3d& p_parent_body_m) 
   expects(model_->body_weldid[body_id] == 0, "a body that hangs on no joint");
   Eigen::Map<Eigen::Vector3d> place(model_->body_pos + 3 * body_id);
   if (place == p_parent_body_m) return;
+  p_in_file_m_.try_emplace(body_id, place);
   place = p_parent_body_m;
   find_poses(*model_, *snapshot_);
   moving_->list_moving();
   positions_jumped_ = true;
+}
+
+Eigen::Vector3d World::moved_m(const std::string& body) const {
+  const auto id = find_model_id(*model_, ModelObject::body, body);
+  const auto found = id ? p_in_file_m_.find(*id) : p_in_file_m_.end();
+  if (found == p_in_file_m_.end()) return Eigen::Vector3d::Zero();
+  return Eigen::Map<const Eigen::Vector3d>(model_->body_pos + 3 * found->first) - found->second;
 }
 
 void World::look_for_near_geoms() {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -81,6 +82,9 @@ class World {
   void add_outside_force(OutsideForce force) { forces_.push_back(std::move(force)); }
   /// Puts a body that hangs on no joint elsewhere in its parent's frame. No part of the state.
   void put_fixed_body(int body_id, const Eigen::Vector3d& p_parent_body_m);
+  /// How far that took the body of that name from where its file has it, in its parent's frame; 0
+  /// for all others.
+  [[nodiscard]] Eigen::Vector3d moved_m(const std::string& body) const;
 
   /// Everything the future depends on besides commands, applied forces and mocap poses: time, qpos,
   /// qvel, act, qacc_warmstart.
@@ -112,6 +116,7 @@ class World {
   std::unique_ptr<NearGeoms> near_geoms_;
   std::unique_ptr<ModelPart> moving_;  ///< what a snapshot looks for anew
   std::vector<OutsideForce> forces_;
+  std::map<int, Eigen::Vector3d> p_in_file_m_;  ///< of bodies that were put elsewhere
   bool positions_jumped_ = true;
   std::uint64_t ticks_ = 0;
   double stepping_wall_s_ = 0.0;

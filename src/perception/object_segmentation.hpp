@@ -33,7 +33,7 @@ struct ObjectSegmentationOptions {
       between(0.0, 0.1));
     f("table_tolerance_m", table_tolerance_m,
       "how far above and below its known height the table top is looked for, because of pose "
-      "errors",
+      "errors; of no effect where the height of supports is found, as in `trajectory`",
       Range{0.0, 0.5, true});
     f("min_pixels", min_pixels,
       "least number of pixels of an object; smaller patches are taken for noise", at_least(1));

@@ -48,9 +48,13 @@ double wrap_turn(double angle_rad) {
   return angle_rad - kTurn_rad * std::floor(angle_rad / kTurn_rad);
 }
 
+std::string body_of_target(std::size_t i) {
+  return i == 0 ? "object" : fmt::format("object_{}", i);
+}
+
 std::vector<MemoryFile> object_files(const ObjectFlight& task, const ObjectOnTable& object) {
   if (object.object.empty()) return {{"object.xml", std::string(kNothing)}};
-  const NamedObject named{"object", object};
+  const NamedObject named{body_of_target(0), object};
   return object_files(task, {&named, 1}, "");
 }
 

@@ -40,6 +40,9 @@ struct NamedObject {
   ObjectOnTable object;
 };
 
+/// The name of the body of the i-th object that is looked at.
+std::string body_of_target(std::size_t i);
+
 /// The files that put it there: object.xml, which the scene includes, with its mesh and texture.
 /// @throws InputError as make_turntable_object()
 std::vector<MemoryFile> object_files(const ObjectFlight& task, const ObjectOnTable& object);

@@ -9,6 +9,7 @@
 #include "vantage/runtime/interrupt.hpp"
 #include "vantage/sim/sensors/camera.hpp"
 #include "vantage/tasks/flight/full_turn.hpp"
+#include "vantage/tasks/object_flight/object_on_table.hpp"
 
 namespace vantage {
 namespace {
@@ -126,7 +127,8 @@ OrbitGroundTruth SimulatedOrbitRobot::ground_truth(std::size_t object) const {
       make_pose(meant.p_world_m, meant.yaw_rad) * vehicle.T_body_camera(task_.elevation_rad);
   const Pose T_world_camera =
       vantage::T_world_camera(world.model(), world.snapshot(), vehicle.camera_id());
-  const auto& [orbit, p_world_object_m, yaw_rad] = objects_[object];
+  const auto& [orbit, p_world_drawn_m, yaw_rad] = objects_[object];
+  const Eigen::Vector3d p_world_object_m = p_world_drawn_m + world.moved_m(body_of_target(object));
   const Eigen::Vector3d from_object_m = T_world_camera.translation() - p_world_object_m;
   const double seen_rad = yaw_rad - std::atan2(from_object_m.y(), from_object_m.x());
   return {.collisions = quadrotor_.collisions(),

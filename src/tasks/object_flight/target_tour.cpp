@@ -56,23 +56,29 @@ std::string TargetTour::reason() const {
 NextView next_view(const TargetTour& tour, const Recogniser& recogniser,
                    const RecognitionOptions& decision, std::span<const BearingOption> options,
                    Rng& rng) {
+  std::vector<ObjectViewAction> actions;
+  for (const BearingOption& option : options) actions.push_back(option.action);
+  const bool all_visited = std::ranges::all_of(actions, &ObjectViewAction::visited);
   NextView all;
-  double best = 0.0;
-  for (std::size_t first = 0; first < options.size(); first = all.decision.scores.size()) {
+  auto& scores = all.decision.scores;
+  for (std::size_t first = 0; first < options.size(); first = scores.size()) {
     const std::size_t target = options[first].target;
-    std::vector<ObjectViewAction> actions;
-    for (std::size_t i = first; i < options.size() && options[i].target == target; ++i) {
-      actions.push_back(options[i].action);
+    const auto other =
+        std::find_if(options.begin() + static_cast<std::ptrdiff_t>(first), options.end(),
+                     [&](const BearingOption& o) { return o.target != target; });
+    const auto end = static_cast<std::size_t>(other - options.begin());
+    const auto own = std::span<const ObjectViewAction>(actions).subspan(first, end - first);
+    NextView next =
+        next_view(recogniser, decision, tour.targets()[target].inquiry.recognition(), own, rng);
+    if (!all_visited && std::ranges::all_of(own, &ObjectViewAction::visited)) {
+      discount_visited(decision.views, own, next.decision.scores);
     }
-    const NextView next =
-        next_view(recogniser, decision, tour.targets()[target].inquiry.recognition(), actions, rng);
-    const auto& scores = next.decision.scores;
-    const double score = scores[next.decision.action].score;
-    if (first == 0 || score > best) {
-      best = score;
-      all.decision.action = first + next.decision.action;
+    const auto best = std::ranges::max_element(next.decision.scores, {}, &ObjectViewScore::score);
+    const auto at = static_cast<std::size_t>(best - next.decision.scores.begin());
+    scores.insert(scores.end(), next.decision.scores.begin(), next.decision.scores.end());
+    if (first == 0 || best->score > scores[all.decision.action].score) {
+      all.decision.action = first + at;
     }
-    all.decision.scores.insert(all.decision.scores.end(), scores.begin(), scores.end());
     all.time_s += next.time_s;
   }
   return all;

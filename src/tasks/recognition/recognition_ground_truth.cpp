@@ -243,7 +243,7 @@ TableGroundTruth draw_table(const RecognitionTask& task, std::uint64_t seed) {
 std::vector<MemoryFile> table_files(const RecognitionTask& task, const TableGroundTruth& table) {
   std::vector<NamedObject> objects;
   for (std::size_t i = 0; i < table.targets.size(); ++i) {
-    objects.push_back({i == 0 ? "object" : fmt::format("object_{}", i), table.targets[i]});
+    objects.push_back({body_of_target(i), table.targets[i]});
   }
   for (std::size_t i = 0; i < table.others.size(); ++i) {
     objects.push_back({fmt::format("other_{}", i), table.others[i]});

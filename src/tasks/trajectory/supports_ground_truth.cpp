@@ -3,14 +3,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "vantage/planners/views/view_list.hpp"
+#include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/flight/full_turn.hpp"
 #include "vantage/tasks/flight/object_mjcf.hpp"
 #include "vantage/tasks/trajectory/trajectory_flight.hpp"
 
 namespace vantage {
+namespace {
+
+std::string body_of(std::size_t object) { return fmt::format("object_{}", object); }
+
+}  // namespace
 
 std::vector<Eigen::Vector3d> read_support_surfaces(const std::filesystem::path& scene) {
   std::vector<Eigen::Vector3d> tops_m;
@@ -53,7 +60,7 @@ std::vector<MemoryFile> object_files(const ObjectDatabaseOptions& database,
     const ObjectOnSupport& object = objects[i];
     const TurntableObject made =
         make_turntable_object(dataset_of(database), {object.category, object.object});
-    const std::string name = fmt::format("object_{}", i);
+    const std::string name = body_of(i);
     const ObjectMjcf mjcf = object_mjcf(name, made, {object.p_world_m, object.yaw_rad});
     assets += mjcf.assets;
     bodies += mjcf.body;
@@ -62,6 +69,12 @@ std::vector<MemoryFile> object_files(const ObjectDatabaseOptions& database,
   }
   files.front() = {"objects.xml", mjcf_file(assets, bodies)};
   return files;
+}
+
+void follow_moved(const World& world, std::span<ObjectOnSupport> objects) {
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    objects[i].p_world_m += world.moved_m(body_of(i));
+  }
 }
 
 std::vector<ObjectOnSupport> draw_flight_objects(const TrajectoryFlight& task,

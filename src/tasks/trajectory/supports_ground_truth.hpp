@@ -14,6 +14,8 @@
 
 namespace vantage {
 
+class World;
+
 struct ObjectOnSupport {
   std::string object;    ///< "mug_3"
   std::string category;  ///< "mug"
@@ -40,6 +42,9 @@ std::vector<ObjectOnSupport> draw_objects(const ObjectDatabaseOptions& database,
 /// @throws InputError as make_turntable_object()
 std::vector<MemoryFile> object_files(const ObjectDatabaseOptions& database,
                                      std::span<const ObjectOnSupport> objects);
+
+/// Where they stand by now: a fault may have moved one.
+void follow_moved(const World& world, std::span<ObjectOnSupport> objects);
 
 struct TrajectoryFlight;
 struct EpisodeSetup;

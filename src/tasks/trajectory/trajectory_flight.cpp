@@ -91,7 +91,7 @@ void TrajectoryFlight::require_start(const EpisodeSetup& setup) const {
 RunOutcome TrajectoryFlight::run(const RunRequest& request) const {
   const EpisodeSetup& setup = request.setup;
   const std::vector<FlightWaypoint> path = read_flight_path(setup.scene);
-  const std::vector<ObjectOnSupport> objects = draw_flight_objects(*this, setup);
+  std::vector<ObjectOnSupport> objects = draw_flight_objects(*this, setup);
   SimulatedTrajectoryRobot robot(setup, model_source(setup), *this, path.front());
   const Recogniser recogniser = load_recogniser(*this, objects);
   EpisodeRun run(request);
@@ -101,6 +101,7 @@ RunOutcome TrajectoryFlight::run(const RunRequest& request) const {
   run.begin();
   const Ending ending = ending_of([&] { return run_episode(parts); });
   const TrajectoryGroundTruth truth = robot.ground_truth();
+  follow_moved(robot.quadrotor().world(), objects);
   return run.finish(ending, {robot.time_s(), truth.collisions}, recorder,
                     [&](nlohmann::ordered_json& metrics) {
                       add_trajectory_metrics({truth, objects}, parts, metrics);

@@ -89,7 +89,9 @@ struct TrajectoryFlight {
     f("tracker", tracker, "how detections are associated to objects");
     f("map", map, "occupancy map of the obstacles on the way");
     f("tracking", tracking,
-      "how trajectories are flown: controller, limits, pose errors, gusts, tolerances");
+      "how trajectories are flown: controller, limits, pose errors, gusts; what tells when a goal "
+      "is "
+      "reached has no effect, as the flight does not stop");
     f("camera", camera, "RGB-D camera of the vehicle");
     f("exposure", exposure, "exposure of the colour images, which blurs them in motion");
     f("colour_noise", colour_noise,

@@ -111,8 +111,9 @@ void draw_path(cv::Mat& image, const Layout& layout, const cv::Rect& place,
                static_cast<int>(layout.px(6)), panel::kAccent, layout.stroke(1.5), cv::LINE_AA);
   }
   const double yaw = project_to_se2(input.T_world_body).yaw_rad;
-  for (const double side : {-0.5, 0.5}) {  // what the camera sees
-    const Eigen::Vector2d edge(std::cos(yaw + side), std::sin(yaw + side));
+  for (const double side : {-1.0, 1.0}) {  // what the camera sees
+    const double edge_rad = yaw + side * input.half_width_rad;
+    const Eigen::Vector2d edge(std::cos(edge_rad), std::sin(edge_rad));
     cv::line(image, map.at(robot_m), map.at(robot_m + input.range_m * edge), panel::kRobot, 1,
              cv::LINE_AA);
   }

@@ -22,7 +22,8 @@ struct TrajectoryPanelInput {
   Pose T_world_body = Pose::Identity();         ///< as estimated
   std::optional<ViewTarget> target = {};
   std::string method = {};
-  double range_m = 2.0;  ///< within which looks count
+  double range_m = 2.0;         ///< within which looks count
+  double half_width_rad = 0.5;  ///< of what the camera sees
 };
 
 /// A dark panel of `size`. Deterministic.

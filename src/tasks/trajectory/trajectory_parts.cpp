@@ -263,6 +263,9 @@ TrajectoryPanelInput TrajectoryParts::panel() const {
   input.target = planner_.target();
   input.method = task_.method_name();
   input.range_m = task_.observations.range_m;
+  const RgbdOptions& camera = task_.camera;
+  input.half_width_rad =
+      std::atan(std::tan(0.5 * camera.fovy_rad) * camera.width_px / camera.height_px);
   return input;
 }
 

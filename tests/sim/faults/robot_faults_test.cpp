@@ -317,6 +317,9 @@ TEST(MovedObject, IsMovedByThatMuchAtThatTimeAndBack) {
   }
   world.advance_tick();
   EXPECT_NEAR(distance_m(), 0.25, 1e-12);
+  EXPECT_NEAR(world.moved_m("cup").norm(), 0.25, 1e-12);
+  EXPECT_EQ(world.moved_m("wall").norm(), 0.0);
+  EXPECT_EQ(world.moved_m("saucer").norm(), 0.0) << "there is none";
   EXPECT_EQ(body_pose(world, cup).translation().z(), 0.1) << "it stays on what it stands on";
   EXPECT_EQ(faults.record().struck(Fault::moved_object), 1);
   const Eigen::Vector3d top = body_pose(world, cup).translation() + Eigen::Vector3d(0.0, 0.0, 1.0);
@@ -325,6 +328,7 @@ TEST(MovedObject, IsMovedByThatMuchAtThatTimeAndBack) {
       << "sensors see it where it is";
   world.set_state(start);
   EXPECT_EQ(distance_m(), 0.0) << "as it was then";
+  EXPECT_EQ(world.moved_m("cup").norm(), 0.0);
 }
 
 TEST(MovedObject, IsSomethingSmallThatStandsFixed) {

@@ -56,6 +56,29 @@ TEST(TargetTour, LooksAtAllThatAreNotOverAtOnce) {
   EXPECT_THAT(tour.open(), ElementsAre(0U, 2U));
 }
 
+/// Also where those of the object that is looked at were all taken.
+TEST(TargetTour, NoViewIsTakenAgainWhileAnotherIsLeft) {
+  const TargetTour tour = tour_of_three(true);
+  const auto option = [](std::size_t target, bool visited) {
+    return BearingOption{.id = 0,
+                         .bearing_rad = 0.0,
+                         .action = {.yaw_rad = std::numbers::pi, .visited = visited},
+                         .target = target};
+  };
+  const auto chosen_of = [&](std::vector<BearingOption> options) {
+    options[0].action.visible = 1.0;
+    options.back().action.visible = 0.5;  // it is expected to tell less
+    Rng rng(1);
+    const NextView next = next_view(tour, kRecogniser, {}, options, rng);
+    EXPECT_EQ(next.decision.scores.size(), options.size());
+    return next.decision.action;
+  };
+  EXPECT_EQ(chosen_of({option(0, true), option(1, false)}), 1U);
+  EXPECT_EQ(chosen_of({option(0, false), option(1, true)}), 0U);
+  EXPECT_EQ(chosen_of({option(0, false), option(1, false)}), 0U);
+  EXPECT_EQ(chosen_of({option(0, true), option(1, true)}), 0U);
+}
+
 TEST(TargetTour, SaysHowItHasEnded) {
   TargetTour tour = tour_of_three(false);
   tour.go_to(2);
