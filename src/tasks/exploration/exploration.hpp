@@ -24,8 +24,8 @@ namespace vantage {
 
 class World;
 
-/// When exploring is no longer worth a scan, asked alike of every method: the best view in reach
-/// promises too little, by what was learnt of clutter.
+/// When exploring is no longer worth a scan, asked alike of every method: the best view, in reach
+/// or not, promises too little, by what was learnt of clutter.
 struct EnoughOptions {
   double share = 0.0015;
   int scans = 3;

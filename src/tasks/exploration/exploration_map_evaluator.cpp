@@ -152,7 +152,7 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
   }
   add_observable(T_world_sweeps);
   if (std::holds_alternative<OracleTour>(task.choice)) remember_visible(T_world_sweeps);
-  set_true_floor(floor);
+  set_true_floor(floor, field.space);
 
   const UnreachedRooms rooms =
       unreached_rooms(field, floor_region(frame), task.passages.least_area_m2);

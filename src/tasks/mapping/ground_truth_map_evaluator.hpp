@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,6 +17,7 @@
 
 namespace vantage {
 
+class FootprintSpace;
 class MobileGroundTruth;
 struct MapScore;
 
@@ -60,6 +62,10 @@ class GroundTruthMapEvaluator {
   [[nodiscard]] const std::vector<Pose>& observing_poses() const { return observing_poses_; }
   /// What stands or hangs in the robot's way, as it really is; null if nobody needs to know.
   [[nodiscard]] const FloorMap* true_floor() const { return true_floor_ ? &*true_floor_ : nullptr; }
+  /// Where the robot's outline goes on that floor; null where a disc goes everywhere.
+  [[nodiscard]] const std::shared_ptr<const FootprintSpace>& true_space() const {
+    return true_space_;
+  }
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
   /// None where it is not asked which places can be reached.
   [[nodiscard]] const std::optional<LeftOut>& left_out() const { return left_out_; }
@@ -76,7 +82,10 @@ class GroundTruthMapEvaluator {
   /// @param T_world_sensors in `rooms` that no way leads to; after add_observable()
   void set_left_out(int rooms, std::span<const Pose> T_world_sensors);
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
-  void set_true_floor(FloorMap floor) { true_floor_ = std::move(floor); }
+  void set_true_floor(FloorMap floor, std::shared_ptr<const FootprintSpace> space = nullptr) {
+    true_floor_ = std::move(floor);
+    true_space_ = std::move(space);
+  }
 
  private:
   struct Remembered {
@@ -95,6 +104,7 @@ class GroundTruthMapEvaluator {
   std::vector<Remembered> remembered_;
   std::vector<Pose> observing_poses_;
   std::optional<FloorMap> true_floor_;
+  std::shared_ptr<const FootprintSpace> true_space_;
   std::size_t observable_count_ = 0;
   std::optional<LeftOut> left_out_;
 };

@@ -147,7 +147,8 @@ std::size_t MappingParts::next_of_plan(std::vector<Candidate>& candidates) {
   if (!poses_of_truth().empty() && evaluator_.true_floor() != nullptr) {
     later = views_of_truth(paths, false);
     tell_truth(later);
-    true_paths = make_path_field(*evaluator_.true_floor(), paths.start, options_.navigation);
+    true_paths = make_path_field(*evaluator_.true_floor(), paths.start, options_.navigation,
+                                 evaluator_.true_space());
     situation.later = later;
     situation.true_paths = &true_paths;
   }

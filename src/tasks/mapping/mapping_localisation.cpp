@@ -22,6 +22,9 @@ void MappingParts::correct_records(const PoseCorrection& correction, const Pose&
     GroundTruthMapEvaluator::measure_moved_pose(base, *record);
     record->T_world_sensor = to_se3(base) * T_base_sensor;
   }
+  if (intended_m_ && !scans_.empty()) {
+    intended_m_ = correction.moved(*intended_m_, scans_.back().keyframe);
+  }
   note_pose_sigmas(records);
   robot_.restart_dead_reckoning();
   current_.map_sigma_m = map_sigma_m();

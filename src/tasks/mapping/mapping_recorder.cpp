@@ -95,7 +95,8 @@ constexpr auto kScanTexts = std::to_array<std::pair<std::string_view, std::strin
     {"scans[].collisions", "up to here"},
     {"scans[].precision",
      "of occupied cells, share that is occupied within metrics.tolerance_cells"},
-    {"scans[].recall", "of observed surface cells, share that the map holds as occupied"},
+    {"scans[].recall",
+     "of observable surface cells, share with an occupied cell within metrics.tolerance_cells"},
     {"scans[].pose_sigma_m",
      "of the position that the scan is in the map at, by what all scans say of each other: grows "
      "along plain walls, shrinks with loops; 0: the task closes none"},
@@ -244,8 +245,8 @@ RecordTexts mapping_records() {
        "null "
        "before the first scan"},
       {kMetrics, "map.recall",
-       "of the map at the end: of observed surface cells, share held as occupied; null before the "
-       "first scan"},
+       "of the map at the end: of observable surface cells, share with an occupied cell within the "
+       "tolerance; null before the first scan"},
       {kMetrics, "map.tolerance_cells", "how far an occupied cell may be off the true surface"},
       {kMetrics, "observability",
        "transmission of an unobserved cell that the gain assumes at the end; null: none"},

@@ -140,7 +140,7 @@ TEST(MappingMeasures, TellForecastsByDistance) {
   former["scans"] = std::vector<Json>{at(1.0, 0.0, 5), at(2.0, 0.5, 3)};
   EXPECT_FALSE(forecast_ratio({former, 2}));
   EXPECT_FALSE(outside_share({former, 2}));
-  EXPECT_EQ(forecast_ratios({former, 2}), (Curve{1.0, 1.0}));
+  EXPECT_EQ(forecast_ratios({former, 2}), Curve{});
   EXPECT_FALSE(interval_coverage({former, 2}));
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "vantage/core/log.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/runtime/interrupt.hpp"
 
@@ -71,10 +72,13 @@ ViewCoverage view_coverage(const GroundTruthMapEvaluator& evaluator, const ScanP
   }
   ViewCoverage coverage;
   coverage.observable_cells = observable.size();
+  Progress progress("what poses show", static_cast<double>(places.T_world_sensors.size()));
   for (const Pose& T_world_sensor : places.T_world_sensors) {
     throw_if_interrupted();
+    progress.update(static_cast<double>(coverage.shows.size()));
     coverage.shows.push_back(numbered_among(evaluator.visible_set(T_world_sensor), observable));
   }
+  progress.update(static_cast<double>(coverage.shows.size()));
   coverage.way_m = least_ways_m(floor, places.base_m, threads);
   return coverage;
 }

@@ -49,6 +49,7 @@ std::optional<double> forecast_ratio(const MeasuredEpisode& episode, double from
 Curve forecast_ratios(const MeasuredEpisode& episode) {
   Curve ratios;
   for (const Json& scan : episode.metrics.at("scans")) {
+    if (bands_of(scan).empty()) return {};
     const auto [predicted, actual] =
         forecast_of(scan, 0.0, std::numeric_limits<double>::infinity());
     ratios.push_back((predicted + 1.0) / (actual + 1.0));

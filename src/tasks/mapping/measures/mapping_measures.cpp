@@ -153,7 +153,7 @@ const auto kScalars = std::to_array<ScalarMeasure>({
     {{"path_to_98_m", "way driven until 98 % are observed, m", Better::lower},
      number<"path_to_98_m">},
     {{"area_over_time",
-      "area under the curve of observable cells left against simulated time, until the run ended, "
+      "area under the curve of observable cells left against simulated time, until the last scan, "
       "s"},
      number<"area_over_time">},
     {{"prediction_error_cells", "mean error of the method's own prediction, cells", Better::lower},
@@ -213,7 +213,8 @@ constexpr auto kCurves = std::to_array<CurveMeasure>({
     {{"share_left_over_path", "share of the observable cells left, every metre", Better::lower},
      share_left_over_path,
      kAlongPath},
-    {{"forecast_ratio", "cells forecast by adaptive over cells seen"}, forecast_ratios},
+    {{"forecast_ratio", "cells forecast by adaptive over cells seen, one more of each"},
+     forecast_ratios},
     {{"distance_m", "distance travelled, m", Better::lower},
      [](const MeasuredEpisode& e) { return scan_values(e, "path_length_m"); }},
     {{"pose_error_m", "position error, m", Better::lower},

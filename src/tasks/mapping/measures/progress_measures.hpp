@@ -16,7 +16,7 @@ namespace vantage {
 
 /// Adds `time_to_80_s`, `path_to_80_m`, `scans_to_80`, the same for 90, 95, 97 and 98 %, all null
 /// where never reached, and `area_over_time`: the share of observable cells left, integrated over
-/// the simulated time of the run, s. A share holds from one scan to the next.
+/// the simulated time until the last scan, s. A share holds from one scan to the next.
 void add_progress(std::span<const ScanRecord> scans, std::size_t observable_cells,
                   nlohmann::ordered_json& metrics);
 
