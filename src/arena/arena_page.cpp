@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -22,14 +23,16 @@ struct Sampled {
 };
 
 /// @param take (score, its place): whether it is one of them
+/// @param until_s of an episode, what its curve is sampled over
 template <class Take>
-Sampled sampled(const StudyResults& results, const Leaderboard& board, Take&& take) {
+Sampled sampled(const StudyResults& results, const Leaderboard& board,
+                const std::function<double(const EpisodeScore&)>& until_s, Take&& take) {
   const StudyLayout layout(results.study);
   Sampled found;
   for (const EpisodeScore& score : board.scores) {
     const EpisodePlace place = layout.place(results.plan[score.episode].levels);
     if (!take(score, place)) continue;
-    found.curves.push_back(sampled_share_seen(score.steps, score.horizon_s, kSamples));
+    found.curves.push_back(sampled_share_seen(score.steps, until_s(score), kSamples));
     found.clusters.push_back(place.cluster);
   }
   return found;
@@ -94,7 +97,7 @@ std::string standing_html(const Standing& s, const std::string& reference, bool 
       s.kind == PlannerKind::built_in ? "" : kind_name(s.kind));
   row += score_html(s) + difference_html(s, reference);
   row += fmt::format("<td>{}</td><td>{}</td><td>{}</td>", fixed(100.0 * s.seen_share, 1),
-                     fixed(s.path_length_m, 1), fixed(s.collisions, 2));
+                     with_dash(s.path_length_m, 1), with_dash(s.collisions, 2));
   row +=
       fmt::format("<td{}>{}/{}</td>", s.failed > 0 ? " class=\"bad\"" : "", s.failed, s.episodes);
   row += fmt::format("<td>{}</td><td>{}{}</td>", with_dash(s.decision_s, 1, 1e3),
@@ -213,10 +216,13 @@ Figure overall_figure(const StudyResults& results, const Leaderboard& board) {
                 .x_label = "budget of time, %",
                 .y_label = "share seen",
                 .panels = {{"", {}}}};
-  figure.note = "Mean over episodes; band: 95 % bootstrap interval, scenes resampled.";
+  const std::string& cluster = results.study.report.cluster;
+  figure.note = fmt::format("Mean over episodes; band: 95 % bootstrap interval, {} resampled.",
+                            cluster.empty() ? "pairs" : fmt::format("levels of {}", cluster));
   for (const Standing& standing : board.standings) {
-    const Sampled curves =
-        sampled(results, board, [&](const EpisodeScore&, const EpisodePlace& place) {
+    const Sampled curves = sampled(
+        results, board, [](const EpisodeScore& score) { return score.horizon_s; },
+        [&](const EpisodeScore&, const EpisodePlace& place) {
           return place.level == standing.level;
         });
     if (curves.curves.empty()) continue;
@@ -236,14 +242,16 @@ Figure scene_figure(const StudyResults& results, const Leaderboard& board) {
   figure.note = "Mean over seeds; band: 95 % bootstrap interval.";
   for (std::size_t p = 0; p < layout.panels().size(); ++p) {
     FigurePanel panel{layout.panels()[p], {}};
+    const double horizon_s = horizon_of(results, board, p);
     for (const Standing& standing : board.standings) {
-      Sampled curves = sampled(results, board, [&](const EpisodeScore&, const EpisodePlace& place) {
-        return place.level == standing.level && place.panel == p;
-      });
+      Sampled curves = sampled(
+          results, board, [&](const EpisodeScore&) { return horizon_s; },
+          [&](const EpisodeScore&, const EpisodePlace& place) {
+            return place.level == standing.level && place.panel == p;
+          });
       if (curves.curves.empty()) continue;
       for (std::size_t i = 0; i < curves.clusters.size(); ++i) curves.clusters[i] = i;
-      panel.series.push_back(
-          series_of(figure, panel.title, standing, curves, horizon_of(results, board, p)));
+      panel.series.push_back(series_of(figure, panel.title, standing, curves, horizon_s));
     }
     figure.panels.push_back(std::move(panel));
   }

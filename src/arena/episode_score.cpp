@@ -90,8 +90,11 @@ EpisodeScore score_of(const StudyResults& results, std::size_t i) {
   if (score.failed) score.reason = metrics.value("reason", std::string());
   score.steps = steps_of(metrics);
   score.seen_share = score.steps.empty() ? 0.0 : score.steps.back().share;
-  score.path_length_m = metrics.value("path_length_m", 0.0);
-  score.collisions = metrics.value("collisions", 0.0);
+  const auto number = [&](const char* key) {
+    return metrics.contains(key) ? std::optional(metrics[key].get<double>()) : std::nullopt;
+  };
+  score.path_length_m = number("path_length_m");
+  score.collisions = number("collisions");
   score.decision_times_s = decision_times_s(metrics);
   score.time_over_bound_90 = time_over_bound(folder, 90);
   score.regret_share = mean_regret(folder);

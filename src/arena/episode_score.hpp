@@ -34,8 +34,8 @@ struct EpisodeScore {
   std::vector<SeenFrom> steps;
   double score = 0.0;  ///< mean_share_seen() over the budget
   double seen_share = 0.0;
-  double path_length_m = 0.0;
-  double collisions = 0.0;
+  std::optional<double> path_length_m = {};  ///< none where it came to no metrics
+  std::optional<double> collisions = {};
   std::vector<double> decision_times_s;      ///< wall
   std::optional<double> time_over_bound_90;  ///< of bound.json: to 90 %, over the least
   std::optional<double> regret_share;        ///< of branches.json: mean of cells given away, over

@@ -49,10 +49,8 @@ void add_means(const std::vector<const EpisodeScore*>& scores, Standing& standin
       static_cast<std::size_t>(std::ranges::count_if(scores, [](auto* s) { return s->failed; }));
   standing.seen_share =
       mean_value([](Score s) { return std::optional(s.seen_share); }).value_or(0.0);
-  standing.path_length_m =
-      mean_value([](Score s) { return std::optional(s.path_length_m); }).value_or(0.0);
-  standing.collisions =
-      mean_value([](Score s) { return std::optional(s.collisions); }).value_or(0.0);
+  standing.path_length_m = mean_value([](Score s) { return s.path_length_m; });
+  standing.collisions = mean_value([](Score s) { return s.collisions; });
   standing.decision_s = median_decision_s(scores);
   const auto over_bound = values_of(scores, [](Score s) { return s.time_over_bound_90; });
   standing.bounded = over_bound.size();
@@ -147,8 +145,9 @@ std::string leaderboard_csv(const Leaderboard& board) {
     text += s.difference ? fmt::format("{},{},", s.difference->mean,
                                        interval_csv(s.difference->interval, s.difference->clusters))
                          : std::string(",,,");
-    text += fmt::format("{},{},{},{},{},{}\n", s.seen_share, s.path_length_m, s.collisions,
-                        or_nothing(s.time_over_bound_90), s.bounded, or_nothing(s.regret_share));
+    text += fmt::format("{},{},{},{},{},{}\n", s.seen_share, or_nothing(s.path_length_m),
+                        or_nothing(s.collisions), or_nothing(s.time_over_bound_90), s.bounded,
+                        or_nothing(s.regret_share));
   }
   return text;
 }
@@ -162,9 +161,11 @@ std::string leaderboard_text(const Leaderboard& board) {
     if (s.episodes == 0) continue;
     const std::string interval =
         s.interval ? fmt::format("[{:.3f}, {:.3f}]", s.interval->low, s.interval->high) : "";
-    text += fmt::format("{:>4}  {:<{}}  {:<9}  {:.3f}  {:<15}  {:>5.3f}  {:>7.1f}  {:>2}/{}\n",
+    text += fmt::format("{:>4}  {:<{}}  {:<9}  {:.3f}  {:<15}  {:>5.3f}  {:>7}  {:>2}/{}\n",
                         s.rank ? std::to_string(*s.rank) : "-", s.planner, width, kind_name(s.kind),
-                        s.score, interval, s.seen_share, s.path_length_m, s.failed, s.episodes);
+                        s.score, interval, s.seen_share,
+                        s.path_length_m ? fmt::format("{:.1f}", *s.path_length_m) : "-", s.failed,
+                        s.episodes);
   }
   return text;
 }

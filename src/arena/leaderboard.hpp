@@ -25,12 +25,12 @@ struct Standing {
   std::size_t episodes = 0;      ///< that came to something
   std::size_t failed = 0;        ///< of these
   double score = 0.0;
-  std::optional<Interval> interval = {};      ///< 95 % bootstrap, scenes resampled
+  std::optional<Interval> interval = {};      ///< 95 % bootstrap of clusters
   std::optional<Difference> difference = {};  ///< to the reference level; none of itself
   double seen_share = 0.0;
-  double path_length_m = 0.0;
-  double collisions = 0.0;                ///< mean of an episode
-  std::optional<double> decision_s = {};  ///< median, wall
+  std::optional<double> path_length_m = {};  ///< mean of the episodes that came to metrics
+  std::optional<double> collisions = {};     ///< likewise
+  std::optional<double> decision_s = {};     ///< median, wall
   std::optional<double> time_over_bound_90 =
       {};                   ///< mean of the episodes with a bound that got there
   std::size_t bounded = 0;  ///< these

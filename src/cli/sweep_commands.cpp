@@ -10,6 +10,7 @@
 
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/hints/folder.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/cli/sweep/cluster_verbs.hpp"
 #include "vantage/cli/sweep/verbs.hpp"
 #include "vantage/runtime/json.hpp"
@@ -46,8 +47,13 @@ void add_jobs(CLI::App& app, SweepArguments& arguments) {
       ->default_str("all cores");
 }
 
+void add_other_study(CLI::App& app, bool& overwrite) {
+  app.add_flag("--overwrite", overwrite,
+               "go on in a folder that holds another study, or an older state of this one; results "
+               "that still fit are kept");
+}
+
 void add_submission(CLI::App& app, SweepArguments& arguments) {
-  const auto not_empty = [](const std::string& text) { return text.empty() ? "is empty" : ""; };
   app.add_option("--array", arguments.tasks, "tasks, at most one an episode")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
@@ -76,7 +82,7 @@ constexpr SweepVerb kSweepVerbs[] = {
        add_shard(app, arguments);
        add_jobs(app, arguments);
        add_keep_states(app, arguments);
-       add_overwrite(app, arguments.overwrite);
+       add_other_study(app, arguments.overwrite);
      }},
     {"plan", "list the episodes that would run", print_study_plan,
      [](CLI::App& app, SweepArguments& arguments) {
@@ -91,7 +97,7 @@ constexpr SweepVerb kSweepVerbs[] = {
        add_split(app, arguments);
        add_submission(app, arguments);
        add_keep_states(app, arguments);
-       add_overwrite(app, arguments.overwrite);
+       add_other_study(app, arguments.overwrite);
      }},
     {"work", "claim and run episodes of a shared folder until none is left", work_on_study,
      [](CLI::App& app, SweepArguments& arguments) {
@@ -115,7 +121,8 @@ std::function<ExitCode()> declare_sweep(CLI::App& app) {
   for (const SweepVerb& verb : kSweepVerbs) {
     CLI::App* sub = app.add_subcommand(verb.name, verb.help);
     sub->add_option("study", arguments->study, "study file, or folder of its results")->required();
-    sub->add_option("--out", arguments->directory, "study folder; default out/<study>");
+    sub->add_option("--out", arguments->directory, "study folder; default out/<study>")
+        ->check(not_empty);
     verb.options(*sub, *arguments);
     add_json(*sub, arguments->json);
     sub->callback([chosen, command = verb.command] { *chosen = command; });

@@ -145,8 +145,14 @@ std::string study_summary(const StudyResults& results, const Evaluation& evaluat
 void write_collection(const StudyResults& results, const Evaluation& evaluation) {
   const Worker self = this_worker();
   const fs::path own = results.directory / fmt::format(".collection-{}-{}", self.host, self.pid);
-  write_into(own, results, evaluation);
-  move_files(own, results.directory);
+  try {
+    write_into(own, results, evaluation);
+    move_files(own, results.directory);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(own, ignored);
+    throw;
+  }
 }
 
 }  // namespace vantage

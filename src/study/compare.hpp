@@ -29,7 +29,7 @@ struct FolderComparison {
 };
 
 /// With a tolerance of 0 everything but wall times must be the same; above it numbers may differ by
-/// that share of the larger one, and of the texts only task and status must agree.
+/// that share of the larger one, and of the texts only title, task and status must agree.
 /// @throws InputError if a folder is neither a run nor a collected study, or one is a run and the
 /// other a study.
 FolderComparison compare_folders(const std::filesystem::path& first,

@@ -1,10 +1,12 @@
 #include "vantage/study/study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "vantage/core/yaml.hpp"
@@ -37,6 +39,14 @@ std::vector<std::size_t> levels_of(const Study& study, std::size_t number) {
   return levels;
 }
 
+/// Whether an episode can begin is asked once for each of these and each level.
+std::string start_of(const EpisodeSetup& setup) {
+  const RobotOptions& robot = setup.options.robot;
+  const auto pose = robot.start_pose.value_or(std::array{0.0, 0.0, 0.0});
+  return fmt::format("{}\n{}\n{}\n{}", setup.scene.string(), setup.robot.description.string(),
+                     robot.start_site, fmt::join(pose, " "));
+}
+
 PlannedEpisode planned(const Study& study, ConfigNode root, EpisodeLevels levels) {
   PlannedEpisode episode{std::move(levels.name), std::move(levels.levels), {}};
   Overrides overrides = study.set;
@@ -65,9 +75,14 @@ bool is_study(const fs::path& file) {
 Validation validate_study(const fs::path& file) {
   return validation_of([&] {
     StudyReading reading = read_study_file(file, {});
-    std::set<fs::path> seen;
+    std::set<std::string> starts;
+    std::set<std::pair<std::size_t, std::size_t>> levels;  // of which factor
     for (const PlannedEpisode& episode : plan_episodes(reading.study, reading.problems)) {
-      if (!seen.insert(episode.resolved.setup.scene).second) continue;
+      bool is_new = starts.insert(start_of(episode.resolved.setup)).second;
+      for (std::size_t f = 0; f < episode.levels.size(); ++f) {
+        is_new = levels.insert({f, episode.levels[f]}).second || is_new;
+      }
+      if (!is_new) continue;
       reading.problems.attempt([&] { require_start(file, episode.resolved); });
     }
     return Validation{reading.problems.texts(), {}, reading.problems.code()};

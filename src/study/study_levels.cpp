@@ -78,7 +78,11 @@ void take_split(ConfigNode& root, const std::string& wanted, Study& study, Probl
       throw ConfigError((wanted.empty() && said ? said->where() : std::string("--split")) + ": " +
                         unknown_strategy("split", study.split, keys_of(*splits)));
     }
-    detail::require_kind(*split, ConfigNode::Kind::map);
+    for (const auto& [name, other] : splits->entries) {  // a wrong one is told whichever is taken
+      detail::require_kind(other, ConfigNode::Kind::map);
+      Study tried = study;
+      for (const auto& [factor, levels] : other.entries) leave_levels(factor, levels, tried);
+    }
     for (const auto& [factor, levels] : split->entries) leave_levels(factor, levels, study);
     root.set("split", ConfigNode::make_scalar(study.split));
   });

@@ -217,10 +217,11 @@ void complete_report(const ConfigNode& root, const fs::path& file, StudyReading&
   if (!report.panels.empty()) {
     problems.attempt([&] {
       require_known(where("panels"), "factor", report.panels, factors);
-      const auto& levels = study.factors[factor_index(study, report.panels)].levels;
-      if (levels.size() > 1 && std::ranges::find(levels, "all", &Level::name) != levels.end()) {
+      const Factor& panels = study.factors[factor_index(study, report.panels)];
+      const auto names = grouped_levels(panels, report.groups).names;
+      if (names.size() > 1 && std::ranges::find(names, "all") != names.end()) {
         throw ConfigError(where("panels") +
-                          ": the level 'all' has the name of all panels together");
+                          ": a level or group 'all' has the name of all panels together");
       }
     });
   }

@@ -44,8 +44,8 @@ TEST(LeaderboardText, HasARowAPlanner) {
             "difference_low,difference_high,seen_share,path_length_m,collisions,"
             "time_over_bound_90,bounded_episodes,regret_share\n"
             "1,mine,foreign,4,1,0.35,0.25,0.45,0.05,-0.1,0.2,0.7,4.3,1.5,1.75,3,0.125\n"
-            ",oracle_of_all,reference,2,0,0.5,,,0.2,,,1,12,0,,0,\n"
-            ",none,built-in,0,0,,,,,,,0,0,0,,0,\n");
+            ",oracle_of_all,reference,2,0,0.5,,,0.2,,,1,12,,,0,\n"
+            ",none,built-in,0,0,,,,,,,0,,,,0,\n");
 }
 
 TEST(LeaderboardText, ForTheTerminalLeavesOutWhatWasNotRun) {

@@ -144,6 +144,8 @@ TEST_F(StudyFile, SeedsAreAFactor) {
   EXPECT_THAT(names(plan(alone + "[4, 2, 9]\n")), ElementsAre("4", "2", "9"));
   EXPECT_THAT(names(plan(alone + "[7]\n")), ElementsAre("7"));
   EXPECT_EQ(read(alone + "1..20\n").report.compare, "seed");
+  EXPECT_THAT(names(plan(alone + "18446744073709551614..18446744073709551615\n")),
+              ElementsAre("18446744073709551614", "18446744073709551615"));
   EXPECT_TRUE(is_study(folder_ / "s.yaml"));
   EXPECT_THAT(names(plan(replaced(kSmallStudy, "  start:", "  seeds: 1..2\n  start:"))).front(),
               HasSubstr("1/near/random"));
@@ -186,6 +188,21 @@ report: {compare: metod, panels: strat, curves: [aera], tables: [area, path]}
   }
   std::ofstream(folder_ / "s.yaml") << replaced(kSmallStudy, "choice: random", "scene: no.xml");
   EXPECT_EQ(validate_study(folder_ / "s.yaml").code, ExitCode::bad_input);
+}
+
+TEST_F(StudyFile, ValidationTriesEveryStartAndEverySplit) {
+  const auto problems_of = [&](const std::string& more) {
+    std::ofstream(folder_ / "s.yaml")
+        << "episode: assets/episodes/office_small.yaml\nfactors:\n  start:\n"
+           "    a: {robot.start_site: start_0}\n    b: {robot.start_site: start_1}\n"
+        << more;
+    return validate_study(folder_ / "s.yaml").problems;
+  };
+  EXPECT_THAT(problems_of(""), testing::IsEmpty());
+  EXPECT_THAT(problems_of("    c: {robot.start_site: nowhere}\n"),
+              testing::Contains(HasSubstr("nowhere")));
+  EXPECT_THAT(problems_of("splits: {one: {start: [a, b]}, other: {start: [d]}}\n"),
+              testing::Contains(HasSubstr("'d'")));
 }
 
 TEST_F(StudyFile, UnknownKeysAreNamedWithTheirPlace) {

@@ -90,6 +90,7 @@ TEST_F(Sweep, KilledAndResumedGivesTheSameResults) {
   EXPECT_EQ(collected(out), reference());
   EXPECT_EQ(vantage("sweep status " + out).exit_code, 0);
   EXPECT_EQ(vantage("sweep plan " + out).output, "");
+  EXPECT_EQ(vantage("sweep plan " + std::string(kStudy) + " --out " + out).output, "");
 }
 
 TEST_F(Sweep, ShardsMergeToTheSameResults) {

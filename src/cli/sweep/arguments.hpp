@@ -31,7 +31,6 @@ struct SweepArguments {
 struct OpenedStudy {
   Study study;
   std::filesystem::path directory;
-  bool from_folder = false;
 };
 
 /// A study by its file or by the folder of its results.

@@ -39,6 +39,17 @@ StudyResults collect(const SweepArguments& arguments, const fs::path& directory)
   return results;
 }
 
+/// As it was run: split and --set of then, unless others are given.
+OpenedStudy open_recorded_study(const SweepArguments& arguments) {
+  OpenedStudy opened = open_study(arguments);
+  const fs::path recorded = opened.directory / "study.yaml";
+  std::error_code error;
+  if (arguments.overrides.empty() && arguments.split.empty() && fs::exists(recorded, error)) {
+    opened.study = read_study(recorded, {}, {});
+  }
+  return opened;
+}
+
 }  // namespace
 
 OpenedStudy open_study(const SweepArguments& arguments) {
@@ -49,11 +60,11 @@ OpenedStudy open_study(const SweepArguments& arguments) {
       throw ConfigError(fmt::format("--out: {} is a study's folder already", given.string()));
     }
     require_study_folder(given);
-    return {read_study(given / "study.yaml", arguments.overrides, arguments.split), given, true};
+    return {read_study(given / "study.yaml", arguments.overrides, arguments.split), given};
   }
   Study study = read_study(find_study(arguments.study), arguments.overrides, arguments.split);
   fs::path directory = arguments.directory.empty() ? default_folder(study) : arguments.directory;
-  return {std::move(study), std::move(directory), false};
+  return {std::move(study), std::move(directory)};
 }
 
 OpenedStudy open_study_folder(const SweepArguments& arguments) {
@@ -101,8 +112,7 @@ ExitCode run_study(const SweepArguments& arguments) {
 ExitCode print_study_plan(const SweepArguments& arguments) {
   const OpenedStudy opened = open_study(arguments);
   const auto plan = shard_of(plan_study(opened.study), parse_shard(arguments.shard));
-  const auto states = opened.from_folder ? episode_states(opened.directory, plan)
-                                         : std::vector<EpisodeState>(plan.size());
+  const auto states = episode_states(opened.directory, plan);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (!is_result(states[i])) names.push_back(plan[i].name);
@@ -116,7 +126,7 @@ ExitCode print_study_plan(const SweepArguments& arguments) {
 }
 
 ExitCode print_study_status(const SweepArguments& arguments) {
-  const OpenedStudy opened = open_study(arguments);
+  const OpenedStudy opened = open_recorded_study(arguments);
   const auto plan = plan_study(opened.study);
   const auto states = episode_states(opened.directory, plan);
   print_status(arguments, opened.directory, plan, states);

@@ -60,7 +60,7 @@ std::vector<std::uint64_t> seeds_between(const ConfigNode& node) {
   const auto last = dots == text.npos ? std::nullopt : whole_number(text.substr(dots + 2));
   if (!first || !last || *last < *first || *last - *first >= kMaxSeeds) wrong_seeds(node, text);
   std::vector<std::uint64_t> seeds;
-  for (std::uint64_t seed = *first; seed <= *last; ++seed) seeds.push_back(seed);
+  for (std::uint64_t n = 0; n <= *last - *first; ++n) seeds.push_back(*first + n);
   return seeds;
 }
 

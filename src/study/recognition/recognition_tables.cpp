@@ -63,8 +63,9 @@ std::string reliability_table(const std::vector<MethodSummary>& all) {
     const Estimate error{
         100.0 * m.reliability->error,
         {100.0 * m.reliability->error_interval.low, 100.0 * m.reliability->error_interval.high}};
-    text += fmt::format("| {} | {:.2f} | {:.2f} | {} |\n", m.method, m.accuracy_percent.mean,
-                        100.0 * m.reliability->confidence, with_interval(error));
+    text +=
+        fmt::format("| {} | {:.2f} | {:.2f} | {} |\n", m.method, 100.0 * m.reliability->accuracy,
+                    100.0 * m.reliability->confidence, with_interval(error));
   }
   return text;
 }

@@ -95,6 +95,7 @@ Reliability reliability_of(std::span<const Trial> trials, std::uint64_t seed) {
       .bins = {}, .error = error_of(all), .error_interval = interval_of(errors)};
   for (std::size_t b = 0; b < all.size(); ++b) {
     reliability.confidence += all[b].confidence / static_cast<double>(trials.size());
+    reliability.accuracy += all[b].right / static_cast<double>(trials.size());
     if (all[b].count == 0.0) continue;
     reliability.bins[b] = {.count = static_cast<std::size_t>(all[b].count),
                            .objects = static_cast<std::size_t>(std::ranges::count_if(

@@ -34,6 +34,7 @@ struct Reliability {
   double error = 0.0;
   Interval error_interval = {};  ///< 95 % bootstrap over objects
   double confidence = 0.0;       ///< mean over all trials
+  double accuracy = 0.0;         ///< share of all trials that is right
 };
 
 /// [GuoPleissSunWeinberger2017, (3)]. Trials of one object are alike: whole objects are resampled.

@@ -52,8 +52,8 @@ TextTable table_of(const FigurePanel& panel, const std::string& x_label) {
     std::vector<std::string> row{number(x)};
     for (const FigureSeries& series : panel.series) {
       const FigurePoint* point = point_at(series, x);
-      row.push_back(point == nullptr ? ""
-                                     : with_interval(point->mean, point->interval, point->count));
+      row.push_back(
+          point == nullptr ? "" : with_interval(point->mean, point->interval, point->clusters));
     }
     table.rows.push_back(std::move(row));
   }
