@@ -81,6 +81,16 @@ std::vector<double> lines_along(const BuildingMesh& mesh, int axis, double low_m
   return subdivided(lines, cell_m);
 }
 
+void require_few_cells(double cells, const Eigen::AlignedBox3d& box_m, double cell_m) {
+  if (cells <= kMostCells) return;
+  const Eigen::Vector3d size_m = box_m.sizes();
+  throw ConfigError(fmt::format(
+      "--cell {:g}: too many cells, {:.3g} of {:.3g} x {:.3g} x {:.3g} m; {:.2g} m would do, or "
+      "is --scale wrong?",
+      cell_m, cells, size_m.x(), size_m.y(), size_m.z(),
+      std::ceil(100.0 * cell_m * std::cbrt(cells / kMostCells)) / 100.0));
+}
+
 }  // namespace
 
 std::vector<double> FittedGrid::centres_m(int axis) const {
@@ -99,20 +109,16 @@ int FittedGrid::cell_at(int axis, double at_m) const {
 
 FittedGrid fit_grid(const BuildingMesh& mesh, const Eigen::AlignedBox3d& box_m, double cell_m) {
   const Eigen::Array3d across = box_m.sizes().array() / cell_m + 2.0;
-  if (across.prod() > kMostCells) {
-    const Eigen::Vector3d size_m = box_m.sizes();
-    throw ConfigError(fmt::format(
-        "--cell {:g}: too many cells, {:.3g} of {:.3g} x {:.3g} x {:.3g} m; {:.2g} m would do, or "
-        "is --scale wrong?",
-        cell_m, across.prod(), size_m.x(), size_m.y(), size_m.z(),
-        std::ceil(100.0 * cell_m * std::cbrt(across.prod() / kMostCells)) / 100.0));
-  }
+  require_few_cells(across.prod(), box_m, cell_m);
   FittedGrid grid;
   grid.cell_m = cell_m;
   for (int axis = 0; axis < 3; ++axis) {
     grid.lines_m[static_cast<std::size_t>(axis)] =
         lines_along(mesh, axis, box_m.min()[axis], box_m.max()[axis], cell_m);
   }
+  // Planes of the mesh make lines of their own.
+  require_few_cells(Eigen::Array3d(grid.cells(0), grid.cells(1), grid.cells(2)).prod(), box_m,
+                    cell_m);
   return grid;
 }
 

@@ -47,6 +47,10 @@ void prepare_root(const DatasetOptions& options, const DatasetRun& run) {
   } else {
     DatasetOptions before;
     read_into(read_yaml(file), before, {});
+    if (options.objects < before.objects) {
+      refuse_to_replace(run.root.string(), fmt::format("holds {} objects, more than {}",
+                                                       before.objects, options.objects));
+    }
     before.objects = options.objects;
     if (options_text(before) != options_text(options)) {
       refuse_to_replace(run.root.string(),

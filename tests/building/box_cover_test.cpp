@@ -117,6 +117,30 @@ TEST(FittedGrid, HoldsAHundredMillionCells) {
   EXPECT_THROW(fit_grid(mesh, {low_m, Eigen::Vector3d(999, 998, 98)}, 1.0), ConfigError);
 }
 
+/// Twelve planes in every cell of an even grid that would do.
+TEST(FittedGrid, PlanesOfTheMeshCountToo) {
+  BuildingMesh mesh;
+  for (int i = 0; i < 1200; ++i) {
+    const double at_m = 0.1 * i / 12.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto first = static_cast<int>(mesh.vertices_m.size());
+      for (const auto& [u, v] : {std::pair(0.0, 0.0), {10.0, 0.0}, {10.0, 10.0}, {0.0, 10.0}}) {
+        Eigen::Vector3d p;
+        p[axis] = at_m;
+        p[(axis + 1) % 3] = u;
+        p[(axis + 2) % 3] = v;
+        mesh.vertices_m.emplace_back(p);
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+  mesh.colours.resize(mesh.triangles.size());
+  mesh.objects.resize(mesh.triangles.size());
+  const Eigen::AlignedBox3d box_m(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(10, 10, 10));
+  EXPECT_THROW(fit_grid(mesh, box_m, 0.1), ConfigError);
+}
+
 TEST(FittedGrid, SaysWhichCellsWouldDo) {
   const Eigen::AlignedBox3d box_m(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(300, 200, 3));
   try {

@@ -109,6 +109,32 @@ TEST_F(Import, GivenAnglesGoWithThoseOfNames) {
   EXPECT_THROW(imported(with_angles({{"handle", std::nan("")}})), ConfigError);
 }
 
+/// Nothing is given in vain.
+TEST_F(Import, AnAngleOfPicturesThatTellTheirsIsRefused) {
+  put("front");
+  std::ofstream(folder_ / "mine/drill/front_pose.txt") << "1 0 0 0\n0 1 0 0\n0 0 1 1\n0 0 0 1\n";
+  EXPECT_THAT(
+      [&] {
+        imported(with_angles({{"front", 30.0}}));
+      },
+      testing::ThrowsMessage<ConfigError>(HasSubstr("--view-yaw front=30: all pictures")));
+}
+
+TEST_F(Import, FoldersOfOneNameAreTwoRecordings) {
+  put("front");
+  for (const char* day : {"day1", "day2"}) {
+    fs::create_directories(folder_ / day);
+    fs::copy(folder_ / "mine", folder_ / day / "pics", fs::copy_options::recursive);
+  }
+  ImportOptions options;
+  options.cut = "whole";
+  const ImportOutcome outcome =
+      import_pictures(options, {.from = {folder_ / "day1/pics", folder_ / "day2/pics"},
+                                .root = folder_ / "out",
+                                .overwrite = true});
+  EXPECT_THAT(outcome.notes.recordings, ElementsAre("day1 pics", "day2 pics"));
+}
+
 TEST_F(Import, GivenAnglesOfManyNumbersCount) {
   ImportOptions options;
   for (int i = 0; i < 14; ++i) {

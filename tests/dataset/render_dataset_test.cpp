@@ -151,6 +151,7 @@ TEST(RenderDataset, OtherOptionsNeedOverwrite) {
   other.seed = 9;
   EXPECT_THROW(render_dataset(other, {.root = out / "d"}), ConfigError);
   EXPECT_EQ(render_dataset(few(2), {.root = out / "d"}).rendered, 1);  // one more
+  EXPECT_THROW(render_dataset(few(1), {.root = out / "d"}), ConfigError) << "it holds two";
   EXPECT_EQ(render_dataset(other, {.root = out / "d", .overwrite = true}).rendered, 1);
   EXPECT_THAT(dataset_options_text(out / "d"), testing::HasSubstr("seed: 9"));
 }

@@ -153,7 +153,7 @@ void advise_on_objects(CheckedDataset& checked) {
                     "the others; two recordings or more are better",
                     thin.size(), checked.objects.size()));
   }
-  if (single.size() == checked.objects.size()) {
+  if (!single.empty() && single.size() == checked.objects.size()) {
     checked.advice.emplace_back(
         "one recording of every object: how far features are trusted is learnt within it, and in "
         "another room they may deserve less; record a second one in another room or light");

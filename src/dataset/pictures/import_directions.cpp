@@ -116,6 +116,13 @@ void direct_views(const ImportOptions& options, std::vector<Item>& items, Import
         std::ranges::any_of(items, [&](const Item& i) { return i.picture.view == name; });
     if (!used)
       throw ConfigError(fmt::format("--view-yaw {}={}: no picture is called that", name, yaw_deg));
+    const bool asked_for = std::ranges::any_of(
+        items, [&](const Item& i) { return i.picture.view == name && !i.picture.yaw_deg; });
+    if (!asked_for) {
+      throw ConfigError(fmt::format(
+          "--view-yaw {}={}: all pictures of that name tell their angle, by a pose or their name",
+          name, yaw_deg));
+    }
     if (!std::isfinite(yaw_deg))
       throw ConfigError(fmt::format("--view-yaw {}={}: is no angle", name, yaw_deg));
   }

@@ -28,6 +28,16 @@ using Item = ImportedPicture;
 constexpr double kUsualElevation_deg = 45.0;
 constexpr int kUsualWidth_px = 640;
 
+/// The folder's name, and of several of that name the one that they lie in before it.
+std::string recording_of(const fs::path& from, const std::vector<fs::path>& all) {
+  const auto whole = [](const fs::path& path) { return fs::absolute(path / ".").parent_path(); };
+  const fs::path own = whole(from);
+  const auto same = std::ranges::count_if(
+      all, [&](const fs::path& other) { return whole(other).filename() == own.filename(); });
+  const std::string name = own.filename().string();
+  return same > 1 ? own.parent_path().filename().string() + " " + name : name;
+}
+
 std::vector<Item> items_of(const ImportOptions& options, const ImportRun& run,
                            ImportOutcome& outcome) {
   std::vector<Item> items;
@@ -37,7 +47,7 @@ std::vector<Item> items_of(const ImportOptions& options, const ImportRun& run,
     std::ranges::move(found.left_out, std::back_inserter(outcome.left_out));
     for (FoundPicture& picture : found.pictures) {
       if (run.from.size() > 1) {
-        const std::string folder = fs::absolute(from / ".").parent_path().filename().string();
+        const std::string folder = recording_of(from, run.from);
         picture.recording = picture.recording.empty() ? folder : folder + " " + picture.recording;
       }
       items.emplace_back().picture = std::move(picture);
