@@ -199,7 +199,7 @@ const std::map<std::string, Rooms> kAllowed{
      kGround + kRuntime + Rooms{"sim/world", "cli/hints", "hindsight", "report", "tasks"}},
     {"cli/recognition", kGround + kPerception + kRecognition + kRuntime +
                             Rooms{"belief/objects", "belief/observation", "planners/objects"}},
-    {"cli/pictures", kGround + kRuntime + Rooms{"dataset/pictures", "perception"}},
+    {"cli/pictures", kGround + kRuntime + Rooms{"cli/hints", "dataset/pictures", "perception"}},
     {"cli/scene", {"core", "geometry", "building", "runtime"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/reference",

@@ -70,6 +70,11 @@ function flightLines(scene) {
   return lists;
 }
 
+// Of an object that the model does not know, "unknown": what it was taken for in the end, where that was right.
+function rightAnswer(object) {
+  return object.correct && object.estimate ? object.estimate : object.truth;
+}
+
 // What each object was taken for by that step: {x, y, z, text, kind}.
 function objectLabels(scene, step) {
   if (scene.flight) {
@@ -78,15 +83,18 @@ function objectLabels(scene, step) {
       const estimate = looks.at(-1)?.estimate;
       const last = step >= scene.scans - 1;
       const text = estimate ? words(estimate) : last ? (o.found ? "found, not seen closely" : "not found") : "";
-      const kind = !estimate ? "open" : estimate === o.truth ? "right" : "wrong";
+      const kind = !estimate ? "open" : estimate === rightAnswer(o) ? "right" : "wrong";
       return { x: o.x_m, y: o.y_m, z: o.z_m + 0.46, text: text ? `${i + 1} ${text}` : String(i + 1), kind };
     });
   }
   const taken = STEPS[step];
   if (!scene.surfaces || !scene.region || !taken?.estimate) return [];
   const { min, max } = scene.region;
-  const kind = taken.estimate === METRICS.truth ? "right" : "wrong";
-  return [{ x: (min[0] + max[0]) / 2, y: (min[1] + max[1]) / 2, z: max[2] + 0.03, text: words(taken.estimate), kind }];
+  const target = METRICS.targets?.[(Number(taken.target) || 1) - 1] ?? METRICS;
+  const kind = taken.estimate === rightAnswer(target) ? "right" : "wrong";
+  const x = target.x_m ?? (min[0] + max[0]) / 2;
+  const y = target.y_m ?? (min[1] + max[1]) / 2;
+  return [{ x, y, z: max[2] + 0.03, text: words(taken.estimate), kind }];
 }
 
 function placeObjectLabels(viewer, project) {

@@ -86,6 +86,7 @@ std::vector<std::optional<ScheduleBound>> schedule_bounds(const CoverProblem& pr
   const bool points = are_points(problem, group);
   CoverProblem places = merged(problem, group);
   for (const std::size_t cells : needed) {
+    if (options.done) options.done(bounds.size());
     one.needed = places.needed = cells;
     bounds.push_back(relaxed(one, witnesses));
     if (!bounds.back()) continue;

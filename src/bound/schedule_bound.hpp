@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@ namespace vantage {
 struct BoundOptions {
   double place_m = 0.05;  ///< the way is bounded between places, not between views of one
   double work = 1e10;     ///< words of cells that exact searches may look at
+  std::function<void(std::size_t)> done = {};  ///< told how many bounds there are by now
 };
 
 /// After view 0. What is exact is reached by some schedule; what is not, no schedule comes below.

@@ -18,6 +18,7 @@
 #include "vantage/cli/hindsight/hindsight_commands.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/cli/hints/folder.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/cli/listing.hpp"
 #include "vantage/cli/recognition_commands.hpp"
 #include "vantage/cli/scene_commands.hpp"
@@ -120,7 +121,7 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();
   app.add_option("episode", arguments->episode, "episode file")->capture_default_str();
   add_set(app, arguments->overrides, "key=value, same keys as the file");
-  app.add_option("--seed", arguments->seed, "seed of every random stream");
+  app.add_option("--seed", arguments->seed, "seed of every random stream")->check(not_empty);
   app.add_option("--out", arguments->options.directory, "run folder; default out/<episode>-<seed>")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   add_overwrite(app, arguments->options.overwrite);

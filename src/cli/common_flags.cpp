@@ -39,6 +39,4 @@ void add_overwrite(CLI::App& app, bool& overwrite) {
   app.add_flag("--overwrite", overwrite, "replace a result that is there");
 }
 
-std::string not_empty(const std::string& text) { return text.empty() ? "is empty" : ""; }
-
 }  // namespace vantage

@@ -19,7 +19,4 @@ void add_json(CLI::App& app, bool& json);
 /// --overwrite, for a command that writes a result: see require_absent().
 void add_overwrite(CLI::App& app, bool& overwrite);
 
-/// A check of an option's value: what is wrong with it, or nothing.
-std::string not_empty(const std::string& text);
-
 }  // namespace vantage

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/cli/pictures/picture_commands.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"

@@ -152,7 +152,8 @@ bool write_files(const ExplainArguments& arguments) {
 }
 
 ExitCode explain(const ExplainArguments& arguments) {
-  if (write_files(arguments)) return ExitCode::done;
+  const bool wrote = write_files(arguments);
+  if (wrote && arguments.names.empty()) return ExitCode::done;
   const auto all = all_entries();
   if (arguments.names.empty()) throw ConfigError("explain: say what, as in: explain gain.a");
   nlohmann::ordered_json json = nlohmann::ordered_json::array();

@@ -15,6 +15,7 @@
 
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/dataset_commands.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/core/yaml.hpp"
@@ -244,7 +245,7 @@ std::function<ExitCode()> declare_train(CLI::App& app) {
                  "instead of folders: a YAML file that says what to render and how to train; what "
                  "is there of it is not rendered again. Keys of --set are then those of the file, "
                  "--cache by default the user's");
-  app.add_option("--out", arguments->out, "model file to write")->required();
+  app.add_option("--out", arguments->out, "model file to write")->required()->check(not_empty);
   app.add_option("--add-to", arguments->model,
                  "model to add the dataset's objects to; those it knows are not trained again");
   return [arguments] { return train_command(*arguments); };
@@ -261,7 +262,9 @@ std::function<ExitCode()> declare_evaluate(CLI::App& app) {
                  "beside the views that are tested");
   declare_common<RecognitionStudyOptions>(app, *arguments);
   app.add_option("--model", arguments->model, "trained model")->required();
-  app.add_option("--out", arguments->out, "folder for results and tables")->required();
+  app.add_option("--out", arguments->out, "folder for results and tables")
+      ->required()
+      ->check(not_empty);
   return [arguments] { return evaluate_command(*arguments); };
 }
 

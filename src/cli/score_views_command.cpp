@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "vantage/cli/common_flags.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/cli/view_scoring.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"

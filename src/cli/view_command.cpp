@@ -12,6 +12,7 @@
 #include "vantage/cli/common_flags.hpp"
 #include "vantage/cli/hints/episode_file.hpp"
 #include "vantage/cli/hints/folder.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/view/view.hpp"
 
@@ -95,7 +96,7 @@ std::function<ExitCode()> declare_view(CLI::App& app) {
   app.add_option("--set", arguments->overrides, "key=value, same keys as the file")
       ->type_size(1)
       ->allow_extra_args(false);
-  app.add_option("--seed", arguments->seed, "seed of every random stream");
+  app.add_option("--seed", arguments->seed, "seed of every random stream")->check(not_empty);
   app.add_option("--out", arguments->run.directory,
                  "run folder of an episode that runs; without it nothing is kept")
       ->check(not_empty);

@@ -55,10 +55,16 @@ std::string read_file(const fs::path& path) {
     throw InputError(path.string() + ": is a directory, expected a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(fmt::format("{}: cannot read: {}", path.string(), reason()));
-  std::ostringstream content;
-  content << stream.rdbuf();
+  std::string content;
+  constexpr std::size_t kBlock = 1 << 16;
+  while (stream) {
+    const std::size_t before = content.size();
+    content.resize(before + kBlock);
+    stream.read(content.data() + before, kBlock);
+    content.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) throw InputError(fmt::format("{}: cannot read: {}", path.string(), reason()));
-  return std::move(content).str();
+  return content;
 }
 
 void write_file(const fs::path& path, std::string_view content) {

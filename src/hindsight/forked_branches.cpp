@@ -216,7 +216,10 @@ class Branching {
   void fork_all(const BranchedDecision& decision) {
     const auto workers = static_cast<std::size_t>(run_.episode.setup.options.threads);
     Children children;
-    for (const Branch& branch : decision.branches) {
+    Progress progress(fmt::format("branches of scan {}", decision.scan),
+                      static_cast<double>(decision.branches.size()));
+    for (std::size_t begun = 0; begun < decision.branches.size(); ++begun) {
+      const Branch& branch = decision.branches[begun];
       children.wait_until_at_most(workers - 1);
       const pid_t child = ::fork();
       if (child < 0) throw OutputError("no process can be made");
@@ -226,8 +229,10 @@ class Branching {
         return;
       }
       children.add(child);
+      progress.update(static_cast<double>(begun));
     }
     children.wait_until_at_most(0);
+    progress.update(static_cast<double>(decision.branches.size()));
   }
 
   /// What it would say, the other processes say too.

@@ -150,7 +150,10 @@ RunBound bound_of_run(const RecordedRun& run) {
     needed.back() -= share.given_cells;
     bound.shares.push_back(share);
   }
-  const auto least = schedule_bounds(problem, needed);
+  Progress progress("bounds", static_cast<double>(needed.size()));
+  const auto told = [&](std::size_t bounds) { progress.update(static_cast<double>(bounds)); };
+  const auto least = schedule_bounds(problem, needed, {.done = told});
+  told(needed.size());
   for (std::size_t i = 0; i < least.size(); ++i) {
     set_least(least[i], bound.first_scan, bound.shares[i]);
   }

@@ -17,6 +17,12 @@
 
 namespace vantage {
 namespace {
+
+#ifdef __clang__
+constexpr const char* kCompiler = __VERSION__;
+#else
+constexpr const char* kCompiler = "g++ " __VERSION__;
+#endif
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -74,7 +80,7 @@ std::string manifest_json(const RunRequest& request, const RunSummary& summary) 
         {"mujoco", mujoco_version()},
         {"renderer", renderer_text()},
         {"opencv", CV_VERSION},
-        {"compiler", "g++ " __VERSION__}}},
+        {"compiler", kCompiler}}},
       {"cpu", cpu_name()},
       {"threads", setup.options.threads},
       {"seed", setup.options.seed},

@@ -7,7 +7,9 @@
 
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/core/log.hpp"
 #include "vantage/report/json_file.hpp"
+#include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/log/recording.hpp"
 #include "vantage/runtime/log/state_log.hpp"
 #include "vantage/sim/world/world.hpp"
@@ -53,7 +55,13 @@ ReplayResult replay(const std::filesystem::path& run_dir, World& world,
   result.changed_files = changed_files(read_manifest(run_dir), assets);
   result.state_hash = hash_doubles(recorded.state(0));
   auto next = actions.begin();
+  constexpr std::uint64_t kTicksBetweenWords = 256;
+  Progress progress("replay", static_cast<double>(recorded.count()));
   for (std::uint64_t tick = 0; tick + 1 < recorded.count(); ++tick) {
+    if (tick % kTicksBetweenWords == 0) {
+      throw_if_interrupted();
+      progress.update(static_cast<double>(tick));
+    }
     const auto diverged = [&](std::string what) {
       result.first_difference = tick;
       result.time_s = recorded.state(tick)[0];
@@ -79,14 +87,17 @@ ReplayResult replay(const std::filesystem::path& run_dir, World& world,
     result.state_hash = hash_doubles(state, hash_doubles(world.controls(), result.state_hash));
     result.ticks = tick + 1;
   }
+  progress.update(static_cast<double>(recorded.count()));
   const auto metrics = json_object_or_null<nlohmann::json>(read_file(run_dir / "metrics.json"));
   if (!metrics.is_object() || !metrics.contains("state_hash") ||
       metrics["state_hash"] != hash_text(result.state_hash)) {
     result.first_difference = result.ticks;
+    result.time_s = recorded.state(result.ticks)[0];
     result.what = "metrics.json has another state_hash";
   }
   if (next != actions.end()) {
     result.first_difference = std::max(next->tick, result.ticks);
+    result.time_s = recorded.state(result.ticks)[0];
     result.what = "actions.csv goes on after the last recorded state";
   }
   return result;

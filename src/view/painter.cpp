@@ -91,7 +91,7 @@ CameraView ViewPainter::camera_for(const ViewControls& controls) const {
   FreeCamera camera = controls.follow;
   const Eigen::Vector3d p_m = body_pose(world_, base_body_).translation();
   camera.lookat_m += Eigen::Vector3d(p_m.x(), p_m.y(), 0.0);
-  if (scene_.content.follows_height) camera.lookat_m.z() = p_m.z();
+  if (scene_.content.follows_height) camera.lookat_m.z() += p_m.z() - kBodyMiddle_m;
   return camera;
 }
 

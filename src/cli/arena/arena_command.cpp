@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "vantage/cli/arena/arena_verbs.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 
 namespace vantage {
 namespace {
@@ -23,7 +24,8 @@ void add_jobs(CLI::App& app, ArenaArguments& arguments) {
 void declare_run(CLI::App& app, ArenaArguments& arguments) {
   app.add_option("study", arguments.study, "study whose levels are planners, or an arena's folder")
       ->capture_default_str();
-  app.add_option("--out", arguments.directory, "arena's folder; default out/<study>");
+  app.add_option("--out", arguments.directory, "arena's folder; default out/<study>")
+      ->check(not_empty);
   app.add_option("--set", arguments.overrides, "key=value for every episode")
       ->type_size(1)
       ->allow_extra_args(false);

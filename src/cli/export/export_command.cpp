@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "vantage/cli/hints/folder.hpp"
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/mcap/export_run.hpp"
 #include "vantage/runtime/interrupt.hpp"
@@ -49,6 +50,7 @@ std::function<ExitCode()> declare_export(CLI::App& app) {
   auto arguments = std::make_shared<ExportArguments>();
   app.add_option("dir", arguments->directory, "run folder")->required();
   app.add_option("--mcap", arguments->file, "MCAP file to write, for Foxglove and the like")
+      ->check(not_empty)
       ->required();
   app.add_option("--image-period", arguments->options.image_period_s,
                  "simulated time between images, s; 0: no images")

@@ -10,6 +10,7 @@
 #include "vantage/cli/hints/folder.hpp"
 #include "vantage/core/hash.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/runtime/interrupt.hpp"
 #include "vantage/runtime/json.hpp"
 #include "vantage/runtime/manifest.hpp"
 #include "vantage/runtime/replay.hpp"
@@ -47,6 +48,7 @@ std::function<ExitCode()> declare_replay(CLI::App& app) {
   return [arguments] {
     const fs::path& directory = arguments->directory;
     require_run_folder(directory);
+    catch_interrupts();
     const ResolvedEpisode resolved = load_recorded(directory);
     World world(model_source(resolved), resolved.setup.options.simulation);
     add_outside_effects(resolved, world);

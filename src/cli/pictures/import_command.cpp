@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "vantage/cli/hints/text_check.hpp"
 #include "vantage/cli/pictures/picture_commands.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/dataset/pictures/import_pictures.hpp"
@@ -130,7 +131,9 @@ std::function<ExitCode()> declare_import(CLI::App& app, std::shared_ptr<const Pi
                  "folders of pictures, colour and depth beside each other; of several each is a "
                  "recording")
       ->required();
-  app.add_option("--out", arguments->run.root, "folder of the dataset")->required();
+  app.add_option("--out", arguments->run.root, "folder of the dataset")
+      ->required()
+      ->check(not_empty);
   app.add_option("--layout", options.layout,
                  "how paths are read, such as '{recording}/{object}/{view}_{kind}'; also "
                  "{category}, {yaw}, {elevation}, {frame}, {*}; default: found out and told");

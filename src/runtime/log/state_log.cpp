@@ -134,12 +134,13 @@ std::vector<RecordedAction> read_actions(const std::filesystem::path& path,
     return line;
   };
   const std::string_view header = next_line();
+  const bool as_written = header == action_header(actuator_names);
   const auto columns = static_cast<std::size_t>(std::ranges::count(header, ',')) + 1;
-  if (columns != actuator_names.size() + 1 || header.ends_with('\r')) {
+  if (!as_written && (columns != actuator_names.size() + 1 || header.ends_with('\r'))) {
     throw InputError(fmt::format("{}:1: expected the header '{}' and lines that end in \\n",
                                  path.string(), action_header(actuator_names)));
   }
-  if (header != action_header(actuator_names)) actions.push_back({0, {}, false});
+  if (!as_written) actions.push_back({0, {}, false});
   while (!rest.empty()) {
     const std::uint64_t after_tick = actions.empty() ? 0 : actions.back().tick + 1;
     actions.push_back(parse_action(next_line(), actuator_names.size(), after_tick));

@@ -18,8 +18,9 @@ struct ProgramToRun {
 };
 
 /// In namespaces of its own where the system allows that: it has no network, and nothing that it
-/// starts outlives it. In any case it is killed, with its process group, when this is destroyed and
-/// when the thread that started it ends, however it ends. It holds no other open file of ours.
+/// starts outlives it. In any case it is killed, with its process group, when this is destroyed,
+/// and the program itself when the thread that started it ends, however it ends. It holds no other
+/// open file of ours.
 class IsolatedProcess {
  public:
   /// @throws OutputError if the system refuses a process or cannot run the program.

@@ -24,7 +24,8 @@ class LineBuffer {
   std::string bytes_;
 };
 
-/// `text` for people: what is not printable ASCII as \xNN, and no more than so many characters.
+/// `text` for people: what is not printable ASCII as \xNN, and of no more than so many characters,
+/// then " ...".
 std::string printable(std::string_view text, std::size_t most = 80);
 
 }  // namespace vantage
