@@ -162,10 +162,10 @@ class Stepped {
     constexpr std::chrono::milliseconds kBetweenSignals(50);
     const double until_s = wall_s() + at_most_s.value_or(1e12);
     State state = State::runs;
-    while (state == State::runs && wall_s() < until_s) {
+    do {
       state = without_lock([&] { return episode_.wait(kBetweenSignals); });
       throw_if_signalled();
-    }
+    } while (state == State::runs && wall_s() < until_s);
     if (state == State::asks) return "asks";
     if (state == State::ended) return "ended";
     return state == State::over ? "over" : "runs";

@@ -25,13 +25,21 @@ std::string number_text(py::handle value) {
   return whole ? py::str(number) : py::repr(number);
 }
 
+/// Of Python or numpy.
+bool is_truth(py::handle value) {
+  if (py::isinstance<py::bool_>(value)) return true;
+  if (!py::hasattr(value, "dtype") || py::hasattr(value, "__len__")) return false;
+  return py::str(value.attr("dtype").attr("kind")).cast<std::string>() == "b";
+}
+
 ConfigNode made_of(py::handle value, const std::string& key, int depth) {
   if (depth > kDeepest) throw ConfigError(key + ": nested too deeply");
   ConfigNode node;
   if (value.is_none()) {
     node = ConfigNode{};
-  } else if (py::isinstance<py::bool_>(value)) {
-    node = ConfigNode::make_scalar(value.cast<bool>() ? "true" : "false");
+  } else if (is_truth(value)) {
+    node = ConfigNode::make_scalar(py::bool_(py::reinterpret_borrow<py::object>(value)) ? "true"
+                                                                                        : "false");
   } else if (py::isinstance<py::str>(value)) {
     node = detail::write_value(value.cast<std::string>());
   } else if (py::isinstance<py::dict>(value)) {

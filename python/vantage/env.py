@@ -30,11 +30,11 @@ class Env(_Base):  # type: ignore[misc]
     Observation, a dict of float32 arrays:
 
     - `map` (3, bx, by, bz): shares of free, unobserved and occupied cells in coarse blocks of the map;
-    - `candidates` (n, 11): a row a view, columns as in COLUMNS: gain (share of the map's cells, or bits), the
-      interval that the robot holds the truth of it to be in (low and high end as the gain; both -1 where the gain
-      has none), travel time (s) and way (m; both -1 where out of reach), sensor pose (m, rad, world), open (1: may
-      be taken; where none may, all are: the robot goes as near as it can); rows beyond the candidates that there are
-      hold 0;
+    - `candidates` (n, 11): a row a view, columns as in COLUMNS: gain (one in bits or cells as a share of the map's
+      cells, others as they are), the interval that the robot holds the truth of it to be in (low and high end as the
+      gain; both -1 where the gain has none), travel time (s) and way (m; both -1 where out of reach), sensor pose
+      (m, rad, world), open (1: may be taken; where none may, all are: the robot goes as near as it can); rows beyond
+      the candidates that there are hold 0;
     - `state` (7,): x, y (m), yaw (rad) as believed, scans taken, scans left, time (s), time left (s; -1: no limit).
 
     Action: Discrete(n), the row of a view. An action whose row is not open changes nothing: reward 0,
@@ -237,7 +237,7 @@ class Env(_Base):  # type: ignore[misc]
             open_views = np.ones_like(open_views)
         self._shown = np.sort(np.argsort(~open_views, kind="stable")[:self.max_candidates])
         shown, n = self._shown, len(self._shown)
-        unit = float(self._cells) if request.gain_unit == "bits" and self._cells else 1.0
+        unit = float(self._cells) if request.gain_unit in ("bits", "cells") and self._cells else 1.0
         rows[:n, 0] = request.gain[shown] / unit
         low, high = request.interval.T / unit
         for column, values in enumerate((low, high, request.travel_s, request.path_length_m), 1):
