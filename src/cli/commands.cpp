@@ -89,17 +89,18 @@ ExitCode run_episode_command(const RunArguments& arguments) {
   const auto path = find_episode(arguments.episode);
   std::vector<std::string> overrides = arguments.overrides;
   if (!arguments.seed.empty()) overrides.push_back("seed=" + arguments.seed);
+  if (arguments.dry_run && !arguments.print_config) {
+    const Validation found = validate_episode(path, overrides);
+    for (const auto& problem : found.problems) log_error(problem);
+    if (found.problems.empty()) {
+      print_plan(load_episode(path, overrides), found.notes, arguments.json);
+    }
+    return found.code;
+  }
   const ResolvedEpisode resolved = load_episode(path, overrides);
   if (arguments.print_config) {
     print_config(resolved, arguments.json);
     return ExitCode::done;
-  }
-  if (arguments.dry_run) {
-    const Validation found = validate_episode(path, overrides);
-    for (const auto& problem : found.problems) log_error(problem);
-    if (!found.problems.empty()) return found.code;
-    print_plan(resolved, found.notes, arguments.json);
-    return found.code;
   }
   catch_interrupts();
   RunOptions options = arguments.options;

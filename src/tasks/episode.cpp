@@ -87,6 +87,12 @@ void check_together(const ConfigNode& root, const EpisodeOptions& options, const
   }
 }
 
+ConfigNode read_episode_yaml(const std::filesystem::path& path) {
+  ConfigNode root = read_yaml(path);
+  if (root.kind != ConfigNode::Kind::null) return root;
+  throw ConfigError(path.string() + ": empty; an episode sets at least one key, as scans: 10");
+}
+
 /// @param key what named it
 RobotFolder robot_at(const std::filesystem::path& path, const std::string& key) {
   try {
@@ -114,10 +120,7 @@ void read_episode(const ConfigNode& said, EpisodeOptions& options, Task& task) {
 
 ResolvedEpisode load_episode(const std::filesystem::path& path,
                              const std::vector<std::string>& overrides) {
-  ConfigNode root = read_yaml(path);
-  if (root.kind == ConfigNode::Kind::null) {
-    throw ConfigError(path.string() + ": empty; an episode sets at least one key, as scans: 10");
-  }
+  ConfigNode root = read_episode_yaml(path);
   apply_overrides(root, overrides);
   return resolve_episode(root, path);
 }
@@ -153,9 +156,10 @@ ResolvedEpisode resolve_episode(const ConfigNode& root, const std::filesystem::p
   return resolved;
 }
 
+/// Names in it are absolute or of the data root, whatever else the working directory has.
 ResolvedEpisode load_recorded(const std::filesystem::path& run_dir) {
   try {
-    return load_episode(run_dir / "config.yaml", {});
+    return resolve_episode(read_episode_yaml(run_dir / "config.yaml"), data_root() / "config.yaml");
   } catch (const ConfigError& error) {
     throw InputError(
         fmt::format("{}: not a configuration of this version, {}; manifest.json names "

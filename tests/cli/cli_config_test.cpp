@@ -109,6 +109,9 @@ TEST_F(CommandLine, UnknownGain) {
 
 TEST_F(CommandLine, DryRunSeesOverrides) {
   expect_error(vantage("run -q --dry-run --set scans=0 "), 2, {"scans"});
+  const Result both = vantage("run -q --dry-run --set scasn=1 --set threads=0");
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.output, testing::AllOf(HasSubstr("scasn"), HasSubstr("threads")));
   const auto scene = file("broken.xml", "<mujoco><nonsense/></mujoco>");
   EXPECT_EQ(vantage("run --dry-run --set scene=" + scene).exit_code, 3);
 }

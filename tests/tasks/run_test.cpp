@@ -247,6 +247,19 @@ TEST_F(Run, ReplayNamesFilesThatChanged) {
   EXPECT_FALSE(result.first_difference) << "the states agree all the same";
 }
 
+/// A run is of the data root's scene, whatever the working directory has under that name.
+TEST_F(Run, WhatWasRecordedIsFoundInTheDataRootFirst) {
+  const ResolvedEpisode recorded = load_recorded(folder_ / "first");
+  const fs::path decoy = folder_ / "decoy" / recorded.setup.options.scene;
+  fs::create_directories(decoy.parent_path());
+  write_file(decoy, "<mujoco/>");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_ / "decoy");
+  const fs::path found = load_recorded(folder_ / "first").setup.scene;
+  fs::current_path(before);
+  EXPECT_EQ(found, recorded.setup.scene);
+}
+
 TEST_F(Run, ReplayRefusesActionsAndKeysOfAnotherKind) {
   const fs::path other = copy_of_first("other_kind");
   const std::string actions = read_file(other / "actions.csv");
