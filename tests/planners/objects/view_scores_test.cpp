@@ -104,6 +104,19 @@ TEST_F(ViewScores, EnoughIsAboveAProbabilityAndBelowAnEntropy) {
   EXPECT_EQ(enough({.entropy_bits = 1.001}, 0.5, 0.0, 0.5, 0.0), EnoughReason::entropy);
 }
 
+/// Two objects of three bins: what is sure of an object may be open of its yaw.
+TEST(SeenEnough, AddsUpTheBinsOfAnObject) {
+  ObjectStates states;
+  states.objects = {"a", "b"};
+  states.bins = 3;
+  Eigen::VectorXd belief(6);
+  belief << 0.31, 0.31, 0.31, 0.03, 0.02, 0.02;
+  const EnoughViews enough{.object_probability = 0.9, .entropy_bits = 0.0};
+  EXPECT_EQ(seen_enough(enough, states, belief), EnoughReason::probability);
+  belief << 0.31, 0.31, 0.03, 0.31, 0.02, 0.02;
+  EXPECT_EQ(seen_enough(enough, states, belief), std::nullopt);
+}
+
 TEST(ObjectViewOptions, NameTheWeightThatMustBeNothing) {
   try {
     require_no_weights({.weight_per_m = 2.5}, "views");
