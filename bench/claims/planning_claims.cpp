@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/claims/claims.hpp"
+#include "bench/claims/mapping_claims.hpp"
 #include "bench/claims/race.hpp"
 
 namespace vantage::bench {
@@ -36,9 +37,7 @@ Finding against_greedy(const StudyTables& study, const std::string& table, doubl
         const std::string why = against.why_lost(limit);
         return {against.text() + "<br>" + beside(study, table),
                 against.is_won_by(limit) && against.pairs && against.pairs->p_value < kSignificant,
-                why.empty() ? "of what the oracle of the same plan gains, see there, it "
-                              "gains what can be foreseen"
-                            : why};
+                why.empty() ? "see what the others have of it, `oracle_tour` among them" : why};
       });
 }
 
@@ -83,18 +82,6 @@ Finding calibration_matters(const StudyTables& study, const std::string& table) 
       });
 }
 
-Finding never_touches(const StudyTables& study) {
-  return held("goal", "no collision in any episode of any choice", [&]() -> Measured {
-    double collisions = 0.0;
-    for (const std::string& level : study.levels()) {
-      collisions += study.mean("collisions", kAllPanels, level);
-    }
-    return {fmt::format("{:.3g} an episode, over all choices",
-                        collisions / static_cast<double>(study.levels().size())),
-            collisions == 0.0, "see `collisions` by episode"};
-  });
-}
-
 }  // namespace
 
 std::vector<Finding> planning_office_findings(const StudyTables& study, double time_limit,
@@ -104,7 +91,7 @@ std::vector<Finding> planning_office_findings(const StudyTables& study, double t
   findings.push_back(near_oracle(study, "time_to_95_s"));
   findings.push_back(ahead_of_peers(study, "time_to_95_s"));
   findings.push_back(calibration_matters(study, "time_to_95_s"));
-  findings.push_back(never_touches(study));
+  findings.push_back(without_collision(study, "choice"));
   return findings;
 }
 
@@ -117,7 +104,7 @@ std::vector<Finding> planning_tabletop_findings(const StudyTables& study) {
                          "a shorter way is paid for by views that show less"};
                }),
           near_oracle(study, "time_to_98_s"), ahead_of_peers(study, "time_to_98_s"),
-          never_touches(study)};
+          without_collision(study, "choice")};
 }
 
 }  // namespace vantage::bench

@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "bench/claims/adaptive_claim.hpp"
 #include "bench/claims/claims.hpp"
+#include "bench/claims/mapping_claims.hpp"
 
 namespace vantage::bench {
 namespace {

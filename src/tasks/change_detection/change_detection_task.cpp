@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/tasks/change_detection/change_ground_truth.hpp"
+#include "vantage/tasks/flight/full_turn.hpp"
 #include "vantage/tasks/flight/recognition_model_file.hpp"
 #include "vantage/tasks/object_flight/object_flight_metrics.hpp"
 #include "vantage/tasks/object_flight/object_flight_records.hpp"
@@ -96,25 +96,22 @@ constexpr auto kHeadlines =
 
 const auto kCurves = std::to_array<CurveMeasure>({kViewEntropy});
 
-}  // namespace
-
-namespace {
-
-void require_end(const ChangeDetectionTask& task) {
+/// It would not be read.
+void refuse_enough(const EnoughViews& enough) {
   const EnoughViews otherwise;
-  const EnoughViews& enough = task.decision.enough;
-  if (enough.object_probability != otherwise.object_probability ||
-      enough.entropy_bits != otherwise.entropy_bits) {
-    throw ConfigError(
-        "enough: ends a recognition; change detection ends by unchanged_below and changed_above");
+  if (enough.object_probability == otherwise.object_probability &&
+      enough.entropy_bits == otherwise.entropy_bits) {
+    return;
   }
-  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+  throw ConfigError(
+      "enough: ends a recognition; change detection ends by unchanged_below and changed_above");
+}
+
+void require_turn(double turned_rad) {
   constexpr double kSameYaw_rad = 1e-6;
-  if (task.scenario == to_string(Change::pose) && task.turned_rad &&
-      std::abs(std::remainder(*task.turned_rad, kTurn_rad)) < kSameYaw_rad) {
-    throw ConfigError(fmt::format(
-        "turned_rad: {:g} turns nothing, so that scenario pose changes nothing", *task.turned_rad));
-  }
+  if (std::abs(std::remainder(turned_rad, kTurn_rad)) >= kSameYaw_rad) return;
+  throw ConfigError(fmt::format(
+      "turned_rad: {:g} turns nothing, so that scenario pose changes nothing", turned_rad));
 }
 
 }  // namespace
@@ -127,7 +124,8 @@ void ChangeDetectionTask::check_with(const EpisodeOptions& episode) const {
         "scenario: unknown scenario '{}'; known: none, object, pose, removed", scenario));
   }
   change.check();
-  require_end(*this);
+  refuse_enough(decision.enough);
+  if (turned_rad && scenario == to_string(Change::pose)) require_turn(*turned_rad);
   if (object.empty()) return;
   if (scenario != to_string(Change::object)) {
     throw ConfigError(

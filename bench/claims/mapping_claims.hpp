@@ -1,0 +1,16 @@
+/// Claims of table tops and offices alike.
+#pragma once
+
+#include <vector>
+
+#include "bench/claims/claims.hpp"
+
+namespace vantage::bench {
+
+/// What `adaptive` is worth beside `simple`: the study's reference is one of the two. @param tables
+/// less is better in each
+Finding adaptive_against_simple(const StudyTables& study, const std::vector<const char*>& tables);
+/// @param compared what the study compares, "method"
+Finding without_collision(const StudyTables& study, const char* compared);
+
+}  // namespace vantage::bench
