@@ -1,25 +1,21 @@
 #include "vantage/core/names.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 
+#include "vantage/core/schema.hpp"
+
 namespace vantage {
 namespace {
 
-/// "[1, 2]" of numbers, else empty.
-std::string list_text(const ConfigNode& node) {
-  if (node.items.empty()) return {};
-  std::vector<std::string> items;
-  for (const ConfigNode& item : node.items) {
+bool holds_numbers(const ConfigNode& node) {
+  return !node.items.empty() && std::ranges::all_of(node.items, [](const ConfigNode& item) {
     double number = 0.0;
     const char* end = item.scalar.data() + item.scalar.size();
-    if (std::from_chars(item.scalar.data(), end, number).ptr != end) return {};
-    items.push_back(item.scalar);
-  }
-  return fmt::format("[{}]", fmt::join(items, ", "));
+    return std::from_chars(item.scalar.data(), end, number).ptr == end;
+  });
 }
 
 void add_differences(const std::string& prefix, const ConfigNode& given, const ConfigNode& defaults,
@@ -28,8 +24,8 @@ void add_differences(const std::string& prefix, const ConfigNode& given, const C
     const auto& [key, value] = given.entries[i];
     const ConfigNode& usual = defaults.entries[i].second;
     add_differences(prefix + key + ".", value, usual, label);
-    if (const std::string list = list_text(value); list != list_text(usual)) {
-      label += fmt::format(" {}{}={}", prefix, key, list);
+    if (holds_numbers(value) && detail::value_text(value) != detail::value_text(usual)) {
+      label += fmt::format(" {}{}={}", prefix, key, detail::value_text(value));
     }
     if (value.scalar != usual.scalar) label += fmt::format(" {}{}={}", prefix, key, value.scalar);
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "vantage/core/names.hpp"
 #include "vantage/core/yaml.hpp"
 
 namespace vantage {
@@ -46,6 +47,28 @@ TEST(ConfigNode, IsFoundByItsDottedKey) {
   EXPECT_EQ(find_value(root, "a.b.x"), nullptr);
   EXPECT_EQ(find_value(root, "x.b.c"), nullptr);
   EXPECT_EQ(find_value(root, "e.f"), nullptr);
+}
+
+/// Lists of numbers are told, what is a command is not.
+TEST(LabelOf, TellsWhatIsNotTheDefault) {
+  const auto numbers = [](const std::vector<std::string>& values) {
+    ConfigNode list = ConfigNode::make_list();
+    for (const std::string& value : values) list.items.push_back(ConfigNode::make_scalar(value));
+    return list;
+  };
+  const auto options = [&](const ConfigNode& sigma_m, const std::string& samples) {
+    ConfigNode node = ConfigNode::make_map();
+    node.set("sigma_m", sigma_m);
+    node.set("samples", ConfigNode::make_scalar(samples));
+    return node;
+  };
+  const ConfigNode usual = options(numbers({"1", "1", "0.5"}), "20");
+  EXPECT_EQ(label_of("stomp", usual, usual), "stomp");
+  EXPECT_EQ(label_of("stomp", options(numbers({"1", "1", "0.4"}), "20"), usual),
+            "stomp sigma_m=[1, 1, 0.4]");
+  EXPECT_EQ(label_of("stomp", options(numbers({"1", "1", "0.5"}), "30"), usual),
+            "stomp samples=30");
+  EXPECT_EQ(label_of("stomp", options(numbers({"python3", "mine.py"}), "20"), usual), "stomp");
 }
 
 }  // namespace
