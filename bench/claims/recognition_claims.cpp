@@ -38,11 +38,12 @@ double feature_time_s(const Json& study, std::string_view method) {
   return method_of(study, method).at("feature_time_s").get<double>();
 }
 
-struct Difference {
+struct AccuracyDifference {
   double mean, low, high;
 };
 
-Difference accuracy_over(const Json& study, std::string_view method, std::string_view reference) {
+AccuracyDifference accuracy_over(const Json& study, std::string_view method,
+                                 std::string_view reference) {
   for (const Json& d : method_of(study, method).at("differences")) {
     if (d.at("reference").get<std::string>() != reference) continue;
     const Json& points = d.at("accuracy_percent");
@@ -74,7 +75,7 @@ Finding literal_settings(const Json& study) {
 Finding several_views(const Json& study) {
   return held("goal; table 4.4: 91.9 %", "views by information: 8 points above a single view",
               [&]() -> Measured {
-                const Difference d = accuracy_over(study, kInformed, kSingle);
+                const AccuracyDifference d = accuracy_over(study, kInformed, kSingle);
                 return {fmt::format("{:.1f} %, {:+.1f} [{:.1f}, {:.1f}] points",
                                     accuracy(study, kInformed), d.mean, d.low, d.high),
                         d.mean >= 8.0};
@@ -84,7 +85,7 @@ Finding several_views(const Json& study) {
 Finding over_random(const Json& study, const char* informed, const char* random, const char* what) {
   return held("goal; table 4.4", fmt::format("above random views, with fewer of them; {}", what),
               [&]() -> Measured {
-                const Difference d = accuracy_over(study, informed, random);
+                const AccuracyDifference d = accuracy_over(study, informed, random);
                 const double ours = views(study, informed);
                 const double theirs = views(study, random);
                 return {

@@ -72,7 +72,7 @@ ModelledExploration::ModelledExploration(const ModelledBuilding& building, const
   traverse(task.start_room_m);
 }
 
-std::vector<ReachedShare> ModelledExploration::run(std::vector<double> shares) {
+std::vector<ReachedShare> ModelledExploration::run(const std::vector<double>& shares) {
   std::vector<ReachedShare> levels;
   for (const double share : shares) levels.push_back({share});
   while (scans_ < task_.scans) {

@@ -44,7 +44,7 @@ class ModelledExploration {
   ModelledExploration(const ModelledBuilding& building, const Exploration& task);
 
   /// Explores until the last of `shares` is reached, or no view is left, or no scan.
-  std::vector<ReachedShare> run(std::vector<double> shares);
+  std::vector<ReachedShare> run(const std::vector<double>& shares);
 
  private:
   void scan();

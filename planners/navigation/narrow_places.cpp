@@ -140,8 +140,8 @@ class NarrowPlaces {
       queue.push_back(cell);
     };
     for (const std::size_t cell : from) put(cell, reach);
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      const std::size_t cell = queue[i];
+    for (std::size_t taken = 0; taken < queue.size();) {
+      const std::size_t cell = queue[taken++];
       if (leeway_[cell] == Leeway::none) leeway_[cell] = Leeway::passage;
       for_each_beside(floor_, cell, 8, [&](std::size_t to) {
         if (thin_[to] != 0) put(to, left_[cell] - 1);

@@ -276,7 +276,8 @@ std::vector<Tour> search_tours(const PlanningProblem& problem, const TourObjecti
   std::ranges::sort(firsts);
   std::vector<Tour> tours{free};
   const auto is_intended = [&](std::size_t view) { return view == problem.intended; };
-  std::ranges::stable_partition(firsts, is_intended, &std::pair<double, std::size_t>::second);
+  std::stable_partition(firsts.begin(), firsts.end(),
+                        [&](const auto& first) { return is_intended(first.second); });
   for (const auto& [cost_s, view] : firsts) {
     if (tours.size() >= std::max<std::size_t>(options.first_moves, is_intended(view) ? 2 : 1))
       break;

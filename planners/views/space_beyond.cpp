@@ -20,7 +20,8 @@ struct ColumnCounts {
 };
 
 ColumnCounts count_columns(const OccupancyGrid& grid) {
-  const auto columns = static_cast<std::size_t>(grid.frame.cells.x() * grid.frame.cells.y());
+  const auto columns = static_cast<std::size_t>(grid.frame.cells.x()) *
+                       static_cast<std::size_t>(grid.frame.cells.y());
   ColumnCounts counts{std::vector<int>(columns, 0), std::vector<int>(columns, 0)};
   std::size_t cell = 0;
   for (int z = 0; z < grid.frame.cells.z(); ++z) {

@@ -71,7 +71,7 @@ py::array_t<T> array_of(std::vector<T> values, std::vector<py::ssize_t> shape,
   auto kept = std::make_unique<std::vector<T>>(std::move(values));
   const T* data = kept->data();
   const py::capsule owner(kept.get(), [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  kept.release();
+  static_cast<void>(kept.release());  // the capsule's
   return py::array_t<T>(std::move(shape), std::move(strides), data, owner);
 }
 template <class T>

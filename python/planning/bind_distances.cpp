@@ -118,7 +118,7 @@ void bind_distances(py::module_& module) {
            "Of distance_m at points (n, 3); (n, 3), world.")
       .def_property_readonly(
           "at_centres_m",
-          [](py::object self) {
+          [](const py::object& self) {
             const auto& field = self.cast<const Esdf&>();
             return cells_view(field.frame(), field.at_centres_m().data(), self, false);
           },

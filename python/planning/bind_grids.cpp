@@ -196,7 +196,7 @@ void bind_grids(py::module_& module) {
           "OutputError.")
       .def_property_readonly(
           "log_odds",
-          [](py::object self) {
+          [](const py::object& self) {
             auto& grid = self.cast<Grid&>();
             return cells_view(grid.frame, grid.log_odds.data(), self, true);
           },

@@ -62,7 +62,7 @@ PathCost cost_of(const py::function& function) {
 }
 
 PathCost cost_of(const FlightCost& built_in, SignalPoll& poll) {
-  return [&](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost) {
+  return [&](const Horizon& horizon, const Eigen::Ref<Eigen::VectorXd>& cost) {
     poll();
     built_in.cost(horizon, cost);
   };

@@ -66,8 +66,8 @@ void leave_out_unseen(const mjModel& model, const Sight& sight, mjvScene& scene)
     const Eigen::Vector3d p_world_m = Eigen::Vector3f(geom.pos).cast<double>();
     return has_sphere(model, geom) && !sight.may_show(p_world_m, model.geom_rbound[geom.objid]);
   };
-  const auto removed = std::ranges::remove_if(geoms, unseen);
-  scene.ngeom -= static_cast<int>(removed.size());
+  const auto kept_end = std::remove_if(geoms.begin(), geoms.end(), unseen);
+  scene.ngeom = static_cast<int>(kept_end - geoms.begin());
   number_anew(scene);
 }
 

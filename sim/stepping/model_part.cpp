@@ -20,6 +20,7 @@ constexpr RowOf row_of(std::string_view count) {
 
 /// Calls `f` with the pointer to each array of bodies or geoms, the bytes of its rows, and whether
 /// they are of bodies.
+// NOLINTNEXTLINE(google-readability-function-size): as many as MuJoCo's model has arrays
 void for_each_array(mjModel& model, auto&& f) {
   const mjModel* m = &model;
 #undef MJ_M

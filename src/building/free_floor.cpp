@@ -29,8 +29,10 @@ struct Squares {
   [[nodiscard]] bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < nx && y < ny; }
   [[nodiscard]] Eigen::Vector2d centre_m(std::size_t square) const {
     const auto n = static_cast<std::size_t>(nx);
-    return corner_m + kSquare_m * Eigen::Vector2d(static_cast<double>(square % n) + 0.5,
-                                                  static_cast<double>(square / n) + 0.5);
+    const std::size_t y = square / n;
+    const std::size_t x = square % n;
+    return corner_m +
+           kSquare_m * Eigen::Vector2d(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
   }
 };
 

@@ -66,7 +66,7 @@ bool is_closed(const std::vector<Triangle>& triangles) {
 }
 
 double volume_of(const BuildingMesh& mesh, const std::vector<Triangle>& triangles) {
-  const Eigen::Vector3d origin = mesh.corner(triangles.front(), 0);
+  const Eigen::Vector3d& origin = mesh.corner(triangles.front(), 0);
   double six_volumes_m3 = 0.0;
   for (const Triangle& t : triangles) {
     six_volumes_m3 += (mesh.corner(t, 0) - origin)

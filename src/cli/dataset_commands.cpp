@@ -48,7 +48,7 @@ DatasetOptions render_options(const RenderArguments& arguments) {
                                                                   {"seed", arguments.seed},
                                                                   {"models", arguments.models}}};
   for (const auto& [key, value] : flags) {
-    if (!value.empty()) overrides.push_back(key + "=" + value);
+    if (!value.empty()) overrides.push_back(fmt::format("{}={}", key, value));
   }
   apply_overrides(node, overrides);
   DatasetOptions options;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr auto kOptionsFile = "dataset.yaml";
 
-std::string options_text(DatasetOptions options) { return to_yaml(write_node(options)); }
+std::string options_text(const DatasetOptions& options) { return to_yaml(write_node(options)); }
 
 /// What a dataset of ours holds but its options: the folder stays, since it is what is locked.
 void remove_objects(const fs::path& root) {

@@ -69,7 +69,7 @@ std::vector<Eigen::Vector3f> occupied_centres(const OccupancyGrid& grid) {
   std::vector<Eigen::Vector3f> centres;
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
     if (grid.state(cell) != CellState::occupied) continue;
-    centres.push_back(grid.frame.centre(grid.frame.cell(cell)).cast<float>());
+    centres.emplace_back(grid.frame.centre(grid.frame.cell(cell)).cast<float>());
   }
   return centres;
 }

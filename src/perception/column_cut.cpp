@@ -174,7 +174,8 @@ ObjectView cut(const CameraImages& images, const cv::Mat1b& mask, const cv::Poin
   view.centre_px = {0.5 * (images.width_px - 1), 0.5 * (images.height_px - 1)};
   for (int row = place.y; row < place.y + place.height; ++row) {
     for (int column = place.x; column < place.x + place.width; ++column) {
-      const auto pixel = static_cast<std::size_t>(row * images.width_px + column);
+      const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(images.width_px) +
+                         static_cast<std::size_t>(column);
       const float depth_m = images.depth_m[pixel];
       view.depth_m.push_back(std::isfinite(depth_m) ? depth_m : 0.0F);
       const cv::Point at(column, row);

@@ -28,7 +28,7 @@ int keep_largest(cv::Mat1b& mask) {
 void take_colour(const CameraImages& images, ObjectView& view) {
   view.rgb.clear();
   for (int row = view.top_px; row < view.top_px + view.height_px; ++row) {
-    const auto first = static_cast<std::ptrdiff_t>(row * images.width_px + view.left_px);
+    const auto first = static_cast<std::ptrdiff_t>(row) * images.width_px + view.left_px;
     view.rgb.insert(view.rgb.end(), images.rgb.begin() + 3 * first,
                     images.rgb.begin() + 3 * (first + view.width_px));
   }

@@ -71,7 +71,7 @@ std::string instead_of(const ConfigNode& node, const std::string& path) {
 void collect(const ConfigNode& node, const std::string& prefix,
              std::vector<std::string>& problems) {
   for (const auto& [name, child] : node.entries) {
-    const std::string path = prefix.empty() ? name : prefix + "." + name;
+    const std::string path = fmt::format("{}{}{}", prefix, prefix.empty() ? "" : ".", name);
     if (const std::string now = instead_of(child, path); !now.empty()) {
       problems.push_back(fmt::format("{}: {}", child.where(), now));
     } else {

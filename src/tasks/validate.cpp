@@ -41,7 +41,10 @@ Validation validate_scene(const fs::path& file, const std::vector<std::string>& 
   apply_overrides(root, overrides);
   ResolvedEpisode tried;
   read_episode(root, tried.setup.options, tried.task);
-  World(ModelSource{file, read_robot(find_input(RobotOptions{}.model, {}, "robot.model")).mjcf});
+  {
+    const fs::path robot = find_input(RobotOptions{}.model, {}, "robot.model");
+    const World beside(ModelSource{file, read_robot(robot).mjcf});
+  }
   World world(ModelSource{.scene = file, .robot = {}});
   try {
     settle_free_bodies(world);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/interrupt.hpp"
@@ -26,10 +25,17 @@ struct RecordedPlayer {
   }
   /// The first position at that time or later.
   [[nodiscard]] std::size_t position_at(double wanted_s) const {
-    const auto positions = std::views::iota(std::size_t{0}, end());
-    const auto found = std::ranges::partition_point(
-        positions, [&](std::size_t position) { return time_s(position) < wanted_s - 1e-9; });
-    return static_cast<std::size_t>(found - positions.begin());
+    std::size_t low = 0;
+    std::size_t high = end();
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (time_s(middle) < wanted_s - 1e-9) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return low;
   }
   [[nodiscard]] std::size_t events_at(std::size_t position) const {
     if (position == end()) return event_log.size();

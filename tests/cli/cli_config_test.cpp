@@ -1,4 +1,5 @@
 // What the command line says about a configuration before anything runs.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command_line.hpp"
@@ -126,7 +127,8 @@ TEST_F(CommandLine, RefusesAStartWithoutRoom) {
       <geom type="box" size=".5 .5 .02" pos="0 0 .7"/>
       <geom name="post" type="box" size=".05 .05 .5" pos="1.3 .5 .5"/>
     </worldbody></mujoco>)");
-    expect_error(vantage(run + "--set scene=" + scene), 2, {"robot.start_view 0", "'post'"});
+    expect_error(vantage(fmt::format("{}--set scene={}", run, scene)), 2,
+                 {"robot.start_view 0", "'post'"});
     expect_error(vantage(run + "--set candidates.height_m=3"), 2, {"candidates.height_m", "reach"});
     expect_error(vantage(run + "--set laser.tilt_min_rad=-1.4"), 2, {"tilt_min_rad", "joint"});
   }

@@ -1,4 +1,5 @@
 // The flags that are the same for every command.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <sstream>
@@ -30,7 +31,8 @@ class CommonFlags : public CommandLine {
     for (std::string line; std::getline(lines, line) && line.starts_with("  ");) {
       if (line[2] == ' ') continue;  // a long text goes on
       const std::string name = line.substr(2, line.find(' ', 2) - 2);
-      for (const std::string& leaf : leaves(command + " " + name)) found.push_back(leaf);
+      for (const std::string& leaf : leaves(fmt::format("{} {}", command, name)))
+        found.push_back(leaf);
     }
     return found;
   }

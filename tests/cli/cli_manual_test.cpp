@@ -67,7 +67,7 @@ TEST_F(Manual, HasEveryCommandAndFlag) {
     EXPECT_TRUE(offered("vantage \"\"").contains(command)) << command;
     std::vector<std::string> paths{command};
     for (const auto& part : listed(help(command), "Subcommands"))
-      paths.push_back(command + " " + part);
+      paths.push_back(fmt::format("{} {}", command, part));
     for (const std::string& path : paths) {
       const std::string last = path.substr(path.rfind(' ') + 1);
       if (path != command) {

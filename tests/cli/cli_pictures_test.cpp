@@ -1,5 +1,6 @@
 // A user's own pictures: `vantage dataset import` and `check`, and what training, recognition and
 // evaluation make of them and of what is wrong with them.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -223,10 +224,10 @@ TEST_F(Pictures, WithoutAMaskTheObjectIsCutOutAsTheModelExpects) {
   for (int k = 0; k < kObjects; ++k) {
     const std::string name = fmt::format("thing{}", static_cast<char>('a' + k));
     for (const char* view : {"front", "left", "back", "right"}) {
-      const std::string stem = "lab/" + name + "/" + view;
-      const json known = parsed("recognise --model model --focal-px 285 " + stem + "_rgb.png " +
-                                stem + "_depth.png");
-      right += known["objects"][0]["object"] == name + "_1" ? 1 : 0;
+      const std::string stem = fmt::format("lab/{}/{}", name, view);
+      const json known = parsed(
+          fmt::format("recognise --model model --focal-px 285 {0}_rgb.png {0}_depth.png", stem));
+      right += known["objects"][0]["object"] == fmt::format("{}_1", name) ? 1 : 0;
       ++asked;
     }
   }

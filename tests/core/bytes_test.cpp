@@ -19,7 +19,8 @@ auto ends_within(const std::string& what) {
   return ThrowsMessage<InputError>(AllOf(StartsWith("x.bin: "), HasSubstr("ends within " + what)));
 }
 
-RC_GTEST_PROP(ByteReader, ReadsWhatWasPut, (int number, std::string text, std::vector<float> row)) {
+RC_GTEST_PROP(ByteReader, ReadsWhatWasPut,
+              (int number, const std::string& text, const std::vector<float>& row)) {
   std::string bytes;
   put(bytes, number);
   put_text(bytes, text);

@@ -33,7 +33,8 @@ class CheckedFolder : public testing::Test {
     ObjectView view;
     view.width_px = plain.width_px;
     view.height_px = plain.height_px;
-    const auto pixels = static_cast<std::size_t>(plain.width_px * plain.height_px);
+    const auto pixels =
+        static_cast<std::size_t>(plain.width_px) * static_cast<std::size_t>(plain.height_px);
     view.rgb.assign(3 * pixels, static_cast<std::uint8_t>(plain.grey));
     view.depth_m.assign(pixels, static_cast<float>(plain.depth_m));
     view.mask.assign(pixels, 1);

@@ -56,7 +56,8 @@ TEST_F(Cube, DepthAndSizeAreThoseOfTheVirtualCamera) {
   const RenderedImages images = draw(0.0);
   const int middle = images.width_px / 2;
   const auto at = [&](int row, int column) {
-    return static_cast<std::size_t>(row * images.width_px + column);
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(images.width_px) +
+           static_cast<std::size_t>(column);
   };
   EXPECT_NEAR(images.focal_px, kFocal_px, 1e-3 * kFocal_px);
   EXPECT_EQ(images.segmentation[at(middle, middle)], table_.object_geom());
@@ -133,7 +134,8 @@ TEST_F(Cube, WhatIsTooFlatIsNotCutOutByDepth) {
     for (int column = 0; column < bare.width_px; ++column) {
       const Eigen::Vector3d ray((column - 0.5 * (bare.width_px - 1)) / bare.focal_px,
                                 (row - 0.5 * (bare.height_px - 1)) / bare.focal_px, 1.0);
-      const auto i = static_cast<std::size_t>(row * bare.width_px + column);
+      const auto i = static_cast<std::size_t>(row) * static_cast<std::size_t>(bare.width_px) +
+                     static_cast<std::size_t>(column);
       bare.depth_m[i] = static_cast<float>((0.005 - p_m.z()) / (rotation * ray).z());
     }
   }

@@ -84,8 +84,10 @@ TEST(FacingSamples, AreAsManyWhereverTheyAreAsSeen) {
   std::ranges::sort(across);
   std::ranges::sort(heights_m);
   for (std::size_t i = 0; i < 48; ++i) {
-    EXPECT_NEAR(across[i], -0.875 + 0.25 * static_cast<double>(i / 6), 1e-9) << i;
-    EXPECT_NEAR(heights_m[i], 0.01 + 0.02 * static_cast<double>(i / 8), 1e-9) << i;
+    const std::size_t column = i / 6;
+    const std::size_t row = i / 8;
+    EXPECT_NEAR(across[i], -0.875 + 0.25 * static_cast<double>(column), 1e-9) << i;
+    EXPECT_NEAR(heights_m[i], 0.01 + 0.02 * static_cast<double>(row), 1e-9) << i;
   }
   // 2 r h cos(e) of the side and pi r^2 sin(e) of the top, tan(e) = 1/2.
   const double side = 2.0 * 0.12;

@@ -27,7 +27,8 @@ inline std::vector<double> random_distribution() {
 inline Eigen::MatrixXd random_joint() {
   const int rows = *rc::gen::inRange(1, 6);
   const int columns = *rc::gen::inRange(1, 6);
-  const auto p = random_distribution(static_cast<std::size_t>(rows * columns));
+  const auto p =
+      random_distribution(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
   return Eigen::Map<const Eigen::MatrixXd>(p.data(), rows, columns);
 }
 

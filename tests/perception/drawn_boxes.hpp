@@ -97,7 +97,9 @@ inline double overlap(const Drawn& drawn, const ObjectView& view) {
       const int c = column - view.left_px;
       const bool in_cut = r >= 0 && c >= 0 && r < view.height_px && c < view.width_px;
       const bool masked = in_cut && view.mask[view.index(r, c)] != 0;
-      const auto pixel = static_cast<std::size_t>(row * drawn.images.width_px + column);
+      const auto pixel =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(drawn.images.width_px) +
+          static_cast<std::size_t>(column);
       const bool meant = drawn.first_box[pixel] != 0;
       both += masked && meant ? 1 : 0;
       either += masked || meant ? 1 : 0;

@@ -154,6 +154,10 @@ TEST(ObjectSegmentation, SaysWhatIsMissing) {
   EXPECT_THAT(segmented(floor, T_world_camera).reason, testing::StartsWith("no table"));
 }
 
+std::size_t pixel_at(int row, int column) {
+  return static_cast<std::size_t>(row) * 60 + static_cast<std::size_t>(column);
+}
+
 /// 60 x 50 px from 2 m straight above a table at 0.5 m, with a block of 12 x 10 px on it.
 CameraImages block_from_above(float height_m) {
   CameraImages images;
@@ -163,7 +167,7 @@ CameraImages block_from_above(float height_m) {
   images.depth_m.assign(3000, 2.0F);
   for (int row = 20; row < 30; ++row) {
     for (int column = 24; column < 36; ++column) {
-      images.depth_m[static_cast<std::size_t>(60 * row + column)] = 2.0F - height_m;
+      images.depth_m[pixel_at(row, column)] = 2.0F - height_m;
     }
   }
   return images;
@@ -207,7 +211,7 @@ TEST(SegmentOnTable, KeepsTheLargestPatch) {
   CameraImages images = block_from_above(0.1F);
   for (int row = 21; row < 29; ++row) {
     for (int column = 8; column < 16; ++column) {
-      images.depth_m[static_cast<std::size_t>(60 * row + column)] = 1.9F;
+      images.depth_m[pixel_at(row, column)] = 1.9F;
     }
   }
   const SegmentedObject found =

@@ -298,7 +298,7 @@ TEST_F(UnknownObjects, AreNotLearntWhereNotAskedFor) {
 
 TEST_F(UnknownObjects, LeftOutMustBeThere) {
   options_.leave_out = {"lamp_9"};
-  EXPECT_THROW(train(), InputError);
+  EXPECT_THROW(static_cast<void>(train()), InputError);
 }
 
 TEST(RepeatedViews, CountForLess) {

@@ -372,8 +372,9 @@ TEST(Report, VoxelCapHolds) {
   support::write_sample_run(run.path());
   VoxelMap map{{0.01, 0.01, 0.01}, {Eigen::Vector3d::Zero(), Eigen::Vector3d(8, 8, 1)}, {}};
   for (int i = 0; i < 160'000; ++i) {
+    const int row = i / 400;
     map.voxels.push_back({0.02F * static_cast<float>(i % 400) + 0.005F,
-                          0.02F * static_cast<float>(i / 400) + 0.005F, 0.005F,
+                          0.02F * static_cast<float>(row) + 0.005F, 0.005F,
                           static_cast<std::uint16_t>(i / 20'000), kVoxelOccupied});
   }
   write_voxels(run / "voxels.bin", map);

@@ -66,7 +66,8 @@ inline OccupancyGrid sample_grid() {
 }
 
 inline Pose sample_view(int id) {
-  const double azimuth = 2.0 * std::numbers::pi * (id / 3) / 10.0;
+  const int place = id / 3;
+  const double azimuth = 2.0 * std::numbers::pi * place / 10.0;
   const double yaw = azimuth + std::numbers::pi + (id % 3 - 1) * std::numbers::pi / 12.0;
   return make_pose({1.15 * std::cos(azimuth), 1.15 * std::sin(azimuth), 1.17}, yaw);
 }

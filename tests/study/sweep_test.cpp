@@ -1,4 +1,5 @@
 // Sweeps as a user meets them: killed, resumed, sharded, with episodes that fail.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -125,8 +126,9 @@ report: {compare: start, reference: a, tables: [area], curves: [share_left]}
   const std::string run = VANTAGE_BINARY " sweep run -q " + study + " --jobs 1 --out ";
   for (const char* out : {"both1", "both2", "both3", "both4", "both5", "both6"}) {
     const ShellResult either =
-        shell("cd '" + folder_.path().string() + "'; " + run + out + " & a=$!; " + run + out +
-              " & b=$!; wait $a; a=$?; wait $b; b=$?; test $a = 0 -o $b = 0");
+        shell(fmt::format("cd '{0}'; {1}{2} & a=$!; {1}{2} & b=$!; wait $a; a=$?; wait $b; b=$?; "
+                          "test $a = 0 -o $b = 0",
+                          folder_.path().string(), run, out));
     EXPECT_EQ(either.exit_code, 0) << either.output;
   }
 }

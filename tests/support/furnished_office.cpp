@@ -65,7 +65,7 @@ void replace(std::string& text, const std::string& from, const std::string& to) 
 }
 
 /// `<body pos="..."><geom ...` as a geom of another body.
-std::string without_body(std::string box) {
+std::string without_body(const std::string& box) {
   const auto geom = box.find("><geom");
   const std::string pos = box.substr(0, geom);
   return "<geom " + pos + box.substr(geom + 6) + "/>";

@@ -81,7 +81,7 @@ std::string trace_difference(const Trace& expected, const Trace& actual) {
     const auto* e = i < expected.entries.size() ? &expected.entries[i] : nullptr;
     const auto* a = i < actual.entries.size() ? &actual.entries[i] : nullptr;
     if (e != nullptr && a != nullptr && agrees(*e, *a)) continue;
-    const int step = e != nullptr ? e->step : a->step;
+    const int step = (e != nullptr ? e : a)->step;
     if (first_step == -1) {
       first_step = step;
       difference = fmt::format("first difference in step {}:\n", step);

@@ -1,6 +1,7 @@
 // What is said of episodes that older versions wrote.
 #include "vantage/tasks/former_keys.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <set>
@@ -50,10 +51,10 @@ TEST(FormerKeys, NextBestViewIsTwoTasksNow) {
 TEST(FormerKeys, ThoseOfATaskStandAtTheTopLevelNow) {
   for (const std::string section :
        {"exploration", "recognition", "change_detection", "trajectory"}) {
-    EXPECT_THAT(problem("task: " + section + "\n" + section + ": {model: m, horizon: 3}\n"),
+    EXPECT_THAT(problem(fmt::format("task: {0}\n{0}: {{model: m, horizon: 3}}\n", section)),
                 AllOf(HasSubstr("e.yaml:2: " + section),
                       HasSubstr("write model in place of " + section + ".model")));
-    EXPECT_THAT(problem("task: " + section + "\n" + section + ":\n  most_views: 3\n"),
+    EXPECT_THAT(problem(fmt::format("task: {0}\n{0}:\n  most_views: 3\n", section)),
                 HasSubstr("top level"))
         << "said once, of the section";
   }
@@ -121,7 +122,7 @@ TEST(FormerKeys, ThatWereRenamedSayWhatTheyAreCalled) {
 
 void add_paths(const ConfigNode& node, const std::string& prefix, std::set<std::string>& paths) {
   for (const auto& [name, child] : node.entries) {
-    const std::string path = prefix.empty() ? name : prefix + "." + name;
+    const std::string path = fmt::format("{}{}{}", prefix, prefix.empty() ? "" : ".", name);
     paths.insert(path);
     add_paths(child, path, paths);
   }

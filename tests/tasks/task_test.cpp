@@ -105,7 +105,7 @@ TEST(Tasks, HaveKeysThatOthersHaveNot) {
       {"change_detection", "scenario"},
       {"trajectory", "horizon"}};
   for (const auto& [owner, key] : own) {
-    for_each_task([&](const auto& task) {
+    for_each_task([&owner = owner, &key = key](const auto& task) {
       EXPECT_EQ(keys_of(task).contains(key), task.name == owner) << task.name << " " << key;
     });
   }

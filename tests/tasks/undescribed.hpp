@@ -1,6 +1,7 @@
 /// Names in a run folder that nobody says anything about.
 #pragma once
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -24,7 +25,7 @@ inline void collect_keys(const nlohmann::json& node, const std::string& prefix,
     }
   } else if (node.is_object()) {
     for (const auto& [name, child] : node.items()) {
-      const std::string path = prefix.empty() ? name : prefix + "." + name;
+      const std::string path = fmt::format("{}{}{}", prefix, prefix.empty() ? "" : ".", name);
       keys.insert(path);
       collect_keys(child, path, keys);
     }
@@ -83,7 +84,7 @@ inline std::vector<std::string> undescribed(const std::filesystem::path& run_dir
     std::getline(stream, header);
     std::istringstream columns(header);
     for (std::string column; std::getline(columns, column, ',');) {
-      if (!described.has(file, column)) found.push_back(file + ": " + column);
+      if (!described.has(file, column)) found.push_back(fmt::format("{}: {}", file, column));
     }
   }
   std::set<std::string> keys;

@@ -105,7 +105,7 @@ TEST(ViewCaptionsOnAnImage, TheLegendStandsAboveTheTimeline) {
   EXPECT_EQ(changed_rows(alone, 999), std::pair(720 - 58, 720));
   EXPECT_EQ(changed_columns(alone, 719), std::pair(1000 - 330, 1000));
   // The bar: 12 px below the card's upper end, 14 px off its sides, from the least to the most.
-  const Pixel ground = alone.at<Pixel>(664, 672);
+  const Pixel& ground = alone.at<Pixel>(664, 672);
   EXPECT_EQ(alone.at<Pixel>(680, 683), ground);
   EXPECT_NE(alone.at<Pixel>(680, 684), ground);
   EXPECT_NE(alone.at<Pixel>(680, 985), ground);

@@ -118,7 +118,8 @@ ExitCode check_command(const CheckArguments& arguments, const PictureFlags& flag
 
 }  // namespace
 
-std::function<ExitCode()> declare_check(CLI::App& app, std::shared_ptr<const PictureFlags> flags) {
+std::function<ExitCode()> declare_check(CLI::App& app,
+                                        const std::shared_ptr<const PictureFlags>& flags) {
   auto arguments = std::make_shared<CheckArguments>();
   app.add_option("root", arguments->root, "folder of the dataset, to train on")->required();
   app.add_option("--test", arguments->test,

@@ -124,7 +124,8 @@ ExitCode import_command(const ImportArguments& arguments, const PictureFlags& fl
 
 }  // namespace
 
-std::function<ExitCode()> declare_import(CLI::App& app, std::shared_ptr<const PictureFlags> flags) {
+std::function<ExitCode()> declare_import(CLI::App& app,
+                                         const std::shared_ptr<const PictureFlags>& flags) {
   auto arguments = std::make_shared<ImportArguments>();
   ImportOptions& options = arguments->options;
   app.add_option("folder", arguments->run.from,

@@ -18,7 +18,9 @@ struct PictureFlags {
   bool overwrite = false;
 };
 
-std::function<ExitCode()> declare_import(CLI::App& app, std::shared_ptr<const PictureFlags> flags);
-std::function<ExitCode()> declare_check(CLI::App& app, std::shared_ptr<const PictureFlags> flags);
+std::function<ExitCode()> declare_import(CLI::App& app,
+                                         const std::shared_ptr<const PictureFlags>& flags);
+std::function<ExitCode()> declare_check(CLI::App& app,
+                                        const std::shared_ptr<const PictureFlags>& flags);
 
 }  // namespace vantage

@@ -132,7 +132,7 @@ ExitCode from_mesh_command(const FromMeshArguments& arguments, const SceneFlags&
 }  // namespace
 
 std::function<ExitCode()> declare_from_mesh(CLI::App& app,
-                                            std::shared_ptr<const SceneFlags> flags) {
+                                            const std::shared_ptr<const SceneFlags>& flags) {
   auto arguments = std::make_shared<FromMeshArguments>();
   BuildingOptions& options = arguments->options;
   app.add_option("mesh", arguments->mesh, "mesh of a building: OBJ, PLY, STL, glTF")->required();

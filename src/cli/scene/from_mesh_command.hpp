@@ -18,6 +18,7 @@ struct SceneFlags {
   bool json = false;
 };
 
-std::function<ExitCode()> declare_from_mesh(CLI::App& app, std::shared_ptr<const SceneFlags> flags);
+std::function<ExitCode()> declare_from_mesh(CLI::App& app,
+                                            const std::shared_ptr<const SceneFlags>& flags);
 
 }  // namespace vantage

@@ -83,13 +83,13 @@ Json robot_schema() {
     defaults[name] = {{"$ref", "#/definitions/" + name}};
   }
   Json kinds = Json::array();
-  for (const NamedShape& kind : shape_of_family<RobotKind>().alternatives) {
+  for (const ValueShape& kind : shape_of_family<RobotKind>().alternatives) {
     Json properties{
         {"kind", {{"const", kind.name}, {"description", kind.text}}},
         {"model",
          {{"type", "string"}, {"description", "MJCF file of the robot, beside robot.yaml"}}},
         {"episode_defaults", map_schema(defaults)}};
-    properties.update(properties_of(kind.shape));
+    properties.update(properties_of(kind));
     Json map = map_schema(std::move(properties));
     map["required"] = {"kind", "model"};
     kinds.push_back(std::move(map));

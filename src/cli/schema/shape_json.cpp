@@ -55,10 +55,10 @@ Json list_schema(const ValueShape& shape) {
 Json strategy_schema(const ValueShape& shape) {
   Json names = Json::array();
   Json maps = Json::array();
-  for (const NamedShape& strategy : shape.alternatives) {
+  for (const ValueShape& strategy : shape.alternatives) {
     names.push_back(strategy.name);
     Json properties{{"name", {{"const", strategy.name}}}};
-    properties.update(properties_of(strategy.shape));
+    properties.update(properties_of(strategy));
     Json map = map_schema(std::move(properties));
     map["description"] = strategy.text;
     map["required"] = {"name"};
@@ -114,9 +114,9 @@ void collect(const Json& schema, const std::string& pointer, const std::string& 
              Places& places) {
   if (schema.contains("properties")) {
     for (const auto& [name, child] : schema["properties"].items()) {
-      const std::string at = pointer + "/properties/" + name;
+      const std::string at = fmt::format("{}/properties/{}", pointer, name);
       add_place(prefix + name, at, child, places);
-      collect(child, at, prefix + name + ".", places);
+      collect(child, at, fmt::format("{}{}.", prefix, name), places);
     }
   }
   if (!schema.contains("anyOf")) return;
@@ -147,9 +147,9 @@ Json shape_schema(const ValueShape& shape) {
 
 Json properties_of(const ValueShape& section) {
   Json properties = Json::object();
-  for (const NamedShape& key : section.keys) {
+  for (const ValueShape& key : section.keys) {
     Json schema{{"description", key.text}};
-    schema.update(shape_schema(key.shape));
+    schema.update(shape_schema(key));
     if (key.default_value.kind != ConfigNode::Kind::null) {
       schema["default"] = config_json(key.default_value);
     }

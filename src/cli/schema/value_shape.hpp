@@ -1,6 +1,8 @@
 /// What values an options struct takes, as a tree: from the same fields() that read and write it.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -13,9 +15,7 @@
 
 namespace vantage {
 
-struct NamedShape;
-
-/// What may stand at a key.
+/// What may stand at a key, or under the name of a strategy.
 struct ValueShape {
   enum class Kind { boolean, whole, natural, number, text, list, section, strategy };
 
@@ -24,32 +24,26 @@ struct ValueShape {
   Range range = {};                           ///< of numbers
   std::size_t size = 0;                       ///< of a list; 0: any
   std::vector<ValueShape> item = {};          ///< of a list: one
-  std::vector<NamedShape> keys = {};          ///< of a section
-  std::vector<NamedShape> alternatives = {};  ///< of a strategy: sections, by name
-};
-
-struct NamedShape {
-  std::string name;
-  std::string text;  ///< of a strategy: its summary
-  ValueShape shape;
-  /// Null where there is none.
-  ConfigNode default_value = {};
+  std::vector<ValueShape> keys = {};          ///< of a section
+  std::vector<ValueShape> alternatives = {};  ///< of a strategy: sections, by name
+  std::string name = {};                      ///< empty: of a whole file, or an item
+  std::string text = {};                      ///< of the key; of an alternative its summary
+  ConfigNode default_value = {};              ///< null where there is none
 };
 
 /// Visitor that lists the keys of a struct.
 class ShapeVisitor {
  public:
   /// @param keys outlives this
-  explicit ShapeVisitor(std::vector<NamedShape>& keys) : keys_(keys) {}
+  explicit ShapeVisitor(std::vector<ValueShape>& keys) : keys_(keys) {}
 
   template <class T>
   void operator()(std::string_view key, T& value, std::string_view text, const Range& range = {}) {
     const std::string unit = unit_in_name(key);
-    keys_.push_back(
-        {.name = std::string(key),
-         .text = unit.empty() ? std::string(text) : std::string(text) + " (" + unit + ")",
-         .shape = shape_of(value, range)});
-    if constexpr (!HasFields<T>) keys_.back().default_value = write_node(value);
+    ValueShape& shape = keys_.emplace_back(shape_of(value, range));
+    shape.name = key;
+    shape.text = unit.empty() ? std::string(text) : fmt::format("{} ({})", text, unit);
+    if constexpr (!HasFields<T>) shape.default_value = write_node(value);
   }
 
   template <class T>
@@ -93,17 +87,16 @@ class ShapeVisitor {
       Variant made = name == strategy_name_of(chosen) ? chosen : make_strategy<Variant>(name);
       std::visit(
           [&]<class S>(S& strategy) {
-            ValueShape section;
+            ValueShape section{.name = std::string(name), .text = std::string(S::text.summary)};
             strategy.fields(ShapeVisitor(section.keys));
-            shape.alternatives.push_back(
-                {std::string(name), std::string(S::text.summary), std::move(section)});
+            shape.alternatives.push_back(std::move(section));
           },
           made);
     }
     return shape;
   }
 
-  std::vector<NamedShape>& keys_;
+  std::vector<ValueShape>& keys_;
 };
 
 template <HasFields T>

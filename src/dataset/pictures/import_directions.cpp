@@ -112,12 +112,12 @@ void read_poses(std::vector<Item>& items) {
 
 void direct_views(const ImportOptions& options, std::vector<Item>& items, ImportOutcome& outcome) {
   for (const auto& [name, yaw_deg] : options.yaw_deg) {
-    const bool used =
-        std::ranges::any_of(items, [&](const Item& i) { return i.picture.view == name; });
+    const auto is_called = [&called = name](const Item& i) { return i.picture.view == called; };
+    const bool used = std::ranges::any_of(items, is_called);
     if (!used)
       throw ConfigError(fmt::format("--view-yaw {}={}: no picture is called that", name, yaw_deg));
     const bool asked_for = std::ranges::any_of(
-        items, [&](const Item& i) { return i.picture.view == name && !i.picture.yaw_deg; });
+        items, [&](const Item& i) { return is_called(i) && !i.picture.yaw_deg; });
     if (!asked_for) {
       throw ConfigError(fmt::format(
           "--view-yaw {}={}: all pictures of that name tell their angle, by a pose or their name",

@@ -21,7 +21,7 @@ Band band_of(const PointCloud& world, const SupportSearchOptions& options) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector3f& p : world.points) {
     if (!(p.z() >= options.min_height_m && p.z() <= options.max_height_m)) continue;
-    band.points.push_back(p.cast<double>());
+    band.points.emplace_back(p.cast<double>());
     box.extend(band.points.back().head<2>());
   }
   if (band.points.empty()) return band;

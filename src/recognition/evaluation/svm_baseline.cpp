@@ -39,7 +39,7 @@ Scaling scaling_of(std::span<const ViewFeatures> views) {
     }
     sum /= count;
     const double spread = squares / count - sum.squaredNorm();
-    scaling.mean.push_back(sum.cast<float>());
+    scaling.mean.emplace_back(sum.cast<float>());
     scaling.scale.push_back(static_cast<float>(1.0 / std::sqrt(std::max(2.0 * spread, 1e-12))));
     scaling.columns += static_cast<int>(sum.size());
   }

@@ -66,7 +66,7 @@ std::vector<std::uint64_t> seeds_between(const ConfigNode& node) {
 
 void settle(ConfigNode& node, const std::string& key, const std::filesystem::path& base) {
   for (auto& [name, child] : node.entries) {
-    settle(child, key.empty() ? name : key + "." + name, base);
+    settle(child, fmt::format("{}{}{}", key, key.empty() ? "" : ".", name), base);
   }
   if (key == kCommandKey && node.kind == ConfigNode::Kind::list) settle_command(node, base);
   const auto found = std::ranges::find(kFileKeys, key, &FileKey::key);

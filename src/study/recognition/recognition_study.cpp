@@ -104,7 +104,8 @@ void add_reliability(RecognitionStudy& study, const RecognitionModel& model, con
 }
 
 /// A single view, all features, maximum-likelihood variances.
-MethodTrials literal_trials(const RecognitionModel& model, std::string name, const Trials& trials) {
+MethodTrials literal_trials(const RecognitionModel& model, const std::string& name,
+                            const Trials& trials) {
   RecogniserOptions literal = trials.options.recogniser;
   literal.variance = LiteralVariance{};
   literal.unknown_prior = 0.0;  // learnt for other variances

@@ -66,7 +66,7 @@ double area_under_curve(std::span<const double> high, std::span<const double> lo
   std::ranges::sort(sorted);
   double sum = 0.0;
   for (const double value : high) {
-    const auto [first, last] = std::ranges::equal_range(sorted, value);
+    const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
     sum += static_cast<double>(first - sorted.begin()) + 0.5 * static_cast<double>(last - first);
   }
   return sum / (static_cast<double>(high.size()) * static_cast<double>(low.size()));

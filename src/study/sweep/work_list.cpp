@@ -36,8 +36,8 @@ WorkList::WorkList(const std::vector<PlannedEpisode>& plan, const StudySweepOpti
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (!is_result(states[i])) open_.push_back(i);
   }
-  std::ranges::rotate(open_,
-                      open_.begin() + static_cast<std::ptrdiff_t>(first_of_task(open_.size())));
+  const auto first = static_cast<std::ptrdiff_t>(first_of_task(open_.size()));
+  std::rotate(open_.begin(), open_.begin() + first, open_.end());
 }
 
 std::optional<Claim> WorkList::claim_on(std::size_t episode) const {

@@ -32,9 +32,7 @@ FloorMap floor_of_truth(const Exploration& task, const GridFrame& frame,
 
 Eigen::AlignedBox2d floor_region(const GridFrame& frame) {
   const Eigen::AlignedBox3d box = frame.box();
-  const Eigen::Vector3d low = box.min();
-  const Eigen::Vector3d high = box.max();
-  return {low.head<2>(), high.head<2>()};
+  return {box.min().head<2>(), box.max().head<2>()};
 }
 
 /// In every square of a lattice, the place nearest to its middle.

@@ -54,7 +54,7 @@ bool keep_usable(ExplorationObservation& observation, CameraImages& last) {
 std::vector<Predictor> exploration_predictors(const Exploration& task) {
   std::vector<Gain> gains = cell_predictors();
   std::erase_if(gains, [](const Gain& gain) { return !can_sweep(gain); });
-  return recorded_predictors(task, std::move(gains));
+  return recorded_predictors(task, gains);
 }
 
 ExplorationParts::ExplorationParts(const MappingContext& context, const Exploration& task,

@@ -71,8 +71,8 @@ void check_exploration_start(const World& world, const MobileBase& robot, const 
   require_floor(geometry, from_m, setup, task);
   const std::string place = start_text(setup.options.robot);
   const Eigen::AlignedBox3d region = task.map.frame().box();
-  const auto low = region.min();
-  const auto high = region.max();
+  const Eigen::Vector3d& low = region.min();
+  const Eigen::Vector3d& high = region.max();
   if (!Eigen::AlignedBox2d(low.head<2>(), high.head<2>()).contains(from_m)) {
     throw ConfigError(
         fmt::format("map.centre_m, map.size_m: x {:.3g} to {:.3g}, y {:.3g} to {:.3g} do not hold "

@@ -58,15 +58,15 @@ double map_tolerance_m(const MappingOptions& options) {
 }
 
 std::vector<Predictor> recorded_predictors(const MappingOptions& options,
-                                           std::vector<Gain> defaults) {
+                                           const std::vector<Gain>& defaults) {
   std::vector<Gain> gains =
-      options.metrics.predictors.empty() ? std::move(defaults) : options.metrics.predictors;
+      options.metrics.predictors.empty() ? defaults : options.metrics.predictors;
   if (predicts_cells(options.gain)) gains.push_back(options.gain);
   std::vector<Predictor> predictors;
-  for (Gain& gain : gains) {
+  for (const Gain& gain : gains) {
     std::string label = strategy_label(gain);
     if (std::ranges::find(predictors, label, &Predictor::label) != predictors.end()) continue;
-    predictors.push_back({std::move(label), std::move(gain)});
+    predictors.push_back({std::move(label), gain});
   }
   return predictors;
 }

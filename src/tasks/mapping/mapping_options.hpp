@@ -180,6 +180,6 @@ struct Predictor {
 };
 /// Those of MetricsOptions::predictors, or if there are none `defaults`; and the gain in use.
 std::vector<Predictor> recorded_predictors(const MappingOptions& options,
-                                           std::vector<Gain> defaults);
+                                           const std::vector<Gain>& defaults);
 
 }  // namespace vantage

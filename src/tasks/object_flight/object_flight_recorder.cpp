@@ -70,7 +70,7 @@ std::string steps_row(const ObservationRecord& record, std::size_t number) {
 
 }  // namespace
 
-ObjectFlightRecorder::ObjectFlightRecorder(const EpisodeRun& run, RecordedRobot robot,
+ObjectFlightRecorder::ObjectFlightRecorder(const EpisodeRun& run, const RecordedRobot& robot,
                                            int max_views, bool of_change)
     : EpisodeRecorder(run, robot, std::string(kStepsHeader).append(of_change ? kChangeHeader : ""),
                       max_views,

@@ -19,7 +19,8 @@ class ObjectFlightRecorder : public EpisodeRecorder {
   /// Lean: neither states nor images are kept.
   /// @param of_change whether records tell of a change
   /// @throws OutputError, RendererError
-  ObjectFlightRecorder(const EpisodeRun& run, RecordedRobot robot, int max_views, bool of_change);
+  ObjectFlightRecorder(const EpisodeRun& run, const RecordedRobot& robot, int max_views,
+                       bool of_change);
 
   void set_panel(std::function<RecognitionPanelInput()> panel);
   /// Adds a row to steps.csv, and the image with the object's outline to views/.

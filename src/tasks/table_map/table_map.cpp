@@ -79,7 +79,7 @@ double TableMap::distance_m(const Eigen::Vector3d& p_world_m) const {
 bool TableMap::is_clear(std::span<const Eigen::Vector3d> path_m) const {
   constexpr double kStep_m = 0.03;
   for (std::size_t i = 0; i < path_m.size(); ++i) {
-    const Eigen::Vector3d from_m = path_m[i == 0 ? 0 : i - 1];
+    const Eigen::Vector3d& from_m = path_m[i == 0 ? 0 : i - 1];
     const Eigen::Vector3d way_m = path_m[i] - from_m;
     const int steps = std::max(1, static_cast<int>(std::ceil(way_m.norm() / kStep_m)));
     for (int k = 1; k <= steps; ++k) {

@@ -14,15 +14,19 @@
 namespace vantage {
 namespace {
 
+/// Of a lattice of so many points along each edge.
+Eigen::Vector3d lattice_point(const Eigen::AlignedBox3d& region, int points, int i) {
+  const Eigen::Array3i step(i % points, i / points % points, i / (points * points));
+  return region.min().array() + (step.cast<double>() + 0.5) / points * region.sizes().array();
+}
+
 /// Whether the sensor sees any of a lattice of points of the region, could it see through things.
 bool sees_region(const FieldOfView& field, const Pose& T_world_sensor, const Tabletop& task) {
   constexpr int kPoints = 9;
   const Eigen::AlignedBox3d region = task.map.frame().box();
   const Pose T_sensor_world = T_world_sensor.inverse();
   for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
-    const Eigen::Array3d step(i % kPoints, i / kPoints % kPoints, i / (kPoints * kPoints));
-    const Eigen::Vector3d p =
-        region.min().array() + (step + 0.5) / kPoints * region.sizes().array();
+    const Eigen::Vector3d p = lattice_point(region, kPoints, i);
     if (field.contains(T_sensor_world * p)) return true;
   }
   return false;
@@ -37,9 +41,7 @@ bool sees_past_things(const RayScene& geometry, const FieldOfView& field,
   const Pose T_sensor_world = T_world_sensor.inverse();
   const Eigen::Vector3d from_m = T_world_sensor.translation();
   for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
-    const Eigen::Array3d step(i % kPoints, i / kPoints % kPoints, i / (kPoints * kPoints));
-    const Eigen::Vector3d p =
-        region.min().array() + (step + 0.5) / kPoints * region.sizes().array();
+    const Eigen::Vector3d p = lattice_point(region, kPoints, i);
     if (!field.contains(T_sensor_world * p)) continue;
     const Eigen::Vector3d way_m = p - from_m;
     const double free_m = clip_segment(region, from_m, p).enter * way_m.norm();
@@ -128,8 +130,8 @@ Positions count_positions(const PathField& paths, const RayScene& geometry, cons
 
 std::string region_text(const Tabletop& task) {
   const Eigen::AlignedBox3d region = task.map.frame().box();
-  const auto from = region.min();
-  const auto to = region.max();
+  const Eigen::Vector3d& from = region.min();
+  const Eigen::Vector3d& to = region.max();
   return fmt::format(
       "map.centre_m, map.size_m: x {:.3g} to {:.3g}, y {:.3g} to {:.3g}, z {:.3f} to {:.3f}",
       from.x(), to.x(), from.y(), to.y(), from.z(), to.z());

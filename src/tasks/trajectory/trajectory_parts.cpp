@@ -225,7 +225,7 @@ void TrajectoryParts::act(const CandidatePlan& candidate) {
   if (!candidate.same_spline) robot_.follow(followed(plan_, at_));
   if (recorder_.flight().wanted()) {
     recorder_.flight().plan(plan_, static_cast<std::size_t>(at_),
-                            static_cast<std::size_t>(task_.horizon + 1));
+                            static_cast<std::size_t>(task_.horizon) + 1);
   }
 }
 
@@ -247,8 +247,8 @@ int TrajectoryParts::at_after(int missed) const {
 /// The plan from the waypoint after that one on.
 std::vector<FlightWaypoint> TrajectoryParts::followed(const std::vector<Eigen::Vector4d>& plan,
                                                       int from) const {
-  const auto first = static_cast<std::size_t>(from + 1);
-  const auto beyond = static_cast<std::size_t>(task_.horizon + kFollowedBeyond);
+  const auto first = static_cast<std::size_t>(from) + 1;
+  const auto beyond = static_cast<std::size_t>(task_.horizon) + kFollowedBeyond;
   std::vector<FlightWaypoint> waypoints;
   for (std::size_t i = first; i < std::min(plan.size(), first + beyond); ++i) {
     waypoints.push_back({.p_world_m = plan[i].head<3>(), .yaw_rad = plan[i][3]});

@@ -114,7 +114,7 @@ cv::Mat TrajectoryRecorder::onboard_image() {
 }
 
 void TrajectoryRecorder::waypoint(const WaypointRecord& record, int waypoints) {
-  step(steps_row(record), static_cast<std::size_t>(record.waypoint + 1),
+  step(steps_row(record), static_cast<std::size_t>(record.waypoint) + 1,
        static_cast<double>(record.waypoint + 1) / waypoints,
        fmt::format("waypoint {} of {}: {} objects found, {} known, {} observations, {:.1f} s "
                    "simulated",

@@ -221,7 +221,7 @@ TEST(SensorModel, IsTheRulesOfTheHeaderCellByCell) {
       for (float& cell : grid.log_odds) cell = static_cast<float>(rng.uniform(-1.0, 1.0));
       auto points = random_points(grid.frame, 25, rng);
       for (int i = 0; i < 12; ++i) {  // some just outside
-        points.push_back(
+        points.emplace_back(
             1.1F * (points[static_cast<std::size_t>(i)] - grid.frame.box().center().cast<float>()) +
             grid.frame.box().center().cast<float>());
       }

@@ -68,7 +68,8 @@ LearnedTransition slipping(int bins) {
 }
 
 double slip_of(const LearnedTransition& learned, int command, int slip, int bins) {
-  return learned.slip[static_cast<std::size_t>(command * bins + (slip + bins) % bins)];
+  return learned.slip[static_cast<std::size_t>(command) * static_cast<std::size_t>(bins) +
+                      static_cast<std::size_t>((slip + bins) % bins)];
 }
 
 TEST(AsLearned, SaysTheSameForWholeBins) {
@@ -191,8 +192,9 @@ TEST(LearnSequence, OneByOneIsAllAtOnceWhereStatesAreCertain) {
   const LearnedTransition batch = baum_welch(states, TableTransition{}, sequences, once).transition;
   TransitionCounts counts = prior_counts(TableTransition{}, 4, 5.0);
   LearnedTransition learned;
-  for (auto sequence = sequences.rbegin(); sequence != sequences.rend(); ++sequence) {
-    learned = learn_sequence(states, *sequence, counts);
+  const Sequences last_first(sequences.rbegin(), sequences.rend());
+  for (const auto& sequence : last_first) {
+    learned = learn_sequence(states, sequence, counts);
   }
   for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(learned.slip[i], batch.slip[i], kFitTolerance);
   EXPECT_NEAR(learned.same_object, batch.same_object, kFitTolerance);

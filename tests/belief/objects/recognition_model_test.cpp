@@ -46,7 +46,7 @@ RecognitionModel small_model() {
 }
 
 /// With the size and hash that belong to its payload, as someone hostile would write them.
-std::string sealed(std::string bytes) {
+std::string sealed(const std::string& bytes) {
   const std::string_view payload = std::string_view(bytes).substr(kHeader);
   std::string header = bytes.substr(0, kSizeAt);
   put(header, static_cast<std::uint64_t>(payload.size()));

@@ -96,7 +96,7 @@ TEST(LearnedTransition, HasASlipForEachCommand) {
   EXPECT_TRUE(by_two.bin_change.isApprox(Eigen::Vector3d(0.0, 0.5, 0.5), kTransitionTolerance));
   const TransitionKernel between = learned.kernel(1.5 * kFullTurn / 3.0, 3);
   EXPECT_TRUE(between.bin_change.isApprox(Eigen::Vector3d(0.0, 0.55, 0.45), kTransitionTolerance));
-  EXPECT_THROW(learned.kernel(kFullTurn / 3.0, 8), ConfigError);
+  EXPECT_THROW(static_cast<void>(learned.kernel(kFullTurn / 3.0, 8)), ConfigError);
 }
 
 RC_GTEST_PROP(TransitionModel, EveryKernelSumsToOne, ()) {

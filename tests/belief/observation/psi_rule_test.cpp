@@ -124,7 +124,8 @@ TEST(CalibratedPsi, AboutObjectsDoesNotMindMistakesOfPose) {
     const double seen = object + 1.5 * rng.normal();
     const int seeming_pose = rng.uniform() < 0.5 ? 1 : 0;
     for (int j = 0; j < kStates; ++j) {
-      const double apart = j / 2 - seen;
+      const int supposed = j / 2;
+      const double apart = supposed - seen;
       world.held_out.log_density[0](j, v) =
           static_cast<float>(-0.5 * apart * apart - (j % 2 == seeming_pose ? 0.0 : 4.0));
     }

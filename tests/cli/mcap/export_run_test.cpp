@@ -152,7 +152,7 @@ TEST(ExportedRuns, HaveTheMapAfterEachScan) {
     std::vector<Eigen::Vector3f> centres;
     for (std::size_t cell = 0; cell < known.size(); ++cell) {
       if (known[cell] != CellState::occupied) continue;
-      centres.push_back(made.frame.centre(made.frame.cell(cell)).cast<float>());
+      centres.emplace_back(made.frame.centre(made.frame.cell(cell)).cast<float>());
     }
     ASSERT_LT(scans, clouds.size());
     EXPECT_GT(centres.size(), 10U);

@@ -1,6 +1,7 @@
 // Messages, their schemas, and the order in which they come.
 #include "vantage/mcap/messages.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -50,7 +51,7 @@ void expect_valid(const MessageJson& value, const MessageJson& schema, const std
   for (const auto& [name, property] : schema["properties"].items()) {
     ASSERT_TRUE(value.contains(name)) << at << "." << name;
     EXPECT_TRUE(names(schema["required"], name)) << at << "." << name;
-    expect_valid(value[name], property, at + "." + name);
+    expect_valid(value[name], property, fmt::format("{}.{}", at, name));
   }
 }
 

@@ -18,7 +18,7 @@ PointCloud patch(const Eigen::Vector3d& centre, const Eigen::Vector3d& u, const 
   for (double a = -0.3; a <= 0.3; a += 0.02) {
     for (double b = -0.3; b <= 0.3; b += 0.02) {
       const Eigen::Vector3d p = centre + a * u + b * v + sigma_m * rng.normal() * across;
-      cloud.points.push_back(p.cast<float>());
+      cloud.points.emplace_back(p.cast<float>());
     }
   }
   return cloud;

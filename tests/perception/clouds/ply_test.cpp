@@ -1,5 +1,6 @@
 #include "vantage/perception/clouds/ply.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -150,7 +151,8 @@ TEST(Ply, KnowsTheSizeOfEveryType) {
     const std::string header = replaced(kHeader, "property float x\n",
                                         "property " + type + " other\nproperty float32 x\n");
     const TemporaryDirectory directory;
-    write_file(directory / "cloud.ply", header + std::string(size, '\7') + position);
+    write_file(directory / "cloud.ply",
+               fmt::format("{}{}{}", header, std::string(size, '\7'), position));
     const ColouredCloud read = read_ply(directory / "cloud.ply");
     ASSERT_EQ(read.cloud.size(), 1U) << type;
     EXPECT_EQ(read.cloud.points[0], Eigen::Vector3f(1, 2, 3)) << type;

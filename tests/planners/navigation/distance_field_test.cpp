@@ -17,10 +17,10 @@ std::vector<double> by_brute_force(const std::vector<std::uint8_t>& source, int 
   for (int i = 0; i < nx * ny; ++i) {
     for (int j = 0; j < nx * ny; ++j) {
       if (source[static_cast<std::size_t>(j)] == 0) continue;
-      const double dx = i % nx - j % nx;
-      const double dy = i / nx - j / nx;
+      const int dx = i % nx - j % nx;
+      const int dy = i / nx - j / nx;
       double& best = squared[static_cast<std::size_t>(i)];
-      best = std::min(best, dx * dx + dy * dy);
+      best = std::min(best, static_cast<double>(dx * dx + dy * dy));
     }
   }
   return squared;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -19,8 +20,8 @@ struct DrawnRooms {
 
   /// 0 to width_m x 0 to height_m, free but for the walls; a cell is a wall if its middle is.
   DrawnRooms(double width_m, double height_m, const std::vector<Eigen::AlignedBox2d>& walls_m)
-      : floor(Eigen::Vector2d::Zero(), kCell_m, static_cast<int>(width_m / kCell_m + 0.5),
-              static_cast<int>(height_m / kCell_m + 0.5)),
+      : floor(Eigen::Vector2d::Zero(), kCell_m, static_cast<int>(std::lround(width_m / kCell_m)),
+              static_cast<int>(std::lround(height_m / kCell_m))),
         detail(make_floor_detail(floor, {.parts = kParts})) {
     std::ranges::fill(floor.log_odds, -3.0F);
     std::ranges::fill(detail.log_odds, -3.0F);

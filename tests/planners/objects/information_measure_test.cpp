@@ -32,7 +32,7 @@ std::vector<InformationMeasure> every_measure() {
   for (const auto name : strategy_names<InformationMeasure>()) {
     measures.push_back(make_strategy<InformationMeasure>(name));
   }
-  measures.push_back(LossOfEntropy{.at_mean = true});
+  measures.emplace_back(LossOfEntropy{.at_mean = true});
   return measures;
 }
 
@@ -170,7 +170,7 @@ RC_GTEST_PROP(MeanFeatureInformation, IsTheFormula, ()) {
       all += p;
       if (i / 2 == j / 2) own += p;
     }
-    const auto first = static_cast<std::size_t>(i / 2 * 2);
+    const auto first = static_cast<std::size_t>(i - i % 2);
     own /= b[first] + b[first + 1];
     of_states += b[static_cast<std::size_t>(i)] * std::log2(1.0 / all);
     of_objects += b[static_cast<std::size_t>(i)] * std::log2(own / all);

@@ -29,7 +29,8 @@ FlightMap empty_room() {
   images.height_px = 90;
   images.focal_px = 30.0;
   images.range_max_m = 30.0;
-  const auto pixels = static_cast<std::size_t>(images.width_px * images.height_px);
+  const auto pixels =
+      static_cast<std::size_t>(images.width_px) * static_cast<std::size_t>(images.height_px);
   images.depth_m.assign(pixels, static_cast<float>(kHeight_m));
   images.rgb.assign(3 * pixels, 0);
   Pose T_world_camera = Pose::Identity();

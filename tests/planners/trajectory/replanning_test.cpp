@@ -23,7 +23,7 @@ TEST(Smoothest, CostsLeastControl) {
   Horizon turn = test::straight_flight();
   turn.points.col(9) << 2.0, 3.0, 1.5, 3.0;
   turn.after << 2.0, 3.5, 1.5, -3.0;  // the short way on
-  const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
+  const auto nothing = [](const Horizon&, const Eigen::Ref<Eigen::VectorXd>&) {};
   const Horizon smooth = smoothest(turn);
   const double least = path_cost(smooth, nothing);
   Rng rng(1);

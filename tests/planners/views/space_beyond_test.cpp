@@ -37,7 +37,9 @@ TEST(ColumnStates, TellWallsFromWhatIsUnknown) {
   rooms.fill({5, 5}, {6, 6}, 0.0F);                               // one that nothing was seen of
   rooms.grid.log_odds[rooms.grid.frame.index({3, 3, 0})] = 3.0F;  // something low
   const auto states = column_states(rooms.grid);
-  const auto at = [&](int x, int y) { return states[static_cast<std::size_t>(40 * y + x)]; };
+  const auto at = [&](int x, int y) {
+    return states[40 * static_cast<std::size_t>(y) + static_cast<std::size_t>(x)];
+  };
   EXPECT_EQ(at(3, 3), ColumnState::open);
   EXPECT_EQ(at(5, 5), ColumnState::unknown);
   EXPECT_EQ(at(19, 3), ColumnState::wall);

@@ -41,9 +41,9 @@ TEST(WalkToCell, GoesFromNeighbourToNeighbourOnDegenerateRays) {
   GridFrame grid;
   grid.cells = {9, 9, 9};
   for (std::size_t from = 0; from < 1000; ++from) {
+    const std::size_t layer = from / 100;
     const Eigen::Vector3d p_from(static_cast<double>(from % 10),
-                                 static_cast<double>(from / 10 % 10),
-                                 static_cast<double>(from / 100));
+                                 static_cast<double>(from / 10 % 10), static_cast<double>(layer));
     for (const int corner : {0, 4, 8}) {
       const auto cells = cells_to(grid, p_from, {corner, 8 - corner, 4});
       for (std::size_t i = 1; i < cells.size(); ++i) {

@@ -59,9 +59,9 @@ TEST(FewViews, OfOneObjectThereIsNoMistake) {
 /// Four states of two objects, three views, two features.
 HeldOutViews odd_views() {
   HeldOutViews held_out{.state = {3, 0, 2}, .bins = 2, .log_density = {}};
-  held_out.log_density.push_back(Eigen::MatrixXf{
+  held_out.log_density.emplace_back(Eigen::MatrixXf{
       {0.2F, -1.0F, 0.4F}, {1.0F, 0.6F, -0.5F}, {-0.3F, 0.9F, 1.2F}, {0.7F, -0.2F, 0.1F}});
-  held_out.log_density.push_back(Eigen::MatrixXf{
+  held_out.log_density.emplace_back(Eigen::MatrixXf{
       {0.1F, 0.5F, -0.2F}, {-0.4F, 0.3F, 0.6F}, {0.8F, -0.6F, 0.2F}, {0.0F, 0.4F, -1.0F}});
   return held_out;
 }

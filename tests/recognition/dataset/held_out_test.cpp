@@ -74,9 +74,10 @@ TEST(HoldOut, PicturesOfABurstAreHeldOutTogether) {
   for (int i = 0; i < 200; ++i) {
     ViewFeatures& view = views.emplace_back();
     view.name = {.category = "cup", .object = "cup_1", .video = 1, .frame = i + 1};
-    view.yaw_rad = (i / 5) * std::numbers::pi / 20.0 + 1e-3 * (i % 5);
+    const int bin = i / 5;
+    view.yaw_rad = bin * std::numbers::pi / 20.0 + 1e-3 * (i % 5);
     view.features.push_back({Eigen::Vector2f(rng.uniform(), rng.uniform()), {}});
-    shown.push_back(i / 5);
+    shown.push_back(bin);
   }
   HoldOutOptions options;
   options.held_out = HeldOutShare{.share = 0.25};

@@ -33,8 +33,8 @@ cv::Mat image_of(const PlannedTour& tour, const TourDrawing& how) {
 }
 
 bool is_near_colour(const cv::Mat& image, const Eigen::Vector2d& place_m, const cv::Scalar& bgr) {
-  const auto pixel = image.at<cv::Vec3b>(static_cast<int>(std::lround(200.0 * place_m.x())),
-                                         static_cast<int>(std::lround(200.0 * place_m.y())));
+  const auto& pixel = image.at<cv::Vec3b>(static_cast<int>(std::lround(200.0 * place_m.x())),
+                                          static_cast<int>(std::lround(200.0 * place_m.y())));
   return cv::norm(cv::Scalar(pixel[0], pixel[1], pixel[2]) - bgr) < 25.0;
 }
 

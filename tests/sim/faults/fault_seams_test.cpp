@@ -18,7 +18,8 @@ CameraImages plain_image(int width_px, int height_px) {
   images.width_px = width_px;
   images.height_px = height_px;
   images.range_max_m = 3.5;
-  images.depth_m.assign(static_cast<std::size_t>(width_px * height_px), 2.0F);
+  images.depth_m.assign(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px),
+                        2.0F);
   return images;
 }
 

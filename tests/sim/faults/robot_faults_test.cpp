@@ -27,7 +27,7 @@ CameraImages image(int number, int width_px = 64, int height_px = 48) {
   images.width_px = width_px;
   images.height_px = height_px;
   images.range_max_m = 3.5;
-  const auto pixels = static_cast<std::size_t>(width_px * height_px);
+  const auto pixels = static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   images.depth_m.assign(pixels, 1.0F + 1e-3F * static_cast<float>(number));
   return images;
 }

@@ -73,7 +73,8 @@ Eigen::Vector2i size_px(const Marker& marker) {
   Eigen::AlignedBox2i changed;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      const auto at = static_cast<std::size_t>(3 * (row * kColumns + column));
+      const auto at =
+          3 * (static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column));
       if (!std::equal(&plain.rgb[at], &plain.rgb[at] + 3, &marked.rgb[at])) {
         changed.extend(Eigen::Vector2i(column, row));
       }

@@ -23,7 +23,9 @@ RenderedImages draw(const test::MjcfModel& scene, const CameraView& view,
   return images;
 }
 
-std::size_t at(int row, int column) { return static_cast<std::size_t>(row * kWidth + column); }
+std::size_t at(int row, int column) {
+  return static_cast<std::size_t>(row) * kWidth + static_cast<std::size_t>(column);
+}
 
 TEST(Renderer, NamesTheDriver) { EXPECT_NE(renderer_name().find("OpenGL"), std::string::npos); }
 
@@ -201,7 +203,8 @@ TEST(Renderer, SaysWhatCameraTookThePicture) {
 
 TEST(Renderer, TellsHundredsOfGeomsApart) {
   const auto place = [](int i) {
-    return Eigen::Vector3d(0.5 * (i % 20) - 4.75, 0.5 * (i / 20) - 3.5, 0.0);
+    const int row = i / 20;
+    return Eigen::Vector3d(0.5 * (i % 20) - 4.75, 0.5 * row - 3.5, 0.0);
   };
   std::string geoms;
   for (int i = 0; i < 300; ++i) {

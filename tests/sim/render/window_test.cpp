@@ -43,9 +43,10 @@ TEST(Window, StretchesASmallerPicture) {
   Window window("stretched", {640, 480});
   const RenderedImages small = colourful(320, 240);
   const RenderedImages held = window.show_and_read(small);
-  for (const auto& [x, y] : {std::pair{0, 0}, {639, 0}, {0, 479}, {639, 479}, {101, 300}}) {
-    const auto at = static_cast<std::size_t>(3 * (y * 640 + x));
-    const auto source = static_cast<std::size_t>(3 * (y / 2 * 320 + x / 2));
+  for (const auto& [x, y] :
+       {std::pair<std::size_t, std::size_t>{0, 0}, {639, 0}, {0, 479}, {639, 479}, {101, 300}}) {
+    const auto at = 3 * (y * 640 + x);
+    const auto source = 3 * (y / 2 * 320 + x / 2);
     for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(held.rgb[at + c], small.rgb[source + c]) << x;
   }
 }

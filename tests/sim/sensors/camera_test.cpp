@@ -31,7 +31,8 @@ std::vector<int> true_ids(const test::MjcfModel& scene, const char* camera,
 }
 
 std::size_t pixel(const CameraImages& images, int row, int column) {
-  return static_cast<std::size_t>(row * images.width_px + column);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(images.width_px) +
+         static_cast<std::size_t>(column);
 }
 
 struct TruePixel {

@@ -32,7 +32,8 @@ std::vector<std::uint8_t> flags_of(const GridFrame& grid, const std::string& dra
   for (int y = 0; y < grid.cells.y(); ++y) {
     for (int x = 0; x < grid.cells.x(); ++x) {
       const int row = grid.cells.y() - 1 - y;
-      const auto at = static_cast<std::size_t>(row * (grid.cells.x() + 1) + x);
+      const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.cells.x() + 1) +
+                      static_cast<std::size_t>(x);
       flags[grid.index({x, y, 0})] = drawn[at] == '#' ? 1 : 0;
     }
   }

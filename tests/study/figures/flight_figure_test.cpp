@@ -63,22 +63,21 @@ TEST(FlightFigure, SaysWhatItsMarksMeanAndTellsObjectsApart) {
 
 TEST(FlightFigure, AxesAndScaleStandAroundThePlot) {
   const std::string svg = flight_svg(flight(), "a flight", kRoom);
-  for (const char* part :
-       {"width=\"666\" height=\"528\" viewBox=\"0 0 666 528\"",
-        "<text x=\"52.0\" y=\"21.0\" font-size=\"14\" font-weight=\"600\" "
-        "fill=\"#16202e\">a flight<",
-        "<rect x=\"52.0\" y=\"34.0\" width=\"600.0\" height=\"360.0\" fill=\"none\"",
-        "<path d=\"M472.0 34.0L472.0 394.0\" stroke=\"#eef1f5\"/>",
-        "<path d=\"M472.0 394.0L472.0 398.0\" stroke=\"#566375\"/>",
-        "<text x=\"472.0\" y=\"411.0\" text-anchor=\"middle\">2<",
-        "<path d=\"M52.0 154.0L652.0 154.0\" stroke=\"#eef1f5\"/>",
-        "<path d=\"M48.0 154.0L52.0 154.0\" stroke=\"#566375\"/>",
-        "<text x=\"44.0\" y=\"158.0\" text-anchor=\"end\">1<",
-        "<text x=\"352.0\" y=\"430.0\" text-anchor=\"middle\">x, m<",
-        "<text x=\"14.0\" y=\"214.0\" text-anchor=\"middle\" transform=\"rotate(-90 14 "
-        "214.0)\">y, m<",
-        "<path d=\"M592.0 426.0L652.0 426.0\" stroke=\"#16202e\" stroke-width=\"3\"/>",
-        "<text x=\"585.0\" y=\"430.0\" text-anchor=\"end\" fill=\"#16202e\">1 m<"}) {
+  for (
+      const char* part :
+      {"width=\"666\" height=\"528\" viewBox=\"0 0 666 528\"",
+       R"(<text x="52.0" y="21.0" font-size="14" font-weight="600" fill="#16202e">a flight<)",
+       "<rect x=\"52.0\" y=\"34.0\" width=\"600.0\" height=\"360.0\" fill=\"none\"",
+       "<path d=\"M472.0 34.0L472.0 394.0\" stroke=\"#eef1f5\"/>",
+       "<path d=\"M472.0 394.0L472.0 398.0\" stroke=\"#566375\"/>",
+       "<text x=\"472.0\" y=\"411.0\" text-anchor=\"middle\">2<",
+       "<path d=\"M52.0 154.0L652.0 154.0\" stroke=\"#eef1f5\"/>",
+       "<path d=\"M48.0 154.0L52.0 154.0\" stroke=\"#566375\"/>",
+       "<text x=\"44.0\" y=\"158.0\" text-anchor=\"end\">1<",
+       "<text x=\"352.0\" y=\"430.0\" text-anchor=\"middle\">x, m<",
+       R"svg(<text x="14.0" y="214.0" text-anchor="middle" transform="rotate(-90 14 214.0)">y, m<)svg",
+       "<path d=\"M592.0 426.0L652.0 426.0\" stroke=\"#16202e\" stroke-width=\"3\"/>",
+       "<text x=\"585.0\" y=\"430.0\" text-anchor=\"end\" fill=\"#16202e\">1 m<"}) {
     EXPECT_THAT(svg, HasSubstr(part));
   }
 }

@@ -179,8 +179,8 @@ TEST(RecognitionTables, SayWhatTrialsCameTo) {
   const std::string text = recognition_tables(written_study());
   for (const char* part :
        {"# Recognition of 2 objects in 1 categories\n\n4 starts, the same for every method",
-        "| 100.00 | 3.00 [3.00, 3.00] | 2.00 [2.00, 2.00] | 3.00 | 0.5000 | 0.2500 | 2.0000 | "
-        "2.7500 |\n",
+        ("| 100.00 | 3.00 [3.00, 3.00] | 2.00 [2.00, 2.00] | 3.00 | 0.5000 | 0.2500 | 2.0000 | "
+         "2.7500 |\n"),
         "in 15 bins of equal width", "| random | 75.00 | 80.00 | 5.00 [",
         "; 2 starts of unknown ones;",
         "| random | 1.0000 [1.0000, 1.0000] | 0.00 [0.00, 0.00] | 50.0 | 0.0 | 100.0 | - |\n",

@@ -35,19 +35,18 @@ class ChangeEpisode : public testing::Test {
   static void TearDownTestSuite() { folder_.reset(); }
 
   static std::vector<std::string> overrides(const std::string& scenario,
-                                            std::vector<std::string> more) {
+                                            const std::vector<std::string>& more) {
     std::vector<std::string> all = support::small_flight(folder_->path());
     all.emplace_back("expected_object=cereal_box_1");
     all.push_back("scenario=" + scenario);
     all = support::overridden(std::move(all), more);
     return all;
   }
-  static json metrics_of(const std::string& scenario, std::vector<std::string> more = {}) {
+  static json metrics_of(const std::string& scenario, const std::vector<std::string>& more = {}) {
     RunOptions options;
     options.directory = *folder_ / scenario;
     options.overwrite = true;
-    const RunOutcome outcome =
-        run(load_episode(kChange, overrides(scenario, std::move(more))), options);
+    const RunOutcome outcome = run(load_episode(kChange, overrides(scenario, more)), options);
     EXPECT_EQ(outcome.code, ExitCode::done);
     return json::parse(outcome.metrics);
   }

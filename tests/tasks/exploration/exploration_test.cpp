@@ -124,7 +124,7 @@ TEST(ReferenceMap, FindsTheDistanceToAWall) {
   EXPECT_NEAR(found.T_world_base.x_m, 0.1, 0.005);
 }
 
-nlohmann::json explore(const std::filesystem::path& out, std::vector<std::string> more) {
+nlohmann::json explore(const std::filesystem::path& out, const std::vector<std::string>& more) {
   set_verbosity(Verbosity::quiet);
   std::vector<std::string> overrides = {
       "scans=3",     "map.cells=[100,67,20]",   "camera.width_px=160", "camera.height_px=120",

@@ -196,8 +196,8 @@ TEST(Replay, MeetsAllGustsInTheirOrder) {
   run(load_episode(kShippedEpisodes / "recognition.yaml",
                    {"max_views=1", "object=mug_1", "camera={width_px: 320, height_px: 240}",
                     "faults={gust_N: 4, gust_every_s: 0.5, gust_duration_s: 0.2}",
-                    "tracking.gusts=[{force_N: 50, duration_s: 60}, "
-                    "{force_N: 50, direction: [0, -1, 0], duration_s: 60}]"}),
+                    ("tracking.gusts=[{force_N: 50, duration_s: 60}, "
+                     "{force_N: 50, direction: [0, -1, 0], duration_s: 60}]")}),
       options);
   const ReplayResult replay = support::replayed(folder / "run");
   EXPECT_FALSE(replay.first_difference) << replay.what;

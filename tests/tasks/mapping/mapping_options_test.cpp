@@ -64,9 +64,9 @@ TEST(MappingOptions, AreCalledByWhatTheChoiceGoesBy) {
   EXPECT_EQ(options.method_name(), "gain_over_distance of simple");
 }
 
-std::vector<std::string> labels(const MappingOptions& options, std::vector<Gain> defaults) {
+std::vector<std::string> labels(const MappingOptions& options, const std::vector<Gain>& defaults) {
   std::vector<std::string> names;
-  for (const Predictor& predictor : recorded_predictors(options, std::move(defaults))) {
+  for (const Predictor& predictor : recorded_predictors(options, defaults)) {
     EXPECT_EQ(strategy_name_of(predictor.gain), predictor.label);
     names.push_back(predictor.label);
   }
@@ -90,7 +90,7 @@ TEST(Predictors, PredictCells) {
   MetricsOptions metrics;
   metrics.predictors = {SimpleGain{}, AdaptiveGain{}};
   EXPECT_NO_THROW(metrics.check());
-  metrics.predictors.push_back(FsmiGain{});
+  metrics.predictors.emplace_back(FsmiGain{});
   try {
     metrics.check();
     FAIL() << "accepted";

@@ -166,8 +166,8 @@ TEST(ObjectOnTable, StandsAnywhereOnTheDisc) {
     EXPECT_GE(yaw_rad, 0.0);
     EXPECT_LT(yaw_rad, 2.0 * std::numbers::pi);
   }
-  EXPECT_NEAR(inner, kDraws / 2, 150);
-  EXPECT_NEAR(right, kDraws / 2, 150);
+  EXPECT_NEAR(inner, 0.5 * kDraws, 150);
+  EXPECT_NEAR(right, 0.5 * kDraws, 150);
 }
 
 }  // namespace

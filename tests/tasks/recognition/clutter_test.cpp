@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-RecognitionTask task_with(std::vector<std::string> overrides) {
+RecognitionTask task_with(const std::vector<std::string>& overrides) {
   const fs::path episode = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml";
   return std::get<RecognitionTask>(load_episode(episode, overrides).task);
 }

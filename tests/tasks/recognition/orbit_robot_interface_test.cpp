@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-ResolvedEpisode episode(std::vector<std::string> more = {}) {
+ResolvedEpisode episode(const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides = {"settle_s=0.2", "segmentation.mask_growth_px=0"};
   overrides = support::overridden(std::move(overrides), more);
   return load_episode(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/recognition.yaml", overrides);
@@ -63,7 +63,8 @@ double overlap(const ObjectView& view, const RgbdOptions& camera, const std::vec
       const int c = column - view.left_px;
       const bool in_cut = r >= 0 && c >= 0 && r < view.height_px && c < view.width_px;
       const bool masked = in_cut && view.mask[view.index(r, c)] != 0;
-      const auto pixel = static_cast<std::size_t>(row * camera.width_px + column);
+      const auto pixel = static_cast<std::size_t>(row) * static_cast<std::size_t>(camera.width_px) +
+                         static_cast<std::size_t>(column);
       const bool meant = truth[pixel] == body;
       both += masked && meant ? 1 : 0;
       either += masked || meant ? 1 : 0;

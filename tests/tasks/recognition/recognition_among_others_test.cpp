@@ -30,7 +30,7 @@ class RecognitionAmongOthers : public testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static json metrics_of(const std::string& name, std::vector<std::string> more) {
+  static json metrics_of(const std::string& name, const std::vector<std::string>& more) {
     std::vector<std::string> all = support::small_flight(folder_->path());
     all.emplace_back("enough={object_probability: 1, entropy_bits: 0}");
     all.emplace_back("database.objects=4");

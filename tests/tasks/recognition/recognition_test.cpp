@@ -35,17 +35,17 @@ class RecognitionEpisode : public testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static std::vector<std::string> overrides(std::vector<std::string> more) {
+  static std::vector<std::string> overrides(const std::vector<std::string>& more) {
     std::vector<std::string> all = small_flight(folder_->path());
     all.emplace_back("enough={object_probability: 1, entropy_bits: 0}");
     all.emplace_back("object=cereal_box_1");
     all = support::overridden(std::move(all), more);
     return all;
   }
-  static json metrics_of(const std::string& name, std::vector<std::string> more) {
+  static json metrics_of(const std::string& name, const std::vector<std::string>& more) {
     RunOptions options;
     options.directory = *folder_ / name;
-    const RunOutcome outcome = run(load_episode(kRecognition, overrides(std::move(more))), options);
+    const RunOutcome outcome = run(load_episode(kRecognition, overrides(more)), options);
     return json::parse(outcome.metrics);
   }
 
@@ -174,7 +174,7 @@ TEST_F(RecognitionEpisode, AnObjectThatTheModelDoesNotKnowNeedsTheUnknown) {
   const std::vector<std::string> foreign{"database.objects=326", "object=lamp_2"};
   EXPECT_TRUE(validate_episode(kRecognition, overrides(foreign)).problems.empty());
   std::vector<std::string> certain = foreign;
-  certain.push_back("recogniser.unknown_prior=0");
+  certain.emplace_back("recogniser.unknown_prior=0");
   const Validation found = validate_episode(kRecognition, overrides(certain));
   ASSERT_EQ(found.problems.size(), 1U);
   EXPECT_THAT(found.problems[0], testing::HasSubstr("lamp_2"));

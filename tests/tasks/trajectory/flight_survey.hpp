@@ -146,7 +146,8 @@ inline bool touches_border(const TrueImage& truth, int body) {
   for (int row = 0; row < truth.height_px; ++row) {
     const int step = row == 0 || row == truth.height_px - 1 ? 1 : truth.width_px - 1;
     for (int column = 0; column < truth.width_px; column += step) {
-      if (truth.body_ids[static_cast<std::size_t>(row * truth.width_px + column)] == body) {
+      if (truth.body_ids[static_cast<std::size_t>(row) * static_cast<std::size_t>(truth.width_px) +
+                         static_cast<std::size_t>(column)] == body) {
         return true;
       }
     }

@@ -71,7 +71,8 @@ class TrajectoryEpisode : public testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static std::vector<std::string> overrides(const fs::path& scene, std::vector<std::string> more) {
+  static std::vector<std::string> overrides(const fs::path& scene,
+                                            const std::vector<std::string>& more) {
     std::vector<std::string> all = {fmt::format("scene={}", scene.string()),
                                     fmt::format("model={}", (*folder_ / "model").string()),
                                     fmt::format("database.objects={}", kObjects),
@@ -83,11 +84,10 @@ class TrajectoryEpisode : public testing::Test {
     return all;
   }
   static json metrics_of(const std::string& name, const fs::path& scene,
-                         std::vector<std::string> more) {
+                         const std::vector<std::string>& more) {
     RunOptions options;
     options.directory = *folder_ / name;
-    const RunOutcome outcome =
-        run(load_episode(kFlightEpisode, overrides(scene, std::move(more))), options);
+    const RunOutcome outcome = run(load_episode(kFlightEpisode, overrides(scene, more)), options);
     code_ = outcome.code;
     return json::parse(outcome.metrics);
   }

@@ -112,8 +112,8 @@ ObjectSurface object_surface(const ObjectView& view, const ObjectPixels& pixels,
       const Eigen::Vector3d p = points.col(point);
       const auto radius_px =
           static_cast<int>(std::clamp(std::round(radius_m * view.focal_px / p.z()), 2.0, 8.0));
-      surface.cloud.points.push_back(p.cast<float>());
-      surface.cloud.normals.push_back(
+      surface.cloud.points.emplace_back(p.cast<float>());
+      surface.cloud.normals.emplace_back(
           normal_of(image.around(row, column, radius_px), p).cast<float>());
     }
   }

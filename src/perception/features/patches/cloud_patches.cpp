@@ -126,8 +126,8 @@ PatchSet describe_sizes(const ObjectPixels& pixels, const ObjectSurface& surface
     }
     places.col(g) = place_of(pixels, at);
   }
-  const auto taken = static_cast<float>((surface.cloud.size() + stride - 1) / stride);
-  const Eigen::MatrixXf functions = axis.values * counts / taken;
+  const std::size_t taken = (surface.cloud.size() + stride - 1) / stride;
+  const Eigen::MatrixXf functions = axis.values * counts / static_cast<float>(taken);
   Eigen::MatrixXf products(basis.terms.cols(), patches);
   for (Eigen::Index t = 0; t < products.rows(); ++t) {
     products.row(t) = functions.row(basis.terms(0, t));

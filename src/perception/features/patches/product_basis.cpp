@@ -141,7 +141,7 @@ Eigen::VectorXf ProductBasis::describe(std::span<const double> values) const {
 ProductBasis make_product_basis(std::span<const BasisAxis> axes, int rows) {
   std::vector<AxisModes> modes;
   for (const BasisAxis& axis : axes) modes.push_back(modes_of(axis));
-  const auto products = leading_products(modes, static_cast<std::size_t>(rows + rows / 2));
+  const auto products = leading_products(modes, static_cast<std::size_t>(rows) * 3 / 2);
   ProductBasis basis;
   basis.terms.resize(static_cast<Eigen::Index>(axes.size()),
                      static_cast<Eigen::Index>(products.size()));

@@ -15,7 +15,7 @@ class CemRounds : public ::testing::Test {
  protected:
   PathCost cost() {
     return [this](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> of_point) {
-      tried_.push_back(horizon.points.middleCols(1, horizon.free_points()));
+      tried_.emplace_back(horizon.points.middleCols(1, horizon.free_points()));
       for (Eigen::Index i = 0; i < horizon.count(); ++i) {
         of_point[i] += 2.0 * std::abs(horizon.points(1, i) - 0.3);
       }

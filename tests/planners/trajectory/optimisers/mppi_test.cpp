@@ -16,7 +16,7 @@ struct TriedByMppi {
   std::vector<Horizon> paths;
 
   PathCost cost() {
-    return [this](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> of_point) {
+    return [this](const Horizon& horizon, const Eigen::Ref<Eigen::VectorXd>& of_point) {
       paths.push_back(horizon);
       add(horizon, of_point);
     };

@@ -39,7 +39,7 @@ TEST(RolloutProbabilities, AreEqualWhereCostsAre) {
 
 TEST(Stomp, StaysWhereAllPathsCostTheSame) {
   // Only control counts, and a straight flight of constant speed has none.
-  const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
+  const auto nothing = [](const Horizon&, const Eigen::Ref<Eigen::VectorXd>&) {};
   const Horizon horizon = test::straight_flight();
   Rng rng(1);
   const auto result = Stomp{}(horizon, nothing, rng);
@@ -92,7 +92,7 @@ TEST(Stomp, MovesEachPointByTheNoiseThatIsCheapThere) {
 }
 
 TEST(Stomp, StraightensABentFlight) {
-  const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
+  const auto nothing = [](const Horizon&, const Eigen::Ref<Eigen::VectorXd>&) {};
   Horizon horizon = test::straight_flight();
   for (Eigen::Index i = 1; i < 9; ++i)
     horizon.points(1, i) = std::sin(M_PI * static_cast<double>(i) / 9.0);

@@ -86,7 +86,7 @@ TEST_P(EveryOptimiser, IsTheSameForTheSameSeed) {
 TEST_P(EveryOptimiser, TakesNoMoreEvaluationsThanTheOthers) {
   int calls = 0;
   const auto counted = [&, inner = cost()](const Horizon& horizon,
-                                           Eigen::Ref<Eigen::VectorXd> of_point) {
+                                           const Eigen::Ref<Eigen::VectorXd>& of_point) {
     ++calls;
     inner(horizon, of_point);
   };
@@ -111,7 +111,7 @@ TEST_P(EveryOptimiser, NeverReturnsWorseThanItWasGiven) {
 
 TEST_P(EveryOptimiser, TurnsTheShortWay) {
   // From 170 deg to -170 deg: only the control cost counts, and it must not turn back through 0.
-  const auto nothing = [](const Horizon&, Eigen::Ref<Eigen::VectorXd>) {};
+  const auto nothing = [](const Horizon&, const Eigen::Ref<Eigen::VectorXd>&) {};
   horizon_.before[3] = horizon_.points(3, 0) = 2.967;
   for (Eigen::Index i = 1; i < 9; ++i) horizon_.points(3, i) = i < 5 ? 2.967 : -2.967;
   horizon_.points(3, 9) = horizon_.after[3] = -2.967;
@@ -143,7 +143,7 @@ TEST_P(EveryOptimiser, NeedsFiniteCosts) {
   const auto broken = [](const Horizon&, Eigen::Ref<Eigen::VectorXd> of_point) {
     of_point[3] = std::numeric_limits<double>::quiet_NaN();
   };
-  EXPECT_DEATH(run(horizon_, broken), "finite cost");
+  EXPECT_DEATH(static_cast<void>(run(horizon_, broken)), "finite cost");
 }
 
 TEST_P(EveryOptimiser, ItsDefaultsAreInRange) {
