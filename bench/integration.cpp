@@ -21,12 +21,12 @@ constexpr double kEdge_m = 0.05;
 
 /// A scan of the head: images that were taken where the robot took itself to stand.
 struct Scan {
-  std::vector<DepthImage> views;
+  std::vector<HeadView> views;
   Pose T_world_base;
 
   [[nodiscard]] std::vector<PosedImage> images() const {
     std::vector<PosedImage> posed;
-    for (const DepthImage& view : views) {
+    for (const HeadView& view : views) {
       posed.push_back({view.image, T_world_base * view.T_base_camera});
     }
     return posed;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <numeric>
 #include <string_view>
 
@@ -180,7 +179,7 @@ void ModelPart::gather_rows() {
     Rows& rows = model_rows_[column++];
     const auto* source = static_cast<const std::byte*>(rows.source);
     for (const Run& run : runs(of_bodies)) {
-      std::memcpy(rows.own.data() + run.to * bytes, source + run.from * bytes, run.count * bytes);
+      std::copy_n(source + run.from * bytes, run.count * bytes, rows.own.data() + run.to * bytes);
     }
   });
   part_.nbody = static_cast<int>(bodies_.size());
@@ -221,7 +220,7 @@ ModelPart::Swapped::Swapped(ModelPart& part, mjData& data) : part_(part), data_(
     Rows& rows = part_.data_rows_[column++];
     const auto* whole = reinterpret_cast<const std::byte*>(array);
     for (const Run& run : part_.runs(of_bodies)) {
-      std::memcpy(rows.own.data() + run.to * bytes, whole + run.from * bytes, run.count * bytes);
+      std::copy_n(whole + run.from * bytes, run.count * bytes, rows.own.data() + run.to * bytes);
     }
     rows.source = array;
     array = reinterpret_cast<std::remove_reference_t<decltype(array)>>(rows.own.data());
@@ -234,7 +233,7 @@ ModelPart::Swapped::~Swapped() {
     Rows& rows = part_.data_rows_[column++];
     auto* whole = const_cast<std::byte*>(static_cast<const std::byte*>(rows.source));
     for (const Run& run : part_.runs(of_bodies)) {
-      std::memcpy(whole + run.from * bytes, rows.own.data() + run.to * bytes, run.count * bytes);
+      std::copy_n(rows.own.data() + run.to * bytes, run.count * bytes, whole + run.from * bytes);
     }
     array = reinterpret_cast<std::remove_reference_t<decltype(array)>>(whole);
   });

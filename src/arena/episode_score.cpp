@@ -22,8 +22,8 @@ std::optional<double> budget_s(const Task& task) {
       task);
 }
 
-std::vector<SeenFrom> steps_of(const Json& metrics) {
-  std::vector<SeenFrom> steps;
+std::vector<ShareSeen> steps_of(const Json& metrics) {
+  std::vector<ShareSeen> steps;
   const auto all = metrics.value("observable_cells", 0.0);
   for (const Json& scan : metrics.value("scans", Json::array())) {
     const auto left = scan.value("observable_unobserved_cells", 0.0);
@@ -111,12 +111,12 @@ bool chooses_views(const Task& task) {
   return std::visit([]<class T>(const T&) { return std::derived_from<T, MappingOptions>; }, task);
 }
 
-double mean_share_seen(const std::vector<SeenFrom>& steps, double horizon_s) {
+double mean_share_seen(const std::vector<ShareSeen>& steps, double horizon_s) {
   if (horizon_s <= 0.0) return 0.0;
   double sum_s = 0.0;
   double share = 0.0;
   double since_s = 0.0;
-  for (const SeenFrom& step : steps) {
+  for (const ShareSeen& step : steps) {
     if (step.time_s >= horizon_s) break;
     sum_s += share * (step.time_s - since_s);
     share = step.share;
@@ -125,7 +125,7 @@ double mean_share_seen(const std::vector<SeenFrom>& steps, double horizon_s) {
   return (sum_s + share * (horizon_s - since_s)) / horizon_s;
 }
 
-std::vector<double> sampled_share_seen(const std::vector<SeenFrom>& steps, double horizon_s,
+std::vector<double> sampled_share_seen(const std::vector<ShareSeen>& steps, double horizon_s,
                                        std::size_t samples) {
   std::vector<double> shares;
   std::size_t done = 0;

@@ -11,16 +11,16 @@
 namespace vantage {
 
 /// Share of the observable cells that are observed, from a time on.
-struct SeenFrom {
+struct ShareSeen {
   double time_s = 0.0;
   double share = 0.0;
 };
 
 /// Mean over [0, horizon_s] of the share seen, which steps up at the end of each scan and stays
 /// after the last; scans after the horizon do not count. 0 of nothing.
-double mean_share_seen(const std::vector<SeenFrom>& steps, double horizon_s);
+double mean_share_seen(const std::vector<ShareSeen>& steps, double horizon_s);
 /// The same share at evenly spaced times, both ends included. @param samples at least 2
-std::vector<double> sampled_share_seen(const std::vector<SeenFrom>& steps, double horizon_s,
+std::vector<double> sampled_share_seen(const std::vector<ShareSeen>& steps, double horizon_s,
                                        std::size_t samples);
 
 /// Whether a task chooses among views, so that planners of it can be held against each other.
@@ -31,7 +31,7 @@ struct EpisodeScore {
   bool failed = false;      ///< not completed; what it had seen by then counts
   std::string reason;       ///< why
   double horizon_s = 0.0;   ///< the budget of time
-  std::vector<SeenFrom> steps;
+  std::vector<ShareSeen> steps;
   double score = 0.0;  ///< mean_share_seen() over the budget
   double seen_share = 0.0;
   std::optional<double> path_length_m = {};  ///< none where it came to no metrics

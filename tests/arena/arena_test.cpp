@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
 TEST(ShareSeen, IsTheMeanOverTheBudget) {
-  const std::vector<SeenFrom> steps{{10.0, 0.5}, {60.0, 0.8}, {100.0, 1.0}};
+  const std::vector<ShareSeen> steps{{10.0, 0.5}, {60.0, 0.8}, {100.0, 1.0}};
   // 0 for 10 s, 0.5 for 50 s, 0.8 for 40 s; the last scan ends too late.
   EXPECT_DOUBLE_EQ(mean_share_seen(steps, 100.0), 0.57);
   EXPECT_DOUBLE_EQ(mean_share_seen(steps, 200.0), (25.0 + 32.0 + 100.0) / 200.0);

@@ -31,9 +31,9 @@ PointCloud surfaces_of(const PosedImage& posed, const Exploration& options, int 
 
 }  // namespace
 
-std::vector<DepthImage> thinned(const std::vector<DepthImage>& views, int stride_px) {
-  std::vector<DepthImage> thin;
-  for (const DepthImage& view : views) {
+std::vector<HeadView> thinned(const std::vector<HeadView>& views, int stride_px) {
+  std::vector<HeadView> thin;
+  for (const HeadView& view : views) {
     const CameraImages& image = view.image;
     const int rows = (image.height_px - 1) / stride_px + 1;
     const int columns = (image.width_px - 1) / stride_px + 1;
@@ -93,11 +93,11 @@ void ExplorationBelief::reintegrate(std::span<const Pose2> T_world_bases) {
   fill(task_.hole_filling);
 }
 
-std::size_t ExplorationBelief::integrate(const std::vector<DepthImage>& views, const Pose2& base,
+std::size_t ExplorationBelief::integrate(const std::vector<HeadView>& views, const Pose2& base,
                                          int stride_px, int hazard_stride_px) {
   const Pose T_world_base = to_se3(base);
   std::vector<PosedImage> images;
-  for (const DepthImage& view : views) {
+  for (const HeadView& view : views) {
     images.push_back({view.image, T_world_base * view.T_base_camera});
   }
   hazard_.observe(grid_, images, hazard_stride_px, task_.hazard_floor_m, threads_);

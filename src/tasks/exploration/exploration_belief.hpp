@@ -15,12 +15,12 @@ namespace vantage {
 /// A sweep as it is kept to be taken into a map again: every `stride_px`-th pixel of every so many
 /// rows, the middle ones where they do not come out even.
 struct KeptSweep {
-  std::vector<DepthImage> views;
+  std::vector<HeadView> views;
   std::size_t keyframe = 0;  ///< of the navigator's, at which it was taken
 };
 
 /// @param stride_px as far apart as the pixels that mark surfaces
-std::vector<DepthImage> thinned(const std::vector<DepthImage>& views, int stride_px);
+std::vector<HeadView> thinned(const std::vector<HeadView>& views, int stride_px);
 
 /// Its cloud holds a point or less a cell.
 class ExplorationBelief : public MapBelief {
@@ -40,7 +40,7 @@ class ExplorationBelief : public MapBelief {
 
  private:
   /// What the images of one sweep say. @return cells freed
-  std::size_t integrate(const std::vector<DepthImage>& views, const Pose2& base, int stride_px,
+  std::size_t integrate(const std::vector<HeadView>& views, const Pose2& base, int stride_px,
                         int hazard_stride_px);
 
   int threads_;

@@ -36,15 +36,15 @@ void mark_disc(const FloorMap& floor, const Eigen::Vector2d& p_m, double radius_
 /// @param last of the observation before, then of this one
 bool keep_usable(ExplorationObservation& observation, CameraImages& last) {
   discard_unusable(observation.base_scan);
-  std::vector<DepthImage> views;
-  for (DepthImage& view : observation.views) {
+  std::vector<HeadView> views;
+  for (HeadView& view : observation.views) {
     discard_unusable(view.image);
     if (is_repeated(last, view.image)) continue;
     last.depth_m = view.image.depth_m;
     views.push_back(std::move(view));
   }
   observation.views = std::move(views);
-  return std::ranges::any_of(observation.views, [](const DepthImage& view) {
+  return std::ranges::any_of(observation.views, [](const HeadView& view) {
     return std::ranges::any_of(view.image.depth_m, [](float depth_m) { return depth_m > 0.0F; });
   });
 }

@@ -7,14 +7,14 @@
 
 namespace vantage {
 
-struct DepthImage {
+struct HeadView {
   CameraImages image;  ///< depth alone
   Pose T_base_camera;  ///< OpenCV's axes
 };
 
 /// What the robot observes with one sweep, standing still.
 struct ExplorationObservation {
-  std::vector<DepthImage> views;    ///< that arrived, as they were taken
+  std::vector<HeadView> views;      ///< that arrived, as they were taken
   PlanarScan base_scan;             ///< planar scanner near the floor
   double base_scan_height_m = 0.0;  ///< of that scanner above the floor
   Pose2 T_world_base_odometry;      ///< dead reckoning since the last correction

@@ -138,9 +138,9 @@ ExplorationObservation SimulatedExplorationRobot::observe() {
 }
 
 /// Of those that were taken at these times.
-std::vector<DepthImage> SimulatedExplorationRobot::arriving(std::vector<DepthImage> taken,
-                                                            std::span<const double> taken_s) {
-  std::vector<DepthImage> views;
+std::vector<HeadView> SimulatedExplorationRobot::arriving(std::vector<HeadView> taken,
+                                                          std::span<const double> taken_s) {
+  std::vector<HeadView> views;
   for (std::size_t i = 0; i < taken.size(); ++i) {
     auto image = base_.faults().arriving(std::move(taken[i].image), taken_s[i]);
     if (image) views.push_back({std::move(*image), taken[i].T_base_camera});
@@ -162,7 +162,7 @@ void SimulatedExplorationRobot::turn_head(double pan_rad, double tilt_rad) {
 }
 
 /// Depth is exact yet.
-DepthImage SimulatedExplorationRobot::draw_image() {
+HeadView SimulatedExplorationRobot::draw_image() {
   const mjData& now = base_.world().snapshot();
   return {
       exact_depth_image(*renderer_, base_.world().model(), now, base_.robot().camera_id(), camera_),

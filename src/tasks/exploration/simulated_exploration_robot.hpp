@@ -31,8 +31,8 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
 
  private:
   void turn_head(double pan_rad, double tilt_rad);
-  DepthImage draw_image();
-  std::vector<DepthImage> arriving(std::vector<DepthImage> taken, std::span<const double> taken_s);
+  HeadView draw_image();
+  std::vector<HeadView> arriving(std::vector<HeadView> taken, std::span<const double> taken_s);
 
   HeadSweep sweep_;
   RgbdOptions camera_;

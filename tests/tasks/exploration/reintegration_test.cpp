@@ -96,7 +96,7 @@ TEST(ExplorationBelief, LearnsTheClutterOfItsSweepsOnTheMapBeforeThem) {
   belief.update(seen, rooms.no_walls, {});
 
   std::vector<PosedImage> images;
-  for (const DepthImage& view : seen.views) {
+  for (const HeadView& view : seen.views) {
     images.push_back({view.image, to_se3(kBelieved[1]) * view.T_base_camera});
   }
   const OccupancyGrid nothing_known(rooms.task.map.frame());
