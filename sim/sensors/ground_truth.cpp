@@ -28,7 +28,7 @@ bool sees_cell(const RayScene& scene, const GridFrame& grid, const Eigen::Array3
 }
 
 /// Marks the cells that a surface passes by cutting its triangles until they are smaller than half
-/// a cell, and dropping what lies outside the grid on the way.
+/// a cell, and dropping on the way what lies outside the grid or in cells that are marked already.
 class SurfaceMarker {
  public:
   explicit SurfaceMarker(const GridFrame& grid)
@@ -49,7 +49,9 @@ class SurfaceMarker {
     const double ca = (a - c).squaredNorm();
     const double longest = std::max({ab, bc, ca});
     if (longest <= max_edge_m_ * max_edge_m_) {
-      for (const Eigen::Vector3d& p : {a, b, c, Eigen::Vector3d((a + b + c) / 3.0)}) mark(p);
+      for (const Eigen::Vector3d& p : {a, b, c, middle(a, b, c)}) mark(p);
+    } else if (is_marked(bounds)) {
+      return;
     } else if (ab == longest) {
       split(a, b, c);
     } else if (bc == longest) {
@@ -62,6 +64,30 @@ class SurfaceMarker {
   [[nodiscard]] std::vector<std::uint8_t> take() { return std::move(marked_); }
 
  private:
+  static Eigen::Vector3d middle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                const Eigen::Vector3d& c) {
+    return (a + b + c) / 3.0;
+  }
+
+  /// Whether all cells that a box touches are marked; false of a large box, where asking costs more
+  /// than it saves. A middle is rounded, and may lie outside where the box is flat.
+  [[nodiscard]] bool is_marked(const Eigen::AlignedBox3d& bounds) const {
+    constexpr int kMaxCells = 256;
+    const Eigen::Vector3d least = middle(bounds.min(), bounds.min(), bounds.min());
+    const Eigen::Vector3d greatest = middle(bounds.max(), bounds.max(), bounds.max());
+    const Eigen::Array3i low = grid_.cell_at(bounds.min().cwiseMin(least)).max(0);
+    const Eigen::Array3i high = grid_.cell_at(bounds.max().cwiseMax(greatest)).min(grid_.cells - 1);
+    if ((high - low + 1).cast<double>().prod() > kMaxCells) return false;
+    for (int z = low.z(); z <= high.z(); ++z) {
+      for (int y = low.y(); y <= high.y(); ++y) {
+        for (int x = low.x(); x <= high.x(); ++x) {
+          if (marked_[grid_.index({x, y, z})] == 0) return false;
+        }
+      }
+    }
+    return true;
+  }
+
   void split(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     const Eigen::Vector3d middle = 0.5 * (a + b);
     triangle(a, middle, c);

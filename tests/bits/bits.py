@@ -16,7 +16,8 @@ BUILDS = {"release": "gcc, optimised", "dev": "gcc, not optimised", "clang": "cl
 THREADS = [1, 2]
 EPISODES = {  # short ones: what is left out does not change what is computed
     "tabletop": ["scans=2", "laser.scan_duration_s=1", "map.cells=[25, 25, 13]"],
-    "office_small": ["scans=2"],
+    "office_small": ["scans=3", "sweep.tilts_rad=[0]", "map.centre_m=[-5, -2, 1]", "map.size_m=[5, 5, 2]", "map.cells=[65, 65, 21]",
+                     "metrics.pose_spacing_m=2"],
     "recognition": ["max_views=2"],
     "change_detection": ["max_views=2"],
     "trajectory": [],
