@@ -35,7 +35,7 @@ class Branches : public testing::Test {
 TEST_F(Branches, AsChosenHaveTheRecordedBits) {
   for (const char* choice : {"greedy", "random", "tour", "oracle_tour"}) {
     const RecordedRun run =
-        support::short_run(folder.path() / choice, {std::string("choice=") + choice});
+        support::short_run(folder.path() / choice, {std::string("choice=") + choice, "scans=4"});
     RunOptions options = lean("again");
     options.overwrite = true;
     const auto again = Json::parse(run_branch(run, 2, std::nullopt, options).metrics);
