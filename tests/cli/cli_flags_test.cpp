@@ -15,14 +15,9 @@ using testing::Not;
 
 class CommonFlags : public CommandLine {
  protected:
-  std::string help(const std::string& command) {
-    const Result result = vantage(command + " --help");
-    EXPECT_EQ(result.exit_code, 0) << command;
-    return result.output;
-  }
   /// The commands below that one; itself if there are none.
   std::vector<std::string> leaves(const std::string& command) {
-    const std::string text = help(command);
+    const std::string& text = help(command);
     const std::string heading = "\nSubcommands:\n";
     const auto at = text.find(heading);
     if (at == std::string::npos) return {command};
@@ -49,7 +44,7 @@ TEST_F(CommonFlags, AreTakenByEveryCommand) {
   EXPECT_THAT(commands, AllOf(Contains(" run"), Contains(" sweep collect"), Contains(" doctor"),
                               Contains(" dataset contact-sheet"), Not(Contains(" sweep"))));
   for (const std::string& command : commands) {
-    const std::string text = help(command);
+    const std::string& text = help(command);
     EXPECT_THAT(text, AllOf(HasSubstr(" -q,--quiet "), HasSubstr(" -v,--verbose "))) << command;
     if (command != " view") {  // its result is a window
       EXPECT_THAT(text, HasSubstr(" --json ")) << command;

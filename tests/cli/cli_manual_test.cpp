@@ -54,7 +54,6 @@ class Manual : public CommandLine {
     const auto names = matches(told.output, "([^\n]+)\n");
     return {names.begin(), names.end()};
   }
-  std::string help(const std::string& command) { return vantage(command + " --help").output; }
 };
 
 TEST_F(Manual, HasEveryCommandAndFlag) {

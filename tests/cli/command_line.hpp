@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,17 @@ class CommandLine : public testing::Test {
   }
   Result vantage(const std::string& arguments) {
     return shell("cd '" + folder_.string() + "' && " VANTAGE_BINARY " " + arguments);
+  }
+  /// What it says to --help; each is asked once.
+  const std::string& help(const std::string& command) {
+    static std::map<std::string, std::string> texts;
+    const auto [text, is_new] = texts.try_emplace(command);
+    if (is_new) {
+      const Result result = vantage(command + " --help");
+      EXPECT_EQ(result.exit_code, 0) << command;
+      text->second = result.output;
+    }
+    return text->second;
   }
   /// Runs it until the shell's condition `awaited` holds, its output in the file told, then sends
   /// it the signal.
