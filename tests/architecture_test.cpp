@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "tests/architecture_table.hpp"
+#include "tests/support/source_files.hpp"
 
 namespace vantage::architecture {
 namespace {
@@ -134,23 +134,6 @@ std::optional<std::string> too_long(const std::string& path, const std::string& 
   return path + ": " + std::to_string(lines) + " lines";
 }
 
-/// Path from the repository root -> content, of every source file of the folders.
-std::map<std::string, std::string> read_sources(const std::vector<std::string>& roots = kRoots) {
-  const fs::path repository = VANTAGE_SOURCE_DIR;
-  std::map<std::string, std::string> sources;
-  for (const auto& root : roots) {
-    if (!fs::is_directory(repository / root)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(repository / root)) {
-      const auto extension = entry.path().extension();
-      if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".hpp")) continue;
-      std::ostringstream content;
-      content << std::ifstream(entry.path()).rdbuf();
-      sources[fs::relative(entry.path(), repository).generic_string()] = content.str();
-    }
-  }
-  return sources;
-}
-
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const auto& line : lines) text += "\n  " + line;
@@ -159,7 +142,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 TEST(Architecture, IncludesFollowTheTable) {
   std::vector<std::string> found;
-  for (const auto& [path, text] : read_sources()) {
+  for (const auto& [path, text] : support::read_sources(kRoots)) {
     for (auto& violation : violations(path, text)) found.push_back(std::move(violation));
   }
   EXPECT_TRUE(found.empty()) << joined(found);
@@ -168,7 +151,7 @@ TEST(Architecture, IncludesFollowTheTable) {
 TEST(Architecture, FilesAreShort) {
   std::vector<std::string> found;
   for (const auto& roots : {kRoots, {"tests"}}) {
-    for (const auto& [path, text] : read_sources(roots)) {
+    for (const auto& [path, text] : support::read_sources(roots)) {
       if (auto offender = too_long(path, text)) found.push_back(*offender);
     }
   }
@@ -177,7 +160,7 @@ TEST(Architecture, FilesAreShort) {
 
 TEST(Architecture, EveryRoomIsInTheTable) {
   std::size_t files = 0;
-  for (const auto& [path, text] : read_sources()) {
+  for (const auto& [path, text] : support::read_sources(kRoots)) {
     EXPECT_NE(allowed_in(room_of(path)), nullptr) << path;
     ++files;
   }
@@ -187,7 +170,7 @@ TEST(Architecture, EveryRoomIsInTheTable) {
 TEST(Architecture, RoomsAreSmall) {
   std::map<std::string, std::set<std::string>> units;
   std::map<std::string, std::size_t> lines;
-  for (const auto& [path, text] : read_sources()) {
+  for (const auto& [path, text] : support::read_sources(kRoots)) {
     const std::string room = fs::path(path).parent_path().generic_string();
     units[room].insert(fs::path(path).stem().string());
     lines[room] += static_cast<std::size_t>(std::ranges::count(text, '\n'));
@@ -201,7 +184,7 @@ TEST(Architecture, RoomsAreSmall) {
 /// Rooms that include each other, however far around, are one room in disguise.
 TEST(Architecture, NoArrowRunsBack) {
   std::map<std::string, std::set<std::string>> arrows;
-  for (const auto& [path, text] : read_sources()) {
+  for (const auto& [path, text] : support::read_sources(kRoots)) {
     for (const Include& include : includes_of(text)) {
       const std::string other = room_of_include(include.target);
       if (include.quoted && include.target.starts_with("vantage/") && other != room_of(path)) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <queue>
 #include <regex>
@@ -14,6 +13,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "tests/support/source_files.hpp"
 
 namespace {
 
@@ -121,23 +122,8 @@ std::vector<std::string> ways_to_truth(const Sources& sources, const std::string
   return ways;
 }
 
-Sources read_sources() {
-  const fs::path repository = VANTAGE_SOURCE_DIR;
-  Sources sources;
-  for (const char* root : {"src", "sim", "planners", "models"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(repository / root)) {
-      const auto extension = entry.path().extension();
-      if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".hpp")) continue;
-      std::ostringstream content;
-      content << std::ifstream(entry.path()).rdbuf();
-      sources[fs::relative(entry.path(), repository).generic_string()] = content.str();
-    }
-  }
-  return sources;
-}
-
 const Sources& sources() {
-  static const Sources all = read_sources();
+  static const Sources all = vantage::support::read_sources({"src", "sim", "planners", "models"});
   return all;
 }
 

@@ -3,17 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
-namespace {
+#include "tests/support/source_files.hpp"
 
-namespace fs = std::filesystem;
+namespace {
 
 /// Of the types that a text defines in named namespaces, their own namespace before each; what is
 /// in a namespace without a name, or in a type or function, is nobody else's.
@@ -40,19 +38,12 @@ std::vector<std::string> types_of(const std::string& text) {
 }
 
 TEST(OneDefinition, EveryTypeHasANameOfItsOwn) {
-  const fs::path repository = VANTAGE_SOURCE_DIR;
   std::map<std::string, std::string> first;  // type -> file
-  for (const char* root : {"src", "sim", "planners", "models", "python", "bench", "tests"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(repository / root)) {
-      const auto extension = entry.path().extension();
-      if (!entry.is_regular_file() || (extension != ".cpp" && extension != ".hpp")) continue;
-      std::ostringstream content;
-      content << std::ifstream(entry.path()).rdbuf();
-      const std::string path = fs::relative(entry.path(), repository).generic_string();
-      for (const std::string& name : types_of(content.str())) {
-        const auto [at, is_new] = first.emplace(name, path);
-        EXPECT_TRUE(is_new) << name << " is defined in " << at->second << " and in " << path;
-      }
+  for (const auto& [path, text] : vantage::support::read_sources(
+           {"src", "sim", "planners", "models", "python", "bench", "tests"})) {
+    for (const std::string& name : types_of(text)) {
+      const auto [at, is_new] = first.emplace(name, path);
+      EXPECT_TRUE(is_new) << name << " is defined in " << at->second << " and in " << path;
     }
   }
   EXPECT_GT(first.size(), 500U);

@@ -49,7 +49,7 @@ class SurfaceMarker {
     const double ca = (a - c).squaredNorm();
     const double longest = std::max({ab, bc, ca});
     if (longest <= max_edge_m_ * max_edge_m_) {
-      for (const Eigen::Vector3d& p : {a, b, c, middle(a, b, c)}) mark(p);
+      for (const Eigen::Vector3d& p : {a, b, c, centroid(a, b, c)}) mark(p);
     } else if (is_marked(bounds)) {
       return;
     } else if (ab == longest) {
@@ -64,17 +64,17 @@ class SurfaceMarker {
   [[nodiscard]] std::vector<std::uint8_t> take() { return std::move(marked_); }
 
  private:
-  static Eigen::Vector3d middle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                const Eigen::Vector3d& c) {
+  static Eigen::Vector3d centroid(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                  const Eigen::Vector3d& c) {
     return (a + b + c) / 3.0;
   }
 
   /// Whether all cells that a box touches are marked; false of a large box, where asking costs more
-  /// than it saves. A middle is rounded, and may lie outside where the box is flat.
+  /// than it saves. A centroid is rounded, and may lie outside where the box is flat.
   [[nodiscard]] bool is_marked(const Eigen::AlignedBox3d& bounds) const {
     constexpr int kMaxCells = 256;
-    const Eigen::Vector3d least = middle(bounds.min(), bounds.min(), bounds.min());
-    const Eigen::Vector3d greatest = middle(bounds.max(), bounds.max(), bounds.max());
+    const Eigen::Vector3d least = centroid(bounds.min(), bounds.min(), bounds.min());
+    const Eigen::Vector3d greatest = centroid(bounds.max(), bounds.max(), bounds.max());
     const Eigen::Array3i low = grid_.cell_at(bounds.min().cwiseMin(least)).max(0);
     const Eigen::Array3i high = grid_.cell_at(bounds.max().cwiseMax(greatest)).min(grid_.cells - 1);
     if ((high - low + 1).cast<double>().prod() > kMaxCells) return false;

@@ -19,7 +19,7 @@ except ImportError as missing:
 SOURCE = Path(os.environ["VANTAGE_SOURCE"])
 BINARY = os.environ["VANTAGE_BINARY"]
 KINDS = ["episode", "study", "robot", "sensor", "recipe", "dataset", "train", "evaluate"]
-REFUSED = 30  # at least, of those tried at random
+REFUSED = 60  # at least, of those tried at random
 
 
 class Yaml12(yaml.SafeLoader):

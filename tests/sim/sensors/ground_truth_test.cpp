@@ -213,7 +213,7 @@ void cut(const GridFrame& grid, const std::array<Eigen::Vector3d, 3>& corners,
 }
 
 /// What is left out on the way, because its cells are marked, changes none: in tall cells too, and
-/// on edges of cells, which middles of triangles are rounded across (y = 0.78).
+/// on edges of cells, which centroids are rounded across (y = 0.78).
 TEST(SurfaceCells, AreThoseOfAllTrianglesCutToTheEnd) {
   const auto scene = test::compile_mjcf(R"(
     <mujoco><worldbody>
