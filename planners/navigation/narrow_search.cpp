@@ -58,14 +58,25 @@ class PassageSearch {
       queue_.emplace(field_.cost[cell], cell);
     }
     run();
+    reach_nooks();
   }
 
-  /// The robot stands in a passage.
+  /// The robot stands in a passage. Where it gets to no open place ahead, it leaves backwards or
+  /// sideways.
   void from_start() {
     const std::uint32_t start = poses_.add_start();
     field_.narrow[start].cost = 0.0;
     queue_.emplace(0.0, field_.map.size() + start);
     run();
+    if (!is_out_ && space_.robot().goes_sideways) {
+      facing_rad_ = std::numbers::pi;
+      for (std::size_t i = 0; i < field_.narrow.size(); ++i) {
+        const double cost = field_.narrow[i].cost;
+        if (cost < kInfinity) queue_.emplace(cost, field_.map.size() + i);
+      }
+      run();
+    }
+    reach_nooks();
   }
 
  private:
@@ -116,6 +127,7 @@ class PassageSearch {
       node.parent = from;
     } else {
       if (fixed_[to] != 0) return;
+      is_out_ = true;
       field_.cost[to] = through;
       field_.parent[to] = from;
     }
@@ -208,7 +220,6 @@ class PassageSearch {
         step_from_open(id);
       }
     }
-    reach_nooks();
   }
 
   /// A nook is a place to go to, at the heading that is cheapest there; but not for a robot that
@@ -233,6 +244,7 @@ class PassageSearch {
   NarrowPoses poses_;
   std::vector<std::uint8_t> fixed_;  ///< reached before
   double facing_rad_;
+  bool is_out_ = false;                          ///< of the passage that the robot stands in
   using Entry = std::pair<double, std::size_t>;  // ties by index: the same tree every time
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };

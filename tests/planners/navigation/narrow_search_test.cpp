@@ -109,6 +109,8 @@ double farthest_off_rad(const PathField& field) {
 }
 
 TEST_F(Corridor, ANearlySquareRobotFacesWhereItGoes) {
+  rooms_ = rooms_with_door(0.64);
+  start_ = {1.25, 1.5, 0.0};
   const auto off_rad = [&](const RobotOutline& robot) {
     return farthest_off_rad(field(robot, {}));
   };
@@ -119,6 +121,15 @@ TEST_F(Corridor, ANearlySquareRobotFacesWhereItGoes) {
   const FloorOutline ahead{{-0.2, -0.25}, {0.3, -0.25}, {0.3, 0.25}, {-0.2, 0.25}};
   EXPECT_GT(off_rad({.outline = ahead}), 3.0) << "its middle is not";
   EXPECT_LE(off_rad({.outline = rectangle(0.9, 0.5), .goes_sideways = false}), 0.48 + 1e-9);
+}
+
+TEST_F(Corridor, ANearlySquareRobotBacksWhereAheadIsNoWayOut) {
+  const RobotOutline square{.outline = rectangle(0.6, 0.6)};
+  EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "closed at both ends";
+  rooms_ = DrawnRooms(4.0, 2.0, {wall(0.0, 0.0, 2.8, 0.67), wall(0.0, 1.38, 2.8, 2.0)});
+  EXPECT_LE(farthest_off_rad(field(square, {})), 0.5 + 1e-9) << "open ahead";
+  start_.yaw_rad = std::numbers::pi;
+  EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "open behind";
 }
 
 }  // namespace

@@ -286,6 +286,21 @@ TEST(Passages, LeadOutOfADoorAtTheHeadingTheRobotHas) {
   }
 }
 
+/// A nearly square robot goes forwards through doors; out of an alcove it cannot turn in it backs.
+TEST(Passages, LeadBackwardsOutOfAnAlcove) {
+  const FloorOutline outline = rectangle(kWidth_m, kWidth_m);
+  const DrawnRooms rooms(3.0, 3.0, {wall(0.0, 0.0, 1.16, 0.8), wall(1.84, 0.0, 3.0, 0.8)});
+  for (const double yaw_rad : {-0.5 * std::numbers::pi, 0.0, std::numbers::pi}) {
+    const PathField field = make_path_field(rooms.floor, {1.5, 0.35, yaw_rad}, disc_of(outline),
+                                            rooms.space({.outline = outline}, {}));
+    const PlannedPath path = plan_path(field, {1.5, 2.0, 0.0});
+    ASSERT_TRUE(path.reaches_goal) << yaw_rad;
+    ASSERT_FALSE(path.legs.empty());
+    EXPECT_TRUE(path.legs.front().narrow);
+    expect_free(rooms.detail, path, outline);
+  }
+}
+
 /// Wherever it has got to: what is measured about it may leave its outline no way out.
 TEST(Passages, ARobotGetsOutWhereverADiscDoes) {
   Rng rng(11);
