@@ -26,6 +26,18 @@ std::string read_map_file(const fs::path& path) {
   return read_file(path);
 }
 
+/// The cells of `block` that the leaf holds, of a grid of these, row by row.
+void fill(OccupancyGrid& grid, const OctomapLeaf& leaf, const CellBlock& block) {
+  CellBlock rows = leaf.block().cut(block);
+  if (rows.empty()) return;
+  const int width = rows.end.x() - rows.begin.x();
+  rows.end.x() = rows.begin.x() + 1;
+  rows.for_each_cell([&](const Eigen::Array3i& first) {
+    const auto at = static_cast<std::ptrdiff_t>(grid.frame.index(first - block.begin));
+    std::fill_n(grid.log_odds.begin() + at, width, leaf.log_odds);
+  });
+}
+
 }  // namespace
 
 OctomapFile::OctomapFile(const fs::path& path) : name_(path.string()), bytes_(read_map_file(path)) {
@@ -64,6 +76,10 @@ OccupancyGrid OctomapFile::grid_of(const CellBlock& block, int coarsen) const {
   OccupancyGrid grid(GridFrame{.min_corner_m = coarse.begin.cast<double>().matrix() * cell_m,
                                .cell_size_m = Eigen::Vector3d::Constant(cell_m),
                                .cells = coarse.end - coarse.begin});
+  if (coarsen == 1) {  // a cell is of one leaf
+    for_each_leaf([&](const OctomapLeaf& leaf) { fill(grid, leaf, block); });
+    return grid;
+  }
   const auto cells_of = [coarsen](const CellBlock& part, const Eigen::Array3i& cell) {
     const CellBlock whole{cell * coarsen, (cell + 1) * coarsen};
     return static_cast<std::uint32_t>(part.cut(whole).count());

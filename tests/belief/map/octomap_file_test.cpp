@@ -101,6 +101,23 @@ TEST_F(OctomapFiles, GridsAreTheSameWhicheverWriterAndFormat) {
   }
 }
 
+/// A few hundred bytes may say as many cells as a grid may have, in leaves of a thousand a side.
+TEST_F(OctomapFiles, GridsHoldWhatOfALeafLiesInThem) {
+  const std::vector<support::MapCube> cubes{
+      {{0, 0, 0}, 8, false}, {{8, 0, 0}, 8, true}, {{-4, -4, -4}, 4, true}, {{-1, 3, 5}, 1, false}};
+  const auto leaves = map(cubes, 0.1);
+  const CellBlock block{{-2, -3, -1}, {11, 6, 7}};
+  const OccupancyGrid grid = leaves.grid_of(block);
+  block.for_each_cell([&](const Eigen::Array3i& cell) {
+    CellState wanted = CellState::unobserved;
+    for (const auto& [corner, edge, occupied] : cubes) {
+      if ((cell < corner).any() || (cell >= corner + edge).any()) continue;
+      wanted = occupied ? CellState::occupied : CellState::free;
+    }
+    EXPECT_EQ(grid.state(grid.frame.index(cell - block.begin)), wanted) << cell.transpose();
+  });
+}
+
 TEST_F(OctomapFiles, CoarseCells) {
   // Cubes of two: occupied if one cell is, free if half of them are known, else unobserved.
   std::vector<support::MapCube> cubes{{{-2, 0, 0}, 2, false}, {{2, 0, 0}, 1, true}};
