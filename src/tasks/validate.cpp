@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "vantage/belief/map/octomap_io.hpp"
+#include "vantage/belief/map/octomap_file.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/error.hpp"
@@ -124,8 +124,7 @@ Validation validate_robot(const fs::path& file) {
 }
 
 Validation validate_map(const fs::path& file) {
-  const OctomapContent content = read_octomap(file);
-  if (content.occupied + content.free == 0) {
+  if (OctomapFile(file).known().empty()) {
     throw InputError(file.string() + ": the map holds no cells");
   }
   return {};

@@ -57,6 +57,15 @@ void insert_cells(const OccupancyGrid& grid, const fs::path& path, octomap::OcTr
   }
 }
 
+/// Along an axis, of `count` cells from `first` on.
+std::vector<float> centres_m(int first, std::size_t count, double cell_m) {
+  std::vector<float> centres(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    centres[i] = static_cast<float>((first + static_cast<double>(i) + 0.5) * cell_m);
+  }
+  return centres;
+}
+
 }  // namespace
 
 void write_octomap(const OccupancyGrid& grid, const fs::path& path) {
@@ -97,10 +106,15 @@ OctomapContent read_octomap(const fs::path& path) {
   content.occupied_centres.reserve(file.occupied());
   file.for_each_leaf([&](const OctomapLeaf& leaf) {
     if (!leaf.occupied()) return;
-    leaf.block().for_each_cell([&](const Eigen::Array3i& cell) {
-      const Eigen::Vector3d centre = (cell.cast<double>() + 0.5).matrix() * file.resolution_m();
-      content.occupied_centres.emplace_back(centre.cast<float>());
-    });
+    const auto edge = static_cast<std::size_t>(leaf.edge_cells);
+    const auto x_m = centres_m(leaf.first.x(), edge, file.resolution_m());
+    const auto y_m = centres_m(leaf.first.y(), edge, file.resolution_m());
+    const auto z_m = centres_m(leaf.first.z(), edge, file.resolution_m());
+    for (const float z : z_m) {
+      for (const float y : y_m) {
+        for (const float x : x_m) content.occupied_centres.emplace_back(x, y, z);
+      }
+    }
   });
   return content;
 }
