@@ -68,8 +68,9 @@ class PassageSearch {
     field_.narrow[start].cost = 0.0;
     queue_.emplace(0.0, field_.map.size() + start);
     run();
-    if (!is_out_ && space_.robot().goes_sideways) {
+    if (!field_.reaches_open_place() && space_.robot().goes_sideways) {
       facing_rad_ = std::numbers::pi;
+      field_.narrow_edges.clear();  // all are made again
       for (std::size_t i = 0; i < field_.narrow.size(); ++i) {
         const double cost = field_.narrow[i].cost;
         if (cost < kInfinity) queue_.emplace(cost, field_.map.size() + i);
@@ -127,7 +128,6 @@ class PassageSearch {
       node.parent = from;
     } else {
       if (fixed_[to] != 0) return;
-      is_out_ = true;
       field_.cost[to] = through;
       field_.parent[to] = from;
     }
@@ -244,7 +244,6 @@ class PassageSearch {
   NarrowPoses poses_;
   std::vector<std::uint8_t> fixed_;  ///< reached before
   double facing_rad_;
-  bool is_out_ = false;                          ///< of the passage that the robot stands in
   using Entry = std::pair<double, std::size_t>;  // ties by index: the same tree every time
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
@@ -256,10 +255,9 @@ void search_passages(PathField& field) {
   const std::size_t size = field.map.size();
   std::vector<std::uint8_t> open(size, 0);
   std::vector<std::uint8_t> may_stand(size, 0);
-  bool any_reached = false;
+  const bool any_reached = field.reaches_open_place();
   for (std::size_t cell = 0; cell < size; ++cell) {
     open[cell] = field.traversable(cell) ? 1 : 0;
-    any_reached = any_reached || (field.reachable(cell) && open[cell] != 0);
     if (open[cell] != 0) continue;
     const Eigen::Array2i middle = field.map.cell(cell) * space.parts() + space.parts() / 2;
     may_stand[cell] = space.may_stand(middle) ? 1 : 0;

@@ -125,13 +125,6 @@ bool stands_narrow(const PathField& field) {
          static_cast<double>(field.clearance_m[field.start_cell]) < field.space->circumscribed_m();
 }
 
-bool is_open_place_reached(const PathField& field) {
-  for (std::size_t cell = 0; cell < field.cost.size(); ++cell) {
-    if (field.reachable(cell) && field.traversable(cell)) return true;
-  }
-  return false;
-}
-
 void forget_ways(PathField& field) {
   SearchTree tree = empty_tree(field.map.size());
   field.cost = std::move(tree.cost);
@@ -151,6 +144,13 @@ bool PathField::reachable(std::size_t cell) const { return cost[cell] < kInfinit
 bool PathField::reachable(const Eigen::Vector2d& p_world) const {
   const Eigen::Array2i cell = map.cell_at(p_world);
   return map.contains(cell) && reachable(map.index(cell));
+}
+
+bool PathField::reaches_open_place() const {
+  for (std::size_t cell = 0; cell < cost.size(); ++cell) {
+    if (reachable(cell) && traversable(cell)) return true;
+  }
+  return false;
 }
 
 double PathField::cost_per_metre(std::size_t cell) const {
@@ -185,7 +185,7 @@ PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
   field.start_cell = map.index(start);
   const bool narrow = field.space != nullptr && stands_narrow(field);
   if (narrow) search_passages(field);
-  if (!narrow || !is_open_place_reached(field)) {
+  if (!narrow || !field.reaches_open_place()) {
     forget_ways(field);
     search_open_places(field);
     if (field.space != nullptr) search_passages(field);

@@ -86,6 +86,8 @@ struct PathField {
   [[nodiscard]] bool traversable(std::size_t cell) const;
   [[nodiscard]] bool reachable(std::size_t cell) const;
   [[nodiscard]] bool reachable(const Eigen::Vector2d& p_world) const;
+  /// Whether a traversable cell is reached: the robot can turn there.
+  [[nodiscard]] bool reaches_open_place() const;
   /// At which the robot stands there, if it cannot turn.
   [[nodiscard]] std::optional<double> heading_rad(std::size_t cell) const;
   /// Cost of a metre driven in `cell`, 1 to 1 + clearance_weight.
