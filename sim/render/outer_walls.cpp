@@ -48,6 +48,7 @@ bool is_upper(int side) { return side % 2 == 1 || side == OuterWalls::kSides - 1
 
 bool at_side(const Eigen::AlignedBox3d& box_m, const Eigen::AlignedBox3d& extent_m, int side) {
   const int axis = axis_of(side);
+  if (axis == 2 && box_m.min().z() < extent_m.min().z() + kHigh_m) return false;  // a worktop
   if (is_upper(side)) return box_m.min()[axis] >= extent_m.max()[axis] - kThin_m;
   return box_m.max()[axis] <= extent_m.min()[axis] + kThin_m;
 }

@@ -23,8 +23,8 @@ struct OuterWalls {
   [[nodiscard]] std::vector<int> before(const Eigen::Vector3d& eye_m) const;
 };
 
-/// A side has a wall if what is thin, high and at its edge is most of its length; a ceiling is most
-/// of the area.
+/// A side has a wall if what is thin, high and at its edge is most of its length; a ceiling is as
+/// high above the lowest thing, and most of the area.
 OuterWalls outer_walls(const mjModel& model);
 
 }  // namespace vantage

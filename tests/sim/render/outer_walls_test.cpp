@@ -88,6 +88,14 @@ TEST(OuterWallsLimits, ACeilingIsMostOfTheArea) {
   EXPECT_THAT(on_side(4, "<geom type='box' size='1.7 1 .1' pos='0 0 2.4'/>"), IsEmpty());
 }
 
+TEST(OuterWallsLimits, ACeilingIsHighAndNoWorktop) {
+  const std::string leg = "<geom type='box' size='.05 .05 .35' pos='0 0 .35'/>";
+  EXPECT_THAT(walls_of(leg + "<geom type='box' size='1 .5 .02' pos='0 0 .72'/>").geoms[4],
+              IsEmpty());
+  EXPECT_THAT(on_side(4, "<geom type='box' size='2 1.5 .1' pos='0 0 1.65'/>"), ElementsAre(1));
+  EXPECT_THAT(on_side(4, "<geom type='box' size='2 1.5 .1' pos='0 0 1.55'/>"), IsEmpty());
+}
+
 TEST(OuterWallsLimits, RoundThingsAreCutEvery30Centimetres) {
   const OuterWalls walls = walls_of("<geom type='cylinder' size='2 .5'/>");
   EXPECT_NEAR(walls.extent_m.min().x(), -2.0, 1e-9);
