@@ -22,7 +22,6 @@ struct Option {
 struct Plan {
   Sequence options;
   CellSet shown;
-  std::size_t cells = 0;
   std::size_t value = 0;
 };
 
@@ -30,7 +29,6 @@ struct Plan {
 struct Extension {
   std::size_t plan;
   std::size_t option;
-  std::size_t cells;
   std::size_t value;
 };
 
@@ -86,7 +84,7 @@ std::vector<Extension> extensions(std::span<const Plan> plans, std::span<const O
     for (std::size_t o = 0; o < options.size(); ++o) {
       if (std::ranges::find(plan.options, o) != plan.options.end()) continue;
       const std::size_t cells = size_of_union(plan.shown, options[o].shows);
-      all.push_back({p, o, cells, plan.value + cells});
+      all.push_back({p, o, plan.value + cells});
     }
   }
   return all;
@@ -96,7 +94,6 @@ Plan extended(const Plan& plan, const Extension& by, const CellSet& shows) {
   Plan longer = plan;
   longer.options.push_back(by.option);
   for (std::size_t i = 0; i < shows.size(); ++i) longer.shown[i] |= shows[i];
-  longer.cells = by.cells;
   longer.value = by.value;
   return longer;
 }

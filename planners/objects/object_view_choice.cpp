@@ -101,11 +101,10 @@ ObjectViewDecision choose_object_view(const ObjectViewOptions& options,
   expects(!situation.actions.empty(), "choose_object_view needs an action");
   expects(situation.predicted_belief.size() == situation.actions.size(),
           "choose_object_view needs a predicted belief for each action");
-  ObjectViewDecision decision{
-      .action = 0,
-      .scores =
-          std::visit([&](const auto& choice) { return scores_by(choice, options, situation, rng); },
-                     options.choice)};
+  ObjectViewDecision decision;
+  decision.scores =
+      std::visit([&](const auto& choice) { return scores_by(choice, options, situation, rng); },
+                 options.choice);
   if (!std::ranges::all_of(situation.actions, &ObjectViewAction::visited)) {
     discount_visited(options, situation.actions, decision.scores);
   }

@@ -17,7 +17,6 @@ bool sees_cell(const RayScene& scene, const GridFrame& grid, const Eigen::Array3
   const Eigen::Vector3d centre = grid.centre(cell);
   const Eigen::Vector3d to_centre = centre - p_world_sensor;
   const double distance = to_centre.norm();
-  if (distance == 0.0) return true;
   const Eigen::Vector3d half = 0.5 * grid.cell_size_m;
   const SegmentClip inside =
       clip_segment(Eigen::AlignedBox3d(centre - half, centre + half), p_world_sensor, centre);

@@ -29,7 +29,6 @@ Trial trial_of(const Recogniser& recogniser, const Recognition& known, const Tes
                std::size_t view) {
   Trial trial = judged(recogniser.states, test, view, known.belief);
   trial.observations = static_cast<int>(known.views.size());
-  trial.entropy_bits = known.views.back().entropy_bits;
   for (const ViewReport& report : known.views) {
     trial.features += static_cast<int>(report.features.size());
     trial.feature_time_s += report.feature_time_s;
