@@ -24,10 +24,10 @@ NUMBER = re.compile(r"(?<![\w.'\"])(\d+\.\d*(?:e-?\d+)?|\d+(?:e-?\d+)?)(?=[FfUuL
 COMMUTATIVE = {"min", "max"}
 PARAMETER = re.compile(r"(const )?[\w:<>]+[&*]* \w+( = .*)?$")  # of a declaration, not of a call
 STATEMENT = re.compile(r"(if|for) \(|[^ (]+\(|[^ =]+ [-+*/|&]?= |[-+]{2}|[^ ]+([-+]{2});")
-# Lines that decide nothing: what is left unchecked is asserted, said, or only named.
+# Lines that decide nothing: what is left unchecked is asserted, said, only named, or memory asked for ahead of time.
 DULL = re.compile(r"^\s*(#|using |namespace |static_assert|template|class |struct |enum |///|//|public:|private:|"
                   r"protected:|case |default:|friend |throw |expects\(|log_|fmt::print)|\bexpects\(|static constexpr|"
-                  r"\[\[nodiscard\]\].*;$|\.summary|\.source|\.formula|std::fprintf")
+                  r"\[\[nodiscard\]\].*;$|\.summary|\.source|\.formula|std::fprintf|\.reserve\(")
 
 
 @dataclass(frozen=True)
