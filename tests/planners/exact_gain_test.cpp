@@ -58,6 +58,46 @@ TEST(ExactGain, OfTheSimpleKindCountsCellsInLineOfSight) {
   }
 }
 
+/// Says that every other cell counts, though all would be worth the same.
+struct EveryOtherCell {
+  static constexpr bool unobserved_only = false;
+  using Ray = AttenuatedRay;
+  [[nodiscard]] CellTables prepare(const GainContext& context) const {
+    CellTables tables;
+    tables.transmission.assign(context.grid.size(), 1.0F);
+    tables.utility.assign(context.grid.size(), 1.0F);
+    return tables;
+  }
+  [[nodiscard]] Ray ray(const CellTables& tables) const { return Ray(tables); }
+  [[nodiscard]] bool counts(const CellTables& /*tables*/, std::size_t cell) const {
+    return cell % 2 == 0;
+  }
+};
+
+TEST(ExactGain, SparesTheRaysToCellsThatDoNotCount) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {5, 4, 3}));
+  const FieldOfView ahead{.half_width_rad = 0.5, .tilt_min_rad = -0.5, .tilt_max_rad = 0.5};
+  Candidate view;
+  view.T_world_sensor = make_pose({-3.0, 0.0, 0.0}, 0.0);
+  EXPECT_EQ(exact_gains_bits(EveryOtherCell{}, {grid}, {&view, 1}, ahead, 1).front(), 30.0);
+}
+
+/// After each view, and once in 16 384 rays.
+TEST(ExactGains, AskNowAndThenWhetherToGoOn) {
+  const OccupancyGrid small = small_cluttered_grid();
+  const OccupancyGrid large(make_grid_frame({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {30, 30, 30}));
+  const FieldOfView ahead{.half_width_rad = 0.5, .tilt_min_rad = -0.5, .tilt_max_rad = 0.5};
+  const auto views = ring_of_views(low_ring(), Eigen::Vector3d::Zero());
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  exact_gains_bits(SimpleGain{}, {small}, views, wide_sector(), 1);
+  EXPECT_EQ(asked, 15);
+  asked = 0;
+  EXPECT_EQ(exact_gain_bits(SimpleGain{}, {large}, make_pose({-3.0, 0.0, 0.0}, 0.0), ahead),
+            27000.0);
+  EXPECT_EQ(asked, 1 + 1);
+}
+
 TEST(ExactGain, OfAViewAwayFromTheMapIsZero) {
   const OccupancyGrid grid = small_cluttered_grid();
   const Pose away = make_pose({2.0, 0.0, 0.4}, 0.0);

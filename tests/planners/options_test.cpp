@@ -12,6 +12,7 @@
 #include "vantage/planners/objects/feature_choice.hpp"
 #include "vantage/planners/objects/object_view_choice.hpp"
 #include "vantage/planners/objects/orbit.hpp"
+#include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/planners/views/frontiers.hpp"
@@ -19,6 +20,8 @@
 #include "vantage/planners/views/sampled_views.hpp"
 #include "vantage/planners/views/score_views.hpp"
 #include "vantage/planners/views/view_candidates.hpp"
+#include "vantage/planners/visibility/partly_seen.hpp"
+#include "vantage/planners/visibility/sweep_kernels.hpp"
 #include "vantage/planners/visibility/visibility_sweep.hpp"
 
 namespace vantage {
@@ -146,6 +149,52 @@ TEST(PlannerOptions, OfViews) {
                                  {"yaw_offsets_rad[1]", 0.0, between(-kPi, kPi)},
                                  {"yaw_offsets_rad[2]", kPi / 12.0, between(-kPi, kPi)}});
   EXPECT_EQ(kMaxScoredCells, 1 << 25);
+}
+
+TEST(PlannerOptions, OfACandidateNothingIsKnownAtFirst) {
+  const Candidate view{};
+  EXPECT_EQ(view.id, 0);
+  EXPECT_TRUE(view.T_world_sensor.isApprox(Pose::Identity()));
+  EXPECT_EQ(view.path_length_m, 0.0);
+  EXPECT_TRUE(view.reachable);
+  EXPECT_FALSE(view.exhausted);
+  EXPECT_EQ(view.gain_bits, 0.0);
+  EXPECT_EQ(view.true_new_cells, std::nullopt);
+  EXPECT_EQ(view.true_new_cell_set, nullptr);
+}
+
+TEST(PlannerOptions, OfPartsOfGainsAndSweepsNothingIsCountedAtFirst) {
+  EXPECT_EQ(FsmiGain::Cell{}.p_hit, 0.0F);
+  EXPECT_EQ(FsmiGain::Cell{}.hit_bits, 0.0F);
+  EXPECT_EQ(FsmiGain::Cell{}.pass_bits, 0.0F);
+  EXPECT_EQ(PartlySeen::Cell{}.order, 0U);
+  EXPECT_EQ(PartlySeen::Cell{}.visible, 0.0F);
+  EXPECT_EQ(PartlySeen::Cell{}.weight, 0.0F);
+  EXPECT_EQ(SampledSum{}.estimate, 0.0);
+  EXPECT_EQ(SampledSum::Half{}.estimate, 0.0);
+  EXPECT_EQ(SampledSum::Half{}.variance, 0.0);
+  EXPECT_EQ(PredictionBand{}.from_m, 0.0);
+  EXPECT_EQ(PredictionBand{}.to_m, 0.0);
+  EXPECT_EQ(PredictionBand{}.predicted_cells, 0.0);
+  EXPECT_EQ(PredictionBand{}.actual_cells, 0U);
+  EXPECT_EQ(PredictionBand{}.outside_cells, 0U);
+  EXPECT_EQ(CellInterval{}.low, 0.0);
+  EXPECT_EQ(CellInterval{}.high, 0.0);
+}
+
+TEST(PlannerOptions, OfSweeps) {
+  EXPECT_EQ(SweepAxes{}.u, 0);
+  EXPECT_EQ(SweepAxes{}.v, 1);
+  EXPECT_EQ(SweepAxes{}.w, 2);
+  EXPECT_EQ(Pyramid{}.axis, 0);
+  EXPECT_TRUE(Pyramid{}.ascending);
+  EXPECT_EQ(CellSpan{}.begin, 0);
+  EXPECT_EQ(CellSpan{}.end, 0);
+  EXPECT_EQ(SweepRow{}.source, 0.0F);
+  EXPECT_EQ(SweepRow{}.depth, 1.0F);
+  EXPECT_EQ(SweepRow{}.across, 0.0F);
+  EXPECT_EQ(Attenuation{}.utility, 1.0);
+  EXPECT_TRUE(Attenuation{}.by_entropy);
 }
 
 TEST(PlannerOptions, OfForecasts) {

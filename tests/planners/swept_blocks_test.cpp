@@ -90,6 +90,15 @@ TEST(SweptBlocks, DoNotDependOnThreads) {
   }
 }
 
+TEST(SweptBlocks, AskOnceAViewWhetherToGoOn) {
+  const OccupancyGrid grid = clutter_of_a_seed(3);
+  const Attenuation attenuation = attenuation_of(SimpleGain{}, {grid, nullptr});
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  swept_blocks(attenuation, grid, some_views(), panorama(), {grid.frame.cells, {4, 4, 4}}, 1);
+  EXPECT_EQ(asked, 4);
+}
+
 /// A wall without a gap: a view on either side shows blocks of its own side.
 TEST(SweptBlocks, OfViewsOnTwoSidesOfAWallShareNothing) {
   OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {2.0, 2.0, 1.0}, {20, 20, 10}));

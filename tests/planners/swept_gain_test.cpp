@@ -162,6 +162,132 @@ TEST(SweptGain, SeesNothingBehindAWall) {
   EXPECT_NEAR(swept(SimpleGain{}, {grid}, view, all_round()), in_front, 1e-6 * in_front);
 }
 
+/// Layers of cells of 1 m along axis w, and a sensor 3 m before the nearest one that looks at
+/// them aslant, from one side along axis v.
+struct Aslant {
+  int v;
+  int w;
+  double side_v;
+  double side_w;
+
+  [[nodiscard]] int beside() const { return 3 - v - w; }
+  [[nodiscard]] OccupancyGrid grid(int cells_v, int layers = 2, int cells_beside = 1) const {
+    GridFrame frame;
+    frame.cells[v] = cells_v;
+    frame.cells[w] = layers;
+    frame.cells[beside()] = cells_beside;
+    return OccupancyGrid(frame);
+  }
+  [[nodiscard]] Candidate view(const OccupancyGrid& grid, double aside_m) const {
+    Eigen::Vector3d p_m = grid.frame.box().center();
+    p_m[v] += side_v * aside_m;
+    p_m[w] += side_w * (2.5 + 0.5 * grid.frame.cells[w]);
+    return view_at(p_m);
+  }
+};
+
+std::vector<Aslant> from_all_sides() {
+  std::vector<Aslant> all;
+  for (int pair = 0; pair < 9; ++pair) {
+    if (pair / 3 == pair % 3) continue;
+    for (const double side_v : {-1.0, 1.0}) {
+      for (const double side_w : {-1.0, 1.0}) all.push_back({pair / 3, pair % 3, side_v, side_w});
+    }
+  }
+  return all;
+}
+
+FieldOfView any_direction() {
+  FieldOfView field = all_round();
+  field.panorama = true;
+  field.tilt_min_rad = -0.5 * std::numbers::pi;
+  field.tilt_max_rad = 0.5 * std::numbers::pi;
+  return field;
+}
+
+/// Rays come to the farther of two cells through the nearer one, and before it through nothing.
+TEST(SweptGain, FadesInTheCellsOfTheGridAlone) {
+  for (const Aslant& aslant : from_all_sides()) {
+    const OccupancyGrid grid = aslant.grid(1);
+    const Candidate view = aslant.view(grid, 2.4);
+    const Gain gain = BeerLambertGain{.a = 0.9};
+    EXPECT_NEAR(exact(gain, {grid}, view, any_direction()), 1.9, 1e-6);
+    EXPECT_NEAR(swept(gain, {grid}, view, any_direction()), 1.9, 1e-5)
+        << aslant.v << aslant.w << ' ' << aslant.side_v << ' ' << aslant.side_w;
+  }
+}
+
+/// Four cells, one behind the other, between free ones. At d cells from the sensor a ray comes from
+/// 2.4 / d cells aside, and so much of the light comes in from outside the grid.
+TEST(SweptGain, BlendsInTheLightThatPassedBesideTheGrid) {
+  constexpr double kA = 0.95;
+  const double second = kA;  // from outside, through the column of the cell itself
+  const double third = std::lerp(second, 1.0, 0.48) * std::pow(kA, 1.48);
+  const double fourth = std::lerp(third, 1.0, 0.4) * std::pow(kA, 1.4);
+  for (const Aslant& aslant : from_all_sides()) {
+    OccupancyGrid grid = aslant.grid(1, 4, 3);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      if (grid.frame.cell(i)[aslant.beside()] != 1) grid.log_odds[i] = -3.0F;
+    }
+    EXPECT_NEAR(swept(BeerLambertGain{.a = kA}, {grid}, aslant.view(grid, 2.4), any_direction()),
+                1.0 + second + third + fourth, 1e-5)
+        << aslant.v << aslant.w << ' ' << aslant.side_v << ' ' << aslant.side_w;
+  }
+}
+
+/// Of two by two cells the nearest is occupied: only the one beside it is seen.
+TEST(SweptGain, SeesNothingAslantBehindACellAtTheRimOfTheGrid) {
+  for (const Aslant& aslant : from_all_sides()) {
+    OccupancyGrid grid = aslant.grid(2);
+    Eigen::Array3i nearest(0, 0, 0);
+    nearest[aslant.v] = aslant.side_v > 0.0 ? 1 : 0;
+    nearest[aslant.w] = aslant.side_w > 0.0 ? 1 : 0;
+    grid.log_odds[grid.frame.index(nearest)] = 3.0F;
+    const Candidate view = aslant.view(grid, 1.9);
+    EXPECT_EQ(exact(SimpleGain{}, {grid}, view, any_direction()), 1.0);
+    EXPECT_EQ(swept(SimpleGain{}, {grid}, view, any_direction()), 1.0)
+        << aslant.v << aslant.w << ' ' << aslant.side_v << ' ' << aslant.side_w;
+  }
+}
+
+/// Three layers of two cells, of which one in the nearest layer is free. Rays from 0.3 cells beside
+/// the nearer ones move 0.3 / 4 and 0.7 / 4 cells across from there to the second layer, and
+/// 0.3 / 5 and 0.7 / 5 to the third.
+TEST(SweptGain, BlendsTheLightThatReachedTheLayerBefore) {
+  constexpr double kA = 0.95;
+  for (const Aslant& aslant : from_all_sides()) {
+    for (const bool nearer_is_free : {false, true}) {
+      OccupancyGrid grid = aslant.grid(2, 3);
+      Eigen::Array3i seen(0, 0, 0);
+      seen[aslant.v] = (aslant.side_v > 0.0) == nearer_is_free ? 1 : 0;
+      seen[aslant.w] = aslant.side_w > 0.0 ? 2 : 0;
+      grid.log_odds[grid.frame.index(seen)] = -3.0F;
+      const double nearer = nearer_is_free ? 1.0 : std::pow(kA, 1.0 + 0.3 / 4.0);
+      const double farther = nearer_is_free ? std::pow(kA, 1.0 + 0.7 / 4.0) : 1.0;
+      const double third = std::lerp(nearer, farther, 0.06) * std::pow(kA, 1.06) +
+                           std::lerp(nearer, farther, 0.86) * std::pow(kA, 1.14);
+      EXPECT_NEAR(swept(BeerLambertGain{.a = kA}, {grid}, aslant.view(grid, 0.2), any_direction()),
+                  1.0 + nearer + farther + third, 1e-5)
+          << aslant.v << aslant.w << ' ' << aslant.side_v << ' ' << aslant.side_w;
+    }
+  }
+}
+
+/// A ray crosses one cell before the farther one; the sweep takes 1 + 1.4 / 4, the mean of such.
+TEST(SweptGain, SendsNoRayToWhatIsPlainlySeen) {
+  for (const Aslant& aslant : from_all_sides()) {
+    const OccupancyGrid grid = aslant.grid(1);
+    const Candidate view = aslant.view(grid, 1.4);
+    const auto with_rays = [&](double a) {
+      return swept_gains_bits(BeerLambertGain{.a = a}, {grid}, {&view, 1}, any_direction(), 1,
+                              kEveryRay)
+          .front();
+    };
+    EXPECT_NEAR(with_rays(0.999), 1.0 + std::pow(0.999, 1.35), 1e-6) << "as it is swept";
+    EXPECT_NEAR(with_rays(0.998), 1.0 + 0.998, 1e-6) << "less than 0.998 is seen: by a ray";
+  }
+}
+
 TEST(SweptGain, FollowsBeerLambertInAnEvenMedium) {
   const OccupancyGrid grid = unobserved_grid();
   for (const double a : {0.999, 0.99, 0.95}) {
@@ -276,6 +402,24 @@ TEST(SweptGains, AreTheSameBitsForEveryNumberOfThreadsAndCompany) {
   const auto one = swept_gains_bits(gain, {grid, &transmission}, views, sector(), 1);
   EXPECT_EQ(swept_gains_bits(gain, {grid, &transmission}, views, sector(), 2), one);
   EXPECT_EQ(swept_gains_bits(gain, {grid, &transmission}, views, sector(), 64), one);
+}
+
+TEST(SweptGains, OfViewsFromOnePlaceAreThoseOfEachAlone) {
+  const OccupancyGrid grid = unobserved_grid();
+  const auto views = ring();
+  const auto together = swept_gains_bits(SimpleGain{}, {grid}, views, sector(), 1, kNoRays);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    EXPECT_EQ(together[i], swept(SimpleGain{}, {grid}, views[i], sector())) << i;
+  }
+}
+
+TEST(SweptGains, AskOncePerPyramidOfAPlaceWhetherToGoOn) {
+  const OccupancyGrid grid = unobserved_grid();
+  const auto views = ring();
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  swept_gains_bits(SimpleGain{}, {grid}, views, sector(), 1, kNoRays);
+  EXPECT_EQ(asked, 7 * 6) << "three views from each of 7 places";
 }
 
 TEST(SweptGain, OfAViewFarAwayIsZero) {

@@ -52,6 +52,20 @@ TEST_F(OutsideDecisions, AnIndexIsOfAViewThatMayBeTaken) {
   EXPECT_TRUE(is_carried_out(std::size_t{1})) << "none is left that is not";
 }
 
+TEST_F(OutsideDecisions, NothingIsTakenOrSpentThatIsNotSaid) {
+  const MapSituation situation{.grid = grid_,
+                               .transmission = transmission_,
+                               .field_of_view = {},
+                               .T_world_base = {},
+                               .left = {}};
+  EXPECT_EQ(situation.scans, 0U);
+  EXPECT_EQ(situation.scans_left, 0);
+  EXPECT_EQ(situation.time_s, 0.0);
+  EXPECT_EQ(situation.energy_j, 0.0);
+  EXPECT_EQ(situation.scan_s, 0.0);
+  EXPECT_FALSE(OutsideChoice{}.blind);
+}
+
 TEST_F(OutsideDecisions, APoseIsOnFloorInReach) {
   EXPECT_TRUE(is_carried_out(Pose2{2.9, 1.9, 7.0}));
   EXPECT_FALSE(is_carried_out(Pose2{3.5, 0.5, 0.0})) << "in the wall";

@@ -130,6 +130,14 @@ TEST(RandomView, EveryDrawIsASequenceOfItsOwn) {
   EXPECT_EQ(sequence(RandomView{1}, 1), sequence(RandomView{1}, 1));
 }
 
+TEST(ChoiceStream, OfTheFirstDrawIsThatOfEveryOtherChoice) {
+  const auto first = [](Rng rng) { return rng.next(); };
+  const std::uint64_t common = first(Rng::stream(7, "view choice"));
+  EXPECT_EQ(first(choice_stream(RandomView{}, 7)), common);
+  EXPECT_EQ(first(choice_stream(RecedingHorizon{}, 7)), common);
+  EXPECT_EQ(first(choice_stream(RandomView{3}, 7)), first(Rng::stream(7, "view choice 3")));
+}
+
 TEST(GreedyGain, BreaksTiesByPathThenById) {
   Rng rng(1);
   EXPECT_EQ(choose_view(GreedyGain{}, five_views(), rng), 2U);
@@ -214,6 +222,22 @@ TEST(ViewChoiceDeathTest, OfAPlanNeedsAProblem) {
   Rng rng(1);
   EXPECT_DEATH(choose_view(ViewChoice(TourChoice{}), five_views(), rng),
                "a function of candidates");
+}
+
+/// Two views that show one block, the second one nearer.
+TEST(ViewChoiceDeathTest, PlansWhatTheChoicePlansForAProblemWhoseSizesFit) {
+  PlanningProblem problem;
+  problem.cells = {5.0F};
+  problem.shows = {{{0}, {1.0F}}, {{0}, {1.0F}}};
+  problem.place_m.resize(2, Eigen::Vector2d::Zero());
+  problem.travel_s = Eigen::MatrixXd::Constant(3, 2, 4.0);
+  problem.travel_s(2, 1) = 1.0;
+  Rng rng(1);
+  EXPECT_EQ(plan_views(FrontierTour{}, problem, rng).order, (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(plan_views(InformationRate{}, problem, rng).order, std::vector<std::size_t>{1});
+  EXPECT_DEATH(plan_views(GreedyGain{}, problem, rng), "a choice that plans ahead");
+  problem.place_m.pop_back();
+  EXPECT_DEATH(plan_views(FrontierTour{}, problem, rng), "a place of each view");
 }
 
 TEST(ViewChoiceDeathTest, NeedsACandidate) {

@@ -99,6 +99,79 @@ TEST(ViewProblem, KnowsWhatLiesBeyondAllViews) {
   EXPECT_EQ(make_view_problem(room.input(AdaptiveGain{}), {.beyond_m = 8.0}).beyond_of(0), 0.0);
 }
 
+/// The lowest layer is known everywhere and the highest one nowhere: where it is open, nine tenths
+/// are seen.
+TEST(ViewProblem, ExpectsAsMuchBeyondAsIsSeenElsewhere) {
+  Room room;
+  for (std::size_t cell = 0; cell < room.grid.size(); ++cell) {
+    const int z = room.grid.frame.cell(cell).z();
+    if (z == 0) room.grid.log_odds[cell] = -3.0F;
+    if (z == 9) room.grid.log_odds[cell] = 0.0F;
+  }
+  ViewPlanningInput input = room.input(AdaptiveGain{});
+  input.elapsed_s = 16.0;
+  const PlanningProblem problem = make_view_problem(input, {.beyond_m = 8.0});
+  ASSERT_EQ(problem.cells.size(), 300U);  // blocks of 4 cells, 10 x 10 x 3
+  std::vector<double> unshown(problem.cells.begin(), problem.cells.end());
+  double beyond = 0.0;
+  for (std::size_t view = 0; view < 3; ++view) {
+    beyond += problem.beyond_of(view);
+    const ShownShares& shown = problem.shows[view];
+    for (std::size_t i = 0; i < shown.block.size(); ++i) {
+      unshown[shown.block[i]] *= 1.0 - static_cast<double>(shown.share[i]);
+    }
+  }
+  double unknown = 0.0;
+  for (std::size_t block = 0; block < unshown.size(); ++block) {
+    if (block / 10 % 10 >= 5) unknown += unshown[block];
+  }
+  EXPECT_GT(unknown, 100.0);
+  EXPECT_NEAR(beyond, 0.9 * unknown, 1e-3 * unknown);
+}
+
+/// A cell of 0.1 m is a litre.
+TEST(ViewProblem, IsInTheUnitOfItsGain) {
+  Room room;
+  room.field.range_max_m = 1.0;
+  const auto problem_of = [&](const Gain& gain) {
+    ViewPlanningInput input = room.input(gain);
+    input.elapsed_s = 16.0;
+    return make_view_problem(input, {.drawn_cells = 2, .beyond_m = 8.0});
+  };
+  const PlanningProblem in_cells = problem_of(SimpleGain{});
+  const PlanningProblem in_m3 = problem_of(UnmappedVolumeGain{});
+  EXPECT_EQ(in_cells.seen, 8000.0);
+  EXPECT_NEAR(in_m3.seen, 8.0, 1e-9);
+  EXPECT_NEAR(in_m3.pace_per_s, 0.5, 1e-9);
+  EXPECT_GT(in_cells.beyond_of(0), 100.0);
+  for (std::size_t view = 0; view < 3; ++view) {
+    EXPECT_NEAR(in_m3.beyond_of(view), 0.001 * in_cells.beyond_of(view), 1e-4);
+  }
+  const auto drawn = [](const PlanningProblem& problem) {
+    Rng rng(1);
+    const ShownBlocks shown = problem.draw(rng);
+    double sum = 0.0;
+    for (const float cells : shown.cells) sum += static_cast<double>(cells);
+    return sum;
+  };
+  EXPECT_NEAR(drawn(in_cells), 8000.0, 0.1) << "whatever is drawn is seen or not";
+  EXPECT_NEAR(drawn(in_m3), 8.0, 1e-4);
+}
+
+TEST(ViewProblem, IsMadeByOneThreadAtAnUnknownPaceUnlessItIsSaid) {
+  const Room room;
+  const ViewPlanningInput input{.map = {room.grid, &room.transmission},
+                                .gain = SimpleGain{},
+                                .candidates = room.views,
+                                .places_m = room.places_m,
+                                .field_of_view = room.field,
+                                .paths = room.paths,
+                                .travel_time = TravelTime(0.5)};
+  EXPECT_EQ(input.threads, 1);
+  EXPECT_EQ(input.elapsed_s, 0.0);
+  EXPECT_EQ(make_view_problem(input, {}).scan_s, 0.0);
+}
+
 TEST(ViewProblem, OfAViewOutOfReachIsInfinitelyFar) {
   Room room;
   room.views[0].reachable = false;
@@ -108,7 +181,10 @@ TEST(ViewProblem, OfAViewOutOfReachIsInfinitelyFar) {
 
 TEST(ViewProblem, OfAGainThatCannotBeSweptCountsEachViewAlone) {
   const Room room;
-  const PlanningProblem problem = make_view_problem(room.input(FsmiGain{}), {});
+  ViewPlanningInput input = room.input(FsmiGain{});
+  input.elapsed_s = 16.0;
+  const PlanningProblem problem = make_view_problem(input, {.beyond_m = 8.0});
+  EXPECT_TRUE(problem.beyond.empty()) << "what they leave is not known";
   const std::vector<std::size_t> near{1, 2};
   EXPECT_NEAR(joint_gain(problem, near), gain_of(problem, 1) + gain_of(problem, 2), 1e-3);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <type_traits>
+#include <vector>
 
 #include "tests/planners/gains/gain_along.hpp"
 #include "vantage/core/names.hpp"
@@ -71,6 +72,23 @@ TEST(VisibilityWeightedGain, WithoutLossIsTheNumberOfUnobservedCells) {
   EXPECT_NEAR(along(gain, "?.???.?"), 5.0, kTolerance);
 }
 
+/// p(o) = 0.41, so the cell is still unobserved.
+TEST(Gain, OfACellOfLittleEvidenceIsItsEntropyWhereTheGainIsOfEntropy) {
+  OccupancyGrid row = row_of_cells("??");
+  row.log_odds[1] = static_cast<float>(log_odds_of(0.41));
+  const double bits = binary_entropy_bits(0.41);
+  EXPECT_NEAR(along(BeerLambertGain{.a = 0.75}, row), 1.0 + 0.75 * bits, kTolerance);
+  EXPECT_NEAR(along(AdaptiveGain{}, row, 0.75), 1.0 + 0.75 * bits, kTolerance);
+  EXPECT_NEAR(along(OcclusionAwareGain{.opacity_unobserved = 0.25}, row), 1.0 + 0.75 * bits,
+              kTolerance);
+  EXPECT_NEAR(along(UnobservedVoxelGain{.opacity_unobserved = 0.25}, row), 1.0 + 0.75 * bits,
+              kTolerance);
+  const double p_visible = visibility_along_ray(std::vector{0.5, 0.41})[1];
+  EXPECT_NEAR(along(VisibilityWeightedGain{}, row), 1.0 + p_visible * bits, kTolerance);
+  EXPECT_EQ(along(SimpleGain{}, row), 2.0);
+  EXPECT_NEAR(along(UnmappedVolumeGain{}, row), 2.0, kTolerance);
+}
+
 TEST(PosteriorChainGain, SumsTheEntropyLostOverAllCells) {
   const std::string_view ray = "..?..??";
   const auto p_occupied = p_occupied_of(ray);
@@ -129,6 +147,37 @@ TYPED_TEST(EveryGain, PromisesAtMostOneBitPerCell) {
 TYPED_TEST(EveryGain, PrefersMoreUnobservedCellsInSight) {
   if (kGrowsWithTheUnknown<TypeParam>) {
     EXPECT_GT(along(TypeParam{}, "..???#"), along(TypeParam{}, "..?..#"));
+  }
+}
+
+/// As it is made, and after start() again, a ray or beam stands at the sensor.
+TYPED_TEST(EveryGain, BeginsEachRayAnew) {
+  const TypeParam gain{};
+  for (const char* cells : {"???#", "?.??"}) {
+    const OccupancyGrid row = row_of_cells(cells);
+    const BlockField even = uniform_field(row.frame.cells, 0.9);
+    const auto tables = gain.prepare({row, &even});
+    const auto expect_same_again = [&](auto& ray, const auto& worth) {
+      const double first = worth();
+      ray.start();
+      EXPECT_EQ(worth(), first) << cells;
+    };
+    if constexpr (BeamGain<TypeParam>) {
+      auto beam = gain.beam(tables);
+      expect_same_again(beam, [&] {
+        for (std::size_t cell = 0; cell < row.size() && beam.enter(cell);) ++cell;
+        auto view = view_of_beams(gain);
+        view.add(beam);
+        return view.total();
+      });
+    } else {
+      auto ray = gain.ray(tables);
+      expect_same_again(ray, [&] {
+        ray.pass(0);
+        ray.pass(1);
+        return ray.utility(2);
+      });
+    }
   }
 }
 

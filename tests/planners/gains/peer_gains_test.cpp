@@ -133,6 +133,17 @@ TEST(FsmiGain, HoldsHoweverCertainTheMapIs) {
   EXPECT_EQ(odds_update_bits(4.0, std::numeric_limits<double>::infinity()), 0.0);
 }
 
+TEST(FsmiGain, ABeamEndsWhereABillionthOfItIsLeft) {
+  const FsmiGain gain{.opacity_unobserved = 0.5};
+  const OccupancyGrid row = row_of_cells("?");
+  const FsmiGain::Tables tables = gain.prepare({row});
+  FsmiGain::Beam beam = gain.beam(tables);
+  beam.start();
+  int cells = 1;
+  while (beam.enter(0)) ++cells;
+  EXPECT_EQ(cells, 30) << "2^-29 is 1.9e-9, 2^-30 is 0.9e-9";
+}
+
 TEST(FsmiGain, LearnsNothingFromMeasurementsThatChangeNothing) {
   EXPECT_NEAR(along(FsmiGain{.d_occ = 1.0, .d_emp = 1.0}, "..??#"), 0.0, 1e-12);
 }

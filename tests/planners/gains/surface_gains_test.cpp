@@ -36,6 +36,9 @@ TEST(AverageEntropyGain, IsAMeanOverBeamsThatEndOccupied) {
   EXPECT_NEAR(along(AverageEntropyGain{}, "..???#??"),
               (2.0 * kFreeBits + 3.0 + kOccupiedBits) / 6.0, kSurfaceTolerance);
   EXPECT_EQ(along(AverageEntropyGain{}, "..????"), 0.0);
+  OccupancyGrid at_once = row_of_cells("#??");
+  at_once.log_odds[0] = static_cast<float>(log_odds_of(0.8));
+  EXPECT_NEAR(along(AverageEntropyGain{}, at_once), binary_entropy_bits(0.8), kSurfaceTolerance);
 }
 
 /// Beams into two rows of cells, `left` and `right` of the sensor, one beam each.
@@ -51,6 +54,30 @@ double of_two_rows(const Gain& gain, const std::string& left, const std::string&
   const FieldOfView fov{
       .half_width_rad = 0.04, .tilt_min_rad = -0.001, .tilt_max_rad = 0.001, .range_max_m = 1000.0};
   return exact_gain_bits(gain, {grid}, make_pose({-1.0, 0.0, 0.0}, 0.0), fov);
+}
+
+/// No beam knows of the one before it, the right one.
+template <class G>
+void expect_sum_of_two(const std::string& left, const std::string& right) {
+  G gain;
+  gain.fan.step_rad = 0.05;
+  EXPECT_NEAR(of_two_rows(gain, left, right), along(gain, left) + along(gain, right),
+              kSurfaceTolerance)
+      << G::name << ' ' << left << ' ' << right;
+}
+
+TEST(SumOfBeams, IsOfWhatEachIsWorthAlone) {
+  struct Rows {
+    std::string left, right;
+  };
+  for (const auto& [left, right] :
+       {Rows{"?.?#", "??.."}, Rows{"....", "??#?"}, Rows{"#...", "????"}, Rows{"??#.", "?.??"}}) {
+    expect_sum_of_two<OcclusionAwareGain>(left, right);
+    expect_sum_of_two<UnobservedVoxelGain>(left, right);
+    expect_sum_of_two<RearSideVoxelGain>(left, right);
+    expect_sum_of_two<RearSideEntropyGain>(left, right);
+    expect_sum_of_two<FsmiGain>(left, right);
+  }
 }
 
 TEST(AverageEntropyGain, WeighsCellsAlikeNotBeams) {

@@ -49,6 +49,15 @@ TEST(FootprintSpace, ReachesAsFarAsTheOutlineAndItsMargin) {
   }
 }
 
+TEST(FootprintSpace, KeepsHalfACentimetreWhereItIsTight) {
+  const auto fits = [](const Eigen::Array2i& off, double length_m) {
+    return space_with_a_post(off, {.outline = rectangle(length_m, 0.5)}, {.margin_m = 0.03})
+        ->fits(kMiddleCell, 0, true);
+  };
+  EXPECT_FALSE(fits({41, 0}, 0.813)) << "3.5 mm";
+  EXPECT_TRUE(fits({42, 0}, 0.826)) << "7 mm";
+}
+
 /// Wherever within two cells it is put, what is covered in any case must be free.
 TEST(FootprintSpace, MayFitUnlessWhatIsCoveredInAnyCaseIsNot) {
   const auto may_fit = [](const Eigen::Array2i& off, bool tight) {
@@ -132,6 +141,12 @@ TEST(FootprintSpace, ARobotMayStandWhereItsInscribedDiscDoes) {
   const RobotOutline uneven{.outline = {{-0.2, -0.1}, {0.4, -0.1}, {0.4, 0.2}, {-0.2, 0.2}}};
   EXPECT_FALSE(may_stand({9, 0}, uneven));
   EXPECT_TRUE(may_stand({12, 0}, uneven));
+  const RobotOutline wider{.outline = rectangle(0.815, 0.505)};
+  for (const Eigen::Array2i& side :
+       {Eigen::Array2i(1, 0), Eigen::Array2i(0, 1), Eigen::Array2i(-1, 0), Eigen::Array2i(0, -1)}) {
+    EXPECT_FALSE(may_stand(25 * side, wider)) << "0.2525 m";
+    EXPECT_TRUE(may_stand(26 * side, wider));
+  }
 }
 
 TEST(FootprintSpace, SeesAPostAnywhereUnderALongOutline) {
@@ -157,6 +172,13 @@ TEST(FootprintSpace, EndsWithTheMapOnEverySide) {
   EXPECT_FALSE(space->fits({100, 24}, 0));
   EXPECT_TRUE(space->fits({100, 174}, 0));
   EXPECT_FALSE(space->fits({100, 175}, 0));
+  const auto with_a_post = [](const Eigen::Array2i& off) {
+    return space_with_a_post(off, long_robot(), {.margin_m = 0.001});
+  };
+  EXPECT_TRUE(space->fits({40, 25}, 0));
+  EXPECT_FALSE(with_a_post({-100, -100})->fits({40, 25}, 0)) << "in the first cell";
+  EXPECT_TRUE(space->fits({159, 174}, 0));
+  EXPECT_FALSE(with_a_post({99, 99})->fits({159, 174}, 0)) << "in the last cell";
 }
 
 TEST(FootprintSpace, HeadingsGoRound) {

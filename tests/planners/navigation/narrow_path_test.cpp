@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
 
@@ -80,6 +81,26 @@ TEST_F(StepsThroughAPassage, BeginAtTheHeadingNearestToItsOwn) {
   EXPECT_NEAR(planned.length_m, 3.0 * (std::hypot(0.7, 0.4) + 0.02 * radius_m_), 1e-9);
 }
 
+/// A post beside the straight way from the first of four places to the last, not to the third.
+TEST_F(StepsThroughAPassage, ArePulledStraightWhereHalfTheMarginIsKept) {
+  const std::vector<PathStep> steps{
+      {{1.0, 1.2}, 0.0}, {{1.2, 1.4}, 0.0}, {{1.4, 1.6}, 0.0}, {{1.9, 1.2}, 0.0}};
+  const auto leg_past_a_post = [&](double y_m) {
+    const DrawnRooms rooms(3.0, 3.0, {wall(1.401, y_m - 0.004, 1.409, y_m + 0.004)});
+    NavigationOptions options;
+    options.footprint_radius_m = radius_m_;
+    const PathField field =
+        make_path_field(rooms.floor, {1.0, 1.2, 0.0}, options,
+                        rooms.space({.outline = rectangle(0.3, 0.2)}, {.margin_m = 0.2}));
+    return path_through_passages(field, steps, 0.0).legs.at(0);
+  };
+  const PathLeg near = leg_past_a_post(1.035);
+  ASSERT_EQ(near.waypoints.size(), 3U) << "6.5 cm beside the outline";
+  expect_pose(near.waypoints[1], 1.4, 1.6, 0.0);
+  expect_pose(near.waypoints[2], 1.9, 1.2, 0.0);
+  EXPECT_EQ(leg_past_a_post(0.965).waypoints.size(), 2U) << "13.5 cm";
+}
+
 double driven_m(const PlannedPath& path) {
   double sum = 0.0;
   for (std::size_t i = 1; i < path.waypoints.size(); ++i) {
@@ -115,6 +136,72 @@ TEST(CentredPath, HangsTogetherAndIsHardlyLonger) {
       EXPECT_NEAR(driven.end.x_m, 3.9, 1e-9);
       EXPECT_NEAR(driven.end.yaw_rad, 1.0, 1e-9);
     }
+  }
+}
+
+/// Of a robot of 0.6 x 0.6 m that comes out of one passage and goes through another one.
+PlannedPath centred_between(const std::vector<Eigen::AlignedBox2d>& walls, const Pose2& begin,
+                            const Pose2& end) {
+  const DrawnRooms rooms(3.0, 1.0, walls);
+  PathField field;
+  field.start = {0.4, 0.5, 0.0};
+  field.space = rooms.space({.outline = rectangle(0.6, 0.6)}, {});
+  const Pose2 out{0.5, 0.5, 0.0};
+  PlannedPath path;
+  path.legs.push_back({.waypoints = {field.start, out}, .narrow = true});
+  path.legs.push_back({.waypoints = {out, begin}});
+  path.legs.push_back({.waypoints = {begin, end}, .narrow = true});
+  path.legs.push_back({.waypoints = {end, {2.6, 0.5, 0.0}}});
+  return centred(field, path);
+}
+
+/// In the middle, y = 0.5, and only there at that heading, 5 cm are left on either side.
+TEST(CentredPath, GoesThroughTheMiddleAtTheHeadingThatLeavesMost) {
+  struct Off {
+    double begin_m, end_m;
+    int quarters;  // of the step between two headings
+  };
+  for (const auto& [begin_m, end_m, quarters] :
+       {Off{-0.04, 0.03, 2}, Off{0.03, -0.04, -2}, Off{0.04, 0.03, 1}, Off{-0.03, -0.04, -1}}) {
+    const double yaw_rad = 0.25 * quarters * std::numbers::pi / 24.0;
+    const PlannedPath path =
+        centred_between({wall(0.0, 0.0, 3.0, 0.15), wall(0.0, 0.85, 3.0, 1.0)},
+                        {1.0, 0.5 + begin_m, 1.0}, {2.0, 0.5 + end_m, yaw_rad});
+    ASSERT_EQ(path.waypoints.size(), 5U);
+    for (const std::size_t i : {2U, 3U}) {
+      EXPECT_NEAR(path.waypoints[i].x_m, i - 1.0, 0.004);
+      EXPECT_NEAR(path.waypoints[i].y_m, 0.5, 3e-4) << begin_m << " " << end_m;
+      EXPECT_NEAR(path.waypoints[i].yaw_rad, 0.0, 1e-9) << quarters;
+    }
+    EXPECT_NEAR(path.legs[2].waypoints.front().yaw_rad, 0.0, 1e-9);
+    EXPECT_EQ(path.legs[2].waypoints.front().y_m, path.waypoints[2].y_m);
+    EXPECT_EQ(path.legs[3].waypoints.front().y_m, path.waypoints[3].y_m);
+    EXPECT_EQ(path.waypoints[1].x_m, 0.5);
+    EXPECT_EQ(path.end.x_m, 2.6);
+  }
+}
+
+TEST(CentredPath, KeepsEightCentimetresAtMost) {
+  const auto y_m = [](double wall_m) {
+    const PlannedPath path =
+        centred_between({wall(0.0, 0.0, 3.0, 0.5 - wall_m), wall(0.0, 0.5 + wall_m, 3.0, 1.0)},
+                        {1.0, 0.46, 1.0}, {2.0, 0.46, 0.0});
+    const auto& leg = path.legs.at(2).waypoints;
+    EXPECT_EQ(leg.front().y_m, leg.back().y_m);
+    EXPECT_EQ(leg.front().yaw_rad, 0.0) << "it turns before";
+    return leg.back().y_m;
+  };
+  EXPECT_EQ(y_m(0.42), 0.46) << "it has 8.5 cm";
+  EXPECT_NEAR(y_m(0.41), 0.47, 1e-9) << "it had 7.5 cm";
+}
+
+/// A post 3.5 cm ahead of where the leg ends, or behind where it begins: nothing leaves more.
+TEST(CentredPath, KeepsItsClearanceAtBothEnds) {
+  for (const double post_m : {0.665, 2.335}) {
+    const PlannedPath path = centred_between({wall(0.0, 0.0, 3.0, 0.15), wall(0.0, 0.85, 3.0, 1.0),
+                                              wall(post_m - 0.004, 0.501, post_m + 0.004, 0.509)},
+                                             {1.0, 0.52, 0.0}, {2.0, 0.52, 0.0});
+    for (const Pose2& pose : path.legs.at(2).waypoints) EXPECT_EQ(pose.y_m, 0.52) << post_m;
   }
 }
 

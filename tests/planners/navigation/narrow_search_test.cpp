@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
+#include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 
 namespace vantage {
@@ -46,6 +47,7 @@ class Corridor : public testing::Test {
 TEST_F(Corridor, AStepCostsItsTimeAndATurnThatOfTheOutermostPoint) {
   const PathField narrow = field(robot_, {.speed_m_s = 0.2});
   EXPECT_EQ(cost_at(narrow, start_cell_, 0.0), 0.0);
+  EXPECT_EQ(narrow.cost[narrow.map.index(start_cell_)], 0.0) << "it is a nook";
   EXPECT_NEAR(cost_at(narrow, start_cell_ + Eigen::Array2i(10, 0), 0.0), 0.5 * 3.0 * 2.5, 1e-9);
   EXPECT_NEAR(cost_at(narrow, start_cell_ - Eigen::Array2i(4, 0), 0.0), 0.2 * 3.0 * 2.5, 1e-9);
   const double turn_m = kHeadingStep_rad * std::hypot(0.45, 0.25);
@@ -121,15 +123,43 @@ TEST_F(Corridor, ANearlySquareRobotFacesWhereItGoes) {
   const FloorOutline ahead{{-0.2, -0.25}, {0.3, -0.25}, {0.3, 0.25}, {-0.2, 0.25}};
   EXPECT_GT(off_rad({.outline = ahead}), 3.0) << "its middle is not";
   EXPECT_LE(off_rad({.outline = rectangle(0.9, 0.5), .goes_sideways = false}), 0.48 + 1e-9);
+  // Of headings 7.5 degrees apart the one 22.5 degrees off is the last.
+  EXPECT_NEAR(off_rad({.outline = rectangle(0.5, 0.5)}), std::numbers::pi / 8.0, 1e-9);
+  EXPECT_NEAR(off_rad({.outline = rectangle(0.9, 0.5), .goes_sideways = false}),
+              std::numbers::pi / 8.0, 1e-9);
 }
 
 TEST_F(Corridor, ANearlySquareRobotBacksWhereAheadIsNoWayOut) {
   const RobotOutline square{.outline = rectangle(0.6, 0.6)};
   EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "closed at both ends";
+  EXPECT_NEAR(cost_at(field(square, {}), start_cell_ - Eigen::Array2i(1, 0), 0.0), 0.05 * 3.0 * 2.5,
+              1e-9)
+      << "from where it stands, too";
   rooms_ = DrawnRooms(4.0, 2.0, {wall(0.0, 0.0, 2.8, 0.67), wall(0.0, 1.38, 2.8, 2.0)});
   EXPECT_LE(farthest_off_rad(field(square, {})), 0.5 + 1e-9) << "open ahead";
   start_.yaw_rad = std::numbers::pi;
   EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "open behind";
+}
+
+/// A row of eight cells of 5 cm: the first is open, the next four are narrow, where a metre counts
+/// for three.
+TEST(NarrowSearch, BeginsAndEndsInTheFirstCellOfAMap) {
+  const DrawnRooms rooms(0.4, 0.05, {wall(0.05, 0.04, 0.25, 0.05)});
+  const FloorOutline outline = rectangle(0.04, 0.02);
+  NavigationOptions options;
+  options.footprint_radius_m = circumscribed_radius_m(outline);
+  options.margin_m = 0.005;
+  const auto space = rooms.space({.outline = outline, .speed_m_s = 0.6},
+                                 {.margin_m = 0.001, .speed_m_s = 0.2, .least_area_m2 = 0.0});
+  const Pose2 first{0.025, 0.025, 0.0};
+  const Pose2 last{0.375, 0.025, 0.0};
+  const double length_m = 5.0 * 0.05 * 3.0 + 2.0 * 0.05;
+  const PathField there = make_path_field(rooms.floor, first, options, space);
+  EXPECT_NEAR(path_length_m(there, last), length_m, 1e-6);
+  const PathField back = make_path_field(rooms.floor, last, options, space);
+  EXPECT_NEAR(path_length_m(back, first), length_m, 1e-6);
+  const std::vector<Eigen::Vector2d> places{position(first), position(last)};
+  EXPECT_NEAR(path_lengths_m(there, places, 1)(0, 1), length_m, 1e-5);
 }
 
 }  // namespace

@@ -148,6 +148,8 @@ TEST(Passages, LeaveOpenPlacesAsTheyAre) {
         EXPECT_EQ(field.parent[cell], disc.parent[cell]);
       } else {
         more += field.reachable(cell) ? 1 : 0;
+        EXPECT_TRUE(!field.reachable(cell) || field.traversable(cell) || field.heading_rad(cell))
+            << "beyond, too, only what is open or a nook";
       }
     }
     EXPECT_EQ(more > 0, door_m < 1.0);
@@ -245,6 +247,36 @@ TEST(Passages, PathsNeverOverlapAnything) {
     }
   }
   EXPECT_GT(passages, 10);
+}
+
+/// By eight steps, which cut no corners.
+TEST(Passages, AnOpenPlaceBeyondCostsTheCheapestStepFromBesideIt) {
+  const FloorOutline outline = rectangle(kWidth_m, kWidth_m);
+  const DrawnRooms rooms = rooms_with_door(0.72);
+  const PathField field = make_path_field(rooms.floor, {1.25, 1.0, 0.3}, disc_of(outline),
+                                          rooms.space({.outline = outline}, {}));
+  const FloorMap& floor = field.map;
+  const auto is_open = [&](const Eigen::Array2i& at) {
+    return floor.contains(at) && field.traversable(floor.index(at));
+  };
+  int beyond = 0;
+  for (std::size_t cell = 0; cell < floor.size(); ++cell) {
+    const Eigen::Array2i to = floor.cell(cell);
+    if (to.x() < 52 || !is_open(to) || field.parent[cell] >= floor.size()) continue;
+    double cheapest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 9; ++k) {
+      const Eigen::Array2i from = to + Eigen::Array2i(k % 3 - 1, k / 3 - 1);
+      if (k == 4 || !is_open(from) || !is_open({to.x(), from.y()}) || !is_open({from.x(), to.y()}))
+        continue;
+      const double length_m = floor.cell_m * (k % 2 == 0 ? std::numbers::sqrt2 : 1.0);
+      const double mean =
+          0.5 * (field.cost_per_metre(floor.index(from)) + field.cost_per_metre(cell));
+      cheapest = std::min(cheapest, field.cost[floor.index(from)] + length_m * mean);
+    }
+    EXPECT_NEAR(field.cost[cell], cheapest, 1e-9) << to.transpose();
+    ++beyond;
+  }
+  EXPECT_GT(beyond, 100);
 }
 
 /// A metre in a passage counts for as many as it takes the time of.
@@ -348,6 +380,32 @@ TEST(Passages, SomethingNewInTheDoorIsSeen) {
   EXPECT_FALSE(is_passage_blocked(rooms.detail, leg, {3.05, 1.5, 0.0}, robot)) << "behind it";
   EXPECT_FALSE(is_passage_blocked(rooms.detail, leg, {2.8, 1.5, 0.0}, robot))
       << "under it: it cannot be there";
+}
+
+/// Within a centimetre of where it stands there is nothing; its leg ends with its front at 3.4 m.
+TEST(Passages, SomethingNewIsSeenToTheCentimetre) {
+  const RobotOutline robot{.outline = rectangle(kWidth_m, kWidth_m)};
+  const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {3.1, 1.5, 0.0}}, .narrow = true};
+  const auto blocked_by = [&](double x_m) {
+    DrawnRooms rooms = rooms_with_door(0.75);
+    rooms.detail.log_odds[rooms.detail.index(rooms.detail.cell_at({x_m, 1.505}))] = 3.0F;
+    return is_passage_blocked(rooms.detail, leg, {2.798, 1.5, 0.0}, robot);
+  };
+  EXPECT_FALSE(blocked_by(3.105)) << "0.7 cm ahead of it";
+  EXPECT_TRUE(blocked_by(3.115)) << "1.7 cm";
+  EXPECT_TRUE(blocked_by(3.395));
+  EXPECT_FALSE(blocked_by(3.405));
+}
+
+TEST(Passages, WhatItHasTurnedAwayFromIsNotInItsWay) {
+  DrawnRooms rooms(4.0, 4.0, {});
+  const RobotOutline robot{.outline = rectangle(0.6, 0.4)};
+  const double left_rad = 0.5 * std::numbers::pi;
+  const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {3.0, 1.5, 0.0}, {3.0, 2.5, left_rad}},
+                    .narrow = true};
+  rooms.detail.log_odds[rooms.detail.index(rooms.detail.cell_at({3.255, 1.505}))] = 3.0F;
+  EXPECT_TRUE(is_passage_blocked(rooms.detail, leg, {2.8, 1.5, 0.0}, robot));
+  EXPECT_FALSE(is_passage_blocked(rooms.detail, leg, {3.0, 1.5, left_rad}, robot));
 }
 
 TEST(Passages, SomethingNewBesideATurnInPlaceIsSeen) {

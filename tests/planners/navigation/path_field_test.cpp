@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/planners/navigation/ascii_floor.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
 
 namespace vantage {
@@ -169,6 +170,30 @@ TEST(PathField, DoesNotEscapeThroughAWall) {
   EXPECT_FALSE(nearest_reachable(field, {8.5, 1.5}).has_value());
 }
 
+/// Five cells of 0.5 m to the first one that is wide enough; the door is the narrowest of them.
+TEST(PathField, LeavesThroughWhatIsNarrowerIfItMust) {
+  const Drawing rows{
+      "#############",  //
+      "#####.......#",  //
+      "#####.......#",  //
+      "#...#.......#",  //
+      "#.S.........#",  //
+      "#...#.......#",  //
+      "#####.......#",  //
+      "#####.......#",  //
+      "#############",  //
+  };
+  FloorMap map = floor_of(rows);
+  map.cell_m = 0.5;
+  NavigationOptions options = comfortable_point_robot();
+  options.footprint_radius_m = 1.4;
+  options.escape_radius_m = 3.0;
+  const PathField field = make_path_field(map, {1.25, 2.25, 0.0}, options);
+  EXPECT_FLOAT_EQ(field.clearance_m[field.start_cell], 1.0F);
+  EXPECT_FALSE(field.traversable(map.index({6, 4})));
+  EXPECT_DOUBLE_EQ(field.cost[map.index({7, 4})], 2.5);
+}
+
 /// At the centre of a cell 1, 2 and 3 m from what is outside, where the inflation is 1 m.
 TEST(PathField, AMetreCostsByTheClearanceItHas) {
   const FloorMap map = floor_of(Drawing(9, "........."));
@@ -219,6 +244,17 @@ TEST(NearestReachable, OfEquallyNearCellsIsTheCheapest) {
   EXPECT_TRUE(field.reachable(Eigen::Vector2d(4.9, 2.9)));
   EXPECT_FALSE(field.reachable(Eigen::Vector2d(5.1, 2.9))) << "off the map";
   EXPECT_FALSE(field.reachable(Eigen::Vector2d(2.5, 1.5)));
+}
+
+/// After each row and each column of the clearance, which has a ring of cells more, and once in
+/// 32 768 cells of the search.
+TEST(PathField, AsksNowAndThenWhetherToGoOn) {
+  FloorMap map(Eigen::Vector2d::Zero(), 1.0, 200, 200);
+  for (float& log_odds : map.log_odds) log_odds = -3.0F;
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  make_path_field(map, {100.5, 100.5, 0.0}, point_robot());
+  EXPECT_EQ(asked, 202 + 202 + 1);
 }
 
 TEST(PathField, OfARobotOutsideTheMapReachesNothing) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/planners/navigation/ascii_floor.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 
 namespace vantage {
@@ -71,6 +72,23 @@ TEST(PathLengths, AreInfiniteToWhatCannotBeReached) {
   EXPECT_TRUE(std::isinf(lengths_m(0, 2)));
   EXPECT_TRUE(std::isinf(lengths_m(2, 1)));
   EXPECT_EQ(lengths_m(2, 2), 0.0);
+}
+
+/// After each place that is reached, and once in 32 768 cells of the search from there.
+TEST(PathLengths, AskNowAndThenWhetherToGoOn) {
+  FloorMap map(Eigen::Vector2d::Zero(), 1.0, 200, 200);
+  for (float& log_odds : map.log_odds) log_odds = -3.0F;
+  const PathField field = make_path_field(map, {0.5, 0.5, 0.0}, point_robot());
+  const std::vector<Eigen::Vector2d> places{{0.5, 0.5}, {199.5, 199.5}, {-5.0, 3.0}};
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  const Eigen::MatrixXd lengths_m = path_lengths_m(field, places, 1);
+  EXPECT_EQ(asked, 1 + 2);
+  EXPECT_NEAR(lengths_m(0, 1), 199.0 * std::sqrt(2.0), 0.01);
+  asked = 0;
+  const std::vector<Eigen::Vector2d> near{{0.5, 0.5}, {1.5, 0.5}, {1.6, 0.6}};
+  EXPECT_NEAR(path_lengths_m(field, near, 1)(0, 2), 1.0, 1e-5);
+  EXPECT_EQ(asked, 3) << "a search ends with the last place, two of one cell too";
 }
 
 TEST(PathLengths, PayForClearanceAsPathsDo) {

@@ -163,6 +163,45 @@ TEST(WayBlocked, OnlyByWhatComesNearerThanItIsNow) {
   EXPECT_FALSE(blocked_by(0, 2)) << "beneath it";
 }
 
+class WatchedWay : public testing::Test {
+ protected:
+  WatchedWay() { options_.footprint_radius_m = 1.6; }
+  /// By something new in that cell; the robot is where the way begins.
+  [[nodiscard]] bool blocked_by(int x, int y, const std::vector<Pose2>& way) const {
+    FloorMap changed = map_;
+    changed.log_odds[map_.index({x, y})] = 3.0F;
+    return is_way_blocked(changed, way, way.front(), options_);
+  }
+
+  FloorMap map_ = floor_of(Drawing(5, "........."));
+  NavigationOptions options_ = point_robot();
+};
+
+/// Over points 0.75 m apart, of which the last one is watched if it is just so far.
+TEST_F(WatchedWay, IsAsLongAsItIsSaidToBe) {
+  const std::vector<Pose2> way{{0.5, 2.5, 0.0}, {3.5, 2.5, 0.0}};
+  options_.watch_m = 1.5;
+  EXPECT_TRUE(blocked_by(3, 2, way)) << "1.5 m from its third point";
+  options_.watch_m = 1.4;
+  EXPECT_FALSE(blocked_by(3, 2, way));
+}
+
+TEST_F(WatchedWay, HasItsEndHoweverShortItIs) {
+  EXPECT_TRUE(blocked_by(5, 2, {{4.1, 2.5, 0.0}, {4.9, 2.5, 0.0}}));
+  EXPECT_FALSE(blocked_by(5, 2, {{4.1, 2.5, 0.0}, {4.1, 2.5, 1.0}})) << "it turns in place";
+}
+
+TEST_F(WatchedWay, EndsWithTheMapOnEverySide) {
+  options_.watch_m = 4.0;
+  const Pose2 middle{4.5, 2.5, 0.0};
+  EXPECT_TRUE(blocked_by(0, 2, {middle, {0.5, 2.5, 0.0}}));
+  EXPECT_TRUE(blocked_by(8, 2, {middle, {8.5, 2.5, 0.0}}));
+  EXPECT_TRUE(blocked_by(4, 0, {middle, {4.5, 0.5, 0.0}}));
+  EXPECT_TRUE(blocked_by(4, 4, {middle, {4.5, 4.5, 0.0}}));
+  const std::vector<Pose2> way_out{middle, {8.5, 4.5, 0.0}};
+  EXPECT_FALSE(is_way_blocked(map_, way_out, middle, options_)) << "nothing is beyond it";
+}
+
 TEST(PlanPath, StaysWhereItIsIfThereIsNoWay) {
   const FloorMap map = floor_of({"?????", "??.??", "?????"});
   NavigationOptions options = point_robot();
@@ -197,6 +236,24 @@ TEST(PlanPath, TakesADetourForClearance) {
   };
   EXPECT_DOUBLE_EQ(highest_m(0.0), 1.5);
   EXPECT_GE(highest_m(2.0), 2.5);
+}
+
+/// A metre costs 2.5 in the second column and 1 from the third on: two of them straight on cost 5.
+/// Either half of the detour is sampled at four places, one of them in the second column.
+TEST(PullStraight, LeavesADetourThatCostsLess) {
+  NavigationOptions options;
+  options.footprint_radius_m = 0.5;
+  options.margin_m = 0.5;
+  options.clearance_weight = 3.0;
+  options.comfort_m = 2.0;
+  const FloorMap map = floor_of(Drawing(13, "........."));
+  const PathField field = make_path_field(map, {1.5, 5.5, 0.0}, options);
+  const auto points_left = [&](double aside_m) {
+    const std::vector<Eigen::Vector2d> points{{1.5, 5.5}, {1.5 + aside_m, 6.5}, {1.5, 7.5}};
+    return pull_straight(field, points).size();
+  };
+  EXPECT_EQ(points_left(1.4), 3U) << "4.731";
+  EXPECT_EQ(points_left(1.5), 2U) << "4.958: hardly less, of costs that are sampled";
 }
 
 TEST(PlanPath, IsClearOnRandomMaps) {

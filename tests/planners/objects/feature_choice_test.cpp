@@ -152,6 +152,24 @@ TEST_F(FeatureChoiceTest, IsConfiguredByName) {
   EXPECT_THROW(check_options(choice), ConfigError);
 }
 
+TEST(FeatureChoice, IsCheckedWithItsParts) {
+  EXPECT_NO_THROW(check_options(FeatureChoice{}));
+  EXPECT_THROW(check_options(FeatureChoice{.measure = LossOfEntropy{.samples = 1}}), ConfigError);
+  EXPECT_THROW(check_options(FeatureChoice{.stop = GainBelow{.threshold = -0.1}}), ConfigError);
+}
+
+TEST(FeatureChoice, HasFoundAndTakenNothingAtFirst) {
+  EXPECT_EQ(FeatureOption{}.model, nullptr);
+  EXPECT_EQ(FeatureOption{}.tables, nullptr);
+  EXPECT_FALSE(FeatureOption{}.extracted);
+  EXPECT_EQ(FeatureScore{}.feature, 0U);
+  EXPECT_EQ(FeatureScore{}.score, 0.0);
+  EXPECT_EQ(FeatureDecision{}.reason, FeatureReason::none_left);
+  EXPECT_EQ(InformationEstimate{}.bits, 0.0);
+  EXPECT_EQ(InformationEstimate{}.standard_error_bits, 0.0);
+  EXPECT_EQ(InformationQuery{}.weight, 1.0);
+}
+
 TEST_F(FeatureChoiceTest, GainPerCostNeedsCosts) {
   weak_.cost_s = 0.0;
   EXPECT_DEATH(choose({.per_cost = true}), "the cost of every feature");
@@ -192,10 +210,12 @@ TEST_F(FeatureChoiceTest, AViewThatCountsForAQuarterIsAsOfAQuarterOfPsi) {
   const auto quarter = gains(0.25);
   for (ObservationModel* model : {&weak_, &object_, &pose_}) model->psi = 0.25;
   const auto of_quarter_psi = gains(1.0);
+  const auto of_no_weight = choose({.about_object = false}).scores;
   ASSERT_EQ(quarter.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_LT(quarter[i].gain.bits, whole[i].gain.bits) << i;
     EXPECT_NEAR(quarter[i].gain.bits, of_quarter_psi[i].gain.bits, 1e-6) << i;
+    EXPECT_EQ(of_no_weight[i].gain.bits, of_quarter_psi[i].gain.bits) << i << ", which is whole";
   }
 }
 

@@ -100,6 +100,7 @@ TEST(EveryInformationMeasure, IsTheSameFromTables) {
   const DivergenceTables tables{
       .bhattacharyya_nats = divergence_table(Divergence::bhattacharyya, model, 1),
       .kullback_leibler_nats = divergence_table(Divergence::kullback_leibler, model, 1)};
+  const DivergenceTables not_made{};
   Eigen::VectorXd belief = Eigen::VectorXd::LinSpaced(32, 1.0, 9.0);
   belief /= belief.sum();
   InformationQuery query{.likely = likely_states(belief, 12), .features = {&feature, 1}};
@@ -108,6 +109,8 @@ TEST(EveryInformationMeasure, IsTheSameFromTables) {
     const double bits = bits_of(measure, query);
     query.tables = &tables;
     EXPECT_NEAR(bits_of(measure, query), bits, kMeasureTolerance * (1.0 + bits));
+    query.tables = &not_made;
+    EXPECT_EQ(bits_of(measure, query), bits) << "worked out";
   }
 }
 
@@ -334,6 +337,8 @@ TEST(InformationWithUnknown, SamplesUseTheFactors) {
   model.log_factor[5] = -200.0;  // whatever is measured, it is known
   EXPECT_GT(before, 0.1);
   EXPECT_NEAR(bits_of(MonteCarloInformation{}, query), 1.0, 1e-9) << "and believed at once";
+  model.log_factor[0] = 2000.0;  // of what is impossible
+  EXPECT_NEAR(bits_of(MonteCarloInformation{}, query), 1.0, 1e-9);
   EXPECT_GT(at_means, 0.1);
   EXPECT_NEAR(bits_of(LossOfEntropy{.at_mean = true}, query), 1.0, 1e-9);
 }

@@ -19,6 +19,8 @@ TEST(LikelyStates, AreTheMostProbableInOrder) {
   EXPECT_DOUBLE_EQ(likely.belief[2], 0.25 / 0.85);
 }
 
+TEST(LikelyStates, HoldAllOfTheBeliefUnlessItIsSaid) { EXPECT_EQ(LikelyStates{}.mass, 1.0); }
+
 TEST(LikelyStates, LeaveTheImpossibleOut) {
   const auto likely = likely_states(belief({0.0, 1.0, 0.0}), 3);
   EXPECT_EQ(likely.states, std::vector{1});
@@ -59,6 +61,22 @@ TEST(LikelyStates, OfUnknownObjectsLeaveRoomForKnownOnes) {
   EXPECT_NEAR(known, 0.4, 1e-12);
   EXPECT_NEAR(likely.belief[14] + likely.belief[15], 0.6, 1e-12);
   EXPECT_NEAR(likely.mass, 14.0 * 0.4 / 50.0 + 0.004 + 2.0 * 0.02, 1e-12);
+  const LikelyStates fewer = likely_states(states, belief, 15);
+  ASSERT_EQ(fewer.states.size(), 15U);
+  EXPECT_EQ(fewer.states[13], 14) << "an eighth is one unknown";
+  EXPECT_EQ(fewer.states[14], 50);
+}
+
+TEST(LikelyStates, HaveTheOnlyUnknownOneHoweverImprobable) {
+  ObjectStates states;
+  states.bins = 1;
+  states.objects.resize(3);
+  states.unknown_category = {kNoCategory};
+  const LikelyStates likely = likely_states(states, belief({0.3, 0.5, 0.15, 0.05}), 2);
+  EXPECT_EQ(likely.states, (std::vector{1, 3}));
+  EXPECT_NEAR(likely.belief[0], 0.95, 1e-12);
+  EXPECT_NEAR(likely.belief[1], 0.05, 1e-12);
+  EXPECT_NEAR(likely.mass, 0.55, 1e-12);
 }
 
 TEST(LikelyStates, MayAllBeUnknown) {

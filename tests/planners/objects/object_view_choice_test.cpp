@@ -222,6 +222,7 @@ TEST_F(EnoughViewsTest, OrLooksAtTheEntropyOfTheState) {
   EXPECT_EQ(enough(never, 0.995, 0.005, 0.0, 0.0), EnoughReason::entropy);
   EXPECT_EQ(enough(never, 0.5, 0.4, 0.1, 0.0), std::nullopt);
   EXPECT_EQ(enough(never, 0.0, 0.0, 1.0, 0.0), EnoughReason::entropy);
+  EXPECT_EQ(enough(never, 1.0, 2.3e-16, 0.0, 0.0), EnoughReason::entropy) << "a sum just above 1";
 }
 
 TEST_F(EnoughViewsTest, TakesUnknownForAnAnswer) {

@@ -103,6 +103,7 @@ TEST(OrbitWay, StepsAreNoLongerWhereTheCentreMoves) {
     EXPECT_TRUE(way[i].isApprox(at.place(0.5), 1e-9)) << i;
   }
   EXPECT_EQ(orbit_way(kOrbit, 0.5, to, 0.5, 0.49).size(), 4U);
+  EXPECT_EQ(orbit_way(kOrbit, 0.5, to, 0.5, 1.5).size(), 1U) << "level, one step is enough";
   EXPECT_DEATH(orbit_way(kOrbit, 0.5, to, 0.5, 0.0), "a step along a way");
 }
 

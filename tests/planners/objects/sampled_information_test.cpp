@@ -80,6 +80,18 @@ TEST(SampledInformation, KnowsItsStandardError) {
   EXPECT_NEAR(sampled.standard_error_bits, expected, 0.03 * expected);
 }
 
+/// Half of the samples tell all of 1.5 bits, the others leave one of them open.
+TEST(SampledInformation, ItsStandardErrorIsOfOneSampleLess) {
+  const auto model = test::scalar_model({0.0F, 100.0F, 100.0F});
+  const ObservationModel* feature = &model;
+  for (const int samples : {2, 4}) {
+    Rng rng(1);
+    const auto sampled = sampled_information(about({&feature, 1}, {0.5, 0.25, 0.25}), samples, rng);
+    EXPECT_NEAR(sampled.bits, 1.0, 1e-12);
+    EXPECT_NEAR(sampled.standard_error_bits, 0.5 / std::sqrt(samples - 1.0), 1e-12);
+  }
+}
+
 TEST(SampledInformation, OfARepeatedFeatureIsThatOfItsParts) {
   auto model = test::scalar_model({0.0F, 1.0F, 3.0F});
   model.variance << 1.0F, 0.8F, 1.3F;

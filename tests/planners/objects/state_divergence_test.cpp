@@ -130,6 +130,23 @@ RC_GTEST_PROP(LogLikelihoodsAtMeans, AreTheFormulaUpToAConstantOfEachRow, ()) {
   }
 }
 
+TEST(LogLikelihoodsAtMeans, AddTheFactorsOfEveryFeatureThatHasThem) {
+  const auto plain = test::scalar_model({0.0F, 1.0F});
+  auto ignored = test::scalar_model({0.0F, 1.0F});
+  ignored.psi = 0.0;
+  ignored.log_factor = Eigen::Vector2d(9.0, 7.0);
+  auto factored = test::scalar_model({0.0F, 2.0F});
+  factored.psi = 0.5;
+  const std::vector<const ObservationModel*> features{&plain, &ignored, &factored};
+  const Eigen::MatrixXf without = log_likelihoods_at_means(features, all_states(plain));
+  factored.log_factor = Eigen::Vector2d(-2.0, 3.0);
+  const Eigen::MatrixXf with = log_likelihoods_at_means(features, all_states(plain));
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(with(i, 0) - without(i, 0), -1.0, 1e-6);
+    EXPECT_NEAR(with(i, 1) - without(i, 1), 1.5, 1e-6);
+  }
+}
+
 TEST(StateDivergencesDeathTest, StatesMustBeOnesTheModelHas) {
   const auto model = test::scalar_model({0.0F, 1.0F});
   const ObservationModel* feature = &model;

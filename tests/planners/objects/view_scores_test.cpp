@@ -76,6 +76,34 @@ TEST_F(ViewScores, OfFreeViewsFallWithTimeAndOfTheOthersAreBelowNothing) {
   EXPECT_EQ(decision.action, 0U);
 }
 
+TEST_F(ViewScores, OfWhatDoesNotAskForInformationHaveNoGain) {
+  for (const ObjectViewChoice& choice :
+       {ObjectViewChoice(RandomObjectView{}), ObjectViewChoice(StarView{}),
+        ObjectViewChoice(NearestFreeView{})}) {
+    const ObjectViewDecision decision = choose({.choice = choice});
+    ASSERT_EQ(decision.scores.size(), 2U);
+    for (const ObjectViewScore& score : decision.scores) {
+      EXPECT_EQ(score.gain.bits, 0.0) << strategy_name_of(choice);
+      EXPECT_EQ(score.gain.standard_error_bits, 0.0) << strategy_name_of(choice);
+      EXPECT_EQ(score.cost, 1.0) << strategy_name_of(choice);
+    }
+  }
+  EXPECT_GT(choose({}).scores[0].gain.bits, 0.1);
+  EXPECT_EQ(choose({}).scores[0].gain.standard_error_bits, 0.0) << "without sampling";
+}
+
+TEST_F(ViewScores, CountWholeAndCostNothingUnlessToldOtherwise) {
+  const ObjectViewSituation situation{
+      .database = states_, .features = {}, .actions = {}, .predicted_belief = {}};
+  EXPECT_EQ(situation.weight, 1.0);
+  EXPECT_EQ(ObjectViewAction{}.time_s, 0.0);
+  EXPECT_EQ(ObjectViewAction{}.path_m, 0.0);
+  EXPECT_EQ(ObjectViewAction{}.energy_j, 0.0);
+  EXPECT_FALSE(ObjectViewAction{}.visited);
+  EXPECT_EQ(ObjectViewScore{}.score, 0.0);
+  EXPECT_EQ(ObjectViewDecision{}.action, 0U);
+}
+
 /// What is below nothing goes down too.
 TEST_F(ViewScores, OfVisitedViewsAreLessWhateverTheirSign) {
   actions_ = {{.time_s = 3.0, .visited = true, .visible = 0.8},

@@ -153,6 +153,14 @@ TEST(TwoLevelTour, TakesANearViewThoughNoneShowsAnything) {
   EXPECT_FALSE(order_of(TwoLevelTour{}, problem).empty());
 }
 
+TEST(AheadChoices, TakeTheNearestViewWhereNoneShowsAnything) {
+  PlanningProblem problem = on_a_line({2.0, -3.0}, {0.0F, 0.0F});
+  problem.draw = [&problem](Rng&) { return shown_by(problem); };
+  EXPECT_EQ(order_of(TourChoice{}, problem), test::Order{0});
+  EXPECT_EQ(order_of(OracleTour{}, problem), test::Order{0});
+  EXPECT_EQ(order_of(Rollout{}, problem), test::Order{0});
+}
+
 TEST(AheadChoices, TakeNothingThatCannotBePaid) {
   Rng rng(8);
   for (int k = 0; k < 40; ++k) {

@@ -132,6 +132,22 @@ TEST(PlannedTour, HasTimesAndWhatEachStopAdds) {
   EXPECT_EQ(PlannedTour{}.ends_s(), 0.0);
 }
 
+TEST(PlanningProblem, HasNothingThatItWasNotTold) {
+  const PlanningProblem problem{};
+  EXPECT_EQ(problem.seen, 0.0);
+  EXPECT_EQ(problem.pace_per_s, 0.0);
+  EXPECT_EQ(problem.scan_s, 0.0);
+  EXPECT_EQ(problem.energy_j(1.0, 1.0), 0.0) << "no power";
+  EXPECT_EQ(PlanCosts{}.taken_s, 0.0);
+  EXPECT_EQ(PlannedStop{}.id, -1);
+  EXPECT_EQ(PlannedStop{}.yaw_rad, 0.0);
+  EXPECT_EQ(PlannedStop{}.arrival_s, 0.0);
+  EXPECT_EQ(PlannedStop{}.departure_s, 0.0);
+  EXPECT_EQ(PlannedStop{}.gain, 0.0);
+  EXPECT_EQ(PlannedStop{}.beyond, 0.0);
+  EXPECT_EQ(Tour{}.cost_s, 0.0);
+}
+
 /// Down to the last second, joule and scan, with the way home where there is one.
 TEST(IsAffordable, CountsDrivesScansAndTheWayHome) {
   PlanningProblem problem = three_views();

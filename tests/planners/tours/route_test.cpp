@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/planners/tours/small_problem.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/tours/route_search.hpp"
 
 namespace vantage {
@@ -87,6 +88,35 @@ TEST(SearchedRoute, KeepsALastPlaceAtTheEnd) {
     ASSERT_TRUE(visits_all(order, 20));
     EXPECT_EQ(order.back(), 7U);
   }
+}
+
+/// Four places on a line, taken in one after the other: 4 + 3 + 2 + 1 to choose from; then parts of
+/// one, two and three to move from 4 + 3 + 2 places, and parts to turn round from 4. None helps.
+TEST(SearchedRoute, AsksNowAndThenWhetherToGoOn) {
+  RouteCosts costs{Eigen::MatrixXd(5, 4)};
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    for (Eigen::Index j = 0; j < 4; ++j) {
+      costs.cost(i, j) = std::abs(static_cast<double>(j + 1 - (i == 4 ? 0 : i + 1)));
+    }
+  }
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  EXPECT_EQ(searched_route(costs, std::nullopt), (test::Order{0, 1, 2, 3}));
+  EXPECT_EQ(asked, 10 + 9 + 4);
+}
+
+/// The way 0, 1, 2 costs 18, less what is saved; that by insertion, 0, 2, 1, costs 18.
+TEST(SearchedRoute, ChangesForMoreThanRoundingMakes) {
+  const auto order = [](double saved) {
+    RouteCosts costs{Eigen::MatrixXd(4, 3)};
+    costs.cost << 0.0, 3.0, 9.0,  //
+        9.0, 0.0, 7.0 - saved,    //
+        7.0, 1.0, 0.0,            //
+        8.0, 6.0, 9.0;
+    return searched_route(costs, std::nullopt);
+  };
+  EXPECT_EQ(order(0.8e-9), (test::Order{0, 2, 1}));
+  EXPECT_EQ(order(1.5e-9), (test::Order{0, 1, 2}));
 }
 
 /// Round a circle the order is that of the circle.

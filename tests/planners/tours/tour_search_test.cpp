@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "tests/planners/tours/small_problem.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/tours/joint_gain.hpp"
 
 namespace vantage {
@@ -80,6 +82,16 @@ TEST(SearchTour, LeavesOutAViewThatIsNotWorthAScanOfThatWeight) {
   EXPECT_EQ(order(2.0), test::Order{1});
 }
 
+/// It takes 6 s and shows a quarter of all.
+TEST(SearchTour, TakesAViewInThatSavesMoreThanRoundingMakes) {
+  const PlanningProblem problem = two_views();
+  const auto order = [&](double saved_s) {
+    return search_tour(problem, {.finish_weight = 1.0, .worth_s = 4.0 * (6.0 + saved_s)}, {}).order;
+  };
+  EXPECT_EQ(order(0.8e-9), test::Order{1});
+  EXPECT_EQ(order(1.5e-9), (test::Order{1, 0}));
+}
+
 /// Jobs without ways between them: the mean time is least by falling weight per time. [Smith1956]
 TEST(SearchTour, TakesRegionsByWhatTheyShowPerTime) {
   Rng rng(31);
@@ -113,6 +125,19 @@ TEST(SearchTours, RaiseTheWorthUntilAViewIsWorthItsTime) {
   const TourObjective objective{.finish_weight = 1.0, .worth_s = 1.0};
   EXPECT_EQ(search_tour(problem, objective, {}).order, test::Order{0});
   EXPECT_EQ(search_tours(problem, objective, {}).front().order.front(), 1U);
+}
+
+/// View 1 shows three quarters of all and takes 3 s.
+TEST(WithRaisedWorth, RisesByHalfUntilAViewIsWorthItsTime) {
+  PlanningProblem problem = two_views();
+  const auto worth_s = [&](double from_s) {
+    return with_raised_worth(problem, {.finish_weight = 1.0, .worth_s = from_s}, {}).worth_s;
+  };
+  EXPECT_EQ(worth_s(4.1), 4.1);
+  EXPECT_EQ(worth_s(1.0), 1.5 * 1.5 * 1.5 * 1.5);
+  problem.scan_s = 1e9;
+  EXPECT_NEAR(worth_s(1.0), std::pow(1.5, 30.0), 1e-6) << "it gives up";
+  EXPECT_EQ(worth_s(0.0), 0.0);
 }
 
 /// Left and right of the robot, the right one a second nearer.
@@ -233,6 +258,42 @@ TEST(SearchTour, BeginsWhereItIsTold) {
     std::ranges::sort(sorted);
     EXPECT_EQ(std::ranges::adjacent_find(sorted), sorted.end());
   }
+}
+
+/// It costs what nobody can pay, and no cheaper tour stands in its place.
+TEST(SearchTour, BeginsWhereItIsToldThoughThatCannotBePaid) {
+  PlanningProblem problem = two_views();
+  problem.left.time_s = 6.0;  // view 0 takes 7 s
+  const Tour tour = search_tour(problem, {}, {}, 0);
+  EXPECT_EQ(tour.order, test::Order{0});
+  EXPECT_EQ(tour.cost_s, std::numeric_limits<double>::infinity());
+}
+
+/// The first of two views is chosen from 2, the second from 1. Then, in each of two rounds, parts
+/// are moved from 2 + 1 places and turned round from 2, and 2 views are left out.
+TEST(SearchTour, AsksNowAndThenWhetherToGoOn) {
+  const PlanningProblem problem = two_views();
+  const int once = 2 + 1 + 2 * (3 + 2 + 2);
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  EXPECT_EQ(search_tour(problem, {}, {}).order, (test::Order{1, 0}));
+  EXPECT_EQ(asked, once);
+  // With view 0 in front there is less to change.
+  EXPECT_EQ(search_tour(problem, {}, {}, 0).order, (test::Order{0, 1}));
+  const int with_a_first = 1 + 2 * (1 + 1 + 1);
+  EXPECT_EQ(asked, once + with_a_first);
+  asked = 0;
+  EXPECT_EQ(search_tours(problem, {}, {}).size(), 2U);
+  EXPECT_EQ(asked, once + once + 1 + with_a_first)
+      << "is any worth it, the best, how good view 0 is in front, and the best that begins there";
+}
+
+TEST(SearchTourDeathTest, NeedsAProblemWhoseSizesFit) {
+  PlanningProblem problem = two_views();
+  problem.place_m.pop_back();
+  EXPECT_DEATH(search_tour(problem, {}, {}), "a place of each view");
+  problem.left.scans = 0;  // there is nothing to search
+  EXPECT_DEATH(search_tours(problem, {}, {}), "a place of each view");
 }
 
 /// Four views in a room near by, one far away that shows somewhat more than each of them: who goes

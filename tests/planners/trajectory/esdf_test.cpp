@@ -108,6 +108,15 @@ TEST(Esdf, OfAnEmptyAndOfAFullGrid) {
   EXPECT_NEAR(Esdf(frame, full, 1.5).distance_m({0.1, 0.0, 0.0}), -1.5, 1e-6);
 }
 
+TEST(Esdf, OfOneLayerHasNoSlopeAcrossIt) {
+  const GridFrame frame = make_grid_frame({0.0, 0.0, 0.0}, {0.5, 0.5, 0.1}, {5, 5, 1});
+  std::vector<std::uint8_t> occupied(frame.size());
+  for (std::size_t i = 0; i < occupied.size(); ++i) occupied[i] = i % 5 == 4 ? 1 : 0;
+  const auto sample = Esdf(frame, occupied).sample({0.03, 0.02, 0.0});  // a wall at x = 0.15
+  EXPECT_NEAR(sample.distance_m, 0.12, 1e-6);
+  EXPECT_LT((sample.gradient + Eigen::Vector3d::UnitX()).norm(), 1e-5);
+}
+
 TEST(Esdf, OfAWindowOfAMap) {
   OccupancyGrid map(make_grid_frame({0.0, 0.0, 0.5}, {4.0, 4.0, 1.0}, {40, 40, 10}));
   const auto set = [&](const Eigen::Vector3d& p, float log_odds) {
@@ -122,6 +131,29 @@ TEST(Esdf, OfAWindowOfAMap) {
   EXPECT_LT(surface.frame().size(), map.size() / 3);
   EXPECT_NEAR(surface.distance_m({-0.45, 0.05, 0.55}), 0.95, 1e-5);
   EXPECT_NEAR(surface.distance_m({0.05, 0.55, 0.55}), std::sqrt(0.5) - 0.05, 1e-5);
+}
+
+TEST(Esdf, OfAWindowHasTheFirstCellOfAMapAndTheLast) {
+  OccupancyGrid map(make_grid_frame({0.0, 0.0, 0.5}, {1.0, 1.0, 1.0}, {10, 10, 10}));
+  map.log_odds.front() = map.log_odds.back() = 3.0F;
+  const Eigen::AlignedBox3d window(Eigen::Vector3d::Constant(-9.0), Eigen::Vector3d::Constant(9.0));
+  const Esdf surface = make_esdf(map, window, 3.0);
+  ASSERT_EQ(surface.frame().size(), map.size());
+  EXPECT_NEAR(surface.at_centres_m().front(), -0.05, 1e-6);
+  EXPECT_NEAR(surface.at_centres_m().back(), -0.05, 1e-6);
+  EXPECT_NEAR(surface.at_centres_m()[1], 0.05, 1e-6);
+}
+
+TEST(Esdf, AtTheOuterCentresHasTheSlopeOfTheLastCells) {
+  const GridFrame frame = make_grid_frame({0.0, 0.0, 0.0}, {4.0, 4.0, 4.0}, {4, 4, 4});
+  std::vector<std::uint8_t> occupied(frame.size());
+  for (std::size_t i = 0; i < occupied.size(); ++i) occupied[i] = i % 4 == 3 ? 1 : 0;
+  const Esdf surface(frame, occupied, 5.0);  // a wall from x = 1 m on
+  for (const double at : {-1.5, 1.5}) {
+    const auto sample = surface.sample({at, at, at});
+    EXPECT_NEAR(sample.distance_m, 1.0 - at, 1e-6);
+    EXPECT_LT((sample.gradient + Eigen::Vector3d::UnitX()).norm(), 1e-6) << at;
+  }
 }
 
 TEST(Esdf, NeedsAFlagForEachCell) {

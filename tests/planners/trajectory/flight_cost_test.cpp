@@ -43,6 +43,14 @@ TEST(InFrame, FollowsYawPitchAndPlaceOfTheCamera) {
   EXPECT_LT(in_frame(camera, waypoint, on_axis)->norm(), 1e-12);
 }
 
+TEST(FlightCamera, HasSquarePixels) {
+  const Pose T_body_camera = camera_ahead(0.4, {0.1, 0.2, 0.3});
+  const FlightCamera camera = flight_camera(T_body_camera, 640, 480, 0.7);
+  EXPECT_EQ(camera.T_body_camera.matrix(), T_body_camera.matrix());
+  EXPECT_EQ(camera.vertical_fov_rad, 0.7);
+  EXPECT_NEAR(std::tan(0.5 * camera.horizontal_fov_rad), 640.0 / 480.0 * std::tan(0.35), 1e-12);
+}
+
 TEST(CentreCost, GrowsWithTheSquareUpToTheEdge) {
   const FlightCamera camera;
   const FlightCostOptions options{.bearing_weight = 0.0};
@@ -52,6 +60,15 @@ TEST(CentreCost, GrowsWithTheSquareUpToTheEdge) {
   EXPECT_NEAR(centre_cost(options, camera, waypoint, {2.0, across, 1.0}), 0.25, 1e-12);
   EXPECT_EQ(centre_cost(options, camera, waypoint, {2.0, 5.0, 1.0}), 1.0);
   EXPECT_EQ(centre_cost(options, camera, waypoint, {-2.0, 0.1, 1.0}), 1.0);
+  const double up = std::tan(0.5 * camera.vertical_fov_rad);
+  EXPECT_NEAR(centre_cost(options, camera, waypoint, {2.0, 0.0, 1.0 - up}), 0.25, 1e-12);
+  EXPECT_NEAR(centre_cost(options, camera, waypoint, {2.0, 0.5 * across, 1.0 + up}), 0.3125, 1e-12);
+}
+
+TEST(CentreCost, OfAPlaceWithinFiveCentimetresIsOne) {
+  const FlightCostOptions options{.bearing_weight = 0.0};
+  EXPECT_EQ(centre_cost(options, {}, {0.0, 0.0, 1.0, 0.0}, {0.04, 0.0, 1.0}), 1.0);
+  EXPECT_NEAR(centre_cost(options, {}, {0.0, 0.0, 1.0, 0.0}, {0.06, 0.0, 1.0}), 0.0, 1e-12);
 }
 
 TEST(CentreCost, TheBearingLeadsOutOfThePlateau) {
@@ -85,6 +102,25 @@ TEST(HeadingCost, TakesNoAccountOfHeightOrPitch) {
   EXPECT_NEAR(heading_cost(options, camera, waypoint, {0.5 * across, 1.0, 1.0}), 0.25, 1e-12);
   EXPECT_EQ(heading_cost(options, camera, waypoint, {0.0, -0.5, 1.0}), 1.0);
   EXPECT_EQ(heading_cost(options, camera, waypoint, {0.0, 0.0, 2.0}), 0.0);
+  EXPECT_EQ(heading_cost(options, camera, waypoint, {0.0, -0.04, 2.0}), 0.0) << "it is there";
+  EXPECT_EQ(heading_cost(options, camera, waypoint, {0.0, -0.06, 2.0}), 1.0);
+}
+
+TEST(HeadingCost, IsThatOfTheCameraWhereItLooksAside) {
+  FlightCamera camera;
+  camera.T_body_camera = make_pose(Eigen::Vector3d::Zero(), 0.6) * camera_ahead(0.3);
+  const FlightCostOptions options{.bearing_weight = 0.0};
+  const Eigen::Vector4d waypoint(1.0, 2.0, 1.0, 0.9);
+  const auto cost_at = [&](double bearing_rad) {
+    const Eigen::Vector3d place(1.0 + 2.0 * std::cos(bearing_rad),
+                                2.0 + 2.0 * std::sin(bearing_rad), 3.0);
+    return heading_cost(options, camera, waypoint, place);
+  };
+  const double half_way = std::atan(0.5 * std::tan(0.5 * camera.horizontal_fov_rad));
+  EXPECT_NEAR(cost_at(1.5), 0.0, 1e-12);
+  EXPECT_NEAR(cost_at(1.5 + half_way), 0.25, 1e-12);
+  EXPECT_NEAR(cost_at(1.5 - half_way), 0.25, 1e-12);
+  EXPECT_EQ(cost_at(1.5 + 0.75 * std::numbers::pi), 1.0);
 }
 
 class RecognitionCostTest : public ::testing::Test {
@@ -138,6 +174,8 @@ TEST(FlightCost, OfAColumnBesideThePath) {
   const auto cost = costs(options, scene);
   EXPECT_NEAR(cost[3], 3.0 * (1.0 - here_m) * 0.5, 1e-9);
   EXPECT_EQ(cost[9], 0.0);
+  const FlightCostOptions slow{.obstacle_weight = 3.0, .segment_s = 2.0, .clearance_m = 0.0};
+  EXPECT_NEAR(costs(slow, scene)[3], 3.0 * (1.0 - here_m) * 0.25, 1e-9);
   const FlightCostOptions hard{.obstacle_weight = 0.0, .clearance_m = 0.9, .clearance_weight = 7.0};
   EXPECT_NEAR(costs(hard, scene)[3], 7.0 * (0.9 - here_m), 1e-9);
 }
@@ -161,7 +199,11 @@ TEST(FlightCost, StandingInAnObstacleIsNotFree) {
   FlightSurroundings scene{.surface = &surface, .target = {}};
   const FlightCostOptions options{.obstacle_weight = 1.0, .clearance_weight = 0.0};
   const double depth_m = surface.distance_m({1.5, 0.0, 1.2});
-  EXPECT_NEAR(costs(options, scene, standing)[5], 0.2 * (1.0 - depth_m), 1e-9);
+  const Eigen::VectorXd cost = costs(options, scene, standing);
+  EXPECT_NEAR(cost[5], 0.2 * (1.0 - depth_m), 1e-9);
+  // Before it 2 m were flown, and 3.5 m come after it.
+  EXPECT_NEAR(cost[0], 0.5 * 2.0 * (1.0 - depth_m), 1e-9);
+  EXPECT_NEAR(cost[9], 0.5 * 3.5 * (1.0 - depth_m), 1e-9);
 }
 
 TEST(FlightCost, AddsTheTermsOfTheTarget) {
@@ -192,6 +234,8 @@ TEST(FlightCost, AsPrintedSumsOverCentresWithinDelta) {
   const FlightCostOptions options{.obstacle_weight = 1.0, .centre_weight = 0.0, .literal = true};
   FlightSurroundings scene;
   scene.p_world_obstacles_m = {{1.5, 0.8, 1.2}, {1.5, -0.4, 1.2}, {1.5, 3.0, 1.2}};
+  scene.p_world_obstacles_m.emplace_back(0.0, 0.7, 1.2);  // beside the first point
+  EXPECT_NEAR(costs(options, scene)[0], 0.3 * 0.5, 1e-12);
   EXPECT_NEAR(costs(options, scene)[3], (0.2 + 0.6) * 0.5, 1e-12);
   const FlightCostOptions near{
       .obstacle_weight = 1.0, .centre_weight = 0.0, .delta_m = 0.5, .literal = true};

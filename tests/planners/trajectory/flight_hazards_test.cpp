@@ -41,6 +41,7 @@ TEST(FlightHazards, WhereNobodyLookedSomethingMayStandButBesideTheGivenPath) {
   EXPECT_EQ(at(1.0, 0.6), 0);
   EXPECT_EQ(at(1.0, 1.0), 1);
   EXPECT_EQ(at(-2.0, -1.5), 1);
+  EXPECT_EQ(at(-2.95, -1.95), 1) << "the first place";
 }
 
 TEST(FlightHazards, APathThatClimbsIsTrustedAllAlong) {

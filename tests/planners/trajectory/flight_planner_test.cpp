@@ -56,6 +56,9 @@ double clearance_m(const FlightPlanner& planner, const CandidatePlan& candidate)
   return planner.clearance_m(path, path.duration_s());
 }
 
+/// Without a step of the descent: the cheapest of its starts.
+constexpr Chomp kBestStart{.evaluations = 1};
+
 class Planner : public testing::Test {
  protected:
   FlightPlanner planner(const TrajectoryMethod& method) {
@@ -64,6 +67,24 @@ class Planner : public testing::Test {
   }
   std::vector<CandidatePlan> propose(FlightPlanner& planner, int at = 0) {
     return planner.propose({.at = at, .nominal = path_, .plan = path_}, objects_, map_);
+  }
+  /// What a plan so far off from its second point on costs for each unit of the deviation's weight.
+  double missing_m(const Eigen::Vector4d& off) {
+    const auto cost_of = [&](double weight) {
+      std::vector<Eigen::Vector4d> plan = path_;
+      for (std::size_t i = 2; i < plan.size(); ++i) plan[i] += off;
+      planning_.options.path_deviation_weight = weight;
+      FlightPlanner chomp = planner(Chomp{.evaluations = 20});
+      const auto candidates =
+          chomp.propose({.at = 0, .nominal = path_, .plan = plan}, objects_, map_);
+      EXPECT_EQ(candidates[1].planner, "as before");
+      return candidates[1].cost;
+    };
+    return cost_of(3.0) - cost_of(2.0);
+  }
+  double cost_as_given(int at = 0) {
+    FlightPlanner best_start = planner(kBestStart);
+    return propose(best_start, at)[2].cost;
   }
 
   FlightPlanning planning_;
@@ -114,6 +135,8 @@ TEST_F(Planner, LeavesThePathOnlyThroughWhatWasSeen) {
   const double unseen_m = aside_m(propose(in_the_dark).front());
   EXPECT_GT(seen_m, 0.3);
   EXPECT_LT(unseen_m, 0.25);
+  EXPECT_TRUE(in_the_open.target());
+  EXPECT_FALSE(in_the_dark.target()) << "no view of it keeps off what was not seen";
 }
 
 TEST_F(Planner, LooksAheadOnceItIsPast) {
@@ -234,19 +257,6 @@ TEST_F(Planner, TellsTheClearanceOfASpline) {
 /// Eight of ten points are off: the first is flown to already, the last is that of the given path.
 TEST_F(Planner, LeavingThePathCostsByWhatIsBeyondTheTolerance) {
   objects_.clear();
-  const auto cost_of = [&](const Eigen::Vector4d& off, double weight) {
-    std::vector<Eigen::Vector4d> plan = path_;
-    for (std::size_t i = 2; i < plan.size(); ++i) plan[i] += off;
-    planning_.options.path_deviation_weight = weight;
-    FlightPlanner chomp = planner(Chomp{.evaluations = 20});
-    const auto candidates =
-        chomp.propose({.at = 0, .nominal = path_, .plan = plan}, objects_, map_);
-    EXPECT_EQ(candidates[1].planner, "as before");
-    return candidates[1].cost;
-  };
-  const auto missing_m = [&](const Eigen::Vector4d& off) {
-    return cost_of(off, 3.0) - cost_of(off, 2.0);
-  };
   EXPECT_NEAR(missing_m({0.0, 1.5, 0.0, 0.0}), 8.0 * (1.5 - 1.2), 1e-6);
   EXPECT_NEAR(missing_m({0.0, -1.2, 0.0, 0.0}), 0.0, 1e-6);
   EXPECT_NEAR(missing_m({0.0, 0.0, 0.4, 0.0}), 8.0 * (4.0 * 0.4 - 1.2), 1e-6) << "up counts more";
@@ -254,6 +264,113 @@ TEST_F(Planner, LeavingThePathCostsByWhatIsBeyondTheTolerance) {
   path_[1].z() = 1.4;  // so low it may be anywhere
   EXPECT_NEAR(missing_m({0.0, 0.0, -0.38, 0.0}), 0.0, 1e-6);
   EXPECT_NEAR(missing_m({0.0, 0.0, 0.38, 0.0}), 8.0 * (4.0 * 0.38 - 1.2), 1e-6);
+}
+
+/// Views are where the camera has objects in its middle; the lowest of them counts, not the first.
+TEST_F(Planner, WhatIsLookedAtSaysHowLowAPlanMayGo) {
+  const double up_m = 1.05 * std::sin(0.65);
+  objects_.push_back({.id = 4, .p_world_m = {6.5, 0.9, 0.4}, .entropy_nats = 2.0});
+  EXPECT_NEAR(missing_m({0.0, 0.0, -0.7, 0.0}), 0.0, 1e-6);
+  const double lower_m = 0.4 + up_m - 0.6;
+  EXPECT_NEAR(missing_m({0.0, 0.0, -1.2, 0.0}), 8.0 * (4.0 * lower_m - 1.2), 1e-6);
+  planning_.options.views = NearestObject{};
+  EXPECT_NEAR(missing_m({0.0, 0.0, -0.7, 0.0}), 8.0 * (4.0 * (0.9 + up_m - 1.1) - 1.2), 1e-6);
+  objects_.erase(objects_.begin());
+  objects_[0].p_world_m.x() = 2.5;
+  EXPECT_NEAR(missing_m({0.0, 0.0, -0.7, 0.0}), 0.0, 1e-6);
+}
+
+TEST_F(Planner, ViewsAreNoHigherThanThePath) {
+  objects_[0].p_world_m.z() = 1.6;
+  FlightPlanner best_start = planner(kBestStart);
+  propose(best_start);
+  ASSERT_TRUE(best_start.target());
+  EXPECT_EQ(best_start.target()->p_world_view_m.z(), 1.8);
+}
+
+TEST_F(Planner, AViewDrawsAsLongAsItsObjectIsUnknown) {
+  objects_[0].entropy_nats = 0.05;
+  planning_.known_below_nats = 0.01;
+  planning_.options.cost.recognition_weight = 0.0;
+  const double without = cost_as_given();
+  planning_.options.cost.recognition_weight = 1.0;
+  const Eigen::Vector3d view_m(2.5, 0.9 - 1.05 * std::cos(0.65), 0.9 + 1.05 * std::sin(0.65));
+  const ObservationTarget target{objects_[0].p_world_m, view_m, 2.0};
+  const double of_one_point = recognition_cost({}, target, {2.0, 0.0, 1.8});
+  EXPECT_NEAR(cost_as_given() - without, of_one_point, 1e-9);
+}
+
+TEST_F(Planner, AsPrintedObjectsAreWhatIsInTheWay) {
+  objects_[0].p_world_m = Eigen::Vector3d(2.0, 0.3, 1.8);
+  planning_.options.cost.literal = true;
+  planning_.options.cost.obstacle_weight = 0.0;
+  const double without = cost_as_given();
+  planning_.options.cost.obstacle_weight = 1.0;
+  EXPECT_NEAR(cost_as_given() - without, 0.5 + 0.5 - 0.3, 1e-9) << "at a metre a second";
+}
+
+TEST_F(Planner, StartsHeadedForWhatEachPointLooksAt) {
+  planning_.options.cost.centre_weight = 5.0;
+  for (const bool nearest : {false, true}) {
+    planning_.options.views = nearest ? ViewPlan(NearestObject{}) : ViewPlan(ViewsOnTheWay{});
+    FlightPlanner best_start = planner(kBestStart);
+    const Eigen::Matrix4Xd points = propose(best_start).front().points;
+    for (Eigen::Index i = 0; i < 10; ++i) {
+      const double x_m = static_cast<double>(i + 1);
+      // The one point within a metre of its view, or all but the first within three of the object.
+      const bool looks = nearest ? i >= 1 && i <= 4 : i == 1;
+      EXPECT_NEAR(points(3, i), looks ? std::atan2(0.9, 2.5 - x_m) : 0.0, 1e-9) << i;
+    }
+  }
+}
+
+TEST_F(Planner, PlansAfreshEachTime) {
+  FlightPlanner used = planner(Chomp{.evaluations = 100});
+  propose(used);
+  objects_[0].p_world_m = Eigen::Vector3d(5.5, -0.9, 0.9);
+  FlightPlanner fresh = planner(Chomp{.evaluations = 100});
+  EXPECT_EQ(propose(used).front().points, propose(fresh).front().points);
+}
+
+TEST_F(Planner, EveryCandidateGoesFromWhereItIsFlownToBackToThePath) {
+  std::vector<Eigen::Vector4d> plan = path_;
+  plan[1].y() = 0.3;
+  plan[10].y() = 0.2;
+  for (const TrajectoryMethod& method :
+       {TrajectoryMethod(GivenPathYaw{}), TrajectoryMethod(DetourPath{}),
+        TrajectoryMethod(kBestStart)}) {
+    FlightPlanner any = planner(method);
+    for (const CandidatePlan& candidate :
+         any.propose({.at = 0, .nominal = path_, .plan = plan}, objects_, map_)) {
+      EXPECT_EQ(candidate.points.col(0), plan[1]) << candidate.planner;
+      EXPECT_EQ(candidate.points.col(9).head<3>(), path_[10].head<3>()) << candidate.planner;
+    }
+  }
+}
+
+TEST_F(Planner, StandsWhereThePathEnds) {
+  objects_.clear();
+  EXPECT_NEAR(cost_as_given(15), 0.5, 1e-9) << "half of the square of stopping within a metre";
+  EXPECT_NEAR(cost_as_given(17), 0.5, 1e-9);
+  EXPECT_EQ(cost_as_given(18), 0.0) << "there is nothing left to choose";
+}
+
+/// Though the camera looks aside, and ahead there is something to see.
+TEST_F(Planner, TheLastHeadingsAreThoseGiven) {
+  for (Eigen::Vector4d& waypoint : path_) waypoint[3] = 1.5;
+  objects_[0].p_world_m = Eigen::Vector3d(20.5, 0.0, 0.9);
+  planning_.options.range_m = 8.0;
+  planning_.options.cost.centre_weight = 5.0;
+  FlightPlanner best_start = planner(kBestStart);
+  const Eigen::Matrix4Xd points = propose(best_start, 15).front().points;
+  EXPECT_LT((points.row(3).array() - 1.5).abs().maxCoeff(), 1e-9);
+}
+
+TEST_F(Planner, WhatIsJustClearEnoughIsClear) {
+  planning_.options.clearance_m = 0.5;
+  const FlightPlanner given = planner(GivenPath{});
+  EXPECT_TRUE(given.clear(0.5));
+  EXPECT_FALSE(given.clear(0.4999));
 }
 
 /// Over a floor 1.8 m below; what is farther than 1.5 m is that far.
@@ -289,10 +406,11 @@ TEST_F(Planner, ClearanceIsAlsoThatOfTheEndBetweenTwoSamples) {
 
 TEST(SafestOfBest, IsTheFirstThatIsClearElseWhatKeepsOffFarthest) {
   std::vector<CandidatePlan> plans(3);
-  for (CandidatePlan& plan : plans) plan.clear = false;
   plans[0].clearance_m = 0.1;
   plans[1].clearance_m = 0.4;
   plans[2].clearance_m = 0.2;
+  EXPECT_EQ(safest_of_best(plans), 0U) << "clear unless they are found not to be";
+  for (CandidatePlan& plan : plans) plan.clear = false;
   EXPECT_EQ(safest_of_best(plans), 1U);
   plans[2].clear = true;
   EXPECT_EQ(safest_of_best(plans), 2U);

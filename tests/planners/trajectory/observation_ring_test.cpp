@@ -50,6 +50,7 @@ TEST(ActiveObject, IsTheNearestThatIsNotKnown) {
   objects[2].used.fill(true);  // nothing left to see of it
   EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1), 0U);
   EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1, 2.9), std::nullopt);
+  EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1, 3.0), 0U) << "just in range";
   EXPECT_EQ(active_object({}, {0.0, 0.0, 1.2}, 0.1), std::nullopt);
 }
 
@@ -93,6 +94,12 @@ TEST(NearestOnPath, IsOnTheSegmentsNotAtTheWaypointsAlone) {
   const OnPath behind = nearest_on_path(path, {-3.0, 4.0, 1.2});
   EXPECT_NEAR(behind.distance_m, 5.0, 1e-12);
   EXPECT_EQ(behind.at, 0.0);
+  const OnPath beyond = nearest_on_path(path, {7.5, 4.0, 1.2});
+  EXPECT_NEAR(beyond.distance_m, 5.0, 1e-12);
+  EXPECT_NEAR(beyond.at, 9.0, 1e-12);
+  const OnPath of_one = nearest_on_path(path.middleCols(2, 1), {4.0, 4.0, 1.2});
+  EXPECT_NEAR(of_one.distance_m, 5.0, 1e-12) << "of a path of one waypoint";
+  EXPECT_EQ(of_one.at, 0.0);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Defaults and ranges of what trajectories are planned by, by number.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/support/option_numbers.hpp"
 #include "vantage/planners/trajectory/flight_planner.hpp"
 #include "vantage/planners/trajectory/optimisers/noisy_rollouts.hpp"
@@ -127,6 +129,56 @@ TEST(TrajectoryOptions, OfThePlanner) {
   EXPECT_EQ(FlightPlanning{}.known_below_nats, 0.1);
   EXPECT_EQ(ObservationRing{}.radius_m, 1.3);
   EXPECT_EQ(ObservationRing{}.height_m, 1.0);
+}
+
+TEST(TrajectoryOptions, OfThePlannerAreCheckedWithTheirParts) {
+  EXPECT_NO_THROW(check_options(FlightPlannerOptions{}));
+  FlightPlannerOptions cost;
+  cost.cost.segment_s = 0.0;
+  EXPECT_THROW(check_options(cost), ConfigError);
+  FlightPlannerOptions views;
+  views.views = ViewsOnTheWay{.off_m = 0.0};
+  EXPECT_THROW(check_options(views), ConfigError);
+  FlightPlannerOptions search;
+  search.search.range_m = 0.5;
+  EXPECT_THROW(check_options(search), ConfigError);
+}
+
+TEST(TrajectoryOptions, OfWhatIsHandedOver) {
+  EXPECT_EQ(ViewTarget{}.object, 0);
+  EXPECT_EQ(ViewTarget{}.direction, 0);
+  EXPECT_EQ(ViewTarget{}.entropy_nats, 0.0);
+  EXPECT_EQ(CandidatePlan{}.cost, 0.0);
+  EXPECT_EQ(CandidatePlan{}.clearance_m, 0.0);
+  EXPECT_EQ(PlannableObject{}.id, 0);
+  EXPECT_EQ(PlannableObject{}.entropy_nats, 0.0);
+  EXPECT_EQ(ScheduledView{}.object, 0U);
+  EXPECT_EQ(ScheduledView{}.direction, 0);
+  EXPECT_EQ(ScheduledView{}.at_m, 0.0);
+  EXPECT_EQ(ScheduledView{}.utility, 0.0);
+  EXPECT_EQ(OnPath{}.distance_m, 0.0);
+  EXPECT_EQ(OnPath{}.at, 0.0);
+  EXPECT_EQ(OptimisedHorizon{}.cost, 0.0);
+  EXPECT_EQ(OptimisedHorizon{}.initial_cost, 0.0);
+  EXPECT_EQ(OptimisedHorizon{}.evaluations, 0);
+  const std::vector<Eigen::Vector4d> path;
+  const PlanState state{.nominal = path, .plan = path};
+  EXPECT_EQ(state.at, 0);
+}
+
+TEST(PathNoise, HasADeviationOfEachAxisAndOfYaw) {
+  const PathNoise noise{.sigma_m = {1.0, 2.0, 3.0}, .sigma_yaw_rad = 4.0};
+  EXPECT_EQ(noise.sigma(), Eigen::Vector4d(1.0, 2.0, 3.0, 4.0));
+}
+
+TEST(TrajectoryMethodName, SaysWhatIsLeftOutOfTheCost) {
+  EXPECT_EQ(trajectory_method_name(Stomp{}, {}), "stomp");
+  EXPECT_EQ(trajectory_method_name(Stomp{.rollouts = 10}, {.centre_weight = 0.0}),
+            "stomp rollouts=10 without c_v");
+  EXPECT_EQ(trajectory_method_name(Cem{}, {.information = false}), "cem without c_i");
+  EXPECT_EQ(trajectory_method_name(GivenPath{}, {.literal = true}), "initial literal");
+  const FlightCostOptions bare{.centre_weight = 0.0, .information = false, .literal = true};
+  EXPECT_EQ(trajectory_method_name(GivenPath{}, bare), "initial without c_i without c_v literal");
 }
 
 }  // namespace

@@ -34,6 +34,25 @@ TEST(Smoothest, CostsLeastControl) {
   }
 }
 
+TEST(Cheapest, IsTheFirstOfThoseThatCostLeast) {
+  const auto height = [](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> of_point) {
+    for (Eigen::Index i = 0; i < horizon.count(); ++i) of_point[i] = horizon.points(2, i);
+  };
+  const auto of_heights = [&](const std::vector<double>& heights_m) {
+    std::vector<Horizon> starts;
+    for (const double height_m : heights_m) {
+      starts.push_back(test::straight_flight());
+      starts.back().points.row(2).setConstant(height_m);
+      starts.back().before[2] = starts.back().after[2] = height_m;
+    }
+    return cheapest(starts, height);
+  };
+  EXPECT_EQ(of_heights({3.0, 1.0, 2.0}), 1U);
+  EXPECT_EQ(of_heights({3.0, 2.0, 1.0}), 2U);
+  EXPECT_EQ(of_heights({2.0, 1.0, 1.0, 3.0}), 1U);
+  EXPECT_EQ(of_heights({1.0, 1.0}), 0U);
+}
+
 class ReplanTest : public ::testing::Test {
  protected:
   OptimisedHorizon run(const Horizon& plan, std::span<const ObservedObject> objects) {

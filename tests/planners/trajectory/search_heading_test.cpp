@@ -79,6 +79,38 @@ TEST_F(Search, TurnsForEnoughAlone) {
   EXPECT_FALSE(heading()) << "it may not";
 }
 
+TEST_F(Search, LooksNoFartherThanTheGrid) {
+  set(-3.0, -1.5, 0.6, 1.8, 0.0F);  // at the other end of the rows that it looks along
+  EXPECT_FALSE(search_heading(options_, grid_, {2.0, 0.0, 1.8}, 0.0, kFov_rad));
+}
+
+TEST_F(Search, LooksFromHalfAMetreOn) {
+  set(0.0, 0.3, 0.1, 0.3, 0.0F);
+  options_.min_area_m2 = 0.0;
+  EXPECT_FALSE(heading()) << "what is nearer is below the frame";
+  set(0.3, 0.6, 0.5, 0.7, 0.0F);
+  options_.min_area_m2 = 0.01;
+  EXPECT_TRUE(heading());
+}
+
+/// Ahead, then to the left, which is where the last one looks from as well.
+TEST_F(Search, AWaypointLooksRoundTheWayOnFromThere) {
+  set(-0.5, 0.5, 0.6, 2.2, 0.0F);
+  options_.min_area_m2 = 0.1;
+  Eigen::Matrix4Xd path = Eigen::Matrix4Xd::Zero(4, 3);
+  path.topRows<3>() << 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.8, 1.8, 1.8;
+  const FlightCamera camera{.T_body_camera = camera_ahead(0.6)};
+  for (const Eigen::Index i : {0, 1, 2}) {
+    const auto yaw_rad = search_heading(options_, grid_, path.col(i).head<3>(),
+                                        i == 0 ? 0.0 : M_PI / 2.0, camera.horizontal_fov_rad);
+    const auto target = search_target(options_, grid_, camera, path, i, 1.2);
+    ASSERT_TRUE(yaw_rad && target) << i;
+    const Eigen::Vector3d to_m = target->p_world_object_m - path.col(i).head<3>();
+    EXPECT_NEAR(std::atan2(to_m.y(), to_m.x()), *yaw_rad, 1e-9) << i;
+    EXPECT_EQ(target->p_world_view_m, path.col(i).head<3>()) << i;
+  }
+}
+
 constexpr double kBetweenRays_rad = M_PI / 36.0;
 
 /// Nothing was seen of a strip 1.7 to 2.4 m away that one ray alone crosses: it turns no farther

@@ -23,14 +23,14 @@ double bearing_rad(const Eigen::Vector4d& from, const Eigen::Vector3d& to) {
 
 TEST(InitialYaw, HeadsForTheNearestUnknownObjectInRange) {
   const Eigen::Matrix4Xd path = test::straight_flight().points;
-  const std::vector<ObservedObject> objects{object_at(1.0, 1.0), object_at(4.0, -1.5),
-                                            object_at(2.0, 0.5, 0.01)};
-  const auto turned = initial_yaw(path, objects, {.range_m = 2.0});
+  const std::vector<ObservedObject> objects{object_at(1.0, 1.0), object_at(2.0, 0.5, 0.01),
+                                            object_at(4.0, -1.5)};
+  const auto turned = initial_yaw(path, objects, {.range_m = 3.0});
   EXPECT_EQ(turned.topRows(3), path.topRows(3));
   for (Eigen::Index i = 0; i < 10; ++i) {
     const double near_m = (path.col(i).head<2>() - Eigen::Vector2d(1.0, 1.0)).norm();
     const double far_m = (path.col(i).head<2>() - Eigen::Vector2d(4.0, -1.5)).norm();
-    const auto& object = objects[near_m < far_m ? 0 : 1];
+    const auto& object = objects[near_m < far_m ? 0 : 2];
     EXPECT_DOUBLE_EQ(turned(3, i), bearing_rad(path.col(i), object.ring.p_world_object_m));
   }
 }
@@ -40,6 +40,15 @@ TEST(InitialYaw, KeepsTheHeadingElsewhere) {
   EXPECT_EQ(initial_yaw(path, {}), path);
   const std::vector<ObservedObject> objects{object_at(1.0, 1.0, 0.05), object_at(1.0, 5.0)};
   EXPECT_EQ(initial_yaw(path, objects), path);
+}
+
+TEST(InitialYaw, HeadsForWhatIsJustUnknownAndJustInRange) {
+  const Eigen::Matrix4Xd path = test::straight_flight().points;
+  const std::vector<ObservedObject> objects{object_at(1.0, 2.0, 0.25)};
+  const auto turned = initial_yaw(path, objects, {.tau_nats = 0.25, .range_m = 2.0});
+  EXPECT_NEAR(turned(3, 2), std::numbers::pi / 2.0, 1e-12);
+  EXPECT_EQ(turned(3, 1), 0.0);
+  EXPECT_EQ(turned(3, 3), 0.0);
 }
 
 TEST(GreedyDetour, TakesTheNearestUnusedViewsInPlaceOfWaypoints) {
@@ -55,6 +64,20 @@ TEST(GreedyDetour, TakesTheNearestUnusedViewsInPlaceOfWaypoints) {
   }
   EXPECT_NEAR(detour(3, 2), bearing_rad(detour.col(2), objects[0].ring.p_world_object_m), 1e-12);
   EXPECT_EQ(detour(3, 9), flight.points(3, 9)) << "too far off to look at";
+}
+
+TEST(GreedyDetour, TakesViewsInTheOrderOfThePathWhicheverIsNearer) {
+  const Horizon flight = test::straight_flight();
+  std::vector<ObservedObject> objects{object_at(2.0, 2.0)};
+  objects[0].used.fill(true);
+  objects[0].used[5] = objects[0].used[6] = false;  // at (1.08, 1.08) and at (2.0, 0.7)
+  const auto both = greedy_detour(flight, objects);
+  EXPECT_EQ(both.col(2).head<3>(), objects[0].ring.view_m(5));
+  EXPECT_EQ(both.col(4).head<3>(), objects[0].ring.view_m(6));
+  EXPECT_EQ(both.col(5).head<3>(), flight.points.col(5).head<3>());
+  const auto one = greedy_detour(flight, objects, {.views = 1});
+  EXPECT_EQ(one.col(2).head<3>(), flight.points.col(2).head<3>());
+  EXPECT_EQ(one.col(4).head<3>(), objects[0].ring.view_m(6));
 }
 
 TEST(GreedyDetour, ViewsAtTheSameWaypointFollowEachOther) {
@@ -75,6 +98,23 @@ TEST(GreedyDetour, DoesNotTurnBackNorCutShort) {
     const auto detour = greedy_detour(flight, objects, {.range_m = 8.0});
     EXPECT_EQ(detour.topRows(3), flight.points.topRows(3)) << x_m;
   }
+}
+
+TEST(GreedyDetour, LeavesTheLastWaypointAndWhatLiesBeyondIt) {
+  const Horizon flight = test::straight_flight();
+  const auto detour_by = [&](double x, double y, const std::vector<int>& unused, int views) {
+    std::vector<ObservedObject> objects{object_at(x, y)};
+    objects[0].used.fill(true);
+    for (const int d : unused) objects[0].used[static_cast<std::size_t>(d)] = false;
+    return greedy_detour(flight, objects, {.range_m = 8.0, .views = views});
+  };
+  const auto nearest_to_end = detour_by(5.6, 0.5, {4}, 2);  // at (4.3, 0.5)
+  EXPECT_EQ(nearest_to_end.topRows(3), flight.points.topRows(3));
+  const auto before_it = detour_by(5.4, 0.5, {4, 5}, 2);  // at (4.1, 0.5) and at (4.48, -0.42)
+  EXPECT_EQ(before_it.col(8).head<3>(), object_at(5.4, 0.5).ring.view_m(4));
+  EXPECT_EQ(before_it.col(9).head<3>(), flight.points.col(9).head<3>());
+  const auto beyond = detour_by(5.0, 0.9, {4, 6}, 1);  // at (3.7, 0.9) and, nearer, at (5.0, -0.4)
+  EXPECT_EQ(beyond.col(7).head<3>(), object_at(5.0, 0.9).ring.view_m(4));
 }
 
 TEST(GreedyDetour, KeepsToThePathWhereNothingIsLeftToSee) {

@@ -45,6 +45,11 @@ TEST_F(Schedule, TakesAsManyViewsAsTellWhatItIs) {
   EXPECT_NEAR(views()[0].at_m, 4.0, 1e-9);
   objects_[0].entropy_nats = 0.05;
   EXPECT_TRUE(views().empty()) << "it is known";
+  objects_.push_back(object_to_see_at(4.0, 1.0));
+  ASSERT_EQ(views().size(), 2U) << "which says nothing of the next one";
+  EXPECT_EQ(views()[0].object, 1U);
+  objects_ = {object_to_see_at(4.0, 1.0, kTau)};
+  EXPECT_EQ(views().size(), 1U) << "just not known";
 }
 
 TEST_F(Schedule, PrefersTheDirectionThatTells) {
@@ -74,6 +79,11 @@ TEST_F(Schedule, PassesByWhatIsOutOfReach) {
   for (const ScheduledView& view : views()) EXPECT_EQ(view.direction, 6);
   objects_ = {object_to_see_at(4.0, 3.0)};
   EXPECT_TRUE(views().empty());
+  objects_ = {object_to_see_at(4.0, 1.5)};
+  options_.reach_m = 0.5;
+  EXPECT_EQ(views().size(), 1U) << "just in reach";
+  options_.reach_m = 0.49;
+  EXPECT_TRUE(views().empty());
 }
 
 TEST_F(Schedule, IsInTheOrderOfThePathAndApart) {
@@ -88,6 +98,18 @@ TEST_F(Schedule, IsInTheOrderOfThePathAndApart) {
       return view.object == object;
     })) << object;
   }
+}
+
+TEST_F(Schedule, ViewsAreAsFarApartAsTheyMust) {
+  objects_ = {object_to_see_at(4.0, 1.0), object_to_see_at(4.5, 1.0)};
+  for (ObservedObject& object : objects_) {
+    object.used.fill(true);
+    object.used[6] = false;
+  }
+  options_.apart_m = 0.5;
+  EXPECT_EQ(views().size(), 2U);
+  options_.apart_m = 0.51;
+  EXPECT_EQ(views().size(), 1U);
 }
 
 TEST_F(Schedule, LooksAheadBetweenViews) {

@@ -161,5 +161,12 @@ TEST(ForecastInterval, MovesItsLevelAndLearnsTheError) {
   EXPECT_NEAR(width_in_spreads(missed), 0.84, 1e-9) << "the 14th with the new one, 0.75";
 }
 
+/// Of so small a forecast the errors are 0.439 +- 0.278, and 100 cells are as good as none.
+TEST(ForecastInterval, LearnsTheErrorOfAForecastOfNextToNothing) {
+  ForecastInterval interval = started({.confidence = 0.5, .rate = 0.0});
+  interval.observe(50.0, (50.0 + 100.0) * std::exp(0.439 + 0.65 * 0.278) - 100.0);
+  EXPECT_NEAR(width_in_spreads(interval), 0.65, 1e-9) << "the eleventh of 21 with the new one";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -77,6 +77,19 @@ TEST(FindFrontiers, JoinsCellsThatTouchByACorner) {
               ElementsAre(2U));
 }
 
+TEST(FindFrontiers, KeepsApartWhatOneCellParts) {
+  EXPECT_THAT(sizes(find_frontiers(layer_of({"#?.#.?",  //
+                                             "####.?",  //
+                                             "####.?"}),
+                                   whole())),
+              ElementsAre(3U, 1U));
+  EXPECT_THAT(sizes(find_frontiers(layer_of({"?.#.?#",  //
+                                             "?.####",  //
+                                             "?.####"}),
+                                   whole())),
+              ElementsAre(3U, 1U));
+}
+
 // The frontier runs round an unknown block, its centroid lies inside.
 TEST(FindFrontiers, MovesACandidateOutOfTheUnknown) {
   const OccupancyGrid grid = layer_of({".....",  //

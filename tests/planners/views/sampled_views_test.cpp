@@ -76,11 +76,11 @@ TEST_F(SampledViewsOnAMap, KeepToHeightAndBox) {
 }
 
 TEST_F(SampledViewsOnAMap, DrawEvenlyBySize) {
-  // A ninth of the free volume is in the small room.
+  // A ninth of the free volume is in the small room, and all of it is less than a cubic metre.
   const std::vector<support::MapCube> cubes{{{0, 0, 0}, 64, false}, {{-64, 0, 0}, 32, false}};
   int small = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const auto views = sample({.positions = 1, .headings = 1}, map(cubes), kEverywhere, seed);
+    const auto views = sample({.positions = 1, .headings = 1}, map(cubes, 0.01), kEverywhere, seed);
     small += views.front().T_world_sensor.translation().x() < 0.0 ? 1 : 0;
   }
   EXPECT_NEAR(small / 300.0, 1.0 / 9.0, 4.0 * std::sqrt(1.0 / 9.0 * 8.0 / 9.0 / 300.0));
@@ -130,9 +130,11 @@ TEST_F(SampledViewsOnAMap, KeepTheClearanceOnBothSidesAndNoMore) {
       {{-32, 0, 0}, 32, false}, {{0, 0, 0}, 32, true}, {{32, 0, 0}, 32, false}};
   double left_m = -10.0;
   double right_m = 10.0;
+  int left = 0;
   for (const auto& view :
        sample({.positions = 200, .headings = 1, .clearance_m = 0.5}, map(cubes))) {
     const double x_m = view.T_world_sensor.translation().x();
+    left += x_m < 1.6 ? 1 : 0;
     if (x_m < 1.6) left_m = std::max(left_m, x_m);
     if (x_m > 1.6) right_m = std::min(right_m, x_m);
   }
@@ -140,6 +142,7 @@ TEST_F(SampledViewsOnAMap, KeepTheClearanceOnBothSidesAndNoMore) {
   EXPECT_GT(left_m, -0.75);
   EXPECT_GE(right_m, 3.7);
   EXPECT_LT(right_m, 3.95);
+  EXPECT_NEAR(left, 100, 30) << "both sides are of one size";
 }
 
 }  // namespace

@@ -193,22 +193,51 @@ TEST_F(ScoreViews, NamesTheKeysWhereAViewReachesTooFar) {
   const auto one = map({{{0, 0, 0}, 1, false}}, 0.01);
   ScoredRegion region{.min_m = {{-5.0, -5.0, -5.0}}, .max_m = {{5.0, 5.0, 5.0}}};
   const std::vector<Candidate> views{view_at(7, {0.0, 0.0, 0.0})};
-  try {
-    score_views(one, region, SimpleGain{}, views, camera(10.0), 1);
-    FAIL() << "a billion cells";
-  } catch (const InputError& error) {
-    for (const char* part : {"map.bt", "view 7", "1000 x 1000 x 1000", "sensor.range_max_m",
-                             "region.min_m", "region.max_m", "region.coarsen"}) {
-      EXPECT_THAT(error.what(), HasSubstr(part));
+  const auto error_of = [&](const auto& gain) -> std::string {
+    try {
+      score_views(one, region, gain, views, camera(10.0), 1);
+    } catch (const InputError& error) {
+      return error.what();
     }
+    return "no error";
+  };
+  for (const char* part :
+       {"map.bt", "view 7", "1000 x 1000 x 1000 cells of 0.01 m, more than", "sensor.range_max_m",
+        "region.min_m", "region.max_m", "region.coarsen"}) {
+    EXPECT_THAT(error_of(SimpleGain{}), HasSubstr(part));
   }
+  EXPECT_THAT(error_of(ProximityCountGain{}),
+              HasSubstr("cells of 0.01 m, 9 on each side for the gain alone, more than"));
+  region.coarsen = 2;
+  EXPECT_THAT(error_of(SimpleGain{}), HasSubstr("500 x 500 x 500 cells of 0.02 m, more than"));
   region.coarsen = 16;
   EXPECT_GT(score_views(one, region, SimpleGain{}, views, camera(10.0), 1).front(), 0.0);
 }
 
-TEST_F(ScoreViews, RefusesASensorOutOfRange) {
+TEST_F(ScoreViews, RefusesASensorOrARegionOutOfRange) {
   const auto one = map({{{0, 0, 0}, 1, false}}, 0.1);
   EXPECT_THROW(score_views(one, {}, SimpleGain{}, {}, camera(-1.0), 1), ConfigError);
+  EXPECT_THROW(score_views(one, {.coarsen = 0}, SimpleGain{}, {}, camera(1.0), 1), ConfigError);
+}
+
+/// Of eight cells of 0.25 m a side the view reaches into the five from the third on.
+TEST_F(ScoreViews, GridsHoldWhatTheSensorReachesAndTheHaloRoundIt) {
+  const auto one = map({{{0, 0, 0}, 8, false}}, 0.25);
+  const std::vector<Candidate> views{view_at(0, {50.0, 0.0, 0.0}),
+                                     view_at(1, {1.125, 1.125, 1.125})};
+  std::size_t cells = 0;
+  const GridGains gains_on = [&](const OccupancyGrid& grid, std::span<const Candidate> on_grid) {
+    cells = grid.size();
+    return std::vector<double>(on_grid.size(), 7.0);
+  };
+  EXPECT_EQ(score_views(one, {}, gains_on, views, camera(0.5)), (std::vector{0.0, 7.0}));
+  EXPECT_EQ(cells, 5U * 5U * 5U);
+  score_views(one, {}, gains_on, views, camera(0.5), 1);
+  EXPECT_EQ(cells, 7U * 7U * 7U);
+  score_views(one, {}, gains_on, views, camera(0.5), 2);
+  EXPECT_EQ(cells, 8U * 8U * 8U);
+  score_views(one, {.coarsen = 2}, gains_on, views, camera(0.5));
+  EXPECT_EQ(cells, 3U * 3U * 3U);
 }
 
 /// Eight cells of 0.25 m a side are known.

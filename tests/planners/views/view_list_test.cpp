@@ -85,6 +85,16 @@ TEST_F(ViewList, NamesFileLineAndColumn) {
               HasSubstr("views.csv:4: column id: 3 is there twice"));
 }
 
+/// A thousand kilometres, and a right angle written with ten digits.
+TEST_F(ViewList, TakesNumbersUpToTheirLimits) {
+  const std::string header = "x_m,y_m,z_m,yaw_rad,pitch_rad\n";
+  EXPECT_EQ(read(header + "1e6,-1e6,1e6,-1e6,1.5707963276\n").size(), 1U);
+  EXPECT_THAT(error_of(header + "1000001,0,0,0,0\n"),
+              HasSubstr("column x_m: 1000001 is not in [-1e+06, 1e+06]"));
+  EXPECT_THAT(error_of(header + "0,0,0,0,-1.5707963283\n"),
+              HasSubstr("column pitch_rad: -1.5707963283 is not in [-1.5708, 1.5708]"));
+}
+
 TEST_F(ViewList, NamesWhatIsWrongWithTheHeader) {
   EXPECT_THAT(error_of(""), HasSubstr("views.csv: is empty"));
   EXPECT_THAT(error_of("\n\n"), HasSubstr("views.csv: is empty"));

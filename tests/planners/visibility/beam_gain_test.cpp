@@ -29,6 +29,26 @@ TEST(BeamDirections, AreTheMiddlesOfEqualParts) {
   }
 }
 
+TEST(BeamDirections, OfAPlaneAreOneRow) {
+  const FieldOfView fov{.half_width_rad = 0.3, .tilt_min_rad = 0.1, .tilt_max_rad = 0.1};
+  const auto beams = beam_directions(fov, {.step_rad = 0.2});
+  ASSERT_EQ(beams.size(), 3U);
+  EXPECT_TRUE(beams[1].isApprox(beam_direction({.azimuth_rad = 0.0, .tilt_rad = 0.1}), 1e-12));
+}
+
+TEST(BeamDirections, OfAPanoramaLookDownAlikeAllRound) {
+  const FieldOfView fov{
+      .half_width_rad = 0.1, .tilt_min_rad = 0.1, .tilt_max_rad = 0.3, .panorama = true};
+  const auto beams = beam_directions(fov, {.step_rad = 1.5});
+  ASSERT_EQ(beams.size(), 5U);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const double yaw_rad = 2.0 * std::numbers::pi / 5.0 * (static_cast<double>(i) - 2.0);
+    const Eigen::Vector3d expected(std::cos(0.2) * std::cos(yaw_rad),
+                                   std::cos(0.2) * std::sin(yaw_rad), -std::sin(0.2));
+    EXPECT_TRUE(beams[i].isApprox(expected, 1e-12)) << "beam " << i;
+  }
+}
+
 RC_GTEST_PROP(BeamDirections, LieInsideTheFieldOfView, ()) {
   FieldOfView fov;
   fov.half_width_rad = *rc::gen::inRange(1, 315) * 0.01;

@@ -23,6 +23,14 @@ TEST(CellTables, HoldOneEntryPerCell) {
               ElementsAre(FloatNear(h_free, 1e-5F), 1.0F, FloatNear(0.0F, 1e-4F)));
 }
 
+TEST(CellTables, EntropyOfUnobservedCellsLeavesKnownOnesOut) {
+  OccupancyGrid row = row_of_cells(".?#?");
+  row.log_odds[3] = static_cast<float>(log_odds_of(0.41));
+  const auto h_little_evidence = static_cast<float>(binary_entropy_bits(0.41));
+  EXPECT_THAT(unobserved_entropies_bits(row),
+              ElementsAre(0.0F, 1.0F, 0.0F, FloatNear(h_little_evidence, 1e-5F)));
+}
+
 TEST(CellTables, TransmissionOfUnobservedCellsGoesByTheirBlock) {
   GridFrame frame;
   frame.cells = {2, 1, 2};

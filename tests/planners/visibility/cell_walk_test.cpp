@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -20,6 +21,16 @@ std::vector<std::size_t> cells_to(const GridFrame& grid, const Eigen::Vector3d& 
   return cells;
 }
 
+std::vector<std::size_t> cells_of_walk_ray(const GridFrame& grid, const Eigen::Vector3d& p_from,
+                                           const Eigen::Array3i& target) {
+  std::vector<std::size_t> cells;
+  walk_ray(grid, p_from, grid.centre(target), [&](std::size_t cell) {
+    cells.push_back(cell);
+    return true;
+  });
+  return cells;
+}
+
 TEST(WalkToCell, VisitsTheCellsOfWalkRay) {
   Rng rng(3);
   const GridFrame grid = make_grid_frame({0.3, -0.2, 0.5}, {1.3, 0.9, 0.7}, {13, 11, 17});
@@ -27,13 +38,28 @@ TEST(WalkToCell, VisitsTheCellsOfWalkRay) {
     const Eigen::Vector3d p_from(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0),
                                  rng.uniform(-2.0, 2.0));
     const Eigen::Array3i target = grid.cell(rng.uniform_index(grid.size()));
-    std::vector<std::size_t> expected;
-    walk_ray(grid, p_from, grid.centre(target), [&](std::size_t cell) {
-      expected.push_back(cell);
-      return true;
-    });
-    EXPECT_EQ(cells_to(grid, p_from, target), expected) << "draw " << i;
+    EXPECT_EQ(cells_to(grid, p_from, target), cells_of_walk_ray(grid, p_from, target))
+        << "draw " << i;
   }
+}
+
+// Where a ray meets several faces at once, the step along y comes first, that along z last.
+TEST(WalkToCell, VisitsTheCellsOfWalkRayThroughEdgesAndCornersToo) {
+  GridFrame grid;
+  grid.cells = {9, 9, 9};
+  const Eigen::Vector3d p_from(4.5, 4.5, 4.5);
+  constexpr std::array kSteps{-4, -2, -1, 0, 1, 2, 4};
+  for (const int x : kSteps) {
+    for (const int y : kSteps) {
+      for (const int z : kSteps) {
+        const Eigen::Array3i target(4 + x, 4 + y, 4 + z);
+        EXPECT_EQ(cells_to(grid, p_from, target), cells_of_walk_ray(grid, p_from, target))
+            << target.transpose();
+      }
+    }
+  }
+  grid.cells = {2, 2, 2};
+  EXPECT_EQ(cells_to(grid, {0.5, 0.5, 0.5}, {1, 1, 1}), (std::vector<std::size_t>{0, 2, 3, 7}));
 }
 
 // Rays along faces and through edges, where the order of the steps is a matter of rounding.

@@ -75,6 +75,16 @@ TEST(VisibilityAlongRay, SurvivesCertaintyAndLength) {
   EXPECT_THAT(visibility(long_ray), Each(testing::AllOf(testing::Ge(0.0), testing::Le(1.0))));
 }
 
+TEST(VisibilityAlongRay, FollowsTheEquationsHoweverLong) {
+  double p_visible = 1.0;
+  double t = 1.0;
+  for (const double of_cell : visibility(std::string(2000, '?'))) {
+    EXPECT_NEAR(of_cell, p_visible, 1e-12);
+    t *= 0.997;
+    p_visible = t * p_visible + 0.1 * (1.0 - p_visible);
+  }
+}
+
 RC_GTEST_PROP(VisibilityAlongRay, IsAProbability, ()) {
   const auto draws = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 1001));
   std::vector<double> p_occupied;
@@ -118,6 +128,12 @@ TEST(PosteriorAlongRay, FollowsTheEquationsByHand) {
   const double second = 0.6 * predicted / (0.6 * predicted + 0.4 * (1.0 - predicted));
   EXPECT_NEAR(q[0], first, 1e-14);
   EXPECT_NEAR(q[1], second, 1e-14);
+}
+
+TEST(PosteriorAlongRay, SurvivesCertaintyAndLength) {
+  const PosteriorModel certain{.visibility = {.a = 1.0}, .p_occupied_at_sensor = 0.0};
+  EXPECT_EQ(posterior_along_ray(std::vector{1.0, 0.5}, certain)[0], 0.5) << "a contradiction";
+  EXPECT_NEAR(posterior(std::string(2000, '?')).back(), 0.5, 1e-9);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -100,6 +101,68 @@ TEST(SampledSum, OfEveryTermIsExact) {
   EXPECT_TRUE(sum.is_exact());
   EXPECT_TRUE(sum.is_settled());
   EXPECT_DOUBLE_EQ(sum.estimate, 20 * 0.75 - 40 * 0.25);
+}
+
+/// A sample of n of 64 cells with an error of 1 each has a standard error of 64 / sqrt(n).
+TEST(SampledSum, IsOfNoMoreCellsThanTheToleranceAsksFor) {
+  PartlySeen sample(100);
+  sample.offer(64, [](int i) {
+    return PartlySeen::Cell{.cell = {i, 0, 0}, .visible = 0.5F, .weight = 1.0F};
+  });
+  struct Asked {
+    double tolerance;
+    int cells;
+  };
+  for (const auto& [tolerance, cells] : {Asked{1e9, 4}, Asked{32.0, 4}, Asked{31.9, 8},
+                                         Asked{16.0, 16}, Asked{12.0, 32}, Asked{0.0, 64}}) {
+    std::set<int> asked;
+    const SampledSum sum = sample.sum_errors(tolerance, [&](const PartlySeen::Cell& cell) {
+      EXPECT_TRUE(asked.insert(cell.cell.x()).second) << "asked for again";
+      return 1.0;
+    });
+    EXPECT_EQ(static_cast<int>(asked.size()), cells) << tolerance;
+    EXPECT_EQ(sum.estimate, 64.0) << tolerance;
+    const double weight = 64.0 / cells;
+    const double variance = cells < 64 ? 4.0 * weight * weight * (0.5 * cells + 0.25) : 0.0;
+    for (const auto& half : sum.halves) {
+      EXPECT_EQ(half.estimate, 64.0) << tolerance;
+      EXPECT_EQ(half.variance, variance) << tolerance;
+    }
+  }
+}
+
+/// Of 64 cells the 33rd is one too many: every other one is kept.
+TEST(SampledSum, OfAThinnedSampleIsThatOfTheCellsKeptTimesTheStride) {
+  PartlySeen sample(32, 1);
+  sample.offer(64, [](int i) {
+    return PartlySeen::Cell{.cell = {i, 0, 0}, .visible = 0.5F, .weight = 1.0F};
+  });
+  int asked = 0;
+  const SampledSum sum = sample.sum_errors(0.0, [&](const PartlySeen::Cell&) {
+    ++asked;
+    return 1.0;
+  });
+  EXPECT_EQ(asked, 32);
+  EXPECT_EQ(sum.estimate, 64.0);
+  for (const auto& half : sum.halves) {
+    EXPECT_EQ(half.estimate, 64.0);
+    EXPECT_EQ(half.variance, 16.0 * (16.0 + 0.25));
+  }
+}
+
+TEST(SampledSum, IsSettledWithBothHalvesFourStandardErrorsFromZero) {
+  const SampledSum::Half clear{.estimate = 8.0, .variance = 4.0};
+  const SampledSum::Half nearly{.estimate = 7.99, .variance = 4.0};
+  const auto of = [](const SampledSum::Half& first, const SampledSum::Half& second) {
+    return SampledSum{.estimate = 8.0, .halves = {first, second}};
+  };
+  EXPECT_TRUE(of(clear, clear).is_settled());
+  EXPECT_FALSE(of(clear, nearly).is_settled());
+  EXPECT_FALSE(of(nearly, clear).is_settled());
+  EXPECT_EQ(of(clear, clear).settled_by(3.0), 3.0);
+  EXPECT_EQ(of(nearly, nearly).settled_by(3.0), 3.0);
+  EXPECT_EQ(of(clear, nearly).settled_by(3.0), 0.5 * (3.0 + 7.99));
+  EXPECT_EQ(of(nearly, clear).settled_by(3.0), 0.5 * (3.0 + 7.99));
 }
 
 /// Rows are counted whole, though the sample is full in the middle of some.

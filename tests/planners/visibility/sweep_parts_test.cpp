@@ -80,7 +80,7 @@ double passed_by_definition(const SweepRow& row, int i) {
 
 TEST(AdvanceRow, TakesTheLightWhereTheRayCameInAndWeakensIt) {
   Rng rng(5);
-  for (const float source : {20.3F, -5.2F, 37.9F}) {
+  for (const float source : {20.3F, -5.2F, 37.9F, 20.0F, 21.0F}) {  // the last two: half way once
     const RandomSweepRow random(rng);
     const SweepRow row = random.row(source, 20.0F, 0.6F);
     const int shift = source < 0.0F ? -1 : (source > 30.0F ? 1 : 0);
@@ -101,6 +101,20 @@ TEST(AdvanceRow, TakesTheLightWhereTheRayCameInAndWeakensIt) {
     EXPECT_GE(dark, 1);
     EXPECT_GE(seen, 2);
     for (const std::size_t beside : {0U, 1U, 18U, 19U}) EXPECT_EQ(visible[beside], kUntouched);
+  }
+}
+
+TEST(AdvanceRow, WritesWholeEightsOfCells) {
+  Rng rng(7);
+  const RandomSweepRow random(rng);
+  for (const int cells : {1, 8, 9, 16}) {
+    Numbers visible(40, kUntouched);
+    Numbers utility(40, kUntouched);
+    advance_row(random.row(20.3F, 20.0F, 0.6F), 0, 2, 2 + cells, visible.data(), utility.data());
+    const std::size_t end = cells > 8 ? 18 : 10;
+    EXPECT_NE(visible[end - 1], kUntouched) << cells;
+    EXPECT_EQ(visible[end], kUntouched) << cells;
+    EXPECT_EQ(utility[end], kUntouched) << cells;
   }
 }
 
@@ -164,6 +178,16 @@ TEST(CellSpan, HoldsTheCellsBetween) {
   EXPECT_TRUE(is_span(span, 1, 9));
   EXPECT_TRUE(is_span(span.cut({2, 6}), 2, 6));
   EXPECT_TRUE(is_span(span.cut({0, 20}), 1, 9));
+}
+
+TEST(TransmittanceLayer, LetsAllLightThroughAtFirst) {
+  constexpr int kPadding = TransmittanceLayer::kPadding;
+  TransmittanceLayer layer(4, 3);
+  for (int v = -kPadding; v < 3 + kPadding; ++v) {
+    for (int u = -kPadding; u < 4 + kPadding; ++u) {
+      EXPECT_EQ(layer.row(v)[u], 1.0F) << u << " " << v;
+    }
+  }
 }
 
 /// Four columns and three rows, of which two cells were worked out.

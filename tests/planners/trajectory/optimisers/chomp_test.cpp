@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
 
 #include "tests/planners/trajectory/straight_flight.hpp"
 
@@ -49,6 +52,55 @@ TEST(Chomp, ReachesTheMinimumOfAQuadratic) {
   PathGradient gradient_at(5);
   EXPECT_LT(gradient_at(search, search.nominal(), 1e-6).cwiseAbs().maxCoeff(), 2e-3);
   EXPECT_LT(result.cost, result.initial_cost);
+}
+
+/// Paths tried from a straight flight on, that itself the first; 12 between steps are a gradient's.
+std::vector<Eigen::Matrix4Xd> tried_by(const Chomp& chomp,
+                                       const std::function<double(double)>& cost_of_y) {
+  std::vector<Eigen::Matrix4Xd> tried;
+  const PathCost cost = [&](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> cost_of_point) {
+    tried.push_back(horizon.points);
+    for (Eigen::Index i = 0; i < horizon.count(); ++i) {
+      cost_of_point[i] = cost_of_y(horizon.points(1, i));
+    }
+  };
+  Rng rng(1);
+  chomp(test::straight_flight(7), cost, rng);
+  return tried;
+}
+
+double sideways_m(const Eigen::Matrix4Xd& from, const Eigen::Matrix4Xd& to) {
+  return (to - from).row(1).cwiseAbs().maxCoeff();
+}
+
+/// 0.4 of a scale of 0.25 m from 0.01 m before a kink, however steep it is.
+TEST(Chomp, HalvesAStepThatMakesItWorse) {
+  const Chomp chomp{.first_step = 0.4, .scale_m = {0.5, 0.25, 0.2}};
+  for (const double slope : {1e-3, 1.0, 50.0}) {
+    const auto tried = tried_by(chomp, [&](double y) { return slope * std::abs(y - 0.01); });
+    ASSERT_GT(tried.size(), 15U) << slope;
+    EXPECT_NEAR(sideways_m(tried[0], tried[13]), 0.1, 1e-9) << slope;
+    EXPECT_NEAR(sideways_m(tried[0], tried[14]), 0.05, 1e-9) << slope;
+    EXPECT_NEAR(sideways_m(tried[0], tried[15]), 0.025, 1e-9) << slope;
+  }
+}
+
+/// Each starts where the one before it led.
+TEST(Chomp, TakesLongerStepsWhileTheyHelp) {
+  const Chomp chomp{.first_step = 0.4, .scale_m = {0.5, 0.25, 0.2}};
+  const auto tried = tried_by(chomp, [](double y) { return 10.0 * (y - 3.0) * (y - 3.0); });
+  ASSERT_GT(tried.size(), 39U);
+  EXPECT_NEAR(sideways_m(tried[0], tried[13]), 0.1, 1e-9);
+  EXPECT_NEAR(sideways_m(tried[13], tried[26]), 0.15, 1e-9);
+  EXPECT_NEAR(sideways_m(tried[26], tried[39]), 0.225, 1e-9);
+}
+
+/// A gradient takes 12 and is of use with a step after it alone; here each step makes it worse.
+TEST(Chomp, TakesNoEvaluationThatLeadsNowhere) {
+  const auto kink = [](double y) { return std::abs(y - 0.01); };
+  EXPECT_EQ(tried_by(Chomp{.evaluations = 13}, kink).size(), 1U);
+  EXPECT_EQ(tried_by(Chomp{.evaluations = 14}, kink).size(), 14U);
+  EXPECT_EQ(tried_by(Chomp{.evaluations = 16}, kink).size(), 16U);
 }
 
 TEST(Chomp, DoesNotMoveAlongAnAxisWithoutAScale) {

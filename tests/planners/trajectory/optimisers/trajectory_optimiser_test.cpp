@@ -155,6 +155,18 @@ INSTANTIATE_TEST_SUITE_P(Trajectory, EveryOptimiser,
                          ::testing::ValuesIn(strategy_names<TrajectoryOptimiser>()),
                          [](const auto& info) { return std::string(info.param); });
 
+TEST(PathSearch, BeginsWithTheFreePointsHoweverFew) {
+  const PathCost cost = [](const Horizon&, const Eigen::Ref<Eigen::VectorXd>&) {};
+  for (const Eigen::Index count : {2, 3, 4, 10}) {
+    const Horizon flight = test::straight_flight(count);
+    const PathSearch search(flight, cost);
+    ASSERT_EQ(search.nominal().cols(), count - 2);
+    EXPECT_EQ(search.nominal(), flight.points.middleCols(count > 2 ? 1 : 0, count - 2)) << count;
+    EXPECT_NEAR(search.best_cost(), 0.0, 1e-12) << count;
+    EXPECT_EQ(search.result().points, flight.points) << count;
+  }
+}
+
 TEST(CemOptions, AreChecked) {
   EXPECT_THROW(check_options(Cem{.rollouts = 5, .elites = 6}), ConfigError);
 }
