@@ -2,14 +2,19 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/option_numbers.hpp"
+#include "vantage/belief/map/block_field.hpp"
 #include "vantage/belief/map/clutter_hazard.hpp"
 #include "vantage/belief/map/flight_map.hpp"
 #include "vantage/belief/map/floor_detail.hpp"
 #include "vantage/belief/map/floor_map.hpp"
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/belief/map/hole_filling.hpp"
+#include "vantage/belief/map/octomap/octomap_format.hpp"
+#include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/belief/map/sensor_model.hpp"
 #include "vantage/belief/objects/baum_welch.hpp"
+#include "vantage/belief/objects/object_belief.hpp"
+#include "vantage/belief/objects/recognition_model.hpp"
 #include "vantage/belief/observation/gaussian_statistics.hpp"
 #include "vantage/belief/observation/psi_rule.hpp"
 #include "vantage/belief/tracking/object_tracker.hpp"
@@ -95,6 +100,67 @@ TEST(BeliefOptions, OfTracking) {
   expect_numbers(ObjectTrackerOptions{}, {{"gate_m", 0.35, {0.0, 2.0, true}},
                                           {"partial_weight", 0.1, kPositiveShareOption},
                                           {"min_detections", 3, at_least(1)}});
+}
+
+TEST(BeliefDefaults, AreOfNothingSeenYet) {
+  const TrackedObject object{};
+  EXPECT_EQ(object.id, 0);
+  EXPECT_TRUE(object.p_world_object_m.isZero(0.0));
+  EXPECT_EQ(object.support_z_m, 0.0);
+  EXPECT_EQ(object.radius_m, 0.0);
+  EXPECT_EQ(object.height_m, 0.0);
+  EXPECT_EQ(object.weight, 0.0);
+  EXPECT_EQ(object.detections, 0);
+  EXPECT_EQ(object.whole_detections, 0);
+  EXPECT_FALSE(object.confirmed);
+  EXPECT_EQ(ObjectEstimate{}.probability, 0.0);
+  EXPECT_EQ(EvidenceResult{}.log_evidence, 0.0);
+  EXPECT_EQ(FeatureModel{}.psi, 1.0);
+  EXPECT_EQ(FeatureModel{}.cost_s, 0.0);
+}
+
+TEST(BeliefDefaults, OfMapsAreOfNoCells) {
+  const OctomapContent content{};
+  EXPECT_EQ(content.resolution_m, 0.0);
+  EXPECT_EQ(content.occupied, 0U);
+  EXPECT_EQ(content.free, 0U);
+  EXPECT_TRUE(content.box.isEmpty());
+  EXPECT_TRUE((CellBlock{}.begin == 0).all() && (CellBlock{}.end == 0).all());
+  const OctomapLeaf leaf{};
+  EXPECT_TRUE((leaf.first == 0).all());
+  EXPECT_EQ(leaf.edge_cells, 1);
+  EXPECT_EQ(leaf.log_odds, 0.0F);
+  const FloorMap floor{};
+  EXPECT_TRUE(floor.min_corner_m.isZero(0.0));
+  EXPECT_EQ(floor.cell_m, 1.0);
+  EXPECT_EQ(floor.nx, 0);
+  EXPECT_EQ(floor.ny, 0);
+  const FilledGrid filled{};
+  EXPECT_EQ(filled.filled_cells, 0U);
+  EXPECT_EQ(filled.passes, 0);
+  EXPECT_FALSE(filled.converged);
+  EXPECT_EQ(BlockLayout{}.size(), 1U);
+  EXPECT_EQ(BlockLayout{}.block_of(0, 5), 5);
+}
+
+TEST(BeliefDefaults, OfMovesAreOfNone) {
+  EXPECT_EQ(MotionBins{}.lower, 0);
+  EXPECT_EQ(MotionBins{}.upper, 0);
+  EXPECT_EQ(MotionBins{}.upper_share, 0.0);
+  EXPECT_EQ(TransitionKernel{}.same_object, 1.0);
+  EXPECT_EQ(TransitionKernel{}.other_instance, 0.0);
+  EXPECT_EQ(TransitionKernel{}.other_category, 0.0);
+  EXPECT_EQ(ExpectedMoves{}.same_object, 0.0);
+  EXPECT_EQ(ExpectedMoves{}.other_instance, 0.0);
+  EXPECT_EQ(ExpectedMoves{}.other_category, 0.0);
+  EXPECT_EQ(ViewStep{}.motion_rad, 0.0);
+  EXPECT_EQ(SmoothedSequence{}.log_likelihood, 0.0);
+  EXPECT_EQ(BaumWelchResult{}.unexplained, 0);
+  EXPECT_FALSE(BaumWelchResult{}.converged);
+  EXPECT_EQ(UnknownFactors{}.instance, 0.0);
+  EXPECT_EQ(UnknownFactors{}.category, 0.0);
+  EXPECT_EQ(HeldOutViews{}.bins, 1);
+  EXPECT_EQ(PreparedObservationModel{}.psi, 1.0);
 }
 
 }  // namespace

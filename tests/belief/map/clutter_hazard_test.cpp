@@ -184,6 +184,10 @@ TEST(ClutterHazard, CountsTheBeamsOfAnImage) {
   ClutterHazard some({.layers = 1}, grid.frame.cells);
   some.observe(grid, images, 3, -1.0);
   EXPECT_EQ(some.crossings(0), 4.0 + 2.0);
+  ClutterHazard level({.layers = 1}, grid.frame.cells);
+  level.observe(grid, images, 1, 0.0);
+  EXPECT_EQ(level.crossings(0), 4.0 + 8.0 + 2.0) << "the floor is what is lower than floor_m";
+  EXPECT_EQ(level.hits(0), 2.0);
 }
 
 /// The range is along the ray, not along the axis: at the rim of a wide image it reaches less far
@@ -229,9 +233,11 @@ TEST(ClutterHazard, TheFloorIsNoClutter) {
   EXPECT_EQ(hazard.hits(0), 0.0);
   EXPECT_EQ(hazard.crossings(0), 0.0) << "it counts down to floor_m and no farther";
   EXPECT_EQ(hazard.crossings(1), taken_for_clutter.crossings(1));
-  ClutterHazard below({.layers = 10}, grid.frame.cells);
-  below.observe(grid, images, 1, 5.0);
-  EXPECT_EQ(below.crossings(4), 0.0) << "a camera below floor_m sees floor alone";
+  for (const double floor_m : {4.5, 5.0}) {
+    ClutterHazard below({.layers = 10}, grid.frame.cells);
+    below.observe(grid, images, 1, floor_m);
+    EXPECT_EQ(below.crossings(4), 0.0) << "a camera not above floor_m sees floor alone";
+  }
 }
 
 }  // namespace

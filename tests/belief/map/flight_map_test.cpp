@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
 
 #include "tests/support/drawn_room.hpp"
 
@@ -41,6 +45,7 @@ TEST(FlightMap, KnowsNothingAtFirst) {
   const FlightMap map(kRegion_m);
   EXPECT_EQ(map.grid().count(CellState::unobserved), map.grid().size());
   EXPECT_EQ(std::ranges::count(map.obstacles(), 1), 0);
+  EXPECT_EQ(std::ranges::count(map.unseen_places(), 0), 0);
   EXPECT_EQ(map.grid().size(), 60U * 60U * 26U);
 }
 
@@ -64,6 +69,75 @@ TEST(FlightMap, AColumnGoesOnAboveWhatWasSeenOfItAStandDoesNot) {
   EXPECT_TRUE(blocked_at(map, {2.0, -0.5, 0.75}));
   EXPECT_FALSE(blocked_at(map, {2.0, -0.5, 1.75}));
   EXPECT_FALSE(blocked_at(map, {1.85, -0.5, 1.75}));
+}
+
+/// Three columns of cells side by side, seen level from 10 m away. Of each cell, from the floor up:
+/// '#' a surface, '.' nothing up to the range, '?' no reading. Of the middle one 'x' is blocked.
+std::string blocked_of_middle(const std::array<std::string, 3>& columns, float beside_m = 10.15F,
+                              double rise_m = 0.3) {
+  CameraImages image;
+  image.width_px = 40;
+  image.height_px = 120;
+  image.focal_px = 1000.0;
+  image.range_max_m = 20.0;
+  for (int i = 0; i < image.width_px * image.height_px; ++i) {
+    const Vector3d ray = image.ray(i / image.width_px, i % image.width_px);
+    const auto side = static_cast<int>(std::floor(1.5 - 101.5 * ray.x()));
+    const auto z = static_cast<int>(std::floor(5.0 - 101.5 * ray.y()));
+    const bool inside = side >= 0 && side < 3 && z >= 0 && z < 10;
+    const char seen =
+        inside ? columns[static_cast<std::size_t>(side)][static_cast<std::size_t>(z)] : '?';
+    const float surface_m = side == 1 ? 10.15F : beside_m;
+    image.depth_m.push_back(seen == '#'   ? surface_m
+                            : seen == '.' ? std::numeric_limits<float>::infinity()
+                                          : 0.0F);
+  }
+  const Eigen::AlignedBox3d region_m(Vector3d(0.0, -0.15, 0.0), Vector3d(0.3, 0.15, 1.0));
+  FlightMap map(region_m, {.rise_m = rise_m});
+  map.insert(image, drawn_camera({-10.0, 0.0, 0.5}, 0.0, 0.0));
+  std::string drawn;
+  for (int z = 0; z < 10; ++z) drawn += blocked_at(map, {0.15, 0.0, 0.1 * z + 0.05}) ? 'x' : '.';
+  return drawn;
+}
+
+TEST(FlightMap, WhatRisesHighEnoughGoesOnUnlessItIsSeenToEnd) {
+  const std::string nothing(10, '?');
+  const auto alone = [&](const std::string& column) {
+    return blocked_of_middle({nothing, column, nothing});
+  };
+  EXPECT_EQ(alone("#####?????"), "xxxxxxxxxx");
+  EXPECT_EQ(alone("###???????"), "xxxxxxxxxx");
+  EXPECT_EQ(alone("##????????"), "xx........") << "lower than 0.3 m";
+  EXPECT_EQ(alone("#####.????"), "xxxxx.....");
+  for (const float beside_m : {10.05F, 10.15F, 10.25F}) {
+    const std::string ends = "#####.....";
+    EXPECT_EQ(blocked_of_middle({nothing, "#####?????", ends}, beside_m), "xxxxx.....");
+    EXPECT_EQ(blocked_of_middle({ends, "#####?????", nothing}, beside_m), "xxxxx.....");
+  }
+  for (const std::string elsewhere : {"####......", "######...."}) {
+    EXPECT_EQ(blocked_of_middle({nothing, "#####?????", elsewhere}), "xxxxxxxxxx");
+  }
+  EXPECT_EQ(blocked_of_middle({nothing, "??#???????", nothing}, 10.15F, 0.0), "..xxxxxxxx");
+}
+
+TEST(FlightMap, PlacesAreUnseenWhereNothingIsKnownAtAnyHeight) {
+  const FlightMap map = flown({box_on(0.0, 1.5, 0.0, {0.5, 0.5, 0.78})}, 0.0);
+  const GridFrame& frame = map.grid().frame;
+  const std::vector<std::uint8_t> unseen = map.unseen_places();
+  ASSERT_EQ(unseen.size(), map.grid().size());
+  for (int y = 0; y < frame.cells.y(); ++y) {
+    for (int x = 0; x < frame.cells.x(); ++x) {
+      bool known = false;
+      for (int z = 0; z < frame.cells.z(); ++z) {
+        known = known || map.grid().state(frame.index({x, y, z})) != CellState::unobserved;
+      }
+      for (int z = 0; z < frame.cells.z(); ++z) {
+        ASSERT_EQ(unseen[frame.index({x, y, z})], known ? 0 : 1) << x << " " << y << " " << z;
+      }
+    }
+  }
+  EXPECT_EQ(unseen[frame.index(frame.cell_at({1.05, 0.45, 2.55}))], 0) << "above the floor seen";
+  EXPECT_EQ(unseen[frame.index(frame.cell_at({-0.45, 0.05, 0.05}))], 1) << "behind the camera";
 }
 
 TEST(FlightMap, IsPreciseInNoise) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -116,6 +117,17 @@ TEST(BlockBox, OverridesEverything) {
   EXPECT_EQ(row(map, 1.5), "????????????");
   block_box(map, {Eigen::Vector2d(-50.0, -50.0), Eigen::Vector2d(50.0, 50.0)});
   EXPECT_EQ(row(map, -5.5), "############");
+}
+
+TEST(BlockBox, OfNoExtentOrOffTheMapBlocksNothing) {
+  FloorMap map = make_floor_map(metre_cells());
+  block_box(map, {Eigen::Vector2d(0.8, 0.2), Eigen::Vector2d(0.2, 0.8)});  // within one cell
+  block_box(map, {Eigen::Vector2d(0.2, 0.8), Eigen::Vector2d(0.8, 0.2)});
+  block_box(map, {Eigen::Vector2d(6.5, -50.0), Eigen::Vector2d(50.0, 50.0)});
+  block_box(map, {Eigen::Vector2d(-50.0, -50.0), Eigen::Vector2d(-6.5, 50.0)});
+  block_box(map, {Eigen::Vector2d(-50.0, 6.5), Eigen::Vector2d(50.0, 50.0)});
+  block_box(map, {Eigen::Vector2d(-50.0, -50.0), Eigen::Vector2d(50.0, -6.5)});
+  EXPECT_EQ(std::ranges::count(map.blocked, std::uint8_t{1}), 0);
 }
 
 TEST(ClearFootprint, FreesTheDiscTheRobotStandsOn) {

@@ -70,6 +70,19 @@ TEST(Headroom, WallsDoNotBlockTheFinerMap) {
   EXPECT_EQ(row(detail), "........xx..xx..xx..");
 }
 
+TEST(Headroom, WallsAreOccupiedAtHalfOfTheRobotsHeight) {
+  OccupancyGrid grid = free_row();
+  for (int z = 0; z <= 4; ++z) set(grid, 2, z, kOccupied);  // three of six
+  for (int z = 0; z <= 3; ++z) set(grid, 6, z, kOccupied);  // two of six
+  HeadroomOptions options = kOptions;
+  options.low_m = 0.35;
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, options, 0.25);
+  EXPECT_EQ(row(floor), "....xx......xx......");
+  EXPECT_EQ(row(detail), "............xx......");
+}
+
 TEST(Headroom, TheFloorItselfAndWhatIsAboveTheRobotDoNot) {
   OccupancyGrid grid = free_row();
   set(grid, 2, 0, kOccupied);
@@ -127,6 +140,17 @@ TEST(Headroom, UnseenColumnsThatAreManyOrTouchAnObstacleOrTheEdgeBlock) {
   OccupancyGrid beside_a_post = unseen_columns({{4, 5}, {5, 5}});
   beside_a_post.log_odds[beside_a_post.frame.index({3, 4, 5})] = kOccupied;
   EXPECT_EQ(blocked_by(beside_a_post), 3 * kFloorCells);
+}
+
+TEST(Headroom, AnUnseenColumnBesideAWallBlocks) {
+  constexpr int kFloorCells = 4;  // below a column
+  OccupancyGrid grid = unseen_columns({{4, 5}});
+  for (int z = 0; z < 10; ++z) grid.log_odds[grid.frame.index({3, 4, z})] = kOccupied;
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
+  EXPECT_EQ(std::ranges::count(floor.blocked, std::uint8_t{1}), 2 * kFloorCells);
+  EXPECT_EQ(std::ranges::count(detail.blocked, std::uint8_t{1}), kFloorCells);
 }
 
 TEST(Headroom, ForgetsWhatIsNoLongerThere) {

@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 class OctomapFiles : public ::testing::Test {
  protected:
@@ -67,6 +68,25 @@ TEST_F(OctomapFiles, WholeTreeOfHugeLeaves) {
   EXPECT_EQ(full.grid_of({{-2, -2, -2}, {2, 2, 2}}).count(CellState::occupied), 8U);
   EXPECT_THROW(read_octomap(directory_ / "map.bt"), InputError);
   EXPECT_THROW(read_octomap_grid(directory_ / "map.bt"), InputError);
+}
+
+TEST_F(OctomapFiles, RefusesMoreCellsThanItListsOrAGridHolds) {
+  std::vector<support::MapCube> cubes;
+  std::size_t left = 50'000'001;
+  int x = 0;
+  for (int level = 8; level >= 0; --level) {  // side by side, the larger ones first
+    const std::size_t cells = std::size_t{1} << (3 * level);
+    for (; left >= cells; left -= cells) {
+      cubes.push_back({{x, 0, 0}, 1 << level, true});
+      x += 1 << level;
+    }
+  }
+  EXPECT_EQ(map(cubes, 0.1).occupied(), 50'000'001U);
+  EXPECT_THAT([&] { read_octomap(directory_ / "map.bt"); },
+              ThrowsMessage<InputError>(HasSubstr("more than 50000000 occupied cells")));
+  map({{{0, 0, 0}, 1, true}, {{20000, 9999, 0}, 1, true}}, 0.1);
+  EXPECT_THAT([&] { read_octomap_grid(directory_ / "map.bt"); },
+              ThrowsMessage<InputError>(HasSubstr("20001 x 10000 x 1 cells, at most 200000000")));
 }
 
 TEST_F(OctomapFiles, CellsInABoxAreThoseItReachesInto) {

@@ -107,6 +107,13 @@ TEST(OctomapFormat, NamesWhatIsWrong) {
               HasSubstr("without children"));
 }
 
+TEST(OctomapFormat, WhatTheHeaderDoesNotSayIsZero) {
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 0\n", "")), HasSubstr("'res' is 0"));
+  EXPECT_EQ(error_of(ot("id OcTree\nres 1\n", "")), "accepted") << "no nodes";
+  EXPECT_THAT(error_of(ot("id OcTree\nres 1\n", full_record(1.0F, 0))),
+              HasSubstr("the data go on behind the tree"));
+}
+
 TEST(OctomapFormat, ReadsWholeNumbersAlone) {
   for (const std::string size : {"1x", "1 2", "99999999999999999999999"}) {
     EXPECT_THAT(error_of(ot("id OcTree\nsize " + size + "\nres 1\n", "")),
@@ -146,6 +153,11 @@ TEST(OctomapFormat, ChildrenLieByTheBitsOfTheirNumber) {
   ASSERT_EQ(leaves.size(), 2U);
   expect_leaf(leaves[0], {-32768, -32768, -32768}, 1.25F);
   expect_leaf(leaves[1], {0, -32768, 0}, -0.75F);
+}
+
+TEST(OctomapLeaf, IsOccupiedFromEvenOddsOn) {
+  EXPECT_TRUE(OctomapLeaf{.log_odds = 0.0F}.occupied());
+  EXPECT_FALSE(OctomapLeaf{.log_odds = -1e-6F}.occupied());
 }
 
 }  // namespace

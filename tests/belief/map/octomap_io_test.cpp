@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -97,6 +98,29 @@ TEST_F(OctomapIo, CountsCellsOfPrunedLeaves) {
   EXPECT_TRUE(content.box.isApprox(frame.box()));
 }
 
+TEST_F(OctomapIo, StatesAloneArePrunedWhateverTheLogOdds) {
+  GridFrame frame;
+  frame.cells = {16, 16, 16};
+  OccupancyGrid alike(frame);
+  std::ranges::fill(alike.log_odds, 2.0F);
+  OccupancyGrid varied = alike;
+  for (std::size_t i = 0; i < varied.size(); ++i) {
+    varied.log_odds[i] = 1.0F + 0.25F * static_cast<float>(i % 7);
+  }
+  write_octomap(alike, directory_ / "alike.bt");
+  write_octomap(varied, directory_ / "varied.bt");
+  EXPECT_LT(fs::file_size(directory_ / "alike.bt"), 200U);
+  EXPECT_EQ(read_file(directory_ / "varied.bt"), read_file(directory_ / "alike.bt"));
+}
+
+TEST_F(OctomapIo, InnerNodesHoldTheGreatestLogOddsBelowThem) {
+  write_octomap(test::parse({".#"}), directory_ / "map.ot");
+  const std::string bytes = read_file(directory_ / "map.ot");
+  float root = 0.0F;
+  std::memcpy(&root, bytes.data() + bytes.find("data\n") + 5, sizeof root);
+  EXPECT_EQ(root, 2.0F);
+}
+
 TEST_F(OctomapIo, UnobservedCellsAreNotStored) {
   write_octomap(OccupancyGrid(table_frame()), directory_ / "empty.bt");
   const OctomapContent content = read_octomap(directory_ / "empty.bt");
@@ -113,6 +137,19 @@ TEST_F(OctomapIo, GridComesBackWithItsLogOdds) {
   EXPECT_EQ(back.log_odds, grid.log_odds);
   write_octomap(grid, directory_ / "map.bt");
   EXPECT_EQ(test::draw(read_octomap_grid(directory_ / "map.bt")), test::draw(grid));
+}
+
+/// Beyond OctoMap's own limits, -2 and 3.5.
+TEST_F(OctomapIo, LogOddsAreKeptUpToThoseOfOneInAMillion) {
+  OccupancyGrid grid = test::parse({"..##"});
+  grid.log_odds = {-20.0F, -13.5F, 13.5F, 20.0F};
+  write_octomap(grid, directory_ / "map.ot");
+  const OccupancyGrid back = read_octomap_grid(directory_ / "map.ot");
+  ASSERT_EQ(back.size(), 4U);
+  EXPECT_NEAR(back.log_odds[0], -13.8155, 1e-3);
+  EXPECT_EQ(back.log_odds[1], -13.5F);
+  EXPECT_EQ(back.log_odds[2], 13.5F);
+  EXPECT_NEAR(back.log_odds[3], 13.8155, 1e-3);
 }
 
 TEST_F(OctomapIo, RefusesWhatItCannotWrite) {

@@ -97,6 +97,22 @@ TEST(PriorCounts, AreTheTransitionTheyCameFrom) {
   EXPECT_NEAR(learned.other_instance, 0.1, kFitTolerance);
 }
 
+TEST(LearnedFrom, IsTheProportionsOfCountsHoweverFew) {
+  const LearnedTransition before = as_learned(RigidTransition{}, 2);
+  TransitionCounts counts{.slip = Eigen::MatrixXd::Zero(2, 2)};
+  EXPECT_EQ(learned_from(counts, before).slip, before.slip);
+  EXPECT_EQ(learned_from(counts, before).same_object, 1.0);
+  counts.slip.col(1) << 0.125, 0.375;
+  counts.same_object = 0.125;
+  counts.other_instance = 0.0625;
+  counts.other_category = 0.3125;
+  const LearnedTransition learned = learned_from(counts, before);
+  EXPECT_EQ(learned.slip, (std::vector{before.slip[0], before.slip[1], 0.25, 0.75}));
+  EXPECT_EQ(learned.same_object, 0.25);
+  EXPECT_EQ(learned.other_instance, 0.125);
+  EXPECT_EQ(learned.other_category, 0.625);
+}
+
 RC_GTEST_PROP(BaumWelch, NeverLosesLikelihood, ()) {
   const ObjectStates states = test::random_states();
   Rng rng = test::random_generator();

@@ -115,6 +115,10 @@ TEST_F(RecognitionFile, HoldsAModelThatLearntNothingYet) {
   const RecognitionModel read = read_recognition_model(path_);
   EXPECT_EQ(read.states.object_count(), 0);
   EXPECT_EQ(read.transitions.slip.size(), 0);
+  EXPECT_EQ(read.transitions.same_object, 0.0);
+  EXPECT_EQ(read.transitions.other_instance, 0.0);
+  EXPECT_EQ(read.transitions.other_category, 0.0);
+  EXPECT_EQ(read.view_correlation, 0.0);
   EXPECT_TRUE(read.features.empty());
 }
 
@@ -163,6 +167,8 @@ TEST_F(RecognitionFile, NamesTheNumberThatMakesNoSense) {
   const std::size_t psi = whole_.find("colour") + 6;
   EXPECT_THAT(with(psi, -1.0), HasSubstr("psi of feature colour is -1"));
   EXPECT_THAT(with(psi + 8, std::nan("")), HasSubstr("cost_s of feature colour is nan"));
+  EXPECT_THAT(with(psi + 16, std::uint8_t{2}),
+              HasSubstr("unknown of feature colour is marked 2, must be 0 or 1"));
 }
 
 TEST_F(RecognitionFile, HoldsTenMillionStatesAndNoMore) {
@@ -205,6 +211,19 @@ TEST_F(RecognitionFile, KeepsWhatWasLearntOfUnknownObjects) {
   ASSERT_TRUE(read.features[1].unknown);
   EXPECT_EQ(read.features[1].unknown->instance, -3.5);
   EXPECT_EQ(read.features[1].unknown->category, 12.25);
+}
+
+TEST_F(RecognitionFile, OfFactorsThatAreNotFiniteIsRefused) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const UnknownFactors& factors :
+       {UnknownFactors{.instance = -infinity, .category = 1.0},
+        UnknownFactors{.instance = 1.0, .category = std::nan("")}}) {
+    RecognitionModel model = small_model();
+    model.features[1].unknown = factors;
+    write_recognition_model(model, path_);
+    EXPECT_THAT(error_of(read_file(path_)),
+                HasSubstr("what is unknown of feature sift is not finite"));
+  }
 }
 
 /// What version 1 had not: the correlation behind the transitions, and a mark behind each cost.

@@ -105,5 +105,20 @@ TEST(ExpectedMoves, CountTheDrawsOfEmptyGroups) {
   EXPECT_NEAR(moves.bin_change[0], 0.75, kKernelTolerance);
 }
 
+TEST(TransitionKernelDeathTest, RefusesWhatIsOfOtherStates) {
+  const ObjectStates states = test::make_states({0, 0}, 4);
+  const TransitionKernel kernel{.bin_change = Eigen::VectorXd::Constant(4, 0.25)};
+  const TransitionKernel of_six{.bin_change = Eigen::VectorXd::Constant(6, 1.0 / 6.0)};
+  const Eigen::VectorXd zeros = Eigen::VectorXd::Zero(8);
+  const Eigen::VectorXd more = Eigen::VectorXd::Zero(9);
+  EXPECT_DEATH(transition_forward(states, kernel, more), "for every state");
+  EXPECT_DEATH(transition_forward(states, of_six, zeros), "as many bins");
+  EXPECT_DEATH(transition_backward(states, kernel, more), "for every state");
+  EXPECT_DEATH(transition_backward(states, of_six, zeros), "as many bins");
+  EXPECT_DEATH(expected_moves(states, kernel, more, zeros), "for every state");
+  EXPECT_DEATH(expected_moves(states, kernel, zeros, more), "for every state");
+  EXPECT_DEATH(expected_moves(states, of_six, zeros, zeros), "as many bins");
+}
+
 }  // namespace
 }  // namespace vantage

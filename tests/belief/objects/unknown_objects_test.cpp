@@ -39,6 +39,17 @@ TEST(UnknownHypotheses, AreEachCategoryAndNone) {
   EXPECT_THAT(unknown_hypotheses(test::make_states({0}, 2)), IsEmpty());
 }
 
+/// The variance is the mean of those within bins plus that between the bins' means.
+TEST(ObjectMoments, AreOfAnObjectsOwnBins) {
+  ObservationModel model = model_of({2.0F, 7.0F, 2.0F}, 1.0F, 1.0F);
+  model.mean << 1.0F, 3.0F, 5.0F, 9.0F, 2.0F, 2.0F;
+  model.variance << 1.0F, 2.0F, 4.0F, 6.0F, 0.5F, 1.5F;
+  const ObjectMoments moments = object_moments(model, test::make_states({0, 0, 1}, 2));
+  EXPECT_TRUE(moments.mean.isApprox(Eigen::RowVector3d(2.0, 7.0, 2.0), 1e-12)) << moments.mean;
+  const Eigen::RowVector3d variance(1.5 + 1.0, 5.0 + 4.0, 1.0 + 0.0);
+  EXPECT_TRUE(moments.variance.isApprox(variance, 1e-12)) << moments.variance;
+}
+
 TEST(BackgroundDensities, AreOfTheMomentsOfWhatIsKnown) {
   const ObjectStates states = test::make_states({0, 0, 1}, 2);
   const ObservationModel model = model_of({1.0F, 3.0F, 8.0F}, 0.5F, 0.25F);

@@ -143,6 +143,28 @@ TEST(MakeObservationModel, GuessesAStateWithoutViewsFromItsObject) {
   }
 }
 
+/// Three objects of three bins: without views are the first's last bin, two of the second, and all
+/// of the third.
+TEST(MakeObservationModel, GuessesFromOtherObjectsOnlyWhereAnObjectHasNoViews) {
+  GaussianStatistics statistics = textbook();
+  add_states(statistics, 7);
+  add_view(statistics, 4, Eigen::Vector2f(10.0F, 30.0F));
+  const ObservationModel model = make_observation_model(statistics, 3, ShrunkVariance{});
+  const auto expect_state = [&](int j, const Eigen::Vector2f& mean,
+                                const Eigen::Vector2f& between) {
+    EXPECT_FLOAT_EQ(model.mean(0, j), mean[0]) << j;
+    EXPECT_FLOAT_EQ(model.mean(1, j), mean[1]) << j;
+    EXPECT_FLOAT_EQ(model.variance(0, j), 4.0F / 3.0F + between[0]) << j;
+    EXPECT_FLOAT_EQ(model.variance(1, j), 200.0F / 3.0F + between[1]) << j;
+  };
+  expect_state(2, {4.0F, 12.0F}, {4.0F, 64.0F});  // of the means 2 and 6, and 20 and 4
+  expect_state(3, {10.0F, 30.0F}, {0.0F, 0.0F});
+  expect_state(5, {10.0F, 30.0F}, {0.0F, 0.0F});
+  for (const int j : {6, 7, 8}) {  // of 2, 6 and 10, and of 20, 4 and 30
+    expect_state(j, {6.0F, 18.0F}, {32.0F / 3.0F, 344.0F / 3.0F});
+  }
+}
+
 TEST(MakeObservationModel, TakesTheVarianceBetweenStatesWhereNoneHasTwoViews) {
   GaussianStatistics statistics = empty_statistics(1, 2);
   add_view(statistics, 0, Eigen::VectorXf::Constant(1, 1.0F));

@@ -193,5 +193,38 @@ TEST(CalibratedPsi, EndsAtItsBounds) {
   EXPECT_EQ(CalibratedPsi{}(world.context())[0], 1e-7) << "it always is";
 }
 
+/// The first and the last feature are one, the other is as good as either.
+TEST(CalibratedPsi, AJointRoundAdjustsEachFeatureToTheOthers) {
+  World world = make_world({1, 1}, {1.0, 1.0}, 1000);
+  world.models.push_back(world.models[0]);
+  world.held_out.log_density.push_back(world.held_out.log_density[0]);
+  const std::vector<double> in_proportion = CalibratedPsi{}(world.context());
+  EXPECT_EQ(in_proportion[0], in_proportion[2]);
+  const std::vector<double> joint = CalibratedPsi{.joint_rounds = 1}(world.context());
+  EXPECT_LT(joint[0], 0.7 * joint[2]) << "each had been given a share";
+  EXPECT_GT(joint[1], 1.3 * in_proportion[1]) << "it repeats none of them";
+  const double best = mean_log_posterior(world.held_out, joint);
+  for (const double factor : {0.95, 1.05}) {
+    const std::vector<double> other{joint[0], joint[1], factor * joint[2]};
+    EXPECT_GT(best, mean_log_posterior(world.held_out, other));
+  }
+}
+
+TEST(MeanLogPosteriorDeathTest, RefusesViewsThatAreNotOfTheDensities) {
+  const World world = make_world({1}, {1.0}, 10);
+  const std::vector<double> psi{1.0};
+  HeldOutViews views = world.held_out;
+  views.bins = 3;
+  EXPECT_DEATH(mean_log_posterior(views, psi), "states of whole objects");
+  views = world.held_out;
+  for (const int none : {-1, kStates}) {
+    views.state[4] = none;
+    EXPECT_DEATH(mean_log_posterior(views, psi), "states that are modelled");
+  }
+  views = world.held_out;
+  views.state.pop_back();
+  EXPECT_DEATH(mean_log_posterior(views, psi), "for every view held out");
+}
+
 }  // namespace
 }  // namespace vantage
