@@ -72,6 +72,14 @@ TEST(AddUnmeasured, WhatTheObjectEnclosesForTheMostPart) {
   EXPECT_THAT(added({"###", "#.#", "###"}, {1, 1, 1, 1}), ElementsAre("###", "###", "###"));
 }
 
+TEST(AddUnmeasured, OneHoleAfterTheOther) {
+  cv::Mat1b mask = mask_from({"######", ".#####", "####.#", "######"});
+  cv::Mat1f depth_m(mask.size(), 1.0F);
+  depth_m(1, 0) = depth_m(2, 4) = 0.0F;
+  add_unmeasured(mask, depth_m);
+  EXPECT_THAT(rows_of(mask), ElementsAre("######", ".#####", "######", "######"));
+}
+
 TEST(AddFoot, GrowsOverWhatIsLowByTheHeightOfAFoot) {
   CameraImages images;
   images.focal_px = 300.0;
@@ -160,6 +168,9 @@ TEST(PlaceOfColumn, IsItsProjectionWithAMargin) {
   EXPECT_NEAR(place.br().x, 200 + 70 + 9, 1);
   EXPECT_NEAR(place.y, 150 - 30 - 8, 1);
   EXPECT_NEAR(place.br().y, 150 + 10 + 9, 1);
+  // From 22.3 px and -31.5 px beside the middle to 70.5 px and 8.5 px.
+  EXPECT_EQ(place_of_column(images, overhead(), {0.505, 0.115, 0.5}, options),
+            cv::Rect(214, 110, 66, 58));
   Pose near = overhead();
   near.translation().z() = 1.09;
   EXPECT_EQ(place_of_column(images, near, {0.5, 0.1, 0.5}, options), cv::Rect(0, 0, 401, 301));

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -249,6 +250,37 @@ TEST_F(Reader, CutsAViewAsItsEntrySays) {
   EXPECT_FALSE(load_view(entry_, skipped)) << "20 pixels are no object";
   ASSERT_EQ(skipped.size(), 1U);
   EXPECT_THAT(skipped[0].file.string(), HasSubstr("_crop.png"));
+}
+
+/// 160 x 120 px in the middle of the image: a table that is looked down on by 0.7 rad, and a block
+/// of 30 x 30 px before it.
+void put_table(const std::filesystem::path& colour, const std::filesystem::path& depth) {
+  const Eigen::Vector3d up = up_in_camera(0.7);
+  cv::Mat1w depth_mm(120, 160);
+  for (int row = 0; row < 120; ++row) {
+    for (int column = 0; column < 160; ++column) {
+      const Eigen::Vector3d ray((column - 80) / 570.3, (row - 60) / 570.3, 1.0);
+      const bool block = row >= 45 && row < 75 && column >= 65 && column < 95;
+      const double z_m = -0.6 / up.dot(ray) - (block ? 0.1 : 0.0);
+      depth_mm(row, column) = static_cast<std::uint16_t>(std::lround(1000.0 * z_m));
+    }
+  }
+  cv::imwrite(colour.string(), cv::Mat3b(120, 160, cv::Vec3b(9, 9, 9)));
+  cv::imwrite(depth.string(), depth_mm);
+}
+
+TEST_F(Reader, TheTableTellsAnElevationThatIsNotKnown) {
+  put_table(entry_.file("crop.png"), entry_.file("depthcrop.png"));
+  write_file(entry_.file("loc.txt"), "240,180");
+  entry_.cut = ObjectCut::depth;
+  const ObjectView view = load_view(entry_).view;
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(view.mask, 1)), 900.0, 60.0);
+  EXPECT_LT((view.up - up_in_camera(pi / 3.0)).norm(), 1e-12) << "that of its video";
+  put_table(root_.path() / "mine.png", root_.path() / "mine_depth.png");
+  const ImagePair pair = load_image_pair(root_.path() / "mine.png", root_.path() / "mine_depth.png",
+                                         {.cut = ObjectCut::depth});
+  EXPECT_EQ(pair.cut, ObjectCut::depth);
+  EXPECT_LT((pair.view.up - up_in_camera(0.7)).norm(), 0.01);
 }
 
 TEST_F(Reader, NamesAMaskOfAnotherSize) {

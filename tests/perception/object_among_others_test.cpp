@@ -2,9 +2,12 @@
 #include "vantage/perception/clutter/object_among_others.hpp"
 
 #include <gmock/gmock.h>
+#include <opencv2/core.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/perception/drawn_boxes.hpp"
 
@@ -143,6 +146,60 @@ TEST(ObjectAmongOthers, TheImagesBorderCutsItOffToo) {
   const ObjectAmongOthers object = found(drawn, T_world_camera);
   ASSERT_TRUE(object.object.view) << object.object.reason;
   EXPECT_GT(cut_off_pixels(*object.object.view), 5);
+}
+
+TEST(ObjectAmongOthers, ItsShapeIsAsWideAndAsHighAsWasEverSeen) {
+  const Pose T_world_camera = camera_at(0.3);
+  const Drawn drawn = draw({{kTarget}}, T_world_camera, 0.002);
+  const ObjectAmongOthers own = found(drawn, T_world_camera);
+  const auto after = [&](double radius_m, double height_m) {
+    return found(drawn, T_world_camera, UprightCylinder{kTable_m, radius_m, height_m});
+  };
+  const ObjectAmongOthers wide = after(0.09, 0.05);
+  const ObjectAmongOthers high = after(0.02, 0.3);
+  ASSERT_TRUE(own.object.view && wide.object.view && high.object.view);
+  EXPECT_EQ(wide.shape->radius_m, 0.09);
+  EXPECT_EQ(wide.shape->height_m, own.shape->height_m);
+  EXPECT_EQ(high.shape->radius_m, own.shape->radius_m);
+  EXPECT_EQ(high.shape->height_m, 0.3);
+}
+
+/// 60 x 50 px from 2 m straight above the table: a block of 12 x 10 px, 10 cm high, and before its
+/// upper edge, higher than any object, something of 4 x 5 px.
+Drawn half_covered_block() {
+  Drawn drawn;
+  drawn.images.width_px = 60;
+  drawn.images.height_px = 50;
+  drawn.images.focal_px = 100.0;
+  drawn.images.depth_m.assign(3000, 2.0F);
+  cv::Mat1f depth_m(50, 60, drawn.images.depth_m.data());
+  depth_m(cv::Rect(24, 20, 12, 10)) = 1.9F;
+  depth_m(cv::Rect(28, 19, 4, 5)) = 1.0F;
+  return drawn;
+}
+
+/// The median takes the corners off both.
+TEST(ObjectAmongOthers, WhatIsBeforeItsEdgeLeavesTheRestOfItToThePixel) {
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = kTable_m + Vector3d(0.0, 0.0, 2.0);
+  const ObjectAmongOthers object = found(half_covered_block(), T_world_camera, {},
+                                         {.min_pixels = 102, .mask_growth_px = 1, .margin_px = 0});
+  ASSERT_TRUE(object.object.view) << object.object.reason;
+  const ObjectView& view = *object.object.view;
+  EXPECT_EQ(view.left_px, 23);
+  EXPECT_EQ(view.top_px, 19);
+  ASSERT_EQ(view.width_px, 14);
+  ASSERT_EQ(view.height_px, 12);
+  std::vector<std::ptrdiff_t> in_row;
+  for (auto row = view.mask.begin(); row != view.mask.end(); row += 14) {
+    in_row.push_back(std::count(row, row + 14, 1));
+  }
+  EXPECT_THAT(in_row, testing::ElementsAre(10, 10, 10, 10, 12, 14, 14, 14, 14, 14, 14, 12));
+  EXPECT_EQ(cut_off_pixels(view), 110) << "within 3 px of what has it 2 px beside itself";
+  EXPECT_NEAR(object.seen_share, 10.0 / 12.0, 1e-9) << "of twelve samples of its top";
+  EXPECT_NEAR(object.shape->radius_m, 0.019 * std::hypot(4.5, 4.5), 1e-6);
+  EXPECT_NEAR(object.shape->height_m, 0.1, 1e-6);
 }
 
 }  // namespace

@@ -99,17 +99,17 @@ TEST(ObjectCut, APictureWithoutDepthHasNoObject) {
   EXPECT_FALSE(cut.reason.empty());
 }
 
-/// 160 x 120 px from 0.6 m above a table, looking down by 0.7 rad, without noise.
-ObjectView leaning_table() {
+/// From 0.6 m above a table, looking down by 0.7 rad, without noise.
+ObjectView leaning_table(int width_px = 160, int height_px = 120) {
   ObjectView view;
-  view.width_px = 160;
-  view.height_px = 120;
+  view.width_px = width_px;
+  view.height_px = height_px;
   view.focal_px = 150.0;
-  view.centre_px = {80.0, 60.0};
-  view.rgb.assign(std::size_t{3} * 160 * 120, 9);
+  view.centre_px = {0.5 * width_px, 0.5 * height_px};
+  view.rgb.assign(std::size_t{3} * width_px * height_px, 9);
   const Eigen::Vector3d up = up_in_camera(0.7);
-  for (int row = 0; row < 120; ++row) {
-    for (int column = 0; column < 160; ++column) {
+  for (int row = 0; row < height_px; ++row) {
+    for (int column = 0; column < width_px; ++column) {
       view.depth_m.push_back(static_cast<float>(-0.6 / up.dot(view.ray(row, column))));
     }
   }
@@ -146,6 +146,39 @@ TEST(BackgroundPlanes, ATableUnderABlockIsFoundExactly) {
 
 TEST(BackgroundPlanes, APlaneWithNothingBeforeItIsNoBackground) {
   EXPECT_TRUE(background_planes(leaning_table()).empty());
+}
+
+/// A table under a block, of which only a part of the picture is measured.
+std::size_t planes_in(const cv::Rect& part) {
+  ObjectView view = leaning_table();
+  put_block(view, 45, 65);
+  for (int row = 0; row < view.height_px; ++row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      if (!part.contains(cv::Point(column, row))) view.depth_m[view.index(row, column)] = 0.0F;
+    }
+  }
+  return background_planes(view).size();
+}
+
+TEST(BackgroundPlanes, ReachTheBorderOnOneSideAtLeast) {
+  EXPECT_EQ(planes_in({0, 20, 100, 80}), 1U) << "left";
+  EXPECT_EQ(planes_in({60, 20, 100, 80}), 1U) << "right";
+  EXPECT_EQ(planes_in({20, 0, 120, 80}), 1U) << "top";
+  EXPECT_EQ(planes_in({20, 40, 120, 80}), 1U) << "bottom";
+  EXPECT_EQ(planes_in({20, 20, 120, 80}), 0U);
+}
+
+/// The second row, which has no depth, counts as long as each pixel is looked at.
+TEST(BackgroundPlanes, OfFourTimes12000PixelsEverySecondIsLookedAt) {
+  const auto share = [](int width_px, int height_px) {
+    ObjectView view = leaning_table(width_px, height_px);
+    put_block(view, 86, 106);
+    for (int column = 0; column < width_px; ++column) view.depth_m[view.index(1, column)] = 0.0F;
+    const auto planes = background_planes(view);
+    return planes.size() == 1 ? planes[0].share : -1.0;
+  };
+  EXPECT_DOUBLE_EQ(share(233, 206), 1.0 - 900.0 / (233.0 * 205.0)) << "two pixels fewer than that";
+  EXPECT_DOUBLE_EQ(share(240, 200), 1.0 - 225.0 / 12000.0);
 }
 
 void expect_block(const ObjectView& picture) {

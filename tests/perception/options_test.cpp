@@ -2,10 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "tests/support/option_numbers.hpp"
+#include "vantage/perception/background_planes.hpp"
+#include "vantage/perception/clouds/kd_tree.hpp"
 #include "vantage/perception/clouds/registration.hpp"
 #include "vantage/perception/clutter/object_among_others.hpp"
+#include "vantage/perception/dataset_reader.hpp"
+#include "vantage/perception/images/image_files.hpp"
+#include "vantage/perception/images/npy.hpp"
 #include "vantage/perception/picture_notes.hpp"
 #include "vantage/perception/search/object_search.hpp"
 
@@ -135,6 +141,58 @@ TEST(PerceptionOptions, AnEmptyBandOfHeightsIsRefused) {
   RegistrationOptions registration;
   registration.min_correspondence_m = registration.max_correspondence_m;
   EXPECT_NO_THROW(check_options(registration)) << "a radius that stays as it is";
+}
+
+TEST(PerceptionResults, OfFilesAreEmptyAtFirst) {
+  for (const int value :
+       {ColourImage{}.width_px, ColourImage{}.height_px, DepthImage{}.width_px,
+        DepthImage{}.height_px, MaskImage{}.width_px, MaskImage{}.height_px, NpyMatrix{}.rows,
+        NpyMatrix{}.columns, ViewName{}.video, ViewName{}.frame}) {
+    EXPECT_EQ(value, 0);
+  }
+  EXPECT_FALSE(NpyMatrix{}.integers);
+  EXPECT_EQ(DepthImage{}.unit_m, 0.001);
+  EXPECT_EQ(ViewEntry{}.yaw_rad, 0.0);
+  EXPECT_EQ(PairSetting{}.max_depth_m, 0.0);
+  EXPECT_EQ(PairSetting{}.depth_unit_m, 0.0);
+  EXPECT_EQ(ImagePair{}.cut, ObjectCut::mask);
+}
+
+TEST(PerceptionResults, OfViewsAreEmptyAtFirst) {
+  const ObjectView view;
+  for (const int value : {view.width_px, view.height_px, view.left_px, view.top_px}) {
+    EXPECT_EQ(value, 0);
+  }
+  EXPECT_EQ(view.focal_px, 570.3);
+  EXPECT_EQ(view.centre_px, Eigen::Vector2d(320.0, 240.0));
+  EXPECT_EQ(view.up, Eigen::Vector3d(0.0, -1.0, 0.0));
+  EXPECT_EQ(view.seen_share, 1.0);
+  EXPECT_EQ(ObjectAmongOthers{}.seen_share, 0.0);
+  EXPECT_EQ(TablePlane{}.height_m, 0.0);
+  EXPECT_EQ(TablePlane{}.normal, Eigen::Vector3d(0.0, 0.0, 1.0));
+  EXPECT_TRUE(TablePlane{}.centroid_m.isZero());
+  EXPECT_TRUE(TablePlane{}.scatter_m2.isZero());
+  EXPECT_EQ(TablePlane{}.inliers, 0U);
+  EXPECT_EQ(BackgroundPlane{}.normal, Eigen::Vector3d(0.0, 0.0, -1.0));
+  EXPECT_EQ(BackgroundPlane{}.offset_m, 0.0);
+  EXPECT_EQ(BackgroundPlane{}.share, 0.0);
+}
+
+TEST(PerceptionResults, OfRegistrationSayNothingAtFirst) {
+  const RegistrationResult result;
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.rmse_m, 0.0);
+  EXPECT_EQ(result.overlap, 0.0);
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_EQ(result.unconstrained, 0);
+  EXPECT_TRUE(result.information.isZero());
+  EXPECT_TRUE(PosePrior{}.information.isIdentity());
+  EXPECT_TRUE(std::isinf(Correction{}.shift_m));
+  EXPECT_TRUE(std::isinf(Correction{}.turn_rad));
+  EXPECT_FALSE(PostFix{}.found);
+  EXPECT_TRUE(PostFix{}.information.isZero());
+  EXPECT_EQ(Neighbour{}.index, 0U);
+  EXPECT_EQ(Neighbour{}.distance2_m2, 0.0F);
 }
 
 }  // namespace

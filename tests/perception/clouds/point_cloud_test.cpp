@@ -112,6 +112,11 @@ TEST(VoxelDownsample, OppositeNormalsCancelToUnknown) {
   cloud.points = {{0.1F, 0.1F, 0.1F}, {0.2F, 0.1F, 0.1F}};
   cloud.normals = {{1, 0, 0}, {-1, 0, 0}};
   EXPECT_TRUE(voxel_downsample(cloud, 1.0).normals[0].isZero());
+  cloud.normals[1].x() = -0.9999992F;
+  EXPECT_TRUE(voxel_downsample(cloud, 1.0).normals[0].isZero());
+  cloud.normals[1].x() = -0.9999988F;
+  EXPECT_EQ(voxel_downsample(cloud, 1.0).normals[0], Eigen::Vector3f(1, 0, 0))
+      << "more than a millionth is left";
 }
 
 RC_GTEST_PROP(VoxelDownsample, StaysInTheHullAndNeverGrows, (std::uint64_t seed)) {

@@ -128,6 +128,18 @@ TEST_F(PiecesFromAbove, APlaceIsBareWhereTheTableIsSeen) {
   EXPECT_FALSE(scene().is_bare({0.5, 0.0, 0.5}, 0.05)) << "beside the patch";
 }
 
+TEST_F(PiecesFromAbove, APlaceIsAskedOfThePixelThatShowsIt) {
+  column_.heights_m.setTo(kOutside);
+  column_.heights_m(4, 8) = 0.0F;  // 2 cm wide round (0.05, -0.03)
+  for (const auto& [x, y] : {std::pair{0.041, -0.021}, {0.059, -0.021}, {0.059, -0.039}}) {
+    EXPECT_TRUE(scene().is_bare({x, y, 0.5}, 0.05)) << x << " " << y;
+  }
+  for (const auto& [x, y] :
+       {std::pair{0.039, -0.03}, {0.061, -0.03}, {0.05, -0.019}, {0.05, -0.041}}) {
+    EXPECT_FALSE(scene().is_bare({x, y, 0.5}, 0.05)) << x << " " << y;
+  }
+}
+
 TEST_F(PiecesFromAbove, APlaceIsNotBareWhereSomethingFarBelowIsSeen) {
   column_.patch.depth_m(4, 8) = 3.0F;  // at x = 0.075, y = -0.045: 2.9 cm off
   EXPECT_TRUE(scene().is_bare({0.05, -0.03, 0.5}, 0.03));

@@ -4,6 +4,8 @@
 #include "tests/support/option_numbers.hpp"
 #include "vantage/perception/features/feature.hpp"
 #include "vantage/perception/features/kit/object_pixels.hpp"
+#include "vantage/perception/features/kit/upright_extents.hpp"
+#include "vantage/perception/features/patches/attribute_image.hpp"
 
 namespace vantage {
 namespace {
@@ -81,6 +83,29 @@ TEST(FeatureOptions, APyramidHasOneFourNineCells) {
 TEST(FeatureOptions, PatchesAreSixteenPixelsWideEveryEight) {
   EXPECT_EQ(kPatchSide_px, 16);
   EXPECT_EQ(kPatchStep_px, 8);
+}
+
+TEST(FeatureResults, AreEmptyAtFirst) {
+  const ObjectPixels pixels;
+  for (const int value :
+       {pixels.width_px, pixels.height_px, pixels.colour_count, pixels.depth_count, pixels.left_px,
+        pixels.top_px, pixels.right_px, pixels.bottom_px, AttributeImage{}.width_px,
+        AttributeImage{}.height_px}) {
+    EXPECT_EQ(value, 0);
+  }
+  const UprightExtents box;
+  for (const double value : {box.bottom_m, box.top_m, box.greater_m, box.smaller_m}) {
+    EXPECT_EQ(value, 0.0);
+  }
+  EXPECT_EQ(LevelExtent{}.axis, Eigen::Vector3d(1.0, 0.0, 0.0));
+  EXPECT_TRUE(LevelExtent{}.ends_m.isZero());
+  EXPECT_EQ(FeatureResult{}.weight, 1.0);
+  EXPECT_EQ(ProductBasis::Axis{}.low, 0.0);
+  EXPECT_EQ(ProductBasis::Axis{}.per_unit, 1.0);
+  EXPECT_EQ(BasisAxis{}.gamma, 1.0);
+  EXPECT_EQ(BasisAxis{}.low, 0.0);
+  EXPECT_EQ(BasisAxis{}.high, 1.0);
+  EXPECT_EQ(BasisAxis{}.kind, BasisAxis::Kind::line);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "tests/support/object_views.hpp"
 
 namespace vantage {
@@ -46,6 +48,15 @@ TEST(Sift, TheWholeCountsAsMuchAsItsQuarters) {
     const float quarters =
         shares[20 + word] + shares[40 + word] + shares[60 + word] + shares[80 + word];
     EXPECT_NEAR(shares[word], quarters, 1e-4);
+  }
+  const Eigen::Matrix2Xf places = dense_root_sift(views[0], kSmallSift).places;
+  std::array<int, 4> in_quarter{};
+  for (const auto& place : places.colwise()) {
+    ++in_quarter[(place.x() < 0.5F ? 0U : 1U) + (place.y() < 0.5F ? 0U : 2U)];
+  }
+  for (Eigen::Index q = 0; q < 4; ++q) {
+    const double share = 0.5 * in_quarter[static_cast<std::size_t>(q)] / places.cols();
+    EXPECT_NEAR(shares.segment(20 * (1 + q), 20).sum(), share, 1e-4) << q;
   }
 }
 

@@ -262,5 +262,45 @@ TEST(BoundingBox, NeedsIntrinsics) {
   EXPECT_EQ(BoundingBox{}.extract(view).skipped, "the camera's intrinsics are not finite numbers");
 }
 
+/// The eye looks level at a line of 20 px, 1 m away; a pixel there is a millimetre, and nothing
+/// beside it has depth.
+ObjectView line_at_eye_level() {
+  ObjectView view = blank_view(40, 140);
+  view.focal_px = 1000.0;
+  view.centre_px.y() = view.top_px + 20.0;
+  for (int column = 0; column < 20; ++column) {
+    view.mask[view.index(20, column)] = 1;
+    view.depth_m[view.index(20, column)] = 1.0F;
+  }
+  return view;
+}
+
+TEST(StandingBox, TheStandIsLookedForBetweenTwoHeights) {
+  const auto skipped = [](int row, float depth_m) {
+    ObjectView view = line_at_eye_level();
+    for (int column = 24; column < 40; ++column) view.depth_m[view.index(row, column)] = depth_m;
+    return StandingBox{}.extract(view).skipped;
+  };
+  const std::string none = "0 pixels beside the object show its support surface, fewer than 16";
+  EXPECT_EQ(skipped(5, 1.0F), none) << "15 mm above its lowest points";
+  EXPECT_EQ(skipped(5, 0.999F), "");
+  EXPECT_EQ(skipped(120, 1.0F), none) << "10 cm below them";
+  EXPECT_EQ(skipped(120, 0.999F), "");
+}
+
+TEST(StandingBox, TheStandIsWithin8MillimetresOfItsMedian) {
+  const auto skipped = [](int row, float depth_m) {
+    ObjectView view = line_at_eye_level();
+    for (int column = 24; column < 39; ++column) view.depth_m[view.index(20, column)] = 1.0F;
+    view.depth_m[view.index(row, 39)] = depth_m;
+    return StandingBox{}.extract(view).skipped;
+  };
+  const std::string few = "15 pixels beside the object show its support surface, fewer than 16";
+  for (const int row : {12, 28}) {
+    EXPECT_EQ(skipped(row, 1.0F), "") << row;
+    EXPECT_EQ(skipped(row, 1.001F), few) << row;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -284,5 +284,14 @@ TEST_F(ImageFormats, FilesAreToldByNameAndFirstBytes) {
   for (const int type : {2, 3, 6}) EXPECT_EQ(png(16, type), ImageKind::colour) << type;
 }
 
+TEST_F(ImageFormats, APictureOfTwoChannelsIsNoColour) {
+  write_file(path("two.pam"),
+             "P7\nWIDTH 2\nHEIGHT 1\nDEPTH 2\nMAXVAL 255\nTUPLTYPE GRAYSCALE_ALPHA\nENDHDR\n"
+             "\1\2\3\4");
+  EXPECT_THAT([&] { read_colour_image(path("two.pam")); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("is an image of 2 channels of 8-bit values; expected 8-bit colour")));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -100,5 +100,34 @@ TEST(DetectionsOf, AreThoseOfTheObjectsInTheirOrder) {
   EXPECT_EQ(detections[1].pixels, 77);
 }
 
+/// Cells of 1/16 m from the first point on: 4 cm, 12 cm and 14 cm are one, two and three of them.
+TEST(SupportLimits, ASurfaceIsThreeCellsWide) {
+  const SupportSearchOptions sixteenths{.cell_m = 0.0625};
+  EXPECT_TRUE(find_supports(level_grid(0.0, 0.0, 0.8, 3, 51), sixteenths).empty());
+  EXPECT_TRUE(find_supports(level_grid(0.0, 0.0, 0.8, 7, 51), sixteenths).empty());
+  EXPECT_EQ(find_supports(level_grid(0.0, 0.0, 0.8, 8, 51), sixteenths).size(), 1U);
+}
+
+/// Points at one height count in five bins of 1 cm; the middle of the lowest is theirs.
+TEST(SupportLimits, PointsAreWithinTwoInlierDistancesOfTheirHeight) {
+  const double off_m = 0.5 - 48.5 * 0.01;
+  const auto found_with = [](double inlier_m) {
+    const SupportSearchOptions options{
+        .min_height_m = 0.0, .max_height_m = 1.0, .inlier_distance_m = inlier_m};
+    return find_supports(level_grid(0.0, 0.0, 0.5, 26, 21), options).size();
+  };
+  EXPECT_EQ(found_with(0.5 * off_m), 1U);
+  EXPECT_EQ(found_with(0.499 * off_m), 0U);
+}
+
+TEST(SupportLimits, OfTwoAtAboutOneHeightTheOneOfMorePointsStays) {
+  PointCloud grid = level_grid(0.0, 0.0, 0.8, 12, 12);
+  append(grid, level_grid(0.0, 0.0, 0.85, 26, 21));
+  const auto supports = find_supports(grid, {});
+  ASSERT_EQ(supports.size(), 1U);
+  EXPECT_NEAR(supports[0].height_m, 0.85, 1e-6);
+  EXPECT_EQ(supports[0].inliers, 26U * 21U);
+}
+
 }  // namespace
 }  // namespace vantage

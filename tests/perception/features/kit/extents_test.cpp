@@ -117,6 +117,22 @@ TEST_F(CutOffReadings, AnEndIsNearBySoMuch) {
   EXPECT_EQ(readings()[0], kAtLeast);
 }
 
+/// Beside holes in the mask, so that they are of its edge.
+TEST_F(CutOffReadings, WhatIsJustSoFarFromAnEndIsNotNearIt) {
+  for (const int row : {4, 5, 6}) {
+    view_.mask[view_.index(row, 4)] = 0;
+    cut(row, 5, 5);  // x = 0
+  }
+  const auto greater_of = [&](double low_m, double high_m) {
+    box_.greater.ends_m = {low_m, high_m};
+    return readings().at(1);
+  };
+  EXPECT_EQ(greater_of(-0.05, 0.015), kExactly);
+  EXPECT_EQ(greater_of(-0.05, 0.0149), kAtLeast);
+  EXPECT_EQ(greater_of(-0.015, 0.05), kExactly);
+  EXPECT_EQ(greater_of(-0.0149, 0.05), kAtLeast);
+}
+
 /// The edge has 40 px.
 TEST_F(CutOffReadings, WhereMuchIsCutOffNoExtentIsWhole) {
   cut(0, 0, 9);

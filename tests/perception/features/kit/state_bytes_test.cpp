@@ -103,6 +103,10 @@ TEST(StateBytes, AMatrixOfOtherRowsOrColumnsIsRefused) {
   EXPECT_THAT([&] { (void)take_matrix(rows, 3, -1); }, refuses("holds a matrix of 2 x 3"));
   ByteReader columns(bytes, "state");
   EXPECT_THAT([&] { (void)take_matrix(columns, -1, 2); }, refuses("holds a matrix of 2 x 3"));
+  ByteReader no_rows(bytes, "state");
+  EXPECT_THAT([&] { (void)take_matrix(no_rows, 0, -1); }, refuses("holds a matrix of 2 x 3"));
+  ByteReader no_columns(bytes, "state");
+  EXPECT_THAT([&] { (void)take_matrix(no_columns, -1, 0); }, refuses("holds a matrix of 2 x 3"));
   ByteReader any(bytes, "state");
   EXPECT_EQ(take_matrix(any, -1, 3).size(), 6);
   const std::string line = bytes_of(Eigen::MatrixXf::Ones(4, 1));

@@ -115,6 +115,32 @@ TEST(Gradients, OfAStepAreThoseOfAGaussian) {
   }
 }
 
+/// Of 14 x 9 px, rising by 1/1024 m to the right and by twice that downwards.
+TEST(Gradients, OfDepthAreThoseOfItsSlope) {
+  ObjectView view = blank_view(14, 9);
+  std::ranges::fill(view.mask, 1);
+  for (int row = 0; row < 9; ++row) {
+    for (int column = 0; column < 14; ++column) {
+      view.depth_m[view.index(row, column)] = 1.0F + static_cast<float>(column + 2 * row) / 1024.0F;
+    }
+  }
+  const double one = std::exp(-1.0 / 1.28);
+  const double two = std::exp(-4.0 / 1.28);
+  const double of_one_a_pixel = 2.0 * (one + 4.0 * two) / (one + 2.0 * two);
+  const AttributeImage image = depth_gradient_image(view, object_pixels(view));
+  ASSERT_EQ(image.width_px, 14);
+  ASSERT_EQ(image.height_px, 9);
+  for (int row = 0; row < 9; ++row) {
+    for (int column = 0; column < 14; ++column) {
+      const int i = 14 * row + column;
+      const bool known = row >= 2 && row < 7 && column >= 2 && column < 12;
+      EXPECT_NEAR(image.weights[i], known ? of_one_a_pixel * std::sqrt(5.0) / 1024.0 : 0.0, 2e-6);
+      EXPECT_NEAR(image.attributes(0, i), known ? 1.0 / std::sqrt(5.0) : 0.0, 3e-4);
+      EXPECT_NEAR(image.attributes(1, i), known ? 2.0 / std::sqrt(5.0) : 0.0, 3e-4);
+    }
+  }
+}
+
 /// The lower right corner: what is beside the image is as its border.
 TEST(Patterns, RepeatTheBorderOfTheImage) {
   ObjectView view = blank_view(3, 2);

@@ -248,5 +248,35 @@ TEST(Sizes, AreMeansOverThePointsOfTheObject) {
   EXPECT_LT(nearest, 1e-3F);
 }
 
+TEST(ExtractPatches, DepthIsNeededByWhatGoesByIt) {
+  Rng rng(1);
+  ObjectView view = ball_view(45, {.radius_m = 0.05}, rng);
+  std::ranges::fill(view.depth_m, 0.0F);
+  const auto skipped = [&](PatchKind kind) {
+    return extract_patches(kind, view, make_product_basis(basis_axes(kind), 5)).skipped;
+  };
+  for (const PatchKind kind :
+       {PatchKind::rgb_gradient, PatchKind::lbp, PatchKind::normalised_rgb}) {
+    EXPECT_EQ(skipped(kind), "") << row_of(kind).name;
+  }
+  for (const PatchKind kind :
+       {PatchKind::depth_gradient, PatchKind::depth_lbp, PatchKind::normal_spin, PatchKind::size}) {
+    EXPECT_EQ(skipped(kind), "0 pixels of the object have depth, fewer than 32")
+        << row_of(kind).name;
+  }
+}
+
+TEST(ExtractPatches, ThirtyTwoPixelsAreEnough) {
+  const ProductBasis basis = make_product_basis(basis_axes(PatchKind::size), 5);
+  const auto skipped = [&](int width_px) {
+    ObjectView strip = blank_view(width_px, 1);
+    std::ranges::fill(strip.mask, 1);
+    std::ranges::fill(strip.depth_m, 1.0F);
+    return extract_patches(PatchKind::size, strip, basis).skipped;
+  };
+  EXPECT_EQ(skipped(32), "");
+  EXPECT_EQ(skipped(31), "31 pixels of the object have depth, fewer than 32");
+}
+
 }  // namespace
 }  // namespace vantage

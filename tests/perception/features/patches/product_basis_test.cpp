@@ -104,6 +104,9 @@ TEST_P(BasisOfKind, RowsAreOrthonormalAndEigenvaluesDescend) {
     EXPECT_LE(basis.eigenvalues[i], basis.eigenvalues[i - 1]);
   }
   EXPECT_GT(basis.eigenvalues[basis.rows() - 1], 0.0F);
+  for (const auto& row : basis.projection.rowwise()) {
+    EXPECT_GE(row.maxCoeff(), -row.minCoeff() - 1e-5F) << "a sign is no matter of luck";
+  }
 }
 INSTANTIATE_TEST_SUITE_P(All, BasisOfKind,
                          testing::Values(PatchKind::rgb_gradient, PatchKind::lbp,
