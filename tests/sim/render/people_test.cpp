@@ -90,6 +90,24 @@ TEST(ForPeople, ATableIsNoRoom) {
                     table.geom("leg")));
 }
 
+/// A ball without walls round it, 1.8 m from the eye, and a marker at 0.5 m.
+TEST(ForPeople, WithoutWallsNothingBeforeASceneIsCutAway) {
+  const auto ball = test::compile_mjcf(R"(
+    <mujoco><worldbody>
+      <geom size=".2" rgba="0 0 1 1"/>
+      <camera pos="0 -2 0" xyaxes="1 0 0 0 0 1"/>
+    </worldbody></mujoco>)");
+  RenderRequest request;
+  request.for_people = true;
+  request.markers = {SphereMarker{.p_world_m = {0.0, -1.5, 0.0}}};
+  RenderedImages images;
+  make_offscreen_renderer(*ball.model, kPeopleWidth, kPeopleHeight)
+      ->render(*ball.model, *ball.data, FixedCamera{0}, request, images);
+  const std::size_t centre = kPeopleHeight / 2 * kPeopleWidth + kPeopleWidth / 2;
+  EXPECT_GT(images.rgb[3 * centre], 60);
+  EXPECT_EQ(images.rgb[3 * centre + 2], 0) << "the marker is red, the ball blue";
+}
+
 TEST(Overview, LooksIntoAClosedRoomThatHasNoCameraForIt) {
   const auto room = test::compile_mjcf(kClosedRoom);
   const CameraView overview = overview_camera(*room.model);
@@ -108,6 +126,21 @@ TEST(Overview, ASceneWithoutAnyLightIsNotDark) {
     </mujoco>)");
   const FreeCamera near{.distance_m = 2.5};
   EXPECT_GT(mean_brightness(draw(*dark.model, *dark.data, near, true)), 60.0);
+}
+
+/// A grey side that faces the eye: of the lamp are 0.4 on all sides and 0.5 from the eye.
+TEST(ForPeople, ASceneWithoutAnyLightIsLitFromTheEye) {
+  const auto dark = test::compile_mjcf(R"(
+    <mujoco>
+      <visual><headlight active="0"/></visual>
+      <worldbody><geom type="box" size=".5 .5 .5" rgba=".5 .5 .5 1"/></worldbody>
+    </mujoco>)");
+  const FreeCamera ahead{.distance_m = 2.0, .azimuth_rad = 0.0, .elevation_rad = 0.0};
+  const RenderedImages images = draw(*dark.model, *dark.data, ahead, true);
+  const std::size_t centre = kPeopleHeight / 2 * kPeopleWidth + kPeopleWidth / 2;
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(images.rgb[3 * centre + c], 0.5 * (0.4 + 0.5) * 255.0, 4.0);
+  }
 }
 
 class OverviewOfScene : public testing::TestWithParam<const char*> {};

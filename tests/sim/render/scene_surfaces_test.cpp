@@ -80,6 +80,25 @@ TEST(SceneSurfacesOf, MeshesOfMoreThan4000TrianglesAreCoarser) {
   EXPECT_EQ(triangles(50), 4000U);
   EXPECT_LE(triangles(51), 4000U);
   EXPECT_GT(triangles(51), 1000U);
+  std::string one_more = test::bumpy_mesh(50, 40);  // of 2002 vertices
+  one_more.insert(one_more.find("' face='"), "0 0 0 .1 0 0 0 .1 0 ");
+  one_more.insert(one_more.rfind("'/>"), "2002 2003 2004 ");
+  EXPECT_LE(drawn_of("<geom type='mesh' mesh='bumpy'/>", one_more).triangles[0].size(), 4000U);
+}
+
+/// Within the cells that are joined, of 8 mm at least.
+TEST(SceneSurfacesOf, ACoarserMeshKeepsItsColourAndItsPlace) {
+  const SceneSurfaces drawn =
+      drawn_of("<geom type='mesh' mesh='bumpy' rgba='.2 .6 .4 1'/>", test::bumpy_mesh(51, 40));
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < drawn.colours.size(); ++i) {
+    EXPECT_EQ(drawn.colours[i], (Colour{51, 153, 102})) << i;
+    box.extend(drawn.vertices_m[i]);
+  }
+  const Eigen::Vector3f low(-0.3199F, -0.2415F, -0.2729F);
+  const Eigen::Vector3f high(0.3199F, 0.1827F, 0.2729F);
+  EXPECT_LT((box.min() - low).cwiseAbs().maxCoeff(), 0.025F);
+  EXPECT_LT((box.max() - high).cwiseAbs().maxCoeff(), 0.025F);
 }
 
 }  // namespace

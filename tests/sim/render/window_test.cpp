@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <thread>
 
 #include "tests/sim/sensors/sensor_scene.hpp"
@@ -104,6 +105,25 @@ TEST(Window, TellsKeysAndMouse) {
   EXPECT_EQ(dragged->button, MouseButton::left);
   EXPECT_EQ(dragged->by_px, Eigen::Vector2d(30, -20));
   EXPECT_EQ(wheel->notches, 1.0);
+}
+
+TEST(Window, TellsKeysWithoutACharacterApart) {
+  const VirtualDisplay display;
+  Window window("moving", {400, 300});
+  DesktopUser user(display, "moving");
+  for (const char* key : {"Left", "Right", "Up", "Down", "Prior", "Next", "Home", "End"}) {
+    user.press(key);
+  }
+  std::string typed;
+  for (const WindowEvent& event : events_of(window)) {
+    if (const auto* key = std::get_if<KeyPressed>(&event)) typed += key->key;
+  }
+  EXPECT_EQ(typed, (std::string{keys::left, keys::right, keys::up, keys::down, keys::page_up,
+                                keys::page_down, keys::home, keys::end}));
+  const std::set<char> different(typed.begin(), typed.end());
+  EXPECT_EQ(different.size(), 8U);
+  EXPECT_FALSE(different.contains(KeyPressed{}.key)) << "which is none";
+  EXPECT_EQ(keys::escape, '\x1b') << "as in ASCII";
 }
 
 TEST(Window, TellsItsButtonsApart) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -141,6 +142,32 @@ TEST(DriveTimes, BrakingIsGivenUpAfterThreeSeconds) {
   EXPECT_EQ(result.status, DriveStatus::stopped);
   EXPECT_GT(result.duration_s, 3.02);
   EXPECT_LT(result.duration_s, 3.06);
+}
+
+/// Speeds of the footprint's edge in a drive that is stopped after a second, tick by tick.
+std::vector<double> speeds_until_rest(double rest_speed_m_s) {
+  test::RobotWorld scene;
+  Odometry odometry = exact_odometry();
+  std::vector<double> speeds_m_s;
+  scene.world.on_tick = [&](World& world) {
+    const Twist2 twist = scene.robot.twist(world);
+    speeds_m_s.push_back(std::hypot(twist.vx_m_s, twist.vy_m_s) +
+                         scene.robot.footprint().circumscribed_radius_m * std::abs(twist.wz_rad_s));
+  };
+  drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{4.0, 0.0, 0.0}},
+        {.rest_speed_m_s = rest_speed_m_s},
+        [](World& world, const Pose2&) { return world.time_s() < 1.0; });
+  return speeds_m_s;
+}
+
+TEST(DriveTimes, RestIsBelowItsSpeedNotAtIt) {
+  const std::vector<double> speeds_m_s = speeds_until_rest(0.002);
+  ASSERT_GT(speeds_m_s.size(), 41U);
+  EXPECT_LT(speeds_m_s.back(), 0.002);
+  const double least_m_s = *std::min_element(speeds_m_s.begin() + 39, speeds_m_s.end() - 1);
+  EXPECT_GE(least_m_s, 0.002);
+  ASSERT_LE(least_m_s, 0.1);
+  EXPECT_EQ(speeds_until_rest(least_m_s), speeds_m_s) << "so fast it is not at rest yet";
 }
 
 TEST(DriveTimes, StandingStillTakesAsLongAsAsked) {

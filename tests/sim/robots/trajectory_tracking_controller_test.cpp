@@ -268,5 +268,15 @@ TEST(FlightStatuses, HaveNames) {
   EXPECT_EQ(to_string(FlightStatus::timeout), "timeout");
 }
 
+TEST(TrajectoryTrackingController, StartsWithItsReferenceWhereTheVehicleIs) {
+  const FlightWorld scene(exact_tracking(), make_pose({1.0, -2.0, 3.0}, 0.7));
+  const FlightReference& reference = scene.tracking.reference();
+  EXPECT_LT((reference.p_world_m - Eigen::Vector3d(1.0, -2.0, 3.0)).norm(), 1e-12);
+  EXPECT_NEAR(reference.yaw_rad, 0.7, 1e-12);
+  EXPECT_TRUE(reference.v_world_m_s.isZero(0.0));
+  EXPECT_TRUE(reference.a_world_m_s2.isZero(0.0));
+  EXPECT_EQ(reference.yaw_rate_rad_s, 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -7,8 +7,15 @@
 
 #include "tests/support/mjcf.hpp"
 #include "tests/support/option_numbers.hpp"
+#include "vantage/sim/faults/outside_faults.hpp"
+#include "vantage/sim/render/window.hpp"
+#include "vantage/sim/robots/mobile_base.hpp"
+#include "vantage/sim/robots/odometry.hpp"
 #include "vantage/sim/sensors/camera.hpp"
+#include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/sim/sensors/laser.hpp"
+#include "vantage/sim/world/collision_surfaces.hpp"
+#include "vantage/sim/world/level_surfaces.hpp"
 
 namespace vantage {
 namespace {
@@ -194,6 +201,58 @@ TEST(PlanarScans, SayTheirRangeAndWhatIsTooNear) {
   EXPECT_NEAR(scan.range_m[1], 2.0, 1e-6);
   options.range_min_m = 2.1;
   EXPECT_TRUE(std::isnan(planar_scan(rays, Pose::Identity(), {}, -1, options, rng).range_m[1]));
+}
+
+TEST(SimDefaults, OfWhatIsFoundAreOfNothing) {
+  EXPECT_EQ(OutsideForce{}.body_id, 0);
+  EXPECT_EQ(MovedObject{}.body_id, 0);
+  EXPECT_FALSE(FaultyParts{}.laser || FaultyParts{}.wheels);
+  EXPECT_FALSE(FaultyParts{}.colour || FaultyParts{}.rotors);
+  EXPECT_EQ(RayHit{}.distance_m, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(RayHit{}.geom_id, -1);
+  EXPECT_EQ(SurfacePoint{}.geom_id, 0);
+  EXPECT_EQ(LevelSurface{}.height_m + LevelSurface{}.area_m2, 0.0);
+  const NearSurface near;
+  EXPECT_EQ(near.height_m + near.area_m2 + near.tilt_rad, 0.0);
+  const MapScore score;
+  EXPECT_EQ(score.precision, 1.0);
+  EXPECT_EQ(score.recall, 1.0);
+  EXPECT_EQ(score.occupied_cells + score.correct_cells, 0U);
+  EXPECT_EQ(score.observable_surface_cells + score.found_cells, 0U);
+}
+
+TEST(SimDefaults, OfRobotsAreOfNothing) {
+  const DrivenJoint joint;
+  for (const int id : {joint.joint, joint.qpos, joint.dof, joint.actuator}) EXPECT_EQ(id, 0);
+  EXPECT_EQ(joint.min, 0.0);
+  EXPECT_EQ(joint.max, 0.0);
+  EXPECT_EQ(AngleRange{}.min_rad, 0.0);
+  EXPECT_EQ(AngleRange{}.max_rad, 0.0);
+  const OdometryBias bias;
+  EXPECT_EQ(bias.x_m_per_m, 0.0);
+  EXPECT_EQ(bias.y_m_per_m, 0.0);
+  EXPECT_EQ(bias.yaw_rad_per_m, 0.0);
+  EXPECT_EQ(SurfaceSpacing{}.robot_m, 0.03);
+  EXPECT_EQ(SurfaceSpacing{}.scene_m, 0.03);
+}
+
+TEST(SimDefaults, OfImagesAreWhatPeopleSeeFirst) {
+  EXPECT_EQ(FixedCamera{}.camera_id, 0);
+  EXPECT_EQ(FreeCamera{}.distance_m, 3.0);
+  EXPECT_EQ(FreeCamera{}.azimuth_rad, kPi / 2.0);
+  EXPECT_EQ(FreeCamera{}.elevation_rad, -kPi / 4.0);
+  EXPECT_EQ(SphereMarker{}.radius_m, 0.05);
+  EXPECT_EQ(LineMarker{}.width_m, 0.01);
+  const RenderRequest request;
+  EXPECT_TRUE(request.rgb && request.depth_and_segmentation);
+  EXPECT_FALSE(request.shadows || request.for_people);
+  EXPECT_EQ(request.max_group, 2);
+  EXPECT_EQ(request.range_m, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(RenderedImages{}.width_px, 0);
+  EXPECT_EQ(RenderedImages{}.height_px, 0);
+  EXPECT_EQ(RenderedImages{}.focal_px, 0.0);
+  EXPECT_EQ(WheelTurned{}.notches, 0.0);
+  EXPECT_EQ(PixelSize{}, (PixelSize{0, 0}));
 }
 
 }  // namespace

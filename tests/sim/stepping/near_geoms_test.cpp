@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/sim/test_world.hpp"
@@ -243,6 +244,43 @@ TEST(NearGeoms, AJumpIsNoticed) {
   };
   world.advance_tick();
   EXPECT_GT(contacts, 0) << "in the first step";
+}
+
+/// Balls in a row, each 5 cm into the next; bodies that are left out come before them.
+TEST(NearGeoms, PairsThatAreExcludedAreSoAmongWhatIsStepped) {
+  std::string text = "<mujoco><option gravity='0 0 0'/><worldbody>";
+  for (int i = 0; i < 3; ++i) text += fmt::format("<body pos='9 {} 0'><geom size='.1'/></body>", i);
+  for (const auto& [name, x_m] : {std::pair("a", 0.0), {"b", 0.15}, {"c", 0.3}}) {
+    text += fmt::format(
+        "<body name='{0}' pos='{1} 0 0'><freejoint/><geom name='{0}' size='.1'/></body>", name,
+        x_m);
+  }
+  const test::SceneFolder folder(
+      text + "</worldbody><contact><exclude body1='a' body2='b'/></contact></mujoco>");
+  World world(folder.alone());
+  std::set<std::pair<int, int>> touching;
+  world.on_step = [&](const World& stepped) {
+    for (int i = 0; i < stepped.data().ncon; ++i) {
+      const mjContact& contact = stepped.data().contact[i];
+      touching.emplace(std::minmax(contact.geom1, contact.geom2));
+    }
+  };
+  world.advance_tick();
+  const auto geom = [&](const char* name) {
+    return model_id(world.model(), ModelObject::geom, name);
+  };
+  EXPECT_EQ(touching, (std::set<std::pair<int, int>>{{geom("b"), geom("c")}}));
+}
+
+TEST(NearGeoms, BodiesThatAreLeftOutAreNotPlaced) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><body name='shelf' pos='5 0 .5'><geom type='box' size='.4 .4 .1'/></body>"
+      "<body pos='0 0 2'><freejoint/><geom size='.1'/></body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.advance_tick();
+  const int shelf = model_id(world.model(), ModelObject::body, "shelf");
+  EXPECT_EQ(world.data().xpos[3 * shelf], 0.0);
+  EXPECT_DOUBLE_EQ(world.snapshot().xpos[3 * shelf], 5.0);
 }
 
 }  // namespace

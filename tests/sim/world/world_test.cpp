@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <thread>
 
 #include "tests/sim/test_world.hpp"
 #include "tests/support/option_numbers.hpp"
 #include "vantage/core/error.hpp"
+#include "vantage/core/log.hpp"
 
 namespace vantage {
 namespace {
@@ -267,6 +270,18 @@ TEST(World, HingesAndTurnedBodiesStartWhereTheyAreTold) {
   Pose nowhere = turned;
   nowhere.translation().y() = std::nan("");
   EXPECT_THROW(world.set_initial_pose("flight", nowhere), InputError);
+}
+
+TEST(World, TellsTheWallTimeOfItsStepsAlone) {
+  const SceneFolder folder(kBall);
+  World world(folder.alone());
+  EXPECT_EQ(world.stepping_wall_s(), 0.0);
+  world.on_tick = [](World&) { std::this_thread::sleep_for(std::chrono::milliseconds(20)); };
+  const double start_s = wall_s();
+  for (int i = 0; i < 3; ++i) world.advance_tick();
+  const double took_s = wall_s() - start_s;
+  EXPECT_GT(world.stepping_wall_s(), 0.0);
+  EXPECT_LT(world.stepping_wall_s(), took_s - 0.05);
 }
 
 }  // namespace
