@@ -1,10 +1,15 @@
 // Defaults and ranges of the options that tasks have of their own.
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <numbers>
 
 #include "tests/tasks/own_numbers.hpp"
+#include "vantage/tasks/mapping/driving/scan_record.hpp"
+#include "vantage/tasks/object_flight/observation_record.hpp"
+#include "vantage/tasks/object_flight/orbit_robot_interface.hpp"
 #include "vantage/tasks/task.hpp"
+#include "vantage/tasks/trajectory/waypoint_record.hpp"
 
 namespace vantage {
 namespace {
@@ -109,6 +114,60 @@ TEST(TaskOptions, OfAFlightAlongAPath) {
                       {"image_rate_hz", 10.0, between(0.1, 100.0)},
                       {"camera_pitch_rad", 0.35, between(0.0, 1.0471975511965976)},
                       {"colour_noise", 4.0, between(0.0, 100.0)}});
+}
+
+template <class Number>
+void expect_all(Number expected, std::initializer_list<Number> numbers) {
+  int place = 0;
+  for (const Number number : numbers) {
+    EXPECT_EQ(number, expected) << "number " << place;
+    ++place;
+  }
+}
+
+TEST(TaskRecords, OfScansBeginWithNothing) {
+  const ScanRecord s{};
+  expect_all(0.0, {s.time_s, s.actual_new_cells, s.plan_time_s, s.map_time_s, s.scan_time_s,
+                   s.energy_j, s.scan_energy_j, s.path_length_m, s.leg_length_m, s.planned_way_m});
+  expect_all(0.0, {s.pose_error_m, s.pose_error_before_registration_m, s.pose_error_tracked_m,
+                   s.yaw_error_rad, s.pose_error_at_scan_m, s.pose_sigma_m, s.map_sigma_m,
+                   s.precision, s.recall});
+  expect_all<std::size_t>(
+      0, {s.unobserved_cells, s.observable_unobserved_cells, s.candidates, s.keyframe});
+  expect_all(0, {s.unconstrained, s.collisions});
+  EXPECT_EQ(s.chosen_view, -1) << "the scan at the start";
+  EXPECT_EQ(s.hazard_scale, 1.0);
+  EXPECT_TRUE(s.registered);
+  EXPECT_FALSE(s.fallback || s.forecast || s.left);
+  const LeftRecord left{};
+  expect_all(0.0, {ForecastRecord{}.cells, left.expected_cells, left.share, left.confidence});
+}
+
+TEST(TaskRecords, OfViewsBeginWithNothing) {
+  const ObservationRecord o{};
+  expect_all(0.0, {o.time_s, o.gain_bits, o.map_probability, o.unknown_probability,
+                   o.position_error_m, o.angle_error_rad, o.true_yaw_rad, o.path_length_m,
+                   o.leg_length_m, SuspectedChange{}.probability});
+  expect_all(0, {o.bearing_id, o.object_px, o.estimated_bin, o.bin_error, o.collisions});
+  expect_all(1.0, {o.expected_visible, o.seen_share});
+  EXPECT_EQ(o.target, 0U);
+  EXPECT_FALSE(o.flight || o.change);
+  EXPECT_EQ(SuspectedChange{}.verdict, Change::none);
+  const BearingOption option{};
+  EXPECT_EQ(option.id, 0);
+  EXPECT_EQ(option.bearing_rad, 0.0);
+  EXPECT_EQ(option.target, 0U);
+  const FlightPlan plan{};
+  expect_all(0.0, {plan.duration_s, plan.path_m, plan.energy_j});
+  EXPECT_TRUE(FlightObservation{}.arrived);
+}
+
+TEST(TaskRecords, OfWaypointsBeginWithNothing) {
+  const WaypointRecord w{};
+  expect_all(0.0, {w.time_s, w.plan_time_s, w.latency_s, w.cost, w.planned_clearance_m,
+                   w.mean_entropy_nats, w.clearance_m, w.tracking_error_m, w.flown_m});
+  expect_all(0, {w.waypoint, w.objects, w.known, w.observations, w.collisions});
+  EXPECT_FALSE(w.late || w.missed || w.target);
 }
 
 /// More than one thing on the table makes a map worth while.

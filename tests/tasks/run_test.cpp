@@ -122,6 +122,27 @@ TEST_F(Run, KeepsWhatEachDecisionWasMadeAmong) {
 
 TEST_F(Run, SaysWhichLimitEndedIt) { EXPECT_EQ(first_["reason"], "limit of 2 scans"); }
 
+TEST_F(Run, HoldsEachScanAfterTheFirstAgainstItsForecast) {
+  EXPECT_TRUE(first_["scans"][0]["forecast"].is_null());
+  const auto& scan = first_["scans"][1];
+  double predicted = 0.0;
+  double actual = 0.0;
+  for (const auto& band : scan["by_distance"]) {
+    predicted += band["predicted_cells"].get<double>();
+    actual += band["actual_cells"].get<double>();
+  }
+  EXPECT_GT(predicted, 0.0);
+  EXPECT_DOUBLE_EQ(scan["forecast"]["cells"].get<double>(), predicted);
+  EXPECT_DOUBLE_EQ(scan["actual_new_cells"].get<double>(), actual);
+}
+
+TEST_F(Run, CountsTheTimeOfADecisionFromItsBeginning) {
+  EXPECT_EQ(first_["scans"][0]["plan_time_s"], 0.0) << "none led there";
+  const double plan_time_s = first_["scans"][1]["plan_time_s"];
+  EXPECT_GT(plan_time_s, 0.0);
+  EXPECT_LT(plan_time_s, first_["wall_time_s"].get<double>());
+}
+
 TEST_F(Run, GoingByWaysAloneTakesNoViewTwice) {
   const auto run = short_run("by_ways", {"choice=nearest_frontier", "scans=5"});
   std::set<int> taken;

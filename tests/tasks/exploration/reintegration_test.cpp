@@ -161,6 +161,29 @@ TEST(WheelCovariance, IsThatOfALineWhoseHeadingIsLostEvenly) {
   EXPECT_EQ(covariance(0, 2), 0.0);
 }
 
+PlanarScan flat_wall(double distance_m) {
+  PlanarScan scan{.T_base_sensor = {}, .azimuth_rad = {}, .range_m = {}, .range_max_m = 10.0};
+  for (int i = -50; i <= 50; ++i) {
+    scan.azimuth_rad.push_back(0.01 * i);
+    scan.range_m.push_back(static_cast<float>(distance_m / std::cos(0.01 * i)));
+  }
+  return scan;
+}
+
+/// A wall that is seen twice from the origin, and one behind it if that is seen from there too.
+TEST(LoopClosing, TellsWhichBeamsGoThroughWalls) {
+  const auto share = [](double third_x_m) {
+    LoopClosing loops({}, {}, {}, {});
+    loops.remember(flat_wall(2.02), 0.25, {});
+    loops.remember(flat_wall(2.02), 0.25, {});
+    loops.remember(flat_wall(4.02), 0.25, {third_x_m, 0.0, 0.0});
+    return loops.contradicted_share();
+  };
+  EXPECT_GT(share(0.0), 0.2);
+  EXPECT_LT(share(0.0), 0.6) << "those of the third scan";
+  EXPECT_EQ(share(-2.0), 0.0);
+}
+
 /// By the wheels, from where the base was last put: what registration turns is no turn of theirs.
 TEST(LoopClosing, AddsUpTheTurnsOfTheWheels) {
   LoopClosing loops({}, {}, {}, {0.0, 0.0, 0.1});

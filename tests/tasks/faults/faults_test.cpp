@@ -55,7 +55,12 @@ struct WatchedParts : TabletopParts {
   void expect_sane() {
     expect_finite(navigator_.floor().log_odds, "floor map");
     EXPECT_TRUE(navigator_.uncertainty().covariance().allFinite());
-    for (const ScanRecord& scan : scans()) EXPECT_TRUE(scan.T_world_sensor.matrix().allFinite());
+    for (const ScanRecord& scan : scans()) {
+      EXPECT_TRUE(scan.T_world_sensor.matrix().allFinite());
+      // 300 W at rest; only the laser's motor works while it scans.
+      EXPECT_GT(scan.scan_energy_j, 299.0 * scan.scan_time_s);
+      EXPECT_LT(scan.scan_energy_j, 450.0 * scan.scan_time_s);
+    }
   }
 };
 
@@ -85,6 +90,7 @@ TEST_P(TabletopFaults, EndRecordedWithASaneBelief) {
   expect_finite(session.belief.grid().log_odds, "map");
   expect_finite(session.belief.hazard().transmission().per_block, "hazard");
   session.parts.expect_sane();
+  EXPECT_EQ(metrics["observability"], session.belief.hazard().global_transmission());
   const Pose2 base = session.robot.estimated_base();
   expect_finite(std::vector<double>{base.x_m, base.y_m, base.yaw_rad}, "pose");
   const ReplayResult replay = support::replayed(folder / "run");

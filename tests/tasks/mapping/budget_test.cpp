@@ -155,11 +155,25 @@ TEST(BudgetKeeper, FailsTheEpisodeThatComesToNothing) {
   EXPECT_THROW(reason({.time_s = 1000.0}, true, 999.0, 1), EpisodeFailed);
 }
 
+/// It is at each waypoint for long enough to scan the floor.
+struct WalkingRobot : StandingRobot {
+  DriveResult drive_along(std::span<const Pose2> path, double /*max_speed_m_s*/,
+                          const std::function<bool()>& go_on) override {
+    for (const Pose2& waypoint : path) {
+      T_world_base = waypoint;
+      for (int tick = 0; tick < 10; ++tick) {
+        if (!go_on()) return {.status = DriveStatus::stopped};
+      }
+    }
+    return {.status = DriveStatus::arrived};
+  }
+};
+
 /// On open floor, home at the origin.
 struct OnOpenFloor {
   explicit OnOpenFloor(const BudgetOptions& options) : keeper(options, 0.6, robot, navigator) {}
 
-  StandingRobot robot;
+  WalkingRobot robot;
   Navigator navigator = [this] {
     Navigator on_floor({}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
     std::ranges::fill(on_floor.floor().log_odds, -2.0F);
@@ -228,6 +242,19 @@ TEST(BudgetKeeper, IsAskedOnTheWayWhereAWayHomeIsKept) {
   EXPECT_TRUE(open.navigator.may_go_on()) << "it is at home";
   open.robot.now_s = 94.1;
   EXPECT_FALSE(open.navigator.may_go_on());
+}
+
+/// Back the way it came are at least 2.8 m, for which 6 s are too few; straight home are 0.2 m.
+TEST(BudgetKeeper, LooksForAShorterWayHomeBeforeItTurnsBack) {
+  OnOpenFloor open({.time_s = 100.0, .return_to_start = true});
+  for (const double x_m : {3.0, 0.2}) {
+    EXPECT_TRUE(open.navigator.approach({x_m, 0.0, 0.0}, std::nullopt).reached);
+    EXPECT_NEAR(open.robot.T_world_base.x_m, x_m, 1e-9);
+  }
+  open.robot.now_s = 88.0;
+  EXPECT_TRUE(open.navigator.may_go_on());
+  open.robot.now_s = 92.0;
+  EXPECT_FALSE(open.navigator.may_go_on()) << "not even there in 2 s";
 }
 
 nlohmann::ordered_json told(const BudgetOptions& options, double now_s, double used_j) {

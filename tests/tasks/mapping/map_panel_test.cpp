@@ -217,6 +217,17 @@ TEST(MapPanel, ShowsThePlan) {
       << "and why";
 }
 
+TEST(MapPanel, SaysHowManyCellsAreLeftAfterTheLastScan) {
+  const OccupancyGrid grid(support::sample_frame());
+  MapPanelInput input = sample_input(grid);
+  const auto figure_of = [&](const std::vector<double>& cells_left) {
+    input.observable_unobserved_cells = cells_left;
+    return draw_map_panel(input, {640, 720})(cv::Rect(430, 665, 180, 26)).clone();
+  };
+  EXPECT_TRUE(same(figure_of({90'000.0, 700.0}), figure_of({50'000.0, 700.0})));
+  EXPECT_FALSE(same(figure_of({90'000.0, 700.0}), figure_of({90'000.0, 800.0})));
+}
+
 TEST(SideBySide, TurnsTheLeftHalfFromRgb) {
   const cv::Mat left(10, 10, CV_8UC3, cv::Scalar(200, 100, 0));
   const cv::Mat right(20, 16, CV_8UC3, cv::Scalar(1, 2, 3));

@@ -130,6 +130,25 @@ TEST_F(Plans, GiveTheCandidatesTheirGains) {
   EXPECT_EQ(i, plans.size());
 }
 
+/// What the gain in use says, also where the choice knows better.
+TEST_F(Plans, OfTheTruthLeaveTheCandidatesTheirForecasts) {
+  const auto first_gains = [&](const std::string& choice) {
+    run_episode(folder_ / choice, "choice=" + choice);
+    const auto options = std::get<Tabletop>(load_recorded(folder_ / choice).task);
+    std::vector<double> gains;
+    for (const EpisodeEvent& event :
+         read_event_log(folder_ / choice / "story.bin", options.map.frame().size())) {
+      const auto* decision = std::get_if<Decision>(&event.what);
+      if (decision == nullptr || !gains.empty()) continue;
+      for (const Candidate& view : decision->candidates) gains.push_back(view.gain_bits);
+    }
+    return gains;
+  };
+  const std::vector<double> forecast = first_gains("greedy");
+  ASSERT_EQ(forecast.size(), 30U);
+  EXPECT_EQ(first_gains("oracle_tour"), forecast);
+}
+
 TEST_F(Plans, AreNoneOfAChoiceThatDoesNotPlanAheadNorOfALeanRun) {
   run_episode(folder_ / "greedy", "choice=greedy");
   run_episode(folder_ / "lean", "choice=tour", true);

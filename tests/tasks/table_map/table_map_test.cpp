@@ -74,6 +74,17 @@ TEST(TableMap, KnowsTheCellsOverAnOutline) {
 
 TEST(TableMap, LearnsItsHazardFromWhatItMeets) {
   EXPECT_NE(map_after({0.0, 1.5}).hazard(), map_after({}).hazard());
+  const Pose T_world_camera = camera_at(0.0);
+  const CameraImages images = draw({{kTarget, kScreen}}, T_world_camera, 0.002).images;
+  const PosedImage posed{images, T_world_camera};
+  TableMapOptions options;
+  for (const auto& [columns, stride] : {std::pair{160, 2}, std::pair{100, 3}, std::pair{400, 1}}) {
+    options.columns = columns;
+    const OccupancyGrid unknown(TableMap::frame_of(kTable_m, options));
+    ClutterHazard expected(options.hazard, unknown.frame.cells);
+    expected.observe(unknown, std::span(&posed, 1), stride, unknown.frame.min_corner_m.z());
+    EXPECT_EQ(map_after({0.0}, options).hazard(), expected.global_hazard()) << columns;
+  }
 }
 
 TEST(TableMap, FlightsKeepClearOfWhatStandsThere) {
@@ -121,6 +132,9 @@ TEST(TableMapLog, KeepsSinceWhenWhatStandsThere) {
   }
   log.commit(folder.path());
   const VoxelMap voxels = read_voxels(folder / "voxels.bin");
+  EXPECT_EQ(voxels.cell_size_m, map.grid().frame.cell_size_m);
+  EXPECT_EQ(voxels.box_m.min(), map.grid().frame.box().min());
+  EXPECT_EQ(voxels.box_m.max(), map.grid().frame.box().max());
   std::array<int, 2> occupied{};
   int unobserved = 0;
   for (const VoxelRecord& voxel : voxels.voxels) {

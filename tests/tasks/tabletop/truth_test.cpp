@@ -1,6 +1,8 @@
 // Truth is taken of a scene at rest.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/episode.hpp"
@@ -47,6 +49,24 @@ TEST(Truth, IsWhereThingsComeToRest) {
   EXPECT_NEAR(static_cast<double>(spawned.observable_cells),
               static_cast<double>(standing.observable_cells),
               0.005 * static_cast<double>(standing.observable_cells));
+}
+
+/// Those given come first.
+TEST(Truth, IsOfWhereTheRobotHasBeenAndOfTheRing) {
+  set_verbosity(Verbosity::quiet);
+  const OwnScene scene(box_at(0.82));
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
+  const auto& task = std::get<Tabletop>(episode.task);
+  const SimulatedTabletopRobot robot(episode.setup, task);
+  const Pose2 base = robot.base_for_sensor(tabletop_views(task)[4].T_world_sensor);
+  const Pose2 elsewhere{2.0, 1.5, 0.5};
+  const ViewCoverage coverage = task.coverage(episode.setup, {base, elsewhere});
+  ASSERT_EQ(coverage.shows.size(), 32U);
+  ASSERT_EQ(coverage.way_m.rows(), 32);
+  EXPECT_NEAR(coverage.way_m(0, 6), 0.0, 1e-9) << "the same place";
+  EXPECT_GE(coverage.way_m(1, 6) + 1e-9, std::hypot(base.x_m - 2.0, base.y_m - 1.5));
+  EXPECT_GT(coverage.observable_cells, 0U);
 }
 
 /// What the oracles are told of the ring is worked out once; it must be what they would be told

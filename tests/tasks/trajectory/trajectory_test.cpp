@@ -131,6 +131,23 @@ TEST_F(TrajectoryEpisode, KeepsThePlansOfEachDecision) {
   for (const auto& [decision, count] : chosen) EXPECT_EQ(count, 1) << decision;
   const CsvTable steps = read_csv(*folder_ / "first" / "steps.csv");
   EXPECT_EQ(steps.rows.front()[1], "1") << "waypoints count from 1";
+  for (const auto& row : steps.rows) {
+    if (row[6].empty()) continue;  // no plan has led there
+    EXPECT_EQ(row[9], std::stod(row[7]) > std::stod(row[8]) ? "true" : "false") << "late";
+  }
+}
+
+TEST_F(TrajectoryEpisode, RecordsTheTruthUpToEachWaypoint) {
+  const CsvTable steps = read_csv(*folder_ / "first" / "steps.csv");
+  ASSERT_EQ(
+      std::vector<std::string>(steps.columns.begin() + 19, steps.columns.end()),
+      (std::vector<std::string>{"clearance_m", "tracking_error_m", "path_length_m", "collisions"}));
+  const auto& last = steps.rows.back();
+  EXPECT_NEAR(std::stod(last[19]), first_["minimum_clearance_m"].get<double>(), 1e-4);
+  EXPECT_NEAR(std::stod(last[20]), first_["tracking_error_m"]["mean"].get<double>(), 1e-5);
+  EXPECT_NEAR(std::stod(last[21]), first_["path_length_m"].get<double>(), 0.1);
+  EXPECT_EQ(last[22], "0");
+  EXPECT_NEAR(std::stod(last[0]), first_["flight_time_s"].get<double>(), 1e-3);
 }
 
 /// Of four objects, or none of them with probability 0.1.
@@ -282,10 +299,16 @@ TEST_F(TrajectoryEpisode, GoesOnAlongTheSplineItFlies) {
   TrajectoryParts flight({episode.setup.options, task, recogniser, robot, evaluator, recorder},
                          path);
   const double latency_s = task.latency_s;
+  int decisions = 0;
   int went_on = 0;
   while (true) {
     flight.update(flight.observe());
     if (!flight.finished().empty()) break;
+    if (decisions++ == 0) {
+      EXPECT_TRUE(robot.path_on(0.0)) << "the path as given is what it flies until it has planned";
+      const OccupancyGrid& seen = flight.map().grid();
+      EXPECT_LT(seen.count(CellState::unobserved), seen.size()) << "it has looked";
+    }
     std::vector<CandidatePlan> candidates = flight.propose();
     flight.score(candidates);
     const auto on = robot.path_on(latency_s);

@@ -17,6 +17,7 @@
 #include "tests/tasks/mapping/external/asked_planner.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/episode_planner.hpp"
 
 namespace vantage {
 namespace {
@@ -285,6 +286,23 @@ TEST(ExternalPlanner, MayTalkToItsErrorsAtLength) {
                             "; read end",
                    kLong_s))),
             0U);
+}
+
+TEST(ExternalPlanner, OfAnEpisodeIsThatOfItsChoice) {
+  ResolvedEpisode resolved;
+  Tabletop task;
+  EXPECT_EQ(external_planner(resolved), nullptr) << "it chooses itself";
+  task.choice = ExternalChoice{.command = {"sh"}};
+  resolved.task = task;
+  EXPECT_NE(external_planner(resolved), nullptr);
+  task.choice = ExternalChoice{};
+  resolved.task = task;
+  try {
+    external_planner(resolved);
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("choice.command: names no program"));
+  }
 }
 
 TEST(ExternalPlanner, ThatIsNoProgramIsAnErrorOfTheConfiguration) {

@@ -1,0 +1,113 @@
+// Which frontiers become views: of four round what is not seen yet, on open floor.
+#include "vantage/tasks/exploration/frontier_views.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace vantage {
+namespace {
+
+using Places = std::vector<Eigen::Vector2d>;
+
+/// Where the robot stands for the frontiers round 4, 2, 1 and 1 cells of 25 cm, the largest first:
+/// the second is 1 m from the first, the third 2 m, the last far away.
+const Eigen::Vector2d kLargest(-3.125, -3.375);
+const Eigen::Vector2d kBeside(-3.125, -2.375);
+const Eigen::Vector2d kNext(-1.125, -3.375);
+const Eigen::Vector2d kFar(2.375, 2.125);
+
+FloorMap open_floor() {
+  FloorMap floor({-4.5, -4.5}, 0.1, 90, 90);
+  floor.log_odds.assign(floor.size(), -2.0F);
+  return floor;
+}
+
+class FrontierViews : public testing::Test {
+ protected:
+  FrontierViews() {
+    task_.frontiers.min_cells = 1;
+    grid_.log_odds.assign(grid_.size(), -3.0F);
+    for (const auto& [first, count, y] :
+         std::vector<std::array<int, 3>>{{2, 4, 3}, {3, 2, 7}, {11, 1, 3}, {25, 1, 25}}) {
+      for (int x = first; x < first + count; ++x) {
+        grid_.log_odds[grid_.frame.index({x, y, 0})] = 0.0F;
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Candidate> views(bool all) const {
+    const PathField paths =
+        make_path_field(floor_, {0.0, 0.0, 0.0}, {.footprint_radius_m = 0.2, .margin_m = 0.05});
+    return frontier_views(task_,
+                          {.grid = grid_,
+                           .paths = paths,
+                           .T_base_sweep = make_pose({0.0, 0.0, 1.47}, 0.0),
+                           .visited = visited_},
+                          all);
+  }
+  void expect_places(bool all, const Places& expected) const {
+    const std::vector<Candidate> found = views(all);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].id, static_cast<int>(i));
+      const Eigen::Vector3d p_m = found[i].T_world_sensor.translation();
+      EXPECT_LT((p_m.head<2>() - expected[i]).norm(), 0.08) << i << ", within a cell of the floor";
+      EXPECT_NEAR(p_m.z(), 1.47, 1e-12);
+      EXPECT_TRUE(found[i].reachable);
+      EXPECT_NEAR(found[i].path_length_m, expected[i].norm(), 0.15 * expected[i].norm());
+    }
+  }
+
+  Exploration task_;
+  OccupancyGrid grid_{make_grid_frame({0.0, 0.0, 1.47}, {8.0, 8.0, 0.5}, {32, 32, 1})};
+  FloorMap floor_ = open_floor();
+  VisitedPlaces visited_;
+};
+
+TEST_F(FrontierViews, AreOfTheLargestFrontiersFirst) {
+  expect_places(false, {kLargest, kBeside, kNext, kFar});
+  expect_places(true, {kLargest, kBeside, kNext, kFar});
+  task_.max_candidates = 2;
+  expect_places(false, {kLargest, kBeside});
+  task_.frontiers.min_cells = 6;
+  task_.max_candidates = 30;
+  expect_places(false, {kLargest, kBeside});
+}
+
+/// Beyond the limit, of those that do not come into sight from one before.
+TEST_F(FrontierViews, AreOfAllOthersThatAreNotNearForAChoiceThatPlansAhead) {
+  task_.max_candidates = 1;
+  expect_places(false, {kLargest});
+  expect_places(true, {kLargest, kNext, kFar});
+}
+
+TEST_F(FrontierViews, AreNotWhereTheRobotWasNorTooNearEachOther) {
+  visited_.add(kNext, 0.3);
+  expect_places(false, {kLargest, kBeside, kFar});
+  task_.taken_m = 1.2;
+  expect_places(false, {kLargest, kFar});
+  expect_places(true, {kLargest, kFar});
+}
+
+/// What stands round the last frontier keeps the robot more than 1.5 m away.
+TEST_F(FrontierViews, AreOutOfReachIfTheRobotCannotComeNear) {
+  block_box(floor_, {Eigen::Vector2d(1.0, 0.8), Eigen::Vector2d(4.4, 4.4)});
+  task_.reach_m = 1.0;
+  const std::vector<Candidate> near = views(false);
+  ASSERT_EQ(near.size(), 4U);
+  EXPECT_TRUE(near[2].reachable);
+  EXPECT_FALSE(near[3].reachable);
+  EXPECT_TRUE(std::isinf(near[3].path_length_m));
+  for (const bool all : {false, true}) {
+    task_.reach_m = all ? 1.0 : 2.0;
+    const std::vector<Candidate> any = views(all);
+    ASSERT_EQ(any.size(), 4U);
+    EXPECT_TRUE(any[3].reachable) << all;
+    EXPECT_LT(any[3].path_length_m, 5.0);
+  }
+}
+
+}  // namespace
+}  // namespace vantage

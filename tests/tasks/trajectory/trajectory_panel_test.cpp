@@ -1,0 +1,110 @@
+// The panel of a flight along a path, 640 x 720 px, at places worked out by hand.
+#include "vantage/tasks/trajectory/trajectory_panel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <vector>
+
+#include "tests/tasks/drawn_pixels.hpp"
+#include "tests/tasks/flight/two_objects.hpp"
+#include "vantage/runtime/drawing/panel_style.hpp"
+
+namespace vantage {
+namespace {
+
+using support::count_coloured;
+using support::is_coloured;
+using Points = std::vector<cv::Point>;
+
+const std::vector<Eigen::Vector4d> kNominal{
+    {0.0, 0.0, 1.8, 0.0}, {2.0, 0.0, 1.8, 0.0}, {2.0, 1.0, 1.8, 0.0}};
+/// A little to the left of it.
+const std::vector<Eigen::Vector4d> kPlan{
+    {0.0, 0.3, 1.8, 0.0}, {2.0, 0.3, 1.8, 0.0}, {2.0, 1.3, 1.8, 0.0}};
+
+const cv::Scalar kNotKnown(80, 110, 240);
+
+/// One object that was found and not observed yet. On its card below on the left the path has
+/// 89.09 px a metre; its middle, (1, 0.5) m, is at (208, 520) px.
+cv::Mat drawn_flight(const cv::Mat& camera_image) {
+  const Recogniser recogniser = support::recogniser_of_two();
+  ObjectObservations observations(recogniser, {}, RigidTransition{});
+  observations.found(7, {1.0, 1.2, 0.8});
+  TrajectoryPanelInput input{
+      .observations = observations, .nominal = kNominal, .plan = kPlan, .at = 1};
+  input.T_world_body = make_pose({1.0, 0.1, 1.8}, std::numbers::pi / 2.0);
+  input.target = ViewTarget{.object = 7,
+                            .direction = 3,
+                            .p_world_object_m = {0.0, -0.3, 0.8},
+                            .p_world_view_m = {0.0, 1.5, 1.8}};
+  return draw_trajectory_panel(input, camera_image, {640, 720});
+}
+
+bool is_near(const cv::Mat& panel, cv::Point at, const cv::Scalar& bgr) {
+  return count_coloured(panel, {at.x - 3, at.y - 3, 7, 7}, bgr) > 0;
+}
+
+TEST(TrajectoryPanel, ShowsThePathAndThePlan) {
+  const cv::Mat panel = drawn_flight({});
+  EXPECT_TRUE(is_near(panel, {150, 565}, panel::kFaint));
+  EXPECT_TRUE(is_near(panel, {297, 552}, panel::kFaint)) << "up to its end";
+  for (const int x : {122, 150, 290}) {
+    EXPECT_TRUE(is_coloured(panel, {x, 538}, panel::kVisited)) << x;
+  }
+  for (const int y : {530, 500, 452}) {
+    EXPECT_TRUE(is_coloured(panel, {297, y}, panel::kAccent)) << y;
+  }
+  for (const cv::Point beside : Points{{113, 538}, {150, 545}, {297, 440}, {297, 575}}) {
+    EXPECT_TRUE(is_coloured(panel, beside, panel::kCard)) << beside;
+  }
+  EXPECT_EQ(count_coloured(panel, {100, 532, 90, 12}, panel::kAccent), 0) << "that is behind it";
+}
+
+/// It sees half a radian to either side, 2 m far.
+TEST(TrajectoryPanel, ShowsWhereTheRobotIsAndWhatItSees) {
+  const cv::Mat panel = drawn_flight({});
+  for (const cv::Point robot : Points{{208, 556}, {205, 556}, {211, 556}}) {
+    EXPECT_TRUE(is_coloured(panel, robot, panel::kRobot)) << robot;
+  }
+  for (const cv::Point edge : Points{{251, 477}, {165, 477}, {289, 407}, {127, 407}}) {
+    EXPECT_TRUE(is_near(panel, edge, panel::kRobot)) << edge;
+  }
+  for (const cv::Point beside : Points{{208, 500}, {298, 391}, {118, 391}, {165, 635}}) {
+    EXPECT_FALSE(is_near(panel, beside, panel::kRobot)) << beside;
+  }
+  EXPECT_TRUE(is_near(panel, {164, 573}, panel::kDim)) << "towards its target";
+  EXPECT_NEAR(support::mean_radius_px(panel, {119, 431}, 10, panel::kAccent), 6.0, 0.6)
+      << "the view that it wants";
+}
+
+TEST(TrajectoryPanel, ShowsObjectsAndTheirDirections) {
+  const cv::Mat panel = drawn_flight({});
+  EXPECT_TRUE(is_coloured(panel, {208, 458}, kNotKnown));
+  EXPECT_TRUE(is_coloured(panel, {206, 458}, kNotKnown));
+  EXPECT_TRUE(is_coloured(panel, {217, 461}, panel::kCard));
+  for (const cv::Point ray : Points{{237, 458}, {179, 458}, {208, 429}, {208, 487}}) {
+    EXPECT_TRUE(is_near(panel, ray, panel::kFaint)) << ray;
+  }
+  EXPECT_TRUE(is_coloured(panel, {208, 414}, panel::kCard)) << "no longer than 0.45 m";
+  const auto is_written = [&](const cv::Rect& part) {
+    return count_coloured(panel, part, panel::kCard) < part.area();
+  };
+  EXPECT_TRUE(is_written({424, 64, 100, 12})) << "its name";
+  EXPECT_GT(count_coloured(panel, {424, 78, 190, 12}, kNotKnown), 0) << "its entropy";
+  EXPECT_FALSE(is_written({424, 96, 190, 40})) << "there is one";
+}
+
+TEST(TrajectoryPanel, ShowsTheImageAsLargeAsItFits) {
+  const cv::Scalar shown(90, 200, 10);
+  const cv::Mat panel = drawn_flight(cv::Mat(20, 40, CV_8UC3, shown));
+  for (const cv::Point inside : Points{{14, 178}, {401, 178}, {200, 83}, {200, 272}}) {
+    EXPECT_TRUE(is_coloured(panel, inside, shown)) << inside;
+  }
+  for (const cv::Point beside : Points{{200, 76}, {200, 280}}) {
+    EXPECT_TRUE(is_coloured(panel, beside, panel::kCard)) << beside;
+  }
+}
+
+}  // namespace
+}  // namespace vantage
