@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +14,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <string>
 #include <thread>
 
 #include "tests/support/temporary_directory.hpp"
@@ -37,6 +39,12 @@ SlurmQueue queue_of(const std::string& state, int restart) {
 
 class Claims : public testing::Test {
  protected:
+  /// Everybody may read it and its owner write it, as far as the umask lets them.
+  void expect_readable(const fs::path& file) {
+    std::ofstream(directory_ / "plain") << "x";
+    EXPECT_EQ(fs::status(file).permissions(),
+              fs::status(directory_ / "plain").permissions() & static_cast<fs::perms>(0644));
+  }
   support::TemporaryDirectory directory_;
   fs::path folder_ = directory_ / "attempts/a/b";
 };
@@ -81,6 +89,7 @@ TEST_F(Claims, HoldWhileTheirProcessLives) {
   const auto held = take_claim(folder_, 1, self);
   ASSERT_TRUE(held);
   EXPECT_TRUE(held->in_force());
+  expect_readable(folder_ / "1.json");
   auto claim = claim_in_force(folder_);
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->worker.pid, ::getpid());
@@ -93,6 +102,26 @@ TEST_F(Claims, HoldWhileTheirProcessLives) {
   EXPECT_FALSE(take_claim(folder_, 1, self));
   EXPECT_TRUE(take_claim(folder_, 2, self));
   EXPECT_FALSE(held->in_force());
+}
+
+/// By its name this worker writes first on another file system, from which there is no link.
+TEST_F(Claims, WithoutHardLinksAreOfWhoMakesTheFile) {
+  struct stat here {};
+  struct stat there {};
+  if (::stat(directory_.path().c_str(), &here) != 0 || ::stat("/dev/shm", &there) != 0 ||
+      here.st_dev == there.st_dev || ::access("/dev/shm", W_OK) != 0) {
+    GTEST_SKIP() << "/dev/shm is no other file system";
+  }
+  Worker worker = this_worker();
+  worker.host = "/dev/shm/" + directory_.path().filename().string();
+  const auto held = take_claim(folder_, 1, worker);
+  ASSERT_TRUE(held);
+  EXPECT_TRUE(held->in_force());
+  expect_readable(folder_ / "1.json");
+  EXPECT_EQ(claim_in_force(folder_)->worker.host, worker.host);
+  EXPECT_TRUE(holder_lives(*claim_in_force(folder_), this_worker(), {}));
+  EXPECT_FALSE(take_claim(folder_, 1, worker));
+  EXPECT_FALSE(fs::exists(worker.host + "-" + std::to_string(worker.pid) + ".new"));
 }
 
 TEST_F(Claims, OfAKilledProcessAreLost) {

@@ -294,6 +294,10 @@ TEST_F(StudyFile, WrongSplitsAreTold) {
   expect_problem(text + "splits: {a: {begin: [near]}}\n", {"s.yaml:10", "no factor 'begin'"});
   expect_problem(text + "splits: {a: {start: [nearby]}}\n", {"no level 'nearby'", "near, far"});
   expect_problem(text + "splits: {a: {start: []}}\n", {"needs a level"});
+  expect_problem(text + "splits: {a: [near]}\n", {"expected a map, got a list"});
+  expect_problem(text + "splits: {a: {start: near}}\n", {"expected a list"});
+  expect_problem(text + "splits: [near]\n", {"expected a map, got a list"});
+  expect_problem(text + "splits: {}\n", {"expected a split"});
   expect_problem(text + "split: a\n", {"no splits"});
   expect_problem(text + "splits: {a: {}}\nsplit: b\n", {"unknown split 'b'", "known: a"});
 }

@@ -151,6 +151,8 @@ TEST_F(Submit, AnArrayThatNothingWouldCollectIsCancelled) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.output, HasSubstr("full"));
   EXPECT_THAT(calls(), HasSubstr("scancel 41\n"));
+  EXPECT_EQ(read_file(folder_ / "dir/slurm/41.json"),
+            "{\n  \"array\": \"41\",\n  \"collect\": \"\",\n  \"tasks\": 4\n}\n");
 }
 
 TEST_F(Submit, StatusSaysWhatSlurmAndTheFolderSay) {

@@ -45,6 +45,18 @@ TEST(FlightFigure, DrawsTheRoom) {
   EXPECT_THAT(flight_svg(flight(), "a flight", {}), Not(HasSubstr("<polygon")));
 }
 
+/// Of a flight that was interrupted at once, without a room.
+TEST(FlightFigure, OfNothingIsASquareRoundTheOrigin) {
+  const Json nothing = {
+      {"path", Json::array()}, {"plan", Json::array()}, {"objects", Json::array()}};
+  const std::string svg = flight_svg(nothing, "no flight", {});
+  EXPECT_THAT(svg, HasSubstr("<rect x=\"52.0\" y=\"34.0\" width=\"600.0\" height=\"600.0\""));
+  EXPECT_THAT(svg, HasSubstr("<text x=\"352.0\" y=\"651.0\" text-anchor=\"middle\">0<"));
+  EXPECT_THAT(svg, HasSubstr("<text x=\"44.0\" y=\"338.0\" text-anchor=\"end\">0<"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+}
+
 TEST(FlightFigure, SaysWhatItsMarksMeanAndTellsObjectsApart) {
   const std::string svg = flight_svg(flight(), "a <flight>", kRoom);
   EXPECT_THAT(svg, HasSubstr("a &lt;flight&gt;"));

@@ -245,6 +245,7 @@ TEST(RecognitionTables, FilesOfAFormerStudyAreReplaced) {
     EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
   }
   EXPECT_NO_THROW(prepare_recognition_study((folder / "new").string(), false));
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "new"));
 }
 
 }  // namespace

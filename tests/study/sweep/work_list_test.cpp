@@ -100,11 +100,17 @@ TEST_F(Work, ThatCrashedIsTriedAgainOrStands) {
   EXPECT_THAT(taken_from(again), ElementsAre(1U));
 }
 
+/// Not even what a holder that is gone has left is taken then.
 TEST_F(Work, EndsWhenTheListIsClosed) {
+  Worker dead = this_worker();
+  dead.started = "0";
+  ASSERT_TRUE(take_claim(claims(0), 1, dead));
   WorkList list(plan_, options_, states_);
   ASSERT_TRUE(list.take());
+  EXPECT_THAT(list.held(), ElementsAre(0U));
   list.close();
   EXPECT_EQ(list.open(), 0U);
+  EXPECT_TRUE(list.held().empty());
   EXPECT_FALSE(list.take());
 }
 
