@@ -275,6 +275,32 @@ TEST_F(Arena, ItsFiguresAndItsPageAgree) {
   }
 }
 
+/// Of two scenes: greedy has 0.3 and 0.2, and whoever else what it is given.
+TEST_F(Arena, ThePageColoursWhatTheIntervalsLeaveNoDoubtOf) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  put("b/greedy/1", EpisodeState::completed, 0.4);
+  put("b/oracle/2", EpisodeState::completed, 0.4);  // greedy has nothing beside it
+  results.study.split = "development";
+  const auto page_with = [&](double of_mine_in_a, double of_mine_in_b) {
+    put("a/mine/1", EpisodeState::completed, of_mine_in_a);
+    put("b/mine/1", EpisodeState::completed, of_mine_in_b);
+    write_arena_page(results, leaderboard_of(results));
+    return read_file(folder / "arena.html");
+  };
+  const std::string better = page_with(0.8, 0.8);
+  for (const char* part :
+       {"<i class=\"whisker\" style=\"left:20.00%;width:10.00%\"></i>",
+        "<td class=\"value\">0.250</td><td class=\"dim\">0.200 to 0.300</td>",
+        "<td class=\"value\">0.200</td><td class=\"dim\"></td><td>–</td>",
+        "<td class=\"good\" title=\"95 %: +0.100 to +0.200, 2 pairs\">+0.150</td>", "100 s in a, b",
+        "<span class=\"tag \">split development</span>"}) {
+    EXPECT_THAT(better, HasSubstr(part));
+  }
+  EXPECT_THAT(page_with(0.8, 0.2), HasSubstr("<td title=\"95 %: -0.100 to +0.100, 2 pairs\">"));
+  EXPECT_THAT(page_with(0.4, 0.2),
+              HasSubstr("<td class=\"bad\" title=\"95 %: -0.100 to -0.100, 2 pairs\">-0.100<"));
+}
+
 TEST(StandardArena, HasEveryChoiceInEachScene) {
   const Study study = read_study(VANTAGE_SOURCE_DIR "/assets/studies/arena.yaml");
   const Factor& planners = study.factors[factor_index(study, "planner")];

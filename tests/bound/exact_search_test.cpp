@@ -107,6 +107,14 @@ TEST(ScheduleBound, HasItsDefaults) {
   EXPECT_EQ(BoundOptions{}.work, 1e10);
   EXPECT_EQ(ScanBoundOptions{}.rounds, 60);
   EXPECT_EQ(ScanBoundOptions{}.tolerance, 0.002);
+  EXPECT_EQ(CoverProblem{}.needed, 0U);
+  EXPECT_EQ(LeastSchedule{}.scans, 0U);
+  EXPECT_EQ(LeastSchedule{}.way_m, 0.0);
+  EXPECT_EQ(LeastSchedule{}.time_s, 0.0);
+  EXPECT_EQ(LeastTime{}.time_s, 0.0);
+  EXPECT_FALSE(LeastTime{}.reached);
+  const ScheduleBound bound;
+  EXPECT_FALSE(bound.exact_scans || bound.exact_way || bound.exact_time);
 }
 
 /// Two views show the same six cells, three more a cell each. The program's first solution takes

@@ -40,6 +40,14 @@ TEST(WallHeading, IsTheMeanOfThoseNearEachOther) {
   EXPECT_NEAR(heading_of({{0.30, 3.0}, {0.31, 1.0}, {0.32, 0.9}}), 0.3025, 1e-9);
 }
 
+TEST(WallHeading, IsOfWhatMostWallsHaveInCommonWithinHalfADegree) {
+  const auto rad = [](double deg) { return deg * std::numbers::pi / 180.0; };
+  EXPECT_NEAR(heading_of({{rad(50.2), 2.0}, {rad(20.02), 1.5}, {rad(20.48), 1.5}}), rad(20.25),
+              1e-9);
+  EXPECT_NEAR(heading_of({{rad(30.2), 2.0}, {rad(20.02), 1.5}, {rad(20.52), 1.5}}), rad(30.2),
+              1e-9);
+}
+
 TEST(WallHeading, IsOfUprightFacesAlone) {
   MadeMesh made;
   made.wall({0.0, 0.0}, 0.3, 2.0, 2.0);

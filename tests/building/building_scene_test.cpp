@@ -239,6 +239,15 @@ TEST(BuildingScene, AFloorIsLaidWhereTheMeshHasNone) {
   EXPECT_THAT(to_mjcf(scene, "walls", "by hand"), HasSubstr("type=\"plane\""));
 }
 
+TEST(BuildingScene, TellsWhatBegins) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "mesh.obj", test::room_with_door(0.9).obj());
+  std::vector<std::string> begun;
+  make_building_scene(read_building_mesh(folder / "mesh.obj", {}), {}, "mesh.obj",
+                      [&](std::string_view step) { begun.emplace_back(step); });
+  EXPECT_THAT(begun, testing::ElementsAre("parts", "floor and walls", "solid cells", "boxes"));
+}
+
 TEST(BuildingScene, WhatCannotBeASceneIsRefused) {
   test::DrawnBuilding crammed;
   crammed.box({0, 0, -0.1}, {1, 1, 0});

@@ -64,6 +64,8 @@ TEST_F(HindsightCommands, WhatCannotBeIsOneClearLine) {
   expect_error(vantage("branch run --scan 1 --then 0 --view 30 -q"), 2, {"--view: 30"});
   expect_error(vantage("branch run --scan 1 --scan 2"), 2, {"--scan", "several"});
   expect_error(vantage("branch run --scan 1 --all --out x"), 2, {"--out"});
+  ASSERT_EQ(vantage(std::string("run ") + kShort + "--out one").exit_code, 0);
+  expect_error(vantage("branch one --all -q"), 2, {"--scan: 1", "one has one scan"});
   expect_error(vantage("bound nowhere"), 3, {"nowhere", "no such folder"});
   expect_error(vantage("branch . --scan 1"), 3, {"not a run folder"});
   shell("mv '" + folder_.string() + "/run/trajectory.tum' '" + folder_.string() + "'");

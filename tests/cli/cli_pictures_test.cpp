@@ -162,6 +162,11 @@ TEST_F(OwnPictures, AnglesAndAnyElevationComeFromPoses) {
   EXPECT_EQ(imported["bins"], 9);
   EXPECT_EQ(read_file(folder_ / "train/cup/cup_1/cup_1_1_2_pose.txt"), "40.0000 52.5000\n");
   EXPECT_EQ(parsed("train train --out model -q " + kFeatures)["views"], 6);
+  const Result told = vantage("dataset import posed --out again --depth-unit 0.001" + kFocal);
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_THAT(told.output,
+              HasSubstr("again: 6 pictures of 2 objects in 1 recording, cut by depth\n"));
+  EXPECT_THAT(told.output, HasSubstr("depth: 1 is a millimetre of 6 pictures\n"));
 }
 
 TEST_F(OwnPictures, BadOnesAreNamedWithARemedy) {
@@ -177,6 +182,10 @@ TEST_F(OwnPictures, BadOnesAreNamedWithARemedy) {
   fs::create_directories(folder_ / "empty");
   expect_error(vantage("dataset import empty --out x" + kFocal), 3, {"front_rgb.png"});
   expect_error(vantage("dataset import mine --out x --layout '{thing}'" + kFocal), 2, {"{thing}"});
+  expect_error(vantage("dataset import mine --out x --depth-unit inch" + kFocal), 2,
+               {"--depth-unit: 'inch' is no number"});
+  expect_error(vantage("dataset import mine --out x --depth-unit 2" + kFocal), 2,
+               {"--depth-unit: 2 m is not in (0, 1]"});
 }
 
 TEST_F(OwnPictures, CopiesAndSharedPicturesAreTold) {
@@ -235,6 +244,23 @@ TEST_F(Pictures, WithoutAMaskTheObjectIsCutOutAsTheModelExpects) {
   EXPECT_THAT(errors(), HasSubstr("cut by depth, the model learnt from pictures cut by mask"));
 }
 
+TEST_F(Pictures, RenderedOnesAreToldAndShown) {
+  const std::string render =
+      "dataset render d --objects 1 --step-deg 120 --set supersampling=1 --jobs 1 -q";
+  const Result told = vantage(render);
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_THAT(told.output, testing::StartsWith("d: 1 objects complete, 1 of them and 9 views in "));
+  const json again = parsed(render);
+  EXPECT_EQ(again["objects"], 1);
+  EXPECT_EQ(again["rendered"], 0);
+  EXPECT_THAT(vantage("dataset info d").output,
+              HasSubstr("d: 1 objects in 1 categories, 9 views, "));
+  EXPECT_EQ(parsed("dataset info d")["views_of_video"], json({{"1", 3}, {"2", 3}, {"4", 3}}));
+  EXPECT_EQ(vantage("dataset contact-sheet d --out sheet.png -q").output, "sheet.png\n");
+  EXPECT_FALSE(cv::imread((folder_ / "sheet.png").string()).empty());
+  expect_error(vantage("dataset contact-sheet d --out sheet.png -q"), 2, {"--overwrite"});
+}
+
 /// Of painted blocks: what is wrong with the question, not with the model.
 class Questions : public Pictures {
  protected:
@@ -263,6 +289,18 @@ TEST_F(Questions, APictureOfOnePixelIsRefused) {
   cv::imwrite((folder_ / "one_depth.png").string(), cv::Mat(1, 1, CV_16UC1, cv::Scalar(900)));
   const Result result = vantage("recognise --model model -q --cut whole one.png one_depth.png");
   expect_error(result, 3, {"one.png", "1 x 1 px"});
+}
+
+TEST_F(Questions, APictureHasEightPixelsALine) {
+  for (const int width_px : {7, 8}) {
+    cv::imwrite((folder_ / "few.png").string(),
+                cv::Mat(8, width_px, CV_8UC3, cv::Scalar(9, 9, 200)));
+    cv::imwrite((folder_ / "few_depth.png").string(),
+                cv::Mat(8, width_px, CV_16UC1, cv::Scalar(900)));
+    const Result result = vantage("recognise --model model -q --cut whole few.png few_depth.png");
+    EXPECT_EQ(result.output.find("at least 8 x 8 are needed") != std::string::npos, width_px == 7)
+        << result.output;
+  }
 }
 
 TEST_F(Questions, AnElevationThatIsGivenCounts) {

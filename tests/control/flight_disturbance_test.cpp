@@ -60,5 +60,23 @@ TEST(PoseEstimate, ErrorsAreGaussianOfTheirSizeAndForgetInTime) {
   EXPECT_NEAR(kept / x2, std::exp(-1.0), tolerance) << "after 0.5 s";
 }
 
+/// Of the same random numbers both errors together are one after the other.
+TEST(PoseEstimate, MayBeOffInHeadingAloneOrInTiltAlone) {
+  FlightState truth;
+  truth.T_world_body = make_pose({1.0, 2.0, 3.0}, 0.4, 0.2);
+  const auto estimate = [](double sigma_yaw_rad, double sigma_tilt_rad) {
+    return PoseEstimate(
+        {.sigma_position_m = 0.0, .sigma_yaw_rad = sigma_yaw_rad, .sigma_tilt_rad = sigma_tilt_rad},
+        Rng(1));
+  };
+  const PoseEstimate turned = estimate(0.1, 0.0);
+  const PoseEstimate tilted = estimate(0.0, 0.05);
+  const Pose both = estimate(0.1, 0.05).of(truth).T_world_body;
+  EXPECT_GT((turned.of(truth).T_world_body.linear() - truth.T_world_body.linear()).norm(), 1e-3);
+  EXPECT_GT((tilted.of(truth).T_world_body.linear() - truth.T_world_body.linear()).norm(), 1e-3);
+  EXPECT_TRUE(turned.of(tilted.of(truth)).T_world_body.isApprox(both, 1e-12));
+  EXPECT_TRUE(both.translation() == truth.T_world_body.translation());
+}
+
 }  // namespace
 }  // namespace vantage

@@ -80,5 +80,27 @@ TEST(ControlOptions, OfAirframes) {
   EXPECT_EQ(Allocation{}.collective_N, 0.0);
 }
 
+TEST(ControlDefaults, AreOfRestAtTheOrigin) {
+  EXPECT_EQ(PathFollowing{}.arc_m, 0.0);
+  EXPECT_EQ(PathFollowing{}.wz_rad_s, 0.0);
+  EXPECT_EQ(DifferentialFollowing{}.arc_m, 0.0);
+  EXPECT_EQ(DifferentialFollowing{}.v_m_s, 0.0);
+  EXPECT_EQ(DifferentialFollowing{}.wz_rad_s, 0.0);
+  EXPECT_EQ(FlightReference{}.yaw_rad, 0.0);
+  EXPECT_EQ(FlightReference{}.yaw_rate_rad_s, 0.0);
+  EXPECT_EQ(FlightWaypoint{}.yaw_rad, 0.0);
+  EXPECT_FALSE(FlightMemory{}.started);
+  EXPECT_EQ(Airframe{}.mass_kg, 0.0);
+  EXPECT_EQ(Wrench{}.collective_N, 0.0);
+  EXPECT_EQ(DriveResult{}.path_length_m, 0.0);
+  EXPECT_EQ(DriveResult{}.duration_s, 0.0);
+  const FlightResult flight;
+  EXPECT_EQ(flight.duration_s, 0.0);
+  EXPECT_EQ(flight.path_length_m, 0.0);
+  EXPECT_EQ(flight.rms_error_m, 0.0);
+  EXPECT_EQ(flight.greatest_error_m, 0.0);
+  EXPECT_EQ(flight.energy_J, 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

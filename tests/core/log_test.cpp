@@ -130,5 +130,15 @@ TEST_F(Log, ProgressIsSilentWhenQuiet) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+TEST_F(Log, TheFileHoldsNothingOfAnEarlierRun) {
+  const auto path = directory / "log.txt";
+  std::ofstream(part_name(path)) << "cut short\n";
+  log_to_file(path);
+  log_debug("begun anew");
+  log_to_file({});
+  EXPECT_EQ(read_file(path).find("cut short"), std::string::npos);
+  EXPECT_NE(read_file(path).find("begun anew"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -143,5 +143,17 @@ TEST(StrategyFields, WrittenAndReadBackIsEqual) {
   EXPECT_EQ(read_planner(yaml), planner);
 }
 
+TEST(StrategyFields, RangesOfWhatWasFilledInFromCppAreChecked) {
+  try {
+    check_options(Planner{.gain = Adaptive{.prior = 3.0}, .also = {}}, "planner");
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "planner.gain.prior: 3 is out of range, allowed: [0, 1]");
+  }
+  EXPECT_THROW(check_options(Planner{.gain = Simple{}, .also = {Simple{}, Adaptive{.prior = 3.0}}}),
+               ConfigError);
+  EXPECT_NO_THROW(check_options(Planner{.gain = Simple{}, .also = {Simple{}, Adaptive{}}}));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -168,6 +168,24 @@ TEST_F(CheckedFolder, ObjectsOfFewPicturesAreTold) {
   EXPECT_THAT(checked.advice, Contains(HasSubstr("one recording of every object")));
 }
 
+TEST(CheckedDatasets, AreOfNothingAtFirst) {
+  const CheckedObject object;
+  for (const int count : {object.views, object.recordings, object.bins, object.thin_bins}) {
+    EXPECT_EQ(count, 0);
+  }
+  EXPECT_EQ(object.holes, 0.0);
+  EXPECT_EQ(object.size_m, 0.0);
+  const CheckedDataset dataset;
+  EXPECT_EQ(dataset.cut, ObjectCut::mask);
+  EXPECT_EQ(dataset.bins, 8);
+  EXPECT_EQ(dataset.focal_px, 570.3);
+  EXPECT_EQ(dataset.views, 0);
+  for (const double value : {dataset.holes.least, dataset.holes.median, dataset.holes.most}) {
+    EXPECT_EQ(value, 0.0);
+  }
+  EXPECT_FALSE(DatasetDifference{}.problem);
+}
+
 class TwoDatasets : public testing::Test {
  protected:
   TwoDatasets() {

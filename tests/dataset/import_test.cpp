@@ -186,6 +186,7 @@ TEST_F(Import, PosesGiveAnglesAndElevations) {
   const ImportOutcome outcome = imported(options);
   EXPECT_EQ(outcome.objects, 1);
   EXPECT_EQ(outcome.pictures, 2);
+  EXPECT_THAT(outcome.units, ElementsAre(testing::Pair(testing::DoubleEq(0.001), 2)));
   EXPECT_TRUE(outcome.notes.degrees);
   EXPECT_EQ(outcome.notes.bins, 4);
   EXPECT_TRUE(outcome.notes.views.empty());
@@ -195,6 +196,61 @@ TEST_F(Import, PosesGiveAnglesAndElevations) {
   EXPECT_NEAR(all[1].yaw_rad, std::numbers::pi, 1e-6);
   EXPECT_NEAR(elevation_deg(all[0]), 30.0, 1e-3);
   EXPECT_NEAR(elevation_deg(all[1]), 20.0, 1e-3) << "where no pose tells";
+}
+
+TEST_F(Import, AMaskIsAsLargeAsItsPicture) {
+  put("front");
+  ImportOptions options;
+  options.cut = "mask";
+  const auto with_mask = [&](const cv::Size& size_px) {
+    cv::imwrite((folder_ / "mine/drill/front_mask.png").string(),
+                cv::Mat(size_px, CV_8UC1, cv::Scalar::all(255)));
+    return import_pictures(options, {.from = {folder_ / "mine"}, .root = folder_ / "out"}).pictures;
+  };
+  EXPECT_THAT(
+      [&] {
+        with_mask({39, 30});
+      },
+      testing::ThrowsMessage<InputError>(
+          HasSubstr("front_mask.png: is 39 x 30 px, its colour 40 x 30")));
+  EXPECT_THAT(
+      [&] {
+        with_mask({40, 31});
+      },
+      testing::ThrowsMessage<InputError>(
+          HasSubstr("front_mask.png: is 40 x 31 px, its colour 40 x 30")));
+  EXPECT_EQ(with_mask({40, 30}), 1);
+}
+
+TEST_F(Import, ReplacesADatasetIfToldToAndNothingElse) {
+  put("front");
+  const auto taken_in = [&](const std::string& out, bool overwrite) {
+    ImportOptions options;
+    options.cut = "whole";
+    return import_pictures(
+               options, {.from = {folder_ / "mine"}, .root = folder_ / out, .overwrite = overwrite})
+        .pictures;
+  };
+  fs::create_directories(folder_ / "out");
+  EXPECT_EQ(taken_in("out", false), 1) << "it is empty";
+  EXPECT_THROW(taken_in("out", false), ConfigError);
+  EXPECT_EQ(taken_in("out", true), 1);
+  fs::create_directories(folder_ / "other");
+  write_file(folder_ / "other/precious", "mine");
+  EXPECT_THROW(taken_in("other", true), ConfigError);
+  EXPECT_EQ(read_file(folder_ / "other/precious"), "mine");
+}
+
+TEST(ImportDefaults, AreToFindOutAndToReplaceNothing) {
+  const ImportOptions options;
+  EXPECT_EQ(options.cut, "auto");
+  EXPECT_EQ(options.depth_unit_m, 0.0);
+  EXPECT_EQ(options.bins, 0);
+  const ImportRun run;
+  EXPECT_EQ(run.jobs, 1);
+  EXPECT_FALSE(run.overwrite || run.skip_bad);
+  EXPECT_EQ(ImportOutcome{}.objects, 0);
+  EXPECT_EQ(ImportOutcome{}.pictures, 0);
 }
 
 TEST_F(Import, WhatNobodyTellsIsAssumedAndSaid) {

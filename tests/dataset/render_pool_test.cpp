@@ -9,6 +9,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/dataset/render_dataset.hpp"
+#include "vantage/dataset/worker_process.hpp"
 
 namespace vantage {
 namespace {
@@ -89,6 +90,17 @@ TEST_F(RenderPool, WhatAProcessSaysItFailedByComesThrough) {
   const auto [code, text] = error_of(options, kWorker);
   EXPECT_EQ(code, ExitCode::bad_input);
   EXPECT_THAT(text, HasSubstr("too far for the image"));
+}
+
+TEST(WorkerProcess, SaysNothingWhereResultsGo) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  WorkerProcess worker(script("echo out; echo err >&2; exit 3"));
+  const std::string end = worker.wait_for_end();
+  const std::string err = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(err, "out\nerr\n");
+  EXPECT_EQ(end, "exit code 3");
 }
 
 TEST_F(RenderPool, StoppedItLeavesWholeObjectsAlone) {

@@ -7,6 +7,10 @@
 #include <numbers>
 
 #include "vantage/core/rng.hpp"
+#include "vantage/geometry/object_detection.hpp"
+#include "vantage/geometry/range_scan.hpp"
+#include "vantage/geometry/twist.hpp"
+#include "vantage/geometry/upright_cylinder.hpp"
 
 namespace vantage {
 namespace {
@@ -79,6 +83,32 @@ TEST(MakePose, PositivePitchLooksDown) {
   EXPECT_NEAR(forward.y(), std::cos(0.3), 1e-12);
   EXPECT_NEAR(forward.z(), -std::sin(0.3), 1e-12);
   EXPECT_NEAR(project_to_se2(pose).yaw_rad, std::numbers::pi / 2.0, 1e-12);
+}
+
+TEST(Geometry, PosesAreTheOriginAndTwistsAndAnglesNoneAtFirst) {
+  for (const double value :
+       {Pose2{}.x_m, Pose2{}.y_m, Pose2{}.yaw_rad, Twist2{}.vx_m_s, Twist2{}.vy_m_s,
+        Twist2{}.wz_rad_s, BeamAngles{}.azimuth_rad, BeamAngles{}.tilt_rad}) {
+    EXPECT_EQ(value, 0.0);
+  }
+}
+
+TEST(Geometry, ImagesScansAndDetectionsAreEmptyAtFirst) {
+  const CameraImages images;
+  const ObjectDetection detection;
+  const UprightCylinder cylinder;
+  for (const double value :
+       {images.focal_px, images.range_max_m, PlanarScan{}.range_max_m, detection.support_z_m,
+        detection.radius_m, detection.height_m, detection.distance_m, cylinder.radius_m,
+        cylinder.height_m, SurfaceSample{}.weight}) {
+    EXPECT_EQ(value, 0.0);
+  }
+  EXPECT_EQ(images.width_px, 0);
+  EXPECT_EQ(images.height_px, 0);
+  EXPECT_EQ(detection.pixels, 0);
+  EXPECT_FALSE(detection.whole);
+  EXPECT_TRUE(detection.p_world_object_m.isZero());
+  EXPECT_TRUE(cylinder.p_foot_m.isZero());
 }
 
 }  // namespace

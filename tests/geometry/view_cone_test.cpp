@@ -177,5 +177,17 @@ TEST(RowBounds, HoldTheSector) {
   EXPECT_GE(row.end - row.begin, 5);
 }
 
+TEST(RowBounds, AreOfNothingAtFirst) {
+  EXPECT_EQ(RowBounds::Interval{}.begin, 0);
+  EXPECT_EQ(RowBounds::Interval{}.end, 0);
+  EXPECT_FALSE(RowBounds::Runs{}.exact);
+  const ConeRow row;
+  for (const float value :
+       {row.tan_tilt_min, row.tan_tilt_max, row.sin2_half_width, row.max_excess_ahead_m2,
+        row.min_excess_behind_m2, row.range2_min_m2, row.range2_max_m2, row.all_round}) {
+    EXPECT_EQ(value, 0.0F);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -287,5 +287,66 @@ TEST(RecordedDecisions, SayHowAScanDiffers) {
             0U);
 }
 
+TEST(HindsightDefaults, OfScansAndBranchesAreOfNothing) {
+  EXPECT_EQ(StepRow{}.scan, 0U);
+  EXPECT_EQ(StepRow{}.time_s, 0.0);
+  EXPECT_EQ(StepRow{}.path_length_m, 0.0);
+  EXPECT_EQ(StepRow{}.cells_left, 0);
+  EXPECT_EQ(StepRow{}.chosen_view, -1);
+  EXPECT_FALSE(StepRow{}.fallback);
+  EXPECT_FALSE(BranchRequest{}.all);
+  EXPECT_EQ(BranchRequest{}.then, 0U);
+  const Branch branch;
+  EXPECT_EQ(branch.view, 0);
+  EXPECT_FALSE(branch.chosen || branch.fallback);
+  EXPECT_EQ(branch.gain + branch.seconds + branch.way_m + branch.seconds_then, 0.0);
+  EXPECT_EQ(BranchedDecision{}.scan, 0U);
+  EXPECT_EQ(BranchedDecision{}.then, 0U);
+  EXPECT_EQ(Regret{}.best_view, 0);
+  EXPECT_EQ(Regret{}.cells, 0.0);
+  EXPECT_EQ(Regret{}.fastest_view, 0);
+  EXPECT_EQ(Regret{}.cells_per_s, 0.0);
+}
+
+TEST(HindsightDefaults, OfRunsAndBoundsAreOfNothing) {
+  const RecordedScan scan;
+  EXPECT_EQ(scan.time_s, 0.0);
+  EXPECT_EQ(scan.path_length_m, 0.0);
+  EXPECT_EQ(scan.scan_time_s, 0.0);
+  EXPECT_EQ(scan.cells_left, 0U);
+  EXPECT_EQ(scan.chosen_view, -1);
+  EXPECT_EQ(RecordedRun{}.observable_cells, 0U);
+  EXPECT_EQ(ShareReached{}.scans, 0U);
+  EXPECT_EQ(ShareReached{}.way_m, 0.0);
+  EXPECT_EQ(ShareReached{}.time_s, 0.0);
+  const ShareBound share;
+  EXPECT_EQ(share.percent, 0);
+  EXPECT_FALSE(share.exact_scans || share.exact_way || share.exact_time);
+  EXPECT_EQ(share.given_cells, 0U);
+  const RunBound bound;
+  EXPECT_EQ(bound.poses, 0U);
+  EXPECT_EQ(bound.observable_cells, 0U);
+  EXPECT_EQ(bound.speed_m_s, 0.0);
+  EXPECT_EQ(bound.scan_s, 0.0);
+  EXPECT_FALSE(bound.has_oracle_tour);
+}
+
+/// Of a task that does not map too; a branch goes by another name than the method.
+TEST(RecordedRuns, WereChosenOutsideIfTheirChoiceOrTheirNameIsAnothers) {
+  RecordedRun run;
+  for_each_task([&](const auto& task) {
+    run.episode.task = task;
+    run.method = method_name(run.episode.task);
+    EXPECT_FALSE(was_chosen_outside(run)) << run.method;
+    run.method += ", view 3 after scan 2";
+    EXPECT_TRUE(was_chosen_outside(run)) << run.method;
+  });
+  Tabletop asking;
+  asking.choice = ExternalChoice{};
+  run.episode.task = asking;
+  run.method = method_name(run.episode.task);
+  EXPECT_TRUE(was_chosen_outside(run)) << run.method;
+}
+
 }  // namespace
 }  // namespace vantage

@@ -163,6 +163,8 @@ TEST(Bootstrap, OfOneResampleIsThatResample) {
 TEST(Bootstrap, TakesTenThousandResamplesForNinetyFivePerCent) {
   EXPECT_EQ(BootstrapOptions{}.resamples, 10000);
   EXPECT_EQ(BootstrapOptions{}.confidence, 0.95);
+  EXPECT_EQ(Interval{}.low, 0.0);
+  EXPECT_EQ(Interval{}.high, 0.0);
 }
 
 TEST(Mean, IsTheSumSharedOut) { EXPECT_DOUBLE_EQ(mean(std::vector{1.0, 2.5, 7.0}), 3.5); }

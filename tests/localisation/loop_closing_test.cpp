@@ -22,10 +22,10 @@ class InARoom {
   }
   /// @return whether there are new loops
   bool go(const PointCloud& seen, double driven_m, double forward_m = 0.0,
-          double sigma_m = kSureWheels_m) {
+          double sigma_m = kSureWheels_m, double sigma_rad = 0.001) {
     WheelStep step;
     step.T_previous_now = {forward_m, 0.0, 0.0};
-    step.covariance = Eigen::Vector3d(sigma_m, sigma_m, 0.001).cwiseAbs2().asDiagonal();
+    step.covariance = Eigen::Vector3d(sigma_m, sigma_m, sigma_rad).cwiseAbs2().asDiagonal();
     step.driven_m = driven_m;
     graph_.add(seen, step);
     return graph_.close_loops();
@@ -214,6 +214,22 @@ TEST(LoopClosing, IsRefusedWhereTheNextOneDoesNotAgree) {
     EXPECT_EQ(room.go(room_and_pillar(off_m, 0.0F), 5.5), agrees) << off_m;
     EXPECT_EQ(room.graph().loops(), agrees ? 2U : 0U);
     EXPECT_EQ(room.graph().refused(), agrees ? 0U : 1U);
+  }
+}
+
+/// The same where the places say that it turned by 0.015 rad, or by 0.025.
+TEST(LoopClosing, IsRefusedWhereTheNextOneHeadsElsewhere) {
+  for (const double turned_rad : {0.015, 0.025}) {
+    PointCloud seen = transform(test_room::walls(), to_se3(Pose2{0.0, 0.0, -turned_rad}));
+    append(seen, test_room::pillar());
+    InARoom room(test_room::walls());
+    room.stay(12.0);
+    room.go(test_room::pillar(), 5.5, 0.0, kSureWheels_m, 0.02);
+    const bool agrees = turned_rad < 0.02;
+    EXPECT_EQ(room.go(seen, 5.5), agrees) << turned_rad;
+    EXPECT_EQ(room.graph().loops(), agrees ? 2U : 0U);
+    EXPECT_EQ(room.graph().refused(), agrees ? 0U : 1U);
+    EXPECT_NEAR(room.graph().T_world_bases().back().yaw_rad, agrees ? 0.415 : 0.4, 2e-3);
   }
 }
 

@@ -113,14 +113,16 @@ TEST(PlaceMatch, TheGuessIsTurnedForWhatIsWorthIt) {
   Points place = Points::known_around();
   place.add(0.0, 0.0);
   place.add(4.0, 0.0);
-  const auto found_rad = [&](int rather) {
+  const auto found_rad = [&](int rather, double window_rad) {
     Points now;
     now.add_times(100 - rather, 0.0, 0.0);
     now.add_times(rather, 4.0, -0.05);
-    return search_pose(now.cloud, place.cloud, {}, {0.0, 0.0125}).yaw_rad;
+    return search_pose(now.cloud, place.cloud, {}, {0.0, window_rad}).yaw_rad;
   };
-  EXPECT_NEAR(found_rad(17), 0.0, 1e-9);
-  EXPECT_NEAR(found_rad(19), 0.0125, 1e-9);
+  EXPECT_NEAR(found_rad(17, 0.0125), 0.0, 1e-9);
+  EXPECT_NEAR(found_rad(19, 0.0125), 0.0125, 1e-9);
+  EXPECT_NEAR(found_rad(4, 0.025), 0.0, 1e-9) << "a quarter of that, halfway to the edge";
+  EXPECT_NEAR(found_rad(5, 0.025), 0.0125, 1e-9);
 }
 
 /// Every second point would rather be to the left. Of more than 300 only the others are asked.
@@ -156,6 +158,16 @@ TEST(PlaceMatch, AgreementIsOfPointsOnTheSurfaceThatFaceAsItDoes) {
   const Agreement agreed = agreement(now, place.cloud, T_place_scan);
   EXPECT_EQ(agreed.near, 7U);
   EXPECT_NEAR(agreed.share, 4.0 / 7.0, 1e-12);
+}
+
+TEST(LocalisationDefaults, AreOfNothing) {
+  EXPECT_EQ(WheelStep{}.driven_m, 0.0);
+  EXPECT_EQ(SearchWindow{}.shift_m, 0.0);
+  EXPECT_EQ(SearchWindow{}.turn_rad, 0.0);
+  EXPECT_EQ(Agreement{}.near, 0U);
+  EXPECT_EQ(Agreement{}.share, 0.0);
+  EXPECT_EQ(PoseEdge{}.from, 0U);
+  EXPECT_EQ(PoseEdge{}.to, 0U);
 }
 
 }  // namespace

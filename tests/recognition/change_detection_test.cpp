@@ -69,7 +69,10 @@ TEST_F(ChangeDetection, NothingWhereSomethingWasExpectedIsRemoved) {
   EXPECT_EQ(report.change, Change::removed);
   EXPECT_EQ(report.p_changed, 1.0);
   EXPECT_EQ(turns, 2);
-  EXPECT_EQ(report.recognition.views.size(), 3U);
+  ASSERT_EQ(report.recognition.views.size(), 3U);
+  EXPECT_EQ(report.recognition.views[0].view_time_s, 0.0) << "it was not chosen";
+  EXPECT_GT(report.recognition.views[1].view_time_s, 0.0);
+  EXPECT_GT(report.recognition.views[2].view_time_s, 0.0);
 }
 
 /// Hidden, seen, hidden: it is there.

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "tests/support/option_numbers.hpp"
+#include "vantage/recognition/calibration/unknown_training.hpp"
 #include "vantage/recognition/change_detection.hpp"
+#include "vantage/recognition/evaluation/change_evaluation.hpp"
 #include "vantage/recognition/evaluation/svm_baseline.hpp"
 #include "vantage/recognition/object_observations.hpp"
+#include "vantage/recognition/observation_buffer.hpp"
 #include "vantage/recognition/training.hpp"
 
 namespace vantage {
@@ -149,6 +152,58 @@ TEST(ChangeOptionChecks, LeaveRoomForBothAndKeepTheThresholdBetween) {
       check_options(ChangeOptions{.threshold = 0.5, .unchanged_below = 0.5, .changed_above = 0.5}));
   EXPECT_THROW(check_options(ChangeOptions{.threshold = 0.5, .unchanged_below = 0.6}), ConfigError);
   EXPECT_THROW(check_options(ChangeOptions{.threshold = 0.5, .changed_above = 0.4}), ConfigError);
+}
+
+TEST(RecognitionDefaults, OfViewsAreOfNothingSeen) {
+  EXPECT_EQ(ExtractedFeature{}.time_s, 0.0);
+  EXPECT_EQ(NextView{}.time_s, 0.0);
+  const ViewReport view;
+  EXPECT_EQ(view.view_rad, 0.0);
+  EXPECT_EQ(view.entropy_bits, 0.0);
+  EXPECT_EQ(view.feature_time_s, 0.0);
+  EXPECT_EQ(view.selection_time_s, 0.0);
+  EXPECT_EQ(view.view_time_s, 0.0);
+  const ObjectObservation seen;
+  EXPECT_EQ(seen.time_s + seen.bearing_rad + seen.distance_m + seen.elevation_rad, 0.0);
+  EXPECT_EQ(seen.entropy_nats + seen.map_probability + seen.unknown_probability, 0.0);
+  EXPECT_EQ(seen.direction, 0);
+  EXPECT_EQ(seen.pixels, 0);
+  EXPECT_EQ(RecognisedObject{}.id, 0);
+  EXPECT_EQ(BufferedObservation{}.id, 0);
+  EXPECT_EQ(BufferedObservation{}.direction, 0);
+  EXPECT_EQ(BufferedObservation{}.time_s, 0.0);
+  EXPECT_EQ(ViewFeatures{}.yaw_rad, 0.0);
+}
+
+TEST(RecognitionDefaults, OfChangesAndTrialsAreOfNothingFound) {
+  EXPECT_EQ(ChangeReport{}.p_changed, 0.0);
+  EXPECT_EQ(ChangeHypotheses{}.log_p_expected, 0.0);
+  EXPECT_EQ(ChangeHypotheses{}.log_p_changed, 0.0);
+  EXPECT_EQ(ChangeSearch{}.expected_object, 0);
+  EXPECT_EQ(ChangeSearch{}.empty_views, 0);
+  const ChangeTrial change;
+  EXPECT_EQ(change.p_changed + change.time_s, 0.0);
+  EXPECT_EQ(change.observations, 0);
+  EXPECT_FALSE(change.detectable);
+  EXPECT_EQ(Start{}.turntable, 0U);
+  EXPECT_EQ(Start{}.view, 0U);
+  const Trial trial;
+  EXPECT_FALSE(trial.correct || trial.category_correct);
+  for (const int count :
+       {trial.object, trial.estimate, trial.observations, trial.bin_error, trial.features}) {
+    EXPECT_EQ(count, 0);
+  }
+  EXPECT_EQ(trial.entropy_bits + trial.probability + trial.unknown_probability, 0.0);
+  EXPECT_EQ(trial.feature_time_s + trial.selection_time_s + trial.view_time_s, 0.0);
+}
+
+TEST(RecognitionDefaults, OfTrainingAreOfOneThread) {
+  EXPECT_EQ(LongWork{}.threads, 1);
+  EXPECT_EQ(HoldOutOptions{}.seed, 1U);
+  EXPECT_FALSE(HoldOutOptions{}.only_seen);
+  EXPECT_EQ(ShownView{}.known, 0.0);
+  EXPECT_EQ(ShownView{}.instance, 0.0);
+  EXPECT_EQ(ShownView{}.category, 0.0);
 }
 
 }  // namespace

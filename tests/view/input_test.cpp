@@ -28,6 +28,18 @@ class ViewInputTest : public testing::Test {
   ViewInput input{.controls = controls, .gate = gate, .shown_s = 8.0, .tick_s = 0.025};
 };
 
+TEST_F(ViewInputTest, IsOfATickOf25MillisecondsAndNothingPressedAtFirst) {
+  const ViewInput fresh{.controls = controls, .gate = gate};
+  EXPECT_EQ(fresh.tick_s, 0.025);
+  EXPECT_EQ(fresh.shown_s, 0.0);
+  EXPECT_FALSE(fresh.scrubbing || fresh.quit || fresh.screenshot);
+  const ViewControls none;
+  EXPECT_EQ(none.size, (PixelSize{1280, 720}));
+  EXPECT_EQ(none.camera, ViewCamera::overview);
+  EXPECT_FALSE(none.map || none.gains || none.help || none.duration_s);
+  EXPECT_FALSE(ViewMoment{}.still || ViewFrame{}.still || ViewCaptions{}.help);
+}
+
 TEST_F(ViewInputTest, KeysToggle) {
   type("mgh");
   EXPECT_TRUE(controls.map && controls.gains && controls.help);

@@ -123,6 +123,9 @@ TEST_F(FeatureCaching, AFileIsWrittenForEvery256Views) {
     EXPECT_EQ(again.find(0, i)->skipped, i < 255 ? "hidden" : "far");
   }
   EXPECT_FALSE(again.find(0, 256));
+  const fs::path file = files().front();
+  fs::rename(file, file.string() + ".old");
+  EXPECT_FALSE(FeatureCache(cache(), extractors).find(0, 0)) << "it is called otherwise";
 }
 
 TEST_F(FeatureCaching, WithoutAFolderNothingIsKept) {

@@ -112,5 +112,16 @@ TEST(FewViews, LeadsOfAllFeaturesAddUpAndTheFirstFeatureTellsTheSecondObject) {
   EXPECT_TRUE(held_out.log_density[1].col(3) == held_out.log_density[1].col(0));
 }
 
+/// Densities of many dimensions are far from 1; only their ratios count.
+TEST(FewViews, TheScoreIsTheSameHoweverSmallOrLargeDensitiesAre) {
+  for (const float of_all : {-5000.0F, -1000.0F, 0.0F, 1000.0F}) {
+    HeldOutViews held_out{.state = {0}, .bins = 1, .log_density = {Eigen::MatrixXf(2, 1)}};
+    held_out.log_density[0] << of_all, of_all - 1.0F;
+    EXPECT_NEAR(log_object(held_out, std::vector{1.0}, 1).mean, -std::log(1.0 + std::exp(-1.0)),
+                1e-9)
+        << of_all;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

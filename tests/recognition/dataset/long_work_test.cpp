@@ -22,7 +22,7 @@ TEST(LongWorkDone, IsEachItemOnce) {
   }
 }
 
-TEST(LongWorkDone, IsToldOneAfterTheOther) {
+TEST(LongWorkDone, IsToldOneAfterTheOtherInPlaceOfABar) {
   std::vector<std::size_t> told;
   const LongWork how{.threads = 3,
                      .tell = [&](const std::string& part, std::size_t done, std::size_t of) {
@@ -30,7 +30,9 @@ TEST(LongWorkDone, IsToldOneAfterTheOther) {
                        EXPECT_EQ(of, 5U);
                        told.push_back(done);
                      }};
+  testing::internal::CaptureStderr();
   work_through(5, how, "sorting", [](std::size_t) {});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(told, (std::vector<std::size_t>{1, 2, 3, 4, 5}));
 }
 

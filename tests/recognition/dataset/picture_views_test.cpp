@@ -242,7 +242,12 @@ TEST(DropCopies, TakesOutTheSamePicturesOfTheSameObject) {
   put("cup_1", "red", "near");
   put("cup_2", "red", "near");
   put("cup_1", "blue", "near");
+  const std::string example =
+      views[3].file("crop.png").string() + " is " + views[0].file("crop.png").string();
+  testing::internal::CaptureStderr();
   EXPECT_EQ(drop_copies(views), 2U);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("2 views are copies of others and count once: " + example + "\n"));
   EXPECT_THAT(frames_of(views), ElementsAre(0, 1, 2, 4));
   EXPECT_EQ(drop_copies(views), 0U);
 }

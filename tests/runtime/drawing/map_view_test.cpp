@@ -109,6 +109,13 @@ TEST(MapLines, AreAsWideAsTheirStrokeWithSoftEdges) {
   EXPECT_EQ(level(32, 20), 0);
 }
 
+TEST(MapLines, AreTwoPixelsWideAndFaintBehindSomethingUnlessToldOtherwise) {
+  const LineStyle style{};
+  EXPECT_EQ(style.width_px, 2.0);
+  EXPECT_EQ(style.opacity, 1.0);
+  EXPECT_EQ(style.hidden_opacity, 0.1);
+}
+
 TEST(MapLines, ThatAreSteepAreDrawnAlongTheOtherAxis) {
   MapCanvas canvas = make_canvas({30, 50});
   draw_line(canvas, kPlainCamera, {12.0, 40.0, 1.0}, {12.0, 8.0, 1.0}, {kWhite, 3.0, 1.0, 0.1});

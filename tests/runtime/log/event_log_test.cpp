@@ -197,6 +197,10 @@ TEST(EventLogFile, RefusesWhatIsDamaged) {
     write_file(path, good.substr(0, size));
     EXPECT_THROW(read_event_log(path, cells), InputError) << size;
   }
+  for (const std::size_t more : {1U, 23U}) {
+    write_file(path, good + std::string(more, '\0'));
+    EXPECT_THROW(read_event_log(path, cells), InputError) << more << " bytes behind the last event";
+  }
   for (const auto& [at, byte] : {std::pair{16 + 8, '\x05'},
                                  {16 + 48 + 16, '\x04'},  // one beyond "none of the three"
                                  {16 + 24 + 8, '\x03'},

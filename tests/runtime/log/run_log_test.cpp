@@ -78,6 +78,8 @@ TEST(RunLog, HasRowsOfTheTrajectoriesTenTimesASecond) {
   EXPECT_TRUE(std::filesystem::exists(logged.folder / "states.bin"));
   EXPECT_TRUE(read_file(logged.folder / "trajectory.tum")
                   .starts_with("# time_s x y z qx qy qz qw\n0.025 0.300000 0.400000 1.000000 "));
+  EXPECT_TRUE(read_file(logged.folder / "trajectory_estimated.tum")
+                  .starts_with("# time_s x y z qx qy qz qw\n0.025 7.000000 8.000000 11.000000 "));
   const auto truth = rows_of(logged.folder / "trajectory.tum");
   const auto estimate = rows_of(logged.folder / "trajectory_estimated.tum");
   ASSERT_EQ(truth.size(), estimate.size());

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <string_view>
+
 #include "tests/sim/test_world.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -120,6 +123,26 @@ TEST_F(Video, OfNoTimeIsNoneWithoutAnError) {
     EXPECT_NO_THROW(recorder.finish());
   }
   EXPECT_TRUE(folder.is_empty());
+}
+
+/// Both libraries are told once, so a process of its own has to be the first to do it.
+TEST(VideoChatter, IsSwitchedOffUnlessAUserWantsIt) {
+  const auto told = [](const char* name, std::string_view value) {
+    const char* found = std::getenv(name);
+    return found != nullptr && found == value;
+  };
+  const auto settings = [&] {
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "16", 1);
+    ::unsetenv("OPENCV_LOG_LEVEL");
+    ::unsetenv("AV_LOG_FORCE_NOCOLOR");
+    static_cast<void>(missing_video_codec());
+    const bool as_wanted = told("OPENCV_FFMPEG_LOGLEVEL", "16") &&
+                           told("OPENCV_LOG_LEVEL", "SILENT") && told("AV_LOG_FORCE_NOCOLOR", "1");
+    std::_Exit(as_wanted ? 0 : 1);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(settings(), testing::ExitedWithCode(0), "");
+  GTEST_FLAG_SET(death_test_style, "fast");
 }
 
 TEST_F(Video, NothingReachesStderr) {

@@ -1,0 +1,80 @@
+// `vantage sweep`, `compare` and `arena` as a user meets them.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_line.hpp"
+#include "vantage/core/atomic_file.hpp"
+
+namespace vantage {
+namespace {
+
+using nlohmann::json;
+using testing::Not;
+
+/// Two episodes of a second each.
+constexpr auto kStudy = R"(episode: assets/episodes/tabletop.yaml
+set: {scans: 1, laser.scan_duration_s: 1, map.cells: [9, 9, 5]}
+factors: {start: {a: {robot.start_view: 0}, b: {robot.start_view: 5}}}
+report: {compare: start, reference: a, tables: [area], curves: [share_left]}
+)";
+
+TEST_F(CommandLine, ASweepKeepsWholeRunsIfToldTo) {
+  file("two.yaml", kStudy);
+  for (const bool whole : {false, true}) {
+    const std::string flag = whole ? "--keep-states " : "";
+    const Result result = vantage("sweep run two.yaml --out study --overwrite -q " + flag);
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_THAT(result.output, Not(testing::StartsWith("{")));
+    EXPECT_TRUE(fs::exists(folder_ / "study/episodes/b/metrics.json"));
+    EXPECT_EQ(fs::exists(folder_ / "study/episodes/b/states.bin"), whole);
+    fs::remove_all(folder_ / "study");
+  }
+}
+
+TEST_F(CommandLine, WhatWasNotSubmittedCannotBeCancelled) {
+  fs::create_directories(folder_ / "study");
+  file("study/study.yaml", kStudy);
+  expect_error(vantage("sweep cancel study"), 2, {"study: nothing was submitted from it"});
+}
+
+TEST_F(CommandLine, RunsAreComparedToTheLastDigitUnlessToldOtherwise) {
+  for (const char* run : {"--out first", "--out second --set seed=2"}) {
+    ASSERT_EQ(vantage(std::string("run ") + kShort + run).exit_code, 0);
+  }
+  const Result few = vantage("compare first second");
+  EXPECT_EQ(few.exit_code, 1);
+  EXPECT_THAT(few.output, HasSubstr("values differ beyond the tolerance; --all lists them\n"));
+  const Result all = vantage("compare first second --all");
+  EXPECT_EQ(all.exit_code, 1);
+  EXPECT_THAT(all.output, HasSubstr("values differ beyond the tolerance\n"));
+  EXPECT_EQ(json::parse(vantage("compare first second --json").output)["tolerance"], 0.0);
+  EXPECT_EQ(vantage("compare first first").exit_code, 0);
+}
+
+/// A planner that writes a line whenever it is started: to be tried, and for every episode.
+TEST_F(CommandLine, AReplacedPlannersEpisodesAreRunAgain) {
+  file("small.yaml", R"(episode: assets/episodes/tabletop.yaml
+set: {scans: 3, budget.time_s: 60, laser.scan_duration_s: 1, map.cells: [33, 33, 17],
+      metrics.predictors: [adaptive]}
+factors:
+  scene: {few: {scene: models/scenes/tabletop_4/scene.xml}}
+  planner: {greedy: {choice: greedy}, random: {choice: random}}
+seeds: [1]
+report: {compare: planner, reference: greedy, panels: scene}
+)");
+  const Result made = vantage("arena run small.yaml --out arena -q");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  const auto planner =
+      file("mine.sh", fmt::format("echo x >> '{}'; read hello; echo '{}'; read request; exit 9\n",
+                                  (folder_ / "started").string(),
+                                  R"({"protocol": "vantage-planner", "version": 1})"));
+  const std::string command = " -- sh " + planner;
+  EXPECT_EQ(vantage("arena add arena mine -q" + command).exit_code, 1);
+  const std::string once = read_file(folder_ / "started");
+  ASSERT_GT(once.size(), 2U) << "tried, and for an episode";
+  EXPECT_EQ(vantage("arena add arena mine -q --overwrite" + command).exit_code, 1);
+  EXPECT_EQ(read_file(folder_ / "started"), once + once);
+}
+
+}  // namespace
+}  // namespace vantage
