@@ -24,10 +24,11 @@ NUMBER = re.compile(r"(?<![\w.'\"])(\d+\.\d*(?:e-?\d+)?|\d+(?:e-?\d+)?)(?=[FfUuL
 COMMUTATIVE = {"min", "max"}
 PARAMETER = re.compile(r"(const )?[\w:<>]+[&*]* \w+( = .*)?$")  # of a declaration, not of a call
 STATEMENT = re.compile(r"(if|for) \(|[^ (]+\(|[^ =]+ [-+*/|&]?= |[-+]{2}|[^ ]+([-+]{2});")
-# Lines that decide nothing: what is left unchecked is asserted, said, only named, or memory asked for ahead of time.
+# Lines that decide nothing: what is left unchecked is asserted, said, only named, or how fast: memory
+# asked for ahead of time, and threads, on which no result depends.
 DULL = re.compile(r"^\s*(#|using |namespace |static_assert|template|class |struct |enum |///|//|public:|private:|"
                   r"protected:|case |default:|friend |throw |expects\(|log_|fmt::print)|\bexpects\(|static constexpr|"
-                  r"\[\[nodiscard\]\].*;$|\.summary|\.source|\.formula|std::fprintf|\.reserve\(")
+                  r"\[\[nodiscard\]\].*;$|\.summary|\.source|\.formula|std::fprintf|\.reserve\(|\bint threads = 1\b")
 
 
 @dataclass(frozen=True)

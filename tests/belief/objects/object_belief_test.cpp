@@ -138,6 +138,13 @@ RC_GTEST_PROP(Predict, RigidlyKeepsWhatIsBelievedOfObjects, ()) {
   RC_ASSERT(p_object(states, belief).isApprox(before, kTolerance));
 }
 
+TEST(Predict, LeavesProbabilitiesWhateverItIsGiven) {
+  const ObjectStates states = test::make_states({0, 0, 1}, 4);
+  ObjectBelief belief{Eigen::VectorXd::Constant(states.size(), 3.0)};
+  predict(belief, states, TableTransition{}, 0.5);
+  EXPECT_NEAR(belief.log_p.array().exp().sum(), 1.0, 1e-12);
+}
+
 TEST(Predict, IsTheTableForTheTable) {
   const ObjectStates states = make_states({0, 0, 1}, 4);
   ObjectBelief belief = belief_of({1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
@@ -202,6 +209,19 @@ TEST(ExpectedState, IsNearestToTheMeanYaw) {
 TEST(ExpectedState, OfAMeanJustBelowAFullTurnIsBinZero) {
   const ObjectStates states = make_states({0}, 8);
   EXPECT_EQ(expected_state(states, belief_of({0.6, 0, 0, 0, 0, 0, 0, 0.4})), 0);
+}
+
+TEST(BinOfYaw, IsTheNearestHowOftenItGoesRound) {
+  const ObjectStates states = make_states({0, 0}, 5);
+  const double bin_rad = states.bin_rad();
+  for (const int turns : {-2, -1, 0, 1, 2}) {
+    for (int bin = 0; bin < 5; ++bin) {
+      const double yaw_rad = (bin + 5 * turns) * bin_rad;
+      EXPECT_EQ(states.bin_of_yaw(yaw_rad - 0.49 * bin_rad), bin) << turns;
+      EXPECT_EQ(states.bin_of_yaw(yaw_rad + 0.49 * bin_rad), bin) << turns;
+    }
+  }
+  EXPECT_EQ(state_seen(states, states.objects[1], -bin_rad), 9);
 }
 
 TEST(BinError, IsTheShortWayRound) {

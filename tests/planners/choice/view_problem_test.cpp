@@ -158,6 +158,19 @@ TEST(ViewProblem, IsInTheUnitOfItsGain) {
   EXPECT_NEAR(drawn(in_m3), 8.0, 1e-4);
 }
 
+TEST(ViewProblem, KnowsWhatLiesBeyondInTheFirstColumnOfAMap) {
+  Room room;
+  for (int z = 0; z < 10; ++z) room.grid.log_odds[room.grid.frame.index({0, 0, z})] = 0.0F;
+  ViewPlanningInput input = room.input(AdaptiveGain{});
+  input.elapsed_s = 16.0;
+  const PlanningProblem problem = make_view_problem(input, {.beyond_m = 8.0});
+  const std::vector<std::size_t> all{0, 1, 2};
+  double beyond = 0.0;
+  for (const std::size_t view : all) beyond += problem.beyond_of(view);
+  EXPECT_NEAR(joint_gain(problem, all) + beyond, 8010.0, 80.0);
+  EXPECT_EQ(problem.seen, 7990.0);
+}
+
 TEST(ViewProblem, IsMadeByOneThreadAtAnUnknownPaceUnlessItIsSaid) {
   const Room room;
   const ViewPlanningInput input{.map = {room.grid, &room.transmission},
