@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "vantage/runtime/drawing/tour_drawing.hpp"
 #include "vantage/sim/robots/robot_names.hpp"
 #include "vantage/sim/sensors/camera.hpp"
 
