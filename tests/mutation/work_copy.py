@@ -127,8 +127,9 @@ def run_tests(program, suites, cpu_limit_s):
 
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     environment = {**os.environ, "RC_PARAMS": os.environ.get("RC_PARAMS", "seed=1")}
+    # In the folder of its own: what it finds by the working directory is the copy's.
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=limit,
-                          env=environment) as process:
+                          env=environment, cwd=program.path.parent) as process:
         try:
             passed = process.wait(timeout=60 + 10 * cpu_limit_s) == 0
         except subprocess.TimeoutExpired:  # waits for what does not come

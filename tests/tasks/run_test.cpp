@@ -271,7 +271,8 @@ TEST_F(Run, ReplayNamesFilesThatChanged) {
 /// A run is of the data root's scene, whatever the working directory has under that name.
 TEST_F(Run, WhatWasRecordedIsFoundInTheDataRootFirst) {
   const ResolvedEpisode recorded = load_recorded(folder_ / "first");
-  const fs::path decoy = folder_ / "decoy" / recorded.setup.options.scene;
+  // Of a scene outside of the data root the path is absolute, and must not be written to.
+  const fs::path decoy = folder_ / "decoy" / fs::path(recorded.setup.options.scene).relative_path();
   fs::create_directories(decoy.parent_path());
   write_file(decoy, "<mujoco/>");
   const fs::path before = fs::current_path();
