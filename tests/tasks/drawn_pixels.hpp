@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "vantage/runtime/drawing/panel_style.hpp"
+
 namespace vantage::support {
 
 inline cv::Mat coloured(const cv::Mat& image, const cv::Rect& part, const cv::Scalar& bgr) {
@@ -20,6 +22,11 @@ inline int count_coloured(const cv::Mat& image, const cv::Rect& part, const cv::
 
 inline bool is_coloured(const cv::Mat& image, cv::Point at, const cv::Scalar& bgr) {
   return count_coloured(image, {at.x, at.y, 1, 1}, bgr) == 1;
+}
+
+/// On a card.
+inline bool is_written(const cv::Mat& panel, const cv::Rect& part) {
+  return count_coloured(panel, part, panel::kCard) < part.area();
 }
 
 /// Of the pixels of that colour that are no farther than `reach_px` along either axis.

@@ -14,16 +14,13 @@ namespace {
 
 using support::count_coloured;
 using support::is_coloured;
+using support::is_written;
 using Points = std::vector<cv::Point>;
 
 constexpr double kQuarter_rad = std::numbers::pi / 2.0;
 
 cv::Mat drawn(const RecognitionPanelInput& input) {
   return draw_recognition_panel(input, {640, 720});
-}
-
-bool is_written(const cv::Mat& panel, const cv::Rect& part) {
-  return count_coloured(panel, part, panel::kCard) < part.area();
 }
 
 /// From bearings of 45 and 135 deg.

@@ -15,6 +15,7 @@ namespace {
 
 using support::count_coloured;
 using support::is_coloured;
+using support::is_written;
 using Points = std::vector<cv::Point>;
 
 const std::vector<Eigen::Vector4d> kNominal{
@@ -87,12 +88,9 @@ TEST(TrajectoryPanel, ShowsObjectsAndTheirDirections) {
     EXPECT_TRUE(is_near(panel, ray, panel::kFaint)) << ray;
   }
   EXPECT_TRUE(is_coloured(panel, {208, 414}, panel::kCard)) << "no longer than 0.45 m";
-  const auto is_written = [&](const cv::Rect& part) {
-    return count_coloured(panel, part, panel::kCard) < part.area();
-  };
-  EXPECT_TRUE(is_written({424, 64, 100, 12})) << "its name";
+  EXPECT_TRUE(is_written(panel, {424, 64, 100, 12})) << "its name";
   EXPECT_GT(count_coloured(panel, {424, 78, 190, 12}, kNotKnown), 0) << "its entropy";
-  EXPECT_FALSE(is_written({424, 96, 190, 40})) << "there is one";
+  EXPECT_FALSE(is_written(panel, {424, 96, 190, 40})) << "there is one";
 }
 
 TEST(TrajectoryPanel, ShowsTheImageAsLargeAsItFits) {
