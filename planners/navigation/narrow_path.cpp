@@ -111,6 +111,20 @@ class PathBuilder {
   PlannedPath path_;
 };
 
+/// On to where it goes on straight, or as far as it must not be turned the other way: a robot turns
+/// to a heading the shorter way, in which something may stand.
+std::size_t end_of_turn(std::span<const Pose2> poses, std::size_t from) {
+  constexpr double kLongest_rad = 2.5;
+  std::size_t turned = from + 1;
+  double turn_rad = wrap_angle(poses[turned].yaw_rad - poses[from].yaw_rad);
+  for (; turned + 1 < poses.size(); ++turned) {
+    const double more_rad = wrap_angle(poses[turned + 1].yaw_rad - poses[turned].yaw_rad);
+    turn_rad += more_rad;
+    if (std::abs(more_rad) < 1e-9 || std::abs(turn_rad) > kLongest_rad) break;
+  }
+  return turned;
+}
+
 /// Poses of one passage, from the open place before it to the one after it, where there are such.
 void add_passage(PathBuilder& builder, std::span<const Pose2> poses) {
   for (std::size_t i = 0; i + 1 < poses.size();) {
@@ -118,11 +132,7 @@ void add_passage(PathBuilder& builder, std::span<const Pose2> poses) {
     while (end + 1 < poses.size() && same_heading(poses[end + 1].yaw_rad, poses[i].yaw_rad)) ++end;
     if (end > i) builder.add_straight(poses.subspan(i, end - i + 1));
     if (end + 1 == poses.size()) return;
-    std::size_t turned = end + 1;  // on to where it goes on straight
-    while (turned + 1 < poses.size() &&
-           !same_heading(poses[turned + 1].yaw_rad, poses[turned].yaw_rad)) {
-      ++turned;
-    }
+    const std::size_t turned = end_of_turn(poses, end);
     builder.add_turn(poses[turned]);
     i = turned;
   }

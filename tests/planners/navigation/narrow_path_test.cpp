@@ -69,6 +69,28 @@ TEST_F(StepsThroughAPassage, OfWhatGoesAlongItsHeadingHaveTheHeadingOfTheWay) {
               3.0 * (std::hypot(0.6, 0.3) + std::hypot(0.4, 0.6) + second_rad * radius_m_), 1e-9);
 }
 
+/// Three quarters of a turn to the left are no quarter to the right.
+TEST_F(StepsThroughAPassage, TurnTheLongWayInSeveralTurns) {
+  std::vector<PathStep> steps{{{1.0, 1.2}, 0.0}, {{1.3, 1.2}, 0.0}};
+  for (int i = 1; i <= 15; ++i)
+    steps.push_back({{1.3, 1.2}, wrap_angle(0.1 * std::numbers::pi * i)});
+  steps.push_back({{1.3, 0.8}, wrap_angle(1.5 * std::numbers::pi)});
+  steps.push_back({{1.3, 0.6}, {}});
+  const PlannedPath planned = path({1.0, 1.2, 0.0}, steps);
+  ASSERT_EQ(planned.legs.size(), 6U) << "there, three turns, on, and where there is room";
+  double turned_rad = 0.0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto& waypoints = planned.legs[i].waypoints;
+    ASSERT_EQ(waypoints.size(), 2U);
+    const double turn_rad = wrap_angle(waypoints[1].yaw_rad - waypoints[0].yaw_rad);
+    EXPECT_GE(turn_rad, -1e-9) << "to the left alone";
+    turned_rad += turn_rad;
+  }
+  EXPECT_NEAR(turned_rad, 1.5 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(planned.length_m, 3.0 * (0.9 + 1.5 * std::numbers::pi * radius_m_), 1e-9);
+  EXPECT_NEAR(planned.legs[1].waypoints.back().yaw_rad, 0.7 * std::numbers::pi, 1e-9);
+}
+
 /// It stands between two headings of the search.
 TEST_F(StepsThroughAPassage, BeginAtTheHeadingNearestToItsOwn) {
   const PlannedPath planned =
