@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,18 @@ namespace {
 /// `adaptive` with the reference choice is the best of what there was before.
 constexpr const char* kPanel = "adaptive";
 constexpr const char* kTour = "tour";
+constexpr const char* kPartialGreedy = "greedy_partial_scans";
+
+bool is_compared(const StudyTables& study, const std::string& choice) {
+  return std::ranges::count(study.levels(), choice) > 0;
+}
 
 /// "`gain_over_distance` 0.50 [..]; `nearest_frontier` ..": what others have of the reference's.
 std::string beside(const StudyTables& study, const std::string& table) {
   std::vector<std::string> parts;
-  for (const char* other : {"gain_over_distance", "nearest_frontier", "oracle_tour"}) {
+  for (const char* other : {kPartialGreedy, "tour_whole_scans", "gain_over_distance",
+                            "nearest_frontier", "oracle_tour"}) {
+    if (!is_compared(study, other)) continue;
     const Race against = bench::race(study, table, kPanel, other, study.reference());
     parts.push_back(fmt::format("`{}` has {}", other, against.text()));
   }
@@ -38,6 +46,20 @@ Finding against_greedy(const StudyTables& study, const std::string& table, doubl
         return {against.text() + "<br>" + beside(study, table),
                 against.is_won_by(limit) && against.pairs && against.pairs->p_value < kSignificant,
                 why.empty() ? "see what the others have of it, `oracle_tour` among them" : why};
+      });
+}
+
+/// Of what scans that leave images out make of any choice, and what of `tour`.
+Finding ahead_by_planning(const StudyTables& study, const std::string& table) {
+  return held(
+      "goal",
+      fmt::format("of choices that all leave out what is not worth its time `tour` is ahead "
+                  "of `greedy` in `{}`, beyond the interval",
+                  table),
+      [&]() -> Measured {
+        const Race against = bench::race(study, table, kPanel, kTour, kPartialGreedy);
+        return {against.text(), against.is_ahead(),
+                "then it is the scans, and not where they are taken"};
       });
 }
 
@@ -88,6 +110,9 @@ std::vector<Finding> planning_office_findings(const StudyTables& study, double t
                                               std::optional<double> path_limit) {
   std::vector<Finding> findings{against_greedy(study, "time_to_95_s", time_limit)};
   if (path_limit) findings.push_back(against_greedy(study, "path_to_95_m", *path_limit));
+  if (is_compared(study, kPartialGreedy)) {
+    findings.push_back(ahead_by_planning(study, "time_to_95_s"));
+  }
   findings.push_back(near_oracle(study, "time_to_95_s"));
   findings.push_back(ahead_of_peers(study, "time_to_95_s"));
   findings.push_back(calibration_matters(study, "time_to_95_s"));

@@ -1,6 +1,7 @@
 #include "bench/model/modelled_exploration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -8,6 +9,7 @@
 
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/planners/swept_blocks.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/sim/sensors/laser.hpp"
 #include "vantage/tasks/exploration/frontier_views.hpp"
@@ -68,6 +70,7 @@ ModelledExploration::ModelledExploration(const ModelledBuilding& building, const
       pose_(building.truth.T_world_base()),
       choice_rng_(choice_stream(task.choice, 700)),
       time_s_(kStart_s) {
+  if (task.gaze.chooses()) partial_scans_ = PartialScans{building.robot.sweep_images(), task.gaze};
   clear_footprint(floor_, pose_, task.navigation.inflation_m() + floor_.cell_m);
   traverse(task.start_room_m);
 }
@@ -97,17 +100,22 @@ void ModelledExploration::scan() {
   learn_hazard(T_world_sweep);
   const CellSet seen = building_.evaluator.visible_set(T_world_sweep);
   const auto& surface = building_.evaluator.surface();
+  const SweepImages& sweep = building_.robot.sweep_images();
+  const Pose T_sweep_world = T_world_sweep.inverse();
   int shown = 0;
   for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
     const bool is_seen = (seen[cell / 64] >> (cell % 64) & 1U) != 0;
     if (!is_seen || grid_.state(cell) != CellState::unobserved) continue;
+    const Eigen::Vector3d p_sweep = T_sweep_world * grid_.frame.centre(grid_.frame.cell(cell));
+    if (!images_.empty() && !sweep.any_shows(images_, p_sweep)) continue;
     ++shown;
     grid_.log_odds[cell] = surface[cell] != 0 ? 3.0F : -3.0F;
   }
   look_at_walls();
   block_columns(floor_, grid_, traversed_, task_.headroom);
   ++scans_;
-  time_s_ += kScan_s;
+  const std::size_t images = images_.empty() ? sweep.gazes.size() : images_.size();
+  time_s_ += kScan_s * static_cast<double>(images) / static_cast<double>(sweep.gazes.size());
   visited_.add(T_world_sweep.translation().head<2>(),
                shown < task_.poor_cells ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
 }
@@ -117,14 +125,16 @@ void ModelledExploration::learn_hazard(const Pose& T_world_sweep) {
   std::vector<Pose> poses;
   Eigen::Matrix3d optical;
   optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  for (const double tilt_rad : task_.sweep.tilts_rad) {
-    for (const double pan_rad : pan_angles_rad(task_.sweep)) {
-      Pose T_world_camera = T_world_sweep * Eigen::AngleAxisd(pan_rad, Eigen::Vector3d::UnitZ()) *
-                            Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitY());
-      T_world_camera.linear() = T_world_camera.linear() * optical;
-      images.push_back(depth_image(building_.truth.geometry(), task_.camera, T_world_camera));
-      poses.push_back(T_world_camera);
-    }
+  const SweepImages& sweep = building_.robot.sweep_images();
+  for (std::size_t image = 0; image < sweep.gazes.size(); ++image) {
+    if (!images_.empty() && !std::ranges::binary_search(images_, image)) continue;
+    const Gaze& gaze = sweep.gazes[image];
+    Pose T_world_camera = T_world_sweep *
+                          Eigen::AngleAxisd(gaze.pan_rad, Eigen::Vector3d::UnitZ()) *
+                          Eigen::AngleAxisd(gaze.tilt_rad, Eigen::Vector3d::UnitY());
+    T_world_camera.linear() = T_world_camera.linear() * optical;
+    images.push_back(depth_image(building_.truth.geometry(), task_.camera, T_world_camera));
+    poses.push_back(T_world_camera);
   }
   std::vector<PosedImage> posed;
   for (std::size_t i = 0; i < images.size(); ++i) posed.push_back({images[i], poses[i]});
@@ -143,8 +153,26 @@ bool ModelledExploration::go_on() {
   if (views.empty()) return false;
   const Candidate& view = views[chosen(paths, views)];
   visited_.add(view.T_world_sensor.translation().head<2>(), task_.taken_m);
+  const double left_s = time_s_;
   drive(plan_path(paths, building_.robot.base_for_sensor(view.T_world_sensor)));
+  if (partial_scans_) choose_images(time_s_ - left_s);
   return true;
+}
+
+void ModelledExploration::choose_images(double way_s) {
+  const BlockField transmission = hazard_.transmission();
+  const CellBlocks blocks = blocks_of(grid_.frame, task_.planning.block_m);
+  std::array<Candidate, 1> view;
+  view.front().T_world_sensor = to_se3(pose_) * building_.robot.T_base_sweep();
+  const ShownBlocks shown = swept_blocks(attenuation_of(task_.gain, {grid_, &transmission}), grid_,
+                                         view, building_.robot.view_field(), blocks, 1);
+  const SeenBlocks seen{grid_.frame, blocks, shown.cells, shown.shows.front(),
+                        view.front().T_world_sensor};
+  const auto& [sweep, gaze] = *partial_scans_;
+  const auto known = static_cast<double>(grid_.size() - grid_.count(CellState::unobserved));
+  images_ = worthwhile_images({gains_of_images(sweep, seen),
+                               kScan_s / static_cast<double>(sweep.gazes.size()), way_s, known},
+                              gaze);
 }
 
 std::size_t ModelledExploration::chosen(const PathField& paths, std::vector<Candidate>& views) {
@@ -165,17 +193,19 @@ std::size_t ModelledExploration::next_of_plan(const PathField& paths,
     const Pose2 base = building_.robot.base_for_sensor(view.T_world_sensor);
     places_m.emplace_back(base.x_m, base.y_m);
   }
-  PlanningProblem problem = make_view_problem({.map = {grid_, &transmission},
-                                               .gain = task_.gain,
-                                               .candidates = views,
-                                               .places_m = places_m,
-                                               .field_of_view = building_.robot.view_field(),
-                                               .paths = paths,
-                                               .travel_time = travel_,
-                                               .scan_s = kScan_s,
-                                               .elapsed_s = time_s_,
-                                               .threads = 1},
-                                              task_.planning);
+  PlanningProblem problem =
+      make_view_problem({.map = {grid_, &transmission},
+                         .gain = task_.gain,
+                         .candidates = views,
+                         .places_m = places_m,
+                         .field_of_view = building_.robot.view_field(),
+                         .paths = paths,
+                         .travel_time = travel_,
+                         .scan_s = kScan_s,
+                         .elapsed_s = time_s_,
+                         .threads = 1,
+                         .partial_scans = partial_scans_ ? &*partial_scans_ : nullptr},
+                        task_.planning);
   if (intended_m_) problem.intended = view_near(problem, *intended_m_, kSame_m);
   const auto order = plan_views(task_.choice, problem, choice_rng_).order;
   intended_m_.reset();

@@ -56,6 +56,8 @@ class ModelledExploration {
   std::size_t next_of_plan(const PathField& paths, const BlockField& transmission,
                            const std::vector<Candidate>& views);
   void drive(const PlannedPath& path);
+  /// Of the scan to come, where the robot is now.
+  void choose_images(double way_s);
   void look_at_walls();
   void traverse(double radius_m);
 
@@ -74,6 +76,8 @@ class ModelledExploration {
   double time_s_;
   double way_m_ = 0.0;
   int scans_ = 0;
+  std::optional<PartialScans> partial_scans_;  ///< none: every scan is a whole one
+  std::vector<std::size_t> images_;            ///< of the scan to come; none: all
 };
 
 }  // namespace vantage::bench

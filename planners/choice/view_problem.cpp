@@ -18,10 +18,6 @@
 namespace vantage {
 namespace {
 
-CellBlocks blocks_of(const GridFrame& frame, double block_m) {
-  return {frame.cells, (block_m / frame.cell_size_m.array()).round().cast<int>().max(1)};
-}
-
 /// Ways from the robot are those that the candidates have, pulled straight.
 Eigen::MatrixXd travel_times_s(const ViewPlanningInput& input) {
   Eigen::MatrixXd lengths_m = path_lengths_m(input.paths, input.places_m, input.threads);
@@ -93,6 +89,21 @@ PlanningProblem with_ways(const ViewPlanningInput& input, const ViewPlanningOpti
   return problem;
 }
 
+/// Takes whole scans for scans of the images that are worth their time, where it is known in which
+/// direction views show what.
+/// @return those images; none where all scans stay whole
+ImagesOfViews take_partial_scans(const ViewPlanningInput& input, const CellBlocks& blocks,
+                                 PlanningProblem& problem) {
+  const PartialScans* scans = input.partial_scans;
+  if (scans == nullptr || problem.cells.size() != blocks.size()) return {};
+  const GridFrame& frame = input.map.grid.frame;
+  ImagesOfViews taken = worthwhile_images(*scans, frame, blocks, input.candidates, problem);
+  problem.scan_share = shares_of_scan(scans->images, taken);
+  leave_to_images(scans->images, taken, frame, blocks, input.candidates, problem.cells,
+                  problem.shows);
+  return taken;
+}
+
 /// Of the gain, if it can be swept.
 std::optional<Attenuation> attenuation_of(const ViewPlanningInput& input) {
   if (!can_sweep(input.gain)) return std::nullopt;
@@ -141,18 +152,24 @@ PlanningProblem make_view_problem(const ViewPlanningInput& input,
   const std::optional<Attenuation> attenuation = attenuation_of(input);
   const double unit = attenuation ? attenuation->utility : 1.0;
   PlanningProblem problem = with_ways(input, options, shown_by(input, options, attenuation), unit);
+  const CellBlocks planned_blocks = blocks_of(input.map.grid.frame, options.block_m);
+  const ImagesOfViews taken = take_partial_scans(input, planned_blocks, problem);
   if (input.map.transmission == nullptr) return problem;
   // Most choices draw nothing.
   auto belief = std::make_shared<std::optional<const DrawableMap>>();
   std::vector<Candidate> views(input.candidates.begin(), input.candidates.end());
-  problem.draw = [=, map = input.map, field = input.field_of_view,
-                  threads = input.threads](Rng& rng) {
+  problem.draw = [=, map = input.map, field = input.field_of_view, threads = input.threads,
+                  partial = input.partial_scans](Rng& rng) {
     if (!*belief) belief->emplace(map, options.drawn_cells);
     const OccupancyGrid& grid = (*belief)->grid();
     const CellBlocks blocks = blocks_of(grid.frame, options.block_m);
     Attenuation drawn = (*belief)->draw(rng);
     drawn.utility *= unit;
-    return swept_blocks(drawn, grid, views, field, blocks, threads);
+    ShownBlocks shown = swept_blocks(drawn, grid, views, field, blocks, threads);
+    if (!taken.empty()) {
+      leave_to_images(partial->images, taken, grid.frame, blocks, views, shown.cells, shown.shows);
+    }
+    return shown;
   };
   return problem;
 }
@@ -161,7 +178,10 @@ PlanningProblem make_true_view_problem(const ViewPlanningInput& input,
                                        const ViewPlanningOptions& options) {
   // Nothing is beyond what all views show where they are all there are.
   const ViewPlanningOptions here{.block_m = options.block_m, .beyond_m = 0.0};
-  return with_ways(input, here, truly_shown(input, blocks_of(input.map.grid.frame, here.block_m)));
+  const CellBlocks blocks = blocks_of(input.map.grid.frame, here.block_m);
+  PlanningProblem problem = with_ways(input, here, truly_shown(input, blocks));
+  take_partial_scans(input, blocks, problem);
+  return problem;
 }
 
 }  // namespace vantage

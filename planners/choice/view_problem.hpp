@@ -8,6 +8,7 @@
 
 #include "vantage/core/fields.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/choice/partial_scans.hpp"
 #include "vantage/planners/gain.hpp"
 #include "vantage/planners/navigation/path_field.hpp"
 #include "vantage/planners/navigation/travel_time.hpp"
@@ -48,6 +49,7 @@ struct ViewPlanningInput {
   double elapsed_s =
       0.0;  ///< since the start, for the pace at which cells are observed; 0: unknown
   int threads = 1;
+  const PartialScans* partial_scans = nullptr;  ///< null: every scan is a whole one
 };
 
 /// Candidates out of reach are views that are infinitely far. A gain that cannot be swept counts

@@ -8,7 +8,7 @@ PlannedViews InformationRate::operator()(const PlanningProblem& problem, Rng& /*
   const std::vector<std::size_t> views = affordable_views(problem);
   if (views.empty()) return {};
   const auto rate = [&](std::size_t view) {
-    return gain_of(problem, view) / (problem.leg_s(problem.here(), view) + problem.scan_s);
+    return gain_of(problem, view) / (problem.leg_s(problem.here(), view) + problem.scan_s_of(view));
   };
   return {.order = {*std::ranges::max_element(views, {}, rate)}};  // of equals the first
 }

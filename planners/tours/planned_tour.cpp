@@ -78,7 +78,7 @@ PlannedTour planned_tour(const PlanningProblem& problem, FormerPlan former,
     stop.place_m = problem.place_m[view];
     stop.arrival_s = time_s + problem.leg_s(at, view);
     stop.gain = gain.add(view);
-    stop.departure_s = stop.arrival_s + problem.scan_s;
+    stop.departure_s = stop.arrival_s + problem.scan_s_of(view);
     if (plan.costs) {
       stop.beyond = problem.beyond_of(view);
       stop.departure_s += problem.dwell_s(view);

@@ -11,6 +11,7 @@ void PlanningProblem::check() const {
   const auto n = static_cast<Eigen::Index>(views());
   expects(travel_s.rows() == n + 1 && travel_s.cols() == n, "a travel time from and to each view");
   expects(place_m.size() == views(), "a place of each view");
+  expects(scan_share.empty() || scan_share.size() == views(), "a share of a scan for each view");
   expects(beyond.empty() || beyond.size() == views(), "what lies beyond each view");
   expects(!intended || *intended < views(), "a view of the problem is intended");
   expects(home_s.empty() || home_s.size() == views() + 1,
@@ -46,13 +47,14 @@ double gain_of(const PlanningProblem& problem, std::size_t view) {
 bool is_affordable(const PlanningProblem& problem, std::span<const std::size_t> order) {
   if (order.size() > problem.left.scans) return false;
   double driven_s = 0.0;
+  double scanned_s = 0.0;
   std::size_t at = problem.here();
   for (const std::size_t view : order) {
     driven_s += problem.leg_s(at, view);
+    scanned_s += problem.scan_s_of(view);
     at = view;
   }
   if (!std::isfinite(driven_s)) return false;
-  const double scanned_s = static_cast<double>(order.size()) * problem.scan_s;
   if (!problem.home_s.empty()) driven_s += problem.home_s[at];
   return driven_s + scanned_s <= problem.left.time_s &&
          problem.energy_j(driven_s, scanned_s) <= problem.left.energy_j;

@@ -47,9 +47,10 @@ struct PlanningProblem {
   double pace_per_s = 0.0;     ///< at which it was observed; 0: unknown, nothing beyond counts
   Eigen::MatrixXd travel_s;    ///< (n + 1) x n, from row to column; row n is where the robot stands
   std::vector<double> home_s;  ///< per view, and last from here: the way home; empty: none is kept
-  double scan_s = 0.0;
-  double driving_w = 0.0;   ///< power while driving
-  double scanning_w = 0.0;  ///< power while scanning
+  double scan_s = 0.0;         ///< of a whole scan
+  std::vector<double> scan_share;  ///< per view, of a whole scan's time; empty: whole scans alone
+  double driving_w = 0.0;          ///< power while driving
+  double scanning_w = 0.0;         ///< power while scanning
   Allowance left;
   /// The view that the plan before wanted next, if it is still among these.
   std::optional<std::size_t> intended;
@@ -62,6 +63,9 @@ struct PlanningProblem {
   [[nodiscard]] std::size_t here() const { return views(); }
   [[nodiscard]] double leg_s(std::size_t from, std::size_t to) const {
     return travel_s(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(to));
+  }
+  [[nodiscard]] double scan_s_of(std::size_t view) const {
+    return scan_share.empty() ? scan_s : scan_share[view] * scan_s;
   }
   [[nodiscard]] double beyond_of(std::size_t view) const {
     return beyond.empty() || pace_per_s <= 0.0 ? 0.0 : beyond[view];

@@ -81,7 +81,7 @@ class TourSearch {
       // Without ways between them, regions are best taken by falling cells per time. [Smith1956]
       const double beyond = problem_.beyond_of(view);
       const double dwell_s = problem_.dwell_s(view);
-      time_s += problem_.leg_s(at, view) + objective_.scan_weight * problem_.scan_s;
+      time_s += problem_.leg_s(at, view) + objective_.scan_weight * problem_.scan_s_of(view);
       weighted += adds_[view] * time_s + beyond * (time_s + 0.5 * dwell_s);
       time_s += dwell_s;
       shown += adds_[view] + beyond;

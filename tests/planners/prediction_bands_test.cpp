@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "vantage/core/rng.hpp"
 #include "vantage/geometry/view_cone.hpp"
@@ -48,6 +49,46 @@ TEST(PredictionBands, AddUpToTheGainOfTheView) {
   ASSERT_EQ(bands.size(), 4U);  // 0.5 three times, then what is left: 0.7
   EXPECT_DOUBLE_EQ(bands[3].from_m, 1.5);
   EXPECT_DOUBLE_EQ(bands[3].to_m, 2.2);
+}
+
+/// Cell by cell, of one sweep: what is looked at and what is not add up to all of it, band by band.
+TEST(PredictionBands, OfWhatIsInSightAreTheirPart) {
+  Rng rng(3);
+  const OccupancyGrid grid = cluttered(rng);
+  const Attenuation attenuation{.transmission = uniform_field(grid.frame.cells, 0.97)};
+  const Pose T_world_sensor = make_pose({0.3, -0.2, 1.1}, 0.4);
+  const auto bands_of = [&](const InSight& in_sight) {
+    return predict_by_distance(attenuation, grid, T_world_sensor, all_round_within(2.2), 0.5, 2,
+                               in_sight);
+  };
+  const auto left = [](const Eigen::Vector3d& p) { return p.y() > 0.3; };
+  const auto whole = bands_of({});
+  const auto in_sight = bands_of(left);
+  const auto rest = bands_of([&](const Eigen::Vector3d& p) { return !left(p); });
+  ASSERT_EQ(in_sight.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(in_sight[i].from_m, whole[i].from_m);
+    EXPECT_EQ(in_sight[i].to_m, whole[i].to_m);
+    EXPECT_GT(in_sight[i].predicted_cells, 0.1 * whole[i].predicted_cells);
+    EXPECT_LT(in_sight[i].predicted_cells, 0.6 * whole[i].predicted_cells);
+    EXPECT_NEAR(in_sight[i].predicted_cells + rest[i].predicted_cells, whole[i].predicted_cells,
+                1e-3 * whole[i].predicted_cells + 1.0);
+  }
+}
+
+TEST(PredictionBands, NewCellsOutOfSightAreOutside) {
+  const OccupancyGrid before(room());
+  OccupancyGrid after = before;
+  for (const double y_m : {-0.45, 0.35, 0.45}) {
+    after.log_odds[after.frame.index(after.frame.cell_at({0.05, y_m, 1.05}))] = 1.0F;
+  }
+  std::vector<PredictionBand> bands{{0.0, 1.0, 0.0, 0, 0}};
+  // The sensor looks along the world's y axis: that is ahead.
+  count_new_cells(before, after, make_pose({0.0, 0.0, 1.0}, std::numbers::pi / 2.0),
+                  all_round_within(1.0), bands,
+                  [](const Eigen::Vector3d& p) { return p.x() > 0.0; });
+  EXPECT_EQ(bands[0].actual_cells, 3U);
+  EXPECT_EQ(bands[0].outside_cells, 1U);
 }
 
 /// Nothing in the way: every unobserved cell of a band is seen.

@@ -8,6 +8,7 @@
 
 #include "vantage/belief/map/floor_detail.hpp"
 #include "vantage/belief/map/headroom.hpp"
+#include "vantage/planners/gaze_choice.hpp"
 #include "vantage/planners/views/frontiers.hpp"
 #include "vantage/planners/views/left_forecast.hpp"
 #include "vantage/runtime/episode_run.hpp"
@@ -49,6 +50,7 @@ struct Exploration : MappingOptions {
                                      .source = "Potthast2016, chapter 3; Yamauchi1997"};
 
   HeadSweep sweep;
+  GazeOptions gaze;
   RgbdOptions camera{.tells_far = true};
   FrontierOptions frontiers{.min_cells = 60, .height_m = 1.47, .height_band_m = {{0.2, 1.7}}};
   HeadroomOptions headroom;
@@ -70,6 +72,7 @@ struct Exploration : MappingOptions {
   void fields(auto&& f) {
     MappingOptions::fields(f);
     f("sweep", sweep, "where the head turns the camera at each stop");
+    f("gaze", gaze, "which images of the sweep a scan takes");
     f("camera", camera, "RGB-D camera on the robot's head");
     f("frontiers", frontiers, "how frontiers are found and clustered into candidate views");
     f("headroom", headroom, "which places on the floor are blocked by what is above them");

@@ -69,6 +69,7 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
       traversed_(navigator_.floor().size(), 0) {
   navigator_.use_passages(task_.passages, task_.floor_detail);
   if (const FloorMap* detail = navigator_.detail()) traversed_detail_.assign(detail->size(), 0);
+  if (task.gaze.chooses()) partial_scans_ = PartialScans{robot.sweep_images(), task.gaze};
   if (task.localisation.loops.close) {
     navigator_.close_loops(task.localisation.loops, task.registration, task.odometry);
   }
@@ -91,7 +92,7 @@ ExplorationObservation ExplorationParts::observe() {
   }
   return observed([this] {
     return first_usable<ExplorationObservation>([this](ExplorationObservation& observation) {
-      observation = exploring_robot_.observe();
+      observation = exploring_robot_.observe(images_);
       return keep_usable(observation, last_image_);
     });
   });
@@ -231,12 +232,21 @@ void ExplorationParts::act(const Candidate& candidate) {
   visit(place_of(candidate.T_world_sensor), task_.taken_m);
   const Approach approached = approach(candidate, std::nullopt);
   current_.fallback = !candidate.reachable || !approached.reached;
-  if (approached.reached) {
-    predict(candidate.T_world_sensor);
-    return;
-  }
-  warn_not_reached(candidate, approached);
-  predict(robot_.estimated_sensor());  // of the place the scan will be taken from
+  if (!approached.reached) warn_not_reached(candidate, approached);
+  if (partial_scans_) return choose_images();
+  // Of the place the scan will be taken from.
+  predict(approached.reached ? candidate.T_world_sensor : robot_.estimated_sensor());
+}
+
+void ExplorationParts::choose_images() {
+  const SweepImages& sweep = partial_scans_->images;
+  const Pose T_world_sweep = robot_.estimated_sensor();
+  images_ = images_worth_taking(T_world_sweep, robot_.time_s() - scans_.back().time_s);
+  current_.scan_share =
+      static_cast<double>(images_.size()) / static_cast<double>(sweep.gazes.size());
+  predict(T_world_sweep, [sweep, images = images_](const Eigen::Vector3d& p) {
+    return sweep.any_shows(images, p);
+  });
 }
 
 }  // namespace vantage

@@ -34,6 +34,8 @@ class ExplorationParts : public MappingParts {
   void block_floor();
   void correct_map(const PoseCorrection& correction);
   void visit(const Eigen::Vector2d& p_m, double radius_m);
+  /// Where the robot stands now: takes the images that are worth their time.
+  void choose_images();
   /// @param all those of all frontiers, not only of the largest
   std::vector<Candidate> find_views(bool all);
   void judge_what_is_left();
@@ -46,7 +48,8 @@ class ExplorationParts : public MappingParts {
   std::vector<std::uint8_t> traversed_;         ///< per floor cell: the robot has traversed it
   std::vector<std::uint8_t> traversed_detail_;  ///< the same of the finer map
   Eigen::Vector2d p_start_m_ = Eigen::Vector2d::Zero();
-  std::size_t path_traversed_ = 0;  ///< points of the path so far
+  std::size_t path_traversed_ = 0;   ///< points of the path so far
+  std::vector<std::size_t> images_;  ///< of the scan to come; none: all
   VisitedPlaces visited_;
   std::vector<std::size_t> visited_at_;  ///< keyframe of each
   CameraImages last_image_;              ///< that came

@@ -1,8 +1,11 @@
 /// Robot interface of the exploration task: a mobile robot with an RGB-D camera on its head.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
+#include "vantage/geometry/gaze.hpp"
 #include "vantage/tasks/mapping/driving/mobile_robot_interface.hpp"
 
 namespace vantage {
@@ -22,8 +25,11 @@ struct ExplorationObservation {
 
 class ExplorationRobotInterface : public MobileRobotInterface {
  public:
-  /// Turns the head all round while the base stands. @throws Interrupted, RendererError
-  virtual ExplorationObservation observe() = 0;
+  /// Turns the head round while the base stands. @throws Interrupted, RendererError
+  /// @param images of sweep_images() that are taken, ascending; none: all of them
+  virtual ExplorationObservation observe(std::span<const std::size_t> images) = 0;
+  /// Those of a whole sweep.
+  [[nodiscard]] virtual const SweepImages& sweep_images() const = 0;
   /// Where a sweep is taken from: on the head's pan axis, x along the base's.
   [[nodiscard]] virtual const Pose& T_base_sweep() const = 0;
 };

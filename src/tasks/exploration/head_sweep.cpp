@@ -41,6 +41,17 @@ std::vector<double> pan_angles_rad(const HeadSweep& sweep) {
   return pans_rad;
 }
 
+SweepImages images_of(const HeadSweep& sweep, const RgbdOptions& camera) {
+  const double half_height = std::tan(0.5 * camera.fovy_rad);
+  SweepImages images{.gazes = {},
+                     .tan_half_width = half_height * camera.width_px / camera.height_px,
+                     .tan_half_height = half_height};
+  for (const double tilt_rad : sweep.tilts_rad) {
+    for (const double pan_rad : pan_angles_rad(sweep)) images.gazes.push_back({pan_rad, tilt_rad});
+  }
+  return images;
+}
+
 FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera, double camera_ahead_m) {
   check_options(sweep, "sweep");
   const double half_fovy_rad = 0.5 * camera.fovy_rad;

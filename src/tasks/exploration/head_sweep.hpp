@@ -5,6 +5,7 @@
 
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/field_of_view.hpp"
+#include "vantage/geometry/gaze.hpp"
 #include "vantage/sim/sensors/camera_options.hpp"
 
 namespace vantage {
@@ -24,6 +25,8 @@ struct HeadSweep {
 
 /// Pan angles of a row, evenly round, ascending.
 std::vector<double> pan_angles_rad(const HeadSweep& sweep);
+/// Row by row, as pan_angles_rad() has them.
+SweepImages images_of(const HeadSweep& sweep, const RgbdOptions& camera);
 /// What the images of a sweep see from the head's pan axis in every direction. Nearer than
 /// range_min_m space is seen empty, though no surface is.
 /// @param camera_ahead_m how far the camera is before the axis: it sees so much farther

@@ -95,10 +95,10 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
                                                      const Exploration& task)
     : DrivenByBase(setup.options, task, ModelSource{setup.scene, setup.robot.mjcf},
                    [&](World& world) { return placed_robot(world, setup, task); }),
-      sweep_(task.sweep),
       camera_(task.camera),
+      images_(images_of(task.sweep, camera_)),
       T_base_sweep_(find_sweep_pose(base_.world(), base_.robot())),
-      field_(swept_field(sweep_, camera_, camera_ahead_m(base_.world(), base_.robot()))),
+      field_(swept_field(task.sweep, camera_, camera_ahead_m(base_.world(), base_.robot()))),
       renderer_(
           make_offscreen_renderer(base_.world().model(), camera_.width_px, camera_.height_px)),
       camera_noise_(Rng::stream(setup.options.seed, "camera")),
@@ -109,24 +109,37 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
   base_.note_localisation(task.registration, setup.options.seed, start_notes_);
 }
 
-ExplorationObservation SimulatedExplorationRobot::observe() {
+/// Every other row backwards: it begins where the one before ended.
+std::vector<Gaze> SimulatedExplorationRobot::gazes_in_turn(
+    std::span<const std::size_t> images) const {
+  std::vector<Gaze> gazes;
+  for (const std::size_t image : images) gazes.push_back(images_.gazes[image]);
+  if (images.empty()) gazes = images_.gazes;
+  bool backwards = false;
+  for (auto row = gazes.begin(); row != gazes.end(); backwards = !backwards) {
+    const auto end = std::find_if(row, gazes.end(),
+                                  [&](const Gaze& gaze) { return gaze.tilt_rad != row->tilt_rad; });
+    if (backwards) std::reverse(row, end);
+    row = end;
+  }
+  return gazes;
+}
+
+ExplorationObservation SimulatedExplorationRobot::observe(std::span<const std::size_t> images) {
   base_.robot().command_twist(base_.world(), {});
   ExplorationObservation observation;
   std::vector<double> taken_s;
-  std::vector<double> pans_rad = pan_angles_rad(sweep_);
-  observation.views.reserve(pans_rad.size() * sweep_.tilts_rad.size());
+  const std::vector<Gaze> gazes = gazes_in_turn(images);
+  observation.views.reserve(gazes.size());
   std::future<void> measuring;  // of an image, while the head turns to the next
-  for (const double tilt_rad : sweep_.tilts_rad) {
-    for (const double pan_rad : pans_rad) {
-      turn_head(pan_rad, tilt_rad);
-      observation.views.push_back(draw_image());
-      taken_s.push_back(base_.world().time_s());
-      if (measuring.valid()) measuring.get();
-      measuring = std::async(measuring_, [this, &drawn = observation.views.back().image] {
-        measure_depth(drawn, camera_, camera_noise_);
-      });
-    }
-    std::ranges::reverse(pans_rad);  // the next row begins where this one ends
+  for (const Gaze& gaze : gazes) {
+    turn_head(gaze);
+    observation.views.push_back(draw_image());
+    taken_s.push_back(base_.world().time_s());
+    if (measuring.valid()) measuring.get();
+    measuring = std::async(measuring_, [this, &drawn = observation.views.back().image] {
+      measure_depth(drawn, camera_, camera_noise_);
+    });
   }
   measuring.get();
   observation.views = arriving(std::move(observation.views), taken_s);
@@ -148,8 +161,8 @@ std::vector<HeadView> SimulatedExplorationRobot::arriving(std::vector<HeadView> 
   return views;
 }
 
-void SimulatedExplorationRobot::turn_head(double pan_rad, double tilt_rad) {
-  base_.robot().command_head(base_.world(), pan_rad, tilt_rad);
+void SimulatedExplorationRobot::turn_head(const Gaze& gaze) {
+  base_.robot().command_head(base_.world(), gaze.pan_rad, gaze.tilt_rad);
   for (int i = 0; i < kMaxTicks; ++i) {
     const double pan_before = base_.robot().head_pan_rad(base_.world());
     const double tilt_before = base_.robot().head_tilt_rad(base_.world());

@@ -20,7 +20,8 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
   /// @throws ConfigError, InputError if the episode cannot begin
   SimulatedExplorationRobot(const EpisodeSetup& setup, const Exploration& task);
 
-  ExplorationObservation observe() override;
+  ExplorationObservation observe(std::span<const std::size_t> images) override;
+  [[nodiscard]] const SweepImages& sweep_images() const override { return images_; }
   [[nodiscard]] const Pose& T_base_sweep() const override { return T_base_sweep_; }
   [[nodiscard]] Pose estimated_sensor() const override;
   [[nodiscard]] Pose2 base_for_sensor(const Pose& T_world_sweep) const override;
@@ -30,12 +31,13 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
   [[nodiscard]] const std::vector<std::string>& start_notes() const { return start_notes_; }
 
  private:
-  void turn_head(double pan_rad, double tilt_rad);
+  [[nodiscard]] std::vector<Gaze> gazes_in_turn(std::span<const std::size_t> images) const;
+  void turn_head(const Gaze& gaze);
   HeadView draw_image();
   std::vector<HeadView> arriving(std::vector<HeadView> taken, std::span<const double> taken_s);
 
-  HeadSweep sweep_;
   RgbdOptions camera_;
+  SweepImages images_;
   Pose T_base_sweep_;
   FieldOfView field_;
   std::unique_ptr<Renderer> renderer_;

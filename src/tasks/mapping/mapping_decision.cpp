@@ -1,10 +1,12 @@
 // Decisions of the parts that all mapping tasks share: what views are worth, and which is taken.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
 
 #include "vantage/core/log.hpp"
+#include "vantage/planners/swept_blocks.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/tours/joint_gain.hpp"
 #include "vantage/tasks/mapping/mapping_parts.hpp"
@@ -128,6 +130,25 @@ double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
   return joint_gain(problem, all);
 }
 
+/// By the gain in use, or by `adaptive` where that says nothing of directions.
+std::vector<std::size_t> MappingParts::images_worth_taking(const Pose& T_world_sensor,
+                                                           double way_s) const {
+  const Gain gain = can_sweep(options_.gain) ? options_.gain : Gain{AdaptiveGain{}};
+  const BlockField of_unobserved = transmission();
+  const OccupancyGrid& grid = belief_.filled_grid();
+  const Attenuation attenuation = attenuation_of(gain, {grid, &of_unobserved});
+  const CellBlocks blocks = blocks_of(grid.frame, options_.planning.block_m);
+  std::array<Candidate, 1> view;
+  view.front().T_world_sensor = T_world_sensor;
+  const ShownBlocks shown = swept_blocks(attenuation, grid, view, robot_.view_field(), blocks, 1);
+  const SeenBlocks seen{grid.frame, blocks, shown.cells, shown.shows.front(), T_world_sensor};
+  const auto known = static_cast<double>(grid.size() - grid.count(CellState::unobserved));
+  const auto& [images, gaze] = *partial_scans_;
+  const double image_s = budget_.rates().scan_s() / static_cast<double>(images.gazes.size());
+  return worthwhile_images(
+      {gains_of_images(images, seen), image_s, way_s, attenuation.utility * known}, gaze);
+}
+
 /// Where no view can be planned for, the nearest one: navigation goes as near as it can.
 std::size_t MappingParts::next_of_plan(std::vector<Candidate>& candidates) {
   const BlockField of_unobserved = transmission();
@@ -140,6 +161,7 @@ std::size_t MappingParts::next_of_plan(std::vector<Candidate>& candidates) {
                               .budget = budget_,
                               .threads = episode_.threads,
                               .scans_left = static_cast<std::size_t>(std::max(1, scans_left())),
+                              .partial_scans = partial_scans_ ? &*partial_scans_ : nullptr,
                               .former = former_,
                               .intended_m = intended_m_};
   std::vector<Candidate> later;

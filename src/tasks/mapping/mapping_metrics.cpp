@@ -59,6 +59,7 @@ Json scan_json(const ScanRecord& scan) {
           {"plan_time_s", scan.plan_time_s},
           {"map_time_s", scan.map_time_s},
           {"scan_time_s", scan.scan_time_s},
+          {"scan_share", scan.scan_share},
           {"energy_j", scan.energy_j},
           {"path_length_m", scan.path_length_m},
           {"leg_length_m", scan.leg_length_m},

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "vantage/core/log.hpp"
 #include "vantage/core/names.hpp"
@@ -17,7 +18,7 @@ namespace vantage {
 namespace {
 
 /// NaN if that gain was not recorded.
-double predicted_by(const ScanRecord& scan, std::string_view gain) {
+double recorded_prediction(const ScanRecord& scan, std::string_view gain) {
   const auto found =
       std::ranges::find(scan.predicted_cells, gain, &std::pair<std::string, double>::first);
   return found == scan.predicted_cells.end() ? std::numeric_limits<double>::quiet_NaN()
@@ -167,13 +168,13 @@ BlockField MappingParts::transmission() const {
 std::vector<PredictionBand> MappingParts::forecast(double hazard_factor, double width_m) const {
   return predict_by_distance(
       {.transmission = calibration_.transmission(belief_.hazard().transmission(), hazard_factor)},
-      belief_.filled_grid(), T_world_predicted_, robot_.view_field(), width_m, 1);
+      belief_.filled_grid(), T_world_predicted_, robot_.view_field(), width_m, 1, in_sight_);
 }
 
 /// The first scan is left out: nothing was learnt yet.
 void MappingParts::hold_forecast_against(const OccupancyGrid& before) {
   count_new_cells(before, belief_.grid(), T_world_predicted_, robot_.view_field(),
-                  current_.by_distance);
+                  current_.by_distance, in_sight_);
   current_.actual_new_cells = 0.0;
   for (const PredictionBand& band : current_.by_distance) {
     current_.actual_new_cells += static_cast<double>(band.actual_cells);
@@ -214,18 +215,33 @@ void MappingParts::warn_not_reached(const Candidate& view, const Approach& appro
 }
 
 /// The belief stays as it is until its next update: until then there is time.
-void MappingParts::predict(const Pose& T_world_sensor) {
+void MappingParts::predict(const Pose& T_world_sensor, InSight in_sight) {
   if (prediction_.valid()) prediction_.wait();
   T_world_predicted_ = T_world_sensor;
+  in_sight_ = std::move(in_sight);
   prediction_ = std::async(in_background(), [this] { return predicted(); });
+}
+
+/// Of the scan to come; what is seen in which direction only gains tell that can be swept.
+double MappingParts::predicted_by(const Gain& gain) const {
+  if (!in_sight_ || !can_sweep(gain)) {
+    std::array<Candidate, 1> view;
+    view.front().T_world_sensor = T_world_predicted_;
+    return gains_bits(gain, view, 1).front();
+  }
+  const BlockField of_unobserved = transmission();
+  const OccupancyGrid& grid = belief_.filled_grid();
+  const FieldOfView field = robot_.view_field();
+  return predict_by_distance(attenuation_of(gain, {grid, &of_unobserved}), grid, T_world_predicted_,
+                             field, field.range_max_m, 1, in_sight_)
+      .front()
+      .predicted_cells;
 }
 
 MappingParts::Prediction MappingParts::predicted() const {
   Prediction prediction;
-  std::array<Candidate, 1> view;
-  view.front().T_world_sensor = T_world_predicted_;
   for (const auto& [label, gain] : predictors_) {
-    prediction.cells.emplace_back(label, gains_bits(gain, view, 1).front());
+    prediction.cells.emplace_back(label, predicted_by(gain));
   }
   prediction.by_distance = forecast(1.0, options_.metrics.distance_band_m);
   if (options_.forecast.calibrate) {
@@ -250,7 +266,7 @@ MapPanelInput MappingParts::panel() const {
         static_cast<double>(scan.observable_unobserved_cells));
   }
   if (!scans_.empty()) {
-    input.predicted_new_cells = predicted_by(scans_.back(), strategy_label(options_.gain));
+    input.predicted_new_cells = recorded_prediction(scans_.back(), strategy_label(options_.gain));
     input.actual_new_cells = scans_.back().actual_new_cells;
   }
   input.grid = &belief_.grid();

@@ -93,7 +93,11 @@ class MappingParts {
   void correct_records(const PoseCorrection& correction, const Pose& T_base_sensor);
   const ScanRecord& record_scan();
   /// What the scan to come will show, seen from there.
-  void predict(const Pose& T_world_sensor);
+  /// @param in_sight what of the field it looks at; none: all of it
+  void predict(const Pose& T_world_sensor, InSight in_sight = {});
+  /// Of a scan from there, which it has taken so long to get to; there are partial_scans_.
+  [[nodiscard]] std::vector<std::size_t> images_worth_taking(const Pose& T_world_sensor,
+                                                             double way_s) const;
   [[nodiscard]] std::vector<double> gains_bits(const Gain& gain, std::span<const Candidate> views,
                                                int threads) const;
   /// Drives to a view, or as near as possible; see Navigator::approach().
@@ -117,6 +121,7 @@ class MappingParts {
   MappingRecorder& recorder_;
   Navigator navigator_;
   BudgetKeeper budget_;
+  std::optional<PartialScans> partial_scans_;  ///< none: every scan is a whole one
   std::vector<Candidate> views_;
   bool views_have_gains_ = false;
   PlannedTour tour_;  ///< of the last decision, if its choice planned ahead
@@ -148,6 +153,7 @@ class MappingParts {
   void note_pose_sigmas(std::span<ScanRecord* const> records) const;
   [[nodiscard]] BlockField transmission() const;
   [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
+  [[nodiscard]] double predicted_by(const Gain& gain) const;
   [[nodiscard]] Prediction predicted() const;
   [[nodiscard]] std::launch in_background() const;
   void hold_forecast_against(const OccupancyGrid& before);
@@ -161,6 +167,7 @@ class MappingParts {
   ForecastInterval interval_;
   double at_half_cells_ = 0.0;                 ///< of the scan to come, with half the hazard
   Pose T_world_predicted_ = Pose::Identity();  ///< of the sensor, for the scan to come
+  InSight in_sight_;                           ///< of it, for the scan to come
   Rng choice_rng_;
   std::future<Prediction> prediction_;  ///< under way since predict(); reads the above
 };

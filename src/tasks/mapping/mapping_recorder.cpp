@@ -83,6 +83,7 @@ constexpr auto kScanTexts = std::to_array<std::pair<std::string_view, std::strin
     {"scans[].plan_time_s", "wall, of the decision that led here"},
     {"scans[].map_time_s", "wall, of registration and map update"},
     {"scans[].scan_time_s", "simulated, of the scan"},
+    {"scans[].scan_share", "of a whole scan's images that were taken"},
     {"scans[].path_length_m", "way of the base, from the start"},
     {"scans[].leg_length_m", "of it since the scan before"},
     {"scans[].pose_error_m", kPoseError},

@@ -45,7 +45,8 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
       .travel_time = situation.budget.rates().travel_time(),
       .scan_s = situation.budget.rates().scan_s(),
       .elapsed_s = situation.robot.time_s(),
-      .threads = situation.threads};
+      .threads = situation.threads,
+      .partial_scans = situation.partial_scans};
   PlanningProblem problem = knows_truth(options.choice)
                                 ? make_true_view_problem(input, options.planning)
                                 : make_view_problem(input, options.planning);

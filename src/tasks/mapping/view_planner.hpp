@@ -32,6 +32,7 @@ struct PlanningSituation {
   /// really are.
   std::span<const Candidate> later = {};
   const PathField* true_paths = nullptr;
+  const PartialScans* partial_scans = nullptr;  ///< null: every scan is a whole one
   FormerPlan former = FormerPlan::none;
   std::optional<Eigen::Vector2d> intended_m = {};  ///< where the last plan wanted to scan next
 };

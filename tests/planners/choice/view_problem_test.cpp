@@ -305,5 +305,129 @@ TEST(ViewProblem, HasBlocksAsLargeAsTheyAreSaidToBe) {
   EXPECT_EQ(blocks(0.01), 16000U) << "a cell at least";
 }
 
+/// Four images all round, each a little more than a quarter.
+PartialScans quarters(const GazeOptions& gaze) {
+  PartialScans scans{.images = {.gazes = {}, .tan_half_width = 1.0, .tan_half_height = 2.0},
+                     .gaze = gaze};
+  for (int i = 0; i < 4; ++i) scans.images.gazes.push_back({1.5707963267948966 * i, 0.0});
+  return scans;
+}
+
+TEST(ViewProblem, OfPartialScansHasTheImagesThatAreWorthTheirTime) {
+  const Room room;
+  ViewPlanningInput input = room.input(SimpleGain{});
+  const PlanningProblem whole = make_view_problem(input, {});
+  const PartialScans scans = quarters({.worth = 1.0});
+  input.partial_scans = &scans;
+  const PlanningProblem partial = make_view_problem(input, {});
+  ASSERT_EQ(partial.scan_share.size(), 3U);
+  EXPECT_EQ(partial.scan_s, 7.0);
+  for (std::size_t view = 0; view < 3; ++view) {
+    const double share = partial.scan_share[view];
+    EXPECT_GE(share, 0.25);
+    EXPECT_LT(share, 1.0);
+    EXPECT_EQ(partial.scan_s_of(view), 7.0 * share);
+    EXPECT_GT(gain_of(partial, view), share * gain_of(whole, view)) << "the best images";
+    EXPECT_LT(gain_of(partial, view), gain_of(whole, view));
+    for (const std::uint32_t block : partial.shows[view].block) {
+      EXPECT_TRUE(std::ranges::binary_search(whole.shows[view].block, block));
+    }
+  }
+  EXPECT_TRUE(whole.scan_share.empty());
+  EXPECT_EQ(whole.scan_s_of(1), 7.0);
+}
+
+TEST(ViewProblem, DrawsWhatPartialScansShow) {
+  const Room room;
+  ViewPlanningInput input = room.input(SimpleGain{});
+  const PartialScans scans = quarters({.worth = 1.0});
+  const auto drawn_gain = [&](const PartialScans* partial) {
+    input.partial_scans = partial;
+    PlanningProblem problem = make_view_problem(input, {.drawn_cells = 1});
+    Rng rng(4);
+    ShownBlocks shown = problem.draw(rng);
+    problem.cells = shown.cells;
+    problem.shows = shown.shows;
+    return gain_of(problem, 1);
+  };
+  EXPECT_LT(drawn_gain(&scans), 0.95 * drawn_gain(nullptr));
+  EXPECT_GT(drawn_gain(&scans), 0.25 * drawn_gain(nullptr));
+}
+
+TEST(ViewProblem, OfTruthHasPartialScansToo) {
+  Room room;
+  // The first view shows what is above y = 1 and x = -1 to its left, nothing else.
+  for (Candidate& view : room.views) {
+    auto shown = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
+    for (std::size_t cell = 0; view.id == 0 && cell < room.grid.size(); ++cell) {
+      const Eigen::Array3i at = room.grid.frame.cell(cell);
+      if (at.y() >= 32 && at.x() >= 8 && at.x() < 12) (*shown)[cell / 64] |= 1ULL << (cell % 64);
+    }
+    view.true_new_cell_set = shown;
+  }
+  ViewPlanningInput input = room.input(SimpleGain{});
+  const PartialScans scans = quarters({.worth = 1.0});
+  input.partial_scans = &scans;
+  const PlanningProblem problem = make_true_view_problem(input, {});
+  EXPECT_EQ(problem.scan_share[0], 0.25) << "one image shows all of it";
+  EXPECT_NEAR(gain_of(problem, 0), 4.0 * 8.0 * 10.0, 1e-2);
+}
+
+TEST(ViewProblem, ScansStayWholeWhereNothingIsKnownOfDirections) {
+  const Room room;
+  ViewPlanningInput input = room.input(FsmiGain{});
+  const PartialScans scans = quarters({.worth = 1.0});
+  input.partial_scans = &scans;
+  EXPECT_TRUE(make_view_problem(input, {}).scan_share.empty());
+}
+
+/// A view that nothing leads to yet might be come to from anywhere.
+TEST(ViewProblem, AScanOutOfReachStaysWhole) {
+  Room room;
+  for (Candidate& view : room.views) view.reachable = false;
+  room.places_m = {{-1.0, 0.5}, {9.0, 0.5}, {1.0, 0.6}};
+  ViewPlanningInput input = room.input(SimpleGain{});
+  const PartialScans scans = quarters({.worth = 1.0});
+  input.partial_scans = &scans;
+  const PlanningProblem problem = make_view_problem(input, {});
+  EXPECT_EQ(problem.scan_share[1], 1.0);
+  EXPECT_LT(problem.scan_share[0], 1.0) << "one can come from the third";
+}
+
+/// Of 8000 known cells. The first view shows 320 cells to its left and 160 ahead.
+TEST(ViewProblem, AnImageIsTakenFromAShareOfTheKnownCellsOn) {
+  Room room;
+  for (Candidate& view : room.views) {
+    auto shown = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
+    const auto show = [&](int x_begin, int y_begin) {
+      for (int x = x_begin; x < x_begin + 4; ++x) {
+        for (int y = y_begin; y < y_begin + 4; ++y) {
+          for (int z = 0; z < 10; ++z) {
+            const std::size_t cell = room.grid.frame.index({x, y, z});
+            (*shown)[cell / 64] |= 1ULL << (cell % 64);
+          }
+        }
+      }
+    };
+    if (view.id == 0) {  // stands at cell (10, 25)
+      show(8, 36);
+      show(12, 36);
+      show(28, 24);
+    }
+    view.true_new_cell_set = shown;
+  }
+  ViewPlanningInput input = room.input(SimpleGain{});
+  const auto expect = [&](double share, double images, double cells) {
+    const PartialScans scans = quarters({.share = share});
+    input.partial_scans = &scans;
+    const PlanningProblem problem = make_true_view_problem(input, {});
+    EXPECT_EQ(problem.scan_share[0], 0.25 * images) << share;
+    EXPECT_NEAR(gain_of(problem, 0), cells, 1e-2) << share;
+  };
+  expect(0.019, 2.0, 480.0);  // 152
+  expect(0.021, 1.0, 320.0);  // 168
+  expect(0.05, 1.0, 320.0);   // 400: the best one all the same
+}
+
 }  // namespace
 }  // namespace vantage

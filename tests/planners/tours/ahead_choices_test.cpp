@@ -38,6 +38,13 @@ test::Order order_of(const auto& choice, const PlanningProblem& problem, std::ui
   return choice(problem, rng).order;
 }
 
+TEST(InformationRate, CountsTheShareOfAScanThatIsTaken) {
+  PlanningProblem problem = on_a_line({5.0, -5.0}, {10.0F, 11.0F});
+  EXPECT_EQ(order_of(InformationRate{}, problem), test::Order{1});
+  problem.scan_share = {0.1, 1.0};
+  EXPECT_EQ(order_of(InformationRate{}, problem), test::Order{0});
+}
+
 TEST(InformationRate, TakesTheMostASecond) {
   // 10 / 3, 30 / 12, 100 / 22 cells a second
   const PlanningProblem problem = on_a_line({1.0, -10.0, 20.0}, {10.0F, 30.0F, 100.0F});

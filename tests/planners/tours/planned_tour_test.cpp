@@ -210,5 +210,31 @@ TEST(PlanningProblemDeathTest, NamesWhatDoesNotFit) {
   EXPECT_DEATH(check([](PlanningProblem& p) { p.shows[1].block.back() = 3; }), "blocks of the");
 }
 
+/// Arrivals at 10 and 25 s of whole scans; half of the first one saves 2.5 s.
+TEST(PlannedTour, LeavesAPartialScanSooner) {
+  PlanningProblem problem = three_views();
+  problem.scan_share = {0.5, 1.0, 0.2};
+  const PlannedTour tour = planned_tour(problem, FormerPlan::none, {{0, 1, 2}});
+  EXPECT_EQ(tour.stops[0].departure_s, 12.5);
+  EXPECT_EQ(tour.stops[1].arrival_s, 22.5);
+  EXPECT_EQ(tour.stops[1].departure_s, 27.5);
+  EXPECT_EQ(tour.stops[2].departure_s, 33.5);
+}
+
+TEST(PartialScans, AreAffordableSooner) {
+  PlanningProblem problem = three_views();
+  problem.scan_share = {0.5, 1.0, 0.2};
+  problem.scanning_w = 10.0;
+  problem.left.time_s = 27.5;
+  EXPECT_TRUE(is_affordable(problem, std::vector<std::size_t>{0, 1}));
+  problem.left.time_s = 27.4;
+  EXPECT_FALSE(is_affordable(problem, std::vector<std::size_t>{0, 1}));
+  problem.left = {};
+  problem.left.energy_j = 75.0;
+  EXPECT_TRUE(is_affordable(problem, std::vector<std::size_t>{0, 1}));
+  problem.left.energy_j = 74.0;
+  EXPECT_FALSE(is_affordable(problem, std::vector<std::size_t>{0, 1}));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -38,6 +38,14 @@ TEST(TourCost, IsTheMeanTimeUntilSeenAndTheEnd) {
               (30.0 * 3.0 + 10.0 * 3.0) / 40.0 + 100.0 * 10.0 / 40.0, 1e-9);
 }
 
+TEST(TourCost, CountsOfAScanTheShareThatIsTaken) {
+  PlanningProblem problem = two_views();
+  problem.scan_share = {1.0, 0.25};
+  const test::Order both{1, 0};  // seen at 1.5 s and 7.5 s
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0}, both), 7.5, 1e-9);
+  EXPECT_NEAR(tour_cost_s(problem, {.finish_weight = 1.0, .scan_weight = 2.0}, both), 10.0, 1e-9);
+}
+
 TEST(TourCost, HoldsWhatIsLeftOutAgainstAllThereIs) {
   PlanningProblem problem = two_views();
   problem.seen = 160.0;  // of 200

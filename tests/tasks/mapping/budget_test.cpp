@@ -47,6 +47,18 @@ TEST(SpendingRates, AreLearntFromScans) {
   EXPECT_NEAR(rates.scanning_w(), 100.0, 1e-9);
 }
 
+TEST(SpendingRates, TakeTheTimeOfAScanFromWholeOnes) {
+  SpendingRates rates = known_rates();
+  ScanRecord scan;
+  scan.scan_time_s = 7.0;
+  scan.scan_share = 0.25;
+  rates.observe(scan, nullptr);
+  EXPECT_EQ(rates.scan_s(), 20.0);
+  scan.scan_share = 1.0;
+  rates.observe(scan, nullptr);
+  EXPECT_EQ(rates.scan_s(), 7.0);
+}
+
 TEST(SpendingRates, TakeNoDriveThatEndedShortOfItsGoal) {
   SpendingRates rates(0.6);
   const double before_s = rates.travel_time().of_m(5.0);

@@ -16,7 +16,7 @@ constexpr double kReserve_s = 6.0;
 }  // namespace
 
 void SpendingRates::observe(const ScanRecord& scan, const ScanRecord* before) {
-  scan_s_ = scan.scan_time_s;
+  if (scan.scan_share >= 1.0) scan_s_ = scan.scan_time_s;
   scanned_s_ += scan.scan_time_s;
   scanned_j_ += scan.scan_energy_j;
   const double since_s = before == nullptr ? 0.0 : before->time_s;

@@ -45,7 +45,7 @@ class SpendingRates {
   }
 
   TravelTime travel_time_;
-  double scan_s_ = 0.0;  ///< of the last scan
+  double scan_s_ = 0.0;  ///< of the last whole scan
   double driven_s_ = 0.0;
   double driven_j_ = 0.0;
   double scanned_s_ = 0.0;

@@ -1,0 +1,107 @@
+// Scans that take some images of a sweep alone: what the robot takes, and what is expected of them.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/support/overrides.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/replayed.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/tasks/exploration/exploration.hpp"
+#include "vantage/tasks/exploration/simulated_exploration_robot.hpp"
+#include "vantage/tasks/run.hpp"
+
+namespace vantage {
+namespace {
+
+ResolvedEpisode small_office(const std::vector<std::string>& more) {
+  set_verbosity(Verbosity::quiet);
+  std::vector<std::string> overrides = {"map.cells=[100,67,20]", "camera.width_px=160",
+                                        "camera.height_px=120", "stride_px=1",
+                                        "metrics.pose_spacing_m=2"};
+  overrides = support::overridden(std::move(overrides), more);
+  const auto episode =
+      std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml";
+  return load_episode(episode, overrides);
+}
+
+TEST(ImagesOfASweep, AreItsRowsOneAfterTheOther) {
+  RgbdOptions camera;
+  camera.width_px = 400;
+  camera.height_px = 200;
+  camera.fovy_rad = 1.0;
+  const SweepImages images = images_of({.pans = 3, .tilts_rad = {0.1, 0.5}}, camera);
+  ASSERT_EQ(images.gazes.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double pan = static_cast<double>(i % 3) - 1.0;
+    EXPECT_NEAR(images.gazes[i].pan_rad, pan * 2.0 * std::numbers::pi / 3.0, 1e-12);
+    EXPECT_EQ(images.gazes[i].tilt_rad, i < 3 ? 0.1 : 0.5);
+  }
+  EXPECT_NEAR(images.tan_half_height, std::tan(0.5), 1e-12);
+  EXPECT_NEAR(images.tan_half_width, 2.0 * std::tan(0.5), 1e-12);
+}
+
+/// The second row backwards, from where the first one ends.
+TEST(ExplorationRobot, TakesTheImagesThatItIsAskedFor) {
+  const ResolvedEpisode episode = small_office({});
+  SimulatedExplorationRobot robot(episode.setup, std::get<Exploration>(episode.task));
+  const SweepImages& sweep = robot.sweep_images();
+  ASSERT_EQ(sweep.gazes.size(), 18U);
+  const double start_s = robot.time_s();
+  const auto some = robot.observe(std::vector<std::size_t>{2, 3, 12, 14});
+  const double some_s = robot.time_s() - start_s;
+  ASSERT_EQ(some.views.size(), 4U);
+  const std::vector<std::size_t> in_turn{2, 3, 14, 12};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector3d ahead = some.views[i].T_base_camera.linear().col(2);
+    EXPECT_GT(ahead.dot(direction_of(sweep.gazes[in_turn[i]])), std::cos(0.02)) << i;
+  }
+  const auto all = robot.observe({});
+  EXPECT_EQ(all.views.size(), 18U);
+  EXPECT_LT(some_s, 0.4 * (robot.time_s() - start_s - some_s));
+}
+
+TEST(PartialScans, OfAnEpisodeShowWhatIsExpectedOfThem) {
+  const support::TemporaryDirectory folder;
+  const auto metrics =
+      nlohmann::json::parse(run(small_office({"scans=4", "gaze.worth=0.5", "choice=tour"}),
+                                {folder.path() / "run", true, false, {}})
+                                .metrics);
+  ASSERT_EQ(metrics["scans"].size(), 4U);
+  EXPECT_EQ(metrics["scans"][0]["scan_share"], 1.0) << "nothing is known yet";
+  const double whole_s = metrics["scans"][0]["scan_time_s"];
+  double left_out = 0.0;
+  double predicted_sum = 0.0;
+  double actual_sum = 0.0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    const auto& scan = metrics["scans"][i];
+    const double share = scan["scan_share"];
+    const double images = 18.0 * share;
+    EXPECT_NEAR(images, std::round(images), 1e-9);
+    EXPECT_GE(images, 1.0);
+    left_out += 1.0 - share;
+    EXPECT_NEAR(scan["scan_time_s"].get<double>(), whole_s * share, 0.15 * whole_s);
+    const double actual = scan["actual_new_cells"];
+    double outside = 0.0;
+    double predicted = 0.0;
+    for (const auto& band : scan["by_distance"]) {
+      outside += band["outside_cells"].get<double>();
+      predicted += band["predicted_cells"].get<double>();
+    }
+    EXPECT_LT(outside, 0.1 * actual) << "what is predicted for is what is looked at";
+    EXPECT_NEAR(scan["predicted"]["adaptive"].get<double>(), predicted, 1e-6 * predicted + 1e-6);
+    predicted_sum += predicted;
+    actual_sum += actual;
+  }
+  EXPECT_GT(left_out, 0.3);
+  EXPECT_NEAR(predicted_sum, actual_sum, 0.2 * actual_sum);
+  const ReplayResult again = support::replayed(folder.path() / "run");
+  EXPECT_FALSE(again.first_difference) << again.what;
+}
+
+}  // namespace
+}  // namespace vantage
