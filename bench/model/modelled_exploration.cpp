@@ -1,7 +1,6 @@
 #include "bench/model/modelled_exploration.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -9,7 +8,6 @@
 
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
-#include "vantage/planners/swept_blocks.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/sim/sensors/laser.hpp"
 #include "vantage/tasks/exploration/frontier_views.hpp"
@@ -106,8 +104,10 @@ void ModelledExploration::scan() {
   for (std::size_t cell = 0; cell < grid_.size(); ++cell) {
     const bool is_seen = (seen[cell / 64] >> (cell % 64) & 1U) != 0;
     if (!is_seen || grid_.state(cell) != CellState::unobserved) continue;
-    const Eigen::Vector3d p_sweep = T_sweep_world * grid_.frame.centre(grid_.frame.cell(cell));
-    if (!images_.empty() && !sweep.any_shows(images_, p_sweep)) continue;
+    if (!images_.empty() &&
+        !sweep.any_shows(images_, T_sweep_world * grid_.frame.centre(grid_.frame.cell(cell)))) {
+      continue;
+    }
     ++shown;
     grid_.log_odds[cell] = surface[cell] != 0 ? 3.0F : -3.0F;
   }
@@ -161,18 +161,15 @@ bool ModelledExploration::go_on() {
 
 void ModelledExploration::choose_images(double way_s) {
   const BlockField transmission = hazard_.transmission();
-  const CellBlocks blocks = blocks_of(grid_.frame, task_.planning.block_m);
-  std::array<Candidate, 1> view;
-  view.front().T_world_sensor = to_se3(pose_) * building_.robot.T_base_sweep();
-  const ShownBlocks shown = swept_blocks(attenuation_of(task_.gain, {grid_, &transmission}), grid_,
-                                         view, building_.robot.view_field(), blocks, 1);
-  const SeenBlocks seen{grid_.frame, blocks, shown.cells, shown.shows.front(),
-                        view.front().T_world_sensor};
-  const auto& [sweep, gaze] = *partial_scans_;
-  const auto known = static_cast<double>(grid_.size() - grid_.count(CellState::unobserved));
-  images_ = worthwhile_images({gains_of_images(sweep, seen),
-                               kScan_s / static_cast<double>(sweep.gazes.size()), way_s, known},
-                              gaze);
+  const Attenuation attenuation = attenuation_of(task_.gain, {grid_, &transmission});
+  images_ = worthwhile_images(*partial_scans_,
+                              {.grid = grid_,
+                               .attenuation = attenuation,
+                               .field_of_view = building_.robot.view_field(),
+                               .T_world_sweep = to_se3(pose_) * building_.robot.T_base_sweep(),
+                               .block_m = task_.planning.block_m,
+                               .scan_s = kScan_s,
+                               .way_s = way_s});
 }
 
 std::size_t ModelledExploration::chosen(const PathField& paths, std::vector<Candidate>& views) {

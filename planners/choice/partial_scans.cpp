@@ -1,11 +1,13 @@
 #include "vantage/planners/choice/partial_scans.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "vantage/core/error.hpp"
+#include "vantage/planners/swept_blocks.hpp"
 
 namespace vantage {
 namespace {
@@ -25,6 +27,7 @@ std::vector<std::size_t> all_images(const SweepImages& images) {
 }
 
 }  // namespace
+
 CellBlocks blocks_of(const GridFrame& frame, double block_m) {
   return {frame.cells, (block_m / frame.cell_size_m.array()).round().cast<int>().max(1)};
 }
@@ -47,6 +50,22 @@ ImagesOfViews worthwhile_images(const PartialScans& scans, const GridFrame& fram
         {gains_of_images(scans.images, seen), image_s, way_s, problem.seen}, scans.gaze));
   }
   return taken;
+}
+
+std::vector<std::size_t> worthwhile_images(const PartialScans& scans, const ScanToCome& scan) {
+  const OccupancyGrid& grid = scan.grid;
+  const CellBlocks blocks = blocks_of(grid.frame, scan.block_m);
+  std::array<Candidate, 1> view;
+  view.front().T_world_sensor = scan.T_world_sweep;
+  const ShownBlocks shown =
+      swept_blocks(scan.attenuation, grid, view, scan.field_of_view, blocks, 1);
+  const SeenBlocks seen{grid.frame, blocks, shown.cells, shown.shows.front(), scan.T_world_sweep};
+  const auto known = static_cast<double>(grid.size() - grid.count(CellState::unobserved));
+  return worthwhile_images({.gains = gains_of_images(scans.images, seen),
+                            .image_s = scan.scan_s / static_cast<double>(scans.images.gazes.size()),
+                            .way_s = scan.way_s,
+                            .known = scan.attenuation.utility * known},
+                           scans.gaze);
 }
 
 void leave_to_images(const SweepImages& images, const ImagesOfViews& taken, const GridFrame& frame,

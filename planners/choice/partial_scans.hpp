@@ -5,10 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/grid_frame.hpp"
+#include "vantage/geometry/pose.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/gaze_choice.hpp"
 #include "vantage/planners/tours/planning_problem.hpp"
+#include "vantage/planners/visibility/attenuated_ray.hpp"
 #include "vantage/planners/visibility/block_sums.hpp"
 
 namespace vantage {
@@ -30,6 +34,19 @@ using ImagesOfViews = std::vector<std::vector<std::size_t>>;
 ImagesOfViews worthwhile_images(const PartialScans& scans, const GridFrame& frame,
                                 const CellBlocks& blocks, std::span<const Candidate> views,
                                 const PlanningProblem& problem);
+
+/// A scan that is about to be taken.
+struct ScanToCome {
+  const OccupancyGrid& grid;
+  const Attenuation& attenuation;
+  FieldOfView field_of_view;
+  Pose T_world_sweep;
+  double block_m = 0.0;  ///< edge of the blocks by which it is told what is seen where
+  double scan_s = 0.0;   ///< of a whole scan, > 0
+  double way_s = 0.0;    ///< that it took to get there
+};
+/// Its images that are worth their time.
+std::vector<std::size_t> worthwhile_images(const PartialScans& scans, const ScanToCome& scan);
 
 /// What whole scans of the views show is left to these images. @param shows one of each view
 void leave_to_images(const SweepImages& images, const ImagesOfViews& taken, const GridFrame& frame,

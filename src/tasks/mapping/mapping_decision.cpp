@@ -1,12 +1,10 @@
 // Decisions of the parts that all mapping tasks share: what views are worth, and which is taken.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
 
 #include "vantage/core/log.hpp"
-#include "vantage/planners/swept_blocks.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/planners/tours/joint_gain.hpp"
 #include "vantage/tasks/mapping/mapping_parts.hpp"
@@ -137,16 +135,13 @@ std::vector<std::size_t> MappingParts::images_worth_taking(const Pose& T_world_s
   const BlockField of_unobserved = transmission();
   const OccupancyGrid& grid = belief_.filled_grid();
   const Attenuation attenuation = attenuation_of(gain, {grid, &of_unobserved});
-  const CellBlocks blocks = blocks_of(grid.frame, options_.planning.block_m);
-  std::array<Candidate, 1> view;
-  view.front().T_world_sensor = T_world_sensor;
-  const ShownBlocks shown = swept_blocks(attenuation, grid, view, robot_.view_field(), blocks, 1);
-  const SeenBlocks seen{grid.frame, blocks, shown.cells, shown.shows.front(), T_world_sensor};
-  const auto known = static_cast<double>(grid.size() - grid.count(CellState::unobserved));
-  const auto& [images, gaze] = *partial_scans_;
-  const double image_s = budget_.rates().scan_s() / static_cast<double>(images.gazes.size());
-  return worthwhile_images(
-      {gains_of_images(images, seen), image_s, way_s, attenuation.utility * known}, gaze);
+  return worthwhile_images(*partial_scans_, {.grid = grid,
+                                             .attenuation = attenuation,
+                                             .field_of_view = robot_.view_field(),
+                                             .T_world_sweep = T_world_sensor,
+                                             .block_m = options_.planning.block_m,
+                                             .scan_s = budget_.rates().scan_s(),
+                                             .way_s = way_s});
 }
 
 /// Where no view can be planned for, the nearest one: navigation goes as near as it can.
