@@ -17,6 +17,7 @@ namespace vantage {
 struct GazeOptions {
   double worth = 0.0;
   double share = 0.0;
+  double on_the_way_m = 0.0;
   void fields(auto&& f) {
     f("worth", worth,
       "an image is taken if it promises at least so many times the new cells a second that the "
@@ -27,6 +28,10 @@ struct GazeOptions {
       "an image is taken if it promises at least so many new cells, as a share of the known ones; "
       "higher leaves more to scans to come, or for ever; 0: any is worth it",
       between(0.0, 0.1));
+    f("on_the_way_m", on_the_way_m,
+      "distance driven between images that are taken while driving, each where most is promised; "
+      "higher takes fewer; 0: none",
+      between(0.0, 100.0));
   }
   [[nodiscard]] bool chooses() const { return worth > 0.0 || share > 0.0; }
 };

@@ -53,8 +53,8 @@ Finding against_greedy(const StudyTables& study, const std::string& table, doubl
 Finding ahead_by_planning(const StudyTables& study, const std::string& table) {
   return held(
       "goal",
-      fmt::format("of choices that all leave out what is not worth its time `tour` is ahead "
-                  "of `greedy` in `{}`, beyond the interval",
+      fmt::format("of choices that all leave out what is not worth its time and look on the way "
+                  "`tour` is ahead of `greedy` in `{}`, beyond the interval",
                   table),
       [&]() -> Measured {
         const Race against = bench::race(study, table, kPanel, kTour, kPartialGreedy);

@@ -161,15 +161,12 @@ bool ModelledExploration::go_on() {
 
 void ModelledExploration::choose_images(double way_s) {
   const BlockField transmission = hazard_.transmission();
-  const Attenuation attenuation = attenuation_of(task_.gain, {grid_, &transmission});
-  images_ = worthwhile_images(*partial_scans_,
-                              {.grid = grid_,
-                               .attenuation = attenuation,
-                               .field_of_view = building_.robot.view_field(),
-                               .T_world_sweep = to_se3(pose_) * building_.robot.T_base_sweep(),
-                               .block_m = task_.planning.block_m,
-                               .scan_s = kScan_s,
-                               .way_s = way_s});
+  const Lookout lookout{.grid = grid_,
+                        .attenuation = attenuation_of(task_.gain, {grid_, &transmission}),
+                        .field_of_view = building_.robot.view_field(),
+                        .T_world_sweep = to_se3(pose_) * building_.robot.T_base_sweep(),
+                        .block_m = task_.planning.block_m};
+  images_ = worthwhile_images(*partial_scans_, {lookout, kScan_s, way_s});
 }
 
 std::size_t ModelledExploration::chosen(const PathField& paths, std::vector<Candidate>& views) {

@@ -52,19 +52,25 @@ ImagesOfViews worthwhile_images(const PartialScans& scans, const GridFrame& fram
   return taken;
 }
 
-std::vector<std::size_t> worthwhile_images(const PartialScans& scans, const ScanToCome& scan) {
-  const OccupancyGrid& grid = scan.grid;
-  const CellBlocks blocks = blocks_of(grid.frame, scan.block_m);
+std::vector<double> gains_of_images(const SweepImages& images, const Lookout& lookout) {
+  const OccupancyGrid& grid = lookout.grid;
+  const CellBlocks blocks = blocks_of(grid.frame, lookout.block_m);
   std::array<Candidate, 1> view;
-  view.front().T_world_sensor = scan.T_world_sweep;
+  view.front().T_world_sensor = lookout.T_world_sweep;
   const ShownBlocks shown =
-      swept_blocks(scan.attenuation, grid, view, scan.field_of_view, blocks, 1);
-  const SeenBlocks seen{grid.frame, blocks, shown.cells, shown.shows.front(), scan.T_world_sweep};
-  const auto known = static_cast<double>(grid.size() - grid.count(CellState::unobserved));
-  return worthwhile_images({.gains = gains_of_images(scans.images, seen),
+      swept_blocks(lookout.attenuation, grid, view, lookout.field_of_view, blocks, 1);
+  return gains_of_images(
+      images, {grid.frame, blocks, shown.cells, shown.shows.front(), lookout.T_world_sweep});
+}
+
+std::vector<std::size_t> worthwhile_images(const PartialScans& scans, const ScanToCome& scan) {
+  const Lookout& lookout = scan.lookout;
+  const auto known =
+      static_cast<double>(lookout.grid.size() - lookout.grid.count(CellState::unobserved));
+  return worthwhile_images({.gains = gains_of_images(scans.images, lookout),
                             .image_s = scan.scan_s / static_cast<double>(scans.images.gazes.size()),
                             .way_s = scan.way_s,
-                            .known = scan.attenuation.utility * known},
+                            .known = lookout.attenuation.utility * known},
                            scans.gaze);
 }
 

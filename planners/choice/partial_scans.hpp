@@ -35,15 +35,22 @@ ImagesOfViews worthwhile_images(const PartialScans& scans, const GridFrame& fram
                                 const CellBlocks& blocks, std::span<const Candidate> views,
                                 const PlanningProblem& problem);
 
-/// A scan that is about to be taken.
-struct ScanToCome {
+/// Where images are about to be taken from.
+struct Lookout {
   const OccupancyGrid& grid;
-  const Attenuation& attenuation;
+  Attenuation attenuation;
   FieldOfView field_of_view;
   Pose T_world_sweep;
   double block_m = 0.0;  ///< edge of the blocks by which it is told what is seen where
-  double scan_s = 0.0;   ///< of a whole scan, > 0
-  double way_s = 0.0;    ///< that it took to get there
+};
+/// Per image of a sweep from there, what it is expected to show; see gaze_choice.hpp.
+std::vector<double> gains_of_images(const SweepImages& images, const Lookout& lookout);
+
+/// A scan that is about to be taken.
+struct ScanToCome {
+  Lookout lookout;
+  double scan_s = 0.0;  ///< of a whole scan, > 0
+  double way_s = 0.0;   ///< that it took to get there
 };
 /// Its images that are worth their time.
 std::vector<std::size_t> worthwhile_images(const PartialScans& scans, const ScanToCome& scan);

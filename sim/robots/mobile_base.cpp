@@ -219,6 +219,10 @@ double MobileBase::lift_m(const World& world) const {
 }
 double MobileBase::head_pan_rad(const World& world) const { return position(world, head().pan); }
 double MobileBase::head_tilt_rad(const World& world) const { return position(world, head().tilt); }
+double MobileBase::head_rate_rad_s(const World& world) const {
+  const mjtNum* rates = world.data().qvel;
+  return std::max(std::abs(rates[head().pan.dof]), std::abs(rates[head().tilt.dof]));
+}
 double MobileBase::laser_tilt_rad(const World& world) const {
   return position(world, laser().tilt);
 }
@@ -243,8 +247,7 @@ Twist2 MobileBase::twist(const World& world) const {
     return in_base(qvel[slides->x.dof], qvel[slides->y.dof], qvel[slides->yaw.dof],
                    position(world, slides->yaw));
   }
-  const mjtNum* v =
-      qvel + std::get<Wheels>(drive_).dof;  // linear in the world, angular in the body
+  const mjtNum* v = qvel + std::get<Wheels>(drive_).dof;  // linear in world, angular in body
   return in_base(v[0], v[1], v[5], T_world_base(world).yaw_rad);
 }
 
@@ -283,9 +286,8 @@ std::vector<int> MobileBase::touched_by_turning(const World& world) const {
   for (int i = 0; i < kHeadings; ++i) {
     turn(*copy, 2.0 * std::numbers::pi / kHeadings);
     mj_fwdPosition(&world.model(), copy.get());
-    for (const int geom : contact_points(world.model(), *copy, base_body_, on_floor_)) {
-      geoms.insert(geom);
-    }
+    const auto touched = contact_points(world.model(), *copy, base_body_, on_floor_);
+    geoms.insert(touched.begin(), touched.end());
   }
   return {geoms.begin(), geoms.end()};
 }

@@ -43,6 +43,7 @@ class MobileBase {
   [[nodiscard]] double lift_m(const World& world) const;  ///< 0 without a lift
   [[nodiscard]] double head_pan_rad(const World& world) const;
   [[nodiscard]] double head_tilt_rad(const World& world) const;
+  [[nodiscard]] double head_rate_rad_s(const World& world) const;  ///< the faster of both joints
   [[nodiscard]] double laser_tilt_rad(const World& world) const;
   [[nodiscard]] AngleRange laser_tilt_range() const;
   [[nodiscard]] double lift_max_m() const { return lift_ ? lift_->max : 0.0; }

@@ -91,14 +91,19 @@ TEST(WorthwhileImages, AreAllWhereNoneShowsAnythingButForTheShare) {
 TEST(GazeOptions, TakeAllImagesUnlessAsked) {
   EXPECT_EQ(GazeOptions{}.worth, 0.0);
   EXPECT_EQ(GazeOptions{}.share, 0.0);
+  EXPECT_EQ(GazeOptions{}.on_the_way_m, 0.0);
   EXPECT_FALSE(GazeOptions{}.chooses());
   EXPECT_TRUE(GazeOptions{.worth = 0.1}.chooses());
   EXPECT_TRUE(GazeOptions{.share = 0.001}.chooses());
+  EXPECT_FALSE(GazeOptions{.on_the_way_m = 1.0}.chooses()) << "of a scan";
   EXPECT_NO_THROW(check_options(GazeOptions{10.0, 0.1}, "gaze"));
   EXPECT_THROW(check_options(GazeOptions{10.1, 0.0}, "gaze"), ConfigError);
   EXPECT_THROW(check_options(GazeOptions{-0.1, 0.0}, "gaze"), ConfigError);
   EXPECT_THROW(check_options(GazeOptions{0.0, 0.11}, "gaze"), ConfigError);
   EXPECT_THROW(check_options(GazeOptions{0.0, -0.001}, "gaze"), ConfigError);
+  EXPECT_NO_THROW(check_options(GazeOptions{.on_the_way_m = 100.0}, "gaze"));
+  EXPECT_THROW(check_options(GazeOptions{.on_the_way_m = 100.1}, "gaze"), ConfigError);
+  EXPECT_THROW(check_options(GazeOptions{.on_the_way_m = -0.1}, "gaze"), ConfigError);
 }
 
 /// Blocks of 2 cells in a grid of 8 x 8 x 2 m round the place that is seen from, which is turned by

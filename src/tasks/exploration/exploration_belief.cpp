@@ -76,6 +76,16 @@ BeliefUpdate ExplorationBelief::update(const ExplorationObservation& observation
   return report;
 }
 
+void ExplorationBelief::update(const HeadView& view, const Pose2& T_world_base) {
+  integrate({view}, T_world_base, task_.stride_px, task_.hazard_stride_px);
+}
+
+void ExplorationBelief::keep(const HeadView& view, const Pose2& T_keyframe_base,
+                             std::size_t keyframe) {
+  const HeadView from_keyframe{view.image, to_se3(T_keyframe_base) * view.T_base_camera};
+  kept_.push_back({thinned({from_keyframe}, task_.stride_px), keyframe});
+}
+
 void ExplorationBelief::keep(const ExplorationObservation& observation, std::size_t keyframe) {
   kept_.push_back({thinned(observation.views, task_.stride_px), keyframe});
 }
@@ -90,7 +100,7 @@ void ExplorationBelief::reintegrate(std::span<const Pose2> T_world_bases) {
   for (const KeptSweep& sweep : kept_) {
     integrate(sweep.views, T_world_bases[sweep.keyframe], 1, hazard_stride_px);
   }
-  fill(task_.hole_filling);
+  refill();
 }
 
 std::size_t ExplorationBelief::integrate(const std::vector<HeadView>& views, const Pose2& base,

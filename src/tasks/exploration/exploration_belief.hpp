@@ -12,8 +12,8 @@
 
 namespace vantage {
 
-/// A sweep as it is kept to be taken into a map again: every `stride_px`-th pixel of every so many
-/// rows, the middle ones where they do not come out even.
+/// A sweep, or an image taken on the way, as it is kept to be taken into a map again: every
+/// `stride_px`-th pixel of every so many rows, the middle ones where they do not come out even.
 struct KeptSweep {
   std::vector<HeadView> views;
   std::size_t keyframe = 0;  ///< of the navigator's, at which it was taken
@@ -31,6 +31,13 @@ class ExplorationBelief : public MapBelief {
   BeliefUpdate update(const ExplorationObservation& observation, const ReferenceMap& reference_map,
                       const Correction& plausible);
 
+  /// An image that was taken on the way, by the pose tracked there: measurements and free space.
+  void update(const HeadView& view, const Pose2& T_world_base);
+  /// Fills holes of the map as it is now.
+  void refill() { fill(task_.hole_filling); }
+
+  /// Keeps an image that was taken there, for reintegrate().
+  void keep(const HeadView& view, const Pose2& T_keyframe_base, std::size_t keyframe);
   /// Keeps what `observation` saw, for reintegrate().
   void keep(const ExplorationObservation& observation, std::size_t keyframe);
   /// Forgets map, clutter and cloud, and takes all that was kept into them from where it was seen.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "vantage/core/log.hpp"
 #include "vantage/perception/clouds/usable_readings.hpp"
@@ -31,6 +32,15 @@ void mark_disc(const FloorMap& floor, const Eigen::Vector2d& p_m, double radius_
   }
 }
 
+/// Discards readings that are none. @return false: it is stale
+/// @param last image that came, then this one
+bool keep_usable(CameraImages& image, CameraImages& last) {
+  discard_unusable(image);
+  if (is_repeated(last, image)) return false;
+  last.depth_m = image.depth_m;
+  return true;
+}
+
 /// Discards what says nothing: stale images, readings that are none. @return whether anything is
 /// left
 /// @param last of the observation before, then of this one
@@ -38,10 +48,7 @@ bool keep_usable(ExplorationObservation& observation, CameraImages& last) {
   discard_unusable(observation.base_scan);
   std::vector<HeadView> views;
   for (HeadView& view : observation.views) {
-    discard_unusable(view.image);
-    if (is_repeated(last, view.image)) continue;
-    last.depth_m = view.image.depth_m;
-    views.push_back(std::move(view));
+    if (keep_usable(view.image, last)) views.push_back(std::move(view));
   }
   observation.views = std::move(views);
   return std::ranges::any_of(observation.views, [](const HeadView& view) {
@@ -73,6 +80,7 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
   if (task.localisation.loops.close) {
     navigator_.close_loops(task.localisation.loops, task.registration, task.odometry);
   }
+  if (task.gaze.on_the_way_m > 0.0) navigator_.on_the_way = [this] { look_on_the_way(); };
 }
 
 /// The robot has been there.
@@ -230,12 +238,48 @@ std::vector<Candidate> ExplorationParts::find_views(bool all) {
 void ExplorationParts::act(const Candidate& candidate) {
   current_.chosen_view = candidate.id;
   visit(place_of(candidate.T_world_sensor), task_.taken_m);
+  last_look_.reset();
   const Approach approached = approach(candidate, std::nullopt);
+  if (last_look_) belief_.refill();
   current_.fallback = !candidate.reachable || !approached.reached;
   if (!approached.reached) warn_not_reached(candidate, approached);
   if (partial_scans_) return choose_images();
   // Of the place the scan will be taken from.
   predict(approached.reached ? candidate.T_world_sensor : robot_.estimated_sensor());
+}
+
+/// What the image shows is in the map at once: the next look is to be at something else. Holes are
+/// filled when the robot is there.
+void ExplorationParts::look_on_the_way() {
+  constexpr double kSteady_rad = 0.02;  // turned since it was last told
+  if (scans_.empty()) return;           // it turns once before the first
+  const Pose2 base = robot_.estimated_base();
+  const double turned_rad =
+      wrap_angle(base.yaw_rad - std::exchange(yaw_on_the_way_rad_, base.yaw_rad));
+  if (last_look_) {
+    const double gone_m = std::hypot(base.x_m - last_look_->x_m, base.y_m - last_look_->y_m);
+    if (gone_m < task_.gaze.on_the_way_m || std::abs(turned_rad) > kSteady_rad ||
+        !exploring_robot_.head_rests()) {
+      return;
+    }
+    take_image(base);
+  }
+  last_look_ = base;
+  const SweepImages& sweep = exploring_robot_.sweep_images();
+  const auto gains = gains_of_images(sweep, lookout(belief_.grid(), robot_.estimated_sensor()));
+  const auto best = std::ranges::max_element(gains) - gains.begin();
+  exploring_robot_.look(sweep.gazes[static_cast<std::size_t>(best)]);
+}
+
+void ExplorationParts::take_image(const Pose2& T_world_base) {
+  auto view = exploring_robot_.take_image();
+  if (!view || !keep_usable(view->image, last_image_)) return;
+  belief_.update(*view, T_world_base);
+  ++current_.images_on_the_way;
+  if (navigator_.loops() == nullptr) return;
+  const auto& remembered = navigator_.loops()->remembered();
+  belief_.keep(*view, compose(inverse(remembered.back().T_world_base), T_world_base),
+               remembered.size() - 1);
 }
 
 void ExplorationParts::choose_images() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ class ExplorationParts : public MappingParts {
   void block_floor();
   void correct_map(const PoseCorrection& correction);
   void visit(const Eigen::Vector2d& p_m, double radius_m);
+  /// While it drives: takes an image now and then, and turns the head to where the next promises
+  /// most.
+  void look_on_the_way();
+  /// From there, by the pose tracked on the way, into the map.
+  void take_image(const Pose2& T_world_base);
   /// Where the robot stands now: takes the images that are worth their time.
   void choose_images();
   /// @param all those of all frontiers, not only of the largest
@@ -53,6 +59,8 @@ class ExplorationParts : public MappingParts {
   VisitedPlaces visited_;
   std::vector<std::size_t> visited_at_;  ///< keyframe of each
   CameraImages last_image_;              ///< that came
+  std::optional<Pose2> last_look_;       ///< on this way: where the last was taken
+  double yaw_on_the_way_rad_ = 0.0;      ///< when it was last told
   int poor_promises_ = 0;                ///< scans in a row after which no view was worth one more
 };
 

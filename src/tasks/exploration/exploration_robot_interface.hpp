@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,12 @@ class ExplorationRobotInterface : public MobileRobotInterface {
   /// Turns the head round while the base stands. @throws Interrupted, RendererError
   /// @param images of sweep_images() that are taken, ascending; none: all of them
   virtual ExplorationObservation observe(std::span<const std::size_t> images) = 0;
+  /// Turns the head while the base does what it does; returns at once.
+  virtual void look(const Gaze& gaze) = 0;
+  /// Whether an image would be sharp: neither joint of the head turns. The base may.
+  [[nodiscard]] virtual bool head_rests() const = 0;
+  /// One image from where the head is now, if it arrives. @throws RendererError
+  virtual std::optional<HeadView> take_image() = 0;
   /// Those of a whole sweep.
   [[nodiscard]] virtual const SweepImages& sweep_images() const = 0;
   /// Where a sweep is taken from: on the head's pan axis, x along the base's.

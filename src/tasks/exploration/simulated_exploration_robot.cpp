@@ -161,8 +161,25 @@ std::vector<HeadView> SimulatedExplorationRobot::arriving(std::vector<HeadView> 
   return views;
 }
 
-void SimulatedExplorationRobot::turn_head(const Gaze& gaze) {
+void SimulatedExplorationRobot::look(const Gaze& gaze) {
   base_.robot().command_head(base_.world(), gaze.pan_rad, gaze.tilt_rad);
+}
+
+bool SimulatedExplorationRobot::head_rests() const {
+  constexpr double kAtRest_rad_s = 0.05;  // a pixel while an image is exposed
+  return base_.robot().head_rate_rad_s(base_.world()) < kAtRest_rad_s;
+}
+
+std::optional<HeadView> SimulatedExplorationRobot::take_image() {
+  HeadView view = draw_image();
+  measure_depth(view.image, camera_, camera_noise_);
+  auto image = base_.faults().arriving(std::move(view.image), base_.world().time_s());
+  if (!image) return std::nullopt;
+  return HeadView{std::move(*image), view.T_base_camera};
+}
+
+void SimulatedExplorationRobot::turn_head(const Gaze& gaze) {
+  look(gaze);
   for (int i = 0; i < kMaxTicks; ++i) {
     const double pan_before = base_.robot().head_pan_rad(base_.world());
     const double tilt_before = base_.robot().head_tilt_rad(base_.world());

@@ -3,6 +3,7 @@
 
 #include <future>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ class SimulatedExplorationRobot : public DrivenByBase<ExplorationRobotInterface>
   SimulatedExplorationRobot(const EpisodeSetup& setup, const Exploration& task);
 
   ExplorationObservation observe(std::span<const std::size_t> images) override;
+  void look(const Gaze& gaze) override;
+  [[nodiscard]] bool head_rests() const override;
+  std::optional<HeadView> take_image() override;
   [[nodiscard]] const SweepImages& sweep_images() const override { return images_; }
   [[nodiscard]] const Pose& T_base_sweep() const override { return T_base_sweep_; }
   [[nodiscard]] Pose estimated_sensor() const override;

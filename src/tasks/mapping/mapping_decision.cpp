@@ -129,19 +129,20 @@ double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {
 }
 
 /// By the gain in use, or by `adaptive` where that says nothing of directions.
-std::vector<std::size_t> MappingParts::images_worth_taking(const Pose& T_world_sensor,
-                                                           double way_s) const {
+Lookout MappingParts::lookout(const OccupancyGrid& grid, const Pose& T_world_sensor) const {
   const Gain gain = can_sweep(options_.gain) ? options_.gain : Gain{AdaptiveGain{}};
   const BlockField of_unobserved = transmission();
-  const OccupancyGrid& grid = belief_.filled_grid();
-  const Attenuation attenuation = attenuation_of(gain, {grid, &of_unobserved});
-  return worthwhile_images(*partial_scans_, {.grid = grid,
-                                             .attenuation = attenuation,
-                                             .field_of_view = robot_.view_field(),
-                                             .T_world_sweep = T_world_sensor,
-                                             .block_m = options_.planning.block_m,
-                                             .scan_s = budget_.rates().scan_s(),
-                                             .way_s = way_s});
+  return {.grid = grid,
+          .attenuation = attenuation_of(gain, {grid, &of_unobserved}),
+          .field_of_view = robot_.view_field(),
+          .T_world_sweep = T_world_sensor,
+          .block_m = options_.planning.block_m};
+}
+
+std::vector<std::size_t> MappingParts::images_worth_taking(const Pose& T_world_sensor,
+                                                           double way_s) const {
+  return worthwhile_images(*partial_scans_, {lookout(belief_.filled_grid(), T_world_sensor),
+                                             budget_.rates().scan_s(), way_s});
 }
 
 /// Where no view can be planned for, the nearest one: navigation goes as near as it can.

@@ -60,6 +60,7 @@ Json scan_json(const ScanRecord& scan) {
           {"map_time_s", scan.map_time_s},
           {"scan_time_s", scan.scan_time_s},
           {"scan_share", scan.scan_share},
+          {"images_on_the_way", scan.images_on_the_way},
           {"energy_j", scan.energy_j},
           {"path_length_m", scan.path_length_m},
           {"leg_length_m", scan.leg_length_m},

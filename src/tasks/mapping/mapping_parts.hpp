@@ -95,6 +95,9 @@ class MappingParts {
   /// What the scan to come will show, seen from there.
   /// @param in_sight what of the field it looks at; none: all of it
   void predict(const Pose& T_world_sensor, InSight in_sight = {});
+  /// From where images are about to be taken.
+  /// @param grid outlives what is returned
+  [[nodiscard]] Lookout lookout(const OccupancyGrid& grid, const Pose& T_world_sensor) const;
   /// Of a scan from there, which it has taken so long to get to; there are partial_scans_.
   [[nodiscard]] std::vector<std::size_t> images_worth_taking(const Pose& T_world_sensor,
                                                              double way_s) const;

@@ -84,6 +84,7 @@ constexpr auto kScanTexts = std::to_array<std::pair<std::string_view, std::strin
     {"scans[].map_time_s", "wall, of registration and map update"},
     {"scans[].scan_time_s", "simulated, of the scan"},
     {"scans[].scan_share", "of a whole scan's images that were taken"},
+    {"scans[].images_on_the_way", "images taken while driving there (gaze.on_the_way_m)"},
     {"scans[].path_length_m", "way of the base, from the start"},
     {"scans[].leg_length_m", "of it since the scan before"},
     {"scans[].pose_error_m", kPoseError},

@@ -65,6 +65,59 @@ TEST(ExplorationRobot, TakesTheImagesThatItIsAskedFor) {
   EXPECT_LT(some_s, 0.4 * (robot.time_s() - start_s - some_s));
 }
 
+TEST(ExplorationRobot, LooksWhileTheBaseDoesWhatItDoes) {
+  const ResolvedEpisode episode = small_office({});
+  SimulatedExplorationRobot robot(episode.setup, std::get<Exploration>(episode.task));
+  const Gaze down_left{0.6, 0.7};
+  const double start_s = robot.time_s();
+  EXPECT_TRUE(robot.head_rests());
+  robot.look(down_left);
+  EXPECT_EQ(robot.time_s(), start_s) << "returns at once";
+  const Pose2 base = robot.estimated_base();
+  bool turned = false;
+  robot.drive_along(std::vector<Pose2>{base, compose(base, {0.8, 0.0, 0.0})}, 0.3, [&] {
+    turned = turned || !robot.head_rests();
+    return true;
+  });
+  EXPECT_TRUE(turned);
+  EXPECT_TRUE(robot.head_rests());
+  const auto view = robot.take_image();
+  ASSERT_TRUE(view);
+  EXPECT_GT(view->T_base_camera.linear().col(2).dot(direction_of(down_left)), std::cos(0.02));
+  EXPECT_EQ(view->image.depth_m.size(), 160U * 120U);
+  EXPECT_GT(robot.time_s(), start_s);
+}
+
+/// 3 scans, each image at least so far from the one before it.
+nlohmann::json driven(double on_the_way_m, const std::filesystem::path& folder) {
+  return nlohmann::json::parse(
+      run(small_office({"scans=3", "gaze.on_the_way_m=" + std::to_string(on_the_way_m)}),
+          {folder, true, false, {}})
+          .metrics);
+}
+
+TEST(ImagesOnTheWay, ShowMoreOfTheSameViews) {
+  const support::TemporaryDirectory folder;
+  const auto without = driven(0.0, folder.path() / "without");
+  const auto with = driven(0.5, folder.path() / "with");
+  EXPECT_EQ(with["scans"][0]["images_on_the_way"], 0) << "it has not driven yet";
+  int images = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    const auto& scan = with["scans"][i];
+    EXPECT_EQ(without["scans"][i]["images_on_the_way"], 0);
+    const int of_scan = scan["images_on_the_way"];
+    EXPECT_LE(of_scan, scan["leg_length_m"].get<double>() / 0.5);
+    images += of_scan;
+  }
+  EXPECT_GE(images, 2);
+  EXPECT_EQ(with["scans"][0]["unobserved_cells"], without["scans"][0]["unobserved_cells"]);
+  EXPECT_EQ(with["scans"][1]["chosen_view"], without["scans"][1]["chosen_view"]);
+  EXPECT_LT(with["scans"][1]["unobserved_cells"], without["scans"][1]["unobserved_cells"]);
+  EXPECT_GT(with["scans"][2]["precision"], 0.98);
+  const ReplayResult again = support::replayed(folder.path() / "with");
+  EXPECT_FALSE(again.first_difference) << again.what;
+}
+
 TEST(PartialScans, OfAnEpisodeShowWhatIsExpectedOfThem) {
   const support::TemporaryDirectory folder;
   const auto metrics =

@@ -84,6 +84,37 @@ TEST(Reintegration, IsAsIfAllHadBeenSeenFromThereAtFirst) {
   EXPECT_GT(fresh.grid().count(CellState::occupied), 100U);
 }
 
+/// The image was taken half a metre after its keyframe.
+TEST(Reintegration, MovesImagesThatWereTakenOnTheWayWithTheKeyframeBeforeThem) {
+  Rooms rooms(1);
+  rooms.task.stride_px = 1;
+  const Pose2 T_keyframe_base{0.5, 0.1, 0.4};
+  const HeadView view = sweep_at({}, 2.0).views.front();
+  ExplorationBelief belief(rooms.episode, rooms.task);
+  belief.update(view, compose(kBelieved[1], T_keyframe_base));
+  const OccupancyGrid as_believed = belief.grid();
+  belief.keep(view, T_keyframe_base, 1);
+  belief.reintegrate(kBelieved);
+  EXPECT_EQ(belief.grid().log_odds, as_believed.log_odds);
+  belief.reintegrate(kCorrected);
+  ExplorationBelief fresh(rooms.episode, rooms.task);
+  fresh.update(view, compose(kCorrected[1], T_keyframe_base));
+  EXPECT_EQ(belief.grid().log_odds, fresh.grid().log_odds);
+  EXPECT_NE(belief.grid().log_odds, as_believed.log_odds);
+  EXPECT_GT(belief.grid().count(CellState::occupied), 50U);
+}
+
+TEST(ExplorationBelief, FillsHolesOfImagesOnTheWayWhenToldTo) {
+  const Rooms rooms(1);
+  ExplorationBelief belief(rooms.episode, rooms.task);
+  belief.update(sweep_at({}, 2.0).views.front(), kBelieved[0]);
+  EXPECT_EQ(belief.filled_grid().count(CellState::occupied), 0U);
+  belief.refill();
+  EXPECT_GE(belief.filled_grid().count(CellState::occupied),
+            belief.grid().count(CellState::occupied));
+  EXPECT_GT(belief.grid().count(CellState::occupied), 50U);
+}
+
 TEST(Reintegration, DoesNotDependOnThreads) {
   EXPECT_EQ(made_anew(1).log_odds, made_anew(3).log_odds);
 }

@@ -269,6 +269,16 @@ TEST(BudgetKeeper, LooksForAShorterWayHomeBeforeItTurnsBack) {
   EXPECT_FALSE(open.navigator.may_go_on()) << "not even there in 2 s";
 }
 
+/// Its scanner sees nothing.
+TEST(Navigator, TellsNothingOfTheWayWhereItDoesNotKnowWhereItIs) {
+  OnOpenFloor open({});
+  int told = 0;
+  open.navigator.on_the_way = [&] { ++told; };
+  EXPECT_TRUE(open.navigator.approach({3.0, 0.0, 0.0}, std::nullopt).reached);
+  EXPECT_EQ(told, 0);
+  EXPECT_GT(open.navigator.path_m().size(), 0U);
+}
+
 nlohmann::ordered_json told(const BudgetOptions& options, double now_s, double used_j) {
   OnOpenFloor open(options);
   open.robot.now_s = now_s;

@@ -196,8 +196,9 @@ DriveResult Navigator::drive_and_map(std::span<const Pose2> waypoints, double ma
   turned_back_ = false;
   return robot_.drive_along(waypoints, max_speed_m_s, [&] {
     if (++tick % kTicksPerFloorScan != 0) return true;
-    localise();
+    const bool located = localise();
     note_path_point();
+    if (located && on_the_way) on_the_way();
     turned_back_ = may_go_on && !may_go_on();
     return !turned_back_ && !is_blocked();
   });

@@ -74,6 +74,8 @@ class Navigator {
 
   /// Asked now and then on every way; where it says no, approach() ends there. May be empty.
   std::function<bool()> may_go_on;
+  /// Told now and then on every way, when the pose has just been registered; may be empty.
+  std::function<void()> on_the_way;
   /// Told every path before it is driven; may be empty.
   std::function<void(const PlannedPath&)> on_plan;
 

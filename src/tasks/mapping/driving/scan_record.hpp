@@ -41,6 +41,7 @@ struct ScanRecord {
   double map_time_s = 0.0;     ///< wall, of registration and map update
   double scan_time_s = 0.0;    ///< simulated
   double scan_share = 1.0;     ///< of a whole scan that was taken
+  int images_on_the_way = 0;   ///< that came, while driving there
   double energy_j = 0.0;       ///< used up to here
   double scan_energy_j = 0.0;  ///< of that, by the scan itself
   double path_length_m = 0.0;  ///< truly travelled up to here
