@@ -51,6 +51,9 @@ void explore(std::span<char*> arguments) {
     for (std::string set; words >> set;) sets.push_back(set);
     const ResolvedEpisode resolved = load_episode(file, sets);
     const auto& task = std::get<Exploration>(resolved.task);
+    if (task.gaze.on_the_way_m > 0.0) {
+      throw ConfigError("gaze.on_the_way_m: the model takes no images on the way");
+    }
     print_row(settings, ModelledExploration(building, task).run({0.5, 0.8, 0.9, 0.95}));
   }
 }

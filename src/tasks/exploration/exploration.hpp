@@ -72,7 +72,7 @@ struct Exploration : MappingOptions {
   void fields(auto&& f) {
     MappingOptions::fields(f);
     f("sweep", sweep, "where the head turns the camera at each stop");
-    f("gaze", gaze, "which images of the sweep a scan takes");
+    f("gaze", gaze, "which images of the sweep a scan takes, and images on the way to it");
     f("camera", camera, "RGB-D camera on the robot's head");
     f("frontiers", frontiers, "how frontiers are found and clustered into candidate views");
     f("headroom", headroom, "which places on the floor are blocked by what is above them");

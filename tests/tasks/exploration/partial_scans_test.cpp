@@ -88,10 +88,11 @@ TEST(ExplorationRobot, LooksWhileTheBaseDoesWhatItDoes) {
   EXPECT_GT(robot.time_s(), start_s);
 }
 
-/// 3 scans, each image at least so far from the one before it.
+/// 3 scans, each image at least so far from the one before it, and home.
 nlohmann::json driven(double on_the_way_m, const std::filesystem::path& folder) {
   return nlohmann::json::parse(
-      run(small_office({"scans=3", "gaze.on_the_way_m=" + std::to_string(on_the_way_m)}),
+      run(small_office({"scans=3", "budget.return_to_start=true",
+                        "gaze.on_the_way_m=" + std::to_string(on_the_way_m)}),
           {folder, true, false, {}})
           .metrics);
 }
@@ -114,6 +115,7 @@ TEST(ImagesOnTheWay, ShowMoreOfTheSameViews) {
   EXPECT_EQ(with["scans"][1]["chosen_view"], without["scans"][1]["chosen_view"]);
   EXPECT_LT(with["scans"][1]["unobserved_cells"], without["scans"][1]["unobserved_cells"]);
   EXPECT_GT(with["scans"][2]["precision"], 0.98);
+  EXPECT_EQ(with["map"]["recall"], with["scans"][2]["recall"]) << "the map is done";
   const ReplayResult again = support::replayed(folder.path() / "with");
   EXPECT_FALSE(again.first_difference) << again.what;
 }
