@@ -44,7 +44,7 @@ std::vector<std::size_t> worthwhile_images(const StopOffer& offer, const GazeOpt
 
 std::vector<double> gains_of_images(const SweepImages& images, const SeenBlocks& seen) {
   const Pose T_sweep_world = seen.T_world_sweep.inverse();
-  std::vector<double> gains(images.gazes.size(), 0.0);
+  std::vector<double> gains(images.gazes().size(), 0.0);
   for (std::size_t i = 0; i < seen.shown.block.size(); ++i) {
     const std::uint32_t block = seen.shown.block[i];
     const std::size_t image = images.nearest(centre_of_block(seen, T_sweep_world, block));

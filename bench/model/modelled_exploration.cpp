@@ -114,8 +114,8 @@ void ModelledExploration::scan() {
   look_at_walls();
   block_columns(floor_, grid_, traversed_, task_.headroom);
   ++scans_;
-  const std::size_t images = images_.empty() ? sweep.gazes.size() : images_.size();
-  time_s_ += kScan_s * static_cast<double>(images) / static_cast<double>(sweep.gazes.size());
+  const std::size_t images = images_.empty() ? sweep.gazes().size() : images_.size();
+  time_s_ += kScan_s * static_cast<double>(images) / static_cast<double>(sweep.gazes().size());
   visited_.add(T_world_sweep.translation().head<2>(),
                shown < task_.poor_cells ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
 }
@@ -126,9 +126,9 @@ void ModelledExploration::learn_hazard(const Pose& T_world_sweep) {
   Eigen::Matrix3d optical;
   optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   const SweepImages& sweep = building_.robot.sweep_images();
-  for (std::size_t image = 0; image < sweep.gazes.size(); ++image) {
+  for (std::size_t image = 0; image < sweep.gazes().size(); ++image) {
     if (!images_.empty() && !std::ranges::binary_search(images_, image)) continue;
-    const Gaze& gaze = sweep.gazes[image];
+    const Gaze& gaze = sweep.gazes()[image];
     Pose T_world_camera = T_world_sweep *
                           Eigen::AngleAxisd(gaze.pan_rad, Eigen::Vector3d::UnitZ()) *
                           Eigen::AngleAxisd(gaze.tilt_rad, Eigen::Vector3d::UnitY());

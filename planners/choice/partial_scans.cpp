@@ -21,7 +21,7 @@ double shortest_way_s(const PlanningProblem& problem, std::size_t view) {
 }
 
 std::vector<std::size_t> all_images(const SweepImages& images) {
-  std::vector<std::size_t> all(images.gazes.size());
+  std::vector<std::size_t> all(images.gazes().size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
@@ -36,7 +36,7 @@ ImagesOfViews worthwhile_images(const PartialScans& scans, const GridFrame& fram
                                 const CellBlocks& blocks, std::span<const Candidate> views,
                                 const PlanningProblem& problem) {
   expects(views.size() == problem.views(), "the views of the problem");
-  const double image_s = problem.scan_s / static_cast<double>(scans.images.gazes.size());
+  const double image_s = problem.scan_s / static_cast<double>(scans.images.gazes().size());
   ImagesOfViews taken;
   for (std::size_t view = 0; view < views.size(); ++view) {
     const double way_s = shortest_way_s(problem, view);
@@ -67,11 +67,12 @@ std::vector<std::size_t> worthwhile_images(const PartialScans& scans, const Scan
   const Lookout& lookout = scan.lookout;
   const auto known =
       static_cast<double>(lookout.grid.size() - lookout.grid.count(CellState::unobserved));
-  return worthwhile_images({.gains = gains_of_images(scans.images, lookout),
-                            .image_s = scan.scan_s / static_cast<double>(scans.images.gazes.size()),
-                            .way_s = scan.way_s,
-                            .known = lookout.attenuation.utility * known},
-                           scans.gaze);
+  return worthwhile_images(
+      {.gains = gains_of_images(scans.images, lookout),
+       .image_s = scan.scan_s / static_cast<double>(scans.images.gazes().size()),
+       .way_s = scan.way_s,
+       .known = lookout.attenuation.utility * known},
+      scans.gaze);
 }
 
 void leave_to_images(const SweepImages& images, const ImagesOfViews& taken, const GridFrame& frame,
@@ -88,7 +89,7 @@ std::vector<double> shares_of_scan(const SweepImages& images, const ImagesOfView
   std::vector<double> shares;
   for (const auto& of_view : taken) {
     shares.push_back(static_cast<double>(of_view.size()) /
-                     static_cast<double>(images.gazes.size()));
+                     static_cast<double>(images.gazes().size()));
   }
   return shares;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "vantage/core/error.hpp"
 
@@ -12,13 +13,21 @@ Eigen::Vector3d direction_of(const Gaze& gaze) {
   return {level * std::cos(gaze.pan_rad), level * std::sin(gaze.pan_rad), -std::sin(gaze.tilt_rad)};
 }
 
+SweepImages::SweepImages(std::vector<Gaze> gazes, double tan_half_width, double tan_half_height)
+    : gazes_(std::move(gazes)), tan_half_width_(tan_half_width), tan_half_height_(tan_half_height) {
+  expects(!gazes_.empty(), "a sweep of images");
+  for (const Gaze& gaze : gazes_) {
+    const Eigen::Vector3d ahead = direction_of(gaze);
+    const Eigen::Vector3d left(-std::sin(gaze.pan_rad), std::cos(gaze.pan_rad), 0.0);
+    axes_.push_back({ahead, left, ahead.cross(left)});
+  }
+}
+
 bool SweepImages::shows(std::size_t image, const Eigen::Vector3d& p_sweep) const {
-  const Gaze& gaze = gazes[image];
-  const Eigen::Vector3d left(-std::sin(gaze.pan_rad), std::cos(gaze.pan_rad), 0.0);
-  const Eigen::Vector3d ahead = direction_of(gaze);
-  const double depth_m = ahead.dot(p_sweep);
-  return depth_m > 0.0 && std::abs(left.dot(p_sweep)) <= tan_half_width * depth_m &&
-         std::abs(ahead.cross(left).dot(p_sweep)) <= tan_half_height * depth_m;
+  const Axes& axes = axes_[image];
+  const double depth_m = axes.ahead.dot(p_sweep);
+  return depth_m > 0.0 && std::abs(axes.left.dot(p_sweep)) <= tan_half_width_ * depth_m &&
+         std::abs(axes.up.dot(p_sweep)) <= tan_half_height_ * depth_m;
 }
 
 bool SweepImages::any_shows(std::span<const std::size_t> images,
@@ -27,9 +36,8 @@ bool SweepImages::any_shows(std::span<const std::size_t> images,
 }
 
 std::size_t SweepImages::nearest(const Eigen::Vector3d& p_sweep) const {
-  expects(!gazes.empty(), "a sweep of images");
-  const auto towards = [&](const Gaze& gaze) { return direction_of(gaze).dot(p_sweep); };
-  return static_cast<std::size_t>(std::ranges::max_element(gazes, {}, towards) - gazes.begin());
+  const auto towards = [&](const Axes& axes) { return axes.ahead.dot(p_sweep); };
+  return static_cast<std::size_t>(std::ranges::max_element(axes_, {}, towards) - axes_.begin());
 }
 
 }  // namespace vantage

@@ -19,17 +19,31 @@ Eigen::Vector3d direction_of(const Gaze& gaze);
 
 /// The images that a sweep is made of, by direction alone: the camera is as good as on the pan
 /// axis.
-struct SweepImages {
-  std::vector<Gaze> gazes;
-  double tan_half_width = 0.0;
-  double tan_half_height = 0.0;
+class SweepImages {
+ public:
+  /// All of one width and height. @param tan_half_width of the angle of view
+  SweepImages(std::vector<Gaze> gazes, double tan_half_width, double tan_half_height);
 
+  [[nodiscard]] const std::vector<Gaze>& gazes() const { return gazes_; }
   [[nodiscard]] bool shows(std::size_t image, const Eigen::Vector3d& p_sweep) const;
   /// Whether any of these images does.
   [[nodiscard]] bool any_shows(std::span<const std::size_t> images,
                                const Eigen::Vector3d& p_sweep) const;
   /// The image whose middle is nearest in direction; of equals the first.
   [[nodiscard]] std::size_t nearest(const Eigen::Vector3d& p_sweep) const;
+
+ private:
+  /// Of an image, each of length 1.
+  struct Axes {
+    Eigen::Vector3d ahead;
+    Eigen::Vector3d left;
+    Eigen::Vector3d up;
+  };
+
+  std::vector<Gaze> gazes_;
+  std::vector<Axes> axes_;  ///< of each
+  double tan_half_width_ = 0.0;
+  double tan_half_height_ = 0.0;
 };
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -14,13 +15,13 @@ namespace {
 
 constexpr double kQuarter_rad = std::numbers::pi / 2.0;
 
-/// Two rows of four images, each a square of 90 degrees.
-SweepImages eight() {
-  SweepImages images{.gazes = {}, .tan_half_width = 1.0, .tan_half_height = 1.0};
+/// Two rows of four images, squares of 90 degrees if not told otherwise.
+SweepImages eight(double tan_half_width = 1.0, double tan_half_height = 1.0) {
+  std::vector<Gaze> gazes;
   for (const double tilt_rad : {0.0, 0.8}) {
-    for (int i = 0; i < 4; ++i) images.gazes.push_back({(i - 1) * kQuarter_rad, tilt_rad});
+    for (int i = 0; i < 4; ++i) gazes.push_back({(i - 1) * kQuarter_rad, tilt_rad});
   }
-  return images;
+  return {std::move(gazes), tan_half_width, tan_half_height};
 }
 
 /// A point of the sweep's frame turned into that of an image: x ahead, y left, z up.
@@ -41,15 +42,13 @@ TEST(Gaze, LooksAheadLeftAndDown) {
 }
 
 TEST(SweepImages, ShowWhatIsInsideTheirEdges) {
-  SweepImages images = eight();
-  images.tan_half_width = 0.7;
-  images.tan_half_height = 0.4;
+  const SweepImages images = eight(0.7, 0.4);
   Rng rng(5);
   int shown = 0;
   for (int i = 0; i < 4000; ++i) {
     const Eigen::Vector3d p(rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0), rng.uniform(-3.0, 3.0));
-    for (std::size_t image = 0; image < images.gazes.size(); ++image) {
-      const Eigen::Vector3d q = in_image(images.gazes[image], p);
+    for (std::size_t image = 0; image < images.gazes().size(); ++image) {
+      const Eigen::Vector3d q = in_image(images.gazes()[image], p);
       const bool inside =
           q.x() > 0.0 && std::abs(q.y()) <= 0.7 * q.x() && std::abs(q.z()) <= 0.4 * q.x();
       EXPECT_EQ(images.shows(image, p), inside) << p.transpose() << " in " << image;

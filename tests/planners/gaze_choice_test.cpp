@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "vantage/core/rng.hpp"
@@ -111,12 +112,14 @@ TEST(GazeOptions, TakeAllImagesUnlessAsked) {
 struct Seen {
   GridFrame frame = make_grid_frame({0.0, 0.0, 0.0}, {8.0, 8.0, 2.0}, {8, 8, 2});
   CellBlocks blocks{frame.cells, {2, 2, 2}};
-  SweepImages images{.gazes = {}, .tan_half_width = 1.0, .tan_half_height = 1.0};
+  SweepImages images = quarters();
   std::vector<float> cells = std::vector<float>(16, 8.0F);
   ShownShares shown;
 
-  Seen() {
-    for (int i = 0; i < 4; ++i) images.gazes.push_back({i * std::numbers::pi / 2.0, 0.0});
+  static SweepImages quarters() {
+    std::vector<Gaze> gazes;
+    for (int i = 0; i < 4; ++i) gazes.push_back({i * std::numbers::pi / 2.0, 0.0});
+    return {std::move(gazes), 1.0, 1.0};
   }
   [[nodiscard]] std::uint32_t block_at(double x_m, double y_m) const {
     return static_cast<std::uint32_t>(blocks.index_of_cell(frame.cell_at({x_m, y_m, 0.0})));

@@ -268,7 +268,7 @@ void ExplorationParts::look_on_the_way() {
   const SweepImages& sweep = exploring_robot_.sweep_images();
   const auto gains = gains_of_images(sweep, lookout(belief_.grid(), robot_.estimated_sensor()));
   const auto best = std::ranges::max_element(gains) - gains.begin();
-  exploring_robot_.look(sweep.gazes[static_cast<std::size_t>(best)]);
+  exploring_robot_.look(sweep.gazes()[static_cast<std::size_t>(best)]);
 }
 
 void ExplorationParts::take_image(const Pose2& T_world_base) {
@@ -287,7 +287,7 @@ void ExplorationParts::choose_images() {
   const Pose T_world_sweep = robot_.estimated_sensor();
   images_ = images_worth_taking(T_world_sweep, robot_.time_s() - scans_.back().time_s);
   current_.scan_share =
-      static_cast<double>(images_.size()) / static_cast<double>(sweep.gazes.size());
+      static_cast<double>(images_.size()) / static_cast<double>(sweep.gazes().size());
   predict(T_world_sweep, [sweep, images = images_](const Eigen::Vector3d& p) {
     return sweep.any_shows(images, p);
   });

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 namespace vantage {
 namespace {
@@ -42,14 +43,12 @@ std::vector<double> pan_angles_rad(const HeadSweep& sweep) {
 }
 
 SweepImages images_of(const HeadSweep& sweep, const RgbdOptions& camera) {
-  const double half_height = std::tan(0.5 * camera.fovy_rad);
-  SweepImages images{.gazes = {},
-                     .tan_half_width = half_height * camera.width_px / camera.height_px,
-                     .tan_half_height = half_height};
+  std::vector<Gaze> gazes;
   for (const double tilt_rad : sweep.tilts_rad) {
-    for (const double pan_rad : pan_angles_rad(sweep)) images.gazes.push_back({pan_rad, tilt_rad});
+    for (const double pan_rad : pan_angles_rad(sweep)) gazes.push_back({pan_rad, tilt_rad});
   }
-  return images;
+  const double half_height = std::tan(0.5 * camera.fovy_rad);
+  return {std::move(gazes), half_height * camera.width_px / camera.height_px, half_height};
 }
 
 FieldOfView swept_field(const HeadSweep& sweep, const RgbdOptions& camera, double camera_ahead_m) {

@@ -113,8 +113,8 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
 std::vector<Gaze> SimulatedExplorationRobot::gazes_in_turn(
     std::span<const std::size_t> images) const {
   std::vector<Gaze> gazes;
-  for (const std::size_t image : images) gazes.push_back(images_.gazes[image]);
-  if (images.empty()) gazes = images_.gazes;
+  for (const std::size_t image : images) gazes.push_back(images_.gazes()[image]);
+  if (images.empty()) gazes = images_.gazes();
   bool backwards = false;
   for (auto row = gazes.begin(); row != gazes.end(); backwards = !backwards) {
     const auto end = std::find_if(row, gazes.end(),

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "vantage/planners/choice/drawn_map.hpp"
 #include "vantage/planners/swept_gain.hpp"
@@ -307,10 +309,9 @@ TEST(ViewProblem, HasBlocksAsLargeAsTheyAreSaidToBe) {
 
 /// Four images all round, each a little more than a quarter.
 PartialScans quarters(const GazeOptions& gaze) {
-  PartialScans scans{.images = {.gazes = {}, .tan_half_width = 1.0, .tan_half_height = 2.0},
-                     .gaze = gaze};
-  for (int i = 0; i < 4; ++i) scans.images.gazes.push_back({1.5707963267948966 * i, 0.0});
-  return scans;
+  std::vector<Gaze> gazes;
+  for (int i = 0; i < 4; ++i) gazes.push_back({1.5707963267948966 * i, 0.0});
+  return {{std::move(gazes), 1.0, 2.0}, gaze};
 }
 
 TEST(ViewProblem, OfPartialScansHasTheImagesThatAreWorthTheirTime) {
