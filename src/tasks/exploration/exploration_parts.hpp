@@ -28,7 +28,10 @@ class ExplorationParts : public MappingParts {
   [[nodiscard]] std::string finished() const;
   std::vector<Candidate> propose() { return views_; }
   void act(const Candidate& candidate);
-  void end() { MappingParts::end(views_); }
+  void end() {
+    navigator_.on_the_way = nullptr;  // the map is done
+    MappingParts::end(views_);
+  }
 
  private:
   void traverse(const Eigen::Vector2d& p_m, double radius_m);

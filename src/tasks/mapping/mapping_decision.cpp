@@ -107,7 +107,6 @@ void MappingParts::end(const std::vector<Candidate>& views) {
         map_situation({belief_, of_unobserved, robot_, budget_, scans_.size(), scans_left()}),
         at_limit);
   }
-  navigator_.on_the_way = nullptr;  // the map is done
   budget_.come_home();
 }
 
