@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "vantage/core/log.hpp"
-#include "vantage/perception/clouds/usable_readings.hpp"
 #include "vantage/planners/swept_gain.hpp"
 #include "vantage/tasks/exploration/frontier_views.hpp"
 
@@ -30,30 +29,6 @@ void mark_disc(const FloorMap& floor, const Eigen::Vector2d& p_m, double radius_
       if ((floor.centre({x, y}) - p_m).norm() <= radius_m) flags[floor.index({x, y})] = 1;
     }
   }
-}
-
-/// Discards readings that are none. @return false: it is stale
-/// @param last image that came, then this one
-bool keep_usable(CameraImages& image, CameraImages& last) {
-  discard_unusable(image);
-  if (is_repeated(last, image)) return false;
-  last.depth_m = image.depth_m;
-  return true;
-}
-
-/// Discards what says nothing: stale images, readings that are none. @return whether anything is
-/// left
-/// @param last of the observation before, then of this one
-bool keep_usable(ExplorationObservation& observation, CameraImages& last) {
-  discard_unusable(observation.base_scan);
-  std::vector<HeadView> views;
-  for (HeadView& view : observation.views) {
-    if (keep_usable(view.image, last)) views.push_back(std::move(view));
-  }
-  observation.views = std::move(views);
-  return std::ranges::any_of(observation.views, [](const HeadView& view) {
-    return std::ranges::any_of(view.image.depth_m, [](float depth_m) { return depth_m > 0.0F; });
-  });
 }
 
 }  // namespace
@@ -89,21 +64,6 @@ void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
   if (const FloorMap* detail = navigator_.detail()) {
     mark_disc(*detail, p_m, radius_m, traversed_detail_);
   }
-}
-
-ExplorationObservation ExplorationParts::observe() {
-  if (scans_.empty()) {
-    const Pose2 start = robot_.estimated_base();
-    p_start_m_ = {start.x_m, start.y_m};
-    traverse(p_start_m_, task_.start_room_m);
-    look_round_at_start();
-  }
-  return observed([this] {
-    return first_usable<ExplorationObservation>([this](ExplorationObservation& observation) {
-      observation = exploring_robot_.observe(images_);
-      return keep_usable(observation, last_image_);
-    });
-  });
 }
 
 void ExplorationParts::update(const ExplorationObservation& observation) {
@@ -218,21 +178,24 @@ std::string ExplorationParts::finished() const {
       task_.enough.scans, 100.0 * task_.enough.share);
 }
 
+/// A choice that knows all places there are looks from the frontiers all the same: its own map may
+/// show no way to the next of those places before it does.
 std::vector<Candidate> ExplorationParts::find_views(bool all) {
   const auto planned = navigator_.plan();
   const PathField& paths = *planned;
-  std::vector<Candidate> of_truth = views_of_truth(paths, true);
-  std::erase_if(of_truth, [&](const Candidate& view) {
-    return visited_.covers(place_of(view.T_world_sensor));
-  });
-  for (std::size_t i = 0; i < of_truth.size(); ++i) of_truth[i].id = static_cast<int>(i);
-  if (!of_truth.empty()) return of_truth;
-  return frontier_views(task_,
-                        {.grid = belief_.filled_grid(),
-                         .paths = paths,
-                         .T_base_sweep = exploring_robot_.T_base_sweep(),
-                         .visited = visited_},
-                        all);
+  std::vector<Candidate> views = views_of_truth(paths, true);
+  std::erase_if(
+      views, [&](const Candidate& view) { return visited_.covers(place_of(view.T_world_sensor)); });
+  const std::vector<Candidate> of_frontiers =
+      frontier_views(task_,
+                     {.grid = belief_.filled_grid(),
+                      .paths = paths,
+                      .T_base_sweep = exploring_robot_.T_base_sweep(),
+                      .visited = visited_},
+                     all);
+  views.insert(views.end(), of_frontiers.begin(), of_frontiers.end());
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].id = static_cast<int>(i);
+  return views;
 }
 
 void ExplorationParts::act(const Candidate& candidate) {
@@ -246,51 +209,6 @@ void ExplorationParts::act(const Candidate& candidate) {
   if (partial_scans_) return choose_images();
   // Of the place the scan will be taken from.
   predict(approached.reached ? candidate.T_world_sensor : robot_.estimated_sensor());
-}
-
-/// What the image shows is in the map at once: the next look is to be at something else. Holes are
-/// filled when the robot is there.
-void ExplorationParts::look_on_the_way() {
-  constexpr double kSteady_rad = 0.02;  // turned since it was last told
-  if (scans_.empty()) return;           // it turns once before the first
-  const Pose2 base = robot_.estimated_base();
-  const double turned_rad =
-      wrap_angle(base.yaw_rad - std::exchange(yaw_on_the_way_rad_, base.yaw_rad));
-  if (last_look_) {
-    const double gone_m = std::hypot(base.x_m - last_look_->x_m, base.y_m - last_look_->y_m);
-    if (gone_m < task_.gaze.on_the_way_m || std::abs(turned_rad) > kSteady_rad ||
-        !exploring_robot_.head_rests()) {
-      return;
-    }
-    take_image(base);
-  }
-  last_look_ = base;
-  const SweepImages& sweep = exploring_robot_.sweep_images();
-  const auto gains = gains_of_images(sweep, lookout(belief_.grid(), robot_.estimated_sensor()));
-  const auto best = std::ranges::max_element(gains) - gains.begin();
-  exploring_robot_.look(sweep.gazes()[static_cast<std::size_t>(best)]);
-}
-
-void ExplorationParts::take_image(const Pose2& T_world_base) {
-  auto view = exploring_robot_.take_image();
-  if (!view || !keep_usable(view->image, last_image_)) return;
-  belief_.update(*view, T_world_base);
-  ++current_.images_on_the_way;
-  if (navigator_.loops() == nullptr) return;
-  const auto& remembered = navigator_.loops()->remembered();
-  belief_.keep(*view, compose(inverse(remembered.back().T_world_base), T_world_base),
-               remembered.size() - 1);
-}
-
-void ExplorationParts::choose_images() {
-  const SweepImages& sweep = partial_scans_->images;
-  const Pose T_world_sweep = robot_.estimated_sensor();
-  images_ = images_worth_taking(T_world_sweep, robot_.time_s() - scans_.back().time_s);
-  current_.scan_share =
-      static_cast<double>(images_.size()) / static_cast<double>(sweep.gazes().size());
-  predict(T_world_sweep, [sweep, images = images_](const Eigen::Vector3d& p) {
-    return sweep.any_shows(images, p);
-  });
 }
 
 }  // namespace vantage

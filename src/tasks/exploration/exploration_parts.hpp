@@ -45,6 +45,7 @@ class ExplorationParts : public MappingParts {
   void take_image(const Pose2& T_world_base);
   /// Where the robot stands now: takes the images that are worth their time.
   void choose_images();
+  void take_all_images();
   /// @param all those of all frontiers, not only of the largest
   std::vector<Candidate> find_views(bool all);
   void judge_what_is_left();

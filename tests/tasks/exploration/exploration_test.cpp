@@ -5,8 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -16,6 +19,7 @@
 #include "vantage/core/log.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/perception/clouds/reference_map.hpp"
+#include "vantage/runtime/log/event_log.hpp"
 #include "vantage/tasks/exploration/visited_places.hpp"
 #include "vantage/tasks/run.hpp"
 
@@ -187,6 +191,36 @@ TEST(Exploration, TheOracleKnowsWhatAViewShows) {
   EXPECT_GE(metrics["scans"][1]["actual_new_cells"].get<double>(),
             0.98 * of_forecast["scans"][1]["actual_new_cells"].get<double>())
       << "from one and the same first scan, but for noise";
+}
+
+/// The places that it could choose from after the first scan.
+std::vector<Eigen::Vector3d> first_places(const std::filesystem::path& out,
+                                          const std::string& choice) {
+  explore(out, {"scans=2", choice});
+  const auto task = std::get<Exploration>(load_recorded(out).task);
+  for (const EpisodeEvent& event : read_event_log(out / "story.bin", task.map.frame().size())) {
+    const auto* decision = std::get_if<Decision>(&event.what);
+    if (decision == nullptr) continue;
+    std::vector<Eigen::Vector3d> places_m;
+    for (const Candidate& view : decision->candidates) {
+      EXPECT_EQ(view.id, static_cast<int>(places_m.size()));
+      places_m.emplace_back(view.T_world_sensor.translation());
+    }
+    return places_m;
+  }
+  return {};
+}
+
+TEST(Exploration, TheOracleOfAllPlacesLooksFromFrontiersToo) {
+  const support::TemporaryDirectory folder;
+  const auto frontiers_m = first_places(folder.path() / "tour", "choice=tour");
+  const auto all_m = first_places(folder.path() / "oracle", "choice=oracle_tour");
+  ASSERT_GT(frontiers_m.size(), 2U);
+  EXPECT_GT(all_m.size(), frontiers_m.size());
+  for (const Eigen::Vector3d& p_m : frontiers_m) {
+    EXPECT_TRUE(std::ranges::any_of(
+        all_m, [&](const Eigen::Vector3d& other_m) { return (p_m - other_m).norm() < 1e-6; }));
+  }
 }
 
 /// The episode says start_site.

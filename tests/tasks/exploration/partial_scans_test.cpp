@@ -156,6 +156,29 @@ TEST(ImagesOnTheWay, AreNotTakenOnTheWayHome) {
   EXPECT_EQ(session.belief.grid().count(CellState::unobserved), session.parts.unobserved_at_end);
 }
 
+/// Two images of five arrive: what was a scan of one image is mostly taken again.
+TEST(PartialScans, ThatShowNothingAreTakenAgainWithAllImages) {
+  const support::TemporaryDirectory folder;
+  const auto metrics = nlohmann::json::parse(
+      run(small_office({"scans=5", "seed=1", "gaze.share=0.1", "faults.dropped_frames=0.6"}),
+          {folder.path() / "run", true, false, {}})
+          .metrics);
+  ASSERT_EQ(metrics["scans"].size(), 5U);
+  int whole = 0;
+  for (std::size_t i = 1; i < 5; ++i) {
+    const auto& scan = metrics["scans"][i];
+    if (scan["scan_share"] != 1.0) {
+      EXPECT_LT(scan["scan_share"], 0.5);
+      continue;
+    }
+    ++whole;
+    double outside = 0.0;
+    for (const auto& band : scan["by_distance"]) outside += band["outside_cells"].get<double>();
+    EXPECT_LT(outside, 0.1 * scan["actual_new_cells"].get<double>()) << "predicted for all images";
+  }
+  EXPECT_GE(whole, 2);
+}
+
 TEST(PartialScans, OfAnEpisodeShowWhatIsExpectedOfThem) {
   const support::TemporaryDirectory folder;
   const auto metrics =
