@@ -66,7 +66,9 @@ std::vector<PredictionBand> predict_by_distance(const Attenuation& attenuation,
   const double reach_m =
       std::min(field.range_max_m, farthest_m(grid.frame, T_world_sensor.translation()));
   const std::vector<double> edges = edges_m(reach_m, width_m);
-  const SweepTables tables(grid, attenuation, threads);
+  const SweepTables tables(grid, attenuation, threads,
+                           region_of_sweeps(grid.frame, T_world_sensor.translation(),
+                                            field.range_max_m, Eigen::Array3i::Zero()));
   if (in_sight) return predict_in_sight(tables, T_world_sensor, field, edges, in_sight);
   std::vector<SweptView> within;
   for (std::size_t i = 1; i < edges.size(); ++i) {

@@ -14,18 +14,29 @@ namespace {
 /// A share of less than that of a block is none: the traces that interpolation leaves.
 constexpr float kLeastShare = 0.01F;
 
-std::vector<float> unobserved_of_blocks(const SweepTables& tables, const CellBlocks& blocks) {
+std::vector<float> unobserved_of_blocks(const SweepTables& tables, const CellRegion& region,
+                                        const CellBlocks& blocks) {
   std::vector<float> cells(blocks.size(), 0.0F);
   const float* utility = tables.layers[2].get();  // in the order of the grid's index
-  std::size_t i = 0;
-  for (int z = 0; z < blocks.cells.z(); ++z) {
-    for (int y = 0; y < blocks.cells.y(); ++y) {
-      for (int x = 0; x < blocks.cells.x(); ++x, ++i) {
+  for (int z = region.begin.z(); z < region.end.z(); ++z) {
+    for (int y = region.begin.y(); y < region.end.y(); ++y) {
+      std::size_t i = tables.frame.index({region.begin.x(), y, z});
+      for (int x = region.begin.x(); x < region.end.x(); ++x, ++i) {
         if (utility[i] > 0.0F) cells[blocks.index_of_cell({x, y, z})] += utility[i];
       }
     }
   }
   return cells;
+}
+
+ShownShares shown_by_view(const SweepTables& tables, const Candidate& candidate,
+                          const FieldOfView& field_of_view, const CellBlocks& blocks,
+                          const std::vector<float>& cells) {
+  BlockSums seen(blocks);
+  const std::array view{
+      SweptView{ViewCone(candidate.T_world_sensor, field_of_view), kNoRays, &seen}};
+  for (const Pyramid& pyramid : kPyramids) sweep_pyramid(tables, view, pyramid);
+  return shares_of_blocks(seen.sums(), cells);
 }
 
 }  // namespace
@@ -44,16 +55,24 @@ ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& gr
                          std::span<const Candidate> candidates, const FieldOfView& field_of_view,
                          const CellBlocks& blocks, int threads) {
   const SweepTables tables(grid, attenuation, threads);
-  ShownBlocks result{unobserved_of_blocks(tables, blocks), {}};
+  const CellRegion all{Eigen::Array3i::Zero(), grid.frame.cells};
+  ShownBlocks result{unobserved_of_blocks(tables, all, blocks), {}};
   result.shows.resize(candidates.size());
   parallel_for(candidates.size(), threads, [&](std::size_t i) {
-    BlockSums seen(blocks);
-    const std::array view{
-        SweptView{ViewCone(candidates[i].T_world_sensor, field_of_view), kNoRays, &seen}};
-    for (const Pyramid& pyramid : kPyramids) sweep_pyramid(tables, view, pyramid);
-    result.shows[i] = shares_of_blocks(seen.sums(), result.cells);
+    result.shows[i] = shown_by_view(tables, candidates[i], field_of_view, blocks, result.cells);
     poll_stop();
   });
+  return result;
+}
+
+ShownBlocks swept_blocks_of_view(const Attenuation& attenuation, const OccupancyGrid& grid,
+                                 const Candidate& candidate, const FieldOfView& field_of_view,
+                                 const CellBlocks& blocks) {
+  const CellRegion region = region_of_sweeps(grid.frame, candidate.T_world_sensor.translation(),
+                                             field_of_view.range_max_m, blocks.edge);
+  const SweepTables tables(grid, attenuation, 1, region);
+  ShownBlocks result{unobserved_of_blocks(tables, region, blocks), {}};
+  result.shows.push_back(shown_by_view(tables, candidate, field_of_view, blocks, result.cells));
   return result;
 }
 

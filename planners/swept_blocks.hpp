@@ -20,6 +20,12 @@ ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& gr
                          std::span<const Candidate> candidates, const FieldOfView& field_of_view,
                          const CellBlocks& blocks, int threads);
 
+/// The same of one view, at once: of what is unobserved only what is about it is worked out, so
+/// `cells` is right of the blocks that it shows, and of others it may be anything.
+ShownBlocks swept_blocks_of_view(const Attenuation& attenuation, const OccupancyGrid& grid,
+                                 const Candidate& candidate, const FieldOfView& field_of_view,
+                                 const CellBlocks& blocks);
+
 /// The same where nothing of the views is known but what each shows alone: a block for each.
 ShownBlocks separate_blocks(std::span<const double> gains);
 

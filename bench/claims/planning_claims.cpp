@@ -23,12 +23,12 @@ bool is_compared(const StudyTables& study, const std::string& choice) {
   return std::ranges::count(study.levels(), choice) > 0;
 }
 
-/// "`gain_over_distance` 0.50 [..]; `nearest_frontier` ..": what others have of the reference's.
+/// "`gain_over_distance` 0.50 [..]; `nearest_frontier` ..": what all others have of the
+/// reference's.
 std::string beside(const StudyTables& study, const std::string& table) {
   std::vector<std::string> parts;
-  for (const char* other : {kPartialGreedy, "tour_whole_scans", "gain_over_distance",
-                            "nearest_frontier", "oracle_tour"}) {
-    if (!is_compared(study, other)) continue;
+  for (const std::string& other : study.levels()) {
+    if (other == kTour || other == study.reference()) continue;
     const Race against = bench::race(study, table, kPanel, other, study.reference());
     parts.push_back(fmt::format("`{}` has {}", other, against.text()));
   }

@@ -1,7 +1,6 @@
 #include "vantage/planners/choice/partial_scans.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -55,10 +54,10 @@ ImagesOfViews worthwhile_images(const PartialScans& scans, const GridFrame& fram
 std::vector<double> gains_of_images(const SweepImages& images, const Lookout& lookout) {
   const OccupancyGrid& grid = lookout.grid;
   const CellBlocks blocks = blocks_of(grid.frame, lookout.block_m);
-  std::array<Candidate, 1> view;
-  view.front().T_world_sensor = lookout.T_world_sweep;
+  Candidate view;
+  view.T_world_sensor = lookout.T_world_sweep;
   const ShownBlocks shown =
-      swept_blocks(lookout.attenuation, grid, view, lookout.field_of_view, blocks, 1);
+      swept_blocks_of_view(lookout.attenuation, grid, view, lookout.field_of_view, blocks);
   return gains_of_images(
       images, {grid.frame, blocks, shown.cells, shown.shows.front(), lookout.T_world_sweep});
 }

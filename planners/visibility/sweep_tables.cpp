@@ -9,22 +9,37 @@
 namespace vantage {
 namespace {
 
-/// Copies a z slice, x fastest, to its places in the layers of equal x and of equal y.
-void distribute(const GridFrame& frame, std::size_t z, const float* slice, float* x_layers,
-                float* y_layers) {
+/// Copies what the region has of a z slice, x fastest, to its places in the layers of equal x and
+/// of equal y.
+void distribute(const GridFrame& frame, const CellRegion& region, std::size_t z, const float* slice,
+                float* x_layers, float* y_layers) {
   const auto nx = static_cast<std::size_t>(frame.cells.x());
   const auto ny = static_cast<std::size_t>(frame.cells.y());
   const auto nz = static_cast<std::size_t>(frame.cells.z());
-  for (std::size_t y = 0; y < ny; ++y) {
-    std::copy_n(slice + y * nx, nx, y_layers + (y * nz + z) * nx);
+  const auto x_begin = static_cast<std::size_t>(region.begin.x());
+  const auto x_end = static_cast<std::size_t>(region.end.x());
+  const auto y_begin = static_cast<std::size_t>(region.begin.y());
+  const auto y_end = static_cast<std::size_t>(region.end.y());
+  for (std::size_t y = y_begin; y < y_end; ++y) {
+    std::copy(slice + y * nx + x_begin, slice + y * nx + x_end,
+              y_layers + (y * nz + z) * nx + x_begin);
   }
-  for (std::size_t x = 0; x < nx; ++x) {
+  for (std::size_t x = x_begin; x < x_end; ++x) {
     float* row = x_layers + (x * nz + z) * ny;
-    for (std::size_t y = 0; y < ny; ++y) row[y] = slice[y * nx + x];
+    for (std::size_t y = y_begin; y < y_end; ++y) row[y] = slice[y * nx + x];
   }
 }
 
 }  // namespace
+
+CellRegion region_of_sweeps(const GridFrame& frame, const Eigen::Vector3d& p_m, double range_m,
+                            const Eigen::Array3i& more) {
+  // Interpolation reads beside what is seen, and row loops whole lanes.
+  const Eigen::Array3i margin = more.max(2 * kLanes);
+  const Eigen::Vector3d range = Eigen::Vector3d::Constant(range_m);
+  const Eigen::Array3i begin = (frame.cell_at(p_m - range) - margin).max(0).min(frame.cells);
+  return {begin, (frame.cell_at(p_m + range) + margin + 1).min(frame.cells).max(begin)};
+}
 
 SweepAxes sweep_axes(int w) {
   switch (w) {
@@ -35,6 +50,10 @@ SweepAxes sweep_axes(int w) {
 }
 
 SweepTables::SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads)
+    : SweepTables(grid, attenuation, threads, {Eigen::Array3i::Zero(), grid.frame.cells}) {}
+
+SweepTables::SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads,
+                         const CellRegion& region)
     : frame(grid.frame), blocks_(attenuation.transmission.layout) {
   expects((blocks_.cells == frame.cells).all(), "transmissions for a grid of this size");
   BlockField unobserved = attenuation.transmission;
@@ -49,25 +68,27 @@ SweepTables::SweepTables(const OccupancyGrid& grid, const Attenuation& attenuati
     std::fill_n(&axis[grid.size()], kLanes, 0.0F);
   }
   depth_ = std::make_unique_for_overwrite<float[]>(grid.size());
-  parallel_for(static_cast<std::size_t>(frame.cells.z()), threads,
-               [&](std::size_t z) { fill_slice(grid, attenuation, static_cast<int>(z)); });
+  parallel_for(static_cast<std::size_t>(region.end.z() - region.begin.z()), threads,
+               [&](std::size_t i) {
+                 fill_slice(grid, attenuation, region, region.begin.z() + static_cast<int>(i));
+               });
 }
 
-void SweepTables::fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation, int z) {
-  const auto nx = static_cast<std::size_t>(frame.cells.x());
+void SweepTables::fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation,
+                             const CellRegion& region, int z) {
   auto& [x_layers, y_layers, z_layers] = layers;
-  const std::size_t begin = frame.index({0, 0, z});
-  std::size_t cell = begin;
-  for (int y = 0; y < frame.cells.y(); ++y) {
+  for (int y = region.begin.y(); y < region.end.y(); ++y) {
     const float* unobserved = row_of_depths(2, y, z);
-    for (std::size_t x = 0; x < nx; ++x, ++cell) {
+    std::size_t cell = frame.index({region.begin.x(), y, z});
+    for (int x = region.begin.x(); x < region.end.x(); ++x, ++cell) {
       const bool occupied = grid.state(cell) == CellState::occupied;
       const float utility = occupied ? -1.0F : attenuation.utility_of_cell(grid.log_odds[cell]);
       z_layers[cell] = utility;
       depth_[cell] = occupied ? kOpaque : utility > 0.0F ? unobserved[x] : 0.0F;
     }
   }
-  distribute(frame, static_cast<std::size_t>(z), &z_layers[begin], x_layers.get(), y_layers.get());
+  distribute(frame, region, static_cast<std::size_t>(z), &z_layers[frame.index({0, 0, z})],
+             x_layers.get(), y_layers.get());
 }
 
 SweepTables::DepthRows SweepTables::depth_rows(int axis, const BlockField& depth) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <array>
 #include <memory>
 #include <vector>
@@ -13,6 +15,16 @@ namespace vantage {
 inline constexpr float kOpaque = 64.0F;  ///< optical depth from which on a cell is opaque
 /// Row loops work on so many cells at a time, and so may read and write beyond a row's end.
 inline constexpr int kLanes = 8;
+
+/// The cells from `begin` to before `end` along each axis.
+struct CellRegion {
+  Eigen::Array3i begin;
+  Eigen::Array3i end;
+};
+/// All that is read of the tables by sweeps from `p_m` with that range, and at least `more` cells
+/// round what they see.
+CellRegion region_of_sweeps(const GridFrame& frame, const Eigen::Vector3d& p_m, double range_m,
+                            const Eigen::Array3i& more);
 
 /// Axes of the sweep along w: u along the rows of a layer, v across them.
 struct SweepAxes {
@@ -32,6 +44,9 @@ struct SweepTables {
   std::array<std::unique_ptr<float[]>, 3> layers;
 
   SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads);
+  /// Only of the cells in `region`; the others are not to be read.
+  SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads,
+              const CellRegion& region);
 
   /// -ln p(a beam passes the cell), of index `cell` in the order of `frame.index`.
   [[nodiscard]] float optical_depth(std::size_t cell) const { return depth_[cell]; }
@@ -46,7 +61,8 @@ struct SweepTables {
     std::size_t stride = 0;
     std::vector<float> rows;
   };
-  void fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation, int z);
+  void fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation,
+                  const CellRegion& region, int z);
   [[nodiscard]] DepthRows depth_rows(int axis, const BlockField& depth) const;
 
   BlockLayout blocks_;

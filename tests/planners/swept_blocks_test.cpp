@@ -48,6 +48,32 @@ FieldOfView ahead() {
 
 class SweptBlocks : public testing::TestWithParam<FieldOfView> {};
 
+/// A house of 8 x 6 x 2.4 m, of which the view sees a part.
+TEST_P(SweptBlocks, OfOneViewAreThoseOfTheWholeGrid) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {8.0, 6.0, 2.4}, {161, 119, 24}));
+  Rng rng(5);
+  for (float& log_odds : grid.log_odds) {
+    const double draw = rng.uniform();
+    log_odds = draw < 0.3 ? 0.0F : (draw < 0.303 ? 3.0F : -3.0F);
+  }
+  const Attenuation attenuation = attenuation_of(BeerLambertGain{.a = 0.95}, {grid, nullptr});
+  for (const int edge : {1, 4, 30}) {
+    const CellBlocks blocks{grid.frame.cells, {edge, edge, edge}};
+    for (const Candidate& view : some_views()) {
+      Candidate moved = view;
+      moved.T_world_sensor.pretranslate(Eigen::Vector3d(-3.0 + 5.0 * rng.uniform(), 2.4, 0.0));
+      const ShownBlocks whole = swept_blocks(attenuation, grid, {&moved, 1}, GetParam(), blocks, 1);
+      const ShownBlocks about = swept_blocks_of_view(attenuation, grid, moved, GetParam(), blocks);
+      ASSERT_FALSE(whole.shows.front().block.empty());
+      EXPECT_EQ(about.shows.front().block, whole.shows.front().block);
+      EXPECT_EQ(about.shows.front().share, whole.shows.front().share) << "to the bit";
+      for (const std::uint32_t block : about.shows.front().block) {
+        EXPECT_EQ(about.cells[block], whole.cells[block]);
+      }
+    }
+  }
+}
+
 TEST_P(SweptBlocks, SumToTheSweptGain) {
   const OccupancyGrid grid = clutter_of_a_seed(1);
   const GainContext context{grid, nullptr};
