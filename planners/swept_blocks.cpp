@@ -14,8 +14,8 @@ namespace {
 /// A share of less than that of a block is none: the traces that interpolation leaves.
 constexpr float kLeastShare = 0.01F;
 
-std::vector<float> unobserved_of_blocks(const SweepTables& tables, const CellRegion& region,
-                                        const CellBlocks& blocks) {
+std::vector<float> unobserved_of_blocks(const SweepTables& tables, const CellBlocks& blocks) {
+  const CellRegion& region = tables.region;
   std::vector<float> cells(blocks.size(), 0.0F);
   const float* utility = tables.layers[2].get();  // in the order of the grid's index
   for (int z = region.begin.z(); z < region.end.z(); ++z) {
@@ -55,8 +55,7 @@ ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& gr
                          std::span<const Candidate> candidates, const FieldOfView& field_of_view,
                          const CellBlocks& blocks, int threads) {
   const SweepTables tables(grid, attenuation, threads);
-  const CellRegion all{Eigen::Array3i::Zero(), grid.frame.cells};
-  ShownBlocks result{unobserved_of_blocks(tables, all, blocks), {}};
+  ShownBlocks result{unobserved_of_blocks(tables, blocks), {}};
   result.shows.resize(candidates.size());
   parallel_for(candidates.size(), threads, [&](std::size_t i) {
     result.shows[i] = shown_by_view(tables, candidates[i], field_of_view, blocks, result.cells);
@@ -68,10 +67,10 @@ ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& gr
 ShownBlocks swept_blocks_of_view(const Attenuation& attenuation, const OccupancyGrid& grid,
                                  const Candidate& candidate, const FieldOfView& field_of_view,
                                  const CellBlocks& blocks) {
-  const CellRegion region = region_of_sweeps(grid.frame, candidate.T_world_sensor.translation(),
-                                             field_of_view.range_max_m, blocks.edge);
-  const SweepTables tables(grid, attenuation, 1, region);
-  ShownBlocks result{unobserved_of_blocks(tables, region, blocks), {}};
+  const SweepTables tables(grid, attenuation, 1,
+                           region_of_sweeps(grid.frame, candidate.T_world_sensor.translation(),
+                                            field_of_view.range_max_m, blocks.edge));
+  ShownBlocks result{unobserved_of_blocks(tables, blocks), {}};
   result.shows.push_back(shown_by_view(tables, candidate, field_of_view, blocks, result.cells));
   return result;
 }

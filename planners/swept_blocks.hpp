@@ -20,8 +20,8 @@ ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& gr
                          std::span<const Candidate> candidates, const FieldOfView& field_of_view,
                          const CellBlocks& blocks, int threads);
 
-/// The same of one view, at once: of what is unobserved only what is about it is worked out, so
-/// `cells` is right of the blocks that it shows, and of others it may be anything.
+/// The same of one view, on one thread, by tables of what is within its range alone: `cells` says
+/// how many are unobserved of the blocks that it shows, and nothing of other blocks.
 ShownBlocks swept_blocks_of_view(const Attenuation& attenuation, const OccupancyGrid& grid,
                                  const Candidate& candidate, const FieldOfView& field_of_view,
                                  const CellBlocks& blocks);

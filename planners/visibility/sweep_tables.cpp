@@ -53,8 +53,8 @@ SweepTables::SweepTables(const OccupancyGrid& grid, const Attenuation& attenuati
     : SweepTables(grid, attenuation, threads, {Eigen::Array3i::Zero(), grid.frame.cells}) {}
 
 SweepTables::SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads,
-                         const CellRegion& region)
-    : frame(grid.frame), blocks_(attenuation.transmission.layout) {
+                         const CellRegion& worked_out)
+    : frame(grid.frame), region(worked_out), blocks_(attenuation.transmission.layout) {
   expects((blocks_.cells == frame.cells).all(), "transmissions for a grid of this size");
   BlockField unobserved = attenuation.transmission;
   for (double& depth : unobserved.per_block) {
@@ -70,12 +70,11 @@ SweepTables::SweepTables(const OccupancyGrid& grid, const Attenuation& attenuati
   depth_ = std::make_unique_for_overwrite<float[]>(grid.size());
   parallel_for(static_cast<std::size_t>(region.end.z() - region.begin.z()), threads,
                [&](std::size_t i) {
-                 fill_slice(grid, attenuation, region, region.begin.z() + static_cast<int>(i));
+                 fill_slice(grid, attenuation, region.begin.z() + static_cast<int>(i));
                });
 }
 
-void SweepTables::fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation,
-                             const CellRegion& region, int z) {
+void SweepTables::fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation, int z) {
   auto& [x_layers, y_layers, z_layers] = layers;
   for (int y = region.begin.y(); y < region.end.y(); ++y) {
     const float* unobserved = row_of_depths(2, y, z);

@@ -38,15 +38,15 @@ SweepAxes sweep_axes(int w);
 /// to layer, with each layer contiguous.
 struct SweepTables {
   GridFrame frame;
+  CellRegion region;  ///< what was worked out; other cells are not to be read
   /// Cells in layers of equal x, y, z. In a layer, the rows along u come one after the other in the
   /// order of v. So layers[2] has the order of `frame.index`.
   /// > 0: unobserved, its utility; 0: free; < 0: occupied.
   std::array<std::unique_ptr<float[]>, 3> layers;
 
   SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads);
-  /// Only of the cells in `region`; the others are not to be read.
   SweepTables(const OccupancyGrid& grid, const Attenuation& attenuation, int threads,
-              const CellRegion& region);
+              const CellRegion& worked_out);
 
   /// -ln p(a beam passes the cell), of index `cell` in the order of `frame.index`.
   [[nodiscard]] float optical_depth(std::size_t cell) const { return depth_[cell]; }
@@ -61,8 +61,7 @@ struct SweepTables {
     std::size_t stride = 0;
     std::vector<float> rows;
   };
-  void fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation,
-                  const CellRegion& region, int z);
+  void fill_slice(const OccupancyGrid& grid, const Attenuation& attenuation, int z);
   [[nodiscard]] DepthRows depth_rows(int axis, const BlockField& depth) const;
 
   BlockLayout blocks_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "vantage/perception/clouds/usable_readings.hpp"
 #include "vantage/tasks/exploration/exploration_parts.hpp"

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 #include "vantage/core/log.hpp"
 #include "vantage/planners/swept_gain.hpp"
