@@ -80,6 +80,23 @@ class PathBuilder {
     add(std::move(leg));
   }
 
+  /// On to where it goes on straight, or as far as it must not be turned the other way: a robot
+  /// turns to a heading the shorter way, in which something may stand. It moves evenly from the
+  /// first place to the last one then, and has to fit there too: the search has moved each heading
+  /// to where it fits.
+  [[nodiscard]] std::size_t end_of_turn(std::span<const Pose2> poses, std::size_t from) const {
+    constexpr double kLongest_rad = 2.5;
+    std::size_t turned = from + 1;
+    double turn_rad = wrap_angle(poses[turned].yaw_rad - poses[from].yaw_rad);
+    for (; turned + 1 < poses.size(); ++turned) {
+      const double more_rad = wrap_angle(poses[turned + 1].yaw_rad - poses[turned].yaw_rad);
+      turn_rad += more_rad;
+      if (std::abs(more_rad) < 1e-9 || std::abs(turn_rad) > kLongest_rad) break;
+      if (!fits_turning(poses.subspan(from, turned - from + 2))) break;
+    }
+    return turned;
+  }
+
   void add_turn(const Pose2& to) {
     add({.waypoints = {path_.waypoints.back(), to}, .narrow = true});
   }
@@ -90,6 +107,16 @@ class PathBuilder {
   }
 
  private:
+  [[nodiscard]] bool fits_turning(std::span<const Pose2> poses) const {
+    const Eigen::Vector2d from = position(poses.front());
+    const Eigen::Vector2d way = position(poses.back()) - from;
+    for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(poses.size() - 1);
+      if (!space_.fits(outline_, pose_at(from + share * way, poses[i].yaw_rad))) return false;
+    }
+    return true;
+  }
+
   void add(PathLeg leg) {
     const double slowness = leg.narrow ? space_.slowness() : 1.0;
     for (std::size_t i = 1; i < leg.waypoints.size(); ++i) {
@@ -111,20 +138,6 @@ class PathBuilder {
   PlannedPath path_;
 };
 
-/// On to where it goes on straight, or as far as it must not be turned the other way: a robot turns
-/// to a heading the shorter way, in which something may stand.
-std::size_t end_of_turn(std::span<const Pose2> poses, std::size_t from) {
-  constexpr double kLongest_rad = 2.5;
-  std::size_t turned = from + 1;
-  double turn_rad = wrap_angle(poses[turned].yaw_rad - poses[from].yaw_rad);
-  for (; turned + 1 < poses.size(); ++turned) {
-    const double more_rad = wrap_angle(poses[turned + 1].yaw_rad - poses[turned].yaw_rad);
-    turn_rad += more_rad;
-    if (std::abs(more_rad) < 1e-9 || std::abs(turn_rad) > kLongest_rad) break;
-  }
-  return turned;
-}
-
 /// Poses of one passage, from the open place before it to the one after it, where there are such.
 void add_passage(PathBuilder& builder, std::span<const Pose2> poses) {
   for (std::size_t i = 0; i + 1 < poses.size();) {
@@ -132,7 +145,7 @@ void add_passage(PathBuilder& builder, std::span<const Pose2> poses) {
     while (end + 1 < poses.size() && same_heading(poses[end + 1].yaw_rad, poses[i].yaw_rad)) ++end;
     if (end > i) builder.add_straight(poses.subspan(i, end - i + 1));
     if (end + 1 == poses.size()) return;
-    const std::size_t turned = end_of_turn(poses, end);
+    const std::size_t turned = builder.end_of_turn(poses, end);
     builder.add_turn(poses[turned]);
     i = turned;
   }
@@ -193,36 +206,6 @@ std::pair<Pose2, Pose2> centred_leg(const Clearance& clearance, const FootprintS
   return best;
 }
 
-bool is_inside(std::span<const Eigen::Vector2d> outline, const Eigen::Vector2d& p_m) {
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Eigen::Vector2d edge = outline[i + 1 == outline.size() ? 0 : i + 1] - outline[i];
-    const Eigen::Vector2d to = p_m - outline[i];
-    if (edge.x() * to.y() - edge.y() * to.x() < 0.0) return false;
-  }
-  return true;
-}
-
-/// Poses of the leg from its point nearest to the robot on.
-std::vector<Pose2> poses_ahead(const PathLeg& leg, const Eigen::Vector2d& p_robot) {
-  std::vector<Pose2> poses;
-  std::size_t nearest = 0;
-  for (std::size_t i = 1; i < leg.waypoints.size(); ++i) {
-    const Pose2& from = leg.waypoints[i - 1];
-    const Pose2& to = leg.waypoints[i];
-    const Eigen::Vector2d way = position(to) - position(from);
-    const int samples = 1 + static_cast<int>(way.norm() / kSample_m);
-    for (int k = 0; k <= samples; ++k) {
-      const Eigen::Vector2d p_m = position(from) + static_cast<double>(k) / samples * way;
-      poses.push_back(pose_at(p_m, to.yaw_rad));
-      if ((p_m - p_robot).norm() <= (position(poses[nearest]) - p_robot).norm()) {
-        nearest = poses.size() - 1;
-      }
-    }
-  }
-  poses.erase(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(nearest));
-  return poses;
-}
-
 }  // namespace
 
 PlannedPath path_through_passages(const PathField& field, const std::vector<PathStep>& steps,
@@ -274,27 +257,6 @@ PlannedPath centred(const PathField& field, PlannedPath path) {
   }
   path.end = path.waypoints.back();
   return path;
-}
-
-bool is_passage_blocked(const FloorMap& detail, const PathLeg& leg, const Pose2& T_world_base,
-                        const RobotOutline& robot) {
-  constexpr double kSlack_m = 0.01;
-  const FloorOutline now = moved(grown(robot.outline, kSlack_m), T_world_base);
-  bool blocked = false;
-  for (const Pose2& pose : poses_ahead(leg, position(T_world_base))) {
-    const FloorOutline outline = moved(robot.outline, pose);
-    for_each_row_inside(outline, detail.centre({0, 0}), detail.cell_m,
-                        [&](int row, int first, int last) {
-                          for (int column = first; column <= last && !blocked; ++column) {
-                            const Eigen::Array2i cell(column, row);
-                            if (!detail.contains(cell) || !is_occupied(detail, detail.index(cell)))
-                              continue;
-                            blocked = !is_inside(now, detail.centre(cell));
-                          }
-                        });
-    if (blocked) return true;
-  }
-  return false;
 }
 
 }  // namespace vantage

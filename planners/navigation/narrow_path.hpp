@@ -25,9 +25,4 @@ PlannedPath path_through_passages(const PathField& field, const std::vector<Path
 /// 4 cm and half a heading; for the path that is driven.
 PlannedPath centred(const PathField& field, PlannedPath path);
 
-/// Whether something occupied is in the outline's way on a leg through a passage, from its point
-/// nearest to the robot on.
-bool is_passage_blocked(const FloorMap& detail, const PathLeg& leg, const Pose2& T_world_base,
-                        const RobotOutline& robot);
-
 }  // namespace vantage

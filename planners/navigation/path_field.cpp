@@ -119,10 +119,13 @@ void search_open_places(PathField& field) {
   field.parent = std::move(tree.parent);
 }
 
-/// So near to something that it cannot turn: a way out of there keeps its heading in mind.
+/// So near to something that it may not turn, as far as cells of the map tell: a way out of there
+/// keeps its heading in mind.
 bool stands_narrow(const PathField& field) {
+  const double off_m = 0.5 * std::numbers::sqrt2 * field.map.cell_m;
   return !field.traversable(field.start_cell) &&
-         static_cast<double>(field.clearance_m[field.start_cell]) < field.space->circumscribed_m();
+         static_cast<double>(field.clearance_m[field.start_cell]) <
+             field.space->circumscribed_m() + off_m;
 }
 
 void forget_ways(PathField& field) {

@@ -91,6 +91,22 @@ TEST_F(StepsThroughAPassage, TurnTheLongWayInSeveralTurns) {
   EXPECT_NEAR(planned.legs[1].waypoints.back().yaw_rad, 0.7 * std::numbers::pi, 1e-9);
 }
 
+/// A wall 16.5 cm beside it, and half of its diagonal is 18: the search has moved two headings.
+TEST_F(StepsThroughAPassage, TurnWhereEachHeadingFits) {
+  const DrawnRooms rooms(3.0, 3.0, {wall(0.0, 1.165, 3.0, 1.3)});
+  NavigationOptions options;
+  options.footprint_radius_m = radius_m_;
+  const PathField field = make_path_field(rooms.floor, {0.7, 1.0, 0.0}, options,
+                                          rooms.space({.outline = rectangle(0.3, 0.2)}, {}));
+  const std::vector<PathStep> steps{{{0.7, 1.0}, 0.0}, {{1.0, 1.0}, 0.0},   {{1.0, 1.0}, 0.2},
+                                    {{1.0, 1.0}, 0.3}, {{1.0, 0.96}, 0.75}, {{1.0, 0.96}, 1.1},
+                                    {{1.0, 1.0}, 1.5}, {{1.0, 1.0}, 1.55}};
+  const PlannedPath planned = path_through_passages(field, steps, 0.0);
+  ASSERT_EQ(planned.legs.size(), 3U) << "there, a turn to where the corner passes, and from there";
+  expect_pose(planned.legs[1].waypoints.back(), 1.0, 0.96, 1.1);
+  expect_pose(planned.legs[2].waypoints.back(), 1.0, 1.0, 1.55);
+}
+
 /// It stands between two headings of the search.
 TEST_F(StepsThroughAPassage, BeginAtTheHeadingNearestToItsOwn) {
   const PlannedPath planned =

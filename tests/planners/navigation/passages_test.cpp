@@ -9,6 +9,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/navigation/narrow_path.hpp"
 #include "vantage/planners/navigation/narrow_places.hpp"
+#include "vantage/planners/navigation/passage_watch.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 
@@ -419,6 +420,19 @@ TEST(Passages, SomethingNewBesideATurnInPlaceIsSeen) {
                             1.5 + corner_m * std::sin(bearing_rad));
   rooms.detail.log_odds[rooms.detail.index(rooms.detail.cell_at(p_m))] = 3.0F;
   EXPECT_TRUE(is_passage_blocked(rooms.detail, turn, {2.0, 1.5, 0.0}, robot));
+}
+
+/// A corner passes it half way.
+TEST(Passages, SomethingNewOnTheWayOfATurnInPlaceIsSeenUntilItIsPassed) {
+  DrawnRooms rooms = rooms_with_door(0.75);
+  const RobotOutline robot{.outline = rectangle(kWidth_m, kWidth_m)};
+  const double quarter_rad = 0.5 * std::numbers::pi;
+  const PathLeg turn{.waypoints = {{2.0, 1.5, 0.0}, {2.0, 1.5, quarter_rad}}, .narrow = true};
+  const Eigen::Vector2d p_m(2.0, 1.5 + 1.3 * 0.5 * kWidth_m);
+  rooms.detail.log_odds[rooms.detail.index(rooms.detail.cell_at(p_m))] = 3.0F;
+  EXPECT_TRUE(is_passage_blocked(rooms.detail, turn, {2.0, 1.5, 0.0}, robot));
+  EXPECT_TRUE(is_passage_blocked(rooms.detail, turn, {2.0, 1.5, 0.3}, robot));
+  EXPECT_FALSE(is_passage_blocked(rooms.detail, turn, {2.0, 1.5, 1.3}, robot));
 }
 
 /// A seam along every wall leads nowhere.

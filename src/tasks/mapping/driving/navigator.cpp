@@ -8,6 +8,7 @@
 
 #include "vantage/perception/clouds/usable_readings.hpp"
 #include "vantage/planners/navigation/narrow_path.hpp"
+#include "vantage/planners/navigation/passage_watch.hpp"
 
 namespace vantage {
 namespace {
