@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-enum class Column { open, unseen, obstructed, wall };
+enum class Column { open, unseen, obstructed, wall, wall_edge };
 
 struct Slices {
   int begin = 0;
@@ -49,12 +49,28 @@ class Columns {
       }
     }
     open_lone_groups();
+    if (scanner_m) mark_wall_edges();
   }
 
   [[nodiscard]] Column at(int x, int y) const { return columns_[index(x, y)]; }
 
  private:
   static constexpr std::size_t kLoneGroup = 4;  ///< columns
+
+  /// A surface near the boundary of two columns is in both, in the farther one here and there.
+  void mark_wall_edges() {
+    const std::vector<Column> before = columns_;
+    for (int y = 0; y < ny_; ++y) {
+      for (int x = 0; x < nx_; ++x) {
+        if (before[index(x, y)] != Column::obstructed) continue;
+        bool by_wall = false;
+        for_each_beside({x, y}, [&](int u, int v) {
+          by_wall = by_wall || before[index(u, v)] == Column::wall;
+        });
+        if (by_wall) columns_[index(x, y)] = Column::wall_edge;
+      }
+    }
+  }
 
   /// Few unseen columns amid open ones count as open.
   void open_lone_groups() {
@@ -90,7 +106,7 @@ class Columns {
   [[nodiscard]] bool is_clear_of_things(const Eigen::Array2i& column) const {
     int clear = 0;
     for_each_beside(column, [&](int x, int y) {
-      clear += at(x, y) != Column::obstructed && at(x, y) != Column::wall ? 1 : 0;
+      clear += at(x, y) == Column::open || at(x, y) == Column::unseen ? 1 : 0;
     });
     return clear == 8;
   }
@@ -129,7 +145,7 @@ class Columns {
 };
 
 void block(FloorMap& floor, const GridFrame& frame, std::span<const std::uint8_t> traversed,
-           const Columns& columns, bool walls) {
+           const Columns& columns, bool finer) {
   expects(traversed.size() == floor.size(), "a flag per cell of the floor map");
   std::ranges::fill(floor.blocked, std::uint8_t{0});
   const Eigen::Vector2d half = 0.5 * frame.cell_size_m.head<2>();
@@ -137,7 +153,8 @@ void block(FloorMap& floor, const GridFrame& frame, std::span<const std::uint8_t
   for (int y = 0; y < frame.cells.y(); ++y) {
     for (int x = 0; x < frame.cells.x(); ++x) {
       const Column column = columns.at(x, y);
-      if (column == Column::open || (column == Column::wall && !walls)) continue;
+      const bool of_wall = column == Column::wall || column == Column::wall_edge;
+      if (column == Column::open || (of_wall && finer)) continue;
       const Eigen::Vector2d centre = frame.centre({x, y, 0}).head<2>();
       const Eigen::Array2i low = floor.cell_at((centre - half).array() + kTouching).max(0);
       const Eigen::Array2i high = floor.cell_at((centre + half).array() - kTouching)
@@ -145,7 +162,8 @@ void block(FloorMap& floor, const GridFrame& frame, std::span<const std::uint8_t
       for (int v = low.y(); v <= high.y(); ++v) {
         for (int u = low.x(); u <= high.x(); ++u) {
           const std::size_t cell = floor.index({u, v});
-          if (column != Column::unseen || traversed[cell] == 0) floor.blocked[cell] = 1;
+          const bool known_otherwise = traversed[cell] != 0 && (finer || column == Column::unseen);
+          if (!known_otherwise) floor.blocked[cell] = 1;
         }
       }
     }
@@ -164,15 +182,15 @@ void HeadroomOptions::check() const {
 void block_columns(FloorMap& floor, const OccupancyGrid& grid,
                    std::span<const std::uint8_t> traversed, const HeadroomOptions& options) {
   check_options(options, "headroom");
-  block(floor, grid.frame, traversed, Columns(grid, options, std::nullopt), true);
+  block(floor, grid.frame, traversed, Columns(grid, options, std::nullopt), false);
 }
 
 void block_columns(const TraversedFloor& floor, const TraversedFloor& detail,
                    const OccupancyGrid& grid, const HeadroomOptions& options, double scanner_m) {
   check_options(options, "headroom");
   const Columns columns(grid, options, scanner_m);
-  block(floor.map, grid.frame, floor.traversed, columns, true);
-  block(detail.map, grid.frame, detail.traversed, columns, false);
+  block(floor.map, grid.frame, floor.traversed, columns, false);
+  block(detail.map, grid.frame, detail.traversed, columns, true);
 }
 
 }  // namespace vantage

@@ -83,6 +83,33 @@ TEST(Headroom, WallsAreOccupiedAtHalfOfTheRobotsHeight) {
   EXPECT_EQ(row(detail), "............xx......");
 }
 
+/// A face near the boundary of two columns is now and then in the farther one.
+TEST(Headroom, WhatIsBesideAWallDoesNotBlockTheFinerMap) {
+  OccupancyGrid grid = free_row();
+  for (int z = 0; z < 8; ++z) set(grid, 2, z, kOccupied);       // a wall
+  for (const int z : {3, 6}) set(grid, 3, z, kOccupied);        // its face, here and there
+  for (int z = 0; z < 8; ++z) set(grid, 7, z, kOccupied);       // another
+  for (const int x : {5, 6, 8, 9}) set(grid, x, 3, kOccupied);  // a board, on either side
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
+  EXPECT_EQ(row(floor), "....xxxx..xxxxxxxxxx");
+  EXPECT_EQ(row(detail), "..........xx......xx");
+}
+
+TEST(Headroom, NothingBlocksTheFinerMapWhereTheRobotHasBeen) {
+  OccupancyGrid grid = free_row();
+  set(grid, 4, 3, kOccupied);
+  for (int z = 1; z <= 3; ++z) set(grid, 7, z, 0.0F);
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  std::vector<std::uint8_t> traversed = nowhere(detail);
+  for (const double x_m : {-0.15, 0.45}) traversed[detail.index(detail.cell_at({x_m, 0.05}))] = 1;
+  block_columns({floor, traversed}, {detail, traversed}, grid, kOptions, 0.25);
+  EXPECT_EQ(row(floor), "........xx.....x....");
+  EXPECT_EQ(row(detail), ".........x.....x....");
+}
+
 TEST(Headroom, TheFloorItselfAndWhatIsAboveTheRobotDoNot) {
   OccupancyGrid grid = free_row();
   set(grid, 2, 0, kOccupied);
