@@ -223,6 +223,11 @@ double StudyTables::least(const std::string& name, const std::string& panel,
   return std::ranges::min(whole_samples(name, panel, level), {}, &Sample::value).value;
 }
 
+double StudyTables::most(const std::string& name, const std::string& panel,
+                         const std::string& level) const {
+  return std::ranges::max(whole_samples(name, panel, level), {}, &Sample::value).value;
+}
+
 Difference StudyTables::difference(const std::string& name, const std::string& panel,
                                    const std::string& level) const {
   const Table& of = table(name);

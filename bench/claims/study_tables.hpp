@@ -55,6 +55,8 @@ class StudyTables {
                             const std::string& level) const;
   [[nodiscard]] double least(const std::string& table, const std::string& panel,
                              const std::string& level) const;
+  [[nodiscard]] double most(const std::string& table, const std::string& panel,
+                            const std::string& level) const;
   /// To the reference level, of the same episodes but for the level; that has none to itself.
   [[nodiscard]] Difference difference(const std::string& table, const std::string& panel,
                                       const std::string& level) const;

@@ -182,6 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Studies, Claims,
                                               [](const StudyTables& s) {
                                                 return planning_office_findings(s, 0.80, 0.65);
                                               }},
+                                         Case{"buildings", building_findings},
                                          Case{"recognition_flight", flight_recognition_findings},
                                          Case{"recognition_clutter", clutter_findings},
                                          Case{"change_flight", flight_change_findings},

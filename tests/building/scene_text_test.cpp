@@ -64,11 +64,14 @@ TEST(BuildingMap, IsLargeEnoughAndOfCellsThatAreFewEnough) {
 TEST(SceneText, EpisodesHaveTheMapAndScansByArea) {
   EXPECT_THAT(episode_overrides(hall_of(8.0, 6.0)),
               testing::ElementsAre("map.size_m=[8.5, 6.5, 2]", "map.cells=[146, 112, 65]",
-                                   "floor_map.half_size_m=4.5"));
+                                   "floor_map.half_size_m=4.5", "base_scanner.range_max_m=30",
+                                   "localisation.loops.close=true"));
   const std::string episode = to_episode(hall_of(8.0, 6.0), "hall.xml");
   EXPECT_THAT(episode, HasSubstr("\nscans: 22\n"));
   EXPECT_THAT(episode, HasSubstr("size_m: [8.5, 6.5, 2], cells: [146, 112, 65]"));
   EXPECT_THAT(episode, HasSubstr("half_size_m: 4.5"));
+  EXPECT_THAT(episode, HasSubstr("range_max_m: 30}"));
+  EXPECT_THAT(episode, HasSubstr("\nlocalisation: {loops: {close: true}}\n"));
   EXPECT_THAT(to_episode(hall_of(4.0, 4.0), "hall.xml"), HasSubstr("\nscans: 20\n"));
 }
 

@@ -100,6 +100,12 @@ Scalar fallbacks(const MeasuredEpisode& episode) {
   return count;
 }
 
+/// Of the map as it is at the end, corrected over loops.
+Scalar worst_pose_error(const MeasuredEpisode& episode) {
+  const Curve errors = scan_values(episode, "pose_error_m");
+  return errors.empty() ? Scalar{} : *std::ranges::max_element(errors);
+}
+
 Scalar map_score(const MeasuredEpisode& episode, const char* key) {
   const Json& value = episode.metrics.at("map").at(key);
   return value.is_null() ? Scalar{} : value.get<double>();
@@ -194,6 +200,9 @@ const auto kScalars = std::to_array<ScalarMeasure>({
      [](const MeasuredEpisode& e) {
        return mean_of(scan_values(e, "pose_error_before_registration_m"));
      }},
+    {{"worst_pose_error_m",
+      "greatest error of the position that a scan was taken into the map at, m", Better::lower},
+     worst_pose_error},
     kSimulatedTime,
 });
 
