@@ -97,7 +97,7 @@ struct LocalisationOptions {
   double tolerance_cells = 4.0;
   bool accept_drift = false;
   LoopOptions loops;
-  double max_contradicted = 0.03;
+  double max_contradicted = 0.06;
   void fields(auto&& f) {
     f("tolerance_cells", tolerance_cells,
       "how far off its place, RMS, the robot may believe what it maps to be, in the longest edge "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/localisation/plan_world.hpp"
 #include "vantage/tasks/exploration/exploration_belief.hpp"
 #include "vantage/tasks/mapping/driving/loop_closing.hpp"
 
@@ -225,6 +226,48 @@ TEST(LoopClosing, AddsUpTheTurnsOfTheWheels) {
   EXPECT_NEAR(loops.turned_rad(), 0.5, 1e-12);
   EXPECT_EQ(loops.corrections(), 0U);
   EXPECT_FALSE(loops.wants_correction());
+}
+
+/// As the PR2's: 270 deg in steps of a quarter, 30 m.
+PlanarScan planar_scan(const std::vector<test_plan::Segment>& walls, const Pose2& T_world_base,
+                       Rng& rng) {
+  PlanarScan scan{.T_base_sensor = {}, .azimuth_rad = {}, .range_m = {}, .range_max_m = 30.0};
+  for (int i = -540; i <= 540; ++i) {
+    scan.azimuth_rad.push_back(0.00436 * i);
+    const double yaw_rad = T_world_base.yaw_rad + scan.azimuth_rad.back();
+    const double range_m = test_plan::range_m(walls, {T_world_base.x_m, T_world_base.y_m},
+                                              {std::cos(yaw_rad), std::sin(yaw_rad)});
+    scan.range_m.push_back(static_cast<float>(range_m + 0.01 * rng.normal()));
+  }
+  return scan;
+}
+
+/// Tracked by what was seen last a map bends a little from place to place, and fits all the same:
+/// here the corridor is 0.6 % longer by the tracked poses.
+TEST(LoopClosing, CorrectsWhatFitsWellButIsBent) {
+  RegistrationOptions registration;
+  registration.normals.radius_m = 0.25;
+  const auto walls = test_plan::ring(15.0, 28.0, 2.0);
+  auto truth = test_plan::way_round(15.0, 28.0, 2.0, 2);
+  truth.resize(truth.size() / 2 + 20);
+  Rng rng(3);
+  const auto tracked = [&](std::size_t i) {
+    return Pose2{truth[i].x_m, truth[0].y_m + 1.006 * (truth[i].y_m - truth[0].y_m),
+                 truth[i].yaw_rad};
+  };
+  LoopClosing loops({.close = true}, registration, {}, tracked(0));
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (i > 0) {
+      const Pose2 step = test_plan::wheels(truth[i - 1], truth[i], rng).T_previous_now;
+      loops.moved_to(compose(tracked(i - 1), step), tracked(i));
+    }
+    loops.remember(planar_scan(walls, truth[i], rng), 0.25, tracked(i));
+  }
+  ASSERT_GT(loops.disagreement_m(), 0.08);
+  EXPECT_LT(loops.contradicted_share(), 0.02) << "it fits";
+  ASSERT_TRUE(loops.wants_correction());
+  EXPECT_LT(test_plan::worst_m(loops.correct().T_world_after, truth), 0.05);
+  EXPECT_FALSE(loops.wants_correction()) << "it has been corrected";
 }
 
 }  // namespace

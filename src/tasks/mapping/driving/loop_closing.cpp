@@ -10,9 +10,10 @@ namespace {
 
 /// At that distance a heading moves what is seen.
 constexpr double kSight_m = 3.0;
-/// Poses of loops are taken where beams go through walls by so much less than at the tracked ones:
-/// where tracking was good, it is better than what loops say.
-constexpr double kMuchBetter = 0.6;
+/// Poses of loops are not taken where beams go through walls so many times as often as at the
+/// tracked ones: such loops are false. A little more often is no sign of it, as a pose that is
+/// tracked by the walls just seen fits these best.
+constexpr double kMuchWorse = 1.5;
 /// Encoders and time stamps are no better.
 const Eigen::Vector3d kLeastSigma(0.001, 0.001, 0.0005);
 
@@ -95,7 +96,7 @@ bool LoopClosing::wants_correction() const {
   if (graph_.loops() <= loops_corrected_ || disagreement_m() <= options_.correct_m) return false;
   std::vector<Pose2> tracked;
   for (const Remembered& seen : remembered_) tracked.push_back(seen.T_world_base);
-  return contradicted_at(graph_.T_world_bases()) < kMuchBetter * contradicted_at(tracked);
+  return contradicted_at(graph_.T_world_bases()) < kMuchWorse * contradicted_at(tracked);
 }
 
 PoseCorrection LoopClosing::correct() {

@@ -41,7 +41,7 @@ class LoopClosing {
   /// By the wheels, since the last that was remembered.
   [[nodiscard]] double turned_rad() const { return turned_rad_; }
   /// There are new loops, and they move some pose by more than `correct_m`, to where what was
-  /// seen fits together much better.
+  /// seen does not fit together much worse.
   [[nodiscard]] bool wants_correction() const;
   /// From now on what was remembered was seen from there.
   PoseCorrection correct();
