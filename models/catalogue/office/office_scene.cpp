@@ -185,6 +185,21 @@ void place(Layout& layout, const Room& room, OfficeGroup group, Rng& rng) {
   }
 }
 
+/// Whether there is wall behind all of it: where corridors meet a side of a room is open.
+bool has_wall_behind(const FloorPlan& plan, const PlacedItem& placed) {
+  const Outline outline = item_footprint(placed.item, placed.variant);
+  const auto [right, left] =
+      std::ranges::minmax(outline, {}, [](const Vector2d& p) { return p.y(); });
+  return std::ranges::all_of(std::array{right.y(), left.y()}, [&](double along_m) {
+    const Pose2 behind = compose(placed.T_world_item, {-kHalfWall_m, along_m, 0.0});
+    return std::ranges::any_of(plan.walls, [&](const Wall& wall) {
+      return std::ranges::any_of(wall_pieces(wall), [&](const AlignedBox2d& piece) {
+        return piece.contains(Vector2d(behind.x_m, behind.y_m));
+      });
+    });
+  });
+}
+
 /// Windows in the outer walls, boards and posters on the others.
 void hang(Layout& layout, const Room& room, Rng& rng) {
   const Vector2d outer = 0.5 * layout.scene.plan.size_m - Vector2d::Constant(0.2);
@@ -202,7 +217,9 @@ void hang(Layout& layout, const Room& room, Rng& rng) {
           moved(item_footprint(placed.item, variant), compose(pose, {0.05, 0, 0}));
       const bool covered = std::ranges::any_of(
           layout.taken, [&](const Outline& other) { return too_close(before_it, other, 0.0); });
-      if (wanted && !covered) layout.scene.furniture.push_back(placed);
+      if (wanted && !covered && has_wall_behind(layout.scene.plan, placed)) {
+        layout.scene.furniture.push_back(placed);
+      }
     }
   }
 }
