@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vantage/core/error.hpp"
+#include "vantage/models/catalogue/office/corridor_plan.hpp"
 
 namespace vantage {
 namespace {
@@ -130,6 +131,26 @@ TEST(DoorScenes, EveryRoomIsReachableFromItsDoorsAlone) {
     }
     EXPECT_EQ(doors, 7);
     EXPECT_GT(scene.furniture.size(), 20U);
+  }
+}
+
+/// Where corridors meet, too: a side of one is open there.
+TEST(CorridorScenes, NothingHangsInTheMiddleOfACorridor) {
+  for (const CorridorOptions& options : corridor_scenes()) {
+    const OfficeScene scene = make_corridor_scene(options);
+    const Pose2& corner = scene.plan.T_world_starts[2];  // in the middle, where two corridors meet
+    int hanging = 0;
+    for (const PlacedItem& placed : scene.furniture) {
+      if (!hangs_on_wall(placed.item)) continue;
+      ++hanging;
+      const Eigen::Vector2d at(std::abs(placed.T_world_item.x_m),
+                               std::abs(placed.T_world_item.y_m));
+      const bool beside_ends = at.x() <= corner.x_m + 0.6 && at.y() <= corner.y_m + 0.6;
+      const double off_m = std::min(std::abs(at.x() - corner.x_m), std::abs(at.y() - corner.y_m));
+      EXPECT_FALSE(beside_ends && off_m < 0.6)
+          << options.name << " " << at.transpose() << ": " << off_m << " m off the middle";
+    }
+    EXPECT_GT(hanging, 20) << options.name;
   }
 }
 
