@@ -59,7 +59,7 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
 void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
   mark_disc(navigator_.floor(), p_m, radius_m, traversed_);
   if (const FloorMap* detail = navigator_.detail()) {
-    mark_disc(*detail, p_m, radius_m + task_.passages.margin_m, traversed_detail_);
+    mark_disc(*detail, p_m, radius_m, traversed_detail_);
   }
 }
 
