@@ -41,6 +41,14 @@ Eigen::Vector3d difference(const Pose2& from, const Pose2& to) {
 
 }  // namespace
 
+double mapped_sigma_m(const Pose2& T_world_base, const Eigen::Matrix3d& covariance,
+                      const Eigen::Vector2d& p_world_m) {
+  Eigen::Matrix<double, 2, 3> lever;
+  lever << 1.0, 0.0, T_world_base.y_m - p_world_m.y(),  //
+      0.0, 1.0, p_world_m.x() - T_world_base.x_m;
+  return std::sqrt((lever * covariance * lever.transpose()).trace());
+}
+
 void PoseUncertainty::move_to(const Pose2& T_world_base) {
   const Eigen::Vector3d moved = difference(T_world_base_, T_world_base);
   const double distance_m = moved.head<2>().norm();
@@ -87,13 +95,6 @@ void PoseUncertainty::assume(const Pose2& T_world_base, const Eigen::Matrix3d& c
 void PoseUncertainty::remember() {
   ++remembered_;
   reference_ += (covariance_ - reference_) / remembered_;
-}
-
-double PoseUncertainty::sigma_m(const Eigen::Vector2d& p_world_m) const {
-  Eigen::Matrix<double, 2, 3> lever;
-  lever << 1.0, 0.0, T_world_base_.y_m - p_world_m.y(),  //
-      0.0, 1.0, p_world_m.x() - T_world_base_.x_m;
-  return std::sqrt((lever * covariance_ * lever.transpose()).trace());
 }
 
 double PoseUncertainty::plausible_shift_m() const {

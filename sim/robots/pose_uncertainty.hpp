@@ -8,6 +8,11 @@
 
 namespace vantage {
 
+/// RMS distance between where a point of the world lies and where a robot maps it whose pose has
+/// this covariance of (x, y, yaw).
+double mapped_sigma_m(const Pose2& T_world_base, const Eigen::Matrix3d& covariance,
+                      const Eigen::Vector2d& p_world_m);
+
 /// Covariance of (x, y, yaw) in the world, with the model of the odometry. The first pose is known:
 /// it says where the world is.
 class PoseUncertainty {
@@ -26,8 +31,6 @@ class PoseUncertainty {
   void remember();
 
   [[nodiscard]] const Eigen::Matrix3d& covariance() const { return covariance_; }
-  /// RMS distance between where a point of the world lies and where the robot maps it.
-  [[nodiscard]] double sigma_m(const Eigen::Vector2d& p_world_m) const;
   /// Beyond these a correction is no drift of odometry: five standard deviations and what
   /// registration itself may be off.
   [[nodiscard]] double plausible_shift_m() const;

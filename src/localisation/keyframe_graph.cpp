@@ -23,8 +23,10 @@ constexpr double kArm_m = 4.0;         ///< a heading counts by what it moves at
 constexpr double kMaxMisfit_m = 0.10;  ///< of a loop, once all poses are optimised
 constexpr double kGate = 20.0;         ///< chi-square of three, one in 6000
 constexpr std::size_t kMinPoints = 100;
-/// What a registration may be off whatever its residuals say: neighbouring scans share errors.
-const Eigen::Vector3d kLeastSigma(0.003, 0.003, 0.0008);
+/// What a registration may be off whatever its residuals say, as neighbouring scans share errors.
+/// On the way it is what adds up from keyframe to keyframe. That is less than what one is off by,
+/// as each is registered with all of kLocalWay_m (docs/decisions/localisation.md).
+const Eigen::Vector3d kLeastSigma(0.0015, 0.0015, 0.0004);
 const Eigen::Vector3d kLeastLoopSigma(0.005, 0.005, 0.0015);
 
 Eigen::Matrix3d turn(double yaw_rad) {

@@ -8,7 +8,7 @@ namespace vantage {
 struct LoopOptions {
   bool close = false;
   double min_way_m = 12.0;
-  double search_m = 2.5;
+  double search_m = 10.0;
   double min_agreement = 0.85;
   double agreement_m = 0.06;
   double agreement_rad = 0.02;

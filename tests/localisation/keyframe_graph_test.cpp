@@ -67,7 +67,7 @@ TEST(KeyframeGraph, PosesAlongPlainWallsAreUnsureAlongThem) {
   const Eigen::Matrix3d covariance = drive.covariance(23);
   // 11.5 m by the wheels alone, 3 % of the root of each metre.
   EXPECT_NEAR(std::sqrt(covariance(0, 0)), 0.03 * std::sqrt(11.5), 0.02);
-  EXPECT_LT(std::sqrt(covariance(1, 1)), 0.05);
+  EXPECT_LT(std::sqrt(covariance(1, 1)), 0.03);
   EXPECT_NEAR(drive.graph.T_world_bases().back().y_m, 0.0, 0.05);
 }
 

@@ -237,7 +237,7 @@ TEST(LoopOptions, HaveTheirDefaults) {
   const LoopOptions options;
   EXPECT_FALSE(options.close);
   EXPECT_EQ(options.min_way_m, 12.0);
-  EXPECT_EQ(options.search_m, 2.5);
+  EXPECT_EQ(options.search_m, 10.0);
   EXPECT_EQ(options.min_agreement, 0.85);
   EXPECT_EQ(options.agreement_m, 0.06);
   EXPECT_EQ(options.agreement_rad, 0.02);

@@ -25,9 +25,12 @@ void MappingParts::correct_records(const PoseCorrection& correction, const Pose&
   if (intended_m_ && !scans_.empty()) {
     intended_m_ = correction.moved(*intended_m_, scans_.back().keyframe);
   }
-  note_pose_sigmas(records);
+  // The map is made anew at these poses: it is as sure as they are.
+  const auto covariances = note_pose_sigmas(records);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i]->map_sigma_m = map_sigma_m(records[i]->T_world_base, covariances[i]);
+  }
   robot_.restart_dead_reckoning();
-  current_.map_sigma_m = map_sigma_m();
   evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
   log_info(
       fmt::format("scan {}: back at a place of before: poses corrected by up to {:.3f} m, map "
@@ -35,14 +38,30 @@ void MappingParts::correct_records(const PoseCorrection& correction, const Pose&
                   scans_.size() + 1, most_m));
 }
 
-void MappingParts::note_pose_sigmas(std::span<ScanRecord* const> records) const {
+std::vector<Eigen::Matrix3d> MappingParts::note_pose_sigmas(
+    std::span<ScanRecord* const> records) const {
   const LoopClosing* loops = navigator_.loops();
-  if (loops == nullptr) return;
+  if (loops == nullptr) return {};
   std::vector<std::size_t> keyframes;
   for (const ScanRecord* record : records) keyframes.push_back(record->keyframe);
-  const auto covariances = loops->graph().covariances(keyframes);
+  auto covariances = loops->graph().covariances(keyframes);
   for (std::size_t i = 0; i < records.size(); ++i) {
     records[i]->pose_sigma_m = std::sqrt(covariances[i].topLeftCorner<2, 2>().trace());
+  }
+  return covariances;
+}
+
+void MappingParts::note_agreeing_loops() {
+  const LoopClosing* loops = navigator_.loops();
+  if (loops == nullptr || loops->graph().loops() == 0) return;
+  std::vector<ScanRecord*> records;
+  for (ScanRecord& scan : scans_) records.push_back(&scan);
+  const auto covariances = note_pose_sigmas(records);
+  const double off_m = loops->disagreement_m();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const double by_loops_m =
+        std::hypot(off_m, map_sigma_m(records[i]->T_world_base, covariances[i]));
+    records[i]->map_sigma_m = std::min(records[i]->map_sigma_m, by_loops_m);
   }
 }
 

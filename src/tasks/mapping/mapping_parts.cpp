@@ -88,7 +88,8 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   current_.energy_j = robot_.energy_used_j();
   current_.registered = update.registered;
   current_.unconstrained = update.unconstrained;
-  current_.map_sigma_m = map_sigma_m();
+  current_.map_sigma_m =
+      map_sigma_m(robot_.estimated_base(), navigator_.uncertainty().covariance());
   evaluator_.measure_pose({before.dead_reckoned, before.tracked, update.T_world_base}, current_);
   current_.T_world_sensor = T_world_sensor;
   current_.T_world_base = update.T_world_base;
@@ -107,10 +108,8 @@ void MappingParts::measure(const Before& before, const BeliefUpdate& update,
   }
 }
 
-/// Of points about the robot where the region is, RMS.
-double MappingParts::map_sigma_m() const {
+double MappingParts::map_sigma_m(const Pose2& base, const Eigen::Matrix3d& covariance) const {
   constexpr double kSight_m = 2.0;
-  const Pose2 base = robot_.estimated_base();
   const Eigen::Vector2d from(base.x_m, base.y_m);
   const Eigen::AlignedBox3d region = belief_.grid().frame.box();
   const Eigen::AlignedBox2d floor(region.min().head<2>(), region.max().head<2>());
@@ -119,7 +118,7 @@ double MappingParts::map_sigma_m() const {
     const Eigen::Vector2d to =
         floor.corner(static_cast<Eigen::AlignedBox2d::CornerType>(corner)) - from;
     const Eigen::Vector2d p = from + to * std::min(1.0, kSight_m / std::max(to.norm(), 1e-9));
-    sum_m2 += std::pow(navigator_.uncertainty().sigma_m(p), 2);
+    sum_m2 += std::pow(mapped_sigma_m(base, covariance, p), 2);
   }
   return std::sqrt(sum_m2 / 4.0);
 }

@@ -152,8 +152,12 @@ class MappingParts {
   void tell_truth(std::vector<Candidate>& candidates) const;
   [[nodiscard]] std::span<const Pose> poses_of_truth() const;
   [[nodiscard]] MapPanelInput panel() const;
-  [[nodiscard]] double map_sigma_m() const;
-  void note_pose_sigmas(std::span<ScanRecord* const> records) const;
+  /// Of points about that pose where the region is, RMS.
+  [[nodiscard]] double map_sigma_m(const Pose2& base, const Eigen::Matrix3d& covariance) const;
+  /// @return covariances of (x, y, yaw) at these records' scans; none if no loops are looked for
+  std::vector<Eigen::Matrix3d> note_pose_sigmas(std::span<ScanRecord* const> records) const;
+  /// Loops that left the poses where they were make the map as sure as those that moved them.
+  void note_agreeing_loops();
   [[nodiscard]] BlockField transmission() const;
   [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
   [[nodiscard]] double predicted_by(const Gain& gain) const;

@@ -18,14 +18,17 @@ Eigen::Matrix3d information(double x_m, double y_m, double yaw_rad) {
 TEST(PoseUncertainty, AMetreStraightOnIsTheModelsOwnNumbers) {
   const OdometryOptions odometry;
   PoseUncertainty uncertainty(odometry, {});
-  EXPECT_EQ(uncertainty.sigma_m({1.0, 1.0}), 0.0) << "the start is where the world is";
-  uncertainty.move_to({1.0, 0.0, 0.0});
+  EXPECT_EQ(mapped_sigma_m({}, uncertainty.covariance(), {1.0, 1.0}), 0.0)
+      << "the start is where the world is";
+  const Pose2 there{1.0, 0.0, 0.0};
+  uncertainty.move_to(there);
   const Eigen::Matrix3d& covariance = uncertainty.covariance();
   EXPECT_NEAR(covariance(0, 0), 0.01 * 0.01 + 0.01 * 0.01, 1e-12);
   EXPECT_NEAR(covariance(1, 1), 0.01 * 0.01 + 0.01 * 0.01, 1e-12);
   EXPECT_NEAR(covariance(2, 2), 0.01 * 0.01 + 0.005 * 0.005, 1e-12);
-  EXPECT_NEAR(uncertainty.sigma_m({1.0, 0.0}), std::sqrt(4e-4), 1e-9);
-  EXPECT_GT(uncertainty.sigma_m({3.0, 0.0}), 0.029) << "a wrong heading tells far away";
+  EXPECT_NEAR(mapped_sigma_m(there, covariance, {1.0, 0.0}), std::sqrt(4e-4), 1e-9);
+  EXPECT_GT(mapped_sigma_m(there, covariance, {3.0, 0.0}), 0.029)
+      << "a wrong heading tells far away";
 }
 
 /// Along a circle of 1.2 m with the wheels' own noise, drawn many times.
@@ -124,7 +127,8 @@ TEST(PoseUncertainty, AWrongHeadingLeadsAstray) {
 
 TEST(PoseUncertainty, TellsHowFarOffAPointAndACorrectionMayBe) {
   const PoseUncertainty uncertainty = after_two_ways();
-  EXPECT_NEAR(uncertainty.sigma_m({3.5, 1.0}), 0.0779140314532108, 1e-12);
+  EXPECT_NEAR(mapped_sigma_m({1.5, 2.0, 0.3}, uncertainty.covariance(), {3.5, 1.0}),
+              0.0779140314532108, 1e-12);
   EXPECT_NEAR(uncertainty.plausible_shift_m(), 0.3046899018750643, 1e-12);
   EXPECT_NEAR(uncertainty.plausible_turn_rad(), 0.15849931146910134, 1e-12);
 }
@@ -166,7 +170,7 @@ TEST(PoseUncertainty, IsAsSureAsItIsToldToBe) {
   const Eigen::Matrix3d told = Eigen::Vector3d(0.01, 0.02, 0.03).asDiagonal();
   uncertainty.assume({4.0, 5.0, 0.0}, told);
   EXPECT_TRUE(uncertainty.covariance() == told);
-  EXPECT_NEAR(uncertainty.sigma_m({4.0, 5.0}), std::sqrt(0.03), 1e-12);
+  EXPECT_NEAR(mapped_sigma_m({4.0, 5.0, 0.0}, told, {4.0, 5.0}), std::sqrt(0.03), 1e-12);
   uncertainty.correct({4.0, 5.0, 0.0}, 1e9 * Eigen::Matrix3d::Identity());
   EXPECT_TRUE(uncertainty.covariance().isApprox(told, 1e-6)) << "so is what it goes by";
   const double before_m2 = uncertainty.covariance()(0, 0);

@@ -96,7 +96,7 @@ bool LoopClosing::wants_correction() const {
   if (graph_.loops() <= loops_corrected_ || disagreement_m() <= options_.correct_m) return false;
   std::vector<Pose2> tracked;
   for (const Remembered& seen : remembered_) tracked.push_back(seen.T_world_base);
-  return contradicted_at(graph_.T_world_bases()) < kMuchWorse * contradicted_at(tracked);
+  return contradicted_at(graph_.T_world_bases()) <= kMuchWorse * contradicted_at(tracked);
 }
 
 PoseCorrection LoopClosing::correct() {
