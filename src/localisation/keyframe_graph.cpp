@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "vantage/core/error.hpp"
 #include "vantage/localisation/place_match.hpp"
@@ -16,6 +17,7 @@ constexpr double kVoxel_m = 0.03;
 constexpr double kLocalWay_m = 5.0;    ///< the way that a scan is registered with
 constexpr double kPlaceWay_m = 3.0;    ///< before and after a place of long ago
 constexpr double kTryEvery_m = 1.0;    ///< driven
+constexpr double kPlaceApart_m = 2.0;  ///< places of long ago that are looked at
 constexpr double kTied_m = 3.0;        ///< between loops, along both ways together
 constexpr double kRecent_m = 8.0;      ///< driven since a loop that the next one is held against
 constexpr double kMaxDrift_m = 2.0;    ///< that a loop is looked for within
@@ -181,22 +183,38 @@ bool KeyframeGraph::is_tied(std::size_t before) const {
   });
 }
 
-/// The keyframe nearest to the last one, of those of long ago.
+/// Of those of long ago within reach the keyframe that saw most of what the last one sees, the
+/// nearest of several. It need not be the nearest of all: that may be behind a wall.
 std::optional<std::size_t> KeyframeGraph::place_of_long_ago() const {
-  std::optional<std::size_t> nearest;
-  double nearest_m = options_.search_m + kMaxDrift_m;
+  std::optional<std::size_t> best;
+  std::pair<std::size_t, double> most{0, 0.0};  ///< points, and nearness
+  std::vector<Eigen::Vector2d> looked_at_m;
   const Pose2& now = poses_.back();
   for (std::size_t i = 0; i < poses_.size(); ++i) {
     if (driven_m_.back() - driven_m_[i] < options_.min_way_m) break;
-    const double away_m = std::hypot(poses_[i].x_m - now.x_m, poses_[i].y_m - now.y_m);
-    if (away_m >= nearest_m) continue;
-    nearest_m = away_m;
-    nearest = i;
+    const Eigen::Vector2d place_m(poses_[i].x_m, poses_[i].y_m);
+    const auto is_same = [&](const Eigen::Vector2d& other_m) {
+      return (other_m - place_m).norm() < kPlaceApart_m;
+    };
+    if (!is_within_reach(i) || std::ranges::any_of(looked_at_m, is_same)) continue;
+    looked_at_m.push_back(place_m);
+    const Pose2 T_place_now = compose(inverse(poses_[i]), now);
+    const std::pair seen{agreement(scans_.back(), scans_[i], T_place_now).facing,
+                         -std::hypot(T_place_now.x_m, T_place_now.y_m)};
+    if (seen.first == 0 || (best && seen <= most)) continue;
+    most = seen;
+    best = i;
   }
-  if (!nearest || is_tied(*nearest)) return std::nullopt;
-  const double sigma_m = std::sqrt(drift_since(*nearest).topLeftCorner<2, 2>().trace());
-  if (nearest_m > options_.search_m + 3.0 * sigma_m) return std::nullopt;
-  return nearest;
+  if (best && is_tied(*best)) return std::nullopt;
+  return best;
+}
+
+bool KeyframeGraph::is_within_reach(std::size_t before) const {
+  const double away_m =
+      std::hypot(poses_[before].x_m - poses_.back().x_m, poses_[before].y_m - poses_.back().y_m);
+  if (away_m >= options_.search_m + kMaxDrift_m) return false;
+  const double sigma_m = std::sqrt(drift_since(before).topLeftCorner<2, 2>().trace());
+  return away_m <= options_.search_m + 3.0 * sigma_m;
 }
 
 std::optional<PoseEdge> KeyframeGraph::recognise(std::size_t before) const {

@@ -53,6 +53,7 @@ class KeyframeGraph {
   [[nodiscard]] Eigen::Matrix3d drift_since(std::size_t before) const;
   [[nodiscard]] bool is_tied(std::size_t before) const;
   [[nodiscard]] std::optional<std::size_t> place_of_long_ago() const;
+  [[nodiscard]] bool is_within_reach(std::size_t before) const;
   [[nodiscard]] std::optional<PoseEdge> recognise(std::size_t before) const;
   [[nodiscard]] bool is_plausible(const PoseEdge& loop, const Eigen::Matrix3d& drift) const;
   [[nodiscard]] bool agree(const PoseEdge& one, const PoseEdge& other) const;

@@ -141,6 +141,7 @@ Agreement agreement(const PointCloud& scan, const PointCloud& place, const Pose2
     ++result.near;
     const Eigen::Vector3f& normal = place.normals[found->index];
     const bool faces = static_cast<double>(there.normals[i].dot(normal)) > kMinCosine;
+    result.facing += faces ? 1 : 0;
     const Eigen::Vector3f off = there.points[i] - place.points[found->index];
     on += faces && std::abs(static_cast<double>(off.dot(normal))) < kOn_m ? 1 : 0;
   }

@@ -20,8 +20,9 @@ Pose2 search_pose(const PointCloud& scan, const PointCloud& place, const Pose2& 
                   const SearchWindow& window);
 
 struct Agreement {
-  std::size_t near = 0;  ///< points of the scan on a surface, where one of the place is known
-  double share = 0.0;    ///< of those, the share on one that lies there and faces the same way
+  std::size_t near = 0;    ///< points of the scan on a surface, where one of the place is known
+  std::size_t facing = 0;  ///< of those, whose surface faces the same way
+  double share = 0.0;  ///< of those near, the share on one that lies there and faces the same way
 };
 
 Agreement agreement(const PointCloud& scan, const PointCloud& place, const Pose2& T_place_scan);

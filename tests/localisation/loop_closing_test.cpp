@@ -87,14 +87,14 @@ TEST(LoopClosing, IsDoneOnceWithinThreeMetres) {
   }
 }
 
-/// Its second place is 1.5 m from the first one, by the way.
+/// Its second place is 1.5 m from the first one, by the way, and another: 2.1 m away.
 TEST(LoopClosing, IsDoneOnceWithinThreeMetresOfBothWaysTogether) {
   for (const double driven_m : {1.375, 1.5}) {
     InARoom room(test_room::walls());
-    room.go(test_room::walls(0.3F), 1.5, 0.3);
-    room.go(test_room::walls(), 10.5, -0.3);
+    room.go(test_room::walls(2.1F), 1.5, 2.1);
+    room.go(test_room::walls(), 10.5, -2.1);
     EXPECT_TRUE(room.stay(1.0));
-    EXPECT_EQ(room.go(test_room::walls(0.3F), driven_m, 0.3), driven_m == 1.5) << driven_m;
+    EXPECT_EQ(room.go(test_room::walls(2.1F), driven_m, 2.1), driven_m == 1.5) << driven_m;
     EXPECT_EQ(room.graph().loops(), driven_m == 1.5 ? 3U : 2U);
   }
 }
@@ -119,6 +119,17 @@ TEST(LoopClosing, IsOfPlacesWithinTheSearchDistance) {
     room.go(test_room::walls(away_m), 12.0, static_cast<double>(away_m));
     EXPECT_EQ(room.go(test_room::walls(away_m), 1.0), away_m < 0.5F) << away_m;
   }
+}
+
+/// The nearest place of long ago is behind a wall, and saw the other side of it.
+TEST(LoopClosing, IsOfThePlaceWhoseSurfacesAreSeenAgain) {
+  InARoom room(test_room::walls());
+  test_room::Room behind{{}, 2.4F};
+  behind.across_y(1.935F, 1.0F, 0, 12);
+  room.go(behind.seen, 4.0, 2.4);
+  EXPECT_FALSE(room.go(test_room::walls(2.4F), 12.0));
+  EXPECT_TRUE(room.go(test_room::walls(2.4F), 1.0));
+  EXPECT_NEAR(room.moved_m(), 2.4, 1e-3);
 }
 
 TEST(LoopClosing, IsOfAHundredPointsAtLeast) {
