@@ -172,16 +172,23 @@ std::string line_svg(const FigureSeries& series, const Frame& frame) {
          dots;
 }
 
+bool is_empty(const FigurePanel& panel) {
+  return std::ranges::all_of(panel.series,
+                             [](const auto& series) { return series.points.empty(); });
+}
+
 std::string panel_svg(const Figure& figure, const FigurePanel& panel, double left, double top) {
   const Frame frame = frame_of(figure, panel, left, top);
   const double middle_y = top + 0.5 * (kPanelHeight + kTop - kBottom);
   std::string svg = svg_line(left + kLeft, top + kTop - 14.0, kPanelWidth - kLeft - kRight,
                              panel.title, {.size_px = 13.5, .bold = true, .colour = kInk});
+  const double middle_x = left + 0.5 * (kPanelWidth + kLeft - kRight);
+  if (is_empty(panel)) return svg + svg_line(middle_x, middle_y, kPanelWidth, "not run", kLabel);
   svg += grid_svg(frame);
   for (const FigureSeries& series : panel.series) svg += band_svg(series, frame);
   for (const FigureSeries& series : panel.series) svg += line_svg(series, frame);
-  svg += svg_line(left + 0.5 * (kPanelWidth + kLeft - kRight), top + kPanelHeight - 10.0,
-                  kPanelWidth - kLeft - kRight, figure.x_label, kLabel);
+  svg += svg_line(middle_x, top + kPanelHeight - 10.0, kPanelWidth - kLeft - kRight, figure.x_label,
+                  kLabel);
   svg += svg_line(
       left + 14.0, middle_y, kPanelHeight - 20.0, figure.y_label, kLabel,
       fmt::format(R"svg(transform="rotate(-90 {:.1f} {:.1f})")svg", left + 14.0, middle_y));

@@ -164,6 +164,15 @@ TEST(FigurePlaces, DotsOnFewPointsOnly) {
   EXPECT_EQ(circles(26), 0U);
 }
 
+/// No axes of nothing.
+TEST(FigurePlaces, PanelsWithoutPointsAreNotRun) {
+  Figure figure = drawn_figure();
+  EXPECT_THAT(figure_svg(figure), Not(HasSubstr("not run")));
+  figure.panels[0].series = {{"a", 0, {}}};
+  EXPECT_THAT(figure_svg(figure),
+              AllOf(HasSubstr(">not run<"), HasSubstr(">left<"), Not(HasSubstr(">scans<"))));
+}
+
 /// One, two or three columns, as many rows as are needed.
 TEST(FigurePlaces, OfPanels) {
   const auto svg_of = [](std::size_t panels) {
