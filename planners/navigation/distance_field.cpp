@@ -38,8 +38,7 @@ class Envelope {
       while (parabolas > 0) {
         from = intersection(vertex_[parabolas - 1], q);
         if (from > from_[parabolas - 1]) break;
-        --parabolas;
-        from = -kInfinity;
+        --parabolas;  // never the first, which takes over at -infinity
       }
       vertex_[parabolas] = q;
       from_[parabolas] = from;

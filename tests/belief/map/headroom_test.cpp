@@ -56,6 +56,15 @@ TEST(Headroom, ATableTopBlocksTheFloorBelowIt) {
   EXPECT_EQ(floor.state_at({-0.35, 0.05}), CellState::occupied);
 }
 
+TEST(Headroom, AColumnBlocksAllFloorBelowIt) {
+  OccupancyGrid grid = free_row();
+  set(grid, 5, 3, kOccupied);  // 0.2 x 0.2 m
+  FloorMap floor = make_floor_map({.cell_m = 0.05, .half_size_m = 1.5});
+  std::ranges::fill(floor.log_odds, kFree);
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  EXPECT_EQ(std::ranges::count(floor.blocked, 1), 16);
+}
+
 /// The scanner has measured the face of a wall; it has not seen what hangs above it.
 TEST(Headroom, WallsDoNotBlockTheFinerMap) {
   OccupancyGrid grid = free_row();
