@@ -196,7 +196,7 @@ std::optional<std::size_t> KeyframeGraph::place_of_long_ago() const {
     const auto is_same = [&](const Eigen::Vector2d& other_m) {
       return (other_m - place_m).norm() < kPlaceApart_m;
     };
-    if (!is_within_reach(i) || std::ranges::any_of(looked_at_m, is_same)) continue;
+    if (std::ranges::any_of(looked_at_m, is_same) || !is_within_reach(i)) continue;
     looked_at_m.push_back(place_m);
     const Pose2 T_place_now = compose(inverse(poses_[i]), now);
     const std::pair seen{agreement(scans_.back(), scans_[i], T_place_now).facing,

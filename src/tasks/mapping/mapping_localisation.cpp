@@ -10,10 +10,19 @@
 #include "vantage/tasks/mapping/mapping_parts.hpp"
 
 namespace vantage {
+namespace {
+
+std::vector<ScanRecord*> pointers_to(std::vector<ScanRecord>& scans) {
+  std::vector<ScanRecord*> pointers;
+  for (ScanRecord& scan : scans) pointers.push_back(&scan);
+  return pointers;
+}
+
+}  // namespace
 
 void MappingParts::correct_records(const PoseCorrection& correction, const Pose& T_base_sensor) {
-  std::vector<ScanRecord*> records{&current_};
-  for (ScanRecord& scan : scans_) records.push_back(&scan);
+  std::vector<ScanRecord*> records = pointers_to(scans_);
+  records.push_back(&current_);
   double most_m = 0.0;
   for (ScanRecord* record : records) {
     const Pose2 before = record->T_world_base;
@@ -54,8 +63,7 @@ std::vector<Eigen::Matrix3d> MappingParts::note_pose_sigmas(
 void MappingParts::note_agreeing_loops() {
   const LoopClosing* loops = navigator_.loops();
   if (loops == nullptr || loops->graph().loops() == 0) return;
-  std::vector<ScanRecord*> records;
-  for (ScanRecord& scan : scans_) records.push_back(&scan);
+  const std::vector<ScanRecord*> records = pointers_to(scans_);
   const auto covariances = note_pose_sigmas(records);
   const double off_m = loops->disagreement_m();
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -67,8 +75,7 @@ void MappingParts::note_agreeing_loops() {
 
 LocalisationSummary MappingParts::localisation() {
   LocalisationSummary summary;
-  std::vector<ScanRecord*> records;
-  for (ScanRecord& scan : scans_) records.push_back(&scan);
+  const std::vector<ScanRecord*> records = pointers_to(scans_);
   note_pose_sigmas(records);
   for (const ScanRecord& scan : scans_) {
     summary.pose_sigma_m = std::max(summary.pose_sigma_m, scan.pose_sigma_m);
