@@ -47,7 +47,11 @@ ExplorationObservation ExplorationParts::observe() {
   return observed([this] {
     return first_usable<ExplorationObservation>([this](ExplorationObservation& observation) {
       observation = exploring_robot_.observe(images_);
-      if (keep_usable(observation, last_image_)) return true;
+      const std::size_t asked =
+          images_.empty() ? exploring_robot_.sweep_images().gazes().size() : images_.size();
+      const bool usable = keep_usable(observation, last_image_);
+      missed_images_ = observation.views.size() < asked;
+      if (usable) return true;
       take_all_images();
       return false;
     });

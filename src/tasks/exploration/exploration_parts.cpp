@@ -89,8 +89,8 @@ void ExplorationParts::correct_map(const PoseCorrection& correction) {
   correct_records(correction, exploring_robot_.T_base_sweep());
 }
 
-void ExplorationParts::visit(const Eigen::Vector2d& p_m, double radius_m) {
-  visited_.add(p_m, radius_m);
+void ExplorationParts::visit(const Eigen::Vector2d& p_m, double radius_m, bool missed) {
+  visited_.add(p_m, radius_m, missed);
   const LoopClosing* loops = navigator_.loops();
   visited_at_.push_back(loops == nullptr ? 0 : loops->remembered().size() - 1);
 }
@@ -111,11 +111,12 @@ void ExplorationParts::block_floor() {
 
 void ExplorationParts::record() {
   const ScanRecord& scan = record_scan();
-  const bool poor = scan.actual_new_cells < task_.poor_cells;
-  visit(place_of(scan.T_world_sensor),
-        poor ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m);
+  const bool poor = !missed_images_ && scan.actual_new_cells < task_.poor_cells;
+  visit(place_of(scan.T_world_sensor), poor ? std::max(task_.poor_m, task_.taken_m) : task_.taken_m,
+        missed_images_);
   start_decision();
   views_ = find_views(plans_views(task_.choice));
+  if (views_.empty() && visited_.reopen()) views_ = find_views(plans_views(task_.choice));
   views_have_gains_ = false;
   if (task_.enough.scans > 0 && !views_.empty()) update_stopping_criterion();
   if (task_.stop.share > 0.0) judge_what_is_left();

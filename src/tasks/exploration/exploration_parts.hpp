@@ -37,7 +37,8 @@ class ExplorationParts : public MappingParts {
   void traverse(const Eigen::Vector2d& p_m, double radius_m);
   void block_floor();
   void correct_map(const PoseCorrection& correction);
-  void visit(const Eigen::Vector2d& p_m, double radius_m);
+  /// @param missed images that were to be taken from there
+  void visit(const Eigen::Vector2d& p_m, double radius_m, bool missed = false);
   /// While it drives: takes an image now and then, and turns the head to where the next promises
   /// most.
   void look_on_the_way();
@@ -62,6 +63,7 @@ class ExplorationParts : public MappingParts {
   std::vector<std::size_t> images_;  ///< of the scan to come; none: all
   VisitedPlaces visited_;
   std::vector<std::size_t> visited_at_;  ///< keyframe of each
+  bool missed_images_ = false;           ///< the last scan: some did not come
   CameraImages last_image_;              ///< that came
   std::optional<Pose2> last_look_;       ///< on this way: where the last was taken
   double yaw_on_the_way_rad_ = 0.0;      ///< when it was last told

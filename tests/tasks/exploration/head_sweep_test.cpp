@@ -73,6 +73,21 @@ TEST(VisitedPlaces, CoverTheirDiscsWhereverTheyAreMoved) {
   EXPECT_TRUE(visited.covers({3.25, 2.25}));
 }
 
+TEST(VisitedPlaces, WhereSomethingWasMissedMayBeGoneToOnceMore) {
+  VisitedPlaces visited;
+  visited.add({1.1, 2.0}, 0.5);  // chosen, and scanned from nearby
+  visited.add({1.0, 2.0}, 0.5, true);
+  visited.add({3.0, 2.0}, 0.5);
+  EXPECT_TRUE(visited.covers({1.0, 2.0}));
+  EXPECT_TRUE(visited.reopen());
+  EXPECT_FALSE(visited.covers({1.0, 2.0}));
+  EXPECT_TRUE(visited.covers({3.0, 2.0})) << "nothing was missed there";
+  EXPECT_FALSE(visited.reopen()) << "it is open";
+  visited.add({1.2, 2.0}, 0.5, true);
+  EXPECT_TRUE(visited.covers({1.0, 2.0}));
+  EXPECT_FALSE(visited.reopen()) << "once";
+}
+
 TEST(StartText, NamesTheSiteOrThePose) {
   RobotOptions robot;
   robot.start_pose = {1.5, 2.25, -0.5};
