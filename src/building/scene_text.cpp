@@ -13,9 +13,6 @@
 namespace vantage {
 namespace {
 
-/// Of the PR2's planar scanner: it sees the end of a corridor.
-constexpr double kScannerRange_m = 30.0;
-
 constexpr std::string_view kHead = R"(  <compiler angle="radian"/>
   <statistic extent="1" center="0 0 0.8"/>
   <visual>
@@ -99,6 +96,11 @@ std::string hull_assets(const BuildingScene& scene) {
 
 double rounded_up(double value, double step) { return step * std::ceil(value / step - 1e-9); }
 
+/// More than an exploration needs that ends by itself.
+int scans_for(const BuildingMap& map) {
+  return std::max(20, static_cast<int>(std::lround(0.4 * map.size_m.prod())));
+}
+
 }  // namespace
 
 BuildingMap map_of(const BuildingScene& scene) {
@@ -144,35 +146,31 @@ std::string to_mjcf(const BuildingScene& scene, const std::string& name,
 
 std::vector<std::string> episode_overrides(const BuildingScene& scene) {
   const BuildingMap map = map_of(scene);
-  return {fmt::format("map.size_m=[{}, {}, 2]", number(map.size_m.x()), number(map.size_m.y())),
+  return {fmt::format("scans={}", scans_for(map)),
+          fmt::format("map.size_m=[{}, {}, 2]", number(map.size_m.x()), number(map.size_m.y())),
           fmt::format("map.cells=[{}, {}, {}]", map.cells.x(), map.cells.y(), map.cells.z()),
-          fmt::format("floor_map.half_size_m={}", number(map.half_size_m)),
-          fmt::format("base_scanner.range_max_m={}", number(kScannerRange_m)),
-          "localisation.loops.close=true"};
+          fmt::format("floor_map.half_size_m={}", number(map.half_size_m))};
 }
 
 std::string to_episode(const BuildingScene& scene, const std::string& scene_file) {
   const BuildingMap map = map_of(scene);
-  const int scans = std::max(20, static_cast<int>(std::lround(0.4 * map.size_m.prod())));
   return fmt::format(
-      R"(# A PR2-like robot explores {0}. As the small office's episode but for scene, scans and map, and
-# for what finds its way in corridors: a scanner that sees their ends, and loops that are closed.
+      R"(# A PR2-like robot explores {0}. As the small office's episode but for scene, scans and map.
 task: exploration
 scene: {0}
 scans: {1}
 robot: {{start_site: start_0}}
 map: {{centre_m: [0, 0, 1], size_m: [{2}, {3}, 2], cells: [{4}, {5}, {6}]}}
-base_scanner: {{step_rad: 0.004363323129985824, range_max_m: {8}}}    # 0.25 deg: rooms are large
+base_scanner: {{step_rad: 0.004363323129985824, range_max_m: 30}}    # 0.25 deg, and the far walls in sight
 registration: {{normals: {{radius_m: 0.25}}}}
 floor_map: {{half_size_m: {7}}}
 simulation: {{timestep_s: 0.005}}    # nothing is touched
-localisation: {{loops: {{close: true}}}}
 forecast: {{calibrate: true}}
 gain: adaptive
 choice: greedy
 )",
-      yaml_text(scene_file), scans, number(map.size_m.x()), number(map.size_m.y()), map.cells.x(),
-      map.cells.y(), map.cells.z(), number(map.half_size_m), number(kScannerRange_m));
+      yaml_text(scene_file), scans_for(map), number(map.size_m.x()), number(map.size_m.y()),
+      map.cells.x(), map.cells.y(), map.cells.z(), number(map.half_size_m));
 }
 
 }  // namespace vantage

@@ -6,7 +6,7 @@
 namespace vantage {
 
 struct LoopOptions {
-  bool close = false;
+  bool close = true;
   double min_way_m = 12.0;
   double search_m = 10.0;
   double min_agreement = 0.85;

@@ -43,8 +43,8 @@ TEST_F(SceneFromMesh, TellsWhatItMadeAsJson) {
   const auto json = nlohmann::json::parse(made.output);
   EXPECT_EQ(json["geoms"]["boxes"], 1);
   EXPECT_EQ(json["T_scene_mesh"].size(), 16U);
-  ASSERT_EQ(json["set"].size(), 5U);
-  EXPECT_EQ(json["set"][4], "localisation.loops.close=true");
+  ASSERT_EQ(json["set"].size(), 4U);
+  EXPECT_EQ(json["set"][0], "scans=20");
   EXPECT_GT(json["free_area_m2"].get<double>(), 8.0);
   EXPECT_EQ(json.value("episode", ""), "");
 }
