@@ -130,6 +130,7 @@ Agreement agreement(const PointCloud& scan, const PointCloud& place, const Pose2
   constexpr double kNear_m = 0.5;
   constexpr double kOn_m = 0.08;
   constexpr double kMinCosine = 0.7;
+  if (scan.empty() || place.empty()) return {};
   expects(scan.has_normals() && place.has_normals(), "clouds with normals");
   const PointCloud there = transform(scan, to_se3(T_place_scan));
   const KdTree tree(place.points);

@@ -246,7 +246,7 @@ TEST(LoopClosing, IsRefusedWhereTheNextOneHeadsElsewhere) {
 
 TEST(LoopOptions, HaveTheirDefaults) {
   const LoopOptions options;
-  EXPECT_FALSE(options.close);
+  EXPECT_TRUE(options.close);
   EXPECT_EQ(options.min_way_m, 12.0);
   EXPECT_EQ(options.search_m, 10.0);
   EXPECT_EQ(options.min_agreement, 0.85);
@@ -271,6 +271,67 @@ TEST(LoopOptions, AreAboveZeroAndSharesAreNoMoreThanOne) {
   for (const double share : {0.0, 1.0}) {
     EXPECT_NO_THROW(KeyframeGraph({.min_agreement = share}, {})) << share;
   }
+}
+
+/// Within 0.5 m and three times what the pose is unsure by, 7 cm; and never more than 2 m farther.
+TEST(LoopClosing, IsLookedForFartherWhereThePoseIsUnsure) {
+  const auto is_found = [](float away_m, double sigma_m) {
+    InARoom room(test_room::walls(), {.close = true, .search_m = 0.5});
+    room.go(test_room::pillar(away_m), 5.5, static_cast<double>(away_m), sigma_m);
+    room.go(room_and_pillar(away_m, away_m), 8.0);
+    return room.go(room_and_pillar(away_m, away_m), 3.5);
+  };
+  EXPECT_TRUE(is_found(0.66F, 0.05));
+  EXPECT_FALSE(is_found(0.78F, 0.05));
+  EXPECT_TRUE(is_found(2.4F, 1.0));
+  EXPECT_FALSE(is_found(2.61F, 1.0));
+}
+
+TEST(LoopClosing, IsAsPlausibleWhereverTheWorldBegins) {
+  for (const float off_m : {0.21F, 0.24F}) {
+    KeyframeGraph graph({.close = true}, {});
+    graph.begin(test_room::walls(), {1000.0, -1000.0, 0.8});
+    const auto go = [&](const PointCloud& seen, double driven_m, double sigma_m) {
+      WheelStep step;
+      step.covariance = Eigen::Vector3d(sigma_m, sigma_m, 0.001).cwiseAbs2().asDiagonal();
+      step.driven_m = driven_m;
+      graph.add(seen, step);
+      return graph.close_loops();
+    };
+    go(test_room::pillar(off_m), 5.5, 0.05);
+    go(room_and_pillar(off_m, off_m), 8.0, kSureWheels_m);
+    EXPECT_EQ(go(room_and_pillar(off_m, off_m), 3.5, kSureWheels_m), off_m < 0.225F) << off_m;
+  }
+}
+
+/// A weak step lies between the first keyframe and the others, so the way may have drifted. Two
+/// loops say that it has not, two more that it has, by `off_m`; between them the way is sure. Each
+/// then is off by half of it.
+TEST(LoopClosing, IsRefusedWhereItDoesNotFitWithEarlierOnes) {
+  for (const float off_m : {0.15F, 0.30F}) {
+    InARoom room(test_room::walls());
+    room.go(test_room::pillar(), 5.5, 0.0, 0.1);
+    room.go(room_and_pillar(0.0F, 0.0F), 8.0);
+    EXPECT_TRUE(room.go(room_and_pillar(0.0F, 0.0F), 1.0));
+    room.go(test_room::pillar(), 5.5);
+    EXPECT_FALSE(room.go(room_and_pillar(off_m, 0.0F), 5.5)) << "it waits";
+    const bool fits = off_m < 0.2F;
+    EXPECT_EQ(room.go(room_and_pillar(off_m, 0.0F), 3.5), fits) << off_m;
+    EXPECT_EQ(room.graph().loops(), fits ? 4U : 2U);
+    EXPECT_EQ(room.graph().refused(), fits ? 0U : 2U);
+    EXPECT_NEAR(room.moved_m(), fits ? 0.075 : 0.0, 0.015);
+  }
+}
+
+TEST(LoopClosing, PassesOverWhereNothingWasInRange) {
+  InARoom nowhere({});
+  nowhere.go({}, 12.0);
+  EXPECT_FALSE(nowhere.go({}, 1.0));
+  EXPECT_EQ(nowhere.graph().size(), 3U);
+  InARoom room(test_room::walls());
+  EXPECT_FALSE(room.go({}, 12.0));
+  EXPECT_FALSE(room.stay(1.0));
+  EXPECT_TRUE(room.stay(1.0));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <vector>
 
 #include "tests/localisation/plan_world.hpp"
@@ -40,7 +41,7 @@ TEST(MapContradiction, NoneOfAMapThatIsMovedAsAWhole) {
 }
 
 TEST(MapContradiction, WallsDrawnTwiceAreSeen) {
-  EXPECT_GT(contradicted({0.25, 0.25, 0.0}, 160), 0.03);
+  EXPECT_GT(contradicted({0.25, 0.25, 0.0}, 160), 0.06) << "a map in doubt";
 }
 
 /// Of what a scanner at (2, 2.5) cm sees from one pose, scan by scan.
@@ -99,6 +100,17 @@ TEST(MapContradiction, IsAskedOfEveryThirdPointThatIsFarEnough) {
   EXPECT_NEAR(share_of({wall, wall, four}), 0.25, 1e-12);
   EXPECT_NEAR(share_of({wall, wall, ahead({4.025F}), ahead({0.46F})}), 1.0 / 3.0, 1e-12);
   EXPECT_NEAR(share_of({wall, wall, ahead({4.025F}), ahead({0.48F})}), 0.25, 1e-12);
+}
+
+TEST(MapContradiction, TheScannerIsWhereItsBaseHasIt) {
+  const Pose2 T_world_base{1.0, 2.0, 0.5 * std::numbers::pi};
+  const PointCloud wall = ahead({3.025F});
+  const PointCloud beam = ahead({5.025F});
+  std::vector<SeenFrom> scans;
+  for (const PointCloud* cloud : {&wall, &wall, &beam}) {
+    scans.push_back({*cloud, {1.02, 0.025}, T_world_base});
+  }
+  EXPECT_NEAR(contradicted_share(scans), 1.0 / 3.0, 1e-12);
 }
 
 }  // namespace

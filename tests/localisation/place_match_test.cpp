@@ -170,5 +170,66 @@ TEST(LocalisationDefaults, AreOfNothing) {
   EXPECT_EQ(PoseEdge{}.to, 0U);
 }
 
+TEST(PlaceMatch, AgreementCountsWhatFacesTheSameWay) {
+  EXPECT_EQ(Agreement{}.facing, 0U);
+  Points place;
+  place.add(0.0, 0.0);
+  Points now;
+  now.add(0.0, 0.02);
+  Agreement agreed = agreement(now.cloud, place.cloud, {});
+  EXPECT_EQ(agreed.near, 1U);
+  EXPECT_EQ(agreed.facing, 1U);
+  EXPECT_EQ(agreed.share, 1.0);
+  now.add(0.0, 0.3);             // faces so, and is off
+  now.add(0.0, 0.0, 0.0, -1.0);  // from behind
+  agreed = agreement(now.cloud, place.cloud, {});
+  EXPECT_EQ(agreed.near, 3U);
+  EXPECT_EQ(agreed.facing, 2U);
+  EXPECT_NEAR(agreed.share, 1.0 / 3.0, 1e-12);
+  agreed = agreement(now.cloud, place.cloud, {10.0, 0.0, 0.0});
+  EXPECT_EQ(agreed.near, 0U);
+  EXPECT_EQ(agreed.facing, 0U);
+  EXPECT_EQ(agreed.share, 0.0);
+}
+
+/// A scanner that sees nothing in range leaves a keyframe without points.
+TEST(PlaceMatch, NothingAgreesWithNothing) {
+  Points place;
+  place.add(0.0, 0.0);
+  EXPECT_EQ(agreement({}, place.cloud, {}).near, 0U);
+  EXPECT_EQ(agreement(place.cloud, {}, {}).near, 0U);
+  EXPECT_EQ(agreement({}, {}, {}).facing, 0U);
+}
+
+/// As TheGuessIsLeftForWhatIsWorthIt, a quarter turned.
+TEST(PlaceMatch, TheGuessIsLeftToEitherAxisForWhatIsWorthIt) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0, 1.0, 0.0);
+  place.add(0.5, 0.0, 1.0, 0.0);
+  const auto found_y_m = [&](int rather, double window_m) {
+    Points now;
+    now.add_times(100 - rather, 0.0, 0.0);
+    now.add_times(rather, 0.5, 0.25);
+    return search_pose(now.cloud, place.cloud, {}, {window_m, 0.0}).y_m;
+  };
+  EXPECT_NEAR(found_y_m(17, 0.05), 0.0, 1e-9);
+  EXPECT_NEAR(found_y_m(19, 0.05), -0.05, 1e-9);
+  EXPECT_NEAR(found_y_m(4, 0.1), 0.0, 1e-9);
+  EXPECT_NEAR(found_y_m(5, 0.1), -0.05, 1e-9);
+}
+
+/// A surface at the rim of what is known counts beside it too, on either side.
+TEST(PlaceMatch, SurfacesAtTheRimOfAPlaceAreDrawnWhole) {
+  Points place;
+  place.add(0.0, 0.0);
+  const auto found_y_m = [&](double y_m) {
+    Points now;
+    now.add(0.0, y_m);
+    return search_pose(now.cloud, place.cloud, {}, {0.05, 0.0}).y_m;
+  };
+  EXPECT_NEAR(found_y_m(0.11), -0.05, 1e-9);
+  EXPECT_NEAR(found_y_m(-0.06), 0.05, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -40,8 +40,8 @@ class LoopClosing {
 
   /// By the wheels, since the last that was remembered.
   [[nodiscard]] double turned_rad() const { return turned_rad_; }
-  /// There are new loops, and they move some pose by more than `correct_m`, to where what was
-  /// seen does not fit together much worse.
+  /// There are loops since the last correction, and poses by loops differ from those of the map by
+  /// more than `correct_m`; there what was seen does not fit together much worse.
   [[nodiscard]] bool wants_correction() const;
   /// From now on what was remembered was seen from there.
   PoseCorrection correct();
