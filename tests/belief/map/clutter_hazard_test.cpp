@@ -240,5 +240,62 @@ TEST(ClutterHazard, TheFloorIsNoClutter) {
   }
 }
 
+TEST(ClutterHazard, BlocksLieAlongBothAxes) {
+  GridFrame frame;
+  frame.cells = {10, 8, 1};  // 3 x 2 blocks; x of 4, 3 and 3 cells
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  scan.range_m = {4.5F};  // along y = 7.5: 4 crossings, then 1 and a hit
+  ClutterHazard hazard({.layers = 1, .block_cells = 4, .reach_cells = 0.0, .block_crossings = 2.0},
+                       frame.cells);
+  hazard.observe(OccupancyGrid(frame), scan, make_pose({0.0, 7.5, 0.5}, 0.0));
+  const BlockField transmission = hazard.transmission();
+  const double pull = 2.0 * hazard.hazard(0);
+  EXPECT_DOUBLE_EQ(transmission.at_cell({1, 5, 0}), 1.0 - pull / (4.0 + 2.0));
+  EXPECT_DOUBLE_EQ(transmission.at_cell({5, 4, 0}), 1.0 - (1.0 + pull) / (1.0 + 2.0));
+  EXPECT_DOUBLE_EQ(transmission.at_cell({1, 1, 0}), 1.0 - pull / 2.0);
+  EXPECT_DOUBLE_EQ(transmission.at_cell({5, 1, 0}), 1.0 - pull / 2.0);
+  EXPECT_DOUBLE_EQ(transmission.at_cell({9, 7, 0}), 1.0 - pull / 2.0);
+}
+
+/// Three rows at 45 degrees up, level and 45 degrees down.
+TEST(ClutterHazard, RowsOfAnImageLieBelowEachOther) {
+  const OccupancyGrid grid(make_grid_frame({5.0, 0.0, 0.0}, {10.0, 1.0, 10.0}, {10, 1, 10}));
+  CameraImages image;
+  image.width_px = 1;
+  image.height_px = 3;
+  image.focal_px = 1.0;
+  image.range_max_m = 20.0;
+  image.depth_m = {2.4F, 2.4F, 2.4F};
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(0.1, 0.0, 0.5);
+  T_world_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  const std::vector<PosedImage> images{{image, T_world_camera}};
+  for (const int stride : {1, 2}) {
+    ClutterHazard hazard({.layers = 10}, grid.frame.cells);
+    hazard.observe(grid, images, stride, -10.0);
+    EXPECT_EQ(hazard.hits(7), 1.0);
+    EXPECT_EQ(hazard.hits(5), stride == 1 ? 1.0 : 0.0);
+    EXPECT_EQ(hazard.hits(3), 1.0);
+  }
+}
+
+TEST(ClutterHazard, ALayerWithoutPriorGoesByItsCountsAloneIfItHasAny) {
+  GridFrame frame;
+  frame.cells = {10, 1, 2};
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  scan.range_m = {0.5F};  // upper layer: 1 crossing, a hit
+  ClutterHazard hazard(
+      {.layers = 2, .prior_crossings = 0.0, .prior_hazard = 0.1, .prior_weight = 10.0},
+      frame.cells);
+  EXPECT_DOUBLE_EQ(hazard.hazard(0), 0.1);
+  hazard.observe(OccupancyGrid(frame), scan, make_pose({0.0, 0.5, 1.5}, 0.0));
+  EXPECT_DOUBLE_EQ(hazard.hazard(0), 2.0 / 11.0) << "nothing was counted there";
+  EXPECT_DOUBLE_EQ(hazard.hazard(1), 1.0);
+}
+
 }  // namespace
 }  // namespace vantage

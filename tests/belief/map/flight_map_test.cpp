@@ -176,5 +176,38 @@ TEST(FlightMap, RejectsOptionsOutOfRange) {
   EXPECT_THROW(FlightMap(huge, {.cell_m = 0.1}), ConfigError);
 }
 
+/// Cells marked by a square image, one pixel of which has a reading.
+std::size_t marked_by(int side_px, int row, int column) {
+  CameraImages image;
+  image.width_px = side_px;
+  image.height_px = side_px;
+  image.focal_px = 100.0;
+  image.range_max_m = 20.0;
+  image.depth_m.assign(static_cast<std::size_t>(side_px * side_px), 0.0F);
+  image.depth_m[static_cast<std::size_t>(row * side_px + column)] = 2.05F;
+  FlightMap map({Vector3d(0.0, -1.0, 0.0), Vector3d(3.0, 1.0, 1.0)}, {.columns = 8});
+  map.insert(image, drawn_camera({-0.5, 0.0, 0.5}, 0.0, 0.0));
+  return map.grid().count(CellState::occupied);
+}
+
+TEST(FlightMap, EveryNthColumnAndRowIsMarkedFromTheMiddleOfTheFirstOnes) {
+  for (const int row : {1, 15}) {
+    for (const int column : {1, 15}) EXPECT_EQ(marked_by(16, row, column), 1U);
+  }
+  EXPECT_EQ(marked_by(16, 0, 1), 0U);
+  EXPECT_EQ(marked_by(16, 1, 2), 0U);
+  EXPECT_EQ(marked_by(8, 0, 0), 1U) << "no wider than the columns: all of them";
+  EXPECT_EQ(marked_by(8, 7, 7), 1U);
+}
+
+TEST(FlightMap, HasACellAtLeastAndTwoToThe26AtMost) {
+  const FlightMap flat({Vector3d::Zero(), Vector3d(1.0, 1.0, 0.0)});
+  EXPECT_EQ(flat.grid().frame.cells.z(), 1);
+  const FlightMap thin({Vector3d::Zero(), Vector3d(1.0, 1.0, 0.05)});
+  EXPECT_EQ(thin.grid().frame.cells.z(), 1);
+  EXPECT_THROW(FlightMap({Vector3d::Zero(), Vector3d(4096.0, 4096.0, 5.0)}, {.cell_m = 1.0}),
+               ConfigError);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -159,5 +159,14 @@ TEST(FloorDetail, MayHaveAsManyCellsAsAFloor) {
   }
 }
 
+TEST(FloorDetail, IsFreeOrOccupiedFromTheOddsOfTheStatesOn) {
+  FloorMap map(Eigen::Vector2d::Zero(), 1.0, 201, 1);
+  for (std::size_t cell = 0; cell < map.size(); ++cell) {
+    map.log_odds[cell] = 0.01F * (static_cast<float>(cell) - 100.0F);
+    EXPECT_EQ(is_free(map, cell), map.state(cell) == CellState::free) << map.log_odds[cell];
+    EXPECT_EQ(is_occupied(map, cell), map.state(cell) == CellState::occupied) << map.log_odds[cell];
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -176,5 +176,15 @@ TEST(AddPlanarScan, AddsAndTakesWhatItIsSaidTo) {
   EXPECT_EQ(log_odds(0.5), -3.0F) << "it was surer than that";
 }
 
+TEST(BlockBox, ReachesTheRimOfAMapThatIsNotSquareAndNoFarther) {
+  FloorMap map(Eigen::Vector2d(-1.0, -2.0), 1.0, 5, 3);
+  block_box(map, {Eigen::Vector2d(-50.0, -50.0), Eigen::Vector2d(50.0, 50.0)});
+  EXPECT_EQ(std::ranges::count(map.blocked, std::uint8_t{1}), 15);
+  for (const Eigen::Vector2d& outside : {Eigen::Vector2d(4.5, -0.5), Eigen::Vector2d(-1.5, -0.5),
+                                         Eigen::Vector2d(1.5, 1.5), Eigen::Vector2d(1.5, -2.5)}) {
+    EXPECT_EQ(map.state_at(outside), CellState::unobserved) << outside.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace vantage

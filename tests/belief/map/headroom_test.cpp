@@ -219,5 +219,41 @@ TEST(Headroom, WhatIsBelowAColumnIsBlockedWhateverTheShapeOfTheFloor) {
   }
 }
 
+TEST(Headroom, NoUnseenCellIsAllowedWhereTheShareIsZero) {
+  HeadroomOptions options = kOptions;
+  options.max_unseen = 0.0;
+  OccupancyGrid grid = free_row();
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), options);
+  EXPECT_EQ(row(floor), "....................");
+  set(grid, 7, 3, 0.0F);
+  block_columns(floor, grid, nowhere(floor), options);
+  EXPECT_EQ(row(floor), "..............xx....");
+}
+
+TEST(Headroom, AFloorBelowThingsIsBlockedUpToItsRim) {
+  OccupancyGrid grid = unseen_columns({});
+  for (int y = 0; y < 10; ++y) {
+    for (int x = 0; x < 10; ++x) grid.log_odds[grid.frame.index({x, y, 3})] = kOccupied;
+  }
+  FloorMap floor(Eigen::Vector2d(-0.4, -0.3), 0.1, 8, 6);  // smaller than the grid, not square
+  block_columns(floor, grid, nowhere(floor), kOptions);
+  EXPECT_EQ(std::ranges::count(floor.blocked, std::uint8_t{1}), 48);
+}
+
+TEST(Headroom, AnUnseenColumnNextToTheOutermostOnesIsAmidOpenOnesToo) {
+  for (const Eigen::Array2i& column :
+       {Eigen::Array2i(8, 5), Eigen::Array2i(1, 5), Eigen::Array2i(5, 8), Eigen::Array2i(5, 1)}) {
+    EXPECT_EQ(blocked_by(unseen_columns({column})), 0) << column.transpose();
+  }
+  EXPECT_EQ(blocked_by(unseen_columns({{9, 5}})), 4);
+}
+
+TEST(Headroom, RejectsHeightsThatAreNotBelowTheRobotsTop) {
+  FloorMap floor = free_floor();
+  EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.low_m = 1.65}), ConfigError);
+  EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.seen_low_m = 1.65}), ConfigError);
+}
+
 }  // namespace
 }  // namespace vantage

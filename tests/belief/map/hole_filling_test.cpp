@@ -164,5 +164,14 @@ RC_GTEST_PROP(HoleFillingProperty, EachFlipLowersTheEnergy, (std::uint64_t seed)
   RC_ASSERT(fill_holes(grid, options).grid.log_odds == hidden.log_odds);
 }
 
+TEST(HoleFilling, ACellThatNothingPullsStaysAsObserved) {
+  HoleFilling options;
+  options.data_weight = 0.0;  // the middle one has an occupied and an unobserved neighbour
+  const FilledGrid filled = fill_holes(parse({"#??"}), options);
+  EXPECT_EQ(filled.filled_cells, 0U);
+  EXPECT_EQ(filled.passes, 1);
+  EXPECT_TRUE(filled.converged);
+}
+
 }  // namespace
 }  // namespace vantage

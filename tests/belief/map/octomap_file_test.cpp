@@ -192,5 +192,13 @@ TEST_F(OctomapFiles, ResolutionsThatNoWorldHas) {
   }
 }
 
+TEST_F(OctomapFiles, ACoarseCellIsAsTheMostOccupiedOfItsCells) {
+  // Occupied and then free in the tree's order, and the other way round.
+  const auto fine = map(
+      {{{0, 0, 0}, 1, true}, {{1, 0, 0}, 1, false}, {{2, 0, 0}, 1, false}, {{3, 0, 0}, 1, true}},
+      0.1);
+  EXPECT_EQ(test::draw(fine.grid_of(fine.known(), 2)), (std::vector<std::string>{"##"}));
+}
+
 }  // namespace
 }  // namespace vantage

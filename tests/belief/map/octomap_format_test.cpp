@@ -160,5 +160,13 @@ TEST(OctomapLeaf, IsOccupiedFromEvenOddsOn) {
   EXPECT_FALSE(OctomapLeaf{.log_odds = -1e-6F}.occupied());
 }
 
+TEST(OctomapFormat, BlanksAndCarriageReturnsAroundHeaderLinesDoNotMatter) {
+  const OctomapHeader header = check_octomap(
+      "# Octomap OcTree file\r\n  id OcTree \t\r\n\r\nsize 0 \r\n\tres 0.5\t \r\ndata \r\n",
+      "map.ot");
+  EXPECT_EQ(header.resolution_m, 0.5);
+  EXPECT_EQ(header.nodes, 0U);
+}
+
 }  // namespace
 }  // namespace vantage

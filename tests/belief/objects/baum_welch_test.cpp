@@ -230,5 +230,24 @@ TEST(LearnSequence, ApproachesTheTruthAsSequencesComeIn) {
   EXPECT_GT(learned.same_object, 0.97);
 }
 
+TEST(BaumWelch, EndsWhereTheLikelihoodHardlyGrowsOrAfterThePassesAllowed) {
+  const ObjectStates states = test::make_states({0, 0, 1}, 8);
+  Rng rng(27);
+  const Sequences sequences = draw_sequences(states, slipping(8), {1.0, 2.0}, 20, 0.8, rng);
+  for (const int most : {1, 3}) {
+    const BaumWelchResult cut = baum_welch(states, RigidTransition{}, sequences,
+                                           {.max_iterations = most, .tolerance = 1e-12});
+    EXPECT_EQ(cut.log_likelihood.size(), static_cast<std::size_t>(most));
+    EXPECT_FALSE(cut.converged);
+  }
+  const BaumWelchResult result =
+      baum_welch(states, RigidTransition{}, sequences, {.tolerance = 1e-3});
+  ASSERT_TRUE(result.converged);
+  const std::vector<double>& found = result.log_likelihood;
+  for (std::size_t i = 1; i < found.size(); ++i) {  // a thousandth for each of 20 sequences
+    EXPECT_EQ(found[i] - found[i - 1] <= 0.02, i + 1 == found.size()) << i;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -304,5 +304,46 @@ TEST(PriorBelief, GivesCategoriesTogetherAsMuchAsNone) {
   EXPECT_NEAR(p_state(prior_belief(states, 0.2))[6], 0.2, kTolerance);
 }
 
+TEST(EstimateOf, IsAsProbableAsItsObjectAndNoMoreThanCertain) {
+  const ObjectStates states = states_with_unknown(1);
+  EXPECT_NEAR(estimate_of(states, belief_of({0.1, 0.8, 0.05, 0.03, 0.02})).probability, 0.8, 1e-12);
+  ObjectBelief known = belief_of({0.0, 1.0, 0.0, 0.0, 0.0});
+  known.log_p[1] = 1e-12;  // as a sum that was rounded
+  EXPECT_EQ(estimate_of(states, known).probability, 1.0);
+  ObjectBelief unknown = belief_of({0.0, 0.0, 0.0, 0.0, 1.0});
+  unknown.log_p[4] = 1e-12;
+  EXPECT_EQ(estimate_of(states, unknown).object, kUnknown);
+  EXPECT_EQ(estimate_of(states, unknown).probability, 1.0);
+}
+
+TEST(MeanYaw, IsWithinAFullTurn) {
+  const ObjectStates states = make_states({0}, 8);
+  for (int bin = 0; bin < 8; ++bin) {
+    ObjectBelief belief{Eigen::VectorXd::Constant(8, -kBoundless)};
+    belief.log_p[bin] = 0.0;
+    EXPECT_NEAR(mean_yaw_rad(states, belief, 0), bin * kTurn / 8.0, kTolerance) << bin;
+  }
+}
+
+TEST(PriorBelief, SumsToOneWithoutAnObjectOfNoCategory) {
+  ObjectStates states = make_states({0, 0, 1}, 2);
+  states.unknown_category = {0, 1};
+  const Eigen::VectorXd p = p_state(prior_belief(states, 0.2));
+  EXPECT_NEAR(p.sum(), 1.0, kTolerance);
+  EXPECT_TRUE(p.tail(2).isApprox(Eigen::Vector2d(0.1, 0.1), kTolerance));
+}
+
+TEST(ObjectStates, UnknownOnesAreBehindTheKnownAndHaveNoYaw) {
+  const ObjectStates states = states_with_unknown(2);  // six known ones
+  EXPECT_FALSE(states.is_unknown(5));
+  EXPECT_EQ(states.object_of(5), 2);
+  EXPECT_EQ(states.bin_of(5), 1);
+  for (const int unknown : {6, 7}) {
+    EXPECT_TRUE(states.is_unknown(unknown));
+    EXPECT_EQ(states.object_of(unknown), 3);
+    EXPECT_EQ(states.bin_of(unknown), 0);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -286,5 +286,22 @@ TEST_F(RecognitionFile, KeepsNotesCountsAndMoments) {
   }
 }
 
+TEST_F(RecognitionFile, NamesWhatAppearsTwice) {
+  std::string bytes = whole_;
+  bytes[bytes.find("category_1") + 9] = '0';
+  EXPECT_THAT(error_of(sealed(bytes)), HasSubstr("category 'category_0' appears twice"));
+  RecognitionModel model = small_model();
+  model.features[1].name = "colour";
+  write_recognition_model(model, path_);
+  EXPECT_THAT(error_of(read_file(path_)), HasSubstr("feature 'colour' appears twice"));
+}
+
+TEST_F(RecognitionFile, EndsWithItsNotes) {
+  std::string noted = whole_;
+  put_text(noted, "notes");
+  EXPECT_EQ(error_of(sealed(noted)), "");
+  EXPECT_THAT(error_of(sealed(noted + "x")), HasSubstr("has 1 bytes too many"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -120,5 +120,19 @@ TEST(TransitionKernelDeathTest, RefusesWhatIsOfOtherStates) {
   EXPECT_DEATH(expected_moves(states, of_six, zeros, zeros), "as many bins");
 }
 
+TEST(ExpectedMoves, OfAKernelThatNeverStaysAreAllToOthers) {
+  const ObjectStates states = test::make_states({0, 0}, 1);
+  const TransitionKernel kernel{.bin_change = Eigen::VectorXd::Ones(1),
+                                .same_object = 0.0,
+                                .other_instance = 1.0,
+                                .other_category = 0.0};
+  const Eigen::VectorXd zeros = Eigen::VectorXd::Zero(2);
+  const ExpectedMoves moves = expected_moves(states, kernel, zeros, zeros);
+  EXPECT_EQ(moves.same_object, 0.0);
+  EXPECT_NEAR(moves.other_instance, 1.0, kKernelTolerance);
+  EXPECT_EQ(moves.other_category, 0.0);
+  EXPECT_EQ(moves.bin_change[0], 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -126,5 +126,10 @@ TEST(WithUnknown, LeavesKnownStatesAndTempersTheFactors) {
   EXPECT_TRUE(log_likelihood(prepare(model), feature).isApprox(likelihood, 1e-6));
 }
 
+TEST(UnknownHypotheses, AreThereOfTwoObjects) {
+  EXPECT_THAT(unknown_hypotheses(test::make_states({0, 0}, 2)), ElementsAre(0, kNoCategory));
+  EXPECT_THAT(unknown_hypotheses(test::make_states({0, 1}, 2)), ElementsAre(kNoCategory));
+}
+
 }  // namespace
 }  // namespace vantage

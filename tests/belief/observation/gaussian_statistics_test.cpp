@@ -187,5 +187,22 @@ TEST(MakeObservationModel, SaysWhatIsMissing) {
   EXPECT_THROW(make_observation_model(textbook(), 1, LiteralVariance{.floor = -1.0}), ConfigError);
 }
 
+TEST(MakeObservationModel, GuessesFromMeansOfZero) {
+  GaussianStatistics statistics = empty_statistics(1, 3);
+  for (const float x : {-1.0F, 1.0F}) add_view(statistics, 0, Eigen::VectorXf::Constant(1, x));
+  for (const float x : {1.0F, 3.0F}) add_view(statistics, 1, Eigen::VectorXf::Constant(1, x));
+  const ObservationModel model = make_observation_model(statistics, 3, ShrunkVariance{});
+  EXPECT_FLOAT_EQ(model.mean(0, 2), 1.0F);
+  EXPECT_FLOAT_EQ(model.variance(0, 2), 2.0F + 1.0F);  // s_pool^2 is (2 + 2) / 2
+}
+
+TEST(MakeObservationModel, TakesTheVarianceWithinStatesWhereASingleOneHasTwoViews) {
+  GaussianStatistics statistics = empty_statistics(1, 2);
+  for (const float x : {1.0F, 3.0F}) add_view(statistics, 0, Eigen::VectorXf::Constant(1, x));
+  add_view(statistics, 1, Eigen::VectorXf::Constant(1, 10.0F));
+  const ObservationModel model = make_observation_model(statistics, 1, LiteralVariance{});
+  EXPECT_FLOAT_EQ(model.variance(0, 1), 2.0F);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -92,5 +92,32 @@ TEST(PackedStatistics, RefuseRangesThatAreNotFinite) {
   }
 }
 
+TEST(PackedStatistics, MayBeOfOneDimension) {
+  GaussianStatistics statistics = empty_statistics(1, 2);
+  add_view(statistics, 1, Eigen::VectorXf::Constant(1, 7.0F));
+  const GaussianStatistics read = packed_and_back(statistics);
+  EXPECT_EQ(read.count, statistics.count);
+  EXPECT_EQ(read.mean, statistics.mean);
+}
+
+TEST(PackedStatistics, RefuseANegativeNumberOfViews) {
+  std::string bytes;
+  put_packed(bytes, empty_statistics(1, 2));
+  const std::int32_t negative = -1;
+  std::memcpy(bytes.data() + sizeof negative, &negative, sizeof negative);
+  ByteReader reader(bytes, "test");
+  EXPECT_THROW(take_packed(reader, 2), InputError);
+}
+
+/// A state without views has no mean, not one of zero: the steps are those of 1, not of 1001.
+TEST(PackedStatistics, AreAsFineAsTheMeansThereAre) {
+  GaussianStatistics statistics = empty_statistics(1, 4);
+  add_view(statistics, 0, Eigen::VectorXf::Constant(1, 1000.0F));
+  add_view(statistics, 1, Eigen::VectorXf::Constant(1, 1000.3F));
+  add_view(statistics, 3, Eigen::VectorXf::Constant(1, 1001.0F));
+  const GaussianStatistics read = packed_and_back(statistics);
+  for (const int j : {0, 1, 3}) EXPECT_NEAR(read.mean(0, j), statistics.mean(0, j), 5e-4) << j;
+}
+
 }  // namespace
 }  // namespace vantage

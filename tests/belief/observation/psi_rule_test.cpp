@@ -226,5 +226,18 @@ TEST(MeanLogPosteriorDeathTest, RefusesViewsThatAreNotOfTheDensities) {
   EXPECT_DEATH(mean_log_posterior(views, psi), "for every view held out");
 }
 
+/// "Single precision up to a constant a view": a thousand dimensions make large densities.
+TEST(MeanLogPosterior, DoesNotMindHowLargeTheDensitiesOfAViewAre) {
+  HeldOutViews views;
+  views.state = {0, 2, 1};
+  Eigen::MatrixXf densities(3, 3);
+  densities << 0.0F, -2.5F, -1.0F, -1.5F, 0.5F, 0.0F, -4.0F, 1.0F, -3.5F;
+  views.log_density = {densities};
+  const std::vector<double> psi{0.3};
+  const double expected = mean_log_posterior(views, psi);
+  views.log_density[0].array() -= 1048576.0F;  // exact
+  EXPECT_NEAR(mean_log_posterior(views, psi), expected, 1e-7);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -135,5 +135,15 @@ TEST(ObjectTracker, TakesTheNearestWithinTheGateLevel) {
   EXPECT_EQ(found.update(std::vector{at(1.0, 0.5)}), std::vector<int>{3}) << "0.5 m from 1";
 }
 
+TEST(ObjectTracker, OneSightingIsEnoughWhereOneIsAskedFor) {
+  for (const int enough : {1, 2}) {
+    ObjectTracker found({.min_detections = enough});
+    found.update(std::vector{at(1.0, 0.0)});
+    EXPECT_EQ(found.confirmed().size(), enough == 1 ? 1U : 0U);
+    found.update(std::vector{at(1.0, 0.0)});
+    EXPECT_EQ(found.confirmed().size(), 1U);
+  }
+}
+
 }  // namespace
 }  // namespace vantage
