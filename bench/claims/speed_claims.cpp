@@ -92,7 +92,8 @@ Finding decision_time(const Figures& figures) {
   return held("Chapter 3", "a decision takes about 30 s; under 10 s is \"a future goal\" (2014 PC)",
               [&]() -> Measured {
                 const double sweep_ms = figure(figures, "decision", "sweep_ms");
-                return {fmt::format("{:.0f} ms for the same 30 views", sweep_ms), sweep_ms < 1e4};
+                return {fmt::format("{:.0f} ms for the gains of the same 30 views", sweep_ms),
+                        sweep_ms < 1e4};
               });
 }
 

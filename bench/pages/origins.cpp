@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "bench/pages/freshness.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 
 namespace vantage::bench {
@@ -87,6 +89,17 @@ const std::vector<std::string>& mapping_does_without() {
       "src/tasks/object_flight", "src/tasks/recognition",      "src/tasks/table_map",
       "src/tasks/trajectory",    "planners/objects",           "planners/trajectory"};
   return without;
+}
+
+std::string opening_comment(const std::filesystem::path& yaml) {
+  std::istringstream lines(read_file(yaml));
+  std::string text;
+  for (std::string line; std::getline(lines, line) && line.starts_with('#');) {
+    const std::size_t from = line.find_first_not_of("# ");
+    if (from == std::string::npos) continue;
+    text += (text.empty() ? "" : " ") + line.substr(from);
+  }
+  return text;
 }
 
 std::string commits_text(const std::set<std::string>& commits, const std::filesystem::path& file,

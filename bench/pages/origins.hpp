@@ -34,6 +34,9 @@ std::set<std::string> entries_of(const std::filesystem::path& csv, const std::st
 const std::vector<std::string>& mapping_code();
 const std::vector<std::string>& mapping_does_without();
 
+/// What a file of YAML says of itself before its first key; "" if nothing.
+std::string opening_comment(const std::filesystem::path& yaml);
+
 /// "b100039, c29a3d1 \*", or that it is not recorded.
 /// @param file whose history tells it then
 /// @param mapping of episodes of mapping tasks alone

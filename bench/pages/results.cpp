@@ -278,7 +278,8 @@ void write_results(const fs::path& directory) {
           findings_table(speed_findings(figures)) +
           link(write_speed_page(directory, figures, origins));
   for (const auto& [part, study] : studies) {
-    text += fmt::format("\n## {}\n\n`bench/studies {}`\n\n", part.title, part.name) +
+    text += fmt::format("\n## {}\n\n`bench/studies {}`. {}\n\n", part.title, part.name,
+                        opening_comment(study_file(part.name))) +
             findings_table(part.findings(study)) +
             link(write_study_page(directory, part.name, part.title, study, part.tables));
   }

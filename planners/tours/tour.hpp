@@ -69,8 +69,7 @@ struct OracleTour : TourOptions {
   static constexpr StrategyText text{
       .summary =
           "As `tour`, but knows from ground truth what each view shows: what a planner that knew "
-          "the building would do. In practice no choice without that knowledge does better; it is "
-          "no proven bound, see `vantage bound`."};
+          "the building would do. It is no proven bound, see `vantage bound`."};
   static constexpr bool weighs_gain = false;
   /// It knows all views there will be.
   OracleTour() { scan_weight = 1.0; }
