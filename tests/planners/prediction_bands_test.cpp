@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -44,7 +45,11 @@ TEST(PredictionBands, AddUpToTheGainOfTheView) {
   view.T_world_sensor = T_world_sensor;
   const double all = swept_gains_bits(attenuation, grid, {&view, 1}, field, 1, kNoRays).front();
   double sum = 0.0;
-  for (const PredictionBand& band : bands) sum += band.predicted_cells;
+  for (const PredictionBand& band : bands) {
+    sum += band.predicted_cells;
+    EXPECT_EQ(band.actual_cells, 0U);
+    EXPECT_EQ(band.outside_cells, 0U);
+  }
   EXPECT_NEAR(sum, all, 1e-6 * all);
   ASSERT_EQ(bands.size(), 4U);  // 0.5 three times, then what is left: 0.7
   EXPECT_DOUBLE_EQ(bands[3].from_m, 1.5);
@@ -71,6 +76,8 @@ TEST(PredictionBands, OfWhatIsInSightAreTheirPart) {
     EXPECT_EQ(in_sight[i].to_m, whole[i].to_m);
     EXPECT_GT(in_sight[i].predicted_cells, 0.1 * whole[i].predicted_cells);
     EXPECT_LT(in_sight[i].predicted_cells, 0.6 * whole[i].predicted_cells);
+    EXPECT_EQ(in_sight[i].actual_cells, 0U);
+    EXPECT_EQ(in_sight[i].outside_cells, 0U);
     EXPECT_NEAR(in_sight[i].predicted_cells + rest[i].predicted_cells, whole[i].predicted_cells,
                 1e-3 * whole[i].predicted_cells + 1.0);
   }
@@ -177,6 +184,33 @@ TEST(PredictionBands, NewCellsAreCountedWhereTheyAre) {
   std::vector<PredictionBand> none;
   count_new_cells(before, after, make_pose({0.0, 0.0, 1.0}, 0.0), all_round_within(1.7), none);
   EXPECT_TRUE(none.empty());
+}
+
+/// Cells of 2^-3 m make all of it exact.
+TEST(PredictionBands, ACellAtTheEndOfABandIsOfTheNextAndTheLastHasItsEnd) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {4.0, 4.0, 4.0}, {32, 32, 32}));
+  const Attenuation attenuation{.transmission = uniform_field(grid.frame.cells, 1.0)};
+  const Pose T_world_sensor = make_pose({0.0625, 0.0625, 0.0625}, 0.0);  // the middle of a cell
+  const FieldOfView field = all_round_within(1.0);
+  auto bands = predict_by_distance(attenuation, grid, T_world_sensor, field, 0.5, 1,
+                                   [](const Eigen::Vector3d&) { return true; });
+  ASSERT_EQ(bands.size(), 2U);
+  const ViewCone cone(T_world_sensor, field);
+  std::array<double, 2> seen{};
+  std::array<std::size_t, 2> there{};
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    const Eigen::Vector3d p_m = grid.frame.centre(grid.frame.cell(cell));
+    const double away_m = (p_m - T_world_sensor.translation()).norm();
+    if (away_m > 1.0) continue;
+    const std::size_t band = away_m < 0.5 ? 0 : 1;
+    ++there[band];
+    seen[band] += cone.contains(p_m) ? 1.0 : 0.0;
+  }
+  OccupancyGrid after = grid;
+  for (float& log_odds : after.log_odds) log_odds = -1.0F;
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(bands[i].predicted_cells, seen[i], 1.0) << i;
+  count_new_cells(grid, after, T_world_sensor, field, bands);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(bands[i].actual_cells, there[i]) << i;
 }
 
 }  // namespace

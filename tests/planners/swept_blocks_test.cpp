@@ -149,6 +149,19 @@ TEST(SeparateBlocks, ShowEachViewsGainAlone) {
   const ShownBlocks shown = separate_blocks(gains);
   EXPECT_EQ(shown.cells, (std::vector<float>{3.0F, 0.0F, 5.0F}));
   EXPECT_EQ(shown.shows[2].block, std::vector<std::uint32_t>{2});
+  for (const ShownShares& of_view : shown.shows) {
+    EXPECT_EQ(of_view.share, std::vector<float>{1.0F});
+  }
+}
+
+TEST(SharesOfBlocks, LeaveOutLessThanAHundredthAndEndAtOne) {
+  const ShownShares shown =
+      shares_of_blocks({0.7F, 1.5F, 100.5F, 0.0F, 50.0F}, {100.0F, 100.0F, 100.0F, 0.0F, 100.0F});
+  EXPECT_EQ(shown.block, (std::vector<std::uint32_t>{1, 2, 4}));
+  ASSERT_EQ(shown.share.size(), 3U);
+  EXPECT_FLOAT_EQ(shown.share[0], 0.015F);
+  EXPECT_EQ(shown.share[1], 1.0F);
+  EXPECT_FLOAT_EQ(shown.share[2], 0.5F);
 }
 
 }  // namespace

@@ -443,5 +443,22 @@ TEST(CanSweep, TheGainsWhoseLightOnlyFades) {
   EXPECT_FALSE(can_sweep(FsmiGain{}));
 }
 
+TEST(SweptGain, FadesInTheCellThatTheSensorIsInTheMiddleOf) {
+  for (int axis = 0; axis < 2; ++axis) {  // straight up no field of view looks
+    for (const int from : {0, 2}) {
+      GridFrame frame;
+      frame.cells[axis] = 3;
+      const OccupancyGrid grid(frame);
+      Eigen::Array3i own = Eigen::Array3i::Zero();
+      own[axis] = from;
+      const Candidate view = view_at(frame.centre(own));
+      const Gain gain = BeerLambertGain{.a = 0.9};
+      EXPECT_NEAR(exact(gain, {grid}, view, any_direction()), 1.0 + 0.9 + 0.81, 1e-6);
+      EXPECT_NEAR(swept(gain, {grid}, view, any_direction()), 1.0 + 0.9 + 0.81, 2e-5)
+          << axis << from;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

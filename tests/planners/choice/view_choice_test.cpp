@@ -245,5 +245,17 @@ TEST(ViewChoiceDeathTest, NeedsACandidate) {
   EXPECT_DEATH(choose_view(GreedyGain{}, {}, rng), "needs a candidate");
 }
 
+TEST(ExternalChoice, NamesAProgram) {
+  const auto check = [](const std::vector<std::string>& command) {
+    ExternalChoice choice;
+    choice.command = command;
+    check_options(choice);
+  };
+  EXPECT_THROW(check({}), ConfigError);
+  EXPECT_THROW(check({std::string()}), ConfigError);
+  EXPECT_THROW(check({std::string(), std::string("x")}), ConfigError);
+  EXPECT_NO_THROW(check({std::string("planner"), std::string()}));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -430,5 +430,70 @@ TEST(ViewProblem, AnImageIsTakenFromAShareOfTheKnownCellsOn) {
   expect(0.05, 1.0, 320.0);   // 400: the best one all the same
 }
 
+/// A lookout is weighed as the view of a problem from there, with what is known in the gain's unit.
+TEST(ImagesOfALookout, AreWeighedAsThoseOfAView) {
+  const Room room;
+  const SweepImages images = quarters({}).images;
+  const CellBlocks blocks = blocks_of(room.grid.frame, 0.4);
+  const Pose T_world_sweep = room.views[0].T_world_sensor;
+  for (const bool in_cells : {true, false}) {
+    const Gain gain = in_cells ? Gain(SimpleGain{}) : Gain(UnmappedVolumeGain{});
+    const PlanningProblem whole = make_view_problem(room.input(gain), {});
+    const Lookout lookout{.grid = room.grid,
+                          .attenuation = attenuation_of(gain, {room.grid}),
+                          .field_of_view = room.field,
+                          .T_world_sweep = T_world_sweep,
+                          .block_m = 0.4};
+    const SeenBlocks seen{room.grid.frame, blocks, whole.cells, whole.shows[0], T_world_sweep};
+    const std::vector<double> gains = gains_of_images(images, lookout);
+    EXPECT_EQ(gains, gains_of_images(images, seen));
+    const double known = in_cells ? 8000.0 : 8.0;
+    std::vector<GazeOptions> all{{.worth = 0.5}, {.worth = 1.0}, {.worth = 2.0}};
+    for (const double share : {0.01, 0.02, 0.05, 0.1}) all.push_back({.share = share});
+    for (const GazeOptions& gaze : all) {
+      EXPECT_EQ(worthwhile_images(PartialScans{images, gaze}, ScanToCome{lookout, 8.0, 3.0}),
+                worthwhile_images(StopOffer{gains, 2.0, 3.0, known}, gaze))
+          << gaze.worth << ' ' << gaze.share;
+    }
+  }
+}
+
+TEST(ViewProblem, OfAGainThatCannotBeSweptKnowsWhatIsSeen) {
+  const Room room;
+  EXPECT_EQ(make_view_problem(room.input(FsmiGain{}), {}).seen, 8000.0);
+}
+
+TEST(TrueViewProblem, HasNothingBeyondAllViews) {
+  Room room;
+  for (Candidate& view : room.views) {
+    view.true_new_cell_set = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
+  }
+  ViewPlanningInput input = room.input(SimpleGain{});
+  input.elapsed_s = 16.0;
+  EXPECT_EQ(make_true_view_problem(input, {.beyond_m = 8.0}).pace_per_s, 0.0);
+}
+
+TEST(ViewProblem, AnImageIsWeighedByItsTimeAndTheWayFromHere) {
+  Room room;
+  for (Candidate& view : room.views) {
+    auto shown = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
+    for (std::size_t cell = 0; view.id == 0 && cell < room.grid.size(); ++cell) {
+      const Eigen::Array3i at = room.grid.frame.cell(cell);
+      const bool left = at.y() >= 36 && at.x() >= 8 && at.x() < 16;
+      const bool ahead = at.y() >= 24 && at.y() < 28 && at.x() >= 28 && at.x() < 32;
+      if (left || ahead) (*shown)[cell / 64] |= 1ULL << (cell % 64);
+    }
+    view.true_new_cell_set = shown;
+  }
+  ViewPlanningInput input = room.input(SimpleGain{});
+  const auto share_taken = [&](double worth) {
+    const PartialScans scans = quarters({.worth = worth});
+    input.partial_scans = &scans;
+    return make_true_view_problem(input, {}).scan_share[0];
+  };
+  EXPECT_EQ(share_taken(2.1), 0.5);
+  EXPECT_EQ(share_taken(2.2), 0.25);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -200,7 +200,8 @@ TEST(CentredPath, GoesThroughTheMiddleAtTheHeadingThatLeavesMost) {
     int quarters;  // of the step between two headings
   };
   for (const auto& [begin_m, end_m, quarters] :
-       {Off{-0.04, 0.03, 2}, Off{0.03, -0.04, -2}, Off{0.04, 0.03, 1}, Off{-0.03, -0.04, -1}}) {
+       {Off{-0.04, 0.03, 2}, Off{0.03, -0.04, -2}, Off{0.04, 0.03, 1}, Off{-0.03, -0.04, -1},
+        Off{-0.03, 0.04, 1}}) {
     const double yaw_rad = 0.25 * quarters * std::numbers::pi / 24.0;
     const PlannedPath path =
         centred_between({wall(0.0, 0.0, 3.0, 0.15), wall(0.0, 0.85, 3.0, 1.0)},
@@ -241,6 +242,40 @@ TEST(CentredPath, KeepsItsClearanceAtBothEnds) {
                                              {1.0, 0.52, 0.0}, {2.0, 0.52, 0.0});
     for (const Pose2& pose : path.legs.at(2).waypoints) EXPECT_EQ(pose.y_m, 0.52) << post_m;
   }
+}
+
+TEST(CentredPath, MovesByFourCentimetresAndHalfAHeadingAtMost) {
+  const std::vector<Eigen::AlignedBox2d> walls{wall(0.0, 0.0, 3.0, 0.15),
+                                               wall(0.0, 0.85, 3.0, 1.0)};
+  const auto leg = [&](double begin_m, double end_m, double yaw_rad) {
+    return centred_between(walls, {1.0, 0.5 + begin_m, 0.0}, {2.0, 0.5 + end_m, yaw_rad})
+        .legs.at(2)
+        .waypoints;
+  };
+  for (const double side : {-1.0, 1.0}) {
+    const auto begin = leg(0.05 * side, 0.0, 0.0);
+    EXPECT_NEAR(begin.front().y_m, 0.5 + 0.01 * side, 5e-4);
+    EXPECT_NEAR(begin.back().y_m, 0.5, 5e-4);
+    const auto end = leg(0.0, 0.05 * side, 0.0);
+    EXPECT_NEAR(end.front().y_m, 0.5, 5e-4);
+    EXPECT_NEAR(end.back().y_m, 0.5 + 0.01 * side, 5e-4);
+    const double quarter_rad = 0.25 * std::numbers::pi / 24.0;
+    EXPECT_NEAR(leg(0.0, 0.0, 3.0 * side * quarter_rad).back().yaw_rad, side * quarter_rad, 1e-9);
+  }
+}
+
+/// A corner meets the post 1.5 cm from one of the places that are looked at.
+TEST_F(StepsThroughAPassage, ArePulledStraightOnlyWhereEachCornerPasses) {
+  const DrawnRooms rooms(3.0, 3.0, {wall(1.421, 1.391, 1.429, 1.399)});
+  NavigationOptions options;
+  options.footprint_radius_m = std::hypot(0.15, 0.15);
+  const double yaw_rad = 0.25 * std::numbers::pi;
+  const PathField field =
+      make_path_field(rooms.floor, {1.0, 1.2, yaw_rad}, options,
+                      rooms.space({.outline = rectangle(0.3, 0.3)}, {.margin_m = 0.0}));
+  const std::vector<PathStep> steps{
+      {{1.0, 1.2}, yaw_rad}, {{1.4, 0.9}, yaw_rad}, {{1.91, 1.2}, yaw_rad}};
+  EXPECT_EQ(path_through_passages(field, steps, 0.0).legs.at(0).waypoints.size(), 3U);
 }
 
 }  // namespace

@@ -162,5 +162,35 @@ TEST(NarrowSearch, BeginsAndEndsInTheFirstCellOfAMap) {
   EXPECT_NEAR(path_lengths_m(there, places, 1)(0, 1), length_m, 1e-5);
 }
 
+TEST_F(Corridor, WaysBetweenNooksAreThoseOfTheirPoses) {
+  const PathField narrow = field(robot_, {.speed_m_s = 0.2});
+  const std::vector<Eigen::Vector2d> places{{2.025, 1.025}, {2.525, 1.025}, {1.825, 1.025}};
+  const Eigen::MatrixXd lengths_m = path_lengths_m(narrow, places, 1);
+  EXPECT_NEAR(lengths_m(0, 1), 3.0 * 0.5, 1e-5);
+  EXPECT_NEAR(lengths_m(0, 2), 3.0 * 0.2, 1e-5);
+  EXPECT_NEAR(lengths_m(1, 2), 3.0 * 0.7, 1e-5);
+}
+
+TEST_F(Corridor, WhatIsRoundGoesToANookThoughAlongItsHeadingAlone) {
+  FloorOutline round;
+  for (int i = 0; i < 16; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi * i / 16.0;
+    round.emplace_back(0.33 * std::cos(angle_rad), 0.33 * std::sin(angle_rad));
+  }
+  const PathField narrow =
+      field({.outline = round, .goes_sideways = false}, {.least_area_m2 = 0.1});
+  EXPECT_TRUE(narrow.reachable(Eigen::Vector2d(2.525, 1.025)));
+  EXPECT_TRUE(narrow.reachable(Eigen::Vector2d(1.525, 1.025))) << "it can turn round";
+}
+
+TEST_F(Corridor, WhereTheMarginDoesNotFitATightOneIsKept) {
+  rooms_ = DrawnRooms(6.0, 2.0, {wall(0.0, 0.0, 2.8, 0.77), wall(0.0, 1.28, 2.8, 2.0)});
+  start_ = {2.425, 1.025, 0.0};
+  const PathField narrow = field(robot_, {});
+  ASSERT_FALSE(narrow.space->fits({242, 102}, 0));
+  ASSERT_TRUE(narrow.space->fits({242, 102}, 0, true));
+  EXPECT_TRUE(plan_path(narrow, {4.5, 1.0, 0.0}).reaches_goal);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -453,5 +453,19 @@ TEST(NarrowPlaces, AreNoneInARoomWithoutADoor) {
   }
 }
 
+TEST(Passages, AsFarAsCellsTellARobotMayNotTurnWithinHalfADiagonalMore) {
+  const DrawnRooms rooms(4.0, 4.0, {});
+  const auto keeps_its_heading = [&](double width_m) {
+    const FloorOutline outline = rectangle(0.96, width_m);
+    const PathField field = make_path_field(rooms.floor, {2.025, 0.525, 0.0}, disc_of(outline),
+                                            rooms.space({.outline = outline}, {}));
+    EXPECT_FALSE(field.traversable(field.start_cell));
+    EXPECT_TRUE(field.reachable(Eigen::Vector2d(2.0, 2.0)));
+    return !field.narrow.empty();
+  };
+  EXPECT_TRUE(keeps_its_heading(0.4)) << "0.520 m to a corner, and 0.035";
+  EXPECT_FALSE(keeps_its_heading(0.362)) << "0.513 m, and 0.035";
+}
+
 }  // namespace
 }  // namespace vantage

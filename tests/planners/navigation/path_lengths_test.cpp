@@ -133,5 +133,15 @@ TEST(PathLengths, AreThoseOfTheCheapestWayNotOfTheShortest) {
   }
 }
 
+TEST(PathLengths, AreInfiniteBetweenPlacesOfARoomThatIsNotReached) {
+  const Drawing rows{"...#...",  //
+                     "S..#A.B",  //
+                     "...#..."};
+  const PathField field = make_path_field(floor_of(rows), place_of(rows, 'S'), point_robot());
+  const std::vector<Eigen::Vector2d> places{position(place_of(rows, 'A')),
+                                            position(place_of(rows, 'B'))};
+  EXPECT_TRUE(std::isinf(path_lengths_m(field, places, 1)(0, 1)));
+}
+
 }  // namespace
 }  // namespace vantage

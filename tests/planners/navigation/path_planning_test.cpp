@@ -142,6 +142,7 @@ TEST(WayBlocked, ByWhatWasNotThereWhenItWasPlanned) {
   EXPECT_FALSE(blocked_by(3, 2, {4.5, 2.5, 0.0})) << "the robot is leaving it behind";
   options.watch_m = 0.0;
   EXPECT_FALSE(blocked_by(4, 2, way.front()));
+  EXPECT_FALSE(blocked_by(4, 1, {4.5, 4.0, 0.0})) << "never, though it is beside the way";
 }
 
 /// It must be able to go out of a tight place: what it is no nearer to on the way does not stop it,

@@ -77,6 +77,7 @@ TEST(LikelyStates, HaveTheOnlyUnknownOneHoweverImprobable) {
   EXPECT_NEAR(likely.belief[0], 0.95, 1e-12);
   EXPECT_NEAR(likely.belief[1], 0.05, 1e-12);
   EXPECT_NEAR(likely.mass, 0.55, 1e-12);
+  EXPECT_EQ(likely_states(states, belief({0.3, 0.5, 0.15, 0.05}), 1).states, likely.states);
 }
 
 TEST(LikelyStates, MayAllBeUnknown) {

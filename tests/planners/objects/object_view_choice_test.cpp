@@ -262,5 +262,13 @@ TEST_F(ObjectViewChoiceTest, TheNearestFreeViewIsTheSoonestThatSeesEnough) {
   EXPECT_EQ(choose({.choice = NearestFreeView{}}).action, 3U) << "the one that sees most";
 }
 
+TEST_F(ObjectViewChoiceTest, EqualWeightsDoNotCancel) {
+  for (ObjectViewAction& action : actions_) {
+    action = {.time_s = 2.0, .path_m = 3.0, .energy_j = 50.0};
+  }
+  EXPECT_DOUBLE_EQ(choose({.weight_per_s = 1.0, .weight_per_m = 1.0}).scores[2].cost, 5.0);
+  EXPECT_DOUBLE_EQ(choose({.weight_per_m = 1.0, .weight_per_j = 1.0}).scores[2].cost, 53.0);
+}
+
 }  // namespace
 }  // namespace vantage

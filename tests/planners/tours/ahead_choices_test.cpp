@@ -276,5 +276,15 @@ TEST(Rollout, KeepsAPlanThatIsDearerByLessThanThat) {
   }
 }
 
+TEST(RecedingHorizon, DrawsEitherOfTwoViewsAsOften) {
+  const PlanningProblem problem = on_a_line({5.0, 6.0}, {10.0F, 10.0F});
+  int first = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const auto order = order_of(RecedingHorizon{.nodes = 1}, problem, seed);
+    first += order == test::Order{0} ? 1 : 0;
+  }
+  EXPECT_NEAR(first, 200, 50);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <limits>
 
 #include "tests/planners/tours/small_problem.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
@@ -321,6 +323,38 @@ TEST(SearchTour, IsDoneWithARoomBeforeItLeaves) {
     }
   }
   EXPECT_EQ(search_tours(problem, {}, {}).front().order, (test::Order{0, 1, 2, 3, 4}));
+}
+
+TEST(SearchTours, TryAsManyFirstViewsAsTheyAreTold) {
+  for (const std::size_t first_moves : {1U, 2U}) {
+    EXPECT_EQ(search_tours(two_views(), {}, {.first_moves = first_moves}).size(), first_moves);
+  }
+}
+
+/// How good a first view is, is told by the free tour with that view in front.
+TEST(SearchTours, TryTheMostPromisingFirstView) {
+  Rng rng(24);
+  for (int k = 0; k < 10; ++k) {
+    const PlanningProblem problem = test::random_problem(7, 25, rng);
+    const TourObjective objective{.finish_weight = 0.5, .worth_s = 1e4};
+    const TourSearchOptions options{.first_moves = 2};
+    const Tour free = search_tour(problem, objective, options);
+    std::size_t promising = 7;
+    double least_s = std::numeric_limits<double>::infinity();
+    for (std::size_t view = 0; view < 7; ++view) {
+      if (view == free.order.front()) continue;
+      test::Order order{view};
+      std::ranges::copy_if(free.order, std::back_inserter(order),
+                           [&](std::size_t other) { return other != view; });
+      const double cost_s = tour_cost_s(problem, objective, order);
+      if (cost_s >= least_s) continue;
+      least_s = cost_s;
+      promising = view;
+    }
+    const auto tours = search_tours(problem, objective, options);
+    ASSERT_EQ(tours.size(), 2U);
+    EXPECT_TRUE(tours[0].order.front() == promising || tours[1].order.front() == promising) << k;
+  }
 }
 
 }  // namespace

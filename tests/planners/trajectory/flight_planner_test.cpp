@@ -432,5 +432,15 @@ TEST_F(Planner, WhatIsKnownIsThatOfThePlanning) {
   }
 }
 
+TEST_F(Planner, TheTargetIsTheFirstViewOnTheWay) {
+  objects_.insert(objects_.begin(),
+                  PlannableObject{.id = 4, .p_world_m = {6.5, 0.9, 0.9}, .entropy_nats = 2.0});
+  FlightPlanner best_start = planner(kBestStart);
+  propose(best_start);
+  ASSERT_TRUE(best_start.target());
+  EXPECT_EQ(best_start.target()->object, 3);
+  EXPECT_NEAR(best_start.target()->p_world_view_m.x(), 2.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

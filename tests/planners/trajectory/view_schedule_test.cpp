@@ -157,5 +157,12 @@ TEST_F(Schedule, LooksAtAViewForSoLongBeforeAndAfter) {
   EXPECT_EQ(nearer[5], 1U) << "half of the way before the one, all of that after the other";
 }
 
+TEST_F(Schedule, WhatLeavesAnObjectJustUnknownIsNotEnough) {
+  objects_ = {object_to_see_at(4.0, 1.0, 2.25)};
+  objects_[0].gain_nats.fill(2.0);
+  EXPECT_EQ(schedule_views(options_, objects_, path_, 0.25).size(), 2U);
+  EXPECT_EQ(schedule_views(options_, objects_, path_, 0.3125).size(), 1U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -257,5 +257,13 @@ RC_GTEST_PROP(FindFrontiers, StandInKnownFreeSpaceWhereAClusterReachesTheSensors
   }
 }
 
+TEST(FindFrontiers, TakeTheHighestOfTheBandAndRefuseABandOfNoHeight) {
+  FrontierOptions options = whole();
+  options.height_band_m = {{3.4, 3.5}};
+  EXPECT_THAT(find_frontiers(room_without_ceiling(), options), SizeIs(1));
+  options.height_band_m = {{1.5, 1.5}};
+  EXPECT_THROW(find_frontiers(room_without_ceiling(), options), ConfigError);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -48,5 +48,9 @@ TEST(ConfidenceOfLeft, IsTheShareOfDecisionsInTraining) {
   EXPECT_NEAR(confidence_of_left(kExpected, 6.66 * kExpected), 0.975, 1e-9) << "twice the most";
 }
 
+TEST(ConfidenceOfLeft, IsSureWhereNothingIsExpectedAndNothingMayBeLeft) {
+  EXPECT_EQ(confidence_of_left(0.0, 0.0), 1.0);
+}
+
 }  // namespace
 }  // namespace vantage

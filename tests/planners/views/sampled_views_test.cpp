@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <limits>
 #include <numbers>
@@ -143,6 +144,23 @@ TEST_F(SampledViewsOnAMap, KeepTheClearanceOnBothSidesAndNoMore) {
   EXPECT_GE(right_m, 3.7);
   EXPECT_LT(right_m, 3.95);
   EXPECT_NEAR(left, 100, 30) << "both sides are of one size";
+}
+
+TEST_F(SampledViewsOnAMap, LookInEveryDirection) {
+  const std::vector<support::MapCube> cubes{{{0, 0, 0}, 64, false}};
+  std::array<int, 8> looking{};
+  for (const auto& view : sample({.positions = 200, .headings = 1}, map(cubes))) {
+    const double turns =
+        project_to_se2(view.T_world_sensor).yaw_rad / (2.0 * std::numbers::pi) + 0.5;
+    ++looking[std::min<std::size_t>(static_cast<std::size_t>(8.0 * turns), 7)];
+  }
+  EXPECT_THAT(looking, ::testing::Each(::testing::Gt(3)));
+}
+
+TEST_F(SampledViewsOnAMap, ALevelWhereALeafEndsIsThatOfWhatIsAbove) {
+  const auto room = map({{{0, 0, 0}, 8, false}}, 0.125);
+  EXPECT_THAT(error_of({.height_m = 1.0}, room), HasSubstr("no free cell at views.height_m = 1"));
+  EXPECT_EQ(error_of({.height_m = 0.0}, room), "no error");
 }
 
 }  // namespace

@@ -194,5 +194,20 @@ TEST(SampledSum, OfAFewCellsIsNotSettled) {
   EXPECT_EQ(sum.settled_by(0.0), 0.0);
 }
 
+TEST(SampledSum, CellsWithoutWeightTakeNoPlaceInTheSample) {
+  PartlySeen sample(32, 1);
+  sample.offer(64, [](int i) {
+    return PartlySeen::Cell{.cell = {i, 0, 0}, .visible = 0.5F, .weight = i % 2 == 0 ? 1.0F : 0.0F};
+  });
+  int asked = 0;
+  const SampledSum sum = sample.sum_errors(0.0, [&](const PartlySeen::Cell&) {
+    ++asked;
+    return 1.0;
+  });
+  EXPECT_EQ(asked, 32);
+  EXPECT_TRUE(sum.is_exact());
+  EXPECT_EQ(sum.estimate, 32.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -135,7 +135,7 @@ TEST(AdvanceRow, LessThanATraceIsNotSeenAndOpaqueCellsStopAlmostAll) {
     std::ranges::fill(random.arriving, arrives);
     advance_row(random.row(0.5F, 40.0F, 0.0F), 0, 0, 1, visible.data(), utility.data());
     EXPECT_FLOAT_EQ(visible[0], arrives);
-    EXPECT_FLOAT_EQ(utility[0], arrives < kDark ? 0.0F : arrives);
+    EXPECT_FLOAT_EQ(utility[0], arrives < 0.002F ? 0.0F : arrives);
   }
 }
 

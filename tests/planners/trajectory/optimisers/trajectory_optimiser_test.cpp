@@ -169,6 +169,7 @@ TEST(PathSearch, BeginsWithTheFreePointsHoweverFew) {
 
 TEST(CemOptions, AreChecked) {
   EXPECT_THROW(check_options(Cem{.rollouts = 5, .elites = 6}), ConfigError);
+  EXPECT_NO_THROW(check_options(Cem{.rollouts = 5, .elites = 5}));
 }
 
 TEST(TrajectoryOptimiser, NamesOfTheContract) {

@@ -1,0 +1,58 @@
+// What stands in the way of a robot that goes through a passage.
+#include "vantage/planners/navigation/passage_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/planners/navigation/drawn_rooms.hpp"
+
+namespace vantage {
+namespace {
+
+bool passage_blocked_by(const Eigen::Vector2d& p_m, const PathLeg& leg, const Pose2& base,
+                        const FloorOutline& outline) {
+  DrawnRooms rooms(4.0, 4.0, {});
+  rooms.detail.log_odds[rooms.detail.index(rooms.detail.cell_at(p_m))] = 3.0F;
+  return is_passage_blocked(rooms.detail, leg, base, {.outline = outline});
+}
+constexpr double kQuarter_rad = 0.5 * std::numbers::pi;
+
+/// A tenth of a radian, or three centimetres, hides nothing from a corner.
+TEST(PassageWatch, LooksOftenEnoughForACorner) {
+  const FloorOutline square = rectangle(0.6, 0.6);
+  const PathLeg turn{.waypoints = {{2.0, 1.5, 0.0}, {2.0, 1.5, kQuarter_rad}}, .narrow = true};
+  EXPECT_TRUE(passage_blocked_by({2.035, 1.895}, turn, {2.0, 1.5, 0.0}, square));
+  const double half_rad = 0.5 * kQuarter_rad;
+  const PathLeg ahead{.waypoints = {{1.0, 1.5, half_rad}, {1.91, 1.5, half_rad}}, .narrow = true};
+  EXPECT_TRUE(passage_blocked_by({1.425, 1.905}, ahead, {1.0, 1.5, half_rad}, square));
+}
+
+TEST(PassageWatch, ATurnMayMoveItByFiveCentimetres) {
+  const FloorOutline square = rectangle(0.6, 0.6);
+  const auto turning = [&](double moved_m, double x_m) {
+    const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {2.0 + moved_m, 1.5, kQuarter_rad}},
+                      .narrow = true};
+    return passage_blocked_by({x_m, 1.895}, leg, {2.0, 1.5, 0.0}, square);
+  };
+  EXPECT_TRUE(turning(0.04, 2.025)) << "a corner passes it";
+  EXPECT_FALSE(turning(0.07, 2.035)) << "it goes there at the last heading";
+}
+
+TEST(PassageWatch, AHeadingCountsByThirtyCentimetresARadian) {
+  const FloorOutline outline = rectangle(0.6, 0.4);
+  const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {3.0, 1.5, 0.0}, {3.0, 2.5, kQuarter_rad}},
+                    .narrow = true};
+  EXPECT_FALSE(passage_blocked_by({3.255, 1.505}, leg, {2.9, 1.5, 1.0}, outline))
+      << "0.27 against 0.31";
+  EXPECT_TRUE(passage_blocked_by({3.255, 1.505}, leg, {2.8, 1.5, 1.0}, outline))
+      << "0.37 against 0.31";
+}
+
+TEST(PassageWatch, SeesWhatIsInTheWayOfAShortMotion) {
+  const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {2.02, 1.5, 0.0}}, .narrow = true};
+  EXPECT_TRUE(passage_blocked_by({2.315, 1.505}, leg, {2.0, 1.5, 0.0}, rectangle(0.6, 0.6)));
+}
+
+}  // namespace
+}  // namespace vantage
