@@ -111,15 +111,24 @@ void add_cell_boxes(const FittedGrid& grid, const std::vector<std::uint8_t>& sol
 
 void check_geoms(const BuildingScene& scene, const BuildingOptions& options,
                  const std::string& name) {
+  if (scene.geoms() == (scene.laid_floor ? 1U : 0U)) {
+    throw InputError(fmt::format(
+        "{}: nothing stands on the floor at {:.3g} m (--floor), below {:g} m (--height)", name,
+        -scene.T_scene_mesh.translation().z(), options.height_m));
+  }
   if (scene.geoms() <= static_cast<std::size_t>(options.max_geoms)) return;
-  throw ConfigError(fmt::format(
-      "--max-geoms {}: {} would need {}, {} of them boxes of cells; --cell {:g} makes larger ones",
-      options.max_geoms, name, scene.geoms(), scene.cell_boxes.size(), 2.0 * options.cell_m));
+  const std::string needs =
+      fmt::format("--max-geoms {}: {} would need {}", options.max_geoms, name, scene.geoms());
+  if (scene.geoms() - scene.cell_boxes.size() > static_cast<std::size_t>(options.max_geoms)) {
+    throw ConfigError(needs + ", most of them parts of the mesh as it has them");
+  }
+  throw ConfigError(fmt::format("{}, {} of them boxes of cells; --cell {:g} makes larger ones",
+                                needs, scene.cell_boxes.size(), 2.0 * options.cell_m));
 }
 
 void find_start(const FittedGrid& grid, const std::vector<std::uint8_t>& solid,
                 const BuildingOptions& options, const std::string& name, BuildingScene& scene) {
-  FreeFloorOptions wanted{.clearance_m = options.clearance_m};
+  FreeFloorOptions wanted{.clearance_m = options.clearance_m, .standing_m = scene.extent_m};
   auto floor = find_free_floor(grid, solid, wanted);
   if (!floor && options.floor_m) {
     scene.laid_floor = wanted.floor_everywhere = true;
@@ -162,8 +171,8 @@ BuildingScene make_building_scene(BuildingMesh mesh, const BuildingOptions& opti
   const FittedGrid grid = fit_grid(mesh, extent_m, options.cell_m);
   step("solid cells");
   std::vector<std::uint8_t> solid = solid_cells(mesh, mesh.triangles, grid);
-  find_start(grid, solid, options, name, scene);
   scene.extent_m = standing_extent(mesh);
+  find_start(grid, solid, options, name, scene);
   step("boxes");
   if (!rest.empty()) {
     if (rest.size() != mesh.triangles.size()) solid = solid_cells(mesh, rest, grid);

@@ -77,11 +77,27 @@ Squares squares_of(const FittedGrid& grid, const std::vector<std::uint8_t>& soli
   return squares;
 }
 
-/// The largest set of neighbouring squares with enough clearance.
-std::vector<std::size_t> largest_area(const Squares& squares, double clearance_m) {
+/// By what stands, an area beside it or among its wings.
+bool is_outdoors(const Squares& squares, const std::vector<std::size_t>& area,
+                 const Eigen::AlignedBox2d& standing_m) {
+  constexpr double kWidestGate_m = 3.0;
+  if (standing_m.isEmpty()) return false;
+  const Eigen::Array2d low = standing_m.min().array() + kSquare_m;
+  const Eigen::Array2d high = standing_m.max().array() - kSquare_m;
+  const auto at_edge = std::ranges::count_if(area, [&](std::size_t square) {
+    const Eigen::Array2d p_m = squares.centre_m(square).array();
+    return (p_m < low).any() || (p_m > high).any();
+  });
+  return static_cast<double>(at_edge) * kSquare_m > kWidestGate_m;
+}
+
+/// The largest set of neighbouring squares with enough clearance, of those not outdoors if any.
+std::vector<std::size_t> largest_area(const Squares& squares, double clearance_m,
+                                      const Eigen::AlignedBox2d& standing_m) {
   constexpr std::array<std::array<int, 2>, 4> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   std::vector<std::uint8_t> taken(squares.blocked.size(), 0);
   std::vector<std::size_t> largest;
+  bool is_in = false;
   for (std::size_t seed = 0; seed < taken.size(); ++seed) {
     if (taken[seed] != 0 || squares.clearance_m[seed] < clearance_m) continue;
     std::vector<std::size_t> area{seed};
@@ -97,7 +113,10 @@ std::vector<std::size_t> largest_area(const Squares& squares, double clearance_m
         area.push_back(next);
       }
     }
-    if (area.size() > largest.size()) largest = std::move(area);
+    const bool in = !is_outdoors(squares, area, standing_m);
+    if (std::pair(in, area.size()) <= std::pair(is_in, largest.size())) continue;
+    is_in = in;
+    largest = std::move(area);
   }
   return largest;
 }
@@ -131,7 +150,8 @@ std::optional<FreeFloor> find_free_floor(const FittedGrid& grid,
   const Squares squares = squares_of(grid, solid, options);
   if (!squares.has_floor) return std::nullopt;
   FreeFloor found;
-  const std::vector<std::size_t> area = largest_area(squares, options.clearance_m);
+  const std::vector<std::size_t> area =
+      largest_area(squares, options.clearance_m, options.standing_m);
   if (area.empty()) return found;
   Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
   for (const std::size_t square : area) middle_m += squares.centre_m(square);

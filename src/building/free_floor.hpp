@@ -1,6 +1,8 @@
 /// Where a robot can begin in a building.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <cstdint>
 #include <optional>
 
@@ -13,10 +15,13 @@ struct FreeFloorOptions {
   double clearance_m = 0.6;  ///< from the start to all that stands there
   double headroom_m = 1.6;   ///< free above the floor
   bool floor_everywhere = false;
+  /// Of what stands on the floor: an area that meets its edge for more than a gate's width is
+  /// outdoors, and what is beyond it no floor to begin on. Empty: nothing is outdoors.
+  Eigen::AlignedBox2d standing_m = {};
 };
 
 struct FreeFloor {
-  Pose2 start;               ///< in the largest area, far from what stands there
+  Pose2 start;  ///< in the largest area that is not outdoors, if any, far from what stands there
   double area_m2 = 0.0;      ///< that a disc of the clearance can go round from there
   double clearance_m = 0.0;  ///< of the start
 };

@@ -105,17 +105,22 @@ int scans_for(const BuildingMap& map) {
 
 BuildingMap map_of(const BuildingScene& scene) {
   constexpr double kMargin_m = 0.25;
-  constexpr double kLayers = 65;
+  constexpr double kLarge_m2 = 250.0;  // layers of 3 cm below, of 6 cm above
   constexpr double kMostColumns = 70000.0;
   constexpr double kFinest_m = 0.0584;  // as in our small offices
+  constexpr double kCoarsest_m = 0.1;   // unless the grid would be too large for that
+  constexpr double kMostCells = 67108864.0;
   BuildingMap map;
   for (int axis = 0; axis < 2; ++axis) {
     map.size_m[axis] = rounded_up(scene.extent_m.sizes()[axis] + kMargin_m, 0.5);
   }
-  const double cell_m = std::max(kFinest_m, std::sqrt(map.size_m.prod() / kMostColumns));
+  const double area_m2 = map.size_m.prod();
+  const int layers = area_m2 <= kLarge_m2 ? 65 : 33;
+  const double cell_m =
+      std::max(std::clamp(std::sqrt(area_m2 / kMostColumns), kFinest_m, kCoarsest_m),
+               std::sqrt(area_m2 * layers / kMostCells));
   const Eigen::Array2d columns = (map.size_m.array() / cell_m).ceil();
-  map.cells = {static_cast<int>(columns.x()), static_cast<int>(columns.y()),
-               static_cast<int>(kLayers)};
+  map.cells = {static_cast<int>(columns.x()), static_cast<int>(columns.y()), layers};
   map.half_size_m = rounded_up(0.5 * map.size_m.maxCoeff() + kMargin_m, 0.5);
   return map;
 }

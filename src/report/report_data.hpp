@@ -13,7 +13,7 @@
 
 namespace vantage {
 
-/// A cell of the map's history: its centre in the world and the scan (0 = first) that found it.
+/// A cell of the map: its centre in the world and the scan (0 = first) since which it is occupied.
 struct VoxelRecord {
   float x = 0.0F;
   float y = 0.0F;

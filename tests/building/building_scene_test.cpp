@@ -299,5 +299,21 @@ TEST(BuildingScene, TheMapHoldsTheBuilding) {
   EXPECT_THAT(to_episode(scene, "room.xml"), HasSubstr("scene: room.xml"));
 }
 
+/// Flush with a ground of 20 x 20 m, as modelling programs draw it.
+TEST(BuildingScene, ARobotBeginsInTheHouseNotOnTheGroundAboutIt) {
+  test::DrawnBuilding house = test::room_with_door(0.9);
+  house.box({-10.0, -10.0, -0.2}, {10.0, 10.0, 0.0});
+  const BuildingScene scene = scene_of(house);
+  const BuildingMap map = map_of(scene);
+  EXPECT_LT(std::abs(scene.floor.start.x_m), 0.5 * map.size_m.x());
+  EXPECT_LT(std::abs(scene.floor.start.y_m), 0.5 * map.size_m.y());
+  EXPECT_LT(scene.floor.area_m2, 30.0);
+}
+
+TEST(BuildingScene, NothingAtThatHeightIsRefused) {
+  EXPECT_THAT(refusal<InputError>(test::room_with_door(0.9), {.floor_m = 100.0}),
+              AllOf(HasSubstr("nothing"), HasSubstr("--floor")));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -28,7 +28,7 @@ struct WalledRoom {
   void fill(int x, int y, int z, bool full = true) { solid[grid.index(x, y, z)] = full ? 1 : 0; }
 };
 
-constexpr FreeFloorOptions kNarrow{.clearance_m = 0.58};
+const FreeFloorOptions kNarrow{.clearance_m = 0.58};
 
 /// 81 squares of 5 cm by 41: 57 by 17 of them are 12 squares off the walls.
 TEST(FreeFloor, BeginsInTheMiddleAlongTheRoom) {
@@ -127,6 +127,48 @@ TEST(FreeFloor, SeeksPlentyOfRoomNearTheMiddle) {
   EXPECT_LT(floor->start.x_m, 13.5);
   EXPECT_GE(floor->clearance_m, 1.2 - 1e-9);
   EXPECT_LE(floor->clearance_m, 1.25 + 1e-9);
+}
+
+/// A room of 2 m, and ground of 3 m round its walls.
+TEST(FreeFloor, IsNotOutdoorsWhereThereIsARoom) {
+  WalledRoom house({0.0, 3.0, 3.5, 5.5, 6.0, 9.0}, {0.0, 3.0, 3.5, 5.5, 6.0, 9.0});
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      const bool of_house = x > 0 && y > 0 && x < 4 && y < 4;
+      house.fill(x, y, 1, of_house && (x != 2 || y != 2));
+    }
+  }
+  FreeFloorOptions options = kNarrow;
+  const auto anywhere = find_free_floor(house.grid, house.solid, options);
+  ASSERT_TRUE(anywhere);
+  EXPECT_GT(std::abs(anywhere->start.x_m - 4.5) + std::abs(anywhere->start.y_m - 4.5), 2.0);
+  options.standing_m = {Eigen::Vector2d(3.0, 3.0), Eigen::Vector2d(6.0, 6.0)};
+  const auto indoors = find_free_floor(house.grid, house.solid, options);
+  ASSERT_TRUE(indoors);
+  EXPECT_NEAR(indoors->start.x_m, 4.5, 0.05);
+  EXPECT_NEAR(indoors->start.y_m, 4.5, 0.05);
+  house.fill(2, 2, 1);
+  const auto outdoors = find_free_floor(house.grid, house.solid, options);
+  ASSERT_TRUE(outdoors);
+  EXPECT_EQ(outdoors->area_m2, anywhere->area_m2) << "there is nothing else";
+}
+
+/// A gate of 4 m: 2.8 m of its threshold have clearance. A side of 6 m that is open is outdoors.
+TEST(FreeFloor, AHallWithAGateIsIndoors) {
+  for (const double open_m : {4.0, 6.0}) {
+    // Left of it a closed room of 2 x 2 m.
+    const double low_m = 3.5 - 0.5 * open_m;
+    WalledRoom hall({0.0, 0.5, 2.5, 3.0, 9.0}, {0.0, low_m, 2.5, 4.5, 7.0 - low_m, 7.0});
+    for (int y = 0; y < 5; ++y) {
+      for (int x = 1; x < 4; ++x)
+        hall.fill(x, y, 1, y == 0 || y == 4 || x == 2 || (x == 1 && y != 2));
+    }
+    FreeFloorOptions options = kNarrow;
+    options.standing_m = {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(9.0, 7.0)};
+    const auto floor = find_free_floor(hall.grid, hall.solid, options);
+    ASSERT_TRUE(floor);
+    EXPECT_EQ(floor->start.x_m > 3.0, open_m < 5.0) << open_m;
+  }
 }
 
 }  // namespace

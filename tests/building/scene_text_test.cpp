@@ -53,9 +53,11 @@ TEST(BuildingMap, IsLargeEnoughAndOfCellsThatAreFewEnough) {
   const BuildingMap large = map_of(hall_of(40.0, 30.0));
   EXPECT_NEAR(large.size_m.x(), 40.5, 1e-9);
   EXPECT_NEAR(large.size_m.y(), 30.5, 1e-9);
-  EXPECT_EQ(large.cells.x(), 305);
-  EXPECT_EQ(large.cells.y(), 230);
+  EXPECT_TRUE((large.cells == Eigen::Array3i(405, 305, 33)).all()) << "cells of 10 cm at most";
   EXPECT_NEAR(large.half_size_m, 20.5, 1e-9);
+  const BuildingMap vast = map_of(hall_of(199.5, 149.5));
+  EXPECT_GT(vast.cells.cast<double>().prod(), 0.99 * 67108864.0) << "as fine as memory allows";
+  EXPECT_LT(vast.cells.cast<double>().prod(), 1.01 * 67108864.0);
   const BuildingMap even = map_of(hall_of(7.75, 5.75));
   EXPECT_NEAR(even.size_m.x(), 8.0, 1e-9) << "whole halves stay";
   EXPECT_NEAR(even.size_m.y(), 6.0, 1e-9);

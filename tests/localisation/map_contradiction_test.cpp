@@ -103,7 +103,7 @@ TEST(MapContradiction, IsAskedOfEveryThirdPointThatIsFarEnough) {
 }
 
 TEST(MapContradiction, TheScannerIsWhereItsBaseHasIt) {
-  const Pose2 T_world_base{1.0, 2.0, 0.5 * std::numbers::pi};
+  const Pose2 T_world_base{3.0, 2.0, 0.5 * std::numbers::pi};
   const PointCloud wall = ahead({3.025F});
   const PointCloud beam = ahead({5.025F});
   std::vector<SeenFrom> scans;

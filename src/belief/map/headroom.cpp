@@ -144,10 +144,23 @@ class Columns {
   std::vector<Column> columns_;
 };
 
+/// What is beyond the grid nothing is known of, but where the robot has been.
+void block_outside(FloorMap& floor, const GridFrame& frame,
+                   std::span<const std::uint8_t> traversed) {
+  const Eigen::AlignedBox2d known(frame.box().min().head<2>(), frame.box().max().head<2>());
+  for (int y = 0; y < floor.ny; ++y) {
+    for (int x = 0; x < floor.nx; ++x) {
+      const std::size_t cell = floor.index({x, y});
+      const bool outside = !known.contains(floor.centre({x, y}));
+      floor.blocked[cell] = outside && traversed[cell] == 0 ? 1 : 0;
+    }
+  }
+}
+
 void block(FloorMap& floor, const GridFrame& frame, std::span<const std::uint8_t> traversed,
            const Columns& columns, bool finer) {
   expects(traversed.size() == floor.size(), "a flag per cell of the floor map");
-  std::ranges::fill(floor.blocked, std::uint8_t{0});
+  block_outside(floor, frame, traversed);
   const Eigen::Vector2d half = 0.5 * frame.cell_size_m.head<2>();
   constexpr double kTouching = 1e-9;
   for (int y = 0; y < frame.cells.y(); ++y) {

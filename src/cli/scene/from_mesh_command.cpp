@@ -103,6 +103,10 @@ std::string scene_report(const BuildingScene& scene, const FromMeshArguments& ar
       "{:.3g} x {:.3g} m; start_0 at ({:.2f}, {:.2f}), {:.2f} m clear, {:.3g} m2 of floor about "
       "it\n",
       size_m.x(), size_m.y(), start.x_m, start.y_m, scene.floor.clearance_m, scene.floor.area_m2);
+  const BuildingMap map = map_of(scene);
+  text += fmt::format("its map: {:g} x {:g} m, {} x {} x {} cells of {:.1f} cm\n", map.size_m.x(),
+                      map.size_m.y(), map.cells.x(), map.cells.y(), map.cells.z(),
+                      100.0 * map.size_m.x() / map.cells.x());
   if (arguments.episode) {
     return text + fmt::format("explore it: vantage run {}\n", episode_file(arguments.out).string());
   }

@@ -55,6 +55,14 @@ ExplorationParts::ExplorationParts(const MappingContext& context, const Explorat
   if (task.gaze.on_the_way_m > 0.0) navigator_.on_the_way = [this] { look_on_the_way(); };
 }
 
+/// The way home closes the last loop, of what was driven out.
+void ExplorationParts::end() {
+  navigator_.on_the_way = nullptr;  // nothing more is looked at
+  MappingParts::end(views_);
+  if (const auto correction = navigator_.correct_over_loops()) correct_map(*correction, false);
+  note_agreeing_loops();
+}
+
 /// The robot has been there.
 void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
   mark_disc(navigator_.floor(), p_m, radius_m, traversed_);
@@ -73,10 +81,10 @@ void ExplorationParts::update(const ExplorationObservation& observation) {
   measure(before, update, to_se3(update.T_world_base) * exploring_robot_.T_base_sweep());
   if (navigator_.loops() == nullptr) return;
   belief_.keep(observation, current_.keyframe);
-  if (const auto correction = navigator_.correct_over_loops()) correct_map(*correction);
+  if (const auto correction = navigator_.correct_over_loops()) correct_map(*correction, true);
 }
 
-void ExplorationParts::correct_map(const PoseCorrection& correction) {
+void ExplorationParts::correct_map(const PoseCorrection& correction, bool scanning) {
   belief_.reintegrate(correction.T_world_after);
   for (std::size_t i = 0; i < visited_.size(); ++i) {
     visited_.move(i, correction.moved(visited_.place(i), visited_at_[i]));
@@ -86,7 +94,7 @@ void ExplorationParts::correct_map(const PoseCorrection& correction) {
   traverse(p_start_m_, task_.start_room_m);
   path_traversed_ = 0;
   block_floor();
-  correct_records(correction, exploring_robot_.T_base_sweep());
+  correct_records(correction, exploring_robot_.T_base_sweep(), scanning);
 }
 
 void ExplorationParts::visit(const Eigen::Vector2d& p_m, double radius_m, bool missed) {

@@ -28,15 +28,13 @@ class ExplorationParts : public MappingParts {
   [[nodiscard]] std::string finished() const;
   std::vector<Candidate> propose() { return views_; }
   void act(const Candidate& candidate);
-  void end() {
-    navigator_.on_the_way = nullptr;  // the map is done
-    MappingParts::end(views_);
-  }
+  void end();
 
  private:
   void traverse(const Eigen::Vector2d& p_m, double radius_m);
   void block_floor();
-  void correct_map(const PoseCorrection& correction);
+  /// @param scanning see correct_records()
+  void correct_map(const PoseCorrection& correction, bool scanning);
   /// @param missed images that were to be taken from there
   void visit(const Eigen::Vector2d& p_m, double radius_m, bool missed = false);
   /// While it drives: takes an image now and then, and turns the head to where the next promises

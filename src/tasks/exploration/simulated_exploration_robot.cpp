@@ -107,6 +107,9 @@ SimulatedExplorationRobot::SimulatedExplorationRobot(const EpisodeSetup& setup,
                           task);
   check_turning_room(base_.world(), base_.robot(), start_text(setup.options.robot));
   base_.note_localisation(task.registration, setup.options.seed, start_notes_);
+  if (std::string note = floor_map_note(task); !note.empty()) {
+    start_notes_.push_back(std::move(note));
+  }
 }
 
 /// Every other row backwards: it begins where the one before ended.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +63,18 @@ std::string start_text(const RobotOptions& robot) {
   if (!robot.start_site.empty()) return fmt::format("robot.start_site '{}'", robot.start_site);
   const auto pose = robot.start_pose.value_or(std::array{0.0, 0.0, 0.0});
   return fmt::format("robot.start_pose {}", fmt::join(pose, ", "));
+}
+
+std::string floor_map_note(const Exploration& task) {
+  const Eigen::AlignedBox3d region = task.map.frame().box();
+  const double needed_m = std::max(region.min().head<2>().cwiseAbs().maxCoeff(),
+                                   region.max().head<2>().cwiseAbs().maxCoeff());
+  if (needed_m <= task.floor_map.half_size_m) return {};
+  return fmt::format(
+      "floor_map.half_size_m: {} ends before the map, {:.2f} m from the world's origin at most: "
+      "what "
+      "is farther is not driven to; {:.1f} would do",
+      task.floor_map.half_size_m, needed_m, std::ceil(2.0 * needed_m) / 2.0);
 }
 
 void check_exploration_start(const World& world, const MobileBase& robot, const RayScene& geometry,

@@ -16,6 +16,9 @@ class World;
 void check_exploration_start(const World& world, const MobileBase& robot, const RayScene& geometry,
                              const EpisodeSetup& setup, const Exploration& task);
 
+/// What the floor map leaves out of the map; "" if nothing.
+std::string floor_map_note(const Exploration& task);
+
 /// "robot.start_site 'start_0'"
 std::string start_text(const RobotOptions& robot);
 

@@ -108,7 +108,6 @@ void MappingParts::end(const std::vector<Candidate>& views) {
         at_limit);
   }
   budget_.come_home();
-  note_agreeing_loops();
 }
 
 double MappingParts::expected_left_cells(const std::vector<Candidate>& views) {

@@ -20,9 +20,10 @@ std::vector<ScanRecord*> pointers_to(std::vector<ScanRecord>& scans) {
 
 }  // namespace
 
-void MappingParts::correct_records(const PoseCorrection& correction, const Pose& T_base_sensor) {
+void MappingParts::correct_records(const PoseCorrection& correction, const Pose& T_base_sensor,
+                                   bool scanning) {
   std::vector<ScanRecord*> records = pointers_to(scans_);
-  records.push_back(&current_);
+  if (scanning) records.push_back(&current_);
   double most_m = 0.0;
   for (ScanRecord* record : records) {
     const Pose2 before = record->T_world_base;
@@ -40,11 +41,10 @@ void MappingParts::correct_records(const PoseCorrection& correction, const Pose&
     records[i]->map_sigma_m = map_sigma_m(records[i]->T_world_base, covariances[i]);
   }
   robot_.restart_dead_reckoning();
-  evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
-  log_info(
-      fmt::format("scan {}: back at a place of before: poses corrected by up to {:.3f} m, map "
-                  "made anew",
-                  scans_.size() + 1, most_m));
+  if (scanning) evaluator_.measure(belief_.grid(), options_.metrics.tolerance_cells, current_);
+  log_info(fmt::format(
+      "{}: back at a place of before: poses corrected by up to {:.3f} m, map made anew",
+      scanning ? fmt::format("scan {}", scans_.size() + 1) : "after the last scan", most_m));
 }
 
 std::vector<Eigen::Matrix3d> MappingParts::note_pose_sigmas(

@@ -89,8 +89,11 @@ class MappingParts {
   [[nodiscard]] Before before_update();
   void correct_pose(const BeliefUpdate& update);
   void measure(const Before& before, const BeliefUpdate& update, const Pose& T_world_sensor);
-  /// Loops have moved what was mapped: so have all records, and the map of the last is another.
-  void correct_records(const PoseCorrection& correction, const Pose& T_base_sensor);
+  /// Loops have moved what was mapped: so have all records. @param scanning the map is that of the
+  /// scan under way, too; else it is after the last one
+  void correct_records(const PoseCorrection& correction, const Pose& T_base_sensor, bool scanning);
+  /// Loops that left the poses where they were make the map as sure as those that moved them.
+  void note_agreeing_loops();
   const ScanRecord& record_scan();
   /// What the scan to come will show, seen from there.
   /// @param in_sight what of the field it looks at; none: all of it
@@ -156,8 +159,6 @@ class MappingParts {
   [[nodiscard]] double map_sigma_m(const Pose2& base, const Eigen::Matrix3d& covariance) const;
   /// @return covariances of (x, y, yaw) at these records' scans; none if no loops are looked for
   std::vector<Eigen::Matrix3d> note_pose_sigmas(std::span<ScanRecord* const> records) const;
-  /// Loops that left the poses where they were make the map as sure as those that moved them.
-  void note_agreeing_loops();
   [[nodiscard]] BlockField transmission() const;
   [[nodiscard]] std::vector<PredictionBand> forecast(double hazard_factor, double width_m) const;
   [[nodiscard]] double predicted_by(const Gain& gain) const;

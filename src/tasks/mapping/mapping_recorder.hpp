@@ -28,7 +28,7 @@ class MappingRecorder : public EpisodeRecorder {
                   const std::vector<Predictor>& predictors, int scans);
 
   void set_panel(std::function<MapPanelInput()> panel);
-  /// Adds a row to steps.csv, and the cells that became occupied to the report's voxels.
+  /// Adds a row to steps.csv, and notes since when cells are occupied.
   /// @param number of the scan, the first is 1
   void scan(const ScanRecord& record, std::size_t number, const OccupancyGrid& grid);
   /// Whether somebody will look at decisions and what they were made by.
@@ -43,15 +43,15 @@ class MappingRecorder : public EpisodeRecorder {
 
  private:
   void tell(EpisodeEvent event);
-  void add_occupied_voxels(const OccupancyGrid& grid, std::size_t step);
-  void add_voxel(const OccupancyGrid& grid, std::size_t cell, std::size_t step, std::uint8_t kind);
+  void note_occupied(const OccupancyGrid& grid, std::size_t scans);
+  [[nodiscard]] std::vector<VoxelRecord> voxels(const OccupancyGrid& grid) const;
 
   int planned_scans_;
+  std::size_t scans_ = 0;  ///< so far
   std::optional<EventLog> event_log_;
-  std::optional<PlanTable> plans_;  ///< from the first plan on
-  std::vector<VoxelRecord> voxels_;
-  std::vector<std::uint8_t> was_occupied_;
-  std::vector<CellState> known_;  ///< of the map, as far as the history goes
+  std::optional<PlanTable> plans_;             ///< from the first plan on
+  std::vector<std::uint16_t> occupied_since_;  ///< by cell, scans by then; 0: it is not occupied
+  std::vector<CellState> known_;               ///< of the map, as far as the history goes
 };
 
 /// What the names in the run folder mean.

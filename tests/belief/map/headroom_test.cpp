@@ -31,6 +31,17 @@ void set(OccupancyGrid& grid, int x, int z, float log_odds) {
   grid.log_odds[grid.frame.index({x, 0, z})] = log_odds;
 }
 
+/// Cells of the floor within the grid that are blocked.
+std::ptrdiff_t blocked_within(const OccupancyGrid& grid, const FloorMap& floor) {
+  const Eigen::AlignedBox3d box = grid.frame.box();
+  std::ptrdiff_t blocked = 0;
+  for (std::size_t cell = 0; cell < floor.size(); ++cell) {
+    const Eigen::Vector2d p_m = floor.centre(floor.cell(cell));
+    blocked += box.contains(Eigen::Vector3d(p_m.x(), p_m.y(), 1.0)) ? floor.blocked[cell] : 0;
+  }
+  return blocked;
+}
+
 /// The floor from x = -1 to 1 along y = 0.05: 'x' blocked, '.' not.
 std::string row(const FloorMap& floor) {
   std::string drawn;
@@ -62,7 +73,7 @@ TEST(Headroom, AColumnBlocksAllFloorBelowIt) {
   FloorMap floor = make_floor_map({.cell_m = 0.05, .half_size_m = 1.5});
   std::ranges::fill(floor.log_odds, kFree);
   block_columns(floor, grid, nowhere(floor), kOptions);
-  EXPECT_EQ(std::ranges::count(floor.blocked, 1), 16);
+  EXPECT_EQ(blocked_within(grid, floor), 16);
 }
 
 /// The scanner has measured the face of a wall; it has not seen what hangs above it.
@@ -156,11 +167,10 @@ OccupancyGrid unseen_columns(std::initializer_list<Eigen::Array2i> columns) {
   return grid;
 }
 
-/// Cells of the floor that are blocked.
 std::ptrdiff_t blocked_by(const OccupancyGrid& grid) {
   FloorMap floor = free_floor();
   block_columns(floor, grid, nowhere(floor), kOptions);
-  return std::ranges::count(floor.blocked, std::uint8_t{1});
+  return blocked_within(grid, floor);
 }
 
 TEST(Headroom, FewUnseenColumnsAmidOpenOnesDoNotBlock) {
@@ -185,8 +195,8 @@ TEST(Headroom, AnUnseenColumnBesideAWallBlocks) {
   FloorMap floor = free_floor();
   FloorMap detail = free_floor();
   block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
-  EXPECT_EQ(std::ranges::count(floor.blocked, std::uint8_t{1}), 2 * kFloorCells);
-  EXPECT_EQ(std::ranges::count(detail.blocked, std::uint8_t{1}), kFloorCells);
+  EXPECT_EQ(blocked_within(grid, floor), 2 * kFloorCells);
+  EXPECT_EQ(blocked_within(grid, detail), kFloorCells);
 }
 
 TEST(Headroom, ForgetsWhatIsNoLongerThere) {
@@ -211,7 +221,7 @@ TEST(Headroom, WhatIsBelowAColumnIsBlockedWhateverTheShapeOfTheFloor) {
   for (int z = 0; z < 10; ++z) grid.log_odds[grid.frame.index({2, 1, z})] = 0.0F;  // amid open ones
   FloorMap floor = free_floor();
   block_columns(floor, grid, nowhere(floor), kOptions);
-  EXPECT_EQ(std::ranges::count(floor.blocked, std::uint8_t{1}), 4);
+  EXPECT_EQ(blocked_within(grid, floor), 4);
   for (const double x_m : {0.45, 0.55}) {
     for (const double y_m : {0.25, 0.35}) {
       EXPECT_EQ(floor.blocked[floor.index(floor.cell_at({x_m, y_m}))], 1) << x_m << " " << y_m;
@@ -253,6 +263,22 @@ TEST(Headroom, RejectsHeightsThatAreNotBelowTheRobotsTop) {
   FloorMap floor = free_floor();
   EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.low_m = 1.65}), ConfigError);
   EXPECT_THROW(block_columns(floor, free_row(), nowhere(floor), {.seen_low_m = 1.65}), ConfigError);
+}
+
+/// An outer door that stands open: the planar scanner sees floor behind it, of which nothing is
+/// known.
+TEST(Headroom, FloorBeyondTheGridIsBlockedButWhereTheRobotHasBeen) {
+  const OccupancyGrid grid = unseen_columns({});
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  std::vector<std::uint8_t> traversed = nowhere(floor);
+  traversed[floor.index(floor.cell_at({1.25, 0.05}))] = 1;
+  block_columns({floor, traversed}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
+  EXPECT_EQ(std::ranges::count(floor.blocked, std::uint8_t{1}), 30 * 30 - 20 * 20 - 1);
+  EXPECT_EQ(floor.state_at({0.95, 0.05}), CellState::free);
+  EXPECT_EQ(floor.state_at({1.05, 0.05}), CellState::occupied);
+  EXPECT_EQ(floor.state_at({1.25, 0.05}), CellState::free);
+  EXPECT_EQ(std::ranges::count(detail.blocked, std::uint8_t{1}), 30 * 30 - 20 * 20);
 }
 
 }  // namespace

@@ -9,8 +9,10 @@
 
 #include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/belief/map/octomap_io.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/report/report_data.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {
@@ -105,6 +107,23 @@ TEST(TwoRooms, LoopsMoveThePosesAndTheMapIsAsSureAsThey) {
   EXPECT_EQ(metrics["localisation"]["contradicted_share"], 0.0);
   ASSERT_GE(metrics["scans"].size(), 4U);
   EXPECT_LT(metrics["scans"][2]["map_sigma_m"], 0.05);
+}
+
+/// As above, but the fourth scan is the last: the loop is found on the way home.
+TEST(TwoRooms, LoopsOnTheWayHomeMoveThePosesAndTheMap) {
+  const support::TemporaryDirectory folder;
+  const auto metrics =
+      explore(folder.path(), 0.85,
+              {"base_scanner.range_max_m=1.6", "odometry.sigma_translation_m=0.04", "scans=4",
+               "budget.return_to_start=true",
+               "localisation.loops={close: true, min_way_m: 2, correct_m: 0.0001}"});
+  EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());
+  EXPECT_GE(metrics["localisation"]["corrections"], 1);
+  EXPECT_LT(metrics["scans"][2]["map_sigma_m"], 0.05);
+  const VoxelMap shown = read_voxels(folder.path() / "run" / "voxels.bin");
+  const auto occupied = std::ranges::count(shown.voxels, kVoxelOccupied, &VoxelRecord::kind);
+  const OccupancyGrid map = read_octomap_grid(folder.path() / "run" / "map.ot");
+  EXPECT_EQ(static_cast<std::size_t>(occupied), map.count(CellState::occupied));
 }
 
 }  // namespace

@@ -201,5 +201,17 @@ TEST(ValidateExploration, ThereIsFreeFloor) {
               AllOf(HasSubstr("scene.xml: no free floor"), HasSubstr("start_pose")));
 }
 
+TEST(ValidateExploration, TheFloorMapHoldsTheMap) {
+  const OwnScene room(std::string(kWalls) + "<geom type='plane' size='50 50 .1'/>");
+  std::vector<std::string> small = started_at("[0,0,0]");
+  small.emplace_back("floor_map.half_size_m=5");
+  const Validation found = validated("office_small", room, small);
+  EXPECT_THAT(found.problems, IsEmpty());
+  EXPECT_THAT(found.notes, testing::Contains(AllOf(HasSubstr("floor_map.half_size_m: 5 ends"),
+                                                   HasSubstr("7.5 would do"))));
+  EXPECT_THAT(validated("office_small", room, started_at("[0,0,0]")).notes,
+              testing::Not(testing::Contains(HasSubstr("floor_map"))));
+}
+
 }  // namespace
 }  // namespace vantage

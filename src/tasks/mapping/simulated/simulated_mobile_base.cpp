@@ -41,6 +41,13 @@ MobileBase mobile_base(const World& world, const EpisodeSetup& setup,
   MobileBase robot(world.model(), mobile_base_of(setup.robot, "robot.model"),
                    setup.robot.description.string());
   const double covered_m = robot.footprint().circumscribed_radius_m;
+  constexpr double kRounded_m = 0.001;
+  if (const double reach_m = circumscribed_radius_m(robot.outline());
+      reach_m > covered_m + kRounded_m) {
+    throw InputError(fmt::format(
+        "robot: {}: footprint.circumscribed_radius_m {} is less than its outline reaches, {:.3f}",
+        setup.robot.description.string(), covered_m, reach_m));
+  }
   if (navigation.footprint_radius_m >= covered_m) return robot;
   throw ConfigError(fmt::format(
       "navigation.footprint_radius_m: {} is less than the robot's circumscribed_radius_m {}",
