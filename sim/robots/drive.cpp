@@ -88,9 +88,9 @@ class Driver {
            robot_.footprint().circumscribed_radius_m * std::abs(twist.wz_rad_s);
   }
 
+  /// By what the wheels measure: the robot has no sense of touch.
   [[nodiscard]] bool is_pushing(const Twist2& command) const {
-    return corner_speed(command) > kPushing_m_s &&
-           corner_speed(robot_.twist(world_)) < kMoving_m_s && robot_.contacts(world_) > 0;
+    return corner_speed(command) > kPushing_m_s && measured_m_s_ < kMoving_m_s;
   }
 
   [[nodiscard]] bool is_at_rest() const {
@@ -109,7 +109,11 @@ class Driver {
     robot_.command_twist(world_, command);
     world_.advance_tick();
     const Pose2 after = robot_.T_world_base(world_);
+    const Pose2 estimate = odometry_.estimate();
     odometry_.update(after);
+    const Pose2 step = compose(inverse(estimate), odometry_.estimate());
+    measured_m_s_ =
+        corner_speed({step.x_m, step.y_m, step.yaw_rad}) / world_.options().control_period_s;
     result_.path_length_m += std::hypot(after.x_m - before.x_m, after.y_m - before.y_m);
   }
 
@@ -118,6 +122,7 @@ class Driver {
   Odometry& odometry_;
   const DriveOptions& options_;
   DriveResult result_;
+  double measured_m_s_ = 0.0;  ///< of the footprint's corners, by odometry
 };
 
 }  // namespace

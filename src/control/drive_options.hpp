@@ -27,8 +27,8 @@ struct DriveOptions {
     f("rest_speed_m_s", rest_speed_m_s,
       "speed of the footprint's edge below which the base is at rest", Range{0.001, 0.1});
     f("stuck_time_s", stuck_time_s,
-      "time of pushing against a contact without moving after which the base is stuck; higher is "
-      "more patient",
+      "time of commanding motion that the wheels do not measure after which the base is stuck; "
+      "higher is more patient",
       above(0.0));
     f("timeout_factor", timeout_factor,
       "time allowed for a drive, as a multiple of the time that its path should take; higher is "

@@ -122,13 +122,32 @@ Odometry exact_odometry() { return {OdometryOptions::perfect(), Rng(1), {}}; }
 TEST(DriveTimes, ADriveMayTakeAMultipleOfWhatItShouldAndTenSeconds) {
   test::RobotWorld scene;
   Odometry odometry = exact_odometry();
-  odometry.on_increment = [](const Pose2&) { return Pose2{}; };
+  odometry.on_increment = [](const Pose2& step) {  // ten times slower than it is
+    return Pose2{0.1 * step.x_m, 0.1 * step.y_m, 0.1 * step.yaw_rad};
+  };
   const DriveResult result = drive(scene.world, scene.robot, odometry,
                                    std::vector<Pose2>{{1.2, 0.0, -2.4}}, {.timeout_factor = 1.5});
   EXPECT_EQ(result.status, DriveStatus::timeout);
   // 2 s along the path at 0.6 m/s and 3 s of turning at 0.8 rad/s; then it brakes.
   EXPECT_GE(result.duration_s, 17.5 - 1e-9);
   EXPECT_LT(result.duration_s, 19.0);
+}
+
+/// Stuck is by what the wheels measure: slipping they turn, and blocked they do not, touched or
+/// not.
+TEST(DriveTimes, StuckIsWhatTheWheelsSay) {
+  test::RobotWorld free;
+  Odometry blocked = exact_odometry();
+  blocked.on_increment = [](const Pose2&) { return Pose2{}; };
+  const std::vector<Pose2> ahead{{3.0, 0.0, 0.0}};
+  const DriveResult stuck = drive(free.world, free.robot, blocked, ahead);
+  EXPECT_EQ(stuck.status, DriveStatus::stuck);
+  EXPECT_LT(stuck.duration_s, 3.0);
+  test::RobotWorld walled("<geom name='wall' type='box' size='0.1 3 1' pos='1.1 0 1'/>");
+  Odometry slipping = exact_odometry();
+  slipping.on_increment = [](const Pose2&) { return Pose2{0.004, 0.0, 0.0}; };
+  EXPECT_EQ(drive(walled.world, walled.robot, slipping, ahead).status, DriveStatus::arrived)
+      << "so it believes";
 }
 
 TEST(DriveTimes, BrakingIsGivenUpAfterThreeSeconds) {
