@@ -147,40 +147,11 @@ void MappingRecorder::route(const std::vector<Pose2>& waypoints) {
 void MappingRecorder::scan(const ScanRecord& record, std::size_t number,
                            const OccupancyGrid& grid) {
   scans_ = number;
-  if (!lean()) note_occupied(grid, number);
+  if (!lean()) voxels_.note(grid, number);
   if (logs_events()) tell({0, map_change(known_, grid)});
   step(steps_row(record, number), number, static_cast<double>(number),
        fmt::format("scan {} of {}: {} observable cells left, {:.1f} s simulated", number,
                    planned_scans_, record.observable_unobserved_cells, record.time_s));
-}
-
-/// What is no longer occupied is forgotten: loops may have moved it.
-void MappingRecorder::note_occupied(const OccupancyGrid& grid, std::size_t scans) {
-  occupied_since_.resize(grid.size(), 0);
-  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-    if (grid.state(cell) != CellState::occupied) {
-      occupied_since_[cell] = 0;
-    } else if (occupied_since_[cell] == 0) {
-      occupied_since_[cell] = static_cast<std::uint16_t>(scans);
-    }
-  }
-}
-
-/// Of the map as it is: occupied ones with the scan, from 0, that showed them so, in its order.
-std::vector<VoxelRecord> MappingRecorder::voxels(const OccupancyGrid& grid) const {
-  std::vector<VoxelRecord> voxels;
-  const auto add = [&](std::size_t cell, std::size_t step, std::uint8_t kind) {
-    const Eigen::Vector3f p = grid.frame.centre(grid.frame.cell(cell)).cast<float>();
-    voxels.push_back({p.x(), p.y(), p.z(), static_cast<std::uint16_t>(step), kind});
-  };
-  for (std::size_t cell = 0; cell < occupied_since_.size(); ++cell) {
-    if (occupied_since_[cell] > 0) add(cell, occupied_since_[cell] - 1U, kVoxelOccupied);
-  }
-  std::ranges::stable_sort(voxels, {}, &VoxelRecord::step);
-  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-    if (grid.state(cell) == CellState::unobserved) add(cell, 0, kVoxelUnobserved);
-  }
-  return voxels;
 }
 
 void MappingRecorder::commit() {
@@ -190,9 +161,9 @@ void MappingRecorder::commit() {
 }
 
 void MappingRecorder::write_map(const OccupancyGrid& grid, const PointCloud& cloud) {
-  note_occupied(grid, std::max<std::size_t>(1, scans_));
+  voxels_.note(grid, std::max<std::size_t>(1, scans_));
   write_voxels(directory() / "voxels.bin",
-               {grid.frame.cell_size_m, grid.frame.box(), voxels(grid)});
+               {grid.frame.cell_size_m, grid.frame.box(), voxels_.of(grid)});
   write_ply(directory() / "cloud.ply", cloud);
   if (grid.count(CellState::unobserved) < grid.size()) {
     write_octomap(grid, directory() / "map.bt");

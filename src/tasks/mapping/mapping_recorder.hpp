@@ -12,6 +12,7 @@
 #include "vantage/runtime/record_text.hpp"
 #include "vantage/runtime/recorder.hpp"
 #include "vantage/tasks/mapping/drawing/map_panel.hpp"
+#include "vantage/tasks/mapping/drawing/map_voxels.hpp"
 #include "vantage/tasks/mapping/driving/scan_record.hpp"
 #include "vantage/tasks/mapping/plans/plan_table.hpp"
 
@@ -43,15 +44,13 @@ class MappingRecorder : public EpisodeRecorder {
 
  private:
   void tell(EpisodeEvent event);
-  void note_occupied(const OccupancyGrid& grid, std::size_t scans);
-  [[nodiscard]] std::vector<VoxelRecord> voxels(const OccupancyGrid& grid) const;
 
   int planned_scans_;
   std::size_t scans_ = 0;  ///< so far
   std::optional<EventLog> event_log_;
-  std::optional<PlanTable> plans_;             ///< from the first plan on
-  std::vector<std::uint16_t> occupied_since_;  ///< by cell, scans by then; 0: it is not occupied
-  std::vector<CellState> known_;               ///< of the map, as far as the history goes
+  std::optional<PlanTable> plans_;  ///< from the first plan on
+  MapVoxels voxels_;
+  std::vector<CellState> known_;  ///< of the map, as far as the history goes
 };
 
 /// What the names in the run folder mean.
