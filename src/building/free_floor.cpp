@@ -91,11 +91,21 @@ bool is_outdoors(const Squares& squares, const std::vector<std::size_t>& area,
   return static_cast<double>(at_edge) * kSquare_m > kWidestGate_m;
 }
 
-/// The largest set of neighbouring squares with enough clearance, of those not outdoors if any.
+/// Of each square, whether it is beyond what stands.
+std::vector<std::uint8_t> beyond(const Squares& squares, const Eigen::AlignedBox2d& standing_m) {
+  std::vector<std::uint8_t> is_beyond(squares.blocked.size(), 0);
+  for (std::size_t square = 0; square < is_beyond.size() && !standing_m.isEmpty(); ++square) {
+    is_beyond[square] = standing_m.contains(squares.centre_m(square)) ? 0 : 1;
+  }
+  return is_beyond;
+}
+
+/// The largest set of neighbouring squares with enough clearance, within what stands, of those not
+/// outdoors if any.
 std::vector<std::size_t> largest_area(const Squares& squares, double clearance_m,
                                       const Eigen::AlignedBox2d& standing_m) {
   constexpr std::array<std::array<int, 2>, 4> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-  std::vector<std::uint8_t> taken(squares.blocked.size(), 0);
+  std::vector<std::uint8_t> taken = beyond(squares, standing_m);
   std::vector<std::size_t> largest;
   bool is_in = false;
   for (std::size_t seed = 0; seed < taken.size(); ++seed) {
@@ -150,8 +160,8 @@ std::optional<FreeFloor> find_free_floor(const FittedGrid& grid,
   const Squares squares = squares_of(grid, solid, options);
   if (!squares.has_floor) return std::nullopt;
   FreeFloor found;
-  const std::vector<std::size_t> area =
-      largest_area(squares, options.clearance_m, options.standing_m);
+  std::vector<std::size_t> area = largest_area(squares, options.clearance_m, options.standing_m);
+  if (area.empty()) area = largest_area(squares, options.clearance_m, {});
   if (area.empty()) return found;
   Eigen::Vector2d middle_m = Eigen::Vector2d::Zero();
   for (const std::size_t square : area) middle_m += squares.centre_m(square);

@@ -15,8 +15,8 @@ struct FreeFloorOptions {
   double clearance_m = 0.6;  ///< from the start to all that stands there
   double headroom_m = 1.6;   ///< free above the floor
   bool floor_everywhere = false;
-  /// Of what stands on the floor: an area that meets its edge for more than a gate's width is
-  /// outdoors, and what is beyond it no floor to begin on. Empty: nothing is outdoors.
+  /// Of what stands on the floor. Beyond it nothing begins, and an area that meets its edge for
+  /// more than a gate's width is outdoors: unless there is no other. Empty: nothing is outdoors.
   Eigen::AlignedBox2d standing_m = {};
 };
 

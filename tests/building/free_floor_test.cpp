@@ -147,6 +147,13 @@ TEST(FreeFloor, IsNotOutdoorsWhereThereIsARoom) {
   ASSERT_TRUE(indoors);
   EXPECT_NEAR(indoors->start.x_m, 4.5, 0.05);
   EXPECT_NEAR(indoors->start.y_m, 4.5, 0.05);
+  house.fill(2, 1, 1, false);  // a door of 2 m
+  const auto open = find_free_floor(house.grid, house.solid, options);
+  ASSERT_TRUE(open);
+  EXPECT_NEAR(open->start.x_m, 4.5, 0.05);
+  EXPECT_GT(open->start.y_m, 3.0);
+  EXPECT_LT(open->area_m2, 3.0) << "not the ground beyond the door";
+  house.fill(2, 1, 1);
   house.fill(2, 2, 1);
   const auto outdoors = find_free_floor(house.grid, house.solid, options);
   ASSERT_TRUE(outdoors);
