@@ -49,8 +49,7 @@ double most_of_all(const StudyTables& study, const std::string& table) {
 std::vector<Finding> building_findings(const StudyTables& study) {
   return {held("goal",
                "every room that has a door is entered, behind doors of 0.80 m too: at least 95 % "
-               "of the observable "
-               "cells in every episode, where a room is a tenth",
+               "of the observable cells in every episode, where a room is a tenth",
                [&]() -> Measured {
                  return {by_building(study, "observed_share", 100.0, "{:.1f} %"),
                          least_of_all(study, "observed_share") >= 0.95,

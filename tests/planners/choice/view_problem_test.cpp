@@ -206,17 +206,22 @@ TEST(ViewProblem, OfAGainThatCannotBeSweptCountsEachViewAlone) {
   EXPECT_NEAR(joint_gain(problem, near), gain_of(problem, 1) + gain_of(problem, 2), 1e-3);
 }
 
-TEST(TrueViewProblem, HasWhatTheViewsReallyShow) {
-  Room room;
-  // The truth: view 0 shows a corner of 10 x 5 x 10 cells, the others nothing.
+/// The truth: view 0 shows the cells that `shows` says, the others nothing.
+void let_view_0_show(Room& room, auto&& shows) {
   for (Candidate& view : room.views) {
     auto shown = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
     for (std::size_t cell = 0; view.id == 0 && cell < room.grid.size(); ++cell) {
-      const Eigen::Array3i at = room.grid.frame.cell(cell);
-      if (at.x() < 10 && at.y() >= 20 && at.y() < 25) (*shown)[cell / 64] |= 1ULL << (cell % 64);
+      if (shows(room.grid.frame.cell(cell))) (*shown)[cell / 64] |= 1ULL << (cell % 64);
     }
     view.true_new_cell_set = shown;
   }
+}
+
+TEST(TrueViewProblem, HasWhatTheViewsReallyShow) {
+  Room room;
+  let_view_0_show(room, [](const Eigen::Array3i& at) {  // a corner of 10 x 5 x 10 cells
+    return at.x() < 10 && at.y() >= 20 && at.y() < 25;
+  });
   const PlanningProblem problem = make_true_view_problem(room.input(SimpleGain{}), {});
   EXPECT_NEAR(gain_of(problem, 0), 500.0, 1e-2);
   EXPECT_EQ(gain_of(problem, 1), 0.0);
@@ -465,26 +470,21 @@ TEST(ViewProblem, OfAGainThatCannotBeSweptKnowsWhatIsSeen) {
 
 TEST(TrueViewProblem, HasNothingBeyondAllViews) {
   Room room;
-  for (Candidate& view : room.views) {
-    view.true_new_cell_set = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
-  }
+  let_view_0_show(room, [](const Eigen::Array3i&) { return false; });
   ViewPlanningInput input = room.input(SimpleGain{});
   input.elapsed_s = 16.0;
-  EXPECT_EQ(make_true_view_problem(input, {.beyond_m = 8.0}).pace_per_s, 0.0);
+  const PlanningProblem problem = make_true_view_problem(input, {.beyond_m = 8.0});
+  EXPECT_TRUE(problem.beyond.empty());
+  EXPECT_EQ(problem.pace_per_s, 0.0);
 }
 
 TEST(ViewProblem, AnImageIsWeighedByItsTimeAndTheWayFromHere) {
   Room room;
-  for (Candidate& view : room.views) {
-    auto shown = std::make_shared<CellSet>((room.grid.size() + 63) / 64, 0U);
-    for (std::size_t cell = 0; view.id == 0 && cell < room.grid.size(); ++cell) {
-      const Eigen::Array3i at = room.grid.frame.cell(cell);
-      const bool left = at.y() >= 36 && at.x() >= 8 && at.x() < 16;
-      const bool ahead = at.y() >= 24 && at.y() < 28 && at.x() >= 28 && at.x() < 32;
-      if (left || ahead) (*shown)[cell / 64] |= 1ULL << (cell % 64);
-    }
-    view.true_new_cell_set = shown;
-  }
+  let_view_0_show(room, [](const Eigen::Array3i& at) {
+    const bool left = at.y() >= 36 && at.x() >= 8 && at.x() < 16;
+    const bool ahead = at.y() >= 24 && at.y() < 28 && at.x() >= 28 && at.x() < 32;
+    return left || ahead;
+  });
   ViewPlanningInput input = room.input(SimpleGain{});
   const auto share_taken = [&](double worth) {
     const PartialScans scans = quarters({.worth = worth});
