@@ -11,8 +11,6 @@
 namespace vantage {
 namespace {
 
-/// Clocks that add up ticks come out a little short of a whole number of them.
-
 std::int64_t interval_at(double time_s, double length_s) {
   return static_cast<std::int64_t>(std::floor((time_s + kSameMoment_s) / length_s));
 }

@@ -1,11 +1,13 @@
 #include "vantage/arena/episode_score.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <concepts>
 #include <map>
 
+#include "vantage/core/error.hpp"
 #include "vantage/study/study_layout.hpp"
 
 namespace vantage {
@@ -75,7 +77,7 @@ std::optional<double> mean_regret(const fs::path& folder) {
   return mean_of(regrets);
 }
 
-EpisodeScore score_of(const StudyResults& results, std::size_t i) {
+EpisodeScore score_from_files(const StudyResults& results, std::size_t i) {
   EpisodeScore score;
   score.episode = i;
   score.failed = results.states[i] != EpisodeState::completed;
@@ -99,6 +101,18 @@ EpisodeScore score_of(const StudyResults& results, std::size_t i) {
   score.time_over_bound_90 = time_over_bound(folder, 90);
   score.regret_share = mean_regret(folder);
   return score;
+}
+
+/// @throws InputError naming the episode whose files hold something of another kind than they
+/// should
+EpisodeScore score_of(const StudyResults& results, std::size_t i) {
+  try {
+    return score_from_files(results, i);
+  } catch (const Json::exception& error) {
+    throw InputError(fmt::format("{}: metrics.json, bound.json, branches.json or failure.json: {}",
+                                 episode_folder(results.directory, results.plan[i]).string(),
+                                 error.what()));
+  }
 }
 
 bool came_to_something(EpisodeState state) {

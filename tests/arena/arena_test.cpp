@@ -10,6 +10,7 @@
 #include "vantage/arena/arena_page.hpp"
 #include "vantage/arena/foreign_planner.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 
 namespace vantage {
@@ -314,6 +315,67 @@ TEST(StandardArena, HasEveryChoiceInEachScene) {
     const Study part = read_study(VANTAGE_SOURCE_DIR "/assets/studies/arena.yaml", {}, split);
     EXPECT_EQ(part.factors[factor_index(part, "scene")].levels.size(), 6U) << split;
   }
+}
+
+TEST_F(Arena, ThePageTellsThatAllHasRun) {
+  for (const PlannedEpisode& planned : results.plan) {
+    put(planned.name, EpisodeState::completed, 0.5);
+  }
+  write_arena_page(results, leaderboard_of(results));
+  const std::string page = read_file(folder / "arena.html");
+  EXPECT_THAT(page, HasSubstr("<span class=\"tag good\">all 12 episodes run</span>"));
+  EXPECT_THAT(page, HasSubstr("No episode failed."));
+  EXPECT_THAT(page, Not(HasSubstr("episodes missing")));
+  EXPECT_THAT(page, Not(HasSubstr("<th>regret, %</th>")));
+}
+
+/// Of episodes without a budget; the bound and the regret are of one of them alone.
+TEST_F(Arena, ThePageTellsBudgetsBoundsAndRegrets) {
+  for (PlannedEpisode& planned : results.plan) {
+    std::get<Tabletop>(planned.resolved.task).budget.time_s.reset();
+  }
+  const Json late = {{{"time_s", 20.0}, {"observable_unobserved_cells", 1000}},
+                     {{"time_s", 80.0}, {"observable_unobserved_cells", 400}}};
+  put("a/greedy/1", EpisodeState::completed, 0.6, {{"scans", late}});
+  put("b/greedy/1", EpisodeState::completed, 0.5);
+  write_file(folder / "episodes/a/greedy/1/bound.json",
+             R"({"shares": [{"percent": 90, "run_over_least": {"time_s": 1.5}}]})");
+  write_file(folder / "episodes/a/greedy/1/branches.json",
+             R"({"decisions": [{"regret": {"cells": 20}, "branches": [{"new_cells": 100}]}]})");
+  write_arena_page(results, leaderboard_of(results));
+  const std::string page = read_file(folder / "arena.html");
+  EXPECT_THAT(page, HasSubstr("50 s in b; 80 s in a"));
+  EXPECT_THAT(page, HasSubstr("<th>regret, %</th>"));
+  EXPECT_THAT(page, HasSubstr("<td>1.50 <small>(1)</small></td><td>20.0</td></tr>"));
+}
+
+TEST_F(Arena, AFileOfAnotherKindIsNamed) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  write_file(folder / "episodes/a/greedy/1/bound.json", R"({"shares": [null]})");
+  try {
+    leaderboard_of(results);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("episodes/a/greedy/1: metrics.json, bound.json"));
+  }
+}
+
+TEST_F(Arena, ASplitThatNamesPlannersTakesOneMore) {
+  const std::string plain = read_file(folder / "study.yaml");
+  const auto planners_of = [&](const std::string& split, const std::string& name) {
+    write_file(folder / "study.yaml", plain + "splits: {few: {" + split + "}}\n");
+    const Study study = study_with(folder.path(), {name, {"sh", "-c", "exit 0"}}, true);
+    std::vector<std::string> names;
+    for (const Level& level : study.factors[factor_index(study, "planner")].levels) {
+      names.push_back(level.name);
+    }
+    return names;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(planners_of("planner: [greedy]", "theirs"), ElementsAre("greedy", "theirs"));
+  EXPECT_THAT(planners_of("planner: [greedy, mine]", "mine"), ElementsAre("greedy", "mine"));
+  EXPECT_THAT(planners_of("scene: [a, b]", "theirs"),
+              ElementsAre("greedy", "oracle", "mine", "theirs"));
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ bool DepthPieces::nearer(const cv::Point& other, const cv::Point& at) const {
 
 bool DepthPieces::is_bare(const Eigen::Vector3d& p_world_m, double reach_m) const {
   const Eigen::Vector3d p = T_.inverse() * p_world_m;
+  if (p.z() <= 0.0) return false;  // behind the camera
   const Eigen::Array2d centre(0.5 * (images_.width_px - 1), 0.5 * (images_.height_px - 1));
   const Eigen::Array2i px =
       (p.head<2>().array() / p.z() * images_.focal_px + centre).round().cast<int>();

@@ -86,6 +86,10 @@ double share_seen(const UprightCylinder& shape, const CameraImages& images,
   const Pose T_camera_world = T_world_camera.inverse();
   for (const SurfaceSample& sample : facing_samples(shape, T_world_camera.translation())) {
     const Eigen::Vector3d p = T_camera_world * sample.p_world_m;
+    if (p.z() <= 0.0) {  // behind the camera
+      hidden += sample.weight;
+      continue;
+    }
     const cv::Point at(static_cast<int>(std::lround(p.x() / p.z() * images.focal_px +
                                                     0.5 * (images.width_px - 1))),
                        static_cast<int>(std::lround(p.y() / p.z() * images.focal_px +

@@ -195,7 +195,7 @@ std::optional<SeenObject> seen_object(const CameraImages& images, const Pose& T_
   SegmentedObject found = segment_on_table(images, T_world_camera, support, p_world_foot_m, cut);
   if (!found.view) return std::nullopt;
   const Points points = points_of(*found.view, T_world_camera, support, cluster, cut);
-  if (points.size() < static_cast<std::size_t>(cut.min_pixels) / 2) return std::nullopt;
+  if (2 * points.size() < static_cast<std::size_t>(cut.min_pixels)) return std::nullopt;
   SeenObject seen{measured(points, support, p_world_camera), std::move(*found.view)};
   seen.detection.pixels = static_cast<int>(points.size());
   seen.detection.whole = is_whole(seen.view, images, options);

@@ -121,6 +121,7 @@ TEST_F(PiecesFromAbove, NoPieceGoesOnAcrossACorner) {
 TEST_F(PiecesFromAbove, APlaceIsBareWhereTheTableIsSeen) {
   const Eigen::Vector3d place(0.05, -0.03, 0.5);  // column 8, row 4
   EXPECT_TRUE(scene().is_bare(place, 0.05));
+  EXPECT_FALSE(scene().is_bare({0.05, -0.03, 4.5}, 0.2)) << "behind the camera";
   column_.heights_m(4, 8) = kOutside;
   EXPECT_FALSE(scene().is_bare(place, 0.05));
   rise({8, 4, 1, 1}, 0.02F);
