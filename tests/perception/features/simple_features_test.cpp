@@ -8,6 +8,7 @@
 #include "tests/support/object_views.hpp"
 #include "vantage/perception/features/bounding_box.hpp"
 #include "vantage/perception/features/colour.hpp"
+#include "vantage/perception/features/kit/histogram.hpp"
 #include "vantage/perception/features/soft_colour.hpp"
 #include "vantage/perception/features/standing_box.hpp"
 
@@ -243,6 +244,14 @@ TEST(Colour, SaturationAndValueAreInThirds) {
   EXPECT_EQ(saturation_bin(86)[1], 1.0F);
   EXPECT_EQ(saturation_bin(170)[1], 1.0F);
   EXPECT_EQ(saturation_bin(171)[2], 1.0F);
+}
+
+/// To the last bit, as on any processor; Eigen's own begins at an estimate, of which each maker has
+/// another.
+TEST(Colour, RootsOfSharesAreThoseOfTheStandard) {
+  const Eigen::VectorXf shares = Eigen::VectorXf::LinSpaced(64, 1.0F, 64.0F);
+  const Eigen::VectorXf roots = root_of_shares(shares);
+  for (int i = 0; i < 64; ++i) EXPECT_EQ(roots[i], std::sqrt(shares[i] / 2080.0F)) << i;
 }
 
 TEST(SimpleFeatures, SixteenPixelsAreEnough) {
