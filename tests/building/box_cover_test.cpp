@@ -153,5 +153,28 @@ TEST(FittedGrid, SaysWhichCellsWouldDo) {
   }
 }
 
+TEST(BoxCover, OfBoxesAlikeTheOneAlongXIsTaken) {
+  const FittedGrid grid = even_grid(3, 3, 2);
+  std::vector<std::uint8_t> solid(grid.size(), 0);
+  for (int i = 0; i < 3; ++i) solid[grid.index(i, 0, 0)] = solid[grid.index(0, i, 0)] = 1;
+  const auto boxes = cover_with_boxes(grid, solid);
+  ASSERT_EQ(boxes.size(), 2U);
+  EXPECT_EQ(boxes[0].end, (std::array{3, 1, 1}));
+  EXPECT_EQ(boxes[1].first, (std::array{0, 0, 0}));
+  EXPECT_EQ(boxes[1].end, (std::array{1, 3, 1}));
+}
+
+TEST(BoxCover, WhatIsHeldAlreadyIsTakenInForASingleNewCell) {
+  const FittedGrid grid = even_grid(2, 3, 2);
+  std::vector<std::uint8_t> solid(grid.size(), 0);
+  solid[grid.index(1, 0, 0)] = 1;
+  for (int y = 0; y < 3; ++y) solid[grid.index(0, y, 0)] = 1;
+  const auto boxes = cover_with_boxes(grid, solid);
+  ASSERT_EQ(boxes.size(), 2U);
+  EXPECT_EQ(boxes[0].end, (std::array{1, 3, 1}));
+  EXPECT_EQ(boxes[1].first, (std::array{0, 0, 0}));
+  EXPECT_EQ(boxes[1].end, (std::array{2, 1, 1}));
+}
+
 }  // namespace
 }  // namespace vantage

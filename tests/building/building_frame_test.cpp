@@ -115,5 +115,16 @@ TEST(BuildingMesh, IsMovedAsAWhole) {
   EXPECT_LT((made.mesh.vertices_m[2] - Eigen::Vector3d(1, 2, 6)).norm(), 1e-12);
 }
 
+TEST(FloorHeight, LevelsFiveCentimetresApartAreOneOrTwo) {
+  MadeMesh apart;
+  apart.level(0, 0, 1, 4, 0.20, true);
+  apart.level(1, 0, 4, 4, 0.26, true);
+  EXPECT_NEAR(floor_height_m(apart.mesh).value(), 0.20, 1e-9);
+  MadeMesh near;
+  near.level(0, 0, 1, 4, 0.20, true);
+  near.level(1, 0, 2.2, 4, 0.24, true);
+  EXPECT_NEAR(floor_height_m(near.mesh).value(), 0.24, 1e-9) << "the higher one is the wider";
+}
+
 }  // namespace
 }  // namespace vantage

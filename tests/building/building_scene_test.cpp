@@ -315,5 +315,25 @@ TEST(BuildingScene, NothingAtThatHeightIsRefused) {
               AllOf(HasSubstr("nothing"), HasSubstr("--floor")));
 }
 
+/// A pillar that is no box goes on far below the floor and above what counts.
+TEST(BuildingScene, CellsEndWithinACellOfItsHeights) {
+  test::DrawnBuilding building;
+  building.box({0, 0, -0.1}, {8, 8, 0});
+  building.prism({{1, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}}, -2.0, 6.0);
+  BuildingOptions options;
+  options.floor_m = 0.0;
+  const BuildingScene scene = scene_of(building, options);
+  ASSERT_FALSE(scene.cell_boxes.empty());
+  double lowest_m = 0.0;
+  double highest_m = 0.0;
+  for (const BoxShape& shape : scene.cell_boxes) {
+    const double z_m = shape.box.T_mesh_box.translation().z();
+    lowest_m = std::min(lowest_m, z_m - shape.box.half_m.z());
+    highest_m = std::max(highest_m, z_m + shape.box.half_m.z());
+  }
+  EXPECT_NEAR(lowest_m, -0.35, 1e-9);
+  EXPECT_NEAR(highest_m, 3.05, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

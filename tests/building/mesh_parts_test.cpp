@@ -180,5 +180,18 @@ TEST(MeshParts, AreBoxesOfSquareFaces) {
   }
 }
 
+TEST(MeshParts, BoxesThatLeanALittleHaveSquareAxesAllTheSame) {
+  const double lean_rad = 0.0009;
+  const Eigen::Vector3d across(-std::sin(lean_rad), std::cos(lean_rad), 0.0);
+  BuildingMesh mesh;
+  mesh.vertices_m = {{0, 0, 0}, across, {0, 0, 1}, {0, 0, 2}, {3, 0, 0}, {0, 1, 0}};
+  OrientedBox box;
+  ASSERT_TRUE(is_box(mesh, solid_of({{0, 1, 2}, {0, 3, 4}, {0, 4, 5}}), box));
+  const Eigen::Matrix3d R = box.T_mesh_box.linear();
+  EXPECT_TRUE((R.transpose() * R).isIdentity(1e-12));
+  const Eigen::Vector3d first(std::cos(lean_rad), std::sin(lean_rad), 0.0);
+  EXPECT_LT((R.col(0) - first).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

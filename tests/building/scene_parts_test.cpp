@@ -111,5 +111,33 @@ TEST(BuildingOptions, HaveTheirDefaults) {
   EXPECT_EQ(kBelowFloor_m, 0.3);
 }
 
+TEST(SceneParts, StandFromFiveCentimetresUpToTwoMetres) {
+  const auto middle_x_m = [](double low_m, double high_m) {
+    MadeMesh made;
+    made.box({0, 0, -0.1}, {8, 6, 0});
+    made.box({1, 1, 0}, {2, 2, 1});
+    made.box({5, 1, low_m}, {6, 2, high_m});
+    return -scene_made_of(made, {.floor_m = 0.0}).T_scene_mesh.translation().x();
+  };
+  EXPECT_NEAR(middle_x_m(0.0, 0.04), 1.5, 1e-9);
+  EXPECT_NEAR(middle_x_m(0.0, 0.06), 3.5, 1e-9);
+  EXPECT_NEAR(middle_x_m(1.9, 2.4), 3.5, 1e-9);
+  EXPECT_NEAR(middle_x_m(2.1, 2.4), 1.5, 1e-9);
+}
+
+TEST(SceneParts, HaveTheColourOfTheFloorUpToACentimetre) {
+  MadeMesh made;
+  made.box({0, 0, -0.1}, {8, 6, 0});
+  made.box({1, 1, 0}, {2, 2, 0.008});
+  made.box({3, 1, 0}, {4, 2, 0.015});
+  made.box({5, 1, 0}, {6, 2, 2.0});
+  const BuildingScene scene = scene_made_of(made, {.floor_m = 0.0});
+  ASSERT_EQ(scene.boxes.size(), 4U);
+  expect_colour(scene.boxes[0], {0.55F, 0.53F, 0.50F});
+  expect_colour(scene.boxes[1], {0.55F, 0.53F, 0.50F});
+  expect_colour(scene.boxes[2], {0.55F, 0.58F, 0.45F});
+  expect_colour(scene.boxes[3], {0.72F, 0.62F, 0.50F});
+}
+
 }  // namespace
 }  // namespace vantage

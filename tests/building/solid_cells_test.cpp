@@ -223,5 +223,28 @@ TEST(FittedGrid, HasLinesOfTheLargestFifteenHundredFaces) {
   }
 }
 
+TEST(FittedGrid, EndsACellBeyondItsBoxWhateverIsFartherOff) {
+  MadeMesh made;
+  made.wall_x(2.0, 0.0, 1.0, 1.0);
+  made.wall_x(-1.0, 0.0, 1.0, 1.0);
+  const auto x_m = fit_grid(made.mesh, kUnitBox, 0.05).lines_m[0];
+  EXPECT_NEAR(x_m.front(), -0.05, 1e-9);
+  EXPECT_NEAR(x_m.back(), 1.05, 1e-9);
+  const Eigen::AlignedBox3d upstairs(Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(1, 1, 3));
+  const auto z_m = fit_grid(made.mesh, upstairs, 0.05).lines_m[2];
+  EXPECT_NEAR(z_m.front(), 1.95, 1e-9) << "the floor at 0 is none of its lines";
+}
+
+TEST(SolidCells, OfASheetInTheFirstLayerAreThatLayerAndNoneOfOneBelowIt) {
+  const FittedGrid grid = tenths(0.0);
+  const auto filled = [&](double z_m) {
+    MadeMesh made;
+    made.level(0.2, 0.2, 0.8, 0.6, z_m, true);
+    return solid_cells(made.mesh, made.mesh.triangles, grid);
+  };
+  expect_solid(grid, filled(0.07), {2, 2, 0}, {8, 6, 1});
+  expect_solid(grid, filled(-0.2), {0, 0, 0}, {0, 0, 0});
+}
+
 }  // namespace
 }  // namespace vantage

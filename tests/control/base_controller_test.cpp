@@ -194,5 +194,24 @@ TEST(FollowPath, ComesToRestAtTheEndWhereverItIsBesideIt) {
   EXPECT_EQ(twist.wz_rad_s, 0.0);
 }
 
+TEST(FollowPath, FindsItselfWithinTwoLookaheadsOfWhereItWas) {
+  const DrivePath path({}, std::vector<Pose2>{{5, 0, 0}});
+  for (const auto& [x_m, arc_m] : {std::pair(0.69, 0.69), {0.85, 0.7}}) {
+    PathFollowing following;
+    following.arc_m = 0.5;
+    follow_path(path, {x_m, 0.0, 0.0}, kPeriod_s, {}, following);
+    EXPECT_NEAR(following.arc_m, arc_m, 1e-12);
+  }
+}
+
+TEST(DrivePath, TakesTheFirstOfTwoNearestPointsAndCountsEveryCornerAhead) {
+  const DrivePath corner({}, kCorner);
+  EXPECT_NEAR(corner.project({0.5, 0.5}, 0.0, 2.0), 0.5, 1e-12) << "as near to 1.5";
+  EXPECT_EQ(DrivePath({}, std::vector<Pose2>{{0.7e-6, 0, 0}}).length_m(), 0.0);
+  EXPECT_GT(DrivePath({}, std::vector<Pose2>{{1.5e-6, 0, 0}}).length_m(), 0.0);
+  const DrivePath steps({}, std::vector<Pose2>{{2, 0, 0}, {2, 2, 0}, {4, 2, 0}});
+  EXPECT_NEAR(steps.speed_limit(3.7, {}), 0.4, 1e-9) << "one is behind, one 0.3 m ahead";
+}
+
 }  // namespace
 }  // namespace vantage

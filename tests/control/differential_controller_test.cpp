@@ -224,5 +224,55 @@ TEST(PursuitCurvature, OfKnownArcs) {
   EXPECT_EQ(pursuit_curvature({0.0, 0.0}), 0.0);
 }
 
+TEST(DifferentialController, LooksPastBendsButNotPastCorners) {
+  for (const double bend_rad : {0.2, 0.4}) {
+    const Pose2 end{2.0 + 2.0 * std::cos(bend_rad), 2.0 * std::sin(bend_rad), 0.0};
+    const DrivePath path({}, std::vector<Pose2>{{2.0, 0.0, 0.0}, end});
+    DifferentialFollowing following;
+    following.arc_m = 1.8;
+    following.v_m_s = 0.6;
+    const Twist2 twist = follow_path(path, {1.8, 0.0, 0.0}, kDrivePeriod_s, {}, following);
+    EXPECT_EQ(twist.wz_rad_s > 0.0, bend_rad < 0.3) << bend_rad;
+  }
+}
+
+TEST(DifferentialController, TurnsForTheSpeedThatItReachesWithinThePeriod) {
+  BaseControllerOptions options;
+  options.speed_m_s = 0.3;
+  options.turn_acceleration_rad_s2 = 5.0;
+  options.lookahead_m = 0.4;
+  const DrivePath path({}, std::vector<Pose2>{{5.0, 0.0, 0.0}});
+  DifferentialFollowing following;
+  following.arc_m = 1.0;
+  following.v_m_s = 0.2;
+  const Twist2 twist = follow_path(path, {1.0, 0.02, 0.0}, kDrivePeriod_s, options, following);
+  EXPECT_NEAR(twist.vx_m_s, 0.2125, 1e-12);
+  EXPECT_NEAR(twist.wz_rad_s, -0.2125 * 2.0 * 0.02 / (0.4 * 0.4 + 0.02 * 0.02), 1e-12);
+}
+
+TEST(DifferentialController, FindsItselfWithinTwoLookaheadsOfWhereItWas) {
+  for (const auto& [x_m, arc_m] : {std::pair(0.69, 0.69), {0.85, 0.7}}) {
+    DifferentialFollowing following;
+    following.arc_m = 0.5;
+    one_tick({x_m, 0.0, 0.0}, following);
+    EXPECT_NEAR(following.arc_m, arc_m, 1e-12);
+  }
+}
+
+TEST(DifferentialController, NearItsGoalGoesByTheWayThatIsLeftNotByThePath) {
+  DifferentialFollowing following;
+  following.arc_m = 0.97;
+  following.turning = true;
+  // The goal is 73 degrees to the left: it turns there rather than its back to it.
+  EXPECT_NEAR(one_tick({0.97, -0.1, 0.0}, following, 1.0).wz_rad_s, 0.03, 1e-12);
+  const DrivePath path({}, std::vector<Pose2>{{1.0, 0.0, 0.0}});
+  following = {};
+  following.arc_m = 0.75;
+  following.v_m_s = 0.45;
+  // The point ahead is the end itself.
+  const Twist2 twist = follow_path(path, {0.75, 0.05, 0.0}, 1.0, {}, following);
+  EXPECT_NEAR(twist.vx_m_s, std::sqrt(0.7 * (std::hypot(0.25, 0.05) - 0.04375)), 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

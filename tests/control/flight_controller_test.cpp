@@ -273,5 +273,89 @@ TEST(ControlFlight, TurnsItsHeadingByItsGains) {
   EXPECT_NEAR(torque_Nm({}, 0.0, memory).z(), -0.0126 * 0.5, 1e-9);
 }
 
+/// Errors of place and speed, a push and the reference ask for a level force in sum, which changes.
+TEST(ControlFlight, TurnsAsTheForceThatItWantsWillChange) {
+  FlightState state;
+  state.T_world_body.translation() = Eigen::Vector3d(-0.04625, 0.0, 0.0);
+  state.v_world_m_s = {0.16, 0.0, 0.0};
+  FlightReference reference;
+  reference.a_world_m_s2 = {0.5, 0.0, 0.0};
+  reference.j_world_m_s3 = {1.0, 2.0, 0.0};
+  FlightMemory memory;
+  memory.disturbance_m_s2 = {0.2, 0.0, 0.0};
+  const Allocation given = control_flight(state, reference, centred(), kFlightPeriod_s, {}, memory);
+  // x: 1 - 16 * 0.16 - 6.5 * (0.2 - 0.5) m/s^3
+  const Eigen::Vector3d rate_rad_s(-2.0 / 9.81, 0.39 / 9.81, 0.0);
+  const Eigen::Vector3d expected = centred().inertia_kg_m2 * (1.002 * 22.0 * rate_rad_s);
+  EXPECT_LT((wrench_of(centred(), given.thrust_N).torque_Nm - expected).norm(), 1e-9);
+}
+
+TEST(ControlFlight, TheJerkCountsOnlyWhereItsThrustGivesWhatItWants) {
+  FlightControllerOptions options;
+  options.attitude_per_s2 = 20.0;
+  const auto jerk_counts = [&](double tilt_rad, double off_m) {
+    std::vector<Eigen::Vector3d> torque_Nm;
+    for (const double jerk_m_s3 : {0.0, 2.0}) {
+      FlightState state;
+      state.T_world_body.linear() = turned(tilt_rad, Eigen::Vector3d::UnitY());
+      FlightReference reference;
+      reference.p_world_m = {off_m, 0.0, 0.0};
+      reference.j_world_m_s3 = {jerk_m_s3, 0.0, 0.0};
+      FlightMemory memory;
+      const Allocation given =
+          control_flight(state, reference, centred(), kFlightPeriod_s, options, memory);
+      torque_Nm.push_back(wrench_of(centred(), given.thrust_N).torque_Nm);
+      EXPECT_EQ(memory.torque_rad_s2.isZero(0.0), tilt_rad > 0.8) << "it learns no torque either";
+    }
+    const double change_Nm = (torque_Nm[1] - torque_Nm[0]).norm();
+    EXPECT_TRUE(change_Nm > 1e-3 || change_Nm < 1e-12) << change_Nm;
+    return change_Nm > 1e-3;
+  };
+  EXPECT_TRUE(jerk_counts(0.75, 0.0)) << "its cosine is 0.73";
+  EXPECT_FALSE(jerk_counts(0.85, 0.0)) << "its cosine is 0.66";
+  options.tilt_max_rad = 1e-6;
+  EXPECT_FALSE(jerk_counts(0.0, 50.0)) << "the force is cut off";
+}
+
+TEST(ControlFlight, TiltsAsFarAsAllowedOrAsItsThrustReaches) {
+  const auto torque_Nm = [](const Eigen::Vector3d& p_m, const FlightControllerOptions& options) {
+    FlightReference reference;
+    reference.p_world_m = p_m;
+    FlightMemory memory;
+    const Allocation given =
+        control_flight({}, reference, centred(), kFlightPeriod_s, options, memory);
+    return wrench_of(centred(), given.thrust_N).torque_Nm.y();
+  };
+  const double pull_Nm = 0.0076 * 1.002 * 2.0 * 240.0;
+  FlightControllerOptions options;
+  EXPECT_NEAR(torque_Nm({5.0, 0.0, 0.0}, options), pull_Nm * std::sin(0.3), 1e-9);
+  options.tilt_max_rad = 1.2;
+  options.position_per_s2 = 20.0;
+  // Of 32 N it needs (9.81 + 20 * 0.6) * 1.24 N to climb.
+  const double tilt_rad = std::acos(21.81 * 1.24 / 32.0);
+  EXPECT_NEAR(torque_Nm({0.8, 0.0, 0.6}, options), pull_Nm * std::sin(0.5 * tilt_rad), 1e-9);
+}
+
+TEST(ControlFlight, GoesByTheMotionOfItsCentreOfMass) {
+  Airframe frame = airframe();
+  frame.p_body_com_m = {0.1, 0.0, 0.0};
+  FlightState state;
+  state.T_world_body.linear() = turned(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ());
+  state.v_world_m_s = {1.0, 0.0, 0.0};
+  state.w_body_rad_s = {0.0, 0.0, 2.0};
+  FlightMemory memory;
+  control_flight(state, {}, frame, kFlightPeriod_s, {}, memory);
+  EXPECT_LT((memory.v_world_m_s - Eigen::Vector3d(0.8, 0.0, 0.0)).norm(), 1e-12);
+  FlightState spinning;
+  spinning.w_body_rad_s = {0.0, 0.0, 0.8};
+  FlightReference reference;
+  reference.yaw_rate_rad_s = 0.8;
+  FlightMemory fresh;
+  const Allocation given =
+      control_flight(spinning, reference, airframe(), kFlightPeriod_s, {}, fresh);
+  EXPECT_LT(wrench_of(airframe(), given.thrust_N).torque_Nm.norm(), 1e-9) << "it turns as planned";
+  EXPECT_NEAR(given.collective_N, 1.24 * 9.81, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -203,5 +203,16 @@ TEST(MinimumJerkTrajectory, KnowsItsGoal) {
   EXPECT_NEAR(goal.yaw_rad, -3.0, 1e-12);
 }
 
+TEST(MinimumJerkTrajectory, HasItsJerkUpToBothEndsAndNoneAfterThem) {
+  FlightWaypoint goal;
+  goal.p_world_m = {2.0, 0.0, 0.0};
+  const MinimumJerkTrajectory path({}, std::span(&goal, 1));
+  const double T = path.duration_s();
+  for (const double time_s : {-1.0, 0.0, T}) {
+    EXPECT_NEAR(path.at(time_s).j_world_m_s3.x(), 120.0 / (T * T * T), 1e-9) << time_s;
+  }
+  EXPECT_TRUE(path.at(T + 1e-3).j_world_m_s3.isZero(0.0));
+}
+
 }  // namespace
 }  // namespace vantage

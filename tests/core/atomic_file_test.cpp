@@ -211,5 +211,14 @@ TEST_F(AtomicFile, ADiskTooFullForTheProbeIsAnOutputError) {
   EXPECT_EQ(outcome_on_full_disk(0, [&] { make_writable_directory(path); }), 0);
 }
 
+TEST_F(AtomicFile, IsReadWholeWhateverItsSize) {
+  for (const std::size_t size : {65535U, 65536U, 65537U, 200001U}) {
+    std::string content;
+    for (std::size_t i = 0; i < size; ++i) content += static_cast<char>(i % 251);
+    write_file(directory / "f", content);
+    EXPECT_TRUE(read_file(directory / "f") == content) << size;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -204,5 +204,38 @@ RC_GTEST_PROP(Fields, WrittenAndReadBackIsEqual,
   RC_ASSERT(read(to_yaml(write_node(options))) == options);
 }
 
+TEST(Fields, NumbersBeginWithAZeroOnlyBeforeTheirPoint) {
+  for (const char* number : {"07", "09", "00", "-07", "-09", "-00", "09.5"}) {
+    EXPECT_NE(error_of(std::string("inner: {low: ") + number + ", high: 99}"), "") << number;
+  }
+  for (const char* number : {"07", "09", "00"}) {
+    EXPECT_NE(error_of(std::string("ids: [") + number + "]"), "") << number;
+  }
+  for (const char* number : {"0", "-0", "0.9", "-0.7", "70"}) {
+    EXPECT_EQ(error_of(std::string("inner: {low: ") + number + ", high: 99}"), "") << number;
+  }
+  EXPECT_EQ(error_of("ids: [0, 90]"), "");
+}
+
+struct Outermost {
+  Inner inner;
+  void fields(auto&& f) { f("inner", inner, "a section"); }
+  void check() const {
+    if (inner.high > 5.0) throw ConfigError("inner.high must not be above 5");
+  }
+};
+
+TEST(Fields, WhatIsWrongByAnOverrideInsideASectionNamesTheOverride) {
+  ConfigNode root = parse_yaml("inner: {low: 1}\n", "e.yaml");
+  apply_overrides(root, {"inner.high=9"});
+  Outermost options;
+  try {
+    read_into(root, options);
+    ADD_FAILURE() << "accepted";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "--set inner.high: inner.high must not be above 5");
+  }
+}
+
 }  // namespace
 }  // namespace vantage

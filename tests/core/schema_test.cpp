@@ -192,5 +192,20 @@ TEST(Schema, LongTextsAreBrokenWhereTheyFit) {
   EXPECT_THAT(wrapped("a bcdefg", 3), testing::ElementsAre("a", "bcdefg"));
 }
 
+TEST(Schema, CommentsAreAsWideAsAHundredCharacters) {
+  const ConfigNode root = parse_yaml("a: 1\nb:\n  c: 2\n", "e.yaml");
+  const auto comments = [&](const std::string& key, std::size_t first, std::size_t second) {
+    KeyDescription description;
+    description.key = key;
+    description.text = std::string(first, 'x') + " " + std::string(second, 'y');
+    const std::string text = commented_yaml(root, {description});
+    return std::count(text.begin(), text.end(), '#');
+  };
+  EXPECT_EQ(comments("a", 48, 49), 1) << "2 + 98";
+  EXPECT_EQ(comments("a", 48, 50), 2);
+  EXPECT_EQ(comments("b.c", 47, 48), 1) << "4 + 96";
+  EXPECT_EQ(comments("b.c", 47, 49), 2);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -138,5 +138,16 @@ TEST(FloorOutline, RowsHoldThePointsInside) {
   }
 }
 
+TEST(FloorOutline, GrownGoesOutByTheMarginToAllFourSides) {
+  Eigen::Vector2d low(0.0, 0.0);
+  Eigen::Vector2d high(0.0, 0.0);
+  for (const Eigen::Vector2d& p : grown(kSquare, 0.25)) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  EXPECT_LT((low - Eigen::Vector2d(-1.25, -1.25)).norm(), 1e-12);
+  EXPECT_LT((high - Eigen::Vector2d(1.25, 1.25)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -218,5 +218,21 @@ TEST(SignFlip, MoreThanOneWordOfSigns) {
   EXPECT_DOUBLE_EQ(sign_flip_p_value(differences, rng, 999), 0.001);
 }
 
+TEST(SignFlip, TenThousandPatternsAreDrawnUnlessSaidOtherwise) {
+  Rng rng(16);
+  EXPECT_DOUBLE_EQ(sign_flip_p_value(std::vector<double>(130, 1.0), rng), 1.0 / 10001.0);
+}
+
+/// Of two values that count, half of all patterns have both with one sign.
+TEST(SignFlip, SignsOfDifferentValuesAreIndependent) {
+  const std::vector<std::array<std::size_t, 2>> pairs{{62, 63}, {63, 64}, {63, 127}, {0, 64}};
+  for (const auto& [a, b] : pairs) {
+    std::vector<double> differences(130, 0.0);
+    differences[a] = differences[b] = 1.0;
+    Rng rng(17);
+    EXPECT_NEAR(sign_flip_p_value(differences, rng, 999), 0.5, 0.08) << a << " " << b;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -231,5 +231,19 @@ TEST(PlaceMatch, SurfacesAtTheRimOfAPlaceAreDrawnWhole) {
   EXPECT_NEAR(found_y_m(-0.06), 0.05, 1e-9);
 }
 
+TEST(PlaceMatch, TheSearchGoesBeyondItsWindowRatherThanShortOfIt) {
+  Points place = Points::known_around();
+  place.add(0.0, 0.0);
+  place.add(4.0, 0.0);
+  Points beside;
+  beside.add(0.0, 0.1);
+  EXPECT_NEAR(search_pose(beside.cloud, place.cloud, {}, {0.07, 0.0}).y_m, -0.1, 1e-9)
+      << "in steps of 5 cm";
+  Points turned_off;
+  turned_off.add(4.0, -0.1);
+  EXPECT_NEAR(search_pose(turned_off.cloud, place.cloud, {}, {0.0, 0.02}).yaw_rad, 0.025, 1e-9)
+      << "in steps of 12.5 mrad";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -232,5 +232,66 @@ TEST(CropToMask, KeepsEightPixelsRoundIt) {
   EXPECT_EQ(cut_nothing(picture).mask.size(), 1200U);
 }
 
+TEST(FillHoles, NoneThatIsOpenOnOneSide) {
+  const std::vector<std::vector<std::string>> open{
+      {"###", "..#", "###"}, {"###", "#..", "###"}, {"#.#", "#.#", "###"}, {"###", "#.#", "#.#"}};
+  for (const auto& rows : open) {
+    cv::Mat1b mask = mask_from(rows);
+    fill_holes(mask, cv::Mat1f(3, 3, 1.0F), 0.005);
+    EXPECT_EQ(rows_of(mask), rows);
+  }
+}
+
+TEST(AddUnmeasured, WhatIsBeyondTheRangeWasNotMeasured) {
+  cv::Mat1b mask = mask_from({"###", "#.#", "###"});
+  cv::Mat1f depth_m(3, 3, 1.0F);
+  depth_m(1, 1) = INFINITY;
+  add_unmeasured(mask, depth_m);
+  EXPECT_THAT(rows_of(mask), ElementsAre("###", "###", "###"));
+}
+
+/// 9 mm are 2.7 px at 10 cm.
+TEST(AddFoot, IsNoLargerNearerThanTenCentimetres) {
+  CameraImages images;
+  images.focal_px = 30.0;
+  cv::Mat1b mask = mask_from({"..#..", ".....", ".....", ".....", ".....", "....."});
+  add_foot(mask, cv::Mat1f(6, 5, 0.0035F), images, 0.01, 0.009);
+  EXPECT_THAT(rows_of(mask), ElementsAre("#####", "#####", ".###.", "..#..", ".....", "....."));
+}
+
+TEST(HeightsOver, GoOnBehindWhatWasNotMeasured) {
+  CameraImages images;
+  images.width_px = 5;
+  images.height_px = 1;
+  images.focal_px = 10.0;
+  images.depth_m = {0.0F, 1.9F, INFINITY, 1.5F, 2.0F};
+  TablePlane table;
+  table.centroid_m = {0.0, 0.0, 0.5};
+  Patch patch{cv::Rect(0, 0, 5, 1), cv::Mat1f(1, 5)};
+  std::ranges::copy(images.depth_m, patch.depth_m.begin());
+  const cv::Mat1f heights_m = heights_over(patch, images, overhead(), table, {0.0, 0.0, 0.5},
+                                           {.radius_m = 0.41, .max_height_m = 0.51});
+  EXPECT_EQ(heights_m(0, 0), kOutside);
+  EXPECT_NEAR(heights_m(0, 1), 0.1, 1e-6);
+  EXPECT_EQ(heights_m(0, 2), kOutside);
+  EXPECT_NEAR(heights_m(0, 3), 0.5, 1e-6);
+  EXPECT_NEAR(heights_m(0, 4), 0.0, 1e-6);
+}
+
+TEST(PlaceOfColumn, BeginsFiveCentimetresBelowTheTableAndTenBeforeTheCamera) {
+  CameraImages images;
+  images.width_px = 401;
+  images.height_px = 301;
+  images.focal_px = 150.0;
+  const ObjectSegmentationOptions options{.radius_m = 0.2, .max_height_m = 0.5};
+  // 0.314 m at 2.05 m are 22.98 px, at 2.025 m they would be 23.26.
+  EXPECT_EQ(place_of_column(images, overhead(), {0.514, 0.115, 0.5}, options),
+            cv::Rect(214, 110, 67, 58));
+  // Its top, 15 cm away, ends 96.5 px below the middle.
+  Pose near = overhead();
+  near.translation().z() = 1.15;
+  EXPECT_EQ(place_of_column(images, near, {0.5, 0.1035, 0.5}, options), cv::Rect(256, 0, 145, 256));
+}
+
 }  // namespace
 }  // namespace vantage

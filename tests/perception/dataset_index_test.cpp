@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/perception/dataset_files.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -196,6 +198,49 @@ TEST_F(Index, NotesAllowACategoryOfOneViewAndSayHowMasksWereMade) {
   EXPECT_EQ(to_string(index.views[0].name), "bowl_1_1_1");
   EXPECT_EQ(index.views[0].mask_from(), ObjectCut::depth);
   EXPECT_FALSE(index.views[0].cut);
+}
+
+TEST_F(Index, IsSortedByCategoryObjectVideoAndFrame) {
+  support::put_view(root_.path(), "mug", "mug_1", 1, 11, "0");
+  support::put_view(root_.path(), "mug", "mug_2", 1, 1, "0");
+  for (const int frame : {1, 2}) {
+    support::put_view(root_.path(), "mug_1", "mug_1_5", 1, frame, "0");
+  }
+  std::vector<std::string> names;
+  for (const ViewEntry& view : index_dataset(root_.path()).views) {
+    names.push_back(to_string(view.name));
+  }
+  EXPECT_THAT(names,
+              testing::ElementsAre("food_can_2_1_1", "food_can_2_4_1", "mug_1_1_11", "mug_1_2_9",
+                                   "mug_1_2_10", "mug_2_1_1", "mug_1_5_1_1", "mug_1_5_1_2"));
+}
+
+TEST_F(Index, LeavesAloneWhatIsHiddenAndWhatIsNoFolder) {
+  std::filesystem::create_directories(root_.path() / "mug" / ".mug_2");
+  write_file(root_.path() / "mug" / ".mug_2" / "mug_2_2_1_crop.png", "half written");
+  write_file(root_.path() / "mug" / "readme.txt", "of no object");
+  support::put_view(root_.path(), "mug", "mug_1", 2, 10, "-1e-20");
+  const DatasetIndex index = index_dataset(root_.path());
+  ASSERT_EQ(index.views.size(), 4U);
+  EXPECT_EQ(index.views[3].yaw_rad, 0.0) << "not a whole turn";
+}
+
+TEST(EmptyIndex, SaysWhatWasWrongWithTheFirstView) {
+  const support::TemporaryDirectory root;
+  std::filesystem::create_directories(root.path() / "mug" / "mug_1");
+  for (const char* file : {"left_crop.png", "right_crop.png"}) {
+    write_file(root.path() / "mug" / "mug_1" / file, "of no number");
+  }
+  try {
+    index_dataset(root.path(), OnBadView::skip);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("left_crop.png"));
+  }
+}
+
+TEST(ViewNames, ACategoryMayBeOneLetter) {
+  EXPECT_EQ(parse_view_name("a_1_2_3"), (ViewName{"a", "a_1", 2, 3}));
 }
 
 }  // namespace

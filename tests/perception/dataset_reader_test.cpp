@@ -288,5 +288,21 @@ TEST_F(Reader, NamesAMaskOfAnotherSize) {
   expect_bad("maskcrop.png", "is 5 x 3 px, the colour crop 5 x 4");
 }
 
+TEST_F(Reader, APairOfWhichNothingIsKnownIsSeenFromHalfWayUp) {
+  std::filesystem::copy(entry_.file("crop.png"), root_.path() / "mine.png");
+  std::filesystem::copy(entry_.file("depthcrop.png"), root_.path() / "mine_depth.png");
+  const ImagePair pair =
+      load_image_pair(root_.path() / "mine.png", root_.path() / "mine_depth.png", {});
+  EXPECT_EQ(pair.cut, ObjectCut::whole);
+  EXPECT_LT((pair.view.up - up_in_camera(pi / 4.0)).norm(), 1e-3);
+}
+
+TEST_F(PairBeside, NoYawIsNoWholeTurn) {
+  for (const char* pose : {"0", "360", "-720"}) {
+    write_file(entry_.file("pose.txt"), pose);
+    EXPECT_EQ(yaw_beside(entry_.file("crop.png")).value(), 0.0) << pose;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -202,5 +202,33 @@ TEST(ObjectAmongOthers, WhatIsBeforeItsEdgeLeavesTheRestOfItToThePixel) {
   EXPECT_NEAR(object.shape->height_m, 0.1, 1e-6);
 }
 
+/// A block of 12 x 10 px at this place of an image of 60 x 50 px from 2 m straight above the table.
+std::ptrdiff_t cut_off_of_block_at(int left, int top) {
+  Drawn drawn;
+  drawn.images.width_px = 60;
+  drawn.images.height_px = 50;
+  drawn.images.focal_px = 100.0;
+  drawn.images.depth_m.assign(3000, 2.0F);
+  cv::Mat1f depth_m(50, 60, drawn.images.depth_m.data());
+  depth_m(cv::Rect(left, top, 12, 10)) = 1.9F;
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = kTable_m + Vector3d(0.02 * (24 - left), 0.02 * (top - 20), 2.0);
+  const ObjectAmongOthers object = found(drawn, T_world_camera);
+  EXPECT_TRUE(object.object.view) << object.object.reason;
+  return object.object.view ? cut_off_pixels(*object.object.view) : -1;
+}
+
+TEST(ObjectAmongOthers, TheImagesBorderCutsItOffWithinTwoPixels) {
+  EXPECT_GT(cut_off_of_block_at(1, 20), 0);
+  EXPECT_EQ(cut_off_of_block_at(2, 20), 0);
+  EXPECT_GT(cut_off_of_block_at(47, 20), 0);
+  EXPECT_EQ(cut_off_of_block_at(46, 20), 0);
+  EXPECT_GT(cut_off_of_block_at(24, 1), 0);
+  EXPECT_EQ(cut_off_of_block_at(24, 2), 0);
+  EXPECT_GT(cut_off_of_block_at(24, 39), 0);
+  EXPECT_EQ(cut_off_of_block_at(24, 38), 0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "tests/support/room_pictures.hpp"
 #include "vantage/perception/background_planes.hpp"
@@ -228,6 +230,180 @@ TEST(ObjectCut, SaysHowFewPixelsStandOut) {
   }
   EXPECT_EQ(cut_by_depth(view).reason,
             "36 pixels stand out from the background by depth, an object has at least 40");
+}
+
+struct InFront {
+  cv::Rect place;
+  float z_m = 0.0F;
+};
+
+/// A wall 4 m away that the camera looks straight at, and rectangles parallel to it before it.
+ObjectView before_a_wall(int width_px, int height_px, const std::vector<InFront>& things) {
+  ObjectView view;
+  view.width_px = width_px;
+  view.height_px = height_px;
+  view.focal_px = 150.0;
+  view.centre_px = {0.5 * width_px, 0.5 * height_px};
+  view.rgb.assign(std::size_t{3} * width_px * height_px, 9);
+  view.depth_m.assign(std::size_t{1} * width_px * height_px, 4.0F);
+  for (const InFront& thing : things) {
+    for (int row = thing.place.y; row < thing.place.br().y; ++row) {
+      for (int column = thing.place.x; column < thing.place.br().x; ++column) {
+        view.depth_m[view.index(row, column)] = thing.z_m;
+      }
+    }
+  }
+  return view;
+}
+
+/// The wall, one thing 3 m away and one 2 m away.
+std::size_t planes_with(const cv::Rect& at_3m) {
+  return background_planes(before_a_wall(160, 120, {{at_3m, 3.0F}, {{90, 75, 10, 10}, 2.0F}}))
+      .size();
+}
+
+TEST(BackgroundPlanes, HaveTheirShareOfThePictureOfItsBorderAndOfItsMiddle) {
+  EXPECT_EQ(planes_with({0, 0, 20, 120}), 2U) << "an eighth of the picture";
+  EXPECT_EQ(planes_with({0, 0, 19, 120}), 1U);
+  EXPECT_EQ(planes_with({0, 10, 108, 40}), 2U) << "of its 108 columns 13 are at the border";
+  EXPECT_EQ(planes_with({0, 10, 109, 40}), 1U);
+  EXPECT_EQ(planes_with({0, 10, 80, 36}), 2U) << "468 of 5800 at the border";
+  EXPECT_EQ(planes_with({0, 10, 80, 35}), 1U);
+  EXPECT_EQ(planes_with({0, 30, 80, 36}), 2U) << "half of it in the middle";
+  EXPECT_EQ(planes_with({0, 30, 81, 36}), 1U);
+}
+
+TEST(BackgroundPlanes, AreFourAtMost) {
+  const auto planes = background_planes(before_a_wall(160, 120,
+                                                      {{{32, 0, 32, 120}, 1.6F},
+                                                       {{64, 0, 32, 120}, 3.0F},
+                                                       {{96, 0, 32, 120}, 1.2F},
+                                                       {{128, 0, 32, 120}, 2.2F},
+                                                       {{75, 55, 10, 10}, 0.7F}}));
+  EXPECT_EQ(planes.size(), 4U);
+}
+
+/// 1.5 % of the 80 x 60 px in the middle are 72.
+TEST(BackgroundPlanes, HaveSomethingBeforeThem) {
+  ObjectView view = before_a_wall(160, 120, {{{76, 56, 8, 9}, 2.0F}});
+  EXPECT_EQ(background_planes(view).size(), 1U);
+  view.depth_m[view.index(56, 76)] = 4.0F;
+  EXPECT_TRUE(background_planes(view).empty());
+}
+
+TEST(BackgroundPlanes, AreOfThirtyMeasuredPixelsAtLeast) {
+  ObjectView view = before_a_wall(10, 3, {{{0, 0, 10, 3}, 2.0F}, {{5, 1, 1, 1}, 1.0F}});
+  view.focal_px = 10.0;
+  EXPECT_EQ(background_planes(view).size(), 1U);
+  view.depth_m[view.index(0, 4)] = 0.0F;
+  EXPECT_TRUE(background_planes(view).empty());
+}
+
+std::ptrdiff_t pixels_cut(const ObjectView& view) {
+  const CutObject cut = cut_by_depth(view);
+  return cut.view ? std::ranges::count(cut.view->mask, 1) : 0;
+}
+
+/// Narrower than four times a 60th of the picture's longer side, of 1 to 4 px.
+TEST(ObjectCut, BridgesHolesByTheSizeOfThePicture) {
+  const auto bridges = [](int width_px, int height_px, int hole_px) {
+    ObjectView view = leaning_table(width_px, height_px);
+    const int left_px = width_px / 2 - 15;
+    put_block(view, 45, left_px);
+    lose_depth(view, left_px + 10, left_px + 9 + hole_px);
+    return pixels_cut(view) == 900;
+  };
+  EXPECT_TRUE(bridges(120, 100, 7));
+  EXPECT_FALSE(bridges(120, 100, 8));
+  EXPECT_TRUE(bridges(119, 100, 3));
+  EXPECT_FALSE(bridges(119, 100, 4));
+  EXPECT_TRUE(bridges(300, 120, 15));
+  EXPECT_FALSE(bridges(300, 120, 16));
+}
+
+TEST(ObjectCut, WhatIsBeyondTheRangeIsAHole) {
+  ObjectView view = leaning_table();
+  put_block(view, 45, 65);
+  lose_depth(view, 77, 82);
+  std::ranges::replace(view.depth_m, 0.0F, INFINITY);
+  expect_block(view);
+  EXPECT_DOUBLE_EQ(background_planes(view).at(0).share, 18300.0 / 19020.0);
+}
+
+/// Steps of 2.5 cm and a hundredth of the depth hold together, at 3 m 5.5 cm.
+TEST(ObjectCut, PartsAtSteps) {
+  const auto pixels = [](const std::vector<InFront>& things) {
+    return pixels_cut(before_a_wall(160, 120, things));
+  };
+  EXPECT_EQ(pixels({{{60, 45, 20, 30}, 3.0F}, {{80, 45, 20, 30}, 3.07F}}), 600);
+  EXPECT_EQ(pixels({{{50, 45, 15, 30}, 3.0F},
+                    {{65, 45, 15, 30}, 3.05F},
+                    {{80, 45, 15, 30}, 3.1F},
+                    {{95, 45, 15, 30}, 3.15F}}),
+            1800);
+  // Across 4 px without depth 6 cm.
+  const auto across = [&](float z_m) {
+    return pixels({{{60, 45, 20, 30}, 3.0F}, {{80, 45, 4, 30}, 0.0F}, {{84, 45, 19, 30}, z_m}});
+  };
+  EXPECT_EQ(across(3.05F), 1290);
+  EXPECT_EQ(across(3.07F), 600);
+}
+
+/// Across holes: the third is near the second alone, and all three weigh more than the fourth.
+TEST(ObjectCut, JoinsPartAfterPart) {
+  EXPECT_EQ(pixels_cut(before_a_wall(160, 120,
+                                     {{{40, 45, 73, 30}, 0.0F},
+                                      {{40, 45, 40, 30}, 3.0F},
+                                      {{84, 45, 13, 30}, 3.04F},
+                                      {{101, 45, 12, 30}, 3.0F},
+                                      {{40, 80, 70, 35}, 2.5F}})),
+            2190);
+}
+
+/// A block of 210 px with a bar 2 px wide, which stays if the block is less than 7/10 of all.
+TEST(ObjectCut, WhatIsThinIsSmoothedAwayIfItIsLittle) {
+  const auto pixels = [](int bar_px, const cv::Rect& elsewhere) {
+    return pixels_cut(before_a_wall(
+        160, 120, {{{60, 50, 15, 14}, 2.0F}, {{75, 55, bar_px, 2}, 2.0F}, {elsewhere, 2.0F}}));
+  };
+  EXPECT_EQ(pixels(45, {}), 210);
+  EXPECT_EQ(pixels(46, {}), 302);
+  EXPECT_EQ(pixels(46, {20, 10, 5, 4}), 210) << "230 of 322 are thick";
+  EXPECT_EQ(pixels(44, {20, 10, 10, 2}), 210) << "of it, if not of all";
+}
+
+/// A square in the middle, and something larger.
+bool middle_is_cut(int height_px, const cv::Rect& other) {
+  return pixels_cut(before_a_wall(160, height_px,
+                                  {{{72, height_px / 2 - 8, 16, 16}, 2.0F}, {other, 3.0F}})) == 256;
+}
+
+TEST(ObjectCut, OfAWholePictureTheFrameCutsNoObject) {
+  EXPECT_TRUE(middle_is_cut(300, {0, 125, 40, 50}));
+  EXPECT_TRUE(middle_is_cut(300, {120, 125, 40, 50}));
+  EXPECT_TRUE(middle_is_cut(300, {65, 0, 30, 80}));
+  EXPECT_TRUE(middle_is_cut(300, {65, 220, 30, 80}));
+  EXPECT_FALSE(middle_is_cut(300, {1, 125, 40, 50})) << "a pixel beside the frame";
+  EXPECT_FALSE(middle_is_cut(300, {119, 125, 40, 50}));
+  EXPECT_FALSE(middle_is_cut(300, {65, 1, 30, 80}));
+  EXPECT_FALSE(middle_is_cut(300, {65, 219, 30, 80}));
+  EXPECT_FALSE(middle_is_cut(300, {0, 110, 55, 80})) << "more than five times as much";
+  EXPECT_FALSE(middle_is_cut(299, {0, 125, 40, 50})) << "a crop";
+}
+
+TEST(ObjectCut, IsNearTheMiddleOrSoMuchLarger) {
+  const auto corner = [](const cv::Rect& a, const cv::Rect& b) {
+    const CutObject cut = cut_by_depth(before_a_wall(160, 120, {{a, 2.0F}, {b, 2.4F}}));
+    return cut.view ? cv::Point(cut.view->left_px + 8, cut.view->top_px + 8) : cv::Point();
+  };
+  // The first begins 30 or 29 px before the middle, the second ends 29 or 30 behind.
+  EXPECT_EQ(corner({50, 52, 16, 16}, {93, 52, 16, 16}), cv::Point(93, 52));
+  EXPECT_EQ(corner({51, 52, 16, 16}, {94, 52, 16, 16}), cv::Point(51, 52));
+  EXPECT_EQ(corner({72, 32, 16, 16}, {72, 71, 16, 16}), cv::Point(72, 71));
+  EXPECT_EQ(corner({72, 33, 16, 16}, {72, 72, 16, 16}), cv::Point(72, 33));
+  // They weigh 143 and 338, then 143 and 105.
+  EXPECT_EQ(corner({74, 54, 12, 12}, {10, 40, 30, 30}), cv::Point(10, 40));
+  EXPECT_EQ(corner({74, 54, 12, 12}, {2, 3, 30, 30}), cv::Point(74, 54));
 }
 
 }  // namespace

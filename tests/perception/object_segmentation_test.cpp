@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "tests/perception/drawn_boxes.hpp"
 #include "vantage/perception/column_cut.hpp"
@@ -228,6 +230,69 @@ TEST(SegmentOnTable, HeightsHaveLimits) {
   EXPECT_EQ(reason(0.005F), "0 pixels rise from the table, an object has at least 100");
   EXPECT_EQ(reason(0.49F), "");
   EXPECT_EQ(reason(0.51F), "0 pixels rise from the table, an object has at least 100");
+}
+
+/// Seen as by block_from_above(), with a sheet on the table that covers the place's surroundings.
+TEST(FindTableTop, IsTheSurfaceRoundThePlaceWithinEightMillimetres) {
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  const auto height_m = [&](float sheet_m) {
+    CameraImages images = block_from_above(0.0F);
+    for (int row = 13; row < 37; ++row) {
+      for (int column = 18; column < 42; ++column) {
+        images.depth_m[pixel_at(row, column)] = 2.0F - sheet_m;
+      }
+    }
+    Rng rng(1);
+    const TableSearch found = find_table_top(images, T_world_camera, {0.0, 0.0, 0.5}, {}, rng);
+    EXPECT_TRUE(found.table) << found.reason;
+    if (!found.table) return 0.0;
+    EXPECT_EQ(found.table->height_m, found.table->centroid_m.z());
+    EXPECT_EQ(found.table->inliers, sheet_m < 0.008F ? 400U : 256U) << "of every second pixel";
+    return found.table->height_m;
+  };
+  EXPECT_NEAR(height_m(0.0F), 0.5, 1e-6);
+  EXPECT_NEAR(height_m(0.005F), 0.505, 1e-4);
+  EXPECT_NEAR(height_m(0.015F), 0.5, 1e-4);
+}
+
+/// Of rectangles 10 cm high; as wide as what is cut out, or 0.
+int width_cut_of(const std::vector<std::array<int, 4>>& rectangles) {
+  CameraImages images = block_from_above(0.0F);
+  for (const auto& [left, top, width, height] : rectangles) {
+    for (int row = top; row < top + height; ++row) {
+      for (int column = left; column < left + width; ++column) {
+        images.depth_m[pixel_at(row, column)] = 1.9F;
+      }
+    }
+  }
+  const SegmentedObject found = segmented_from_above(
+      images, {.radius_m = 0.6, .min_pixels = 10, .mask_growth_px = 0, .margin_px = 0});
+  return found.view ? found.view->width_px : 0;
+}
+
+TEST(SegmentOnTable, DropsWhatIsThinAndClosesGapsOfFourPixels) {
+  EXPECT_EQ(width_cut_of({{20, 20, 20, 2}}), 0);
+  EXPECT_EQ(width_cut_of({{20, 20, 20, 4}}), 20);
+  EXPECT_EQ(width_cut_of({{10, 20, 12, 10}, {26, 20, 8, 10}}), 24);
+  EXPECT_EQ(width_cut_of({{10, 20, 12, 10}, {27, 20, 8, 10}}), 12);
+}
+
+/// A foot of 15 mm all round: at 2 m its 3 cm, from which on something rises, are 1.5 px.
+TEST(SegmentOnTable, TheFootIsAddedAsFarAsItIsHigh) {
+  CameraImages images = block_from_above(0.1F);
+  for (int row = 16; row < 34; ++row) {
+    for (int column = 20; column < 40; ++column) {
+      float& z_m = images.depth_m[pixel_at(row, column)];
+      if (z_m == 2.0F) z_m = 1.985F;
+    }
+  }
+  const SegmentedObject found = segmented_from_above(
+      images, {.min_height_m = 0.03, .min_pixels = 100, .mask_growth_px = 0, .margin_px = 0});
+  ASSERT_TRUE(found.view) << found.reason;
+  EXPECT_EQ(found.view->width_px, 12 + 2 * 2);
+  EXPECT_EQ(found.view->height_px, 10 + 2 * 2);
 }
 
 }  // namespace

@@ -205,5 +205,26 @@ TEST(PlaneTolerance, GrowsWithTheSquareOfTheDistance) {
   EXPECT_EQ(BackgroundPlane{}.height_above({3.0, 4.0, 0.5}), -0.5);
 }
 
+TEST_F(TableLimits, ThreePointsMakeAPlaneAndTwoDoNot) {
+  options.min_area_m2 = 0.001;
+  PointCloud cloud;
+  cloud.points = {{0.01F, 0.01F, 0.71F}, {0.11F, 0.01F, 0.71F}, {0.01F, 0.11F, 0.71F}};
+  const auto found = find(cloud);
+  ASSERT_TRUE(found.table) << found.reason;
+  EXPECT_EQ(found.table->inliers, 3U);
+  cloud.points.pop_back();
+  EXPECT_THAT(find(cloud).reason, HasSubstr("no level surface"));
+}
+
+/// Strips of 4 cm, each level, 1.2 cm one above the other: tan(2a) = 0.24 / 0.464.
+TEST_F(TableLimits, WhatIsLevelInPartsOnlyIsTilted) {
+  PointCloud cloud = table_of_cells(2, 40, 0.7);
+  append(cloud, table_of_cells(2, 40, 0.712, 0.04));
+  const auto found = find(cloud);
+  EXPECT_FALSE(found.table);
+  EXPECT_EQ(found.reason,
+            "the largest surface seen is tilted by 0.239 rad, more than table.max_tilt_rad 0.05");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -172,5 +172,28 @@ TEST(Recogniser, AModelOfNothingIsAnError) {
   expect_error([] { make_recogniser(RecognitionModel{}, {}, 1); }, "no features");
 }
 
+/// What is unknown is told from how objects differ from each other.
+TEST(Recogniser, KnowsUnknownObjectsIfItKnowsTwo) {
+  const auto unknown_of = [](int objects) {
+    RecognitionModel model = small_model();
+    model.states.objects.resize(static_cast<std::size_t>(objects));
+    model.states.category_of.resize(static_cast<std::size_t>(objects));
+    model.states.categories = {"a"};
+    Rng rng(2);
+    for (FeatureModel& feature : model.features) {
+      feature.statistics = empty_statistics(feature.statistics.dimensions(), 2 * objects);
+      for (int i = 0; i < 6 * objects; ++i) {
+        Eigen::VectorXf x(feature.statistics.dimensions());
+        for (float& value : x) value = static_cast<float>(rng.normal(i % (2 * objects), 0.5));
+        add_view(feature.statistics, i % (2 * objects), x);
+      }
+      feature.unknown = UnknownFactors{};
+    }
+    return make_recogniser(model, {}, 1).states.unknown_size();
+  };
+  EXPECT_GT(unknown_of(2), 0);
+  EXPECT_EQ(unknown_of(1), 0);
+}
+
 }  // namespace
 }  // namespace vantage

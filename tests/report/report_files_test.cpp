@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <cmath>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/perception/clouds/ply.hpp"
+#include "vantage/report/drawn_scene.hpp"
 #include "vantage/report/former_run.hpp"
 #include "vantage/report/json_file.hpp"
 #include "vantage/report/page.hpp"
@@ -228,6 +232,102 @@ TEST(JsonFiles, AreNoDeeperThanSixtyFourLevels) {
 
 TEST(HtmlText, HasNoSignsOfItsOwn) {
   EXPECT_EQ(html_escaped("a & b <c> \"d\" 'e'"), "a &amp; b &lt;c&gt; &quot;d&quot; &#39;e&#39;");
+}
+
+TEST_F(ReportFile, OfACloudHasHalfAHundredThousandPointsAtMost) {
+  const auto embedded = [&](std::size_t points) {
+    PointCloud cloud;
+    for (std::size_t i = 0; i < points; ++i) {
+      cloud.points.emplace_back(static_cast<float>(i), static_cast<float>(i % 3), 2.0F);
+    }
+    write_ply(folder_ / "cloud.ply", cloud);
+    return cloud_json(folder_ / "cloud.ply");
+  };
+  EXPECT_EQ(embedded(50'000)["kept"], 50'000);
+  const json thinned = embedded(50'001);
+  EXPECT_EQ(thinned["total"], 50'001);
+  EXPECT_EQ(thinned["kept"], 25'001);
+  EXPECT_NEAR(thinned["scale_m"][0].get<double>(), 50'000.0 / 65535.0, 1e-6);
+  EXPECT_NEAR(thinned["scale_m"][2].get<double>(), 1e-6 / 65535.0, 1e-15) << "it is flat";
+}
+
+TEST_F(ReportFile, OfASceneIsQuantisedInItsBox) {
+  DrawnScene scene;
+  scene.extent_m = {Eigen::Vector3f(-5.0F, -6.0F, 0.0F), Eigen::Vector3f(5.0F, 6.0F, 2.5F)};
+  scene.vertices_m = {
+      {-1.0F, -2.0F, 0.0F}, {1.0F, -2.0F, 0.0F}, {1.0F, 2.0F, 0.0F}, {1.0F, 2.0F, 3.0F}};
+  scene.colours = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}};
+  scene.triangles[0] = {{0, 1, 2}};
+  scene.triangles[5] = {{1, 2, 3}, {0, 2, 3}};
+  write_drawn_scene(folder_ / "scene.bin", scene);
+  const json found = scene_json(folder_ / "scene.bin");
+  EXPECT_EQ(found["min_m"], json({-1.0, -2.0, 0.0}));
+  EXPECT_NEAR(found["scale_m"][0].get<double>(), 2.0 / 65535.0, 1e-10);
+  EXPECT_NEAR(found["scale_m"][1].get<double>(), 4.0 / 65535.0, 1e-10);
+  EXPECT_NEAR(found["scale_m"][2].get<double>(), 3.0 / 65535.0, 1e-10);
+  EXPECT_EQ(found["extent"]["min"], json({-5.0, -6.0, 0.0}));
+  EXPECT_EQ(found["extent"]["max"], json({5.0, 6.0, 2.5}));
+  EXPECT_EQ(found["parts"], json({1, 0, 0, 0, 0, 2}));
+  const std::string low(2, '\0');
+  const std::string high(2, '\xff');
+  EXPECT_EQ(found["positions"],
+            base64(low + low + low + high + low + low + high + high + low + high + high + high));
+  EXPECT_EQ(found["colours"], base64("\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0a\x0b\x0c"));
+  std::string corners;
+  for (const char corner : {'\0', '\1', '\2', '\1', '\2', '\3', '\0', '\2', '\3'}) {
+    corners += corner + std::string(3, '\0');
+  }
+  EXPECT_EQ(found["triangles"], base64(corners));
+}
+
+/// Of no voxels, in cells of that size from the origin to there.
+TEST_F(ReportFile, OfVoxelsHasAGridOfSoManyCells) {
+  const auto error = [&](double cell_m, const std::array<double, 3>& to_m) {
+    std::string bytes = "VTGVOX01";
+    const auto put = [&](auto number) {
+      bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+    };
+    for (const double size_m : {cell_m, cell_m, cell_m, 0.0, 0.0, 0.0}) put(size_m);
+    for (const double end_m : to_m) put(end_m);
+    put(std::uint64_t{0});
+    return error_of(bytes, read_voxels);
+  };
+  const auto too_many = testing::HasSubstr("the grid has too many cells");
+  EXPECT_EQ(error(1.0, {65535.0, 1.0, 1.0}), "no error");
+  EXPECT_THAT(error(1.0, {65536.0, 1.0, 1.0}), too_many);
+  EXPECT_EQ(error(1.0, {4096.0, 4096.0, 4.0}), "no error") << "2^26";
+  EXPECT_THAT(error(1.0, {4096.0, 4096.0, 5.0}), too_many);
+  EXPECT_EQ(error(1.0, {8192.0, 8192.0, 0.5}), "no error") << "one layer";
+  const auto empty = testing::HasSubstr("cell size or box is empty");
+  EXPECT_THAT(error(0.0, {1.0, 1.0, 1.0}), empty);
+  EXPECT_THAT(error(-1.0, {1.0, 1.0, 1.0}), empty);
+  EXPECT_THAT(error(1.0, {1.0, -1.0, 1.0}), empty);
+  const auto not_finite = testing::HasSubstr("cell size or box is not finite");
+  EXPECT_THAT(error(std::nan(""), {1.0, 1.0, 1.0}), not_finite);
+  EXPECT_THAT(error(1.0, {1.0, HUGE_VAL, 1.0}), not_finite);
+}
+
+TEST(FormerRuns, CalledTheLengthOfALegThatOfThePath) {
+  json metrics = json::parse(R"({"observations": [
+    {"path_length_m": 2.0, "flight": {"path_length_m": 7.0}}, {"path_length_m": 3.0}]})");
+  bring_up_to_date(metrics);
+  const json& steps = metrics["observations"];
+  EXPECT_EQ(steps[0]["leg_length_m"], 2.0);
+  EXPECT_EQ(steps[0]["path_length_m"], 2.0);
+  EXPECT_EQ(steps[0]["flight"], json({{"leg_length_m", 7.0}}));
+  EXPECT_EQ(steps[1]["leg_length_m"], 3.0);
+  EXPECT_EQ(steps[1]["path_length_m"], 5.0) << "all the way from the start";
+  EXPECT_FALSE(metrics.contains("objects_unseen"));
+  const json present = metrics;
+  bring_up_to_date(metrics);
+  EXPECT_EQ(metrics, present);
+  json told = json::parse(R"({"mean_entropy_nats": 1.0, "objects_unseen": 9,
+    "objects": [{"observations": 0, "entropy_nats": 3.0}]})");
+  bring_up_to_date(told);
+  EXPECT_EQ(told["objects_unseen"], 9);
+  json apart = json::parse(R"({"objects": [{"observations": 0, "entropy_nats": 3.0}]})");
+  bring_up_to_date(apart);
+  EXPECT_FALSE(apart.contains("objects_unseen")) << "of another task";
 }
 
 }  // namespace

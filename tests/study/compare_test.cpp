@@ -180,5 +180,24 @@ TEST_F(Compare, FoldersMustBeOfOneKind) {
   EXPECT_THROW(compare_folders(first, first, 0.0), InputError);
 }
 
+TEST(ComparisonText, ListsWhatDiffersBeyondTheTolerance) {
+  FolderComparison comparison{"one", "two", {}, {}, 2};
+  comparison.values.push_back({"path_length_m", "100.0", "90.0", -10.0, 0.1, true});
+  comparison.values.push_back({"extra", "", "1", 0.0, 0.0, true});
+  comparison.values.push_back({"method", R"("a")", R"("b")", 0.0, 0.0, false});
+  const auto gap = [](std::size_t spaces) { return std::string(spaces, ' '); };
+  const std::string rows = "! path_length_m" + gap(31 + 1 + 19) + "100.0" + gap(1 + 20) +
+                           "90.0  -10 (10 %)\n! extra" + gap(39 + 1 + 23) + "-" + gap(1 + 23) +
+                           "1\n";
+  const std::string all = comparison_text(comparison, true);
+  EXPECT_EQ(all.substr(all.find('\n') + 1), rows + "2 of 3 values differ beyond the tolerance\n");
+  const std::string few = comparison_text(comparison);
+  EXPECT_EQ(few.substr(few.find('\n') + 1),
+            "2 of 3 values differ beyond the tolerance; --all lists them\n");
+  comparison.beyond = 0;
+  const std::string none = comparison_text(comparison);
+  EXPECT_EQ(none.substr(none.find('\n') + 1), "0 of 3 values differ beyond the tolerance\n");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "vantage/view/overlays.hpp"
 
@@ -124,6 +126,76 @@ TEST(ViewCaptionsOnAnImage, TheHelpIsACardOfAllKeys) {
   const cv::Mat image = captioned(captions);
   EXPECT_EQ(changed_rows(image, 21), std::pair(54, 54 + 14 * 25 + 24));
   EXPECT_EQ(changed_columns(image, 56), std::pair(20, 770));
+}
+
+/// A quarter of what was there, 200, and three quarters of the panel's darkest colour.
+TEST(ViewCaptionsOnAnImage, TextStandsOnADarkenedGround) {
+  const Pixel ground(68, 62, 58);
+  ViewCaptions captions;
+  captions.progress = 0.0;
+  EXPECT_EQ(captioned(captions).at<Pixel>(704, 999), ground);
+  captions.progress.reset();
+  captions.scene = "HHH";
+  const cv::Mat image = captioned(captions);
+  const int width = changed_columns(image, 0).second;
+  EXPECT_EQ(image.at<Pixel>(0, 0), ground);
+  std::vector<int> rows;
+  std::vector<int> columns;
+  for (int y = 0; y < 34; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (image.at<Pixel>(y, x) == ground) continue;
+      rows.push_back(y);
+      columns.push_back(x);
+    }
+  }
+  ASSERT_FALSE(rows.empty());
+  EXPECT_NEAR(rows.front(), 9, 3);
+  EXPECT_NEAR(rows.back(), 23, 2) << "its foot";
+  const auto [left, right] = std::minmax_element(columns.begin(), columns.end());
+  EXPECT_NEAR(*left, 14, 3);
+  EXPECT_NEAR(*right, width - 15, 4);
+}
+
+/// What two legends tell is the same to the last digit that they show.
+TEST(ViewCaptionsOnAnImage, GainsHaveAsManyDigitsAsTellThemApart) {
+  const auto legend_of = [](double low, double high) {
+    ViewCaptions captions;
+    captions.decision.emplace();
+    captions.decision->candidates.resize(2);
+    for (Candidate& view : captions.decision->candidates) view.reachable = true;
+    captions.decision->candidates[0].gain_bits = low;
+    captions.decision->candidates[1].gain_bits = high;
+    return captioned(captions);
+  };
+  const auto same_legend = [&](double low, double high, double other_low, double other_high) {
+    const cv::Mat one = legend_of(low, high);
+    return cv::norm(one, legend_of(other_low, other_high), cv::NORM_INF) == 0.0;
+  };
+  EXPECT_TRUE(same_legend(1.0, 2.0, 1.0, 2.0004));
+  EXPECT_FALSE(same_legend(1.0, 2.0, 1.0, 2.0006));
+  EXPECT_FALSE(same_legend(1.0, 2.0, 1.0006, 2.0));
+  EXPECT_TRUE(same_legend(1.0, 10.0, 1.0, 10.04));
+  EXPECT_TRUE(same_legend(1.0, 20.0, 1.0, 20.04));
+  EXPECT_FALSE(same_legend(1.0, 20.0, 1.0, 20.06));
+  EXPECT_TRUE(same_legend(1.0, 100.0, 1.0, 100.4));
+  EXPECT_FALSE(same_legend(1.0, 100.0, 1.0, 100.6));
+}
+
+TEST(ViewCaptionsOnAnImage, TheHelpHasALineForEachKey) {
+  ViewCaptions captions;
+  captions.help = true;
+  const cv::Mat image = captioned(captions);
+  const auto is_written = [&](const cv::Rect& part) {
+    cv::Mat ground;
+    cv::inRange(image(part), cv::Scalar(68, 62, 58), cv::Scalar(68, 62, 58), ground);
+    return cv::countNonZero(ground) < part.area();
+  };
+  for (int y = 83; y < 83 + 14 * 25; y += 25) {
+    EXPECT_TRUE(is_written({36, y - 13, 200, 17})) << y;
+    EXPECT_TRUE(is_written({276, y - 13, 400, 17})) << y;
+    EXPECT_FALSE(is_written({21, y - 13, 14, 17})) << y;
+    EXPECT_FALSE(is_written({21, y + 7, 740, 3})) << y;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "vantage/perception/search/object_search.hpp"
 #include "vantage/perception/search/support_search.hpp"
@@ -127,6 +129,165 @@ TEST(SupportLimits, OfTwoAtAboutOneHeightTheOneOfMorePointsStays) {
   ASSERT_EQ(supports.size(), 1U);
   EXPECT_NEAR(supports[0].height_m, 0.85, 1e-6);
   EXPECT_EQ(supports[0].inliers, 26U * 21U);
+}
+
+/// A point in each of these cells of 1/16 m.
+std::size_t supports_of_cells(const std::vector<std::pair<int, int>>& cells) {
+  PointCloud cloud;
+  for (const auto& [x, y] : cells) cloud.points.emplace_back(0.0625F * x, 0.0625F * y, 0.805F);
+  return find_supports(cloud, {.cell_m = 0.0625, .min_area_m2 = 0.008}).size();
+}
+
+TEST(SupportLimits, TwelvePointsShowAHeightAndEightASurface) {
+  std::vector<std::pair<int, int>> cells;
+  for (int i = 0; i < 12; ++i) cells.emplace_back(i / 4, i % 4);
+  EXPECT_EQ(supports_of_cells(cells), 1U);
+  cells.erase(cells.begin());
+  EXPECT_EQ(supports_of_cells(cells), 0U);
+  // Round a cell, and some far away.
+  cells = {{0, 0}, {0, 1}, {0, 2}, {1, 2}, {2, 2}, {2, 1}, {2, 0}, {1, 0}};
+  for (const int far : {20, 24, 28, 32}) cells.emplace_back(far, 0);
+  EXPECT_EQ(supports_of_cells(cells), 1U);
+  cells[7] = {36, 0};
+  EXPECT_EQ(supports_of_cells(cells), 0U);
+}
+
+TEST(SupportLimits, ALesserHeightIsToldFromAGreaterOneFromNineCentimetresOn) {
+  const auto found_with = [](double z_m) {
+    PointCloud grid = level_grid(0.0, 0.0, 0.805, 21, 21);
+    append(grid, level_grid(0.0, 1.0, z_m, 20, 20));
+    return find_supports(grid, {}).size();
+  };
+  EXPECT_EQ(found_with(0.885), 1U);
+  EXPECT_EQ(found_with(0.895), 2U);
+}
+
+/// A point more, in the middle: 8 cm above the lowest of a surface's five bins is tall, and of the
+/// surface is what is within half the inlier distance.
+TEST(SupportLimits, APointAboveItIsOfTheSurfaceOrTall) {
+  const auto inliers_with = [](double z_m) {
+    PointCloud grid = level_grid(0.0, 0.0, 0.805, 26, 21);
+    grid.points.emplace_back(0.01, 0.01, z_m);
+    const auto supports = find_supports(grid, {});
+    return supports.size() == 1 ? supports[0].inliers : 0U;
+  };
+  EXPECT_EQ(inliers_with(0.805 + 0.0098), 547U);
+  EXPECT_EQ(inliers_with(0.805 + 0.0102), 546U);
+  EXPECT_EQ(inliers_with(0.86), 546U);
+  EXPECT_LT(inliers_with(0.87), 546U);
+  EXPECT_GT(inliers_with(0.87), 500U);
+}
+
+/// What lies 9 cm below the hole of a frame, and not under the frame's middle.
+TEST(SupportLimits, OfTwoAboveEachOtherTheLowerStaysHoweverSmall) {
+  PointCloud frame = level_grid(0.0, 0.0, 0.895, 51, 51);
+  std::erase_if(frame.points, [](const Eigen::Vector3f& p) {
+    return p.head<2>().cwiseAbs().maxCoeff() < 0.301F;
+  });
+  append(frame, level_grid(0.18, 0.0, 0.805, 12, 12));
+  const auto supports = find_supports(frame, {});
+  ASSERT_EQ(supports.size(), 1U);
+  EXPECT_NEAR(supports[0].height_m, 0.805, 1e-6);
+  EXPECT_EQ(supports[0].inliers, 144U);
+}
+
+/// Its hull has 0.2 m^2, its cells more than that.
+TEST(SupportLimits, AreaIsThatOfTheHullToo) {
+  const PointCloud grid = level_grid(0.0, 0.0, 0.8, 26, 21);
+  EXPECT_EQ(find_supports(grid, {.min_area_m2 = 0.199}).size(), 1U);
+  EXPECT_EQ(find_supports(grid, {.min_area_m2 = 0.201}).size(), 0U);
+}
+
+/// 160 x 120 px from 2 m straight above a table 0.805 m high, a pixel 2 cm wide there.
+class BlockFromAbove : public testing::Test {
+ protected:
+  BlockFromAbove() {
+    images_.width_px = 160;
+    images_.height_px = 120;
+    images_.focal_px = 100.0;
+    T_world_camera_.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+    T_world_camera_.translation() = Eigen::Vector3d(0.0, 0.0, 2.805);
+  }
+  void put(int left, int top, int width, int height, float z_m) {
+    for (int row = top; row < top + height; ++row) {
+      for (int column = left; column < left + width; ++column) {
+        images_.depth_m[static_cast<std::size_t>(row * 160 + column)] = z_m;
+      }
+    }
+  }
+  /// Of 10 x 10 px on the table alone.
+  void put_block_at(int left, int top, float height_m = 0.2F) {
+    images_.depth_m.assign(19200, 2.0F);
+    put(left, top, 10, 10, 2.0F - height_m);
+  }
+  [[nodiscard]] std::vector<SeenObject> found() const {
+    return find_objects(images_, T_world_camera_);
+  }
+  CameraImages images_;
+  Pose T_world_camera_ = Pose::Identity();
+};
+
+/// Its pixels are 1.8 cm wide, the outermost 4.5 of them off its middle.
+TEST_F(BlockFromAbove, IsMeasuredToThePixel) {
+  put_block_at(90, 55);
+  const auto seen = found();
+  ASSERT_EQ(seen.size(), 1U);
+  const ObjectDetection& block = seen[0].detection;
+  EXPECT_LT((block.p_world_object_m - Eigen::Vector3d(0.27, 0.0, 0.905)).norm(), 1e-5);
+  EXPECT_NEAR(block.support_z_m, 0.805, 1e-5);
+  EXPECT_NEAR(block.height_m, 0.2, 1e-5);
+  EXPECT_NEAR(block.radius_m, 0.018 * std::hypot(4.5, 4.5), 1e-5);
+  EXPECT_NEAR(block.distance_m, std::hypot(0.27, 1.9), 1e-5);
+  EXPECT_EQ(block.pixels, 100);
+}
+
+/// Its mask, a pixel wider, ends 3 px inside the image, or 2.
+TEST_F(BlockFromAbove, IsWholeWithinTheBorder) {
+  const auto whole = [&](int left, int top) {
+    put_block_at(left, top);
+    const auto seen = found();
+    return seen.size() == 1 ? static_cast<int>(seen[0].detection.whole) : -1;
+  };
+  EXPECT_EQ(whole(4, 50), 1);
+  EXPECT_EQ(whole(3, 50), 0);
+  EXPECT_EQ(whole(146, 50), 1);
+  EXPECT_EQ(whole(147, 50), 0);
+  EXPECT_EQ(whole(90, 4), 1);
+  EXPECT_EQ(whole(90, 3), 0);
+  EXPECT_EQ(whole(90, 106), 1);
+  EXPECT_EQ(whole(90, 107), 0);
+}
+
+/// The ring of 2 px round its mask has 112 px, of which five are less than a twentieth.
+TEST_F(BlockFromAbove, IsHiddenByWhatIsBeforeItByFifteenCentimetres) {
+  const auto found_behind = [&](int pixels, float z_m) {
+    put_block_at(90, 50);
+    for (int i = 0; i < pixels; ++i) put(i % 2 == 0 ? 101 : 88, 49 + 3 * (i / 2), 1, 1, z_m);
+    return found();
+  };
+  const auto whole = [&](int pixels, float z_m) {
+    const auto seen = found_behind(pixels, z_m);
+    return seen.size() == 1 && seen[0].detection.whole;
+  };
+  EXPECT_FALSE(whole(6, 1.64F));
+  EXPECT_TRUE(whole(5, 1.64F));
+  EXPECT_TRUE(whole(6, 1.66F));
+  EXPECT_EQ(found_behind(6, 0.9F).size(), 1U) << "more than twice as high as any object";
+  EXPECT_EQ(found_behind(6, 1.3F).size(), 0U) << "70 cm high";
+}
+
+TEST_F(BlockFromAbove, StandsOutOfTheNoiseAndMostlyOverTheTable) {
+  put_block_at(90, 50, 0.0135F);  // 6 mm and 2.5 times 3.2 mm are 14 mm
+  EXPECT_EQ(found().size(), 0U);
+  put_block_at(90, 50, 0.0145F);
+  EXPECT_EQ(found().size(), 1U);
+  // The table ends at x = 0.39 m: 5 cm beyond are the block's columns from 104 on.
+  for (const int left : {97, 98}) {
+    put_block_at(left, 50);
+    put(100, 0, 60, 120, 2.805F);
+    put(left, 50, 10, 10, 1.8F);
+    EXPECT_EQ(found().size(), left == 97 ? 1U : 0U) << left;
+  }
 }
 
 }  // namespace

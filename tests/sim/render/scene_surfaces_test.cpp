@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/sim/sensors/sensor_scene.hpp"
 
 namespace vantage {
@@ -99,6 +101,22 @@ TEST(SceneSurfacesOf, ACoarserMeshKeepsItsColourAndItsPlace) {
   const Eigen::Vector3f high(0.3199F, 0.1827F, 0.2729F);
   EXPECT_LT((box.min() - low).cwiseAbs().maxCoeff(), 0.025F);
   EXPECT_LT((box.max() - high).cwiseAbs().maxCoeff(), 0.025F);
+}
+
+TEST(SceneSurfacesOf, ATexturedMeshHasAtEachVertexWhatIsPaintedThere) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><asset><texture name='paint' type='2d' builtin='flat' width='4' height='2'/>"
+      "<material name='paint' texture='paint'/><mesh name='wedge' vertex='0 0 0  .3 0 0  0 .3 0  "
+      "0 0 .3' texcoord='0 0 0 0 0 0 0 0' face='0 2 1  0 1 3  0 3 2  1 2 3'/></asset><worldbody>"
+      "<geom type='mesh' mesh='wedge' material='paint'/></worldbody></mujoco>");
+  ASSERT_EQ(scene.model->mesh_vertnum[0], 4);
+  ASSERT_EQ(scene.model->mesh_texcoordadr[0], 0);
+  for (int i = 0; i < 24; ++i) scene.model->tex_rgb[i] = static_cast<mjtByte>(10 * i);
+  const std::array<float, 8> uv{0.1F, 0.2F, 0.6F, 0.2F, 0.9F, 0.7F, 1.3F, -0.3F};
+  std::copy(uv.begin(), uv.end(), scene.model->mesh_texcoord);
+  // Pixels 0 and 2 of the first row of four, 3 and 1 of the second.
+  const std::vector<Colour> expected{{0, 10, 20}, {60, 70, 80}, {210, 220, 230}, {150, 160, 170}};
+  EXPECT_EQ(scene_surfaces(*scene.model, *scene.data).colours, expected);
 }
 
 }  // namespace

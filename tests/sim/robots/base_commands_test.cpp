@@ -246,5 +246,39 @@ TEST(RobotOptions, AQuadrotorNamesFourRotors) {
   EXPECT_THROW(description.check(), ConfigError);
 }
 
+/// Driving at so many m/s while the wheels measure so many.
+TEST(DriveTimes, StuckIsToPushFasterThanTenCentimetresASecondAndMoveSlowerThanTwo) {
+  const auto status = [](double pushed_m_s, double measured_m_s) {
+    test::RobotWorld scene;
+    Odometry odometry = exact_odometry();
+    const double step_m = scene.world.options().control_period_s * measured_m_s;
+    odometry.on_increment = [step_m](const Pose2&) { return Pose2{step_m, 0.0, 0.0}; };
+    DriveOptions options;
+    options.controller.speed_m_s = pushed_m_s;
+    return drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{3.0, 0.0, 0.0}}, options,
+                 [](World& world, const Pose2&) { return world.time_s() < 4.0; })
+        .status;
+  };
+  EXPECT_EQ(status(0.3, 0.018), DriveStatus::stuck);
+  EXPECT_EQ(status(0.3, 0.022), DriveStatus::stopped);
+  EXPECT_EQ(status(0.12, 0.0), DriveStatus::stuck);
+  EXPECT_EQ(status(0.09, 0.0), DriveStatus::stopped);
+}
+
+TEST(BaseCommands, TheHeadTurnsAsFastAsTheFasterOfItsJoints) {
+  test::RobotWorld scene;
+  const auto rate_rad_s = [&](double pan_rad_s, double tilt_rad_s) {
+    const mjModel& model = scene.world.model();
+    const auto dof = [&](const char* joint) {
+      return model.jnt_dofadr[model_id(model, ModelObject::joint, joint)];
+    };
+    scene.world.data().qvel[dof("robot/head_pan")] = pan_rad_s;
+    scene.world.data().qvel[dof("robot/head_tilt")] = tilt_rad_s;
+    return scene.robot.head_rate_rad_s(scene.world);
+  };
+  EXPECT_EQ(rate_rad_s(-0.5, 0.25), 0.5);
+  EXPECT_EQ(rate_rad_s(-0.5, -0.75), 0.75);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -278,5 +278,33 @@ TEST(TrajectoryTrackingController, StartsWithItsReferenceWhereTheVehicleIs) {
   EXPECT_EQ(reference.yaw_rate_rad_s, 0.0);
 }
 
+TEST(TrajectoryTrackingController, SumsUpWhatItFlewTickByTick) {
+  Gust gust;
+  gust.force_N = 4.0;
+  gust.duration_s = 0.2;
+  TrajectoryTrackingOptions options = exact_tracking();
+  options.gusts = {gust};
+  FlightWorld scene(options);
+  const Eigen::Vector3d place_m = scene.tracking.reference().p_world_m;
+  Eigen::Vector3d before_m = scene.position_m();
+  FlightResult sum;
+  double squared_m2_s = 0.0;
+  scene.world.on_tick = [&](World& world) {
+    const Eigen::Vector3d p_m = scene.position_m();
+    sum.path_length_m += (p_m - before_m).norm();
+    sum.greatest_error_m = std::max(sum.greatest_error_m, (p_m - place_m).norm());
+    sum.energy_J +=
+        kPeriod_s * induced_power_W(scene.vehicle.thrusts_N(world), scene.vehicle.rotor_radius_m());
+    squared_m2_s += kPeriod_s * (p_m - place_m).squaredNorm();
+    before_m = p_m;
+  };
+  const FlightResult result = scene.tracking.hold(0.5);
+  EXPECT_GT(result.greatest_error_m, 1e-3) << "it is pushed";
+  EXPECT_NEAR(result.greatest_error_m, sum.greatest_error_m, 1e-9);
+  EXPECT_NEAR(result.path_length_m, sum.path_length_m, 1e-9);
+  EXPECT_NEAR(result.rms_error_m, std::sqrt(squared_m2_s / result.duration_s), 1e-9);
+  EXPECT_NEAR(result.energy_J, sum.energy_J, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -283,5 +283,29 @@ TEST(NearGeoms, BodiesThatAreLeftOutAreNotPlaced) {
   EXPECT_DOUBLE_EQ(world.snapshot().xpos[3 * shelf], 5.0);
 }
 
+TEST(NearGeoms, WhatIsNamedElsewhereIsSteppedHoweverFar) {
+  const auto stepped = [](const std::string& named) {
+    const test::SceneFolder folder(
+        "<mujoco><worldbody><body name='post' pos='5 0 0'><geom name='post' type='box' "
+        "size='.1 .1 .1'/><site name='hook'/></body><body name='ball' pos='0 0 2'><freejoint/>"
+        "<geom name='ball' size='.1'/><site name='eye'/></body></worldbody>" +
+        named + "</mujoco>");
+    const World world(folder.alone());
+    NearGeoms near(world.model());
+    near.start(world.snapshot());
+    return near.stepped().geoms();
+  };
+  EXPECT_EQ(stepped(""), 1);
+  for (const char* named :
+       {"<contact><pair geom1='ball' geom2='post'/></contact>",
+        "<tendon><spatial><site site='hook'/><site site='eye'/></spatial></tendon>",
+        "<equality><weld body1='ball' body2='post'/></equality>",
+        "<sensor><framepos objtype='body' objname='post'/></sensor>",
+        "<sensor><framepos objtype='site' objname='eye' reftype='body' "
+        "refname='post'/></sensor>"}) {
+    EXPECT_EQ(stepped(named), 2) << named;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -96,5 +96,23 @@ TEST(StartText, NamesTheSiteOrThePose) {
   EXPECT_EQ(start_text(robot), "robot.start_site 'door'");
 }
 
+TEST(FloorMapNote, NamesTheFarthestSideOfTheMap) {
+  Exploration task;
+  task.floor_map.half_size_m = 6.0;
+  task.map.cells = {64, 64, 8};
+  const auto note = [&](double x_m, double y_m, double x_size_m, double y_size_m) {
+    task.map.centre_m = {x_m, y_m, 1.0};
+    task.map.size_m = {x_size_m, y_size_m, 2.0};
+    return floor_map_note(task);
+  };
+  EXPECT_EQ(note(0.0, 0.0, 12.0, 12.0), "") << "as far as the floor map";
+  for (const double side : {-1.0, 1.0}) {
+    for (const std::string& told : {note(side, -2.0, 10.4, 6.0), note(-2.0, side, 6.0, 10.4)}) {
+      EXPECT_NE(told.find("6.20 m"), std::string::npos) << told;
+      EXPECT_NE(told.find("6.5 would do"), std::string::npos) << told;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

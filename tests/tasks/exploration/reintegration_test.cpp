@@ -272,5 +272,25 @@ TEST(LoopClosing, CorrectsWhatFitsWellButIsBent) {
   EXPECT_FALSE(loops.wants_correction()) << "it has been corrected";
 }
 
+/// Nothing is in sight, so that the poses of the loops are those of the wheels: the second one is
+/// 0.2 m and 0.2 rad off what the map has, the third is as the map has it.
+TEST(LoopClosing, DisagreesByWhatAPoseMovesAndWhatIsSeenThreeMetresOff) {
+  const PlanarScan nothing{};
+  LoopClosing loops({}, {}, {}, {});
+  loops.remember(nothing, 0.25, {});
+  EXPECT_EQ(loops.disagreement_m(), 0.0);
+  loops.moved_to({1.0, 0.0, 0.1}, {1.2, 0.0, 0.3});
+  EXPECT_NEAR(loops.turned_rad(), 0.1, 1e-12);
+  loops.remember(nothing, 0.25, {1.2, 0.0, 0.3});
+  EXPECT_EQ(loops.turned_rad(), 0.0);
+  EXPECT_NEAR(loops.disagreement_m(), 0.2 + 3.0 * 0.2, 1e-9);
+  const Pose2 ahead{0.5, 0.0, 0.0};
+  const Pose2 third = compose(Pose2{1.0, 0.0, 0.1}, ahead);
+  loops.moved_to(compose(Pose2{1.2, 0.0, 0.3}, ahead), third);
+  loops.remember(nothing, 0.25, third);
+  EXPECT_NEAR(loops.disagreement_m(), 0.8, 1e-9);
+  EXPECT_EQ(loops.remembered().size(), 3U);
+}
+
 }  // namespace
 }  // namespace vantage

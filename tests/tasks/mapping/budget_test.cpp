@@ -312,5 +312,74 @@ TEST(BudgetText, NamesWhatIsLimited) {
             "budget.time_s 600 and budget.energy_j 900000");
 }
 
+/// 4000 J in 10 s of driving and 2000 J in 20 s of scanning; then 100 J in half a second, and 25 J.
+TEST(SpendingRates, CountFromTheStartOfTheEpisode) {
+  SpendingRates rates(0.6);
+  ScanRecord scan;
+  scan.time_s = 30.0;
+  scan.scan_time_s = 20.0;
+  scan.energy_j = 6000.0;
+  scan.scan_energy_j = 2000.0;
+  rates.observe(scan, nullptr);
+  EXPECT_NEAR(rates.driving_w(), 400.0, 1e-9);
+  EXPECT_NEAR(rates.scanning_w(), 100.0, 1e-9);
+  SpendingRates brief(0.6);
+  scan.time_s = 0.75;
+  scan.scan_time_s = 0.25;
+  scan.energy_j = 125.0;
+  scan.scan_energy_j = 25.0;
+  brief.observe(scan, nullptr);
+  EXPECT_NEAR(brief.driving_w(), 200.0, 1e-9);
+  EXPECT_NEAR(brief.scanning_w(), 100.0, 1e-9);
+  scan.scan_share = 0.75;
+  scan.scan_time_s = 9.0;
+  brief.observe(scan, nullptr);
+  EXPECT_EQ(brief.scan_s(), 0.25) << "of the last whole one";
+}
+
+/// 10 m there and half a metre home take 1.15 x 21 s, twice 3 s to start, the scan 20, the reserve
+/// 6: 56.15 s. From where it is half a metre from home: 1.15 + 3 + 20 + 6 s.
+TEST(Budget, AShortWayHomeIsADriveToo) {
+  const Budget budget({.time_s = 1000.0});
+  const SpendingRates rates = known_rates();
+  EXPECT_TRUE(budget.affords_view(rates, {1000.0 - 56.3, 0.0}, 10.0, 0.5));
+  EXPECT_FALSE(budget.affords_view(rates, {1000.0 - 56.0, 0.0}, 10.0, 0.5));
+  EXPECT_TRUE(budget.affords_way_home(rates, {1000.0 - 30.3, 0.0}, 0.5));
+  EXPECT_FALSE(budget.affords_way_home(rates, {1000.0 - 30.0, 0.0}, 0.5));
+}
+
+TEST(BudgetKeeper, FailsNoEpisodeThatHasScannedTwice) {
+  EXPECT_EQ(reason({.time_s = 1000.0}, false, 50.0, 2), "no view is left in reach");
+  EXPECT_EQ(reason({.time_s = 1000.0}, true, 999.0, 2),
+            "budget.time_s 1000 allows no further view");
+}
+
+/// With 13 s left 1.5 m home are affordable (11.7 s), back the way it came (18 s) or 3 m (14.8 s)
+/// are not.
+TEST(BudgetKeeper, CountsOnFromTheShorterWayHomeItFound) {
+  OnOpenFloor open({.time_s = 100.0, .return_to_start = true});
+  for (const double x_m : {3.0, 1.5}) {
+    ASSERT_TRUE(open.navigator.approach({x_m, 0.0, 0.0}, std::nullopt).reached);
+  }
+  open.robot.now_s = 87.0;
+  EXPECT_TRUE(open.navigator.may_go_on());
+  const Approach farther = open.navigator.approach({3.0, 0.0, 0.0}, std::nullopt);
+  EXPECT_FALSE(farther.reached);
+  EXPECT_TRUE(farther.turned_back);
+}
+
+/// Though the time that is left does not allow for it.
+TEST(BudgetKeeper, ComesHomeWithoutTurningBack) {
+  OnOpenFloor open({.time_s = 100.0, .return_to_start = true});
+  open.robot.T_world_base = {3.0, 0.0, 0.0};
+  open.robot.now_s = 99.0;
+  open.keeper.come_home();
+  nlohmann::ordered_json metrics;
+  open.keeper.add_metrics(metrics);
+  EXPECT_EQ(metrics["budget"]["returned"], true);
+  EXPECT_EQ(metrics["budget"]["kept"], true);
+  EXPECT_NEAR(metrics["budget"]["from_start_m"].get<double>(), 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

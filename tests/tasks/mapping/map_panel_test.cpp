@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/report/sample_run.hpp"
+#include "tests/tasks/drawn_pixels.hpp"
 #include "vantage/runtime/drawing/map_view.hpp"
 #include "vantage/runtime/drawing/panel_style.hpp"
 #include "vantage/runtime/drawing/tour_drawing.hpp"
@@ -119,7 +120,8 @@ TEST(MapLines, AreFaintBehindVoxels) {
 }
 
 TEST(MapPanel, IsDeterministicAndOfItsSize) {
-  const OccupancyGrid grid = support::sample_grid();
+  OccupancyGrid grid(support::sample_frame());
+  for (std::size_t i = 0; i < grid.size(); ++i) grid.log_odds[i] = i % 7 == 0 ? 3.0F : -3.0F;
   const cv::Mat first = draw_map_panel(sample_input(grid), {640, 720});
   EXPECT_EQ(first.size(), cv::Size(640, 720));
   EXPECT_EQ(first.type(), CV_8UC3);
@@ -235,6 +237,168 @@ TEST(SideBySide, TurnsTheLeftHalfFromRgb) {
   EXPECT_EQ(both.size(), cv::Size(32, 20));
   EXPECT_EQ(both.at<cv::Vec3b>(5, 5), cv::Vec3b(0, 100, 200));
   EXPECT_EQ(both.at<cv::Vec3b>(5, 20), cv::Vec3b(1, 2, 3));
+}
+
+using Points = std::vector<cv::Point>;
+
+/// The channel that differs most.
+double off_by(const cv::Mat& image, cv::Point at, const cv::Scalar& bgr) {
+  const auto& pixel = image.at<cv::Vec3b>(at);
+  double most = 0.0;
+  for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(pixel[c] - bgr[c]));
+  return most;
+}
+
+/// Of four scans across 322 px from x = 78 on, of 1080 cells down 116 px to y = 674.
+TEST(MapPanel, PlotsTheCellsLeftAfterEachScan) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.scans_planned = 4;
+  const auto plotted = [&](const std::vector<double>& cells) {
+    input.observable_unobserved_cells = cells;
+    return draw_map_panel(input, {640, 720});
+  };
+  const cv::Mat three = plotted({1000.0, 500.0, 250.0});
+  const cv::Scalar under(46.0, 53.0, 55.0);  // a little of the line's colour
+  for (const cv::Point& at : Points{{158, 566}, {239, 620}, {319, 647}, {200, 594}}) {
+    EXPECT_TRUE(support::is_coloured(three, at, panel::kAccent)) << at;
+  }
+  for (const cv::Point& at : Points{{239, 660}, {200, 640}, {300, 665}}) {
+    EXPECT_LT(off_by(three, at, under), 3.0) << at;
+  }
+  for (const cv::Point& at : Points{{150, 660}, {330, 665}, {239, 614}, {390, 590}, {390, 647}}) {
+    EXPECT_LT(off_by(three, at, panel::kCard), 3.0) << at;
+  }
+  for (const int y : {566, 620, 674}) EXPECT_GT(off_by(three, {390, y}, panel::kCard), 8.0) << y;
+  for (const int x : {154, 235, 315, 396}) {
+    EXPECT_TRUE(support::is_written(three, {x, 678, 10, 12})) << x;
+  }
+  EXPECT_FALSE(support::is_written(three, {112, 678, 14, 12})) << "scans are whole";
+  EXPECT_FALSE(support::is_written(three, {78, 692, 322, 10}));
+  EXPECT_TRUE(support::is_written(three, {50, 612, 23, 13})) << "500";
+  EXPECT_FALSE(support::is_written(three, {74, 612, 3, 13}));
+  EXPECT_FALSE(support::is_written(three, {40, 580, 36, 25}));
+  EXPECT_FALSE(support::is_written(three, {34, 560, 14, 12})) << "1k is short";
+  EXPECT_LT(off_by(plotted({1000.0}), {158, 640}, panel::kCard), 3.0);
+  EXPECT_LT(off_by(plotted({1000.0, 500.0}), {200, 650}, under), 3.0);
+}
+
+TEST(MapPanel, HasAHeaderAndACardOfFigures) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.observable_unobserved_cells = {111'111.0};
+  input.predicted_new_cells = input.actual_new_cells = 111'111.0;
+  const cv::Mat image = draw_map_panel(input, {640, 720});
+  for (const cv::Point& at : Points{{20, 600}, {620, 600}, {300, 523}, {300, 700}}) {
+    EXPECT_LT(off_by(image, at, panel::kCard), 3.0) << at;
+  }
+  for (const cv::Point& at : Points{
+           {5, 1}, {3, 360}, {5, 717}, {12, 600}, {628, 600}, {300, 516}, {300, 708}, {17, 521}}) {
+    const double t = at.y / 720.0;
+    EXPECT_LT(off_by(image, at, panel::kTop * (1.0 - t) + panel::kBottom * t), 3.0) << at;
+  }
+  EXPECT_TRUE(support::is_written(image, {34, 534, 150, 14})) << "what the plot is of";
+  EXPECT_FALSE(support::is_written(image, {34, 522, 150, 9}));
+  for (const int row : {0, 1, 2}) {
+    EXPECT_TRUE(support::is_written(image, {434, 538 + 55 * row, 120, 12})) << row;
+    const cv::Rect value(434, 558 + 55 * row, 150, 20);
+    EXPECT_EQ(support::count_coloured(image, value, panel::kText) > 8, row < 2) << row;
+    EXPECT_EQ(support::count_coloured(image, value, panel::kAccent) > 8, row == 2) << row;
+  }
+  EXPECT_FALSE(support::is_written(image, {434, 581, 150, 8}));
+  EXPECT_FALSE(support::is_written(image, {424, 540, 8, 150}));
+  EXPECT_GT(support::count_coloured(image, {24, 16, 44, 21}, panel::kText), 3) << "Map";
+  const auto changed_by = [&](const char* method, int scans) {
+    input.method = method;
+    input.scans_planned = scans;
+    cv::Mat same_pixels;
+    cv::Mat changed;
+    cv::absdiff(image, draw_map_panel(input, {640, 720}), changed);
+    cv::inRange(changed, cv::Scalar::all(0), cv::Scalar::all(0), same_pixels);
+    const cv::Mat header = 255 - same_pixels(cv::Rect(0, 0, 640, 60));
+    return cv::boundingRect(header);
+  };
+  const cv::Rect method = changed_by("adaptive", 0);
+  EXPECT_TRUE(method.x >= 86 && method.x <= 93 && method.br().x <= 200) << method;
+  EXPECT_TRUE(method.y >= 18 && method.br().y <= 43 && method.br().y >= 34) << method;
+  const cv::Rect scan = changed_by("", 4);
+  EXPECT_TRUE(scan.x > 440 && scan.br().x > 605 && scan.br().x <= 618) << scan;
+  EXPECT_TRUE(scan.y >= 18 && scan.br().y <= 41 && scan.br().y >= 34) << scan;
+}
+
+/// At twice the panel's resolution, as draw_map_panel() draws it.
+MapCamera camera_of_two_metres() {
+  std::vector<Eigen::Vector3d> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back((i & 1) * 2 - 1, (i >> 1 & 1) * 2 - 1, i >> 2);
+  return fit_camera(corners, -0.9, 0.72, {40, 132, 1200, 872});
+}
+
+TEST(MapPanel, DrawsTheRobotItsPathAndTheBoxToScale) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.path_m = {{-0.6, -0.5}, {0.6, -0.5}};
+  const cv::Mat image = draw_map_panel(input, {640, 720});
+  const MapCamera camera = camera_of_two_metres();
+  const auto px = [&](double x_m, double y_m, double z_m = 0.0) {
+    const Eigen::Vector3d p = camera.project({x_m, y_m, z_m});
+    return cv::Point(static_cast<int>(0.5 * p.x()), static_cast<int>(0.5 * p.y()));
+  };
+  const double size_m = 0.8 * 0.13 * 2.0;
+  const auto is_robot = [&](double x, double y) {
+    return support::is_coloured(image, px(size_m * x, size_m * y), panel::kRobot);
+  };
+  EXPECT_TRUE(is_robot(0.2, 0.0) && is_robot(0.5, 0.0) && is_robot(-0.45, 0.4));
+  EXPECT_FALSE(is_robot(1.3, 0.0) || is_robot(-0.6, 0.0));
+  // Of the pixels there the one that is most like it.
+  const auto nearest = [&](cv::Point at, const cv::Scalar& bgr) {
+    double least = 255.0;
+    for (int i = 0; i < 9; ++i) {
+      least = std::min(least, off_by(image, at + cv::Point(i % 3 - 1, i / 3 - 1), bgr));
+    }
+    return least;
+  };
+  EXPECT_LT(nearest(px(0.1, -0.5), {98.0, 137.0, 73.0}), 6.0) << "a path shines through";
+  EXPECT_GT(nearest(px(0.75, -0.5), {98.0, 137.0, 73.0}), 25.0) << "it ends there";
+  for (const auto& [x_m, y_m] :
+       {std::pair{1.0, 0.1}, std::pair{-1.0, 0.1}, std::pair{0.1, 1.0}, std::pair{0.1, -1.0}}) {
+    EXPECT_LT(nearest(px(x_m, y_m), {157.0, 139.0, 126.0}), 6.0) << x_m << " " << y_m;
+    EXPECT_LT(nearest(px(x_m, y_m, 1.0), {86.0, 72.0, 61.0}), 12.0) << "fainter above";
+  }
+  EXPECT_LT(nearest(px(0.3, 0.2), {64.0, 51.0, 41.0}), 16.0) << "a line of the ground";
+  EXPECT_GT(nearest(px(0.3, 0.3), {64.0, 51.0, 41.0}), 18.0) << "none between";
+}
+
+/// Two views that are 9 px apart share a label; the sensors look up, out of the labels' row.
+TEST(MapPanel, NumbersViewsAndMarksTheNewest) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  const MapCamera camera = camera_of_two_metres();
+  const Eigen::Vector3d once(-0.5, 0.3, 0.6);
+  const Eigen::Vector3d other(0.5, -0.4, 0.6);
+  const Eigen::Vector3d right(std::sin(0.9), std::cos(0.9), 0.0);
+  const auto px = [&](const Eigen::Vector3d& p_m) {
+    return Eigen::Vector2d(0.5 * camera.project(p_m).head<2>());
+  };
+  const double px_per_m = (px(once + 0.01 * right) - px(once)).norm() / 0.01;
+  MapPanelInput input;
+  input.grid = &grid;
+  for (const Eigen::Vector3d& p_m : {once, other, Eigen::Vector3d(once + 9.0 / px_per_m * right)}) {
+    input.T_world_chosen.push_back(make_pose(p_m, 0.0, -0.5 * std::numbers::pi));
+  }
+  const cv::Mat image = draw_map_panel(input, {640, 720});
+  const auto is_filled = [&](const Eigen::Vector3d& p_m, double x_px, const cv::Scalar& bgr) {
+    const Eigen::Vector2d p = px(p_m);
+    const cv::Point at(static_cast<int>(p.x() + x_px), static_cast<int>(p.y()));
+    return support::is_coloured(image, at, bgr);
+  };
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_TRUE(is_filled(once, 14.0 * side, panel::kAccent)) << "1,3 " << side;
+    EXPECT_FALSE(is_filled(once, 19.0 * side, panel::kAccent)) << "1,3 " << side;
+    EXPECT_TRUE(is_filled(other, 7.0 * side, panel::kVisited)) << "2 " << side;
+    EXPECT_FALSE(is_filled(other, 12.0 * side, panel::kVisited)) << "2 " << side;
+  }
 }
 
 }  // namespace

@@ -260,5 +260,76 @@ TEST(TableGroundTruth, MoreThanTheDatabaseHasIsAnError) {
   EXPECT_THROW(draw_table(task_with({"database.objects=5", "clutter.objects=6"}), 1), ConfigError);
 }
 
+/// All over the disc, turned any way; where that is taken, farther off.
+TEST(StandingRoom, PlacesAreInReachWhileThereIsRoom) {
+  const std::vector<Eigen::Vector2d> middle{Eigen::Vector2d::Zero()};
+  Rng rng(3);
+  StandingRoom::Place place;
+  int far = 0;
+  int ahead = 0;
+  int turned_little = 0;
+  for (int i = 0; i < 400; ++i) {
+    StandingRoom room({middle, 0.3, 0.05, {2.0, 2.0}});
+    ASSERT_TRUE(room.place(round_outline(0.02), rng, place));
+    EXPECT_LE(place.p_m.norm(), 0.3 + 1e-12);
+    const double heading_rad = std::atan2(place.p_m.y(), place.p_m.x());
+    far += place.p_m.norm() > 0.28 ? 1 : 0;
+    ahead += heading_rad > 0.0 && heading_rad < 1.0 ? 1 : 0;
+    turned_little += place.yaw_rad < 1.0 ? 1 : 0;
+  }
+  EXPECT_GT(far, 20) << "51 on average";
+  EXPECT_GT(ahead, 30) << "64 on average";
+  EXPECT_GT(turned_little, 30) << "64 on average";
+  StandingRoom taken({middle, 0.1, 0.05, {2.0, 2.0}});
+  taken.take(round_outline(0.3));
+  ASSERT_TRUE(taken.place(round_outline(0.02), rng, place));
+  EXPECT_GT(place.p_m.norm(), 0.36);
+}
+
+/// 48 posts, from the least to the greatest.
+TEST(TableGroundTruth, PostsAreThinAndNearlyAsHighAsTheMap) {
+  const RecognitionTask task = task_with({"clutter={objects: 0, posts: 8}"});
+  std::vector<double> radii_m;
+  std::vector<double> shares;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (const Post& post : draw_table(task, seed).posts) {
+      radii_m.push_back(post.radius_m);
+      shares.push_back(post.height_m / task.map.height_m);
+    }
+  }
+  ASSERT_EQ(radii_m.size(), 48U);
+  std::ranges::sort(radii_m);
+  std::ranges::sort(shares);
+  EXPECT_GE(radii_m.front(), 0.02);
+  EXPECT_LT(radii_m.front(), 0.024);
+  EXPECT_GT(radii_m.back(), 0.031);
+  EXPECT_LE(radii_m.back(), 0.035);
+  EXPECT_GE(shares.front(), 0.8);
+  EXPECT_LT(shares.front(), 0.85);
+  EXPECT_GT(shares.back(), 0.95);
+  EXPECT_LE(shares.back(), 1.0);
+}
+
+/// A quarter of a metre apart, 0.2 m from the table's edge, and anywhere within that.
+TEST(TableGroundTruth, TargetsAreSpreadOverTheTable) {
+  const RecognitionTask task = task_with({"targets=2", "map.size_m=[1.2, 0.8]"});
+  double least_m = 1.0;
+  Eigen::Array2d most_m = Eigen::Array2d::Zero();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const TableGroundTruth table = draw_table(task, seed);
+    ASSERT_EQ(table.targets.size(), 2U);
+    least_m = std::min(least_m, (table.targets[0].told_m - table.targets[1].told_m).norm());
+    for (const ObjectOnTable& target : table.targets) {
+      most_m = most_m.max(target.told_m.array().abs());
+    }
+  }
+  EXPECT_GE(least_m, 0.25);
+  EXPECT_LT(least_m, 0.4);
+  EXPECT_LE(most_m.x(), 0.4);
+  EXPECT_GT(most_m.x(), 0.25);
+  EXPECT_LE(most_m.y(), 0.2);
+  EXPECT_GT(most_m.y(), 0.12);
+}
+
 }  // namespace
 }  // namespace vantage

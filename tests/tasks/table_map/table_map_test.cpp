@@ -146,5 +146,42 @@ TEST(TableMapLog, KeepsSinceWhenWhatStandsThere) {
   EXPECT_GT(unobserved, 100);
 }
 
+TEST(TableMap, FillsTheRoomOverTheTable) {
+  TableMapOptions options;
+  options.size_m = {1.25, 0.75};
+  options.height_m = 0.5;
+  options.foot_m = 0.125;
+  options.cell_m = 1.0 / 64.0;
+  const GridFrame frame = TableMap::frame_of({1.0, 2.0, 0.75}, options);
+  EXPECT_EQ(frame.min_corner_m, Eigen::Vector3d(0.375, 1.625, 0.875));
+  EXPECT_EQ(frame.cell_size_m, Eigen::Vector3d::Constant(1.0 / 64.0));
+  EXPECT_TRUE((frame.cells == Eigen::Array3i(80, 48, 24)).all());
+  options.height_m = 0.05;
+  EXPECT_EQ(TableMap::frame_of({1.0, 2.0, 0.75}, options).cells.z(), 1) << "a layer at least";
+}
+
+/// An outline of 0.2 x 0.1 m and something 0.15 m high in it: 4 cm more to all sides.
+TEST(TableMap, CellsOverAnOutlineAreWiderByTheMargin) {
+  TableMapOptions options;
+  options.margin_m = 0.04;
+  const TableMap map = map_after({}, options);
+  std::vector<Eigen::Vector2d> outline;
+  for (const auto& [x_m, y_m] : {std::pair{-0.1, -0.05}, std::pair{0.1, -0.05},
+                                 std::pair{0.1, 0.05}, std::pair{-0.1, 0.05}}) {
+    outline.emplace_back(kTable_m.x() + x_m, kTable_m.y() + y_m);
+  }
+  const std::vector<std::uint8_t> over = map.cells_over(outline, 0.15);
+  const auto is_over = [&](double x_m, double y_m, double z_m) {
+    const GridFrame& frame = map.grid().frame;
+    return over[frame.index(frame.cell_at(kTable_m + Eigen::Vector3d(x_m, y_m, z_m)))] == 1;
+  };
+  EXPECT_TRUE(is_over(0.01, 0.01, 0.18));
+  EXPECT_FALSE(is_over(0.01, 0.01, 0.20));
+  EXPECT_TRUE(is_over(0.01, 0.07, 0.1));
+  EXPECT_FALSE(is_over(0.01, 0.11, 0.1));
+  EXPECT_TRUE(is_over(-0.13, 0.01, 0.1));
+  EXPECT_FALSE(is_over(-0.15, 0.01, 0.1));
+}
+
 }  // namespace
 }  // namespace vantage

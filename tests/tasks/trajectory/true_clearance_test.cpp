@@ -48,5 +48,9 @@ TEST(TrueClearance, IsTheLeastOfAllMoments) {
   EXPECT_NEAR(clearance.min_m(), 0.6 - kSkid_m, 0.01);
 }
 
+TEST(TrueClearance, IsThreeMetresAtMost) {
+  EXPECT_EQ(min_m(FlightWorld(test::exact_tracking(), test::at_height(5.0))), 3.0);
+}
+
 }  // namespace
 }  // namespace vantage
