@@ -23,7 +23,7 @@ class DrawableMap {
  private:
   OccupancyGrid grid_;
   std::vector<float> p_opaque_;  ///< per cell; 0 where it is known
-  double cells_in_each_ = 1.0;
+  double cells_in_each_;
 };
 
 }  // namespace vantage

@@ -1,5 +1,5 @@
 """The same bits from every build: a short episode of each task, by gcc and clang, optimised and not, on one thread and two.
-`./check bits`; what came of it is a row of docs/reliability.md for each task."""
+`./check bits`; what came of it is a row of docs/reliability.md for each task and machine."""
 
 import json
 import platform
@@ -52,9 +52,9 @@ def main():
             for (build, threads), value in hashes.items():
                 print(f"{episode:18} {BUILDS[build]:20} {threads} threads  {value}", flush=True)
             reliability_page.write_row("bits", [
-                episode, hashes["release", 1], "the same" if same else "differ: " + ", ".join(
+                f"{episode}, {machine}", hashes["release", 1], "the same" if same else "differ: " + ", ".join(
                     f"{build} {threads}" for (build, threads), value in hashes.items() if value != hashes["release", 1]),
-                machine, reliability_page.commit(), reliability_page.today()])
+                reliability_page.commit(), reliability_page.today()])
     return 1 if differ else 0
 
 

@@ -294,5 +294,14 @@ TEST_F(CommandLine, ValidateNamesEveryProblem) {
   }
 }
 
+TEST_F(CommandLine, ByItsSchemaAStudyHasNoEmptyLists) {
+  auto properties = nlohmann::json::parse(vantage("schema study").output)["properties"];
+  EXPECT_EQ(properties["report"]["properties"]["groups"]["additionalProperties"]["minItems"], 1);
+  EXPECT_EQ(properties["splits"]["minProperties"], 1);
+  EXPECT_EQ(properties["splits"]["additionalProperties"]["additionalProperties"]["minItems"], 1);
+  EXPECT_EQ(properties["seeds"]["anyOf"][1]["minItems"], 1);
+  EXPECT_TRUE(properties["seeds"]["anyOf"][1]["uniqueItems"].get<bool>());
+}
+
 }  // namespace
 }  // namespace vantage

@@ -110,5 +110,13 @@ TEST_F(Manual, CompletesValues) {
   EXPECT_THAT(offered("vantage run --out \"\""), IsEmpty());  // a file: left to bash
 }
 
+TEST_F(Manual, HasTheNotesOfItsCommands) {
+  EXPECT_THAT(page("view"), HasSubstr("In the window: space pauses"));
+  EXPECT_THAT(page("bound"), HasSubstr("Writes bound.json into the folder"));
+  for (const char* command : {"train", "evaluate", "recognise", "score-views", "dataset"}) {
+    EXPECT_THAT(page(command), HasSubstr("Keys of --set with their defaults")) << command;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

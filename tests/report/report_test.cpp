@@ -478,5 +478,14 @@ TEST(ReportData, Base64) {
   EXPECT_EQ(base64("\xff\xfe"), "//4=");
 }
 
+TEST(Report, AFrameMayBeAJpeg) {
+  const TemporaryDirectory run;
+  support::write_sample_run(run.path());
+  std::filesystem::create_directory(run / "frames");
+  write_file(run / "frames" / "scan_02.jpg", "a");
+  write_file(run / "frames" / "scan_03.txt", "b");
+  EXPECT_EQ(embedded_data(page_of(run))["media"]["frame"], "data:image/jpeg;base64,YQ==");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -180,5 +180,31 @@ TEST(Tasks, AnswerWithoutAnEpisodeThatRan) {
   });
 }
 
+TEST(Tasks, WhatIsLeftToTheSceneIsAutoInDescriptions) {
+  for (const Task& task : {Task(Tabletop{}), Task(Exploration{})}) {
+    int open = 0;
+    for (const KeyDescription& key : describe_episode(task)) {
+      if (key.key == "robot.start_pose") {
+        EXPECT_EQ(key.default_value, "null");
+        EXPECT_THAT(key.type, testing::EndsWith(", or null"));
+      } else if (key.key.starts_with("map.")) {
+        ++open;
+        EXPECT_EQ(key.default_value, "auto") << key.key;
+        EXPECT_THAT(key.type, testing::EndsWith(", or auto")) << key.key;
+      }
+    }
+    EXPECT_EQ(open, 3) << "centre, size and cells";
+  }
+}
+
+TEST(Tasks, ARecognitionHasTheKeysOfItsParts) {
+  std::set<std::string> keys;
+  for (const KeyDescription& key : describe_episode(RecognitionTask{})) keys.insert(key.key);
+  for (const char* key : {"clutter.objects", "map.margin_m", "separation.gap_m",
+                          "separation.min_share", "targets_at_once", "time_limit_s"}) {
+    EXPECT_TRUE(keys.contains(key)) << key;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 namespace vantage {
 namespace {
@@ -76,6 +78,22 @@ TEST(ViewLink, TheFirstFailureIsThrownOnce) {
   link.fail(std::make_exception_ptr(std::logic_error("second")));
   EXPECT_THROW(link.rethrow(), std::runtime_error);
   EXPECT_NO_THROW(link.rethrow());
+}
+
+TEST(ViewLink, WhatWasDrawnIsNoWorkUntilSomethingChanges) {
+  ViewLink link;
+  link.show({1.5}, 0, false);
+  ASSERT_TRUE(link.wait_for_work());
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    ViewControls controls;
+    controls.help = true;
+    link.set_controls(controls);
+  });
+  const auto work = link.wait_for_work();
+  later.join();
+  ASSERT_TRUE(work);
+  EXPECT_TRUE(work->controls.help) << "it has waited for them";
 }
 
 }  // namespace

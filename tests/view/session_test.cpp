@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/support/virtual_display.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/tasks/episode.hpp"
@@ -39,6 +40,17 @@ TEST(ViewSession, EndsAsItsPlayerDoes) {
   EXPECT_EQ(shown(file, [] { return ExitCode::goal_failed; }), ExitCode::goal_failed);
   EXPECT_THROW(shown(file, []() -> ExitCode { throw OutputError("at the very end"); }),
                OutputError);
+}
+
+TEST(ViewSession, AWindowClosesWhereItsPlayerFails) {
+  const support::VirtualDisplay display;
+  const ResolvedEpisode resolved = resolve_episode(parse_yaml("scans: 2", "e.yaml"), "e.yaml");
+  const Player player = [](ViewLink&, PlaybackGate&) -> ExitCode {
+    throw OutputError("on the way");
+  };
+  ViewOptions options;
+  options.size = {64, 48};
+  EXPECT_THROW(show({resolved, "title", std::nullopt}, options, player), OutputError);
 }
 
 }  // namespace

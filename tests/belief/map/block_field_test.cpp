@@ -56,5 +56,24 @@ TEST(GatherNeighbours, WithinNoReachIsTheFieldItself) {
   EXPECT_THAT(gather_neighbours(field, {0.0, 0.0}).per_block, ElementsAre(3.0, 5.0));
 }
 
+TEST(BlockField, GivesACellTheNumberOfItsBlock) {
+  BlockField field{.layout = {.cells = {10, 7, 4}, .blocks = {5, 3, 2}}, .per_block = {}};
+  for (int block = 0; block < 30; ++block) field.per_block.push_back(block);
+  EXPECT_EQ(field.at_cell({9, 2, 1}), 4.0) << "block 4, 0, 0";
+  EXPECT_EQ(field.at_cell({4, 5, 2}), 27.0) << "block 2, 2, 1";
+  EXPECT_EQ(field.at_cell({5, 3, 3}), 22.0) << "block 2, 1, 1";
+}
+
+TEST(GatherNeighbours, ReachesThreeSigmaRoundedUp) {
+  BlockField field{.layout = {.cells = {6, 4, 1}, .blocks = {6, 4, 1}}, .per_block = {}};
+  field.per_block.assign(field.layout.size(), 0.0);
+  field.per_block[0] = 1.0;
+  const BlockField spread = gather_neighbours(field, {1.0, 0.5});
+  EXPECT_DOUBLE_EQ(spread.per_block[3], std::exp(-4.5));
+  EXPECT_EQ(spread.per_block[4], 0.0);
+  EXPECT_DOUBLE_EQ(spread.per_block[2 * 6], std::exp(-8.0));
+  EXPECT_EQ(spread.per_block[3 * 6], 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -297,5 +297,29 @@ TEST(ClutterHazard, ALayerWithoutPriorGoesByItsCountsAloneIfItHasAny) {
   EXPECT_DOUBLE_EQ(hazard.hazard(1), 1.0);
 }
 
+/// From 4.5 m down at 45 degrees to 2 m; of that the floor takes what is below 3.25 m, half of it.
+TEST(ClutterHazard, ABeamThatEndsFarBelowTheFloorIsCutThere) {
+  const OccupancyGrid grid(make_grid_frame({5.0, 0.0, 5.0}, {10.0, 1.0, 10.0}, {10, 1, 10}));
+  CameraImages image;
+  image.width_px = 1;
+  image.height_px = 1;
+  image.focal_px = 1000.0;
+  image.range_max_m = 20.0;
+  image.depth_m = {static_cast<float>(2.5 * std::sqrt(2.0))};
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.translation() = Eigen::Vector3d(0.2, 0.0, 4.5);
+  const double c = std::sqrt(0.5);
+  T_world_camera.linear() << 0.0, -c, c, -1.0, 0.0, 0.0, 0.0, -c, -c;
+  const std::vector<PosedImage> images{{image, T_world_camera}};
+  ClutterHazardOptions options;
+  options.layers = 10;
+  ClutterHazard hazard(options, grid.frame.cells);
+  hazard.observe(grid, images, 1, 3.25);
+  EXPECT_EQ(hazard.crossings(4), 1.0) << "x from 0.2 to 0.7";
+  EXPECT_EQ(hazard.crossings(3), 2.0) << "x from 0.7 to 1.45";
+  EXPECT_EQ(hazard.crossings(2), 0.0);
+  EXPECT_EQ(hazard.hits(3), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -186,5 +186,18 @@ TEST(BlockBox, ReachesTheRimOfAMapThatIsNotSquareAndNoFarther) {
   }
 }
 
+TEST(FloorMapOptions, RejectAWeightThatIsOnlyJustTooSmall) {
+  const double too_small = log_odds_of(kOccupiedAbove);
+  for (double FloorMapOptions::*weight :
+       {&FloorMapOptions::log_odds_hit, &FloorMapOptions::log_odds_miss,
+        &FloorMapOptions::log_odds_limit}) {
+    FloorMapOptions options = metre_cells();
+    options.*weight = too_small;
+    EXPECT_THROW(options.check(), ConfigError);
+    options.*weight = too_small + 1e-3;
+    EXPECT_NO_THROW(options.check());
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -281,5 +281,19 @@ TEST(Headroom, FloorBeyondTheGridIsBlockedButWhereTheRobotHasBeen) {
   EXPECT_EQ(std::ranges::count(detail.blocked, std::uint8_t{1}), 30 * 30 - 20 * 20);
 }
 
+TEST(Headroom, WhatBeginsJustAtTheLowerHeightCounts) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.1, 1.0}, {2.0, 0.2, 2.0}, {10, 1, 8}));
+  std::ranges::fill(grid.log_odds, kFree);
+  set(grid, 2, 1, kOccupied);  // from 0.25 m on
+  set(grid, 6, 1, 0.0F);
+  HeadroomOptions options = kOptions;
+  options.low_m = 0.25;
+  options.seen_low_m = 0.25;
+  options.max_unseen = 0.0;
+  FloorMap floor = free_floor();
+  block_columns(floor, grid, nowhere(floor), options);
+  EXPECT_EQ(row(floor), "....xx......xx......");
+}
+
 }  // namespace
 }  // namespace vantage

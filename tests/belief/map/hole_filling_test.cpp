@@ -173,5 +173,16 @@ TEST(HoleFilling, ACellThatNothingPullsStaysAsObserved) {
   EXPECT_TRUE(filled.converged);
 }
 
+/// The middle of the lower row waits for that of the upper one, and the last cell for both: it is
+/// filled in the second pass, too.
+TEST(HoleFilling, LaterPassesGoOnInIndexOrder) {
+  const Drawing before{"#?#",  //
+                       "#??"};
+  const FilledGrid filled = fill_holes(parse(before), {});
+  EXPECT_EQ(filled.filled_cells, 3U);
+  EXPECT_EQ(filled.passes, 3);
+  EXPECT_EQ(filled.energy, (std::vector{-4.0, -6.0, -14.0, -14.0}));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -84,5 +84,14 @@ TEST(ObstacleDistance, DoesNotDependOnThreads) {
   }
 }
 
+TEST(ObstacleDistance, IsThatToCellsThatAreOnlyJustOccupied) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {5.0, 1.0, 1.0}, {5, 1, 1}));
+  grid.log_odds[1] = kOccupiedLogOdds;
+  grid.log_odds[4] = std::nextafter(kOccupiedLogOdds, 0.0F);
+  const ObstacleDistance distance(grid);
+  const std::vector<int> expected{1, 0, 1, 2, 3};
+  for (std::size_t cell = 0; cell < 5; ++cell) EXPECT_EQ(distance.cells(cell), expected[cell]);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace vantage {
 namespace {
 
@@ -37,6 +39,13 @@ TEST(LogOdds, InvertsProbability) {
   for (const double p : {0.001, 0.3, 0.5, 0.9, 0.999}) {
     EXPECT_NEAR(probability_of(log_odds_of(p)), p, 1e-12);
   }
+}
+
+TEST(OccupancyGrid, JustAtAThresholdACellIsKnown) {
+  EXPECT_EQ(classify(kFreeLogOdds), CellState::free);
+  EXPECT_EQ(classify(kOccupiedLogOdds), CellState::occupied);
+  EXPECT_EQ(classify(std::nextafter(kFreeLogOdds, 0.0F)), CellState::unobserved);
+  EXPECT_EQ(classify(std::nextafter(kOccupiedLogOdds, 0.0F)), CellState::unobserved);
 }
 
 }  // namespace

@@ -200,5 +200,14 @@ TEST_F(OctomapFiles, ACoarseCellIsAsTheMostOccupiedOfItsCells) {
   EXPECT_EQ(test::draw(fine.grid_of(fine.known(), 2)), (std::vector<std::string>{"##"}));
 }
 
+TEST_F(OctomapFiles, WhatIsKnownNeedNotHoldTheOrigin) {
+  const auto away = map({{{10, -20, 30}, 1, true}, {{12, -24, 32}, 2, false}}, 0.5);
+  EXPECT_TRUE((away.known().begin == Eigen::Array3i(10, -24, 30)).all());
+  EXPECT_TRUE((away.known().end == Eigen::Array3i(14, -19, 34)).all());
+  EXPECT_TRUE(away.box_of(away.known())
+                  .isApprox(Eigen::AlignedBox3d(Eigen::Vector3d(5.0, -12.0, 15.0),
+                                                Eigen::Vector3d(7.0, -9.5, 17.0))));
+}
+
 }  // namespace
 }  // namespace vantage

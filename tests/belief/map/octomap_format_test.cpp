@@ -168,5 +168,26 @@ TEST(OctomapFormat, BlanksAndCarriageReturnsAroundHeaderLinesDoNotMatter) {
   EXPECT_EQ(header.nodes, 0U);
 }
 
+TEST(CellBlock, IsJoinedWithAndCutByOthers) {
+  const auto expect_block = [](const CellBlock& block, const Eigen::Array3i& begin,
+                               const Eigen::Array3i& end) {
+    EXPECT_TRUE((block.begin == begin).all()) << block.begin.transpose();
+    EXPECT_TRUE((block.end == end).all()) << block.end.transpose();
+  };
+  const CellBlock block{{-2, 1, 3}, {1, 4, 5}};
+  const CellBlock other{{0, 3, -4}, {6, 4, 4}};
+  EXPECT_EQ(block.count(), 18.0);
+  expect_block(block.joined(other), {-2, 1, -4}, {6, 4, 5});
+  expect_block(block.cut(other), {0, 3, 3}, {1, 4, 4});
+  const CellBlock none{};
+  expect_block(block.joined(none), block.begin, block.end);
+  expect_block(none.joined(block), block.begin, block.end);
+  const CellBlock beside{{1, 1, 3}, {2, 4, 5}};
+  EXPECT_TRUE(block.cut(beside).empty());
+  const CellBlock apart{{5, 7, 3}, {6, 9, 5}};
+  EXPECT_TRUE(block.cut(apart).empty());
+  EXPECT_EQ(block.cut(apart).count(), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -167,5 +167,20 @@ TEST_F(OctomapIo, RefusesWhatIsNotThere) {
   EXPECT_THROW(read_octomap(directory_), InputError);
 }
 
+TEST_F(OctomapIo, ReachesFromTheLowestKeyToTheHighestAndNoFarther) {
+  OccupancyGrid grid = test::parse({".#"});  // two cells of 1 m
+  for (const double from_m : {-32768.0, 32766.0}) {
+    grid.frame.min_corner_m.x() = from_m;
+    write_octomap(grid, directory_ / "rim.bt");
+    const OctomapContent content = read_octomap(directory_ / "rim.bt");
+    EXPECT_EQ(content.box.min().x(), from_m);
+    EXPECT_EQ(content.box.max().x(), from_m + 2.0);
+  }
+  for (const double from_m : {-32769.0, 32767.0}) {
+    grid.frame.min_corner_m.x() = from_m;
+    EXPECT_THROW(write_octomap(grid, directory_ / "rim.bt"), OutputError) << from_m;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

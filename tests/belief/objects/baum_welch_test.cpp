@@ -249,5 +249,48 @@ TEST(BaumWelch, EndsWhereTheLikelihoodHardlyGrowsOrAfterThePassesAllowed) {
   }
 }
 
+/// By 1.25 bins the object was turned by one: either by the command of one bin, 0.75 * 0.8, or by
+/// that of two, a bin short, 0.25 * 0.1.
+TEST(AddExpectedMoves, SharesAMoveBetweenTheCommandsThatMayHaveMadeIt) {
+  const ObjectStates states = test::make_states({0, 0}, 4);
+  const LearnedTransition transition = as_learned(RigidTransition{.slip = 0.2}, 4);
+  const auto certain = [](int state) {
+    Eigen::VectorXd view = Eigen::VectorXd::Constant(8, -kUnlimited);
+    view[state] = 0.0;
+    return view;
+  };
+  const std::vector<ViewStep> sequence{{0.0, certain(0)}, {1.25 * states.bin_rad(), certain(1)}};
+  TransitionCounts counts;
+  counts.slip = Eigen::MatrixXd::Zero(4, 4);
+  EXPECT_NEAR(add_expected_moves(states, transition, sequence, counts), std::log(0.625 / 8.0),
+              kFitTolerance);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(4, 4);
+  expected(0, 1) = 0.6 / 0.625;
+  expected(3, 2) = 0.025 / 0.625;
+  EXPECT_TRUE(counts.slip.isApprox(expected, kFitTolerance)) << counts.slip;
+  EXPECT_NEAR(counts.same_object, 1.0, kFitTolerance);
+  EXPECT_EQ(counts.other_instance, 0.0);
+  EXPECT_EQ(counts.other_category, 0.0);
+}
+
+TEST(AddExpectedMoves, OfViewsThatAreImpossibleOrWithoutMotionAreNone) {
+  const ObjectStates states = test::make_states({0, 0, 1}, 4);
+  const LearnedTransition transition = as_learned(TableTransition{}, 4);
+  const TransitionCounts before = prior_counts(TableTransition{}, 4, 3.0);
+  Rng rng(28);
+  const Eigen::VectorXd first = draw_view(2, 12, 0.8, rng);
+  const Eigen::VectorXd second = draw_view(7, 12, 0.8, rng);
+  const Eigen::VectorXd impossible = Eigen::VectorXd::Constant(12, -kUnlimited);
+  TransitionCounts counts = before;
+  const std::vector<ViewStep> still{{0.0, first}, {0.0, second}};
+  EXPECT_TRUE(std::isfinite(add_expected_moves(states, transition, still, counts)));
+  const std::vector<ViewStep> cut{{0.0, first}, {1.0, second}, {1.0, impossible}};
+  EXPECT_EQ(add_expected_moves(states, transition, cut, counts), -kUnlimited);
+  EXPECT_EQ(counts.slip, before.slip);
+  EXPECT_EQ(counts.same_object, before.same_object);
+  EXPECT_EQ(counts.other_instance, before.other_instance);
+  EXPECT_EQ(counts.other_category, before.other_category);
+}
+
 }  // namespace
 }  // namespace vantage

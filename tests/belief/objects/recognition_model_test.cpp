@@ -303,5 +303,17 @@ TEST_F(RecognitionFile, EndsWithItsNotes) {
   EXPECT_THAT(error_of(sealed(noted + "x")), HasSubstr("has 1 bytes too many"));
 }
 
+TEST_F(RecognitionFile, NamesABlobThatAppearsTwice) {
+  RecognitionModel model = small_model();
+  auto& blobs = model.features[0].blobs;
+  blobs["one"] = "a";
+  blobs["two"] = "b";
+  write_recognition_model(model, path_);
+  std::string bytes = read_file(path_);
+  ASSERT_EQ(error_of(bytes), "");
+  bytes.replace(bytes.find("two"), 3, "one");
+  EXPECT_THAT(error_of(sealed(bytes)), HasSubstr("blob 'one' appears twice"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -131,5 +131,29 @@ TEST(UnknownHypotheses, AreThereOfTwoObjects) {
   EXPECT_THAT(unknown_hypotheses(test::make_states({0, 1}, 2)), ElementsAre(kNoCategory));
 }
 
+TEST(BackgroundDensities, OfTwoDimensionsAreThoseOfEach) {
+  const ObjectStates states = test::make_states({0, 0, 1}, 2);
+  const ObservationModel first = model_of({1.0F, 3.0F, 8.0F}, 0.5F, 0.25F);
+  const ObservationModel second = model_of({-2.0F, 4.0F, 0.0F}, 1.0F, 3.0F);
+  ObservationModel both = first;
+  both.mean.resize(2, 6);
+  both.mean << first.mean, second.mean;
+  both.variance.resize(2, 6);
+  both.variance << first.variance, second.variance;
+  const ObjectMoments moments = object_moments(both, states);
+  ASSERT_EQ(moments.mean.rows(), 2);
+  ASSERT_EQ(moments.mean.cols(), 3);
+  ASSERT_EQ(moments.variance.rows(), 2);
+  ASSERT_EQ(moments.variance.cols(), 3);
+  const auto background_of = [&](const ObservationModel& model) {
+    return background_densities(object_moments(model, states), states, all(3)).gaussians;
+  };
+  const ObservationModel found = background_of(both);
+  EXPECT_TRUE(found.mean.row(0).isApprox(background_of(first).mean, 1e-6F));
+  EXPECT_TRUE(found.mean.row(1).isApprox(background_of(second).mean, 1e-6F));
+  EXPECT_TRUE(found.variance.row(0).isApprox(background_of(first).variance, 1e-6F));
+  EXPECT_TRUE(found.variance.row(1).isApprox(background_of(second).variance, 1e-6F));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -204,5 +204,16 @@ TEST(MakeObservationModel, TakesTheVarianceWithinStatesWhereASingleOneHasTwoView
   EXPECT_FLOAT_EQ(model.variance(0, 1), 2.0F);
 }
 
+TEST(MakeObservationModel, HasALeastVarianceWhereAllViewsAreTheSame) {
+  GaussianStatistics statistics = empty_statistics(1, 2);
+  for (int i = 0; i < 4; ++i) add_view(statistics, i / 2, Eigen::VectorXf::Constant(1, 3.0F));
+  for (const VarianceEstimate& estimate :
+       {VarianceEstimate{ShrunkVariance{}}, VarianceEstimate{LiteralVariance{}}}) {
+    const ObservationModel model = make_observation_model(statistics, 1, estimate);
+    EXPECT_EQ(model.variance(0, 0), 1e-12F);
+    EXPECT_EQ(model.variance(0, 1), 1e-12F);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

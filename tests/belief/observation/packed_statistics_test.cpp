@@ -119,5 +119,13 @@ TEST(PackedStatistics, AreAsFineAsTheMeansThereAre) {
   for (const int j : {0, 1, 3}) EXPECT_NEAR(read.mean(0, j), statistics.mean(0, j), 5e-4) << j;
 }
 
+TEST(PackedStatistics, RefuseAFeatureWithoutDimensions) {
+  std::string bytes;
+  put(bytes, std::int32_t{1});   // views of the only state
+  put(bytes, std::uint32_t{0});  // dimensions
+  ByteReader reader(bytes, "test");
+  EXPECT_THROW(take_packed(reader, 1), InputError);
+}
+
 }  // namespace
 }  // namespace vantage

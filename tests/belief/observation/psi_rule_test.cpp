@@ -239,5 +239,22 @@ TEST(MeanLogPosterior, DoesNotMindHowLargeTheDensitiesOfAViewAre) {
   EXPECT_NEAR(mean_log_posterior(views, psi), expected, 1e-7);
 }
 
+/// All views seem to be of the first of two states, and three in four are.
+TEST(CalibratedPsi, OfTwoStatesMakesTheScoreTheLogOddsOfBeingRight) {
+  for (const float score : {2.0F, 20.0F, 200.0F}) {
+    World world;
+    world.models.push_back(repeating_model(1));
+    world.held_out.state = {0, 0, 0, 1};
+    Eigen::MatrixXf densities(2, 4);
+    densities.row(0).setZero();
+    densities.row(1).setConstant(-score);
+    world.held_out.log_density = {densities};
+    const double psi = CalibratedPsi{}(world.context())[0];
+    EXPECT_NEAR(psi * score, std::log(3.0), 1e-5) << score;
+    EXPECT_NEAR(mean_log_posterior(world.held_out, std::vector{psi}),
+                0.75 * std::log(0.75) + 0.25 * std::log(0.25), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

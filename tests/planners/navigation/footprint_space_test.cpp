@@ -196,5 +196,14 @@ TEST(FootprintSpace, HeadingsGoRound) {
   EXPECT_EQ(space->nearest_heading(7.0), 5);
 }
 
+TEST(FootprintSpace, TheDiscThatARobotStandsOnReachesAsFarAlongEitherAxis) {
+  const RobotOutline robot{.outline = rectangle(0.815, 0.501)};
+  for (const Eigen::Array2i& side :
+       {Eigen::Array2i(1, 0), Eigen::Array2i(0, 1), Eigen::Array2i(-1, 0), Eigen::Array2i(0, -1)}) {
+    EXPECT_FALSE(space_with_a_post(25 * side, robot, {})->may_stand(kMiddleCell)) << "0.2505 m";
+    EXPECT_TRUE(space_with_a_post(26 * side, robot, {})->may_stand(kMiddleCell));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

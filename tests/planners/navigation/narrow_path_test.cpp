@@ -278,5 +278,25 @@ TEST_F(StepsThroughAPassage, ArePulledStraightOnlyWhereEachCornerPasses) {
   EXPECT_EQ(path_through_passages(field, steps, 0.0).legs.at(0).waypoints.size(), 3U);
 }
 
+/// A wall 12 cm beside it. At 0.6 rad it fits where the search has moved that heading to, 8 cm away
+/// from the wall, and not halfway there.
+TEST_F(StepsThroughAPassage, TurnInTwoWhereAHeadingFitsOnlyFartherOn) {
+  const DrawnRooms rooms(3.0, 3.0, {wall(0.0, 1.12, 3.0, 1.3)});
+  NavigationOptions options;
+  options.footprint_radius_m = radius_m_;
+  const PathField field = make_path_field(rooms.floor, {0.7, 1.0, 0.0}, options,
+                                          rooms.space({.outline = rectangle(0.3, 0.2)}, {}));
+  const std::vector<PathStep> steps{{{0.7, 1.0}, 0.0},
+                                    {{1.0, 1.0}, 0.0},
+                                    {{1.0, 0.92}, 0.6},
+                                    {{1.0, 0.92}, 0.8},
+                                    {{1.0, 0.6}, 0.8}};
+  const PlannedPath planned = path_through_passages(field, steps, 0.0);
+  ASSERT_EQ(planned.legs.size(), 4U);
+  expect_pose(planned.legs[1].waypoints.back(), 1.0, 0.92, 0.6);
+  expect_pose(planned.legs[2].waypoints.back(), 1.0, 0.92, 0.8);
+  expect_pose(planned.legs[3].waypoints.back(), 1.0, 0.6, 0.8);
+}
+
 }  // namespace
 }  // namespace vantage

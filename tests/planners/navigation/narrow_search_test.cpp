@@ -192,5 +192,19 @@ TEST_F(Corridor, WhereTheMarginDoesNotFitATightOneIsKept) {
   EXPECT_TRUE(plan_path(narrow, {4.5, 1.0, 0.0}).reaches_goal);
 }
 
+/// A row of sixteen cells: the first nine are narrow, and the first one is far enough from what is
+/// open to be a nook.
+TEST(NarrowSearch, LeadsToANookInTheFirstCellOfAMap) {
+  const DrawnRooms rooms(0.8, 0.05, {wall(0.0, 0.04, 0.45, 0.05)});
+  const FloorOutline outline = rectangle(0.04, 0.02);
+  NavigationOptions options;
+  options.footprint_radius_m = circumscribed_radius_m(outline);
+  options.margin_m = 0.005;
+  const auto space = rooms.space({.outline = outline, .speed_m_s = 0.6},
+                                 {.margin_m = 0.001, .speed_m_s = 0.2, .least_area_m2 = 0.0});
+  const PathField field = make_path_field(rooms.floor, {0.775, 0.025, 0.0}, options, space);
+  EXPECT_NEAR(path_length_m(field, {0.025, 0.025, 0.0}), 6.0 * 0.05 + 9.0 * 0.05 * 3.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

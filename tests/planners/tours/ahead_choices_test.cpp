@@ -286,5 +286,29 @@ TEST(RecedingHorizon, DrawsEitherOfTwoViewsAsOften) {
   EXPECT_NEAR(first, 200, 50);
 }
 
+/// The maps drawn have the same blocks; there the view on the right shows the richer one.
+TEST(Rollout, GoesByWhatViewsShowInTheMapsDrawn) {
+  PlanningProblem problem = on_a_line({5.0, -5.0}, {10.0F, 30.0F});
+  problem.draw = [&problem](Rng&) {
+    return ShownBlocks{problem.cells, {problem.shows[1], problem.shows[0]}};
+  };
+  EXPECT_EQ(order_of(TourChoice{}, problem).front(), 1U);
+  EXPECT_EQ(order_of(Rollout{}, problem).front(), 0U);
+}
+
+TEST(TwoLevelTour, OfViewsThatShowAsMuchTheFirstStandsForItsRegion) {
+  const TwoLevelTour choice{.horizon_s = 5.0, .cover = 1.0, .region_m = 20.0};
+  EXPECT_EQ(order_of(choice, on_a_line({6.0, 7.0}, {3.0F, 3.0F})), test::Order{0});
+  EXPECT_EQ(order_of(choice, on_a_line({7.0, 6.0}, {3.0F, 3.0F})), test::Order{0});
+}
+
+/// The farther view shows nothing.
+TEST(RecedingHorizon, GoesNoFartherThanThereIsSomethingToSee) {
+  const PlanningProblem problem = on_a_line({5.0, 20.0}, {10.0F, 0.0F});
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    EXPECT_EQ(order_of(RecedingHorizon{}, problem, seed), test::Order{0}) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -102,5 +102,11 @@ TEST(NearestOnPath, IsOnTheSegmentsNotAtTheWaypointsAlone) {
   EXPECT_EQ(of_one.at, 0.0);
 }
 
+TEST(ActiveObject, OfTwoThatAreEquallyNearIsTheFirst) {
+  const std::vector<ObservedObject> objects{half_metre_object_at(3.0, 4.0),
+                                            half_metre_object_at(-4.0, 3.0)};
+  EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1), 0U);
+}
+
 }  // namespace
 }  // namespace vantage

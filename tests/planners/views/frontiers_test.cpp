@@ -265,5 +265,21 @@ TEST(FindFrontiers, TakeTheHighestOfTheBandAndRefuseABandOfNoHeight) {
   EXPECT_THROW(find_frontiers(room_without_ceiling(), options), ConfigError);
 }
 
+RC_GTEST_PROP(FindFrontiers, JoinCellsThatTouchInAnyDirection, ()) {
+  const OccupancyGrid grid = any_grid();
+  const auto frontiers = find_frontiers(grid, whole());
+  std::vector<std::size_t> frontier_of(grid.size(), frontiers.size());
+  for (std::size_t i = 0; i < frontiers.size(); ++i) {
+    for (const std::size_t cell : frontiers[i].cells) frontier_of[cell] = i;
+  }
+  const auto cells = frontier_cells(grid, whole());
+  for (const std::size_t a : cells) {
+    for (const std::size_t b : cells) {
+      const int apart = (grid.frame.cell(a) - grid.frame.cell(b)).abs().maxCoeff();
+      RC_ASSERT(apart > 1 || frontier_of[a] == frontier_of[b]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

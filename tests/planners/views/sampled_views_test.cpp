@@ -163,5 +163,21 @@ TEST_F(SampledViewsOnAMap, ALevelWhereALeafEndsIsThatOfWhatIsAbove) {
   EXPECT_EQ(error_of({.height_m = 0.0}, room), "no error");
 }
 
+/// Four numbers each; the first one drawn is taken first.
+TEST_F(SampledViewsOnAMap, AreTakenFromTenTimesAsManyPlaces) {
+  const auto room = map({{{0, 0, 0}, 32, false}});
+  const auto views = sample({.positions = 1, .headings = 1}, room);
+  ASSERT_EQ(views.size(), 1U);
+  Rng rng(1);
+  rng.uniform();  // in which leaf: there is one
+  Eigen::Vector3d place_m;
+  for (int axis = 0; axis < 3; ++axis) place_m[axis] = 3.2 * rng.uniform();
+  for (int k = 0; k < 9 * 4; ++k) rng.uniform();
+  const double yaw_rad = wrap_angle(rng.uniform(0.0, 2.0 * std::numbers::pi));
+  const Pose& T_world_sensor = views.front().T_world_sensor;
+  EXPECT_LT((T_world_sensor.translation() - place_m).norm(), 1e-9);
+  EXPECT_NEAR(project_to_se2(T_world_sensor).yaw_rad, yaw_rad, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -287,5 +287,24 @@ TEST(Pyramids, AreLookedIntoByViewsThatReachThem) {
             (std::vector{true, false, false, false, false, false}));
 }
 
+TEST(SweepTables, HaveTheDepthOfEachBlockAlongEveryAxis) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {4.0, 6.0, 6.0}, {4, 6, 6}));
+  BlockField transmission{.layout = {.cells = grid.frame.cells, .blocks = {2, 3, 3}},
+                          .per_block = {}};
+  for (int i = 0; i < 18; ++i) transmission.per_block.push_back(0.95 - 0.05 * i);
+  const Attenuation attenuation{.transmission = transmission};
+  const SweepTables tables(grid, attenuation, 1);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Eigen::Array3i at = grid.frame.cell(i);
+    const auto depth = static_cast<float>(-std::log(transmission.at_cell(at)));
+    EXPECT_EQ(tables.optical_depth(i), depth) << at.transpose();
+    for (int w = 0; w < 3; ++w) {
+      const SweepAxes axes = sweep_axes(w);
+      EXPECT_EQ(tables.row_of_depths(w, at[axes.v], at[axes.w])[at[axes.u]], depth)
+          << at.transpose() << " along " << w;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

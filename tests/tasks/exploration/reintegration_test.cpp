@@ -292,5 +292,28 @@ TEST(LoopClosing, DisagreesByWhatAPoseMovesAndWhatIsSeenThreeMetresOff) {
   EXPECT_EQ(loops.remembered().size(), 3U);
 }
 
+/// Seen 37 degrees down, 2 m away, where five standard deviations of its height are 21 mm. The map
+/// begins 5 mm above the floor.
+TEST(ExplorationBelief, TakesForTheFloorWhatIsNoHigherThanItsError) {
+  Rooms rooms(1);
+  rooms.task.map.centre_m = {0.0, 0.0, 1.005};
+  rooms.task.stride_px = 1;
+  for (const double height_m : {0.019, 0.023}) {
+    CameraImages image{.width_px = 3,
+                       .height_px = 3,
+                       .focal_px = 100.0,
+                       .range_max_m = 3.5,
+                       .rgb = {},
+                       .depth_m = std::vector<float>(9, 0.0F)};
+    image.depth_m[4] = 2.0F;
+    Pose T_base_camera = Pose::Identity();
+    T_base_camera.translation() = Eigen::Vector3d(-0.0375, 0.0625, 1.2 + height_m);
+    T_base_camera.linear() << 0.0, -0.6, 0.8, -1.0, 0.0, 0.0, 0.0, -0.8, -0.6;
+    ExplorationBelief belief(rooms.episode, rooms.task);
+    belief.update({image, T_base_camera}, Pose2{});
+    EXPECT_EQ(belief.grid().count(CellState::occupied), height_m > 0.021 ? 1U : 0U) << height_m;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/flight/two_objects.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/object_flight/object_flight_recorder.hpp"
 #include "vantage/tasks/object_flight/object_on_table.hpp"
 #include "vantage/tasks/object_flight/target_tour.hpp"
 
@@ -168,6 +172,30 @@ TEST(ObjectOnTable, StandsAnywhereOnTheDisc) {
   }
   EXPECT_NEAR(inner, 0.5 * kDraws, 150);
   EXPECT_NEAR(right, 0.5 * kDraws, 150);
+}
+
+TEST(ObjectFlightRecorder, KeepsNoImagesEventsOrSceneIfLean) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "scene.xml",
+             "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
+  const ModelSource source{folder / "scene.xml", {}};
+  World world(source);
+  const EpisodeSetup setup{};
+  RunOptions options;
+  options.directory = folder / "run";
+  options.lean = true;
+  const RunRequest request{setup, "recognition", "star", "a: 1\n", {}, options};
+  const EpisodeRun run(request);
+  const auto at_origin = [] { return make_pose({0.0, 0.0, 1.0}, 0.0); };
+  ObjectFlightRecorder recorder(
+      run, {.world = world, .T_world_body = at_origin, .T_world_estimated = at_origin}, 8, false);
+  recorder.observation({}, 1, {}, std::nullopt);
+  recorder.commit();
+  EXPECT_TRUE(std::filesystem::exists(options.directory / "steps.csv"));
+  for (const char* name : {"views", "story.bin", "scene.bin", "candidates.csv", "states.bin"}) {
+    EXPECT_FALSE(std::filesystem::exists(options.directory / name)) << name;
+  }
+  release_run_directory(options.directory);
 }
 
 }  // namespace

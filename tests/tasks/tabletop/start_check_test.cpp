@@ -213,5 +213,15 @@ TEST(ValidateExploration, TheFloorMapHoldsTheMap) {
               testing::Not(testing::Contains(HasSubstr("floor_map"))));
 }
 
+/// On a circle of 0.6 m the laser looks inwards, and the base's middle is 12 cm behind it.
+TEST(ValidateTableTop, ViewsOffTheFloorMapAreAsFarAsTheyAre) {
+  const OwnScene scene(table_at(0.0, 0.0, 0.72, 0.2, 0.2));
+  const Validation found =
+      validated("tabletop", scene, {"candidates.radius_m=0.6", "floor_map.half_size_m=0.6"});
+  EXPECT_THAT(problem(found),
+              AllOf(HasSubstr("floor_map.half_size_m: 0.6 ends"),
+                    HasSubstr("0.72 m from the world's origin"), HasSubstr("2.0 would do")));
+}
+
 }  // namespace
 }  // namespace vantage

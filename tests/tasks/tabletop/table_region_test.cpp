@@ -75,5 +75,21 @@ TEST(TableRegion, OverTheOriginComesBeforeTheLargest) {
   EXPECT_FALSE(table_among({}));
 }
 
+TEST(TableRegion, BesideTheOriginIsNotOverIt) {
+  const auto square = [](double x_m, double y_m, const char* name) {
+    return LevelSurface{
+        {Eigen::Vector2d(x_m - 0.5, y_m - 0.5), Eigen::Vector2d(x_m + 0.5, y_m + 0.5)},
+        0.7,
+        1.0,
+        name};
+  };
+  const LevelSurface here = square(0.3, -0.3, "here");
+  for (const auto& [x_m, y_m] : {std::pair(0.0, 1.0), {1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}}) {
+    const LevelSurface beside = square(x_m, y_m, "beside");
+    EXPECT_EQ(table_among({beside, here})->name, "here") << x_m << " " << y_m;
+    EXPECT_EQ(table_among({beside, square(3.0, 3.0, "far")})->name, "beside") << "the largest";
+  }
+}
+
 }  // namespace
 }  // namespace vantage

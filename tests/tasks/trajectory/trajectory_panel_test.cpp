@@ -8,6 +8,7 @@
 
 #include "tests/tasks/drawn_pixels.hpp"
 #include "tests/tasks/flight/two_objects.hpp"
+#include "vantage/core/rng.hpp"
 #include "vantage/runtime/drawing/panel_style.hpp"
 
 namespace vantage {
@@ -101,6 +102,35 @@ TEST(TrajectoryPanel, ShowsTheImageAsLargeAsItFits) {
   }
   for (const cv::Point beside : Points{{200, 76}, {200, 280}}) {
     EXPECT_TRUE(is_coloured(panel, beside, panel::kCard)) << beside;
+  }
+}
+
+/// Seen from (1.9, 1.2) m, at (288, 458) px; what was seen tells nothing.
+TEST(TrajectoryPanel, ShowsFromWhereAnObjectWasObserved) {
+  const TrainedFeature colour(Colour{}, 0.0);
+  ObservationModel model;
+  model.feature = "colour";
+  model.mean = Eigen::MatrixXf::Zero(colour.dimension(), 8);
+  model.variance = Eigen::MatrixXf::Ones(colour.dimension(), 8);
+  const Recogniser recogniser =
+      make_recogniser(support::recogniser_of_two().states, {{colour, model}}, 1);
+  ObjectObservations observations(recogniser, {}, RigidTransition{});
+  observations.found(7, {1.0, 1.2, 0.8});
+  ObjectView view;
+  view.width_px = view.height_px = 12;
+  view.rgb.assign(432, 90);
+  view.depth_m.assign(144, 1.0F);
+  view.mask.assign(144, 1);
+  Rng rng(1);
+  observations.take(7, {}, view, make_pose({1.9, 1.2, 1.8}, 0.0), 1.0, rng);
+  const TrajectoryPanelInput input{
+      .observations = observations, .nominal = kNominal, .plan = kPlan, .at = 1};
+  const cv::Mat panel = draw_trajectory_panel(input, {}, {640, 720});
+  EXPECT_TRUE(is_coloured(panel, {288, 458}, kNotKnown));
+  EXPECT_TRUE(is_coloured(panel, {282, 458}, panel::kCard)) << "a small dot";
+  EXPECT_TRUE(is_near(panel, {237, 458}, kNotKnown)) << "that direction is used";
+  for (const cv::Point ray : Points{{179, 458}, {208, 429}, {208, 487}}) {
+    EXPECT_TRUE(is_near(panel, ray, panel::kFaint)) << ray;
   }
 }
 
