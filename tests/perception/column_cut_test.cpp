@@ -156,11 +156,17 @@ Pose overhead() {
   return T;
 }
 
-TEST(PlaceOfColumn, IsItsProjectionWithAMargin) {
+/// Without depth: a place needs none.
+CameraImages wide_image() {
   CameraImages images;
   images.width_px = 401;
   images.height_px = 301;
   images.focal_px = 150.0;
+  return images;
+}
+
+TEST(PlaceOfColumn, IsItsProjectionWithAMargin) {
+  const CameraImages images = wide_image();
   const ObjectSegmentationOptions options{.radius_m = 0.2, .max_height_m = 0.5};
   // The column's top is 1.5 m away: 0.5 m and 0.1 m are 50 px and 10 px, 0.2 m are 20 px.
   const cv::Rect place = place_of_column(images, overhead(), {0.5, 0.1, 0.5}, options);
@@ -279,10 +285,7 @@ TEST(HeightsOver, GoOnBehindWhatWasNotMeasured) {
 }
 
 TEST(PlaceOfColumn, BeginsFiveCentimetresBelowTheTableAndTenBeforeTheCamera) {
-  CameraImages images;
-  images.width_px = 401;
-  images.height_px = 301;
-  images.focal_px = 150.0;
+  const CameraImages images = wide_image();
   const ObjectSegmentationOptions options{.radius_m = 0.2, .max_height_m = 0.5};
   // 0.314 m at 2.05 m are 22.98 px, at 2.025 m they would be 23.26.
   EXPECT_EQ(place_of_column(images, overhead(), {0.514, 0.115, 0.5}, options),

@@ -164,25 +164,37 @@ TEST(ObjectAmongOthers, ItsShapeIsAsWideAndAsHighAsWasEverSeen) {
   EXPECT_EQ(high.shape->height_m, 0.3);
 }
 
-/// 60 x 50 px from 2 m straight above the table: a block of 12 x 10 px, 10 cm high, and before its
-/// upper edge, higher than any object, something of 4 x 5 px.
-Drawn half_covered_block() {
+/// 2 m straight above this place of the table.
+Pose above_table(double x_m, double y_m) {
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = kTable_m + Vector3d(x_m, y_m, 2.0);
+  return T_world_camera;
+}
+
+/// An image of 60 x 50 px from 2 m straight above the table: a block of 12 x 10 px, 10 cm high.
+Drawn block_at(int left, int top) {
   Drawn drawn;
   drawn.images.width_px = 60;
   drawn.images.height_px = 50;
   drawn.images.focal_px = 100.0;
   drawn.images.depth_m.assign(3000, 2.0F);
   cv::Mat1f depth_m(50, 60, drawn.images.depth_m.data());
-  depth_m(cv::Rect(24, 20, 12, 10)) = 1.9F;
+  depth_m(cv::Rect(left, top, 12, 10)) = 1.9F;
+  return drawn;
+}
+
+/// Before its upper edge, higher than any object, something of 4 x 5 px.
+Drawn half_covered_block() {
+  Drawn drawn = block_at(24, 20);
+  cv::Mat1f depth_m(50, 60, drawn.images.depth_m.data());
   depth_m(cv::Rect(28, 19, 4, 5)) = 1.0F;
   return drawn;
 }
 
 /// The median takes the corners off both.
 TEST(ObjectAmongOthers, WhatIsBeforeItsEdgeLeavesTheRestOfItToThePixel) {
-  Pose T_world_camera = Pose::Identity();
-  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  T_world_camera.translation() = kTable_m + Vector3d(0.0, 0.0, 2.0);
+  const Pose T_world_camera = above_table(0.0, 0.0);
   const ObjectAmongOthers object = found(half_covered_block(), T_world_camera, {},
                                          {.min_pixels = 102, .mask_growth_px = 1, .margin_px = 0});
   ASSERT_TRUE(object.object.view) << object.object.reason;
@@ -202,19 +214,9 @@ TEST(ObjectAmongOthers, WhatIsBeforeItsEdgeLeavesTheRestOfItToThePixel) {
   EXPECT_NEAR(object.shape->height_m, 0.1, 1e-6);
 }
 
-/// A block of 12 x 10 px at this place of an image of 60 x 50 px from 2 m straight above the table.
 std::ptrdiff_t cut_off_of_block_at(int left, int top) {
-  Drawn drawn;
-  drawn.images.width_px = 60;
-  drawn.images.height_px = 50;
-  drawn.images.focal_px = 100.0;
-  drawn.images.depth_m.assign(3000, 2.0F);
-  cv::Mat1f depth_m(50, 60, drawn.images.depth_m.data());
-  depth_m(cv::Rect(left, top, 12, 10)) = 1.9F;
-  Pose T_world_camera = Pose::Identity();
-  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  T_world_camera.translation() = kTable_m + Vector3d(0.02 * (24 - left), 0.02 * (top - 20), 2.0);
-  const ObjectAmongOthers object = found(drawn, T_world_camera);
+  const ObjectAmongOthers object =
+      found(block_at(left, top), above_table(0.02 * (24 - left), 0.02 * (top - 20)));
   EXPECT_TRUE(object.object.view) << object.object.reason;
   return object.object.view ? cut_off_pixels(*object.object.view) : -1;
 }

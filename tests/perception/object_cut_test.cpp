@@ -101,14 +101,20 @@ TEST(ObjectCut, APictureWithoutDepthHasNoObject) {
   EXPECT_FALSE(cut.reason.empty());
 }
 
-/// From 0.6 m above a table, looking down by 0.7 rad, without noise.
-ObjectView leaning_table(int width_px = 160, int height_px = 120) {
+/// Without depth yet.
+ObjectView grey_picture(int width_px, int height_px) {
   ObjectView view;
   view.width_px = width_px;
   view.height_px = height_px;
   view.focal_px = 150.0;
   view.centre_px = {0.5 * width_px, 0.5 * height_px};
   view.rgb.assign(std::size_t{3} * width_px * height_px, 9);
+  return view;
+}
+
+/// From 0.6 m above a table, looking down by 0.7 rad, without noise.
+ObjectView leaning_table(int width_px = 160, int height_px = 120) {
+  ObjectView view = grey_picture(width_px, height_px);
   const Eigen::Vector3d up = up_in_camera(0.7);
   for (int row = 0; row < height_px; ++row) {
     for (int column = 0; column < width_px; ++column) {
@@ -239,12 +245,7 @@ struct InFront {
 
 /// A wall 4 m away that the camera looks straight at, and rectangles parallel to it before it.
 ObjectView before_a_wall(int width_px, int height_px, const std::vector<InFront>& things) {
-  ObjectView view;
-  view.width_px = width_px;
-  view.height_px = height_px;
-  view.focal_px = 150.0;
-  view.centre_px = {0.5 * width_px, 0.5 * height_px};
-  view.rgb.assign(std::size_t{3} * width_px * height_px, 9);
+  ObjectView view = grey_picture(width_px, height_px);
   view.depth_m.assign(std::size_t{1} * width_px * height_px, 4.0F);
   for (const InFront& thing : things) {
     for (int row = thing.place.y; row < thing.place.br().y; ++row) {

@@ -211,20 +211,30 @@ TEST(ClutterHazard, ABeamOfAnImageWithoutReturnGoesAsFarAsTheRange) {
   EXPECT_EQ(hazard.hits(0), 0.0);
 }
 
-/// A beam that comes down at 45 degrees from 4.5 m to the floor, in cells of 1 m.
-TEST(ClutterHazard, TheFloorIsNoClutter) {
-  OccupancyGrid grid(make_grid_frame({5.0, 0.0, 5.0}, {10.0, 1.0, 10.0}, {10, 1, 10}));
+/// A beam that comes down at 45 degrees from 4.5 m, so far.
+CameraImages beam_down(double drop_m) {
   CameraImages image;
   image.width_px = 1;
   image.height_px = 1;
   image.focal_px = 1000.0;
   image.range_max_m = 20.0;
-  image.depth_m = {static_cast<float>(4.49 * std::sqrt(2.0))};
+  image.depth_m = {static_cast<float>(drop_m * std::sqrt(2.0))};
+  return image;
+}
+
+Pose camera_of_beam_down() {
   Pose T_world_camera = Pose::Identity();
   T_world_camera.translation() = Eigen::Vector3d(0.2, 0.0, 4.5);
   const double c = std::sqrt(0.5);
   T_world_camera.linear() << 0.0, -c, c, -1.0, 0.0, 0.0, 0.0, -c, -c;
-  const std::vector<PosedImage> images{{image, T_world_camera}};
+  return T_world_camera;
+}
+
+/// A beam down to the floor, in cells of 1 m.
+TEST(ClutterHazard, TheFloorIsNoClutter) {
+  OccupancyGrid grid(make_grid_frame({5.0, 0.0, 5.0}, {10.0, 1.0, 10.0}, {10, 1, 10}));
+  const CameraImages image = beam_down(4.49);
+  const std::vector<PosedImage> images{{image, camera_of_beam_down()}};
   ClutterHazard taken_for_clutter({.layers = 10}, grid.frame.cells);
   taken_for_clutter.observe(grid, images, 1, 0.0);
   EXPECT_EQ(taken_for_clutter.hits(0), 1.0);
@@ -300,17 +310,8 @@ TEST(ClutterHazard, ALayerWithoutPriorGoesByItsCountsAloneIfItHasAny) {
 /// From 4.5 m down at 45 degrees to 2 m; of that the floor takes what is below 3.25 m, half of it.
 TEST(ClutterHazard, ABeamThatEndsFarBelowTheFloorIsCutThere) {
   const OccupancyGrid grid(make_grid_frame({5.0, 0.0, 5.0}, {10.0, 1.0, 10.0}, {10, 1, 10}));
-  CameraImages image;
-  image.width_px = 1;
-  image.height_px = 1;
-  image.focal_px = 1000.0;
-  image.range_max_m = 20.0;
-  image.depth_m = {static_cast<float>(2.5 * std::sqrt(2.0))};
-  Pose T_world_camera = Pose::Identity();
-  T_world_camera.translation() = Eigen::Vector3d(0.2, 0.0, 4.5);
-  const double c = std::sqrt(0.5);
-  T_world_camera.linear() << 0.0, -c, c, -1.0, 0.0, 0.0, 0.0, -c, -c;
-  const std::vector<PosedImage> images{{image, T_world_camera}};
+  const CameraImages image = beam_down(2.5);
+  const std::vector<PosedImage> images{{image, camera_of_beam_down()}};
   ClutterHazardOptions options;
   options.layers = 10;
   ClutterHazard hazard(options, grid.frame.cells);

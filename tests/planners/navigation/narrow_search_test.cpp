@@ -141,22 +141,27 @@ TEST_F(Corridor, ANearlySquareRobotBacksWhereAheadIsNoWayOut) {
   EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "open behind";
 }
 
-/// A row of eight cells of 5 cm: the first is open, the next four are narrow, where a metre counts
-/// for three.
-TEST(NarrowSearch, BeginsAndEndsInTheFirstCellOfAMap) {
-  const DrawnRooms rooms(0.4, 0.05, {wall(0.05, 0.04, 0.25, 0.05)});
+/// Of a robot of 4 x 2 cm, whose passages have a third of its speed.
+PathField small_robots_field(const DrawnRooms& rooms, const Pose2& start) {
   const FloorOutline outline = rectangle(0.04, 0.02);
   NavigationOptions options;
   options.footprint_radius_m = circumscribed_radius_m(outline);
   options.margin_m = 0.005;
   const auto space = rooms.space({.outline = outline, .speed_m_s = 0.6},
                                  {.margin_m = 0.001, .speed_m_s = 0.2, .least_area_m2 = 0.0});
+  return make_path_field(rooms.floor, start, options, space);
+}
+
+/// A row of eight cells of 5 cm: the first is open, the next four are narrow, where a metre counts
+/// for three.
+TEST(NarrowSearch, BeginsAndEndsInTheFirstCellOfAMap) {
+  const DrawnRooms rooms(0.4, 0.05, {wall(0.05, 0.04, 0.25, 0.05)});
   const Pose2 first{0.025, 0.025, 0.0};
   const Pose2 last{0.375, 0.025, 0.0};
   const double length_m = 5.0 * 0.05 * 3.0 + 2.0 * 0.05;
-  const PathField there = make_path_field(rooms.floor, first, options, space);
+  const PathField there = small_robots_field(rooms, first);
   EXPECT_NEAR(path_length_m(there, last), length_m, 1e-6);
-  const PathField back = make_path_field(rooms.floor, last, options, space);
+  const PathField back = small_robots_field(rooms, last);
   EXPECT_NEAR(path_length_m(back, first), length_m, 1e-6);
   const std::vector<Eigen::Vector2d> places{position(first), position(last)};
   EXPECT_NEAR(path_lengths_m(there, places, 1)(0, 1), length_m, 1e-5);
@@ -196,13 +201,7 @@ TEST_F(Corridor, WhereTheMarginDoesNotFitATightOneIsKept) {
 /// open to be a nook.
 TEST(NarrowSearch, LeadsToANookInTheFirstCellOfAMap) {
   const DrawnRooms rooms(0.8, 0.05, {wall(0.0, 0.04, 0.45, 0.05)});
-  const FloorOutline outline = rectangle(0.04, 0.02);
-  NavigationOptions options;
-  options.footprint_radius_m = circumscribed_radius_m(outline);
-  options.margin_m = 0.005;
-  const auto space = rooms.space({.outline = outline, .speed_m_s = 0.6},
-                                 {.margin_m = 0.001, .speed_m_s = 0.2, .least_area_m2 = 0.0});
-  const PathField field = make_path_field(rooms.floor, {0.775, 0.025, 0.0}, options, space);
+  const PathField field = small_robots_field(rooms, {0.775, 0.025, 0.0});
   EXPECT_NEAR(path_length_m(field, {0.025, 0.025, 0.0}), 6.0 * 0.05 + 9.0 * 0.05 * 3.0, 1e-6);
 }
 
