@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -69,10 +70,18 @@ int fail_internally(const std::exception& error) {
   return fail(vantage::ExitCode::internal, std::string("internal error: ") + error.what());
 }
 
+/// What is freed stays with the process: a decision in an office makes 70 MB of tables anew, and
+/// their pages, asked of the kernel each time, are 5 % of the episode.
+void keep_freed_memory() {
+  constexpr int kBytes = 1 << 30;
+  if (mallopt(M_MMAP_THRESHOLD, kBytes) == 1) mallopt(M_TRIM_THRESHOLD, kBytes);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is a write error like any other
+  keep_freed_memory();
   vantage::remember_command_line(argc, argv);
   try {
     // What `vantage dataset render` and `vantage train --recipe` start to render by; not for
