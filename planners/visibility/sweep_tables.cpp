@@ -9,6 +9,9 @@
 namespace vantage {
 namespace {
 
+/// Edge of the tiles in which a slice is turned, in cells: a line of the cache each way.
+constexpr std::size_t kTile = 16;
+
 /// Copies what the region has of a z slice, x fastest, to its places in the layers of equal x and
 /// of equal y.
 void distribute(const GridFrame& frame, const CellRegion& region, std::size_t z, const float* slice,
@@ -24,9 +27,12 @@ void distribute(const GridFrame& frame, const CellRegion& region, std::size_t z,
     std::copy(slice + y * nx + x_begin, slice + y * nx + x_end,
               y_layers + (y * nz + z) * nx + x_begin);
   }
-  for (std::size_t x = x_begin; x < x_end; ++x) {
-    float* row = x_layers + (x * nz + z) * ny;
-    for (std::size_t y = y_begin; y < y_end; ++y) row[y] = slice[y * nx + x];
+  for (std::size_t y_tile = y_begin; y_tile < y_end; y_tile += kTile) {
+    const std::size_t y_last = std::min(y_tile + kTile, y_end);
+    for (std::size_t x = x_begin; x < x_end; ++x) {
+      float* row = x_layers + (x * nz + z) * ny;
+      for (std::size_t y = y_tile; y < y_last; ++y) row[y] = slice[y * nx + x];
+    }
   }
 }
 

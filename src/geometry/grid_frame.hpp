@@ -64,6 +64,24 @@ struct SegmentClip {
 SegmentClip clip_segment(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p0,
                          const Eigen::Vector3d& p1);
 
+/// Where a walk along a ray is on one axis.
+struct AxisWalk {
+  int cell = 0;
+  int goal = 0;
+  int step = 0;
+  std::ptrdiff_t stride = 0;                                ///< of the index, of a step
+  double t_next = std::numeric_limits<double>::infinity();  ///< of the next boundary
+  double t_delta = 0.0;
+
+  /// @return what the index changes by. Without a branch: which axis is next is hard to foretell.
+  std::ptrdiff_t advance(bool taken) {
+    cell += taken ? step : 0;
+    const double after = cell == goal ? std::numeric_limits<double>::infinity() : t_next + t_delta;
+    t_next = taken ? after : t_next;
+    return taken ? stride : 0;
+  }
+};
+
 /// Calls `visit(cell index)`, or `visit(cell index, cell)`, for each grid cell the segment from
 /// `p_from` to `p_to` passes, in order, the cell of `p_to` included; stops early when `visit`
 /// returns false. Parts of the segment outside the grid are skipped. [AmanatidesWoo1987]
@@ -88,35 +106,34 @@ bool walk_ray(const GridFrame& grid, const Eigen::Vector3d& p_from, const Eigen:
   Eigen::Array3i cell = grid.cell_at(p_start).max(0).min(last_cell);
   const Eigen::Array3i goal = grid.cell_at(p_end).max(0).min(last_cell);
 
-  std::array<int, 3> step{};
-  std::array<double, 3> t_next{};
-  std::array<double, 3> t_delta{};
+  const std::array<std::ptrdiff_t, 3> stride{1, grid.cells.x(),
+                                             std::ptrdiff_t{grid.cells.x()} * grid.cells.y()};
+  std::array<AxisWalk, 3> walk;
   int remaining = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    step[axis] = goal[axis] > cell[axis] ? 1 : (goal[axis] < cell[axis] ? -1 : 0);
+    AxisWalk& along = walk[static_cast<std::size_t>(axis)];
+    along.cell = cell[axis];
+    along.goal = goal[axis];
+    along.step = goal[axis] > cell[axis] ? 1 : (goal[axis] < cell[axis] ? -1 : 0);
+    along.stride = along.step * stride[static_cast<std::size_t>(axis)];
     remaining += std::abs(goal[axis] - cell[axis]);
-    if (step[axis] == 0) {
-      t_next[axis] = std::numeric_limits<double>::infinity();
-      continue;
-    }
+    if (along.step == 0) continue;
     const double boundary =
-        grid.min_corner_m[axis] + (cell[axis] + (step[axis] > 0 ? 1 : 0)) * grid.cell_size_m[axis];
-    t_next[axis] = (boundary - p_from[axis]) / d[axis];
-    t_delta[axis] = grid.cell_size_m[axis] / std::abs(d[axis]);
+        grid.min_corner_m[axis] + (cell[axis] + (along.step > 0 ? 1 : 0)) * grid.cell_size_m[axis];
+    along.t_next = (boundary - p_from[axis]) / d[axis];
+    along.t_delta = grid.cell_size_m[axis] / std::abs(d[axis]);
   }
-  const auto nx = static_cast<std::ptrdiff_t>(grid.cells.x());
-  const std::array<std::ptrdiff_t, 3> stride{1, nx, nx * grid.cells.y()};
+  auto [x, y, z] = walk;
   auto index = static_cast<std::ptrdiff_t>(grid.index(cell));
   for (; remaining > 0; --remaining) {
-    if (!go_on(index, cell)) return false;
-    int axis = t_next[0] < t_next[1] ? 0 : 1;
-    if (t_next[2] < t_next[axis]) axis = 2;
-    cell[axis] += step[axis];
-    index += step[axis] * stride[static_cast<std::size_t>(axis)];
-    t_next[axis] = cell[axis] == goal[axis] ? std::numeric_limits<double>::infinity()
-                                            : t_next[axis] + t_delta[axis];
+    if (!go_on(index, {x.cell, y.cell, z.cell})) return false;
+    const bool x_first = x.t_next < y.t_next;
+    const bool step_z = z.t_next < (x_first ? x.t_next : y.t_next);
+    index += x.advance(x_first && !step_z);
+    index += y.advance(!x_first && !step_z);
+    index += z.advance(step_z);
   }
-  return go_on(index, cell);
+  return go_on(index, {x.cell, y.cell, z.cell});
 }
 
 }  // namespace vantage

@@ -48,7 +48,11 @@ const std::vector<Eigen::Vector3f>& KdTree::points() const { return impl_->adapt
 std::optional<Neighbour> KdTree::nearest(const Eigen::Vector3f& p, double max_distance_m) const {
   if (size() == 0) return std::nullopt;
   Neighbour found;
-  impl_->index.knnSearch(p.data(), 1, &found.index, &found.distance2_m2);
+  nanoflann::KNNResultSet<float> closest(1);
+  closest.init(&found.index, &found.distance2_m2);
+  // What is farther is not searched; a little more than asked for, as nodes' distances are rounded.
+  found.distance2_m2 = static_cast<float>(1.001 * max_distance_m * max_distance_m);
+  impl_->index.findNeighbors(closest, p.data(), {});
   if (found.distance2_m2 > max_distance_m * max_distance_m) return std::nullopt;
   return found;
 }

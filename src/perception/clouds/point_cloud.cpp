@@ -112,6 +112,7 @@ void append(PointCloud& cloud, const PointCloud& more) {
 PointCloud voxel_downsample(const PointCloud& cloud, double cell_m) {
   expects(cell_m > 0.0, "a voxel has a size");
   std::unordered_map<Voxel, std::size_t, VoxelHash> slots;
+  slots.reserve(cloud.size());
   std::vector<VoxelSum> sums;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const auto [slot, is_new] = slots.try_emplace(voxel_of(cloud.points[i], cell_m), sums.size());

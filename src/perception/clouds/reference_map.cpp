@@ -18,6 +18,7 @@ void ReferenceMap::remember(const PlanarScan& scan, double scanner_height_m,
     seen = select(seen, novel);
   }
   append(cloud_, seen);
+  walls_ = std::make_shared<const UprightMap>(make_upright_map(cloud_, options_));
   posts_.remember(find_posts(scan, options_.posts), T_world_base);
 }
 
@@ -27,7 +28,7 @@ RegistrationResult ReferenceMap::locate(const PlanarScan& scan, double scanner_h
   result.T_world_base = guess;
   result.reason = "no wall is known yet";
   if (!cloud_.empty()) {
-    result = register_scan(prepare(scan, scanner_height_m), cloud_, guess, options_, plausible);
+    result = register_scan(prepare(scan, scanner_height_m), *walls_, guess, options_, plausible);
   }
   if (!result.converged && by_posts_) locate_by_posts(scan, plausible, result);
   return result;

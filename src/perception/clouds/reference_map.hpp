@@ -1,6 +1,8 @@
 /// Reference map for localisation: scans of the planar scanner from known poses.
 #pragma once
 
+#include <memory>
+
 #include "vantage/perception/clouds/registration.hpp"
 
 namespace vantage {
@@ -33,7 +35,8 @@ class ReferenceMap {
 
   RegistrationOptions options_;
   double novelty_m_;
-  PointCloud cloud_;  ///< world, with normals
+  PointCloud cloud_;                         ///< world, with normals
+  std::shared_ptr<const UprightMap> walls_;  ///< of it; none while it is empty
   PostMap posts_;
   bool by_posts_ = false;
 };

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "vantage/perception/clouds/kd_tree.hpp"
-
 namespace vantage {
 namespace {
 
@@ -17,12 +15,6 @@ struct Correspondence {
   Eigen::Vector3d lever;   ///< from the base to the scan point
   Eigen::Vector3d normal;  ///< of the map
   double residual_m;       ///< signed distance of the scan point from the map's plane
-};
-
-/// The surfaces of the map that tell something of x, y and yaw.
-struct UprightMap {
-  std::vector<Eigen::Vector3f> normals;
-  KdTree tree;
 };
 
 struct Step {
@@ -227,21 +219,18 @@ std::string rejection_reason(const RegistrationResult& result, const Pose2& gues
   return {};
 }
 
-RegistrationResult register_from(const PointCloud& scan_base, const PointCloud& map_world,
+RegistrationResult register_from(const PointCloud& scan_base, const UprightMap& map,
                                  const Pose2& T_world_base_guess, const PosePrior* prior,
                                  const RegistrationOptions& options, const Correction& plausible) {
-  expects(map_world.empty() || map_world.has_normals(), "the map's cloud needs normals");
   RegistrationResult result;
   result.T_world_base = T_world_base_guess;
-  PointCloud upright_map = upright_part(map_world, options.max_normal_z);
   const PointCloud scan =
       upright_part(voxel_downsample(scan_base, options.voxel_m), options.max_normal_z);
-  if (upright_map.empty() || scan.empty()) {
+  if (map.tree.size() == 0 || scan.empty()) {
     result.reason =
-        upright_map.empty() ? "the map has no upright surface" : "the scan has no upright surface";
+        map.tree.size() == 0 ? "the map has no upright surface" : "the scan has no upright surface";
     return result;
   }
-  const UprightMap map{std::move(upright_map.normals), KdTree(std::move(upright_map.points))};
   iterate(scan, map, options, prior, result);
   if (result.reason.empty()) {
     result.reason = rejection_reason(result, T_world_base_guess, options, plausible);
@@ -269,16 +258,30 @@ PointCloud prepare_scan(const PointCloud& cloud, const Eigen::Vector3d& p_viewpo
   return thin;
 }
 
+UprightMap make_upright_map(const PointCloud& map_world, const RegistrationOptions& options) {
+  expects(map_world.empty() || map_world.has_normals(), "the map's cloud needs normals");
+  PointCloud upright = upright_part(map_world, options.max_normal_z);
+  return {std::move(upright.normals), KdTree(std::move(upright.points))};
+}
+
+RegistrationResult register_scan(const PointCloud& scan_base, const UprightMap& map,
+                                 const Pose2& T_world_base_guess,
+                                 const RegistrationOptions& options, const Correction& plausible) {
+  return register_from(scan_base, map, T_world_base_guess, nullptr, options, plausible);
+}
+
 RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& map_world,
                                  const Pose2& T_world_base_guess,
                                  const RegistrationOptions& options, const Correction& plausible) {
-  return register_from(scan_base, map_world, T_world_base_guess, nullptr, options, plausible);
+  return register_scan(scan_base, make_upright_map(map_world, options), T_world_base_guess, options,
+                       plausible);
 }
 
 RegistrationResult register_with_prior(const PointCloud& scan_base, const PointCloud& map_world,
                                        const PosePrior& prior, const RegistrationOptions& options,
                                        const Correction& plausible) {
-  return register_from(scan_base, map_world, prior.T_world_base, &prior, options, plausible);
+  return register_from(scan_base, make_upright_map(map_world, options), prior.T_world_base, &prior,
+                       options, plausible);
 }
 
 }  // namespace vantage

@@ -8,6 +8,7 @@
 
 #include "vantage/core/fields.hpp"
 #include "vantage/geometry/pose.hpp"
+#include "vantage/perception/clouds/kd_tree.hpp"
 #include "vantage/perception/clouds/normals.hpp"
 #include "vantage/perception/clouds/point_cloud.hpp"
 #include "vantage/perception/clouds/posts.hpp"
@@ -125,12 +126,27 @@ struct RegistrationResult {
 PointCloud prepare_scan(const PointCloud& cloud, const Eigen::Vector3d& p_viewpoint,
                         const RegistrationOptions& options);
 
+/// The surfaces of a map that tell something of x, y and yaw, ready to be searched; world.
+struct UprightMap {
+  std::vector<Eigen::Vector3f> normals;
+  KdTree tree;
+};
+
+/// @param map_world points with normals in the world frame; must have normals unless empty
+UprightMap make_upright_map(const PointCloud& map_world, const RegistrationOptions& options);
+
 /// Point-to-plane ICP [BeslMcKay1992, ChenMedioni1992] over x, y and yaw of the base; height, roll
 /// and pitch are known. Directions that no surface constrains keep the guess [ZhangKaessSingh2016].
 /// @param scan_base points in the base frame; normals, if any, sort out opposite faces
-/// @param map_world points with normals in the world frame; must have normals unless empty
+/// @param map made by the same options
 /// @param plausible corrections beyond these are no drift but a wrong optimum
 /// Never throws: a result that cannot be trusted is the guess, with the reason.
+RegistrationResult register_scan(const PointCloud& scan_base, const UprightMap& map,
+                                 const Pose2& T_world_base_guess,
+                                 const RegistrationOptions& options,
+                                 const Correction& plausible = {});
+
+/// The same on a map that no other scan is registered on.
 RegistrationResult register_scan(const PointCloud& scan_base, const PointCloud& map_world,
                                  const Pose2& T_world_base_guess,
                                  const RegistrationOptions& options,
