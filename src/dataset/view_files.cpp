@@ -73,11 +73,4 @@ void write_pose(const ViewEntry& entry) {
   write_text(entry.file("pose.txt"), text + "\n");
 }
 
-void remove_view(const ViewEntry& entry) {
-  std::error_code ignored;
-  for (const char* file : {"crop.png", "depthcrop.png", "maskcrop.png", "loc.txt", "pose.txt"}) {
-    std::filesystem::remove(entry.file(file), ignored);
-  }
-}
-
 }  // namespace vantage

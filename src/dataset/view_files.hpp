@@ -15,7 +15,4 @@ void write_view(const ObjectView& view, const ViewEntry& entry);
 /// The pose alone: the yaw, and the elevation if it is given.
 void write_pose(const ViewEntry& entry);
 
-/// Takes the view's files away.
-void remove_view(const ViewEntry& entry);
-
 }  // namespace vantage

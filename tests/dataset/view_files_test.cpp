@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <iterator>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -84,18 +83,6 @@ TEST(ViewFiles, APoseHasAnElevationWhereItIsGiven) {
   entry.given_elevation_rad = 0.25;
   write_pose(entry);
   EXPECT_EQ(read_file(entry.file("pose.txt")), "28.6479 14.3239\n");
-}
-
-TEST(ViewFiles, OfAViewAreTakenAwayTogether) {
-  const support::TemporaryDirectory folder;
-  Rng rng(1);
-  const ViewEntry first{{"cup", "cup_1", 2, 1}, folder.path(), 0.0};
-  const ViewEntry second{{"cup", "cup_1", 2, 2}, folder.path(), 0.0};
-  write_view(random_view(rng), first);
-  write_view(random_view(rng), second);
-  remove_view(first);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 5);
-  EXPECT_TRUE(std::filesystem::exists(second.file("pose.txt")));
 }
 
 }  // namespace

@@ -173,7 +173,6 @@ void sort_out_bad(std::vector<Item>& items, bool skip_bad, ImportOutcome& outcom
     if (item.bad.empty()) {
       good.push_back(std::move(item));
     } else {
-      remove_view(item.entry);
       bad.push_back(item.bad);
     }
   }
