@@ -101,7 +101,7 @@ TEST(PerceptionOptions, OfSearch) {
   expect_numbers(ObjectSearchOptions{}, {{"support.min_height_m", 0.3, between(-10.0, 100.0)},
                                          {"support.max_height_m", 1.5, between(-10.0, 100.0)},
                                          {"support.columns", 160, between(16, 4096)},
-                                         {"support.cell_m", 0.05, {0.0, 0.5, true}},
+                                         {"support.cell_m", 0.05, between(0.002, 0.5)},
                                          {"support.min_area_m2", 0.03, kAboveZero},
                                          {"support.inlier_distance_m", 0.02, kAboveZero},
                                          {"support.max_tilt_rad", 0.08, between(0.0, 0.8)},
@@ -115,7 +115,7 @@ TEST(PerceptionOptions, OfSearch) {
                                          {"range_m", 3.0, {0.0, 20.0, true}},
                                          {"nearest_m", 0.85, at_least(0.0)},
                                          {"border_px", 2, between(0, 100)},
-                                         {"gap_m", 0.05, {0.0, 1.0, true}},
+                                         {"gap_m", 0.05, between(0.002, 1.0)},
                                          {"noise_per_m", 0.0008, between(0.0, 0.1)}});
 }
 

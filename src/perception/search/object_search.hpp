@@ -34,7 +34,7 @@ struct ObjectSearchOptions {
       between(0, 100));
     f("gap_m", gap_m,
       "width of gaps between parts of one object; higher joins neighbouring objects",
-      Range{0.0, 1.0, true});
+      between(0.002, 1.0));
     f("noise_per_m", noise_per_m,
       "standard deviation of measured heights per squared distance; higher demands that objects "
       "stand out more",

@@ -28,7 +28,7 @@ struct SupportSearchOptions {
     f("cell_m", cell_m,
       "cell edge of the raster that surfaces are found in; higher bridges wider gaps and is "
       "coarser",
-      Range{0.0, 0.5, true});
+      between(0.002, 0.5));
     f("min_area_m2", min_area_m2,
       "least visible area of a support surface beside its objects; smaller ones are ignored",
       above(0.0));
