@@ -130,7 +130,8 @@ nlohmann::ordered_json info_json(const fs::path& root, const DatasetIndex& index
     categories.insert(view.name.category);
     objects.insert(view.name.object);
     ++videos[std::to_string(view.name.video)];
-    ++states[{view.name.object, yaw_bin(view.yaw_rad)}];
+    const int bin = view.notes ? yaw_bin(view.yaw_rad, view.notes->bins) : yaw_bin(view.yaw_rad);
+    ++states[{view.name.object, bin}];
   }
   const auto smallest =
       std::ranges::min_element(states, {}, [](const auto& state) { return state.second; });

@@ -137,7 +137,7 @@ Eigen::Vector3d up_in_camera(double elevation_rad) {
 }
 
 LabelledView load_view(const ViewEntry& entry) {
-  LabelledView labelled{{}, entry.name, entry.yaw_rad, yaw_bin(entry.yaw_rad)};
+  LabelledView labelled{{}, entry.name, entry.yaw_rad};
   ObjectView& view = labelled.view;
   read_colour(entry.file("crop.png"), view);
   read_depth(entry.file("depthcrop.png"), kMillimetre, view);

@@ -15,7 +15,6 @@ struct LabelledView {
   ObjectView view;
   ViewName name;
   double yaw_rad = 0.0;  ///< of the object, [0, 2 pi)
-  int bin = 0;           ///< yaw_bin(yaw_rad)
 };
 
 /// Against gravity in the frame of a camera that looks down by `elevation_rad`.

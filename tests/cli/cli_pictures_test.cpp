@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "tests/cli/command_line.hpp"
@@ -149,7 +150,7 @@ TEST_F(OwnPictures, TopHasAPlaceOfItsOwn) {
 
 TEST_F(OwnPictures, AnglesAndAnyElevationComeFromPoses) {
   for (const char* view : {"a", "b", "c"}) {
-    const double yaw_deg = 40.0 * (view[0] - 'a');
+    const double yaw_deg = 30.0 * (view[0] - 'a');
     for (const char* object : {"cup", "pot"}) {
       const auto picture = support::room_picture(support::made_up_object(object, 3), yaw_deg, {});
       support::put_picture(folder_ / "posed" / object, view, picture, DepthFormat::png_mm);
@@ -159,8 +160,9 @@ TEST_F(OwnPictures, AnglesAndAnyElevationComeFromPoses) {
   }
   const json imported = parsed("dataset import posed --out train" + kFocal);
   EXPECT_EQ(imported["degrees"], true);
-  EXPECT_EQ(imported["bins"], 9);
-  EXPECT_EQ(read_file(folder_ / "train/cup/cup_1/cup_1_1_2_pose.txt"), "40.0000 52.5000\n");
+  EXPECT_EQ(imported["bins"], 12);
+  EXPECT_EQ(parsed("dataset info train")["states"], 6) << "30 and 60 deg are two of 12 bins";
+  EXPECT_EQ(read_file(folder_ / "train/cup/cup_1/cup_1_1_2_pose.txt"), "30.0000 52.5000\n");
   EXPECT_EQ(parsed("train train --out model -q " + kFeatures)["views"], 6);
   const Result told = vantage("dataset import posed --out again --depth-unit 0.001" + kFocal);
   EXPECT_EQ(told.exit_code, 0);
@@ -372,6 +374,20 @@ TEST_F(Questions, ShortWorkShowsNoProgress) {
   const Result result =
       vantage("evaluate data --model model --out tables --set starts=50 >/dev/null");
   EXPECT_LE(std::count(result.output.begin(), result.output.end(), '\n'), 4) << result.output;
+}
+
+/// The names tell the turn, though no pose lies beside the files.
+TEST_F(OwnPictures, ViewsAreAsFarApartAsTheirNamesSay) {
+  parsed("dataset import mine --out train" + kFocal);
+  train();
+  const std::string of = "other/lab/thingb/";
+  const json known = parsed("recognise --model model --focal-px 285 " + of + "front_rgb.png " + of +
+                            "front_depth.npy " + of + "left_rgb.png " + of +
+                            "left_depth.npy --view-names front,left");
+  ASSERT_EQ(known["views"].size(), 2U);
+  EXPECT_EQ(known["views"][0]["view_rad"], 0.0);
+  EXPECT_NEAR(known["views"][1]["view_rad"].get<double>(), 0.5 * std::numbers::pi, 1e-9);
+  EXPECT_THAT(errors(), testing::Not(HasSubstr("--view-names")));
 }
 
 }  // namespace

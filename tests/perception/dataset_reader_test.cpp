@@ -46,7 +46,6 @@ TEST_F(Reader, ReadsEveryPixel) {
   const ObjectView& view = labelled.view;
   EXPECT_EQ(labelled.name, entry_.name);
   EXPECT_NEAR(labelled.yaw_rad, 100.0 * pi / 180.0, 1e-12);
-  EXPECT_EQ(labelled.bin, 2);
   EXPECT_EQ(view.width_px, 5);
   EXPECT_EQ(view.height_px, 4);
   EXPECT_EQ(view.left_px, 300);
