@@ -378,5 +378,17 @@ TEST_F(Arena, ASplitThatNamesPlannersTakesOneMore) {
               ElementsAre("greedy", "oracle", "mine", "theirs"));
 }
 
+TEST_F(Arena, AGroupOfPlannersIsOfTheKindOfItsFirst) {
+  results.study.report.groups.push_back({"taught", {"greedy", "oracle"}});
+  results.study.report.reference = "taught";
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  const Leaderboard board = leaderboard_of(results);
+  ASSERT_EQ(board.standings.size(), 2U);
+  EXPECT_EQ(board.standings[0].planner, "taught");
+  EXPECT_EQ(board.standings[0].kind, PlannerKind::built_in);
+  EXPECT_EQ(board.standings[0].rank, 1);
+  EXPECT_EQ(board.standings[1].kind, PlannerKind::foreign);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -303,5 +303,12 @@ TEST_F(CommandLine, ByItsSchemaAStudyHasNoEmptyLists) {
   EXPECT_TRUE(properties["seeds"]["anyOf"][1]["uniqueItems"].get<bool>());
 }
 
+TEST_F(CommandLine, ByItsSchemaAnAngleMayBeNegativeAndASeedMayNot) {
+  auto sensor = nlohmann::json::parse(vantage("schema sensor").output)["properties"];
+  EXPECT_EQ(sensor["tilt_min_rad"]["minimum"], -1.5);
+  auto dataset = nlohmann::json::parse(vantage("schema dataset").output)["properties"];
+  EXPECT_EQ(dataset["seed"]["minimum"], 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

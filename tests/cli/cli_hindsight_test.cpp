@@ -87,5 +87,15 @@ TEST_F(HindsightCommands, ARunOfAnotherVersionIsOneClearLine) {
   expect_error(vantage("branch run --scan 1 -q"), 3, {"config.yaml", "shots"});
 }
 
+TEST_F(HindsightCommands, AnInterruptedBranchWritesWhatThereIs) {
+  replace("config.yaml", "s/scan_duration_s: 2$/scan_duration_s: 3600/");  // hours of scanning
+  const Result result =
+      interrupted("branch run --scan 1 --out other -q",
+                  "[ $(stat -c %s other/states.part.bin || echo 0) -gt 100000 ]", "INT");
+  EXPECT_EQ(result.exit_code, 130) << result.output;
+  EXPECT_THAT(shell("cat '" + folder_.string() + "/other/metrics.json'").output,
+              HasSubstr("\"status\": \"interrupted\""));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -118,5 +118,10 @@ TEST_F(Manual, HasTheNotesOfItsCommands) {
   }
 }
 
+TEST_F(Manual, TellsWhatIsTakenIfNothingIsGiven) {
+  EXPECT_THAT(page("view"),
+              testing::AllOf(HasSubstr("(default: 1280x720)"), HasSubstr("(default: overview)")));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,5 +1,9 @@
 // Scenes from meshes, as a user makes them.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <sstream>
+#include <utility>
 
 #include "tests/building/drawn_building.hpp"
 #include "tests/cli/command_line.hpp"
@@ -71,6 +75,52 @@ TEST_F(SceneFromMesh, SaysInOneLineWhatIsWrong) {
   ASSERT_EQ(vantage("scene from-mesh house.obj --out a.xml -q").exit_code, 0);
   expect_error(vantage("scene from-mesh house.obj --out a.xml -q"), 2, {"--overwrite replaces it"});
   EXPECT_EQ(vantage("scene from-mesh house.obj --out a.xml --overwrite -q").exit_code, 0);
+}
+
+/// The room as it is, and on its side.
+TEST_F(SceneFromMesh, EitherAxisMayPointUp) {
+  house();
+  std::istringstream lines(test::room_with_door(0.85).obj());
+  std::string lying;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    double x = 0.0, y = 0.0, z = 0.0;
+    if (words >> kind >> x >> y >> z && kind == "v") line = fmt::format("v {} {} {}", x, z, -y);
+    lying += fmt::format("{}\n", line);
+  }
+  file("lying.obj", lying);
+  const auto free_area_m2 = [&](const std::string& mesh) {
+    const Result made = vantage("scene from-mesh " + mesh + " --out a.xml --overwrite --json -q");
+    EXPECT_EQ(made.exit_code, 0) << made.output;
+    return nlohmann::json::parse(made.output).at("free_area_m2").get<double>();
+  };
+  const double area_m2 = free_area_m2("house.obj");
+  EXPECT_NEAR(free_area_m2("house.obj --up z"), area_m2, 1e-6);
+  EXPECT_NEAR(free_area_m2("lying.obj --up y"), area_m2, 1e-6);
+}
+
+TEST_F(SceneFromMesh, AFloorIsLaidWhereItIsSaidToBe) {
+  test::DrawnBuilding walls;
+  walls.box({-3.1, -2.1, 0}, {3.1, -2.0, 2.5});
+  walls.box({-3.1, 2.0, 0}, {3.1, 2.1, 2.5});
+  file("walls.obj", walls.obj());
+  expect_error(vantage("scene from-mesh walls.obj --out a.xml -q"), 3, {"--floor"});
+  const Result made = vantage("scene from-mesh walls.obj --out a.xml --floor 0 --json -q");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_EQ(nlohmann::json::parse(made.output)["geoms"]["planes"], 1);
+}
+
+TEST_F(SceneFromMesh, WhatBeginsAboveTheHeightIsLeftOut) {
+  test::DrawnBuilding building = test::room_with_door(0.85);
+  building.box({-0.5, -0.5, 2.6}, {0.5, 0.5, 2.8});  // a lamp
+  file("lit.obj", building.obj());
+  for (const auto& [height, boxes] : {std::pair("", 2), {" --height 2.5", 1}}) {
+    const Result made =
+        vantage("scene from-mesh lit.obj --out a.xml --overwrite --json -q" + std::string(height));
+    ASSERT_EQ(made.exit_code, 0) << made.output;
+    EXPECT_EQ(nlohmann::json::parse(made.output)["geoms"]["boxes"], boxes) << height;
+  }
 }
 
 }  // namespace

@@ -204,5 +204,13 @@ TEST_F(ScoreViewsCommand, MapsWiderThanAnyMemory) {
                {"far.bt", "view 10", "sensor.range_max_m", "region.min_m", "region.coarsen"});
 }
 
+TEST_F(ScoreViewsCommand, TheSeedIsOneUnlessOneIsGiven) {
+  const std::string sampled = "--map room.bt --set views.height_m=1.05 --set views.positions=5";
+  const Result result = score(sampled);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.output, score(sampled + " --seed 1").output);
+  EXPECT_NE(result.output, score(sampled + " --seed 0").output);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -76,5 +76,68 @@ report: {compare: planner, reference: greedy, panels: scene}
   EXPECT_EQ(read_file(folder_ / "started"), once + once);
 }
 
+TEST_F(CommandLine, AnArenaHasBoundsIfAskedForThem) {
+  file("small.yaml", R"(episode: assets/episodes/tabletop.yaml
+set: {scans: 3, budget.time_s: 60, laser.scan_duration_s: 1, map.cells: [33, 33, 17],
+      metrics.predictors: [adaptive]}
+factors:
+  scene: {few: {scene: models/scenes/tabletop_4/scene.xml}}
+  planner: {greedy: {choice: greedy}, random: {choice: random}}
+seeds: [1]
+report: {compare: planner, reference: greedy, panels: scene}
+)");
+  for (const std::string arguments : {"small.yaml --out arena", "arena --bounds"}) {
+    const Result result = vantage("arena run -q " + arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.output;
+    for (const char* planner : {"greedy", "random"}) {
+      EXPECT_EQ(fs::exists(folder_ / "arena/episodes/few" / planner / "1/bound.json"),
+                arguments.ends_with("--bounds"))
+          << planner << ": " << arguments << "\n"
+          << result.output;
+    }
+  }
+}
+
+/// By programs that stand in for Slurm's.
+TEST_F(CommandLine, CancelEndsWhatIsOpenIfSlurmAnswers) {
+  fs::create_directories(folder_ / "study/slurm");
+  file("study/study.yaml", kStudy);
+  file("study/slurm/41.json", R"({"array": "41", "collect": "42", "tasks": 2})");
+  const auto program = [&](const std::string& name, const std::string& text) {
+    fs::permissions(file(name, "#!/bin/sh\n" + text), fs::perms::owner_all);
+  };
+  program("sbatch", "exit 0\n");
+  program("squeue",
+          "[ ! -e silent ] || { echo no contact >&2; exit 1; }\necho '41|0|RUNNING|None|0|n1|'\n");
+  program("scancel", "echo \"$@\" >>cancelled\n");
+  const auto cancel = [&] {
+    return shell("cd '" + folder_.string() +
+                 "' && PATH=\"$PWD:$PATH\" " VANTAGE_BINARY " sweep cancel study");
+  };
+  file("silent", "");
+  expect_error(cancel(), 2, {"study: Slurm does not answer: no contact"});
+  EXPECT_FALSE(fs::exists(folder_ / "cancelled"));
+  fs::remove(folder_ / "silent");
+  EXPECT_EQ(cancel().output, "study: cancelled 42 41; results so far are kept\n");
+  EXPECT_EQ(read_file(folder_ / "cancelled"), "42 41\n");
+}
+
+TEST_F(CommandLine, NoPlannerEntersAnArenaWithoutACommand) {
+  const Result result = vantage("arena add nowhere mine");
+  EXPECT_EQ(result.exit_code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("command"));
+}
+
+TEST_F(CommandLine, AnArenaIsToldAsJsonIfAskedFor) {
+  file("two.yaml", kStudy);
+  const Result told = vantage("arena run two.yaml --out arena -q --json 2>errors");
+  ASSERT_EQ(told.exit_code, 0) << told.output;
+  const json state = json::parse(told.output, nullptr, false);
+  ASSERT_TRUE(state.is_object()) << told.output;
+  EXPECT_EQ(state["completed"], 2);
+  EXPECT_EQ(state["page"], "arena/arena.html");
+  EXPECT_THAT(vantage("arena page arena -q").output, HasSubstr("page arena/arena.html\n"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #include "vantage/dataset/object_source.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.hpp"
@@ -74,6 +75,14 @@ TEST(DatasetOptionsTest, FramesAreWholeSteps) {
   EXPECT_EQ(DatasetOptions{.step_deg = 100.0}.frames(), 3);
   EXPECT_EQ(DatasetOptions{.step_deg = 0.1}.frames(), 3600);
   EXPECT_THROW(check_options(DatasetOptions{.supersampling = 2}), ConfigError);
+}
+
+TEST_F(Scans, AFolderWithoutOneIsNamedWithWhatIsLookedFor) {
+  options_.models = root_ / "empty";
+  EXPECT_THAT([&] { object_names(options_); },
+              testing::ThrowsMessage<InputError>(
+                  testing::AllOf(testing::StartsWith(options_.models + ": "),
+                                 testing::HasSubstr("{model.obj, texture.png}"))));
 }
 
 }  // namespace

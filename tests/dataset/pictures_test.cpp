@@ -205,5 +205,25 @@ TEST(PictureFiles, IntrinsicsAndPoses) {
   EXPECT_THROW((void)read_picture_pose(file), InputError);
 }
 
+TEST_F(Layout, AFolderIsNoFileOfAPictureWhateverItsName) {
+  put("drill/front_rgb.png", "drill/front_depth.png");
+  for (const char* name : {"front_mask.png", "front_pose.txt"}) {
+    std::filesystem::create_directories(folder_.path() / "drill" / name);
+  }
+  const FoundPicture picture = find_pictures(folder_.path(), "").pictures.at(0);
+  EXPECT_FALSE(picture.mask);
+  EXPECT_FALSE(picture.pose);
+}
+
+TEST_F(Layout, OfSeveralColoursWithoutDepthTheFirstIsNamed) {
+  put("drill/front_rgb.png", "drill/front_depth.png");
+  for (const char* colour : {"drill/left_rgb.png", "drill/left_color.png"}) {
+    put(colour, "drill/other_depth.png");
+  }
+  EXPECT_THAT(find_pictures(folder_.path(), "").left_out,
+              ElementsAre(HasSubstr("drill/left_color.png: has no depth"),
+                          HasSubstr("drill/other_depth.png: has no colour")));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
 #include <map>
 
 #include "tests/support/shell.hpp"
@@ -133,6 +137,40 @@ TEST_F(RenderPool, NoProcessOutlivesTheOneThatStartedIt) {
       "for p in $workers; do i=0; while readlink /proc/$p/exe; do sleep .1; i=$((i + 1));"
       "[ $i -lt 300 ] || exit 4; done; done");
   EXPECT_EQ(result.exit_code, 0) << result.output;
+}
+
+/// However that one ends, and whatever it does: nobody tells it.
+TEST(WorkerProcess, EndsWithTheProcessThatStartedIt) {
+  std::array<int, 2> held{};  // its end to write to is open as long as one of them lives
+  ASSERT_EQ(::pipe(held.data()), 0);
+  const pid_t starter = ::fork();
+  if (starter == 0) {
+    const WorkerProcess worker(script("echo >&0; exec sleep 60"));
+    char begun = 0;
+    const ssize_t size = ::read(worker.socket(), &begun, 1);
+    ::_exit(size == 1 ? 0 : 1);
+  }
+  ::close(held[1]);
+  int status = 0;
+  ::waitpid(starter, &status, 0);
+  EXPECT_EQ(status, 0);
+  pollfd end{held[0], POLLIN, 0};
+  EXPECT_EQ(::poll(&end, 1, 20000), 1) << "it lives on";
+  ::close(held[0]);
+}
+
+/// Three processes may try it, no more.
+TEST_F(RenderPool, WhatTwoProcessesDiedOfIsRenderedByTheThird) {
+  const auto dies = [&](int times) {
+    return script(fmt::format(
+        "echo x >>{0}; [ $(wc -l <{0}) -gt {1} ] || kill -SEGV $$; exec {2} render-worker",
+        (out_ / "tries").string(), times, VANTAGE_BINARY));
+  };
+  EXPECT_EQ(render("d", 1, 1, dies(2)).rendered, 1);
+  EXPECT_EQ(read_file(out_ / "tries"), "x\nx\nx\n");
+  fs::remove(out_ / "tries");
+  EXPECT_EQ(error_of(few_on_a_pool(1), dies(3)).first, ExitCode::no_renderer);
+  EXPECT_EQ(read_file(out_ / "tries"), "x\nx\nx\n");
 }
 
 }  // namespace

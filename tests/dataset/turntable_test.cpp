@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -246,6 +247,20 @@ TEST(Sessions, OffsetsFillTheirCircle) {
     within += session.offset_m.norm() < 0.05 * std::numbers::sqrt2 / 2.0 ? 1 : 0;
   }
   EXPECT_NEAR(within / 4000.0, 0.5, 0.05);
+}
+
+/// By the numbers of the stream: a seed stands for the same recordings for ever.
+TEST(Sessions, AreDrawnInTheOrderOfTheirMembers) {
+  const DatasetOptions options{.step_deg = 30.0, .distance_m = 2.0, .placement_m = 0.05};
+  Rng rng(7);
+  const Session session = draw_session(options, 0.5, rng);
+  Rng again(7);
+  EXPECT_NEAR(session.distance_m, 2.0 * again.uniform(0.97, 1.03), 1e-12);
+  const double heading_rad = again.uniform(-pi, pi);
+  const double off_m = 0.05 * std::sqrt(again.uniform());
+  EXPECT_NEAR(session.offset_m.x(), off_m * std::cos(heading_rad), 1e-12);
+  EXPECT_NEAR(session.offset_m.y(), off_m * std::sin(heading_rad), 1e-12);
+  EXPECT_NEAR(session.first_yaw_rad, again.uniform(0.0, pi / 6.0), 1e-12);
 }
 
 }  // namespace

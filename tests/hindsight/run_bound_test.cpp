@@ -85,5 +85,17 @@ TEST(LeastWays, AreNeverLongerThanTheShortestWay) {
   EXPECT_EQ(ways_m(0, 1), ways_m(1, 0));
 }
 
+/// 97 % cannot be seen from where the first scan is taken.
+TEST_F(RunBounds, CountTheWayThatIsStillToBeDriven) {
+  const RecordedRun run =
+      support::short_run(folder.path() / "run", {"scans=8", "robot.start_view=3"});
+  const RunBound bound = bound_of_run(run);
+  for (const ShareBound& share : bound.shares) {
+    ASSERT_TRUE(share.least) << share.percent;
+    EXPECT_GE(share.least->way_m, bound.first_scan.way_m) << share.percent;
+  }
+  EXPECT_GT(bound.shares.back().least->way_m, bound.first_scan.way_m);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -407,5 +407,14 @@ TEST(ObjectCut, IsNearTheMiddleOrSoMuchLarger) {
   EXPECT_EQ(corner({74, 54, 12, 12}, {2, 3, 30, 30}), cv::Point(74, 54));
 }
 
+/// A block of 210 px with a bar of 90 px, and something else that keeps the bar from being smoothed
+/// away before.
+TEST(ObjectCut, SevenTenthsAreEnoughToSmoothTheRestAway) {
+  EXPECT_EQ(
+      pixels_cut(before_a_wall(
+          160, 120, {{{60, 50, 15, 14}, 2.0F}, {{75, 55, 45, 2}, 2.0F}, {{20, 10, 10, 2}, 2.0F}})),
+      210);
+}
+
 }  // namespace
 }  // namespace vantage

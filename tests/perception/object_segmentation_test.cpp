@@ -295,5 +295,24 @@ TEST(SegmentOnTable, TheFootIsAddedAsFarAsItIsHigh) {
   EXPECT_EQ(found.view->height_px, 10 + 2 * 2);
 }
 
+/// 24 x 20 px round a bottom of 12 x 10 px, too low to be told from noise pixel by pixel. The
+/// median takes the corners off both.
+TEST(SegmentOnTable, ABottomIsTheObjectsAndAHoleIsTheTables) {
+  const auto pixels = [](float bottom_m) {
+    CameraImages images = block_from_above(0.0F);
+    for (int row = 15; row < 35; ++row) {
+      for (int column = 18; column < 42; ++column) {
+        const bool bottom = row >= 20 && row < 30 && column >= 24 && column < 36;
+        images.depth_m[pixel_at(row, column)] = 2.0F - (bottom ? bottom_m : 0.1F);
+      }
+    }
+    const SegmentedObject found =
+        segmented_from_above(images, {.radius_m = 0.6, .min_pixels = 50, .mask_growth_px = 0});
+    return found.view ? std::ranges::count(found.view->mask, 1) : 0;
+  };
+  EXPECT_EQ(pixels(0.003F), 24 * 20 - 4);
+  EXPECT_EQ(pixels(0.001F), 24 * 20 - 4 - (12 * 10 - 4)) << "below a third of 6 mm";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -226,5 +226,23 @@ TEST_F(TableLimits, WhatIsLevelInPartsOnlyIsTilted) {
             "the largest surface seen is tilted by 0.239 rad, more than table.max_tilt_rad 0.05");
 }
 
+/// Three points on it run clockwise as often as not.
+TEST_F(TableLimits, OfASlopingTableAlmostAnyThreePointsDo) {
+  options.hypotheses = 1;
+  PointCloud cloud = table_of_cells(30, 24, 0.7);
+  for (auto& p : cloud.points) p.z() += 0.02F * p.x();
+  int found = 0;
+  for (int i = 0; i < 40; ++i) found += find(cloud).table ? 1 : 0;
+  EXPECT_GT(found, 30);
+}
+
+TEST_F(TableLimits, AHypothesisIsThreePoints) {
+  options.hypotheses = 7;
+  ASSERT_TRUE(find(table_of_cells(15, 12, 0.71)).table);
+  Rng drawn(3);
+  for (int i = 0; i < 7 * 3; ++i) drawn.uniform_index(180);
+  EXPECT_EQ(rng.next(), drawn.next()) << "as many are tried as are asked for";
+}
+
 }  // namespace
 }  // namespace vantage

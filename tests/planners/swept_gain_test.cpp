@@ -460,5 +460,19 @@ TEST(SweptGain, FadesInTheCellThatTheSensorIsInTheMiddleOf) {
   }
 }
 
+/// Three views from each of 7 places. So few rays tell too little of any of them, and all are sent.
+TEST(SweptGains, OfAnyViewFromAPlaceAreRightThoughFewRaysTellTooLittle) {
+  const OccupancyGrid grid = unobserved_grid();
+  const Gain gain = BeerLambertGain{.a = 0.99};
+  const auto views = ring();
+  const auto expected = exact_gains_bits(gain, {grid}, views, sector(), 1);
+  for (const int rays : {1, 2, 4, 8}) {
+    const auto swept = swept_gains_bits(gain, {grid}, views, sector(), 1, {.rays_per_view = rays});
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      EXPECT_NEAR(swept[i], expected[i], 0.2 * expected[i]) << rays << " rays, view " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,15 +3,18 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <stdexcept>
 
+#include "tests/sim/test_world.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/runtime/recorder.hpp"
 
 namespace vantage {
 namespace {
@@ -187,6 +190,35 @@ TEST_F(EpisodeRuns, DoNotRunIntoAFolderOfAnotherProcess) {
   }
   ::close(other);
   EXPECT_NO_THROW(EpisodeRun{asked});
+}
+
+/// Of a world in which nothing is done.
+class IdleRecorder : public EpisodeRecorder {
+ public:
+  IdleRecorder(const EpisodeRun& run, World& world)
+      : EpisodeRecorder(run,
+                        {.world = world, .T_world_body = at_rest, .T_world_estimated = at_rest},
+                        "tick", 1.0) {}
+
+ private:
+  static Pose at_rest() { return make_pose({0.0, 0.0, 1.0}, 0.0); }
+};
+
+TEST_F(EpisodeRuns, TakeTheTimeFromWhenTheirFolderIsMade) {
+  const test::SceneFolder scene(
+      test::scene_mjcf("<body pos='0 0 1'><freejoint/><geom size='.1'/></body>"));
+  World world(scene.alone());
+  setup_.scene = setup_.robot.mjcf = setup_.robot.description = scene.path();
+  const RunRequest asked = request(false);
+  const double before_s = wall_s();
+  EpisodeRun run(asked);
+  IdleRecorder recorder(run, world);
+  run.begin();
+  const RunOutcome outcome =
+      run.finish({.reason = "nothing to do"}, {}, recorder, [](nlohmann::ordered_json&) {});
+  const auto wall_time_s = nlohmann::json::parse(outcome.metrics).at("wall_time_s").get<double>();
+  EXPECT_GE(wall_time_s, 0.0);
+  EXPECT_LE(wall_time_s, wall_s() - before_s);
 }
 
 }  // namespace

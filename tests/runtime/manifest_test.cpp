@@ -52,5 +52,11 @@ TEST_F(AssetHashes, HoldBothFilesOfOneName) {
                                    Pair("robot.yaml", hash_of("kind: quadrotor"))));
 }
 
+TEST(CpuName, IsTheOneThatTheSystemTells) {
+  EXPECT_THAT(read_file("/proc/cpuinfo"),
+              testing::AnyOf(testing::HasSubstr("model name\t: " + cpu_name() + "\n"),
+                             testing::Not(testing::HasSubstr("model name"))));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "tests/sim/test_world.hpp"
 #include "vantage/core/error.hpp"
@@ -135,6 +137,18 @@ TEST_F(Replays, OfAFolderThatLacksFilesAreRefused) {
   EXPECT_THAT(refusal(), HasSubstr("states.bin: cannot read"));
   write_file(folder_ / "config.yaml", "a: 1\n");
   EXPECT_THAT(refusal(), HasSubstr("states.bin: missing, as of lean runs; `vantage run "));
+}
+
+/// What was told before counts as well, so a process of its own has to do it.
+TEST_F(Replays, TellHowFarTheyAre) {
+  const auto replays = [&] {
+    static_cast<void>(replayed());
+    std::filesystem::remove_all(folder_.path());
+    std::_Exit(0);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(replays(), testing::ExitedWithCode(0), "replay: 0 % \nreplay: 100 % \n");
+  GTEST_FLAG_SET(death_test_style, "fast");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/study/manifest_of_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/report/report_data.hpp"
@@ -228,6 +229,40 @@ TEST_F(Evaluated, ACollectionSaysHowFarTheStudyIs) {
   EXPECT_FALSE(results_.complete());
   results_.states.assign(4, EpisodeState::completed);
   EXPECT_TRUE(results_.complete());
+}
+
+/// One of the four has come to a result.
+TEST_F(Evaluated, MeasuresAreReadFromTheFoldersOfTheEpisodes) {
+  const PlannedEpisode& episode = results_.plan[1];
+  const fs::path folder = episode_folder(folder_.path(), episode);
+  const Json scan = {{"unobserved_cells", 70.0},
+                     {"observable_unobserved_cells", 60.0},
+                     {"predicted", {{"simple", 0.0}}},
+                     {"actual_new_cells", 40.0},
+                     {"path_length_m", 1.5},
+                     {"leg_length_m", 1.5},
+                     {"pose_error_m", 0.002},
+                     {"pose_error_before_registration_m", 0.02},
+                     {"fallback", false},
+                     {"precision", 1.0},
+                     {"recall", 0.5}};
+  const Json metrics = {{"status", "completed"},
+                        {"method", "simple"},
+                        {"observable_cells", 100.0},
+                        {"path_length_m", 1.5},
+                        {"collisions", 0},
+                        {"simulated_time_s", 60.0},
+                        {"map", {{"precision", 0.9}, {"recall", 0.8}}},
+                        {"scans", Json::array({scan})}};
+  write_file(folder / "config.yaml", episode_yaml(episode.resolved));
+  write_file(folder / "manifest.json", manifest_of_files(episode.resolved));
+  write_file(folder / "metrics.json", metrics.dump());
+  const StudyResults read = read_study_results(folder_.path());
+  ASSERT_EQ(read.measures.size(), 4U);
+  EXPECT_EQ(read.states[1], EpisodeState::completed);
+  ASSERT_TRUE(read.measures[1]);
+  EXPECT_EQ(read.measures[1]->scalars[*find_scalar("path_length_m")], 1.5);
+  EXPECT_FALSE(read.measures[0]);
 }
 
 }  // namespace

@@ -342,5 +342,22 @@ TEST_F(StudyFile, ShardsAreAPartition) {
   }
 }
 
+TEST_F(StudyFile, AFactorHasANameThatMakesAColumn) {
+  for (const std::string name : {"my start", "a/b", ".start", "start,method"}) {
+    expect_problem(replaced(kSmallStudy, "  start:", "  " + name + ":"), {"s.yaml:4", name});
+  }
+}
+
+TEST_F(StudyFile, AFolderOfAnotherStudyIsKeptUnlessItIsToBeOverwritten) {
+  const Study study = read(kSmallStudy);
+  const Study another = read(kSmallStudy, {"seed=5"});
+  StudySweepOptions options{.directory = folder_ / "results"};
+  prepare_study_folder(study, options);
+  EXPECT_NO_THROW(prepare_study_folder(study, options)) << "its own";
+  EXPECT_THROW(prepare_study_folder(another, options), ConfigError);
+  options.overwrite = true;
+  EXPECT_NO_THROW(prepare_study_folder(another, options));
+}
+
 }  // namespace
 }  // namespace vantage

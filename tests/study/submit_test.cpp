@@ -254,5 +254,16 @@ TEST_F(Submit, WhatCrashedInAnArrayIsTriedOnceInIt) {
   EXPECT_TRUE(fs::exists(folder_ / "dir/attempts/1/2.json"));
 }
 
+TEST_F(Submit, StatusInJsonTellsLostTasksFromThoseThatEnded) {
+  ASSERT_EQ(submit().exit_code, 0);
+  write("queue",
+        "41|0|RUNNING|None|0|n1|\n41|1|NODE_FAIL|None|0|n2|\n41|2|TIMEOUT|None|0|n2|\n42|N/"
+        "A|PENDING|Dependency|0||\n");
+  const std::string json = vantage("status dir --json").output;
+  for (const char* part : {"\"ended\": 1,", "\"node_fail\": 1", "\"timeout\": 1"}) {
+    EXPECT_THAT(json, HasSubstr(part));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

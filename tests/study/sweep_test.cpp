@@ -246,5 +246,25 @@ TEST_F(Sweep, ErrorsOfUse) {
   EXPECT_THAT(vantage("list studies").output, HasSubstr("assets/studies/smoke.yaml"));
 }
 
+/// One signal each: a second one would end them at once. The first decision takes a while.
+TEST_F(Sweep, InterruptedEpisodesWriteWhatTheyHave) {
+  file("slow.yaml", R"(episode: assets/episodes/tabletop.yaml
+set:
+  scans: 10
+  laser.scan_duration_s: 1
+  map.cells: [33, 33, 17]
+  choice: {name: oracle_lookahead, width: 20000}
+seeds: [1]
+)");
+  const ShellResult stopped =
+      shell("cd '" + folder_.path().string() +
+            "'; " VANTAGE_BINARY
+            " sweep run -q slow.yaml --jobs 1 --out slow & sweep=$!; for i in $(seq 3000); do "
+            "grep -qs 'scan 1 of' slow/attempts/1/1/output.txt && break; sleep 0.02; done; "
+            "kill -INT $sweep; wait $sweep");
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
+  EXPECT_THAT(vantage("sweep status slow").output, HasSubstr("1 interrupted of 1"));
+}
+
 }  // namespace
 }  // namespace vantage

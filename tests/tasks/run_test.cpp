@@ -303,5 +303,45 @@ TEST_F(Run, ReplayRefusesATruncatedLog) {
   EXPECT_THROW(replayed(cut), InputError);
 }
 
+/// By what was seen where the scan was forecast to look: if that is more than forecast, there is
+/// less clutter than was thought.
+TEST_F(Run, CorrectsItsHazardByWhatAScanHasShown) {
+  const auto metrics = short_run("calibrated", {"forecast.calibrate=true"});
+  EXPECT_EQ(metrics["scans"][0]["hazard_scale"], 1.0);
+  const auto& scan = metrics["scans"][1];
+  double predicted = 0.0;
+  double seen = 0.0;
+  for (const auto& band : scan["by_distance"]) {
+    predicted += band["predicted_cells"].get<double>();
+    seen += band["actual_cells"].get<double>() - band["outside_cells"].get<double>();
+  }
+  EXPECT_NE(scan["hazard_scale"], 1.0);
+  EXPECT_EQ(scan["hazard_scale"].get<double>() < 1.0, seen > predicted);
+}
+
+TEST_F(Run, WithoutLoopsNothingIsCorrectedOverThem) {
+  const auto& localisation = first_["localisation"];
+  for (const char* key : {"loops", "loops_refused", "corrections"}) {
+    EXPECT_EQ(localisation[key], 0) << key;
+  }
+  EXPECT_TRUE(localisation["contradicted_share"].is_null());
+}
+
+TEST_F(Run, EnergyIsATotalUpToEachScan) {
+  double before_j = 0.0;
+  for (const auto& scan : first_["scans"]) {
+    EXPECT_GT(scan["energy_j"].get<double>(), before_j);
+    before_j = scan["energy_j"].get<double>();
+  }
+  EXPECT_NEAR(first_["energy_j"].get<double>(), before_j, 1e-9) << "it ends with a scan";
+}
+
+/// 20 ticks of 25 ms until the laser rests, 120 of the sweep, and one for its last line.
+TEST_F(Run, AScanTakesItsSweepAndTheTimeToComeToRest) {
+  for (const auto& scan : first_["scans"]) {
+    EXPECT_NEAR(scan["scan_time_s"].get<double>(), 0.5 + 3.0 + 0.025, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -7,6 +7,8 @@
 #include <functional>
 #include <set>
 
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/tasks/episode.hpp"
 
@@ -204,6 +206,15 @@ TEST(Tasks, ARecognitionHasTheKeysOfItsParts) {
                           "separation.min_share", "targets_at_once", "time_limit_s"}) {
     EXPECT_TRUE(keys.contains(key)) << key;
   }
+}
+
+TEST(Tasks, FilesOfATaskAreFoundBesideItsEpisode) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "mine.model", "bytes");
+  ConfigNode root = read_yaml(kEpisodes / "recognition.yaml");
+  root.set("model", ConfigNode::make_scalar("mine.model"));
+  const ResolvedEpisode episode = resolve_episode(root, folder / "e.yaml");
+  EXPECT_EQ(std::get<RecognitionTask>(episode.task).model, (folder / "mine.model").string());
 }
 
 }  // namespace

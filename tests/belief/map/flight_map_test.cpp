@@ -209,5 +209,19 @@ TEST(FlightMap, HasACellAtLeastAndTwoToThe26AtMost) {
                ConfigError);
 }
 
+TEST(FlightMap, AReadingSpeaksForItsOwnCellAlone) {
+  CameraImages image;
+  image.width_px = 1;
+  image.height_px = 1;
+  image.focal_px = 100.0;
+  image.range_max_m = 20.0;
+  image.depth_m = {2.05F};
+  FlightMap map({Vector3d(0.0, -1.0, 0.0), Vector3d(3.0, 1.0, 1.0)});
+  map.insert(image, drawn_camera({-0.5, 0.05, 0.55}, 0.0, 0.0));
+  EXPECT_EQ(state_at(map, {1.55, 0.05, 0.55}), CellState::occupied);
+  const auto raised = [](float log_odds) { return log_odds > 0.0F; };
+  EXPECT_EQ(std::ranges::count_if(map.grid().log_odds, raised), 1);
+}
+
 }  // namespace
 }  // namespace vantage

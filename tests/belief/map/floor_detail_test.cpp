@@ -168,5 +168,16 @@ TEST(FloorDetail, IsFreeOrOccupiedFromTheOddsOfTheStatesOn) {
   }
 }
 
+TEST(FloorDetail, ABeamTurnsToTheLeftByItsAzimuth) {
+  FloorMap detail = make_floor_detail(floor_of_20cm(), {});
+  const PlanarScan scan{
+      .T_base_sensor = {}, .azimuth_rad = {0.7}, .range_m = {1.5F}, .range_max_m = 10.0};
+  for (int i = 0; i < 3; ++i) add_beams(detail, scan, {}, {});
+  const Eigen::Vector2d end_m = 1.5 * Eigen::Vector2d(std::cos(0.7), std::sin(0.7));
+  EXPECT_EQ(detail.state_at(end_m), CellState::occupied);
+  EXPECT_EQ(detail.state_at(0.5 * end_m), CellState::free);
+  EXPECT_EQ(detail.state_at({end_m.x(), -end_m.y()}), CellState::unobserved);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -199,5 +199,12 @@ TEST(FloorMapOptions, RejectAWeightThatIsOnlyJustTooSmall) {
   }
 }
 
+TEST(AddPlanarScan, AnInvalidBeamChangesNoCellAtAll) {
+  const FloorMap before = make_floor_map(metre_cells());
+  FloorMap map = before;
+  add_planar_scan(map, one_beam(std::nanf("")), {-0.5, 0.5, 0.0}, metre_cells());
+  EXPECT_EQ(map.log_odds, before.log_odds);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vantage {
@@ -293,6 +294,19 @@ TEST(Headroom, WhatBeginsJustAtTheLowerHeightCounts) {
   FloorMap floor = free_floor();
   block_columns(floor, grid, nowhere(floor), options);
   EXPECT_EQ(row(floor), "....xx......xx......");
+}
+
+/// Faces of columns and of cells of the floor differ by rounding.
+TEST(Headroom, AColumnTouchesACellThatItReachesIntoByLessThanANanometre) {
+  for (const auto& [shift_m, blocked] :
+       {std::pair(0.8e-9, "....xx.............."), std::pair(1.5e-9, "....xxx.............")}) {
+    OccupancyGrid grid(make_grid_frame({shift_m, 0.1, 1.0}, {2.0, 0.2, 2.0}, {10, 1, 10}));
+    std::ranges::fill(grid.log_odds, kFree);
+    set(grid, 2, 3, kOccupied);
+    FloorMap floor = free_floor();
+    block_columns(floor, grid, nowhere(floor), kOptions);
+    EXPECT_EQ(row(floor), blocked) << shift_m;
+  }
 }
 
 }  // namespace

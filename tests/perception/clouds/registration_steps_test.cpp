@@ -205,5 +205,14 @@ TEST_F(LineBeforeAWall, APriorPullsEveryStepBack) {
   EXPECT_NEAR(result.T_world_base.y_m, 0.0, 1e-12);
 }
 
+/// Their strongest direction is worth 1.2 times the 61 pairs.
+TEST_F(LineBeforeAWall, IsRefusedWhereItSaysTooLittleOfEveryDirection) {
+  options_.min_constraint_correspondences = 100.0;
+  const auto result = found();
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.reason, "no surface constrains the pose");
+  EXPECT_EQ(result.unconstrained, 3);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tests/perception/features/onnx_bytes.hpp"
 #include "tests/support/object_views.hpp"
@@ -208,6 +209,18 @@ TEST(TrainedFeature, ItsBytesAreChecked) {
     EXPECT_THROW(read(bytes_of_colour("colour", cost_s)), InputError) << cost_s;
   }
   EXPECT_THROW(read(bytes_of_colour("nose", 0.25)), InputError);
+}
+
+/// A view that lacks its pixels ends the program as soon as a feature looks at it.
+TEST(TrainFeature, NineViewsAreTimedAndNoMore) {
+  Rng rng(1);
+  std::vector<ObjectView> views = ball_views(9, 48, rng, 3.0);
+  ObjectView broken;
+  broken.width_px = broken.height_px = 1;
+  views.push_back(broken);
+  EXPECT_GT(train_feature(Colour{}, views, rng).cost_s(), 0.0) << "the tenth is left alone";
+  views.erase(views.begin());
+  EXPECT_DEATH(train_feature(Colour{}, views, rng), "images have its size");
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "tests/support/object_views.hpp"
 
@@ -65,6 +67,17 @@ TEST(Sift, CannotLearnFromNothing) {
   const std::vector<ObjectView> views{blank_view(50, 50), blank_view(0, 0)};
   EXPECT_THROW((void)kSmallSift.train(views, rng), InputError);
   EXPECT_THROW((void)kSmallSift.train({}, rng), InputError);
+}
+
+/// To 64 x 32 px: a point every 8 px.
+TEST(DenseSift, OfACropThatIsNoSquareTheLongerSideIsBroughtToTheLimit) {
+  Sift same = kSmallSift;
+  same.min_side_px = same.max_side_px = 64;
+  for (const auto& [width_px, height_px] : {std::pair{128, 64}, {64, 128}}) {
+    ObjectView view = blank_view(width_px, height_px);
+    std::ranges::fill(view.mask, 1);
+    EXPECT_EQ(dense_root_sift(view, same).descriptors.cols(), 8 * 4) << width_px;
+  }
 }
 
 }  // namespace

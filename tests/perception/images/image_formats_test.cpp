@@ -293,5 +293,16 @@ TEST_F(ImageFormats, APictureOfTwoChannelsIsNoColour) {
                   HasSubstr("is an image of 2 channels of 8-bit values; expected 8-bit colour")));
 }
 
+TEST_F(ImageFormats, ATiffIsToldByItsPixels) {
+  const cv::Mat3b colour(2, 3, cv::Vec3b(1, 2, 3));
+  const cv::Mat1b grey(2, 3, std::uint8_t{9});
+  const cv::Mat1w depth(2, 3, std::uint16_t{900});
+  EXPECT_EQ(image_kind(image("colour.tif", colour)), ImageKind::colour);
+  EXPECT_EQ(image_kind(image("grey.tiff", grey)), ImageKind::mask);
+  EXPECT_EQ(image_kind(image("depth.TIF", depth)), ImageKind::depth);
+  write_file(path("text.tif"), "no picture at all");
+  EXPECT_EQ(image_kind(path("text.tif")), ImageKind::other);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "tests/planners/navigation/ascii_floor.hpp"
@@ -80,6 +82,11 @@ TEST_F(OutsideDecisions, APoseIsOnFloorInReach) {
   }
   EXPECT_FALSE(is_carried_out(Pose2{1e300, 0.5, 0.0})) << "no cell has such a number";
   EXPECT_FALSE(is_carried_out(Pose2{0.5, -1e300, 0.0}));
+}
+
+TEST(DecisionRequest, AnIntervalHasALowEndAndAHighOne) {
+  using Interval = decltype(DecisionRequest::interval_cells)::value_type;
+  EXPECT_EQ(std::tuple_size_v<Interval>, 2U);
 }
 
 }  // namespace

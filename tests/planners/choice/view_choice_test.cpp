@@ -257,5 +257,13 @@ TEST(ExternalChoice, NamesAProgram) {
   EXPECT_NO_THROW(check({std::string("planner"), std::string()}));
 }
 
+TEST(OpenCandidates, AreAllWhereEachIsExhausted) {
+  auto views = five_views();
+  views[1].exhausted = views[4].exhausted = true;
+  EXPECT_EQ(open_candidates(views), (std::vector<std::size_t>{0, 2, 3}));
+  for (Candidate& candidate : views) candidate.exhausted = true;
+  EXPECT_EQ(open_candidates(views), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -298,5 +298,25 @@ TEST_F(StepsThroughAPassage, TurnInTwoWhereAHeadingFitsOnlyFartherOn) {
   expect_pose(planned.legs[3].waypoints.back(), 1.0, 0.6, 0.8);
 }
 
+/// A post 7.9 cm ahead of its nose where the leg ends, and one as far behind its tail where it
+/// begins. Two centimetres to either side there are eight.
+TEST(CentredPath, MovesBothEndsToOneSideWhereEitherIsAsGood) {
+  const FloorOutline diamond{{-0.1, 0.0}, {0.0, -0.05}, {0.1, 0.0}, {0.0, 0.05}};
+  const DrawnRooms rooms(3.0, 1.0,
+                         {wall(0.821, 0.501, 0.829, 0.509), wall(2.171, 0.501, 2.179, 0.509)});
+  PathField field;
+  field.start = {0.4, 0.505, 0.0};
+  field.space = rooms.space({.outline = diamond}, {});
+  const Pose2 begin{1.004, 0.505, 0.0};
+  const Pose2 end{1.996, 0.505, 0.0};
+  PlannedPath path;
+  path.legs.push_back({.waypoints = {field.start, begin}});
+  path.legs.push_back({.waypoints = {begin, end}, .narrow = true});
+  path.legs.push_back({.waypoints = {end, {2.6, 0.505, 0.0}}});
+  const auto leg = centred(field, path).legs.at(1).waypoints;
+  EXPECT_NEAR(std::abs(leg.front().y_m - 0.505), 0.02, 1e-9);
+  EXPECT_EQ(leg.front().y_m, leg.back().y_m);
+}
+
 }  // namespace
 }  // namespace vantage

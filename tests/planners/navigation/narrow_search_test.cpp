@@ -205,5 +205,13 @@ TEST(NarrowSearch, LeadsToANookInTheFirstCellOfAMap) {
   EXPECT_NEAR(path_length_m(field, {0.025, 0.025, 0.0}), 6.0 * 0.05 + 9.0 * 0.05 * 3.0, 1e-6);
 }
 
+/// The first of five steps leads into the passage, the last one out of it. A metre in it counts for
+/// three, and double, as one that touches the margin.
+TEST(NarrowSearch, AStepIntoAPassageCostsNoMoreThanOneInIt) {
+  const DrawnRooms rooms(0.4, 0.05, {wall(0.05, 0.04, 0.25, 0.05)});
+  const PathField there = small_robots_field(rooms, {0.025, 0.025, 0.0});
+  EXPECT_NEAR(there.cost[there.map.index({5, 0})], 5.0 * 0.05 * 3.0 * 2.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -357,5 +357,12 @@ TEST(SearchTours, TryTheMostPromisingFirstView) {
   }
 }
 
+TEST(WithRaisedWorth, SearchesNothingWhereNothingIsWorthAnything) {
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  EXPECT_EQ(with_raised_worth(two_views(), {.worth_s = 0.0}, {}).worth_s, 0.0);
+  EXPECT_EQ(asked, 0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -249,5 +249,41 @@ TEST(Frustum, HasItsTipAtTheSensorAndOpensAlongX) {
   EXPECT_GT(cv::norm(expected.bgr, cv::NORM_INF), 250.0);
 }
 
+TEST(MapVoxels, EndAtTheCanvas) {
+  OccupancyGrid grid = unit_cells({1, 1, 1});
+  grid.log_odds[0] = 2.0F;
+  const auto pixels = [&](int left_px, int top_px) {
+    const MapCamera camera =
+        fit_camera(corners_to({1.0, 1.0, 1.0}), 0.0, 0.0, {left_px, top_px, 100, 100});
+    MapCanvas canvas = make_canvas({200, 200});
+    draw_voxels(canvas, camera, grid);
+    return cv::countNonZero(canvas.inverse_depth);
+  };
+  EXPECT_EQ(pixels(50, 50), 101 * 101);
+  EXPECT_EQ(pixels(150, 50), 50 * 101);
+  EXPECT_EQ(pixels(-50, 50), 51 * 101);
+  EXPECT_EQ(pixels(50, 150), 101 * 50);
+  EXPECT_EQ(pixels(50, -50), 101 * 51);
+}
+
+/// From above, three cells in a row of which the one in the middle is not known.
+TEST(MapVoxels, AreLitByWhereFreeCellsTwoCellsAwayAre) {
+  const auto drawn = [](const std::array<int, 3>& cells, std::size_t occupied) {
+    const MapCamera camera = fit_camera(corners_to({1.0 * cells[0], 1.0 * cells[1], 1.0}), 0.0,
+                                        0.5 * std::numbers::pi, {0, 0, 200, 200});
+    OccupancyGrid grid = unit_cells(cells);
+    grid.log_odds[occupied] = 2.0F;
+    grid.log_odds[2 - occupied] = -2.0F;
+    MapCanvas canvas = make_canvas({200, 200});
+    draw_voxels(canvas, camera, grid);
+    const Eigen::Vector3d middle_m = grid.frame.centre(grid.frame.cell(occupied));
+    return pixel_at(canvas, camera, middle_m + 0.5 * Eigen::Vector3d::UnitZ());
+  };
+  EXPECT_EQ(drawn({3, 1, 1}, 0), cv::Vec3b(46, 79, 49)) << "away from the light";
+  EXPECT_EQ(drawn({3, 1, 1}, 2), cv::Vec3b(117, 202, 127));
+  EXPECT_EQ(drawn({1, 3, 1}, 0), cv::Vec3b(46, 79, 49)) << "away from the light";
+  EXPECT_EQ(drawn({1, 3, 1}, 2), cv::Vec3b(94, 163, 102)) << "the light is more along x";
+}
+
 }  // namespace
 }  // namespace vantage

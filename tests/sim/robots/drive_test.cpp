@@ -146,5 +146,17 @@ TEST(Drive, SameSeedSameBits) {
   EXPECT_EQ(run(), run());
 }
 
+TEST(Drive, TakesTheTimeSinceItBegan) {
+  RobotWorld scene;
+  Odometry odometry = perfect(scene);
+  hold_still(scene.world, scene.robot, odometry, 1.0);
+  const double start_s = scene.world.time_s();
+  ASSERT_GT(start_s, 0.9);
+  const DriveResult result =
+      drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.3, 0.0, 0.0}});
+  EXPECT_EQ(result.status, DriveStatus::arrived);
+  EXPECT_NEAR(result.duration_s, scene.world.time_s() - start_s, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

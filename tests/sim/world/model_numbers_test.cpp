@@ -181,5 +181,24 @@ TEST(ModelNames, AreThoseOfTheirKindInOrder) {
             "the model has no camera called 's0'");
 }
 
+/// A wedge that is the fourth geom.
+test::MjcfModel wedge_behind_balls() {
+  return test::compile_mjcf(
+      "<mujoco><asset><mesh name='wedge' vertex='0 0 0  .4 0 0  0 .3 0  0 0 .2' "
+      "face='0 2 1  0 1 3  0 3 2  1 2 3'/></asset><worldbody>"
+      "<geom size='.1'/><geom size='.2'/><geom size='.3'/>"
+      "<geom name='wedge' type='mesh' mesh='wedge' pos='1 2 3'/></worldbody></mujoco>");
+}
+
+TEST(ModelNumbers, AMeshIsLookedForWhereItsOwnGeomIs) {
+  EXPECT_EQ(change_of(wedge_behind_balls, [](mjModel&) {}), "");
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(
+        change_of(wedge_behind_balls, [&](mjModel& m) { m.geom_pos[3 * 3 + axis] += 1.5e-3; }),
+        "a.xml: cannot stand beside a robot: the mesh of geom 'wedge' would change")
+        << axis;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

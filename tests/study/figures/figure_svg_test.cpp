@@ -200,5 +200,12 @@ TEST(FigurePlaces, OfPanels) {
               AllOf(HasSubstr(title(1006.0, 77.0, "p2")), HasSubstr(title(536.0, 407.0, "p4"))));
 }
 
+TEST(FigurePlaces, OfLegendsWithoutNamesAreColumnsOfTheirMarks) {
+  Figure figure = drawn_figure();
+  for (FigureSeries& series : figure.panels[0].series) series.name.clear();
+  EXPECT_THAT(figure_svg(figure), AllOf(HasSubstr("<path d=\"M66.0 403.0h22\""),
+                                        HasSubstr("<path d=\"M112.0 403.0h22\"")));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -114,5 +114,14 @@ TEST_F(Work, EndsWhenTheListIsClosed) {
   EXPECT_FALSE(list.take());
 }
 
+TEST_F(Work, ThatCrashedIsTriedAgainWhereNothingElseIsSaid) {
+  fs::create_directories(episode_folder(study_.path(), plan_[1]));
+  write_file(episode_folder(study_.path(), plan_[1]) / "failure.json", "{}");
+  states_.assign(plan_.size(), EpisodeState::completed);
+  states_[1] = EpisodeState::crashed;
+  WorkList list(plan_, options_, states_);
+  EXPECT_THAT(taken_from(list), ElementsAre(1U));
+}
+
 }  // namespace
 }  // namespace vantage

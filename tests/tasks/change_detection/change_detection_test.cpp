@@ -190,5 +190,30 @@ TEST(ChangeScenario, StartsFromWhatARecognitionWouldSee) {
   EXPECT_EQ(seen.yaw_rad, expected.yaw_rad);
 }
 
+/// Knocked down before its first view.
+TEST_F(ChangeEpisode, WithoutAViewNothingIsDecided) {
+  RunOptions options;
+  options.directory = *folder_ / "blown";
+  const std::string gust =
+      "tracking.gusts=[{start_s: 0.05, duration_s: 2, force_N: 50, direction: [0, 0, "
+      "-1]}]";
+  const RunOutcome outcome =
+      run(load_episode(kChange, overrides("none", {gust, "settle_s=1.5"})), options);
+  const json metrics = json::parse(outcome.metrics);
+  EXPECT_EQ(outcome.code, ExitCode::goal_failed);
+  EXPECT_THAT(metrics["observations"], testing::IsEmpty());
+  EXPECT_TRUE(metrics["decision"].is_null());
+  EXPECT_TRUE(metrics["change_probability"].is_null());
+  for (const char* key : {"correct", "changed_correct", "detectable_correct"}) {
+    EXPECT_EQ(metrics[key], false) << key;
+  }
+}
+
+TEST_F(ChangeEpisode, NeverSureItTakesNoMoreViewsThanItMay) {
+  const json metrics = metrics_of("none", {"max_views=1", "unchanged_below=0", "changed_above=1"});
+  EXPECT_EQ(metrics["observations"].size(), 1U);
+  EXPECT_THAT(metrics["reason"].get<std::string>(), testing::HasSubstr("limit of 1 views"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -13,6 +13,8 @@
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/tasks/exploration/exploration_map_evaluator.hpp"
+#include "vantage/tasks/exploration/simulated_exploration_robot.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {
@@ -124,6 +126,27 @@ TEST(TwoRooms, LoopsOnTheWayHomeMoveThePosesAndTheMap) {
   const auto occupied = std::ranges::count(shown.voxels, kVoxelOccupied, &VoxelRecord::kind);
   const OccupancyGrid map = read_octomap_grid(folder.path() / "run" / "map.ot");
   EXPECT_EQ(static_cast<std::size_t>(occupied), map.count(CellState::occupied));
+}
+
+/// On floor cells of a metre, a wall leaves one in the corner where the map begins.
+TEST(UnreachedRooms, MayBeTheFirstCellOfTheMap) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "corner.xml", "<mujoco><worldbody><geom type=\"plane\" size=\"5 5 0.1\"/>" +
+                                        box(-2.7, -3.9, -2.5, -2.5) + box(-3.9, -2.7, -2.5, -2.5) +
+                                        "</worldbody></mujoco>");
+  const ResolvedEpisode episode =
+      load_episode(std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml",
+                   {"scene=" + (folder / "corner.xml").string(), "robot.start_pose=[0.5,0.5,0]",
+                    "map.size_m=[8,8,2]", "map.cells=[80,80,20]", "floor_map.half_size_m=4",
+                    "passages.use=false", "metrics.pose_spacing_m=2", "camera.width_px=160",
+                    "camera.height_px=120"});
+  Exploration task = std::get<Exploration>(episode.task);
+  task.floor_map.cell_m = 1.0;
+  const SimulatedExplorationRobot robot(episode.setup, task);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const ExplorationMapEvaluator evaluator(task, 2, truth, robot.view_field(), robot.T_base_sweep());
+  ASSERT_TRUE(evaluator.left_out());
+  EXPECT_EQ(evaluator.left_out()->rooms, 1);
 }
 
 }  // namespace

@@ -264,5 +264,19 @@ TEST(Exploration, NamesTheSitesItCouldStartFrom) {
   EXPECT_THROW(explore(folder.path() / "run", {"frontiers.height_m=3"}), ConfigError);
 }
 
+/// No pose is known to a millionth of a cell.
+TEST(Exploration, SaysWhyItsMapIsInDoubt) {
+  const support::TemporaryDirectory folder;
+  const auto metrics =
+      explore(folder.path() / "run",
+              {"scans=2", "localisation.loops={close: true}", "localisation.accept_drift=true",
+               "localisation.tolerance_cells=1e-6"});
+  EXPECT_EQ(metrics["status"], "completed");
+  EXPECT_EQ(metrics["localisation"]["map_in_doubt"], true);
+  ASSERT_TRUE(metrics["localisation"]["doubt"].is_string());
+  const auto doubt = metrics["localisation"]["doubt"].get<std::string>();
+  EXPECT_TRUE(metrics["reason"].get<std::string>().ends_with("; " + doubt)) << metrics["reason"];
+}
+
 }  // namespace
 }  // namespace vantage

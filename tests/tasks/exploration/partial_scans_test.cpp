@@ -218,5 +218,16 @@ TEST(PartialScans, OfAnEpisodeShowWhatIsExpectedOfThem) {
   EXPECT_FALSE(again.first_difference) << again.what;
 }
 
+TEST(ExplorationRobot, KnowsWhereToStandForASweep) {
+  const ResolvedEpisode episode = small_office({});
+  const SimulatedExplorationRobot robot(episode.setup, std::get<Exploration>(episode.task));
+  ASSERT_GT(robot.T_base_sweep().translation().head<2>().norm(), 0.05);
+  const Pose2 base{1.5, -0.5, 2.0};
+  const Pose2 found = robot.base_for_sensor(to_se3(base) * robot.T_base_sweep());
+  EXPECT_NEAR(found.x_m, base.x_m, 1e-9);
+  EXPECT_NEAR(found.y_m, base.y_m, 1e-9);
+  EXPECT_NEAR(found.yaw_rad, base.yaw_rad, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -270,6 +270,9 @@ TEST(LoopClosing, CorrectsWhatFitsWellButIsBent) {
   EXPECT_GT(test_plan::worst_m(correction.T_world_before, truth), 0.07);
   EXPECT_LT(test_plan::worst_m(correction.T_world_after, truth), 0.05);
   EXPECT_FALSE(loops.wants_correction()) << "it has been corrected";
+  loops.remember({}, 0.25, compose(correction.T_world_after.back(), {0.3, 0.0, 0.0}));
+  EXPECT_GT(loops.disagreement_m(), 0.2);
+  EXPECT_FALSE(loops.wants_correction()) << "no loop is closed since then";
 }
 
 /// Nothing is in sight, so that the poses of the loops are those of the wheels: the second one is

@@ -381,5 +381,41 @@ TEST(BudgetKeeper, ComesHomeWithoutTurningBack) {
   EXPECT_NEAR(metrics["budget"]["from_start_m"].get<double>(), 0.0, 1e-9);
 }
 
+/// A flat wall two metres ahead, which does not tell where along it the robot is.
+struct RobotBeforeAWall : StandingRobot {
+  PlanarScan read_base_scanner() override {
+    PlanarScan scan{.T_base_sensor = {}, .azimuth_rad = {}, .range_m = {}, .range_max_m = 10.0};
+    for (int i = -50; i <= 50; ++i) {
+      scan.azimuth_rad.push_back(0.01 * i);
+      scan.range_m.push_back(static_cast<float>(2.02 / std::cos(0.01 * i)));
+    }
+    return scan;
+  }
+};
+
+TEST(Navigator, KnowsTheFloorAheadWhereItMayNotTurn) {
+  RobotBeforeAWall robot;
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+  navigator.turn_in_place();
+  EXPECT_EQ(navigator.floor().state_at({1.5, 0.02}), CellState::free);
+  EXPECT_EQ(navigator.floor().state_at({2.02, 0.02}), CellState::occupied);
+  EXPECT_EQ(navigator.floor().state_at({-1.5, 0.02}), CellState::unobserved);
+}
+
+/// The floor, what blocks it, or where the robot is.
+TEST(Navigator, PlansAnewOnlyWhereSomethingHasChanged) {
+  OnOpenFloor open({});
+  const auto first = open.navigator.plan();
+  EXPECT_TRUE(open.navigator.plan() == first);
+  open.navigator.floor().log_odds.back() = 2.0F;
+  const auto second = open.navigator.plan();
+  EXPECT_FALSE(second == first);
+  open.navigator.floor().blocked.back() = 1;
+  const auto third = open.navigator.plan();
+  EXPECT_FALSE(third == second);
+  open.robot.T_world_base.yaw_rad = 0.1;
+  EXPECT_FALSE(open.navigator.plan() == third);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -401,5 +401,18 @@ TEST(MapPanel, NumbersViewsAndMarksTheNewest) {
   }
 }
 
+TEST(MapPanel, DrawsThePlanFromWhereTheRobotIs) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.T_world_base = {0.7, -0.6, 0.0};
+  input.tour = tour_through({{-0.7, -0.6}});
+  const cv::Mat image = draw_map_panel(input, {640, 720});
+  const Eigen::Vector3d midway_px = 0.5 * camera_of_two_metres().project({0.0, -0.6, 0.0});
+  const cv::Rect around(static_cast<int>(midway_px.x()) - 1, static_cast<int>(midway_px.y()) - 1, 3,
+                        3);
+  EXPECT_GT(support::count_coloured(image, around, panel::kPlan), 0);
+}
+
 }  // namespace
 }  // namespace vantage

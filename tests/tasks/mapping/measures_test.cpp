@@ -262,5 +262,15 @@ TEST(MappingOutcome, SaysWhatCannotBeReached) {
       "not counted: 2 rooms that the robot cannot get to, 25.0 % of all that could be seen\n");
 }
 
+/// Bands with their middles at 2.5, 3 and 4 m.
+TEST(MappingMeasures, ForecastsBeyondThreeMetresBeginThere) {
+  Json metrics = metrics_with({});
+  metrics["scans"] =
+      std::vector<Json>{scan_with({band(0.0, 1.0, 1000.0, 3, 1)}),
+                        scan_with({band(2.0, 3.0, 70.0, 10, 0), band(2.5, 3.5, 4.0, 2, 0),
+                                   band(3.5, 4.5, 11.0, 8, 0)})};
+  EXPECT_EQ(scalar(metrics, "forecast_ratio_beyond_3_m"), 1.5);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -232,5 +232,26 @@ TEST_F(Plans, AreNotBelievedDamaged) {
   }
 }
 
+/// The laser looks straight ahead from the base.
+TEST_F(Plans, FaceWhereTheirViewsLook) {
+  const auto options = std::get<Tabletop>(load_recorded(tour_run()).task);
+  const auto events = read_event_log(tour_run() / "story.bin", options.map.frame().size());
+  const Decision* decision = nullptr;
+  int stops = 0;
+  for (const EpisodeEvent& event : events) {
+    if (const auto* made = std::get_if<Decision>(&event.what)) decision = made;
+    const auto* tour = std::get_if<PlannedTour>(&event.what);
+    if (tour == nullptr) continue;
+    ASSERT_NE(decision, nullptr);
+    for (const PlannedStop& stop : tour->stops) {
+      const Candidate& view = decision->candidates.at(static_cast<std::size_t>(stop.id));
+      const double view_rad = project_to_se2(view.T_world_sensor).yaw_rad;
+      EXPECT_NEAR(wrap_angle(stop.yaw_rad - view_rad), 0.0, 1e-6);
+      ++stops;
+    }
+  }
+  EXPECT_GT(stops, 3);
+}
+
 }  // namespace
 }  // namespace vantage

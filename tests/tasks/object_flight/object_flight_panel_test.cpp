@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "tests/tasks/drawn_pixels.hpp"
@@ -177,6 +179,22 @@ TEST(OutlinedImage, HasTheMasksEdgeInIt) {
   EXPECT_EQ(count_coloured(with_edge, {2, 1, 3, 3}, panel::kAccent), 8);
   EXPECT_EQ(count_coloured(with_edge, {0, 0, 8, 6}, {0, 100, 200}), 40);
   EXPECT_TRUE(is_coloured(with_edge, {3, 2}, {0, 100, 200}));
+}
+
+/// Its baseline is 4 px below the middle of the dot.
+TEST(RecognitionPanel, NumbersItsViews) {
+  const auto records = two_records();
+  const cv::Mat panel = drawn(from_above(records));
+  const double aside_px = 79.2 * std::sqrt(0.5);
+  for (const int number : {1, 2}) {
+    const cv::Point2d dot(518.0 + (number == 1 ? aside_px : -aside_px), 580.2 - aside_px);
+    cv::Mat expected(panel.size(), CV_8UC3, panel::kVisited);
+    panel::text(expected, {1.0, {640, 720}}, std::to_string(number), dot + cv::Point2d(0.0, 4.0),
+                11, panel::kBottom, panel::Align::centre, true);
+    const cv::Rect inside(static_cast<int>(dot.x) - 5, static_cast<int>(dot.y) - 5, 11, 11);
+    EXPECT_GT(count_coloured(expected, inside, panel::kBottom), 0);
+    EXPECT_EQ(cv::norm(panel(inside), expected(inside), cv::NORM_INF), 0.0) << number;
+  }
 }
 
 }  // namespace

@@ -2,7 +2,12 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <numbers>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include "tests/support/overrides.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"
@@ -163,6 +168,32 @@ TEST(ObjectOnTable, NamingItLeavesItWhereItWas) {
 
 TEST(ObjectOnTable, MustBeOfTheDatabase) {
   EXPECT_THROW(object_of(episode({"object=unicorn_1"})), ConfigError);
+}
+
+/// Of noise that is strong enough to take some colours past it.
+TEST(OrbitRobotInterface, ColoursEndAtWhite) {
+  OrbitingRobot robot(episode({"colour_noise=100"}));
+  const std::vector<std::uint8_t> rgb = robot.observe().images.rgb;
+  const auto white = std::ranges::count(rgb, std::uint8_t{255});
+  EXPECT_GT(static_cast<double>(white), 0.01 * static_cast<double>(rgb.size()));
+}
+
+/// With nothing of its own that could not be copied.
+struct BareOrbitRobot : OrbitRobotInterface {
+  [[nodiscard]] double time_s() const override { return 0.0; }
+  FlightObservation observe() override { return {}; }
+  FlightResult fly_along(std::span<const Pose> /*T_world_places*/) override { return {}; }
+  [[nodiscard]] FlightPlan plan(std::span<const Pose> /*T_world_places*/) const override {
+    return {};
+  }
+  [[nodiscard]] double start_bearing_rad() const override { return 0.0; }
+  [[nodiscard]] Pose estimated_body() const override { return Pose::Identity(); }
+};
+
+TEST(OrbitRobotInterface, IsOfOneRobotThatIsNotCopied) {
+  EXPECT_TRUE(std::is_default_constructible_v<BareOrbitRobot>);
+  EXPECT_FALSE(std::is_copy_constructible_v<BareOrbitRobot>);
+  EXPECT_FALSE(std::is_copy_assignable_v<BareOrbitRobot>);
 }
 
 }  // namespace

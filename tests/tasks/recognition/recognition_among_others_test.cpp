@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <map>
 
 #include "tests/support/overrides.hpp"
@@ -122,6 +123,12 @@ TEST_F(RecognitionAmongOthers, NoViewIsTakenAfterTheLimit) {
   EXPECT_GE(metrics["observations"].size(), 2U);
   EXPECT_LT(metrics["observations"].size(), 6U);
   EXPECT_LT(metrics["simulated_time_s"], 7.0) << "it settles a little later than planned";
+}
+
+TEST_F(RecognitionAmongOthers, ItsMapHoldsWhatStandsOnTheTable) {
+  metrics_of("mapped", {"max_views=1"});
+  const VoxelMap map = read_voxels(*folder_ / "mapped" / "voxels.bin");
+  EXPECT_GT(std::ranges::count(map.voxels, kVoxelOccupied, &VoxelRecord::kind), 20);
 }
 
 }  // namespace

@@ -1,17 +1,23 @@
 // Whole short episodes of recognition: a small database is rendered and learnt, then flown round.
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/drawn_pixels.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/small_recognition.hpp"
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/report/drawn_scene.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/runtime/log/video.hpp"
 #include "vantage/tasks/run.hpp"
 #include "vantage/tasks/validate.hpp"
 
@@ -185,6 +191,35 @@ TEST_F(RecognitionEpisode, AnObjectThatTheModelDoesNotKnowNeedsTheUnknown) {
 TEST_F(RecognitionEpisode, AQuadrotorIsCommandedAtEveryStep) {
   EXPECT_THROW(load_episode(kRecognition, overrides({"simulation.control_period_s=0.02"})),
                ConfigError);
+}
+
+/// It holds its place by an estimate with errors.
+TEST_F(RecognitionEpisode, TellsHowFarOffItsPlaceEachViewWasTaken) {
+  for (const json& view : first_["observations"]) EXPECT_GT(view["position_error_m"], 1e-6);
+}
+
+TEST_F(RecognitionEpisode, KeepsTheSceneThatItsPageShows) {
+  const DrawnScene scene = read_drawn_scene(*folder_ / "first/scene.bin");
+  EXPECT_FALSE(scene.triangles[0].empty());
+}
+
+/// In the right half of a still: the orbit is 79.2 px round (518, 580) px.
+TEST_F(RecognitionEpisode, ItsPanelHasAllPlacesToLookFrom) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  RunOptions options;
+  options.directory = *folder_ / "filmed";
+  options.video = true;
+  const RunOutcome outcome = run(load_episode(kRecognition, overrides({"max_views=1"})), options);
+  const double first_rad = json::parse(outcome.metrics)["observations"][0]["view_rad"];
+  const cv::Mat still = cv::imread((*folder_ / "filmed/frames/scan_01.png").string());
+  ASSERT_EQ(still.size(), cv::Size(1280, 720));
+  for (int id = 1; id < 8; ++id) {
+    const double bearing_rad = first_rad + 0.25 * std::numbers::pi * id;
+    const cv::Point place(1158 + cvRound(79.2 * std::cos(bearing_rad)),
+                          cvRound(580.2 - 79.2 * std::sin(bearing_rad)));
+    EXPECT_GT(support::count_coloured(still, {place.x - 6, place.y - 6, 13, 13}, panel::kDim), 0)
+        << id;
+  }
 }
 
 }  // namespace

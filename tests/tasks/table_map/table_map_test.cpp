@@ -183,5 +183,18 @@ TEST(TableMap, CellsOverAnOutlineAreWiderByTheMargin) {
   EXPECT_FALSE(is_over(-0.15, 0.01, 0.1));
 }
 
+TEST(TableMap, TakesPointsToBeOffByHalfACell) {
+  FlightMapOptions options;
+  options.cell_m = 0.02;
+  options.columns = 160;
+  options.noise_m = 0.01;
+  FlightMap expected(
+      {kTable_m + Eigen::Vector3d(-0.5, -0.5, 0.03), kTable_m + Eigen::Vector3d(0.5, 0.5, 0.5)},
+      options);
+  const Pose T_world_camera = camera_at(0.0);
+  expected.insert(draw({{kTarget, kScreen}}, T_world_camera, 0.002).images, T_world_camera);
+  EXPECT_EQ(map_after({0.0}).grid().log_odds, expected.grid().log_odds);
+}
+
 }  // namespace
 }  // namespace vantage

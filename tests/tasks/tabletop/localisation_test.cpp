@@ -2,9 +2,13 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <functional>
+
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/run.hpp"
+#include "vantage/tasks/tabletop/tabletop_session.hpp"
 
 namespace vantage {
 namespace {
@@ -119,6 +123,66 @@ TEST(TableTopWithWalls, IsTrusted) {
   EXPECT_EQ(metrics["reason"], "limit of 3 scans");
   EXPECT_TRUE(metrics["localisation"]["trusted"]);
   EXPECT_GT(metrics["map"]["precision"], 0.9);
+}
+
+/// With what the robot keeps to itself.
+struct OpenParts : TabletopParts {
+  using TabletopParts::navigator_;
+  using TabletopParts::TabletopParts;
+};
+
+/// Runs an episode of the scene, then shows what it came to.
+void look_into(const OwnScene& scene, std::vector<std::string> more,
+               const std::function<void(TabletopSession<OpenParts>&)>& look) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  more.insert(more.end(), {scene.set(), "map.cells=[49,49,25]", "laser.scan_duration_s=3"});
+  const ResolvedEpisode episode =
+      load_episode(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml", more);
+  RunOptions options;
+  options.directory = folder / "run";
+  options.lean = true;
+  const RunRequest request{.setup = episode.setup,
+                           .task = "next_best_view",
+                           .method = method_name(episode.task),
+                           .config = episode_yaml(episode),
+                           .inputs = {},
+                           .options = options};
+  TabletopSession<OpenParts> session(request, std::get<Tabletop>(episode.task));
+  session.run_to_end();
+  look(session);
+}
+
+/// RMS of how it knows the corners of its map, or what is 2 m away on the way to them.
+TEST(TableTopWithoutWalls, AMapIsAsSureAsWhatIsSeenOfItFromThere) {
+  look_into(OwnScene(pedestal_table()), {"scans=2"}, [](TabletopSession<OpenParts>& session) {
+    const Pose2 base = session.robot.estimated_base();
+    const Eigen::Vector2d from_m(base.x_m, base.y_m);
+    const Eigen::Matrix3d covariance = session.parts.navigator_.uncertainty().covariance();
+    EXPECT_GT(covariance(2, 2), 0.0);
+    const Eigen::AlignedBox3d region = session.belief.grid().frame.box();
+    double sum_m2 = 0.0;
+    for (const double x_m : {region.min().x(), region.max().x()}) {
+      for (const double y_m : {region.min().y(), region.max().y()}) {
+        Eigen::Vector2d way_m = Eigen::Vector2d(x_m, y_m) - from_m;
+        if (way_m.norm() > 2.0) way_m *= 2.0 / way_m.norm();
+        sum_m2 += std::pow(mapped_sigma_m(base, covariance, from_m + way_m), 2);
+      }
+    }
+    ASSERT_EQ(session.parts.scans().size(), 2U);
+    EXPECT_NEAR(session.parts.scans().back().map_sigma_m, std::sqrt(0.25 * sum_m2), 1e-9);
+  });
+}
+
+/// A map of 0.6 m on a table of a metre.
+TEST(TableTopWithWalls, ATableIsInTheWayBesideItsMapToo) {
+  look_into(OwnScene(pedestal_table() + kWalls), {"scans=1", "map.size_m=[0.6,0.6,0.504]"},
+            [](TabletopSession<OpenParts>& session) {
+              const FloorMap& floor = session.parts.navigator_.floor();
+              EXPECT_EQ(floor.state_at({0.22, 0.01}), CellState::occupied);
+              EXPECT_EQ(floor.state_at({0.42, 0.01}), CellState::occupied);
+              EXPECT_NE(floor.state_at({0.62, 0.01}), CellState::occupied);
+            });
 }
 
 }  // namespace

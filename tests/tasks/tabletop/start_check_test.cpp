@@ -1,6 +1,8 @@
 // What `vantage validate` says of a mapping task before it runs.
 #include <gmock/gmock.h>
 
+#include <string>
+
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/tasks/validate.hpp"
 
@@ -221,6 +223,16 @@ TEST(ValidateTableTop, ViewsOffTheFloorMapAreAsFarAsTheyAre) {
   EXPECT_THAT(problem(found),
               AllOf(HasSubstr("floor_map.half_size_m: 0.6 ends"),
                     HasSubstr("0.72 m from the world's origin"), HasSubstr("2.0 would do")));
+}
+
+/// The walls are 2.95 m from the middle, and the robot plans as a disc of 0.48 m with a margin of
+/// 4 cm.
+TEST(ValidateTableTop, WhatIsFreeAllRoundIsSoForTheWholeRobot) {
+  const std::string said =
+      problem(validated("tabletop", OwnScene(kTable + kRoom), {"candidates.radius_m=5"}));
+  const std::size_t at = said.rfind(" to ");
+  ASSERT_NE(at, std::string::npos) << said;
+  EXPECT_NEAR(std::stod(said.substr(at + 4)), 2.95 - 0.52, 0.06) << said;
 }
 
 }  // namespace

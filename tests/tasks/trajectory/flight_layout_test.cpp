@@ -5,10 +5,13 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/rng.hpp"
 #include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/trajectory/supports_ground_truth.hpp"
 
@@ -127,6 +130,34 @@ TEST(ObjectsOnSupports, StandInTheCompiledScene) {
       lowest_m = std::min(lowest_m, z);
     }
     EXPECT_NEAR(lowest_m, objects[i].p_world_m.z(), 1e-3) << objects[i].object;
+  }
+}
+
+/// As flights that were recorded have them: heading and distance of one after the other.
+TEST(ObjectsOnSupports, StandWhereTheirSeedPutsThem) {
+  const auto objects = draw_objects({}, kSupports, 0.02, 7);
+  Rng place = Rng::stream(7, "object places");
+  for (std::size_t i = 0; i < kSupports.size(); ++i) {
+    const double heading_rad = place.uniform(0.0, 2.0 * std::numbers::pi);
+    const double distance_m = 0.02 * std::sqrt(place.uniform());
+    const Eigen::Vector3d off_m(distance_m * std::cos(heading_rad),
+                                distance_m * std::sin(heading_rad), 0.0);
+    EXPECT_NEAR((objects[i].p_world_m - kSupports[i] - off_m).norm(), 0.0, 1e-12) << i;
+  }
+}
+
+TEST(ObjectsOnSupports, AreFollowedToWhereTheyArePut) {
+  const fs::path scene = scene_file("trajectory_4");
+  const auto drawn = draw_objects({}, read_support_surfaces(scene), 0.02, 3);
+  World world({scene, {}, object_files({}, drawn)}, {});
+  const Eigen::Vector3d by_m(0.1, -0.2, 0.05);
+  world.put_fixed_body(model_id(world.model(), ModelObject::body, "object_1"),
+                       drawn[1].p_world_m + by_m);
+  std::vector<ObjectOnSupport> objects = drawn;
+  follow_moved(world, objects);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Eigen::Vector3d moved_m = objects[i].p_world_m - drawn[i].p_world_m;
+    EXPECT_NEAR((moved_m - (i == 1 ? 1.0 : 0.0) * by_m).norm(), 0.0, 1e-4) << i;
   }
 }
 

@@ -6,6 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/report/report_data.hpp"
+#include "vantage/sim/world/world.hpp"
+
 namespace vantage {
 namespace {
 
@@ -86,6 +91,31 @@ TEST(ViewDecision, FliesToWhereThePlannerWantsTheView) {
   const Decision gone = view_decision(two_objects(), tilted_camera(), kDistance_m, kHighest_m,
                                       ViewTarget{.object = 5, .direction = 4});
   EXPECT_EQ(gone.chosen, 16U);
+}
+
+/// The first cell of the grid and the last one.
+TEST(FlightLog, KeepsSinceWhichWaypointEachCellIsOccupied) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "scene.xml",
+             "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
+  const ModelSource source{folder / "scene.xml", {}};
+  World world(source);
+  const auto at_origin = [] { return make_pose({0.0, 0.0, 1.0}, 0.0); };
+  RunLog run({.world = world, .T_world_body = at_origin, .T_world_estimated = at_origin}, {},
+             folder.path(), false, true, {});
+  FlightLog log(run, folder.path(), true);
+  OccupancyGrid grid(make_grid_frame({0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}, {2, 2, 1}));
+  grid.log_odds[0] = 5.0F;
+  log.map(grid, 3);
+  grid.log_odds[3] = 5.0F;
+  log.map(grid, 4);
+  log.commit();
+  const VoxelMap map = read_voxels(folder / "voxels.bin");
+  ASSERT_EQ(map.voxels.size(), 2U);
+  EXPECT_EQ(map.voxels[0].x, 0.25F);
+  EXPECT_EQ(map.voxels[0].step, 3);
+  EXPECT_EQ(map.voxels[1].x, 0.75F);
+  EXPECT_EQ(map.voxels[1].step, 4);
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
+#include "tests/support/temporary_directory.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
+#include "vantage/tasks/trajectory/trajectory_recorder.hpp"
 
 namespace vantage {
 namespace {
@@ -75,6 +79,58 @@ TEST_F(Interface, TellsWhatIsLeftOfThePathThatItFlies) {
   EXPECT_TRUE(robot.path_on(0.0)) << "three are left";
   robot.fly_past(1, kNothing);
   EXPECT_FALSE(robot.path_on(0.0)) << "two are left";
+}
+
+/// With nothing of its own that could not be copied.
+struct BareTrajectoryRobot : TrajectoryRobotInterface {
+  using TrajectoryRobotInterface::passed;
+  [[nodiscard]] double time_s() const override { return 0.0; }
+  void follow(std::span<const FlightWaypoint> /*waypoints*/) override {}
+  void fly_for(double /*duration_s*/, const ImageCallback& /*on_image*/) override {}
+  void fly_past(int /*waypoints*/, const ImageCallback& /*on_image*/) override {}
+  [[nodiscard]] MinimumJerkTrajectory path_in(
+      double /*delay_s*/, std::span<const FlightWaypoint> waypoints) const override {
+    return {FlightReference{}, waypoints};
+  }
+  [[nodiscard]] std::optional<MinimumJerkTrajectory> path_on(double /*delay_s*/) const override {
+    return std::nullopt;
+  }
+  [[nodiscard]] int passed(double /*in_s*/) const override { return 0; }
+  void capture_now(const ImageCallback& /*on_image*/) override {}
+  [[nodiscard]] Pose estimated_body() const override { return Pose::Identity(); }
+  [[nodiscard]] Pose T_body_camera() const override { return Pose::Identity(); }
+};
+
+TEST_F(Interface, IsOfOneRobotThatIsNotCopied) {
+  EXPECT_TRUE(std::is_default_constructible_v<BareTrajectoryRobot>);
+  EXPECT_FALSE(std::is_copy_constructible_v<BareTrajectoryRobot>);
+  EXPECT_FALSE(std::is_copy_assignable_v<BareTrajectoryRobot>);
+}
+
+using LeanFlight = Interface;
+
+TEST_F(LeanFlight, KeepsNoImagesEventsOrScene) {
+  const support::TemporaryDirectory folder;
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
+  const auto& task = std::get<TrajectoryFlight>(episode_.task);
+  RunOptions options;
+  options.directory = folder / "run";
+  options.lean = true;
+  const RunRequest request{episode_.setup,         "trajectory", task.method_name(),
+                           episode_yaml(episode_), {},           options};
+  const EpisodeRun run(request);
+  TrajectoryRecorder recorder(run, robot.quadrotor(), task.camera);
+  ObjectView view;
+  view.width_px = view.height_px = 2;
+  view.rgb.assign(12, 100);
+  view.mask.assign(4, 1);
+  recorder.observation(0, {}, 1, view);
+  recorder.commit();
+  EXPECT_TRUE(fs::exists(options.directory / "looks.csv"));
+  for (const char* name : {"views", "story.bin", "scene.bin", "candidates.csv", "states.bin"}) {
+    EXPECT_FALSE(fs::exists(options.directory / name)) << name;
+  }
+  release_run_directory(options.directory);
 }
 
 }  // namespace

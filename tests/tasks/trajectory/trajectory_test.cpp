@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -344,6 +345,68 @@ TEST_F(TrajectoryEpisode, AnUnknownMethodNamesThoseThereAre) {
   EXPECT_THAT(found.problems[0],
               testing::AllOf(testing::HasSubstr("chomp"), testing::HasSubstr("greedy_detour"),
                              testing::HasSubstr("covariant_gradient")));
+}
+
+TEST_F(TrajectoryEpisode, TellsThePathThatItWasGiven) {
+  const json& path = first_["path"];
+  ASSERT_EQ(path.size(), 6U);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Eigen::Vector4d given(-2.67 + 0.53 * static_cast<double>(i), -1.9, 1.8, 0.0);
+    ASSERT_EQ(path[i].size(), 4U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(path[i][k].get<double>(), given[static_cast<Eigen::Index>(k)], 1e-6) << i;
+    }
+  }
+}
+
+/// Of five replans the third and the slowest.
+TEST_F(TrajectoryEpisode, TellsHowLongItsReplansTake) {
+  const CsvTable steps = read_csv(*folder_ / "first" / "steps.csv");
+  std::vector<double> plan_time_s;
+  for (const auto& row : steps.rows) {
+    if (!row[6].empty()) plan_time_s.push_back(std::stod(row[7]));
+  }
+  ASSERT_EQ(plan_time_s.size(), 5U);
+  std::ranges::sort(plan_time_s);
+  EXPECT_DOUBLE_EQ(first_["plan_time_s"]["median"].get<double>(), plan_time_s[2]);
+  EXPECT_DOUBLE_EQ(first_["plan_time_s"]["p95"].get<double>(), plan_time_s[4]);
+}
+
+/// No view is expected to tell all that there is to know of an object.
+TEST_F(TrajectoryEpisode, WeighsViewsByWhatTheyAreExpectedToTell) {
+  const WindowContent content = window(load_recorded(*folder_ / "first"));
+  ASSERT_TRUE(content.map);
+  std::size_t views = 0;
+  for (const EpisodeEvent& event :
+       read_event_log(*folder_ / "first/story.bin", content.map->size())) {
+    const auto* decision = std::get_if<Decision>(&event.what);
+    if (decision == nullptr) continue;
+    for (const Candidate& view : decision->candidates) {
+      EXPECT_LT(view.gain_bits, 0.99 * prior_entropy_nats());
+      ++views;
+    }
+  }
+  EXPECT_GT(views, 0U);
+}
+
+/// The second flight leads through a stand, and has no other plan.
+TEST_F(TrajectoryEpisode, TellsWhichPlansKeepClear) {
+  const fs::path scene = arena_with_path(*folder_ / "through",
+                                         "-2.2,-1.25,0.6,0\n-1.6,-1.25,0.6,0\n"
+                                         "-0.9,-1.25,0.6,0\n0,-1.25,0.6,0\n");
+  metrics_of("through_a_stand", scene, {"method=initial"});
+  const auto task = std::get<TrajectoryFlight>(load_recorded(*folder_ / "first").task);
+  int hindered = 0;
+  for (const char* flight : {"first", "through_a_stand"}) {
+    const CsvTable table = read_csv(*folder_ / flight / "candidates.csv");
+    ASSERT_EQ(table.columns.at(9), "clearance_m");
+    ASSERT_EQ(table.columns.at(10), "clear");
+    for (const auto& row : table.rows) {
+      EXPECT_EQ(row[10], std::stod(row[9]) >= task.planner.clearance_m ? "1" : "0") << flight;
+      hindered += row[10] == "0" ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hindered, 0);
 }
 
 }  // namespace
