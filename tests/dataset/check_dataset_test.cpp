@@ -263,5 +263,14 @@ TEST_F(TwoDatasets, NameObjectsThatAreNotTrainedOn) {
               ElementsAre("not trained on: jug_2; of these only the category can be right"));
 }
 
+TEST_F(TwoDatasets, WhoseNumbersDifferMayStillBeUsed) {
+  test_.mask.median = 0.39;
+  test_.holes.median = 0.26;
+  test_.focal_px = 511.0;
+  test_.objects.push_back({.object = "jug_2"});
+  EXPECT_THAT(said(),
+              testing::AllOf(testing::SizeIs(4), testing::Each(Not(testing::StartsWith("!")))));
+}
+
 }  // namespace
 }  // namespace vantage

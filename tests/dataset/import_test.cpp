@@ -297,5 +297,12 @@ TEST(ReplaceFolder, KeepsWhatWasThereIfItFails) {
   EXPECT_EQ(entries_of(folder.path()), 1);
 }
 
+TEST_F(Import, NoElevationIsAssumedWhereAllAreKnown) {
+  put("front");
+  ImportOptions options;
+  options.elevation_deg = 20.0;
+  EXPECT_THAT(imported(options).notices, Not(Contains(HasSubstr("is not known of"))));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -232,6 +233,19 @@ TEST(RenderDataset, OverwritingLeavesNothingOfTheOldOne) {
   render_dataset(other, {.root = out / "d", .overwrite = true});
   render_dataset(other, {.root = out / "new"});
   EXPECT_TRUE(contents(out / "d") == contents(out / "new"));
+}
+
+/// What was told before counts as well, so a process of its own has to do it.
+TEST(RenderDataset, TellsHowFarItIs) {
+  const support::TemporaryDirectory out;
+  const auto renders = [&] {
+    render_dataset(few(1), {.root = out / "d"});
+    fs::remove_all(out.path());
+    std::_Exit(0);
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(renders(), testing::ExitedWithCode(0), "rendering: 100 % mug_1\n");
+  GTEST_FLAG_SET(death_test_style, "fast");
 }
 
 }  // namespace

@@ -265,5 +265,15 @@ TEST_F(Evaluated, MeasuresAreReadFromTheFoldersOfTheEpisodes) {
   EXPECT_FALSE(read.measures[0]);
 }
 
+TEST_F(Evaluated, PredictorsAreHeldAgainstThatOfTheReference) {
+  put(1, 1.5, {0.8, 0.5, 0.2}, {{"adaptive", {2.0}}, {"simple", {10.0, 5.0}}});
+  results_.study.report.reference = "simple";
+  const Evaluation evaluation = evaluate(results_);
+  const Comparison& errors = evaluation.comparisons[1];
+  EXPECT_EQ(errors.reference, "simple");
+  ASSERT_TRUE(errors.rows[0].difference);
+  EXPECT_DOUBLE_EQ(errors.rows[0].difference->mean, 2.0 - 7.5);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -359,5 +359,15 @@ TEST_F(StudyFile, AFolderOfAnotherStudyIsKeptUnlessItIsToBeOverwritten) {
   EXPECT_NO_THROW(prepare_study_folder(another, options));
 }
 
+/// The second start has no other level that is new.
+TEST_F(StudyFile, ValidationTriesEveryStartBesideOtherFactors) {
+  std::ofstream(folder_ / "s.yaml")
+      << "episode: assets/episodes/office_small.yaml\nfactors:\n  start:\n"
+         "    a: {robot.start_site: nowhere}\n    b: {robot.start_site: elsewhere}\nseeds: [1]\n";
+  const std::vector<std::string> problems = validate_study(folder_ / "s.yaml").problems;
+  EXPECT_THAT(problems, testing::Contains(HasSubstr("'nowhere'")));
+  EXPECT_THAT(problems, testing::Contains(HasSubstr("'elsewhere'")));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -21,6 +22,7 @@
 #include "vantage/core/log.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/runtime/log/video.hpp"
+#include "vantage/tasks/mapping/drawing/map_panel.hpp"
 
 namespace vantage {
 namespace {
@@ -341,6 +343,30 @@ TEST_F(Run, AScanTakesItsSweepAndTheTimeToComeToRest) {
   for (const auto& scan : first_["scans"]) {
     EXPECT_NEAR(scan["scan_time_s"].get<double>(), 0.5 + 3.0 + 0.025, 1e-6);
   }
+}
+
+/// On the card in the right half of a still.
+TEST_F(Run, ItsPanelHasTheFiguresOfTheLastScan) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  RunOptions options;
+  options.directory = folder_ / "filmed";
+  options.video = true;
+  const RunOutcome outcome = run(short_episode({"scans=1", "recording.video_speed=100"}), options);
+  const nlohmann::json metrics = nlohmann::json::parse(outcome.metrics);
+  const nlohmann::json& scan = metrics["scans"][0];
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {1.0, 1.0, 1.0}, {4, 4, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.observable_unobserved_cells = {scan["observable_unobserved_cells"].get<double>()};
+  input.predicted_new_cells = scan["predicted"]["adaptive"].get<double>();
+  input.actual_new_cells = scan["actual_new_cells"].get<double>();
+  ASSERT_GT(input.predicted_new_cells, 0.0);
+  const cv::Mat still = cv::imread((options.directory / "frames/scan_01.png").string());
+  ASSERT_EQ(still.size(), cv::Size(1280, 720));
+  const cv::Rect figures(430, 530, 180, 160);
+  const cv::Mat shown = still(cv::Rect(640, 0, 640, 720))(figures);
+  const cv::Mat expected = draw_map_panel(input, {640, 720})(figures);
+  EXPECT_EQ(cv::norm(shown, expected, cv::NORM_INF), 0.0);
 }
 
 }  // namespace

@@ -217,5 +217,26 @@ TEST(Tasks, FilesOfATaskAreFoundBesideItsEpisode) {
   EXPECT_EQ(std::get<RecognitionTask>(episode.task).model, (folder / "mine.model").string());
 }
 
+TEST(Tasks, AnEpisodeIsAMapOrSaysNothing) {
+  EpisodeOptions options;
+  Task task;
+  EXPECT_EQ(complaint([&] { read_episode(ConfigNode{}, options, task); }), "");
+  for (const char* text : {"words", "[scans, 3]"}) {
+    EXPECT_THAT(complaint([&] { read_episode(parse_yaml(text, "e.yaml"), options, task); }),
+                testing::AllOf(HasSubstr("e.yaml:1"), HasSubstr("expected a map")))
+        << text;
+  }
+}
+
+TEST(Tasks, AnExplorationHasTheKeysOfItsParts) {
+  std::set<std::string> keys;
+  for (const KeyDescription& key : describe_episode(Exploration{})) keys.insert(key.key);
+  for (const char* key :
+       {"camera.range_max_m", "enough.scans", "floor_detail.parts", "frontiers.min_cells",
+        "gaze.worth", "headroom.high_m", "passages.margin_m", "stop.confidence", "sweep.pans"}) {
+    EXPECT_TRUE(keys.contains(key)) << key;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

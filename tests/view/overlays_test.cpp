@@ -181,5 +181,22 @@ TEST(MapOnAnImage, IsHiddenByWhatIsBeforeItButNotByItsOwnSurface) {
   EXPECT_NEAR(1.0 / canvas.inverse_depth.at<float>(40, 50), 9.9, 1e-4);
 }
 
+/// Of one cell that is 20 pixels wide and high.
+TEST(MapOnAnImage, ReachesToAllEdges) {
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 10.0}, {0.2, 0.2, 0.2}, {1, 1, 1}));
+  grid.log_odds[0] = 5.0F;
+  MapCamera camera;
+  camera.focal_px = 1000.0;
+  camera.centre_px = {4.0, 3.0};
+  MapCanvas canvas = make_canvas({9, 7});
+  lay_map(canvas, camera, grid);
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < 9; ++x) {
+      EXPECT_NE(canvas.bgr.at<cv::Vec3b>(y, x), kBlack) << x << ", " << y;
+      EXPECT_NEAR(1.0 / canvas.inverse_depth.at<float>(y, x), 9.9, 1e-4) << x << ", " << y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

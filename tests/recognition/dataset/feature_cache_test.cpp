@@ -10,6 +10,7 @@
 #include "tests/recognition/painted_dataset.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/hash.hpp"
 #include "vantage/recognition/dataset/view_features.hpp"
 
 namespace vantage {
@@ -163,6 +164,14 @@ TEST_F(FeatureCaching, WorkThatIsBrokenOffIsKept) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     EXPECT_EQ(kept.find(0, view_hash(views[i])).has_value(), i < 5) << i;
   }
+}
+
+/// Else all that users have kept would be extracted anew.
+TEST_F(FeatureCaching, WhatTheFirstVersionKeptIsWhereItIsLookedFor) {
+  const TrainedFeature colour(Colour{}, 0.0);
+  (void)extract(cache());
+  const std::uint64_t hash = hash_bytes("version 1", colour.state_hash());
+  EXPECT_TRUE(fs::is_directory(cache() / ("colour-" + hash_text(hash))));
 }
 
 }  // namespace

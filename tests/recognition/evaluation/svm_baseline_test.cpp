@@ -81,5 +81,22 @@ TEST(SvmBaseline, NeedsTwoLabelsAndOptionsInRange) {
       HasSubstr("gamma"));
 }
 
+/// Four views of one object at 0, three of the other at 1 and a fourth that strayed to 0.2.
+TEST(SvmBaseline, FitsAStrayViewWhereErrorsWeighMuch) {
+  std::vector<ViewFeatures> known;
+  for (const float x : {0.0F, 0.0F, 0.0F, 0.0F, 0.2F, 1.0F, 1.0F, 1.0F}) {
+    known.push_back(view_of(x, 0.0F));
+  }
+  const std::vector<int> label{5, 5, 5, 5, 9, 9, 9, 9};
+  const std::vector<ViewFeatures> asked{view_of(0.0F, 0.0F), view_of(0.2F, 0.0F),
+                                        view_of(1.0F, 0.0F)};
+  for (const Svm& svm : {Svm(LinearSvm{.c = 0.01}), Svm(KernelSvm{.c = 0.01})}) {
+    EXPECT_THAT(svm_predictions(svm, {known, label}, asked), ElementsAre(5, 5, 9));
+  }
+  for (const Svm& svm : {Svm(LinearSvm{.c = 1000.0}), Svm(KernelSvm{.c = 1000.0})}) {
+    EXPECT_THAT(svm_predictions(svm, {known, label}, asked), ElementsAre(5, 9, 9));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

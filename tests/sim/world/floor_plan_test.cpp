@@ -75,5 +75,14 @@ TEST(FloorPlan, OfARoundThingHasCornersEvery5Centimetres) {
   EXPECT_EQ(plan[0].size(), 63U);
 }
 
+TEST(FloorPlan, WhatFollowsARugOrALampIsDrawn) {
+  const auto plan = plan_of(
+      "<geom type='box' size='3 3 .01' pos='0 0 .01'/>"
+      "<geom type='box' size='.1 .1 .05' pos='0 0 2.55'/>"
+      "<geom type='box' size='.6 .4 .5' pos='2 -1 .5'/>");
+  ASSERT_EQ(plan.size(), 1U);
+  EXPECT_NEAR(area_m2(plan[0]), 1.2 * 0.8, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

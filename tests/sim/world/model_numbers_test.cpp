@@ -200,5 +200,16 @@ TEST(ModelNumbers, AMeshIsLookedForWhereItsOwnGeomIs) {
   }
 }
 
+/// A ten-thousandth of the larger one may be rounding, whichever of the two that is.
+TEST(ModelNumbers, TheLargerNumberTellsWhatMayBeRounding) {
+  const auto mass_by = [](double share) {
+    return change_of(seven, [&](mjModel& m) { m.body_mass[1] *= 1.0 + share; });
+  };
+  EXPECT_EQ(mass_by(1.00005e-4), "");
+  EXPECT_EQ(mass_by(-0.99995e-4), "");
+  EXPECT_NE(mass_by(1.00015e-4), "");
+  EXPECT_NE(mass_by(-1.00005e-4), "");
+}
+
 }  // namespace
 }  // namespace vantage

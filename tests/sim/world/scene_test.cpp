@@ -277,5 +277,15 @@ TEST(Scene, SaysWhatIsWrongInOneLine) {
   }
 }
 
+TEST(Scene, RejectsWhatIsNotANumberInWhateverAttribute) {
+  for (const char* geom : {"<geom size='.1' margin='nan'/>", "<geom size='.1' rgba='nan 0 0 1'/>",
+                           "<geom size='.1' solref='nan 1'/>"}) {
+    const SceneFolder folder(test::scene_mjcf(geom));
+    EXPECT_THAT(scene_complaint(folder.alone()),
+                AllOf(StartsWith(folder.path().string() + ": "), HasSubstr("NaN")))
+        << geom;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

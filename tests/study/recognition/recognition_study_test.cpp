@@ -248,5 +248,11 @@ TEST(RecognitionTables, FilesOfAFormerStudyAreReplaced) {
   EXPECT_TRUE(std::filesystem::is_directory(folder / "new"));
 }
 
+/// Of four objects three are right, each held for right by 0.8: drawn again, three down to one are.
+TEST(RecognitionTables, CalibrationErrorsHaveTheirIntervalInPercent) {
+  EXPECT_THAT(recognition_tables(written_study()),
+              HasSubstr("| random | 75.00 | 80.00 | 5.00 [5.00, 55.00] |\n"));
+}
+
 }  // namespace
 }  // namespace vantage

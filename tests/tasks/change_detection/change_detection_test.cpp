@@ -215,5 +215,16 @@ TEST_F(ChangeEpisode, NeverSureItTakesNoMoreViewsThanItMay) {
   EXPECT_THAT(metrics["reason"].get<std::string>(), testing::HasSubstr("limit of 1 views"));
 }
 
+/// It is commanded at every step, and has no wheels.
+TEST(ChangeScenario, IsOfAFlightLikeAnyOther) {
+  const ChangeDetectionTask task = scenario("none");
+  EpisodeOptions episode;
+  EXPECT_THROW(task.check_with(episode), ConfigError);
+  episode.simulation.control_period_s = episode.simulation.timestep_s;
+  EXPECT_NO_THROW(task.check_with(episode));
+  episode.faults.odometry_slip = 0.1;
+  EXPECT_THROW(task.check_with(episode), ConfigError);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -149,5 +149,22 @@ TEST(UnreachedRooms, MayBeTheFirstCellOfTheMap) {
   EXPECT_EQ(evaluator.left_out()->rooms, 1);
 }
 
+TEST(TrueWays, AskNoOutlineWhereADiscGetsEverywhere) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "open.xml",
+             "<mujoco><worldbody><geom type=\"plane\" size=\"5 5 0.1\"/></worldbody></mujoco>");
+  const ResolvedEpisode episode =
+      load_episode(std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml",
+                   {"scene=" + (folder / "open.xml").string(), "robot.start_pose=[0,0,0]",
+                    "map.size_m=[4,4,2]", "map.cells=[40,40,20]", "floor_map.half_size_m=4",
+                    "metrics.pose_spacing_m=2", "camera.width_px=160", "camera.height_px=120"});
+  const auto& task = std::get<Exploration>(episode.task);
+  const SimulatedExplorationRobot robot(episode.setup, task);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const ExplorationMapEvaluator evaluator(task, 2, truth, robot.view_field(), robot.T_base_sweep());
+  ASSERT_TRUE(task.passages.use);
+  EXPECT_TRUE(evaluator.true_space() == nullptr);
+}
+
 }  // namespace
 }  // namespace vantage

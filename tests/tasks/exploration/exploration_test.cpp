@@ -20,6 +20,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/perception/clouds/reference_map.hpp"
 #include "vantage/runtime/log/event_log.hpp"
+#include "vantage/tasks/exploration/exploration_session.hpp"
 #include "vantage/tasks/exploration/visited_places.hpp"
 #include "vantage/tasks/run.hpp"
 
@@ -276,6 +277,77 @@ TEST(Exploration, SaysWhyItsMapIsInDoubt) {
   ASSERT_TRUE(metrics["localisation"]["doubt"].is_string());
   const auto doubt = metrics["localisation"]["doubt"].get<std::string>();
   EXPECT_TRUE(metrics["reason"].get<std::string>().ends_with("; " + doubt)) << metrics["reason"];
+}
+
+/// Ends with its first plan.
+struct PlannedOnce : ExplorationParts {
+  using ExplorationParts::ExplorationParts;
+  void act(const Candidate& /*candidate*/) {
+    plan = tour_;
+    throw EpisodeFailed("it has planned");
+  }
+  PlannedTour plan;
+};
+
+TEST(Exploration, TheOracleOfAllPlacesPlansOnToThoseThatItCannotReachYet) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  const ResolvedEpisode episode =
+      load_episode(std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml",
+                   {"choice=oracle_tour", "map.cells=[100,67,20]", "camera.width_px=160",
+                    "camera.height_px=120", "stride_px=1", "metrics.pose_spacing_m=2"});
+  RunOptions options;
+  options.directory = folder.path() / "run";
+  options.lean = true;
+  const RunRequest request{.setup = episode.setup,
+                           .task = "exploration",
+                           .method = "oracle_tour",
+                           .config = {},
+                           .inputs = {},
+                           .options = options};
+  ExplorationSession<PlannedOnce> session(request, std::get<Exploration>(episode.task));
+  session.run_to_end();
+  const PlannedTour& plan = session.parts.plan;
+  ASSERT_FALSE(plan.stops.empty());
+  EXPECT_GE(plan.stops.front().id, 0);
+  EXPECT_TRUE(std::ranges::any_of(plan.stops, [](const PlannedStop& stop) { return stop.id < 0; }));
+  EXPECT_TRUE(std::isfinite(plan.ends_s()));
+}
+
+/// Notes when its last scan was recorded, and when the decision after it is said to have begun.
+struct TimedDecisions : ExplorationParts {
+  using ExplorationParts::ExplorationParts;
+  void record() {
+    recorded_s = wall_s();
+    ExplorationParts::record();
+    begun_s = decision_start_s_;
+  }
+  double recorded_s = 0.0;
+  double begun_s = 0.0;
+};
+
+/// One poor promise is enough for it, at its first scan; what is left is judged there, too.
+TEST(Exploration, JudgesWhatIsLeftBeforeItsDecisionBegins) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  const ResolvedEpisode episode =
+      load_episode(std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml",
+                   {"scans=2", "map.cells=[100,67,20]", "camera.width_px=160",
+                    "camera.height_px=120", "stride_px=1", "metrics.pose_spacing_m=2",
+                    "stop.share=0.99", "enough.share=1", "enough.scans=1"});
+  const RunRequest request{.setup = episode.setup,
+                           .task = "exploration",
+                           .method = "greedy",
+                           .config = {},
+                           .inputs = {},
+                           .options = {folder.path() / "run", true, false, {}, true}};
+  ExplorationSession<TimedDecisions> session(request, std::get<Exploration>(episode.task));
+  const auto metrics = nlohmann::json::parse(session.run_to_end().metrics);
+  EXPECT_EQ(metrics["scans"].size(), 1U);
+  EXPECT_NE(metrics["reason"].get<std::string>().find("1 in a row"), std::string::npos)
+      << metrics["reason"];
+  EXPECT_TRUE(session.parts.scans().back().left);
+  EXPECT_GE(session.parts.begun_s, session.parts.recorded_s);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -227,6 +229,124 @@ TEST(ExplorationRobot, KnowsWhereToStandForASweep) {
   EXPECT_NEAR(found.x_m, base.x_m, 1e-9);
   EXPECT_NEAR(found.y_m, base.y_m, 1e-9);
   EXPECT_NEAR(found.yaw_rad, base.yaw_rad, 1e-9);
+}
+
+/// Its camera measures disparities in whole steps.
+TEST(ExplorationRobot, MeasuresEveryImageThatItDraws) {
+  const ResolvedEpisode episode = small_office({"threads=1"});
+  const auto& task = std::get<Exploration>(episode.task);
+  SimulatedExplorationRobot robot(episode.setup, task);
+  const auto seen = robot.observe(std::vector<std::size_t>{12, 13});
+  ASSERT_EQ(seen.views.size(), 2U);
+  for (const HeadView& view : seen.views) {
+    int readings = 0;
+    int between_steps = 0;
+    for (const float depth_m : view.image.depth_m) {
+      if (depth_m == 0.0F || std::isinf(depth_m)) continue;
+      const double steps = 1.0 / (task.camera.quantisation_per_m * static_cast<double>(depth_m));
+      ++readings;
+      between_steps += std::abs(steps - std::round(steps)) > 1e-3 ? 1 : 0;
+    }
+    EXPECT_GT(readings, 1000) << "it looks down on the floor";
+    EXPECT_EQ(between_steps, 0);
+  }
+}
+
+/// No sooner, though its head is at rest: it might not have begun to turn.
+TEST(ExplorationRobot, TakesAnImageAfterFiveTicksWhereItLooksAlready) {
+  const ResolvedEpisode episode = small_office({});
+  SimulatedExplorationRobot robot(episode.setup, std::get<Exploration>(episode.task));
+  const std::vector<std::size_t> image{13};
+  robot.observe(image);
+  const double start_s = robot.time_s();
+  robot.observe(image);
+  EXPECT_NEAR(robot.time_s() - start_s, 5.0 * episode.setup.options.simulation.control_period_s,
+              1e-9);
+}
+
+/// It believes to be where it is put, and takes the images that it is given.
+struct PutRobot : SimulatedExplorationRobot {
+  using SimulatedExplorationRobot::SimulatedExplorationRobot;
+  [[nodiscard]] Pose2 estimated_base() const override { return T_world_base; }
+  [[nodiscard]] bool head_rests() const override { return true; }
+  std::optional<HeadView> take_image() override {
+    ++asked;
+    return view;
+  }
+
+  Pose2 T_world_base;
+  std::optional<HeadView> view;  ///< none: it is lost
+  int asked = 0;                 ///< for an image
+};
+
+/// On its way from the first scan.
+struct LookingParts : ExplorationParts {
+  LookingParts(const MappingContext& context, const Exploration& task,
+               ExplorationRobotInterface& robot, ExplorationBelief& belief)
+      : ExplorationParts(context, task, robot, belief) {
+    scans_.emplace_back();
+  }
+  void tell() { navigator_.on_the_way(); }
+  [[nodiscard]] int images() const { return current_.images_on_the_way; }
+};
+
+struct LookingDrive {
+  support::TemporaryDirectory folder;
+  const ResolvedEpisode episode =
+      small_office({"gaze.on_the_way_m=0.5", "localisation.loops.close=false"});
+  const EpisodeOptions& options = episode.setup.options;
+  const Exploration task = std::get<Exploration>(episode.task);
+  PutRobot robot{episode.setup, task};
+  const RunRequest request{.setup = episode.setup,
+                           .task = "exploration",
+                           .method = "greedy",
+                           .config = {},
+                           .inputs = {},
+                           .options = {folder.path() / "run", true, false, {}, true}};
+  EpisodeRun run{request};
+  MappingRecorder recorder{run, recorded(robot), exploration_predictors(task), task.scans};
+  const MobileGroundTruth truth = robot.ground_truth();
+  const ExplorationMapEvaluator evaluator{task, options.threads, truth, robot.view_field(),
+                                          robot.T_base_sweep()};
+  ExplorationBelief belief{options, task};
+  LookingParts parts{MappingContext{options, robot, evaluator, recorder, nullptr}, task, robot,
+                     belief};
+
+  void come_to(const Pose2& T_world_base) {
+    robot.T_world_base = T_world_base;
+    parts.tell();
+  }
+};
+
+HeadView view_ahead(float depth_m) {
+  CameraImages image{.width_px = 3,
+                     .height_px = 3,
+                     .focal_px = 100.0,
+                     .range_max_m = 3.5,
+                     .rgb = {},
+                     .depth_m = std::vector<float>(9, depth_m)};
+  Pose T_base_camera = make_pose({0.0, 0.0, 1.2}, 0.0);
+  T_base_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  return {std::move(image), T_base_camera};
+}
+
+/// From place to place the base turns by 0.015 rad, then by 0.025, then not at all.
+TEST(ImagesOnTheWay, AreTakenWhereTheBaseHardlyTurnsAndCountIfTheyAreNew) {
+  LookingDrive drive;
+  drive.come_to({0.0, 0.0, 0.0});
+  EXPECT_EQ(drive.robot.asked, 0) << "here it begins";
+  drive.come_to({0.6, 0.0, 0.015});
+  EXPECT_EQ(drive.robot.asked, 1);
+  EXPECT_EQ(drive.parts.images(), 0) << "it was lost";
+  drive.robot.view = view_ahead(2.0F);
+  drive.come_to({1.2, 0.0, 0.04});
+  EXPECT_EQ(drive.robot.asked, 1) << "it turns";
+  drive.come_to({1.2, 0.0, 0.04});
+  EXPECT_EQ(drive.robot.asked, 2);
+  EXPECT_EQ(drive.parts.images(), 1);
+  drive.come_to({1.8, 0.0, 0.04});
+  EXPECT_EQ(drive.robot.asked, 3);
+  EXPECT_EQ(drive.parts.images(), 1) << "it is the one before";
 }
 
 }  // namespace

@@ -318,5 +318,60 @@ TEST(ExplorationBelief, TakesForTheFloorWhatIsNoHigherThanItsError) {
   }
 }
 
+/// Tracked far apart the places contradict nothing. By the loops they are one room, and the last
+/// scan sees through its walls.
+TEST(LoopClosing, LeavesOutLoopsByWhichBeamsGoThroughWalls) {
+  RegistrationOptions registration;
+  registration.normals.radius_m = 0.25;
+  std::vector<test_plan::Segment> room;
+  test_plan::add_box(room, -4.0, -3.0, 4.0, 3.0);
+  std::vector<test_plan::Segment> hall;
+  test_plan::add_box(hall, -9.0, -8.0, 9.0, 8.0);
+  Rng rng(5);
+  const auto tracked = [](int i) { return Pose2{100.0 * i, 0.0, 0.0}; };
+  LoopClosing loops({.close = true, .min_way_m = 0.9}, registration, {}, tracked(0));
+  for (int i = 0; i < 5; ++i) {
+    if (i > 0) loops.moved_to(compose(tracked(i - 1), {0.6, 0.0, 0.0}), tracked(i));
+    loops.remember(planar_scan(room, {0.6 * i - 1.2, 0.0, 0.0}, rng), 0.25, tracked(i));
+  }
+  ASSERT_GT(loops.graph().loops(), 0U);
+  EXPECT_TRUE(loops.wants_correction());
+  loops.moved_to(tracked(4), tracked(5));
+  loops.remember(planar_scan(hall, {1.2, 0.0, 0.0}, rng), 0.25, tracked(5));
+  EXPECT_GT(loops.disagreement_m(), 1.0);
+  EXPECT_FALSE(loops.wants_correction());
+}
+
+/// Nothing is in sight: the second pose of the loops is that of the wheels.
+TEST(LoopClosing, AgreesOnceItIsCorrected) {
+  const PlanarScan nothing{};
+  LoopClosing loops({}, {}, {}, {});
+  loops.remember(nothing, 0.25, {});
+  loops.moved_to({1.0, 0.0, 0.1}, {1.2, 0.0, 0.3});
+  loops.remember(nothing, 0.25, {1.2, 0.0, 0.3});
+  ASSERT_GT(loops.disagreement_m(), 0.5);
+  const PoseCorrection correction = loops.correct();
+  ASSERT_EQ(correction.T_world_before.size(), 2U);
+  EXPECT_EQ(correction.T_world_before[1].x_m, 1.2);
+  EXPECT_NEAR(correction.T_world_after[1].x_m, 1.0, 1e-9);
+  EXPECT_NEAR(loops.remembered()[1].T_world_base.x_m, 1.0, 1e-9);
+  EXPECT_NEAR(loops.remembered()[1].T_world_base.yaw_rad, 0.1, 1e-9);
+  EXPECT_NEAR(loops.disagreement_m(), 0.0, 1e-9);
+  EXPECT_EQ(loops.corrections(), 1U);
+}
+
+TEST(Reintegration, MakesTheCloudAnewToo) {
+  Rooms rooms(1);
+  rooms.task.stride_px = 1;
+  const HeadView view = sweep_at({}, 2.0).views.front();
+  ExplorationBelief belief(rooms.episode, rooms.task);
+  belief.update(view, kBelieved[0]);
+  const std::size_t once = belief.cloud().size();
+  ASSERT_GT(once, 50U);
+  belief.keep(view, kBelieved[0], 0);
+  belief.reintegrate(kBelieved);
+  EXPECT_EQ(belief.cloud().size(), once) << "and nothing twice";
+}
+
 }  // namespace
 }  // namespace vantage

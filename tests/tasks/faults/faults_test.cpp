@@ -229,5 +229,63 @@ TEST(FaultKeys, ThatMakeNoSenseAreErrorsOfTheConfiguration) {
               HasSubstr("faults.dropped_frame"));
 }
 
+/// By the same noise.
+TEST(LaserBias, IsInWhatTheBaseScannerReads) {
+  set_verbosity(Verbosity::quiet);
+  const auto ranges_m = [](const std::string& bias_m) {
+    const ResolvedEpisode resolved =
+        load_episode(kShippedEpisodes / "tabletop.yaml", {"faults.laser_bias_m=" + bias_m});
+    SimulatedTabletopRobot robot(resolved.setup, std::get<Tabletop>(resolved.task));
+    return robot.read_base_scanner().range_m;
+  };
+  const std::vector<float> right_m = ranges_m("0");
+  const std::vector<float> biased_m = ranges_m("0.05");
+  ASSERT_EQ(biased_m.size(), right_m.size());
+  int returns = 0;
+  for (std::size_t i = 0; i < right_m.size(); ++i) {
+    if (!std::isfinite(right_m[i])) continue;
+    EXPECT_NEAR(biased_m[i] - right_m[i], 0.05, 1e-5) << i;
+    ++returns;
+  }
+  EXPECT_GT(returns, 20);
+}
+
+/// Keeps the scan that it took last.
+struct KeepingParts : TabletopParts {
+  using TabletopParts::TabletopParts;
+  TabletopObservation observe() {
+    taken = TabletopParts::observe();
+    return taken;
+  }
+  TabletopObservation taken;
+};
+
+/// Where a scanner saturates, it saw no surface.
+TEST(TabletopReadings, AtTheEndOfTheRangeSayNothing) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  const ResolvedEpisode resolved = load_episode(
+      kShippedEpisodes / "tabletop.yaml",
+      {"scans=1", "map.cells=[49,49,25]", "laser.scan_duration_s=3", "faults.saturated_depth=0.2"});
+  RunOptions options;
+  options.directory = folder / "run";
+  options.lean = true;
+  const RunRequest request{.setup = resolved.setup,
+                           .task = "next_best_view",
+                           .method = method_name(resolved.task),
+                           .config = episode_yaml(resolved),
+                           .inputs = {},
+                           .options = options};
+  TabletopSession<KeepingParts> session(request, std::get<Tabletop>(resolved.task));
+  session.run_to_end();
+  const auto expect_discarded = [](const std::vector<float>& range_m, double range_max_m) {
+    EXPECT_EQ(std::ranges::count(range_m, static_cast<float>(range_max_m)), 0);
+    EXPECT_GT(std::ranges::count_if(range_m, [](float range) { return std::isnan(range); }), 0);
+  };
+  const TabletopObservation& taken = session.parts.taken;
+  expect_discarded(taken.scan.range_m, taken.scan.field_of_view.range_max_m);
+  expect_discarded(taken.base_scan.range_m, taken.base_scan.range_max_m);
+}
+
 }  // namespace
 }  // namespace vantage

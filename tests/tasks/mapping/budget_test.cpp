@@ -417,5 +417,68 @@ TEST(Navigator, PlansAnewOnlyWhereSomethingHasChanged) {
   EXPECT_FALSE(open.navigator.plan() == third);
 }
 
+/// All beams are at the end of their range.
+struct SaturatedRobot : StandingRobot {
+  PlanarScan read_base_scanner() override {
+    PlanarScan scan{.T_base_sensor = {}, .azimuth_rad = {}, .range_m = {}, .range_max_m = 3.0};
+    for (int i = -50; i <= 50; ++i) {
+      scan.azimuth_rad.push_back(0.01 * i);
+      scan.range_m.push_back(3.0F);
+    }
+    return scan;
+  }
+};
+
+TEST(Navigator, LearnsNothingFromReadingsThatAreSaturated) {
+  SaturatedRobot robot;
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+  navigator.turn_in_place();
+  EXPECT_EQ(navigator.floor().state_at({1.5, 0.02}), CellState::unobserved);
+  EXPECT_EQ(navigator.floor().state_at({2.98, 0.02}), CellState::unobserved);
+  EXPECT_TRUE(navigator.reference_map().cloud().empty());
+}
+
+struct SquareRobot : StandingRobot {
+  [[nodiscard]] RobotOutline outline() const override {
+    return {.outline = {{-0.2, -0.2}, {0.2, -0.2}, {0.2, 0.2}, {-0.2, 0.2}}};
+  }
+};
+
+TEST(Navigator, PlansByTheFinerMapAsItIs) {
+  SquareRobot robot;
+  Navigator navigator({.cell_m = 0.1, .half_size_m = 2.0}, {}, {}, robot,
+                      ReferenceMap(RegistrationOptions{}), 1);
+  navigator.use_passages({}, {});
+  ASSERT_TRUE(navigator.detail() != nullptr);
+  std::ranges::fill(navigator.detail()->log_odds, -2.0F);
+  const FloorOutline outline = robot.outline().outline;
+  const Pose2 ahead{1.0, 0.0, 0.0};
+  EXPECT_TRUE(navigator.plan()->space->fits(outline, ahead));
+  block_box(*navigator.detail(), {Eigen::Vector2d(1.0, -0.1), Eigen::Vector2d(1.1, 0.1)});
+  EXPECT_FALSE(navigator.plan()->space->fits(outline, ahead));
+}
+
+TEST(BudgetKeeper, LooksForOneThatCanBePaidAmongAllViews) {
+  OnOpenFloor open({.time_s = 100.0});
+  std::vector<Candidate> views{view_at(4.0, 400.0), view_at(3.0, 3.0)};
+  EXPECT_EQ(open.keeper.used_up(views, 3), "");
+  views[0].exhausted = true;
+  EXPECT_EQ(open.keeper.used_up(views, 3), "");
+  views[0].exhausted = false;
+  views[1].exhausted = true;
+  EXPECT_EQ(open.keeper.used_up(views, 3), "budget.time_s 100 allows no further view");
+}
+
+/// For 3 m it needs 8.8 s, for 4 m it would need 10.9 s.
+TEST(BudgetKeeper, CountsTheWayItCameWhereItKnowsNoWayHome) {
+  OnOpenFloor open({.time_s = 100.0, .return_to_start = true});
+  ASSERT_TRUE(open.navigator.approach({3.0, 0.0, 0.0}, std::nullopt).reached);
+  std::ranges::fill(open.navigator.floor().log_odds, 2.0F);
+  open.robot.now_s = 100.0 - 6.0 - 9.8;
+  EXPECT_TRUE(open.navigator.may_go_on());
+  open.robot.now_s = 100.0 - 6.0 - 7.8;
+  EXPECT_FALSE(open.navigator.may_go_on());
+}
+
 }  // namespace
 }  // namespace vantage

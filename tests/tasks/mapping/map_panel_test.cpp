@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+
 #include "tests/report/sample_run.hpp"
 #include "tests/tasks/drawn_pixels.hpp"
 #include "vantage/runtime/drawing/map_view.hpp"
@@ -412,6 +414,27 @@ TEST(MapPanel, DrawsThePlanFromWhereTheRobotIs) {
   const cv::Rect around(static_cast<int>(midway_px.x()) - 1, static_cast<int>(midway_px.y()) - 1, 3,
                         3);
   EXPECT_GT(support::count_coloured(image, around, panel::kPlan), 0);
+}
+
+/// Of 20 px; lines are 3 px wide at twice the resolution.
+TEST(MapPanel, ShowsTheMapFromMarginToMargin) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.1}, {2.0, 2.0, 0.2}, {8, 8, 1}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.elevation_rad = 0.4;
+  const cv::Mat image = draw_map_panel(input, {640, 720});
+  int first = image.cols;
+  int last = 0;
+  for (int y = 70; y < 500; ++y) {
+    const cv::Scalar background(image.at<cv::Vec3b>(y, 5));
+    for (int x = 0; x < image.cols; ++x) {
+      if (off_by(image, {x, y}, background) < 8.0) continue;
+      first = std::min(first, x);
+      last = std::max(last, x);
+    }
+  }
+  EXPECT_EQ(first, 19);
+  EXPECT_EQ(last, 620);
 }
 
 }  // namespace

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "tests/tasks/mapping/standing_robot.hpp"
 #include "vantage/runtime/episode_loop.hpp"
+#include "vantage/tasks/mapping/view_planner.hpp"
 
 namespace vantage {
 namespace {
@@ -115,6 +117,33 @@ TEST(OutsideDecision, ThatCannotBeCarriedOutSaysWhoseItIs) {
   EXPECT_EQ(Asking({.time_s = 20.0}).failure(Pose2{5.0, 0.0, 0.0}),
             "mine: the budget does not allow the pose that was chosen");
   EXPECT_EQ(Asking({.time_s = 100.0}).failure(Pose2{5.0, 0.0, 0.0}), "none");
+}
+
+TEST(MapBelief, IsPartOfThatOfATask) {
+  EXPECT_TRUE(std::is_destructible_v<NothingKnown>);
+  EXPECT_FALSE(std::is_destructible_v<MapBelief>);
+}
+
+/// It looks at the map as the other one does.
+TEST(PlanAhead, ExpectsNothingOfAnExhaustedView) {
+  Asking asking;
+  for (Candidate& view : asking.candidates) view.T_world_sensor = make_pose({-1.5, 0.0, 1.0}, 0.0);
+  asking.candidates[1].exhausted = true;
+  MappingOptions options = small_map();
+  options.gain = SimpleGain{};
+  options.choice = TourChoice{};
+  const auto paths = asking.navigator.plan();
+  const PlanningSituation situation{.belief = asking.belief,
+                                    .transmission = asking.transmission,
+                                    .robot = asking.robot,
+                                    .paths = *paths,
+                                    .budget = asking.budget,
+                                    .threads = 1};
+  Rng rng(1);
+  const MappingPlan plan = plan_ahead(options, asking.candidates, situation, rng);
+  ASSERT_EQ(plan.gains.size(), 2U);
+  EXPECT_GT(plan.gains[0], 0.0);
+  EXPECT_EQ(plan.gains[1], 0.0);
 }
 
 }  // namespace

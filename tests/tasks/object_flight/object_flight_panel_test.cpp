@@ -197,5 +197,37 @@ TEST(RecognitionPanel, NumbersItsViews) {
   }
 }
 
+TEST(RecognitionPanel, LooksAtTheFirstOfSeveralObjectsIfNothingElseIsSaid) {
+  RecognitionPanelInput input{.observation_records = {}, .orbit = kOrbit};
+  input.targets_m = {kOrbit.centre_m, kOrbit.centre_m + Eigen::Vector3d(0.0, -0.5, 0.0)};
+  const cv::Mat unsaid = drawn(input);
+  input.target = 0;
+  EXPECT_EQ(cv::norm(unsaid, drawn(input), cv::NORM_INF), 0.0);
+  input.target = 1;
+  EXPECT_GT(cv::norm(unsaid, drawn(input), cv::NORM_INF), 0.0) << "its heading says which";
+}
+
+/// Two objects in two yaw bins each; what is unknown comes behind them.
+TEST(RecognitionPanel, ListsAllThatItMayBe) {
+  ObjectStates states{.objects = {"mug_1", "bowl_2"},
+                      .categories = {"mug", "bowl"},
+                      .category_of = {0, 1},
+                      .bins = 2};
+  RecognitionPanelInput input{.observation_records = {}, .orbit = kOrbit};
+  const Eigen::VectorXd certain = Eigen::Vector4d(0.5, 0.25, 0.125, 0.125);
+  input.set_belief(states, ObjectBelief{certain.array().log().matrix()});
+  EXPECT_EQ(input.objects, states.objects);
+  ASSERT_EQ(input.p_object.size(), 2);
+  EXPECT_NEAR(input.p_object[0], 0.75, 1e-12);
+  states.unknown_category = {kNoCategory};
+  Eigen::VectorXd doubtful(5);
+  doubtful << 0.25, 0.125, 0.0625, 0.0625, 0.5;
+  input.set_belief(states, ObjectBelief{doubtful.array().log().matrix()});
+  EXPECT_EQ(input.objects, (std::vector<std::string>{"mug_1", "bowl_2", "unknown"}));
+  ASSERT_EQ(input.p_object.size(), 3);
+  EXPECT_NEAR(input.p_object[0], 0.375, 1e-12);
+  EXPECT_NEAR(input.p_object[2], 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -331,5 +331,19 @@ TEST(TableGroundTruth, TargetsAreSpreadOverTheTable) {
   EXPECT_GT(most_m.y(), 0.12);
 }
 
+TEST(TableGroundTruth, AllOfItIsInTheScene) {
+  const RecognitionTask task =
+      task_with({"targets=2", "clutter={objects: 2, near_duplicates: 0, posts: 1, screens: 1}"});
+  const std::vector<MemoryFile> files = table_files(task, draw_table(task, 3));
+  std::vector<std::string> names;
+  for (const MemoryFile& file : files) names.push_back(file.name);
+  EXPECT_THAT(names, testing::ElementsAre("object.xml", "object.obj", "object.png", "object_1.obj",
+                                          "object_1.png", "other_0.obj", "other_0.png",
+                                          "other_1.obj", "other_1.png"));
+  for (const char* body : {"object", "object_1", "other_0", "other_1", "post_0", "screen_0"}) {
+    EXPECT_THAT(files[0].content, testing::HasSubstr(std::string("<body name=\"") + body + "\""));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -11,7 +11,11 @@
 #include "tests/tasks/small_recognition.hpp"
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/tasks/flight/object_mjcf.hpp"
+#include "vantage/tasks/object_flight/object_flight_run.hpp"
+#include "vantage/tasks/recognition/recognition_ground_truth.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {
@@ -129,6 +133,87 @@ TEST_F(RecognitionAmongOthers, ItsMapHoldsWhatStandsOnTheTable) {
   metrics_of("mapped", {"max_views=1"});
   const VoxelMap map = read_voxels(*folder_ / "mapped" / "voxels.bin");
   EXPECT_GT(std::ranges::count(map.voxels, kVoxelOccupied, &VoxelRecord::kind), 20);
+}
+
+/// The parts of a flight round a cereal box, which map the table though nothing else stands there.
+struct FlightRoundABox {
+  explicit FlightRoundABox(const fs::path& folder, const Spectator& spectator = {})
+      : resolved(episode_in(folder)),
+        task(std::get<RecognitionTask>(resolved.task)),
+        table(draw_table(task, resolved.setup.options.seed)),
+        robot(resolved.setup, model_source(resolved), task, table.targets),
+        recogniser(load_lean_recogniser(folder / "model", task.recogniser)),
+        request{resolved.setup, "recognition", "star", "a: 1\n", {}, options_in(folder, spectator)},
+        episode_run(request),
+        recorder(episode_run, recorded(robot), task.decision.max_views, false),
+        evaluator(robot, table.targets),
+        parts({resolved.setup.options, task, recogniser, robot, evaluator, recorder},
+              {.p_world_m = std::vector{task.p_world_table_m()},
+               .among_others = AmongOthers{task.map, task.separation}},
+              ObjectInquiry(recogniser, task.decision), robot.start_bearing_rad()) {}
+
+  static ResolvedEpisode episode_in(const fs::path& folder) {
+    std::vector<std::string> overrides = support::small_flight(folder);
+    overrides.insert(overrides.end(), {"object=cereal_box_1", "clutter={objects: 0}"});
+    return load_episode(kEpisode, overrides);
+  }
+  static RunOptions options_in(const fs::path& folder, const Spectator& spectator) {
+    RunOptions options;
+    options.directory = folder / "parts";
+    options.overwrite = true;
+    options.lean = true;
+    options.spectator = spectator;
+    return options;
+  }
+
+  ResolvedEpisode resolved;
+  RecognitionTask task;
+  TableGroundTruth table;
+  SimulatedOrbitRobot robot;
+  Recogniser recogniser;
+  RunRequest request;
+  EpisodeRun episode_run;
+  ObjectFlightRecorder recorder;
+  ObjectFlightEvaluator evaluator;
+  ObjectFlightParts parts;
+};
+
+TEST_F(RecognitionAmongOthers, AViewShowsHowHighItsTargetIs) {
+  FlightRoundABox flight(folder_->path());
+  flight.parts.update(flight.parts.observe());
+  const std::optional<UprightCylinder>& shape = flight.parts.tour().current().shape;
+  ASSERT_TRUE(shape);
+  const TurntableObject box =
+      make_turntable_object(dataset_of(flight.task.database), {"cereal_box", "cereal_box_1"});
+  EXPECT_NEAR(shape->height_m, box.box_m.sizes().z(), 0.03);
+}
+
+/// After an image without depth the box may be anything still.
+TEST_F(RecognitionAmongOthers, WhoLooksOnIsToldWhatViewsPromise) {
+  std::optional<Decision> told;
+  Spectator spectator;
+  spectator.on_event = [&](const EpisodeEvent& event) {
+    if (const auto* decision = std::get_if<Decision>(&event.what)) told = *decision;
+  };
+  FlightRoundABox flight(folder_->path(), spectator);
+  FlightObservation observation = flight.parts.observe();
+  std::ranges::fill(observation.images.depth_m, 0.0F);
+  flight.parts.update(observation);
+  flight.parts.record();
+  ASSERT_EQ(flight.parts.finished(), "");
+  std::vector<BearingOption> options = flight.parts.propose();
+  flight.parts.score(options);
+  const std::size_t chosen = flight.parts.choose(options);
+  Rng rng(1);  // mutual information draws nothing
+  const NextView next =
+      next_view(flight.parts.tour(), flight.recogniser, flight.task.decision, options, rng);
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->chosen, chosen);
+  ASSERT_EQ(told->candidates.size(), options.size());
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    EXPECT_EQ(told->candidates[i].gain_bits, next.decision.scores[i].gain.bits) << i;
+  }
+  EXPECT_GT(told->candidates[chosen].gain_bits, 0.0);
 }
 
 }  // namespace

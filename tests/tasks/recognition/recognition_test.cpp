@@ -222,5 +222,15 @@ TEST_F(RecognitionEpisode, ItsPanelHasAllPlacesToLookFrom) {
   }
 }
 
+/// It rests for settle_s, here 0.1 s, before each image, and ends with the last of them.
+TEST_F(RecognitionEpisode, TellsWhenEachViewWasTaken) {
+  const json& views = first_["observations"];
+  const double first_s = views[0]["time_s"];
+  const double second_s = views[1]["time_s"];
+  EXPECT_NEAR(first_s, 0.1, 0.003);
+  EXPECT_NEAR(second_s - first_s, views[1]["flight"]["duration_s"].get<double>() + 0.1, 0.003);
+  EXPECT_NEAR(second_s, first_["simulated_time_s"].get<double>(), 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -196,5 +196,20 @@ TEST(TableMap, TakesPointsToBeOffByHalfACell) {
   EXPECT_EQ(map_after({0.0}).grid().log_odds, expected.grid().log_odds);
 }
 
+/// Nothing stands on it, and what was not seen is more than a quarter of a metre away.
+TEST(TableMap, OverAFreeTableFlightsAreClear) {
+  TableMapOptions options;
+  options.height_m = 0.3;
+  options.clearance_m = 0.2;
+  TableMap map(kTable_m, options);
+  for (const double bearing_rad : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+    const Pose T_world_camera = camera_at(bearing_rad);
+    map.insert(draw({}, T_world_camera, 0.002).images, T_world_camera);
+  }
+  const std::vector<Eigen::Vector3d> over{kTable_m + Eigen::Vector3d(-0.02, 0.0, 0.27),
+                                          kTable_m + Eigen::Vector3d(0.02, 0.0, 0.27)};
+  EXPECT_TRUE(map.is_clear(over));
+}
+
 }  // namespace
 }  // namespace vantage

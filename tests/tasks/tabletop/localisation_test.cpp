@@ -185,5 +185,18 @@ TEST(TableTopWithWalls, ATableIsInTheWayBesideItsMapToo) {
             });
 }
 
+TEST(TableTopWithWalls, AViewThatCannotBePaidIsNotToBeTaken) {
+  look_into(OwnScene(pedestal_table() + kWalls), {"scans=1", "budget.time_s=1000"},
+            [](TabletopSession<OpenParts>& session) {
+              std::vector<Candidate> views = session.parts.views();
+              ASSERT_GT(views.size(), 1U);
+              views[0].path_length_m = 1.0;
+              views[1].path_length_m = 1e5;
+              session.parts.score(views);
+              EXPECT_FALSE(views[0].exhausted);
+              EXPECT_TRUE(views[1].exhausted);
+            });
+}
+
 }  // namespace
 }  // namespace vantage

@@ -235,5 +235,24 @@ TEST(ValidateTableTop, WhatIsFreeAllRoundIsSoForTheWholeRobot) {
   EXPECT_NEAR(std::stod(said.substr(at + 4)), 2.95 - 0.52, 0.06) << said;
 }
 
+/// A laser that sees straight ahead alone, from where that is the middle of the map.
+TEST(ValidateTableTop, AViewOfTheMiddleOfTheMapIsOfUse) {
+  const Validation found = validated("tabletop", OwnScene(kTable + kWalls),
+                                     {"candidates.positions=4", "candidates.yaw_offsets_rad=[0]",
+                                      "laser.sector_rad=0.01", "laser.step_rad=0.01"});
+  EXPECT_THAT(found.problems, IsEmpty());
+  EXPECT_THAT(found.notes, IsEmpty());
+}
+
+/// What begins 15 cm above the floor, as a shelf, too: no robot gets under it.
+TEST(ValidateExploration, WhatHangsLowIsInTheWay) {
+  const OwnScene shut(
+      "<geom type='box' size='.05 .7 .4' pos='.65 0 .55'/><geom type='box' size='.05 .7 .4' "
+      "pos='-.65 0 .55'/><geom type='box' size='.7 .05 .4' pos='0 .65 .55'/><geom type='box' "
+      "size='.7 .05 .4' pos='0 -.65 .55'/>");
+  EXPECT_THAT(problem(validated("office_small", shut, started_at("[0,0,0]"))),
+              HasSubstr("scene.xml: no free floor"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,6 +5,7 @@
 
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/tabletop/tabletop_session.hpp"
 
@@ -97,6 +98,29 @@ TEST(Truth, RememberedOfTheRingIsTheTruth) {
     EXPECT_EQ(remembered.true_new_cells(grid, pose), count);
     EXPECT_GT(count, 0U);
   }
+}
+
+/// Above the box, whose top is at 0.92 m, there is nothing; that can be seen.
+TEST(Truth, OfAMapIsWhatStandsThereNotWhatCanBeSeen) {
+  set_verbosity(Verbosity::quiet);
+  const OwnScene scene(box_at(0.82));
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
+  const auto& task = std::get<Tabletop>(episode.task);
+  const SimulatedTabletopRobot robot(episode.setup, task);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const auto evaluator = tabletop_evaluator(task, 1, truth, robot.view_field());
+  const CellSet seen = evaluator.observable_set();
+  OccupancyGrid grid(task.map.frame());
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    const bool is_seen = (seen[cell / 64] >> (cell % 64) & 1U) != 0;
+    const bool is_above = grid.frame.centre(grid.frame.cell(cell)).z() > 1.0;
+    if (is_seen && is_above) grid.log_odds[cell] = 4.0F;
+  }
+  ASSERT_GT(grid.count(CellState::occupied), 0U);
+  const MapScore score = evaluator.score(grid, 1);
+  EXPECT_EQ(score.precision, 0.0);
+  EXPECT_EQ(score.recall, 0.0);
 }
 
 }  // namespace

@@ -134,5 +134,27 @@ TEST(TrajectoryPanel, ShowsFromWhereAnObjectWasObserved) {
   }
 }
 
+/// Two objects of which it is sure enough.
+TEST(TrajectoryPanel, ListsObjectsBelowEachOther) {
+  const Recogniser recogniser = support::recogniser_of_two();
+  ObservationOptions options;
+  options.known_below_nats = 1.0;
+  ObjectObservations observations(recogniser, options, RigidTransition{});
+  observations.found(7, {1.0, 1.2, 0.8});
+  observations.found(8, {1.9, 1.2, 0.8});
+  const TrajectoryPanelInput input{
+      .observations = observations, .nominal = kNominal, .plan = kPlan, .at = 1};
+  const cv::Mat drawn = draw_trajectory_panel(input, {}, {640, 720});
+  EXPECT_EQ(drawn.at<cv::Vec3b>(458, 208), cv::Vec3b(140, 210, 90)) << "known";
+  cv::Mat expected(drawn.size(), CV_8UC3, panel::kCard);
+  const panel::Layout layout{1.0, expected.size()};
+  panel::text(expected, layout, "7  not seen closely yet", {424.0, 74.0}, 10, panel::kDim);
+  panel::text(expected, layout, "8  not seen closely yet", {424.0, 106.0}, 10, panel::kDim);
+  for (const int top : {62, 94}) {
+    const cv::Rect line(416, top, 210, 14);
+    EXPECT_EQ(cv::norm(drawn(line), expected(line), cv::NORM_INF), 0.0) << top;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,13 +1,23 @@
 // The path that a flight leads on to, told before it is taken.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
 #include <type_traits>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/drawn_pixels.hpp"
+#include "tests/tasks/flight/two_objects.hpp"
+#include "vantage/core/log.hpp"
+#include "vantage/runtime/log/video.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
+#include "vantage/tasks/trajectory/trajectory_metrics.hpp"
+#include "vantage/tasks/trajectory/trajectory_parts.hpp"
 #include "vantage/tasks/trajectory/trajectory_recorder.hpp"
+#include "vantage/tasks/trajectory/true_clearance.hpp"
 
 namespace vantage {
 namespace {
@@ -131,6 +141,140 @@ TEST_F(LeanFlight, KeepsNoImagesEventsOrScene) {
     EXPECT_FALSE(fs::exists(options.directory / name)) << name;
   }
   release_run_directory(options.directory);
+}
+
+/// Towards the wall, the nearest thing. Between two measurements it keeps what it has.
+TEST_F(Interface, MeasuresItsClearanceAtOnceAndTenTimesASecond) {
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
+  TrueClearance at_first(robot.quadrotor().world());
+  at_first.update(robot.quadrotor().world());
+  double clearance_m = robot.ground_truth().minimum_clearance_m;
+  EXPECT_DOUBLE_EQ(clearance_m, at_first.min_m());
+  robot.follow(std::vector{at(-2.7, -2.3, 0.0)});
+  std::vector<double> lowered_s;
+  while (robot.time_s() < 1.5) {
+    robot.fly_for(episode_.setup.options.simulation.control_period_s, kNothing);
+    const double now_m = robot.ground_truth().minimum_clearance_m;
+    if (now_m < clearance_m) lowered_s.push_back(robot.time_s());
+    clearance_m = now_m;
+  }
+  ASSERT_GT(lowered_s.size(), 3U);
+  for (std::size_t i = 1; i < lowered_s.size(); ++i) {
+    EXPECT_GT(lowered_s[i] - lowered_s[i - 1], 0.099) << i;
+  }
+}
+
+TEST_F(Interface, CountsItsErrorAndItsWayTickByTick) {
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
+  robot.follow(std::vector{at(-2.5, -1.9, 0.0), at(-2.1, -1.8, 0.2)});
+  constexpr int kTicks = 300;
+  double sum_m = 0.0;
+  double most_m = 0.0;
+  double way_m = 0.0;
+  Eigen::Vector3d before_m = robot.quadrotor().true_body().translation();
+  for (int tick = 0; tick < kTicks; ++tick) {
+    robot.fly_for(episode_.setup.options.simulation.control_period_s, kNothing);
+    const Eigen::Vector3d p_m = robot.quadrotor().true_body().translation();
+    const double error_m = (p_m - robot.quadrotor().tracking().reference().p_world_m).norm();
+    sum_m += error_m;
+    most_m = std::max(most_m, error_m);
+    way_m += (p_m - before_m).norm();
+    before_m = p_m;
+  }
+  const TrajectoryGroundTruth truth = robot.ground_truth();
+  EXPECT_NEAR(truth.tracking_error_mean_m, sum_m / kTicks, 1e-9);
+  EXPECT_NEAR(truth.tracking_error_max_m, most_m, 1e-9);
+  EXPECT_NEAR(truth.flown_m, way_m, 1e-9);
+}
+
+TEST(FlightImages, BeginWithNothing) {
+  const FlightImage image{};
+  EXPECT_EQ(image.time_s, 0.0);
+  EXPECT_TRUE(image.arrived);
+}
+
+/// The parts of a flight along the path as given, before its first waypoint.
+struct PartsInFlight {
+  explicit PartsInFlight(const RunOptions& options)
+      : robot(episode, path.front()),
+        request{episode.setup,         "trajectory", task.method_name(),
+                episode_yaml(episode), {},           options},
+        run(request),
+        recorder(run, robot.quadrotor(), task.camera),
+        evaluator(robot),
+        parts({episode.setup.options, task, recogniser, robot, evaluator, recorder}, path) {}
+
+  const ResolvedEpisode episode = load_episode(
+      kSourceTree / "assets/episodes/trajectory.yaml",
+      {fmt::format("scene={}", (kSourceTree / "models/scenes/trajectory_4/scene.xml").string()),
+       "method=initial", "camera={width_px: 160, height_px: 120}"});
+  const TrajectoryFlight& task = std::get<TrajectoryFlight>(episode.task);
+  const std::vector<FlightWaypoint> path = {at(-2.7, -1.9, 0.0), at(-2.4, -1.9, 0.0),
+                                            at(-2.1, -1.9, 0.0), at(-1.8, -1.9, 0.0)};
+  FlyingRobot robot;
+  const Recogniser recogniser = support::recogniser_of_two();
+  const RunRequest request;
+  const EpisodeRun run;
+  TrajectoryRecorder recorder;
+  const TrajectoryEvaluator evaluator;
+  TrajectoryParts parts;
+};
+
+RunOptions lean_run(const fs::path& directory) {
+  RunOptions options;
+  options.directory = directory;
+  options.lean = true;
+  return options;
+}
+
+TEST(FlightOfParts, LeadsAlongThePlanThatIsTaken) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  PartsInFlight flight(lean_run(folder / "run"));
+  flight.parts.update(flight.parts.observe());
+  flight.parts.record();
+  CandidatePlan plan = flight.parts.propose().front();
+  ASSERT_EQ(plan.points.cols(), 3);
+  plan.points.row(2).tail(2).array() += 0.1;
+  flight.parts.act(plan);
+  std::vector<Eigen::Vector4d> higher = flight.parts.nominal();
+  higher[2].z() += 0.1;
+  higher[3].z() += 0.1;
+  for (std::size_t i = 0; i < higher.size(); ++i) {
+    EXPECT_NEAR((flight.parts.plan().at(i) - higher[i]).norm(), 0.0, 1e-12) << i;
+  }
+  release_run_directory(flight.run.directory());
+}
+
+TEST(FlightOfParts, HasNoMetricsOfWhatDidNotHappen) {
+  const support::TemporaryDirectory folder;
+  const PartsInFlight flight(lean_run(folder / "run"));
+  nlohmann::ordered_json metrics;
+  metrics["simulated_time_s"] = 0.0;
+  add_trajectory_metrics({flight.robot.ground_truth(), {}}, flight.parts, metrics);
+  for (const char* key : {"replans", "late_plans", "missed_deadlines", "waypoints_reached",
+                          "accuracy", "observations_total", "false_objects"}) {
+    EXPECT_EQ(metrics.at(key), 0) << key;
+  }
+  EXPECT_EQ(metrics["plan_time_s"]["median"], 0.0);
+  EXPECT_EQ(metrics["plan_time_s"]["p95"], 0.0);
+  EXPECT_TRUE(metrics["mean_entropy_observed_nats"].is_null());
+  release_run_directory(flight.run.directory());
+}
+
+/// The right half of the video has the name of the method above all else.
+TEST(FlightOfParts, SaysInItsVideoWhatPlans) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  RunOptions options = lean_run(folder / "run");
+  options.video = true;
+  PartsInFlight flight(options);
+  flight.parts.record();
+  const cv::Mat still = cv::imread((folder / "run/frames/scan_01.png").string());
+  ASSERT_EQ(still.cols, 1280);
+  EXPECT_GT(support::count_coloured(still, {640 + 14, 8, 200, 20}, panel::kText), 0);
+  release_run_directory(flight.run.directory());
 }
 
 }  // namespace

@@ -409,5 +409,67 @@ TEST_F(TrajectoryEpisode, TellsWhichPlansKeepClear) {
   EXPECT_GT(hindered, 0);
 }
 
+TEST_F(TrajectoryEpisode, TakesAnObjectForWhatItsLastLookSays) {
+  int correct = 0;
+  for (const json& object : first_["objects"]) {
+    correct += object["correct"].get<bool>() ? 1 : 0;
+    if (object["looks"].empty()) continue;
+    for (const char* key : {"estimate", "entropy_nats", "unknown_probability"}) {
+      EXPECT_EQ(object[key], object["looks"].back()[key]) << key;
+    }
+  }
+  EXPECT_EQ(first_["accuracy"], 0.25 * correct);
+}
+
+TEST_F(TrajectoryEpisode, TellsWhereAPlanEnds) {
+  const CsvTable table = read_csv(*folder_ / "first" / "candidates.csv");
+  int plans = 0;
+  for (const auto& row : table.rows) {
+    if (row[2] != "as given") continue;
+    ++plans;
+    EXPECT_NEAR(std::stod(row[3]), -0.02, 1e-3);
+    EXPECT_NEAR(std::stod(row[4]), -1.9, 1e-3);
+    EXPECT_NEAR(std::stod(row[5]), 1.8, 1e-3);
+  }
+  EXPECT_EQ(plans, 5);
+}
+
+/// It comes by the second of the scene's objects first.
+TEST_F(TrajectoryEpisode, WhatTellsTooLittleIsNoView) {
+  std::string rows;
+  for (int i = 0; i < 4; ++i) rows += fmt::format("{:.2f},-1.9,1.8,3.1416\n", 2.5 - 0.53 * i);
+  const json metrics = metrics_of("little", arena_with_path(*folder_ / "west", rows),
+                                  {"method=initial", "observations.min_gain_nats=10"});
+  ASSERT_FALSE(metrics["found"].empty());
+  EXPECT_EQ(metrics["found"][0]["object"], 1);
+  const CsvTable steps = read_csv(*folder_ / "little" / "steps.csv");
+  const auto& last = steps.rows.back();
+  EXPECT_EQ(last[13] + last[14] + last[17], "-1-10") << "neither target nor direction nor look";
+  EXPECT_NEAR(std::stod(last[18]), prior_entropy_nats(), 1e-5);
+  const WindowContent content = window(load_recorded(*folder_ / "little"));
+  std::size_t views = 0;
+  for (const EpisodeEvent& event :
+       read_event_log(*folder_ / "little/story.bin", content.map.value().size())) {
+    const auto* decision = std::get_if<Decision>(&event.what);
+    if (decision == nullptr) continue;
+    for (const Candidate& view : decision->candidates) EXPECT_FALSE(view.reachable);
+    views += decision->candidates.size();
+  }
+  EXPECT_GT(views, 0U);
+}
+
+/// None is near enough to be taken before, and one look of an object is enough.
+TEST_F(TrajectoryEpisode, TakesAtTheEndWhatItHasOfEachObject) {
+  std::string rows;
+  for (const double x_m : {-2.67, -2.14, -1.61, -1.2, -0.8}) {
+    rows += fmt::format("{:.2f},-1.9,1.8,0\n", x_m);
+  }
+  const json metrics =
+      metrics_of("at_the_end", arena_with_path(*folder_ / "ends_early", rows),
+                 {"method=initial", "camera={width_px: 640, height_px: 480}",
+                  "observations={near_m: 0, left_after_s: 100, apart_rad: 3, range_m: 3}"});
+  for (const std::size_t i : {0, 1}) EXPECT_EQ(metrics["objects"][i]["looks"].size(), 1U) << i;
+}
+
 }  // namespace
 }  // namespace vantage

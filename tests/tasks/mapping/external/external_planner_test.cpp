@@ -310,5 +310,41 @@ TEST(ExternalPlanner, ThatIsNoProgramIsAnErrorOfTheConfiguration) {
   EXPECT_THROW(ExternalPlanner({.command = {"/etc/passwd"}}, {}), ConfigError);
 }
 
+TEST(ExternalPlanner, HasTwoSecondsToEndByItself) {
+  const support::TemporaryDirectory folder;
+  const fs::path soon = folder / "soon";
+  const fs::path late = folder / "late";
+  const support::AskedSituation situation;
+  ExternalPlanner planner(
+      sh(kHello + "read request; echo '{\"view\": 0}'; read end; sleep 1; : > " + soon.string() +
+         "; sleep 2; : > " + late.string()),
+      {.task = "tabletop"});
+  planner.decide(situation.request());
+  planner.part();
+  EXPECT_TRUE(fs::exists(soon));
+  EXPECT_FALSE(fs::exists(late));
+}
+
+TEST(ExternalPlanner, ThatCannotBeStartedFailsTheEpisode) {
+  const support::TemporaryDirectory folder;
+  std::ofstream(folder / "planner") << "#!/no/such/interpreter\n";
+  fs::permissions(folder / "planner", fs::perms::owner_all);
+  EXPECT_THAT(failure({.command = {(folder / "planner").string()}}), HasSubstr("cannot run"));
+}
+
+TEST(ExternalPlanner, SaysAtWhichDecisionItFails) {
+  const support::AskedSituation situation;
+  ExternalPlanner planner(
+      sh(kHello + "read request; echo '{\"view\": 1}'; read request; echo garbage; read end"),
+      {.task = "tabletop"});
+  planner.decide(situation.request());
+  try {
+    planner.decide(situation.request());
+    FAIL() << "no error";
+  } catch (const EpisodeFailed& error) {
+    EXPECT_THAT(error.what(), HasSubstr(", decision 2: expected one JSON object"));
+  }
+}
+
 }  // namespace
 }  // namespace vantage
