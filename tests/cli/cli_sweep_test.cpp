@@ -51,9 +51,7 @@ TEST_F(CommandLine, RunsAreComparedToTheLastDigitUnlessToldOtherwise) {
   EXPECT_EQ(vantage("compare first first").exit_code, 0);
 }
 
-/// A planner that writes a line whenever it is started: to be tried, and for every episode.
-TEST_F(CommandLine, AReplacedPlannersEpisodesAreRunAgain) {
-  file("small.yaml", R"(episode: assets/episodes/tabletop.yaml
+constexpr const char* kSmallArena = R"(episode: assets/episodes/tabletop.yaml
 set: {scans: 3, budget.time_s: 60, laser.scan_duration_s: 1, map.cells: [33, 33, 17],
       metrics.predictors: [adaptive]}
 factors:
@@ -61,7 +59,11 @@ factors:
   planner: {greedy: {choice: greedy}, random: {choice: random}}
 seeds: [1]
 report: {compare: planner, reference: greedy, panels: scene}
-)");
+)";
+
+/// A planner that writes a line whenever it is started: to be tried, and for every episode.
+TEST_F(CommandLine, AReplacedPlannersEpisodesAreRunAgain) {
+  file("small.yaml", kSmallArena);
   const Result made = vantage("arena run small.yaml --out arena -q");
   ASSERT_EQ(made.exit_code, 0) << made.output;
   const auto planner =
@@ -77,15 +79,7 @@ report: {compare: planner, reference: greedy, panels: scene}
 }
 
 TEST_F(CommandLine, AnArenaHasBoundsIfAskedForThem) {
-  file("small.yaml", R"(episode: assets/episodes/tabletop.yaml
-set: {scans: 3, budget.time_s: 60, laser.scan_duration_s: 1, map.cells: [33, 33, 17],
-      metrics.predictors: [adaptive]}
-factors:
-  scene: {few: {scene: models/scenes/tabletop_4/scene.xml}}
-  planner: {greedy: {choice: greedy}, random: {choice: random}}
-seeds: [1]
-report: {compare: planner, reference: greedy, panels: scene}
-)");
+  file("small.yaml", kSmallArena);
   for (const std::string arguments : {"small.yaml --out arena", "arena --bounds"}) {
     const Result result = vantage("arena run -q " + arguments);
     ASSERT_EQ(result.exit_code, 0) << result.output;
