@@ -411,7 +411,6 @@ TEST(Voxels, OnlyTheSurfaceIsKept) {
   EXPECT_EQ((packed.cells == Eigen::Array3i(50, 50, 50)).all(), true);
 }
 
-// A core cell found before its neighbours was to be seen then, and stays.
 /// Found by ./fuzz: a cell's number there is none that an int can hold.
 TEST(Voxels, FarBeyondTheGridAreLeftOut) {
   VoxelMap map;
@@ -421,6 +420,7 @@ TEST(Voxels, FarBeyondTheGridAreLeftOut) {
   EXPECT_EQ(pack_voxels(map, 10).voxels.size(), 1U);
 }
 
+/// A core cell found before its neighbours was to be seen then, and stays.
 TEST(Voxels, CellsHiddenOnlyLaterAreKept) {
   VoxelMap map = block(3, 5);
   map.voxels[13].step = 2;

@@ -224,6 +224,8 @@ TEST(FaultKeys, ThatMakeNoSenseAreErrorsOfTheConfiguration) {
               HasSubstr("faults.laser_bias_m"));
   EXPECT_THAT(refused("trajectory.yaml", "faults.odometry_slip=0.1"),
               HasSubstr("faults.odometry_slip"));
+  EXPECT_THAT(refused("change_detection.yaml", "faults.laser_bias_m=0.1"),
+              HasSubstr("faults.laser_bias_m"));
   EXPECT_THAT(refused("change_detection.yaml", "faults.gust_N=9"), HasSubstr("faults.gust_N"));
   EXPECT_THAT(refused("tabletop.yaml", "faults.dropped_frame=0.3"),
               HasSubstr("faults.dropped_frame"));
