@@ -8,6 +8,7 @@
 
 #include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -77,12 +78,7 @@ TEST_P(TabletopFaults, EndRecordedWithASaneBelief) {
                           GetParam().overrides));
   RunOptions options;
   options.directory = folder / "run";
-  const RunRequest request{.setup = resolved.setup,
-                           .task = "next_best_view",
-                           .method = method_name(resolved.task),
-                           .config = episode_yaml(resolved),
-                           .inputs = {},
-                           .options = options};
+  const RunRequest request = support::mapping_request(resolved, options);
   TabletopSession<WatchedParts> session(request, std::get<Tabletop>(resolved.task));
   const RunOutcome outcome = session.run_to_end();
   const json metrics = json::parse(outcome.metrics);
@@ -272,12 +268,7 @@ TEST(TabletopReadings, AtTheEndOfTheRangeSayNothing) {
   RunOptions options;
   options.directory = folder / "run";
   options.lean = true;
-  const RunRequest request{.setup = resolved.setup,
-                           .task = "next_best_view",
-                           .method = method_name(resolved.task),
-                           .config = episode_yaml(resolved),
-                           .inputs = {},
-                           .options = options};
+  const RunRequest request = support::mapping_request(resolved, options);
   TabletopSession<KeepingParts> session(request, std::get<Tabletop>(resolved.task));
   session.run_to_end();
   const auto expect_discarded = [](const std::vector<float>& range_m, double range_max_m) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/run.hpp"
@@ -142,12 +143,7 @@ void look_into(const OwnScene& scene, std::vector<std::string> more,
   RunOptions options;
   options.directory = folder / "run";
   options.lean = true;
-  const RunRequest request{.setup = episode.setup,
-                           .task = "next_best_view",
-                           .method = method_name(episode.task),
-                           .config = episode_yaml(episode),
-                           .inputs = {},
-                           .options = options};
+  const RunRequest request = support::mapping_request(episode, options);
   TabletopSession<OpenParts> session(request, std::get<Tabletop>(episode.task));
   session.run_to_end();
   look(session);
