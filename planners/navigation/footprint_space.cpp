@@ -30,6 +30,13 @@ FloorOutline both_ways(FloorOutline outline) {
 
 }  // namespace
 
+double heading_along(const RobotOutline& robot, const Eigen::Vector2d& from_m,
+                     const Eigen::Vector2d& to_m, double yaw_rad) {
+  const Eigen::Vector2d way = to_m - from_m;
+  if (robot.goes_sideways || way.norm() < 1e-6) return yaw_rad;
+  return std::atan2(way.y(), way.x());
+}
+
 FootprintSpace::FootprintSpace(const FloorMap& detail, int parts, const RobotOutline& robot,
                                const PassageOptions& options)
     : parts_(parts),
@@ -50,14 +57,13 @@ FootprintSpace::FootprintSpace(const FloorMap& detail, int parts, const RobotOut
     const auto x = static_cast<std::size_t>(at.x());
     bits_[static_cast<std::size_t>(at.y()) * words_ + x / 64] |= std::uint64_t{1} << (x % 64);
   }
-  const FloorOutline wide = grown(robot_.outline, options_.margin_m);
-  const FloorOutline tight = grown(robot_.outline, std::min(kTight_m, options_.margin_m));
-  for (int heading = 0; heading < headings(); ++heading) {
-    const Pose2 turned{0.0, 0.0, heading_rad(heading)};
-    masks_.push_back(mask_of(moved(wide, turned)));
-    tight_masks_.push_back(mask_of(moved(tight, turned)));
-    common_.push_back(common_of(masks_.back()));
-    tight_common_.push_back(common_of(tight_masks_.back()));
+  for (const Margin margin : {Margin::tight, Margin::least, Margin::preferred}) {
+    const FloorOutline kept = grown(robot_.outline, margin_m(margin));
+    HeadingMasks& masks = masks_[static_cast<std::size_t>(margin)];
+    for (int heading = 0; heading < headings(); ++heading) {
+      masks.at.push_back(mask_of(moved(kept, Pose2{0.0, 0.0, heading_rad(heading)})));
+      masks.common.push_back(common_of(masks.at.back()));
+    }
   }
   disc_ = mask_of(disc(inscribed_radius_m(robot_.outline)));
 }
@@ -132,14 +138,35 @@ bool FootprintSpace::fits(std::span<const Eigen::Vector2d> outline,
   return clear;
 }
 
-bool FootprintSpace::fits(const Eigen::Array2i& cell, int heading, bool tight) const {
-  const auto& masks = tight ? tight_masks_ : masks_;
-  return is_clear(masks[static_cast<std::size_t>(heading)], cell);
+bool FootprintSpace::fits_along(std::span<const Eigen::Vector2d> outline,
+                                const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
+                                double yaw_rad) const {
+  constexpr double kSample_m = 0.03;
+  const int samples = 1 + static_cast<int>((to_m - from_m).norm() / kSample_m);
+  for (int i = 0; i <= samples; ++i) {
+    const Eigen::Vector2d p_m = from_m + static_cast<double>(i) / samples * (to_m - from_m);
+    if (!fits(outline, Pose2{p_m.x(), p_m.y(), yaw_rad})) return false;
+  }
+  return true;
 }
 
-bool FootprintSpace::may_fit(const Eigen::Array2i& cell, int heading, bool tight) const {
-  const auto& masks = tight ? tight_common_ : common_;
-  return is_clear(masks[static_cast<std::size_t>(heading)], cell);
+bool FootprintSpace::fits(const Eigen::Array2i& cell, int heading, Margin margin) const {
+  const HeadingMasks& masks = masks_[static_cast<std::size_t>(margin)];
+  return is_clear(masks.at[static_cast<std::size_t>(heading)], cell);
+}
+
+bool FootprintSpace::may_fit(const Eigen::Array2i& cell, int heading, Margin margin) const {
+  const HeadingMasks& masks = masks_[static_cast<std::size_t>(margin)];
+  return is_clear(masks.common[static_cast<std::size_t>(heading)], cell);
+}
+
+double FootprintSpace::margin_m(Margin margin) const {
+  switch (margin) {
+    case Margin::tight: return std::min(kTight_m, options_.margin_m);
+    case Margin::preferred: return std::max(options_.preferred_margin_m, options_.margin_m);
+    case Margin::least: break;
+  }
+  return options_.margin_m;
 }
 
 bool FootprintSpace::may_stand(const Eigen::Array2i& cell) const { return is_clear(disc_, cell); }

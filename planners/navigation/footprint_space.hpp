@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,6 +16,7 @@ namespace vantage {
 struct PassageOptions {
   bool use = true;
   double margin_m = 0.02;
+  double preferred_margin_m = 0.05;
   int headings = 48;
   double speed_m_s = 0.2;
   double least_area_m2 = 0.2;
@@ -26,6 +28,10 @@ struct PassageOptions {
       "clearance that the robot's outline keeps in a passage; higher closes narrower ones, and "
       "forgives more error of pose and map",
       at_least(0.0));
+    f("preferred_margin_m", preferred_margin_m,
+      "clearance below which a metre in a passage counts double; higher goes farther round what "
+      "leaves little more than the margin; up to the margin: all passages are as good",
+      between(0.0, 0.2));
     f("headings", headings,
       "number of headings that are tried in a passage; higher fits through narrower ones at odd "
       "angles, and takes longer",
@@ -40,12 +46,21 @@ struct PassageOptions {
   }
 };
 
+/// Clearance that a robot's outline keeps in a passage: half a centimetre, the margin, or the
+/// preferred one. None but the preferred one is more than the margin.
+enum class Margin : std::uint8_t { tight, least, preferred };
+
 /// What of a robot matters in a passage.
 struct RobotOutline {
   FloorOutline outline;       ///< base frame
   bool goes_sideways = true;  ///< else along its heading alone
   double speed_m_s = 0.6;     ///< that it drives at elsewhere
 };
+
+/// The heading on the way from one place to another: `yaw_rad`, or along the way for a base that
+/// cannot go sideways.
+double heading_along(const RobotOutline& robot, const Eigen::Vector2d& from_m,
+                     const Eigen::Vector2d& to_m, double yaw_rad);
 
 /// A point is where a cell of the floor has its centre and is not known to be free; the outside of
 /// the map is made of them. The outline fits where it covers none. Cells are small against it.
@@ -58,11 +73,18 @@ class FootprintSpace {
   /// Of any outline in the base's frame.
   [[nodiscard]] bool fits(std::span<const Eigen::Vector2d> outline,
                           const Pose2& T_world_base) const;
-  /// The same at the centre of a cell of `detail`, with the margin of the options (or a tight one),
-  /// at one of the headings; fast.
-  [[nodiscard]] bool fits(const Eigen::Array2i& cell, int heading, bool tight = false) const;
+  /// The same all along a straight line, at points 3 cm apart and at one heading.
+  [[nodiscard]] bool fits_along(std::span<const Eigen::Vector2d> outline,
+                                const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m,
+                                double yaw_rad) const;
+  /// Of the robot's at the centre of a cell of `detail`, with a margin, at one of the headings;
+  /// fast.
+  [[nodiscard]] bool fits(const Eigen::Array2i& cell, int heading,
+                          Margin margin = Margin::least) const;
   /// Whether it might so at that heading at a centre up to half of `parts` off, along either axis.
-  [[nodiscard]] bool may_fit(const Eigen::Array2i& cell, int heading, bool tight = false) const;
+  [[nodiscard]] bool may_fit(const Eigen::Array2i& cell, int heading,
+                             Margin margin = Margin::least) const;
+  [[nodiscard]] double margin_m(Margin margin) const;
   /// Whether the robot might stand there at some heading: its inscribed disc fits.
   [[nodiscard]] bool may_stand(const Eigen::Array2i& cell) const;
 
@@ -104,10 +126,11 @@ class FootprintSpace {
   int ny_;
   std::size_t words_;                ///< of a row
   std::vector<std::uint64_t> bits_;  ///< 1: a point
-  std::vector<Mask> masks_;          ///< of each heading
-  std::vector<Mask> tight_masks_;
-  std::vector<Mask> common_;  ///< of a heading's mask wherever in the cell it is put
-  std::vector<Mask> tight_common_;
+  struct HeadingMasks {
+    std::vector<Mask> at;      ///< of each heading
+    std::vector<Mask> common;  ///< of the same wherever in the cell it is put
+  };
+  std::array<HeadingMasks, 3> masks_;  ///< of each margin
   Mask disc_;
 };
 

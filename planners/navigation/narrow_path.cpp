@@ -11,36 +11,50 @@
 namespace vantage {
 namespace {
 
-constexpr double kSample_m = 0.03;
-
 Pose2 pose_at(const Eigen::Vector2d& p_m, double yaw_rad) { return {p_m.x(), p_m.y(), yaw_rad}; }
 
 bool same_heading(double a_rad, double b_rad) { return std::abs(wrap_angle(a_rad - b_rad)) < 1e-9; }
 
-/// A base that cannot go sideways has the heading of its way.
-double heading_along(const FootprintSpace& space, const Eigen::Vector2d& from,
-                     const Eigen::Vector2d& to, double yaw_rad) {
-  const Eigen::Vector2d way = to - from;
-  if (space.robot().goes_sideways || way.norm() < 1e-6) return yaw_rad;
-  return std::atan2(way.y(), way.x());
-}
-
-bool fits_along(const FootprintSpace& space, std::span<const Eigen::Vector2d> outline,
-                const Eigen::Vector2d& from, const Eigen::Vector2d& to, double yaw_rad) {
-  const int samples = 1 + static_cast<int>((to - from).norm() / kSample_m);
-  for (int i = 0; i <= samples; ++i) {
-    const Eigen::Vector2d p_m = from + static_cast<double>(i) / samples * (to - from);
-    if (!space.fits(outline, pose_at(p_m, yaw_rad))) return false;
+/// Outlines of the robot with less and less about it: what is made straight keeps no less than what
+/// it is made from did. The last is for what has come to lie between cells.
+class KeptMargins {
+ public:
+  explicit KeptMargins(const FootprintSpace& space) : space_(space) {
+    const FloorOutline& outline = space.robot().outline;
+    outlines_ = {grown(outline, space.margin_m(Margin::preferred)),
+                 grown(outline, space.margin_m(Margin::least)),
+                 grown(outline, 0.5 * space.margin_m(Margin::least))};
   }
-  return true;
-}
+  /// Of them, the first that fits all along, or the last.
+  [[nodiscard]] std::size_t along(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                  double yaw_rad) const {
+    return first([&](std::size_t i) { return fit_along(i, from, to, yaw_rad); });
+  }
+  [[nodiscard]] std::size_t at(const Pose2& pose) const {
+    return first([&](std::size_t i) { return fits_at(i, pose); });
+  }
+  [[nodiscard]] bool fit_along(std::size_t i, const Eigen::Vector2d& from,
+                               const Eigen::Vector2d& to, double yaw_rad) const {
+    return space_.fits_along(outlines_[i], from, to, yaw_rad);
+  }
+  [[nodiscard]] bool fits_at(std::size_t i, const Pose2& pose) const {
+    return space_.fits(outlines_[i], pose);
+  }
+
+ private:
+  [[nodiscard]] std::size_t first(auto&& fits) const {
+    std::size_t i = 0;
+    while (i + 1 < outlines_.size() && !fits(i)) ++i;
+    return i;
+  }
+  const FootprintSpace& space_;
+  std::array<FloorOutline, 3> outlines_;
+};
 
 class PathBuilder {
  public:
   explicit PathBuilder(const PathField& field)
-      : field_(field),
-        space_(*field.space),
-        outline_(grown(space_.robot().outline, 0.5 * space_.options().margin_m)) {
+      : field_(field), space_(*field.space), margins_(space_) {
     path_.waypoints.push_back(field.start);
   }
 
@@ -60,21 +74,14 @@ class PathBuilder {
   void add_straight(std::span<const Pose2> poses) {
     const double yaw_rad = poses.back().yaw_rad;
     PathLeg leg{.waypoints = {path_.waypoints.back()}, .narrow = true};
+    const std::vector<std::size_t> kept_by_step = kept_by_steps(poses, yaw_rad);
+    const std::span kept(kept_by_step);
     for (std::size_t anchor = 0; anchor + 1 < poses.size();) {
-      std::size_t next = anchor + 1;
-      const auto fits_to = [&](std::size_t i) {
-        const Eigen::Vector2d from = position(poses[anchor]);
-        const Eigen::Vector2d to = position(poses[i]);
-        return fits_along(space_, outline_, from, to, heading_along(space_, from, to, yaw_rad));
-      };
-      for (std::size_t i = poses.size() - 1; i > next; --i) {
-        if (!fits_to(i)) continue;
-        next = i;
-        break;
-      }
+      const std::size_t next =
+          anchor + straight_to(poses.subspan(anchor), kept.subspan(anchor), yaw_rad);
       const Eigen::Vector2d to = position(poses[next]);
       leg.waypoints.push_back(
-          pose_at(to, heading_along(space_, position(poses[anchor]), to, yaw_rad)));
+          pose_at(to, heading_along(space_.robot(), position(poses[anchor]), to, yaw_rad)));
       anchor = next;
     }
     add(std::move(leg));
@@ -107,12 +114,42 @@ class PathBuilder {
   }
 
  private:
+  /// What the outline keeps from each of the poses to the next.
+  [[nodiscard]] std::vector<std::size_t> kept_by_steps(std::span<const Pose2> poses,
+                                                       double yaw_rad) const {
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      const Eigen::Vector2d from = position(poses[i - 1]);
+      const Eigen::Vector2d to = position(poses[i]);
+      kept.push_back(margins_.along(from, to, heading_along(space_.robot(), from, to, yaw_rad)));
+    }
+    return kept;
+  }
+
+  /// The last of the poses that it gets to straight from the first, keeping what it would by way of
+  /// those between.
+  [[nodiscard]] std::size_t straight_to(std::span<const Pose2> poses,
+                                        std::span<const std::size_t> kept_by_step,
+                                        double yaw_rad) const {
+    const Eigen::Vector2d from = position(poses.front());
+    for (std::size_t i = poses.size() - 1; i > 1; --i) {
+      const Eigen::Vector2d to = position(poses[i]);
+      const std::size_t kept = std::ranges::max(kept_by_step.first(i));
+      if (margins_.fit_along(kept, from, to, heading_along(space_.robot(), from, to, yaw_rad))) {
+        return i;
+      }
+    }
+    return 1;
+  }
+
   [[nodiscard]] bool fits_turning(std::span<const Pose2> poses) const {
+    std::size_t kept = 0;
+    for (const Pose2& pose : poses) kept = std::max(kept, margins_.at(pose));
     const Eigen::Vector2d from = position(poses.front());
     const Eigen::Vector2d way = position(poses.back()) - from;
     for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(poses.size() - 1);
-      if (!space_.fits(outline_, pose_at(from + share * way, poses[i].yaw_rad))) return false;
+      if (!margins_.fits_at(kept, pose_at(from + share * way, poses[i].yaw_rad))) return false;
     }
     return true;
   }
@@ -134,7 +171,7 @@ class PathBuilder {
 
   const PathField& field_;
   const FootprintSpace& space_;
-  FloorOutline outline_;
+  KeptMargins margins_;
   PlannedPath path_;
 };
 
@@ -149,61 +186,6 @@ void add_passage(PathBuilder& builder, std::span<const Pose2> poses) {
     builder.add_turn(poses[turned]);
     i = turned;
   }
-}
-
-/// The clearance, in steps of 1 cm, that the outline keeps on a straight leg.
-class Clearance {
- public:
-  static constexpr std::size_t kMost = 8;
-  explicit Clearance(const FootprintSpace& space) : space_(space) {
-    for (std::size_t i = 0; i <= kMost; ++i) {
-      outlines_.push_back(grown(space.robot().outline, 0.01 * static_cast<double>(i)));
-    }
-  }
-  [[nodiscard]] bool keeps(std::size_t steps, const Pose2& from, const Pose2& to) const {
-    return fits_along(space_, outlines_[steps], position(from), position(to), to.yaw_rad);
-  }
-
- private:
-  const FootprintSpace& space_;
-  std::vector<FloorOutline> outlines_;
-};
-
-/// Both ends of a leg moved across it, and turned; smaller changes first.
-std::vector<std::array<double, 3>> changes(double heading_step_rad) {
-  std::vector<std::array<double, 3>> made;
-  for (int a = -4; a <= 4; ++a) {
-    for (int b = -4; b <= 4; ++b) {
-      for (int turn = -2; turn <= 2; ++turn) {
-        made.push_back({0.01 * a, 0.01 * b, 0.25 * turn * heading_step_rad});
-      }
-    }
-  }
-  std::ranges::stable_sort(made, {}, [](const auto& change) {
-    return std::abs(change[0]) + std::abs(change[1]) + std::abs(change[2]);
-  });
-  return made;
-}
-
-/// The leg from where to where, best in the middle.
-std::pair<Pose2, Pose2> centred_leg(const Clearance& clearance, const FootprintSpace& space,
-                                    const Pose2& from, const Pose2& to) {
-  const Eigen::Vector2d along = (position(to) - position(from)).normalized();
-  const Eigen::Vector2d across(-along.y(), along.x());
-  std::pair<Pose2, Pose2> best(from, to);
-  std::size_t kept = 0;
-  while (kept < Clearance::kMost && clearance.keeps(kept + 1, from, to)) ++kept;
-  for (const auto& [a_m, b_m, turn_rad] : changes(2.0 * std::numbers::pi / space.headings())) {
-    if (kept == Clearance::kMost) break;
-    const Eigen::Vector2d p_from = position(from) + a_m * across;
-    const Eigen::Vector2d p_to = position(to) + b_m * across;
-    const double yaw_rad = heading_along(space, p_from, p_to, wrap_angle(to.yaw_rad + turn_rad));
-    const std::pair moved(pose_at(p_from, yaw_rad), pose_at(p_to, yaw_rad));
-    if (!clearance.keeps(kept + 1, moved.first, moved.second)) continue;
-    best = moved;
-    while (kept < Clearance::kMost && clearance.keeps(kept + 1, moved.first, moved.second)) ++kept;
-  }
-  return best;
 }
 
 }  // namespace
@@ -233,30 +215,6 @@ PlannedPath path_through_passages(const PathField& field, const std::vector<Path
     add_passage(builder, passage);
   }
   return builder.take();
-}
-
-PlannedPath centred(const PathField& field, PlannedPath path) {
-  if (path.legs.empty()) return path;
-  const Clearance clearance(*field.space);
-  for (std::size_t i = 0; i < path.legs.size(); ++i) {
-    PathLeg& leg = path.legs[i];
-    if (!leg.narrow || leg.waypoints.size() != 2) continue;
-    const bool from_open = i > 0 && !path.legs[i - 1].narrow;
-    const bool to_open = i + 1 < path.legs.size() && !path.legs[i + 1].narrow;
-    if (!from_open || !to_open) continue;
-    Pose2 from = leg.waypoints.front();
-    from.yaw_rad = leg.waypoints.back().yaw_rad;
-    const auto [begin, end] = centred_leg(clearance, *field.space, from, leg.waypoints.back());
-    leg.waypoints = {begin, end};
-    path.legs[i - 1].waypoints.back() = begin;
-    path.legs[i + 1].waypoints.front() = end;
-  }
-  path.waypoints = {field.start};
-  for (const PathLeg& leg : path.legs) {
-    path.waypoints.insert(path.waypoints.end(), leg.waypoints.begin() + 1, leg.waypoints.end());
-  }
-  path.end = path.waypoints.back();
-  return path;
 }
 
 }  // namespace vantage

@@ -21,8 +21,4 @@ struct PathStep {
 PlannedPath path_through_passages(const PathField& field, const std::vector<PathStep>& steps,
                                   double final_yaw_rad);
 
-/// Straight legs through passages moved to where the outline keeps the most clearance, by up to
-/// 4 cm and half a heading; for the path that is driven.
-PlannedPath centred(const PathField& field, PlannedPath path);
-
 }  // namespace vantage

@@ -28,51 +28,64 @@ Eigen::Array2i NarrowPoses::middle(std::size_t cell) const {
   return field_.map.cell(cell) * space_.parts() + space_.parts() / 2;
 }
 
-std::uint32_t NarrowPoses::at(std::size_t cell, int heading) {
-  std::uint32_t& pose = pose_at_[slot(cell, heading)];
-  if (pose != kUnknown) return pose;
-  pose = kNone;
-  if (!space_.may_fit(middle(cell), heading, tight_)) return pose;
+std::optional<Eigen::Array2i> NarrowPoses::nearest_fitting(std::size_t cell, int heading,
+                                                           Margin margin) const {
+  if (!space_.may_fit(middle(cell), heading, margin)) return {};
   const int reach = space_.parts() / 2;
   double nearest = kInfinity;
-  Eigen::Array2i best = Eigen::Array2i::Zero();
+  std::optional<Eigen::Array2i> best;
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const double off = std::hypot(dx, dy);
       const Eigen::Array2i fine = middle(cell) + Eigen::Array2i(dx, dy);
-      if (off >= nearest || !space_.fits(fine, heading, tight_)) continue;
+      if (off >= nearest || !space_.fits(fine, heading, margin)) continue;
       nearest = off;
       best = fine;
     }
   }
-  if (nearest == kInfinity) return pose;
+  return best;
+}
+
+std::uint32_t NarrowPoses::at(std::size_t cell, int heading) {
+  std::uint32_t& pose = pose_at_[slot(cell, heading)];
+  if (pose != kUnknown) return pose;
+  pose = kNone;
+  std::optional<Eigen::Array2i> fine = nearest_fitting(cell, heading, Margin::preferred);
+  const bool roomy = fine.has_value();
+  if (!roomy) fine = nearest_fitting(cell, heading, least_);
+  if (!fine) return pose;
   pose = static_cast<std::uint32_t>(field_.narrow.size());
-  const Eigen::Vector2d p_m = space_.centre(best);
+  const Eigen::Vector2d p_m = space_.centre(*fine);
   field_.narrow.push_back({.pose = {p_m.x(), p_m.y(), space_.heading_rad(heading)},
                            .cell = cell,
                            .cost = kInfinity,
                            .parent = PathField::kNone});
-  placed_.push_back({best, heading});
+  placed_.push_back({*fine, heading, roomy});
   return pose;
 }
 
 std::uint32_t NarrowPoses::add_start() {
   const int heading = space_.nearest_heading(field_.start.yaw_rad);
   const Eigen::Array2i fine = middle(field_.start_cell);
-  tight_ = !space_.fits(fine, heading);
+  least_ = space_.fits(fine, heading) ? Margin::least : Margin::tight;
   const auto pose = static_cast<std::uint32_t>(field_.narrow.size());
   field_.narrow.push_back({.pose = field_.start,
                            .cell = field_.start_cell,
                            .cost = kInfinity,
                            .parent = PathField::kNone});
-  placed_.push_back({fine, heading});
+  placed_.push_back({fine, heading, space_.fits(fine, heading, Margin::preferred)});
   pose_at_[slot(field_.start_cell, heading)] = pose;
   return pose;
 }
 
 bool NarrowPoses::fits_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
                                int heading) const {
-  return space_.fits((a + b) / 2, heading, tight_);
+  return space_.fits((a + b) / 2, heading, least_);
+}
+
+bool NarrowPoses::is_roomy_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
+                                   int heading) const {
+  return space_.fits((a + b) / 2, heading, Margin::preferred);
 }
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "vantage/planners/navigation/narrow_places.hpp"
@@ -17,6 +18,7 @@ class NarrowPoses {
   struct Place {
     Eigen::Array2i fine;  ///< cell of the finer map
     int heading;
+    bool roomy;  ///< the preferred margin is kept
   };
 
   /// @param field outlives this; poses are added to it, not reached yet
@@ -28,17 +30,23 @@ class NarrowPoses {
   [[nodiscard]] bool is_nook(std::size_t cell) const { return leeway_[cell] == Leeway::nook; }
   /// Cell of the finer map.
   [[nodiscard]] Eigen::Array2i middle(std::size_t cell) const;
-  /// The pose of a narrow cell at that heading, nearest to the middle; kNone if it fits nowhere.
+  /// The pose of a narrow cell at that heading, nearest to the middle where the preferred margin is
+  /// kept, else where the least is; kNone if it fits nowhere.
   std::uint32_t at(std::size_t cell, int heading);
   [[nodiscard]] const Place& place(std::size_t pose) const { return placed_[pose]; }
   /// Adds the robot's own, which need not fit: if it does not, the others keep a tight margin.
   std::uint32_t add_start();
   [[nodiscard]] bool fits_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
                                   int heading) const;
+  /// Whether it does so with the preferred margin.
+  [[nodiscard]] bool is_roomy_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
+                                      int heading) const;
 
  private:
   static constexpr std::uint32_t kUnknown = kNone - 1;
   [[nodiscard]] std::size_t slot(std::size_t cell, int heading) const;
+  [[nodiscard]] std::optional<Eigen::Array2i> nearest_fitting(std::size_t cell, int heading,
+                                                              Margin margin) const;
 
   PathField& field_;
   const FootprintSpace& space_;
@@ -46,7 +54,7 @@ class NarrowPoses {
   std::vector<std::uint32_t> row_of_;   ///< of narrow cells in pose_at_
   std::vector<std::uint32_t> pose_at_;  ///< per narrow cell and heading
   std::vector<Place> placed_;           ///< of each pose
-  bool tight_ = false;
+  Margin least_ = Margin::least;
 };
 
 }  // namespace vantage

@@ -21,6 +21,9 @@ constexpr double kAlong_rad = 0.48;
 constexpr double kSquare_m = 0.02;
 constexpr double kFacing_rad = 0.5;
 
+/// What a metre counts for that keeps less than the preferred margin.
+constexpr double kPinched = 2.0;
+
 double facing_limit_rad(const RobotOutline& robot) {
   if (!robot.goes_sideways) return kAlong_rad;
   const auto width_m = [&](const Eigen::Vector2d& along) {
@@ -134,9 +137,10 @@ class PassageSearch {
     queue_.emplace(through, to);
   }
 
-  void relax_narrow(std::size_t from, std::size_t to, double more_m) {
+  void relax_narrow(std::size_t from, std::size_t to, double more_m, bool roomy) {
     const double length_m = ((place_of(to) - place_of(from)).norm() + more_m) * space_.slowness();
-    relax(from, to, length_m * (1.0 + field_.options.clearance_weight), length_m);
+    const double per_metre = (1.0 + field_.options.clearance_weight) * (roomy ? 1.0 : kPinched);
+    relax(from, to, length_m * per_metre, length_m);
   }
 
   void step_from_open(std::size_t cell) {
@@ -169,10 +173,12 @@ class PassageSearch {
     for (int heading = 0; heading < space_.headings(); ++heading) {
       if (!faces(step, heading)) continue;
       const std::uint32_t node = poses_.at(narrow_cell, heading);
-      if (node == NarrowPoses::kNone ||
-          !poses_.fits_between(poses_.middle(cell), poses_.place(node).fine, heading))
-        continue;
-      relax_narrow(cell, field_.map.size() + node, 0.0);
+      if (node == NarrowPoses::kNone) continue;
+      const NarrowPoses::Place& place = poses_.place(node);
+      if (!poses_.fits_between(poses_.middle(cell), place.fine, heading)) continue;
+      relax_narrow(
+          cell, field_.map.size() + node, 0.0,
+          place.roomy && poses_.is_roomy_between(poses_.middle(cell), place.fine, heading));
     }
   }
 
@@ -186,26 +192,30 @@ class PassageSearch {
       if (!field_.map.contains(to) || !faces(step, place.heading)) continue;
       const std::size_t neighbour = field_.map.index(to);
       if (field_.traversable(neighbour)) {
-        if (poses_.fits_between(place.fine, poses_.middle(neighbour), place.heading)) {
-          relax_narrow(id, neighbour, 0.0);
-        }
+        go(id, place, neighbour, {poses_.middle(neighbour), place.heading, true});
       } else if (poses_.is_narrow(neighbour)) {
         const std::uint32_t node = poses_.at(neighbour, place.heading);
-        if (node != NarrowPoses::kNone &&
-            poses_.fits_between(place.fine, poses_.place(node).fine, place.heading)) {
-          relax_narrow(id, field_.map.size() + node, 0.0);
-        }
+        if (node != NarrowPoses::kNone) go(id, place, field_.map.size() + node, poses_.place(node));
       }
     }
-    turn_from(id, cell, place.heading);
+    turn_from(id, cell, place);
   }
 
-  void turn_from(std::size_t id, std::size_t cell, int heading) {
+  void go(std::size_t id, const NarrowPoses::Place& from, std::size_t to_id,
+          const NarrowPoses::Place& to) {
+    if (!poses_.fits_between(from.fine, to.fine, from.heading)) return;
+    relax_narrow(
+        id, to_id, 0.0,
+        from.roomy && to.roomy && poses_.is_roomy_between(from.fine, to.fine, from.heading));
+  }
+
+  void turn_from(std::size_t id, std::size_t cell, const NarrowPoses::Place& place) {
     const double turned_m = 2.0 * std::numbers::pi / space_.headings() * space_.circumscribed_m();
     for (const int way : {1, -1}) {
-      const int turned = (heading + way + space_.headings()) % space_.headings();
+      const int turned = (place.heading + way + space_.headings()) % space_.headings();
       const std::uint32_t node = poses_.at(cell, turned);
-      if (node != NarrowPoses::kNone) relax_narrow(id, field_.map.size() + node, turned_m);
+      if (node == NarrowPoses::kNone) continue;
+      relax_narrow(id, field_.map.size() + node, turned_m, place.roomy && poses_.place(node).roomy);
     }
   }
 

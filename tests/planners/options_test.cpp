@@ -43,6 +43,7 @@ TEST(PlannerOptions, OfNavigation) {
                                        {"watch_m", 1.0, kNotNegativeOption}});
   expect_numbers(PassageOptions{}, {{"use", 1},
                                     {"margin_m", 0.02, kNotNegativeOption},
+                                    {"preferred_margin_m", 0.05, between(0.0, 0.2)},
                                     {"headings", 48, between(4, 360)},
                                     {"speed_m_s", 0.2, kPositiveShareOption},
                                     {"least_area_m2", 0.2, kNotNegativeOption}});

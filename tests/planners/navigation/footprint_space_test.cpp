@@ -28,31 +28,31 @@ std::shared_ptr<const FootprintSpace> space_with_a_post(const Eigen::Array2i& of
 RobotOutline long_robot() { return {.outline = rectangle(0.815, 0.5)}; }
 
 TEST(FootprintSpace, ReachesAsFarAsTheOutlineAndItsMargin) {
-  const auto fits = [](const Eigen::Array2i& off, double margin_m, bool tight, int heading = 0) {
+  const auto fits = [](const Eigen::Array2i& off, double margin_m, Margin margin, int heading = 0) {
     return space_with_a_post(off, long_robot(), {.margin_m = margin_m})
-        ->fits(kMiddleCell, heading, tight);
+        ->fits(kMiddleCell, heading, margin);
   };
   for (const int side : {-1, 1}) {
-    EXPECT_FALSE(fits({43 * side, 0}, 0.03, false));
-    EXPECT_TRUE(fits({44 * side, 0}, 0.03, false));
-    EXPECT_FALSE(fits({41 * side, 0}, 0.03, true)) << "half a centimetre is kept";
-    EXPECT_TRUE(fits({42 * side, 0}, 0.03, true));
-    EXPECT_FALSE(fits({0, 25 * side}, 0.03, true));
-    EXPECT_TRUE(fits({0, 26 * side}, 0.03, true));
-    for (const bool tight : {false, true}) {
-      EXPECT_FALSE(fits({40 * side, 0}, 0.002, tight));
-      EXPECT_TRUE(fits({41 * side, 0}, 0.002, tight)) << "or the margin, if it is less";
+    EXPECT_FALSE(fits({43 * side, 0}, 0.03, Margin::least));
+    EXPECT_TRUE(fits({44 * side, 0}, 0.03, Margin::least));
+    EXPECT_FALSE(fits({41 * side, 0}, 0.03, Margin::tight)) << "half a centimetre is kept";
+    EXPECT_TRUE(fits({42 * side, 0}, 0.03, Margin::tight));
+    EXPECT_FALSE(fits({0, 25 * side}, 0.03, Margin::tight));
+    EXPECT_TRUE(fits({0, 26 * side}, 0.03, Margin::tight));
+    for (const Margin margin : {Margin::least, Margin::tight}) {
+      EXPECT_FALSE(fits({40 * side, 0}, 0.002, margin));
+      EXPECT_TRUE(fits({41 * side, 0}, 0.002, margin)) << "or the margin, if it is less";
     }
-    EXPECT_FALSE(fits({0, 43 * side}, 0.03, false, 12)) << "a quarter of a turn";
-    EXPECT_TRUE(fits({0, 44 * side}, 0.03, false, 12));
-    EXPECT_TRUE(fits({43 * side, 0}, 0.03, false, 12));
+    EXPECT_FALSE(fits({0, 43 * side}, 0.03, Margin::least, 12)) << "a quarter of a turn";
+    EXPECT_TRUE(fits({0, 44 * side}, 0.03, Margin::least, 12));
+    EXPECT_TRUE(fits({43 * side, 0}, 0.03, Margin::least, 12));
   }
 }
 
 TEST(FootprintSpace, KeepsHalfACentimetreWhereItIsTight) {
   const auto fits = [](const Eigen::Array2i& off, double length_m) {
     return space_with_a_post(off, {.outline = rectangle(length_m, 0.5)}, {.margin_m = 0.03})
-        ->fits(kMiddleCell, 0, true);
+        ->fits(kMiddleCell, 0, Margin::tight);
   };
   EXPECT_FALSE(fits({41, 0}, 0.813)) << "3.5 mm";
   EXPECT_TRUE(fits({42, 0}, 0.826)) << "7 mm";
@@ -60,16 +60,17 @@ TEST(FootprintSpace, KeepsHalfACentimetreWhereItIsTight) {
 
 /// Wherever within two cells it is put, what is covered in any case must be free.
 TEST(FootprintSpace, MayFitUnlessWhatIsCoveredInAnyCaseIsNot) {
-  const auto may_fit = [](const Eigen::Array2i& off, bool tight) {
-    return space_with_a_post(off, long_robot(), {.margin_m = 0.03})->may_fit(kMiddleCell, 0, tight);
+  const auto may_fit = [](const Eigen::Array2i& off, Margin margin) {
+    return space_with_a_post(off, long_robot(), {.margin_m = 0.03})
+        ->may_fit(kMiddleCell, 0, margin);
   };
   for (const int side : {-1, 1}) {
-    EXPECT_FALSE(may_fit({41 * side, 0}, false));
-    EXPECT_TRUE(may_fit({42 * side, 0}, false));
-    EXPECT_FALSE(may_fit({39 * side, 0}, true));
-    EXPECT_TRUE(may_fit({40 * side, 0}, true));
-    EXPECT_FALSE(may_fit({0, 23 * side}, true));
-    EXPECT_TRUE(may_fit({0, 24 * side}, true));
+    EXPECT_FALSE(may_fit({41 * side, 0}, Margin::least));
+    EXPECT_TRUE(may_fit({42 * side, 0}, Margin::least));
+    EXPECT_FALSE(may_fit({39 * side, 0}, Margin::tight));
+    EXPECT_TRUE(may_fit({40 * side, 0}, Margin::tight));
+    EXPECT_FALSE(may_fit({0, 23 * side}, Margin::tight));
+    EXPECT_TRUE(may_fit({0, 24 * side}, Margin::tight));
   }
 }
 
@@ -89,13 +90,13 @@ TEST(FootprintSpace, MayFitWhereAPlaceWithinTwoCellsFits) {
     for (int place = 0; place < 400; ++place) {
       const Eigen::Array2i middle(10 * (place % 20) + 2, 10 * (place / 20) + 2);
       for (int heading = 0; heading < 12; ++heading) {
-        for (const bool tight : {false, true}) {
+        for (const Margin margin : {Margin::least, Margin::tight}) {
           bool fits = false;
           for (int k = 0; k < 25; ++k) {
             fits =
-                fits || space->fits(middle + Eigen::Array2i(k % 5 - 2, k / 5 - 2), heading, tight);
+                fits || space->fits(middle + Eigen::Array2i(k % 5 - 2, k / 5 - 2), heading, margin);
           }
-          const bool may_fit = space->may_fit(middle, heading, tight);
+          const bool may_fit = space->may_fit(middle, heading, margin);
           EXPECT_TRUE(may_fit || !fits) << middle.transpose() << " at " << heading;
           fitting += fits ? 1 : 0;
           ruled_out += may_fit ? 0 : 1;

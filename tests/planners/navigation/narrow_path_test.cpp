@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
+#include "vantage/planners/navigation/centred_legs.hpp"
 
 namespace vantage {
 namespace {
@@ -96,15 +97,24 @@ TEST_F(StepsThroughAPassage, TurnWhereEachHeadingFits) {
   const DrawnRooms rooms(3.0, 3.0, {wall(0.0, 1.165, 3.0, 1.3)});
   NavigationOptions options;
   options.footprint_radius_m = radius_m_;
-  const PathField field = make_path_field(rooms.floor, {0.7, 1.0, 0.0}, options,
-                                          rooms.space({.outline = rectangle(0.3, 0.2)}, {}));
   const std::vector<PathStep> steps{{{0.7, 1.0}, 0.0}, {{1.0, 1.0}, 0.0},   {{1.0, 1.0}, 0.2},
                                     {{1.0, 1.0}, 0.3}, {{1.0, 0.96}, 0.75}, {{1.0, 0.96}, 1.1},
                                     {{1.0, 1.0}, 1.5}, {{1.0, 1.0}, 1.55}};
-  const PlannedPath planned = path_through_passages(field, steps, 0.0);
-  ASSERT_EQ(planned.legs.size(), 3U) << "there, a turn to where the corner passes, and from there";
-  expect_pose(planned.legs[1].waypoints.back(), 1.0, 0.96, 1.1);
-  expect_pose(planned.legs[2].waypoints.back(), 1.0, 1.0, 1.55);
+  const auto turns = [&](double margin_m) {
+    const PathField field =
+        make_path_field(rooms.floor, {0.7, 1.0, 0.0}, options,
+                        rooms.space({.outline = rectangle(0.3, 0.2)}, {.margin_m = margin_m}));
+    std::vector<PathLeg> legs = path_through_passages(field, steps, 0.0).legs;
+    legs.erase(legs.begin());  // there
+    return legs;
+  };
+  const auto by_half = turns(0.03);
+  ASSERT_EQ(by_half.size(), 2U) << "to where the corner passes, and from there";
+  expect_pose(by_half[0].waypoints.back(), 1.0, 0.96, 1.1);
+  expect_pose(by_half[1].waypoints.back(), 1.0, 1.0, 1.55);
+  const auto by_margin = turns(0.02);
+  ASSERT_EQ(by_margin.size(), 3U) << "each heading keeps 2 cm, and one turn to 1.1 would not";
+  expect_pose(by_margin[0].waypoints.back(), 1.0, 0.96, 0.75);
 }
 
 /// It stands between two headings of the search.
@@ -120,23 +130,42 @@ TEST_F(StepsThroughAPassage, BeginAtTheHeadingNearestToItsOwn) {
 }
 
 /// A post beside the straight way from the first of four places to the last, not to the third.
-TEST_F(StepsThroughAPassage, ArePulledStraightWhereHalfTheMarginIsKept) {
-  const std::vector<PathStep> steps{
-      {{1.0, 1.2}, 0.0}, {{1.2, 1.4}, 0.0}, {{1.4, 1.6}, 0.0}, {{1.9, 1.2}, 0.0}};
-  const auto leg_past_a_post = [&](double y_m) {
+class PostBesideTheStraightWay : public StepsThroughAPassage {
+ protected:
+  /// @param y_m of the post; 1.1 is the outline's edge on the straight way
+  PathLeg leg(double y_m, const PassageOptions& passages,
+              const Eigen::Vector2d& second_m = {1.2, 1.4}) {
+    const std::vector<PathStep> steps{
+        {{1.0, 1.2}, 0.0}, {second_m, 0.0}, {{1.4, 1.6}, 0.0}, {{1.9, 1.2}, 0.0}};
     const DrawnRooms rooms(3.0, 3.0, {wall(1.401, y_m - 0.004, 1.409, y_m + 0.004)});
     NavigationOptions options;
     options.footprint_radius_m = radius_m_;
     const PathField field =
         make_path_field(rooms.floor, {1.0, 1.2, 0.0}, options,
-                        rooms.space({.outline = rectangle(0.3, 0.2)}, {.margin_m = 0.2}));
+                        rooms.space({.outline = rectangle(0.3, 0.2)}, passages));
     return path_through_passages(field, steps, 0.0).legs.at(0);
-  };
-  const PathLeg near = leg_past_a_post(1.035);
-  ASSERT_EQ(near.waypoints.size(), 3U) << "6.5 cm beside the outline";
-  expect_pose(near.waypoints[1], 1.4, 1.6, 0.0);
-  expect_pose(near.waypoints[2], 1.9, 1.2, 0.0);
-  EXPECT_EQ(leg_past_a_post(0.965).waypoints.size(), 2U) << "13.5 cm";
+  }
+};
+
+TEST_F(PostBesideTheStraightWay, IsPassedAsFarOffAsByTheSteps) {
+  for (const bool preferred : {false, true}) {
+    const PassageOptions passages{.margin_m = preferred ? 0.02 : 0.1,
+                                  .preferred_margin_m = preferred ? 0.1 : 0.05};
+    const PathLeg near = leg(1.015, passages);
+    ASSERT_EQ(near.waypoints.size(), 3U) << "8.5 cm beside the outline, and those keep 10";
+    expect_pose(near.waypoints[1], 1.4, 1.6, 0.0);
+    expect_pose(near.waypoints[2], 1.9, 1.2, 0.0);
+    EXPECT_EQ(leg(0.985, passages).waypoints.size(), 2U) << "11.5 cm";
+  }
+}
+
+/// Where the way by the steps leaves less, too.
+TEST_F(PostBesideTheStraightWay, IsPassedByTheMarginOrHalfOfItWhereTheStepsKeepNoMore) {
+  const PassageOptions passages{.margin_m = 0.06, .preferred_margin_m = 0.1};
+  const Eigen::Vector2d beside(1.25, 1.2);
+  EXPECT_EQ(leg(1.015, passages, beside).waypoints.size(), 2U) << "8.5 cm, by either way";
+  EXPECT_EQ(leg(1.055, passages, beside).waypoints.size(), 2U) << "4.5 cm, by either way";
+  EXPECT_EQ(leg(1.085, passages, beside).waypoints.size(), 3U) << "1.5 cm: less than half of it";
 }
 
 double driven_m(const PlannedPath& path) {

@@ -142,13 +142,17 @@ TEST_F(Corridor, ANearlySquareRobotBacksWhereAheadIsNoWayOut) {
 }
 
 /// Of a robot of 4 x 2 cm, whose passages have a third of its speed.
-PathField small_robots_field(const DrawnRooms& rooms, const Pose2& start) {
+PathField small_robots_field(const DrawnRooms& rooms, const Pose2& start,
+                             double preferred_margin_m = 0.0) {
   const FloorOutline outline = rectangle(0.04, 0.02);
   NavigationOptions options;
   options.footprint_radius_m = circumscribed_radius_m(outline);
   options.margin_m = 0.005;
-  const auto space = rooms.space({.outline = outline, .speed_m_s = 0.6},
-                                 {.margin_m = 0.001, .speed_m_s = 0.2, .least_area_m2 = 0.0});
+  const auto space =
+      rooms.space({.outline = outline, .speed_m_s = 0.6}, {.margin_m = 0.001,
+                                                           .preferred_margin_m = preferred_margin_m,
+                                                           .speed_m_s = 0.2,
+                                                           .least_area_m2 = 0.0});
   return make_path_field(rooms.floor, start, options, space);
 }
 
@@ -193,7 +197,7 @@ TEST_F(Corridor, WhereTheMarginDoesNotFitATightOneIsKept) {
   start_ = {2.425, 1.025, 0.0};
   const PathField narrow = field(robot_, {});
   ASSERT_FALSE(narrow.space->fits({242, 102}, 0));
-  ASSERT_TRUE(narrow.space->fits({242, 102}, 0, true));
+  ASSERT_TRUE(narrow.space->fits({242, 102}, 0, Margin::tight));
   EXPECT_TRUE(plan_path(narrow, {4.5, 1.0, 0.0}).reaches_goal);
 }
 
@@ -211,6 +215,93 @@ TEST(NarrowSearch, AStepIntoAPassageCostsNoMoreThanOneInIt) {
   const DrawnRooms rooms(0.4, 0.05, {wall(0.05, 0.04, 0.25, 0.05)});
   const PathField there = small_robots_field(rooms, {0.025, 0.025, 0.0});
   EXPECT_NEAR(there.cost[there.map.index({5, 0})], 5.0 * 0.05 * 3.0 * 2.0, 1e-9);
+}
+
+/// Walls leave it 11 cm, and 5.3 at the next heading.
+TEST_F(Corridor, WhatKeepsLessThanThePreferredMarginCountsDouble) {
+  const double turn_m = kHeadingStep_rad * std::hypot(0.45, 0.25);
+  const auto expect_counts = [&](double preferred_m, double ahead, double turning) {
+    const PathField narrow = field(robot_, {.preferred_margin_m = preferred_m, .speed_m_s = 0.2});
+    EXPECT_NEAR(cost_at(narrow, start_cell_ + Eigen::Array2i(10, 0), 0.0), ahead * 0.5 * 3.0 * 2.5,
+                1e-9);
+    EXPECT_NEAR(cost_at(narrow, start_cell_, kHeadingStep_rad), turning * turn_m * 3.0 * 2.5, 1e-9);
+  };
+  expect_counts(0.05, 1.0, 1.0);
+  expect_counts(0.06, 1.0, 2.0);
+  expect_counts(0.10, 1.0, 2.0);
+  expect_counts(0.12, 2.0, 2.0);
+}
+
+TEST(NarrowSearch, AStepInOrOutOfAPassageWithLessThanThePreferredMarginCountsDouble) {
+  const DrawnRooms rooms(0.4, 0.05, {wall(0.05, 0.04, 0.25, 0.05)});
+  for (const double preferred_m : {0.009, 0.011}) {
+    const PathField there = small_robots_field(rooms, {0.025, 0.025, 0.0}, preferred_m);
+    const double counts = preferred_m > 0.01 ? 2.0 : 1.0;
+    EXPECT_NEAR(there.cost[there.map.index({5, 0})], counts * 5.0 * 0.05 * 3.0 * 2.0, 1e-9);
+  }
+}
+
+/// Posts a centimetre beside the way between the places of two cells, not beside those places.
+TEST(NarrowSearch, AStepCountsDoubleByWhatIsBesideItsMiddle) {
+  std::vector<Eigen::AlignedBox2d> posts;
+  for (const double x_m : {0.055, 0.105, 0.155, 0.205}) {
+    posts.push_back(wall(x_m - 0.001, 0.04, x_m + 0.001, 0.05));
+  }
+  const DrawnRooms rooms(0.4, 0.05, posts);
+  const FloorOutline outline = rectangle(0.016, 0.02);
+  NavigationOptions options;
+  options.footprint_radius_m = circumscribed_radius_m(outline);
+  options.margin_m = 0.005;
+  const auto space =
+      rooms.space({.outline = outline, .speed_m_s = 0.6}, {.margin_m = 0.001,
+                                                           .preferred_margin_m = 0.0101,
+                                                           .headings = 4,
+                                                           .speed_m_s = 0.2,
+                                                           .least_area_m2 = 0.0});
+  const double steps = 4.0 * 2.0 + 1.0;
+  const PathField there = make_path_field(rooms.floor, {0.025, 0.025, 0.0}, options, space);
+  EXPECT_NEAR(there.cost[there.map.index({5, 0})], steps * 0.05 * 3.0 * 2.0, 1e-9);
+  const PathField back = make_path_field(rooms.floor, {0.275, 0.025, 0.0}, options, space);
+  EXPECT_NEAR(back.cost[back.map.index({0, 0})], steps * 0.05 * 3.0 * 2.0, 1e-9);
+}
+
+/// Of two doors the nearer leaves it 3 cm, the other 10.
+TEST(NarrowSearch, GoesRoundByADoorThatLeavesMore) {
+  const FloorOutline outline = rectangle(0.6, 0.6);
+  const DrawnRooms rooms(
+      5.1, 4.0, {wall(2.5, 0.0, 2.6, 1.195), wall(2.5, 1.855, 2.6, 2.4), wall(2.5, 3.2, 2.6, 4.0)});
+  NavigationOptions options;
+  options.footprint_radius_m = circumscribed_radius_m(outline);
+  options.margin_m = 0.04;
+  for (const double preferred_m : {0.0, 0.05}) {
+    const PathField field =
+        make_path_field(rooms.floor, {1.25, 1.5, 0.0}, options,
+                        rooms.space({.outline = outline}, {.preferred_margin_m = preferred_m}));
+    const PlannedPath path = plan_path(field, {3.9, 1.5, 0.0});
+    ASSERT_TRUE(path.reaches_goal);
+    const auto highest = std::ranges::max(path.waypoints, {}, &Pose2::y_m);
+    EXPECT_EQ(highest.y_m > 2.5, preferred_m > 0.0) << highest.y_m;
+  }
+}
+
+/// The middle of the door is 2 cm beside that of a cell, where 4 cm are left on one side.
+TEST(NarrowSearch, PutsAPoseWhereInItsCellThePreferredMarginIsKept) {
+  const FloorOutline outline = rectangle(0.6, 0.6);
+  const DrawnRooms rooms(5.1, 3.0, {wall(2.5, 0.0, 2.6, 1.185), wall(2.5, 1.905, 2.6, 3.0)});
+  NavigationOptions options;
+  options.footprint_radius_m = circumscribed_radius_m(outline);
+  options.margin_m = 0.04;
+  for (const double preferred_m : {0.0, 0.05, 0.1}) {
+    const PathField field =
+        make_path_field(rooms.floor, {1.25, 1.5, 0.0}, options,
+                        rooms.space({.outline = outline}, {.preferred_margin_m = preferred_m}));
+    const std::size_t cell = field.map.index(field.map.cell_at({2.53, 1.54}));
+    const auto node = std::ranges::find_if(field.narrow, [&](const NarrowPose& pose) {
+      return pose.cell == cell && pose.pose.yaw_rad == 0.0;
+    });
+    ASSERT_NE(node, field.narrow.end());
+    EXPECT_NEAR(node->pose.y_m, preferred_m == 0.05 ? 1.535 : 1.525, 1e-9) << preferred_m;
+  }
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
 #include "vantage/core/rng.hpp"
-#include "vantage/planners/navigation/narrow_path.hpp"
+#include "vantage/planners/navigation/centred_legs.hpp"
 #include "vantage/planners/navigation/narrow_places.hpp"
 #include "vantage/planners/navigation/passage_watch.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"

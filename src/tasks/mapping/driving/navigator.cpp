@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "vantage/perception/clouds/usable_readings.hpp"
-#include "vantage/planners/navigation/narrow_path.hpp"
+#include "vantage/planners/navigation/centred_legs.hpp"
 #include "vantage/planners/navigation/passage_watch.hpp"
 
 namespace vantage {
