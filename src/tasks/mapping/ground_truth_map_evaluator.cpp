@@ -22,15 +22,6 @@ std::size_t count_unobserved(const OccupancyGrid& grid, std::span<const std::uin
   return count;
 }
 
-/// 1 for each cell that the map knows.
-std::vector<std::uint8_t> known_cells(const OccupancyGrid& grid) {
-  std::vector<std::uint8_t> known(grid.size());
-  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-    known[cell] = grid.state(cell) == CellState::unobserved ? 0 : 1;
-  }
-  return known;
-}
-
 /// Of the flags that are 0 or 1.
 CellSet set_of(std::span<const std::uint8_t> flags) {
   CellSet set((flags.size() + 63) / 64);
@@ -46,6 +37,15 @@ CellSet without(CellSet set, const CellSet& others) {
 }
 
 }  // namespace
+
+KnownCells known_cells(const OccupancyGrid& grid) {
+  KnownCells known{.flags = std::vector<std::uint8_t>(grid.size()), .set = {}};
+  for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+    known.flags[cell] = grid.state(cell) == CellState::unobserved ? 0 : 1;
+  }
+  known.set = set_of(known.flags);
+  return known;
+}
 
 GroundTruthMapEvaluator::GroundTruthMapEvaluator(const MobileGroundTruth& truth,
                                                  const GridFrame& frame,
@@ -85,32 +85,33 @@ void GroundTruthMapEvaluator::remember_visible(std::span<const Pose> T_world_sen
 }
 
 CellSet GroundTruthMapEvaluator::visible_set(const Pose& T_world_sensor) const {
-  return visible_unless(std::vector<std::uint8_t>(frame_.size(), 0), T_world_sensor);
+  const std::size_t cells = frame_.size();
+  return visible_unless({std::vector<std::uint8_t>(cells, 0), CellSet((cells + 63) / 64)},
+                        T_world_sensor);
 }
 
 CellSet GroundTruthMapEvaluator::observable_set() const { return set_of(observable_); }
 
-CellSet GroundTruthMapEvaluator::visible_unless(const std::vector<std::uint8_t>& known,
+CellSet GroundTruthMapEvaluator::visible_unless(const KnownCells& known,
                                                 const Pose& T_world_sensor) const {
-  std::vector<std::uint8_t> shown = known;
+  std::vector<std::uint8_t> shown = known.flags;
   add_visible_cells(truth_.geometry(), frame_, T_world_sensor, field_of_view_, shown, -1, threads_);
-  return without(set_of(shown), set_of(known));
+  return without(set_of(shown), known.set);
 }
 
-CellSet GroundTruthMapEvaluator::true_new_cell_set(const OccupancyGrid& grid,
+CellSet GroundTruthMapEvaluator::true_new_cell_set(const KnownCells& known,
                                                    const Pose& T_world_sensor) const {
-  const std::vector<std::uint8_t> known = known_cells(grid);
   const auto found = std::ranges::find_if(remembered_, [&](const Remembered& remembered) {
     return remembered.T_world_sensor.matrix() == T_world_sensor.matrix();
   });
   if (found == remembered_.end()) return visible_unless(known, T_world_sensor);
-  return without(found->visible, set_of(known));
+  return without(found->visible, known.set);
 }
 
-std::size_t GroundTruthMapEvaluator::true_new_cells(const OccupancyGrid& grid,
+std::size_t GroundTruthMapEvaluator::true_new_cells(const KnownCells& known,
                                                     const Pose& T_world_sensor) const {
   std::size_t count = 0;
-  for (const std::uint64_t word : true_new_cell_set(grid, T_world_sensor)) {
+  for (const std::uint64_t word : true_new_cell_set(known, T_world_sensor)) {
     count += static_cast<std::size_t>(std::popcount(word));
   }
   return count;

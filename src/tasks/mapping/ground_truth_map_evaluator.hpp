@@ -28,6 +28,13 @@ struct ScanPoses {
   Pose2 kept;           ///< what the scan was taken into the map at
 };
 
+/// What a map knows, as it is asked for by many views of one decision.
+struct KnownCells {
+  std::vector<std::uint8_t> flags;  ///< 1 for each cell that is known
+  CellSet set;                      ///< the same
+};
+KnownCells known_cells(const OccupancyGrid& grid);
+
 /// What could be seen from where the robot might stand, if it could get there.
 struct LeftOut {
   int rooms = 0;          ///< open places that no way leads to
@@ -50,10 +57,10 @@ class GroundTruthMapEvaluator {
   void remember_visible(std::span<const Pose> T_world_sensors);
 
   /// Unobserved cells that a view would really show.
-  [[nodiscard]] std::size_t true_new_cells(const OccupancyGrid& grid,
+  [[nodiscard]] std::size_t true_new_cells(const KnownCells& known,
                                            const Pose& T_world_sensor) const;
   /// The same, cell by cell.
-  [[nodiscard]] CellSet true_new_cell_set(const OccupancyGrid& grid,
+  [[nodiscard]] CellSet true_new_cell_set(const KnownCells& known,
                                           const Pose& T_world_sensor) const;
   /// All cells that a noise-free sensor sees from there.
   [[nodiscard]] CellSet visible_set(const Pose& T_world_sensor) const;
@@ -92,8 +99,7 @@ class GroundTruthMapEvaluator {
     Pose T_world_sensor;
     CellSet visible;
   };
-  [[nodiscard]] CellSet visible_unless(const std::vector<std::uint8_t>& known,
-                                       const Pose& T_world_sensor) const;
+  [[nodiscard]] CellSet visible_unless(const KnownCells& known, const Pose& T_world_sensor) const;
 
   const MobileGroundTruth& truth_;
   GridFrame frame_;

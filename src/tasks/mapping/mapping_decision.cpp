@@ -29,16 +29,17 @@ void MappingParts::score(std::vector<Candidate>& candidates) {
 
 /// What each view will really show, for the choices that are meant to know.
 void MappingParts::tell_truth(std::vector<Candidate>& candidates) const {
-  const OccupancyGrid& grid = belief_.grid();
+  if (!knows_truth(options_.choice)) return;
+  const KnownCells known = known_cells(belief_.grid());
   if (std::holds_alternative<OracleView>(options_.choice)) {
     for (Candidate& view : candidates) {
       view.true_new_cells =
-          static_cast<double>(evaluator_.true_new_cells(grid, view.T_world_sensor));
+          static_cast<double>(evaluator_.true_new_cells(known, view.T_world_sensor));
     }
-  } else if (knows_truth(options_.choice)) {
+  } else {
     for (Candidate& view : candidates) {
       view.true_new_cell_set =
-          std::make_shared<CellSet>(evaluator_.true_new_cell_set(grid, view.T_world_sensor));
+          std::make_shared<CellSet>(evaluator_.true_new_cell_set(known, view.T_world_sensor));
     }
   }
 }
