@@ -135,5 +135,12 @@ TEST(EstimateNormals, ALineMayRiseByTenDegrees) {
   }
 }
 
+/// Just 16 to 1: a line is below the ratio.
+TEST(EstimateNormals, AtTheRatioItIsNoLineYet) {
+  PointCloud cloud = few_points(0.032, 0.008);
+  estimate_normals(cloud, {0, 0, 0}, {.line_ratio = 0.0625});
+  EXPECT_NEAR(cloud.normals[4].z(), -1.0F, 1e-5F);
+}
+
 }  // namespace
 }  // namespace vantage

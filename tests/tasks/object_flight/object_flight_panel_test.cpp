@@ -229,5 +229,14 @@ TEST(RecognitionPanel, ListsAllThatItMayBe) {
   EXPECT_NEAR(input.p_object[2], 0.5, 1e-12);
 }
 
+/// From top to bottom, left of all that is drawn on the cards.
+TEST(RecognitionPanel, CardsStandBelowItsHeading) {
+  const cv::Mat drawn_panel = drawn({.observation_records = {}, .orbit = kOrbit});
+  cv::Mat expected(720, 1, CV_8UC3, panel::kBottom);
+  expected.rowRange(36, 419).setTo(panel::kCard);
+  expected.rowRange(429, 709).setTo(panel::kCard);
+  EXPECT_EQ(cv::norm(drawn_panel.col(13), expected, cv::NORM_INF), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/flight/two_objects.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/rng.hpp"
 #include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/object_flight/object_flight_recorder.hpp"
 #include "vantage/tasks/object_flight/object_on_table.hpp"
@@ -196,6 +198,18 @@ TEST(ObjectFlightRecorder, KeepsNoImagesEventsOrSceneIfLean) {
     EXPECT_FALSE(std::filesystem::exists(options.directory / name)) << name;
   }
   release_run_directory(options.directory);
+}
+
+/// As flights that were recorded have it: heading, then distance.
+TEST(ObjectOnTable, StandsWhereItsSeedPutsIt) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Rng place = Rng::stream(seed, "object place");
+    const double heading_rad = place.uniform(0.0, 2.0 * std::numbers::pi);
+    const double distance_m = 0.02 * std::sqrt(place.uniform());
+    const Eigen::Vector2d expected_m(distance_m * std::cos(heading_rad),
+                                     distance_m * std::sin(heading_rad));
+    EXPECT_NEAR((drawn_offset_m(seed, 0.02) - expected_m).norm(), 0.0, 1e-12) << seed;
+  }
 }
 
 }  // namespace

@@ -345,5 +345,16 @@ TEST(TableGroundTruth, AllOfItIsInTheScene) {
   }
 }
 
+TEST(TableGroundTruth, TargetsWithoutRoomSayHowLargeTheTableIs) {
+  const RecognitionTask task = task_with({"targets=2", "map.size_m=[0.5, 0.45]"});
+  try {
+    draw_table(task, 1);
+    FAIL() << "they stand a quarter of a metre apart";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("no room for 2 of them on a table of 0.5 x 0.45 m"));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

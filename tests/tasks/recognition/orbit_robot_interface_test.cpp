@@ -196,5 +196,17 @@ TEST(OrbitRobotInterface, IsOfOneRobotThatIsNotCopied) {
   EXPECT_FALSE(std::is_copy_assignable_v<BareOrbitRobot>);
 }
 
+TEST(OrbitRobotInterface, TellsHowItSeesAnObjectFarFromTheMiddleOfTheTable) {
+  const ResolvedEpisode resolved = episode();
+  ObjectOnTable object = object_of(resolved);
+  for (const Eigen::Vector2d& p_m : {Eigen::Vector2d(0.3, 0.0), Eigen::Vector2d(0.0, 0.3)}) {
+    object.offset_m = p_m;
+    object.told_m = p_m;
+    const OrbitingRobot robot(resolved, object);
+    const double seen_rad = robot.ground_truth().object_angle_rad;
+    EXPECT_NEAR(wrap_angle(seen_rad - (object.yaw_rad - robot.bearing_rad)), 0.0, 0.02) << p_m;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

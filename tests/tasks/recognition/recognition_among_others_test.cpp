@@ -13,10 +13,12 @@
 #include "vantage/core/log.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/report/report_data.hpp"
+#include "vantage/runtime/log/event_log.hpp"
 #include "vantage/tasks/flight/object_mjcf.hpp"
 #include "vantage/tasks/object_flight/object_flight_run.hpp"
 #include "vantage/tasks/recognition/recognition_ground_truth.hpp"
 #include "vantage/tasks/run.hpp"
+#include "vantage/tasks/table_map/table_map.hpp"
 
 namespace vantage {
 namespace {
@@ -214,6 +216,63 @@ TEST_F(RecognitionAmongOthers, WhoLooksOnIsToldWhatViewsPromise) {
     EXPECT_EQ(told->candidates[i].gain_bits, next.decision.scores[i].gain.bits) << i;
   }
   EXPECT_GT(told->candidates[chosen].gain_bits, 0.0);
+}
+
+TEST_F(RecognitionAmongOthers, AnImageWithoutDepthShowsNothingOfItsTarget) {
+  FlightRoundABox flight(folder_->path());
+  FlightObservation observation = flight.parts.observe();
+  std::ranges::fill(observation.images.depth_m, 0.0F);
+  flight.parts.update(observation);
+  flight.parts.record();
+  EXPECT_EQ(flight.parts.records().back().seen_share, 0.0);
+}
+
+/// By a pose that is 4 cm too high its table stands in the lowest layer of the map.
+TEST_F(RecognitionAmongOthers, ItsMapBeginsAboveTheTableThatItSees) {
+  std::optional<MapChange> told;
+  Spectator spectator;
+  spectator.on_event = [&](const EpisodeEvent& event) {
+    if (const auto* change = std::get_if<MapChange>(&event.what)) told = *change;
+  };
+  FlightRoundABox flight(folder_->path(), spectator);
+  FlightObservation observation = flight.parts.observe();
+  SimulatedQuadrotor& quadrotor = flight.robot.quadrotor();
+  observation.T_world_camera = quadrotor.true_body() * quadrotor.T_body_camera();
+  observation.T_world_camera.translation().z() += 0.04;
+  flight.parts.update(observation);
+  flight.parts.record();
+  ASSERT_TRUE(told);
+  const GridFrame frame = TableMap::frame_of(flight.task.p_world_table_m(), flight.task.map);
+  const auto layer =
+      static_cast<std::size_t>(frame.cells.x()) * static_cast<std::size_t>(frame.cells.y());
+  std::size_t standing = 0;
+  for (const CellRun& run : told->runs) {
+    if (run.state != CellState::occupied) continue;
+    for (std::size_t i = 0; i < run.count; ++i) standing += run.first + i < layer ? 1 : 0;
+  }
+  EXPECT_GT(standing, 0U) << "the box";
+  EXPECT_LT(standing, layer / 10) << "and no table";
+}
+
+/// One view of each is enough; the last of them is far off.
+TEST_F(RecognitionAmongOthers, FliesOnToTheNearestOfItsTargets) {
+  FlightRoundABox flight(folder_->path());
+  const Eigen::Vector3d box_m = flight.task.p_world_table_m();
+  const FlightGoal goal{.p_world_m = {box_m, box_m + Eigen::Vector3d(0.05, 0.0, 0.0),
+                                      box_m + Eigen::Vector3d(0.0, 0.4, 0.0)},
+                        .among_others = {}};
+  RecognitionOptions once = flight.task.decision;
+  once.max_views = 1;
+  ObjectFlightParts parts({flight.resolved.setup.options, flight.task, flight.recogniser,
+                           flight.robot, flight.evaluator, flight.recorder},
+                          goal, ObjectInquiry(flight.recogniser, once),
+                          flight.robot.start_bearing_rad());
+  parts.update(parts.observe());
+  parts.record();
+  ASSERT_EQ(parts.finished(), "");
+  const std::vector<BearingOption> options = parts.propose();
+  ASSERT_FALSE(options.empty());
+  for (const BearingOption& option : options) EXPECT_EQ(option.target, 1U) << option.id;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The panel of a flight along a path, 640 x 720 px, at places worked out by hand.
 #include "vantage/tasks/trajectory/trajectory_panel.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -154,6 +155,23 @@ TEST(TrajectoryPanel, ListsObjectsBelowEachOther) {
     const cv::Rect line(416, top, 210, 14);
     EXPECT_EQ(cv::norm(drawn(line), expected(line), cv::NORM_INF), 0.0) << top;
   }
+}
+
+TEST(TrajectoryPanel, SaysBelowTheNameOfAnObjectHowSureItIs) {
+  const Recogniser recogniser = support::recogniser_of_two();
+  ObjectObservations observations(recogniser, {}, RigidTransition{});
+  observations.found(7, {1.0, 1.2, 0.8});
+  const TrajectoryPanelInput input{
+      .observations = observations, .nominal = kNominal, .plan = kPlan, .at = 1};
+  const cv::Mat drawn = draw_trajectory_panel(input, {}, {640, 720});
+  cv::Mat expected(drawn.size(), CV_8UC3, panel::kCard);
+  const panel::Layout layout{1.0, expected.size()};
+  const double nats = observations.entropy_nats(observations.objects().front());
+  panel::text(expected, layout, "7  not seen closely yet", {424.0, 74.0}, 10, panel::kDim);
+  panel::text(expected, layout, fmt::format("{:.2f} nats, 0 observations", nats), {424.0, 88.0}, 9,
+              kNotKnown);
+  const cv::Rect lines(416, 62, 210, 34);
+  EXPECT_EQ(cv::norm(drawn(lines), expected(lines), cv::NORM_INF), 0.0);
 }
 
 }  // namespace

@@ -277,5 +277,60 @@ TEST(FlightOfParts, SaysInItsVideoWhatPlans) {
   release_run_directory(flight.run.directory());
 }
 
+/// Two of them are behind it; soon it will be five.
+TEST(PassedWaypoints, AreThoseOfNowIfNoTimeIsSaid) {
+  struct OnItsWay : BareTrajectoryRobot {
+    using BareTrajectoryRobot::passed;
+    [[nodiscard]] int passed(double in_s) const override { return in_s > 0.0 ? 5 : 2; }
+  };
+  EXPECT_EQ(OnItsWay().passed(), 2);
+}
+
+TEST(WaypointRecords, BeginWithoutAPlan) {
+  const WaypointRecord first{};
+  EXPECT_EQ(first.planner, "");
+  EXPECT_EQ(first.plan_time_s, 0.0);
+  EXPECT_EQ(first.latency_s, 0.0);
+  EXPECT_FALSE(first.late);
+  EXPECT_FALSE(first.missed);
+  EXPECT_FALSE(first.target);
+}
+
+/// It has come to the end of the path by then. There is nothing to look at that large.
+TEST(FlightOfParts, LeadsToTheLastWaypointHoweverLateItsPlanIs) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  PartsInFlight flight(lean_run(folder / "run"));
+  TrajectoryFlight slow = flight.task;
+  slow.latency_s = 6.0;
+  slow.search.cut.min_pixels = 1'000'000;
+  TrajectoryParts parts({flight.episode.setup.options, slow, flight.recogniser, flight.robot,
+                         flight.evaluator, flight.recorder},
+                        flight.path);
+  parts.update(parts.observe());
+  parts.record();
+  std::vector<CandidatePlan> plans = parts.propose();
+  parts.score(plans);
+  parts.act(plans.front());
+  EXPECT_EQ(parts.observe().waypoint, 3);
+  EXPECT_EQ(parts.finished(), "end of the path, 4 waypoints");
+  release_run_directory(flight.run.directory());
+}
+
+TEST(FlightOfParts, NamesThePictureOfALookByItsNumberAndItsObject) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  RunOptions options = lean_run(folder / "run");
+  options.lean = false;
+  PartsInFlight flight(options);
+  ObjectView view;
+  view.width_px = view.height_px = 2;
+  view.rgb.assign(12, 100);
+  view.mask.assign(4, 1);
+  flight.recorder.observation(7, {}, 2, view);
+  EXPECT_TRUE(fs::exists(options.directory / "views/look_002_object_7.png"));
+  release_run_directory(options.directory);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -202,5 +202,11 @@ TEST(ObjectSurface, ANormalNeedsSixPixels) {
   EXPECT_NEAR(normals(5)[0].z(), -1.0F, 1e-5F);
 }
 
+TEST(RootOfShares, OfASumBelowOneIsOfUnitLengthToo) {
+  const Eigen::Vector2f roots = root_of_shares(Eigen::Vector2f(0.0625F, 0.1875F));
+  EXPECT_FLOAT_EQ(roots[0], 0.5F);
+  EXPECT_FLOAT_EQ(roots[1], std::sqrt(0.75F));
+}
+
 }  // namespace
 }  // namespace vantage

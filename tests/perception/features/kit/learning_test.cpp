@@ -211,5 +211,18 @@ TEST(FixSigns, TheLargestEntryOfEachColumnIsPositive) {
   EXPECT_EQ(columns, expected);
 }
 
+/// The corners of a rectangle, their variance across it that share of the one along it.
+TEST(Pca, ComponentsBelowAMillionthOfTheFirstAreLeftOut) {
+  const auto kept = [](double share) {
+    const auto half = static_cast<float>(std::sqrt(share));
+    Eigen::MatrixXf corners(2, 4);
+    corners << 1.0F, 1.0F, -1.0F, -1.0F,  //
+        half, -half, half, -half;
+    return learn_pca(corners, 2).axes.cols();
+  };
+  EXPECT_EQ(kept(0.75e-6), 1);
+  EXPECT_EQ(kept(1.25e-6), 2);
+}
+
 }  // namespace
 }  // namespace vantage
