@@ -239,5 +239,20 @@ TEST(SensorModel, IsTheRulesOfTheHeaderCellByCell) {
   }
 }
 
+/// The standard deviation is 0.65 cells: the next cell is within two of them, the one after is not.
+TEST(SensorModel, EvidenceReachesAsManyCellsHoweverLargeTheyAre) {
+  for (const double cell_m : {kCell, 0.5, 4.0}) {
+    OccupancyGrid grid(small_frame(Eigen::Vector3d::Constant(cell_m)));
+    const auto point = point_in(grid.frame, {4, 4, 4});
+    add_measurements(grid, {&point, 1}, {.p_occupied_peak = 0.6});
+    for (const int side : {-1, 1}) {
+      EXPECT_NEAR(grid.p_occupied(grid.frame.index({4 + side, 4, 4})),
+                  0.5 + 0.1 * std::exp(-0.5 / 0.4225), 1e-4)
+          << cell_m;
+      EXPECT_EQ(grid.p_occupied(grid.frame.index({4 + 2 * side, 4, 4})), 0.5) << cell_m;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -315,5 +315,9 @@ TEST_F(RecognitionFile, NamesABlobThatAppearsTwice) {
   EXPECT_THAT(error_of(sealed(bytes)), HasSubstr("blob 'one' appears twice"));
 }
 
+TEST_F(RecognitionFile, OfASingleByteIsNotEmptyButNoModel) {
+  EXPECT_THAT(error_of("v"), HasSubstr("is not a recognition model"));
+}
+
 }  // namespace
 }  // namespace vantage

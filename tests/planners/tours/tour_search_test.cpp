@@ -364,5 +364,16 @@ TEST(WithRaisedWorth, SearchesNothingWhereNothingIsWorthAnything) {
   EXPECT_EQ(asked, 0);
 }
 
+/// One round finds it: a view is chosen from 2, one from 1, parts are moved from 2 + 1 places and
+/// turned round from 2, and 2 views are left out. Another round would ask 7 times more.
+TEST(SearchTour, GoesOnForNoMoreRoundsThanItIsToldTo) {
+  const PlanningProblem problem = two_views();
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  EXPECT_EQ(search_tour(problem, {}, {.rounds = 1}).order, (test::Order{1, 0}));
+  EXPECT_EQ(asked, 2 + 1 + 3 + 2 + 2);
+  EXPECT_EQ(search_tour(problem, {}, {.rounds = 0}).order, test::Order{1}) << "a tour has a view";
+}
+
 }  // namespace
 }  // namespace vantage

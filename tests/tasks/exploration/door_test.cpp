@@ -166,5 +166,38 @@ TEST(TrueWays, AskNoOutlineWhereADiscGetsEverywhere) {
   EXPECT_TRUE(evaluator.true_space() == nullptr);
 }
 
+/// What is true of a robot at (0.5, 0.5) among these bodies, on a map from 0.1 m above the floor.
+struct TrueScene {
+  explicit TrueScene(const std::string& bodies) : episode(loaded(folder, bodies)) {}
+  static ResolvedEpisode loaded(const support::TemporaryDirectory& folder,
+                                const std::string& bodies) {
+    const std::filesystem::path scene = folder / "bodies.xml";
+    write_file(scene, "<mujoco><worldbody><geom type=\"plane\" size=\"5 5 0.1\"/>" + bodies +
+                          "</worldbody></mujoco>");
+    return load_episode(
+        std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml",
+        {"scene=" + scene.string(), "robot.start_pose=[0.5,0.5,0]", "map.centre_m=[0,0,1.1]",
+         "map.size_m=[8,8,2]", "map.cells=[80,80,20]", "floor_map.half_size_m=4",
+         "passages.use=false", "metrics.pose_spacing_m=2", "camera.width_px=160",
+         "camera.height_px=120"});
+  }
+
+  support::TemporaryDirectory folder;
+  const ResolvedEpisode episode;
+  const Exploration task = std::get<Exploration>(episode.task);
+  const SimulatedExplorationRobot robot{episode.setup, task};
+  const MobileGroundTruth truth = robot.ground_truth();
+  const ExplorationMapEvaluator evaluator{task, 2, truth, robot.view_field(), robot.T_base_sweep()};
+};
+
+/// A post of 18 cm, in the lowest cell of the corner where the map begins.
+TEST(TrueFloor, IsBlockedByWhatStandsInTheFirstCellOfTheMap) {
+  const TrueScene scene("<geom type=\"box\" pos=\"-3.95 -3.95 0.09\" size=\"0.02 0.02 0.09\"/>");
+  const FloorMap* floor = scene.evaluator.true_floor();
+  ASSERT_TRUE(floor != nullptr);
+  EXPECT_EQ(floor->state_at({-3.97, -3.97}), CellState::occupied);
+  EXPECT_EQ(floor->state_at({-3.77, -3.97}), CellState::free);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -347,6 +349,106 @@ TEST(ImagesOnTheWay, AreTakenWhereTheBaseHardlyTurnsAndCountIfTheyAreNew) {
   drive.come_to({1.8, 0.0, 0.04});
   EXPECT_EQ(drive.robot.asked, 3);
   EXPECT_EQ(drive.parts.images(), 1) << "it is the one before";
+}
+
+/// Its first images show nothing; it is where it stands, wherever it is to drive.
+struct BlindAtFirst : PutRobot {
+  using PutRobot::PutRobot;
+  DriveResult drive_along(std::span<const Pose2> /*path*/, double /*max_speed_m_s*/,
+                          const std::function<bool()>& /*go_on*/) override {
+    return {};
+  }
+  ExplorationObservation observe(std::span<const std::size_t> images) override {
+    asked_for.push_back(images.size());
+    ExplorationObservation observation;
+    observation.views.push_back(view_ahead(asked_for.size() > 1 ? 2.0F : 0.0F));
+    return observation;
+  }
+
+  std::vector<std::size_t> asked_for;  ///< so many images each time; 0: all
+};
+
+/// With what a robot keeps to itself, and a whole scan behind it.
+struct OpenLookingParts : LookingParts {
+  OpenLookingParts(const MappingContext& context, const Exploration& task,
+                   ExplorationRobotInterface& robot, ExplorationBelief& belief)
+      : LookingParts(context, task, robot, belief) {
+    ScanRecord whole;
+    whole.time_s = 40.0;
+    whole.scan_time_s = 36.0;
+    budget_.observe(whole, nullptr);
+  }
+  using LookingParts::correct_pose;
+  void hold_for_seen(double confidence) {
+    views_.emplace_back();
+    LeftRecord left;
+    left.confidence = confidence;
+    scans_.back().left = left;
+  }
+};
+
+TEST(PartialScans, OfWhichNoImageShowsAnythingAreTakenAgainAsWhole) {
+  LookingDrive drive;
+  Exploration task = drive.task;
+  task.gaze.worth = 1.0;
+  BlindAtFirst robot(drive.episode.setup, task);
+  ExplorationBelief belief(drive.options, task);
+  OpenLookingParts parts(
+      MappingContext{drive.options, robot, drive.evaluator, drive.recorder, nullptr}, task, robot,
+      belief);
+  Candidate here;
+  here.T_world_sensor = robot.estimated_sensor();
+  parts.act(here);
+  const ExplorationObservation seen = parts.observe();
+  EXPECT_EQ(seen.views.size(), 1U);
+  ASSERT_EQ(robot.asked_for.size(), 2U) << "the first shows nothing, the second does";
+  EXPECT_GT(robot.asked_for[0], 0U);
+  EXPECT_EQ(robot.asked_for[1], 0U);
+}
+
+TEST(ExplorationParts, SayHowSureItIsThatEnoughHasBeenSeen) {
+  LookingDrive drive;
+  Exploration task = drive.task;
+  task.stop.share = 0.95;
+  task.stop.confidence = 0.8;
+  OpenLookingParts parts(
+      MappingContext{drive.options, drive.robot, drive.evaluator, drive.recorder, nullptr}, task,
+      drive.robot, drive.belief);
+  parts.hold_for_seen(0.875);
+  const std::string why = parts.finished();
+  EXPECT_NE(why.find("95 % of what can be seen"), std::string::npos) << why;
+  EXPECT_NE(why.find("87.5 % sure"), std::string::npos) << why;
+}
+
+TEST(ExplorationParts, BeginDeadReckoningAnewWhereAScanHasPutTheBase) {
+  LookingDrive drive;
+  OpenLookingParts parts(
+      MappingContext{drive.options, drive.robot, drive.evaluator, drive.recorder, nullptr},
+      drive.task, drive.robot, drive.belief);
+  BeliefUpdate update;
+  update.T_world_base = {0.1, -0.2, 0.3};
+  parts.correct_pose(update);
+  const Pose2 reckoned = drive.robot.dead_reckoned_base();
+  EXPECT_NEAR(reckoned.x_m, 0.1, 1e-9);
+  EXPECT_NEAR(reckoned.y_m, -0.2, 1e-9);
+  EXPECT_NEAR(reckoned.yaw_rad, 0.3, 1e-9);
+}
+
+struct PushedRobot : SimulatedExplorationRobot {
+  using SimulatedExplorationRobot::SimulatedExplorationRobot;
+  void push() { base_.robot().command_twist(base_.world(), {0.5, 0.0, 0.0}); }
+};
+
+TEST(ExplorationRobot, StandsWhileItObservesAndTellsHowHighItsScannerIs) {
+  const ResolvedEpisode episode = small_office({});
+  PushedRobot robot(episode.setup, std::get<Exploration>(episode.task));
+  const Pose2 before = robot.ground_truth().T_world_base();
+  robot.push();
+  const auto seen = robot.observe(std::vector<std::size_t>{13});
+  const Pose2 after = robot.ground_truth().T_world_base();
+  EXPECT_LT(std::hypot(after.x_m - before.x_m, after.y_m - before.y_m), 0.01);
+  EXPECT_EQ(seen.base_scan_height_m, robot.base_scan_height_m());
+  EXPECT_GT(seen.base_scan_height_m, 0.05);
 }
 
 }  // namespace

@@ -1,12 +1,18 @@
 // What sweeps leave in the belief; a map that is made anew from where loops say that it was seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "tests/localisation/plan_world.hpp"
+#include "tests/tasks/mapping/standing_robot.hpp"
 #include "vantage/tasks/exploration/exploration_belief.hpp"
 #include "vantage/tasks/mapping/driving/loop_closing.hpp"
+#include "vantage/tasks/mapping/driving/navigator.hpp"
 
 namespace vantage {
 namespace {
@@ -371,6 +377,66 @@ TEST(Reintegration, MakesTheCloudAnewToo) {
   belief.keep(view, kBelieved[0], 0);
   belief.reintegrate(kBelieved);
   EXPECT_EQ(belief.cloud().size(), once) << "and nothing twice";
+}
+
+/// In a room of 8 x 6 m, where its scanner sees the walls from where it believes to be.
+struct RoomRobot : support::StandingRobot {
+  RoomRobot() { test_plan::add_box(walls, -4.0, -3.0, 4.0, 3.0); }
+  PlanarScan read_base_scanner() override { return planar_scan(walls, T_world_base, rng); }
+  void correct_pose(const Pose2& pose) override { T_world_base = pose; }
+  DriveResult drive_along(std::span<const Pose2> path, double /*max_speed_m_s*/,
+                          const std::function<bool()>& go_on) override {
+    for (const Pose2& waypoint : path) {
+      T_world_base = waypoint;
+      for (int tick = 0; tick < 10; ++tick) go_on();
+    }
+    return {};
+  }
+
+  std::vector<test_plan::Segment> walls;
+  Rng rng{5};
+};
+
+RegistrationOptions room_registration() {
+  RegistrationOptions registration;
+  registration.normals.radius_m = 0.25;
+  return registration;
+}
+
+/// After half a radian; it stays where it is.
+TEST(Navigator, RemembersForLoopsHowThingsLookOnceItHasTurnedFarEnough) {
+  const RegistrationOptions registration = room_registration();
+  RoomRobot robot;
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(registration), 1);
+  std::ranges::fill(navigator.floor().log_odds, -2.0F);
+  navigator.close_loops({.close = true}, registration, {});
+  navigator.remember(robot.read_base_scanner(), {});
+  ASSERT_EQ(navigator.loops()->remembered().size(), 1U);
+  ASSERT_TRUE(navigator.approach({0.0, 0.0, 0.35}, std::nullopt).reached);
+  EXPECT_EQ(navigator.loops()->remembered().size(), 1U);
+  ASSERT_TRUE(navigator.approach({0.0, 0.0, 0.7}, std::nullopt).reached);
+  EXPECT_EQ(navigator.loops()->remembered().size(), 2U);
+}
+
+/// Tracked 0.7 m apart, places that are 0.6 m apart by the wheels and by what is seen.
+TEST(Navigator, PutsTheRobotWhereLoopsSayThatItIs) {
+  const RegistrationOptions registration = room_registration();
+  const auto tracked = [](int i) { return Pose2{0.7 * i, 0.0, 0.0}; };
+  RoomRobot robot;
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(registration), 1);
+  navigator.close_loops({.close = true, .min_way_m = 0.9}, registration, {});
+  for (int i = 0; i < 5; ++i) {
+    if (i > 0) {
+      robot.T_world_base = compose(tracked(i - 1), {0.6, 0.0, 0.0});
+      navigator.correct_pose(tracked(i), Eigen::Matrix3d::Zero());
+    }
+    const Pose2 truth{0.6 * i - 1.2, 0.0, 0.0};
+    navigator.remember(planar_scan(robot.walls, truth, robot.rng), tracked(i));
+  }
+  ASSERT_NEAR(robot.T_world_base.x_m, 2.8, 1e-9);
+  ASSERT_TRUE(navigator.correct_over_loops());
+  EXPECT_NEAR(robot.T_world_base.x_m, 2.4, 0.05);
+  EXPECT_NEAR(robot.T_world_base.y_m, 0.0, 0.05);
 }
 
 }  // namespace

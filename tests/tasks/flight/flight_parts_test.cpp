@@ -154,5 +154,14 @@ TEST(RecognitionModelFile, MustKnowWhatStandsThereOrCallItUnknown) {
   EXPECT_THROW(require_known(recogniser, path, "lamp_1", "is expected there"), ConfigError);
 }
 
+TEST(RecognitionModelFile, IsNamedByItsKeyWhereItIsNotFound) {
+  try {
+    find_recognition_model("no/such.model");
+    FAIL() << "there is none";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("model: no/such.model: no such file"));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,12 +2,19 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/mapping/standing_robot.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/tasks/mapping/driving/budget_keeper.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage {
@@ -71,6 +78,60 @@ TEST(Budgets, TooSmallToMoveAreAFailureThatSaysSo) {
 TEST(Budgets, ComeHomeWithoutALimitToo) {
   const auto metrics = budgeted_tabletop({"scans=2", "budget.return_to_start=true"});
   EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());
+}
+
+/// It is at each waypoint for so many ticks.
+struct SteppingRobot : support::StandingRobot {
+  int ticks = 10;
+  DriveResult drive_along(std::span<const Pose2> path, double /*max_speed_m_s*/,
+                          const std::function<bool()>& go_on) override {
+    DriveResult result;
+    for (const Pose2& waypoint : path) {
+      T_world_base = waypoint;
+      for (int tick = 0; tick < ticks; ++tick) {
+        if (go_on()) continue;
+        result.status = DriveStatus::stopped;
+        return result;
+      }
+    }
+    return result;
+  }
+};
+
+Navigator navigator_on_open_floor(SteppingRobot& robot) {
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+  std::ranges::fill(navigator.floor().log_odds, -2.0F);
+  return navigator;
+}
+
+/// For the 3 m that it came it needs 8.8 s. A wall that it has met since leaves 10 m, which would
+/// take more than 20 s.
+TEST(BudgetKeeper, GoesOnWhileTheWayThatItCameCanBePaid) {
+  SteppingRobot robot;
+  Navigator navigator = navigator_on_open_floor(robot);
+  BudgetKeeper keeper({.time_s = 100.0, .return_to_start = true}, 0.6, robot, navigator);
+  ASSERT_TRUE(navigator.approach({3.0, 0.0, 0.0}, std::nullopt).reached);
+  block_box(navigator.floor(), {Eigen::Vector2d(1.0, -7.0), Eigen::Vector2d(1.2, 4.0)});
+  const double round_m = path_length_m(navigator.ways_from({}), {3.0, 0.0, 0.0});
+  ASSERT_GT(round_m, 8.0);
+  ASSERT_LT(round_m, 12.0);
+  robot.now_s = 100.0 - 6.0 - 9.8;
+  EXPECT_TRUE(navigator.may_go_on());
+}
+
+/// A drive of fewer than ten ticks ends before it asks.
+TEST(Navigator, HasTurnedBackOnThatDriveAlone) {
+  SteppingRobot robot;
+  Navigator navigator = navigator_on_open_floor(robot);
+  robot.ticks = 2;
+  EXPECT_FALSE(navigator.approach({1.0, 0.0, 0.0}, std::nullopt).turned_back);
+  robot.ticks = 10;
+  navigator.may_go_on = [] { return false; };
+  EXPECT_TRUE(navigator.approach({2.0, 0.0, 0.0}, std::nullopt).turned_back);
+  robot.ticks = 2;
+  const Approach after = navigator.approach({1.0, 0.0, 0.0}, std::nullopt);
+  EXPECT_FALSE(after.turned_back);
+  EXPECT_TRUE(after.reached);
 }
 
 }  // namespace

@@ -437,5 +437,17 @@ TEST(MapPanel, ShowsTheMapFromMarginToMargin) {
   EXPECT_EQ(last, 620);
 }
 
+/// Of 100 cells up to the upper end of the plot, at y = 558.
+TEST(MapPanel, LabelsTheUpperEndOfThePlotToo) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.scans_planned = 4;
+  input.observable_unobserved_cells = {100.0 / 1.08};
+  const cv::Mat image = draw_map_panel(input, {640, 720});
+  EXPECT_GT(off_by(image, {390, 558}, panel::kCard), 8.0);
+  EXPECT_TRUE(support::is_written(image, {50, 552, 20, 9})) << "100";
+}
+
 }  // namespace
 }  // namespace vantage

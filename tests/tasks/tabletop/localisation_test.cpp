@@ -1,4 +1,5 @@
 // A table top with nothing to localise by but itself: what the run says of its map.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -192,6 +193,19 @@ TEST(TableTopWithWalls, AViewThatCannotBePaidIsNotToBeTaken) {
               EXPECT_FALSE(views[0].exhausted);
               EXPECT_TRUE(views[1].exhausted);
             });
+}
+
+TEST(TableTopWithoutWalls, ScansThatAreNotRegisteredAreNamedByTheirNumber) {
+  testing::internal::CaptureStderr();
+  const auto [code, metrics] = ran(OwnScene(pedestal_table()), {});
+  const std::string log = testing::internal::GetCapturedStderr();
+  const json& scans = metrics["scans"];
+  ASSERT_EQ(scans.size(), 3U);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::string said = fmt::format("scan {}: not registered", i + 1);
+    const bool registered = scans[i]["registered"];
+    EXPECT_EQ(log.find(said) == std::string::npos, registered) << said;
+  }
 }
 
 }  // namespace
