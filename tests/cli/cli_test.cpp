@@ -175,5 +175,19 @@ TEST_F(CommandLine, DoctorFindsTheRenderer) {
   EXPECT_THAT(result.output, HasSubstr("H.264 in MP4 works"));
 }
 
+TEST_F(CommandLine, ImagesOfAnExportAreOfAPeriodAndAHeightThatCanBe) {
+  const auto exit_code = [&](const std::string& option) {
+    return vantage("export nowhere --mcap a.mcap " + option).exit_code;
+  };
+  for (const char* taken :
+       {"--image-period=0", "--image-period=1000000", "--image-height=60", "--image-height=2160"}) {
+    EXPECT_EQ(exit_code(taken), 3) << taken << ": only the run is missing";
+  }
+  for (const char* refused : {"--image-period=-1", "--image-period=1000001", "--image-height=59",
+                              "--image-height=2161"}) {
+    EXPECT_EQ(exit_code(refused), 2) << refused;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/dataset/view_files.hpp"
 #include "vantage/models/catalogue/shapes/texture.hpp"
@@ -42,6 +44,22 @@ TEST(ContactSheet, ShowsTheViewNearestToTheYawOfTheVideo) {
   EXPECT_NEAR(sheet.at(45, 20).x() * 255.0, 40.0, 1.0);
   EXPECT_NEAR(sheet.at(5, 72).x() * 255.0, 50.0, 1.0);
   EXPECT_EQ(sheet.at(30, 20), RgbColour::Ones());  // beside a narrow image
+}
+
+TEST(ContactSheet, HasTwentyCellsInARowUnlessToldOtherwise) {
+  const support::TemporaryDirectory folder;
+  DatasetIndex index;
+  for (int i = 1; i <= 21; ++i) {
+    const ViewEntry entry{{"cup", "cup_" + std::to_string(i), 2, 1}, folder.path(), 0.0};
+    write_view(plain(90), entry);
+    index.views.push_back(entry);
+  }
+  ContactSheetOptions options;
+  options.cell_px = 10;
+  write_contact_sheet(index, options, folder / "sheet.png");
+  const Image sheet = read_png(folder / "sheet.png");
+  EXPECT_EQ(sheet.width_px, 20 * 10);
+  EXPECT_EQ(sheet.height_px, 2 * (10 + 12));
 }
 
 }  // namespace

@@ -304,5 +304,13 @@ TEST_F(Import, NoElevationIsAssumedWhereAllAreKnown) {
   EXPECT_THAT(imported(options).notices, Not(Contains(HasSubstr("is not known of"))));
 }
 
+TEST_F(Import, ManyViewsByNameAreNoTurn) {
+  for (char letter = 'a'; letter < 'n'; ++letter) put(std::string(3, letter));
+  const ImportOutcome outcome = imported({});
+  EXPECT_EQ(outcome.views.size(), 13U);
+  EXPECT_EQ(outcome.notes.bins, 13) << "one each";
+  EXPECT_THAT(outcome.notices, Not(Contains(HasSubstr("taken for one turn"))));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -225,5 +225,13 @@ TEST_F(Layout, OfSeveralColoursWithoutDepthTheFirstIsNamed) {
                           HasSubstr("drill/other_depth.png: has no colour")));
 }
 
+TEST_F(Layout, AnAngleMayHaveItsMarkBeforeIt) {
+  put("can/az30_rgb.png", "can/az30_depth.png");
+  put("cup/angle90_rgb.png", "cup/angle90_depth.png");
+  put("drill/Yaw45_rgb.png", "drill/Yaw45_depth.png");
+  put("mug/rot270_rgb.png", "mug/rot270_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|can_1|@30", "|cup_1|@90", "|drill_1|@45", "|mug_1|@270"));
+}
+
 }  // namespace
 }  // namespace vantage

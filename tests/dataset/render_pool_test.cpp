@@ -173,5 +173,12 @@ TEST_F(RenderPool, WhatTwoProcessesDiedOfIsRenderedByTheThird) {
   EXPECT_EQ(read_file(out_ / "tries"), "x\nx\nx\n");
 }
 
+TEST_F(RenderPool, AProcessRendersOneObjectAfterTheOther) {
+  const Program counted = script(fmt::format("echo x >>{}; exec {} render-worker",
+                                             (out_ / "starts").string(), VANTAGE_BINARY));
+  EXPECT_EQ(render("d", 3, 1, counted).rendered, 3);
+  EXPECT_EQ(read_file(out_ / "starts"), "x\n");
+}
+
 }  // namespace
 }  // namespace vantage

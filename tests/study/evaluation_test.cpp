@@ -275,5 +275,14 @@ TEST_F(Evaluated, PredictorsAreHeldAgainstThatOfTheReference) {
   EXPECT_DOUBLE_EQ(errors.rows[0].difference->mean, 2.0 - 7.5);
 }
 
+TEST_F(Evaluated, WithoutPredictionsNoPredictorsAreCompared) {
+  put(1, 1.5, {0.8, 0.5, 0.2}, {});
+  const Evaluation evaluation = evaluate(results_);
+  ASSERT_EQ(evaluation.comparisons.size(), 1U);
+  EXPECT_EQ(evaluation.comparisons[0].name, "area");
+  ASSERT_EQ(evaluation.figures.size(), 1U);
+  EXPECT_EQ(evaluation.figures[0].name, "share_left");
+}
+
 }  // namespace
 }  // namespace vantage

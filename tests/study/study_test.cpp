@@ -369,5 +369,9 @@ TEST_F(StudyFile, ValidationTriesEveryStartBesideOtherFactors) {
   EXPECT_THAT(problems, testing::Contains(HasSubstr("'elsewhere'")));
 }
 
+TEST_F(StudyFile, AKeyThatIsNotThereIsNamedBehindTheFile) {
+  expect_problem("factors: {a: {b: {}}}\n", {"s.yaml: episode: "});
+}
+
 }  // namespace
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "tests/recognition/painted_dataset.hpp"
@@ -207,6 +208,30 @@ TEST(RecognitionStudyOptionNumbers, AreThoseThatAreTold) {
                                               {"reliability", 0.0},
                                               {"unknown_starts", 0, at_least(0)},
                                               {"unknown_of_dataset", 1.0}});
+}
+
+/// By a box that all have alike, and by colour, which tells them apart unless its psi is 0.
+TEST(PaintedStudy, ByPsiOneDoesNotDependOnTheModelsPsi) {
+  TrainingOptions training;
+  training.features = {BoundingBox{}, Colour{}};
+  training.costs_s = {0.5, 0.5};
+  training.leave_out = {"lamp_1"};
+  training.transition_prior_moves = 0.0;
+  RecognitionModel model = train_recognition(painted_blocks().dataset, training, {.threads = 2});
+  RecognitionStudyOptions options = plain_study_options();
+  options.literal = true;
+  const auto estimates_by = [&](double psi_of_colour) {
+    model.features[1].psi = psi_of_colour;
+    const RecognitionStudy study =
+        run_recognition_study(model, painted_blocks().dataset, options, {.threads = 2});
+    EXPECT_EQ(study.methods[1].method, "literal, psi 1");
+    std::vector<std::pair<int, double>> estimates;
+    for (const Trial& trial : study.methods[1].trials) {
+      estimates.emplace_back(trial.estimate, trial.probability);
+    }
+    return estimates;
+  };
+  EXPECT_EQ(estimates_by(0.0), estimates_by(3.0));
 }
 
 }  // namespace
