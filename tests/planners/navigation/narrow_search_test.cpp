@@ -304,5 +304,30 @@ TEST(NarrowSearch, PutsAPoseWhereInItsCellThePreferredMarginIsKept) {
   }
 }
 
+/// A door of 0.72 m leaves the PR2 2.6 cm on either side, where it keeps 2; cells are of 1.67 cm.
+TEST(NarrowSearch, GoesThroughADoorWhereverItStandsAmongTheCells) {
+  const FloorOutline outline = rectangle(0.668, 0.668);
+  NavigationOptions options;
+  options.footprint_radius_m = circumscribed_radius_m(outline);
+  options.margin_m = 0.04;
+  for (int step = 0; step < 20; ++step) {
+    const double off_m = 0.005 * (step / 2);
+    const Eigen::AlignedBox2d wall_m = wall(2.5 + off_m, 0.0, 2.6 + off_m + 0.1 * (step % 2), 3.0);
+    DrawnRooms rooms(5.2, 3.0, {});
+    FloorMap detail = make_floor_detail(rooms.floor, {.parts = 3});
+    std::ranges::fill(detail.log_odds, -3.0F);
+    for (std::size_t cell = 0; cell < detail.size(); ++cell) {
+      const Eigen::Vector2d p_m = detail.centre(detail.cell(cell));
+      if (!wall_m.contains(p_m) || std::abs(p_m.y() - 1.5 - off_m) < 0.36) continue;
+      detail.log_odds[cell] = 3.0F;
+      rooms.floor.log_odds[rooms.floor.index(rooms.floor.cell_at(p_m))] = 3.0F;
+    }
+    const auto space = std::make_shared<const FootprintSpace>(
+        detail, 3, RobotOutline{.outline = outline}, PassageOptions{});
+    const PathField field = make_path_field(rooms.floor, {1.25, 1.5, 0.3}, options, space);
+    EXPECT_TRUE(field.reachable(Eigen::Vector2d(3.9, 1.5))) << step;
+  }
+}
+
 }  // namespace
 }  // namespace vantage
