@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "vantage/belief/map/floor_detail.hpp"
@@ -63,6 +64,7 @@ FootprintSpace::FootprintSpace(const FloorMap& detail, int parts, const RobotOut
     for (int heading = 0; heading < headings(); ++heading) {
       masks.at.push_back(mask_of(moved(kept, Pose2{0.0, 0.0, heading_rad(heading)})));
       masks.common.push_back(common_of(masks.at.back()));
+      masks.turn.push_back(turn_mask_of(kept, heading));
     }
   }
   disc_ = mask_of(disc(inscribed_radius_m(robot_.outline)));
@@ -87,6 +89,24 @@ FootprintSpace::Mask FootprintSpace::mask_of(const FloorOutline& outline) const 
   for_each_row_inside(outline, Eigen::Vector2d::Zero(), cell_m_, [&](int row, int first, int last) {
     mask.push_back({row, first, last});
   });
+  return mask;
+}
+
+FootprintSpace::Mask FootprintSpace::turn_mask_of(const FloorOutline& outline, int heading) const {
+  constexpr int kSteps = 8;  // between them 4 mm are left of such a corner
+  const double step_rad = 2.0 * std::numbers::pi / headings() / kSteps;
+  std::map<int, Row> rows;
+  for (int step = 0; step <= kSteps; ++step) {
+    const double yaw_rad = step < kSteps ? heading_rad(heading) + step * step_rad
+                                         : heading_rad((heading + 1) % headings());
+    for (const Row& row : mask_of(moved(outline, Pose2{0.0, 0.0, yaw_rad}))) {
+      Row& all = rows.try_emplace(row.row, row).first->second;
+      all.first = std::min(all.first, row.first);
+      all.last = std::max(all.last, row.last);
+    }
+  }
+  Mask mask;
+  for (const auto& [index, row] : rows) mask.push_back(row);
   return mask;
 }
 
@@ -158,6 +178,11 @@ bool FootprintSpace::fits(const Eigen::Array2i& cell, int heading, Margin margin
 bool FootprintSpace::may_fit(const Eigen::Array2i& cell, int heading, Margin margin) const {
   const HeadingMasks& masks = masks_[static_cast<std::size_t>(margin)];
   return is_clear(masks.common[static_cast<std::size_t>(heading)], cell);
+}
+
+bool FootprintSpace::fits_turning(const Eigen::Array2i& cell, int heading, Margin margin) const {
+  const HeadingMasks& masks = masks_[static_cast<std::size_t>(margin)];
+  return is_clear(masks.turn[static_cast<std::size_t>(heading)], cell);
 }
 
 double FootprintSpace::margin_m(Margin margin) const {

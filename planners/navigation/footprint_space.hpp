@@ -84,6 +84,10 @@ class FootprintSpace {
   /// Whether it might so at that heading at a centre up to half of `parts` off, along either axis.
   [[nodiscard]] bool may_fit(const Eigen::Array2i& cell, int heading,
                              Margin margin = Margin::least) const;
+  /// Whether it fits there all the way from a heading to the next one: on it a corner sweeps over
+  /// what neither of the two covers, 2.8 cm deep for a square of 0.67 m and 48 headings.
+  [[nodiscard]] bool fits_turning(const Eigen::Array2i& cell, int heading,
+                                  Margin margin = Margin::least) const;
   [[nodiscard]] double margin_m(Margin margin) const;
   /// Whether the robot might stand there at some heading: its inscribed disc fits.
   [[nodiscard]] bool may_stand(const Eigen::Array2i& cell) const;
@@ -112,6 +116,7 @@ class FootprintSpace {
   using Mask = std::vector<Row>;  ///< about a cell's centre
 
   [[nodiscard]] Mask mask_of(const FloorOutline& outline) const;
+  [[nodiscard]] Mask turn_mask_of(const FloorOutline& outline, int heading) const;
   [[nodiscard]] Mask common_of(const Mask& mask) const;
   [[nodiscard]] bool is_clear(const Mask& mask, const Eigen::Array2i& cell) const;
   [[nodiscard]] bool is_clear(int row, int first, int last) const;
@@ -129,6 +134,7 @@ class FootprintSpace {
   struct HeadingMasks {
     std::vector<Mask> at;      ///< of each heading
     std::vector<Mask> common;  ///< of the same wherever in the cell it is put
+    std::vector<Mask> turn;    ///< of the way from each heading to the next
   };
   std::array<HeadingMasks, 3> masks_;  ///< of each margin
   Mask disc_;

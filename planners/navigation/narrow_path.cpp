@@ -30,15 +30,25 @@ class KeptMargins {
                                   double yaw_rad) const {
     return first([&](std::size_t i) { return fit_along(i, from, to, yaw_rad); });
   }
-  [[nodiscard]] std::size_t at(const Pose2& pose) const {
-    return first([&](std::size_t i) { return fits_at(i, pose); });
+  /// The same where it turns from one pose to another, moving evenly.
+  [[nodiscard]] std::size_t turning(const Pose2& from, const Pose2& to) const {
+    return first([&](std::size_t i) { return fit_turning(i, from, to); });
   }
   [[nodiscard]] bool fit_along(std::size_t i, const Eigen::Vector2d& from,
                                const Eigen::Vector2d& to, double yaw_rad) const {
     return space_.fits_along(outlines_[i], from, to, yaw_rad);
   }
-  [[nodiscard]] bool fits_at(std::size_t i, const Pose2& pose) const {
-    return space_.fits(outlines_[i], pose);
+  [[nodiscard]] bool fit_turning(std::size_t i, const Pose2& from, const Pose2& to) const {
+    constexpr double kSample_rad = 0.02;
+    const double turn_rad = wrap_angle(to.yaw_rad - from.yaw_rad);
+    const Eigen::Vector2d way = position(to) - position(from);
+    const int samples = 1 + static_cast<int>(std::abs(turn_rad) / kSample_rad);
+    for (int k = 0; k <= samples; ++k) {
+      const double share = static_cast<double>(k) / samples;
+      const Eigen::Vector2d p_m = position(from) + share * way;
+      if (!space_.fits(outlines_[i], pose_at(p_m, from.yaw_rad + share * turn_rad))) return false;
+    }
+    return true;
   }
 
  private:
@@ -142,16 +152,13 @@ class PathBuilder {
     return 1;
   }
 
+  /// Whether one turn keeps what those that it is made of do.
   [[nodiscard]] bool fits_turning(std::span<const Pose2> poses) const {
     std::size_t kept = 0;
-    for (const Pose2& pose : poses) kept = std::max(kept, margins_.at(pose));
-    const Eigen::Vector2d from = position(poses.front());
-    const Eigen::Vector2d way = position(poses.back()) - from;
-    for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(poses.size() - 1);
-      if (!margins_.fits_at(kept, pose_at(from + share * way, poses[i].yaw_rad))) return false;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      kept = std::max(kept, margins_.turning(poses[i - 1], poses[i]));
     }
-    return true;
+    return margins_.fit_turning(kept, poses.front(), poses.back());
   }
 
   void add(PathLeg leg) {

@@ -80,12 +80,23 @@ std::uint32_t NarrowPoses::add_start() {
 
 bool NarrowPoses::fits_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
                                int heading) const {
-  return space_.fits((a + b) / 2, heading, least_);
+  return space_.fits(a + (b - a) / 2, heading, least_) ||
+         space_.fits(b + (a - b) / 2, heading, least_);
 }
 
 bool NarrowPoses::is_roomy_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
                                    int heading) const {
-  return space_.fits((a + b) / 2, heading, Margin::preferred);
+  return space_.fits(a + (b - a) / 2, heading, Margin::preferred) &&
+         space_.fits(b + (a - b) / 2, heading, Margin::preferred);
+}
+
+bool NarrowPoses::fits_turning(const Place& from, const Place& to_next) const {
+  return space_.fits_turning((from.fine + to_next.fine) / 2, from.heading, least_);
+}
+
+bool NarrowPoses::is_roomy_turning(const Place& from, const Place& to_next) const {
+  return from.roomy && to_next.roomy &&
+         space_.fits_turning((from.fine + to_next.fine) / 2, from.heading, Margin::preferred);
 }
 
 }  // namespace vantage

@@ -36,11 +36,16 @@ class NarrowPoses {
   [[nodiscard]] const Place& place(std::size_t pose) const { return placed_[pose]; }
   /// Adds the robot's own, which need not fit: if it does not, the others keep a tight margin.
   std::uint32_t add_start();
+  /// Whether it fits halfway from one place to another: in one of the two cells of the finer map
+  /// next to that, since what passes sideways into a door by a cell does so before it.
   [[nodiscard]] bool fits_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
                                   int heading) const;
-  /// Whether it does so with the preferred margin.
+  /// Whether it keeps the preferred margin in both.
   [[nodiscard]] bool is_roomy_between(const Eigen::Array2i& a, const Eigen::Array2i& b,
                                       int heading) const;
+  /// Whether it may turn from one place to one at the next heading, halfway between them.
+  [[nodiscard]] bool fits_turning(const Place& from, const Place& to_next) const;
+  [[nodiscard]] bool is_roomy_turning(const Place& from, const Place& to_next) const;
 
  private:
   static constexpr std::uint32_t kUnknown = kNone - 1;

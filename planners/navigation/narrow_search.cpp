@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 #include "vantage/planners/navigation/distance_field.hpp"
@@ -215,7 +216,10 @@ class PassageSearch {
       const int turned = (place.heading + way + space_.headings()) % space_.headings();
       const std::uint32_t node = poses_.at(cell, turned);
       if (node == NarrowPoses::kNone) continue;
-      relax_narrow(id, field_.map.size() + node, turned_m, place.roomy && poses_.place(node).roomy);
+      const NarrowPoses::Place& there = poses_.place(node);
+      const auto& [from, to_next] = way > 0 ? std::tie(place, there) : std::tie(there, place);
+      if (!poses_.fits_turning(from, to_next)) continue;
+      relax_narrow(id, field_.map.size() + node, turned_m, poses_.is_roomy_turning(from, to_next));
     }
   }
 

@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 constexpr double kStep_m = 0.03;
-constexpr double kStep_rad = 0.1;
+constexpr double kStep_rad = 0.02;
 constexpr double kInPlace_m = 0.05;  ///< a turn may move the robot by so much
 constexpr double kArm_m = 0.3;       ///< a heading counts by what it moves at that distance
 

@@ -206,5 +206,48 @@ TEST(FootprintSpace, TheDiscThatARobotStandsOnReachesAsFarAlongEitherAxis) {
   }
 }
 
+/// Against every point of the floor, at headings a tenth of a degree apart. Rows are whole, and
+/// between the headings of the mask up to half a cell of a corner is left.
+TEST(FootprintSpace, TurnsWhereNoHeadingOnTheWayMeetsAPost) {
+  const FloorOutline outline = rectangle(0.815, 0.5);
+  const double margin_m = 0.02;
+  const double step_rad = 2.0 * std::numbers::pi / 48.0;
+  Rng rng(5);
+  int met_on_the_way_alone = 0;
+  for (int post = 0; post < 400; ++post) {
+    const double at_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const double away_m = rng.uniform(0.4, 0.52);
+    const Eigen::Array2i off =
+        (100.0 * away_m * Eigen::Array2d(std::cos(at_rad), std::sin(at_rad))).round().cast<int>();
+    const auto space = space_with_a_post(off, long_robot(), {.margin_m = margin_m});
+    const Eigen::Vector2d p_m = 0.01 * off.cast<double>().matrix();
+    const auto meets = [&](double yaw_rad, double more_m) {
+      bool inside = false;
+      for_each_row_inside(moved(grown(outline, margin_m + more_m), {0.0, 0.0, yaw_rad}), p_m, 1.0,
+                          [&](int row, int first, int last) {
+                            inside = inside || (row == 0 && first <= 0 && last >= 0);
+                          });
+      return inside;
+    };
+    for (const int heading : {0, 5, 47}) {
+      bool surely = false;
+      bool perhaps = false;
+      for (int k = 0; k <= 75; ++k) {
+        const double yaw_rad = (heading + k / 75.0) * step_rad;
+        surely = surely || meets(yaw_rad, -0.005);
+        perhaps = perhaps || meets(yaw_rad, 0.005);
+      }
+      const bool fits = space->fits_turning(kMiddleCell, heading);
+      EXPECT_TRUE(perhaps || fits) << off.transpose() << " at " << heading;
+      EXPECT_TRUE(!surely || !fits) << off.transpose() << " at " << heading;
+      const bool at_ends =
+          space->fits(kMiddleCell, heading) && space->fits(kMiddleCell, (heading + 1) % 48);
+      EXPECT_TRUE(at_ends || !fits);
+      met_on_the_way_alone += at_ends && !fits ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met_on_the_way_alone, 5);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -97,9 +97,9 @@ TEST_F(StepsThroughAPassage, TurnWhereEachHeadingFits) {
   const DrawnRooms rooms(3.0, 3.0, {wall(0.0, 1.165, 3.0, 1.3)});
   NavigationOptions options;
   options.footprint_radius_m = radius_m_;
-  const std::vector<PathStep> steps{{{0.7, 1.0}, 0.0}, {{1.0, 1.0}, 0.0},   {{1.0, 1.0}, 0.2},
-                                    {{1.0, 1.0}, 0.3}, {{1.0, 0.96}, 0.75}, {{1.0, 0.96}, 1.1},
-                                    {{1.0, 1.0}, 1.5}, {{1.0, 1.0}, 1.55}};
+  const std::vector<PathStep> steps{{{0.7, 1.0}, 0.0},  {{1.0, 1.0}, 0.0},   {{1.0, 1.0}, 0.2},
+                                    {{1.0, 1.0}, 0.3},  {{1.0, 0.96}, 0.75}, {{1.0, 0.96}, 1.1},
+                                    {{1.0, 0.97}, 1.5}, {{1.0, 0.97}, 1.55}};
   const auto turns = [&](double margin_m) {
     const PathField field =
         make_path_field(rooms.floor, {0.7, 1.0, 0.0}, options,
@@ -111,10 +111,28 @@ TEST_F(StepsThroughAPassage, TurnWhereEachHeadingFits) {
   const auto by_half = turns(0.03);
   ASSERT_EQ(by_half.size(), 2U) << "to where the corner passes, and from there";
   expect_pose(by_half[0].waypoints.back(), 1.0, 0.96, 1.1);
-  expect_pose(by_half[1].waypoints.back(), 1.0, 1.0, 1.55);
+  expect_pose(by_half[1].waypoints.back(), 1.0, 0.97, 1.55);
   const auto by_margin = turns(0.02);
-  ASSERT_EQ(by_margin.size(), 3U) << "each heading keeps 2 cm, and one turn to 1.1 would not";
+  ASSERT_EQ(by_margin.size(), 2U) << "each turn keeps 2 cm, and one to 1.1 would keep 1.6";
   expect_pose(by_margin[0].waypoints.back(), 1.0, 0.96, 0.75);
+}
+
+/// Half of its diagonal is 18 cm: that corner points at the wall at 0.98 rad.
+TEST_F(StepsThroughAPassage, TurnInOneOnlyWhereItFitsBetweenTheHeadingsToo) {
+  NavigationOptions options;
+  options.footprint_radius_m = radius_m_;
+  const auto legs = [&](double wall_m) {
+    const DrawnRooms rooms(3.0, 3.0, {wall(0.0, wall_m, 3.0, 1.4)});
+    const PathField field =
+        make_path_field(rooms.floor, {0.7, 1.0, 0.0}, options,
+                        rooms.space({.outline = rectangle(0.3, 0.2)},
+                                    {.margin_m = 0.02, .preferred_margin_m = 0.0}));
+    const std::vector<PathStep> steps{
+        {{0.7, 1.0}, 0.0}, {{1.0, 1.0}, 0.0}, {{1.0, 1.0}, 0.5}, {{1.0, 1.0}, 1.5}};
+    return path_through_passages(field, steps, 0.0).legs.size();
+  };
+  EXPECT_EQ(legs(1.175), 3U) << "1.5 cm are left at 0.5, and nothing on the way to 1.5";
+  EXPECT_EQ(legs(1.215), 2U);
 }
 
 /// It stands between two headings of the search.

@@ -329,5 +329,33 @@ TEST(NarrowSearch, GoesThroughADoorWhereverItStandsAmongTheCells) {
   }
 }
 
+/// A post beside its corner's way from one heading to the next, not beside either of them.
+TEST(NarrowSearch, DoesNotTurnThroughWhatIsBetweenTwoHeadings) {
+  const FloorOutline outline = rectangle(0.6, 0.6);
+  const double tip_rad = 0.25 * std::numbers::pi + 0.5 * kHeadingStep_rad;
+  const Eigen::Vector2d p_m =
+      Eigen::Vector2d(1.525, 0.525) + 0.413 * Eigen::Vector2d(std::cos(tip_rad), std::sin(tip_rad));
+  for (const bool post : {false, true}) {
+    DrawnRooms rooms(3.05, 1.05, {});
+    if (post) rooms.detail.log_odds[rooms.detail.index(rooms.detail.cell_at(p_m))] = 3.0F;
+    std::ranges::fill(rooms.floor.log_odds, 3.0F);  // all of it is narrow
+    NavigationOptions options;
+    options.footprint_radius_m = circumscribed_radius_m(outline);
+    const auto space =
+        rooms.space({.outline = outline}, {.margin_m = 0.001, .preferred_margin_m = 0.0});
+    ASSERT_TRUE(space->fits({152, 52}, 0));
+    ASSERT_TRUE(space->fits({152, 52}, 1));
+    const PathField field = make_path_field(rooms.floor, {1.525, 0.525, 0.0}, options, space);
+    const auto turned = std::ranges::find_if(field.narrow, [&](const NarrowPose& node) {
+      return node.cell == field.start_cell && std::abs(node.pose.yaw_rad - kHeadingStep_rad) < 1e-6;
+    });
+    ASSERT_NE(turned, field.narrow.end());
+    const double turn_m = kHeadingStep_rad * circumscribed_radius_m(outline);
+    EXPECT_EQ(turned->cost < 2.5 * turn_m * space->slowness() * (1.0 + options.clearance_weight),
+              !post)
+        << turned->cost;
+  }
+}
+
 }  // namespace
 }  // namespace vantage
