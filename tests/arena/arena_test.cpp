@@ -390,5 +390,60 @@ TEST_F(Arena, AGroupOfPlannersIsOfTheKindOfItsFirst) {
   EXPECT_EQ(board.standings[1].kind, PlannerKind::foreign);
 }
 
+/// The first scan is no decision, and what crashed has seen nothing.
+TEST_F(Arena, StandingsAreMeansOfTheirEpisodes) {
+  const auto facts = [](double plan_time_s, double path_length_m, int collisions) {
+    const Json scans = {
+        {{"time_s", 10.0}, {"observable_unobserved_cells", 1000}, {"plan_time_s", 7.0}},
+        {{"time_s", 50.0}, {"observable_unobserved_cells", 400}, {"plan_time_s", plan_time_s}}};
+    return Json({{"scans", scans}, {"path_length_m", path_length_m}, {"collisions", collisions}});
+  };
+  put("a/greedy/1", EpisodeState::completed, 0.6, facts(0.1, 4.0, 0));
+  put("a/greedy/2", EpisodeState::completed, 0.6, facts(0.9, 7.0, 3));
+  put("b/greedy/1", EpisodeState::crashed, 0.6);
+  write_file(folder / "episodes/b/greedy/1/failure.json", R"({"reason": "no table"})");
+  put("b/greedy/2", EpisodeState::completed, 0.6, facts(0.2, 10.0, 3));
+  const Leaderboard board = leaderboard_of(results);
+  const Standing& greedy = board.standings[0];
+  EXPECT_EQ(greedy.planner, "greedy");
+  EXPECT_EQ(greedy.level, 0U);
+  EXPECT_EQ(greedy.episodes, 4U);
+  EXPECT_EQ(greedy.failed, 1U);
+  EXPECT_DOUBLE_EQ(greedy.score, 3.0 * 0.3 / 4.0);
+  EXPECT_DOUBLE_EQ(greedy.seen_share, 3.0 * 0.6 / 4.0);
+  EXPECT_DOUBLE_EQ(*greedy.path_length_m, 7.0);
+  EXPECT_DOUBLE_EQ(*greedy.collisions, 2.0);
+  EXPECT_DOUBLE_EQ(*greedy.decision_s, 0.2);
+  EXPECT_FALSE(greedy.difference) << "to itself";
+  const EpisodeScore& crashed = board.scores[2];
+  EXPECT_EQ(crashed.reason, "crashed: no table");
+  EXPECT_EQ(crashed.score, 0.0);
+  EXPECT_FALSE(crashed.path_length_m);
+}
+
+TEST_F(Arena, BandsOfASceneAreOfItsSeedsAndThoseOfAllOfScenes) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  put("a/greedy/2", EpisodeState::completed, 0.4);
+  put("b/greedy/1", EpisodeState::completed, 0.5);
+  const Figure overall = overall_figure(results, leaderboard_of(results));
+  EXPECT_THAT(overall.note, HasSubstr("levels of scene resampled"));
+  EXPECT_EQ(overall.x_label, "budget of time, %");
+  const FigurePoint& of_all = overall.panels[0].series[0].points[40];
+  EXPECT_EQ(of_all.count, 3U);
+  EXPECT_EQ(of_all.clusters, 2U);
+  EXPECT_DOUBLE_EQ(of_all.mean, 0.5);
+  const Figure scenes = scene_figure(results, leaderboard_of(results));
+  EXPECT_EQ(scenes.panels[0].title, "a");
+  const FigurePoint& of_a = scenes.panels[0].series[0].points[40];
+  EXPECT_DOUBLE_EQ(of_a.x, 100.0);
+  EXPECT_EQ(of_a.count, 2U);
+  EXPECT_EQ(of_a.clusters, 2U);
+  EXPECT_EQ(scenes.panels[1].series[0].points[40].count, 1U);
+  results.study.report.cluster.clear();
+  const Figure by_pairs = overall_figure(results, leaderboard_of(results));
+  EXPECT_THAT(by_pairs.note, HasSubstr("pairs resampled"));
+  EXPECT_EQ(by_pairs.panels[0].series[0].points[40].clusters, 3U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/cli/command_line.hpp"
@@ -112,6 +113,108 @@ TEST_F(CommandLine, ThePagesOfTheReferenceAreThoseOfTheCode) {
               "")
         << "vantage explain --pages docs/reference writes them anew";
   }
+}
+
+TEST_F(CommandLine, AListOfAllHasATitleATopic) {
+  const auto all = nlohmann::ordered_json::parse(vantage("list --json").output);
+  std::string text;
+  for (const auto& [topic, entries] : all.items()) {
+    text += topic + ":\n";
+    for (const auto& entry : entries) text += "  " + entry.get<std::string>() + "\n";
+  }
+  EXPECT_EQ(vantage("list").output, text);
+  std::string optimisers;
+  for (const auto& entry : all["optimisers"]) optimisers += entry.get<std::string>() + "\n";
+  EXPECT_EQ(vantage("list optimisers").output, optimisers);
+  const auto scenes = nlohmann::ordered_json::parse(vantage("list scenes --json").output);
+  EXPECT_EQ(scenes.size(), 1U);
+  EXPECT_EQ(scenes["scenes"], all["scenes"]);
+}
+
+/// In order, of the folders as they are.
+TEST_F(CommandLine, WhatIsListedIsThere) {
+  const json all = json::parse(vantage("list --json").output);
+  const fs::path root = VANTAGE_SOURCE_DIR;
+  const auto there = [&](const fs::path& folder, const std::string& file) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(root / folder)) {
+      const fs::path name = folder / entry.path().filename();
+      const bool is = file.empty() ? name.extension() == ".yaml" : fs::exists(root / name / file);
+      if (is) names.insert(name.string() + (file == "scene.xml" ? "/scene.xml" : ""));
+    }
+    return json(std::vector<std::string>(names.begin(), names.end()));
+  };
+  EXPECT_EQ(all["scenes"], there("models/scenes", "scene.xml"));
+  EXPECT_EQ(all["robots"], there("models/robots", "robot.yaml"));
+  EXPECT_EQ(all["episodes"], there("assets/episodes", ""));
+  EXPECT_EQ(all["studies"], there("assets/studies", ""));
+}
+
+/// As bench/results has them; a network was not measured.
+TEST_F(CommandLine, FeaturesAreListedWithDimensionsAndTimes) {
+  const json figures =
+      json::parse(shell("cat '" VANTAGE_SOURCE_DIR "/bench/results/features.json'").output)
+          .at("figures");
+  const auto line = [&](const char* name, int dimensions, const char* figure) {
+    return fmt::format("{:<16}{:>5} dimensions{:>8.2f} ms\n", name, dimensions,
+                       figures.at(figure).get<double>());
+  };
+  const std::string features = vantage("list features").output;
+  for (const std::string& part :
+       {line("colour", 144, "colour_ms"), line("bounding_box", 3, "bbox_ms"),
+        line("sift", 1000, "sift_ms"), line("vfh", 308, "vfh_ms"),
+        line("depth_lbp", 1000, "kernel_depth_lbp_ms"), line("size", 1000, "kernel_size_ms"),
+        fmt::format("\n{:<16}{:>5} dimensions\n", "onnx", 256)}) {
+    EXPECT_THAT(features, HasSubstr(part));
+  }
+}
+
+/// All of them if they are no more than twenty.
+TEST_F(CommandLine, OfNamesThatBeginAlikeTwentyAreTold) {
+  for (const std::string begin : {"m", "ma"}) {
+    const std::string text = vantage("explain " + begin).output;
+    const std::string head = "error: explain: ";
+    ASSERT_THAT(text, testing::StartsWith(head));
+    const std::size_t all = std::stoul(text.substr(head.size()));
+    const bool cut = text.ends_with(", ...\n");
+    EXPECT_EQ(cut, all > 20) << text;
+    const auto commas = static_cast<std::size_t>(std::ranges::count(text, ','));
+    EXPECT_EQ(commas + (cut ? 0 : 1), std::min<std::size_t>(all, 20)) << text;
+  }
+  expect_error(vantage("explain zzzzzzzzzzzz"), 2, {"'zzzzzzzzzzzz'; vantage list and"});
+  const std::string near = vantage("explain gian.a").output;
+  EXPECT_THAT(near, HasSubstr("near it: gain.a, "));
+  EXPECT_EQ(std::ranges::count(near, ','), 2) << near;
+}
+
+TEST_F(CommandLine, AnExplanationInJsonHasAllThatIsKnown) {
+  const json told = json::parse(vantage("explain beer_lambert sensor.range_max_m --json").output);
+  ASSERT_EQ(told["entries"].size(), 2U);
+  const json& gain = told["entries"][0];
+  EXPECT_EQ(gain["name"], "beer_lambert");
+  EXPECT_EQ(gain["place"], "gain");
+  EXPECT_EQ(gain["unit"], "bits");
+  EXPECT_THAT(gain["formula"].get<std::string>(), HasSubstr("a^n H(o)"));
+  ASSERT_EQ(gain["parameters"].size(), 1U);
+  const json& a = gain["parameters"][0];
+  EXPECT_THAT(a["text"].get<std::string>(), HasSubstr("a beam passes"));
+  EXPECT_EQ(a["name"], "a");
+  EXPECT_EQ(a["type"], "number");
+  EXPECT_EQ(a["unit"], "");
+  EXPECT_EQ(a["default"], "0.995");
+  EXPECT_EQ(a["range"], "[0, 1]");
+  EXPECT_EQ(told["entries"][1], json({{"name", "sensor.range_max_m"},
+                                      {"place", "score-views"},
+                                      {"type", "number"},
+                                      {"unit", "m"},
+                                      {"default", "3.5"},
+                                      {"range", "> 0"},
+                                      {"text", "greatest range; farther surfaces give no return"},
+                                      {"formula", ""},
+                                      {"source", ""},
+                                      {"parameters", json::array()},
+                                      {"applies", json::array()},
+                                      {"keys", json::array()}}));
 }
 
 }  // namespace

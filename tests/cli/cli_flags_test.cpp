@@ -101,5 +101,77 @@ TEST_F(CommonFlags, JsonIsOneObject) {
   EXPECT_THAT(json_of("sweep plan assets/studies/smoke.yaml")["episodes"], Not(IsEmpty()));
 }
 
+struct OptionEnds {
+  const char* option;
+  const char* least;
+  const char* most;
+  std::vector<const char*> refused;
+};
+
+/// At both ends it is taken, and only the files are missing.
+TEST_F(CommonFlags, NumbersHaveTheirRanges) {
+  const std::pair<std::string, std::vector<OptionEnds>> commands[] = {
+      {"scene from-mesh absent.obj --out a.xml",
+       {{"--scale", "1e-6", "1e6", {"9e-7", "1.1e6"}},
+        {"--height", "2", "100", {"1.9", "101"}},
+        {"--cell", "0.005", "1", {"0.0049", "1.1"}},
+        {"--clearance", "0.05", "10", {"0.049", "10.1"}},
+        {"--max-geoms", "1", "100000", {"0", "100001"}}}},
+      {"recognise a b --model none",
+       {{"--elevation-deg", "-90", "90", {"-91", "91"}},
+        {"--focal-px", "10", "1e5", {"9.9", "100001"}},
+        {"--depth-unit-m", "0", "1", {"-0.1", "1.1"}},
+        {"--farthest-m", "0", "1e6", {"-0.1"}},
+        {"--top", "1", "1000000", {"0", "1000001"}}}},
+      {"dataset import nowhere --out x",
+       {{"--focal-px", "10", "1e5", {"9.9", "100001"}},
+        {"--elevation-deg", "-90", "90", {"-91", "91"}},
+        {"--bins", "2", "3600", {"1", "3601"}},
+        {"--jobs", "1", "1024", {"0", "1025"}}}},
+      {"dataset check nowhere", {{"--bins", "2", "3600", {"1", "3601"}}}},
+      {"dataset contact-sheet nowhere --out a.png",
+       {{"--cell", "16", "640", {"15", "641"}},
+        {"--columns", "1", "200", {"0", "201"}},
+        {"--video", "1", "4", {"0", "3", "5"}}}},
+      {"compare a b", {{"--tolerance", "0", "1", {"-0.1", "1.1"}}}},
+      {"sweep run nowhere", {{"--jobs", "1", "1024", {"0", "1025"}}}},
+      {"sweep submit nowhere", {{"--array", "1", "100000", {"0", "100001"}}}},
+      {"arena run nowhere", {{"--jobs", "1", "1024", {"0", "1025"}}}},
+      {"branch nowhere --scan 1", {{"--then", "0", "10000", {"-1", "10001"}}}},
+      {"train nowhere --out model", {{"--jobs", "1", "1024", {"0", "1025"}}}},
+      {"view nowhere --screenshot a.png", {{"--at", "0", "1e6", {"-0.1"}}}},
+      {"view nowhere",
+       {{"--size", "64x8192", "8192x64", {"63x64", "64x63", "8193x64", "64x8193", "64", "64x"}}}}};
+  const auto expect_code = [&](int code, const std::string& command, const char* option,
+                               const char* value) {
+    const std::string line = fmt::format("{} {}={}", command, option, value);
+    EXPECT_EQ(vantage(line).exit_code, code) << line;
+  };
+  for (const auto& [command, options] : commands) {
+    for (const OptionEnds& ends : options) {
+      expect_code(3, command, ends.option, ends.least);
+      expect_code(3, command, ends.option, ends.most);
+      for (const char* value : ends.refused) expect_code(2, command, ends.option, value);
+    }
+  }
+}
+
+TEST_F(CommonFlags, TimeoutsUnitsAndYawsAreWhatTheyCanBe) {
+  const auto expect_code = [&](int code, const std::string& before,
+                               const std::vector<std::string>& values, const char* after = "") {
+    for (const std::string& value : values) {
+      EXPECT_EQ(vantage(before + value + after).exit_code, code) << before << value;
+    }
+  };
+  const std::string add = "arena add nowhere mine --timeout=";
+  expect_code(3, add, {"0.01", "86400"}, " -- sh");
+  expect_code(2, add, {"0.009", "86401"}, " -- sh");
+  const std::string take_in = "dataset import nowhere --out x ";
+  expect_code(3, take_in + "--depth-unit=", {"auto", "mm", "m", "1", "0.0001"});
+  expect_code(2, take_in + "--depth-unit=", {"0", "-1", "1.01", "1x", "cm"});
+  expect_code(3, take_in + "--view-yaw=", {"front=10", "a=b=3", "top=-7.5"});
+  expect_code(2, take_in + "--view-yaw=", {"front", "=3", "front=", "front=left"});
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,4 +1,6 @@
 // `vantage bound` and `vantage branch` as a user meets them.
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/command_line.hpp"
 
 namespace vantage {
@@ -95,6 +97,41 @@ TEST_F(HindsightCommands, AnInterruptedBranchWritesWhatThereIs) {
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_THAT(shell("cat '" + folder_.string() + "/other/metrics.json'").output,
               HasSubstr("\"status\": \"interrupted\""));
+}
+
+TEST_F(HindsightCommands, ABranchIsToldBesideWhatWasRecorded) {
+  const auto recorded =
+      nlohmann::json::parse(shell("cat '" + (folder_ / "run/metrics.json").string() + "'").output);
+  const auto same =
+      nlohmann::json::parse(vantage("branch run --scan 1 --json -q 2>/dev/null").output);
+  EXPECT_EQ(same["directory"], "run");
+  EXPECT_EQ(same["scan"], 1);
+  EXPECT_TRUE(same["view"].is_null());
+  EXPECT_EQ(same["state_hash"], recorded["state_hash"]);
+  EXPECT_EQ(same["recorded_state_hash"], recorded["state_hash"]);
+  EXPECT_EQ(same["same_bits"], true);
+  EXPECT_EQ(same["metrics"]["state_hash"], recorded["state_hash"]);
+  const int other = same["recorded_view"].get<int>() == 14 ? 15 : 14;
+  const Result words = vantage("branch run --scan 1 -q --view " + std::to_string(other));
+  EXPECT_EQ(words.exit_code, 0) << words.output;
+  EXPECT_THAT(words.output,
+              testing::EndsWith(", recorded " + recorded["state_hash"].get<std::string>() + "\n"));
+}
+
+TEST_F(HindsightCommands, DecisionsAreBranchedInOrderAndOnceEach) {
+  const auto told = nlohmann::json::parse(
+      vantage("branch run --scan 2 --scan 1 --scan 2 --then 0 --view 14 --json -q 2>/dev/null")
+          .output);
+  EXPECT_EQ(told["directory"], "run");
+  ASSERT_EQ(told["decisions"].size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& decision = told["decisions"][i];
+    EXPECT_EQ(decision["scan"], i + 1);
+    EXPECT_EQ(decision["then"], 0);
+    ASSERT_EQ(decision["branches"].size(), 1U);
+    EXPECT_EQ(decision["branches"][0]["view"], 14);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "run/branches.json")) << "of all candidates alone";
 }
 
 }  // namespace

@@ -1,5 +1,10 @@
 // `vantage train`, `recognise` and `evaluate` on a dataset of painted blocks.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numbers>
 
 #include "tests/cli/command_line.hpp"
 #include "tests/perception/features/onnx_bytes.hpp"
@@ -230,6 +235,210 @@ TEST_F(RecognitionCommands, UnknownMethodsAndFeaturesAreNamed) {
   train();
   expect_error(vantage("evaluate data --model model --out tables -q --set 'methods=[best]'"), 2,
                {"best", "mutual_information"});
+}
+
+TEST_F(RecognitionCommands, TheAnswerInWordsIsThatInJson) {
+  train();
+  const std::string question =
+      std::string(kRed) +
+      " data/mug/mug_1/mug_1_2_7_crop.png data/mug/mug_1/mug_1_2_7_depthcrop.png --motion-deg 90";
+  const json known = parsed(kRecognise + question);
+  const auto percent = [](const json& of) { return 100.0 * of["probability"].get<double>(); };
+  const auto name = [](const json& of, const char* key) { return of[key].get<std::string>(); };
+  const json& estimate = known["estimate"];
+  std::string text = fmt::format("{} ({}), {:.2f} %; unknown {:.2f} %\n", name(estimate, "object"),
+                                 name(estimate, "category"), percent(estimate),
+                                 100.0 * known["unknown_probability"].get<double>());
+  ASSERT_EQ(known["objects"].size(), 3U);
+  for (const json& object : known["objects"]) {
+    text +=
+        fmt::format("{:6.2f} %  {} ({}), yaw {:.0f} deg\n", percent(object), name(object, "object"),
+                    name(object, "category"), object["yaw_deg"].get<double>());
+  }
+  ASSERT_EQ(known["categories"].size(), 2U);
+  const json& category = known["categories"][0];
+  text += fmt::format("{:6.2f} %  category {}\n", percent(category), name(category, "category"));
+  ASSERT_EQ(known["views"].size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json& view = known["views"][i];
+    text += fmt::format("view at {} deg: {}; entropy {:.3f} bits\n", 90 * i,
+                        fmt::join(view["features"].get<std::vector<std::string>>(), ", "),
+                        view["entropy_bits"].get<double>());
+  }
+  EXPECT_EQ(known["entropy_bits"], known["views"][1]["entropy_bits"]);
+  EXPECT_TRUE(known["next"]["view"].is_null()) << "views of this model have no names";
+  text += fmt::format("{}; look next after a turn by {:.0f} deg\n",
+                      known["sure"].get<bool>() ? "sure" : "not sure",
+                      known["next"]["turn_deg"].get<double>());
+  EXPECT_EQ(vantage("recognise --model model " + question + " 2>/dev/null").output, text);
+}
+
+TEST_F(RecognitionCommands, TheLikeliestComeFirstAndNoMoreThanAskedFor) {
+  train();
+  const json all = parsed(std::string(kRecognise) + kRed);
+  for (const char* list : {"objects", "categories"}) {
+    for (std::size_t i = 1; i < all[list].size(); ++i) {
+      EXPECT_GE(all[list][i - 1]["probability"], all[list][i]["probability"]) << list;
+    }
+    for (const std::size_t top : {1U, 2U}) {
+      const json few = parsed(kRecognise + std::string(kRed) + " --top " + std::to_string(top));
+      ASSERT_EQ(few[list].size(), top);
+      EXPECT_EQ(few[list][0], all[list][0]);
+    }
+  }
+  EXPECT_EQ(all["estimate"]["object"], all["objects"][0]["object"]);
+  EXPECT_EQ(all["estimate"]["category"], all["objects"][0]["category"]);
+  const double turn_deg = all["next"]["turn_deg"];
+  EXPECT_NEAR(std::remainder(turn_deg, 45.0), 0.0, 1e-9) << "by whole bins";
+  EXPECT_GT(turn_deg, 44.0);
+  EXPECT_LT(turn_deg, 316.0);
+}
+
+/// The poses beside the files turn the object by 90 deg from view to view, so the camera back.
+TEST_F(RecognitionCommands, MotionsAreOneForAllOrOneEach) {
+  train();
+  std::string views;
+  for (const int frame : {3, 7, 11}) {
+    views += fmt::format(
+        " data/mug/mug_1/mug_1_2_{0}_crop.png data/mug/mug_1/mug_1_2_{0}_"
+        "depthcrop.png",
+        frame);
+  }
+  const auto expect_bearings = [&](const std::string& motion, double second, double third) {
+    const json known = parsed(kRecognise + motion + views);
+    ASSERT_EQ(known["views"].size(), 3U);
+    EXPECT_EQ(known["views"][0]["view_rad"], 0.0);
+    const auto bearing_deg = [&](std::size_t view) {
+      return known["views"][view]["view_rad"].get<double>() * 180.0 / std::numbers::pi;
+    };
+    EXPECT_NEAR(bearing_deg(1), second, 1e-6) << motion;
+    EXPECT_NEAR(bearing_deg(2), third, 1e-6) << motion;
+  };
+  expect_bearings("--motion-deg 45", 45.0, 90.0);
+  expect_bearings("--motion-deg 45,-15", 45.0, 30.0);
+  expect_bearings("", -90.0, -180.0);
+  const std::string recognise = "recognise --model model -q" + views;
+  expect_error(vantage(recognise + " --motion-deg 1,2,3"), 2, {"3 turns given, there are 2"});
+  expect_error(vantage(recognise + " --view-names a,b"), 2, {"2 names given, there are 3 views"});
+  expect_error(vantage(recognise + " one.png"), 2, {"one is missing"});
+}
+
+TEST_F(RecognitionCommands, AModelInWordsIsThatInJson) {
+  const std::string costs = " --set 'costs_s=[0.001,0.0025]' ";
+  const json model = parsed(kTrain + costs + "--json");
+  EXPECT_EQ(model["model"], "model");
+  EXPECT_EQ(model["categories"], 2);
+  ASSERT_EQ(model["features"].size(), 2U);
+  const auto psi = [&](std::size_t f) { return model["features"][f]["psi"].get<double>(); };
+  const bool unknown =
+      model["features"][0]["unknown"].get<bool>() && model["features"][1]["unknown"].get<bool>();
+  EXPECT_EQ(vantage(kTrain + costs + "--overwrite 2>/dev/null").output,
+            fmt::format("model: 3 objects in 2 categories, 24 states, 96 views\n"
+                        "colour: 144 dimensions, psi {:.4g}, 1.00 ms\n"
+                        "bounding_box: 3 dimensions, psi {:.4g}, 2.50 ms\n"
+                        "{}; views of one object repeat each other: correlation {:.2f}\n",
+                        psi(0), psi(1),
+                        unknown ? "knows what is unknown" : "takes every object for one of these",
+                        model["view_correlation"].get<double>()));
+}
+
+/// Of eight directions three views each, but for one that lacks one.
+TEST_F(RecognitionCommands, ADatasetIsCounted) {
+  put({"mug", "mug_1", 0}, "few", 8);
+  put({"mug", "mug_2", 60}, "few", 8);
+  put({"can", "can_1", 120}, "few", 8);
+  for (const char* end : {"crop.png", "depthcrop.png", "maskcrop.png", "loc.txt", "pose.txt"}) {
+    ASSERT_TRUE(fs::remove(folder_ / "few/mug/mug_1" / (std::string("mug_1_4_3_") + end))) << end;
+  }
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "few")) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  EXPECT_EQ(parsed("dataset info few --json"),
+            json({{"root", "few"},
+                  {"categories", 2},
+                  {"objects", 3},
+                  {"views", 71},
+                  {"views_of_video", {{"1", 24}, {"2", 24}, {"4", 23}}},
+                  {"states", 24},
+                  {"views_of_state", {{"least", 2}, {"mean", 71.0 / 24.0}}},
+                  {"bytes", bytes},
+                  {"problems", json::array()}}));
+  EXPECT_EQ(vantage("dataset info few 2>/dev/null").output,
+            fmt::format("few: 3 objects in 2 categories, 71 views, {:.1f} MB\n"
+                        "video 1: 24 views\nvideo 2: 24 views\nvideo 4: 23 views\n"
+                        "views of an object in a yaw bin: 2 at least, 3.0 on average, 24 states\n",
+                        1e-6 * static_cast<double>(bytes)));
+  const fs::path broken = folder_ / "few/can/can_1/can_1_1_2_crop.png";
+  fs::resize_file(broken, fs::file_size(broken) / 2);
+  EXPECT_EQ(vantage("dataset info few").exit_code, 0) << "not opened";
+  const Result checked = vantage("dataset info few --check --json 2>/dev/null");
+  EXPECT_EQ(checked.exit_code, 3);
+  const json problems = json::parse(checked.output)["problems"];
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_THAT(problems[0].get<std::string>(), HasSubstr("can_1_1_2_crop.png"));
+}
+
+/// The stripe of a painted block is as wide as its yaw is large: 2 px, and 24 px a turn.
+TEST_F(RecognitionCommands, AContactSheetShowsTheViewThatIsAskedFor) {
+  put({"can", "can_1", 120}, "few", 8);
+  put({"mug", "mug_1", 0}, "few", 8);
+  put({"pen", "pen_1", 60}, "few", 8);
+  const auto sheet = [&](const std::string& options) {
+    const Result made = vantage("dataset contact-sheet few --out s.png --overwrite -q " + options);
+    EXPECT_EQ(made.exit_code, 0) << made.output;
+    return cv::imread((folder_ / "s.png").string());
+  };
+  const auto stripe_px = [&](const std::string& options) {
+    const cv::Mat image = sheet("--cell 30 " + options);
+    int px = 0;
+    while (px < 30 && image.at<cv::Vec3b>(5, px) == image.at<cv::Vec3b>(5, 0)) ++px;
+    return px;
+  };
+  EXPECT_EQ(stripe_px("--yaw-deg 90"), 2 + 6);
+  EXPECT_EQ(stripe_px("--yaw-deg -90"), 2 + 18);
+  EXPECT_EQ(stripe_px(""), 2 + 21) << "315 deg, which is nearest to 300";
+  EXPECT_EQ(sheet("--cell 20 --columns 2").size(), cv::Size(2 * 20, 2 * (20 + 12)));
+  EXPECT_EQ(sheet("--columns 3").size(), cv::Size(3 * 96, 96 + 12));
+}
+
+TEST_F(RecognitionCommands, ACheckInWordsIsThatInJson) {
+  put({"can", "can_1", 120}, "few", 8);
+  put({"mug", "mug_1", 0}, "few", 8);
+  const Result as_json = vantage("dataset check few --bins 4 --json -q 2>/dev/null");
+  const json check = json::parse(as_json.output);
+  EXPECT_EQ(check["views"], 48);
+  EXPECT_EQ(check["bins"], 4);
+  EXPECT_EQ(check["cut"], "mask");
+  EXPECT_EQ(check["objects"][0]["directions"], 4);
+  EXPECT_EQ(check["objects"][1]["views"], 24);
+  EXPECT_EQ(check["holes"]["most"], 0.0);
+  EXPECT_NEAR(check["distance_m"]["median"].get<double>(), 0.9025, 0.003);
+  std::string text = fmt::format("few: 48 views of 2 objects, cut by mask, focal length {} px\n",
+                                 check["focal_px"].get<double>());
+  text += fmt::format("{:<24} {:>6} {:>11} {:>11} {:>8} {:>8}\n", "object", "views", "recordings",
+                      "directions", "holes", "size m");
+  for (const json& object : check["objects"]) {
+    text += fmt::format("{:<24} {:>6} {:>11}      4 of 4 {:>6.0f} % {:>8.3f}\n",
+                        object["object"].get<std::string>(), 24, object["recordings"].get<int>(),
+                        0.0, object["size_m"].get<double>());
+  }
+  const json& far = check["distance_m"];
+  text += fmt::format(
+      "without depth on the object: 0 % (0 to 0 %); object at {:.2f} m ({:.2f} to {:.2f} m)\n",
+      far["median"].get<double>(), far["least"].get<double>(), far["most"].get<double>());
+  for (const json& problem : check["problems"]) {
+    text += fmt::format("problem: {}\n", problem.get<std::string>());
+  }
+  for (const json& advice : check["advice"]) {
+    text += fmt::format("note: {}\n", advice.get<std::string>());
+  }
+  const bool good = check["problems"].empty();
+  text += good ? "no problem found\n" : "there are problems\n";
+  const Result in_words = vantage("dataset check few --bins 4 -q 2>/dev/null");
+  EXPECT_EQ(in_words.output, text);
+  EXPECT_EQ(in_words.exit_code, good ? 0 : 3);
+  EXPECT_EQ(as_json.exit_code, in_words.exit_code);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <sstream>
 #include <utility>
 
@@ -121,6 +122,60 @@ TEST_F(SceneFromMesh, WhatBeginsAboveTheHeightIsLeftOut) {
     ASSERT_EQ(made.exit_code, 0) << made.output;
     EXPECT_EQ(nlohmann::json::parse(made.output)["geoms"]["boxes"], boxes) << height;
   }
+}
+
+TEST_F(SceneFromMesh, TellsTheSameInWordsAndAsJson) {
+  house();
+  const auto json =
+      nlohmann::json::parse(vantage("scene from-mesh house.obj --out a.xml --json -q").output);
+  const auto number = [&](const char* key) { return json[key].get<double>(); };
+  const auto count = [&](const char* key) { return json["geoms"][key].get<int>(); };
+  const auto start = json["start"].get<std::vector<double>>();
+  ASSERT_EQ(start.size(), 3U);
+  EXPECT_LT(std::abs(start[0]), 3.0);
+  EXPECT_LT(std::abs(start[1]), 2.0);
+  const auto T = json["T_scene_mesh"].get<std::vector<double>>();  // row by row
+  EXPECT_EQ(std::vector(T.begin() + 12, T.end()), (std::vector{0.0, 0.0, 0.0, 1.0}));
+  std::string sets;
+  for (const auto& set : json["set"]) sets += " --set '" + set.get<std::string>() + "'";
+  const std::string words =
+      vantage("scene from-mesh house.obj --out a.xml --overwrite -q 2>/dev/null").output;
+  EXPECT_THAT(words, testing::StartsWith(fmt::format(
+                         "a.xml: {} boxes and {} other convex shapes as the mesh has them, {} "
+                         "boxes for the rest, whose surfaces are off by {:g} m at most\n"
+                         "{:.3g} x {:.3g} m; start_0 at ({:.2f}, {:.2f}), {:.2f} m clear, {:.3g} "
+                         "m2 of floor about it\nits map: ",
+                         count("boxes"), count("hulls"), count("cell_boxes"), number("cell_m"),
+                         json["size_m"][0].get<double>(), json["size_m"][1].get<double>(), start[0],
+                         start[1], number("start_clearance_m"), number("free_area_m2"))));
+  EXPECT_THAT(words, testing::EndsWith("explore it: vantage run assets/episodes/office_small.yaml "
+                                       "--set scene=a.xml" +
+                                       sets + "\n"));
+}
+
+TEST_F(SceneFromMesh, AMeshInMillimetresIsScaled) {
+  std::istringstream lines(test::room_with_door(0.85).obj());
+  std::string large;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    double x = 0.0, y = 0.0, z = 0.0;
+    if (words >> kind >> x >> y >> z && kind == "v") {
+      line = fmt::format("v {} {} {}", 1000.0 * x, 1000.0 * y, 1000.0 * z);
+    }
+    large += line + "\n";
+  }
+  file("large.obj", large);
+  house();
+  const auto size_m = [&](const std::string& mesh) {
+    const Result made = vantage("scene from-mesh " + mesh + " --out a.xml --overwrite --json -q");
+    EXPECT_EQ(made.exit_code, 0) << made.output;
+    return nlohmann::json::parse(made.output).at("size_m").get<std::vector<double>>();
+  };
+  const std::vector<double> metres = size_m("house.obj");
+  const std::vector<double> millimetres = size_m("large.obj --scale 0.001");
+  EXPECT_NEAR(millimetres.at(0), metres.at(0), 1e-4);
+  EXPECT_NEAR(millimetres.at(1), metres.at(1), 1e-4);
 }
 
 }  // namespace

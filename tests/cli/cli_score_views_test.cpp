@@ -1,4 +1,5 @@
 // `vantage score-views` as the owner of a robot meets it.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command_line.hpp"
@@ -210,6 +211,53 @@ TEST_F(ScoreViewsCommand, TheSeedIsOneUnlessOneIsGiven) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.output, score(sampled + " --seed 1").output);
   EXPECT_NE(result.output, score(sampled + " --seed 0").output);
+}
+
+/// Of equal ones the lower id comes first.
+TEST_F(ScoreViewsCommand, TheTableIsThatOfTheJson) {
+  file("four.csv",
+       "x_m,y_m,z_m,yaw_rad,pitch_rad,id\n500,0,0,1,0.5,9\n-1,0.5,1.25,0.25,0.125,12\n"
+       "500,1,0,2,0.25,4\n500,2,0,3,0.25,7\n");
+  const std::string question = "--map room.bt --views four.csv --gain simple";
+  const json result = scored(question);
+  ASSERT_EQ(result["views"].size(), 4U);
+  const json& best = result["views"][0];
+  const char* keys[] = {"x_m", "y_m", "z_m", "yaw_rad", "pitch_rad"};
+  const double values[] = {-1.0, 0.5, 1.25, 0.25, 0.125};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(best[keys[i]].get<double>(), values[i], 1e-9) << keys[i];
+  }
+  const auto gap = [](std::size_t blanks) { return std::string(blanks, ' '); };
+  std::string text = " rank     id" + gap(8) + "x_m" + gap(8) + "y_m" + gap(8) + "z_m" + gap(2) +
+                     "yaw_rad pitch_rad" + gap(4) + "gain [bits]\n";
+  const int ids[] = {12, 4, 7, 9};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const json& view = result["views"][i];
+    EXPECT_EQ(view["rank"], i + 1);
+    EXPECT_EQ(view["id"], ids[i]);
+    const auto of = [&](const char* key) { return view[key].get<double>(); };
+    text += fmt::format("{:>5} {:>6} {:>10.3f} {:>10.3f} {:>10.3f} {:>8.3f} {:>9.3f} {:>14.6g}\n",
+                        i + 1, ids[i], of("x_m"), of("y_m"), of("z_m"), of("yaw_rad"),
+                        of("pitch_rad"), of("gain"));
+  }
+  EXPECT_EQ(score(question + " 2>/dev/null").output, text);
+}
+
+/// 20 x 40 x 20 cells are known, 40 x 20 of them a wall, and one in the far corner.
+TEST_F(ScoreViewsCommand, TheMapAndWhatCountsAreTold) {
+  const std::string question = "--map room.bt --views views.csv ";
+  const json result = scored(question);
+  EXPECT_EQ(result["map"]["free_cells"], 20 * 40 * 20 - 40 * 20 + 1);
+  EXPECT_NEAR(result["cell_m"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(scored(question + "--set region.coarsen=2")["cell_m"].get<double>(), 0.2, 1e-9);
+  const double least_m[] = {-2.0, -2.0, 0.0};
+  const double most_m[] = {2.0, 2.0, 2.0};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(result["region"]["min_m"][axis].get<double>(), least_m[axis], 1e-9);
+    EXPECT_NEAR(result["region"]["max_m"][axis].get<double>(), most_m[axis], 1e-9);
+  }
+  const json part = scored(question + "--set 'region.min_m=[0,0,0]'");
+  EXPECT_NEAR(part["region"]["min_m"][0].get<double>(), 0.0, 1e-9);
 }
 
 }  // namespace

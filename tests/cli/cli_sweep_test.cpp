@@ -133,5 +133,149 @@ TEST_F(CommandLine, AnArenaIsToldAsJsonIfAskedFor) {
   EXPECT_THAT(vantage("arena page arena -q").output, HasSubstr("page arena/arena.html\n"));
 }
 
+/// Programs that stand in for Slurm's: ids rise from 41, and the queue is what a file says.
+class SlurmStandIns : public CommandLine {
+ protected:
+  void SetUp() override {
+    CommandLine::SetUp();
+    file("two.yaml", kStudy);
+    const auto program = [&](const std::string& name, const std::string& text) {
+      fs::permissions(file(name, "#!/bin/sh\n" + text), fs::perms::owner_all);
+    };
+    program("sbatch",
+            "[ \"$1\" != --version ] || exit 0\nn=$(cat next 2>/dev/null || echo 41)\n"
+            "echo $((n + 1)) >next\necho $n\n");
+    program("squeue",
+            "[ ! -e silent ] || { echo no contact >&2; exit 1; }\ncat queue 2>/dev/null || true\n");
+    program("scancel", "true\n");
+  }
+  Result sweep(const std::string& arguments, const std::string& environment = {}) {
+    return shell("cd '" + folder_.string() + "' && PATH=\"$PWD:$PATH\" " + environment +
+                 " " VANTAGE_BINARY " sweep " + arguments);
+  }
+};
+
+TEST_F(SlurmStandIns, ASubmissionIsTold) {
+  const Result told = sweep("submit two.yaml --out dir --json 2>/dev/null");
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_EQ(json::parse(told.output, nullptr, false), json({{"directory", "dir"},
+                                                            {"episodes", 2},
+                                                            {"tasks", 2},
+                                                            {"array", "41"},
+                                                            {"collect", "42"}}));
+  EXPECT_EQ(sweep("submit two.yaml --out dir --array 1 2>/dev/null").output,
+            "dir: 2 episodes by 1 tasks, array 43; job 44 collects\nvantage sweep status dir\n");
+  file("many.yaml", "episode: assets/episodes/tabletop.yaml\nseeds: 1..20\n");
+  const json many = json::parse(sweep("submit many.yaml --out many --json 2>/dev/null").output);
+  EXPECT_EQ(many["episodes"], 20);
+  EXPECT_EQ(many["tasks"], 16) << "where nothing else is said";
+}
+
+TEST_F(SlurmStandIns, WhatIsUnderWayIsNotSubmittedAgain) {
+  ASSERT_EQ(sweep("submit two.yaml --out dir").exit_code, 0);
+  file("queue", "41|0|RUNNING|None|0|n1|\n41|1|PENDING|None|0||\n");
+  expect_error(sweep("submit two.yaml --out dir"), 2,
+               {"--out dir: is submitted already: array 41: 1 running, 1 queued; collect 42: 1 "
+                "ended; vantage sweep status dir shows it, vantage sweep cancel dir ends it"});
+  const json status = json::parse(sweep("status dir --json 2>/dev/null").output);
+  EXPECT_EQ(status["slurm"]["submissions"].size(), 1U);
+  EXPECT_EQ(json::parse(sweep("cancel dir --json 2>/dev/null").output),
+            json({{"cancelled", json::array({"42", "41"})}}));
+  file("silent", "");
+  expect_error(sweep("submit two.yaml --out dir"), 2,
+               {"--out dir: was submitted before, and Slurm does not answer: no contact"});
+  fs::remove(folder_ / "silent");
+  file("queue", "");
+  EXPECT_EQ(sweep("cancel dir").output, "dir: nothing is queued or running\n");
+  EXPECT_EQ(sweep("submit two.yaml --out dir").exit_code, 0);
+}
+
+TEST_F(SlurmStandIns, AWorkerRunsWhatIsLeft) {
+  ASSERT_EQ(sweep("submit two.yaml --out dir -q").exit_code, 0);
+  const Result first = sweep("work dir");
+  EXPECT_EQ(first.exit_code, 0) << first.output;
+  EXPECT_THAT(first.output, HasSubstr("2 episodes run, 2 completed\n"));
+  const Result second = sweep("work dir");
+  EXPECT_EQ(second.exit_code, 0) << second.output;
+  EXPECT_THAT(second.output, HasSubstr("0 episodes run, 0 completed\n"));
+  EXPECT_FALSE(fs::exists(folder_ / "dir/results.csv")) << "a worker does not collect";
+  EXPECT_EQ(sweep("submit two.yaml --out dir 2>/dev/null").output,
+            "dir: every episode has a result; nothing is submitted. vantage sweep collect dir "
+            "merges them\n");
+  EXPECT_EQ(read_file(folder_ / "next"), "43\n") << "of the first array and its collection";
+  EXPECT_EQ(sweep("status dir").exit_code, 0);
+}
+
+/// A task of Slurm comes again for a reason; whoever else works leaves it as it is.
+TEST_F(SlurmStandIns, WhatCrashedIsTriedAgainByATaskOfSlurm) {
+  const std::string bare = file(
+      "bare.xml", "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
+  fs::create_directories(folder_ / "dir");
+  file("dir/study.yaml",
+       "episode: assets/episodes/tabletop.yaml\nset: {scene: " + bare + "}\nseeds: [1]\n");
+  const auto work = [&](const std::string& environment, int exit_code, const char* told) {
+    const Result result = sweep("work dir", environment);
+    EXPECT_EQ(result.exit_code, exit_code) << result.output;
+    EXPECT_THAT(result.output, HasSubstr(told));
+  };
+  work("", 1, "1 episodes run, 0 completed\n");
+  work("", 0, "0 episodes run, 0 completed\n");
+  work("SLURM_JOB_ID=60", 1, "1 episodes run, 0 completed\n");
+}
+
+/// The first of its two episodes is there.
+TEST_F(CommandLine, AStudyOfWhichAPartIsThere) {
+  file("two.yaml", kStudy);
+  EXPECT_EQ(vantage("sweep plan two.yaml").output, "a\nb\n");
+  EXPECT_EQ(vantage("sweep plan two.yaml --shard 2/2").output, "b\n");
+  EXPECT_EQ(json::parse(vantage("sweep status two.yaml --json").output)["directory"], "out/two");
+  ASSERT_EQ(vantage("sweep run two.yaml --out study --shard 1/2 -q").exit_code, 0);
+  EXPECT_EQ(vantage("sweep plan study").output, "b\n");
+  EXPECT_EQ(json::parse(vantage("sweep plan study --json").output),
+            json({{"episodes", json::array({"b"})}}));
+  EXPECT_EQ(vantage("sweep plan study --set seed=2").output, "a\nb\n") << "those are others";
+  const Result status = vantage("sweep status study --json");
+  EXPECT_EQ(status.exit_code, 1);
+  const json state = json::parse(status.output);
+  EXPECT_EQ(state["episodes"], 2);
+  EXPECT_EQ(state["completed"], 1);
+  EXPECT_EQ(state["missing"], 1);
+  EXPECT_FALSE(state.contains("slurm")) << "nothing was submitted";
+  EXPECT_EQ(json::parse(vantage("sweep status two.yaml --out study --json").output), state);
+  const Result collected = vantage("sweep collect study --json");
+  EXPECT_EQ(collected.exit_code, 1);
+  EXPECT_EQ(json::parse(collected.output), state);
+  EXPECT_THAT(vantage("sweep collect study 2>/dev/null").output, testing::StartsWith("# two\n"));
+  expect_error(vantage("sweep plan study --out other"), 2, {"--out: study is a study's folder"});
+  EXPECT_EQ(json::parse(vantage("report study --json -q").output),
+            json({{"report", "study/report.html"}}));
+  EXPECT_THAT(read_file(folder_ / "study/report.html"), HasSubstr("<svg"));
+}
+
+TEST_F(CommandLine, ASplitHasAFolderOfItsOwn) {
+  const std::string study =
+      "episode: assets/episodes/tabletop.yaml\n"
+      "factors: {start: {a: {robot.start_view: 0}, b: {robot.start_view: 5}}}\n"
+      "splits: {one: {start: [a]}, other: {start: [b]}}\n";
+  const auto directory = [&] {
+    return json::parse(vantage("sweep status s.yaml --json").output)["directory"];
+  };
+  file("s.yaml", study);
+  EXPECT_EQ(directory(), "out/s_one");
+  EXPECT_EQ(vantage("sweep plan s.yaml").output, "a\n");
+  EXPECT_EQ(vantage("sweep plan s.yaml --split other").output, "b\n");
+  file("s.yaml", study + "split: other\n");
+  EXPECT_EQ(directory(), "out/s_other");
+}
+
+TEST_F(CommandLine, AnArenaIsOfPlannersOnAMap) {
+  file("r.yaml", "episode: assets/episodes/recognition.yaml\nseeds: [1]\n");
+  expect_error(vantage("arena run r.yaml --out arena -q"), 2, {"r.yaml: 1: its task chooses no"});
+  EXPECT_FALSE(fs::exists(folder_ / "arena"));
+  fs::create_directories(folder_ / "study");
+  file("study/study.yaml", kStudy);
+  expect_error(vantage("arena run study --out arena -q"), 2, {"--out: study is an arena's folder"});
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,4 +1,6 @@
 // The command line as a user meets it: exit codes, one clear line, nothing half-written.
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/command_line.hpp"
 
 namespace vantage {
@@ -187,6 +189,73 @@ TEST_F(CommandLine, ImagesOfAnExportAreOfAPeriodAndAHeightThatCanBe) {
                               "--image-height=2161"}) {
     EXPECT_EQ(exit_code(refused), 2) << refused;
   }
+}
+
+TEST_F(CommandLine, TheOutcomeInWordsEndsAsTheMetricsDo) {
+  const auto told = [&](const std::string& options) {
+    const Result run = vantage(std::string("run ") + kShort + options + " 2>/dev/null");
+    EXPECT_EQ(run.exit_code, 0);
+    return run.output;
+  };
+  const auto metrics_in = [&](const std::string& run) {
+    return shell("cat '" + (folder_ / run / "metrics.json").string() + "'").output;
+  };
+  const std::string whole = told("--out run");
+  const auto metrics = nlohmann::json::parse(metrics_in("run"));
+  const std::string end = "\nended by: " + metrics["reason"].get<std::string>() + "\nstate hash " +
+                          metrics["state_hash"].get<std::string>() + "\n";
+  EXPECT_THAT(whole, testing::EndsWith(end + "report run/report.html\n"));
+  EXPECT_THAT(told("--out lean --lean"), testing::EndsWith(end));
+  const std::string as_json = told("--out again --json");
+  EXPECT_EQ(as_json, metrics_in("again"));
+}
+
+TEST_F(CommandLine, APlanSaysWhatWouldRun) {
+  const std::string scene = VANTAGE_SOURCE_DIR "/models/scenes/tabletop_8/scene.xml";
+  EXPECT_EQ(nlohmann::json::parse(vantage("run --dry-run --json --seed 5").output),
+            nlohmann::json({{"episode", "tabletop"},
+                            {"scans", 10},
+                            {"scene", scene},
+                            {"method", "adaptive"},
+                            {"seed", 5},
+                            {"notes", nlohmann::json::array()}}));
+  EXPECT_EQ(vantage("run --dry-run").output,
+            "tabletop: 10 scans in " + scene + " by adaptive, seed 1\n");
+}
+
+/// A comment changes the file and nothing in the scene.
+TEST_F(CommandLine, WhatIsExportedAndReplayedIsTold) {
+  fs::copy(fs::path(VANTAGE_SOURCE_DIR) / "models/scenes/tabletop_4", folder_,
+           fs::copy_options::recursive);
+  file("e.yaml", "scene: scene.xml\n");
+  ASSERT_EQ(vantage(std::string("run e.yaml ") + kShort + "--out run").exit_code, 0);
+  const std::string to_mcap = "export run --mcap a.mcap --image-period=0 -q ";
+  const auto told = nlohmann::json::parse(vantage(to_mcap + "--json 2>/dev/null").output);
+  const auto bytes = fs::file_size(folder_ / "a.mcap");
+  EXPECT_EQ(told["file"], "a.mcap");
+  EXPECT_EQ(told["bytes"], bytes);
+  EXPECT_GT(told["messages"], told["channels"]);
+  const auto metrics =
+      nlohmann::json::parse(shell("cat '" + (folder_ / "run/metrics.json").string() + "'").output);
+  EXPECT_NEAR(told["simulated_time_s"].get<double>(), metrics["simulated_time_s"].get<double>(),
+              0.1);
+  expect_error(vantage(to_mcap), 2, {"--mcap a.mcap", "--overwrite"});
+  const auto number = [&](const char* key) { return std::to_string(told[key].get<int>()); };
+  const std::string words = vantage(to_mcap + "--overwrite").output;
+  EXPECT_THAT(words, testing::StartsWith("a.mcap: " + number("messages") + " messages in " +
+                                         number("channels") + " channels, "));
+  shell("echo '<!-- as it was -->' >>'" + (folder_ / "scene.xml").string() + "'");
+  const Result changed = vantage("replay run");
+  EXPECT_EQ(changed.exit_code, 0) << changed.output;
+  EXPECT_THAT(changed.output,
+              testing::AllOf(HasSubstr("changed since the recording: scene.xml\n"),
+                             HasSubstr(" steps, every state the same, state hash " +
+                                       metrics["state_hash"].get<std::string>() + "\n")));
+  const auto replayed = nlohmann::json::parse(vantage("replay run --json 2>/dev/null").output);
+  EXPECT_EQ(replayed["directory"], "run");
+  EXPECT_EQ(replayed["state_hash"], metrics["state_hash"]);
+  EXPECT_EQ(replayed["changed_files"], nlohmann::json::array({"scene.xml"}));
+  EXPECT_TRUE(replayed["first_difference"].is_null());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "tests/study/manifest_of_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/study/collect.hpp"
 #include "vantage/study/results_csv.hpp"
@@ -282,6 +283,79 @@ TEST_F(Evaluated, WithoutPredictionsNoPredictorsAreCompared) {
   EXPECT_EQ(evaluation.comparisons[0].name, "area");
   ASSERT_EQ(evaluation.figures.size(), 1U);
   EXPECT_EQ(evaluation.figures[0].name, "share_left");
+}
+
+/// A run that is whole, but for how it ended.
+TEST_F(Evaluated, WhatFailedIsMeasuredAndWhatDivergedIsNot) {
+  const PlannedEpisode& episode = results_.plan[1];
+  const fs::path folder = episode_folder(folder_.path(), episode);
+  write_file(folder / "config.yaml", episode_yaml(episode.resolved));
+  write_file(folder / "manifest.json", manifest_of_files(episode.resolved));
+  Json metrics = {{"method", "simple"},       {"observable_cells", 100.0},
+                  {"path_length_m", 1.5},     {"collisions", 0},
+                  {"simulated_time_s", 60.0}, {"map", {{"precision", 0.9}, {"recall", 0.8}}}};
+  const Json scan = {{"unobserved_cells", 70.0},
+                     {"observable_unobserved_cells", 60.0},
+                     {"predicted", {{"simple", 0.0}}},
+                     {"actual_new_cells", 40.0},
+                     {"path_length_m", 1.5},
+                     {"leg_length_m", 1.5},
+                     {"pose_error_m", 0.002},
+                     {"pose_error_before_registration_m", 0.02},
+                     {"fallback", false},
+                     {"precision", 1.0},
+                     {"recall", 0.5}};
+  metrics["scans"] = Json::array({scan});
+  const auto is_measured = [&](const char* status) {
+    metrics["status"] = status;
+    write_file(folder / "metrics.json", metrics.dump());
+    return read_study_results(folder_.path()).measures[1].has_value();
+  };
+  EXPECT_TRUE(is_measured("completed"));
+  EXPECT_TRUE(is_measured("failed"));
+  EXPECT_FALSE(is_measured("diverged"));
+  EXPECT_FALSE(is_measured("interrupted"));
+  metrics.erase("map");
+  try {
+    is_measured("completed");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith((folder / "metrics.json: ").string()));
+  }
+}
+
+/// Of the first seed alone; of what was not run there is none.
+TEST(StudyFlights, AreDrawnOnceAMethod) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "study.yaml",
+             "episode: assets/episodes/trajectory.yaml\n"
+             "factors: {method: {a: {horizon: 5}, b: {horizon: 6}, c: {horizon: 7}}}\n"
+             "seeds: [1, 2]\n");
+  StudyResults results;
+  results.study = read_study(folder / "study.yaml");
+  results.directory = folder.path();
+  results.plan = plan_study(results.study);
+  results.states.assign(6, EpisodeState::missing);
+  results.measures.resize(6);
+  const Json flight = {{"path", {{-1.0, 0.0, 1.8, 0.0}, {1.0, 0.0, 1.8, 0.0}}},
+                       {"plan", {{-1.0, 0.0, 1.8, 0.0}, {1.0, 0.5, 1.8, 0.0}}},
+                       {"objects", Json::array()}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    results.states[i] = EpisodeState::completed;
+    results.measures[i].emplace().scalars.resize(scalar_measures().size());
+    const fs::path run = episode_folder(folder.path(), results.plan[i]);
+    fs::create_directories(run);
+    write_file(run / "metrics.json", flight.dump());
+  }
+  write_collection(results, {});
+  std::vector<std::string> drawn;
+  for (const auto& entry : fs::directory_iterator(folder / "figures")) {
+    drawn.push_back(entry.path().filename().string());
+  }
+  EXPECT_THAT(drawn, testing::UnorderedElementsAre("a-1.svg", "b-1.svg"));
+  const std::string svg = read_file(folder / "figures/a-1.svg");
+  EXPECT_THAT(svg, HasSubstr(">a/1</text>"));
+  EXPECT_THAT(svg, HasSubstr("<polygon points=")) << "the walls of its scene";
 }
 
 }  // namespace

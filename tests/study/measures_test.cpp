@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <set>
 
+#include "vantage/study/study_records.hpp"
+
 namespace vantage {
 namespace {
 using Json = nlohmann::ordered_json;
@@ -319,6 +321,21 @@ TEST(Measures, AreThoseOfTheTaskAndNotOfTheKeys) {
   EXPECT_FALSE(scalar(recognised, "area"));
   EXPECT_TRUE(scalar(recognised, "correct"));
   EXPECT_TRUE(recognised.prediction_errors.empty());
+}
+
+TEST(StudyRecords, TellEveryMeasureWhereItStands) {
+  const RecordTexts records = study_records();
+  const auto expect_told = [&](std::string_view file, const MeasureName& measure) {
+    const auto is = [&](const RecordText& record) {
+      return record.file == file && record.name == measure.name &&
+             record.text == measure_text(measure);
+    };
+    EXPECT_EQ(std::ranges::count_if(records, is), 1) << file << " " << measure.name;
+  };
+  for (const MeasureName& measure : scalar_measures()) {
+    expect_told(measure.wall ? "timings.csv" : "results.csv", measure);
+  }
+  for (const MeasureName& measure : curve_measures()) expect_told("curves", measure);
 }
 
 }  // namespace

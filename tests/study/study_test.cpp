@@ -9,6 +9,7 @@
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/study/study_layout.hpp"
+#include "vantage/study/study_reading.hpp"
 #include "vantage/study/sweep/sweep.hpp"
 
 namespace vantage {
@@ -371,6 +372,15 @@ TEST_F(StudyFile, ValidationTriesEveryStartBesideOtherFactors) {
 
 TEST_F(StudyFile, AKeyThatIsNotThereIsNamedBehindTheFile) {
   expect_problem("factors: {a: {b: {}}}\n", {"s.yaml: episode: "});
+}
+
+TEST(StudyNames, HoldLettersDigitsAndFewSigns) {
+  for (const char* good : {"a", "Z9", "_x", "-", "+1", "a.b", "beer_lambert-0.5"}) {
+    EXPECT_TRUE(is_study_name(good)) << good;
+  }
+  for (const char* wrong : {"", ".", ".a", "a b", "a/b", "a,b", "a:b", "\xc3\xa4", "a*"}) {
+    EXPECT_FALSE(is_study_name(wrong)) << wrong;
+  }
 }
 
 }  // namespace

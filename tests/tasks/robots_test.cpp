@@ -208,5 +208,18 @@ TEST(Robots, PathsMustLeaveRoomForTheRobot) {
   }
 }
 
+TEST(Robots, ReachNoFartherThanTheySay) {
+  const support::TemporaryDirectory folder;
+  const fs::path own = own_robot(folder / "mine");
+  replace_in(own / "robot.yaml", "circumscribed_radius_m: 0.18", "circumscribed_radius_m: 0.172");
+  try {
+    run_tabletop(folder / "run", {"robot.model=" + own.string()});
+    FAIL() << "expected an error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("footprint.circumscribed_radius_m 0.172 is less than its outline"));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -254,5 +254,52 @@ TEST(RecognitionTables, CalibrationErrorsHaveTheirIntervalInPercent) {
               HasSubstr("| random | 75.00 | 80.00 | 5.00 [5.00, 55.00] |\n"));
 }
 
+TEST(RecognitionStudy, SummariesAreWrittenFieldByField) {
+  using Json = nlohmann::json;
+  RecognitionStudy study = written_study();
+  study.methods.push_back(method("single view, all features", 2, 1));
+  const support::TemporaryDirectory folder;
+  write_recognition_study(study, folder.path());
+  const Json whole = Json::parse(read_file(folder / "summary.json"));
+  const std::vector<MethodSummary> all = summaries(study);
+  ASSERT_EQ(whole["methods"].size(), 2U);
+  const auto expect_interval = [](const Json& json, const Interval& interval) {
+    EXPECT_EQ(json, Json::array({interval.low, interval.high}));
+  };
+  const auto expect_estimate = [&](const Json& json, const Estimate& estimate) {
+    EXPECT_EQ(json["mean"], estimate.mean);
+    expect_interval(json["interval"], estimate.interval);
+  };
+  for (std::size_t m = 0; m < 2; ++m) {
+    const Json& json = whole["methods"][m];
+    expect_estimate(json["accuracy_percent"], all[m].accuracy_percent);
+    expect_estimate(json["observations"], all[m].observations);
+    expect_estimate(json["bin_error"], *all[m].bin_error);
+    EXPECT_EQ(json["features"], *all[m].features);
+    EXPECT_EQ(json["feature_time_s"], *all[m].feature_time_s);
+    EXPECT_EQ(json["view_time_s"], *all[m].view_time_s);
+    EXPECT_EQ(json["reliability"]["expected_calibration_error"], all[m].reliability->error);
+    EXPECT_EQ(json["reliability"]["confidence"], all[m].reliability->confidence);
+    expect_interval(json["reliability"]["interval"], all[m].reliability->error_interval);
+  }
+  const ReliabilityBin& bin = all[0].reliability->bins[12];
+  EXPECT_EQ(whole["methods"][0]["reliability"]["bins"][0]["confidence"], bin.confidence);
+  expect_interval(whole["methods"][0]["reliability"]["bins"][0]["interval"], bin.interval);
+  ASSERT_EQ(whole["methods"][0]["differences"].size(), 1U);
+  const Json& difference = whole["methods"][0]["differences"][0];
+  EXPECT_EQ(difference["reference"], "single view, all features");
+  expect_estimate(difference["accuracy_percent"], all[0].differences.at(0).accuracy_percent);
+  expect_estimate(difference["observations"], all[0].differences.at(0).observations);
+  EXPECT_EQ(difference["p_value"], all[0].differences.at(0).p_value);
+  const Json& unknown = whole["methods"][0]["unknown"];
+  EXPECT_EQ(unknown["area_under_curve"], all[0].unknown->area);
+  expect_interval(unknown["area_interval"], all[0].unknown->area_interval);
+  EXPECT_EQ(unknown["false_alarms_at_90_percent_found"], all[0].unknown->false_alarms);
+  expect_interval(unknown["false_alarms_interval"], all[0].unknown->false_alarms_interval);
+  EXPECT_EQ(unknown["known_held_for_unknown"], all[0].unknown->known_missed);
+  EXPECT_EQ(unknown["category_right_where_known"], 1.0);
+  EXPECT_TRUE(whole["methods"][1]["unknown"].is_null());
+}
+
 }  // namespace
 }  // namespace vantage

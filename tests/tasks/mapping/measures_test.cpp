@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "vantage/tasks/mapping/mapping_metrics.hpp"
 #include "vantage/tasks/mapping/measures/forecast_measures.hpp"
@@ -270,6 +272,72 @@ TEST(MappingMeasures, ForecastsBeyondThreeMetresBeginThere) {
                         scan_with({band(2.0, 3.0, 70.0, 10, 0), band(2.5, 3.5, 4.0, 2, 0),
                                    band(3.5, 4.5, 11.0, 8, 0)})};
   EXPECT_EQ(scalar(metrics, "forecast_ratio_beyond_3_m"), 1.5);
+}
+
+TEST(MappingMeasures, ReadEachNumberByItsKey) {
+  Json metrics = metrics_with({});
+  std::vector<std::string> keys{"area_over_time", "energy_j"};
+  for (const char* percent : {"80", "90", "95", "97", "98"}) {
+    keys.push_back(std::string("time_to_") + percent + "_s");
+    keys.push_back(std::string("path_to_") + percent + "_m");
+  }
+  for (std::size_t i = 0; i < keys.size(); ++i) metrics[keys[i]] = 10.5 + static_cast<double>(i);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    EXPECT_EQ(scalar(metrics, keys[i]), 10.5 + static_cast<double>(i)) << keys[i];
+  }
+}
+
+TEST(MappingMeasures, ReadEachScan) {
+  const auto scan = [](double k) {
+    return Json{{"unobserved_cells", 10.0 * k},
+                {"observable_unobserved_cells", 20.0 * k},
+                {"path_length_m", 0.5 * k},
+                {"pose_error_m", 0.25 * k},
+                {"pose_error_before_registration_m", 0.75 * k},
+                {"precision", 0.125 * k},
+                {"recall", 0.0625 * k}};
+  };
+  Json metrics = metrics_with({});
+  metrics["scans"] = std::vector<Json>{scan(1.0), scan(4.0), scan(1.0)};
+  const auto times = [](double unit) { return Curve{unit, 4.0 * unit, unit}; };
+  EXPECT_EQ(curve(metrics, "unobserved_cells"), times(10.0));
+  EXPECT_EQ(curve(metrics, "observable_unobserved_cells"), times(20.0));
+  EXPECT_EQ(curve(metrics, "distance_m"), times(0.5));
+  EXPECT_EQ(curve(metrics, "pose_error_m"), times(0.25));
+  EXPECT_EQ(curve(metrics, "precision"), times(0.125));
+  EXPECT_EQ(curve(metrics, "recall"), times(0.0625));
+  EXPECT_EQ(scalar(metrics, "pose_error_m"), 0.5) << "the mean";
+  EXPECT_EQ(scalar(metrics, "pose_error_before_registration_m"), 1.5);
+  EXPECT_EQ(scalar(metrics, "worst_pose_error_m"), 1.0);
+  for (const char* name :
+       {"pose_error_m", "pose_error_before_registration_m", "worst_pose_error_m"}) {
+    EXPECT_FALSE(scalar(metrics_with({}), name)) << name;
+  }
+}
+
+TEST(MappingMeasures, KnowWhichDirectionIsBetter) {
+  const std::set<std::string_view> higher{"observed_share", "reached_95", "precision", "recall"};
+  const auto is_to_a_share = [](std::string_view name) {
+    return name.starts_with("scans_to_") || name.starts_with("time_to_") ||
+           name.starts_with("path_to_");
+  };
+  const Measures measures = mapping_measures();
+  for (const ScalarMeasure& measure : measures.scalars) {
+    const std::string_view name = measure.name.name;
+    if (higher.contains(name)) {
+      EXPECT_EQ(measure.name.better, Better::higher) << name;
+    } else if (is_to_a_share(name) || name.find("error") != std::string_view::npos) {
+      EXPECT_EQ(measure.name.better, Better::lower) << name;
+    } else if (name == "scans" || name.starts_with("forecast_ratio")) {
+      EXPECT_EQ(measure.name.better, Better::unsaid) << name << ": that is no aim of its own";
+    }
+  }
+  for (const CurveMeasure& measure : measures.curves) {
+    const std::string_view name = measure.name.name;
+    const bool is_higher = higher.contains(name);
+    if (name == "forecast_ratio") continue;
+    EXPECT_EQ(measure.name.better, is_higher ? Better::higher : Better::lower) << name;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/tabletop/own_scene.hpp"
@@ -206,6 +208,26 @@ TEST(TableTopWithoutWalls, ScansThatAreNotRegisteredAreNamedByTheirNumber) {
     const bool registered = scans[i]["registered"];
     EXPECT_EQ(log.find(said) == std::string::npos, registered) << said;
   }
+}
+
+/// The robot starts behind the first position, looking straight ahead: a view within 0.1 m and 0.1
+/// rad of there is the one that was taken.
+TEST(TableTopWithoutWalls, AViewThatWasTakenIsNoFrontierAnyMore) {
+  const auto exhausted_by = [](const std::string& choice, const std::string& behind_m) {
+    std::vector<int> exhausted;
+    look_into(OwnScene(pedestal_table()),
+              {"scans=1", "choice=" + choice, "robot.start_behind_m=" + behind_m,
+               "candidates.yaw_offsets_rad=[0,0.09,0.11,-0.11]"},
+              [&](TabletopSession<OpenParts>& session) {
+                for (const Candidate& view : session.parts.views()) {
+                  if (view.exhausted) exhausted.push_back(view.id);
+                }
+              });
+    return exhausted;
+  };
+  EXPECT_THAT(exhausted_by("nearest_frontier", "0.09"), testing::ElementsAre(0, 1));
+  EXPECT_THAT(exhausted_by("nearest_frontier", "0.11"), testing::IsEmpty());
+  EXPECT_THAT(exhausted_by("greedy", "0.09"), testing::IsEmpty());
 }
 
 }  // namespace

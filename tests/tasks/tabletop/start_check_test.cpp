@@ -1,7 +1,10 @@
 // What `vantage validate` says of a mapping task before it runs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/tasks/validate.hpp"
@@ -252,6 +255,77 @@ TEST(ValidateExploration, WhatHangsLowIsInTheWay) {
       "size='.7 .05 .4' pos='0 -.65 .55'/>");
   EXPECT_THAT(problem(validated("office_small", shut, started_at("[0,0,0]"))),
               HasSubstr("scene.xml: no free floor"));
+}
+
+TEST(ValidateTableTop, AViewIsWithinTheReachOfTheLaser) {
+  const OwnScene scene(kTable + kWalls);
+  const auto said = [&](std::vector<std::string> more) {
+    return problem(validated("tabletop", scene, std::move(more)));
+  };
+  EXPECT_THAT(said({"candidates.height_m=1.381"}),
+              AllOf(HasSubstr("1.381 is out of the laser's reach, 1.050 to 1.380; 1.380 fits"),
+                    HasSubstr("{height_m: 1.380}")));
+  EXPECT_THAT(said({"candidates.height_m=1.048"}), HasSubstr("1.050 to 1.380; 1.050 fits"));
+  EXPECT_THAT(said({"laser.tilt_max_rad=1.485"}),
+              AllOf(HasSubstr("beyond the joint's -0.785 to 1.484"),
+                    HasSubstr("tilt_min_rad: -0.36, tilt_max_rad: 1.484}")));
+  EXPECT_THAT(said({"laser.tilt_min_rad=-0.786"}),
+              HasSubstr("tilt_min_rad: -0.785, tilt_max_rad: 0.62}"));
+  EXPECT_THAT(validated("tabletop", scene, {"candidates.height_m=1.379"}).problems, IsEmpty());
+  EXPECT_THAT(validated("tabletop", scene,
+                        {"candidates.height_m=1.0495", "laser.tilt_min_rad=-0.785",
+                         "laser.tilt_max_rad=1.484"})
+                  .problems,
+              IsEmpty());
+}
+
+/// A bar along y, behind which one of the positions is.
+std::string bar_behind_the_table(double low_m, double high_m) {
+  return fmt::format("<geom type='box' pos='-.9 0 {}' size='.02 1.1 {}'/>", 0.5 * (low_m + high_m),
+                     0.5 * (high_m - low_m));
+}
+
+TEST(ValidateTableTop, ARobotRollsOverMatsAndUnderLamps) {
+  const auto found = [](double low_m, double high_m) {
+    return validated("tabletop", OwnScene(kTable + kRoom + bar_behind_the_table(low_m, high_m)),
+                     {});
+  };
+  EXPECT_THAT(found(0.0, 0.03).notes, IsEmpty());
+  EXPECT_THAT(found(1.2, 1.6).notes, IsEmpty());
+  for (const auto& [low_m, high_m] : {std::pair(0.0, 0.08), {0.4, 0.9}}) {
+    const Validation note = found(low_m, high_m);
+    EXPECT_THAT(note.problems, IsEmpty());
+    ASSERT_EQ(note.notes.size(), 1U) << low_m;
+    EXPECT_THAT(note.notes[0], AllOf(HasSubstr(" are out of the robot's reach"),
+                                     testing::Not(HasSubstr(" 0 are"))));
+  }
+}
+
+/// The way to the first is blocked, the second can be driven to.
+TEST(ValidateTableTop, PositionsAreCountedByWhatTheyLack) {
+  const auto note = [](const std::string& more, std::vector<std::string> options) {
+    options.emplace_back("candidates.positions=4");
+    const Validation found =
+        validated("tabletop", OwnScene(kTable + kRoom + more), std::move(options));
+    return found.notes.size() == 1 ? found.notes[0] : std::string();
+  };
+  EXPECT_THAT(note(bar_behind_the_table(0.0, 1.6), {}),
+              HasSubstr("of 4 positions on the ring 1 are out of the robot's reach, and 0 more"));
+  const std::string screen = "<geom type='box' pos='-.7 0 .8' size='.02 .6 .8'/>";
+  EXPECT_THAT(note(screen, {"candidates.radius_m=1.4"}),
+              testing::EndsWith("of 4 positions on the ring 0 are out of the robot's reach, and 1 "
+                                "more see nothing of the map past what stands between"));
+}
+
+TEST(ValidateTableTop, WhatThereIsToLocaliseByIsSaid) {
+  const auto note = [](const std::string& bodies) {
+    const Validation found = validated("tabletop", OwnScene(bodies), {});
+    return found.notes.size() == 1 ? found.notes[0] : std::string();
+  };
+  EXPECT_THAT(note(kTable), HasSubstr("it goes by posts"));
+  EXPECT_THAT(note("<geom type='box' size='.5 .5 .02' pos='0 0 .7'/>"
+                   "<geom type='box' size='.08 .08 .34' pos='0 0 .34'/>"),
+              HasSubstr("odometry will drift"));
 }
 
 }  // namespace

@@ -3,9 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <string>
+#include <vector>
+
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/episode.hpp"
+#include "vantage/tasks/tabletop/start_check.hpp"
 
 namespace vantage {
 namespace {
@@ -89,6 +94,54 @@ TEST(TableRegion, BesideTheOriginIsNotOverIt) {
     EXPECT_EQ(table_among({beside, here})->name, "here") << x_m << " " << y_m;
     EXPECT_EQ(table_among({beside, square(3.0, 3.0, "far")})->name, "beside") << "the largest";
   }
+}
+
+/// Of a map of half a metre over a table of a metre at 0.72 m.
+class TableInTheMap : public testing::Test {
+ protected:
+  /// Whose lower face is `gap_m` above the table; what is said of it.
+  std::vector<std::string> notes(double gap_m) {
+    Tabletop task;
+    task.map.centre_m = {0.0, 0.0, 0.72 + gap_m + 0.25};
+    task.map.size_m = {0.5, 0.5, 0.5};
+    return check_table(world_, setup_, task);
+  }
+  std::string refusal(double gap_m) {
+    try {
+      notes(gap_m);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  OwnScene scene_{table_at(0.0, 0.0, 0.72, 0.5, 0.5)};
+  World world_{ModelSource{.scene = scene_.path(), .robot = {}}};
+  EpisodeSetup setup_{.options = {}, .name = "", .scene = scene_.path(), .robot = {}};
+};
+
+TEST_F(TableInTheMap, IsNoMoreThanATenthOfAMetreBelowIt) {
+  EXPECT_TRUE(notes(0.01).empty());
+  EXPECT_TRUE(notes(0.098).empty());
+  EXPECT_THAT(refusal(0.102), HasSubstr("begins 0.10 m above the table"));
+  EXPECT_THAT(refusal(0.3), testing::AllOf(HasSubstr("begins 0.30 m above the table"),
+                                           HasSubstr("'top' at x -0.5 to 0.5, y -0.5 to 0.5, z "
+                                                     "0.720")));
+}
+
+TEST_F(TableInTheMap, MayTouchItAndIsRemarkedOnWhereItIsInIt) {
+  EXPECT_TRUE(notes(-0.004).empty()) << "by noise";
+  ASSERT_EQ(notes(-0.006).size(), 1U);
+  EXPECT_THAT(notes(-0.006)[0], HasSubstr("0.006 m below the table top"));
+  ASSERT_EQ(notes(-0.12).size(), 1U);
+  EXPECT_THAT(notes(-0.12)[0], HasSubstr("0.120 m below the table top"));
+}
+
+/// What lies lower than objects.min_height_m is none of the clutter.
+TEST_F(TableInTheMap, HasRoomForObjectsAboveIt) {
+  EXPECT_EQ(notes(-0.488).size(), 1U);
+  EXPECT_THAT(refusal(-0.492), HasSubstr("miss the table"));
+  EXPECT_THAT(refusal(-0.7), HasSubstr("miss the table"));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/log.hpp"
@@ -122,6 +124,55 @@ TEST(Truth, OfAMapIsWhatStandsThereNotWhatCanBeSeen) {
   const MapScore score = evaluator.score(grid, 1);
   EXPECT_EQ(score.precision, 0.0);
   EXPECT_EQ(score.recall, 0.0);
+}
+
+/// Observable cells are numbered as they come.
+TEST(Truth, OfEachPoseIsWhatASensorSeesOfTheObservable) {
+  set_verbosity(Verbosity::quiet);
+  const OwnScene scene(box_at(0.82));
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
+  const auto& task = std::get<Tabletop>(episode.task);
+  const SimulatedTabletopRobot robot(episode.setup, task);
+  const MobileGroundTruth truth = robot.ground_truth();
+  const auto evaluator = tabletop_evaluator(task, 2, truth, robot.view_field());
+  const Pose2 elsewhere{1.5, 0.4, 3.0};
+  const ViewCoverage coverage = task.coverage(episode.setup, {elsewhere});
+  const Pose T_base_sensor = to_se3(robot.estimated_base()).inverse() * robot.estimated_sensor();
+  std::vector<Pose> poses{to_se3(elsewhere) * T_base_sensor};
+  for (const Candidate& view : tabletop_views(task)) poses.push_back(view.T_world_sensor);
+  const auto is_in = [](const CellSet& set, std::size_t cell) {
+    return (set[cell / 64] >> (cell % 64) & 1U) != 0;
+  };
+  const CellSet observable = evaluator.observable_set();
+  EXPECT_EQ(coverage.observable_cells, evaluator.observable_cells());
+  ASSERT_EQ(coverage.shows.size(), poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const CellSet visible = evaluator.visible_set(poses[i]);
+    const CellSet& shown = coverage.shows[i];
+    ASSERT_EQ(shown.size(), (coverage.observable_cells + 63) / 64);
+    std::size_t number = 0;
+    for (std::size_t cell = 0; cell < task.map.frame().size(); ++cell) {
+      if (!is_in(observable, cell)) continue;
+      ASSERT_EQ(is_in(shown, number), is_in(visible, cell)) << i << " " << cell;
+      ++number;
+    }
+    EXPECT_EQ(number, coverage.observable_cells);
+  }
+}
+
+/// From one side to the other, 1.32 m from the middle, round a map of a metre that a disc of 0.19 m
+/// stays out of: along diagonals and straight lines about 3.23 m.
+TEST(Truth, OfTheRingHasWaysRoundTheMap) {
+  set_verbosity(Verbosity::quiet);
+  const OwnScene scene(box_at(0.82));
+  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
+  const ViewCoverage coverage = std::get<Tabletop>(episode.task).coverage(episode.setup, {});
+  ASSERT_EQ(coverage.way_m.rows(), 30);
+  EXPECT_NEAR(coverage.way_m(1, 16), (3.23 - 0.14) * std::cos(std::numbers::pi / 8.0), 0.1);
+  EXPECT_NEAR(coverage.way_m(1, 4), 2.0 * 1.32 * std::sin(std::numbers::pi / 10.0), 0.01)
+      << "to the next position straight on";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -18,6 +19,7 @@
 #include "vantage/core/log.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/tasks/episode_planner.hpp"
+#include "vantage/tasks/mapping/external/planner_files.hpp"
 
 namespace vantage {
 namespace {
@@ -343,6 +345,97 @@ TEST(ExternalPlanner, SaysAtWhichDecisionItFails) {
     FAIL() << "no error";
   } catch (const EpisodeFailed& error) {
     EXPECT_THAT(error.what(), HasSubstr(", decision 2: expected one JSON object"));
+  }
+}
+
+TEST(ExternalPlanner, IsGivenWhatProgramsAreFoundBy) {
+  const support::TemporaryDirectory folder;
+  const std::string file = (folder / "told").string();
+  const std::vector<std::string> names{"PYENV_ROOT", "NODE_PATH", "JAVA_HOME", "JULIA_DEPOT_PATH"};
+  for (const std::string& name : names) ::setenv(name.c_str(), ("/of/" + name).c_str(), 1);
+  first_decision(sh(kHello + "read request; env > " + file + "; echo '{\"view\": 0}'; read end"));
+  for (const std::string& name : names) ::unsetenv(name.c_str());
+  std::ifstream stream(file);
+  const std::string told = "\n" + std::string((std::istreambuf_iterator<char>(stream)), {});
+  for (const std::string& name : names) {
+    EXPECT_THAT(told, HasSubstr("\n" + name + "=/of/" + name + "\n"));
+  }
+  EXPECT_THAT(told, HasSubstr(std::string("\nPATH=") + ::getenv("PATH") + "\n"));
+  EXPECT_THAT(told, HasSubstr("\nPYTHONHASHSEED=0\n"));
+  EXPECT_THAT(told, HasSubstr("\nPYTHONDONTWRITEBYTECODE=1\n"));
+}
+
+TEST(ExternalPlanner, StandsInThePlaceOfAChoice) {
+  const support::TemporaryDirectory folder;
+  const std::string file = (folder / "ended").string();
+  const support::AskedSituation situation;
+  const DecisionRequest request = situation.request();
+  ExternalPlanner planner(
+      sh(kHello + "read request; echo '{\"view\": 1}'; read end; echo \"$end\" > " + file),
+      {.task = "tabletop"});
+  const OutsideChoice choice = planner.as_outside_choice("mine of simple");
+  EXPECT_EQ(choice.name, "mine of simple");
+  EXPECT_FALSE(choice.blind);
+  EXPECT_EQ(choice.facts().size(), 1U);
+  EXPECT_EQ(std::get<std::size_t>(choice.decide(request)), 1U);
+  EXPECT_EQ(choice.facts().size(), 3U);
+  EXPECT_EQ(choice.facts()[0].first, "command");
+  EXPECT_TRUE(choice.facts()[0].second.starts_with("sh -c read hello;"));
+  choice.ended(request.situation, true);
+  std::ifstream written(file);
+  std::string line;
+  std::getline(written, line);
+  EXPECT_EQ(line, R"({"type":"end"})");
+  planner.part();  // nobody is there any more
+}
+
+TEST(ExternalPlanner, HasOneTimeToStartAndAnotherToAnswer) {
+  EXPECT_THAT(
+      failure(
+          {.command = {"sh", "-c", "sleep 100"}, .timeout_s = kLong_s, .startup_timeout_s = 0.15}),
+      HasSubstr("no answer within 0.15 s"));
+  EXPECT_THAT(failure({.command = {"sh", "-c", kHello + "read request; sleep 100"},
+                       .timeout_s = 0.2,
+                       .startup_timeout_s = kLong_s}),
+              HasSubstr("no answer within 0.2 s"));
+}
+
+TEST(ExternalPlanner, IsNamedInTwoHundredLetters) {
+  const std::string beginning = "sh -c exit 3 # ";
+  const std::string shown = beginning + std::string(200 - beginning.size(), 'x');
+  EXPECT_THAT(failure(sh("exit 3 # " + std::string(300, 'x'))),
+              HasSubstr("planner " + shown + " ..., decision 1: it ended"));
+}
+
+/// The program and its second argument; the episode is elsewhere.
+TEST(PlannerFiles, AreThoseThatTheCommandNames) {
+  const support::TemporaryDirectory folder;
+  for (const char* name : {"planner", "weights"}) std::ofstream(folder / name) << "x";
+  ViewChoice choice = ExternalChoice{.command = {"./planner", "-q", "weights", "seven"}};
+  find_planner(choice, folder.path());
+  const std::vector<InputFile> files = planner_files(choice);
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].key, "choice.command[0]");
+  EXPECT_TRUE(fs::equivalent(files[0].path, folder / "planner"));
+  EXPECT_EQ(files[1].key, "choice.command[2]");
+  EXPECT_TRUE(fs::equivalent(files[1].path, folder / "weights"));
+  EXPECT_EQ(std::get<ExternalChoice>(choice).command[1], "-q");
+  EXPECT_EQ(std::get<ExternalChoice>(choice).command[3], "seven");
+  EXPECT_THROW(require_planner(choice), ConfigError) << "it cannot be run";
+  fs::permissions(folder / "planner", fs::perms::owner_all);
+  EXPECT_NO_THROW(require_planner(choice));
+}
+
+TEST(PlannerFiles, OfOtherChoicesAreNone) {
+  ViewChoice greedy = GreedyGain{};
+  find_planner(greedy, {});
+  EXPECT_TRUE(planner_files(greedy).empty());
+  EXPECT_NO_THROW(require_planner(greedy));
+  try {
+    require_planner(ExternalChoice{});
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("choice.command: names no program"));
   }
 }
 

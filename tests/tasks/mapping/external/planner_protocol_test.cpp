@@ -1,12 +1,15 @@
 // Lines of the protocol: what is told, and that no answer, however it is made, does harm.
 #include "vantage/tasks/mapping/external/planner_protocol.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -219,6 +222,120 @@ TEST(PlannerProtocol, ReadsAnythingWithoutHarm) {
   EXPECT_GT(good, 100U);  // it comes to what is right as well
   EXPECT_LT(good, lines);
   EXPECT_GT(floods, 10U);
+}
+
+TEST(PlannerProtocol, TellsAllOfARequest) {
+  support::AskedSituation situation;
+  Candidate view;
+  view.id = 5;  // its own, not that of the protocol
+  view.T_world_sensor = make_pose({1.5, -2.5, 1.25}, 0.0);
+  view.path_length_m = 3.5;
+  view.gain_bits = 12.5;
+  view.reachable = false;
+  view.exhausted = true;
+  situation.candidates = {view};
+  DecisionRequest request = situation.request();
+  request.travel_s = {7.5};
+  request.interval_cells = {};
+  MapSituation& now = request.situation;
+  now.T_world_base = {0.5, -0.75, 0.25};
+  now.scans = 3;
+  now.energy_j = 340.0;
+  now.left = {.time_s = 81.5, .energy_j = 660.0};
+  now.scan_s = 20.5;
+  now.field_of_view = {.half_width_rad = 0.5,
+                       .tilt_min_rad = -0.25,
+                       .tilt_max_rad = 0.75,
+                       .range_min_m = 0.125,
+                       .range_max_m = 8.0};
+  EXPECT_EQ(Json::parse(request_line(request, 2, Json::object())), Json::parse(R"({
+    "type": "decide", "decision": 2, "scans": 3, "scans_left": 4, "time_s": 12.5,
+    "time_left_s": 81.5, "energy_j": 340, "energy_left_j": 660, "scan_s": 20.5,
+    "pose": [0.5, -0.75, 0.25],
+    "field_of_view": {"panorama": false, "half_width_rad": 0.5, "tilt_min_rad": -0.25,
+                      "tilt_max_rad": 0.75, "range_min_m": 0.125, "range_max_m": 8},
+    "candidates": [{"view": 0, "sensor": [1.5, -2.5, 1.25, 0, 0], "gain": 12.5,
+                    "path_length_m": 3.5, "travel_s": 7.5, "reachable": false,
+                    "exhausted": true}],
+    "grids": {}})"));
+}
+
+TEST(PlannerProtocol, TakesNoPoseThatIsNotThreeNumbers) {
+  for (const char* pose : {"[]", "[1, 2]", "[1, 2, 3, 4]", "[1, \"2\", 3]", "[1, 2, null]", "null",
+                           "3", R"({"x": 1, "y": 2, "yaw": 3})"}) {
+    EXPECT_THROW(read_answer(std::string(R"({"pose": )") + pose + "}"), BadDecision) << pose;
+  }
+  const auto whole = std::get<Pose2>(read_answer(R"({"pose": [1, -2, 3]})"));
+  EXPECT_EQ(whole.x_m, 1.0);
+  EXPECT_EQ(whole.y_m, -2.0);
+  EXPECT_EQ(whole.yaw_rad, 3.0);
+}
+
+TEST(PlannerProtocol, HasAVersionThatIsAWholeNumber) {
+  EXPECT_THROW(read_introduction(R"({"protocol": "vantage-planner", "version": 1.0})"),
+               BadDecision);
+  EXPECT_THROW(read_introduction(R"({"protocol": "vantage-planner", "version": 0})"), BadDecision);
+  EXPECT_EQ(read_introduction(R"({"protocol": "vantage-planner", "version": 1, "name": "a\tb"})"),
+            "a\\x09b")
+      << "fit to be shown";
+}
+
+TEST(PlannerGrids, HaveHeadersThatSayWhereTheyLie) {
+  const support::TemporaryDirectory folder;
+  support::AskedSituation situation;
+  situation.grid = OccupancyGrid(make_grid_frame({1.0, 2.0, 0.5}, {2.0, 3.0, 1.0}, {4, 3, 2}));
+  FloorMap floor({-1.5, -0.5}, 0.25, 12, 4);
+  floor.log_odds.assign(floor.size(), -2.0F);
+  situation.paths =
+      make_path_field(floor, {0.0, 0.0, 0.0}, {.footprint_radius_m = 0.2, .margin_m = 0.05});
+  std::ofstream(folder / "floor.raw") << std::string(1000, 'x');  // longer than it will be
+  const Json grids = write_planner_grids(situation.request(), folder.path());
+  Json occupancy = Json::parse(R"({
+    "file": "occupancy.raw", "dtype": "float32", "order": "x fastest", "shape": [4, 3, 2],
+    "min_corner_m": [0, 0.5, 0], "cell_m": [0.5, 1, 0.5]})");
+  occupancy["free_at_most"] = kFreeLogOdds;
+  occupancy["occupied_at_least"] = kOccupiedLogOdds;
+  EXPECT_EQ(grids["occupancy"], occupancy);
+  EXPECT_EQ(grids["floor"], Json::parse(R"({
+    "file": "floor.raw", "dtype": "uint8", "order": "x fastest", "shape": [12, 4],
+    "min_corner_m": [-1.5, -0.5], "cell_m": [0.25, 0.25]})"));
+  EXPECT_EQ(grids["ways"], Json::parse(R"({
+    "file": "ways.raw", "dtype": "float64", "order": "x fastest", "shape": [12, 4],
+    "min_corner_m": [-1.5, -0.5], "cell_m": [0.25, 0.25]})"));
+  EXPECT_EQ(std::filesystem::file_size(folder / "floor.raw"), 48U);
+  EXPECT_EQ(std::filesystem::status(folder / "ways.raw").permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+/// Of the other errors the planner is not to blame.
+TEST(PlannerGrids, AreSpoiltByWhatAPlannerDoesToItsFolder) {
+  const auto is_spoilt = [](const std::filesystem::path& folder) {
+    const support::AskedSituation situation;
+    try {
+      write_planner_grids(situation.request(), folder);
+    } catch (const SpoiltFolder&) {
+      return true;
+    }
+    return false;
+  };
+  const support::TemporaryDirectory folder;
+  const auto path = folder / "occupancy.raw";
+  EXPECT_FALSE(is_spoilt(folder.path()));
+  EXPECT_TRUE(is_spoilt(folder / "gone"));
+  EXPECT_TRUE(is_spoilt(path)) << "no folder";
+  std::filesystem::remove(path);
+  std::filesystem::create_symlink(folder / "floor.raw", path);
+  EXPECT_TRUE(is_spoilt(folder.path())) << "a link";
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  EXPECT_TRUE(is_spoilt(folder.path())) << "a folder";
+  std::filesystem::remove(path);
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  EXPECT_TRUE(is_spoilt(folder.path())) << "a pipe that nobody reads";
+  const int reader = ::open(path.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  EXPECT_TRUE(is_spoilt(folder.path())) << "a pipe that is read";
+  ::close(reader);
 }
 
 }  // namespace
