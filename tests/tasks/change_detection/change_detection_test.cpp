@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "tests/support/overrides.hpp"
@@ -12,6 +13,7 @@
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/core/rng.hpp"
 #include "vantage/tasks/change_detection/change_ground_truth.hpp"
 #include "vantage/tasks/recognition/recognition_ground_truth.hpp"
 #include "vantage/tasks/run.hpp"
@@ -224,6 +226,105 @@ TEST(ChangeScenario, IsOfAFlightLikeAnyOther) {
   EXPECT_NO_THROW(task.check_with(episode));
   episode.faults.odometry_slip = 0.1;
   EXPECT_THROW(task.check_with(episode), ConfigError);
+}
+
+/// More than half an eighth of a turn and less than the rest of it; nothing else is drawn anew.
+TEST(ChangeScenario, TurnsTheObjectByAnythingThatAMapWouldTell) {
+  constexpr double kHalfEighth_rad = std::numbers::pi / 8.0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const ObjectOnTable expected = draw_expected_object(scenario("pose"), seed);
+    const ObjectOnTable turned = draw_object(scenario("pose"), seed);
+    const double turn_rad =
+        Rng::stream(seed, "object turned").uniform(kHalfEighth_rad, 15.0 * kHalfEighth_rad);
+    EXPECT_NEAR(turned.yaw_rad, wrap_turn(expected.yaw_rad + turn_rad), 1e-9);
+    EXPECT_EQ(turned.category, expected.category);
+    EXPECT_EQ(turned.offset_m, drawn_offset_m(seed, ChangeDetectionTask{}.placement_m));
+  }
+}
+
+TEST(ChangeScenario, PutsAnotherObjectThereAsItIsNamedAndTurned) {
+  ChangeDetectionTask task = scenario("object");
+  task.expected_object = "cereal_box_1";
+  task.expected_yaw_rad = 7.0;
+  const ObjectOnTable expected = draw_expected_object(task, 4);
+  EXPECT_EQ(expected.object, "cereal_box_1");
+  EXPECT_EQ(expected.category, "cereal_box");
+  EXPECT_NEAR(expected.yaw_rad, 7.0 - 2.0 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(expected.offset_m.norm(), 0.0) << "the map has it in the middle";
+  task.object = "mug_1";
+  const ObjectOnTable there = draw_object(task, 4);
+  EXPECT_EQ(there.object, "mug_1");
+  EXPECT_EQ(there.category, "mug");
+  EXPECT_EQ(there.yaw_rad, drawn_yaw_rad(4, "other object yaw"));
+  EXPECT_EQ(there.offset_m, drawn_offset_m(4, task.placement_m));
+  task.object = "unicorn_1";
+  EXPECT_THROW(draw_object(task, 4), ConfigError);
+  ChangeDetectionTask lonely = scenario("object");
+  lonely.database.objects = 1;
+  EXPECT_THROW(draw_object(lonely, 4), ConfigError) << "there is no other";
+}
+
+/// By less than a millionth of a radian.
+TEST_F(ChangeEpisode, ATurnOfNothingIsRefused) {
+  for (const char* turned : {"turned_rad=0.0000008", "turned_rad=-0.0000008"}) {
+    EXPECT_THROW(load_episode(kChange, overrides("pose", {turned})), ConfigError) << turned;
+  }
+  for (const char* turned : {"turned_rad=0.0000015", "turned_rad=-0.0000015"}) {
+    EXPECT_NO_THROW(load_episode(kChange, overrides("pose", {turned}))) << turned;
+  }
+  EXPECT_THROW(load_episode(kChange, overrides("none", {"prior_pose=0.6", "prior_object=0.5"})),
+               ConfigError);
+}
+
+/// Held for as it was whatever it sees.
+TEST_F(ChangeEpisode, AnExchangeThatIsNotFoundIsWrong) {
+  const json metrics =
+      metrics_of("object", {"max_views=1", "threshold=1", "changed_above=1", "unchanged_below=0"});
+  EXPECT_EQ(metrics["decision"], "none");
+  for (const char* key : {"correct", "changed_correct", "detectable_correct"}) {
+    EXPECT_EQ(metrics[key], false) << key;
+  }
+}
+
+/// Held for changed whatever it sees.
+TEST_F(ChangeEpisode, AChangeThatIsNoneIsWrong) {
+  const json metrics = metrics_of("none", {"max_views=1", "threshold=0", "unchanged_below=0"});
+  EXPECT_NE(metrics["decision"], "none");
+  for (const char* key : {"correct", "changed_correct", "detectable_correct"}) {
+    EXPECT_EQ(metrics[key], false) << key;
+  }
+  EXPECT_EQ(metrics["detectable"], true);
+  const double start_rad = Rng::stream(1, "start bearing").uniform(0.0, 2.0 * std::numbers::pi);
+  const double first_rad = metrics["observations"][0]["view_rad"];
+  EXPECT_LE(std::abs(wrap_angle(first_rad - start_rad)), std::numbers::pi / 8.0 + 1e-9)
+      << "the nearest that is in the middle of a bin";
+  EXPECT_GE(first_rad, 0.0);
+}
+
+/// A turn is no prior of its own, so that what is turned is taken for something else.
+TEST_F(ChangeEpisode, AChangeOfAnotherKindIsHalfRight) {
+  const json metrics = metrics_of("pose", {"turned_rad=1.5707963267948966", "max_views=1",
+                                           "prior_pose=0", "threshold=0", "unchanged_below=0"});
+  EXPECT_EQ(metrics["decision"], "object");
+  EXPECT_EQ(metrics["correct"], false);
+  EXPECT_EQ(metrics["changed_correct"], true);
+  EXPECT_EQ(metrics["detectable_correct"], metrics["detectable"]);
+}
+
+TEST_F(ChangeEpisode, TheModelMustKnowWhatIsExpected) {
+  const Validation found = validate_episode(
+      kChange, overrides("none", {"database.objects=326", "expected_object=lamp_2"}));
+  ASSERT_EQ(found.problems.size(), 1U);
+  EXPECT_THAT(found.problems[0], testing::AllOf(testing::HasSubstr("lamp_2"),
+                                                testing::HasSubstr("is expected there")));
+  const std::vector<std::string> exchanged{"database.objects=326", "object=lamp_2"};
+  EXPECT_THAT(validate_episode(kChange, overrides("object", exchanged)).problems,
+              testing::IsEmpty())
+      << "it may be unknown";
+  std::vector<std::string> certain = exchanged;
+  certain.emplace_back("recogniser.unknown_prior=0");
+  EXPECT_THAT(validate_episode(kChange, overrides("object", certain)).problems,
+              testing::ElementsAre(testing::HasSubstr("stands on the table")));
 }
 
 }  // namespace

@@ -439,5 +439,31 @@ TEST(Navigator, PutsTheRobotWhereLoopsSayThatItIs) {
   EXPECT_NEAR(robot.T_world_base.y_m, 0.0, 0.05);
 }
 
+/// Notes where it drives.
+struct NotedRoomRobot : RoomRobot {
+  DriveResult drive_along(std::span<const Pose2> path, double max_speed_m_s,
+                          const std::function<bool()>& go_on) override {
+    driven.insert(driven.end(), path.begin(), path.end());
+    return RoomRobot::drive_along(path, max_speed_m_s, go_on);
+  }
+  std::vector<Pose2> driven;
+};
+
+TEST(Navigator, TurnsByThreeThirdsWhereWallsFixThePose) {
+  NotedRoomRobot robot;
+  robot.T_world_base = {0.5, -0.25, 0.3};
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(room_registration()), 1);
+  navigator.turn_in_place();
+  ASSERT_EQ(robot.driven.size(), 3U);
+  for (int third = 1; third <= 3; ++third) {
+    const Pose2& pose = robot.driven[static_cast<std::size_t>(third - 1)];
+    const double turned_rad = third * 2.0943951023931953;
+    EXPECT_NEAR(wrap_angle(pose.yaw_rad - 0.3 - turned_rad), 0.0, 1e-9);
+    EXPECT_NEAR(pose.x_m, 0.5, 1e-9);
+    EXPECT_NEAR(pose.y_m, -0.25, 1e-9);
+  }
+  EXPECT_EQ(navigator.floor().state_at({-3.5, -0.5}), CellState::free) << "behind it at first";
+}
+
 }  // namespace
 }  // namespace vantage

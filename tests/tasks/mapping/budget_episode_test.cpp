@@ -3,7 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -132,6 +134,91 @@ TEST(Navigator, HasTurnedBackOnThatDriveAlone) {
   const Approach after = navigator.approach({1.0, 0.0, 0.0}, std::nullopt);
   EXPECT_FALSE(after.turned_back);
   EXPECT_TRUE(after.reached);
+}
+
+/// Counts the ticks of its drives.
+struct TickCountingRobot : SteppingRobot {
+  DriveResult drive_along(std::span<const Pose2> path, double max_speed_m_s,
+                          const std::function<bool()>& go_on) override {
+    return SteppingRobot::drive_along(path, max_speed_m_s, [&] {
+      ++asked;
+      return go_on();
+    });
+  }
+  std::size_t asked = 0;
+};
+
+TEST(Navigator, LooksAtTheFloorAtEveryTenthTick) {
+  TickCountingRobot robot;
+  Navigator navigator = navigator_on_open_floor(robot);
+  robot.ticks = 97;
+  ASSERT_TRUE(navigator.approach({1.0, 0.0, 0.0}, std::nullopt).reached);
+  ASSERT_GE(robot.asked, 97U);
+  EXPECT_EQ(navigator.path_m().size(), robot.asked / 10);
+}
+
+/// It drives in place, and says what it is told to say of that.
+struct RefusingRobot : SteppingRobot {
+  DriveResult drive_along(std::span<const Pose2> /*path*/, double /*max_speed_m_s*/,
+                          const std::function<bool()>& /*go_on*/) override {
+    return {.status = status, .path_length_m = 0.25, .duration_s = 1.0};
+  }
+  DriveStatus status = DriveStatus::stopped;
+};
+
+TEST(Navigator, PlansAgainAsLongAsItMayGetThere) {
+  RefusingRobot robot;
+  Navigator navigator = navigator_on_open_floor(robot);
+  int plans = 0;
+  navigator.on_plan = [&](const PlannedPath&) { ++plans; };
+  const auto approach = [&](const Pose2& goal, DriveStatus status) {
+    plans = 0;
+    robot.status = status;
+    return navigator.approach(goal, std::nullopt);
+  };
+  const Pose2 ahead{3.0, 0.0, 0.0};
+  const Approach stopped = approach(ahead, DriveStatus::stopped);
+  EXPECT_EQ(plans, 12);
+  EXPECT_FALSE(stopped.reached || stopped.turned_back);
+  EXPECT_DOUBLE_EQ(stopped.path_length_m, 12 * 0.25);
+  EXPECT_FALSE(approach(ahead, DriveStatus::stuck).reached);
+  EXPECT_EQ(plans, 1);
+  EXPECT_TRUE(approach(ahead, DriveStatus::arrived).reached);
+  EXPECT_EQ(plans, 1);
+  EXPECT_FALSE(approach({50.0, 0.0, 0.0}, DriveStatus::arrived).reached) << "off the floor";
+  EXPECT_EQ(plans, 1) << "it has come no nearer";
+}
+
+/// Its scanner sees nothing. It stands within 0.57 m: footprint, margin and a cell.
+TEST(Navigator, KnowsTheFloorThatItStandsOn) {
+  SteppingRobot robot;
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+  navigator.turn_in_place();
+  EXPECT_EQ(navigator.floor().state_at({-0.54, 0.02}), CellState::free);
+  EXPECT_EQ(navigator.floor().state_at({-0.58, 0.02}), CellState::unobserved);
+}
+
+/// But for the reserve of 6 s.
+TEST(Budget, MayBeSpentToItsEnd) {
+  const Budget budget({.time_s = 100.0, .energy_j = 50.0});
+  const SpendingRates rates(0.6);
+  EXPECT_TRUE(budget.affords_way_home(rates, {94.0, 50.0}, 0.0));
+  EXPECT_FALSE(budget.affords_way_home(rates, {94.001, 50.0}, 0.0));
+  EXPECT_FALSE(budget.affords_way_home(rates, {94.0, 50.001}, 0.0));
+}
+
+/// One that is too far from what it is to look at may be taken for want of a better one.
+TEST(BudgetKeeper, PaysForTheWayToAViewThatIsNotInReach) {
+  SteppingRobot robot;
+  Navigator navigator = navigator_on_open_floor(robot);
+  const BudgetKeeper keeper({.time_s = 100.0}, 0.6, robot, navigator);
+  Candidate view;
+  view.T_world_sensor = make_pose({3.0, 0.0, 1.0}, 0.0);
+  view.reachable = false;
+  view.path_length_m = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(keeper.used_up({view}, 3), "");
+  robot.now_s = 90.0;
+  EXPECT_EQ(keeper.used_up({view}, 3), "budget.time_s 100 allows no further view");
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 #include <limits>
 #include <numbers>
 #include <type_traits>
+#include <vector>
 
 #include "tests/tasks/mapping/standing_robot.hpp"
+#include "vantage/planners/swept_gain.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/tasks/mapping/view_planner.hpp"
 
@@ -144,6 +146,96 @@ TEST(PlanAhead, ExpectsNothingOfAnExhaustedView) {
   ASSERT_EQ(plan.gains.size(), 2U);
   EXPECT_GT(plan.gains[0], 0.0);
   EXPECT_EQ(plan.gains[1], 0.0);
+}
+
+TEST(OutsideDecision, APoseIsWorthWhatTheGainInUseSaysOfIt) {
+  Asking asking;
+  asking.decide(SimpleGain{}, [](const DecisionRequest&) {
+    return OutsideDecision(Pose2{-1.5, 0.0, 0.0});
+  });
+  ASSERT_EQ(asking.candidates.size(), 3U);
+  const std::vector<Candidate> own{asking.candidates.back()};
+  EXPECT_GT(own[0].gain_bits, 0.0);
+  EXPECT_EQ(own[0].gain_bits,
+            view_gains_bits(Gain{SimpleGain{}}, {asking.belief.filled_grid(), &asking.transmission},
+                            own, asking.robot.view_field(), 1)
+                .front());
+}
+
+/// Ten seconds of driving at 400 W, and 20 of scanning at 100 W.
+TEST(PlanAhead, KnowsWhatIsLeftAndWhatItTakes) {
+  Asking asking({.time_s = 1000.0, .return_to_start = true});
+  ScanRecord scan;
+  scan.time_s = 30.0;
+  scan.scan_time_s = 20.0;
+  scan.energy_j = 6000.0;
+  scan.scan_energy_j = 2000.0;
+  asking.budget.observe(scan, nullptr);
+  asking.candidates.resize(3);
+  asking.candidates[0].exhausted = true;
+  asking.candidates[1].T_world_sensor = make_pose({3.0, 0.0, 1.0}, 0.0);
+  asking.candidates[2].T_world_sensor = make_pose({1.0, 1.0, 1.0}, 0.0);
+  std::vector<Candidate> later(1);
+  later[0].T_world_sensor = make_pose({-2.0, 1.0, 1.0}, 0.0);
+  MappingOptions options = small_map();
+  options.choice = TourChoice{};
+  const auto paths = asking.navigator.plan();
+  PlanningSituation situation{.belief = asking.belief,
+                              .transmission = asking.transmission,
+                              .robot = asking.robot,
+                              .paths = *paths,
+                              .budget = asking.budget,
+                              .threads = 1};
+  situation.scans_left = 5;
+  situation.later = later;
+  situation.intended_m = Eigen::Vector2d(1.0, 2.2);
+  const PlanningProblem problem =
+      planning_problem(options, SimpleGain{}, asking.candidates, situation);
+  const std::vector<Eigen::Vector2d> places_m{{3.0, 0.0}, {1.0, 1.0}, {-2.0, 1.0}};
+  ASSERT_EQ(problem.views(), 3U) << "none of the exhausted one";
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR((problem.place_m[i] - places_m[i]).norm(), 0.0, 1e-12) << i;
+  }
+  EXPECT_EQ(problem.left.scans, 5U);
+  EXPECT_DOUBLE_EQ(problem.left.time_s, 1000.0 - 12.5 - 6.0);
+  EXPECT_EQ(problem.home_s, asking.budget.home_s(places_m));
+  EXPECT_EQ(problem.home_s.size(), 4U);
+  EXPECT_DOUBLE_EQ(problem.driving_w, 400.0);
+  EXPECT_DOUBLE_EQ(problem.scanning_w, 100.0);
+  EXPECT_EQ(problem.scan_s, 20.0);
+  EXPECT_EQ(problem.intended, std::size_t{1}) << "1.2 m off";
+  situation.intended_m = Eigen::Vector2d(1.0, 3.0);
+  EXPECT_FALSE(planning_problem(options, SimpleGain{}, asking.candidates, situation).intended)
+      << "2 m off";
+}
+
+/// The first of its candidates is exhausted.
+TEST(PlanAhead, NamesItsViewsByTheirPlaceAmongAllCandidates) {
+  Asking asking;
+  for (Candidate& view : asking.candidates) view.T_world_sensor = make_pose({-1.5, 0.0, 1.0}, 0.1);
+  asking.candidates[0].exhausted = true;
+  asking.candidates[1].id = 7;
+  asking.candidates[1].path_length_m = 2.0;
+  MappingOptions options = small_map();
+  options.gain = SimpleGain{};
+  options.choice = TourChoice{};
+  const auto paths = asking.navigator.plan();
+  const PlanningSituation situation{.belief = asking.belief,
+                                    .transmission = asking.transmission,
+                                    .robot = asking.robot,
+                                    .paths = *paths,
+                                    .budget = asking.budget,
+                                    .threads = 1};
+  Rng rng(1);
+  const MappingPlan plan = plan_ahead(options, asking.candidates, situation, rng);
+  EXPECT_EQ(plan.order, std::vector<std::size_t>{1});
+  ASSERT_EQ(plan.gains.size(), 2U);
+  EXPECT_EQ(plan.gains[0], 0.0);
+  EXPECT_GT(plan.gains[1], 0.0);
+  ASSERT_EQ(plan.tour.stops.size(), 1U);
+  EXPECT_EQ(plan.tour.stops[0].id, 7);
+  EXPECT_NEAR(plan.tour.stops[0].yaw_rad, 0.1, 1e-9);
+  EXPECT_NEAR((plan.tour.stops[0].place_m - Eigen::Vector2d(-1.5, 0.0)).norm(), 0.0, 1e-9);
 }
 
 }  // namespace

@@ -238,5 +238,88 @@ TEST(RecognitionPanel, CardsStandBelowItsHeading) {
   EXPECT_EQ(cv::norm(drawn_panel.col(13), expected, cv::NORM_INF), 0.0);
 }
 
+/// 6 of 8, at 22 px each; equal ones in their order.
+TEST(RecognitionPanel, ListsSixObjectsAtMost) {
+  RecognitionPanelInput input{.observation_records = {}, .orbit = kOrbit};
+  for (int i = 0; i < 8; ++i) input.objects.push_back("mug_" + std::to_string(i));
+  input.p_object = Eigen::VectorXd::Constant(8, 0.125);
+  const cv::Mat panel = drawn(input);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_TRUE(is_coloured(panel, {440, 79 + 22 * i}, panel::kAccent)) << i;
+    cv::Mat expected(panel.size(), CV_8UC3, panel::kCard);
+    panel::text(expected, {1.0, {640, 720}}, "mug_" + std::to_string(i), {418.0, 74.0 + 22.0 * i},
+                11, panel::kText);
+    const cv::Rect name(418, 64 + 22 * i, 60, 13);
+    EXPECT_EQ(cv::norm(panel(name), expected(name), cv::NORM_INF), 0.0) << i;
+  }
+  EXPECT_EQ(count_coloured(panel, {412, 200, 212, 200}, panel::kAccent), 0);
+}
+
+/// What it asks stands on the left, how far it has come on the right.
+TEST(RecognitionPanel, SaysInItsHeadingWhatItLooksAt) {
+  const auto records = two_records();
+  const auto heading = [](const RecognitionPanelInput& input) {
+    return drawn(input)(cv::Rect(0, 0, 640, 34)).clone();
+  };
+  const auto written = [](const std::string& left, const std::string& right) {
+    cv::Mat expected(720, 640, CV_8UC3, panel::kBottom);
+    const panel::Layout layout{1.0, {640, 720}};
+    panel::text(expected, layout, left, {14.0, 24.0}, 14, panel::kText, panel::Align::left, true);
+    panel::text(expected, layout, right, {626.0, 24.0}, 12, panel::kDim, panel::Align::right);
+    return expected(cv::Rect(0, 0, 640, 34)).clone();
+  };
+  RecognitionPanelInput input{.observation_records = records, .orbit = kOrbit};
+  input.method = "star";
+  EXPECT_EQ(cv::norm(heading(input), written("star", "2 views"), cv::NORM_INF), 0.0);
+  input.targets_m.push_back(kOrbit.centre_m);
+  EXPECT_EQ(cv::norm(heading(input), written("star", "2 views"), cv::NORM_INF), 0.0);
+  input.targets_m.push_back(kOrbit.centre_m + Eigen::Vector3d(0.0, -0.5, 0.0));
+  input.target = 1;
+  EXPECT_EQ(cv::norm(heading(input), written("star", "object 2 of 2, 2 views"), cv::NORM_INF), 0.0);
+  input.observation_records = {};
+  input.targets_m.clear();
+  input.expected = "mug_1";
+  EXPECT_EQ(cv::norm(heading(input), written("is it mug_1 still?", "0 views"), cv::NORM_INF), 0.0);
+}
+
+/// Above its bars, at (22, 447) px.
+TEST(RecognitionPanel, SaysWhatItHoldsTheChangeFor) {
+  auto records = two_records();
+  records[0].change = {0.75, Change::object};
+  records[1].change = {0.75, Change::pose};
+  const auto title = [](const RecognitionPanelInput& input) {
+    return drawn(input)(cv::Rect(12, 429, 386, 24)).clone();
+  };
+  const auto written = [](const std::string& words) {
+    cv::Mat expected(720, 640, CV_8UC3, panel::kCard);
+    panel::text(expected, {1.0, {640, 720}}, words, {22.0, 447.0}, 11, panel::kDim);
+    return expected(cv::Rect(12, 429, 386, 24)).clone();
+  };
+  const cv::Mat before =
+      title({.observation_records = {}, .orbit = kOrbit, .expected = "mug_1", .threshold = 0.5});
+  EXPECT_EQ(
+      cv::norm(before, written("probability of a change, by now: not known yet"), cv::NORM_INF),
+      0.0);
+  const cv::Mat after = title(
+      {.observation_records = records, .orbit = kOrbit, .expected = "mug_1", .threshold = 0.5});
+  EXPECT_EQ(cv::norm(after, written("probability of a change, by now: pose"), cv::NORM_INF), 0.0);
+  const cv::Mat entropy = title({.observation_records = {}, .orbit = kOrbit});
+  EXPECT_EQ(cv::norm(entropy, written("entropy, bits, after each view"), cv::NORM_INF), 0.0);
+}
+
+/// Six of them are 61 px a view; a value of nothing is a line of 1 px.
+TEST(RecognitionPanel, MakesRoomForMoreThanFourViews) {
+  std::vector<ObservationRecord> records(6);
+  for (std::size_t i = 0; i < 5; ++i) records[i].report.entropy_bits = 3.0;
+  const cv::Mat panel = drawn({.observation_records = records, .orbit = kOrbit});
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_TRUE(is_coloured(panel, {24 + 61 * i, 600}, panel::kVisited)) << i;
+    EXPECT_TRUE(is_coloured(panel, {62 + 61 * i, 600}, panel::kVisited)) << i;
+    EXPECT_TRUE(is_coloured(panel, {68 + 61 * i, 600}, panel::kCard)) << i;
+  }
+  EXPECT_TRUE(is_coloured(panel, {330, 696}, panel::kVisited));
+  EXPECT_TRUE(is_coloured(panel, {330, 694}, panel::kCard));
+}
+
 }  // namespace
 }  // namespace vantage

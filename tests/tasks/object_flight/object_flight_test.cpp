@@ -1,18 +1,23 @@
 // Which objects a flight looks at, one after the other or all at once, and where they stand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/flight/two_objects.hpp"
+#include "tests/tasks/object_flight/scripted_flight.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/rng.hpp"
 #include "vantage/sim/world/world.hpp"
+#include "vantage/tasks/flight/object_mjcf.hpp"
 #include "vantage/tasks/object_flight/object_flight_recorder.hpp"
 #include "vantage/tasks/object_flight/object_on_table.hpp"
 #include "vantage/tasks/object_flight/target_tour.hpp"
@@ -210,6 +215,167 @@ TEST(ObjectOnTable, StandsWhereItsSeedPutsIt) {
                                      distance_m * std::sin(heading_rad));
     EXPECT_NEAR((drawn_offset_m(seed, 0.02) - expected_m).norm(), 0.0, 1e-12) << seed;
   }
+}
+
+/// As if its colour were so likely of the bowl in its bin 2, and of anything else.
+ExtractFeature colour_of_that_bowl(double p_that, double p_else) {
+  Eigen::VectorXd log_p = Eigen::VectorXd::Constant(8, std::log(p_else));
+  log_p[6] = std::log(p_that);
+  return [log_p](std::size_t /*feature*/) {
+    return ExtractedFeature{.result = {}, .time_s = 0.25, .log_likelihood = log_p};
+  };
+}
+
+ExtractFeature no_colour() {
+  return [](std::size_t /*feature*/) {
+    return ExtractedFeature{.result = FeatureResult::skip("hidden")};
+  };
+}
+
+RecognitionOptions all_of_it(int max_views, const EnoughViews& enough) {
+  RecognitionOptions options;
+  options.all_features = true;
+  options.transition = RigidTransition{.slip = 0.0};
+  options.max_views = max_views;
+  options.enough = enough;
+  return options;
+}
+
+TEST(ObjectInquiry, ReportsItsViewsAndTurnsWhatItBelieves) {
+  const Recogniser recogniser = support::recogniser_by_colour();
+  const RecognitionOptions options = all_of_it(8, {.object_probability = 1.0, .entropy_bits = 0.0});
+  ChangeOptions of_change;
+  of_change.recognition = options;
+  for (ObjectInquiry inquiry : {ObjectInquiry(recogniser, options),
+                                ObjectInquiry(recogniser, of_change, "bowl_2", std::numbers::pi)}) {
+    Rng rng(1);
+    inquiry.observe(colour_of_that_bowl(0.5, 0.01), 0.75, 0.125, rng);
+    const ViewReport view = inquiry.recognition().views.back();
+    EXPECT_EQ(view.view_rad, 0.75);
+    EXPECT_EQ(view.view_time_s, 0.125);
+    EXPECT_EQ(view.feature_time_s, 0.25);
+    EXPECT_THAT(view.features, ElementsAre("colour"));
+    EXPECT_EQ(most_probable_state(inquiry.recognition().belief), 6);
+    inquiry.turned(0.5 * std::numbers::pi);
+    EXPECT_EQ(most_probable_state(inquiry.recognition().belief), 5);
+  }
+}
+
+/// Of eight states alike the first view leaves one with 4/11, the second with 16/23.
+TEST(ObjectInquiry, SaysWhyItKnowsWhatItIs) {
+  const Recogniser recogniser = support::recogniser_by_colour();
+  const auto over_after = [&](int views, int max_views, const EnoughViews& enough) {
+    ObjectInquiry inquiry(recogniser, all_of_it(max_views, enough));
+    EXPECT_FALSE(inquiry.of_change());
+    Rng rng(1);
+    for (int i = 0; i < views; ++i) inquiry.observe(colour_of_that_bowl(0.8, 0.2), 0.0, 0.0, rng);
+    return inquiry.over();
+  };
+  const EnoughViews never{.object_probability = 1.0, .entropy_bits = 0.0};
+  EXPECT_EQ(over_after(1, 2, never), "");
+  EXPECT_EQ(over_after(2, 2, never), "limit of 2 views, not sure");
+  const EnoughViews probable{.object_probability = 0.7, .entropy_bits = 0.0};
+  EXPECT_EQ(over_after(1, 8, probable), "") << "7/11";
+  EXPECT_EQ(over_after(2, 8, probable),
+            "sure: bowl_2 with probability 0.826, above enough.object_probability 0.7");
+  const EnoughViews certain{.object_probability = 1.0, .entropy_bits = 2.8};
+  const double entropy_bits = -4.0 / 11.0 * std::log2(4.0 / 11.0) + 7.0 / 11.0 * std::log2(11.0);
+  EXPECT_EQ(over_after(1, 8, certain),
+            fmt::format("sure: entropy {:.3g} bits, below enough.entropy_bits 2.8", entropy_bits));
+}
+
+/// Each view makes a change four times as likely, or a fourth.
+TEST(ObjectInquiry, SaysWhyItKnowsWhetherItHasChanged) {
+  const Recogniser recogniser = support::recogniser_by_colour();
+  ChangeOptions options;
+  const auto after = [&](int views, int max_views, const ExtractFeature& extract) {
+    options.recognition = all_of_it(max_views, {});
+    ObjectInquiry inquiry(recogniser, options, "bowl_2", std::numbers::pi);
+    EXPECT_TRUE(inquiry.of_change());
+    Rng rng(1);
+    for (int i = 0; i < views; ++i) inquiry.observe(extract, 0.0, 0.0, rng);
+    return inquiry;
+  };
+  const ExtractFeature as_before = colour_of_that_bowl(0.8, 0.2);
+  const ExtractFeature otherwise = colour_of_that_bowl(0.2, 0.8);
+  EXPECT_EQ(after(2, 8, as_before).over(), "");
+  EXPECT_NEAR(after(2, 8, as_before).p_changed(), 1.0 / 17.0, 1e-9);
+  EXPECT_EQ(after(2, 8, as_before).verdict(), Change::none);
+  EXPECT_EQ(after(2, 2, as_before).over(), "limit of 2 views, still in doubt");
+  EXPECT_EQ(after(3, 8, as_before).over(),
+            "sure of no change: probability 0.0154, below unchanged_below 0.05");
+  EXPECT_NEAR(after(2, 8, otherwise).p_changed(), 16.0 / 17.0, 1e-9);
+  EXPECT_EQ(after(2, 8, otherwise).verdict(), Change::pose);
+  EXPECT_EQ(after(3, 8, otherwise).over(),
+            "sure of a change: probability 0.985, above changed_above 0.95");
+  const ObjectInquiry empty = after(2, 8, no_colour());
+  EXPECT_EQ(empty.over(), "2 views in a row without the object (empty_views)");
+  EXPECT_EQ(empty.p_changed(), 1.0);
+  EXPECT_EQ(empty.verdict(), Change::removed);
+}
+
+/// By the turn that a view takes; of equal ones the first.
+TEST(TargetTour, TheBestViewOfAllTargetsIsTaken) {
+  const TargetTour tour = tour_of_three(true);
+  RecognitionOptions by_turn;
+  by_turn.views.choice = StarView{};
+  const auto next_of = [&](const std::vector<std::pair<std::size_t, double>>& turns_rad) {
+    std::vector<BearingOption> options;
+    for (const auto& [target, yaw_rad] : turns_rad) {
+      options.push_back(
+          {.id = 0, .bearing_rad = 0.0, .action = {.yaw_rad = yaw_rad}, .target = target});
+    }
+    Rng rng(1);
+    return next_view(tour, kRecogniser, by_turn, options, rng).decision;
+  };
+  const ObjectViewDecision decision =
+      next_of({{0, 0.5}, {0, -2.0}, {1, 1.0}, {1, -3.0}, {1, 2.75}, {2, 2.5}});
+  EXPECT_EQ(decision.action, 3U);
+  std::vector<double> scores;
+  for (const ObjectViewScore& score : decision.scores) scores.push_back(score.score);
+  EXPECT_THAT(scores, ElementsAre(0.5, 2.0, 1.0, 3.0, 2.75, 2.5));
+  EXPECT_EQ(next_of({{0, 0.5}, {0, 2.0}, {1, 2.0}, {2, 2.0}}).action, 1U);
+  EXPECT_EQ(next_of({{1, 0.5}, {2, 0.25}, {2, 1.0}}).action, 2U);
+}
+
+TEST(ObjectFlight, FindsItsFilesBesideItsEpisode) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "my.model", "bytes");
+  std::filesystem::create_directory(folder / "objects");
+  ObjectFlight task;
+  task.model = "my.model";
+  task.database.models = "objects";
+  task.find_files(folder.path());
+  EXPECT_EQ(task.model, (folder / "my.model").string());
+  EXPECT_EQ(task.database.models, (folder / "objects").string());
+  ASSERT_EQ(task.inputs().size(), 1U);
+  EXPECT_EQ(task.inputs()[0].path, folder / "my.model");
+}
+
+TEST(ObjectOnTable, IsPutIntoTheSceneWhereItStands) {
+  ObjectFlight task;
+  task.table_m = {1.0, 2.0, 0.75};
+  const std::vector<MemoryFile> nothing = object_files(task, ObjectOnTable{});
+  ASSERT_EQ(nothing.size(), 1U);
+  EXPECT_EQ(nothing[0].name, "object.xml");
+  EXPECT_THAT(nothing[0].content, HasSubstr("<body name=\"object\"/>"));
+  const ObjectOnTable mug{.object = "mug_1",
+                          .category = "mug",
+                          .yaw_rad = std::numbers::pi,
+                          .offset_m = {0.25, -0.5},
+                          .told_m = {0.125, 0.0}};
+  const std::vector<MemoryFile> files = object_files(task, mug);
+  const TurntableObject made = make_turntable_object(dataset_of(task.database), {"mug", "mug_1"});
+  ASSERT_EQ(files.size(), 3U);
+  EXPECT_THAT(files[0].content, HasSubstr(R"(<body name="object" pos="1.25 1.5 0.75")"));
+  EXPECT_EQ(files[1].name, "object.obj");
+  EXPECT_EQ(files[1].content, made.obj);
+  EXPECT_EQ(files[2].name, "object.png");
+  EXPECT_EQ(files[2].content, made.png);
+  EXPECT_EQ(body_of_target(0), "object");
+  EXPECT_EQ(body_of_target(2), "object_2");
+  EXPECT_EQ(drawn_yaw_rad(3, "object yaw"),
+            Rng::stream(3, "object yaw").uniform(0.0, 2.0 * std::numbers::pi));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <string>
@@ -10,8 +11,13 @@
 #include <vector>
 
 #include "tests/support/overrides.hpp"
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
+#include "vantage/runtime/episode_loop.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/episode.hpp"
+#include "vantage/tasks/object_flight/object_flight_evaluator.hpp"
+#include "vantage/tasks/object_flight/object_flight_run.hpp"
 #include "vantage/tasks/object_flight/simulated_orbit_robot.hpp"
 #include "vantage/tasks/recognition/recognition_ground_truth.hpp"
 
@@ -206,6 +212,109 @@ TEST(OrbitRobotInterface, TellsHowItSeesAnObjectFarFromTheMiddleOfTheTable) {
     const double seen_rad = robot.ground_truth().object_angle_rad;
     EXPECT_NEAR(wrap_angle(seen_rad - (object.yaw_rad - robot.bearing_rad)), 0.0, 0.02) << p_m;
   }
+}
+
+/// It flies round where it is told that the object stands; the truth is where it stands.
+TEST(OrbitRobotInterface, FliesRoundThePlaceThatItIsTold) {
+  const ResolvedEpisode resolved = episode();
+  const RecognitionTask task = task_of(resolved);
+  ObjectOnTable object = object_of(resolved);
+  object.told_m = {0.3, 0.0};
+  object.offset_m = {0.0, 0.2};
+  const OrbitingRobot robot(resolved, object);
+  EXPECT_EQ(robot.start_bearing_rad(), Rng::stream(resolved.setup.options.seed, "start bearing")
+                                           .uniform(0.0, 2.0 * std::numbers::pi));
+  const Eigen::Vector3d told_m = task.p_world_table_m() + Eigen::Vector3d(0.3, 0.0, 0.0);
+  const Eigen::Vector3d camera_m =
+      task.orbit_round(told_m).place(robot.start_bearing_rad()).translation();
+  const OrbitGroundTruth truth = robot.ground_truth();
+  EXPECT_NEAR(truth.position_error_m, 0.0, 1e-3);
+  const Eigen::Vector3d from_m = camera_m - task.p_world_table_m();
+  const double seen_rad = object.yaw_rad - std::atan2(from_m.y() - 0.2, from_m.x());
+  EXPECT_NEAR(wrap_angle(truth.object_angle_rad - seen_rad), 0.0, 1e-2);
+  EXPECT_GE(truth.object_angle_rad, 0.0);
+  EXPECT_LT(truth.object_angle_rad, 2.0 * std::numbers::pi);
+}
+
+TEST(OrbitRobotInterface, SeesAnObjectThatWasMovedFromWhereItIsNow) {
+  const ResolvedEpisode resolved = episode();
+  OrbitingRobot robot(resolved);
+  World& world = robot.quadrotor().world();
+  const int body = model_id(world.model(), ModelObject::body, "object");
+  const ObjectOnTable object = object_of(resolved);
+  const Eigen::Vector3d there_m =
+      task_of(resolved).p_world_table_m() +
+      Eigen::Vector3d(object.offset_m.x() + 0.25, object.offset_m.y(), 0.0);
+  world.put_fixed_body(body, there_m);
+  const Eigen::Vector3d camera_m = robot.orbit.place(robot.bearing_rad).translation();
+  const double seen_rad =
+      object.yaw_rad - std::atan2(camera_m.y() - there_m.y(), camera_m.x() - there_m.x());
+  EXPECT_NEAR(wrap_angle(robot.ground_truth().object_angle_rad - seen_rad), 0.0, 1e-2);
+}
+
+TEST(OrbitRobotInterface, AFlightIntoTheTableHasFailed) {
+  const ResolvedEpisode resolved = episode();
+  OrbitingRobot robot(resolved);
+  const std::vector<Pose> into_it{
+      make_pose(task_of(resolved).p_world_table_m() - Eigen::Vector3d(0.0, 0.0, 0.3), 0.0)};
+  try {
+    robot.fly_along(into_it);
+    FAIL() << "it flew on";
+  } catch (const EpisodeFailed& error) {
+    EXPECT_NE(std::string(error.what()).find("touched"), std::string::npos) << error.what();
+  }
+  EXPECT_GE(robot.ground_truth().collisions, 1);
+  const ObjectFlightEvaluator evaluator(robot, {});
+  ObservationRecord record;
+  const ObjectStates states{.objects = {"a_1"}, .categories = {"a"}, .category_of = {0}, .bins = 4};
+  evaluator.measure(states, 0, 0, 0, record);
+  EXPECT_EQ(record.collisions, robot.ground_truth().collisions);
+  EXPECT_EQ(record.position_error_m, robot.ground_truth().position_error_m);
+  EXPECT_EQ(record.angle_error_rad, robot.ground_truth().angle_error_rad);
+  EXPECT_GT(record.position_error_m, 0.05) << "from where it was to fly";
+}
+
+TEST(OrbitRobotInterface, PlansAreAsLongAsTheirWaypointsAreApart) {
+  const ResolvedEpisode resolved = episode();
+  OrbitingRobot robot(resolved);
+  const FlightPlan plan = robot.plan(robot.way_to(robot.bearing_rad + 1.0));
+  ASSERT_EQ(plan.waypoints.size(), 5U);
+  double path_m = 0.0;
+  Eigen::Vector3d at_m = robot.quadrotor().true_body().translation();
+  for (const FlightWaypoint& waypoint : plan.waypoints) {
+    path_m += (waypoint.p_world_m - at_m).norm();
+    at_m = waypoint.p_world_m;
+  }
+  EXPECT_NEAR(plan.path_m, path_m, 1e-3);
+  const FlightPlan farther = robot.plan(robot.way_to(robot.bearing_rad + 2.0));
+  EXPECT_NEAR(farther.energy_j / farther.duration_s, plan.energy_j / plan.duration_s, 1e-9);
+  EXPECT_GT(farther.duration_s, plan.duration_s);
+}
+
+TEST(OrbitRobotInterface, NeedsASceneWithAnObject) {
+  const ResolvedEpisode resolved = episode();
+  const support::TemporaryDirectory folder;
+  write_file(folder / "bare.xml",
+             "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
+  ModelSource source = model_source(resolved);
+  source.scene = folder / "bare.xml";
+  source.files.clear();
+  const ObjectOnTable object = object_of(resolved);
+  EXPECT_THROW(SimulatedOrbitRobot(resolved.setup, source, task_of(resolved), {&object, 1}),
+               InputError);
+}
+
+/// The estimate has errors of its own.
+TEST(OrbitRobotInterface, IsRecordedWhereItIsAndWhereItBelievesToBe) {
+  const ResolvedEpisode resolved = episode();
+  OrbitingRobot robot(resolved);
+  robot.observe();
+  const RecordedRobot kept = recorded(robot);
+  EXPECT_EQ(&kept.world, &robot.quadrotor().world());
+  EXPECT_TRUE(kept.T_world_body().isApprox(robot.quadrotor().true_body(), 0.0));
+  EXPECT_TRUE(kept.T_world_estimated().isApprox(robot.estimated_body(), 0.0));
+  EXPECT_FALSE(kept.T_world_body().isApprox(kept.T_world_estimated(), 1e-9));
+  EXPECT_EQ(kept.faults, &robot.quadrotor().faults());
 }
 
 }  // namespace

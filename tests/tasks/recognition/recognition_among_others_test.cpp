@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 
 #include "tests/support/overrides.hpp"
@@ -11,6 +12,9 @@
 #include "tests/tasks/small_recognition.hpp"
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/perception/clutter/object_among_others.hpp"
+#include "vantage/perception/search/object_search.hpp"
+#include "vantage/perception/table_extraction.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/runtime/log/event_log.hpp"
@@ -273,6 +277,33 @@ TEST_F(RecognitionAmongOthers, FliesOnToTheNearestOfItsTargets) {
   const std::vector<BearingOption> options = parts.propose();
   ASSERT_FALSE(options.empty());
   for (const BearingOption& option : options) EXPECT_EQ(option.target, 1U) << option.id;
+}
+
+/// The cells over what was seen of it from above, as high as it is, keep on being its own.
+TEST_F(RecognitionAmongOthers, AViewShowsWhichCellsAreItsTargets) {
+  FlightRoundABox flight(folder_->path());
+  const FlightObservation observation = flight.parts.observe();
+  flight.parts.update(observation);
+  flight.parts.record();
+  const Eigen::Vector3d box_m = flight.task.p_world_table_m();
+  Rng rng = Rng::stream(flight.resolved.setup.options.seed, "segmentation");
+  const double distance_m = (observation.T_world_camera.translation() - box_m).norm();
+  const ObjectAmongOthers found = find_among_others(
+      observation.images, observation.T_world_camera, box_m,
+      cut_at({.cut = flight.task.segmentation}, distance_m), flight.task.separation, {}, rng);
+  ASSERT_TRUE(found.object.view);
+  const TourTarget& target = flight.parts.tour().current();
+  EXPECT_EQ(target.outline, convex_hull(found.outline));
+  const TableMap unseen(box_m, flight.task.map);
+  EXPECT_EQ(target.own_cells, unseen.cells_over(target.outline, found.shape->height_m));
+  EXPECT_GT(std::ranges::count(target.own_cells, 1), 0);
+  const ObservationRecord& record = flight.parts.records().back();
+  EXPECT_EQ(record.seen_share, found.seen_share);
+  int pixels = 0;
+  for (const std::uint8_t value : found.object.view->mask) pixels += value != 0 ? 1 : 0;
+  EXPECT_EQ(record.object_px, pixels);
+  EXPECT_EQ(record.not_segmented, "");
+  EXPECT_FALSE(record.report.features.empty());
 }
 
 }  // namespace

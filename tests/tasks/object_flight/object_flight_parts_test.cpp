@@ -1,0 +1,389 @@
+// The parts of a flight round objects: where it looks from, what it keeps of each view, and what
+// its metrics say of that.
+#include "vantage/tasks/object_flight/object_flight_parts.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/tasks/object_flight/scripted_flight.hpp"
+#include "vantage/tasks/object_flight/object_flight_metrics.hpp"
+
+namespace vantage {
+namespace {
+
+using support::ScriptedFlight;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kRightAngle_rad = std::numbers::pi / 2.0;
+
+void expect_same_places(const std::vector<Pose>& found, const std::vector<Pose>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_TRUE(found[i].isApprox(expected[i], 1e-9)) << i;
+  }
+}
+
+/// By angles that may be whole turns apart.
+void expect_same_turn(double found_rad, double expected_rad) {
+  EXPECT_NEAR(std::remainder(found_rad - expected_rad, 4.0 * kRightAngle_rad), 0.0, 1e-9);
+}
+
+TEST_F(ScriptedFlight, BeginsWhereItsBearingsCountFrom) {
+  ObjectFlightParts parts(context(), goal(1), what_is_it(), 2.0);
+  robot_.flight.duration_s = 1.25;
+  look(parts);
+  expect_same_places(robot_.flown, orbit_arc(task_.orbit(), 0.5, 2.0, task_.arc_rad));
+  const ObservationRecord& first = parts.records().front();
+  ASSERT_TRUE(first.flight);
+  EXPECT_EQ(first.flight->duration_s, 1.25);
+  EXPECT_EQ(first.report.view_rad, 2.0);
+  parts.observe();
+  EXPECT_EQ(robot_.flights, 1) << "it is there";
+  ObjectFlightParts at_start(context(), goal(1), what_is_it(), 0.5);
+  look(at_start);
+  EXPECT_EQ(robot_.flights, 1) << "where it began";
+  EXPECT_FALSE(at_start.records().front().flight);
+}
+
+TEST_F(ScriptedFlight, OffersAllBearingsButTheOneItIsAt) {
+  ObjectFlightParts parts(context(), goal(1), what_is_it(), 2.0);
+  look(parts);
+  const std::vector<BearingOption> options = offered(parts);
+  ASSERT_EQ(options.size(), 3U);
+  for (int id = 1; id < 4; ++id) {
+    const BearingOption& option = options[static_cast<std::size_t>(id - 1)];
+    EXPECT_EQ(option.id, id);
+    EXPECT_NEAR(option.bearing_rad, wrap_turn(2.0 + kRightAngle_rad * id), 1e-12);
+    expect_same_turn(option.action.yaw_rad, kRightAngle_rad * id);
+    EXPECT_LE(std::abs(option.action.yaw_rad), std::numbers::pi + 1e-12);
+    EXPECT_EQ(option.action.time_s, 2.0) << "and half a second of rest";
+    EXPECT_EQ(option.action.path_m, 2.5);
+    EXPECT_EQ(option.action.energy_j, 3.5);
+    EXPECT_EQ(option.action.visible, 1.0);
+    EXPECT_FALSE(option.action.visited);
+    EXPECT_EQ(option.target, 0U);
+    expect_same_places(option.T_world_way,
+                       orbit_arc(task_.orbit(), 2.0, option.bearing_rad, task_.arc_rad));
+  }
+}
+
+/// P(u) is 1/2: the bowl's other yaw bins have 0.45 of it, the mug's 0.05.
+TEST_F(ScriptedFlight, RecordsWhatIsBelievedAndTurnsIt) {
+  ObjectFlightParts parts(context(), goal(1), is_it_that_bowl(), 0.5);
+  look(parts);
+  const ObservationRecord first = parts.records().back();
+  EXPECT_EQ(first.time_s, 2.0);
+  EXPECT_EQ(first.bearing_id, 0);
+  EXPECT_EQ(first.estimate, "bowl_2");
+  EXPECT_EQ(first.category, "bowl");
+  EXPECT_NEAR(first.map_probability, 0.95, 1e-9);
+  EXPECT_EQ(first.unknown_probability, 0.0);
+  EXPECT_NEAR(first.report.entropy_bits, 0.5 - 0.45 * std::log2(0.15) - 0.05 * std::log2(0.0125),
+              1e-9);
+  ASSERT_TRUE(first.change);
+  EXPECT_EQ(first.change->verdict, Change::removed) << "nothing was seen";
+  EXPECT_EQ(first.change->probability, 1.0);
+  EXPECT_THAT(first.not_segmented, HasSubstr("no table"));
+  EXPECT_EQ(first.object_px, 0);
+  EXPECT_TRUE(first.T_world_camera.isApprox(robot_.T_world_camera));
+  EXPECT_EQ(first.estimated_bin, 2);
+  EXPECT_EQ(first.bin_error, 0);
+  EXPECT_NEAR(first.true_yaw_rad, std::numbers::pi, 1e-3);
+
+  std::vector<BearingOption> options = offered(parts);
+  options[0].action.visible = 0.75;
+  robot_.now_s = 4.5;
+  robot_.flight = {FlightStatus::timeout, 1.25, 1.5, 0.125, 0.25, 40.0};
+  parts.act(options[0]);
+  expect_same_places(robot_.flown, options[0].T_world_way);
+  look(parts);
+  const ObservationRecord& second = parts.records().back();
+  EXPECT_EQ(second.time_s, 4.5);
+  EXPECT_EQ(second.bearing_id, 1);
+  EXPECT_EQ(second.report.view_rad, options[0].bearing_rad);
+  EXPECT_EQ(second.expected_visible, 0.75);
+  ASSERT_TRUE(second.flight);
+  EXPECT_EQ(second.flight->status, FlightStatus::timeout);
+  EXPECT_EQ(second.flight->energy_J, 40.0);
+  EXPECT_EQ(second.estimated_bin, 1) << "it is seen turned against the flight";
+  EXPECT_EQ(second.bin_error, 1) << "what truly happened has not moved";
+}
+
+/// 2 s have passed; it takes 2 s to any place and to rest there.
+TEST_F(ScriptedFlight, TakesViewsUpToTheLimit) {
+  FlightGoal limited = goal(1);
+  limited.time_limit_s = 4.0;
+  ObjectFlightParts in_time(context(), limited, what_is_it(), 0.5);
+  look(in_time);
+  EXPECT_EQ(offered(in_time).size(), 3U);
+  limited.time_limit_s = 3.9;
+  ObjectFlightParts too_late(context(), limited, what_is_it(), 0.5);
+  look(too_late);
+  EXPECT_THAT(too_late.finished(), HasSubstr("time_limit_s = 3.9"));
+  EXPECT_TRUE(too_late.propose().empty());
+}
+
+/// The nearest view of each counts, however far off its others are.
+TEST_F(ScriptedFlight, GoesOnToTheTargetThatIsReachedSoonest) {
+  task_.decision.max_views = 1;
+  const FlightGoal three = goal(3);
+  ObjectFlightParts parts(context(), three, what_is_it(), 0.5);
+  look(parts);
+  const double radius_m = task_.orbit().radius_m;
+  const auto targets_of = [&](double second_s, double third_s) {
+    robot_.duration_s = [=](const Pose& place) {
+      const Eigen::Vector2d from_m = (place.translation() - three.p_world_m[1]).head<2>();
+      const bool second = std::abs(from_m.norm() - radius_m) < 1e-6;
+      const double x_m = second ? from_m.x() : from_m.x() - 0.3;
+      const double farther_m = x_m + radius_m * std::cos(0.5);
+      return second ? second_s + 4.0 * farther_m : third_s + farther_m;
+    };
+    std::vector<std::size_t> targets;
+    for (const BearingOption& option : offered(parts)) targets.push_back(option.target);
+    return targets;
+  };
+  EXPECT_THAT(targets_of(3.0, 2.0), ElementsAre(2U, 2U, 2U, 2U));
+  EXPECT_THAT(targets_of(2.0, 3.0), ElementsAre(1U, 1U, 1U, 1U));
+}
+
+TEST_F(ScriptedFlight, AllTargetsCompeteAtOnceEachByItsOwnLastView) {
+  FlightGoal both = goal(2);
+  both.all_at_once = true;
+  ObjectFlightParts parts(context(), both, what_is_it(), 0.5);
+  look(parts);
+  const std::vector<BearingOption> first = offered(parts);
+  std::vector<std::size_t> targets;
+  for (const BearingOption& option : first) targets.push_back(option.target);
+  ASSERT_THAT(targets, ElementsAre(0U, 0U, 0U, 1U, 1U, 1U, 1U));
+  expect_same_turn(first[4].action.yaw_rad, kRightAngle_rad);
+  EXPECT_FALSE(first[3].action.visited) << "from there the other one was looked at";
+  parts.act(first[4]);
+  look(parts);
+  EXPECT_EQ(parts.records().back().target, 1U);
+  EXPECT_EQ(parts.tour().current_id(), 1U);
+  EXPECT_THAT(parts.tour().targets()[1].bearing_ids, ElementsAre(1));
+  EXPECT_EQ(parts.tour().targets()[1].bearing_rad, first[4].bearing_rad);
+  EXPECT_EQ(last_view_of(parts, 0), &parts.records()[0]);
+  EXPECT_EQ(last_view_of(parts, 1), &parts.records()[1]);
+  EXPECT_EQ(last_view_of(parts, 2), nullptr);
+
+  const std::vector<BearingOption> second = offered(parts);
+  ASSERT_EQ(second.size(), 7U);
+  EXPECT_EQ(second[0].id, 0);
+  EXPECT_TRUE(second[0].action.visited);
+  EXPECT_FALSE(second[1].action.visited);
+  expect_same_turn(second[0].action.yaw_rad, 0.0);
+  expect_same_turn(second[5].action.yaw_rad, kRightAngle_rad);
+  expect_same_places(second[0].T_world_way,
+                     orbit_way(task_.orbit_round(both.p_world_m[1]), first[4].bearing_rad,
+                               task_.orbit(), 0.5, task_.arc_rad));
+}
+
+/// Nothing of the table was seen yet, and nothing within 2 m of it is flown through.
+TEST_F(ScriptedFlight, TriesLongAndHighWaysBeforeItGivesAPlaceUp) {
+  FlightGoal among = goal(1);
+  among.among_others.emplace();
+  among.among_others->map.clearance_m = 2.0;
+  ObjectFlightParts parts(context(), among, what_is_it(), 0.5);
+  EXPECT_EQ(parts.finished(), "no view is reached clear of obstacles");
+  const std::vector<OrbitWay> ways{{}, {true, 0.0}, {false, 0.35}, {true, 0.35}, {false, 0.7}};
+  ASSERT_GE(robot_.planned.size(), 20U);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double to_rad = 0.5 + kRightAngle_rad * static_cast<double>(i / 5);
+    expect_same_places(robot_.planned[i], orbit_way(task_.orbit(), 0.5, task_.orbit(), to_rad,
+                                                    task_.arc_rad, ways[i % 5]));
+  }
+}
+
+TEST_F(ScriptedFlight, TakesTheFirstWayThatIsClearFromTheRobotOn) {
+  FlightGoal among = goal(1);
+  among.among_others.emplace();
+  robot_.beside_m = {0.0, 0.0, 50.0};
+  ObjectFlightParts parts(context(), among, what_is_it(), 0.5);
+  const std::vector<BearingOption> options = offered(parts);
+  ASSERT_EQ(options.size(), 4U);
+  EXPECT_EQ(robot_.planned.size(), 4U);
+  const TableMap unseen(task_.p_world_table_m(), among.among_others->map);
+  const UprightCylinder usual{task_.p_world_table_m(), 0.05, 0.14};
+  for (const BearingOption& option : options) {
+    const Eigen::Vector3d eye_m = task_.orbit().place(option.bearing_rad).translation();
+    EXPECT_DOUBLE_EQ(option.action.visible, unseen.visible_share(usual, {}, eye_m));
+    EXPECT_LT(option.action.visible, 1.0);
+  }
+  robot_.T_world_body.translation() = task_.p_world_table_m() + Eigen::Vector3d(0.0, 0.0, 0.2);
+  EXPECT_EQ(parts.finished(), "no view is reached clear of obstacles");
+}
+
+TEST_F(ScriptedFlight, ShowsWhatItChoosesAmongAndTheWayThere) {
+  task_.decision.views.choice = MutualInformation{};
+  FlightGoal both = goal(2);
+  both.all_at_once = true;
+  ObjectFlightParts parts(context(), both, what_is_it(), 0.5);
+  robot_.beside_m = {0.0, 0.0, 0.25};
+  look(parts);
+  std::vector<BearingOption> options = offered(parts);
+  parts.score(options);
+  told_.clear();
+  const std::size_t chosen = parts.choose(options);
+  ASSERT_EQ(told_.size(), 2U);
+  const auto& decision = std::get<Decision>(told_[0].what);
+  EXPECT_EQ(decision.chosen, chosen);
+  ASSERT_EQ(decision.candidates.size(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const Orbit orbit = task_.orbit_round(both.p_world_m[options[i].target]);
+    EXPECT_EQ(decision.candidates[i].id, static_cast<int>(i));
+    EXPECT_TRUE(decision.candidates[i].T_world_sensor.isApprox(orbit.place(options[i].bearing_rad)))
+        << i;
+    EXPECT_GT(decision.candidates[i].gain_bits, 0.5) << "a mug or a bowl: nearly 1 bit";
+  }
+  const auto& way = std::get<PlannedFlight>(told_[1].what);
+  const std::vector<Pose>& places = options[chosen].T_world_way;
+  ASSERT_EQ(way.path_m.size(), places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_TRUE(way.path_m[i].isApprox(places[i].translation() + robot_.beside_m)) << i;
+  }
+  parts.act(options[chosen]);
+  look(parts);
+  EXPECT_EQ(parts.records()[0].gain_bits, 0.0);
+  EXPECT_EQ(parts.records()[1].gain_bits, decision.candidates[chosen].gain_bits);
+}
+
+TEST_F(ScriptedFlight, ItsPlacesAreRoundEachTarget) {
+  const FlightGoal both = goal(2);
+  const ObjectFlightParts parts(context(), both, what_is_it(), 2.0);
+  const std::vector<Candidate> places = parts.places();
+  ASSERT_EQ(places.size(), 8U);
+  for (int i = 0; i < 8; ++i) {
+    const Candidate& place = places[static_cast<std::size_t>(i)];
+    EXPECT_EQ(place.id, i);
+    const Orbit orbit = task_.orbit_round(both.p_world_m[i < 4 ? 0 : 1]);
+    EXPECT_TRUE(place.T_world_sensor.isApprox(orbit.place(2.0 + kRightAngle_rad * (i % 4)))) << i;
+  }
+}
+
+/// The camera is 1 m from what is looked at first, above the middle of the table by 7 cm.
+TEST_F(ScriptedFlight, AViewIsHeldAgainstTheTruthOfItsTarget) {
+  const RecognitionTask& task = std::get<RecognitionTask>(episode_->task);
+  const Eigen::Vector3d p_camera_m = task.orbit().place(truth_->start_bearing_rad()).translation();
+  const ObjectStates& states = recogniser_.states;
+  ObservationRecord record;
+  record.position_error_m = record.angle_error_rad = 9.0;
+  record.collisions = 9;
+  evaluator_.measure(states, 0, states.state(1, 0), 0, record);
+  EXPECT_NEAR(record.position_error_m, 0.0, 1e-3);
+  EXPECT_NEAR(record.angle_error_rad, 0.0, 1e-3);
+  EXPECT_EQ(record.collisions, 0);
+  EXPECT_NEAR(record.true_yaw_rad, std::numbers::pi, 1e-3);
+  EXPECT_EQ(record.bin_error, 2);
+  evaluator_.measure(states, 1, states.state(1, 3), 0, record);
+  EXPECT_EQ(record.bin_error, 1);
+  evaluator_.measure(states, 1, states.state(1, 3), 1, record);
+  const Eigen::Vector3d from_m = p_camera_m - task.p_world_table_m();
+  EXPECT_NEAR(record.true_yaw_rad,
+              wrap_turn(objects_[1].yaw_rad - std::atan2(from_m.y() - 0.1, from_m.x() - 0.2)),
+              1e-3);
+}
+
+using FlightJson = nlohmann::ordered_json;
+
+TEST_F(ScriptedFlight, ItsMetricsHaveAllOfEachRecord) {
+  task_.segmentation.radius_m = 0.25;
+  task_.segmentation.max_height_m = 0.5;
+  ObjectFlightParts parts(context(), goal(1), is_it_that_bowl(), 0.5);
+  travel(0.0);
+  travel(3.0);
+  look(parts);
+  const std::vector<BearingOption> options = offered(parts);
+  robot_.flight = {FlightStatus::timeout, 1.25, 1.5, 0.125, 0.25, 40.0};
+  parts.act(options[0]);
+  travel(4.0);
+  look(parts);
+  FlightJson metrics;
+  add_observations(task_, parts, metrics);
+  ASSERT_EQ(metrics["observations"].size(), 2U);
+  EXPECT_FALSE(metrics["observations"][0].contains("flight"));
+  const FlightJson& view = metrics["observations"][1];
+  const ObservationRecord& record = parts.records()[1];
+  EXPECT_EQ(view["view_rad"], options[0].bearing_rad);
+  EXPECT_EQ(view["time_s"], 2.0);
+  EXPECT_EQ(view["chosen_view"], 1);
+  EXPECT_EQ(view["target"], 1) << "the first";
+  EXPECT_EQ(view["entropy_bits"], record.report.entropy_bits);
+  EXPECT_EQ(view["estimate"], "bowl_2");
+  EXPECT_EQ(view["map_probability"], record.map_probability);
+  EXPECT_EQ(view["unknown_probability"], 0.0);
+  EXPECT_EQ(view["object_px"], 0);
+  EXPECT_EQ(view["expected_visible"], 1.0);
+  EXPECT_EQ(view["seen_share"], 1.0);
+  EXPECT_EQ(view["not_segmented"], record.not_segmented);
+  EXPECT_EQ(view["true_yaw_rad"], record.true_yaw_rad);
+  EXPECT_EQ(view["position_error_m"], record.position_error_m);
+  EXPECT_EQ(view["angle_error_rad"], record.angle_error_rad);
+  EXPECT_EQ(view["estimated_bin"], 1);
+  EXPECT_EQ(view["bin_error"], 1);
+  EXPECT_EQ(view["bins"], 4);
+  EXPECT_EQ(view["path_length_m"], 7.0);
+  EXPECT_EQ(view["leg_length_m"], 4.0);
+  EXPECT_EQ(view["change_probability"], 1.0);
+  EXPECT_EQ(view["decision"], "removed");
+  ASSERT_EQ(view["skipped"].size(), 1U);
+  EXPECT_EQ(view["skipped"][0]["feature"], "colour");
+  EXPECT_EQ(view["skipped"][0]["reason"], record.not_segmented);
+  EXPECT_EQ(view["flight"]["status"], std::string(to_string(FlightStatus::timeout)));
+  EXPECT_EQ(view["flight"]["duration_s"], 1.25);
+  EXPECT_EQ(view["flight"]["leg_length_m"], 1.5);
+  EXPECT_EQ(view["flight"]["rms_error_m"], 0.125);
+  EXPECT_EQ(view["flight"]["greatest_error_m"], 0.25);
+  EXPECT_EQ(view["flight"]["energy_j"], 40.0);
+  const Eigen::Vector3d ahead = robot_.T_world_camera.linear().col(2);  // its optical axis
+  EXPECT_EQ(view["view"]["z_m"], 3.0);
+  expect_same_turn(view["view"]["yaw_rad"], std::atan2(ahead.y(), ahead.x()));
+  EXPECT_EQ(metrics["candidates"].size(), 4U);
+  const FlightJson column = {{"min_m", {-0.25, -0.25, 0.72}}, {"max_m", {0.25, 0.25, 1.22}}};
+  for (const char* corner : {"min_m", "max_m"}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(metrics["region"][corner][i].get<double>(), column[corner][i].get<double>(),
+                  1e-12);
+    }
+  }
+}
+
+TEST_F(ScriptedFlight, ItsMetricsEndWithTheLastEstimateOrNone) {
+  ObjectFlightParts parts(context(), goal(1), is_it_that_bowl(), 0.5);
+  const ObjectOnTable mug{.object = "mug_1", .category = "mug", .yaw_rad = 1.5};
+  FlightJson before;
+  add_estimate(mug, parts, before);
+  EXPECT_EQ(before["truth"], "mug_1");
+  EXPECT_EQ(before["true_yaw_rad"], 1.5);
+  for (const char* key :
+       {"estimate", "estimated_category", "map_probability", "unknown_probability", "bin_error"}) {
+    EXPECT_TRUE(before.at(key).is_null()) << key;
+  }
+  EXPECT_NEAR(before["entropy_bits"].get<double>(),
+              0.5 - 0.45 * std::log2(0.15) - 0.05 * std::log2(0.0125), 1e-9);
+  look(parts);
+  parts.act(offered(parts)[0]);
+  look(parts);
+  FlightJson after;
+  add_estimate(mug, parts, after);
+  EXPECT_EQ(after["estimate"], "bowl_2");
+  EXPECT_EQ(after["estimated_category"], "bowl");
+  EXPECT_NEAR(after["map_probability"].get<double>(), 0.95, 1e-9);
+  EXPECT_EQ(after["unknown_probability"], 0.0);
+  EXPECT_EQ(after["bin_error"], 1);
+  EXPECT_EQ(after["entropy_bits"], parts.records().back().report.entropy_bits);
+  FlightJson of_nothing;
+  add_estimate({}, parts, of_nothing);
+  for (const char* key : {"truth", "true_yaw_rad", "bin_error"}) {
+    EXPECT_TRUE(of_nothing.at(key).is_null()) << key;
+  }
+}
+
+}  // namespace
+}  // namespace vantage
