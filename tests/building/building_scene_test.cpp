@@ -335,5 +335,24 @@ TEST(BuildingScene, CellsEndWithinACellOfItsHeights) {
   EXPECT_NEAR(highest_m, 3.05, 1e-9);
 }
 
+TEST(BuildingScene, BoxesOfCellsHaveTheColourOfTheFloorOrOfWalls) {
+  test::DrawnBuilding room;
+  room.face({{-3, -2, 0}, {3, -2, 0}, {3, 2, 0}, {-3, 2, 0}});
+  room.face({{-3, 2, 0}, {-3, 2, 2.5}, {-3, -2, 2.5}, {-3, -2, 0}});
+  room.face({{3, -2, 0}, {3, -2, 2.5}, {3, 2, 2.5}, {3, 2, 0}});
+  int floors = 0;
+  int walls = 0;
+  for (const BoxShape& shape : scene_of(room).cell_boxes) {
+    const double top_m = shape.box.T_mesh_box.translation().z() + shape.box.half_m.z();
+    const bool floor = top_m < 0.01;
+    const Eigen::Vector3f expected =
+        floor ? Eigen::Vector3f(0.55F, 0.53F, 0.50F) : Eigen::Vector3f(0.86F, 0.85F, 0.82F);
+    EXPECT_LT((shape.colour - expected).norm(), 1e-5F) << top_m;
+    ++(floor ? floors : walls);
+  }
+  EXPECT_GT(floors, 0);
+  EXPECT_GT(walls, 0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -195,5 +195,20 @@ TEST(UpAxis, IsYInGltfAlone) {
   EXPECT_EQ(usual_up_axis("a"), UpAxis::z);
 }
 
+/// Turned left by a quarter about y, which points up, and there moved by 1 along its own x.
+TEST_F(MeshFile, NodesStandInTheFrameOfTheirParents) {
+  std::string gltf = kGltf;
+  const std::string node = R"({"mesh":0,"translation":[0,5,0]})";
+  gltf.replace(gltf.find(node), node.size(),
+               R"({"children":[1],"rotation":[0,0.70710678,0,0.70710678]},)"
+               R"({"mesh":0,"translation":[1,0,0]})");
+  const BuildingMesh mesh = read("m.gltf", gltf, {.scale = 2.0, .up = UpAxis::y});
+  ASSERT_EQ(mesh.triangles.size(), 1U);
+  const Eigen::AlignedBox3d extent_m = extent_of(mesh);
+  EXPECT_LT((extent_m.min() - Eigen::Vector3d(-4, 2, 0)).norm(), 1e-5);
+  EXPECT_LT((extent_m.max() - Eigen::Vector3d(0, 4, 0)).norm(), 1e-5);
+  EXPECT_NEAR(mesh.normal(mesh.triangles[0]).z(), 8.0, 1e-4);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "tests/building/made_mesh.hpp"
 #include "vantage/building/building_scene.hpp"
@@ -137,6 +138,25 @@ TEST(SceneParts, HaveTheColourOfTheFloorUpToACentimetre) {
   expect_colour(scene.boxes[1], {0.55F, 0.53F, 0.50F});
   expect_colour(scene.boxes[2], {0.55F, 0.58F, 0.45F});
   expect_colour(scene.boxes[3], {0.72F, 0.62F, 0.50F});
+}
+
+TEST(SceneParts, RefusalsSayTheNumbersThatMatter) {
+  MadeMesh made;
+  made.box({0, 0, 1.4}, {8, 6, 1.5});
+  made.box({1, 1, 1.5}, {2, 2, 2.5});
+  const auto refusal = [&](const BuildingOptions& options) -> std::string {
+    try {
+      scene_made_of(made, options);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(refusal({}), "no error");
+  EXPECT_EQ(refusal({.max_geoms = 1}),
+            "--max-geoms 1: made would need 2, most of them parts of the mesh as it has them");
+  EXPECT_EQ(refusal({.floor_m = 100.0}),
+            "made: nothing stands on the floor at 100 m (--floor), below 3 m (--height)");
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 #include "vantage/dataset/view_files.hpp"
 #include "vantage/models/catalogue/shapes/texture.hpp"
 
@@ -60,6 +63,30 @@ TEST(ContactSheet, HasTwentyCellsInARowUnlessToldOtherwise) {
   const Image sheet = read_png(folder / "sheet.png");
   EXPECT_EQ(sheet.width_px, 20 * 10);
   EXPECT_EQ(sheet.height_px, 2 * (10 + 12));
+}
+
+TEST(ContactSheet, NamesEachObjectBelowItsPicture) {
+  const support::TemporaryDirectory folder;
+  ObjectView wide = plain(90);
+  std::swap(wide.width_px, wide.height_px);
+  const ViewEntry entry{{"cup", "cup_1", 2, 1}, folder.path(), 0.0};
+  write_view(wide, entry);
+  DatasetIndex index;
+  index.views.push_back(entry);
+  ContactSheetOptions options;
+  options.cell_px = 40;
+  write_contact_sheet(index, options, folder / "sheet.png");
+  const Image sheet = read_png(folder / "sheet.png");
+  EXPECT_EQ(sheet.width_px, 40) << "of one object there is one column";
+  EXPECT_EQ(sheet.height_px, 52);
+  EXPECT_NEAR(sheet.at(39, 19).x() * 255.0, 90.0, 1.0) << "as wide as the cell";
+  EXPECT_EQ(sheet.at(20, 25), RgbColour::Ones()) << "below a low image";
+  double darkest = 1.0;
+  for (int y = 40; y < 52; ++y) {
+    for (int x = 0; x < 40; ++x) darkest = std::min(darkest, double{sheet.at(x, y).x()});
+  }
+  EXPECT_LT(darkest, 0.8) << "its name";
+  EXPECT_THROW(write_contact_sheet(index, options, folder / "sheet.jpg"), ConfigError);
 }
 
 }  // namespace

@@ -85,5 +85,30 @@ TEST_F(Scans, AFolderWithoutOneIsNamedWithWhatIsLookedFor) {
                                  testing::HasSubstr("{model.obj, texture.png}"))));
 }
 
+TEST(ObjectSource, MakesTheObjectOfItsSeed) {
+  const DatasetOptions options{.seed = 2, .objects = 3};
+  const DatabaseObject wanted = object_database(2)[2];
+  const ObjectName name = object_names(options).back();
+  EXPECT_EQ(name.object, wanted.name);
+  EXPECT_EQ(name.family, wanted.family);
+  const GeneratedObject made = generate(wanted);
+  const TurntableObject object = make_turntable_object(options, name);
+  EXPECT_TRUE(object.obj == to_obj(made.mesh));
+  EXPECT_TRUE(object.png == png_bytes(made.texture));
+  EXPECT_EQ(object.specular, made.specular);
+  EXPECT_TRUE(object.box_m.isApprox(bounds(made.mesh)));
+}
+
+TEST_F(Scans, AreTakenAsTheyAre) {
+  const ObjectName name = object_names(options_)[1];
+  EXPECT_EQ(name.family, "toy_2") << "it has no near-duplicates";
+  const TurntableObject object = make_turntable_object(options_, name);
+  EXPECT_EQ(object.obj, read_file(root_.path() / "toy_2" / "model.obj"));
+  EXPECT_TRUE(object.png == read_file(root_.path() / "toy_2" / "texture.png"));
+  options_.objects = 1;
+  ASSERT_EQ(object_names(options_).size(), 1U);
+  EXPECT_EQ(object_names(options_)[0].object, "duck_1");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,13 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <numbers>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/dataset/turntable.hpp"
 #include "vantage/perception/dataset_reader.hpp"
 
 namespace vantage {
@@ -246,6 +252,92 @@ TEST(RenderDataset, TellsHowFarItIs) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(renders(), testing::ExitedWithCode(0), "rendering: 100 % mug_1\n");
   GTEST_FLAG_SET(death_test_style, "fast");
+}
+
+/// One view an object.
+DatasetOptions single_views(int objects) {
+  DatasetOptions options = few(objects);
+  options.step_deg = 360.0;
+  options.videos = {1};
+  return options;
+}
+
+TEST(RenderDataset, TellsOfEachObjectThatIsComplete) {
+  const support::TemporaryDirectory out;
+  std::vector<std::string> told;
+  const auto tell = [&](int objects, int of, const std::string& object) {
+    told.push_back(std::to_string(objects) + " of " + std::to_string(of) + ": " + object);
+  };
+  const auto render = [&] {
+    told.clear();
+    return render_dataset(single_views(2), {.root = out / "d", .tell = tell});
+  };
+  EXPECT_EQ(render().views, 2);
+  EXPECT_THAT(told, testing::ElementsAre("1 of 2: mug_1", "2 of 2: mug_2"));
+  fs::remove_all(out / "d/mug/mug_1");
+  const DatasetOutcome again = render();
+  EXPECT_EQ(again.objects, 2);
+  EXPECT_EQ(again.rendered, 1);
+  EXPECT_EQ(again.views, 1);
+  EXPECT_FALSE(again.stopped);
+  EXPECT_THAT(told, testing::ElementsAre("1 of 2: mug_2", "2 of 2: mug_1"))
+      << "what was there comes first";
+}
+
+/// A seed stands for the same recordings for ever.
+TEST(RenderDataset, ARecordingIsDrawnByItsSeedItsObjectAndItsVideo) {
+  const support::TemporaryDirectory out;
+  for (const int session : {1, 2}) {
+    DatasetOptions options = few(1);
+    options.seed = 3;
+    options.session = session;
+    options.videos = {2};
+    const fs::path root = out / std::to_string(session);
+    render_dataset(options, {.root = root});
+    const auto views = index_dataset(root).views;
+    ASSERT_EQ(views.size(), 3U);
+    Rng rng = Rng::stream(
+        3, views[0].name.object + (session == 1 ? std::string("/2") : std::string("/2/session 2")));
+    const Session drawn = draw_session(options, 0.25 * std::numbers::pi, rng);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(views[i].name.frame, static_cast<int>(i) + 1);
+      const double yaw_rad =
+          drawn.first_yaw_rad + static_cast<double>(i) * 2.0 * std::numbers::pi / 3.0;
+      EXPECT_NEAR(std::remainder(views[i].yaw_rad - yaw_rad, 2.0 * std::numbers::pi), 0.0, 1e-5);
+    }
+  }
+}
+
+TEST(RenderDataset, SaysWhyItReplacesNothing) {
+  const support::TemporaryDirectory out;
+  fs::create_directories(out / "d");
+  write_file(out / "d/dataset.yaml", "objects: 2\n");
+  const auto refusal = [&](const DatasetOptions& options, int jobs) {
+    try {
+      render_dataset(options, {.root = out / "d", .jobs = jobs});
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(refusal({.objects = 1}, 1), testing::HasSubstr("holds 2 objects, more than 1"));
+  EXPECT_THAT(refusal({.seed = 9, .objects = 2}, 1),
+              testing::HasSubstr("was rendered with other options, see dataset.yaml"));
+  EXPECT_THAT(refusal({.objects = 2}, 0), testing::HasSubstr("jobs 0: must be at least 1"));
+  EXPECT_EQ(read_file(out / "d/dataset.yaml"), "objects: 2\n");
+}
+
+TEST(RenderDataset, OfModelsThatHaveMovedNothingIsMissing) {
+  const support::TemporaryDirectory out;
+  fs::create_directories(out / "d");
+  fs::create_directories(out / "models/duck");
+  write_file(out / "models/duck/model.obj", "v 1 2 3\n");
+  write_file(out / "models/duck/texture.png", "is not read");
+  write_file(out / "d/dataset.yaml", "models: " + (out / "models").string() + "\n");
+  EXPECT_THAT(missing_objects(out / "d"), testing::ElementsAre("duck_1"));
+  fs::remove_all(out / "models");
+  EXPECT_THAT(missing_objects(out / "d"), testing::IsEmpty());
+  EXPECT_EQ(dataset_options_text(out / "none"), "");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdlib>
 #include <map>
 
 #include "tests/support/shell.hpp"
@@ -178,6 +179,21 @@ TEST_F(RenderPool, AProcessRendersOneObjectAfterTheOther) {
                                              (out_ / "starts").string(), VANTAGE_BINARY));
   EXPECT_EQ(render("d", 3, 1, counted).rendered, 3);
   EXPECT_EQ(read_file(out_ / "starts"), "x\n");
+}
+
+TEST(WorkerProcess, DrawsInOneThreadAndKnowsTheRestOfTheEnvironment) {
+  const char* set = std::getenv("LP_NUM_THREADS");
+  const std::string before = set != nullptr ? set : "";
+  ::setenv("LP_NUM_THREADS", "7", 1);
+  ::setenv("VANTAGE_TEST_TOLD", "yes", 1);
+  testing::internal::CaptureStderr();
+  WorkerProcess worker(script("echo $LP_NUM_THREADS $VANTAGE_TEST_TOLD; kill -TERM $$"));
+  const std::string end = worker.wait_for_end();
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "0 yes\n");
+  EXPECT_EQ(end, "signal 15 (Terminated)");
+  ::unsetenv("VANTAGE_TEST_TOLD");
+  if (set == nullptr) ::unsetenv("LP_NUM_THREADS");
+  if (set != nullptr) ::setenv("LP_NUM_THREADS", before.c_str(), 1);
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include "tests/dataset/cube.hpp"
 
@@ -117,6 +119,85 @@ TEST(Sensing, NothingSeenIsAnEmptyView) {
   RenderedImages images = image();
   for (int& id : images.segmentation) id = 1;
   EXPECT_EQ(sensed(exact(), images).width_px, 0);
+}
+
+TEST(Sensing, ColoursHaveTheGainOfTheirSession) {
+  Session session = support::plain_session(0.7);
+  const auto colours_with = [&](const Eigen::Vector3d& gain) {
+    session.gain = gain;
+    Rng rng(5);
+    const ObjectView view = sense(image(), kObject, session, exact(), rng);
+    const auto first = view.rgb.begin() + static_cast<std::ptrdiff_t>(3 * view.index(2, 2));
+    return std::vector<int>(first, first + 3);
+  };
+  EXPECT_EQ(colours_with({1.0, 1.0, 1.0}), (std::vector<int>{200, 100, 30}));
+  EXPECT_EQ(colours_with({0.5, 2.0, 1.25}), (std::vector<int>{100, 200, 38})) << "37.5 is 38";
+  EXPECT_EQ(colours_with({1.5, 3.0, 0.98}), (std::vector<int>{255, 255, 29})) << "29.4 is 29";
+}
+
+TEST(Sensing, DepthIsMeasuredFromTenCentimetresToFiveMetres) {
+  const auto measured = [](float z_m) {
+    RenderedImages images = image();
+    images.depth_m.assign(images.depth_m.size(), z_m);
+    return sensed(exact(), images).depth_m.front();
+  };
+  EXPECT_EQ(measured(0.09F), 0.0F);
+  EXPECT_EQ(measured(0.11F), 0.11F);
+  EXPECT_EQ(measured(4.9F), 4.9F);
+  EXPECT_EQ(measured(5.1F), 0.0F);
+}
+
+/// Round 5 x 3 px there are 12 px inside and 16 px outside of the edge.
+TEST(Sensing, AnEdgeIsAStepOfTwoCentimetres) {
+  const auto lost = [](float step_m, double dropout, int repeats) {
+    RenderedImages images = image();
+    for (float& z_m : images.depth_m) z_m = z_m < 0.6F ? 0.8F - step_m : 0.8F;
+    DatasetOptions options = exact();
+    options.edge_dropout = dropout;
+    Rng rng(9);
+    int count_lost = 0;
+    for (int i = 0; i < repeats; ++i) {
+      for (const float z_m :
+           sense(images, kObject, support::plain_session(0.7), options, rng).depth_m) {
+        count_lost += z_m == 0.0F ? 1 : 0;
+      }
+    }
+    return count_lost;
+  };
+  EXPECT_EQ(lost(0.021F, 1.0, 1), 28);
+  EXPECT_EQ(lost(0.019F, 1.0, 1), 0);
+  EXPECT_EQ(lost(0.021F, 0.0, 1), 0);
+  EXPECT_NEAR(lost(0.021F, 0.3, 200) / (28.0 * 200.0), 0.3, 0.03);
+}
+
+/// The window of 15 x 15 px begins 7 px before the middle of the image.
+TEST(Sensing, TheMarginEndsWithTheWindow) {
+  DatasetOptions options = exact();
+  options.margin_px = 5;
+  const ObjectView view = sensed(options);
+  EXPECT_EQ(view.width_px, 15);
+  EXPECT_EQ(view.height_px, 13);
+  EXPECT_EQ(view.left_px, 320 - 7);
+  EXPECT_EQ(view.top_px, 240 - 7 + 1);
+  options.margin_px = 50;
+  EXPECT_EQ(sensed(options).height_px, 15);
+  EXPECT_EQ(sensed(options).depth_m.size(), 15U * 15U);
+}
+
+TEST(Sensing, ThePixelIsWhatItsMiddleRayMeets) {
+  DatasetOptions options = exact();
+  options.supersampling = 3;
+  RenderedImages images = image(3);
+  const std::size_t ray = (3 * 7 + 1) * 45 + 3 * 7 + 1;
+  images.depth_m[ray] = 0.45F;
+  images.segmentation[ray] = 1;
+  const ObjectView view = sensed(options, images);
+  const std::size_t pixel = view.index(7 - 4, 7 - 3);
+  EXPECT_FLOAT_EQ(view.depth_m[pixel], 0.45F);
+  EXPECT_EQ(view.mask[pixel], 0);
+  EXPECT_EQ(count(view.mask), 14);
+  EXPECT_EQ(view.focal_px, 570.3);
+  EXPECT_LT((view.up - Eigen::Vector3d(0.0, -std::cos(0.7), -std::sin(0.7))).norm(), 1e-12);
 }
 
 }  // namespace

@@ -279,5 +279,84 @@ TEST(Lamp, LightsTheFaceThatItStandsBefore) {
   EXPECT_GT(red_with_lamp_at(0.1), red_with_lamp_at(1.5) + 40);
 }
 
+/// Where the object is in its window, of a camera that looks down by 30 deg.
+struct SeenPlace {
+  double depth_m = 0.0;  ///< at the middle
+  double column = 0.0;   ///< mean of the middle row, from the middle
+  int lowest_row = 0;
+};
+
+SeenPlace seen_place(const Eigen::Vector2d& offset_m, const Eigen::Vector3d& box_shift_m) {
+  TurntableObject object = support::coloured_cube();
+  object.box_m.translate(box_shift_m);
+  Session session = support::plain_session(kElevation_rad);
+  session.offset_m = offset_m;
+  Turntable table(object, session, {.supersampling = 1}, "cube", make_offscreen_context());
+  RenderedImages images;
+  table.draw(0.0, images);
+  const int middle = images.width_px / 2;
+  SeenPlace place;
+  int pixels = 0;
+  for (int row = 0; row < images.height_px; ++row) {
+    for (int column = 0; column < images.width_px; ++column) {
+      const auto i = static_cast<std::size_t>(row * images.width_px + column);
+      if (row == middle && column == middle) place.depth_m = images.depth_m[i];
+      if (images.segmentation[i] != table.object_geom()) continue;
+      place.lowest_row = row - middle;
+      if (row == middle) place.column += column - middle;
+      if (row == middle) ++pixels;
+    }
+  }
+  place.column /= std::max(pixels, 1);
+  return place;
+}
+
+/// The face towards the camera is at x = 5 cm, where nothing is shifted.
+TEST(TurntablePlace, IsThatOfTheSessionWhereverTheMeshIsDrawn) {
+  const double c = std::cos(kElevation_rad);
+  const auto depth_m = [&](double x_m) { return 0.8 - x_m / c; };
+  const SeenPlace plain = seen_place({0.0, 0.0}, {0.0, 0.0, 0.0});
+  EXPECT_NEAR(plain.depth_m, depth_m(0.05), 1e-3);
+  EXPECT_NEAR(plain.column, 0.0, 1.5);
+  const SeenPlace offset = seen_place({-0.03, 0.03}, {0.0, 0.0, 0.0});
+  EXPECT_NEAR(offset.depth_m, depth_m(0.02), 1e-3);
+  EXPECT_NEAR(offset.column, kFocal_px * 0.03 / depth_m(0.02), 1.5);
+  const SeenPlace drawn_aside = seen_place({0.0, 0.0}, {0.03, -0.03, 0.0});
+  EXPECT_NEAR(drawn_aside.depth_m, depth_m(0.02), 1e-3);
+  EXPECT_NEAR(drawn_aside.column, kFocal_px * 0.03 / depth_m(0.02), 1.5);
+  // Its lower edge, 5 cm below the aim point and then 3 cm, is as far before it as the face.
+  const auto row = [&](double below_m) {
+    const double s = std::sin(kElevation_rad);
+    return kFocal_px * (0.05 * s + below_m * c) / (0.8 - 0.05 * c + below_m * s);
+  };
+  const SeenPlace drawn_low = seen_place({0.0, 0.0}, {0.0, 0.0, -0.02});
+  EXPECT_NEAR(plain.lowest_row, row(0.05), 2.5);
+  EXPECT_NEAR(plain.lowest_row - drawn_low.lowest_row, row(0.05) - row(0.03), 2.0);
+}
+
+/// Of the table before the object, at the lower edge of the window.
+int table_grey(const Session& session) {
+  Turntable table(support::coloured_cube(), session, {.supersampling = 1}, "cube",
+                  make_offscreen_context());
+  RenderedImages images;
+  table.draw(0.0, images);
+  const int pixel = (images.height_px - 1) * images.width_px + images.width_px / 2;
+  EXPECT_NE(images.segmentation[static_cast<std::size_t>(pixel)], table.object_geom());
+  return images.rgb[static_cast<std::size_t>(3 * pixel)];
+}
+
+TEST(Lamp, LightsTheTableAsItsSessionSays) {
+  const Session plain = support::plain_session(kElevation_rad);
+  Session session = plain;
+  session.table = 0.2;
+  EXPECT_LT(table_grey(session), table_grey(plain) - 40) << "a darker table";
+  session = plain;
+  session.ambient = 0.1;
+  EXPECT_LT(table_grey(session), table_grey(plain) - 20) << "less light from everywhere";
+  session = plain;
+  session.lamp_elevation_rad = 0.2;
+  EXPECT_LT(table_grey(session), table_grey(plain) - 20) << "a lower lamp";
+}
+
 }  // namespace
 }  // namespace vantage

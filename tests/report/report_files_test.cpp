@@ -330,5 +330,123 @@ TEST(FormerRuns, CalledTheLengthOfALegThatOfThePath) {
   EXPECT_FALSE(apart.contains("objects_unseen")) << "of another task";
 }
 
+/// Two occupied voxels in the last cell of the grid, one in the first of which nothing is known.
+TEST_F(ReportFile, OfVoxelsIsPackedWithItsGrid) {
+  VoxelMap map{{0.5, 0.25, 1.0}, {Eigen::Vector3d(-1, -2, 0), Eigen::Vector3d(1, 2, 3)}, {}};
+  map.voxels.push_back({0.75F, 1.875F, 2.5F, 6, kVoxelOccupied});
+  map.voxels.push_back({0.8F, 1.9F, 2.6F, 4, kVoxelOccupied});
+  map.voxels.push_back({-0.75F, -1.875F, 0.5F, 9, kVoxelUnobserved});
+  write_voxels(folder_ / "voxels.bin", map);
+  const json found = voxels_json(folder_ / "voxels.bin");
+  EXPECT_EQ(found["cell_size_m"], json({0.5, 0.25, 1.0}));
+  EXPECT_EQ(found["min_m"], json({-1.0, -2.0, 0.0}));
+  EXPECT_EQ(found["max_m"], json({1.0, 2.0, 3.0}));
+  EXPECT_EQ(found["cells"], json({4, 16, 3}));
+  EXPECT_EQ(found["total"], json({2, 1}));
+  EXPECT_EQ(found["surface"], json({1, 1}));
+  EXPECT_EQ(found["kept"], json({1, 1}));
+  EXPECT_EQ(found["data"], base64(std::string("\3\0\17\0\2\0\4\0"
+                                              "\0\0\0\0\0\0\0\x80",
+                                              16)));
+  map.voxels.front().step = map.voxels[1].step = 40'000;
+  EXPECT_EQ(pack_voxels(map, 10).voxels.front().step_and_kind, 0x7FFF) << "as late as there is";
+}
+
+TEST_F(ReportFile, OfVoxelsHasSixteenBytesAVoxel) {
+  VoxelMap map{{0.5, 0.25, 1.0}, {Eigen::Vector3d(-1, -2, 0), Eigen::Vector3d(1, 2, 3)}, {}};
+  map.voxels.push_back({0.75F, 1.875F, 2.5F, 4, kVoxelUnobserved});
+  write_voxels(folder_ / "voxels.bin", map);
+  std::string bytes = "VTGVOX01";
+  const auto put = [&](auto number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+  };
+  for (const double value : {0.5, 0.25, 1.0, -1.0, -2.0, 0.0, 1.0, 2.0, 3.0}) put(value);
+  put(std::uint64_t{1});
+  for (const float value : {0.75F, 1.875F, 2.5F}) put(value);
+  put(std::uint16_t{4});
+  put(std::uint8_t{1});
+  put(std::uint8_t{0});
+  EXPECT_EQ(read_file(folder_ / "voxels.bin"), bytes);
+  EXPECT_EQ(error_of(bytes, read_voxels), "no error");
+  EXPECT_THAT(error_of(bytes + std::string(16, '\0'), read_voxels),
+              testing::HasSubstr("header says 1 voxels, the file holds 2.0"));
+  EXPECT_THAT(error_of(bytes.substr(0, bytes.size() - 8), read_voxels),
+              testing::HasSubstr("header says 1 voxels, the file holds 0.5"));
+  const auto out_of_range = testing::HasSubstr("a voxel is out of range");
+  std::string odd = bytes;
+  odd[odd.size() - 2] = 2;
+  EXPECT_THAT(error_of(odd, read_voxels), out_of_range) << "of neither kind";
+  for (const std::size_t from_end : {16U, 12U, 8U}) {
+    odd = bytes;
+    odd.replace(odd.size() - from_end, 4, std::string("\0\0\xc0\x7f", 4));  // not a number
+    EXPECT_THAT(error_of(odd, read_voxels), out_of_range) << from_end;
+  }
+}
+
+TEST_F(ReportFile, OfASceneHoldsItsVerticesThenItsTriangles) {
+  DrawnScene scene;
+  scene.extent_m = {Eigen::Vector3f(-5.0F, -6.0F, 0.5F), Eigen::Vector3f(5.0F, 6.0F, 2.5F)};
+  scene.vertices_m = {{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}};
+  scene.colours = {{7, 8, 9}, {10, 11, 12}};
+  scene.triangles[2] = {{0, 1, 0}};
+  write_drawn_scene(folder_ / "scene.bin", scene);
+  std::string bytes = "VTGSCN01";
+  const auto put = [&](auto number) {
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+  };
+  for (const float value : {-5.0F, -6.0F, 0.5F, 5.0F, 6.0F, 2.5F}) put(value);
+  for (const int count : {2, 0, 0, 1, 0, 0, 0}) put(static_cast<std::uint64_t>(count));
+  for (const float value : {1.0F, 2.0F, 3.0F}) put(value);
+  bytes += std::string("\7\10\11\0", 4);
+  for (const float value : {4.0F, 5.0F, 6.0F}) put(value);
+  bytes += std::string("\12\13\14\0", 4);
+  for (const int vertex : {0, 1, 0}) put(static_cast<std::uint32_t>(vertex));
+  EXPECT_EQ(read_file(folder_ / "scene.bin"), bytes);
+  EXPECT_EQ(error_of(bytes, read_drawn_scene), "no error");
+  EXPECT_EQ(read_drawn_scene(folder_ / "scene.bin").extent_m.min(), scene.extent_m.min());
+  std::string odd = bytes;
+  odd[7] = '2';
+  EXPECT_THAT(error_of(odd, read_drawn_scene), testing::HasSubstr("bad header"));
+  for (const std::size_t coordinate : {0U, 4U, 8U}) {
+    odd = bytes;
+    odd.replace(8 + 24 + 56 + 16 + coordinate, 4, std::string("\0\0\x80\x7f", 4));  // infinite
+    EXPECT_THAT(error_of(odd, read_drawn_scene), testing::HasSubstr("a vertex is out of range"))
+        << coordinate;
+  }
+}
+
+TEST_F(ReportFile, OfPlansHasTheirReasons) {
+  const auto file = with(std::string(kPlanColumns) +
+                         "2,14.5,first,,1,7,1,2,0.5,3,13,900,4,cells\n"
+                         "1000000000,40,cheaper,6.5,1,0,3,4,1,5,6,8,0,bits\n");
+  const std::vector<RecordedPlan> plans = read_plans(file);
+  ASSERT_EQ(plans.size(), 2U);
+  EXPECT_EQ(plans[0].tour.reason.change, PlanChange::first);
+  EXPECT_TRUE(std::isnan(plans[0].tour.reason.saved_s));
+  EXPECT_EQ(plans[1].tour.reason.change, PlanChange::cheaper);
+  EXPECT_EQ(plans[1].tour.reason.saved_s, 6.5);
+  const json page = plans_json(file);
+  ASSERT_EQ(page.size(), 2U);
+  EXPECT_EQ(page[0]["why"], "the first plan");
+  EXPECT_EQ(page[1]["why"], sentence_of({PlanChange::cheaper, 6.5}));
+  EXPECT_EQ(page[0]["scan"], 2);
+  EXPECT_EQ(page[1]["scan"], 1'000'000'000);
+  EXPECT_EQ(page[1]["time_s"], 40.0);
+  EXPECT_EQ(page[1]["ends_s"], 6.0);
+  EXPECT_EQ(page[1]["unit"], "bits");
+  const auto error = [&](const char* row) {
+    return error_of(kPlanColumns + std::string(row), read_plans);
+  };
+  EXPECT_EQ(error("2,1,guessed,,1,7,1,2,3,4,5,6,7,cells\n"), "file:2: change: guessed is none");
+  EXPECT_EQ(error("2,inf,first,,1,7,1,2,3,4,5,6,7,cells\n"), "file:2: time_s: expected a number");
+  EXPECT_EQ(error("2,,first,,1,7,1,2,3,4,5,6,7,cells\n"), "file:2: time_s: expected a number");
+  EXPECT_EQ(error_of("scan,stop\n2,1\n", read_plans), "file:2: no column change");
+}
+
+TEST_F(ReportFile, OfATrajectoryHasItsHeadingToATenthOfAMilliradian) {
+  const json found = trajectory_json(with("0 0 0 0 0 0 1 2\n"));
+  EXPECT_NEAR(found[0][4].get<double>(), 0.9273, 1e-9) << "0.92730 of 2 atan(1 / 2)";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -7,14 +7,20 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <stdexcept>
 
 #include "tests/sim/test_world.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/hash.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/report/drawn_scene.hpp"
 #include "vantage/runtime/recorder.hpp"
+#include "vantage/runtime/scene_file.hpp"
+#include "vantage/sim/faults/robot_faults.hpp"
+#include "vantage/sim/render/scene_surfaces.hpp"
 
 namespace vantage {
 namespace {
@@ -219,6 +225,155 @@ TEST_F(EpisodeRuns, TakeTheTimeFromWhenTheirFolderIsMade) {
   const auto wall_time_s = nlohmann::json::parse(outcome.metrics).at("wall_time_s").get<double>();
   EXPECT_GE(wall_time_s, 0.0);
   EXPECT_LE(wall_time_s, wall_s() - before_s);
+}
+
+/// Of a world in which the body moves 10 cm a tick.
+class ToldRecorder : public EpisodeRecorder {
+ public:
+  ToldRecorder(const EpisodeRun& run, World& world, const RobotFaults* faults = nullptr)
+      : EpisodeRecorder(run,
+                        {.world = world,
+                         .T_world_body =
+                             [&world] {
+                               return make_pose({4.0 * world.time_s(), 0.0, 0.0}, 0.0);
+                             },
+                         .T_world_estimated = [] { return Pose::Identity(); },
+                         .faults = faults},
+                        "time_s,scan", 2.0, "x_m,y_m") {}
+  using EpisodeRecorder::add_candidates;
+  using EpisodeRecorder::keeps_candidates;
+  using EpisodeRecorder::step;
+};
+
+/// A ball over a floor.
+struct ToldWorld {
+  test::SceneFolder scene{
+      test::scene_mjcf("<body pos='0 0 1'><freejoint/><geom size='.1'/></body>")};
+  World world{scene.alone()};
+};
+
+TEST_F(EpisodeRuns, WriteWhatEveryRunFolderHas) {
+  ToldWorld told;
+  setup_.scene = setup_.robot.mjcf = setup_.robot.description = told.scene.path();
+  setup_.options.scene = "some.xml";
+  setup_.options.seed = 4;
+  const RunRequest asked = request(false);
+  EpisodeRun run(asked);
+  run.begin();
+  ToldRecorder recorder(run, told.world);
+  for (int tick = 0; tick < 5; ++tick) told.world.advance_tick();
+  bool whole = false;
+  const RunOutcome outcome = run.finish(
+      {EpisodeStatus::failed, ExitCode::goal_failed, "no way"}, {12.5, 3}, recorder,
+      [](nlohmann::ordered_json& metrics) { metrics["more"] = 7; },
+      [&] { whole = is_there("metrics.json") && is_there("states.bin"); });
+  EXPECT_TRUE(whole) << "before the task's own files";
+  EXPECT_EQ(outcome.directory, folder_.path());
+  EXPECT_EQ(outcome.code, ExitCode::goal_failed);
+  EXPECT_EQ(outcome.metrics, read_file(folder_ / "metrics.json"));
+  EXPECT_EQ(read_file(folder_ / "config.yaml"), "a: 1\n");
+  const auto metrics = nlohmann::json::parse(outcome.metrics);
+  EXPECT_EQ(metrics.at("task"), "exploration");
+  EXPECT_EQ(metrics.at("method"), "greedy");
+  EXPECT_EQ(metrics.at("scene"), "some.xml");
+  EXPECT_EQ(metrics.at("seed"), 4);
+  EXPECT_EQ(metrics.at("status"), "failed");
+  EXPECT_EQ(metrics.at("reason"), "no way");
+  EXPECT_EQ(metrics.at("simulated_time_s"), 12.5);
+  EXPECT_EQ(metrics.at("collisions"), 3);
+  EXPECT_NEAR(metrics.at("path_length_m").get<double>(), 0.4, 1e-9);
+  EXPECT_EQ(metrics.at("state_hash"), hash_text(recorder.state_hash()));
+  EXPECT_EQ(metrics.at("faults"), nlohmann::json::object());
+  EXPECT_EQ(metrics.at("more"), 7);
+  const auto manifest = nlohmann::json::parse(read_file(folder_ / "manifest.json"));
+  EXPECT_EQ(manifest.at("status"), "failed");
+  EXPECT_EQ(manifest.at("simulated_time_s"), 12.5);
+}
+
+TEST_F(EpisodeRuns, RecordTheirStepsAndTellWhoeverWatches) {
+  ToldWorld told;
+  std::string heard;
+  RunRequest asked = request(false);
+  asked.options.spectator.on_step = [&](std::string_view columns, std::string_view row) {
+    heard += std::string(columns) + "|" + std::string(row) + ";";
+  };
+  const EpisodeRun run(asked);
+  ToldRecorder recorder(run, told.world);
+  recorder.step("1.5,1", 1, 1.0, "one");
+  recorder.step("2.5,2", 2, 2.0, "two");
+  EXPECT_TRUE(recorder.keeps_candidates());
+  recorder.add_candidates(std::array{CandidateRow{5, "1,2"}, CandidateRow{7, "3,4"}}, 1);
+  EXPECT_FALSE(is_there("steps.csv") || is_there("candidates.csv")) << "until all is there";
+  recorder.commit();
+  EXPECT_EQ(heard, "time_s,scan|1.5,1;time_s,scan|2.5,2;");
+  EXPECT_EQ(read_file(folder_ / "steps.csv"), "time_s,scan\n1.5,1\n2.5,2\n");
+  EXPECT_EQ(read_file(folder_ / "candidates.csv"),
+            "decision,candidate,x_m,y_m,chosen\n1,5,1,2,0\n1,7,3,4,1\n");
+  EXPECT_TRUE(is_there("states.bin") && is_there("trajectory.tum"));
+  EXPECT_FALSE(is_there("faults.csv"));
+}
+
+TEST_F(EpisodeRuns, KeepNeitherStatesNorCandidatesWhereTheyAreLean) {
+  ToldWorld told;
+  RunRequest asked = request(false);
+  asked.options.lean = true;
+  const EpisodeRun run(asked);
+  ToldRecorder recorder(run, told.world);
+  EXPECT_FALSE(recorder.keeps_candidates());
+  recorder.add_candidates(std::array{CandidateRow{5, "1,2"}}, 0);
+  recorder.step("1.5,1", 1, 1.0, "one");
+  recorder.commit();
+  EXPECT_EQ(read_file(folder_ / "steps.csv"), "time_s,scan\n1.5,1\n");
+  EXPECT_TRUE(is_there("trajectory.tum") && is_there("trajectory_estimated.tum"));
+  EXPECT_FALSE(is_there("candidates.csv") || is_there("states.bin") || is_there("actions.csv"));
+}
+
+TEST_F(EpisodeRuns, CountTheFaultsThatAreOn) {
+  ToldWorld told;
+  const RunRequest asked = request(false);
+  const EpisodeRun run(asked);
+  {
+    const RobotFaults none({}, 1);
+    ToldRecorder recorder(run, told.world, &none);
+    EXPECT_TRUE(recorder.faults().empty());
+    recorder.commit();
+    EXPECT_FALSE(is_there("faults.csv"));
+  }
+  FaultOptions options;
+  options.dropped_frames = 1.0;
+  options.gust_N = 5.0;
+  RobotFaults faults(options, 1);
+  for (const double time_s : {0.5, 0.75}) EXPECT_FALSE(faults.arriving({}, time_s));
+  ToldRecorder recorder(run, told.world, &faults);
+  const std::string dropped(name_of(Fault::dropped_frames));
+  const std::vector<std::pair<std::string, std::int64_t>> expected{
+      {dropped, 2}, {std::string(name_of(Fault::gust)), 0}};
+  EXPECT_EQ(recorder.faults(), expected);
+  recorder.commit();
+  EXPECT_EQ(read_file(folder_ / "faults.csv"), "time_s,fault\n0.500," + dropped + "\n");
+}
+
+TEST(SceneFile, HoldsTheSurfacesOfItsWorld) {
+  const test::SceneFolder scene(
+      test::scene_mjcf("<geom type='box' pos='1 2 .5' size='.5 .25 .5' rgba='1 0 0 1'/>"));
+  const support::TemporaryDirectory folder;
+  const World world(scene.alone());
+  write_scene_file(world, folder.path());
+  const DrawnScene drawn = read_drawn_scene(folder / "scene.bin");
+  const SceneSurfaces surfaces = scene_surfaces(world.model(), world.snapshot());
+  ASSERT_FALSE(surfaces.vertices_m.empty());
+  EXPECT_EQ(drawn.vertices_m, surfaces.vertices_m);
+  EXPECT_EQ(drawn.colours, surfaces.colours);
+  EXPECT_EQ(drawn.triangles, surfaces.triangles);
+  const Eigen::AlignedBox3f extent_m = surfaces.extent_m.cast<float>();
+  EXPECT_EQ(drawn.extent_m.min(), extent_m.min());
+  EXPECT_EQ(drawn.extent_m.max(), extent_m.max());
+  const std::vector<FloorOutline> plan = scene_floor_plan(scene.alone());
+  ASSERT_EQ(plan.size(), 1U);
+  Eigen::AlignedBox2d box_m;
+  for (const Eigen::Vector2d& corner : plan[0]) box_m.extend(corner);
+  EXPECT_LT((box_m.min() - Eigen::Vector2d(0.5, 1.75)).norm(), 1e-5);
+  EXPECT_LT((box_m.max() - Eigen::Vector2d(1.5, 2.25)).norm(), 1e-5);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include "vantage/runtime/manifest.hpp"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/hash.hpp"
+#include "vantage/sim/world/world.hpp"
 
 namespace vantage {
 namespace {
@@ -56,6 +58,39 @@ TEST(CpuName, IsTheOneThatTheSystemTells) {
   EXPECT_THAT(read_file("/proc/cpuinfo"),
               testing::AnyOf(testing::HasSubstr("model name\t: " + cpu_name() + "\n"),
                              testing::Not(testing::HasSubstr("model name"))));
+}
+
+TEST_F(AssetHashes, AManifestSaysWhatRanOnWhat) {
+  setup_.robot.mjcf = file("robot/robot.xml", "<mujoco/>");
+  setup_.options.threads = 3;
+  setup_.options.seed = 9;
+  RunRequest request{setup_, "exploration", "greedy", "a: 1\n", {{"model", setup_.scene}}, {}};
+  request.options.command = {"vantage", "run"};
+  RunSummary summary;
+  summary.status = EpisodeStatus::diverged;
+  summary.simulated_time_s = 5.5;
+  summary.wall_time_s = 2.5;
+  auto manifest = nlohmann::json::parse(manifest_json(request, summary));
+  EXPECT_EQ(manifest["command"], nlohmann::json({"vantage", "run"}));
+  EXPECT_EQ(manifest["versions"]["vantage"], version_text());
+  EXPECT_EQ(manifest["versions"]["mujoco"], mujoco_version());
+  EXPECT_EQ(manifest["versions"].size(), 5U);
+  EXPECT_EQ(manifest["cpu"], cpu_name());
+  EXPECT_EQ(manifest["threads"], 3);
+  EXPECT_EQ(manifest["seed"], 9);
+  EXPECT_EQ(manifest["status"], "diverged");
+  EXPECT_EQ(manifest["config_hash"], hash_of("a: 1\n"));
+  EXPECT_EQ(manifest["scene_hash"], hash_of(kScene));
+  EXPECT_EQ(manifest["assets"], nlohmann::json(asset_hashes(setup_, request.inputs)));
+  EXPECT_EQ(manifest["assets"]["model"], hash_of(kScene));
+  EXPECT_EQ(manifest["wall_time_s"], 2.5);
+  EXPECT_EQ(manifest["simulated_time_s"], 5.5);
+  EXPECT_FALSE(manifest.contains("planner")) << "nobody chooses from outside";
+  request.options.outside.emplace();
+  EXPECT_FALSE(nlohmann::json::parse(manifest_json(request, summary)).contains("planner"));
+  request.options.outside->facts = [] { return PlannerFacts{{"model", "mine"}, {"rate", "2"}}; };
+  manifest = nlohmann::json::parse(manifest_json(request, summary));
+  EXPECT_EQ(manifest["planner"], nlohmann::json({{"model", "mine"}, {"rate", "2"}}));
 }
 
 }  // namespace

@@ -151,5 +151,31 @@ TEST_F(Replays, TellHowFarTheyAre) {
   GTEST_FLAG_SET(death_test_style, "fast");
 }
 
+TEST_F(Replays, TellTheTimeOfTheEndWhereOnlyTheRestDiffers) {
+  write_file(folder_ / "metrics.json", "{}");
+  EXPECT_NEAR(replayed().time_s, 0.1, 1e-9);
+  std::string more = "9";
+  for (std::size_t i = 0; i < actuators_; ++i) more += ",1";
+  write_file(folder_ / "actions.csv", read_file(folder_ / "actions.csv") + more + "\n");
+  EXPECT_NEAR(replayed().time_s, 0.1, 1e-9);
+}
+
+TEST_F(Replays, OfAManifestWithoutFilesAreOfNewFilesAlone) {
+  write_file(folder_ / "manifest.json", "{}");
+  const ReplayResult result = replayed({{"a.xml", "1"}, {"b.xml", "2"}});
+  EXPECT_EQ(result.first_difference, std::nullopt) << result.what;
+  EXPECT_THAT(result.changed_files, ElementsAre("a.xml", "b.xml"));
+}
+
+TEST_F(Replays, MissARowThatWasTakenOut) {
+  const std::string actions = read_file(folder_ / "actions.csv");
+  const std::size_t last_row = actions.rfind('\n', actions.size() - 2) + 1;
+  ASSERT_EQ(actions.substr(last_row, 2), "2,");
+  write_file(folder_ / "actions.csv", actions.substr(0, last_row));
+  const ReplayResult result = replayed();
+  EXPECT_EQ(result.first_difference, 2U);
+  EXPECT_EQ(result.what, "the commands in actions.csv are not the ones recorded");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "vantage/view/orbit_camera.hpp"
 #include "vantage/view/painter.hpp"
 
 namespace vantage {
@@ -179,6 +180,18 @@ TEST_F(ViewInputTest, DragsAreInHeightsOfTheImage) {
               1e-9);
   input(WheelTurned{1.0});
   EXPECT_NEAR(controls.overview.distance_m, 0.9 * before.distance_m, 1e-9);
+}
+
+TEST_F(ViewInputTest, TheRightButtonPansTheCameraInUse) {
+  const FreeCamera before = controls.overview;
+  input(MouseDragged{MouseButton::right, {0, 0}, {60.0, 30.0}});
+  const FreeCamera expected = panned(before, {0.1, 0.05});
+  EXPECT_LT((controls.overview.lookat_m - expected.lookat_m).norm(), 1e-12);
+  EXPECT_EQ(controls.overview.azimuth_rad, before.azimuth_rad);
+  EXPECT_EQ(controls.follow.lookat_m, before.lookat_m);
+  controls.camera = ViewCamera::follow;
+  input(MouseDragged{MouseButton::middle, {0, 0}, {60.0, 30.0}});
+  EXPECT_LT((controls.follow.lookat_m - expected.lookat_m).norm(), 1e-12);
 }
 
 }  // namespace

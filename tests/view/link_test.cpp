@@ -96,5 +96,18 @@ TEST(ViewLink, WhatWasDrawnIsNoWorkUntilSomethingChanges) {
   EXPECT_TRUE(work->controls.help) << "it has waited for them";
 }
 
+TEST(ViewLink, ControlsAloneAreNoWork) {
+  ViewLink link;
+  ViewControls controls;
+  controls.help = true;
+  link.set_controls(controls);
+  std::thread later([&] { link.show({1.5}, 0, false); });
+  const auto work = link.wait_for_work();
+  later.join();
+  ASSERT_TRUE(work);
+  EXPECT_EQ(work->moment.state, (std::vector<double>{1.5})) << "it has waited for a moment";
+  EXPECT_TRUE(work->controls.help);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #include "vantage/runtime/log/video.hpp"
 
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include <cstdlib>
 #include <string_view>
@@ -153,6 +154,35 @@ TEST_F(Video, NothingReachesStderr) {
     writer.finish();
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(SideBySide, IsTheRoomAtTheSizeOfItsPanel) {
+  const cv::Mat left_rgb(4, 6, CV_8UC3, cv::Scalar(200, 100, 50));
+  const cv::Mat right_bgr(2, 3, CV_8UC3, cv::Scalar(1, 2, 3));
+  const cv::Mat both = side_by_side(left_rgb, right_bgr);
+  ASSERT_EQ(both.size(), cv::Size(6, 2));
+  for (int x = 0; x < 6; ++x) {
+    const cv::Vec3b expected = x < 3 ? cv::Vec3b(50, 100, 200) : cv::Vec3b(1, 2, 3);
+    for (int y = 0; y < 2; ++y) EXPECT_EQ(both.at<cv::Vec3b>(y, x), expected) << x << ", " << y;
+  }
+}
+
+TEST_F(Video, AStillIsTheRoomBesideItsPanel) {
+  const test::SceneFolder scene(kBall);
+  const World world(scene.alone());
+  VideoRecorder recorder(world, {.height_px = 123}, folder.path());
+  cv::Size asked;
+  recorder.set_panel([&](cv::Size size) {
+    asked = size;
+    return cv::Mat(size, CV_8UC3, cv::Scalar(1, 2, 3));
+  });
+  recorder.save_still(world, 3);
+  EXPECT_EQ(asked, cv::Size(108, 122)) << "half of 16:9, with even edges";
+  const cv::Mat still = cv::imread((folder / "frames/scan_03.png").string(), cv::IMREAD_COLOR);
+  ASSERT_EQ(still.size(), cv::Size(216, 122));
+  const cv::Mat panel(122, 108, CV_8UC3, cv::Scalar(1, 2, 3));
+  EXPECT_EQ(cv::norm(still.colRange(108, 216), panel, cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(still.colRange(0, 108), panel, cv::NORM_INF), 20.0) << "the room";
 }
 
 }  // namespace

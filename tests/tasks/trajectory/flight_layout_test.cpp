@@ -161,5 +161,39 @@ TEST(ObjectsOnSupports, AreFollowedToWhereTheyArePut) {
   }
 }
 
+TEST(ObjectsOnSupports, MayBeAllThatThereAre) {
+  ObjectDatabaseOptions three;
+  three.objects = 3;
+  std::set<std::string> drawn;
+  for (const ObjectOnSupport& object : draw_objects(three, kSupports, 0.02, 5)) {
+    drawn.insert(object.object);
+    EXPECT_TRUE(object.object.starts_with(object.category)) << object.object;
+    EXPECT_LT(object.category.size(), object.object.size());
+  }
+  EXPECT_EQ(drawn.size(), 3U);
+}
+
+TEST(ObjectsOnSupports, FaceWhereTheirSeedTurnsThem) {
+  Rng yaw = Rng::stream(7, "object yaws");
+  for (const ObjectOnSupport& object : draw_objects({}, kSupports, 0.02, 7)) {
+    EXPECT_NEAR(object.yaw_rad, yaw.uniform(0.0, 2.0 * std::numbers::pi), 1e-12);
+  }
+}
+
+TEST(ObjectsOnSupports, AreTurnedInTheCompiledScene) {
+  const fs::path scene = scene_file("trajectory_4");
+  const auto objects = draw_objects({}, read_support_surfaces(scene), 0.02, 3);
+  const auto files = object_files({}, objects);
+  EXPECT_EQ(files.size(), 1 + 2 * objects.size());
+  const World world({scene, {}, files}, {});
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const int body = model_id(world.model(), ModelObject::body, "object_" + std::to_string(i));
+    const mjtNum* turn = world.model().body_quat + 4 * body;
+    const double yaw_rad = 2.0 * std::atan2(turn[3], turn[0]);
+    EXPECT_NEAR(std::remainder(yaw_rad - objects[i].yaw_rad, 2.0 * std::numbers::pi), 0.0, 1e-6);
+    EXPECT_NEAR(world.model().body_pos[3 * body + 1], objects[i].p_world_m.y(), 1e-5);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

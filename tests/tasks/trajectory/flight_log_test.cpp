@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+#include <variant>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -116,6 +118,92 @@ TEST(FlightLog, KeepsSinceWhichWaypointEachCellIsOccupied) {
   EXPECT_EQ(map.voxels[0].step, 3);
   EXPECT_EQ(map.voxels[1].x, 0.75F);
   EXPECT_EQ(map.voxels[1].step, 4);
+}
+
+/// The log of a flight over a bare floor.
+struct LoggedFlight {
+  explicit LoggedFlight(bool keep, const Spectator& spectator = {})
+      : run({.world = world, .T_world_body = at_origin, .T_world_estimated = at_origin}, {},
+            folder.path(), false, true, spectator),
+        log(run, folder.path(), keep) {}
+  static Pose at_origin() { return make_pose({0.0, 0.0, 1.0}, 0.0); }
+  static ModelSource floor_in(const support::TemporaryDirectory& folder) {
+    write_file(folder / "scene.xml",
+               "<mujoco><worldbody><geom type='plane' size='5 5 .1'/></worldbody></mujoco>");
+    return {folder / "scene.xml", {}};
+  }
+  support::TemporaryDirectory folder;
+  const ModelSource source = floor_in(folder);
+  World world{source};
+  RunLog run;
+  FlightLog log;
+};
+
+/// One is freed in between, in a grid of unlike edges.
+TEST(FlightLog, SaysWhereACellIsAndSinceWhenItIsOccupiedAnew) {
+  LoggedFlight flight(true);
+  OccupancyGrid grid(make_grid_frame({1.0, 2.0, 3.0}, {2.0, 1.2, 0.8}, {2, 3, 4}));
+  const std::size_t cell = grid.frame.index(Eigen::Array3i(1, 2, 0));
+  const std::size_t later = grid.frame.index(Eigen::Array3i(0, 0, 3));
+  grid.log_odds[cell] = 5.0F;
+  flight.log.map(grid, 3);
+  grid.log_odds[cell] = -5.0F;
+  flight.log.map(grid, 4);
+  grid.log_odds[cell] = 5.0F;
+  flight.log.map(grid, 6);
+  grid.log_odds[later] = 5.0F;
+  flight.log.map(grid, 7);
+  flight.log.commit();
+  const VoxelMap map = read_voxels(flight.folder / "voxels.bin");
+  ASSERT_EQ(map.voxels.size(), 2U);
+  EXPECT_NEAR(map.voxels[0].x, 1.5, 1e-6);
+  EXPECT_NEAR(map.voxels[0].y, 2.4, 1e-6);
+  EXPECT_NEAR(map.voxels[0].z, 2.7, 1e-6);
+  EXPECT_EQ(map.voxels[0].step, 6);
+  EXPECT_EQ(map.voxels[0].kind, kVoxelOccupied);
+  EXPECT_NEAR(map.voxels[1].z, 3.3, 1e-6);
+  EXPECT_EQ(map.voxels[1].step, 7);
+  EXPECT_NEAR((map.cell_size_m - Eigen::Vector3d(1.0, 0.4, 0.2)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((map.box_m.min() - Eigen::Vector3d(0.0, 1.4, 2.6)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((map.box_m.max() - Eigen::Vector3d(2.0, 2.6, 3.4)).norm(), 0.0, 1e-9);
+}
+
+TEST(FlightLog, TellsThoseWhoLookOnAndKeepsNothingForThem) {
+  std::vector<EpisodeEvent> told;
+  Spectator spectator;
+  spectator.on_event = [&](const EpisodeEvent& event) { told.push_back(event); };
+  LoggedFlight flight(false, spectator);
+  EXPECT_TRUE(flight.log.wanted());
+  OccupancyGrid grid(make_grid_frame({0.5, 0.5, 0.5}, {1.0, 1.0, 1.0}, {2, 2, 1}));
+  grid.log_odds[2] = 5.0F;
+  flight.log.map(grid, 0);
+  Decision decision;
+  decision.candidates.resize(3);
+  decision.chosen = 1;
+  flight.log.decision(decision);
+  std::vector<Eigen::Vector4d> plan;
+  for (const double k : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+    plan.emplace_back(k, 10.0 + k, 20.0 + k, 0.5);
+  }
+  flight.log.plan(plan, 1, 3);
+  flight.log.plan(plan, 4, 9);
+  flight.log.commit();
+  ASSERT_EQ(told.size(), 4U);
+  const std::vector<CellRun>& runs = std::get<MapChange>(told[0].what).runs;
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].first, 2U);
+  EXPECT_EQ(runs[0].state, CellState::occupied);
+  EXPECT_EQ(std::get<Decision>(told[1].what).chosen, 1U);
+  const std::vector<Eigen::Vector3d>& path_m = std::get<PlannedFlight>(told[2].what).path_m;
+  ASSERT_EQ(path_m.size(), 3U);
+  for (std::size_t i = 0; i < path_m.size(); ++i) {
+    EXPECT_EQ(path_m[i], Eigen::Vector3d(plan[i + 1].head<3>())) << i;
+  }
+  EXPECT_EQ(std::get<PlannedFlight>(told[3].what).path_m.size(), 2U) << "no more is planned";
+  EXPECT_FALSE(std::filesystem::exists(flight.folder / "voxels.bin"));
+  EXPECT_FALSE(std::filesystem::exists(flight.folder / "story.bin"));
+  EXPECT_FALSE(LoggedFlight(false).log.wanted());
+  EXPECT_TRUE(LoggedFlight(true).log.wanted());
 }
 
 }  // namespace

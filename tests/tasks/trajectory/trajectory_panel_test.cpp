@@ -174,5 +174,74 @@ TEST(TrajectoryPanel, SaysBelowTheNameOfAnObjectHowSureItIs) {
   EXPECT_EQ(cv::norm(drawn(lines), expected(lines), cv::NORM_INF), 0.0);
 }
 
+TEST(TrajectoryPanel, ShowsATallImageInTheMiddle) {
+  const cv::Scalar shown(90, 200, 10);
+  const cv::Mat panel = drawn_flight(cv::Mat(40, 20, CV_8UC3, shown));
+  for (const cv::Point inside : Points{{139, 178}, {276, 178}, {208, 38}, {208, 317}}) {
+    EXPECT_TRUE(is_coloured(panel, inside, shown)) << inside;
+  }
+  for (const cv::Point beside : Points{{134, 178}, {282, 178}}) {
+    EXPECT_TRUE(is_coloured(panel, beside, panel::kCard)) << beside;
+  }
+}
+
+/// Before the first waypoint it is as if it were there.
+TEST(TrajectoryPanel, SaysAboveWhatFliesAndHowFarItIs) {
+  const Recogniser recogniser = support::recogniser_of_two();
+  const ObjectObservations observations(recogniser, {}, RigidTransition{});
+  for (const int at : {-1, 0, 1}) {
+    TrajectoryPanelInput input{
+        .observations = observations, .nominal = kNominal, .plan = kPlan, .at = at};
+    input.method = "stomp";
+    const cv::Mat drawn = draw_trajectory_panel(input, {}, {640, 720});
+    cv::Mat expected(drawn.size(), CV_8UC3, panel::kBottom);
+    const panel::Layout layout{1.0, expected.size()};
+    panel::text(expected, layout, "stomp", {14.0, 24.0}, 14, panel::kText, panel::Align::left,
+                true);
+    panel::text(expected, layout, fmt::format("waypoint {} of 3, 0 observations", at < 1 ? 1 : 2),
+                {626.0, 24.0}, 12, panel::kDim, panel::Align::right);
+    const cv::Rect top(0, 0, 640, 36);
+    EXPECT_EQ(cv::norm(drawn(top), expected(top), cv::NORM_INF), 0.0) << at;
+    EXPECT_TRUE(is_near(drawn, {150, 538}, at < 1 ? panel::kAccent : panel::kVisited)) << at;
+  }
+}
+
+TEST(TrajectoryPanel, HasRaysOfAllEightDirections) {
+  const cv::Mat panel = drawn_flight({});
+  for (const cv::Point ray : Points{{227, 439}, {189, 439}, {227, 477}, {189, 477}}) {
+    EXPECT_TRUE(is_near(panel, ray, panel::kFaint)) << ray;
+  }
+}
+
+TEST(TrajectoryPanel, ListsNoMoreObjectsThanFit) {
+  const Recogniser recogniser = support::recogniser_of_two();
+  ObjectObservations observations(recogniser, {}, RigidTransition{});
+  for (int id = 0; id < 25; ++id) observations.found(id, {1.0, 1.2, 0.8});
+  const TrajectoryPanelInput input{
+      .observations = observations, .nominal = kNominal, .plan = kPlan, .at = 1};
+  const cv::Mat panel = draw_trajectory_panel(input, {}, {640, 720});
+  EXPECT_TRUE(is_written(panel, {424, 672, 100, 12})) << "the twentieth";
+  EXPECT_FALSE(is_written(panel, {416, 702, 210, 18}));
+}
+
+/// Twice as wide, all is twice as large.
+TEST(TrajectoryPanel, GrowsWithItsSize) {
+  const Recogniser recogniser = support::recogniser_of_two();
+  ObjectObservations observations(recogniser, {}, RigidTransition{});
+  observations.found(7, {1.0, 1.2, 0.8});
+  TrajectoryPanelInput input{
+      .observations = observations, .nominal = kNominal, .plan = kPlan, .at = 1};
+  input.T_world_body = make_pose({1.0, 0.1, 1.8}, std::numbers::pi / 2.0);
+  const cv::Mat drawn = draw_trajectory_panel(input, {}, {1280, 1440});
+  for (const cv::Point robot : Points{{416, 1111}, {410, 1111}, {422, 1111}}) {
+    EXPECT_TRUE(is_coloured(drawn, robot, panel::kRobot)) << robot;
+  }
+  cv::Mat expected(drawn.size(), CV_8UC3, panel::kCard);
+  const panel::Layout layout{2.0, expected.size()};
+  panel::text(expected, layout, "7  not seen closely yet", {848.0, 148.0}, 10, panel::kDim);
+  const cv::Rect line(840, 124, 400, 28);
+  EXPECT_EQ(cv::norm(drawn(line), expected(line), cv::NORM_INF), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

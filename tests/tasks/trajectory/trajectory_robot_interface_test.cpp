@@ -5,12 +5,14 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "tests/support/temporary_directory.hpp"
 #include "tests/tasks/drawn_pixels.hpp"
 #include "tests/tasks/flight/two_objects.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/runtime/episode_loop.hpp"
 #include "vantage/runtime/log/video.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/trajectory/simulated_trajectory_robot.hpp"
@@ -330,6 +332,162 @@ TEST(FlightOfParts, NamesThePictureOfALookByItsNumberAndItsObject) {
   flight.recorder.observation(7, {}, 2, view);
   EXPECT_TRUE(fs::exists(options.directory / "views/look_002_object_7.png"));
   release_run_directory(options.directory);
+}
+
+/// Five a second from when one was asked for.
+TEST_F(Interface, TakesImagesAtTheirRate) {
+  ResolvedEpisode slower = episode_;
+  std::get<TrajectoryFlight>(slower.task).image_rate_hz = 5.0;
+  FlyingRobot robot(slower, at(-2.7, -1.9, 0.0));
+  std::vector<double> taken_s;
+  const ImageCallback note = [&](const FlightImage& image) { taken_s.push_back(image.time_s); };
+  robot.capture_now(note);
+  robot.fly_for(1.0, note);
+  EXPECT_NEAR(robot.time_s(), 1.0, 1e-6);
+  ASSERT_EQ(taken_s.size(), 6U);
+  for (std::size_t i = 0; i < taken_s.size(); ++i) {
+    EXPECT_NEAR(taken_s[i], 0.2 * static_cast<double>(i), 1e-6) << i;
+  }
+}
+
+TEST_F(Interface, FliesPastAsManyWaypointsAsItIsTold) {
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
+  EXPECT_EQ(robot.passed(), 0) << "there are none yet";
+  robot.fly_for(0.2, kNothing);
+  const std::vector<FlightWaypoint> waypoints = {at(-2.5, -1.9, 0.0), at(-2.1, -1.8, 0.2),
+                                                 at(-1.6, -1.8, 0.4)};
+  const MinimumJerkTrajectory path = robot.path_in(0.0, waypoints);
+  robot.follow(waypoints);
+  const double start_s = robot.time_s();
+  robot.fly_past(2, kNothing);
+  EXPECT_EQ(robot.passed(), 2);
+  EXPECT_NEAR(robot.time_s() - start_s, path.knots_s()[2], 0.0021);
+  const Eigen::Vector3d led_m = robot.quadrotor().tracking().reference().p_world_m;
+  EXPECT_NEAR((led_m - path.at(robot.time_s() - start_s).p_world_m).norm(), 0.0, 1e-6);
+  robot.fly_past(5, kNothing);
+  EXPECT_EQ(robot.passed(), 3);
+  EXPECT_NEAR(robot.time_s() - start_s, path.duration_s(), 0.0021) << "there are no more";
+}
+
+TEST_F(Interface, SumsUpThePowerOfItsRotors) {
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
+  const TrajectoryGroundTruth before = robot.ground_truth();
+  EXPECT_EQ(before.tracking_error_mean_m, 0.0);
+  EXPECT_EQ(before.tracking_error_max_m, 0.0);
+  EXPECT_EQ(before.flown_m, 0.0);
+  EXPECT_EQ(before.energy_j, 0.0);
+  const double period_s = episode_.setup.options.simulation.control_period_s;
+  const Quadrotor& vehicle = robot.quadrotor().vehicle();
+  robot.follow(std::vector{at(-2.3, -1.9, 0.0)});
+  double energy_j = 0.0;
+  for (int tick = 0; tick < 200; ++tick) {
+    robot.fly_for(period_s, kNothing);
+    energy_j += period_s * induced_power_W(vehicle.thrusts_N(robot.quadrotor().world()),
+                                           vehicle.rotor_radius_m());
+  }
+  EXPECT_GT(energy_j, 1.0);
+  EXPECT_NEAR(robot.ground_truth().energy_j, energy_j, 1e-6);
+}
+
+TEST_F(Interface, ColoursTheDepthThatItHasMeasured) {
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.5));
+  int taken = 0;
+  robot.capture_now([&](const FlightImage& image) {
+    ++taken;
+    EXPECT_TRUE(image.arrived);
+    const CameraImages coloured = image.with_colour();
+    EXPECT_EQ(coloured.depth_m, image.depth.depth_m);
+    EXPECT_EQ(coloured.rgb.size(), 3U * 32U * 24U);
+    const Pose T_world_camera = robot.estimated_body() * robot.T_body_camera();
+    EXPECT_TRUE(image.T_world_camera.isApprox(T_world_camera, 1e-9));
+  });
+  EXPECT_EQ(taken, 1);
+  const double pitch_rad = std::get<TrajectoryFlight>(episode_.task).camera_pitch_rad;
+  const Eigen::Vector3d sight = robot.T_body_camera().linear().col(2);
+  const Eigen::Vector3d tilted(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad));
+  EXPECT_NEAR((sight - tilted).norm(), 0.0, 1e-4);
+  const Pose placed = make_pose({-2.7, -1.9, 1.8}, 0.5);
+  EXPECT_TRUE(robot.quadrotor().true_body().isApprox(placed, 1e-6));
+}
+
+TEST_F(Interface, MeasuresTheSameDepthWhetherColourIsAskedForOrNot) {
+  const auto second_depth_m = [&](bool ask) {
+    FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
+    robot.capture_now([&](const FlightImage& image) {
+      if (ask) image.with_colour();
+    });
+    std::vector<float> depth_m;
+    robot.capture_now([&](const FlightImage& image) { depth_m = image.depth.depth_m; });
+    return depth_m;
+  };
+  EXPECT_EQ(second_depth_m(true), second_depth_m(false));
+}
+
+TEST_F(Interface, SaysWhichImagesAreLost) {
+  ResolvedEpisode blind = episode_;
+  blind.setup.options.faults.dropped_frames = 1.0;
+  FlyingRobot robot(blind, at(-2.7, -1.9, 0.0));
+  int lost = 0;
+  robot.capture_now([&](const FlightImage& image) {
+    lost += image.arrived ? 0 : 1;
+    EXPECT_TRUE(image.depth.depth_m.empty());
+  });
+  EXPECT_EQ(lost, 1);
+}
+
+TEST_F(Interface, SaysWhereItTouchedSomething) {
+  FlyingRobot robot(episode_, {.p_world_m = {-2.2, -1.25, 0.6}});
+  robot.follow(std::vector{FlightWaypoint{.p_world_m = {0.0, -1.25, 0.6}}});
+  std::string why;
+  try {
+    robot.fly_for(9.0, kNothing);
+  } catch (const EpisodeFailed& error) {
+    why = error.what();
+  }
+  const Eigen::Vector3d p_m = robot.quadrotor().true_body().translation();
+  EXPECT_NE(why.find(fmt::format("{:.2f} s, ({:.2f}, {:.2f}, {:.2f}) m", robot.time_s(), p_m.x(),
+                                 p_m.y(), p_m.z())),
+            std::string::npos)
+      << why;
+  WaypointRecord record;
+  TrajectoryEvaluator(robot).measure(record);
+  EXPECT_EQ(record.collisions, 1);
+  EXPECT_EQ(record.clearance_m, 0.0);
+  EXPECT_EQ(record.tracking_error_m, robot.ground_truth().tracking_error_mean_m);
+  EXPECT_EQ(record.flown_m, robot.ground_truth().flown_m);
+}
+
+/// On its way to the wall it is nearer every time.
+TEST_F(Interface, MeasuresItsClearanceEveryTenthOfASecond) {
+  FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
+  robot.follow(std::vector{at(-2.7, -2.3, 0.0)});
+  robot.fly_for(0.3, kNothing);
+  double clearance_m = robot.ground_truth().minimum_clearance_m;
+  std::vector<double> lowered_s;
+  while (robot.time_s() < 0.8) {
+    robot.fly_for(episode_.setup.options.simulation.control_period_s, kNothing);
+    const double now_m = robot.ground_truth().minimum_clearance_m;
+    if (now_m < clearance_m) lowered_s.push_back(robot.time_s());
+    clearance_m = now_m;
+  }
+  ASSERT_GE(lowered_s.size(), 4U);
+  for (std::size_t i = 1; i < lowered_s.size(); ++i) {
+    EXPECT_NEAR(lowered_s[i] - lowered_s[i - 1], 0.1, 1e-6) << i;
+  }
+}
+
+/// Nothing is tracked under that number.
+TEST(FlightOfParts, ForgetsWhatTurnedOutToBeAnotherObject) {
+  set_verbosity(Verbosity::quiet);
+  const support::TemporaryDirectory folder;
+  PartsInFlight flight(lean_run(folder / "run"));
+  auto& beliefs = const_cast<ObjectObservations&>(flight.parts.observations());
+  beliefs.found(99, {0.0, 0.0, 0.8});
+  flight.parts.observe();
+  for (const RecognisedObject& object : flight.parts.observations().objects()) {
+    EXPECT_NE(object.id, 99);
+  }
+  release_run_directory(flight.run.directory());
 }
 
 }  // namespace

@@ -52,5 +52,31 @@ TEST(TrueClearance, IsThreeMetresAtMost) {
   EXPECT_EQ(min_m(FlightWorld(test::exact_tracking(), test::at_height(5.0))), 3.0);
 }
 
+TEST(TrueClearance, OfAPlaneIsFromWhereverItIs) {
+  const FlightWorld raised(test::exact_tracking(), test::at_height(1.0),
+                           R"(<geom type="plane" pos="0 0 0.4" size="1 1 0.1"/>)");
+  EXPECT_NEAR(min_m(raised), 0.6 - kSkid_m, 2e-3);
+  const FlightWorld upright(test::exact_tracking(), test::at_height(3.0),
+                            R"(<geom type="plane" pos="0 0.7 3" zaxis="0 -1 0" size="1 1 0.1"/>)");
+  EXPECT_NEAR(min_m(upright), 0.7 - kRotor_m, 2e-3);
+}
+
+TEST(TrueClearance, IsNothingOfWhatIsBelowTheFloorOrHasTouched) {
+  EXPECT_EQ(min_m(FlightWorld(test::exact_tracking(), test::at_height(0.05))), 0.0);
+  const FlightWorld scene(test::exact_tracking(), test::at_height(1.0));
+  TrueClearance clearance(scene.world);
+  clearance.touched();
+  clearance.update(scene.world);
+  EXPECT_EQ(clearance.min_m(), 0.0);
+}
+
+TEST(TrueClearance, OfNoRobotStaysAtThreeMetres) {
+  const test::SceneFolder folder(test::scene_mjcf(""));
+  const World world(folder.alone());
+  TrueClearance clearance(world);
+  clearance.update(world);
+  EXPECT_EQ(clearance.min_m(), 3.0);
+}
+
 }  // namespace
 }  // namespace vantage
