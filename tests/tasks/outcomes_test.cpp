@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "vantage/tasks/object_flight/object_flight_metrics.hpp"
 #include "vantage/tasks/task.hpp"
@@ -232,6 +233,40 @@ TEST(FlightsRoundAnObject, SayWhatTheyAre) {
   ASSERT_TRUE(task.window({}).map);
   EXPECT_EQ(text_or_nothing({{"a", "b"}, {"c", 1}}, "a"), "b");
   EXPECT_EQ(text_or_nothing({{"a", "b"}, {"c", 1}}, "c"), "nothing yet");
+}
+
+TEST(Recognition, SaysWhichWayItsMeasuresAreBetter) {
+  const Measures measures = RecognitionTask::measures();
+  std::vector<std::string_view> higher;
+  std::vector<std::string_view> lower;
+  for (const ScalarMeasure& measure : measures.scalars) {
+    EXPECT_FALSE(measure.name.wall) << measure.name.name;
+    if (measure.name.better == Better::higher) higher.push_back(measure.name.name);
+    if (measure.name.better == Better::lower) lower.push_back(measure.name.name);
+  }
+  EXPECT_THAT(higher, testing::ElementsAre("correct", "category_correct", "targets_correct",
+                                           "seen_share", "map_probability"));
+  EXPECT_THAT(lower, testing::ElementsAre("hidden_views", "views", "entropy_bits", "bin_error",
+                                          "view_position_error_m", "view_angle_error_rad",
+                                          "path_length_m", "collisions", "simulated_time_s"));
+  EXPECT_THAT(std::vector(measures.headlines.begin(), measures.headlines.end()),
+              testing::ElementsAre("correct", "map_probability", "entropy_bits", "views",
+                                   "path_length_m", "simulated_time_s"));
+  EXPECT_EQ(RecognitionTask::report().figures, "recognition");
+  EXPECT_EQ(RecognitionTask::report().step_word, "view");
+}
+
+TEST(Recognition, ItsWindowHasTheMapOverItsTable) {
+  RecognitionTask task;
+  task.table_m = {1.0, -2.0, 0.5};
+  task.map.size_m = {0.8, 0.6};
+  EXPECT_FALSE(task.window({}).map) << "an object alone is not mapped";
+  task.clutter.objects = 1;
+  const std::optional<GridFrame> map = task.window({}).map;
+  ASSERT_TRUE(map);
+  EXPECT_NEAR((map->min_corner_m - Eigen::Vector3d(0.6, -2.3, 0.53)).norm(), 0.0, 1e-12);
+  const GridFrame expected = TableMap::frame_of({1.0, -2.0, 0.5}, task.map);
+  EXPECT_TRUE((map->cells == expected.cells).all());
 }
 
 }  // namespace

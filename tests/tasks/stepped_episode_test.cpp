@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -158,6 +160,38 @@ TEST_F(SteppedEpisodes, ThatCannotBeginSayWhy) {
   SteppedEpisode episode(tabletop({"choice=oracle"}), "mine", options());
   ASSERT_EQ(episode.wait(), SteppedEpisode::State::over);
   EXPECT_THROW(static_cast<void>(episode.outcome()), ConfigError);
+}
+
+/// Who watches it is told of its ticks all the same.
+TEST_F(SteppedEpisodes, MayBeWaitedForInPieces) {
+  constexpr std::chrono::milliseconds kPiece(1);
+  std::atomic<int> ticks = 0;
+  RunOptions with = options();
+  with.spectator.on_tick = [&](const World&) { ++ticks; };
+  SteppedEpisode episode(tabletop({"scans=2"}), "mine", with);
+  int pieces = 0;
+  SteppedEpisode::State state = SteppedEpisode::State::runs;
+  for (; state == SteppedEpisode::State::runs; ++pieces) state = episode.wait(kPiece);
+  EXPECT_EQ(state, SteppedEpisode::State::asks);
+  EXPECT_GT(pieces, 1);
+  EXPECT_GT(ticks.load(), 0);
+}
+
+/// One that looks at nothing learns nothing of the truth.
+TEST_F(OutsideChoices, MayTakeTheOraclesPlaceIfTheyAreBlind) {
+  const ResolvedEpisode episode = tabletop({"choice=oracle", "scans=2"});
+  const nlohmann::json own = nlohmann::json::parse(run(episode, options()).metrics);
+  RunOptions with = options();
+  with.outside = {
+      .name = "mine",
+      .decide =
+          [](const DecisionRequest& request) { return OutsideDecision(request.own_choice()); },
+      .ended = {},
+      .blind = true};
+  const nlohmann::json same = nlohmann::json::parse(run(episode, with).metrics);
+  EXPECT_EQ(same["status"], "completed");
+  EXPECT_EQ(same["state_hash"], own["state_hash"]);
+  EXPECT_EQ(same["method"], "mine");
 }
 
 }  // namespace

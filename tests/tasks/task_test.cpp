@@ -3,12 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <set>
 
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/data_root.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/tasks/episode.hpp"
 
@@ -236,6 +238,115 @@ TEST(Tasks, AnExplorationHasTheKeysOfItsParts) {
         "gaze.worth", "headroom.high_m", "passages.margin_m", "stop.confidence", "sweep.pans"}) {
     EXPECT_TRUE(keys.contains(key)) << key;
   }
+}
+
+TEST(Tasks, AMapThatIsAutoIsLeftToTheScene) {
+  const auto map_of = [](const std::string& yaml) {
+    EpisodeOptions options;
+    Task task;
+    read_episode(parse_yaml(yaml, "e.yaml"), options, task);
+    return std::get<Tabletop>(task).map;
+  };
+  const MapOptions whole = map_of("map: auto\n");
+  EXPECT_FALSE(whole.centre_m || whole.size_m || whole.cells);
+  const MapOptions part = map_of("map: {centre_m: auto, cells: [3, 5, 7]}\n");
+  EXPECT_FALSE(part.centre_m || part.size_m);
+  ASSERT_TRUE(part.cells);
+  EXPECT_THAT(*part.cells, testing::ElementsAre(3, 5, 7));
+  EXPECT_THROW(map_of("map: 'auto'\n"), ConfigError) << "a text";
+  EXPECT_THROW(map_of("map: {centre_m: 'auto'}\n"), ConfigError) << "a text";
+}
+
+/// As a study sets keys over those of its episode.
+TEST(Tasks, AStartOfAnotherFileTakesThePlaceOfTheEpisodes) {
+  const auto started = [](const std::string& robot, const std::string& key,
+                          const std::string& value) {
+    ConfigNode root = parse_yaml("task: exploration\nrobot: " + robot + "\n", "e.yaml");
+    set_values(root, {{key, parse_yaml(value, "study.yaml")}});
+    EpisodeOptions options;
+    Task task;
+    read_episode(root, options, task);
+    return options.robot;
+  };
+  const RobotOptions posed = started("{start_site: here}", "robot.start_pose", "[1, 2, 0.5]");
+  EXPECT_EQ(posed.start_site, "");
+  ASSERT_TRUE(posed.start_pose);
+  EXPECT_THAT(*posed.start_pose, testing::ElementsAre(1.0, 2.0, 0.5));
+  const RobotOptions sited = started("{start_pose: [1, 2, 0.5]}", "robot.start_site", "there");
+  EXPECT_EQ(sited.start_site, "there");
+  EXPECT_FALSE(sited.start_pose);
+}
+
+TEST(Tasks, WhatDoesNotGoTogetherIsSaidOfItsFile) {
+  EpisodeOptions options;
+  Task task;
+  const ConfigNode root = parse_yaml(
+      "task: recognition\nsimulation: {timestep_s: 0.002, control_period_s: 0.02}\n", "e.yaml");
+  EXPECT_THAT(complaint([&] { read_episode(root, options, task); }),
+              testing::StartsWith("e.yaml:1: simulation.control_period_s: 0.02 must equal "
+                                  "simulation.timestep_s = 0.002"));
+}
+
+TEST(Tasks, AnEmptyFileIsNoEpisode) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "e.yaml", "# nothing\n");
+  EXPECT_THAT(complaint([&] { load_episode(folder / "e.yaml", {}); }), HasSubstr("e.yaml: empty"));
+  write_file(folder / "e.yaml", "scans: 2\n");
+  EXPECT_EQ(complaint([&] { load_episode(folder / "e.yaml", {}); }), "");
+}
+
+TEST(Tasks, FilesThatCannotBeUsedAreNamedByKeyAndPlace) {
+  const auto said = [](const std::string& yaml) -> std::string {
+    try {
+      resolve_episode(parse_yaml(yaml, "e.yaml"), "e.yaml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(said("scans: 2\nscene: no/such.xml\n"), testing::StartsWith("e.yaml:2: scene: "));
+  EXPECT_THAT(said("robot:\n  model: no/such\n"), testing::StartsWith("e.yaml:2: robot.model: "));
+  EXPECT_THAT(said("robot:\n  model: models/scenes\n"),
+              testing::AllOf(testing::StartsWith("e.yaml:2: robot.model: "),
+                             HasSubstr("no robot.yaml in it")));
+}
+
+TEST(Tasks, FilesKeepNamesThatAreFoundFromAnywhere) {
+  const fs::path source = VANTAGE_SOURCE_DIR;
+  const fs::path scene = source / "models/scenes/recognition/scene.xml";
+  const fs::path robot = source / "models/robots/quadrotor_mini";
+  const ResolvedEpisode episode = load_episode(
+      kEpisodes / "recognition.yaml", {"scene=" + scene.string(), "robot.model=" + robot.string()});
+  EXPECT_EQ(episode.setup.name, "recognition");
+  EXPECT_EQ(episode.setup.scene, scene);
+  EXPECT_EQ(episode.setup.options.scene, lasting_name(scene));
+  EXPECT_EQ(episode.setup.options.robot.model, lasting_name(robot));
+  EXPECT_EQ(episode.setup.robot.description, robot / "robot.yaml");
+  const std::vector<InputFile> files = inputs(episode.task);
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(files[0].key, "model");
+}
+
+TEST(Tasks, DescriptionsHaveDefaultsAndStandInConfigurations) {
+  Tabletop task;
+  task.scans = 77;
+  const std::vector<KeyDescription> keys = describe_episode(task);
+  EXPECT_EQ(keys.front().key, "task");
+  EXPECT_EQ(keys.front().default_value, "tabletop");
+  EXPECT_THAT(keys.front().type,
+              HasSubstr("tabletop, exploration, recognition, change_detection, trajectory"));
+  const auto scans = std::ranges::find(keys, "scans", &KeyDescription::key);
+  ASSERT_NE(scans, keys.end());
+  EXPECT_EQ(scans->default_value, "10");
+  EXPECT_EQ(std::ranges::count(keys, "seed", &KeyDescription::key), 1);
+  ResolvedEpisode episode;
+  episode.task = task;
+  const std::string plain = episode_yaml(episode);
+  const std::string commented = commented_episode_yaml(episode);
+  EXPECT_THAT(plain, testing::StartsWith("task: tabletop\n"));
+  EXPECT_THAT(plain, HasSubstr("scans: 77"));
+  EXPECT_GT(commented.size(), plain.size());
+  EXPECT_EQ(to_yaml(parse_yaml(commented, "e.yaml")), to_yaml(parse_yaml(plain, "e.yaml")));
 }
 
 }  // namespace

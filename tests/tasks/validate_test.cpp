@@ -126,5 +126,23 @@ TEST(RobotDefaults, HaveTheFootprintOfABaseThatNavigates) {
             nullptr);
 }
 
+TEST(ValidateFile, OfAModelReadsIt) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "a.model", "no model");
+  EXPECT_THAT(problem(folder / "a.model"), HasSubstr("a.model"));
+  EXPECT_EQ(validate_file(folder / "a.model").code, ExitCode::bad_input);
+}
+
+TEST(RobotDefaults, SayWhereTheFootprintComesFrom) {
+  RobotFolder robot = robot_with("{}");
+  robot.description = "mine/robot.yaml";
+  const ConfigNode keys = parse_yaml("navigation: {margin_m: 0.04}", "keys");
+  const ConfigNode filled =
+      with_robot_defaults(parse_yaml("scans: 3", "e.yaml"), keys, robot, "tabletop");
+  const ConfigNode* radius = find_value(filled, "navigation.footprint_radius_m");
+  ASSERT_NE(radius, nullptr);
+  EXPECT_EQ(radius->where(), "mine/robot.yaml: navigation.footprint_radius_m");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -63,7 +63,7 @@ Pose2 start_pose(const World& world, const EpisodeSetup& setup) {
 double camera_lift_m(const MobileBase& robot, double lowest_m, const Exploration& task) {
   const double height_m = task.frontiers.height_m;
   const double lift_m = height_m - lowest_m;
-  if (lift_m < -1e-2 || lift_m > robot.lift_max_m()) {
+  if (lift_m < -1e-2 || lift_m > robot.lift_max_m() + 1e-6) {
     const double highest_m = lowest_m + robot.lift_max_m();
     const double fitting_m =
         std::floor(1e3 * std::clamp(height_m, lowest_m, highest_m) + 1e-6) / 1e3;
@@ -72,7 +72,7 @@ double camera_lift_m(const MobileBase& robot, double lowest_m, const Exploration
         "robot.yaml episode_defaults: {{exploration: {{frontiers: {{height_m: {:.3f}}}}}}}",
         height_m, lowest_m, highest_m, fitting_m, fitting_m));
   }
-  return std::max(lift_m, 0.0);
+  return std::clamp(lift_m, 0.0, robot.lift_max_m());
 }
 
 MobileBase placed_robot(World& world, const EpisodeSetup& setup, const Exploration& task) {

@@ -109,5 +109,29 @@ TEST_F(FrontierViews, AreOutOfReachIfTheRobotCannotComeNear) {
   }
 }
 
+/// Its sensor is beside the middle of its base, and the base comes to each place straight.
+TEST_F(FrontierViews, LookOnInTheDirectionThatTheRobotComesFrom) {
+  const Pose2 start{0.5, -0.4, 1.0};
+  const PathField paths =
+      make_path_field(floor_, start, {.footprint_radius_m = 0.2, .margin_m = 0.05});
+  const Pose T_base_sweep = make_pose({0.2, 0.1, 1.47}, 0.0);
+  const auto found = [&] {
+    return frontier_views(
+        task_, {.grid = grid_, .paths = paths, .T_base_sweep = T_base_sweep, .visited = visited_},
+        false);
+  };
+  const std::vector<Candidate> first = found();
+  const Places frontiers{kLargest, kBeside, kNext, kFar};
+  ASSERT_EQ(first.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Pose2 base = project_to_se2(first[i].T_world_sensor * T_base_sweep.inverse());
+    EXPECT_LT((position(base) - frontiers[i]).norm(), 0.08) << i;
+    const double ahead_rad = std::atan2(base.y_m - start.y_m, base.x_m - start.x_m);
+    EXPECT_NEAR(wrap_angle(base.yaw_rad - ahead_rad), 0.0, 1e-9) << i;
+  }
+  visited_.add(first[2].T_world_sensor.translation().head<2>(), 0.05);
+  EXPECT_EQ(found().size(), 3U) << "visited is where the sensor was";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -114,5 +114,16 @@ TEST(FloorMapNote, NamesTheFarthestSideOfTheMap) {
   }
 }
 
+/// The rows of EndsWhereEveryPanSees, looking up as much as those look down.
+TEST(SweptField, IsUpsideDownIfItsImagesAre) {
+  const FieldOfView field = swept(9, {-0.6, -0.1});
+  EXPECT_NEAR(field.tilt_min_rad, -1.022740557673841, 1e-9);
+  EXPECT_NEAR(field.tilt_max_rad, 0.3304382275978708, 1e-9);
+  EXPECT_NO_THROW(swept(6, {-0.6, -0.1}));
+  EXPECT_THROW(swept(5, {-0.6, -0.1}), ConfigError) << "narrowest at its lower edge";
+  EXPECT_NO_THROW(swept(9, {-1.04}));
+  EXPECT_THROW(swept(9, {-1.06}), ConfigError) << "past the vertical";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "tests/tasks/flight/two_objects.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
+#include "vantage/core/log.hpp"
 #include "vantage/runtime/episode_loop.hpp"
 #include "vantage/tasks/flight/flight_world.hpp"
 #include "vantage/tasks/flight/full_turn.hpp"
@@ -161,6 +163,29 @@ TEST(RecognitionModelFile, IsNamedByItsKeyWhereItIsNotFound) {
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::StartsWith("model: no/such.model: no such file"));
   }
+}
+
+TEST(RecognitionModelFile, TellsWhereUnknownIsTheRightAnswer) {
+  const support::TemporaryDirectory folder;
+  Recogniser recogniser = support::recogniser_of_two();
+  recogniser.states.unknown_category = {kNoCategory};
+  log_to_file(folder / "log.txt");
+  for (const char* object : {"", "mug_1", "bowl_2", "lamp_1"}) {
+    require_answer(recogniser, "my.model", object, "stands on the table");
+  }
+  log_to_file({});
+  const std::string log = read_file(folder / "log.txt");
+  EXPECT_EQ(std::ranges::count(log, '\n'), 1) << log;
+  EXPECT_THAT(log, HasSubstr("my.model: does not know 'lamp_1', which stands on the table"));
+}
+
+TEST(ObjectDatabase, OfModelsIsFoundWhereTheyLie) {
+  const support::TemporaryDirectory folder;
+  const std::string models = folder.path().string();
+  const DatasetOptions dataset = dataset_of({.seed = 7, .objects = 12, .models = models});
+  EXPECT_EQ(dataset.models, models);
+  EXPECT_EQ(dataset.seed, 7U);
+  EXPECT_EQ(dataset.objects, 12);
 }
 
 }  // namespace

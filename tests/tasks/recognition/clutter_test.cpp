@@ -356,5 +356,59 @@ TEST(TableGroundTruth, TargetsWithoutRoomSayHowLargeTheTableIs) {
   }
 }
 
+/// Beyond five times the reach nothing is looked for: 0.5 m, where 0.56 m would be free.
+TEST(StandingRoom, ReachesFiveTimesAsFarAtMost) {
+  const std::vector<Eigen::Vector2d> middle{Eigen::Vector2d::Zero()};
+  StandingRoom room({middle, 0.1, 0.05, {4.0, 4.0}});
+  room.take(round_outline(0.5));
+  Rng rng(3);
+  StandingRoom::Place place;
+  EXPECT_FALSE(room.place(round_outline(0.02), rng, place));
+}
+
+/// A triangle with its corners on a circle round `middle_m`.
+Outline drawn_triangle(Rng& rng, const Eigen::Vector2d& middle_m) {
+  Outline triangle;
+  for (int i = 0; i < 3; ++i) {
+    const double angle_rad = 2.0 * std::numbers::pi / 3.0 * i + rng.uniform(-0.8, 0.8);
+    triangle.emplace_back(middle_m +
+                          0.5 * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  return triangle;
+}
+
+/// Places of a triangle, a sixteenth of its edges apart.
+std::vector<Eigen::Vector2d> all_over(const Outline& triangle) {
+  constexpr int kParts = 16;
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i <= kParts; ++i) {
+    for (int j = 0; i + j <= kParts; ++j) {
+      const double u = static_cast<double>(i) / kParts;
+      const double v = static_cast<double>(j) / kParts;
+      places.emplace_back((1.0 - u - v) * triangle[0] + u * triangle[1] + v * triangle[2]);
+    }
+  }
+  return places;
+}
+
+TEST(Outlines, GapsAreThoseOfTheNearestPlaces) {
+  Rng rng(5);
+  int apart = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Outline a = drawn_triangle(rng, {0.0, 0.0});
+    const Outline b = drawn_triangle(rng, {rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)});
+    double nearest_m = 10.0;
+    for (const Eigen::Vector2d& p : all_over(a)) {
+      for (const Eigen::Vector2d& q : all_over(b)) nearest_m = std::min(nearest_m, (p - q).norm());
+    }
+    EXPECT_LE(gap_m(a, b), nearest_m + 1e-9) << i;
+    EXPECT_GE(gap_m(a, b), nearest_m - 0.08) << i;
+    EXPECT_NEAR(gap_m(a, b), gap_m(b, a), 1e-12) << i;
+    apart += gap_m(a, b) > 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(apart, 10);
+  EXPECT_LT(apart, 58);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -309,12 +309,34 @@ TEST(OrbitRobotInterface, IsRecordedWhereItIsAndWhereItBelievesToBe) {
   const ResolvedEpisode resolved = episode();
   OrbitingRobot robot(resolved);
   robot.observe();
-  const RecordedRobot kept = recorded(robot);
+  const RecordedRobot kept = recorded(static_cast<SimulatedOrbitRobot&>(robot));
   EXPECT_EQ(&kept.world, &robot.quadrotor().world());
   EXPECT_TRUE(kept.T_world_body().isApprox(robot.quadrotor().true_body(), 0.0));
   EXPECT_TRUE(kept.T_world_estimated().isApprox(robot.estimated_body(), 0.0));
   EXPECT_FALSE(kept.T_world_body().isApprox(kept.T_world_estimated(), 1e-9));
   EXPECT_EQ(kept.faults, &robot.quadrotor().faults());
+}
+
+/// Of colours that are far from black and white: without bias, of that standard deviation.
+TEST(OrbitRobotInterface, ColoursAreAsNoisyAsTheyAreSaidToBe) {
+  OrbitingRobot plain(episode({"colour_noise=0"}));
+  OrbitingRobot noisy(episode({"colour_noise=6"}));
+  const std::vector<std::uint8_t> clear = plain.observe().images.rgb;
+  const std::vector<std::uint8_t> seen = noisy.observe().images.rgb;
+  ASSERT_EQ(seen.size(), clear.size());
+  double count = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < clear.size(); ++i) {
+    if (clear[i] < 40 || clear[i] > 215) continue;
+    const double off = static_cast<double>(seen[i]) - static_cast<double>(clear[i]);
+    count += 1.0;
+    sum += off;
+    squares += off * off;
+  }
+  ASSERT_GT(count, 10000.0);
+  EXPECT_NEAR(sum / count, 0.0, 0.2);
+  EXPECT_NEAR(std::sqrt(squares / count), 6.0, 0.2);
 }
 
 }  // namespace

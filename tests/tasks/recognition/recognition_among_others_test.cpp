@@ -306,5 +306,53 @@ TEST_F(RecognitionAmongOthers, AViewShowsWhichCellsAreItsTargets) {
   EXPECT_FALSE(record.report.features.empty());
 }
 
+/// The table's middle is told to be a little off the world's.
+TEST_F(RecognitionAmongOthers, SaysWhatStoodWhere) {
+  const json metrics =
+      metrics_of("stood", {"targets=2", "clutter={objects: 2, near_duplicates: 0}", "seed=2",
+                           "max_views=1", "table_m=[0.03, -0.02, 0.72]"});
+  const ResolvedEpisode recorded = load_recorded(*folder_ / "stood");
+  const auto task = std::get<RecognitionTask>(recorded.task);
+  const TableGroundTruth table = draw_table(task, recorded.setup.options.seed);
+  ASSERT_EQ(metrics["others"].size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json& other = metrics["others"][i];
+    const ObjectOnTable& truth = table.others.at(i);
+    EXPECT_EQ(other["object"], truth.object);
+    EXPECT_NEAR(other["x_m"].get<double>(), 0.03 + truth.offset_m.x(), 1e-9);
+    EXPECT_NEAR(other["y_m"].get<double>(), -0.02 + truth.offset_m.y(), 1e-9);
+    EXPECT_NEAR(other["yaw_rad"].get<double>(), truth.yaw_rad, 1e-9);
+  }
+  ASSERT_EQ(metrics["targets"].size(), 2U);
+  ASSERT_EQ(metrics["observations"].size(), 2U) << "one of each";
+  bool all = true;
+  bool all_categories = true;
+  for (const json& view : metrics["observations"]) {
+    const auto i = view["target"].get<std::size_t>() - 1;
+    const json& target = metrics["targets"].at(i);
+    const ObjectOnTable& truth = table.targets.at(i);
+    EXPECT_EQ(target["truth"], truth.object);
+    EXPECT_NEAR(target["x_m"].get<double>(), 0.03 + truth.told_m.x(), 1e-9);
+    EXPECT_NEAR(target["y_m"].get<double>(), -0.02 + truth.told_m.y(), 1e-9);
+    EXPECT_EQ(target["views"], 1);
+    EXPECT_EQ(target["estimate"], view["estimate"]);
+    EXPECT_EQ(target["map_probability"], view["map_probability"]);
+    EXPECT_EQ(target["correct"].get<bool>(), view["estimate"] == truth.object);
+    all = all && target["correct"].get<bool>();
+    all_categories = all_categories && target["category_correct"].get<bool>();
+  }
+  EXPECT_EQ(metrics["targets"][0]["category_correct"].get<bool>(),
+            metrics["estimated_category"] == table.targets[0].category);
+  EXPECT_EQ(metrics["correct"].get<bool>(), all);
+  EXPECT_EQ(metrics["category_correct"].get<bool>(), all_categories);
+  const Eigen::AlignedBox3d box = TableMap::frame_of(task.p_world_table_m(), task.map).box();
+  const auto low_m = metrics["region"]["min_m"].get<std::vector<double>>();
+  const auto high_m = metrics["region"]["max_m"].get<std::vector<double>>();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(low_m.at(i), box.min()[static_cast<Eigen::Index>(i)], 1e-9);
+    EXPECT_NEAR(high_m.at(i), box.max()[static_cast<Eigen::Index>(i)], 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -8,6 +8,7 @@
 
 #include "tests/perception/drawn_boxes.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/planners/views/target_visibility.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/tasks/table_map/table_map_log.hpp"
 
@@ -209,6 +210,102 @@ TEST(TableMap, OverAFreeTableFlightsAreClear) {
   const std::vector<Eigen::Vector3d> over{kTable_m + Eigen::Vector3d(-0.02, 0.0, 0.27),
                                           kTable_m + Eigen::Vector3d(0.02, 0.0, 0.27)};
   EXPECT_TRUE(map.is_clear(over));
+}
+
+TEST(TableMap, RefusesOptionsThatAreOutOfRange) {
+  TableMapOptions options;
+  options.margin_m = 0.25;
+  EXPECT_THROW(TableMap(kTable_m, options), ConfigError);
+}
+
+/// Free cells let all pass, what stands there nothing, and the rest what its hazard leaves.
+TEST(TableMap, AViewSeesWhatItsCellsLetPass) {
+  TableMapOptions options;
+  options.margin_m = 0.05;
+  const TableMap map = map_after({0.0}, options);
+  const GridFrame& frame = map.grid().frame;
+  const Pose T_world_camera = camera_at(0.0);
+  const CameraImages images = draw({{kTarget, kScreen}}, T_world_camera, 0.002).images;
+  const PosedImage posed{images, T_world_camera};
+  ClutterHazard hazard(options.hazard, frame.cells);
+  hazard.observe(OccupancyGrid(frame), std::span(&posed, 1), 2, frame.min_corner_m.z());
+  const BlockField left = hazard.transmission();
+  std::vector<float> passes;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    passes.push_back(map.grid().state(i) == CellState::free ? 1.0F : 0.0F);
+    if (map.grid().state(i) != CellState::unobserved) continue;
+    passes.back() = static_cast<float>(left.at_cell(frame.cell(i)));
+  }
+  const Eigen::Vector2d middle = kTable_m.head<2>();
+  const std::vector<std::uint8_t> over =
+      map.cells_over({middle - Eigen::Vector2d(0.04, 0.04), middle + Eigen::Vector2d(0.04, -0.04),
+                      middle + Eigen::Vector2d(0.04, 0.04), middle + Eigen::Vector2d(-0.04, 0.04)},
+                     0.1);
+  for (const double bearing_rad : {0.2, 1.2, 2.9}) {
+    const Eigen::Vector3d from_m = eye(bearing_rad);
+    EXPECT_NEAR(map.visible_share(kShape, {}, from_m),
+                vantage::visible_share(frame, passes, kShape, {}, from_m, 0.05), 1e-6);
+    EXPECT_NEAR(map.visible_share(kShape, over, from_m),
+                vantage::visible_share(frame, passes, kShape, over, from_m, 0.05), 1e-6);
+  }
+}
+
+/// Past a corner of a table that was not seen, by distances to that corner: 0.35 m is clear.
+TEST(TableMap, OnePlaceThatIsTooNearIsEnough) {
+  const TableMap map = map_after({});
+  const Eigen::Vector3d corner_m = map.grid().frame.box().max() - Eigen::Vector3d(0.0, 0.0, 0.2);
+  const Eigen::Vector3d off = Eigen::Vector3d(1.0, 1.0, 0.0).normalized();
+  const Eigen::Vector3d past = Eigen::Vector3d(1.0, -1.0, 0.0).normalized();
+  const auto is_clear = [&](const std::vector<Eigen::Vector3d>& way_m) {
+    return map.is_clear(way_m);
+  };
+  EXPECT_TRUE(is_clear({corner_m + 0.355 * off}));
+  EXPECT_FALSE(is_clear({corner_m + 0.345 * off}));
+  EXPECT_FALSE(is_clear({corner_m - 0.4 * off})) << "amid what was not seen";
+  EXPECT_TRUE(is_clear({corner_m + 1.0 * off, corner_m + 0.355 * off}));
+  EXPECT_FALSE(is_clear({corner_m + 1.0 * off, corner_m + 0.345 * off}));
+  // Too near for 5 cm of it alone.
+  const auto passing = [&](double off_m) {
+    return std::vector<Eigen::Vector3d>{corner_m + off_m * off - 0.329 * past,
+                                        corner_m + off_m * off + 0.27 * past};
+  };
+  EXPECT_TRUE(is_clear(passing(0.3505)));
+  EXPECT_FALSE(is_clear(passing(0.3491)));
+}
+
+/// Cells 1 and 2 come to be occupied, 6 is so, free, and occupied again.
+TEST(TableMapLog, KeepsEachCellInItsPlace) {
+  const support::TemporaryDirectory folder;
+  TableMapLog log;
+  log.commit(folder.path());
+  EXPECT_TRUE(folder.is_empty()) << "there was no map";
+  OccupancyGrid grid(make_grid_frame({1.0, 2.0, 3.0}, {1.0, 1.0, 1.0}, {4, 2, 1}));
+  grid.log_odds = {0.0F, 2.0F, -2.0F, 0.0F, 0.0F, 0.0F, 2.0F, 0.0F};
+  EXPECT_EQ(log.change(grid, 0).runs.size(), 3U);
+  grid.log_odds[2] = 2.0F;
+  grid.log_odds[6] = -2.0F;
+  EXPECT_EQ(log.change(grid, 3).runs.size(), 2U);
+  grid.log_odds[6] = 2.0F;
+  grid.log_odds[7] = -2.0F;
+  const MapChange last = log.change(grid, 5);
+  ASSERT_EQ(last.runs.size(), 2U);
+  EXPECT_EQ(last.runs[0].first, 6U);
+  EXPECT_EQ(last.runs[0].state, CellState::occupied);
+  EXPECT_EQ(last.runs[1].state, CellState::free);
+  log.commit(folder.path());
+  const VoxelMap map = read_voxels(folder / "voxels.bin");
+  EXPECT_EQ(map.cell_size_m, Eigen::Vector3d(0.25, 0.5, 1.0));
+  const std::vector<std::uint8_t> kinds{1, 0, 0, 1, 1, 1, 0};  // cell 7 is free
+  const std::vector<std::uint16_t> since{0, 0, 3, 0, 0, 0, 5};
+  ASSERT_EQ(map.voxels.size(), 7U);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const VoxelRecord& voxel = map.voxels[i];
+    EXPECT_EQ(voxel.kind, kinds[i]) << i;
+    EXPECT_EQ(voxel.step, since[i]) << i;
+    EXPECT_EQ(voxel.x, 0.625F + 0.25F * static_cast<float>(i % 4)) << i;
+    EXPECT_EQ(voxel.y, i < 4 ? 1.75F : 2.25F) << i;
+    EXPECT_EQ(voxel.z, 3.0F) << i;
+  }
 }
 
 }  // namespace

@@ -328,5 +328,15 @@ TEST(ValidateTableTop, WhatThereIsToLocaliseByIsSaid) {
               HasSubstr("odometry will drift"));
 }
 
+/// What does not go with keys that were set is a problem, with defaults a note.
+TEST(ValidateScene, IsHeldToTheKeysThatWereSet) {
+  const OwnScene large(table_at(0.0, 0.0, 0.72, 1.0, 0.5) + kWalls);
+  EXPECT_THAT(validate_file(large.path(), {"candidates.radius_m=1.6"}).problems, IsEmpty());
+  const Validation small = validate_file(large.path(), {"candidates.radius_m=1.3"});
+  EXPECT_EQ(small.code, ExitCode::usage);
+  EXPECT_THAT(problem(small), HasSubstr("candidates.radius_m"));
+  EXPECT_THAT(small.notes, IsEmpty());
+}
+
 }  // namespace
 }  // namespace vantage
