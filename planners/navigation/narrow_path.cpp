@@ -99,17 +99,19 @@ class PathBuilder {
 
   /// On to where it goes on straight, or as far as it must not be turned the other way: a robot
   /// turns to a heading the shorter way, in which something may stand. It moves evenly from the
-  /// first place to the last one then, and has to fit there too: the search has moved each heading
-  /// to where it fits.
+  /// first place to the last one then, and has to keep there what it would by the turns that this
+  /// one is made of: the search has moved each heading to where it fits.
   [[nodiscard]] std::size_t end_of_turn(std::span<const Pose2> poses, std::size_t from) const {
     constexpr double kLongest_rad = 2.5;
     std::size_t turned = from + 1;
     double turn_rad = wrap_angle(poses[turned].yaw_rad - poses[from].yaw_rad);
+    std::size_t kept = margins_.turning(poses[from], poses[turned]);
     for (; turned + 1 < poses.size(); ++turned) {
       const double more_rad = wrap_angle(poses[turned + 1].yaw_rad - poses[turned].yaw_rad);
       turn_rad += more_rad;
       if (std::abs(more_rad) < 1e-9 || std::abs(turn_rad) > kLongest_rad) break;
-      if (!fits_turning(poses.subspan(from, turned - from + 2))) break;
+      kept = std::max(kept, margins_.turning(poses[turned], poses[turned + 1]));
+      if (!margins_.fit_turning(kept, poses[from], poses[turned + 1])) break;
     }
     return turned;
   }
@@ -150,15 +152,6 @@ class PathBuilder {
       }
     }
     return 1;
-  }
-
-  /// Whether one turn keeps what those that it is made of do.
-  [[nodiscard]] bool fits_turning(std::span<const Pose2> poses) const {
-    std::size_t kept = 0;
-    for (std::size_t i = 1; i < poses.size(); ++i) {
-      kept = std::max(kept, margins_.turning(poses[i - 1], poses[i]));
-    }
-    return margins_.fit_turning(kept, poses.front(), poses.back());
   }
 
   void add(PathLeg leg) {

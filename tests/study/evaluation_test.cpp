@@ -232,21 +232,25 @@ TEST_F(Evaluated, ACollectionSaysHowFarTheStudyIs) {
   EXPECT_TRUE(results_.complete());
 }
 
+/// As metrics.json has it.
+Json one_scan() {
+  return {{"unobserved_cells", 70.0},
+          {"observable_unobserved_cells", 60.0},
+          {"predicted", {{"simple", 0.0}}},
+          {"actual_new_cells", 40.0},
+          {"path_length_m", 1.5},
+          {"leg_length_m", 1.5},
+          {"pose_error_m", 0.002},
+          {"pose_error_before_registration_m", 0.02},
+          {"fallback", false},
+          {"precision", 1.0},
+          {"recall", 0.5}};
+}
+
 /// One of the four has come to a result.
 TEST_F(Evaluated, MeasuresAreReadFromTheFoldersOfTheEpisodes) {
   const PlannedEpisode& episode = results_.plan[1];
   const fs::path folder = episode_folder(folder_.path(), episode);
-  const Json scan = {{"unobserved_cells", 70.0},
-                     {"observable_unobserved_cells", 60.0},
-                     {"predicted", {{"simple", 0.0}}},
-                     {"actual_new_cells", 40.0},
-                     {"path_length_m", 1.5},
-                     {"leg_length_m", 1.5},
-                     {"pose_error_m", 0.002},
-                     {"pose_error_before_registration_m", 0.02},
-                     {"fallback", false},
-                     {"precision", 1.0},
-                     {"recall", 0.5}};
   const Json metrics = {{"status", "completed"},
                         {"method", "simple"},
                         {"observable_cells", 100.0},
@@ -254,7 +258,7 @@ TEST_F(Evaluated, MeasuresAreReadFromTheFoldersOfTheEpisodes) {
                         {"collisions", 0},
                         {"simulated_time_s", 60.0},
                         {"map", {{"precision", 0.9}, {"recall", 0.8}}},
-                        {"scans", Json::array({scan})}};
+                        {"scans", Json::array({one_scan()})}};
   write_file(folder / "config.yaml", episode_yaml(episode.resolved));
   write_file(folder / "manifest.json", manifest_of_files(episode.resolved));
   write_file(folder / "metrics.json", metrics.dump());
@@ -294,18 +298,7 @@ TEST_F(Evaluated, WhatFailedIsMeasuredAndWhatDivergedIsNot) {
   Json metrics = {{"method", "simple"},       {"observable_cells", 100.0},
                   {"path_length_m", 1.5},     {"collisions", 0},
                   {"simulated_time_s", 60.0}, {"map", {{"precision", 0.9}, {"recall", 0.8}}}};
-  const Json scan = {{"unobserved_cells", 70.0},
-                     {"observable_unobserved_cells", 60.0},
-                     {"predicted", {{"simple", 0.0}}},
-                     {"actual_new_cells", 40.0},
-                     {"path_length_m", 1.5},
-                     {"leg_length_m", 1.5},
-                     {"pose_error_m", 0.002},
-                     {"pose_error_before_registration_m", 0.02},
-                     {"fallback", false},
-                     {"precision", 1.0},
-                     {"recall", 0.5}};
-  metrics["scans"] = Json::array({scan});
+  metrics["scans"] = Json::array({one_scan()});
   const auto is_measured = [&](const char* status) {
     metrics["status"] = status;
     write_file(folder / "metrics.json", metrics.dump());

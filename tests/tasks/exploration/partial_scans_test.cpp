@@ -14,6 +14,7 @@
 
 #include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/exploration/exploration_drive.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/exploration/exploration.hpp"
@@ -292,27 +293,12 @@ struct LookingParts : ExplorationParts {
   [[nodiscard]] int images() const { return current_.images_on_the_way; }
 };
 
-struct LookingDrive {
-  support::TemporaryDirectory folder;
-  const ResolvedEpisode episode =
-      small_office({"gaze.on_the_way_m=0.5", "localisation.loops.close=false"});
-  const EpisodeOptions& options = episode.setup.options;
-  const Exploration task = std::get<Exploration>(episode.task);
-  PutRobot robot{episode.setup, task};
-  const RunRequest request{.setup = episode.setup,
-                           .task = "exploration",
-                           .method = "greedy",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, false, {}, true}};
-  EpisodeRun run{request};
-  MappingRecorder recorder{run, recorded(robot), exploration_predictors(task), task.scans};
-  const MobileGroundTruth truth = robot.ground_truth();
-  const ExplorationMapEvaluator evaluator{task, options.threads, truth, robot.view_field(),
-                                          robot.T_base_sweep()};
-  ExplorationBelief belief{options, task};
-  LookingParts parts{MappingContext{options, robot, evaluator, recorder, nullptr}, task, robot,
-                     belief};
+struct LookingDrive : support::ExplorationDrive<PutRobot> {
+  LookingDrive()
+      : ExplorationDrive([](const std::filesystem::path&) {
+          return small_office({"gaze.on_the_way_m=0.5", "localisation.loops.close=false"});
+        }) {}
+  LookingParts parts{context(), task, robot, belief};
 
   void come_to(const Pose2& T_world_base) {
     robot.T_world_base = T_world_base;

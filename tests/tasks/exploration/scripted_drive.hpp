@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "tests/support/overrides.hpp"
-#include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/exploration/exploration_drive.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
@@ -105,32 +105,14 @@ struct OpenExploration : ExplorationParts {
   }
 };
 
-struct ScriptedDrive {
+struct ScriptedDrive : ExplorationDrive<ToldRobot> {
   explicit ScriptedDrive(const std::vector<std::string>& more = {})
-      : episode(scripted_episode(folder.path(), more)) {
+      : ExplorationDrive(
+            [&](const std::filesystem::path& folder) { return scripted_episode(folder, more); }) {
     task.localisation.loops.close = false;
     task.enough.scans = 0;
     run.begin();
   }
-  [[nodiscard]] MappingContext context() { return {options, robot, evaluator, recorder, nullptr}; }
-
-  support::TemporaryDirectory folder;
-  const ResolvedEpisode episode;
-  const EpisodeOptions& options = episode.setup.options;
-  Exploration task = std::get<Exploration>(episode.task);
-  ToldRobot robot{episode.setup, task};
-  const RunRequest request{.setup = episode.setup,
-                           .task = "exploration",
-                           .method = "greedy",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, false, {}, true}};
-  EpisodeRun run{request};
-  MappingRecorder recorder{run, recorded(robot), exploration_predictors(task), task.scans};
-  const MobileGroundTruth truth = robot.ground_truth();
-  const ExplorationMapEvaluator evaluator{task, options.threads, truth, robot.view_field(),
-                                          robot.T_base_sweep()};
-  ExplorationBelief belief{options, task};
 };
 
 /// Ahead of the base, across the whole image.

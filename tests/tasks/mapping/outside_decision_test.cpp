@@ -48,6 +48,14 @@ struct Asking {
         outside, {belief, transmission, robot, budget, 3, 4, &interval}, *navigator.plan(), gain,
         [] { return std::size_t{1}; }, candidates);
   }
+  PlanningSituation situation(const PathField& paths) {
+    return {.belief = belief,
+            .transmission = transmission,
+            .robot = robot,
+            .paths = paths,
+            .budget = budget,
+            .threads = 1};
+  }
   std::string failure(const OutsideDecision& decision) {
     try {
       decide(SimpleGain{}, [&](const DecisionRequest&) { return decision; });
@@ -135,12 +143,7 @@ TEST(PlanAhead, ExpectsNothingOfAnExhaustedView) {
   options.gain = SimpleGain{};
   options.choice = TourChoice{};
   const auto paths = asking.navigator.plan();
-  const PlanningSituation situation{.belief = asking.belief,
-                                    .transmission = asking.transmission,
-                                    .robot = asking.robot,
-                                    .paths = *paths,
-                                    .budget = asking.budget,
-                                    .threads = 1};
+  const PlanningSituation situation = asking.situation(*paths);
   Rng rng(1);
   const MappingPlan plan = plan_ahead(options, asking.candidates, situation, rng);
   ASSERT_EQ(plan.gains.size(), 2U);
@@ -180,12 +183,7 @@ TEST(PlanAhead, KnowsWhatIsLeftAndWhatItTakes) {
   MappingOptions options = small_map();
   options.choice = TourChoice{};
   const auto paths = asking.navigator.plan();
-  PlanningSituation situation{.belief = asking.belief,
-                              .transmission = asking.transmission,
-                              .robot = asking.robot,
-                              .paths = *paths,
-                              .budget = asking.budget,
-                              .threads = 1};
+  PlanningSituation situation = asking.situation(*paths);
   situation.scans_left = 5;
   situation.later = later;
   situation.intended_m = Eigen::Vector2d(1.0, 2.2);
@@ -220,12 +218,7 @@ TEST(PlanAhead, NamesItsViewsByTheirPlaceAmongAllCandidates) {
   options.gain = SimpleGain{};
   options.choice = TourChoice{};
   const auto paths = asking.navigator.plan();
-  const PlanningSituation situation{.belief = asking.belief,
-                                    .transmission = asking.transmission,
-                                    .robot = asking.robot,
-                                    .paths = *paths,
-                                    .budget = asking.budget,
-                                    .threads = 1};
+  const PlanningSituation situation = asking.situation(*paths);
   Rng rng(1);
   const MappingPlan plan = plan_ahead(options, asking.candidates, situation, rng);
   EXPECT_EQ(plan.order, std::vector<std::size_t>{1});

@@ -27,26 +27,35 @@ std::string box_at(double z_m) {
       table_at(0.0, 0.0, 0.72, 0.5, 0.5), kWalls, z_m);
 }
 
+/// A robot beside it, and what is true there.
+struct BesideTheBox {
+  explicit BesideTheBox(double z_m) : scene(box_at(z_m)) {}
+  const OwnScene scene;
+  const ResolvedEpisode episode =
+      load_episode(fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml",
+                   {scene.set(), "map.cells=[33,33,17]"});
+  Tabletop task = std::get<Tabletop>(episode.task);
+  const SimulatedTabletopRobot robot{episode.setup, task};
+  const MobileGroundTruth truth = robot.ground_truth();
+};
+
 struct Truth {
   double top_m = 0.0;
   std::size_t observable_cells = 0;
 };
 
-Truth truth_of(const OwnScene& scene) {
+Truth truth_of(double z_m) {
   set_verbosity(Verbosity::quiet);
-  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
-  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
-  const auto& task = std::get<Tabletop>(episode.task);
-  const SimulatedTabletopRobot robot(episode.setup, task);
-  const MobileGroundTruth truth = robot.ground_truth();
+  const BesideTheBox box(z_m);
+  const auto& [scene, episode, task, robot, truth] = box;
   const RayHit hit = truth.geometry().cast({-0.15, 0.1, 2.0}, -Eigen::Vector3d::UnitZ(), 2.0);
   const auto evaluator = tabletop_evaluator(task, 2, truth, robot.view_field());
   return {2.0 - hit.distance_m, evaluator.observable_cells()};
 }
 
 TEST(Truth, IsWhereThingsComeToRest) {
-  const Truth standing = truth_of(OwnScene(box_at(0.82)));
-  const Truth spawned = truth_of(OwnScene(box_at(0.90)));
+  const Truth standing = truth_of(0.82);
+  const Truth spawned = truth_of(0.90);
   EXPECT_NEAR(standing.top_m, 0.92, 1e-3);
   EXPECT_NEAR(spawned.top_m, 0.92, 1e-3);
   EXPECT_NEAR(static_cast<double>(spawned.observable_cells),
@@ -57,11 +66,8 @@ TEST(Truth, IsWhereThingsComeToRest) {
 /// Those given come first.
 TEST(Truth, IsOfWhereTheRobotHasBeenAndOfTheRing) {
   set_verbosity(Verbosity::quiet);
-  const OwnScene scene(box_at(0.82));
-  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
-  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
-  const auto& task = std::get<Tabletop>(episode.task);
-  const SimulatedTabletopRobot robot(episode.setup, task);
+  const BesideTheBox box(0.82);
+  const auto& [scene, episode, task, robot, truth] = box;
   const Pose2 base = robot.base_for_sensor(tabletop_views(task)[4].T_world_sensor);
   const Pose2 elsewhere{2.0, 1.5, 0.5};
   const ViewCoverage coverage = task.coverage(episode.setup, {base, elsewhere});
@@ -76,12 +82,8 @@ TEST(Truth, IsOfWhereTheRobotHasBeenAndOfTheRing) {
 /// anew.
 TEST(Truth, RememberedOfTheRingIsTheTruth) {
   set_verbosity(Verbosity::quiet);
-  const OwnScene scene(box_at(0.82));
-  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
-  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
-  Tabletop task = std::get<Tabletop>(episode.task);
-  const SimulatedTabletopRobot robot(episode.setup, task);
-  const MobileGroundTruth truth = robot.ground_truth();
+  BesideTheBox box(0.82);
+  auto& [scene, episode, task, robot, truth] = box;
   const auto anew = tabletop_evaluator(task, 1, truth, robot.view_field());
   task.choice = OracleView{};
   const auto remembered = tabletop_evaluator(task, 1, truth, robot.view_field());
@@ -106,12 +108,8 @@ TEST(Truth, RememberedOfTheRingIsTheTruth) {
 /// Above the box, whose top is at 0.92 m, there is nothing; that can be seen.
 TEST(Truth, OfAMapIsWhatStandsThereNotWhatCanBeSeen) {
   set_verbosity(Verbosity::quiet);
-  const OwnScene scene(box_at(0.82));
-  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
-  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
-  const auto& task = std::get<Tabletop>(episode.task);
-  const SimulatedTabletopRobot robot(episode.setup, task);
-  const MobileGroundTruth truth = robot.ground_truth();
+  const BesideTheBox box(0.82);
+  const auto& [scene, episode, task, robot, truth] = box;
   const auto evaluator = tabletop_evaluator(task, 1, truth, robot.view_field());
   const CellSet seen = evaluator.observable_set();
   OccupancyGrid grid(task.map.frame());
@@ -129,12 +127,8 @@ TEST(Truth, OfAMapIsWhatStandsThereNotWhatCanBeSeen) {
 /// Observable cells are numbered as they come.
 TEST(Truth, OfEachPoseIsWhatASensorSeesOfTheObservable) {
   set_verbosity(Verbosity::quiet);
-  const OwnScene scene(box_at(0.82));
-  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
-  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
-  const auto& task = std::get<Tabletop>(episode.task);
-  const SimulatedTabletopRobot robot(episode.setup, task);
-  const MobileGroundTruth truth = robot.ground_truth();
+  const BesideTheBox box(0.82);
+  const auto& [scene, episode, task, robot, truth] = box;
   const auto evaluator = tabletop_evaluator(task, 2, truth, robot.view_field());
   const Pose2 elsewhere{1.5, 0.4, 3.0};
   const ViewCoverage coverage = task.coverage(episode.setup, {elsewhere});
@@ -165,10 +159,8 @@ TEST(Truth, OfEachPoseIsWhatASensorSeesOfTheObservable) {
 /// stays out of: along diagonals and straight lines about 3.23 m.
 TEST(Truth, OfTheRingHasWaysRoundTheMap) {
   set_verbosity(Verbosity::quiet);
-  const OwnScene scene(box_at(0.82));
-  const auto file = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
-  const auto episode = load_episode(file, {scene.set(), "map.cells=[33,33,17]"});
-  const ViewCoverage coverage = std::get<Tabletop>(episode.task).coverage(episode.setup, {});
+  const BesideTheBox box(0.82);
+  const ViewCoverage coverage = box.task.coverage(box.episode.setup, {});
   ASSERT_EQ(coverage.way_m.rows(), 30);
   EXPECT_NEAR(coverage.way_m(1, 16), (3.23 - 0.14) * std::cos(std::numbers::pi / 8.0), 0.1);
   EXPECT_NEAR(coverage.way_m(1, 4), 2.0 * 1.32 * std::sin(std::numbers::pi / 10.0), 0.01)

@@ -95,15 +95,16 @@ TEST(TrajectoryPanel, ShowsObjectsAndTheirDirections) {
   EXPECT_FALSE(is_written(panel, {424, 96, 190, 40})) << "there is one";
 }
 
-TEST(TrajectoryPanel, ShowsTheImageAsLargeAsItFits) {
+/// An image of one colour.
+void expect_image(const cv::Size& size, const Points& inside, const Points& beside) {
   const cv::Scalar shown(90, 200, 10);
-  const cv::Mat panel = drawn_flight(cv::Mat(20, 40, CV_8UC3, shown));
-  for (const cv::Point inside : Points{{14, 178}, {401, 178}, {200, 83}, {200, 272}}) {
-    EXPECT_TRUE(is_coloured(panel, inside, shown)) << inside;
-  }
-  for (const cv::Point beside : Points{{200, 76}, {200, 280}}) {
-    EXPECT_TRUE(is_coloured(panel, beside, panel::kCard)) << beside;
-  }
+  const cv::Mat panel = drawn_flight(cv::Mat(size, CV_8UC3, shown));
+  for (const cv::Point& at : inside) EXPECT_TRUE(is_coloured(panel, at, shown)) << at;
+  for (const cv::Point& at : beside) EXPECT_TRUE(is_coloured(panel, at, panel::kCard)) << at;
+}
+
+TEST(TrajectoryPanel, ShowsTheImageAsLargeAsItFits) {
+  expect_image({40, 20}, {{14, 178}, {401, 178}, {200, 83}, {200, 272}}, {{200, 76}, {200, 280}});
 }
 
 /// Seen from (1.9, 1.2) m, at (288, 458) px; what was seen tells nothing.
@@ -175,14 +176,7 @@ TEST(TrajectoryPanel, SaysBelowTheNameOfAnObjectHowSureItIs) {
 }
 
 TEST(TrajectoryPanel, ShowsATallImageInTheMiddle) {
-  const cv::Scalar shown(90, 200, 10);
-  const cv::Mat panel = drawn_flight(cv::Mat(40, 20, CV_8UC3, shown));
-  for (const cv::Point inside : Points{{139, 178}, {276, 178}, {208, 38}, {208, 317}}) {
-    EXPECT_TRUE(is_coloured(panel, inside, shown)) << inside;
-  }
-  for (const cv::Point beside : Points{{134, 178}, {282, 178}}) {
-    EXPECT_TRUE(is_coloured(panel, beside, panel::kCard)) << beside;
-  }
+  expect_image({20, 40}, {{139, 178}, {276, 178}, {208, 38}, {208, 317}}, {{134, 178}, {282, 178}});
 }
 
 /// Before the first waypoint it is as if it were there.

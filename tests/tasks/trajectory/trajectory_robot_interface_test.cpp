@@ -43,6 +43,19 @@ const ImageCallback kNothing = [](const FlightImage&) {};
 
 class Interface : public testing::Test {
  protected:
+  /// When it got nearer to something than ever before, until `end_s`.
+  std::vector<double> clearance_lowered_s(FlyingRobot& robot, double end_s) {
+    double clearance_m = robot.ground_truth().minimum_clearance_m;
+    std::vector<double> lowered_s;
+    while (robot.time_s() < end_s) {
+      robot.fly_for(episode_.setup.options.simulation.control_period_s, kNothing);
+      const double now_m = robot.ground_truth().minimum_clearance_m;
+      if (now_m < clearance_m) lowered_s.push_back(robot.time_s());
+      clearance_m = now_m;
+    }
+    return lowered_s;
+  }
+
   const ResolvedEpisode episode_ = load_episode(
       kSourceTree / "assets/episodes/trajectory.yaml",
       {fmt::format("scene={}", (kSourceTree / "models/scenes/trajectory_4/scene.xml").string()),
@@ -150,16 +163,9 @@ TEST_F(Interface, MeasuresItsClearanceAtOnceAndTenTimesASecond) {
   FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
   TrueClearance at_first(robot.quadrotor().world());
   at_first.update(robot.quadrotor().world());
-  double clearance_m = robot.ground_truth().minimum_clearance_m;
-  EXPECT_DOUBLE_EQ(clearance_m, at_first.min_m());
+  EXPECT_DOUBLE_EQ(robot.ground_truth().minimum_clearance_m, at_first.min_m());
   robot.follow(std::vector{at(-2.7, -2.3, 0.0)});
-  std::vector<double> lowered_s;
-  while (robot.time_s() < 1.5) {
-    robot.fly_for(episode_.setup.options.simulation.control_period_s, kNothing);
-    const double now_m = robot.ground_truth().minimum_clearance_m;
-    if (now_m < clearance_m) lowered_s.push_back(robot.time_s());
-    clearance_m = now_m;
-  }
+  const std::vector<double> lowered_s = clearance_lowered_s(robot, 1.5);
   ASSERT_GT(lowered_s.size(), 3U);
   for (std::size_t i = 1; i < lowered_s.size(); ++i) {
     EXPECT_GT(lowered_s[i] - lowered_s[i - 1], 0.099) << i;
@@ -462,14 +468,7 @@ TEST_F(Interface, MeasuresItsClearanceEveryTenthOfASecond) {
   FlyingRobot robot(episode_, at(-2.7, -1.9, 0.0));
   robot.follow(std::vector{at(-2.7, -2.3, 0.0)});
   robot.fly_for(0.3, kNothing);
-  double clearance_m = robot.ground_truth().minimum_clearance_m;
-  std::vector<double> lowered_s;
-  while (robot.time_s() < 0.8) {
-    robot.fly_for(episode_.setup.options.simulation.control_period_s, kNothing);
-    const double now_m = robot.ground_truth().minimum_clearance_m;
-    if (now_m < clearance_m) lowered_s.push_back(robot.time_s());
-    clearance_m = now_m;
-  }
+  const std::vector<double> lowered_s = clearance_lowered_s(robot, 0.8);
   ASSERT_GE(lowered_s.size(), 4U);
   for (std::size_t i = 1; i < lowered_s.size(); ++i) {
     EXPECT_NEAR(lowered_s[i] - lowered_s[i - 1], 0.1, 1e-6) << i;

@@ -80,10 +80,7 @@ TEST(PlannerProtocol, TakesTheNameThatAPlannerGivesItself) {
   EXPECT_THROW(read_introduction(R"({"protocol": "another", "version": 1})"), BadDecision);
 }
 
-TEST(PlannerProtocol, TellsWhatIsSpentAndWhatIsSeen) {
-  const support::AskedSituation situation;
-  DecisionRequest request = situation.request();
-  MapSituation& now = request.situation;
+void spend_some_and_see(MapSituation& now) {
   now.energy_j = 340.0;
   now.left = {.time_s = 81.5, .energy_j = 660.0};
   now.scan_s = 20.5;
@@ -92,6 +89,13 @@ TEST(PlannerProtocol, TellsWhatIsSpentAndWhatIsSeen) {
                        .tilt_max_rad = 0.75,
                        .range_min_m = 0.125,
                        .range_max_m = 8.0};
+}
+
+TEST(PlannerProtocol, TellsWhatIsSpentAndWhatIsSeen) {
+  const support::AskedSituation situation;
+  DecisionRequest request = situation.request();
+  MapSituation& now = request.situation;
+  spend_some_and_see(now);
   const Json json = Json::parse(request_line(request, 1, {}));
   EXPECT_EQ(json["energy_j"], 340.0);
   EXPECT_EQ(json["time_left_s"], 81.5);
@@ -240,14 +244,7 @@ TEST(PlannerProtocol, TellsAllOfARequest) {
   MapSituation& now = request.situation;
   now.T_world_base = {0.5, -0.75, 0.25};
   now.scans = 3;
-  now.energy_j = 340.0;
-  now.left = {.time_s = 81.5, .energy_j = 660.0};
-  now.scan_s = 20.5;
-  now.field_of_view = {.half_width_rad = 0.5,
-                       .tilt_min_rad = -0.25,
-                       .tilt_max_rad = 0.75,
-                       .range_min_m = 0.125,
-                       .range_max_m = 8.0};
+  spend_some_and_see(now);
   EXPECT_EQ(Json::parse(request_line(request, 2, Json::object())), Json::parse(R"({
     "type": "decide", "decision": 2, "scans": 3, "scans_left": 4, "time_s": 12.5,
     "time_left_s": 81.5, "energy_j": 340, "energy_left_j": 660, "scan_s": 20.5,
