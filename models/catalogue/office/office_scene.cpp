@@ -265,7 +265,8 @@ std::vector<OfficeOptions> office_scenes() {
     std::uint64_t small_seed;
     std::uint64_t large_seed;
   };
-  constexpr std::array kDraws{Draw{"", 1510U, 2025U}, Draw{"_a", 31U, 41U}, Draw{"_b", 32U, 42U}};
+  constexpr std::array kDraws{Draw{"", 1510U, 2025U}, Draw{"_a", 31U, 41U}, Draw{"_b", 32U, 42U},
+                              Draw{"_c", 33U, 43U}, Draw{"_d", 34U, 44U}};
   std::vector<OfficeOptions> scenes;
   for (const Draw& draw : kDraws) {
     for (const bool large : {false, true}) {
