@@ -1,6 +1,10 @@
 #include "vantage/models/catalogue/office/floor_plan.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "vantage/core/rng.hpp"
 
 namespace vantage {
 namespace {
@@ -44,6 +48,58 @@ AlignedBox2d beside(const Wall& wall, double from_m, double to_m, double half_wi
   return box(x - half_width_m, from_m, x + half_width_m, to_m);
 }
 
+/// Along the side of a room, deep 0.3 m. @param share of the side that is before it
+AlignedBox2d pillar_at(const AlignedBox2d& area, double share, double length_m, bool north) {
+  const double from = area.min().x() + share * (area.sizes().x() - length_m);
+  return north ? box(from, area.max().y() - 0.3, from + length_m, area.max().y())
+               : box(from, area.min().y(), from + length_m, area.min().y() + 0.3);
+}
+
+/// In each room one that stands free, and one before its north and its south wall.
+std::vector<AlignedBox2d> drawn_pillars(const FloorPlan& plan, Rng& rng) {
+  constexpr double kFree_m = 1.8;  // between it and the walls
+  constexpr double kEdge_m = 0.4;
+  std::vector<AlignedBox2d> pillars;
+  for (const Room& room : plan.rooms) {
+    const AlignedBox2d& area = room.area_m;
+    const double x = rng.uniform(area.min().x() + kFree_m, area.max().x() - kFree_m - kEdge_m);
+    const double y = rng.uniform(area.min().y() + kFree_m, area.max().y() - kFree_m - kEdge_m);
+    pillars.push_back(box(x, y, x + kEdge_m, y + kEdge_m));
+    for (const bool north : {true, false}) {
+      const double length_m = rng.uniform(0.4, 1.6);
+      pillars.push_back(pillar_at(area, rng.uniform(), length_m, north));
+    }
+  }
+  return pillars;
+}
+
+/// Clear of walls, pillars and the door, and apart.
+std::vector<Pose2> drawn_starts(const FloorPlan& plan, Rng& rng) {
+  constexpr double kClear_m = 0.9;
+  constexpr double kApart_m = 3.2;
+  const auto is_clear = [&](const Vector2d& p) {
+    const bool in_a_room = std::ranges::any_of(plan.rooms, [&](const Room& room) {
+      return (p - room.area_m.min()).minCoeff() > kClear_m &&
+             (room.area_m.max() - p).minCoeff() > kClear_m;
+    });
+    return in_a_room && std::ranges::none_of(plan.pillars, [&](const AlignedBox2d& pillar) {
+             return pillar.exteriorDistance(p) < kClear_m;
+           });
+  };
+  std::vector<Pose2> starts;
+  while (starts.size() < 5) {
+    const double x = rng.uniform(-7.0, 7.0);
+    const double y = rng.uniform(-4.5, 4.5);
+    const Vector2d p(x, y);
+    const double yaw_rad = rng.uniform(-std::numbers::pi, std::numbers::pi);
+    const bool apart = std::ranges::all_of(starts, [&](const Pose2& other) {
+      return (p - Vector2d(other.x_m, other.y_m)).norm() > kApart_m;
+    });
+    if (is_clear(p) && apart) starts.push_back({p.x(), p.y(), yaw_rad});
+  }
+  return starts;
+}
+
 }  // namespace
 
 FloorPlan small_office() {
@@ -63,6 +119,21 @@ FloorPlan small_office() {
   };
   plan.T_world_starts = {
       {-5.6, -2.6, 0.4}, {-1.2, -1.4, 3.1}, {-5.4, 2.9, -0.8}, {2.3, -1.6, 0.0}, {5.3, 2.6, -2.3}};
+  return plan;
+}
+
+FloorPlan drawn_small_office(std::uint64_t seed) {
+  Rng rng = Rng::stream(seed, "walls");
+  FloorPlan plan = small_office();
+  const double x = 7.45;
+  const double y = 4.95;
+  const double between = rng.uniform(-1.5, 1.5);
+  plan.rooms = {room(RoomUse::open_plan, -x, -y, between, y),
+                room(RoomUse::open_plan, between, -y, x, y)};
+  Wall& inner = plan.walls.back();
+  inner = {{between, -y}, {between, y}, {{rng.uniform(-3.4, 3.4), rng.uniform(1.4, 1.7)}}};
+  plan.pillars = drawn_pillars(plan, rng);
+  plan.T_world_starts = drawn_starts(plan, rng);
   return plan;
 }
 

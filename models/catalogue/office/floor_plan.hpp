@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "vantage/geometry/pose.hpp"
@@ -50,6 +51,9 @@ struct FloorPlan {
 
 /// 15 x 10 m: two large rooms side by side, joined by a door.
 FloorPlan small_office();
+/// The same but for where the wall between the rooms, its door, the pillars and the starts are,
+/// which are drawn.
+FloorPlan drawn_small_office(std::uint64_t seed);
 /// 20 x 25 m: four hallways, large and small rooms.
 FloorPlan large_office();
 

@@ -22,15 +22,18 @@ struct OfficeOptions {
   bool large = false;
   int clutter = 1;
   double doors_m = 0.0;
+  std::uint64_t walls = 0;
   void fields(auto&& f) {
     f("name", name, "name of the scene");
-    f("seed", seed, "seed of which furniture stands where; the walls are fixed");
+    f("seed", seed, "seed of which furniture stands where");
     f("large", large, "true: the floor plan of 20 x 25 m; false: that of 15 x 10 m");
     f("clutter", clutter, "level of clutter; each level has everything of those below it and more",
       between(1, kClutterLevels));
     f("doors_m", doors_m,
       "width of the doors of six rooms off a corridor, 13 x 9.6 m; 0: the plan that `large` says",
       between(0.0, 1.2));
+    f("walls", walls,
+      "seed of where the small office has its inner wall, door, pillars and starts; 0: as planned");
   }
 };
 
@@ -62,7 +65,8 @@ OfficeScene furnished(const OfficeOptions& options, const FloorPlan& plan);
 std::vector<Outline> obstacles(const OfficeScene& scene);
 
 /// The scenes checked in under models/scenes: office_{small,large}_{1..4}, which options are chosen
-/// on, and office_{small,large}_{a,b}_{1..4}, furnished afresh, which results are reported on.
+/// on, and office_{small,large}_{a,b}_{1..4}, furnished afresh, and office_small_{c,d}_{1..4}, each
+/// with walls and furniture of its own, which results are reported on.
 std::vector<OfficeOptions> office_scenes();
 /// And office_doors_1 and _80_1, which options are chosen on, and office_doors_{a,b}_1 and _80_a_1,
 /// which results are reported on: doors of 0.85 m and 0.80 m.
