@@ -164,6 +164,7 @@ inline const std::map<std::string, Rooms> kAllowed{
     {"cli/pictures", kGround + kRuntime + Rooms{"cli/hints", "dataset/pictures", "perception"}},
     {"cli/scene", {"core", "geometry", "building", "runtime"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
+    {"cli/validation", {"core", "geometry", "recipe", "study", "tasks"}},
     {"cli/reference",
      kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
          Rooms{"belief/objects", "belief/observation", "cli/hints", "dataset", "recipe", "tasks"}},
@@ -173,8 +174,8 @@ inline const std::map<std::string, Rooms> kAllowed{
     {"cli", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
                 Rooms{"cli/arena", "cli/export", "cli/hindsight", "cli/hints", "cli/manual",
                       "cli/pictures", "cli/recognition", "cli/reference", "cli/scene", "cli/schema",
-                      "cli/sweep", "dataset", "hindsight", "models/catalogue/database", "recipe",
-                      "report", "tasks", "view"}},
+                      "cli/sweep", "cli/validation", "dataset", "hindsight",
+                      "models/catalogue/database", "recipe", "report", "tasks", "view"}},
     {"bench/claims", {"core", "report", "study", "study/tables", "bench"}},
     {"bench/pages",
      {"core", "planners/trajectory", "report", "study/cluster", "study/figures", "bench",

@@ -56,6 +56,10 @@ std::vector<Finding> office_findings(const StudyTables& study, const std::string
 std::vector<Finding> planning_office_findings(const StudyTables& study, double time_limit,
                                               std::optional<double> path_limit);
 std::vector<Finding> planning_tabletop_findings(const StudyTables& study);
+/// Of what bench/bounds wrote of a study of planning.
+Finding above_the_bound(const StudyTables& bounds);
+/// Of explorations that end when the robot is sure to be done.
+std::vector<Finding> stop_findings(const StudyTables& study);
 /// Of buildings with narrow doors and loops: the goals of this project.
 std::vector<Finding> building_findings(const StudyTables& study);
 std::vector<Finding> trajectory_findings(const StudyTables& study);

@@ -10,6 +10,8 @@ namespace vantage::bench {
 /// What `adaptive` is worth beside `simple`: the study's reference is one of the two. @param tables
 /// less is better in each
 Finding adaptive_against_simple(const StudyTables& study, const std::vector<const char*>& tables);
+/// Of all levels of a study of explorations or of table tops.
+Finding intervals_cover(const StudyTables& study);
 /// @param compared what the study compares, "method"
 Finding without_collision(const StudyTables& study, const char* compared);
 

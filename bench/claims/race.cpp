@@ -18,13 +18,16 @@ bool Race::is_won_by(double limit) const {
 }
 
 bool Race::is_ahead() const {
-  return is_won_by(1.0) && (!pairs || pairs->ratio_interval->high < 1.0);
+  const bool sooner =
+      pairs && pairs->ratio && pairs->ratio_interval->high < 1.0 && pairs->p_value < kSignificant;
+  return is_won_by(1.0) && (sooner || arrival_p < kSignificant);
 }
 
 std::string Race::text() const {
   const std::string both = pairs && pairs->ratio ? ratio_text(*pairs) : "no pairs";
   if (arrived == episodes && other_arrived == episodes) return both;
-  return fmt::format("{}; {} and {} of {} get there", both, arrived, other_arrived, episodes);
+  const std::string p = arrived == other_arrived ? "" : fmt::format(", p {:.2g}", arrival_p);
+  return fmt::format("{}; {} and {} of {} get there{}", both, arrived, other_arrived, episodes, p);
 }
 
 std::string Race::why_lost(double limit) const {
@@ -47,7 +50,7 @@ Race race(const StudyTables& study, const std::string& table, const std::string&
           const std::string& level, const std::string& against) {
   const LevelSamples other{against, study.arrivals(table, panel, against)};
   const LevelSamples own{level, study.arrivals(table, panel, level)};
-  Race result{own.samples.size(), other.samples.size(), study.planned(panel, level), {}};
+  Race result{own.samples.size(), other.samples.size(), study.planned(panel, level), {}, 1.0};
   if (result.arrived + result.other_arrived == 0) {
     throw NotRun(
         fmt::format("`{}` in {}: neither `{}` nor `{}` gets there", table, panel, level, against));
@@ -55,6 +58,10 @@ Race race(const StudyTables& study, const std::string& table, const std::string&
   if (result.arrived > 0 && result.other_arrived > 0) {
     result.pairs = paired_difference(table, panel, other, own);
   }
+  const auto more_often =
+      paired_difference(table, panel, {against, study.whether_arrived(table, panel, against)},
+                        {level, study.whether_arrived(table, panel, level)});
+  if (more_often) result.arrival_p = more_often->p_value;
   return result;
 }
 

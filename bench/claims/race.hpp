@@ -16,10 +16,12 @@ struct Race {
   std::size_t other_arrived = 0;
   std::size_t episodes = 0;         ///< of each
   std::optional<Difference> pairs;  ///< of those that both got there in; none: no such
+  double arrival_p = 1.0;  ///< that it gets there in more of them or in fewer, sign-flip test
 
   /// It gets there no less often, and in at most `limit` times what the other takes.
   [[nodiscard]] bool is_won_by(double limit) const;
-  /// It gets there no less often, and sooner beyond the interval.
+  /// It gets there no less often, and either sooner, beyond the interval and with p below
+  /// kSignificant, or more often with such a p.
   [[nodiscard]] bool is_ahead() const;
   /// "0.54 [0.42, 0.66], 5 pairs, p 0.031; 5 and 6 of 10 get there"
   [[nodiscard]] std::string text() const;

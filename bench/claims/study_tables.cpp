@@ -211,11 +211,30 @@ std::vector<Sample> StudyTables::arrivals(const std::string& name, const std::st
   return samples(name, panel, level);
 }
 
-double StudyTables::mean(const std::string& name, const std::string& panel,
-                         const std::string& level) const {
+std::vector<Sample> StudyTables::whether_arrived(const std::string& name, const std::string& panel,
+                                                 const std::string& level) const {
+  const std::size_t column = place_of(results_.columns, name);
+  const std::size_t wanted = level_of(name, level);
+  std::vector<Sample> found;
+  for (const Episode& e : episodes_) {
+    if (!is_of(e, panel, wanted)) continue;
+    const bool arrived = e.row != nullptr && column < results_.columns.size() &&
+                         value_in(*e.row, column).has_value();
+    found.push_back(sample_at(e.place, wanted, arrived ? 1.0 : 0.0));
+  }
+  return found;
+}
+
+std::vector<double> StudyTables::values(const std::string& name, const std::string& panel,
+                                        const std::string& level) const {
   std::vector<double> values;
   for (const Sample& sample : whole_samples(name, panel, level)) values.push_back(sample.value);
-  return vantage::mean(values);
+  return values;
+}
+
+double StudyTables::mean(const std::string& name, const std::string& panel,
+                         const std::string& level) const {
+  return vantage::mean(values(name, panel, level));
 }
 
 double StudyTables::least(const std::string& name, const std::string& panel,

@@ -57,6 +57,9 @@ class StudyTables {
                              const std::string& level) const;
   [[nodiscard]] double most(const std::string& table, const std::string& panel,
                             const std::string& level) const;
+  /// Of each episode, in the order of the plan.
+  [[nodiscard]] std::vector<double> values(const std::string& table, const std::string& panel,
+                                           const std::string& level) const;
   /// To the reference level, of the same episodes but for the level; that has none to itself.
   [[nodiscard]] Difference difference(const std::string& table, const std::string& panel,
                                       const std::string& level) const;
@@ -73,6 +76,10 @@ class StudyTables {
   /// @throws NotRun unless every episode was run
   [[nodiscard]] std::vector<Sample> arrivals(const std::string& table, const std::string& panel,
                                              const std::string& level) const;
+  /// Of the same table, of every episode: 1 if it gets there, else 0.
+  [[nodiscard]] std::vector<Sample> whether_arrived(const std::string& table,
+                                                    const std::string& panel,
+                                                    const std::string& level) const;
   /// Episodes of the level, as planned.
   [[nodiscard]] std::size_t planned(const std::string& panel, const std::string& level) const {
     return planned(panel, level_of({}, level));

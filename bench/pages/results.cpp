@@ -14,6 +14,7 @@
 #include "bench/measures.hpp"
 #include "bench/pages/origins.hpp"
 #include "bench/pages/pages.hpp"
+#include "bench/pages/study_parts.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/data_root.hpp"
 #include "vantage/core/yaml.hpp"
@@ -38,73 +39,6 @@ The dissertation is C. Potthast, *Information Theoretical Action Selection*, USC
 unknown. `-dirty`: of that commit with changes that were not committed. `bench/studies verify` runs episodes drawn at random again: how many came to the recorded
 state hash, bit by bit, is told under "run again". A claim on numbers that are not all there is "not run".
 )";
-
-struct StudyPart {
-  std::string name;
-  const char* title;
-  std::vector<std::string> tables;
-  std::vector<Finding> (*findings)(const StudyTables&);
-};
-
-const std::vector<StudyPart>& study_parts() {
-  static const std::vector<std::string> tables = {
-      "area",           "area_from_scan_2", "scans_to_95", "scans",
-      "observed_share", "path_length_m",    "collisions",  "prediction_error_cells",
-      "forecast_ratio", "predictors"};
-  static const std::vector<std::string> planning_tables = {
-      "time_to_80_s", "time_to_90_s", "time_to_95_s",   "time_to_97_s",   "path_to_95_m",
-      "scans_to_95",  "reached_95",   "area_over_time", "observed_share", "collisions"};
-  static const std::vector<StudyPart> parts = {
-      {"tabletop", "Worktops (Fig. 3.10)", tables, tabletop_findings},
-      {"tabletop_predictors",
-       "Predictions on worktops (Fig. 3.11)",
-       {"predictors"},
-       prediction_findings},
-      {"office_small", "Small office (Fig. 3.15)", tables,
-       [](const StudyTables& study) {
-         return office_findings(study, "Fig. 3.15", {20, 25});
-       }},
-      {"office_large", "Large office (Fig. 3.16)", tables,
-       [](const StudyTables& study) {
-         return office_findings(study, "Fig. 3.16", {60, 70});
-       }},
-      {"planning_tabletop",
-       "Planning ahead round worktops",
-       {"time_to_98_s", "path_to_98_m", "scans_to_98", "area_over_time", "observed_share",
-        "collisions"},
-       planning_tabletop_findings},
-      {"planning_office_small", "Planning ahead in a small office", planning_tables,
-       [](const StudyTables& study) {
-         return planning_office_findings(study, 0.92, std::nullopt);
-       }},
-      {"planning_office_large", "Planning ahead in a large office", planning_tables,
-       [](const StudyTables& study) { return planning_office_findings(study, 0.80, 0.65); }},
-      {"buildings",
-       "Narrow doors, and corridors that go round",
-       {"observed_share", "time_to_95_s", "path_to_95_m", "worst_pose_error_m", "precision",
-        "collisions"},
-       building_findings},
-      {"recognition_flight",
-       "Recognition on the quadrotor (4.5.7): it measures flying, not choices of views",
-       {"correct", "category_correct", "views", "bin_error", "path_length_m", "collisions"},
-       flight_recognition_findings},
-      {"recognition_clutter",
-       "Recognition among others on a table (chapters 3 and 4 as one)",
-       {"targets_correct", "category_correct", "views", "hidden_views", "seen_share",
-        "simulated_time_s", "path_length_m", "collisions"},
-       clutter_findings},
-      {"change_flight",
-       "Change detection on the quadrotor (Table 4.16)",
-       {"changed_correct", "correct", "views", "collisions"},
-       flight_change_findings},
-      {"trajectory",
-       "Trajectories for recognition (tables 5.1-5.3)",
-       {"accuracy", "observations", "mean_entropy_observed_nats", "objects_unseen",
-        "mean_entropy_nats", "flight_time_s", "path_length_m", "minimum_clearance_m", "collided",
-        "tracking_error_m", "replan_time_s", "energy_j"},
-       trajectory_findings}};
-  return parts;
-}
 
 /// "scene: dev_4, dev_8; start: start_0"
 std::string split_text(const ConfigNode& study, const std::string& split) {
@@ -278,9 +212,14 @@ void write_results(const fs::path& directory) {
           findings_table(speed_findings(figures)) +
           link(write_speed_page(directory, figures, origins));
   for (const auto& [part, study] : studies) {
+    std::vector<Finding> findings = part.findings(study);
+    if (part.is_bounded) {
+      findings.push_back(above_the_bound(
+          StudyTables(study_file(part.name), directory / part.name / "bounds.csv")));
+    }
     text += fmt::format("\n## {}\n\n`bench/studies {}`. {}\n\n", part.title, part.name,
                         opening_comment(study_file(part.name))) +
-            findings_table(part.findings(study)) +
+            findings_table(findings) +
             link(write_study_page(directory, part.name, part.title, study, part.tables));
   }
   text += "\n## Recognition (Tables 4.2-4.7, 4.10-4.15, Fig. 4.4)\n\n" +

@@ -25,8 +25,8 @@ struct StopOptions {
 double left_share(double expected_cells, double known_cells);
 
 /// How probable it is that not more than `left` of all is unseen, where the expected share is
-/// `expected`: the share of decisions in training scenes whose true share was no greater a multiple
-/// of the expected one.
+/// `expected`: the share of decisions in training scenes where the true share was no farther above
+/// the expected one.
 double confidence_of_left(double expected, double left);
 
 }  // namespace vantage

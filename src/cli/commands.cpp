@@ -25,6 +25,7 @@
 #include "vantage/cli/schema/schema_command.hpp"
 #include "vantage/cli/score_views_command.hpp"
 #include "vantage/cli/sweep_commands.hpp"
+#include "vantage/cli/validation/settings_file.hpp"
 #include "vantage/cli/view_command.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/report/report.hpp"
@@ -161,8 +162,9 @@ std::function<ExitCode()> declare_report(CLI::App& app) {
 }
 
 Validation validate(const fs::path& file, const std::vector<std::string>& overrides) {
-  if (!is_study(file)) return validate_file(file, overrides);
-  if (overrides.empty()) return validate_study(file);
+  const SettingsCheck check = settings_check(file);
+  if (check == nullptr) return validate_file(file, overrides);
+  if (overrides.empty()) return check(file);
   return {{file.string() + ": --set is for episodes and scenes"}, {}, ExitCode::usage};
 }
 
@@ -180,8 +182,8 @@ std::function<ExitCode()> declare_validate(CLI::App& app) {
   };
   auto arguments = std::make_shared<Arguments>();
   app.add_option("files", arguments->files,
-                 "episodes and studies (.yaml), scenes (.xml), maps (.bt, .ot), models of "
-                 "recognition (.model), folders of robots")
+                 "episodes, studies, recipes and sensors (.yaml), scenes (.xml), maps (.bt, .ot), "
+                 "models of recognition (.model), folders of robots")
       ->required();
   add_set(app, arguments->overrides, "key=value, as run has it; for episodes and scenes");
   add_json(app, arguments->json);

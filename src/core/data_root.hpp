@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-/// $VANTAGE_DATA if set, else what set_data_root() said, else <prefix>/share/vantage beside an installed binary, else the source
-/// tree.
+/// $VANTAGE_DATA if set, else what set_data_root() said, else <prefix>/share/vantage beside an
+/// installed binary, else the source tree.
 std::filesystem::path data_root();
 
 /// Data lies there unless $VANTAGE_DATA is set: for programs that bring it with them. Once, before

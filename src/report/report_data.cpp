@@ -91,13 +91,12 @@ CsvTable read_csv(const std::filesystem::path& path) {
 }
 
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
+  std::string field;
   for (const char c : text) {
     if (c == '"') field += '"';
-    field += c;
+    field += c == '\n' || c == '\r' ? ' ' : c;
   }
-  return field + '"';
+  return field.find_first_of(",\"") == std::string::npos ? field : '"' + field + '"';
 }
 
 std::string base64(std::string_view bytes) {

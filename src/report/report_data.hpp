@@ -72,7 +72,8 @@ struct CsvTable {
 /// Comma-separated, first line the header, quotes as in RFC 4180 but no line breaks inside them.
 /// @throws InputError naming file and line.
 CsvTable read_csv(const std::filesystem::path& path);
-/// A field as read_csv() takes it: in quotes where it has a comma or a quote. Without line breaks.
+/// A field as read_csv() takes it: in quotes where it has a comma or a quote, line breaks as
+/// spaces.
 std::string csv_field(std::string_view text);
 
 std::string base64(std::string_view bytes);

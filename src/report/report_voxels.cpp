@@ -56,7 +56,9 @@ class Fill {
       const Eigen::Array3i cell = frame.cell_at(p);
       if (!frame.contains(cell)) continue;
       std::uint16_t& step = step_[frame.index(cell)];
-      step = std::min(step, kind == kVoxelOccupied ? voxel.step : std::uint16_t{0});
+      const auto last = static_cast<std::uint16_t>(kNever - 1);
+      const std::uint16_t filled = kind == kVoxelOccupied ? std::min(voxel.step, last) : 0;
+      step = std::min(step, filled);
     }
   }
   [[nodiscard]] std::uint16_t step(std::size_t index) const { return step_[index]; }

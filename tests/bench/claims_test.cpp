@@ -59,6 +59,10 @@ bool is_asked_for(const std::string& column) {
                                "path_to_98_m",
                                "scans_to_98",
                                "collisions",
+                               "interval_coverage",
+                               "stop_confidence",
+                               "reached_95",
+                               "simulated_time_s",
                                "correct",
                                "category_correct",
                                "changed_correct",
@@ -182,6 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Studies, Claims,
                                               [](const StudyTables& s) {
                                                 return planning_office_findings(s, 0.80, 0.65);
                                               }},
+                                         Case{"honest_stop", stop_findings},
                                          Case{"buildings", building_findings},
                                          Case{"recognition_flight", flight_recognition_findings},
                                          Case{"recognition_clutter", clutter_findings},

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "vantage/study/study_reading.hpp"
 
@@ -86,6 +89,27 @@ TEST(Race, IsAheadBeyondTheInterval) {
       [](const std::string& name) { return name.starts_with("report_4/") ? 50.0 : 100.0; });
   EXPECT_TRUE(level.is_won_by(1.0));
   EXPECT_FALSE(level.is_ahead());
+}
+
+/// The other gets to an end at two of ten tables, twice as slowly.
+TEST(Race, IsNotAheadByTwoPairsButByArrivingFarMoreOften) {
+  const auto arrives_at = [](const std::vector<std::string>& tables) {
+    return race_of(study_of([&](const std::string& name) -> std::string {
+      const bool two = name.starts_with("report_4/") || name.starts_with("report_8/");
+      if (is_by(name, "greedy")) return two ? "100" : "";
+      const bool more = std::ranges::any_of(
+          tables, [&](const std::string& table) { return name.starts_with(table); });
+      return two || more ? "50" : "";
+    }));
+  };
+  const Race three = arrives_at({"report_15/"});
+  EXPECT_TRUE(three.is_won_by(0.5));
+  EXPECT_DOUBLE_EQ(three.arrival_p, 1.0) << "one table of ten, either way";
+  EXPECT_FALSE(three.is_ahead()) << "two pairs are no lead";
+  const Race all = arrives_at({"report_"});
+  EXPECT_DOUBLE_EQ(all.arrival_p, 2.0 / 256.0) << "of eight tables that differ";
+  EXPECT_TRUE(all.is_ahead());
+  EXPECT_THAT(all.text(), testing::HasSubstr("10 and 2 of 10 get there, p 0.0078"));
 }
 
 TEST(Race, SaysWhatStandsAgainstIt) {

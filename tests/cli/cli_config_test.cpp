@@ -183,6 +183,21 @@ TEST_F(CommandLine, ValidateKnowsWhatCannotRun) {
               testing::AllOf(HasSubstr("note: no table"), HasSubstr("bare.xml: good")));
 }
 
+TEST_F(CommandLine, ValidateReadsRecipesAndSensorsAsWhatTheyAre) {
+  for (const std::string good : {"assets/models/flight.yaml", "assets/sensors/rgbd.yaml"}) {
+    EXPECT_THAT(vantage("validate '" VANTAGE_SOURCE_DIR "/" + good + "'").output,
+                HasSubstr(good + ": good"));
+  }
+  expect_error(vantage("validate " + file("r.yaml", "recordings:\n  - {session: -1}\n")), 2,
+               {"r.yaml:2", "session", "-1"});
+  expect_error(vantage("validate " + file("s.yaml", "range_max_m: -3\n")), 2,
+               {"s.yaml:1", "range_max_m", "-3"});
+  expect_error(vantage("validate " + file("t.yaml", "range_max_m: 3\nrange_m: 2\n")), 2,
+               {"t.yaml:2", "unknown key 'range_m'"});
+  expect_error(vantage("validate --set a=1 " + file("u.yaml", "range_max_m: 3\n")), 2,
+               {"--set is for episodes"});
+}
+
 /// A table with nothing to localise by: good, with a note.
 std::string open_scene() {
   return "<mujoco><worldbody><geom type='plane' size='5 5 .1'/><geom type='box' pos='0 0 .7' "

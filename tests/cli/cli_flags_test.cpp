@@ -173,5 +173,29 @@ TEST_F(CommonFlags, TimeoutsUnitsAndYawsAreWhatTheyCanBe) {
   expect_code(2, take_in + "--view-yaw=", {"front", "=3", "front=", "front=left"});
 }
 
+TEST_F(CommonFlags, WhatIsGivenIsNotEmpty) {
+  const std::pair<std::string, std::vector<std::string>> commands[] = {
+      {"run", {"--seed", "--out"}},
+      {"view", {"--seed", "--out", "--screenshot"}},
+      {"dataset render d", {"--objects", "--step-deg", "--seed", "--models"}},
+      {"dataset contact-sheet d", {"--out"}},
+      {"dataset import d", {"--out"}},
+      {"train d", {"--out"}},
+      {"evaluate d --model m", {"--out"}},
+      {"export r", {"--mcap"}},
+      {"arena run s", {"--out"}},
+      {"sweep run s", {"--out"}},
+      {"sweep submit s", {"--partition", "--time"}},
+      {"branch r --scan 1", {"--out"}},
+      {"score-views --map m", {"--views", "--sensor", "--gain", "--seed", "--write-views"}}};
+  for (const auto& [command, options] : commands) {
+    for (const std::string& option : options) {
+      const Result result = vantage(fmt::format("{} {} ''", command, option));
+      EXPECT_EQ(result.exit_code, 2) << command << " " << option;
+      EXPECT_THAT(result.output, HasSubstr(option + ": is empty")) << command;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

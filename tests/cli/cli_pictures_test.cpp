@@ -1,6 +1,7 @@
 // A user's own pictures: `vantage dataset import` and `check`, and what training, recognition and
 // evaluation make of them and of what is wrong with them.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -388,6 +389,33 @@ TEST_F(OwnPictures, ViewsAreAsFarApartAsTheirNamesSay) {
   EXPECT_EQ(known["views"][0]["view_rad"], 0.0);
   EXPECT_NEAR(known["views"][1]["view_rad"].get<double>(), 0.5 * std::numbers::pi, 1e-9);
   EXPECT_THAT(errors(), testing::Not(HasSubstr("--view-names")));
+}
+
+TEST_F(OwnPictures, AnImportInWordsIsThatInJson) {
+  const json imported = parsed("dataset import mine --out a" + kFocal);
+  const auto texts = [&](const char* key) { return imported[key].get<std::vector<std::string>>(); };
+  EXPECT_EQ(vantage("dataset import mine --out b" + kFocal + "2>/dev/null").output,
+            fmt::format("b: {0} pictures of {1} objects in 2 recordings, cut by depth\n"
+                        "paths were read as {2}\n8 viewing directions: {3}\n"
+                        "depth: 1 is a millimetre of {0} pictures\n",
+                        2 * 7 * kObjects, kObjects, fmt::join(texts("layouts"), " and "),
+                        fmt::join(texts("views"), ", ")));
+  EXPECT_THAT(vantage("dataset import other --out c" + kFocal + "2>/dev/null").output,
+              testing::EndsWith(fmt::format("depth: 1 is a metre of {} pictures\n", 7 * kObjects)));
+}
+
+/// The same depth in tenths of a millimetre, of an object 0.9 m away.
+TEST_F(Questions, DepthIsInTheUnitThatIsGiven) {
+  const std::string stem = "data/mug/mug_1/mug_1_2_3_";
+  const cv::Mat mm =
+      cv::imread((folder_ / (stem + "depthcrop.png")).string(), cv::IMREAD_UNCHANGED);
+  cv::Mat tenths;
+  mm.convertTo(tenths, CV_16U, 10.0);
+  cv::imwrite((folder_ / "tenths.png").string(), tenths);
+  const std::string question =
+      "recognise --model model -q --farthest-m 1 " + stem + "crop.png tenths.png ";
+  EXPECT_EQ(parsed(question + "--depth-unit-m 0.0001")["objects"][0]["object"], "mug_1");
+  expect_error(vantage(question), 3, {"tenths.png"});
 }
 
 }  // namespace

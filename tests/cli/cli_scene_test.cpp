@@ -178,5 +178,22 @@ TEST_F(SceneFromMesh, AMeshInMillimetresIsScaled) {
   EXPECT_NEAR(millimetres.at(1), metres.at(1), 1e-4);
 }
 
+TEST_F(SceneFromMesh, TellsTheMapThatItsEpisodeHas) {
+  house();
+  const auto json =
+      nlohmann::json::parse(vantage("scene from-mesh house.obj --out a.xml --json -q").output);
+  const auto numbers = [&](std::size_t i) {
+    const auto set = json["set"].at(i).get<std::string>();
+    return nlohmann::json::parse(set.substr(set.find('=') + 1)).get<std::vector<double>>();
+  };
+  const std::vector<double> size_m = numbers(1);
+  const std::vector<double> cells = numbers(2);
+  const Result told = vantage("scene from-mesh house.obj --out a.xml --overwrite -q");
+  EXPECT_THAT(told.output, HasSubstr(fmt::format(
+                               "\nits map: {:g} x {:g} m, {:g} x {:g} x {:g} cells of {:.1f} cm\n",
+                               size_m.at(0), size_m.at(1), cells.at(0), cells.at(1), cells.at(2),
+                               100.0 * size_m.at(0) / cells.at(0))));
+}
+
 }  // namespace
 }  // namespace vantage

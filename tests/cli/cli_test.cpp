@@ -1,4 +1,5 @@
 // The command line as a user meets it: exit codes, one clear line, nothing half-written.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/command_line.hpp"
@@ -256,6 +257,18 @@ TEST_F(CommandLine, WhatIsExportedAndReplayedIsTold) {
   EXPECT_EQ(replayed["state_hash"], metrics["state_hash"]);
   EXPECT_EQ(replayed["changed_files"], nlohmann::json::array({"scene.xml"}));
   EXPECT_TRUE(replayed["first_difference"].is_null());
+}
+
+/// Large enough that it is not 0.0 MB.
+TEST_F(CommandLine, AnExportIsToldWithItsTimeAndSize) {
+  ASSERT_EQ(vantage(std::string("run ") + kShort + "--out run").exit_code, 0);
+  const std::string to_mcap = "export run --mcap a.mcap --overwrite -q ";
+  const auto told = nlohmann::json::parse(vantage(to_mcap + "--json 2>/dev/null").output);
+  const auto bytes = told["bytes"].get<double>();
+  ASSERT_GT(bytes, 5e4);
+  EXPECT_THAT(vantage(to_mcap).output,
+              HasSubstr(fmt::format(" channels, {:.1f} s, {:.1f} MB\n",
+                                    told["simulated_time_s"].get<double>(), 1e-6 * bytes)));
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include "tests/dataset/cube.hpp"
 #include "vantage/dataset/sensing.hpp"
@@ -356,6 +358,36 @@ TEST(Lamp, LightsTheTableAsItsSessionSays) {
   session = plain;
   session.lamp_elevation_rad = 0.2;
   EXPECT_LT(table_grey(session), table_grey(plain) - 20) << "a lower lamp";
+}
+
+TEST_F(Cube, CutOutByDepthIsOfWhatTheCameraMeasured) {
+  const RenderedImages drawn = draw(0.3);
+  Session session = support::plain_session(kElevation_rad);
+  DatasetOptions options{.colour_noise = 0.0,
+                         .depth_noise = false,
+                         .edge_dropout = 0.0,
+                         .cut_by_depth = true,
+                         .supersampling = 1};
+  const auto view_with = [&](const DatasetOptions& how) {
+    Rng rng(1);
+    return sense(drawn, table_.object_geom(), session, how, rng);
+  };
+  const ObjectView exact = view_with(options);
+  EXPECT_EQ(exact.centre_px, Eigen::Vector2d(320.0, 240.0)) << "of the whole image";
+  DatasetOptions other = options;
+  other.edge_dropout = 1.0;
+  EXPECT_GT(std::ranges::count(view_with(other).depth_m, 0.0F),
+            std::ranges::count(exact.depth_m, 0.0F));
+  other = options;
+  other.mask_growth_px = options.mask_growth_px + 2;
+  EXPECT_GT(pixels_of(view_with(other)).size(), pixels_of(exact).size());
+  other = options;
+  other.margin_px = options.margin_px - 2;
+  EXPECT_EQ(view_with(other).width_px, exact.width_px - 4);
+  session.gain.setConstant(0.5);
+  std::vector<std::uint8_t> halves;
+  for (const int value : exact.rgb) halves.push_back(static_cast<std::uint8_t>((value + 1) / 2));
+  EXPECT_EQ(view_with(options).rgb, halves);
 }
 
 }  // namespace

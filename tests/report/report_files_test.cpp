@@ -86,6 +86,7 @@ TEST_F(ReportFile, OfCommaSeparatedValuesNamesItsLine) {
   EXPECT_EQ(csv_field("plain text"), "plain text");
   EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
   EXPECT_EQ(csv_field("say \"x\""), "\"say \"\"x\"\"\"");
+  EXPECT_EQ(csv_field("a\nb,\r"), "\"a b, \"") << "a line is a record";
 }
 
 constexpr const char* kPlanColumns =
@@ -160,6 +161,14 @@ TEST_F(ReportFile, OfACloudIsQuantisedInItsBox) {
   EXPECT_NEAR(found["scale_m"][1].get<double>(), 4.0 / 65535.0, 1e-10);
   EXPECT_NEAR(found["scale_m"][2].get<double>(), 8.0 / 65535.0, 1e-10);
   EXPECT_EQ(found["data"], base64(std::string(6, '\0') + std::string(6, '\xff')));
+}
+
+TEST(PackedVoxels, KeepWhatFillsAtTheLastStepThatAFileCanTell) {
+  const VoxelMap map{{0.1, 0.1, 0.1},
+                     {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.1, 0.1, 0.1)},
+                     {{0.05F, 0.05F, 0.05F, 65535, kVoxelOccupied}}};
+  ASSERT_EQ(pack_voxels(map, 1).voxels.size(), 1U);
+  EXPECT_EQ(pack_voxels(map, 1).voxels[0].step_and_kind, 0x7FFF);
 }
 
 /// Every second of ten cells in a row, of which four are kept.

@@ -351,5 +351,15 @@ TEST(StudyFlights, AreDrawnOnceAMethod) {
   EXPECT_THAT(svg, HasSubstr("<polygon points=")) << "the walls of its scene";
 }
 
+/// Then `path_length_m` of a scan was the length of its leg.
+TEST_F(Evaluated, MetricsOfAFormerVersionMeanWhatTheySaid) {
+  write_file(episode_folder(folder_.path(), results_.plan[1]) / "metrics.json",
+             R"({"scans": [{"path_length_m": 1.5}, {"path_length_m": 2.0}]})");
+  const Json now = Json::parse(R"({"scans": [{"path_length_m": 1.5, "leg_length_m": 1.5},
+                                             {"path_length_m": 3.5, "leg_length_m": 2.0}]})");
+  EXPECT_EQ(episode_metrics(results_, 1), now);
+  EXPECT_TRUE(episode_metrics(results_, 3).is_null()) << "of one that is missing";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -8,6 +8,7 @@
 #include "vantage/tasks/mapping/driving/scan_record.hpp"
 #include "vantage/tasks/object_flight/observation_record.hpp"
 #include "vantage/tasks/object_flight/orbit_robot_interface.hpp"
+#include "vantage/tasks/recognition/table_obstacles.hpp"
 #include "vantage/tasks/task.hpp"
 #include "vantage/tasks/trajectory/waypoint_record.hpp"
 
@@ -183,6 +184,18 @@ TEST(TaskOptions, AnyClutterIsAmongOthers) {
   task.targets = 1;
   task.clutter.posts = 1;
   EXPECT_TRUE(task.among_others());
+}
+
+/// Nothing has a size yet; there is as much room as the options say if nothing else is said.
+TEST(TaskRecords, OfThingsOnTheTableBeginWithNothing) {
+  expect_all(0.0, {Post{}.radius_m, Post{}.height_m, Screen{}.yaw_rad, Screen{}.half_m,
+                   Screen{}.height_m, StandingRoom::Place{}.yaw_rad});
+  expect_all(0.0,
+             {Post{}.offset_m.norm(), Screen{}.offset_m.norm(), StandingRoom::Place{}.p_m.norm()});
+  const StandingRule rule{};
+  EXPECT_EQ(rule.reach_m, ClutterOptions{}.reach_m);
+  EXPECT_EQ(rule.spacing_m, ClutterOptions{}.spacing_m);
+  EXPECT_TRUE(rule.round_m.empty());
 }
 
 }  // namespace

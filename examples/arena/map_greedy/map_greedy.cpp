@@ -4,13 +4,13 @@
 // A planner for `choice: {name: external, command: [path/to/map_greedy]}`, built against the
 // installed package. Half of a beam is taken to pass a metre of what nobody has seen.
 #include <fcntl.h>
+#include <nlohmann/json.hpp>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -76,9 +76,10 @@ int decide(const Json& request, SharedMap& shared) {
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Json& view = request["candidates"][i];
     const bool open = !view["exhausted"].get<bool>();
-    const double worth = view["travel_s"].is_null()
-                             ? -1.0
-                             : gains[i] * std::exp(-kDecayPerSecond * view["travel_s"].get<double>());
+    const double worth =
+        view["travel_s"].is_null()
+            ? -1.0
+            : gains[i] * std::exp(-kDecayPerSecond * view["travel_s"].get<double>());
     if (open && worth > most) {
       most = worth;
       best = static_cast<int>(i);

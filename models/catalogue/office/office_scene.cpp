@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "vantage/core/rng.hpp"
@@ -261,19 +262,15 @@ std::vector<Outline> obstacles(const OfficeScene& scene) {
 }
 
 std::vector<OfficeOptions> office_scenes() {
-  struct Draw {
-    const char* suffix;
-    std::uint64_t small_seed;
-    std::uint64_t large_seed;
-  };
-  constexpr std::array kDraws{Draw{"", 1510U, 2025U}, Draw{"_a", 31U, 41U}, Draw{"_b", 32U, 42U}};
+  using Draw = std::tuple<const char*, std::uint64_t, std::uint64_t>;
   std::vector<OfficeOptions> scenes;
-  for (const Draw& draw : kDraws) {
+  for (const auto& [suffix, small_seed, large_seed] :
+       {Draw{"", 1510U, 2025U}, Draw{"_a", 31U, 41U}, Draw{"_b", 32U, 42U}}) {
     for (const bool large : {false, true}) {
       for (int level = 1; level <= kClutterLevels; ++level) {
         scenes.push_back(
-            {.name = fmt::format("office_{}{}_{}", large ? "large" : "small", draw.suffix, level),
-             .seed = large ? draw.large_seed : draw.small_seed,
+            {.name = fmt::format("office_{}{}_{}", large ? "large" : "small", suffix, level),
+             .seed = large ? large_seed : small_seed,
              .large = large,
              .clutter = level});
       }

@@ -12,8 +12,8 @@ class App;
 
 namespace vantage {
 
-/// `words` with a --set before each further assignment that follows one: `--set a=1 b=2`. What comes
-/// after -- is somebody else's.
+/// `words` with a --set before each further assignment that follows one: `--set a=1 b=2`. What
+/// comes after -- is somebody else's.
 std::vector<std::string> with_every_set(const std::vector<std::string>& words);
 
 /// Of the command line's words, the first that stands where a subcommand should and is none:

@@ -34,7 +34,8 @@ UnknownViews unknown_views(DatasetIndex of_dataset, const RecognitionModel& mode
         "unknown_starts: there is no object that the model does not know; give unknown_datasets, "
         "or train with leave_out");
   }
-  UnknownViews unknown{.test = read_test_views(of_dataset, model, options.video, how), .starts = {}};
+  UnknownViews unknown{.test = read_test_views(of_dataset, model, options.video, how),
+                       .starts = {}};
   unknown.starts = draw_starts(unknown.test, options.unknown_starts, options.seed);
   return unknown;
 }

@@ -210,7 +210,7 @@ RunOutcome ChangeDetectionTask::run(const RunRequest& request) const {
   const Recogniser recogniser = load_recogniser(*this, truth, expected);
   EpisodeRun run(request);
   ObjectFlightRecorder recorder(run, recorded(robot), decision.max_views, true);
-  const ObjectFlightEvaluator evaluator(robot, {truth});
+  const ObjectFlightEvaluator evaluator(robot);
   const double first_rad =
       first_bearing_rad(expected.yaw_rad, robot.start_bearing_rad(), recogniser.states.bin_rad());
   const bool detectable = is_detectable(recogniser, truth, expected, first_rad);

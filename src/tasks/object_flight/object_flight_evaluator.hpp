@@ -1,11 +1,9 @@
 /// Holds what is believed of an object on a table against the truth.
 #pragma once
 
-#include <utility>
-#include <vector>
+#include <cstddef>
 
 #include "vantage/belief/objects/object_states.hpp"
-#include "vantage/tasks/object_flight/object_on_table.hpp"
 #include "vantage/tasks/object_flight/observation_record.hpp"
 
 namespace vantage {
@@ -15,9 +13,8 @@ class SimulatedOrbitRobot;
 /// Whoever decides may hand it a record to fill in, and learns nothing by that.
 class ObjectFlightEvaluator {
  public:
-  /// `robot` must outlive it. @param truth of what the robot looks at
-  ObjectFlightEvaluator(const SimulatedOrbitRobot& robot, std::vector<ObjectOnTable> truth)
-      : robot_(robot), truth_(std::move(truth)) {}
+  /// `robot`, which knows the truth, must outlive it.
+  explicit ObjectFlightEvaluator(const SimulatedOrbitRobot& robot) : robot_(robot) {}
 
   /// Fills in what the record says of the pose and of the object, held against the truth.
   /// @param object the most probable one
@@ -28,7 +25,6 @@ class ObjectFlightEvaluator {
 
  private:
   const SimulatedOrbitRobot& robot_;
-  std::vector<ObjectOnTable> truth_;
 };
 
 }  // namespace vantage

@@ -223,7 +223,7 @@ RunOutcome RecognitionTask::run(const RunRequest& request) const {
   const Recogniser recogniser = load_recogniser(*this, table);
   EpisodeRun run(request);
   ObjectFlightRecorder recorder(run, recorded(robot), decision.max_views * targets, false);
-  const ObjectFlightEvaluator evaluator(robot, table.targets);
+  const ObjectFlightEvaluator evaluator(robot);
   ObjectFlightParts parts({setup.options, *this, recogniser, robot, evaluator, recorder},
                           goal_of(*this, table), ObjectInquiry(recogniser, decision),
                           robot.start_bearing_rad());

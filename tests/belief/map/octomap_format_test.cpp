@@ -54,6 +54,13 @@ TEST(OctomapFormat, ReadsTheHeader) {
   EXPECT_FALSE(check_octomap(ot("id OcTree\nsize 0\nres 1\n", ""), "map.ot").binary);
 }
 
+TEST(OctomapFormat, RefusesATreeOfNoKnownType) {
+  EXPECT_EQ(error_of(bt("size 0\nres 1\n", "")),
+            "map.bt: header key 'id' is missing, expected OcTree");
+  EXPECT_EQ(error_of(bt("id ColorOcTree\nsize 0\nres 1\n", "")),
+            "map.bt: holds a tree of type 'ColorOcTree', expected OcTree");
+}
+
 TEST(OctomapFormat, ReadsTheHeaderItWrites) {
   for (const bool binary : {false, true}) {
     const OctomapHeader header = check_octomap(octomap_header({binary, 1.0 / 129, 0}), "map");

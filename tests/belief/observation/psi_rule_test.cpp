@@ -256,5 +256,21 @@ TEST(CalibratedPsi, OfTwoStatesMakesTheScoreTheLogOddsOfBeingRight) {
   }
 }
 
+TEST(MeanLogPosterior, DoesNotMindLargeDensitiesOfViewsWithAStateThatIsImpossible) {
+  HeldOutViews views;
+  views.state = {0, 2};
+  Eigen::MatrixXf densities(3, 2);
+  densities << 0.0F, -2.5F, -std::numeric_limits<float>::infinity(), -1.5F, -1.5F, 0.5F;
+  views.log_density = {densities};
+  const std::vector<double> psi{0.3};
+  const double expected = mean_log_posterior(views, psi);
+  EXPECT_NEAR(
+      expected,
+      -0.5 * (std::log(1.0 + std::exp(-0.45)) + std::log(1.0 + std::exp(-0.9) + std::exp(-0.6))),
+      2e-6);
+  views.log_density[0].array() -= 1048576.0F;  // exact
+  EXPECT_NEAR(mean_log_posterior(views, psi), expected, 1e-7);
+}
+
 }  // namespace
 }  // namespace vantage

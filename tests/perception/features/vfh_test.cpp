@@ -236,5 +236,34 @@ TEST(Vfh, SaysHowManyPointsHaveANormal) {
             "40 pixels of the object have depth, fewer than 41");
 }
 
+/// 36 points of a square plate, which have a normal, and 40 of a line, which have none.
+ObjectView plate_and_line_of_vfh() {
+  ObjectView view = blank_view(40, 40);
+  const auto show = [&](int row, int column) {
+    view.mask[view.index(row, column)] = 1;
+    view.depth_m[view.index(row, column)] = 1.0F;
+  };
+  for (int column = 0; column < 40; ++column) show(20, column);
+  for (int i = 0; i < 36; ++i) show(30 + i / 6, 2 + i % 6);
+  return view;
+}
+
+TEST(Vfh, OnlyPointsWithANormalAreCounted) {
+  const ObjectView view = plate_and_line_of_vfh();
+  EXPECT_EQ((Vfh{.min_points = 36}.extract(view).skipped), "");
+  EXPECT_EQ((Vfh{.min_points = 37}.extract(view).skipped),
+            "36 points have a normal, fewer than 37");
+}
+
+/// Pairs with the centroid, one a point, count 1/35 each in four blocks, lines of sight 1/36.
+TEST(Vfh, SizesHaveTheirShareOfAView) {
+  const Vfh with_sizes{.size_block = true, .min_points = 36};
+  const FeatureResult result = with_sizes.extract(plate_and_line_of_vfh());
+  ASSERT_TRUE(result.extracted()) << result.skipped;
+  EXPECT_NEAR(result.vector.segment(kSizeBlock, 45).squaredNorm(), 36.0 / (4.0 * 36.0 + 35.0),
+              1e-5);
+  EXPECT_NEAR(result.vector.squaredNorm(), 1.0, 1e-5);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -152,5 +152,16 @@ TEST(OracleLookaheadDeathTest, NeedsTheTruth) {
   EXPECT_DEATH(choose_view(OracleLookahead{}, views, rng), "true_new_cell_set");
 }
 
+/// After either of the first two views the other one shows as much: the same two views in another
+/// order are no second plan.
+TEST(OracleLookahead, ABeamHoldsSetsOfViewsNotOrdersOfThem) {
+  const std::vector<Candidate> views{view_of({0, 1}), view_of({2, 3}), view_of({0, 4}),
+                                     view_of({1, 5})};
+  const Sequence found = OracleLookahead{.width = 2, .depth = 3}.best_sequence(views);
+  EXPECT_EQ(found, (Sequence{1, 2, 3}));
+  EXPECT_EQ(value_of(views, found), 2U + 4U + 6U);
+  EXPECT_EQ(value_of(views, {0, 1, 2}), 2U + 4U + 5U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
+#include "vantage/core/error.hpp"
 #include "vantage/core/rng.hpp"
 
 namespace vantage {
@@ -247,6 +251,102 @@ TEST(FootprintSpace, TurnsWhereNoHeadingOnTheWayMeetsAPost) {
     }
   }
   EXPECT_GT(met_on_the_way_alone, 5);
+}
+
+TEST(HeadingAlong, OfAWayOfLessThanAMicrometreIsTheOneGiven) {
+  const RobotOutline robot{.outline = rectangle(0.3, 0.2), .goes_sideways = false};
+  const auto heading_rad = [&](double length_m) {
+    return heading_along(robot, {0.0, 0.0}, {0.0, length_m}, 0.3);
+  };
+  EXPECT_EQ(heading_rad(0.8e-6), 0.3);
+  EXPECT_NEAR(heading_rad(1.5e-6), 0.5 * std::numbers::pi, 1e-9);
+}
+
+/// Rows of 65 cells take two words of 64 bits each.
+TEST(FootprintSpace, TellsTheLastCellOfARowFromTheFirstOfTheNextOne) {
+  for (const bool first : {false, true}) {
+    DrawnRooms rooms(0.65, 0.2, {});
+    const Eigen::Array2i post = first ? Eigen::Array2i(0, 10) : Eigen::Array2i(64, 9);
+    rooms.detail.log_odds[rooms.detail.index(post)] = 3.0F;
+    const auto space =
+        rooms.space({.outline = rectangle(0.025, 0.025)}, {.margin_m = 0.001, .headings = 4});
+    EXPECT_EQ(space->fits({63, 9}, 0), first);
+    EXPECT_EQ(space->fits({1, 10}, 0), !first);
+  }
+}
+
+/// Where words of 64 cells meet, and at both ends of the row.
+TEST(FootprintSpace, SeesAPostWhereverTheOutlineBeginsAndEnds) {
+  for (const int reach : {5, 75}) {
+    const RobotOutline robot{.outline = rectangle(0.02 * reach + 0.01, 0.2)};
+    for (const int post : {0, 1, 62, 63, 64, 65, 126, 127, 128, 129, 191, 192, 255, 256, 299}) {
+      DrawnRooms rooms(3.0, 0.5, {});
+      rooms.detail.log_odds[rooms.detail.index({post, 20})] = 3.0F;
+      const auto space = rooms.space(robot, {.margin_m = 0.001, .headings = 4});
+      for (int x = reach; x < 300 - reach; ++x) {
+        EXPECT_EQ(space->fits({x, 25}, 0), std::abs(x - post) > reach) << x << " " << post;
+      }
+    }
+  }
+}
+
+/// Rows are whole, from the leftmost to the rightmost cell of nine headings.
+TEST(FootprintSpace, ATurnIsLookedAtInEightSteps) {
+  DrawnRooms rooms(3.0, 3.0, {});
+  const Eigen::Array2i post(150, 150);
+  rooms.detail.log_odds[rooms.detail.index(post)] = 3.0F;
+  const RobotOutline robot{.outline = rectangle(0.906, 0.5042)};
+  const auto space = rooms.space(robot, {.margin_m = 0.001});
+  const FloorOutline kept = grown(robot.outline, 0.001);
+  for (int heading = 2; heading < 48; heading += 5) {
+    std::map<int, std::pair<int, int>> rows;
+    for (int step = 0; step <= 8; ++step) {
+      const double yaw_rad = (heading + step / 8.0) * std::numbers::pi / 24.0;
+      for_each_row_inside(moved(kept, {0.0, 0.0, yaw_rad}), Eigen::Vector2d::Zero(), 0.01,
+                          [&](int row, int first, int last) {
+                            auto& ends = rows.try_emplace(row, first, last).first->second;
+                            ends.first = std::min(ends.first, first);
+                            ends.second = std::max(ends.second, last);
+                          });
+    }
+    for (int y = -53; y <= 53; ++y) {
+      const auto row = rows.find(y);
+      for (int x = -53; x <= 53; ++x) {
+        const bool meets = row != rows.end() && x >= row->second.first && x <= row->second.second;
+        EXPECT_EQ(space->fits_turning(post - Eigen::Array2i(x, y), heading), !meets)
+            << x << " " << y << " at " << heading;
+      }
+    }
+  }
+}
+
+/// What 5 x 5 cells have in common wherever within two cells they are put is one cell.
+TEST(FootprintSpace, MayFitUnlessTheOneCellThatIsCoveredInAnyCaseIsNot) {
+  const auto may_fit = [](const Eigen::Array2i& off) {
+    return space_with_a_post(off, {.outline = rectangle(0.048, 0.048)}, {.margin_m = 0.001})
+        ->may_fit(kMiddleCell, 0);
+  };
+  EXPECT_FALSE(may_fit({0, 0}));
+  for (const int side : {-1, 1}) {
+    EXPECT_TRUE(may_fit({side, 0}));
+    EXPECT_TRUE(may_fit({0, side}));
+  }
+}
+
+TEST(FootprintSpace, FitsAlongAShortWayOnlyIfAtBothEnds) {
+  const auto space = space_with_a_post({42, 0}, long_robot(), {});
+  const FloorOutline outline = long_robot().outline;
+  const Eigen::Vector2d from_m = space->centre(kMiddleCell);
+  const Eigen::Vector2d to_m = from_m + Eigen::Vector2d(0.015, 0.0);
+  EXPECT_TRUE(space->fits_along(outline, from_m, from_m, 0.0));
+  EXPECT_FALSE(space->fits_along(outline, from_m, to_m, 0.0));
+  EXPECT_FALSE(space->fits_along(outline, to_m, from_m, 0.0));
+}
+
+TEST(FootprintSpace, RejectsOptionsOutOfRange) {
+  const DrawnRooms rooms(2.0, 2.0, {});
+  EXPECT_NO_THROW(static_cast<void>(rooms.space(long_robot(), {.headings = 4})));
+  EXPECT_THROW(static_cast<void>(rooms.space(long_robot(), {.headings = 3})), ConfigError);
 }
 
 }  // namespace

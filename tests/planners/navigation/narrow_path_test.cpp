@@ -365,5 +365,50 @@ TEST(CentredPath, MovesBothEndsToOneSideWhereEitherIsAsGood) {
   EXPECT_EQ(leg.front().y_m, leg.back().y_m);
 }
 
+TEST_F(PostBesideTheStraightWay, IsNotPassedNearerThanByHalfTheMargin) {
+  const PassageOptions passages{.margin_m = 0.06, .preferred_margin_m = 0.1};
+  EXPECT_EQ(leg(1.075, passages, {1.25, 1.2}).waypoints.size(), 3U) << "2.5 cm: less than three";
+}
+
+/// It has half a centimetre where it begins and where it ends, and 1.5 in the middle.
+TEST(CentredPath, GoesForTheFirstCentimetreToo) {
+  const PlannedPath path = centred_between({wall(0.0, 0.0, 3.0, 0.19), wall(0.0, 0.81, 3.0, 1.0)},
+                                           {1.0, 0.51, 0.0}, {2.0, 0.51, 0.0});
+  for (const Pose2& pose : path.legs.at(2).waypoints) EXPECT_NEAR(pose.y_m, 0.5, 1e-9);
+}
+
+/// There is room in the middle, 3 cm beside it; but it ends in the passage, or turns there.
+TEST(CentredPath, LeavesALegAloneThatDoesNotLeadToAnOpenPlace) {
+  const DrawnRooms rooms(3.0, 1.0, {wall(0.0, 0.0, 3.0, 0.15), wall(0.0, 0.85, 3.0, 1.0)});
+  PathField field;
+  field.start = {0.4, 0.5, 0.0};
+  field.space = rooms.space({.outline = rectangle(0.6, 0.6)}, {});
+  const Pose2 begin{1.0, 0.53, 0.0};
+  const Pose2 end{2.0, 0.53, 0.0};
+  PlannedPath path;
+  path.legs.push_back({.waypoints = {field.start, begin}});
+  path.legs.push_back({.waypoints = {begin, end}, .narrow = true});
+  for (const bool turns : {false, true}) {
+    if (turns) path.legs.push_back({.waypoints = {end, {2.0, 0.53, 0.02}}, .narrow = true});
+    const PlannedPath driven = centred(field, path);
+    ASSERT_EQ(driven.legs.size(), path.legs.size());
+    for (const Pose2& pose : driven.legs[1].waypoints) EXPECT_EQ(pose.y_m, 0.53);
+    EXPECT_EQ(driven.end.yaw_rad, turns ? 0.02 : 0.0);
+  }
+}
+
+TEST(CentredPath, OfAPathThroughOpenPlacesIsThatPath) {
+  const PathField of_a_disc{};
+  const PlannedPath path{.waypoints = {{1.0, 1.0, 0.0}, {2.0, 1.0, 0.3}},
+                         .legs = {},
+                         .length_m = 1.0,
+                         .reaches_goal = true,
+                         .end = {2.0, 1.0, 0.3}};
+  const PlannedPath driven = centred(of_a_disc, path);
+  ASSERT_EQ(driven.waypoints.size(), 2U);
+  EXPECT_EQ(driven.waypoints[1].x_m, 2.0);
+  EXPECT_EQ(driven.end.yaw_rad, 0.3);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
+#include "vantage/planners/navigation/narrow_poses.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 
@@ -355,6 +358,59 @@ TEST(NarrowSearch, DoesNotTurnThroughWhatIsBetweenTwoHeadings) {
               !post)
         << turned->cost;
   }
+}
+
+/// From the heading beside that of the corridor to that one: on to the next there is no room.
+TEST_F(Corridor, TurnsTheOtherWayWhereOneWayIsClosed) {
+  const double turn_m = kHeadingStep_rad * std::hypot(0.45, 0.25);
+  for (const double side : {-1.0, 1.0}) {
+    start_.yaw_rad = side * kHeadingStep_rad;
+    const PathField narrow = field(robot_, {.speed_m_s = 0.2});
+    EXPECT_NEAR(cost_at(narrow, start_cell_, 0.0), turn_m * 3.0 * 2.5, 1e-9) << side;
+    EXPECT_TRUE(std::isinf(cost_at(narrow, start_cell_, 2.0 * start_.yaw_rad)));
+  }
+}
+
+/// A corridor that leaves room for its middle in one row of cells, or in one column.
+TEST(NarrowPoses, AreWithinTwoCellsOfTheMiddleOfTheirOwn) {
+  for (const bool along_x : {false, true}) {
+    for (int off = -3; off <= 3; ++off) {
+      const double low_m = 1.525 + 0.01 * off - 0.328;
+      const double high_m = 1.525 + 0.01 * off + 0.328;
+      const DrawnRooms rooms(
+          3.05, 3.05,
+          along_x ? std::vector{wall(0.0, 0.0, 3.05, low_m), wall(0.0, high_m, 3.05, 3.05)}
+                  : std::vector{wall(0.0, 0.0, low_m, 3.05), wall(high_m, 0.0, 3.05, 3.05)});
+      PathField field;
+      field.map = rooms.floor;
+      field.space = rooms.space({.outline = rectangle(0.61, 0.61)},
+                                {.preferred_margin_m = 0.0, .headings = 4});
+      NarrowPoses poses(field, std::vector<Leeway>(field.map.size(), Leeway::passage));
+      const std::size_t cell = field.map.index({30, 30});
+      const std::uint32_t pose = poses.at(cell, 0);
+      ASSERT_EQ(pose == NarrowPoses::kNone, std::abs(off) > 2) << off;
+      if (pose == NarrowPoses::kNone) continue;
+      const Eigen::Array2i there = along_x ? Eigen::Array2i(0, off) : Eigen::Array2i(off, 0);
+      EXPECT_TRUE((poses.place(pose).fine == poses.middle(cell) + there).all()) << off;
+      EXPECT_EQ(poses.at(cell, 0), pose) << "it is made once";
+    }
+  }
+}
+
+/// A post at its left front corner: it fits a cell to the right, and a cell farther back.
+TEST(NarrowPoses, OfEquallyNearPlacesTheFirstInTheMapIsTaken) {
+  DrawnRooms rooms(3.05, 3.05, {});
+  rooms.detail.log_odds[rooms.detail.index({152 + 32, 152 + 31})] = 3.0F;
+  PathField field;
+  field.map = rooms.floor;
+  field.space =
+      rooms.space({.outline = rectangle(0.61, 0.61)}, {.preferred_margin_m = 0.0, .headings = 4});
+  ASSERT_FALSE(field.space->fits({152, 152}, 0));
+  ASSERT_TRUE(field.space->fits({151, 152}, 0));
+  NarrowPoses poses(field, std::vector<Leeway>(field.map.size(), Leeway::passage));
+  const std::uint32_t pose = poses.at(field.map.index({30, 30}), 0);
+  ASSERT_NE(pose, NarrowPoses::kNone);
+  EXPECT_TRUE((poses.place(pose).fine == Eigen::Array2i(152, 151)).all());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
@@ -52,6 +53,36 @@ TEST(PassageWatch, AHeadingCountsByThirtyCentimetresARadian) {
 TEST(PassageWatch, SeesWhatIsInTheWayOfAShortMotion) {
   const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {2.02, 1.5, 0.0}}, .narrow = true};
   EXPECT_TRUE(passage_blocked_by({2.315, 1.505}, leg, {2.0, 1.5, 0.0}, rectangle(0.6, 0.6)));
+}
+
+/// A bar of 0.6 x 0.2 m that turns in place, and something new 0.27 m from its middle.
+TEST(PassageWatch, ATurnGoesTheShorterWayFromOneHeadingToTheOther) {
+  const auto passes = [](double from_rad, double to_rad, double bearing_rad) {
+    const Pose2 begin{2.0, 1.5, from_rad};
+    const PathLeg turn{.waypoints = {begin, {2.0, 1.5, to_rad}}, .narrow = true};
+    const Eigen::Vector2d p_m(2.0 + 0.27 * std::cos(bearing_rad),
+                              1.5 + 0.27 * std::sin(bearing_rad));
+    return passage_blocked_by(p_m, turn, begin, rectangle(0.6, 0.2));
+  };
+  EXPECT_TRUE(passes(0.4, 1.0, 0.9));
+  EXPECT_FALSE(passes(0.4, 1.0, 1.8));
+  EXPECT_TRUE(passes(1.0, 0.4, 0.5));
+  EXPECT_FALSE(passes(1.0, 0.4, 2.0));
+  EXPECT_TRUE(passes(2.6, -2.6, std::numbers::pi)) << "by way of half a turn";
+  EXPECT_FALSE(passes(2.6, -2.6, kQuarter_rad));
+}
+
+/// Something new 2 cm behind its tail, where that was when the leg began.
+TEST(PassageWatch, WhatIsJustBehindItIsNotInItsWay) {
+  const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {3.0, 1.5, 0.0}}, .narrow = true};
+  EXPECT_FALSE(passage_blocked_by({1.705, 1.505}, leg, {2.025, 1.5, 0.0}, rectangle(0.6, 0.6)));
+}
+
+/// It stands 4 cm beside where the leg begins. What is ahead of it from there on is clear, not what
+/// the leg begins on.
+TEST(PassageWatch, WhatIsWhereTheLegBeginsIsInItsWayWhileItIsThere) {
+  const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {3.0, 1.5, 0.0}}, .narrow = true};
+  EXPECT_TRUE(passage_blocked_by({1.715, 1.215}, leg, {2.0, 1.54, 0.0}, rectangle(0.6, 0.6)));
 }
 
 }  // namespace

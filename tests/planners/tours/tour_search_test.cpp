@@ -375,5 +375,25 @@ TEST(SearchTour, GoesOnForNoMoreRoundsThanItIsToldTo) {
   EXPECT_EQ(search_tour(problem, {}, {.rounds = 0}).order, test::Order{1}) << "a tour has a view";
 }
 
+/// Four views on a line, chosen from 4, 3, 2 and 1. Then, in each of two rounds, parts of one, two
+/// and three are moved from 4 + 3 + 2 places and turned round from 4, and 4 views are left out.
+TEST(SearchTour, MovesPartsOfThreeViewsAtMost) {
+  PlanningProblem problem;
+  problem.scan_s = 2.0;
+  problem.travel_s.resize(5, 4);
+  for (Eigen::Index j = 0; j < 4; ++j) {
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      problem.travel_s(i, j) = std::abs(static_cast<double>(j + 1 - (i == 4 ? 0 : i + 1)));
+    }
+    problem.cells.push_back(10.0F);
+    problem.shows.push_back({{static_cast<std::uint32_t>(j)}, {1.0F}});
+    problem.place_m.emplace_back(static_cast<double>(j + 1), 0.0);
+  }
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  EXPECT_EQ(search_tour(problem, {}, {}).order, (test::Order{0, 1, 2, 3}));
+  EXPECT_EQ(asked, 10 + 2 * (9 + 4 + 4));
+}
+
 }  // namespace
 }  // namespace vantage

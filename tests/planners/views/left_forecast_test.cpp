@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace vantage {
 namespace {
 
@@ -21,35 +23,31 @@ TEST(ConfidenceOfLeft, GrowsWithWhatMayBeLeftAndFallsWithWhatIsExpected) {
   }
   EXPECT_GT(last, 0.9);
   EXPECT_GT(confidence_of_left(0.01, 0.05), confidence_of_left(0.04, 0.05));
-  EXPECT_DOUBLE_EQ(confidence_of_left(0.04, 0.0), 0.0);
-  EXPECT_DOUBLE_EQ(confidence_of_left(0.0, 0.05), 1.0);
 }
 
-/// It is a matter of their ratio alone, without a jump.
-TEST(ConfidenceOfLeft, IsContinuousInTheRatio) {
-  for (double times = 0.05; times < 5.0; times *= 1.001) {
-    EXPECT_NEAR(confidence_of_left(0.02, 0.02 * times), confidence_of_left(0.05, 0.05 * times),
-                1e-12);
-    EXPECT_NEAR(confidence_of_left(0.02, 0.02 * times), confidence_of_left(0.02, 0.02002 * times),
-                0.02);
+/// It is a matter of their difference alone, without a jump.
+TEST(ConfidenceOfLeft, IsContinuousInTheDifference) {
+  for (double more = -0.03; more < 0.06; more += 1e-5) {
+    EXPECT_NEAR(confidence_of_left(0.03, 0.03 + more), confidence_of_left(0.05, 0.05 + more),
+                1e-11);
+    EXPECT_NEAR(confidence_of_left(0.03, 0.03 + more), confidence_of_left(0.03, 0.03 + more + 1e-5),
+                0.002);
   }
 }
 
-/// At 5, 15, ... 95 % of the decisions in training the true share was so many times the expected.
+/// At 5, 15, ... 95 % of the decisions in training so much more was left than was expected.
 TEST(ConfidenceOfLeft, IsTheShareOfDecisionsInTraining) {
   constexpr double kExpected = 0.02;
   double share = 0.05;
-  for (const double times : {0.94, 1.08, 1.18, 1.27, 1.41, 1.62, 1.78, 2.04, 2.62, 3.33}) {
-    EXPECT_NEAR(confidence_of_left(kExpected, times * kExpected), share, 1e-9) << times;
+  for (const double more :
+       {-0.0036, 0.0051, 0.0126, 0.0161, 0.0186, 0.0197, 0.0205, 0.0217, 0.0245, 0.0278}) {
+    EXPECT_NEAR(confidence_of_left(kExpected, kExpected + more), share, 1e-9) << more;
     share += 0.1;
   }
-  EXPECT_NEAR(confidence_of_left(kExpected, 1.01 * kExpected), 0.1, 1e-9) << "half way between";
-  EXPECT_NEAR(confidence_of_left(kExpected, 0.47 * kExpected), 0.025, 1e-9) << "half of the least";
-  EXPECT_NEAR(confidence_of_left(kExpected, 6.66 * kExpected), 0.975, 1e-9) << "twice the most";
-}
-
-TEST(ConfidenceOfLeft, IsSureWhereNothingIsExpectedAndNothingMayBeLeft) {
-  EXPECT_EQ(confidence_of_left(0.0, 0.0), 1.0);
+  const auto at = [&](double more) { return confidence_of_left(kExpected, kExpected + more); };
+  EXPECT_NEAR(at(0.00075), 0.1, 1e-9) << "half way between";
+  EXPECT_NEAR(at(-0.0086), 0.05 / std::numbers::e, 1e-9) << "below the least";
+  EXPECT_NEAR(at(0.0328), 1.0 - 0.05 / std::numbers::e, 1e-9) << "above the most";
 }
 
 }  // namespace

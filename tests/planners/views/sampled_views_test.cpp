@@ -179,5 +179,18 @@ TEST_F(SampledViewsOnAMap, AreTakenFromTenTimesAsManyPlaces) {
   EXPECT_NEAR(project_to_se2(T_world_sensor).yaw_rad, yaw_rad, 1e-9);
 }
 
+/// Of four parts, which the map has one by one: a place that is near one of them hides none from
+/// the others.
+TEST_F(SampledViewsOnAMap, KeepClearOfEveryPartOfAWall) {
+  const std::vector<support::MapCube> cubes{{{-32, 0, 0}, 32, false},
+                                            {{0, 0, 0}, 16, true},
+                                            {{0, 16, 0}, 16, true},
+                                            {{0, 0, 16}, 16, true},
+                                            {{0, 16, 16}, 16, true}};
+  const auto views = sample({.positions = 200, .headings = 1, .clearance_m = 0.5}, map(cubes));
+  ASSERT_EQ(views.size(), 200U);
+  for (const auto& view : views) EXPECT_LE(view.T_world_sensor.translation().x(), -0.5);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/exact_gain.hpp"
 #include "vantage/planners/swept_gain.hpp"
 
 namespace vantage {
@@ -52,6 +54,34 @@ TEST(SweptGains, OfTheMirrorImageAreTheSame) {
                 1e-5 * expected_bits)
         << seed;
   }
+}
+
+/// A camera that looks straight down on a floor 20 cells below: of the outermost rows it sees both
+/// ends, which are farther away, and not their middles.
+TEST(SweptGains, OfRowsThatAreInViewAtBothEndsAloneAreThoseOfTheirCells) {
+  GridFrame frame;
+  frame.cells = {41, 27, 1};
+  const OccupancyGrid grid(frame);
+  const FieldOfView downwards{.half_width_rad = 0.47,
+                              .tilt_min_rad = -1.3,
+                              .tilt_max_rad = 1.3,
+                              .range_min_m = 0.0,
+                              .range_max_m = 100.0};
+  Candidate view;
+  view.T_world_sensor = make_pose(frame.centre({20, 13, 0}) + Eigen::Vector3d(0.0, 0.0, 20.0), 0.0,
+                                  0.5 * std::numbers::pi);
+  const double sine = std::sin(downwards.half_width_rad);
+  double in_view = 0.0;
+  for (int y = -13; y <= 13; ++y) {
+    for (int x = -20; x <= 20; ++x) {
+      in_view += y * y <= sine * sine * (400 + x * x + y * y) ? 1.0 : 0.0;
+    }
+  }
+  EXPECT_EQ(in_view, 961.0);
+  const Gain gain = SimpleGain{};
+  EXPECT_EQ(exact_gain_bits(gain, {grid}, view.T_world_sensor, downwards), in_view);
+  EXPECT_NEAR(swept_gains_bits(gain, {grid}, {&view, 1}, downwards, 1, kNoRays).front(), in_view,
+              1e-3);
 }
 
 }  // namespace

@@ -224,5 +224,14 @@ TEST(CalibrateUnknown, NeedsThreeObjects) {
   EXPECT_FALSE(learn(world, 20, rng).factors[0]);
 }
 
+/// They are at 6000, farther than any that a feature has.
+TEST(MostLikelyFactors, AreLookedForByFiveHundredStepsOfTen) {
+  std::vector<ShownView> views(
+      4, {.kind = Kind::known, .known = 6003.0, .instance = kImpossible, .category = 0.0});
+  views.insert(views.end(), 4,
+               {.kind = Kind::category, .known = 5997.0, .instance = kImpossible, .category = 0.0});
+  EXPECT_NEAR(most_likely_factors(views).category, 5000.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace vantage

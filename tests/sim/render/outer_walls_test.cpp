@@ -138,5 +138,14 @@ TEST(OverviewCamera, IsTheScenesOwnIfItHasOne) {
   EXPECT_EQ(std::get<FixedCamera>(view).camera_id, 1);
 }
 
+TEST(OverviewCamera, MayBeTheFirstOfTheScene) {
+  const auto scene = test::compile_mjcf(
+      "<mujoco><worldbody><camera name='overview'/><geom size='.1'/></worldbody></mujoco>");
+  const CameraView view = overview_camera(*scene.model);
+  ASSERT_TRUE(std::holds_alternative<FixedCamera>(view));
+  EXPECT_EQ(std::get<FixedCamera>(view).camera_id, 0);
+  EXPECT_FALSE(std::get<FixedCamera>(view).fovy_rad) << "the scene's own";
+}
+
 }  // namespace
 }  // namespace vantage

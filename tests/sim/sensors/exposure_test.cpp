@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "tests/sim/test_world.hpp"
 #include "vantage/core/error.hpp"
 
@@ -90,6 +93,42 @@ TEST(Exposure, ShowsHowItWasFromItsBeginningToNow) {
   for (std::size_t column = 98; column <= 105; ++column) EXPECT_EQ(shade(both, column), black);
   for (std::size_t column = 115; column <= 133; ++column) EXPECT_EQ(shade(both, column), grey);
   for (std::size_t column = 20; column <= 60; ++column) EXPECT_EQ(shade(both, column), black);
+}
+
+/// Draws two pixels of a shade, the next one each time, and keeps what it was asked for.
+class ExposureRenderer final : public Renderer {
+ public:
+  explicit ExposureRenderer(const std::vector<std::uint8_t>& shades) : shades_(shades) {}
+  [[nodiscard]] int width_px() const override { return 2; }
+  [[nodiscard]] int height_px() const override { return 1; }
+  void render(const mjModel&, const mjData& data, const CameraView&, const RenderRequest& request,
+              RenderedImages& out) override {
+    out.width_px = 2;
+    out.height_px = 1;
+    out.rgb.assign(6, shades_.at(rail_m.size()));
+    out.depth_m.assign(2, 1.5F);
+    with_depth.push_back(request.depth_and_segmentation ? 1 : 0);
+    rail_m.push_back(data.qpos[0]);
+  }
+  std::vector<int> with_depth;
+  std::vector<double> rail_m;  ///< where the bar was
+
+ private:
+  std::vector<std::uint8_t> shades_;
+};
+
+TEST(Exposure, IsTheMeanOfImagesEvenlyApartOfWhichOneHasDepth) {
+  MovingBar bar;
+  bar.world.data().qvel[0] = 8.0;
+  ExposureRenderer renderer({10, 11, 11});
+  Rng rng(1);
+  const CameraImages images =
+      rgbd_exposed(renderer, bar.world, bar.camera, {.width_px = 2, .height_px = 1, .noise = false},
+                   {.exposure_s = 0.0625, .samples = 3}, rng);
+  EXPECT_EQ(renderer.rail_m, (std::vector<double>{0.0, -0.25, -0.5}));
+  EXPECT_EQ(renderer.with_depth, (std::vector<int>{1, 0, 0}));
+  EXPECT_EQ(images.rgb, std::vector<std::uint8_t>(6, 11)) << "10.67, rounded";
+  EXPECT_EQ(images.depth_m, std::vector<float>(2, 1.5F));
 }
 
 }  // namespace

@@ -193,5 +193,11 @@ TEST(Submissions, ArgumentsOfSbatchAreOptionsThatSubmitDoesNotSet) {
   }
 }
 
+TEST(Submissions, KeepNoStatesUnlessToldTo) {
+  EXPECT_FALSE(SubmitOptions{}.keep_states);
+  EXPECT_EQ(SubmitOptions{}.tasks, 1);
+  EXPECT_EQ(Submission{}.tasks, 0);
+}
+
 }  // namespace
 }  // namespace vantage

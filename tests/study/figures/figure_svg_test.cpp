@@ -207,5 +207,18 @@ TEST(FigurePlaces, OfLegendsWithoutNamesAreColumnsOfTheirMarks) {
                                         HasSubstr("<path d=\"M112.0 403.0h22\"")));
 }
 
+TEST(FigurePlaces, OfLegendsAreOfEveryPanel) {
+  Figure figure = drawn_figure();
+  figure.panels.push_back({"right", {{"a", 0, {}}, {"c", 20, {}}}});
+  const std::string svg = figure_svg(figure);
+  for (const char* mark :
+       {"<path d=\"M66.0 403.0h22\" stroke=\"#0f6fde\"",
+        "<path d=\"M126.8 403.0h22\" stroke=\"#d9480f\"",
+        "<path d=\"M187.6 403.0h22\" stroke=\"#0c8a5b\"", ">a</text>", ">bb</text>", ">c</text>"}) {
+    EXPECT_THAT(svg, HasSubstr(mark));
+  }
+  EXPECT_EQ(svg.find(">a</text>"), svg.rfind(">a</text>")) << "once";
+}
+
 }  // namespace
 }  // namespace vantage

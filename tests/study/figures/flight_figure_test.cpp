@@ -143,5 +143,22 @@ TEST(FlightFigure, TicksAreNotTooMany) {
   EXPECT_THAT(labels(100.0), testing::AllOf(has(70), Not(has(75))));
 }
 
+/// Every 5 m from the first to the last within the plot, which goes 0.4 m beyond the hall.
+TEST(FlightFigure, TicksStandWithinThePlot) {
+  const auto lines = [](double from_m, double to_m, int first, int last) {
+    const std::vector<FloorOutline> hall{{{from_m, 0.0}, {to_m, 0.0}, {to_m, 2.0}}};
+    const std::string svg = flight_svg(flight(), "a flight", hall);
+    for (const int metres : {first, last}) {
+      EXPECT_THAT(svg, HasSubstr(fmt::format("\"middle\">{}</text>", metres)));
+    }
+    std::size_t count = 0;
+    const std::string line = "stroke=\"#eef1f5\"/>";
+    for (auto at = svg.find(line); at != svg.npos; at = svg.find(line, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(lines(0.0, 40.0, 0, 40), 9U + 1U) << "y is from -0.4 to 2.4 m";
+  EXPECT_EQ(lines(-22.6, 18.6, -20, 15), 8U + 1U);
+}
+
 }  // namespace
 }  // namespace vantage

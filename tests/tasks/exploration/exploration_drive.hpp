@@ -1,11 +1,24 @@
 /// All that the parts of an exploration are made of, with a robot of the test's own.
 #pragma once
 
+#include <filesystem>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
 #include "vantage/tasks/run.hpp"
 
 namespace vantage::support {
+
+/// A lean run into `directory`. `episode` must outlive it.
+inline RunRequest exploration_request(const ResolvedEpisode& episode,
+                                      const std::filesystem::path& directory) {
+  return {.setup = episode.setup,
+          .task = "exploration",
+          .method = "greedy",
+          .config = {},
+          .inputs = {},
+          .options = {directory, true, false, {}, true}};
+}
 
 template <class Robot>
 struct ExplorationDrive {
@@ -18,12 +31,7 @@ struct ExplorationDrive {
   const EpisodeOptions& options = episode.setup.options;
   Exploration task = std::get<Exploration>(episode.task);
   Robot robot{episode.setup, task};
-  const RunRequest request{.setup = episode.setup,
-                           .task = "exploration",
-                           .method = "greedy",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, false, {}, true}};
+  const RunRequest request = exploration_request(episode, folder.path() / "run");
   EpisodeRun run{request};
   MappingRecorder recorder{run, recorded(robot), exploration_predictors(task), task.scans};
   const MobileGroundTruth truth = robot.ground_truth();

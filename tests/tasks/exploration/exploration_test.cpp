@@ -13,6 +13,7 @@
 
 #include "tests/support/overrides.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/exploration/exploration_drive.hpp"
 #include "tests/tasks/replayed.hpp"
 #include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -296,15 +297,7 @@ TEST(Exploration, TheOracleOfAllPlacesPlansOnToThoseThatItCannotReachYet) {
       load_episode(std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/episodes/office_small.yaml",
                    {"choice=oracle_tour", "map.cells=[100,67,20]", "camera.width_px=160",
                     "camera.height_px=120", "stride_px=1", "metrics.pose_spacing_m=2"});
-  RunOptions options;
-  options.directory = folder.path() / "run";
-  options.lean = true;
-  const RunRequest request{.setup = episode.setup,
-                           .task = "exploration",
-                           .method = "oracle_tour",
-                           .config = {},
-                           .inputs = {},
-                           .options = options};
+  const RunRequest request = support::exploration_request(episode, folder.path() / "run");
   ExplorationSession<PlannedOnce> session(request, std::get<Exploration>(episode.task));
   session.run_to_end();
   const PlannedTour& plan = session.parts.plan;
@@ -335,12 +328,7 @@ TEST(Exploration, JudgesWhatIsLeftBeforeItsDecisionBegins) {
                    {"scans=2", "map.cells=[100,67,20]", "camera.width_px=160",
                     "camera.height_px=120", "stride_px=1", "metrics.pose_spacing_m=2",
                     "stop.share=0.99", "enough.share=1", "enough.scans=1"});
-  const RunRequest request{.setup = episode.setup,
-                           .task = "exploration",
-                           .method = "greedy",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, false, {}, true}};
+  const RunRequest request = support::exploration_request(episode, folder.path() / "run");
   ExplorationSession<TimedDecisions> session(request, std::get<Exploration>(episode.task));
   const auto metrics = nlohmann::json::parse(session.run_to_end().metrics);
   EXPECT_EQ(metrics["scans"].size(), 1U);

@@ -148,12 +148,7 @@ TEST(ImagesOnTheWay, AreNotTakenOnTheWayHome) {
   const support::TemporaryDirectory folder;
   const ResolvedEpisode episode =
       small_office({"scans=2", "gaze.on_the_way_m=0.3", "budget.return_to_start=true"});
-  const RunRequest request{.setup = episode.setup,
-                           .task = "exploration",
-                           .method = "tour",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, false, {}}};
+  const RunRequest request = support::exploration_request(episode, folder.path() / "run");
   ExplorationSession<Homecoming> session(request, std::get<Exploration>(episode.task));
   const auto metrics = nlohmann::json::parse(session.run_to_end().metrics);
   EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());

@@ -465,5 +465,21 @@ TEST(Navigator, TurnsByThreeThirdsWhereWallsFixThePose) {
   EXPECT_EQ(navigator.floor().state_at({-3.5, -0.5}), CellState::free) << "behind it at first";
 }
 
+/// After half a metre, along x.
+TEST(Navigator, RemembersForLoopsHowThingsLookOnceItHasGoneFarEnough) {
+  RoomRobot robot;
+  robot.T_world_base = {-2.0, 0.5, 0.0};
+  Navigator navigator({}, {}, {}, robot, ReferenceMap(room_registration()), 1, 0.5);
+  std::ranges::fill(navigator.floor().log_odds, -2.0F);
+  navigator.close_loops({.close = true}, room_registration(), {});
+  navigator.remember(robot.read_base_scanner(), robot.T_world_base);
+  const auto remembered_at = [&](double x_m) {
+    EXPECT_TRUE(navigator.approach({x_m, 0.5, 0.0}, std::nullopt).reached);
+    return navigator.loops()->remembered().size();
+  };
+  EXPECT_EQ(remembered_at(-1.6), 1U);
+  EXPECT_EQ(remembered_at(-1.4), 2U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -221,5 +221,62 @@ TEST(BudgetKeeper, PaysForTheWayToAViewThatIsNotInReach) {
   EXPECT_EQ(keeper.used_up({view}, 3), "budget.time_s 100 allows no further view");
 }
 
+/// A square of 0.6 m. Each of its drives ends a centimetre short; it notes them.
+struct DoorRobot : support::StandingRobot {
+  [[nodiscard]] RobotOutline outline() const override {
+    return {.outline = {{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.3, 0.3}}};
+  }
+  DriveResult drive_along(std::span<const Pose2> path, double max_speed_m_s,
+                          const std::function<bool()>& /*go_on*/) override {
+    paths.emplace_back(path.begin(), path.end());
+    speeds_m_s.push_back(max_speed_m_s);
+    T_world_base = path.back();
+    T_world_base.x_m -= 0.01;
+    const bool is_stuck = paths.size() == stuck_at;
+    return {.status = is_stuck ? DriveStatus::stuck : DriveStatus::arrived, .path_length_m = 0.25};
+  }
+  std::vector<std::vector<Pose2>> paths;
+  std::vector<double> speeds_m_s;
+  std::size_t stuck_at = 0;  ///< the number of that drive, from 1
+};
+
+/// A door of 0.72 m: there, through it and on.
+TEST(Navigator, DrivesThroughADoorLegByLeg) {
+  DoorRobot robot;
+  const Pose2 start{-1.25, 0.0, 0.0};
+  robot.T_world_base = start;
+  Navigator navigator({.half_size_m = 2.5}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+  navigator.use_passages({}, {.parts = 5});
+  for (FloorMap* map : {&navigator.floor(), navigator.detail()}) {
+    std::ranges::fill(map->log_odds, -2.0F);
+    block_box(*map, {Eigen::Vector2d(0.001, -2.5), Eigen::Vector2d(0.099, -0.361)});
+    block_box(*map, {Eigen::Vector2d(0.001, 0.361), Eigen::Vector2d(0.099, 2.5)});
+  }
+  std::vector<PathLeg> legs;
+  navigator.on_plan = [&](const PlannedPath& path) { legs = path.legs; };
+  const Pose2 beyond{1.4, 0.0, 1.0};
+  const Approach through = navigator.approach(beyond, std::nullopt);
+  EXPECT_TRUE(through.reached);
+  ASSERT_GE(legs.size(), 3U);
+  ASSERT_EQ(robot.paths.size(), legs.size());
+  EXPECT_DOUBLE_EQ(through.path_length_m, 0.25 * static_cast<double>(legs.size()));
+  EXPECT_TRUE(std::ranges::any_of(legs, &PathLeg::narrow));
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    EXPECT_EQ(robot.speeds_m_s[i], legs[i].narrow ? PassageOptions{}.speed_m_s
+                                                  : std::numeric_limits<double>::infinity());
+    EXPECT_EQ(robot.paths[i].back().x_m, legs[i].waypoints.back().x_m);
+    const double from_m = i == 0 ? start.x_m : robot.paths[i - 1].back().x_m - 0.01;
+    EXPECT_EQ(robot.paths[i].front().x_m, from_m) << "where it is";
+  }
+
+  robot.T_world_base = start;
+  robot.paths.clear();
+  robot.stuck_at = 2;
+  const Approach stuck = navigator.approach(beyond, std::nullopt);
+  EXPECT_FALSE(stuck.reached);
+  EXPECT_EQ(robot.paths.size(), 2U);
+  EXPECT_DOUBLE_EQ(stuck.path_length_m, 0.5);
+}
+
 }  // namespace
 }  // namespace vantage

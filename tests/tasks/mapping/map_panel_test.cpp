@@ -449,5 +449,15 @@ TEST(MapPanel, LabelsTheUpperEndOfThePlotToo) {
   EXPECT_TRUE(support::is_written(image, {50, 552, 20, 9})) << "100";
 }
 
+/// Half a cell is half-way up to one, however few there are.
+TEST(MapPanel, PlotsUpToAtLeastOneCell) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.5}, {2.0, 2.0, 1.0}, {8, 8, 4}));
+  MapPanelInput input;
+  input.grid = &grid;
+  input.scans_planned = 4;
+  input.observable_unobserved_cells = {0.5};
+  EXPECT_TRUE(support::is_coloured(draw_map_panel(input, {640, 720}), {158, 620}, panel::kAccent));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -1,13 +1,19 @@
 // How views and a plan through them are drawn into the panel of a map.
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "tests/tasks/drawn_pixels.hpp"
+#include "tests/tasks/mapping/still_table.hpp"
+#include "vantage/core/names.hpp"
 #include "vantage/runtime/drawing/map_view.hpp"
+#include "vantage/runtime/log/video.hpp"
 #include "vantage/tasks/mapping/drawing/map_panel.hpp"
 
 namespace vantage {
@@ -140,6 +146,69 @@ TEST_F(MapPanelViews, HaveThePlanAtTheirHeight) {
   EXPECT_EQ(coloured_near(image, px({0.0, -0.6, 0.2}), panel::kPlan), 0);
   EXPECT_EQ(coloured_near(image, px({0.0, -0.6, 0.0}), panel::kPlan), 0);
   EXPECT_EQ(coloured_near(image, px({-0.75, -0.6, 0.6}), panel::kPlan), 0) << "it ends there";
+}
+
+/// With what their panel is made of.
+struct PanelParts : TabletopParts {
+  using TabletopParts::current_;
+  using TabletopParts::scans_;
+  using TabletopParts::TabletopParts;
+  using TabletopParts::tour_;
+};
+
+/// On its way to a view; a still of the video has the panel in its right half. Of the stops of the
+/// plan, nobody can propose the second one yet.
+TEST(MappingParts, ShowTheirScansTheirGoalAndTheirPlan) {
+  if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
+  support::StillTable& table = support::still_table();
+  const support::TemporaryDirectory folder;
+  const RunRequest request{.setup = table.episode.setup,
+                           .task = "next_best_view",
+                           .method = "greedy",
+                           .config = {},
+                           .inputs = {},
+                           .options = {folder.path() / "run", true, true, {}, true}};
+  const EpisodeRun run(request);
+  MappingRecorder recorder(run, recorded(table.robot), {}, 5);
+  support::StillBelief belief(table.options, table.task);
+  belief.grid_.log_odds[belief.grid_.size() / 2] = 3.0F;
+  PanelParts parts(MappingContext{table.options, table.robot, table.evaluator, recorder, nullptr},
+                   table.task, table.robot, belief);
+  const std::vector<Candidate>& views = parts.views();
+  const std::string gain = strategy_label(table.task.gain);
+  parts.scans_.resize(2);
+  parts.scans_[0].T_world_sensor = views[0].T_world_sensor;
+  parts.scans_[0].observable_unobserved_cells = 900;
+  parts.scans_[1].T_world_sensor = views[9].T_world_sensor;
+  parts.scans_[1].observable_unobserved_cells = 400;
+  parts.scans_[1].actual_new_cells = 500.0;
+  parts.scans_[1].predicted_cells = {{"another", 1.0}, {gain, 321.0}};
+  parts.current_.chosen_view = 15;
+  parts.tour_.stops = {{.id = 15}, {.id = -1, .place_m = {0.3, -0.2}}, {.id = 24}};
+  recorder.scan({}, 3, belief.grid());
+
+  const auto place_of = [&](std::size_t view) {
+    return Eigen::Vector2d(views[view].T_world_sensor.translation().head<2>());
+  };
+  MapPanelInput expected;
+  expected.grid = &belief.grid();
+  for (const Candidate& view : views) expected.T_world_candidates.push_back(view.T_world_sensor);
+  for (const std::size_t view : {0U, 9U, 15U}) {
+    expected.T_world_chosen.push_back(views[view].T_world_sensor);
+  }
+  expected.T_world_base = table.robot.T_world_base;
+  expected.tour.stops = {{.id = 15, .place_m = place_of(15)},
+                         {.id = -1, .place_m = {0.3, -0.2}},
+                         {.id = 24, .place_m = place_of(24)}};
+  expected.observable_unobserved_cells = {900.0, 400.0};
+  expected.scans_planned = table.task.scans;
+  expected.method = table.task.method_name();
+  expected.predicted_new_cells = 321.0;
+  expected.actual_new_cells = 500.0;
+  const cv::Mat still = cv::imread((folder.path() / "run/frames/scan_03.png").string());
+  ASSERT_EQ(still.size(), cv::Size(1280, 720));
+  const cv::Mat shown = still(cv::Rect(640, 0, 640, 720));
+  EXPECT_EQ(cv::norm(shown, draw_map_panel(expected, {640, 720}), cv::NORM_INF), 0.0);
 }
 
 }  // namespace

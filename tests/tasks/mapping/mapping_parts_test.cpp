@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -384,6 +385,18 @@ TEST(MappingRecorder, KeepsSinceWhichScanCellsAreOccupied) {
   const auto lean = voxels_of_two_scans(true);
   ASSERT_EQ(lean.size(), 4U);
   EXPECT_EQ(lean[0].step, 1) << "it looks at the map at the end alone";
+}
+
+TEST(MappingParts, LeaveOutViewsThatCannotBePaid) {
+  Tabletop task = still_table().task;
+  task.budget.time_s = 100.0;
+  AtStillTable at(task);
+  std::vector<Candidate> views(at.parts.views().begin(), at.parts.views().begin() + 2);
+  views[0].path_length_m = 3.0;
+  views[1].path_length_m = 400.0;
+  at.parts.score(views);
+  EXPECT_FALSE(views[0].exhausted);
+  EXPECT_TRUE(views[1].exhausted);
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -11,6 +14,7 @@
 
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/runtime/interrupt.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/mapping/map_belief.hpp"
@@ -342,6 +346,26 @@ TEST(LocalisationSummary, BeginsWithNothing) {
   const LeftOut left_out;
   EXPECT_EQ(left_out.rooms, 0);
   EXPECT_EQ(left_out.cells, 0U);
+}
+
+/// In a process of its own, whose exit code says what becomes of it.
+void interrupted_in(const std::function<void()>& work) {
+  catch_interrupts();
+  std::raise(SIGINT);
+  try {
+    work();
+  } catch (const Interrupted& error) {
+    std::_Exit(static_cast<int>(error.code()));
+  }
+  std::_Exit(0);
+}
+
+TEST(TrueCells, AreNotWorkedOutOnceTheEpisodeIsInterrupted) {
+  WallEvaluator evaluator;
+  const testing::ExitedWithCode interrupted(130);
+  EXPECT_EXIT(interrupted_in([&] { evaluator.add_observable(kBeforeWall); }), interrupted, "");
+  EXPECT_EXIT(interrupted_in([&] { evaluator.set_left_out(1, kBehindWall); }), interrupted, "");
+  EXPECT_EXIT(interrupted_in([&] { evaluator.remember_visible(kBehindWall); }), interrupted, "");
 }
 
 }  // namespace

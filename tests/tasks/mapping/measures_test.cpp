@@ -159,6 +159,16 @@ TEST(MappingMeasures, CountScansWithinTheInterval) {
   EXPECT_DOUBLE_EQ(*scalar(metrics, "interval_coverage"), 0.6);
 }
 
+TEST(MappingMeasures, TellHowSureItWasAtTheEnd) {
+  Json metrics = metrics_with({});
+  EXPECT_FALSE(scalar(metrics, "stop_confidence"));
+  metrics["scans"] = std::vector<Json>{Json{{"left", {{"confidence", 0.5}}}},
+                                       Json{{"left", {{"confidence", 0.93}}}}};
+  EXPECT_EQ(scalar(metrics, "stop_confidence"), 0.93);
+  metrics["scans"].push_back(Json{{"left", nullptr}});
+  EXPECT_FALSE(scalar(metrics, "stop_confidence")) << "it was not asked there";
+}
+
 TEST(MappingMeasures, ReadTheScoreOfTheMapWhereThereIsOne) {
   Json metrics = metrics_with({});
   metrics["map"] = {{"precision", 0.75}, {"recall", nullptr}};
@@ -338,6 +348,14 @@ TEST(MappingMeasures, KnowWhichDirectionIsBetter) {
     if (name == "forecast_ratio") continue;
     EXPECT_EQ(measure.name.better, is_higher ? Better::higher : Better::lower) << name;
   }
+}
+
+TEST(MappingMeasures, StepDownWhereThereIsOneCellToSee) {
+  Json metrics = metrics_with({});
+  metrics["observable_cells"] = 1;
+  metrics["scans"] = std::vector<Json>{at(10.0, 0.5, 1), at(30.0, 1.5, 0)};
+  EXPECT_EQ(curve(metrics, "share_left_over_time"), (Curve{1.0, 1.0, 0.0}));
+  EXPECT_EQ(curve(metrics, "share_left_over_path"), (Curve{1.0, 1.0, 0.0}));
 }
 
 }  // namespace

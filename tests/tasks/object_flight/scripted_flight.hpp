@@ -112,7 +112,7 @@ class ScriptedFlight : public testing::Test {
                    .T_world_body = [this] { return T_world_true_; },
                    .T_world_estimated = [this] { return T_world_true_; }},
                   8, false),
-        evaluator_(*truth_, objects_) {
+        evaluator_(*truth_) {
     task_.bearings = 4;
     task_.decision.all_features = true;
     task_.decision.views.choice = StarView{};

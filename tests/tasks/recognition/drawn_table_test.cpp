@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <set>
 
+#include "vantage/core/rng.hpp"
 #include "vantage/sim/world/world.hpp"
 #include "vantage/tasks/episode.hpp"
 #include "vantage/tasks/flight/object_mjcf.hpp"
@@ -185,6 +187,44 @@ TEST(DrawnTable, SaysWhatThereIsTooFewOf) {
               HasSubstr("clutter.screens: 3 of them, but targets is 1"));
   EXPECT_THAT(why_not_drawn({"clutter={posts: 7, spacing_m: 0.5}", "map.size_m=[0.4, 0.4]"}),
               HasSubstr("clutter.posts: no room for 7 of them"));
+}
+
+/// All over a disc: what episodes were recorded with is drawn again.
+TEST(DrawnTable, AnObjectStandsWhereItsSeedSays) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Rng rng = Rng::stream(seed, "object place");
+    const double heading_rad = kFullTurn_rad * rng.uniform();
+    const double away_m = 0.08 * std::sqrt(rng.uniform());
+    const Eigen::Vector2d expected_m(away_m * std::cos(heading_rad),
+                                     away_m * std::sin(heading_rad));
+    EXPECT_LT((drawn_offset_m(seed, 0.08) - expected_m).norm(), 1e-12) << seed;
+    Rng turn = Rng::stream(seed, "object yaw");
+    EXPECT_NEAR(drawn_yaw_rad(seed, "object yaw"), kFullTurn_rad * turn.uniform(), 1e-12) << seed;
+  }
+}
+
+/// On a line of 0.36 m they stand a quarter of a metre apart only if the first is off its middle.
+/// Where it is not, the second is tried 2000 times before both are put anew.
+TEST(DrawnTable, TargetsThatFindNoRoomAreAllPutAnew) {
+  const RecognitionTask task =
+      drawing_task({"targets=2", "map.size_m=[0.76, 0.4]", "clutter.spacing_m=0.01"});
+  int anew = 0;
+  for (const std::uint64_t seed : {2U, 3U, 6U, 14U, 19U}) {
+    Rng rng = Rng::stream(seed, "target places");
+    const auto place_m = [&] {
+      const double x_m = rng.uniform(-0.18, 0.18);
+      rng.uniform();  // across the line
+      return x_m;
+    };
+    double expected_m = place_m();
+    while (std::abs(expected_m) < 0.07) {
+      for (int i = 0; i < 2000; ++i) place_m();
+      expected_m = place_m();
+      ++anew;
+    }
+    EXPECT_NEAR(draw_table(task, seed).targets[0].told_m.x(), expected_m, 1e-12) << seed;
+  }
+  EXPECT_EQ(anew, 5);
 }
 
 }  // namespace

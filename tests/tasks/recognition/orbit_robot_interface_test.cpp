@@ -264,7 +264,7 @@ TEST(OrbitRobotInterface, AFlightIntoTheTableHasFailed) {
     EXPECT_NE(std::string(error.what()).find("touched"), std::string::npos) << error.what();
   }
   EXPECT_GE(robot.ground_truth().collisions, 1);
-  const ObjectFlightEvaluator evaluator(robot, {});
+  const ObjectFlightEvaluator evaluator(robot);
   ObservationRecord record;
   const ObjectStates states{.objects = {"a_1"}, .categories = {"a"}, .category_of = {0}, .bins = 4};
   evaluator.measure(states, 0, 0, 0, record);

@@ -152,7 +152,7 @@ struct FlightRoundABox {
         request{resolved.setup, "recognition", "star", "a: 1\n", {}, options_in(folder, spectator)},
         episode_run(request),
         recorder(episode_run, recorded(robot), task.decision.max_views, false),
-        evaluator(robot, table.targets),
+        evaluator(robot),
         parts({resolved.setup.options, task, recogniser, robot, evaluator, recorder},
               {.p_world_m = std::vector{task.p_world_table_m()},
                .among_others = AmongOthers{task.map, task.separation}},

@@ -230,5 +230,15 @@ TEST(TableTopWithoutWalls, AViewThatWasTakenIsNoFrontierAnyMore) {
   EXPECT_THAT(exhausted_by("greedy", "0.09"), testing::IsEmpty());
 }
 
+/// Its first scan shows no table, which ends it soon.
+TEST(TableTopWithoutWalls, ARunBeginsWithWhatItHasToLocaliseBy) {
+  testing::internal::CaptureStderr();
+  const auto [code, metrics] = ran(OwnScene(pedestal_table()), {"table.max_tilt_rad=1e-9"});
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(code, ExitCode::goal_failed);
+  EXPECT_THAT(log, HasSubstr("registration: from the start of "));
+  EXPECT_THAT(log, testing::Not(HasSubstr("none of the views sees any of its cells")));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -49,6 +49,7 @@ OctomapHeader parse_header(std::string_view bytes, const std::string& name) {
     throw InputError(fmt::format("{}: not an OctoMap file: does not begin with '{}' or '{}'", name,
                                  kBinaryMagic, kFullMagic));
   }
+  bool names_its_tree = false;
   for (std::size_t at = 0; at < bytes.size();) {
     const std::size_t end = bytes.find('\n', at);
     if (end == std::string_view::npos) break;
@@ -61,8 +62,10 @@ OctomapHeader parse_header(std::string_view bytes, const std::string& name) {
     if (line.empty() || line.front() == '#') continue;
     const std::string_view key = line.substr(0, line.find_first_of(" \t"));
     read_header_line(key, strip(line.substr(key.size())), name, header);
+    names_its_tree = names_its_tree || key == "id";
   }
   if (header.data_offset == 0) throw InputError(name + ": cut short within the OctoMap header");
+  if (!names_its_tree) throw InputError(name + ": header key 'id' is missing, expected OcTree");
   if (!(header.resolution_m >= kMinResolution_m && header.resolution_m <= kMaxResolution_m)) {
     throw InputError(fmt::format("{}: header key 'res' is {}, must be in [{}, {}] m", name,
                                  header.resolution_m, kMinResolution_m, kMaxResolution_m));

@@ -73,6 +73,12 @@ std::optional<double> interval_coverage(const MeasuredEpisode& episode) {
   return ratio_of({within, asked});
 }
 
+std::optional<double> stop_confidence(const MeasuredEpisode& episode) {
+  const Json& scans = episode.metrics.at("scans");
+  const Json left = scans.empty() ? Json() : scans.back().value("left", Json());
+  return left.is_null() ? std::optional<double>() : left.at("confidence").get<double>();
+}
+
 std::optional<double> outside_share(const MeasuredEpisode& episode) {
   std::pair<double, double> sum{0.0, 0.0};
   for (const Json& scan : episode.metrics.at("scans")) {

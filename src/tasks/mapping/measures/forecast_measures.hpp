@@ -17,6 +17,9 @@ std::optional<double> forecast_ratio(const MeasuredEpisode& episode, double from
 Curve forecast_ratios(const MeasuredEpisode& episode);
 /// Of the scans with an interval, those whose new cells were within it.
 std::optional<double> interval_coverage(const MeasuredEpisode& episode);
+/// How sure the robot was at the end that it had seen the share that its `stop` asks for; none: it
+/// was not asked.
+std::optional<double> stop_confidence(const MeasuredEpisode& episode);
 /// Of the cells newly seen, those outside the field of view that was forecast for.
 std::optional<double> outside_share(const MeasuredEpisode& episode);
 

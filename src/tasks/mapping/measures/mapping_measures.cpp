@@ -178,6 +178,9 @@ const auto kScalars = std::to_array<ScalarMeasure>({
       "share of scans, from the second on, whose new cells were within the interval of the "
       "forecast"},
      interval_coverage},
+    {{"stop_confidence",
+      "probability that the robot gave, at the end, to having seen the share that `stop` asks for"},
+     stop_confidence},
     {{"outside_share", "share of newly seen cells outside the field that forecasts are for"},
      outside_share},
     {{"scans", "scans taken"},

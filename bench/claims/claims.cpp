@@ -1,9 +1,9 @@
+#include "bench/claims/claims.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-
-#include "bench/claims/claims.hpp"
 
 namespace vantage::bench {
 

@@ -1,0 +1,72 @@
+#include "bench/pages/study_parts.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace vantage::bench {
+
+const std::vector<StudyPart>& study_parts() {
+  static const std::vector<std::string> tables = {
+      "area",           "area_from_scan_2", "scans_to_95", "scans",
+      "observed_share", "path_length_m",    "collisions",  "prediction_error_cells",
+      "forecast_ratio", "predictors"};
+  static const std::vector<std::string> planning_tables = {
+      "time_to_80_s", "time_to_90_s", "time_to_95_s",   "time_to_97_s",   "path_to_95_m",
+      "scans_to_95",  "reached_95",   "area_over_time", "observed_share", "collisions"};
+  static const std::vector<StudyPart> parts = {
+      {"tabletop", "Worktops (Fig. 3.10)", tables, tabletop_findings},
+      {"tabletop_predictors",
+       "Predictions on worktops (Fig. 3.11)",
+       {"predictors"},
+       prediction_findings},
+      {"office_small", "Small office (Fig. 3.15)", tables,
+       [](const StudyTables& study) {
+         return office_findings(study, "Fig. 3.15", {20, 25});
+       }},
+      {"office_large", "Large office (Fig. 3.16)", tables,
+       [](const StudyTables& study) {
+         return office_findings(study, "Fig. 3.16", {60, 70});
+       }},
+      {"planning_tabletop",
+       "Planning ahead round worktops",
+       {"time_to_98_s", "path_to_98_m", "scans_to_98", "area_over_time", "observed_share",
+        "collisions"},
+       planning_tabletop_findings,
+       true},
+      {"planning_office_small", "Planning ahead in a small office", planning_tables,
+       [](const StudyTables& study) { return planning_office_findings(study, 0.92, std::nullopt); },
+       true},
+      {"planning_office_large", "Planning ahead in a large office", planning_tables,
+       [](const StudyTables& study) { return planning_office_findings(study, 0.80, 0.65); }, true},
+      {"honest_stop",
+       "An honest stop",
+       {"observed_share", "reached_95", "scans", "scans_to_95", "simulated_time_s",
+        "stop_confidence", "collisions"},
+       stop_findings},
+      {"buildings",
+       "Narrow doors, and corridors that go round",
+       {"observed_share", "time_to_95_s", "path_to_95_m", "worst_pose_error_m", "precision",
+        "collisions"},
+       building_findings},
+      {"recognition_flight",
+       "Recognition on the quadrotor (4.5.7): it measures flying, not choices of views",
+       {"correct", "category_correct", "views", "bin_error", "path_length_m", "collisions"},
+       flight_recognition_findings},
+      {"recognition_clutter",
+       "Recognition among others on a table (chapters 3 and 4 as one)",
+       {"targets_correct", "category_correct", "views", "hidden_views", "seen_share",
+        "simulated_time_s", "path_length_m", "collisions"},
+       clutter_findings},
+      {"change_flight",
+       "Change detection on the quadrotor (Table 4.16)",
+       {"changed_correct", "correct", "views", "collisions"},
+       flight_change_findings},
+      {"trajectory",
+       "Trajectories for recognition (tables 5.1-5.3)",
+       {"accuracy", "observations", "mean_entropy_observed_nats", "objects_unseen",
+        "mean_entropy_nats", "flight_time_s", "path_length_m", "minimum_clearance_m", "collided",
+        "tracking_error_m", "replan_time_s", "energy_j"},
+       trajectory_findings}};
+  return parts;
+}
+
+}  // namespace vantage::bench
