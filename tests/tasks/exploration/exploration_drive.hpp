@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/mapping/run_request.hpp"
 #include "vantage/tasks/exploration/exploration_session.hpp"
 #include "vantage/tasks/run.hpp"
 
@@ -12,12 +13,7 @@ namespace vantage::support {
 /// A lean run into `directory`. `episode` must outlive it.
 inline RunRequest exploration_request(const ResolvedEpisode& episode,
                                       const std::filesystem::path& directory) {
-  return {.setup = episode.setup,
-          .task = "exploration",
-          .method = "greedy",
-          .config = {},
-          .inputs = {},
-          .options = {directory, true, false, {}, true}};
+  return mapping_request(episode, {directory, true, false, {}, true}, "exploration");
 }
 
 template <class Robot>

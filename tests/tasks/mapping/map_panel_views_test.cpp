@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/tasks/drawn_pixels.hpp"
+#include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/mapping/still_table.hpp"
 #include "vantage/core/names.hpp"
 #include "vantage/runtime/drawing/map_view.hpp"
@@ -162,12 +163,8 @@ TEST(MappingParts, ShowTheirScansTheirGoalAndTheirPlan) {
   if (const auto missing = missing_video_codec(); !missing.empty()) GTEST_SKIP() << missing;
   support::StillTable& table = support::still_table();
   const support::TemporaryDirectory folder;
-  const RunRequest request{.setup = table.episode.setup,
-                           .task = "next_best_view",
-                           .method = "greedy",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, true, {}, true}};
+  const RunRequest request =
+      support::mapping_request(table.episode, {folder.path() / "run", true, true, {}, true});
   const EpisodeRun run(request);
   MappingRecorder recorder(run, recorded(table.robot), {}, 5);
   support::StillBelief belief(table.options, table.task);

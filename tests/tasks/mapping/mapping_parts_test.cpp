@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/mapping/still_table.hpp"
 #include "vantage/planners/prediction_bands.hpp"
 #include "vantage/planners/swept_gain.hpp"
@@ -348,12 +349,8 @@ TEST(MappingParts, ExpectOfAllViewsTogetherWhatAdaptiveSays) {
 std::vector<VoxelRecord> voxels_of_two_scans(bool lean) {
   StillTable& table = still_table();
   const support::TemporaryDirectory folder;
-  const RunRequest request{.setup = table.episode.setup,
-                           .task = "next_best_view",
-                           .method = "greedy",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, false, {}, lean}};
+  const RunRequest request =
+      support::mapping_request(table.episode, {folder.path() / "run", true, false, {}, lean});
   const EpisodeRun run(request);
   MappingRecorder recorder(run, recorded(table.robot), {}, 5);
   EXPECT_EQ(recorder.logs_events(), !lean);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/mapping/run_request.hpp"
 #include "tests/tasks/tabletop/own_scene.hpp"
 #include "vantage/core/log.hpp"
 #include "vantage/tasks/episode.hpp"
@@ -42,12 +43,8 @@ struct StillTable {
   const EpisodeOptions& options = episode.setup.options;
   const Tabletop task = std::get<Tabletop>(episode.task);
   StillTabletopRobot robot{episode.setup, task};
-  const RunRequest request{.setup = episode.setup,
-                           .task = "next_best_view",
-                           .method = "greedy",
-                           .config = {},
-                           .inputs = {},
-                           .options = {folder.path() / "run", true, false, {}, true}};
+  const RunRequest request =
+      mapping_request(episode, {folder.path() / "run", true, false, {}, true});
   EpisodeRun run{request};
   MappingRecorder recorder{run, recorded(robot), recorded_predictors(task, cell_predictors()),
                            task.scans};
