@@ -236,13 +236,15 @@ class PassageSearch {
     }
   }
 
-  /// A nook is a place to go to, at the heading that is cheapest there; but not for a robot that
-  /// could neither turn there nor come out again as it went in, and not where its own way out is.
+  /// A nook is a place to go to, at the heading that is cheapest there of those that keep the
+  /// preferred margin; but not for a robot that could neither turn there nor come out again as it
+  /// went in, and not where its own way out is.
   void reach_nooks() {
     if (!space_.robot().goes_sideways && !space_.turns_anywhere()) return;
     for (std::size_t i = 0; i < field_.narrow.size(); ++i) {
       const NarrowPose& node = field_.narrow[i];
-      if (!poses_.is_nook(node.cell) || node.cost >= field_.cost[node.cell]) continue;
+      if (!poses_.is_nook(node.cell) || !poses_.place(i).roomy) continue;
+      if (node.cost >= field_.cost[node.cell]) continue;
       const bool on_way_out =
           !field_.reachable(node.cell) && field_.parent[node.cell] != PathField::kNone;
       if (field_.traversable(node.cell) || on_way_out) continue;

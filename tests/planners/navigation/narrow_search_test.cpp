@@ -189,10 +189,19 @@ TEST_F(Corridor, WhatIsRoundGoesToANookThoughAlongItsHeadingAlone) {
     const double angle_rad = 2.0 * std::numbers::pi * i / 16.0;
     round.emplace_back(0.33 * std::cos(angle_rad), 0.33 * std::sin(angle_rad));
   }
-  const PathField narrow =
-      field({.outline = round, .goes_sideways = false}, {.least_area_m2 = 0.1});
+  const PathField narrow = field({.outline = round, .goes_sideways = false},
+                                 {.preferred_margin_m = 0.02, .least_area_m2 = 0.1});
   EXPECT_TRUE(narrow.reachable(Eigen::Vector2d(2.525, 1.025)));
   EXPECT_TRUE(narrow.reachable(Eigen::Vector2d(1.525, 1.025))) << "it can turn round";
+}
+
+/// Walls leave it 11 cm on either side.
+TEST_F(Corridor, ANookIsGoneToWhereItKeepsThePreferredMargin) {
+  for (const double preferred_m : {0.10, 0.12}) {
+    const PathField narrow = field(robot_, {.preferred_margin_m = preferred_m});
+    EXPECT_FALSE(std::isinf(cost_at(narrow, start_cell_ + Eigen::Array2i(10, 0), 0.0)));
+    EXPECT_EQ(narrow.reachable(Eigen::Vector2d(2.525, 1.025)), preferred_m < 0.11);
+  }
 }
 
 TEST_F(Corridor, WhereTheMarginDoesNotFitATightOneIsKept) {
