@@ -9,6 +9,7 @@
 #include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/flight/flight_mjcf.hpp"
 #include "vantage/models/catalogue/office/corridor_plan.hpp"
+#include "vantage/models/catalogue/office/office_list.hpp"
 #include "vantage/models/catalogue/office/office_mjcf.hpp"
 #include "vantage/models/catalogue/table/clutter_scene.hpp"
 #include "vantage/models/catalogue/table/scene_mjcf.hpp"

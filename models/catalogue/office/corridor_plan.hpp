@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vantage/core/fields.hpp"
-#include "vantage/models/catalogue/office/floor_plan.hpp"
+#include "vantage/models/catalogue/office/plans/floor_plan.hpp"
 #include "vantage/models/catalogue/office/office_scene.hpp"
 
 namespace vantage {

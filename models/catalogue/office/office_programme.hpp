@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "vantage/core/rng.hpp"
-#include "vantage/models/catalogue/office/floor_plan.hpp"
+#include "vantage/models/catalogue/office/plans/floor_plan.hpp"
 #include "vantage/models/catalogue/office/office_scene.hpp"
 
 namespace vantage {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "vantage/core/rng.hpp"
 #include "vantage/models/catalogue/office/office_programme.hpp"
+#include "vantage/models/catalogue/office/plans/drawn_plan.hpp"
 
 namespace vantage {
 namespace {
@@ -229,8 +229,10 @@ void hang(Layout& layout, const Room& room, Rng& rng) {
 
 FloorPlan floor_plan(const OfficeOptions& options) {
   if (options.doors_m > 0.0) return door_office(options.doors_m);
-  if (options.large) return large_office();
-  return options.walls > 0 ? drawn_small_office(options.walls) : small_office();
+  if (options.walls > 0) {
+    return options.large ? drawn_large_office(options.walls) : drawn_small_office(options.walls);
+  }
+  return options.large ? large_office() : small_office();
 }
 
 OfficeScene make_office_scene(const OfficeOptions& options) {
@@ -259,42 +261,6 @@ std::vector<Outline> obstacles(const OfficeScene& scene) {
   std::vector<Outline> outlines = building(scene.plan);
   for (const PlacedItem& placed : scene.furniture) outlines.push_back(item_outline(placed));
   return outlines;
-}
-
-std::vector<OfficeOptions> office_scenes() {
-  using Draw = std::tuple<const char*, std::uint64_t, std::uint64_t>;
-  std::vector<OfficeOptions> scenes;
-  for (const auto& [suffix, small_seed, large_seed] :
-       {Draw{"", 1510U, 2025U}, Draw{"_a", 31U, 41U}, Draw{"_b", 32U, 42U}}) {
-    for (const bool large : {false, true}) {
-      for (int level = 1; level <= kClutterLevels; ++level) {
-        scenes.push_back(
-            {.name = fmt::format("office_{}{}_{}", large ? "large" : "small", suffix, level),
-             .seed = large ? large_seed : small_seed,
-             .large = large,
-             .clutter = level});
-      }
-    }
-  }
-  for (const auto& [suffix, seed] : {std::pair{"c", 330U}, {"d", 340U}}) {
-    for (int level = 1; level <= kClutterLevels; ++level) {
-      const auto own = seed + static_cast<std::uint64_t>(level);
-      scenes.push_back({.name = fmt::format("office_small_{}_{}", suffix, level),
-                        .seed = own,
-                        .clutter = level,
-                        .walls = own});
-    }
-  }
-  return scenes;
-}
-
-std::vector<OfficeOptions> door_scenes() {
-  const auto doors = [](const char* name, std::uint64_t seed, double doors_m) {
-    return OfficeOptions{.name = name, .seed = seed, .clutter = 1, .doors_m = doors_m};
-  };
-  return {doors("office_doors_1", 851, 0.85), doors("office_doors_80_1", 801, 0.80),
-          doors("office_doors_a_1", 852, 0.85), doors("office_doors_b_1", 853, 0.85),
-          doors("office_doors_80_a_1", 802, 0.80)};
 }
 
 }  // namespace vantage

@@ -7,7 +7,7 @@
 
 #include "vantage/core/fields.hpp"
 #include "vantage/models/catalogue/office/clearance_map.hpp"
-#include "vantage/models/catalogue/office/floor_plan.hpp"
+#include "vantage/models/catalogue/office/plans/floor_plan.hpp"
 #include "vantage/models/catalogue/office/office_furniture.hpp"
 
 namespace vantage {
@@ -33,7 +33,7 @@ struct OfficeOptions {
       "width of the doors of six rooms off a corridor, 13 x 9.6 m; 0: the plan that `large` says",
       between(0.0, 1.2));
     f("walls", walls,
-      "seed of where the small office has its inner wall, door, pillars and starts; 0: as planned");
+      "seed of where the inner walls, doors, pillars and starts are; 0: as planned");
   }
 };
 
@@ -63,13 +63,5 @@ OfficeScene furnished(const OfficeOptions& options, const FloorPlan& plan);
 
 /// What bounds the robot's way: walls, pillars, door posts, furniture.
 std::vector<Outline> obstacles(const OfficeScene& scene);
-
-/// The scenes checked in under models/scenes: office_{small,large}_{1..4}, which options are chosen
-/// on, and office_{small,large}_{a,b}_{1..4}, furnished afresh, and office_small_{c,d}_{1..4}, each
-/// with walls and furniture of its own, which results are reported on.
-std::vector<OfficeOptions> office_scenes();
-/// And office_doors_1 and _80_1, which options are chosen on, and office_doors_{a,b}_1 and _80_a_1,
-/// which results are reported on: doors of 0.85 m and 0.80 m.
-std::vector<OfficeOptions> door_scenes();
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include "tests/models/catalogue/scene_files.hpp"
 #include "tests/models/catalogue/shapes/mesh_checks.hpp"
 #include "vantage/models/catalogue/office/corridor_plan.hpp"
+#include "vantage/models/catalogue/office/office_list.hpp"
 #include "vantage/models/catalogue/shapes/obj.hpp"
 
 namespace vantage {

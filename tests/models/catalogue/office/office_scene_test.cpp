@@ -10,6 +10,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/models/catalogue/office/corridor_plan.hpp"
+#include "vantage/models/catalogue/office/office_list.hpp"
 
 namespace vantage {
 namespace {
