@@ -2,6 +2,7 @@
 /// confidence, whatever the errors are like.  [Gibbs2021]
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "vantage/core/fields.hpp"
@@ -22,6 +23,21 @@ struct ForecastIntervalOptions {
   }
 };
 
+/// How far forecasts were off in training scenes, of ln (actual / forecast).
+struct ForecastLaw {
+  struct At {
+    double share;   ///< forecast over the first view's cells
+    double mean;    ///< median
+    double spread;  ///< half of what 16 to 84 % of them are within
+  };
+  std::array<At, 6> at;           ///< ascending; between them by the logarithm of the share
+  std::array<double, 20> errors;  ///< |those| in spreads, at 2.5, 7.5, ... 97.5 %
+};
+/// Of a head's sweeps in offices: the development split of planning_office_small and _large.
+extern const ForecastLaw kForecastsInRooms;
+/// Of a laser's scans of a worktop: that of planning_tabletop. They are less sure.
+extern const ForecastLaw kForecastsAtTables;
+
 struct CellInterval {
   double low = 0.0;
   double high = 0.0;
@@ -34,8 +50,10 @@ struct CellInterval {
 /// a <- a + rate (1 - confidence - [the truth was outside]).  [Gibbs2021, (2)]
 class ForecastInterval {
  public:
-  /// @throws ConfigError if `options` are out of range.
-  explicit ForecastInterval(const ForecastIntervalOptions& options);
+  /// @param trained how far such forecasts are off @throws ConfigError if `options` are out of
+  /// range.
+  explicit ForecastInterval(const ForecastIntervalOptions& options,
+                            const ForecastLaw& trained = kForecastsInRooms);
 
   /// @param first_view_cells that the first scan has shown, > 0: what a view can show at all
   void start(double first_view_cells);
@@ -45,16 +63,13 @@ class ForecastInterval {
   void observe(double forecast_cells, double actual_cells);
 
  private:
-  struct Law {
-    double mean;
-    double spread;
-  };
-  [[nodiscard]] Law law(double forecast_cells) const;
+  [[nodiscard]] ForecastLaw::At law(double forecast_cells) const;
   /// Of ln (actual / forecast), in which a few cells are as good as none.
   [[nodiscard]] double log_ratio(double forecast_cells, double actual_cells) const;
   [[nodiscard]] double width() const;  ///< in spreads
 
   ForecastIntervalOptions options_;
+  std::array<ForecastLaw::At, 6> trained_;
   double first_view_cells_ = 0.0;
   double miss_;                 ///< share outside that is aimed at with the next scan
   std::vector<double> scores_;  ///< |errors| in spreads, ascending

@@ -269,8 +269,12 @@ std::vector<ClutterSceneOptions> clutter_scenes() {
   constexpr std::array<Level, 5> kLevels{
       {{4, 1, 0}, {8, 2, 0}, {15, 3, 1}, {25, 4, 3}, {40, 4, 6}}};
   std::vector<ClutterSceneOptions> scenes;
-  for (const auto& [set, seed] :
-       {std::pair{"dev", 1000U}, {"report", 2000U}, {"report_b", 3000U}}) {
+  for (const auto& [set, seed] : {std::pair{"dev", 1000U},
+                                  {"report", 2000U},
+                                  {"report_b", 3000U},
+                                  {"report_c", 4000U},
+                                  {"report_d", 5000U},
+                                  {"report_e", 7000U}}) {
     for (const Level& level : kLevels) {
       scenes.push_back({.name = fmt::format("clutter_{}_{}", set, level.objects),
                         .seed = seed + static_cast<unsigned>(level.objects),

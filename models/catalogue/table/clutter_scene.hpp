@@ -44,8 +44,8 @@ struct ClutterSceneOptions {
 TableScene make_clutter_scene(const ClutterSceneOptions& options);
 
 /// The scenes checked in under models/scenes: 4, 8, 15, 25 and 40 objects, once to choose methods
-/// and their parameters on (`clutter_dev_N`) and twice to report on (`clutter_report_N`,
-/// `clutter_report_b_N`).
+/// and their parameters on (`clutter_dev_N`) and five times to report on (`clutter_report_N`,
+/// `clutter_report_b_N` to `_e_N`).
 std::vector<ClutterSceneOptions> clutter_scenes();
 
 }  // namespace vantage

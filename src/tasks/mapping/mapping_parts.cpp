@@ -29,7 +29,7 @@ double recorded_prediction(const ScanRecord& scan, std::string_view gain) {
 
 MappingParts::MappingParts(const MappingContext& context, const MappingOptions& options,
                            const MapBelief& belief, std::vector<Predictor> predictors,
-                           Navigator navigator)
+                           Navigator navigator, const ForecastLaw& trained)
     : episode_(context.options),
       robot_(context.robot),
       recorder_(context.recorder),
@@ -41,7 +41,7 @@ MappingParts::MappingParts(const MappingContext& context, const MappingOptions& 
       belief_(belief),
       predictors_(std::move(predictors)),
       calibration_(options.forecast),
-      interval_(options.intervals),
+      interval_(options.intervals, trained),
       choice_rng_(choice_stream(options.choice, context.options.seed)) {
   recorder_.set_panel([this] { return panel(); });
   navigator_.on_plan = [this](const PlannedPath& path) { recorder_.route(path.waypoints); };

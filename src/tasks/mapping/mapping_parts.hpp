@@ -52,9 +52,10 @@ class MappingParts {
   [[nodiscard]] const std::vector<Candidate>& views() const { return views_; }
 
  protected:
-  /// @param belief outlives this
+  /// @param belief outlives this @param trained how far forecasts of such scans are off
   MappingParts(const MappingContext& context, const MappingOptions& options,
-               const MapBelief& belief, std::vector<Predictor> predictors, Navigator navigator);
+               const MapBelief& belief, std::vector<Predictor> predictors, Navigator navigator,
+               const ForecastLaw& trained);
   ~MappingParts() = default;
 
   /// What there was before an update.

@@ -33,7 +33,8 @@ TabletopParts::TabletopParts(const MappingContext& context, const Tabletop& task
                              TabletopRobotInterface& robot, TabletopBelief& belief)
     : MappingParts(context, task, belief, recorded_predictors(task, cell_predictors()),
                    Navigator(task.floor_map, task.navigation, task.odometry, robot,
-                             ReferenceMap(task.registration), context.options.threads)),
+                             ReferenceMap(task.registration), context.options.threads),
+                   kForecastsAtTables),
       task_(task),
       tabletop_robot_(robot),
       belief_(belief) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "vantage/core/rng.hpp"
@@ -127,6 +128,25 @@ TEST(ForecastInterval, IsAsWideAsForecastsOfThatSizeWereOffInTraining) {
   }
   EXPECT_NEAR(log_ends(interval, 0.0).high, 0.439 + kNineInTen * 0.278, 1e-9);
   EXPECT_EQ(interval.of(0.0).low, 0.0);
+}
+
+/// 18.9 of 21 parts: 2.06 spreads at a table.
+TEST(ForecastInterval, IsOfWhatItWasTrainedWith) {
+  ForecastInterval at_a_table({}, kForecastsAtTables);
+  at_a_table.start(kFirstView);
+  const auto [low, high] = log_ends(at_a_table, 0.0536 * kFirstView);
+  EXPECT_NEAR(0.5 * (low + high), 0.072, 1e-9);
+  EXPECT_NEAR(0.5 * (high - low), 2.06 * 0.140, 1e-9);
+  const auto [least, most] = log_ends(at_a_table, std::sqrt(0.1698 * 0.6956) * kFirstView);
+  EXPECT_NEAR(0.5 * (least + most), 0.5 * (0.051 + 0.048), 1e-9);
+  EXPECT_NEAR(0.5 * (most - least), 2.06 * 0.5 * (0.165 + 0.334), 1e-9);
+}
+
+TEST(ForecastInterval, LawsAscend) {
+  for (const ForecastLaw& law : {kForecastsInRooms, kForecastsAtTables}) {
+    EXPECT_TRUE(std::ranges::is_sorted(law.at, {}, &ForecastLaw::At::share));
+    EXPECT_TRUE(std::ranges::is_sorted(law.errors));
+  }
 }
 
 double width_in_spreads(const ForecastInterval& interval) {

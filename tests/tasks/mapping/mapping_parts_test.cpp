@@ -252,7 +252,7 @@ TEST(MappingParts, RecordWhatAScanWasGiven) {
         view_gains_bits(gain, {at.belief.filled_grid(), &transmission}, view, robot.view_field(), 1)
             .front());
   }
-  ForecastInterval interval(at.table.task.intervals);
+  ForecastInterval interval(at.table.task.intervals, kForecastsAtTables);
   interval.start(1.0);
   for (int later = 0; later < 2; ++later) {
     at.parts.record_scan();

@@ -115,7 +115,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ClutterScene, testing::ValuesIn(clutter_scenes(
 
 TEST(ClutterScenes, SetsShareLevelsButNoSeed) {
   const auto scenes = clutter_scenes();
-  const std::vector<std::string> sets{"clutter_dev_", "clutter_report_", "clutter_report_b_"};
+  const std::vector<std::string> sets{"clutter_dev_",      "clutter_report_",
+                                      "clutter_report_b_", "clutter_report_c_",
+                                      "clutter_report_d_", "clutter_report_e_"};
   ASSERT_EQ(scenes.size() % sets.size(), 0U);
   const std::size_t levels = scenes.size() / sets.size();
   std::set<std::uint64_t> seeds;
