@@ -15,7 +15,7 @@ namespace vantage::bench {
 namespace {
 
 const std::filesystem::path kStudy =
-    std::filesystem::path(VANTAGE_SOURCE_DIR) / "assets/studies/planning_tabletop.yaml";
+    std::filesystem::path(VANTAGE_SOURCE_DIR) / "tests/bench/ten_tables.yaml";
 
 /// The time of an episode by its name; empty: it does not get there.
 using TimeOf = std::function<std::string(const std::string&)>;
