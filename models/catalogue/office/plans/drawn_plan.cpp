@@ -14,15 +14,11 @@ namespace {
 using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 
-AlignedBox2d aligned_box(double x0, double y0, double x1, double y1) {
-  return {Vector2d(x0, y0), Vector2d(x1, y1)};
-}
-
 /// Along the side of a room, deep 0.3 m. @param share of the side that is before it
 AlignedBox2d pillar_at(const AlignedBox2d& area, double share, double length_m, bool north) {
   const double from = area.min().x() + share * (area.sizes().x() - length_m);
-  return north ? aligned_box(from, area.max().y() - 0.3, from + length_m, area.max().y())
-               : aligned_box(from, area.min().y(), from + length_m, area.min().y() + 0.3);
+  return north ? box_between(from, area.max().y() - 0.3, from + length_m, area.max().y())
+               : box_between(from, area.min().y(), from + length_m, area.min().y() + 0.3);
 }
 
 /// In each open room one that stands free, and one before its north and its south wall.
@@ -35,7 +31,7 @@ std::vector<AlignedBox2d> drawn_pillars(const FloorPlan& plan, Rng& rng) {
     const AlignedBox2d& area = room.area_m;
     const double x = rng.uniform(area.min().x() + kFree_m, area.max().x() - kFree_m - kEdge_m);
     const double y = rng.uniform(area.min().y() + kFree_m, area.max().y() - kFree_m - kEdge_m);
-    pillars.push_back(aligned_box(x, y, x + kEdge_m, y + kEdge_m));
+    pillars.push_back(box_between(x, y, x + kEdge_m, y + kEdge_m));
     for (const bool north : {true, false}) {
       const double length_m = rng.uniform(0.4, 1.6);
       pillars.push_back(pillar_at(area, rng.uniform(), length_m, north));

@@ -9,10 +9,6 @@ using Eigen::Vector2d;
 constexpr double kPost_m = 0.07;
 constexpr double kPostRelief_m = 0.01;  // thicker than the wall by that on each side
 
-AlignedBox2d box(double x0, double y0, double x1, double y1) {
-  return {Vector2d(x0, y0), Vector2d(x1, y1)};
-}
-
 void add_outer_walls(FloorPlan& plan) {
   const double x = plan.size_m.x() / 2 - kHalfWall_m;
   const double y = plan.size_m.y() / 2 - kHalfWall_m;
@@ -29,18 +25,21 @@ bool along_x(const Wall& wall) { return wall.from_m.y() == wall.to_m.y(); }
 AlignedBox2d beside(const Wall& wall, double from_m, double to_m, double half_width_m) {
   if (along_x(wall)) {
     const double y = wall.from_m.y();
-    return box(from_m, y - half_width_m, to_m, y + half_width_m);
+    return box_between(from_m, y - half_width_m, to_m, y + half_width_m);
   }
   const double x = wall.from_m.x();
-  return box(x - half_width_m, from_m, x + half_width_m, to_m);
+  return box_between(x - half_width_m, from_m, x + half_width_m, to_m);
 }
 
 }  // namespace
 
-Room room(RoomUse use, double x0, double y0, double x1, double y1) {
-  return {
-      use,
-      {Vector2d(x0 + kHalfWall_m, y0 + kHalfWall_m), Vector2d(x1 - kHalfWall_m, y1 - kHalfWall_m)}};
+AlignedBox2d box_between(double x0_m, double y0_m, double x1_m, double y1_m) {
+  return {Vector2d(x0_m, y0_m), Vector2d(x1_m, y1_m)};
+}
+
+Room room(RoomUse use, double x0_m, double y0_m, double x1_m, double y1_m) {
+  return {use, box_between(x0_m + kHalfWall_m, y0_m + kHalfWall_m, x1_m - kHalfWall_m,
+                           y1_m - kHalfWall_m)};
 }
 
 FloorPlan small_office() {
@@ -53,10 +52,14 @@ FloorPlan small_office() {
   plan.rooms = {room(open_plan, -x, -y, 0.6, y), room(open_plan, 0.6, -y, x, y)};
   plan.walls.push_back({{0.6, -y}, {0.6, y}, {{-1.4, 1.6}}});
   plan.pillars = {
-      box(-3.7, 0.5, -3.3, 0.9),   box(3.9, 0.5, 4.3, 0.9),    // free standing
-      box(-4.6, 4.6, -3.0, 4.9),   box(3.2, 4.55, 3.8, 4.9),   // before the north wall
-      box(-7.4, -0.3, -7.1, 0.3),  box(7.1, -2.2, 7.4, -0.6),  // before west and east wall
-      box(-3.5, -4.9, -3.1, -4.6), box(0.65, 2.0, 0.9, 2.5),
+      box_between(-3.7, 0.5, -3.3, 0.9),
+      box_between(3.9, 0.5, 4.3, 0.9),  // free standing
+      box_between(-4.6, 4.6, -3.0, 4.9),
+      box_between(3.2, 4.55, 3.8, 4.9),  // before the north wall
+      box_between(-7.4, -0.3, -7.1, 0.3),
+      box_between(7.1, -2.2, 7.4, -0.6),  // before west and east wall
+      box_between(-3.5, -4.9, -3.1, -4.6),
+      box_between(0.65, 2.0, 0.9, 2.5),
   };
   plan.T_world_starts = {
       {-5.6, -2.6, 0.4}, {-1.2, -1.4, 3.1}, {-5.4, 2.9, -0.8}, {2.3, -1.6, 0.0}, {5.3, 2.6, -2.3}};
@@ -112,11 +115,12 @@ FloorPlan large_office() {
           {{4.6, 8.7}, {4.6, y}, {}},
       });
   plan.pillars = {
-      box(-6.2, -7.8, -5.8, -7.4), box(4.8, -2.1, 5.2, -1.7),  // free standing
-      box(-9.9, -6.0, -9.6, -5.2), box(-5.0, -12.4, -4.0, -12.1),  box(9.55, -3.4, 9.9, -2.6),
-      box(3.4, 2.25, 4.4, 2.55),   box(-9.9, 5.6, -9.6, 6.4),      box(-6.4, 12.1, -5.6, 12.4),
-      box(9.6, 10.2, 9.9, 11.0),   box(-1.85, -11.0, -1.6, -10.4), box(0.05, 1.0, 0.25, 1.6),
-      box(6.2, -6.7, 6.7, -6.45),
+      box_between(-6.2, -7.8, -5.8, -7.4), box_between(4.8, -2.1, 5.2, -1.7),  // free standing
+      box_between(-9.9, -6.0, -9.6, -5.2), box_between(-5.0, -12.4, -4.0, -12.1),
+      box_between(9.55, -3.4, 9.9, -2.6),  box_between(3.4, 2.25, 4.4, 2.55),
+      box_between(-9.9, 5.6, -9.6, 6.4),   box_between(-6.4, 12.1, -5.6, 12.4),
+      box_between(9.6, 10.2, 9.9, 11.0),   box_between(-1.85, -11.0, -1.6, -10.4),
+      box_between(0.05, 1.0, 0.25, 1.6),   box_between(6.2, -6.7, 6.7, -6.45),
   };
   plan.T_world_starts = {{-0.8, -11.2, 1.57},
                          {-0.8, 11.2, -1.57},

@@ -48,6 +48,7 @@ struct FloorPlan {
   std::vector<Pose2> T_world_starts;  ///< five places for the robot, apart from each other
 };
 
+Eigen::AlignedBox2d box_between(double x0_m, double y0_m, double x1_m, double y1_m);
 /// Between centre lines of walls.
 Room room(RoomUse use, double x0_m, double y0_m, double x1_m, double y1_m);
 
