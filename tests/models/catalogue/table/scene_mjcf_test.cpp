@@ -105,7 +105,7 @@ TEST(SceneFolders, AreSmall) {
   }
   std::uintmax_t sum = 0;
   for (const auto& [hash, size] : bytes) sum += size;
-  EXPECT_LT(sum, 28U << 20U);
+  EXPECT_LT(sum, 44U << 20U);  // a third of it are the worktops c to e
 }
 
 TEST(SceneMjcf, EveryObjectOfTheCatalogueCompiles) {
