@@ -2,39 +2,37 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
+#include <cstdint>
 
 namespace vantage {
 namespace {
 
-OfficeOptions checked_in_office(bool large, const char* suffix, int level, std::uint64_t seed) {
-  return {.name = fmt::format("office_{}{}_{}", large ? "large" : "small", suffix, level),
-          .seed = seed,
+/// Offices of one letter: all four levels of the small one and of the large one.
+struct Letter {
+  const char* suffix;
+  std::uint64_t small_seed, large_seed;
+  bool has_own_walls = false;  ///< each of them, and furniture from a seed of its own too
+};
+
+OfficeOptions office_of(const Letter& letter, bool large, int level) {
+  const std::uint64_t first = large ? letter.large_seed : letter.small_seed;
+  const std::uint64_t own = first + static_cast<std::uint64_t>(level);
+  return {.name = fmt::format("office_{}{}_{}", large ? "large" : "small", letter.suffix, level),
+          .seed = letter.has_own_walls ? own : first,
           .large = large,
-          .clutter = level};
+          .clutter = level,
+          .walls = letter.has_own_walls ? own : 0};
 }
 
 }  // namespace
 
 std::vector<OfficeOptions> office_scenes() {
-  using Draw = std::tuple<const char*, std::uint64_t, std::uint64_t>;
   std::vector<OfficeOptions> scenes;
-  for (const auto& [suffix, small_seed, large_seed] :
-       {Draw{"", 1510U, 2025U}, Draw{"_a", 31U, 41U}, Draw{"_b", 32U, 42U}}) {
+  for (const Letter& letter : {Letter{"", 1510, 2025}, Letter{"_a", 31, 41}, Letter{"_b", 32, 42},
+                               Letter{"_c", 330, 430, true}, Letter{"_d", 340, 440, true}}) {
     for (const bool large : {false, true}) {
       for (int level = 1; level <= kClutterLevels; ++level) {
-        scenes.push_back(checked_in_office(large, suffix, level, large ? large_seed : small_seed));
-      }
-    }
-  }
-  for (const auto& [suffix, small_seed, large_seed] :
-       {Draw{"_c", 330U, 430U}, Draw{"_d", 340U, 440U}}) {
-    for (const bool large : {false, true}) {
-      for (int level = 1; level <= kClutterLevels; ++level) {
-        const std::uint64_t own =
-            (large ? large_seed : small_seed) + static_cast<std::uint64_t>(level);
-        scenes.push_back(checked_in_office(large, suffix, level, own));
-        scenes.back().walls = own;
+        scenes.push_back(office_of(letter, large, level));
       }
     }
   }

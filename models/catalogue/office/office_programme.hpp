@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "vantage/core/rng.hpp"
-#include "vantage/models/catalogue/office/plans/floor_plan.hpp"
 #include "vantage/models/catalogue/office/office_scene.hpp"
+#include "vantage/models/catalogue/office/plans/floor_plan.hpp"
 
 namespace vantage {
 

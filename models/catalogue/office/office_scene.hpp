@@ -7,8 +7,8 @@
 
 #include "vantage/core/fields.hpp"
 #include "vantage/models/catalogue/office/clearance_map.hpp"
-#include "vantage/models/catalogue/office/plans/floor_plan.hpp"
 #include "vantage/models/catalogue/office/office_furniture.hpp"
+#include "vantage/models/catalogue/office/plans/floor_plan.hpp"
 
 namespace vantage {
 

@@ -70,7 +70,7 @@ std::vector<Pose2> drawn_starts(const FloorPlan& plan, Rng& rng) {
   return starts;
 }
 
-/// Without doors: what stands before a door is not there.
+/// Those that stand neither in a door nor before one.
 std::vector<AlignedBox2d> clear_of_doors(std::vector<AlignedBox2d> pillars,
                                          const std::vector<Wall>& walls) {
   constexpr double kDepth_m = 1.3;
