@@ -16,11 +16,17 @@ double cells_of(double cells, const char* argument) {
   return cells;
 }
 
+const ForecastLaw& law_of(const std::string& trained) {
+  if (trained == "rooms") return kForecastsInRooms;
+  if (trained == "tables") return kForecastsAtTables;
+  refuse("trained", fmt::format("'{}' is neither rooms nor tables", trained));
+}
+
 /// The interval, asked in the right order.
 class Interval {
  public:
-  explicit Interval(const py::kwargs& options)
-      : interval_(options_of<ForecastIntervalOptions>(options, "intervals")) {}
+  Interval(const std::string& trained, const py::kwargs& options)
+      : interval_(options_of<ForecastIntervalOptions>(options, "intervals"), law_of(trained)) {}
 
   void start(double first_view_cells) {
     if (!(first_view_cells >= 1.0)) {
@@ -63,15 +69,16 @@ constexpr auto kText = R"(How far off a forecast of new cells may be.
 
 An interval that the truth is in with the share `confidence`, whatever the errors are like:
 adaptive conformal inference on ln(actual / forecast), which begins with the errors of training
-scenes and goes on with those that observe() takes in. Options: confidence (0.9), rate (0.03, how
-fast it widens after a miss). [Gibbs2021]
+scenes and goes on with those that observe() takes in. trained names these scenes: "rooms", of
+sweeps from place to place, or "tables", of scans round a worktop. Options: confidence (0.9), rate
+(0.03, how fast it widens after a miss). [Gibbs2021]
 )";
 
 }  // namespace
 
 void bind_intervals(py::module_& module) {
   py::class_<Interval>(module, "ForecastInterval", kText)
-      .def(py::init<const py::kwargs&>())
+      .def(py::init<const std::string&, const py::kwargs&>(), py::arg("trained") = "rooms")
       .def("start", &Interval::start, py::arg("first_view_cells"),
            "Call it first: the cells that an episode's first scan showed, what a view can show.")
       .def("of", &Interval::of, py::arg("forecast_cells"),

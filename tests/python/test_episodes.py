@@ -71,7 +71,7 @@ class Runs(InFolder):
             return 5
 
         run = self.run_small("sure", planner=look)
-        first = vantage.ForecastInterval()  # the options' defaults are those of the episode's key `intervals`
+        first = vantage.ForecastInterval("tables")  # the options' defaults are those of the episode's key `intervals`
         first.start(run.steps["actual_new_cells"][0])
         gain, interval, unit = seen[0]
         self.assertEqual((interval.shape, unit), ((30, 2), "bits"))

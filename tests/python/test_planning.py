@@ -239,6 +239,7 @@ class Tours(unittest.TestCase):
         interval.start(1000)
         for message, call in {"confidence": lambda: vantage.ForecastInterval(confidence=2),
                               "unknown key 'x'": lambda: vantage.ForecastInterval(x=2),
+                              "trained: 'hall' is neither": lambda: vantage.ForecastInterval("hall"),
                               "first_view_cells: 0": lambda: interval.start(0),
                               "first_view_cells: nan": lambda: interval.start(np.nan),
                               "forecast_cells: -1": lambda: interval.of([1, -1]),
