@@ -123,7 +123,7 @@ std::function<ExitCode()> declare_run(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();
   app.add_option("episode", arguments->episode, "episode file")->capture_default_str();
   add_set(app, arguments->overrides, "key=value, same keys as the file");
-  app.add_option("--seed", arguments->seed, "seed of every random stream")->check(not_empty);
+  app.add_option("--seed", arguments->seed, "seed of every random stream")->check(whole_number);
   app.add_option("--out", arguments->options.directory, "run folder; default out/<episode>-<seed>")
       ->check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
   add_overwrite(app, arguments->options.overwrite);
@@ -211,9 +211,9 @@ std::function<ExitCode()> declare_list(CLI::App& app) {
   app.add_option("what", arguments->what, "one of: " + fmt::format("{}", listing_topics_text()));
   add_json(app, arguments->json);
   return [arguments] {
-    fmt::print("{}", arguments->json
-                         ? json_text(listing_json(arguments->what))
-                         : listing_text(arguments->what, verbosity() == Verbosity::verbose));
+    const bool explained = verbosity() == Verbosity::verbose;
+    fmt::print("{}", arguments->json ? json_text(listing_json(arguments->what, explained))
+                                     : listing_text(arguments->what, explained));
     return ExitCode::done;
   };
 }

@@ -85,7 +85,7 @@ std::function<ExitCode()> declare_render(CLI::App& app) {
       ->check(not_empty);
   app.add_option("--step-deg", arguments->step_deg, "of the turntable between views; default 20")
       ->check(not_empty);
-  app.add_option("--seed", arguments->seed, "of every random stream")->check(not_empty);
+  app.add_option("--seed", arguments->seed, "of every random stream")->check(whole_number);
   app.add_option("--models", arguments->models,
                  "folder of scanned objects, <name>/{model.obj, texture.png}, instead of our own")
       ->check(not_empty);

@@ -98,12 +98,10 @@ std::vector<const Topic*> topics(std::string_view wanted) {
   return found;
 }
 
-std::string explained_strategies(std::string_view family) {
-  std::string text;
-  for (const ReferenceEntry& entry : strategy_entries()) {
-    if (entry.place == family) text += entry_text(entry);
-  }
-  return text;
+std::vector<ReferenceEntry> strategies(std::string_view family) {
+  auto all = strategy_entries();
+  std::erase_if(all, [&](const ReferenceEntry& entry) { return entry.place != family; });
+  return all;
 }
 
 }  // namespace
@@ -119,7 +117,7 @@ std::string listing_text(std::string_view wanted, bool explained) {
   for (const Topic* topic : topics(wanted)) {
     if (wanted.empty()) text += fmt::format("{}:\n", topic->name);
     if (explained && !topic->family.empty()) {
-      text += explained_strategies(topic->family);
+      for (const ReferenceEntry& entry : strategies(topic->family)) text += entry_text(entry);
       continue;
     }
     for (const auto& entry : topic->entries()) {
@@ -129,9 +127,17 @@ std::string listing_text(std::string_view wanted, bool explained) {
   return text;
 }
 
-nlohmann::ordered_json listing_json(std::string_view wanted) {
+nlohmann::ordered_json listing_json(std::string_view wanted, bool explained) {
   nlohmann::ordered_json listing;
-  for (const Topic* topic : topics(wanted)) listing[std::string(topic->name)] = topic->entries();
+  for (const Topic* topic : topics(wanted)) {
+    nlohmann::ordered_json& entries = listing[std::string(topic->name)];
+    entries = topic->entries();
+    if (!explained || topic->family.empty()) continue;
+    entries.clear();
+    for (const ReferenceEntry& entry : strategies(topic->family)) {
+      entries.push_back(entry_json(entry));
+    }
+  }
   return listing;
 }
 

@@ -14,6 +14,6 @@ std::string listing_topics_text();  ///< "gains, choices, features, ..."
 /// @param explained strategies with what they do, their formula and parameters
 std::string listing_text(std::string_view topic, bool explained = false);
 /// The same as an array of entries for each topic.
-nlohmann::ordered_json listing_json(std::string_view topic);
+nlohmann::ordered_json listing_json(std::string_view topic, bool explained = false);
 
 }  // namespace vantage

@@ -74,7 +74,7 @@ std::function<ExitCode()> declare_score_views(CLI::App& app) {
   app.add_option("--set", score.overrides, "key=value of the keys below")
       ->type_size(1)
       ->allow_extra_args(false);
-  app.add_option("--seed", score.seed, "of sampled views")->check(not_empty);
+  app.add_option("--seed", score.seed, "of sampled views")->check(whole_number);
   app.add_option("--write-views", arguments->write_views, "write the views, best first, as CSV")
       ->check(not_empty);
   add_overwrite(app, arguments->overwrite);

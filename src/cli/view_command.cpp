@@ -90,13 +90,12 @@ ExitCode view_command(const CLI::App& app, ViewArguments arguments) {
 
 std::function<ExitCode()> declare_view(CLI::App& app) {
   auto arguments = std::make_shared<ViewArguments>();
-  const auto not_empty = [](const std::string& text) { return text.empty() ? "is empty" : ""; };
   app.add_option("episode", arguments->target, "episode file, or a run folder")
       ->capture_default_str();
   app.add_option("--set", arguments->overrides, "key=value, same keys as the file")
       ->type_size(1)
       ->allow_extra_args(false);
-  app.add_option("--seed", arguments->seed, "seed of every random stream")->check(not_empty);
+  app.add_option("--seed", arguments->seed, "seed of every random stream")->check(whole_number);
   app.add_option("--out", arguments->run.directory,
                  "run folder of an episode that runs; without it nothing is kept")
       ->check(not_empty);

@@ -187,7 +187,8 @@ Validation validate_file(const fs::path& file, const std::vector<std::string>& o
     }
     if (is_robot) return validate_robot(file);
     if (fs::is_directory(file, error)) {
-      throw InputError(file.string() + ": is a directory, expected a file");
+      throw InputError(file.string() +
+                       ": is a directory, and no robot: there is no robot.yaml in it");
     }
     if (is_episode) return validate_episode(file, overrides);
     if (is_scene) return validate_scene(file, overrides);

@@ -55,6 +55,9 @@ TEST_F(CommandLine, ExplainSaysWhatThereIsToKnow) {
                     HasSubstr("gain: beer_lambert")));
   EXPECT_THAT(vantage("explain fsmi").output, AllOf(HasSubstr("P(e_j)"), HasSubstr("[Zhang2020]")));
   EXPECT_THAT(vantage("explain 4").output, HasSubstr("diverged"));
+  EXPECT_THAT(
+      vantage("explain 'exit codes'").output,
+      AllOf(HasSubstr("4 (exit codes)"), HasSubstr("diverged"), HasSubstr("OpenGL context")));
   expect_error(vantage("explain gian.a"), 2, {"nothing is called 'gian.a'", "gain.a"});
   expect_error(vantage("explain"), 2, {"explain gain.a"});
   EXPECT_THAT(vantage("explain share_left").output,

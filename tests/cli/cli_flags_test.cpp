@@ -90,6 +90,8 @@ TEST_F(CommonFlags, QuietPrintsResultsOnly) {
 TEST_F(CommonFlags, JsonIsOneObject) {
   EXPECT_THAT(json_of("list gains")["gains"], Contains("adaptive"));
   EXPECT_TRUE(json_of("list").contains("scenes"));
+  const auto gains = nlohmann::json::parse(vantage("list -v gains --json").output)["gains"];
+  EXPECT_THAT(gains.at(0)["text"].get<std::string>(), HasSubstr("unobserved cells"));
   EXPECT_TRUE(json_of("doctor").contains("mujoco"));
   const auto files = json_of("validate nowhere.yaml", 3)["files"];
   EXPECT_EQ(files.at(0)["problems"].size(), 1U);
@@ -170,6 +172,7 @@ TEST_F(CommonFlags, TimeoutsUnitsAndYawsAreWhatTheyCanBe) {
   expect_code(3, take_in + "--depth-unit=", {"auto", "mm", "m", "1", "0.0001"});
   expect_code(2, take_in + "--depth-unit=", {"0", "-1", "1.01", "1x", "cm"});
   expect_code(3, take_in + "--view-yaw=", {"front=10", "a=b=3", "top=-7.5"});
+  expect_code(2, "run --dry-run --seed=", {"abc", "-1", "1.5", "1e3", "99999999999999999999"});
   expect_code(2, take_in + "--view-yaw=", {"front", "=3", "front=", "front=left"});
 }
 

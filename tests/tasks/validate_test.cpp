@@ -42,7 +42,7 @@ TEST(ValidateFile, SaysWhatItDoesNotKnow) {
   const support::TemporaryDirectory folder;
   EXPECT_THAT(problem(folder / "none.yaml"), HasSubstr("none.yaml: no such file"));
   EXPECT_EQ(validate_file(folder / "none.yaml").code, ExitCode::bad_input);
-  EXPECT_THAT(problem(folder.path()), HasSubstr(": is a directory, expected a file"));
+  EXPECT_THAT(problem(folder.path()), HasSubstr("there is no robot.yaml in it"));
   write_file(folder / "a.txt", "text");
   EXPECT_THAT(problem(folder / "a.txt"), HasSubstr("a.txt: unknown kind of file '.txt'"));
   write_file(folder / "e.yml", "nonsense: 1\n");

@@ -67,6 +67,7 @@ std::vector<ReferenceEntry> find_entries(const std::vector<ReferenceEntry>& all,
   };
   take([&](const ReferenceEntry& entry) { return entry.name == name; });
   take([&](const ReferenceEntry& entry) { return entry.name.ends_with("." + std::string(name)); });
+  take([&](const ReferenceEntry& entry) { return entry.place == name; });
   if (names_beginning(all, name).size() == 1) {
     const std::string whole = names_beginning(all, name).front();
     take([&](const ReferenceEntry& entry) { return entry.name == whole; });

@@ -41,8 +41,8 @@ std::vector<ReferenceEntry> entries_of(const std::vector<KeyDescription>& keys,
 /// Fills in the keys below of those that are sections.
 void add_keys_below(std::vector<ReferenceEntry>& all);
 
-/// Those of that name; else those whose name ends so, as a of gain.a; else those of the only name
-/// that begins so. Empty if there are none.
+/// Those of that name; else those whose name ends so, as a of gain.a; else all of that place; else
+/// those of the only name that begins so. Empty if there are none.
 std::vector<ReferenceEntry> find_entries(const std::vector<ReferenceEntry>& all,
                                          std::string_view name);
 /// The names that begin so, each once, without those in a section among them.
