@@ -63,6 +63,21 @@ TEST(ShortestRoute, GoesThroughPlacesOutOfReachTooIfItMust) {
   EXPECT_TRUE(visits_all(shortest_route(costs), 3));
 }
 
+TEST(SearchedRoute, GoesLastWhereItCannotGet) {
+  Rng rng(5);
+  for (int k = 0; k < 20; ++k) {
+    RouteCosts costs = random_costs(kExactRoutePlaces, rng);
+    const auto hidden = static_cast<Eigen::Index>(k % kExactRoutePlaces);
+    costs.cost.row(hidden).setConstant(std::numeric_limits<double>::infinity());
+    costs.cost.col(hidden).setConstant(std::numeric_limits<double>::infinity());
+    auto order = searched_route(costs, std::nullopt);
+    ASSERT_TRUE(visits_all(order, kExactRoutePlaces));
+    EXPECT_EQ(order.back(), static_cast<std::size_t>(hidden));
+    order.pop_back();
+    EXPECT_TRUE(std::isfinite(route_cost(costs, order)));
+  }
+}
+
 TEST(SearchedRoute, IsSeldomMuchLongerThanTheShortest) {
   Rng rng(3);
   double sum = 0.0;
@@ -139,15 +154,18 @@ TEST(SearchedRoute, GoesRoundACircleInOrder) {
 }
 
 /// No way leads to any of them from the start.
-TEST(SearchedRoute, BeginsWithTheFirstOfPlacesOutOfReach) {
+TEST(SearchedRoute, GoesOnTheShortestWayFromOutOfReach) {
   constexpr double kOutOfReach = std::numeric_limits<double>::infinity();
   EXPECT_EQ(searched_route({Eigen::MatrixXd::Constant(2, 1, kOutOfReach)}, std::nullopt),
             test::Order{0});
-  RouteCosts costs{Eigen::MatrixXd(3, 2)};
-  costs.cost << 0.0, 1.0,  //
-      1.0, 0.0,            //
-      kOutOfReach, kOutOfReach;
-  EXPECT_EQ(searched_route(costs, std::nullopt), (test::Order{0, 1}));
+  for (const bool first_is_first : {true, false}) {
+    RouteCosts costs{Eigen::MatrixXd(3, 2)};
+    costs.cost << 0.0, first_is_first ? 1.0 : 5.0,  //
+        first_is_first ? 5.0 : 1.0, 0.0,            //
+        kOutOfReach, kOutOfReach;
+    EXPECT_EQ(searched_route(costs, std::nullopt),
+              first_is_first ? (test::Order{0, 1}) : (test::Order{1, 0}));
+  }
 }
 
 TEST(ShortestRoute, OfEqualOnesIsAlwaysTheSame) {
