@@ -17,7 +17,7 @@ class DrawableMap {
 
   [[nodiscard]] const OccupancyGrid& grid() const { return grid_; }
   /// A drawn map: each unobserved cell lets through all or nothing. Its utility is the number of
-  /// cells that it stands for.
+  /// cells in it, known ones included.
   [[nodiscard]] Attenuation draw(Rng& rng) const;
 
  private:

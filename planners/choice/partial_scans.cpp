@@ -28,7 +28,8 @@ std::vector<std::size_t> all_images(const SweepImages& images) {
 }  // namespace
 
 CellBlocks blocks_of(const GridFrame& frame, double block_m) {
-  return {frame.cells, (block_m / frame.cell_size_m.array()).round().cast<int>().max(1)};
+  const Eigen::Array3d cells = (block_m / frame.cell_size_m.array()).round();
+  return {frame.cells, cells.min(frame.cells.cast<double>()).cast<int>().max(1)};
 }
 
 ImagesOfViews worthwhile_images(const PartialScans& scans, const GridFrame& frame,

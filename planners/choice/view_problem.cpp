@@ -104,6 +104,12 @@ ImagesOfViews take_partial_scans(const ViewPlanningInput& input, const CellBlock
   return taken;
 }
 
+/// Of a gain that cannot be swept. What is seen is not known in beams, say: it counts for nothing.
+double unit_of_a_cell(const Gain& gain) {
+  const std::string_view unit = unit_of(gain);
+  return unit == "bits" || unit == "cells" ? 1.0 : 0.0;
+}
+
 /// Of the gain, if it can be swept.
 std::optional<Attenuation> attenuation_of(const ViewPlanningInput& input) {
   if (!can_sweep(input.gain)) return std::nullopt;
@@ -150,7 +156,7 @@ ShownBlocks truly_shown(const ViewPlanningInput& input, const CellBlocks& blocks
 PlanningProblem make_view_problem(const ViewPlanningInput& input,
                                   const ViewPlanningOptions& options) {
   const std::optional<Attenuation> attenuation = attenuation_of(input);
-  const double unit = attenuation ? attenuation->utility : 1.0;
+  const double unit = attenuation ? attenuation->utility : unit_of_a_cell(input.gain);
   PlanningProblem problem = with_ways(input, options, shown_by(input, options, attenuation), unit);
   const CellBlocks planned_blocks = blocks_of(input.map.grid.frame, options.block_m);
   const ImagesOfViews taken = take_partial_scans(input, planned_blocks, problem);

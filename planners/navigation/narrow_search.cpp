@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
 #include "vantage/planners/navigation/narrow_poses.hpp"
 
@@ -224,10 +225,11 @@ class PassageSearch {
   }
 
   void run() {
-    while (!queue_.empty()) {
+    for (std::size_t settled = 1; !queue_.empty();) {
       const auto [cost, id] = queue_.top();
       queue_.pop();
       if (cost > cost_of(id)) continue;
+      if (settled++ % kNodesBetweenPolls == 0) poll_stop();
       if (is_node(id)) {
         step_from_passage(id);
       } else {

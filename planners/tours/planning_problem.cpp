@@ -54,8 +54,8 @@ bool is_affordable(const PlanningProblem& problem, std::span<const std::size_t> 
     scanned_s += problem.scan_s_of(view);
     at = view;
   }
-  if (!std::isfinite(driven_s)) return false;
   if (!problem.home_s.empty()) driven_s += problem.home_s[at];
+  if (!std::isfinite(driven_s)) return false;
   return driven_s + scanned_s <= problem.left.time_s &&
          problem.energy_j(driven_s, scanned_s) <= problem.left.energy_j;
 }

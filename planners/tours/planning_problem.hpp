@@ -43,7 +43,7 @@ struct PlanningProblem {
   /// Per view: what lies behind what all views show, that this one leads to, in the unit of the
   /// gain. Only views that nobody can propose yet will show it. Empty: nothing is known of it.
   std::vector<double> beyond;
-  double seen = 0.0;           ///< what is observed already, in the unit of the gain
+  double seen = 0.0;  ///< what is observed already, in the unit of the gain; 0: not known in it
   double pace_per_s = 0.0;     ///< at which it was observed; 0: unknown, nothing beyond counts
   Eigen::MatrixXd travel_s;    ///< (n + 1) x n, from row to column; row n is where the robot stands
   std::vector<double> home_s;  ///< per view, and last from here: the way home; empty: none is kept

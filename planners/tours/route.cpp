@@ -13,6 +13,14 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
+/// A leg that cannot be gone costs more than all that can: differences stay numbers.
+RouteCosts finite_costs(RouteCosts costs) {
+  const auto finite = costs.cost.array().isFinite();
+  const double beyond = 1.0 + finite.select(costs.cost.array(), 0.0).sum();
+  costs.cost = finite.select(costs.cost.array(), beyond).eval();
+  return costs;
+}
+
 /// Shortest ways from the start through every set of places to each of its members.
 /// [HeldKarp1962]
 class ExactRoutes {
@@ -58,8 +66,7 @@ class ExactRoutes {
     for (std::size_t before = 0; before < n_; ++before) {
       if ((rest >> before & 1U) == 0) continue;
       const double cost = best_[entry(rest, before)] + leg(before, last);
-      // The first way counts even where it is infinitely long, so that there is one.
-      if (cost >= best && from_[entry(set, last)] != n_) continue;
+      if (cost >= best) continue;
       best = cost;
       from_[entry(set, last)] = before;
     }
@@ -96,8 +103,9 @@ std::vector<std::size_t> shortest_route(const RouteCosts& costs, std::optional<s
           "costs between all places and from the start");
   expects(!last || *last < costs.places(), "a last place among the places");
   if (costs.places() == 0) return {};
-  if (costs.places() <= kExactRoutePlaces) return ExactRoutes(costs).route(last);
-  return searched_route(costs, last);
+  const RouteCosts finite = finite_costs(costs);
+  if (costs.places() <= kExactRoutePlaces) return ExactRoutes(finite).route(last);
+  return searched_route(finite, last);
 }
 
 }  // namespace vantage

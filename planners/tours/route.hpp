@@ -11,7 +11,7 @@ namespace vantage {
 
 /// Between n places and from a start: entry (i, j) from place i to place j, row n from the start.
 struct RouteCosts {
-  Eigen::MatrixXd cost;  ///< (n + 1) x n, at least 0
+  Eigen::MatrixXd cost;  ///< (n + 1) x n, at least 0; infinity: no way
 
   [[nodiscard]] std::size_t places() const { return static_cast<std::size_t>(cost.cols()); }
 };

@@ -14,18 +14,10 @@ constexpr std::size_t kLongestMoved = 3;
 /// A move must save more than rounding does.
 constexpr double kLeastSaved = 1e-9;
 
-/// A leg that cannot be gone costs more than all that can: differences stay numbers.
-RouteCosts finite_costs(RouteCosts costs) {
-  const auto finite = costs.cost.array().isFinite();
-  const double beyond = 1.0 + finite.select(costs.cost.array(), 0.0).sum();
-  costs.cost = finite.select(costs.cost.array(), beyond).eval();
-  return costs;
-}
-
 class RouteSearch {
  public:
   RouteSearch(const RouteCosts& costs, std::optional<std::size_t> last)
-      : costs_(finite_costs(costs)), last_(last) {}
+      : costs_(costs), last_(last) {}
 
   Order run() {
     insert_all();
@@ -124,7 +116,7 @@ class RouteSearch {
     return any;
   }
 
-  RouteCosts costs_;
+  const RouteCosts& costs_;
   std::optional<std::size_t> last_;
   Order order_;
 };

@@ -22,6 +22,7 @@ Views covering(const PlanningProblem& problem, Views views, double share) {
   while (!views.empty() && shown.total() < enough) {
     const auto best = std::ranges::max_element(
         views, {}, [&](std::size_t view) { return shown.of_adding(view); });
+    if (shown.of_adding(*best) <= 0.0) break;  // rounding alone keeps it from all there is
     shown.add(*best);
     chosen.push_back(*best);
     views.erase(best);

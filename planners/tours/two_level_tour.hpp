@@ -35,7 +35,7 @@ struct TwoLevelTour {
     f("region_m", region_m,
       "edge of the squares that far views are gathered in; higher plans the far route more "
       "coarsely",
-      above(0.0));
+      at_least(0.01));
   }
   PlannedViews operator()(const PlanningProblem& problem, Rng& rng) const;
 };

@@ -70,7 +70,7 @@ double ForecastInterval::width() const {
   const auto n = static_cast<double>(scores_.size());
   const double rank = std::ceil((1.0 - miss_) * (n + 1.0));
   const auto index = static_cast<std::size_t>(std::clamp(rank, 1.0, n)) - 1;
-  // Beyond all errors so far it widens on.
+  // Beyond all errors so far it is half as wide again, where [Gibbs2021] has all there is.
   return scores_[index] * (rank > n ? 1.5 : 1.0);
 }
 

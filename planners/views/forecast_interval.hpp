@@ -1,5 +1,5 @@
 /// How far off a forecast of new cells may be: an interval that the truth is in with a stated
-/// confidence, whatever the errors are like.  [Gibbs2021]
+/// confidence, whatever the errors are like, as long as none is 1.5 times any before.  [Gibbs2021]
 #pragma once
 
 #include <array>

@@ -27,7 +27,8 @@ struct FrontierOptions {
       "greatest extent of a frontier cluster; longer ones are split; lower proposes more "
       "candidates",
       above(0.0));
-    f("height_m", height_m, "world z of the candidate views: that of the sensor");
+    f("height_m", height_m, "world z of the candidate views: that of the sensor",
+      between(-1e6, 1e6));
     f("height_band_m", height_band_m,
       "lowest and highest world z of frontier cells, which spares views of floor and ceiling; "
       "null: all heights count");

@@ -17,7 +17,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::size_t kMaxViews = 20'000;  // stations are compared pair by pair
+constexpr std::size_t kMaxViews = 20'000;  // a file of more is most likely not one of views
 
 enum Column : std::size_t { kX, kY, kZ, kYaw, kPitch, kId, kColumns };
 constexpr std::array<std::string_view, kColumns> kNames{"x_m",     "y_m",       "z_m",

@@ -43,8 +43,11 @@ CellRegion region_of_sweeps(const GridFrame& frame, const Eigen::Vector3d& p_m, 
   // Interpolation reads beside what is seen, and row loops whole lanes.
   const Eigen::Array3i margin = more.max(2 * kLanes);
   const Eigen::Vector3d range = Eigen::Vector3d::Constant(range_m);
-  const Eigen::Array3i begin = (frame.cell_at(p_m - range) - margin).max(0).min(frame.cells);
-  return {begin, (frame.cell_at(p_m + range) + margin + 1).min(frame.cells).max(begin)};
+  const Eigen::AlignedBox3d box = frame.box();
+  const Eigen::Vector3d low_m = (p_m - range).cwiseMax(box.min());
+  const Eigen::Vector3d high_m = (p_m + range).cwiseMin(box.max());
+  const Eigen::Array3i begin = (frame.cell_at(low_m) - margin).max(0).min(frame.cells);
+  return {begin, (frame.cell_at(high_m) + margin + 1).min(frame.cells).max(begin)};
 }
 
 SweepAxes sweep_axes(int w) {

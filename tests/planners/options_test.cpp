@@ -62,7 +62,7 @@ TEST(PlannerOptions, OfChoices) {
                  {{"lambda_per_s", 0.05, kNotNegativeOption}, {"nodes", 1000, between(1, 1000)}});
   expect_numbers(TwoLevelTour{}, {{"horizon_s", 12.0, above(0.0)},
                                   {"cover", 0.9, kPositiveShareOption},
-                                  {"region_m", 4.0, above(0.0)}});
+                                  {"region_m", 4.0, at_least(0.01)}});
   expect_numbers(TourChoice{}, {{"finish_weight", 0.5, kShareOption},
                                 {"worth_s", 3000.0, kNotNegativeOption},
                                 {"scan_weight", 1.5, between(1.0, 100.0)},
@@ -132,7 +132,7 @@ TEST(PlannerOptions, OfViews) {
   constexpr double kPi = std::numbers::pi;
   expect_numbers(FrontierOptions{}, {{"min_cells", 20, at_least(1)},
                                      {"max_extent_m", 3.0, above(0.0)},
-                                     {"height_m", 1.05},
+                                     {"height_m", 1.05, between(-1e6, 1e6)},
                                      {"height_band_m", kNull}});
   expect_numbers(SampledViews{}, {{"positions", 30, between(1, 1000)},
                                   {"headings", 8, between(1, 20)},

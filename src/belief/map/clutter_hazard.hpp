@@ -78,7 +78,7 @@ class ClutterHazard {
   [[nodiscard]] double crossings(int layer) const { return sum_of_layer(crossings_, layer); }
   [[nodiscard]] double hits(int layer) const { return sum_of_layer(hits_, layer); }
 
-  /// Posterior means, per cell entered, in (0, 1).
+  /// Posterior means, per cell entered; in (0, 1) with a prior, without one 0 and 1 too.
   [[nodiscard]] double global_hazard() const;
   [[nodiscard]] double hazard(int layer) const;
   [[nodiscard]] double global_transmission() const { return 1.0 - global_hazard(); }

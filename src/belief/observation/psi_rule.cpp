@@ -133,7 +133,9 @@ std::vector<double> CalibratedPsi::operator()(const PsiContext& context) const {
   expects(held_out.log_density.size() == context.models.size(), "densities of every feature");
   const std::vector<Eigen::MatrixXf> scores = scores_of(held_out);
   const Eigen::MatrixXf none;
-  const int group = about_object ? held_out.bins : 1;
+  // Of a single object nothing is to be known but its pose.
+  const bool several_objects = scores.front().rows() > held_out.bins;
+  const int group = about_object && several_objects ? held_out.bins : 1;
   std::vector<double> psi;
   for (const Eigen::MatrixXf& score : scores) {
     psi.push_back(most_likely_psi({score, none, held_out.state, group}));

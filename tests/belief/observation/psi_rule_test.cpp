@@ -134,6 +134,13 @@ TEST(CalibratedPsi, AboutObjectsDoesNotMindMistakesOfPose) {
   EXPECT_LT(CalibratedPsi{.about_object = false}(world.context())[0], 0.2);
 }
 
+TEST(CalibratedPsi, OfASingleObjectIsThatOfItsPoses) {
+  World world = make_world({10, 1}, {1.0, 1.5}, 1000);
+  world.held_out.bins = kStates;
+  EXPECT_EQ(CalibratedPsi{}(world.context()),
+            CalibratedPsi{.about_object = false}(world.context()));
+}
+
 TEST(CalibratedPsi, AboutObjectsIsWhereTheLikelihoodPeaks) {
   World world = make_world({3}, {1.5}, 2000);
   world.held_out.bins = 2;

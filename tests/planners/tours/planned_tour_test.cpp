@@ -172,6 +172,10 @@ TEST(IsAffordable, CountsDrivesScansAndTheWayHome) {
   problem.left = {.scans = 0};
   EXPECT_FALSE(is_affordable(problem, std::vector<std::size_t>{2}));
   EXPECT_TRUE(affordable_views(problem).empty());
+  problem.left = {};
+  EXPECT_TRUE(is_affordable(problem, order));
+  problem.home_s[2] = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(is_affordable(problem, order)) << "no way home, with no limit either";
 }
 
 /// Cells of its own, and half of those that the first view shows too.

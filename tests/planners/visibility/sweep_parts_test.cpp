@@ -287,6 +287,15 @@ TEST(Pyramids, AreLookedIntoByViewsThatReachThem) {
             (std::vector{true, false, false, false, false, false}));
 }
 
+TEST(RegionOfSweeps, IsAllOfTheGridForASensorThatSeesFarBeyond) {
+  const GridFrame frame = make_grid_frame({0.0, 0.0, 0.0}, {4.0, 6.0, 6.0}, {40, 60, 60});
+  for (const double range_m : {20.0, 1e9, 1e30}) {
+    const CellRegion region =
+        region_of_sweeps(frame, {1.0, 1.0, 1.0}, range_m, Eigen::Array3i::Zero());
+    EXPECT_TRUE((region.begin == 0).all() && (region.end == frame.cells).all()) << range_m;
+  }
+}
+
 TEST(SweepTables, HaveTheDepthOfEachBlockAlongEveryAxis) {
   const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {4.0, 6.0, 6.0}, {4, 6, 6}));
   BlockField transmission{.layout = {.cells = grid.frame.cells, .blocks = {2, 3, 3}},
