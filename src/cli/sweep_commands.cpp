@@ -28,7 +28,7 @@ void add_overrides(CLI::App& app, SweepArguments& arguments) {
 
 void add_split(CLI::App& app, SweepArguments& arguments) {
   app.add_option("--split", arguments.split,
-                 "of the study's splits, the one to run; default: the first");
+                 "of the study's splits, the one that is meant; default: the first");
 }
 
 void add_shard(CLI::App& app, SweepArguments& arguments) {
@@ -105,11 +105,11 @@ constexpr SweepVerb kSweepVerbs[] = {
        add_keep_states(app, arguments);
      }},
     {"status", "what runs, waits, is missing, failed; exit 1 unless all is there",
-     print_study_status, [](CLI::App&, SweepArguments&) {}},
+     print_study_status, add_split},
     {"cancel", "end what was submitted; results so far are kept", cancel_study,
      [](CLI::App&, SweepArguments&) {}},
     {"collect", "merge the results to tables and figures; exit 1 unless all is there",
-     collect_study, [](CLI::App&, SweepArguments&) {}},
+     collect_study, add_split},
 };
 
 }  // namespace

@@ -65,9 +65,10 @@ Json branched_json(const BranchedDecision& decision) {
 }
 
 std::string branched_text(const BranchedDecision& decision) {
-  std::string text =
-      fmt::format("decision after scan {}\n  view  {:>12}  new cells  seconds   way m   cells/s\n",
-                  decision.scan, decision.gain_unit);
+  std::string text = fmt::format(
+      "decision after scan {}; new cells are of those that can be observed\n"
+      "  view  {:>12}  new cells  seconds   way m   cells/s\n",
+      decision.scan, decision.gain_unit);
   for (const Branch& branch : decision.branches) {
     text += fmt::format("{} {:>4}  {:>12.1f}  {:>9}  {:>7.1f}  {:>6.2f}  {:>8.1f}{}\n",
                         branch.chosen ? '*' : ' ', branch.view, branch.gain,

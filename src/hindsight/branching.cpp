@@ -128,12 +128,16 @@ void require_decision(const RecordedRun& run, long long scan) {
                                 scan, run.directory.string(), run.scans.size(), decisions));
 }
 
+void require_view(const RecordedRun& run, std::size_t scan, int view) {
+  const int views = run.scans[scan].candidates;
+  if (view >= 0 && view < views) return;
+  throw ConfigError(fmt::format("--view: {}: the decision after scan {} has views 0 to {}", view,
+                                scan, views - 1));
+}
+
 std::size_t takeable(const DecisionRequest& request, int view) {
   const auto found = std::ranges::find(request.candidates, view, &Candidate::id);
-  if (found == request.candidates.end()) {
-    throw ConfigError(fmt::format("--view: {}: the decision after scan {} has views 0 to {}", view,
-                                  request.situation.scans, request.candidates.size() - 1));
-  }
+  expects(found != request.candidates.end(), "a view of the decision");
   const auto index = static_cast<std::size_t>(found - request.candidates.begin());
   try {
     check_decision(index, request);
@@ -145,6 +149,7 @@ std::size_t takeable(const DecisionRequest& request, int view) {
 
 RunOutcome run_branch(const RecordedRun& run, std::size_t scan, std::optional<int> view,
                       RunOptions options) {
+  if (view) require_view(run, scan, *view);
   if (view && was_chosen_outside(run)) refuse_to_go_on(run);
   const RecordedDecisions recorded(run);
   const auto decide = [&](const DecisionRequest& request) -> OutsideDecision {

@@ -53,6 +53,8 @@ bool was_chosen_outside(const RecordedRun& run);
 
 /// @throws ConfigError unless a decision was taken after that scan
 void require_decision(const RecordedRun& run, long long scan);
+/// The same of a view that it did not have, of a decision that was taken.
+void require_view(const RecordedRun& run, std::size_t scan, int view);
 
 /// Index of the view of that number. @throws ConfigError if it cannot be taken
 std::size_t takeable(const DecisionRequest& request, int view);

@@ -270,6 +270,7 @@ void draw_without_threads() {
 std::vector<BranchedDecision> branch_views(const RecordedRun& run, const BranchRequest& request) {
   for (const std::size_t scan : request.scans) {
     require_decision(run, static_cast<long long>(scan));
+    if (request.view) require_view(run, scan, *request.view);
   }
   if (request.then > 0 && was_chosen_outside(run)) refuse_to_go_on(run);
   draw_without_threads();

@@ -51,7 +51,8 @@ RecordedScan read_scan(const MetricsReader& scan) {
           .path_length_m = scan.get<double>("path_length_m"),
           .scan_time_s = scan.get<double>("scan_time_s"),
           .cells_left = scan.get<std::size_t>("observable_unobserved_cells"),
-          .chosen_view = scan.get<int>("chosen_view")};
+          .chosen_view = scan.get<int>("chosen_view"),
+          .candidates = scan.get<int>("candidates")};
 }
 
 }  // namespace
@@ -60,6 +61,7 @@ RecordedRun read_recorded_run(const fs::path& directory) {
   RecordedRun run;
   run.directory = directory;
   run.episode = load_recorded(directory);
+  run.episode.setup.name = fs::absolute(directory / "").lexically_normal().parent_path().filename();
   run.version = recorded_version(directory);
   const fs::path file = directory / "metrics.json";
   const Json metrics = read_object(file);

@@ -16,6 +16,7 @@ struct RecordedScan {
   double scan_time_s = 0.0;
   std::size_t cells_left = 0;  ///< observable, and not observed yet
   int chosen_view = -1;
+  int candidates = 0;  ///< that it was chosen from
 };
 
 struct RecordedRun {

@@ -31,6 +31,22 @@ TEST_F(CommandLine, ASweepKeepsWholeRunsIfToldTo) {
   }
 }
 
+/// The second episode would take far longer than the first.
+TEST_F(CommandLine, AnInterruptedSweepCollectsWhatThereIs) {
+  file("two.yaml", R"(episode: assets/episodes/tabletop.yaml
+set: {laser.scan_duration_s: 1, map.cells: [9, 9, 5]}
+factors: {length: {short: {scans: 1}, long: {scans: 900}}}
+splits: {all: {length: [short, long]}}
+)");
+  const Result result = interrupted("sweep run two.yaml --out dir --jobs 1",
+                                    "[ -f dir/episodes/short/metrics.json ]", "TERM");
+  EXPECT_EQ(result.exit_code, 143);
+  EXPECT_THAT(result.output, HasSubstr("1 completed"));
+  EXPECT_THAT(read_file(folder_ / "dir/results.csv"), HasSubstr("\nshort,short,completed,"));
+  const Result status = vantage("sweep status two.yaml --out dir --split all --json");
+  EXPECT_EQ(json::parse(status.output)["completed"], 1);
+}
+
 TEST_F(CommandLine, WhatWasNotSubmittedCannotBeCancelled) {
   fs::create_directories(folder_ / "study");
   file("study/study.yaml", kStudy);
@@ -198,6 +214,8 @@ TEST_F(SlurmStandIns, AWorkerRunsWhatIsLeft) {
   const Result second = sweep("work dir");
   EXPECT_EQ(second.exit_code, 0) << second.output;
   EXPECT_THAT(second.output, HasSubstr("0 episodes run, 0 completed\n"));
+  EXPECT_EQ(json::parse(sweep("work dir --json 2>/dev/null").output),
+            json({{"run", 0}, {"completed", 0}}));
   EXPECT_FALSE(fs::exists(folder_ / "dir/results.csv")) << "a worker does not collect";
   EXPECT_EQ(sweep("submit two.yaml --out dir 2>/dev/null").output,
             "dir: every episode has a result; nothing is submitted. vantage sweep collect dir "

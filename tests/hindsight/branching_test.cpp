@@ -117,7 +117,10 @@ TEST_F(Branches, ThatCannotBeAreRefused) {
     EXPECT_THROW(branch_views(run, {.scans = {scan}}), ConfigError) << scan;
   }
   EXPECT_THROW(branch_views(run, {.scans = {1}, .all = false, .view = 30}), ConfigError);
-  EXPECT_THROW(run_branch(run, 1, -1, lean("again")), ConfigError);
+  for (const int view : {-1, 30}) {
+    EXPECT_THROW(run_branch(run, 1, view, lean("again")), ConfigError);
+  }
+  EXPECT_FALSE(std::filesystem::exists(lean("again").directory)) << "nothing was repeated";
 }
 
 TEST_F(Branches, AreKeptDecisionByDecision) {

@@ -169,7 +169,7 @@ BranchedDecision two_branches() {
 
 TEST(BranchedText, HasARowForEachView) {
   EXPECT_EQ(branched_text(two_branches()),
-            "decision after scan 2\n"
+            "decision after scan 2; new cells are of those that can be observed\n"
             "  view         cells  new cells  seconds   way m   cells/s\n"
             "*    4          12.3         40     10.0    2.00       4.0\n"
             "    11           5.0       none      0.0    0.00       0.0  not reached\n"

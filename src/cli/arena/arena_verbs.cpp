@@ -82,8 +82,8 @@ ExitCode run_plan(const Study& study, const std::vector<PlannedEpisode>& plan,
   }
   run_sweep(plan, options);
   if (arguments.bounds) add_bounds(arguments.directory, plan);
-  if (interrupt_signal() != 0) return static_cast<ExitCode>(128 + interrupt_signal());
-  return write_all(arguments.directory, arguments.json);
+  const ExitCode code = write_all(arguments.directory, arguments.json);
+  return interrupt_signal() == 0 ? code : static_cast<ExitCode>(128 + interrupt_signal());
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ constexpr auto kExitCodes = std::to_array<RecordText>({
     {"exit codes", "1",
      "a comparison or a goal failed: compare beyond the tolerance, a replay that differs, an "
      "episode that failed"},
-    {"exit codes", "2", "usage or configuration: the command line, a key or a value"},
+    {"exit codes", "2",
+     "usage or configuration: the command line, a key or a value, YAML that is none"},
     {"exit codes", "3", "a file given by the user cannot be used"},
     {"exit codes", "4", "the simulation diverged; what there is has been written"},
     {"exit codes", "5", "output could not be written"},

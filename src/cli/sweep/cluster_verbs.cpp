@@ -112,7 +112,11 @@ ExitCode work_on_study(const SweepArguments& arguments) {
   const SweepEnd end = run_sweep(plan_study(opened.study), options);
   const auto completed = std::ranges::count_if(
       end.run, [&](std::size_t episode) { return end.states[episode] == EpisodeState::completed; });
-  log_info(fmt::format("{} episodes run, {} completed", end.run.size(), completed));
+  if (arguments.json) {
+    fmt::print("{}", json_text({{"run", end.run.size()}, {"completed", completed}}));
+  } else {
+    log_info(fmt::format("{} episodes run, {} completed", end.run.size(), completed));
+  }
   if (interrupt_signal() != 0) return static_cast<ExitCode>(128 + interrupt_signal());
   return completed == std::ssize(end.run) ? ExitCode::done : ExitCode::goal_failed;
 }

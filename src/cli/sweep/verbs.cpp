@@ -102,7 +102,7 @@ ExitCode run_study(const SweepArguments& arguments) {
   prepare_study_folder(opened.study, options);
   catch_interrupts();
   run_sweep(plan, options);
-  if (interrupt_signal() == 0) collect(arguments, opened.directory);
+  collect(arguments, opened.directory);
   const auto states = episode_states(opened.directory, plan);  // others may have ended theirs
   print_status(arguments, opened.directory, plan, states);
   if (interrupt_signal() != 0) return static_cast<ExitCode>(128 + interrupt_signal());
