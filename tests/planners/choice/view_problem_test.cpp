@@ -435,13 +435,6 @@ TEST(ViewProblem, AnImageIsTakenFromAShareOfTheKnownCellsOn) {
   expect(0.05, 1.0, 320.0);   // 400: the best one all the same
 }
 
-TEST(BlocksOf, AnEdgeBeyondTheGridIsOneBlock) {
-  const Room room;
-  for (const double edge_m : {100.0, 1e9, 1e300}) {
-    EXPECT_EQ(blocks_of(room.grid.frame, edge_m).size(), 1U) << edge_m;
-  }
-}
-
 /// A lookout is weighed as the view of a problem from there, with what is known in the gain's unit.
 TEST(ImagesOfALookout, AreWeighedAsThoseOfAView) {
   const Room room;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/core/rng.hpp"
+#include "vantage/planners/choice/partial_scans.hpp"
 #include "vantage/planners/visibility/block_sums.hpp"
 #include "vantage/planners/visibility/pyramid.hpp"
 #include "vantage/planners/visibility/sweep_kernels.hpp"
@@ -285,6 +286,13 @@ TEST(Pyramids, AreLookedIntoByViewsThatReachThem) {
       << "of flat cells many are above";
   EXPECT_EQ(pyramids_seen(1.0, {0.2, 1.0, 1.0}),
             (std::vector{true, false, false, false, false, false}));
+}
+
+TEST(BlocksOf, AnEdgeBeyondTheGridIsOneBlock) {
+  const GridFrame frame = make_grid_frame({0.0, 0.0, 0.0}, {4.0, 3.0, 2.0}, {40, 30, 20});
+  for (const double edge_m : {100.0, 1e9, 1e300}) {
+    EXPECT_EQ(blocks_of(frame, edge_m).size(), 1U) << edge_m;
+  }
 }
 
 TEST(RegionOfSweeps, IsAllOfTheGridForASensorThatSeesFarBeyond) {
