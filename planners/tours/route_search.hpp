@@ -10,7 +10,8 @@
 namespace vantage {
 
 /// Cheapest insertion, then 2-opt and Or-opt moves as long as one makes it shorter. [Or1976]
-/// @param costs finite @param last where it ends, if given; of any number of places, at least 1
+/// @param costs finite, as shortest_route() makes them @param last where it ends, if given; of any
+/// number of places, at least 1
 std::vector<std::size_t> searched_route(const RouteCosts& costs, std::optional<std::size_t> last);
 
 }  // namespace vantage

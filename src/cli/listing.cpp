@@ -131,9 +131,10 @@ nlohmann::ordered_json listing_json(std::string_view wanted, bool explained) {
   nlohmann::ordered_json listing;
   for (const Topic* topic : topics(wanted)) {
     nlohmann::ordered_json& entries = listing[std::string(topic->name)];
-    entries = topic->entries();
-    if (!explained || topic->family.empty()) continue;
-    entries.clear();
+    if (!explained || topic->family.empty()) {
+      entries = topic->entries();
+      continue;
+    }
     for (const ReferenceEntry& entry : strategies(topic->family)) {
       entries.push_back(entry_json(entry));
     }

@@ -175,6 +175,9 @@ TEST_F(ScoreViewsCommand, OptionsThatDoNotGoTogether) {
   expect_error(score(these + "--set views.positions=3"), 2, {"views", "--views"});
   expect_error(score(these + "--set region.min_m=[9,9,9]"), 2, {"region", "room.bt", "[2, 2, 2]"});
   expect_error(score("--map room.bt --set views.height_m=7"), 3, {"room.bt", "views.height_m"});
+  const Result seed = score("--map room.bt --seed x");
+  EXPECT_EQ(seed.exit_code, 2);
+  EXPECT_THAT(seed.output, AllOf(HasSubstr("--seed: "), HasSubstr("'x'")));
   EXPECT_EQ(score("").exit_code, 2);
   EXPECT_EQ(score("--map room.bt --views ''").exit_code, 2);
 }

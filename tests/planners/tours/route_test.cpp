@@ -158,6 +158,18 @@ TEST(SearchedRoute, GoesRoundACircleInOrder) {
   EXPECT_NEAR(route_cost(costs, order), kPlaces * (at(0) - at(1)).norm(), 1e-9);
 }
 
+/// No way leads to any of them from the start.
+TEST(SearchedRoute, BeginsWithTheFirstOfPlacesOutOfReach) {
+  constexpr double kOutOfReach = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(searched_route({Eigen::MatrixXd::Constant(2, 1, kOutOfReach)}, std::nullopt),
+            test::Order{0});
+  RouteCosts costs{Eigen::MatrixXd(3, 2)};
+  costs.cost << 0.0, 1.0,  //
+      1.0, 0.0,            //
+      kOutOfReach, kOutOfReach;
+  EXPECT_EQ(searched_route(costs, std::nullopt), (test::Order{0, 1}));
+}
+
 TEST(ShortestRoute, OfEqualOnesIsAlwaysTheSame) {
   const RouteCosts costs{Eigen::MatrixXd::Constant(4, 3, 1.0)};
   EXPECT_EQ(shortest_route(costs), (test::Order{2, 1, 0}));
