@@ -8,6 +8,7 @@
 
 #include "bench/measures.hpp"
 #include "bench/situation.hpp"
+#include "vantage/planners/choice/partial_scans.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/swept_blocks.hpp"
 #include "vantage/planners/swept_gain.hpp"
@@ -82,12 +83,8 @@ class Timed : public Parts {
     std::vector<Candidate> views;
     for (const std::size_t i : open_candidates(candidates)) views.push_back(candidates[i]);
     const GainContext map{belief_.filled_grid(), &transmission};
-    const GridFrame& frame = map.grid.frame;
-    const CellBlocks blocks{
-        frame.cells,
-        (options_.planning.block_m / frame.cell_size_m.array()).round().cast<int>().max(1)};
     swept_blocks(attenuation_of(options_.gain, map), map.grid, views, this->robot_.view_field(),
-                 blocks, threads_);
+                 blocks_of(map.grid.frame, options_.planning.block_m), threads_);
   }
 
   const MappingOptions options_;
