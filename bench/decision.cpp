@@ -18,10 +18,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEpisode = "assets/episodes/tabletop.yaml";
 
-std::vector<Situation> situations_of_scene(int objects, const fs::path& directory) {
+std::vector<Situation> situations_of_scene(int objects, const fs::path& directory,
+                                           std::string& configuration) {
   const auto resolved =
       load_episode(kEpisode, {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects)});
   const RunRequest request = lean_request(resolved, directory);
+  configuration += request.config;
   TabletopSession<Watched<TabletopParts>> session(request, std::get<Tabletop>(resolved.task));
   run_episode(session.parts);
   return std::move(session.parts.situations);
@@ -50,7 +52,7 @@ Situation resampled(const Situation& s, double cells_per_cell) {
 }
 
 /// From an eighth to eight times the cells of the table top's map.
-void print_scaling(const Situation& situation) {
+void print_scaling(const Situation& situation, const std::string& configuration) {
   std::vector<std::pair<std::string, double>> figures;
   std::vector<double> log_cells;
   std::vector<double> log_ms;
@@ -65,7 +67,7 @@ void print_scaling(const Situation& situation) {
     log_ms.push_back(std::log(ms));
   }
   figures.emplace_back("exponent", slope(log_cells, log_ms));
-  print_figures("scaling", kThreads, figures);
+  print_figures("scaling", kThreads, configuration, figures);
 }
 
 void run_benchmark() {
@@ -73,8 +75,9 @@ void run_benchmark() {
   fs::create_directories(directory);
   Agreement agreement;
   std::vector<Situation> timed;
+  std::string configuration;
   for (const int objects : {4, 8, 15, 25}) {
-    const auto situations = situations_of_scene(objects, directory);
+    const auto situations = situations_of_scene(objects, directory, configuration);
     for (const Situation& situation : situations) {
       agreement.compare(SimpleGain{}, situation);
       agreement.compare(AdaptiveGain{}, situation);
@@ -86,8 +89,8 @@ void run_benchmark() {
   const Task task = load_episode(kEpisode, {}).task;
   const auto beams = laser_beams(std::get<Tabletop>(task).laser);
   const double castray = castray_ms(first, beams, first.views.size());
-  print_decision("decision", time_both(AdaptiveGain{}, first), castray, agreement);
-  print_scaling(first);
+  print_decision("decision", configuration, time_both(AdaptiveGain{}, first), castray, agreement);
+  print_scaling(first, configuration);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ side by side as VECTOR says.
 
 import csv
 import functools
+import hashlib
 import json
 import statistics
 import subprocess
@@ -112,8 +113,10 @@ def main(programs):
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         cpu = next((line.split(":", 1)[1].strip() for line in file if line.startswith("model name")), "unknown")
     commit = vantage.version().split("(")[-1].rstrip(")")
-    print(json.dumps({"name": "env", "commit": commit, "cpu": cpu, "threads": 1, "figures": figures},
-                     separators=(",", ":")))
+    configuration = json.dumps([SMALL, VECTOR, FIELD], sort_keys=True)
+    config_hash = hashlib.sha256(configuration.encode()).hexdigest()[:16]
+    print(json.dumps({"name": "env", "commit": commit, "config_hash": config_hash, "cpu": cpu, "threads": 1,
+                      "figures": figures}, separators=(",", ":")))
 
 
 if __name__ == "__main__":  # processes of the vector environment import this file

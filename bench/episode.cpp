@@ -66,10 +66,8 @@ class Timed : public Parts {
 
 /// @tparam Session of Timed parts
 template <class Session, class Task>
-void measure(const std::string& task, const char* file, const fs::path& directory,
-             std::vector<std::pair<std::string, double>>& figures,
-             const std::vector<std::string>& overrides = {"scans=6"}) {
-  const auto resolved = load_episode(file, overrides);
+void measure(const std::string& task, const ResolvedEpisode& resolved, const fs::path& directory,
+             std::vector<std::pair<std::string, double>>& figures) {
   const RunRequest request = lean_request(resolved, directory);
   Session session(request, std::get<Task>(resolved.task));
   const auto& episode = session.parts;
@@ -89,8 +87,7 @@ void measure(const std::string& task, const char* file, const fs::path& director
 }
 
 /// A flight has few parts to tell apart: nearly all of it is physics and pictures.
-double flight_real_time_factor(const char* file, const fs::path& directory) {
-  const auto resolved = load_episode(file, {});
+double flight_real_time_factor(const ResolvedEpisode& resolved, const fs::path& directory) {
   RunOptions options;
   options.directory = directory;
   options.overwrite = true;
@@ -99,30 +96,41 @@ double flight_real_time_factor(const char* file, const fs::path& directory) {
   return nlohmann::json::parse(outcome.metrics).at("real_time_factor");
 }
 
-/// @param small the small map that environments are measured by, on one thread, and nothing else
+using TabletopTimed = TabletopSession<Timed<TabletopParts>>;
+
+/// The small map that environments are measured by, on one thread.
+void measure_small(const fs::path& directory) {
+  std::vector<std::pair<std::string, double>> figures;
+  const auto resolved =
+      load_episode("assets/episodes/tabletop.yaml",
+                   {"scans=10", "threads=1", "map.cells=[49,49,25]", "laser.scan_duration_s=3"});
+  measure<TabletopTimed, Tabletop>("small", resolved, directory, figures);
+  print_figures("episode_small", 1, episode_yaml(resolved), figures);
+}
+
+void measure_all(const fs::path& directory) {
+  std::vector<std::pair<std::string, double>> figures;
+  std::string configuration;
+  const auto load = [&](const std::string& name, const std::vector<std::string>& overrides) {
+    auto resolved = load_episode("assets/episodes/" + name + ".yaml", overrides);
+    configuration += episode_yaml(resolved);
+    return resolved;
+  };
+  measure<TabletopTimed, Tabletop>("tabletop", load("tabletop", {"scans=6"}), directory, figures);
+  measure<ExplorationSession<Timed<ExplorationParts>>, Exploration>(
+      "office", load("office_small", {"scans=6"}), directory, figures);
+  for (const std::string task : {"recognition", "change_detection", "trajectory"}) {
+    figures.emplace_back(task + "_real_time_factor",
+                         flight_real_time_factor(load(task, {}), directory));
+  }
+  print_figures("episode", 2, configuration, figures);
+}
+
 void run_benchmark(bool small) {
   const fs::path directory = fs::temp_directory_path() / "vantage_bench_episode";
   fs::create_directories(directory);
-  std::vector<std::pair<std::string, double>> figures;
-  using TabletopTimed = TabletopSession<Timed<TabletopParts>>;
-  if (small) {
-    measure<TabletopTimed, Tabletop>(
-        "small", "assets/episodes/tabletop.yaml", directory, figures,
-        {"scans=10", "threads=1", "map.cells=[49,49,25]", "laser.scan_duration_s=3"});
-    fs::remove_all(directory);
-    print_figures("episode_small", 1, figures);
-    return;
-  }
-  measure<TabletopTimed, Tabletop>("tabletop", "assets/episodes/tabletop.yaml", directory, figures);
-  measure<ExplorationSession<Timed<ExplorationParts>>, Exploration>(
-      "office", "assets/episodes/office_small.yaml", directory, figures);
-  for (const std::string task : {"recognition", "change_detection", "trajectory"}) {
-    const std::string file = "assets/episodes/" + task + ".yaml";
-    figures.emplace_back(task + "_real_time_factor",
-                         flight_real_time_factor(file.c_str(), directory));
-  }
+  small ? measure_small(directory) : measure_all(directory);
   fs::remove_all(directory);
-  print_figures("episode", 2, figures);
 }
 
 }  // namespace

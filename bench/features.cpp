@@ -11,6 +11,8 @@
 
 #include "bench/measures.hpp"
 #include "tests/support/object_views.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/perception/features/feature.hpp"
 
 namespace vantage::bench {
@@ -36,14 +38,14 @@ Feature full_size(std::string_view name) {
   return feature;
 }
 
-double cost_ms(std::string_view name, const std::vector<ObjectView>& training,
+double cost_ms(const Feature& feature, const std::vector<ObjectView>& training,
                const std::vector<ObjectView>& views) {
   Rng rng(1);
-  const TrainedFeature feature = train_feature(full_size(name), training, rng);
-  log_info(fmt::format("{}: {} dimensions", name, feature.dimension()));
+  const TrainedFeature trained = train_feature(feature, training, rng);
+  log_info(fmt::format("{}: {} dimensions", trained.name(), trained.dimension()));
   std::size_t next = 0;
   return median_ms(kRepeats, [&] {
-    expects(feature.extract(views[next++ % views.size()]).extracted(), "a ball has every feature");
+    expects(trained.extract(views[next++ % views.size()]).extracted(), "a ball has every feature");
   });
 }
 
@@ -52,7 +54,14 @@ void run_benchmark() {
   Rng rng(1);
   const std::vector<ObjectView> training = ball_views(kTrainingViews, kTrainingSide_px, rng);
   const std::vector<ObjectView> views = ball_views(kViews, kSide_px, rng);
-  const auto cost = [&](std::string_view name) { return cost_ms(name, training, views); };
+  std::string configuration =
+      fmt::format("views: {{of: {}, side_px: {}}}\ntraining: {{of: {}, side_px: {}}}\n", kViews,
+                  kSide_px, kTrainingViews, kTrainingSide_px);
+  const auto cost = [&](std::string_view name) {
+    const Feature feature = full_size(name);
+    configuration += to_yaml(write_node(feature));
+    return cost_ms(feature, training, views);
+  };
   std::vector<std::pair<std::string, double>> figures{
       {"colour_ms", cost(Colour::name)},    {"soft_colour_ms", cost(SoftColour::name)},
       {"bbox_ms", cost(BoundingBox::name)}, {"standing_box_ms", cost(StandingBox::name)},
@@ -64,7 +73,7 @@ void run_benchmark() {
     sum_ms += ms;
   }
   figures.emplace_back("kernel_ms", sum_ms);
-  print_figures("features", 1, figures);
+  print_figures("features", 1, configuration, figures);
 }
 
 }  // namespace

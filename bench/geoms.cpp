@@ -20,10 +20,12 @@ using support::BoxBodies;
 
 double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+constexpr const char* kEpisode = "assets/episodes/office_small.yaml";
+constexpr const char* kScans = "scans=6";
+
 void measure(const std::string& name, const fs::path& scene, const fs::path& directory,
              std::vector<std::pair<std::string, double>>& figures) {
-  const auto resolved =
-      load_episode("assets/episodes/office_small.yaml", {"scans=6", "scene=" + scene.string()});
+  const auto resolved = load_episode(kEpisode, {kScans, "scene=" + scene.string()});
   const RunRequest request = lean_request(resolved, directory / "run");
   const double start_s = wall_s();
   const double start_cpu_s = cpu_s();
@@ -47,7 +49,10 @@ void run_benchmark() {
   const fs::path directory = fs::temp_directory_path() / "vantage_bench_geoms";
   fs::create_directories(directory);
   std::vector<std::pair<std::string, double>> figures;
+  std::string configuration = episode_yaml(load_episode(kEpisode, {kScans}));
   const auto furnished = [&](const std::string& name, int boxes, BoxBodies bodies) {
+    configuration +=
+        fmt::format("{}: {{boxes: {}, a_body_each: {}}}\n", name, boxes, bodies == BoxBodies::each);
     const fs::path scene = directory / (name + ".xml");
     write_file(scene, support::furnished_office(boxes, bodies));
     measure(name, scene, directory, figures);
@@ -57,7 +62,7 @@ void run_benchmark() {
   furnished("boxes_2000", 2000, BoxBodies::one);
   furnished("bodies_2000", 2000, BoxBodies::each);
   fs::remove_all(directory);
-  print_figures("geoms", kThreads, figures);
+  print_figures("geoms", kThreads, configuration, figures);
 }
 
 }  // namespace

@@ -155,12 +155,14 @@ void run_benchmark() {
   double spearman_min = 1.0;
   double regret_max = 0.0;
   std::vector<double> relative_errors;
+  std::string configuration;
   for (const int objects : {8, 25}) {
     const auto resolved =
         load_episode("assets/episodes/tabletop.yaml",
                      {fmt::format("scene=models/scenes/tabletop_{}/scene.xml", objects), "scans=4",
                       "metrics.predictors=[simple]"});
     const RunRequest request = lean_request(resolved, directory);
+    configuration += request.config;
     TabletopSession<Watched<TabletopParts>> session(request, std::get<Tabletop>(resolved.task));
     run_episode(session.parts);
     for (const Situation& s : session.parts.situations) {
@@ -178,7 +180,7 @@ void run_benchmark() {
   fs::remove_all(directory);
   const double mean_error = std::accumulate(relative_errors.begin(), relative_errors.end(), 0.0) /
                             static_cast<double>(relative_errors.size());
-  print_figures("hmm", kThreads,
+  print_figures("hmm", kThreads, configuration,
                 {{"spearman_min", spearman_min},
                  {"regret_max", regret_max},
                  {"relative_error_mean", mean_error},

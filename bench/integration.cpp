@@ -126,7 +126,8 @@ void run_benchmark() {
   fs::create_directories(directory);
   const auto resolved = load_episode("assets/episodes/office_small.yaml", {"scans=4"});
   const auto& task = std::get<Exploration>(resolved.task);
-  const std::vector<Scan> scans = scans_of_office(task, lean_request(resolved, directory));
+  const RunRequest request = lean_request(resolved, directory);
+  const std::vector<Scan> scans = scans_of_office(task, request);
   fs::remove_all(directory);
 
   constexpr int kRepeats = 3;
@@ -163,7 +164,7 @@ void run_benchmark() {
   add("octomap_known_cells", every.octomap);
   add("both_know_cells", every.both);
   add("same_state_share", every.same / every.both);
-  print_figures("integration", 1, figures);
+  print_figures("integration", 1, request.config, figures);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "vantage/core/hash.hpp"
+
 namespace vantage::bench {
 namespace {
 
@@ -66,11 +68,12 @@ double slope(std::span<const double> x, std::span<const double> y) {
   return m.ab / m.aa;
 }
 
-void print_figures(const std::string& name, int threads,
+void print_figures(const std::string& name, int threads, const std::string& configuration,
                    const std::vector<std::pair<std::string, double>>& figures) {
   nlohmann::ordered_json object;
   object["name"] = name;
   object["commit"] = VANTAGE_GIT_COMMIT;
+  object["config_hash"] = hash_text(hash_bytes(configuration));
   object["cpu"] = cpu_name();
   object["threads"] = threads;
   object["figures"] = nlohmann::ordered_json::object();

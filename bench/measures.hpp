@@ -38,8 +38,10 @@ double spearman(std::span<const double> a, std::span<const double> b);
 /// Of the least-squares line through points (x, y).
 double slope(std::span<const double> x, std::span<const double> y);
 
-/// One line of JSON: {name, commit, cpu, threads, figures}.
-void print_figures(const std::string& name, int threads,
+/// One line of JSON: {name, commit, config_hash, cpu, threads, figures}.
+/// @param configuration YAML of what is measured, episodes or strategies with their options; its
+///     hash is printed
+void print_figures(const std::string& name, int threads, const std::string& configuration,
                    const std::vector<std::pair<std::string, double>>& figures);
 
 /// Exit code of a benchmark; user errors are told.

@@ -17,9 +17,11 @@ constexpr const char* kLarge = "assets/episodes/office_large.yaml";
 /// Every `kEvery`-th decision is held against exact rays: each of those takes a while.
 constexpr std::size_t kEvery = 4;
 
-std::vector<Situation> situations_of(const char* episode_file, const fs::path& directory) {
+std::vector<Situation> situations_of(const char* episode_file, const fs::path& directory,
+                                     std::string& configuration) {
   const auto resolved = load_episode(episode_file, {"scans=14"});
   const RunRequest request = lean_request(resolved, directory);
+  configuration += request.config;
   ExplorationSession<Watched<ExplorationParts>> session(request,
                                                         std::get<Exploration>(resolved.task));
   run_episode(session.parts);
@@ -36,8 +38,9 @@ void run_benchmark() {
   fs::create_directories(directory);
   Agreement agreement;
   const Situation* most = nullptr;
-  const std::vector<Situation> small = situations_of(kSmall, directory);
-  const std::vector<Situation> large = situations_of(kLarge, directory);
+  std::string configuration;
+  const std::vector<Situation> small = situations_of(kSmall, directory, configuration);
+  const std::vector<Situation> large = situations_of(kLarge, directory, configuration);
   for (const auto* situations : {&small, &large}) {
     for (const Situation& situation : *situations) {
       agreement.compare(SimpleGain{}, situation);
@@ -49,8 +52,9 @@ void run_benchmark() {
   const Task task = load_episode(kSmall, {}).task;
   const auto beams = image_beams(std::get<Exploration>(task).camera, most->field);
   const double castray = castray_ms(*most, beams, kThreads);  // a view is millions of rays
-  print_decision("office", time_both(AdaptiveGain{}, *most), castray, agreement);
-  print_figures("office_views", kThreads, {{"views", static_cast<double>(most->views.size())}});
+  print_decision("office", configuration, time_both(AdaptiveGain{}, *most), castray, agreement);
+  print_figures("office_views", kThreads, configuration,
+                {{"views", static_cast<double>(most->views.size())}});
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ class Timed : public Parts {
 };
 
 template <class Session>
-void print_planning(const std::string& name, Session& session) {
+void print_planning(const std::string& name, const std::string& configuration, Session& session) {
   run_episode(session.parts);
   std::vector<double> decision_ms;
   for (std::size_t i = 2; i < session.parts.scans().size(); ++i) {
@@ -101,7 +101,7 @@ void print_planning(const std::string& name, Session& session) {
   }
   const auto& parts = session.parts.parts_ms;
   const double all = median(decision_ms);
-  print_figures(name, kThreads,
+  print_figures(name, kThreads, configuration,
                 {{"decision_ms", all},
                  {"decision_ms_max", *std::ranges::max_element(decision_ms)},
                  {"sweep_share", median(parts.sweep) / all},
@@ -117,7 +117,7 @@ void run_benchmark() {
     const auto resolved = load_episode("assets/episodes/tabletop.yaml", {"choice=tour"});
     const RunRequest request = lean_request(resolved, directory);
     TabletopSession<Timed<TabletopParts>> session(request, std::get<Tabletop>(resolved.task));
-    print_planning("planning_tabletop", session);
+    print_planning("planning_tabletop", request.config, session);
   }
   for (const char* office : {"office_small", "office_large"}) {
     const auto resolved =
@@ -125,7 +125,7 @@ void run_benchmark() {
     const RunRequest request = lean_request(resolved, directory);
     ExplorationSession<Timed<ExplorationParts>> session(request,
                                                         std::get<Exploration>(resolved.task));
-    print_planning(fmt::format("planning_{}", office), session);
+    print_planning(fmt::format("planning_{}", office), request.config, session);
   }
   fs::remove_all(directory);
 }

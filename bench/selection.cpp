@@ -2,6 +2,7 @@
 // each of 51 categories and of none, seven turns, the dissertation's simple features, all of them
 // to be extracted there. And the time it takes to load a model of the flights' features.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <ctime>
@@ -9,6 +10,8 @@
 
 #include "bench/measures.hpp"
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/planners/objects/object_view_choice.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
 
@@ -157,11 +160,17 @@ void run_benchmark() {
   Rng rng(1);
   Decision decision(rng);
   const Time tables = decision.build_tables();
-  const Time mi = decision.time(MutualInformation{});
+  std::string configuration = fmt::format("objects: {}\ncategories: {}\ndimensions: [{}]\n",
+                                          kObjects, kCategories, fmt::join(kDimensions, ", "));
+  const auto time = [&](const ObjectViewChoice& choice) {
+    configuration += to_yaml(write_node(choice));
+    return decision.time(choice);
+  };
+  const Time mi = time(MutualInformation{});
   const Time mi_without_tables = decision.time(MutualInformation{}, false);
-  const Time le = decision.time(LossOfEntropy{.samples = 64});
-  const Time jd = decision.time(JeffreysDivergence{});
-  print_figures("selection", kThreads,
+  const Time le = time(LossOfEntropy{.samples = 64});
+  const Time jd = time(JeffreysDivergence{});
+  print_figures("selection", kThreads, configuration,
                 {{"mi_ms", mi.wall_ms},
                  {"mi_cpu_ms", mi.cpu_ms},
                  {"mi_without_tables_ms", mi_without_tables.wall_ms},

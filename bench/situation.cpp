@@ -77,9 +77,9 @@ double castray_ms(const Situation& s, std::span<const Eigen::Vector3d> beams,
   return mean_ms * static_cast<double>(s.views.size()) / kThreads;
 }
 
-void print_decision(const std::string& name, const Timings& timings, double castray_ms,
-                    const Agreement& agreement) {
-  print_figures(name, kThreads,
+void print_decision(const std::string& name, const std::string& configuration,
+                    const Timings& timings, double castray_ms, const Agreement& agreement) {
+  print_figures(name, kThreads, configuration,
                 {{"sweep_ms", timings.sweep_ms},
                  {"exact_ms", timings.exact_ms},
                  {"castray_ms", castray_ms},

@@ -71,7 +71,8 @@ double castray_ms(const Situation& situation, std::span<const Eigen::Vector3d> b
                   std::size_t timed_views);
 
 /// One line of JSON with the figures of the contract.
-void print_decision(const std::string& name, const Timings& timings, double castray_ms,
-                    const Agreement& agreement);
+/// @param configuration YAML of the episodes that built the maps
+void print_decision(const std::string& name, const std::string& configuration,
+                    const Timings& timings, double castray_ms, const Agreement& agreement);
 
 }  // namespace vantage::bench

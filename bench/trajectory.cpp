@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "bench/measures.hpp"
+#include "vantage/core/fields.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/planners/trajectory/replanning.hpp"
 #include "vantage/planners/trajectory/simple_paths.hpp"
 
@@ -76,8 +78,10 @@ void run_benchmark() {
   const Flight flight(rng);
   std::vector<std::pair<std::string, double>> figures;
   std::vector<std::pair<std::string, double>> costs;
+  std::string configuration = to_yaml(write_node(FlightCostOptions{}));
   for (const std::string_view name : strategy_names<TrajectoryOptimiser>()) {
     const auto optimiser = make_strategy<TrajectoryOptimiser>(name);
+    configuration += to_yaml(write_node(optimiser));
     std::vector<double> times_ms;
     double left = 0.0;  // share of the cost that was there before
     int evaluations = 0;
@@ -105,7 +109,7 @@ void run_benchmark() {
                          const Esdf again(surface.frame(), occupied);
                          expects(again.at_centres_m()[0] == surface.at_centres_m()[0], "the same");
                        }));
-  print_figures("trajectory", 1, figures);
+  print_figures("trajectory", 1, configuration, figures);
 }
 
 }  // namespace

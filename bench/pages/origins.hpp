@@ -13,7 +13,8 @@ namespace vantage::bench {
 
 /// Where a benchmark ran.
 struct BenchmarkOrigin {
-  std::string commit;  ///< with its mark
+  std::string commit;       ///< with its mark
+  std::string config_hash;  ///< of what was measured; "" of files that were written before it was
   int threads = 0;
   std::string cpu;
 };

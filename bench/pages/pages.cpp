@@ -29,12 +29,15 @@ std::string threads_of(const std::string& key, const Json& figures, int threads)
 }
 
 std::string figures_table(const Figures& all, const Origins& origins) {
-  std::string text = "| benchmark | figure | | commit, threads, CPU |\n|---|---|---|---|\n";
+  std::string text =
+      "| benchmark | figure | | commit, configuration, threads, CPU |\n|---|---|---|---|\n";
   for (const auto& [name, figures] : all) {
     for (const auto& [key, value] : figures.items()) {
       const BenchmarkOrigin& origin = origins.at(name);
-      text += fmt::format("| {} | `{}` | {:.5g} | {}, {}, {} |\n", name, key, value.get<double>(),
-                          origin.commit, threads_of(key, figures, origin.threads), origin.cpu);
+      text += fmt::format("| {} | `{}` | {:.5g} | {}, {}, {}, {} |\n", name, key,
+                          value.get<double>(), origin.commit,
+                          origin.config_hash.empty() ? "not recorded" : origin.config_hash,
+                          threads_of(key, figures, origin.threads), origin.cpu);
     }
   }
   return text;

@@ -185,7 +185,7 @@ Benchmarks read_benchmarks(const fs::path& directory) {
     const auto name = benchmark.at("name").get<std::string>();
     all.figures.emplace(name, benchmark.at("figures"));
     all.origins[name] = {marked_commit(name, benchmark.at("commit").get<std::string>(), file),
-                         benchmark.at("threads").get<int>(),
+                         benchmark.value("config_hash", ""), benchmark.at("threads").get<int>(),
                          benchmark.at("cpu").get<std::string>()};
   }
   return all;
