@@ -167,9 +167,9 @@ inline const std::map<std::string, Rooms> kAllowed{
     {"cli/scene", {"core", "geometry", "building", "runtime"}},
     {"cli/sweep", kGround + kRuntime + kStudy + Rooms{"cli/hints", "tasks"}},
     {"cli/validation", {"core", "geometry", "recipe", "study", "tasks"}},
-    {"cli/reference",
-     kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
-         Rooms{"belief/objects", "belief/observation", "cli/hints", "dataset", "recipe", "tasks"}},
+    {"cli/reference", kGround + kPerception + kPlanners + kSim + kRuntime + kRecognition + kStudy +
+                          Rooms{"belief/objects", "belief/observation", "cli/hints", "dataset",
+                                "hindsight", "recipe", "tasks"}},
     {"cli/manual", {"core"}},
     {"cli/schema", kGround + kPerception + kSim + kRuntime + kRecognition + kStudy +
                        Rooms{"dataset", "recipe", "tasks"}},

@@ -67,9 +67,9 @@ class Interval {
 
 constexpr auto kText = R"(How far off a forecast of new cells may be.
 
-An interval that the truth is in with the share `confidence`, whatever the errors are like:
-adaptive conformal inference on ln(actual / forecast), which begins with the errors of training
-scenes and goes on with those that observe() takes in. trained names these scenes: "rooms", of
+An interval that the truth is in with the share `confidence`, whatever the errors are like, as long
+as none is 1.5 times any before: adaptive conformal inference on ln(actual / forecast), which begins
+with the errors of training scenes and goes on with those that observe() takes in. trained names these scenes: "rooms", of
 sweeps from place to place, or "tables", of scans round a worktop. Options: confidence (0.9), rate
 (0.03, how fast it widens after a miss). [Gibbs2021]
 )";

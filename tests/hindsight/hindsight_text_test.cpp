@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 
 #include "tests/support/temporary_directory.hpp"
+#include "tests/tasks/undescribed.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/hindsight/branching.hpp"
+#include "vantage/hindsight/hindsight_records.hpp"
 #include "vantage/hindsight/run_bound.hpp"
 
 namespace vantage {
@@ -346,6 +349,25 @@ TEST(RecordedRuns, WereChosenOutsideIfTheirChoiceOrTheirNameIsAnothers) {
   run.episode.task = asking;
   run.method = method_name(run.episode.task);
   EXPECT_TRUE(was_chosen_outside(run)) << run.method;
+}
+
+TEST(HindsightRecords, SayWhatEveryKeyMeansAndNoOther) {
+  const test::Described described(hindsight_records());
+  std::set<std::string> written;
+  const auto take = [&](const std::string& file, const TextJson& json) {
+    std::set<std::string> keys;
+    test::collect_keys(nlohmann::json::parse(json.dump()), "", keys);
+    for (const std::string& key : keys) {
+      EXPECT_TRUE(described.has(file, key)) << file << ": " << key;
+      written.insert(file + ":" + key);
+    }
+  };
+  take("bound.json", run_bound_json(told_bound()));
+  take("branches.json", {{"decisions", TextJson::array({branched_json(two_branches())})}});
+  for (const RecordText& record : hindsight_records()) {
+    const std::string name = std::string(record.file) + ":" + std::string(record.name);
+    EXPECT_TRUE(written.contains(name)) << name << " is written nowhere";
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "vantage/cli/reference/entry.hpp"
+#include "vantage/hindsight/hindsight_records.hpp"
 #include "vantage/study/study_records.hpp"
 #include "vantage/tasks/task.hpp"
 
@@ -68,6 +69,7 @@ std::vector<ReferenceEntry> record_entries() {
     entries.push_back(entry_of(record));
     entries.back().applies = {fmt::format("task: {}", fmt::join(tasks, " or "))};
   }
+  for (const RecordText& record : hindsight_records()) entries.push_back(entry_of(record));
   for (const RecordText& record : study_records()) entries.push_back(entry_of(record));
   for (const RecordText& code : kExitCodes) entries.push_back(entry_of(code));
   return entries;
