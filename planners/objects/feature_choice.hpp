@@ -26,7 +26,7 @@ struct GainBelow {
   void fields(auto&& f) {
     f("threshold", threshold,
       "gain, in bits or with `per_cost` in bits/s, below which no further feature is extracted; "
-      "higher stops earlier; 0: never",
+      "higher stops earlier; 0: only below a gain that comes out negative",
       at_least(0.0));
   }
   [[nodiscard]] bool operator()(double best, std::optional<double> /*last*/) const {

@@ -157,7 +157,12 @@ py::dict ActiveRecogniser::next_feature(const std::vector<std::string>& extracte
 py::dict ActiveRecogniser::next_view(const std::optional<std::vector<double>>& turns) {
   std::vector<double> turns_rad = turns.value_or(std::vector<double>{});
   const double bin_rad = recogniser_.states.bin_rad();
-  for (int i = 1; !turns && i < recogniser_.states.bins; ++i) turns_rad.push_back(i * bin_rad);
+  for (int i = 1; !turns && i < recogniser_.states.bins; ++i) {
+    if (p_unseen_side(recogniser_, options_, known_, i * bin_rad) <= 0.5) {
+      turns_rad.push_back(i * bin_rad);
+    }
+  }
+  if (!turns && turns_rad.empty()) refuse("turns_rad", "the model knows no other side to look at");
   if (turns_rad.empty() || turns_rad.size() > 3600) refuse("turns_rad", "not 1 to 3600 of them");
   std::vector<ObjectViewAction> actions;
   for (const double turn : turns_rad) {

@@ -84,7 +84,8 @@ void bind_recognition(py::module_& module) {
            "`gain_bits`, what each not in `extracted` is expected to tell.")
       .def("next_view", &Active::next_view, py::arg("turns_rad") = py::none(),
            "Where to look next: dict of `turn_rad` about the object, of `turns_rad` (default: by "
-           "whole yaw bins), and `gain_bits`, what each is expected to tell.")
+           "whole yaw bins to sides that the model has views of), and `gain_bits`, what each is "
+           "expected to tell.")
       .def_property_readonly("posterior", &Active::posterior,
                              "p(object, yaw bin), (objects, bins); the rest to 1 is `p_unknown`.")
       .def_property_readonly(

@@ -83,16 +83,6 @@ std::optional<double> motion_before(const RecogniseArguments& arguments,
   return std::remainder(*before - *now, 2.0 * std::numbers::pi);
 }
 
-/// The camera moved, nobody knows how far: the object stays, its yaw may be any. What is unknown
-/// has none.
-void forget_yaw(const ObjectStates& states, ObjectBelief& belief) {
-  const Eigen::VectorXd log_object = p_object(states, belief).array().log();
-  for (int k = 0; k < states.object_count(); ++k) {
-    belief.log_p.segment(states.state(k, 0), states.bins)
-        .setConstant(log_object[k] - std::log(states.bins));
-  }
-}
-
 void check(const RecogniseArguments& arguments) {
   if (arguments.files.size() % 2 != 0) {
     throw ConfigError("views are pairs of files, an image and its depth; one is missing");
@@ -151,7 +141,7 @@ void take_views(const RecogniseArguments& arguments, const RecogniseOptions& opt
       predict_motion(recogniser, options.recognition, *motion, known);
       bearing_rad += *motion;
     } else {
-      forget_yaw(recogniser.states, known.belief);
+      forget_yaw(recogniser.states, recogniser.unseen, known.belief);
       log_info(
           fmt::format("{}: how far the camera turned before is not known; --motion-deg or "
                       "--view-names tells",

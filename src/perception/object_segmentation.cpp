@@ -38,7 +38,7 @@ SegmentedObject segment_object(const CameraImages& images, const Pose& T_world_c
                                const Eigen::Vector3d& p_world_table_m,
                                const ObjectSegmentationOptions& options, Rng& rng) {
   const TableSearch found = find_table_top(images, T_world_camera, p_world_table_m, options, rng);
-  if (!found.table) return {std::nullopt, "no table: " + found.reason};
+  if (!found.table) return {std::nullopt, "no table: " + found.reason, false};
   return segment_on_table(images, T_world_camera, *found.table, p_world_table_m, options);
 }
 
@@ -46,7 +46,7 @@ SegmentedObject segment_on_table(const CameraImages& images, const Pose& T_world
                                  const TablePlane& table, const Eigen::Vector3d& p_world_table_m,
                                  const ObjectSegmentationOptions& options) {
   const cv::Rect place = place_of_column(images, T_world_camera, p_world_table_m, options);
-  if (place.empty()) return {std::nullopt, "the image does not show the place"};
+  if (place.empty()) return {std::nullopt, "the image does not show the place", false};
   const Patch patch = patch_of(images, place);
   const cv::Mat1f heights_m =
       heights_over(patch, images, T_world_camera, table, p_world_table_m, options);

@@ -45,7 +45,8 @@ struct ObjectSegmentationOptions {
 
 struct SegmentedObject {
   std::optional<ObjectView> view;
-  std::string reason;  ///< why there is none; empty when found
+  std::string reason;      ///< why there is none; empty when found
+  bool place_seen = true;  ///< whether the image shows where it is to stand, empty or not
 };
 
 /// The largest connected patch of what rises from the table near its middle. The table's plane is

@@ -31,6 +31,10 @@ ChangeHypotheses hypotheses(const Recogniser& recogniser, const ChangeOptions& o
   }
   h.changed.log_p.segment(states.state(object, 0), states.bins).setConstant(std::log(turned));
   h.changed.log_p[expected] = kNegInf;
+  spread_over_seen(states, recogniser.unseen, h.changed);
+  if (h.changed.log_p.maxCoeff() == kNegInf) {
+    throw ConfigError("prior_pose and prior_object: nothing that the model knows could be there");
+  }
   h.log_p_expected = std::log(1.0 - options.prior_pose - options.prior_object);
   h.log_p_changed =
       normalise_log({h.changed.log_p.data(), static_cast<std::size_t>(h.changed.log_p.size())});
@@ -51,6 +55,7 @@ class Witness {
 
   ExtractedFeature operator()(std::size_t feature) {
     ExtractedFeature extracted = extract_(feature);
+    looked_ = looked_ || extracted.place_seen;
     if (!extracted.result.extracted()) return extracted;
     if (extracted.log_likelihood.size() == 0) {
       const FeatureResult& result = extracted.result;
@@ -64,11 +69,14 @@ class Witness {
     return extracted;
   }
   [[nodiscard]] const std::vector<Eigen::VectorXd>& measured() const { return measured_; }
+  /// For a feature, at where the object is to be.
+  [[nodiscard]] bool looked() const { return looked_; }
 
  private:
   const Recogniser& recogniser_;
   const ExtractFeature& extract_;
   std::vector<Eigen::VectorXd> measured_;
+  bool looked_ = false;
 };
 
 }  // namespace
@@ -138,7 +146,11 @@ void update_with_view(const Recogniser& recogniser, const ChangeOptions& options
     weigh(h.changed, h.log_p_changed, counted);
   }
   search.recognition.belief = h.mixture();
-  search.empty_views = witness.measured().empty() ? search.empty_views + 1 : 0;
+  if (!witness.measured().empty()) {
+    search.empty_views = 0;
+  } else if (witness.looked()) {
+    ++search.empty_views;
+  }
 }
 
 void predict_motion(const Recogniser& recogniser, const ChangeOptions& options, double motion_rad,

@@ -66,8 +66,8 @@ struct ChangeOptions {
       "that are none",
       between(0.0, 1.0));
     f("empty_views", empty_views,
-      "number of views in a row without any feature after which the object is held to be removed; "
-      "higher is surer and takes longer",
+      "number of views in a row of its place without any feature after which the object is held to "
+      "be removed; higher is surer and takes longer",
       between(1, 100));
   }
   /// The priors leave some for a change and some for none; unchanged_below <= threshold <=
@@ -98,7 +98,9 @@ struct ChangeSearch {
   int expected_object = 0;
   ChangeHypotheses hypotheses;
   Recognition recognition;  ///< of what is there now: belief under both, and the views
-  int empty_views = 0;      ///< the last so many of those, without any feature
+  /// The last so many of those, without any feature; views that do not show the place, or that no
+  /// feature was asked of, do not count.
+  int empty_views = 0;
 };
 
 /// @param expected_state as the camera sees it from where it is at first

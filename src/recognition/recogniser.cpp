@@ -17,6 +17,8 @@ namespace {
 
 constexpr auto kModel = "recognition model";
 
+/// Of a feature that no view had when its time was taken: gains per cost need some.
+constexpr double kLeastCost_s = 1e-6;
 constexpr double kImpossible = -1e9;  // of a log factor; psi times it is still finite
 
 /// Tables of divergences, or none.
@@ -82,6 +84,7 @@ Recogniser assembled(ObjectStates states, std::vector<FeaturePair> features, int
   expects(!features.empty(), "a recogniser has features");
   Recogniser recogniser{
       .states = std::move(states), .features = {}, .tables = {}, .transition = {}};
+  recogniser.unseen = impossible;
   const int count = recogniser.states.size();
   Eigen::MatrixXf& sum = recogniser.tables.bhattacharyya_nats;
   if (tables == Tables::made) sum.setZero(count, count);
@@ -103,6 +106,7 @@ Recogniser make_named_recogniser(const RecognitionModel& model, const Recogniser
   for (const FeatureModel* feature : wanted) {
     ObservationModel observation =
         make_observation_model(*feature, model.states.bins, floored(model, options.variance));
+    observation.cost_s = std::max(observation.cost_s, kLeastCost_s);
     if (unknown) {
       observation = with_unknown(std::move(observation), model.states, *feature->unknown);
     }

@@ -31,6 +31,7 @@ struct Recogniser {
   DivergenceTables tables;  ///< of all features together
   /// As the model learnt it; RecognitionOptions::transition `learned` without slips means this.
   LearnedTransition transition = {};
+  std::vector<int> unseen = {};   ///< states that no view can be of, see unseen_states()
   double unknown_prior = 0.0;     ///< of the hypotheses of unknown objects, if there are any
   double view_correlation = 0.0;  ///< see view_weight()
 };

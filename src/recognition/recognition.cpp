@@ -1,6 +1,7 @@
 #include "vantage/recognition/recognition.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "vantage/belief/objects/view_weight.hpp"
 #include "vantage/core/log.hpp"
@@ -82,7 +83,9 @@ ExtractFeature extract_from(const Recogniser& recogniser, const ObjectView& view
 }
 
 Recognition begin_recognition(const Recogniser& recogniser) {
-  return {.belief = prior_belief(recogniser.states, recogniser.unknown_prior), .views = {}};
+  ObjectBelief belief = prior_belief(recogniser.states, recogniser.unknown_prior);
+  spread_over_seen(recogniser.states, recogniser.unseen, belief);
+  return {.belief = std::move(belief), .views = {}};
 }
 
 double next_view_weight(const Recogniser& recogniser, const Recognition& recognition) {
@@ -127,6 +130,15 @@ std::optional<RecognitionEnd> recognition_end(const Recogniser& recogniser,
     return RecognitionEnd::max_views;
   }
   return std::nullopt;
+}
+
+double p_unseen_side(const Recogniser& recogniser, const RecognitionOptions& options,
+                     const Recognition& recognition, double motion_rad) {
+  Recognition there{.belief = recognition.belief, .views = {}};
+  predict_motion(recogniser, options, motion_rad, there);
+  const Eigen::VectorXd p = p_state(there.belief);
+  const double p_known = p.head(recogniser.states.known_size()).sum();
+  return p_known > 0.0 ? p(recogniser.unseen).sum() / p_known : 0.0;
 }
 
 NextView next_view(const Recogniser& recogniser, const RecognitionOptions& options,

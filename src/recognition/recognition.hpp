@@ -45,6 +45,7 @@ struct ExtractedFeature {
   double time_s = 0.0;
   /// Of every state, psi included, where the caller has it from before; empty: of `result`.
   Eigen::VectorXd log_likelihood = {};
+  bool place_seen = true;  ///< whether the view shows where the object is to be, empty or not
 };
 /// Extracts the feature of that index from the view at hand.
 using ExtractFeature = std::function<ExtractedFeature(std::size_t feature)>;
@@ -74,6 +75,7 @@ struct Recognition {
   std::vector<ViewReport> views;
 };
 
+/// Nothing seen yet; states that no view can be of have no probability.
 Recognition begin_recognition(const Recogniser& recogniser);
 
 /// What the next view counts: views repeat each other, but for those that told nothing.
@@ -94,6 +96,11 @@ enum class RecognitionEnd { sure, max_views };
 std::optional<RecognitionEnd> recognition_end(const Recogniser& recogniser,
                                               const RecognitionOptions& options,
                                               const Recognition& recognition);
+
+/// How probable it is that, after such a turn, a known object shows a side that the model has no
+/// view of, given that it is a known one; 0 if it cannot be one.
+double p_unseen_side(const Recogniser& recogniser, const RecognitionOptions& options,
+                     const Recognition& recognition, double motion_rad);
 
 /// Which of `actions` to take next, and how long the choice took. The belief is not changed.
 struct NextView {

@@ -216,6 +216,46 @@ TEST_F(ChangeOfOnePose, AFeatureThatFitsNothingTellsNothing) {
   EXPECT_EQ(search_.empty_views, 0);
 }
 
+TEST_F(ChangeOfOnePose, AViewThatDoesNotShowThePlaceIsNotEmpty) {
+  const auto look = [&](bool place_seen) {
+    const auto extract = [&](std::size_t) {
+      ExtractedFeature nothing{.result = FeatureResult::skip("nothing")};
+      nothing.place_seen = place_seen;
+      return nothing;
+    };
+    update_with_view(recogniser_, options_, extract, 0.0, search_, rng_);
+    return search_.empty_views;
+  };
+  EXPECT_EQ(look(false), 0);
+  EXPECT_EQ(verdict(recogniser_, options_, search_), Change::none);
+  EXPECT_EQ(look(true), 1);
+  EXPECT_EQ(look(false), 1) << "the others are still in a row";
+  EXPECT_EQ(look(true), 2);
+}
+
+TEST_F(ChangeOfOnePose, AViewThatNoFeatureIsAskedOfIsNotEmpty) {
+  options_.recognition.all_features = false;
+  options_.recognition.features.stop = GainBelow{.threshold = 1e9};
+  see(-0.2, -0.1);
+  EXPECT_TRUE(search_.recognition.views[0].features.empty());
+  EXPECT_EQ(search_.empty_views, 0);
+}
+
+TEST_F(ChangeOfOnePose, SomethingMustBeAbleToBeThereInstead) {
+  Rng rng(1);
+  recogniser_ = test::made_up_recogniser(1, {1.0}, {}, rng, 2);
+  EXPECT_THROW(begin_change_search(recogniser_, options_, 0), ConfigError)
+      << "one object, which was not turned";
+}
+
+TEST(ChangeSearchBegins, WithoutTheSidesThatNoViewIsOf) {
+  Recogniser recogniser = two_of_bins(4);
+  recogniser.unseen = {2, 3, 7};
+  const ChangeOptions options{.prior_pose = 0.3, .prior_object = 0.2};
+  const ChangeSearch search = begin_change_search(recogniser, options, 0);
+  expect_belief(search.hypotheses.changed, {0, 0.6, 0, 0, 0.4 / 3.0, 0.4 / 3.0, 0.4 / 3.0, 0});
+}
+
 TEST_F(ChangeOfOnePose, WhatRulesOutAHypothesisDecidesForTheOther) {
   see(kRuledOut, -2.0);
   EXPECT_EQ(search_.hypotheses.p_changed(), 1.0);

@@ -68,6 +68,14 @@ TEST(Recogniser, TakesTheFeaturesAskedForInThatOrder) {
   EXPECT_EQ(two.features[1].extractor.name(), "bounding_box");
 }
 
+TEST(Recogniser, TakesSomeTimeForEveryFeature) {
+  RecognitionModel model = small_model();
+  model.features[1].cost_s = 0.0;
+  const Recogniser recogniser = make_recogniser(model, {}, 1);
+  EXPECT_EQ(recogniser.features[0].observation.cost_s, 0.01);
+  EXPECT_EQ(recogniser.features[1].observation.cost_s, 1e-6) << "gains per second are finite";
+}
+
 TEST(Recogniser, NamesTheFeatureThatIsNotThere) {
   expect_error([] { make_recogniser(small_model(), {.features = {"sift"}}, 1); },
                "no 'sift'; known: bounding_box, colour");

@@ -208,6 +208,28 @@ TEST_F(NearDuplicateMugs, ItEndsWhenSureOrAfterSoManyViews) {
   EXPECT_EQ(recognition_end(recogniser_, options_, recognition), RecognitionEnd::sure);
 }
 
+TEST(Recognition, BeginsWithSidesThatTheModelHasViewsOf) {
+  Rng rng(3);
+  Recogniser recogniser = test::made_up_recogniser(2, {2.0}, {}, rng, 4);
+  recogniser.states.unknown_category = {kNoCategory};
+  recogniser.unknown_prior = 0.2;
+  recogniser.unseen = {1, 2, 3, 6};
+  RecognitionOptions options;
+  options.transition = RigidTransition{.slip = 0.0};
+  const Recognition recognition = begin_recognition(recogniser);
+  const Eigen::VectorXd p = p_state(recognition.belief);
+  const double third = 0.4 / 3.0;
+  EXPECT_TRUE(p.head(8).isApprox(
+      Eigen::Vector<double, 8>(0.4, 0.0, 0.0, 0.0, third, third, 0.0, third), 1e-12));
+  EXPECT_NEAR(p[8], 0.2, 1e-12);
+  const auto unseen_after = [&](double quarters) {
+    return p_unseen_side(recogniser, options, recognition, quarters * std::numbers::pi / 2.0);
+  };
+  EXPECT_NEAR(unseen_after(0.0), 0.0, 1e-12);
+  EXPECT_NEAR(unseen_after(1.0), 0.5 + 0.5 / 3.0, 1e-12) << "bin 0 becomes 3";
+  EXPECT_NEAR(unseen_after(2.0), 0.5 + 0.5 / 3.0, 1e-12);
+}
+
 TEST(Recognition, TheYawThatACameraSeesFallsAsItsBearingRises) {
   Rng rng(3);
   const Recogniser recogniser = test::made_up_recogniser(2, {2.0}, {}, rng);

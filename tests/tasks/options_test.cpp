@@ -79,6 +79,8 @@ TEST(TaskOptions, OfFlightsRoundAnObject) {
   };
   expect_flight(RecognitionTask{});
   expect_flight(ChangeDetectionTask{});
+  EXPECT_TRUE(ChangeDetectionTask{}.decision.all_features) << "any of them could show a turn";
+  EXPECT_FALSE(ChangeDetectionTask{}.decision.views.about_object);
   expect_own_numbers(RecognitionTask{}, {{"targets", 1, between(1, 10)},
                                          {"targets_at_once", 1},
                                          {"time_limit_s", 0.0, between(0.0, 36000.0)}});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <span>
 
@@ -14,6 +15,8 @@
 
 namespace vantage {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::span<const double> entries(const Eigen::VectorXd& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
@@ -50,6 +53,31 @@ ObjectBelief prior_belief(const ObjectStates& states, double p_unknown) {
         std::log(p_unknown * share / static_cast<double>(none ? of_none : of_some));
   }
   return prior;
+}
+
+void spread_over_seen(const ObjectStates& states, std::span<const int> unseen,
+                      ObjectBelief& belief) {
+  std::map<int, Eigen::VectorXd> of_object;  // of which some are unseen
+  for (const int state : unseen) {
+    const int object = states.object_of(state);
+    const auto bins = belief.log_p.segment(states.state(object, 0), states.bins);
+    of_object.try_emplace(object, bins).first->second[states.bin_of(state)] = -kInfinity;
+  }
+  for (auto& [object, left] : of_object) {
+    auto bins = belief.log_p.segment(states.state(object, 0), states.bins);
+    const double log_left = log_sum_exp(entries(left));
+    if (log_left == -kInfinity) continue;
+    bins = left.array() + (log_sum_exp(entries(bins.eval())) - log_left);
+  }
+}
+
+void forget_yaw(const ObjectStates& states, std::span<const int> unseen, ObjectBelief& belief) {
+  const Eigen::VectorXd log_object = p_object(states, belief).array().log();
+  for (int k = 0; k < states.object_count(); ++k) {
+    belief.log_p.segment(states.state(k, 0), states.bins)
+        .setConstant(log_object[k] - std::log(states.bins));
+  }
+  spread_over_seen(states, unseen, belief);
 }
 
 void predict(ObjectBelief& belief, const ObjectStates& states, const TransitionModel& transition,

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <string>
 
 #include "vantage/belief/objects/object_states.hpp"
@@ -31,6 +32,15 @@ ObjectBelief uniform_belief(const ObjectStates& states);
 /// Uniform if there is no hypothesis of unknown objects, whatever `p_unknown` is.
 /// @param p_unknown in [0, 1)
 ObjectBelief prior_belief(const ObjectStates& states, double p_unknown);
+
+/// Within each object, the probability of the states `unseen` goes to its others, in proportion. An
+/// object that nothing would be left of keeps its own.
+void spread_over_seen(const ObjectStates& states, std::span<const int> unseen,
+                      ObjectBelief& belief);
+
+/// The camera moved, nobody knows how far: each known object's yaw may be any of those that are not
+/// `unseen`. What is unknown has none.
+void forget_yaw(const ObjectStates& states, std::span<const int> unseen, ObjectBelief& belief);
 
 /// After a motion: ln p(j) <- LSE_i [ln p(i) + ln A_ij(motion)]. No motion changes nothing. What is
 /// unknown has no yaw and remains unknown.

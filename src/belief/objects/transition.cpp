@@ -70,6 +70,10 @@ TransitionKernel RigidTransition::kernel(double motion_rad, int bins) const {
 void LearnedTransition::check() const {
   require_sum_one(same_object + other_instance + other_category,
                   "same_object, other_instance and other_category");
+  if (slip.empty() && same_object != 1.0) {
+    throw ConfigError(
+        "same_object: is of no effect without a slip: the model's own transition holds then");
+  }
   const auto bins = static_cast<std::size_t>(std::lround(std::sqrt(slip.size())));
   if (bins * bins != slip.size()) {
     throw ConfigError(fmt::format("slip has {} numbers, not bins * bins", slip.size()));

@@ -90,7 +90,8 @@ Json next_view_name(const std::optional<PictureNotes>& notes, const Recogniser& 
   return name.empty() ? Json(nullptr) : Json(name);
 }
 
-/// Where to look next, of the turns by whole bins.
+/// Where to look next, of the turns by whole bins after which the object rather shows a side that
+/// the model knows; null if there is none.
 Json next_json(const Recogniser& recogniser, const RecognitionOptions& options,
                const std::optional<PictureNotes>& notes, const Recognition& known, Rng& rng) {
   std::vector<ObjectViewAction> actions;
@@ -98,18 +99,27 @@ Json next_json(const Recogniser& recogniser, const RecognitionOptions& options,
   const double now_rad = known.views.back().view_rad;
   for (int turn = 1; turn < recogniser.states.bins; ++turn) {
     const double turn_rad = turn * bin_rad;
+    if (p_unseen_side(recogniser, options, known, turn_rad) > 0.5) continue;
     const bool visited = std::ranges::any_of(known.views, [&](const ViewReport& view) {
       const double off_rad = view.view_rad - now_rad - turn_rad;
       return std::abs(std::remainder(off_rad, 2.0 * std::numbers::pi)) < 0.5 * bin_rad;
     });
     actions.push_back({.yaw_rad = turn_rad, .visited = visited});
   }
+  if (actions.empty()) return nullptr;
   const NextView next = next_view(recogniser, options, known, actions, rng);
   const std::size_t best = next.decision.action;
   return {{"turn_deg", actions[best].yaw_rad / kDegree_rad},
           {"view", next_view_name(notes, recogniser, known, actions[best].yaw_rad)},
           {"gain_bits", next.decision.scores[best].gain.bits},
           {"view_time_s", next.time_s}};
+}
+
+std::string next_text(const Json& next) {
+  if (next.is_null()) return "the model knows no other side to look at";
+  const Json& view = next["view"];
+  if (view.is_string()) return fmt::format("look next at view {}", view.get<std::string>());
+  return fmt::format("look next after a turn by {:.0f} deg", next["turn_deg"].get<double>());
 }
 
 }  // namespace
@@ -149,11 +159,8 @@ void print_recognition(const Json& result) {
                fmt::join(view["features"].get<std::vector<std::string>>(), ", "),
                view["entropy_bits"].get<double>());
   }
-  const Json& view = result["next"]["view"];
-  const std::string next = view.is_string() ? fmt::format("at view {}", view.get<std::string>())
-                                            : fmt::format("after a turn by {:.0f} deg",
-                                                          result["next"]["turn_deg"].get<double>());
-  fmt::print("{}; look next {}\n", result["sure"].get<bool>() ? "sure" : "not sure", next);
+  fmt::print("{}; {}\n", result["sure"].get<bool>() ? "sure" : "not sure",
+             next_text(result["next"]));
 }
 
 }  // namespace vantage

@@ -154,7 +154,7 @@ ObjectView view_of(const CameraImages& images, const Pose& T_world_camera, const
 }
 
 ObjectAmongOthers nothing(ObjectAmongOthers found, std::string reason) {
-  found.object = {std::nullopt, std::move(reason)};
+  found.object = {std::nullopt, std::move(reason), false};
   return found;
 }
 

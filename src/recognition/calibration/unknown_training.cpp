@@ -113,16 +113,27 @@ class Shower {
     return shown;
   }
 
+  /// As begin_recognition() has it: each object alike, in each of its bins that are seen.
   [[nodiscard]] double of_known(const FoldFeature& of, const Showing& showing,
                                 Eigen::Index i) const {
     std::vector<double> logs;
     logs.reserve(showing.kept.size() * static_cast<std::size_t>(states_.bins));
+    int objects = 0;
     for (const int k : showing.kept) {
-      for (int q = 0; q < states_.bins; ++q) {
-        logs.push_back(of.psi * static_cast<double>(of.log_density(states_.state(k, q), i)));
+      const auto densities = of.log_density.col(i).segment(states_.state(k, 0), states_.bins);
+      const auto seen = (densities.array() > kRuledOut).count();
+      if (seen == 0) continue;
+      ++objects;
+      const double share =
+          seen < states_.bins
+              ? std::log(static_cast<double>(states_.bins) / static_cast<double>(seen))
+              : 0.0;
+      for (const float density : densities) {
+        if (density > kRuledOut) logs.push_back(of.psi * static_cast<double>(density) + share);
       }
     }
-    return log_mean(logs);
+    if (logs.empty()) return of.psi * static_cast<double>(kRuledOut);
+    return log_sum_exp(logs) - std::log(static_cast<double>(objects * states_.bins));
   }
 
   const Calibration& calibration_;

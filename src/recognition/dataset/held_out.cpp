@@ -204,14 +204,13 @@ void append_densities(Eigen::MatrixXf& densities, const ObservationModel& model,
 
 /// Of the views that were appended last.
 void rule_out_unseen(const Split& split, std::span<const int> shown, Eigen::MatrixXf& densities) {
-  constexpr float kImpossible = -1e9F;
   std::vector<bool> seen(static_cast<std::size_t>(densities.rows()), false);
   for (const std::size_t i : split.trained_on) seen[static_cast<std::size_t>(shown[i])] = true;
   for (Eigen::Index state = 0; state < densities.rows(); ++state) {
     if (seen[static_cast<std::size_t>(state)]) continue;
     densities.row(state)
         .tail(static_cast<Eigen::Index>(split.held_out.size()))
-        .setConstant(kImpossible);
+        .setConstant(kRuledOut);
   }
 }
 

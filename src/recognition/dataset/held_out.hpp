@@ -71,6 +71,9 @@ struct HoldOutOptions {
   bool only_seen = false;  ///< states without a view are impossible, as unseen_states() has it
 };
 
+/// Log density of a state without a view, with HoldOutOptions::only_seen.
+inline constexpr float kRuledOut = -1e9F;
+
 /// Views held out of the same models.
 struct CalibrationFold {
   std::vector<ObservationModel> models;  ///< one a feature, of the views that are not held out

@@ -26,7 +26,7 @@ std::vector<Trial> combination_trials(const Recogniser& recogniser, const TestVi
   const ObjectStates& states = recogniser.states;
   std::vector<Trial> trials;
   for (const Start& start : starts) {
-    ObjectBelief belief = prior_belief(states, recogniser.unknown_prior);
+    ObjectBelief belief = begin_recognition(recogniser).belief;
     double feature_time_s = 0.0;
     int used = 0;
     for (const std::size_t f : features) {

@@ -30,6 +30,8 @@ struct ChangeDetectionTask : ObjectFlight {
   std::optional<double> expected_yaw_rad;
   std::optional<double> turned_rad;
   ChangeOptions change;  ///< its `recognition` is not read: `decision` holds
+
+  ChangeDetectionTask() { decision = for_changes(decision); }
   void fields(auto&& f) {
     ObjectFlight::fields(f);
     f("scenario", scenario,
@@ -41,8 +43,8 @@ struct ChangeDetectionTask : ObjectFlight {
       "yaw that the map says the object has, in the world frame; null: drawn by the seed",
       between(-1000.0, 1000.0));
     f("turned_rad", turned_rad,
-      "scenario `pose`: how far the object was turned; null: drawn by the seed, at least half a "
-      "yaw bin",
+      "scenario `pose`: how far the object was turned; null: drawn by the seed, at least "
+      "22.5 deg",
       between(-1000.0, 1000.0));
     change.decision_fields(f);
   }

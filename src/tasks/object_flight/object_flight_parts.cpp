@@ -17,8 +17,13 @@ namespace vantage {
 namespace {
 
 /// Of a view without an object in it.
-ExtractFeature extract_nothing(const std::string& reason) {
-  return [reason](std::size_t) { return ExtractedFeature{.result = FeatureResult::skip(reason)}; };
+ExtractFeature extract_nothing(const SegmentedObject& seen) {
+  return [reason = seen.reason, place_seen = seen.place_seen](std::size_t) {
+    ExtractedFeature nothing;
+    nothing.result = FeatureResult::skip(reason);
+    nothing.place_seen = place_seen;
+    return nothing;
+  };
 }
 
 }  // namespace
@@ -84,7 +89,7 @@ void ObjectFlightParts::update(const FlightObservation& observation) {
   camera_image_ = observation.images;
   TourTarget& target = tour_.current();
   const ExtractFeature extract =
-      seen_.view ? extract_from(recogniser_, *seen_.view) : extract_nothing(seen_.reason);
+      seen_.view ? extract_from(recogniser_, *seen_.view) : extract_nothing(seen_);
   target.inquiry.observe(extract, at_rad_, next_.time_s, choice_rng_);
   target.bearing_ids.push_back(current_.bearing_id);
   target.bearing_rad = at_rad_;

@@ -250,6 +250,32 @@ TEST(PriorBelief, SharesWhatIsUnknown) {
   EXPECT_EQ(prior_belief(known, 0.2).log_p, uniform_belief(known).log_p);
 }
 
+TEST(SpreadOverSeen, LeavesEachObjectWhatItHas) {
+  const ObjectStates states = make_states({0, 0, 1}, 2);
+  const auto spread = [&](std::initializer_list<double> p, const std::vector<int>& unseen) {
+    ObjectBelief belief = belief_of(p);
+    spread_over_seen(states, unseen, belief);
+    return p_state(belief);
+  };
+  const auto is = [](const Eigen::VectorXd& p, std::initializer_list<double> wanted) {
+    return p.isApprox(Eigen::Map<const Eigen::VectorXd>(wanted.begin(), 6), kTolerance);
+  };
+  EXPECT_TRUE(is(spread({0.1, 0.2, 0.3, 0.1, 0.1, 0.2}, {}), {0.1, 0.2, 0.3, 0.1, 0.1, 0.2}));
+  EXPECT_TRUE(is(spread({0.1, 0.2, 0.3, 0.1, 0.1, 0.2}, {0, 3}), {0.0, 0.3, 0.4, 0.0, 0.1, 0.2}));
+  EXPECT_TRUE(is(spread({0.1, 0.2, 0.3, 0.1, 0.1, 0.2}, {4, 5}), {0.1, 0.2, 0.3, 0.1, 0.1, 0.2}))
+      << "an object that no view is of";
+  EXPECT_TRUE(is(spread({0.0, 0.3, 0.0, 0.0, 0.1, 0.6}, {0, 2}), {0.0, 0.3, 0.0, 0.0, 0.1, 0.6}));
+}
+
+TEST(ForgetYaw, KeepsTheObjectAndWhatIsUnknown) {
+  const ObjectStates states = states_with_unknown(2);
+  ObjectBelief belief = belief_of({0.1, 0.3, 0.0, 0.2, 0.0, 0.1, 0.1, 0.2});
+  forget_yaw(states, std::vector<int>{3}, belief);
+  Eigen::VectorXd wanted(8);
+  wanted << 0.2, 0.2, 0.2, 0.0, 0.05, 0.05, 0.1, 0.2;
+  EXPECT_TRUE(p_state(belief).isApprox(wanted, kTolerance));
+}
+
 // Over all paths of states, by the definition.
 TEST(ObjectBelief, WithUnknownObjectsIsBayesOverAllPaths) {
   const ObjectStates states = states_with_unknown(3);

@@ -126,6 +126,10 @@ TEST(TransitionModel, ChecksThatMassesSumToOne) {
   check_options(learned);
   learned.same_object = 0.5;
   EXPECT_THROW(check_options(learned), ConfigError);
+  learned.other_instance = 0.5;
+  check_options(learned);
+  learned.slip.clear();
+  EXPECT_THROW(check_options(learned), ConfigError) << "the model's own would hold";
 }
 
 TEST(TransitionModel, SumsToOneWithinAMillionth) {

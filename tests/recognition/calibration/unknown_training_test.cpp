@@ -133,7 +133,8 @@ struct Learnt {
   std::vector<std::optional<UnknownFactors>> factors;
 };
 
-Learnt learn(const PointWorld& world, int views_each, Rng& rng, double exponent = 1.0) {
+Learnt learn(const PointWorld& world, int views_each, Rng& rng, double exponent = 1.0,
+             bool only_seen = false) {
   RecognitionModel model;
   model.states = world.states;
   model.features.push_back(
@@ -147,11 +148,11 @@ Learnt learn(const PointWorld& world, int views_each, Rng& rng, double exponent 
       view.name = {.category = "c", .object = world.states.objects[object], .video = 1, .frame = i};
       view.yaw_rad = i * 2.0 * std::numbers::pi / views_each;  // no burst of one direction
       view.features.push_back({PointWorld::seen(world.point[object], rng), {}});
-      shown.push_back(k);
+      shown.push_back(world.states.state(k, 0));
     }
   }
-  const Calibration calibration =
-      hold_out(views, shown, model, {HeldOutShare{.share = 0.3}, ShrunkVariance{}, 1}, {});
+  const Calibration calibration = hold_out(
+      views, shown, model, {HeldOutShare{.share = 0.3}, ShrunkVariance{}, 1, only_seen}, {});
   const std::vector<double> psi{exponent};
   return {calibration.folds.front().models,
           calibrate_unknown(calibration, views, world.states, psi, {})};
@@ -204,6 +205,20 @@ TEST(CalibrateUnknown, MakesTheProbabilityOfUnknownHonest) {
   EXPECT_NEAR(error, 0.0, 0.04);
   EXPECT_GT(found, 0.9);
   EXPECT_LT(alarms, 0.08);
+}
+
+// Bins that no view is of neither count for what is known nor against it.
+TEST(CalibrateUnknown, KnowsNothingOfSidesThatNoViewIsOf) {
+  const auto factors = [](int bins) {
+    Rng rng(9);
+    PointWorld world(rng);
+    world.states.bins = bins;
+    return *learn(world, 20, rng, 1.0, true).factors[0];
+  };
+  const UnknownFactors one = factors(1);
+  const UnknownFactors four = factors(4);
+  EXPECT_NEAR(four.instance, one.instance, 1e-3);
+  EXPECT_NEAR(four.category, one.category, 1e-3);
 }
 
 TEST(CalibrateUnknown, OfAFeatureThatSaysNothingThereAreNoFactors) {
