@@ -10,7 +10,9 @@ namespace vantage {
 
 /// The states that matter to a decision, and what is believed of them.
 struct LikelyStates {
-  std::vector<int> states;     ///< most probable first, of equal ones the lower number
+  /// Most probable first, of equal ones the lower number; of equal ones that are not all kept,
+  /// those that are lie evenly spread over them: the first objects of a database are alike.
+  std::vector<int> states;
   std::vector<double> belief;  ///< of each of them, sums to 1
   double mass = 1.0;           ///< what they hold of the whole belief
 };

@@ -19,8 +19,6 @@ constexpr auto kModel = "recognition model";
 
 /// Of a feature that no view had when its time was taken: gains per cost need some.
 constexpr double kLeastCost_s = 1e-6;
-constexpr double kImpossible = -1e9;  // of a log factor; psi times it is still finite
-
 /// Tables of divergences, or none.
 enum class Tables { made, none };
 
@@ -34,7 +32,7 @@ RecogniserFeature ready(FeaturePair pair, int threads, Tables tables,
                             .tables = {}};
   feature.prepared = prepare(feature.observation);
   for (const int state : impossible) {
-    feature.prepared.log_at_mean[state] = feature.prepared.log_factor[state] = kImpossible;
+    feature.prepared.log_at_mean[state] = feature.prepared.log_factor[state] = kRulesOut;
   }
   if (tables == Tables::none) return feature;
   feature.tables.bhattacharyya_nats =

@@ -92,7 +92,12 @@ Eigen::VectorXd log_likelihood(const PreparedObservationModel& model, const Feat
   expects(std::ssize(readings) == feature.size(), "a reading for each number");
   const bool tells = std::ranges::any_of(readings, [](Reading r) { return r != Reading::none; });
   if (model.psi == 0.0 || !tells) return Eigen::VectorXd::Zero(model.mean.cols());
+  // Factors are of whole features: what tells of fewer numbers tells as much less of the unknown.
+  const double exact = static_cast<double>(std::ranges::count(readings, Reading::exact)) /
+                       static_cast<double>(readings.size());
   Eigen::VectorXd result = model.psi * model.log_factor;
+  result.array() *=
+      (model.log_factor.array() > kRulesOut).select(exact, Eigen::ArrayXd::Ones(result.size()));
   for (Eigen::Index j = 0; j < result.size(); ++j) {
     for (Eigen::Index d = 0; d < feature.size(); ++d) {
       result[j] += model.psi * log_likelihood(readings[static_cast<std::size_t>(d)], feature[d],

@@ -35,6 +35,9 @@ Eigen::VectorXd log_likelihood(const ObservationModel& model,
 Eigen::VectorXd log_density(const ObservationModel& model,
                             const Eigen::Ref<const Eigen::VectorXf>& feature);
 
+/// Log factor of a state that no view can be of; psi times it is still finite.
+inline constexpr double kRulesOut = -1e9;
+
 /// An observation model for many evaluations: no logarithm or division is left in them, which makes
 /// them five times as fast, for as much memory again.
 struct PreparedObservationModel {
@@ -52,7 +55,8 @@ Eigen::VectorXd log_likelihood(const PreparedObservationModel& model,
                                const Eigen::Ref<const Eigen::VectorXf>& feature);
 
 /// The same of a feature some of whose numbers are lower bounds, or tell nothing: of these the mass
-/// above them counts instead of the density, or nothing does. Zeros where none tells anything.
+/// above them counts instead of the density, or nothing does, and of the factors, which are those
+/// of a whole feature, the share that its exact numbers are. Zeros where none tells anything.
 /// @param readings of each number; empty: all are exact
 Eigen::VectorXd log_likelihood(const PreparedObservationModel& model,
                                const Eigen::Ref<const Eigen::VectorXf>& feature,

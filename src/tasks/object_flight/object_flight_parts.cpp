@@ -137,12 +137,13 @@ std::string ObjectFlightParts::finished() {
     const std::vector<std::size_t> open = tour_.open();
     if (open.empty()) return tour_.reason();
     options_.clear();
+    std::vector<std::size_t> blocked;  // until the map shows a way, if views of others do
     // To that whose nearest view is reached soonest, or to any.
     double soonest_s = std::numeric_limits<double>::infinity();
     for (const std::size_t target : open) {
       std::vector<BearingOption> options = options_of(target);
       if (options.empty()) {
-        tour_.give_up(target, why_unreachable(target));
+        blocked.push_back(target);
         continue;
       }
       if (goal_.all_at_once) {
@@ -156,6 +157,7 @@ std::string ObjectFlightParts::finished() {
       options_ = std::move(options);
     }
     if (!options_.empty()) return "";
+    for (const std::size_t target : blocked) tour_.give_up(target, why_unreachable(target));
   }
 }
 
@@ -251,8 +253,14 @@ void ObjectFlightParts::act(const BearingOption& option) {
   current_.flight = robot_.fly_along(option.T_world_way);
   at_orbit_ = orbit(option.target);
   at_rad_ = option.bearing_rad;
-  tour_.current().inquiry.turned(option.action.yaw_rad);
-  if (current_.flight->status == FlightStatus::arrived) return;
+  if (current_.flight->status == FlightStatus::arrived) {
+    tour_.current().inquiry.turned(option.action.yaw_rad);
+    return;
+  }
+  const Eigen::Vector3d p_world_m = robot_.estimated_body().translation();
+  const double beyond_rad = wrap_angle(at_orbit_.bearing_rad(p_world_m) - option.bearing_rad);
+  at_rad_ += beyond_rad;
+  tour_.current().inquiry.turned(wrap_angle(option.action.yaw_rad + beyond_rad));
   log_warning(fmt::format("bearing {}: {} on the way there", option.id,
                           to_string(current_.flight->status)));
 }

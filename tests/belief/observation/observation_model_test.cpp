@@ -123,6 +123,26 @@ TEST(LogLikelihood, OfReadingsThatTellNothingIsTheSameOfAllStates) {
   EXPECT_TRUE(log_likelihood(prepare(model), random_feature(2, rng), none).isZero(0.0));
 }
 
+/// Factors say what a whole feature tells of the unknown; a bound that all states fulfil tells of
+/// none.
+TEST(LogLikelihood, OfBoundsHasAsMuchOfTheFactorsAsNumbersAreExact) {
+  ObservationModel model{.feature = "height",
+                         .mean = Eigen::MatrixXf::Zero(2, 3),
+                         .variance = Eigen::MatrixXf::Ones(2, 3),
+                         .psi = 0.5,
+                         .log_factor = Eigen::Vector3d(0.0, 3.0, kRulesOut)};
+  const PreparedObservationModel prepared = prepare(model);
+  const auto factors = [&](Reading first, Reading second) {
+    const Eigen::VectorXd log_p =
+        log_likelihood(prepared, Eigen::Vector2f(-40.0F, -40.0F), std::vector{first, second});
+    return Eigen::VectorXd(log_p.array() - log_p[0]);
+  };
+  EXPECT_NEAR(factors(Reading::at_least, Reading::at_least)[1], 0.0, 1e-9);
+  EXPECT_NEAR(factors(Reading::exact, Reading::at_least)[1], 0.75, 1e-9);
+  EXPECT_NEAR(factors(Reading::exact, Reading::none)[1], 0.75, 1e-9);
+  EXPECT_LT(factors(Reading::at_least, Reading::at_least)[2], -1e8) << "that no view is of";
+}
+
 /// Half of a box was seen: it may be the large one, and is not the small one.
 TEST(LogLikelihood, ABoundLeavesTheLargerOnesOpen) {
   ObservationModel model{.feature = "height",

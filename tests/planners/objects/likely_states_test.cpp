@@ -19,6 +19,18 @@ TEST(LikelyStates, AreTheMostProbableInOrder) {
   EXPECT_DOUBLE_EQ(likely.belief[2], 0.25 / 0.85);
 }
 
+TEST(LikelyStates, OfEqualOnesAreEvenlySpread) {
+  const auto kept = [](std::initializer_list<double> p, int count) {
+    return likely_states(belief(p), count).states;
+  };
+  EXPECT_EQ(kept({0.25, 0.25, 0.25, 0.25}, 2), (std::vector{0, 2}));
+  EXPECT_EQ(kept({0.2, 0.2, 0.2, 0.2, 0.2}, 5), (std::vector{0, 1, 2, 3, 4}));
+  EXPECT_EQ(kept({0.1, 0.1, 0.5, 0.1, 0.1, 0.1}, 3), (std::vector{2, 0, 3}));
+  EXPECT_EQ(kept({0.1, 0.1 + 1e-13, 0.5, 0.1, 0.1 - 1e-13, 0.1}, 3), (std::vector{2, 0, 3}))
+      << "as a motion rounds";
+  EXPECT_EQ(kept({0.1, 0.1, 0.2, 0.2, 0.4}, 3), (std::vector{4, 2, 3}));
+}
+
 TEST(LikelyStates, HoldAllOfTheBeliefUnlessItIsSaid) { EXPECT_EQ(LikelyStates{}.mass, 1.0); }
 
 TEST(LikelyStates, LeaveTheImpossibleOut) {
@@ -53,9 +65,11 @@ TEST(LikelyStates, OfUnknownObjectsLeaveRoomForKnownOnes) {
   const LikelyStates likely = likely_states(states, belief, 16);
   ASSERT_EQ(likely.states.size(), 16U);
   EXPECT_EQ(likely.states[0], 7);
-  EXPECT_EQ(likely.states[13], 14) << "of equal ones the lower number; 8 is less probable";
+  EXPECT_EQ(likely.states[1], 0);
+  EXPECT_EQ(likely.states[2], 3) << "48 are equal, 13 of them are kept, evenly spread; not 7 and 8";
+  EXPECT_EQ(likely.states[13], 46);
   EXPECT_EQ(likely.states[14], 50);
-  EXPECT_EQ(likely.states[15], 51);
+  EXPECT_EQ(likely.states[15], 65);
   double known = 0.0;
   for (std::size_t i = 0; i < 14; ++i) known += likely.belief[i];
   EXPECT_NEAR(known, 0.4, 1e-12);
@@ -63,7 +77,7 @@ TEST(LikelyStates, OfUnknownObjectsLeaveRoomForKnownOnes) {
   EXPECT_NEAR(likely.mass, 14.0 * 0.4 / 50.0 + 0.004 + 2.0 * 0.02, 1e-12);
   const LikelyStates fewer = likely_states(states, belief, 15);
   ASSERT_EQ(fewer.states.size(), 15U);
-  EXPECT_EQ(fewer.states[13], 14) << "an eighth is one unknown";
+  EXPECT_EQ(fewer.states[13], 46) << "an eighth is one unknown";
   EXPECT_EQ(fewer.states[14], 50);
 }
 

@@ -87,8 +87,8 @@ TEST_F(ScriptedFlight, RecordsWhatIsBelievedAndTurnsIt) {
   EXPECT_NEAR(first.report.entropy_bits, 0.5 - 0.45 * std::log2(0.15) - 0.05 * std::log2(0.0125),
               1e-9);
   ASSERT_TRUE(first.change);
-  EXPECT_EQ(first.change->verdict, Change::removed) << "nothing was seen";
-  EXPECT_EQ(first.change->probability, 1.0);
+  EXPECT_EQ(first.change->verdict, Change::none) << "the place was not seen";
+  EXPECT_NEAR(first.change->probability, 0.5, 1e-12);
   EXPECT_THAT(first.not_segmented, HasSubstr("no table"));
   EXPECT_EQ(first.object_px, 0);
   EXPECT_TRUE(first.T_world_camera.isApprox(robot_.T_world_camera));
@@ -100,6 +100,7 @@ TEST_F(ScriptedFlight, RecordsWhatIsBelievedAndTurnsIt) {
   options[0].action.visible = 0.75;
   robot_.now_s = 4.5;
   robot_.flight = {FlightStatus::timeout, 1.25, 1.5, 0.125, 0.25, 40.0};
+  robot_.T_world_body = task_.orbit().place(options[0].bearing_rad);
   parts.act(options[0]);
   expect_same_places(robot_.flown, options[0].T_world_way);
   look(parts);
@@ -113,6 +114,21 @@ TEST_F(ScriptedFlight, RecordsWhatIsBelievedAndTurnsIt) {
   EXPECT_EQ(second.flight->energy_J, 40.0);
   EXPECT_EQ(second.estimated_bin, 1) << "it is seen turned against the flight";
   EXPECT_EQ(second.bin_error, 1) << "what truly happened has not moved";
+}
+
+/// A quarter of a turn was meant, an eighth was flown: half of a yaw bin.
+TEST_F(ScriptedFlight, TurnsWhatIsBelievedAsFarAsItCame) {
+  ObjectFlightParts parts(context(), goal(1), is_it_that_bowl(), 0.5);
+  look(parts);
+  const std::vector<BearingOption> options = offered(parts);
+  robot_.flight.status = FlightStatus::timeout;
+  robot_.T_world_body = task_.orbit().place(options[0].bearing_rad - 0.5 * kRightAngle_rad);
+  parts.act(options[0]);
+  look(parts);
+  EXPECT_NEAR(parts.records().back().report.view_rad,
+              options[0].bearing_rad - 0.5 * kRightAngle_rad, 1e-9);
+  const Eigen::VectorXd p = p_state(parts.tour().current().inquiry.recognition().belief);
+  EXPECT_NEAR(p[6], p[5], 1e-9) << "of the bowl, between the bin it was seen in and the next";
 }
 
 /// 2 s have passed; it takes 2 s to any place and to rest there.
@@ -183,6 +199,28 @@ TEST_F(ScriptedFlight, AllTargetsCompeteAtOnceEachByItsOwnLastView) {
   expect_same_places(second[0].T_world_way,
                      orbit_way(task_.orbit_round(both.p_world_m[1]), first[4].bearing_rad,
                                task_.orbit(), 0.5, task_.arc_rad));
+}
+
+TEST_F(ScriptedFlight, TriesATargetAgainWhileOthersAreLookedAt) {
+  FlightGoal both = goal(2);
+  both.time_limit_s = 30.0;
+  both.all_at_once = true;
+  ObjectFlightParts parts(context(), both, what_is_it(), 0.5);
+  look(parts);
+  const double radius_m = task_.orbit().radius_m;
+  robot_.duration_s = [&](const Pose& place) {
+    const Eigen::Vector2d from_m = (place.translation() - both.p_world_m[1]).head<2>();
+    return std::abs(from_m.norm() - radius_m) < 1e-6 ? 100.0 : 1.5;
+  };
+  const std::vector<BearingOption> first = offered(parts);
+  EXPECT_EQ(first.size(), 3U) << "the second target is too far";
+  parts.act(first[0]);
+  look(parts);
+  robot_.duration_s = [](const Pose& /*place*/) { return 1.5; };
+  EXPECT_EQ(parts.finished(), "");
+  EXPECT_THAT(parts.tour().open(), ElementsAre(0U, 1U));
+  robot_.now_s = 29.0;
+  EXPECT_THAT(parts.finished(), HasSubstr("time_limit_s = 30; no view"));
 }
 
 /// Nothing of the table was seen yet, and nothing within 2 m of it is flown through.
@@ -301,6 +339,7 @@ TEST_F(ScriptedFlight, ItsMetricsHaveAllOfEachRecord) {
   look(parts);
   const std::vector<BearingOption> options = offered(parts);
   robot_.flight = {FlightStatus::timeout, 1.25, 1.5, 0.125, 0.25, 40.0};
+  robot_.T_world_body = task_.orbit().place(options[0].bearing_rad);
   parts.act(options[0]);
   travel(4.0);
   look(parts);
@@ -330,8 +369,9 @@ TEST_F(ScriptedFlight, ItsMetricsHaveAllOfEachRecord) {
   EXPECT_EQ(view["bins"], 4);
   EXPECT_EQ(view["path_length_m"], 7.0);
   EXPECT_EQ(view["leg_length_m"], 4.0);
-  EXPECT_EQ(view["change_probability"], 1.0);
-  EXPECT_EQ(view["decision"], "removed");
+  EXPECT_EQ(view["change_probability"], record.change->probability);
+  EXPECT_NEAR(record.change->probability, 0.5, 1e-12);
+  EXPECT_EQ(view["decision"], "none") << "the place was not seen";
   ASSERT_EQ(view["skipped"].size(), 1U);
   EXPECT_EQ(view["skipped"][0]["feature"], "colour");
   EXPECT_EQ(view["skipped"][0]["reason"], record.not_segmented);
