@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -60,7 +59,7 @@ std::optional<double> named_yaw_rad(const RecogniseArguments& arguments,
   const auto bin = bin_of_view(*notes, name);
   if (given && !bin) {
     throw ConfigError(fmt::format("--view-names: the model has no view '{}'; known: {}", name,
-                                  fmt::join(notes->views, ", ")));
+                                  named_views(*notes)));
   }
   if (!bin) return std::nullopt;
   return *bin * 2.0 * std::numbers::pi / notes->bins;

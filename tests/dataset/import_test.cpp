@@ -241,6 +241,16 @@ TEST_F(Import, ReplacesADatasetIfToldToAndNothingElse) {
   EXPECT_EQ(read_file(folder_ / "other/precious"), "mine");
 }
 
+TEST_F(Import, TakesNoPicturesThatItMadeItself) {
+  put("front");
+  put("left");
+  imported({}, "mine/out");
+  imported({}, "mine/out");
+  const DatasetIndex again = index_dataset(folder_ / "mine/out");
+  ASSERT_EQ(again.views.size(), 2U);
+  EXPECT_EQ(again.views[0].name.object, "drill_1");
+}
+
 TEST(ImportDefaults, AreToFindOutAndToReplaceNothing) {
   const ImportOptions options;
   EXPECT_EQ(options.cut, "auto");

@@ -128,7 +128,9 @@ std::vector<Eigen::MatrixXf> scores_of(const HeldOutViews& held_out) {
 std::vector<double> CalibratedPsi::operator()(const PsiContext& context) const {
   const HeldOutViews& held_out = context.held_out;
   if (held_out.state.empty() || context.models.empty()) {
-    throw InputError("psi rule calibrated: no views were held out of training; see per_dimension");
+    throw InputError(
+        "psi rule calibrated: no views were held out of training, there are too few: take more of "
+        "each object, or another recording of them; psi=per_dimension needs none");
   }
   expects(held_out.log_density.size() == context.models.size(), "densities of every feature");
   const std::vector<Eigen::MatrixXf> scores = scores_of(held_out);

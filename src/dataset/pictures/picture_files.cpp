@@ -9,6 +9,7 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/perception/images/image_files.hpp"
+#include "vantage/perception/picture_notes.hpp"
 
 namespace vantage {
 namespace fs = std::filesystem;
@@ -98,7 +99,12 @@ std::vector<Piece> pieces_below(const fs::path& root) {
   std::error_code failed;
   for (fs::recursive_directory_iterator it(root, failed), end; !failed && it != end;
        it.increment(failed)) {
-    if (it->is_regular_file(error) && is_candidate(it->path())) files.push_back(it->path());
+    // What was imported before is no picture of the user's.
+    if (it->is_directory(error) && fs::exists(it->path() / kPictureNotes, error)) {
+      it.disable_recursion_pending();
+    } else if (it->is_regular_file(error) && is_candidate(it->path())) {
+      files.push_back(it->path());
+    }
   }
   if (failed) throw InputError(fmt::format("{}: {}", root.string(), failed.message()));
   std::ranges::sort(files);

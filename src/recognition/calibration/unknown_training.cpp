@@ -56,6 +56,37 @@ std::vector<Showing> showings_of(const ObjectStates& states, const std::vector<i
   return showings;
 }
 
+/// In the first fold, which the models are of.
+std::vector<int> unseen_in(const Calibration& calibration) {
+  const Eigen::MatrixXf& density = calibration.held_out.log_density.front();
+  std::vector<int> unseen;
+  for (Eigen::Index state = 0; state < density.rows(); ++state) {
+    if (density(state, calibration.folds.front().first) == kRuledOut) {
+      unseen.push_back(static_cast<int>(state));
+    }
+  }
+  return unseen;
+}
+
+/// Of a few objects, or by features that tell little, all may hang together as near-duplicates, and
+/// none could be left out. Then only those that are more alike are taken for that, until half of
+/// the objects can.
+std::vector<Showing> enough_showings(std::span<const ObservationModel> models,
+                                     const ObjectStates& states, std::span<const int> unseen,
+                                     int threads) {
+  std::vector<Showing> showings;
+  for (const double confused : {0.01, 0.1, 0.25, 0.5}) {
+    showings =
+        showings_of(states, near_duplicate_groups(models, states, threads, unseen, confused));
+    std::set<int> left_out;
+    for (const Showing& showing : showings) {
+      if (showing.kind != Kind::known) left_out.insert(showing.shown.begin(), showing.shown.end());
+    }
+    if (2 * std::ssize(left_out) >= states.object_count()) break;
+  }
+  return showings;
+}
+
 double log_mean(std::span<const double> logs) {
   return log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
 }
@@ -121,7 +152,7 @@ class Shower {
     int objects = 0;
     for (const int k : showing.kept) {
       const auto densities = of.log_density.col(i).segment(states_.state(k, 0), states_.bins);
-      const auto seen = (densities.array() > kRuledOut).count();
+      const auto seen = (densities.array() != kRuledOut).count();
       if (seen == 0) continue;
       ++objects;
       const double share =
@@ -129,7 +160,7 @@ class Shower {
               ? std::log(static_cast<double>(states_.bins) / static_cast<double>(seen))
               : 0.0;
       for (const float density : densities) {
-        if (density > kRuledOut) logs.push_back(of.psi * static_cast<double>(density) + share);
+        if (density != kRuledOut) logs.push_back(of.psi * static_cast<double>(density) + share);
       }
     }
     if (logs.empty()) return of.psi * static_cast<double>(kRuledOut);
@@ -228,7 +259,7 @@ std::vector<std::optional<UnknownFactors>> calibrate_unknown(const Calibration& 
   std::vector<ObservationModel> models = calibration.folds.front().models;
   for (std::size_t f = 0; f < models.size(); ++f) models[f].psi = psi[f];
   const std::vector<Showing> showings =
-      showings_of(states, near_duplicate_groups(models, states, how.threads));
+      enough_showings(models, states, unseen_in(calibration), how.threads);
   const Shower shower(calibration, views, states);
   for (std::size_t f = 0; f < psi.size(); ++f) {
     if (psi[f] == 0.0) {

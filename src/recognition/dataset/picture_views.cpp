@@ -98,6 +98,12 @@ std::optional<PictureNotes> common_notes(std::span<const ViewEntry> views, int b
   return common;
 }
 
+std::string named_views(const PictureNotes& notes) {
+  std::vector<std::string> names = notes.views;
+  std::erase(names, "");
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 std::optional<PictureNotes> notes_of(const RecognitionModel& model) {
   if (model.pictures.empty()) return std::nullopt;
   return model_notes(model).pictures;
@@ -146,8 +152,7 @@ void fit_to(const std::optional<PictureNotes>& notes, std::vector<ViewEntry>& vi
     const auto bin = bin_of_view(*notes, name);
     if (!bin) {
       throw InputError(fmt::format("{}: is a view '{}', which the model does not know; known: {}",
-                                   view.file("crop.png").string(), name,
-                                   fmt::join(notes->views, ", ")));
+                                   view.file("crop.png").string(), name, named_views(*notes)));
     }
     view.yaw_rad = *bin * 2.0 * std::numbers::pi / notes->bins;
   }

@@ -23,6 +23,9 @@ std::vector<ViewEntry> chosen_views(const DatasetIndex& dataset, std::span<const
 /// name are asked for in other bins.
 std::optional<PictureNotes> common_notes(std::span<const ViewEntry> views, int bins);
 
+/// Names of viewing directions, of bins that have one: "front, left".
+std::string named_views(const PictureNotes& notes);
+
 /// That the model keeps of what it was trained on; nothing if that was not imported.
 /// @throws InputError, ConfigError if they are damaged.
 std::optional<PictureNotes> notes_of(const RecognitionModel& model);

@@ -46,6 +46,26 @@ TEST(NearDuplicateGroups, HoldWhatMoreThanOneOfAHundredDecisionsConfuses) {
   EXPECT_THAT(groups_of({measuring({1.0, 1.0 + differing_by(4.0)})}, 2, 1), ElementsAre(0, 1));
 }
 
+// ln 5 = 1.609; at half of them wrong nobody is.
+TEST(NearDuplicateGroups, AreFewerTheMoreMustBeConfused) {
+  const auto groups = [](double nats, double confused) {
+    return near_duplicate_groups(std::vector{measuring({1.0, 1.0 + differing_by(nats)})},
+                                 objects_of_bins(2, 1), 1, {}, confused);
+  };
+  EXPECT_THAT(groups(1.6, 0.1), ElementsAre(0, 0));
+  EXPECT_THAT(groups(1.62, 0.1), ElementsAre(0, 1));
+  EXPECT_THAT(groups(0.0, 0.5), ElementsAre(0, 1));
+}
+
+TEST(NearDuplicateGroups, CompareSidesThatBothAreSeenFrom) {
+  const std::vector<ObservationModel> models{measuring({1.0, 5.0, 1.0 + differing_by(3.8), 5.0})};
+  EXPECT_THAT(groups_of(models, 2, 2), ElementsAre(0, 0)) << "by a mean of 1.9";
+  const std::vector<ObservationModel> far{measuring({1.0, 5.0, 1.0 + differing_by(4.0), 5.0})};
+  EXPECT_THAT(groups_of(far, 2, 2), ElementsAre(0, 0)) << "by a mean of 2";
+  EXPECT_THAT(near_duplicate_groups(far, objects_of_bins(2, 2), 1, std::vector<int>{1, 3}),
+              ElementsAre(0, 1));
+}
+
 TEST(NearDuplicateGroups, AreOfAllFeaturesByTheirPsi) {
   const auto apart = [](double nats, double psi) {
     return measuring({2.0, 2.0 - differing_by(nats)}, psi);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "vantage/information/log_space.hpp"
 #include "vantage/recognition/calibration/near_duplicates.hpp"
@@ -219,6 +220,19 @@ TEST(CalibrateUnknown, KnowsNothingOfSidesThatNoViewIsOf) {
   const UnknownFactors four = factors(4);
   EXPECT_NEAR(four.instance, one.instance, 1e-3);
   EXPECT_NEAR(four.category, one.category, 1e-3);
+}
+
+// Each is near-duplicate to the next, so that all hang together and none could be left out.
+TEST(CalibrateUnknown, LearnsOfObjectsThatAllHangTogether) {
+  Rng rng(9);
+  PointWorld world(rng);
+  for (std::size_t k = 0; k < world.point.size(); ++k) {
+    world.point[k] = {0.25 * static_cast<double>(k), 0.0};
+  }
+  const Learnt learnt = learn(world, 60, rng);
+  const std::vector<int> group = near_duplicate_groups(learnt.models, world.states, 1);
+  EXPECT_EQ(std::set(group.begin(), group.end()).size(), 1U);
+  ASSERT_TRUE(learnt.factors[0]);
 }
 
 TEST(CalibrateUnknown, OfAFeatureThatSaysNothingThereAreNoFactors) {
