@@ -250,6 +250,23 @@ TEST_F(TwoDatasets, DifferByTheirCut) {
                                                  HasSubstr("import the first with --cut depth"))));
 }
 
+TEST_F(TwoDatasets, MustShowTheSameObjectsAsLarge) {
+  const auto sized = [&](double first_m, double second_m, double strange_m) {
+    training_.objects = {{.object = "cup_1", .size_m = 0.1}, {.object = "jug_2", .size_m = 0.2}};
+    test_.objects = {{.object = "cup_1", .size_m = first_m},
+                     {.object = "jug_2", .size_m = second_m}};
+    training_.objects.push_back({.object = "can_3", .size_m = strange_m});
+    return said();
+  };
+  EXPECT_THAT(sized(0.14, 0.28, 9.0), IsEmpty());
+  EXPECT_THAT(sized(0.07, 0.14, 9.0), IsEmpty());
+  EXPECT_THAT(
+      sized(0.5, 1.0, 0.1),
+      ElementsAre(testing::StartsWith("!objects are 5 times as large in yours as in mine")));
+  EXPECT_THAT(sized(0.06, 0.12, 0.1),
+              ElementsAre(testing::StartsWith("!objects are 0.6 times as large in yours")));
+}
+
 TEST_F(TwoDatasets, MustNotShareTheirPictures) {
   test_.pictures[7] = "copy.png";
   EXPECT_THAT(said(), ElementsAre(testing::StartsWith(

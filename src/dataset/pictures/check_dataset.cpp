@@ -160,6 +160,27 @@ void advise_on_objects(CheckedDataset& checked) {
   }
 }
 
+/// The objects of both are the same ones, so they are as large.
+std::optional<DatasetDifference> difference_of_sizes(const CheckedDataset& training,
+                                                     const CheckedDataset& test) {
+  constexpr double kMostRatio = 1.5;
+  std::vector<double> ratios;
+  for (const CheckedObject& object : test.objects) {
+    const auto same = std::ranges::find(training.objects, object.object, &CheckedObject::object);
+    if (same != training.objects.end() && same->size_m > 0.0 && object.size_m > 0.0) {
+      ratios.push_back(object.size_m / same->size_m);
+    }
+  }
+  if (ratios.empty()) return std::nullopt;
+  const double ratio = quantile_of(ratios, 0.5);
+  if (std::max(ratio, 1.0 / ratio) <= kMostRatio) return std::nullopt;
+  return DatasetDifference{
+      fmt::format("objects are {:.2g} times as large in {} as in {}: depth unit, focal length or "
+                  "the cut of one is not right",
+                  ratio, test.root.string(), training.root.string()),
+      true};
+}
+
 }  // namespace
 
 CheckedDataset check_dataset(const fs::path& root, int bins, const std::function<void()>& poll) {
@@ -239,6 +260,7 @@ std::vector<DatasetDifference> differences(const CheckedDataset& training,
              training.focal_px, a, test.focal_px, b),
          false});
   }
+  if (const auto sizes = difference_of_sizes(training, test)) found.push_back(*sizes);
   std::size_t shared = 0;
   std::string first;
   for (const auto& [hash, file] : test.pictures) {
