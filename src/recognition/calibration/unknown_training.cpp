@@ -70,19 +70,23 @@ std::vector<int> unseen_in(const Calibration& calibration) {
 
 /// Of a few objects, or by features that tell little, all may hang together as near-duplicates, and
 /// none could be left out. Then only those that are more alike are taken for that, until half of
-/// the objects can.
+/// the objects can. Where some can, the others stay: left out, they would be explained by a twin.
+/// Of fewer than five objects four would not be left to say what one more looks like.
 std::vector<Showing> enough_showings(std::span<const ObservationModel> models,
                                      const ObjectStates& states, std::span<const int> unseen,
                                      int threads) {
   std::vector<Showing> showings;
-  for (const double confused : {0.01, 0.1, 0.25, 0.5}) {
+  constexpr double kConfused = 0.01;
+  constexpr int kFewest = 5;
+  for (const double confused : {kConfused, 0.1, 0.25, 0.5}) {
     showings =
         showings_of(states, near_duplicate_groups(models, states, threads, unseen, confused));
     std::set<int> left_out;
     for (const Showing& showing : showings) {
       if (showing.kind != Kind::known) left_out.insert(showing.shown.begin(), showing.shown.end());
     }
-    if (2 * std::ssize(left_out) >= states.object_count()) break;
+    const bool enough = confused == kConfused || 2 * std::ssize(left_out) >= states.object_count();
+    if ((!left_out.empty() && enough) || states.object_count() < kFewest) break;
   }
   return showings;
 }

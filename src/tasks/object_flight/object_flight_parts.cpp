@@ -14,20 +14,6 @@
 #include "vantage/tasks/flight/full_turn.hpp"
 
 namespace vantage {
-namespace {
-
-/// Of a view without an object in it.
-ExtractFeature extract_nothing(const SegmentedObject& seen) {
-  return [reason = seen.reason, place_seen = seen.place_seen](std::size_t) {
-    ExtractedFeature nothing;
-    nothing.result = FeatureResult::skip(reason);
-    nothing.place_seen = place_seen;
-    return nothing;
-  };
-}
-
-}  // namespace
-
 ObjectFlightParts::ObjectFlightParts(const ObjectFlightContext& context, const FlightGoal& goal,
                                      const ObjectInquiry& inquiry, double first_rad,
                                      Expectation expectation)
@@ -88,9 +74,7 @@ void ObjectFlightParts::update(const FlightObservation& observation) {
   look_at(observation);
   camera_image_ = observation.images;
   TourTarget& target = tour_.current();
-  const ExtractFeature extract =
-      seen_.view ? extract_from(recogniser_, *seen_.view) : extract_nothing(seen_);
-  target.inquiry.observe(extract, at_rad_, next_.time_s, choice_rng_);
+  target.inquiry.observe(extract_from(recogniser_, seen_), at_rad_, next_.time_s, choice_rng_);
   target.bearing_ids.push_back(current_.bearing_id);
   target.bearing_rad = at_rad_;
   current_.target = tour_.current_id();

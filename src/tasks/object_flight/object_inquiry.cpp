@@ -45,6 +45,16 @@ std::string change_text(ChangeEnd end, const ChangeOptions& options, const Chang
 
 }  // namespace
 
+ExtractFeature extract_from(const Recogniser& recogniser, const SegmentedObject& seen) {
+  if (seen.view) return extract_from(recogniser, *seen.view);
+  return [reason = seen.reason, place_seen = seen.place_seen](std::size_t) {
+    ExtractedFeature nothing;
+    nothing.result = FeatureResult::skip(reason);
+    nothing.place_seen = place_seen;
+    return nothing;
+  };
+}
+
 ObjectInquiry::ObjectInquiry(const Recogniser& recogniser, const RecognitionOptions& options)
     : recogniser_(recogniser),
       options_(only_recognition(options)),

@@ -5,9 +5,13 @@
 #include <string>
 #include <variant>
 
+#include "vantage/perception/object_segmentation.hpp"
 #include "vantage/recognition/change_detection.hpp"
 
 namespace vantage {
+
+/// From what was cut out of an image, which must outlive the result; of none the reason why.
+ExtractFeature extract_from(const Recogniser& recogniser, const SegmentedObject& seen);
 
 class ObjectInquiry {
  public:
