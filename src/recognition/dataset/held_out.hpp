@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vantage/belief/objects/recognition_model.hpp"
+#include "vantage/belief/observation/observation_model.hpp"
 #include "vantage/belief/observation/psi_rule.hpp"
 #include "vantage/recognition/dataset/view_features.hpp"
 
@@ -72,7 +73,7 @@ struct HoldOutOptions {
 };
 
 /// Log density of a state without a view, with HoldOutOptions::only_seen.
-inline constexpr float kRuledOut = -1e9F;
+inline constexpr auto kRuledOut = static_cast<float>(kRulesOut);
 
 /// Views held out of the same models.
 struct CalibrationFold {
