@@ -95,6 +95,9 @@ void check(const RecogniseArguments& arguments) {
   if (given > 1 && given != turns) {
     throw ConfigError(fmt::format("--motion-deg: {} turns given, there are {}", given, turns));
   }
+  if (turns == 0 && (given > 0 || !arguments.view_names.empty())) {
+    log_warning("--motion-deg and --view-names tell turns between views; there is one view");
+  }
 }
 
 /// The views, cut as the model's were.
@@ -185,7 +188,7 @@ std::function<ExitCode()> declare_recognise(CLI::App& app) {
   auto arguments = std::make_shared<RecogniseArguments>();
   app.add_option("files", arguments->files,
                  "RGB DEPTH of each view, in order; of <stem>_crop.png the mask, place and pose "
-                 "beside it are used")
+                 "beside it are used, of front_depth.png the mask front_mask.png")
       ->required();
   app.add_option("--model", arguments->model, "trained model")->required();
   app.add_option("--motion-deg", arguments->motion_deg,

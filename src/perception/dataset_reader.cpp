@@ -71,6 +71,22 @@ std::optional<fs::path> file_beside(const fs::path& colour, std::string_view end
   return file;
 }
 
+/// `front_mask.png` of `front_depth.npy`, `mask/front.png` of `depth/front.png`; nothing if it is
+/// not there.
+std::optional<fs::path> mask_of_picture(const fs::path& depth) {
+  constexpr std::string_view kKind = "depth";
+  std::string file = depth.filename().string();
+  std::string folder = fs::absolute(depth).parent_path().filename().string();
+  std::string& name = file.find(kKind) != std::string::npos ? file : folder;
+  const auto at = name.rfind(kKind);
+  if (at == std::string::npos) return std::nullopt;
+  name.replace(at, kKind.size(), "mask");
+  const fs::path mask =
+      (fs::absolute(depth).parent_path().parent_path() / folder / file).replace_extension(".png");
+  if (!fs::exists(mask)) return std::nullopt;
+  return mask;
+}
+
 /// Of the dataset that `<root>/<category>/<object>/<stem>_crop.png` lies in.
 std::optional<PictureNotes> notes_beside(const fs::path& colour) {
   if (!colour.filename().string().ends_with("_crop.png")) return std::nullopt;
@@ -176,11 +192,13 @@ ImagePair load_image_pair(const fs::path& colour, const fs::path& depth,
   }
   const auto elevation = setting.elevation_rad ? setting.elevation_rad : elevation_beside(colour);
   view.up = up_in_camera(elevation.value_or(kUsualElevation_rad));
-  const auto mask = file_beside(colour, "maskcrop.png");
+  const auto crop_mask = file_beside(colour, "maskcrop.png");
+  const auto mask = crop_mask ? crop_mask : mask_of_picture(depth);
   const ObjectCut mask_from = notes ? object_cut_of(notes->cut, kPictureNotes) : ObjectCut::mask;
   const ObjectCut wanted = setting.cut.value_or(mask ? mask_from : ObjectCut::whole);
   if (mask && wanted == mask_from) {
     read_mask(*mask, view);
+    if (!crop_mask) view = crop_to_mask(view, view.mask);
     pair.cut = wanted;
   } else {
     pair.cut = wanted == ObjectCut::whole ? ObjectCut::whole : ObjectCut::depth;

@@ -50,8 +50,10 @@ struct ImagePair {
 
 /// A view from an image and its depth of the same size, of the formats of image_files.hpp. Of
 /// `<stem>_crop.png` in a dataset the files beside count: mask, place in the image, elevation,
-/// intrinsics. Asked to cut by a mask where there is none, it cuts by depth. What is beyond
-/// `max_depth_m` is never the object. Without a place the images are the middle of the full image.
+/// intrinsics. Of another picture a mask counts that is named as its depth, with `mask` for
+/// `depth`: `front_depth.png` and `front_mask.png`. Asked to cut by a mask where there is none, it
+/// cuts by depth. What is beyond `max_depth_m` is never the object. Without a place the images are
+/// the middle of the full image.
 /// @throws InputError as load_view, also if nothing is near enough.
 ImagePair load_image_pair(const std::filesystem::path& colour, const std::filesystem::path& depth,
                           const PairSetting& setting);

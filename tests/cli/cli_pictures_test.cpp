@@ -138,6 +138,10 @@ TEST_F(OwnPictures, TopHasAPlaceOfItsOwn) {
           DepthFormat::png_mm);
     }
   }
+  write_file(folder_ / "camera.txt", "fx: 285\nfy: 285\ncx: 80\ncy: 60\n");
+  const Result both = vantage("dataset import mine --out train --intrinsics camera.txt" + kFocal);
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.output, HasSubstr("--focal-px"));
   const json imported = parsed("dataset import mine --out train" + kFocal);
   EXPECT_EQ(imported["bins"], 8);
   EXPECT_EQ(imported["degrees"], false);
@@ -244,7 +248,16 @@ TEST_F(Pictures, WithoutAMaskTheObjectIsCutOutAsTheModelExpects) {
     }
   }
   EXPECT_GE(10 * right, 7 * asked);
-  EXPECT_THAT(errors(), HasSubstr("cut by depth, the model learnt from pictures cut by mask"));
+  const std::string warning = "cut by depth, the model learnt from pictures cut by mask";
+  EXPECT_THAT(errors(), HasSubstr(warning));
+  put("masked", {.seed = 3, .holes = 0.15, .margin = 0.6}, DepthFormat::png_mm, true);
+  const std::string of = "masked/thinga/front";
+  parsed(
+      fmt::format("recognise --model model --focal-px 285 {0}_rgb.png {0}_depth.png "
+                  "--view-names front",
+                  of));
+  EXPECT_THAT(errors(), Not(HasSubstr(warning)));
+  EXPECT_THAT(errors(), HasSubstr("there is one view"));
 }
 
 TEST_F(Pictures, RenderedOnesAreToldAndShown) {

@@ -282,6 +282,27 @@ TEST_F(Reader, TheTableTellsAnElevationThatIsNotKnown) {
   EXPECT_LT((pair.view.up - up_in_camera(0.7)).norm(), 0.01);
 }
 
+TEST_F(Reader, AMaskNamedAsTheDepthCutsAPictureOfOnesOwn) {
+  const auto at = [&](const char* name) { return root_.path() / name; };
+  for (const char* folder : {"colour", "depth", "mask"})
+    std::filesystem::create_directory(at(folder));
+  put_table(at("mug.png"), at("mug_depth.png"));
+  put_table(at("colour/mug.png"), at("depth/mug.png"));
+  cv::Mat1b mask(120, 160, static_cast<std::uint8_t>(0));
+  mask(cv::Rect(70, 50, 20, 10)) = 255;
+  for (const char* name : {"mug_mask.png", "mask/mug.png"}) cv::imwrite(at(name).string(), mask);
+  for (const ImagePair& pair :
+       {load_image_pair(at("mug.png"), at("mug_depth.png"), {}),
+        load_image_pair(at("colour/mug.png"), at("depth/mug.png"), {.cut = ObjectCut::mask})}) {
+    EXPECT_EQ(pair.cut, ObjectCut::mask);
+    EXPECT_EQ(std::ranges::count(pair.view.mask, 1), 200);
+    EXPECT_LT(pair.view.width_px, 40) << "cropped round it";
+    EXPECT_EQ(pair.view.left_px, 240 + 70 - (pair.view.width_px - 20) / 2) << "of 640 px";
+  }
+  EXPECT_EQ(load_image_pair(at("mug.png"), at("mug_depth.png"), {.cut = ObjectCut::depth}).cut,
+            ObjectCut::depth);
+}
+
 TEST_F(Reader, NamesAMaskOfAnotherSize) {
   cv::imwrite(entry_.file("maskcrop.png").string(), cv::Mat(3, 5, CV_8UC1, cv::Scalar(255)));
   expect_bad("maskcrop.png", "is 5 x 3 px, the colour crop 5 x 4");

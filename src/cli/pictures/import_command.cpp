@@ -151,7 +151,8 @@ std::function<ExitCode()> declare_import(CLI::App& app,
       ->check(CLI::Range(10.0, 1e5));
   app.add_option("--intrinsics", arguments->intrinsics,
                  "file with fx, fy, cx, cy or a 3 x 3 matrix, instead of --focal-px; pictures with "
-                 "that point far from their middle are taken for crops of the image's middle");
+                 "that point far from their middle are taken for crops of the image's middle")
+      ->excludes("--focal-px");
   app.add_option("--elevation-deg", options.elevation_deg,
                  "how far the camera looks down, where no pose tells; default: from the table that "
                  "pictures show, else 45")
