@@ -1,5 +1,6 @@
 #include "vantage/planners/navigation/passage_watch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -39,21 +40,28 @@ void add_poses(const Pose2& from, const Pose2& to, std::vector<Pose2>& poses) {
   }
 }
 
-/// Poses of the leg from the one nearest to the robot's on.
-std::vector<Pose2> poses_ahead(const PathLeg& leg, const Pose2& T_world_base) {
-  std::vector<Pose2> poses;
-  for (std::size_t i = 1; i < leg.waypoints.size(); ++i) {
-    add_poses(leg.waypoints[i - 1], leg.waypoints[i], poses);
-  }
-  const auto away_m = [&](const Pose2& pose) {
-    return (position(pose) - position(T_world_base)).norm() +
-           kArm_m * std::abs(wrap_angle(pose.yaw_rad - T_world_base.yaw_rad));
-  };
+/// Way of the robot's corners from one pose to another, about.
+double away_m(const Pose2& a, const Pose2& b) {
+  return (position(a) - position(b)).norm() + kArm_m * std::abs(wrap_angle(a.yaw_rad - b.yaw_rad));
+}
+
+/// Poses of a leg, those after the first nearest one to the robot's ahead of it.
+struct LegPoses {
+  std::vector<Pose2> all;
   std::size_t nearest = 0;
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    if (away_m(poses[i]) <= away_m(poses[nearest])) nearest = i;
+  [[nodiscard]] std::span<const Pose2> ahead() const { return std::span(all).subspan(nearest); }
+};
+
+LegPoses poses_of(const PathLeg& leg, const Pose2& T_world_base) {
+  LegPoses poses;
+  for (std::size_t i = 1; i < leg.waypoints.size(); ++i) {
+    add_poses(leg.waypoints[i - 1], leg.waypoints[i], poses.all);
   }
-  poses.erase(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(nearest));
+  for (std::size_t i = 1; i < poses.all.size(); ++i) {
+    const bool nearer =
+        away_m(poses.all[i], T_world_base) <= away_m(poses.all[poses.nearest], T_world_base);
+    if (nearer) poses.nearest = i;
+  }
   return poses;
 }
 
@@ -64,7 +72,8 @@ bool is_passage_blocked(const FloorMap& detail, const PathLeg& leg, const Pose2&
   constexpr double kSlack_m = 0.01;
   const FloorOutline now = moved(grown(robot.outline, kSlack_m), T_world_base);
   bool blocked = false;
-  for (const Pose2& pose : poses_ahead(leg, T_world_base)) {
+  const LegPoses poses = poses_of(leg, T_world_base);
+  for (const Pose2& pose : poses.ahead()) {
     const FloorOutline outline = moved(robot.outline, pose);
     for_each_row_inside(outline, detail.centre({0, 0}), detail.cell_m,
                         [&](int row, int first, int last) {
@@ -78,6 +87,38 @@ bool is_passage_blocked(const FloorMap& detail, const PathLeg& leg, const Pose2&
     if (blocked) return true;
   }
   return false;
+}
+
+std::vector<Eigen::Vector2d> cells_before(const FloorMap& detail, const PathLeg& leg,
+                                          const Pose2& T_world_base, const RobotOutline& robot) {
+  constexpr double kAhead_m = 0.025;
+  const LegPoses poses = poses_of(leg, T_world_base);
+  const auto next = std::ranges::find_if(
+      poses.ahead(), [&](const Pose2& pose) { return away_m(pose, T_world_base) >= kAhead_m; });
+  const Pose2& to = next != poses.ahead().end() ? *next : leg.waypoints.back();
+  const double share = kAhead_m / std::max(away_m(to, T_world_base), 1e-6);
+  const Eigen::Vector2d p_m =
+      position(T_world_base) + share * (position(to) - position(T_world_base));
+  const double turn_rad = share * wrap_angle(to.yaw_rad - T_world_base.yaw_rad);
+  const FloorOutline now = moved(robot.outline, T_world_base);
+  std::vector<Eigen::Vector2d> cells;
+  for_each_row_inside(
+      moved(robot.outline, Pose2{p_m.x(), p_m.y(), T_world_base.yaw_rad + turn_rad}),
+      detail.centre({0, 0}), detail.cell_m, [&](int row, int first, int last) {
+        for (int column = first; column <= last; ++column) {
+          const Eigen::Vector2d centre_m = detail.centre({column, row});
+          if (!is_inside(now, centre_m)) cells.push_back(centre_m);
+        }
+      });
+  return cells;
+}
+
+Pose2 pose_behind(const PathLeg& leg, const Pose2& T_world_base) {
+  constexpr double kBehind_m = 0.1;
+  const LegPoses poses = poses_of(leg, T_world_base);
+  std::size_t behind = poses.nearest;
+  while (behind > 0 && away_m(poses.all[behind], T_world_base) < kBehind_m) --behind;
+  return poses.all[behind];
 }
 
 }  // namespace vantage

@@ -1,5 +1,6 @@
 #include "vantage/sim/robots/drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -8,8 +9,9 @@
 namespace vantage {
 namespace {
 
-constexpr double kPushing_m_s = 0.1;
+constexpr double kPushing_m_s = 0.01;
 constexpr double kMoving_m_s = 0.02;
+constexpr double kMovingShare = 0.2;  ///< of what is commanded, where that is slow
 constexpr double kLongestBraking_s = 3.0;
 constexpr double kGrace_s = 10.0;
 
@@ -88,9 +90,12 @@ class Driver {
            robot_.footprint().circumscribed_radius_m * std::abs(twist.wz_rad_s);
   }
 
-  /// By what the wheels measure: the robot has no sense of touch.
+  /// By what the wheels measure: the robot has no sense of touch. Close to where it is to go it
+  /// pushes slowly.
   [[nodiscard]] bool is_pushing(const Twist2& command) const {
-    return corner_speed(command) > kPushing_m_s && measured_m_s_ < kMoving_m_s;
+    const double commanded_m_s = corner_speed(command);
+    return commanded_m_s > kPushing_m_s &&
+           measured_m_s_ < std::min(kMoving_m_s, kMovingShare * commanded_m_s);
   }
 
   [[nodiscard]] bool is_at_rest() const {

@@ -50,6 +50,53 @@ TEST(PassageWatch, AHeadingCountsByThirtyCentimetresARadian) {
       << "0.37 against 0.31";
 }
 
+/// Two and a half centimetres on, however far that is from the end of the leg.
+TEST(PassageWatch, WhereItDoesNotGetOnSomethingIsBeforeItsOutline) {
+  const DrawnRooms rooms(4.0, 4.0, {});
+  const RobotOutline robot{.outline = rectangle(0.6, 0.6)};
+  const auto before = [&](const PathLeg& leg, const Pose2& base) {
+    return cells_before(rooms.detail, leg, base, robot);
+  };
+  const PathLeg ahead{.waypoints = {{1.0, 1.5, 0.0}, {2.0, 1.5, 0.0}}, .narrow = true};
+  const double column = 0.6 / rooms.detail.cell_m;
+  for (const double x_m : {1.5, 1.99}) {
+    const auto cells = before(ahead, {x_m, 1.5, 0.0});
+    EXPECT_NEAR(static_cast<double>(cells.size()), 0.025 / rooms.detail.cell_m * column, column);
+    EXPECT_FALSE(cells.empty());
+    for (const Eigen::Vector2d& cell_m : cells) {
+      EXPECT_GE(cell_m.x(), x_m + 0.3);
+      EXPECT_LE(cell_m.x(), x_m + 0.326);
+      EXPECT_LE(std::abs(cell_m.y() - 1.5), 0.3001);
+    }
+  }
+  const PathLeg turn{.waypoints = {{2.0, 1.5, 0.0}, {2.0, 1.5, kQuarter_rad}}, .narrow = true};
+  const auto corners = before(turn, {2.0, 1.5, 0.0});
+  EXPECT_FALSE(corners.empty());
+  for (const Eigen::Vector2d& cell_m : corners) {
+    const Eigen::Vector2d from_middle_m = cell_m - Eigen::Vector2d(2.0, 1.5);
+    EXPECT_GT(from_middle_m.norm(), 0.3);
+    EXPECT_GT(from_middle_m.cwiseAbs().maxCoeff(), 0.299) << "beyond a side, behind a corner";
+  }
+}
+
+TEST(PassageWatch, TheWayBackIsTenCentimetresOfTheWayItCame) {
+  const PathLeg leg{.waypoints = {{1.0, 1.5, 0.0},
+                                  {2.0, 1.5, 0.0},
+                                  {2.0, 1.5, kQuarter_rad},
+                                  {2.0, 1.7, kQuarter_rad}},
+                    .narrow = true};
+  const Pose2 along = pose_behind(leg, {1.5, 1.49, 0.0});
+  EXPECT_NEAR(along.x_m, 1.4, 0.04);
+  EXPECT_EQ(along.y_m, 1.5);
+  const Pose2 turned = pose_behind(leg, {2.0, 1.5, 1.0});
+  EXPECT_EQ(turned.x_m, 2.0);
+  EXPECT_NEAR(turned.yaw_rad, 1.0 - 0.1 / 0.3, 0.03);
+  const Pose2 sideways = pose_behind(leg, {2.0, 1.62, kQuarter_rad});
+  EXPECT_NEAR(sideways.y_m, 1.52, 0.031);
+  EXPECT_EQ(sideways.yaw_rad, kQuarter_rad);
+  EXPECT_EQ(pose_behind(leg, {1.03, 1.5, 0.0}).x_m, 1.0) << "no farther than its begin";
+}
+
 TEST(PassageWatch, SeesWhatIsInTheWayOfAShortMotion) {
   const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {2.02, 1.5, 0.0}}, .narrow = true};
   EXPECT_TRUE(passage_blocked_by({2.315, 1.505}, leg, {2.0, 1.5, 0.0}, rectangle(0.6, 0.6)));

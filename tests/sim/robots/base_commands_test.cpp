@@ -247,7 +247,7 @@ TEST(RobotOptions, AQuadrotorNamesFourRotors) {
 }
 
 /// Driving at so many m/s while the wheels measure so many.
-TEST(DriveTimes, StuckIsToPushFasterThanTenCentimetresASecondAndMoveSlowerThanTwo) {
+TEST(DriveTimes, StuckIsToPushAndToMoveByLessThanAFifthOrTwoCentimetresASecond) {
   const auto status = [](double pushed_m_s, double measured_m_s) {
     test::RobotWorld scene;
     Odometry odometry = exact_odometry();
@@ -262,7 +262,10 @@ TEST(DriveTimes, StuckIsToPushFasterThanTenCentimetresASecondAndMoveSlowerThanTw
   EXPECT_EQ(status(0.3, 0.018), DriveStatus::stuck);
   EXPECT_EQ(status(0.3, 0.022), DriveStatus::stopped);
   EXPECT_EQ(status(0.12, 0.0), DriveStatus::stuck);
-  EXPECT_EQ(status(0.09, 0.0), DriveStatus::stopped);
+  EXPECT_EQ(status(0.05, 0.009), DriveStatus::stuck);
+  EXPECT_EQ(status(0.05, 0.011), DriveStatus::stopped);
+  EXPECT_EQ(status(0.011, 0.0), DriveStatus::stuck);
+  EXPECT_EQ(status(0.009, 0.0), DriveStatus::stopped);
 }
 
 TEST(BaseCommands, TheHeadTurnsAsFastAsTheFasterOfItsJoints) {

@@ -103,13 +103,14 @@ TEST(Drive, StuckAgainstAWall) {
   EXPECT_TRUE(is_at_rest(scene));
 }
 
+/// It leans there at a few centimetres a second.
 TEST(Drive, AGoalJustInsideAWallEndsToo) {
   RobotWorld scene("<geom name='wall' type='box' size='0.1 3 1' pos='1.1 0 1'/>");
   Odometry odometry = perfect(scene);
   const DriveResult result =
       drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{0.69, 0.0, 0.0}});
-  EXPECT_EQ(to_string(result.status), "timeout") << "too near to push hard";
-  EXPECT_LT(result.duration_s, 30.0);
+  EXPECT_EQ(to_string(result.status), "stuck");
+  EXPECT_LT(result.duration_s, 6.0);
 }
 
 TEST(Drive, StopsWhenToldAndComesToRest) {

@@ -271,11 +271,56 @@ TEST(Navigator, DrivesThroughADoorLegByLeg) {
 
   robot.T_world_base = start;
   robot.paths.clear();
-  robot.stuck_at = 2;
+  robot.stuck_at = 1;
+  ASSERT_FALSE(legs.front().narrow);
   const Approach stuck = navigator.approach(beyond, std::nullopt);
   EXPECT_FALSE(stuck.reached);
-  EXPECT_EQ(robot.paths.size(), 2U);
-  EXPECT_DOUBLE_EQ(stuck.path_length_m, 0.5);
+  EXPECT_EQ(robot.paths.size(), 1U);
+  EXPECT_DOUBLE_EQ(stuck.path_length_m, 0.25);
+}
+
+/// The same, but a bar that no sensor sees keeps it from going beyond x in the door at y 0.
+struct BarredRobot : DoorRobot {
+  DriveResult drive_along(std::span<const Pose2> path, double max_speed_m_s,
+                          const std::function<bool()>& go_on) override {
+    const Pose2 goal = path.back();
+    const bool before_it = T_world_base.x_m < bar_m && std::abs(goal.y_m) < 0.3;
+    DriveResult driven = DoorRobot::drive_along(path, max_speed_m_s, go_on);
+    if (!before_it || goal.x_m < bar_m) return driven;
+    T_world_base = {bar_m - 0.01, goal.y_m, goal.yaw_rad};
+    driven.status = DriveStatus::stuck;
+    ++touches;
+    return driven;
+  }
+  double bar_m = -0.2;
+  int touches = 0;
+};
+
+/// Two doors of 0.72 m, the nearer one barred.
+TEST(Navigator, WhereItDoesNotGetOnItGoesAnotherWay) {
+  BarredRobot robot;
+  robot.T_world_base = {-1.25, 0.0, 0.0};
+  Navigator navigator({.half_size_m = 2.5}, {}, {}, robot, ReferenceMap(RegistrationOptions{}), 1);
+  navigator.use_passages({}, {.parts = 5});
+  const auto put_walls = [&] {
+    for (FloorMap* map : {&navigator.floor(), navigator.detail()}) {
+      std::ranges::fill(map->log_odds, -2.0F);
+      std::ranges::fill(map->blocked, 0);
+      block_box(*map, {Eigen::Vector2d(0.001, -2.5), Eigen::Vector2d(0.099, -0.361)});
+      block_box(*map, {Eigen::Vector2d(0.001, 0.361), Eigen::Vector2d(0.099, 1.139)});
+      block_box(*map, {Eigen::Vector2d(0.001, 1.861), Eigen::Vector2d(0.099, 2.5)});
+    }
+  };
+  put_walls();
+  const Pose2 beyond{1.4, 0.0, 1.0};
+  EXPECT_TRUE(navigator.approach(beyond, std::nullopt).reached);
+  EXPECT_EQ(robot.touches, 1);
+  EXPECT_GT(robot.paths.size(), 4U);
+
+  robot.T_world_base = {-1.25, 0.0, 0.0};
+  put_walls();  // as the map is made anew
+  EXPECT_TRUE(navigator.approach(beyond, std::nullopt).reached);
+  EXPECT_EQ(robot.touches, 1) << "it remembers";
 }
 
 }  // namespace

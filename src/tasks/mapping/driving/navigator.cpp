@@ -51,6 +51,7 @@ std::optional<PoseCorrection> Navigator::correct_over_loops() {
   for (std::size_t i = 0; i < path_m_.size(); ++i) {
     path_m_[i] = correction.moved(path_m_[i], keyframe_of_path_[i]);
   }
+  for (Touched& touched : touched_) touched.at_m = correction.moved(touched.at_m, touched.keyframe);
   const bool by_posts = reference_map_.goes_by_posts();
   reference_map_ = empty_reference_map_;
   if (by_posts) reference_map_.go_by_posts();
@@ -173,6 +174,7 @@ void Navigator::correct_pose(const Pose2& T_world_base, const Eigen::Matrix3d& i
 std::shared_ptr<const PathField> Navigator::plan() {
   const Pose2 base = robot_.estimated_base();
   clear_footprint(floor_, base, robot_.inscribed_radius_m());
+  block_touched();
   const bool known = planned_ && planned_->start.x_m == base.x_m &&
                      planned_->start.y_m == base.y_m && planned_->start.yaw_rad == base.yaw_rad &&
                      planned_->space == space() && planned_->map.log_odds == floor_.log_odds &&
@@ -183,8 +185,28 @@ std::shared_ptr<const PathField> Navigator::plan() {
 
 void Navigator::note_path_point() {
   path_m_.emplace_back(robot_.estimated_base().x_m, robot_.estimated_base().y_m);
+  keyframe_of_path_.push_back(last_keyframe());
+}
+
+std::size_t Navigator::last_keyframe() const {
   const std::size_t remembered = loops_ ? loops_->remembered().size() : 0;
-  keyframe_of_path_.push_back(remembered > 0 ? remembered - 1 : 0);
+  return remembered > 0 ? remembered - 1 : 0;
+}
+
+void Navigator::note_touched(const PathLeg& leg) {
+  for (const Eigen::Vector2d& cell_m :
+       cells_before(passages_->detail, leg, robot_.estimated_base(), passages_->robot)) {
+    touched_.push_back({cell_m, last_keyframe()});
+  }
+}
+
+void Navigator::block_touched() {
+  for (const Touched& touched : touched_) {
+    const Eigen::Array2i cell = passages_->detail.cell_at(touched.at_m);
+    if (!passages_->detail.contains(cell)) continue;
+    const std::size_t index = passages_->detail.index(cell);
+    if (passages_->detail.blocked[index] == 0) detail()->blocked[index] = 1;
+  }
 }
 
 PathField Navigator::ways_from(const Pose2& T_world_base) const {
@@ -215,9 +237,22 @@ DriveResult Navigator::drive_leg(const PathLeg& leg) {
   std::vector<Pose2> waypoints = leg.waypoints;
   waypoints.front() = robot_.estimated_base();
   if (!leg.narrow) return drive_open(waypoints);
-  return drive_and_map(waypoints, passages_->options.speed_m_s, [&] {
+  const DriveResult driven = drive_and_map(waypoints, passages_->options.speed_m_s, [&] {
     return is_passage_blocked(passages_->detail, leg, robot_.estimated_base(), passages_->robot);
   });
+  if (driven.status != DriveStatus::stuck) return driven;
+  note_touched(leg);
+  return back_off(leg, driven);
+}
+
+/// The robot that got stuck goes back a little the way it came.
+DriveResult Navigator::back_off(const PathLeg& leg, DriveResult driven) {
+  const Pose2 base = robot_.estimated_base();
+  const DriveResult back = drive_and_map(std::array{base, pose_behind(leg, base)},
+                                         passages_->options.speed_m_s, [] { return false; });
+  driven.path_length_m += back.path_length_m;
+  driven.duration_s += back.duration_s;
+  return driven;
 }
 
 /// One leg after the other, as far as it gets.
@@ -244,11 +279,13 @@ Approach Navigator::approach(const Pose2& goal, const std::optional<Eigen::Vecto
     if (!path.reaches_goal && remaining_m > nearest_m - kProgress_m) return result;
     nearest_m = remaining_m;
     if (on_plan) on_plan(path);
+    const std::size_t touched_before = touched_.size();
     const DriveResult driven = drive(path);
     result.path_length_m += driven.path_length_m;
     result.reached = driven.status == DriveStatus::arrived && path.reaches_goal;
     result.turned_back = turned_back_;
-    if (result.reached || turned_back_ || driven.status == DriveStatus::stuck) return result;
+    const bool stuck = driven.status == DriveStatus::stuck && touched_.size() == touched_before;
+    if (result.reached || turned_back_ || stuck) return result;
   }
   return result;
 }

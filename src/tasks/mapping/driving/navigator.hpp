@@ -68,7 +68,8 @@ class Navigator {
   /// The ways from some other place.
   [[nodiscard]] PathField ways_from(const Pose2& T_world_base) const;
   /// Drives to the goal, or as near as the known free floor allows; plans again as the floor map
-  /// grows, and where something new stands in the way. Short of the goal it ends facing
+  /// grows, where something new stands in the way, and where it does not get on in a passage: from
+  /// then on that is closed where it was to go. Short of the goal it ends facing
   /// `look_at_m`, see plan_path().
   Approach approach(const Pose2& goal, const std::optional<Eigen::Vector2d>& look_at_m);
 
@@ -96,11 +97,16 @@ class Navigator {
   void extend_reference_map(const PlanarScan& scan, const Pose2& T_world_base);
   void clear_floor(const Pose2& start);
   void note_path_point();
+  [[nodiscard]] std::size_t last_keyframe() const;
   DriveResult drive_and_map(std::span<const Pose2> waypoints, double max_speed_m_s,
                             const std::function<bool()>& is_blocked);
   DriveResult drive_open(const std::vector<Pose2>& waypoints);
   DriveResult drive_leg(const PathLeg& leg);
   DriveResult drive(const PlannedPath& path);
+  void note_touched(const PathLeg& leg);
+  DriveResult back_off(const PathLeg& leg, DriveResult driven);
+  /// Says it again, since the map is made anew at times.
+  void block_touched();
   [[nodiscard]] std::shared_ptr<const FootprintSpace> space() const;
 
   int threads_;
@@ -110,6 +116,12 @@ class Navigator {
   FloorMap floor_;
   std::optional<PassageMap> passages_;
   mutable std::shared_ptr<const FootprintSpace> space_;  ///< of them as they are; null: to be made
+  /// A cell that the robot did not get to, with something in it that no sensor has seen.
+  struct Touched {
+    Eigen::Vector2d at_m;
+    std::size_t keyframe;  ///< the last one then
+  };
+  std::vector<Touched> touched_;
   ReferenceMap reference_map_;
   PoseUncertainty uncertainty_;
   std::shared_ptr<const PathField> planned_;  ///< by the last plan()
