@@ -45,7 +45,7 @@ double away_m(const Pose2& a, const Pose2& b) {
   return (position(a) - position(b)).norm() + kArm_m * std::abs(wrap_angle(a.yaw_rad - b.yaw_rad));
 }
 
-/// Poses of a leg, those after the first nearest one to the robot's ahead of it.
+/// Poses of a leg; those from the last one nearest to the robot's on are ahead of it.
 struct LegPoses {
   std::vector<Pose2> all;
   std::size_t nearest = 0;

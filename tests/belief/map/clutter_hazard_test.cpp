@@ -322,5 +322,56 @@ TEST(ClutterHazard, ABeamThatEndsFarBelowTheFloorIsCutThere) {
   EXPECT_EQ(hazard.hits(3), 0.0);
 }
 
+TEST(ClutterHazard, BeamsBehindAnInvalidOneCount) {
+  const OccupancyGrid before = parse({"..????"});
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0, 0.0};
+  scan.range_m = {std::numeric_limits<float>::quiet_NaN(), 3.5F};
+  scan.field_of_view.range_max_m = 100.0;
+  ClutterHazard hazard({.layers = 1}, before.frame.cells);
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 0.0}, 0.0));
+  EXPECT_EQ(hazard.crossings(0), 2.0);
+  EXPECT_EQ(hazard.hits(0), 1.0);
+}
+
+TEST(ClutterHazard, WithoutPriorASingleCrossingSaysAll) {
+  const OccupancyGrid before = parse({"..????"});
+  RangeScan scan;
+  scan.tilt_rad = {0.0};
+  scan.azimuth_rad = {0.0};
+  scan.range_m = {2.5F};
+  scan.field_of_view.range_max_m = 100.0;
+  const ClutterHazardOptions options{
+      .layers = 1, .prior_crossings = 0.0, .prior_hazard = 0.1, .prior_weight = 10.0};
+  ClutterHazard hazard(options, before.frame.cells);
+  EXPECT_NEAR(hazard.hazard(0), 0.1, 1e-12) << "of all layers";
+  hazard.observe(before, scan, make_pose({0.0, 0.5, 0.0}, 0.0));
+  EXPECT_EQ(hazard.hazard(0), 1.0);
+  EXPECT_NEAR(hazard.global_hazard(), 2.0 / 11.0, 1e-12);
+}
+
+/// Ahead of it and 3 in 4 down.
+TEST(ClutterHazard, ACameraOnTheFloorMeetsNothingBelowIt) {
+  const OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {10.0, 4.0, 4.0}, {10, 1, 4}));
+  CameraImages image;
+  image.width_px = 1;
+  image.height_px = 1;
+  image.focal_px = 1000.0;
+  image.range_max_m = 7.5;
+  image.depth_m = {2.0F};
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 0.0, -0.6, 0.8, -1.0, 0.0, 0.0, 0.0, -0.8, -0.6;
+  const auto crossings = [&](double height_m) {
+    T_world_camera.translation() = Eigen::Vector3d(-4.5, 0.0, height_m);
+    const std::vector<PosedImage> images{{image, T_world_camera}};
+    ClutterHazard hazard({.layers = 1}, grid.frame.cells);
+    hazard.observe(grid, images, 1, 0.0);
+    return hazard.crossings(0);
+  };
+  EXPECT_EQ(crossings(0.0), 0.0);
+  EXPECT_GT(crossings(0.5), 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

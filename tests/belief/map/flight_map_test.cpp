@@ -223,5 +223,33 @@ TEST(FlightMap, AReadingSpeaksForItsOwnCellAlone) {
   EXPECT_EQ(std::ranges::count_if(map.grid().log_odds, raised), 1);
 }
 
+/// Of a camera within the region.
+TEST(FlightMap, AReadingOfNothingMarksNothingOneOfHalfAMetreDoes) {
+  CameraImages image;
+  image.width_px = 1;
+  image.height_px = 1;
+  image.focal_px = 100.0;
+  image.range_max_m = 20.0;
+  FlightMap map({Vector3d(0.0, -1.0, 0.0), Vector3d(3.0, 1.0, 1.0)});
+  image.depth_m = {0.0F};
+  map.insert(image, drawn_camera({0.5, 0.05, 0.55}, 0.0, 0.0));
+  EXPECT_EQ(map.grid().count(CellState::occupied), 0U);
+  image.depth_m = {0.55F};
+  map.insert(image, drawn_camera({0.5, 0.05, 0.55}, 0.0, 0.0));
+  EXPECT_EQ(state_at(map, {1.05, 0.05, 0.55}), CellState::occupied);
+}
+
+TEST(FlightMap, SaysHowManyCellsOfWhatSizeAreTooMany) {
+  const Eigen::AlignedBox3d huge(Vector3d::Zero(), Vector3d::Constant(1024.0));
+  try {
+    const FlightMap map(huge, {.cell_m = 0.5});
+    FAIL() << "no error";
+  } catch (const ConfigError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("map: 8589934592"), std::string::npos) << message;
+    EXPECT_NE(message.find("cell_m = 0.5,"), std::string::npos) << message;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -179,5 +179,15 @@ TEST(FloorDetail, ABeamTurnsToTheLeftByItsAzimuth) {
   EXPECT_EQ(detail.state_at({end_m.x(), -end_m.y()}), CellState::unobserved);
 }
 
+TEST(FloorDetail, BeamsBehindAnInvalidOneCount) {
+  FloorMap detail = make_floor_detail(floor_of_20cm(), {});
+  const PlanarScan scan{.T_base_sensor = {},
+                        .azimuth_rad = {0.0, 0.0},
+                        .range_m = {std::numeric_limits<float>::quiet_NaN(), 1.0F},
+                        .range_max_m = 10.0};
+  add_beams(detail, scan, {0.0, 0.0, 0.0}, {});
+  EXPECT_EQ(detail.state_at({1.0, 0.0}), CellState::occupied);
+}
+
 }  // namespace
 }  // namespace vantage

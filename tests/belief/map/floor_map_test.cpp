@@ -206,5 +206,25 @@ TEST(AddPlanarScan, AnInvalidBeamChangesNoCellAtAll) {
   EXPECT_EQ(map.log_odds, before.log_odds);
 }
 
+TEST(AddPlanarScan, AReturnJustInRangeIsOneAndBeamsBehindAnInvalidOneCount) {
+  FloorMap map = make_floor_map(metre_cells());
+  const PlanarScan scan{.T_base_sensor = {},
+                        .azimuth_rad = {0.0, 0.0},
+                        .range_m = {std::nanf(""), 4.0F},
+                        .range_max_m = 4.0};
+  add_planar_scan(map, scan, {-5.5, 0.5, 0.0}, metre_cells());
+  EXPECT_EQ(row(map, 0.5), "....#???????");
+}
+
+TEST(ClearFootprint, FreesACellWhoseCentreIsJustInReachAndTakesNoneBack) {
+  FloorMap map = make_floor_map(metre_cells());
+  const std::size_t freer = map.index(map.cell_at({0.5, 1.5}));
+  map.log_odds[freer] = -2.5F;
+  clear_footprint(map, {0.5, 0.5, 0.0}, 1.0);
+  EXPECT_EQ(row(map, 0.5), "?????...????");
+  EXPECT_EQ(map.log_odds[freer], -2.5F);
+  EXPECT_EQ(map.log_odds[map.index(map.cell_at({0.5, 0.5}))], -2.0F);
+}
+
 }  // namespace
 }  // namespace vantage

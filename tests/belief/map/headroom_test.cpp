@@ -309,5 +309,16 @@ TEST(Headroom, AColumnTouchesACellThatItReachesIntoByLessThanANanometre) {
   }
 }
 
+TEST(Headroom, RejectsOptionsOutOfRangeOfTheFinerMapToo) {
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  const std::vector<std::uint8_t> none = nowhere(floor);
+  for (const HeadroomOptions& bad :
+       {HeadroomOptions{.low_m = 2.0}, HeadroomOptions{.max_unseen = 1.5}}) {
+    EXPECT_THROW(block_columns({floor, none}, {detail, none}, free_row(), bad, 0.2), ConfigError);
+  }
+  EXPECT_NO_THROW(block_columns({floor, none}, {detail, none}, free_row(), kOptions, 0.2));
+}
+
 }  // namespace
 }  // namespace vantage

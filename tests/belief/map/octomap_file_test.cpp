@@ -209,5 +209,16 @@ TEST_F(OctomapFiles, WhatIsKnownNeedNotHoldTheOrigin) {
                                                 Eigen::Vector3d(7.0, -9.5, 17.0))));
 }
 
+TEST_F(OctomapFiles, ABorderOfCellsIsOneToAMillionthOfACell) {
+  const auto one = map({{{0, 0, 0}, 1, true}}, 0.1);
+  const auto along = [&](double from_cells, double to_cells) {
+    const CellBlock cells = one.cells_in(
+        {Eigen::Vector3d(0.1 * from_cells, 0, 0), Eigen::Vector3d(0.1 * to_cells, 1, 1)});
+    return std::pair{cells.begin.x(), cells.end.x()};
+  };
+  EXPECT_EQ(along(1.0 - 7e-7, 3.0 + 7e-7), (std::pair{1, 3}));
+  EXPECT_EQ(along(1.0 - 1.5e-6, 3.0 + 1.5e-6), (std::pair{0, 4}));
+}
+
 }  // namespace
 }  // namespace vantage

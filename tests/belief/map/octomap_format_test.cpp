@@ -196,5 +196,10 @@ TEST(CellBlock, IsJoinedWithAndCutByOthers) {
   EXPECT_EQ(block.cut(apart).count(), 0.0);
 }
 
+TEST(OctomapFormat, ALineIsACommentByItsBeginningAlone) {
+  EXPECT_THAT(error_of(ot("id OcTree\nsize 0\nres 1#\n", "")), HasSubstr("'res' has value '1#'"));
+  EXPECT_EQ(error_of(ot("id OcTree\nsize 0\n# res 2x\nres 1\n", "")), "accepted");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -371,5 +371,46 @@ TEST(ObjectStates, UnknownOnesAreBehindTheKnownAndHaveNoYaw) {
   }
 }
 
+TEST(EstimateOf, IsOfTheDatabaseWhereUnknownIsJustAsProbable) {
+  ObjectStates states = make_states({0, 0}, 1);
+  states.unknown_category = {kNoCategory};
+  const ObjectBelief belief = belief_of({0.3, 0.2, 0.5});
+  EXPECT_FALSE(is_unknown(states, belief));
+  EXPECT_EQ(estimate_of(states, belief).object, states.objects[0]);
+  EXPECT_EQ(p_unknown(states, prior_belief(states, 0.0)), 0.0);
+}
+
+TEST(ObjectEntropy, CountsTheOnlyHypothesisOfUnknownObjects) {
+  ObjectStates states = make_states({0}, 1);
+  states.unknown_category = {kNoCategory};
+  EXPECT_NEAR(object_entropy_bits(states, belief_of({0.75, 0.25})), 2.0 - 0.75 * std::log2(3.0),
+              1e-12);
+}
+
+/// Of three bins. The first object keeps what it has: nothing would be left of it.
+TEST(SpreadOverSeen, GoesOnBehindAnObjectThatNothingIsLeftOf) {
+  const ObjectStates states = make_states({0, 0, 0}, 3);
+  ObjectBelief belief = belief_of({0.1, 0.1, 0.0, 0.1, 0.2, 0.1, 0.1, 0.1, 0.2});
+  spread_over_seen(states, std::vector<int>{0, 1, 4, 6, 8}, belief);
+  Eigen::VectorXd wanted(9);
+  wanted << 0.1, 0.1, 0.0, 0.2, 0.0, 0.2, 0.0, 0.4, 0.0;
+  EXPECT_TRUE(p_state(belief).isApprox(wanted, kTolerance)) << p_state(belief);
+  EXPECT_EQ(belief.log_p[4], -kBoundless);
+  forget_yaw(states, {}, belief);
+  wanted << 0.2, 0.2, 0.2, 0.4, 0.4, 0.4, 0.4, 0.4, 0.4;
+  EXPECT_TRUE(p_state(belief).isApprox(wanted / 3.0, kTolerance)) << p_state(belief);
+}
+
+/// Nearly as much to the left as to the right.
+TEST(MeanYaw, OfAPreferenceBelowABillionthIsZero) {
+  const ObjectStates states = make_states({0}, 4);
+  const auto mean_rad = [&](double preference) {
+    return mean_yaw_rad(
+        states, belief_of({0.0, 0.5 * (1.0 + preference), 0.0, 0.5 * (1.0 - preference)}), 0);
+  };
+  EXPECT_EQ(mean_rad(7e-10), 0.0);
+  EXPECT_NEAR(mean_rad(1.5e-9), kTurn / 4.0, 1e-3);
+}
+
 }  // namespace
 }  // namespace vantage

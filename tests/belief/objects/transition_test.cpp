@@ -141,5 +141,20 @@ TEST(TransitionModel, SumsToOneWithinAMillionth) {
   }
 }
 
+/// Half a bin, to the bit.
+TEST(TableTransition, RoundsHalfABinUp) {
+  const TransitionKernel kernel = TableTransition{}.kernel(kFullTurn / 4.0, 2);
+  EXPECT_NEAR(kernel.bin_change[0], 0.3 / 0.7, kTransitionTolerance);
+  EXPECT_NEAR(kernel.bin_change[1], 0.4 / 0.7, kTransitionTolerance);
+}
+
+TEST(MotionBins, AHairIsABillionthOfABin) {
+  const auto of = [](double bins) { return motion_bins(bins * kFullTurn / 8.0, 8); };
+  EXPECT_EQ(of(1.0 - 7e-10).lower, 1);
+  EXPECT_EQ(of(1.0 - 1.5e-9).lower, 0);
+  EXPECT_EQ(of(1.0 + 7e-10).upper_share, 0.0);
+  EXPECT_NEAR(of(1.0 + 1.5e-9).upper_share, 1.5e-9, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

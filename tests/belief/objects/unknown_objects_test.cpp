@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "tests/belief/objects/recognition_world.hpp"
 
@@ -153,6 +154,23 @@ TEST(BackgroundDensities, OfTwoDimensionsAreThoseOfEach) {
   EXPECT_TRUE(found.mean.row(1).isApprox(background_of(second).mean, 1e-6F));
   EXPECT_TRUE(found.variance.row(0).isApprox(background_of(first).variance, 1e-6F));
   EXPECT_TRUE(found.variance.row(1).isApprox(background_of(second).variance, 1e-6F));
+}
+
+/// The category of one object may be the first, and one that no object is kept of is none.
+TEST(BackgroundDensities, DoNotDependOnTheOrderOfCategories) {
+  const ObjectStates states = test::make_states({0, 1, 1}, 2);
+  const ObjectMoments moments = object_moments(model_of({8.0F, 1.0F, 3.0F}, 0.5F, 0.25F), states);
+  const float of_pair = 0.5F + 1.5F * (2.0F * 2.0F + 2.0F) / 3.0F;
+  const BackgroundDensities of_all = background_densities(moments, states, all(3));
+  EXPECT_THAT(of_all.category, ElementsAre(0, 1, kNoCategory));
+  EXPECT_FLOAT_EQ(of_all.gaussians.variance(0, 0), 0.5F + 2.0F * (2.0F * 2.0F) / 2.0F);
+  EXPECT_FLOAT_EQ(of_all.gaussians.variance(0, 1), of_pair);
+  const BackgroundDensities of_two = background_densities(moments, states, std::vector<int>{1, 2});
+  EXPECT_THAT(of_two.category, ElementsAre(1, kNoCategory));
+  EXPECT_FLOAT_EQ(of_two.gaussians.mean(0, 0), 2.0F);
+  EXPECT_FLOAT_EQ(of_two.gaussians.variance(0, 0), of_pair);
+  EXPECT_FLOAT_EQ(of_two.gaussians.mean(0, 1), 2.0F);
+  EXPECT_FLOAT_EQ(of_two.gaussians.variance(0, 1), 0.5F + 1.5F * 2.0F);
 }
 
 }  // namespace

@@ -215,5 +215,14 @@ TEST(MakeObservationModel, HasALeastVarianceWhereAllViewsAreTheSame) {
   }
 }
 
+TEST(MakeObservationModel, GuessesAFirstStateFromThoseBehindIt) {
+  GaussianStatistics statistics = empty_statistics(1, 3);
+  for (const float x : {-1.0F, 1.0F}) add_view(statistics, 1, Eigen::VectorXf::Constant(1, x));
+  for (const float x : {1.0F, 3.0F}) add_view(statistics, 2, Eigen::VectorXf::Constant(1, x));
+  const ObservationModel model = make_observation_model(statistics, 3, ShrunkVariance{});
+  EXPECT_FLOAT_EQ(model.mean(0, 0), 1.0F);
+  EXPECT_FLOAT_EQ(model.variance(0, 0), 2.0F + 1.0F);  // s_pool^2 is (2 + 2) / 2
+}
+
 }  // namespace
 }  // namespace vantage

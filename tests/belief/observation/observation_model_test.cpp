@@ -159,5 +159,42 @@ TEST(LogLikelihood, ABoundLeavesTheLargerOnesOpen) {
   EXPECT_LT(part[0], part[1] - 10.0);
 }
 
+TEST(LogDensity, HasTheFactorOfASingleState) {
+  ObservationModel model{.feature = "height",
+                         .mean = Eigen::MatrixXf::Zero(1, 1),
+                         .variance = Eigen::MatrixXf::Ones(1, 1),
+                         .log_factor = Eigen::VectorXd::Constant(1, 2.0)};
+  const Eigen::VectorXf at_mean = Eigen::VectorXf::Zero(1);
+  const double expected = 2.0 + log_normal(0.0, 0.0, 1.0);
+  EXPECT_NEAR(log_density(model, at_mean)[0], expected, 1e-6);
+  EXPECT_NEAR(log_likelihood(prepare(model), at_mean)[0], expected, 1e-6);
+  EXPECT_EQ(prepare(model).log_factor[0], 2.0);
+  model.log_factor.resize(0);
+  EXPECT_EQ(prepare(model).log_factor[0], 0.0);
+}
+
+/// Even where a state's factor is that of none.
+TEST(LogLikelihood, OfReadingsOfASkippedFeatureIsZero) {
+  ObservationModel model;
+  model.mean = Eigen::MatrixXf::Zero(1, 2);
+  model.variance = Eigen::MatrixXf::Ones(1, 2);
+  model.psi = 0.0;
+  model.log_factor = Eigen::Vector2d(0.0, -std::numeric_limits<double>::infinity());
+  const std::vector<Reading> bound{Reading::at_least};
+  EXPECT_EQ(log_likelihood(prepare(model), Eigen::VectorXf::Ones(1), bound),
+            Eigen::VectorXd::Zero(2));
+}
+
+TEST(PreparedObservationModelDeathTest, RefusesFeaturesThatAreNone) {
+  Rng rng(4);
+  const PreparedObservationModel model = prepare(random_model(2, 2, rng));
+  const std::vector<Reading> two(2, Reading::exact);
+  const std::vector<Reading> three(3, Reading::exact);
+  EXPECT_DEATH(log_likelihood(model, Eigen::VectorXf::Zero(3)), "as many dimensions");
+  EXPECT_DEATH(log_likelihood(model, Eigen::VectorXf::Constant(2, NAN)), "finite");
+  EXPECT_DEATH(log_likelihood(model, Eigen::VectorXf::Zero(3), three), "as many dimensions");
+  EXPECT_DEATH(log_likelihood(model, Eigen::VectorXf::Constant(2, NAN), two), "finite");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -279,5 +279,14 @@ TEST(MeanLogPosterior, DoesNotMindLargeDensitiesOfViewsWithAStateThatIsImpossibl
   EXPECT_NEAR(mean_log_posterior(views, psi), expected, 1e-7);
 }
 
+/// In densities that were held out as in likelihoods.
+TEST(MeanLogPosterior, OneNumberRulesAStateOut) {
+  HeldOutViews held_out;
+  held_out.state.push_back(1);
+  held_out.log_density.emplace_back(Eigen::Vector2f(7.0F, -std::numeric_limits<float>::infinity()));
+  EXPECT_EQ(mean_log_posterior(held_out, std::vector{1.0}), kRulesOut);
+  EXPECT_EQ(kRulesOut, -1e9);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -145,5 +145,15 @@ TEST(ObjectTracker, OneSightingIsEnoughWhereOneIsAskedFor) {
   }
 }
 
+/// Detections that hardly count go where the next one is.
+TEST(ObjectTracker, JustHalfTheGateApartTheyWereOne) {
+  ObjectTracker found({.gate_m = 0.5, .partial_weight = 1e-20});
+  const std::vector<ObjectDetection> two{at(0.0, 0.0, 1.0, false), at(0.5, 0.0, 1.0)};
+  ASSERT_EQ(found.update(two), (std::vector<int>{0, 1}));
+  EXPECT_EQ(found.update(std::vector{at(0.25, 0.0, 1.0)}), std::vector<int>{0});
+  ASSERT_EQ(found.objects().size(), 1U);
+  EXPECT_EQ(found.objects()[0].detections, 3);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -349,5 +349,20 @@ TEST(FootprintSpace, RejectsOptionsOutOfRange) {
   EXPECT_THROW(static_cast<void>(rooms.space(long_robot(), {.headings = 3})), ConfigError);
 }
 
+/// It is 8 mm wide where the post is, and the way of 5.9 cm is looked at at both ends and in its
+/// middle.
+TEST(FootprintSpace, FitsAlongAWayWhereItFitsEveryThreeCentimetres) {
+  const FloorOutline diamond{{-0.004, 0.0}, {0.0, -0.1}, {0.004, 0.0}, {0.0, 0.1}};
+  const auto space = space_with_a_post({0, 0}, long_robot(), {});
+  const auto fits = [&](double begins_m) {
+    const Eigen::Vector2d from_m = space->centre(kMiddleCell) + Eigen::Vector2d(begins_m, 0.0);
+    return space->fits_along(diamond, from_m, from_m + Eigen::Vector2d(0.059, 0.0), 0.0);
+  };
+  EXPECT_TRUE(fits(-0.01475)) << "half way to its middle";
+  EXPECT_FALSE(fits(-0.0295)) << "in its middle";
+  EXPECT_FALSE(fits(0.0));
+  EXPECT_FALSE(fits(-0.059));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
+#include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/narrow_poses.hpp"
 #include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
@@ -420,6 +422,23 @@ TEST(NarrowPoses, OfEquallyNearPlacesTheFirstInTheMapIsTaken) {
   const std::uint32_t pose = poses.at(field.map.index({30, 30}), 0);
   ASSERT_NE(pose, NarrowPoses::kNone);
   EXPECT_TRUE((poses.place(pose).fine == Eigen::Array2i(152, 151)).all());
+}
+
+/// Five columns of 30 cells are open, the other 35 are a nook of 48 headings a cell. After each row
+/// and each column of the clearance, and once in 32 768 nodes.
+TEST(NarrowSearch, AsksNowAndThenWhetherToGoOn) {
+  DrawnRooms rooms(2.0, 1.5, {});
+  for (std::size_t cell = 0; cell < rooms.floor.size(); ++cell) {
+    if (rooms.floor.cell(cell).x() >= 5) rooms.floor.log_odds[cell] = 3.0F;
+  }
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  const PathField field = small_robots_field(rooms, {0.125, 0.75, 0.0});
+  const auto reached = static_cast<std::size_t>(std::ranges::count_if(
+      field.narrow, [](const NarrowPose& node) { return !std::isinf(node.cost); }));
+  ASSERT_GT(reached, kNodesBetweenPolls);
+  ASSERT_LT(reached + 150U, 2 * kNodesBetweenPolls);
+  EXPECT_EQ(asked, 42 + 32 + 1);
 }
 
 }  // namespace

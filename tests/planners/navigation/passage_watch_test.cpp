@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
 
@@ -130,6 +132,81 @@ TEST(PassageWatch, WhatIsJustBehindItIsNotInItsWay) {
 TEST(PassageWatch, WhatIsWhereTheLegBeginsIsInItsWayWhileItIsThere) {
   const PathLeg leg{.waypoints = {{2.0, 1.5, 0.0}, {3.0, 1.5, 0.0}}, .narrow = true};
   EXPECT_TRUE(passage_blocked_by({1.715, 1.215}, leg, {2.0, 1.54, 0.0}, rectangle(0.6, 0.6)));
+}
+
+/// Cells that a robot of 0.6 x 0.4 m covers at one pose and not at another, in the map's order.
+std::vector<Eigen::Vector2d> covered_anew(const FloorMap& detail, const Pose2& now,
+                                          const Pose2& then) {
+  const auto covers = [](const Pose2& base, const Eigen::Vector2d& p_m) {
+    const Eigen::Vector2d at = Eigen::Rotation2Dd(-base.yaw_rad) * (p_m - position(base));
+    return std::abs(at.x()) <= 0.3 && std::abs(at.y()) <= 0.2;
+  };
+  std::vector<Eigen::Vector2d> cells;
+  for (std::size_t cell = 0; cell < detail.size(); ++cell) {
+    const Eigen::Vector2d p_m = detail.centre(detail.cell(cell));
+    if (covers(then, p_m) && !covers(now, p_m)) cells.push_back(p_m);
+  }
+  return cells;
+}
+
+void expect_before(const PathLeg& leg, const Pose2& now, const Pose2& then) {
+  const DrawnRooms rooms(4.0, 4.0, {});
+  const auto expected = covered_anew(rooms.detail, now, then);
+  const auto cells = cells_before(rooms.detail, leg, now, {.outline = rectangle(0.6, 0.4)});
+  EXPECT_GT(expected.size(), 10U);
+  ASSERT_EQ(cells.size(), expected.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_EQ(cells[i], expected[i]) << i;
+}
+
+/// A corner is taken to be 30 cm away: 2.5 cm of its way are a twelfth of a radian.
+TEST(PassageWatch, BeforeItInATurnIsWhatItTurnsTo) {
+  const Pose2 now{2.003, 1.501, 0.4};
+  const double turn_rad = 0.025 / 0.3;
+  expect_before({.waypoints = {now, {2.003, 1.501, 1.6}}, .narrow = true}, now,
+                {2.003, 1.501, 0.4 + turn_rad});
+  expect_before({.waypoints = {now, {2.003, 1.501, -0.8}}, .narrow = true}, now,
+                {2.003, 1.501, 0.4 - turn_rad});
+  const Pose2 back{2.003, 1.501, 3.12};
+  expect_before({.waypoints = {back, {2.003, 1.501, -2.0}}, .narrow = true}, back,
+                {2.003, 1.501, 3.12 + turn_rad});
+}
+
+/// It is beside its leg, of which there are poses every 34th of a metre: it makes for the second
+/// one from where it is, as that is the first one that is 2.5 cm off.
+TEST(PassageWatch, BeforeItBesideItsLegIsTheWayBackToIt) {
+  const PathLeg leg{.waypoints = {{1.0, 1.5, 0.0}, {2.0, 1.5, 0.0}}, .narrow = true};
+  const Pose2 now{1.5, 1.492, 0.03};
+  const double ahead_m = 1.0 / 34.0;
+  const double share = 0.025 / (std::hypot(ahead_m, 0.008) + 0.3 * 0.03);
+  expect_before(leg, now, {1.5 + share * ahead_m, 1.492 + share * 0.008, (1.0 - share) * 0.03});
+}
+
+/// The last centimetre ends nowhere else than where the leg does; there nothing is before it.
+TEST(PassageWatch, NothingIsBeforeItAtTheEndOfItsLeg) {
+  const DrawnRooms rooms(4.0, 4.0, {});
+  const PathLeg leg{.waypoints = {{1.0, 1.5, 0.0}, {2.0, 1.5, 0.0}}, .narrow = true};
+  EXPECT_TRUE(
+      cells_before(rooms.detail, leg, {2.0, 1.5, 0.0}, {.outline = rectangle(0.6, 0.4)}).empty());
+}
+
+/// Of poses every 34th of a metre the fourth is the first one that is 10 cm back; of those every
+/// 23rd of a turn the 18th, by 30 cm.
+TEST(PassageWatch, TheWayBackEndsAtTheFirstPoseThatIsFarEnough) {
+  const PathLeg ahead{.waypoints = {{1.0, 1.5, 0.0}, {2.0, 1.5, 0.0}}, .narrow = true};
+  EXPECT_NEAR(pose_behind(ahead, {1.5, 1.5, 0.0}).x_m, 1.0 + 13.0 / 34.0, 1e-9);
+  const PathLeg turn{.waypoints = {{2.0, 1.5, 0.0}, {2.0, 1.5, 0.445}}, .narrow = true};
+  EXPECT_NEAR(pose_behind(turn, {2.0, 1.5, 0.445 * 22.0 / 23.0}).yaw_rad, 0.445 * 4.0 / 23.0, 1e-9);
+}
+
+/// Two poses are as near to it. What only the one behind it covers is half a centimetre behind its
+/// tail.
+TEST(PassageWatch, OfTwoPosesAsNearTheOneAheadCounts) {
+  const double begin_m = 2.0 + 1.0 / 512.0;
+  const PathLeg leg{.waypoints = {{begin_m, 1.5, 0.0}, {begin_m + 15.0 / 512.0, 1.5, 0.0}},
+                    .narrow = true};
+  const FloorOutline square = rectangle(0.6, 0.6);
+  EXPECT_TRUE(passage_blocked_by({1.705, 1.505}, leg, {begin_m + 7.0 / 512.0, 1.5, 0.0}, square));
+  EXPECT_FALSE(passage_blocked_by({1.705, 1.505}, leg, {begin_m + 7.5 / 512.0, 1.5, 0.0}, square));
 }
 
 }  // namespace

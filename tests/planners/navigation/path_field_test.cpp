@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <numbers>
 
 #include "tests/planners/navigation/ascii_floor.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
+#include "vantage/core/rng.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
 
 namespace vantage {
@@ -261,6 +263,64 @@ TEST(PathField, OfARobotOutsideTheMapReachesNothing) {
   const FloorMap map = floor_of({"...", "...", "..."});
   const PathField field = make_path_field(map, {-5.0, 0.0, 0.0}, comfortable_point_robot());
   EXPECT_FALSE(nearest_reachable(field, {1.5, 1.5}).has_value());
+}
+
+/// It stands 2 m from the walls of a corridor, as it would all the way to the right. To the left it
+/// is nearer, past a post.
+TEST(PathField, EscapesByAWayThatComesNoNearerThanItIs) {
+  const Drawing rows{
+      "........#########........",  //
+      "........#########........",  //
+      "........#########........",  //
+      ".........#...............",  //
+      "...........S.............",  //
+      ".........................",  //
+      "........#########........",  //
+      "........#########........",  //
+      "........#########........",  //
+  };
+  NavigationOptions options = comfortable_point_robot();
+  options.footprint_radius_m = 3.0;
+  options.escape_radius_m = 9.0;
+  const FloorMap map = floor_of(rows);
+  const PathField field = make_path_field(map, place_of(rows, 'S'), options);
+  EXPECT_EQ(field.clearance_m[field.start_cell], 2.0F);
+  EXPECT_TRUE(field.reachable(map.index({20, 4})));
+  EXPECT_FALSE(field.reachable(map.index({4, 4})));
+}
+
+/// By eight steps, which cut no corners; a metre costs the mean of both cells.
+TEST(PathField, ACellCostsTheCheapestStepFromOneBesideIt) {
+  Rng rng(8);
+  FloorMap map(Eigen::Vector2d(-3.0, 2.0), 0.5, 24, 20);
+  for (float& cell : map.log_odds) cell = rng.uniform() < 0.12 ? 3.0F : -3.0F;
+  map.log_odds[map.index({12, 10})] = -3.0F;
+  NavigationOptions options = comfortable_point_robot();
+  options.footprint_radius_m = 0.4;
+  options.clearance_weight = 2.0;
+  const PathField field = make_path_field(map, {3.25, 7.25, 0.0}, options);
+  const auto is_reached = [&](const Eigen::Array2i& at) {
+    return map.contains(at) && field.reachable(map.index(at));
+  };
+  int reached = 0;
+  for (std::size_t cell = 0; cell < map.size(); ++cell) {
+    const Eigen::Array2i to = map.cell(cell);
+    if (!is_reached(to)) continue;
+    ++reached;
+    double cheapest = cell == field.start_cell ? 0.0 : kInfinity;
+    for (int k = 0; k < 9; ++k) {
+      const Eigen::Array2i from = to + Eigen::Array2i(k % 3 - 1, k / 3 - 1);
+      const bool open =
+          is_reached(from) && is_reached({to.x(), from.y()}) && is_reached({from.x(), to.y()});
+      if (k == 4 || !open) continue;
+      const double length_m = 0.5 * (k % 2 == 0 ? std::numbers::sqrt2 : 1.0);
+      const double per_metre =
+          0.5 * (field.cost_per_metre(map.index(from)) + field.cost_per_metre(cell));
+      cheapest = std::min(cheapest, field.cost[map.index(from)] + length_m * per_metre);
+    }
+    EXPECT_NEAR(field.cost[cell], cheapest, 1e-9) << to.transpose();
+  }
+  EXPECT_GT(reached, 200);
 }
 
 }  // namespace

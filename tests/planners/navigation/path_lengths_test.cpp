@@ -2,9 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "tests/planners/navigation/ascii_floor.hpp"
+#include "tests/planners/navigation/drawn_rooms.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 
@@ -141,6 +149,45 @@ TEST(PathLengths, AreInfiniteBetweenPlacesOfARoomThatIsNotReached) {
   const std::vector<Eigen::Vector2d> places{position(place_of(rows, 'A')),
                                             position(place_of(rows, 'B'))};
   EXPECT_TRUE(std::isinf(path_lengths_m(field, places, 1)(0, 1)));
+}
+
+/// A nearly square robot in a closed corridor, which looks for a way out ahead first and then on
+/// all sides: that makes the edges anew. Each counts its length and turn, thrice for its time, and
+/// what is pinched twice.
+TEST(NarrowEdges, AreThereOnceAndNoWayOverThemIsCheaper) {
+  const DrawnRooms rooms(4.0, 2.0, {wall(0.0, 0.0, 4.0, 0.67), wall(0.0, 1.38, 4.0, 2.0)});
+  const FloorOutline outline = rectangle(0.6, 0.6);
+  NavigationOptions options;
+  options.footprint_radius_m = circumscribed_radius_m(outline);
+  options.clearance_weight = 1.5;
+  const PathField field =
+      make_path_field(rooms.floor, {2.025, 1.025, 0.0}, options,
+                      rooms.space({.outline = outline, .speed_m_s = 0.6}, {.speed_m_s = 0.2}));
+  const std::size_t cells = field.map.size();
+  const double step_m = 2.0 * std::numbers::pi / 48.0 * std::hypot(0.3, 0.3);
+  ASSERT_GT(field.narrow_edges.size(), 500U);
+  std::set<std::pair<std::size_t, std::size_t>> made;
+  std::vector<double> cheapest(field.narrow.size(), std::numeric_limits<double>::infinity());
+  for (const NarrowEdge& edge : field.narrow_edges) {
+    ASSERT_GE(std::min(edge.from, edge.to), cells) << "nothing is open";
+    EXPECT_TRUE(made.emplace(edge.from, edge.to).second) << edge.from << " " << edge.to;
+    const NarrowPose& from = field.narrow[edge.from - cells];
+    const NarrowPose& to = field.narrow[edge.to - cells];
+    const double way_m = (position(to.pose) - position(from.pose)).norm();
+    EXPECT_NEAR(edge.length_m, 3.0 * (way_m + (from.cell == to.cell ? step_m : 0.0)), 1e-9);
+    const double pinched = edge.cost / (2.5 * edge.length_m);
+    EXPECT_TRUE(std::abs(pinched - 1.0) < 1e-9 || std::abs(pinched - 2.0) < 1e-9) << pinched;
+    double& least = cheapest[edge.to - cells];
+    least = std::min(least, from.cost + edge.cost);
+  }
+  int reached = 0;
+  for (std::size_t i = 0; i < cheapest.size(); ++i) {
+    const NarrowPose& node = field.narrow[i];
+    if (node.cost == 0.0) continue;  // where it stands
+    EXPECT_DOUBLE_EQ(node.cost, cheapest[i]) << i;
+    reached += std::isinf(node.cost) ? 0 : 1;
+  }
+  EXPECT_GT(reached, 100);
 }
 
 }  // namespace

@@ -276,5 +276,41 @@ TEST(PlanPath, IsClearOnRandomMaps) {
   EXPECT_GT(reached, 20);
 }
 
+TEST_F(WatchedWay, IsFreeWhereTheFootprintJustTouchesSomething) {
+  const std::vector<Pose2> way{{0.5, 2.5, 0.0}, {3.5, 2.5, 0.0}};
+  options_.watch_m = 4.0;
+  options_.footprint_radius_m = 1.0;
+  EXPECT_FALSE(blocked_by(3, 1, way)) << "a metre beside its end";
+  options_.footprint_radius_m = 1.001;
+  EXPECT_TRUE(blocked_by(3, 1, way));
+}
+
+/// A metre costs 2.5 in the second column and 1 from the third on. Twice in a cell and once more:
+/// of four places of either half of the detour one is in the second column.
+TEST(PullStraight, LooksAtTheCostTwiceInACell) {
+  NavigationOptions options;
+  options.footprint_radius_m = 0.5;
+  options.margin_m = 0.5;
+  options.clearance_weight = 3.0;
+  options.comfort_m = 2.0;
+  const PathField field =
+      make_path_field(floor_of(Drawing(13, ".........")), {1.5, 5.5, 0.0}, options);
+  EXPECT_EQ(pull_straight(field, {{1.5, 5.5}, {2.95, 6.5}, {1.5, 7.5}}).size(), 3U)
+      << "3.523 m at 1.375, against 2 m at 2.5";
+}
+
+TEST(PlanPath, LeadsToAGoalInTheCellThatItStandsIn) {
+  const FloorMap map = floor_of({"...", "...", "..."});
+  const PathField field = make_path_field(map, {1.2, 1.3, 0.4}, point_robot());
+  const PlannedPath path = plan_path(field, {1.8, 1.5, 0.7});
+  EXPECT_TRUE(path.reaches_goal);
+  ASSERT_EQ(path.waypoints.size(), 2U);
+  EXPECT_EQ(path.waypoints.front().yaw_rad, 0.4);
+  EXPECT_EQ(path.end.x_m, 1.8);
+  EXPECT_EQ(path.end.y_m, 1.5);
+  EXPECT_EQ(path.end.yaw_rad, 0.7);
+  EXPECT_NEAR(path.length_m, std::hypot(0.6, 0.2), 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -103,5 +103,40 @@ TEST(LikelyStates, MayAllBeUnknown) {
   EXPECT_NEAR(likely.belief[0], 1.0, 1e-12);
 }
 
+TEST(LikelyStates, AreEqualWithinABillionth) {
+  const auto kept_if_the_last_is_more_by = [](double share) {
+    return likely_states(belief({0.25, 0.25, 0.25, 0.25 * (1.0 + share)}), 2).states;
+  };
+  EXPECT_EQ(kept_if_the_last_is_more_by(7e-10), (std::vector{0, 2}));
+  EXPECT_EQ(kept_if_the_last_is_more_by(1.5e-9), (std::vector{3, 0}));
+  EXPECT_EQ(kept_if_the_last_is_more_by(-7e-10), (std::vector{0, 2}));
+  EXPECT_EQ(kept_if_the_last_is_more_by(-1.5e-9), (std::vector{0, 1}));
+}
+
+TEST(LikelyStates, AreInOrderHoweverTheyWereSpread) {
+  EXPECT_EQ(likely_states(belief({0.2, 0.2, 0.2 + 1e-13, 0.2, 0.2}), 2).states,
+            (std::vector{2, 0}));
+  EXPECT_EQ(likely_states(belief({0.5, 0.5 + 1e-13}), 1).states, std::vector{0});
+}
+
+TEST(LikelyStates, MayBeOfUnknownObjectsAlone) {
+  ObjectStates states;
+  states.unknown_category = {kNoCategory};
+  const LikelyStates likely = likely_states(states, belief({1.0}), 4);
+  EXPECT_EQ(likely.states, std::vector{0});
+  EXPECT_EQ(likely.belief, std::vector{1.0});
+  EXPECT_EQ(likely.mass, 1.0);
+}
+
+TEST(LikelyStatesDeathTest, NeedABeliefWithUnknownObjectsToo) {
+  ObjectStates states;
+  states.bins = 1;
+  states.objects.resize(2);
+  states.unknown_category = {kNoCategory};
+  EXPECT_DEATH(likely_states(states, belief({0.5, 0.2, 0.2}), 3), "sum to 1");
+  EXPECT_DEATH(likely_states(states, belief({0.5, 0.3, 0.2}), 0), "room for a state");
+  EXPECT_DEATH(likely_states(states, belief({0.5, 0.5}), 3), "a probability per state");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -114,5 +114,16 @@ TEST(OrbitWay, RisesInTwoStepsWhereItStays) {
   EXPECT_TRUE(way[1].isApprox(kOrbit.place(0.5), 1e-9));
 }
 
+/// Of a tenth of a radian each.
+TEST(OrbitWay, TakesNoStepForABillionthOfOne) {
+  for (const double rise_m : {0.0, 0.1}) {
+    const auto steps = [&](double turn) {
+      return orbit_way(kOrbit, 0.0, kOrbit, 0.1 * turn, 0.1, {.rise_m = rise_m}).size();
+    };
+    EXPECT_EQ(steps(3.0 + 7e-10), 3U) << rise_m;
+    EXPECT_EQ(steps(3.0 + 1.5e-9), 4U) << rise_m;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

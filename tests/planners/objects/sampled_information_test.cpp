@@ -186,5 +186,18 @@ RC_GTEST_PROP(InformationAtMeans, IsTheFormula, ()) {
   RC_ASSERT(std::abs(information_at_means_bits(about({&feature, 1}, b)) - bits) < 1e-4);
 }
 
+TEST(SampledInformation, DrawsNothingOfAFeatureThatIsIgnored) {
+  ObservationModel ignored = test::scalar_model({0.0F, 5.0F, 1.0F});
+  ignored.psi = 0.0;
+  const ObservationModel model = test::scalar_model({0.0F, 1.0F, 3.0F});
+  const std::vector<double> b{0.5, 0.2, 0.3};
+  const std::vector<const ObservationModel*> both{&ignored, &model};
+  const std::vector<const ObservationModel*> one{&model};
+  Rng rng(3);
+  Rng again(3);
+  EXPECT_EQ(sampled_information(about(both, b), 100, rng).bits,
+            sampled_information(about(one, b), 100, again).bits);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -6,6 +6,7 @@
 #include "tests/planners/tours/small_problem.hpp"
 #include "vantage/planners/tours/frontier_tour.hpp"
 #include "vantage/planners/tours/information_rate.hpp"
+#include "vantage/planners/tours/joint_gain.hpp"
 #include "vantage/planners/tours/receding_horizon.hpp"
 #include "vantage/planners/tours/rollout.hpp"
 #include "vantage/planners/tours/tour.hpp"
@@ -316,6 +317,20 @@ TEST(RecedingHorizon, GoesNoFartherThanThereIsSomethingToSee) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     EXPECT_EQ(order_of(RecedingHorizon{}, problem, seed), test::Order{0}) << seed;
   }
+}
+
+/// The first two views show parts of one block, and what they show together is a matter of rounding
+/// and of their order; the third one, between them, shows nothing.
+TEST(TwoLevelTour, TakesNoViewThatShowsNothingForWhatRoundingLost) {
+  PlanningProblem problem = on_a_line({1.0, 2.0, 1.5}, {10.0F, 0.0F});
+  problem.shows = {{{0}, {0.3F}}, {{0}, {0.7F}}, {{1}, {1.0F}}};
+  ASSERT_GT(joint_gain(problem, test::Order{0, 1}), joint_gain(problem, test::Order{1, 0}));
+  EXPECT_EQ(order_of(TwoLevelTour{.horizon_s = 5.0, .cover = 1.0}, problem), (test::Order{0, 1}));
+}
+
+TEST(TwoLevelTour, PassesByNearViewsThatShowNothing) {
+  const PlanningProblem problem = on_a_line({2.0, 20.0, 3.0}, {0.0F, 5.0F, 0.0F});
+  EXPECT_EQ(order_of(TwoLevelTour{.horizon_s = 5.0}, problem), test::Order{1});
 }
 
 }  // namespace

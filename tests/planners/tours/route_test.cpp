@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "tests/planners/tours/small_problem.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/tours/route_search.hpp"
@@ -174,6 +176,20 @@ TEST(ShortestRoute, OfEqualOnesIsAlwaysTheSame) {
   const RouteCosts costs{Eigen::MatrixXd::Constant(4, 3, 1.0)};
   EXPECT_EQ(shortest_route(costs), (test::Order{2, 1, 0}));
   EXPECT_EQ(shortest_route(costs, 1), (test::Order{2, 0, 1}));
+}
+
+/// Of costs between which nothing holds. Search alone finds a longer one.
+TEST(ShortestRoute, OfElevenPlacesIsTheShortest) {
+  RouteCosts costs{Eigen::MatrixXd(12, 11)};
+  for (Eigen::Index i = 0; i < 12; ++i) {
+    for (Eigen::Index j = 0; j < 11; ++j) {
+      costs.cost(i, j) = static_cast<double>((7 * i * i + 11 * i * j + 3 * j * j * j) % 29 + 1);
+    }
+  }
+  const auto order = shortest_route(costs);
+  ASSERT_TRUE(visits_all(order, 11));
+  EXPECT_EQ(route_cost(costs, order), 34.0);
+  EXPECT_GT(route_cost(costs, searched_route(costs, std::nullopt)), 34.0);
 }
 
 }  // namespace

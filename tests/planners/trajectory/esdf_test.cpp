@@ -161,5 +161,33 @@ TEST(Esdf, NeedsAFlagForEachCell) {
   EXPECT_DEATH(Esdf(frame, std::vector<std::uint8_t>(7)), "flag for each cell");
 }
 
+TEST(Esdf, OfTwoCellsIsLinearBetweenThem) {
+  for (int axis = 0; axis < 3; ++axis) {
+    GridFrame frame;
+    frame.cell_size_m = Eigen::Vector3d::Ones();
+    frame.cells = Eigen::Array3i::Ones();
+    frame.cells[axis] = 2;
+    frame.min_corner_m = -0.5 * frame.cells.cast<double>().matrix();
+    const Esdf surface(frame, std::vector<std::uint8_t>{0, 1});
+    for (const double at : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+      EXPECT_NEAR(surface.distance_m(at * Eigen::Vector3d::Unit(axis)), -at, 1e-6) << axis;
+    }
+  }
+}
+
+TEST(Esdf, ReachesAMetreAndAHalfUnlessItIsSaid) {
+  OccupancyGrid map(make_grid_frame({2.5, 0.05, 0.05}, {5.0, 0.1, 0.1}, {50, 1, 1}));
+  map.log_odds[0] = 3.0F;
+  std::vector<std::uint8_t> occupied(map.size(), 0);
+  occupied[0] = 1;
+  const Eigen::AlignedBox3d window = map.frame.box();
+  const GridFrame& frame = map.frame;
+  for (const Esdf& surface :
+       {Esdf(frame, occupied), make_esdf(map, window), make_esdf(frame, occupied, window)}) {
+    EXPECT_NEAR(surface.distance_m({1.05, 0.05, 0.05}), 0.95, 1e-6);
+    EXPECT_NEAR(surface.distance_m({4.05, 0.05, 0.05}), 1.5, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

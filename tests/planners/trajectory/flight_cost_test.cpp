@@ -247,5 +247,29 @@ TEST(FlightCostOptions, AreChecked) {
   EXPECT_THROW(check_options(FlightCostOptions{.obstacle_weight = -1.0}), ConfigError);
 }
 
+/// Straight above the camera and beside it nothing is in front.
+TEST(CentreCost, OfAPlaceAtARightAngleIsThatOfTheEdge) {
+  const FlightCamera camera;
+  const Eigen::Vector4d waypoint(0.0, 0.0, 1.0, 0.0);
+  const Eigen::Vector3d above(0.0, 0.0, 3.0);
+  const Eigen::Vector3d beside(0.0, 2.0, 1.0);
+  for (const Eigen::Vector3d& place : {above, beside}) {
+    EXPECT_NEAR(centre_cost({}, camera, waypoint, place), 1.25, 1e-12);
+    EXPECT_FALSE(in_frame(camera, waypoint, place));
+  }
+  EXPECT_TRUE(in_frame(camera, waypoint, {0.5, 0.0, 1.0})) << "half a metre ahead";
+}
+
+TEST(FlightCost, AsPrintedACentreJustAtDeltaCostsNothing) {
+  FlightSurroundings scene;
+  scene.p_world_obstacles_m = {{1.5, 0.5, 1.2}};
+  const auto cost = [&](double delta_m) {
+    return costs(
+        {.obstacle_weight = 1.0, .centre_weight = 0.0, .delta_m = delta_m, .literal = true}, scene);
+  };
+  EXPECT_EQ(cost(0.5)[3], 0.0);
+  EXPECT_NEAR(cost(0.51)[3], 0.5 * 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace vantage

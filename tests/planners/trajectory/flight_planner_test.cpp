@@ -442,5 +442,22 @@ TEST_F(Planner, TheTargetIsTheFirstViewOnTheWay) {
   EXPECT_NEAR(best_start.target()->p_world_view_m.x(), 2.5, 1e-9);
 }
 
+/// From the last two waypoints on nothing is left to choose.
+TEST_F(Planner, WhatIsFlownToIsThatOfThePlanTheEndThatOfThePath) {
+  std::vector<Eigen::Vector4d> plan = path_;
+  plan[18].y() = 0.3;
+  plan[19].y() = 0.2;
+  FlightPlanner best_start = planner(kBestStart);
+  for (const CandidatePlan& candidate :
+       best_start.propose({.at = 17, .nominal = path_, .plan = plan}, objects_, map_)) {
+    EXPECT_EQ(candidate.points.col(0), plan[18]) << candidate.planner;
+    EXPECT_EQ(candidate.points.col(1), path_[19]) << candidate.planner;
+  }
+  for (const CandidatePlan& candidate :
+       best_start.propose({.at = 18, .nominal = path_, .plan = plan}, objects_, map_)) {
+    EXPECT_EQ(candidate.points.col(0), plan[19]) << candidate.planner;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

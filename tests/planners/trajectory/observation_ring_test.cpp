@@ -108,5 +108,41 @@ TEST(ActiveObject, OfTwoThatAreEquallyNearIsTheFirst) {
   EXPECT_EQ(active_object(objects, {0.0, 0.0, 1.2}, 0.1), 0U);
 }
 
+TEST(BlockedDirections, AreThoseNearerThanTheClearance) {
+  const Esdf surface = test::columns({{2.0, 1.0}, {3.4, 1.0}});
+  const ObservedObject object = half_metre_object_at(2.0, 1.0);
+  const double away_m = surface.distance_m(object.ring.view_m(2));
+  ObservedObject just_clear = object;
+  just_clear.used[4] = true;
+  leave_out_blocked(just_clear, surface, away_m);
+  EXPECT_FALSE(just_clear.used[2]);
+  EXPECT_TRUE(just_clear.used[4]) << "it was seen from there";
+  ObservedObject too_near = object;
+  leave_out_blocked(too_near, surface, away_m + 1e-9);
+  EXPECT_TRUE(too_near.used[2]);
+}
+
+TEST(NearestOnPath, OfTwoPlacesIsTheFirst) {
+  Eigen::Matrix4Xd path = Eigen::Matrix4Xd::Zero(4, 4);  // there and back, 2 m apart
+  path.topRows<2>() << 0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 2.0, 2.0;
+  const OnPath between = nearest_on_path(path, {0.0, 1.0, 0.0});
+  EXPECT_EQ(between.distance_m, 1.0);
+  EXPECT_EQ(between.at, 0.0);
+}
+
+/// Two directions are left, the second one nearer the path by so much.
+TEST(ActiveDirection, IsTheOneTheFlightComesByFirstIfAMicrometreDecides) {
+  const Eigen::Matrix4Xd path = test::straight_flight().points;
+  const auto chosen = [&](double nearer_m) {
+    ObservedObject object = half_metre_object_at(2.0, 1.5);
+    object.used.fill(true);
+    object.used[5] = object.used[7] = false;
+    object.ring.first_bearing_rad = -nearer_m / (2.0 * 1.3 * std::sqrt(0.5));
+    return active_direction(object, path);
+  };
+  EXPECT_EQ(chosen(7e-7), 5);
+  EXPECT_EQ(chosen(1.5e-6), 7);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tests/planners/trajectory/straight_flight.hpp"
@@ -114,6 +115,19 @@ TEST_F(ReplanTest, TakesTheLastTwoWaypoints) {
 TEST_F(ReplanTest, NeedsANominalPointForEach) {
   nominal_ = nominal_.leftCols(4).eval();
   EXPECT_DEATH(run(flight_, {}), "a nominal point for each");
+}
+
+TEST(Cheapest, MayComeBehindOneThatCostsMore) {
+  const auto height = [](const Horizon& horizon, Eigen::Ref<Eigen::VectorXd> of_point) {
+    for (Eigen::Index i = 0; i < horizon.count(); ++i) of_point[i] = horizon.points(2, i);
+  };
+  std::vector<Horizon> starts(3, test::straight_flight());
+  for (const auto& [start, height_m] : {std::pair{0, 2.0}, {1, 3.0}, {2, 1.0}}) {
+    Horizon& horizon = starts[static_cast<std::size_t>(start)];
+    horizon.points.row(2).setConstant(height_m);
+    horizon.before[2] = horizon.after[2] = height_m;
+  }
+  EXPECT_EQ(cheapest(starts, height), 2U);
 }
 
 }  // namespace

@@ -188,5 +188,33 @@ TEST(ForecastInterval, LearnsTheErrorOfAForecastOfNextToNothing) {
   EXPECT_NEAR(width_in_spreads(interval), 0.65, 1e-9) << "the eleventh of 21 with the new one";
 }
 
+/// Forecasts at a table are off by much where they are small, so the least is nothing: the most
+/// tells.
+TEST(ForecastInterval, AtATableItReachesAsFarAsForecastsOfThatSizeWereOffInTraining) {
+  struct Trained {
+    double share, mean, spread;
+  };
+  ForecastInterval at_a_table({}, kForecastsAtTables);
+  at_a_table.start(kFirstView);
+  for (const auto& [share, mean, spread] :
+       {Trained{0.0016, -0.520, 0.486}, Trained{0.006, -0.147, 0.695},
+        Trained{0.0175, 0.048, 0.926}, Trained{0.0536, 0.072, 0.140}, Trained{0.1698, 0.051, 0.165},
+        Trained{0.6956, 0.048, 0.334}, Trained{3.0, 0.048, 0.334}}) {
+    EXPECT_NEAR(log_ends(at_a_table, share * kFirstView).high, mean + 2.06 * spread, 1e-9) << share;
+  }
+  EXPECT_NEAR(log_ends(at_a_table, 0.0).high, -0.520 + 2.06 * 0.486, 1e-9);
+}
+
+TEST(ForecastInterval, AtATableHoldsTheShareOfErrorsThatItSays) {
+  int rank = 0;
+  for (const double within : {0.01, 0.05, 0.10, 0.14, 0.18, 0.23, 0.28, 0.33, 0.39, 0.46,
+                              0.53, 0.63, 0.74, 0.87, 1.03, 1.23, 1.43, 1.68, 2.06, 2.74}) {
+    const ForecastIntervalOptions options{.confidence = (++rank - 0.5) / 21.0};
+    ForecastInterval at_a_table(options, kForecastsAtTables);
+    at_a_table.start(kFirstView);
+    EXPECT_NEAR(log_ends(at_a_table, kFirstView).high, 0.048 + within * 0.334, 1e-9) << rank;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

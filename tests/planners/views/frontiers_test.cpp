@@ -281,5 +281,15 @@ RC_GTEST_PROP(FindFrontiers, JoinCellsThatTouchInAnyDirection, ()) {
   }
 }
 
+/// From the middle of the first cell to that of the last one.
+TEST(FindFrontiers, SplitAClusterOnlyIfItIsLongerThanTheGreatestExtent) {
+  const OccupancyGrid grid = layer_of({"?????", "....."});
+  FrontierOptions options = whole();
+  options.max_extent_m = 4.0;
+  EXPECT_THAT(sizes(find_frontiers(grid, options)), ElementsAre(5U));
+  options.max_extent_m = 3.99;
+  EXPECT_THAT(sizes(find_frontiers(grid, options)), ElementsAre(3U, 2U));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -192,5 +192,32 @@ TEST_F(SampledViewsOnAMap, KeepClearOfEveryPartOfAWall) {
   for (const auto& view : views) EXPECT_LE(view.T_world_sensor.translation().x(), -0.5);
 }
 
+/// The room begins where the floor ends, and the views are to stand just there.
+TEST_F(SampledViewsOnAMap, WithoutAClearanceTheyMayTouchWhatIsOccupied) {
+  const auto room = map({{{0, 0, 0}, 8, true}, {{0, 0, 8}, 8, false}}, 0.125);
+  EXPECT_EQ(error_of({.height_m = 1.0, .clearance_m = 0.0}, room), "no error");
+  EXPECT_THAT(error_of({.height_m = 1.0, .clearance_m = 0.01}, room),
+              HasSubstr("views.clearance_m = 0.01"));
+}
+
+/// So no place is farther from those before it than the one taken before was.
+TEST_F(SampledViewsOnAMap, AreEachTheFarthestFromThoseBefore) {
+  const auto room = map({{{0, 0, 0}, 32, false}});
+  const auto views = sample({.positions = 30, .headings = 1}, room);
+  ASSERT_EQ(views.size(), 30U);
+  double last_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < i; ++k) {
+      const Eigen::Vector3d between =
+          views[i].T_world_sensor.translation() - views[k].T_world_sensor.translation();
+      nearest_m = std::min(nearest_m, between.norm());
+    }
+    EXPECT_LE(nearest_m, last_m + 1e-12) << i;
+    EXPECT_GT(nearest_m, 0.3) << i;
+    last_m = nearest_m;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "tests/support/octomap_bytes.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -252,6 +254,29 @@ TEST_F(ScoreViews, ARegionIsTheKnownCellsButForWhatIsGiven) {
   expect_cells({}, {0, 0, 0}, {8, 8, 8});
   expect_cells({.min_m = {{0.5, 0.25, 1.0}}}, {2, 1, 4}, {8, 8, 8});
   expect_cells({.max_m = {{1.25, 1.5, 0.75}}}, {0, 0, 0}, {5, 6, 3});
+}
+
+/// On either end of 3.2 km, which no grid holds.
+TEST_F(ScoreViews, ViewsNextToEachOtherInTheListShareAGridIfItFits) {
+  const auto far = map({{{-32000, 0, 0}, 16, false}, {{32000, 0, 0}, 16, false}}, 0.05);
+  const ScoredRegion region{.min_m = {{-1700.0, -40.0, -40.0}}, .max_m = {{1700.0, 40.0, 40.0}}};
+  const std::vector<Candidate> views{view_at(4, {-1599.8, 0.4, 0.4}), view_at(5, {0.0, 900.0, 0.4}),
+                                     view_at(6, {-1599.0, 0.4, 0.4}),
+                                     view_at(7, {1600.2, 0.4, 0.4}),
+                                     view_at(8, {-1599.4, 0.4, 0.4})};
+  std::vector<std::vector<int>> asked;
+  const GridGains gains_on = [&](const OccupancyGrid&, std::span<const Candidate> on_grid) {
+    std::vector<double> gains;
+    asked.emplace_back();
+    for (const Candidate& view : on_grid) {
+      asked.back().push_back(view.id);
+      gains.push_back(10.0 * view.id);
+    }
+    return gains;
+  };
+  EXPECT_EQ(score_views(far, region, gains_on, views, camera(2.0)),
+            (std::vector{40.0, 0.0, 60.0, 70.0, 80.0}));
+  EXPECT_EQ(asked, (std::vector<std::vector<int>>{{4, 6}, {7}, {8}}));
 }
 
 }  // namespace

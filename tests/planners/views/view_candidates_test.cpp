@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace vantage {
 namespace {
 
@@ -39,6 +42,26 @@ TEST(RingOfViews, RejectsOptionsOutOfRange) {
   none.yaw_offsets_rad.clear();
   EXPECT_THROW(ring_of_views(none, Eigen::Vector3d::Zero()), ConfigError);
   EXPECT_THROW(ring_of_views({.positions = 0}, Eigen::Vector3d::Zero()), ConfigError);
+}
+
+/// Five of them, to the left round the centre.
+TEST(RingOfViews, StandsEvenlyAllRoundFromTheFirstBearingOn) {
+  const RingOfViews ring{.positions = 5,
+                         .radius_m = 2.0,
+                         .height_m = 1.0,
+                         .start_angle_rad = 0.3,
+                         .yaw_offsets_rad = {0.1}};
+  const auto views = ring_of_views(ring, {1.0, -1.0, 0.7});
+  ASSERT_EQ(views.size(), 5U);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const double bearing_rad = 0.3 + 0.4 * std::numbers::pi * static_cast<double>(i);
+    const Eigen::Vector3d expected(1.0 + 2.0 * std::cos(bearing_rad),
+                                   -1.0 + 2.0 * std::sin(bearing_rad), 1.0);
+    EXPECT_TRUE(views[i].T_world_sensor.translation().isApprox(expected, 1e-12)) << i;
+    const double off_rad =
+        project_to_se2(views[i].T_world_sensor).yaw_rad - bearing_rad - std::numbers::pi;
+    EXPECT_NEAR(wrap_angle(off_rad), 0.1, 1e-12) << i;
+  }
 }
 
 }  // namespace

@@ -111,5 +111,13 @@ TEST_F(ViewList, NamesWhatIsWrongWithTheHeader) {
   EXPECT_THROW(read_views(directory_.path()), InputError);
 }
 
+TEST_F(ViewList, ShowsFortyLettersOfWhatItCannotRead) {
+  const std::string shown = 'y' + std::string(39, 'x');
+  EXPECT_THAT(error_of("x_m,y_m,z_m,yaw_rad\n1,2," + shown + "xx,0\n"),
+              HasSubstr("got '" + shown + "'"));
+  EXPECT_THAT(error_of("x_m," + shown + "xx,z_m,yaw_rad\n"),
+              HasSubstr("unknown column '" + shown + "';"));
+}
+
 }  // namespace
 }  // namespace vantage

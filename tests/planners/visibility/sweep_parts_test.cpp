@@ -323,5 +323,27 @@ TEST(SweepTables, HaveTheDepthOfEachBlockAlongEveryAxis) {
   }
 }
 
+bool is_region(const CellRegion& region, const Eigen::Array3i& begin, const Eigen::Array3i& end) {
+  return (region.begin == begin).all() && (region.end == end).all();
+}
+
+/// Cells of 10 cm from the origin on, and 16 of them more on every side.
+TEST(RegionOfSweeps, IsWhatIsSeenAndAsManyCellsRoundIt) {
+  const GridFrame frame = make_grid_frame({10.0, 10.0, 10.0}, {20.0, 20.0, 20.0}, {200, 200, 200});
+  const Eigen::Vector3d middle_m(10.05, 10.05, 10.05);
+  const auto region = [&](const Eigen::Vector3d& p_m, const Eigen::Array3i& more) {
+    return region_of_sweeps(frame, p_m, 1.0, more);
+  };
+  EXPECT_TRUE(is_region(region(middle_m, {0, 0, 0}), {74, 74, 74}, {127, 127, 127}));
+  EXPECT_TRUE(is_region(region(middle_m, {20, 3, 17}), {70, 74, 73}, {131, 127, 128}));
+  EXPECT_TRUE(is_region(region({0.55, 8.05, 19.45}, {0, 0, 0}), {0, 54, 168}, {32, 107, 200}));
+  const CellRegion below = region({-30.0, 10.05, 10.05}, {0, 0, 0});
+  EXPECT_EQ(below.begin.x(), 0);
+  EXPECT_EQ(below.end.x(), 0);
+  const CellRegion beyond = region({10.05, 50.0, 10.05}, {0, 0, 0});
+  EXPECT_EQ(beyond.begin.y(), 200);
+  EXPECT_EQ(beyond.end.y(), 200);
+}
+
 }  // namespace
 }  // namespace vantage

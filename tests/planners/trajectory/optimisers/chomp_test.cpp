@@ -127,5 +127,15 @@ TEST(Chomp, DoesNotMoveAlongAnAxisWithoutAScale) {
   }
 }
 
+TEST(Chomp, EndsAfterOneGradientWhereItMayNotMove) {
+  const PathCost cost = made_up_cost;
+  const Horizon horizon = test::straight_flight(7);
+  Chomp chomp;
+  chomp.scale_m = {0.0, 0.0, 0.0};
+  chomp.scale_yaw_rad = 0.0;
+  Rng rng(1);
+  EXPECT_EQ(chomp(horizon, cost, rng).evaluations, 1 + 12);
+}
+
 }  // namespace
 }  // namespace vantage
