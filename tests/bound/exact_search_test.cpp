@@ -1,6 +1,8 @@
 // How far the searches go, and what they say where they end early.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/bound/line_problem.hpp"
 #include "vantage/bound/fewest_scans.hpp"
 #include "vantage/bound/schedule_bound.hpp"
@@ -138,6 +140,57 @@ TEST(FewestScans, AreNoneWhereNothingSuffices) {
   EXPECT_EQ(fewest_scans(showing({0b01, 0b10}, 2)), 2U);
   EXPECT_EQ(fewest_scans(showing({0b01, 0b10}, 3)), std::nullopt);
   EXPECT_EQ(fewest_scans(showing({0b01, 0b10}, 0)), 0U);
+}
+
+/// 63 views at the start, which show one cell, and three that show two of three more each: 1 m to
+/// either side, and 10 m away. Any two do, and none shows a cell that no other does.
+CoverProblem two_of_three() {
+  std::vector<double> x_m(63, 0.0);
+  x_m.insert(x_m.end(), {1.0, -1.0, 10.0});
+  CoverProblem problem = views_at(x_m);
+  for (CellBits& cells : problem.shows) cells = {0b0001};
+  problem.shows[63] = {0b0110};
+  problem.shows[64] = {0b1100};
+  problem.shows[65] = {0b1010};
+  problem.needed = 4;
+  return problem;
+}
+
+TEST(ScheduleBound, OfTooManyViewsToSearchTakesTheTimeOfItsWay) {
+  const auto bound = schedule_bounds(two_of_three(), std::vector<std::size_t>{4}).front();
+  ASSERT_TRUE(bound);
+  EXPECT_EQ(bound->least.scans, 2U);
+  EXPECT_NEAR(bound->least.way_m, 3.0, 1e-9) << "to one side and to the other";
+  EXPECT_NEAR(bound->least.time_s, 3.0 + 2.0, 1e-9);
+  EXPECT_TRUE(bound->exact_way);
+  EXPECT_FALSE(bound->exact_scans || bound->exact_time);
+}
+
+TEST(RelaxedBound, TakesTheTimeOfItsWayAndOfItsScans) {
+  const auto bound = relaxed_bound(two_of_three());
+  ASSERT_TRUE(bound);
+  EXPECT_EQ(bound->least.scans, 2U);
+  EXPECT_NEAR(bound->least.way_m, 1.0, 1e-9) << "as far as views show enough";
+  EXPECT_NEAR(bound->least.time_s, 1.0 + 2.0, 1e-9);
+  EXPECT_FALSE(bound->exact_scans || bound->exact_way || bound->exact_time);
+}
+
+TEST(ScheduleBound, TellsHowManyBoundsThereAre) {
+  std::vector<std::size_t> told;
+  const auto bounds =
+      schedule_bounds(evenly_spaced_views(17), std::vector<std::size_t>{1, 2, 99, 3},
+                      {.done = [&](std::size_t count) { told.push_back(count); }});
+  EXPECT_EQ(told, (std::vector<std::size_t>{0, 1, 2, 3}));
+  ASSERT_EQ(bounds.size(), 4U);
+  EXPECT_FALSE(bounds[2]) << "99 cells there are not";
+  ASSERT_TRUE(bounds[0] && bounds[3]);
+  EXPECT_EQ(bounds[0]->least.scans, 0U);
+  EXPECT_EQ(bounds[3]->least.scans, 2U);
+}
+
+/// One view shows four of six cells: taken one and a half times it would do.
+TEST(FewestScans, TakeNoViewTwice) {
+  EXPECT_EQ(fewest_scans(showing({0b001111, 0b010000, 0b100000}, 6), {.rounds = 1}), 3U);
 }
 
 }  // namespace

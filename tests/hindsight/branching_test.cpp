@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <thread>
 
 #include "tests/hindsight/short_run.hpp"
@@ -231,6 +232,70 @@ TEST_F(Branches, AreOfARunWhoseFolderTellsAllOfIt) {
   none.erase("scans");
   begins(none, ": scans: missing; task ");
   begins(Json::array(), ": not a JSON object");
+}
+
+TEST(DrawWithoutThreads, UnlessTheUserSaysOtherwise) {
+  ::setenv("LP_NUM_THREADS", "3", 1);
+  ::setenv("MESA_SHADER_CACHE_DISABLE", "false", 1);
+  draw_without_threads();
+  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "3");
+  EXPECT_STREQ(std::getenv("MESA_SHADER_CACHE_DISABLE"), "false");
+  ::unsetenv("LP_NUM_THREADS");
+  ::unsetenv("MESA_SHADER_CACHE_DISABLE");
+  draw_without_threads();
+  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "0");
+  EXPECT_STREQ(std::getenv("MESA_SHADER_CACHE_DISABLE"), "true");
+}
+
+TEST_F(Branches, AreOfARunOfItsFoldersNameAndOfTheVersionThatWroteIt) {
+  const RecordedRun run = recorded({"scans=2"});
+  EXPECT_EQ(run.episode.setup.name, "run");
+  EXPECT_EQ(read_recorded_run(run.directory / "").episode.setup.name, "run");
+  const auto version_of = [&](const char* manifest) {
+    write_file(run.directory / "manifest.json", manifest);
+    return read_recorded_run(run.directory).version;
+  };
+  EXPECT_EQ(version_of(R"({"versions": {"vantage": "1.2.3"}})"), "1.2.3");
+  EXPECT_EQ(version_of(R"({"versions": {"vantage": 3}})"), "unknown");
+  EXPECT_EQ(version_of(R"({"versions": {}})"), "unknown");
+  EXPECT_EQ(version_of(R"({"versions": 3})"), "unknown");
+  EXPECT_EQ(version_of("{}"), "unknown");
+}
+
+TEST_F(Branches, OfAnotherViewAreNamedAfterItAndCheckedUpToIt) {
+  const RecordedRun run = recorded({"scans=3"});
+  const int other = run.scans[1].chosen_view == 9 ? 10 : 9;
+  RecordedRun differs_after = run;
+  differs_after.scans[1].cells_left += 1;
+  const auto metrics = Json::parse(run_branch(differs_after, 1, other, lean("other")).metrics);
+  EXPECT_EQ(metrics["method"], run.method + ", view " + std::to_string(other) + " after scan 1");
+  RecordedRun differs_before = run;
+  differs_before.scans[0].cells_left += 1;
+  EXPECT_THROW(run_branch(differs_before, 1, other, lean("again")), ReplayDiffers);
+}
+
+/// As of a program of the user's, which took the same views; its name is not the choice's.
+TEST_F(Branches, OfARunThatWasChosenOutsideDoNotGoOn) {
+  RecordedRun run = recorded({"scans=3"});
+  const int other = run.scans[1].chosen_view == 9 ? 10 : 9;
+  const BranchRequest request{.scans = {1}, .all = false, .view = other};
+  const auto own = branch_views(run, request);
+  run.method = "mine";
+  const auto outside = branch_views(run, request);
+  ASSERT_EQ(outside.size(), 1U);
+  EXPECT_EQ(branched_json(outside[0]), branched_json(own[0]));
+  EXPECT_THROW(branch_views(run, {.scans = {1}, .then = 1}), ConfigError);
+  EXPECT_THROW(run_branch(run, 1, other, lean("again")), ConfigError);
+  run.scans[1].chosen_view = 99;
+  try {
+    run_branch(run, 1, std::nullopt, lean("again"));
+    ADD_FAILURE() << "there is no such view";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(std::string(error.what())
+                  .find(run.directory.string() + ": scan 2 was taken from a pose of the planner's"),
+              0U)
+        << error.what();
+  }
 }
 
 }  // namespace

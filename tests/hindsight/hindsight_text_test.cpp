@@ -370,5 +370,27 @@ TEST(HindsightRecords, SayWhatEveryKeyMeansAndNoOther) {
   }
 }
 
+TEST(RecordedDecisions, HaveTheViewsThatTheyWereChosenFrom) {
+  RecordedRun run = three_scans();
+  EXPECT_EQ(run.scans[1].candidates, 0) << "unless told";
+  run.scans[1].candidates = 7;
+  for (const int view : {0, 6}) EXPECT_NO_THROW(require_view(run, 1, view)) << view;
+  for (const int view : {-1, 7}) {
+    try {
+      require_view(run, 1, view);
+      ADD_FAILURE() << view;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(error.what(),
+                "--view: " + std::to_string(view) + ": the decision after scan 1 has views 0 to 6");
+    }
+  }
+}
+
+TEST(HindsightRecords, TellOfBoundsBeforeBranches) {
+  const RecordTexts records = hindsight_records();
+  EXPECT_EQ(records.front().file, "bound.json");
+  EXPECT_EQ(records.back().file, "branches.json");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -97,5 +97,32 @@ TEST_F(RunBounds, CountTheWayThatIsStillToBeDriven) {
   EXPECT_GT(bound.shares.back().least->way_m, bound.first_scan.way_m);
 }
 
+/// Of a map that has all cells after its second scan, and one that has them after its first.
+TEST_F(RunBounds, GiveAnyPolicyWhatTheMapHadBeyondItsScans) {
+  RecordedRun run = support::short_run(folder.path() / "run", {"scans=3", "robot.start_view=3"});
+  run.scans[1].scan_time_s = 0.75;
+  run.scans[1].cells_left = 0;
+  const RunBound after_two = bound_of_run(run);
+  run.scans[0].cells_left = 0;
+  const RunBound after_one = bound_of_run(run);
+  EXPECT_GT(after_one.shares[3].given_cells, after_two.shares[3].given_cells)
+      << "the second scan shows cells, too";
+  for (std::size_t i = 0; i < 4; ++i) {
+    const ShareBound& share = after_one.shares[i];
+    EXPECT_EQ(share.percent, kBoundShares_percent[i]);
+    ASSERT_TRUE(share.run && share.least) << share.percent;
+    EXPECT_EQ(share.run->scans, 1U);
+    EXPECT_EQ(share.least->scans, 1U) << "no more is needed";
+    EXPECT_EQ(share.least->way_m, run.scans[0].path_length_m);
+    EXPECT_EQ(share.least->time_s, run.scans[0].time_s);
+  }
+  EXPECT_EQ(after_one.scan_s, 0.75) << "the shortest of the run";
+  EXPECT_EQ(after_one.speed_m_s, std::get<Tabletop>(run.episode.task).drive.controller.speed_m_s);
+  EXPECT_EQ(after_one.first_scan.scans, 1U);
+  EXPECT_EQ(after_one.first_scan.way_m, run.scans[0].path_length_m);
+  EXPECT_EQ(after_one.first_scan.time_s, run.scans[0].time_s);
+  EXPECT_FALSE(after_one.has_oracle_tour);
+}
+
 }  // namespace
 }  // namespace vantage

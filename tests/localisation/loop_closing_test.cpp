@@ -2,6 +2,7 @@
 // in a room whose points it sees without noise, while its wheels count as it is told.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "tests/localisation/room_of_points.hpp"
@@ -332,6 +333,75 @@ TEST(LoopClosing, PassesOverWhereNothingWasInRange) {
   EXPECT_FALSE(room.go({}, 12.0));
   EXPECT_FALSE(room.stay(1.0));
   EXPECT_TRUE(room.stay(1.0));
+}
+
+/// A metre driven, which the wheels tell nothing of but how unsure they are.
+WheelStep step_of_unsure_wheels(const Eigen::Vector3d& sigma) {
+  WheelStep step;
+  step.covariance = sigma.cwiseAbs2().asDiagonal();
+  step.driven_m = 1.0;
+  return step;
+}
+
+/// Five times as high, row over row.
+PointCloud tall(const PointCloud& seen) {
+  PointCloud all;
+  for (int row = 0; row < 5; ++row) {
+    PointCloud higher = seen;
+    for (auto& p : higher.points) p.z() += 0.12F * static_cast<float>(row);
+    append(all, higher);
+  }
+  return all;
+}
+
+/// 300 points on walls across either axis, of which a tenth may be trimmed, say 1 cm each; scans of
+/// the way share 1.5 mm and 0.4 mrad.
+TEST(KeyframeGraph, IsNoSurerOfAStepThanItsScansAreWithoutNoise) {
+  const PointCloud seen = tall(test_room::walls());
+  KeyframeGraph graph({.close = true}, {});
+  graph.begin(seen, {});
+  graph.add(seen, step_of_unsure_wheels({1.0, 1.0, 1.0}));
+  const Eigen::Matrix3d covariance = graph.covariances(std::array<std::size_t, 1>{1}).front();
+  EXPECT_NEAR(covariance(0, 0), 0.0015 * 0.0015 + 1e-4 / 270.0, 2e-7);
+  EXPECT_NEAR(covariance(1, 1), 0.0015 * 0.0015 + 1e-4 / 270.0, 2e-7);
+  EXPECT_NEAR(covariance(2, 2), 0.0004 * 0.0004 + 1e-4 / 600.0, 6e-8);
+}
+
+/// 24 cm are beyond the 20 cm within which partners are looked for at first.
+TEST(KeyframeGraph, LooksForPartnersTwiceAsFarWhereThereAreNone) {
+  test_room::Room wall;
+  wall.across_x(2.985F, -1.0F, -15, 15);
+  test_room::Room nearer{{}, 0.24F};
+  nearer.across_x(2.985F, -1.0F, -15, 15);
+  KeyframeGraph graph({.close = true}, {});
+  graph.begin(tall(wall.seen), {});
+  graph.add(tall(nearer.seen), step_of_unsure_wheels({0.3, 0.001, 0.001}));
+  EXPECT_NEAR(graph.T_world_bases().back().x_m, 0.24, 0.005);
+  EXPECT_NEAR(graph.T_world_bases().back().y_m, 0.0, 1e-3);
+}
+
+/// It turns and goes aside between the two, in the world's frame to no axis's direction.
+TEST(LoopClosing, AgreesWhereverItWentBetweenTheTwo) {
+  const Pose2 start{1.5, -2.5, 0.4};
+  KeyframeGraph graph({.close = true}, {});
+  graph.begin(test_room::walls(), start);
+  const auto go = [&](const Pose2& T_room_base, const Pose2& T_previous_now, double driven_m) {
+    WheelStep step;
+    step.T_previous_now = T_previous_now;
+    step.covariance = 1e-6 * Eigen::Matrix3d::Identity();
+    step.driven_m = driven_m;
+    graph.add(transform(test_room::walls(), to_se3(inverse(T_room_base))), step);
+    return graph.close_loops();
+  };
+  const Pose2 aside{0.9, 0.6, 0.3};
+  EXPECT_FALSE(go({}, {}, 12.0)) << "it waits";
+  EXPECT_TRUE(go(aside, aside, 3.5));
+  EXPECT_EQ(graph.loops(), 2U);
+  EXPECT_EQ(graph.refused(), 0U);
+  const Pose2 there = compose(start, aside);
+  EXPECT_NEAR(graph.T_world_bases().back().x_m, there.x_m, 3e-3);
+  EXPECT_NEAR(graph.T_world_bases().back().y_m, there.y_m, 3e-3);
+  EXPECT_NEAR(graph.T_world_bases().back().yaw_rad, there.yaw_rad, 2e-3);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -294,6 +295,18 @@ TEST(PlaceOfColumn, BeginsFiveCentimetresBelowTheTableAndTenBeforeTheCamera) {
   Pose near = overhead();
   near.translation().z() = 1.15;
   EXPECT_EQ(place_of_column(images, near, {0.5, 0.1035, 0.5}, options), cv::Rect(256, 0, 145, 256));
+}
+
+/// Turned by an eighth, each upper corner is the outermost to one side of the image; of a place
+/// that is ahead along the turned x axis the nearest is a lower one.
+TEST(PlaceOfColumn, HoldsEachCornerOfTheColumn) {
+  Pose turned = overhead();
+  turned.linear() << std::sqrt(0.5), std::sqrt(0.5), 0, std::sqrt(0.5), -std::sqrt(0.5), 0, 0, 0,
+      -1;
+  const CameraImages images = wide_image();
+  const ObjectSegmentationOptions options{.radius_m = 0.2, .max_height_m = 0.5};
+  EXPECT_EQ(place_of_column(images, turned, {0.0, 0.0, 0.5}, options), cv::Rect(163, 113, 75, 75));
+  EXPECT_EQ(place_of_column(images, turned, {0.5, 0.5, 0.5}, options), cv::Rect(223, 113, 85, 75));
 }
 
 }  // namespace

@@ -232,5 +232,51 @@ TEST(ObjectAmongOthers, TheImagesBorderCutsItOffWithinTwoPixels) {
   EXPECT_EQ(cut_off_of_block_at(24, 38), 0);
 }
 
+/// Of twelve samples of its top two are hidden.
+TEST(ObjectAmongOthers, ShowsAsMuchOfItselfAsIsAskedFor) {
+  const Drawn drawn = half_covered_block();
+  const auto with = [&](double min_share) {
+    Rng rng(1);
+    return find_among_others(drawn.images, above_table(0.0, 0.0), kTable_m,
+                             {.min_pixels = 102, .mask_growth_px = 1, .margin_px = 0},
+                             {.min_share = min_share}, {}, rng);
+  };
+  const double share = with(0.0).seen_share;
+  EXPECT_NEAR(share, 10.0 / 12.0, 1e-9);
+  EXPECT_TRUE(with(share).object.view) << "just as much";
+  EXPECT_TRUE(with(share).object.place_seen);
+  const ObjectAmongOthers hidden = with(0.9);
+  EXPECT_FALSE(hidden.object.view);
+  EXPECT_FALSE(hidden.object.place_seen);
+  EXPECT_EQ(hidden.object.reason, "hidden: 83 % of it is seen, at least 90 % must be");
+  EXPECT_EQ(hidden.seen_share, share);
+  EXPECT_FALSE(hidden.shape) << "nothing is known of its shape but what such views show";
+}
+
+/// The place is thought to be 2 cm higher, or lower.
+TEST(ObjectAmongOthers, TheTableIsWhereTheImageHasIt) {
+  const Drawn drawn = block_at(24, 20);
+  for (const double off_m : {0.02, -0.02}) {
+    Rng rng(1);
+    const ObjectAmongOthers object =
+        find_among_others(drawn.images, above_table(0.0, 0.0), kTable_m + Vector3d(0, 0, off_m),
+                          kExactAmongOthers, {}, {}, rng);
+    ASSERT_TRUE(object.object.view) << object.object.reason;
+    EXPECT_NEAR(object.table_height_m.value(), kTable_m.z(), 1e-4) << off_m;
+    EXPECT_NEAR(object.object.view->support_m.value(), -2.0, 1e-4) << off_m;
+    EXPECT_NEAR(object.shape->height_m, 0.1, 1e-4) << "above the table";
+  }
+}
+
+TEST(ObjectAmongOthers, ItsShapeIsFifteenMillimetresHighAtLeast) {
+  Drawn drawn = block_at(24, 20);
+  cv::Mat1f depth_m(50, 60, drawn.images.depth_m.data());
+  depth_m(cv::Rect(24, 20, 12, 10)) = 1.99F;
+  const ObjectAmongOthers object = found(drawn, above_table(0.0, 0.0));
+  ASSERT_TRUE(object.object.view) << object.object.reason;
+  EXPECT_NEAR(object.shape->height_m, 0.015, 1e-9);
+  EXPECT_NEAR(object.shape->radius_m, 0.0199 * std::hypot(4.5, 4.5), 1e-5);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -314,5 +314,33 @@ TEST(SegmentOnTable, ABottomIsTheObjectsAndAHoleIsTheTables) {
   EXPECT_EQ(pixels(0.001F), 24 * 20 - 4 - (12 * 10 - 4)) << "below a third of 6 mm";
 }
 
+TEST(ObjectSegmentation, SaysWhetherThePlaceIsSeen) {
+  const Pose T_world_camera = camera_at(0.0);
+  const Drawn box = draw({{box_at(0.0, 0.0, {0.1, 0.1, 0.1})}}, T_world_camera);
+  EXPECT_TRUE(segmented(box, T_world_camera).place_seen);
+  EXPECT_TRUE(segmented(draw({}, T_world_camera, 0.002), T_world_camera).place_seen) << "empty";
+  const Drawn floor = draw({.boxes = {}, .half_table_m = 0.0}, T_world_camera);
+  EXPECT_FALSE(segmented(floor, T_world_camera).place_seen) << "there is no table";
+  EXPECT_TRUE(SegmentedObject{}.place_seen);
+}
+
+TEST(SegmentOnTable, APlaceBesideTheImageIsNotSeen) {
+  Pose T_world_camera = Pose::Identity();
+  T_world_camera.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  T_world_camera.translation() = Vector3d(0.0, 0.0, 2.5);
+  TablePlane table;
+  table.centroid_m = {0.0, 0.0, 0.5};
+  const CameraImages images = block_from_above(0.1F);
+  const SegmentedObject beside =
+      segment_on_table(images, T_world_camera, table, {5.0, 0.0, 0.5}, {});
+  EXPECT_FALSE(beside.view);
+  EXPECT_FALSE(beside.place_seen);
+  EXPECT_EQ(beside.reason, "the image does not show the place");
+  const SegmentedObject empty =
+      segment_on_table(images, T_world_camera, table, {0.0, 0.0, 0.5}, {.min_pixels = 1000});
+  EXPECT_FALSE(empty.view);
+  EXPECT_TRUE(empty.place_seen);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -230,5 +230,22 @@ TEST_F(ChangeDetection, PriorsMustLeaveRoomForNoChange) {
   }
 }
 
+TEST_F(ChangeDetection, WithoutAnotherViewItIsDecidedWhereItStands) {
+  int turns = 0;
+  const ObjectCamera cornered{
+      .extract =
+          [](std::size_t) { return ExtractedFeature{.result = FeatureResult::skip("no object")}; },
+      .bearing_rad = [] { return 0.5; },
+      .actions = [] { return std::vector<ObjectViewAction>{}; },
+      .turn = [&](const ObjectViewAction&) { ++turns; }};
+  Rng rng(1);
+  options_.empty_views = 5;
+  const ChangeReport report = detect_change(recogniser_, options_, 0, cornered, rng);
+  EXPECT_EQ(report.change, Change::removed);
+  ASSERT_EQ(report.recognition.views.size(), 1U);
+  EXPECT_EQ(report.recognition.views[0].view_rad, 0.5);
+  EXPECT_EQ(turns, 0);
+}
+
 }  // namespace
 }  // namespace vantage

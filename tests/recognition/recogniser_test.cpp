@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/recognition/dataset/picture_views.hpp"
 #include "vantage/recognition/lean_recogniser.hpp"
+#include "vantage/recognition/recognition.hpp"
 
 namespace vantage {
 namespace {
@@ -201,6 +204,40 @@ TEST(Recogniser, KnowsUnknownObjectsIfItKnowsTwo) {
   };
   EXPECT_GT(unknown_of(2), 0);
   EXPECT_EQ(unknown_of(1), 0);
+}
+
+TEST(Recogniser, BeginsWithoutWhatNoPictureShowed) {
+  RecognitionModel model = small_model();
+  for (FeatureModel& feature : model.features) {
+    feature.statistics.count[4] = 0;
+    feature.statistics.mean.col(4).setZero();
+    feature.statistics.squared_deviation.col(4).setZero();
+  }
+  EXPECT_TRUE(make_recogniser(model, {}, 1).unseen.empty()) << "it is of no pictures";
+  keep_notes({}, 0.0, model);
+  const Recogniser of_pictures = make_recogniser(model, {}, 1);
+  EXPECT_EQ(of_pictures.unseen, std::vector<int>{4});
+  const Eigen::VectorXd p = p_state(begin_recognition(of_pictures).belief);
+  for (int state = 0; state < 4; ++state) EXPECT_NEAR(p[state], 1.0 / 6.0, 1e-12) << state;
+  EXPECT_EQ(p[4], 0.0);
+  EXPECT_NEAR(p[5], 1.0 / 3.0, 1e-12) << "of that object no other side is known";
+}
+
+TEST(Recogniser, SaysOfAFileThatItWasTrainedWithoutUnknownObjects) {
+  const support::TemporaryDirectory directory;
+  RecognitionModel model = small_model();
+  const auto said = [&](double unknown_prior) {
+    write_recognition_model(model, directory / "model.vrm");
+    testing::internal::CaptureStderr();
+    load_recogniser(directory / "model.vrm",
+                    {.features = {}, .unknown_prior = unknown_prior, .repeated_views = true}, 1);
+    make_recogniser(model, {}, 1);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(said(0.1), HasSubstr("model.vrm: was trained without unknown objects"));
+  EXPECT_EQ(said(0.0), "") << "nobody asked";
+  for (FeatureModel& feature : model.features) feature.unknown = UnknownFactors{};
+  EXPECT_EQ(said(0.1), "");
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/recognition/made_up.hpp"
+#include "vantage/core/log.hpp"
 
 namespace vantage {
 namespace {
@@ -296,6 +299,48 @@ TEST(Recognition, OptionsOutOfRangeAreNamed) {
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("max_views"));
   }
+}
+
+TEST(Recognition, WhatIsNoneOfTheModelsShowsNoUnseenSide) {
+  Rng rng(3);
+  Recogniser recogniser = test::made_up_recogniser(2, {2.0}, {}, rng, 4);
+  recogniser.states.unknown_category = {kNoCategory};
+  recogniser.unseen = {1, 2, 3};
+  RecognitionOptions options;
+  options.transition = RigidTransition{.slip = 0.0};
+  Recognition recognition = begin_recognition(recogniser);
+  recognition.belief.log_p.setConstant(-std::numeric_limits<double>::infinity());
+  recognition.belief.log_p[8] = 0.0;
+  EXPECT_EQ(p_unseen_side(recogniser, options, recognition, 0.0), 0.0);
+}
+
+TEST(Recognition, TellsTheTimeThatItsChoicesTook) {
+  Rng rng(7);
+  const Recogniser recogniser = test::made_up_recogniser(12, {1.0, 1.0}, {}, rng);
+  RecognitionOptions options;
+  options.enough = {.object_probability = 1.0, .entropy_bits = 0.0};
+  options.max_views = 3;
+  MadeUpCamera camera{.recogniser = recogniser, .object = 3, .bin = 2, .rng = rng};
+  const double start_s = wall_s();
+  const Recognition known = recognise(recogniser, options, object_camera(camera), rng);
+  const double took_s = wall_s() - start_s;
+  ASSERT_THAT(known.views, SizeIs(3));
+  double chosen_s = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_GT(known.views[i].selection_time_s, 0.0) << i;
+    EXPECT_EQ(known.views[i].view_time_s > 0.0, i > 0) << i << ": the first was not chosen";
+    chosen_s += known.views[i].selection_time_s + known.views[i].view_time_s;
+  }
+  EXPECT_LE(chosen_s, took_s);
+}
+
+TEST_F(NearDuplicateMugs, ExtractingFromAViewTakesItsTimeOfTheWhole) {
+  const ObjectView nothing;
+  const ExtractFeature extract = extract_from(recogniser_, nothing);
+  const double start_s = wall_s();
+  const ExtractedFeature extracted = extract(0);
+  EXPECT_GE(extracted.time_s, 0.0);
+  EXPECT_LE(extracted.time_s, wall_s() - start_s);
 }
 
 }  // namespace

@@ -372,5 +372,50 @@ TEST(FewPictures, HaveTheHighestFloorThatIsAsGood) {
       << "of 0, 0.1, 0.3, 1 and 3";
 }
 
+TEST_F(Training, LeavingOutAllObjectsLeavesNone) {
+  options_.leave_out = {"cup_1", "cup_2", "hat_1"};
+  expect_error("leave_out: leaves no object to train on");
+}
+
+TEST_F(Training, AFeatureThatNoViewHasIsNamed) {
+  options_.features = {BoundingBox{}, Colour{.min_pixels = 100000}};
+  expect_error("feature 'colour' can be extracted from none of 96 views; ");
+}
+
+TEST_F(Training, WithoutPriorMovesNoTransitionIsLearnt) {
+  options_.transition_prior_moves = 0.0;
+  EXPECT_EQ(train().transitions.slip.size(), 0);
+}
+
+/// As above, with six pictures of either plate in each of the two recordings; where there are as
+/// many as six for each of four states, the floor is left to the options.
+TEST(FewPictures, AreLessThanSixOfEachState) {
+  for (const bool one_less : {false, true}) {
+    const support::TemporaryDirectory folder;
+    for (const int video : {1, 2}) {
+      for (int frame = 1; frame <= 6; ++frame) {
+        const int off_px = frame <= 3 ? frame - 4 : frame - 3;
+        put_plate(folder.path(), "plate_1", video, frame, 20, (video == 1 ? 30 : 50) + off_px);
+        if (one_less && video == 2 && frame == 6) continue;
+        put_plate(folder.path(), "plate_2", video, frame, 30, (video == 1 ? 50 : 30) + off_px);
+      }
+    }
+    DatasetIndex dataset = index_dataset(folder.path());
+    const auto notes = std::make_shared<PictureNotes>();
+    notes->bins = 2;
+    notes->focal_px = 100.0;
+    for (ViewEntry& view : dataset.views) view.notes = notes;
+    TrainingOptions options;
+    options.features = {BoundingBox{}};
+    options.variance = ShrunkVariance{.floor = 0.5};
+    options.transition_prior_moves = 0.0;
+    options.unknown = false;
+    const RecognitionModel model = train_recognition(dataset, options, {});
+    const double floor =
+        std::get<ShrunkVariance>(floored(model, ShrunkVariance{.floor = 0.0})).floor;
+    EXPECT_EQ(floor > 0.0, one_less) << floor;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -195,5 +195,11 @@ TEST(RoundPlace, WhatIsMostlyOverItIsAPartOfIt) {
   EXPECT_THAT(with({{0.14, 0.14}, {0.4, 0.4}}), ElementsAre(0U)) << "half of it is not most";
 }
 
+TEST_F(PiecesFromAbove, WhatIsNearerThanAMetreCountsAsWell) {
+  column_.patch.depth_m(1, 1) = 0.5F;
+  EXPECT_TRUE(scene().nearer({1, 1}, {0, 1}));
+  EXPECT_TRUE(scene().is_bare({0.0, 0.0, 2.0}, 0.05)) << "half a metre before the camera";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -223,5 +223,22 @@ TEST(TrainFeature, NineViewsAreTimedAndNoMore) {
   EXPECT_DEATH(train_feature(Colour{}, views, rng), "images have its size");
 }
 
+TEST(TrainFeature, AKernelDescriptorNeedsTwoViews) {
+  Rng rng(1);
+  const std::vector<ObjectView> views = ball_views(2, 48, rng, 3.0);
+  KernelDescriptor<PatchKind::size> descriptor;
+  descriptor.match.words = 5;
+  EXPECT_NO_THROW(train_feature(descriptor, views, rng));
+  try {
+    train_feature(descriptor, {views.data(), 1}, rng);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_EQ(
+        std::string(error.what()).find("feature size: 1 training view can be used, fewer than 2"),
+        0U)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string>
 
 #include "tests/perception/features/onnx_bytes.hpp"
 #include "tests/support/object_views.hpp"
@@ -129,6 +130,28 @@ TEST(TrainedOnnx, NeedsSixteenPixels) {
   };
   EXPECT_EQ(skipped(4, 4), "");
   EXPECT_EQ(skipped(5, 3), "the mask has 15 usable pixels, fewer than 16");
+}
+
+/// The network gives three numbers.
+TEST(TrainedOnnx, ComponentsOfAnotherNetworkAreRefused) {
+  const auto why_not = [](Eigen::Index outputs) -> std::string {
+    std::string bytes;
+    put_text(bytes, "mean.onnx");
+    put_text(bytes, averaging_network());
+    put_matrix(bytes, Eigen::MatrixXf::Zero(outputs, 1));
+    put_matrix(bytes, Eigen::MatrixXf::Identity(outputs, 2));
+    put_matrix(bytes, Eigen::MatrixXf::Ones(2, 1));
+    ByteReader reader(bytes, "model");
+    try {
+      (void)Onnx::take_state(reader);
+      reader.finish();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why_not(3), "");
+  EXPECT_EQ(why_not(4), "model: holds components of another network");
 }
 
 }  // namespace

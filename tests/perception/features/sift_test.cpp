@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include "tests/support/object_views.hpp"
@@ -78,6 +79,26 @@ TEST(DenseSift, OfACropThatIsNoSquareTheLongerSideIsBroughtToTheLimit) {
     std::ranges::fill(view.mask, 1);
     EXPECT_EQ(dense_root_sift(view, same).descriptors.cols(), 8 * 4) << width_px;
   }
+}
+
+TEST(Sift, ComesBackWithAsManyWordsAsItMayHave) {
+  const auto why_not = [](Eigen::Index words) -> std::string {
+    std::string bytes;
+    put_options(bytes, Sift{.words = 2});
+    put_matrix(bytes, Eigen::MatrixXf::Ones(128, words));
+    ByteReader reader(bytes, "x");
+    try {
+      (void)Sift::take_state(reader);
+      reader.finish();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why_not(1), "");
+  EXPECT_EQ(why_not(2), "");
+  EXPECT_EQ(why_not(0), "x: holds too few or many words");
+  EXPECT_EQ(why_not(3), "x: holds too few or many words");
 }
 
 }  // namespace

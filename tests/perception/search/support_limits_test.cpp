@@ -290,5 +290,15 @@ TEST_F(BlockFromAbove, StandsOutOfTheNoiseAndMostlyOverTheTable) {
   }
 }
 
+/// 25 px long; those of its columns from 104 on are beside the table, the last 23 cm from it.
+TEST_F(BlockFromAbove, IsBesideTheTableByAllOfItThatIsNearTheTable) {
+  for (const int left : {84, 90}) {
+    put_block_at(left, 50);
+    put(100, 0, 60, 120, 2.805F);
+    put(left, 50, 25, 10, 1.8F);
+    EXPECT_EQ(found().size(), left == 84 ? 1U : 0U) << left;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

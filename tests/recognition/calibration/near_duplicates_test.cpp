@@ -103,5 +103,15 @@ TEST(NearDuplicateGroups, CompareObjectsAtTheTurnWhereTheyAreMostAlike) {
   }
 }
 
+TEST(NearDuplicateGroups, GoByTheSidesThatBothAreSeenFromAlone) {
+  const auto groups = [](const std::vector<double>& means, const std::vector<int>& unseen) {
+    return near_duplicate_groups(std::vector{measuring(means)}, objects_of_bins(2, 2), 1, unseen);
+  };
+  EXPECT_THAT(groups({1.0, 90.0, 1.0, 50.0}, {1, 3}), ElementsAre(0, 0)) << "one side is enough";
+  EXPECT_THAT(groups({1.0, 90.0, 50.0, 1.0}, {1}), ElementsAre(0, 0)) << "turned by a bin";
+  EXPECT_THAT(groups({1.0, 90.0, 50.0, 70.0}, {1}), ElementsAre(0, 1));
+  EXPECT_THAT(groups({1.0, 1.0, 1.0, 1.0}, {0, 1}), ElementsAre(0, 1)) << "one was never seen";
+}
+
 }  // namespace
 }  // namespace vantage

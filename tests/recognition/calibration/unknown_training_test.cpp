@@ -8,7 +8,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <vector>
 
 #include "vantage/information/log_space.hpp"
 #include "vantage/recognition/calibration/near_duplicates.hpp"
@@ -260,6 +262,29 @@ TEST(MostLikelyFactors, AreLookedForByFiveHundredStepsOfTen) {
   views.insert(views.end(), 4,
                {.kind = Kind::category, .known = 5997.0, .instance = kImpossible, .category = 0.0});
   EXPECT_NEAR(most_likely_factors(views).category, 5000.0, 1e-6);
+}
+
+/// The first of the world's objects, moved to there.
+std::optional<UnknownFactors> factors_of_points(const std::vector<Eigen::Vector2d>& points) {
+  Rng rng(9);
+  PointWorld world(rng);
+  world.states.objects.resize(points.size());
+  world.states.category_of.resize(points.size());
+  world.point = points;
+  return learn(world, 60, rng).factors[0];
+}
+
+TEST(CalibrateUnknown, NeedsFiveObjectsWhereAllHangTogether) {
+  std::vector<Eigen::Vector2d> row{{0.0, 0.0}, {0.25, 0.0}, {0.5, 0.0}, {0.75, 0.0}};
+  EXPECT_FALSE(factors_of_points(row));
+  row.emplace_back(1.0, 0.0);
+  EXPECT_TRUE(factors_of_points(row));
+}
+
+TEST(CalibrateUnknown, OfThreeThatAreApartLearnsFromTheOtherTwo) {
+  const auto factors = factors_of_points({{0.0, 0.0}, {10.0, 0.0}, {0.0, 10.0}});
+  ASSERT_TRUE(factors);
+  EXPECT_EQ(factors->instance, factors->category) << "no category can be left out";
 }
 
 }  // namespace

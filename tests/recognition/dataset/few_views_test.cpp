@@ -123,5 +123,16 @@ TEST(FewViews, TheScoreIsTheSameHoweverSmallOrLargeDensitiesAre) {
   }
 }
 
+TEST(FewViews, OfNoViewThereIsNoMistakeAndOfASingleOneThereIs) {
+  HeldOutViews none = all_right(0);
+  add_a_mistake(none);
+  EXPECT_TRUE(none.state.empty());
+  EXPECT_EQ(none.log_density[0].cols(), 0);
+  HeldOutViews one = all_right(1);
+  add_a_mistake(one);
+  EXPECT_EQ(one.state, (std::vector<int>{0, 2}));
+  EXPECT_EQ(one.log_density[0].cols(), 2);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -252,5 +252,24 @@ TEST(DropCopies, TakesOutTheSamePicturesOfTheSameObject) {
   EXPECT_EQ(drop_copies(views), 0U);
 }
 
+TEST(NamedViews, AreThoseOfBinsThatHaveAName) {
+  EXPECT_EQ(named_views(notes_of_names({"front", "", "left", ""})), "front, left");
+  EXPECT_EQ(named_views(notes_of_bins(4)), "");
+}
+
+TEST(FitTo, SaysHowManyPicturesHaveNoMaskAsTheModelsHad) {
+  const auto by_depth = notes_with(notes_of_cut("depth"));
+  std::vector<ViewEntry> views{entry_of(1, 1, by_depth), entry_of(1, 2), entry_of(1, 3, by_depth)};
+  const auto said = [&] {
+    testing::internal::CaptureStderr();
+    fit_to(notes_of_bins(8), views);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(said(), HasSubstr("2 of 3 here are cut by depth"));
+  EXPECT_FALSE(views[0].cut) << "as they are";
+  views = {entry_of(1, 2)};
+  EXPECT_EQ(said(), "");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -114,5 +114,17 @@ TEST(EvaluatedChanges, AreOfEachChoiceOfViewsInEachScenario) {
   }
 }
 
+TEST(EvaluatedChanges, TakeTheTimeOfFeaturesAndOfChoices) {
+  PlainWorld world(true);
+  for (const double cost_s : {0.0, 2.0}) {
+    world.recogniser.features[0].observation.cost_s = cost_s;
+    for (const ChangeTrials& of : world.evaluated()) {
+      for (const ChangeTrial& trial : of.trials) {
+        EXPECT_GE(trial.time_s, cost_s * trial.observations) << of.method;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

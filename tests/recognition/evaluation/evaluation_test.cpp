@@ -199,5 +199,47 @@ TEST_F(Evaluation, AnUnknownObjectIsAnErrorThatNamesIt) {
   }
 }
 
+TEST_F(Evaluation, ATrialAddsUpWhatItsViewsTook) {
+  const double cost_s =
+      recogniser_.features[0].observation.cost_s + recogniser_.features[1].observation.cost_s;
+  for (const bool all : {true, false}) {
+    RecognitionOptions options;
+    options.all_features = all;
+    options.max_views = 3;
+    int of_several = 0;
+    for (const Trial& trial : run(options)) {
+      of_several += trial.observations > 1 ? 1 : 0;
+      EXPECT_EQ(trial.view_time_s > 0.0, trial.observations > 1);
+      if (all) {
+        EXPECT_EQ(trial.features, 2 * trial.observations);
+        EXPECT_NEAR(trial.feature_time_s, trial.observations * cost_s, 1e-9);
+      } else {
+        EXPECT_GT(trial.selection_time_s, 0.0);
+      }
+    }
+    EXPECT_GT(of_several, 10);
+  }
+}
+
+TEST(TestViewsRead, SayWhatOfThemTheModelKnows) {
+  const support::TemporaryDirectory folder;
+  test::put_painted_object(folder.path(), {"cup", "cup_1", 0}, 4);
+  test::put_painted_object(folder.path(), {"hat", "hat_1", 80}, 4);
+  const TrainedFeature colour(Colour{}, 0.0);
+  RecognitionModel model;
+  model.states = {.objects = {"cup_1"}, .categories = {"cup"}, .category_of = {0}, .bins = 4};
+  model.features.push_back({.name = "colour",
+                            .statistics = empty_statistics(colour.dimension(), 4),
+                            .blobs = {{kExtractorBlob, colour.to_bytes()}}});
+  const TestViews test = read_test_views(index_dataset(folder.path()), model, 2, {});
+  ASSERT_EQ(test.views.size(), 8U);
+  EXPECT_THAT(test.shown, ::testing::ElementsAre(0, 1, 2, 3, -1, -1, -1, -1));
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(test.views[i].name.video, 2);
+    EXPECT_EQ(test.category[i], i < 4 ? 0 : kNoCategory);
+  }
+  EXPECT_EQ(test.turntables.size(), 2U);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -132,5 +132,13 @@ TEST_F(CombinedFeatures, AreTakenByTheCameraWhereItIs) {
   EXPECT_EQ(other.view(), 0U);
 }
 
+TEST_F(CombinedFeatures, BeginWithTheSidesThatTheModelHasViewsOf) {
+  recogniser_.unseen = {0};
+  const Trial hidden = trials({1})[0];
+  EXPECT_EQ(hidden.features, 0);
+  EXPECT_NEAR(hidden.entropy_bits, 1.5, 1e-9) << "of 0, 1/2, 1/4 and 1/4";
+  EXPECT_NEAR(hidden.probability, 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

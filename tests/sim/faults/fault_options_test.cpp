@@ -210,5 +210,19 @@ TEST(MovedObject, IsThereWhereTheClockIsANanosecondShort) {
   }
 }
 
+TEST(MovedObject, HasAShapeThatReachesHalfAMetreAtMost) {
+  const test::SceneFolder folder(
+      ball_with("<body name='edge'><geom type='sphere' size='.25' pos='0 0 .25'/></body>"
+                "<body name='sheet'><geom type='plane' size='.2 .2 .1'/></body>"
+                "<body name='hook'/>"));
+  const World world(folder.alone());
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    EXPECT_EQ(model_name(world.model(), ModelObject::body,
+                         moved_object(world, {.moved_object_m = 0.1}, seed)->body_id),
+              "edge")
+        << seed;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

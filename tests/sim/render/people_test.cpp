@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numeric>
 #include <regex>
+#include <vector>
 
 #include "tests/support/mjcf.hpp"
 #include "vantage/core/atomic_file.hpp"
@@ -202,6 +203,36 @@ TEST(SceneSurfaces, WallsAreApartByTheirSide) {
   EXPECT_NEAR(surfaces.extent_m.max().z(), 2.6, 1e-9);
   EXPECT_NE(std::ranges::find(surfaces.colours, std::array<std::uint8_t, 3>{255, 0, 0}),
             surfaces.colours.end());
+}
+
+TEST(ForPeople, ARoomBeyondTheFarPlaneIsSeen) {
+  std::string text = kClosedRoom;
+  text.insert(text.find("<worldbody>"),
+              "<statistic extent='.5'/><visual><map znear='.01' zfar='4'/></visual>");
+  const auto room = test::compile_mjcf(text);
+  const FixedCamera out{room.camera("out")};
+  EXPECT_FALSE(shows(draw(*room.model, *room.data, out, false), room.geom("south")))
+      << "it is 3.9 m away, the far plane 2 m";
+  const RenderedImages seen = draw(*room.model, *room.data, out, true);
+  EXPECT_TRUE(shows(seen, room.geom("box")));
+  EXPECT_TRUE(shows(seen, room.geom("north")));
+}
+
+/// Of the 3.9 m from the eye to the room.
+TEST(ForPeople, HalfOfTheWayToARoomIsCutAway) {
+  const auto room = test::compile_mjcf(kClosedRoom);
+  const auto drawn_with = [&](const std::vector<Marker>& markers) {
+    RenderRequest request;
+    request.for_people = true;
+    request.markers = markers;
+    RenderedImages images;
+    make_offscreen_renderer(*room.model, kPeopleWidth, kPeopleHeight)
+        ->render(*room.model, *room.data, FixedCamera{room.camera("out")}, request, images);
+    return images.rgb;
+  };
+  const auto plain = drawn_with({});
+  EXPECT_EQ(drawn_with({SphereMarker{.p_world_m = {0.0, -4.5, 1.5}}}), plain) << "1.5 m";
+  EXPECT_NE(drawn_with({SphereMarker{.p_world_m = {0.0, -3.5, 1.5}}}), plain) << "2.5 m";
 }
 
 }  // namespace

@@ -283,5 +283,25 @@ TEST(BaseCommands, TheHeadTurnsAsFastAsTheFasterOfItsJoints) {
   EXPECT_EQ(rate_rad_s(-0.5, -0.75), 0.75);
 }
 
+TEST(DriveTimes, StuckIsToPushForSoLongWithoutABreak) {
+  DriveOptions options;
+  options.stuck_time_s = 1.5;
+  const auto driven = [&](int ticks_to_a_step) {
+    test::RobotWorld scene;
+    Odometry odometry = exact_odometry();
+    int ticks = 0;
+    odometry.on_increment = [&ticks, ticks_to_a_step](const Pose2&) {
+      return ++ticks % ticks_to_a_step == 0 ? Pose2{0.004, 0.0, 0.0} : Pose2{};
+    };
+    return drive(scene.world, scene.robot, odometry, std::vector<Pose2>{{3.0, 0.0, 0.0}}, options,
+                 [](World& world, const Pose2&) { return world.time_s() < 4.0; });
+  };
+  const DriveResult stuck = driven(1000);
+  EXPECT_EQ(stuck.status, DriveStatus::stuck);
+  EXPECT_GE(stuck.duration_s, 1.5 - 1e-9);
+  EXPECT_LT(stuck.duration_s, 3.5);
+  EXPECT_EQ(driven(40).status, DriveStatus::stopped) << "its wheels turn once a second";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -306,5 +306,30 @@ TEST(TrajectoryTrackingController, SumsUpWhatItFlewTickByTick) {
   EXPECT_NEAR(result.energy_J, sum.energy_J, 1e-9);
 }
 
+TEST(TrajectoryTrackingController, HoldingEndsAtAContactToo) {
+  TrajectoryTrackingOptions options = exact_tracking();
+  options.gusts = {{.force_N = 9.0, .direction = {1.0, 0.0, 0.0}, .duration_s = 100.0}};
+  FlightWorld scene(options, test::at_height(1.0),
+                    "<geom type='box' size='0.1 2 2' pos='0.36 0 1'/>");
+  const FlightResult result = scene.tracking.hold(3.0);
+  EXPECT_EQ(result.status, FlightStatus::contact);
+  EXPECT_LT(result.duration_s, 2.0);
+  EXPECT_EQ(scene.tracking.collisions(), 1);
+}
+
+TEST(TrajectoryTrackingController, SumsUpEachFlightAnew) {
+  FlightWorld scene;
+  const FlightResult first = scene.tracking.hold(0.5);
+  const FlightResult second = scene.tracking.hold(0.25);
+  EXPECT_NEAR(first.duration_s, 0.5, 1e-9);
+  EXPECT_NEAR(second.duration_s, 0.25, 1e-9);
+  EXPECT_NEAR(second.energy_J, 0.5 * first.energy_J, 0.05 * first.energy_J);
+  const double start_s = scene.world.time_s();
+  const FlightWaypoint goal{.p_world_m = scene.position_m() + Eigen::Vector3d(0.4, 0.0, 0.0)};
+  const FlightResult flown = scene.tracking.fly_to(std::span(&goal, 1));
+  EXPECT_NEAR(flown.duration_s, scene.world.time_s() - start_s, 1e-9);
+  EXPECT_NEAR(flown.path_length_m, 0.4, 0.1);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -326,5 +326,22 @@ TEST(ScoreMap, NothingClaimedIsNothingWrong) {
   EXPECT_EQ(score_map(grid, all, all, none, 1).recall, 1.0);
 }
 
+TEST(ScoreMap, ToleranceMayReachAcrossTheGrid) {
+  const GridFrame grid{.cells = {2, 3, 4}};
+  for (int tolerance = 0; tolerance <= 5; ++tolerance) {
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      for (std::size_t k = 0; k < grid.size(); ++k) {
+        std::vector<std::uint8_t> occupied(grid.size(), 0);
+        std::vector<std::uint8_t> surface(grid.size(), 0);
+        occupied[i] = surface[k] = 1;
+        const int distance = (grid.cell(i) - grid.cell(k)).abs().maxCoeff();
+        const MapScore score = score_map(grid, occupied, surface, surface, tolerance);
+        ASSERT_EQ(score.precision, distance <= tolerance ? 1.0 : 0.0) << i << " " << k;
+        ASSERT_EQ(score.recall, score.precision) << i << " " << k;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -151,5 +151,25 @@ TEST(NearestToLevelLimits, TheLargestLeaningOneInWhateverOrder) {
   }
 }
 
+/// A square of 1 m, and 10 cm over it a smaller one, that lean together.
+TEST(NearestToLevelLimits, OfALeaningThingTheLargestSideCounts) {
+  const auto scene = things(
+      "<geom type='mesh' mesh='step' pos='0 0 .6' euler='0 8 0'/>",
+      "<mesh name='step' vertex='-.5 -.5 0  .5 -.5 0  .5 .5 0  -.5 .5 0  -.4 -.4 .1  .4 -.4 .1  "
+      ".4 .4 .1  -.4 .4 .1' face='0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 "
+      "4 3 4 7'/>");
+  const auto nearest = nearest_to_level(*scene.model, *scene.data);
+  ASSERT_TRUE(nearest);
+  EXPECT_NEAR(nearest->area_m2, 1.0, 1e-5);
+  EXPECT_NEAR(nearest->height_m, 0.6, 1e-5);
+  EXPECT_NEAR(nearest->tilt_rad, 8.0 * std::numbers::pi / 180.0, 1e-4);
+}
+
+TEST(LevelSurfaceLimits, ARoundTopHasCornersEvery10Centimetres) {
+  const auto found = tops_of("<geom type='cylinder' size='.5 .02' pos='0 0 .7'/>");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].area_m2, 4.0 * std::sin(2.0 * std::numbers::pi / 32.0), 1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

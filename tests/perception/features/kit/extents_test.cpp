@@ -208,5 +208,25 @@ TEST(RootOfShares, OfASumBelowOneIsOfUnitLengthToo) {
   EXPECT_FLOAT_EQ(roots[1], std::sqrt(0.75F));
 }
 
+/// A step of 20 cm between columns 19 and 20. At a metre the radius would be 20 px.
+TEST(ObjectSurface, NormalsAreFittedToEightPixelsToEachSideAtMost) {
+  ObjectView view = blank_view(40, 20);
+  view.focal_px = 100.0;
+  ObjectPixels pixels;
+  pixels.width_px = 40;
+  pixels.height_px = 20;
+  pixels.depth.assign(800, 1);
+  pixels.depth_count = 800;
+  for (int row = 0; row < 20; ++row) {
+    for (int column = 0; column < 40; ++column) {
+      view.depth_m[view.index(row, column)] = column < 20 ? 1.0F : 1.2F;
+    }
+  }
+  const ObjectSurface surface = object_surface(view, pixels, 0.2);
+  ASSERT_EQ(surface.cloud.size(), 800U);
+  EXPECT_NEAR(surface.cloud.normals[view.index(10, 11)].z(), -1.0F, 1e-4F) << "columns 3 to 19";
+  EXPECT_GT(std::abs(surface.cloud.normals[view.index(10, 12)].x()), 0.1F) << "columns 4 to 20";
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
 
 #include "vantage/perception/features/patches/kernel_descriptor.hpp"
 
@@ -113,6 +116,91 @@ INSTANTIATE_TEST_SUITE_P(All, BasisOfKind,
                                          PatchKind::normalised_rgb, PatchKind::normal_spin,
                                          PatchKind::size),
                          [](const auto& info) { return std::string(row_of(info.param).name); });
+
+TEST(ProductBasis, IsSolvedForAmongHalfMoreProductsThanRows) {
+  const ProductBasis basis = make_product_basis(kSmall, 20);
+  EXPECT_EQ(basis.terms.cols(), 30);
+  ASSERT_EQ(basis.terms.rows(), 3);
+  ASSERT_EQ(basis.axes.size(), 3U);
+  for (std::size_t a = 0; a < 3; ++a) {
+    EXPECT_EQ(basis.axes[a].functions(),
+              basis.terms.row(static_cast<Eigen::Index>(a)).maxCoeff() + 1)
+        << "no function that no product has";
+  }
+}
+
+/// Bytes of a basis with so many axes alike, of two functions each.
+struct BasisInBytes {
+  std::uint32_t axes = 2;
+  double low = -1.0;
+  double per_unit = 4.0;
+  Eigen::Index samples = 5;
+  float term = 1.0F;
+  Eigen::Index terms = 3;
+
+  [[nodiscard]] std::string why_not() const {
+    std::string bytes;
+    put(bytes, axes);
+    for (std::uint32_t a = 0; a < axes; ++a) {
+      put(bytes, low);
+      put(bytes, per_unit);
+      put_matrix(bytes, Eigen::MatrixXf::Ones(2, samples));
+    }
+    put_matrix(bytes, Eigen::MatrixXf::Constant(axes, terms, term));
+    put_matrix(bytes, Eigen::MatrixXf::Ones(1, terms));
+    put_matrix(bytes, Eigen::MatrixXf::Ones(1, 1));
+    ByteReader reader(bytes, "x");
+    try {
+      (void)take_basis(reader);
+      reader.finish();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST(ProductBasis, BytesOfNoBasisAreRefused) {
+  const auto refuses = [](const BasisInBytes& basis, const std::string& why) {
+    EXPECT_NE(basis.why_not().find(why), std::string::npos) << why << ": " << basis.why_not();
+  };
+  EXPECT_EQ(BasisInBytes{}.why_not(), "");
+  EXPECT_EQ(BasisInBytes{.axes = 1}.why_not(), "");
+  EXPECT_EQ(BasisInBytes{.axes = 16}.why_not(), "");
+  EXPECT_EQ(BasisInBytes{.term = 0.0F}.why_not(), "");
+  refuses({.axes = 0}, "without axes, or of too many");
+  refuses({.axes = 17}, "without axes, or of too many");
+  refuses({.low = std::numeric_limits<double>::infinity()}, "an empty axis");
+  refuses({.per_unit = 0.0}, "an empty axis");
+  refuses({.samples = 0}, "an empty axis");
+  refuses({.term = -1.0F}, "a term out of range");
+  refuses({.term = 2.0F}, "a term out of range");
+  refuses({.terms = 0}, "a term out of range");
+}
+
+TEST(KernelDescriptor, BytesOfAnotherDescriptorAreRefused) {
+  const ProductBasis basis = make_product_basis(basis_axes(PatchKind::size), 5);
+  const auto why_not = [&](PatchKind kind, Eigen::Index rows) -> std::string {
+    std::string bytes;
+    put_basis(bytes, basis);
+    put_options(bytes, MatchOptions{.levels = 1});
+    put_matrix(bytes, Eigen::MatrixXf::Ones(rows, 4));  // words
+    put_matrix(bytes, Eigen::MatrixXf::Ones(2, 4));     // components
+    put_matrix(bytes, Eigen::MatrixXf::Ones(4, 1));     // their mean
+    ByteReader reader(bytes, "x");
+    try {
+      (void)take_kernel_descriptor(kind, reader);
+      reader.finish();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(why_not(PatchKind::size, basis.rows()), "");
+  EXPECT_EQ(why_not(PatchKind::size, basis.rows() + 1), "x: holds words of another basis");
+  EXPECT_EQ(why_not(PatchKind::size, 0), "x: holds a vocabulary without words");
+  EXPECT_EQ(why_not(PatchKind::lbp, basis.rows()), "x: holds the basis of another feature");
+}
 
 }  // namespace
 }  // namespace vantage
