@@ -139,6 +139,20 @@ def file_results(out):
             if file.name != "contact_sheet.png"}
 
 
+def rendering(options):
+    return Command("render", lambda out: ["dataset", "render", str(out), *settings(options), "-q"], [], file_results)
+
+
+def undisturbed(command, out):
+    """Runs it once, to know what must come of it."""
+    start = time.monotonic()
+    code, text = command.run(out)
+    command.duration_s = time.monotonic() - start
+    if code != 0:
+        raise SystemExit(f"{command.name} fails without a fault: {code}\n{text}")
+    command.expected = command.results_of(out)
+
+
 class Commands:
     """All four, run once without a fault."""
 
@@ -152,22 +166,17 @@ class Commands:
                            ["--overwrite"], run_results),
             "sweep": Command("sweep", lambda out: ["sweep", "run", str(scratch / "small.yaml"), "--out", str(out),
                                                    "--jobs", "2", "-q"], [], sweep_results),
-            "render": Command("render", lambda out: ["dataset", "render", str(out), *settings(RENDER), "-q"],
-                              [], file_results),
+            "render": rendering(RENDER),
             "train": Command("train", lambda out: ["train", str(recording), "--out", str(out), *settings(TRAIN), "-q"],
                              ["--overwrite"], file_results),
         }
-        self._undisturbed(recording)
-
-    def _undisturbed(self, recording):
         for name, command in self.all.items():
-            out = recording if name == "render" else self.folder()
-            start = time.monotonic()
-            code, text = command.run(out)
-            command.duration_s = time.monotonic() - start
-            if code != 0:
-                raise SystemExit(f"{name} fails without a fault: {code}\n{text}")
-            command.expected = command.results_of(out)
+            undisturbed(command, recording if name == "render" else self.folder())
+
+    def rendering_of(self, objects):
+        command = rendering([f"objects={objects}", *RENDER[1:]])
+        undisturbed(command, self.folder())
+        return command
 
     def folder(self):
         """A name for a result that is not there."""

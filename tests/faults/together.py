@@ -33,11 +33,11 @@ def two_processes(commands, rng, _number):
 
 
 def renderings(commands, _rng, number):
-    """In a row, by as many processes as there are cores; each gives the same files."""
-    command, findings, tries = commands.all["render"], [], number or 3
+    """Of forty objects, in a row, by as many processes as there are cores; each gives the same files."""
+    command, findings, tries = commands.rendering_of(40), [], number or 3
     for _ in range(tries):
         out = commands.folder()
         code, text = command.run(out)
         findings += [f"exit code {code}: {text.strip()[-200:]}"] if code != 0 else []
         findings += [why for why in [command.wrong(out)] if why]
-    yield "renderings in a row", tries, findings
+    yield "renderings of 40 objects in a row", tries, findings
