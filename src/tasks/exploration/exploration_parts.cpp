@@ -64,11 +64,13 @@ void ExplorationParts::end() {
   note_agreeing_loops();
 }
 
-/// The robot has been there.
+/// The robot has been there, and in passages beside what it keeps a margin from: or what it sees of
+/// the room beside a passage later would close the way back.
 void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
   mark_disc(navigator_.floor(), p_m, radius_m, traversed_);
   if (const FloorMap* detail = navigator_.detail()) {
-    mark_disc(*detail, p_m, radius_m, traversed_detail_);
+    const double beside_m = task_.passages.margin_m + 0.5 * detail->cell_m;
+    mark_disc(*detail, p_m, radius_m + beside_m, traversed_detail_);
   }
 }
 

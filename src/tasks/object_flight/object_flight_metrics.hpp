@@ -8,6 +8,7 @@
 
 #include "vantage/runtime/measure.hpp"
 #include "vantage/tasks/object_flight/object_flight_parts.hpp"
+#include "vantage/tasks/object_flight/object_on_table.hpp"
 
 namespace vantage {
 
