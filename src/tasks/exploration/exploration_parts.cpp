@@ -69,7 +69,7 @@ void ExplorationParts::end() {
 void ExplorationParts::traverse(const Eigen::Vector2d& p_m, double radius_m) {
   mark_disc(navigator_.floor(), p_m, radius_m, traversed_);
   if (const FloorMap* detail = navigator_.detail()) {
-    const double beside_m = task_.passages.margin_m + 0.5 * detail->cell_m;
+    const double beside_m = task_.passages.margin_m + detail->cell_m;
     mark_disc(*detail, p_m, radius_m + beside_m, traversed_detail_);
   }
 }

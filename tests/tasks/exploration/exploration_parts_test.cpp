@@ -80,7 +80,7 @@ TEST(ExplorationParts, MayDriveWhereTheRobotWasThoughNothingIsSeenThere) {
     expect_open(parts.navigator_.floor(), 0.0);
     const FloorMap* detail = parts.navigator_.detail();
     ASSERT_TRUE(detail != nullptr);
-    expect_open(*detail, drive.task.passages.margin_m + 0.5 * detail->cell_m);
+    expect_open(*detail, drive.task.passages.margin_m + detail->cell_m);
   }
 }
 
