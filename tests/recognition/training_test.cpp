@@ -344,6 +344,21 @@ void put_plate(const std::filesystem::path& root, const std::string& object, int
   write_file(stem + "_pose.txt", "0 0\n");
 }
 
+/// Learnt from pictures of two sides, by width and height.
+RecognitionModel model_of_plates(const std::filesystem::path& folder) {
+  DatasetIndex dataset = index_dataset(folder);
+  const auto notes = std::make_shared<PictureNotes>();
+  notes->bins = 2;
+  notes->focal_px = 100.0;
+  for (ViewEntry& view : dataset.views) view.notes = notes;
+  TrainingOptions options;
+  options.features = {BoundingBox{}};
+  options.variance = ShrunkVariance{.floor = 0.5};
+  options.transition_prior_moves = 0.0;
+  options.unknown = false;
+  return train_recognition(dataset, options, {});
+}
+
 /// Heights are exchanged from one recording to the other, only widths tell the plates. The variance
 /// of heights is 2 px^2, the mean of the three numbers 2/3 px^2. With widths of f times that mean
 /// the lead is (3 * 10^2 / f - 20^2 -+ 40) / 4 nats: all are right with the floor of 0.5 that the
@@ -357,17 +372,7 @@ TEST(FewPictures, HaveTheHighestFloorThatIsAsGood) {
       put_plate(folder.path(), "plate_2", video, frame, 30, (video == 1 ? 50 : 30) + off_px);
     }
   }
-  DatasetIndex dataset = index_dataset(folder.path());
-  const auto notes = std::make_shared<PictureNotes>();
-  notes->bins = 2;
-  notes->focal_px = 100.0;
-  for (ViewEntry& view : dataset.views) view.notes = notes;
-  TrainingOptions options;
-  options.features = {BoundingBox{}};
-  options.variance = ShrunkVariance{.floor = 0.5};
-  options.transition_prior_moves = 0.0;
-  options.unknown = false;
-  const RecognitionModel model = train_recognition(dataset, options, {});
+  const RecognitionModel model = model_of_plates(folder.path());
   EXPECT_EQ(std::get<ShrunkVariance>(floored(model, ShrunkVariance{})).floor, 0.3)
       << "of 0, 0.1, 0.3, 1 and 3";
 }
@@ -400,17 +405,7 @@ TEST(FewPictures, AreLessThanSixOfEachState) {
         put_plate(folder.path(), "plate_2", video, frame, 30, (video == 1 ? 50 : 30) + off_px);
       }
     }
-    DatasetIndex dataset = index_dataset(folder.path());
-    const auto notes = std::make_shared<PictureNotes>();
-    notes->bins = 2;
-    notes->focal_px = 100.0;
-    for (ViewEntry& view : dataset.views) view.notes = notes;
-    TrainingOptions options;
-    options.features = {BoundingBox{}};
-    options.variance = ShrunkVariance{.floor = 0.5};
-    options.transition_prior_moves = 0.0;
-    options.unknown = false;
-    const RecognitionModel model = train_recognition(dataset, options, {});
+    const RecognitionModel model = model_of_plates(folder.path());
     const double floor =
         std::get<ShrunkVariance>(floored(model, ShrunkVariance{.floor = 0.0})).floor;
     EXPECT_EQ(floor > 0.0, one_less) << floor;

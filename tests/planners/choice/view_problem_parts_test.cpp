@@ -1,4 +1,4 @@
-// Belongs to tests/planners/choice/view_problem_parts_test.cpp, target `planners`.
+// What a view problem is made of: the pace of short ways, the map that is drawn, units of gains.
 #include <gtest/gtest.h>
 
 #include <vector>
