@@ -35,7 +35,8 @@ FloorPlan corridor_loop(const CorridorOptions& options);
 OfficeScene make_corridor_scene(const CorridorOptions& options);
 
 /// The scenes checked in under models/scenes: corridor_loop_1 and corridor_long_1, which options
-/// are chosen on, and corridor_loop_b_1 and corridor_long_b_1, which results are reported on.
+/// are chosen on, `_b_1`, which were reported on until a rule was changed by them, and `_c_1`,
+/// which results are reported on.
 std::vector<CorridorOptions> corridor_scenes();
 
 }  // namespace vantage

@@ -45,7 +45,8 @@ std::vector<OfficeOptions> door_scenes() {
   };
   return {doors("office_doors_1", 851, 0.85), doors("office_doors_80_1", 801, 0.80),
           doors("office_doors_a_1", 852, 0.85), doors("office_doors_b_1", 853, 0.85),
-          doors("office_doors_80_a_1", 802, 0.80)};
+          doors("office_doors_c_1", 854, 0.85), doors("office_doors_d_1", 855, 0.85),
+          doors("office_doors_80_a_1", 802, 0.80), doors("office_doors_80_b_1", 803, 0.80)};
 }
 
 }  // namespace vantage
