@@ -20,7 +20,9 @@ namespace {
 
 /// Ways from the robot are those that the candidates have, pulled straight.
 Eigen::MatrixXd travel_times_s(const ViewPlanningInput& input) {
-  Eigen::MatrixXd lengths_m = path_lengths_m(input.paths, input.places_m, input.threads);
+  Eigen::MatrixXd lengths_m = input.ways != nullptr
+                                  ? input.ways->between_m(input.places_m, input.threads)
+                                  : path_lengths_m(input.paths, input.places_m, input.threads);
   const Eigen::Index n = lengths_m.rows();
   lengths_m.conservativeResize(n + 1, Eigen::NoChange);
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -10,7 +10,7 @@
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/choice/partial_scans.hpp"
 #include "vantage/planners/gain.hpp"
-#include "vantage/planners/navigation/path_field.hpp"
+#include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/travel_time.hpp"
 #include "vantage/planners/tours/planning_problem.hpp"
 
@@ -50,6 +50,7 @@ struct ViewPlanningInput {
       0.0;  ///< since the start, for the pace at which cells are observed; 0: unknown
   int threads = 1;
   const PartialScans* partial_scans = nullptr;  ///< null: every scan is a whole one
+  PathLengths* ways = nullptr;                  ///< between places, in place of those of `paths`
 };
 
 /// Candidates out of reach are views that are infinitely far. A gain that cannot be swept counts

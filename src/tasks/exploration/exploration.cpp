@@ -68,7 +68,7 @@ ViewCoverage Exploration::coverage(const EpisodeSetup& setup,
   // Whole columns of the map's cells block the floor: what stands there may be a cell narrower.
   const double cell_m = map.frame().cell_size_m.head<2>().maxCoeff();
   return view_coverage(evaluator, places,
-                       {*evaluator.true_floor(), robot.inscribed_radius_m() - cell_m},
+                       {evaluator.true_paths()->map, robot.inscribed_radius_m() - cell_m},
                        setup.options.threads);
 }
 

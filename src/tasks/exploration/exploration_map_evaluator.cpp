@@ -140,7 +140,7 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
   const GridFrame frame = task.map.frame();
   const Pose2 start = truth.T_world_base();
   const FloorMap floor = floor_of_truth(task, frame, surface());
-  const PathField field = true_ways(task, truth, floor);
+  PathField field = true_ways(task, truth, floor);
   std::vector<Pose> T_world_sweeps{to_se3(start) * T_base_sweep};
   const double spacing_m = task.metrics.pose_spacing_m;
   for (const auto& p : spread_places(floor, frame, spacing_m,
@@ -150,8 +150,6 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
   }
   add_observable(T_world_sweeps);
   if (std::holds_alternative<OracleTour>(task.choice)) remember_visible(T_world_sweeps);
-  set_true_floor(floor, field.space);
-
   const UnreachedRooms rooms =
       unreached_rooms(field, floor_region(frame), task.passages.least_area_m2);
   std::vector<Pose> shut;
@@ -160,6 +158,7 @@ ExplorationMapEvaluator::ExplorationMapEvaluator(const Exploration& task, int th
     shut.push_back(to_se3({p.x(), p.y(), 0.0}) * T_base_sweep);
   }
   set_left_out(rooms.count, shut);
+  set_true_paths(std::move(field));
 }
 
 /// By the rule that the robot plans by. Where a disc gets everywhere, outlines are not asked.

@@ -2,22 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "vantage/belief/map/floor_map.hpp"
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/geometry/field_of_view.hpp"
 #include "vantage/geometry/pose.hpp"
 #include "vantage/planners/candidate.hpp"
+#include "vantage/planners/navigation/path_field.hpp"
 #include "vantage/tasks/mapping/driving/scan_record.hpp"
 
 namespace vantage {
 
-class FootprintSpace;
 class MobileGroundTruth;
 struct MapScore;
 
@@ -67,11 +65,10 @@ class GroundTruthMapEvaluator {
   [[nodiscard]] CellSet observable_set() const;
   /// The poses that observability is defined by.
   [[nodiscard]] const std::vector<Pose>& observing_poses() const { return observing_poses_; }
-  /// What stands or hangs in the robot's way, as it really is; null if nobody needs to know.
-  [[nodiscard]] const FloorMap* true_floor() const { return true_floor_ ? &*true_floor_ : nullptr; }
-  /// Where the robot's outline goes on that floor; null where a disc goes everywhere.
-  [[nodiscard]] const std::shared_ptr<const FootprintSpace>& true_space() const {
-    return true_space_;
+  /// From the start past what stands or hangs in the robot's way, as it really is; null if nobody
+  /// needs to know.
+  [[nodiscard]] const PathField* true_paths() const {
+    return true_paths_ ? &*true_paths_ : nullptr;
   }
   [[nodiscard]] std::size_t observable_cells() const { return observable_count_; }
   /// None where it is not asked which places can be reached.
@@ -89,10 +86,7 @@ class GroundTruthMapEvaluator {
   /// @param T_world_sensors in `rooms` that no way leads to; after add_observable()
   void set_left_out(int rooms, std::span<const Pose> T_world_sensors);
   [[nodiscard]] const std::vector<std::uint8_t>& surface() const { return surface_; }
-  void set_true_floor(FloorMap floor, std::shared_ptr<const FootprintSpace> space = nullptr) {
-    true_floor_ = std::move(floor);
-    true_space_ = std::move(space);
-  }
+  void set_true_paths(PathField paths) { true_paths_ = std::move(paths); }
 
  private:
   struct Remembered {
@@ -109,8 +103,7 @@ class GroundTruthMapEvaluator {
   std::vector<std::uint8_t> surface_;
   std::vector<Remembered> remembered_;
   std::vector<Pose> observing_poses_;
-  std::optional<FloorMap> true_floor_;
-  std::shared_ptr<const FootprintSpace> true_space_;
+  std::optional<PathField> true_paths_;
   std::size_t observable_count_ = 0;
   std::optional<LeftOut> left_out_;
 };

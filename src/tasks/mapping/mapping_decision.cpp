@@ -162,14 +162,12 @@ std::size_t MappingParts::next_of_plan(std::vector<Candidate>& candidates) {
                               .former = former_,
                               .intended_m = intended_m_};
   std::vector<Candidate> later;
-  PathField true_paths;
-  if (!poses_of_truth().empty() && evaluator_.true_floor() != nullptr) {
+  if (!poses_of_truth().empty() && evaluator_.true_paths() != nullptr) {
     later = views_of_truth(paths, false);
     tell_truth(later);
-    true_paths = make_path_field(*evaluator_.true_floor(), paths.start, options_.navigation,
-                                 evaluator_.true_space());
     situation.later = later;
-    situation.true_paths = &true_paths;
+    if (!true_ways_) true_ways_.emplace(*evaluator_.true_paths());
+    situation.true_ways = &*true_ways_;
   }
   MappingPlan plan = plan_ahead(options_, candidates, situation, choice_rng_);
   former_ = FormerPlan::ended;

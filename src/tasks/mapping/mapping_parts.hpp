@@ -13,6 +13,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/choice/outside_choice.hpp"
+#include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/tasks/mapping/driving/navigator.hpp"
@@ -177,6 +178,7 @@ class MappingParts {
   double at_half_cells_ = 0.0;                 ///< of the scan to come, with half the hazard
   Pose T_world_predicted_ = Pose::Identity();  ///< of the sensor, for the scan to come
   InSight in_sight_;                           ///< of it, for the scan to come
+  std::optional<PathLengths> true_ways_;       ///< once a choice that knows them has asked
   Rng choice_rng_;
   std::future<Prediction> prediction_;  ///< under way since predict(); reads the above
 };

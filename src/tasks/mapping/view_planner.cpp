@@ -35,18 +35,18 @@ PlanningProblem planning_problem(const MappingOptions& options, const Gain& gain
     const Pose2 base = situation.robot.base_for_sensor(view.T_world_sensor);
     places_m.emplace_back(base.x_m, base.y_m);
   }
-  const ViewPlanningInput input{
-      .map = {situation.belief.filled_grid(), &situation.transmission},
-      .gain = gain,
-      .candidates = views,
-      .places_m = places_m,
-      .field_of_view = situation.robot.view_field(),
-      .paths = situation.true_paths != nullptr ? *situation.true_paths : situation.paths,
-      .travel_time = situation.budget.rates().travel_time(),
-      .scan_s = situation.budget.rates().scan_s(),
-      .elapsed_s = situation.robot.time_s(),
-      .threads = situation.threads,
-      .partial_scans = situation.partial_scans};
+  const ViewPlanningInput input{.map = {situation.belief.filled_grid(), &situation.transmission},
+                                .gain = gain,
+                                .candidates = views,
+                                .places_m = places_m,
+                                .field_of_view = situation.robot.view_field(),
+                                .paths = situation.paths,
+                                .travel_time = situation.budget.rates().travel_time(),
+                                .scan_s = situation.budget.rates().scan_s(),
+                                .elapsed_s = situation.robot.time_s(),
+                                .threads = situation.threads,
+                                .partial_scans = situation.partial_scans,
+                                .ways = situation.true_ways};
   PlanningProblem problem = knows_truth(options.choice)
                                 ? make_true_view_problem(input, options.planning)
                                 : make_view_problem(input, options.planning);

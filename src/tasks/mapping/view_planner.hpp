@@ -31,7 +31,7 @@ struct PlanningSituation {
   /// Of a choice that knows the truth: views that cannot be reached yet, and the ways as they
   /// really are.
   std::span<const Candidate> later = {};
-  const PathField* true_paths = nullptr;
+  PathLengths* true_ways = nullptr;
   const PartialScans* partial_scans = nullptr;  ///< null: every scan is a whole one
   FormerPlan former = FormerPlan::none;
   std::optional<Eigen::Vector2d> intended_m = {};  ///< where the last plan wanted to scan next

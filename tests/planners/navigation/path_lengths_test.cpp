@@ -82,6 +82,31 @@ TEST(PathLengths, AreInfiniteToWhatCannotBeReached) {
   EXPECT_EQ(lengths_m(2, 2), 0.0);
 }
 
+/// From those that are new alone it searches, which asks once more here.
+TEST(PathLengths, OfPlacesThatComeAgainAreRemembered) {
+  FloorMap map(Eigen::Vector2d::Zero(), 1.0, 200, 200);
+  for (float& log_odds : map.log_odds) log_odds = -3.0F;
+  const PathField field = make_path_field(map, {0.5, 0.5, 0.0}, point_robot());
+  int asked = 0;
+  const StopPoll poll([&] { ++asked; });
+  PathLengths ways(field);
+  const std::vector<Eigen::Vector2d> first{{0.5, 0.5}, {199.5, 199.5}, {-5.0, 3.0}};
+  EXPECT_TRUE(ways.between_m(first, 1) == path_lengths_m(field, first, 1));
+  EXPECT_EQ(asked, 3 + 3);
+  const std::vector<Eigen::Vector2d> more{{199.5, 199.5}, {-5.0, 3.0}, {0.5, 0.5}, {150.5, 150.5}};
+  asked = 0;
+  const Eigen::MatrixXd lengths_m = ways.between_m(more, 1);
+  EXPECT_EQ(asked, 3 + 1);
+  const double step_m = std::sqrt(2.0);
+  EXPECT_NEAR(lengths_m(0, 2), 199.0 * step_m, 0.01);
+  EXPECT_NEAR(lengths_m(0, 3), 49.0 * step_m, 0.01);
+  EXPECT_NEAR(lengths_m(3, 2), 150.0 * step_m, 0.01);
+  EXPECT_TRUE(std::isinf(lengths_m(1, 3)));
+  asked = 0;
+  EXPECT_TRUE(ways.between_m(more, 1) == lengths_m);
+  EXPECT_EQ(asked, 3);
+}
+
 /// After each place that is reached, and once in 32 768 cells of the search from there.
 TEST(PathLengths, AskNowAndThenWhetherToGoOn) {
   FloorMap map(Eigen::Vector2d::Zero(), 1.0, 200, 200);

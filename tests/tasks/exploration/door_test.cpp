@@ -165,7 +165,7 @@ TEST(TrueWays, AskNoOutlineWhereADiscGetsEverywhere) {
   const MobileGroundTruth truth = robot.ground_truth();
   const ExplorationMapEvaluator evaluator(task, 2, truth, robot.view_field(), robot.T_base_sweep());
   ASSERT_TRUE(task.passages.use);
-  EXPECT_TRUE(evaluator.true_space() == nullptr);
+  EXPECT_TRUE(evaluator.true_paths()->space == nullptr);
 }
 
 /// What is true of a robot at (0.5, 0.5) among these bodies, on a map from 0.1 m above the floor.
@@ -195,7 +195,7 @@ struct TrueScene {
 /// A post of 18 cm, in the lowest cell of the corner where the map begins.
 TEST(TrueFloor, IsBlockedByWhatStandsInTheFirstCellOfTheMap) {
   const TrueScene scene("<geom type=\"box\" pos=\"-3.95 -3.95 0.09\" size=\"0.02 0.02 0.09\"/>");
-  const FloorMap* floor = scene.evaluator.true_floor();
+  const FloorMap* floor = &scene.evaluator.true_paths()->map;
   ASSERT_TRUE(floor != nullptr);
   EXPECT_EQ(floor->state_at({-3.97, -3.97}), CellState::occupied);
   EXPECT_EQ(floor->state_at({-3.77, -3.97}), CellState::free);
