@@ -56,16 +56,15 @@ bool is_node(const PathField& field, std::size_t cell) {
 }
 
 /// In reading order.
+constexpr std::array<std::array<int, 2>, FloorGraph::kSteps> kNeighbours{
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+
 std::array<FloorGraph::Step, FloorGraph::kSteps> steps_of(const FloorMap& map) {
   std::array<FloorGraph::Step, FloorGraph::kSteps> steps{};
-  std::size_t count = 0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      if (dx == 0 && dy == 0) continue;
-      const bool diagonal = dx != 0 && dy != 0;
-      steps[count++] = {static_cast<std::ptrdiff_t>(dy) * map.nx + dx,
-                        map.cell_m * (diagonal ? std::numbers::sqrt2 : 1.0)};
-    }
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const auto [dx, dy] = kNeighbours[i];
+    steps[i] = {static_cast<std::ptrdiff_t>(dy) * map.nx + dx,
+                map.cell_m * (dx != 0 && dy != 0 ? std::numbers::sqrt2 : 1.0)};
   }
   return steps;
 }
@@ -78,15 +77,9 @@ unsigned ways_of(const PathField& field, const std::vector<std::uint8_t>& nodes,
     return field.map.contains(to) && nodes[field.map.index(to)] != 0;
   };
   unsigned ways = 0;
-  unsigned bit = 1;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      if (dx == 0 && dy == 0) continue;
-      const bool diagonal = dx != 0 && dy != 0;
-      const bool cuts_corner = diagonal && !(node_at(dx, 0) && node_at(0, dy));
-      if (node_at(dx, dy) && !cuts_corner) ways |= bit;
-      bit <<= 1U;
-    }
+  for (std::size_t i = 0; i < kNeighbours.size(); ++i) {
+    const auto [dx, dy] = kNeighbours[i];
+    if (node_at(dx, dy) && node_at(dx, 0) && node_at(0, dy)) ways |= 1U << i;
   }
   return ways;
 }
@@ -175,9 +168,7 @@ std::vector<float> lengths_from(const FloorGraph& graph, std::uint32_t source,
   std::vector<std::uint8_t> wanted(graph.nodes(), 0);
   std::size_t left = 0;
   for (const std::uint32_t target : targets) {
-    if (target == FloorGraph::kNone || wanted[target] != 0) continue;
-    wanted[target] = 1;
-    ++left;
+    left += 1U - std::exchange(wanted[target], std::uint8_t{1});
   }
   CostQueue queue(graph.cell_m);
   reached[source] = {0.0F, 0.0F};
@@ -192,9 +183,7 @@ std::vector<float> lengths_from(const FloorGraph& graph, std::uint32_t source,
     expand(graph, node, reached, queue);
   }
   std::vector<float> lengths_m;
-  for (const std::uint32_t target : targets) {
-    lengths_m.push_back(target == FloorGraph::kNone ? kNoWay : reached[target].length_m);
-  }
+  for (const std::uint32_t target : targets) lengths_m.push_back(reached[target].length_m);
   return lengths_m;
 }
 
