@@ -211,7 +211,8 @@ std::uint32_t PathLengths::node_of(const Eigen::Vector2d& p_m) const {
 void PathLengths::find(std::span<const std::uint32_t> nodes, int threads) {
   std::vector<std::uint32_t> order(nodes.begin(), nodes.end());
   std::erase(order, FloorGraph::kNone);
-  std::ranges::stable_partition(order, [&](std::uint32_t node) { return !met_.contains(node); });
+  const auto is_new = [&](std::uint32_t node) { return !met_.contains(node); };
+  std::stable_partition(order.begin(), order.end(), is_new);
   std::vector<std::vector<std::uint32_t>> targets(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
