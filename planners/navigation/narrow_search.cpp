@@ -46,12 +46,13 @@ double facing_limit_rad(const RobotOutline& robot) {
 
 class PassageSearch {
  public:
-  PassageSearch(PathField& field, std::vector<Leeway> leeway)
+  PassageSearch(PathField& field, std::vector<Leeway> leeway, bool sideways)
       : field_(field),
         space_(*field.space),
         poses_(field, std::move(leeway)),
         fixed_(field.map.size(), 0),
-        facing_rad_(facing_limit_rad(space_.robot())) {
+        facing_rad_(sideways && space_.robot().goes_sideways ? std::numbers::pi
+                                                             : facing_limit_rad(space_.robot())) {
     for (std::size_t cell = 0; cell < fixed_.size(); ++cell) {
       fixed_[cell] = field.reachable(cell) ? 1 : 0;
     }
@@ -268,7 +269,7 @@ class PassageSearch {
 
 }  // namespace
 
-void search_passages(PathField& field) {
+void search_passages(PathField& field, bool sideways) {
   const FootprintSpace& space = *field.space;
   const std::size_t size = field.map.size();
   std::vector<std::uint8_t> open(size, 0);
@@ -287,7 +288,7 @@ void search_passages(PathField& field) {
   const bool any = std::ranges::any_of(
       leeway, [](Leeway l) { return l == Leeway::passage || l == Leeway::nook; });
   if (!any) return;
-  PassageSearch search(field, std::move(leeway));
+  PassageSearch search(field, std::move(leeway), sideways);
   if (any_reached) {
     search.from_open_places();
   } else {

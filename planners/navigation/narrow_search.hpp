@@ -10,6 +10,8 @@ namespace vantage {
 /// are none, from the robot's pose. Open places need no heading; in a passage a step keeps the
 /// heading and a turn the place. Both ends and the middle of each step fit.
 /// @param field with `space`
-void search_passages(PathField& field);
+/// @param sideways a robot that can goes through passages at any heading; else one that is nearly
+/// square faces where it goes, which takes a fraction of the time
+void search_passages(PathField& field, bool sideways = false);
 
 }  // namespace vantage

@@ -128,6 +128,15 @@ bool stands_narrow(const PathField& field) {
              field.space->circumscribed_m() + off_m;
 }
 
+bool leads_back(const PathField& field, std::span<const Eigen::Vector2d> path_m) {
+  for (const Eigen::Vector2d& p_m : path_m) {
+    const Eigen::Array2i cell = field.map.cell_at(p_m);
+    if (!field.map.contains(cell) || !field.traversable(field.map.index(cell))) continue;
+    return field.reachable(field.map.index(cell));
+  }
+  return true;
+}
+
 void forget_ways(PathField& field) {
   SearchTree tree = empty_tree(field.map.size());
   field.cost = std::move(tree.cost);
@@ -174,7 +183,7 @@ PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
 
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options,
-                          std::shared_ptr<const FootprintSpace> space) {
+                          std::shared_ptr<const FootprintSpace> space, bool sideways) {
   check_options(options, "navigation");
   PathField field;
   field.map = map;
@@ -187,13 +196,23 @@ PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
   if (!map.contains(start)) return field;
   field.start_cell = map.index(start);
   const bool narrow = field.space != nullptr && stands_narrow(field);
-  if (narrow) search_passages(field);
+  if (narrow) search_passages(field, sideways);
   if (!narrow || !field.reaches_open_place()) {
     forget_ways(field);
     search_open_places(field);
-    if (field.space != nullptr) search_passages(field);
+    if (field.space != nullptr) search_passages(field, sideways);
   }
   return field;
+}
+
+PathField make_returning_path_field(const FloorMap& map, const Pose2& T_world_base,
+                                    const NavigationOptions& options,
+                                    std::shared_ptr<const FootprintSpace> space,
+                                    std::span<const Eigen::Vector2d> path_m) {
+  PathField field = make_path_field(map, T_world_base, options, space);
+  if (space == nullptr || leads_back(field, path_m)) return field;
+  PathField sideways = make_path_field(map, T_world_base, options, std::move(space), true);
+  return leads_back(sideways, path_m) ? sideways : field;
 }
 
 std::optional<std::size_t> nearest_reachable(const PathField& field,

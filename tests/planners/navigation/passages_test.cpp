@@ -467,5 +467,55 @@ TEST(Passages, AsFarAsCellsTellARobotMayNotTurnWithinHalfADiagonalMore) {
   EXPECT_FALSE(keeps_its_heading(0.362)) << "0.513 m, and 0.035";
 }
 
+/// A room to the left and one to the right of a block, and a gap between it and the wall above. A
+/// robot that keeps one heading must step aside by a cell before the gap.
+DrawnRooms rooms_about_block(double gap_m) {
+  return {6.0, 4.0, {wall(2.0, 0.0, 4.0, 3.9 - gap_m), wall(0.0, 3.9, 6.0, 4.0)}};
+}
+
+TEST(ReturningPathField, GoesSidewaysWhereNoWayThatItFacesAlongLeadsBack) {
+  const FloorOutline outline = rectangle(0.668, 0.668);
+  const NavigationOptions options = disc_of(outline);
+  const Pose2 right{5.0, 1.0, 0.0};
+  const Eigen::Vector2d left(1.0, 1.0);
+  const std::vector<Eigen::Vector2d> from_left{left, {3.0, 3.5}, {5.0, 1.0}};
+  const std::vector<Eigen::Vector2d> from_right{{5.0, 1.5}, left};
+  for (const double gap_m : {0.72, 0.76, 0.8}) {
+    SCOPED_TRACE(gap_m);
+    const DrawnRooms rooms = rooms_about_block(gap_m);
+    const auto space = rooms.space({.outline = outline}, {});
+    const auto reaches_left = [&](const std::vector<Eigen::Vector2d>& path_m) {
+      return make_returning_path_field(rooms.floor, right, options, space, path_m).reachable(left);
+    };
+    EXPECT_TRUE(reaches_left(from_left));
+    EXPECT_FALSE(reaches_left(from_right)) << "it has not lost its way";
+    const auto along = rooms.space({.outline = outline, .goes_sideways = false}, {});
+    const PathField of_car =
+        make_returning_path_field(rooms.floor, right, options, along, from_left);
+    EXPECT_FALSE(of_car.reachable(left));
+  }
+}
+
+/// The first place of the way where it can turn is asked for, not one by a wall; and where no way
+/// leads back, all is as it was.
+TEST(ReturningPathField, IsThatOfOneThatFacesItsWayWhereGoingSidewaysDoesNotHelp) {
+  const FloorOutline outline = rectangle(0.668, 0.668);
+  const NavigationOptions options = disc_of(outline);
+  const Pose2 right{5.0, 1.0, 0.0};
+  for (const double gap_m : {0.66, 0.76, 0.9}) {
+    SCOPED_TRACE(gap_m);
+    const DrawnRooms rooms = rooms_about_block(gap_m);
+    const auto space = rooms.space({.outline = outline}, {});
+    const std::vector<Eigen::Vector2d> path_m{
+        {0.1, 1.0}, {gap_m == 0.76 ? 5.0 : 1.0, 1.0}, {1.0, 1.0}, {5.0, 1.0}};
+    const PathField facing = make_path_field(rooms.floor, right, options, space);
+    const PathField field = make_returning_path_field(rooms.floor, right, options, space, path_m);
+    EXPECT_EQ(field.cost, facing.cost);
+    EXPECT_EQ(field.narrow.size(), facing.narrow.size());
+    EXPECT_EQ(field.narrow_edges.size(), facing.narrow_edges.size());
+    EXPECT_EQ(field.reachable(Eigen::Vector2d(1.0, 1.0)), gap_m == 0.9);
+  }
+}
+
 }  // namespace
 }  // namespace vantage
