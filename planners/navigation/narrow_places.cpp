@@ -28,7 +28,8 @@ void for_each_beside(const FloorMap& floor, std::size_t cell, int neighbours, Vi
   }
 }
 
-/// Connected parts of the cells with a flag, each in the order it is found.
+}  // namespace
+
 std::vector<Cells> connected_parts(const FloorMap& floor, std::span<const std::uint8_t> flags,
                                    int neighbours) {
   std::vector<std::uint8_t> asked(flags.size(), 0);
@@ -48,6 +49,8 @@ std::vector<Cells> connected_parts(const FloorMap& floor, std::span<const std::u
   }
   return parts;
 }
+
+namespace {
 
 class NarrowPlaces {
  public:

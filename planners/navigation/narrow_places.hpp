@@ -18,6 +18,13 @@ enum class Leeway : std::uint8_t {
   nook,     ///< the same, and far from what is open: a place to go to
 };
 
+/// Connected parts of the cells with a flag, each in the order it is found.
+/// @param flags of each cell of `floor`
+/// @param neighbours that a cell is connected to, 4 or 8
+std::vector<std::vector<std::size_t>> connected_parts(const FloorMap& floor,
+                                                      std::span<const std::uint8_t> flags,
+                                                      int neighbours);
+
 /// Tells passages from the seam along every wall, where the robot fits at some heading too, but
 /// which leads nowhere: seams from two open places meet in a passage, or a seam is so wide that
 /// what is in it is far from any open place.

@@ -10,6 +10,7 @@
 
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
+#include "vantage/planners/navigation/narrow_places.hpp"
 #include "vantage/planners/navigation/narrow_search.hpp"
 
 namespace vantage {
@@ -128,21 +129,50 @@ bool stands_narrow(const PathField& field) {
              field.space->circumscribed_m() + off_m;
 }
 
-bool leads_back(const PathField& field, std::span<const Eigen::Vector2d> path_m) {
-  for (const Eigen::Vector2d& p_m : path_m) {
-    const Eigen::Array2i cell = field.map.cell_at(p_m);
-    if (!field.map.contains(cell) || !field.traversable(field.map.index(cell))) continue;
-    return field.reachable(field.map.index(cell));
-  }
-  return true;
-}
-
 void forget_ways(PathField& field) {
   SearchTree tree = empty_tree(field.map.size());
   field.cost = std::move(tree.cost);
   field.parent = std::move(tree.parent);
   field.narrow.clear();
   field.narrow_edges.clear();
+}
+
+/// @param sideways as search_passages() has it
+void find_ways(PathField& field, bool sideways) {
+  forget_ways(field);
+  const Eigen::Vector2d start_m = position(field.start);
+  const Eigen::Array2i start = field.map.cell_at(start_m);
+  if (!field.map.contains(start)) return;
+  field.start_cell = field.map.index(start);
+  const bool narrow = field.space != nullptr && stands_narrow(field);
+  if (narrow) search_passages(field, sideways);
+  if (!narrow || !field.reaches_open_place()) {
+    forget_ways(field);
+    search_open_places(field);
+    if (field.space != nullptr) search_passages(field, sideways);
+  }
+}
+
+/// Area of the places of kRoom_m2 and more that are not reached.
+double left_out_m2(const PathField& field) {
+  std::vector<std::uint8_t> left_out(field.map.size(), 0);
+  for (std::size_t cell = 0; cell < left_out.size(); ++cell) {
+    left_out[cell] = field.traversable(cell) && !field.reachable(cell) ? 1 : 0;
+  }
+  double area_m2 = 0.0;
+  for (const auto& part : connected_parts(field.map, left_out, 4)) {
+    const double part_m2 = static_cast<double>(part.size()) * field.map.cell_m * field.map.cell_m;
+    if (part_m2 >= kRoom_m2) area_m2 += part_m2;
+  }
+  return area_m2;
+}
+
+void go_sideways_if_that_helps(PathField& field) {
+  const double left_m2 = field.space->robot().goes_sideways ? left_out_m2(field) : 0.0;
+  if (left_m2 == 0.0) return;
+  PathField sideways = field;
+  find_ways(sideways, true);
+  if (left_out_m2(sideways) < left_m2) field = std::move(sideways);
 }
 
 }  // namespace
@@ -183,7 +213,7 @@ PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
 
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options,
-                          std::shared_ptr<const FootprintSpace> space, bool sideways) {
+                          std::shared_ptr<const FootprintSpace> space) {
   check_options(options, "navigation");
   PathField field;
   field.map = map;
@@ -191,28 +221,9 @@ PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
   field.start = T_world_base;
   field.clearance_m = clearances_m(map);
   field.space = std::move(space);
-  forget_ways(field);
-  const Eigen::Array2i start = map.cell_at({T_world_base.x_m, T_world_base.y_m});
-  if (!map.contains(start)) return field;
-  field.start_cell = map.index(start);
-  const bool narrow = field.space != nullptr && stands_narrow(field);
-  if (narrow) search_passages(field, sideways);
-  if (!narrow || !field.reaches_open_place()) {
-    forget_ways(field);
-    search_open_places(field);
-    if (field.space != nullptr) search_passages(field, sideways);
-  }
+  find_ways(field, false);
+  if (field.space != nullptr) go_sideways_if_that_helps(field);
   return field;
-}
-
-PathField make_returning_path_field(const FloorMap& map, const Pose2& T_world_base,
-                                    const NavigationOptions& options,
-                                    std::shared_ptr<const FootprintSpace> space,
-                                    std::span<const Eigen::Vector2d> path_m) {
-  PathField field = make_path_field(map, T_world_base, options, space);
-  if (space == nullptr || leads_back(field, path_m)) return field;
-  PathField sideways = make_path_field(map, T_world_base, options, std::move(space), true);
-  return leads_back(sideways, path_m) ? sideways : field;
 }
 
 std::optional<std::size_t> nearest_reachable(const PathField& field,

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "vantage/belief/map/floor_map.hpp"
@@ -102,20 +101,15 @@ struct PathField {
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options);
 
+/// Area where a robot can turn that is worth going sideways for.
+inline constexpr double kRoom_m2 = 2.0;
+
 /// The same, and on through passages that the robot's outline fits through at some heading. What a
-/// disc reaches is reached as without them.
-/// @param sideways as search_passages() has it
+/// disc reaches is reached as without them. A robot that is nearly square faces where it goes; it
+/// goes sideways if it reaches a place of kRoom_m2 more then.
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options,
-                          std::shared_ptr<const FootprintSpace> space, bool sideways = false);
-
-/// The same of a robot that has driven along `path_m`. If the first place there where it can turn
-/// is not reached, it goes sideways where that leads back: a map that was corrected meanwhile, or
-/// filled, can leave a passage that it came through without a way that it faces along.
-PathField make_returning_path_field(const FloorMap& map, const Pose2& T_world_base,
-                                    const NavigationOptions& options,
-                                    std::shared_ptr<const FootprintSpace> space,
-                                    std::span<const Eigen::Vector2d> path_m);
+                          std::shared_ptr<const FootprintSpace> space);
 
 /// The reachable cell whose centre is nearest to `p_world`, the cheaper one of equals; none if
 /// nothing is reachable.

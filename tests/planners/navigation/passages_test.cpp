@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
 #include "vantage/core/rng.hpp"
@@ -469,52 +470,53 @@ TEST(Passages, AsFarAsCellsTellARobotMayNotTurnWithinHalfADiagonalMore) {
 
 /// A room to the left and one to the right of a block, and a gap between it and the wall above. A
 /// robot that keeps one heading must step aside by a cell before the gap.
-DrawnRooms rooms_about_block(double gap_m) {
-  return {6.0, 4.0, {wall(2.0, 0.0, 4.0, 3.9 - gap_m), wall(0.0, 3.9, 6.0, 4.0)}};
+DrawnRooms rooms_about_block(double gap_m, double left_m = 2.0) {
+  return {6.0, 4.0, {wall(left_m, 0.0, 4.0, 3.9 - gap_m), wall(0.0, 3.9, 6.0, 4.0)}};
 }
 
-TEST(ReturningPathField, GoesSidewaysWhereNoWayThatItFacesAlongLeadsBack) {
+TEST(PassagesAlongAWall, AreTakenSidewaysIntoARoomThatIsNotReachedElse) {
   const FloorOutline outline = rectangle(0.668, 0.668);
   const NavigationOptions options = disc_of(outline);
   const Pose2 right{5.0, 1.0, 0.0};
-  const Eigen::Vector2d left(1.0, 1.0);
-  const std::vector<Eigen::Vector2d> from_left{left, {3.0, 3.5}, {5.0, 1.0}};
-  const std::vector<Eigen::Vector2d> from_right{{5.0, 1.5}, left};
+  const Eigen::Vector2d left(0.6, 1.0);
+  const auto reaches_left = [&](const DrawnRooms& rooms, bool goes_sideways) {
+    const auto space = rooms.space({.outline = outline, .goes_sideways = goes_sideways}, {});
+    return make_path_field(rooms.floor, right, options, space).reachable(left);
+  };
   for (const double gap_m : {0.72, 0.76, 0.8}) {
     SCOPED_TRACE(gap_m);
-    const DrawnRooms rooms = rooms_about_block(gap_m);
-    const auto space = rooms.space({.outline = outline}, {});
-    const auto reaches_left = [&](const std::vector<Eigen::Vector2d>& path_m) {
-      return make_returning_path_field(rooms.floor, right, options, space, path_m).reachable(left);
-    };
-    EXPECT_TRUE(reaches_left(from_left));
-    EXPECT_FALSE(reaches_left(from_right)) << "it has not lost its way";
-    const auto along = rooms.space({.outline = outline, .goes_sideways = false}, {});
-    const PathField of_car =
-        make_returning_path_field(rooms.floor, right, options, along, from_left);
-    EXPECT_FALSE(of_car.reachable(left));
+    EXPECT_TRUE(reaches_left(rooms_about_block(gap_m), true));
+    EXPECT_FALSE(reaches_left(rooms_about_block(gap_m), false));
+    EXPECT_FALSE(reaches_left(rooms_about_block(gap_m, 1.3), true)) << "too small a room";
   }
+  EXPECT_FALSE(reaches_left(rooms_about_block(0.68), true));
+  EXPECT_TRUE(reaches_left(rooms_about_block(0.9, 1.3), true)) << "it faces its way";
 }
 
-/// The first place of the way where it can turn is asked for, not one by a wall; and where no way
-/// leads back, all is as it was.
-TEST(ReturningPathField, IsThatOfOneThatFacesItsWayWhereGoingSidewaysDoesNotHelp) {
+/// Where that opens no room all is as it was: the edges are those of a robot that faces its way.
+TEST(PassagesAlongAWall, AreTakenAsTheRobotFacesWhereGoingSidewaysDoesNotHelp) {
   const FloorOutline outline = rectangle(0.668, 0.668);
   const NavigationOptions options = disc_of(outline);
-  const Pose2 right{5.0, 1.0, 0.0};
-  for (const double gap_m : {0.66, 0.76, 0.9}) {
-    SCOPED_TRACE(gap_m);
-    const DrawnRooms rooms = rooms_about_block(gap_m);
-    const auto space = rooms.space({.outline = outline}, {});
-    const std::vector<Eigen::Vector2d> path_m{
-        {0.1, 1.0}, {gap_m == 0.76 ? 5.0 : 1.0, 1.0}, {1.0, 1.0}, {5.0, 1.0}};
-    const PathField facing = make_path_field(rooms.floor, right, options, space);
-    const PathField field = make_returning_path_field(rooms.floor, right, options, space, path_m);
-    EXPECT_EQ(field.cost, facing.cost);
-    EXPECT_EQ(field.narrow.size(), facing.narrow.size());
-    EXPECT_EQ(field.narrow_edges.size(), facing.narrow_edges.size());
-    EXPECT_EQ(field.reachable(Eigen::Vector2d(1.0, 1.0)), gap_m == 0.9);
-  }
+  const DrawnRooms open(6.0, 4.0, {wall(2.0, 0.0, 4.0, 3.0), wall(0.0, 3.9, 6.0, 4.0)});
+  const DrawnRooms shut(
+      6.0, 4.0, {wall(2.0, 0.0, 4.0, 3.0), wall(0.0, 3.9, 6.0, 4.0), wall(2.0, 3.0, 2.1, 3.9)});
+  const auto edges = [&](const DrawnRooms& rooms) {
+    const PathField field = make_path_field(rooms.floor, {5.0, 1.0, 0.0}, options,
+                                            rooms.space({.outline = outline}, {}));
+    EXPECT_EQ(field.reachable(Eigen::Vector2d(0.6, 1.0)), &rooms == &open);
+    std::set<double> turned_rad;  // off the way, of steps
+    for (const NarrowEdge& edge : field.narrow_edges) {
+      if (std::min(edge.from, edge.to) < field.map.size()) continue;
+      const Pose2& from = field.narrow[edge.from - field.map.size()].pose;
+      const Pose2& to = field.narrow[edge.to - field.map.size()].pose;
+      const Eigen::Vector2d way = position(to) - position(from);
+      if (way.norm() < 0.049) continue;  // a turn
+      turned_rad.insert(std::abs(wrap_angle(std::atan2(way.y(), way.x()) - from.yaw_rad)));
+    }
+    return *turned_rad.rbegin();
+  };
+  EXPECT_LT(edges(open), 1.2);
+  EXPECT_LT(edges(shut), 1.2);
 }
 
 }  // namespace

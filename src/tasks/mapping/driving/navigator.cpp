@@ -210,7 +210,7 @@ void Navigator::block_touched() {
 }
 
 PathField Navigator::ways_from(const Pose2& T_world_base) const {
-  return make_returning_path_field(floor_, T_world_base, options_, space(), path_m_);
+  return make_path_field(floor_, T_world_base, options_, space());
 }
 
 DriveResult Navigator::drive_and_map(std::span<const Pose2> waypoints, double max_speed_m_s,
