@@ -27,7 +27,7 @@ vantage_component(belief TARGETS belief_map belief_observation belief_objects be
                   PACKAGES fmt octomap Threads)
 vantage_component(trajectory TARGETS trajectory_optimisers trajectory ON belief control PACKAGES fmt)
 vantage_component(planners
-                  TARGETS visibility gains view_gains views tours choice navigation object_planning planners
+                  TARGETS visibility gains view_gains views tours choice navigation travel object_planning planners
                   ON trajectory PACKAGES fmt Threads)
 if(VANTAGE_BUILD_PERCEPTION)
   vantage_component(perception

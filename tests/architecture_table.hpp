@@ -22,16 +22,10 @@ inline const Rooms kPerception{
     "perception",        "perception/search",   "perception/clouds",      "perception/clutter",
     "perception/images", "perception/features", "perception/features/kit"};
 inline const Rooms kBelief{"belief/map", "belief/objects", "belief/observation", "belief/tracking"};
-inline const Rooms kPlanners{"planners",
-                             "planners/gains",
-                             "planners/visibility",
-                             "planners/views",
-                             "planners/tours",
-                             "planners/choice",
-                             "planners/navigation",
-                             "planners/objects",
-                             "planners/trajectory",
-                             "planners/trajectory/optimisers"};
+inline const Rooms kPlanners{
+    "planners",         "planners/gains",      "planners/visibility",           "planners/views",
+    "planners/tours",   "planners/choice",     "planners/navigation",           "planners/travel",
+    "planners/objects", "planners/trajectory", "planners/trajectory/optimisers"};
 inline const Rooms kSim{"sim/world", "sim/render", "sim/sensors", "sim/robots", "sim/faults"};
 inline const Rooms kRuntime{"runtime", "runtime/log", "runtime/drawing", "runtime/process"};
 inline const Rooms kRecognition{"recognition", "recognition/calibration", "recognition/dataset",
@@ -78,9 +72,11 @@ inline const std::map<std::string, Rooms> kAllowed{
     {"planners",
      kGround + Rooms{"belief/map", "planners/visibility", "planners/gains", "planners/tours"}},
     {"planners/views", kGround + Rooms{"belief/map", "planners"}},
-    {"planners/choice", kGround + Rooms{"belief/map", "planners", "planners/navigation",
-                                        "planners/views", "planners/tours", "planners/visibility"}},
+    {"planners/choice",
+     kGround + Rooms{"belief/map", "planners", "planners/navigation", "planners/travel",
+                     "planners/views", "planners/tours", "planners/visibility"}},
     {"planners/navigation", kGround + Rooms{"belief/map"}},
+    {"planners/travel", kGround + Rooms{"belief/map", "planners/navigation"}},
     {"planners/objects", kGround + Rooms{"belief/objects", "belief/observation"}},
     {"planners/trajectory/optimisers", {"core", "geometry"}},
     {"planners/trajectory",

@@ -10,9 +10,9 @@
 
 #include "vantage/core/error.hpp"
 #include "vantage/planners/choice/drawn_map.hpp"
-#include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/swept_blocks.hpp"
 #include "vantage/planners/swept_gain.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 #include "vantage/planners/views/space_beyond.hpp"
 
 namespace vantage {

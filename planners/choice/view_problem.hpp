@@ -10,9 +10,9 @@
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/choice/partial_scans.hpp"
 #include "vantage/planners/gain.hpp"
-#include "vantage/planners/navigation/path_lengths.hpp"
-#include "vantage/planners/navigation/travel_time.hpp"
 #include "vantage/planners/tours/planning_problem.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
+#include "vantage/planners/travel/travel_time.hpp"
 
 namespace vantage {
 

@@ -9,9 +9,9 @@
 #include "python/kit/calls.hpp"
 #include "python/kit/options.hpp"
 #include "python/planning/grids.hpp"
-#include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
 #include "vantage/planners/trajectory/esdf.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 
 namespace vantage::python {
 namespace {

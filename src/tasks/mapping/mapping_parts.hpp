@@ -13,7 +13,7 @@
 #include "vantage/core/rng.hpp"
 #include "vantage/planners/candidate.hpp"
 #include "vantage/planners/choice/outside_choice.hpp"
-#include "vantage/planners/navigation/path_lengths.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 #include "vantage/planners/views/forecast_calibration.hpp"
 #include "vantage/planners/views/forecast_interval.hpp"
 #include "vantage/tasks/mapping/driving/navigator.hpp"

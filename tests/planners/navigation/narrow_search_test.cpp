@@ -14,8 +14,8 @@
 #include "tests/planners/navigation/drawn_rooms.hpp"
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/narrow_poses.hpp"
-#include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 
 namespace vantage {
 namespace {

@@ -10,8 +10,8 @@
 #include "vantage/planners/navigation/centred_legs.hpp"
 #include "vantage/planners/navigation/narrow_places.hpp"
 #include "vantage/planners/navigation/passage_watch.hpp"
-#include "vantage/planners/navigation/path_lengths.hpp"
 #include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 
 namespace vantage {
 namespace {

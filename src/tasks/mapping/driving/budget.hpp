@@ -7,8 +7,8 @@
 #include <string>
 
 #include "vantage/core/fields.hpp"
-#include "vantage/planners/navigation/travel_time.hpp"
 #include "vantage/planners/tours/planning_problem.hpp"
+#include "vantage/planners/travel/travel_time.hpp"
 #include "vantage/tasks/mapping/driving/scan_record.hpp"
 
 namespace vantage {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "vantage/core/log.hpp"
-#include "vantage/planners/navigation/path_lengths.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 #include "vantage/runtime/interrupt.hpp"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "vantage/planners/navigation/travel_time.hpp"
+#include "vantage/planners/travel/travel_time.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vantage/planners/navigation/path_lengths.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vantage/planners/navigation/cost_queue.hpp"
+#include "vantage/planners/travel/cost_queue.hpp"
 
 #include <gtest/gtest.h>
 

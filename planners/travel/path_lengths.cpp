@@ -1,4 +1,4 @@
-#include "vantage/planners/navigation/path_lengths.hpp"
+#include "vantage/planners/travel/path_lengths.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/parallel_for.hpp"
-#include "vantage/planners/navigation/cost_queue.hpp"
+#include "vantage/planners/travel/cost_queue.hpp"
 
 namespace vantage {
 namespace {
