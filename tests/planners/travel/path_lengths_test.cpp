@@ -82,11 +82,16 @@ TEST(PathLengths, AreInfiniteToWhatCannotBeReached) {
   EXPECT_EQ(lengths_m(2, 2), 0.0);
 }
 
-/// From those that are new alone it searches, which asks once more here.
-TEST(PathLengths, OfPlacesThatComeAgainAreRemembered) {
+/// 200 x 200 m, more cells than a search settles between two polls.
+PathField field_of_open_floor() {
   FloorMap map(Eigen::Vector2d::Zero(), 1.0, 200, 200);
   for (float& log_odds : map.log_odds) log_odds = -3.0F;
-  const PathField field = make_path_field(map, {0.5, 0.5, 0.0}, point_robot());
+  return make_path_field(map, {0.5, 0.5, 0.0}, point_robot());
+}
+
+/// From those that are new alone it searches, which asks once more here.
+TEST(PathLengths, OfPlacesThatComeAgainAreRemembered) {
+  const PathField field = field_of_open_floor();
   int asked = 0;
   const StopPoll poll([&] { ++asked; });
   PathLengths ways(field);
@@ -109,9 +114,7 @@ TEST(PathLengths, OfPlacesThatComeAgainAreRemembered) {
 
 /// After each place that is reached, and once in 32 768 cells of the search from there.
 TEST(PathLengths, AskNowAndThenWhetherToGoOn) {
-  FloorMap map(Eigen::Vector2d::Zero(), 1.0, 200, 200);
-  for (float& log_odds : map.log_odds) log_odds = -3.0F;
-  const PathField field = make_path_field(map, {0.5, 0.5, 0.0}, point_robot());
+  const PathField field = field_of_open_floor();
   const std::vector<Eigen::Vector2d> places{{0.5, 0.5}, {199.5, 199.5}, {-5.0, 3.0}};
   int asked = 0;
   const StopPoll poll([&] { ++asked; });
