@@ -10,7 +10,6 @@
 
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
-#include "vantage/planners/navigation/narrow_places.hpp"
 #include "vantage/planners/navigation/narrow_search.hpp"
 
 namespace vantage {
@@ -137,42 +136,19 @@ void forget_ways(PathField& field) {
   field.narrow_edges.clear();
 }
 
-/// @param sideways as search_passages() has it
-void find_ways(PathField& field, bool sideways) {
+void find_ways(PathField& field) {
   forget_ways(field);
   const Eigen::Vector2d start_m = position(field.start);
   const Eigen::Array2i start = field.map.cell_at(start_m);
   if (!field.map.contains(start)) return;
   field.start_cell = field.map.index(start);
   const bool narrow = field.space != nullptr && stands_narrow(field);
-  if (narrow) search_passages(field, sideways);
+  if (narrow) search_passages(field);
   if (!narrow || !field.reaches_open_place()) {
     forget_ways(field);
     search_open_places(field);
-    if (field.space != nullptr) search_passages(field, sideways);
+    if (field.space != nullptr) search_passages(field);
   }
-}
-
-/// Area of the places of kRoom_m2 and more that are not reached.
-double left_out_m2(const PathField& field) {
-  std::vector<std::uint8_t> left_out(field.map.size(), 0);
-  for (std::size_t cell = 0; cell < left_out.size(); ++cell) {
-    left_out[cell] = field.traversable(cell) && !field.reachable(cell) ? 1 : 0;
-  }
-  double area_m2 = 0.0;
-  for (const auto& part : connected_parts(field.map, left_out, 4)) {
-    const double part_m2 = static_cast<double>(part.size()) * field.map.cell_m * field.map.cell_m;
-    if (part_m2 >= kRoom_m2) area_m2 += part_m2;
-  }
-  return area_m2;
-}
-
-void go_sideways_if_that_helps(PathField& field) {
-  const double left_m2 = field.space->robot().goes_sideways ? left_out_m2(field) : 0.0;
-  if (left_m2 == 0.0) return;
-  PathField sideways = field;
-  find_ways(sideways, true);
-  if (left_out_m2(sideways) < left_m2) field = std::move(sideways);
 }
 
 }  // namespace
@@ -221,8 +197,7 @@ PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
   field.start = T_world_base;
   field.clearance_m = clearances_m(map);
   field.space = std::move(space);
-  find_ways(field, false);
-  if (field.space != nullptr) go_sideways_if_that_helps(field);
+  find_ways(field);
   return field;
 }
 

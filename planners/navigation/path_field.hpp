@@ -101,12 +101,8 @@ struct PathField {
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options);
 
-/// Area where a robot can turn that is worth going sideways for.
-inline constexpr double kRoom_m2 = 2.0;
-
 /// The same, and on through passages that the robot's outline fits through at some heading. What a
-/// disc reaches is reached as without them. A robot that is nearly square faces where it goes; it
-/// goes sideways if it reaches a place of kRoom_m2 more then.
+/// disc reaches is reached as without them.
 PathField make_path_field(const FloorMap& map, const Pose2& T_world_base,
                           const NavigationOptions& options,
                           std::shared_ptr<const FootprintSpace> space);

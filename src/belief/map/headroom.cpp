@@ -9,6 +9,10 @@
 namespace vantage {
 namespace {
 
+/// Share of a wall's slices that is occupied. Things in a shelf with boards that stand out from
+/// them take 0.85 and less: the scanner sees the things and not the boards.
+constexpr double kOfWall = 0.9;
+
 enum class Column { open, unseen, obstructed, wall, wall_edge };
 
 struct Slices {
@@ -40,7 +44,7 @@ class Columns {
       for (int x = 0; x < nx_; ++x) {
         const int occupied = count(grid, x, y, body, CellState::occupied);
         const int unseen = count(grid, x, y, seen, CellState::unobserved);
-        const bool wall = scanner_m && 2 * occupied >= body.end - body.begin &&
+        const bool wall = scanner_m && occupied >= kOfWall * (body.end - body.begin) &&
                           is_occupied_at(grid, x, y, *scanner_m);
         columns_.push_back(wall                  ? Column::wall
                            : occupied > 0        ? Column::obstructed

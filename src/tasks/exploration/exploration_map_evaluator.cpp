@@ -8,6 +8,7 @@
 
 #include "vantage/belief/map/headroom.hpp"
 #include "vantage/planners/navigation/distance_field.hpp"
+#include "vantage/planners/navigation/narrow_places.hpp"
 #include "vantage/planners/navigation/path_field.hpp"
 #include "vantage/sim/sensors/ground_truth.hpp"
 #include "vantage/tasks/exploration/exploration.hpp"
@@ -102,28 +103,17 @@ struct UnreachedRooms {
 UnreachedRooms unreached_rooms(const PathField& field, const Eigen::AlignedBox2d& region_m,
                                double least_area_m2) {
   const FloorMap& floor = field.map;
-  UnreachedRooms rooms{0, std::vector<std::uint8_t>(floor.size(), 0)};
-  std::vector<std::uint8_t> asked(floor.size(), 0);
-  const auto take = [&](std::size_t cell, std::vector<std::size_t>& part) {
-    if (asked[cell] != 0 || !field.traversable(cell) || field.reachable(cell)) return;
-    asked[cell] = 1;
-    part.push_back(cell);
+  const auto inside = [&](std::size_t cell) {
+    return region_m.contains(floor.centre(floor.cell(cell)));
   };
-  for (std::size_t first = 0; first < floor.size(); ++first) {
-    std::vector<std::size_t> part;
-    take(first, part);
-    bool inside = true;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      const Eigen::Array2i at = floor.cell(part[i]);
-      inside = inside && region_m.contains(floor.centre(at));
-      for (const auto& [dx, dy] :
-           {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-        const Eigen::Array2i to = at + Eigen::Array2i(dx, dy);
-        if (floor.contains(to)) take(floor.index(to), part);
-      }
-    }
+  std::vector<std::uint8_t> unreached(floor.size(), 0);
+  for (std::size_t cell = 0; cell < floor.size(); ++cell) {
+    unreached[cell] = field.traversable(cell) && !field.reachable(cell) ? 1 : 0;
+  }
+  UnreachedRooms rooms{0, std::vector<std::uint8_t>(floor.size(), 0)};
+  for (const auto& part : connected_parts(floor, unreached, 4)) {
     const double area_m2 = static_cast<double>(part.size()) * floor.cell_m * floor.cell_m;
-    if (part.empty() || !inside || area_m2 < least_area_m2) continue;
+    if (area_m2 < least_area_m2 || !std::ranges::all_of(part, inside)) continue;
     ++rooms.count;
     for (const std::size_t cell : part) rooms.cells[cell] = 1;
   }

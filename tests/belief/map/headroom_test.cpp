@@ -91,12 +91,16 @@ TEST(Headroom, WallsDoNotBlockTheFinerMap) {
   EXPECT_EQ(row(detail), "........xx..xx..xx..");
 }
 
-TEST(Headroom, WallsAreOccupiedAtHalfOfTheRobotsHeight) {
+/// What stands in a shelf looks like a wall to the scanner, but boards stand out from it.
+TEST(Headroom, WallsAreOccupiedAtNineTenthsOfTheRobotsHeight) {
   OccupancyGrid grid = free_row();
-  for (int z = 0; z <= 4; ++z) set(grid, 2, z, kOccupied);  // three of six
-  for (int z = 0; z <= 3; ++z) set(grid, 6, z, kOccupied);  // two of six
+  for (int z = 0; z < 10; ++z) {
+    if (z != 6) set(grid, 2, z, kOccupied);            // nine of ten
+    if (z != 4 && z != 6) set(grid, 6, z, kOccupied);  // eight of ten
+  }
   HeadroomOptions options = kOptions;
-  options.low_m = 0.35;
+  options.low_m = 0.0;
+  options.high_m = 2.0;
   FloorMap floor = free_floor();
   FloorMap detail = free_floor();
   block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, options, 0.25);

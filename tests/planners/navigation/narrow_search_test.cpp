@@ -121,15 +121,15 @@ TEST_F(Corridor, ANearlySquareRobotFacesWhereItGoes) {
   const auto off_rad = [&](const RobotOutline& robot) {
     return farthest_off_rad(field(robot, {}));
   };
-  EXPECT_LE(off_rad({.outline = rectangle(0.5, 0.5)}), 0.5 + 1e-9);
-  EXPECT_LE(off_rad({.outline = rectangle(0.5, 0.47)}), 0.5 + 1e-9) << "1.5 cm a side";
-  EXPECT_LE(off_rad({.outline = rectangle(0.47, 0.5)}), 0.5 + 1e-9);
+  EXPECT_LE(off_rad({.outline = rectangle(0.5, 0.5)}), 0.8 + 1e-9);
+  EXPECT_LE(off_rad({.outline = rectangle(0.5, 0.47)}), 0.8 + 1e-9) << "1.5 cm a side";
+  EXPECT_LE(off_rad({.outline = rectangle(0.47, 0.5)}), 0.8 + 1e-9);
   EXPECT_GT(off_rad({.outline = rectangle(0.5, 0.44)}), 3.0) << "3 cm a side: backwards, too";
   const FloorOutline ahead{{-0.2, -0.25}, {0.3, -0.25}, {0.3, 0.25}, {-0.2, 0.25}};
   EXPECT_GT(off_rad({.outline = ahead}), 3.0) << "its middle is not";
   EXPECT_LE(off_rad({.outline = rectangle(0.9, 0.5), .goes_sideways = false}), 0.48 + 1e-9);
-  // Of headings 7.5 degrees apart the one 22.5 degrees off is the last.
-  EXPECT_NEAR(off_rad({.outline = rectangle(0.5, 0.5)}), std::numbers::pi / 8.0, 1e-9);
+  // Of headings 7.5 degrees apart: 45 degrees off is the last, 22.5 if it cannot go sideways.
+  EXPECT_NEAR(off_rad({.outline = rectangle(0.5, 0.5)}), std::numbers::pi / 4.0, 1e-9);
   EXPECT_NEAR(off_rad({.outline = rectangle(0.9, 0.5), .goes_sideways = false}),
               std::numbers::pi / 8.0, 1e-9);
 }
@@ -141,7 +141,7 @@ TEST_F(Corridor, ANearlySquareRobotBacksWhereAheadIsNoWayOut) {
               1e-9)
       << "from where it stands, too";
   rooms_ = DrawnRooms(4.0, 2.0, {wall(0.0, 0.0, 2.8, 0.67), wall(0.0, 1.38, 2.8, 2.0)});
-  EXPECT_LE(farthest_off_rad(field(square, {})), 0.5 + 1e-9) << "open ahead";
+  EXPECT_LE(farthest_off_rad(field(square, {})), 0.8 + 1e-9) << "open ahead";
   start_.yaw_rad = std::numbers::pi;
   EXPECT_GT(farthest_off_rad(field(square, {})), 3.0) << "open behind";
 }

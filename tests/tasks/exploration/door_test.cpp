@@ -113,13 +113,14 @@ TEST(TwoRooms, LoopsMoveThePosesAndTheMapIsAsSureAsThey) {
   EXPECT_LT(metrics["scans"][2]["map_sigma_m"], 0.05);
 }
 
-/// As above, but the fourth scan is the last: the loop is found on the way home.
+/// As above, but the fourth scan is the last: the loop is found on the way home, as in a third of
+/// the draws.
 TEST(TwoRooms, LoopsOnTheWayHomeMoveThePosesAndTheMap) {
   const support::TemporaryDirectory folder;
   const auto metrics =
       explore(folder.path(), 0.85,
               {"base_scanner.range_max_m=1.6", "odometry.sigma_translation_m=0.04", "scans=4",
-               "passages.preferred_margin_m=0.02", "budget.return_to_start=true",
+               "seed=14", "passages.preferred_margin_m=0.02", "budget.return_to_start=true",
                "localisation.loops={close: true, min_way_m: 2, correct_m: 0.0001}"});
   EXPECT_TRUE(metrics["budget"]["returned"].get<bool>());
   EXPECT_GE(metrics["localisation"]["corrections"], 1);
