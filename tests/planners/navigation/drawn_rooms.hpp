@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -54,6 +55,22 @@ inline FloorOutline rectangle(double length_m, double width_m) {
 inline DrawnRooms rooms_with_door(double door_m) {
   return {
       5.1, 3.0, {wall(2.5, 0.0, 2.6, 1.5 - 0.5 * door_m), wall(2.5, 1.5 + 0.5 * door_m, 2.6, 3.0)}};
+}
+
+/// The greatest angle between a step and the heading it is made at.
+inline double farthest_off_rad(const PathField& field) {
+  const std::size_t cells = field.map.size();
+  double farthest = 0.0;
+  for (const NarrowEdge& edge : field.narrow_edges) {
+    if (edge.from < cells || edge.to < cells) continue;
+    const NarrowPose& from = field.narrow[edge.from - cells];
+    const NarrowPose& to = field.narrow[edge.to - cells];
+    if (from.cell == to.cell) continue;
+    const Eigen::Array2i step = field.map.cell(to.cell) - field.map.cell(from.cell);
+    const double off_rad = std::atan2(step.y(), step.x()) - from.pose.yaw_rad;
+    farthest = std::max(farthest, std::abs(wrap_angle(off_rad)));
+  }
+  return farthest;
 }
 
 }  // namespace vantage

@@ -99,22 +99,6 @@ TEST_F(Corridor, AStepAsideCostsItsTimeToo) {
   }
 }
 
-/// The greatest angle between a step and the heading it is made at.
-double farthest_off_rad(const PathField& field) {
-  const std::size_t cells = field.map.size();
-  double farthest = 0.0;
-  for (const NarrowEdge& edge : field.narrow_edges) {
-    if (edge.from < cells || edge.to < cells) continue;
-    const NarrowPose& from = field.narrow[edge.from - cells];
-    const NarrowPose& to = field.narrow[edge.to - cells];
-    if (from.cell == to.cell) continue;
-    const Eigen::Array2i step = field.map.cell(to.cell) - field.map.cell(from.cell);
-    const double off_rad = std::atan2(step.y(), step.x()) - from.pose.yaw_rad;
-    farthest = std::max(farthest, std::abs(wrap_angle(off_rad)));
-  }
-  return farthest;
-}
-
 TEST_F(Corridor, ANearlySquareRobotFacesWhereItGoes) {
   rooms_ = rooms_with_door(0.64);
   start_ = {1.25, 1.5, 0.0};

@@ -1,10 +1,8 @@
 // Gaps along a wall, which a robot gets into that steps aside without turning.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include "tests/planners/navigation/drawn_rooms.hpp"
 
@@ -34,28 +32,28 @@ TEST(PassagesAlongAWall, AreOpenToARobotThatCanStepAside) {
     EXPECT_FALSE(reaches_left(rooms_about_block(gap_m), false));
   }
   EXPECT_FALSE(reaches_left(rooms_about_block(0.68), true));
+  EXPECT_TRUE(reaches_left(rooms_about_block(0.9, 1.3), true));
 }
 
 TEST(PassagesAlongAWall, AreTakenFacingTheWayToAnEighthOfATurn) {
   const FloorOutline outline = rectangle(0.668, 0.668);
   NavigationOptions options;
   options.footprint_radius_m = circumscribed_radius_m(outline);
-  const DrawnRooms rooms(6.0, 4.0, {wall(2.0, 0.0, 4.0, 3.1), wall(0.0, 3.9, 6.0, 4.0)});
-  const PathField field =
-      make_path_field(rooms.floor, {5.0, 1.0, 0.0}, options, rooms.space({.outline = outline}, {}));
-  const auto cell_of = [&](std::size_t id) {
-    return field.map.cell(id < field.map.size() ? id : field.narrow[id - field.map.size()].cell);
+  const auto off_rad = [&](double gap_m, bool shut) {
+    std::vector<Eigen::AlignedBox2d> walls{wall(2.0, 0.0, 4.0, 3.9 - gap_m),
+                                           wall(0.0, 3.9, 6.0, 4.0)};
+    if (shut) walls.push_back(wall(2.0, 3.9 - gap_m, 2.1, 3.9));
+    const DrawnRooms rooms(6.0, 4.0, walls);
+    const PathField field = make_path_field(rooms.floor, {5.0, 1.0, 0.0}, options,
+                                            rooms.space({.outline = outline}, {}));
+    EXPECT_EQ(field.reachable(Eigen::Vector2d(0.6, 1.0)), !shut);
+    return farthest_off_rad(field);
   };
-  double most_off_rad = 0.0;
-  for (const NarrowEdge& edge : field.narrow_edges) {
-    const Eigen::Array2i step = cell_of(edge.to) - cell_of(edge.from);
-    if (step.isZero()) continue;  // a turn
-    const std::size_t pose = std::max(edge.from, edge.to) - field.map.size();
-    const double way_rad = std::atan2(step.y(), step.x());
-    const double off_rad = std::abs(wrap_angle(way_rad - field.narrow[pose].pose.yaw_rad));
-    most_off_rad = std::max(most_off_rad, off_rad);
+  for (const double gap_m : {0.8, 0.9}) {
+    SCOPED_TRACE(gap_m);
+    EXPECT_NEAR(off_rad(gap_m, false), std::numbers::pi / 4.0, 1e-9);
+    EXPECT_LT(off_rad(gap_m, true), 0.8);
   }
-  EXPECT_NEAR(most_off_rad, std::numbers::pi / 4.0, 1e-9);
 }
 
 }  // namespace
