@@ -45,7 +45,7 @@ class Columns {
         const int occupied = count(grid, x, y, body, CellState::occupied);
         const int unseen = count(grid, x, y, seen, CellState::unobserved);
         const bool wall = scanner_m && occupied >= kOfWall * (body.end - body.begin) &&
-                          is_occupied_at(grid, x, y, *scanner_m);
+                          state_at(grid, x, y, *scanner_m) == CellState::occupied;
         columns_.push_back(wall                  ? Column::wall
                            : occupied > 0        ? Column::obstructed
                            : unseen > max_unseen ? Column::unseen
@@ -53,7 +53,7 @@ class Columns {
       }
     }
     open_lone_groups();
-    if (scanner_m) mark_wall_edges();
+    if (scanner_m) mark_wall_edges(grid, *scanner_m);
   }
 
   [[nodiscard]] Column at(int x, int y) const { return columns_[index(x, y)]; }
@@ -61,17 +61,21 @@ class Columns {
  private:
   static constexpr std::size_t kLoneGroup = 4;  ///< columns
 
-  /// A surface near the boundary of two columns is in both, in the farther one here and there.
-  void mark_wall_edges() {
+  /// A surface near the boundary of two columns is in both, in the farther one here and there; and
+  /// it hides part of the column behind, at a door's post.
+  void mark_wall_edges(const OccupancyGrid& grid, double scanner_m) {
     const std::vector<Column> before = columns_;
     for (int y = 0; y < ny_; ++y) {
       for (int x = 0; x < nx_; ++x) {
-        if (before[index(x, y)] != Column::obstructed) continue;
-        bool by_wall = false;
-        for_each_beside({x, y}, [&](int u, int v) {
-          by_wall = by_wall || before[index(u, v)] == Column::wall;
-        });
-        if (by_wall) columns_[index(x, y)] = Column::wall_edge;
+        const auto touches = [&](Column column) {
+          bool any = false;
+          for_each_beside({x, y}, [&](int u, int v) { any |= before[index(u, v)] == column; });
+          return any;
+        };
+        const bool shaded = at(x, y) == Column::unseen && touches(Column::open) &&
+                            state_at(grid, x, y, scanner_m) == CellState::free;
+        if (at(x, y) != Column::obstructed && !shaded) continue;
+        if (touches(Column::wall)) columns_[index(x, y)] = Column::wall_edge;
       }
     }
   }
@@ -137,10 +141,10 @@ class Columns {
     return cells;
   }
 
-  static bool is_occupied_at(const OccupancyGrid& grid, int x, int y, double height_m) {
+  static CellState state_at(const OccupancyGrid& grid, int x, int y, double height_m) {
     const Eigen::Vector3d foot = grid.frame.centre({x, y, 0});
     const Eigen::Array3i cell = grid.frame.cell_at({foot.x(), foot.y(), height_m});
-    return grid.frame.contains(cell) && grid.state(grid.frame.index(cell)) == CellState::occupied;
+    return grid.frame.contains(cell) ? grid.state(grid.frame.index(cell)) : CellState::unobserved;
   }
 
   int nx_;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "vantage/planners/navigation/path_planning.hpp"
+#include "vantage/tasks/exploration/outlooks.hpp"
 
 namespace vantage {
 namespace {
@@ -11,11 +12,31 @@ namespace {
 /// A frontier so near to a candidate comes into sight from there.
 constexpr double kNear_m = 1.5;
 
+/// At a cell that is reachable.
+Pose2 base_at(const PathField& paths, std::size_t cell) {
+  const Eigen::Vector2d place = paths.map.centre(paths.map.cell(cell));
+  const Pose2& from = paths.start;
+  const double yaw_rad =
+      paths.heading_rad(cell).value_or(std::atan2(place.y() - from.y_m, place.x() - from.x_m));
+  return {place.x(), place.y(), yaw_rad};
+}
+
+/// On the way there, or where that was looked from already, the nearest, if through a wall.
+std::optional<Pose2> base_towards(const FrontierViewInput& input, const Outlooks& outlooks,
+                                  const Eigen::Vector2d& p_m) {
+  const auto on_the_way = outlooks.towards(p_m);
+  if (!on_the_way) return std::nullopt;
+  const Pose2 base = base_at(input.paths, *on_the_way);
+  const Pose T_world_sweep = to_se3(base) * input.T_base_sweep;
+  if (!input.visited.covers(T_world_sweep.translation().head<2>())) return base;
+  return base_at(input.paths, *nearest_reachable(input.paths, p_m));
+}
+
 }  // namespace
 
 std::vector<Candidate> frontier_views(const Exploration& task, const FrontierViewInput& input,
                                       bool all) {
-  const PathField& paths = input.paths;
+  const Outlooks outlooks(input.paths);
   VisitedPlaces proposed;
   VisitedPlaces near_proposed;
   std::vector<Candidate> views;
@@ -23,22 +44,17 @@ std::vector<Candidate> frontier_views(const Exploration& task, const FrontierVie
     const bool full = static_cast<int>(views.size()) >= task.max_candidates;
     if (full && !all) break;
     const Eigen::Vector2d wanted = frontier.p_m.head<2>();
-    const auto cell = nearest_reachable(paths, wanted);
-    if (!cell) break;
-    const Eigen::Vector2d place = paths.map.centre(paths.map.cell(*cell));
-    const Pose2& from = paths.start;
-    const double yaw_rad =
-        paths.heading_rad(*cell).value_or(std::atan2(place.y() - from.y_m, place.x() - from.x_m));
-    const Pose2 base{place.x(), place.y(), yaw_rad};
+    const auto base = base_towards(input, outlooks, wanted);
+    if (!base) break;
     Candidate view;
     view.id = static_cast<int>(views.size());
-    view.T_world_sensor = to_se3(base) * input.T_base_sweep;
+    view.T_world_sensor = to_se3(*base) * input.T_base_sweep;
     const Eigen::Vector2d p_sweep = view.T_world_sensor.translation().head<2>();
     if (input.visited.covers(p_sweep) || proposed.covers(p_sweep)) continue;
     if (full && near_proposed.covers(p_sweep)) continue;
-    view.reachable = all || (place - wanted).norm() <= task.reach_m;
-    view.path_length_m =
-        view.reachable ? path_length_m(paths, base) : std::numeric_limits<double>::infinity();
+    view.reachable = all || (position(*base) - wanted).norm() <= task.reach_m;
+    view.path_length_m = view.reachable ? path_length_m(input.paths, *base)
+                                        : std::numeric_limits<double>::infinity();
     proposed.add(p_sweep, task.taken_m);
     near_proposed.add(p_sweep, kNear_m);
     views.push_back(view);

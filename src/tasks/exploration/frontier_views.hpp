@@ -18,8 +18,9 @@ struct FrontierViewInput {
   const VisitedPlaces& visited;
 };
 
-/// The place nearest to each frontier where the robot can stand, the largest frontiers first, up to
-/// max_candidates.
+/// For each frontier the last place on the way there where the robot can stand, the largest
+/// frontiers first, up to max_candidates. Where that was looked from already it is the place
+/// nearest to the frontier, through a wall too.
 /// @param all those of all frontiers, however far the place is from its frontier: a choice that
 /// plans ahead knows of every one, and by the gain what is to be seen from there. Those beyond
 /// max_candidates that are near one of the others, where they come into sight, are left out.

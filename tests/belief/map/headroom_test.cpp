@@ -204,6 +204,43 @@ TEST(Headroom, AnUnseenColumnBesideAWallBlocks) {
   EXPECT_EQ(blocked_within(grid, detail), kFloorCells);
 }
 
+/// Columns that a post hides from 0.4 m up; the scanner is at 0.25 m.
+OccupancyGrid behind_a_post(std::initializer_list<Eigen::Array2i> hidden) {
+  OccupancyGrid grid = unseen_columns(hidden);
+  for (const Eigen::Array2i& column : hidden) {
+    for (int z = 0; z < 2; ++z) {
+      grid.log_odds[grid.frame.index({column.x(), column.y(), z})] = kFree;
+    }
+  }
+  for (int z = 0; z < 10; ++z) grid.log_odds[grid.frame.index({3, 4, z})] = kOccupied;
+  return grid;
+}
+
+std::ptrdiff_t blocked_in_detail(const OccupancyGrid& grid) {
+  FloorMap floor = free_floor();
+  FloorMap detail = free_floor();
+  block_columns({floor, nowhere(floor)}, {detail, nowhere(detail)}, grid, kOptions, 0.25);
+  return blocked_within(grid, detail);
+}
+
+TEST(Headroom, WhatAPostHidesJustBehindItDoesNotBlockTheFinerMap) {
+  constexpr int kFloorCells = 4;  // below a column
+  OccupancyGrid grid = behind_a_post({{4, 5}});
+  EXPECT_EQ(blocked_in_detail(grid), 0);
+  EXPECT_EQ(blocked_by(grid), 2 * kFloorCells) << "the post and what it hides";
+  grid.log_odds[grid.frame.index({4, 5, 1})] = 0.0F;
+  EXPECT_EQ(blocked_in_detail(grid), kFloorCells) << "not seen at the scanner's height";
+}
+
+TEST(Headroom, WhatAPostHidesFartherOffBlocksTheFinerMap) {
+  constexpr int kFloorCells = 4;  // below a column
+  EXPECT_EQ(blocked_in_detail(behind_a_post({{4, 5}, {5, 5}, {6, 5}})), 2 * kFloorCells);
+  const OccupancyGrid shade = behind_a_post(
+      {{3, 5}, {4, 5}, {5, 5}, {4, 4}, {5, 4}, {3, 6}, {4, 6}, {5, 6}, {5, 3}, {4, 3}});
+  EXPECT_EQ(blocked_in_detail(shade), 7 * kFloorCells)
+      << "three are between the post and open ones";
+}
+
 TEST(Headroom, ForgetsWhatIsNoLongerThere) {
   OccupancyGrid grid = free_row();
   set(grid, 4, 4, kOccupied);

@@ -25,6 +25,10 @@ FloorMap open_floor() {
   return floor;
 }
 
+Eigen::Vector2d place_of_view(const Candidate& view) {
+  return view.T_world_sensor.translation().head<2>();
+}
+
 class FrontierViews : public testing::Test {
  protected:
   FrontierViews() {
@@ -89,6 +93,21 @@ TEST_F(FrontierViews, AreNotWhereTheRobotWasNorTooNearEachOther) {
   task_.taken_m = 1.2;
   expect_places(false, {kLargest, kFar});
   expect_places(true, {kLargest, kFar});
+}
+
+/// The last frontier is in a room behind a door that is not known to be wide enough yet.
+TEST_F(FrontierViews, AreBeforeADoorAndWhereThatWasLookedFromTheNearestThroughAWall) {
+  for (double x_m = -4.4; x_m < 4.5; x_m += 0.1) {
+    const std::size_t cell = floor_.index(floor_.cell_at({x_m, 1.55}));
+    const bool door = x_m > -1.0 && x_m < -0.4;
+    if (!door) floor_.log_odds[cell] = 2.0F;
+  }
+  block_box(floor_, {Eigen::Vector2d(-1.2, 1.61), Eigen::Vector2d(-0.8, 1.79)});
+  const Eigen::Vector2d before_the_door(-0.75, 1.35);
+  const auto last = [&] { return place_of_view(views(false).back()); };
+  EXPECT_LT((last() - before_the_door).norm(), 0.25) << last().transpose();
+  visited_.add(last(), 0.5);
+  EXPECT_LT((last() - Eigen::Vector2d(2.35, 1.25)).norm(), 0.15) << last().transpose();
 }
 
 /// What stands round the last frontier keeps the robot more than 1.5 m away.
