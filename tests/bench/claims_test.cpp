@@ -212,7 +212,7 @@ Finding near_oracle_without(std::string_view scenes) {
 
 TEST(PlanningClaims, AnOracleThatGetsThereLessOftenIsNothingToBeNearTo) {
   EXPECT_EQ(near_oracle_without("none").verdict, Verdict::yes);
-  const Finding less = near_oracle_without("c_1/");
+  const Finding less = near_oracle_without("e_1/");
   EXPECT_EQ(less.verdict, Verdict::no) << less.measured;
   EXPECT_NE(less.measured.find("8 and 7 of 8 get there"), std::string::npos) << less.measured;
 }

@@ -81,16 +81,16 @@ TEST(StopClaims, CountWhereItSaysThatItIsDone) {
   EXPECT_EQ(none[0].measured,
             "wrongly in 0 of the 24 in which it says so, of 32: `greedy` 0 of 8, `tour` 0 of 16");
   for (const Finding& finding : none) EXPECT_EQ(finding.verdict, Verdict::yes) << finding.measured;
-  const auto one_of_eight = stopped("c_1/");
+  const auto one_of_eight = stopped("e_1/");
   EXPECT_THAT(one_of_eight[0].measured, HasSubstr("wrongly in 3 of the 24"));
   EXPECT_EQ(one_of_eight[0].verdict, Verdict::no);
   EXPECT_EQ(one_of_eight[2].verdict, Verdict::no) << "fewer get to see 95 %";
 }
 
 TEST(StopClaims, TellTheMedianDelayOfThoseThatAreRight) {
-  EXPECT_EQ(stopped("c_1/")[1].measured, "2 scans, 2 at most");
-  EXPECT_EQ(stopped("c_1/")[1].verdict, Verdict::yes);
-  EXPECT_EQ(stopped("c_1/", "13")[1].verdict, Verdict::no);
+  EXPECT_EQ(stopped("e_1/")[1].measured, "2 scans, 2 at most");
+  EXPECT_EQ(stopped("e_1/")[1].verdict, Verdict::yes);
+  EXPECT_EQ(stopped("e_1/", "13")[1].verdict, Verdict::no);
   EXPECT_EQ(stopped("")[1].verdict, Verdict::not_run) << "it is right nowhere";
 }
 
@@ -104,7 +104,7 @@ Finding bounded(const char* least) {
                {"least_ratio", "scans_over_least_95", "way_over_least_95", "time_over_least_95"},
                [&](const std::string& name) -> std::vector<std::string> {
                  if (name.ends_with("adaptive/tour")) {
-                   const bool away = name.starts_with("c_1/");
+                   const bool away = name.starts_with("e_1/");
                    return {least, away ? "" : "1.5", away ? "" : "2", away ? "" : "2.5"};
                  }
                  if (name.ends_with("adaptive/greedy")) return {"1", "1.25", "2.25", "3.25"};

@@ -130,12 +130,9 @@ OfficeScene make_corridor_scene(const CorridorOptions& options) {
 }
 
 std::vector<CorridorOptions> corridor_scenes() {
-  return {{"corridor_loop_1", 51, 15.0, 28.0},
-          {"corridor_loop_b_1", 61, 15.0, 28.0},
-          {"corridor_loop_c_1", 71, 15.0, 28.0},
-          {"corridor_long_1", 52, 24.0, 55.0},
-          {"corridor_long_b_1", 62, 24.0, 55.0},
-          {"corridor_long_c_1", 72, 24.0, 55.0}};
+  return {{"corridor_loop_1", 51, 15.0, 28.0},   {"corridor_loop_c_1", 71, 15.0, 28.0},
+          {"corridor_loop_d_1", 81, 15.0, 28.0}, {"corridor_long_1", 52, 24.0, 55.0},
+          {"corridor_long_b_1", 62, 24.0, 55.0}, {"corridor_long_d_1", 82, 24.0, 55.0}};
 }
 
 }  // namespace vantage

@@ -28,8 +28,8 @@ OfficeOptions office_of(const Letter& letter, bool large, int level) {
 
 std::vector<OfficeOptions> office_scenes() {
   std::vector<OfficeOptions> scenes;
-  for (const Letter& letter : {Letter{"", 1510, 2025}, Letter{"_a", 31, 41}, Letter{"_b", 32, 42},
-                               Letter{"_c", 330, 430, true}, Letter{"_d", 340, 440, true}}) {
+  for (const Letter& letter : {Letter{"", 1510, 2025}, Letter{"_b", 32, 42},
+                               Letter{"_e", 350, 450, true}, Letter{"_f", 360, 460, true}}) {
     for (const bool large : {false, true}) {
       for (int level = 1; level <= kClutterLevels; ++level) {
         scenes.push_back(office_of(letter, large, level));
@@ -43,10 +43,9 @@ std::vector<OfficeOptions> door_scenes() {
   const auto doors = [](const char* name, std::uint64_t seed, double doors_m) {
     return OfficeOptions{.name = name, .seed = seed, .clutter = 1, .doors_m = doors_m};
   };
-  return {doors("office_doors_1", 851, 0.85), doors("office_doors_80_1", 801, 0.80),
-          doors("office_doors_a_1", 852, 0.85), doors("office_doors_b_1", 853, 0.85),
-          doors("office_doors_c_1", 854, 0.85), doors("office_doors_d_1", 855, 0.85),
-          doors("office_doors_80_a_1", 802, 0.80), doors("office_doors_80_b_1", 803, 0.80)};
+  return {doors("office_doors_1", 851, 0.85),      doors("office_doors_80_1", 801, 0.80),
+          doors("office_doors_80_a_1", 802, 0.80), doors("office_doors_80_c_1", 804, 0.80),
+          doors("office_doors_e_1", 856, 0.85),    doors("office_doors_f_1", 857, 0.85)};
 }
 
 }  // namespace vantage
