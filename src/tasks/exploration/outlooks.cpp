@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "vantage/planners/navigation/distance_field.hpp"
@@ -62,7 +63,8 @@ void Outlooks::find_ways(const std::vector<std::uint8_t>& passable) {
       const Eigen::Array2i to = at + Eigen::Array2i(dx, dy);
       if (!map_.contains(to) || passable[map_.index(to)] == 0) continue;
       const auto next_cell = static_cast<std::uint32_t>(map_.index(to));
-      const float through_m = way_m + static_cast<float>(map_.cell_m * std::hypot(dx, dy));
+      const double cells = dx != 0 && dy != 0 ? std::numbers::sqrt2 : 1.0;
+      const float through_m = way_m + static_cast<float>(map_.cell_m * cells);
       if (through_m >= way_m_[next_cell]) continue;
       way_m_[next_cell] = through_m;
       from_[next_cell] = from_[cell];
@@ -73,14 +75,24 @@ void Outlooks::find_ways(const std::vector<std::uint8_t>& passable) {
 
 std::optional<std::size_t> Outlooks::towards(const Eigen::Vector2d& p_m) const {
   std::optional<std::size_t> from;
-  std::pair<double, float> best(kInfinity, kNoWay);
-  for (std::size_t cell = 0; cell < way_m_.size(); ++cell) {
-    if (way_m_[cell] == kNoWay) continue;
-    const std::pair<double, float> rank((map_.centre(map_.cell(cell)) - p_m).squaredNorm(),
-                                        way_m_[cell]);
-    if (rank >= best) continue;
-    best = rank;
-    from = from_[cell];
+  std::tuple<double, float, std::size_t> best(kInfinity, kNoWay, 0);  // squared distance, way, cell
+  const auto look_in_row = [&](int y) {
+    if (y < 0 || y >= map_.ny) return;
+    for (int x = 0; x < map_.nx; ++x) {
+      const std::size_t cell = map_.index({x, y});
+      if (way_m_[cell] == kNoWay) continue;
+      const std::tuple rank((map_.centre({x, y}) - p_m).squaredNorm(), way_m_[cell], cell);
+      if (rank >= best) continue;
+      best = rank;
+      from = from_[cell];
+    }
+  };
+  const int row = std::clamp(map_.cell_at(p_m).y(), 0, map_.ny - 1);
+  for (int off = 0; off < map_.ny; ++off) {
+    const double nearest_m = (off - 1) * map_.cell_m;  // no centre there is nearer
+    if (off > 0 && nearest_m * nearest_m > std::get<0>(best)) break;
+    look_in_row(row - off);
+    if (off > 0) look_in_row(row + off);
   }
   return from;
 }
