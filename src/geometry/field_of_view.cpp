@@ -1,5 +1,6 @@
 #include "vantage/geometry/field_of_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,15 @@ bool FieldOfView::contains(const Eigen::Vector3d& p_sensor) const {
   const BeamAngles angles = beam_angles(p_sensor);
   return in_sector(angles) ||
          (half_width_rad > std::numbers::pi / 2.0 && in_sector(turned_over(angles)));
+}
+
+Eigen::AlignedBox3d FieldOfView::box_m() const {
+  const Eigen::Vector3d all_m = Eigen::Vector3d::Constant(range_max_m);
+  if (panorama || half_width_rad >= 0.5 * std::numbers::pi) return {-all_m, all_m};
+  const double aside_m = range_max_m * std::sin(half_width_rad);
+  const double up_m = range_max_m * std::sin(std::max(-tilt_min_rad, 0.0));
+  const double down_m = range_max_m * std::sin(std::max(tilt_max_rad, 0.0));
+  return {Eigen::Vector3d(0.0, -aside_m, -down_m), Eigen::Vector3d(range_max_m, aside_m, up_m)};
 }
 
 }  // namespace vantage

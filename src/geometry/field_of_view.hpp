@@ -1,7 +1,7 @@
 /// What a range sensor sweeps while it stands still, in its own frame (x forward, y left, z up).
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "vantage/core/fields.hpp"
 
@@ -46,6 +46,8 @@ struct FieldOfView {
   void check() const;  ///< minima below maxima
 
   [[nodiscard]] bool contains(const Eigen::Vector3d& p_sensor) const;
+  /// Sensor frame; holds all that it contains.
+  [[nodiscard]] Eigen::AlignedBox3d box_m() const;
 };
 
 }  // namespace vantage

@@ -150,5 +150,34 @@ TEST(RgbdCamera, SeesAsWideAndAsFarAsAKinect) {
   EXPECT_FALSE(kRgbdCamera.panorama);
 }
 
+RC_GTEST_PROP(FieldOfView, IsInItsBoxAndReachesItsSides, (std::uint64_t seed)) {
+  Rng rng(seed);
+  FieldOfView view{.half_width_rad = rng.uniform(0.1, 3.1),
+                   .tilt_min_rad = rng.uniform(-1.4, 0.6),
+                   .tilt_max_rad = 0.0,
+                   .range_min_m = 0.0,
+                   .range_max_m = rng.uniform(0.5, 5.0)};
+  view.tilt_max_rad = rng.uniform(view.tilt_min_rad + 0.1, 1.4);
+  view.panorama = rng.uniform_index(4) == 0;
+  const Eigen::AlignedBox3d box = view.box_m();
+  const bool ahead = !view.panorama && view.half_width_rad < 1.57;
+  const double turned_rad = ahead ? view.half_width_rad : std::numbers::pi;
+  Eigen::AlignedBox3d held(Eigen::Vector3d::Zero());
+  for (int i = 0; i < 3000; ++i) {
+    const BeamAngles angles{rng.uniform(-turned_rad, turned_rad),
+                            rng.uniform(view.tilt_min_rad, view.tilt_max_rad)};
+    const Eigen::Vector3d p = view.range_max_m * (1.0 - 1e-9) * beam_direction(angles);
+    if (!view.contains(p)) continue;
+    RC_ASSERT(box.contains(p));
+    held.extend(p);
+  }
+  if (!ahead) return;
+  const double slack_m = 0.05 * view.range_max_m;
+  RC_ASSERT(box.max().y() - held.max().y() < slack_m);
+  RC_ASSERT(held.min().y() - box.min().y() < slack_m);
+  RC_ASSERT(box.max().z() - held.max().z() < slack_m);
+  RC_ASSERT(held.min().z() - box.min().z() < slack_m);
+}
+
 }  // namespace
 }  // namespace vantage

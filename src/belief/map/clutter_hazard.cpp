@@ -31,20 +31,23 @@ double ClutterHazard::sum_of_layer(const BlockField& counts, int layer) const {
   return std::accumulate(begin, begin + counts.layout.index(0, 0, 1), 0.0);
 }
 
-ClutterHazard::MetCells ClutterHazard::met_cells(const OccupancyGrid& grid, int threads) {
-  MetCells met{grid.frame, std::vector<Met>(grid.size())};
+ClutterHazard::MetCells ClutterHazard::met_cells(const OccupancyGrid& grid, const GridPart& reach,
+                                                 int threads) {
+  MetCells met{grid.frame, reach, std::vector<Met>(reach.size())};
   constexpr std::array by_state{Met::free, Met::unobserved, Met::occupied};
-  parallel_for(static_cast<std::size_t>(grid.frame.cells.z()), threads, [&](std::size_t z) {
-    Eigen::Array3i at(0, 0, static_cast<int>(z));
-    std::size_t cell = grid.frame.index(at);
-    for (at.y() = 0; at.y() < grid.frame.cells.y(); ++at.y()) {
-      for (at.x() = 0; at.x() < grid.frame.cells.x(); ++at.x(), ++cell) {
+  parallel_for(static_cast<std::size_t>(reach.count.z()), threads, [&](std::size_t slice) {
+    Eigen::Array3i at = reach.begin + Eigen::Array3i(0, 0, static_cast<int>(slice));
+    Met* next = &met.cells[reach.index(at)];
+    for (; at.y() < reach.end().y(); ++at.y()) {
+      at.x() = reach.begin.x();
+      std::size_t cell = grid.frame.index(at);
+      for (; at.x() < reach.end().x(); ++at.x(), ++cell) {
         const CellState state = grid.state(cell);
         const bool beside = state == CellState::unobserved &&
                             any_face_neighbour(grid.frame, at, [&](std::size_t neighbour) {
                               return grid.state(neighbour) == CellState::occupied;
                             });
-        met.cells[cell] =
+        *next++ =
             beside ? Met::unobserved_beside_occupied : by_state[static_cast<std::size_t>(state)];
       }
     }
@@ -57,7 +60,7 @@ void ClutterHazard::count_beam(const MetCells& before, const Beam& beam, Counts&
   const Eigen::Array3i last = frame.cell_at(beam.p_end);
   const std::size_t end = beam.returned && frame.contains(last) ? frame.index(last) : frame.size();
   walk_ray(frame, beam.p_from, beam.p_end, [&](std::size_t index, const Eigen::Array3i& cell) {
-    const Met met = before.cells[index];
+    const Met met = before.cells[before.reach.index(cell)];
     if (met == Met::unobserved) {
       const std::size_t column =
           static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(frame.cells.x()) +
@@ -76,7 +79,9 @@ void ClutterHazard::count_beams(const OccupancyGrid& before, std::span<const Bea
                                 int threads) {
   expects((before.frame.cells == crossings_.layout.cells).all(),
           "the hazard was made for a grid of other size");
-  const MetCells met = met_cells(before, threads);
+  Eigen::AlignedBox3d reach_m;
+  for (const Beam& beam : beams) reach_m.extend(beam.p_from).extend(beam.p_end);
+  const MetCells met = met_cells(before, cells_about(before.frame, reach_m), threads);
   const std::vector<double> none(crossings_.layout.size(), 0.0);
   std::vector<Counts> parts(static_cast<std::size_t>(threads), {none, none});
   parallel_for(parts.size(), threads, [&](std::size_t part) {

@@ -9,6 +9,7 @@
 #include "vantage/belief/map/block_field.hpp"
 #include "vantage/belief/map/occupancy_grid.hpp"
 #include "vantage/core/fields.hpp"
+#include "vantage/geometry/grid_part.hpp"
 #include "vantage/geometry/range_scan.hpp"
 
 namespace vantage {
@@ -104,12 +105,13 @@ class ClutterHazard {
   enum class Met : std::uint8_t { free, unobserved, unobserved_beside_occupied, occupied };
   struct MetCells {
     const GridFrame& frame;
+    GridPart reach;  ///< of the beams
     std::vector<Met> cells;
   };
 
   void count_beams(const OccupancyGrid& before, std::span<const Beam> beams, int threads);
   void count_beam(const MetCells& before, const Beam& beam, Counts& counts) const;
-  static MetCells met_cells(const OccupancyGrid& grid, int threads);
+  static MetCells met_cells(const OccupancyGrid& grid, const GridPart& reach, int threads);
 
   ClutterHazardOptions options_;
   BlockField crossings_;

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "vantage/belief/map/obstacle_distance.hpp"
 #include "vantage/core/parallel_for.hpp"
+#include "vantage/geometry/grid_part.hpp"
 #include "vantage/geometry/view_cone.hpp"
 
 namespace vantage {
@@ -43,21 +45,35 @@ template <class View>
 struct Posed {
   View view;
   ViewCone sector;
+  Eigen::AlignedBox3d box_m;  ///< round the sector
+
+  Posed(View v, const Pose& T_world_sensor, const FieldOfView& sector_at_sensor)
+      : view(std::move(v)),
+        sector(T_world_sensor, sector_at_sensor),
+        box_m(sector_at_sensor.box_m().transformed(T_world_sensor)) {}
 };
 
-/// The sector round the image: its corners are no farther to the side, as an angle, than the middle
-/// of its edges.
-ViewCone sector_of(const CameraImages& image, const Pose& T_world_camera) {
+/// The view with the sector round the image: its corners are no farther to the side, as an angle,
+/// than the middle of its edges.
+Posed<ImageView> posed_view(const CameraImages& image, const Pose& T_world_camera) {
   constexpr double kSlack_rad = 1e-6;
   const double across_rad = std::atan(0.5 * image.width_px / image.focal_px) + kSlack_rad;
   const double up_rad = std::atan(0.5 * image.height_px / image.focal_px) + kSlack_rad;
   Pose T_camera_sensor = Pose::Identity();  // x along the optical axis, z up
   T_camera_sensor.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  return {T_world_camera * T_camera_sensor, FieldOfView{.half_width_rad = across_rad,
-                                                        .tilt_min_rad = -up_rad,
-                                                        .tilt_max_rad = up_rad,
-                                                        .range_min_m = 0.0,
-                                                        .range_max_m = image.range_max_m}};
+  const FieldOfView sector{.half_width_rad = across_rad,
+                           .tilt_min_rad = -up_rad,
+                           .tilt_max_rad = up_rad,
+                           .range_min_m = 0.0,
+                           .range_max_m = image.range_max_m};
+  return {{image, T_world_camera.inverse()}, T_world_camera * T_camera_sensor, sector};
+}
+
+template <class View>
+GridPart cells_about(const GridFrame& frame, const std::vector<Posed<View>>& views) {
+  Eigen::AlignedBox3d box_m;
+  for (const Posed<View>& posed : views) box_m.extend(posed.box_m);
+  return cells_about(frame, box_m);
 }
 
 /// Frees what is seen of a row of cells; which are occupied does not change by that.
@@ -86,16 +102,18 @@ std::size_t carve(OccupancyGrid& grid, const std::vector<Posed<View>>& views,
   expects(threads >= 1, "carve_free_space needs a thread");
   check_options(update, "free space");
   const auto evidence = static_cast<float>(log_odds_of(1.0 - update.p_free_given_pass));
-  const ObstacleDistance obstacles(grid, threads);
+  const GridPart reach = cells_about(grid.frame, views);
+  const ObstacleDistance obstacles(grid, reach, threads);
   const Eigen::Vector3d step(grid.frame.cell_size_m.x(), 0.0, 0.0);
   // A worker writes and reads the cells of its own slice alone, apart from the obstacles.
-  std::vector<std::size_t> freed(static_cast<std::size_t>(grid.frame.cells.z()), 0);
+  std::vector<std::size_t> freed(static_cast<std::size_t>(reach.count.z()), 0);
   parallel_for(freed.size(), threads, [&](std::size_t slice) {
+    const int z = reach.begin.z() + static_cast<int>(slice);
     for (const Posed<View>& posed : views) {
       const RowBounds bounds(posed.sector, step);
-      for (int y = 0; y < grid.frame.cells.y(); ++y) {
-        freed[slice] +=
-            carve_row(grid, posed, bounds, y, static_cast<int>(slice), obstacles, evidence);
+      const GridPart about = cells_about(grid.frame, posed.box_m);
+      for (int y = about.begin.y(); y < about.end().y(); ++y) {
+        freed[slice] += carve_row(grid, posed, bounds, y, z, obstacles, evidence);
       }
     }
   });
@@ -106,9 +124,9 @@ std::size_t carve(OccupancyGrid& grid, const std::vector<Posed<View>>& views,
 
 std::size_t carve_free_space(OccupancyGrid& grid, const RangeScan& scan, const Pose& T_world_sensor,
                              const FreeSpaceUpdate& update, int threads) {
+  const ViewCone cone(Pose::Identity(), scan.field_of_view);
   const std::vector<Posed<ScanView>> views{
-      {{scan, T_world_sensor.inverse(), ViewCone(Pose::Identity(), scan.field_of_view)},
-       ViewCone(T_world_sensor, scan.field_of_view)}};
+      {{scan, T_world_sensor.inverse(), cone}, T_world_sensor, scan.field_of_view}};
   return carve(grid, views, update, threads);
 }
 
@@ -116,7 +134,7 @@ std::size_t carve_free_space(OccupancyGrid& grid, std::span<const PosedImage> im
                              const FreeSpaceUpdate& update, int threads) {
   std::vector<Posed<ImageView>> views;
   for (const auto& [image, T_world_camera] : images) {
-    views.push_back({{image, T_world_camera.inverse()}, sector_of(image, T_world_camera)});
+    views.push_back(posed_view(image, T_world_camera));
   }
   return carve(grid, views, update, threads);
 }

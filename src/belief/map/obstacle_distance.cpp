@@ -45,18 +45,19 @@ void spread_across(const std::uint8_t* from, std::uint8_t* near, int lines, int 
   }
 }
 
-Cells spread(const OccupancyGrid& grid, int threads) {
-  const int nx = grid.frame.cells.x();
-  const int ny = grid.frame.cells.y();
-  const auto nz = static_cast<std::size_t>(grid.frame.cells.z());
+Cells spread(const OccupancyGrid& grid, const GridPart& reach, int threads) {
+  const int nx = reach.count.x();
+  const int ny = reach.count.y();
+  const auto nz = static_cast<std::size_t>(reach.count.z());
   const auto row = static_cast<std::size_t>(nx);
   const std::size_t slice = row * static_cast<std::size_t>(ny);
-  Cells along_x(grid.size());
-  Cells along_y(grid.size());
+  Cells along_x(reach.size());
+  Cells along_y(reach.size());
   parallel_for(nz, threads, [&](std::size_t z) {
     for (int y = 0; y < ny; ++y) {
-      const std::size_t at = z * slice + static_cast<std::size_t>(y) * row;
-      spread_along_row(&grid.log_odds[at], &along_x[at], nx);
+      const Eigen::Array3i first = reach.begin + Eigen::Array3i(0, y, static_cast<int>(z));
+      const float* log_odds = &grid.log_odds[grid.frame.index(first)];
+      spread_along_row(log_odds, &along_x[reach.index(first)], nx);
     }
     for (int y = 0; y < ny; ++y) {
       const std::size_t at = z * slice + static_cast<std::size_t>(y) * row;
@@ -98,11 +99,15 @@ struct ObstacleDistance::Line {
 };
 
 ObstacleDistance::ObstacleDistance(const OccupancyGrid& grid, int threads)
-    : frame_(grid.frame), cells_(spread(grid, threads)) {}
+    : ObstacleDistance(grid, whole(grid.frame), threads) {}
+
+ObstacleDistance::ObstacleDistance(const OccupancyGrid& grid, const GridPart& reach, int threads)
+    : frame_(grid.frame), reach_(reach), cells_(spread(grid, reach, threads)) {}
 
 bool ObstacleDistance::walk_is_clear(const Eigen::Vector3d& p_from,
                                      const Eigen::Vector3d& p_to) const {
-  return walk_ray(frame_, p_from, p_to, [&](std::size_t cell) { return cells_[cell] != 0; });
+  return walk_ray(frame_, p_from, p_to,
+                  [&](std::size_t, const Eigen::Array3i& cell) { return cells(cell) != 0; });
 }
 
 /// Cell by cell until there is room to leap. `cell` is where the walk is then, `t` where it came
@@ -122,7 +127,7 @@ ObstacleDistance::Meets ObstacleDistance::walk_beside(const Line& line, Eigen::A
   }
   const double tie = kTie_cells / line.most_cells;
   while (true) {
-    const int room = cells_[frame_.index(cell)];
+    const int room = cells(cell);
     if (room == 0) return Meets::occupied;
     if (room > kMargin_cells) return Meets::open;
     int axis = t_next[0] < t_next[1] ? 0 : 1;
@@ -150,7 +155,7 @@ bool ObstacleDistance::is_clear(const Eigen::Vector3d& p_from, const Eigen::Vect
     cell = frame_.cell_at(p_from + t * (p_to - p_from)).max(0).min(frame_.cells - 1);
   }
   while (true) {
-    const int room = cells_[frame_.index(cell)];
+    const int room = cells(cell);
     if (room > kMargin_cells) {
       t += (room - kMargin_cells) / line.most_cells;
       if (t >= 1.0) return true;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "vantage/belief/map/occupancy_grid.hpp"
+#include "vantage/geometry/grid_part.hpp"
 
 namespace vantage {
 
@@ -18,9 +19,11 @@ class ObstacleDistance {
 
   /// Does not depend on `threads` (>= 1).
   explicit ObstacleDistance(const OccupancyGrid& grid, int threads = 1);
+  /// The same for walks between points of `reach`: what is elsewhere is not looked at.
+  ObstacleDistance(const OccupancyGrid& grid, const GridPart& reach, int threads);
 
-  /// 0 where a cell is occupied.
-  [[nodiscard]] int cells(std::size_t cell) const { return cells_[cell]; }
+  /// 0 where a cell, of those in reach, is occupied.
+  [[nodiscard]] int cells(const Eigen::Array3i& cell) const { return cells_[reach_.index(cell)]; }
 
   /// Whether the walk of walk_ray between the points meets no occupied cell; the same answer, to
   /// the cell.
@@ -34,6 +37,7 @@ class ObstacleDistance {
   [[nodiscard]] Meets walk_beside(const Line& line, Eigen::Array3i& cell, double& t) const;
 
   GridFrame frame_;
+  GridPart reach_;
   std::vector<std::uint8_t> cells_;
 };
 

@@ -85,8 +85,10 @@ struct Exploration : MappingOptions {
       "score; choices that plan ahead have more, one for every place that is 1.5 m from these",
       at_least(1));
     f("reach_m", reach_m,
-      "distance from a frontier to the nearest place the robot can drive to, above which its view "
-      "counts as out of reach; without effect on choices that plan ahead",
+      "distance from a frontier to where it is looked at from, the last place on the way there "
+      "that "
+      "the robot gets to, above which its view counts as out of reach; without effect on choices "
+      "that plan ahead",
       at_least(0.0));
     f("taken_m", taken_m,
       "distance from a place scanned from, or chosen before, within which no view is proposed; "

@@ -1,12 +1,15 @@
 #include "vantage/belief/map/clutter_hazard.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "tests/belief/map/voxel_scene.hpp"
+#include "vantage/core/rng.hpp"
+#include "vantage/geometry/face_neighbours.hpp"
 
 namespace vantage {
 namespace {
@@ -371,6 +374,55 @@ TEST(ClutterHazard, ACameraOnTheFloorMeetsNothingBelowIt) {
   };
   EXPECT_EQ(crossings(0.0), 0.0);
   EXPECT_GT(crossings(0.5), 0.0);
+}
+
+/// What a walk along the beams counts in a layer.
+Counted walked(const OccupancyGrid& grid, const RangeScan& scan, const Pose& T_world_sensor,
+               const ClutterHazard& layers, int layer) {
+  Counted counted{0.0, 0.0};
+  const auto occupied = [&](std::size_t cell) { return grid.state(cell) == CellState::occupied; };
+  for (std::size_t i = 0; i < scan.beams(); ++i) {
+    const Eigen::Vector3d along = beam_direction({scan.azimuth_rad[i], scan.tilt_rad[0]});
+    const Eigen::Vector3d p_end = T_world_sensor * (scan.range_m[i] * along);
+    const Eigen::Array3i end = grid.frame.cell_at(p_end);
+    walk_ray(grid.frame, T_world_sensor.translation(), p_end,
+             [&](std::size_t index, const Eigen::Array3i& cell) {
+               if (occupied(index)) return false;
+               const bool clutter = grid.state(index) == CellState::unobserved &&
+                                    !any_face_neighbour(grid.frame, cell, occupied);
+               if (clutter && layers.layer_of(cell.z()) == layer) {
+                 counted.crossings += 1.0;
+                 if ((cell == end).all()) counted.hits += 1.0;
+               }
+               return true;
+             });
+  }
+  return counted;
+}
+
+RC_GTEST_PROP(ClutterHazard, CountsInAPartOfALargeGridWhatTheWalkMeets, (std::uint64_t seed)) {
+  Rng rng(seed);
+  OccupancyGrid grid(make_grid_frame({0.0, 0.0, 0.0}, {6.0, 4.0, 3.0}, {60, 40, 30}));
+  for (float& log_odds : grid.log_odds) {
+    const double draw = rng.uniform(0.0, 1.0);
+    if (draw < 0.02) log_odds = 2.0F;
+    if (draw > 0.6) log_odds = -2.0F;
+  }
+  RangeScan scan;
+  scan.tilt_rad = {rng.uniform(-1.0, 1.0)};
+  for (int i = 0; i < 20; ++i) {
+    scan.azimuth_rad.push_back(rng.uniform(-0.6, 0.6));
+    scan.range_m.push_back(static_cast<float>(rng.uniform(0.2, 1.5)));
+  }
+  const Eigen::Vector3d p(rng.uniform(-4.0, 4.0), rng.uniform(-3.0, 3.0), rng.uniform(-2.0, 2.0));
+  const Pose T_world_sensor = make_pose(p, rng.uniform(-3.0, 3.0));
+  ClutterHazard hazard({.layers = 5}, grid.frame.cells);
+  hazard.observe(grid, scan, T_world_sensor, 2);
+  for (int layer = 0; layer < 5; ++layer) {
+    const Counted expected = walked(grid, scan, T_world_sensor, hazard, layer);
+    const Counted counted{hazard.crossings(layer), hazard.hits(layer)};
+    RC_ASSERT(counted == expected);
+  }
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(ObstacleDistance, IsTheChessboardDistance) {
       const Eigen::Array3i apart = grid.frame.cell(cell) - grid.frame.cell(other);
       nearest = std::min(nearest, apart.abs().maxCoeff());
     }
-    ASSERT_EQ(distance.cells(cell), nearest) << cell;
+    ASSERT_EQ(distance.cells(grid.frame.cell(cell)), nearest) << cell;
   }
 }
 
@@ -74,13 +74,41 @@ TEST(ObstacleDistance, SaysOfEverySegmentWhatTheWalkSays) {
   EXPECT_GT(blocked, 5000);
 }
 
+Eigen::Vector3d random_point(const Eigen::AlignedBox3d& box_m, Rng& rng) {
+  const Eigen::Array3d share(rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0), rng.uniform(0.0, 1.0));
+  return box_m.min() + (share * box_m.sizes().array()).matrix();
+}
+
+TEST(ObstacleDistance, SaysTheSameOfSegmentsInReachWithoutALookElsewhere) {
+  Rng rng(4);
+  int blocked = 0;
+  for (int world = 0; world < 20; ++world) {
+    const OccupancyGrid grid = random_world(rng, 1e-2);
+    Eigen::AlignedBox3d part_m(random_point(grid.frame, rng, 0));
+    part_m.extend(random_point(grid.frame, rng, 0));
+    const GridPart reach = cells_about(grid.frame, part_m);
+    if (reach.size() == 0) continue;
+    const ObstacleDistance distance(grid, reach, 2);
+    for (int i = 0; i < 1000; ++i) {
+      const Eigen::Vector3d from = random_point(part_m, rng);
+      const Eigen::Vector3d to = random_point(part_m, rng);
+      const bool expected = walked_clear(grid, from, to);
+      ASSERT_EQ(distance.is_clear(from, to), expected)
+          << from.transpose() << " to " << to.transpose();
+      blocked += expected ? 0 : 1;
+    }
+  }
+  EXPECT_GT(blocked, 500);
+}
+
 TEST(ObstacleDistance, DoesNotDependOnThreads) {
   Rng rng(3);
   const OccupancyGrid grid = random_world(rng, 1e-3);
   const ObstacleDistance one(grid, 1);
   const ObstacleDistance three(grid, 3);
   for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-    ASSERT_EQ(one.cells(cell), three.cells(cell));
+    const Eigen::Array3i at = grid.frame.cell(cell);
+    ASSERT_EQ(one.cells(at), three.cells(at));
   }
 }
 
@@ -90,7 +118,9 @@ TEST(ObstacleDistance, IsThatToCellsThatAreOnlyJustOccupied) {
   grid.log_odds[4] = std::nextafter(kOccupiedLogOdds, 0.0F);
   const ObstacleDistance distance(grid);
   const std::vector<int> expected{1, 0, 1, 2, 3};
-  for (std::size_t cell = 0; cell < 5; ++cell) EXPECT_EQ(distance.cells(cell), expected[cell]);
+  for (int x = 0; x < 5; ++x) {
+    EXPECT_EQ(distance.cells({x, 0, 0}), expected[static_cast<std::size_t>(x)]);
+  }
 }
 
 }  // namespace
