@@ -86,9 +86,8 @@ struct Exploration : MappingOptions {
       at_least(1));
     f("reach_m", reach_m,
       "distance from a frontier to where it is looked at from, the last place on the way there "
-      "that "
-      "the robot gets to, above which its view counts as out of reach; without effect on choices "
-      "that plan ahead",
+      "that the robot gets to, above which its view counts as out of reach; without effect on "
+      "choices that plan ahead",
       at_least(0.0));
     f("taken_m", taken_m,
       "distance from a place scanned from, or chosen before, within which no view is proposed; "
