@@ -60,8 +60,9 @@ std::vector<Finding> building_findings(const StudyTables& study) {
                  return {
                      by_building(study, "worst_pose_error_m", 1000.0, "{:.0f} mm"),
                      most_of_all(study, "worst_pose_error_m") <= 0.05,
-                     "how long a corridor of plain walls is, the wheels alone tell where its end "
-                     "is out of the scanner's sight"};
+                     "where both ends of a corridor of plain walls are out of the scanner's sight, "
+                     "wheels alone tell how far the robot is along it; a run that doubts its map "
+                     "ends as failed"};
                }),
           held("goal", "precision of occupied cells at least 0.98",
                [&]() -> Measured {

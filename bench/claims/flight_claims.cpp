@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "bench/claims/claims.hpp"
-#include "bench/claims/race.hpp"
+#include "bench/claims/paired_difference.hpp"
 
 namespace vantage::bench {
 namespace {
@@ -89,7 +89,9 @@ Finding every_turn_told(const StudyTables& study) {
 }  // namespace
 
 std::vector<Finding> flight_recognition_findings(const StudyTables& study) {
-  return {held("goal", "at least 95 % of the objects recognised, views by mutual information",
+  return {held("goal; table 4.8, of 310 objects: 96.5 % in 2.0 views, 99.8 % in 1.6 with chosen "
+               "features",
+               "at least 95 % of the objects recognised, views by mutual information",
                [&]() -> Measured {
                  const double correct = mean_of(study, "correct", kAllPanels);
                  return {fmt::format("{:.1f} % after {:.2f} views, category {:.1f} %",
@@ -106,8 +108,7 @@ std::vector<Finding> clutter_findings(const StudyTables& study) {
   const auto is_ahead = [&]() -> Measured {
     const Difference points = study.difference("targets_correct", kAllPanels, kByVisibility);
     const double time = study.ratio("simulated_time_s", kAllPanels, kByVisibility);
-    const bool gains = points.mean >= 0.08 && points.interval.low > 0.0 &&
-                       points.p_value < kSignificant;  // of one time limit
+    const bool gains = points.mean >= 0.08 && is_above(points);  // of one time limit
     const bool saves = points.mean >= 0.0 && time <= 0.75;
     std::vector<std::string> distances;
     for (const std::string& distance : study.panels()) {
@@ -126,27 +127,30 @@ std::vector<Finding> clutter_findings(const StudyTables& study) {
         study.difference("targets_correct", kAllPanels, kByVisibility, "nearest_free");
     return {fmt::format("{:+.1f} points [{:+.1f}, {:+.1f}], p {:.2g}", 100.0 * points.mean,
                         100.0 * points.interval.low, 100.0 * points.interval.high, points.p_value),
-            points.interval.low > 0.0 && points.p_value < kSignificant};
+            is_above(points)};
   };
   const auto sees_more = [&]() -> Measured {
     const Difference hidden = study.difference("hidden_views", kAllPanels, kByVisibility);
     return {fmt::format("{:+.2f} a flight [{:+.2f}, {:+.2f}], p {:.2g}", hidden.mean,
                         hidden.interval.low, hidden.interval.high, hidden.p_value),
-            hidden.interval.high < 0.0 && hidden.p_value < kSignificant};
+            is_below(hidden)};
   };
-  return {held("goal",
-               "information times visibility gains 8 points of accuracy over information alone in "
-               "the same time limit, or is as accurate in 0.75 x the time",
-               is_ahead),
-          held("goal", "and more than the nearest free view, beyond the interval", beats_nearest),
-          held("goal", "it takes fewer views in which the object is hidden", sees_more),
-          held("goal", "no contact with anything, whatever chooses the views", [&]() -> Measured {
-            double collisions = 0.0;
-            for (const std::string& level : study.levels()) {
-              collisions += study.mean("collisions", kAllPanels, level);
-            }
-            return {fmt::format("{:.3g} a flight", collisions), collisions == 0.0};
-          })};
+  return {
+      held("goal",
+           "information times visibility gains 8 points of accuracy over information alone in "
+           "the same time limit, or is as accurate in 0.75 x the time",
+           is_ahead),
+      held("goal",
+           "and more than the nearest free view, one object after the other, beyond the interval",
+           beats_nearest),
+      held("goal", "it takes fewer views in which the object is hidden", sees_more),
+      held("goal", "no contact with anything, whatever chooses the views", [&]() -> Measured {
+        double collisions = 0.0;
+        for (const std::string& level : study.levels()) {
+          collisions += study.mean("collisions", kAllPanels, level);
+        }
+        return {fmt::format("{:.3g} a flight", collisions), collisions == 0.0};
+      })};
 }
 
 std::vector<Finding> flight_change_findings(const StudyTables& study) {

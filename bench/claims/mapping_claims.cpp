@@ -4,11 +4,16 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/claims/paired_difference.hpp"
+
 namespace vantage::bench {
 
 Finding adaptive_against_simple(const StudyTables& study, const std::vector<const char*>& tables) {
   return held(
-      "goal", "`adaptive` is ahead of `simple`, in area and in what it predicts",
+      "goal",
+      fmt::format("`adaptive` is ahead of `simple`, in area and in what it predicts, beyond "
+                  "the intervals, p < {}",
+                  kSignificant),
       [&]() -> Measured {
         const bool to_simple = study.reference() == "simple";
         const std::string other = to_simple ? "adaptive" : "simple";
@@ -16,9 +21,15 @@ Finding adaptive_against_simple(const StudyTables& study, const std::vector<cons
         bool ahead = true;
         for (const char* table : tables) {
           const Difference paired = study.difference(table, kAllPanels, other);
-          ahead = (to_simple ? paired.interval.high < 0.0 : paired.interval.low > 0.0) && ahead;
+          ahead = (to_simple ? is_below(paired) : is_above(paired)) && ahead;
           parts.push_back(fmt::format("`{}` {}", table, ratio_text(paired)));
         }
+        std::vector<std::string> panels;
+        for (const std::string& panel : study.panels()) {
+          panels.push_back(fmt::format("{} {:.2f}", panel, study.ratio("area", panel, other)));
+        }
+        if (!panels.empty())
+          parts.push_back("area in " + fmt::format("{}", fmt::join(panels, ", ")));
         return {fmt::format("`{}` in terms of `{}`: {}", other, study.reference(),
                             fmt::join(parts, "; ")),
                 ahead,

@@ -2,6 +2,14 @@
 
 namespace vantage::bench {
 
+bool is_below(const Difference& difference) {
+  return difference.interval.high < 0.0 && difference.p_value < kSignificant;
+}
+
+bool is_above(const Difference& difference) {
+  return difference.interval.low > 0.0 && difference.p_value < kSignificant;
+}
+
 std::optional<Difference> paired_difference(const std::string& table, const std::string& panel,
                                             const LevelSamples& reference,
                                             const LevelSamples& own) {

@@ -9,6 +9,13 @@
 
 namespace vantage::bench {
 
+/// Below which p a difference is held for one.
+inline constexpr double kSignificant = 0.05;
+
+/// Beyond the interval and with p below kSignificant.
+bool is_below(const Difference& difference);
+bool is_above(const Difference& difference);
+
 /// What a level came to in one panel.
 struct LevelSamples {
   std::string level;

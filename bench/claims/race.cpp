@@ -7,9 +7,18 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/claims/paired_difference.hpp"
-
 namespace vantage::bench {
+namespace {
+
+/// "p 0.12"; "p 0.25: of 4 pairs it cannot be below 0.12"
+std::string why_insignificant(const Difference& pairs) {
+  const double least_p = std::exp2(1.0 - static_cast<double>(pairs.clusters));
+  const std::string p = fmt::format("p {:.2g}", pairs.p_value);
+  if (least_p < kSignificant) return p;
+  return fmt::format("{}: of {} pairs it cannot be below {:.2g}", p, pairs.clusters, least_p);
+}
+
+}  // namespace
 
 bool Race::is_won_by(double limit) const {
   if (arrived == 0 || arrived < other_arrived) return false;
@@ -36,14 +45,22 @@ std::string Race::why_lost(double limit) const {
     reasons.push_back(
         fmt::format("it gets there in {} episodes, the other in {}", arrived, other_arrived));
   }
-  if (pairs && pairs->ratio && *pairs->ratio <= limit) {
-    const double least_p = std::exp2(1.0 - static_cast<double>(pairs->clusters));
-    if (least_p >= kSignificant) {
-      reasons.push_back(
-          fmt::format("{} pairs can have no p below {:.2g}", pairs->clusters, least_p));
-    }
+  if (pairs && pairs->ratio && *pairs->ratio > limit) {
+    reasons.push_back(fmt::format("{:.3f} is above {}", *pairs->ratio, limit));
+  } else if (pairs && pairs->ratio && pairs->p_value >= kSignificant) {
+    reasons.push_back(why_insignificant(*pairs));
   }
   return fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+std::string Race::why_not_ahead() const {
+  if (is_ahead()) return "";
+  if (arrived < other_arrived) {
+    return fmt::format("gets there in {} episodes, the other in {}", arrived, other_arrived);
+  }
+  if (!pairs || !pairs->ratio) return "no pairs";
+  if (pairs->ratio_interval->high >= 1.0) return "the interval holds 1";
+  return why_insignificant(*pairs);
 }
 
 Race race(const StudyTables& study, const std::string& table, const std::string& panel,

@@ -4,12 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "bench/claims/paired_difference.hpp"
 #include "bench/claims/study_tables.hpp"
 
 namespace vantage::bench {
-
-/// Below which p a difference is held for one.
-inline constexpr double kSignificant = 0.05;
 
 struct Race {
   std::size_t arrived = 0;
@@ -25,8 +23,10 @@ struct Race {
   [[nodiscard]] bool is_ahead() const;
   /// "0.54 [0.42, 0.66], 5 pairs, p 0.031; 5 and 6 of 10 get there"
   [[nodiscard]] std::string text() const;
-  /// What but the ratio stands against it: arrivals, or too few pairs. May be empty.
+  /// What stands against it: arrivals, the ratio, p. Empty if it is won with p below kSignificant.
   [[nodiscard]] std::string why_lost(double limit) const;
+  /// What stands against its being ahead. Empty if it is.
+  [[nodiscard]] std::string why_not_ahead() const;
 };
 
 /// @throws NotRun unless every episode of both levels was run, and some got there

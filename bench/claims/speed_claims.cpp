@@ -36,13 +36,30 @@ Finding at_least(const Figures& figures, const char* benchmark, const char* key,
 /// The simple features of one view, together.
 Finding simple_features(const Figures& figures) {
   constexpr double kLimit_ms = 5.0;
-  const std::string text = fmt::format("all simple features of a view at most {} ms", kLimit_ms);
+  const std::string text =
+      fmt::format("all simple features of a view, the dissertation's, at most {} ms", kLimit_ms);
   return held("goal", text, [&]() -> Measured {
     double sum_ms = 0.0;
     for (const char* feature : {"colour_ms", "bbox_ms", "sift_ms", "vfh_ms"}) {
       sum_ms += figure(figures, "features", feature);
     }
-    return {fmt::format("{:.1f} ms", sum_ms), sum_ms <= kLimit_ms};
+    const double ours_ms = figure(figures, "features", "soft_colour_ms") +
+                           figure(figures, "features", "standing_box_ms");
+    return {
+        fmt::format("{:.1f} ms; with `soft_colour` and `standing_box`, which are ours, {:.1f} ms",
+                    sum_ms, sum_ms + ours_ms),
+        sum_ms <= kLimit_ms};
+  });
+}
+
+Finding faster_than_exact(const Figures& figures) {
+  return held("goal", "decision: `exact_over_sweep` at least 50", [&]() -> Measured {
+    const double ratio = figure(figures, "decision", "exact_over_sweep");
+    const double castray = figure(figures, "decision", "castray_over_sweep");
+    return {fmt::format("{:.4g}", ratio), ratio >= 50.0,
+            fmt::format("the exact evaluator is fast itself: an integer walk on both cores, {:.1f} "
+                        "times faster than castRay",
+                        quotient(castray, ratio))};
   });
 }
 
@@ -92,17 +109,18 @@ Finding decision_time(const Figures& figures) {
   return held("Chapter 3", "a decision takes about 30 s; under 10 s is \"a future goal\" (2014 PC)",
               [&]() -> Measured {
                 const double sweep_ms = figure(figures, "decision", "sweep_ms");
-                return {fmt::format("{:.0f} ms for the gains of the same 30 views", sweep_ms),
-                        sweep_ms < 1e4};
+                const double whole_ms = figure(figures, "planning_tabletop", "decision_ms");
+                return {
+                    fmt::format("{:.0f} ms for the gains of the same 30 views; a whole decision "
+                                "of `tour` {:.0f} ms",
+                                sweep_ms, whole_ms),
+                    whole_ms < 1e4};
               });
 }
 
 }  // namespace
 
 std::vector<Finding> speed_findings(const Figures& figures) {
-  constexpr const char* kExact =
-      "the exact evaluator is fast itself: an integer walk on both cores, `castray_over_sweep / "
-      "exact_over_sweep` times faster than castRay";
   constexpr const char* kOffice = "timed on the first map with 30 views";
   constexpr const char* kPlanning =
       "a sweep a view: an office has up to twice the views that a greedy choice looks at";
@@ -117,7 +135,7 @@ std::vector<Finding> speed_findings(const Figures& figures) {
       "time: no one part could go, see the shares in docs/python/environment.md";
   return {decision_time(figures),
           at_most(figures, "decision", "sweep_ms", 40.0),
-          at_least(figures, "decision", "exact_over_sweep", 50.0, kExact),
+          faster_than_exact(figures),
           faster_than_castray(figures),
           at_least(figures, "decision", "spearman_min", 0.99),
           at_most(figures, "decision", "regret_max", 0.02),

@@ -117,7 +117,12 @@ std::vector<std::string> StudyTables::groups() const {
 std::string StudyTables::extent() const {
   const auto run =
       std::ranges::count_if(episodes_, [](const Episode& e) { return e.row != nullptr; });
-  return fmt::format("{} of {} episodes", run, episodes_.size());
+  const std::size_t states = place_of(results_.columns, "status");
+  const auto failed = std::ranges::count_if(episodes_, [&](const Episode& e) {
+    return e.row != nullptr && e.row->at(states) == "failed";
+  });
+  return fmt::format("{} of {} episodes{}", run, episodes_.size(),
+                     failed > 0 ? fmt::format(", {} failed", failed) : "");
 }
 
 StudyTables::Table StudyTables::scalar_table(const std::string& name) const {

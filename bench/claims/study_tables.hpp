@@ -89,7 +89,7 @@ class StudyTables {
   [[nodiscard]] std::vector<std::string> panels() const;
   [[nodiscard]] std::vector<std::string> levels() const { return layout_.levels(); }
   [[nodiscard]] const std::string& reference() const { return study_.report.reference; }
-  /// "120 of 320 episodes"
+  /// "120 of 320 episodes, 2 failed"
   [[nodiscard]] std::string extent() const;
   /// Whether there is any value.
   [[nodiscard]] bool has(const std::string& table) const;

@@ -59,7 +59,8 @@ Finding fastest_by_information(const StudyTables& study) {
               const double random = area(scene, "random");
               return area(scene, "probabilistic") < simple && simple < random;
             }),
-            "one `a` fits one clutter: where there is less, its chain discounts far too much; the "
+            "one `a` fits one clutter: with few objects its chain discounts far too much; with 15 "
+            "and 25 it predicts better than `simple`, and what it chooses is no better for it; the "
             "one-step oracle has " +
                 by_scene(to_simple("oracle")) + " of `simple`'s area"};
       });
@@ -74,10 +75,13 @@ Finding near_simple(const StudyTables& study) {
         const auto area = [&](const char* level) { return study.mean("area", kAllPanels, level); };
         const double random = area("random");
         const bool above = study.difference("area", kAllPanels, "adaptive").interval.low > 0.0;
+        const double simple = quotient(area("simple"), random);
+        const double adaptive = quotient(area("adaptive"), random);
         return {
-            fmt::format("random {:.2f}, simple {:.2f}, adaptive {:.2f}, oracle {:.2f}", random,
-                        area("simple"), area("adaptive"), area("oracle")),
-            !above && area("adaptive") < 0.8 * random && area("simple") < 0.8 * random,
+            fmt::format("random {:.2f}, simple {:.2f}, adaptive {:.2f}, oracle {:.2f}; in terms of "
+                        "`random`'s `simple` {:.3f}, `adaptive` {:.3f}",
+                        random, area("simple"), area("adaptive"), area("oracle"), simple, adaptive),
+            !above && adaptive < 0.8 && simple < 0.8,
             fmt::format("the first scan is the same for all, and in the densest clutter any view "
                         "shows something; from the second scan on "
                         "`adaptive` has {:.2f} of `random`'s, `simple` {:.2f}",
@@ -142,12 +146,11 @@ Finding near_best_fixed(const StudyTables& study) {
           return quotient(study.mean("predictors", scene, "adaptive"),
                           best_fixed_error(study, scene));
         };
-        return {
-            by_scene(to_best),
-            in_every_scene([&](const auto& scene) { return to_best(scene) <= 1.1; }),
-            "the best is picked among those of the study once its errors are known; where there "
-            "is next to no clutter a transmission near 1 is ahead of one that is learnt on the "
-            "run"};
+        return {by_scene(to_best),
+                in_every_scene([&](const auto& scene) { return to_best(scene) <= 1.1; }),
+                "the best of eight is picked once all errors are known, anew for each level of "
+                "clutter; "
+                "`adaptive` has one rule for all, and learns from what it has seen so far"};
       });
 }
 

@@ -29,10 +29,12 @@ constexpr std::string_view kIntroduction =
 Written by `bench/run all` and `bench/studies`; not edited by hand. First what is claimed, and whether
 it holds; behind the links are the tables. Ratios of times are of one run on one machine. A goal that
 names a time, or a multiple of real time, is about the machine named on the page of tables alone: its
-times are medians, of `episode` of one run. Means carry 95 % bootstrap intervals over whole scenes,
-objects, starts or draws, as what is of one is alike; of two scenes it is the range of the two.
-Differences are paired over the same scene and start, `p` is that of a sign-flip test, `x` the ratio of
-the means to the reference method. `scans_to_N` of an episode that never gets there is all of its plan.
+times are medians, of `episode` of one run. Ratios and differences carry 95 % bootstrap intervals over
+whole scenes, objects, starts or draws, as what is of one is alike; of two scenes it is the range of the
+two. Means have theirs in the tables. Differences are paired over the same scene and start, `p` is that
+of a sign-flip test, `x` the ratio of the means to the reference method. `scans_to_N` of an episode that
+never gets there is all of its plan. Options were chosen on the development split, and on what a study
+names; numbers are of the report split.
 The dissertation is C. Potthast, *Information Theoretical Action Selection*, USC 2016.
 
 `\*`: the code that it depends on has changed since the commit that it is of. `?`: whether it has is
@@ -93,7 +95,7 @@ std::vector<StudyResult> read_studies(const fs::path& directory) {
 /// What options were chosen on, what is reported, and of what code and machine that is.
 std::string splits_table(const fs::path& directory, const std::vector<StudyResult>& studies) {
   std::string text =
-      "| study | options were chosen on | reported is | episodes | commit | run again | threads, "
+      "| study | development split | report split | episodes | commit | run again | threads, "
       "CPU "
       "|\n|---|---|---|---|---|---|---|\n";
   for (const auto& [part, study] : studies) {

@@ -48,6 +48,7 @@ CsvTable invented_results(const fs::path& study) {
 bool is_asked_for(const std::string& column) {
   constexpr std::array kTables{"area",
                                "area_from_scan_2",
+                               "area_over_time",
                                "prediction_error_cells",
                                "scans",
                                "scans_to_95",

@@ -41,7 +41,7 @@ Finding covered(const char* share_of_tour) {
 
 TEST(IntervalsCover, ByDecisionAndNotByEpisode) {
   const Finding right = covered("0.8");  // 16 of 110 decisions, 176 of 10
-  EXPECT_EQ(right.measured, "90.0 % of 3520");
+  EXPECT_EQ(right.measured, "`adaptive` 90.0 % of 1760, `simple` 90.0 % of 1760");
   EXPECT_EQ(right.verdict, Verdict::yes);
   EXPECT_EQ(covered("0.7").verdict, Verdict::no) << "too few";
   EXPECT_EQ(covered("0.9").verdict, Verdict::no) << "too many";
@@ -54,7 +54,8 @@ TEST(IntervalsCover, SaysNothingOfFewDecisions) {
                                       return std::vector<std::string>{"0.9", scans};
                                     }));
   };
-  EXPECT_EQ(all_of("3").measured, "90.0 % of 384");
+  EXPECT_EQ(all_of("3").measured, "`adaptive` 90.0 % of 192, `simple` 90.0 % of 192");
+  EXPECT_EQ(all_of("7").verdict, Verdict::yes) << "576 by each gain";
   EXPECT_EQ(all_of("3").verdict, Verdict::no);
   EXPECT_EQ(all_of("1").verdict, Verdict::not_run) << "no decision was taken";
 }
@@ -116,8 +117,8 @@ TEST(BoundClaims, TellHowFarAboveItRunsAreThatGetThere) {
   const Finding finding = bounded("1.125");
   EXPECT_EQ(finding.verdict, Verdict::yes);
   EXPECT_EQ(finding.measured,
-            "`greedy` 1.25 x the scans, 2.25 x the way, 3.25 x the time; `tour` 1.50 x the scans, "
-            "2.00 x the way, 2.50 x the time; 1.000 of all at least");
+            "`greedy` 1.25 x the scans, 2.25 x the way, 3.25 x the time, 8 runs; `tour` 1.50 x the "
+            "scans, 2.00 x the way, 2.50 x the time, 7 runs; the least ratio of all is 1.000");
 }
 
 TEST(BoundClaims, DoNotHoldOfARunBelowIt) {

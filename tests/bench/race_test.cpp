@@ -84,11 +84,15 @@ TEST(Race, IsAheadBeyondTheInterval) {
       return is_by(name, "tour") ? std::to_string(time(name)) : "100";
     }));
   };
-  EXPECT_TRUE(tour_takes([](const auto&) { return 90.0; }).is_ahead());
+  const Race ahead = tour_takes([](const auto&) { return 90.0; });
+  EXPECT_TRUE(ahead.is_ahead());
+  EXPECT_EQ(ahead.why_not_ahead(), "");
+  EXPECT_EQ(ahead.why_lost(0.9), "");
   const Race level = tour_takes(
       [](const std::string& name) { return name.starts_with("report_4/") ? 50.0 : 100.0; });
   EXPECT_TRUE(level.is_won_by(1.0));
   EXPECT_FALSE(level.is_ahead());
+  EXPECT_EQ(level.why_not_ahead(), "the interval holds 1");
 }
 
 /// The other gets to an end at two of ten tables, twice as slowly.
@@ -106,6 +110,7 @@ TEST(Race, IsNotAheadByTwoPairsButByArrivingFarMoreOften) {
   EXPECT_TRUE(three.is_won_by(0.5));
   EXPECT_DOUBLE_EQ(three.arrival_p, 1.0) << "one table of ten, either way";
   EXPECT_FALSE(three.is_ahead()) << "two pairs are no lead";
+  EXPECT_EQ(three.why_not_ahead(), "p 0.5: of 2 pairs it cannot be below 0.5");
   const Race all = arrives_at({"report_"});
   EXPECT_DOUBLE_EQ(all.arrival_p, 2.0 / 256.0) << "of eight tables that differ";
   EXPECT_TRUE(all.is_ahead());
@@ -118,9 +123,12 @@ TEST(Race, SaysWhatStandsAgainstIt) {
     if (is_by(name, "tour")) return first ? "50" : "";
     return "100";
   }));
-  EXPECT_EQ(fewer.why_lost(0.6),
-            "it gets there in 2 episodes, the other in 10; 2 pairs can have no p below 0.5");
-  EXPECT_EQ(fewer.why_lost(0.4), "it gets there in 2 episodes, the other in 10");
+  EXPECT_EQ(
+      fewer.why_lost(0.6),
+      "it gets there in 2 episodes, the other in 10; p 0.5: of 2 pairs it cannot be below 0.5");
+  EXPECT_EQ(fewer.why_lost(0.4),
+            "it gets there in 2 episodes, the other in 10; 0.500 is above 0.4");
+  EXPECT_EQ(fewer.why_not_ahead(), "gets there in 2 episodes, the other in 10");
 }
 
 TEST(StudyTables, MayBeComparedByAnotherFactor) {

@@ -60,6 +60,12 @@ TEST_F(Tables, AMissingEpisodeTakesWhatItIsPartOf) {
   EXPECT_EQ(study.extent(), "7 of 8 episodes");
 }
 
+TEST_F(Tables, WhatFailedCountsAndIsTold) {
+  results_.rows[0][1] = "failed";
+  EXPECT_EQ(tables().extent(), "8 of 8 episodes, 1 failed");
+  EXPECT_DOUBLE_EQ(tables().mean("area", "a", "old"), 5.0);
+}
+
 TEST_F(Tables, AnEpisodeWithoutAResultIsMissing) {
   results_.rows[0][1] = "interrupted";
   EXPECT_THROW((void)tables().mean("area", "a", "old"), NotRun);
