@@ -18,6 +18,7 @@ namespace {
 constexpr const char* kPanel = "adaptive";
 constexpr const char* kTour = "tour";
 constexpr const char* kPartialGreedy = "greedy_partial_scans";
+constexpr const char* kRate = "information_rate";
 
 bool is_compared(const StudyTables& study, const std::string& choice) {
   return std::ranges::count(study.levels(), choice) > 0;
@@ -107,7 +108,7 @@ Finding ahead_of_peers(const StudyTables& study, const std::string& table) {
 /// They take the way or the time into account too.
 Finding ahead_of_rates(const StudyTables& study, const std::string& table) {
   return ahead_of(study, table, "the other choices of ours that pay for way or time",
-                  {"gain_over_distance", "information_rate", "rollout"});
+                  {"gain_over_distance", kRate, "rollout"});
 }
 
 /// What the planners plan for, over all of a run, whether it gets to any share or not.
@@ -117,9 +118,12 @@ Finding less_area(const StudyTables& study) {
                           "that of `{}`, beyond the interval, p < {}",
                           study.reference(), kSignificant),
               [&]() -> Measured {
-                const Difference paired = study.difference("area_over_time", kPanel, kTour);
-                return {ratio_text(paired), is_below(paired),
-                        "what it saves at the end it has spent before"};
+                constexpr const char* kTable = "area_over_time";
+                const Difference paired = study.difference(kTable, kPanel, kTour);
+                const Difference rate = study.difference(kTable, kPanel, kTour, kRate);
+                return {fmt::format("{}; in terms of `{}`'s {}", ratio_text(paired), kRate,
+                                    ratio_text(rate)),
+                        is_below(paired), "what it saves at the end it has spent before"};
               });
 }
 
