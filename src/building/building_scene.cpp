@@ -109,9 +109,10 @@ void add_cell_boxes(const FittedGrid& grid, const std::vector<std::uint8_t>& sol
   }
 }
 
-void check_geoms(const BuildingScene& scene, const BuildingOptions& options,
+/// @param top_m of all there is: of a solid block its roof is the floor, and nothing is above
+void check_geoms(const BuildingScene& scene, const BuildingOptions& options, double top_m,
                  const std::string& name) {
-  if (scene.geoms() == (scene.laid_floor ? 1U : 0U)) {
+  if (scene.geoms() == (scene.laid_floor ? 1U : 0U) || top_m < options.cell_m) {
     throw InputError(fmt::format(
         "{}: nothing stands on the floor at {:.3g} m (--floor), below {:g} m (--height)", name,
         -scene.T_scene_mesh.translation().z(), options.height_m));
@@ -178,7 +179,7 @@ BuildingScene make_building_scene(BuildingMesh mesh, const BuildingOptions& opti
     if (rest.size() != mesh.triangles.size()) solid = solid_cells(mesh, rest, grid);
     add_cell_boxes(grid, solid, scene);
   }
-  check_geoms(scene, options, name);
+  check_geoms(scene, options, extent_m.max().z(), name);
   return scene;
 }
 

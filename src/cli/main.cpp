@@ -31,6 +31,12 @@ int printed(int code) {
   return code;
 }
 
+/// "vantage sweep run": what was asked for, as far as it was understood.
+std::string command_of(const CLI::App& app) {
+  const auto subs = app.get_subcommands();
+  return subs.empty() ? app.get_name() : app.get_name() + " " + command_of(*subs.front());
+}
+
 int run_command_line(int argc, char** argv) {
   CLI::App app{"Vantage: robots that choose their next action by how much they will learn from it"};
   app.name("vantage");
@@ -49,8 +55,8 @@ int run_command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return printed(app.exit(error));
     const auto unknown = vantage::unknown_command(app, words);
-    std::fprintf(stderr, "error: %s\nvantage --help shows how it is used\n",
-                 unknown ? unknown->c_str() : error.what());
+    std::fprintf(stderr, "error: %s\n%s --help shows how it is used\n",
+                 unknown ? unknown->c_str() : error.what(), command_of(app).c_str());
     return exit_code(vantage::ExitCode::usage);
   }
   if (!chosen) {

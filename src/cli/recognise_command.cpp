@@ -100,12 +100,21 @@ void check(const RecogniseArguments& arguments) {
   }
 }
 
-/// The views, cut as the model's were.
-std::vector<ObjectView> read_views(const RecogniseArguments& arguments, ObjectCut cut) {
+/// That of rendered objects is not in their model: along their outline, or by depth.
+void warn_of_cut(const std::string& file, ObjectCut by, const std::optional<PictureNotes>& notes) {
+  log_warning(fmt::format("{}: cut by {}, {}: it will be wrong more often", file, to_string(by),
+                          notes ? "the model learnt from pictures cut by " + notes->cut
+                                : "the model does not tell how its own were; if by masks"));
+}
+
+/// The views, cut as the model's were, of a camera as the model's.
+std::vector<ObjectView> read_views(const RecogniseArguments& arguments, ObjectCut cut,
+                                   const std::optional<PictureNotes>& notes) {
   PairSetting setting;
   if (arguments.elevation_deg) setting.elevation_rad = *arguments.elevation_deg * kDegree_rad;
   setting.max_depth_m = arguments.max_depth_m;
   setting.focal_px = arguments.focal_px;
+  setting.usual = notes;
   setting.depth_unit_m = arguments.depth_unit_m;
   // Told how far the object reaches, all that is nearer is the object.
   const bool by_distance = arguments.max_depth_m > 0.0 && cut == ObjectCut::mask;
@@ -122,12 +131,7 @@ std::vector<ObjectView> read_views(const RecogniseArguments& arguments, ObjectCu
                                    file, pair.view.width_px, pair.view.height_px, kLeast_px,
                                    kLeast_px));
     }
-    if (pair.cut != cut && !by_distance) {
-      log_warning(
-          fmt::format("{}: cut by {}, the model learnt from pictures cut by {}: it will be "
-                      "wrong more often",
-                      file, to_string(pair.cut), to_string(cut)));
-    }
+    if (pair.cut != cut && !by_distance) warn_of_cut(file, pair.cut, notes);
     views.push_back(std::move(pair.view));
   }
   return views;
@@ -167,7 +171,7 @@ ExitCode recognise_command(const RecogniseArguments& arguments) {
   const RecogniseOptions options = options_of(arguments);
   const RecognitionModel model = read_recognition_model(arguments.model);
   const std::optional<PictureNotes> notes = notes_of(model);
-  const std::vector<ObjectView> views = read_views(arguments, cut_of(model));
+  const std::vector<ObjectView> views = read_views(arguments, cut_of(model), notes);
   const Recogniser recogniser = load_recogniser(arguments.model, options.recogniser, 1);
   Recognition known = begin_recognition(recogniser);
   Rng rng = Rng::stream(options.seed, "recognise");
@@ -206,8 +210,10 @@ std::function<ExitCode()> declare_recognise(CLI::App& app) {
                  "how far the camera looks down; default: from the files beside, else from the "
                  "table that the picture shows, else 45")
       ->check(CLI::Range(-90.0, 90.0));
-  app.add_option("--focal-px", arguments->focal_px,
-                 "focal length of the camera; default: of the dataset beside, else 570.3")
+  app.add_option(
+         "--focal-px", arguments->focal_px,
+         "focal length of the camera; default: of the dataset beside, else of the model's own "
+         "pictures, else 570.3")
       ->check(CLI::Range(10.0, 1e5));
   app.add_option("--depth-unit-m", arguments->depth_unit_m,
                  "what 1 in a depth file stands for; 0: integers are mm, floats by their size")

@@ -179,9 +179,9 @@ ImagePair load_image_pair(const fs::path& colour, const fs::path& depth,
   read_colour(colour, view);
   read_depth(depth, setting.depth_unit_m, view);
   const auto notes = notes_beside(colour);
-  if (notes) {
-    view.focal_px = notes->focal_px;
-    view.centre_px = {notes->centre_px[0], notes->centre_px[1]};
+  if (const auto& camera = notes ? notes : setting.usual) {
+    view.focal_px = camera->focal_px;
+    view.centre_px = {camera->centre_px[0], camera->centre_px[1]};
   }
   if (setting.focal_px) view.focal_px = *setting.focal_px;
   if (const auto place = file_beside(colour, "loc.txt")) {

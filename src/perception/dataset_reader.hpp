@@ -38,8 +38,9 @@ struct PairSetting {
   double max_depth_m = 0.0;  ///< what is beyond is not the object; 0: nothing is
   /// As the model's pictures were cut; nothing: by the mask beside, or not at all.
   std::optional<ObjectCut> cut = {};
-  std::optional<double> focal_px = {};  ///< nothing: of the notes beside, else ObjectView's
-  double depth_unit_m = 0.0;            ///< what 1 in the depth file stands for; 0: found out
+  std::optional<double> focal_px = {};     ///< nothing: of the notes beside, else of `usual`
+  std::optional<PictureNotes> usual = {};  ///< the model's camera; nothing: ObjectView's
+  double depth_unit_m = 0.0;               ///< what 1 in the depth file stands for; 0: found out
 };
 inline constexpr double kUsualElevation_rad = 0.785;
 

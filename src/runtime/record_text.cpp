@@ -72,7 +72,10 @@ RecordTexts run_records() {
       {"metrics.json", "real_time_factor", "simulated time over wall time"},
       {"metrics.json", "path_length_m", "way of the body, from the start"},
       {"metrics.json", "collisions", "contacts of the robot with something, counted as they begin"},
-      {"metrics.json", "state_hash", "of every state and command; the same for the same episode"},
+      {"metrics.json", "state_hash",
+       "of the robot's every state and command; the same for the same episode. What it saw and "
+       "decided "
+       "is not in it: vantage compare tells"},
       {"metrics.json", "faults",
        "of the faults that are on (faults), how often each has struck: frames dropped or frozen; "
        "readings spoilt; lines of a laser with a bias; increments out of scale; stretches of slip; "

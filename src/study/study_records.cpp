@@ -34,7 +34,7 @@ RecordTexts study_records() {
        "mean error of what that gain predicted, over the scans"},
       {"results.csv", "config_hash", "of the episode's configuration, but for threads"},
       {"results.csv", "commit", "version of vantage that ran the episode"},
-      {"results.csv", "state_hash", "of every state and command of the episode"},
+      {"results.csv", "state_hash", "of the robot's every state and command"},
       {"timings.csv", "wall_time_s", "of the episode"},
       {"timings.csv", "real_time_factor", "simulated time over wall time"},
       {"timings.csv", "plan_time_s", "of all decisions"},

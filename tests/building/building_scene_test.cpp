@@ -259,6 +259,14 @@ TEST(BuildingScene, WhatCannotBeASceneIsRefused) {
               HasSubstr("too many cells"));
 }
 
+/// A room that is drawn as one closed box with its normals outwards: all that can be stood on is
+/// its roof.
+TEST(BuildingScene, ASolidBlockIsRefused) {
+  test::DrawnBuilding block;
+  block.box({0, 0, 0}, {8, 6, 2.5});
+  EXPECT_THAT(refusal<InputError>(block), HasSubstr("nothing stands on the floor at 2.5 m"));
+}
+
 TEST(BuildingScene, MuJoCoReadsIt) {
   test::DrawnBuilding building = test::room_with_door(0.85);
   building.prism({{-2, -1}, {-1, -1}, {-1.5, 0}}, 0.0, 0.8);

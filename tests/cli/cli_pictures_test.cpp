@@ -258,6 +258,11 @@ TEST_F(Pictures, WithoutAMaskTheObjectIsCutOutAsTheModelExpects) {
                   of));
   EXPECT_THAT(errors(), Not(HasSubstr(warning)));
   EXPECT_THAT(errors(), HasSubstr("there is one view"));
+  const auto by_camera = [&](const char* camera) {
+    return parsed(fmt::format("recognise --model model {0} {1}_rgb.png {1}_depth.png", camera, of));
+  };
+  EXPECT_EQ(by_camera("")["objects"], by_camera("--focal-px 285")["objects"]) << "the model's own";
+  EXPECT_NE(by_camera("")["objects"], by_camera("--focal-px 570")["objects"]);
 }
 
 TEST_F(Pictures, RenderedOnesAreToldAndShown) {

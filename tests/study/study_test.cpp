@@ -360,6 +360,14 @@ TEST_F(StudyFile, AFolderOfAnotherStudyIsKeptUnlessItIsToBeOverwritten) {
   EXPECT_NO_THROW(prepare_study_folder(another, options));
 }
 
+TEST_F(StudyFile, AFolderOfARunIsNoneOfAStudy) {
+  const StudySweepOptions options{.directory = folder_ / "table", .overwrite = true};
+  std::filesystem::create_directory(options.directory);
+  write_file(options.directory / "config.yaml", "task: tabletop\n");
+  EXPECT_THROW(prepare_study_folder(read(kSmallStudy), options), ConfigError);
+  EXPECT_FALSE(std::filesystem::exists(options.directory / "study.yaml"));
+}
+
 /// The second start has no other level that is new.
 TEST_F(StudyFile, ValidationTriesEveryStartBesideOtherFactors) {
   std::ofstream(folder_ / "s.yaml")

@@ -143,6 +143,12 @@ std::string unseen_text(const RecognitionStudy& study) {
     (trial.object < 0 ? unseen : seen).insert(trial.name);
   }
   if (unseen.empty()) return {};
+  if (seen.empty()) {
+    return fmt::format(
+        "None of the {} objects is in the model, so that the accuracy is of none; of the category, "
+        "unknown is right where the model does not have it ({}).\n\n",
+        unseen.size(), fmt::join(unseen, ", "));
+  }
   return fmt::format(
       "{} of {} objects are not in the model: accuracy is that of the others, category that of all "
       "({}).\n\n",

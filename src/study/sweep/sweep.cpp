@@ -206,6 +206,10 @@ void prepare_study_folder(const Study& study, const StudySweepOptions& options) 
           "holds another study, or an older state of this one (results that still fit are kept)");
     }
   }
+  if (fs::exists(options.directory / "config.yaml", error)) {
+    throw ConfigError(fmt::format("--out {}: the folder of a run; a study needs one of its own",
+                                  options.directory.string()));
+  }
   make_writable_directory(options.directory);
   // Shards that begin together each write a file of their own.
   const Worker self = this_worker();

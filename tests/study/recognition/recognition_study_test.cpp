@@ -93,6 +93,8 @@ TEST(RecognitionStudy, ObjectsThatTheModelDoesNotKnowCountForTheirCategory) {
   EXPECT_NEAR(summary.accuracy_percent.mean, 200.0 / 3.0, 1e-9);
   EXPECT_DOUBLE_EQ(summary.category_percent, 75.0);
   EXPECT_THAT(recognition_tables(study), HasSubstr("1 of 4 objects are not in the model"));
+  for (Trial& trial : study.methods[0].trials) trial.object = -1;
+  EXPECT_THAT(recognition_tables(study), HasSubstr("so that the accuracy is of none"));
 }
 
 TEST(RecognitionStudy, ChangesCountWhatWasSeenAndWhatItWas) {
