@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "vantage/core/cancellation/stop_poll.hpp"
 #include "vantage/core/error.hpp"
@@ -14,18 +15,31 @@ namespace {
 /// A share of less than that of a block is none: the traces that interpolation leaves.
 constexpr float kLeastShare = 0.01F;
 
-std::vector<float> unobserved_of_blocks(const SweepTables& tables, const CellBlocks& blocks) {
-  const CellRegion& region = tables.region;
+/// Adds the utility of the cells of a row along x, one after the other, to that of their blocks.
+void add_row(const float* utility, int begin, int end, int edge, float* block) {
+  for (int x = begin; x < end;) {
+    const int next = std::min((x / edge + 1) * edge, end);
+    float& sum = block[x / edge];
+    sum = std::accumulate(utility + x, utility + next, sum,
+                          [](float so_far, float cell) { return so_far + std::max(cell, 0.0F); });
+    x = next;
+  }
+}
+
+std::vector<float> unobserved_of_blocks(const SweepTables& tables, const CellBlocks& blocks,
+                                        int threads) {
+  const auto& [begin, end] = tables.region;
   std::vector<float> cells(blocks.size(), 0.0F);
   const float* utility = tables.layers[2].get();  // in the order of the grid's index
-  for (int z = region.begin.z(); z < region.end.z(); ++z) {
-    for (int y = region.begin.y(); y < region.end.y(); ++y) {
-      std::size_t i = tables.frame.index({region.begin.x(), y, z});
-      for (int x = region.begin.x(); x < region.end.x(); ++x, ++i) {
-        if (utility[i] > 0.0F) cells[blocks.index_of_cell({x, y, z})] += utility[i];
+  parallel_for(static_cast<std::size_t>(blocks.blocks().z()), threads, [&](std::size_t slab) {
+    const int low = static_cast<int>(slab) * blocks.edge.z();
+    for (int z = std::max(low, begin.z()); z < std::min(low + blocks.edge.z(), end.z()); ++z) {
+      for (int y = begin.y(); y < end.y(); ++y) {
+        add_row(utility + tables.frame.index({0, y, z}), begin.x(), end.x(), blocks.edge.x(),
+                &cells[blocks.index_of_cell({0, y, z})]);
       }
     }
-  }
+  });
   return cells;
 }
 
@@ -55,7 +69,7 @@ ShownBlocks swept_blocks(const Attenuation& attenuation, const OccupancyGrid& gr
                          std::span<const Candidate> candidates, const FieldOfView& field_of_view,
                          const CellBlocks& blocks, int threads) {
   const SweepTables tables(grid, attenuation, threads);
-  ShownBlocks result{unobserved_of_blocks(tables, blocks), {}};
+  ShownBlocks result{unobserved_of_blocks(tables, blocks, threads), {}};
   result.shows.resize(candidates.size());
   parallel_for(candidates.size(), threads, [&](std::size_t i) {
     result.shows[i] = shown_by_view(tables, candidates[i], field_of_view, blocks, result.cells);
@@ -70,7 +84,7 @@ ShownBlocks swept_blocks_of_view(const Attenuation& attenuation, const Occupancy
   const SweepTables tables(grid, attenuation, 1,
                            region_of_sweeps(grid.frame, candidate.T_world_sensor.translation(),
                                             field_of_view.range_max_m, blocks.edge));
-  ShownBlocks result{unobserved_of_blocks(tables, blocks), {}};
+  ShownBlocks result{unobserved_of_blocks(tables, blocks, 1), {}};
   result.shows.push_back(shown_by_view(tables, candidate, field_of_view, blocks, result.cells));
   return result;
 }

@@ -5,8 +5,6 @@
 
 #include <vector>
 
-#include "vantage/geometry/view_cone.hpp"
-
 namespace vantage {
 
 /// A grid's cells in blocks of `edge` cells along each axis, the last ones smaller.
@@ -33,9 +31,8 @@ class BlockSums {
   explicit BlockSums(const CellBlocks& blocks);
 
   /// Adds utility[i] of the cells in a row along `axis`, from `first` (i = first[axis]) to
-  /// first[axis] = end, that `view` holds; null: of all.
-  void add(const float* utility, int axis, const Eigen::Array3i& first, int end,
-           const ConeRow* view);
+  /// first[axis] = end.
+  void add(const float* utility, int axis, const Eigen::Array3i& first, int end);
   [[nodiscard]] const std::vector<float>& sums() const { return sums_; }
 
  private:

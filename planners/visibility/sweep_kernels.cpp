@@ -61,15 +61,13 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* __re
   }
 }
 
-namespace {
-
-template <class Counts>
-double sum_where(const float* utility, int begin, int end, const Counts& counts) {
+VANTAGE_SIMD_CLONES
+double sum_run(const float* utility, int begin, int end) {
   std::array<float, kLanes> lanes{};
   for (int i = begin; i < end; i += kLanes) {
     for (int lane = 0; lane < kLanes; ++lane) {
       const float cell = utility[i + lane];
-      lanes[static_cast<std::size_t>(lane)] += (counts(i + lane) & (i + lane < end)) ? cell : 0.0F;
+      lanes[static_cast<std::size_t>(lane)] += i + lane < end ? cell : 0.0F;
     }
   }
   double sum = 0.0;
@@ -77,17 +75,14 @@ double sum_where(const float* utility, int begin, int end, const Counts& counts)
   return sum;
 }
 
-}  // namespace
-
 VANTAGE_SIMD_CLONES
-double sum_run(const float* utility, int begin, int end) {
-  return sum_where(utility, begin, end, [](int) { return true; });
-}
-
-VANTAGE_SIMD_CLONES
-double sum_in_view(const ConeRow& view, const float* utility, int begin, int end) {
-  return sum_where(utility, begin, end,
-                   [&](int i) { return view.contains(static_cast<float>(i)); });
+void keep_in_view(const ConeRow& view, const float* __restrict utility, int begin, int end,
+                  float* __restrict kept) {
+  const ConeRow row = view;  // no write changes it
+  for (int i = begin; i < end; ++i) {
+    const float cell = utility[i];
+    kept[i] = row.contains(static_cast<float>(i)) ? cell : 0.0F;
+  }
 }
 
 }  // namespace vantage

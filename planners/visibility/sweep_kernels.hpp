@@ -36,7 +36,7 @@ void advance_row(const SweepRow& row, int shift, int begin, int end, float* visi
 /// Sum of utility[i] over i in [begin, end); reads up to kLanes - 1 beyond.
 double sum_run(const float* utility, int begin, int end);
 
-/// Sum of utility[i] over the i in [begin, end) that the view holds; reads up to kLanes - 1 beyond.
-double sum_in_view(const ConeRow& view, const float* utility, int begin, int end);
+/// kept[i] = utility[i] for the i in [begin, end) that the view holds, 0 for the others.
+void keep_in_view(const ConeRow& view, const float* utility, int begin, int end, float* kept);
 
 }  // namespace vantage

@@ -39,6 +39,7 @@ class PyramidSweep {
         arriving_(static_cast<std::size_t>(nu_) + 2 * TransmittanceLayer::kPadding),
         slanted_(static_cast<std::size_t>(nu_) + 2 * TransmittanceLayer::kPadding, 0.0F),
         utility_(static_cast<std::size_t>(nu_) + kLanes),
+        kept_(utility_.size()),
         in_view_(views.size() * static_cast<std::size_t>(nv_)),
         sums_bits_(views.size(), 0.0) {
     for (const auto& [cone, options, blocks] : views) {
@@ -209,15 +210,16 @@ class PyramidSweep {
 
   void add_run(std::size_t i, int v, int begin, int end, bool all_inside) {
     ConeRow view;
-    if (all_inside) {
-      sums_bits_[i] += sum_run(utility_.data(), begin, end);
-    } else {
+    const float* seen = utility_.data();
+    if (!all_inside) {
       view = views_[i].cone.row(frame_.centre(cell(0, v)), step_u_);
-      sums_bits_[i] += sum_in_view(view, utility_.data(), begin, end);
+      keep_in_view(view, utility_.data(), begin, end, kept_.data());
+      seen = kept_.data();
     }
-    if (views_[i].blocks != nullptr) {
-      views_[i].blocks->add(utility_.data(), axes_.u, cell(begin, v), end,
-                            all_inside ? nullptr : &view);
+    const double seen_bits = sum_run(seen, begin, end);
+    sums_bits_[i] += seen_bits;
+    if (views_[i].blocks != nullptr && seen_bits > 0.0) {
+      views_[i].blocks->add(seen, axes_.u, cell(begin, v), end);
     }
     const float* cells = cells_ + row_start(v, layer_);
     partly_seen_[i].offer(end - begin, [&](int k) {
@@ -277,6 +279,7 @@ class PyramidSweep {
   std::vector<float> arriving_;
   std::vector<float> slanted_;
   std::vector<float> utility_;
+  std::vector<float> kept_;               ///< of it, what a view holds
   std::vector<RowBounds::Runs> in_view_;  ///< per view and row
   std::vector<double> sums_bits_;
   std::vector<PartlySeen> partly_seen_;  ///< per view

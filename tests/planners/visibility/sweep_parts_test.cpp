@@ -151,8 +151,9 @@ TEST(SumRuns, AddTheCellsOfTheRunThatTheViewHolds) {
   row.tan_tilt_max = 1.0F;
   row.range2_min_m2 = 25.0F;
   row.range2_max_m2 = 100.0F;
-  EXPECT_EQ(sum_in_view(row, utility.data(), 3, 14), 385.0 - 30.0);  // to 10, without those to 4
-  EXPECT_EQ(sum_in_view(row, utility.data(), 7, 9), 49.0 + 64.0);
+  Numbers kept(16, -1.0F);
+  keep_in_view(row, utility.data(), 3, 14, kept.data());
+  EXPECT_EQ(kept, (Numbers{-1, -1, -1, 0, 0, 25, 36, 49, 64, 81, 100, 0, 0, 0, -1, -1}));
 }
 
 bool is_span(const CellSpan& span, int begin, int end) {
@@ -221,9 +222,9 @@ TEST(BlockSums, AddARowToTheBlocksItRunsThrough) {
   Numbers utility;
   for (int i = 0; i < 16; ++i) utility.push_back(static_cast<float>(1 << i));
   BlockSums sums(blocks);
-  sums.add(utility.data(), 0, {1, 3, 1}, 7, nullptr);
-  sums.add(utility.data(), 1, {4, 0, 0}, 4, nullptr);
-  sums.add(utility.data(), 2, {0, 0, 0}, 2, nullptr);
+  sums.add(utility.data(), 0, {1, 3, 1}, 7);
+  sums.add(utility.data(), 1, {4, 0, 0}, 4);
+  sums.add(utility.data(), 2, {0, 0, 0}, 2);
   Numbers expected(12, 0.0F);
   expected[9] = 2.0F + 4.0F;
   expected[10] = 8.0F + 16.0F + 32.0F;
