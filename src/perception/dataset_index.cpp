@@ -103,9 +103,10 @@ class Indexer {
     if (error) reject(folder, error.message());
     for (const std::string& name : names) {
       if (!name.ends_with(kCrop)) continue;
-      const auto parsed =
-          parse_view_name(std::string_view(name).substr(0, name.size() - kCrop.size()));
+      auto parsed = parse_view_name(std::string_view(name).substr(0, name.size() - kCrop.size()));
       if (parsed) {
+        const std::string category = folder.parent_path().filename().string();
+        if (parsed->object.starts_with(category + "_")) parsed->category = category;
         add_view(folder, *parsed, names);
       } else {
         reject(folder / name, fmt::format("is not called <category>_<instance>_<video>_<frame>{}, "

@@ -66,7 +66,8 @@ struct DatasetIndex {
 /// Lists the views and reads their pose, `yaw` or `yaw elevation` in degrees; no image is opened. A
 /// view is bad if one of its files is missing, `..._crop.png` is no name as above, its pose is no
 /// such numbers, or its elevation is neither in its pose nor that of its video; in a dataset
-/// without notes also if its category has no other view. Files of other names are left alone.
+/// without notes also if its category has no other view. Files of other names are left alone. The
+/// category is the folder that the object is named after, so that it may have mug_red_1 and mug_2.
 /// @throws InputError naming the file of the first bad view (OnBadView::fail), or the root if it is
 /// no folder or holds no view.
 DatasetIndex index_dataset(const std::filesystem::path& root, OnBadView on_bad = OnBadView::fail);

@@ -99,7 +99,8 @@ TEST_F(Layout, ANumberBeforeTheViewIsTheInstanceAndOneBehindItTheFrame) {
 TEST_F(Layout, ViewsOfTheirOwnNamesAndAngles) {
   put("drill/view0_rgb.png", "drill/view0_depth.png");
   put("mug/45deg_rgb.png", "mug/45deg_depth.png");
-  EXPECT_THAT(found(), ElementsAre("|drill_1|view0", "|mug_1|@45"));
+  put("pan/30deg_far_shot_rgb.png", "pan/30deg_far_shot_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|view0", "|mug_1|@45", "|pan_1|@30"));
 }
 
 TEST_F(Layout, APatternDecides) {
@@ -231,6 +232,45 @@ TEST_F(Layout, AnAngleMayHaveItsMarkBeforeIt) {
   put("drill/Yaw45_rgb.png", "drill/Yaw45_depth.png");
   put("mug/rot270_rgb.png", "mug/rot270_depth.png");
   EXPECT_THAT(found(), ElementsAre("|can_1|@30", "|cup_1|@90", "|drill_1|@45", "|mug_1|@270"));
+}
+
+TEST_F(Layout, SaysWhatItTakesFoldersFor) {
+  const auto read = [&](const std::string& root, const std::vector<std::string>& folders) {
+    for (const std::string& folder : folders) {
+      const std::string stem = root + "/" + folder + "/front_";
+      put(stem + "rgb.png", stem + "depth.png");
+    }
+    const FoundPictures all = find_pictures(folder_.path() / root, "");
+    const FoundPicture& first = all.pictures.front();
+    return all.layout + " " + first.recording + "|" + first.category + "|" + first.object;
+  };
+  EXPECT_EQ(read("1", {"can/can_1", "mug/mug_1", "mug/mug_2"}),
+            "{category}/{object}/{view}_{kind} |can|can_1");
+  EXPECT_EQ(read("2", {"den/can/can_1", "den/mug/mug_1", "hall/mug/mug_1"}),
+            "{recording}/{category}/{object}/{view}_{kind} den|can|can_1");
+  EXPECT_EQ(read("3", {"can/den", "can/hall", "jug/den", "jug/hall", "mug/den"}),
+            "{object}/{recording}/{view}_{kind} den|can|can_1");
+  EXPECT_EQ(read("4", {"all/can", "all/mug"}), "{object}/{view}_{kind} |can|can_1")
+      << "one folder round all says nothing";
+}
+
+TEST_F(Layout, ObjectsAreNamedAfterTheirCategoryOnce) {
+  for (const char* object : {"mug/red", "mug/mug_blue", "mug/mug3", "mug/mugs", "can/can"}) {
+    put(std::string(object) + "/front_rgb.png", std::string(object) + "/front_depth.png");
+  }
+  std::vector<std::string> names;
+  for (const FoundPicture& p :
+       find_pictures(folder_.path(), "{category}/{object}/{view}_{kind}").pictures) {
+    names.push_back(p.category + " " + p.object);
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAre("mug mug_red_1", "mug mug_blue_1", "mug mug_3",
+                                                   "mug mug_mugs_1", "can can_1"));
+}
+
+TEST_F(Layout, WordsThatAllFilesHaveSayNothingButNumbersDo) {
+  put("drill/shot_1_wide_rgb.png", "drill/shot_1_wide_depth.png");
+  put("mug/shot_1_wide_rgb.png", "mug/shot_1_wide_depth.png");
+  EXPECT_THAT(found(), ElementsAre("|drill_1|1", "|mug_1|1"));
 }
 
 }  // namespace

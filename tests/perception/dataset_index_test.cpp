@@ -85,6 +85,20 @@ TEST_F(Index, IsSortedByNumberAndHasYaws) {
   EXPECT_EQ(index.views[3].file("loc.txt"), of_mug("mug_1_2_10_loc.txt"));
 }
 
+/// Of imported pictures: objects have words of their own, or one that begins like the category.
+TEST_F(Index, ACategoryIsTheFolderThatItsObjectsAreNamedAfter) {
+  support::put_view(root_.path(), "mug", "mug_red_1", 1, 1, "0");
+  support::put_view(root_.path(), "mug", "mugs_1", 1, 1, "0");
+  support::put_view(root_.path(), "mug", "mugs_1", 1, 2, "90");
+  std::vector<std::string> found;
+  for (const ViewEntry& view : index_dataset(root_.path()).views) {
+    found.push_back(view.name.category + " " + to_string(view.name));
+  }
+  EXPECT_THAT(found, testing::ElementsAre("food_can food_can_2_1_1", "food_can food_can_2_4_1",
+                                          "mug mug_1_2_9", "mug mug_1_2_10", "mug mug_red_1_1_1",
+                                          "mugs mugs_1_1_1", "mugs mugs_1_1_2"));
+}
+
 TEST_F(Index, NamesAMissingFile) {
   std::filesystem::remove(of_mug("mug_1_2_10_depthcrop.png"));
   support::put_view(root_.path(), "mug", "mug_1", 2, 11, "0");

@@ -253,10 +253,9 @@ void name_object(FoundPicture& picture) {
   const std::string stem = fmt::format("{}", fmt::join(words, "_"));
   if (picture.category.empty()) picture.category = stem;
   picture.category = fmt::format("{}", fmt::join(words_of(picture.category), "_"));
-  const bool within = stem.starts_with(picture.category);
-  picture.object = within && stem.size() == picture.category.size()
-                       ? picture.category + "_" + number
-                       : fmt::format("{}_{}_{}", picture.category, stem, number);
+  const bool named_after = (stem + "_").starts_with(picture.category + "_");
+  picture.object = named_after ? stem + "_" + number
+                               : fmt::format("{}_{}_{}", picture.category, stem, number);
 }
 
 /// @throws InputError naming pictures of two objects that would get one name.
