@@ -178,5 +178,47 @@ TEST(FreeFloor, AHallWithAGateIsIndoors) {
   }
 }
 
+/// A hall of 6 x 6 m without one of its walls, and behind the one across from that a room of
+/// 2 x 2 m.
+TEST(FreeFloor, AHallWithoutAWallIsOutdoorsWhicheverItIs) {
+  const std::vector<double> across_m{0.0, 0.5, 2.5, 4.5, 6.5, 7.0};
+  for (const bool along_y : {false, true}) {
+    for (const bool at_the_end : {false, true}) {
+      const std::vector<double> along_m = at_the_end ? std::vector<double>{0.0, 0.5, 2.5, 3.0, 9.0}
+                                                     : std::vector<double>{0.0, 6.0, 6.5, 8.5, 9.0};
+      WalledRoom hall(along_y ? across_m : along_m, along_y ? along_m : across_m);
+      for (int b = 0; b < 5; ++b) {
+        for (int a = 0; a < 4; ++a) {
+          const int from_room = at_the_end ? a : 3 - a;  // its wall, itself, a wall, the hall
+          const bool wall = b == 0 || b == 4 || from_room == 0 || from_room == 2;
+          hall.fill(along_y ? b : a, along_y ? a : b, 1, wall || (from_room == 1 && b != 2));
+        }
+      }
+      FreeFloorOptions options = kNarrow;
+      options.standing_m = {Eigen::Vector2d(0.0, 0.0),
+                            along_y ? Eigen::Vector2d(7.0, 9.0) : Eigen::Vector2d(9.0, 7.0)};
+      const auto floor = find_free_floor(hall.grid, hall.solid, options);
+      ASSERT_TRUE(floor);
+      EXPECT_NEAR(along_y ? floor->start.y_m : floor->start.x_m, at_the_end ? 1.5 : 7.5, 0.5)
+          << along_y;
+    }
+  }
+}
+
+TEST(FreeFloor, OfTwoAreasAlikeIsTheFirst) {
+  WalledRoom room({0.0, 0.5, 2.5, 3.0, 5.0, 5.5}, {0.0, 0.5, 2.5, 3.0});
+  room.fill(2, 1, 1);
+  const auto floor = find_free_floor(room.grid, room.solid, kNarrow);
+  ASSERT_TRUE(floor);
+  EXPECT_NEAR(floor->start.x_m, 1.5, 0.05);
+}
+
+TEST(FreeFloor, IsNoneWhereTheGridEndsAtIt) {
+  FittedGrid grid;
+  grid.lines_m = {std::vector<double>{0.0, 5.0}, {0.0, 5.0}, {0.0, 1.0, 1.7, 2.5}};
+  const std::vector<std::uint8_t> air(grid.size(), 0);
+  EXPECT_FALSE(find_free_floor(grid, air, kNarrow));
+}
+
 }  // namespace
 }  // namespace vantage

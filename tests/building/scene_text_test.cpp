@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <mujoco/mujoco.h>
 
+#include <fstream>
+#include <regex>
+
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/sim/world/scene.hpp"
@@ -123,6 +126,33 @@ TEST(SceneText, AFloorThatIsLaidReachesBeyondTheBuilding) {
               HasSubstr("<geom type=\"plane\" size=\"10 8 0.1\""));
   EXPECT_THAT(to_mjcf(empty_hall(), "hall", "by hand"), testing::Not(HasSubstr("<asset>")));
   EXPECT_EQ(empty_hall().geoms(), 1U);
+}
+
+TEST(BuildingMap, HasAMarginOfAQuarterOfAMetre) {
+  const BuildingMap map = map_of(hall_of(7.8, 5.7));
+  EXPECT_NEAR(map.size_m.x(), 8.5, 1e-9) << "8.05 m";
+  EXPECT_NEAR(map.size_m.y(), 6.0, 1e-9) << "5.95 m";
+}
+
+TEST(BuildingMap, HasHalfTheLayersAboveTwoHundredAndFiftySquareMetres) {
+  const BuildingMap least = map_of(hall_of(19.75, 12.25));
+  EXPECT_TRUE((least.cells == Eigen::Array3i(335, 210, 65)).all()) << "70000 columns of 250 m^2";
+  EXPECT_EQ(map_of(hall_of(20.0, 12.25)).cells.z(), 33) << "256.25 m^2";
+}
+
+/// But that their lights have names.
+TEST(SceneText, ScenesAreLitAndDrawnAsTheOfficesAre) {
+  const std::string mjcf = to_mjcf(hall_of(8.0, 6.0), "hall", "by hand");
+  const std::regex drawn("^ *<(statistic|map|global|quality|headlight|light|geom conaffinity)\\b");
+  std::ifstream office(VANTAGE_SOURCE_DIR "/models/scenes/office_small_1/scene.xml");
+  int lines = 0;
+  for (std::string line; std::getline(office, line);) {
+    if (!std::regex_search(line, drawn, std::regex_constants::match_continuous)) continue;
+    EXPECT_THAT(mjcf,
+                HasSubstr(std::regex_replace(line, std::regex(" name=\"[a-z]+\""), "") + "\n"));
+    ++lines;
+  }
+  EXPECT_EQ(lines, 8) << "two of them lights";
 }
 
 }  // namespace

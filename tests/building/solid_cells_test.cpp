@@ -137,6 +137,7 @@ TEST(SolidCells, OfARoughFloorAreThoseBelowIt) {
 
 TEST(FittedGrid, CountsItsCells) {
   FittedGrid grid;
+  EXPECT_EQ(grid.cell_m, 0.0);
   grid.lines_m = {std::vector<double>{0.0, 1.0, 2.0}, {0.0, 0.5, 1.5, 2.0}, {0, 1, 2, 3, 4}};
   EXPECT_EQ(grid.cells(0), 2);
   EXPECT_EQ(grid.cells(1), 3);

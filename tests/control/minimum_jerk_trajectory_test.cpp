@@ -214,5 +214,23 @@ TEST(MinimumJerkTrajectory, HasItsJerkUpToBothEndsAndNoneAfterThem) {
   EXPECT_TRUE(path.at(T + 1e-3).j_world_m_s3.isZero(0.0));
 }
 
+/// It cruises after 0.357 m.
+TEST(MinimumJerkTrajectory, TimesTheFirstMetreOfItsCruise) {
+  const double a = 1.4;
+  const double up_m = 0.5 / a;
+  const auto shares = shares_of(MinimumJerkTrajectory({}, along_x({1.0, 4.0})));
+  EXPECT_NEAR(shares[1], (1.0 / a + 1.0 - up_m) / (2.0 / a + 4.0 - 2.0 * up_m), 1e-9);
+}
+
+/// From 1 m/s it takes 0.357 m to come to rest.
+TEST(MinimumJerkTrajectory, TimesAStartTooFastForItsPathAsIfItBrakedAllTheWay) {
+  const FlightReference start{.v_world_m_s = {1.0, 0.0, 0.0}};
+  const auto shares = shares_of(MinimumJerkTrajectory(start, along_x({0.2, 0.35})));
+  const double a = 1.4;
+  EXPECT_NEAR(shares[1],
+              (1.0 - std::sqrt(1.0 - 2.0 * a * 0.2)) / (1.0 - std::sqrt(1.0 - 2.0 * a * 0.35)),
+              1e-9);
+}
+
 }  // namespace
 }  // namespace vantage

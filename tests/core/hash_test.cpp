@@ -48,5 +48,10 @@ TEST(Hash, TextHasSixteenDigits) {
   EXPECT_EQ(hash_text(0xcbf29ce484222325ULL), "cbf29ce484222325");
 }
 
+TEST(Hash, OfDoublesContinuesFromASeed) {
+  EXPECT_EQ(hash_doubles(std::array{2.0}, hash_doubles(std::array{1.0})),
+            hash_doubles(std::array{1.0, 2.0}));
+}
+
 }  // namespace
 }  // namespace vantage

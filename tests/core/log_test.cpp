@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <string>
 
 #include "tests/support/temporary_directory.hpp"
@@ -138,6 +139,19 @@ TEST_F(Log, TheFileHoldsNothingOfAnEarlierRun) {
   log_to_file({});
   EXPECT_EQ(read_file(path).find("cut short"), std::string::npos);
   EXPECT_NE(read_file(path).find("begun anew"), std::string::npos);
+}
+
+/// In colour or not.
+TEST_F(Log, ALineOfTheConsoleIsItsLevelAndItsMessage) {
+  set_verbosity(Verbosity::verbose);
+  testing::internal::CaptureStderr();
+  log_debug("d {not a format}");
+  log_info("i");
+  log_warning("w");
+  log_error("e");
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::regex_replace(text, std::regex("\x1b\\[[0-9;]*m"), ""),
+            "debug: d {not a format}\ninfo: i\nwarning: w\nerror: e\n");
 }
 
 }  // namespace

@@ -110,5 +110,23 @@ TEST(Override, AValueFromAnotherFileKeepsItsPlaceThere) {
   EXPECT_EQ(value.find("d")->where(), "s.yaml:3: b.c.d");
 }
 
+TEST(Override, OfTwoValuesSaysWhereBothAreUnlessThatIsOnePlace) {
+  const auto refusal = [](std::vector<KeyValue> values) -> std::string {
+    ConfigNode root;
+    try {
+      set_values(root, std::move(values));
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(refusal({parse_override("a=1"), parse_override("a=2")}),
+            "--set: a: set twice, to different values");
+  const ConfigNode study = parse_yaml("x: 1\ny: 2\n", "s.yaml");
+  EXPECT_EQ(refusal({{"a", *study.find("x")}, {"a", *study.find("y")}}),
+            "s.yaml:2: y: set twice, to different values, also at s.yaml:1");
+  EXPECT_EQ(refusal({{"a", *study.find("x")}, {"a", *study.find("x")}}), "none");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -392,5 +392,19 @@ TEST(HindsightRecords, TellOfBoundsBeforeBranches) {
   EXPECT_EQ(records.back().file, "branches.json");
 }
 
+TEST(BranchedText, IsKeptBesideWhatTellsOfNoScan) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "branches.json",
+             R"({"decisions": [{"scan": 5}, {}, {"scan": -3}, {"scan": "two"}]})");
+  keep_branches(folder.path(), {two_branches()});
+  const auto kept = TextJson::parse(read_file(folder / "branches.json"))["decisions"];
+  ASSERT_EQ(kept.size(), 5U);
+  EXPECT_EQ(kept[0], TextJson::object());
+  EXPECT_EQ(kept[1]["scan"], -3);
+  EXPECT_EQ(kept[2]["scan"], "two");
+  EXPECT_EQ(kept[3]["scan"], 2);
+  EXPECT_EQ(kept[4]["scan"], 5);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -404,5 +404,28 @@ TEST(LoopClosing, AgreesWhereverItWentBetweenTheTwo) {
   EXPECT_NEAR(graph.T_world_bases().back().yaw_rad, there.yaw_rad, 2e-3);
 }
 
+/// Where it is now it saw two walls at first, 60 points of the 120. The world's axes are not its
+/// own.
+TEST(LoopClosing, IsOfThePlaceThatSawMostNotOfTheNearestOrTheLast) {
+  InARoom room(test_room::walls());
+  test_room::Room two_walls{{}, 2.4F};
+  add_front(two_walls);
+  room.go(two_walls.seen, 4.0, 2.4);
+  EXPECT_FALSE(room.go(test_room::walls(2.4F), 12.0));
+  EXPECT_TRUE(room.go(test_room::walls(2.4F), 1.0));
+  EXPECT_EQ(room.graph().loops(), 2U);
+  EXPECT_NEAR(room.moved_m(), 2.4, 1e-3);
+}
+
+/// The first place saw too little to be known again.
+TEST(LoopClosing, LooksAtPlacesTwoMetresApart) {
+  for (const float away_m : {1.98F, 2.01F}) {
+    InARoom room(test_room::front());
+    room.go(test_room::walls(away_m), 4.0, static_cast<double>(away_m));
+    EXPECT_FALSE(room.go(test_room::walls(away_m), 12.0));
+    EXPECT_EQ(room.go(test_room::walls(away_m), 1.0), away_m > 2.0F) << away_m;
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -323,18 +323,30 @@ TEST(Headroom, FloorBeyondTheGridIsBlockedButWhereTheRobotHasBeen) {
   EXPECT_EQ(std::ranges::count(detail.blocked, std::uint8_t{1}), 30 * 30 - 20 * 20);
 }
 
-TEST(Headroom, WhatBeginsJustAtTheLowerHeightCounts) {
+TEST(Headroom, WhatBeginsJustAtTheLowerOrTheUpperHeightCounts) {
   OccupancyGrid grid(make_grid_frame({0.0, 0.1, 1.0}, {2.0, 0.2, 2.0}, {10, 1, 8}));
   std::ranges::fill(grid.log_odds, kFree);
   set(grid, 2, 1, kOccupied);  // from 0.25 m on
   set(grid, 6, 1, 0.0F);
+  set(grid, 8, 6, kOccupied);  // from 1.5 m on
   HeadroomOptions options = kOptions;
   options.low_m = 0.25;
   options.seen_low_m = 0.25;
   options.max_unseen = 0.0;
   FloorMap floor = free_floor();
   block_columns(floor, grid, nowhere(floor), options);
-  EXPECT_EQ(row(floor), "....xx......xx......");
+  EXPECT_EQ(row(floor), "....xx......xx..xx..");
+}
+
+/// Of which all is occupied, from 2 m up or from 1 m below the floor down.
+TEST(Headroom, AGridAboveTheRobotOrBelowItBlocksNothing) {
+  for (const double middle_m : {-2.0, 3.0}) {
+    OccupancyGrid grid(make_grid_frame({0.0, 0.1, middle_m}, {2.0, 0.2, 2.0}, {10, 1, 10}));
+    std::ranges::fill(grid.log_odds, kOccupied);
+    FloorMap floor = free_floor();
+    block_columns(floor, grid, nowhere(floor), kOptions);
+    EXPECT_EQ(row(floor), "....................") << middle_m;
+  }
 }
 
 /// Faces of columns and of cells of the floor differ by rounding.

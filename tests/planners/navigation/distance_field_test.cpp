@@ -52,6 +52,7 @@ TEST(Clearances, CountUnknownSpaceAndTheOutsideAsObstacles) {
   const auto at = [&](int x, int y) { return clearance_m[map.index({x, y})]; };
   EXPECT_FLOAT_EQ(at(6, 4), 0.0F);
   EXPECT_FLOAT_EQ(at(5, 0), 0.0F);
+  EXPECT_FLOAT_EQ(at(0, 0), 1.0F);
   EXPECT_FLOAT_EQ(at(0, 2), 1.0F);
   EXPECT_FLOAT_EQ(at(2, 2), 3.0F);
   EXPECT_FLOAT_EQ(at(4, 2), std::sqrt(5.0F));

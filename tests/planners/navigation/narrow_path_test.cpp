@@ -273,6 +273,8 @@ TEST(CentredPath, KeepsEightCentimetresAtMost) {
         centred_between({wall(0.0, 0.0, 3.0, 0.5 - wall_m), wall(0.0, 0.5 + wall_m, 3.0, 1.0)},
                         {1.0, 0.46, 1.0}, {2.0, 0.46, 0.0});
     const auto& leg = path.legs.at(2).waypoints;
+    EXPECT_EQ(leg.front().x_m, 1.0);
+    EXPECT_EQ(leg.back().x_m, 2.0);
     EXPECT_EQ(leg.front().y_m, leg.back().y_m);
     EXPECT_EQ(leg.front().yaw_rad, 0.0) << "it turns before";
     return leg.back().y_m;

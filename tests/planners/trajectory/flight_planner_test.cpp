@@ -389,6 +389,15 @@ TEST_F(Planner, ClearanceIsToSurfacesAndToTheEndOfWhatWasLookedAt) {
   EXPECT_GT(clearance(2.3, 0.3), 1.0) << "until then";
 }
 
+TEST_F(Planner, ClearanceIsAlsoThatOfTheBeginning) {
+  objects_.clear();
+  FlightPlanner given = planner(GivenPath{});
+  propose(given);
+  const std::vector<FlightWaypoint> back{{.p_world_m = {2.0, 0.0, 1.8}, .yaw_rad = 0.0}};
+  const MinimumJerkTrajectory path({.p_world_m = {2.0, 2.3, 1.8}}, back);
+  EXPECT_NEAR(given.clearance_m(path, path.duration_s()), 2.5 - 2.3, 1e-6);
+}
+
 TEST_F(Planner, ClearanceIsAlsoThatOfTheEndBetweenTwoSamples) {
   objects_.clear();
   const std::vector<FlightWaypoint> aside{{.p_world_m = {2.0, 2.3, 1.8}, .yaw_rad = 0.0}};

@@ -1,5 +1,6 @@
 #include "vantage/planners/trajectory/optimisers/smoothness.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
@@ -63,6 +64,24 @@ TEST(Smoothness, NoiseHasTheCovarianceOfSmoothPaths) {
   EXPECT_LT((covariance - smoothness.covariance()).cwiseAbs().maxCoeff(), 0.03);
   EXPECT_NEAR(across, 0.0, 0.03);
   EXPECT_DOUBLE_EQ(smoothness.covariance().maxCoeff(), 1.0);
+}
+
+/// Each column from what was drawn for it and for those before it.
+TEST(Smoothness, NoiseIsDrawnIntoTheColumnsGivenAlone) {
+  const Smoothness smoothness(5);
+  const Eigen::Vector4d sigma(0.5, 0.4, 0.2, 0.1);
+  Eigen::Matrix4Xd wider = Eigen::Matrix4Xd::Constant(4, 7, 9.0);
+  Rng rng(2);
+  smoothness.draw(sigma, rng, wider.middleCols(1, 5));
+  Rng same(2);
+  Eigen::Matrix4Xd drawn(4, 5);
+  for (double& value : drawn.reshaped()) value = same.normal();
+  const Eigen::MatrixXd L = smoothness.covariance().llt().matrixL();
+  const Eigen::Matrix4Xd expected = sigma.asDiagonal() * drawn * L.transpose();
+  EXPECT_LT((wider.middleCols(1, 5) - expected).cwiseAbs().maxCoeff(), 1e-12);
+  for (const Eigen::Index beside : {0, 6}) {
+    EXPECT_EQ(wider.col(beside), Eigen::Vector4d::Constant(9.0)) << beside;
+  }
 }
 
 TEST(ControlCost, OfAStraightFlightOfConstantSpeedIsZero) {
