@@ -147,8 +147,10 @@ TEST_F(Reader, APairByItselfIsMaskedByDepthAndInTheMiddle) {
 }
 
 TEST_F(Reader, APoseBesideAPictureMustBeANumber) {
-  write_file(entry_.file("pose.txt"), "north\n");
-  EXPECT_THROW(yaw_beside(entry_.file("crop.png")), InputError);
+  for (const char* pose : {"north\n", "nan", "inf"}) {
+    write_file(entry_.file("pose.txt"), pose);
+    EXPECT_THROW(yaw_beside(entry_.file("crop.png")), InputError) << pose;
+  }
 }
 
 class PairBeside : public Reader {
@@ -168,6 +170,18 @@ TEST_F(PairBeside, NotesGiveTheIntrinsics) {
   const ViewEntry entry = index_dataset(root_.path()).views.front();
   EXPECT_EQ(load_view(entry).view.focal_px, 400.0);
   EXPECT_EQ(load_view(entry).view.centre_px, Eigen::Vector2d(310.0, 230.0));
+}
+
+TEST_F(PairBeside, WithoutNotesTheCameraIsTheUsualOne) {
+  PairSetting setting;
+  setting.usual.emplace();
+  setting.usual->focal_px = 500.0;
+  setting.usual->centre_px = {315.0, 235.0};
+  EXPECT_EQ(pair(setting).view.focal_px, 500.0);
+  EXPECT_EQ(pair(setting).view.centre_px, Eigen::Vector2d(315.0, 235.0));
+  put_notes("focal_px: 400.0\n");
+  EXPECT_EQ(pair(setting).view.focal_px, 400.0);
+  EXPECT_EQ(pair(setting).view.centre_px, Eigen::Vector2d(320.0, 240.0));
 }
 
 TEST_F(PairBeside, ElevationIsThatSaidElseOfThePoseElseOfTheVideo) {

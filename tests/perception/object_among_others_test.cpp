@@ -214,6 +214,24 @@ TEST(ObjectAmongOthers, WhatIsBeforeItsEdgeLeavesTheRestOfItToThePixel) {
   EXPECT_NEAR(object.shape->height_m, 0.1, 1e-6);
 }
 
+TEST(ObjectAmongOthers, SaysHowFewPixelsRise) {
+  ObjectSegmentationOptions options = kExactAmongOthers;
+  options.min_pixels = 103;
+  EXPECT_EQ(found(half_covered_block(), above_table(0.0, 0.0), {}, options).object.reason,
+            "hidden: 102 pixels rise from the table where it stands, an object has at least 103");
+}
+
+TEST(ObjectAmongOthers, WhatWasNotMeasuredWithinItBelongsToIt) {
+  Drawn drawn = block_at(24, 20);
+  const Pose T_world_camera = above_table(0.0, 0.0);
+  const ObjectAmongOthers measured = found(drawn, T_world_camera);
+  cv::Mat1f depth_m(50, 60, drawn.images.depth_m.data());
+  depth_m(cv::Rect(28, 23, 3, 3)) = 0.0F;
+  const ObjectAmongOthers with_hole = found(drawn, T_world_camera);
+  ASSERT_TRUE(measured.object.view && with_hole.object.view) << with_hole.object.reason;
+  EXPECT_EQ(with_hole.object.view->mask, measured.object.view->mask);
+}
+
 std::ptrdiff_t cut_off_of_block_at(int left, int top) {
   const ObjectAmongOthers object =
       found(block_at(left, top), above_table(0.02 * (24 - left), 0.02 * (top - 20)));

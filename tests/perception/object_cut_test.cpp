@@ -348,6 +348,18 @@ TEST(ObjectCut, PartsAtSteps) {
   };
   EXPECT_EQ(across(3.05F), 1290);
   EXPECT_EQ(across(3.07F), 600);
+  // Three fifths of the nearer part, and so its median, are 5 cm before the other.
+  EXPECT_EQ(pixels({{{60, 45, 20, 12}, 3.0F},
+                    {{60, 57, 20, 18}, 3.05F},
+                    {{80, 45, 4, 30}, 0.0F},
+                    {{84, 45, 19, 30}, 3.1F}}),
+            1290);
+}
+
+/// One of two things of 40 px, which are enough to show that the wall is behind them.
+TEST(ObjectCut, FortyPixelsAreAnObject) {
+  EXPECT_EQ(pixels_cut(before_a_wall(160, 120, {{{76, 58, 8, 5}, 2.0F}, {{44, 34, 8, 5}, 3.0F}})),
+            40);
 }
 
 /// Across holes: the third is near the second alone, and all three weigh more than the fourth.

@@ -128,6 +128,8 @@ TEST_F(TableLimits, AreaIsThatOfItsCells) {
   options.min_area_m2 = 0.0401;
   EXPECT_EQ(find(table_of_cells(10, 10, 0.71)).reason,
             "the largest level surface seen has 0.040 m^2, less than table.min_area_m2 0.0401");
+  options.min_area_m2 = 100.0 * (options.cell_m * options.cell_m);
+  EXPECT_TRUE(find(table_of_cells(10, 10, 0.71)).table) << "just as much";
 }
 
 TEST_F(TableLimits, RegionIsRoundItsCentre) {

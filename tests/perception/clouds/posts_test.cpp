@@ -231,6 +231,9 @@ TEST(PostMap, SpreadAndMisfitHaveLimits) {
   map.remember(cross(0.5), {});
   EXPECT_TRUE(map.locate(cross(0.555), {}).found) << "each 5.5 cm off, of 6 cm";
   EXPECT_FALSE(map.locate(cross(0.565), {}).found);
+  PostMap sixteenths({.sigma_m = 0.015625});
+  sixteenths.remember(cross(0.5), {});
+  EXPECT_TRUE(sixteenths.locate(cross(0.5625), {}).found) << "just four standard deviations";
 }
 
 }  // namespace

@@ -134,6 +134,10 @@ TEST(ReferenceMap, PostsMayMoveTheGuessAsFarAsOdometryDrifts) {
   EXPECT_TRUE(found({.shift_m = 0.0284, .turn_rad = 0.0101}));
   EXPECT_FALSE(found({.shift_m = 0.0282, .turn_rad = 0.0101}));
   EXPECT_FALSE(found({.shift_m = 0.0284, .turn_rad = 0.0099}));
+  const Pose2 pose = map.locate(scan, kScannerHeight_m, guess).T_world_base;
+  EXPECT_TRUE(found({.shift_m = std::hypot(pose.x_m - guess.x_m, pose.y_m - guess.y_m),
+                     .turn_rad = std::abs(wrap_angle(pose.yaw_rad - guess.yaw_rad))}))
+      << "just as far";
 }
 
 }  // namespace

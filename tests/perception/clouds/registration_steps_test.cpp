@@ -62,6 +62,16 @@ TEST_F(LineBeforeAWall, CorrectionsHaveLimits) {
   EXPECT_TRUE(found().information.isZero());
 }
 
+TEST_F(LineBeforeAWall, CorrectionsMayBeAsLargeAsTheirLimits) {
+  const Pose2 pose = found().T_world_base;
+  const Correction as_large{.shift_m = std::hypot(pose.x_m, pose.y_m),
+                            .turn_rad = std::abs(pose.yaw_rad)};
+  options_.max_correction_m = as_large.shift_m;
+  options_.max_correction_rad = as_large.turn_rad;
+  options_.min_overlap = 1.0;
+  EXPECT_EQ(found(as_large).reason, "");
+}
+
 TEST_F(LineBeforeAWall, InformationIsOfPairsAsGoodAsAVoxel) {
   const auto result = register_scan(level_, wall_, {}, options_);
   ASSERT_TRUE(result.converged) << result.reason;
@@ -203,6 +213,17 @@ TEST_F(LineBeforeAWall, APriorPullsEveryStepBack) {
   const double weight = std::pow(1.0 + residual_m * residual_m / 9e-4, -2.0);
   EXPECT_NEAR(0.997 * 61.0 * weight / 9e-4 * residual_m, 20000.0 * (x_m - 0.004), 0.05);
   EXPECT_NEAR(result.T_world_base.y_m, 0.0, 1e-12);
+}
+
+TEST_F(LineBeforeAWall, APriorThatIsSureIsKept) {
+  PosePrior prior;
+  prior.T_world_base = {0.004, -0.003, 0.01};
+  prior.information = 1e12 * Eigen::Matrix3d::Identity();
+  const auto result = register_with_prior(level_, wall_, prior, options_);
+  ASSERT_TRUE(result.converged) << result.reason;
+  EXPECT_NEAR(result.T_world_base.x_m, 0.004, 1e-6);
+  EXPECT_NEAR(result.T_world_base.y_m, -0.003, 1e-6);
+  EXPECT_NEAR(result.T_world_base.yaw_rad, 0.01, 1e-6);
 }
 
 /// Their strongest direction is worth 1.2 times the 61 pairs.

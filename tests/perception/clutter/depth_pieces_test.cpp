@@ -108,6 +108,15 @@ TEST_F(PiecesFromAbove, PiecesGoOnWhereDepthDoes) {
   EXPECT_NEAR(pieces[1].nearest_m({-0.027, 0.045}), 0.0, 1e-6);
 }
 
+TEST_F(PiecesFromAbove, BesideWhatIsTooSmallAPieceBeginsWithItsFirstPixel) {
+  rise({0, 0, 3, 3}, 0.1F);
+  rise({5, 0, 4, 3}, 0.1F);
+  const auto pieces = scene().all();
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].pixels.size(), 12U);
+  EXPECT_EQ(pieces[0].pixels[0], cv::Point(5, 0));
+}
+
 TEST_F(PiecesFromAbove, NoPieceGoesOnAcrossACorner) {
   rise({0, 0, 4, 3}, 0.1F);
   rise({4, 3, 4, 3}, 0.1F);

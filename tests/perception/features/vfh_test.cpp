@@ -213,6 +213,17 @@ TEST(Vfh, OfNormalsThatLeanAside) {
                {kViewBlock + 120, 100.0}});
 }
 
+// 60 cm from their centroid.
+TEST(Vfh, DistancesFrom44CentimetresOnShareTheLastBin) {
+  expect_bins({{0.6F, 0.0F, 1.0F}, {-0.6F, 0.0F, 1.0F}},
+              {{0.0F, kLeanSin, -kLeanCos}, {0.0F, -kLeanSin, -kLeanCos}},
+              {{22, 200.0},
+               {45 + 25, 200.0},
+               {90 + 22, 200.0},
+               {kSizeBlock + 44, 200.0},
+               {kViewBlock + 120, 100.0}});
+}
+
 // The nearer point's line goes with its own normal best, the farther one's with the mean normal.
 TEST(Vfh, TheNormalNearerToTheLineComesFirst) {
   expect_bins({{0.1F, 0.0F, 0.9F}, {-0.1F, 0.0F, 1.1F}},
@@ -253,6 +264,12 @@ TEST(Vfh, OnlyPointsWithANormalAreCounted) {
   EXPECT_EQ((Vfh{.min_points = 36}.extract(view).skipped), "");
   EXPECT_EQ((Vfh{.min_points = 37}.extract(view).skipped),
             "36 points have a normal, fewer than 37");
+}
+
+TEST(Vfh, NeedsIntrinsics) {
+  ObjectView view = plate_and_line_of_vfh();
+  view.focal_px = 0.0;
+  EXPECT_EQ(Vfh{}.extract(view).skipped, "the camera's intrinsics are not finite numbers");
 }
 
 /// Pairs with the centroid, one a point, count 1/35 each in four blocks, lines of sight 1/36.

@@ -62,6 +62,8 @@ TEST_F(ImageFormats, ArraysKeepTheirShape) {
                                              {"2, 3", 2, 3},
                                              {"2, 3, 1", 2, 3},
                                              {"1, 2, 3", 2, 3},
+                                             {"1, 2, 3, 1", 2, 3},
+                                             {"2, , 3, ", 2, 3},
                                              {"1, 6, 1", 1, 6}}) {
     const NpyMatrix matrix = read_npy(array_of("|u1", shape, bytes));
     EXPECT_EQ(matrix.rows, rows) << shape;
@@ -120,11 +122,13 @@ TEST_F(ImageFormats, AnArrayMayHaveALongHeader) {
   EXPECT_EQ(matrix.rows, 3);
   EXPECT_EQ(matrix.columns, 2);
   EXPECT_THAT(matrix.values, ElementsAre(1, 2, 3, 4, 5, 6));
-  std::string header = "{" + entries + "}";
-  header.resize(70000, ' ');
-  write_file(path("second.npy"),
-             std::string("\x93NUMPY\x02\x00", 8) + raw<std::uint32_t>({70000}) + header + bytes);
-  EXPECT_THAT(read_npy(path("second.npy")).values, ElementsAre(1, 2, 3, 4, 5, 6));
+  for (const std::uint32_t length : {70000U, (1U << 24U) + 100U}) {
+    std::string header = "{" + entries + "}";
+    header.resize(length, ' ');
+    write_file(path("second.npy"),
+               std::string("\x93NUMPY\x02\x00", 8) + raw<std::uint32_t>({length}) + header + bytes);
+    EXPECT_THAT(read_npy(path("second.npy")).values, ElementsAre(1, 2, 3, 4, 5, 6)) << length;
+  }
 }
 
 TEST_F(ImageFormats, HeadersOfArraysAreChecked) {
@@ -143,6 +147,7 @@ TEST_F(ImageFormats, HeadersOfArraysAreChecked) {
   refuses(type + "'fortran_order': 0, 'shape': (2, 2)", no_array);
   refuses(type + order + "'shape': 4", no_array);
   refuses(type + order + "'shape': (a, 2)", no_array);
+  refuses(type + order + "'shape': (2, 2", no_array);
   refuses(type + order + "'shape': (2, 2, 2)", "has shape (2, 2, 2), expected (rows, columns)");
   refuses(type + order + "'shape': (0, 2)", "has shape (0, 2)");
   refuses(type + order + "'shape': (2, -2)", "has shape (2, -2)");
@@ -155,6 +160,11 @@ TEST_F(ImageFormats, HeadersOfArraysAreChecked) {
   write_file(path("head.npy"), std::string("\x93NUMPY\x01\x00\x01\x00{", 11));
   EXPECT_THAT([&] { read_npy(path("head.npy")); },
               ThrowsMessage<InputError>(HasSubstr("is no NPY file")));
+  write_file(path("head.npy"), std::string("\x93NUMPY\x01\x00\x02\x00{}", 12));
+  EXPECT_THAT([&] { read_npy(path("head.npy")); }, ThrowsMessage<InputError>(HasSubstr(no_array)));
+  EXPECT_THAT([&] { read_npy(array(type + order + "'shape': (0, 2)", "")); },
+              ThrowsMessage<InputError>(HasSubstr("has shape (0, 2)")))
+      << "of a file that ends with its header too";
 }
 
 TEST_F(ImageFormats, TheUnitOfDepthIsToldBetweenLimits) {
@@ -243,6 +253,19 @@ TEST_F(ImageFormats, AJpegIsWholeUpToItsOwnEnd) {
                 ThrowsMessage<InputError>(HasSubstr("is no whole image")))
         << cut.size();
   }
+}
+
+/// A byte between headers, a header of 300 bytes, and a picture of nothing but its ends.
+TEST_F(ImageFormats, AJpegIsFollowedFromHeaderToHeader) {
+  const std::string bare = read_file(image("bare.jpg", cv::Mat3b(16, 24, cv::Vec3b(90, 60, 30))));
+  const std::string comment = std::string("\xff\xfe\x01\x2c", 4) + std::string(298, ' ');
+  for (const std::string& between : {std::string("\xff"), comment}) {
+    write_file(path("a.jpg"), bare.substr(0, 2) + between + bare.substr(2));
+    EXPECT_EQ(read_colour_image(path("a.jpg")).width_px, 24) << between.size();
+  }
+  write_file(path("a.jpg"), "\xff\xd8\xff\xda\xff\xd9");
+  EXPECT_THAT([&] { read_colour_image(path("a.jpg")); },
+              ThrowsMessage<InputError>(HasSubstr("cannot be decoded")));
 }
 
 TEST_F(ImageFormats, AMaskIsWhatIsNotBlack) {

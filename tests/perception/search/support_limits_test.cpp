@@ -74,6 +74,14 @@ TEST(SupportLimits, ATiltIsFittedUpToItsLimit) {
   EXPECT_LT(steep[0].normal.x(), 0.0);
 }
 
+TEST(SupportLimits, WhereNoTiltIsAllowedALevelSurfaceIsLevel) {
+  SupportSearchOptions options;
+  options.max_tilt_rad = 0.0;
+  const auto supports = find_supports(level_grid(0.0, 0.0, 0.5, 26, 21), options);
+  ASSERT_EQ(supports.size(), 1U);
+  EXPECT_EQ(supports[0].normal, Eigen::Vector3d(0.0, 0.0, 1.0));
+}
+
 TEST(SupportLimits, NothingComesOfNothing) {
   EXPECT_TRUE(find_supports({}, {}).empty());
   EXPECT_TRUE(find_supports(level_grid(0.0, 0.0, 0.1, 26, 21), {}).empty());
@@ -191,6 +199,30 @@ TEST(SupportLimits, OfTwoAboveEachOtherTheLowerStaysHoweverSmall) {
   EXPECT_EQ(supports[0].inliers, 144U);
 }
 
+/// The same, just three inlier distances below.
+TEST(SupportLimits, ThreeInlierDistancesAreNotAboutOneHeight) {
+  SupportSearchOptions options;
+  options.inlier_distance_m = 0.03125;
+  PointCloud frame = level_grid(0.0, 0.0, 0.59375, 51, 51);
+  std::erase_if(frame.points, [](const Eigen::Vector3f& p) {
+    return p.head<2>().cwiseAbs().maxCoeff() < 0.301F;
+  });
+  append(frame, level_grid(0.18, 0.0, 0.5, 12, 12));
+  const auto supports = find_supports(frame, options);
+  ASSERT_EQ(supports.size(), 1U);
+  EXPECT_EQ(supports[0].height_m, 0.5);
+}
+
+TEST(SupportLimits, WhatIsOnTheHigherOfTwoSurfacesIsNoThird) {
+  PointCloud grid = level_grid(0.0, 0.0, 0.7, 26, 21);
+  append(grid, level_grid(0.0, 1.0, 0.8, 41, 41));
+  append(grid, level_grid(0.0, 1.0, 0.95, 12, 12));
+  const auto supports = find_supports(grid, {});
+  ASSERT_EQ(supports.size(), 2U);
+  EXPECT_NEAR(supports[0].height_m, 0.7, 1e-6);
+  EXPECT_NEAR(supports[1].height_m, 0.8, 1e-6);
+}
+
 /// Its hull has 0.2 m^2, its cells more than that.
 TEST(SupportLimits, AreaIsThatOfTheHullToo) {
   const PointCloud grid = level_grid(0.0, 0.0, 0.8, 26, 21);
@@ -272,8 +304,66 @@ TEST_F(BlockFromAbove, IsHiddenByWhatIsBeforeItByFifteenCentimetres) {
   EXPECT_FALSE(whole(6, 1.64F));
   EXPECT_TRUE(whole(5, 1.64F));
   EXPECT_TRUE(whole(6, 1.66F));
+  EXPECT_TRUE(whole(6, 0.0F)) << "nothing was measured there";
   EXPECT_EQ(found_behind(6, 0.9F).size(), 1U) << "more than twice as high as any object";
   EXPECT_EQ(found_behind(6, 1.3F).size(), 0U) << "70 cm high";
+}
+
+/// Cut out without a margin, round it are the pixels of its box that are not its own: three corners
+/// of the block, and what a row above that is only begun leaves over. One of them is hidden.
+TEST_F(BlockFromAbove, IsWholeIfNoMoreThanATwentiethIsHidden) {
+  ObjectSearchOptions options;
+  options.cut.mask_growth_px = 0;
+  options.cut.margin_px = 0;
+  const auto whole = [&](int begun) {
+    images_.depth_m.assign(19200, 2.0F);
+    put(70, 51, 20, 10, 1.8F);
+    put(70, 50, begun, 1, 1.8F);
+    put(85, 50, 1, 1, 1.64F);
+    const auto seen = find_objects(images_, T_world_camera_, options);
+    return seen.size() == 1 ? static_cast<int>(seen[0].detection.whole) : -1;
+  };
+  EXPECT_EQ(whole(4), 1) << "of 20";
+  EXPECT_EQ(whole(5), 0) << "of 19";
+}
+
+TEST_F(BlockFromAbove, IsWholeFromTheLeastDistanceOn) {
+  put_block_at(90, 50);
+  ObjectSearchOptions options;
+  const auto whole = [&](double nearest_m) {
+    options.nearest_m = nearest_m;
+    const auto seen = find_objects(images_, T_world_camera_, options);
+    return seen.size() == 1 ? static_cast<int>(seen[0].detection.whole) : -1;
+  };
+  const double top_m = 2.0F - 0.2F;
+  EXPECT_EQ(whole(top_m), 1);
+  EXPECT_EQ(whole(std::nextafter(top_m, 2.0)), 0);
+}
+
+/// Of its 100 px the two highest are left out. The cut knows nothing of what is one pixel wide.
+TEST_F(BlockFromAbove, IsAsHighAsAllOfItButAFiftieth) {
+  const auto height_m = [&](int higher) {
+    put_block_at(90, 55);
+    for (int i = 0; i < higher; ++i) put(92 + 2 * i, 57 + 2 * i, 1, 1, 1.75F);
+    const auto seen = found();
+    return seen.size() == 1 ? seen[0].detection.height_m : -1.0;
+  };
+  EXPECT_NEAR(height_m(2), 0.2, 1e-5);
+  EXPECT_NEAR(height_m(3), 0.25, 1e-5);
+}
+
+/// Every fourth pixel is looked at: of its last row alone, three or four.
+TEST_F(BlockFromAbove, IsFourPointsAtLeast) {
+  ObjectSearchOptions options;
+  options.support.columns = 40;
+  options.support.cell_m = 0.1;
+  options.gap_m = 0.1;
+  options.cut.min_pixels = 20;
+  for (const int width : {12, 13}) {
+    images_.depth_m.assign(19200, 2.0F);
+    put(88, 49, width, 4, 1.8F);
+    EXPECT_EQ(find_objects(images_, T_world_camera_, options).size(), width == 13 ? 1U : 0U);
+  }
 }
 
 TEST_F(BlockFromAbove, StandsOutOfTheNoiseAndMostlyOverTheTable) {
@@ -298,6 +388,16 @@ TEST_F(BlockFromAbove, IsBesideTheTableByAllOfItThatIsNearTheTable) {
     put(left, 50, 25, 10, 1.8F);
     EXPECT_EQ(found().size(), left == 84 ? 1U : 0U) << left;
   }
+}
+
+/// 12 of 42 columns are beside the table, and 10 more farther than 25 cm from it.
+TEST_F(BlockFromAbove, IsNotBesideTheTableByWhatIsFarFromTheTable) {
+  ObjectSearchOptions options;
+  options.cut.radius_m = 0.6;
+  images_.depth_m.assign(19200, 2.0F);
+  put(100, 0, 60, 120, 2.805F);
+  put(74, 50, 52, 10, 1.8F);
+  EXPECT_EQ(find_objects(images_, T_world_camera_, options).size(), 1U);
 }
 
 }  // namespace

@@ -55,6 +55,18 @@ TEST(OuterWallsOfAHall, HideItFromBeyondTheirSide) {
   EXPECT_THAT(walls.before({-1.9, 1.4, -9.0}), IsEmpty());
 }
 
+TEST(OuterWallsOfAHall, HideNothingFromTheirSideItself) {
+  const OuterWalls walls = walls_of(kHall);
+  const Eigen::Vector3d low_m = walls.extent_m.min();
+  const Eigen::Vector3d high_m = walls.extent_m.max();
+  for (const Eigen::Vector3d& eye_m :
+       {Eigen::Vector3d(low_m.x(), 0.0, 1.0), Eigen::Vector3d(high_m.x(), 0.0, 1.0),
+        Eigen::Vector3d(0.0, low_m.y(), 1.0), Eigen::Vector3d(0.0, high_m.y(), 1.0),
+        Eigen::Vector3d(0.0, 0.0, high_m.z())}) {
+    EXPECT_THAT(walls.before(eye_m), IsEmpty()) << eye_m.transpose();
+  }
+}
+
 /// A plate of 4 m x 3 m on the floor, and what else there is.
 std::vector<int> on_side(std::size_t side, const std::string& more) {
   return walls_of("<geom type='box' size='2 1.5 .05' pos='0 0 .05'/>" + more).geoms[side];

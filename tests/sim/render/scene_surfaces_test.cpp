@@ -119,5 +119,14 @@ TEST(SceneSurfacesOf, ATexturedMeshHasAtEachVertexWhatIsPaintedThere) {
   EXPECT_EQ(scene_surfaces(*scene.model, *scene.data).colours, expected);
 }
 
+/// A square of 50 cm, a vertex every 5 mm, is cut at 63 lines each way in cells of 8 mm: 8444
+/// triangles. In cells of 12 mm it is cut at 41.
+TEST(SceneSurfacesOf, CellsGrowByHalfUntilTrianglesAreFew) {
+  const SceneSurfaces drawn =
+      drawn_of("<geom type='hfield' hfield='flat'/>",
+               "<hfield name='flat' nrow='101' ncol='101' size='.25 .25 .1 .1'/>");
+  EXPECT_EQ(drawn.triangles[0].size(), 2U * 41U * 41U + 4U * 2U * 41U + 2U) << "top, sides, bottom";
+}
+
 }  // namespace
 }  // namespace vantage

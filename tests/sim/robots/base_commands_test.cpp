@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "tests/sim/test_world.hpp"
 #include "tests/support/option_numbers.hpp"
@@ -220,6 +221,12 @@ TEST(RobotOptions, DefaultsAndRanges) {
                            {"speed_max_m_s", 0.5, Range{0.0, 10.0, true}},
                            {"turn_rate_max_rad_s", 1.5, Range{0.0, 10.0, true}}});
   support::expect_numbers(QuadrotorDescription{}, {{"rotor_radius_m", 0.0, Range{0.0, 5.0, true}}});
+  support::expect_numbers(MobileBaseDescription{},
+                          {{"footprint.inscribed_radius_m", 0.0, Range{0.0, 5.0, true}},
+                           {"footprint.circumscribed_radius_m", 0.0, Range{0.0, 5.0, true}},
+                           {"idle_power_w", 0.0, at_least(0.0)},
+                           {"head", support::kNull},
+                           {"tilting_laser", support::kNull}});
 }
 
 TEST(RobotOptions, AFootprintMayBeACircle) {
@@ -242,6 +249,12 @@ TEST(RobotOptions, AQuadrotorNamesFourRotors) {
             "rotors: 3 actuators, a quadrotor has 4");
   description.rotors.emplace_back("3");
   EXPECT_NO_THROW(description.check());
+  for (auto* name : {&description.base, &description.free_joint, &description.camera,
+                     &description.camera_tilt}) {
+    const std::string before = std::exchange(*name, "");
+    EXPECT_THROW(description.check(), ConfigError) << before;
+    *name = before;
+  }
   description.rotors.emplace_back("4");
   EXPECT_THROW(description.check(), ConfigError);
 }
@@ -301,6 +314,66 @@ TEST(DriveTimes, StuckIsToPushForSoLongWithoutABreak) {
   EXPECT_GE(stuck.duration_s, 1.5 - 1e-9);
   EXPECT_LT(stuck.duration_s, 3.5);
   EXPECT_EQ(driven(40).status, DriveStatus::stopped) << "its wheels turn once a second";
+}
+
+TEST(BaseCommands, ARobotIsPlacedWithItsLiftDownUnlessTold) {
+  test::RobotWorld scene("", {}, 0.2);
+  scene.robot.place(scene.world, {1.0, 0.0, 0.0});
+  EXPECT_EQ(scene.robot.lift_m(scene.world), 0.0);
+  EXPECT_EQ(commanded(scene.world, "robot/torso_lift"), 0.0);
+}
+
+/// Whose ticks are binary fractions of a second, so that times are met exactly.
+TEST(DriveTimes, EndOnTheTickThatTheyAreDue) {
+  constexpr double kTick_s = 1.0 / 32.0;
+  const test::SceneFolder folder(test::scene_mjcf(""));
+  World world(folder.with_pr2(), {.timestep_s = kTick_s / 8.0, .control_period_s = kTick_s});
+  const MobileBase robot = test::pr2(world);
+  robot.place(world, {});
+  Odometry slow = exact_odometry();
+  slow.on_increment = [](const Pose2& step) { return Pose2{0.1 * step.x_m, 0.0, 0.0}; };
+  DriveOptions options;
+  options.controller.speed_m_s = 0.5;
+  options.timeout_factor = 1.5;
+  int ticks = 0;
+  EXPECT_EQ(drive(world, robot, slow, std::vector<Pose2>{{2.0, 0.0, 0.0}}, options,
+                  [&](World&, const Pose2&) { return ++ticks > 0; })
+                .status,
+            DriveStatus::timeout);
+  EXPECT_EQ(ticks, 32 * 16) << "10 s and one and a half times 4 s";
+  world.add_outside_force(
+      {robot.base_body_id(), [](double) { return Eigen::Vector3d(1000.0, 0.0, 0.0); }});
+  const DriveResult stopped = drive(world, robot, slow, std::vector<Pose2>{{9.0, 0.0, 0.0}}, {},
+                                    [](World&, const Pose2&) { return false; });
+  EXPECT_EQ(stopped.duration_s, kTick_s + 3.0);
+  const double start_s = world.time_s();
+  hold_still(world, robot, slow, 0.5);
+  EXPECT_EQ(world.time_s(), start_s + 0.5);
+}
+
+TEST(DriveTimes, ABaseBrakesWithinHalfItsTolerancesWhereverThatIs) {
+  const auto status = [](const Pose2& T_start_goal) {
+    const Pose2 start{10.0, -5.0, 0.3};
+    test::RobotWorld scene("", start);
+    Odometry blocked(OdometryOptions::perfect(), Rng(1), start);
+    blocked.on_increment = [](const Pose2&) { return Pose2{}; };
+    DriveOptions options;
+    options.goal_tolerance_m = 0.1;
+    options.goal_tolerance_rad = 0.2;
+    return drive(scene.world, scene.robot, blocked,
+                 std::vector<Pose2>{compose(start, T_start_goal)}, options,
+                 [](World& world, const Pose2&) { return world.time_s() < 0.5; })
+        .status;
+  };
+  for (const Pose2& near :
+       {Pose2{0.049, 0.0, 0.0}, Pose2{-0.03, -0.03, 0.0}, Pose2{0.0, 0.0, 0.099},
+        Pose2{0.0, 0.0, -0.099}, Pose2{0.0, 0.049, 0.099}}) {
+    EXPECT_EQ(status(near), DriveStatus::arrived) << near.x_m << " " << near.yaw_rad;
+  }
+  for (const Pose2& far : {Pose2{0.051, 0.0, 0.0}, Pose2{-0.04, -0.04, 0.0}, Pose2{0.0, 0.0, 0.101},
+                           Pose2{0.0, 0.0, -0.101}, Pose2{0.0, 0.051, 0.099}}) {
+    EXPECT_EQ(status(far), DriveStatus::stopped) << far.x_m << " " << far.yaw_rad;
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "tests/sim/test_world.hpp"
@@ -297,6 +298,27 @@ TEST(MobileBase, BaseForLaserPutsTheLaserThere) {
   const Pose2 T_world_base = measured.robot.base_for_laser(T_world_sensor);
   RobotWorld scene("", T_world_base, 0.15);
   EXPECT_TRUE(scene.robot.T_world_laser(scene.world).isApprox(T_world_sensor, 1e-9));
+}
+
+TEST(MobileBase, ItsSensorsHangOnTheJointsThatMoveThem) {
+  const RobotWorld scene("<camera name='aside'/><site name='aside'/>");
+  const auto refused = [&](const std::function<void(MobileBaseDescription&)>& change) {
+    MobileBaseDescription said = mobile_base_of(test::robot_folder("pr2"), "robot");
+    change(said);
+    return test::message_of<InputError>([&] { MobileBase(scene.world.model(), said, "pr2"); });
+  };
+  EXPECT_EQ(refused([](MobileBaseDescription&) {}), "");
+  EXPECT_EQ(refused([](MobileBaseDescription& said) { said.planar_scanner = "aside"; }),
+            "pr2: planar_scanner: it is no part of body 'robot/base'");
+  EXPECT_EQ(refused([](MobileBaseDescription& said) { said.head->pan = "robot/base_yaw"; }),
+            "pr2: head.pan: it is no part of body 'robot/torso'");
+  EXPECT_EQ(refused([](MobileBaseDescription& said) { said.head->tilt = "robot/laser_tilt"; }),
+            "pr2: head.tilt: it is no part of body 'robot/head_pan'");
+  EXPECT_EQ(refused([](MobileBaseDescription& said) { said.head->camera = "aside"; }),
+            "pr2: head.camera: it is no part of body 'robot/head_tilt'");
+  EXPECT_EQ(
+      refused([](MobileBaseDescription& said) { said.tilting_laser->site = "robot/base_scan"; }),
+      "pr2: tilting_laser.site: it is no part of body 'robot/laser_tilt'");
 }
 
 }  // namespace

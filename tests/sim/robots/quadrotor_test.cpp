@@ -257,5 +257,16 @@ TEST(Quadrotor, NeedsGravityAndNoneAside) {
   }
 }
 
+TEST(Quadrotor, StateIsItsOwnWhateverMovesBesideIt) {
+  FlightWorld scene(test::exact_tracking(), make_pose({1.0, 2.0, 3.0}, 0.7),
+                    "<body pos='5 0 1'><freejoint/><geom size='.1'/></body>");
+  ASSERT_EQ(scene.world.model().body_dofadr[scene.vehicle.base_body_id()], 6);
+  for (int i = 0; i < scene.world.model().nv; ++i) scene.world.data().qvel[i] = 0.25 * i;
+  const FlightState state = scene.vehicle.state(scene.world);
+  EXPECT_TRUE(state.T_world_body.isApprox(make_pose({1.0, 2.0, 3.0}, 0.7), 1e-12));
+  EXPECT_EQ(state.v_world_m_s, Eigen::Vector3d(1.5, 1.75, 2.0));
+  EXPECT_EQ(state.w_body_rad_s, Eigen::Vector3d(2.25, 2.5, 2.75));
+}
+
 }  // namespace
 }  // namespace vantage

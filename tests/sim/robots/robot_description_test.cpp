@@ -160,18 +160,23 @@ TEST(RobotDescription, ASensorThatIsNotThereIsMissedWhereItIsNeeded) {
               HasSubstr("robot.yaml: tilting_laser: missing"));
 }
 
-/// The small quadrotor with a change in its MJCF.
-std::string flight_complaint(const std::string& what, const std::string& instead) {
+/// The small quadrotor with changes in its MJCF.
+std::string flight_complaint(const std::vector<std::pair<std::string, std::string>>& changes) {
   const support::TemporaryDirectory folder;
   const RobotFolder mini = test::robot_folder("quadrotor_mini");
   write_file(folder.path() / "robot.yaml", read_file(mini.description));
-  write_file(folder.path() / "quadrotor_mini.xml", with(read_file(mini.mjcf), what, instead));
+  std::string mjcf = read_file(mini.mjcf);
+  for (const auto& [what, instead] : changes) mjcf = with(mjcf, what, instead);
+  write_file(folder.path() / "quadrotor_mini.xml", mjcf);
   return test::message_of<InputError>([&] {
     const RobotFolder robot = read_robot(folder.path());
     const test::SceneFolder scene(test::scene_mjcf(""));
     const World world({scene.path(), robot.mjcf}, kFlightWorld);
     Quadrotor(world.model(), quadrotor_of(robot, "robot"), "mini", scene.path().string());
   });
+}
+std::string flight_complaint(const std::string& what, const std::string& instead) {
+  return flight_complaint({{what, instead}});
 }
 
 TEST(RobotDescription, AQuadrotorMustBeAbleToFly) {
@@ -218,6 +223,31 @@ TEST(RobotDescription, ItsFileStandsForItsFolder) {
   fs::copy_file(folder.path() / "robot.xml", bare.path() / "robot.xml");
   EXPECT_THAT(test::message_of<InputError>([&] { read_robot(bare.path() / "robot.xml"); }),
               HasSubstr("no robot.yaml beside it"));
+}
+
+TEST(RobotDescription, AQuadrotorsCameraIsOnABodyThatItsServoTilts) {
+  const std::string camera =
+      "<camera name=\"robot/camera\" pos=\"0.015 0 0\" xyaxes=\"0 -1 0 0 0 1\"/>";
+  EXPECT_EQ(flight_complaint(camera, "<body>" + camera + "</body>"),
+            "mini: camera: it must be on a body of its own, a child of the base");
+  EXPECT_EQ(flight_complaint({{camera, ""}, {"<!-- Legs. -->", "<body>" + camera + "</body>"}}),
+            "mini: camera_tilt: it must tilt the camera");
+}
+
+TEST(RobotDescription, ARotorIsAnActuatorAtASiteWithARangeAndALag) {
+  const std::string at_site = "mini: rotors: actuator 'robot/rotor_0' must act at a site";
+  EXPECT_THAT(flight_complaint("site=\"robot/rotor_0\" gear", "jointinparent=\"robot/base\" gear"),
+              HasSubstr(at_site));
+  EXPECT_THAT(flight_complaint("site=\"robot/rotor_0\" gear",
+                               "site=\"robot/rotor_0\" ctrllimited=\"false\" gear"),
+              HasSubstr(at_site));
+  EXPECT_EQ(flight_complaint("dyntype=\"filter\" dynprm=\"0.025\" ctrlrange", "ctrlrange"),
+            "mini: rotors: actuator 'robot/rotor_0' must have a lag: dyntype=\"filter\"");
+}
+
+TEST(RobotDescription, DefaultsOfAnEpisodeAreKeys) {
+  EXPECT_THAT(complaint(std::string(kRover) + "episode_defaults: 3\n"),
+              HasSubstr("robot.yaml:16: episode_defaults"));
 }
 
 }  // namespace

@@ -62,6 +62,7 @@ TEST(RobotOutline, OfRoundThingsUprightAndLying) {
 TEST(RobotOutline, OfAMeshByItsVertices) {
   const FloorOutline outline = outline_with(
       "<geom type='mesh' mesh='wedge' pos='.1 .2 .3'/>",
+      "<mesh name='other' vertex='0 0 0  1 0 0  0 1 0  0 0 1' face='0 2 1 0 1 3 0 3 2 1 2 3'/>"
       "<mesh name='wedge' vertex='0 0 0  .4 0 0  0 .3 0  0 0 .2' face='0 2 1  0 1 3  0 3 2  1 2 "
       "3'/>");
   expect_reaches(

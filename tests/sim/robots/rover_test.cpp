@@ -224,5 +224,37 @@ TEST(Rover, SameSeedSameBits) {
   EXPECT_EQ(run(), run());
 }
 
+const std::string kBallBeside = "<body pos='5 0 1'><freejoint/><geom size='.1'/></body>";
+
+TEST(Rover, IsWhereItIsWhateverMovesBesideIt) {
+  RoverWorld scene(kBallBeside, {1.0, 2.0, 0.5});
+  ASSERT_EQ(scene.world.model().body_dofadr[scene.robot.base_body_id()], 6);
+  for (int i = 0; i < scene.world.model().nv; ++i) scene.world.data().qvel[i] = 0.25 * i;
+  const Pose2 pose = scene.robot.T_world_base(scene.world);
+  EXPECT_NEAR(pose.x_m, 1.0, 1e-12);
+  EXPECT_NEAR(pose.y_m, 2.0, 1e-12);
+  EXPECT_NEAR(pose.yaw_rad, 0.5, 1e-12);
+  const Twist2 twist = scene.robot.twist(scene.world);
+  EXPECT_NEAR(twist.vx_m_s, 1.5 * std::cos(0.5) + 1.75 * std::sin(0.5), 1e-12);
+  EXPECT_NEAR(twist.vy_m_s, 1.75 * std::cos(0.5) - 1.5 * std::sin(0.5), 1e-12);
+  EXPECT_EQ(twist.wz_rad_s, 2.75);
+}
+
+TEST(Rover, TurningTouchesWhatABeamReaches) {
+  const RobotFolder rover = test::robot_folder("rover");
+  std::string mjcf = read_file(rover.mjcf);
+  mjcf.insert(mjcf.find("<!-- Mast. -->"), "<geom pos='.3 0 .6' size='.1 .01 .01'/>");
+  const test::SceneFolder folder(
+      test::scene_mjcf(kBallBeside +
+                       "<geom name='post' type='box' size='.03 .03 1' pos='1 2.4 1'/>"
+                       "<geom name='other' type='box' size='.03 .03 1' pos='1 2.45 1'/>"));
+  folder.add("robot.xml", mjcf);
+  World world({folder.path(), folder.path().parent_path() / "robot.xml"});
+  const MobileBase robot = test::mobile_base(world, rover);
+  robot.place(world, {1.0, 2.0, 0.0});
+  EXPECT_EQ(robot.touched_by_turning(world),
+            std::vector<int>{model_id(world.model(), ModelObject::geom, "post")});
+}
+
 }  // namespace
 }  // namespace vantage

@@ -109,9 +109,11 @@ class ExposureRenderer final : public Renderer {
     out.depth_m.assign(2, 1.5F);
     with_depth.push_back(request.depth_and_segmentation ? 1 : 0);
     rail_m.push_back(data.qpos[0]);
+    camera_m.push_back(data.cam_xpos[1]);
   }
   std::vector<int> with_depth;
-  std::vector<double> rail_m;  ///< where the bar was
+  std::vector<double> rail_m;    ///< where the bar was
+  std::vector<double> camera_m;  ///< and the first camera
 
  private:
   std::vector<std::uint8_t> shades_;
@@ -129,6 +131,23 @@ TEST(Exposure, IsTheMeanOfImagesEvenlyApartOfWhichOneHasDepth) {
   EXPECT_EQ(renderer.with_depth, (std::vector<int>{1, 0, 0}));
   EXPECT_EQ(images.rgb, std::vector<std::uint8_t>(6, 11)) << "10.67, rounded";
   EXPECT_EQ(images.depth_m, std::vector<float>(2, 1.5F));
+}
+
+TEST(Exposure, ACameraThatFollowsAMassIsWhereThatWas) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><body pos='2 0 0'><joint type='slide' axis='0 1 0'/>"
+      "<geom type='box' size='.05 .2 1' mass='1'/><camera name='eye' mode='trackcom' pos='-1 0 0'/>"
+      "</body></worldbody></mujoco>");
+  World world(folder.alone());
+  world.data().qvel[0] = 8.0;
+  ExposureRenderer renderer({10, 10, 10});
+  Rng rng(1);
+  rgbd_exposed(renderer, world, 0, {.width_px = 2, .height_px = 1, .noise = false},
+               {.exposure_s = 0.0625, .samples = 3}, rng);
+  ASSERT_EQ(renderer.camera_m.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(renderer.camera_m[i], -0.25 * static_cast<double>(i), 1e-12) << i;
+  }
 }
 
 }  // namespace

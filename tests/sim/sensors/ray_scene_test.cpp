@@ -213,5 +213,27 @@ TEST(RayScene, ThreadsCastTheSameBits) {
   EXPECT_EQ(first, second);
 }
 
+TEST(RayScene, AgreesBesideAndInsideAMesh) {
+  const auto scene = test::sensor_scene();
+  const RayScene rays(*scene.model, *scene.data);
+  const int mesh = scene.geom("mesh");
+  const Eigen::Vector3d middle_m(1.2, -1.2, 0.5);
+  Rng rng(6);
+  int met = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Ray ray{middle_m + rng.uniform(0.0, 0.45) * random_direction(rng), random_direction(rng)};
+    const Reference expected = mujoco_ray(scene, ray);
+    if (!is_robust(scene, ray, expected)) continue;
+    const RayHit hit = rays.cast(ray.p, ray.d, 1e3);
+    ASSERT_EQ(hit.geom_id, expected.geom) << i;
+    if (hit.geom_id != mesh) continue;
+    ASSERT_NEAR(hit.distance_m, expected.distance, 1e-6) << i;
+    ASSERT_EQ(rays.cast(ray.p, ray.d, hit.distance_m + 1e-6).geom_id, mesh) << i;
+    ASSERT_FALSE(rays.cast(ray.p, ray.d, hit.distance_m - 1e-6).hit()) << i;
+    ++met;
+  }
+  EXPECT_GT(met, 1000);
+}
+
 }  // namespace
 }  // namespace vantage

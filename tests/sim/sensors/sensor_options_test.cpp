@@ -80,6 +80,13 @@ TEST(SensorOptions, AScanHasTenMillionBeamsAtMost) {
   EXPECT_THROW(laser(550.0).check(), ConfigError);
   EXPECT_NO_THROW((PlanarScannerOptions{.sector_rad = 4.5, .step_rad = 5e-7}.check()));
   EXPECT_THROW((PlanarScannerOptions{.sector_rad = 5.5, .step_rad = 5e-7}.check()), ConfigError);
+  LaserOptions most;
+  most.sector_rad = most.step_rad = 0.5;
+  most.scan_duration_s = 1000.0;
+  most.line_rate_hz = 10000.0;
+  EXPECT_NO_THROW(most.check());
+  most.line_rate_hz = 10001.0;
+  EXPECT_THROW(most.check(), ConfigError);
 }
 
 TEST(SensorOptions, AScanSweepsWhatItsOptionsSay) {
@@ -243,6 +250,10 @@ TEST(SimDefaults, OfImagesAreWhatPeopleSeeFirst) {
   EXPECT_EQ(FreeCamera{}.elevation_rad, -kPi / 4.0);
   EXPECT_EQ(SphereMarker{}.radius_m, 0.05);
   EXPECT_EQ(LineMarker{}.width_m, 0.01);
+  const Eigen::Vector4f red(1.0F, 0.0F, 0.0F, 1.0F);
+  EXPECT_EQ(SphereMarker{}.rgba, red);
+  EXPECT_EQ(BoxMarker{}.rgba, red);
+  EXPECT_EQ(LineMarker{}.rgba, red);
   const RenderRequest request;
   EXPECT_TRUE(request.rgb && request.depth_and_segmentation);
   EXPECT_FALSE(request.shadows || request.for_people);

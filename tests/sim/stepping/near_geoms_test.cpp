@@ -8,6 +8,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -283,6 +284,17 @@ TEST(NearGeoms, BodiesThatAreLeftOutAreNotPlaced) {
   EXPECT_DOUBLE_EQ(world.snapshot().xpos[3 * shelf], 5.0);
 }
 
+TEST(NearGeoms, BodiesOfExcludedPairsArePlacedHoweverFar) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><body name='post' pos='5 0 0'><geom type='box' size='.1 .1 .1'/></body>"
+      "<body name='ball' pos='0 0 2'><freejoint/><geom size='.1'/></body></worldbody>"
+      "<contact><exclude body1='ball' body2='post'/></contact></mujoco>");
+  World world(folder.alone());
+  world.advance_tick();
+  const int post = model_id(world.model(), ModelObject::body, "post");
+  EXPECT_DOUBLE_EQ(world.data().xpos[3 * post], 5.0);
+}
+
 TEST(NearGeoms, WhatIsNamedElsewhereIsSteppedHoweverFar) {
   const auto stepped = [](const std::string& named) {
     const test::SceneFolder folder(
@@ -300,11 +312,48 @@ TEST(NearGeoms, WhatIsNamedElsewhereIsSteppedHoweverFar) {
        {"<contact><pair geom1='ball' geom2='post'/></contact>",
         "<tendon><spatial><site site='hook'/><site site='eye'/></spatial></tendon>",
         "<equality><weld body1='ball' body2='post'/></equality>",
+        "<equality><connect body1='ball' body2='post' anchor='0 0 0'/></equality>",
         "<sensor><framepos objtype='body' objname='post'/></sensor>",
+        "<sensor><framepos objtype='xbody' objname='post'/></sensor>",
+        "<sensor><framepos objtype='geom' objname='post'/></sensor>",
+        "<actuator><adhesion body='post' ctrlrange='0 1'/></actuator>",
         "<sensor><framepos objtype='site' objname='eye' reftype='body' "
         "refname='post'/></sensor>"}) {
     EXPECT_EQ(stepped(named), 2) << named;
   }
+}
+
+/// A weight without a shape on an arm, and a sign that stands still, far along a frame with a gate.
+TEST(NearGeoms, WhatHangsTogetherWithSomethingThatMovesIsSteppedWithIt) {
+  const test::SceneFolder folder(
+      "<mujoco><worldbody><geom type='box' size='.1 .1 .1' pos='0 -9 0'/>"
+      "<body pos='0 0 2'><joint axis='0 1 0'/><geom size='.05' pos='.3 0 0' mass='1'/>"
+      "<body name='weight' pos='.5 0 0'>"
+      "<inertial pos='0 0 0' mass='2' diaginertia='.01 .01 .01'/></body></body>"
+      "<body name='frame' pos='0 3 1'><geom type='box' size='.1 .1 1'/>"
+      "<body name='sign' pos='5 0 0'><geom type='box' size='.1 .1 .1'/></body>"
+      "<body name='gate'><joint axis='0 0 1' stiffness='1' springref='1'/>"
+      "<geom type='box' size='.2 .02 .2' pos='.35 0 0'/></body></body></worldbody></mujoco>");
+  World world(folder.alone());
+  const DataPtr alone = world.copy_data();
+  for (int tick = 0; tick < 20; ++tick) {
+    world.advance_tick();
+    for (int i = 0; i < world.options().steps_per_tick(); ++i) step_alone(world.model(), *alone);
+    for (int i = 0; i < world.model().nq; ++i) {
+      ASSERT_EQ(world.data().qpos[i], alone->qpos[i]) << "tick " << tick;
+    }
+  }
+  const auto body = [&](const char* name) {
+    return model_id(world.model(), ModelObject::body, name);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_EQ(world.data().subtree_com[3 * body("frame") + axis],
+              alone->subtree_com[3 * body("frame") + axis]);
+  }
+  const double angle_rad = world.data().qpos[0];
+  ASSERT_GT(angle_rad, 0.1);
+  const Eigen::Vector3d weight_m(0.5 * std::cos(angle_rad), 0.0, 2.0 - 0.5 * std::sin(angle_rad));
+  EXPECT_LT((body_pose(world, body("weight")).translation() - weight_m).norm(), 1e-9);
 }
 
 }  // namespace

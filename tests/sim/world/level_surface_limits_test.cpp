@@ -1,4 +1,5 @@
 // Which surfaces are level, large and near enough: on both sides of each limit.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -169,6 +170,51 @@ TEST(LevelSurfaceLimits, ARoundTopHasCornersEvery10Centimetres) {
   const auto found = tops_of("<geom type='cylinder' size='.5 .02' pos='0 0 .7'/>");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found[0].area_m2, 4.0 * std::sin(2.0 * std::numbers::pi / 32.0), 1e-9);
+}
+
+/// A sheet of 1 m that leans by 8 degrees, folded along its middle by twice that angle.
+double side_of_fold_m2(double half_angle_rad) {
+  const double low = -0.5 * std::tan(half_angle_rad);
+  std::string vertices;
+  for (const double z : {0.0, -0.04}) {
+    for (const auto& [x, y] :
+         {std::pair(-.5, -.5), {0., -.5}, {.5, -.5}, {-.5, .5}, {0., .5}, {.5, .5}}) {
+      vertices += fmt::format("{} {} {:.9f}  ", x, y, x == 0.0 ? z : z + low);
+    }
+  }
+  const auto scene = things(
+      "<geom type='mesh' mesh='fold' pos='0 0 .7' euler='0 8 0'/>",
+      "<mesh name='fold' vertex='" + vertices +
+          "' face='0 1 4 0 4 3 1 2 5 1 5 4 6 10 7 6 9 10 7 11 8 7 10 11 0 6 7 0 7 1 1 7 8 1 8 2 "
+          "3 10 9 3 4 10 4 11 10 4 5 11 0 3 9 0 9 6 2 8 11 2 11 5'/>");
+  const auto nearest = nearest_to_level(*scene.model, *scene.data);
+  EXPECT_TRUE(nearest);
+  return nearest ? nearest->area_m2 : 0.0;
+}
+
+TEST(NearestToLevelLimits, ASideEndsWhereItTurnsByAHundredthOfARadian) {
+  EXPECT_NEAR(side_of_fold_m2(0.0045), 1.0, 1e-3);
+  EXPECT_NEAR(side_of_fold_m2(0.0055), 0.5, 1e-3);
+  EXPECT_NEAR(side_of_fold_m2(0.0), 1.0, 1e-3);
+}
+
+TEST(NearestToLevelLimits, OfLeaningThingsAreThoseOfLevelOnes) {
+  const auto found = [](const std::string& half, const std::string& z_m) {
+    return nearest_of(board(half, "0 0 " + z_m, "euler='0 8 0'")).has_value();
+  };
+  EXPECT_TRUE(found(".6 .4", ".085")) << "its upper side is 2 cm higher";
+  EXPECT_FALSE(found(".6 .4", ".075"));
+  EXPECT_TRUE(found(".6 .4", "1.975"));
+  EXPECT_FALSE(found(".6 .4", "1.985"));
+  EXPECT_TRUE(found(".051 .051", ".7")) << "104 cm2";
+  EXPECT_FALSE(found(".049 .049", ".7"));
+}
+
+TEST(NearestToLevelLimits, ALevelOneThatIsLargerThanALeaningOneWins) {
+  const auto nearest = nearest_of(board(".5 .5", "5 0 .7", "name='leans' euler='0 9 0'") +
+                                  board(".6 .6", "0 0 .2", "name='low'"));
+  ASSERT_TRUE(nearest);
+  EXPECT_EQ(nearest->name, "low");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <numbers>
 #include <thread>
 
@@ -284,6 +286,23 @@ TEST(Scene, RejectsWhatIsNotANumberInWhateverAttribute) {
     EXPECT_THAT(scene_complaint(folder.alone()),
                 AllOf(StartsWith(folder.path().string() + ": "), HasSubstr("NaN")))
         << geom;
+  }
+}
+
+TEST(Scene, ThatIsNoFileRejectsWhatIsNotANumberToo) {
+  EXPECT_THAT(message_of<InputError>([] {
+                load_model(test::scene_mjcf("<geom size='.1' margin='nan'/>"), {}, "made up");
+              }),
+              AllOf(StartsWith("made up: "), HasSubstr("NaN")));
+}
+
+/// In processes of their own, where nothing has been loaded before.
+TEST(Scene, ListensToMuJoCoFromTheFirstOneOn) {
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  for (const char* first :
+       {"RejectsWhatIsNotANumberInWhateverAttribute", "ThatIsNoFileRejectsWhatIsNotANumberToo"}) {
+    const std::string call = "'" + self + "' --gtest_brief=1 --gtest_filter=Scene." + first;
+    EXPECT_EQ(std::system(call.c_str()), 0) << first;
   }
 }
 

@@ -284,5 +284,20 @@ TEST(World, TellsTheWallTimeOfItsStepsAlone) {
   EXPECT_LT(world.stepping_wall_s(), took_s - 0.05);
 }
 
+TEST(World, SaysWhatIsWrongWithAStateOrCommands) {
+  const SceneFolder folder(kHands);
+  World world(folder.alone());
+  const std::string file = folder.path().string();
+  std::vector<double> state = world.state();
+  state[3] = std::nan("");
+  EXPECT_EQ(message_of<InputError>([&] { world.set_state(state); }),
+            "a state of " + file + " holds a number that is not finite");
+  state.pop_back();
+  EXPECT_EQ(message_of<InputError>([&] { world.set_state(state); }),
+            "a state of " + file + " has 7 numbers, not 6");
+  EXPECT_EQ(message_of<InputError>([&] { world.set_controls(state); }),
+            file + " has 1 actuators, not 6");
+}
+
 }  // namespace
 }  // namespace vantage

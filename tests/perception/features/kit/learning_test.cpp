@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -130,6 +131,44 @@ TEST(Words, SettleInTheMiddleOfTheirSamples) {
     ASSERT_EQ(words.cols(), 2);
     EXPECT_FLOAT_EQ(words.minCoeff(), 0.5F) << seed;
     EXPECT_FLOAT_EQ(words.maxCoeff(), 11.0F) << seed;
+  }
+}
+
+TEST(Words, MoveToTheMeansOfTheirSamplesOnceAnIteration) {
+  Rng data(1);
+  const Eigen::MatrixXf samples = noise(3, 60, data);
+  Eigen::MatrixXf words;
+  for (int iterations = 0; iterations < 3; ++iterations) {
+    Rng rng(7);
+    const Eigen::MatrixXf learnt = learn_words(samples, 4, iterations, rng);
+    if (iterations > 0) {
+      const std::vector<int> nearest = nearest_words(words, samples);
+      for (int k = 0; k < 4; ++k) {
+        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+        for (std::size_t i = 0; i < nearest.size(); ++i) {
+          if (nearest[i] == k) sum += samples.col(static_cast<Eigen::Index>(i));
+        }
+        const auto count = static_cast<float>(std::ranges::count(nearest, k));
+        EXPECT_LT((learnt.col(k) - sum / count).norm(), 1e-5F) << iterations << " " << k;
+      }
+    }
+    words = learnt;
+  }
+}
+
+/// Those that are words already are at no distance, and not drawn again.
+TEST(Words, BeginAtSamplesThatDiffer) {
+  Eigen::MatrixXf samples(2, 5);
+  samples << 0.0F, 10.0F, 1.0F, 11.0F, 12.0F,  //
+      3.0F, 3.0F, 4.0F, 5.0F, 3.0F;
+  for (std::uint64_t seed = 1; seed < 9; ++seed) {
+    Rng rng(seed);
+    const Eigen::MatrixXf words = learn_words(samples, 5, 0, rng);
+    ASSERT_EQ(words.cols(), 5);
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      const auto off2 = (words.colwise() - samples.col(i)).colwise().squaredNorm().array();
+      EXPECT_EQ((off2 == 0.0F).count(), 1) << seed << " " << i;
+    }
   }
 }
 

@@ -46,6 +46,28 @@ TEST(ObjectSurface, ALineHasNoNormals) {
   for (const auto& normal : surface.cloud.normals) EXPECT_TRUE(normal.isZero());
 }
 
+/// Two columns of a millimetre, of which each row is so much farther away than the one above: of
+/// the spreads the second is to the first as 0.75 or 1.25 to 10000.
+TEST(ObjectSurface, ALineIsAHundredTimesAsLongAsWide) {
+  const auto has_normal = [](double step_m) {
+    ObjectView view = blank_view(2, 17);
+    view.focal_px = 1000.0;
+    view.centre_px = {view.left_px + 0.5, view.top_px + 8.0};
+    for (int i = 0; i < 34; ++i) {
+      view.depth_m[static_cast<std::size_t>(i)] = static_cast<float>(1.0 + step_m * (i / 2 - 8));
+    }
+    ObjectPixels pixels;
+    pixels.width_px = 2;
+    pixels.height_px = 17;
+    pixels.depth.assign(34, 1);
+    pixels.depth_count = 34;
+    const ObjectSurface surface = object_surface(view, pixels, 0.05);
+    return !surface.cloud.normals[view.index(8, 0)].isZero();
+  };
+  EXPECT_TRUE(has_normal(0.0091));
+  EXPECT_FALSE(has_normal(0.0117));
+}
+
 TEST(ObjectSurface, IntrinsicsThatAreNoNumbersAreNamed) {
   ObjectView view = blank_view(2, 2);
   EXPECT_TRUE(lacks_geometry(view).empty());

@@ -102,6 +102,7 @@ TEST(Gradients, OfAStepAreThoseOfAGaussian) {
       }
     }
     const AttributeImage image = rgb_gradient_image(view, object_pixels(view));
+    EXPECT_TRUE(image.attributes.allFinite()) << "where there is no gradient too";
     const auto weight = [&](int at) { return image.weights[across ? 100 + at : 20 * at + 5]; };
     EXPECT_NEAR(weight(7), 0.0, 1e-6);
     EXPECT_NEAR(weight(8), tail, 1e-5);

@@ -92,6 +92,13 @@ TEST(InverseRoot, InnerProductsAreTheMatchKernel) {
   EXPECT_LT((root.transpose() * root - inverse).norm(), 1e-4 * inverse.norm());
 }
 
+/// K = (1 + r, 1; 1, 1 + r), of which the last entry of L is sqrt(2 r) but for a millionth.
+TEST(InverseRoot, TheRidgeIsAMillionth) {
+  const Eigen::MatrixXd root = inverse_root(Eigen::MatrixXf::Ones(3, 2), 0.1);
+  EXPECT_NEAR(root(0, 0), 1.0 - 0.5e-6, 1e-9);
+  EXPECT_NEAR(root(1, 1), std::sqrt(0.5e6), 1e-2);
+}
+
 TEST(InverseRoot, ExistsForWordsThatAreAlike) {
   const Eigen::MatrixXd root = inverse_root(Eigen::MatrixXf::Constant(200, 50, 3.0F), 0.1);
   EXPECT_TRUE(root.allFinite());

@@ -227,6 +227,25 @@ TEST(Spins, AreMeansOverTheirNeighbours) {
   EXPECT_LT((set.descriptors.col(0) - expected).norm(), 1e-3F * expected.norm());
 }
 
+/// All in one place, a metre away, where 5 cm are 9 px: every second pixel counts, up to 8 px away.
+TEST(Spins, LookNoFartherInTheImageThanTheirRadius) {
+  const ProductBasis basis = make_product_basis(basis_axes(PatchKind::normal_spin), 5);
+  const auto spins = [&](int rows) {
+    ObjectView view = blank_view(41, rows);
+    view.focal_px = 170.0;
+    ObjectPixels pixels;
+    pixels.width_px = pixels.right_px = 41;
+    pixels.height_px = pixels.bottom_px = rows;
+    ObjectSurface surface;
+    surface.cloud.points.assign(view.mask.size(), {0.0F, 0.0F, 1.0F});
+    surface.cloud.normals.assign(view.mask.size(), {0.0F, 0.0F, -1.0F});
+    for (int i = 0; i < 41 * rows; ++i) surface.point_at.push_back(i);
+    return describe_spins(view, pixels, surface, basis).size();
+  };
+  EXPECT_EQ(spins(1), 0) << "nine neighbours are too few";
+  EXPECT_EQ(spins(5), 6);
+}
+
 TEST(Sizes, AreMeansOverThePointsOfTheObject) {
   Rng rng(1);
   const ObjectView view = ball_view(31, {.radius_m = 0.05, .distance_m = 2.0}, rng);
@@ -246,6 +265,60 @@ TEST(Sizes, AreMeansOverThePointsOfTheObject) {
     nearest = std::min(nearest, (set.descriptors.col(p) - expected).norm() / expected.norm());
   }
   EXPECT_LT(nearest, 1e-3F);
+}
+
+/// Every other point is half a metre behind the rest, a row of a pixel each.
+TEST(Sizes, OfMoreThan1600PointsEverySecondCounts) {
+  const ProductBasis basis = make_product_basis(basis_axes(PatchKind::size), 20);
+  const auto first_of = [&](int points) -> Eigen::VectorXf {
+    ObjectPixels pixels;
+    pixels.width_px = pixels.right_px = points;
+    pixels.height_px = pixels.bottom_px = 1;
+    ObjectSurface surface;
+    for (int i = 0; i < points; ++i) {
+      surface.cloud.points.emplace_back(0.0F, 0.0F, i % 2 == 0 ? 1.0F : 1.5F);
+      surface.point_at.push_back(i);
+    }
+    return describe_sizes(pixels, surface, basis).descriptors.col(0);
+  };
+  const Eigen::VectorXf here = basis.describe(std::array{0.0});
+  const Eigen::VectorXf there = basis.describe(std::array{0.5});
+  EXPECT_LT((first_of(1601) - here).norm(), 1e-4F * here.norm());
+  EXPECT_LT((first_of(1600) - 0.5F * (here + there)).norm(), 1e-4F * here.norm());
+}
+
+TEST(ExtractPatches, NormalsAreOfTheCentimetreAround) {
+  Rng rng(1);
+  const ObjectView view = ball_view(45, {.radius_m = 0.05, .noise = 0.02}, rng);
+  const ObjectPixels pixels = object_pixels(view);
+  const ProductBasis basis = make_product_basis(basis_axes(PatchKind::normal_spin), 10);
+  const auto spins = [&](double radius_m) {
+    const ObjectSurface surface = object_surface(view, pixels, radius_m);
+    return describe_spins(view, pixels, surface, basis).descriptors;
+  };
+  const Eigen::MatrixXf found =
+      extract_patches(PatchKind::normal_spin, view, basis).patches.descriptors;
+  ASSERT_GT(found.cols(), 0);
+  EXPECT_EQ(found, spins(0.01));
+  EXPECT_NE(found, spins(0.005));
+  EXPECT_NE(found, spins(0.02));
+}
+
+TEST(ExtractPatches, SaysWhatIsMissing) {
+  const auto skipped = [](PatchKind kind, const ObjectView& view) {
+    return extract_patches(kind, view, make_product_basis(basis_axes(kind), 5)).skipped;
+  };
+  ObjectView view = blank_view(45, 45);
+  EXPECT_EQ(skipped(PatchKind::lbp, view), "the mask has 0 usable pixels, fewer than 32");
+  for (int column = 0; column < 45; ++column) {
+    view.mask[view.index(26, column)] = 1;
+    view.depth_m[view.index(26, column)] = 1.0F;
+  }
+  EXPECT_EQ(skipped(PatchKind::lbp, view), "no patch of 16 x 16 px has enough of the object");
+  EXPECT_EQ(skipped(PatchKind::normal_spin, view), "no grid point is on a surface large enough");
+  EXPECT_EQ(skipped(PatchKind::size, view), "");
+  view.focal_px = 0.0;
+  EXPECT_EQ(skipped(PatchKind::size, view), "the camera's intrinsics are not finite numbers");
 }
 
 TEST(ExtractPatches, DepthIsNeededByWhatGoesByIt) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -127,6 +128,18 @@ TEST(ProductBasis, IsSolvedForAmongHalfMoreProductsThanRows) {
               basis.terms.row(static_cast<Eigen::Index>(a)).maxCoeff() + 1)
         << "no function that no product has";
   }
+}
+
+/// Two axes of two points. The eigenvalues of the first are as 3 to 1, so that of the four products
+/// one has that share of the greatest, one a third of it.
+TEST(ProductBasis, ProductsBelowATenMillionthOfTheGreatestAreLeftOut) {
+  const auto products = [](double share) {
+    const std::vector<BasisAxis> axes{even_axis(2, 0.0, 1.0, std::log(2.0)),
+                                      even_axis(2, 0.0, 1.0, 2.0 * share)};
+    return make_product_basis(axes, 4).terms.cols();
+  };
+  EXPECT_EQ(products(0.75e-7), 2);
+  EXPECT_EQ(products(1.25e-7), 3);
 }
 
 /// Bytes of a basis with so many axes alike, of two functions each.
