@@ -1,7 +1,10 @@
 // `vantage train --recipe`: from a file that says how a model is made to its bytes.
 #include "tests/cli/command_line.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/hash.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/recipe/make_model.hpp"
+#include "vantage/sim/render/renderer.hpp"
 
 namespace vantage {
 namespace {
@@ -59,6 +62,25 @@ TEST_F(Recipe, TellsHowFarItIsAndWhere) {
   EXPECT_THAT(result.output, HasSubstr("told/recordings"));
 }
 
+/// 8 ms to render each of 8 views, then 1.5 ms to train on each: of 76 ms the first object is 32.
+TEST_F(Recipe, SaysHowMuchOfTheWholeIsDone) {
+  const std::string small = "--cache told --set render.objects=1 render.step_deg=180";
+  const std::string begun = make("told.model", small).output;
+  EXPECT_THAT(begun, HasSubstr("making the model: 42 % recording 1 of 2, mug_1"));
+  const std::string rendered = make("told.model", "--overwrite " + small).output;
+  EXPECT_THAT(rendered, HasSubstr("making the model: 0 % recording 1 of 2, mug_1"));
+}
+
+/// Else all that users have rendered would be rendered anew.
+TEST_F(Recipe, WhatTheFirstVersionRenderedIsWhereItIsLookedFor) {
+  DatasetOptions options;
+  options.session = 3;
+  const std::string made_with =
+      "version 1, " + renderer_name() + "\n" + to_yaml(write_node(options));
+  EXPECT_EQ(recording_folder("cache", options),
+            fs::path("cache/recordings") / ("session_3-" + hash_text(hash_bytes(made_with))));
+}
+
 TEST_F(Recipe, TheUsersCacheIsTheDefault) {
   const Result result = shell("cd '" + folder_.string() +
                               "' && XDG_CACHE_HOME=$PWD/mine " VANTAGE_BINARY
@@ -101,7 +123,12 @@ TEST_F(Recipe, WhatIsWrongIsNamed) {
   file("recipe.yaml", "recordings:\n  - {session: 1, distance_m: 9}\n");
   expect_error(make("model", "-q"), 2, {"recipe.yaml:2", "distance_m", "9"});
   expect_error(vantage("train --out model -q"), 2, {"--recipe"});
-  expect_error(vantage("train data --recipe recipe.yaml --out model -q"), 2, {"--recipe"});
+  const std::string beside = "train --recipe recipe.yaml --out model -q ";
+  for (const std::string other : {"--add-to m", "--config c.yaml", "--skip-bad"}) {
+    expect_error(vantage(beside + other), 2,
+                 {"--recipe says what is trained on; no " + other.substr(0, other.find(' '))});
+  }
+  expect_error(vantage(beside + "data"), 2, {"--recipe says what is trained on; no datasets"});
   expect_error(vantage("train --recipe none.yaml --out model -q"), 3, {"none.yaml"});
   EXPECT_FALSE(fs::exists(folder_ / "model"));
 }

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/dataset/view_files.hpp"
 
 namespace vantage {
 namespace {
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -92,8 +94,8 @@ TEST_F(CheckedFolder, MeasuresEveryView) {
   EXPECT_EQ(checked.objects[1].bins, 2);
   EXPECT_EQ(checked.objects[1].thin_bins, 2);
   EXPECT_THAT(checked.problems, IsEmpty());
-  EXPECT_THAT(checked.advice, Contains(HasSubstr("2 of 2 objects have directions with one")));
-  EXPECT_THAT(checked.advice, Not(Contains(HasSubstr("one recording of every object"))));
+  EXPECT_NEAR(first.size_m, 19.0 * 2.0 / 570.3, 1e-6) << "20 px 2 m away are the median";
+  EXPECT_THAT(checked.advice, ElementsAre(HasSubstr("2 of 2 objects have directions with one")));
   EXPECT_EQ(check(4).objects[1].bins, 1) << "0 and 44 deg in bins of 90";
 }
 
@@ -147,7 +149,9 @@ TEST_F(CheckedFolder, CopiesAreTold) {
   put("cup_2", 1, 2, 0.0, {.depth_m = 1.1, .grey = 2});
   const CheckedDataset within = check();
   EXPECT_THAT(within.problems, IsEmpty());
-  EXPECT_THAT(within.advice, Contains(HasSubstr("copies count once in training")));
+  EXPECT_THAT(within.advice,
+              Contains(AllOf(HasSubstr("cup_1_1_2_crop.png: is the same picture as "),
+                             HasSubstr("cup_1_1_1_crop.png; copies count once in training"))));
   EXPECT_EQ(within.pictures.size(), 3U);
   put("cup_2", 1, 2, 0.0, {.grey = 1});
   EXPECT_THAT(check().problems, ElementsAre(HasSubstr(", of another object")));
@@ -166,6 +170,34 @@ TEST_F(CheckedFolder, ObjectsOfFewPicturesAreTold) {
   EXPECT_THAT(checked.advice, Contains("cup_3: pictures from 2 of 3 directions"));
   EXPECT_THAT(checked.advice, Not(Contains(HasSubstr("cup_2: pictures"))));
   EXPECT_THAT(checked.advice, Contains(HasSubstr("one recording of every object")));
+}
+
+TEST_F(CheckedFolder, IsWhatItsNotesSay) {
+  put("cup_1", 1, 1, 0.0, {.grey = 1});
+  put("cup_1", 1, 2, 44.0, {.grey = 2});
+  PictureNotes notes;
+  notes.cut = "depth";
+  notes.focal_px = 400.0;
+  notes.bins = 4;
+  write_file(folder_ / kPictureNotes, to_text(notes));
+  const CheckedDataset checked = check();
+  EXPECT_EQ(checked.cut, ObjectCut::depth);
+  EXPECT_EQ(checked.focal_px, 400.0);
+  EXPECT_EQ(checked.bins, 4);
+  EXPECT_EQ(checked.objects.at(0).bins, 1);
+  EXPECT_EQ(check(12).bins, 12) << "where it is asked for others";
+}
+
+TEST_F(CheckedFolder, ViewsThatCannotBeReadAreProblems) {
+  put_another("cup_1");
+  put("cup_1", 1, 2, 90.0, {.grey = 2});
+  put("cup_1", 1, 3, 90.0, {.grey = 3});
+  write_file(folder_ / "cup/cup_1/cup_1_1_2_depthcrop.png", "no picture");
+  std::filesystem::remove(folder_ / "cup/cup_1/cup_1_1_3_maskcrop.png");
+  const CheckedDataset checked = check();
+  EXPECT_THAT(checked.problems, Contains(HasSubstr("cup_1_1_3_maskcrop.png: is missing")));
+  EXPECT_THAT(checked.problems, Contains(HasSubstr("cup_1_1_2_depthcrop.png")));
+  EXPECT_EQ(checked.objects.at(0).views, 1);
 }
 
 TEST(CheckedDatasets, AreOfNothingAtFirst) {
@@ -241,7 +273,7 @@ TEST_F(TwoDatasets, DifferByHolesAndFocalLength) {
 
 TEST_F(TwoDatasets, DifferByTheirCut) {
   training_.cut = ObjectCut::depth;
-  EXPECT_THAT(said(), ElementsAre(testing::AllOf(
+  EXPECT_THAT(said(), ElementsAre(AllOf(
                           testing::StartsWith("the object is cut by depth in mine and by mask"),
                           HasSubstr("cut by depth again"))));
   training_.cut = ObjectCut::mask;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "tests/support/temporary_directory.hpp"
@@ -87,6 +88,22 @@ TEST(ContactSheet, NamesEachObjectBelowItsPicture) {
   }
   EXPECT_LT(darkest, 0.8) << "its name";
   EXPECT_THROW(write_contact_sheet(index, options, folder / "sheet.jpg"), ConfigError);
+}
+
+TEST(ContactSheet, ShowsTheSecondVideoFromTheRightInFrontUnlessToldOtherwise) {
+  const support::TemporaryDirectory folder;
+  DatasetIndex index;
+  for (const auto& [video, frame, yaw_rad, grey] :
+       {std::tuple(1, 1, 5.2, 10), {2, 1, 4.1, 20}, {2, 2, 5.3, 30}, {2, 3, 0.1, 40}}) {
+    const ViewEntry entry{{"cup", "cup_1", video, frame}, folder.path(), yaw_rad};
+    write_view(plain(static_cast<std::uint8_t>(grey)), entry);
+    index.views.push_back(entry);
+  }
+  write_contact_sheet(index, {}, folder / "sheet.png");
+  const Image sheet = read_png(folder / "sheet.png");
+  EXPECT_EQ(sheet.width_px, 96);
+  EXPECT_EQ(sheet.height_px, 96 + 12);
+  EXPECT_NEAR(sheet.at(20, 40).x() * 255.0, 30.0, 1.0);
 }
 
 }  // namespace

@@ -4,43 +4,57 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <string_view>
+#include <type_traits>
+#include <vector>
 
+#include "tests/support/option_numbers.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/yaml.hpp"
+#include "vantage/dataset/render_dataset.hpp"
 #include "vantage/dataset/render_worker.hpp"
 
 namespace vantage {
 namespace {
 
-/// Of one key at both of its ends and beyond them.
-template <class T>
-void expect_limits(T DatasetOptions::*key, T least, T most, T below, T above) {
-  const auto with = [&](T value) {
-    DatasetOptions options;
-    options.*key = value;
-    check_options(options);
-  };
-  EXPECT_NO_THROW(with(least)) << least;
-  EXPECT_NO_THROW(with(most)) << most;
-  EXPECT_THROW(with(below), ConfigError) << below;
-  EXPECT_THROW(with(above), ConfigError) << above;
-}
+/// Each of its videos by itself.
+struct OwnDatasetOptions : DatasetOptions {
+  void fields(auto&& f) {
+    DatasetOptions::fields(
+        [&](std::string_view key, auto& value, std::string_view text, const Range& range = {}) {
+          if constexpr (std::is_same_v<decltype(value), std::vector<int>&>) {
+            for (int& one : value) f(key, one, text, range);
+          } else {
+            f(key, value, text, range);
+          }
+        });
+  }
+};
 
-TEST(DatasetLimits, OfNumbers) {
-  expect_limits(&DatasetOptions::objects, 1, 100000, 0, 100001);
-  expect_limits(&DatasetOptions::mask_growth_px, 0, 20, -1, 21);
-  expect_limits(&DatasetOptions::margin_px, 0, 50, -1, 51);
-  expect_limits(&DatasetOptions::supersampling, 1, 7, -1, 9);
-  expect_limits(&DatasetOptions::step_deg, 0.1, 360.0, 0.09, 360.1);
-  expect_limits(&DatasetOptions::distance_m, 0.3, 3.0, 0.29, 3.01);
-  expect_limits(&DatasetOptions::placement_m, 0.0, 0.1, -0.001, 0.101);
-  expect_limits(&DatasetOptions::lighting, 0.0, 2.0, -0.01, 2.01);
-  expect_limits(&DatasetOptions::colour_noise, 0.0, 100.0, -0.1, 100.1);
-  expect_limits(&DatasetOptions::edge_dropout, 0.0, 1.0, -0.01, 1.01);
+TEST(DatasetNumbers, AreThoseThatSeedsWereRenderedWith) {
+  support::expect_numbers(OwnDatasetOptions{}, {{"seed", 1.0},
+                                                {"session", 1.0, at_least(1)},
+                                                {"objects", 326.0, between(1, 100'000)},
+                                                {"step_deg", 20.0, between(0.1, 360.0)},
+                                                {"videos", 1.0, between(1, 4)},
+                                                {"videos", 2.0, between(1, 4)},
+                                                {"videos", 4.0, between(1, 4)},
+                                                {"distance_m", 0.85, between(0.3, 3.0)},
+                                                {"placement_m", 0.01, between(0.0, 0.1)},
+                                                {"lighting", 0.3, between(0.0, 2.0)},
+                                                {"colour_noise", 4.0, between(0.0, 100.0)},
+                                                {"depth_noise", 1.0},
+                                                {"edge_dropout", 0.3, between(0.0, 1.0)},
+                                                {"cut_by_depth", 0.0},
+                                                {"mask_growth_px", 1.0, between(0, 20)},
+                                                {"margin_px", 3.0, between(0, 50)},
+                                                {"supersampling", 3.0, between(1, 7)}});
   DatasetOptions options;
+  EXPECT_NO_THROW(check_options(options));
   options.session = 0;
   EXPECT_THROW(check_options(options), ConfigError);
+  EXPECT_EQ(DatasetRun{}.jobs, 1);
+  EXPECT_FALSE(DatasetRun{}.overwrite);
 }
 
 TEST(DatasetLimits, OfVideosAndRays) {

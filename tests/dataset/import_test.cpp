@@ -133,6 +133,7 @@ TEST_F(Import, FoldersOfOneNameAreTwoRecordings) {
                                 .root = folder_ / "out",
                                 .overwrite = true});
   EXPECT_THAT(outcome.notes.recordings, ElementsAre("day1 pics", "day2 pics"));
+  EXPECT_THAT(outcome.layouts, ElementsAre("{object}/{view}_{kind}", "{object}/{view}_{kind}"));
 }
 
 TEST_F(Import, GivenAnglesOfManyNumbersCount) {
@@ -301,6 +302,7 @@ TEST(ReplaceFolder, KeepsWhatWasThereIfItFails) {
   EXPECT_THROW(replace_folder(folder / "data.part", folder / "data"), OutputError);
   EXPECT_EQ(read_file(folder / "data/notes"), "old");
   fs::create_directories(folder / "data.part");
+  fs::create_directories(folder / ".data.before/old");  // as a kill leaves it
   write_file(folder / "data.part/notes", "new");
   replace_folder(folder / "data.part", folder / "data");
   EXPECT_EQ(read_file(folder / "data/notes"), "new");
@@ -320,6 +322,109 @@ TEST_F(Import, ManyViewsByNameAreNoTurn) {
   EXPECT_EQ(outcome.views.size(), 13U);
   EXPECT_EQ(outcome.notes.bins, 13) << "one each";
   EXPECT_THAT(outcome.notices, Not(Contains(HasSubstr("taken for one turn"))));
+}
+
+/// A block on a table, 0.6 m below a camera that looks down by that; of 160 x 120 px, in mm.
+cv::Mat table_seen_from(double elevation_rad) {
+  cv::Mat depth(120, 160, CV_16UC1);
+  for (int row = 0; row < depth.rows; ++row) {
+    const double y = (row - 60) / 200.0;
+    const double z_m = 0.6 / (y * std::cos(elevation_rad) + std::sin(elevation_rad));
+    depth.row(row).setTo(std::lround(1000.0 * z_m));
+  }
+  depth(cv::Rect(65, 45, 30, 30)) -= 100;
+  return depth;
+}
+
+TEST_F(Import, ElevationsAreTheMedianOfThoseOverTheTablesSeen) {
+  for (const auto& [view, elevation] : {std::pair("front", 50.0), {"left", 30.0}, {"back", 35.0}}) {
+    put(view);
+    const std::string stem = (folder_ / "mine/drill" / view).string();
+    cv::imwrite(stem + "_rgb.png", cv::Mat(120, 160, CV_8UC3, cv::Scalar::all(90)));
+    cv::imwrite(stem + "_depth.png", table_seen_from(elevation * std::numbers::pi / 180.0));
+  }
+  ImportOptions options = with_camera(200.0);
+  options.cut = "depth";
+  const ImportOutcome outcome =
+      import_pictures(options, {.from = {folder_ / "mine"}, .root = folder_ / "out"});
+  EXPECT_THAT(outcome.notices, Not(Contains(HasSubstr("is not known of"))));
+  EXPECT_THAT(outcome.notices, Contains(HasSubstr("pictures: the camera looks down by 35 deg")));
+  ASSERT_EQ(views().size(), 3U);
+  for (const ViewEntry& view : views()) EXPECT_NEAR(elevation_deg(view), 35.0, 0.2);
+}
+
+TEST_F(Import, LeavesBadPicturesOutIfToldTo) {
+  put("front");
+  put("left");
+  ImportOptions options;
+  options.cut = "whole";
+  const auto taken_in = [&](bool skip_bad) {
+    return import_pictures(options, {.from = {folder_ / "mine"},
+                                     .root = folder_ / "out",
+                                     .overwrite = true,
+                                     .skip_bad = skip_bad});
+  };
+  const auto error_of = [&](bool skip_bad) {
+    try {
+      taken_in(skip_bad);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const auto resize = [&](const std::string& file, int height_px, int type) {
+    cv::imwrite((folder_ / ("mine/drill/" + file)).string(),
+                cv::Mat(height_px, 40, type, cv::Scalar::all(900)));
+  };
+  resize("left_depth.png", 29, CV_16UC1);
+  EXPECT_THAT(error_of(false),
+              HasSubstr("left_depth.png: is 40 x 29 px, its colour 40 x 30; depth must be "
+                        "registered to colour; 1 of 2 pictures cannot be used, --skip-bad"));
+  EXPECT_THAT(taken_in(true).left_out, ElementsAre(HasSubstr("left_depth.png: is 40 x 29 px")));
+  ASSERT_EQ(views().size(), 1U);
+  EXPECT_EQ(views()[0].yaw_rad, 0.0) << "the front";
+  const auto resize_front = [&](int height_px) {
+    resize("front_rgb.png", height_px, CV_8UC3);
+    resize("front_depth.png", height_px, CV_16UC1);
+  };
+  resize_front(8);
+  EXPECT_EQ(taken_in(true).pictures, 1);
+  resize_front(7);
+  EXPECT_THAT(error_of(true), testing::AllOf(HasSubstr("front_rgb.png: is 40 x 7 px; a picture has "
+                                                       "at least 8 x 8; 2 of 2 pictures"),
+                                             Not(HasSubstr("--skip-bad"))));
+}
+
+TEST_F(Import, SaysWhatDoesNotFitTheUsualCamera) {
+  put("front");
+  const auto notices_of = [&](int width_px, const ImportOptions& options) {
+    const std::string stem = (folder_ / "mine/drill/front").string();
+    cv::imwrite(stem + "_rgb.png", cv::Mat(30, width_px, CV_8UC3, cv::Scalar::all(90)));
+    cv::imwrite(stem + "_depth.png", cv::Mat(30, width_px, CV_16UC1, cv::Scalar(900)));
+    return imported(options).notices;
+  };
+  EXPECT_THAT(notices_of(640, {}), Not(Contains(HasSubstr("px wide"))));
+  EXPECT_THAT(notices_of(641, {}), Contains(HasSubstr("a picture is 641 px wide")));
+  EXPECT_THAT(notices_of(641, with_camera(570.0)), Not(Contains(HasSubstr("px wide"))));
+  put("left");
+  EXPECT_THAT(imported({}).notices, Not(Contains(HasSubstr("metres"))));
+  fs::remove(folder_ / "mine/drill/left_depth.png");
+  cv::imwrite((folder_ / "mine/drill/left_depth.tiff").string(),
+              cv::Mat(30, 40, CV_32FC1, cv::Scalar(0.9)));
+  const ImportOutcome both = imported({});
+  EXPECT_THAT(both.units, ElementsAre(testing::Pair(0.001, 1), testing::Pair(1.0, 1)));
+  EXPECT_THAT(both.notices, Contains(HasSubstr("millimetres in some files and in metres")));
+}
+
+TEST_F(Import, AnglesGoWithNamesThatHaveOneToo) {
+  put("30deg");
+  put("left");
+  const ImportOutcome outcome = imported({});
+  EXPECT_EQ(outcome.notes.bins, 12) << "30 and 270 deg";
+  EXPECT_TRUE(outcome.notes.views.empty());
+  put("handle");
+  EXPECT_THAT([&] { imported({}); }, testing::ThrowsMessage<InputError>(HasSubstr(
+                                         "a view without one, such as 'left'; give all")));
 }
 
 }  // namespace

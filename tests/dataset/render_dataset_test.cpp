@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -37,6 +38,23 @@ std::map<std::string, std::string> contents(const fs::path& root) {
     }
   }
   return files;
+}
+
+/// Folders of objects that are not complete.
+std::ptrdiff_t unfinished_in(const fs::path& root) {
+  return std::ranges::count_if(
+      fs::recursive_directory_iterator(root),
+      [](const fs::directory_entry& entry) { return entry.path().extension() == ".part"; });
+}
+
+/// Descriptors by which this process has the folder open.
+int descriptors_of(const fs::path& folder) {
+  int count = 0;
+  std::error_code gone;
+  for (const auto& entry : fs::directory_iterator("/proc/self/fd")) {
+    count += fs::read_symlink(entry.path(), gone) == fs::canonical(folder) ? 1 : 0;
+  }
+  return count;
 }
 
 TEST(RenderDataset, IsReadAsADataset) {
@@ -141,6 +159,7 @@ TEST(RenderDataset, GoesOnWhereItWasStopped) {
       render_dataset(few(4), {.root = out / "parts", .stop = [&] { return ++views > 22; }});
   EXPECT_TRUE(stopped.stopped);
   EXPECT_LT(stopped.objects, 4);
+  EXPECT_EQ(unfinished_in(out / "parts"), 0);
   fs::create_directories(out / "parts" / "mug" / ".mug_2.part");  // as a kill leaves it
   write_file(out / "parts" / "mug" / ".mug_2.part" / "mug_2_1_1_crop.png", "half");
   const DatasetOutcome resumed = render_dataset(few(4), {.root = out / "parts"});
@@ -176,6 +195,7 @@ TEST(RenderDataset, AnObjectTooLargeForTheImageIsNamed) {
   options.distance_m = 0.3;
   options.placement_m = 0.1;
   EXPECT_THROW(render_dataset(options, {.root = out / "d"}), InputError);
+  EXPECT_EQ(unfinished_in(out / "d"), 0);
 }
 
 TEST(RenderDataset, OfADamagedModelNothingIsBegun) {
@@ -209,6 +229,7 @@ TEST(RenderDataset, OneProcessAtATimeRendersIntoAFolder) {
       EXPECT_THAT(error.what(), testing::HasSubstr("another process"));
       ++refused;
     }
+    EXPECT_EQ(descriptors_of(out / "d"), 1) << "that of the one that renders";
     return false;
   };
   render_dataset(few(1), {.root = out / "d", .stop = another});

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -113,6 +114,19 @@ TEST(Sensing, ColourNoiseHasItsDeviation) {
     }
   }
   EXPECT_NEAR(std::sqrt(sum / pixels), 6.0, 0.3);
+}
+
+/// A seed stands for the same pictures for ever.
+TEST(Sensing, ColourNoiseIsDrawnForEachValueInTurn) {
+  const ObjectView clean = sensed(exact());
+  DatasetOptions options = exact();
+  options.colour_noise = 6.0;
+  const ObjectView noisy = sensed(options);
+  Rng again(5);
+  for (std::size_t i = 0; i < clean.rgb.size(); ++i) {
+    const double value = clean.rgb[i] + 6.0 * again.normal();
+    ASSERT_EQ(noisy.rgb[i], std::lround(std::clamp(value, 0.0, 255.0))) << i;
+  }
 }
 
 TEST(Sensing, NothingSeenIsAnEmptyView) {

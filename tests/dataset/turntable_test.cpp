@@ -265,20 +265,20 @@ TEST(Sessions, AreDrawnInTheOrderOfTheirMembers) {
   EXPECT_NEAR(session.first_yaw_rad, again.uniform(0.0, pi / 6.0), 1e-12);
 }
 
-/// Almost before it, and almost beside it.
 TEST(Lamp, LightsTheFaceThatItStandsBefore) {
   const auto context = make_offscreen_context();
-  const auto red_with_lamp_at = [&](double heading_rad) {
+  const auto red_with_lamp_at = [&](double heading_rad, double yaw_rad) {
     Session session = support::plain_session(kElevation_rad);
     session.lamp_heading_rad = heading_rad;
     session.lamp_elevation_rad = 0.3;
     const DatasetOptions options{.supersampling = 1};
     Turntable table(support::coloured_cube(), session, options, "cube", context);
     RenderedImages images;
-    table.draw(0.0, images);
+    table.draw(yaw_rad, images);
     return face_colour(images).r;
   };
-  EXPECT_GT(red_with_lamp_at(0.1), red_with_lamp_at(1.5) + 40);
+  EXPECT_GT(red_with_lamp_at(0.1, 0.0), red_with_lamp_at(1.5, 0.0) + 40) << "almost beside it";
+  EXPECT_GT(red_with_lamp_at(1.3, 0.5), red_with_lamp_at(-1.3, 0.5) + 40) << "turned away";
 }
 
 /// Where the object is in its window, of a camera that looks down by 30 deg.

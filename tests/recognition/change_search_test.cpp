@@ -261,5 +261,12 @@ TEST_F(ChangeOfOnePose, WhatRulesOutAHypothesisDecidesForTheOther) {
   EXPECT_EQ(search_.hypotheses.p_changed(), 1.0);
 }
 
+/// Even where one of them is beyond the least number.
+TEST_F(ChangeOfOnePose, WhatIsBelievedIsTheMixtureOfBoth) {
+  see(-900.0, 0.2);
+  EXPECT_EQ(search_.recognition.belief.log_p, Eigen::Vector2d(kRuledOut, 0.0));
+  EXPECT_EQ(search_.recognition.belief.log_p, search_.hypotheses.mixture().log_p);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -240,5 +240,11 @@ TEST(Recogniser, SaysOfAFileThatItWasTrainedWithoutUnknownObjects) {
   EXPECT_EQ(said(0.1), "");
 }
 
+TEST(Recogniser, OptionsAreInTheirRange) {
+  RecogniserOptions options;
+  options.unknown_prior = 1.0;
+  expect_error([&] { make_recogniser(small_model(), options, 1); }, "unknown_prior");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -97,6 +98,40 @@ TEST_F(Training, EveryTrainingViewCounts) {
   EXPECT_EQ(std::accumulate(count.begin(), count.end(), 0), 3 * 2 * 16);
   EXPECT_GT(model.features[0].psi, 0.0);
   EXPECT_GT(model.features[0].cost_s, 0.0);
+  EXPECT_EQ(model.states.bins, 8);
+}
+
+TEST_F(Training, ACopyOfAViewCountsOnce) {
+  const auto folder = folder_ / "cup/cup_1";
+  for (const std::string file :
+       {"crop.png", "depthcrop.png", "maskcrop.png", "loc.txt", "pose.txt"}) {
+    std::filesystem::copy_file(folder / ("cup_1_1_1_" + file), folder / ("cup_1_1_17_" + file));
+  }
+  options_.bins = 4;
+  const RecognitionModel model = train();
+  EXPECT_EQ(model.states.bins, 4);
+  const std::vector<int>& count = model.features[0].statistics.count;
+  EXPECT_EQ(std::accumulate(count.begin(), count.end(), 0), 3 * 2 * 16);
+}
+
+TEST_F(Training, TellsOfEachPartHowMuchThereIs) {
+  options_.feature_views = 10;
+  std::map<std::string, std::size_t> parts;
+  const LongWork how{
+      .threads = 2,
+      .tell = [&](const std::string& part, std::size_t, std::size_t of) { parts[part] = of; }};
+  (void)train_recognition(index_dataset(folder_.path()), options_, how);
+  EXPECT_EQ(parts["reading views to learn features from"], 10U);
+  EXPECT_EQ(parts["learning features"], 2U);
+  EXPECT_EQ(parts[std::string(kExtractingFeatures)], 96U);
+}
+
+/// Else there were none to train on.
+TEST_F(Training, OfPicturesOfOneRecordingAShareIsHeldOut) {
+  DatasetIndex dataset = index_dataset(folder_.path());
+  std::erase_if(dataset.views, [](const ViewEntry& view) { return view.name.video != 1; });
+  for (ViewEntry& view : dataset.views) view.notes = std::make_shared<const PictureNotes>();
+  EXPECT_GT(train_recognition(dataset, options_, {}).features[0].psi, 0.0);
 }
 
 TEST_F(Training, WithoutViewsHeldOutPsiIsForRulesThatNeedNone) {
@@ -109,6 +144,8 @@ TEST_F(Training, WithoutViewsHeldOutPsiIsForRulesThatNeedNone) {
     return train_recognition(index_dataset(few.path()), options_, {.threads = 1});
   };
   EXPECT_THROW(train_few(), InputError) << "this seed holds out none of the 32";
+  options_.held_out = HeldOutAuto{.share = 0.01};
+  EXPECT_THROW(train_few(), InputError) << "by the same share";
   options_.psi = PerDimensionPsi{};
   const RecognitionModel model = train_few();
   EXPECT_EQ(model.features[0].psi, 1.0 / 144.0);

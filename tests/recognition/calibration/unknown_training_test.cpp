@@ -136,11 +136,13 @@ struct Learnt {
   std::vector<std::optional<UnknownFactors>> factors;
 };
 
-Learnt learn(const PointWorld& world, int views_each, Rng& rng, double exponent = 1.0,
-             bool only_seen = false) {
+/// @param psi of features that all measure the same
+Learnt learn(const PointWorld& world, int views_each, Rng& rng,
+             const std::vector<double>& psi = {1.0}, bool only_seen = false) {
   RecognitionModel model;
   model.states = world.states;
-  model.features.push_back(
+  model.features.resize(
+      psi.size(),
       {.name = "point", .statistics = empty_statistics(2, world.states.size()), .blobs = {}});
   std::vector<ViewFeatures> views;
   std::vector<int> shown;
@@ -150,13 +152,12 @@ Learnt learn(const PointWorld& world, int views_each, Rng& rng, double exponent 
       const auto object = static_cast<std::size_t>(k);
       view.name = {.category = "c", .object = world.states.objects[object], .video = 1, .frame = i};
       view.yaw_rad = i * 2.0 * std::numbers::pi / views_each;  // no burst of one direction
-      view.features.push_back({PointWorld::seen(world.point[object], rng), {}});
+      view.features.resize(psi.size(), {PointWorld::seen(world.point[object], rng), {}});
       shown.push_back(world.states.state(k, 0));
     }
   }
   const Calibration calibration = hold_out(
       views, shown, model, {HeldOutShare{.share = 0.3}, ShrunkVariance{}, 1, only_seen}, {});
-  const std::vector<double> psi{exponent};
   return {calibration.folds.front().models,
           calibrate_unknown(calibration, views, world.states, psi, {})};
 }
@@ -216,7 +217,7 @@ TEST(CalibrateUnknown, KnowsNothingOfSidesThatNoViewIsOf) {
     Rng rng(9);
     PointWorld world(rng);
     world.states.bins = bins;
-    return *learn(world, 20, rng, 1.0, true).factors[0];
+    return *learn(world, 20, rng, {1.0}, true).factors[0];
   };
   const UnknownFactors one = factors(1);
   const UnknownFactors four = factors(4);
@@ -240,7 +241,7 @@ TEST(CalibrateUnknown, LearnsOfObjectsThatAllHangTogether) {
 TEST(CalibrateUnknown, OfAFeatureThatSaysNothingThereAreNoFactors) {
   Rng rng(9);
   const PointWorld world(rng);
-  const Learnt learnt = learn(world, 20, rng, 0.0);
+  const Learnt learnt = learn(world, 20, rng, {0.0});
   ASSERT_TRUE(learnt.factors[0]);
   EXPECT_EQ(learnt.factors[0]->instance, 0.0);
   EXPECT_EQ(learnt.factors[0]->category, 0.0);
@@ -285,6 +286,34 @@ TEST(CalibrateUnknown, OfThreeThatAreApartLearnsFromTheOtherTwo) {
   const auto factors = factors_of_points({{0.0, 0.0}, {10.0, 0.0}, {0.0, 10.0}});
   ASSERT_TRUE(factors);
   EXPECT_EQ(factors->instance, factors->category) << "no category can be left out";
+}
+
+TEST(CalibrateUnknown, DoesNotDependOnTheOrderOfCategories) {
+  const auto factors = [](bool turned_round) {
+    Rng rng(9);
+    PointWorld world(rng);
+    for (int& category : world.states.category_of) {
+      if (turned_round) category = PointWorld::kCategories - 1 - category;
+    }
+    return *learn(world, 20, rng).factors[0];
+  };
+  const UnknownFactors one = factors(false);
+  const UnknownFactors other = factors(true);
+  EXPECT_NEAR(other.instance, one.instance, 1e-6);
+  EXPECT_NEAR(other.category, one.category, 1e-6);
+}
+
+/// Four in a row, of which none can be left out.
+TEST(CalibrateUnknown, OfAFeatureThatSaysNothingThereAreSomeWhateverOthersLack) {
+  Rng rng(9);
+  PointWorld world(rng);
+  world.states.objects.resize(4);
+  world.states.category_of.resize(4);
+  world.point = {{0.0, 0.0}, {0.25, 0.0}, {0.5, 0.0}, {0.75, 0.0}};
+  const Learnt learnt = learn(world, 60, rng, {1.0, 0.0});
+  EXPECT_FALSE(learnt.factors[0]);
+  ASSERT_TRUE(learnt.factors[1]);
+  EXPECT_EQ(learnt.factors[1]->instance, 0.0);
 }
 
 }  // namespace

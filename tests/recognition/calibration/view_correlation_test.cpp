@@ -16,7 +16,8 @@ constexpr int kRecordings = 3;
 
 /// Views whose noise is `shared` to this share of its variance among all of one object in one
 /// recording, which is a folder or a video.
-double learnt(double shared, int recordings, bool by_video = false) {
+/// @param beside_a_mute of two features, the first of which tells nothing
+double learnt(double shared, int recordings, bool by_video = false, bool beside_a_mute = false) {
   RecognitionModel model;
   model.states.bins = kBins;
   model.states.categories = {"cup"};
@@ -51,6 +52,17 @@ double learnt(double shared, int recordings, bool by_video = false) {
       }
     }
   }
+  if (beside_a_mute) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const auto number = static_cast<float>(i % 3);
+      views[i].features.insert(views[i].features.begin(),
+                               FeatureResult{Eigen::VectorXf::Constant(1, number), {}});
+    }
+    FeatureModel mute = model.features[0];
+    mute.statistics = empty_statistics(1, kSeries * kBins);
+    mute.psi = 0.0;
+    model.features.insert(model.features.begin(), mute);
+  }
   return learn_view_correlation(views, shown, model, ShrunkVariance{}, 1, {.threads = 2});
 }
 
@@ -68,6 +80,42 @@ TEST(ViewCorrelation, OfOneFolderIsThatOfItsVideos) {
 }
 
 TEST(ViewCorrelation, OfOneRecordingIsNotTold) { EXPECT_EQ(learnt(0.8, 1), 0.0); }
+
+TEST(ViewCorrelation, IsOfAllFeaturesTogether) {
+  EXPECT_EQ(learnt(0.3, kRecordings, false, true), learnt(0.3, kRecordings));
+}
+
+/// Two objects of the same four sides, the other way round: only turning tells them, by views that
+/// are independent. Held to turn the other way, each would be taken for the other.
+TEST(ViewCorrelation, GoesByHowTheObjectTurns) {
+  RecognitionModel model;
+  model.states = {
+      .objects = {"cup_0", "cup_1"}, .categories = {"cup"}, .category_of = {0, 0}, .bins = kBins};
+  FeatureModel& feature = model.features.emplace_back();
+  feature.name = "colour";
+  feature.statistics = empty_statistics(1, 2 * kBins);
+  std::vector<ViewFeatures> views;
+  std::vector<int> shown;
+  Rng rng(1);
+  for (int recording = 0; recording < kRecordings; ++recording) {
+    for (int i = 0; i < 8 * kBins; ++i) {
+      const int object = i % 2;
+      const int bin = i / 2 % kBins;
+      const int side = object == 0 ? bin : (kBins - bin) % kBins;
+      ViewFeatures& view = views.emplace_back();
+      view.name = {.category = "cup",
+                   .object = model.states.objects[static_cast<std::size_t>(object)],
+                   .video = 1,
+                   .frame = i};
+      view.folder = fmt::format("/data/{}/cup/{}", recording, view.name.object);
+      view.yaw_rad = bin * 2.0 * std::numbers::pi / kBins;
+      view.features.push_back(
+          {Eigen::VectorXf::Constant(1, static_cast<float>(10.0 * side + rng.normal())), {}});
+      shown.push_back(model.states.state(object, bin));
+    }
+  }
+  EXPECT_LE(learn_view_correlation(views, shown, model, ShrunkVariance{}, 1, {}), 0.1);
+}
 
 }  // namespace
 }  // namespace vantage

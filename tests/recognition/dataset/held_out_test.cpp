@@ -205,8 +205,7 @@ TEST(HoldOutByVideo, RulesOutWhatItWasNotTrainedOnIfAsked) {
   }
 }
 
-/// With one view of each state to train on, how far they scatter is that of the other objects.
-TEST(HoldOutByVideo, TakesTheScatterOfTheOtherHalfOfTheObjects) {
+NumberedViews one_view_each_in_two_videos() {
   NumberedViews made(4);
   for (const auto& [first, second, video] : {std::tuple{1.0F, 30.0F, 1}, {2.0F, 31.0F, 4}}) {
     const float odd = video == 1 ? 0.0F : 1.0F;
@@ -215,7 +214,12 @@ TEST(HoldOutByVideo, TakesTheScatterOfTheOtherHalfOfTheObjects) {
     made.add(2, video, second);
     made.add(3, video, 50.0F + 2.0F * odd);
   }
-  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  return made;
+}
+
+/// With one view of each state to train on, how far they scatter is that of the other objects.
+TEST(HoldOutByVideo, TakesTheScatterOfTheOtherHalfOfTheObjects) {
+  const Calibration by = one_view_each_in_two_videos().hold_out_by(HeldOutVideos{});
   EXPECT_THAT(by.view, testing::ElementsAre(0U, 2U, 1U, 3U, 4U, 6U, 5U, 7U));
   ASSERT_EQ(by.folds.size(), 4U);
   for (std::size_t s = 0; s < 4; ++s) {
@@ -227,6 +231,36 @@ TEST(HoldOutByVideo, TakesTheScatterOfTheOtherHalfOfTheObjects) {
       EXPECT_NEAR(by.folds[s].models[0].variance(0, state), expected, 1e-5F);
     }
   }
+}
+
+TEST(HoldOutByVideo, TakesNoScatterBelowTheFloor) {
+  NumberedViews made = one_view_each_in_two_videos();
+  made.model.features[0].statistics = empty_statistics(2, 4);
+  for (ViewFeatures& view : made.views) {
+    const float number = view.features[0].vector[0];
+    view.features[0].vector = Eigen::Vector2f(number, 7.0F);
+  }
+  const Calibration by = hold_out(made.views, made.shown, made.model,
+                                  {HeldOutVideos{}, ShrunkVariance{.floor = 0.5}, 1, false}, {});
+  for (std::size_t s = 0; s < 4; ++s) {
+    const Eigen::MatrixXf& variance = by.folds[s].models[0].variance;
+    EXPECT_NEAR(variance(0, 0), s % 2 == 0 ? 5.0F : 0.5F, 1e-5F);
+    EXPECT_NEAR(variance(1, 0), 0.5F * 0.5F * variance(0, 0), 1e-5F) << "half of the mean of both";
+  }
+}
+
+TEST(HoldOutByVideo, TakesNoScatterOfObjectsSeenOnce) {
+  NumberedViews made(2);
+  made.add(0, 1, 1.0F);
+  made.add(0, 4, 2.0F);
+  made.add(1, 1, 10.0F);
+  const Calibration by = made.hold_out_by(HeldOutVideos{});
+  ASSERT_EQ(by.folds.size(), 4U);
+  FeatureModel own = made.model.features[0];
+  add_view(own.statistics, 0, Eigen::VectorXf::Constant(1, 2.0F));
+  EXPECT_EQ(by.folds[0].models[0].variance,
+            make_observation_model(own, 1, ShrunkVariance{}).variance);
+  EXPECT_NEAR(by.folds[1].models[0].variance(0, 0), 0.5F, 1e-5F) << "of the object seen twice";
 }
 
 TEST(HoldOutByVideo, LimitsTheViewsOfAllFoldsTogether) {

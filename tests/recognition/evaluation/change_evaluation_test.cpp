@@ -126,5 +126,16 @@ TEST(EvaluatedChanges, TakeTheTimeOfFeaturesAndOfChoices) {
   }
 }
 
+TEST(LogLikelihoods, AreZeroWhereThereIsNoFeature) {
+  PlainWorld world(true);
+  world.test.views[3].features[0] = FeatureResult::skip("hidden");
+  const std::vector<Eigen::MatrixXf> all = log_likelihoods(world.recogniser, world.test, {});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_TRUE(all[0].col(3).isZero());
+  const Eigen::VectorXd expected =
+      log_likelihood(world.recogniser.features[0].prepared, world.test.views[5].features[0].vector);
+  EXPECT_TRUE(all[0].col(5).isApprox(expected.cast<float>()));
+}
+
 }  // namespace
 }  // namespace vantage

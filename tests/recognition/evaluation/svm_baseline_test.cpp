@@ -98,5 +98,18 @@ TEST(SvmBaseline, FitsAStrayViewWhereErrorsWeighMuch) {
   }
 }
 
+/// The other object lies between two sides of one. Over a wide kernel all is linear.
+TEST(SvmBaseline, TellsWhatLiesBetweenByItsKernelOnly) {
+  std::vector<ViewFeatures> known;
+  for (const float x : {0.0F, 0.0F, 1.0F, 1.0F, 2.0F, 2.0F}) known.push_back(view_of(x, 0.0F));
+  const std::vector<int> label{5, 5, 9, 9, 5, 5};
+  const std::vector<ViewFeatures> asked{view_of(0.0F, 0.0F), view_of(1.0F, 0.0F),
+                                        view_of(2.0F, 0.0F)};
+  const auto told = [&](const Svm& svm) { return svm_predictions(svm, {known, label}, asked); };
+  EXPECT_THAT(told(KernelSvm{}), ElementsAre(5, 9, 5));
+  EXPECT_THAT(told(KernelSvm{.gamma = 1e-6}), testing::Not(ElementsAre(5, 9, 5)));
+  EXPECT_THAT(told(LinearSvm{}), testing::Not(ElementsAre(5, 9, 5)));
+}
+
 }  // namespace
 }  // namespace vantage
