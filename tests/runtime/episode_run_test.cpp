@@ -9,6 +9,8 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "tests/sim/test_world.hpp"
@@ -59,6 +61,38 @@ TEST(EpisodeLoop, GoesRoundUntilItIsFinished) {
   EXPECT_EQ(run_episode(parts), "two scans");
   EXPECT_EQ(parts.calls,
             "observe update7 record propose score choose act21 observe update7 record ");
+}
+
+/// Is interrupted in that part.
+struct InterruptedParts : ToldParts {
+  std::string part;
+  void record() {
+    ToldParts::record();
+    if (part == "record") std::raise(SIGINT);
+  }
+  void score(std::vector<int>& candidates) {
+    ToldParts::score(candidates);
+    if (part == "score") std::raise(SIGINT);
+  }
+};
+
+TEST(EpisodeLoop, GoesNoFurtherThanThePartInWhichItIsInterrupted) {
+  const auto interrupted_in = [](const char* part) {
+    set_verbosity(Verbosity::quiet);
+    catch_interrupts();
+    InterruptedParts parts;
+    parts.part = part;
+    try {
+      run_episode(parts);
+    } catch (const Interrupted&) {
+      std::fputs(parts.calls.c_str(), stderr);
+      std::_Exit(7);
+    }
+    std::_Exit(1);
+  };
+  EXPECT_EXIT(interrupted_in("record"), testing::ExitedWithCode(7), "^observe update7 record $");
+  EXPECT_EXIT(interrupted_in("score"), testing::ExitedWithCode(7),
+              "^observe update7 record propose score $");
 }
 
 TEST(Interrupt, HasTheCodeOfItsSignal) {

@@ -177,5 +177,15 @@ TEST_F(Replays, MissARowThatWasTakenOut) {
   EXPECT_EQ(result.what, "the commands in actions.csv are not the ones recorded");
 }
 
+TEST_F(Replays, OfAnotherNumberOfStatesOrActuatorsAreRefused) {
+  for (const std::size_t more : {0U, 1U}) {
+    const std::vector<std::string> names(actuators_ + more, "wheel");
+    StateLog log(folder_.path(), names, std::vector<double>(state_size_ + 1 - more, 0.0));
+    log.commit();
+    EXPECT_THAT(test::message_of<InputError>([&] { static_cast<void>(replayed()); }),
+                HasSubstr("states.bin: recorded with another scene or robot than "));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

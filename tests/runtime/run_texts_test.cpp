@@ -118,6 +118,13 @@ TEST(RunSummary, SaysHowTheEpisodeEnded) {
   EXPECT_EQ(summary_json(identity, summary)["real_time_factor"], 0.0);
 }
 
+TEST(RunSummary, IsOfNothingUnlessTold) {
+  EXPECT_EQ(json_line(summary_json({}, {})),
+            R"({"task":"","status":"completed","reason":"","seed":0,"scene":"","method":"",)"
+            R"("simulated_time_s":0.0,"wall_time_s":0.0,"real_time_factor":0.0,)"
+            R"("path_length_m":0.0,"collisions":0,"state_hash":"0000000000000000"})");
+}
+
 TEST(RecordTexts, AreJoinedInTheirOrder) {
   const RecordTexts first{{"a", "b", "c"}};
   const std::array<RecordText, 2> more{{{"d", "e", "f"}, {"g", "h", "i"}}};

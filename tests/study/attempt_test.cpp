@@ -9,6 +9,7 @@
 #include "tests/study/manifest_of_files.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -85,6 +86,28 @@ TEST_F(Attempts, ThatAreDroppedLeaveTheEpisodeToOthers) {
   EXPECT_FALSE(fs::exists(published_));
   EXPECT_FALSE(Attempt::begin(study_.path(), episode_, 1, this_worker()));
   EXPECT_TRUE(Attempt::begin(study_.path(), episode_, 2, this_worker()));
+}
+
+TEST_F(Attempts, ThatCannotBePublishedAreAnError) {
+  std::ofstream(study_ / "episodes") << "no folder";
+  const Attempt attempt = begin(1);
+  complete(attempt.folder(), "first");
+  EXPECT_THROW(attempt.publish(check_), OutputError);
+}
+
+/// It cannot be moved away here, as if it had come a moment later.
+TEST_F(Attempts, LeaveWhatHasComeIntoTheirPlaceMeanwhile) {
+  fs::create_directories(published_);
+  std::ofstream(published_ / "failure.json") << "{}";
+  const Attempt attempt = begin(1);
+  complete(attempt.folder(), "first");
+  const fs::path former = attempt.folder().string() + ".former";
+  fs::create_directories(former / "something");
+  EXPECT_EQ(attempt.publish(check_), EpisodeState::crashed);
+  EXPECT_TRUE(fs::exists(published_ / "failure.json"));
+  EXPECT_FALSE(fs::exists(attempt.folder()));
+  EXPECT_FALSE(fs::exists(former));
+  EXPECT_TRUE(claim_in_force(claims_)->released);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "tests/support/temporary_directory.hpp"
+#include "vantage/core/error.hpp"
 
 namespace vantage {
 namespace {
@@ -193,6 +194,30 @@ TEST_F(Claims, OfARequeuedTaskAreLostToItself) {
   EXPECT_TRUE(holder_lives(claim_of(elsewhere("3", 1)), self, {})) << "of another cluster";
 }
 
+TEST_F(Claims, ThatCannotBeMadeOrReleasedAreErrors) {
+  const auto held = take_claim(folder_, 1, this_worker());
+  ASSERT_TRUE(held);
+  fs::remove_all(directory_ / "attempts");
+  EXPECT_FALSE(held->in_force());
+  EXPECT_NO_THROW(held->heartbeat());
+  EXPECT_THROW(held->release(), OutputError);
+  std::ofstream(directory_ / "attempts") << "no folder";
+  EXPECT_THROW(take_claim(folder_, 1, this_worker()), OutputError);
+}
+
+TEST_F(Claims, LeaveNoFileOpen) {
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto before = open_files();
+  const auto held = take_claim(folder_, 1, this_worker());
+  ASSERT_TRUE(held);
+  ASSERT_TRUE(claim_in_force(folder_));
+  held->release();
+  EXPECT_FALSE(take_claim(folder_, 1, this_worker()));
+  EXPECT_EQ(open_files(), before);
+}
+
 TEST(Workers, KnowTheirPlaceInSlurm) {
   for (const auto& [name, value] :
        {std::pair("SLURM_JOB_ID", "17"), std::pair("SLURM_ARRAY_JOB_ID", "12"),
@@ -212,6 +237,8 @@ TEST(Workers, KnowTheirPlaceInSlurm) {
   ASSERT_TRUE(worker.slurm);
   EXPECT_EQ(worker.slurm->id(), "12_3");
   EXPECT_EQ(worker.slurm->restart, 2);
+  EXPECT_EQ(worker.slurm->cluster, "c");
+  EXPECT_THAT(worker.machine, testing::StartsWith("n7 ")) << "a machine may be several nodes";
   ASSERT_TRUE(single.slurm);
   EXPECT_EQ(single.slurm->id(), "17");
   EXPECT_EQ(single.slurm->restart, 0);

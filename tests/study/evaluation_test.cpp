@@ -361,5 +361,19 @@ TEST_F(Evaluated, MetricsOfAFormerVersionMeanWhatTheySaid) {
   EXPECT_TRUE(episode_metrics(results_, 3).is_null()) << "of one that is missing";
 }
 
+TEST_F(Evaluated, AFileThatHoldsSomethingOfAnotherKindIsNamed) {
+  const fs::path folder = episode_folder(folder_.path(), results_.plan[1]);
+  write_file(folder / "metrics.json", R"({"state_hash": 5, "wall_time_s": "long"})");
+  for (const auto& csv : {results_csv, timings_csv}) {
+    try {
+      csv(results_);
+      ADD_FAILURE() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(),
+                  testing::StartsWith(folder.string() + ": metrics.json or manifest.json: "));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace vantage

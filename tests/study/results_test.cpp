@@ -137,5 +137,31 @@ TEST_F(Results, AStatusThatIsNoneIsStale) {
   EXPECT_EQ(state(), EpisodeState::missing);
 }
 
+/// One check of them all: what is hashed for one is not taken for another.
+TEST_F(Results, OfOtherScenesRobotsAndModelsAreHeldAgainstTheirOwnFiles) {
+  ResultCheck check;
+  EXPECT_EQ(check(study_.path(), episode_), EpisodeState::completed);
+  const auto expect_completed = [&](const std::string& name, const ResolvedEpisode& resolved) {
+    const PlannedEpisode other{name, {0, 0}, resolved};
+    folder_ = episode_folder(study_.path(), other);
+    fs::create_directories(folder_);
+    write("config.yaml", episode_yaml(resolved));
+    write("manifest.json", manifest_of_files(resolved));
+    write("metrics.json", R"({"status": "completed"})");
+    EXPECT_EQ(check(study_.path(), other), EpisodeState::completed) << name;
+  };
+  const auto base = fs::path(VANTAGE_SOURCE_DIR) / "assets/episodes/tabletop.yaml";
+  expect_completed("scene", load_episode(base, {"scene=models/scenes/clutter_dev_4/scene.xml"}));
+  expect_completed("robot", load_episode(base, {"robot.model=models/robots/rover"}));
+  for (const std::string name : {"a", "b"}) {
+    std::ofstream(study_ / name) << name;
+    RecognitionTask task;
+    task.model = study_ / name;
+    ResolvedEpisode resolved = episode_.resolved;
+    resolved.task = task;
+    expect_completed(name, resolved);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -259,11 +259,27 @@ seeds: [1]
   const ShellResult stopped =
       shell("cd '" + folder_.path().string() +
             "'; " VANTAGE_BINARY
-            " sweep run -q slow.yaml --jobs 1 --out slow & sweep=$!; for i in $(seq 3000); do "
-            "grep -qs 'scan 1 of' slow/attempts/1/1/output.txt && break; sleep 0.02; done; "
-            "kill -INT $sweep; wait $sweep");
+            " sweep run -q slow.yaml --jobs 1 --out slow & sweep=$!; at=slow/attempts/1; "
+            "for i in $(seq 3000); do "
+            "[ -e $at/1/output.txt ] && [ $at/1.json -nt $at/1/episode.yaml ] && "
+            "[ $(($(stat -c %Y $at/1.json) - $(stat -c %Y $at/1/episode.yaml))) -lt 10 ] && "
+            "echo signs of life too often; "
+            "grep -qs 'scan 1 of' $at/1/output.txt && break; sleep 0.02; done; kill -INT $sweep; "
+            "wait $sweep");
   EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
+  EXPECT_THAT(stopped.output, Not(HasSubstr("too often"))) << "one in 15 s is enough";
   EXPECT_THAT(vantage("sweep status slow").output, HasSubstr("1 interrupted of 1"));
+}
+
+TEST_F(Sweep, WhatAnotherWorkerIsAtIsLeftToIt) {
+  const auto study = file("one.yaml", "episode: assets/episodes/tabletop.yaml\nseeds: [1]\n");
+  fs::create_directories(folder_ / "shared/attempts/1");
+  file("shared/attempts/1/1.json",
+       R"({"host": "n9", "machine": "n9 x", "pid": 5, "started": "9", "released": false})");
+  const ShellResult result = vantage("sweep run " + study + " --out shared");
+  EXPECT_EQ(result.exit_code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("1: another worker is at it\n"));
+  EXPECT_FALSE(fs::exists(folder_ / "shared/attempts/1/2.json"));
 }
 
 }  // namespace

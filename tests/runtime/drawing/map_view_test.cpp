@@ -285,5 +285,43 @@ TEST(MapVoxels, AreLitByWhereFreeCellsTwoCellsAwayAre) {
   EXPECT_EQ(drawn({1, 3, 1}, 2), cv::Vec3b(94, 163, 102)) << "the light is more along x";
 }
 
+TEST(MapVoxels, OfOneCellAreAsLargeAndAsNearFromEverySide) {
+  constexpr double kQuarter = 0.5 * std::numbers::pi;
+  OccupancyGrid grid = unit_cells({1, 1, 1});
+  grid.log_odds[0] = 2.0F;
+  const double depth_m = 3.2 * 0.5 * std::sqrt(3.0) - 0.5;
+  for (const auto& [azimuth_rad, elevation_rad] : {std::pair(0.0, 0.0),
+                                                   {kQuarter, 0.0},
+                                                   {2.0 * kQuarter, 0.0},
+                                                   {-kQuarter, 0.0},
+                                                   {0.0, kQuarter},
+                                                   {0.0, -kQuarter}}) {
+    const MapCamera camera =
+        fit_camera(corners_to({1.0, 1.0, 1.0}), azimuth_rad, elevation_rad, {50, 50, 100, 100});
+    MapCanvas canvas = make_canvas({200, 200});
+    draw_voxels(canvas, camera, grid);
+    EXPECT_EQ(cv::countNonZero(canvas.inverse_depth), 101 * 101) << azimuth_rad << elevation_rad;
+    EXPECT_NEAR(canvas.inverse_depth.at<float>(100, 100), 1.0 / depth_m, 1e-5);
+  }
+}
+
+/// From the middle of one of them: the next one begins half a metre ahead.
+TEST(MapVoxels, HaveNoFacesBetweenThem) {
+  OccupancyGrid grid = unit_cells({1, 1, 2});
+  grid.log_odds[1] = 2.0F;
+  MapCamera camera;
+  camera.T_camera_world.translation() = Eigen::Vector3d::Constant(-0.5);
+  camera.focal_px = 20.0;
+  camera.centre_px = {50.0, 50.0};
+  const auto pixels = [&](float log_odds_here) {
+    grid.log_odds[0] = log_odds_here;
+    MapCanvas canvas = make_canvas({100, 100});
+    draw_voxels(canvas, camera, grid);
+    return cv::countNonZero(canvas.inverse_depth);
+  };
+  EXPECT_EQ(pixels(-2.0F), 41 * 41);
+  EXPECT_EQ(pixels(2.0F), 0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -104,6 +104,30 @@ TEST(TourDrawing, StopsThatWouldCoverOthersAreDots) {
   EXPECT_TRUE(is_near_colour(ring, {0.5 + 6.0 / 200.0, 0.595}, panel::kBottom));
 }
 
+/// One metre above the floor, looking along x.
+TEST(TourDrawing, GoesOnAfterAStopBehindTheCamera) {
+  MapCamera ahead;
+  ahead.T_camera_world.linear() << 0, 1, 0, 0, 0, -1, 1, 0, 0;
+  ahead.T_camera_world.translation() << -0.5, 1, 0;
+  ahead.focal_px = 100.0;
+  ahead.centre_px = {100.0, 50.0};
+  const auto drawn = [&](const std::vector<Eigen::Vector2d>& places_m) {
+    MapCanvas canvas = make_canvas({200, 200});
+    draw_tour(canvas, ahead, stops_at(places_m), {});
+    return canvas.bgr;
+  };
+  const cv::Mat first = drawn({{1.0, 0.5}});
+  EXPECT_TRUE(alike(drawn({{1.0, 0.5}, {-1.0, 0.5}}), first));
+  const cv::Mat third = drawn({{1.0, 0.5}, {-1.0, 0.5}, {2.0, 1.5}});
+  cv::Mat more = third != first;
+  cv::Mat where;
+  cv::extractChannel(more, where, 0);
+  const cv::Rect ring = cv::boundingRect(where);
+  EXPECT_NEAR(ring.x + 0.5 * (ring.width - 1), 150.0, 1.0);
+  EXPECT_NEAR(ring.y + 0.5 * (ring.height - 1), 100.0, 1.0);
+  EXPECT_NEAR(ring.width, 21, 3);
+}
+
 TEST(TourDrawing, IsToldInWords) {
   EXPECT_EQ(plan_text({}), "");
   PlannedTour tour = stops_at({{0.0, 0.0}});
@@ -114,6 +138,23 @@ TEST(TourDrawing, IsToldInWords) {
   EXPECT_EQ(plan_text(tour),
             "plan: 2 views, 300 s; another tour costs 14.2 s less than the best that goes on as "
             "intended");
+}
+
+TEST(PanelColours, AreOfOneDarkTheme) {
+  const auto hex = [](const cv::Scalar& bgr) {
+    return fmt::format("{:02x}{:02x}{:02x}", static_cast<int>(bgr[2]), static_cast<int>(bgr[1]),
+                       static_cast<int>(bgr[0]));
+  };
+  EXPECT_EQ(hex(panel::kTop), "16202e");
+  EXPECT_EQ(hex(panel::kBottom), "0b1018");
+  EXPECT_EQ(hex(panel::kCard), "161f2c");
+  EXPECT_EQ(hex(panel::kText), "e8eef4");
+  EXPECT_EQ(hex(panel::kDim), "8a98aa");
+  EXPECT_EQ(hex(panel::kFaint), "485668");
+  EXPECT_EQ(hex(panel::kAccent), "ffbe3c");
+  EXPECT_EQ(hex(panel::kVisited), "5aaac8");
+  EXPECT_EQ(hex(panel::kRobot), "78e696");
+  EXPECT_EQ(hex(panel::kPlan), "f08ce1");
 }
 
 TEST(PanelLayout, ScalesWithTheUnit) {

@@ -63,6 +63,30 @@ TEST(EventLogFile, NothingNewIsNoRun) {
   EXPECT_TRUE(map_change(known, OccupancyGrid(small_frame())).runs.empty());
 }
 
+/// Cells of one state beside each other are one run.
+TEST(EventLogFile, ARunIsOfCellsOfOneStateInARow) {
+  std::vector<CellState> known;
+  OccupancyGrid grid(small_frame());
+  for (const std::size_t cell : {3U, 4U, 5U, 9U}) grid.log_odds[cell] = -2.0F;
+  for (const std::size_t cell : {6U, 7U, 104U}) grid.log_odds[cell] = 2.0F;
+  const auto expect_runs = [&](const std::vector<CellRun>& expected) {
+    const std::vector<CellRun> runs = map_change(known, grid).runs;
+    ASSERT_EQ(runs.size(), expected.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      EXPECT_EQ(runs[i].first, expected[i].first) << i;
+      EXPECT_EQ(runs[i].count, expected[i].count) << i;
+      EXPECT_EQ(runs[i].state, expected[i].state) << i;
+    }
+  };
+  expect_runs({{3, 3, CellState::free},
+               {6, 2, CellState::occupied},
+               {9, 1, CellState::free},
+               {104, 1, CellState::occupied}});
+  expect_runs({});
+  grid.log_odds[4] = 2.0F;
+  expect_runs({{4, 1, CellState::occupied}});
+}
+
 TEST(EventLogFile, IsReadAsItWasWritten) {
   const support::TemporaryDirectory folder;
   const auto event_log = sample_event_log();
@@ -159,7 +183,8 @@ TEST(EventLogFile, RefusesADamagedTour) {
   bad[tour + 16] = '\x09';
   write_file(folder / "story.bin", bad);
   EXPECT_THROW(read_event_log(folder / "story.bin", cells), InputError) << "no such change";
-  for (const std::size_t value : {0U, 1U, 3U}) {  // id, x, yaw
+  // Its id, x, y, yaw, arrival and departure.
+  for (std::size_t value = 0; value < 6; ++value) {
     bad = good;
     const std::size_t high = tour + 24 + 8 + 8 * value + 6;  // an exponent of ones: infinite
     bad[high] = '\xf0';
@@ -212,6 +237,32 @@ TEST(EventLogFile, RefusesWhatIsDamaged) {
     EXPECT_THROW(read_event_log(path, cells), InputError) << at;
   }
   EXPECT_THROW(read_event_log(folder / "none.bin", cells), InputError);
+}
+
+TEST(EventLogFile, RefusesPlacesThatAreNowhere) {
+  const support::TemporaryDirectory folder;
+  const auto path = folder / "story.bin";
+  const std::size_t cells = small_frame().size();
+  EventLog log(folder.path());
+  for (const EpisodeEvent& event : sample_event_log()) log.add(event);
+  log.add({96, PlannedFlight{{{0.0, 0.1, 1.8}}}});
+  log.commit();
+  const std::string good = read_file(path);
+  EXPECT_NO_THROW(read_event_log(path, cells));
+  // A change of two runs, then a decision among three, a way of two places, changes of two runs and
+  // of none, and a flight of one; a head is 24 bytes.
+  const std::size_t decision = 16 + 24 + 2 * 12;
+  const std::size_t way = decision + 24 + 3 * 14 * 8;
+  const std::size_t flight = way + 24 + 2 * 16 + 24 + 2 * 12 + 24;
+  ASSERT_EQ(good.size(), flight + 24 + 24);
+  for (const std::size_t number : {decision + 24, decision + 24 + 2 * 14 * 8 + 11 * 8, way + 24,
+                                   way + 24 + 3 * 8, flight + 24, flight + 24 + 2 * 8}) {
+    std::string bad = good;
+    bad[number + 6] = '\xf0';  // an exponent of ones: infinite
+    bad[number + 7] = '\x7f';
+    write_file(path, bad);
+    EXPECT_THROW(read_event_log(path, cells), InputError) << number;
+  }
 }
 
 }  // namespace

@@ -93,6 +93,13 @@ TEST(StateLog, IsRefusedWhereItIsNotWhole) {
     write_file(path, good.substr(0, size));
     EXPECT_THROW(read_states(path), InputError) << size;
   }
+  write_file(path, good.substr(0, good.size() - 8));
+  try {
+    static_cast<void>(read_states(path));
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(),
+              path.string() + ": cut short: 40 bytes are not whole records of 3 numbers");
+  }
   std::string bad = good;
   bad[0] = 'v';
   write_file(path, bad);

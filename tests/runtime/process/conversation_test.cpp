@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <stdexcept>
 #include <thread>
 
@@ -130,6 +131,21 @@ TEST_F(Conversations, EndWithALastLineAndTheEndOfTheInput) {
   conversation.part("bye", 10.0);
   EXPECT_EQ(read_file(folder_ / "last"), "bye\n");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "end")) << "it saw the end of its input";
+}
+
+/// Who writes to it is told by an error, not by a signal.
+TEST_F(Conversations, OutliveAProgramThatListensNoMore) {
+  Conversation conversation = with("exec <&-; echo hello; sleep 100");
+  EXPECT_EQ(conversation.ask("one", kAnswersWithin_s), "hello");
+  try {
+    conversation.ask("two", 0.5);
+    ADD_FAILURE() << "nobody heard it";
+  } catch (const ConversationFailed& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("no answer within 0.5 s")) << error.what();
+  }
+  sigset_t blocked;
+  ::pthread_sigmask(SIG_BLOCK, nullptr, &blocked);
+  EXPECT_EQ(::sigismember(&blocked, SIGPIPE), 0) << "as it was before";
 }
 
 }  // namespace

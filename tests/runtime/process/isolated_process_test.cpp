@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
@@ -133,6 +134,35 @@ TEST_F(IsolatedProcesses, AreGoneWithTheObject) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   EXPECT_EQ(::kill(pid, 0), -1);
+}
+
+TEST_F(IsolatedProcesses, HeedTheSignalsThatWeDoNot) {
+  sigset_t term;
+  ::sigemptyset(&term);
+  ::sigaddset(&term, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &term, nullptr);
+  const auto before = ::signal(SIGPIPE, SIG_IGN);
+  EXPECT_EQ(end_of("kill -TERM $$; exit 5"), "signal 15 (Terminated)");
+  EXPECT_EQ(end_of("kill -PIPE $$; exit 5"), "signal 13 (Broken pipe)");
+  ::signal(SIGPIPE, before);
+  ::pthread_sigmask(SIG_UNBLOCK, &term, nullptr);
+}
+
+TEST_F(IsolatedProcesses, LeaveNoCoreGainNoRightsAndAreAGroupOfTheirOwn) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_CORE, &before), 0);
+  const rlimit as_large_as_it_may{before.rlim_max, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_CORE, &as_large_as_it_may), 0);
+  IsolatedProcess process(
+      shell("ulimit -c; ulimit -Hc; while read key value; do if [ \"$key\" = NoNewPrivs: ]; then "
+            "echo $value; fi; done < /proc/self/status"));
+  EXPECT_EQ(everything_from(process.output()), "0\n0\n1\n");
+  ::setrlimit(RLIMIT_CORE, &before);
+  IsolatedProcess grouped(
+      shell("read pid name state parent group rest < /proc/self/stat; echo $group"));
+  const std::string group = everything_from(grouped.output());
+  ASSERT_FALSE(group.empty());
+  EXPECT_NE(std::stoi(group), ::getpgrp());
 }
 
 }  // namespace

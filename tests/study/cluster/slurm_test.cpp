@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdlib>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/study/cluster/program.hpp"
 #include "vantage/study/cluster/worker.hpp"
+#include "vantage/study/sweep/attempt.hpp"
 #include "vantage/study/sweep/submission.hpp"
 
 namespace vantage {
@@ -197,6 +200,108 @@ TEST(Submissions, KeepNoStatesUnlessToldTo) {
   EXPECT_FALSE(SubmitOptions{}.keep_states);
   EXPECT_EQ(SubmitOptions{}.tasks, 1);
   EXPECT_EQ(Submission{}.tasks, 0);
+}
+
+/// Programs that stand in for Slurm's are all there are on PATH; they write down what they are
+/// asked.
+class AskedSlurm : public testing::Test {
+ protected:
+  AskedSlurm() {
+    if (const char* path = std::getenv("PATH"); path != nullptr) path_before_ = path;
+    ::setenv("PATH", folder_.path().c_str(), 1);
+  }
+  ~AskedSlurm() override { ::setenv("PATH", path_before_.c_str(), 1); }
+  void program(const std::string& name, const std::string& does) {
+    write_file(folder_ / name,
+               "#!/bin/sh\nprintf '%s\\n' \"$@\" > " + asked().string() + "\n" + does + "\n");
+    std::filesystem::permissions(folder_ / name, std::filesystem::perms::owner_all);
+  }
+  [[nodiscard]] std::filesystem::path asked() const { return folder_ / "asked"; }
+  static std::string refusal_of(const auto& call) {
+    try {
+      call();
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  support::TemporaryDirectory folder_;
+  std::string path_before_;
+};
+
+TEST_F(AskedSlurm, TellsOfEachJobOnce) {
+  program("squeue", "echo '12|3|RUNNING|None|2|n7|'");
+  EXPECT_TRUE(ask_slurm({}).jobs.empty());
+  EXPECT_FALSE(std::filesystem::exists(asked())) << "of no jobs";
+  const SlurmQueue queue = ask_slurm({"13", "12", "13"});
+  EXPECT_THAT(queue.jobs, testing::ElementsAre("12", "13"));
+  EXPECT_EQ(read_file(asked()),
+            "--noheader\n--array\n--states=all\n--jobs=12,13\n--Format=ArrayJobID:|,ArrayTaskID:|,"
+            "State:|,Reason:|,RestartCnt:|,NodeList:|\n");
+  ASSERT_EQ(queue.tasks.size(), 1U);
+  EXPECT_EQ(queue.tasks[0].restart, 2);
+  EXPECT_EQ(queue.silence, "");
+}
+
+TEST_F(AskedSlurm, IsSilentForAReason) {
+  EXPECT_EQ(ask_slurm({"12"}).silence, "there is no squeue on PATH");
+  program("squeue", "exit 5");
+  EXPECT_EQ(ask_slurm({"12"}).silence, "exit code 5");
+  program("squeue", "echo '12|3|RUNNING|None|2|n7|'; echo down >&2; echo again >&2; exit 1");
+  EXPECT_EQ(ask_slurm({"12"}).silence, "down;again");
+  EXPECT_TRUE(ask_slurm({"12"}).tasks.empty());
+  program("squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1");
+  EXPECT_EQ(ask_slurm({"12"}).silence, "") << "it has forgotten all of them";
+}
+
+TEST_F(AskedSlurm, NamesTheJobThatItTakesOrSaysWhyNot) {
+  const auto refusal = [] { return refusal_of([] { static_cast<void>(submit_batch({"a.sh"})); }); };
+  EXPECT_THAT(refusal(), HasSubstr("sbatch: no such program"));
+  EXPECT_THAT(refusal_of(require_slurm), HasSubstr("sbatch: no such program"));
+  program("sbatch", "echo '12;cluster'");
+  EXPECT_NO_THROW(require_slurm());
+  EXPECT_EQ(submit_batch({"--wait", "a.sh"}), "12");
+  EXPECT_EQ(read_file(asked()), "--parsable\n--wait\na.sh\n");
+  program("sbatch", "echo maybe");
+  EXPECT_EQ(refusal(), "sbatch --parsable a.sh: no job id but 'maybe'");
+  program("sbatch", "");
+  EXPECT_EQ(refusal(), "sbatch --parsable a.sh: no job id but ''");
+  program("sbatch", "exit 3");
+  EXPECT_EQ(refusal(), "sbatch --parsable a.sh: exit code 3");
+  program("scancel", "echo unknown >&2; exit 1");
+  EXPECT_EQ(refusal_of([] { cancel_jobs({"12", "13"}); }), "scancel 12 13: unknown");
+}
+
+TEST(EpisodeActivities, SayWhereAndHowOftenTheyBegan) {
+  const support::TemporaryDirectory study;
+  const std::vector<PlannedEpisode> plan{
+      {"a", {}, {}}, {"b", {}, {}}, {"c", {}, {}}, {"d", {}, {}}, {"e", {}, {}}};
+  SlurmQueue queue{{"12"}, {}, {}};
+  for (int restart = 0; restart < 3; ++restart) {
+    const std::string task = std::to_string(restart);
+    Worker other{.host = "n7", .machine = "n7 x", .pid = 1, .started = "1", .slurm = {}};
+    other.slurm = SlurmPlace{"c", "12", task, restart};
+    const auto& episode = plan[static_cast<std::size_t>(restart)];
+    ASSERT_TRUE(take_claim(claims_folder(study.path(), episode), 1, other));
+    queue.tasks.push_back({"12", task, "RUNNING", "", restart, "n7"});
+  }
+  const Worker self = this_worker();
+  ASSERT_TRUE(take_claim(claims_folder(study.path(), plan[3]), 1, self));
+  const auto activities = [&](const std::vector<Submission>& submissions) {
+    const std::vector<EpisodeState> states(5, EpisodeState::missing);
+    return episode_activities(study.path(), plan, states, submissions, queue);
+  };
+  const std::vector<EpisodeActivity> found = activities({{"12", "", 3}});
+  const std::string reasons[] = {"on n7, task 12_0", "on n7, task 12_1, requeued once",
+                                 "on n7, task 12_2, requeued 2 times", "on " + self.host};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(found[i].state, "running") << i;
+    EXPECT_EQ(found[i].reason, reasons[i]);
+  }
+  EXPECT_EQ(found[4].state, "queued");
+  EXPECT_EQ(found[4].reason, "");
+  EXPECT_EQ(activities({{"11", "12", 3}})[4].state, "") << "what collects runs no episode";
 }
 
 }  // namespace

@@ -122,5 +122,13 @@ TEST(FigureCsv, HoldsEveryPoint) {
             "<left>,ours,1,2,0,0,0\n<left>,ours,2,2,1000000,900000,1200000\n");
 }
 
+TEST(FigurePoints, AreOfNothingUnlessTold) {
+  const FigurePoint point{};
+  EXPECT_EQ(point.x, 0.0);
+  EXPECT_EQ(point.count, 0U);
+  EXPECT_EQ(point.clusters, 0U);
+  EXPECT_EQ(point.mean, 0.0);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -160,5 +160,16 @@ TEST(FlightFigure, TicksStandWithinThePlot) {
   EXPECT_EQ(lines(-22.6, 18.6, -20, 15), 8U + 1U);
 }
 
+/// From -2 m of the path to 9 m of the last object, from 0 to 0.5 m of the plan, and 0.4 m beyond:
+/// 11.8 m x 1.3 m.
+TEST(FlightFigure, WithoutARoomItIsAsLargeAsAllThatIsDrawn) {
+  Json far = flight();
+  far["path"][0][0] = -2.0;
+  far["objects"][2]["x_m"] = 9.0;
+  const std::string svg = flight_svg(far, "a flight", {});
+  EXPECT_THAT(svg, HasSubstr("<rect x=\"52.0\" y=\"34.0\" width=\"600.0\" height=\"66.1\""));
+  EXPECT_THAT(svg, HasSubstr("<circle cx=\"631.7\" cy=\"79.8\" r=\"8\" fill=\"#5c6b7e\"/>"));
+}
+
 }  // namespace
 }  // namespace vantage

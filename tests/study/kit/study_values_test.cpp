@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_directory.hpp"
+#include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
 #include "vantage/core/yaml.hpp"
 #include "vantage/study/study_layout.hpp"
@@ -115,6 +117,23 @@ TEST(StudyPlaces, EpisodesAreNotTooMany) {
   EXPECT_THROW(episode_levels(study), ConfigError);
   study.factors = {factor("a", 100001)};
   EXPECT_THROW(episode_levels(study), ConfigError);
+}
+
+TEST(FilesOfAStudy, AreFoundInACommandToo) {
+  const support::TemporaryDirectory folder;
+  write_file(folder / "planner.py", "x");
+  const auto settled = [&](const char* yaml) {
+    ConfigNode overrides = parse_yaml(yaml, "s.yaml");
+    settle_files(overrides, folder.path());
+    return to_yaml(overrides);
+  };
+  const std::string planner = (folder / "planner.py").string();
+  const auto as_written = [](const std::string& yaml) { return to_yaml(parse_yaml(yaml, "s")); };
+  EXPECT_EQ(settled("choice: {command: [python3, planner.py, 7]}"),
+            as_written("choice: {command: [python3, \"" + planner + "\", 7]}"));
+  EXPECT_EQ(settled("choice.command: [./planner.py, none]"),
+            as_written("choice.command: [\"" + planner + "\", none]"));
+  EXPECT_EQ(settled("choice: {other: [planner.py]}"), as_written("choice: {other: [planner.py]}"));
 }
 
 }  // namespace

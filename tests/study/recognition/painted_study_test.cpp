@@ -234,5 +234,22 @@ TEST(PaintedStudy, ByPsiOneDoesNotDependOnTheModelsPsi) {
   EXPECT_EQ(estimates_by(0.0), estimates_by(3.0));
 }
 
+TEST(PaintedStudy, UnknownObjectsMayBeOfFurtherDatasets) {
+  const support::TemporaryDirectory further;
+  test::put_painted_object(further.path(), {"vase", "vase_1", 165}, 16);
+  RecognitionStudyOptions options = plain_study_options();
+  options.unknown_starts = 20;
+  options.unknown_datasets = {further.path().string()};
+  const auto shown = [&](const char* name) {
+    const RecognitionStudy study = painted_study(options);
+    return std::ranges::count(study.methods[0].unknown.trials, name, &Trial::name);
+  };
+  EXPECT_GT(shown("lamp_1"), 0);
+  EXPECT_GT(shown("vase_1"), 0);
+  options.unknown_of_dataset = false;
+  EXPECT_EQ(shown("lamp_1"), 0);
+  EXPECT_EQ(shown("vase_1"), 20);
+}
+
 }  // namespace
 }  // namespace vantage

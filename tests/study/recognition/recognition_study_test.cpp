@@ -303,5 +303,54 @@ TEST(RecognitionStudy, SummariesAreWrittenFieldByField) {
   EXPECT_TRUE(whole["methods"][1]["unknown"].is_null());
 }
 
+/// Of twelve objects, a trial each, by the seed 9.
+TEST(RecognitionStudy, IntervalsAreDrawnByTheNameOfWhatTheyAreOf) {
+  RecognitionStudy study = small_study();
+  study.options.seed = 9;
+  study.methods = {method("random", 0, 1), method("ours", 0, 1)};
+  std::vector<std::size_t> marks;
+  std::vector<double> views, right, of_category, bins, more_views, more_right;
+  for (MethodTrials& one : study.methods) one.trials.resize(12);
+  for (int i = 0; i < 12; ++i) {
+    for (MethodTrials& one : study.methods) {
+      const bool ours = one.method == "ours";
+      Trial& trial = one.trials[static_cast<std::size_t>(i)];
+      trial.object = i;
+      trial.name = "cup_" + std::to_string(i);
+      trial.correct = i % (ours ? 2 : 3) == 0;
+      trial.category_correct = i % 4 != 1;
+      trial.observations = (7919 * i * i + 31 * i) % (ours ? 911 : 977);
+      trial.bin_error = (613 * i * i + 7 * i) % 353;
+    }
+    const Trial& before = study.methods[0].trials[static_cast<std::size_t>(i)];
+    const Trial& after = study.methods[1].trials[static_cast<std::size_t>(i)];
+    marks.push_back(static_cast<std::size_t>(i));
+    right.push_back(after.correct ? 100.0 : 0.0);
+    of_category.push_back(after.category_correct ? 100.0 : 0.0);
+    views.push_back(after.observations);
+    bins.push_back(after.bin_error);
+    more_views.push_back(after.observations - before.observations);
+    more_right.push_back((after.correct ? 100.0 : 0.0) - (before.correct ? 100.0 : 0.0));
+  }
+  const Clusters each = clusters_of(marks);
+  const auto expect_drawn = [&](const Interval& found, const std::vector<double>& values,
+                                const std::string& stream) {
+    Rng rng = Rng::stream(9, stream);
+    const Interval drawn =
+        bootstrap_mean(values, each, rng, {.resamples = 2000, .confidence = 0.95});
+    EXPECT_EQ(found.low, drawn.low) << stream;
+    EXPECT_EQ(found.high, drawn.high) << stream;
+  };
+  const MethodSummary ours = summaries(study)[1];
+  expect_drawn(ours.accuracy_percent.interval, right, "accuracy ours");
+  expect_drawn(ours.category_interval, of_category, "category ours");
+  expect_drawn(ours.observations.interval, views, "observations ours");
+  expect_drawn(ours.bin_error->interval, bins, "bin error ours");
+  ASSERT_EQ(ours.differences.size(), 1U);
+  const PairedEstimate& more = ours.differences[0];
+  expect_drawn(more.accuracy_percent.interval, more_right, "accuracy ours - random");
+  expect_drawn(more.observations.interval, more_views, "observations ours - random");
+}
+
 }  // namespace
 }  // namespace vantage

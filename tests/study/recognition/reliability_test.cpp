@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -107,6 +108,8 @@ TEST(Reliability, IntervalsAreOfObjects) {
   EXPECT_NEAR(reliability.error_interval.high, 0.5, 1e-12);
   EXPECT_EQ(reliability.bins[6].count, 0U);
   EXPECT_EQ(reliability.bins[6].objects, 0U);
+  EXPECT_EQ(reliability.bins[6].confidence, 0.0);
+  EXPECT_EQ(reliability.bins[6].accuracy, 0.0);
 }
 
 TEST(ReliabilityFigure, DrawsBinsAsTheyAre) {
@@ -137,6 +140,69 @@ TEST(ReliabilityFigure, DrawsBinsAsTheyAre) {
   EXPECT_NEAR(point.mean, 0.75, 1e-12);
   EXPECT_EQ(point.interval.low, reliability.bins[14].interval.low);
   EXPECT_EQ(point.interval.high, reliability.bins[14].interval.high);
+}
+
+/// Of five objects one is right, so that a draw of five has it so often: not at all by 0.33, once
+/// by 0.41, up to three times by 0.993; four times or more is beyond the 97.5 %.
+TEST(Reliability, AsManyObjectsAreDrawnAsThereAre) {
+  std::vector<Trial> trials;
+  for (int i = 0; i < 5; ++i) {
+    trials.push_back({.name = fmt::format("object_{}", i), .correct = i == 0, .probability = 0.21});
+  }
+  const Reliability reliability = reliability_of(trials, 1);
+  EXPECT_EQ(reliability.bins[3].interval.low, 0.0);
+  EXPECT_NEAR(reliability.bins[3].interval.high, 3.0 / 5.0, 1e-12);
+  EXPECT_NEAR(reliability.error, 0.21 - 1.0 / 5.0, 1e-12);
+  EXPECT_NEAR(reliability.error_interval.low, 0.21 - 1.0 / 5.0, 1e-12);
+  EXPECT_NEAR(reliability.error_interval.high, 3.0 / 5.0 - 0.21, 1e-12);
+}
+
+TEST(Reliability, OfASingleTrialTheIntervalIsItsAnswer) {
+  for (const bool right : {true, false}) {
+    const std::vector<Trial> one(1, Trial{.name = "a", .correct = right, .probability = 0.75});
+    const ReliabilityBin bin = reliability_of(one, 1).bins[11];
+    EXPECT_EQ(bin.count, 1U);
+    EXPECT_EQ(bin.interval.low, right ? 1.0 : 0.0);
+    EXPECT_EQ(bin.interval.high, right ? 1.0 : 0.0);
+  }
+}
+
+/// Of a thousand draws from the seed's stream 25 are below the interval, and as many above. By a
+/// seed whose last draw is one of those, so that it shows.
+TEST(Reliability, IntervalsAreOfAThousandDraws) {
+  std::vector<Trial> trials;
+  for (int i = 0; i < 15; ++i) {
+    trials.push_back({.name = fmt::format("object_{}", i),
+                      .correct = i % 3 == 0,
+                      .probability = 0.602 + 0.06 * std::fmod(0.618034 * i, 1.0)});
+  }
+  const auto interval_of_draws = [&](std::uint64_t seed, int draws) {
+    Rng rng = Rng::stream(seed, "reliability");
+    std::vector<double> errors;
+    for (int draw = 0; draw < draws; ++draw) {
+      double excess = 0.0;
+      for (int i = 0; i < 15; ++i) {
+        const Trial& trial = trials[rng.uniform_index(15)];
+        excess += trial.probability - (trial.correct ? 1.0 : 0.0);
+      }
+      errors.push_back(std::abs(excess) / 15.0);
+    }
+    std::ranges::sort(errors);
+    return Interval{errors[25], errors[errors.size() - 26]};
+  };
+  const auto shows_the_last = [&](std::uint64_t seed) {
+    const Interval all = interval_of_draws(seed, 1000);
+    const Interval fewer = interval_of_draws(seed, 999);
+    return std::max(std::abs(all.low - fewer.low), std::abs(all.high - fewer.high)) > 1e-9;
+  };
+  std::uint64_t seed = 1;
+  while (seed < 500 && !shows_the_last(seed)) ++seed;
+  ASSERT_LT(seed, 500U);
+  const Interval expected = interval_of_draws(seed, 1000);
+  const Reliability reliability = reliability_of(trials, seed);
+  ASSERT_EQ(reliability.bins[9].count, 15U) << "all in one bin";
+  EXPECT_NEAR(reliability.error_interval.low, expected.low, 1e-12);
+  EXPECT_NEAR(reliability.error_interval.high, expected.high, 1e-12);
 }
 
 }  // namespace

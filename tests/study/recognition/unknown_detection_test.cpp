@@ -95,5 +95,14 @@ TEST(UnknownDetection, EndsOfItsThresholds) {
   EXPECT_DOUBLE_EQ(detection.area, (3.5 + 1.0 + 1.0) / 8.0);
 }
 
+TEST(UnknownDetection, IsOfNothingUnlessTold) {
+  const UnknownDetection none{};
+  for (const double share :
+       {none.area, none.threshold, none.false_alarms, none.found, none.known_missed,
+        none.category_known_right, none.category_unknown_right}) {
+    EXPECT_EQ(share, 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -6,6 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/atomic_file.hpp"
 #include "vantage/core/error.hpp"
@@ -32,6 +37,41 @@ TEST(ChildProcesses, NeedAFileForTheirOutput) {
   EXPECT_THROW(start_self({"self", "--gtest_list_tests"}, folder / "nowhere/output.txt"),
                OutputError);
   EXPECT_FALSE(poll_child());
+}
+
+/// Memory that was used before is taken again, with what is left in it.
+TEST(ChildProcesses, HaveNoArgumentBeyondTheirLast) {
+  const support::TemporaryDirectory folder;
+  const std::filesystem::path output = folder / "output.txt";
+  const std::vector<std::string> arguments{"self", "--gtest_list_tests", "--gtest_brief=1"};
+  for (int i = 0; i < 8; ++i) {
+    const auto used = std::make_unique<volatile std::uintptr_t[]>(arguments.size() + 1);
+    for (std::size_t k = 0; k <= arguments.size(); ++k) used[k] = UINTPTR_MAX;
+  }
+  const pid_t child = start_self(arguments, output);
+  siginfo_t info{};
+  ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);
+  const auto end = poll_child();
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->exit_code, 0);
+}
+
+/// Everybody may read it and its owner write it, as far as the umask lets them.
+TEST(ChildProcesses, WriteAFileThatOthersMayRead) {
+  namespace fs = std::filesystem;
+  const support::TemporaryDirectory folder;
+  std::ofstream(folder / "plain") << "x";
+  const auto open_files = [] {
+    return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+  };
+  const auto before = open_files();
+  const pid_t child = start_self({"self", "--gtest_list_tests"}, folder / "output.txt");
+  EXPECT_EQ(open_files(), before) << "it is the child's alone";
+  EXPECT_EQ(fs::status(folder / "output.txt").permissions(),
+            fs::status(folder / "plain").permissions() & static_cast<fs::perms>(0644));
+  siginfo_t info{};
+  ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);
+  EXPECT_TRUE(poll_child());
 }
 
 }  // namespace

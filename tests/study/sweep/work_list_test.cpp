@@ -24,8 +24,8 @@ class Work : public testing::Test {
     options_.directory = study_.path();
   }
   void TearDown() override {
-    for (const char* name :
-         {"SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN"}) {
+    for (const char* name : {"SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_ID",
+                             "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_JOB_ID", "SLURM_CLUSTER_NAME"}) {
       ::unsetenv(name);
     }
   }
@@ -121,6 +121,35 @@ TEST_F(Work, ThatCrashedIsTriedAgainWhereNothingElseIsSaid) {
   states_[1] = EpisodeState::crashed;
   WorkList list(plan_, options_, states_);
   EXPECT_THAT(taken_from(list), ElementsAre(1U));
+}
+
+TEST_F(Work, ThatCrashedStandsInTheArrayInWhichItCrashed) {
+  ::setenv("SLURM_ARRAY_TASK_ID", "1", 1);
+  const auto is_tried_again = [&](std::size_t episode, const char* cluster, const char* job) {
+    Worker former = this_worker();
+    former.slurm = SlurmPlace{"c", "12", "0", 0};
+    take_claim(claims(episode), 1, former)->release();
+    fs::create_directories(episode_folder(study_.path(), plan_[episode]));
+    write_file(episode_folder(study_.path(), plan_[episode]) / "failure.json", "{}");
+    states_.assign(plan_.size(), EpisodeState::completed);
+    states_[episode] = EpisodeState::crashed;
+    ::setenv("SLURM_CLUSTER_NAME", cluster, 1);
+    ::setenv("SLURM_ARRAY_JOB_ID", job, 1);
+    WorkList list(plan_, options_, states_);
+    return !taken_from(list).empty();
+  };
+  EXPECT_FALSE(is_tried_again(0, "c", "12"));
+  EXPECT_TRUE(is_tried_again(1, "d", "12"));
+  EXPECT_TRUE(is_tried_again(2, "c", "13"));
+}
+
+TEST(SweepOptions, RunOneLeanEpisodeAtATimeUnlessToldOtherwise) {
+  const StudySweepOptions options{};
+  EXPECT_EQ(options.jobs, 1);
+  EXPECT_FALSE(options.overwrite);
+  EXPECT_FALSE(options.keep_states);
+  EXPECT_TRUE(options.retry_crashed);
+  EXPECT_FALSE(options.single_thread);
 }
 
 }  // namespace

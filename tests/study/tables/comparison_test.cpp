@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
+#include "vantage/information/resampling.hpp"
 #include "vantage/study/tables/text_table.hpp"
 
 namespace vantage {
@@ -157,6 +159,55 @@ TEST(Comparison, OtherLevelsChangeNothing) {
   const auto more = compare_levels("n", "n", {"p"}, {"a", "b", "c"}, 0, samples);
   EXPECT_EQ(row(few, "p", "b").interval.low, row(more, "p", "b").interval.low);
   EXPECT_EQ(row(few, "p", "b").interval.high, row(more, "p", "b").interval.high);
+}
+
+/// The same samples give the same interval to the last digit, at any time: that of the seed 1.
+TEST(Comparison, ChanceIsThatOfTheFirstSeedByTheNameOfTheRow) {
+  std::vector<Sample> samples;
+  std::vector<double> theirs;
+  std::vector<double> ours;
+  std::vector<double> differences;
+  std::vector<std::size_t> marks;
+  for (std::size_t pair = 0; pair < 20; ++pair) {
+    theirs.push_back(10.0 + std::cos(static_cast<double>(pair)));
+    ours.push_back(9.5 + 3.0 * std::sin(static_cast<double>(pair)));
+    differences.push_back(ours[pair] - theirs[pair]);
+    marks.push_back(pair);
+    samples.push_back({0, 0, pair, theirs[pair]});
+    samples.push_back({0, 1, pair, ours[pair]});
+  }
+  const Clusters each = clusters_of(marks);
+  const auto expect_same = [](const Interval& found, const Interval& expected) {
+    EXPECT_EQ(found.low, expected.low);
+    EXPECT_EQ(found.high, expected.high);
+  };
+  const auto chance = [](const char* of) {
+    return Rng::stream(1, std::string("cost/p/ours") + of);
+  };
+  const Comparison comparison = compare_levels("cost", "n", {"p"}, {"a", "ours"}, 0, samples);
+  Rng of_mean = chance("");
+  expect_same(row(comparison, "p", "ours").interval, bootstrap_mean(ours, each, of_mean));
+  const Difference& d = *row(comparison, "p", "ours").difference;
+  Rng of_difference = chance("/difference");
+  expect_same(d.interval, bootstrap_mean(differences, each, of_difference));
+  Rng of_ratio = chance("/ratio");
+  expect_same(*d.ratio_interval, bootstrap_ratio(ours, theirs, each, of_ratio));
+  Rng of_test = chance("/test");
+  EXPECT_EQ(d.p_value, sign_flip_p_value(cluster_sums(differences, each), of_test));
+}
+
+TEST(Comparison, RowsAndDifferencesAreOfNothingUnlessTold) {
+  const ComparisonRow none{};
+  EXPECT_EQ(none.count, 0U);
+  EXPECT_EQ(none.clusters, 0U);
+  EXPECT_EQ(none.mean, 0.0);
+  EXPECT_EQ(none.least, 0.0);
+  EXPECT_EQ(none.most, 0.0);
+  const Difference difference{};
+  EXPECT_EQ(difference.pairs, 0U);
+  EXPECT_EQ(difference.clusters, 0U);
+  EXPECT_EQ(difference.mean, 0.0);
+  EXPECT_EQ(difference.p_value, 1.0) << "nothing speaks for one";
 }
 
 }  // namespace
