@@ -18,17 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
-TEST(ShareSeen, IsTheMeanOverTheBudget) {
-  const std::vector<ShareSeen> steps{{10.0, 0.5}, {60.0, 0.8}, {100.0, 1.0}};
-  // 0 for 10 s, 0.5 for 50 s, 0.8 for 40 s; the last scan ends too late.
-  EXPECT_DOUBLE_EQ(mean_share_seen(steps, 100.0), 0.57);
-  EXPECT_DOUBLE_EQ(mean_share_seen(steps, 200.0), (25.0 + 32.0 + 100.0) / 200.0);
-  EXPECT_EQ(mean_share_seen({}, 100.0), 0.0);
-  EXPECT_EQ(mean_share_seen(steps, 5.0), 0.0);
-  EXPECT_EQ(sampled_share_seen(steps, 100.0, 6),
-            (std::vector<double>{0.0, 0.5, 0.5, 0.8, 0.8, 1.0}));
-}
-
 class Arena : public testing::Test {
  protected:
   void SetUp() override {
@@ -173,7 +162,7 @@ TEST_F(Arena, WallTimeIsOnThePageAlone) {
 }
 
 TEST_F(Arena, TakesAPlannerMore) {
-  const ForeignPlanner planner{"theirs", {"sh", "-c", "exit 0"}, 2.5};
+  const ForeignPlanner planner{"theirs", {"sh", "-c", "exit 0", "null", "5"}, 2.5};
   const Study study = study_with(folder.path(), planner, false);
   const Factor& planners = study.factors[factor_index(study, "planner")];
   ASSERT_EQ(planners.levels.size(), 4U);
@@ -443,6 +432,64 @@ TEST_F(Arena, BandsOfASceneAreOfItsSeedsAndThoseOfAllOfScenes) {
   const Figure by_pairs = overall_figure(results, leaderboard_of(results));
   EXPECT_THAT(by_pairs.note, HasSubstr("pairs resampled"));
   EXPECT_EQ(by_pairs.panels[0].series[0].points[40].clusters, 3U);
+}
+
+TEST_F(Arena, TheComparisonSaysWhatItIsOf) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  const Comparison comparison = leaderboard_of(results).comparison;
+  EXPECT_EQ(comparison.name, "score");
+  EXPECT_EQ(comparison.reference, "greedy");
+  EXPECT_EQ(comparison.better, Better::higher);
+  EXPECT_EQ(comparison.cluster, "scene");
+  results.study.report.cluster.clear();
+  EXPECT_EQ(leaderboard_of(results).comparison.cluster, "");
+}
+
+/// Of an episode that never saw 90 %, of one without a least time, and of one with no object at
+/// all.
+TEST_F(Arena, WhatDidNotGetToABoundHasNoTimeOverIt) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  for (const char* bound :
+       {R"({"shares": [{"percent": 90, "run_over_least": {"time_s": null}}]})",
+        R"({"shares": [{"percent": 90, "run_over_least": null}]})", R"({"shares": []})", "[1]"}) {
+    write_file(folder / "episodes/a/greedy/1/bound.json", bound);
+    const Standing greedy = leaderboard_of(results).standings[0];
+    EXPECT_FALSE(greedy.time_over_bound_90) << bound;
+    EXPECT_EQ(greedy.bounded, 0U) << bound;
+  }
+}
+
+/// Where every view shows nothing, or nothing was reckoned, nothing was given away.
+TEST_F(Arena, RegretIsTheMeanOverTheDecisionsThatHaveOne) {
+  put("a/greedy/1", EpisodeState::completed, 0.6);
+  const auto regret_of = [&](const std::string& decisions) {
+    write_file(folder / "episodes/a/greedy/1/branches.json",
+               R"({"decisions": [)" + decisions + "]}");
+    return leaderboard_of(results).standings[0].regret_share;
+  };
+  const std::string none = R"({"regret": {"cells": 0}, "branches": [{"new_cells": 0}]},
+                              {"regret": null, "branches": [{"new_cells": 50}]})";
+  EXPECT_FALSE(regret_of(none));
+  EXPECT_DOUBLE_EQ(regret_of(R"({"regret": {"cells": 20}, "branches": [{"new_cells": 100}]},
+                   {"regret": {"cells": 5}, "branches": [{"new_cells": 5}, {"new_cells": 10}]},)" +
+                             none)
+                       .value(),
+                   0.35);
+}
+
+TEST_F(Arena, OfNoScanAndOfNothingToSeeNothingIsSeen) {
+  put("a/greedy/1", EpisodeState::failed, 0.6, {{"scans", Json::array()}});
+  put("a/mine/1", EpisodeState::completed, 0.6, {{"observable_cells", 0}});
+  const std::vector<EpisodeScore> scores = episode_scores(results);
+  ASSERT_EQ(scores.size(), 2U);
+  for (const EpisodeScore& score : scores) {
+    EXPECT_EQ(score.seen_share, 0.0);
+    EXPECT_EQ(score.score, 0.0);
+    EXPECT_EQ(score.horizon_s, 100.0);
+  }
+  EXPECT_TRUE(scores[0].steps.empty());
+  EXPECT_EQ(scores[0].reason, "the <reason>");
+  EXPECT_EQ(scores[1].reason, "") << "it was completed";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The leader board as text, to the letter.
+// The share seen that a leader board is of, and the board as text, to the letter.
 #include "vantage/arena/leaderboard.hpp"
 
 #include <gmock/gmock.h>
@@ -6,6 +6,19 @@
 
 namespace vantage {
 namespace {
+
+TEST(ShareSeen, IsTheMeanOverTheBudget) {
+  const std::vector<ShareSeen> steps{{10.0, 0.5}, {60.0, 0.8}, {100.0, 1.0}};
+  // 0 for 10 s, 0.5 for 50 s, 0.8 for 40 s; the last scan ends too late.
+  EXPECT_DOUBLE_EQ(mean_share_seen(steps, 100.0), 0.57);
+  EXPECT_DOUBLE_EQ(mean_share_seen(steps, 200.0), (25.0 + 32.0 + 100.0) / 200.0);
+  EXPECT_EQ(mean_share_seen({}, 100.0), 0.0);
+  EXPECT_EQ(mean_share_seen(steps, 5.0), 0.0);
+  EXPECT_EQ(mean_share_seen(steps, 0.0), 0.0) << "of no time";
+  EXPECT_DOUBLE_EQ(mean_share_seen({{0.25, 0.5}}, 1.0), 0.375);
+  EXPECT_EQ(sampled_share_seen(steps, 100.0, 6),
+            (std::vector<double>{0.0, 0.5, 0.5, 0.8, 0.8, 1.0}));
+}
 
 /// A planner with everything, a reference with little, and one that was not run.
 Leaderboard written_board() {
@@ -53,6 +66,14 @@ TEST(LeaderboardText, ForTheTerminalLeavesOutWhatWasNotRun) {
             "      planner                   score  95 %              seen   path m  failed\n"
             "   1  mine           foreign    0.350  [0.250, 0.450]   0.700      4.3   1/4\n"
             "   -  oracle_of_all  reference  0.500                   1.000     12.0   0/2\n");
+}
+
+TEST(LeaderboardText, OfShortNamesIsAsWideAsItsHeading) {
+  Standing short_one{.planner = "a", .level = 0, .rank = 1};
+  short_one.episodes = 1;
+  EXPECT_EQ(leaderboard_text({{short_one}, {}, {}}),
+            "      planner             score  95 %              seen   path m  failed\n"
+            "   1  a        built-in   0.000                   0.000        -   0/1\n");
 }
 
 TEST(LeaderboardText, KindsHaveNames) {

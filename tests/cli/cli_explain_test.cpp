@@ -220,5 +220,30 @@ TEST_F(CommandLine, AnExplanationInJsonHasAllThatIsKnown) {
                                       {"keys", json::array()}}));
 }
 
+TEST_F(CommandLine, AnExplanationInWordsHasTypeUnitDefaultAndRange) {
+  EXPECT_EQ(vantage("explain sensor.range_max_m").output,
+            "sensor.range_max_m (score-views): number, m, default 3.5, > 0\n"
+            "  greatest range; farther surfaces give no return\n");
+  EXPECT_THAT(vantage("explain beer_lambert").output,
+              AllOf(testing::StartsWith("beer_lambert (gain): bits\n  Entropy of "),
+                    HasSubstr("\n  a (number, default 0.995, [0, 1]): probability that a beam ")));
+}
+
+TEST_F(CommandLine, WithoutMeasurementsFeaturesHaveNoTimes) {
+  fs::create_directories(folder_ / "bench/results");
+  const auto listed = [&] {
+    return shell("cd '" + folder_.string() +
+                 "' && VANTAGE_DATA=$PWD " VANTAGE_BINARY " list features");
+  };
+  for (const char* results : {"", "[1]", "{}", R"({"figures": {"sift_ms": 2.5}})"}) {
+    if (*results != '\0') file("bench/results/features.json", results);
+    const Result told = listed();
+    EXPECT_EQ(told.exit_code, 0) << told.output;
+    EXPECT_THAT(told.output, HasSubstr(fmt::format("{:<16}{:>5} dimensions\n", "colour", 144)));
+  }
+  EXPECT_THAT(listed().output,
+              HasSubstr(fmt::format("{:<16}{:>5} dimensions    2.50 ms\n", "sift", 1000)));
+}
+
 }  // namespace
 }  // namespace vantage

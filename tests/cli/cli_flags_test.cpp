@@ -200,5 +200,77 @@ TEST_F(CommonFlags, WhatIsGivenIsNotEmpty) {
   }
 }
 
+TEST_F(CommonFlags, WhatIsMissingIsNamed) {
+  const std::pair<const char*, const char*> commands[] = {
+      {"dataset render", "out"},
+      {"dataset import --out x", "folder"},
+      {"dataset import d", "--out"},
+      {"dataset check", "root"},
+      {"dataset info", "root"},
+      {"dataset contact-sheet --out a.png", "root"},
+      {"dataset contact-sheet d", "--out"},
+      {"train d", "--out"},
+      {"evaluate --model m --out t", "dataset"},
+      {"evaluate d --out t", "--model"},
+      {"evaluate d --model m", "--out"},
+      {"recognise --model m", "files"},
+      {"recognise a b", "--model"},
+      {"export --mcap a.mcap", "dir"},
+      {"export r", "--mcap"},
+      {"replay", "dir"},
+      {"report", "dir"},
+      {"bound", "dir"},
+      {"branch --scan 1", "dir"},
+      {"compare a", "second"},
+      {"validate", "files"},
+      {"schema", "kind"},
+      {"sweep run", "study"},
+      {"arena add", "dir"},
+      {"arena add a", "name"},
+      {"score-views", "--map"},
+      {"scene from-mesh --out a.xml", "mesh"},
+      {"scene from-mesh a.obj", "--out"}};
+  for (const auto& [command, missing] : commands) {
+    const Result result = vantage(command);
+    EXPECT_EQ(result.exit_code, 2) << command;
+    EXPECT_THAT(result.output, HasSubstr(fmt::format("error: {} is required\n", missing)))
+        << command;
+  }
+}
+
+/// What follows the value of an option is the command's own: what is missing is that, no value.
+TEST_F(CommonFlags, OptionsTakeOneValueAtATime) {
+  const std::pair<const char*, int> commands[] = {
+      {"run --dry-run --set seed=1 nowhere.yaml", 3},
+      {"view --set seed=1 nowhere.yaml", 3},
+      {"validate --set seed=1 nowhere.yaml", 3},
+      {"sweep plan --set seed=1 nowhere.yaml", 3},
+      {"sweep submit --sbatch-arg=--mem=2G nowhere.yaml", 3},
+      {"arena run --set seed=1 nowhere.yaml", 3},
+      {"train --out model --set videos=[1] nowhere", 3},
+      {"evaluate --model none --out tables --set starts=4 nowhere", 3},
+      {"recognise --model none --set seed=1 a b", 3},
+      {"recognise --model none --view-names front a b", 3},
+      {"recognise --model none --motion-deg 5 a b", 3},
+      {"dataset import --out x --view-yaw front=10 nowhere", 3},
+      {"dataset render --set seed=1 blocker/d", 5}};
+  file("blocker", "");
+  for (const auto& [command, exit_code] : commands) {
+    const Result result = vantage(command + std::string(" -q"));
+    EXPECT_EQ(result.exit_code, exit_code) << command << "\n" << result.output;
+  }
+}
+
+TEST_F(CommonFlags, ASeedIsAWholeNumber) {
+  for (const char* seed : {"0", "9", "1234567890"}) {
+    EXPECT_EQ(vantage(std::string("run --dry-run --seed=") + seed).exit_code, 0) << seed;
+  }
+  for (const std::string seed : {"-1", "1.5", "12a", ":", "/"}) {
+    const Result result = vantage("run --dry-run --seed=" + seed);
+    EXPECT_EQ(result.exit_code, 2) << seed;
+    EXPECT_THAT(result.output, HasSubstr("expected a whole number >= 0, got '" + seed + "'"));
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -123,5 +123,62 @@ TEST_F(Manual, TellsWhatIsTakenIfNothingIsGiven) {
               testing::AllOf(HasSubstr("(default: 1280x720)"), HasSubstr("(default: overview)")));
 }
 
+TEST_F(Manual, OnlyWhatTakesAValueHasOne) {
+  const std::string run = page("run");
+  for (const char* item : {"-q, --quiet", "--lean", "--json", "--seed SEED", "--set key=value"}) {
+    EXPECT_THAT(run, HasSubstr(fmt::format("\n\\fB{}\\fR\n", item)));
+  }
+  EXPECT_THAT(run, HasSubstr(".B vantage run [OPTIONS] [episode]\n"));
+  EXPECT_THAT(page("explain"), HasSubstr(".B vantage explain [OPTIONS] [names ...]\n"));
+  EXPECT_THAT(page("compare"), HasSubstr(".B vantage compare [OPTIONS] first second\n"));
+}
+
+TEST_F(Manual, HasTheDefaultsOfItsOptions) {
+  const std::pair<const char*, std::vector<const char*>> pages[] = {
+      {"run", {"\\fBepisode\\fR: assets/episodes/tabletop.yaml"}},
+      {"view",
+       {"\\fBepisode\\fR: assets/episodes/tabletop.yaml", "--size SIZE\\fR: 1280x720",
+        "--camera CAMERA\\fR: overview"}},
+      {"arena",
+       {"\\fBstudy\\fR: assets/studies/arena.yaml", "--timeout TIMEOUT\\fR: 10",
+        "--jobs JOBS\\fR: all cores"}},
+      {"compare", {"--tolerance TOLERANCE\\fR: 0"}},
+      {"sweep", {"--shard SHARD\\fR: 1/1", "--jobs JOBS\\fR: all cores", "--array ARRAY\\fR: 16"}},
+      {"dataset",
+       {"--jobs JOBS\\fR: all cores", "--depth-unit DEPTH-UNIT\\fR: auto", "--cut CUT\\fR: auto",
+        "--video VIDEO\\fR: 2", "--yaw-deg YAW-DEG\\fR: 300", "--cell CELL\\fR: 96",
+        "--columns COLUMNS\\fR: 20"}},
+      {"export", {"--image-period IMAGE-PERIOD\\fR: 1", "--image-height IMAGE-HEIGHT\\fR: 240"}},
+      {"recognise",
+       {"--depth-unit-m DEPTH-UNIT-M\\fR: 0", "--cut CUT\\fR: auto",
+        "--farthest-m FARTHEST-M\\fR: 0", "--top TOP\\fR: 5"}},
+      {"train", {"--jobs JOBS\\fR: all cores"}},
+      {"evaluate", {"--jobs JOBS\\fR: all cores"}},
+      {"scene",
+       {"--scale SCALE\\fR: 1", "--up UP\\fR: auto", "--height HEIGHT\\fR: 3",
+        "--cell CELL\\fR: 0.05", "--clearance CLEARANCE\\fR: 0.6",
+        "--max-geoms MAX-GEOMS\\fR: 3000"}}};
+  for (const auto& [command, options] : pages) {
+    const std::string text = page(command);
+    for (const std::string option : options) {
+      const auto colon = option.rfind(": ");
+      const std::string head = option.substr(0, colon) + "\n";
+      const auto at = text.find(head);
+      ASSERT_NE(at, text.npos) << command << ": " << head;
+      const auto begin = at + head.size();
+      EXPECT_THAT(text.substr(begin, text.find('\n', begin) - begin),
+                  testing::EndsWith(" (default: " + option.substr(colon + 2) + ")"))
+          << command << ": " << option;
+    }
+  }
+}
+
+TEST_F(Manual, HasTheExitStatusOfEveryCommand) {
+  const std::string run = page("run");
+  EXPECT_THAT(matches(run.substr(run.find(".SH EXIT STATUS\n")), R"(\n\.TP\n\\fB(\d+)\\fR\n)"),
+              testing::ElementsAre("0", "1", "2", "3", "4", "5", "6", "70", "130", "143"));
+  EXPECT_THAT(run, HasSubstr("\n\\fB5\\fR\noutput could not be written\n"));
+}
+
 }  // namespace
 }  // namespace vantage

@@ -97,6 +97,14 @@ TEST_F(OwnPictures, AreImportedCheckedTrainedOnAndRecognised) {
   EXPECT_EQ(known["objects"][0]["object"], "thingb_1");
   EXPECT_EQ(known["categories"][0]["category"], "thingb");
   EXPECT_TRUE(known["next"]["view"].is_string());
+  const std::vector<std::string> taken{"front", "front_left", "left", "back_left", "back", "right"};
+  std::string files;
+  for (const std::string& view : taken) {
+    files += fmt::format(" other/lab/thingb/{0}_rgb.png other/lab/thingb/{0}_depth.npy", view);
+  }
+  const json last = parsed(fmt::format(
+      "recognise --model model -q --focal-px 285{} --view-names {}", files, fmt::join(taken, ",")));
+  EXPECT_EQ(last["next"]["view"], "front_right") << "the only one that is left";
 }
 
 TEST_F(OwnPictures, TheTutorialsCommandsWork) {
@@ -182,8 +190,10 @@ TEST_F(OwnPictures, BadOnesAreNamedWithARemedy) {
   const Result all = vantage("dataset import mine --out train" + kFocal);
   expect_error(all, 3, {"left_depth.png", "--skip-bad"});
   EXPECT_FALSE(fs::exists(folder_ / "train"));
-  EXPECT_EQ(parsed("dataset import mine --out train --skip-bad" + kFocal)["pictures"],
-            2 * 7 * kObjects - 1);
+  const json without = parsed("dataset import mine --out train --skip-bad" + kFocal);
+  EXPECT_EQ(without["pictures"], 2 * 7 * kObjects - 1);
+  EXPECT_EQ(without["left_out"].size(), 1U);
+  EXPECT_THAT(errors(), HasSubstr("left_depth.png"));
   expect_error(vantage("dataset import mine --out train" + kFocal), 2, {"--overwrite"});
   expect_error(vantage("dataset check mine -q"), 3, {"vantage dataset import mine --out"});
   fs::create_directories(folder_ / "empty");
@@ -329,12 +339,24 @@ TEST_F(Questions, AnElevationThatIsGivenCounts) {
   const std::string question =
       "recognise --model model --set recogniser.features=[bounding_box]" + view(3);
   EXPECT_NE(parsed(question)["objects"], parsed(question + " --elevation-deg 5")["objects"]);
+  EXPECT_EQ(parsed(question)["objects"], parsed(question + " --elevation-deg 45")["objects"])
+      << "that of the second video";
 }
 
 TEST_F(Questions, EveryGivenViewIsUsed) {
   const json known = parsed("recognise --model model" + view(1) + view(5) + view(9) + view(13));
   ASSERT_EQ(known["views"].size(), 4U);
   for (const json& seen : known["views"]) EXPECT_EQ(seen["features"].size(), 2U) << seen;
+}
+
+TEST_F(Questions, TurnsAreOfSeveralViews) {
+  const std::string warning = "there is one view";
+  parsed("recognise --model model" + view(1));
+  EXPECT_THAT(errors(), testing::Not(HasSubstr(warning)));
+  parsed("recognise --model model --motion-deg 45" + view(1));
+  EXPECT_THAT(errors(), HasSubstr(warning));
+  parsed("recognise --model model --motion-deg 45" + view(1) + view(5));
+  EXPECT_THAT(errors(), testing::Not(HasSubstr(warning)));
 }
 
 TEST_F(Questions, CategoriesAreTold) {
@@ -400,13 +422,18 @@ TEST_F(OwnPictures, ViewsAreAsFarApartAsTheirNamesSay) {
   parsed("dataset import mine --out train" + kFocal);
   train();
   const std::string of = "other/lab/thingb/";
-  const json known = parsed("recognise --model model --focal-px 285 " + of + "front_rgb.png " + of +
-                            "front_depth.npy " + of + "left_rgb.png " + of +
-                            "left_depth.npy --view-names front,left");
+  const std::string question = "recognise --model model --focal-px 285 " + of + "front_rgb.png " +
+                               of + "front_depth.npy " + of + "left_rgb.png " + of +
+                               "left_depth.npy --view-names front,";
+  const json known = parsed(question + "left");
   ASSERT_EQ(known["views"].size(), 2U);
   EXPECT_EQ(known["views"][0]["view_rad"], 0.0);
   EXPECT_NEAR(known["views"][1]["view_rad"].get<double>(), 0.5 * std::numbers::pi, 1e-9);
   EXPECT_THAT(errors(), testing::Not(HasSubstr("--view-names")));
+  const Result unknown = vantage(question + "behind_it");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.output,
+              HasSubstr("--view-names: the model has no view 'behind_it'; known: "));
 }
 
 TEST_F(OwnPictures, AnImportInWordsIsThatInJson) {
@@ -434,6 +461,28 @@ TEST_F(Questions, DepthIsInTheUnitThatIsGiven) {
       "recognise --model model -q --farthest-m 1 " + stem + "crop.png tenths.png ";
   EXPECT_EQ(parsed(question + "--depth-unit-m 0.0001")["objects"][0]["object"], "mug_1");
   expect_error(vantage(question), 3, {"tenths.png"});
+}
+
+/// Of names that say nothing by themselves; the camera's middle is a little off the image's.
+TEST_F(Pictures, YawsElevationAndCameraAreAsGiven) {
+  for (const char* view : {"a", "b"}) {
+    for (const char* object : {"cup", "pot"}) {
+      support::put_picture(
+          folder_ / "mine" / object, view,
+          support::room_picture(support::made_up_object(object, 3), view[0] == 'a' ? 0.0 : 1.5, {}),
+          DepthFormat::png_mm);
+    }
+  }
+  file("camera.txt", "fx: 285\nfy: 285\ncx: 158\ncy: 121\n");
+  const json imported = parsed(
+      "dataset import mine --out taken --view-yaw a=10 --view-yaw b=100 --elevation-deg 40 "
+      "--intrinsics camera.txt -q");
+  EXPECT_EQ(imported["focal_px"], 285.0);
+  EXPECT_EQ(imported["degrees"], true);
+  EXPECT_EQ(imported["views"], json({"a", "b"}));
+  EXPECT_EQ(read_file(folder_ / "taken/cup/cup_1/cup_1_1_1_pose.txt"), "10.0000 40.0000\n");
+  EXPECT_EQ(read_file(folder_ / "taken/pot/pot_1/pot_1_1_2_pose.txt"), "100.0000 40.0000\n");
+  EXPECT_THAT(read_file(folder_ / "taken/pictures.yaml"), HasSubstr("[158, 121]"));
 }
 
 }  // namespace

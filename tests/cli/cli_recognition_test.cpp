@@ -323,6 +323,21 @@ TEST_F(RecognitionCommands, MotionsAreOneForAllOrOneEach) {
   expect_error(vantage(recognise + " one.png"), 2, {"one is missing"});
 }
 
+/// Seven of eight directions were seen, each 45 deg on from the one before, against the sense of a
+/// turn: the eighth is one further.
+TEST_F(RecognitionCommands, TheNextViewIsOneThatWasNotTaken) {
+  train();
+  std::string views;
+  for (int frame = 1; frame <= 13; frame += 2) {
+    views += fmt::format(
+        " data/mug/mug_1/mug_1_2_{0}_crop.png data/mug/mug_1/mug_1_2_{0}_depthcrop.png", frame);
+  }
+  const json known = parsed(kRecognise + views);
+  ASSERT_EQ(known["views"].size(), 7U);
+  EXPECT_NEAR(known["views"][6]["view_rad"].get<double>(), -1.5 * std::numbers::pi, 1e-6);
+  EXPECT_NEAR(known["next"]["turn_deg"].get<double>(), 315.0, 1e-9);
+}
+
 TEST_F(RecognitionCommands, AModelInWordsIsThatInJson) {
   const std::string costs = " --set 'costs_s=[0.001,0.0025]' ";
   const json model = parsed(kTrain + costs + "--json");
@@ -439,6 +454,28 @@ TEST_F(RecognitionCommands, ACheckInWordsIsThatInJson) {
   EXPECT_EQ(in_words.output, text);
   EXPECT_EQ(in_words.exit_code, good ? 0 : 3);
   EXPECT_EQ(as_json.exit_code, in_words.exit_code);
+  const Result twice = vantage("dataset check few --bins 4 --test few -q 2>/dev/null");
+  json both =
+      json::parse(vantage("dataset check few --bins 4 --test few --json -q 2>/dev/null").output);
+  const std::string once = text.substr(0, text.rfind('\n', text.size() - 2) + 1);
+  text = once + once;
+  EXPECT_FALSE(both["differences"].empty());
+  for (const json& difference : both["differences"]) {
+    text += fmt::format("{}: {}\n", difference["problem"].get<bool>() ? "problem" : "note",
+                        difference["text"].get<std::string>());
+  }
+  EXPECT_EQ(twice.output, text + "there are problems\n") << "it is tested on what it learnt";
+  EXPECT_EQ(twice.exit_code, 3);
+  EXPECT_EQ(both["test"], check);
+}
+
+TEST_F(RecognitionCommands, KeysOfAFileHoldWhereSetSaysNothing) {
+  file("keys.yaml", "features: [colour]\n");
+  const std::string train = "train data --config keys.yaml -q --json --out ";
+  EXPECT_EQ(parsed(train + "new/folder/model")["features"][0]["name"], "colour");
+  EXPECT_TRUE(fs::exists(folder_ / "new/folder/model"));
+  const json other = parsed(train + "other --set 'features=[bounding_box]'");
+  EXPECT_EQ(other["features"][0]["name"], "bounding_box");
 }
 
 }  // namespace

@@ -195,5 +195,16 @@ TEST_F(SceneFromMesh, TellsTheMapThatItsEpisodeHas) {
                                100.0 * size_m.at(0) / cells.at(0))));
 }
 
+TEST_F(SceneFromMesh, AnEpisodeIsToldAndNotReplacedUnasked) {
+  house();
+  const std::string make = "scene from-mesh house.obj --out a.xml --episode -q";
+  file("a.yaml", "scans: 1\n");
+  expect_error(vantage(make), 2, {"--episode a.yaml", "--overwrite"});
+  EXPECT_FALSE(fs::exists(folder_ / "a.xml"));
+  const Result made = vantage(make + " --overwrite --json");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_EQ(nlohmann::json::parse(made.output)["episode"], "a.yaml");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -106,6 +106,12 @@ TEST_F(CommandLine, AnArenaHasBoundsIfAskedForThem) {
           << result.output;
     }
   }
+  const fs::path episodes = folder_ / "arena/episodes/few";
+  file("arena/episodes/few/greedy/1/bound.json", "{}");
+  fs::remove(episodes / "random/1/bound.json");
+  ASSERT_EQ(vantage("arena run -q arena --bounds").exit_code, 0);
+  EXPECT_TRUE(fs::exists(episodes / "random/1/bound.json"));
+  EXPECT_EQ(read_file(episodes / "greedy/1/bound.json"), "{}") << "it had one";
 }
 
 /// By programs that stand in for Slurm's.
@@ -140,12 +146,18 @@ TEST_F(CommandLine, NoPlannerEntersAnArenaWithoutACommand) {
 
 TEST_F(CommandLine, AnArenaIsToldAsJsonIfAskedFor) {
   file("two.yaml", kStudy);
-  const Result told = vantage("arena run two.yaml --out arena -q --json 2>errors");
+  const Result told =
+      vantage("arena run two.yaml --out arena -q --json --jobs 1 --set threads=3 2>errors");
   ASSERT_EQ(told.exit_code, 0) << told.output;
   const json state = json::parse(told.output, nullptr, false);
   ASSERT_TRUE(state.is_object()) << told.output;
   EXPECT_EQ(state["completed"], 2);
   EXPECT_EQ(state["page"], "arena/arena.html");
+  for (const char* made : {"arena.html", "leaderboard.csv", "results.csv"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "arena" / made)) << made;
+  }
+  EXPECT_THAT(read_file(folder_ / "arena/episodes/a/config.yaml"), HasSubstr("\nthreads: 1\n"))
+      << "so that times of decisions can be compared";
   EXPECT_THAT(vantage("arena page arena -q").output, HasSubstr("page arena/arena.html\n"));
 }
 
@@ -293,6 +305,62 @@ TEST_F(CommandLine, AnArenaIsOfPlannersOnAMap) {
   fs::create_directories(folder_ / "study");
   file("study/study.yaml", kStudy);
   expect_error(vantage("arena run study --out arena -q"), 2, {"--out: study is an arena's folder"});
+}
+
+TEST_F(CommandLine, WithoutSlurmNothingIsSubmittedOrCancelled) {
+  file("two.yaml", kStudy);
+  fs::create_directories(folder_ / "study/slurm");
+  file("study/study.yaml", kStudy);
+  file("study/slurm/41.json", R"({"array": "41", "collect": "42", "tasks": 2})");
+  for (const char* command : {"submit two.yaml --out dir", "cancel study"}) {
+    const Result told =
+        shell("cd '" + folder_.string() + "' && PATH=/nowhere " VANTAGE_BINARY " sweep " + command);
+    expect_error(told, 2, {"sbatch"});
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "dir"));
+}
+
+TEST_F(SlurmStandIns, WhatCannotBeSubmittedLeavesNothing) {
+  expect_error(sweep("submit two.yaml --out dir --sbatch-arg=--array=3"), 2,
+               {"--sbatch-arg --array=3: submit sets --array itself"});
+  file("wrong.yaml",
+       "episode: assets/episodes/tabletop.yaml\nfactors: {n: {a: {scans: 1}, b: {scans: 0}}}\n");
+  expect_error(sweep("submit wrong.yaml --out dir"), 2, {"scans"});
+  EXPECT_FALSE(fs::exists(folder_ / "dir"));
+}
+
+/// Hours of scanning: both episodes are at it, or the first one alone has gone on and on.
+TEST_F(CommandLine, AWorkerRunsAsManyEpisodesAtATimeAsItIsToldTo) {
+  const auto begun_by = [&](const std::string& folder, const std::string& jobs) {
+    fs::create_directories(folder_ / folder);
+    file(folder + "/study.yaml", R"(episode: assets/episodes/tabletop.yaml
+set: {scans: 1, laser.scan_duration_s: 3600, map.cells: [9, 9, 5]}
+factors: {start: {a: {robot.start_view: 0}, b: {robot.start_view: 5}}}
+)");
+    const std::string states = "$(find " + folder + "/attempts -name states.part.bin";
+    const Result ended = interrupted(
+        fmt::format("sweep work {} --keep-states --jobs {}", folder, jobs),
+        fmt::format("[ {0} | wc -l) -ge 2 ] || [ -n \"{0} -size +20M)\" ]", states), "TERM");
+    EXPECT_EQ(ended.exit_code, 143) << ended.output;
+    EXPECT_THAT(ended.output, HasSubstr("2 episodes run, 0 completed\n")) << folder;
+  };
+  begun_by("own", "2");
+  ::setenv("SLURM_JOB_ID", "60", 1);
+  ::setenv("SLURM_CPUS_PER_TASK", "2", 1);
+  begun_by("slurm", "1");
+  ::unsetenv("SLURM_CPUS_PER_TASK");
+  ::unsetenv("SLURM_JOB_ID");
+}
+
+TEST_F(CommandLine, AnArenaIsMadeOfTheFolderOfAStudyAlone) {
+  fs::create_directories(folder_ / "empty");
+  fs::create_directories(folder_ / "flight");
+  file("flight/study.yaml", "episode: assets/episodes/recognition.yaml\nseeds: [1]\n");
+  for (const char* command : {"arena run empty", "arena page empty", "arena add empty m -- sh"}) {
+    expect_error(vantage(command), 3, {"empty: not the folder of a study, it has no study.yaml"});
+  }
+  expect_error(vantage("arena page flight -q"), 2, {"flight: 1: its task chooses no views"});
+  EXPECT_FALSE(fs::exists(folder_ / "flight/arena.html"));
 }
 
 }  // namespace

@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <set>
+
 #include "tests/cli/command_line.hpp"
+#include "vantage/core/atomic_file.hpp"
 
 namespace vantage {
 namespace {
@@ -178,6 +181,24 @@ TEST_F(CommandLine, DoctorFindsTheRenderer) {
   EXPECT_THAT(result.output, HasSubstr("H.264 in MP4 works"));
 }
 
+TEST_F(CommandLine, DoctorSaysInWordsWhatItSaysInJson) {
+  const auto found =
+      nlohmann::ordered_json::parse(vantage("doctor --json 2>/dev/null").output, nullptr, false);
+  ASSERT_TRUE(found.is_object());
+  std::vector<std::string> names;
+  std::string words;
+  for (const auto& [what, text] : found.items()) {
+    names.push_back(what);
+    words += fmt::format("{:<10} {}\n", what, text.get<std::string>());
+  }
+  EXPECT_THAT(names, testing::ElementsAre("vantage", "mujoco", "renderer", "window", "opencv",
+                                          "video", "data", "threads"));
+  EXPECT_EQ(vantage("doctor 2>/dev/null").output, words);
+  const std::string here = folder_.string();
+  EXPECT_THAT(shell("cd '" + here + "' && VANTAGE_DATA=$PWD " VANTAGE_BINARY " doctor").output,
+              HasSubstr("\ndata       does NOT work: no models in " + here + "; set VANTAGE_DATA"));
+}
+
 TEST_F(CommandLine, ImagesOfAnExportAreOfAPeriodAndAHeightThatCanBe) {
   const auto exit_code = [&](const std::string& option) {
     return vantage("export nowhere --mcap a.mcap " + option).exit_code;
@@ -257,6 +278,19 @@ TEST_F(CommandLine, WhatIsExportedAndReplayedIsTold) {
   EXPECT_EQ(replayed["state_hash"], metrics["state_hash"]);
   EXPECT_EQ(replayed["changed_files"], nlohmann::json::array({"scene.xml"}));
   EXPECT_TRUE(replayed["first_difference"].is_null());
+  shell("sed -i 's/\"state_hash\": \"[0-9a-f]*/&0/' '" + (folder_ / "run/metrics.json").string() +
+        "'");
+  const Result other = vantage("replay run --json 2>/dev/null");
+  EXPECT_EQ(other.exit_code, 1);
+  const auto difference = nlohmann::json::parse(other.output)["first_difference"];
+  EXPECT_EQ(difference["step"], replayed["steps"]) << "after the last one";
+  EXPECT_NEAR(difference["time_s"].get<double>(), told["simulated_time_s"].get<double>(), 0.1);
+  const Result in_words = vantage("replay run 2>/dev/null");
+  EXPECT_EQ(in_words.exit_code, 1);
+  EXPECT_EQ(
+      in_words.output,
+      fmt::format("run: differs first at step {} ({:.3f} s): {}\n", difference["step"].get<int>(),
+                  difference["time_s"].get<double>(), difference["what"].get<std::string>()));
 }
 
 /// Large enough that it is not 0.0 MB.
@@ -269,6 +303,46 @@ TEST_F(CommandLine, AnExportIsToldWithItsTimeAndSize) {
   EXPECT_THAT(vantage(to_mcap).output,
               HasSubstr(fmt::format(" channels, {:.1f} s, {:.1f} MB\n",
                                     told["simulated_time_s"].get<double>(), 1e-6 * bytes)));
+}
+
+/// Of two scans, so that there is a decision.
+TEST_F(CommandLine, APictureOfARunShowsWhatIsAskedFor) {
+  const Result run = vantage(
+      "run --set scans=2 --set laser.scan_duration_s=2 --set 'map.cells=[33,33,17]' -q --out run");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const std::vector<std::string> asked{"",      "--at 0", "--camera follow", "--camera robot",
+                                       "--map", "--gains"};
+  std::set<std::string> pictures;
+  for (const std::string& options : asked) {
+    const std::string shot = "view run --size 200x150 --screenshot shot.png " + options;
+    const Result told = vantage(shot + " --overwrite 2>/dev/null");
+    EXPECT_EQ(told.exit_code, 0) << options;
+    EXPECT_EQ(told.output, "shot.png\n") << options;
+    expect_error(vantage(shot), 2, {"--screenshot shot.png", "--overwrite"});
+    pictures.insert(read_file(folder_ / "shot.png"));
+  }
+  EXPECT_EQ(pictures.size(), asked.size()) << "no two are the same";
+  for (const std::string option : {"--set", "--seed", "--out"}) {
+    expect_error(vantage("view run " + option + (option == "--set" ? " seed=3" : " 3")), 2,
+                 {option + ": run is a run folder, it has happened already"});
+  }
+}
+
+TEST_F(CommandLine, AViewedEpisodeIsTheOneThatWasAskedFor) {
+  const Result told = vantage(
+      "view --seed 7 --set scans=1 --size 64x64 --at 0 --screenshot a.png --out run 2>/dev/null");
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_EQ(told.output, "a.png\n");
+  EXPECT_THAT(read_file(folder_ / "run/config.yaml"),
+              testing::AllOf(HasSubstr("\nseed: 7\n"), HasSubstr("\nscans: 1\n")));
+  const auto manifest = nlohmann::json::parse(read_file(folder_ / "run/manifest.json"));
+  EXPECT_EQ(manifest["command"][1], "view");
+  EXPECT_EQ(manifest["command"].back(), "run");
+  EXPECT_EQ(vantage("view nowhere --at 3").exit_code, 2) << "of no screenshot";
+  EXPECT_EQ(vantage("view nowhere --camera front").exit_code, 2);
+  EXPECT_EQ(vantage("view nowhere --camera robot").exit_code, 3) << "the episode is missing";
+  expect_error(vantage("view --screenshot shot.jpg"), 2,
+               {"--screenshot: shot.jpg: expected a file name that ends in .png"});
 }
 
 }  // namespace

@@ -163,6 +163,15 @@ TEST_F(ReportFile, OfACloudIsQuantisedInItsBox) {
   EXPECT_EQ(found["data"], base64(std::string(6, '\0') + std::string(6, '\xff')));
 }
 
+TEST_F(ReportFile, OfNoPointsThereIsNothingToDraw) {
+  write_ply(folder_ / "cloud.ply", {});
+  EXPECT_TRUE(cloud_json(folder_ / "cloud.ply").is_null());
+  DrawnScene scene;
+  scene.extent_m = {Eigen::Vector3f(-5.0F, -6.0F, 0.0F), Eigen::Vector3f(5.0F, 6.0F, 2.5F)};
+  write_drawn_scene(folder_ / "scene.bin", scene);
+  EXPECT_TRUE(scene_json(folder_ / "scene.bin").is_null());
+}
+
 TEST(PackedVoxels, KeepWhatFillsAtTheLastStepThatAFileCanTell) {
   const VoxelMap map{{0.1, 0.1, 0.1},
                      {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.1, 0.1, 0.1)},
@@ -383,6 +392,10 @@ TEST_F(ReportFile, OfVoxelsHasSixteenBytesAVoxel) {
               testing::HasSubstr("header says 1 voxels, the file holds 0.5"));
   const auto out_of_range = testing::HasSubstr("a voxel is out of range");
   std::string odd = bytes;
+  odd[7] = '2';
+  EXPECT_THAT(error_of(odd, read_voxels), testing::HasSubstr("bad header"));
+  EXPECT_THAT(error_of(bytes.substr(0, 87), read_voxels), testing::HasSubstr("bad header"));
+  odd = bytes;
   odd[odd.size() - 2] = 2;
   EXPECT_THAT(error_of(odd, read_voxels), out_of_range) << "of neither kind";
   for (const std::size_t from_end : {16U, 12U, 8U}) {

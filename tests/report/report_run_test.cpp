@@ -146,5 +146,12 @@ TEST_F(PageOfARun, HoldsEachFileInItsPlace) {
   EXPECT_FALSE(held["media"].contains("video"));
 }
 
+TEST_F(PageOfARun, AFrameWithoutANumberComesBeforeTheFirst) {
+  std::filesystem::create_directory(run_ / "frames");
+  write_file(run_ / "frames" / "cover.png", "bc");
+  write_file(run_ / "frames" / "scan_00.png", "a");
+  EXPECT_EQ(data()["media"]["frame"], "data:image/png;base64,YQ==");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -113,6 +113,9 @@ TEST_F(View, AUserClosesALiveEpisode) {
   EXPECT_EQ(result.exit_code, 130) << result.output;
   EXPECT_THAT(read_file(folder_ / "run/metrics.json"), HasSubstr("\"status\": \"interrupted\""));
   EXPECT_EQ(vantage("replay run").exit_code, 0);
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    EXPECT_NE(entry.path().extension(), ".png") << entry.path() << ": no picture was asked for";
+  }
 }
 
 TEST_F(View, AUserLooksAtARecording) {

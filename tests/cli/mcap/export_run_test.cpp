@@ -12,6 +12,7 @@
 #include "tests/cli/mcap/mcap_file.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "vantage/core/log.hpp"
+#include "vantage/core/yaml.hpp"
 #include "vantage/mcap/messages.hpp"
 #include "vantage/report/report_data.hpp"
 #include "vantage/runtime/log/event_log.hpp"
@@ -27,13 +28,23 @@ struct TimedJson {
   std::uint64_t time_ns = 0;
   ExportJson json;
 };
+using TopicMessages = std::map<std::string, std::vector<TimedJson>>;
+
+TopicMessages topics_of(const test::McapFile& file) {
+  TopicMessages topics;
+  for (const test::McapMessage& message : file.messages) {
+    topics[file.channels.at(message.channel).first].push_back(
+        {message.time_ns, ExportJson::parse(message.text)});
+  }
+  return topics;
+}
 
 /// Three scans of a table top, exported with an image every four seconds.
 struct ShortExport {
   support::TemporaryDirectory folder;
   ExportedRun exported;
   std::unique_ptr<test::McapFile> file;
-  std::map<std::string, std::vector<TimedJson>> topics;
+  TopicMessages topics;
   RecordedStates states;
   std::vector<EpisodeEvent> events;
   GridFrame frame;
@@ -48,10 +59,7 @@ struct ShortExport {
     exported = export_run(folder / "run", folder / "run.mcap",
                           {.image_period_s = 4.0, .image_height_px = 48});
     file = std::make_unique<test::McapFile>(read_file(folder / "run.mcap"));
-    for (const test::McapMessage& message : file->messages) {
-      topics[file->channels.at(message.channel).first].push_back(
-          {message.time_ns, ExportJson::parse(message.text)});
-    }
+    topics = topics_of(*file);
     states = read_states(folder / "run/states.bin");
     frame = *window(load_recorded(folder / "run")).map;
     events = read_event_log(folder / "run/story.bin", frame.size());
@@ -262,6 +270,135 @@ TEST(ExportedRuns, WithoutImagesHaveNone) {
   EXPECT_EQ(plain.channels, 8U);
   EXPECT_EQ(ExportOptions{}.image_period_s, 1.0);
   EXPECT_EQ(ExportOptions{}.image_height_px, 240);
+}
+
+/// The short run once more, for what it holds to be changed.
+class CopyOfTheRun {
+ public:
+  CopyOfTheRun() {
+    std::filesystem::copy(short_export().folder / "run", run(),
+                          std::filesystem::copy_options::recursive);
+  }
+  [[nodiscard]] std::filesystem::path run() const { return folder_ / "run"; }
+  [[nodiscard]] test::McapFile exported(double image_period_s = 0.0) const {
+    export_run(run(), folder_ / "run.mcap",
+               {.image_period_s = image_period_s, .image_height_px = 48});
+    return test::McapFile(read_file(folder_ / "run.mcap"));
+  }
+
+ private:
+  support::TemporaryDirectory folder_;
+};
+
+TEST(ExportedRuns, HaveFlightsAndDecisionsForNoView) {
+  Decision for_none;
+  for (const double gain : {2.0, -1.0, 0.5}) {
+    for_none.candidates.emplace_back().gain_bits = gain;
+  }
+  for_none.chosen = for_none.candidates.size();
+  Decision worthless;
+  for (const double gain : {0.0, -1.5}) worthless.candidates.emplace_back().gain_bits = gain;
+  worthless.chosen = 1;
+  const CopyOfTheRun copy;
+  EventLog story(copy.run());
+  story.add({0, for_none});
+  story.add({40, PlannedFlight{{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}}});
+  story.add({80, worthless});
+  story.commit();
+  const TopicMessages topics = topics_of(copy.exported());
+  const auto& views = topics.at("/views");
+  ASSERT_EQ(views.size(), 2U);
+  const auto reds = [&](std::size_t decision) {
+    std::vector<double> found;
+    for (const auto& arrow : views[decision].json["entities"][0]["arrows"]) {
+      found.push_back(arrow["color"]["r"]);
+    }
+    return found;
+  };
+  EXPECT_EQ(reds(0), (std::vector<double>{1.0, 0.0, 0.25}));
+  EXPECT_EQ(reds(1), (std::vector<double>{0.0, 0.0}));
+  const ExportJson& none = views[0].json["entities"][1];
+  EXPECT_TRUE(none["arrows"].empty() && none["metadata"].empty());
+  EXPECT_EQ(
+      views[1].json["entities"][1]["metadata"],
+      ExportJson::parse(R"([{"key": "id", "value": "1"}, {"key": "gain", "value": "-1.5"}])"));
+  const auto& plans = topics.at("/plan");
+  ASSERT_EQ(plans.size(), 3U);
+  for (const std::size_t i : {0U, 2U}) EXPECT_EQ(plans[i].json["deletions"].size(), 1U) << i;
+  EXPECT_EQ(plans[1].time_ns, short_export().time_ns(40));
+  EXPECT_EQ(plans[1].json["entities"][0]["lines"][0]["points"],
+            ExportJson::parse(R"([{"x": 1, "y": 2, "z": 3}, {"x": 4, "y": 5, "z": 6}])"));
+}
+
+TEST(ExportedRuns, HaveThoseRowsOfTheStepsThatSayWhen) {
+  const CopyOfTheRun copy;
+  write_file(copy.run() / "steps.csv",
+             "scan,time_s,view,good,way_m\n"
+             "1,0.5,near,true,0.25\n"
+             "2,,far,false,\n"
+             "3,2.5,7,,inf\n"
+             "4,later,,true,1e3\n");
+  const test::McapFile file = copy.exported();
+  const auto rows = topics_of(file).at("/steps");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].time_ns, 500'000'000U);
+  EXPECT_EQ(rows[0].json, ExportJson::parse(R"({"scan": 1, "time_s": 0.5, "view": "near",
+    "good": true, "way_m": 0.25})"));
+  EXPECT_EQ(rows[1].time_ns, 2'500'000'000U);
+  EXPECT_EQ(rows[1].json, ExportJson::parse(R"({"scan": 3, "time_s": 2.5, "view": 7,
+    "good": null, "way_m": null})"));
+  const auto schema = std::ranges::find_if(
+      file.schemas, [](const auto& one) { return one.second.first == "vantage.Step"; });
+  ASSERT_NE(schema, file.schemas.end());
+  EXPECT_EQ(ExportJson::parse(schema->second.second), ExportJson::parse(R"({
+    "title": "vantage.Step", "type": "object", "properties": {
+      "scan": {"type": ["number", "null"]},
+      "time_s": {"type": ["number", "boolean", "string", "null"]},
+      "view": {"type": ["number", "boolean", "string", "null"]},
+      "good": {"type": ["number", "boolean", "string", "null"]},
+      "way_m": {"type": ["number", "null"]}}})"));
+  write_file(copy.run() / "steps.csv", "scan\n1\n");
+  for (const auto& [id, channel] : copy.exported().channels) EXPECT_NE(channel.first, "/steps");
+}
+
+/// What somebody moves is in no state that was recorded.
+TEST(ExportedRuns, ShowWhatAFaultHasMovedFromThenOn) {
+  const CopyOfTheRun copy;
+  ConfigNode config = read_yaml(copy.run() / "config.yaml");
+  apply_overrides(config, {"faults.moved_object_m=1", "faults.moved_object_at_s=5"});
+  write_file(copy.run() / "config.yaml", to_yaml(config));
+  const auto moved = topics_of(copy.exported(4.0)).at("/overview");
+  const auto& before = short_export().topics.at("/overview");
+  ASSERT_EQ(moved.size(), before.size());
+  ASSERT_GE(moved.size(), 3U);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    EXPECT_EQ(moved[i].json["data"] == before[i].json["data"], i < 2) << 4 * i << " s";
+  }
+}
+
+/// It drives 1.5 cm and turns by 0.02 rad at most from a state to the next.
+TEST(ExportedRuns, HaveTheBaseWhereItsPoseIs) {
+  const ShortExport& made = short_export();
+  const auto& poses = made.topics.at("/pose");
+  std::size_t compared = 0;
+  double most_turned = 0.0;
+  for (const TimedJson& frames : made.topics.at("/tf")) {
+    const auto after = std::ranges::lower_bound(poses, frames.time_ns, {}, &TimedJson::time_ns);
+    if (after == poses.end() || seconds_of(after->time_ns - frames.time_ns) > 0.03) continue;
+    const ExportJson& base = frames.json["transforms"][0];
+    ASSERT_EQ(base["child_frame_id"], "robot/base");
+    const ExportJson& pose = after->json["pose"];
+    for (const char* axis : {"x", "y"}) {
+      EXPECT_NEAR(base["translation"][axis].get<double>(), pose["position"][axis].get<double>(),
+                  0.016);
+    }
+    const double turned = std::abs(base["rotation"]["z"].get<double>());
+    EXPECT_NEAR(turned, std::abs(pose["orientation"]["z"].get<double>()), 0.011);
+    most_turned = std::max(most_turned, turned);
+    ++compared;
+  }
+  EXPECT_GT(compared, made.topics.at("/tf").size() / 2);
+  EXPECT_GT(most_turned, 0.5) << "it did not keep the heading that it began with";
 }
 
 }  // namespace
